@@ -42,6 +42,7 @@
 #include "base/status.h"
 #include "base/context.h"
 #include "base/record.h"
+#include "base/field.h"
 
 /* model: what moves */
 #include "model/params.h"

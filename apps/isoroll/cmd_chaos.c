@@ -124,60 +124,6 @@ static void print_table(const iso_scene *scene, const iso_chaos *c)
     print_share(&c->share);
 }
 
-/* --- JSON ------------------------------------------------------------------------------------------------------- */
-
-static json_t *clocks_of(const double x[ISO_CLOCKS])
-{
-    return json_pack("{s:o, s:o, s:o}", "t", json_number(x[0]), "tau", json_number(x[1]), "s", json_number(x[2]));
-}
-
-static json_t *model_of(const iso_chaos *c, int model)
-{
-    const iso_indication *i = &c->own.told[model];
-    if (!c->with[model]) return json_null();
-    return json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "verdict",
-                     iso_verdict_name(i->verdict), "turns", (json_int_t)i->turns, "exponent_turns",
-                     (json_int_t)i->exponent_turns, "exponent", clocks_of(i->exponent), "error", clocks_of(i->error),
-                     "exponent_per_turn", json_number(i->per_turn), "error_per_turn", json_number(i->per_turn_error),
-                     "megno", json_number(i->megno), "megno_now", json_number(i->megno_now), "megno_mean",
-                     json_number(i->megno_mean), "gali2", json_number(i->gali2), "digits", json_number(i->digits));
-}
-
-static json_t *share_of(const iso_chaos_fraction *s)
-{
-    const double n = (double)s->count; /* 0: then every part of it is NaN, and null in the file */
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "chaotic",
-                     json_number(s->share), "error", json_number((s->high - s->low) / 2), "low", json_number(s->low),
-                     "high", json_number(s->high), "regular", json_number((double)s->regular / n), "undecided",
-                     json_number((double)s->undecided / n), "starts", (json_int_t)s->asked, "followed",
-                     (json_int_t)s->count, "chaotic_starts", (json_int_t)s->chaotic, "regular_starts",
-                     (json_int_t)s->regular, "undecided_starts", (json_int_t)s->undecided, "disagree",
-                     (json_int_t)s->disagree, "failed", (json_int_t)s->failed);
-}
-
-static long turns_of(const iso_chaos *c)
-{
-    long turns = 0;
-    for (int m = 0; m < 2; m++)
-        if (c->with[m] && c->own.told[m].turns > turns) turns = c->own.told[m].turns;
-    return turns;
-}
-
-/* False: there is no memory. */
-static bool print_json(const iso_scene *scene, const iso_chaos *c)
-{
-    const iso_params *p = &scene->params;
-    json_t *section = c->axis < 0 ? json_null() : json_pack("{s:i}", "axis", c->axis + 1);
-    json_t *o =
-        json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:s?, s:s, s:b, s:I, s:o, s:o}", "isoroll", iso_version(), "k",
-                  json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]), json_number(p->J[2]), "section",
-                  section, "turn", json_number(c->turn), "integral", c->integral ? c->integral->name : NULL,
-                  "verdict", iso_verdict_name(c->own.verdict), "disagree", (int)c->own.disagree, "turns",
-                  (json_int_t)turns_of(c), "ball", model_of(c, ISO_BALL), "point", model_of(c, ISO_POINT));
-    if (o && c->share.asked > 0) json_object_set_new(o, "share", share_of(&c->share));
-    return json_print(o);
-}
-
 /* --- files ------------------------------------------------------------------------------------------------------ */
 
 /* The exponent per turn, from the first model whose verdict is that of the orbit; regular: 0; undecided: NaN. */
@@ -196,13 +142,10 @@ static size_t spread_of(const iso_chaos *c)
     return c->starts < c->share.asked ? c->starts : c->share.asked;
 }
 
-/* The beginning of the table. */
-static iso_status begin_csv(iso_context *ctx, const options *o, const iso_scene *scene, const iso_chaos *c,
+/* Orbit 0 is the scene's own. Other orbits that were not followed have no row. */
+static iso_status write_csv(iso_context *ctx, const options *o, const iso_scene *scene, const iso_chaos *c,
                             iso_output *csv)
 {
-    static const char *const names[] = {"ball", "point"}, *const kept[] = {"verdict", "turns", "exponent",
-                                                                           "error",   "megno", "gali2"};
-    char columns[400] = "orbit,l,x,verdict";
     const table_line lines[] = {
         {.key = "turns", .number = o->turns},
         {.key = "exponent_turns", .number = o->exponent_turns},
@@ -212,26 +155,14 @@ static iso_status begin_csv(iso_context *ctx, const options *o, const iso_scene 
         {.key = "orbit 0", .text = "the scene's own; l and x are nan: it need not start on the section"},
         {.key = "nan elsewhere", .text = "not known; an orbit that was not followed has no row"},
         {.key = NULL}};
-    for (int m = 0; m < 2; m++)
-        for (size_t i = 0; c->with[m] && i < sizeof kept / sizeof *kept; i++)
-            snprintf(columns + strlen(columns), sizeof columns - strlen(columns), ",%s_%s", names[m], kept[i]);
-    return table_begin(ctx, csv, "chaos", scene, lines, columns);
-}
-
-/* Orbit 0 is the scene's own. Other orbits that were not followed have no row. */
-static void write_rows(const iso_chaos *c, FILE *to)
-{
-    for (size_t i = 0; i <= spread_of(c); i++) {
-        const iso_chaos_orbit *o = i == 0 ? &c->own : &c->start[i - 1];
-        if (i > 0 && !iso_chaos_followed(o)) continue;
-        fprintf(to, "%zu,%.17g,%.17g,%s", i, o->l, o->x, iso_verdict_name(o->verdict));
-        for (int m = 0; m < 2; m++)
-            if (c->with[m])
-                fprintf(to, ",%s,%ld,%.17g,%.17g,%.17g,%.17g", iso_verdict_name(o->told[m].verdict), o->told[m].turns,
-                        o->told[m].exponent[ISO_CLOCK_T], o->told[m].error[ISO_CLOCK_T], o->told[m].megno,
-                        o->told[m].gali2);
-        fputc('\n', to);
+    iso_field fields[ISO_MOST_FIELDS];
+    iso_fields_copy(iso_chaos_orbit_fields, c->with[ISO_BALL] ? c->with[ISO_POINT] ? NULL : "point" : "ball", fields);
+    const iso_status status = table_begin(ctx, csv, "chaos", scene, lines, fields);
+    for (size_t i = 0; status == ISO_OK && i <= spread_of(c); i++) {
+        const iso_chaos_orbit *orbit = i == 0 ? &c->own : &c->start[i - 1];
+        if (i == 0 || iso_chaos_followed(orbit)) iso_row_write(iso_output_stream(csv), fields, orbit);
     }
+    return table_end(ctx, csv, status);
 }
 
 /* Columns l, x, exponent per turn (0: regular, NaN: undecided) of the starts that were followed. */
@@ -277,14 +208,10 @@ static int report(iso_context *ctx, const options *o, const iso_scene *scene, co
     int result = c->failure == ISO_OK ? EXIT_DONE : EXIT_SOME_FAILED;
     if (c->failure != ISO_OK) complain("an orbit was not followed to the end: %s", c->words);
     if (o->json)
-        result = print_json(scene, c) ? result : EXIT_NUMERICAL;
+        result = json_print(json_of_scene(scene, iso_chaos_fields, c)) ? result : EXIT_NUMERICAL;
     else if (!o->csv || strcmp(o->csv, "-") != 0)
         print_table(scene, c);
-    if (csv) {
-        const iso_status status = begin_csv(ctx, o, scene, c, csv);
-        if (status == ISO_OK) write_rows(c, iso_output_stream(csv));
-        result = worse(result, finish(ctx, table_end(ctx, csv, status)));
-    }
+    if (csv) result = worse(result, finish(ctx, write_csv(ctx, o, scene, c, csv)));
     if (o->plot && c->plane >= 0 && c->share.count == 0)
         complain("no picture: a rotation in a principal plane is periodic, and was not followed");
     else if (o->plot)

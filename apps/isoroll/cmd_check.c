@@ -61,19 +61,35 @@ static void print_table(const options *o, const findings *f)
     if (json_array_size(f->unseen) > 0) print_names("not looked at:", f->unseen);
 }
 
+/* A residual, and whether it is above the bound. */
+typedef struct judged {
+    iso_residual residual;
+    bool above;
+} judged;
+
+/* All that is told. */
+typedef struct told {
+    size_t rows, passed;
+    double bound;
+    int count;
+    judged list[ISO_MAX_RESIDUALS];
+} told;
+
 static bool print_json(const options *o, const findings *f)
 {
+    static const iso_field judged_fields[] = {
+        ISO_STRUCT(judged, "", residual, iso_residual_fields, "what was found"),
+        ISO_FIELD(judged, "above_the_bound", above, "", "whether it is above the bound"), ISO_FIELD_END};
+    static const iso_field fields[] = {ISO_FIELD(told, "rows", rows, "", "of the file"),
+                                       ISO_FIELD(told, "passed_over", passed, "", "rows of nan"),
+                                       ISO_FIELD(told, "bound", bound, "", "of --max"),
+                                       ISO_LIST(told, "residuals", list, count, judged_fields, "all"), ISO_FIELD_END};
     const iso_residuals *r = &f->residuals;
-    json_t *list = json_array();
-    for (int i = 0; i < r->count; i++) {
-        const iso_residual *x = &r->residual[i];
-        json_array_append_new(list,
-                              json_pack("{s:s, s:o, s:I, s:s, s:b}", "name", x->name, "worst", json_number(x->worst),
-                                        "row", (json_int_t)x->row, "of", x->what, "above_the_bound", is_bad(o, x)));
-    }
-    return json_print(json_pack("{s:s, s:I, s:I, s:o, s:o, s:O}", "isoroll", iso_version(), "rows",
-                                (json_int_t)r->rows, "passed_over", (json_int_t)r->passed, "bound",
-                                json_number(o->bound), "residuals", list, "not_looked_at", f->unseen));
+    told all = {.rows = r->rows, .passed = r->passed, .bound = o->bound, .count = r->count};
+    for (int i = 0; i < r->count; i++) all.list[i] = (judged){r->residual[i], is_bad(o, &r->residual[i])};
+    json_t *made = json_of(fields, &all);
+    json_put(made, "not_looked_at", json_incref(f->unseen));
+    return json_print(made);
 }
 
 /* --- the check -------------------------------------------------------------------------------------------------- */

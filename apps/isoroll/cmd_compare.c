@@ -19,8 +19,7 @@ static const char *backend_name(const iso_comparison *c, int run)
     return iso_backend_name((int)c->run[run].backend);
 }
 
-/* --- the table
- * ----------------------------------------------------------------------------------------------------- */
+/* --- the table -------------------------------------------------------------------------------------------------- */
 
 static void print_head(const iso_scene *scene, const iso_comparison *c)
 {
@@ -127,96 +126,32 @@ static void print_table(const iso_scene *scene, const options *o, const iso_comp
     }
 }
 
-/* --- JSON
- * ---------------------------------------------------------------------------------------------------------- */
+/* --- JSON -------------------------------------------------------------------------------------------------------- */
 
-static json_t *columns_of(const iso_record *r)
+static void put_worst(json_t *o, const iso_comparison *c, const char *where, const double worst[ISO_DIFFERENCES])
 {
-    json_t *o = json_object();
-    for (size_t c = 0; c < iso_record_columns(r); c++) {
-        json_t *column = json_array();
-        for (size_t i = 0; i < iso_record_rows(r); i++)
-            json_array_append_new(column, json_number(iso_record_const_row(r, i)[c]));
-        json_object_set_new(o, iso_record_name(r, c), column);
+    for (size_t i = 1; i < ISO_DIFFERENCES; i++) {
+        char name[ISO_COLUMN_SIZE];
+        snprintf(name, sizeof name, "%sworst_difference.%s", where, iso_record_name(c->difference, i));
+        json_put(o, name, json_number(worst[i]));
     }
-    return o;
-}
-
-static json_t *backend_of(const iso_backend_run *r)
-{
-    json_t *integrals = json_array();
-    for (int i = 0; i < r->drifts; i++) {
-        const iso_drift *d = &r->drift[i];
-        json_array_append_new(integrals, json_pack("{s:s, s:s, s:s, s:o, s:o}", "system", d->system->name, "name",
-                                                   d->integral->name, "doc", d->integral->doc, "start",
-                                                   json_number(d->start), "drift", json_number(d->worst)));
-    }
-    return json_pack("{s:s, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:o}", "method", r->method->name, "steps",
-                     (json_int_t)r->statistics.steps, "rejected", (json_int_t)r->statistics.rejected,
-                     "right_hand_sides", (json_int_t)r->statistics.rhs, "states", (json_int_t)r->statistics.states,
-                     "correction", json_number(r->statistics.correction), "seconds", json_number(r->seconds),
-                     "integrals", integrals, "trajectory", columns_of(r->trajectory));
-}
-
-static json_t *effects_of(const iso_effects *effects)
-{
-    json_t *o = json_object();
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
-        if (!effects->on[e]) continue;
-        json_t *numbers = json_object();
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
-            const double *x = iso_effect_values(effects, e, n);
-            if (n->scene_only) continue;
-            json_t *list = json_array();
-            for (int i = 0; i < n->count; i++) json_array_append_new(list, json_number(x[i]));
-            json_object_set_new(numbers, n->name, list);
-        }
-        json_object_set_new(o, iso_effect_list[e]->name, numbers);
-    }
-    return o;
-}
-
-static json_t *worst_of(const iso_comparison *c, const double worst[ISO_DIFFERENCES])
-{
-    json_t *o = json_object();
-    for (size_t i = 1; i < ISO_DIFFERENCES; i++)
-        json_object_set_new(o, iso_record_name(c->difference, i), json_number(worst[i]));
-    return o;
-}
-
-/* Adds the closed solution, or why there is none. */
-static void add_exact(json_t *o, const iso_comparison *c)
-{
-    if (c->runs < ISO_BACKENDS) {
-        json_object_set_new(o, "no_exact", json_string(c->no_exact));
-        return;
-    }
-    json_object_set_new(json_object_get(o, "backends"), "exact", backend_of(&c->run[ISO_BY_EXACT]));
-    json_object_set_new(o, "from_exact",
-                        json_pack("{s:{s:o, s:o}, s:{s:o, s:o}}", "ball", "worst_difference",
-                                  worst_of(c, c->worst_from_exact[ISO_BALL]), "difference",
-                                  columns_of(c->from_exact[ISO_BALL]), "point", "worst_difference",
-                                  worst_of(c, c->worst_from_exact[ISO_POINT]), "difference",
-                                  columns_of(c->from_exact[ISO_POINT])));
 }
 
 /* False: there is no memory. A full disk shows later, when the output is flushed. */
 static bool print_json(const iso_scene *scene, const iso_comparison *c)
 {
-    const iso_params *p = &scene->params;
-    json_t *o =
-        json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:{s:o, s:o}}", "isoroll", iso_version(),
-                  "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]), json_number(p->J[2]), "h",
-                  json_number(c->h), "eps", json_number(c->eps), "effects", effects_of(&c->effects), "tolerance",
-                  json_number(scene->tolerance), "clock", iso_clock_name(c->clock), "worst_difference",
-                  worst_of(c, c->worst), "difference", columns_of(c->difference), "backends", "ball",
-                  backend_of(&c->run[ISO_BALL]), "point", backend_of(&c->run[ISO_POINT]));
-    if (o) add_exact(o, c);
+    json_t *o = json_of_scene(scene, iso_comparison_fields, c);
+    json_put(o, "tolerance", json_number(scene->tolerance));
+    json_put(o, "effects", json_effects(&c->effects, false));
+    put_worst(o, c, "", c->worst);
+    if (c->runs == ISO_BACKENDS) {
+        put_worst(o, c, "from_exact.ball.", c->worst_from_exact[ISO_BALL]);
+        put_worst(o, c, "from_exact.point.", c->worst_from_exact[ISO_POINT]);
+    }
     return json_print(o);
 }
 
-/* --- the command
- * --------------------------------------------------------------------------------------------------- */
+/* --- the command ------------------------------------------------------------------------------------------------ */
 
 static bool show(double part, void *data)
 {

@@ -135,7 +135,7 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_cost_series
 static int tell_choice(const cost_report *r)
 {
     char words[COST_OPTIONS], seconds[COST_SECONDS];
-    const iso_cost_cell *c = iso_cost_choose(r->cost, r->want);
+    const iso_cost_cell *c = r->choice;
     if (!c)
         return complain("nothing measured reaches an error of %g: try a larger --want", r->want), EXIT_SOME_FAILED;
     printf("%s\n", cost_options_of(c, words));
@@ -147,7 +147,7 @@ static int tell_choice(const cost_report *r)
 static int print_report(const options *o, const iso_cost_series *const line[], const cost_report *r)
 {
     const bool lost = !r->cost->complete || cost_count(r->cost, cost_is_failed) > 0;
-    const bool failed = isnan(r->want) ? lost : !iso_cost_choose(r->cost, r->want);
+    const bool failed = isnan(r->want) ? lost : !r->choice;
     if (o->json) return !cost_print_json(r) ? EXIT_NUMERICAL : failed ? EXIT_SOME_FAILED : EXIT_DONE;
     if (!isnan(r->want)) return tell_choice(r);
     if (!o->csv || strcmp(o->csv, "-") != 0) cost_print(r, line);
@@ -207,6 +207,7 @@ static int run(iso_context *ctx, const void *options_given)
         complain("interrupted: nothing has been measured");
     if (measured > 0 || status == ISO_OK) {
         cost_report r = {.scene = &scene, .cost = cost, .want = o->want};
+        if (!isnan(o->want)) r.choice = iso_cost_choose(cost, o->want);
         result = worse(result, report(ctx, o, &r, csv));
         if (status == ISO_OK && interrupted()) {
             complain("interrupted: longer orbits are missing");

@@ -28,14 +28,6 @@ static iso_frequencies_options options_of(const options *o)
     return how;
 }
 
-static const char *const verdicts[] = {[ISO_REGULAR] = "regular",
-                                       [ISO_CHAOTIC] = "chaotic",
-                                       [ISO_UNDECIDED] = "not decided",
-                                       [ISO_INTEGRABLE] = "integrable"};
-static const char *const kinds[] = {
-    [ISO_EXACT_SEPARATED] = "separated",   [ISO_EXACT_SYMMETRIC] = "symmetric", [ISO_EXACT_PLANE] = "plane",
-    [ISO_EXACT_SEPARATRIX] = "separatrix", [ISO_EXACT_REST] = "rest",           [ISO_EXACT_KINDS] = "unknown"};
-
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
 static void print_head(const iso_scene *scene, const iso_frequencies *f)
@@ -126,89 +118,6 @@ static void print_table(const iso_scene *scene, const iso_frequencies *f)
     print_resonances(f);
 }
 
-/* --- JSON ------------------------------------------------------------------------------------------------------- */
-
-static json_t *clocks_of(const double x[ISO_CLOCKS])
-{
-    return json_pack("{s:o, s:o, s:o}", "t", json_number(x[0]), "tau", json_number(x[1]), "s", json_number(x[2]));
-}
-
-static json_t *angles_of(const iso_frequencies *f)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < f->angles; i++) {
-        const iso_angle *a = &f->angle[i];
-        json_array_append_new(list, json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "what", a->what, "frequency",
-                                              clocks_of(a->frequency), "period", clocks_of(a->period), "error",
-                                              clocks_of(a->error), "drift", json_number(a->drift), "action",
-                                              json_number(a->action)));
-    }
-    return list;
-}
-
-static json_t *separatrices_of(const iso_frequencies *f)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < f->separatrices; i++)
-        json_array_append_new(list, json_pack("{s:s, s:o}", "of", f->separatrix[i].what, "distance",
-                                              json_number(f->separatrix[i].distance)));
-    return list;
-}
-
-static json_t *resonances_of(const iso_frequencies *f)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < f->resonances; i++) {
-        const iso_resonance *r = &f->resonance[i];
-        json_array_append_new(list, json_pack("{s:i, s:i, s:o, s:o, s:b}", "p", r->p, "q", r->q, "gap",
-                                              json_number(r->gap), "beat", clocks_of(r->beat), "met", (int)r->met));
-    }
-    return list;
-}
-
-static json_t *lines_of(const iso_estimate *e, int signal)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < e->lines[signal]; i++) {
-        const iso_identified_line *l = &e->line[signal][i];
-        json_array_append_new(list, json_pack("{s:o, s:o, s:o, s:o}", "frequency", json_number(l->line.frequency),
-                                              "amplitude", json_number(l->line.amplitude), "m",
-                                              l->known ? json_integer(l->m) : json_null(), "n",
-                                              l->known ? json_integer(l->n) : json_null()));
-    }
-    return list;
-}
-
-static json_t *estimate_of(const iso_frequencies *f)
-{
-    const iso_estimate *e = &f->estimate;
-    if (!f->estimated) return json_null();
-    return json_pack("{s:s, s:s, s:o, s:o, s:I, s:i, s:o, s:o, s:o, s:o, s:o}", "why", f->why, "verdict",
-                     verdicts[e->verdict], "length", json_number(e->length), "turns", json_number(e->turns),
-                     "samples", (json_int_t)e->samples, "axis", e->axis + 1, "drift", json_number(e->drift),
-                     "drift_before", json_number(e->drift_before), "unexplained", json_number(e->unexplained),
-                     "lines_turning", lines_of(e, 0), "lines_along", lines_of(e, 1));
-}
-
-static json_t *integral_of(const iso_frequencies *f)
-{
-    return f->integral ? json_pack("{s:s, s:o}", "name", f->integral->name, "value", json_number(f->F)) : json_null();
-}
-
-/* False: there is no memory. */
-static bool print_json(const iso_scene *scene, const iso_frequencies *f)
-{
-    const iso_params *p = &scene->params;
-    json_t *o = json_pack(
-        "{s:s, s:o, s:[o,o,o], s:o, s:o, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "isoroll",
-        iso_version(), "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]), json_number(p->J[2]),
-        "h", json_number(f->h), "eps", json_number(f->eps), "solution", f->estimated ? "estimated" : "closed", "kind",
-        kinds[f->kind], "motion", f->motion, "integral", integral_of(f), "c", json_number(f->c), "angles",
-        angles_of(f), "rotation_number", json_number(f->rotation), "resonances", resonances_of(f), "separatrices",
-        separatrices_of(f), "closed_orbit", clocks_of(f->closed), "estimate", estimate_of(f));
-    return json_print(o);
-}
-
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
 /* Draws the image of the momentum map with the orbit in it. */
@@ -297,7 +206,7 @@ static int run(iso_context *ctx, const void *options_given)
     if (status == ISO_OK) {
         if (!o->json)
             print_table(&scene, &f);
-        else if (!print_json(&scene, &f))
+        else if (!json_print(json_of_scene(&scene, iso_frequencies_fields, &f)))
             result = EXIT_NUMERICAL;
         if (o->plot && result == EXIT_DONE) result = finish(ctx, draw(ctx, o, &scene, &f));
     }

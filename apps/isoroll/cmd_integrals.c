@@ -57,21 +57,13 @@ static void print_known(const iso_integral_search *r)
     }
 }
 
-/* The smallest value that is no integral's, over all degrees. */
-static double smallest_of(const iso_integral_search *r)
-{
-    double smallest = NAN;
-    for (int d = 1; d <= r->degrees; d++) smallest = fmin(smallest, r->at[d].smallest);
-    return smallest;
-}
-
 static void print_verdict(const options *o, const iso_integral_search *r)
 {
     if (r->verdict == ISO_INTEGRALS_FOUND)
         printf("found: %d independent integral%s beside the energy\n", r->independent, r->independent > 1 ? "s" : "");
     else if (r->verdict == ISO_INTEGRALS_NONE)
         printf("none beside the energy up to degree %d within %g: the smallest value is %.1e\n", r->degrees,
-               o->within, smallest_of(r));
+               o->within, iso_integral_smallest(r));
     else if (r->degrees < (int)o->degree)
         printf("undecided: stopped after degree %d\n", r->degrees);
     else if (r->independent > 0)
@@ -89,63 +81,17 @@ static void print_table(const options *o, const iso_scene *scene, const iso_inte
     print_verdict(o, r);
 }
 
-/* --- JSON ------------------------------------------------------------------------------------------------------- */
-
-static json_t *values_of(const iso_integral_degree *at)
-{
-    json_t *list = json_array();
-    for (size_t i = 0; i < at->values; i++) {
-        const iso_integral_value *v = &at->value[i];
-        json_array_append_new(list, json_pack("{s:o, s:o, s:[i,i,i]}", "value", json_number(v->value), "error",
-                                              json_number(v->error), "parity", (int)(v->parity & 1),
-                                              (int)(v->parity >> 1 & 1), (int)(v->parity >> 2 & 1)));
-    }
-    return list;
-}
-
-static json_t *degrees_of(const iso_integral_search *r)
-{
-    json_t *list = json_array();
-    for (int d = 1; d <= r->degrees; d++) {
-        const iso_integral_degree *at = &r->at[d];
-        json_array_append_new(list,
-                              json_pack("{s:i, s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:o}", "degree", d, "terms",
-                                        (json_int_t)at->terms, "functions", (json_int_t)at->functions, "integrals",
-                                        (json_int_t)at->found, "further", (json_int_t)at->further, "doubtful",
-                                        (json_int_t)at->doubtful, "largest_of_integrals", json_number(at->largest),
-                                        "smallest_of_others", json_number(at->smallest), "gap",
-                                        json_number(at->smallest / at->largest), "values", values_of(at)));
-    }
-    return list;
-}
-
-static json_t *known_of(const iso_integral_search *r)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < r->known_count; i++) {
-        const iso_integral_known *known = &r->known[i];
-        json_array_append_new(list,
-                              json_pack("{s:s, s:s, s:b, s:b, s:o, s:o}", "name", known->name, "doc", known->doc,
-                                        "found", known->degree > 0, "constant", (int)known->constant, "degree",
-                                        known->degree > 0 ? json_integer(known->degree) : json_null(), "residual",
-                                        json_number(known->residual)));
-    }
-    return list;
-}
-
 /* False: there is no memory. */
-static bool print_json(const options *o, const iso_scene *scene, const iso_integral_search *r)
+static bool print_json(const iso_integral_search_options *how, const iso_scene *scene, const iso_integral_search *r)
 {
-    const iso_params *p = &scene->params;
-    return json_print(json_pack(
-        "{s:s, s:o, s:[o,o,o], s:o, s:i, s:i, s:I, s:o, s:i, s:o, s:o, s:s, s:i, s:b, s:b, s:o, s:o, s:o, s:o}",
-        "isoroll", iso_version(), "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]),
-        json_number(p->J[2]), "level", json_number(r->level), "degree", (int)o->degree, "coefficients",
-        r->coefficients, "orbits", (json_int_t)r->orbits, "turns", json_number(o->turns), "samples",
-        ISO_INTEGRAL_ROWS, "within", json_number(o->within), "delta", json_number(r->delta), "verdict",
-        iso_integral_verdict_name(r->verdict), "independent", r->independent, "near", (int)r->near, "energy",
-        r->degrees >= 2 && r->at[2].found > 0, "energy_spread", json_number(r->energy), "smallest",
-        json_number(smallest_of(r)), "known", known_of(r), "degrees", degrees_of(r)));
+    static const iso_field asked[] = {
+        ISO_FIELD(iso_integral_search_options, "degree", degree, "", "the largest, in M"),
+        ISO_FIELD(iso_integral_search_options, "turns", turns, "", "of each orbit"),
+        ISO_FIELD(iso_integral_search_options, "within", within, "", "which varies more is no integral"),
+        ISO_FIELD_END};
+    json_t *o = json_of_scene(scene, asked, how);
+    json_add(o, iso_integral_search_fields, r);
+    return json_print(o);
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
@@ -183,7 +129,7 @@ static int run(iso_context *ctx, const void *options_given)
     if (status != ISO_OK && status != ISO_STOPPED) return result;
     if (status == ISO_STOPPED) complain("interrupted: what is known by now is printed");
     if (!o->json) return print_table(o, &scene, &r), result;
-    return print_json(o, &scene, &r) ? result : EXIT_NUMERICAL;
+    return print_json(&how, &scene, &r) ? result : EXIT_NUMERICAL;
 }
 
 static const options defaults = {

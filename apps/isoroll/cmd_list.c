@@ -3,6 +3,7 @@
 
 #include "base/nearest.h"
 #include "command.h"
+#include "study/tables/tables.h"
 
 /* What list can be told. */
 typedef struct options {
@@ -108,6 +109,22 @@ static void list_columns(void)
     printf("\n");
 }
 
+static void print_column(void *data, const char *name, const iso_field *field, const iso_value *value)
+{
+    (void)data;
+    (void)value;
+    printf("    %-20s %-10s %s\n", name, *field->unit ? field->unit : "-", field->doc);
+}
+
+static void list_tables(void)
+{
+    const iso_result_table *t;
+    for (int i = 0; (t = iso_result_table_at(i)); i++) {
+        printf("  %-22s a row is %s\n", t->kind, t->doc);
+        iso_columns_visit(t->fields, NULL, print_column, NULL);
+    }
+}
+
 static const struct {
     const char *name, *doc;
     void (*list)(void);
@@ -120,6 +137,7 @@ static const struct {
     {"integrals", "first integrals, each with the k, J and effects for which it holds", list_integrals},
     {"clocks", "times of an orbit", list_clocks},
     {"columns", "of trajectory files", list_columns},
+    {"tables", "that commands write: their columns, with unit and meaning", list_tables},
 };
 enum { TOPICS = sizeof topics / sizeof *topics };
 
@@ -158,9 +176,9 @@ const command command_list = {
     .size = sizeof defaults,
     .file = offsetof(options, topic),
     .word = topic_word,
-    .description =
-        "A topic is systems, backends, effects, methods, surfaces, integrals, clocks or columns. Without one, "
-        "all topics are listed.",
+    .description = "A topic is systems, backends, effects, methods, surfaces, integrals, clocks, columns or tables. "
+                   "Without one, "
+                   "all topics are listed.",
     .example = "isoroll list methods",
     .run = run,
 };

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "io/output.h"
+#include "json.h"
 #include "periodic_chart.h"
 #include "periodic_follow.h"
 #include "periodic_report.h"
@@ -53,7 +54,7 @@ static int report(iso_context *ctx, const options *o, const periodic_report *r, 
 {
     int result = EXIT_DONE;
     if (o->json)
-        result = periodic_print_json(r) ? result : EXIT_NUMERICAL;
+        result = json_print(json_of_scene(r->scene, iso_periodic_fields, r->found)) ? result : EXIT_NUMERICAL;
     else if (!o->output || strcmp(o->output, "-") != 0)
         periodic_print(r);
     if (csv) result = worse(result, finish(ctx, periodic_write_csv(ctx, r, csv)));
@@ -86,7 +87,7 @@ static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_
     else if (o->follow)
         result = worse(result, follow(ctx, o, scene, found, csv));
     else
-        result = worse(result, report(ctx, o, &(periodic_report){scene, found, how.period, o->polish, o->all}, csv));
+        result = worse(result, report(ctx, o, &(periodic_report){scene, found, o->polish, o->all}, csv));
     iso_context_set_monitor(ctx, NULL, NULL);
     iso_periodic_free(found);
     return result;

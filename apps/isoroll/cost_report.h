@@ -20,7 +20,8 @@ enum { COST_GROWTHS = 3 };
 typedef struct cost_report {
     const iso_scene *scene;
     const iso_cost *cost;
-    double want; /* --want; NAN: not given */
+    double want;                 /* --want; NAN: not given        */
+    const iso_cost_cell *choice; /* for --want; NULL: there is none */
     int growths;
     cost_growth growth[COST_GROWTHS];
 } cost_report;
@@ -46,8 +47,8 @@ const char *cost_options_of(const iso_cost_cell *cell, char words[COST_OPTIONS])
 enum { COST_SECONDS = 24 };
 const char *cost_seconds(double seconds, char words[COST_SECONDS]);
 
-/* Prints everything on standard output: as tables and words, with the lines in this order (cost_table.c); as JSON
- * (cost_data.c), false: no memory. */
+/* Prints everything on standard output: as tables and words, with the lines in this order (cost_table.c); as JSON,
+ * false: no memory. */
 void cost_print(const cost_report *r, const iso_cost_series *const line[]);
 bool cost_print_json(const cost_report *r);
 

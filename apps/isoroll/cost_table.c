@@ -200,9 +200,9 @@ static void print_growth(const cost_growth *g)
     printf("  errors against %s\n", x->reference);
     printf("  %14s %9s %12s %10s\n", "to", "error", "uncertainty", "time");
     for (int i = 0; i < x->count; i++) {
-        printf("  %14.8g %9.1e    ", x->end[i], x->error[i]);
-        print_number(x->uncertainty[i]);
-        printf(" %10s\n", cost_seconds(x->seconds[i], seconds));
+        printf("  %14.8g %9.1e    ", x->at[i].end, x->at[i].error);
+        print_number(x->at[i].uncertainty);
+        printf(" %10s\n", cost_seconds(x->at[i].seconds, seconds));
     }
     printf("  ");
     if (x->chaotic)

@@ -1,9 +1,10 @@
-/* json.c - prints JSON: all of it, or nothing (see json.h). */
+/* json.c - makes JSON of results and prints it: all of it, or nothing (see json.h). */
 #include "json.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "report.h"
 
@@ -25,6 +26,148 @@ json_t *json_number(double x)
 {
     return isfinite(x) ? json_real(x) : json_null();
 }
+
+/* A text in which bytes that are no UTF-8 become question marks: JSON has only UTF-8. */
+static json_t *text_of(const char *text)
+{
+    json_t *made = json_string(text);
+    if (made) return made;
+    char *copy = json_allocate(strlen(text) + 1);
+    if (copy) memcpy(copy, text, strlen(text) + 1);
+    for (char *c = copy; c && *c; c++)
+        if ((unsigned char)*c >= 0x80) *c = '?';
+    made = copy ? json_string(copy) : NULL;
+    free(copy);
+    return made;
+}
+
+json_t *json_columns(const iso_record *r)
+{
+    json_t *o = json_object();
+    for (size_t c = 0; c < iso_record_columns(r); c++) {
+        json_t *column = json_array();
+        for (size_t i = 0; i < iso_record_rows(r); i++)
+            json_array_append_new(column, json_number(iso_record_const_row(r, i)[c]));
+        json_object_set_new(o, iso_record_name(r, c), column);
+    }
+    return o;
+}
+
+json_t *json_effects(const iso_effects *effects, bool all)
+{
+    json_t *o = json_object();
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        if (!effects->on[e]) continue;
+        json_t *numbers = json_object();
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
+            json_t *list = json_array();
+            const double *x = iso_effect_values(effects, e, n);
+            for (int i = 0; i < n->count; i++) json_array_append_new(list, json_number(x[i]));
+            if (all || !n->scene_only) json_object_set(numbers, n->name, list);
+            json_decref(list);
+        }
+        json_object_set_new(o, iso_effect_list[e]->name, numbers);
+    }
+    return o;
+}
+
+/* --- results ----------------------------------------------------------------------------------------------------- */
+
+static json_t *value_of(const iso_field *f, const void *row, int i)
+{
+    iso_value v;
+    iso_field_read(f, row, i, &v);
+    if (!v.there) return json_null();
+    if (v.text) return text_of(v.text);
+    if (f->type == ISO_FIELD_BOOL) return json_boolean(v.number != 0);
+    return f->type == ISO_FIELD_REAL ? json_number(v.number) : json_integer((json_int_t)v.number);
+}
+
+/* Several numbers are an object if each has a name, else an array. */
+static json_t *values_of(const iso_field *f, const void *row)
+{
+    if (f->count <= 1) return value_of(f, row, 0);
+    json_t *all = f->word ? json_object() : json_array();
+    for (int i = 0; i < f->count; i++)
+        if (f->word)
+            json_object_set_new(all, f->word(i), value_of(f, row, i));
+        else
+            json_array_append_new(all, value_of(f, row, i));
+    return all;
+}
+
+/* A struct of one member without a name is that member. */
+static json_t *struct_of(const iso_field *fields, const void *row)
+{
+    if (!*fields->name && !fields[1].name) return values_of(fields, row);
+    json_t *o = json_object();
+    json_add(o, fields, row);
+    return o;
+}
+
+static json_t *member_of(const iso_field *f, const void *row)
+{
+    if (f->there && !f->there(row)) return json_null();
+    if (f->type == ISO_FIELD_STRUCT) {
+        const void *inner = iso_field_struct(f, row);
+        return inner ? struct_of(f->fields, inner) : json_null();
+    }
+    if (f->type == ISO_FIELD_RECORD)
+        return json_columns(*(iso_record *const *)(const void *)((const char *)row + f->offset));
+    if (f->type != ISO_FIELD_LIST) return values_of(f, row);
+    json_t *list = json_array();
+    const void *item;
+    for (size_t i = 0; (item = iso_field_item(f, row, i)); i++)
+        if (!f->skip || !f->skip(item)) json_array_append_new(list, struct_of(f->fields, item));
+    return list;
+}
+
+/* Puts a member at its place: "a.b" is the member b of the object a. */
+void json_put(json_t *o, const char *name, json_t *value)
+{
+    char outer[ISO_COLUMN_SIZE];
+    for (const char *dot; (dot = strchr(name, '.')); name = dot + 1) {
+        snprintf(outer, sizeof outer, "%.*s", (int)(dot - name), name);
+        if (!json_object_get(o, outer)) json_object_set_new(o, outer, json_object());
+        o = json_object_get(o, outer);
+    }
+    json_object_set_new(o, name, value);
+}
+
+void json_add(json_t *o, const iso_field *fields, const void *row)
+{
+    for (const iso_field *f = fields; f->name; f++) {
+        if (f->how & ISO_IN_TABLE) continue;
+        json_t *value = member_of(f, row);
+        if (f->how & ISO_OPTIONAL && json_is_null(value)) continue;
+        if (*f->name) {
+            json_put(o, f->name, value);
+        } else {
+            json_object_update(o, value);
+            json_decref(value);
+        }
+    }
+}
+
+json_t *json_of(const iso_field *fields, const void *row)
+{
+    json_t *o = json_object();
+    json_put(o, "isoroll", json_string(iso_version()));
+    json_add(o, fields, row);
+    return o;
+}
+
+json_t *json_of_scene(const iso_scene *scene, const iso_field *fields, const void *row)
+{
+    static const iso_field numbers[] = {ISO_FIELD(iso_params, "k", k, "", "geometry number"),
+                                        ISO_FIELD(iso_params, "J", J, "moment of inertia", "about the contact"),
+                                        ISO_FIELD_END};
+    json_t *o = json_of(numbers, &scene->params);
+    json_add(o, fields, row);
+    return o;
+}
+
+/* --- printing ---------------------------------------------------------------------------------------------------- */
 
 bool json_whole(const json_t *o)
 {

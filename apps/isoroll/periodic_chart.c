@@ -23,13 +23,6 @@ bool read_range(const char *text, double range[2])
            iso_number_read(colon + 1, strlen(colon + 1), &range[1]);
 }
 
-/* What varies besides k. */
-static const char *of_chart(int moment)
-{
-    static const char *const names[] = {"J1", "J2", "J3", "level"};
-    return names[moment];
-}
-
 static iso_status read_level(iso_context *ctx, const iso_scene *scene, const periodic_chart *c,
                              iso_stability_options *o)
 {
@@ -49,7 +42,7 @@ static iso_status read_words(iso_context *ctx, const iso_scene *scene, const per
     const size_t length = strcspn(name, "=");
     o->moment = -1;
     for (int i = 0; i <= ISO_CHART_LEVEL; i++)
-        if (strlen(of_chart(i)) == length && strncmp(name, of_chart(i), length) == 0) o->moment = i;
+        if (strlen(iso_chart_name(i)) == length && strncmp(name, iso_chart_name(i), length) == 0) o->moment = i;
     if (o->moment < 0 || (o->moment == ISO_CHART_LEVEL && !equals))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "",
                                 "--chart '%s': expected J1, J2 or J3, or J2=A:B, or level=A:B", name);
@@ -61,7 +54,7 @@ static iso_status read_words(iso_context *ctx, const iso_scene *scene, const per
     moment[1] = one + other;
     if (equals && !read_range(equals + 1, moment))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--chart '%s': expected %s=A:B, A < B", name,
-                                of_chart(o->moment));
+                                iso_chart_name(o->moment));
     if (c->k && !read_range(c->k, k))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--k '%s': expected A:B, A < B", c->k);
     o->from[0] = k[0], o->to[0] = k[1];
@@ -72,42 +65,38 @@ static iso_status read_words(iso_context *ctx, const iso_scene *scene, const per
     return ISO_OK;
 }
 
-static void write_rows(const iso_record *grid, const iso_record *borders, FILE *to)
+static iso_status write_rows(iso_context *ctx, const iso_scene *scene, const iso_stability_options *o,
+                             const iso_record *grid, const iso_record *borders, iso_output *to)
 {
-    for (size_t i = 0; i < iso_record_rows(grid); i++) {
-        const double *row = iso_record_const_row(grid, i);
-        fprintf(to, "grid,%.17g,%.17g,%.17g,%.17g\n", row[0], row[1], row[2], row[3]);
+    const table_line lines[] = {{.key = o->moment == ISO_CHART_LEVEL ? NULL : "level", .number = o->level},
+                                {.key = NULL}};
+    iso_field fields[ISO_MOST_FIELDS];
+    table_rename(iso_chart_row_fields, "J2", iso_chart_name(o->moment), fields);
+    const iso_status status = table_begin(ctx, to, "periodic chart", scene, lines, fields);
+    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(grid); i++) {
+        const double *at = iso_record_const_row(grid, i);
+        iso_row_write(iso_output_stream(to), fields, &(iso_chart_row){"grid", at[0], at[1], at[2], at[3]});
     }
-    for (size_t i = 0; i < iso_record_rows(borders); i++) {
-        const double *row = iso_record_const_row(borders, i);
-        fprintf(to, "border,%.17g,%.17g,", row[2], row[3]);
-        fprintf(to, row[0] > 0 ? "nan,%g\n" : "%g,nan\n", row[1]);
+    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(borders); i++) {
+        const double *at = iso_record_const_row(borders, i), trace[] = {at[1], NAN};
+        const int greatest = at[0] > 0;
+        iso_row_write(iso_output_stream(to), fields,
+                      &(iso_chart_row){"border", at[2], at[3], trace[greatest], trace[!greatest]});
     }
-}
-
-static json_t *column_of(const iso_record *r, int column)
-{
-    json_t *a = json_array();
-    for (size_t i = 0; i < iso_record_rows(r); i++)
-        json_array_append_new(a, json_number(iso_record_const_row(r, i)[column]));
-    return a;
+    return table_end(ctx, to, status);
 }
 
 static bool print_json(const iso_stability_options *o, const iso_record *grid, const iso_record *borders)
 {
-    static const char *const axes[] = {"least", "greatest"};
-    const char *moment = of_chart(o->moment);
-    json_t *list = json_array();
-    for (size_t i = 0; i < iso_record_rows(borders); i++) {
-        const double *row = iso_record_const_row(borders, i);
-        json_array_append_new(list,
-                              json_pack("{s:s, s:o, s:o, s:o}", "axis", axes[row[0] > 0], "trace",
-                                        json_number(row[1]), "k", json_number(row[2]), moment, json_number(row[3])));
-    }
-    json_t *level = o->moment == ISO_CHART_LEVEL ? json_null() : json_number(o->level);
-    return json_print(json_pack("{s:s, s:s, s:o, s:{s:o, s:o, s:o, s:o}, s:o}", "isoroll", iso_version(), "moment",
-                                moment, "level", level, "grid", "k", column_of(grid, 0), moment, column_of(grid, 1),
-                                "least", column_of(grid, 2), "greatest", column_of(grid, 3), "borders", list));
+    static const iso_field fields[] = {
+        ISO_FIELD(iso_stability_options, "moment", moment, "", "what varies", .word = iso_chart_name),
+        ISO_FIELD(iso_stability_options, "level", level, "", "on which it is drawn"), ISO_FIELD_END};
+    iso_stability_options said = *o;
+    if (o->moment == ISO_CHART_LEVEL) said.level = NAN;
+    json_t *all = json_of(fields, &said);
+    json_put(all, "grid", json_columns(grid));
+    json_put(all, "borders", json_columns(borders));
+    return json_print(all);
 }
 
 #define EDGE 1e-9 /* with equal moments a trace is 2 or -2 up to rounding */
@@ -125,7 +114,7 @@ static void print_table(const iso_stability_options *o, const iso_record *grid, 
                 none[which] += fabs(iso_record_const_row(grid, i)[0]) >= ISO_LEAST_K;
         }
     printf("k from %g to %g, %s from %g to %g; share of the grid points\n%20s  T < -2    stable    T > 2\n",
-           o->from[0], o->to[0], of_chart(o->moment), o->from[1], o->to[1], "");
+           o->from[0], o->to[0], iso_chart_name(o->moment), o->from[1], o->to[1], "");
     for (int which = 0; which < 2; which++) {
         const double all = (double)(count[which][0] + count[which][1] + count[which][2]);
         printf("  %-8s moment    %6.4f    %6.4f    %6.4f\n", axes[which], (double)count[which][0] / all,
@@ -143,18 +132,10 @@ static void print_table(const iso_stability_options *o, const iso_record *grid, 
 static iso_status write_all(iso_context *ctx, const iso_scene *scene, const periodic_chart *c,
                             const iso_stability_options *o, const iso_record *grid, const iso_record *borders)
 {
-    const char *moment = of_chart(o->moment);
+    const char *moment = iso_chart_name(o->moment);
     const double *J = o->J;
-    char title[160], columns[64];
-    iso_status status = ISO_OK;
-    if (c->rows) {
-        const table_line lines[] = {{.key = o->moment == ISO_CHART_LEVEL ? NULL : "level", .number = o->level},
-                                    {.key = NULL}};
-        snprintf(columns, sizeof columns, "kind,k,%s,least,greatest", moment);
-        status = table_begin(ctx, c->rows, "periodic chart", scene, lines, columns);
-        if (status == ISO_OK) write_rows(grid, borders, iso_output_stream(c->rows));
-        status = table_end(ctx, c->rows, status);
-    }
+    char title[160];
+    const iso_status status = c->rows ? write_rows(ctx, scene, o, grid, borders, c->rows) : ISO_OK;
     const int a = (o->moment + 1) % 3, b = (o->moment + 2) % 3;
     if (o->moment == ISO_CHART_LEVEL)
         snprintf(title, sizeof title, "J = %.6g %.6g %.6g", J[0], J[1], J[2]);

@@ -59,48 +59,25 @@ static void print_branch(const iso_continuations *f, size_t i, const char *name)
                b->event[j].at.trace, b->event[j].words);
 }
 
-static void write_rows(const iso_continuations *f, FILE *to)
+static iso_status write_rows(iso_context *ctx, const iso_scene *scene, const iso_continuations *f, const char *name,
+                             iso_output *to)
 {
-    for (size_t i = 0; i < f->count; i++) {
+    iso_field fields[ISO_MOST_FIELDS];
+    table_rename(iso_branch_row_fields, "k", name, fields);
+    const iso_status status = table_begin(ctx, to, "periodic follow", scene, NULL, fields);
+    for (size_t i = 0; status == ISO_OK && i < f->count; i++) {
         const iso_branch *b = &f->branch[i];
-        for (size_t j = 0; j < b->points; j++)
-            fprintf(to, "%zu,%s,%d,%.17g,%.17g,%.17g,%.17g,\n", i + 1, iso_symmetry_line_name(b->line), b->period,
-                    b->point[j].value, b->point[j].l, b->point[j].x, b->point[j].trace);
-        for (size_t j = 0; j < b->events; j++)
-            fprintf(to, "%zu,%s,%d,%.17g,%.17g,%.17g,%.17g,%s\n", i + 1, iso_symmetry_line_name(b->line), b->period,
-                    b->event[j].at.value, b->event[j].at.l, b->event[j].at.x, b->event[j].at.trace,
-                    iso_branch_kind_name(b->event[j].kind));
+        iso_branch_row row = {.number = i + 1, .line = b->line, .period = b->period};
+        for (size_t j = 0; j < b->points; j++) {
+            row.at = b->point[j];
+            iso_row_write(iso_output_stream(to), fields, &row);
+        }
+        for (size_t j = 0; j < b->events; j++) {
+            row.at = b->event[j].at, row.event = &b->event[j];
+            iso_row_write(iso_output_stream(to), fields, &row);
+        }
     }
-}
-
-static json_t *point_of(const iso_branch_point *p, const char *name)
-{
-    return json_pack("{s:o, s:o, s:o, s:o}", name, json_number(p->value), "l", json_number(p->l), "x",
-                     json_number(p->x), "trace", json_number(p->trace));
-}
-
-static json_t *branch_of(const iso_branch *b, const char *name)
-{
-    json_t *points = json_array(), *events = json_array();
-    for (size_t j = 0; j < b->points; j++) json_array_append_new(points, point_of(&b->point[j], name));
-    for (size_t j = 0; j < b->events; j++) {
-        json_t *e = point_of(&b->event[j].at, name);
-        json_object_set_new(e, "kind", json_string(iso_branch_kind_name(b->event[j].kind)));
-        json_object_set_new(e, "joins", json_boolean(b->event[j].joins));
-        json_object_set_new(e, "words", json_string(b->event[j].words));
-        if (b->event[j].axis >= 0) json_object_set_new(e, "axis", json_integer(b->event[j].axis + 1));
-        json_array_append_new(events, e);
-    }
-    return json_pack("{s:i, s:s, s:o, s:o, s:o}", "period", b->period, "line", iso_symmetry_line_name(b->line), "parent",
-                     b->parent < 0 ? json_null() : json_integer(b->parent + 1), "points", points, "events", events);
-}
-
-static bool print_json(const iso_continuations *f, const char *name)
-{
-    json_t *branches = json_array();
-    for (size_t i = 0; i < f->count; i++) json_array_append_new(branches, branch_of(&f->branch[i], name));
-    return json_print(
-        json_pack("{s:s, s:s, s:o}", "isoroll", iso_version(), "parameter", name, "branches", branches));
+    return table_end(ctx, to, status);
 }
 
 static iso_status draw(iso_context *ctx, const iso_scene *scene, const iso_continuations *f, const char *name,
@@ -128,8 +105,8 @@ static iso_status draw(iso_context *ctx, const iso_scene *scene, const iso_conti
 
 /* --- the whole -------------------------------------------------------------------------------------------------- */
 
-static int show(iso_context *ctx, const iso_scene *scene, const iso_continuations *f, const iso_continuation_options *o,
-                const periodic_follow *how)
+static int show(iso_context *ctx, const iso_scene *scene, const iso_continuations *f,
+                const iso_continuation_options *o, const periodic_follow *how)
 {
     const char *name = iso_vary_name((int)o->vary);
     iso_status status = ISO_OK;
@@ -137,16 +114,10 @@ static int show(iso_context *ctx, const iso_scene *scene, const iso_continuation
     for (size_t i = 0; i < f->count; i++)
         for (size_t j = 0; j < f->branch[i].events; j++) failed += f->branch[i].event[j].kind == ISO_BRANCH_FAILURE;
     bool printed = true;
-    if (how->json) printed = print_json(f, name);
+    if (how->json) printed = json_print(json_of(iso_continuation_fields, f));
     if (!how->json && !how->alone)
         for (size_t i = 0; i < f->count; i++) print_branch(f, i, name);
-    if (how->rows) {
-        char columns[80];
-        snprintf(columns, sizeof columns, "branch,line,period,%s,l,x,trace,event", name);
-        status = table_begin(ctx, how->rows, "periodic follow", scene, NULL, columns);
-        if (status == ISO_OK) write_rows(f, iso_output_stream(how->rows));
-        status = table_end(ctx, how->rows, status);
-    }
+    if (how->rows) status = write_rows(ctx, scene, f, name, how->rows);
     if (status == ISO_OK && how->plot && f->count > 0) status = draw(ctx, scene, f, name, how->plot);
     const int result = printed ? finish(ctx, status) : EXIT_NUMERICAL;
     if (failed > 0) complain("%zu branches could not be followed to their ends: see their failures", failed);

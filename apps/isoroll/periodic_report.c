@@ -1,10 +1,9 @@
-/* periodic_report.c - periodic orbits as a table, as JSON, as rows and as a picture (see periodic_report.h). */
+/* periodic_report.c - periodic orbits as a table, as rows and as a picture (see periodic_report.h). */
 #include "periodic_report.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "json.h"
 #include "plot/plot.h"
 #include "table.h"
 
@@ -66,7 +65,7 @@ void periodic_print(const periodic_report *r)
     putchar('\n');
     print_rotations(r);
     printf("\n%s orbits of %d returns at most, but the rotations: %zu\n", r->all ? "periodic" : "symmetric periodic",
-           r->period, f->count);
+           r->found->longest, f->count);
     if (f->count > 0)
         printf(r->polish ? "  no  period  %25s  %34s  %34s  error  closure  stability   symmetry\n"
                          : "  no  period  %10s  %18s  %24s  error  stability   symmetry  copies  t\n",
@@ -84,127 +83,17 @@ void periodic_print(const periodic_report *r)
             r->scene->params.k, tori);
 }
 
-/* --- JSON ------------------------------------------------------------------------------------------------------- */
-
-static json_t *numbers(size_t count, const double x[])
-{
-    json_t *a = json_array();
-    for (size_t i = 0; i < count; i++) json_array_append_new(a, json_number(x[i]));
-    return a;
-}
-
-static json_t *pairs(size_t count, const double (*x)[2])
-{
-    json_t *a = json_array();
-    for (size_t i = 0; i < count; i++) json_array_append_new(a, numbers(2, x[i]));
-    return a;
-}
-
-static void put_clocks(json_t *o, const double clock[ISO_CLOCKS])
-{
-    for (iso_clock c = 0; c < ISO_CLOCKS; c++) json_object_set_new(o, iso_clock_name(c), json_number(clock[c]));
-}
-
-static void put_multipliers(json_t *o, const iso_multipliers *m)
-{
-    json_object_set_new(o, "stable", json_boolean(m->stability == ISO_STABLE));
-    json_object_set_new(o, "stability", json_string(iso_stability_name(m->stability)));
-    json_object_set_new(o, "multipliers", pairs(2, m->value));
-    json_object_set_new(o, "krein", m->krein ? json_integer(m->krein) : json_null());
-}
-
-static void put_digits(json_t *o, const char *key, double head, double tail)
-{
-    char text[ISO_DIGITS_SIZE];
-    iso_periodic_digits(head, tail, text);
-    json_object_set_new(o, key, json_string(text));
-}
-
-static json_t *rotation_of(const periodic_report *r, int axis)
-{
-    const iso_rotation *a = &r->found->rotation[axis];
-    json_t *o = json_pack("{s:i, s:o, s:o, s:o, s:o, s:o, s:o}", "axis", axis + 1, "half_turn_trace",
-                          json_number(a->half_turn_trace), "error", json_number(a->error), "by_section",
-                          json_number(a->by_section), "turn_trace", json_number(a->turn_trace), "l",
-                          json_number(a->x < 1 ? a->l : NAN), "x", json_number(a->x));
-    json_object_set_new(o, "oscillates", json_boolean(a->oscillates));
-    if (a->oscillates) return o;
-    put_multipliers(o, &a->half);
-    put_clocks(o, a->clock);
-    if (r->polish) put_digits(o, "half_turn_trace_digits", a->half_turn_trace, a->tail);
-    return o;
-}
-
-static json_t *orbit_of(const periodic_report *r, size_t i)
-{
-    const iso_periodic_orbit *p = &r->found->orbit[i];
-    char words[ISO_DIGITS_SIZE];
-    iso_symmetry_words(p->symmetry, words);
-    json_t *o = json_pack("{s:i, s:o, s:o, s:o, s:o, s:o, s:o, s:s, s:b}", "period", p->period, "l",
-                          json_number(p->l), "x", json_number(p->x), "trace", json_number(p->trace), "error",
-                          json_number(p->error), "closure", json_number(p->closure), "determinant",
-                          json_number(1 + p->determinant), "symmetry", words, "torus", (int)p->torus);
-    json_object_set_new(o, "line", p->line >= 0 ? json_string(iso_symmetry_line_name(p->line)) : json_null());
-    put_clocks(o, p->clock);
-    put_multipliers(o, &p->multipliers);
-    json_object_set_new(o, "copies", pairs((size_t)p->copies, p->copy));
-    json_object_set_new(o, "omega", numbers(3, p->ball));
-    json_object_set_new(o, "n", numbers(3, p->ball + 3));
-    json_object_set_new(o, "M", numbers(3, p->point));
-    json_object_set_new(o, "gamma", numbers(3, p->point + 3));
-    json_t *points = json_array();
-    for (int n = 0; n < p->period; n++)
-        json_array_append_new(points, numbers(2, p->half[n == 0 ? 2 * p->period - 1 : 2 * n - 1]));
-    json_object_set_new(o, "points", points);
-    if (!r->polish) return o;
-    put_digits(o, "l_digits", p->l, p->l_tail);
-    put_digits(o, "x_digits", p->x, p->x_tail);
-    put_digits(o, "trace_digits", p->trace, p->trace_tail);
-    return o;
-}
-
-bool periodic_print_json(const periodic_report *r)
-{
-    const iso_params *p = &r->scene->params;
-    json_t *rotations = json_array(), *orbits = json_array();
-    for (int a = 0; a < 3; a++) json_array_append_new(rotations, rotation_of(r, a));
-    for (size_t i = 0; i < r->found->count; i++) json_array_append_new(orbits, orbit_of(r, i));
-    json_t *o = json_pack("{s:s, s:o, s:o, s:o, s:{s:i}, s:i, s:o, s:o, s:I, s:I}", "isoroll", iso_version(), "k",
-                          json_number(p->k), "J", numbers(3, p->J), "level", json_number(r->found->level), "section",
-                          "axis", r->found->axis + 1, "longest_period", r->period, "rotations", rotations, "orbits",
-                          orbits, "unresolved", (json_int_t)r->found->unresolved, "lost", (json_int_t)r->found->lost);
-    return json_print(o);
-}
-
 /* --- rows ------------------------------------------------------------------------------------------------------- */
-
-static void write_rows(const periodic_report *r, FILE *to)
-{
-    for (size_t i = 0; i < r->found->count; i++) {
-        const iso_periodic_orbit *o = &r->found->orbit[i];
-        char words[ISO_DIGITS_SIZE];
-        iso_symmetry_words(o->symmetry, words);
-        fprintf(to, "%zu,%d,%.17g,%.17g,%.17g,%.3g,%s,%s,%d", i + 1, o->period, o->l, o->x, o->trace, o->error,
-                iso_stability_name(o->multipliers.stability), words, o->copies);
-        for (int c = 0; c < ISO_CLOCKS; c++) fprintf(to, ",%.17g", o->clock[c]);
-        fprintf(to, ",%.3g", o->closure);
-        for (int j = 0; j < ISO_STATE; j++) fprintf(to, ",%.17g", o->ball[j]);
-        for (int j = 0; j < ISO_STATE; j++) fprintf(to, ",%.17g", o->point[j]);
-        fputc('\n', to);
-    }
-}
 
 iso_status periodic_write_csv(iso_context *ctx, const periodic_report *r, iso_output *to)
 {
     const table_line lines[] = {{.key = "level", .number = r->found->level},
-                                {.key = "longest_period", .number = r->period},
+                                {.key = "longest_period", .number = r->found->longest},
                                 {.key = "axis", .number = r->found->axis + 1},
                                 {.key = NULL}};
-    const iso_status status =
-        table_begin(ctx, to, "periodic", r->scene, lines,
-                    "orbit,period,l,x,trace,error,stability,symmetry,copies,t,tau,s,closure,omega1,omega2,omega3,n1,"
-                    "n2,n3,M1,M2,M3,gamma1,gamma2,gamma3");
-    if (status == ISO_OK) write_rows(r, iso_output_stream(to));
+    const iso_status status = table_begin(ctx, to, "periodic", r->scene, lines, iso_periodic_orbit_fields);
+    for (size_t i = 0; status == ISO_OK && i < r->found->count; i++)
+        iso_row_write(iso_output_stream(to), iso_periodic_orbit_fields, &r->found->orbit[i]);
     return table_end(ctx, to, status);
 }
 
@@ -237,7 +126,7 @@ iso_status periodic_draw(iso_context *ctx, const periodic_report *r, const char 
     picture p = {malloc(count * sizeof *p.at), malloc(count * sizeof *p.orbit), malloc(f->count * sizeof *p.grey), 0};
     char title[160];
     snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g: periodic orbits of %d returns at most",
-             r->scene->params.k, J[0], J[1], J[2], r->period);
+             r->scene->params.k, J[0], J[1], J[2], r->found->longest);
     iso_status status =
         p.at && p.orbit && p.grey ? ISO_OK : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a picture");
     for (size_t i = 0; i < f->count && status == ISO_OK; i++) put_orbit(&p, &f->orbit[i], i);

@@ -9,18 +9,14 @@
 #include "isoroll.h"
 #include "study/periodic/periodic.h"
 
-/* What the table and JSON are made of; polish: all digits. */
+/* What the table is made of; polish: all digits. */
 typedef struct periodic_report {
     const iso_scene *scene;
     const iso_periodic *found;
-    int period;       /* the longest that was sought */
     bool polish, all; /* all: orbits without a symmetry as well */
 } periodic_report;
 
 void periodic_print(const periodic_report *r);
-
-/* False: there is no memory. */
-bool periodic_print_json(const periodic_report *r);
 
 /* One row for each orbit. Ends the file. */
 iso_status periodic_write_csv(iso_context *ctx, const periodic_report *r, iso_output *to);

@@ -93,66 +93,25 @@ void splitting_print(const splitting_report *r)
 
 /* --- JSON and CSV ----------------------------------------------------------------------------------------------- */
 
-static json_t *row_of(const iso_separatrix_splitting *s)
+bool splitting_print_json(const splitting_report *r)
 {
-    const bool there = s->status == ISO_OK;
-    if (!there)
-        return json_pack("{s:o, s:o, s:n, s:n, s:n, s:n, s:s}", "k", json_number(s->k), "level",
-                         json_number(s->level), "x", "m", "error", "digits", "failed", s->words);
-    json_t *o = json_pack("{s:o, s:o, s:o, s:o, s:o, s:i, s:o, s:o, s:o, s:o, s:b}", "k", json_number(s->k), "level",
-                          json_number(s->level), "x", json_number(s->x), "m", json_number(s->m), "error",
-                          json_number(s->error), "digits", s->digits, "x_error", json_number(s->x_error), "x_tail",
-                          json_number(s->x_tail), "m_tail", json_number(s->m_tail), "multiplier",
-                          json_number(s->lambda), "from_zero", (int)s->from_zero);
-    if (o)
-        json_object_set_new(o, "global",
-                            json_pack("{s:i, s:o, s:o}", "axis", s->section + 1, "x", json_number(s->section_x), "m",
-                                      json_number(s->section_m)));
-    if (o && s->words[0]) json_object_set_new(o, "words", json_string(s->words));
-    if (o && s->is_zero) {
-        json_object_set_new(o, "k_error", json_number(s->k_error));
-        json_object_set_new(o, "level_error", json_number(s->level_error));
-        json_object_set_new(o, "next",
-                            json_pack("{s:i, s:o, s:o, s:o}", "axis", s->section + 1, "l", json_number(s->next_l),
-                                      "x", json_number(s->next_x), "m", json_number(s->next_m)));
-    }
-    return o;
-}
-
-static json_t *list_of(const iso_separatrix_splitting *rows, size_t count)
-{
-    json_t *list = json_array();
-    for (size_t i = 0; i < count; i++)
-        if (rows[i].status != ISO_STOPPED) json_array_append_new(list, row_of(&rows[i]));
-    return list;
-}
-
-bool splitting_print_json(const splitting_report *report)
-{
-    const double *J = report->J;
-    const iso_separatrix_table *s = report->found;
-    const iso_separatrix_splitting *r = first_good(s);
-    return json_print(json_pack("{s:s, s:[o,o,o], s:i, s:i, s:o, s:o, s:I}", "isoroll", iso_version(), "J",
-                                json_number(J[0]), json_number(J[1]), json_number(J[2]), "axis", r->axis + 1,
-                                "middle", r->middle + 1, "rows", list_of(s->row, s->rows), "zeros",
-                                list_of(s->zero, s->zeros), "lost", (json_int_t)s->lost));
+    static const iso_field J[] = {ISO_FIELD(iso_params, "J", J, "moment of inertia", "about the contact"),
+                                  ISO_FIELD_END};
+    json_t *o = json_of(J, &r->scene->params);
+    json_add(o, iso_separatrix_table_fields, r->found);
+    return json_print(o);
 }
 
 static void write_rows(FILE *to, const iso_separatrix_splitting *rows, size_t count)
 {
-    for (size_t i = 0; i < count; i++) {
-        const iso_separatrix_splitting *s = &rows[i];
-        if (s->status == ISO_OK)
-            fprintf(to, "%.17g,%.17g,%.17g,%.3g,%.3g,%.17g,%d,%d,%.17g\n", s->k, s->x, s->m, s->error, s->x_error,
-                    s->lambda, s->digits, (int)s->is_zero, s->level);
-    }
+    for (size_t i = 0; i < count; i++)
+        if (rows[i].status == ISO_OK) iso_row_write(to, iso_separatrix_fields, &rows[i]);
 }
 
 iso_status splitting_write_csv(iso_context *ctx, const splitting_report *r, iso_output *to)
 {
     const iso_separatrix_table *s = r->found;
-    const iso_status status =
-        table_begin(ctx, to, "splitting", r->scene, NULL, "k,x,m,error,x_error,multiplier,digits,zero,level");
+    const iso_status status = table_begin(ctx, to, "splitting", r->scene, NULL, iso_separatrix_fields);
     if (status == ISO_OK) write_rows(iso_output_stream(to), s->row, s->rows);
     if (status == ISO_OK) write_rows(iso_output_stream(to), s->zero, s->zeros);
     return table_end(ctx, to, status);

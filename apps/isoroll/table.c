@@ -2,29 +2,47 @@
 #include "table.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "io/table.h"
 #include "options.h"
 
-enum { MOST_COLUMNS = 64 };
+typedef struct columns {
+    char name[ISO_MOST_FIELDS][ISO_COLUMN_SIZE];
+    size_t count;
+} columns;
 
-/* A header without lines, of columns whose names stand in a text with commas between. */
-static iso_status create(iso_context *ctx, const char *columns, iso_record **header)
+static void keep_name(void *data, const char *name, const iso_field *field, const iso_value *value)
 {
-    char text[MOST_COLUMNS * ISO_NAME_SIZE], *rest = text;
-    const char *names[MOST_COLUMNS];
-    size_t count = 0;
-    snprintf(text, sizeof text, "%s", columns);
-    for (char *name; count < MOST_COLUMNS && (name = strsep(&rest, ","));) names[count++] = name;
-    return iso_record_create(ctx, count, names, header);
+    columns *c = data;
+    (void)field;
+    (void)value;
+    if (c->count < ISO_MOST_FIELDS) snprintf(c->name[c->count++], ISO_COLUMN_SIZE, "%s", name);
+}
+
+/* A header without lines. */
+static iso_status create(iso_context *ctx, const iso_field *fields, iso_record **header)
+{
+    columns c = {.count = 0};
+    const char *names[ISO_MOST_FIELDS];
+    iso_columns_visit(fields, NULL, keep_name, &c);
+    for (size_t i = 0; i < c.count; i++) names[i] = c.name[i];
+    return iso_record_create(ctx, c.count, names, header);
+}
+
+void table_rename(const iso_field *fields, const char *old, const char *name, iso_field copy[ISO_MOST_FIELDS])
+{
+    iso_fields_copy(fields, NULL, copy);
+    for (iso_field *f = copy; f->name; f++)
+        if (strcmp(f->name, old) == 0) f->name = name;
 }
 
 iso_status table_begin(iso_context *ctx, iso_output *to, const char *kind, const iso_scene *scene,
-                       const table_line *lines, const char *columns)
+                       const table_line *lines, const iso_field *fields)
 {
     iso_record *header = NULL;
-    iso_status status = create(ctx, columns, &header);
+    iso_status status = create(ctx, fields, &header);
     if (status == ISO_OK) status = iso_record_describe_scene(ctx, header, scene);
     if (status == ISO_OK) status = iso_record_set(ctx, header, "command", options_command());
     for (const table_line *l = lines; status == ISO_OK && l && l->key; l++)

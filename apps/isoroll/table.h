@@ -13,10 +13,13 @@ typedef struct table_line {
 } table_line;
 
 /* Writes the beginning of a table: "# isoroll KIND 1"; the scene's numbers (description.h), the version of isoroll and
- * the command line, from which the table can be made again; lines (NULL: none); and the columns, names with commas
- * between. */
+ * the command line, from which the table can be made again; lines (NULL: none); and the columns that the fields make.
+ */
 iso_status table_begin(iso_context *ctx, iso_output *to, const char *kind, const iso_scene *scene,
-                       const table_line *lines, const char *columns);
+                       const table_line *lines, const iso_field *fields);
+
+/* Copies fields, one of them with another name. */
+void table_rename(const iso_field *fields, const char *old, const char *name, iso_field copy[ISO_MOST_FIELDS]);
 
 /* Ends a table. `status` says whether its rows are all there; otherwise no trace of the file is left. Gives the first
  * failure. */

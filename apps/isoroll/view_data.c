@@ -56,79 +56,29 @@ static json_t *column_of(const iso_record *r, size_t column)
 static json_t *columns_of(const iso_record *r)
 {
     json_t *o = json_object();
-    for (size_t i = 0; i < iso_record_columns(r); i++) json_object_set_new(o, iso_record_name(r, i), column_of(r, i));
+    for (size_t i = 0; i < iso_record_columns(r); i++) json_put(o, iso_record_name(r, i), column_of(r, i));
     return o;
-}
-
-/* --- text ------------------------------------------------------------------------------------------------------- */
-
-/* A text in which bytes that are no UTF-8 become question marks: JSON has only UTF-8. */
-static json_t *text_of(const char *text)
-{
-    json_t *made = json_string(text);
-    if (made) return made;
-    char *copy = json_allocate(strlen(text) + 1);
-    if (copy) memcpy(copy, text, strlen(text) + 1);
-    for (char *c = copy; c && *c; c++)
-        if ((unsigned char)*c >= 0x80) *c = '?';
-    made = copy ? json_string(copy) : NULL;
-    free(copy);
-    return made;
-}
-
-static json_t *numbers(size_t count, const double x[])
-{
-    json_t *list = json_array();
-    for (size_t i = 0; i < count; i++) json_array_append_new(list, json_number(x[i]));
-    return list;
 }
 
 /* --- parts of the page ------------------------------------------------------------------------------------------ */
 
-static json_t *effects_of(const iso_effects *effects)
-{
-    json_t *o = json_object();
-    for (int e = 0; e < ISO_EFFECTS; e++) {
-        if (!effects->on[e]) continue;
-        json_t *of_one = json_object();
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++)
-            json_object_set_new(of_one, n->name,
-                                numbers((size_t)n->count, iso_effect_values(effects, (iso_effect_id)e, n)));
-        json_object_set_new(o, iso_effect_list[e]->name, of_one);
-    }
-    return o;
-}
-
-static json_t *integrals_of(const view_page *page)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < page->integrals; i++) {
-        const view_integral *v = &page->integral[i];
-        const iso_dimension d = v->integral->dimension;
-        json_t *o = json_pack("{s:s,s:s,s:s,s:[i,i,i]}", "name", v->integral->name, "doc", v->integral->doc, "model",
-                              iso_model_kind_name((int)v->model), "dimension", d.J, d.J_2k, d.w);
-        json_object_set_new(o, "start", json_number(v->start));
-        json_object_set_new(o, "worst", json_number(v->worst));
-        json_array_append_new(list, o);
-    }
-    return list;
-}
-
 static json_t *rows_of(const view_page *page)
 {
+    static const iso_field fields[] = {
+        ISO_FIELD(view_page, "total", total, "", "rows of the file"),
+        ISO_FIELD(view_page, "every", every, "", "of which each so-and-so-many-th is here"),
+        ISO_FIELD(view_page, "between", between, "", "rows put between two"), ISO_FIELD_END};
     json_t *columns = columns_of(page->rows);
     if (page->drifts) json_object_update_new(columns, columns_of(page->drifts));
     if (page->apart) json_object_update_new(columns, columns_of(page->apart));
     json_t *o = json_object();
-    json_object_set_new(o, "count", json_integer((json_int_t)iso_record_rows(page->rows)));
-    json_object_set_new(o, "total", json_integer((json_int_t)page->total));
-    json_object_set_new(o, "every", json_integer((json_int_t)page->every));
-    json_object_set_new(o, "between", json_integer((json_int_t)page->between));
-    json_object_set_new(o, "columns", columns);
+    json_put(o, "count", json_number((double)iso_record_rows(page->rows)));
+    json_add(o, fields, page);
+    json_put(o, "columns", columns);
     return o;
 }
 
-/* [number of the orbit, number of its crossings], one after the other. */
+/* Number of the orbit, number of its crossings, one after the other. */
 static json_t *counts_of(const iso_record *crossings)
 {
     json_t *list = json_array();
@@ -136,7 +86,10 @@ static json_t *counts_of(const iso_record *crossings)
     for (size_t i = 0, first = 0; i < rows; i++) {
         const double orbit = iso_record_const_row(crossings, i)[0];
         if (i + 1 < rows && iso_record_const_row(crossings, i + 1)[0] == orbit) continue;
-        json_array_append_new(list, json_pack("[I,I]", (json_int_t)orbit, (json_int_t)(i + 1 - first)));
+        json_t *pair = json_array();
+        json_array_append_new(pair, json_number(orbit));
+        json_array_append_new(pair, json_number((double)(i + 1 - first)));
+        json_array_append_new(list, pair);
         first = i + 1;
     }
     return list;
@@ -144,44 +97,78 @@ static json_t *counts_of(const iso_record *crossings)
 
 static json_t *section_of(const view_section *s)
 {
+    static const iso_field fields[] = {ISO_FIELD(view_section, "axis", axis, "", "of n_a = 0"),
+                                       ISO_FIELD(view_section, "total", total, "", "crossings of the file"),
+                                       ISO_FIELD(view_section, "orbits", orbits, "", "orbits of the file"),
+                                       ISO_FIELD_END};
     json_t *o = json_object(), *list = json_array();
-    json_object_set_new(o, "axis", json_integer(s->axis));
-    json_object_set_new(o, "total", json_integer((json_int_t)s->total));
-    json_object_set_new(o, "orbits", json_integer((json_int_t)s->orbits));
-    json_object_set_new(o, "counts", counts_of(s->crossings));
-    json_object_set_new(o, "crossings", columns_of(s->crossings));
+    json_add(o, fields, s);
+    json_put(o, "counts", counts_of(s->crossings));
+    json_put(o, "crossings", columns_of(s->crossings));
     json_object_del(json_object_get(o, "crossings"), "orbit");
     for (size_t i = 0; i < s->count; i++) {
         json_t *one = json_object();
-        json_object_set_new(one, "number", json_integer((json_int_t)s->number[i]));
-        json_object_set_new(one, "count", json_integer((json_int_t)iso_record_rows(s->orbit[i])));
-        json_object_set_new(one, "columns", columns_of(s->orbit[i]));
+        json_put(one, "number", json_number((double)s->number[i]));
+        json_put(one, "count", json_number((double)iso_record_rows(s->orbit[i])));
+        json_put(one, "columns", columns_of(s->orbit[i]));
         json_array_append_new(list, one);
     }
-    json_object_set_new(o, "list", list);
+    json_put(o, "list", list);
     return o;
 }
 
 /* --- the whole -------------------------------------------------------------------------------------------------- */
 
+static const char *clock_word(int clock)
+{
+    return iso_clock_name((iso_clock)clock);
+}
+
+/* Exponents of the units of an integral. */
+static void find_dimension(const void *row, int i, iso_value *v)
+{
+    const iso_dimension d = ((const view_integral *)row)->integral->dimension;
+    v->number = i == 0 ? d.J : i == 1 ? d.J_2k : d.w;
+}
+
+static const iso_field name_fields[] = {ISO_FIELD(iso_integral, "name", name, "", "of the integral"),
+                                        ISO_FIELD(iso_integral, "doc", doc, "", "what it is"), ISO_FIELD_END};
+
+static const iso_field integral_fields[] = {
+    ISO_STRUCT(view_integral, "", integral, name_fields, "which", .pointer = true),
+    ISO_FIELD(view_integral, "model", model, "", "ball or point", .word = iso_model_kind_name),
+    ISO_FOUND("dimension", ISO_FIELD_INT, find_dimension, "", "exponents of its unit", .count = 3),
+    ISO_FIELD(view_integral, "start", start, "", "its value at the start"),
+    ISO_FIELD(view_integral, "worst", worst, "", "its largest drift"),
+    ISO_FIELD_END,
+};
+
+static const iso_field note_fields[] = {{.name = "", .type = ISO_FIELD_TEXT}, ISO_FIELD_END};
+
+#define FIELD(key, member, ...) ISO_FIELD(view_page, key, member, __VA_ARGS__)
+
+static const iso_field page_fields[] = {
+    FIELD("title", title, "", "the name of the file"),
+    FIELD("kind", kind, "", "scene, trajectory or section"),
+    FIELD("k", params.k, "", "geometry number"),
+    FIELD("J", params.J, "moment of inertia", "about the contact"),
+    FIELD("radius", params.body.radius, "length", "of the ball"),
+    FIELD("eps", eps, "", "coupling of the point"),
+    FIELD("h", h, "energy", "of the ball"),
+    FIELD("clock", clock, "", "that runs evenly at first", .word = clock_word),
+    FIELD("alone", alone, "", "why there is no point"),
+    ISO_LIST(view_page, "notes", note, notes, note_fields, "what the page says"),
+    ISO_LIST(view_page, "integrals", integral, integrals, integral_fields, "that hold"),
+    ISO_FIELD_END,
+};
+
 json_t *view_data(const view_page *page)
 {
-    json_t *o = json_object(), *notes = json_array();
-    for (int i = 0; i < page->notes; i++) json_array_append_new(notes, text_of(page->note[i]));
-    json_object_set_new(o, "title", text_of(page->title));
-    json_object_set_new(o, "kind", json_string(page->kind));
-    json_object_set_new(o, "version", json_string(ISO_VERSION));
-    json_object_set_new(o, "k", json_number(page->params.k));
-    json_object_set_new(o, "J", numbers(3, page->params.J));
-    json_object_set_new(o, "radius", json_number(page->params.body.radius));
-    json_object_set_new(o, "eps", json_number(page->eps));
-    json_object_set_new(o, "h", json_number(page->h));
-    json_object_set_new(o, "clock", json_string(iso_clock_name(page->clock)));
-    json_object_set_new(o, "alone", text_of(page->alone));
-    json_object_set_new(o, "notes", notes);
-    json_object_set_new(o, "effects", effects_of(&page->effects));
-    json_object_set_new(o, "integrals", integrals_of(page));
-    if (page->rows) json_object_set_new(o, "rows", rows_of(page));
-    if (page->section) json_object_set_new(o, "section", section_of(page->section));
+    json_t *o = json_object();
+    json_put(o, "version", json_string(ISO_VERSION));
+    json_add(o, page_fields, page);
+    json_put(o, "effects", json_effects(&page->effects, true));
+    if (page->rows) json_put(o, "rows", rows_of(page));
+    if (page->section) json_put(o, "section", section_of(page->section));
     return o;
 }

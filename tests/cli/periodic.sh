@@ -88,7 +88,7 @@ run 0 periodic b.yaml --chart J2=1.5:4.5 --k -1:1 --steps 12 -o chart.csv
 check "rows of a chart" test "$(grep -c '^grid,' chart.csv)" -eq 169
 check "borders" grep -q '^border,' chart.csv
 run 0 periodic b.yaml --chart J3 --steps 4 --json
-check "JSON of a chart" grep -q '"borders": \[' out
+check "JSON of a chart" grep -q '"borders": {' out
 
 run 0 periodic a.yaml --period 3 --orbit 4 --follow J2=1.3:2.3
 check "equal moments: no special kind" grep -q "torus *J2 = 1.4 .*J1 = J2" out

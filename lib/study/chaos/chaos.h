@@ -76,7 +76,9 @@ typedef struct iso_chaos_orbit {
     bool disagree; /* one model says regular, the other one says chaotic */
     iso_indication told[2];
     iso_status status[2]; /* ISO_OK, or why it was not followed to its verdict                                 */
+    size_t number;        /* 0: the scene's own; then the starts, from 1 on                                    */
 } iso_chaos_orbit;
+ISO_API extern const iso_field iso_chaos_orbit_fields[];
 
 /* Counts of the orbits that were spread over the section. */
 typedef struct iso_chaos_fraction {
@@ -86,6 +88,7 @@ typedef struct iso_chaos_fraction {
      * both ways; NaN: no orbit was followed. */
     double share, low, high;
 } iso_chaos_fraction;
+ISO_API extern const iso_field iso_chaos_fraction_fields[];
 
 typedef struct iso_chaos {
     bool with[2]; /* whether the ball, the point was integrated                           */
@@ -106,6 +109,7 @@ typedef struct iso_chaos {
     iso_status failure; /* of the first orbit that failed (0: the scene's; i: start i - 1), with its words */
     char words[512];
 } iso_chaos;
+ISO_API extern const iso_field iso_chaos_fields[];
 
 /* Orbits that fail are counted in the result. The call fails only if no model can follow the scene's own orbit.
  * options NULL: iso_chaos_defaults().

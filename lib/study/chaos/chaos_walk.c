@@ -56,7 +56,7 @@ static void make_starts(group *g)
     for (size_t i = 0; i < g->count; i++) {
         const iso_chaos_walk *w = g->each ? g->each[i] : g->w;
         iso_chaos_orbit *o = orbit_of(g, i);
-        *o = (iso_chaos_orbit){.l = NAN, .x = NAN, .verdict = ISO_UNDECIDED};
+        *o = (iso_chaos_orbit){.l = NAN, .x = NAN, .verdict = ISO_UNDECIDED, .number = g->each ? 0 : g->first + i};
         g->start[i] = w->scene->start;
         if (!g->each && g->first + i > 0) {
             chart_of_start(g->w, g->first + i - 1, &o->l, &o->x);

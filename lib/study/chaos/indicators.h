@@ -41,6 +41,7 @@
 #include <stdbool.h>
 
 #include "../../base/api.h"
+#include "../../base/field.h"
 #include "../../orbit/crossings.h"
 #include "../verdict.h"
 
@@ -93,6 +94,7 @@ typedef struct iso_indication {
     double gali2;
     double digits; /* to which the means over the two halves agree                                            */
 } iso_indication;
+ISO_API extern const iso_field iso_indication_fields[];
 
 /* most: the number of turns of the last look, 1 or more. After it the orbit may go on: the next look is at sqrt(2)
  * times as many turns, and so on. */

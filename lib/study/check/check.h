@@ -3,6 +3,7 @@
 #define ISO_STUDY_CHECK_H
 
 #include "../../base/api.h"
+#include "../../base/field.h"
 #include "../../base/record.h"
 #include "../../orbit/orbit.h"
 
@@ -17,6 +18,7 @@ typedef struct iso_residual {
     double worst;     /* the largest, relative                              */
     size_t row;       /* the row of the largest, from 1; 0: all are zero    */
 } iso_residual;
+ISO_API extern const iso_field iso_residual_fields[];
 
 typedef struct iso_residuals {
     size_t rows, passed; /* all rows, and those of nan, which were passed over */

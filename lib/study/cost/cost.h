@@ -23,6 +23,7 @@
 #define ISO_STUDY_COST_H
 
 #include "../../base/api.h"
+#include "../../base/field.h"
 #include "../../orbit/orbit.h"
 
 ISO_C_BEGIN
@@ -64,6 +65,7 @@ typedef struct iso_cost_cell {
     bool below;  /* the reference is not exact enough to tell: error < 3 uncertainties             */
     bool pareto; /* no other cell is as exact and faster (1.05 times)                              */
 } iso_cost_cell;
+ISO_API extern const iso_field iso_cost_cell_fields[];
 
 /* One method of one backend, over its tolerances, the loosest first. */
 typedef struct iso_cost_series {
@@ -86,6 +88,7 @@ typedef struct iso_cost {
     iso_cost_cell *cell;
     iso_cost_series *line;
 } iso_cost;
+ISO_API extern const iso_field iso_cost_fields[];
 
 /* Failing cells are no failure. Errors: those of the scene itself, or of a backend and a method asked for (as
  * iso_orbit_create); ISO_BAD_ARGUMENT about "end" for a scene without length; ISO_NUMERICAL where no reference gets
@@ -106,11 +109,15 @@ ISO_API const iso_cost_cell *iso_cost_choose(const iso_cost *cost, double want);
 
 enum { ISO_COST_HORIZONS = 24 };
 
+typedef struct iso_cost_horizon {
+    double end, error, seconds; /* seconds: median, of stepping */
+    double uncertainty;         /* of the closed solution's error, which has no other measure: NaN */
+} iso_cost_horizon;
+
 /* How error and time grow with the length of an orbit, for one cell: over end, 2 end, 4 end, ... . */
 typedef struct iso_cost_growth {
     int count; /* horizons reached                                                            */
-    double end[ISO_COST_HORIZONS], error[ISO_COST_HORIZONS], seconds[ISO_COST_HORIZONS]; /* median, of stepping */
-    double uncertainty[ISO_COST_HORIZONS]; /* of the closed solution's error, which has no other measure: NaN */
+    iso_cost_horizon at[ISO_COST_HORIZONS];
     double power, time_power; /* error ~ end^power and seconds ~ end^time_power, fitted; NaN: too few        */
     /* The indicators of chaos.h call the orbit chaotic; or, if they do not decide, the error grows exponentially
      * rather than by a power ... */
@@ -119,6 +126,7 @@ typedef struct iso_cost_growth {
     char reference[120], second[120];
     char why[160]; /* it ends before `horizons`; "": it does not                                  */
 } iso_cost_growth;
+ISO_API extern const iso_field iso_cost_growth_fields[];
 
 /* `horizons` lengths, from 1 to ISO_COST_HORIZONS: the scene's end and its doublings. Those beyond about 40 s of
  * processor time are left out. Errors: as iso_cost_measure; ISO_BAD_ARGUMENT about "horizons". */

@@ -130,10 +130,10 @@ static void measure_horizons(grower *g)
         iso_cost_cell timed = g->cell;
         if (!time_horizon(g, g->time[last], &times)) return;
         iso_cost_times_read(&times, &timed);
-        out->end[h] = g->time[last];
-        out->error[h] = g->error[last];
-        out->uncertainty[h] = g->uncertainty[last];
-        out->seconds[h] = timed.median;
+        out->at[h].end = g->time[last];
+        out->at[h].error = g->error[last];
+        out->at[h].uncertainty = g->uncertainty[last];
+        out->at[h].seconds = timed.median;
         out->count = h + 1;
     }
 }
@@ -193,8 +193,8 @@ static void fit_seconds(iso_cost_growth *out)
 {
     double t[ISO_COST_HORIZONS], s[ISO_COST_HORIZONS];
     for (int h = 0; h < out->count; h++) {
-        t[h] = log(fabs(out->end[h]));
-        s[h] = log(out->seconds[h]);
+        t[h] = log(fabs(out->at[h].end));
+        s[h] = log(out->at[h].seconds);
     }
     out->time_power = NAN;
     if (out->count > 1) fit(out->count, t, s, &out->time_power);

@@ -21,6 +21,7 @@
 #include <math.h>
 
 #include "../../base/api.h"
+#include "../../base/field.h"
 #include "../../exact/exact.h"
 #include "../../orbit/orbit.h"
 #include "../verdict.h"
@@ -119,6 +120,7 @@ typedef struct iso_frequencies {
     double closed[ISO_CLOCKS];
     iso_estimate estimate;
 } iso_frequencies;
+ISO_API extern const iso_field iso_frequencies_fields[];
 
 /* Errors:
  * - ISO_NOT_MAPPED about an effect that takes energy or lets the ball roll away: no such motion is quasi-periodic;

@@ -45,6 +45,7 @@
 #define ISO_STUDY_INTEGRALS_H
 
 #include "../../base/api.h"
+#include "../../base/field.h"
 #include "../../orbit/orbit.h"
 
 ISO_C_BEGIN
@@ -137,6 +138,10 @@ typedef struct iso_integral_search {
     int known_count;
     iso_integral_known known[ISO_INTEGRAL_KNOWN];
 } iso_integral_search;
+ISO_API extern const iso_field iso_integral_search_fields[];
+
+/* The smallest value that is no integral's, over all degrees; NaN: there is none. */
+ISO_API double iso_integral_smallest(const iso_integral_search *found);
 
 /* Only k, J and the effects of the scene are read, and the level H of its start.
  * Errors: ISO_BAD_ARGUMENT about "degree", "coefficients", "orbits" (too few for the functions, or more than 10000),

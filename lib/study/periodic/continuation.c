@@ -392,6 +392,7 @@ iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const 
     if (status != ISO_OK) return status;
     iso_continuations *out = calloc(1, sizeof *out);
     if (!out) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for branches");
+    out->vary = f.options.vary;
     status = follow_all(&(crowd){.family = &f, .orbit = orbits, .own = own}, count, out);
     if (status == ISO_OK || status == ISO_STOPPED)
         *follow = out;

@@ -83,9 +83,20 @@ static inline iso_continuation_options iso_continuation_defaults(void)
 }
 
 typedef struct iso_continuations {
+    iso_vary vary;
     size_t count;
     iso_branch *branch;
 } iso_continuations;
+ISO_API extern const iso_field iso_continuation_fields[];
+
+/* A row of a table of branches: a point, or an event. */
+typedef struct iso_branch_row {
+    size_t number; /* of the branch, from 1 */
+    int line, period;
+    iso_branch_point at;
+    const iso_branch_event *event; /* NULL: none */
+} iso_branch_row;
+ISO_API extern const iso_field iso_branch_row_fields[];
 
 /* Whether the options suit the scene: the errors of iso_continuation_run about "range". */
 ISO_API iso_status iso_continuation_check(iso_context *ctx, const iso_scene *scene, const iso_continuation_options *options);

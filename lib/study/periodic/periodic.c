@@ -110,6 +110,14 @@ static bool is_closed(const iso_periodic_map *map)
     return closed;
 }
 
+/* Sorts and numbers what was found. */
+static void put_in_order(iso_periodic *out, bool polished)
+{
+    if (out->count > 0) qsort(out->orbit, out->count, sizeof *out->orbit, by_period);
+    for (size_t i = 0; i < out->count; i++) out->orbit[i].number = i + 1, out->orbit[i].polished = polished;
+    for (int a = 0; a < 3; a++) out->rotation[a].polished = polished;
+}
+
 static iso_status work(iso_periodic_work *w)
 {
     iso_status status = check_options(w);
@@ -118,11 +126,12 @@ static iso_status work(iso_periodic_work *w)
     iso_periodic_map_prepare(w->ctx, &w->units.own, w->energy, w->options.threads, &w->map);
     w->out->axis = w->map.axis;
     w->out->closed = is_closed(&w->map);
+    w->out->longest = w->options.period;
     status = iso_periodic_rotations(w);
     if (w->options.rotations_alone) return status;
     if (status == ISO_OK && !(w->options.all && w->options.no_lines)) status = iso_periodic_search(w);
     if (status == ISO_OK && w->options.all) status = iso_periodic_from_grid(w);
-    if (w->out->count > 0) qsort(w->out->orbit, w->out->count, sizeof *w->out->orbit, by_period);
+    put_in_order(w->out, w->options.polish);
     return status;
 }
 

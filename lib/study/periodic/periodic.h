@@ -33,6 +33,7 @@
 #include <stdint.h>
 
 #include "../../base/api.h"
+#include "../../base/field.h"
 #include "../../model/system.h"
 #include "../../orbit/scene.h"
 
@@ -78,6 +79,7 @@ typedef struct iso_rotation {
     double clock[ISO_CLOCKS]; /* of a whole turn, in the scene's units                                            */
     double l, x;              /* its fixed point; x = 1: the boundary of the section                               */
     bool oscillates;          /* there is no rotation: see above. Then the other numbers are NaN */
+    bool polished;            /* found with numbers of 128 bits                                                   */
 } iso_rotation;
 
 enum { ISO_PERIODIC_MOST = 64 }; /* the longest period that can be asked for */
@@ -106,7 +108,10 @@ typedef struct iso_periodic_orbit {
     double ball[ISO_STATE], point[ISO_STATE]; /* its start at (l, x), with the scene's energy                    */
     double copy[16][2]; /* a point (l, x) of each copy                                                     */
     double (*half)[2];  /* (l, x) of g z, g^2 z = f z, ...: 2 period points, the last is z                 */
+    size_t number;      /* in the list, from 1                                                                   */
+    bool polished;      /* found with numbers of 128 bits                                                        */
 } iso_periodic_orbit;
+ISO_API extern const iso_field iso_periodic_orbit_fields[];
 
 typedef struct iso_periodic_options {
     size_t size;   /* set by iso_periodic_defaults; see isoroll.h */
@@ -135,12 +140,14 @@ typedef struct iso_periodic {
     int axis;     /* of the section, 0 to 2             */
     double level; /* (H/eps) J2^(1/k) of the scene      */
     bool closed;  /* the point cannot reach all places  */
+    int longest;  /* period that was sought             */
     iso_rotation rotation[3];
     size_t count;
     iso_periodic_orbit *orbit; /* by period, then by trace                                                       */
     size_t unresolved; /* intervals of the lines in which the samples could not be made close enough              */
     size_t lost;       /* sign changes that did not end in an orbit: closer pairs, or a failure                   */
 } iso_periodic;
+ISO_API extern const iso_field iso_periodic_fields[];
 
 /* options NULL: iso_periodic_defaults(). Errors: ISO_BAD_ARGUMENT about "period" or "grid", or about "polish" where
  * there are no numbers of 128 bits; ISO_BAD_INPUT: an effect acts on the ball or the point is not on H = 0 (about the

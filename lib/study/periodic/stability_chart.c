@@ -146,16 +146,22 @@ static iso_status check(const chart *c)
     return ISO_OK;
 }
 
+const char *iso_chart_name(int moment)
+{
+    static const char *const names[] = {"J1", "J2", "J3", "level"};
+    return moment >= 0 && moment <= ISO_CHART_LEVEL ? names[moment] : NULL;
+}
+
 iso_status iso_stability_chart(iso_context *ctx, const iso_stability_options *options, iso_record **grid,
                                iso_record **borders)
 {
     ISO_DEFAULT_ARITHMETIC;
-    static const char *const of_grid[] = {"k", "J", "least", "greatest"}, *const of_borders[] = {"axis", "trace", "k",
-                                                                                                 "J"};
     chart c = {.ctx = ctx, .o = iso_stability_defaults()};
     iso_status status = iso_options_take(ctx, "iso_stability_options", &c.o, sizeof c.o, options);
     *grid = *borders = NULL;
     if (status == ISO_OK) status = check(&c);
+    const char *const varies = status == ISO_OK ? iso_chart_name(c.o.moment) : NULL;
+    const char *const of_grid[] = {"k", varies, "least", "greatest"}, *const of_borders[] = {"axis", "trace", "k", varies};
     if (status == ISO_OK) status = iso_record_create(ctx, 4, of_grid, &c.grid);
     if (status == ISO_OK) status = iso_record_create(ctx, 4, of_borders, &c.borders);
     if (status == ISO_OK) status = fill_grid(&c);

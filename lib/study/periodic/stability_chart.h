@@ -6,6 +6,7 @@
 #define ISO_STUDY_STABILITY_CHART_H
 
 #include "../../base/api.h"
+#include "../../base/field.h"
 #include "../../base/record.h"
 
 ISO_C_BEGIN
@@ -25,6 +26,8 @@ typedef struct iso_stability_options {
 } iso_stability_options;
 enum { ISO_CHART_LEVEL = 3 };
 #define ISO_LEAST_K 0.02
+/* "J1", "J2", "J3", "level"; NULL past the end. */
+ISO_API const char *iso_chart_name(int moment);
 
 static inline iso_stability_options iso_stability_defaults(void)
 {
@@ -37,9 +40,17 @@ static inline iso_stability_options iso_stability_defaults(void)
     return o;
 }
 
-/* grid: columns k, J (or the level), least, greatest (half-turn traces of the rotations about these axes; NaN: there
+/* A row of the table of a chart. */
+typedef struct iso_chart_row {
+    const char *kind; /* "grid" or "border" */
+    double k, value;  /* value: of the moment, or the level */
+    double least, greatest;
+} iso_chart_row;
+ISO_API extern const iso_field iso_chart_row_fields[];
+
+/* grid: columns k, J1 (or J2, J3, level: what varies), least, greatest (half-turn traces of the rotations about these axes; NaN: there
  * is none on this level, see iso_hill_has_rotation). borders: columns axis (0: of the least moment, 1: of the
- * greatest), trace (2 or -2), k, J (or the level): points of the border curves, where they cross the lines of the
+ * greatest), trace (2 or -2), k and what varies: points of the border curves, where they cross the lines of the
  * grid of equal J and of equal k. The caller frees both records. Errors: ISO_BAD_ARGUMENT about "k", "J", "level",
  * "steps"; ISO_NO_MEMORY; ISO_STOPPED. */
 ISO_API iso_status iso_stability_chart(iso_context *ctx, const iso_stability_options *options, iso_record **grid,

@@ -22,6 +22,7 @@
 #include <stdint.h>
 
 #include "../../base/api.h"
+#include "../../base/field.h"
 #include "../../base/record.h"
 #include "../../orbit/scene.h"
 
@@ -55,6 +56,7 @@ typedef struct iso_separatrix_splitting {
     iso_status status;           /* ISO_OK, or why there is nothing                                               */
     char words[200];             /* of a failure; with ISO_OK: "", or why 128 bits failed where 64 did not         */
 } iso_separatrix_splitting;
+ISO_API extern const iso_field iso_separatrix_fields[];
 
 /* Errors: ISO_BAD_INPUT about "k" or "J": those of iso_params_reduced; two equal moments (the body is integrable, and
  * there is no middle axis); lambda below 1.02 (moments that are nearly equal, large |k|, a high level), where m is
@@ -100,6 +102,7 @@ typedef struct iso_separatrix_table {
     iso_separatrix_splitting *row;  /* one for each k of the options, in their order; status ISO_STOPPED: not done    */
     iso_separatrix_splitting *zero; /* zeros of m other than k = +-1, by growing k and level                          */
 } iso_separatrix_table;
+ISO_API extern const iso_field iso_separatrix_table_fields[];
 
 /* Other zeros of m than k = 1 and k = -1 are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1): there is one between two
  * neighbours that are distinguished from 0 if their r have opposite signs. Neighbours have the same level, or else

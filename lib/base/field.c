@@ -1,0 +1,150 @@
+/* field.c - reads the members of structs through their fields: as values, as columns, as rows of CSV (see field.h). */
+#include "base/field.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/number.h"
+
+/* --- values ------------------------------------------------------------------------------------------------------ */
+
+static void read_member(const iso_field *f, const char *at, int i, iso_value *v)
+{
+    switch (f->type) {
+    case ISO_FIELD_REAL: v->number = ((const double *)(const void *)at)[i]; break;
+    case ISO_FIELD_INT: v->number = *(const int *)(const void *)at; break;
+    case ISO_FIELD_LONG: v->number = (double)*(const long *)(const void *)at; break;
+    case ISO_FIELD_SIZE: v->number = (double)*(const size_t *)(const void *)at; break;
+    case ISO_FIELD_BOOL: v->number = *(const bool *)(const void *)at; break;
+    case ISO_FIELD_TEXT: v->text = at; break;
+    case ISO_FIELD_NAME: v->text = *(const char *const *)(const void *)at; break;
+    case ISO_FIELD_STRUCT:
+    case ISO_FIELD_RECORD:
+    case ISO_FIELD_LIST: break;
+    }
+}
+
+static bool is_text(const iso_field *f)
+{
+    return f->type == ISO_FIELD_TEXT || f->type == ISO_FIELD_NAME || (f->type == ISO_FIELD_INT && f->word);
+}
+
+void iso_field_read(const iso_field *f, const void *row, int i, iso_value *v)
+{
+    *v = (iso_value){.there = row && (!f->there || f->there(row)), .number = NAN};
+    if (!v->there) return;
+    if (f->find)
+        f->find(row, i, v);
+    else
+        read_member(f, (const char *)row + f->offset, i, v);
+    if (f->type == ISO_FIELD_INT && f->word) v->text = f->word((int)v->number);
+    if (is_text(f)) v->there = v->text && *v->text;
+    if (!(f->how & ISO_FROM_ONE)) return;
+    v->there = v->number >= 0;
+    v->number++;
+}
+
+const void *iso_field_struct(const iso_field *f, const void *row)
+{
+    if (!row || (f->there && !f->there(row))) return NULL;
+    const void *at = (const char *)row + f->offset;
+    return f->pointer ? *(const void *const *)at : at;
+}
+
+static size_t count_of(const iso_field *f, const char *row)
+{
+    const void *at = row + f->counter;
+    if (f->counter_size == 0) return (size_t)f->count;
+    return f->counter_size == sizeof(int) ? (size_t) * (const int *)at : *(const size_t *)at;
+}
+
+const void *iso_field_item(const iso_field *f, const void *row, size_t i)
+{
+    if (f->item) return f->item(row, i);
+    if (i >= count_of(f, row)) return NULL;
+    const void *at = (const char *)row + f->offset;
+    return (f->pointer ? *(const char *const *)at : (const char *)at) + i * f->size;
+}
+
+void iso_fields_copy(const iso_field *fields, const char *without, iso_field copy[ISO_MOST_FIELDS])
+{
+    int count = 0;
+    for (; fields->name && count < ISO_MOST_FIELDS - 1; fields++)
+        if (!without || strcmp(fields->name, without) != 0) copy[count++] = *fields;
+    copy[count] = (iso_field)ISO_FIELD_END;
+}
+
+/* --- columns ----------------------------------------------------------------------------------------------------- */
+
+/* The name of a column: that of the outer structs, the field's, and of several numbers that of the one. */
+static void name_column(char name[ISO_COLUMN_SIZE], const char *outer, const iso_field *f, int i)
+{
+    const char *own = f->column ? f->column : f->name, *last = f->count > 1 && f->word ? f->word(i) : "";
+    int length = snprintf(name, ISO_COLUMN_SIZE, "%s%s%s", outer, *outer && *own ? "_" : "", own);
+    if (*last)
+        snprintf(name + length, ISO_COLUMN_SIZE - (size_t)length, "%s%s", length > 0 ? "_" : "", last);
+    else if (f->count > 1)
+        snprintf(name + length, ISO_COLUMN_SIZE - (size_t)length, "%d", i + 1);
+    for (char *c = name; *c; c++)
+        if (*c == '.') *c = '_';
+}
+
+static void visit_columns(const char *outer, const iso_field *fields, const void *row, iso_column_visitor *visit,
+                          void *data)
+{
+    char name[ISO_COLUMN_SIZE];
+    iso_value value;
+    for (const iso_field *f = fields; f->name; f++) {
+        if (f->how & ISO_IN_TREE || f->type >= ISO_FIELD_RECORD) continue;
+        if (f->type == ISO_FIELD_STRUCT) {
+            name_column(name, outer, f, 0);
+            visit_columns(name, f->fields, iso_field_struct(f, row), visit, data);
+        }
+        for (int i = 0; f->type != ISO_FIELD_STRUCT && (i == 0 || i < f->count); i++) {
+            name_column(name, outer, f, i);
+            iso_field_read(f, row, i, &value);
+            visit(data, name, f, &value);
+        }
+    }
+}
+
+void iso_columns_visit(const iso_field *fields, const void *row, iso_column_visitor *visit, void *data)
+{
+    visit_columns("", fields, row, visit, data);
+}
+
+typedef struct writer {
+    FILE *to;
+    int written;
+} writer;
+
+static void write_text(FILE *to, const iso_field *f, const char *text)
+{
+    const char *quote = f->how & ISO_QUOTED ? "\"" : "";
+    fputs(quote, to);
+    for (; text && *text; text++) fprintf(to, *quote && *text == '"' ? "\"%c" : "%c", *text);
+    fputs(quote, to);
+}
+
+static void write_value(void *data, const char *name, const iso_field *f, const iso_value *v)
+{
+    writer *w = data;
+    char digits[ISO_NUMBER_SIZE] = "";
+    (void)name;
+    if (w->written++) fputc(',', w->to);
+    if (is_text(f)) {
+        write_text(w->to, f, v->text);
+        return;
+    }
+    if (f->type != ISO_FIELD_REAL ? v->there : isfinite(v->number) || !(f->how & ISO_EMPTY))
+        iso_number_print_as(digits, v->number, f->digits ? f->digits : 17);
+    fputs(digits, w->to);
+}
+
+void iso_row_write(FILE *to, const iso_field *fields, const void *row)
+{
+    writer w = {.to = to};
+    iso_columns_visit(fields, row, write_value, &w);
+    fputc('\n', to);
+}

@@ -1,0 +1,171 @@
+/* field.h - what a result holds, said once: the name, place, unit and meaning of each member of a struct.
+ *
+ *     static const iso_field fields[] = {
+ *         ISO_FIELD(circle, "radius", radius, "length", "distance of the rim"),
+ *         ISO_FIELD(circle, "centre", at, "length", "its place"),              double at[2]: centre1, centre2
+ *         ISO_FIELD_END,
+ *     };
+ *     iso_row_write(stdout, fields, &c);                                       a row of CSV
+ *
+ * From such a list are made: the columns of tables and their rows, JSON, and lists of the columns with their meaning.
+ * So a member becomes a column by one line. In JSON "ball.exponent" is the member "exponent" of the object "ball"; in
+ * a table it is the column ball_exponent.
+ */
+#ifndef ISO_BASE_FIELD_H
+#define ISO_BASE_FIELD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "api.h"
+#include "record.h"
+
+ISO_C_BEGIN
+
+typedef enum iso_field_type {
+    ISO_FIELD_REAL,
+    ISO_FIELD_INT, /* int, or an enum */
+    ISO_FIELD_LONG,
+    ISO_FIELD_SIZE,
+    ISO_FIELD_BOOL,
+    ISO_FIELD_TEXT,   /* char[]: "" is none                                                   */
+    ISO_FIELD_NAME,   /* const char *: NULL is none                                           */
+    ISO_FIELD_STRUCT, /* another struct, with fields of its own                               */
+    ISO_FIELD_RECORD, /* iso_record *; no column                                              */
+    ISO_FIELD_LIST    /* structs, one after the other; pointers in their place: ISO_LIST_AT   */
+} iso_field_type;
+
+/* How a field is shown. */
+enum {
+    ISO_IN_TABLE = 1, /* in tables alone ...                                                           */
+    ISO_IN_TREE = 2,  /* ... or in JSON alone. Neither of these bits: in both                          */
+    ISO_OPTIONAL = 4, /* JSON leaves it out where there is no value; else it has null                  */
+    ISO_FROM_ONE = 8, /* a number that counts from 0, such as an axis, is shown from 1 on; < 0 is none */
+    ISO_EMPTY = 16,   /* tables leave a nan out                                                        */
+    ISO_QUOTED = 32   /* tables quote this text                                                        */
+};
+
+enum { ISO_VALUE_ROOM = 64, ISO_COLUMN_SIZE = 64 };
+
+typedef struct iso_value {
+    bool there;
+    double number;             /* that of a word is its place in the list of words; other texts: NaN     */
+    const char *text;          /* of words and texts; else NULL                                          */
+    char room[ISO_VALUE_ROOM]; /* for a text that is made                                                */
+} iso_value;
+
+typedef struct iso_field {
+    const char *name; /* "": the members of the struct stand among those of the outer one; NULL ends a list   */
+    iso_field_type type;
+    size_t offset;
+    int count;                      /* of numbers (0: one); of the structs of a list, if that is fixed       */
+    const char *unit, *doc;         /* unit "": a number without one. doc: one line                         */
+    const char *(*word)(int value); /* an int is shown as this word; of several numbers: their names          */
+    const char *column;             /* its name in tables, if that is another one                           */
+    int digits;                     /* in tables; 0: all                                                    */
+    unsigned how;                   /* ISO_IN_TABLE, ...                                                    */
+    const struct iso_field *fields; /* of a struct, or of each struct of a list                             */
+    size_t size, counter;           /* of a list: size of a struct; offset of the number of structs ...       */
+    size_t counter_size;            /* ... and its size (0: `count` are there)                              */
+    bool pointer;                   /* the list, or the struct, is behind a pointer                         */
+    bool (*skip)(const void *item); /* structs of a list that are left out; NULL: none                      */
+    bool (*there)(const void *row); /* NULL: always                                                         */
+    /* Sets number or text of a value that no member holds; NULL: the member at offset. */
+    void (*find)(const void *row, int i, iso_value *value);
+    /* The i-th struct of a list that is no array; NULL: there are no more. */
+    const void *(*item)(const void *row, size_t i);
+} iso_field;
+
+/* A field for a member of the struct T; its type and count are the member's. Behind the doc may follow
+ * .word = ..., .how = ... */
+#define ISO_FIELD(T, key, member, unit_, ...)                                                                        \
+    {                                                                                                                \
+        .name = key, .type = ISO_TYPE_OF(((T *)0)->member), .count = ISO_COUNT_OF(((T *)0)->member),                 \
+        .offset = offsetof(T, member), .unit = unit_, .doc = __VA_ARGS__                                             \
+    }
+
+/* A number of T and those behind it, `count_` in all. */
+#define ISO_NUMBERS(T, key, member, count_, unit_, ...)                                                              \
+    {                                                                                                                \
+        .name = key, .type = ISO_FIELD_REAL, .count = count_, .offset = offsetof(T, member), .unit = unit_,          \
+        .doc = __VA_ARGS__                                                                                           \
+    }
+
+/* A value that `finder` makes from the struct. */
+#define ISO_FOUND(key, type_, finder, unit_, ...)                                                                    \
+    {                                                                                                                \
+        .name = key, .type = type_, .find = finder, .unit = unit_, .doc = __VA_ARGS__                                \
+    }
+
+/* A struct in the struct T. */
+#define ISO_STRUCT(T, key, member, fields_, ...)                                                                     \
+    {                                                                                                                \
+        .name = key, .type = ISO_FIELD_STRUCT, .offset = offsetof(T, member), .fields = fields_, .doc = __VA_ARGS__  \
+    }
+
+/* Fields of the same struct, one level deeper. */
+#define ISO_GROUP(key, fields_, ...)                                                                                 \
+    {                                                                                                                \
+        .name = key, .type = ISO_FIELD_STRUCT, .fields = fields_, .doc = __VA_ARGS__                                 \
+    }
+
+/* Structs in an array of T, behind a pointer in T, or in an array that is always full; `number` is an int or size_t. */
+#define ISO_LIST(T, key, member, number, fields_, ...)                                                               \
+    {                                                                                                                \
+        ISO_LIST_OF(T, key, member, fields_), ISO_COUNTER(T, number), .doc = __VA_ARGS__                             \
+    }
+#define ISO_LIST_AT(T, key, member, number, fields_, ...)                                                            \
+    {                                                                                                                \
+        ISO_LIST_OF(T, key, member, fields_), ISO_COUNTER(T, number), .pointer = true, .doc = __VA_ARGS__            \
+    }
+#define ISO_ARRAY(T, key, member, fields_, ...)                                                                      \
+    {                                                                                                                \
+        ISO_LIST_OF(T, key, member, fields_), .count = sizeof((T *)0)->member / sizeof *((T *)0)->member,            \
+                                              .doc = __VA_ARGS__                                                     \
+    }
+#define ISO_LIST_OF(T, key, member, fields_)                                                                         \
+    .name = key, .type = ISO_FIELD_LIST, .offset = offsetof(T, member), .size = sizeof *((T *)0)->member,            \
+    .fields = fields_
+#define ISO_COUNTER(T, number) .counter = offsetof(T, number), .counter_size = sizeof((T *)0)->number
+
+/* A list whose structs a function gives. */
+#define ISO_ITEMS(key, item_, fields_, ...)                                                                          \
+    {                                                                                                                \
+        .name = key, .type = ISO_FIELD_LIST, .item = item_, .fields = fields_, .doc = __VA_ARGS__                    \
+    }
+
+#define ISO_FIELD_END                                                                                                \
+    {                                                                                                                \
+        .name = NULL                                                                                                 \
+    }
+
+/* clang-format off */
+#define ISO_TYPE_OF(x) _Generic((x), double: ISO_FIELD_REAL, double *: ISO_FIELD_REAL, int: ISO_FIELD_INT,           \
+                                     unsigned: ISO_FIELD_INT, long: ISO_FIELD_LONG, size_t: ISO_FIELD_SIZE,           \
+                                     bool: ISO_FIELD_BOOL, char *: ISO_FIELD_TEXT, const char *: ISO_FIELD_NAME,  \
+                                     iso_record *: ISO_FIELD_RECORD)
+/* clang-format on */
+#define ISO_COUNT_OF(x) _Generic((x), double * : (int)(sizeof(x) / sizeof(double)), default : 1)
+
+/* Value i of a field that is no struct and no list, i from 0 to its count - 1. row NULL: there is none. */
+ISO_API void iso_field_read(const iso_field *field, const void *row, int i, iso_value *value);
+
+/* The struct of a field, and the i-th of a list. NULL: there is none, or there are no more. */
+ISO_API const void *iso_field_struct(const iso_field *field, const void *row);
+ISO_API const void *iso_field_item(const iso_field *field, const void *row, size_t i);
+
+/* Copies fields, all but those called `without` (NULL: none is), to change them. At most ISO_MOST_FIELDS - 1. */
+enum { ISO_MOST_FIELDS = 64 };
+ISO_API void iso_fields_copy(const iso_field *fields, const char *without, iso_field copy[ISO_MOST_FIELDS]);
+
+/* Calls `visit` for each column of a table, with its name and its value in this row (NULL: there are no values). */
+typedef void iso_column_visitor(void *data, const char *name, const iso_field *field, const iso_value *value);
+ISO_API void iso_columns_visit(const iso_field *fields, const void *row, iso_column_visitor *visit, void *data);
+
+/* Writes a row of CSV. Whether the text arrived, the stream tells. */
+ISO_API void iso_row_write(FILE *to, const iso_field *fields, const void *row);
+
+ISO_C_END
+
+#endif

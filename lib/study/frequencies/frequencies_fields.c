@@ -1,0 +1,140 @@
+/* frequencies_fields.c - what frequencies hold: their numbers with their meaning (frequencies.h). */
+#include "study/frequencies/frequencies.h"
+
+static const char *clock_word(int clock)
+{
+    return iso_clock_name((iso_clock)clock);
+}
+
+static const char *verdict_word(int verdict)
+{
+    return iso_verdict_name((iso_verdict)verdict);
+}
+
+static const char *kind_word(int kind)
+{
+    static const char *const words[] = {
+        [ISO_EXACT_SEPARATED] = "separated",   [ISO_EXACT_SYMMETRIC] = "symmetric", [ISO_EXACT_PLANE] = "plane",
+        [ISO_EXACT_SEPARATRIX] = "separatrix", [ISO_EXACT_REST] = "rest",           [ISO_EXACT_KINDS] = "unknown"};
+    return words[kind];
+}
+
+/* --- the motion -------------------------------------------------------------------------------------------------- */
+
+#define FIELD(key, member, ...) ISO_FIELD(iso_angle, key, member, __VA_ARGS__)
+
+static const iso_field angle_fields[] = {
+    FIELD("what", what, "", "what turns or swings"),
+    FIELD("frequency", frequency, "rad/time", "in each clock", .word = clock_word),
+    FIELD("period", period, "time", "in each clock", .word = clock_word),
+    FIELD("error", error, "rad/time", "of the frequency, if estimated", .word = clock_word),
+    FIELD("drift", drift, "", "of the frequency in t between halves of the orbit, if estimated"),
+    FIELD("action", action, "", "of a closed solution"),
+    ISO_FIELD_END,
+};
+#undef FIELD
+
+#define FIELD(key, member, ...) ISO_FIELD(iso_resonance, key, member, __VA_ARGS__)
+
+static const iso_field resonance_fields[] = {
+    FIELD("p", p, "", "times the first frequency is nearly"),
+    FIELD("q", q, "", "times the second one"),
+    FIELD("gap", gap, "", "the relative difference"),
+    FIELD("beat", beat, "time", "in which p angle 1 - q angle 2 turns once", .word = clock_word),
+    FIELD("met", met, "", "the gap is within the error"),
+    ISO_FIELD_END,
+};
+#undef FIELD
+
+static const iso_field separatrix_fields[] = {
+    ISO_FIELD(iso_separatrix, "of", what, "", "the rotation"),
+    ISO_FIELD(iso_separatrix, "distance", distance, "", "relative distance from its separatrix"),
+    ISO_FIELD_END,
+};
+
+/* --- the estimate ------------------------------------------------------------------------------------------------ */
+
+static bool is_known(const void *row)
+{
+    return ((const iso_identified_line *)row)->known;
+}
+
+#define FIELD(key, member, ...) ISO_FIELD(iso_identified_line, key, member, __VA_ARGS__)
+
+static const iso_field line_fields[] = {
+    FIELD("frequency", line.frequency, "rad/time", "of the line"),
+    FIELD("amplitude", line.amplitude, "", "of the line"),
+    FIELD("m", m, "", "multiple of the first frequency", .there = is_known),
+    FIELD("n", n, "", "and of the second one", .there = is_known),
+    ISO_FIELD_END,
+};
+#undef FIELD
+
+#define FIELD(key, member, ...) ISO_FIELD(iso_estimate, key, member, __VA_ARGS__)
+
+static const iso_field found_fields[] = {
+    FIELD("verdict", verdict, "", "on the orbit", .word = verdict_word),
+    FIELD("length", length, "time", "of the orbit, in t"),
+    FIELD("turns", turns, "", "of n"),
+    FIELD("samples", samples, "", "of the orbit"),
+    FIELD("axis", axis, "", "about which n turns", .how = ISO_FROM_ONE),
+    FIELD("drift", drift, "", "of the frequencies between halves of the orbit"),
+    FIELD("drift_before", drift_before, "", "the same in its first quarter"),
+    FIELD("unexplained", unexplained, "", "part of the amplitudes that is no combination of both"),
+    ISO_LIST(iso_estimate, "lines_turning", line[0], lines[0], line_fields, "of the components that turn"),
+    ISO_LIST(iso_estimate, "lines_along", line[1], lines[1], line_fields, "of the component along the axis"),
+    ISO_FIELD_END,
+};
+#undef FIELD
+
+/* --- all --------------------------------------------------------------------------------------------------------- */
+
+static bool is_estimated(const void *row)
+{
+    return ((const iso_frequencies *)row)->estimated;
+}
+
+static void find_solution(const void *row, int i, iso_value *v)
+{
+    (void)i;
+    v->text = is_estimated(row) ? "estimated" : "closed";
+}
+
+static const iso_field name_field[] = {ISO_FIELD(iso_integral, "name", name, "", "of the integral"), ISO_FIELD_END};
+
+static bool has_integral(const void *row)
+{
+    return ((const iso_frequencies *)row)->integral != NULL;
+}
+
+#define FIELD(key, member, ...) ISO_FIELD(iso_frequencies, key, member, __VA_ARGS__)
+#define LIST(key, member, count, fields, ...) ISO_LIST(iso_frequencies, key, member, count, fields, __VA_ARGS__)
+
+static const iso_field estimate_fields[] = {
+    FIELD("why", why, "", "why there is no closed solution"),
+    ISO_STRUCT(iso_frequencies, "", estimate, found_fields, "how"),
+    ISO_FIELD_END,
+};
+
+static const iso_field integral_fields[] = {
+    ISO_STRUCT(iso_frequencies, "", integral, name_field, "which", .pointer = true),
+    FIELD("value", F, "", "its value"),
+    ISO_FIELD_END,
+};
+
+const iso_field iso_frequencies_fields[] = {
+    FIELD("h", h, "energy", "of the ball"),
+    FIELD("eps", eps, "", "coupling of the point"),
+    ISO_FOUND("solution", ISO_FIELD_NAME, find_solution, "", "closed or estimated"),
+    FIELD("kind", kind, "", "of the closed solution", .word = kind_word),
+    FIELD("motion", motion, "", "in words"),
+    ISO_GROUP("integral", integral_fields, "beyond the energy", .there = has_integral),
+    FIELD("c", c, "", "constant of the separation"),
+    LIST("angles", angle, angles, angle_fields, "of the torus"),
+    FIELD("rotation_number", rotation, "", "frequency 1 by frequency 2"),
+    LIST("resonances", resonance, resonances, resonance_fields, "that are near"),
+    LIST("separatrices", separatrix, separatrices, separatrix_fields, "that are near"),
+    FIELD("closed_orbit", closed, "time", "period of a closed orbit", .word = clock_word),
+    ISO_GROUP("estimate", estimate_fields, "how the frequencies were found", .there = is_estimated),
+    ISO_FIELD_END,
+};

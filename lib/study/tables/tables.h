@@ -1,0 +1,25 @@
+/* tables.h - the tables that studies make, with their columns.
+ *
+ *     const iso_result_table *t;
+ *     for (int i = 0; (t = iso_result_table_at(i)); i++) iso_columns_visit(t->fields, NULL, show, NULL);
+ */
+#ifndef ISO_STUDY_TABLES_H
+#define ISO_STUDY_TABLES_H
+
+#include "../../base/api.h"
+#include "../../base/field.h"
+
+ISO_C_BEGIN
+
+typedef struct iso_result_table {
+    const char *kind; /* as in the first line of its file, "# isoroll KIND 1" */
+    const char *doc;  /* what a row is                                        */
+    const iso_field *fields;
+} iso_result_table;
+
+/* The i-th table; NULL past the end. */
+ISO_API const iso_result_table *iso_result_table_at(int i);
+
+ISO_C_END
+
+#endif

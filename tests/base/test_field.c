@@ -1,0 +1,190 @@
+/* test_field.c - fields of structs: the values that are read, the columns and rows that are made of them, and that the
+ * type of a field is the member's. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/field.h"
+
+typedef enum colour { RED, GREEN } colour;
+
+typedef struct inner {
+    double x, y[2];
+} inner;
+
+typedef struct outer {
+    double real, vector[3];
+    int whole, axis;
+    long many;
+    size_t size;
+    bool yes;
+    char text[16];
+    const char *name;
+    colour colour;
+    inner in, out;
+    int count;
+    inner list[4];
+    size_t others;
+    inner *other;
+} outer;
+
+static const char *colour_word(int i)
+{
+    static const char *const words[] = {"red", "green"};
+    return i < 2 ? words[i] : NULL;
+}
+
+static const char *clock_word(int i)
+{
+    static const char *const words[] = {"t", "tau", "s"};
+    return words[i];
+}
+
+static void find_sum(const void *row, int i, iso_value *v)
+{
+    const outer *o = row;
+    v->number = o->real + i;
+}
+
+static bool is_yes(const void *row)
+{
+    return ((const outer *)row)->yes;
+}
+
+static const iso_field inner_fields[] = {ISO_FIELD(inner, "x", x, "", "a number"),
+                                         ISO_FIELD(inner, "y", y, "", "two numbers", .how = ISO_IN_TREE),
+                                         ISO_FIELD_END};
+
+static const iso_field fields[] = {
+    ISO_FIELD(outer, "real", real, "length", "a number"),
+    ISO_FIELD(outer, "short", real, "length", "the same", .digits = 3),
+    ISO_FIELD(outer, "vector", vector, "", "three numbers"),
+    ISO_FIELD(outer, "at.clock", vector, "", "the same", .word = clock_word),
+    ISO_FIELD(outer, "whole", whole, "", "an int", .column = "int"),
+    ISO_FIELD(outer, "axis", axis, "", "an axis", .how = ISO_FROM_ONE),
+    ISO_FIELD(outer, "many", many, "", "a long"),
+    ISO_FIELD(outer, "size", size, "", "a size"),
+    ISO_FIELD(outer, "yes", yes, "", "a bool"),
+    ISO_FIELD(outer, "text", text, "", "a text", .how = ISO_QUOTED),
+    ISO_FIELD(outer, "name", name, "", "a name"),
+    ISO_FIELD(outer, "colour", colour, "", "a word", .word = colour_word),
+    ISO_FOUND("sum", ISO_FIELD_REAL, find_sum, "", "two sums", .count = 2),
+    ISO_FIELD(outer, "if", real, "", "a number that may not be there", .there = is_yes, .how = ISO_EMPTY),
+    ISO_STRUCT(outer, "in", in, inner_fields, "a struct"),
+    ISO_STRUCT(outer, "out", out, inner_fields, "another one", .there = is_yes),
+    ISO_LIST(outer, "list", list, count, inner_fields, "no column"),
+    ISO_FIELD_END,
+};
+
+static const iso_field lists[] = {
+    ISO_LIST(outer, "list", list, count, inner_fields, "some"),
+    ISO_LIST_AT(outer, "other", other, others, inner_fields, "behind a pointer"),
+    ISO_ARRAY(outer, "all", list, inner_fields, "all"),
+    ISO_FIELD_END,
+};
+
+static const iso_field *find(const char *name)
+{
+    const iso_field *f = fields;
+    while (strcmp(f->name, name) != 0) f++;
+    return f;
+}
+
+static double number_of(const char *name, const outer *o, int i)
+{
+    iso_value v;
+    iso_field_read(find(name), o, i, &v);
+    return v.there ? v.number : (double)NAN;
+}
+
+static void test_values(const outer *o)
+{
+    iso_value v;
+    gsl_test(number_of("real", o, 0) != 0.1, "real");
+    gsl_test(number_of("vector", o, 2) != 3, "the third of a vector");
+    gsl_test(number_of("whole", o, 0) != -7, "int");
+    gsl_test(number_of("axis", o, 0) != 3, "an axis counts from 1");
+    gsl_test(number_of("many", o, 0) != -1e12, "long");
+    gsl_test(number_of("size", o, 0) != 1e15, "size_t");
+    gsl_test(number_of("colour", o, 0) != GREEN, "a word is a number, too");
+    gsl_test(number_of("sum", o, 1) != 1.1, "a sum");
+    gsl_test(!isnan(number_of("if", o, 0)), "not there");
+    iso_field_read(find("colour"), o, 0, &v);
+    gsl_test(strcmp(v.text, "green") != 0, "a word");
+    iso_field_read(find("real"), NULL, 0, &v);
+    gsl_test(v.there, "without a row there is no value");
+}
+
+static void test_lists(const outer *o)
+{
+    static const size_t counts[] = {2, 3, 4};
+    for (int f = 0; f < 3; f++) {
+        size_t count = 0;
+        for (const inner *x; (x = iso_field_item(&lists[f], o, count)); count++)
+            gsl_test(x->x != (double)(10 * (f == 1) + (int)count), "item %zu of %s", count, lists[f].name);
+        gsl_test(count != counts[f], "%zu structs in %s", count, lists[f].name);
+    }
+}
+
+static void append_name(void *data, const char *name, const iso_field *field, const iso_value *value)
+{
+    char *text = data;
+    gsl_test(!*field->doc || !field->unit || !value->there, "%s: meaning, unit or value is missing", name);
+    strcat(strcat(text, name), ",");
+}
+
+static void test_columns(const outer *o)
+{
+    char text[400] = "";
+    outer all = *o; /* here all values are there */
+    all.yes = true;
+    all.name = "c";
+    iso_columns_visit(fields, &all, append_name, text);
+    gsl_test(strcmp(text, "real,short,vector1,vector2,vector3,at_clock_t,at_clock_tau,at_clock_s,int,axis,many,size,"
+                          "yes,text,name,colour,sum1,sum2,if,in_x,out_x,") != 0,
+             "columns: %s", text);
+    FILE *file = tmpfile();
+    if (!file) return;
+    iso_row_write(file, fields, o);
+    rewind(file);
+    gsl_test(!fgets(text, sizeof text, file) ||
+                 strcmp(text, "0.10000000000000001,0.1,1,2,3,1,2,3,-7,3,-1000000000000,1000000000000000,0,"
+                              "\"a \"\"b\"\"\",,green,0.10000000000000001,1.1000000000000001,,5,nan\n") != 0,
+             "row: %s", text);
+    fclose(file);
+}
+
+static void test_copy(void)
+{
+    enum { ALL = sizeof fields / sizeof *fields };
+    iso_field copy[ISO_MOST_FIELDS];
+    iso_fields_copy(fields, NULL, copy);
+    gsl_test(!copy[ALL - 2].name || copy[ALL - 1].name, "a copy of all fields");
+    iso_fields_copy(fields, "vector", copy);
+    gsl_test(strcmp(copy[2].name, "at.clock") != 0 || !copy[ALL - 3].name || copy[ALL - 2].name,
+             "a copy without one");
+}
+
+int main(void)
+{
+    inner others[3] = {{.x = 10}, {.x = 11}, {.x = 12}};
+    const outer o = {.real = 0.1,
+                     .vector = {1, 2, 3},
+                     .whole = -7,
+                     .axis = 2,
+                     .many = -1000000000000,
+                     .size = 1000000000000000,
+                     .text = "a \"b\"",
+                     .colour = GREEN,
+                     .in = {.x = 5},
+                     .count = 2,
+                     .list = {{.x = 0}, {.x = 1}, {.x = 2}, {.x = 3}},
+                     .others = 3,
+                     .other = others};
+    test_values(&o);
+    test_lists(&o);
+    test_columns(&o);
+    test_copy();
+    return gsl_test_summary();
+}
