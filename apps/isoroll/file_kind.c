@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "command.h"
+#include "io/table.h"
 
 enum { BEGINNING = 65536 };
 
@@ -22,18 +23,28 @@ void read_beginning(const char *path, char *text, size_t size)
 
 /* --- the kind --------------------------------------------------------------------------------------------------- */
 
-/* isoroll's own tables say in their first line what they are: "# isoroll KIND 1". */
-static unsigned kind_of_table(const char *line)
+/* The kind of one of isoroll's own tables, which say what they are; else "". */
+static void table_name(const char *path, const char *text, char name[ISO_KIND_SIZE])
+{
+    *name = '\0';
+    if (sscanf(text, "# isoroll %31[^0-9\r\n]", name) == 1)
+        for (size_t end = strlen(name); end > 0 && name[end - 1] == ' '; end--) name[end - 1] = '\0';
+    if (strncmp(text, "\211HDF\r\n", 6) == 0) iso_table_kind(path, name);
+}
+
+static unsigned kind_of_table(const char *kind)
 {
     static const struct {
         const char *name;
         unsigned kind;
-    } kinds[] = {{"trajectory ", FILE_TRAJECTORY}, {"section ", FILE_SECTION},  {"sweep ", FILE_RESULT},
-                 {"chaos ", FILE_TABLE},           {"periodic 1", FILE_ORBITS}, {"periodic ", FILE_TABLE},
-                 {"splitting ", FILE_TABLE},       {"cost ", FILE_TABLE}};
+    } kinds[] = {{"trajectory", FILE_TRAJECTORY},
+                 {"section", FILE_SECTION},
+                 {"sweep", FILE_RESULT},
+                 {"sweep part", FILE_RESULT},
+                 {"periodic", FILE_ORBITS}};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
-        if (strncmp(line, kinds[i].name, strlen(kinds[i].name)) == 0) return kinds[i].kind;
-    return 0;
+        if (strcmp(kind, kinds[i].name) == 0) return kinds[i].kind;
+    return FILE_TABLE;
 }
 
 /* Whether a line has this key of YAML at its beginning. */
@@ -63,13 +74,14 @@ static unsigned kind_of_yaml(const char *text)
 
 unsigned file_kind(const char *path)
 {
-    char text[BEGINNING];
+    char text[BEGINNING], name[ISO_KIND_SIZE];
     if (strcmp(path, "-") == 0) return 0; /* what is read here is lost for the command */
     read_beginning(path, text, sizeof text);
     char *last = strlen(text) == sizeof text - 1 ? strrchr(text, '\n') : NULL;
     if (last) *last = '\0'; /* the line behind it was cut */
-    if (strncmp(text, "\211HDF\r\n", 6) == 0) return FILE_HDF5;
-    return strncmp(text, "# isoroll ", 10) == 0 ? kind_of_table(text + 10) : kind_of_yaml(text);
+    table_name(path, text, name);
+    if (*name) return kind_of_table(name);
+    return strncmp(text, "\211HDF\r\n", 6) == 0 ? FILE_HDF5 : kind_of_yaml(text);
 }
 
 /* --- the refusal ------------------------------------------------------------------------------------------------ */
@@ -82,7 +94,6 @@ static const char *name_of(unsigned kind)
     case FILE_TRAJECTORY: return "a trajectory";
     case FILE_SECTION: return "a section";
     case FILE_RESULT: return "the result of a sweep";
-    case FILE_TABLE: return "a table, with no states of one scene";
     case FILE_ORBITS: return "a table of periodic orbits";
     default: return "an HDF5 file";
     }
@@ -100,7 +111,7 @@ static void list_commands(unsigned kind, char list[200])
 
 bool file_fits(const command *c, const char *path)
 {
-    char list[200];
+    char list[200], text[64], name[ISO_KIND_SIZE];
     const unsigned kind = c->takes ? file_kind(path) : 0;
     if (kind == 0 || c->takes & kind) return true;
     list_commands(kind, list);
@@ -111,7 +122,12 @@ bool file_fits(const command *c, const char *path)
         complain("%s: '%s' is a scene, and no trajectory: 'isoroll run %s -o trajectory.csv' makes one; scenes are "
                  "for: %s",
                  c->name, path, path, list);
-    else
+    else if (kind == FILE_TABLE) {
+        read_beginning(path, text, sizeof text);
+        table_name(path, text, name);
+        complain("%s: '%s' is a table '%s', with no states of one scene, which is for: %s", c->name, path, name,
+                 list);
+    } else
         complain("%s: '%s' is %s, which is for: %s", c->name, path, name_of(kind), list);
     return false;
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/nearest.h"
+#include "io/table.h"
 #include "options.h"
 #include "plot/plot.h"
 #include "sweep/sweep_store.h"
@@ -48,12 +49,9 @@ static double at(const table *t, size_t row, int column)
 
 bool is_sweep_result(const char *path)
 {
-    iso_context *ctx = iso_context_create();
-    iso_sweep_reader *reader = NULL;
-    const bool found = ctx && is_regular(path) && iso_sweep_reader_open(ctx, path, &reader) == ISO_OK;
-    iso_sweep_reader_close(reader);
-    iso_context_free(ctx);
-    return found;
+    char kind[ISO_KIND_SIZE];
+    iso_table_kind(path, kind);
+    return strcmp(kind, "sweep") == 0 || strcmp(kind, "sweep part") == 0;
 }
 
 /* --- what is drawn ---------------------------------------------------------------------------------------------- */

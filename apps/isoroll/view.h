@@ -117,10 +117,6 @@ iso_status view_numbers(iso_context *ctx, view_page *page);
 /* Whether a column of iso_column_name is there only if there is a point: tau, s, M and gamma. */
 bool view_is_of_point(int column);
 
-/* A new record with the same lines and other columns. */
-iso_status view_record_like(iso_context *ctx, const iso_record *r, size_t columns, const char *const names[],
-                            iso_record **made);
-
 /* The three numbers of a vector in a row; `name` is its first column. NULL: there is no such column. */
 const double *view_vector(const iso_record *r, size_t row, const char *name);
 

@@ -19,9 +19,7 @@ typedef struct collector {
 static iso_status keep_header(void *data, const iso_record *header)
 {
     collector *c = data;
-    const char *names[ISO_MAX_COLUMNS];
-    for (size_t i = 0; i < iso_record_columns(header); i++) names[i] = iso_record_name(header, i);
-    return view_record_like(c->ctx, header, iso_record_columns(header), names, &c->rows);
+    return iso_record_create_like(c->ctx, header, 0, NULL, &c->rows);
 }
 
 static iso_status keep_row(void *data, const double row[], size_t count)

@@ -217,36 +217,24 @@ bool iso_table_writer_waits(const iso_table_writer *w)
     return w->waits;
 }
 
-/* Keeps the header's columns, and where their words are. */
-static iso_status keep_columns(iso_context *ctx, iso_table_writer *w, const iso_record *header)
-{
-    const size_t columns = iso_record_columns(header);
-    const char **names = calloc(columns + 1, sizeof *names);
-    if (!names) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write '%s'", w->name);
-    for (size_t i = 0; i < columns; i++) {
-        names[i] = iso_record_name(header, i);
-        if (iso_record_has_words(header, i)) w->words = header;
-    }
-    const iso_status status = iso_record_create(ctx, columns, names, &w->header);
-    free(names);
-    return status;
-}
-
 /* Readers of CSV know columns of words by their names. */
-static iso_status check_words(iso_context *ctx, const iso_record *header)
+static iso_status look_for_words(iso_context *ctx, iso_table_writer *w, const iso_record *header)
 {
-    for (size_t i = 0; i < iso_record_columns(header); i++)
-        if (iso_record_has_words(header, i) && !iso_table_has_words(iso_record_name(header, i)))
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "the column '%s' cannot have words",
-                                    iso_record_name(header, i));
+    for (size_t i = 0; i < iso_record_columns(header); i++) {
+        if (!iso_record_has_words(header, i)) continue;
+        w->words = header;
+        if (iso_table_has_words(iso_record_name(header, i))) continue;
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "the column '%s' cannot have words",
+                                iso_record_name(header, i));
+    }
     return ISO_OK;
 }
 
 iso_status iso_table_write_header(iso_context *ctx, iso_table_writer *w, const iso_record *header)
 {
     if (w->header) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "the header is already written");
-    iso_status status = check_words(ctx, header);
-    if (status == ISO_OK) status = keep_columns(ctx, w, header);
+    iso_status status = look_for_words(ctx, w, header);
+    if (status == ISO_OK) status = iso_record_create_like(ctx, header, 0, NULL, &w->header);
     return status == ISO_OK ? w->format->header(ctx, w, header) : status;
 }
 

@@ -239,7 +239,7 @@ check "periodic: no flow" grep -q "the flow from row to row, t, tau, s" out
 sed 's/^# h: \(.*\)/# h: 1\1/' orbits.csv >damaged.csv
 finds "periodic: h" "# h"
 run 0 periodic half.yaml --period 1 --follow k=0.5:0.51 -o follow.csv
-refuses 3 "'follow.csv' is a table, with no states of one scene" check follow.csv
+refuses 3 "'follow.csv' is a table 'periodic follow', with no states of one scene" check follow.csv
 
 # columns without a check are named: of others, of half a vector, of what a point does not have
 awk -F, -v OFS=, '/^# isoroll t/ { next } /^#/ { print; next } { print $0, n++ ? 5 : "colour" }' ball.csv >more.csv

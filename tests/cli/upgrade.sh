@@ -82,6 +82,14 @@ if [ -n "$hdf5" ]; then
     ! command -v gnuplot >/dev/null || check "the same picture of a sweep" cmp big/sweep.svg little/sweep.svg
 fi
 
+# --- a section that does not tell the order of its columns
+if [ -n "$hdf5" ]; then
+    run 0 check section.h5 --max 1e-10
+    check "a section of ten rows" grep -qx "10 rows" out
+    run 0 view section.h5 -o section.html
+    check "both its orbits" grep -q '"orbits":2' section.html
+fi
+
 # --- a file of a version that is not known yet is refused, by its number
 sed 's/trajectory 1/trajectory 2/' 5_free.csv >later.csv
 refuses 3 "expected version 1 of the trajectory format, not 2" check later.csv

@@ -96,7 +96,7 @@ for command in run compare cost section chaos periodic splitting integrals frequ
     refuses 3 "$command: 'ball.csv' is a trajectory, which is for: convert, check, plot, view" $command ball.csv
     refuses 3 "$command: 'section.csv' is a section, which is for: convert, check, plot, view" $command section.csv
     refuses 3 "$command: 'result.csv' is the result of a sweep, which is for: plot, sweep" $command result.csv
-    refuses 3 "$command: 'chaos.csv' is a table, with no states of one scene, which is for: plot" $command chaos.csv
+    refuses 3 "$command: 'chaos.csv' is a table 'chaos', with no states of one scene, which is for: plot" $command chaos.csv
 done
 refuses 3 "'scene.yaml' is a scene: a sweep has the keys scene, vary and measure; scenes are for: run, compare" sweep scene.yaml
 refuses 3 "sweep: 'ball.csv' is a trajectory, which is for: convert, check, plot, view" sweep ball.csv

@@ -53,9 +53,24 @@ static const struct {
     {"periodic chart", "@kind,k,J2,least,greatest"},
     {"splitting", "k,x,m,error,x_error,multiplier,digits,zero,level"},
     {"cost", "@backend,@method,tolerance,error,steps,@failure"},
+    {"sweep", "point,k,state_n1,status,@reason"},
+    {"sweep part", "point,k,state_n1,status,@reason"},
     {"something new", "a,b,omega2"},
     {"something new", "@method"},
 };
+
+/* What rows of a sweep are bound to: points by growing number, and reasons for those that have failed. */
+static void make_sweep(iso_record *r)
+{
+    iso_record_set(ctx, r, "columns", "vary/k state/n1");
+    iso_record_set(ctx, r, "hash", "00123456789012345678901234567890");
+    const size_t step = strcmp(iso_record_kind(r), "sweep") == 0 ? 1 : 3;
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        double *row = iso_record_row(r, i);
+        row[0] = (double)(step * i);
+        row[3] = row[4] > 0 ? 5 : 0;
+    }
+}
 
 static iso_record *make(const char *kind, const char *columns, size_t rows)
 {
@@ -88,6 +103,7 @@ static iso_record *make(const char *kind, const char *columns, size_t rows)
             else
                 row[c] = (i + c) % 5 == 4 ? (double)NAN : (i + c) % 11 == 3 ? -INFINITY : numbers[(i + c) % 9];
     }
+    if (strncmp(kind, "sweep", 5) == 0) make_sweep(r);
     return r;
 }
 
@@ -249,7 +265,7 @@ static void test_long_lines(void)
 {
     enum { LONG = 3000000 };
     char *text = malloc(LONG + 2);
-    iso_record *r = make("sweep", "k,@reason", 3);
+    iso_record *r = make("sweep", "point,k,state_n1,status,@reason", 3);
     if (!text) exit(1);
     memset(text, 'x', LONG);
     memcpy(text + LONG, "\n", 2);
