@@ -156,7 +156,7 @@ static iso_status write_csv(iso_context *ctx, const options *o, const iso_scene 
         {.key = "nan elsewhere", .text = "not known; an orbit that was not followed has no row"},
         {.key = NULL}};
     iso_field fields[ISO_MOST_FIELDS];
-    iso_fields_copy(iso_chaos_orbit_fields, c->with[ISO_BALL] ? c->with[ISO_POINT] ? NULL : "point" : "ball", fields);
+    iso_chaos_columns(c, fields);
     const iso_status status = table_begin(ctx, csv, "chaos", scene, lines, fields);
     for (size_t i = 0; status == ISO_OK && i <= spread_of(c); i++) {
         const iso_chaos_orbit *orbit = i == 0 ? &c->own : &c->start[i - 1];

@@ -107,7 +107,7 @@ static json_t *struct_of(const iso_field *fields, const void *row)
 
 static json_t *member_of(const iso_field *f, const void *row)
 {
-    if (f->there && !f->there(row)) return json_null();
+    if (!iso_field_is_there(f, row)) return json_null();
     if (f->type == ISO_FIELD_STRUCT) {
         const void *inner = iso_field_struct(f, row);
         return inner ? struct_of(f->fields, inner) : json_null();
@@ -137,7 +137,11 @@ void json_put(json_t *o, const char *name, json_t *value)
 void json_add(json_t *o, const iso_field *fields, const void *row)
 {
     for (const iso_field *f = fields; f->name; f++) {
+        const bool inlined = !*f->name && f->type == ISO_FIELD_STRUCT;
         if (f->how & ISO_IN_TABLE) continue;
+        if (inlined && (!(f->how & ISO_OPTIONAL) || iso_field_is_there(f, row)))
+            json_add(o, f->fields, iso_field_struct(f, row));
+        if (inlined) continue;
         json_t *value = member_of(f, row);
         if (f->how & ISO_OPTIONAL && json_is_null(value)) continue;
         if (*f->name) {

@@ -30,11 +30,21 @@ static bool is_text(const iso_field *f)
     return f->type == ISO_FIELD_TEXT || f->type == ISO_FIELD_NAME || (f->type == ISO_FIELD_INT && f->word);
 }
 
+bool iso_field_is_there(const iso_field *f, const void *row)
+{
+    if (!row || (f->there && !f->there(row))) return false;
+    return f->when == 0 || *((const bool *)row + f->when - 1);
+}
+
 void iso_field_read(const iso_field *f, const void *row, int i, iso_value *v)
 {
-    *v = (iso_value){.there = row && (!f->there || f->there(row)), .number = NAN};
+    *v = (iso_value){.there = iso_field_is_there(f, row), .number = NAN};
     if (!v->there) return;
-    if (f->find)
+    if (f->number)
+        v->number = f->number(row);
+    else if (f->is)
+        v->number = f->is(row);
+    else if (f->find)
         f->find(row, i, v);
     else
         read_member(f, (const char *)row + f->offset, i, v);
@@ -47,7 +57,7 @@ void iso_field_read(const iso_field *f, const void *row, int i, iso_value *v)
 
 const void *iso_field_struct(const iso_field *f, const void *row)
 {
-    if (!row || (f->there && !f->there(row))) return NULL;
+    if (!iso_field_is_there(f, row)) return NULL;
     const void *at = (const char *)row + f->offset;
     return f->pointer ? *(const void *const *)at : at;
 }
@@ -67,11 +77,17 @@ const void *iso_field_item(const iso_field *f, const void *row, size_t i)
     return (f->pointer ? *(const char *const *)at : (const char *)at) + i * f->size;
 }
 
+static bool is_below(const char *name, const char *outer)
+{
+    const size_t length = strlen(outer);
+    return strncmp(name, outer, length) == 0 && (name[length] == '\0' || name[length] == '.');
+}
+
 void iso_fields_copy(const iso_field *fields, const char *without, iso_field copy[ISO_MOST_FIELDS])
 {
     int count = 0;
     for (; fields->name && count < ISO_MOST_FIELDS - 1; fields++)
-        if (!without || strcmp(fields->name, without) != 0) copy[count++] = *fields;
+        if (!without || !is_below(fields->name, without)) copy[count++] = *fields;
     copy[count] = (iso_field)ISO_FIELD_END;
 }
 
@@ -113,6 +129,45 @@ void iso_columns_visit(const iso_field *fields, const void *row, iso_column_visi
 {
     visit_columns("", fields, row, visit, data);
 }
+
+/* --- records ----------------------------------------------------------------------------------------------------- */
+
+typedef struct columns {
+    char name[ISO_MOST_FIELDS][ISO_COLUMN_SIZE];
+    double number[ISO_MOST_FIELDS];
+    size_t count;
+} columns;
+
+static void keep(void *data, const char *name, const iso_field *field, const iso_value *value)
+{
+    columns *c = data;
+    (void)field;
+    if (c->count == ISO_MOST_FIELDS) return;
+    memcpy(c->name[c->count], name, strlen(name) + 1);
+    c->number[c->count++] = value->number;
+}
+
+iso_status iso_columns_create(iso_context *ctx, const iso_field *fields, iso_record **record)
+{
+    columns c = {.count = 0};
+    const char *names[ISO_MOST_FIELDS];
+    iso_columns_visit(fields, NULL, keep, &c);
+    for (size_t i = 0; i < c.count; i++) names[i] = c.name[i];
+    return iso_record_create(ctx, c.count, names, record);
+}
+
+iso_status iso_columns_append(iso_context *ctx, const iso_field *fields, const void *row, iso_record *record)
+{
+    columns c = {.count = 0};
+    double *to;
+    const iso_status status = iso_record_append(ctx, record, &to);
+    if (status != ISO_OK) return status;
+    iso_columns_visit(fields, row, keep, &c);
+    memcpy(to, c.number, c.count * sizeof *to);
+    return ISO_OK;
+}
+
+/* --- text -------------------------------------------------------------------------------------------------------- */
 
 typedef struct writer {
     FILE *to;

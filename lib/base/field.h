@@ -71,97 +71,91 @@ typedef struct iso_field {
     bool pointer;                   /* the list, or the struct, is behind a pointer                         */
     bool (*skip)(const void *item); /* structs of a list that are left out; NULL: none                      */
     bool (*there)(const void *row); /* NULL: always                                                         */
-    /* Sets number or text of a value that no member holds; NULL: the member at offset. */
+    size_t when;                    /* there only if this bool is true, see ISO_WHEN; 0: always             */
+    /* What gives a value that no member holds: a number, a bool, or whatever is set in *value. */
+    double (*number)(const void *row);
+    bool (*is)(const void *row);
     void (*find)(const void *row, int i, iso_value *value);
     /* The i-th struct of a list that is no array; NULL: there are no more. */
     const void *(*item)(const void *row, size_t i);
 } iso_field;
 
-/* A field for a member of the struct T; its type and count are the member's. Behind the doc may follow
- * .word = ..., .how = ... */
+/* clang-format off */
+/* Fields of the struct T, for the lists of fields. Behind the doc may follow more, such as .word = ..., .how = ... */
+#define ISO_FIELD_END {.name = NULL}
+
+/* A member; its type and count are found. And `numbers` doubles from a member on. */
 #define ISO_FIELD(T, key, member, unit_, ...)                                                                        \
-    {                                                                                                                \
-        .name = key, .type = ISO_TYPE_OF(((T *)0)->member), .count = ISO_COUNT_OF(((T *)0)->member),                 \
-        .offset = offsetof(T, member), .unit = unit_, .doc = __VA_ARGS__                                             \
-    }
+    {.name = key, .type = ISO_TYPE_OF(((T *)0)->member), .count = ISO_COUNT_OF(((T *)0)->member),                    \
+     .offset = offsetof(T, member), .unit = unit_, .doc = __VA_ARGS__}
+#define ISO_NUMBERS(T, key, member, numbers, unit_, ...)                                                             \
+    {.name = key, .type = ISO_FIELD_REAL, .count = numbers, .offset = offsetof(T, member), .unit = unit_,            \
+     .doc = __VA_ARGS__}
 
-/* A number of T and those behind it, `count_` in all. */
-#define ISO_NUMBERS(T, key, member, count_, unit_, ...)                                                              \
-    {                                                                                                                \
-        .name = key, .type = ISO_FIELD_REAL, .count = count_, .offset = offsetof(T, member), .unit = unit_,          \
-        .doc = __VA_ARGS__                                                                                           \
-    }
+/* It is there only if this bool of T is true. */
+#define ISO_WHEN(T, member) .when = offsetof(T, member) + 1
 
-/* A value that `finder` makes from the struct. */
+/* What a function makes from the struct: a double, a whole number, a bool, anything. */
+#define ISO_NUMBER(key, function, unit_, ...)                                                                        \
+    {.name = key, .type = ISO_FIELD_REAL, .number = function, .unit = unit_, .doc = __VA_ARGS__}
+#define ISO_COUNT(key, function, unit_, ...)                                                                         \
+    {.name = key, .type = ISO_FIELD_INT, .number = function, .unit = unit_, .doc = __VA_ARGS__}
+#define ISO_IS(key, function, ...)                                                                                   \
+    {.name = key, .type = ISO_FIELD_BOOL, .is = function, .unit = "", .doc = __VA_ARGS__}
 #define ISO_FOUND(key, type_, finder, unit_, ...)                                                                    \
-    {                                                                                                                \
-        .name = key, .type = type_, .find = finder, .unit = unit_, .doc = __VA_ARGS__                                \
-    }
+    {.name = key, .type = type_, .find = finder, .unit = unit_, .doc = __VA_ARGS__}
 
-/* A struct in the struct T. */
+/* A struct in T; and fields of T itself, one level deeper. */
 #define ISO_STRUCT(T, key, member, fields_, ...)                                                                     \
-    {                                                                                                                \
-        .name = key, .type = ISO_FIELD_STRUCT, .offset = offsetof(T, member), .fields = fields_, .doc = __VA_ARGS__  \
-    }
-
-/* Fields of the same struct, one level deeper. */
+    {.name = key, .type = ISO_FIELD_STRUCT, .offset = offsetof(T, member), .fields = fields_, .doc = __VA_ARGS__}
 #define ISO_GROUP(key, fields_, ...)                                                                                 \
-    {                                                                                                                \
-        .name = key, .type = ISO_FIELD_STRUCT, .fields = fields_, .doc = __VA_ARGS__                                 \
-    }
+    {.name = key, .type = ISO_FIELD_STRUCT, .fields = fields_, .doc = __VA_ARGS__}
 
-/* Structs in an array of T, behind a pointer in T, or in an array that is always full; `number` is an int or size_t. */
+/* Structs in an array of T; behind a pointer in T; in an array that is always full; and those that a function gives.
+ * `number` is a member, an int or a size_t. */
 #define ISO_LIST(T, key, member, number, fields_, ...)                                                               \
-    {                                                                                                                \
-        ISO_LIST_OF(T, key, member, fields_), ISO_COUNTER(T, number), .doc = __VA_ARGS__                             \
-    }
+    {ISO_LIST_OF(T, key, member, fields_), ISO_COUNTER(T, number), .doc = __VA_ARGS__}
 #define ISO_LIST_AT(T, key, member, number, fields_, ...)                                                            \
-    {                                                                                                                \
-        ISO_LIST_OF(T, key, member, fields_), ISO_COUNTER(T, number), .pointer = true, .doc = __VA_ARGS__            \
-    }
+    {ISO_LIST_OF(T, key, member, fields_), ISO_COUNTER(T, number), .pointer = true, .doc = __VA_ARGS__}
 #define ISO_ARRAY(T, key, member, fields_, ...)                                                                      \
-    {                                                                                                                \
-        ISO_LIST_OF(T, key, member, fields_), .count = sizeof((T *)0)->member / sizeof *((T *)0)->member,            \
-                                              .doc = __VA_ARGS__                                                     \
-    }
+    {ISO_LIST_OF(T, key, member, fields_), .count = sizeof((T *)0)->member / sizeof *((T *)0)->member,               \
+     .doc = __VA_ARGS__}
+#define ISO_ITEMS(key, function, fields_, ...)                                                                       \
+    {.name = key, .type = ISO_FIELD_LIST, .item = function, .fields = fields_, .doc = __VA_ARGS__}
+
 #define ISO_LIST_OF(T, key, member, fields_)                                                                         \
     .name = key, .type = ISO_FIELD_LIST, .offset = offsetof(T, member), .size = sizeof *((T *)0)->member,            \
     .fields = fields_
 #define ISO_COUNTER(T, number) .counter = offsetof(T, number), .counter_size = sizeof((T *)0)->number
-
-/* A list whose structs a function gives. */
-#define ISO_ITEMS(key, item_, fields_, ...)                                                                          \
-    {                                                                                                                \
-        .name = key, .type = ISO_FIELD_LIST, .item = item_, .fields = fields_, .doc = __VA_ARGS__                    \
-    }
-
-#define ISO_FIELD_END                                                                                                \
-    {                                                                                                                \
-        .name = NULL                                                                                                 \
-    }
-
-/* clang-format off */
 #define ISO_TYPE_OF(x) _Generic((x), double: ISO_FIELD_REAL, double *: ISO_FIELD_REAL, int: ISO_FIELD_INT,           \
-                                     unsigned: ISO_FIELD_INT, long: ISO_FIELD_LONG, size_t: ISO_FIELD_SIZE,           \
-                                     bool: ISO_FIELD_BOOL, char *: ISO_FIELD_TEXT, const char *: ISO_FIELD_NAME,  \
+                                     unsigned: ISO_FIELD_INT, long: ISO_FIELD_LONG, size_t: ISO_FIELD_SIZE,          \
+                                     bool: ISO_FIELD_BOOL, char *: ISO_FIELD_TEXT, const char *: ISO_FIELD_NAME,     \
                                      iso_record *: ISO_FIELD_RECORD)
+#define ISO_COUNT_OF(x) _Generic((x), double *: (int)(sizeof(x) / sizeof(double)), default: 1)
 /* clang-format on */
-#define ISO_COUNT_OF(x) _Generic((x), double * : (int)(sizeof(x) / sizeof(double)), default : 1)
 
-/* Value i of a field that is no struct and no list, i from 0 to its count - 1. row NULL: there is none. */
+/* Value i of a field that is no struct, record or list, i from 0 to its count - 1. row NULL: there is none. */
 ISO_API void iso_field_read(const iso_field *field, const void *row, int i, iso_value *value);
+
+/* Whether it has a value, a struct or a list in this row; row NULL: no. */
+ISO_API bool iso_field_is_there(const iso_field *field, const void *row);
 
 /* The struct of a field, and the i-th of a list. NULL: there is none, or there are no more. */
 ISO_API const void *iso_field_struct(const iso_field *field, const void *row);
 ISO_API const void *iso_field_item(const iso_field *field, const void *row, size_t i);
 
-/* Copies fields, all but those called `without` (NULL: none is), to change them. At most ISO_MOST_FIELDS - 1. */
+/* Copies fields, all but `without` and those below it, "without.x" (NULL: all), to change them. At most
+ * ISO_MOST_FIELDS - 1. */
 enum { ISO_MOST_FIELDS = 64 };
 ISO_API void iso_fields_copy(const iso_field *fields, const char *without, iso_field copy[ISO_MOST_FIELDS]);
 
 /* Calls `visit` for each column of a table, with its name and its value in this row (NULL: there are no values). */
 typedef void iso_column_visitor(void *data, const char *name, const iso_field *field, const iso_value *value);
 ISO_API void iso_columns_visit(const iso_field *fields, const void *row, iso_column_visitor *visit, void *data);
+
+/* A record with these columns, and a row of it: a word is its number, another text NaN. Errors: those of record.h. */
+ISO_API iso_status iso_columns_create(iso_context *ctx, const iso_field *fields, iso_record **record);
+ISO_API iso_status iso_columns_append(iso_context *ctx, const iso_field *fields, const void *row, iso_record *record);
 
 /* Writes a row of CSV. Whether the text arrived, the stream tells. */
 ISO_API void iso_row_write(FILE *to, const iso_field *fields, const void *row);

@@ -7,56 +7,6 @@
 #include "foreign/foreign_impl.h"
 #include "study/chaos/chaos.h"
 
-enum { COMMON = 5, TOLD = 15, MOST = COMMON + 2 * TOLD, NAME = 32 };
-
-static const char *const common[COMMON] = {"orbit", "l", "x", "verdict", "disagree"};
-static const char *const told[TOLD] = {"verdict",    "status",       "turns",      "per_turn", "per_turn_error",
-                                       "exponent_t", "exponent_tau", "exponent_s", "error_t",  "error_tau",
-                                       "error_s",    "megno",        "gali2",      "digits",   "exponent_turns"};
-
-static iso_status create(iso_context *ctx, const iso_chaos *c, iso_record **record)
-{
-    char text[MOST][NAME];
-    const char *names[MOST];
-    size_t count = 0;
-    for (int i = 0; i < COMMON; i++) snprintf(text[count++], NAME, "%s", common[i]);
-    for (int m = 0; m < 2; m++)
-        for (int i = 0; c->with[m] && i < TOLD; i++)
-            snprintf(text[count++], NAME, "%s_%s", iso_model_kind_name(m), told[i]);
-    for (size_t i = 0; i < count; i++) names[i] = text[i];
-    return iso_record_create(ctx, count, names, record);
-}
-
-static double *put_told(const iso_indication *i, iso_status status, double *to)
-{
-    *to++ = (double)i->verdict;
-    *to++ = (double)status;
-    *to++ = (double)i->turns;
-    *to++ = i->per_turn;
-    *to++ = i->per_turn_error;
-    for (int c = 0; c < ISO_CLOCKS; c++) *to++ = i->exponent[c];
-    for (int c = 0; c < ISO_CLOCKS; c++) *to++ = i->error[c];
-    *to++ = i->megno;
-    *to++ = i->gali2;
-    *to++ = i->digits;
-    *to++ = (double)i->exponent_turns;
-    return to;
-}
-
-static iso_status put_orbit(iso_context *ctx, const iso_chaos *c, const iso_chaos_orbit *o, size_t number,
-                            iso_record *record)
-{
-    double row[MOST], *to = row;
-    *to++ = (double)number;
-    *to++ = o->l;
-    *to++ = o->x;
-    *to++ = (double)o->verdict;
-    *to++ = o->disagree;
-    for (int m = 0; m < 2; m++)
-        if (c->with[m]) to = put_told(&o->told[m], o->status[m], to);
-    return iso_foreign_record_append(ctx, record, 1, row);
-}
-
 /* --- the lines -------------------------------------------------------------------------------------------------- */
 
 static iso_status put_number(iso_context *ctx, iso_record *r, const char *key, double x, iso_status status)
@@ -100,11 +50,13 @@ static iso_status put_lines(iso_context *ctx, const iso_scene *scene, const iso_
 
 static iso_status put_all(iso_context *ctx, const iso_scene *scene, const iso_chaos *c, iso_record **record)
 {
-    iso_status status = create(ctx, c, record);
+    iso_field fields[ISO_MOST_FIELDS];
+    iso_chaos_columns(c, fields);
+    iso_status status = iso_columns_create(ctx, fields, record);
     if (status == ISO_OK) status = put_lines(ctx, scene, c, *record);
-    if (status == ISO_OK) status = put_orbit(ctx, c, &c->own, 0, *record);
+    if (status == ISO_OK) status = iso_columns_append(ctx, fields, &c->own, *record);
     for (size_t i = 0; status == ISO_OK && i < c->starts; i++)
-        status = put_orbit(ctx, c, &c->start[i], i + 1, *record);
+        status = iso_columns_append(ctx, fields, &c->start[i], *record);
     return status;
 }
 

@@ -159,9 +159,9 @@ ISO_API iso_status iso_foreign_section(iso_context *ctx, const iso_foreign_scene
 /* Which orbits are chaotic (study/chaos/chaos.h); arguments and tolerance as for sections.
  * *record has a row for each orbit; row 0 is the scene's own. Columns:
  *     orbit l x verdict disagree      l, x: where it starts; NaN: the scene's own. verdict: a number of iso_verdict
- *     ball_verdict ball_status ball_turns ball_per_turn ball_per_turn_error
- *     ball_exponent_t ball_exponent_tau ball_exponent_s    ball_error_t ball_error_tau ball_error_s
- *     ball_megno ball_gali2 ball_digits ball_exponent_turns    for each model that was integrated: ball_, point_
+ *     ball_status ball_verdict ball_turns ball_exponent_turns ball_megno ball_gali2 ball_per_turn
+ *     ball_per_turn_error ball_exponent_t ball_exponent_tau ball_exponent_s    ball_error_t ball_error_tau
+ *     ball_error_s ball_digits        for each model that was integrated: ball_, point_
  *   Lines: model, k, J, section (axis and what a turn is); of the orbits spread over the section asked, count (those
  *   that were followed), chaotic, regular, undecided, failed, share, low and high; integral if a further one is known;
  *   failure of the first orbit that failed.

@@ -155,6 +155,48 @@ static void test_columns(const outer *o)
     fclose(file);
 }
 
+static void test_record(iso_context *ctx, const outer *o)
+{
+    iso_record *r = NULL;
+    if (iso_columns_create(ctx, fields, &r) != ISO_OK || iso_columns_append(ctx, fields, o, r) != ISO_OK)
+        gsl_test(1, "%s", iso_context_message(ctx));
+    const double *row = iso_record_const_row(r, 0);
+    gsl_test(row[iso_record_find(r, "colour")] != GREEN, "a word in a record is its number");
+    gsl_test(!isnan(row[iso_record_find(r, "text")]), "a text is none");
+    gsl_test(row[iso_record_find(r, "sum2")] != 1.1, "a sum");
+    iso_record_free(r);
+}
+
+static double double_of(const void *row)
+{
+    return 2 * ((const outer *)row)->real;
+}
+
+static void test_functions(const outer *o)
+{
+    static const iso_field made[] = {ISO_NUMBER("double", double_of, "", "a number"),
+                                     ISO_COUNT("count", double_of, "", "a whole number"),
+                                     ISO_IS("yes", is_yes, "a bool"),
+                                     ISO_FIELD(outer, "when", real, "", "a member", ISO_WHEN(outer, yes)),
+                                     ISO_STRUCT(outer, "group", in, inner_fields, "a struct", ISO_WHEN(outer, yes)),
+                                     ISO_FIELD_END};
+    outer all = *o;
+    char text[100];
+    FILE *file = tmpfile();
+    if (!file) return;
+    iso_row_write(file, made, o);
+    all.yes = true;
+    iso_row_write(file, made, &all);
+    rewind(file);
+    gsl_test(!fgets(text, sizeof text, file) ||
+                 strcmp(text, "0.20000000000000001,0.20000000000000001,0,nan,nan\n") != 0,
+             "without: %s", text);
+    gsl_test(!fgets(text, sizeof text, file) ||
+                 strcmp(text, "0.20000000000000001,0.20000000000000001,1,0.10000000000000001,5\n") != 0,
+             "with: %s", text);
+    fclose(file);
+}
+
 static void test_copy(void)
 {
     enum { ALL = sizeof fields / sizeof *fields };
@@ -185,6 +227,10 @@ int main(void)
     test_values(&o);
     test_lists(&o);
     test_columns(&o);
+    test_functions(&o);
     test_copy();
+    iso_context *ctx = iso_context_create();
+    if (ctx) test_record(ctx, &o);
+    iso_context_free(ctx);
     return gsl_test_summary();
 }

@@ -83,7 +83,7 @@ check "threads change nothing" cmp -s first out
 run 0 chaos chaotic.yaml --starts 10 --turns 150 --csv starts.csv
 check "CSV: a row for each" test "$(grep -c '^[0-9]' starts.csv)" -eq 11
 run 0 chaos chaotic.yaml --starts 10 --turns 150 --csv - --seed 1
-check "CSV alone on standard output" grep -q '^orbit,l,x,verdict,ball_verdict' out
+check "CSV alone on standard output" grep -q '^orbit,l,x,verdict,disagree,ball_status,ball_verdict' out
 check_not "another seed, other starts" cmp -s starts.csv out
 
 # --- effects that keep the energy; refusals

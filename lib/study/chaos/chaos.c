@@ -207,6 +207,7 @@ static iso_status prepare(iso_chaos_walk *w)
     w->out->plane = effect ? -1 : find_plane(w->out->with[ISO_BALL] ? start.ball : start.point);
     w->out->start = calloc(w->options.starts + w->options.at_count + 1, sizeof *w->out->start);
     if (!w->out->start) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the starts");
+    for (size_t i = 0; i < w->options.starts + w->options.at_count; i++) w->out->start[i].number = i + 1;
     return ISO_OK;
 }
 

@@ -111,6 +111,9 @@ typedef struct iso_chaos {
 } iso_chaos;
 ISO_API extern const iso_field iso_chaos_fields[];
 
+/* The columns of a table of its orbits: those of iso_chaos_orbit_fields for the models that were integrated. */
+ISO_API void iso_chaos_columns(const iso_chaos *chaos, iso_field fields[ISO_MOST_FIELDS]);
+
 /* Orbits that fail are counted in the result. The call fails only if no model can follow the scene's own orbit.
  * options NULL: iso_chaos_defaults().
  * Errors:

@@ -6,27 +6,17 @@ static bool is_measured(const void *row)
     return iso_cost_is_measured(row);
 }
 
-static void find_measured(const void *row, int i, iso_value *v)
-{
-    (void)i;
-    v->number = iso_cost_is_measured(row);
-}
-
-static void find_method(const void *row, int i, iso_value *v)
-{
-    const iso_cost_cell *c = row;
-    (void)i;
-    v->text = c->method ? c->method->name : NULL;
-}
+static const iso_field method_fields[] = {
+    ISO_FIELD(iso_method, "method", name, "", "of integration; none: the closed solution"), ISO_FIELD_END};
 
 #define FIELD(key, member, ...) ISO_FIELD(iso_cost_cell, key, member, __VA_ARGS__)
 #define MEASURED(key, member, ...) FIELD(key, member, __VA_ARGS__, .there = is_measured, .how = ISO_EMPTY)
 
 const iso_field iso_cost_cell_fields[] = {
     FIELD("backend", backend, "", "ball, point or exact", .word = iso_backend_name),
-    ISO_FOUND("method", ISO_FIELD_NAME, find_method, "", "empty: the closed solution"),
+    ISO_STRUCT(iso_cost_cell, "", method, method_fields, "of integration", .pointer = true),
     FIELD("tolerance", tolerance, "", "relative error of a step", .how = ISO_EMPTY),
-    ISO_FOUND("measured", ISO_FIELD_BOOL, find_measured, "", "whether there is a result", .how = ISO_IN_TREE),
+    ISO_IS("measured", is_measured, "whether there is a result", .how = ISO_IN_TREE),
     MEASURED("error", error, "", "the largest relative error of (omega, n)"),
     MEASURED("clock_error", clock_error, "", "the same of the other model's clock"),
     MEASURED("energy_drift", energy_drift, "", "relative drift of the energy"),
@@ -49,18 +39,11 @@ const iso_field iso_cost_cell_fields[] = {
 };
 #undef FIELD
 
-static void find_series_method(const void *row, int i, iso_value *v)
-{
-    const iso_cost_series *s = row;
-    (void)i;
-    v->text = s->method ? s->method->name : NULL;
-}
-
 #define FIELD(key, member, ...) ISO_FIELD(iso_cost_series, key, member, __VA_ARGS__)
 
 static const iso_field series_fields[] = {
     FIELD("backend", backend, "", "ball, point or exact", .word = iso_backend_name),
-    ISO_FOUND("method", ISO_FIELD_NAME, find_series_method, "", "null: the closed solution"),
+    ISO_STRUCT(iso_cost_series, "", method, method_fields, "of integration", .pointer = true),
     FIELD("time_of_a_digit", digit, "", "factor in time for one more digit"),
     FIELD("order", order, "", "error ~ steps^-order"),
     FIELD("least_error", least, "", "the least error"),

@@ -54,18 +54,13 @@ static const iso_field separatrix_fields[] = {
 
 /* --- the estimate ------------------------------------------------------------------------------------------------ */
 
-static bool is_known(const void *row)
-{
-    return ((const iso_identified_line *)row)->known;
-}
-
 #define FIELD(key, member, ...) ISO_FIELD(iso_identified_line, key, member, __VA_ARGS__)
 
 static const iso_field line_fields[] = {
     FIELD("frequency", line.frequency, "rad/time", "of the line"),
     FIELD("amplitude", line.amplitude, "", "of the line"),
-    FIELD("m", m, "", "multiple of the first frequency", .there = is_known),
-    FIELD("n", n, "", "and of the second one", .there = is_known),
+    FIELD("m", m, "", "multiple of the first frequency", ISO_WHEN(iso_identified_line, known)),
+    FIELD("n", n, "", "and of the second one", ISO_WHEN(iso_identified_line, known)),
     ISO_FIELD_END,
 };
 #undef FIELD
@@ -89,15 +84,10 @@ static const iso_field found_fields[] = {
 
 /* --- all --------------------------------------------------------------------------------------------------------- */
 
-static bool is_estimated(const void *row)
-{
-    return ((const iso_frequencies *)row)->estimated;
-}
-
 static void find_solution(const void *row, int i, iso_value *v)
 {
     (void)i;
-    v->text = is_estimated(row) ? "estimated" : "closed";
+    v->text = ((const iso_frequencies *)row)->estimated ? "estimated" : "closed";
 }
 
 static const iso_field name_field[] = {ISO_FIELD(iso_integral, "name", name, "", "of the integral"), ISO_FIELD_END};
@@ -135,6 +125,6 @@ const iso_field iso_frequencies_fields[] = {
     LIST("resonances", resonance, resonances, resonance_fields, "that are near"),
     LIST("separatrices", separatrix, separatrices, separatrix_fields, "that are near"),
     FIELD("closed_orbit", closed, "time", "period of a closed orbit", .word = clock_word),
-    ISO_GROUP("estimate", estimate_fields, "how the frequencies were found", .there = is_estimated),
+    ISO_GROUP("estimate", estimate_fields, "how the frequencies were found", ISO_WHEN(iso_frequencies, estimated)),
     ISO_FIELD_END,
 };

@@ -22,11 +22,10 @@ static const iso_field value_fields[] = {
 
 /* --- degrees ----------------------------------------------------------------------------------------------------- */
 
-static void find_gap(const void *row, int i, iso_value *v)
+static double gap_of(const void *row)
 {
     const iso_integral_degree *at = row;
-    (void)i;
-    v->number = at->smallest / at->largest;
+    return at->smallest / at->largest;
 }
 
 #define FIELD(key, member, ...) ISO_FIELD(iso_integral_degree, key, member, __VA_ARGS__)
@@ -40,7 +39,7 @@ static const iso_field degree_fields[] = {
     FIELD("doubtful", doubtful, "", "functions that may be integrals"),
     FIELD("largest_of_integrals", largest, "", "the largest value of an integral"),
     FIELD("smallest_of_others", smallest, "", "the smallest value of another function"),
-    ISO_FOUND("gap", ISO_FIELD_REAL, find_gap, "", "the second by the first"),
+    ISO_NUMBER("gap", gap_of, "", "the second by the first"),
     ISO_LIST(iso_integral_degree, "values", value, values, value_fields, "the smallest values"),
     ISO_FIELD_END,
 };
@@ -53,18 +52,12 @@ static bool is_found(const void *row)
     return ((const iso_integral_known *)row)->degree > 0;
 }
 
-static void find_found(const void *row, int i, iso_value *v)
-{
-    (void)i;
-    v->number = is_found(row);
-}
-
 #define FIELD(key, member, ...) ISO_FIELD(iso_integral_known, key, member, __VA_ARGS__)
 
 static const iso_field known_fields[] = {
     FIELD("name", name, "", "its name"),
     FIELD("doc", doc, "", "what it is"),
-    ISO_FOUND("found", ISO_FIELD_BOOL, find_found, "", "whether it was found"),
+    ISO_IS("found", is_found, "whether it was found"),
     FIELD("constant", constant, "", "a constant on the level"),
     FIELD("degree", degree, "", "in which it was found", .there = is_found),
     FIELD("residual", residual, "", "its distance from what was found"),
@@ -81,24 +74,21 @@ double iso_integral_smallest(const iso_integral_search *r)
     return smallest;
 }
 
-static void find_smallest(const void *row, int i, iso_value *v)
+static double smallest_of(const void *row)
 {
-    (void)i;
-    v->number = iso_integral_smallest(row);
+    return iso_integral_smallest(row);
 }
 
-static void find_energy(const void *row, int i, iso_value *v)
+static bool has_energy(const void *row)
 {
     const iso_integral_search *r = row;
-    (void)i;
-    v->number = r->degrees >= 2 && r->at[2].found > 0;
+    return r->degrees >= 2 && r->at[2].found > 0;
 }
 
-static void find_samples(const void *row, int i, iso_value *v)
+static double samples_of(const void *row)
 {
     (void)row;
-    (void)i;
-    v->number = ISO_INTEGRAL_ROWS;
+    return ISO_INTEGRAL_ROWS;
 }
 
 static const void *degree_of(const void *row, size_t i)
@@ -113,14 +103,14 @@ const iso_field iso_integral_search_fields[] = {
     FIELD("level", level, "", "(H/eps) J2^(1/k), J2 the middle moment"),
     FIELD("coefficients", coefficients, "", "degree in gamma"),
     FIELD("orbits", orbits, "", "that were followed"),
-    ISO_FOUND("samples", ISO_FIELD_INT, find_samples, "", "of each orbit"),
+    ISO_COUNT("samples", samples_of, "", "of each orbit"),
     FIELD("delta", delta, "", "relative error of a sample"),
     FIELD("verdict", verdict, "", "none, found or undecided", .word = verdict_word),
     FIELD("independent", independent, "", "independent integrals beside the energy"),
     FIELD("near", near, "", "a neighbour is integrable"),
-    ISO_FOUND("energy", ISO_FIELD_BOOL, find_energy, "", "whether the energy was found"),
+    ISO_IS("energy", has_energy, "whether the energy was found"),
     FIELD("energy_spread", energy, "", "relative spread of the energy in the samples"),
-    ISO_FOUND("smallest", ISO_FIELD_REAL, find_smallest, "", "smallest value that is no integral's"),
+    ISO_NUMBER("smallest", smallest_of, "", "smallest value that is no integral's"),
     ISO_LIST(iso_integral_search, "known", known, known_count, known_fields, "integrals that are known"),
     ISO_ITEMS("degrees", degree_of, degree_fields, "the spaces that were searched"),
     ISO_FIELD_END,

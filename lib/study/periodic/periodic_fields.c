@@ -18,10 +18,9 @@ static const iso_field pair[] = {{.name = "", .type = ISO_FIELD_REAL, .count = 2
 
 /* --- multipliers ------------------------------------------------------------------------------------------------- */
 
-static void find_stable(const void *row, int i, iso_value *v)
+static bool is_stable(const void *row)
 {
-    (void)i;
-    v->number = ((const iso_multipliers *)row)->stability == ISO_STABLE;
+    return ((const iso_multipliers *)row)->stability == ISO_STABLE;
 }
 
 static bool has_krein(const void *row)
@@ -32,7 +31,7 @@ static bool has_krein(const void *row)
 #define FIELD(key, member, ...) ISO_FIELD(iso_multipliers, key, member, __VA_ARGS__)
 
 static const iso_field multipliers[] = {
-    ISO_FOUND("stable", ISO_FIELD_BOOL, find_stable, "", "whether it is stable", .how = ISO_IN_TREE),
+    ISO_IS("stable", is_stable, "whether it is stable", .how = ISO_IN_TREE),
     FIELD("stability", stability, "", "stable, unstable (trace > 2), inverse (< -2), degenerate (2 or -2), undecided",
           .word = stability_word),
     ISO_ARRAY(iso_multipliers, "multipliers", value, pair, "real and imaginary part of both"),
@@ -95,10 +94,9 @@ static void find_symmetry(const void *row, int i, iso_value *v)
     v->text = v->room;
 }
 
-static void find_determinant(const void *row, int i, iso_value *v)
+static double determinant_of(const void *row)
 {
-    (void)i;
-    v->number = 1 + ((const iso_periodic_orbit *)row)->determinant;
+    return 1 + ((const iso_periodic_orbit *)row)->determinant;
 }
 
 /* From the point (l, x) on, return by return. */
@@ -109,39 +107,22 @@ static const void *point_of(const void *row, size_t i)
     return o->half[i == 0 ? 2 * o->period - 1 : 2 * (int)i - 1];
 }
 
-static bool is_polished(const void *row)
+static const char *digits_word(int i)
 {
-    return ((const iso_periodic_orbit *)row)->polished;
+    static const char *const words[] = {"l_digits", "x_digits", "trace_digits"};
+    return words[i];
 }
 
-static void find_l(const void *row, int i, iso_value *v)
+static void find_digits(const void *row, int i, iso_value *v)
 {
     const iso_periodic_orbit *o = row;
-    (void)i;
-    iso_periodic_digits(o->l, o->l_tail, v->room);
-    v->text = v->room;
-}
-
-static void find_x(const void *row, int i, iso_value *v)
-{
-    const iso_periodic_orbit *o = row;
-    (void)i;
-    iso_periodic_digits(o->x, o->x_tail, v->room);
-    v->text = v->room;
-}
-
-static void find_trace(const void *row, int i, iso_value *v)
-{
-    const iso_periodic_orbit *o = row;
-    (void)i;
-    iso_periodic_digits(o->trace, o->trace_tail, v->room);
+    const double head[] = {o->l, o->x, o->trace}, tail[] = {o->l_tail, o->x_tail, o->trace_tail};
+    iso_periodic_digits(head[i], tail[i], v->room);
     v->text = v->room;
 }
 
 #define FIELD(key, member, ...) ISO_FIELD(iso_periodic_orbit, key, member, __VA_ARGS__)
 #define VECTOR(key, member, ...) ISO_NUMBERS(iso_periodic_orbit, key, member, 3, __VA_ARGS__)
-#define DIGITS(key, find, doc)                                                                                       \
-    ISO_FOUND(key, ISO_FIELD_TEXT, find, "", doc, .there = is_polished, .how = ISO_OPTIONAL | ISO_IN_TREE)
 
 const iso_field iso_periodic_orbit_fields[] = {
     FIELD("orbit", number, "", "its number in the list", .how = ISO_IN_TABLE),
@@ -157,7 +138,7 @@ const iso_field iso_periodic_orbit_fields[] = {
     FIELD("", clock, "time", "its period in this clock", .word = clock_word),
     FIELD("closure", closure, "", "distance in (l, x) after a period, by the derivative's size if above 1",
           .digits = 3),
-    ISO_FOUND("determinant", ISO_FIELD_REAL, find_determinant, "", "of the same derivative", .how = ISO_IN_TREE),
+    ISO_NUMBER("determinant", determinant_of, "", "of the same derivative", .how = ISO_IN_TREE),
     FIELD("torus", torus, "", "k = 1 or -1: on a torus full of such orbits", .how = ISO_IN_TREE),
     FIELD("line", line, "", "the reversor whose line it passes", .word = iso_symmetry_line_name, .how = ISO_IN_TREE),
     VECTOR("omega", ball[0], "1/time", "its start: angular velocity of the ball"),
@@ -165,9 +146,8 @@ const iso_field iso_periodic_orbit_fields[] = {
     VECTOR("M", point[0], "1/time", "its start: momentum of the point"),
     VECTOR("gamma", point[3], "", "its start: place of the point"),
     ISO_ITEMS("points", point_of, pair, "its points (l, x), return by return"),
-    DIGITS("l_digits", find_l, "all digits of l"),
-    DIGITS("x_digits", find_x, "all digits of x"),
-    DIGITS("trace_digits", find_trace, "all digits of the trace"),
+    ISO_FOUND("", ISO_FIELD_TEXT, find_digits, "", "all digits", .count = 3, .word = digits_word,
+              ISO_WHEN(iso_periodic_orbit, polished), .how = ISO_OPTIONAL | ISO_IN_TREE),
     ISO_FIELD_END,
 };
 #undef FIELD

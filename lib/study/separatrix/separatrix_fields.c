@@ -63,26 +63,24 @@ static const iso_separatrix_splitting *first_found(const iso_separatrix_table *s
     return NULL;
 }
 
-static void find_axis(const void *row, int i, iso_value *v)
+static double axis_of(const void *row)
 {
     const iso_separatrix_splitting *found = first_found(row);
-    (void)i;
-    v->number = found ? found->axis : -1;
+    return found ? found->axis : -1;
 }
 
-static void find_middle(const void *row, int i, iso_value *v)
+static double middle_of(const void *row)
 {
     const iso_separatrix_splitting *found = first_found(row);
-    (void)i;
-    v->number = found ? found->middle : -1;
+    return found ? found->middle : -1;
 }
 
 #define LIST(key, member, number, doc)                                                                               \
     ISO_LIST_AT(iso_separatrix_table, key, member, number, iso_separatrix_fields, doc, .skip = is_undone)
 
 const iso_field iso_separatrix_table_fields[] = {
-    ISO_FOUND("axis", ISO_FIELD_INT, find_axis, "", "a of the section n_a = 0 of x and m", .how = ISO_FROM_ONE),
-    ISO_FOUND("middle", ISO_FIELD_INT, find_middle, "", "the axis of the middle moment", .how = ISO_FROM_ONE),
+    ISO_COUNT("axis", axis_of, "", "a of the section n_a = 0 of x and m", .how = ISO_FROM_ONE),
+    ISO_COUNT("middle", middle_of, "", "the axis of the middle moment", .how = ISO_FROM_ONE),
     LIST("rows", row, rows, "one for each k or level"),
     LIST("zeros", zero, zeros, "zeros of m between them"),
     ISO_FIELD(iso_separatrix_table, "lost", lost, "", "zeros that were not found"),
