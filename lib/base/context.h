@@ -30,9 +30,6 @@ ISO_API void iso_context_free(iso_context *ctx);
  * answers false: for Ctrl-C, a time limit, or to show progress. NULL, as at the beginning: nobody is asked. */
 ISO_API void iso_context_set_monitor(iso_context *ctx, bool (*go_on)(void *data), void *data);
 
-/* What `go_on` answers; true without a monitor. */
-bool iso_context_goes_on(const iso_context *ctx);
-
 /* What went wrong last, one line without a newline; "" when nothing did. Valid until the next failing call. */
 ISO_API const char *iso_context_message(const iso_context *ctx);
 

@@ -1,7 +1,7 @@
 /* exact.c - the public functions of the closed solution: they choose the form of the motion (form_impl.h), check what
  * is asked, and follow an orbit on a separatrix into the rotation at its end.
  */
-#include "exact/exact.h"
+#include "exact/exact_impl.h"
 
 #include <float.h>
 #include <math.h>
@@ -13,7 +13,8 @@
 #include "base/vec3_impl.h"
 #include "exact/form_impl.h"
 #include "exact/walk_impl.h"
-#include "model/effect.h"
+#include "model/effects_impl.h"
+#include "model/system_impl.h"
 
 static const iso_form *const forms[] = {&iso_form_rest, &iso_form_revolution, &iso_form_separated, NULL};
 

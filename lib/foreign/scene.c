@@ -9,7 +9,8 @@
 #include "base/number.h"
 #include "foreign/foreign_impl.h"
 #include "io/scene_file.h"
-#include "method/method.h"
+#include "method/methods_impl.h"
+#include "orbit/scene_impl.h"
 
 static iso_status create(iso_context *ctx, const char *name, iso_foreign_scene **scene)
 {

@@ -7,6 +7,7 @@
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"
 #include "method/method.h"
+#include "orbit/scene_impl.h"
 
 enum { MAX_KEYS = 32, MAX_METHODS = 64, EFFECT_KEYS = ISO_EFFECT_NUMBERS + 2 };
 _Static_assert((int)MAX_KEYS >= (int)ISO_EFFECTS && (int)MAX_KEYS >= (int)EFFECT_KEYS, "room for all names");
@@ -20,7 +21,7 @@ typedef struct entry {
     const struct entry *section;     /* read_section: the keys inside       */
     const char *(*word)(int);        /* read_word: the names of an enum ... */
     unsigned words;                  /* ... and which of them (1 << value)  */
-    iso_models model;                 /* of `initial`: whose start this is   */
+    iso_models model;                /* of `initial`: whose start this is   */
     iso_effect_id effect;            /* read_effect, read_effect_number: which effect ... */
     const iso_effect_number *number; /* ... and which number of it */
 } entry;

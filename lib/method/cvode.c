@@ -14,6 +14,7 @@
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
 #include "method/sundials_vector_impl.h"
+#include "model/effects_impl.h"
 
 typedef struct cvode {
     void *memory;
@@ -47,8 +48,7 @@ static int projection(sunrealtype t, N_Vector y, N_Vector correction, sunrealtyp
     (void)t, (void)tolerance, (void)error;
     copy(N_VGetArrayPointer(y), state, it->model.dim);
     iso_integrator_project(it, state);
-    for (int i = 0; i < it->model.dim; i++)
-        N_VGetArrayPointer(correction)[i] = state[i] - N_VGetArrayPointer(y)[i];
+    for (int i = 0; i < it->model.dim; i++) N_VGetArrayPointer(correction)[i] = state[i] - N_VGetArrayPointer(y)[i];
     return 0;
 }
 
@@ -158,7 +158,12 @@ static iso_suits bdf_suits(const iso_model *m)
 
 const iso_method iso_method_adams = {
     .name = "adams", .variant = CV_ADAMS, .doc = "CVODE, variable-order Adams-Moulton, orders 1-12", CVODE_METHOD};
-const iso_method iso_method_bdf = {
-    .name = "bdf", .variant = CV_BDF, .implicit = true, .projects = true, .suits = bdf_suits,
-    .witness = 4, .dense = dense,
-    .doc = "CVODE, variable-order BDF, orders 1-5, analytic Jacobian, projection", CVODE_METHOD};
+const iso_method iso_method_bdf = {.name = "bdf",
+                                   .variant = CV_BDF,
+                                   .implicit = true,
+                                   .projects = true,
+                                   .suits = bdf_suits,
+                                   .witness = 4,
+                                   .dense = dense,
+                                   .doc = "CVODE, variable-order BDF, orders 1-5, analytic Jacobian, projection",
+                                   CVODE_METHOD};

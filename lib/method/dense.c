@@ -4,8 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/monitor_impl.h"
 #include "base/vec3_impl.h"
 #include "method/gsl_impl.h"
+#include "method/methods_impl.h"
 
 enum { MOST_STEPS = 100000 }; /* to one time; as a rule it needs one */
 

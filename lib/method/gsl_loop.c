@@ -9,6 +9,7 @@
 
 #include "base/room_impl.h"
 #include "base/vec3_impl.h"
+#include "model/model_impl.h"
 
 /* --- the model as GSL sees it ---------------------------------------------------------------------------------- */
 

@@ -5,8 +5,10 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/monitor_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
+#include "method/methods_impl.h"
 #include "model/rest_impl.h"
 
 iso_status iso_tolerance_check(iso_context *ctx, double tolerance)

@@ -26,13 +26,16 @@
 #endif
 
 /* Every method of the library, in the order in which lists show them. */
-#define ISO_METHOD_LIST(X)                                                                                         \
-    X(adams) X(bdf)                                                                           /* cvode.c  */       \
-    X(heun_euler) X(bogacki_shampine) X(ark324) X(zonneveld) X(ark436) X(ark437) X(sayfy_aburub)                   \
-    X(cash_karp) X(fehlberg45) X(dormand_prince) X(ark548) X(ark548b) X(verner) X(fehlberg78) /* arkode.c */       \
-    X(rk4) X(rkf45) X(rkck) X(rk8pd) X(msadams) X(msbdf) X(bsimp)                             /* gsl.c    */       \
-    X(taylor) X(taylor_extended) ISO_QUAD(X)                                                  /* taylor.c */       \
-    X(strang) X(blanes_moan4) X(blanes_moan6) X(kahan_li8) X(sofroniou_spaletta10)        /* splitting.c */
+#define ISO_METHOD_LIST(X)                                                                                           \
+    X(adams)                                                                                                         \
+    X(bdf) /* cvode.c  */                                                                                            \
+    X(heun_euler)                                                                                                    \
+    X(bogacki_shampine)                                                                                              \
+    X(ark324) X(zonneveld) X(ark436) X(ark437) X(sayfy_aburub) X(cash_karp) X(fehlberg45) X(dormand_prince)          \
+        X(ark548) X(ark548b) X(verner) X(fehlberg78)                                   /* arkode.c */                \
+        X(rk4) X(rkf45) X(rkck) X(rk8pd) X(msadams) X(msbdf) X(bsimp)                  /* gsl.c    */                \
+        X(taylor) X(taylor_extended) ISO_QUAD(X)                                       /* taylor.c */                \
+        X(strang) X(blanes_moan4) X(blanes_moan6) X(kahan_li8) X(sofroniou_spaletta10) /* splitting.c */
 
 /* From this stiffness on bdf needs less time than bsimp, which is more exact below it. */
 enum { ISO_VERY_STIFF = 1000 };
@@ -40,5 +43,25 @@ enum { ISO_VERY_STIFF = 1000 };
 #define ISO_METHOD_DECLARE(name) extern const iso_method iso_method_##name;
 ISO_METHOD_LIST(ISO_METHOD_DECLARE)
 #undef ISO_METHOD_DECLARE
+
+/* Whether a scene's method is one of them. Errors: ISO_BAD_ARGUMENT about "method", with the nearest name. */
+iso_status iso_method_check(iso_context *ctx, const char *name);
+
+/* Whether the method can simulate the model. If not, `why` says what is missing, in words that follow the method's
+ * name. */
+enum { ISO_WHY_SIZE = 256 };
+bool iso_method_serves(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE]);
+
+/* What "auto" means for a model: of the methods that serve it the one that suits it best (iso_method.suits), the
+ * first of equals in the registry. As a rule:
+ * - stiff models (iso_effects_stiffness): `bsimp`, the stiffest `bdf`;
+ * - (24) with |k| so small that (max J/min J)^(1/|k|) > 1e10: `rk8pd`;
+ * - all others: `taylor`. */
+const iso_method *iso_method_auto(const iso_model *model);
+
+/* For references: the method with the least digits above `digits`; and the method asked as `place`-th whether another
+ * code confirms a result (iso_method.witness). NULL: there is none. */
+const iso_method *iso_method_with_more_digits(int digits);
+const iso_method *iso_method_witness(int place);
 
 #endif

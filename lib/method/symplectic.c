@@ -26,6 +26,8 @@
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
+#include "model/formula_lines_impl.h"
+#include "model/system_impl.h"
 
 /* --- coefficients ---------------------------------------------------------------------------------------------- */
 

@@ -22,7 +22,7 @@ enum { ISO_MAX_ROW_STEPS = 10000000 };
  *     status = iso_conversion_end(c, &summary);
  *     iso_conversion_free(c);
  *
- * Two-point Taylor quadrature (method/two_point.h) gives the gain of the other clock between two rows. It also shows
+ * Two-point Taylor quadrature gives the gain of the other clock between two rows. It also shows
  * whether the two rows lie on one orbit. Where they are too far apart for it, the orbit is integrated. If a row does
  * not lie on the orbit of the row before it, it is held until the next row shows which of the two is damaged. Sums of
  * times are compensated. */
@@ -50,20 +50,20 @@ typedef struct iso_stated {
 } iso_stated;
 
 typedef struct iso_conversion_summary {
-    size_t rows, bad;      /* all rows, and those that could not be converted                                */
-    iso_worst constraint;  /* ball: | |n| - 1 | and (omega,n)/|omega|; point: likewise                       */
-    iso_worst energy;      /* ball: h against that of the first row; point: H against its level; relative to
+    size_t rows, bad;           /* all rows, and those that could not be converted                                */
+    iso_worst constraint;       /* ball: | |n| - 1 | and (omega,n)/|omega|; point: likewise                       */
+    iso_worst energy;           /* ball: h against that of the first row; point: H against its level; relative to
                               the size of the terms                                                         */
-    iso_worst defect;      /* distance of a row from the orbit through the row before it, relative to the
+    iso_worst defect;           /* distance of a row from the orbit through the row before it, relative to the
                               length of each vector. If the record has the other clock: also how far the unit
                               vector moves in the time by which that clock is wrong                         */
-    iso_worst drift;       /* the defects added up while the unit vector moves by half a radian. It grows if
+    iso_worst drift;            /* the defects added up while the unit vector moves by half a radian. It grows if
                               the rows follow other equations, and averages out if they are only rounded    */
-    bool checked;          /* the record has a clock, so defect and drift are known                          */
+    bool checked;               /* the record has a clock, so defect and drift are known                          */
     size_t between, integrated; /* intervals by quadrature, and by integration                               */
-    bool computed;         /* the other clock was computed                                                   */
-    iso_clock clock;       /* the other clock                                                                */
-    double end, error;     /* its last value, and an estimate of its error: from the quadratures, the defects
+    bool computed;              /* the other clock was computed                                                   */
+    iso_clock clock;            /* the other clock                                                                */
+    double end, error;          /* its last value, and an estimate of its error: from the quadratures, the defects
                               and the rounding of the sums. A wrong k or J is not part of this estimate; it
                               shows as drift                                                                */
     int stated_count;           /* how many lines the first row does not confirm                             */

@@ -4,9 +4,12 @@
 
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "map/state.h"
+#include "model/effects_impl.h"
 #include "orbit/crossings_impl.h"
+#include "orbit/orbit_impl.h"
+#include "orbit/scene_impl.h"
 
 /* --- the orbit -------------------------------------------------------------------------------------------------- */
 

@@ -8,10 +8,12 @@
 
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "map/state.h"
 #include "method/integrator_impl.h"
+#include "model/system_impl.h"
 #include "orbit/crossings_impl.h"
+#include "orbit/orbit_impl.h"
 #include "orbit/pool_impl.h"
 
 /* CHUNK: orbits that a thread takes at a time. BYTES: its room for their crossings. */

@@ -9,6 +9,7 @@
 
 #include "base/finite_impl.h"
 #include "base/vec3_impl.h"
+#include "exact/exact_impl.h"
 #include "exact/walk_impl.h"
 #include "method/integrator_impl.h"
 #include "orbit/orbit_impl.h"

@@ -14,9 +14,13 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
-#include "map/state.h"
+#include "map/state_impl.h"
 #include "method/integrator_impl.h"
+#include "method/methods_impl.h"
+#include "model/effects_impl.h"
+#include "model/system_impl.h"
 #include "orbit/orbit_impl.h"
+#include "orbit/scene_impl.h"
 
 /* --- making an orbit -------------------------------------------------------------------------------------------- */
 

@@ -9,7 +9,9 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/monitor_impl.h"
 #include "method/methods_impl.h"
+#include "model/effects_impl.h"
 #include "orbit/orbit_impl.h"
 
 void iso_pool_note(iso_pool_worker *w, size_t i, iso_status status)

@@ -9,6 +9,9 @@
 #include "base/arithmetic_impl.h"
 #include "base/seconds_impl.h"
 #include "base/vec3_impl.h"
+#include "method/methods_impl.h"
+#include "orbit/orbit_impl.h"
+#include "orbit/scene_impl.h"
 
 typedef struct runner {
     iso_context *ctx;

@@ -1,5 +1,5 @@
 /* The estimated error of an orbit: a finer orbit and four moved ones run beside it, see error.h. */
-#include "study/error.h"
+#include "study/error_impl.h"
 
 #include <float.h>
 #include <math.h>
@@ -9,6 +9,8 @@
 #include "base/options_impl.h"
 #include "base/seconds_impl.h"
 #include "base/vec3_impl.h"
+#include "method/methods_impl.h"
+#include "model/effects_impl.h"
 #include "orbit/orbit_impl.h"
 
 /* How far from the start the moved orbits begin, relative: far above the error of their method, but small enough that

@@ -11,8 +11,13 @@
 #include "base/monitor_impl.h"
 #include "base/options_impl.h"
 #include "base/version.h"
+#include "method/methods_impl.h"
+#include "model/effects_impl.h"
 #include "orbit/description.h"
+#include "orbit/orbit_impl.h"
+#include "orbit/scene_impl.h"
 #include "study/backend_impl.h"
+#include "study/error_impl.h"
 #include "study/run_times_impl.h"
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */

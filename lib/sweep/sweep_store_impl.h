@@ -81,4 +81,7 @@ iso_sweep_column *iso_sweep_columns_scan(const char *text, int *count);
 /* "cannot read 'path': WHY" */
 iso_status iso_sweep_damaged(iso_context *ctx, const char *path, const char *why);
 
+/* Reads all rows, from the first on, for those that have failed. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+iso_status iso_sweep_reader_failures(iso_context *ctx, iso_sweep_reader *reader, iso_sweep_failures *failures);
+
 #endif

@@ -1,6 +1,6 @@
 /* two_point.c - the quadrature of two_point.h. The Taylor coefficients at both samples come from the recurrences of
  * the Taylor method. */
-#include "method/two_point.h"
+#include "method/two_point_impl.h"
 
 #include "model/effects_impl.h"
 #include "model/model.h"

@@ -10,6 +10,8 @@
 #include "base/options_impl.h"
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
+#include "map/section_impl.h"
+#include "model/effects_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/chaos/chaos_impl.h"
 #include "study/chaos/share_impl.h"
@@ -114,8 +116,8 @@ static void choose_models(iso_chaos_walk *w)
     const iso_effects *e = &w->effects;
     const bool alone = iso_effects_breaking(e) || iso_effects_ball_only(e);
     const iso_models models = w->options.models != ISO_SHOW_START ? w->options.models
-                             : alone                             ? ISO_SHOW_BALL
-                                                                 : ISO_SHOW_BOTH;
+                              : alone                             ? ISO_SHOW_BALL
+                                                                  : ISO_SHOW_BOTH;
     w->out->with[ISO_BALL] = models != ISO_SHOW_POINT;
     w->out->with[ISO_POINT] = models != ISO_SHOW_BALL;
 }

@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "orbit/crossings_impl.h"
 #include "study/chaos/chaos_impl.h"
+#include "study/chaos/indicators_impl.h"
 #include "study/chaos/share_impl.h"
 
 /* GROUP: orbits that are followed together. ROUND: the most turns of a round. Together some 25 MB of crossings. */

@@ -10,6 +10,10 @@
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
+#include "model/effects_impl.h"
+#include "model/params_impl.h"
+#include "orbit/description_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/check/check_impl.h"
 
 /* --- what the others ask ---------------------------------------------------------------------------------------- */
@@ -279,8 +283,8 @@ iso_status iso_checking_create(iso_context *ctx, const iso_params *params, const
     made->all.first = made->all.last ? made->all.last + iso_record_columns(header) : NULL;
     made->all.second = made->all.first ? made->all.first + iso_record_columns(header) : NULL;
     iso_units_choose(params, 0, &made->all.units);
-    const iso_status status = made->all.last ? begin(&made->all)
-                                             : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a check");
+    const iso_status status =
+        made->all.last ? begin(&made->all) : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a check");
     if (status == ISO_OK) return ISO_OK;
     iso_checking_free(made);
     *checking = NULL;

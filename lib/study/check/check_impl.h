@@ -11,7 +11,7 @@
 #ifndef ISO_STUDY_CHECK_IMPL_H
 #define ISO_STUDY_CHECK_IMPL_H
 
-#include "method/two_point.h"
+#include "method/two_point_impl.h"
 #include "orbit/description.h"
 #include "orbit/orbit_impl.h"
 #include "study/check/check.h"

@@ -6,6 +6,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
+#include "method/methods_impl.h"
 #include "study/chaos/chaos.h"
 #include "study/cost/cost_impl.h"
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "method/methods_impl.h"
 #include "study/cost/cost_impl.h"
 
 /* A run from which the reference may come. */

@@ -6,8 +6,10 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/monitor_impl.h"
 #include "base/options_impl.h"
-#include "map/level.h"
+#include "map/level_impl.h"
+#include "map/section_impl.h"
 #include "study/integrals/integrals_impl.h"
 #include "study/level_impl.h"
 

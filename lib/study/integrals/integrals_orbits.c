@@ -3,8 +3,10 @@
 #include <stdlib.h>
 
 #include "base/pi_impl.h"
-#include "base/random.h"
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
+#include "map/section_impl.h"
+#include "model/params_impl.h"
 #include "orbit/batch.h"
 #include "study/integrals/integrals_impl.h"
 

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/monitor_impl.h"
 #include "base/options_impl.h"
 #include "base/pi_impl.h"
 #include "orbit/pool_impl.h"
@@ -378,8 +379,8 @@ iso_status iso_continuation_check(iso_context *ctx, const iso_scene *scene, cons
     return prepare(ctx, scene, options, &f, &own);
 }
 
-iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_orbit orbits[], size_t count,
-                          const iso_continuation_options *options, iso_continuations **follow)
+iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_orbit orbits[],
+                                size_t count, const iso_continuation_options *options, iso_continuations **follow)
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_continuation f;

@@ -9,8 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/monitor_impl.h"
 #include "base/vec3_impl.h"
 #include "method/taylor/lanes_impl.h"
+#include "model/effects_impl.h"
 #include "orbit/crossings_impl.h"
 #include "study/periodic/periodic_impl.h"
 

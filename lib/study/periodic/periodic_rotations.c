@@ -3,8 +3,10 @@
 #define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 
+#include "base/monitor_impl.h"
 #include "base/pi_impl.h"
 #include "orbit/crossings_impl.h"
+#include "study/periodic/hill_trace_impl.h"
 #include "study/periodic/hill_wide_impl.h"
 #include "study/periodic/periodic_impl.h"
 

@@ -5,11 +5,12 @@
 #include <math.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/monitor_impl.h"
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
-#include "map/level.h"
+#include "map/level_impl.h"
 #include "orbit/pool_impl.h"
-#include "study/periodic/periodic.h"
+#include "study/periodic/hill_trace_impl.h"
 
 typedef struct chart {
     iso_context *ctx;

@@ -82,4 +82,8 @@ static inline iso_wide iso_wide_turned(iso_wide angle)
     return iso_wide_wrap(angle, 2 * WIDE_PI);
 }
 
+/* The same, and next_... as well. */
+iso_status iso_separatrix_next_at(iso_context *ctx, double k, const double J[3], double level,
+                                  iso_separatrix_digits digits, iso_separatrix_splitting *s);
+
 #endif

@@ -10,8 +10,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/monitor_impl.h"
 #include "base/pi_impl.h"
-#include "map/level.h"
+#include "map/level_impl.h"
 #include "map/section.h"
 #include "method/taylor/lanes_impl.h"
 #include "orbit/crossings_impl.h"

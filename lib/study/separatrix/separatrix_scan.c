@@ -1,4 +1,5 @@
 /* splitting_scan.c - the splitting at many k or levels on all threads, and the zeros of m between them. */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 #include <stdlib.h>
 
@@ -7,7 +8,7 @@
 #include "base/pi_impl.h"
 #include "orbit/pool_impl.h"
 #include "study/level_impl.h"
-#include "study/separatrix/separatrix.h"
+#include "study/separatrix/separatrix_impl.h"
 
 /* m has the zeros k = 1 and k = -1 anyway. Others are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1), which is of the
  * same size everywhere. Two neighbours with one between, along k or along the level. */
@@ -114,7 +115,7 @@ static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_se
     iso_status status = search(w, c, &b, &at, &slope);
     for (int i = 0; i < MOST && status == ISO_OK; i++) {
         status = iso_separatrix_next_at(w->ctx, b.by_level ? b.other : at, c->o->J, b.by_level ? at : b.other,
-                                       c->o->digits, zero);
+                                        c->o->digits, zero);
         r = reduced(zero, zero->m), error = fabs(reduced(zero, zero->error));
         if (i > 0 && fabs(at - last) > 1e-12 * size_of(&b, at)) slope = (r - last_r) / (at - last);
         least = 4e-16 * fabs(slope) * size_of(&b, at);
