@@ -1,5 +1,4 @@
-/* crossings.c - many orbits from crossing to crossing: checks the options, follows the orbits in lanes or one by one,
- * and keeps their failures. */
+/* crossings.c - many orbits from crossing to crossing: checks the options, follows the orbits in lanes or one by one. */
 #include "orbit/crossings.h"
 
 #include <math.h>
@@ -103,15 +102,6 @@ static void blank(const iso_crossings *c, const iso_crossings_task *t)
             if (t->sample) iso_sample_blank(&t->sample[t->each * i + j]);
         }
     }
-}
-
-void iso_crossings_keep(iso_crossings *c, const iso_context *ctx, size_t i, iso_status status)
-{
-    iso_crossed *o = &c->orbit[i];
-    if (status == ISO_OK || status == ISO_STOPPED) return;
-    o->status = status;
-    o->why = strdup(iso_context_message(ctx));
-    snprintf(o->about, sizeof o->about, "%s", iso_context_about(ctx));
 }
 
 typedef struct loners {

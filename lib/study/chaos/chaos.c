@@ -137,18 +137,6 @@ static iso_status open_orbit(iso_chaos_walk *w, iso_sample *start)
 
 /* --- the result ------------------------------------------------------------------------------------------------- */
 
-void iso_chaos_judge(const iso_chaos *c, iso_chaos_orbit *orbit)
-{
-    bool found[3] = {false, false, false};
-    for (int m = 0; m < 2; m++)
-        if (c->with[m]) found[orbit->told[m].verdict] = true;
-    orbit->disagree = found[ISO_REGULAR] && found[ISO_CHAOTIC];
-    orbit->verdict = orbit->disagree      ? ISO_UNDECIDED
-                     : found[ISO_CHAOTIC] ? ISO_CHAOTIC
-                     : found[ISO_REGULAR] ? ISO_REGULAR
-                                          : ISO_UNDECIDED;
-}
-
 static bool could_not_be_followed(const iso_chaos_orbit *o)
 {
     return o->verdict == ISO_UNDECIDED && (o->status[ISO_BALL] != ISO_OK || o->status[ISO_POINT] != ISO_OK);

@@ -245,6 +245,19 @@ static void show_progress(const group *g)
     w->options.progress(fmin(1, ((double)g->first + done / models) / all), w->options.data);
 }
 
+/* The verdict of both models. */
+static void judge(const iso_chaos *c, iso_chaos_orbit *orbit)
+{
+    bool found[3] = {false, false, false};
+    for (int m = 0; m < 2; m++)
+        if (c->with[m]) found[orbit->told[m].verdict] = true;
+    orbit->disagree = found[ISO_REGULAR] && found[ISO_CHAOTIC];
+    orbit->verdict = orbit->disagree      ? ISO_UNDECIDED
+                     : found[ISO_CHAOTIC] ? ISO_CHAOTIC
+                     : found[ISO_REGULAR] ? ISO_REGULAR
+                                          : ISO_UNDECIDED;
+}
+
 /* Each model follows an orbit until its own end, even if the other model has decided before. */
 static iso_status follow_group(group *g)
 {
@@ -261,7 +274,7 @@ static iso_status follow_group(group *g)
     }
     for (int m = 0; m < 2; m++)
         if (c->with[m]) tell(g, m);
-    for (size_t i = 0; i < g->count; i++) iso_chaos_judge(c, orbit_of(g, i));
+    for (size_t i = 0; i < g->count; i++) judge(c, orbit_of(g, i));
     for (int m = 0; m < 2; m++) {
         iso_crossings_free(g->model[m].crossings);
         g->model[m].crossings = NULL;

@@ -18,12 +18,6 @@
 
 #define NEAR_END 4e-3 /* of the line, in u: here a collision is foretold */
 
-const char *iso_vary_name(int vary)
-{
-    static const char *const names[] = {"k", "J1", "J2", "J3", "ratio", "level"};
-    return vary >= 0 && vary < 6 ? names[vary] : NULL;
-}
-
 const char *iso_branch_kind_name(iso_branch_kind kind)
 {
     static const char *const names[] = {

@@ -7,6 +7,12 @@
 #include "model/params_impl.h"
 #include "study/periodic/continuation_impl.h"
 
+const char *iso_vary_name(int vary)
+{
+    static const char *const names[] = {"k", "J1", "J2", "J3", "ratio", "level"};
+    return vary >= 0 && vary < 6 ? names[vary] : NULL;
+}
+
 bool iso_continuation_params(const iso_continuation *f, double value, iso_params *p, double *energy)
 {
     double J[3] = {f->base.J[0], f->base.J[1], f->base.J[2]}, k = f->base.k, level = f->level;

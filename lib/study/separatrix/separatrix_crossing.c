@@ -280,7 +280,7 @@ static iso_status draw(iso_context *ctx, const iso_manifold *m, int halves, iso_
 }
 
 iso_status iso_separatrix_curve(iso_context *ctx, double k, const double J[3], double level, int halves,
-                               iso_record **curve)
+                                iso_record **curve)
 {
     static const char *const names[] = {"u", "x"};
     iso_manifold m;
