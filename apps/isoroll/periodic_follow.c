@@ -91,8 +91,9 @@ static json_t *branch_of(const iso_branch *b, const char *name)
         if (b->event[j].axis >= 0) json_object_set_new(e, "axis", json_integer(b->event[j].axis + 1));
         json_array_append_new(events, e);
     }
-    return json_pack("{s:i, s:s, s:o, s:o, s:o}", "period", b->period, "line", iso_symmetry_line_name(b->line), "parent",
-                     b->parent < 0 ? json_null() : json_integer(b->parent + 1), "points", points, "events", events);
+    return json_pack("{s:i, s:s, s:o, s:o, s:o}", "period", b->period, "line", iso_symmetry_line_name(b->line),
+                     "parent", b->parent < 0 ? json_null() : json_integer(b->parent + 1), "points", points, "events",
+                     events);
 }
 
 static bool print_json(const iso_continuations *f, const char *name)
@@ -128,8 +129,8 @@ static iso_status draw(iso_context *ctx, const iso_scene *scene, const iso_conti
 
 /* --- the whole -------------------------------------------------------------------------------------------------- */
 
-static int show(iso_context *ctx, const iso_scene *scene, const iso_continuations *f, const iso_continuation_options *o,
-                const periodic_follow *how)
+static int show(iso_context *ctx, const iso_scene *scene, const iso_continuations *f,
+                const iso_continuation_options *o, const periodic_follow *how)
 {
     const char *name = iso_vary_name((int)o->vary);
     iso_status status = ISO_OK;
@@ -161,7 +162,7 @@ static iso_status choose(iso_context *ctx, const iso_periodic *found, const peri
     if (how->orbit > (double)found->count)
         return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--orbit %g: the list ends at %zu", how->orbit, found->count);
     *list = malloc((found->count + 1) * sizeof **list);
-    if (!*list) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the orbits");
+    if (!*list) return iso_context_no_memory(ctx, "the orbits");
     for (size_t i = 0; i < found->count; i++)
         if (how->orbit > 0 ? (double)(i + 1) == how->orbit : found->orbit[i].line >= 0)
             (*list)[(*count)++] = found->orbit[i];

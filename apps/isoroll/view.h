@@ -27,6 +27,9 @@ enum {
  * right to 1e-6 of the radius. */
 #define VIEW_TURN 0.1
 
+/* Digits of base64. */
+#define VIEW_BASE64 "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"
+
 enum { VIEW_NOTES = 8, VIEW_WORDS = 512 };
 
 typedef struct view_integral {
@@ -116,10 +119,6 @@ iso_status view_numbers(iso_context *ctx, view_page *page);
 
 /* Whether a column of iso_column_name is there only if there is a point: tau, s, M and gamma. */
 bool view_is_of_point(int column);
-
-/* A new record with the same lines and other columns. */
-iso_status view_record_like(iso_context *ctx, const iso_record *r, size_t columns, const char *const names[],
-                            iso_record **made);
 
 /* The three numbers of a vector in a row; `name` is its first column. NULL: there is no such column. */
 const double *view_vector(const iso_record *r, size_t row, const char *name);

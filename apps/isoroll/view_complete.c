@@ -52,7 +52,7 @@ static iso_status create(completion *c)
         for (int a = 0; a < ATTITUDE; a++) wanted = wanted || strcmp(name, attitude_names[a]) == 0;
         if (wanted) names[count++] = name;
     }
-    return view_record_like(c->ctx, c->in, count, names, &c->out);
+    return iso_record_create_like(c->ctx, c->in, count, names, &c->out);
 }
 
 static void put(completion *c, double *row, const char *name, double value)

@@ -88,19 +88,6 @@ iso_status view_orbit(iso_context *ctx, const view_page *page, const iso_start *
     return iso_orbit_create(ctx, &page->params, start, &o, orbit);
 }
 
-iso_status view_record_like(iso_context *ctx, const iso_record *r, size_t columns, const char *const names[],
-                            iso_record **made)
-{
-    const char *key, *value;
-    iso_status status = iso_record_create(ctx, columns, names, made);
-    if (status != ISO_OK) return status;
-    iso_record_set_row_tolerance(*made, iso_record_row_tolerance(r));
-    for (size_t i = 0; status == ISO_OK && iso_record_line(r, i, &key, &value); i++)
-        status = iso_record_set(ctx, *made, key, value);
-    if (status != ISO_OK) iso_record_free(*made), *made = NULL;
-    return status;
-}
-
 const double *view_vector(const iso_record *r, size_t row, const char *name)
 {
     const int column = iso_record_find(r, name);

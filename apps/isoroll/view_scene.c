@@ -19,9 +19,7 @@ typedef struct collector {
 static iso_status keep_header(void *data, const iso_record *header)
 {
     collector *c = data;
-    const char *names[ISO_MAX_COLUMNS];
-    for (size_t i = 0; i < iso_record_columns(header); i++) names[i] = iso_record_name(header, i);
-    return view_record_like(c->ctx, header, iso_record_columns(header), names, &c->rows);
+    return iso_record_create_like(c->ctx, header, 0, NULL, &c->rows);
 }
 
 static iso_status keep_row(void *data, const double row[], size_t count)
@@ -137,7 +135,7 @@ static iso_status run_with(iso_context *ctx, iso_scene *scene, bool twin, view_p
     if (status != ISO_OK) return status;
     free(*times);
     *times = times_of(scene, page, count);
-    if (!*times) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the times");
+    if (!*times) return iso_context_no_memory(ctx, "the times");
     return run_at(ctx, scene, *times, *count, page, &page->rows);
 }
 

@@ -42,7 +42,7 @@ static iso_status read_names(reading *r)
     size_t count = 0;
     for (char *rest = r->line, *name; (name = strsep(&rest, ",")); names[count++] = name)
         if (count == MOST_COLUMNS) return fail(r, name, "more than 64 columns");
-    return view_record_like(r->ctx, r->lines, count, names, &r->record);
+    return iso_record_create_like(r->ctx, r->lines, count, names, &r->record);
 }
 
 static iso_status read_row(reading *r)

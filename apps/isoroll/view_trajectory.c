@@ -66,15 +66,13 @@ static iso_status pick(iso_context *ctx, const iso_record *in, int time, size_t 
 
 static iso_status thin_out(iso_context *ctx, const iso_record *in, view_page *page, iso_record **out)
 {
-    const char *names[ISO_TRAJECTORY_COLUMNS];
     const int time = iso_record_find(in, iso_clock_name(page->clock));
     *out = NULL;
     page->total = iso_record_rows(in);
     if (page->total < 2)
         return iso_context_fail(ctx, ISO_BAD_INPUT, "", "a page needs at least two rows, found %zu", page->total);
     page->every = (page->total + VIEW_MOST_ROWS - 2) / (VIEW_MOST_ROWS - 1);
-    for (size_t i = 0; i < iso_record_columns(in); i++) names[i] = iso_record_name(in, i);
-    iso_status status = view_record_like(ctx, in, iso_record_columns(in), names, out);
+    iso_status status = iso_record_create_like(ctx, in, 0, NULL, out);
     if (status == ISO_OK) status = pick(ctx, in, time, page->every, *out);
     if (status == ISO_OK && iso_record_rows(*out) < 2)
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "all rows have the same time: nothing moves");

@@ -48,6 +48,15 @@ ISO_API iso_status iso_context_fail(iso_context *ctx, iso_status status, const c
 #endif
     ;
 
+/* Two frequent failures: ISO_NO_MEMORY, "no memory for " and what, in printf's words; ISO_STOPPED, "stopped on
+ * request". */
+ISO_API iso_status iso_context_no_memory(iso_context *ctx, const char *what, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 2, 3)))
+#endif
+    ;
+ISO_API iso_status iso_context_stopped(iso_context *ctx);
+
 ISO_C_END
 
 #endif

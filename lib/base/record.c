@@ -23,7 +23,7 @@ struct iso_record {
 
 static iso_status no_memory(iso_context *ctx)
 {
-    return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a trajectory record");
+    return iso_context_no_memory(ctx, "a trajectory record");
 }
 
 iso_status iso_record_create(iso_context *ctx, size_t columns, const char *const names[], iso_record **record)
@@ -59,6 +59,30 @@ void iso_record_free(iso_record *r)
     free(r->names);
     free(r->data);
     free(r);
+}
+
+static iso_status copy_lines(iso_context *ctx, const iso_record *from, iso_record *to)
+{
+    iso_status status = ISO_OK;
+    for (size_t i = 0; status == ISO_OK && i < from->lines; i++)
+        status = iso_record_set(ctx, to, from->line[i].key, from->line[i].value);
+    return status;
+}
+
+iso_status iso_record_create_like(iso_context *ctx, const iso_record *other, size_t columns,
+                                  const char *const names[], iso_record **record)
+{
+    const size_t count = names ? columns : other->columns;
+    const char **name = calloc(count + 1, sizeof *name);
+    *record = NULL;
+    for (size_t i = 0; name && i < count; i++) name[i] = names ? names[i] : other->names[i];
+    iso_status status = name ? iso_record_create(ctx, count, name, record) : no_memory(ctx);
+    free(name);
+    if (status != ISO_OK) return status;
+    (*record)->row_tolerance = other->row_tolerance;
+    status = copy_lines(ctx, other, *record);
+    if (status != ISO_OK) iso_record_free(*record), *record = NULL;
+    return status;
 }
 
 size_t iso_record_columns(const iso_record *r)

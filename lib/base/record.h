@@ -22,6 +22,10 @@ ISO_API iso_status iso_record_create(iso_context *ctx, size_t columns, const cha
                                      iso_record **record);
 ISO_API void iso_record_free(iso_record *record);
 
+/* The same with the lines and the row tolerance of another record. names NULL: with its columns, too. */
+ISO_API iso_status iso_record_create_like(iso_context *ctx, const iso_record *other, size_t columns,
+                                          const char *const names[], iso_record **record);
+
 ISO_API size_t iso_record_columns(const iso_record *record);
 ISO_API size_t iso_record_rows(const iso_record *record);
 ISO_API const char *iso_record_name(const iso_record *record, size_t column);

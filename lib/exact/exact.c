@@ -218,7 +218,7 @@ iso_status iso_exact_create(iso_context *ctx, const iso_problem *problem, const 
     if (status == ISO_OK) status = find_form(ctx, problem, start, &form);
     if (status != ISO_OK) return status;
     iso_exact *x = calloc(1, sizeof *x);
-    if (!x) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a closed solution");
+    if (!x) return iso_context_no_memory(ctx, "a closed solution");
     x->form = form;
     for (int c = 0; c < ISO_CLOCKS; c++) x->has[c] = clocks[c];
     status = make(ctx, problem, start, x);

@@ -35,28 +35,6 @@ void iso_notes_add(notes *n, const char *words)
 
 /* --- records ---------------------------------------------------------------------------------------------------- */
 
-static iso_status copy_lines(iso_context *ctx, const iso_record *from, iso_record *to)
-{
-    const char *key, *value;
-    iso_status status = ISO_OK;
-    for (size_t i = 0; status == ISO_OK && iso_record_line(from, i, &key, &value); i++)
-        status = iso_record_set(ctx, to, key, value);
-    return status;
-}
-
-iso_status iso_foreign_copy_header(iso_context *ctx, const iso_record *from, iso_record **record)
-{
-    const size_t columns = iso_record_columns(from);
-    const char **names = calloc(columns + 1, sizeof *names);
-    *record = NULL;
-    if (!names) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a record");
-    for (size_t c = 0; c < columns; c++) names[c] = iso_record_name(from, c);
-    iso_status status = iso_record_create(ctx, columns, names, record);
-    free(names);
-    if (status == ISO_OK) iso_record_set_row_tolerance(*record, iso_record_row_tolerance(from));
-    return status == ISO_OK ? copy_lines(ctx, from, *record) : status;
-}
-
 iso_status iso_foreign_record_append(iso_context *ctx, iso_record *record, size_t count, const double rows[])
 {
     const size_t columns = iso_record_columns(record);
@@ -130,7 +108,7 @@ iso_status iso_foreign_monitor_create(iso_context *ctx, double seconds, bool (*g
                                       iso_foreign_monitor **monitor)
 {
     iso_foreign_monitor *m = *monitor = malloc(sizeof *m);
-    if (!m) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a monitor");
+    if (!m) return iso_context_no_memory(ctx, "a monitor");
     *m = (iso_foreign_monitor){go_on, data, seconds, now()};
     iso_context_set_monitor(ctx, ask_sometimes, m);
     return ISO_OK;

@@ -4,6 +4,7 @@
 
 #include "foreign/foreign_impl.h"
 #include "io/trajectory.h"
+#include "method/integrator_impl.h"
 #include "orbit/convert.h"
 
 /* --- reading ---------------------------------------------------------------------------------------------------- */
@@ -33,7 +34,7 @@ iso_status iso_foreign_read(iso_context *ctx, const char *path, const char *colu
     *record = NULL;
     iso_status status = iso_trajectory_reader_open(ctx, path, columns, &in);
     if (status != ISO_OK) return status;
-    status = iso_foreign_copy_header(ctx, iso_trajectory_header(in), record);
+    status = iso_record_create_like(ctx, iso_trajectory_header(in), 0, NULL, record);
     if (status == ISO_OK) status = read_rows(ctx, in, *record);
     if (iso_trajectory_ignored(in)) {
         snprintf(words, sizeof words, "%.60s: passed over: %s", path, iso_trajectory_ignored(in));
@@ -77,7 +78,7 @@ typedef struct keeper {
 static iso_status keep_header(void *data, const iso_record *header)
 {
     keeper *k = data;
-    return iso_foreign_copy_header(k->ctx, header, &k->out);
+    return iso_record_create_like(k->ctx, header, 0, NULL, &k->out);
 }
 
 /* No row is NULL: a bad one has ended the work. */
@@ -142,11 +143,9 @@ iso_status iso_foreign_convert(iso_context *ctx, const iso_record *in, const cha
     if (status == ISO_OK && !(row_tolerance > 0 && row_tolerance <= 0.1))
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "row_tolerance", "row_tolerance %g is not in (0, 0.1]",
                                   row_tolerance);
-    if (status == ISO_OK && !(tolerance >= 1e-15 && tolerance <= 0.1))
-        status =
-            iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in [1e-15, 0.1]", tolerance);
+    if (status == ISO_OK) status = iso_tolerance_check(ctx, tolerance);
     if (status == ISO_OK) status = iso_record_params(ctx, in, &params);
-    if (status == ISO_OK) status = iso_foreign_copy_header(ctx, in, &header);
+    if (status == ISO_OK) status = iso_record_create_like(ctx, in, 0, NULL, &header);
     if (status == ISO_OK) {
         iso_record_set_row_tolerance(header, row_tolerance);
         status = iso_conversion_create(ctx, &params, header, (iso_model_kind)model, &o, &target, &c);

@@ -24,9 +24,6 @@ void iso_notes_add(notes *n, const char *words);
 /* Puts the place in the scene before a failure (iso_scene_blame). */
 iso_status iso_foreign_blame(iso_context *ctx, const iso_foreign_scene *scene, iso_status status);
 
-/* A new record with the columns, lines and row tolerance of `from`, without rows. */
-iso_status iso_foreign_copy_header(iso_context *ctx, const iso_record *from, iso_record **record);
-
 /* The number of a word in a list of names that NULL ends, NULL being "auto".
  * Errors: ISO_BAD_ARGUMENT about `key`. */
 iso_status iso_foreign_word(iso_context *ctx, const char *key, const char *(*name)(int), const char *word,

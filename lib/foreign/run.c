@@ -24,7 +24,7 @@ typedef struct keeper {
 static iso_status keep_header(void *data, const iso_record *header)
 {
     keeper *k = data;
-    return k->table ? ISO_OK : iso_foreign_copy_header(k->ctx, header, &k->record);
+    return k->table ? ISO_OK : iso_record_create_like(k->ctx, header, 0, NULL, &k->record);
 }
 
 static iso_status keep_row(void *data, const double row[], size_t count)
@@ -103,7 +103,7 @@ void iso_foreign_orbit_free(iso_foreign_orbit *o)
 
 static iso_status no_orbit(iso_context *ctx)
 {
-    return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for an orbit");
+    return iso_context_no_memory(ctx, "an orbit");
 }
 
 iso_status iso_foreign_orbit_create(iso_context *ctx, const iso_foreign_scene *scene, iso_foreign_orbit **orbit)
@@ -144,7 +144,7 @@ const iso_orbit *iso_foreign_orbit_inside(const iso_foreign_orbit *o)
 static iso_status fill_row(iso_foreign_orbit *o, double time, double row[])
 {
     iso_sample sample;
-    if (!iso_context_goes_on(o->ctx)) return iso_context_fail(o->ctx, ISO_STOPPED, "", "stopped on request");
+    if (!iso_context_goes_on(o->ctx)) return iso_context_stopped(o->ctx);
     const iso_status status = iso_orbit_at(o->orbit, time, &sample);
     if (status == ISO_OK && time == 0 && o->starts_as_given && !isnan(sample.ball[0]))
         memcpy(sample.ball, o->scene.start.y, sizeof sample.ball);

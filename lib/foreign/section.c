@@ -20,7 +20,7 @@ typedef struct keeper {
 static iso_status keep_header(void *data, const iso_record *header)
 {
     keeper *k = data;
-    return iso_foreign_copy_header(k->ctx, header, &k->record);
+    return iso_record_create_like(k->ctx, header, 0, NULL, &k->record);
 }
 
 static iso_status keep_row(void *data, const double row[], size_t count)

@@ -92,7 +92,7 @@ static iso_status create(iso_integrator *it)
     cvode *c = it->data = calloc(1, sizeof *c);
     if (sun && c) c->y = N_VNew_Serial(it->model.dim, sun);
     if (c && c->y) c->memory = CVodeCreate(it->method->variant, sun);
-    if (!c || !c->memory) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for CVODE");
+    if (!c || !c->memory) return iso_context_no_memory(it->ctx, "CVODE");
     ISO_SUN_QUIET(CVodeSetErrHandlerFn, c->memory);
     N_VConst(1, c->y);
     int failed = CVodeInit(c->memory, iso_sundials_rhs, 0, c->y);
@@ -108,7 +108,7 @@ static iso_status start(iso_integrator *it)
 {
     cvode *c = it->data;
     if (!iso_room()) /* the first step takes more */
-        return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for CVODE");
+        return iso_context_no_memory(it->ctx, "CVODE");
     copy(it->at_right, N_VGetArrayPointer(c->y), it->model.dim);
     const double first = iso_integrator_first_step(it, 1);
     int failed = CVodeReInit(c->memory, 0, c->y);

@@ -28,6 +28,7 @@ typedef struct iso_integrator iso_integrator;
 
 #define ISO_LEAST_TOLERANCE 1e-15
 #define ISO_MOST_TOLERANCE 0.1
+#define ISO_TOLERANCE_RANGE "[1e-15, 0.1]"
 
 typedef struct iso_method_options {
     double tolerance;  /* from ISO_LEAST_TOLERANCE to ISO_MOST_TOLERANCE                               */

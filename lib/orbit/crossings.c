@@ -70,7 +70,7 @@ iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[]
     if (!c || !each) {
         free(c);
         free(each);
-        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the crossings of %zu orbits", count);
+        return iso_context_no_memory(ctx, "the crossings of %zu orbits", count);
     }
     *c = (iso_crossings){.ctx = ctx, .orbits = orbits, .count = count, .options = own, .orbit = each};
     *crossings = c;
@@ -118,7 +118,7 @@ static void follow_alone(iso_pool_worker *w, const loners *l, size_t i)
     iso_sample *sample = t->sample ? t->sample + t->each * i : NULL;
     if (!o->ctx) o->ctx = iso_context_create();
     if (!o->ctx) {
-        t->status[i] = iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for an orbit");
+        t->status[i] = iso_context_no_memory(w->ctx, "an orbit");
         iso_crossings_keep(c, w->ctx, i, t->status[i]);
         return;
     }
@@ -175,7 +175,7 @@ iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, 
     const iso_crossings_task task = {wanted, each, crossing, sample, done, status};
     bool *taken = calloc(c->count + 1, sizeof *taken);
     blank(c, &task);
-    if (!taken) return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory for crossings");
+    if (!taken) return iso_context_no_memory(c->ctx, "crossings");
     iso_status answer = iso_crossings_in_lanes(c, &task, taken);
     if (answer == ISO_OK) answer = one_by_one(c, &task, taken);
     free(taken);

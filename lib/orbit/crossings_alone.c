@@ -161,7 +161,7 @@ iso_status iso_crossings_go_alone(iso_crossings *c, size_t i, size_t each, iso_c
     while (status == ISO_OK && *done < each) {
         bool counts;
         status = iso_context_goes_on(o->ctx) ? step(c, o, &crossing[*done], sample ? &sample[*done] : NULL, &counts)
-                                             : iso_context_fail(o->ctx, ISO_STOPPED, "", "stopped on request");
+                                             : iso_context_stopped(o->ctx);
         *done += status == ISO_OK && counts;
     }
     return status;

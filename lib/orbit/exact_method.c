@@ -23,7 +23,7 @@ typedef struct closed {
 static iso_status create(iso_integrator *it)
 {
     it->data = calloc(1, sizeof(closed));
-    return it->data ? ISO_OK : iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for a closed solution");
+    return it->data ? ISO_OK : iso_context_no_memory(it->ctx, "a closed solution");
 }
 
 static void release(iso_integrator *it)

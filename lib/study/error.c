@@ -211,7 +211,7 @@ iso_status iso_error_finder_create(iso_context *ctx, const iso_params *params, c
                                 "there is nothing finer than %s at %g for this model", iso_orbit_method(orbit)->name,
                                 tolerance);
     iso_error_finder *f = calloc(1, sizeof *f);
-    if (!f) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the error of an orbit");
+    if (!f) return iso_context_no_memory(ctx, "the error of an orbit");
     const double begin = processor_seconds();
     f->ctx = ctx;
     f->orbit = orbit;

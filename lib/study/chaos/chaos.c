@@ -196,7 +196,7 @@ static iso_status prepare(iso_chaos_walk *w)
         iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->out->axis, w->options.seed);
     w->out->plane = effect ? -1 : find_plane(w->out->with[ISO_BALL] ? start.ball : start.point);
     w->out->start = calloc(w->options.starts + w->options.at_count + 1, sizeof *w->out->start);
-    if (!w->out->start) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the starts");
+    if (!w->out->start) return iso_context_no_memory(w->ctx, "the starts");
     return ISO_OK;
 }
 
@@ -216,7 +216,7 @@ static iso_status begin(iso_context *ctx, const iso_scene *scene, const iso_chao
     if (status != ISO_OK) return status;
     if (isnan(w->options.tolerance)) w->options.tolerance = scene->tolerance;
     w->out = calloc(1, sizeof *w->out);
-    if (!w->out) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the indicators");
+    if (!w->out) return iso_context_no_memory(ctx, "the indicators");
     w->out->own.verdict = ISO_UNDECIDED;
     return ISO_OK;
 }
@@ -313,7 +313,7 @@ iso_status iso_chaos_run_many(iso_context *ctx, size_t count, const iso_scene *c
         answer = prepare_many(ctx, count, scene, options, walk, status);
         if (answer == ISO_OK) answer = follow_many(count, walk, left, status);
     } else {
-        iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", count);
+        iso_context_no_memory(ctx, "%zu orbits", count);
     }
     for (size_t i = 0; i < count; i++) {
         chaos[i] = walk ? walk[i].out : NULL;

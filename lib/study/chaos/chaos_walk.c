@@ -344,8 +344,7 @@ static iso_status with_group(iso_chaos_walk *w, size_t most, size_t count, iso_c
         g->crossing = malloc(cells * sizeof *g->crossing);
         g->sample = w->out->axis < 0 ? malloc(cells * sizeof *g->sample) : NULL;
     }
-    if (!g || !g->crossing || (w->out->axis < 0 && !g->sample))
-        status = iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the orbits");
+    if (!g || !g->crossing || (w->out->axis < 0 && !g->sample)) status = iso_context_no_memory(w->ctx, "the orbits");
     if (status == ISO_OK) status = each ? follow_each(g, count, each) : follow_all(g);
     if (g) {
         free(g->crossing);

@@ -222,14 +222,13 @@ iso_status iso_checking_create(iso_context *ctx, const iso_params *params, const
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_checking *made = *checking = calloc(1, sizeof *made);
-    if (!made) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a check");
+    if (!made) return iso_context_no_memory(ctx, "a check");
     made->all = (checker){.ctx = ctx, .params = params, .record = header, .tolerance = tolerance, .begins = true};
     made->all.last = calloc(3 * iso_record_columns(header) + 1, sizeof *made->all.last);
     made->all.first = made->all.last ? made->all.last + iso_record_columns(header) : NULL;
     made->all.second = made->all.first ? made->all.first + iso_record_columns(header) : NULL;
     iso_units_choose(params, 0, &made->all.units);
-    const iso_status status =
-        made->all.last ? begin(&made->all) : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a check");
+    const iso_status status = made->all.last ? begin(&made->all) : iso_context_no_memory(ctx, "a check");
     if (status == ISO_OK) return ISO_OK;
     iso_checking_free(made);
     *checking = NULL;

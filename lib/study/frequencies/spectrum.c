@@ -275,6 +275,6 @@ iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t cou
     gsl_fft_complex_workspace_free(z.space);
     gsl_fft_complex_wavetable_free(z.table);
     free(z.window);
-    if (!memory) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a spectrum");
-    return z.stopped ? iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request") : ISO_OK;
+    if (!memory) return iso_context_no_memory(ctx, "a spectrum");
+    return z.stopped ? iso_context_stopped(ctx) : ISO_OK;
 }

@@ -11,7 +11,7 @@
 iso_status iso_continuation_add_event(const iso_continuation *f, iso_branch *b, const iso_branch_event *e)
 {
     iso_branch_event *larger = realloc(b->event, (b->events + 1) * sizeof *larger);
-    if (!larger) return iso_context_fail(f->ctx, ISO_NO_MEMORY, "", "no memory for a branch");
+    if (!larger) return iso_context_no_memory(f->ctx, "a branch");
     b->event = larger;
     b->event[b->events++] = *e;
     return ISO_OK;

@@ -138,7 +138,7 @@ iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_
     iso_status status = iso_options_take(ctx, "iso_periodic_options", &w.options, sizeof w.options, options);
     if (status != ISO_OK) return status;
     w.out = calloc(1, sizeof *w.out);
-    if (!w.out) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for periodic orbits");
+    if (!w.out) return iso_context_no_memory(ctx, "periodic orbits");
     status = work(&w);
     free(w.folded);
     if (status == ISO_OK || status == ISO_STOPPED)

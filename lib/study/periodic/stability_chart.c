@@ -103,7 +103,7 @@ static iso_status compare(chart *c, const double *a, const double *b)
     iso_status status = ISO_OK;
     for (int which = 0; which < 2; which++)
         for (int sign = -1; sign <= 1; sign += 2) {
-            if (!iso_context_goes_on(c->ctx)) return iso_context_fail(c->ctx, ISO_STOPPED, "", "stopped on request");
+            if (!iso_context_goes_on(c->ctx)) return iso_context_stopped(c->ctx);
             const double level = 2 * sign, one = a[2 + which] - level, other = b[2 + which] - level;
             if (status == ISO_OK && one * other < 0 && a[0] * b[0] > 0) status = add_border(c, which, level, a, b);
         }

@@ -48,7 +48,7 @@ iso_status iso_section_make_room(iso_section_walk *w)
         room = room && w->crossing[m] && w->done[m] && w->status[m];
     }
     if (room && w->start && w->batch && w->member && (w->sample || w->count == 0)) return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the crossings of %zu orbits", w->group);
+    return iso_context_no_memory(w->ctx, "the crossings of %zu orbits", w->group);
 }
 
 void iso_section_free_room(iso_section_walk *w)

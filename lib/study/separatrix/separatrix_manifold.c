@@ -31,7 +31,7 @@ static iso_status map_half(const iso_manifold *m, const iso_wide z[2], iso_wide 
 {
     iso_return r = {.from = {iso_fine_of(iso_wide_turned(m->corner + z[0])), iso_fine_of(z[1])},
                     .start = ISO_FROM_BELOW};
-    if (!iso_context_goes_on(m->ctx)) return iso_context_fail(m->ctx, ISO_STOPPED, "", "stopped on request");
+    if (!iso_context_goes_on(m->ctx)) return iso_context_stopped(m->ctx);
     if (!(WIDE_ABS(z[1]) < 1)) return no_return(m);
     if (!m->code->go(&m->model, m->axis, m->zeros, m->tolerance, &r)) return no_return(m);
     for (int i = 0; i < 2; i++)

@@ -200,7 +200,7 @@ static iso_status run_zeros(iso_context *ctx, scan *c)
         c->bracket = brackets;
         status = run_pool(ctx, c, s->zeros, solve_zeros);
     } else {
-        iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu rows", s->rows);
+        iso_context_no_memory(ctx, "%zu rows", s->rows);
     }
     size_t kept = 0;
     for (size_t i = 0; i < s->zeros; i++)
@@ -225,7 +225,7 @@ static iso_status run(iso_context *ctx, const iso_separatrix_options *o, double 
     scan c = {.o = o, .s = s, .level = level, .all = o->count};
     s->rows = o->count;
     s->row = calloc(o->count, sizeof *s->row);
-    if (!s->row) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu rows", o->count);
+    if (!s->row) return iso_context_no_memory(ctx, "%zu rows", o->count);
     for (size_t i = 0; i < o->count; i++) blank(o->k[i], level_of(&c, i), &s->row[i]);
     const iso_status status = run_pool(ctx, &c, o->count, solve_rows);
     return status == ISO_OK && o->zeros ? run_zeros(ctx, &c) : status;
@@ -243,7 +243,7 @@ iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *op
     if (status == ISO_OK && o.scene) status = check_scene(ctx, &o, &level);
     if (status != ISO_OK) return status;
     iso_separatrix_table *found = calloc(1, sizeof *found);
-    if (!found) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the splitting");
+    if (!found) return iso_context_no_memory(ctx, "the splitting");
     status = run(ctx, &o, level, found);
     if (status == ISO_OK || status == ISO_STOPPED)
         *s = found;
