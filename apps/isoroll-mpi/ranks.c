@@ -229,7 +229,7 @@ static iso_status prepare(ranks *r, iso_context *ctx)
     r->room = ranks_message_size(r->sweep);
     r->bytes = r->room < INT_MAX ? malloc(r->room) : NULL;
     r->ctx = iso_context_create();
-    if (!r->bytes || !r->ctx) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for messages of a chunk");
+    if (!r->bytes || !r->ctx) return iso_context_no_memory(ctx, "messages of a chunk");
     return r->rank > 0 ? ISO_OK : iso_sweep_rows_create(ctx, head->columns, head->chunk, &r->rows);
 }
 

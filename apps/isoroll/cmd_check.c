@@ -119,7 +119,7 @@ static iso_status end_check(iso_context *ctx, iso_checking *checking, const iso_
     keep_ignored(in, f);
     status = iso_checking_unseen(checking, keep_name, f);
     if (status != ISO_OK || (f->unseen && !f->lost)) return status;
-    return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the names of what is not looked at");
+    return iso_context_no_memory(ctx, "the names of what is not looked at");
 }
 
 /* Checks the rows one after the other, as they are read. A mistake in the first one is told before what the header
@@ -183,7 +183,7 @@ static int run(iso_context *ctx, const void *options_given)
 static const options defaults = {.from = FILE_OPTIONS_UNSET, .tolerance = NAN, .bound = NAN};
 
 static const option_row rows[] = {
-    ROW("tol", "X", "a number in [1e-15, 0.1]", "tolerance of the flow from row to row (default 1e-13)",
+    ROW("tol", "X", "a number in " ISO_TOLERANCE_RANGE, "tolerance of the flow from row to row (default 1e-13)",
         set_tolerance, options, tolerance),
     ROWS_OF_FILE(options, from),
     ROW("max", "X", "a number from 0 on", "exit with status 1 if a residual is larger than X", set_bound, options,

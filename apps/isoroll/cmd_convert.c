@@ -87,7 +87,7 @@ static iso_status filter_rows(filter *f, iso_conversion_summary *summary)
     bool more = true;
     iso_context_set_monitor(f->ctx, not_interrupted, NULL);
     while (status == ISO_OK && more && !interrupted()) status = filter_row(f, row, &more);
-    if (status == ISO_OK && more) status = iso_context_fail(f->ctx, ISO_STOPPED, "", "stopped on request");
+    if (status == ISO_OK && more) status = iso_context_stopped(f->ctx);
     iso_context_set_monitor(f->ctx, NULL, NULL);
     const bool settle = status == ISO_OK || status == ISO_STOPPED;
     const iso_status ended = settle ? iso_conversion_end(f->conversion, summary) : status;
@@ -227,7 +227,7 @@ static const option_row rows[] = {
     ROW_OUTPUT(options, output),
     ROW_OF_FILE("digits", "N", "1 to 17, or hex", "significant digits of numbers, 1 to 17 (default), or hex",
                 set_digits, options, digits, 'p', OPTION_NO_FILE),
-    ROW("tol", "X", "a number in [1e-15, 0.1]", "relative error of the other model's clock (default 1e-14)",
+    ROW("tol", "X", "a number in " ISO_TOLERANCE_RANGE, "relative error of the other model's clock (default 1e-14)",
         set_tolerance, options, tolerance),
     ROWS_OF_FILE(options, from),
     ROW("max-defect", "X", "a number from 0 on",

@@ -194,7 +194,7 @@ static iso_status explain_cost(iso_context *ctx, const iso_model *m)
     iso_problem problem = {.p = m->problem.p};
     double six[ISO_STATE], y[ISO_MAX_STATE];
     iso_random *random = iso_random_create(1);
-    if (!random) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sample");
+    if (!random) return iso_context_no_memory(ctx, "a sample");
     iso_system_ball.sample(&problem, random, six);
     const iso_model free_ball = iso_model_assemble(&iso_system_ball, &problem, ISO_CLOCK_T, none);
     const double reference = cost(&free_ball, six);

@@ -150,7 +150,7 @@ static const option_row rows[] = {
         set_positive, options, within),
     {.name = "tol",
      .argument = "X",
-     .expected = "a number in [1e-15, 0.1]",
+     .expected = "a number in " ISO_TOLERANCE_RANGE,
      .doc = "largest relative error of one step (default 1e-14)",
      .set = set_tolerance,
      .offset = offsetof(options, scene.tolerance)},

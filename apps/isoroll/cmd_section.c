@@ -20,7 +20,7 @@ typedef struct options {
     const char *axis, *event, *output, *plot; /* NULL: not given                */
     const char *at[MOST_AT + 1];              /* as they were typed, then NULL  */
     double crossings, starts, seed, threads;
-    double cloud;     /* 0: not given                  */
+    double cloud;      /* 0: not given                  */
     iso_models models; /* ISO_SHOW_START: not given      */
     bool quiet;
 } options;
@@ -53,7 +53,7 @@ static iso_status read_points(iso_context *ctx, const char *text, double (**list
     for (const char *c = text; *c; c += *c == ';') {
         const size_t l = strcspn(c, ",;"), x = c[l] == ',' ? strcspn(c + l + 1, ";") : 0;
         double(*more)[2] = realloc(*list, (*count + 1) * sizeof *more);
-        if (!more) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the starts");
+        if (!more) return iso_context_no_memory(ctx, "the starts");
         *list = more;
         if (x == 0 || !iso_number_read(c, l, &more[*count][0]) || !iso_number_read(c + l + 1, x, &more[*count][1]))
             return iso_context_fail(ctx, ISO_BAD_INPUT, "",
@@ -138,8 +138,7 @@ static iso_status open_file(void *data, const iso_record *header)
 static iso_status write_row(void *data, const double row[], size_t count)
 {
     const target *t = data;
-    if (t->picture && !section_picture_row(t->picture, row))
-        return iso_context_fail(t->ctx, ISO_NO_MEMORY, "", "no memory for the picture");
+    if (t->picture && !section_picture_row(t->picture, row)) return iso_context_no_memory(t->ctx, "the picture");
     return iso_trajectory_write_row(t->ctx, t->writer, row, count);
 }
 
@@ -247,9 +246,8 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     stop_gently();
     progress_begin_rows(o->output);
     iso_context_set_monitor(ctx, not_interrupted, NULL);
-    const iso_status status = o->plot && !t.picture
-                                  ? iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a picture")
-                                  : iso_section_run(ctx, scene, how, &sink, &r);
+    const iso_status status =
+        o->plot && !t.picture ? iso_context_no_memory(ctx, "a picture") : iso_section_run(ctx, scene, how, &sink, &r);
     int result = t.opened ? close_file(&t, status, &r) : finish_scene(ctx, &o->scene, scene, status);
     if (t.opened && o->plot && r.rows > 0 && result <= EXIT_SOME_FAILED) {
         const int drawn = draw(&t, scene, how, &r);

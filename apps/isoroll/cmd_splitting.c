@@ -67,9 +67,7 @@ static iso_status bad_list(iso_context *ctx, const numbers *list, const char *te
 static iso_status append(iso_context *ctx, numbers *list, double x)
 {
     double *more = realloc(list->x, (list->count + 1) * sizeof *more);
-    if (!more)
-        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu values of %s", list->count + 1,
-                                list->name);
+    if (!more) return iso_context_no_memory(ctx, "%zu values of %s", list->count + 1, list->name);
     list->x = more;
     list->x[list->count++] = x;
     return ISO_OK;

@@ -15,8 +15,7 @@ typedef struct file_options {
 
 #define FILE_OPTIONS_UNSET                                                                                           \
     {                                                                                                                \
-        .file = "-", .k = NAN, .J = {NAN, NAN, NAN}, .eps = NAN, .h = NAN,                                           \
-        .row_tolerance = ISO_ROW_TOLERANCE                                                                           \
+        .file = "-", .k = NAN, .J = {NAN, NAN, NAN}, .eps = NAN, .h = NAN, .row_tolerance = ISO_ROW_TOLERANCE        \
     }
 
 /* Their rows; `from` is the place of a file_options in the struct `type`. */
@@ -31,8 +30,8 @@ typedef struct file_options {
                     from.scene, 0, OPTION_READS),                                                                    \
         ROW("columns", "NAMES", "names with commas between", "the file's columns from left to right; - for others",  \
             set_text, type, from.columns),                                                                           \
-        ROW("row-tolerance", "X", "a number in [1e-15, 0.1]",                                                        \
-            "largest error of a row's state (default 1e-5); more for rows of few digits", set_tolerance, type,      \
+        ROW("row-tolerance", "X", "a number in " ISO_TOLERANCE_RANGE,                                                \
+            "largest error of a row's state (default 1e-5); more for rows of few digits", set_tolerance, type,       \
             from.row_tolerance)
 
 /* Puts what the options say into the record of the file (its lines, its row tolerance), and reads the parameters from

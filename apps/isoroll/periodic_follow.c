@@ -132,7 +132,7 @@ static iso_status choose(iso_context *ctx, const iso_periodic *found, const peri
     if (how->orbit > (double)found->count)
         return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--orbit %g: the list ends at %zu", how->orbit, found->count);
     *list = malloc((found->count + 1) * sizeof **list);
-    if (!*list) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the orbits");
+    if (!*list) return iso_context_no_memory(ctx, "the orbits");
     for (size_t i = 0; i < found->count; i++)
         if (how->orbit > 0 ? (double)(i + 1) == how->orbit : found->orbit[i].line >= 0)
             (*list)[(*count)++] = found->orbit[i];

@@ -128,7 +128,7 @@ iso_status periodic_draw(iso_context *ctx, const periodic_report *r, const char 
     snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g: periodic orbits of %d returns at most",
              r->scene->params.k, J[0], J[1], J[2], r->found->longest);
     iso_status status =
-        p.at && p.orbit && p.grey ? ISO_OK : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a picture");
+        p.at && p.orbit && p.grey ? ISO_OK : iso_context_no_memory(ctx, "a picture");
     for (size_t i = 0; i < f->count && status == ISO_OK; i++) put_orbit(&p, &f->orbit[i], i);
     const iso_plot_section plot = {.title = title,
                                    .params = &r->scene->params,

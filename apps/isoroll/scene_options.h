@@ -11,13 +11,13 @@ typedef struct scene_options {
     const char *file;
     const char *method;          /* NULL: as the scene says */
     iso_backend backend;         /* -1: as the scene says   */
-    iso_models as;                /* likewise                */
+    iso_models as;               /* likewise                */
     double tolerance, end, step; /* NAN: as the scene says  */
 } scene_options;
 
 #define SCENE_OPTIONS_UNSET                                                                                          \
     {                                                                                                                \
-        .file = "-", .backend = (iso_backend)-1, .as = (iso_models)-1, .tolerance = NAN, .end = NAN, .step = NAN      \
+        .file = "-", .backend = (iso_backend)-1, .as = (iso_models)-1, .tolerance = NAN, .end = NAN, .step = NAN     \
     }
 
 /* Rows of these; `scene` is the place of a scene_options in the struct `type`. */
@@ -28,8 +28,8 @@ typedef struct scene_options {
     ROW_OF_WORDS("method", "NAME", "a method of 'isoroll list methods', or auto", "the integrator, or auto",         \
                  set_method, type, scene.method, iso_method_word)
 #define ROW_TOLERANCE(type, scene)                                                                                   \
-    ROW("tol", "X", "a number in [1e-15, 0.1]", "largest relative error of one step, in [1e-15, 0.1]",               \
-        set_tolerance, type, scene.tolerance)
+    ROW("tol", "X", "a number in " ISO_TOLERANCE_RANGE,                                                              \
+        "largest relative error of one step, in " ISO_TOLERANCE_RANGE, set_tolerance, type, scene.tolerance)
 #define ROW_AS(type, scene)                                                                                          \
     ROW_OF_WORDS("as", "WHAT", "ball, point or both", "which model is written: ball, point, both", set_as, type,     \
                  scene.as, as_word)

@@ -80,8 +80,7 @@ static iso_status read_rows(iso_context *ctx, iso_sweep_reader *reader, table *t
 {
     iso_sweep_rows rows;
     iso_status status = iso_sweep_rows_create(ctx, t->head->columns, t->head->chunk, &rows);
-    if (status == ISO_OK && !make_room(t))
-        status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the rows");
+    if (status == ISO_OK && !make_room(t)) status = iso_context_no_memory(ctx, "the rows");
     for (size_t c = 0; c < iso_sweep_chunks(t->head) && status == ISO_OK; c++) {
         status = iso_sweep_reader_rows(ctx, reader, iso_sweep_chunk_points(t->head, c), &rows);
         for (size_t i = 0; i < rows.count && status == ISO_OK; i++)
@@ -175,8 +174,7 @@ static iso_status draw_curve(iso_context *ctx, const table *t, const char *title
     const char *name = t->head->column[t->axis[0]].name;
     double(*sorted)[4] = malloc((t->count + 1) * sizeof *sorted);
     iso_record *rows = NULL;
-    iso_status status = sorted ? iso_record_create(ctx, 4, names, &rows)
-                               : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the rows");
+    iso_status status = sorted ? iso_record_create(ctx, 4, names, &rows) : iso_context_no_memory(ctx, "the rows");
     for (size_t i = 0; i < t->count && status == ISO_OK; i++) {
         sorted[i][0] = at(t, i, t->axis[0]);
         sorted[i][1] = at(t, i, t->value);

@@ -1,6 +1,6 @@
 /* Reads output times: numbers between blanks, commas, new lines and comments. */
-#include "base/number.h"
 #include "times.h"
+#include "base/number.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@ static iso_status add_time(iso_context *ctx, times *t, size_t *room, double time
     if (t->count == *room) {
         *room = *room ? 2 * *room : 64;
         double *grown = realloc(t->list, *room * sizeof *grown);
-        if (!grown) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the output times");
+        if (!grown) return iso_context_no_memory(ctx, "the output times");
         t->list = grown;
     }
     t->list[t->count++] = time;

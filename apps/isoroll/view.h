@@ -27,6 +27,9 @@ enum {
  * right to 1e-6 of the radius. */
 #define VIEW_TURN 0.1
 
+/* Digits of base64. */
+#define VIEW_BASE64 "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"
+
 enum { VIEW_NOTES = 8, VIEW_WORDS = 512 };
 
 typedef struct view_integral {

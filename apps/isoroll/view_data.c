@@ -12,7 +12,7 @@
 /* The bytes of numbers in base64; a json string, NULL: no memory. */
 static json_t *base64(const unsigned char *bytes, size_t count)
 {
-    static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    static const char digit[] = VIEW_BASE64;
     char *text = json_allocate((count + 2) / 3 * 4 + 1), *to = text;
     if (!text) return NULL;
     for (size_t i = 0; i < count; i += 3) {

@@ -79,7 +79,7 @@ static iso_status run_chromium(iso_context *ctx, const char *address, FILE *out)
 
 static int value_of(char c)
 {
-    static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    static const char digit[] = VIEW_BASE64;
     const char *at = c ? strchr(digit, c) : NULL;
     return at ? (int)(at - digit) : -1;
 }

@@ -135,7 +135,7 @@ static iso_status run_with(iso_context *ctx, iso_scene *scene, bool twin, view_p
     if (status != ISO_OK) return status;
     free(*times);
     *times = times_of(scene, page, count);
-    if (!*times) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the times");
+    if (!*times) return iso_context_no_memory(ctx, "the times");
     return run_at(ctx, scene, *times, *count, page, &page->rows);
 }
 

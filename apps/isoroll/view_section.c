@@ -194,9 +194,7 @@ static iso_status run_orbits(builder *b)
     b->rows = (size_t)fmin(floor(VIEW_MOST_NUMBERS / (ORBIT_NUMBERS * (double)wanted)), MOST_ROWS);
     s->orbit = calloc(wanted, sizeof *s->orbit);
     s->number = calloc(wanted, sizeof *s->number);
-    iso_status status = s->orbit && s->number
-                            ? ISO_OK
-                            : iso_context_fail(b->ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", wanted);
+    iso_status status = s->orbit && s->number ? ISO_OK : iso_context_no_memory(b->ctx, "%zu orbits", wanted);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(b->in) && s->count < wanted; i++) {
         if (i > 0 && orbit_of(b, i) == orbit_of(b, i - 1)) continue;
         s->number[s->count] = orbit_of(b, i);
@@ -235,7 +233,7 @@ iso_status view_of_section(iso_context *ctx, const file_options *from, view_page
 {
     iso_record *in = NULL;
     page->section = calloc(1, sizeof *page->section);
-    if (!page->section) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a section");
+    if (!page->section) return iso_context_no_memory(ctx, "a section");
     iso_status status = iso_table_read(ctx, from->file, "section", &in); /* its messages already name the file */
     if (status != ISO_OK) return status;
     status = of_record(ctx, from, in, page);

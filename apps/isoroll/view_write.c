@@ -66,7 +66,7 @@ static bool put_page(FILE *to, const json_t *data)
 
 static iso_status no_memory(iso_context *ctx)
 {
-    return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the page");
+    return iso_context_no_memory(ctx, "the page");
 }
 
 iso_status view_write(iso_context *ctx, const char *path, const view_page *page)

@@ -90,6 +90,21 @@ iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *abo
     return status;
 }
 
+iso_status iso_context_no_memory(iso_context *ctx, const char *what, ...)
+{
+    va_list args;
+    char words[256];
+    va_start(args, what);
+    vsnprintf(words, sizeof words, what, args);
+    va_end(args);
+    return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %s", words);
+}
+
+iso_status iso_context_stopped(iso_context *ctx)
+{
+    return iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
+}
+
 bool iso_room(void)
 {
     enum { ROOM = 65536 };

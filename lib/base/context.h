@@ -30,9 +30,6 @@ ISO_API void iso_context_free(iso_context *ctx);
  * answers false: for Ctrl-C, a time limit, or to show progress. NULL, as at the beginning: nobody is asked. */
 ISO_API void iso_context_set_monitor(iso_context *ctx, bool (*go_on)(void *data), void *data);
 
-/* What `go_on` answers; true without a monitor. */
-bool iso_context_goes_on(const iso_context *ctx);
-
 /* What went wrong last, one line without a newline; "" when nothing did. Valid until the next failing call. */
 ISO_API const char *iso_context_message(const iso_context *ctx);
 
@@ -50,6 +47,15 @@ ISO_API iso_status iso_context_fail(iso_context *ctx, iso_status status, const c
     __attribute__((format(printf, 4, 5)))
 #endif
     ;
+
+/* Two frequent failures: ISO_NO_MEMORY, "no memory for " and what, in printf's words; ISO_STOPPED, "stopped on
+ * request". */
+ISO_API iso_status iso_context_no_memory(iso_context *ctx, const char *what, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 2, 3)))
+#endif
+    ;
+ISO_API iso_status iso_context_stopped(iso_context *ctx);
 
 ISO_C_END
 

@@ -19,4 +19,7 @@ static inline bool iso_monitor_goes_on(const iso_monitor *w)
     return !w->go_on || w->go_on(w->data);
 }
 
+/* What `go_on` answers; true without a monitor. */
+bool iso_context_goes_on(const iso_context *ctx);
+
 #endif

@@ -11,14 +11,15 @@ ISO_C_BEGIN
 enum { ISO_SUGGEST_SIZE = 384 };
 
 /* The name that is nearest to `wrong`; NULL: none is near, half of the letters differ or more. */
-const char *iso_nearest(const char *wrong, size_t count, const char *const names[]);
+ISO_API const char *iso_nearest(const char *wrong, size_t count, const char *const names[]);
 
 /* "did you mean 'x'?" with the nearest of the names, or, if none is near, "valid are" and the names. Gives out. */
-const char *iso_suggest(char out[ISO_SUGGEST_SIZE], const char *wrong, size_t count, const char *const names[]);
+ISO_API const char *iso_suggest(char out[ISO_SUGGEST_SIZE], const char *wrong, size_t count,
+                                const char *const names[]);
 
 /* The same for the names word(0), word(1), ..., before the first NULL; iso_nearest_word takes word == NULL as none. */
-const char *iso_nearest_word(const char *wrong, const char *(*word)(int i));
-const char *iso_suggest_word(char out[ISO_SUGGEST_SIZE], const char *wrong, const char *(*word)(int i));
+ISO_API const char *iso_nearest_word(const char *wrong, const char *(*word)(int i));
+ISO_API const char *iso_suggest_word(char out[ISO_SUGGEST_SIZE], const char *wrong, const char *(*word)(int i));
 
 ISO_C_END
 

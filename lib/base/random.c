@@ -1,5 +1,5 @@
 /* random.c - random numbers and directions, by GSL (random.h). */
-#include "base/random.h"
+#include "base/random_impl.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>

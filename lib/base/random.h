@@ -12,15 +12,6 @@ typedef struct iso_random iso_random;
 ISO_API iso_random *iso_random_create(unsigned long seed);
 ISO_API void iso_random_free(iso_random *r);
 
-/* Uniform in [low, high). */
-ISO_API double iso_random_uniform(iso_random *r, double low, double high);
-
-/* Standard normal. */
-ISO_API double iso_random_normal(iso_random *r);
-
-/* Uniform on the unit sphere. */
-ISO_API void iso_random_direction(iso_random *r, double unit[3]);
-
 ISO_C_END
 
 #endif

@@ -30,7 +30,7 @@ struct iso_record {
 
 static iso_status no_memory(iso_context *ctx)
 {
-    return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a table");
+    return iso_context_no_memory(ctx, "a table");
 }
 
 iso_status iso_record_create(iso_context *ctx, size_t columns, const char *const names[], iso_record **record)

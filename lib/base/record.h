@@ -23,8 +23,8 @@ ISO_API iso_status iso_record_create(iso_context *ctx, size_t columns, const cha
 ISO_API void iso_record_free(iso_record *record);
 
 /* The same with the lines, the kind and the row tolerance of another record. names NULL: with its columns, too. */
-iso_status iso_record_create_like(iso_context *ctx, const iso_record *other, size_t columns,
-                                  const char *const names[], iso_record **record);
+ISO_API iso_status iso_record_create_like(iso_context *ctx, const iso_record *other, size_t columns,
+                                          const char *const names[], iso_record **record);
 
 /* What the table holds: "trajectory", "section", "chaos", ... (up to 31 characters); "" until it is set. */
 ISO_API const char *iso_record_kind(const iso_record *record);

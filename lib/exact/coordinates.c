@@ -1,6 +1,6 @@
 /* coordinates.c - states in separated coordinates, the constant of separation, and where
  * the motion changes its kind. */
-#include "exact/coordinates.h"
+#include "exact/coordinates_impl.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* exact.c - the public functions of the closed solution: they choose the form of the motion (form_impl.h), check what
  * is asked, and follow an orbit on a separatrix into the rotation at its end.
  */
-#include "exact/exact.h"
+#include "exact/exact_impl.h"
 
 #include <float.h>
 #include <math.h>
@@ -13,7 +13,8 @@
 #include "base/vec3_impl.h"
 #include "exact/form_impl.h"
 #include "exact/walk_impl.h"
-#include "model/effect.h"
+#include "model/effects_impl.h"
+#include "model/system_impl.h"
 
 static const iso_form *const forms[] = {&iso_form_rest, &iso_form_revolution, &iso_form_separated, NULL};
 
@@ -217,7 +218,7 @@ iso_status iso_exact_create(iso_context *ctx, const iso_problem *problem, const 
     if (status == ISO_OK) status = find_form(ctx, problem, start, &form);
     if (status != ISO_OK) return status;
     iso_exact *x = calloc(1, sizeof *x);
-    if (!x) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a closed solution");
+    if (!x) return iso_context_no_memory(ctx, "a closed solution");
     x->form = form;
     for (int c = 0; c < ISO_CLOCKS; c++) x->has[c] = clocks[c];
     status = make(ctx, problem, start, x);

@@ -1,9 +1,6 @@
 /* exact.h - the closed solution of the free problem: the state at any time, always at the same cost.
  *
- *     iso_exact *exact;
- *     iso_exact_create(ctx, &problem, point, all_clocks, &exact); problem: k, J, eps and the level H
- *     iso_exact_at(ctx, exact, ISO_CLOCK_T, 1e6, y, clocks);       the point a million units of the ball's time later
- *     iso_exact_free(exact);
+ * An orbit of backend ISO_BACKEND_EXACT has it (iso_orbit_exact).
  *
  * It exists in three cases:
  * - k = 1 on H = 0, and k = -1 on every level: in sphero-conical coordinates of gamma the problem separates into two
@@ -28,37 +25,6 @@ ISO_C_BEGIN
 
 typedef struct iso_exact iso_exact;
 
-/* From the state (M, gamma) at time 0, in any consistent units. gamma is made a unit vector; on the level H = 0 M is
- * scaled to that level.
- * `clocks` are those that will be asked for, as a time or with a state. Takes less than a millisecond, longer next to
- * a separatrix or for extreme bodies.
- * Errors: ISO_BAD_ARGUMENT where there is no closed solution: about "k" (and unequal moments), "eps" (not > 0), or
- * the name of an effect that acts; ISO_NUMERICAL: too many terms would be needed; ISO_NO_MEMORY. */
-ISO_API iso_status iso_exact_create(iso_context *ctx, const iso_problem *problem, const double point[ISO_STATE],
-                                    const bool clocks[ISO_CLOCKS], iso_exact **exact);
-ISO_API void iso_exact_free(iso_exact *exact);
-
-/* The state (M, gamma) at `time` of `clock`, before or after 0, and the clocks there (NaN: not among those of the
- * creation). Errors: ISO_BAD_ARGUMENT: a time that is not finite, a clock that was not among them; ISO_NUMERICAL: no
- * finite state, or a clock that does not fit a double. */
-ISO_API iso_status iso_exact_at(iso_context *ctx, const iso_exact *exact, iso_clock clock, double time,
-                                double point[ISO_STATE], double clocks[ISO_CLOCKS]);
-
-/* The states at the times start + i step, i < count. They are those of iso_exact_at to rounding, and take less time
- * where steps are short: points[ISO_STATE i ...], clocks[ISO_CLOCKS i ...]; clocks may be NULL. Errors: as
- * iso_exact_at. */
-ISO_API iso_status iso_exact_grid(iso_context *ctx, const iso_exact *exact, iso_clock clock, double start,
-                                  double step, size_t count, double points[], double clocks[]);
-
-/* The angles, in [0, 2 pi), of a state on the orbit's torus, and the state at given angles. A motion with one angle
- * has NaN as its second. Angles grow evenly with sigma for a separated motion, else with s; where they are 0 is the
- * form's choice. Errors: ISO_BAD_ARGUMENT: a motion without angles; a state that turns the other way; numbers that
- * are not finite. */
-ISO_API iso_status iso_exact_angles(iso_context *ctx, const iso_exact *exact, const double point[ISO_STATE],
-                                    double angle[2]);
-ISO_API iso_status iso_exact_point(iso_context *ctx, const iso_exact *exact, const double angle[2],
-                                   double point[ISO_STATE]);
-
 typedef enum iso_exact_kind {
     ISO_EXACT_SEPARATED,  /* angles of the lower and the upper sphero-conical coordinate                       */
     ISO_EXACT_SYMMETRIC,  /* angles of the swing along the axis and of the turning about it                    */
@@ -78,7 +44,7 @@ typedef struct iso_exact_torus {
     /* (1/2 pi) times the integral of (momentum) d(coordinate) round the loop of each angle, >= 0; about an axis:
      * M along it, with its sign. */
     double action[2];
-    double c; /* separated: the constant of 2 A(z) p_z^2 = R(z) + c (coordinates.h) */
+    double c; /* separated: the constant of 2 A(z) p_z^2 = R(z) + c */
     /* 0 on the separatrix of the rotation about the middle axis, or in the equator: (R(b2) + c)/|R(b2) - H b2|, > 0
      * where the lower coordinate librates; or (dx/ds)^2/M^2 at the equator, > 0 where it is crossed. */
     double distance;

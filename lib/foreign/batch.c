@@ -8,6 +8,7 @@
 #include "foreign/foreign_impl.h"
 #include "orbit/batch.h"
 #include "orbit/pool_impl.h"
+#include "orbit/scene_impl.h"
 
 /* Samples have all columns, so they take more room than the table. A thread makes them for a chunk of orbits at a time,
  * in a buffer that should stay in the cache, then copies the columns that are wanted. Fewer orbits than LEAST would
@@ -121,7 +122,7 @@ static iso_status prepare_orbits(work *w)
     if (w->k || w->J) w->params = malloc(w->count * sizeof *w->params);
     if (w->y) w->start = malloc(w->count * sizeof *w->start);
     if (!w->orbit || !w->status || ((w->k || w->J) && !w->params) || (w->y && !w->start))
-        return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", w->count);
+        return iso_context_no_memory(w->ctx, "%zu orbits", w->count);
     for (size_t i = 0; i < w->count; i++) {
         const iso_scene *s = scene_of(w, i);
         w->orbit[i] = (iso_batch_orbit){w->params ? &w->params[i] : &s->params, w->start ? &w->start[i] : &s->start,
@@ -242,7 +243,7 @@ static iso_status solve_all(work *w, int threads)
     w->threads = iso_pool_threads(threads, w->count, LANES);
     w->how.threads = 1;
     w->buffers = calloc(w->threads, sizeof *w->buffers);
-    if (!w->buffers) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for a batch");
+    if (!w->buffers) return iso_context_no_memory(w->ctx, "a batch");
     iso_pool pool = {.count = w->count, .chunk = w->chunk, .solve = solve_chunk, .data = w};
     w->began = true;
     status = iso_pool_run(w->ctx, &pool, w->threads, w->status);

@@ -108,7 +108,7 @@ iso_status iso_foreign_monitor_create(iso_context *ctx, double seconds, bool (*g
                                       iso_foreign_monitor **monitor)
 {
     iso_foreign_monitor *m = *monitor = malloc(sizeof *m);
-    if (!m) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a monitor");
+    if (!m) return iso_context_no_memory(ctx, "a monitor");
     *m = (iso_foreign_monitor){go_on, data, seconds, now()};
     iso_context_set_monitor(ctx, ask_sometimes, m);
     return ISO_OK;

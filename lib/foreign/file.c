@@ -4,6 +4,7 @@
 
 #include "foreign/foreign_impl.h"
 #include "io/trajectory.h"
+#include "method/integrator_impl.h"
 #include "orbit/convert.h"
 
 /* --- reading ---------------------------------------------------------------------------------------------------- */
@@ -142,9 +143,7 @@ iso_status iso_foreign_convert(iso_context *ctx, const iso_record *in, const cha
     if (status == ISO_OK && !(row_tolerance > 0 && row_tolerance <= 0.1))
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "row_tolerance", "row_tolerance %g is not in (0, 0.1]",
                                   row_tolerance);
-    if (status == ISO_OK && !(tolerance >= 1e-15 && tolerance <= 0.1))
-        status =
-            iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in [1e-15, 0.1]", tolerance);
+    if (status == ISO_OK) status = iso_tolerance_check(ctx, tolerance);
     if (status == ISO_OK) status = iso_record_params(ctx, in, &params);
     if (status == ISO_OK) status = iso_record_create_like(ctx, in, 0, NULL, &header);
     if (status == ISO_OK) {

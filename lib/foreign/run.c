@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/monitor_impl.h"
 #include "foreign/foreign_impl.h"
+#include "orbit/scene_impl.h"
 #include "study/run.h"
 #include "study/run_times_impl.h"
 
@@ -101,7 +103,7 @@ void iso_foreign_orbit_free(iso_foreign_orbit *o)
 
 static iso_status no_orbit(iso_context *ctx)
 {
-    return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for an orbit");
+    return iso_context_no_memory(ctx, "an orbit");
 }
 
 iso_status iso_foreign_orbit_create(iso_context *ctx, const iso_foreign_scene *scene, iso_foreign_orbit **orbit)
@@ -142,7 +144,7 @@ const iso_orbit *iso_foreign_orbit_inside(const iso_foreign_orbit *o)
 static iso_status fill_row(iso_foreign_orbit *o, double time, double row[])
 {
     iso_sample sample;
-    if (!iso_context_goes_on(o->ctx)) return iso_context_fail(o->ctx, ISO_STOPPED, "", "stopped on request");
+    if (!iso_context_goes_on(o->ctx)) return iso_context_stopped(o->ctx);
     const iso_status status = iso_orbit_at(o->orbit, time, &sample);
     if (status == ISO_OK && time == 0 && o->starts_as_given && !isnan(sample.ball[0]))
         memcpy(sample.ball, o->scene.start.y, sizeof sample.ball);

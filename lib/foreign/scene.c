@@ -9,14 +9,16 @@
 #include "base/number.h"
 #include "foreign/foreign_impl.h"
 #include "io/scene_file.h"
-#include "method/method.h"
+#include "method/integrator_impl.h"
+#include "method/methods_impl.h"
+#include "orbit/scene_impl.h"
 
 static iso_status create(iso_context *ctx, const char *name, iso_foreign_scene **scene)
 {
     iso_foreign_scene *s = calloc(1, sizeof *s);
     *scene = NULL;
     if (s) s->name = strdup(name);
-    if (!s || !s->name) return free(s), iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a scene");
+    if (!s || !s->name) return free(s), iso_context_no_memory(ctx, "a scene");
     *scene = s;
     return ISO_OK;
 }
@@ -90,10 +92,9 @@ static iso_status set_number(iso_context *ctx, iso_scene *scene, const char *key
     if (!iso_number_read(value, strlen(value), &x))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "%s is '%s', it must be a finite number", key, value);
     if (strcmp(key, "tolerance") == 0) {
-        if (!(x >= 1e-15 && x <= 0.1))
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "tolerance %g is not in [1e-15, 0.1]", x);
-        scene->tolerance = x;
-        return ISO_OK;
+        const iso_status status = iso_tolerance_check(ctx, x);
+        if (status == ISO_OK) scene->tolerance = x;
+        return status;
     }
     if (strcmp(key, "step") == 0 && x <= 0)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "step is %g, it must be above 0", x);

@@ -1,5 +1,5 @@
 /* level.c - the level of the point's energy as one number (level.h). */
-#include "map/level.h"
+#include "map/level_impl.h"
 
 #include <math.h>
 

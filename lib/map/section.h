@@ -56,14 +56,6 @@ ISO_API int iso_section_axis(iso_point_motion m);
  * iso_section_bounds gives W[0] > 0. */
 ISO_API bool iso_section_is_global(iso_point_motion m, int axis);
 
-/* Whether the point can be on the section at l, and moves there: G(l) > 0. Where it is neither at l = 0 nor at pi/2,
- * it is nowhere on the section. */
-ISO_API bool iso_section_is_open(iso_point_motion m, int axis, double l);
-
-/* Whether a free orbit is the rotation about this axis, in the plane n_axis = 0 itself: at y, which is (omega, n) or
- * (M, gamma), n_axis is 0 up to rounding, and so is its rate. */
-bool iso_section_is_rotation(const double y[ISO_STATE], int axis);
-
 /* The crossing at (l, x), as a point (M, gamma) on H = E. |x| <= 1. */
 ISO_API void iso_section_point(iso_point_motion m, int axis, double l, double x, double point[ISO_STATE]);
 
@@ -71,28 +63,9 @@ ISO_API void iso_section_point(iso_point_motion m, int axis, double l, double x,
  * 1; x is M_a/|M|. Small errors of gamma_a do not matter. */
 ISO_API void iso_section_chart(int axis, const double point[ISO_STATE], double *l, double *x);
 
-/* The derivatives of iso_section_point by l and by x. |x| < 1, G > 0. */
-ISO_API void iso_section_deviations(iso_point_motion m, int axis, double l, double x, double by_l[ISO_STATE],
-                                    double by_x[ISO_STATE]);
-
-/* slope = (dl, dx) of a deviation (dM, dgamma) of the crossing `point`. The neighbouring orbit starts at
- * point + deviation. It is followed along the flow until it crosses the section, and (l, x) is taken there, all to
- * first order. So a part of the deviation along the flow changes nothing. */
-ISO_API void iso_section_slope(iso_point_motion m, int axis, const double point[ISO_STATE],
-                               const double deviation[ISO_STATE], double slope[2]);
-
 /* G(l): the largest |L| at l; 0 where the point cannot be. The derivative of the return map in (l, x) has the
  * determinant G(l)/G(l'), where l' is that of the image. */
 ISO_API double iso_section_momentum(iso_point_motion m, int axis, double l);
-
-/* The area of the whole section, the integral of 2 G dl over the part of the circle that is open. Its relative error
- * is about 1e-15 on H = 0 and for |k| >= 1/2, and below 1e-8 for |k| >= 0.05. */
-ISO_API double iso_section_area(iso_point_motion m, int axis);
-
-/* The closest bounds W[0] <= W <= W[1] for all gamma where the point can be. If W^2 is 0 or less anywhere, W[0] is
- * 0. By Sturm's comparison two successive crossings are at least 2 pi/W[1] and at most 2 pi/W[0] apart
- * in s (infinity for W[0] = 0). The bounds are rounded, and an orbit can reach them: allow a rounding error. */
-ISO_API void iso_section_bounds(iso_point_motion m, int axis, double W[2]);
 
 /* Points spread evenly over the section by the area dL dl. For every N, the first N points leave smaller holes than N
  * random points. They do not depend on eps.

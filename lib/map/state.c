@@ -1,9 +1,10 @@
 /* state.c - the map (18) and the energies of the two models. */
-#include "map/state.h"
+#include "map/state_impl.h"
 
 #include <math.h>
 
 #include "base/vec3_impl.h"
+#include "model/system_impl.h"
 
 void iso_ball_to_point_t(const iso_params *p, const double ball[ISO_STATE], double y[ISO_STATE])
 {

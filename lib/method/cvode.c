@@ -14,6 +14,7 @@
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
 #include "method/sundials_vector_impl.h"
+#include "model/effects_impl.h"
 
 typedef struct cvode {
     void *memory;
@@ -47,8 +48,7 @@ static int projection(sunrealtype t, N_Vector y, N_Vector correction, sunrealtyp
     (void)t, (void)tolerance, (void)error;
     copy(N_VGetArrayPointer(y), state, it->model.dim);
     iso_integrator_project(it, state);
-    for (int i = 0; i < it->model.dim; i++)
-        N_VGetArrayPointer(correction)[i] = state[i] - N_VGetArrayPointer(y)[i];
+    for (int i = 0; i < it->model.dim; i++) N_VGetArrayPointer(correction)[i] = state[i] - N_VGetArrayPointer(y)[i];
     return 0;
 }
 
@@ -92,7 +92,7 @@ static iso_status create(iso_integrator *it)
     cvode *c = it->data = calloc(1, sizeof *c);
     if (sun && c) c->y = N_VNew_Serial(it->model.dim, sun);
     if (c && c->y) c->memory = CVodeCreate(it->method->variant, sun);
-    if (!c || !c->memory) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for CVODE");
+    if (!c || !c->memory) return iso_context_no_memory(it->ctx, "CVODE");
     ISO_SUN_QUIET(CVodeSetErrHandlerFn, c->memory);
     N_VConst(1, c->y);
     int failed = CVodeInit(c->memory, iso_sundials_rhs, 0, c->y);
@@ -108,7 +108,7 @@ static iso_status start(iso_integrator *it)
 {
     cvode *c = it->data;
     if (!iso_room()) /* the first step takes more */
-        return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for CVODE");
+        return iso_context_no_memory(it->ctx, "CVODE");
     copy(it->at_right, N_VGetArrayPointer(c->y), it->model.dim);
     const double first = iso_integrator_first_step(it, 1);
     int failed = CVodeReInit(c->memory, 0, c->y);
@@ -158,7 +158,12 @@ static iso_suits bdf_suits(const iso_model *m)
 
 const iso_method iso_method_adams = {
     .name = "adams", .variant = CV_ADAMS, .doc = "CVODE, variable-order Adams-Moulton, orders 1-12", CVODE_METHOD};
-const iso_method iso_method_bdf = {
-    .name = "bdf", .variant = CV_BDF, .implicit = true, .projects = true, .suits = bdf_suits,
-    .witness = 4, .dense = dense,
-    .doc = "CVODE, variable-order BDF, orders 1-5, analytic Jacobian, projection", CVODE_METHOD};
+const iso_method iso_method_bdf = {.name = "bdf",
+                                   .variant = CV_BDF,
+                                   .implicit = true,
+                                   .projects = true,
+                                   .suits = bdf_suits,
+                                   .witness = 4,
+                                   .dense = dense,
+                                   .doc = "CVODE, variable-order BDF, orders 1-5, analytic Jacobian, projection",
+                                   CVODE_METHOD};

@@ -4,8 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/monitor_impl.h"
 #include "base/vec3_impl.h"
 #include "method/gsl_impl.h"
+#include "method/methods_impl.h"
 
 enum { MOST_STEPS = 100000 }; /* to one time; as a rule it needs one */
 
@@ -21,7 +23,7 @@ static const gsl_odeiv2_step_type *step_type(const iso_integrator *it)
 iso_status iso_dense_create(iso_integrator *it)
 {
     iso_dense *dense = calloc(1, sizeof *dense);
-    if (!dense) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for an integrator");
+    if (!dense) return iso_context_no_memory(it->ctx, "an integrator");
     const iso_status status = iso_gsl_open(it, step_type(it), &dense->gsl);
     if (status != ISO_OK) return free(dense), status;
     it->dense = dense;
@@ -42,7 +44,7 @@ iso_status iso_dense_at(iso_integrator *it, double dt, double y[])
     copy(it->at_left, state, it->model.dim);
     iso_gsl_start(g, state, dt);
     for (long steps = 0; g->t != dt; steps++) {
-        if (!iso_context_goes_on(it->ctx)) return iso_context_fail(it->ctx, ISO_STOPPED, "", "stopped on request");
+        if (!iso_context_goes_on(it->ctx)) return iso_context_stopped(it->ctx);
         const iso_status status = iso_gsl_step(it, g, dt, state, &h);
         if (status != ISO_OK) return status;
         if (steps > MOST_STEPS) return iso_integrator_stopped(it, "too many steps between its own");

@@ -3,6 +3,7 @@
 
 #include "method/gsl_impl.h"
 #include "method/methods_impl.h"
+#include "model/effects_impl.h"
 
 enum { RK4, RKF45, RKCK, RK8PD, MSADAMS, MSBDF, BSIMP };
 
@@ -25,7 +26,7 @@ static void release(iso_integrator *it)
 static iso_status create(iso_integrator *it)
 {
     it->data = calloc(1, sizeof(iso_gsl));
-    if (!it->data) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for %s", it->method->name);
+    if (!it->data) return iso_context_no_memory(it->ctx, "%s", it->method->name);
     return iso_gsl_open(it, step_type(it->method->variant), it->data);
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/room_impl.h"
 #include "base/vec3_impl.h"
+#include "model/model_impl.h"
 
 /* --- the model as GSL sees it ---------------------------------------------------------------------------------- */
 
@@ -173,7 +174,7 @@ iso_status iso_gsl_open(iso_integrator *it, const gsl_odeiv2_step_type *type, is
     if (!g->driver || !control) {
         iso_gsl_close(g);
         free(control);
-        return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for GSL's %s", type->name);
+        return iso_context_no_memory(it->ctx, "GSL's %s", type->name);
     }
     free(control->state);
     control->state = g;
@@ -209,7 +210,7 @@ static iso_status check_room(iso_integrator *it, const iso_gsl *g)
     if (!g->implicit || !it->called) return ISO_OK;
     it->called = false;
     if (iso_room()) return ISO_OK;
-    return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for GSL's %s", g->driver->s->type->name);
+    return iso_context_no_memory(it->ctx, "GSL's %s", g->driver->s->type->name);
 }
 
 /* bsimp divides the error of each component by the component's size when the step begins (by 1 where it is 0). A tiny

@@ -5,14 +5,17 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/monitor_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
+#include "method/methods_impl.h"
 #include "model/rest_impl.h"
 
 iso_status iso_tolerance_check(iso_context *ctx, double tolerance)
 {
     if (tolerance >= ISO_LEAST_TOLERANCE && tolerance <= ISO_MOST_TOLERANCE) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in [1e-15, 0.1]", tolerance);
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in " ISO_TOLERANCE_RANGE,
+                            tolerance);
 }
 
 /* Whether the method serves the model, and takes the fixed steps that the options ask for. */
@@ -46,7 +49,7 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
     if (o.fixed_step > 0 && o.tolerance == 0) o.tolerance = 1e-14; /* of dense output */
     if (iso_tolerance_check(ctx, o.tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;
     iso_integrator *it = calloc(1, sizeof *it);
-    if (!it) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for an integrator");
+    if (!it) return iso_context_no_memory(ctx, "an integrator");
     it->ctx = ctx;
     it->method = method;
     it->model = *model;
@@ -125,7 +128,7 @@ static iso_status take_next_step(iso_integrator *it)
     double y[ISO_MAX_STATE], h = 0;
     iso_past *past = iso_past_of(it, it->direction);
     const bool is_new = it->number == past->steps;
-    if (!iso_context_goes_on(it->ctx)) return iso_context_fail(it->ctx, ISO_STOPPED, "", "stopped on request");
+    if (!iso_context_goes_on(it->ctx)) return iso_context_stopped(it->ctx);
     if (it->stopped) return iso_integrator_stopped(it, "it has failed before");
     it->stopped = true; /* until the step has succeeded: a method that has failed cannot go on from where it stands */
     if (is_new && it->options.max_steps > 0 && it->statistics.steps >= it->options.max_steps)
@@ -172,7 +175,7 @@ iso_status iso_integrator_advance(iso_integrator *it)
 static iso_status jump(iso_integrator *it, int direction, double t)
 {
     double y[ISO_MAX_STATE];
-    if (!iso_context_goes_on(it->ctx)) return iso_context_fail(it->ctx, ISO_STOPPED, "", "stopped on request");
+    if (!iso_context_goes_on(it->ctx)) return iso_context_stopped(it->ctx);
     if (t == 0) copy(it->y0, y, it->model.dim);
     const iso_status status = t == 0 ? ISO_OK : it->method->at(it, t, y);
     if (status != ISO_OK) return status;

@@ -5,6 +5,7 @@
 #include "base/finite_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
+#include "model/model_impl.h"
 
 bool iso_integrator_rhs(iso_integrator *it, const double y[], double dy[])
 {

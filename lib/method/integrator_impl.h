@@ -1,4 +1,11 @@
-/* integrator_impl.h - what a method sees of an integrator. */
+/* integrator_impl.h - an integrator (method.h): how it is asked, and what a method sees of it.
+ *
+ *     iso_integrator *it;
+ *     iso_integrator_create(ctx, iso_method_find("rk8pd"), &model, &(iso_method_options){.tolerance = 1e-12}, &it);
+ *     iso_integrator_start(it, y0);            the state at time 0
+ *     iso_integrator_at(it, 10, y);            the state at time 10, or at any other, in any order
+ *     iso_integrator_free(it);
+ */
 #ifndef ISO_METHOD_INTEGRATOR_IMPL_H
 #define ISO_METHOD_INTEGRATOR_IMPL_H
 
@@ -118,5 +125,45 @@ bool iso_past_next(iso_integrator *it);
 iso_status iso_dense_create(iso_integrator *it);
 void iso_dense_free(iso_dense *dense);
 iso_status iso_dense_at(iso_integrator *it, double dt, double y[]);
+
+/* Errors: ISO_NO_MEMORY; ISO_BAD_ARGUMENT:
+ * - about "method": there is none, or it does not serve the model, or its fixed steps are not those of this clock;
+ *   the message says what is missing and what to take instead;
+ * - about "tolerance": it is out of range;
+ * - else: a fixed step that is negative or not finite, or a method that takes no fixed steps. */
+iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, const iso_model *model,
+                                 const iso_method_options *options, iso_integrator **integrator);
+void iso_integrator_free(iso_integrator *it);
+
+/* Begins anew with state y0 (model.dim numbers) at time 0. Errors: ISO_BAD_ARGUMENT when y0 is not finite, or when a
+ * method with `at` knows no orbit that begins there. */
+iso_status iso_integrator_start(iso_integrator *it, const double y0[]);
+
+/* The state at time t, before or after 0, the same bits in whatever order times are asked. Cheap when times run away
+ * from 0, and where options.memory holds the ends of steps: a time passed before then takes one step, or a few, or
+ * dense output. Else turning back starts again from 0. Steps that are taken again do not count.
+ * Errors: ISO_NUMERICAL with method, reason and the last good time; y is then not written. */
+iso_status iso_integrator_at(iso_integrator *it, double t, double y[]);
+
+/* An event: g(y) passes zero upwards (direction 1, in the sense of growing time), downwards (-1) or either way
+ * (0). */
+typedef struct iso_event {
+    double (*g)(const iso_model *model, const double y[], const void *data);
+    const void *data;
+    int direction;
+} iso_event;
+
+/* The first event after `from`, at or before `to`, going away from 0 (0 <= from <= to, or 0 >= from >= to). If there
+ * is one, *found is true and t and y are its time and state, good to rounding (at the end of a step: to the error of
+ * a step). Two zeros between which the state changes by less than a quarter of its size are found if g turns round
+ * just once between them. No events are: a zero that g only touches, a zero at `from` itself or within 1e-9 steps of
+ * it. Errors: as iso_integrator_at, and ISO_NUMERICAL when g is not finite. */
+iso_status iso_integrator_event(iso_integrator *it, const iso_event *event, double from, double to, bool *found,
+                                double *t, double y[]);
+
+/* The end of the last good step: time and state. */
+void iso_integrator_last(const iso_integrator *it, double *t, double y[]);
+
+iso_statistics iso_integrator_statistics(const iso_integrator *it);
 
 #endif

@@ -41,4 +41,24 @@ enum { ISO_VERY_STIFF = 1000 };
 ISO_METHOD_LIST(ISO_METHOD_DECLARE)
 #undef ISO_METHOD_DECLARE
 
+/* Whether a scene's method is one of them. Errors: ISO_BAD_ARGUMENT about "method", with the nearest name. */
+iso_status iso_method_check(iso_context *ctx, const char *name);
+
+/* Whether the method can simulate the model. If not, `why` says what is missing, in words that follow the method's
+ * name. */
+enum { ISO_WHY_SIZE = 256 };
+bool iso_method_serves(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE]);
+
+/* What "auto" means for a model: of the methods that serve it the one that suits it best (iso_method.suits), the
+ * first of equals in the registry. As a rule:
+ * - stiff models (iso_effects_stiffness): `bsimp`, the stiffest `bdf`;
+ * - (24) with |k| so small that (max J/min J)^(1/|k|) > 1e10: `rk8pd`;
+ * - all others: `taylor`. */
+const iso_method *iso_method_auto(const iso_model *model);
+
+/* For references: the method with the least digits above `digits`; and the method asked as `place`-th whether another
+ * code confirms a result (iso_method.witness). NULL: there is none. */
+const iso_method *iso_method_with_more_digits(int digits);
+const iso_method *iso_method_witness(int place);
+
 #endif

@@ -2,7 +2,9 @@
  * model has, and says what is missing. A method is never run on a model that it would simulate wrongly. */
 #include <stdio.h>
 
-#include "method/method.h"
+#include "method/methods_impl.h"
+#include "model/model_impl.h"
+#include "model/system_impl.h"
 
 /* --- one check for each need --------------------------------------------------------------------------------- */
 

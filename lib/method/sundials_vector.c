@@ -1,5 +1,6 @@
 /* sundials_vector.c - what cvode.c and arkode.c share: right-hand side, error weights and failures of SUNDIALS. */
 #include "method/sundials_vector_impl.h"
+#include "model/model_impl.h"
 
 #include <stdlib.h>
 

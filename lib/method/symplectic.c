@@ -26,6 +26,8 @@
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
+#include "model/formula_lines_impl.h"
+#include "model/system_impl.h"
 
 /* --- coefficients ---------------------------------------------------------------------------------------------- */
 
@@ -269,7 +271,7 @@ static iso_status create(iso_integrator *it)
 {
     const iso_model *m = &it->model;
     splitting *d = it->data = calloc(1, sizeof *d);
-    if (!d) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for %s", it->method->name);
+    if (!d) return iso_context_no_memory(it->ctx, "%s", it->method->name);
     d->clocks = m->clock != ISO_CLOCK_S;
     for (int c = 0; c < m->clocks; c++) d->clocks = d->clocks || m->clock_of[c] != ISO_CLOCK_S;
     it->saved = (SAVED_NUMBERS + 2 * (size_t)m->dim) * sizeof(double);

@@ -18,6 +18,7 @@
  */
 #include <math.h>
 
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
 #include "model/integrals_impl.h"

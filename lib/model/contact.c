@@ -13,7 +13,7 @@
 #include "model/contact_impl.h"
 
 #include "base/vec3_impl.h"
-#include "model/effect.h"
+#include "model/effects_impl.h"
 
 static void turn_of_normal(const iso_problem *f, const double y[], double n_dot[3])
 {

@@ -10,6 +10,7 @@
 
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
+#include "model/formula_lines_impl.h"
 #include "model/model.h"
 
 const iso_effect *const iso_effect_list[ISO_EFFECTS] = {

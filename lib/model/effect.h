@@ -88,7 +88,7 @@ typedef struct iso_effect {
     const char *name, *doc;
 
     /* --- what it means --- */
-    bool observes;      /* it changes nothing in the motion: it only adds states or columns                   */
+    bool observes; /* it changes nothing in the motion: it only adds states or columns                   */
     /* Whether it has no torque from a start with the normal n on: then it observes as well. NULL: never. */
     bool (*idle)(const iso_params *p, const double n[3], const iso_effects *effects);
     bool ball_only;     /* an observer whose states or columns only backend ball has                          */
@@ -98,9 +98,10 @@ typedef struct iso_effect {
     bool twists;        /* the contact is not rigid: (omega,n) is free                                        */
     bool clocks;        /* it asks for the clocks as columns, and for nothing else                            */
     bool is_level;      /* its potential is the energy level of the point: no force on the point              */
-    iso_work (*work)(const iso_problem *f);                    /* NULL: unknown; for an observer: none            */
-    bool (*keeps)(const iso_problem *f, iso_additional integral); /* NULL: it keeps none; an observer: all           */
-    const char *(*no_frequencies)(const iso_problem *f);       /* why n(t) is not quasi-periodic; NULL: it may be */
+    iso_work (*work)(const iso_problem *f); /* NULL: unknown; for an observer: none            */
+    bool (*keeps)(const iso_problem *f,
+                  iso_additional integral);              /* NULL: it keeps none; an observer: all           */
+    const char *(*no_frequencies)(const iso_problem *f); /* why n(t) is not quasi-periodic; NULL: it may be */
 
     /* --- its numbers and columns --- */
     const iso_effect_number *numbers; /* ended by a row without a name; NULL: none                                  */
@@ -155,12 +156,6 @@ typedef struct iso_effect {
 /* The registry, in the order of iso_effect_id. */
 ISO_API extern const iso_effect *const iso_effect_list[ISO_EFFECTS];
 
-/* The effect called `name`; ISO_EFFECTS: there is none. */
-ISO_API iso_effect_id iso_effect_find(const char *name);
-
-/* The name of the effect `id`; NULL past the last. */
-const char *iso_effect_name(int id);
-
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
 
 /* Where an effect's number stands: number->count doubles, as const as `effects` is. */
@@ -178,34 +173,10 @@ ISO_API iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const
 ISO_API bool iso_effects_have_level(const iso_effects *effects);
 ISO_API double iso_effects_level(const iso_effects *effects);
 
-/* Sets it: `there` false takes it away. */
-ISO_API void iso_effects_set_level(iso_effects *effects, bool there, double c);
-
-/* The name of the effect that states it, and the dimension of c. */
+/* The name of the effect that states it. */
 ISO_API const char *iso_level_name(void);
-iso_dimension iso_level_dimension(void);
-
-/* What is wrong with numbers or combinations, as the physics sees it: an effect that cannot matter here (gravity on a
- * horizontal plane, a constant field), numbers that are none. `normal` is n at the start. Makes unit vectors of those
- * that are (to 1e-6), and fills in numbers that follow from others: the attitude, where it was not given. Errors:
- * ISO_BAD_INPUT about the effect's name or its number's. */
-ISO_API iso_status iso_effects_check(iso_context *ctx, const iso_params *params, const double normal[3],
-                                     iso_effects *effects);
-
-/* Finds the effects that have no torque from a start with this normal on, up to rounding, and notes them in `idle`:
- * the weight on a horizontal plane only presses the ball down. Orbits settle their effects themselves. */
-ISO_API void iso_effects_settle(const iso_params *params, const double normal[3], iso_effects *effects);
-
-/* The upward vertical at the start, in body axes: 3 numbers. Without gravity they mean nothing. */
-const double *iso_effects_up(const iso_effects *effects);
-
-/* The effects carried from the caller's units to own ones (power -1), or back (power 1). */
-iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power);
 
 /* --- what they do to the motion --------------------------------------------------------------------------------- */
-
-/* Whether an effect that is on changes the motion: it is no observer, and not idle. */
-bool iso_effect_acts(const iso_effects *effects, iso_effect_id id);
 
 /* Those that act, of effects that are settled; of a scene: iso_scene_acting (orbit/scene.h). */
 ISO_API iso_effects iso_effects_acting(const iso_effects *effects);
@@ -217,70 +188,11 @@ ISO_API const iso_effect *iso_effects_idle(const iso_effects *effects);
 ISO_API const iso_effect *iso_effects_breaking(const iso_effects *effects);
 ISO_API const char *iso_effect_why_broken(const iso_effect *effect);
 
-/* The first observer that only backend ball has; NULL: none. */
-const iso_effect *iso_effects_ball_only(const iso_effects *effects);
-
-/* The first effect that acts, other than `level`; NULL: none. */
-const iso_effect *iso_effects_beyond_level(const iso_effects *effects);
-
-/* The first effect with which n(t) has no frequencies, and why; NULL: none. */
-const iso_effect *iso_effects_without_frequencies(const iso_problem *f, const char **why);
-
-/* Whether a run ends where contact is lost; and whether the pressure of the contact changes where it begins at 0. */
+/* Whether a run ends where contact is lost. */
 ISO_API bool iso_effects_watch_contact(const iso_effects *effects);
-bool iso_effects_change_pressure(const iso_params *params, const iso_effects *effects);
-
-/* Whether an effect that is on has the property. */
-bool iso_effects_twist(const iso_effects *effects);  /* the contact is not rigid      */
-bool iso_effects_clocks(const iso_effects *effects); /* the clocks are asked for      */
-bool iso_effects_need_D(const iso_effects *effects);
-bool iso_effects_need_radius(const iso_effects *effects);
-
-/* Sums over the effects of a problem: potential energy of the ball, and of the image of a point; the size of what
- * makes them, for error control. */
-double iso_effects_potential(const iso_problem *f, const double y[]);
-double iso_effects_image(const iso_problem *f, const double y[]);
-double iso_effects_strength(const iso_problem *f, const double y[]);
-double iso_effects_range(const iso_problem *f, const double y[]);
-double iso_effects_largest(const iso_problem *f, const double y[]); /* that of `range` alone */
-
-/* Whether nothing acts but a level, which the isomorphism turns into a constant. */
-bool iso_effects_are_free(const iso_effects *effects);
 
 /* Whether one of them has an image: a potential on the point, beyond a level. */
 ISO_API bool iso_effects_have_image(const iso_effects *effects);
-
-/* Whether the effects have potentials, which move a ball that is at rest. */
-bool iso_effects_pull(const iso_effects *effects);
-
-/* Whether one of the further integrals survives all effects. */
-bool iso_effects_keep(const iso_problem *f, iso_additional integral);
-
-/* Whether the energy is conserved, and known from the state: on a plane the height is a state of `attitude`. */
-bool iso_effects_keep_energy(const iso_problem *f);
-
-/* All torques on the ball but the contact's; the rates of effects' states in dy. */
-void iso_effects_torque(const iso_problem *f, const double y[], double T[3], double dy[]);
-
-/* lambda of the torque lambda n by which a contact that is not rigid resists twisting. */
-double iso_effects_twist_torque(const iso_problem *f, const double y[]);
-
-/* The first effect that takes energy away; NULL: none. */
-const iso_effect *iso_effects_taking_energy(const iso_problem *f);
-
-/* How many times faster than the ball turns, in its own units, the effects make motion die away: the largest of them.
- * Above ISO_STIFF explicit methods are held up; the torque of a contact that alone is as stiff is a state, lambda. */
-enum { ISO_STIFF = 50 };
-double iso_effects_stiffness(const iso_problem *f);
-
-/* The turns of the ball, in its own units, for which it moves at most before resistance has brought it to rest, all
- * the way through the range of doubles; infinite where nothing does, or something keeps it moving. */
-double iso_effects_moving(const iso_problem *f);
-
-/* In own units a ball that turns more slowly than this, and only loses motion, is at rest: a tolerance of that is
- * still a normal double. */
-#define ISO_REST 1e-290
-bool iso_effects_at_rest(const iso_problem *f, const double y[]);
 
 /* --- columns ---------------------------------------------------------------------------------------------------- */
 
@@ -288,13 +200,8 @@ enum { ISO_EFFECT_COLUMNS = 28 }; /* room for the columns of all effects */
 
 /* The columns of all effects, in the order of the registry: column i, from 0; its effect, its group and which of the
  * group it is (each may be NULL). NULL past the last. */
-const char *iso_effect_column_name(int i, iso_effect_id *effect, const iso_effect_column **group, int *in_group);
-
-/* How many there are. */
-int iso_effect_columns(void);
-
-/* Of effect `id`: its first column. */
-int iso_effect_first_column(iso_effect_id id);
+ISO_API const char *iso_effect_column_name(int i, iso_effect_id *effect, const iso_effect_column **group,
+                                           int *in_group);
 
 /* --- integrals -------------------------------------------------------------------------------------------------- */
 

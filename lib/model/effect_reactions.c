@@ -13,6 +13,7 @@
 #include "model/contact_impl.h"
 #include "model/effects_impl.h"
 #include "model/model.h"
+#include "model/params_impl.h"
 
 /* Where its number is. */
 enum { TWO_SIDED = 0 };

@@ -1,5 +1,5 @@
 /* effects_columns.c - the columns of all effects, counted through (effect.h). */
-#include "model/effect.h"
+#include "model/effects_impl.h"
 
 const char *iso_effect_column_name(int i, iso_effect_id *effect, const iso_effect_column **group, int *in_group)
 {

@@ -43,4 +43,103 @@ bool iso_is_plane(const iso_problem *f);
 iso_work iso_no_work(const iso_problem *f);
 iso_work iso_work_lost(const iso_problem *f);
 
+/* The effect called `name`; ISO_EFFECTS: there is none. */
+iso_effect_id iso_effect_find(const char *name);
+
+/* The name of the effect `id`; NULL past the last. */
+const char *iso_effect_name(int id);
+
+/* Sets it: `there` false takes it away. */
+void iso_effects_set_level(iso_effects *effects, bool there, double c);
+
+/* The dimension of c of a level. */
+iso_dimension iso_level_dimension(void);
+
+/* What is wrong with numbers or combinations, as the physics sees it: an effect that cannot matter here (gravity on a
+ * horizontal plane, a constant field), numbers that are none. `normal` is n at the start. Makes unit vectors of those
+ * that are (to 1e-6), and fills in numbers that follow from others: the attitude, where it was not given. Errors:
+ * ISO_BAD_INPUT about the effect's name or its number's. */
+iso_status iso_effects_check(iso_context *ctx, const iso_params *params, const double normal[3],
+                             iso_effects *effects);
+
+/* Finds the effects that have no torque from a start with this normal on, up to rounding, and notes them in `idle`:
+ * the weight on a horizontal plane only presses the ball down. Orbits settle their effects themselves. */
+void iso_effects_settle(const iso_params *params, const double normal[3], iso_effects *effects);
+
+/* The upward vertical at the start, in body axes: 3 numbers. Without gravity they mean nothing. */
+const double *iso_effects_up(const iso_effects *effects);
+
+/* The effects carried from the caller's units to own ones (power -1), or back (power 1). */
+iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power);
+
+/* Whether an effect that is on changes the motion: it is no observer, and not idle. */
+bool iso_effect_acts(const iso_effects *effects, iso_effect_id id);
+
+/* The first observer that only backend ball has; NULL: none. */
+const iso_effect *iso_effects_ball_only(const iso_effects *effects);
+
+/* The first effect that acts, other than `level`; NULL: none. */
+const iso_effect *iso_effects_beyond_level(const iso_effects *effects);
+
+/* The first effect with which n(t) has no frequencies, and why; NULL: none. */
+const iso_effect *iso_effects_without_frequencies(const iso_problem *f, const char **why);
+
+/* Whether the pressure of the contact changes where it begins at 0. */
+bool iso_effects_change_pressure(const iso_params *params, const iso_effects *effects);
+
+/* Whether an effect that is on has the property. */
+bool iso_effects_twist(const iso_effects *effects);  /* the contact is not rigid      */
+bool iso_effects_clocks(const iso_effects *effects); /* the clocks are asked for      */
+bool iso_effects_need_D(const iso_effects *effects);
+bool iso_effects_need_radius(const iso_effects *effects);
+
+/* Sums over the effects of a problem: potential energy of the ball, and of the image of a point; the size of what
+ * makes them, for error control. */
+double iso_effects_potential(const iso_problem *f, const double y[]);
+double iso_effects_image(const iso_problem *f, const double y[]);
+double iso_effects_strength(const iso_problem *f, const double y[]);
+double iso_effects_range(const iso_problem *f, const double y[]);
+double iso_effects_largest(const iso_problem *f, const double y[]); /* that of `range` alone */
+
+/* Whether nothing acts but a level, which the isomorphism turns into a constant. */
+bool iso_effects_are_free(const iso_effects *effects);
+
+/* Whether the effects have potentials, which move a ball that is at rest. */
+bool iso_effects_pull(const iso_effects *effects);
+
+/* Whether one of the further integrals survives all effects. */
+bool iso_effects_keep(const iso_problem *f, iso_additional integral);
+
+/* Whether the energy is conserved, and known from the state: on a plane the height is a state of `attitude`. */
+bool iso_effects_keep_energy(const iso_problem *f);
+
+/* All torques on the ball but the contact's; the rates of effects' states in dy. */
+void iso_effects_torque(const iso_problem *f, const double y[], double T[3], double dy[]);
+
+/* lambda of the torque lambda n by which a contact that is not rigid resists twisting. */
+double iso_effects_twist_torque(const iso_problem *f, const double y[]);
+
+/* The first effect that takes energy away; NULL: none. */
+const iso_effect *iso_effects_taking_energy(const iso_problem *f);
+
+/* How many times faster than the ball turns, in its own units, the effects make motion die away: the largest of them.
+ * Above ISO_STIFF explicit methods are held up; the torque of a contact that alone is as stiff is a state, lambda. */
+enum { ISO_STIFF = 50 };
+double iso_effects_stiffness(const iso_problem *f);
+
+/* The turns of the ball, in its own units, for which it moves at most before resistance has brought it to rest, all
+ * the way through the range of doubles; infinite where nothing does, or something keeps it moving. */
+double iso_effects_moving(const iso_problem *f);
+
+/* In own units a ball that turns more slowly than this, and only loses motion, is at rest: a tolerance of that is
+ * still a normal double. */
+#define ISO_REST 1e-290
+bool iso_effects_at_rest(const iso_problem *f, const double y[]);
+
+/* How many columns all effects have. */
+int iso_effect_columns(void);
+
+/* Of effect `id`: its first column. */
+int iso_effect_first_column(iso_effect_id id);
+
 #endif

@@ -1,5 +1,5 @@
 /* formula.c - writes formulas down, line by line (formula.h). series/evaluate_impl.h computes them. */
-#include "model/formula.h"
+#include "model/formula_lines_impl.h"
 
 #include <math.h>
 #include <string.h>

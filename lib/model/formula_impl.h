@@ -21,7 +21,7 @@
 #ifndef ISO_MODEL_FORMULA_IMPL_H
 #define ISO_MODEL_FORMULA_IMPL_H
 
-#include "model/formula.h"
+#include "model/formula_lines_impl.h"
 
 /* --- constants -------------------------------------------------------------------------------------------------- */
 

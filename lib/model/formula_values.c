@@ -9,6 +9,7 @@
 
 enum { KEPT = 2 }; /* coefficients of each series: the value, and of a state the rate */
 
+#include "model/formula_lines_impl.h"
 #include "model/series/evaluate_impl.h"
 
 typedef struct values {

@@ -2,7 +2,7 @@
 #ifndef ISO_MODEL_INTEGRALS_IMPL_H
 #define ISO_MODEL_INTEGRALS_IMPL_H
 
-#include "model/effect.h"
+#include "model/effects_impl.h"
 
 static inline bool holds_plane(const iso_problem *f)
 {

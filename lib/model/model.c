@@ -1,13 +1,15 @@
 /* model.c - puts the equations of one orbit together: the system, its effects, the clock it runs in, other clocks.
  * The model calls the plainest functions that do it: a free ball in its own time costs no look at effects or clocks.
  */
-#include "model/model.h"
+#include "model/model_impl.h"
 
 #include <math.h>
 
 #include "base/vec3_impl.h"
 #include "model/contact_impl.h"
 #include "model/effects_impl.h"
+#include "model/formula_lines_impl.h"
+#include "model/system_impl.h"
 
 _Static_assert(ISO_MAX_STATE <= 256, "a formula holds places in y in uint8_t");
 

@@ -22,11 +22,11 @@ typedef struct iso_model iso_model;
 struct iso_model {
     const iso_system *system;
     iso_problem problem;
-    iso_clock clock;               /* the independent variable                                  */
-    int moving;                    /* states of the system and of the effects                   */
-    int clocks;                    /* number of clocks that are states, after those             */
+    iso_clock clock;                /* the independent variable                                  */
+    int moving;                     /* states of the system and of the effects                   */
+    int clocks;                     /* number of clocks that are states, after those             */
     iso_clock clock_of[ISO_CLOCKS]; /* which                                                    */
-    int dim;                       /* moving + clocks                                           */
+    int dim;                        /* moving + clocks                                           */
     void (*rhs)(const iso_model *m, const double y[], double dy[]);       /* y' = f(y)          */
     void (*jacobian)(const iso_model *m, const double y[], double jac[]); /* row-major dim x dim */
 
@@ -43,33 +43,11 @@ struct iso_model {
 ISO_API iso_model iso_model_assemble(const iso_system *system, const iso_problem *problem, iso_clock clock,
                                      const bool with_clock[ISO_CLOCKS]);
 
-/* Why the model cannot be simulated: more effects than there is room for; NULL: it can. */
-const char *iso_model_too_large(const iso_model *m);
-
-/* The first of its effects whose equations are no formula: only methods that need nothing but y' can take it. NULL:
- * none. */
-const iso_effect *iso_model_without_formula(const iso_model *m);
-
 /* The state at the start: the system's six numbers as they are, effects at their beginnings, clocks at 0. */
 ISO_API void iso_model_begin(const iso_model *m, const double start[ISO_STATE], double y[]);
 
 /* The name of state i, and why it is there: "" for the system's own. */
 ISO_API const char *iso_model_state_name(const iso_model *m, int i, const char **reason);
-
-/* Restores the constraints of system and effects, and the energy where it is conserved; gives the relative size of
- * the correction. */
-double iso_model_project(const iso_model *m, double y[]);
-
-/* The size of each component for error control: of the vector of R^3 it belongs to; of the clock, and of its
- * progress in one unit of the independent variable. Errors of a step are measured in units of tolerance * size. */
-void iso_model_size(const iso_model *m, const double y[], double size[]);
-
-/* Whether its equations stand in series/recurrences_impl.h, of which slopes and series are made. */
-bool iso_system_has_recurrences(const iso_system *system);
-
-/* The Jacobian in the system's own clock, moving x moving, row-major: that of the formulas,
- * iso_model_without_formula() must be NULL. */
-void iso_model_slopes(const iso_model *m, const double y[], double jac[]);
 
 ISO_C_END
 

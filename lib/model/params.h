@@ -59,17 +59,11 @@ ISO_API iso_status iso_params_physical(iso_context *ctx, const iso_body *body, i
 ISO_API double iso_coupling(const iso_params *params, double h);
 ISO_API double iso_energy(const iso_params *params, double eps);
 
-/* The sign of the ball's radius b: -1 inside a sphere and of a shell, else 1. */
-int iso_params_sign_of_radius(const iso_params *params);
-
 /* A number x with which a quantity is measured: x = J^(J + J_2k/(2k)) w^(w), J a moment of inertia, w a rate.
  * With it every quantity of either model can be carried from one system of units to another. */
 typedef struct iso_dimension {
     int J, J_2k, w;
 } iso_dimension;
-
-/* of the ball's energy h = (w,Jw)/2 and of the point's coupling eps = h det J/k^2 */
-extern const iso_dimension iso_dimension_h, iso_dimension_eps;
 
 /* The ball's own units: powers of two near its moments of inertia and its spin, in which everything is of order
  * one. Going there and back rounds nothing but the quantities whose dimension has J_2k != 0. */
@@ -78,18 +72,9 @@ typedef struct iso_units {
     iso_params own; /* the same ball, J in the unit J       */
 } iso_units;
 
-/* Own units for motions of angular speed about `speed` (1/time; 0 allowed). */
-void iso_units_choose(const iso_params *params, double speed, iso_units *units);
-
 /* One own unit of a quantity of dimension d, in the caller's units: caller's number = own number * iso_unit().
  * Infinite or zero when it does not fit a double. */
 ISO_API double iso_unit(const iso_units *units, iso_dimension d);
-
-/* Whether q^(1/k) fits a double, over its value at another q, for all q from the least moment to the largest. */
-bool iso_params_powers_fit(const iso_params *p);
-
-/* ISO_BAD_INPUT about "k" where they do not. */
-iso_status iso_params_check_powers(iso_context *ctx, const iso_params *p);
 
 ISO_C_END
 

@@ -24,13 +24,8 @@ enum { ISO_STATE = 6 }; /* numbers in a state of either system: two vectors of R
 /* Clocks: the ball's time t, the time tau in which the ball is Hamiltonian (16), the point's time s (24). */
 typedef enum iso_clock { ISO_CLOCK_T, ISO_CLOCK_TAU, ISO_CLOCK_S, ISO_CLOCKS } iso_clock;
 
-/* "t", "tau", "s" and their dimensions. */
+/* "t", "tau", "s". */
 ISO_API const char *iso_clock_name(iso_clock clock);
-iso_dimension iso_clock_dimension(iso_clock clock);
-
-/* Rate d clock / dt > 0 where q = (gamma, J gamma) = 1/(n, J^-1 n), and its exponent e in rate ~ q^e:
- *     t: 1,   tau: N = q^(1 - 1/(2k)),   s: G N = (k^2/det J) q^(1 + 1/(2k)). */
-double iso_clock_rate(const iso_params *p, iso_clock clock, double q, double *exponent);
 
 /* A first integral. y is the state of the whole model, of which most integrals read six numbers. `value` gives I(y)
  * and, in *size, the magnitude of its terms. Drift is measured by this size: if I is conserved,
@@ -72,20 +67,8 @@ typedef struct iso_system {
 ISO_API extern const iso_system iso_system_ball;
 ISO_API extern const iso_system iso_system_point;
 
-/* The point on H = 0 again, y = (J^(1/2) omega, gamma) in the ball's time, free of powers of q: for extreme k
- * (point_t.c). Not in the registry. */
-extern const iso_system iso_system_point_t;
-
-/* Its states and those of the point, (M, gamma) with M = NN p (18). The two may be one array. */
-void iso_point_to_point_t(const iso_params *p, const double point[ISO_STATE], double y[ISO_STATE]);
-void iso_point_t_to_point(const iso_params *p, const double y[ISO_STATE], double point[ISO_STATE]);
-
 /* The registry, ended by NULL. */
 ISO_API extern const iso_system *const iso_systems[];
-
-/* Whether powers q^(1/k) may range over more than ten decades along an orbit: series of (24) then overflow, and its
- * steps shrink. */
-bool iso_params_steep(const iso_params *p);
 
 /* Whether two moments of inertia are equal (to 4 units in the last place), making axis `axis` (0-2) one of symmetry.
  */

@@ -111,7 +111,7 @@ static iso_status finish(iso_pool_worker *w, const batch *b, size_t i, const mem
     if (job->error)
         return iso_context_fail(w->ctx, ISO_NUMERICAL, "", "taylor stopped after %ld steps: %s; last good %s = %.17g",
                                 job->steps, job->error, iso_clock_name(m->orbit.model.clock), job->last * job->unit);
-    return job->done == b->rows ? ISO_OK : iso_context_fail(w->ctx, ISO_STOPPED, "", "stopped on request");
+    return job->done == b->rows ? ISO_OK : iso_context_stopped(w->ctx);
 }
 
 static void set_job(const batch *b, size_t i, member *m)
@@ -196,7 +196,7 @@ iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_
     batch b = {.orbits = orbits, .rows = rows, .options = &own, .times = times, .samples = samples, .code = code};
     iso_pool pool = {.count = count, .chunk = CHUNK, .solve = solve_chunk, .data = &b};
     b.status = status ? status : malloc((count + 1) * sizeof *b.status);
-    if (!b.status) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a batch");
+    if (!b.status) return iso_context_no_memory(ctx, "a batch");
     for (size_t i = 0; i < count; i++) b.status[i] = ISO_STOPPED;
     checked = iso_pool_run(ctx, &pool, threads, b.status);
     if (!status) free(b.status);

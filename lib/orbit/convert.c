@@ -8,6 +8,7 @@
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "orbit/convert_impl.h"
+#include "orbit/description_impl.h"
 
 /* The header, and the marks of rows before the first good one. */
 static iso_status begin(iso_conversion *c, const conversion_row *r)
@@ -118,7 +119,7 @@ iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, con
                                  const iso_conversion_target *target, iso_conversion **conversion)
 {
     iso_conversion *c = *conversion = calloc(1, sizeof *c);
-    if (!c) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a conversion");
+    if (!c) return iso_context_no_memory(ctx, "a conversion");
     c->ctx = ctx;
     c->params = params;
     c->in = header;
@@ -158,12 +159,7 @@ typedef struct whole {
 static iso_status keep_header(void *data, const iso_record *header)
 {
     whole *w = data;
-    const char *names[1 + ISO_STATE], *key, *value;
-    for (size_t i = 0; i < iso_record_columns(header); i++) names[i] = iso_record_name(header, i);
-    iso_status status = iso_record_create(w->ctx, iso_record_columns(header), names, &w->out);
-    for (size_t i = 0; status == ISO_OK && iso_record_line(header, i, &key, &value); i++)
-        status = iso_record_set(w->ctx, w->out, key, value);
-    return status;
+    return iso_record_create_like(w->ctx, header, 0, NULL, &w->out);
 }
 
 static iso_status keep_row(void *data, const double row[])

@@ -22,7 +22,7 @@ enum { ISO_MAX_ROW_STEPS = 10000000 };
  *     status = iso_conversion_end(c, &summary);
  *     iso_conversion_free(c);
  *
- * Two-point Taylor quadrature (method/two_point.h) gives the gain of the other clock between two rows. It also shows
+ * Two-point Taylor quadrature gives the gain of the other clock between two rows. It also shows
  * whether the two rows lie on one orbit. Where they are too far apart for it, the orbit is integrated. If a row does
  * not lie on the orbit of the row before it, it is held until the next row shows which of the two is damaged. Sums of
  * times are compensated. */

@@ -4,7 +4,7 @@
 #ifndef ISO_ORBIT_CONVERT_IMPL_H
 #define ISO_ORBIT_CONVERT_IMPL_H
 
-#include "method/two_point.h"
+#include "method/two_point_impl.h"
 #include "orbit/convert.h"
 
 /* A good row. */
@@ -33,29 +33,29 @@ struct iso_conversion {
     bool replaces;                /* the result states the first row's own h and eps                     */
     iso_effects effects;          /* of the lines, and the level of a point off H = 0; the caller's units */
 
-    bool settled;                 /* which of them act is known: from the first row on that is a start   */
+    bool settled; /* which of them act is known: from the first row on that is a start   */
 
     /* from the first good row on, which has begun the result */
     bool begun;
-    iso_status trouble;              /* no memory, or stopped, in the middle of a decision */
-    size_t good;                     /* rows so far                                        */
-    int strangers;                   /* behind the first, and before the next, of another energy */
+    iso_status trouble; /* no memory, or stopped, in the middle of a decision */
+    size_t good;        /* rows so far                                        */
+    int strangers;      /* behind the first, and before the next, of another energy */
     iso_orbit *first;
     iso_units units;
-    double unit_from, unit_to;       /* of the fast vectors   */
-    double unit_own, unit_other;     /* of the clocks         */
-    double energy;                   /* of the first row      */
-    iso_two_point *quadrature;       /* NULL without own clock */
-    conversion_row last, held;       /* the last accepted; one that breaks off from it */
+    double unit_from, unit_to;   /* of the fast vectors   */
+    double unit_own, unit_other; /* of the clocks         */
+    double energy;               /* of the first row      */
+    iso_two_point *quadrature;   /* NULL without own clock */
+    conversion_row last, held;   /* the last accepted; one that breaks off from it */
     bool has_last, is_held;
-    bool unwritten;                  /* the last is the first, and not written: it may be damaged      */
-    size_t first_marks;              /* bad rows behind it                                                 */
-    int doubted;                     /* rows taken for damaged, one after the other                     */
-    size_t marks;                    /* bad rows behind the held one, or before the first good one */
-    double direction, typical;       /* of time; size of defects                                   */
-    double drift[ISO_STATE], late, moved;  /* see iso_conversion_summary.drift                            */
-    double gained;                   /* by the other clock meanwhile                                */
-    double sum, lost;                /* the other clock, and what its roundings lost               */
+    bool unwritten;                       /* the last is the first, and not written: it may be damaged      */
+    size_t first_marks;                   /* bad rows behind it                                                 */
+    int doubted;                          /* rows taken for damaged, one after the other                     */
+    size_t marks;                         /* bad rows behind the held one, or before the first good one */
+    double direction, typical;            /* of time; size of defects                                   */
+    double drift[ISO_STATE], late, moved; /* see iso_conversion_summary.drift                            */
+    double gained;                        /* by the other clock meanwhile                                */
+    double sum, lost;                     /* the other clock, and what its roundings lost               */
     iso_status first_failure;
     char *first_words;
     iso_conversion_summary summary;

@@ -1,5 +1,4 @@
-/* crossings.c - many orbits from crossing to crossing: checks the options, follows the orbits in lanes or one by one,
- * and keeps their failures. */
+/* crossings.c - many orbits from crossing to crossing: checks the options, follows the orbits in lanes or one by one. */
 #include "orbit/crossings.h"
 
 #include <math.h>
@@ -71,7 +70,7 @@ iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[]
     if (!c || !each) {
         free(c);
         free(each);
-        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the crossings of %zu orbits", count);
+        return iso_context_no_memory(ctx, "the crossings of %zu orbits", count);
     }
     *c = (iso_crossings){.ctx = ctx, .orbits = orbits, .count = count, .options = own, .orbit = each};
     *crossings = c;
@@ -105,15 +104,6 @@ static void blank(const iso_crossings *c, const iso_crossings_task *t)
     }
 }
 
-void iso_crossings_keep(iso_crossings *c, const iso_context *ctx, size_t i, iso_status status)
-{
-    iso_crossed *o = &c->orbit[i];
-    if (status == ISO_OK || status == ISO_STOPPED) return;
-    o->status = status;
-    o->why = strdup(iso_context_message(ctx));
-    snprintf(o->about, sizeof o->about, "%s", iso_context_about(ctx));
-}
-
 typedef struct loners {
     iso_crossings *c;
     const iso_crossings_task *task;
@@ -128,7 +118,7 @@ static void follow_alone(iso_pool_worker *w, const loners *l, size_t i)
     iso_sample *sample = t->sample ? t->sample + t->each * i : NULL;
     if (!o->ctx) o->ctx = iso_context_create();
     if (!o->ctx) {
-        t->status[i] = iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for an orbit");
+        t->status[i] = iso_context_no_memory(w->ctx, "an orbit");
         iso_crossings_keep(c, w->ctx, i, t->status[i]);
         return;
     }
@@ -185,7 +175,7 @@ iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, 
     const iso_crossings_task task = {wanted, each, crossing, sample, done, status};
     bool *taken = calloc(c->count + 1, sizeof *taken);
     blank(c, &task);
-    if (!taken) return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory for crossings");
+    if (!taken) return iso_context_no_memory(c->ctx, "crossings");
     iso_status answer = iso_crossings_in_lanes(c, &task, taken);
     if (answer == ISO_OK) answer = one_by_one(c, &task, taken);
     free(taken);

@@ -46,7 +46,7 @@ typedef struct iso_crossings_options {
     iso_clock clock; /* of ISO_SECTION_CLOCK                                                                 */
     bool deviations;
     double tolerance;
-    long max_steps;  /* between two crossings; 0: no bound                                                   */
+    long max_steps;   /* between two crossings; 0: no bound                                                   */
     iso_models shown; /* what samples show                                                                    */
     int threads;
     const char *vectors;
@@ -104,13 +104,6 @@ ISO_API void iso_crossings_free(iso_crossings *c);
 enum { ISO_MOST_BETWEEN = 10000 };
 ISO_API iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, iso_crossing crossing[],
                                     iso_sample sample[], size_t done[], iso_status status[]);
-
-/* A start of this model on the section n_axis = 0, at (l, x), with the energy of `orbit`, on which nothing acts but a
- * level. */
-iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x);
-
-/* Why orbit i has failed, in words without its number. */
-const char *iso_crossings_why(const iso_crossings *c, size_t i);
 
 ISO_C_END
 

@@ -6,9 +6,12 @@
  */
 #include <math.h>
 
+#include "base/monitor_impl.h"
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section.h"
+#include "model/params_impl.h"
+#include "model/system_impl.h"
 #include "orbit/crossings_impl.h"
 
 /* --- the orbit -------------------------------------------------------------------------------------------------- */
@@ -158,7 +161,7 @@ iso_status iso_crossings_go_alone(iso_crossings *c, size_t i, size_t each, iso_c
     while (status == ISO_OK && *done < each) {
         bool counts;
         status = iso_context_goes_on(o->ctx) ? step(c, o, &crossing[*done], sample ? &sample[*done] : NULL, &counts)
-                                             : iso_context_fail(o->ctx, ISO_STOPPED, "", "stopped on request");
+                                             : iso_context_stopped(o->ctx);
         *done += status == ISO_OK && counts;
     }
     return status;

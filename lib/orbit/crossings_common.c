@@ -1,12 +1,17 @@
 /* crossings_common.c - what orbits in lanes and orbits alone have in common: how they are prepared, the bounds
- * between their crossings, and the numbers of a crossing. */
+ * between their crossings, the numbers of a crossing, and failures. */
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "map/state.h"
+#include "model/effects_impl.h"
 #include "orbit/crossings_impl.h"
+#include "orbit/orbit_impl.h"
+#include "orbit/scene_impl.h"
 
 /* --- the orbit -------------------------------------------------------------------------------------------------- */
 
@@ -208,4 +213,13 @@ iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int ax
         copy(point, start.y, ISO_STATE);
     scale(start.y, ball ? units->w : iso_unit(units, iso_system_point.fast_dimension));
     return start;
+}
+
+void iso_crossings_keep(iso_crossings *c, const iso_context *ctx, size_t i, iso_status status)
+{
+    iso_crossed *o = &c->orbit[i];
+    if (status == ISO_OK || status == ISO_STOPPED) return;
+    o->status = status;
+    o->why = strdup(iso_context_message(ctx));
+    snprintf(o->about, sizeof o->about, "%s", iso_context_about(ctx));
 }

@@ -104,4 +104,11 @@ void iso_crossings_give(const iso_crossings *c, const iso_sample *from, iso_samp
 /* NaN in every number. */
 void iso_crossing_blank(iso_crossing *crossing);
 
+/* A start of this model on the section n_axis = 0, at (l, x), with the energy of `orbit`, on which nothing acts but a
+ * level. */
+iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x);
+
+/* Why orbit i has failed, in words without its number. */
+const char *iso_crossings_why(const iso_crossings *c, size_t i);
+
 #endif

@@ -8,10 +8,12 @@
 
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "map/state.h"
 #include "method/integrator_impl.h"
+#include "model/system_impl.h"
 #include "orbit/crossings_impl.h"
+#include "orbit/orbit_impl.h"
 #include "orbit/pool_impl.h"
 
 /* CHUNK: orbits that a thread takes at a time. BYTES: its room for their crossings. */
@@ -92,7 +94,7 @@ static iso_status begin(iso_pool_worker *w, const follower *f, size_t i)
     iso_crossings *c = f->c;
     iso_crossed *o = &c->orbit[i];
     struct iso_crossings_lane *lane = calloc(1, sizeof *lane + f->code->saved);
-    if (!lane) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for an orbit");
+    if (!lane) return iso_context_no_memory(w->ctx, "an orbit");
     iso_status status = prepare(w, c, i, lane);
     if (status == ISO_OK) iso_crossings_find_section(c, &lane->orbit, o);
     if (status != ISO_OK || !suits(c, lane, o)) {
@@ -274,7 +276,7 @@ static iso_status finish(iso_pool_worker *w, const follower *f, size_t i)
     if (job->error)
         return iso_context_fail(w->ctx, ISO_NUMERICAL, "", "taylor stopped: %s; last good %s = %.17g", job->error,
                                 iso_clock_name(lane->orbit.model.clock), job->last * job->unit);
-    return job->done == job->rows ? ISO_OK : iso_context_fail(w->ctx, ISO_STOPPED, "", "stopped on request");
+    return job->done == job->rows ? ISO_OK : iso_context_stopped(w->ctx);
 }
 
 /* One pass over the orbits of a chunk that still lack crossings. *waiting: how many they are. */

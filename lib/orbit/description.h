@@ -20,20 +20,13 @@ ISO_C_BEGIN
 ISO_API iso_status iso_record_describe(iso_context *ctx, iso_record *record, const char *model,
                                        const iso_params *params, const iso_orbit *orbit);
 
-/* The key of the line that states a number of an effect: "effect.number". */
-void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const iso_effect_number *number);
-
 /* Writes only the lines of the effects. */
 ISO_API iso_status iso_record_describe_effects(iso_context *ctx, iso_record *record, const iso_effects *effects);
-
-/* Writes the start of an orbit as a scene states it: `initial.normal` and `initial.angular_velocity` of a ball,
- * `initial.gamma` and `initial.M` of a point. */
-iso_status iso_record_describe_start(iso_context *ctx, iso_record *record, const iso_start *start);
 
 /* Writes all that a scene says but its times, columns and solver: a table of its orbits begins with these lines, and
  * the scene can be made again from them. They are those of iso_record_describe, the start, and the version of
  * isoroll. */
-iso_status iso_record_describe_scene(iso_context *ctx, iso_record *record, const iso_scene *scene);
+ISO_API iso_status iso_record_describe_scene(iso_context *ctx, iso_record *record, const iso_scene *scene);
 
 /* Reads the parameters from the lines `k`, `J` and `D`. Errors: ISO_BAD_INPUT about "k", "J" or "D" (absent,
  * wrong). */
@@ -51,28 +44,12 @@ ISO_API bool iso_record_up(iso_context *ctx, const iso_record *record, double up
 ISO_API bool iso_record_coupling(iso_context *ctx, const iso_record *record, const iso_params *params, double *eps,
                                  iso_status *status);
 
-/* The six columns of a model. Errors: ISO_BAD_INPUT about "columns". */
-ISO_API iso_status iso_record_find_state(iso_context *ctx, const iso_record *record, iso_model_kind model,
-                                         int columns[ISO_STATE]);
-
-/* Six numbers of a row as the start of an orbit in `model`; eps of a point, or NULL. Rows of others have few
- * digits: `tolerance` says how far |n| (|gamma|) may be from 1, and how large a part of omega along n (of M along
- * gamma) may be, relative to omega. A ball that twists may have any such part.
- * Errors: ISO_BAD_INPUT: not within the tolerance (the message names one that takes the row), or no state at all. */
-ISO_API iso_status iso_start_from_row(iso_context *ctx, iso_model_kind model, const double y[ISO_STATE],
-                                      const double *eps, bool twists, double tolerance, iso_start *start);
-
 /* Row `row` of a record as the start of an orbit in `model`, whose columns it must have; of `effects`, those of the
  * record, `up` and `quaternion` become the row's. A point's coupling is the record's eps (or that of its h), or
  * without these lines the one with which H is 0, or the level's.
  * Errors: ISO_BAD_INPUT with the row: a missing column, a row that is no state. */
 ISO_API iso_status iso_record_start(iso_context *ctx, const iso_record *record, const iso_params *params,
                                     iso_model_kind model, size_t row, iso_start *start, iso_effects *effects);
-
-/* The same of a row that is not in the record: `row` has as many numbers as the record has columns. Messages do not
- * give its place. */
-iso_status iso_record_start_at(iso_context *ctx, const iso_record *record, const iso_params *params,
-                               iso_model_kind model, const double row[], iso_start *start, iso_effects *effects);
 
 ISO_C_END
 

@@ -9,6 +9,7 @@
 
 #include "base/finite_impl.h"
 #include "base/vec3_impl.h"
+#include "exact/exact_impl.h"
 #include "exact/walk_impl.h"
 #include "method/integrator_impl.h"
 #include "orbit/orbit_impl.h"
@@ -22,7 +23,7 @@ typedef struct closed {
 static iso_status create(iso_integrator *it)
 {
     it->data = calloc(1, sizeof(closed));
-    return it->data ? ISO_OK : iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for a closed solution");
+    return it->data ? ISO_OK : iso_context_no_memory(it->ctx, "a closed solution");
 }
 
 static void release(iso_integrator *it)

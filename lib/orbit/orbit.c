@@ -14,9 +14,13 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
-#include "map/state.h"
+#include "map/state_impl.h"
 #include "method/integrator_impl.h"
+#include "method/methods_impl.h"
+#include "model/effects_impl.h"
+#include "model/system_impl.h"
 #include "orbit/orbit_impl.h"
+#include "orbit/scene_impl.h"
 
 /* --- making an orbit -------------------------------------------------------------------------------------------- */
 
@@ -84,7 +88,7 @@ iso_status iso_orbit_create(iso_context *ctx, const iso_params *p, const iso_sta
     ISO_DEFAULT_ARITHMETIC;
     *orbit = NULL;
     iso_orbit *o = calloc(1, sizeof *o);
-    if (!o) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for an orbit");
+    if (!o) return iso_context_no_memory(ctx, "an orbit");
     o->ctx = ctx;
     o->options = iso_orbit_defaults(start);
     iso_status status = iso_options_take(ctx, "iso_orbit_options", &o->options, sizeof o->options, options);

@@ -71,7 +71,6 @@ ISO_API double iso_sample_get(const iso_sample *sample, const char *name);
 
 /* The number in a column (iso_column_find). */
 ISO_API double iso_sample_column(const iso_sample *sample, int column);
-void iso_sample_set_column(iso_sample *sample, int column, double value);
 
 /* A point's orbit has a ball at every energy: off the level H = 0 in the potential of the effect `level`, which is
  * then added. Errors:
@@ -86,10 +85,6 @@ void iso_sample_set_column(iso_sample *sample, int column, double value);
 ISO_API iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const iso_start *start,
                                     const iso_orbit_options *options, iso_orbit **orbit);
 ISO_API void iso_orbit_free(iso_orbit *orbit);
-
-/* Whether a time can be asked for: finite, within 1e15 turns of the start, and by an explicit method not through more
- * than 1e6 times in which a stiff motion dies away. Errors: ISO_BAD_ARGUMENT about "end" or "method". */
-ISO_API iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
 
 /* The orbit at `time` of the options' clock, before or after the start. The order of the calls does not change a
  * bit. Times that move away from the start are cheap. An earlier time is found in microseconds from a step's end
@@ -106,10 +101,6 @@ ISO_API iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
  * a result that does not fit a double, or lost its digits). */
 ISO_API iso_status iso_orbit_at(iso_orbit *orbit, double time, iso_sample *sample);
 
-/* Tells the orbit that the next times have equal steps. The closed solution is then faster if steps are short, but
- * its last digits depend on the times before. Uneven times still give right states. Other backends ignore this. */
-ISO_API void iso_orbit_expect_even_times(iso_orbit *orbit);
-
 /* The first zero of g(sample) after `from`, not after `to`; see iso_integrator_event. direction as there. The sample
  * that g sees has no time (NaN) in the options' clock, only the clocks carried. Errors: as iso_orbit_at, and
  * ISO_NUMERICAL when g is not finite. */
@@ -121,12 +112,6 @@ ISO_API iso_status iso_orbit_event(iso_orbit *orbit, double (*g)(const iso_sampl
  * through 0. A touch is no loss. On a plane the pressure does not change. Needs the effect `reactions`. Errors: as
  * iso_orbit_event. */
 ISO_API iso_status iso_orbit_lost_contact(iso_orbit *orbit, double from, double to, bool *lost, iso_sample *sample);
-
-/* How far the integration has come, in the options' clock: for progress. */
-ISO_API double iso_orbit_reached(const iso_orbit *orbit);
-
-/* The end of the last good step, after a failure. */
-ISO_API iso_status iso_orbit_last(iso_orbit *orbit, iso_sample *sample);
 
 ISO_API iso_statistics iso_orbit_statistics(const iso_orbit *orbit);
 
@@ -148,9 +133,6 @@ ISO_API iso_effects iso_orbit_effects(const iso_orbit *orbit);
 /* Energy h of the ball and coupling eps of the point in the caller's units (infinite or 0 where they do not fit). */
 ISO_API double iso_orbit_energy(const iso_orbit *orbit);
 ISO_API double iso_orbit_coupling(const iso_orbit *orbit);
-
-/* The motion of the point, own units: its coupling, and its level H, which is 0 for the point of a free ball. */
-iso_point_motion iso_orbit_motion(const iso_orbit *orbit);
 
 /* An integral of either system at a sample that shows it: its value and the measure of its drift, in own units
  * (times iso_unit(units, integral->dimension) in the caller's). */

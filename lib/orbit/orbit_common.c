@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "base/vec3_impl.h"
+#include "model/effects_impl.h"
+#include "model/params_impl.h"
 #include "orbit/orbit_impl.h"
 
 /* --- the numbers of a sample ------------------------------------------------------------------------------------ */

@@ -76,4 +76,24 @@ void iso_orbit_state_of(const iso_orbit *o, const iso_system *system, const iso_
 /* The ball's integral beyond the energy and the constraints; NULL: none is known. */
 const iso_integral *iso_orbit_additional_integral(const iso_orbit *orbit);
 
+/* Sets it. */
+void iso_sample_set_column(iso_sample *sample, int column, double value);
+
+/* Whether a time can be asked for: finite, within 1e15 turns of the start, and by an explicit method not through more
+ * than 1e6 times in which a stiff motion dies away. Errors: ISO_BAD_ARGUMENT about "end" or "method". */
+iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
+
+/* Tells the orbit that the next times have equal steps. The closed solution is then faster if steps are short, but
+ * its last digits depend on the times before. Uneven times still give right states. Other backends ignore this. */
+void iso_orbit_expect_even_times(iso_orbit *orbit);
+
+/* How far the integration has come, in the options' clock: for progress. */
+double iso_orbit_reached(const iso_orbit *orbit);
+
+/* The end of the last good step, after a failure. */
+iso_status iso_orbit_last(iso_orbit *orbit, iso_sample *sample);
+
+/* The motion of the point, own units: its coupling, and its level H, which is 0 for the point of a free ball. */
+iso_point_motion iso_orbit_motion(const iso_orbit *orbit);
+
 #endif

@@ -9,7 +9,9 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/monitor_impl.h"
 #include "method/methods_impl.h"
+#include "model/effects_impl.h"
 #include "orbit/orbit_impl.h"
 
 void iso_pool_note(iso_pool_worker *w, size_t i, iso_status status)
@@ -120,8 +122,8 @@ static iso_status run(iso_context *ctx, iso_pool *all, iso_pool_worker workers[]
         iso_context_free(workers[i].ctx);
         if (workers[i].failed < first->failed) first = &workers[i];
     }
-    if (!memory) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", all->count);
-    if (atomic_load(&all->stopped)) return iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
+    if (!memory) return iso_context_no_memory(ctx, "%zu orbits", all->count);
+    if (atomic_load(&all->stopped)) return iso_context_stopped(ctx);
     if (first->failed == all->count) return ISO_OK;
     return iso_context_fail(ctx, status[first->failed], first->about, "orbit %zu: %s", first->failed, first->message);
 }
@@ -143,7 +145,7 @@ iso_status iso_pool_run(iso_context *ctx, iso_pool *all, size_t threads, const i
 {
     if (all->count / threads < all->chunk) all->chunk = all->count / threads + 1;
     iso_pool_worker *workers = calloc(threads, sizeof *workers);
-    if (!workers) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", all->count);
+    if (!workers) return iso_context_no_memory(ctx, "%zu orbits", all->count);
     const iso_status answer = run(ctx, all, workers, threads, status);
     free(workers);
     return answer;

@@ -83,21 +83,12 @@ typedef struct iso_scene {
     iso_backend backend;        /* what finds the orbit                                                   */
     char method[ISO_NAME_SIZE]; /* a name of iso_methods, or "auto"                                        */
     double tolerance;           /* largest relative error of one step, in [1e-15, 0.1]                     */
-    iso_models as;               /* whose states are written                                               */
+    iso_models as;              /* whose states are written                                               */
     size_t columns;             /* names of the columns wanted; 0: those of `as`                           */
     char column[ISO_MAX_COLUMNS][ISO_NAME_SIZE];
     int places; /* of what was read from a file, 0 for a scene filled by hand                              */
     iso_place place[ISO_MAX_PLACES];
 } iso_scene;
-
-/* The normal n at a start: that of the ball, or of the ball's image of the point. */
-void iso_start_normal(const iso_params *params, const iso_start *start, double n[3]);
-
-/* Finds the effects that are idle from this start on (iso_effects_settle). */
-void iso_start_settle(const iso_params *params, const iso_start *start, iso_effects *effects);
-
-/* The effects of a scene, settled. */
-iso_effects iso_scene_effects(const iso_scene *scene);
 
 /* The effects that act on the motion of a scene: all but observers, and but those that only observe from its start
  * on, as the weight on a horizontal plane does. */
@@ -113,12 +104,6 @@ ISO_API void iso_scene_forget_place(iso_scene *scene, const char *key);
 
 /* A scene without a ball: backend and method "auto", tolerance 1e-12, as ISO_SHOW_START (the model of the start). */
 ISO_API iso_scene iso_scene_default(void);
-
-/* Puts the scene on a level of the point's energy, (H/eps) J2^(1/k) (map/level.h); 0 is the free motion. A point keeps
- * eps, gamma and the direction of M. A ball keeps omega and n, and gets the effect `level`, or loses it.
- * Errors: ISO_BAD_INPUT: about "level", where the point cannot be at this gamma on this level; about "M" or
- * "angular_velocity" at rest; about "eps", not above 0; about an effect that acts. Those of iso_orbit_create. */
-ISO_API iso_status iso_scene_on_level(iso_context *ctx, iso_scene *scene, double level);
 
 /* More rows than this in a scene file are a mistake in `step`. */
 #define ISO_MOST_ROWS 1e8
@@ -158,17 +143,8 @@ enum {
 ISO_API int iso_columns_count(void);
 ISO_API const char *iso_column_name(int column);
 
-/* All names, for lists of them; gives their number. */
-ISO_API int iso_column_names(const char *names[ISO_TRAJECTORY_COLUMNS]);
-
 /* The column called `name`; -1: there is none. */
 ISO_API int iso_column_find(const char *name);
-
-/* The effect that a column needs; ISO_EFFECTS: none. */
-iso_effect_id iso_column_effect(int column);
-
-/* Errors: ISO_BAD_INPUT about "columns" when one of the scene's needs an effect that the scene has not. */
-ISO_API iso_status iso_scene_check_columns(iso_context *ctx, const iso_scene *scene);
 
 ISO_C_END
 

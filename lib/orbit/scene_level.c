@@ -1,10 +1,12 @@
-/* scene_level.c - puts a scene on a level of the point's energy, given as one number (map/level.h). */
+/* scene_level.c - puts a scene on a level of the point's energy, given as one number (study/level.h). */
 #include <math.h>
 
 #include "base/vec3_impl.h"
-#include "map/level.h"
+#include "map/level_impl.h"
 #include "map/section_impl.h"
-#include "orbit/orbit.h"
+#include "model/effects_impl.h"
+#include "orbit/orbit_impl.h"
+#include "orbit/scene_impl.h"
 
 static iso_status refuse_place(iso_context *ctx, const iso_point_motion m, double level, double q, const char *name)
 {

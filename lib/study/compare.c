@@ -9,6 +9,9 @@
 #include "base/arithmetic_impl.h"
 #include "base/seconds_impl.h"
 #include "base/vec3_impl.h"
+#include "method/methods_impl.h"
+#include "orbit/orbit_impl.h"
+#include "orbit/scene_impl.h"
 
 typedef struct runner {
     iso_context *ctx;
@@ -200,7 +203,7 @@ iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_comparison *c = *comparison = calloc(1, sizeof *c);
-    if (!c) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a comparison");
+    if (!c) return iso_context_no_memory(ctx, "a comparison");
     runner r = {.ctx = ctx, .scene = scene, .effects = iso_scene_acting(scene), .out = c};
     iso_status status = iso_scene_check_times(ctx, scene);
     if (status == ISO_OK) status = open_backend(&r, ISO_BACKEND_BALL);

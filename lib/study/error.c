@@ -1,5 +1,5 @@
 /* The estimated error of an orbit: a finer orbit and four moved ones run beside it, see error.h. */
-#include "study/error.h"
+#include "study/error_impl.h"
 
 #include <float.h>
 #include <math.h>
@@ -9,6 +9,8 @@
 #include "base/options_impl.h"
 #include "base/seconds_impl.h"
 #include "base/vec3_impl.h"
+#include "method/methods_impl.h"
+#include "model/effects_impl.h"
 #include "orbit/orbit_impl.h"
 
 /* How far from the start the moved orbits begin, relative: far above the error of their method, but small enough that
@@ -209,7 +211,7 @@ iso_status iso_error_finder_create(iso_context *ctx, const iso_params *params, c
                                 "there is nothing finer than %s at %g for this model", iso_orbit_method(orbit)->name,
                                 tolerance);
     iso_error_finder *f = calloc(1, sizeof *f);
-    if (!f) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the error of an orbit");
+    if (!f) return iso_context_no_memory(ctx, "the error of an orbit");
     const double begin = processor_seconds();
     f->ctx = ctx;
     f->orbit = orbit;

@@ -1,7 +1,11 @@
 /* level.c - the level of a scene (level_impl.h). */
 #include <math.h>
 
+#include "map/level_impl.h"
 #include "map/state.h"
+#include "model/effects_impl.h"
+#include "model/params_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/level_impl.h"
 
 iso_status iso_level_check(iso_context *ctx, const iso_effects *effects, const char *what)

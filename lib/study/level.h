@@ -1,9 +1,14 @@
-/* level.h - the level of a scene's point (map/level.h). */
+/* level.h - the level of a scene's point: its energy as one number without a unit.
+ *
+ *     level = (H/eps) J2^(1/k),       J2: the middle one of the three moments
+ *
+ * Units of mass, length and time do not change it, nor does the factor by which the ball turns faster. With k and
+ * J1:J2:J3 it fixes all motions, up to their clocks. 0 is the free ball.
+ */
 #ifndef ISO_STUDY_LEVEL_H
 #define ISO_STUDY_LEVEL_H
 
 #include "../base/api.h"
-#include "../map/level.h"
 #include "../orbit/scene.h"
 
 ISO_C_BEGIN

@@ -11,8 +11,13 @@
 #include "base/monitor_impl.h"
 #include "base/options_impl.h"
 #include "base/version.h"
+#include "method/methods_impl.h"
+#include "model/effects_impl.h"
 #include "orbit/description.h"
+#include "orbit/orbit_impl.h"
+#include "orbit/scene_impl.h"
 #include "study/backend_impl.h"
+#include "study/error_impl.h"
 #include "study/run_times_impl.h"
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
@@ -132,8 +137,7 @@ static iso_status sort_times(runner *r)
     r->order = iso_times_sorted(r->options.times, count);
     r->waiting = calloc(count, (size_t)r->count * sizeof *r->waiting);
     r->found = calloc(count, sizeof *r->found);
-    if (!r->order || !r->waiting || !r->found)
-        return iso_context_fail(r->ctx, ISO_NO_MEMORY, "", "no memory for the rows of %zu times", count);
+    if (!r->order || !r->waiting || !r->found) return iso_context_no_memory(r->ctx, "the rows of %zu times", count);
     return ISO_OK;
 }
 
@@ -289,7 +293,7 @@ static iso_status work_on(runner *r, iso_asked_time asked)
     double numbers[ISO_MAX_COLUMNS], *row = r->order ? r->waiting + asked.row * (size_t)r->count : numbers;
     iso_sample sample;
     bool there = false;
-    if (!iso_context_goes_on(r->ctx)) return iso_context_fail(r->ctx, ISO_STOPPED, "", "stopped on request");
+    if (!iso_context_goes_on(r->ctx)) return iso_context_stopped(r->ctx);
     iso_status status = find_sample(r, asked.time, &sample, &there);
     if (status == ISO_OK && there) status = add_error(r, &sample);
     if (status != ISO_OK || !there) return status;

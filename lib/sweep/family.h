@@ -102,9 +102,6 @@ ISO_API void iso_sweep_rows_free(iso_sweep_rows *rows);
 ISO_API size_t iso_sweep_chunks(const iso_sweep_head *head);
 ISO_API size_t iso_sweep_chunk_points(const iso_sweep_head *head, size_t c);
 
-/* Adds bytes to a hash of 128 bits, which begins as {0, 0}. It is for telling sweeps apart, not for secrets. */
-ISO_API void iso_sweep_hash(uint64_t hash[2], const void *bytes, size_t length);
-
 ISO_C_END
 
 #endif

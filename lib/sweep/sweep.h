@@ -47,11 +47,6 @@ ISO_API void iso_sweep_free(iso_sweep *sweep);
 /* What its rows are. It is valid until the sweep is freed. */
 ISO_API const iso_sweep_head *iso_sweep_head_of(const iso_sweep *sweep);
 
-/* Measures the points of chunk c. rows has room for head->chunk points. Threads may call this at the same time, with
- * contexts and rows of their own. A point that fails is a row with its reason, and no error of the call.
- * Errors: ISO_STOPPED by the context's monitor, ISO_NO_MEMORY: then the rows are not valid. */
-ISO_API iso_status iso_sweep_compute(iso_context *ctx, const iso_sweep *sweep, size_t c, iso_sweep_rows *rows);
-
 /* The same for `count` points from `first` on, at most rows->most. */
 ISO_API iso_status iso_sweep_compute_points(iso_context *ctx, const iso_sweep *sweep, size_t first, size_t count,
                                             iso_sweep_rows *rows);

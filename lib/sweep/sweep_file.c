@@ -10,6 +10,7 @@
 #include "base/version.h"
 #include "io/text_impl.h"
 #include "sweep/sweep_draft_impl.h"
+#include "sweep/sweep_impl.h"
 
 enum { LARGEST_FILE = 16 << 20, MOST_TOPICS = 32 };
 

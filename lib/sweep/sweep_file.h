@@ -56,7 +56,7 @@ enum { ISO_SWEEP_WORDS = 176 };
 ISO_API bool iso_sweep_axis_words(const iso_sweep_file *file, int i, char words[ISO_SWEEP_WORDS]);
 
 /* How many points have k = 0, where there is no ball: they will fail. Of values that are drawn none is counted. */
-size_t iso_sweep_zeros_of_k(const iso_sweep_file *file);
+ISO_API size_t iso_sweep_zeros_of_k(const iso_sweep_file *file);
 
 /* The scene of point i as text: that of the scene's file with the numbers of the point in it. It reads back as the
  * same scene, to the bit. *text is the caller's to free. Errors: ISO_NO_MEMORY, and those of the point. */

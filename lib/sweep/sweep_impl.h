@@ -59,4 +59,12 @@ double *iso_sweep_numbers(const iso_sweep_job *ask, const iso_sweep_batch *batch
 /* Fills name[] and gives the number of names. */
 int iso_sweep_names(const char *name[], int count, const char *const names[]);
 
+/* Adds bytes to a hash of 128 bits, which begins as {0, 0}. It is for telling sweeps apart, not for secrets. */
+void iso_sweep_hash(uint64_t hash[2], const void *bytes, size_t length);
+
+/* Measures the points of chunk c. rows has room for head->chunk points. Threads may call this at the same time, with
+ * contexts and rows of their own. A point that fails is a row with its reason, and no error of the call.
+ * Errors: ISO_STOPPED by the context's monitor, ISO_NO_MEMORY: then the rows are not valid. */
+iso_status iso_sweep_compute(iso_context *ctx, const iso_sweep *sweep, size_t c, iso_sweep_rows *rows);
+
 #endif

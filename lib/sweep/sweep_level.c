@@ -1,4 +1,4 @@
-/* sweep_level.c - a sweep over levels of the energy: `vary: {level: ...}`, the number of map/level.h. */
+/* sweep_level.c - a sweep over levels of the energy: `vary: {level: ...}`, the number of study/level.h. */
 #include <stdio.h>
 #include <string.h>
 

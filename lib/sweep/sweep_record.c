@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "sweep/sweep_impl.h"
 #include "sweep/sweep_store_impl.h"
 
 size_t iso_sweep_rows_bytes(const iso_sweep_rows *rows, size_t count)

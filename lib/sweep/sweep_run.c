@@ -4,8 +4,9 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/monitor_impl.h"
 #include "orbit/pool_impl.h"
-#include "sweep/sweep.h"
+#include "sweep/sweep_impl.h"
 
 typedef struct crew crew;
 

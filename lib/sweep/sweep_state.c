@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "orbit/scene_impl.h"
 #include "study/compare.h"
 #include "study/run.h"
 #include "study/section/section.h"

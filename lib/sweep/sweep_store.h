@@ -99,10 +99,6 @@ ISO_API iso_sweep_shard iso_sweep_reader_share(const iso_sweep_reader *reader);
 ISO_API iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *reader, size_t count,
                                          iso_sweep_rows *rows);
 
-/* Reads all rows, from the first on, for those that have failed. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-ISO_API iso_status iso_sweep_reader_failures(iso_context *ctx, iso_sweep_reader *reader,
-                                             iso_sweep_failures *failures);
-
 /* Puts the parts of one sweep together. *failures: those of all parts. Errors: ISO_FILE_TROUBLE: a part is missing,
  * is there twice, was changed or damaged, or belongs to another sweep; `path` is there. */
 ISO_API iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path,

@@ -69,4 +69,7 @@ const char *iso_sweep_column_name(const iso_sweep_column *column, char name[ISO_
 char *iso_sweep_columns_print(const iso_sweep_head *head);
 iso_sweep_column *iso_sweep_columns_scan(const char *text, int *count);
 
+/* Reads all rows, from the first on, for those that have failed. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+iso_status iso_sweep_reader_failures(iso_context *ctx, iso_sweep_reader *reader, iso_sweep_failures *failures);
+
 #endif

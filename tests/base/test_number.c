@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "base/random.h"
+#include "base/random_impl.h"
 
 /* Reads from a buffer that ends where the text does, so that AddressSanitizer sees a step beyond. */
 static bool read_exactly(const char *text, size_t length, double *value)

@@ -9,7 +9,7 @@
 #include "base/options_impl.h"
 #include "isoroll.h"
 #include "study/cost/cost.h"
-#include "study/error.h"
+#include "study/error_impl.h"
 #include "study/frequencies/frequencies.h"
 
 static void test_version(void)

@@ -13,6 +13,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/random_impl.h"
 #include "bench.h"
 #include "isoroll.h"
 

@@ -14,7 +14,7 @@
 #include <string.h>
 
 #include "base/pi_impl.h"
-#include "base/random.h"
+#include "base/random_impl.h"
 #include "map/section.h"
 #include "study/chaos/chaos.h"
 

@@ -20,11 +20,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "bench.h"
-#include "exact/exact.h"
+#include "exact/exact_impl.h"
 #include "map/state.h"
-#include "method/method.h"
+#include "method/integrator_impl.h"
 
 enum { ORBITS = 30, ROUNDS = 5, TIMES = 50, POINTS = 300 };
 

@@ -15,6 +15,7 @@
 
 #include "map/section.h"
 #include "study/chaos/chaos.h"
+#include "study/chaos/indicators_impl.h"
 
 enum { EACH = 250, LENGTHS = 16 };
 

@@ -19,8 +19,8 @@
 #include <unistd.h>
 
 #include "bench.h"
-#include "sweep/sweep.h"
 #include "sweep/sweep_file.h"
+#include "sweep/sweep_impl.h"
 #include "sweep/sweep_store.h"
 
 enum { SAMPLES = 60, PER_RANK = 100, DAY = 86400 };

@@ -60,7 +60,8 @@ grep -nE '^[ \t]*#[ \t]*include[ \t]*<' $public lib/isoroll.h |
 grep -nE '^[ \t]*#[ \t]*define[ \t]' $public lib/isoroll.h |
     grep -vE '#[ \t]*define[ \t]+ISO(_|ROLL_H)' | complain "a macro begins with ISO_"
 all=$(echo "$public" | sed 's|^lib/\(.*\)|#include "\1"|') # every public header
-echo "$all" | "$CC" -std=c11 -E -I lib -x c - | awk '
+# Each declaration but types and static functions has ISO_API, so that it links; others stand in private headers.
+echo "$all" | "$CC" -std=c11 -E -DISO_API=ISO_API_HERE -I lib -x c - | awk '
     function check(prefix, name, what) { if (index(name, prefix) != 1) print what " " name }
     function last_word(text) { gsub(/\[[^]]*\]/, "", text); gsub(/[^A-Za-z0-9_]+/, " ", text); sub(/ $/, "", text)
                                sub(/.* /, "", text); return text }
@@ -88,8 +89,9 @@ echo "$all" | "$CC" -std=c11 -E -I lib -x c - | awk '
             else if (match(s, /\(/)) s = substr(s, 1, RSTART - 1)
             sub(/\).*/, "", s)
             check("iso_", last_word(s), "name")
+            if (s !~ /^ *(ISO_API_HERE|typedef|static) /) print last_word(s) " has no ISO_API"
         }
-    }' | complain "public names begin with iso_, ISO_"
+    }' | complain "public declarations have ISO_API; their names begin with iso_, ISO_"
 
 # --- exported symbols: the shared library exports what public headers mark with ISO_API, and nothing else -----------
 library=$ISO_BUILD/libisoroll.so

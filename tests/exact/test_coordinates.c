@@ -2,11 +2,13 @@
  * canonical; the constant of separation; where the motion changes. */
 #include <float.h>
 
-#include "exact/coordinates.h"
-#include "exact/exact.h"
-#include "reduction.h"
+#include "base/random_impl.h"
+#include "exact/coordinates_impl.h"
+#include "exact/exact_impl.h"
 #include "map/state.h"
+#include "method/integrator_impl.h"
 #include "orbits.h"
+#include "reduction.h"
 
 static iso_context *ctx;
 static int umbilics; /* exactly there */
@@ -403,8 +405,8 @@ static void check_all_bifurcations(void)
 {
     static const double near[3] = {2.1, 1.4, 3.0}, far[3] = {4, 1, 1.2}; /* J3 > J1 + J2 */
     const iso_problem cases[] = {field_of(1, near, 0),     field_of(-1, near, 0),    field_of(-1, far, 0),
-                               field_of(-1, near, 1.5),  field_of(-1, near, -1.5), field_of(-1, near, -2.3),
-                               field_of(-1, near, -3.5), field_of(-1, near, -4)};
+                                 field_of(-1, near, 1.5),  field_of(-1, near, -1.5), field_of(-1, near, -2.3),
+                                 field_of(-1, near, -3.5), field_of(-1, near, -4)};
     static const char *const what[] = {"k = 1",    "k = -1",   "J3 > J1 + J2", "H = 1.5",
                                        "H = -1.5", "H = -2.3", "H = -3.5",     "no motion"};
     static const int count[] = {3, 3, 4, 3, 4, 4, 2, 0};

@@ -1,7 +1,9 @@
 /* The closed solution for k = 1, -1 against long double, on random bodies, with equal moments among them, and against
  * reference states. */
-#include "exact/exact.h"
+#include "base/random_impl.h"
+#include "exact/exact_impl.h"
 #include "map/state.h"
+#include "method/integrator_impl.h"
 #include "orbits.h"
 #include "reference.h"
 

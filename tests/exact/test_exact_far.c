@@ -2,6 +2,7 @@
  * its integrals, and the same from wherever it is started. */
 #include <float.h>
 
+#include "exact/exact_impl.h"
 #include "exact_orbits.h"
 #include "length.h"
 #include "map/state.h"

@@ -3,6 +3,8 @@
 #include <float.h>
 #include <string.h>
 
+#include "base/random_impl.h"
+#include "exact/exact_impl.h"
 #include "exact_orbits.h"
 #include "map/state.h"
 

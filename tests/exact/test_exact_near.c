@@ -2,8 +2,11 @@
  * or to a principal plane, in every clock and both ways. */
 #include <string.h>
 
+#include "base/random_impl.h"
+#include "exact/exact_impl.h"
 #include "exact_orbits.h"
 #include "length.h"
+#include "method/integrator_impl.h"
 
 static iso_context *ctx;
 
@@ -158,7 +161,8 @@ static void report(exact_family family, const book *b)
     laws_report(&b->invariants, "H, |gamma| and (M,gamma)");
     /* past the pole nearer than 0.01 or so, bodies next to revolution need too many terms */
     gsl_test(b->refused > (family == EXACT_NEAR_POLE ? b->orbits * 2 / 5 : 0), "%d refused", b->refused);
-    gsl_test(b->by_reference > 1 + b->orbits / 20, "in %d of %d the reference is not enough", b->by_reference, b->orbits);
+    gsl_test(b->by_reference > 1 + b->orbits / 20, "in %d of %d the reference is not enough", b->by_reference,
+             b->orbits);
 }
 
 int main(void)

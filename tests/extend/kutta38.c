@@ -6,6 +6,7 @@
 
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
+#include "model/model_impl.h"
 
 /* The method's own data: the length of the next step. */
 static iso_status create(iso_integrator *it)
@@ -47,7 +48,8 @@ static bool one_step(iso_integrator *it, const double y[], double h, double afte
 static double two_steps(iso_integrator *it, const double y[], double h, double after[])
 {
     double once[ISO_MAX_STATE], half[ISO_MAX_STATE], size[ISO_MAX_STATE], worst = 0;
-    if (!one_step(it, y, h, once) || !one_step(it, y, h / 2, half) || !one_step(it, half, h / 2, after)) return INFINITY;
+    if (!one_step(it, y, h, once) || !one_step(it, y, h / 2, half) || !one_step(it, half, h / 2, after))
+        return INFINITY;
     iso_model_size(&it->model, y, size);
     for (int i = 0; i < it->model.dim; i++) {
         const double error = fabs(after[i] - once[i]) / 15 / (it->options.tolerance * size[i]);

@@ -1,6 +1,7 @@
 /* Contact that is nearly lost: pressure that touches 0, or passes it by little, or is 0 all along. */
 #include "hard_effects.h"
 #include "numbers.h"
+#include "orbit/orbit_impl.h"
 
 static iso_context *ctx;
 

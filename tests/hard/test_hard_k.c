@@ -20,6 +20,8 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "map/state.h"
+#include "method/integrator_impl.h"
+#include "model/system_impl.h"
 
 static iso_context *ctx;
 

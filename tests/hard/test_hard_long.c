@@ -10,6 +10,7 @@
 
 #include "hard_long.h"
 #include "length.h"
+#include "method/integrator_impl.h"
 
 static iso_context *ctx;
 static double all_spins, all_seconds; /* of every method at k = -1; 0: what a test has time for */

@@ -2,8 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "exact/exact_impl.h"
 #include "hard.h"
 #include "isoroll.h"
+#include "method/integrator_impl.h"
 #include "numbers.h"
 #include "sweep.h"
 

@@ -5,6 +5,7 @@
 #include <gsl/gsl_sf_ellint.h>
 #include <string.h>
 
+#include "base/random_impl.h"
 #include "exact_orbits.h"
 #include "hard.h"
 #include "hard_loss.h"

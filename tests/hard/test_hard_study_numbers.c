@@ -11,7 +11,7 @@
 #include "study/cost/cost.h"
 #include "study/frequencies/frequencies.h"
 #include "study/frequencies/momentum.h"
-#include "study/frequencies/spectrum.h"
+#include "study/frequencies/spectrum_impl.h"
 #include "sweep.h"
 
 /* --- records ---------------------------------------------------------------------------------------------------- */

@@ -7,6 +7,8 @@
 #include "base/vec3_impl.h"
 #include "hard.h"
 #include "laws.h"
+#include "model/system_impl.h"
+#include "orbit/orbit_impl.h"
 
 static iso_context *ctx;
 static iso_params params;

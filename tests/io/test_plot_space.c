@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/random.h"
+#include "base/random_impl.h"
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
 #include "plot/vectors.h"

@@ -8,8 +8,9 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "poisson.h"
 #include "map/state.h"
+#include "model/system_impl.h"
+#include "poisson.h"
 
 /* NN, rho of (18), from n */
 static double written_factor(const iso_params *p, const double n[3], double *rho)

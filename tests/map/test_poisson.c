@@ -4,10 +4,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "poisson.h"
 #include "map/state.h"
+#include "poisson.h"
 
 enum { N = ISO_STATE };
 

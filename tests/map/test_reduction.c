@@ -6,8 +6,9 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "reduction.h"
 #include "map/state.h"
+#include "model/system_impl.h"
+#include "reduction.h"
 
 /* A(z) = (J1 - z)(J2 - z)(J3 - z) */
 static double A(const iso_params *p, double z)

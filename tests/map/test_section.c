@@ -7,9 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "map/state.h"
 #include "orbit/orbit.h"
 

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "map/section.h"

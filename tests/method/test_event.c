@@ -3,6 +3,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "method/integrator_impl.h"
 #include "orbits.h"
 
 static iso_context *ctx;

@@ -2,8 +2,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/random_impl.h"
 #include "effects.h"
+#include "method/integrator_impl.h"
 #include "method/taylor/lanes_impl.h"
+#include "model/effects_impl.h"
 #include "orbits.h"
 
 enum { ROWS = 4, CODES = 8 };

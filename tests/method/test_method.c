@@ -3,6 +3,8 @@
 #include <gsl/gsl_integration.h>
 #include <string.h>
 
+#include "method/integrator_impl.h"
+#include "model/system_impl.h"
 #include "orbits.h"
 
 /* A clause of the contract: notes what it finds of one method on one orbit. */
@@ -153,7 +155,7 @@ static void statistics(const orbit *o, const iso_method *m, laws_worst *worst)
     iso_integrator_at(it, TURN * o->unit, y);
     s = iso_integrator_statistics(it);
     note_true(worst, o, m, s.steps >= TURN && s.steps < 100000);
-    const long trials = m->system ? 40000 : 0; /* of fixed steps, before the first */
+    const long trials = m->system ? 40000 : 0;                                  /* of fixed steps, before the first */
     note_true(worst, o, m, s.rhs >= s.steps && s.rhs < 300 * s.steps + trials); /* bsimp makes 138 in a step */
     note_true(worst, o, m, s.rejected >= 0 && s.rejected < s.steps);
     note_true(worst, o, m, (s.jacobians > 0) == m->implicit && s.jacobians <= s.rhs);
@@ -195,9 +197,9 @@ static void projection(const orbit *o, const iso_method *m, laws_worst *worst)
 static void no_projection(const orbit *o, const iso_method *m, laws_worst *worst)
 {
     iso_method_options options = options_for(m);
-    if (m->reference) return; /* no drift that a double could show */
+    if (m->reference) return;                                             /* no drift that a double could show */
     if (m->own_equations && o->model.system == &iso_system_point) return; /* of second order, on the sphere alone */
-    if (m->own_equations) options.tolerance *= 100; /* long double is too good for its own */
+    if (m->own_equations) options.tolerance *= 100;                       /* long double is too good for its own */
     options.no_projection = true;
     iso_integrator *it = orbit_start(o, m, &options);
     double y[ISO_MAX_STATE];

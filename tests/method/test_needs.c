@@ -2,6 +2,8 @@
  * it. */
 #include <string.h>
 
+#include "method/integrator_impl.h"
+#include "method/methods_impl.h"
 #include "numbers.h"
 #include "orbits.h"
 

@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "method/integrator_impl.h"
+#include "method/methods_impl.h"
 #include "numbers.h"
 #include "orbits.h"
 

@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "length.h"
+#include "method/integrator_impl.h"
+#include "model/model_impl.h"
 #include "numbers.h"
 #include "orbits.h"
 

@@ -6,6 +6,8 @@
 #include "effects.h"
 #include "length.h"
 #include "method/taylor/lanes_impl.h"
+#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "orbits.h"
 
 static const iso_lane_options finest = {.tolerance = 1e-15};

@@ -4,7 +4,10 @@
 #include <string.h>
 
 #include "effects.h"
+#include "method/integrator_impl.h"
 #include "method/taylor/code_impl.h"
+#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit.h"
 #include "orbits.h"
 
@@ -101,7 +104,8 @@ static void check_order(const iso_method *m, const iso_system *system, iso_clock
         orbit_solve(&o, extended, &finest, length * o.unit, expected);
         for (int j = 0; j < 2; j++) {
             const double h = length * o.unit / (steps << j);
-            const iso_method_options options = {.tolerance = finer * pow(10, (lowest - order) / 1.6), .fixed_step = h};
+            const iso_method_options options = {.tolerance = finer * pow(10, (lowest - order) / 1.6),
+                                                .fixed_step = h};
             orbit_solve(&o, m, &options, length * o.unit, y);
             logarithm[j] += log2(orbit_error(&o, y, expected)) / ORBITS;
         }
@@ -142,9 +146,8 @@ static void check_processors(void)
         orbit_solve(&o, taylor, &finest, t, y[2]);
         orbit_solve(&o, extended, &finest, t, expected);
         const double apart = orbit_error(&o, y[0], y[1]), wrong = orbit_error(&o, y[0], expected);
-        gsl_test(!(apart < 3e-12 && wrong < 2e-12),
-                 "%s, k = %g: plain and avx2 apart by %.1e, wrong by %.1e", o.model.system->name, orbit_k[i / 2],
-                 apart, wrong);
+        gsl_test(!(apart < 3e-12 && wrong < 2e-12), "%s, k = %g: plain and avx2 apart by %.1e, wrong by %.1e",
+                 o.model.system->name, orbit_k[i / 2], apart, wrong);
         gsl_test(memcmp(y[both], y[2], sizeof(double) * ISO_STATE) != 0, "the best code for the processor is taken");
     }
 }
@@ -160,8 +163,8 @@ static void check_quad(void)
         orbit_solve(&o, extended, &finest, 20 * o.unit, y[0]);
         orbit_solve(&o, quad, &(iso_method_options){.tolerance = i < ORBIT_K ? 1e-15 : 1e-6}, 20 * o.unit, y[1]);
         const double apart = orbit_error(&o, y[0], y[1]);
-        gsl_test(!(apart < 5e-16), "%s, k = %g: 64 and 113 bits apart by %.1e", o.model.system->name,
-                 orbit_k[i / 2], apart);
+        gsl_test(!(apart < 5e-16), "%s, k = %g: 64 and 113 bits apart by %.1e", o.model.system->name, orbit_k[i / 2],
+                 apart);
     }
 }
 

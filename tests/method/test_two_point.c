@@ -2,7 +2,7 @@
  * an integrated one, the estimate of its error, the defect of samples that lie on no orbit, and where it declines. */
 #include <string.h>
 
-#include "method/two_point.h"
+#include "method/two_point_impl.h"
 #include "orbits.h"
 
 static iso_context *ctx;
@@ -55,7 +55,7 @@ static void check_interval(const orbit *o, double h)
     iso_two_point_add(b, y[0]);
     laws_note(&reversals,
               iso_two_point_measure(b, -h, 0, &back) ? fabs(back.gained[m->clock_of[0]] + gap.gained[m->clock_of[0]])
-                                                   : NAN,
+                                                     : NAN,
               40 * rounding * fabs(gap.gained[m->clock_of[0]]), p, "back");
     /* a sample beside the orbit has the defect by which it is beside it, to first order in the way */
     copy(y[1], moved, ISO_STATE);

@@ -1,5 +1,6 @@
 /* The ball in space: attitude, contact point and centre belong together, and the ball rolls, neither slips nor
  * twists. */
+#include "base/random_impl.h"
 #include "scenes.h"
 
 static iso_context *ctx;

@@ -2,8 +2,10 @@
 #include <malloc.h>
 #include <string.h>
 
+#include "base/random_impl.h"
 #include "batches.h"
 #include "map/state.h"
+#include "orbit/orbit_impl.h"
 
 static iso_context *ctx;
 static iso_random *dice;

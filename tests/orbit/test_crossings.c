@@ -9,7 +9,7 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "length.h"
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "numbers.h"
 #include "orbit/crossings.h"
 #include "orbit/crossings_impl.h"

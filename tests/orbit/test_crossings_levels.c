@@ -7,10 +7,11 @@
 #include <string.h>
 
 #include "base/pi_impl.h"
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "length.h"
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "map/state.h"
 #include "orbit/crossings.h"
 

@@ -8,9 +8,10 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
+#include "model/system_impl.h"
 #include "numbers.h"
 #include "orbit/batch.h"
-#include "orbit/orbit.h"
+#include "orbit/orbit_impl.h"
 #include "scenes.h"
 
 static iso_context *ctx;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "numbers.h"

@@ -5,8 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
+#include "model/system_impl.h"
 #include "orbit/orbit.h"
 #include "scenes.h"
 

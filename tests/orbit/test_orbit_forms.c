@@ -9,7 +9,8 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "orbit/orbit.h"
+#include "model/system_impl.h"
+#include "orbit/orbit_impl.h"
 #include "scenes.h"
 
 static iso_context *ctx;

@@ -1,4 +1,5 @@
 /* The forces of the contact: Newton's equations of the whole ball in space, and where the ball leaves its support. */
+#include "base/random_impl.h"
 #include "scenes.h"
 
 static iso_context *ctx;

@@ -2,8 +2,9 @@
 #ifndef ISO_TESTS_EXACT_ORBITS_H
 #define ISO_TESTS_EXACT_ORBITS_H
 
-#include "exact/coordinates.h"
-#include "exact/exact.h"
+#include "base/random_impl.h"
+#include "exact/coordinates_impl.h"
+#include "exact/exact_impl.h"
 #include "orbits.h"
 
 static const bool exact_clocks[ISO_CLOCKS] = {true, true, true};

@@ -19,7 +19,7 @@
 #include "study/check/check.h"
 #include "study/compare.h"
 #include "study/cost/cost.h"
-#include "study/error.h"
+#include "study/error_impl.h"
 #include "study/frequencies/frequencies.h"
 
 static iso_context *ctx;

@@ -10,7 +10,8 @@
 #include "base/vec3_impl.h"
 #include "effects.h"
 #include "laws.h"
-#include "method/method.h"
+#include "method/integrator_impl.h"
+#include "model/model_impl.h"
 
 typedef struct orbit {
     iso_context *ctx;

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "numbers.h"

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "numbers.h"
@@ -92,7 +93,8 @@ static void check_path(const iso_analogue *a, const iso_analogue_ball *b, const 
     iso_orbit *orbit;
     iso_sample sample;
     must(iso_analogue_scene(ctx, b, start, turns, &scene), "a scene");
-    gsl_test(scene.effects.on[ISO_LEVEL] != (b->level != 0) || LEVEL_C(&scene.effects) != b->level, "the scene's level");
+    gsl_test(scene.effects.on[ISO_LEVEL] != (b->level != 0) || LEVEL_C(&scene.effects) != b->level,
+             "the scene's level");
     iso_orbit_options o = iso_orbit_defaults(&scene.start);
     o.backend = ISO_BACKEND_BALL;
     o.effects = &scene.effects;

@@ -4,12 +4,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "numbers.h"
 #include "reference.h"
 #include "scenes.h"
-#include "study/error.h"
+#include "study/error_impl.h"
 
 static iso_context *ctx;
 

@@ -7,6 +7,7 @@
 
 #include "laws.h"
 #include "study/periodic/continuation.h"
+#include "study/periodic/hill_trace_impl.h"
 #include "study/periodic/stability_chart.h"
 
 static iso_context *ctx;
@@ -169,8 +170,8 @@ static void check_refusals(void)
         iso_continuation_options o = iso_continuation_defaults();
         iso_continuations *follow;
         o.vary = wrong[i].vary, o.from = wrong[i].from, o.to = wrong[i].to;
-        gsl_test_int((int)iso_continuation_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_BAD_ARGUMENT, "range %zu",
-                     i);
+        gsl_test_int((int)iso_continuation_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_BAD_ARGUMENT,
+                     "range %zu", i);
         gsl_test(strcmp(iso_context_about(ctx), "range") != 0, "about the range");
         gsl_test(follow != NULL, "nothing is given");
     }

@@ -6,12 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
-#include "exact/coordinates.h"
+#include "exact/coordinates_impl.h"
 #include "laws.h"
 #include "map/state.h"
 #include "numbers.h"
 #include "study/frequencies/frequencies.h"
+#include "study/frequencies/momentum_impl.h"
 
 static iso_context *ctx;
 

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 
 #include "base/pi_impl.h"
-#include "base/random.h"
+#include "base/random_impl.h"
 #include "length.h"
-#include "study/chaos/indicators.h"
+#include "study/chaos/indicators_impl.h"
 
 enum { TURNS = 3000 };
 

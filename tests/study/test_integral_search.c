@@ -6,10 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/random.h"
+#include "base/random_impl.h"
 #include "io/scene_file.h"
 #include "laws.h"
 #include "length.h"
+#include "model/effects_impl.h"
+#include "orbit/scene_impl.h"
 #include "study/integrals/integrals.h"
 
 static iso_context *ctx;

@@ -6,13 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "io/scene_file.h"
 #include "laws.h"
 #include "length.h"
-#include "map/level.h"
+#include "map/level_impl.h"
 #include "orbit/description.h"
-#include "orbit/orbit.h"
+#include "orbit/orbit_impl.h"
+#include "orbit/scene_impl.h"
 #include "study/chaos/chaos.h"
 #include "study/check/check.h"
 #include "study/section/section.h"

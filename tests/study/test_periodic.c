@@ -7,13 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/random.h"
+#include "base/random_impl.h"
 #include "laws.h"
 #include "length.h"
 #include "map/section.h"
 #include "method/methods_impl.h"
 #include "orbit/crossings.h"
-#include "study/periodic/periodic.h"
+#include "study/periodic/hill_trace_impl.h"
 
 static iso_context *ctx;
 

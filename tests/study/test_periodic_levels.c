@@ -7,16 +7,18 @@
 #include <string.h>
 
 #include "base/pi_impl.h"
-#include "base/random.h"
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "length.h"
-#include "map/level.h"
+#include "map/level_impl.h"
 #include "map/section.h"
 #include "map/state.h"
+#include "model/effects_impl.h"
 #include "orbit/orbit.h"
 #include "study/level.h"
 #include "study/periodic/continuation.h"
+#include "study/periodic/hill_trace_impl.h"
 #include "study/periodic/stability_chart.h"
 #include "study/separatrix/separatrix.h"
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "study/frequencies/spectrum.h"
+#include "study/frequencies/spectrum_impl.h"
 
 static iso_context *ctx;
 
@@ -44,7 +44,7 @@ static void check_lines(void)
 {
     enum { COUNT = 4096, MADE = 6 };
     static const iso_spectral_line made[MADE] = {{1.0123, 1, 0.3},    {-1.0123, 0.5, 1}, {1.0923, 0.1, -2},
-                                        {-2.2345, 1e-2, -1}, {0, 1e-3, 0.2},    {3.0456, 1e-5, 2}};
+                                                 {-2.2345, 1e-2, -1}, {0, 1e-3, 0.2},    {3.0456, 1e-5, 2}};
     static double x[2 * COUNT];
     const double step = 0.5;
     iso_spectral_line found[ISO_MAX_LINES];

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/random.h"
+#include "base/random_impl.h"
 #include "length.h"
 #include "study/separatrix/separatrix.h"
 
@@ -40,7 +40,8 @@ static void look(iso_context *ctx, double k, const double J[3], double part, iso
 }
 
 /* The first `count` of these J; both signs of k, or the sign that its place in the row gives. */
-static void check(iso_context *ctx, iso_separatrix_digits digits, int count, bool both, double bound, const char *name)
+static void check(iso_context *ctx, iso_separatrix_digits digits, int count, bool both, double bound,
+                  const char *name)
 {
     iso_random *random = iso_random_create(17);
     worst w = {0, 0};

@@ -8,7 +8,7 @@
 #include "base/pi_impl.h"
 #include "laws.h"
 #include "length.h"
-#include "map/level.h"
+#include "map/level_impl.h"
 #include "map/section.h"
 #include "orbit/crossings.h"
 #include "study/separatrix/separatrix.h"

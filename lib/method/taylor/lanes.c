@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "method/methods_impl.h"
+#include "model/formula_lines_impl.h"
 
 const iso_lane_code *const iso_lane_codes[] = {
 #ifdef ISO_TAYLOR_X86

@@ -1,6 +1,6 @@
 /* two_point.c - the quadrature of two_point.h. The Taylor coefficients at both samples come from the recurrences of
  * the Taylor method. */
-#include "method/two_point.h"
+#include "method/two_point_impl.h"
 
 #include "model/effects_impl.h"
 #include "model/model.h"
@@ -52,7 +52,7 @@ static void set_weights(iso_two_point *b)
 iso_status iso_two_point_create(iso_context *ctx, const iso_model *model, double tolerance, iso_two_point **two_point)
 {
     iso_two_point *b = *two_point = calloc(1, sizeof *b);
-    if (!b) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the quadrature between two samples");
+    if (!b) return iso_context_no_memory(ctx, "the quadrature between two samples");
     set_shape(&b->T, model, tolerance);
     set_numbers(&b->T, 0, model);
     set_weights(b);

@@ -10,6 +10,8 @@
 #include "base/options_impl.h"
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
+#include "map/section_impl.h"
+#include "model/effects_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/chaos/chaos_impl.h"
 #include "study/chaos/share_impl.h"
@@ -114,8 +116,8 @@ static void choose_models(iso_chaos_walk *w)
     const iso_effects *e = &w->effects;
     const bool alone = iso_effects_breaking(e) || iso_effects_ball_only(e);
     const iso_models models = w->options.models != ISO_SHOW_START ? w->options.models
-                             : alone                             ? ISO_SHOW_BALL
-                                                                 : ISO_SHOW_BOTH;
+                              : alone                             ? ISO_SHOW_BALL
+                                                                  : ISO_SHOW_BOTH;
     w->out->with[ISO_BALL] = models != ISO_SHOW_POINT;
     w->out->with[ISO_POINT] = models != ISO_SHOW_BALL;
 }
@@ -134,18 +136,6 @@ static iso_status open_orbit(iso_chaos_walk *w, iso_sample *start)
 }
 
 /* --- the result ------------------------------------------------------------------------------------------------- */
-
-void iso_chaos_judge(const iso_chaos *c, iso_chaos_orbit *orbit)
-{
-    bool found[3] = {false, false, false};
-    for (int m = 0; m < 2; m++)
-        if (c->with[m]) found[orbit->told[m].verdict] = true;
-    orbit->disagree = found[ISO_REGULAR] && found[ISO_CHAOTIC];
-    orbit->verdict = orbit->disagree      ? ISO_UNDECIDED
-                     : found[ISO_CHAOTIC] ? ISO_CHAOTIC
-                     : found[ISO_REGULAR] ? ISO_REGULAR
-                                          : ISO_UNDECIDED;
-}
 
 static bool could_not_be_followed(const iso_chaos_orbit *o)
 {
@@ -206,7 +196,7 @@ static iso_status prepare(iso_chaos_walk *w)
         iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->out->axis, w->options.seed);
     w->out->plane = effect ? -1 : find_plane(w->out->with[ISO_BALL] ? start.ball : start.point);
     w->out->start = calloc(w->options.starts + w->options.at_count + 1, sizeof *w->out->start);
-    if (!w->out->start) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the starts");
+    if (!w->out->start) return iso_context_no_memory(w->ctx, "the starts");
     for (size_t i = 0; i < w->options.starts + w->options.at_count; i++) w->out->start[i].number = i + 1;
     return ISO_OK;
 }
@@ -227,7 +217,7 @@ static iso_status begin(iso_context *ctx, const iso_scene *scene, const iso_chao
     if (status != ISO_OK) return status;
     if (isnan(w->options.tolerance)) w->options.tolerance = scene->tolerance;
     w->out = calloc(1, sizeof *w->out);
-    if (!w->out) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the indicators");
+    if (!w->out) return iso_context_no_memory(ctx, "the indicators");
     w->out->own.verdict = ISO_UNDECIDED;
     return ISO_OK;
 }
@@ -324,7 +314,7 @@ iso_status iso_chaos_run_many(iso_context *ctx, size_t count, const iso_scene *c
         answer = prepare_many(ctx, count, scene, options, walk, status);
         if (answer == ISO_OK) answer = follow_many(count, walk, left, status);
     } else {
-        iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", count);
+        iso_context_no_memory(ctx, "%zu orbits", count);
     }
     for (size_t i = 0; i < count; i++) {
         chaos[i] = walk ? walk[i].out : NULL;

@@ -45,7 +45,7 @@ typedef struct iso_chaos_options {
     uint64_t seed;         /* another seed spreads them in another way                                   */
     const double (*at)[2]; /* (l, x) of further starts, |x| < 1; they are not in the share */
     size_t at_count;
-    iso_models models;    /* that are integrated; ISO_SHOW_START: both if the ball has a twin           */
+    iso_models models;   /* that are integrated; ISO_SHOW_START: both if the ball has a twin           */
     int axis;            /* of the section, 0 to 2, which must be global; ISO_AXIS_AUTO: the global one */
     double tolerance;    /* NAN: the scene's                                                           */
     int threads;         /* 0: as many as there are processors to run on                               */

@@ -31,7 +31,4 @@ iso_status iso_chaos_follow_each(size_t count, iso_chaos_walk *const walk[]);
 /* The failure of the scene's own orbit if no model could follow it. */
 iso_status iso_chaos_check_own(const iso_chaos_walk *w);
 
-/* The verdict of both models. */
-void iso_chaos_judge(const iso_chaos *c, iso_chaos_orbit *orbit);
-
 #endif

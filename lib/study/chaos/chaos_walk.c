@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "orbit/crossings_impl.h"
 #include "study/chaos/chaos_impl.h"
+#include "study/chaos/indicators_impl.h"
 #include "study/chaos/share_impl.h"
 
 /* GROUP: orbits that are followed together. ROUND: the most turns of a round. Together some 25 MB of crossings. */
@@ -243,6 +245,19 @@ static void show_progress(const group *g)
     w->options.progress(fmin(1, ((double)g->first + done / models) / all), w->options.data);
 }
 
+/* The verdict of both models. */
+static void judge(const iso_chaos *c, iso_chaos_orbit *orbit)
+{
+    bool found[3] = {false, false, false};
+    for (int m = 0; m < 2; m++)
+        if (c->with[m]) found[orbit->told[m].verdict] = true;
+    orbit->disagree = found[ISO_REGULAR] && found[ISO_CHAOTIC];
+    orbit->verdict = orbit->disagree      ? ISO_UNDECIDED
+                     : found[ISO_CHAOTIC] ? ISO_CHAOTIC
+                     : found[ISO_REGULAR] ? ISO_REGULAR
+                                          : ISO_UNDECIDED;
+}
+
 /* Each model follows an orbit until its own end, even if the other model has decided before. */
 static iso_status follow_group(group *g)
 {
@@ -259,7 +274,7 @@ static iso_status follow_group(group *g)
     }
     for (int m = 0; m < 2; m++)
         if (c->with[m]) tell(g, m);
-    for (size_t i = 0; i < g->count; i++) iso_chaos_judge(c, orbit_of(g, i));
+    for (size_t i = 0; i < g->count; i++) judge(c, orbit_of(g, i));
     for (int m = 0; m < 2; m++) {
         iso_crossings_free(g->model[m].crossings);
         g->model[m].crossings = NULL;
@@ -329,8 +344,7 @@ static iso_status with_group(iso_chaos_walk *w, size_t most, size_t count, iso_c
         g->crossing = malloc(cells * sizeof *g->crossing);
         g->sample = w->out->axis < 0 ? malloc(cells * sizeof *g->sample) : NULL;
     }
-    if (!g || !g->crossing || (w->out->axis < 0 && !g->sample))
-        status = iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the orbits");
+    if (!g || !g->crossing || (w->out->axis < 0 && !g->sample)) status = iso_context_no_memory(w->ctx, "the orbits");
     if (status == ISO_OK) status = each ? follow_each(g, count, each) : follow_all(g);
     if (g) {
         free(g->crossing);

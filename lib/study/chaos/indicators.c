@@ -3,7 +3,7 @@
  * A look at N turns uses the turns from N/4 to N. Its sums grow while the turns pass. The sums of the looks at N,
  * sqrt(2) N, 2 N and 2 sqrt(2) N grow at the same time. Those of the look at 4 N begin when the look at N ends.
  */
-#include "study/chaos/indicators.h"
+#include "study/chaos/indicators_impl.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>

@@ -10,62 +10,11 @@
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
+#include "model/effects_impl.h"
+#include "model/params_impl.h"
+#include "orbit/description_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/check/check_impl.h"
-
-/* --- what the others ask ---------------------------------------------------------------------------------------- */
-
-/* The residual of a name; it is made if it is new. NULL: there are too many. */
-static iso_residual *find_residual(iso_residuals *r, const char *name, const char *what)
-{
-    int i = 0;
-    while (i < r->count && strcmp(r->residual[i].name, name) != 0) i++;
-    if (i == ISO_MAX_RESIDUALS) return NULL;
-    iso_residual *at = &r->residual[i];
-    if (i < r->count) return at;
-    r->count++;
-    *at = (iso_residual){.what = what};
-    snprintf(at->name, sizeof at->name, "%s", name);
-    return at;
-}
-
-void iso_checker_note(iso_residuals *found, const char *name, const char *what, double value, size_t row)
-{
-    iso_residual *at = find_residual(found, name, what);
-    if (!at || (!(fabs(value) > at->worst) && !isnan(value))) return;
-    at->worst = isnan(value) ? INFINITY : fabs(value);
-    at->row = row;
-}
-
-void iso_checker_state(const checker *c, const checked_model *m, const double row[], double y[ISO_STATE])
-{
-    for (int i = 0; i < ISO_STATE; i++) y[i] = iso_checker_at(c, row, m->first + i);
-}
-
-void iso_checker_sample(const checker *c, const double row[], iso_sample *sample)
-{
-    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
-        iso_sample_set_column(sample, i, c->columns[i] < 0 ? NAN : row[c->columns[i]]);
-}
-
-iso_effects iso_checker_effects(const checker *c, iso_model_kind kind)
-{
-    if (kind == ISO_BALL) return c->effects;
-    iso_effects effects = iso_effects_acting(&c->effects);
-    if (iso_record_get(c->record, "eps") || iso_record_get(c->record, "h"))
-        iso_effects_set_level(&effects, iso_effects_have_level(&effects), NAN);
-    return effects;
-}
-
-double iso_checker_distance(const double a[ISO_STATE], const double b[ISO_STATE])
-{
-    double d[ISO_STATE];
-    const double size = fmax(largest(a), largest(b));
-    for (int i = 0; i < 3; i++) {
-        d[i] = size > 0 ? a[i] / size - b[i] / size : 0;
-        d[3 + i] = a[3 + i] - b[3 + i];
-    }
-    return fmax(norm(d), norm(d + 3));
-}
 
 /* --- beginning -------------------------------------------------------------------------------------------------- */
 
@@ -239,7 +188,7 @@ static void add(const checker *c, const iso_residuals *found, iso_residuals *all
     for (int i = 0; i < found->count; i++) {
         const iso_residual *r = &found->residual[i];
         const double size = size_of(c, r);
-        iso_residual *to = find_residual(all, r->name, r->what);
+        iso_residual *to = iso_checker_residual(all, r->name, r->what);
         if (to && size > 0 && r->worst / size > to->worst) to->worst = r->worst / size, to->row = r->row;
     }
 }
@@ -273,14 +222,13 @@ iso_status iso_checking_create(iso_context *ctx, const iso_params *params, const
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_checking *made = *checking = calloc(1, sizeof *made);
-    if (!made) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a check");
+    if (!made) return iso_context_no_memory(ctx, "a check");
     made->all = (checker){.ctx = ctx, .params = params, .record = header, .tolerance = tolerance, .begins = true};
     made->all.last = calloc(3 * iso_record_columns(header) + 1, sizeof *made->all.last);
     made->all.first = made->all.last ? made->all.last + iso_record_columns(header) : NULL;
     made->all.second = made->all.first ? made->all.first + iso_record_columns(header) : NULL;
     iso_units_choose(params, 0, &made->all.units);
-    const iso_status status = made->all.last ? begin(&made->all)
-                                             : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a check");
+    const iso_status status = made->all.last ? begin(&made->all) : iso_context_no_memory(ctx, "a check");
     if (status == ISO_OK) return ISO_OK;
     iso_checking_free(made);
     *checking = NULL;

@@ -53,7 +53,7 @@ ISO_API iso_status iso_check(iso_context *ctx, const iso_params *params, const i
  *     iso_checking_free(c);
  *
  * The same as iso_check, in constant memory. Where two rows are near each other, two-point Taylor quadrature
- * (method/two_point.h) finds the rows that are worst, and these alone are integrated. */
+ * finds the rows that are worst, and these alone are integrated. */
 typedef struct iso_checking iso_checking;
 
 /* header: columns, lines and row tolerance; it and params must outlive the check. Errors: those of iso_check about

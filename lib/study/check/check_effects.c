@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "model/effects_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/check/check_impl.h"
 
 /* The first column of a group of an effect, in a trajectory; NULL: that of the first group that moves. -1: none. */

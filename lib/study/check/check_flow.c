@@ -1,6 +1,6 @@
 /* check_flow.c - from each row to the next: the state and the other clocks (check_impl.h).
  *
- * Two-point Taylor quadrature (method/two_point.h) tells in about a microsecond how far a row is from the orbit of
+ * Two-point Taylor quadrature (method/two_point_impl.h) tells in about a microsecond how far a row is from the orbit of
  * the row before it. That is a sieve: rows which are off by more than half of the worst so far are integrated from
  * the row before, and what is reported comes from these integrations alone. So the numbers do not depend on the
  * quadrature, and few rows of a good trajectory are integrated. Rows far apart, and models with states or columns of
@@ -10,6 +10,7 @@
 
 #include "base/vec3_impl.h"
 #include "orbit/convert.h"
+#include "orbit/description_impl.h"
 #include "study/check/check_impl.h"
 
 /* Of the worst so far. */

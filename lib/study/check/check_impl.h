@@ -1,5 +1,5 @@
 /* check_impl.h - what a check is made of. check.c is above the others, but check_unseen.c is above check.c. Of the
- * others, check_flow.c calls check_effects.c. All call the notes of check.c.
+ * others, check_flow.c calls check_effects.c. All call check_common.c.
  *
  *     check_unseen.c      which numbers no residual depends on
  *     check.c             rows come in, residuals go out
@@ -7,11 +7,12 @@
  *     check_lines.c       what lines state of the energy and of the start, against a row
  *     check_flow.c        from each row to the next: state and clocks
  *     check_effects.c     the same for the columns of effects
+ *     check_common.c      residuals by name, rows as states
  */
 #ifndef ISO_STUDY_CHECK_IMPL_H
 #define ISO_STUDY_CHECK_IMPL_H
 
-#include "method/two_point.h"
+#include "method/two_point_impl.h"
 #include "orbit/description.h"
 #include "orbit/orbit_impl.h"
 #include "study/check/check.h"
@@ -73,7 +74,10 @@ struct iso_checking {
     checker all;
 };
 
-/* --- check.c ---------------------------------------------------------------------------------------------------- */
+/* --- check_common.c --------------------------------------------------------------------------------------------- */
+
+/* The residual of a name; it is made if it is new. NULL: there are too many. */
+iso_residual *iso_checker_residual(iso_residuals *r, const char *name, const char *what);
 
 /* Notes a value of the residual `name`, and makes the residual at its first value. A NaN counts as infinite. */
 void iso_checker_note(iso_residuals *found, const char *name, const char *what, double value, size_t row);

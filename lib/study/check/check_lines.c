@@ -4,6 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "model/effects_impl.h"
+#include "model/params_impl.h"
+#include "orbit/description_impl.h"
 #include "study/check/check_impl.h"
 
 /* --- energy: h, eps, c ------------------------------------------------------------------------------------------ */

@@ -79,7 +79,7 @@ static iso_status make_later(trial *t)
     bool gone = false;
     if (!followed(c)) return ISO_OK;
     t->later = calloc(c->width + 1, sizeof *t->later);
-    if (!t->later) return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory for a check");
+    if (!t->later) return iso_context_no_memory(c->ctx, "a check");
     memcpy(t->later, c->first, c->width * sizeof *t->later);
     iso_status status = ISO_OK;
     for (int k = 0; status == ISO_OK && k < 2; k++) status = go_later(t, &c->model[k], &gone);
@@ -200,23 +200,10 @@ static void try_line(trial *t, const char *key, const char *value, void (*tell)(
 
 /* --- all of a file ---------------------------------------------------------------------------------------------- */
 
-static iso_status copy_header(const checker *c, iso_record **copy)
-{
-    const char **names = calloc(c->width + 1, sizeof *names), *key, *value;
-    if (!names) return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory for a check");
-    for (size_t i = 0; i < c->width; i++) names[i] = iso_record_name(c->record, i);
-    iso_status status = iso_record_create(c->ctx, c->width, names, copy);
-    free(names);
-    for (size_t i = 0; status == ISO_OK && iso_record_line(c->record, i, &key, &value); i++)
-        status = iso_record_set(c->ctx, *copy, key, value);
-    if (status == ISO_OK) iso_record_set_row_tolerance(*copy, iso_record_row_tolerance(c->record));
-    return status;
-}
-
 static iso_status try_lines(trial *t, void (*tell)(void *data, const char *name), void *data)
 {
     const char *key, *value;
-    iso_status status = copy_header(t->c, &t->header);
+    iso_status status = iso_record_create_like(t->c->ctx, t->c->record, 0, NULL, &t->header);
     if (status == ISO_OK) status = make_later(t);
     if (status == ISO_OK) status = check_again(t, &t->usual);
     if (status != ISO_OK) return status;

@@ -89,10 +89,8 @@ static void list_lines(measurer *m)
 {
     const iso_cost_options *o = m->options;
     for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
-        if ((o->backend != ISO_BACKEND_AUTO && o->backend != backend) || !serves(m, backend, NULL))
-            continue;
-        if (o->method && serves(m, backend, o->method))
-            add_line(m, backend, o->method, m->tolerances);
+        if ((o->backend != ISO_BACKEND_AUTO && o->backend != backend) || !serves(m, backend, NULL)) continue;
+        if (o->method && serves(m, backend, o->method)) add_line(m, backend, o->method, m->tolerances);
         for (int i = 0; !o->method && iso_methods[i] && m->out->lines < MOST_LINES - 1; i++)
             if (!iso_methods[i]->reference && serves(m, backend, iso_methods[i]))
                 add_line(m, backend, iso_methods[i], m->tolerances);
@@ -111,8 +109,7 @@ static iso_status choose_cells(measurer *m)
     m->out->line = calloc(MOST_LINES, sizeof *m->out->line);
     m->out->cell = calloc(most, sizeof *m->out->cell);
     m->times = calloc(most, sizeof *m->times);
-    if (!m->out->line || !m->out->cell || !m->times)
-        return iso_context_fail(m->p.user, ISO_NO_MEMORY, "", "no memory for the cells");
+    if (!m->out->line || !m->out->cell || !m->times) return iso_context_no_memory(m->p.user, "the cells");
     list_lines(m);
     return ISO_OK;
 }
@@ -277,7 +274,7 @@ static iso_status find_reference(measurer *m)
 {
     const int times = m->options->times > 0 ? m->options->times : 20;
     m->time = calloc((size_t)times, sizeof *m->time);
-    if (!m->time) return iso_context_fail(m->p.user, ISO_NO_MEMORY, "", "no memory for %d times", times);
+    if (!m->time) return iso_context_no_memory(m->p.user, "%d times", times);
     for (int i = 0; i < times; i++) m->time[i] = i + 1 == times ? m->p.end : m->p.end * ((i + 1.0) / times);
     report_progress(m, "reference");
     const iso_status status =
@@ -297,7 +294,7 @@ static iso_status measure(measurer *m)
     if (status == ISO_OK) status = choose_cells(m);
     double *about = status == ISO_OK ? calloc((size_t)c->cells + 1, sizeof *about) : NULL;
     if (status != ISO_OK) return status;
-    if (!about) return iso_context_fail(m->p.user, ISO_NO_MEMORY, "", "no memory for the cells");
+    if (!about) return iso_context_no_memory(m->p.user, "the cells");
     check_cells(m, about);
     time_cells(m, about);
     keep_first_runs(m, about);
@@ -305,7 +302,7 @@ static iso_status measure(measurer *m)
     for (int i = 0; i < c->cells; i++) iso_cost_times_read(&m->times[i], &c->cell[i]);
     iso_cost_judge(c);
     c->complete = !iso_cost_is_stopped(&m->p);
-    return c->complete ? ISO_OK : iso_context_fail(m->p.user, ISO_STOPPED, "", "stopped on request");
+    return c->complete ? ISO_OK : iso_context_stopped(m->p.user);
 }
 
 iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_cost_options *options,
@@ -321,7 +318,7 @@ iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_
     status = iso_cost_problem_open(&m.p, ctx, scene, &own);
     if (status != ISO_OK) return status;
     m.out = calloc(1, sizeof *m.out);
-    status = m.out ? ISO_OK : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the measurement");
+    status = m.out ? ISO_OK : iso_context_no_memory(ctx, "the measurement");
     if (status == ISO_OK) {
         *m.out = (iso_cost){.end = m.p.end, .turns = NAN, .uncertainty = INFINITY};
         status = measure(&m);

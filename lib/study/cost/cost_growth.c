@@ -6,6 +6,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
+#include "method/methods_impl.h"
 #include "study/chaos/chaos.h"
 #include "study/cost/cost_impl.h"
 
@@ -51,7 +52,7 @@ static iso_status choose_horizons(grower *g, int *horizons)
     const iso_status status = probe(g, c->backend, c->method, c->tolerance, &own);
     if (status != ISO_OK)
         return iso_cost_is_stopped(&g->p)
-                   ? iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request")
+                   ? iso_context_stopped(g->p.user)
                    : iso_context_fail(g->p.user, ISO_NUMERICAL, "", "the run does not get to %g: %s", g->p.end,
                                       iso_context_message(g->p.ctx));
     const iso_method *const fine = iso_method_with_more_digits(ISO_DOUBLE_DIGITS); /* as for a reference */
@@ -99,7 +100,7 @@ static iso_status find_errors(grower *g, int horizons)
     if (status != ISO_OK) return status;
     if (reached < horizons) snprintf(g->out->why, sizeof g->out->why, "no reference gets farther");
     status = iso_cost_walk(&g->p, c->backend, c->method, c->tolerance, false, ERRORS, &g->track);
-    if (iso_cost_is_stopped(&g->p)) return iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request");
+    if (iso_cost_is_stopped(&g->p)) return iso_context_stopped(g->p.user);
     if (status != ISO_OK)
         snprintf(g->out->why, sizeof g->out->why, "%.159s",
                  status == ISO_STOPPED ? "it would take too long" : iso_context_message(g->p.ctx));
@@ -164,8 +165,7 @@ static iso_status ask_indicators(grower *g, iso_verdict *verdict, double *expone
     *verdict = status == ISO_OK ? c->own.verdict : ISO_UNDECIDED;
     if (status == ISO_OK) *exponent = c->own.told[c->with[model] ? model : 1 - model].exponent[g->p.clock];
     iso_chaos_free(c);
-    return status == ISO_NO_MEMORY ? iso_context_fail(g->p.user, ISO_NO_MEMORY, "", "no memory for the indicators")
-                                   : ISO_OK;
+    return status == ISO_NO_MEMORY ? iso_context_no_memory(g->p.user, "the indicators") : ISO_OK;
 }
 
 static void fit_errors(const grower *g, iso_verdict verdict, double exponent)
@@ -218,7 +218,7 @@ static iso_status grow(grower *g, int horizons)
     if (status != ISO_OK) return status;
     fit_errors(g, verdict, exponent);
     fit_seconds(g->out);
-    return iso_cost_is_stopped(&g->p) ? iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request") : ISO_OK;
+    return iso_cost_is_stopped(&g->p) ? iso_context_stopped(g->p.user) : ISO_OK;
 }
 
 iso_status iso_cost_grow(iso_context *ctx, const iso_scene *scene, const iso_cost_cell *cell, int horizons,
@@ -231,7 +231,7 @@ iso_status iso_cost_grow(iso_context *ctx, const iso_scene *scene, const iso_cos
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "horizons", "horizons = %d is not in [1, %d]", horizons,
                                 ISO_COST_HORIZONS);
     grower *g = calloc(1, sizeof *g);
-    if (!g) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the horizons");
+    if (!g) return iso_context_no_memory(ctx, "the horizons");
     g->cell = *cell;
     g->out = growth;
     o.backend = cell->backend;

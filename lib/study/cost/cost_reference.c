@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "method/methods_impl.h"
 #include "study/cost/cost_impl.h"
 
 /* A run from which the reference may come. */
@@ -86,7 +87,7 @@ static iso_status find_first(cost_problem *p, double seconds, bool may_fall_shor
     add(&s, ISO_BACKEND_BALL, iso_method_with_more_digits(ISO_DOUBLE_DIGITS), 1e-15);
     add_implicit(&s, ISO_BACKEND_BALL);
     const int i = best_source(p, s.list, s.count, seconds, &r->first);
-    if (iso_cost_is_stopped(p)) return iso_context_fail(p->user, ISO_STOPPED, "", "stopped on request");
+    if (iso_cost_is_stopped(p)) return iso_context_stopped(p->user);
     if (i < 0 || (r->first.reached < r->first.times && !may_fall_short))
         return iso_context_fail(p->user, ISO_NUMERICAL, "", "no reference gets to %s = %g in %.2g s: %s",
                                 iso_clock_name(p->clock), p->end, seconds, iso_context_message(p->ctx));
@@ -146,7 +147,7 @@ iso_status iso_cost_reference_find(cost_problem *p, int times, const double time
     r->doubted = find_by_series(p, &from, seconds / 3, r);
     if (!r->doubted) r->doubted = find_by_others(p, &from, seconds / 24, r);
     if (r->doubted) r->uncertainty = iso_cost_distance(&r->first, &r->second);
-    if (iso_cost_is_stopped(p)) return iso_context_fail(p->user, ISO_STOPPED, "", "stopped on request");
+    if (iso_cost_is_stopped(p)) return iso_context_stopped(p->user);
     return ISO_OK;
 }
 

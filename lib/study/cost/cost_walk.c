@@ -2,7 +2,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/monitor_impl.h"
 #include "base/vec3_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/cost/cost_impl.h"
 
 /* --- the scene, and its monitor --------------------------------------------------------------------------------- */
@@ -62,7 +64,7 @@ iso_status iso_cost_problem_open(cost_problem *p, iso_context *user, const iso_s
     const iso_status status = check_scene(user, scene, &p->effects, o);
     if (status != ISO_OK) return status;
     p->ctx = iso_context_create();
-    if (!p->ctx) return iso_context_fail(user, ISO_NO_MEMORY, "", "no memory for a context");
+    if (!p->ctx) return iso_context_no_memory(user, "a context");
     return ISO_OK;
 }
 
@@ -96,7 +98,7 @@ iso_status iso_cost_orbit_open(cost_problem *p, iso_backend backend, const iso_m
 iso_status iso_cost_track_make(cost_problem *p, int times, const double time[], cost_track *track)
 {
     *track = (cost_track){.times = times, .time = time, .row = calloc((size_t)times, sizeof *track->row)};
-    return track->row ? ISO_OK : iso_context_fail(p->user, ISO_NO_MEMORY, "", "no memory for %d rows", times);
+    return track->row ? ISO_OK : iso_context_no_memory(p->user, "%d rows", times);
 }
 
 void iso_cost_track_free(cost_track *track)

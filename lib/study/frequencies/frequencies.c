@@ -9,8 +9,10 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
-#include "exact/coordinates.h"
+#include "exact/coordinates_impl.h"
+#include "exact/exact_impl.h"
 #include "map/state.h"
+#include "model/system_impl.h"
 #include "study/frequencies/frequencies_impl.h"
 
 /* --- the closed solution ---------------------------------------------------------------------------------------- */
@@ -37,8 +39,7 @@ static void say_separated(const iso_momentum *m, const double J[3], iso_momentum
     snprintf(swings->what, sizeof swings->what, "%c swings %s", "vu"[turning],
              part == ISO_ON_ONE_SIDE ? "towards the axis and back" : "along the axis");
     if (part != ISO_SWINGS_ABOUT_3) return;
-    snprintf(f->motion, sizeof f->motion, "swings about axis %d (%s moment), both ways", axis + 1,
-             rank(J, axis));
+    snprintf(f->motion, sizeof f->motion, "swings about axis %d (%s moment), both ways", axis + 1, rank(J, axis));
     for (int i = 0; i < 2; i++)
         snprintf(f->angle[i].what, sizeof f->angle[i].what, "%c swings along axis %d", "uv"[i], m -> axis[i] + 1);
 }
@@ -68,8 +69,8 @@ static void say_plane(const iso_problem *problem, const double M[3], iso_frequen
     int axis = 0;
     for (int i = 1; i < 3; i++)
         if (fabs(M[i]) > fabs(M[axis])) axis = i;
-    snprintf(f->motion, sizeof f->motion, "rotation about axis %d (%s moment), in a principal plane%s",
-             axis + 1, rank(problem->p.J, axis), is_unstable(problem, axis) ? ": unstable" : "");
+    snprintf(f->motion, sizeof f->motion, "rotation about axis %d (%s moment), in a principal plane%s", axis + 1,
+             rank(problem->p.J, axis), is_unstable(problem, axis) ? ": unstable" : "");
     snprintf(f->angle[0].what, sizeof f->angle[0].what, "turns about axis %d", axis + 1);
 }
 
@@ -111,8 +112,7 @@ static void find_separatrices(const iso_orbit *orbit, const double point[ISO_STA
         iso_separatrix *s = &f->separatrix[f->separatrices++];
         for (int j = 0; j < 3; j++)
             if (at.axis[j] == axis) s->distance = excess[j] / fmax(fabs(c), fabs(list[i].c));
-        snprintf(s->what, sizeof s->what, "rotation about axis %d (%s moment)", axis + 1,
-                 rank(problem->p.J, axis));
+        snprintf(s->what, sizeof s->what, "rotation about axis %d (%s moment)", axis + 1, rank(problem->p.J, axis));
     }
 }
 

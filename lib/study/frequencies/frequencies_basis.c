@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "study/frequencies/frequencies_impl.h"
+#include "study/frequencies/spectrum_impl.h"
 
 iso_status iso_basis_lines(iso_context *ctx, const series *s, size_t first, size_t count, int most, lines *l)
 {

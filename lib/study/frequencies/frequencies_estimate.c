@@ -6,6 +6,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
+#include "model/effects_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/chaos/chaos.h"
 #include "study/frequencies/frequencies_basis_impl.h"
@@ -83,7 +84,7 @@ static void split(const double n[], size_t count, int axis, series *s)
 static iso_status make_series(estimator *e, iso_clock clock, series *s)
 {
     double mean[3], *const n = malloc(7 * e->count * sizeof *n);
-    if (!n) return iso_context_fail(e->ctx, ISO_NO_MEMORY, "", "no memory for the samples");
+    if (!n) return iso_context_no_memory(e->ctx, "the samples");
     const iso_status status = sample(e, clock, n, mean);
     *s = (series){.count = e->count, .step = e->end[clock] / (double)e->count};
     s->pair = malloc(4 * e->count * sizeof *s->pair);
@@ -94,7 +95,7 @@ static iso_status make_series(estimator *e, iso_clock clock, series *s)
             if (fabs(mean[i]) > fabs(mean[*axis])) *axis = i;
     if (status == ISO_OK && s->pair) split(n, e->count, *axis, s);
     free(n);
-    if (status == ISO_OK && !s->pair) return iso_context_fail(e->ctx, ISO_NO_MEMORY, "", "no memory for the samples");
+    if (status == ISO_OK && !s->pair) return iso_context_no_memory(e->ctx, "the samples");
     return status;
 }
 

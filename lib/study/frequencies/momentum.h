@@ -4,7 +4,7 @@
  *     k = -1, no effects but a `level`:   F = F_shell = -2 c/det J,   c = -eps al (S - al), S = b1 + b2 + b3 + H/eps
  *
  * with b = 1/J (k = 1) or J (k = -1), ascending, eps = h det J/k^2, and al <= be (k = -1: al + be = S) the roots of
- * R(z) + c (exact/coordinates.h) between which the coordinates b1 <= u <= b2 <= v <= b3 move. A root that meets b_i
+ * R(z) + c (lib/doc/theory.md) between which the coordinates b1 <= u <= b2 <= v <= b3 move. A root that meets b_i
  * is a rotation about the axis of b_i: for H = 0 the rays F/h = 2 J_i (k = 1) and F/h = 2 J_i (J_j + J_l) (k = -1).
  * The two roots meet at F/h = (J1 + J2 + J3)^2/2, where k = -1 and b3 > b1 + b2.
  */
@@ -27,9 +27,9 @@ typedef enum iso_momentum_part {
 } iso_momentum_part;
 
 typedef struct iso_momentum {
-    int k, axis[3];         /* axis[i]: the caller's axis, 0 to 2, of b[i]                              */
-    double b[3], det_J, H;  /* H: the point's level                                                      */
-    const char *F;          /* "F_plane", "F_shell"                                                      */
+    int k, axis[3];        /* axis[i]: the caller's axis, 0 to 2, of b[i]                              */
+    double b[3], det_J, H; /* H: the point's level                                                      */
+    const char *F;         /* "F_plane", "F_shell"                                                      */
 } iso_momentum;
 
 /* False: there is none, k is not 1 or -1, or k = 1 and H is not 0. Any consistent units. */
@@ -38,9 +38,6 @@ ISO_API bool iso_momentum_make(const iso_params *params, double H, iso_momentum 
 /* For an energy h > 0 of the ball: the values of F of a part. False: it is empty. */
 ISO_API bool iso_momentum_interval(const iso_momentum *m, double h, iso_momentum_part part, double *low,
                                    double *high);
-
-/* F of the rotation about axis i = 0, 1, 2; i = 3: where the roots meet (infinite for k = 1). */
-ISO_API double iso_momentum_rotation(const iso_momentum *m, double h, int i);
 
 /* For a picture of the image round an energy h: rows with h' from about 0 to 2 h, then low and high F of each part,
  * then F of the four rotations; NaN where there is none. Errors: ISO_NUMERICAL (h, H or a bound fits no double),

@@ -1,5 +1,5 @@
 /* spectrum.c - the lines of a signal by frequency analysis; the definitions stand in spectrum.h. */
-#include "study/frequencies/spectrum.h"
+#include "study/frequencies/spectrum_impl.h"
 
 #include <complex.h>
 #include <gsl/gsl_fft_complex.h>
@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/monitor_impl.h"
 #include "base/pi_impl.h"
 
 static const double LEAST = 1e-14; /* amplitudes that count, relative to the largest */
@@ -254,9 +255,9 @@ iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t cou
     *found = 0;
     if (count < 64 || (count & (count - 1)) != 0 || !(step > 0) || !isnormal(step) ||
         !isfinite(step * (double)count) || most < 1 || most > ISO_MAX_LINES)
-        return iso_context_fail(
-            ctx, ISO_BAD_ARGUMENT, "",
-            "a spectrum needs a power of two samples, 64 or more, a step > 0, and 1 to %d lines", ISO_MAX_LINES);
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
+                                "a spectrum needs a power of two samples, 64 or more, a step > 0, and 1 to %d lines",
+                                ISO_MAX_LINES);
     for (size_t j = 0; j < 2 * count; j++)
         if (!isfinite(signal[j]))
             return iso_context_fail(ctx, ISO_NUMERICAL, "", "a sample of the signal is not finite");
@@ -274,6 +275,6 @@ iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t cou
     gsl_fft_complex_workspace_free(z.space);
     gsl_fft_complex_wavetable_free(z.table);
     free(z.window);
-    if (!memory) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a spectrum");
-    return z.stopped ? iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request") : ISO_OK;
+    if (!memory) return iso_context_no_memory(ctx, "a spectrum");
+    return z.stopped ? iso_context_stopped(ctx) : ISO_OK;
 }

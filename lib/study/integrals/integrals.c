@@ -6,8 +6,10 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/monitor_impl.h"
 #include "base/options_impl.h"
-#include "map/level.h"
+#include "map/level_impl.h"
+#include "map/section_impl.h"
 #include "study/integrals/integrals_impl.h"
 #include "study/level_impl.h"
 
@@ -118,7 +120,7 @@ static double residual_of(const search *s, const iso_integral *known, const inte
 static iso_status compare_with_known(search *s, int degree, const integral_part *part)
 {
     double *work = malloc(s->samples.rows * sizeof *work);
-    if (!work) return iso_context_fail(s->ctx, ISO_NO_MEMORY, "", "no memory for %zu samples", s->samples.rows);
+    if (!work) return iso_context_no_memory(s->ctx, "%zu samples", s->samples.rows);
     for (int i = 0; i < s->out->known_count; i++) {
         iso_integral_known *known = &s->out->known[i];
         const double residual = known->degree == 0 ? residual_of(s, s->known[i], part, work) : INFINITY;

@@ -130,7 +130,7 @@ typedef struct iso_integral_search {
     bool near;
     int coefficients;
     size_t orbits;
-    double level;  /* of the energy H on which it was searched (map/level.h); 0: H = 0 */
+    double level;  /* of the energy H on which it was searched (study/level.h); 0: H = 0 */
     double delta;  /* relative error of the samples                              */
     double energy; /* relative spread of the energy in the samples               */
     int degrees;   /* V_1 ... V_degrees have been searched: at[1] ... at[degrees] */

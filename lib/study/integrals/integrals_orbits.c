@@ -3,8 +3,10 @@
 #include <stdlib.h>
 
 #include "base/pi_impl.h"
-#include "base/random.h"
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
+#include "map/section_impl.h"
+#include "model/params_impl.h"
 #include "orbit/batch.h"
 #include "study/integrals/integrals_impl.h"
 
@@ -69,7 +71,7 @@ static iso_status choose_times(iso_context *ctx, const iso_integral_search_optio
                                double times[ISO_INTEGRAL_ROWS])
 {
     iso_random *random = iso_random_create((unsigned long)o->seed + 1);
-    if (!random) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for random numbers");
+    if (!random) return iso_context_no_memory(ctx, "random numbers");
     const double part = o->turns * turn_of(s) / ISO_INTEGRAL_ROWS;
     for (int i = 0; i < ISO_INTEGRAL_ROWS; i++) times[i] = part * (i + iso_random_uniform(random, 0, 1));
     iso_random_free(random);
@@ -151,8 +153,7 @@ iso_status iso_integral_follow(iso_context *ctx, const iso_integral_search_optio
               calloc(s->rows, sizeof *r.sample)};
     s->state = calloc(s->rows, sizeof *s->state);
     iso_status status = ISO_OK;
-    if (!r.start || !r.orbit || !r.sample || !s->state)
-        status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", s->orbits);
+    if (!r.start || !r.orbit || !r.sample || !s->state) status = iso_context_no_memory(ctx, "%zu orbits", s->orbits);
     if (status == ISO_OK) status = follow(ctx, options, s, &r);
     if (status == ISO_OK) *energy = keep_samples(s, r.sample);
     free(r.start);

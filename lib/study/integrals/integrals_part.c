@@ -296,7 +296,7 @@ static iso_status solve(iso_context *ctx, algebra *a, int degree, int coefficien
     iso_integral_terms(degree, coefficients, parity, a->term);
     if (!fill(a)) return iso_context_fail(ctx, ISO_NUMERICAL, "", "powers of M do not fit a double for this k and J");
     if (!make_basis(a) || (a->functions > 0 && !begin_basis(a)))
-        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu functions", a->functions);
+        return iso_context_no_memory(ctx, "%zu functions", a->functions);
     if (a->functions == 0) return ISO_OK;
     take_means_away(a);
     gsl_linalg_SV_decomp_mod(a->varying, a->square, a->V, a->S, a->work);
@@ -310,11 +310,10 @@ iso_status iso_integral_search_part(iso_context *ctx, const integral_samples *sa
     *part = (integral_part){.terms = iso_integral_terms(degree, coefficients, parity, NULL)};
     if (part->terms == 0) return ISO_OK;
     iso_status status = ISO_OK;
-    if (!begin(&a, samples, part->terms))
-        status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu terms", part->terms);
+    if (!begin(&a, samples, part->terms)) status = iso_context_no_memory(ctx, "%zu terms", part->terms);
     if (status == ISO_OK) status = solve(ctx, &a, degree, coefficients, parity);
     if (status == ISO_OK && a.functions > 0 && !keep(&a, parity, delta, within, part))
-        status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu functions", a.functions);
+        status = iso_context_no_memory(ctx, "%zu functions", a.functions);
     end(&a);
     return status;
 }

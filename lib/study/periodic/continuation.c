@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/monitor_impl.h"
 #include "base/options_impl.h"
 #include "base/pi_impl.h"
 #include "orbit/pool_impl.h"
@@ -16,12 +17,6 @@
 #include "study/periodic/continuation_impl.h"
 
 #define NEAR_END 4e-3 /* of the line, in u: here a collision is foretold */
-
-const char *iso_vary_name(int vary)
-{
-    static const char *const names[] = {"k", "J1", "J2", "J3", "ratio", "level"};
-    return vary >= 0 && vary < 6 ? names[vary] : NULL;
-}
 
 const char *iso_branch_kind_name(iso_branch_kind kind)
 {
@@ -44,7 +39,7 @@ static iso_status add_point(const iso_continuation *f, iso_branch *b, const iso_
 {
     if ((b->points & (b->points - 1)) == 0) { /* room for a power of two */
         iso_branch_point *larger = realloc(b->point, 2 * (b->points + 1) * sizeof *larger);
-        if (!larger) return iso_context_fail(f->ctx, ISO_NO_MEMORY, "", "no memory for a branch");
+        if (!larger) return iso_context_no_memory(f->ctx, "a branch");
         b->point = larger;
     }
     b->point[b->points++] = iso_continuation_tell(at, arc);
@@ -107,7 +102,7 @@ static iso_status accept(const iso_continuation *f, iso_branch *b, const iso_con
 static iso_status stop_at(const iso_continuation *f, iso_branch *b, const iso_continuation_point *at, double arc)
 {
     const iso_status status = fail_at(f, b, at, arc, "stopped on request");
-    return status == ISO_OK ? iso_context_fail(f->ctx, ISO_STOPPED, "", "stopped on request") : status;
+    return status == ISO_OK ? iso_context_stopped(f->ctx) : status;
 }
 
 /* Why no step can be taken from `at`. */
@@ -160,7 +155,7 @@ static iso_status join(const iso_continuation *f, iso_branch *back, const iso_br
     const size_t points = back->points + forth->points, events = back->events + forth->events;
     b->point = malloc((points + 1) * sizeof *b->point);
     b->event = malloc((events + 1) * sizeof *b->event);
-    if (!b->point || !b->event) return iso_context_fail(f->ctx, ISO_NO_MEMORY, "", "no memory for a branch");
+    if (!b->point || !b->event) return iso_context_no_memory(f->ctx, "a branch");
     for (size_t i = back->points; i-- > 0;) {
         back->point[i].arc = -back->point[i].arc;
         b->point[b->points++] = back->point[i];
@@ -252,7 +247,7 @@ static iso_status follow_found(void *data, const iso_continuation *f, double u, 
 {
     const switcher *s = data;
     iso_branch *b = new_branch(f, s->out, s->parent);
-    if (!b) return iso_context_fail(f->ctx, ISO_NO_MEMORY, "", "no memory for a branch");
+    if (!b) return iso_context_no_memory(f->ctx, "a branch");
     return follow_branch(f, u, value, b);
 }
 
@@ -281,7 +276,7 @@ static iso_status follow_orbit(iso_continuation *f, const iso_periodic_orbit *o,
     f->line = o->line;
     f->period = o->period;
     iso_branch *b = new_branch(f, out, -1);
-    if (!b) return iso_context_fail(f->ctx, ISO_NO_MEMORY, "", "no memory for a branch");
+    if (!b) return iso_context_no_memory(f->ctx, "a branch");
     const size_t at = out->count - 1;
     const iso_status status = follow_branch(f, o->u, own, b);
     return status == ISO_OK && f->options.branches ? switch_branches(f, out, at) : status;
@@ -317,7 +312,7 @@ static iso_status gather(iso_context *ctx, iso_continuations of[], size_t count,
     size_t branches = 0;
     for (size_t i = 0; i < count; i++) branches += of[i].count;
     out->branch = malloc((branches + 1) * sizeof *out->branch);
-    if (!out->branch) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for branches");
+    if (!out->branch) return iso_context_no_memory(ctx, "branches");
     for (size_t i = 0; i < count; i++) {
         const int before = (int)out->count;
         for (size_t j = 0; j < of[i].count; j++) {
@@ -340,7 +335,7 @@ static iso_status follow_all(crowd *c, size_t count, iso_continuations *out)
 {
     iso_context *ctx = c->family->ctx;
     c->of = calloc(count + 1, sizeof *c->of);
-    if (!c->of) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for branches");
+    if (!c->of) return iso_context_no_memory(ctx, "branches");
     iso_pool pool = {.count = count, .chunk = 1, .solve = follow_some, .data = c};
     const size_t threads = iso_pool_threads(c->family->options.threads, count > 0 ? count - 1 : 0, 1);
     const iso_status status = iso_pool_run(ctx, &pool, threads, NULL);
@@ -378,8 +373,8 @@ iso_status iso_continuation_check(iso_context *ctx, const iso_scene *scene, cons
     return prepare(ctx, scene, options, &f, &own);
 }
 
-iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_orbit orbits[], size_t count,
-                          const iso_continuation_options *options, iso_continuations **follow)
+iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_orbit orbits[],
+                                size_t count, const iso_continuation_options *options, iso_continuations **follow)
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_continuation f;
@@ -391,7 +386,7 @@ iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const 
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "orbit", "no symmetric orbit to follow: the list is empty");
     if (status != ISO_OK) return status;
     iso_continuations *out = calloc(1, sizeof *out);
-    if (!out) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for branches");
+    if (!out) return iso_context_no_memory(ctx, "branches");
     out->vary = f.options.vary;
     status = follow_all(&(crowd){.family = &f, .orbit = orbits, .own = own}, count, out);
     if (status == ISO_OK || status == ISO_STOPPED)

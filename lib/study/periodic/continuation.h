@@ -22,7 +22,7 @@ ISO_C_BEGIN
 
 typedef enum iso_vary { ISO_VARY_K, ISO_VARY_J1, ISO_VARY_J2, ISO_VARY_J3, ISO_VARY_RATIO, ISO_VARY_LEVEL } iso_vary;
 /* "k", "J1", "J2", "J3", "ratio", "level"; NULL past the end. ratio: (J2 - J1)/(J3 - J1), by J2. level: (H/eps)
- * J2^(1/k) (map/level.h); it stays the scene's while the others change. */
+ * J2^(1/k) (study/level.h); it stays the scene's while the others change. */
 ISO_API const char *iso_vary_name(int vary);
 
 typedef enum iso_branch_kind {
@@ -99,14 +99,16 @@ typedef struct iso_branch_row {
 ISO_API extern const iso_field iso_branch_row_fields[];
 
 /* Whether the options suit the scene: the errors of iso_continuation_run about "range". */
-ISO_API iso_status iso_continuation_check(iso_context *ctx, const iso_scene *scene, const iso_continuation_options *options);
+ISO_API iso_status iso_continuation_check(iso_context *ctx, const iso_scene *scene,
+                                          const iso_continuation_options *options);
 
 /* Follows orbits[0 .. count) of a scene, as iso_periodic_run found them. Errors: ISO_BAD_ARGUMENT about "range": it
  * is none, k = 0 or a moment <= 0 is in it, or the scene's value is not; ISO_BAD_INPUT about "orbit": it has no
  * symmetry line, or there is none; ISO_NO_MEMORY; ISO_STOPPED: *follow has what is known by then. A branch that
  * cannot be followed to its end is kept, with an event. */
 ISO_API iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_orbit orbits[],
-                                  size_t count, const iso_continuation_options *options, iso_continuations **follow);
+                                        size_t count, const iso_continuation_options *options,
+                                        iso_continuations **follow);
 ISO_API void iso_continuation_free(iso_continuations *follow);
 
 ISO_C_END

@@ -3,8 +3,15 @@
 #include <math.h>
 
 #include "base/pi_impl.h"
-#include "map/level.h"
+#include "map/level_impl.h"
+#include "model/params_impl.h"
 #include "study/periodic/continuation_impl.h"
+
+const char *iso_vary_name(int vary)
+{
+    static const char *const names[] = {"k", "J1", "J2", "J3", "ratio", "level"};
+    return vary >= 0 && vary < 6 ? names[vary] : NULL;
+}
 
 bool iso_continuation_params(const iso_continuation *f, double value, iso_params *p, double *energy)
 {
@@ -75,8 +82,8 @@ void iso_continuation_turn(iso_continuation_point *at, const double like[2])
 }
 
 /* Newton's method across the tangent of `a`; by_v is kept from the predicted point, and found again at the end. */
-bool iso_continuation_step(const iso_continuation *f, const iso_continuation_point *a, double ds, iso_continuation_point *to,
-                     int *steps)
+bool iso_continuation_step(const iso_continuation *f, const iso_continuation_point *a, double ds,
+                           iso_continuation_point *to, int *steps)
 {
     enum { MOST = 8 };
     const double *t = a->tangent;

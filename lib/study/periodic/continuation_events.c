@@ -6,11 +6,12 @@
 
 #include "base/pi_impl.h"
 #include "study/periodic/continuation_impl.h"
+#include "study/periodic/hill_trace_impl.h"
 
 iso_status iso_continuation_add_event(const iso_continuation *f, iso_branch *b, const iso_branch_event *e)
 {
     iso_branch_event *larger = realloc(b->event, (b->events + 1) * sizeof *larger);
-    if (!larger) return iso_context_fail(f->ctx, ISO_NO_MEMORY, "", "no memory for a branch");
+    if (!larger) return iso_context_no_memory(f->ctx, "a branch");
     b->event = larger;
     b->event[b->events++] = *e;
     return ISO_OK;
@@ -40,8 +41,8 @@ static bool between(const iso_continuation *f, const iso_continuation_point *low
 
 /* Where the test is 0 on the curve, by halving and secants. *part: of ds. Where another branch of the same line
  * crosses, Newton's method fails next to the crossing: there the last two points are joined by a straight line. */
-static void locate(const iso_continuation *f, const iso_continuation_point *a, const iso_continuation_point *b, int test,
-                   double ds, iso_continuation_point *at, double *part)
+static void locate(const iso_continuation *f, const iso_continuation_point *a, const iso_continuation_point *b,
+                   int test, double ds, iso_continuation_point *at, double *part)
 {
     iso_continuation_point low = *a, high = *b;
     double from = 0, to = ds;
@@ -172,11 +173,12 @@ static bool is_there(const iso_branch *b, const iso_branch_event *e)
 static bool is_true(const iso_continuation *f, const iso_continuation_point *at, int test)
 {
     const bool doubling = test == TEST_DIAGONAL || test == TEST_OTHER_DIAGONAL;
-    return !iso_symmetry_line_is_half_way(f->line) || test == TEST_TURN || fabs(at->trace - (doubling ? -2 : 2)) < 0.01;
+    return !iso_symmetry_line_is_half_way(f->line) || test == TEST_TURN ||
+           fabs(at->trace - (doubling ? -2 : 2)) < 0.01;
 }
 
 iso_status iso_continuation_events(const iso_continuation *f, iso_branch *b, const iso_continuation_point *a,
-                             const iso_continuation_point *to, double ds, double arc)
+                                   const iso_continuation_point *to, double ds, double arc)
 {
     iso_status status = ISO_OK;
     for (int test = 0; test < TESTS && status == ISO_OK; test++) {
@@ -203,7 +205,8 @@ static double mismatch(const iso_continuation *f, int axis, double value, double
 {
     iso_params p;
     double energy;
-    return iso_continuation_params(f, value, &p, &energy) ? iso_hill_trace(p.k, p.J, energy, axis, NULL) - target : NAN;
+    return iso_continuation_params(f, value, &p, &energy) ? iso_hill_trace(p.k, p.J, energy, axis, NULL) - target
+                                                          : NAN;
 }
 
 /* The trace of the rotation at a collision, 2 cos theta, nearest to what it is. Neighbours of a fixed point turn p
@@ -220,8 +223,8 @@ static double target_of(const iso_continuation *f, int axis, double trace)
     return best;
 }
 
-bool iso_continuation_collision(const iso_continuation *f, const iso_continuation_point *a, const iso_continuation_point *b,
-                          iso_branch_event *e)
+bool iso_continuation_collision(const iso_continuation *f, const iso_continuation_point *a,
+                                const iso_continuation_point *b, iso_branch_event *e)
 {
     const bool end = b->u > ISO_PI / 4;
     const double near_a = end ? ISO_PI / 2 - a->u : a->u, near_b = end ? ISO_PI / 2 - b->u : b->u;

@@ -16,7 +16,7 @@ typedef struct iso_continuation {
     iso_context *ctx;
     iso_continuation_options options;
     iso_params base;
-    double level; /* of base, see map/level.h */
+    double level; /* of base, see study/level.h */
     int axis;     /* of the section, which must stay */
     int line, period;
     double width; /* of the range */
@@ -38,11 +38,12 @@ typedef struct iso_continuation_point {
 bool iso_continuation_params(const iso_continuation *f, double value, iso_params *p, double *energy);
 
 /* F and all slopes; by_v only if asked. False: it failed. */
-bool iso_continuation_evaluate(const iso_continuation *f, double u, double v, bool slopes, iso_continuation_point *at);
+bool iso_continuation_evaluate(const iso_continuation *f, double u, double v, bool slopes,
+                               iso_continuation_point *at);
 
 /* From `at` by `ds` along its tangent: predictor and corrector. *steps: of the corrector. */
-bool iso_continuation_step(const iso_continuation *f, const iso_continuation_point *at, double ds, iso_continuation_point *to,
-                     int *steps);
+bool iso_continuation_step(const iso_continuation *f, const iso_continuation_point *at, double ds,
+                           iso_continuation_point *to, int *steps);
 
 /* Sets the tangent, so that it goes on like `like` (NULL: v grows). */
 void iso_continuation_turn(iso_continuation_point *at, const double like[2]);
@@ -51,12 +52,12 @@ iso_branch_point iso_continuation_tell(const iso_continuation_point *at, double 
 
 /* Adds the events between a and b, ds apart. */
 iso_status iso_continuation_events(const iso_continuation *f, iso_branch *b, const iso_continuation_point *a,
-                             const iso_continuation_point *to, double ds, double arc);
+                                   const iso_continuation_point *to, double ds, double arc);
 iso_status iso_continuation_add_event(const iso_continuation *f, iso_branch *b, const iso_branch_event *e);
 
 /* The collision beyond a point near the end of the line; false: there is none near. */
-bool iso_continuation_collision(const iso_continuation *f, const iso_continuation_point *a, const iso_continuation_point *b,
-                          iso_branch_event *e);
+bool iso_continuation_collision(const iso_continuation *f, const iso_continuation_point *a,
+                                const iso_continuation_point *b, iso_branch_event *e);
 
 /* Whether orbits of twice the period can branch off there: the trace is -2. */
 static inline bool iso_continuation_doubles(iso_branch_kind kind)
@@ -66,7 +67,7 @@ static inline bool iso_continuation_doubles(iso_branch_kind kind)
 
 /* Looks for an orbit that branches off at an event, and gives its parameter and value to `found`. */
 iso_status iso_continuation_switch(const iso_continuation *f, const iso_branch *b, const iso_branch_event *e,
-                             iso_status (*found)(void *data, const iso_continuation *f, double u, double value),
-                             void *data);
+                                   iso_status (*found)(void *data, const iso_continuation *f, double u, double value),
+                                   void *data);
 
 #endif

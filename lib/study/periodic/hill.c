@@ -5,8 +5,8 @@
 #include <stdbool.h>
 
 #include "base/pi_impl.h"
+#include "study/periodic/hill_trace_impl.h"
 #include "study/periodic/hill_wide_impl.h"
-#include "study/periodic/periodic.h"
 
 /* --- the length of a step --------------------------------------------------------------------------------------- */
 

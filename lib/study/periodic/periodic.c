@@ -10,8 +10,11 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
+#include "map/level_impl.h"
+#include "model/system_impl.h"
 #include "orbit/orbit.h"
 #include "study/level_impl.h"
+#include "study/periodic/hill_trace_impl.h"
 #include "study/periodic/periodic_impl.h"
 #include "study/periodic/stability_chart.h"
 
@@ -144,7 +147,7 @@ iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_
     iso_status status = iso_options_take(ctx, "iso_periodic_options", &w.options, sizeof w.options, options);
     if (status != ISO_OK) return status;
     w.out = calloc(1, sizeof *w.out);
-    if (!w.out) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for periodic orbits");
+    if (!w.out) return iso_context_no_memory(ctx, "periodic orbits");
     status = work(&w);
     free(w.folded);
     if (status == ISO_OK || status == ISO_STOPPED)

@@ -23,7 +23,7 @@
  *
  * Energy scales out: for the ball on which nothing acts orbits are the same for every energy, and isolated, but for k
  * = 1 and k = -1 and equal moments. A point off H = 0, or a ball with the effect `level`, is on a level that does
- * not scale out: (H/eps) J2^(1/k), J2 the middle moment, a number without a unit (map/level.h). Where the point
+ * not scale out: (H/eps) J2^(1/k), J2 the middle moment, a number without a unit (study/level.h). Where the point
  * cannot reach the whole sphere, orbits may come to rest and go back the same way. Those that no S and T S maps to
  * themselves are not on the lines: only a search from a grid finds them.
  */
@@ -165,16 +165,6 @@ ISO_API const char *iso_symmetry_line_name(int line);
 enum { ISO_DIGITS_SIZE = 48 };
 ISO_API void iso_periodic_digits(double head, double tail, char text[ISO_DIGITS_SIZE]);
 ISO_API int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE]);
-
-/* The half-turn trace of Hill's equation about `axis` (0 to 2) on the level H = energy of the point with eps = 1, by
- * numbers of 64 bits of mantissa, and in *error (NULL: not asked) how far it may be off. NaN for |k| < 1e-4, a moment
- * <= 0, or where there is no such rotation. It is below -2 about the axis of the middle moment, for all k and J and
- * on every level on which this rotation exists. */
-ISO_API double iso_hill_trace(double k, const double J[3], double energy, int axis, double *error);
-
-/* Whether the whole circle gamma_axis = 0 can be reached on this level, energy + q^(-1/k) > 0. If not, there is no
- * rotation, but an oscillation between two places of rest. */
-ISO_API bool iso_hill_has_rotation(double k, const double J[3], double energy, int axis);
 
 ISO_C_END
 

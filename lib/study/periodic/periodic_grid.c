@@ -61,8 +61,7 @@ iso_status iso_periodic_from_grid(iso_periodic_work *w)
     double(*z)[2] = malloc(count * sizeof *z);
     iso_periodic_point *at = malloc(count * (size_t)w->options.period * sizeof *at);
     iso_periodic_candidate *arrived = malloc(count * sizeof *arrived);
-    iso_status status =
-        z && at && arrived ? ISO_OK : iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the grid");
+    iso_status status = z && at && arrived ? ISO_OK : iso_context_no_memory(w->ctx, "the grid");
     iso_section_spread_prepare(&spread, iso_periodic_motion(&w->map), w->map.axis, 1);
     for (int n = 1; n <= w->options.period && status == ISO_OK; n++) {
         status = try_period(w, &spread, n, z, at, arrived);

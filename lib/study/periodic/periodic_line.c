@@ -79,8 +79,7 @@ static iso_status place_half_way(const iso_periodic_map *map, int line, size_t c
 {
     const double h = 1e-5;
     double *near = calloc(3 * count + 1, sizeof *near), (*to)[2] = malloc((3 * count + 1) * sizeof *to);
-    iso_status status =
-        near && to ? ISO_OK : iso_context_fail(map->ctx, ISO_NO_MEMORY, "", "no memory for the search");
+    iso_status status = near && to ? ISO_OK : iso_context_no_memory(map->ctx, "the search");
     for (size_t i = 0; i < 3 * count && status == ISO_OK; i++) near[i] = u[i / 3] + h * ((double)(i % 3) - 1);
     if (status == ISO_OK) status = iso_periodic_enter_many(map, start_of(line), 3 * count, near, to);
     for (size_t i = 0; i < count && status == ISO_OK; i++) {
@@ -153,7 +152,8 @@ static void find_trace(const arrival *a, const double S[2], iso_periodic_shot *s
 
 static void arrive(int line, const arrival *a, iso_periodic_shot *s)
 {
-    const int reversor = iso_symmetry_line_reversor(line), odd = reversor == 0 ? 1 : 0; /* which of l, x it turns over */
+    const int reversor = iso_symmetry_line_reversor(line),
+              odd = reversor == 0 ? 1 : 0; /* which of l, x it turns over */
     const double S[2] = {odd == 0 ? -1 : 1, odd == 1 ? -1 : 1};
     for (int i = 0; i < 2; i++) {
         s->miss[i] = a->behind[i] - S[i] * a->before[i];

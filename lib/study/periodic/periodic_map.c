@@ -9,8 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/monitor_impl.h"
 #include "base/vec3_impl.h"
 #include "method/taylor/lanes_impl.h"
+#include "model/effects_impl.h"
 #include "orbit/crossings_impl.h"
 #include "study/periodic/periodic_impl.h"
 
@@ -116,7 +118,7 @@ iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const do
     const size_t kinds = whole ? 1 : 2, each = whole ? (size_t)halves : (size_t)(halves + 1) / 2;
     if (count == 0) return ISO_OK;
     const bool memory = make_walk(kinds * count, each, &w);
-    iso_status status = memory ? ISO_OK : iso_context_fail(map->ctx, ISO_NO_MEMORY, "", "no memory for orbits");
+    iso_status status = memory ? ISO_OK : iso_context_no_memory(map->ctx, "orbits");
     for (size_t i = 0; i < w.orbits && status == ISO_OK; i++)
         set_start(map, &w, i, from[i % count], !whole && i < count);
     if (status == ISO_OK) status = go(map, &w, tolerance);
@@ -155,7 +157,7 @@ iso_status iso_periodic_enter_many(const iso_periodic_map *map, iso_return_start
     walk w = {0};
     if (count == 0) return ISO_OK;
     const bool memory = make_walk(count, 1, &w);
-    iso_status status = memory ? ISO_OK : iso_context_fail(map->ctx, ISO_NO_MEMORY, "", "no memory for orbits");
+    iso_status status = memory ? ISO_OK : iso_context_no_memory(map->ctx, "orbits");
     for (size_t i = 0; i < count && memory; i++) set_half_way(map, &w, i, start, u[i]);
     w.deviations = false;
     if (status == ISO_OK) status = go(map, &w, 1e-13);

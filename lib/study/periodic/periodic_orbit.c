@@ -8,6 +8,7 @@
 
 #include "base/pi_impl.h"
 #include "map/state.h"
+#include "model/params_impl.h"
 #include "orbit/pool_impl.h"
 #include "study/periodic/periodic_impl.h"
 
@@ -51,7 +52,7 @@ static iso_status remember(iso_periodic_work *w, int period, const double (*path
     if (w->folded_count + count > w->folded_room) {
         const size_t room = 2 * (w->folded_room + count);
         struct iso_periodic_folded *larger = realloc(w->folded, room * sizeof *larger);
-        if (!larger) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the orbits");
+        if (!larger) return iso_context_no_memory(w->ctx, "the orbits");
         w->folded = larger;
         w->folded_room = room;
     }
@@ -123,7 +124,7 @@ static iso_status append(iso_periodic_work *w, const iso_periodic_orbit *o)
     if (out->count == w->room) {
         const size_t room = 2 * w->room + 16;
         iso_periodic_orbit *larger = realloc(out->orbit, room * sizeof *larger);
-        if (!larger) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the orbits");
+        if (!larger) return iso_context_no_memory(w->ctx, "the orbits");
         out->orbit = larger;
         w->room = room;
     }
@@ -159,7 +160,7 @@ static iso_status add_orbit(iso_periodic_work *w, const iso_periodic_orbit *solv
     find_symmetry(path, &o);
     find_copies(path, &o);
     o.half = malloc(size);
-    if (!o.half) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for an orbit");
+    if (!o.half) return iso_context_no_memory(w->ctx, "an orbit");
     memcpy(o.half, path, size);
     iso_status status = remember(w, o.period, path);
     if (status == ISO_OK) status = append(w, &o);
@@ -209,7 +210,7 @@ static iso_status finish_wave(iso_periodic_work *w, wave *a)
 iso_status iso_periodic_add(iso_periodic_work *w, const iso_periodic_candidate c[], size_t count)
 {
     wave *a = calloc(1, sizeof *a);
-    iso_status status = a ? ISO_OK : iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for orbits");
+    iso_status status = a ? ISO_OK : iso_context_no_memory(w->ctx, "orbits");
     for (size_t i = 0; i < count && status == ISO_OK; i++) {
         a->w = w;
         if (!is_known(w, c[i].period, c[i].l, c[i].x)) a->candidate[a->count++] = &c[i];

@@ -3,8 +3,10 @@
 #define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 
+#include "base/monitor_impl.h"
 #include "base/pi_impl.h"
 #include "orbit/crossings_impl.h"
+#include "study/periodic/hill_trace_impl.h"
 #include "study/periodic/hill_wide_impl.h"
 #include "study/periodic/periodic_impl.h"
 
@@ -77,6 +79,6 @@ iso_status iso_periodic_rotations(iso_periodic_work *w)
             return iso_context_goes_on(w->ctx)
                        ? iso_context_fail(w->ctx, ISO_NUMERICAL, "", "the rotation about axis %d was not followed",
                                           axis + 1)
-                       : iso_context_fail(w->ctx, ISO_STOPPED, "", "stopped on request");
+                       : iso_context_stopped(w->ctx);
     return ISO_OK;
 }

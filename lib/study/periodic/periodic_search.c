@@ -53,7 +53,7 @@ static iso_status grow(iso_context *ctx, void **list, size_t *room, size_t count
     if (count + more <= *room) return ISO_OK;
     const size_t wanted = 2 * (count + more);
     void *larger = realloc(*list, wanted * size);
-    if (!larger) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the search");
+    if (!larger) return iso_context_no_memory(ctx, "the search");
     *list = larger;
     *room = wanted;
     return ISO_OK;
@@ -85,7 +85,7 @@ static iso_status make_misses(const search *s, size_t count, size_t halves, miss
     m->there = malloc((count * halves + 1) * sizeof *m->there);
     if (m->z && m->end && m->off && m->slope && m->there) return ISO_OK;
     free_misses(m);
-    return iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for the search");
+    return iso_context_no_memory(s->w->ctx, "the search");
 }
 
 static iso_status evaluate(const search *s, size_t count, const double u[], int halves, double tolerance, misses *m)
@@ -93,8 +93,7 @@ static iso_status evaluate(const search *s, size_t count, const double u[], int 
     const size_t each = (size_t)halves;
     double(*by_u)[2] = malloc((count + 1) * sizeof *by_u);
     iso_periodic_point *at = malloc((count * each + 1) * sizeof *at);
-    iso_status status =
-        by_u && at ? ISO_OK : iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for the search");
+    iso_status status = by_u && at ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
     if (status == ISO_OK) status = iso_periodic_place(&s->w->map, s->line, count, u, m->z, by_u);
     if (status == ISO_OK)
         status = iso_periodic_walk(&s->w->map, count, (const double(*)[2])m->z, halves, false, tolerance, at);
@@ -177,7 +176,7 @@ static iso_status refine_samples(search *s)
     interval *old = s->open;
     double *u = malloc(before * sizeof *u);
     size_t halved = 0;
-    iso_status status = u ? ISO_OK : iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for the search");
+    iso_status status = u ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
     for (size_t i = 0; i < before && status == ISO_OK; i++) {
         bool split;
         status = look_at(s, &old[i], &split);
@@ -261,7 +260,7 @@ static iso_status find_roots(search *s)
     if (status != ISO_OK) return status;
     double *u = malloc((s->brackets + 1) * sizeof *u);
     size_t *of = malloc((s->brackets + 1) * sizeof *of);
-    if (!u || !of) status = iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for the search");
+    if (!u || !of) status = iso_context_no_memory(s->w->ctx, "the search");
     for (int n = 1; n <= s->periods && status == ISO_OK; n++) {
         size_t left = 1;
         for (int steps = 0; steps < 40 && left > 0 && status == ISO_OK; steps++)
@@ -293,7 +292,7 @@ static iso_status add_roots(search *s)
 {
     const iso_periodic_options *o = &s->w->options;
     iso_periodic_candidate *c = malloc((s->brackets + 1) * sizeof *c);
-    iso_status status = c ? ISO_OK : iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for the search");
+    iso_status status = c ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
     if (s->brackets > 0) qsort(s->bracket, s->brackets, sizeof *s->bracket, by_place);
     for (int turn = 0; turn < 2 * s->periods && status == ISO_OK; turn++) {
         const int n = turn / 2 + 1;

@@ -5,11 +5,12 @@
 #include <math.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/monitor_impl.h"
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
-#include "map/level.h"
+#include "map/level_impl.h"
 #include "orbit/pool_impl.h"
-#include "study/periodic/periodic.h"
+#include "study/periodic/hill_trace_impl.h"
 
 typedef struct chart {
     iso_context *ctx;
@@ -102,7 +103,7 @@ static iso_status compare(chart *c, const double *a, const double *b)
     iso_status status = ISO_OK;
     for (int which = 0; which < 2; which++)
         for (int sign = -1; sign <= 1; sign += 2) {
-            if (!iso_context_goes_on(c->ctx)) return iso_context_fail(c->ctx, ISO_STOPPED, "", "stopped on request");
+            if (!iso_context_goes_on(c->ctx)) return iso_context_stopped(c->ctx);
             const double level = 2 * sign, one = a[2 + which] - level, other = b[2 + which] - level;
             if (status == ISO_OK && one * other < 0 && a[0] * b[0] > 0) status = add_border(c, which, level, a, b);
         }

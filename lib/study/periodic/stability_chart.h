@@ -1,5 +1,5 @@
 /* stability_chart.h - where the rotations about the axes of least and greatest moment are stable, in the plane of k
- * and one moment, or of k and the level (map/level.h): traces of Hill's equation (periodic.h) on a grid, and the
+ * and one moment, or of k and the level (study/level.h): traces of Hill's equation (periodic.h) on a grid, and the
  * borders, where a trace is 2 or -2.
  */
 #ifndef ISO_STUDY_STABILITY_CHART_H

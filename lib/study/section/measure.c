@@ -7,6 +7,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
+#include "model/system_impl.h"
 #include "orbit/batch.h"
 #include "study/section/measure_impl.h"
 
@@ -193,7 +194,7 @@ static iso_status allocate(carrier *c)
     c->kinetic = calloc(BLOCK, sizeof *c->kinetic);
     c->sharp = calloc(BLOCK, sizeof *c->sharp);
     if (!c->start || !c->orbit || !c->sample || !c->kinetic || !c->sharp)
-        return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory for %d orbits", BLOCK);
+        return iso_context_no_memory(c->ctx, "%d orbits", BLOCK);
     return iso_measure_sums_create(c->ctx, FUNCTIONS, c->options->count, &c->sums);
 }
 

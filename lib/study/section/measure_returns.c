@@ -180,7 +180,7 @@ static iso_status allocate(returner *r)
     r->status = calloc(BLOCK, sizeof *r->status);
     r->sharp = calloc(BLOCK, sizeof *r->sharp);
     if (!r->start || !r->orbit || !r->crossing || !r->sample || !r->done || !r->status || !r->sharp)
-        return iso_context_fail(r->ctx, ISO_NO_MEMORY, "", "no memory for %d orbits", BLOCK);
+        return iso_context_no_memory(r->ctx, "%d orbits", BLOCK);
     return iso_measure_sums_create(r->ctx, FUNCTIONS, r->options->count, &r->sums);
 }
 

@@ -9,7 +9,7 @@ iso_status iso_measure_sums_create(iso_context *ctx, int functions, size_t count
 {
     *sums = (measure_sums){.functions = functions, .count = count};
     sums->value = calloc(ISO_MEASURE_CLOUDS, sizeof *sums->value);
-    return sums->value ? ISO_OK : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the sums over the clouds");
+    return sums->value ? ISO_OK : iso_context_no_memory(ctx, "the sums over the clouds");
 }
 
 void iso_measure_sums_free(measure_sums *sums)

@@ -7,7 +7,11 @@
 #include "base/finite_impl.h"
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
+#include "map/section_impl.h"
 #include "map/state.h"
+#include "model/effects_impl.h"
+#include "orbit/crossings_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/section/section_impl.h"
 
 /* Crossings that are kept in memory: about 50 MB for each model, and as much for samples. */
@@ -44,7 +48,7 @@ iso_status iso_section_make_room(iso_section_walk *w)
         room = room && w->crossing[m] && w->done[m] && w->status[m];
     }
     if (room && w->start && w->batch && w->member && (w->sample || w->count == 0)) return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the crossings of %zu orbits", w->group);
+    return iso_context_no_memory(w->ctx, "the crossings of %zu orbits", w->group);
 }
 
 void iso_section_free_room(iso_section_walk *w)
@@ -107,7 +111,7 @@ void iso_section_state_level(const iso_orbit *orbit, iso_effects *effects)
 
 /* The chart of start i, counted from 0: the first `starts` are spread, then come the given ones. */
 static void chart_of_start(const iso_section_spread *spread, size_t starts, const double (*at)[2], size_t i,
-                                double *l, double *x)
+                           double *l, double *x)
 {
     if (i < starts) {
         iso_section_spread_point(spread, i, l, x);

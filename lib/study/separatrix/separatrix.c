@@ -15,28 +15,7 @@ typedef struct numbers {
     int digits;
 } numbers;
 
-static const numbers with_64_bits = {12, 10, 19}, with_106_bits = {21, 18, 32};
-
-/* --- the domain ------------------------------------------------------------------------------------------------- */
-
-/* Coefficients fall like rate^i with rate ~ size^2. So the domain is made so large that the last one, of 12, is at
- * the rounding errors of 64 bits; of 21, of 106 bits. */
-static iso_status find_domain(iso_manifold *m)
-{
-    const double wanted = 0.01;
-    iso_wide size = (iso_wide)0.1;
-    for (int i = 0; i < 8; i++) {
-        iso_manifold_resize(m, size, with_64_bits.terms);
-        const iso_status status = iso_manifold_solve(m);
-        if (status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
-        const double change = status == ISO_OK ? sqrt(wanted / fmax(m->rate, wanted / 100)) : 0.3;
-        if (status == ISO_OK && change > 0.85 && change < 1.3) return ISO_OK;
-        size *= (iso_wide)fmax(change, 0.1);
-    }
-    return iso_context_fail(
-        m->ctx, ISO_NUMERICAL, "",
-        "splitting at k = %.15g: no domain was found on which the series of the manifold converges", m->problem.p.k);
-}
+static const numbers with_64_bits = {ISO_MANIFOLD_TERMS_64, 10, 19}, with_106_bits = {21, 18, 32};
 
 /* --- one computation -------------------------------------------------------------------------------------------- */
 
@@ -129,14 +108,9 @@ static void begin(double k, double level, iso_separatrix_splitting *s)
         s->next_m = NAN;
 }
 
-iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)
-{
-    const iso_status status = iso_manifold_open(ctx, k, J, level, m);
-    return status == ISO_OK ? find_domain(m) : status;
-}
-
 /* With 128 bits, where they are asked for or needed. If they fail where only needed, what 64 bits tell stays. */
-static iso_status find_finer(iso_manifold *m, iso_manifold_crossing *c, iso_separatrix_digits digits, iso_separatrix_splitting *s)
+static iso_status find_finer(iso_manifold *m, iso_manifold_crossing *c, iso_separatrix_digits digits,
+                             iso_separatrix_splitting *s)
 {
     const bool unclear = !(fabs(s->m) >= 1000 * s->error);
     const iso_manifold kept = *m;
@@ -158,7 +132,8 @@ static void tell_next(const iso_manifold *m, const iso_manifold_crossing *n, iso
     s->next_m = (double)n->slope;
 }
 
-static iso_status find(iso_context *ctx, const double J[3], iso_separatrix_digits digits, bool next, iso_separatrix_splitting *s)
+static iso_status find(iso_context *ctx, const double J[3], iso_separatrix_digits digits, bool next,
+                       iso_separatrix_splitting *s)
 {
     iso_manifold m;
     iso_manifold_crossing c, n;
@@ -189,15 +164,15 @@ static iso_status find_at(iso_context *ctx, double k, const double J[3], double 
     return status;
 }
 
-iso_status iso_separatrix_at(iso_context *ctx, double k, const double J[3], double level, iso_separatrix_digits digits,
-                            iso_separatrix_splitting *s)
+iso_status iso_separatrix_at(iso_context *ctx, double k, const double J[3], double level,
+                             iso_separatrix_digits digits, iso_separatrix_splitting *s)
 {
     ISO_DEFAULT_ARITHMETIC;
     return find_at(ctx, k, J, level, digits, false, s);
 }
 
 iso_status iso_separatrix_next_at(iso_context *ctx, double k, const double J[3], double level,
-                                 iso_separatrix_digits digits, iso_separatrix_splitting *s)
+                                  iso_separatrix_digits digits, iso_separatrix_splitting *s)
 {
     ISO_DEFAULT_ARITHMETIC;
     return find_at(ctx, k, J, level, digits, true, s);

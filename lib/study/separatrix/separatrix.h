@@ -6,7 +6,7 @@
  * (l, x) -> (pi - l, x) turns W^u(O) into W^s(O'), so they meet wherever one of them meets the line l = pi/2, there
  * with the slopes +m and -m, m = dx/dl of W^u(O). If m != 0 they cross transversally, and there is no further
  * analytic integral (lib/doc/why_only_one.md); m is computed, not proved. All this holds on every level of the
- * point's energy (map/level.h) on which the rotation exists: those on which the point can reach the whole sphere.
+ * point's energy (study/level.h) on which the rotation exists: those on which the point can reach the whole sphere.
  *
  *     iso_separatrix_splitting s;
  *     status = iso_separatrix_at(ctx, 0.5, (double[3]){1.4, 2.1, 3}, 0, ISO_SEPARATRIX_AUTO, &s);     s.x, s.m, s.error
@@ -65,11 +65,7 @@ ISO_API extern const iso_field iso_separatrix_fields[];
  * return failed. ISO_BAD_ARGUMENT about "digits" where this build has no 128 bits. ISO_NO_MEMORY, ISO_STOPPED. The
  * status and its words are in *s as well. */
 ISO_API iso_status iso_separatrix_at(iso_context *ctx, double k, const double J[3], double level,
-                                    iso_separatrix_digits digits, iso_separatrix_splitting *s);
-
-/* The same, and next_... as well. */
-ISO_API iso_status iso_separatrix_next_at(iso_context *ctx, double k, const double J[3], double level,
-                                         iso_separatrix_digits digits, iso_separatrix_splitting *s);
+                                     iso_separatrix_digits digits, iso_separatrix_splitting *s);
 
 typedef struct iso_separatrix_options {
     size_t size;     /* set by iso_separatrix_defaults; see isoroll.h */
@@ -98,9 +94,11 @@ static inline iso_separatrix_options iso_separatrix_defaults(void)
 
 typedef struct iso_separatrix_table {
     size_t rows, zeros;
-    size_t lost;         /* zeros that lie between two rows and were not found: a failure, or +-1 too close  */
-    iso_separatrix_splitting *row;  /* one for each k of the options, in their order; status ISO_STOPPED: not done    */
-    iso_separatrix_splitting *zero; /* zeros of m other than k = +-1, by growing k and level                          */
+    size_t lost; /* zeros that lie between two rows and were not found: a failure, or +-1 too close  */
+    iso_separatrix_splitting
+        *row; /* one for each k of the options, in their order; status ISO_STOPPED: not done    */
+    iso_separatrix_splitting
+        *zero; /* zeros of m other than k = +-1, by growing k and level                          */
 } iso_separatrix_table;
 ISO_API extern const iso_field iso_separatrix_table_fields[];
 
@@ -111,13 +109,14 @@ ISO_API extern const iso_field iso_separatrix_table_fields[];
  * (no k; "digits"); ISO_BAD_INPUT about an effect that acts on the ball, other than `level`; where the scene starts
  * as a point, or has a level, those of iso_orbit_create; ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *s has
  * the rows that are done. */
-ISO_API iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *options, iso_separatrix_table **s);
+ISO_API iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *options,
+                                      iso_separatrix_table **s);
 ISO_API void iso_separatrix_free(iso_separatrix_table *s);
 
 /* The unstable manifold of O as a line of points, columns u and x, from O for `halves` half returns past the first
  * crossing, in numbers of 64 bits. (pi - u, x) is the stable manifold of O'. Errors: as iso_separatrix_at. */
 ISO_API iso_status iso_separatrix_curve(iso_context *ctx, double k, const double J[3], double level, int halves,
-                                       iso_record **curve);
+                                        iso_record **curve);
 
 ISO_C_END
 

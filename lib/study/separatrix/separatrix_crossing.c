@@ -84,7 +84,7 @@ static iso_status open_piece(const iso_manifold *m, double close, piece *p)
     p->u = malloc(MOST_SAMPLES * sizeof *p->u);
     if (!p->at || !p->u) {
         close_piece(p);
-        return iso_context_fail(m->ctx, ISO_NO_MEMORY, "", "no memory for a manifold");
+        return iso_context_no_memory(m->ctx, "a manifold");
     }
     for (int i = 0; i < FIRST; i++) {
         const iso_wide theta = i == FIRST - 1 ? 1 : i == 0 ? 1 / m->lambda : (iso_wide)exp((i + 1 - FIRST) * step);
@@ -280,7 +280,7 @@ static iso_status draw(iso_context *ctx, const iso_manifold *m, int halves, iso_
 }
 
 iso_status iso_separatrix_curve(iso_context *ctx, double k, const double J[3], double level, int halves,
-                               iso_record **curve)
+                                iso_record **curve)
 {
     static const char *const names[] = {"u", "x"};
     iso_manifold m;

@@ -19,7 +19,7 @@
 #include "method/wide_impl.h"
 #include "study/separatrix/separatrix.h"
 
-enum { ISO_MANIFOLD_TERMS = 24 };
+enum { ISO_MANIFOLD_TERMS = 24, ISO_MANIFOLD_TERMS_64 = 12 }; /* room; those that suit 64 bits */
 
 /* W(theta) = theta (v r + y sum_i c_i T*_i(y)), y = theta^2, |theta| <= 1, T*_i(y) = cos(i acos(2y - 1)): an odd
  * polynomial with g(W(theta)) = W(lambda theta). v: the unstable direction, v_u > 0, |v| = 1; r: the domain. */
@@ -81,5 +81,9 @@ static inline iso_wide iso_wide_turned(iso_wide angle)
 {
     return iso_wide_wrap(angle, 2 * WIDE_PI);
 }
+
+/* The same, and next_... as well. */
+iso_status iso_separatrix_next_at(iso_context *ctx, double k, const double J[3], double level,
+                                  iso_separatrix_digits digits, iso_separatrix_splitting *s);
 
 #endif

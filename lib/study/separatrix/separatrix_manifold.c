@@ -10,8 +10,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/monitor_impl.h"
 #include "base/pi_impl.h"
-#include "map/level.h"
+#include "map/level_impl.h"
 #include "map/section.h"
 #include "method/taylor/lanes_impl.h"
 #include "orbit/crossings_impl.h"
@@ -30,7 +31,7 @@ static iso_status map_half(const iso_manifold *m, const iso_wide z[2], iso_wide 
 {
     iso_return r = {.from = {iso_fine_of(iso_wide_turned(m->corner + z[0])), iso_fine_of(z[1])},
                     .start = ISO_FROM_BELOW};
-    if (!iso_context_goes_on(m->ctx)) return iso_context_fail(m->ctx, ISO_STOPPED, "", "stopped on request");
+    if (!iso_context_goes_on(m->ctx)) return iso_context_stopped(m->ctx);
     if (!(WIDE_ABS(z[1]) < 1)) return no_return(m);
     if (!m->code->go(&m->model, m->axis, m->zeros, m->tolerance, &r)) return no_return(m);
     for (int i = 0; i < 2; i++)
@@ -294,4 +295,31 @@ iso_status iso_manifold_at(const iso_manifold *m, iso_wide theta, int halves, is
     polynomial_at(m, theta, p);
     for (int i = 0; i < halves && status == ISO_OK; i++) status = iso_manifold_go_on(m, p);
     return status;
+}
+
+/* --- the domain ------------------------------------------------------------------------------------------------- */
+
+/* Coefficients fall like rate^i with rate ~ size^2. So the domain is made so large that the last one, of 12, is at
+ * the rounding errors of 64 bits; of 21, of 106 bits. */
+static iso_status find_domain(iso_manifold *m)
+{
+    const double wanted = 0.01;
+    iso_wide size = (iso_wide)0.1;
+    for (int i = 0; i < 8; i++) {
+        iso_manifold_resize(m, size, ISO_MANIFOLD_TERMS_64);
+        const iso_status status = iso_manifold_solve(m);
+        if (status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
+        const double change = status == ISO_OK ? sqrt(wanted / fmax(m->rate, wanted / 100)) : 0.3;
+        if (status == ISO_OK && change > 0.85 && change < 1.3) return ISO_OK;
+        size *= (iso_wide)fmax(change, 0.1);
+    }
+    return iso_context_fail(
+        m->ctx, ISO_NUMERICAL, "",
+        "splitting at k = %.15g: no domain was found on which the series of the manifold converges", m->problem.p.k);
+}
+
+iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)
+{
+    const iso_status status = iso_manifold_open(ctx, k, J, level, m);
+    return status == ISO_OK ? find_domain(m) : status;
 }

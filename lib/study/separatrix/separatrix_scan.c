@@ -1,4 +1,5 @@
 /* separatrix_scan.c - the splitting at many k or levels on all threads, and the zeros of m between them. */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 #include <stdlib.h>
 
@@ -7,7 +8,7 @@
 #include "base/pi_impl.h"
 #include "orbit/pool_impl.h"
 #include "study/level_impl.h"
-#include "study/separatrix/separatrix.h"
+#include "study/separatrix/separatrix_impl.h"
 
 /* m has the zeros k = 1 and k = -1 anyway. Others are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1), which is of the
  * same size everywhere. Two neighbours with one between, along k or along the level. */
@@ -114,7 +115,7 @@ static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_se
     iso_status status = search(w, c, &b, &at, &slope);
     for (int i = 0; i < MOST && status == ISO_OK; i++) {
         status = iso_separatrix_next_at(w->ctx, b.by_level ? b.other : at, c->o->J, b.by_level ? at : b.other,
-                                       c->o->digits, zero);
+                                        c->o->digits, zero);
         r = reduced(zero, zero->m), error = fabs(reduced(zero, zero->error));
         if (i > 0 && fabs(at - last) > 1e-12 * size_of(&b, at)) slope = (r - last_r) / (at - last);
         least = 4e-16 * fabs(slope) * size_of(&b, at);
@@ -199,7 +200,7 @@ static iso_status run_zeros(iso_context *ctx, scan *c)
         c->bracket = brackets;
         status = run_pool(ctx, c, s->zeros, solve_zeros);
     } else {
-        iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu rows", s->rows);
+        iso_context_no_memory(ctx, "%zu rows", s->rows);
     }
     size_t kept = 0;
     for (size_t i = 0; i < s->zeros; i++)
@@ -224,7 +225,7 @@ static iso_status run(iso_context *ctx, const iso_separatrix_options *o, double 
     scan c = {.o = o, .s = s, .level = level, .all = o->count};
     s->rows = o->count;
     s->row = calloc(o->count, sizeof *s->row);
-    if (!s->row) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu rows", o->count);
+    if (!s->row) return iso_context_no_memory(ctx, "%zu rows", o->count);
     for (size_t i = 0; i < o->count; i++) blank(o->k[i], level_of(&c, i), &s->row[i]);
     const iso_status status = run_pool(ctx, &c, o->count, solve_rows);
     return status == ISO_OK && o->zeros ? run_zeros(ctx, &c) : status;
@@ -242,7 +243,7 @@ iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *op
     if (status == ISO_OK && o.scene) status = check_scene(ctx, &o, &level);
     if (status != ISO_OK) return status;
     iso_separatrix_table *found = calloc(1, sizeof *found);
-    if (!found) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the splitting");
+    if (!found) return iso_context_no_memory(ctx, "the splitting");
     status = run(ctx, &o, level, found);
     if (status == ISO_OK || status == ISO_STOPPED)
         *s = found;

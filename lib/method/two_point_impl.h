@@ -1,4 +1,4 @@
-/* two_point.h - how far the clocks and the state go between two samples of an orbit, from the equations of motion at
+/* two_point_impl.h - how far the clocks and the state go between two samples of an orbit, from the equations of motion at
  * both samples.
  *
  *     iso_two_point *b;
@@ -18,13 +18,10 @@
  * a clock, the integral is the time that the clock goes on. If f is y' and both samples lie on one orbit, the integral
  * is y1 - y0. If it is not, the difference is the defect.
  */
-#ifndef ISO_METHOD_TWO_POINT_H
-#define ISO_METHOD_TWO_POINT_H
+#ifndef ISO_METHOD_TWO_POINT_IMPL_H
+#define ISO_METHOD_TWO_POINT_IMPL_H
 
-#include "../base/api.h"
-#include "../model/model.h"
-
-ISO_C_BEGIN
+#include "model/model.h"
 
 typedef struct iso_two_point iso_two_point;
 
@@ -48,7 +45,5 @@ void iso_two_point_add(iso_two_point *quadrature, const double y[ISO_STATE]);
  * of the samples allows (what defects they have as a rule, 0 or more). False: they are too far apart for that, or the
  * series diverge. */
 bool iso_two_point_measure(iso_two_point *quadrature, double h, double noise, iso_gap *gap);
-
-ISO_C_END
 
 #endif

@@ -1,4 +1,4 @@
-/* coordinates.h - separated coordinates of the point, and the constant of separation.
+/* coordinates_impl.h - separated coordinates of the point, and the constant of separation.
  *
  *     iso_conical at;
  *     double excess[3];
@@ -15,19 +15,16 @@
  *
  * At an umbilic, u = b2 = v, they vanish, and the direction of M is in the speeds alone.
  */
-#ifndef ISO_EXACT_COORDINATES_H
-#define ISO_EXACT_COORDINATES_H
+#ifndef ISO_EXACT_COORDINATES_IMPL_H
+#define ISO_EXACT_COORDINATES_IMPL_H
 
-#include "../base/api.h"
-#include "../model/conical_impl.h"
-#include "../model/system.h"
-
-ISO_C_BEGIN
+#include "model/conical_impl.h"
+#include "model/system.h"
 
 /* Both ways between (M, gamma), |gamma| = 1, (M,gamma) = 0, and the coordinates nothing is lost but rounding: some
  * units in the last place of each component of gamma, and of |M|. At k = 1 they are those of 1/J as rounded. */
-ISO_API void iso_separation_coordinates(const iso_params *p, const double point[ISO_STATE], iso_conical *c);
-ISO_API void iso_separation_point(const iso_params *p, const iso_conical *c, double point[ISO_STATE]);
+void iso_separation_coordinates(const iso_params *p, const double point[ISO_STATE], iso_conical *c);
+void iso_separation_point(const iso_params *p, const iso_conical *c, double point[ISO_STATE]);
 
 /* The constant of 2 A(z) p_z^2 = R(z) + c, z = u and v of a point on the level H = problem->energy with coupling eps:
  *
@@ -37,7 +34,7 @@ ISO_API void iso_separation_point(const iso_params *p, const iso_conical *c, dou
  * is above its values of bifurcation. excess[0] <= 0 always. excess[1] = 0 is the separatrix. Where excess[1] > 0,
  * R + c has a root between b1 and b2, and u librates below it. Where excess[1] < 0, it has one between b2 and b3, and
  * v librates above it. For other k and levels all four numbers are NaN. */
-ISO_API double iso_separation_constant(const iso_problem *problem, const iso_conical *at, double excess[3]);
+double iso_separation_constant(const iso_problem *problem, const iso_conical *at, double excess[3]);
 
 /* A value of c at which the motion changes its kind. */
 typedef struct iso_bifurcation {
@@ -51,8 +48,6 @@ enum { ISO_MOST_BIFURCATIONS = 4 };
 
 /* All of them for problem->p, eps > 0 and energy, c descending; gives their number, 0 for other k and levels and
  * where no motion has this energy. Equal moments give one. */
-ISO_API int iso_bifurcations(const iso_problem *problem, iso_bifurcation list[ISO_MOST_BIFURCATIONS]);
-
-ISO_C_END
+int iso_bifurcations(const iso_problem *problem, iso_bifurcation list[ISO_MOST_BIFURCATIONS]);
 
 #endif

@@ -1,0 +1,42 @@
+/* exact_impl.h - the closed solution (exact.h): states, rows of states, angles.
+ *
+ *     iso_exact *exact;
+ *     iso_exact_create(ctx, &problem, point, all_clocks, &exact); problem: k, J, eps and the level H
+ *     iso_exact_at(ctx, exact, ISO_CLOCK_T, 1e6, y, clocks);       the point a million units of the ball's time later
+ *     iso_exact_free(exact);
+ */
+#ifndef ISO_EXACT_EXACT_IMPL_H
+#define ISO_EXACT_EXACT_IMPL_H
+
+#include "exact/exact.h"
+
+/* From the state (M, gamma) at time 0, in any consistent units. gamma is made a unit vector; on the level H = 0 M is
+ * scaled to that level.
+ * `clocks` are those that will be asked for, as a time or with a state. Takes less than a millisecond, longer next to
+ * a separatrix or for extreme bodies.
+ * Errors: ISO_BAD_ARGUMENT where there is no closed solution: about "k" (and unequal moments), "eps" (not > 0), or
+ * the name of an effect that acts; ISO_NUMERICAL: too many terms would be needed; ISO_NO_MEMORY. */
+iso_status iso_exact_create(iso_context *ctx, const iso_problem *problem, const double point[ISO_STATE],
+                            const bool clocks[ISO_CLOCKS], iso_exact **exact);
+void iso_exact_free(iso_exact *exact);
+
+/* The state (M, gamma) at `time` of `clock`, before or after 0, and the clocks there (NaN: not among those of the
+ * creation). Errors: ISO_BAD_ARGUMENT: a time that is not finite, a clock that was not among them; ISO_NUMERICAL: no
+ * finite state, or a clock that does not fit a double. */
+iso_status iso_exact_at(iso_context *ctx, const iso_exact *exact, iso_clock clock, double time,
+                        double point[ISO_STATE], double clocks[ISO_CLOCKS]);
+
+/* The states at the times start + i step, i < count. They are those of iso_exact_at to rounding, and take less time
+ * where steps are short: points[ISO_STATE i ...], clocks[ISO_CLOCKS i ...]; clocks may be NULL. Errors: as
+ * iso_exact_at. */
+iso_status iso_exact_grid(iso_context *ctx, const iso_exact *exact, iso_clock clock, double start, double step,
+                          size_t count, double points[], double clocks[]);
+
+/* The angles, in [0, 2 pi), of a state on the orbit's torus, and the state at given angles. A motion with one angle
+ * has NaN as its second. Angles grow evenly with sigma for a separated motion, else with s; where they are 0 is the
+ * form's choice. Errors: ISO_BAD_ARGUMENT: a motion without angles; a state that turns the other way; numbers that
+ * are not finite. */
+iso_status iso_exact_angles(iso_context *ctx, const iso_exact *exact, const double point[ISO_STATE], double angle[2]);
+iso_status iso_exact_point(iso_context *ctx, const iso_exact *exact, const double angle[2], double point[ISO_STATE]);
+
+#endif
