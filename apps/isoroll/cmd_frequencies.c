@@ -30,7 +30,7 @@ static iso_frequencies_options options_of(const options *o)
 
 static const char *const verdicts[] = {[ISO_REGULAR] = "regular",
                                        [ISO_CHAOTIC] = "chaotic",
-                                       [ISO_UNDECIDED] = "not decided",
+                                       [ISO_UNDECIDED] = "undecided",
                                        [ISO_INTEGRABLE] = "integrable"};
 static const char *const kinds[] = {
     [ISO_EXACT_SEPARATED] = "separated",   [ISO_EXACT_SYMMETRIC] = "symmetric", [ISO_EXACT_PLANE] = "plane",
