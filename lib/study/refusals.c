@@ -23,10 +23,11 @@ iso_status iso_refuse_coupling(iso_context *ctx, const iso_orbit *orbit, const c
 {
     const iso_point_motion m = iso_orbit_motion(orbit);
     if (m.eps > 0 || m.energy == 0) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, iso_level_name(),
-                            "%s only where the point's coupling eps is above 0; here it is %.6g: the ball's energy in "
-                            "the potential of 'level' is not positive",
-                            what, iso_orbit_coupling(orbit));
+    return iso_context_fail(
+        ctx, ISO_BAD_INPUT, iso_level_name(),
+        "%s only where the point's coupling eps is above 0; here it is %.6g: the ball's energy in "
+        "the potential of 'level' is not positive",
+        what, iso_orbit_coupling(orbit));
 }
 
 iso_status iso_refuse_losses(iso_context *ctx, const iso_orbit *orbit, const char *what)

@@ -1,6 +1,6 @@
 #!/bin/sh
 # sweep.sh ISOROLL - `isoroll sweep`: the same bytes whichever way they are computed, every quantity as its own command
-# gives it, bad files, files that must not be overwritten, interruptions.
+# gives it, files that must not be overwritten, interruptions.
 . "$(dirname "$0")/lib.sh"
 
 scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >scene.yaml
@@ -180,125 +180,7 @@ for name in omega1 omega2 n1 n3 M1 gamma2; do
     equal "read back: $name" "$(cell each.csv 1 state_$name)" "$(cell itself.csv 0 state_$name)"
 done
 
-# --- bad files: PLACE|WORDS|what stands in the place of grid.yaml's lines
-bad() {
-    cat >bad.yaml
-    refuses 3 "bad.yaml:$1: $2" sweep bad.yaml -o new.csv
-}
-bad 1:1 "missing 'scene' in the sweep" <<'END'
-vary: {k: 1}
-measure: {state: {}}
-END
-bad 1:8 "cannot open 'none.yaml'" <<'END'
-scene: none.yaml
-vary: {k: 1}
-measure: {state: {}}
-END
-bad 3:1 "unknown key 'mesure'; did you mean 'measure'?" <<'END'
-scene: scene.yaml
-vary: {k: 1}
-mesure: {state: {}}
-END
-bad 2:8 "unknown number of this scene 'kk'" <<'END'
-scene: scene.yaml
-vary: {kk: 1}
-measure: {state: {}}
-END
-bad 2:11 "a range from -1e+308 to 1e+308 is too wide" <<'END'
-scene: scene.yaml
-vary: {k: {from: -1.0e+308, to: 1.0e+308, count: 3}}
-measure: {state: {}}
-END
-bad 2:11 "a range from 1e-200 to 1e+200 is too wide" <<'END'
-scene: scene.yaml
-vary: {k: {from: 1.0e-200, to: 1.0e+200, count: 3, logarithmic: true}}
-measure: {state: {}}
-END
-bad 2:11 "missing 'to' in a range" <<'END'
-scene: scene.yaml
-vary: {k: {from: 1}}
-measure: {state: {}}
-END
-cat >bad.yaml <<'END'
-scene: scene.yaml
-vary:
-  k: {from: 1, to: 2}
-measure: {state: {}}
-END
-refuses 3 "bad.yaml:3:3: a range without a count is drawn: 'samples: {count: ...}' is missing" sweep bad.yaml
-bad 3:11 "unknown key 'chaoss'; did you mean 'chaos'?" <<'END'
-scene: scene.yaml
-vary: {k: [1, 2]}
-measure: {chaoss: {}}
-END
-bad 3:27 "'starts' is 1.5, it must be a whole number" <<'END'
-scene: scene.yaml
-vary: {k: [1, 2]}
-measure: {chaos: {starts: 1.5}}
-END
-bad 3:11 "contact: the scene needs the effect 'reactions'" <<'END'
-scene: scene.yaml
-vary: {k: [1, 2]}
-measure: {contact: {}}
-END
-bad 4:8 "'backends' needs 'until: {time: ...}'" <<'END'
-scene: scene.yaml
-vary: {k: [1, 2]}
-measure: {backends: {}}
-until: {turns: 100}
-END
-bad 2:7 "a start on the section is 'l' and 'x'" <<'END'
-scene: scene.yaml
-vary: {l: [1, 2]}
-measure: {state: {}}
-END
-bad 2:22 "'J2' varies twice" <<'END'
-scene: scene.yaml
-vary: {J: [[1,2,3]], J2: 5}
-measure: {state: {}}
-END
-bad 2:15 "'J2' and 'J2/J1' set the same moment" <<'END'
-scene: scene.yaml
-vary: {J2: 5, J2/J1: 2}
-measure: {state: {}}
-END
-bad 2:24 "'J' and 'J3/J1' set the same moment" <<'END'
-scene: scene.yaml
-vary: {J: [[1, 2, 3]], J3/J1: 2}
-measure: {state: {}}
-END
-bad 2:18 "'J1' changes 'J2/J1': write it first" <<'END'
-scene: scene.yaml
-vary: {J2/J1: 2, J1: 2}
-measure: {state: {}}
-END
-bad 2:7 "'end' varies, but 'until' replaces it" <<'END'
-scene: scene.yaml
-vary: {end: [1, 2]}
-measure: {state: {}}
-until: {time: 5}
-END
-{ cat scene.yaml && echo 'solver: {tolerance: 1.0e-9}'; } >solver.yaml
-bad 2:7 "'tolerance' varies, but 'error' sets its own" <<'END'
-scene: solver.yaml
-vary: {tolerance: [1.0e-9, 1.0e-10]}
-measure: {error: {tolerance: 1.0e-8}}
-END
-bad 3:11 "state: 'model' is for 'until: {turns: ...}'" <<'END'
-scene: scene.yaml
-vary: {k: [1, 2]}
-measure: {state: {model: point}}
-END
-bad 2:7 "'vary' names no number: write k: [0.5, 1], for example" <<'END'
-scene: scene.yaml
-vary: {}
-measure: {state: {}}
-END
-bad 2:12 "'k' should be a finite number" <<'END'
-scene: scene.yaml
-vary: {k: [one]}
-measure: {state: {}}
-END
+# --- a bad scene inside; other bad files are in bad_files.txt
 refuses 3 "<stdin>:1:" sweep - <<'END'
 scene: {reduced: {k: 1, J: [1, 2, -5]}, initial: {normal: [1, 0, 0], angular_velocity: [0, 1, 0]}, time: {end: 1}}
 vary: {k: [1, 2]}
