@@ -1,7 +1,7 @@
 #!/bin/sh
-# bad_files.sh ISOROLL - every scene and sweep of bad_files.txt and bad_effects.txt, and every scene in bad/, whose bytes no
-# table can have, is refused with status 3 and nothing on standard output. The first line of a file is `# expect LINE:COLUMN WORDS`: the
-# place of the mistake, and a part of the message.
+# bad_files.sh ISOROLL - every scene and sweep of bad_files.txt and bad_effects.txt, and every scene in bad/, whose
+# bytes no table can have, is refused with status 3 and nothing on standard output. The first line of a file is
+# `# expect LINE:COLUMN WORDS`: the place of the mistake, and a part of the message.
 # bad_files.sh --write FOLDER only makes the files, for test_scene and test_hard_input.
 here=$(cd "$(dirname "$0")" && pwd)
 
