@@ -1,6 +1,6 @@
 #!/bin/sh
 # sweep.sh ISOROLL - `isoroll sweep`: the same bytes whichever way they are computed, every quantity as its own command
-# gives it, files that must not be overwritten, interruptions.
+# gives it. Its files and journals: sweep_files.sh.
 . "$(dirname "$0")/lib.sh"
 
 scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >scene.yaml
@@ -86,6 +86,12 @@ SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_COUNT=2 SLURM_ARRAY_TASK_MIN=2 SLURM_ARRA
 refuses 2 "one task or gaps, so it does not tell N: give --shard slurm/N" sweep grid.yaml -o new.csv --shard slurm
 unset SLURM_ARRAY_TASK_ID SLURM_ARRAY_TASK_COUNT SLURM_ARRAY_TASK_MIN SLURM_ARRAY_TASK_MAX
 refuses 2 "expected i/n" sweep grid.yaml -o new.csv --shard 6/5
+for option in "-o new.csv" --resume "--shard 1/2"; do
+    refuses 2 "does nothing with --point" sweep grid.yaml --point 1 $option
+done
+for option in "--point 1" --resume "--shard 1/2"; do
+    refuses 2 "does nothing with --merge" sweep --merge part.1.csv part.2.csv -o new.csv $option
+done
 
 # --- every quantity is what its own command gives for the scene of the point
 # value KEY [N]: the N-th number of this name in the JSON of the last run
@@ -186,109 +192,4 @@ scene: {reduced: {k: 1, J: [1, 2, -5]}, initial: {normal: [1, 0, 0], angular_vel
 vary: {k: [1, 2]}
 measure: {state: {}}
 END
-
-# --- files that are in the way: words, status 5, and not a byte is changed
-echo "my thesis" >thesis.csv
-cp thesis.csv thesis.copy
-refuses 5 "is no result of a sweep: it is not overwritten" sweep grid.yaml -o thesis.csv
-refuses 5 "is no result of a sweep: it is not overwritten" sweep grid.yaml -o thesis.csv --resume
-refuses 5 "is there already" sweep grid.yaml -o all.$h5
-refuses 5 "is the result of another sweep" sweep other.yaml -o all.$h5 --resume
-cp all.$h5 before.$h5
-run 1 sweep grid.yaml -o all.$h5 --resume
-says "6 of 30 points failed; the first is point 12: scene.yaml:1:14: k = 0"
-check "a result that is there stays" cmp all.$h5 before.$h5
-for option in "-o new.csv" --resume "--shard 1/2"; do
-    refuses 2 "does nothing with --point" sweep grid.yaml --point 1 $option
-done
-for option in "--point 1" --resume "--shard 1/2"; do
-    refuses 2 "does nothing with --merge" sweep --merge part.1.csv part.2.csv -o new.csv $option
-done
-cp thesis.csv new.csv.part
-refuses 5 "is no journal of a sweep" sweep grid.yaml -o new.csv --resume
-check "the thesis" cmp thesis.csv thesis.copy
-check "the thesis, as a journal" cmp new.csv.part thesis.copy
-rm new.csv.part
-refuses 5 "cannot write" sweep grid.yaml -o /nowhere/new.csv
-run 5 sweep grid.yaml -o /dev/full
-check "a full disk" grep -q "No space left" err
-mkdir locked && chmod 555 locked
-if [ "$(id -u)" = 0 ]; then
-    skip "read-only folder" "root may write everywhere"
-else
-    refuses 5 "Permission denied" sweep grid.yaml -o locked/new.csv
-fi
-
-# --- a full disk, and a journal that is cut short or damaged
-cat >long.yaml <<END
-scene: scene.yaml
-vary: {k: {from: 0.3, to: 0.9, count: 60}}
-measure: {state: {}}
-until: {time: $(slow 10000)}
-chunk: 1
-END
-run 0 sweep long.yaml -o long.$h5
-run 0 sweep long.yaml -o long.$h5 --resume
-silent
-checks=$((checks + 1))
-(ulimit -f 4 && "$isoroll" sweep long.yaml -o full.$h5 2>err)
-[ $? -eq 5 ] || fail "a full disk: not status 5"
-check "a full disk: words" grep -q "cannot write 'full.$h5.part': File too large" err
-refuses 5 "add --resume to go on with it" sweep long.yaml -o full.$h5
-refuses 5 "journal of another sweep" sweep grid.yaml -o full.$h5 --resume
-cp full.$h5.part torn.$h5.part
-printf 'half a record of a chunk' >>torn.$h5.part
-cp full.$h5.part damaged.$h5.part
-printf 'X' | dd of=damaged.$h5.part bs=1 seek=400 conv=notrunc 2>err
-run 0 sweep long.yaml -o full.$h5 --resume
-check "after a full disk" cmp full.$h5 long.$h5
-run 0 sweep long.yaml -o torn.$h5 --resume
-check "after a torn record" cmp torn.$h5 long.$h5
-cp damaged.$h5.part damaged.copy
-refuses 5 "is damaged" sweep long.yaml -o damaged.$h5 --resume
-check "a damaged journal stays" cmp damaged.$h5.part damaged.copy
-
-cp damaged.copy long.$h5.part
-run 0 sweep long.yaml -o long.$h5 --resume
-check_not "a journal that outlived its result is removed" test -e long.$h5.part
-
-# --- kill -9 when some chunks more are in the journal, then another number of threads; SIGTERM and SIGINT
-tries=0 kills=$(length 6 60)
-while [ $tries -lt "$kills" ]; do
-    begin=$(cat killed.$h5.part 2>/dev/null | wc -c)
-    "$isoroll" sweep long.yaml -o killed.$h5 --resume -j $((tries % 3 + 1)) 2>/dev/null &
-    pid=$!
-    await in_journal killed.$h5 $((begin + tries % 7 * 100)) $pid
-    kill -9 $pid 2>/dev/null
-    wait $pid 2>/dev/null
-    tries=$((tries + 1))
-    [ ! -e killed.$h5 ] || { check "killed" cmp killed.$h5 long.$h5; rm -f killed.$h5; }
-done
-run 0 sweep long.yaml -o killed.$h5 --resume
-check "killed $kills times" cmp killed.$h5 long.$h5
-
-# stopped SIGNAL STATUS WORDS
-stopped() {
-    for _ in 1 2 3 4 5 6 7 8 9 10; do # again if it was done before the signal came
-        rm -f stopped.$h5
-        signalled "$1" "in_journal stopped.$h5 200" sweep long.yaml -o stopped.$h5 -j 1
-        [ -e stopped.$h5 ] || break
-    done
-    check "$1: status $status" test $status -eq "$2"
-    check "$1: words" grep -q "$3: .* of 60 chunks are in 'stopped.$h5.part'; go on with: .* --resume" err
-    run 0 sweep long.yaml -o stopped.$h5 --resume
-    check "$1" cmp stopped.$h5 long.$h5
-    rm stopped.$h5
-}
-stopped TERM 0 "stopped by SIGTERM or SIGUSR1"
-stopped USR1 0 "stopped by SIGTERM or SIGUSR1"
-interruptible "Ctrl-C" && stopped INT 1 "interrupted"
-
-# --- one journal, one program
-held twice.$h5 sweep long.yaml -j 1
-refuses 5 "another isoroll works on this sweep" sweep long.yaml -o twice.$h5 --resume
-kill -CONT $pid
-wait $pid
-check "the first one goes on" cmp twice.$h5 long.$h5
-
 finish
