@@ -1,6 +1,6 @@
 /* Reads output times: numbers between blanks, commas, new lines and comments. */
-#include "times.h"
 #include "base/number.h"
+#include "times.h"
 
 #include <errno.h>
 #include <stdlib.h>

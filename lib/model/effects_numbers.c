@@ -149,7 +149,7 @@ static iso_status check_number(iso_context *ctx, const char *effect, const iso_e
         negative = negative || x[i] < 0;
     }
     if (resists && negative)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, n->name, "%s: '%s' is negative, it must resist", effect, n->name);
+        return iso_context_fail(ctx, ISO_BAD_INPUT, n->name, "%s: '%s' is negative: it must resist", effect, n->name);
     if ((n->kind == ISO_NUMBER_POSITIVE && zeros > 0) || (n->kind == ISO_NUMBER_NOT_ZERO && zeros == n->count))
         return iso_context_fail(ctx, ISO_BAD_INPUT, n->name, "%s: '%s' is 0 and changes nothing: take it out", effect,
                                 n->name);

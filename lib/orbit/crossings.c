@@ -19,8 +19,7 @@ static iso_status check_section(iso_context *ctx, const iso_crossings_options *o
 {
     if (o->kind != ISO_SECTION_AXIS && o->kind != ISO_SECTION_COLUMN && o->kind != ISO_SECTION_CLOCK)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "axis", "there is no such kind of section");
-    if (o->kind == ISO_SECTION_AXIS && (o->axis < ISO_AXIS_AUTO || o->axis > 2))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "axis", "axis %d is none of 0, 1, 2", o->axis);
+    if (o->kind == ISO_SECTION_AXIS && iso_crossings_check_axis(ctx, o->axis) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (o->kind == ISO_SECTION_COLUMN && (o->column < ISO_CLOCKS || o->column >= iso_columns_count()))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "column",
                                 o->column >= 0 && o->column < ISO_CLOCKS

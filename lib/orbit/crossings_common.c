@@ -58,6 +58,13 @@ iso_model_kind iso_crossings_model(const iso_orbit *orbit)
 
 /* --- bounds ----------------------------------------------------------------------------------------------------- */
 
+/* Messages count axes from 1, as files and options do. */
+iso_status iso_crossings_check_axis(iso_context *ctx, int axis)
+{
+    if (axis == ISO_AXIS_AUTO || (axis >= 0 && axis <= 2)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "axis", "axis %lld is not 1, 2 or 3", axis + 1LL);
+}
+
 /* An orbit in the plane n_a = 0 stays in it, unless a potential beyond the level moves it. */
 iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, const double y[], int axis)
 {

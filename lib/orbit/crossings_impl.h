@@ -84,6 +84,9 @@ iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, 
 /* The model that an orbit integrates. */
 iso_model_kind iso_crossings_model(const iso_orbit *orbit);
 
+/* Refuses an axis that is neither ISO_AXIS_AUTO nor 0 to 2: ISO_BAD_ARGUMENT about "axis". */
+iso_status iso_crossings_check_axis(iso_context *ctx, int axis);
+
 /* Refuses an orbit that lies, and stays, in the plane n_axis = 0 itself. */
 iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, const double y[], int axis);
 

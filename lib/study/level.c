@@ -7,34 +7,14 @@
 #include "model/params_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/level_impl.h"
-
-iso_status iso_level_check(iso_context *ctx, const iso_effects *effects, const char *what)
-{
-    const iso_effect *effect = iso_effects_beyond_level(effects);
-    if (!effect) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
-                            "%s only of the free ball and of the point, on every level of its energy: remove '%s'",
-                            what, effect->name);
-}
-
-/* A ball in the potential of a level can have so little energy that its point is driven off, not held. */
-static iso_status check_coupling(iso_context *ctx, const iso_orbit *orbit, const char *what)
-{
-    const iso_point_motion m = iso_orbit_motion(orbit);
-    if (m.eps > 0 || m.energy == 0) return ISO_OK;
-    return iso_context_fail(
-        ctx, ISO_BAD_INPUT, iso_level_name(),
-        "%s only where the point's coupling eps is above 0; here it is %.6g: the ball's energy in "
-        "the potential of 'level' is not positive",
-        what, iso_orbit_coupling(orbit));
-}
+#include "study/refusals_impl.h"
 
 /* The orbit of a scene on which nothing acts but a level. */
 static iso_status open_orbit(iso_context *ctx, const iso_scene *scene, const char *what, iso_orbit **orbit)
 {
     const iso_effects effects = iso_scene_acting(scene);
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
-    const iso_status status = iso_level_check(ctx, &effects, what);
+    const iso_status status = iso_refuse_beyond_level(ctx, &effects, what);
     o.effects = &effects;
     o.gamma_alone = true; /* M need not fit a double */
     return status == ISO_OK ? iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit) : status;
@@ -60,7 +40,7 @@ iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *
     if (status != ISO_OK) return status;
     const iso_effects acting = iso_orbit_effects(orbit);
     const iso_point_motion m = iso_orbit_motion(orbit);
-    status = check_coupling(ctx, orbit, what);
+    status = iso_refuse_coupling(ctx, orbit, what);
     on->units = *iso_orbit_units(orbit);
     on->h = iso_orbit_energy(orbit) / iso_unit(&on->units, iso_dimension_h);
     on->energy = m.energy == 0 ? 0 : m.energy / m.eps;
@@ -75,7 +55,8 @@ iso_status iso_level_of_scene(iso_context *ctx, const iso_scene *scene, const ch
     const iso_effects effects = iso_scene_acting(scene);
     const bool plain = scene->start.model == ISO_BALL && !iso_effects_have_level(&effects);
     *level = 0;
-    const iso_status status = plain ? iso_level_check(ctx, &effects, what) : iso_level_find(ctx, scene, what, &on);
+    const iso_status status =
+        plain ? iso_refuse_beyond_level(ctx, &effects, what) : iso_level_find(ctx, scene, what, &on);
     if (status == ISO_OK && !plain) *level = iso_level_of(&on.units.own, on.energy);
     return status;
 }

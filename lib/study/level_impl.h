@@ -14,16 +14,13 @@ typedef struct iso_on_level {
     double H;      /* the same level in the scene's units   */
 } iso_on_level;
 
-/* ISO_OK where nothing acts but a level, else ISO_BAD_INPUT about the effect. what: as in "periodic orbits are
- * sought". */
-iso_status iso_level_check(iso_context *ctx, const iso_effects *effects, const char *what);
-
 /* The motion of a scene's point: its params in own units (into *own), eps of any sign, and H. eps is 0 for a ball at
- * rest. Errors: those of iso_level_check and iso_orbit_create. */
+ * rest. what: as in "periodic orbits are sought". Errors: those of iso_refuse_beyond_level
+ * (refusals_impl.h) and iso_orbit_create. */
 iso_status iso_level_motion(iso_context *ctx, const iso_scene *scene, const char *what, iso_params *own,
                             iso_point_motion *motion);
 
-/* Errors: those of iso_level_check and iso_orbit_create; ISO_BAD_INPUT where the coupling eps is not above 0. */
+/* Errors: the same, and those of iso_refuse_coupling. */
 iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *what, iso_on_level *on);
 
 #endif

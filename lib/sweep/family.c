@@ -1,6 +1,6 @@
 /* family.c - rows and chunks of sweeps, and the hash that tells sweeps apart (see family.h). */
-#include "sweep/family.h"
 #include "base/low_discrepancy_impl.h"
+#include "sweep/family.h"
 #include "sweep/sweep_impl.h"
 
 #include <stdlib.h>

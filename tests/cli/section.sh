@@ -122,7 +122,7 @@ for wrong in 0.5 0.5, ,1 "0.5,nan" "1,0.1;" "1;2" x; do
     [ "$wrong" = "1,0.1;" ] || refuses 3 "expected l,x" section wild.yaml --at "$wrong"
 done
 scene 0.5 "1, 2, 5" "0, 0, 0" "0.36, 0.48, 0.8" 10 0.5 >rest.yaml
-refuses 3 "rest.yaml:2:" section rest.yaml
+refuses 3 "rest.yaml:2:56: a ball at rest comes back to no section" section rest.yaml
 scene 0.5 "1, 2, 5" "0, 0, 2" "0.6, 0.8, 0" 10 0.5 >plane.yaml
 refuses 3 "the boundary of the section" section plane.yaml
 run 1 section plane.yaml --starts 3 --crossings 2
@@ -130,7 +130,7 @@ check "the others of a scene on the boundary" test "$(grep -c '^[0-9]' out)" -eq
 check "and why it has none" grep -q "1 of 4 orbits did not get to the end; orbit 0: .*boundary" err
 for effect in "rolling_resistance: {coefficient: 0.1}" "twist: {resistance: 10, D: 0.5}"; do
     sed "s/^effects:.*/effects: {$effect}/" gravity.yaml >losing.yaml
-    refuses 3 "takes energy from the ball" section losing.yaml
+    refuses 3 "takes energy from the ball: a motion that comes to rest comes back to no section" section losing.yaml
 done
 refuses 3 "breaks the isomorphism" section gravity.yaml --model point
 refuses 3 "no other starts can be given here" section gravity.yaml --starts 2

@@ -1,6 +1,6 @@
 #!/bin/sh
 # sweep.sh ISOROLL - `isoroll sweep`: the same bytes whichever way they are computed, every quantity as its own command
-# gives it, bad files, files that must not be overwritten, interruptions.
+# gives it. Its files and journals: sweep_files.sh.
 . "$(dirname "$0")/lib.sh"
 
 scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >scene.yaml
@@ -86,6 +86,12 @@ SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_COUNT=2 SLURM_ARRAY_TASK_MIN=2 SLURM_ARRA
 refuses 2 "one task or gaps, so it does not tell N: give --shard slurm/N" sweep grid.yaml -o new.csv --shard slurm
 unset SLURM_ARRAY_TASK_ID SLURM_ARRAY_TASK_COUNT SLURM_ARRAY_TASK_MIN SLURM_ARRAY_TASK_MAX
 refuses 2 "expected i/n" sweep grid.yaml -o new.csv --shard 6/5
+for option in "-o new.csv" --resume "--shard 1/2"; do
+    refuses 2 "does nothing with --point" sweep grid.yaml --point 1 $option
+done
+for option in "--point 1" --resume "--shard 1/2"; do
+    refuses 2 "does nothing with --merge" sweep --merge part.1.csv part.2.csv -o new.csv $option
+done
 
 # --- every quantity is what its own command gives for the scene of the point
 # value KEY [N]: the N-th number of this name in the JSON of the last run
@@ -180,233 +186,10 @@ for name in omega1 omega2 n1 n3 M1 gamma2; do
     equal "read back: $name" "$(cell each.csv 1 state_$name)" "$(cell itself.csv 0 state_$name)"
 done
 
-# --- bad files: PLACE|WORDS|what stands in the place of grid.yaml's lines
-bad() {
-    cat >bad.yaml
-    refuses 3 "bad.yaml:$1: $2" sweep bad.yaml -o new.csv
-}
-bad 1:1 "missing 'scene' in the sweep" <<'END'
-vary: {k: 1}
-measure: {state: {}}
-END
-bad 1:8 "cannot open 'none.yaml'" <<'END'
-scene: none.yaml
-vary: {k: 1}
-measure: {state: {}}
-END
-bad 3:1 "unknown key 'mesure'; did you mean 'measure'?" <<'END'
-scene: scene.yaml
-vary: {k: 1}
-mesure: {state: {}}
-END
-bad 2:8 "unknown number of this scene 'kk'" <<'END'
-scene: scene.yaml
-vary: {kk: 1}
-measure: {state: {}}
-END
-bad 2:11 "a range from -1e+308 to 1e+308 is too wide" <<'END'
-scene: scene.yaml
-vary: {k: {from: -1.0e+308, to: 1.0e+308, count: 3}}
-measure: {state: {}}
-END
-bad 2:11 "a range from 1e-200 to 1e+200 is too wide" <<'END'
-scene: scene.yaml
-vary: {k: {from: 1.0e-200, to: 1.0e+200, count: 3, logarithmic: true}}
-measure: {state: {}}
-END
-bad 2:11 "missing 'to' in a range" <<'END'
-scene: scene.yaml
-vary: {k: {from: 1}}
-measure: {state: {}}
-END
-cat >bad.yaml <<'END'
-scene: scene.yaml
-vary:
-  k: {from: 1, to: 2}
-measure: {state: {}}
-END
-refuses 3 "bad.yaml:3:3: a range without a count is drawn: 'samples: {count: ...}' is missing" sweep bad.yaml
-bad 3:11 "unknown key 'chaoss'; did you mean 'chaos'?" <<'END'
-scene: scene.yaml
-vary: {k: [1, 2]}
-measure: {chaoss: {}}
-END
-bad 3:27 "'starts' is 1.5, it must be a whole number" <<'END'
-scene: scene.yaml
-vary: {k: [1, 2]}
-measure: {chaos: {starts: 1.5}}
-END
-bad 3:11 "contact: the scene needs the effect 'reactions'" <<'END'
-scene: scene.yaml
-vary: {k: [1, 2]}
-measure: {contact: {}}
-END
-bad 4:8 "'backends' needs 'until: {time: ...}'" <<'END'
-scene: scene.yaml
-vary: {k: [1, 2]}
-measure: {backends: {}}
-until: {turns: 100}
-END
-bad 2:7 "a start on the section is 'l' and 'x'" <<'END'
-scene: scene.yaml
-vary: {l: [1, 2]}
-measure: {state: {}}
-END
-bad 2:22 "'J2' varies twice" <<'END'
-scene: scene.yaml
-vary: {J: [[1,2,3]], J2: 5}
-measure: {state: {}}
-END
-bad 2:15 "'J2' and 'J2/J1' set the same moment" <<'END'
-scene: scene.yaml
-vary: {J2: 5, J2/J1: 2}
-measure: {state: {}}
-END
-bad 2:24 "'J' and 'J3/J1' set the same moment" <<'END'
-scene: scene.yaml
-vary: {J: [[1, 2, 3]], J3/J1: 2}
-measure: {state: {}}
-END
-bad 2:18 "'J1' changes 'J2/J1': write it first" <<'END'
-scene: scene.yaml
-vary: {J2/J1: 2, J1: 2}
-measure: {state: {}}
-END
-bad 2:7 "'end' varies, but 'until' replaces it" <<'END'
-scene: scene.yaml
-vary: {end: [1, 2]}
-measure: {state: {}}
-until: {time: 5}
-END
-{ cat scene.yaml && echo 'solver: {tolerance: 1.0e-9}'; } >solver.yaml
-bad 2:7 "'tolerance' varies, but 'error' sets its own" <<'END'
-scene: solver.yaml
-vary: {tolerance: [1.0e-9, 1.0e-10]}
-measure: {error: {tolerance: 1.0e-8}}
-END
-bad 3:11 "state: 'model' is for 'until: {turns: ...}'" <<'END'
-scene: scene.yaml
-vary: {k: [1, 2]}
-measure: {state: {model: point}}
-END
-bad 2:7 "'vary' names no number: write k: [0.5, 1], for example" <<'END'
-scene: scene.yaml
-vary: {}
-measure: {state: {}}
-END
-bad 2:12 "'k' should be a finite number" <<'END'
-scene: scene.yaml
-vary: {k: [one]}
-measure: {state: {}}
-END
+# --- a bad scene inside; other bad files are in bad_files.txt
 refuses 3 "<stdin>:1:" sweep - <<'END'
 scene: {reduced: {k: 1, J: [1, 2, -5]}, initial: {normal: [1, 0, 0], angular_velocity: [0, 1, 0]}, time: {end: 1}}
 vary: {k: [1, 2]}
 measure: {state: {}}
 END
-
-# --- files that are in the way: words, status 5, and not a byte is changed
-echo "my thesis" >thesis.csv
-cp thesis.csv thesis.copy
-refuses 5 "is no result of a sweep: it is not overwritten" sweep grid.yaml -o thesis.csv
-refuses 5 "is no result of a sweep: it is not overwritten" sweep grid.yaml -o thesis.csv --resume
-refuses 5 "is there already" sweep grid.yaml -o all.$h5
-refuses 5 "is the result of another sweep" sweep other.yaml -o all.$h5 --resume
-cp all.$h5 before.$h5
-run 1 sweep grid.yaml -o all.$h5 --resume
-says "6 of 30 points failed; the first is point 12: scene.yaml:1:14: k = 0"
-check "a result that is there stays" cmp all.$h5 before.$h5
-for option in "-o new.csv" --resume "--shard 1/2"; do
-    refuses 2 "does nothing with --point" sweep grid.yaml --point 1 $option
-done
-for option in "--point 1" --resume "--shard 1/2"; do
-    refuses 2 "does nothing with --merge" sweep --merge part.1.csv part.2.csv -o new.csv $option
-done
-cp thesis.csv new.csv.part
-refuses 5 "is no journal of a sweep" sweep grid.yaml -o new.csv --resume
-check "the thesis" cmp thesis.csv thesis.copy
-check "the thesis, as a journal" cmp new.csv.part thesis.copy
-rm new.csv.part
-refuses 5 "cannot write" sweep grid.yaml -o /nowhere/new.csv
-run 5 sweep grid.yaml -o /dev/full
-check "a full disk" grep -q "No space left" err
-mkdir locked && chmod 555 locked
-if [ "$(id -u)" = 0 ]; then
-    skip "read-only folder" "root may write everywhere"
-else
-    refuses 5 "Permission denied" sweep grid.yaml -o locked/new.csv
-fi
-
-# --- a full disk, and a journal that is cut short or damaged
-cat >long.yaml <<END
-scene: scene.yaml
-vary: {k: {from: 0.3, to: 0.9, count: 60}}
-measure: {state: {}}
-until: {time: $(slow 10000)}
-chunk: 1
-END
-run 0 sweep long.yaml -o long.$h5
-run 0 sweep long.yaml -o long.$h5 --resume
-silent
-checks=$((checks + 1))
-(ulimit -f 4 && "$isoroll" sweep long.yaml -o full.$h5 2>err)
-[ $? -eq 5 ] || fail "a full disk: not status 5"
-check "a full disk: words" grep -q "cannot write 'full.$h5.part': File too large" err
-refuses 5 "add --resume to go on with it" sweep long.yaml -o full.$h5
-refuses 5 "journal of another sweep" sweep grid.yaml -o full.$h5 --resume
-cp full.$h5.part torn.$h5.part
-printf 'half a record of a chunk' >>torn.$h5.part
-cp full.$h5.part damaged.$h5.part
-printf 'X' | dd of=damaged.$h5.part bs=1 seek=400 conv=notrunc 2>err
-run 0 sweep long.yaml -o full.$h5 --resume
-check "after a full disk" cmp full.$h5 long.$h5
-run 0 sweep long.yaml -o torn.$h5 --resume
-check "after a torn record" cmp torn.$h5 long.$h5
-cp damaged.$h5.part damaged.copy
-refuses 5 "is damaged" sweep long.yaml -o damaged.$h5 --resume
-check "a damaged journal stays" cmp damaged.$h5.part damaged.copy
-
-cp damaged.copy long.$h5.part
-run 0 sweep long.yaml -o long.$h5 --resume
-check_not "a journal that outlived its result is removed" test -e long.$h5.part
-
-# --- kill -9 when some chunks more are in the journal, then another number of threads; SIGTERM and SIGINT
-tries=0 kills=$(length 6 60)
-while [ $tries -lt "$kills" ]; do
-    begin=$(cat killed.$h5.part 2>/dev/null | wc -c)
-    "$isoroll" sweep long.yaml -o killed.$h5 --resume -j $((tries % 3 + 1)) 2>/dev/null &
-    pid=$!
-    await in_journal killed.$h5 $((begin + tries % 7 * 100)) $pid
-    kill -9 $pid 2>/dev/null
-    wait $pid 2>/dev/null
-    tries=$((tries + 1))
-    [ ! -e killed.$h5 ] || { check "killed" cmp killed.$h5 long.$h5; rm -f killed.$h5; }
-done
-run 0 sweep long.yaml -o killed.$h5 --resume
-check "killed $kills times" cmp killed.$h5 long.$h5
-
-# stopped SIGNAL STATUS WORDS
-stopped() {
-    for _ in 1 2 3 4 5 6 7 8 9 10; do # again if it was done before the signal came
-        rm -f stopped.$h5
-        signalled "$1" "in_journal stopped.$h5 200" sweep long.yaml -o stopped.$h5 -j 1
-        [ -e stopped.$h5 ] || break
-    done
-    check "$1: status $status" test $status -eq "$2"
-    check "$1: words" grep -q "$3: .* of 60 chunks are in 'stopped.$h5.part'; go on with: .* --resume" err
-    run 0 sweep long.yaml -o stopped.$h5 --resume
-    check "$1" cmp stopped.$h5 long.$h5
-    rm stopped.$h5
-}
-stopped TERM 0 "stopped by SIGTERM or SIGUSR1"
-stopped USR1 0 "stopped by SIGTERM or SIGUSR1"
-interruptible "Ctrl-C" && stopped INT 1 "interrupted"
-
-# --- one journal, one program
-held twice.$h5 sweep long.yaml -j 1
-refuses 5 "another isoroll works on this sweep" sweep long.yaml -o twice.$h5 --resume
-kill -CONT $pid
-wait $pid
-check "the first one goes on" cmp twice.$h5 long.$h5
-
 finish

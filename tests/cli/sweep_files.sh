@@ -1,6 +1,6 @@
 #!/bin/sh
 # sweep_files.sh ISOROLL - files of sweeps that are damaged, cut short, changed by hand, or in the way: words and
-# status 5, never a crash, a wrong row, or a file that is overwritten.
+# status 5, never a crash, a wrong row, or a file that is overwritten. Journals after a full disk, kill -9 and signals.
 . "$(dirname "$0")/lib.sh"
 
 scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >scene.yaml
@@ -108,10 +108,47 @@ for kind in fails inside; do
 done
 check "the reason names the scene" grep -q '"scene.yaml:1:14: k = 0' fails.csv
 check "the reason names the sweep" grep -q '"<sweep>:2:16: k = 0' inside.csv
-# --- a file that appears while the sweep runs stays, and so does the journal
+# --- files that are in the way: words, status 5, and not a byte is changed
 h5=h5
 "$isoroll" sweep sweep.yaml -o all.h5 2>err || { h5=csv && skip "HDF5" "this build has none"; }
-sed 's/time: 10/time: 20000/' sweep.yaml >long.yaml
+echo "my thesis" >thesis.csv
+cp thesis.csv thesis.copy
+refuses 5 "is no result of a sweep: it is not overwritten" sweep sweep.yaml -o thesis.csv
+refuses 5 "is no result of a sweep: it is not overwritten" sweep sweep.yaml -o thesis.csv --resume
+refuses 5 "is there already" sweep sweep.yaml -o all.$h5
+refuses 5 "is the result of another sweep" sweep fails.yaml -o all.$h5 --resume
+cp all.$h5 before.$h5
+run 0 sweep sweep.yaml -o all.$h5 --resume
+silent
+check "a result that is there stays" cmp all.$h5 before.$h5
+run 1 sweep fails.yaml -o fails.csv --resume
+says "1 of 2 points failed; the first is point 0: scene.yaml:1:14: k = 0"
+cp thesis.csv new.csv.part
+refuses 5 "is no journal of a sweep" sweep sweep.yaml -o new.csv --resume
+check "the thesis" cmp thesis.csv thesis.copy
+check "the thesis, as a journal" cmp new.csv.part thesis.copy
+rm new.csv.part
+refuses 5 "cannot write" sweep sweep.yaml -o /nowhere/new.csv
+run 5 sweep sweep.yaml -o /dev/full
+check "a full disk" grep -q "No space left" err
+mkdir locked && chmod 555 locked
+if [ "$(id -u)" = 0 ]; then
+    skip "read-only folder" "root may write everywhere"
+else
+    refuses 5 "Permission denied" sweep sweep.yaml -o locked/new.csv
+fi
+# --- a file that appears while the sweep runs stays, and so does the journal
+cat >long.yaml <<END
+scene: scene.yaml
+vary: {k: {from: 0.3, to: 0.9, count: 60}}
+measure: {state: {}}
+until: {time: $(slow 10000)}
+chunk: 1
+END
+run 0 sweep long.yaml -o long.csv
+run 0 sweep long.yaml -o long.$h5 --resume
+run 0 sweep long.yaml -o long.$h5 --resume
+silent
 for kind in csv $h5; do
     held late.$kind sweep long.yaml -j 1
     echo "my thesis" >late.$kind
@@ -123,28 +160,77 @@ for kind in csv $h5; do
     check "$kind: the journal stays" test -s late.$kind.part
     rm late.$kind
     run 0 sweep long.yaml -o late.$kind --resume
+    check "$kind: it goes on" cmp late.$kind long.$kind
     check "$kind: nothing is left over" test "$(find . -name '.isoroll*' -o -name '*.part' | wc -l)" -eq 0
 done
-# --- journals: a damaged length in the middle costs no chunk behind it; zeros at the end are a record cut short
-(ulimit -f 3 && "$isoroll" sweep long.yaml -o stopped.csv -j 1 2>err)
-bytes=$(wc -c <stopped.csv.part)
-check "a journal of some chunks: $bytes bytes" test "$bytes" -gt 600
-for length in 1 3 200; do
-    cp stopped.csv.part damaged.csv.part
-    # behind the head of 96 bytes: the number of a chunk, then a length
-    printf "\\$length" | dd of=damaged.csv.part bs=1 seek=$((96 + 8 + length % 2 * 6)) conv=notrunc 2>/dev/null
-    cp damaged.csv.part damaged.copy
-    refuses 5 "is damaged" sweep long.yaml -o damaged.csv --resume
-    check "a damaged length $length: it stays" cmp damaged.csv.part damaged.copy
+# --- a full disk; a damaged journal stays as it is; what is cut short behind the last record is computed again
+checks=$((checks + 1))
+(ulimit -f 4 && "$isoroll" sweep long.yaml -o full.$h5 -j 1 2>err)
+[ $? -eq 5 ] || fail "a full disk: not status 5"
+check "a full disk: words" grep -q "cannot write 'full.$h5.part': File too large" err
+check "a journal of some chunks" test "$(wc -c <full.$h5.part)" -gt 600
+refuses 5 "add --resume to go on with it" sweep long.yaml -o full.$h5
+refuses 5 "journal of another sweep" sweep sweep.yaml -o full.$h5 --resume
+cp full.$h5.part journal
+run 0 sweep long.yaml -o full.$h5 --resume
+check "after a full disk" cmp full.$h5 long.$h5
+# behind the head of 96 bytes: the number of a chunk, then a length; an X in the middle
+for damage in "110 1" "110 3" "104 200" "400 130"; do
+    cp journal damaged.$h5.part
+    printf "\\${damage#* }" | dd of=damaged.$h5.part bs=1 seek="${damage% *}" conv=notrunc 2>/dev/null
+    cp damaged.$h5.part damaged.copy
+    refuses 5 "is damaged" sweep long.yaml -o damaged.$h5 --resume
+    check "damaged at $damage: it stays" cmp damaged.$h5.part damaged.copy
 done
-run 0 sweep long.yaml -o long.csv
-for zeros in 1 30 10000; do
-    cp stopped.csv.part zeros.csv.part
-    head -c $zeros /dev/zero >>zeros.csv.part
-    run 0 sweep long.yaml -o zeros.csv --resume
-    check "$zeros zeros behind the last record" cmp zeros.csv long.csv
-    rm zeros.csv
+cp damaged.copy long.$h5.part
+run 0 sweep long.yaml -o long.$h5 --resume
+check_not "a journal that outlived its result is removed" test -e long.$h5.part
+for more in 1 30 10000 words; do
+    cp journal torn.$h5.part
+    case $more in words) printf 'half a record of a chunk' ;; *) head -c $more /dev/zero ;; esac >>torn.$h5.part
+    run 0 sweep long.yaml -o torn.$h5 --resume
+    check "$more behind the last record" cmp torn.$h5 long.$h5
+    rm torn.$h5
 done
+# --- kill -9 when some chunks more are in the journal, then another number of threads; SIGTERM and SIGINT
+tries=0 kills=$(length 6 60)
+while [ $tries -lt "$kills" ]; do
+    begin=$(cat killed.$h5.part 2>/dev/null | wc -c)
+    "$isoroll" sweep long.yaml -o killed.$h5 --resume -j $((tries % 3 + 1)) 2>/dev/null &
+    pid=$!
+    await in_journal killed.$h5 $((begin + tries % 7 * 100)) $pid
+    kill -9 $pid 2>/dev/null
+    wait $pid 2>/dev/null
+    tries=$((tries + 1))
+    [ ! -e killed.$h5 ] || { check "killed" cmp killed.$h5 long.$h5; rm -f killed.$h5; }
+done
+run 0 sweep long.yaml -o killed.$h5 --resume
+check "killed $kills times" cmp killed.$h5 long.$h5
+
+# stopped SIGNAL STATUS WORDS
+stopped() {
+    for _ in 1 2 3 4 5 6 7 8 9 10; do # again if it was done before the signal came
+        rm -f stopped.$h5
+        signalled "$1" "in_journal stopped.$h5 200" sweep long.yaml -o stopped.$h5 -j 1
+        [ -e stopped.$h5 ] || break
+    done
+    check "$1: status $status" test $status -eq "$2"
+    check "$1: words" grep -q "$3: .* of 60 chunks are in 'stopped.$h5.part'; go on with: .* --resume" err
+    run 0 sweep long.yaml -o stopped.$h5 --resume
+    check "$1" cmp stopped.$h5 long.$h5
+    rm stopped.$h5
+}
+stopped TERM 0 "stopped by SIGTERM or SIGUSR1"
+stopped USR1 0 "stopped by SIGTERM or SIGUSR1"
+interruptible "Ctrl-C" && stopped INT 1 "interrupted"
+
+# --- one journal, one program
+held twice.$h5 sweep long.yaml -j 1
+refuses 5 "another isoroll works on this sweep" sweep long.yaml -o twice.$h5 --resume
+kill -CONT $pid
+wait $pid
+check "the first one goes on" cmp twice.$h5 long.$h5
+
 # --- journals where files cannot be locked, and one that is removed between opening and locking it
 cc=${CC:-cc}
 if [ -z "${ISO_NO_MEMORY-none}" ]; then
@@ -154,7 +240,7 @@ elif has "$cc" "locks"; then
     checks=$((checks + 1))
     ISO_LOCK=none LD_PRELOAD=$PWD/no_lock.so "$isoroll" sweep long.yaml -o unlocked.csv 2>err || fail "without locks"
     check "a file system without locks" cmp unlocked.csv long.csv
-    cp stopped.csv.part gone.csv.part
+    cp journal gone.csv.part
     (ulimit -f 3 && ISO_LOCK=gone.csv.part LD_PRELOAD=$PWD/no_lock.so "$isoroll" sweep long.yaml -o gone.csv -j 1 \
         --resume 2>err)
     check "removed before it was locked: a journal is there" test -s gone.csv.part

@@ -7,8 +7,8 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "reduction.h"
 #include "map/state.h"
+#include "reduction.h"
 
 static double A(const double b[3], double z)
 {

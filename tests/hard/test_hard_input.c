@@ -24,7 +24,7 @@ static const struct kind {
     int (*target)(const uint8_t *data, size_t size);
     const char *folders[3];
 } kinds[] = {
-    {"scene", fuzz_scene, {ISO_TEST_DATA "/../fuzz/corpus/scene", ISO_TEST_DATA "/../cli/bad", NULL}},
+    {"scene", fuzz_scene, {ISO_TEST_DATA "/../fuzz/corpus/scene", ISO_TEST_BAD, NULL}},
     {"trajectory", fuzz_trajectory, {ISO_TEST_DATA "/../fuzz/corpus/trajectory", NULL}},
     {"command", fuzz_command, {ISO_TEST_DATA "/../fuzz/corpus/command", NULL}},
 };

@@ -1,4 +1,5 @@
 /* test_scene.c - scene files: valid ones of every kind, and every kind of mistake with its place and its words. */
+#include <dirent.h>
 #include <gsl/gsl_test.h>
 #include <locale.h>
 #include <math.h>
@@ -16,155 +17,6 @@
 #define POINT "point: {k: -1, J: [2, 3, 4]}\n"
 #define POINT_INITIAL "initial: {gamma: [0.6, 0, 0.8], M: [0, 1, 0]}\n"
 
-/* A scene with one mistake: where it is, from 1, and a part of what is said about it. The files of tests/cli/bad are
- * the same mistakes as a user meets them. */
-static const struct mistake {
-    const char *text;
-    int line, column;
-    const char *says;
-} mistakes[] = {
-    /* YAML itself */
-    {"ball: {mass: 2, radius: 1, inertia: [2, 3, 4}\n" SURFACE INITIAL TIME, 1, 45, "not valid YAML"},
-    {BALL SURFACE INITIAL TIME "output: {as: \"ball}\n", 6, 1, "not valid YAML"},
-    {BALL SURFACE INITIAL "time:\n  end: 10\n step: 0.1\n", 6, 2, "not valid YAML"},
-    {BALL SURFACE INITIAL "time:\n\tend: 10\n", 5, 1, "not valid YAML"},
-    {BALL SURFACE INITIAL TIME "effects\n", 6, 1, "not valid YAML"},
-    {"", 1, 1, "the file is empty"},
-    {"---\n", 2, 1, "has no value"},
-    {"- ball\n- surface\n", 1, 1, "should be a mapping with ball"},
-    {"just a few words\n", 1, 1, "should be a mapping with ball"},
-    {BALL SURFACE INITIAL TIME "---\nball: 1\n", 5, 1, "a second document"},
-    {"ball: {mass: 2, radius: 1, inertia: &i [2, 3, 4]}\n" SURFACE INITIAL TIME, 1, 37, "an anchor"},
-    {BALL SURFACE INITIAL "time: {end: *end}\n", 4, 13, "an alias"},
-    {"ball: {mass: !!float 2, radius: 1, inertia: [2, 3, 4]}\n" SURFACE INITIAL TIME, 1, 14, "a tag"},
-    {BALL SURFACE INITIAL "time: {end: [[[[[[[1]]]]]]]}\n", 4, 19, "nested more than 8"},
-    {BALL SURFACE INITIAL TIME "# bell \a\n", 5, 8, "control characters"},
-    {BALL SURFACE INITIAL TIME "# caf\351 noir\n", 5, 6, "UTF-8"},
-    {BALL SURFACE INITIAL TIME "\"\\e[2J\\x9b\": 5\n", 5, 1, "unknown key '?[2J"},
-
-    /* Keys */
-    {BALL "surfaec: {kind: plane}\n" SURFACE INITIAL TIME, 2, 1, "unknown key 'surfaec'; did you mean 'surface'?"},
-    {BALL SURFACE INITIAL TIME "wheels: 4\n", 5, 1, "unknown key 'wheels'; valid are ball, surface, reduced"},
-    {"ball: {mass: 2, radius: 1, inertai: [2, 3, 4]}\n" SURFACE INITIAL TIME, 1, 28,
-     "unknown key 'inertai'; did you mean 'inertia'?"},
-    {"ball: {Mass: 2, radius: 1, inertia: [2, 3, 4]}\n" SURFACE INITIAL TIME, 1, 8, "did you mean 'mass'?"},
-    {BALL SURFACE INITIAL "time:\n  end: 10\n  stpe: 0.1\n", 6, 3, "did you mean 'step'?"},
-    {BALL SURFACE "initial:\n  normal: [0.6, 0, 0.8]\n  angular_velocitty: [0, 1, 0]\n" TIME, 5, 3,
-     "did you mean 'angular_velocity'?"},
-    {BALL SURFACE INITIAL TIME "solver: {tolerence: 1e-9}\n", 5, 10, "did you mean 'tolerance'?"},
-    {BALL SURFACE INITIAL TIME "\"\": 5\n", 5, 1, "unknown key ''"},
-    {BALL SURFACE INITIAL TIME "? [a, b]\n: 5\n", 5, 3, "a key should be a name"},
-    {BALL SURFACE INITIAL TIME "ball: {mass: 3, radius: 1, inertia: [2, 3, 4]}\n", 5, 1,
-     "duplicate key 'ball', first written in line"},
-    {"ball: {mass: 2, radius: 1, mass: 3, inertia: [2, 3, 4]}\n" SURFACE INITIAL TIME, 1, 28, "duplicate key 'mass'"},
-    {BALL SURFACE INITIAL "time: {<<: {end: 10}}\n", 4, 8, "unknown key '<<'"},
-
-    /* Types */
-    {"ball: 5\n" SURFACE INITIAL TIME, 1, 7,
-     "'ball' should be a mapping {mass: ..., radius: ..., inertia: ...}, not '5'"},
-    {"ball:\n" SURFACE INITIAL TIME, 1, 6, "'ball' has no value"},
-    {BALL SURFACE INITIAL "time: [10, 0.1]\n", 4, 7, "'time' should be a mapping {end: ..., step: ...}, not a list"},
-    {"ball: {mass: [2], radius: 1, inertia: [2, 3, 4]}\n" SURFACE INITIAL TIME, 1, 14,
-     "'mass' should be a finite number, not a list"},
-    {BALL SURFACE INITIAL "time: {end: {t: 10}}\n", 4, 13, "'end' should be a finite number, not a mapping"},
-    {"ball: {mass: 2, radius: 1, inertia: 2}\n" SURFACE INITIAL TIME, 1, 37,
-     "'inertia' should be a list of 3 finite numbers, not '2'"},
-    {"ball: {mass: 2, radius: 1, inertia: [2, 3]}\n" SURFACE INITIAL TIME, 1, 37,
-     "'inertia' should be a list of 3 finite numbers, not of 2"},
-    {"ball: {mass: 2, radius: 1, inertia: [2, 3, 4, 5]}\n" SURFACE INITIAL TIME, 1, 37, "not of 4"},
-    {"ball: {mass: \"2\", radius: 1, inertia: [2, 3, 4]}\n" SURFACE INITIAL TIME, 1, 14,
-     "should be a finite number, not the text '2'"},
-    {BALL SURFACE INITIAL "time:\n  end:\n  step: 0.1\n", 5, 7, "'end' has no value, it should be a finite number"},
-    {BALL SURFACE INITIAL "time: {end: ~}\n", 4, 13, "should be a finite number, not '~'"},
-    {BALL SURFACE "initial: {normal: [0.6, 0, 0.8], angular_velocity: [0, 1, 0], project: yes}\n" TIME, 3, 72,
-     "'project' should be true or false, not 'yes'"},
-    {BALL SURFACE INITIAL TIME "output: {columns: t}\n", 5, 19,
-     "'columns' should be a list of at least one column name"},
-    {BALL SURFACE INITIAL TIME "output: {columns: []}\n", 5, 19, "at least one column name, not an empty list"},
-    {BALL SURFACE INITIAL TIME "effects: [gravity]\n", 5, 10, "'effects' should be a mapping"},
-
-    /* Numbers */
-    {"ball: {mass: 0.5x, radius: 1, inertia: [2, 3, 4]}\n" SURFACE INITIAL TIME, 1, 14, "not '0.5x'"},
-    {"ball: {mass: 2 kg, radius: 1, inertia: [2, 3, 4]}\n" SURFACE INITIAL TIME, 1, 14, "not '2 kg'"},
-    {"ball: {mass: 2, radius: nan, inertia: [2, 3, 4]}\n" SURFACE INITIAL TIME, 1, 25, "finite number, not 'nan'"},
-    {"ball: {mass: 2, radius: 1, inertia: [2, .nan, 4]}\n" SURFACE INITIAL TIME, 1, 41,
-     "'inertia[2]' should be a finite number, not '.nan'"},
-    {BALL SURFACE INITIAL "time: {end: inf, step: 0.1}\n", 4, 13, "not 'inf'"},
-    {BALL SURFACE INITIAL "time: {end: -.inf, step: 0.1}\n", 4, 13, "not '-.inf'"},
-    {BALL SURFACE INITIAL "time: {end: 1e400, step: 0.1}\n", 4, 13, "not '1e400'"},
-    {"ball: {mass: 0x10, radius: 1, inertia: [2, 3, 4]}\n" SURFACE INITIAL TIME, 1, 14, "not '0x10'"},
-    {"ball:\n  mass: 2,5\n  radius: 1\n  inertia: [2, 3, 4]\n" SURFACE INITIAL TIME, 2, 9, "not '2,5'"},
-    {BALL SURFACE INITIAL "time: {end: 1_000, step: 0.1}\n", 4, 13, "not '1_000'"},
-    {"reduced: {k: 1/2, J: [2, 3, 4]}\n" INITIAL TIME, 1, 14, "'k' should be a finite number, not '1/2'"},
-
-    /* Physics */
-    {"ball: {mass: 0, radius: 1, inertia: [2, 3, 4]}\n" SURFACE INITIAL TIME, 1, 14, "mass 0: must be positive"},
-    {"ball: {mass: -2, radius: 1, inertia: [2, 3, 4]}\n" SURFACE INITIAL TIME, 1, 14, "mass -2: must be positive"},
-    {"ball: {mass: 2, radius: -1, inertia: [2, 3, 4]}\n" SURFACE INITIAL TIME, 1, 25, "radius -1: must be positive"},
-    {"ball: {mass: 2, radius: 1, inertia: [0, 3, 4]}\n" SURFACE INITIAL TIME, 1, 37, "inertia 1 is 0"},
-    {"ball: {mass: 2, radius: 1, inertia: [1, 2, 4]}\n" SURFACE INITIAL TIME, 1, 37, "triangle inequality"},
-    {BALL "surface: {kind: outside, radius: 0}\n" INITIAL TIME, 2, 34, "surface radius 0: must be positive"},
-    {BALL "surface: {kind: inside, radius: 0.5}\n" INITIAL TIME, 2, 33, "does not roll inside"},
-    {BALL "surface: {kind: shell, radius: 2}\n" INITIAL TIME, 2, 32, "does not go around"},
-    {"reduced: {k: 0, J: [2, 3, 4]}\n" INITIAL TIME, 1, 14, "must be finite and not 0"},
-    {"reduced: {k: -1, J: [2, -3, 4]}\n" INITIAL TIME, 1, 21, "J2 = -3"},
-    {BALL SURFACE "initial: {normal: [1, 1, 0], angular_velocity: [0, 0, 0]}\n" TIME, 3, 19,
-     "it must be a unit vector"},
-    {BALL SURFACE "initial: {normal: [0, 0, 0], angular_velocity: [0, 1, 0]}\n" TIME, 3, 19, "normal is zero"},
-    {BALL SURFACE "initial: {normal: [0.6, 0, 0.8], angular_velocity: [0, 1, 0.5]}\n" TIME, 3, 52,
-     "or 'project: true'"},
-    {POINT "initial: {gamma: [0.5, 0, 0], M: [0, 1, 0]}\n" TIME, 2, 18, "gamma has length 0.5"},
-    {POINT "initial: {gamma: [0.6, 0, 0.8], M: [1, 1, 0]}\n" TIME, 2, 36, "must be orthogonal"},
-
-    /* Sections */
-    {"initial: {normal: [0.6, 0, 0.8], angular_velocity: [0, 1, 0]}\n" TIME, 1, 1, "missing 'ball' and 'surface'"},
-    {"ball: {mass: 2, radius: 1, inertia: [2, 3, 4]}\n" INITIAL TIME, 1, 1, "'ball' needs a 'surface'"},
-    {"surface: {kind: plane}\n" INITIAL TIME, 1, 1, "'surface' needs a 'ball'"},
-    {"ball: {mass: 2, radius: 1, inertia: [2, 3, 4]}\n" SURFACE TIME, 1, 1, "missing 'initial' in the scene"},
-    {"ball: {mass: 2, radius: 1, inertia: [2, 3, 4]}\n" SURFACE INITIAL, 1, 1, "missing 'time' in the scene"},
-    {BALL SURFACE INITIAL "time: {step: 0.1}\n", 4, 1, "missing 'end' in 'time'"},
-    {"ball: {mass: 2, radius: 1}\n" SURFACE INITIAL TIME, 1, 1, "missing 'inertia' in 'ball'"},
-    {BALL "surface: {radius: 1}\n" INITIAL TIME, 2, 1, "missing 'kind' in 'surface'"},
-    {"reduced: {J: [2, 3, 4]}\n" INITIAL TIME, 1, 1, "missing 'k' in 'reduced'"},
-    {BALL SURFACE "initial: {angular_velocity: [0, 1, 0]}\n" TIME, 3, 1, "missing 'normal' in 'initial'"},
-    {POINT "initial: {gamma: [0.6, 0, 0.8]}\n" TIME, 2, 1, "missing 'M' in 'initial'"},
-    {BALL SURFACE "reduced: {k: -1, J: [2, 3, 4]}\n" INITIAL TIME, 3, 1, "'ball' and 'reduced' both"},
-    {POINT SURFACE "ball: {mass: 2, radius: 1, inertia: [2, 3, 4]}\n" INITIAL TIME, 3, 1, "'ball' and 'point' both"},
-    {"surface: {kind: plane}\n" REDUCED INITIAL TIME, 1, 1, "'surface' goes with 'ball'; 'reduced' has its k"},
-    {BALL SURFACE "initial: {normal: [0.6, 0, 0.8], angular_velocity: [0, 1, 0], gamma: [0.6, 0, 0.8]}\n" TIME, 3, 63,
-     "'gamma' does not belong here"},
-    {POINT "initial: {normal: [0.6, 0, 0.8], angular_velocity: [0, 1, 0]}\n" TIME, 2, 11,
-     "a point starts from 'gamma' and 'M'"},
-    {BALL "surface: {kind: plane, radius: 5}\n" INITIAL TIME, 2, 24, "a plane has no 'radius'"},
-    {BALL "surface: {kind: shell}\n" INITIAL TIME, 2, 1, "missing 'radius' in 'surface'"},
-
-    /* Names and ranges */
-    {BALL "surface: {kind: shel, radius: 0.5}\n" INITIAL TIME, 2, 17, "unknown kind 'shel'; did you mean 'shell'?"},
-    {BALL "surface: {kind: reduced, radius: 0.5}\n" INITIAL TIME, 2, 17,
-     "unknown kind 'reduced'; valid are plane, outside, inside, shell"},
-    {BALL SURFACE INITIAL TIME "solver: {backend: bal}\n", 5, 19, "unknown backend 'bal'; did you mean 'ball'?"},
-    {BALL SURFACE INITIAL TIME "solver: {backend: both}\n", 5, 19,
-     "unknown backend 'both'; valid are ball, point, auto"},
-    {BALL SURFACE INITIAL TIME "output: {as: piont}\n", 5, 14, "unknown as 'piont'; did you mean 'point'?"},
-    {BALL SURFACE INITIAL TIME "output: {columns: [t, omgea1]}\n", 5, 23,
-     "unknown column 'omgea1'; did you mean 'omega1'?"},
-    {BALL SURFACE INITIAL TIME "output: {columns: [t, n1, t]}\n", 5, 27, "column 't' is listed twice"},
-    {BALL SURFACE INITIAL TIME "solver: {method: adamz}\n", 5, 18, "unknown method 'adamz'; did you mean 'adams'?"},
-    {BALL SURFACE INITIAL TIME "solver: {method: magic, tolerance: 1e-9}\n", 5, 18,
-     "unknown method 'magic'; valid are auto, adams, bdf"},
-    {BALL SURFACE INITIAL TIME "solver: {method: ''}\n", 5, 18, "'method' should be the name of a method"},
-    {BALL SURFACE INITIAL TIME "solver: {tolerance: 0}\n", 5, 21, "must be in [1e-15, 0.1]"},
-    {BALL SURFACE INITIAL TIME "solver: {tolerance: 1}\n", 5, 21, "must be in [1e-15, 0.1]"},
-    {BALL SURFACE INITIAL "time: {end: 10, step: 0}\n", 4, 23, "'step' is 0, it must be positive"},
-    {BALL SURFACE INITIAL "time: {end: -10, step: -0.1}\n", 4, 24, "backwards: negative 'end'"},
-    {BALL SURFACE INITIAL "time: {end: 1e6, step: 1e-3}\n", 4, 24, "more than 1e+08 rows"},
-    {BALL SURFACE INITIAL TIME "effects:\n  gravity: {mgb: 9.81, up: [0, 0, 1]}\n", 6, 13,
-     "'mgb' does not belong here: the ball's mass and radius are known, give 'g'"},
-    {BALL SURFACE INITIAL TIME "effects: {gravitty: {}}\n", 5, 11,
-     "unknown effect 'gravitty'; did you mean 'gravity'?"},
-    {BALL SURFACE INITIAL TIME "effects: {wind: {}}\n", 5, 11, "unknown effect 'wind'; valid are gravity, field"},
-};
-
 static iso_context *ctx;
 
 /* For gsl_test, which wants 0 for a test passed. */
@@ -178,21 +30,40 @@ static iso_status parse(const char *text, iso_scene *scene)
     return iso_scene_parse(ctx, "s.yaml", text, strlen(text), scene);
 }
 
+/* Scenes with one mistake each (tests/cli/bad_files.txt): the first line of a file tells where it is, and a part of what
+ * is said about it. The orbit, not the file, is at fault where a scene can be read: tests/cli/bad_files.sh. */
+static bool check_mistake(const char *name)
+{
+    char path[512], text[4096] = "", expected[512], *words;
+    iso_scene scene = {.end = 42};
+    snprintf(path, sizeof path, "%s/%s", ISO_TEST_BAD, name);
+    FILE *from = fopen(path, "re");
+    if (!from) return false;
+    const size_t size = fread(text, 1, sizeof text - 1, from);
+    fclose(from);
+    if (sscanf(text, "# expect %511[^\n]", expected) != 1) return false;
+    const iso_status status = iso_scene_parse(ctx, "s.yaml", text, size, &scene);
+    if (status == ISO_OK) return false;
+    const char *message = iso_context_message(ctx);
+    words = strchr(expected, ' ');
+    *words++ = '\0';
+    gsl_test(status != ISO_BAD_INPUT, "%s: %s", name, iso_status_text(status));
+    gsl_test(strncmp(message, "s.yaml:", 7) != 0 || strncmp(message + 7, expected, strlen(expected)) != 0,
+             "%s at %s is said: %s", name, expected, message);
+    gsl_test(!strstr(message, words), "%s, \"%s\": %s", name, words, message);
+    gsl_test(strpbrk(message, "\n\r\033") != NULL, "%s: a message of one line", name);
+    gsl_test(scene.end != 42, "%s leaves the scene alone", name);
+    return true;
+}
+
 static void test_mistakes(void)
 {
-    for (size_t i = 0; i < sizeof mistakes / sizeof *mistakes; i++) {
-        const struct mistake *m = &mistakes[i];
-        iso_scene scene = {.end = 42};
-        char place[64];
-        const iso_status status = parse(m->text, &scene);
-        const char *message = iso_context_message(ctx);
-        snprintf(place, sizeof place, "s.yaml:%d:%d: ", m->line, m->column);
-        gsl_test(status != ISO_BAD_INPUT, "mistake %zu (%s): %s", i, m->says, iso_status_text(status));
-        gsl_test(strncmp(message, place, strlen(place)) != 0, "mistake %zu at %sis said: %s", i, place, message);
-        gsl_test(!strstr(message, m->says), "mistake %zu, \"%s\": %s", i, m->says, message);
-        gsl_test(strpbrk(message, "\n\r\033") != NULL, "mistake %zu: a message of one line", i);
-        gsl_test(scene.end != 42, "mistake %zu leaves the scene alone", i);
-    }
+    int mistakes = 0;
+    DIR *folder = opendir(ISO_TEST_BAD);
+    for (const struct dirent *entry; folder && (entry = readdir(folder));)
+        if (!strstr(entry->d_name, "_sweep_")) mistakes += check_mistake(entry->d_name);
+    if (folder) closedir(folder);
+    gsl_test(mistakes < 180, "%d scenes that cannot be read", mistakes);
 }
 
 static void test_ball(void)

@@ -320,7 +320,7 @@ static void check_refusals(void)
     const double boundary[1][2] = {{0.3, 1}};
     o.at = boundary;
     o.at_count = 1;
-    refuse(&scene, &o, ISO_BAD_ARGUMENT, "at");
+    refuse(&scene, &o, ISO_BAD_INPUT, "at");
     iso_scene losing = scene;
     must(iso_effects_set(ctx, &losing.effects, "rolling_resistance", "coefficient", 1, (double[]){0.01}), "loss");
     refuse(&losing, NULL, ISO_BAD_INPUT, "rolling_resistance");

@@ -283,14 +283,14 @@ static void check_refusals(void)
     iso_scene scene = scene_from(0.5, J, w, n);
     scene.effects.on[ISO_ROLLING_RESISTANCE] = true;
     ROLLING_COEFFICIENT(&scene.effects) = 0.1;
-    refuses(&scene, &o, ISO_NOT_MAPPED, "rolling_resistance");
+    refuses(&scene, &o, ISO_BAD_INPUT, "rolling_resistance");
     scene = scene_from(1, J, w, n);
     scene.effects.on[ISO_GRAVITY] = true;
     GRAVITY_MGB(&scene.effects) = 1;
     GRAVITY_UP(&scene.effects)[0] = 1;
-    refuses(&scene, &o, ISO_NOT_MAPPED, "gravity");
+    refuses(&scene, &o, ISO_BAD_INPUT, "gravity");
     scene = scene_from(0.5, J, (double[]){0, 0, 0}, n);
-    refuses(&scene, &o, ISO_NOT_MAPPED, "angular_velocity");
+    refuses(&scene, &o, ISO_BAD_INPUT, "angular_velocity");
     scene = scene_from(0.5, J, w, n);
     o.samples = -1;
     refuses(&scene, &o, ISO_BAD_ARGUMENT, "");

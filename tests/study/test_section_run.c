@@ -277,7 +277,7 @@ static void check_refusals(void)
     o = iso_section_defaults();
     o.crossings = 0, refuse(FREE("0.5"), &o, ISO_BAD_ARGUMENT, "no crossing");
     o = iso_section_defaults();
-    o.axis = 3, refuse(FREE("0.5"), &o, ISO_BAD_ARGUMENT, "axis 3");
+    o.axis = 3, refuse(FREE("0.5"), &o, ISO_BAD_ARGUMENT, "axis 4");
     o = iso_section_defaults();
     o.threads = -1, refuse(FREE("0.5"), &o, ISO_BAD_ARGUMENT, "threads");
     o = iso_section_defaults();

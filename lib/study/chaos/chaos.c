@@ -12,46 +12,32 @@
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
 #include "model/effects_impl.h"
+#include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/chaos/chaos_impl.h"
 #include "study/chaos/share_impl.h"
+#include "study/refusals_impl.h"
 #include "study/section/section_impl.h"
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
 
+static const char what[] = "is neither chaotic nor regular";
+
 static iso_status check_motion(const iso_chaos_walk *w, const iso_sample *start)
 {
-    const iso_problem *problem = &iso_orbit_model(w->orbit)->problem;
-    const bool ball = w->scene->start.model == ISO_BALL;
-    const iso_effect *taking = iso_effects_taking_energy(problem);
-    const char *why;
-    if (taking)
-        return iso_context_fail(w->ctx, ISO_BAD_INPUT, taking->name,
-                                "'%s' takes energy from the ball: a motion that comes to rest is neither chaotic nor "
-                                "regular",
-                                taking->name);
-    const iso_effect *without = iso_effects_without_frequencies(problem, &why);
-    if (without) return iso_context_fail(w->ctx, ISO_BAD_INPUT, without->name, "%s", why);
-    if (largest(w->out->with[ISO_BALL] ? start->ball : start->point) > 0) return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_BAD_INPUT, ball ? "angular_velocity" : "M",
-                            iso_effects_pull(&problem->effects)
-                                ? "the %s starts at rest, where deviations have no size: start it a little later"
-                                : "the %s is at rest",
-                            iso_model_kind_name((int)w->scene->start.model));
+    const iso_model_kind model = w->scene->start.model;
+    const iso_status status = iso_refuse_unbound(w->ctx, w->orbit, what);
+    if (status != ISO_OK || largest(w->out->with[ISO_BALL] ? start->ball : start->point) > 0) return status;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, model == ISO_BALL ? "angular_velocity" : "M",
+                            "the %s starts at rest, where deviations have no size: start it a little later",
+                            iso_model_kind_name((int)model));
 }
 
 static iso_status check_starts(const iso_chaos_walk *w)
 {
     const iso_chaos_options *o = &w->options;
-    const iso_effect *effect = iso_effects_beyond_level(&w->effects);
     if (o->starts + o->at_count == 0) return ISO_OK;
-    if (effect)
-        return iso_context_fail(w->ctx, ISO_BAD_INPUT, effect->name,
-                                "other starts need a section where nothing acts but a level, without '%s'",
-                                effect->name);
-    for (size_t i = 0; i < o->at_count; i++)
-        if (iso_section_check_at(w->ctx, w->orbit, w->out->axis, o->at[i]) != ISO_OK) return ISO_BAD_INPUT;
-    return o->starts > 0 ? iso_section_check_open(w->ctx, w->orbit, w->out->axis) : ISO_OK;
+    return iso_refuse_starts(w->ctx, w->orbit, &w->effects, w->out->axis, o->at, o->at_count, o->starts > 0);
 }
 
 static iso_status check_options(const iso_chaos_walk *w)
@@ -62,14 +48,7 @@ static iso_status check_options(const iso_chaos_walk *w)
     if (o->exponent_turns < 0)
         return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "exponent_turns", "%ld turns: give 0 or more",
                                 o->exponent_turns);
-    if (o->axis != ISO_AXIS_AUTO && (o->axis < 0 || o->axis > 2))
-        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "axis", "axis %d is not 1, 2 or 3", o->axis + 1);
-    for (size_t i = 0; i < o->at_count; i++)
-        if (!isfinite(o->at[i][0]) || !(fabs(o->at[i][1]) < 1))
-            return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "at",
-                                    "l, x = %g, %g is outside the chart: l is any angle, x is between -1 and 1",
-                                    o->at[i][0], o->at[i][1]);
-    return ISO_OK;
+    return iso_crossings_check_axis(w->ctx, o->axis);
 }
 
 /* Errors: ISO_BAD_INPUT about "axis". */
@@ -181,7 +160,8 @@ static iso_status prepare(iso_chaos_walk *w)
     if (status != ISO_OK) return status;
     w->effects = iso_scene_acting(w->scene);
     choose_models(w);
-    status = open_orbit(w, &start);
+    status = iso_refuse_rest(w->ctx, &w->scene->start, &w->effects, what);
+    if (status == ISO_OK) status = open_orbit(w, &start);
     if (status != ISO_OK) return status;
     const iso_effects effects = iso_orbit_effects(w->orbit);
     const iso_effect *effect = iso_effects_beyond_level(&effects);

@@ -117,12 +117,10 @@ ISO_API void iso_chaos_columns(const iso_chaos *chaos, iso_field fields[ISO_MOST
 /* Orbits that fail are counted in the result. The call fails only if no model can follow the scene's own orbit.
  * options NULL: iso_chaos_defaults().
  * Errors:
- * - ISO_BAD_ARGUMENT: those of iso_crossings_create; about "turns" (below 1), "exponent_turns" (below 0), "at"
- *   (outside of the chart);
- * - ISO_BAD_INPUT: an effect that takes energy or lets the ball roll away (about its name); a ball at rest; `starts`
- *   or `at` with effects beyond a level (about the effect), since (l, x) does not determine an orbit there; `at`
- *   where the level closes the circle of l (about "at"), `starts` where it closes all of it; about "axis": orbits
- *   can stay away from its section;
+ * - ISO_BAD_ARGUMENT: those of iso_crossings_create; about "turns" (below 1), "exponent_turns" (below 0);
+ * - ISO_BAD_INPUT about an effect that takes energy or lets the ball roll away; about "M" or "angular_velocity" at
+ *   rest; about "axis": orbits can stay away from its section;
+ * - ISO_BAD_INPUT about `at`, `starts` or an effect: those of iso_section_run;
  * - those of iso_orbit_create: ISO_NOT_MAPPED if the point is asked for and there is none;
  * - ISO_STOPPED by the context's monitor: *chaos has what is known by then. */
 ISO_API iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options,

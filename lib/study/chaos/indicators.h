@@ -32,8 +32,8 @@
  *   an island for long.
  *
  * A look is a judgement of the orbit so far. The number of turns grows by sqrt(2) from look to look, and one look is
- * at the number given to iso_indicators_begin. indicators.c has the conditions of the verdict, tests/README.md their
- * calibration.
+ * at the number given to iso_indicators_begin. indicators.c has the conditions of the verdict, lib/doc/measured.md
+ * their calibration.
  */
 #ifndef ISO_STUDY_INDICATORS_H
 #define ISO_STUDY_INDICATORS_H

@@ -123,8 +123,8 @@ typedef struct iso_frequencies {
 ISO_API extern const iso_field iso_frequencies_fields[];
 
 /* Errors:
- * - ISO_NOT_MAPPED about an effect that takes energy or lets the ball roll away: no such motion is quasi-periodic;
- * - ISO_NOT_MAPPED for a ball at rest;
+ * - ISO_BAD_INPUT about an effect that takes energy or lets the ball roll away: no such motion is quasi-periodic;
+ * - ISO_BAD_INPUT for a ball or a point at rest;
  * - ISO_BAD_ARGUMENT about the options: for an estimate fewer than 20 turns, fewer than 8 samples a turn, too many
  *   samples;
  * - those of iso_orbit_create and iso_orbit_at. */

@@ -5,6 +5,7 @@
 
 #include "orbit/orbit_impl.h"
 #include "study/frequencies/frequencies_impl.h"
+#include "study/refusals_impl.h"
 
 iso_status iso_frequencies_check(iso_context *ctx, const iso_frequencies_options *o)
 {
@@ -115,7 +116,8 @@ iso_status iso_frequencies_open(iso_context *ctx, const iso_scene *scene, const 
     o.effects = effects;
     o.backend = twin ? ISO_BACKEND_POINT : ISO_BACKEND_BALL;
     o.shown = twin ? ISO_SHOW_BOTH : ISO_SHOW_BALL;
-    iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
+    iso_status status = iso_refuse_rest(ctx, &scene->start, effects, ISO_NO_FREQUENCIES);
+    if (status == ISO_OK) status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
     if (status == ISO_OK) status = iso_orbit_at(*orbit, 0, sample);
     return status;
 }

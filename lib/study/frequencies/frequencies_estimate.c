@@ -11,6 +11,7 @@
 #include "study/chaos/chaos.h"
 #include "study/frequencies/frequencies_basis_impl.h"
 #include "study/frequencies/frequencies_impl.h"
+#include "study/refusals_impl.h"
 
 /* Relative differences between the halves of an orbit below this are rounding. */
 static const double ROUNDING = 1e-14;
@@ -236,7 +237,7 @@ static void say(iso_frequencies *f)
     static const char *const motion[] = {
         [ISO_REGULAR] = "regular, as far as this orbit shows",
         [ISO_CHAOTIC] = "chaotic",
-        [ISO_UNDECIDED] = "not decided: a longer orbit may tell",
+        [ISO_UNDECIDED] = "undecided: a longer orbit may tell",
         [ISO_INTEGRABLE] = "this orbit is too short to settle its frequencies",
     };
     const int axis = f->estimate.axis + 1;
@@ -280,19 +281,6 @@ static iso_status estimate(estimator *e)
 
 /* --- what there is to estimate ---------------------------------------------------------------------------------- */
 
-/* Errors: ISO_NOT_MAPPED where n(t) is not quasi-periodic. */
-static iso_status check_effects(iso_context *ctx, const iso_orbit *orbit)
-{
-    const iso_problem *problem = &iso_orbit_model(orbit)->problem;
-    const char *why;
-    const iso_effect *taking = iso_effects_taking_energy(problem),
-                     *without = iso_effects_without_frequencies(problem, &why);
-    if (taking)
-        return iso_context_fail(ctx, ISO_NOT_MAPPED, taking->name,
-                                "'%s' takes energy from the ball: its motion has no frequencies", taking->name);
-    return without ? iso_context_fail(ctx, ISO_NOT_MAPPED, without->name, "%s", why) : ISO_OK;
-}
-
 /* n turns at the rate |k omega|. Where |k| is small omega turns faster, at a rate of about |omega|. */
 static iso_status choose_length(estimator *e, double speed, const iso_frequencies_options *o)
 {
@@ -328,15 +316,14 @@ static iso_status prepare(estimator *e, const iso_frequencies_options *o)
     iso_orbit *orbit;
     iso_sample start;
     iso_status status = iso_frequencies_open(e->ctx, e->scene, &e->effects, &orbit, &start);
-    if (status == ISO_OK) status = check_effects(e->ctx, orbit);
+    if (status == ISO_OK) status = iso_refuse_unbound(e->ctx, orbit, ISO_NO_FREQUENCIES);
     if (status == ISO_OK) {
         const double moving = norm(start.ball), falling = iso_orbit_units(orbit)->w;
         const double speed =
             iso_effects_pull(&iso_orbit_model(orbit)->problem.effects) ? fmax(moving, falling) : moving;
         e->twin = iso_orbit_has_twin(orbit);
         iso_frequencies_place(orbit, &start, e->f);
-        status = speed > 0 ? choose_length(e, speed, o)
-                           : iso_context_fail(e->ctx, ISO_NOT_MAPPED, "angular_velocity", "the ball is at rest");
+        status = choose_length(e, speed, o);
     }
     iso_orbit_free(orbit);
     return status;

@@ -17,6 +17,7 @@
 #include "study/periodic/hill_trace_impl.h"
 #include "study/periodic/periodic_impl.h"
 #include "study/periodic/stability_chart.h"
+#include "study/refusals_impl.h"
 
 const char *iso_stability_name(iso_stability stability)
 {
@@ -64,25 +65,16 @@ static iso_status check_moments(const iso_periodic_work *w)
     return ISO_OK;
 }
 
-/* Off H = 0 a motion may begin at rest. */
-static bool may_rest(const iso_start *start, const iso_effects *effects)
-{
-    return start->model == ISO_POINT ? !isnan(start->eps) : iso_effects_have_level(effects);
-}
-
 static iso_status check_scene(iso_periodic_work *w)
 {
     static const char what[] = "periodic orbits are sought";
-    const iso_start *start = &w->scene->start;
     const iso_effects effects = iso_scene_acting(w->scene);
     iso_on_level on;
-    iso_status status = iso_level_check(w->ctx, &effects, what);
+    iso_status status = iso_refuse_beyond_level(w->ctx, &effects, what);
     if (status == ISO_OK) status = check_numbers(w);
     if (status == ISO_OK) status = check_moments(w);
-    if (status == ISO_OK && !(largest(start->y) > 0) && !may_rest(start, &effects))
-        status = iso_context_fail(w->ctx, ISO_BAD_INPUT, start->model == ISO_BALL ? "angular_velocity" : "M",
-                                  "a %s at rest has no periodic orbits of its energy",
-                                  iso_model_kind_name((int)start->model));
+    if (status == ISO_OK)
+        status = iso_refuse_rest(w->ctx, &w->scene->start, &effects, "has no periodic orbits of its energy");
     if (status == ISO_OK) status = iso_level_find(w->ctx, w->scene, what, &on);
     if (status != ISO_OK) return status;
     w->units = on.units, w->h = on.h, w->energy = on.energy, w->H = on.H;

@@ -149,11 +149,12 @@ typedef struct iso_periodic {
 } iso_periodic;
 ISO_API extern const iso_field iso_periodic_fields[];
 
-/* options NULL: iso_periodic_defaults(). Errors: ISO_BAD_ARGUMENT about "period" or "grid", or about "polish" where
- * there are no numbers of 128 bits; ISO_BAD_INPUT: an effect acts on the ball or the point is not on H = 0 (about the
- * effect); a ball at rest; |k| < 0.02 (about "k"); max J/(min J |k|) > 1e5, or two equal moments (about "J"): then a
- * rotation carries every orbit along, and none is isolated; ISO_NUMERICAL; ISO_NO_MEMORY; ISO_STOPPED by the
- * context's monitor: *found has what is known by then. */
+/* options NULL: iso_periodic_defaults(). Errors:
+ * - ISO_BAD_ARGUMENT about "period" or "grid", or about "polish" where there are no numbers of 128 bits;
+ * - ISO_BAD_INPUT about an effect that acts, other than `level`; about "M" or "angular_velocity" at rest; about "k",
+ *   where |k| < 0.02; about "J", where max J/(min J |k|) > 1e5 or two moments are equal: then a rotation carries
+ *   every orbit along, and none is isolated;
+ * - ISO_NUMERICAL; ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *found has what is known by then. */
 ISO_API iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_options *options,
                                     iso_periodic **found);
 ISO_API void iso_periodic_free(iso_periodic *found);

@@ -5,7 +5,7 @@
 #include "base/arithmetic_impl.h"
 #include "map/section.h"
 #include "map/state.h"
-#include "orbit/crossings.h"
+#include "orbit/crossings_impl.h"
 #include "study/section/measure_impl.h"
 
 enum { BLOCK = 4096, AT_ONCE = 16 }; /* orbits; crossings of one orbit that are kept at a time */
@@ -199,8 +199,7 @@ static void release(returner *r)
 static iso_status check_section(returner *r)
 {
     const int axis = r->options->axis;
-    if (axis < ISO_AXIS_AUTO || axis > 2)
-        return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "axis", "there is no axis %d", axis + 1);
+    if (iso_crossings_check_axis(r->ctx, axis) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (r->options->returns < ISO_MEASURE_RETURNS || r->options->returns > 1000000)
         return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "returns", "%d returns are not in [%d, 1e6]",
                                 r->options->returns, ISO_MEASURE_RETURNS);

@@ -15,9 +15,11 @@
 #include "model/effects_impl.h"
 #include "model/params_impl.h"
 #include "model/system_impl.h"
+#include "orbit/crossings_impl.h"
 #include "orbit/description_impl.h"
 #include "orbit/orbit_impl.h"
 #include "orbit/scene_impl.h"
+#include "study/refusals_impl.h"
 #include "study/section/section_impl.h"
 
 /* --- which section is global ------------------------------------------------------------------------------------ */
@@ -74,39 +76,16 @@ bool iso_section_is_of_axis(int column, double value, int *axis)
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
 
-static iso_status check_rest(const iso_section_walk *w)
-{
-    const iso_start *start = &w->scene->start;
-    const bool moves = largest(start->y) > 0 || iso_effects_pull(&w->effects);
-    if (moves || (start->model == ISO_POINT && start->eps != 0 && !isnan(start->eps))) return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_BAD_INPUT, start->model == ISO_BALL ? "angular_velocity" : "M",
-                            "a %s at rest crosses no section", iso_model_kind_name((int)start->model));
-}
-
-static iso_status check_losses(const iso_section_walk *w)
-{
-    const iso_effect *taking = iso_effects_taking_energy(&iso_orbit_model(w->orbit)->problem);
-    if (!taking) return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_BAD_INPUT, taking->name,
-                            "'%s' takes energy from the ball: its orbits do not come back to a section for ever",
-                            taking->name);
-}
+static const char what[] = "comes back to no section";
 
 static iso_status check_starts(const iso_section_walk *w)
 {
     const iso_section_options *o = &w->options;
-    const iso_effect *effect = iso_effects_beyond_level(&w->effects);
-    const char *why = !w->chart ? "an event has no chart"
-                      : effect  ? "the section has a chart only where nothing acts but a level"
-                                : NULL;
     if (o->starts == 0 && o->at_count == 0) return ISO_OK;
-    if (why)
-        return iso_context_fail(w->ctx, ISO_BAD_INPUT, effect ? effect->name : "starts",
-                                "no other starts can be given here: %s%s%s", why, effect ? ", without " : "",
-                                effect ? effect->name : "");
-    for (size_t i = 0; i < o->at_count; i++)
-        if (iso_section_check_at(w->ctx, w->orbit, o->axis, o->at[i]) != ISO_OK) return ISO_BAD_INPUT;
-    return o->starts > 0 ? iso_section_check_open(w->ctx, w->orbit, o->axis) : ISO_OK;
+    if (!w->chart)
+        return iso_context_fail(w->ctx, ISO_BAD_INPUT, "starts",
+                                "no other starts can be given here: an event has no chart");
+    return iso_refuse_starts(w->ctx, w->orbit, &w->effects, o->axis, o->at, o->at_count, o->starts > 0);
 }
 
 static iso_status check_column(const iso_section_walk *w)
@@ -188,14 +167,13 @@ static iso_status check(iso_section_walk *w)
 {
     iso_section_options *o = &w->options;
     if (o->crossings == 0) return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "crossings", "no crossing is asked for");
-    if (o->axis < ISO_AXIS_AUTO || o->axis > 2)
-        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "axis", "axis %d is none of 0, 1, 2", o->axis);
+    if (iso_crossings_check_axis(w->ctx, o->axis) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (isnan(o->tolerance)) o->tolerance = w->scene->tolerance;
     choose_section(w);
     choose_effects(w);
     choose_models(w);
     w->result->orbits = 1 + o->starts + o->at_count;
-    const iso_status status = check_rest(w);
+    const iso_status status = iso_refuse_rest(w->ctx, &w->scene->start, &w->effects, what);
     return status == ISO_OK ? check_column(w) : status;
 }
 
@@ -214,7 +192,7 @@ static iso_status set_up(iso_section_walk *w)
 {
     iso_status status = check(w);
     if (status == ISO_OK) status = open_orbit(w);
-    if (status == ISO_OK) status = check_losses(w);
+    if (status == ISO_OK) status = iso_refuse_losses(w->ctx, w->orbit, what);
     if (status != ISO_OK) return status;
     if (w->options.axis == ISO_AXIS_AUTO) w->options.axis = iso_section_axis(iso_orbit_motion(w->orbit));
     status = check_starts(w);

@@ -117,10 +117,11 @@ typedef struct iso_section_result {
  *
  * Errors before the header:
  * - ISO_BAD_ARGUMENT: those of iso_crossings_create; about "crossings" (0);
- * - ISO_BAD_INPUT: an effect that takes energy (about its name), since its orbits do not return for ever; a ball at
- *   rest; `at` with |x| >= 1 or a number that is not finite; `starts` or `at` with effects beyond a level, or with
- *   an event, since (l, x) does not determine an orbit there, or where the level closes the section; a column of an
- *   effect that the scene does not have;
+ * - ISO_BAD_INPUT about an effect that takes energy, since its orbits do not return for ever; about "M" or
+ *   "angular_velocity" at rest; about "columns", for a column of an effect that the scene does not have;
+ * - ISO_BAD_INPUT about `at` that is outside of the chart (|x| >= 1, or no finite number), or where the level closes
+ *   the section, and about `starts` where it closes all of it. Or about the effect, where there is no chart:
+ *   (l, x) does not determine an orbit with effects beyond a level, nor at an event;
  * - those of iso_orbit_create: ISO_NOT_MAPPED if the point is asked for and there is none.
  * Errors after the header: what the sink returns; ISO_STOPPED; ISO_NO_MEMORY. */
 ISO_API iso_status iso_section_run(iso_context *ctx, const iso_scene *scene, const iso_section_options *options,

@@ -60,11 +60,6 @@ void iso_section_close_group(iso_section_walk *w);
  * ISO_NO_MEMORY. */
 iso_status iso_section_walk_group(iso_section_walk *w);
 
-/* Whether a start can be given at (l, x), or anywhere, on the section n_axis = 0 of this orbit, on which nothing acts
- * but a level. Errors: ISO_BAD_INPUT about "at" or "starts". */
-iso_status iso_section_check_at(iso_context *ctx, const iso_orbit *orbit, int axis, const double at[2]);
-iso_status iso_section_check_open(iso_context *ctx, const iso_orbit *orbit, int axis);
-
 /* States the level of the orbit among the effects: then every start is on it, not near it. */
 void iso_section_state_level(const iso_orbit *orbit, iso_effects *effects);
 

@@ -67,41 +67,6 @@ void iso_section_free_room(iso_section_walk *w)
 
 /* --- starts ----------------------------------------------------------------------------------------------------- */
 
-/* Of a closed part of the circle: where gamma is at l the point has not enough energy. */
-static iso_status refuse_closed(iso_context *ctx, const iso_orbit *orbit, int axis, const char *about,
-                                const char *where)
-{
-    const iso_point_motion m = iso_orbit_motion(orbit);
-    const double unit = iso_unit(iso_orbit_units(orbit), iso_system_point.fast_dimension);
-    return iso_context_fail(ctx, ISO_BAD_INPUT, about,
-                            "n_%d = 0 is closed %s on the level H = %.6g: the potential there is not below H",
-                            axis + 1, where, m.energy * unit * unit);
-}
-
-iso_status iso_section_check_open(iso_context *ctx, const iso_orbit *orbit, int axis)
-{
-    const iso_point_motion m = iso_orbit_motion(orbit);
-    if (iso_section_is_open(m, axis, 0) || iso_section_is_open(m, axis, ISO_PI / 2)) return ISO_OK;
-    return refuse_closed(ctx, orbit, axis, "starts", "everywhere");
-}
-
-iso_status iso_section_check_at(iso_context *ctx, const iso_orbit *orbit, int axis, const double at[2])
-{
-    const double l = at[0], x = at[1];
-    char where[48];
-    if (fabs(x) == 1)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "at",
-                                "l, x = %g, %g is on the boundary of the chart: it is the rotation about axis %d, in "
-                                "the plane n_%d = 0, which never crosses the section",
-                                l, x, axis + 1, axis + 1);
-    if (!isfinite(l) || !(fabs(x) < 1))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "at",
-                                "l, x = %g, %g is outside the chart: l is any angle, x is between -1 and 1", l, x);
-    if (iso_section_is_open(iso_orbit_motion(orbit), axis, l)) return ISO_OK;
-    snprintf(where, sizeof where, "at l = %g", l);
-    return refuse_closed(ctx, orbit, axis, "at", where);
-}
-
 void iso_section_state_level(const iso_orbit *orbit, iso_effects *effects)
 {
     const iso_effects found = iso_orbit_effects(orbit);

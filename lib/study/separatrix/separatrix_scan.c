@@ -8,6 +8,7 @@
 #include "base/pi_impl.h"
 #include "orbit/pool_impl.h"
 #include "study/level_impl.h"
+#include "study/refusals_impl.h"
 #include "study/separatrix/separatrix_impl.h"
 
 /* m has the zeros k = 1 and k = -1 anyway. Others are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1), which is of the
@@ -217,7 +218,7 @@ static iso_status check_scene(iso_context *ctx, const iso_separatrix_options *o,
 {
     static const char what[] = "the splitting is measured";
     const iso_effects acting = iso_scene_acting(o->scene);
-    return o->level ? iso_level_check(ctx, &acting, what) : iso_level_of_scene(ctx, o->scene, what, level);
+    return o->level ? iso_refuse_beyond_level(ctx, &acting, what) : iso_level_of_scene(ctx, o->scene, what, level);
 }
 
 static iso_status run(iso_context *ctx, const iso_separatrix_options *o, double level, iso_separatrix_table *s)
