@@ -1,4 +1,7 @@
 /* refusals.c - the sentences of refusals_impl.h. */
+#include "map/section_impl.h"
+#include "model/effects_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/refusals_impl.h"
 
 #include <math.h>
