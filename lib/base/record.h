@@ -23,8 +23,8 @@ ISO_API iso_status iso_record_create(iso_context *ctx, size_t columns, const cha
 ISO_API void iso_record_free(iso_record *record);
 
 /* The same with the lines, the kind and the row tolerance of another record. names NULL: with its columns, too. */
-iso_status iso_record_create_like(iso_context *ctx, const iso_record *other, size_t columns,
-                                  const char *const names[], iso_record **record);
+ISO_API iso_status iso_record_create_like(iso_context *ctx, const iso_record *other, size_t columns,
+                                          const char *const names[], iso_record **record);
 
 /* What the table holds: "trajectory", "section", "chaos", ... (up to 31 characters); "" until it is set. */
 ISO_API const char *iso_record_kind(const iso_record *record);
@@ -55,9 +55,6 @@ ISO_API void iso_record_set_words(iso_record *record, size_t column);
 ISO_API bool iso_record_has_words(const iso_record *record, size_t column);
 ISO_API iso_status iso_record_intern(iso_context *ctx, iso_record *record, const char *word, double *number);
 ISO_API const char *iso_record_word(const iso_record *record, double number);
-
-/* Forgets all words: for rows that pass by. */
-void iso_record_forget_words(iso_record *record);
 
 /* How far a row may be from a valid state: from a unit vector, and from a right angle. It follows from the digits
  * that the numbers were written with. It is no part of a file; a new record has ISO_ROW_TOLERANCE. The caller sets a

@@ -1,8 +1,9 @@
 /* family.c - rows and chunks of sweeps, and the hash that tells sweeps apart (see family.h). */
-#include "sweep/family.h"
 #include "base/low_discrepancy_impl.h"
+#include "sweep/family.h"
 
 #include <stdlib.h>
+
 
 iso_status iso_sweep_rows_create(iso_context *ctx, int columns, size_t most, iso_sweep_rows *rows)
 {
