@@ -1,5 +1,5 @@
 /* record.c - a table in memory: named columns, rows, words, and "# key: value" lines (record.h). */
-#include "base/record.h"
+#include "base/record_impl.h"
 
 #include <stdint.h>
 #include <stdio.h>

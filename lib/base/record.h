@@ -56,9 +56,6 @@ ISO_API bool iso_record_has_words(const iso_record *record, size_t column);
 ISO_API iso_status iso_record_intern(iso_context *ctx, iso_record *record, const char *word, double *number);
 ISO_API const char *iso_record_word(const iso_record *record, double number);
 
-/* Forgets all words: for rows that pass by. */
-void iso_record_forget_words(iso_record *record);
-
 /* How far a row may be from a valid state: from a unit vector, and from a right angle. It follows from the digits
  * that the numbers were written with. It is no part of a file; a new record has ISO_ROW_TOLERANCE. The caller sets a
  * number > 0, at most 0.1. */

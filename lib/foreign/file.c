@@ -3,27 +3,11 @@
 #include <string.h>
 
 #include "foreign/foreign_impl.h"
-#include "io/trajectory.h"
+#include "io/table_impl.h"
 #include "method/integrator_impl.h"
 #include "orbit/convert.h"
 
 /* --- reading ---------------------------------------------------------------------------------------------------- */
-
-static iso_status read_rows(iso_context *ctx, iso_trajectory_reader *in, iso_record *record)
-{
-    double row[ISO_TRAJECTORY_COLUMNS];
-    bool more = true;
-    iso_status status;
-    while ((status = iso_trajectory_next(ctx, in, row, &more)) == ISO_OK && more) {
-        status = iso_foreign_record_append(ctx, record, 1, row);
-        if (status != ISO_OK) break;
-    }
-    /* lines after the rows */
-    const char *key, *value;
-    for (size_t i = 0; status == ISO_OK && iso_record_line(iso_trajectory_header(in), i, &key, &value); i++)
-        status = iso_record_set(ctx, record, key, value);
-    return status;
-}
 
 iso_status iso_foreign_read(iso_context *ctx, const char *path, const char *columns, iso_record **record, char text[],
                             size_t room)
@@ -34,14 +18,12 @@ iso_status iso_foreign_read(iso_context *ctx, const char *path, const char *colu
     *record = NULL;
     iso_status status = iso_trajectory_reader_open(ctx, path, columns, &in);
     if (status != ISO_OK) return status;
-    status = iso_record_create_like(ctx, iso_trajectory_header(in), 0, NULL, record);
-    if (status == ISO_OK) status = read_rows(ctx, in, *record);
+    status = iso_table_read_all(ctx, in, record);
     if (iso_trajectory_ignored(in)) {
         snprintf(words, sizeof words, "%.60s: passed over: %s", path, iso_trajectory_ignored(in));
         iso_notes_add(&n, words);
     }
     iso_trajectory_reader_close(in);
-    if (status != ISO_OK) iso_record_free(*record), *record = NULL;
     return status;
 }
 

@@ -21,7 +21,7 @@ typedef struct entry {
     const struct entry *section;     /* read_section: the keys inside       */
     const char *(*word)(int);        /* read_word: the names of an enum ... */
     unsigned words;                  /* ... and which of them (1 << value)  */
-    iso_models model;                /* of `initial`: whose start this is   */
+    iso_models model;                 /* of `initial`: whose start this is   */
     iso_effect_id effect;            /* read_effect, read_effect_number: which effect ... */
     const iso_effect_number *number; /* ... and which number of it */
 } entry;

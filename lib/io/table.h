@@ -35,12 +35,9 @@ ISO_API void iso_table_kind(const char *path, char kind[ISO_KIND_SIZE]);
 
 /* --- the beginning of a text ------------------------------------------------------------------------------------ */
 
-/* Writes one line. A value of whole lines, each with its end, is written as a text: "# KEY | LINE" for each, without
- * KEY if it is "sweep". Errors: ISO_BAD_ARGUMENT: a key or value that does not read back. */
-ISO_API iso_status iso_table_line(iso_context *ctx, FILE *to, const char *key, const char *value);
-
-/* Writes the beginning: the lines and the columns are those of `header`, whose rows are not looked at. Errors: those
- * of iso_table_line, before anything is written. Whether the text arrived, the stream tells. */
+/* Writes the beginning: the lines and the columns are those of `header`, whose rows are not looked at. Errors:
+ * ISO_BAD_ARGUMENT, before anything is written: a key or value that does not read back. Whether the text arrived, the
+ * stream tells. */
 ISO_API iso_status iso_table_begin(iso_context *ctx, FILE *to, const char *kind, const iso_record *header);
 
 ISO_C_END

@@ -2,6 +2,7 @@
 #ifndef ISO_IO_TABLE_IMPL_H
 #define ISO_IO_TABLE_IMPL_H
 
+#include "base/record_impl.h"
 #include "io/table.h"
 #include "io/trajectory.h"
 
@@ -102,6 +103,10 @@ struct iso_table_writer {
     bool fresh; /* a file that has the name when this one ends is not replaced */
     void *data;
 };
+
+/* Writes one line. A value of whole lines, each with its end, is written as a text: "# KEY | LINE" for each, without KEY if it is
+ * "sweep". Errors: ISO_BAD_ARGUMENT: a key or value that does not read back. */
+iso_status iso_table_line(iso_context *ctx, FILE *to, const char *key, const char *value);
 
 /* Whether a name is that of a column of words. */
 bool iso_table_has_words(const char *name);

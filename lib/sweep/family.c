@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 
+
 iso_status iso_sweep_rows_create(iso_context *ctx, int columns, size_t most, iso_sweep_rows *rows)
 {
     *rows = (iso_sweep_rows){.columns = columns, .most = most};

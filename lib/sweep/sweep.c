@@ -161,8 +161,7 @@ iso_status iso_sweep_create(iso_context *ctx, const iso_sweep_plan *plan, iso_sw
     ISO_DEFAULT_ARITHMETIC;
     *sweep = NULL;
     iso_sweep *s = calloc(1, sizeof *s);
-    if (s)
-        s->column = calloc((size_t)plan->family.columns + ISO_SWEEP_REQUESTS * ISO_SWEEP_NUMBERS, sizeof *s->column);
+    if (s) s->column = calloc((size_t)plan->family.columns + ISO_SWEEP_REQUESTS * ISO_SWEEP_NUMBERS, sizeof *s->column);
     if (!s || !s->column) {
         iso_sweep_free(s);
         return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sweep");

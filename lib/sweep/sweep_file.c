@@ -142,8 +142,7 @@ static iso_status read_wish(iso_yaml *y, const iso_sweep_quantity *topic, const 
     return status;
 }
 
-static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure,
-                               const iso_sweep_quantity *const topics[])
+static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure, const iso_sweep_quantity *const topics[])
 {
     const char *names[MOST_TOPICS];
     size_t count = 0;

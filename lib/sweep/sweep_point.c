@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/arithmetic_impl.h"
 #include "base/low_discrepancy_impl.h"
+#include "base/arithmetic_impl.h"
 #include "base/number.h"
 #include "map/section_impl.h"
 #include "orbit/crossings_impl.h"
