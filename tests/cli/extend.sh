@@ -1,6 +1,6 @@
-# extend.sh - the recipes of tests/extend, followed in a copy of the source: an effect, a method, an integral; and the
-# system of lib/README.md. Every backend and method either simulates the new effect, and all agree, or refuses it by
-# name.
+# extend.sh - the recipes of tests/extend, followed in a copy of the source: an effect, a method, an integral, a column of a
+# result; and the system of lib/README.md. Every backend and method either simulates the new effect, and all agree, or
+# refuses it by name.
 . "$(dirname "$0")/lib.sh"
 copy=$work/copy
 recipes=$source/tests/extend
@@ -22,6 +22,10 @@ awk -v functions="$recipes/integral_round.c" '
     { print }' "$source/lib/model/ball.c" >"$copy/lib/model/ball.c"
 cp "$recipes/effect_drag.c" "$copy/lib/model/"
 cp "$recipes/kutta38.c" "$copy/lib/method/"
+
+# The line of lib/README.md that makes a column stands behind another one.
+column=$(sed -n 's/^    FIELD("u", /&/p' "$source/lib/README.md")
+sed -i "s|^    FIELD(\"torus\", .*|&\n$column|" "$copy/lib/study/periodic/periodic_fields.c"
 
 # The system of lib/README.md: every block from "circle.c" to the end of its row compiles.
 awk '/^    \/\* circle\.c/ { on = 1 } on && /^[^ ]/ { exit } on { sub(/^    /, ""); print }' \
@@ -58,6 +62,15 @@ run 0 list methods
 grep -q '^  kutta38 ' out || fail "list methods has no kutta38"
 awk 'NF > 2 && $1 != "name" && /^  / { print $1 }' out >methods
 [ "$(wc -l <methods)" -gt 20 ] || fail "list methods has fewer than 20 rows"
+
+# the column: in the list, in the table and in JSON
+run 0 list tables
+grep -q '^    u  *rad  *where it passes its symmetry line$' out || fail "list tables has no column u"
+scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >free_ball.yaml
+run 0 periodic free_ball.yaml --period 1 -o periodic.csv
+columns periodic.csv | grep -q ',closure,u,omega1,' || fail "the table has no column u"
+run 0 periodic free_ball.yaml --period 1 --json
+grep -q '^   "u": [0-9.]*,$' out || fail "JSON has no u"
 
 cat >drag.yaml <<'EOF'
 reduced: {k: 0.5, J: [1.4, 2.1, 3.0]}
