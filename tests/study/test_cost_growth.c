@@ -48,11 +48,11 @@ static void check_growth(void)
 {
     iso_scene s = cost_plane(ctx);
     iso_cost_growth g = grow(&s, "rk8pd", 1e-9, 7);
-    gsl_test(g.count != 7 || g.end[6] != 64 * s.end || g.chaotic, "seven horizons of a regular orbit");
+    gsl_test(g.count != 7 || g.at[6].end != 64 * s.end || g.chaotic, "seven horizons of a regular orbit");
     gsl_test(!(g.power > 0.8 && g.power < 2.3), "its error grows like t^%.2f", g.power);
     gsl_test(!isnan(g.lyapunov_time), "it has no Lyapunov time");
     for (int i = 1; i < g.count; i++)
-        gsl_test(!(g.error[i] >= g.error[i - 1]), "t = %g: error %.1e, never less", g.end[i], g.error[i]);
+        gsl_test(!(g.at[i].error >= g.at[i - 1].error), "t = %g: error %.1e, never less", g.at[i].end, g.at[i].error);
     printf("time grows like t^%.2f\n", g.time_power);
     s = cost_scene(ctx, 0.3, (const double[]){1, 2, 5}, 60);
     g = grow(&s, "rk8pd", 1e-12, 5);
