@@ -107,11 +107,11 @@ static json_t *struct_of(const iso_field *fields, const void *row)
 
 static json_t *member_of(const iso_field *f, const void *row)
 {
-    if (!iso_field_is_there(f, row)) return json_null();
     if (f->type == ISO_FIELD_STRUCT) {
-        const void *inner = iso_field_struct(f, row);
-        return inner ? struct_of(f->fields, inner) : json_null();
+        const void *inner = iso_field_struct(f, row); /* NULL: without a name, its members are null */
+        return inner || !*f->name ? struct_of(f->fields, inner) : json_null();
     }
+    if (!iso_field_is_there(f, row)) return json_null();
     if (f->type == ISO_FIELD_RECORD)
         return json_columns(*(iso_record *const *)(const void *)((const char *)row + f->offset));
     if (f->type != ISO_FIELD_LIST) return values_of(f, row);
@@ -134,22 +134,25 @@ void json_put(json_t *o, const char *name, json_t *value)
     json_object_set_new(o, name, value);
 }
 
+/* A nan is there: it is null. */
+static bool is_missing(const iso_field *f, const void *row)
+{
+    iso_value v;
+    if (f->type >= ISO_FIELD_STRUCT || f->count > 1) return !iso_field_is_there(f, row);
+    iso_field_read(f, row, 0, &v);
+    return !v.there;
+}
+
 void json_add(json_t *o, const iso_field *fields, const void *row)
 {
     for (const iso_field *f = fields; f->name; f++) {
-        const bool inlined = !*f->name && f->type == ISO_FIELD_STRUCT;
         if (f->how & ISO_IN_TABLE) continue;
-        if (inlined && (!(f->how & ISO_OPTIONAL) || iso_field_is_there(f, row)))
-            json_add(o, f->fields, iso_field_struct(f, row));
-        if (inlined) continue;
+        if (f->how & ISO_OPTIONAL && is_missing(f, row)) continue;
         json_t *value = member_of(f, row);
-        if (f->how & ISO_OPTIONAL && json_is_null(value)) continue;
-        if (*f->name) {
+        if (*f->name)
             json_put(o, f->name, value);
-        } else {
-            json_object_update(o, value);
-            json_decref(value);
-        }
+        else
+            json_object_update_new(o, value);
     }
 }
 

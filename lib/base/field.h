@@ -40,7 +40,7 @@ typedef enum iso_field_type {
 enum {
     ISO_IN_TABLE = 1, /* in tables alone ...                                                           */
     ISO_IN_TREE = 2,  /* ... or in JSON alone. Neither of these bits: in both                          */
-    ISO_OPTIONAL = 4, /* JSON leaves it out where there is no value; else it has null                  */
+    ISO_OPTIONAL = 4, /* JSON leaves it out where it is not there; else it is null. A nan is there   */
     ISO_FROM_ONE = 8, /* a number that counts from 0, such as an axis, is shown from 1 on; < 0 is none */
     ISO_EMPTY = 16,   /* tables leave a nan out                                                        */
     ISO_QUOTED = 32   /* tables quote this text                                                        */

@@ -10,7 +10,8 @@ static const iso_field method_fields[] = {
     ISO_FIELD(iso_method, "method", name, "", "of integration; none: the closed solution"), ISO_FIELD_END};
 
 #define FIELD(key, member, ...) ISO_FIELD(iso_cost_cell, key, member, __VA_ARGS__)
-#define MEASURED(key, member, ...) FIELD(key, member, __VA_ARGS__, .there = is_measured, .how = ISO_EMPTY)
+#define MEASURED(key, member, ...)                                                                                   \
+    FIELD(key, member, __VA_ARGS__, .there = is_measured, .how = ISO_EMPTY | ISO_OPTIONAL)
 
 const iso_field iso_cost_cell_fields[] = {
     FIELD("backend", backend, "", "ball, point or exact", .word = iso_backend_name),
