@@ -10,7 +10,6 @@
 #include "map/section_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
-#include "orbit/scene_impl.h"
 #include "sweep/sweep_draft_impl.h"
 
 /* --- the numbers ------------------------------------------------------------------------------------------------ */

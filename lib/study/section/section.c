@@ -12,12 +12,8 @@
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
-#include "model/effects_impl.h"
-#include "model/params_impl.h"
-#include "model/system_impl.h"
-#include "orbit/description_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-#include "orbit/scene_impl.h"
 #include "study/section/section_impl.h"
 
 /* --- which section is global ------------------------------------------------------------------------------------ */
