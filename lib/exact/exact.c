@@ -13,8 +13,7 @@
 #include "base/vec3_impl.h"
 #include "exact/form_impl.h"
 #include "exact/walk_impl.h"
-#include "model/effects_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 
 static const iso_form *const forms[] = {&iso_form_rest, &iso_form_revolution, &iso_form_separated, NULL};
 

@@ -4,7 +4,7 @@
 
 #include "base/vec3_impl.h"
 #include "exact/form_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 
 typedef struct rest {
     double point[ISO_STATE];

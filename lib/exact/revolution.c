@@ -14,7 +14,7 @@
 #include "exact/form_impl.h"
 #include "exact/latitude_impl.h"
 #include "exact/series_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 
 /* Where the rates of a clock differ by more than exp(MOST_SHARP), its series has no digits
  * left where they are small. */

@@ -7,8 +7,8 @@
 #include "base/arithmetic_impl.h"
 #include "foreign/foreign_impl.h"
 #include "orbit/batch.h"
+#include "orbit/orbit_impl.h"
 #include "orbit/pool_impl.h"
-#include "orbit/scene_impl.h"
 
 /* Samples have all columns, so they take more room than the table. A thread makes them for a chunk of orbits at a time,
  * in a buffer that should stay in the cache, then copies the columns that are wanted. Fewer orbits than LEAST would

@@ -7,7 +7,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/monitor_impl.h"
 #include "foreign/foreign_impl.h"
-#include "orbit/scene_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/run.h"
 #include "study/run_times_impl.h"
 

@@ -11,7 +11,7 @@
 #include "io/scene_file.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
-#include "orbit/scene_impl.h"
+#include "orbit/orbit_impl.h"
 
 static iso_status create(iso_context *ctx, const char *name, iso_foreign_scene **scene)
 {

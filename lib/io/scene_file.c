@@ -9,8 +9,8 @@
 #include "base/arithmetic_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"
-#include "model/effects_impl.h"
-#include "orbit/scene_impl.h"
+#include "model/model_impl.h"
+#include "orbit/orbit_impl.h"
 
 enum { LARGEST_FILE = 16 << 20 };
 

@@ -7,7 +7,7 @@
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"
 #include "method/method.h"
-#include "orbit/scene_impl.h"
+#include "orbit/orbit_impl.h"
 
 enum { MAX_KEYS = 32, MAX_METHODS = 64, EFFECT_KEYS = ISO_EFFECT_NUMBERS + 2 };
 _Static_assert((int)MAX_KEYS >= (int)ISO_EFFECTS && (int)MAX_KEYS >= (int)EFFECT_KEYS, "room for all names");

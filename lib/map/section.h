@@ -53,7 +53,7 @@ static inline iso_point_motion iso_free_point(const iso_params *p, double eps)
 ISO_API int iso_section_axis(iso_point_motion m);
 
 /* Whether every orbit crosses the section of `axis` for ever: it is such an axis (of equal moments each one is), or
- * iso_section_bounds gives W[0] > 0. */
+ * W^2 > 0 wherever the point can be. */
 ISO_API bool iso_section_is_global(iso_point_motion m, int axis);
 
 /* The crossing at (l, x), as a point (M, gamma) on H = E. |x| <= 1. */

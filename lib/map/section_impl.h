@@ -28,10 +28,6 @@ void iso_section_deviations(iso_point_motion m, int axis, double l, double x, do
 void iso_section_slope(iso_point_motion m, int axis, const double point[ISO_STATE], const double deviation[ISO_STATE],
                        double slope[2]);
 
-/* The area of the whole section, the integral of 2 G dl over the part of the circle that is open. Its relative error
- * is about 1e-15 on H = 0 and for |k| >= 1/2, and below 1e-8 for |k| >= 0.05. */
-double iso_section_area(iso_point_motion m, int axis);
-
 /* The closest bounds W[0] <= W <= W[1] for all gamma where the point can be. If W^2 is 0 or less anywhere, W[0] is
  * 0. By Sturm's comparison two successive crossings are at least 2 pi/W[1] and at most 2 pi/W[0] apart
  * in s (infinity for W[0] = 0). The bounds are rounded, and an orbit can reach them: allow a rounding error. */

@@ -53,15 +53,6 @@ void iso_section_spread_prepare(iso_section_spread *s, iso_point_motion m, int a
     s->shift[1] = iso_scatter(s->shift[0]);
 }
 
-double iso_section_area(iso_point_motion m, int axis)
-{
-    iso_section_spread s;
-    if (!iso_section_is_open(m, axis, 0) && !iso_section_is_open(m, axis, ISO_PI / 2)) return 0;
-    iso_section_spread_prepare(&s, m, axis, 0);
-    const double unit = m.energy == 0 ? iso_section_momentum_at(s.k, m.eps, 0, s.largest) : 1;
-    return 8 * unit * s.part[ISO_SPREAD_STEPS];
-}
-
 /* 2^64/r and 2^64/r^2, r^3 = r + 1, to the nearest integer */
 static const uint64_t r2[2] = {0xc13fa9a902a6328f, 0x91e10da5c79e7b1d};
 

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/vec3_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 
 void iso_ball_to_point_t(const iso_params *p, const double ball[ISO_STATE], double y[ISO_STATE])
 {
@@ -39,10 +39,4 @@ void iso_point_to_ball(const iso_params *p, const double point[ISO_STATE], doubl
 double iso_ball_energy(const iso_params *p, const double ball[ISO_STATE])
 {
     return dot_diag(ball, p->J, ball) / 2;
-}
-
-double iso_point_energy(const iso_params *p, const double point[ISO_STATE])
-{
-    const double q = dot_diag(point + 3, p->J, point + 3);
-    return p->k * p->k / p->det_J * pow(q, 1 / p->k) * dot(point, point) / 2;
 }

@@ -18,10 +18,8 @@ ISO_C_BEGIN
 ISO_API void iso_ball_to_point(const iso_params *p, const double ball[ISO_STATE], double point[ISO_STATE]);
 ISO_API void iso_point_to_ball(const iso_params *p, const double point[ISO_STATE], double ball[ISO_STATE]);
 
-/* Energies: of the ball h = (w,Jw)/2, and the ball's energy of a point on the level H = 0, (k^2/det J) q^(1/k) M^2/2.
- */
+/* The ball's energy h = (w,Jw)/2. */
 ISO_API double iso_ball_energy(const iso_params *p, const double ball[ISO_STATE]);
-ISO_API double iso_point_energy(const iso_params *p, const double point[ISO_STATE]);
 
 ISO_C_END
 

@@ -14,7 +14,7 @@
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
 #include "method/sundials_vector_impl.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 
 typedef struct cvode {
     void *memory;

@@ -3,7 +3,7 @@
 
 #include "method/gsl_impl.h"
 #include "method/methods_impl.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 
 enum { RK4, RKF45, RKCK, RK8PD, MSADAMS, MSBDF, BSIMP };
 

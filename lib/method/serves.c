@@ -4,7 +4,6 @@
 
 #include "method/methods_impl.h"
 #include "model/model_impl.h"
-#include "model/system_impl.h"
 
 /* --- one check for each need --------------------------------------------------------------------------------- */
 

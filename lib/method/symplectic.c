@@ -27,7 +27,7 @@
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
 #include "model/formula_lines_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 
 /* --- coefficients ---------------------------------------------------------------------------------------------- */
 

@@ -12,9 +12,8 @@
 
 #include "base/vec3_impl.h"
 #include "model/attitude_impl.h"
-#include "model/effects_impl.h"
 #include "model/formula_impl.h"
-#include "model/params_impl.h"
+#include "model/model_impl.h"
 
 /* R v = (q0^2 - |q|^2) v + 2 (q,v) q + 2 q0 q x v */
 void iso_turn_to_space(const double Q[4], const double v[3], double in_space[3])

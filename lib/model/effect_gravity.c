@@ -14,9 +14,8 @@
 
 #include "base/vec3_impl.h"
 #include "model/attitude_impl.h"
-#include "model/effects_impl.h"
 #include "model/formula_impl.h"
-#include "model/params_impl.h"
+#include "model/model_impl.h"
 
 /* Where its numbers are. A scene states g of a body, or mgb of a reduced ball. */
 enum { MGB, UP, G = UP + 3 };

@@ -11,9 +11,7 @@
 
 #include "base/vec3_impl.h"
 #include "model/contact_impl.h"
-#include "model/effects_impl.h"
-#include "model/model.h"
-#include "model/params_impl.h"
+#include "model/model_impl.h"
 
 /* Where its number is. */
 enum { TWO_SIDED = 0 };

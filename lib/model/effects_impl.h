@@ -1,4 +1,5 @@
-/* effects_impl.h - the rows of the effect table, and what several of them use. */
+/* effects_impl.h - the effects for the rest of the library: their rows, what several of them use, and what they do.
+ * effect.c asks the rows through the table; the rows in their turn ask which other effects are on. */
 #ifndef ISO_MODEL_EFFECTS_IMPL_H
 #define ISO_MODEL_EFFECTS_IMPL_H
 

@@ -7,9 +7,7 @@
 
 #include "base/vec3_impl.h"
 #include "model/contact_impl.h"
-#include "model/effects_impl.h"
 #include "model/formula_lines_impl.h"
-#include "model/system_impl.h"
 
 _Static_assert(ISO_MAX_STATE <= 256, "a formula holds places in y in uint8_t");
 

@@ -1,5 +1,5 @@
 /* params.c - the numbers of a ball: checks them, and computes k, J and the ball's own units from them (params.h). */
-#include "model/params_impl.h"
+#include "model/model_impl.h"
 
 #include <float.h>
 #include <math.h>

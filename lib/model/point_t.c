@@ -15,7 +15,7 @@
 
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 
 /* NN of (18). Both directions compute it from gamma. From n in one direction and from gamma in the other, the two
  * would differ by a rounding error, and w would change by it at each round trip. */

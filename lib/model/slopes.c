@@ -14,10 +14,8 @@
 
 enum { KEPT = 4 }; /* two more than the highest order, 1, and 0 */
 
-#include "model/effects_impl.h"
 #include "model/model_impl.h"
 #include "model/series/recurrences_impl.h"
-#include "model/system_impl.h"
 
 bool iso_system_has_recurrences(const iso_system *s)
 {

@@ -1,5 +1,5 @@
 /* system.c - the list of the systems, their clocks, and questions about k and J (system.h). */
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 
 #include <float.h>
 #include <math.h>

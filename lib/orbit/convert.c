@@ -8,7 +8,7 @@
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "orbit/convert_impl.h"
-#include "orbit/description_impl.h"
+#include "orbit/orbit_impl.h"
 
 /* The header, and the marks of rows before the first good one. */
 static iso_status begin(iso_conversion *c, const conversion_row *r)

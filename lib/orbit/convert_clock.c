@@ -5,7 +5,7 @@
 
 #include "base/sum_impl.h"
 #include "base/vec3_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "orbit/convert_impl.h"
 
 /* Defects up to here come from rounding to ten digits, not from damage. */

@@ -5,11 +5,9 @@
 
 #include "base/vec3_impl.h"
 #include "map/state.h"
-#include "model/effects_impl.h"
-#include "model/params_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "orbit/convert_impl.h"
-#include "orbit/description_impl.h"
+#include "orbit/orbit_impl.h"
 
 /* --- states ----------------------------------------------------------------------------------------------------- */
 

@@ -7,10 +7,8 @@
 #include <stdio.h>
 
 #include "base/vec3_impl.h"
-#include "model/effects_impl.h"
-#include "model/params_impl.h"
+#include "model/model_impl.h"
 #include "orbit/convert_impl.h"
-#include "orbit/description_impl.h"
 #include "orbit/orbit_impl.h"
 
 /* Energies h of the ball, in own units. */

@@ -10,8 +10,7 @@
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section.h"
-#include "model/params_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
 
 /* --- the orbit -------------------------------------------------------------------------------------------------- */

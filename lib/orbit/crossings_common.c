@@ -8,10 +8,9 @@
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
 #include "map/state.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
-#include "orbit/scene_impl.h"
 
 /* --- the orbit -------------------------------------------------------------------------------------------------- */
 

@@ -11,7 +11,7 @@
 #include "map/section_impl.h"
 #include "map/state.h"
 #include "method/integrator_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
 #include "orbit/pool_impl.h"

@@ -1,5 +1,5 @@
 /* description.c - the # lines of a trajectory: what a record says of its ball and its effects. */
-#include "orbit/description_impl.h"
+#include "orbit/orbit_impl.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,8 +10,7 @@
 #include "base/vec3_impl.h"
 #include "map/state.h"
 #include "model/attitude_impl.h"
-#include "model/effects_impl.h"
-#include "orbit/scene_impl.h"
+#include "model/model_impl.h"
 
 void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const iso_effect_number *n)
 {

@@ -1,7 +1,7 @@
 /* description_scene.c - the # lines of a table: the scene that it is of (see description.h). */
 #include "base/arithmetic_impl.h"
 #include "base/version.h"
-#include "orbit/description_impl.h"
+#include "orbit/orbit_impl.h"
 
 iso_status iso_record_describe_start(iso_context *ctx, iso_record *r, const iso_start *start)
 {

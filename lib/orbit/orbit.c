@@ -17,10 +17,8 @@
 #include "map/state_impl.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
-#include "model/effects_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-#include "orbit/scene_impl.h"
 
 /* --- making an orbit -------------------------------------------------------------------------------------------- */
 

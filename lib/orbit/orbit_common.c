@@ -3,8 +3,7 @@
 #include <string.h>
 
 #include "base/vec3_impl.h"
-#include "model/effects_impl.h"
-#include "model/params_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 
 /* --- the numbers of a sample ------------------------------------------------------------------------------------ */

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/vec3_impl.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 
 /* One own unit of a group of columns in the caller's. */

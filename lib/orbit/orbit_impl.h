@@ -2,7 +2,7 @@
 #ifndef ISO_ORBIT_ORBIT_IMPL_H
 #define ISO_ORBIT_ORBIT_IMPL_H
 
-#include "orbit/orbit.h"
+#include "orbit/description.h"
 
 struct iso_orbit {
     iso_context *ctx;
@@ -95,5 +95,56 @@ iso_status iso_orbit_last(iso_orbit *orbit, iso_sample *sample);
 
 /* The motion of the point, own units: its coupling, and its level H, which is 0 for the point of a free ball. */
 iso_point_motion iso_orbit_motion(const iso_orbit *orbit);
+
+/* --- scenes ----------------------------------------------------------------------------------------------------- */
+
+/* The normal n at a start: that of the ball, or of the ball's image of the point. */
+void iso_start_normal(const iso_params *params, const iso_start *start, double n[3]);
+
+/* Finds the effects that are idle from this start on (iso_effects_settle). */
+void iso_start_settle(const iso_params *params, const iso_start *start, iso_effects *effects);
+
+/* The effects of a scene, settled. */
+iso_effects iso_scene_effects(const iso_scene *scene);
+
+/* Puts the scene on a level of the point's energy, (H/eps) J2^(1/k) (study/level.h); 0 is the free motion. A point keeps
+ * eps, gamma and the direction of M. A ball keeps omega and n, and gets the effect `level`, or loses it.
+ * Errors: ISO_BAD_INPUT: about "level", where the point cannot be at this gamma on this level; about "M" or
+ * "angular_velocity" at rest; about "eps", not above 0; about an effect that acts. Those of iso_orbit_create. */
+iso_status iso_scene_on_level(iso_context *ctx, iso_scene *scene, double level);
+
+/* All names, for lists of them; gives their number. */
+int iso_column_names(const char *names[ISO_TRAJECTORY_COLUMNS]);
+
+/* The effect that a column needs; ISO_EFFECTS: none. */
+iso_effect_id iso_column_effect(int column);
+
+/* Errors: ISO_BAD_INPUT about "columns" when one of the scene's needs an effect that the scene has not. */
+iso_status iso_scene_check_columns(iso_context *ctx, const iso_scene *scene);
+
+/* --- descriptions ----------------------------------------------------------------------------------------------- */
+
+/* The key of the line that states a number of an effect: "effect.number". */
+void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const iso_effect_number *number);
+
+/* Writes the start of an orbit as a scene states it: `initial.normal` and `initial.angular_velocity` of a ball,
+ * `initial.gamma` and `initial.M` of a point. */
+iso_status iso_record_describe_start(iso_context *ctx, iso_record *record, const iso_start *start);
+
+/* The six columns of a model. Errors: ISO_BAD_INPUT about "columns". */
+iso_status iso_record_find_state(iso_context *ctx, const iso_record *record, iso_model_kind model,
+                                 int columns[ISO_STATE]);
+
+/* Six numbers of a row as the start of an orbit in `model`; eps of a point, or NULL. Rows of others have few
+ * digits: `tolerance` says how far |n| (|gamma|) may be from 1, and how large a part of omega along n (of M along
+ * gamma) may be, relative to omega. A ball that twists may have any such part.
+ * Errors: ISO_BAD_INPUT: not within the tolerance (the message names one that takes the row), or no state at all. */
+iso_status iso_start_from_row(iso_context *ctx, iso_model_kind model, const double y[ISO_STATE], const double *eps,
+                              bool twists, double tolerance, iso_start *start);
+
+/* The same of a row that is not in the record: `row` has as many numbers as the record has columns. Messages do not
+ * give its place. */
+iso_status iso_record_start_at(iso_context *ctx, const iso_record *record, const iso_params *params,
+                               iso_model_kind model, const double row[], iso_start *start, iso_effects *effects);
 
 #endif

@@ -5,11 +5,8 @@
 #include "base/finite_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state_impl.h"
-#include "model/effects_impl.h"
-#include "model/params_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-#include "orbit/scene_impl.h"
 
 static void set_units(iso_orbit *o, const iso_params *p, double speed)
 {

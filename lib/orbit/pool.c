@@ -11,7 +11,7 @@
 
 #include "base/monitor_impl.h"
 #include "method/methods_impl.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 
 void iso_pool_note(iso_pool_worker *w, size_t i, iso_status status)

@@ -1,5 +1,5 @@
 /* scene.c - what a scene asks for: columns and models by their names, starts, and times. */
-#include "orbit/scene_impl.h"
+#include "orbit/orbit_impl.h"
 
 #include <math.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/place_impl.h"
 #include "base/vec3_impl.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 
 /* --- columns ---------------------------------------------------------------------------------------------------- */
 

@@ -4,9 +4,8 @@
 #include "base/vec3_impl.h"
 #include "map/level_impl.h"
 #include "map/section_impl.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-#include "orbit/scene_impl.h"
 
 static iso_status refuse_place(iso_context *ctx, const iso_point_motion m, double level, double q, const char *name)
 {

@@ -10,8 +10,7 @@
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
-#include "model/effects_impl.h"
-#include "model/params_impl.h"
+#include "model/model_impl.h"
 #include "study/analogue_impl.h"
 
 /* The largest ratio of moments of a free ball with J = 2 E - c. The least moment is a difference, and loses as

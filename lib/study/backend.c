@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "study/backend_impl.h"
 #include "study/run.h"
 

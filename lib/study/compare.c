@@ -11,7 +11,6 @@
 #include "base/vec3_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
-#include "orbit/scene_impl.h"
 
 typedef struct runner {
     iso_context *ctx;

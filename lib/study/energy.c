@@ -6,7 +6,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "orbit/description.h"
 #include "orbit/orbit_impl.h"
 #include "orbit/scene.h"

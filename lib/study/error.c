@@ -10,7 +10,7 @@
 #include "base/seconds_impl.h"
 #include "base/vec3_impl.h"
 #include "method/methods_impl.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 
 /* How far from the start the moved orbits begin, relative: far above the error of their method, but small enough that

@@ -3,8 +3,7 @@
 
 #include "map/level_impl.h"
 #include "map/state.h"
-#include "model/effects_impl.h"
-#include "model/params_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/level_impl.h"
 #include "study/refusals_impl.h"

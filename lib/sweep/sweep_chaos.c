@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "study/chaos/chaos.h"
 #include "sweep/sweep_impl.h"
 

@@ -1,5 +1,5 @@
 /* sweep_draft_impl.h - a sweep's text, as its files share it: sweep_file.c reads its keys, sweep_vary.c and
- * sweep_level.c what varies, sweep_point.c makes the points. */
+ * sweep_level.c what varies (and asks sweep_file.c for keys and whole numbers), sweep_point.c makes the points. */
 #ifndef ISO_IO_SWEEP_DRAFT_IMPL_H
 #define ISO_IO_SWEEP_DRAFT_IMPL_H
 

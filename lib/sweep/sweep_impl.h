@@ -1,7 +1,8 @@
 /* sweep_impl.h - what can be measured at the points of a sweep: one struct for each quantity.
  *
  * To add a quantity, write its struct and a line in ISO_SWEEP_LIST. The reader of sweep files, the help and the rows
- * of results know it from there.
+ * of results know it from there. sweep.c calls the quantities through this table; their files call back to note
+ * failures and names of columns.
  */
 #ifndef ISO_STUDY_SWEEP_IMPL_H
 #define ISO_STUDY_SWEEP_IMPL_H

@@ -1,7 +1,7 @@
 /* sweep_motion.c - quantities of the free ball: frequencies, the splitting of the separatrix, the rotations. */
 #include <math.h>
 
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "study/frequencies/frequencies.h"
 #include "study/periodic/periodic.h"
 #include "study/separatrix/separatrix.h"

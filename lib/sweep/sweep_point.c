@@ -4,13 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/low_discrepancy_impl.h"
 #include "base/arithmetic_impl.h"
+#include "base/low_discrepancy_impl.h"
 #include "base/number.h"
 #include "map/section_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
-#include "orbit/scene_impl.h"
 #include "sweep/sweep_draft_impl.h"
 
 /* --- the numbers ------------------------------------------------------------------------------------------------ */

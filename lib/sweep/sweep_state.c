@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "orbit/scene_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/compare.h"
 #include "study/run.h"
 #include "study/section/section.h"

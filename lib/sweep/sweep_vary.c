@@ -6,7 +6,7 @@
 
 #include "base/low_discrepancy_impl.h"
 #include "io/text_impl.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "sweep/sweep_draft_impl.h"
 
 static const double most_points = 1e12;

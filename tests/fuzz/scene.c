@@ -4,10 +4,8 @@
 
 #include "fuzz.h"
 #include "io/scene_file.h"
-#include "model/effects_impl.h"
-#include "orbit/description.h"
+#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-#include "orbit/scene_impl.h"
 
 enum { STEPS = 2000, NAME_LENGTH = 6 /* "scene:" */ };
 

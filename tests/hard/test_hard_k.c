@@ -21,7 +21,7 @@
 #include "laws.h"
 #include "map/state.h"
 #include "method/integrator_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 
 static iso_context *ctx;
 

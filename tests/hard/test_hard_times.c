@@ -7,7 +7,7 @@
 #include "base/vec3_impl.h"
 #include "hard.h"
 #include "laws.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 
 static iso_context *ctx;

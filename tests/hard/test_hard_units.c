@@ -7,7 +7,7 @@
 
 #include "base/vec3_impl.h"
 #include "hard.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "numbers.h"
 
 static iso_context *ctx;

@@ -7,7 +7,7 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "map/state.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "reduction.h"
 
 /* A(z) = (J1 - z)(J2 - z)(J3 - z) */

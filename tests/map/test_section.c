@@ -13,6 +13,7 @@
 #include "map/section_impl.h"
 #include "map/state.h"
 #include "orbit/orbit.h"
+#include "section_area.h"
 
 /* A random place of the chart; every third one is near the boundary. */
 static void place(const laws_case *c, double *l, double *x)
@@ -173,7 +174,7 @@ static void areas(void)
             if (v == 0) continue;
             const iso_params p = laws_params(1 / (2.0 * v), list[i]);
             const double closed = 4 * M_PI * sqrt(2 * eps) * pow(Jb * Jc, -v / 2.0) * legendre(v > 0 ? v - 1 : -v, z);
-            gsl_test_rel(iso_section_area(iso_free_point(&p, eps), 2), closed, (8 + 4 * abs(v)) * DBL_EPSILON,
+            gsl_test_rel(section_area(iso_free_point(&p, eps), 2), closed, (8 + 4 * abs(v)) * DBL_EPSILON,
                          "area, 1/(2k) = %d, J = %g %g", v, Jb, Jc);
         }
         const double high = fmax(Jb, Jc), modulus = sqrt((high - fmin(Jb, Jc)) / high);
@@ -181,9 +182,9 @@ static void areas(void)
                      K = gsl_sf_ellint_Kcomp(modulus, GSL_PREC_DOUBLE);
         const iso_params plane = laws_params(1, list[i]), shell = laws_params(-1, list[i]);
         /* K of a modulus near 1 is known to 1e-16/(1 - modulus) of ln */
-        gsl_test_rel(iso_section_area(iso_free_point(&plane, eps), 2), 8 * K * sqrt(2 * eps / high), 1e-11,
+        gsl_test_rel(section_area(iso_free_point(&plane, eps), 2), 8 * K * sqrt(2 * eps / high), 1e-11,
                      "area, k = 1");
-        gsl_test_rel(iso_section_area(iso_free_point(&shell, eps), 2), 8 * E * sqrt(2 * eps * high), 1e-14,
+        gsl_test_rel(section_area(iso_free_point(&shell, eps), 2), 8 * E * sqrt(2 * eps * high), 1e-14,
                      "area, k = -1");
     }
 }
@@ -200,7 +201,7 @@ static double part_below(const iso_params *p, int axis, double l)
                 : i % 2              ? 4
                                      : 2) *
                iso_section_momentum(iso_free_point(p, 1), axis, -M_PI + (l + M_PI) * i / STEPS);
-    return 2 * sum * (l + M_PI) / STEPS / 3 / iso_section_area(iso_free_point(p, 1), axis);
+    return 2 * sum * (l + M_PI) / STEPS / 3 / section_area(iso_free_point(p, 1), axis);
 }
 
 /* Part of a turn between point i and the next one, in the integral of G, is 1/r for every i: the integral is inverted
@@ -303,7 +304,7 @@ static void extremes(void)
             }
             double W[2];
             iso_section_bounds(iso_free_point(&p, 1), axis, W);
-            const double area = iso_section_area(iso_free_point(&p, 1), axis);
+            const double area = section_area(iso_free_point(&p, 1), axis);
             good = good && abs(positive - POINTS / 2) < 8 && area > 0 && isfinite(area) && isfinite(W[1]);
             gsl_test(!good, "k = %g, J of ratio 1e6, axis %d", k[i], axis + 1);
         }

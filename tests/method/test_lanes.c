@@ -6,7 +6,7 @@
 #include "effects.h"
 #include "method/integrator_impl.h"
 #include "method/taylor/lanes_impl.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "orbits.h"
 
 enum { ROWS = 4, CODES = 8 };

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "method/integrator_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "orbits.h"
 
 /* A clause of the contract: notes what it finds of one method on one orbit. */

@@ -5,8 +5,7 @@
 #include "base/random_impl.h"
 #include "length.h"
 #include "method/integrator_impl.h"
-#include "model/effects_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "orbits.h"
 
 enum { TIMES = 20, TURN = 3 };

@@ -6,7 +6,6 @@
 #include "effects.h"
 #include "length.h"
 #include "method/taylor/lanes_impl.h"
-#include "model/effects_impl.h"
 #include "model/model_impl.h"
 #include "orbits.h"
 

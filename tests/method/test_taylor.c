@@ -6,7 +6,6 @@
 #include "effects.h"
 #include "method/integrator_impl.h"
 #include "method/taylor/code_impl.h"
-#include "model/effects_impl.h"
 #include "model/model_impl.h"
 #include "orbit/orbit.h"
 #include "orbits.h"

@@ -5,7 +5,6 @@
 #include "base/random_impl.h"
 #include "effects.h"
 #include "model/contact_impl.h"
-#include "model/effects_impl.h"
 #include "model/model_impl.h"
 #include "orbits.h"
 

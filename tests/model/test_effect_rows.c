@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "orbit/scene.h"
 
 static void complete(const iso_effect *e, bool holds, const char *what)

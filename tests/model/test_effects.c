@@ -1,8 +1,6 @@
 /* The effects as the table has them: states, Jacobians, torques and their potentials, integrals, what is refused. */
 #include "effects.h"
-#include "model/effects_impl.h"
 #include "model/model_impl.h"
-#include "model/system_impl.h"
 
 #include <float.h>
 #include <string.h>

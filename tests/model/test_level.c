@@ -1,9 +1,7 @@
 /* What effects leave of the levels that motions stay on, and of the isomorphism: integrals, the energy that is lost,
  * the point's equations and energy as images of the ball's. */
 #include "effects.h"
-#include "model/effects_impl.h"
-#include "model/params_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 
 #include <float.h>
 #include <string.h>

@@ -9,7 +9,6 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "model/model_impl.h"
-#include "model/system_impl.h"
 
 /* Size of the terms that y' = f is made of, which may cancel. Ball: J^-1 (J w x w) and lambda J^-1 n, up to
  * |w|^2 max J/min J. Point: (|M|^2/k) gamma x J gamma/q, where |J gamma|^2 <= max J q. */

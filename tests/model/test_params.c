@@ -8,8 +8,7 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "model/params_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 
 static iso_context *ctx;
 

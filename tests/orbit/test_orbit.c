@@ -8,7 +8,7 @@
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit.h"
 #include "scenes.h"
 

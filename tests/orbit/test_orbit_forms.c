@@ -9,7 +9,7 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "scenes.h"
 

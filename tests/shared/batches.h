@@ -4,7 +4,7 @@
 
 #include "base/random_impl.h"
 #include "effects.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "orbit/batch.h"
 #include "orbits.h"
 

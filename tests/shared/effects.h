@@ -15,9 +15,9 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "map/state.h"
-#include "model/effects_impl.h"
-#include "model/model.h"
+#include "model/model_impl.h"
 #include "numbers.h"
+#include "poisson.h"
 
 enum {
     EFFECTS_CLASSICAL =
@@ -118,7 +118,7 @@ static inline effects_case effects_sample(const iso_system *system, const iso_pa
     const bool ball = system == &iso_system_ball;
     if (ball && subset & 1 << ISO_TWIST && !(subset & EFFECTS_STIFF))
         add_scaled(start, effects_random_sign(r, 0.2, 1) * norm(start), start + 3);
-    c.kinetic = ball ? iso_ball_energy(p, start) : iso_point_energy(p, start);
+    c.kinetic = ball ? iso_ball_energy(p, start) : poisson_hamiltonian(p, start, NULL);
     const double speed = ball ? norm(start) : sqrt(2 * c.kinetic / max3(p->J));
     f.effects = effects_random(r, p, subset, c.kinetic, speed, system->q(p, start, NULL));
     if (ball && subset & EFFECTS_STIFF) { /* hardly any spin is left */

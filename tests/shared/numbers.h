@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit.h"
 
 static inline double *number_of(const iso_effects *effects, iso_effect_id id, const char *name)

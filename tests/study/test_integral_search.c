@@ -10,8 +10,8 @@
 #include "io/scene_file.h"
 #include "laws.h"
 #include "length.h"
-#include "model/effects_impl.h"
-#include "orbit/scene_impl.h"
+#include "model/model_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/integrals/integrals.h"
 
 static iso_context *ctx;

@@ -14,7 +14,7 @@
 #include "map/level_impl.h"
 #include "map/section.h"
 #include "map/state.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit.h"
 #include "study/level.h"
 #include "study/periodic/continuation.h"

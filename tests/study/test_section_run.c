@@ -12,6 +12,7 @@
 #include "length.h"
 #include "map/section.h"
 #include "map/state.h"
+#include "poisson.h"
 #include "study/section/section.h"
 
 static iso_context *ctx;
@@ -160,7 +161,7 @@ static void check_energy(void)
                 double l, x;
                 iso_section_chart(k->result.nature.axis, point, &l, &x);
                 laws_note(&energy, fabs(iso_ball_energy(&p, ball) / h - 1), 1e-13, &p, "h");
-                laws_note(&energy, fabs(iso_point_energy(&p, point) / h - 1), 1e-12, &p, "h of the point");
+                laws_note(&energy, fabs(poisson_hamiltonian(&p, point, NULL) / h - 1), 1e-12, &p, "h of the point");
                 laws_note(&section, fabs(ball[3 + k->result.nature.axis]), 2e-13, &p, "n_a");
                 laws_note(&chart, fabs(l - k->row[i][5]) + fabs(x - k->row[i][6]), 1e-12, &p, "l, x");
             }

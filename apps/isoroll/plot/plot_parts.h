@@ -88,7 +88,7 @@ typedef struct iso_plot_curve {
     bool right;                /* it has the axis on the right */
 } iso_plot_curve;
 
-enum { ISO_PLOT_CURVES = 3, ISO_PLOT_MARKS = 20 };
+enum { ISO_PLOT_MARKS = 20 };
 
 /* Curves of a record over its column `over`. */
 typedef struct iso_plot_panel {

@@ -14,7 +14,7 @@
 #include "io/csv/csv_impl.h"
 #include "io/table_impl.h"
 #include "io/text_impl.h"
-#include "orbit/scene_impl.h"
+#include "orbit/orbit_impl.h"
 
 enum { MOST_KEYS = 4096 };
 

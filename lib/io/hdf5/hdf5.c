@@ -1,6 +1,6 @@
 /* hdf5.c - what the reader and the writer of tables as HDF5 share. */
 #include "io/hdf5/hdf5_impl.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -1,11 +1,9 @@
 /* form_impl.h - prepares a series: its terms, its numbers, and its first coefficients from a state. */
-#include "model/effects_impl.h"
-#include "model/model.h"
+#include "model/model_impl.h"
 
 enum { MOST = FINEST_ORDER, KEPT = MOST + 3 }; /* the highest order, that of the least tolerance */
 #include "method/taylor/quadrature_impl.h"
 #include "model/series/recurrences_impl.h"
-#include "model/system_impl.h"
 
 enum { SLOTS = 3 }; /* room for channels 0 to 2, also if there are fewer */
 

@@ -15,8 +15,7 @@
 
 #include "method/methods_impl.h"
 #include "method/taylor/code_impl.h"
-#include "model/effects_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 
 static const iso_taylor_code *code_of(const iso_integrator *it)
 {

@@ -4,7 +4,7 @@
  * it were rounded on the way, each step would turn the state the same way, and the phase would drift like t^2.
  */
 #include "method/taylor/step_impl.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 
 /* (a,b) - target, rounded once (algorithm Dot2 of Ogita, Rump and Oishi). */
 static inline real defect_of(const real a[], const real b[], int count, real target)

@@ -2,8 +2,7 @@
  * the Taylor method. */
 #include "method/two_point_impl.h"
 
-#include "model/effects_impl.h"
-#include "model/model.h"
+#include "model/model_impl.h"
 
 /* The macros that the series are made with. They end with this file. */
 #define NUMBER double

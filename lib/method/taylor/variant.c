@@ -39,8 +39,7 @@
 #include "method/methods_impl.h"
 #include "method/taylor/code_impl.h"
 #include "method/taylor/lanes_impl.h"
-#include "model/effects_impl.h"
-#include "model/model.h"
+#include "model/model_impl.h"
 
 #if !IS_QUAD || defined ISO_TAYLOR_HAS_QUAD
 

@@ -11,7 +11,7 @@
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/chaos/chaos_impl.h"

@@ -10,9 +10,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
-#include "model/effects_impl.h"
-#include "model/params_impl.h"
-#include "orbit/description_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/check/check_impl.h"
 

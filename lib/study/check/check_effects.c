@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/check/check_impl.h"
 

@@ -10,7 +10,7 @@
 
 #include "base/vec3_impl.h"
 #include "orbit/convert.h"
-#include "orbit/description_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/check/check_impl.h"
 
 /* Of the worst so far. */

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "study/check/check_impl.h"
 
 void iso_checker_own(const checker *c, const expectations *e, const double row[], double own[ISO_MAX_STATE])

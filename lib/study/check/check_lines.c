@@ -4,9 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "model/effects_impl.h"
-#include "model/params_impl.h"
-#include "orbit/description_impl.h"
+#include "model/model_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/check/check_impl.h"
 
 /* --- energy: h, eps, c ------------------------------------------------------------------------------------------ */

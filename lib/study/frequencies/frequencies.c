@@ -12,7 +12,7 @@
 #include "exact/coordinates_impl.h"
 #include "exact/exact_impl.h"
 #include "map/state.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "study/frequencies/frequencies_impl.h"
 
 /* --- the closed solution ---------------------------------------------------------------------------------------- */

@@ -6,7 +6,7 @@
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
-#include "model/params_impl.h"
+#include "model/model_impl.h"
 #include "orbit/batch.h"
 #include "study/integrals/integrals_impl.h"
 

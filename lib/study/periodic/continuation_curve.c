@@ -4,7 +4,7 @@
 
 #include "base/pi_impl.h"
 #include "map/level_impl.h"
-#include "model/params_impl.h"
+#include "model/model_impl.h"
 #include "study/periodic/continuation_impl.h"
 
 const char *iso_vary_name(int vary)

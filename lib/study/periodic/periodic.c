@@ -11,7 +11,7 @@
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "map/level_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "orbit/orbit.h"
 #include "study/level_impl.h"
 #include "study/periodic/hill_trace_impl.h"

@@ -12,7 +12,7 @@
 #include "base/monitor_impl.h"
 #include "base/vec3_impl.h"
 #include "method/taylor/lanes_impl.h"
-#include "model/effects_impl.h"
+#include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
 #include "study/periodic/periodic_impl.h"
 

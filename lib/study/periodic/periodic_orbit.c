@@ -8,7 +8,7 @@
 
 #include "base/pi_impl.h"
 #include "map/state.h"
-#include "model/params_impl.h"
+#include "model/model_impl.h"
 #include "orbit/pool_impl.h"
 #include "study/periodic/periodic_impl.h"
 

@@ -7,7 +7,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
-#include "model/system_impl.h"
+#include "model/model_impl.h"
 #include "orbit/batch.h"
 #include "study/section/measure_impl.h"
 

@@ -4,8 +4,7 @@
 #include "base/low_discrepancy_impl.h"
 #include "base/options_impl.h"
 #include "map/state.h"
-#include "model/effects_impl.h"
-#include "model/params_impl.h"
+#include "model/model_impl.h"
 #include "study/section/measure_impl.h"
 
 static iso_status check_options(iso_context *ctx, iso_measure_options *o)

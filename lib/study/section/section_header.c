@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "base/version.h"
-#include "orbit/description_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/section/section_impl.h"
 
 static iso_status create_header(const iso_section_walk *w, iso_record **header)
