@@ -151,6 +151,7 @@ static iso_status write_csv(iso_context *ctx, const options *o, const iso_scene 
         {.key = "exponent_turns", .number = o->exponent_turns},
         {.key = "starts", .number = o->starts},
         {.key = "seed", .number = o->seed},
+        {.key = "axis", .number = c->axis + 1},
         {.key = "tolerance", .number = isnan(o->scene.tolerance) ? scene->tolerance : o->scene.tolerance},
         {.key = "orbit 0", .text = "the scene's own; l and x are nan: it need not start on the section"},
         {.key = "nan elsewhere", .text = "not known; an orbit that was not followed has no row"},

@@ -4,8 +4,10 @@
 #include <string.h>
 
 #include "base/nearest.h"
+#include "io/table.h"
 #include "parameters.h"
 #include "plot/plot.h"
+#include "plot_table.h"
 #include "study/check/check.h"
 #include "study/energy.h"
 #include "sweep_plot.h"
@@ -191,7 +193,7 @@ static iso_status draw_file(iso_context *ctx, const options *o)
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
-    char name[2][NAME];
+    char name[2][NAME], kind[ISO_KIND_SIZE] = "";
     if (strcmp(o->output, "-") == 0)
         return complain("plot: -o FILE is missing: name a file that ends in .svg, .png or .pdf"), EXIT_USAGE;
     iso_status status = iso_plot_check_format(ctx, o->output);
@@ -202,6 +204,8 @@ static int run(iso_context *ctx, const void *options_given)
     if (sweep) return finish(ctx, plot_sweep(ctx, o->from.file, o->value, o->output));
     if (status == ISO_OK && o->value)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "plot: --value is for results of sweeps");
+    if (status == ISO_OK && !o->from.columns) iso_table_kind(o->from.file, kind);
+    if (status == ISO_OK && has_table_picture(kind)) return finish(ctx, plot_table(ctx, o->from.file, o->output));
     if (status == ISO_OK) status = names_two(o->from.columns, name) ? draw_two(ctx, o, name) : draw_file(ctx, o);
     if (status != ISO_OK && status != ISO_BAD_ARGUMENT && status != ISO_FILE_TROUBLE)
         status = name_the_file(ctx, o->from.file, status);
@@ -222,7 +226,7 @@ static const option_row rows[] = {
 const command command_plot = {
     .name = "plot",
     .argument = "[FILE]",
-    .doc = "draw a trajectory, or the result of a sweep",
+    .doc = "draw a trajectory, or any other table",
     .rows = rows,
     .defaults = &defaults,
     .size = sizeof defaults,
@@ -237,7 +241,10 @@ const command command_plot = {
                    "is not drawn.\n\n"
                    "Of a sweep: a value over the number that varies, as a curve with its error; over two numbers, as "
                    "a map; over J, as a map of J1/J3 and J2/J3 where J1 < J2 < J3. Further numbers that vary make "
-                   "several maps. k = 1 and k = -1 are marked.\n\ngnuplot draws the picture.",
+                   "several maps. k = 1 and k = -1 are marked.\n\nOther tables are drawn from their columns, without "
+                   "computing anew: sections; the starts of chaos, coloured by exponent; periodic orbits, by one "
+                   "crossing of each and its images; branches of --follow; charts; splittings.\n\ngnuplot draws "
+                   "the picture.",
     .example = "isoroll plot trajectory.csv -o trajectory.svg",
     .run = run,
 };

@@ -183,4 +183,36 @@ if has gnuplot "pictures"; then
     done
     check "words of the picture" grep -q ">seen from the side<" bowl.svg
 fi
+
+# --- every table that a command writes: from its file, the picture of its kind
+scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml
+run 0 section scene.yaml --crossings 20 --starts 3 -o section.csv
+run 0 chaos scene.yaml --turns 20 --starts 5 --csv chaos.csv
+run 0 periodic scene.yaml --period 2 -o orbits.csv
+run 0 periodic scene.yaml --period 1 --follow k=0.45:0.55 -o follow.csv
+run 0 periodic scene.yaml --chart J2 --steps 3 -o chart.csv
+run 0 splitting scene.yaml --k 0.5,0.6 --digits double -o splitting.csv
+if has gnuplot "pictures of tables"; then
+    while read -r table words; do
+        run 0 plot "$table.csv" -o "$table.svg"
+        check "the picture of $table" grep -q "$words" "$table.svg"
+    done <<'END'
+section 4 orbits
+chaos undecided
+orbits unstable
+follow place on the line
+chart least
+splitting splitting.csv: k = 0.5
+END
+    run 0 section scene.yaml --crossings 20 --starts 3 -o section.h5
+    run 0 plot section.h5 -o same.svg
+    check "a section in HDF5 gives the same picture" cmp section.svg same.svg
+fi
+sed '/^# axis/d' chaos.csv >bad.csv
+refuses 3 "the table does not say its axis" plot bad.csv -o none.svg
+sed 's/,l,x,/,l,z,/' chaos.csv >bad.csv
+refuses 3 "the table has no column 'x'" plot bad.csv -o none.svg
+grep '^#\|^orbit' orbits.csv >bad.csv
+refuses 3 "no rows" plot bad.csv -o none.svg
+check "no picture of these" test ! -e none.svg
 finish
