@@ -26,7 +26,7 @@ const iso_field iso_indication_fields[] = {
     FIELD("exponent_per_turn", per_turn, "1/turn", "the largest exponent", .column = "per_turn"),
     FIELD("error_per_turn", per_turn_error, "1/turn", "its error", .column = "per_turn_error"),
     FIELD("exponent", exponent, "1/time", "the largest exponent, in this clock", .word = clock_word),
-    FIELD("error", error, "1/time", "its error; nan: the orbit is too short to know it", .word = clock_word),
+    FIELD("error", error, "1/time", "its error; NaN: the orbit is too short to know it", .word = clock_word),
     FIELD("digits", digits, "", "digits to which the means over the two halves agree"),
     ISO_FIELD_END,
 };
@@ -38,7 +38,7 @@ const iso_field iso_indication_fields[] = {
 
 const iso_field iso_chaos_orbit_fields[] = {
     FIELD("orbit", number, "", "0: the scene's own; others that were not followed have no row"),
-    FIELD("l", l, "rad", "where it begins on the section (l, x); nan: the scene's own"),
+    FIELD("l", l, "rad", "where it begins on the section (l, x); NaN: the scene's own"),
     FIELD("x", x, "", "the other coordinate"),
     FIELD("verdict", verdict, "", "regular, chaotic or undecided, by all models", .word = verdict_word),
     FIELD("disagree", disagree, "", "1: one model says regular, the other one chaotic"),
