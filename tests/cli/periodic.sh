@@ -69,7 +69,7 @@ check "a touch of trace -2" grep -q "touch *k = 0.57775689376.*does not pass it"
 check_not "which is no period doubling" grep -q "period doubling" out
 check "a collision" grep -q "it shrinks onto the rotation about axis 1 at k = 0.65388982" out
 check "symmetry breaking" grep -q "symmetry breaking *k = 0.415374" out
-check "columns of a branch" test "$(columns f.csv)" = "branch,line,period,k,l,x,trace,event"
+check "columns of a branch" test "$(columns f.csv)" = "branch,line,period,k,l,x,trace,event,u"
 run 0 periodic b.yaml --period 2 --orbit 2 --follow k=0.4:0.6 --json
 check "JSON of a branch" grep -q '"kind": "period doubling"' out
 run 0 periodic a.yaml --period 2
@@ -109,7 +109,7 @@ run 0 periodic level.yaml --period 2 -o level.csv
 check "words say the level" grep -q "^level of the point, (H/eps) J2^(1/k): -" out
 check "so does the CSV" grep -q "^# level: $level" level.csv
 run 0 periodic level.yaml --period 2 --follow level=-0.15:-0.12 -o f.csv
-check "--follow level" test "$(columns f.csv)" = "branch,line,period,level,l,x,trace,event"
+check "--follow level" test "$(columns f.csv)" = "branch,line,period,level,l,x,trace,event,u"
 refuses 3 "must contain it" periodic level.yaml --follow level=1:2
 sed 's/0\.3/0.1/' level.yaml >low.yaml
 run 0 periodic low.yaml --period 2
@@ -123,7 +123,7 @@ check "places without a rotation" grep -q "^left out: .* an oscillation between 
 
 # --- interrupted
 if interruptible "periodic after SIGINT"; then
-    follows() { grep -q ",failure$" cut.csv 2>/dev/null; }
+    follows() { grep -q ",failure," cut.csv 2>/dev/null; }
     interrupted_when follows periodic b.yaml --period 2 --follow k=0.3:0.9 -j 1 -o cut.csv
     check "words" grep -q "interrupted: branches are missing or cut" err
     check "and the branches so far" follows

@@ -234,9 +234,9 @@ const iso_field iso_branch_row_fields[] = {
     FIELD("k", at.value, "", "what varies: k, J1, J2, J3, ratio or level, by its name"),
     FIELD("l", at.l, "rad", "a point (l, x) of the orbit on the section"),
     FIELD("x", at.x, "", "the other coordinate"),
-    FIELD("u", at.u, "rad", "its place on the line of the reversor", .how = ISO_IN_TABLE),
     FIELD("trace", at.trace, "", "trace of the derivative of the return map over the period"),
     ISO_FOUND("event", ISO_FIELD_NAME, find_event, "", "what happens there; empty: nothing", .there = is_point),
+    FIELD("u", at.u, "rad", "its place on the line of the reversor", .how = ISO_IN_TABLE),
     ISO_FIELD_END,
 };
 #undef FIELD
