@@ -79,10 +79,10 @@ static bool print_json(const options *o, const findings *f)
 {
     static const iso_field judged_fields[] = {
         ISO_STRUCT(judged, "", residual, iso_residual_fields, "what was found"),
-        ISO_FIELD(judged, "above_the_bound", above, "", "whether it is above the bound"), ISO_FIELD_END};
-    static const iso_field fields[] = {ISO_FIELD(told, "rows", rows, "", "of the file"),
-                                       ISO_FIELD(told, "passed_over", passed, "", "rows of nan"),
-                                       ISO_FIELD(told, "bound", bound, "", "of --max"),
+        ISO_MEMBER(judged, "above_the_bound", above, "", "whether it is above the bound"), ISO_FIELD_END};
+    static const iso_field fields[] = {ISO_MEMBER(told, "rows", rows, "", "of the file"),
+                                       ISO_MEMBER(told, "passed_over", passed, "", "rows of nan"),
+                                       ISO_MEMBER(told, "bound", bound, "", "of --max"),
                                        ISO_LIST(told, "residuals", list, count, judged_fields, "all"), ISO_FIELD_END};
     const iso_residuals *r = &f->residuals;
     told all = {.rows = r->rows, .passed = r->passed, .bound = o->bound, .count = r->count};

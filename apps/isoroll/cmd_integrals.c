@@ -85,9 +85,9 @@ static void print_table(const options *o, const iso_scene *scene, const iso_inte
 static bool print_json(const iso_integral_search_options *how, const iso_scene *scene, const iso_integral_search *r)
 {
     static const iso_field asked[] = {
-        ISO_FIELD(iso_integral_search_options, "degree", degree, "", "the largest, in M"),
-        ISO_FIELD(iso_integral_search_options, "turns", turns, "", "of each orbit"),
-        ISO_FIELD(iso_integral_search_options, "within", within, "", "which varies more is no integral"),
+        ISO_MEMBER(iso_integral_search_options, "degree", degree, "", "the largest, in M"),
+        ISO_MEMBER(iso_integral_search_options, "turns", turns, "", "of each orbit"),
+        ISO_MEMBER(iso_integral_search_options, "within", within, "", "which varies more is no integral"),
         ISO_FIELD_END};
     json_t *o = json_of_scene(scene, asked, how);
     json_add(o, iso_integral_search_fields, r);

@@ -35,7 +35,7 @@ bool cost_print_json(const cost_report *r)
 {
     static const iso_field fields[] = {
         ISO_STRUCT(cost_report, "", cost, iso_cost_fields, "what was measured", .pointer = true),
-        ISO_FIELD(cost_report, "want", want, "", "the error that is wanted"),
+        ISO_MEMBER(cost_report, "want", want, "", "the error that is wanted"),
         ISO_STRUCT(cost_report, "choice", choice, iso_cost_cell_fields, "the cheapest", .pointer = true),
         ISO_LIST(cost_report, "growth", growth, growths, growth_fields, "with the length"), ISO_FIELD_END};
     return json_print(json_of_scene(r->scene, fields, r));

@@ -166,8 +166,8 @@ json_t *json_of(const iso_field *fields, const void *row)
 
 json_t *json_of_scene(const iso_scene *scene, const iso_field *fields, const void *row)
 {
-    static const iso_field numbers[] = {ISO_FIELD(iso_params, "k", k, "", "geometry number"),
-                                        ISO_FIELD(iso_params, "J", J, "moment of inertia", "about the contact"),
+    static const iso_field numbers[] = {ISO_MEMBER(iso_params, "k", k, "", "geometry number"),
+                                        ISO_MEMBER(iso_params, "J", J, "moment of inertia", "about the contact"),
                                         ISO_FIELD_END};
     json_t *o = json_of(numbers, &scene->params);
     json_add(o, fields, row);

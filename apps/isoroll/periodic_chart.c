@@ -89,8 +89,8 @@ static iso_status write_rows(iso_context *ctx, const iso_scene *scene, const iso
 static bool print_json(const iso_stability_options *o, const iso_record *grid, const iso_record *borders)
 {
     static const iso_field fields[] = {
-        ISO_FIELD(iso_stability_options, "moment", moment, "", "what varies", .word = iso_chart_name),
-        ISO_FIELD(iso_stability_options, "level", level, "", "on which it is drawn"), ISO_FIELD_END};
+        ISO_MEMBER(iso_stability_options, "moment", moment, "", "what varies", .word = iso_chart_name),
+        ISO_MEMBER(iso_stability_options, "level", level, "", "on which it is drawn"), ISO_FIELD_END};
     iso_stability_options said = *o;
     if (o->moment == ISO_CHART_LEVEL) said.level = NAN;
     json_t *all = json_of(fields, &said);

@@ -95,7 +95,7 @@ void splitting_print(const splitting_report *r)
 
 bool splitting_print_json(const splitting_report *r)
 {
-    static const iso_field J[] = {ISO_FIELD(iso_params, "J", J, "moment of inertia", "about the contact"),
+    static const iso_field J[] = {ISO_MEMBER(iso_params, "J", J, "moment of inertia", "about the contact"),
                                   ISO_FIELD_END};
     json_t *o = json_of(J, &r->scene->params);
     json_add(o, iso_separatrix_table_fields, r->found);

@@ -65,9 +65,9 @@ static json_t *columns_of(const iso_record *r)
 static json_t *rows_of(const view_page *page)
 {
     static const iso_field fields[] = {
-        ISO_FIELD(view_page, "total", total, "", "rows of the file"),
-        ISO_FIELD(view_page, "every", every, "", "of which each so-and-so-many-th is here"),
-        ISO_FIELD(view_page, "between", between, "", "rows put between two"), ISO_FIELD_END};
+        ISO_MEMBER(view_page, "total", total, "", "rows of the file"),
+        ISO_MEMBER(view_page, "every", every, "", "of which each so-and-so-many-th is here"),
+        ISO_MEMBER(view_page, "between", between, "", "rows put between two"), ISO_FIELD_END};
     json_t *columns = columns_of(page->rows);
     if (page->drifts) json_object_update_new(columns, columns_of(page->drifts));
     if (page->apart) json_object_update_new(columns, columns_of(page->apart));
@@ -97,9 +97,9 @@ static json_t *counts_of(const iso_record *crossings)
 
 static json_t *section_of(const view_section *s)
 {
-    static const iso_field fields[] = {ISO_FIELD(view_section, "axis", axis, "", "of n_a = 0"),
-                                       ISO_FIELD(view_section, "total", total, "", "crossings of the file"),
-                                       ISO_FIELD(view_section, "orbits", orbits, "", "orbits of the file"),
+    static const iso_field fields[] = {ISO_MEMBER(view_section, "axis", axis, "", "of n_a = 0"),
+                                       ISO_MEMBER(view_section, "total", total, "", "crossings of the file"),
+                                       ISO_MEMBER(view_section, "orbits", orbits, "", "orbits of the file"),
                                        ISO_FIELD_END};
     json_t *o = json_object(), *list = json_array();
     json_add(o, fields, s);
@@ -131,21 +131,21 @@ static void find_dimension(const void *row, int i, iso_value *v)
     v->number = i == 0 ? d.J : i == 1 ? d.J_2k : d.w;
 }
 
-static const iso_field name_fields[] = {ISO_FIELD(iso_integral, "name", name, "", "of the integral"),
-                                        ISO_FIELD(iso_integral, "doc", doc, "", "what it is"), ISO_FIELD_END};
+static const iso_field name_fields[] = {ISO_MEMBER(iso_integral, "name", name, "", "of the integral"),
+                                        ISO_MEMBER(iso_integral, "doc", doc, "", "what it is"), ISO_FIELD_END};
 
 static const iso_field integral_fields[] = {
     ISO_STRUCT(view_integral, "", integral, name_fields, "which", .pointer = true),
-    ISO_FIELD(view_integral, "model", model, "", "ball or point", .word = iso_model_kind_name),
+    ISO_MEMBER(view_integral, "model", model, "", "ball or point", .word = iso_model_kind_name),
     ISO_FOUND("dimension", ISO_FIELD_INT, find_dimension, "", "exponents of its unit", .count = 3),
-    ISO_FIELD(view_integral, "start", start, "", "its value at the start"),
-    ISO_FIELD(view_integral, "worst", worst, "", "its largest drift"),
+    ISO_MEMBER(view_integral, "start", start, "", "its value at the start"),
+    ISO_MEMBER(view_integral, "worst", worst, "", "its largest drift"),
     ISO_FIELD_END,
 };
 
 static const iso_field note_fields[] = {{.name = "", .type = ISO_FIELD_TEXT}, ISO_FIELD_END};
 
-#define FIELD(key, member, ...) ISO_FIELD(view_page, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(view_page, key, member, __VA_ARGS__)
 
 static const iso_field page_fields[] = {
     FIELD("title", title, "", "the name of the file"),

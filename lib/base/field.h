@@ -1,8 +1,8 @@
 /* field.h - what a result holds, said once: the name, place, unit and meaning of each member of a struct.
  *
  *     static const iso_field fields[] = {
- *         ISO_FIELD(circle, "radius", radius, "length", "distance of the rim"),
- *         ISO_FIELD(circle, "centre", at, "length", "its place"),              double at[2]: centre1, centre2
+ *         ISO_MEMBER(circle, "radius", radius, "length", "distance of the rim"),
+ *         ISO_MEMBER(circle, "centre", at, "length", "its place"),              double at[2]: centre1, centre2
  *         ISO_FIELD_END,
  *     };
  *     iso_row_write(stdout, fields, &c);                                       a row of CSV
@@ -85,7 +85,7 @@ typedef struct iso_field {
 #define ISO_FIELD_END {.name = NULL}
 
 /* A member; its type and count are found. And `numbers` doubles from a member on. */
-#define ISO_FIELD(T, key, member, unit_, ...)                                                                        \
+#define ISO_MEMBER(T, key, member, unit_, ...)                                                                        \
     {.name = key, .type = ISO_TYPE_OF(((T *)0)->member), .count = ISO_COUNT_OF(((T *)0)->member),                    \
      .offset = offsetof(T, member), .unit = unit_, .doc = __VA_ARGS__}
 #define ISO_NUMBERS(T, key, member, numbers, unit_, ...)                                                             \

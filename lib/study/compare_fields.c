@@ -8,23 +8,23 @@ static const char *clock_word(int clock)
 
 /* --- one backend ------------------------------------------------------------------------------------------------- */
 
-static const iso_field system_fields[] = {ISO_FIELD(iso_system, "system", name, "", "ball or point"), ISO_FIELD_END};
-static const iso_field method_fields[] = {ISO_FIELD(iso_method, "method", name, "", "of integration"), ISO_FIELD_END};
+static const iso_field system_fields[] = {ISO_MEMBER(iso_system, "system", name, "", "ball or point"), ISO_FIELD_END};
+static const iso_field method_fields[] = {ISO_MEMBER(iso_method, "method", name, "", "of integration"), ISO_FIELD_END};
 static const iso_field integral_fields[] = {
-    ISO_FIELD(iso_integral, "name", name, "", "of the integral"),
-    ISO_FIELD(iso_integral, "doc", doc, "", "what it is"),
+    ISO_MEMBER(iso_integral, "name", name, "", "of the integral"),
+    ISO_MEMBER(iso_integral, "doc", doc, "", "what it is"),
     ISO_FIELD_END,
 };
 
 static const iso_field drift_fields[] = {
     ISO_STRUCT(iso_drift, "", system, system_fields, "of which model", .pointer = true),
     ISO_STRUCT(iso_drift, "", integral, integral_fields, "which integral", .pointer = true),
-    ISO_FIELD(iso_drift, "start", start, "", "its value at the start"),
-    ISO_FIELD(iso_drift, "drift", worst, "", "its largest relative drift"),
+    ISO_MEMBER(iso_drift, "start", start, "", "its value at the start"),
+    ISO_MEMBER(iso_drift, "drift", worst, "", "its largest relative drift"),
     ISO_FIELD_END,
 };
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_backend_run, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_backend_run, key, member, __VA_ARGS__)
 
 static const iso_field run_fields[] = {
     ISO_STRUCT(iso_backend_run, "", method, method_fields, "by which", .pointer = true),
@@ -52,7 +52,7 @@ static bool has_no_exact(const void *row)
     return !has_exact(row);
 }
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_comparison, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_comparison, key, member, __VA_ARGS__)
 #define EXACT .there = has_exact, .how = ISO_OPTIONAL
 
 const iso_field iso_comparison_fields[] = {

@@ -52,25 +52,25 @@ static bool is_yes(const void *row)
     return ((const outer *)row)->yes;
 }
 
-static const iso_field inner_fields[] = {ISO_FIELD(inner, "x", x, "", "a number"),
-                                         ISO_FIELD(inner, "y", y, "", "two numbers", .how = ISO_IN_TREE),
+static const iso_field inner_fields[] = {ISO_MEMBER(inner, "x", x, "", "a number"),
+                                         ISO_MEMBER(inner, "y", y, "", "two numbers", .how = ISO_IN_TREE),
                                          ISO_FIELD_END};
 
 static const iso_field fields[] = {
-    ISO_FIELD(outer, "real", real, "length", "a number"),
-    ISO_FIELD(outer, "short", real, "length", "the same", .digits = 3),
-    ISO_FIELD(outer, "vector", vector, "", "three numbers"),
-    ISO_FIELD(outer, "at.clock", vector, "", "the same", .word = clock_word),
-    ISO_FIELD(outer, "whole", whole, "", "an int", .column = "int"),
-    ISO_FIELD(outer, "axis", axis, "", "an axis", .how = ISO_FROM_ONE),
-    ISO_FIELD(outer, "many", many, "", "a long"),
-    ISO_FIELD(outer, "size", size, "", "a size"),
-    ISO_FIELD(outer, "yes", yes, "", "a bool"),
-    ISO_FIELD(outer, "text", text, "", "a text", .how = ISO_QUOTED),
-    ISO_FIELD(outer, "name", name, "", "a name"),
-    ISO_FIELD(outer, "colour", colour, "", "a word", .word = colour_word),
+    ISO_MEMBER(outer, "real", real, "length", "a number"),
+    ISO_MEMBER(outer, "short", real, "length", "the same", .digits = 3),
+    ISO_MEMBER(outer, "vector", vector, "", "three numbers"),
+    ISO_MEMBER(outer, "at.clock", vector, "", "the same", .word = clock_word),
+    ISO_MEMBER(outer, "whole", whole, "", "an int", .column = "int"),
+    ISO_MEMBER(outer, "axis", axis, "", "an axis", .how = ISO_FROM_ONE),
+    ISO_MEMBER(outer, "many", many, "", "a long"),
+    ISO_MEMBER(outer, "size", size, "", "a size"),
+    ISO_MEMBER(outer, "yes", yes, "", "a bool"),
+    ISO_MEMBER(outer, "text", text, "", "a text", .how = ISO_QUOTED),
+    ISO_MEMBER(outer, "name", name, "", "a name"),
+    ISO_MEMBER(outer, "colour", colour, "", "a word", .word = colour_word),
     ISO_FOUND("sum", ISO_FIELD_REAL, find_sum, "", "two sums", .count = 2),
-    ISO_FIELD(outer, "if", real, "", "a number that may not be there", .there = is_yes, .how = ISO_EMPTY),
+    ISO_MEMBER(outer, "if", real, "", "a number that may not be there", .there = is_yes, .how = ISO_EMPTY),
     ISO_STRUCT(outer, "in", in, inner_fields, "a struct"),
     ISO_STRUCT(outer, "out", out, inner_fields, "another one", .there = is_yes),
     ISO_LIST(outer, "list", list, count, inner_fields, "no column"),
@@ -177,7 +177,7 @@ static void test_functions(const outer *o)
     static const iso_field made[] = {ISO_NUMBER("double", double_of, "", "a number"),
                                      ISO_COUNT("count", double_of, "", "a whole number"),
                                      ISO_IS("yes", is_yes, "a bool"),
-                                     ISO_FIELD(outer, "when", real, "", "a member", ISO_WHEN(outer, yes)),
+                                     ISO_MEMBER(outer, "when", real, "", "a member", ISO_WHEN(outer, yes)),
                                      ISO_STRUCT(outer, "group", in, inner_fields, "a struct", ISO_WHEN(outer, yes)),
                                      ISO_FIELD_END};
     outer all = *o;

@@ -13,7 +13,7 @@ static const char *clock_word(int clock)
 
 /* --- what one model has found ------------------------------------------------------------------------------------ */
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_indication, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_indication, key, member, __VA_ARGS__)
 
 const iso_field iso_indication_fields[] = {
     FIELD("verdict", verdict, "", "regular, chaotic or undecided, by this model", .word = verdict_word),
@@ -34,7 +34,7 @@ const iso_field iso_indication_fields[] = {
 
 /* --- one orbit --------------------------------------------------------------------------------------------------- */
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_chaos_orbit, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_chaos_orbit, key, member, __VA_ARGS__)
 
 const iso_field iso_chaos_orbit_fields[] = {
     FIELD("orbit", number, "", "0: the scene's own; others that were not followed have no row"),
@@ -76,7 +76,7 @@ static double undecided_share(const void *row)
     return (double)s->undecided / (double)s->count;
 }
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_chaos_fraction, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_chaos_fraction, key, member, __VA_ARGS__)
 
 const iso_field iso_chaos_fraction_fields[] = {
     FIELD("chaotic", share, "", "the chaotic share of the section, by its area", .column = "share"),
@@ -118,11 +118,11 @@ static double turns_of(const void *row)
     return turns;
 }
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_chaos, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_chaos, key, member, __VA_ARGS__)
 #define STRUCT(key, member, fields, ...) ISO_STRUCT(iso_chaos, key, member, fields, __VA_ARGS__)
 
 static const iso_field integral_fields[] = {
-    ISO_FIELD(iso_integral, "integral", name, "", "a further integral, which excludes chaos"), ISO_FIELD_END};
+    ISO_MEMBER(iso_integral, "integral", name, "", "a further integral, which excludes chaos"), ISO_FIELD_END};
 static const iso_field section_fields[] = {FIELD("axis", axis, "", "a of n_a = 0", .how = ISO_FROM_ONE),
                                            ISO_FIELD_END};
 

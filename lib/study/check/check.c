@@ -310,9 +310,9 @@ iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const is
 }
 
 const iso_field iso_residual_fields[] = {
-    ISO_FIELD(iso_residual, "name", name, "", "of what is 0"),
-    ISO_FIELD(iso_residual, "worst", worst, "", "the largest, relative"),
-    ISO_FIELD(iso_residual, "row", row, "", "the row of the largest"),
-    ISO_FIELD(iso_residual, "of", what, "", "in words"),
+    ISO_MEMBER(iso_residual, "name", name, "", "of what is 0"),
+    ISO_MEMBER(iso_residual, "worst", worst, "", "the largest, relative"),
+    ISO_MEMBER(iso_residual, "row", row, "", "the row of the largest"),
+    ISO_MEMBER(iso_residual, "of", what, "", "in words"),
     ISO_FIELD_END,
 };

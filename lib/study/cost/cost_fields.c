@@ -7,9 +7,9 @@ static bool is_measured(const void *row)
 }
 
 static const iso_field method_fields[] = {
-    ISO_FIELD(iso_method, "method", name, "", "of integration; none: the closed solution"), ISO_FIELD_END};
+    ISO_MEMBER(iso_method, "method", name, "", "of integration; none: the closed solution"), ISO_FIELD_END};
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_cost_cell, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_cost_cell, key, member, __VA_ARGS__)
 #define MEASURED(key, member, ...)                                                                                   \
     FIELD(key, member, __VA_ARGS__, .there = is_measured, .how = ISO_EMPTY | ISO_OPTIONAL)
 
@@ -40,7 +40,7 @@ const iso_field iso_cost_cell_fields[] = {
 };
 #undef FIELD
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_cost_series, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_cost_series, key, member, __VA_ARGS__)
 
 static const iso_field series_fields[] = {
     FIELD("backend", backend, "", "ball, point or exact", .word = iso_backend_name),
@@ -53,7 +53,7 @@ static const iso_field series_fields[] = {
 };
 #undef FIELD
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_cost, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_cost, key, member, __VA_ARGS__)
 
 const iso_field iso_cost_fields[] = {
     FIELD("end", end, "time", "the last time"),
@@ -69,7 +69,7 @@ const iso_field iso_cost_fields[] = {
 };
 #undef FIELD
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_cost_horizon, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_cost_horizon, key, member, __VA_ARGS__)
 
 static const iso_field horizon_fields[] = {
     FIELD("end", end, "time", "length of the orbit"),
@@ -80,7 +80,7 @@ static const iso_field horizon_fields[] = {
 };
 #undef FIELD
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_cost_growth, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_cost_growth, key, member, __VA_ARGS__)
 
 const iso_field iso_cost_growth_fields[] = {
     ISO_LIST(iso_cost_growth, "horizons", at, count, horizon_fields, "each twice as long as the one before"),

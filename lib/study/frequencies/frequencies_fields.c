@@ -21,7 +21,7 @@ static const char *kind_word(int kind)
 
 /* --- the motion -------------------------------------------------------------------------------------------------- */
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_angle, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_angle, key, member, __VA_ARGS__)
 
 static const iso_field angle_fields[] = {
     FIELD("what", what, "", "what turns or swings"),
@@ -34,7 +34,7 @@ static const iso_field angle_fields[] = {
 };
 #undef FIELD
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_resonance, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_resonance, key, member, __VA_ARGS__)
 
 static const iso_field resonance_fields[] = {
     FIELD("p", p, "", "times the first frequency is nearly"),
@@ -47,14 +47,14 @@ static const iso_field resonance_fields[] = {
 #undef FIELD
 
 static const iso_field separatrix_fields[] = {
-    ISO_FIELD(iso_separatrix, "of", what, "", "the rotation"),
-    ISO_FIELD(iso_separatrix, "distance", distance, "", "relative distance from its separatrix"),
+    ISO_MEMBER(iso_separatrix, "of", what, "", "the rotation"),
+    ISO_MEMBER(iso_separatrix, "distance", distance, "", "relative distance from its separatrix"),
     ISO_FIELD_END,
 };
 
 /* --- the estimate ------------------------------------------------------------------------------------------------ */
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_identified_line, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_identified_line, key, member, __VA_ARGS__)
 
 static const iso_field line_fields[] = {
     FIELD("frequency", line.frequency, "rad/time", "of the line"),
@@ -65,7 +65,7 @@ static const iso_field line_fields[] = {
 };
 #undef FIELD
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_estimate, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_estimate, key, member, __VA_ARGS__)
 
 static const iso_field found_fields[] = {
     FIELD("verdict", verdict, "", "on the orbit", .word = verdict_word),
@@ -90,14 +90,14 @@ static void find_solution(const void *row, int i, iso_value *v)
     v->text = ((const iso_frequencies *)row)->estimated ? "estimated" : "closed";
 }
 
-static const iso_field name_field[] = {ISO_FIELD(iso_integral, "name", name, "", "of the integral"), ISO_FIELD_END};
+static const iso_field name_field[] = {ISO_MEMBER(iso_integral, "name", name, "", "of the integral"), ISO_FIELD_END};
 
 static bool has_integral(const void *row)
 {
     return ((const iso_frequencies *)row)->integral != NULL;
 }
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_frequencies, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_frequencies, key, member, __VA_ARGS__)
 #define LIST(key, member, count, fields, ...) ISO_LIST(iso_frequencies, key, member, count, fields, __VA_ARGS__)
 
 static const iso_field estimate_fields[] = {

@@ -14,8 +14,8 @@ static void find_parity(const void *row, int i, iso_value *v)
 }
 
 static const iso_field value_fields[] = {
-    ISO_FIELD(iso_integral_value, "value", value, "", "variation along orbits by size"),
-    ISO_FIELD(iso_integral_value, "error", error, "", "its error"),
+    ISO_MEMBER(iso_integral_value, "value", value, "", "variation along orbits by size"),
+    ISO_MEMBER(iso_integral_value, "error", error, "", "its error"),
     ISO_FOUND("parity", ISO_FIELD_INT, find_parity, "", "under gamma_i -> -gamma_i: 1 is odd", .count = 3),
     ISO_FIELD_END,
 };
@@ -28,7 +28,7 @@ static double gap_of(const void *row)
     return at->smallest / at->largest;
 }
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_integral_degree, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_integral_degree, key, member, __VA_ARGS__)
 
 static const iso_field degree_fields[] = {
     FIELD("degree", degree, "", "in M"),
@@ -52,7 +52,7 @@ static bool is_found(const void *row)
     return ((const iso_integral_known *)row)->degree > 0;
 }
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_integral_known, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_integral_known, key, member, __VA_ARGS__)
 
 static const iso_field known_fields[] = {
     FIELD("name", name, "", "its name"),
@@ -97,7 +97,7 @@ static const void *degree_of(const void *row, size_t i)
     return i < (size_t)r->degrees ? &r->at[i + 1] : NULL;
 }
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_integral_search, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_integral_search, key, member, __VA_ARGS__)
 
 const iso_field iso_integral_search_fields[] = {
     FIELD("level", level, "", "(H/eps) J2^(1/k), J2 the middle moment"),

@@ -28,7 +28,7 @@ static bool has_krein(const void *row)
     return ((const iso_multipliers *)row)->krein != 0;
 }
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_multipliers, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_multipliers, key, member, __VA_ARGS__)
 
 static const iso_field multipliers[] = {
     ISO_IS("stable", is_stable, "whether it is stable", .how = ISO_IN_TREE),
@@ -66,7 +66,7 @@ static void find_rotation_digits(const void *row, int i, iso_value *v)
     v->text = v->room;
 }
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_rotation, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_rotation, key, member, __VA_ARGS__)
 
 static const iso_field rotation_fields[] = {
     FIELD("axis", axis, "", "about which it turns", .how = ISO_FROM_ONE),
@@ -121,7 +121,7 @@ static void find_digits(const void *row, int i, iso_value *v)
     v->text = v->room;
 }
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_periodic_orbit, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_periodic_orbit, key, member, __VA_ARGS__)
 #define VECTOR(key, member, ...) ISO_NUMBERS(iso_periodic_orbit, key, member, 3, __VA_ARGS__)
 
 const iso_field iso_periodic_orbit_fields[] = {
@@ -152,7 +152,7 @@ const iso_field iso_periodic_orbit_fields[] = {
 };
 #undef FIELD
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_periodic, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_periodic, key, member, __VA_ARGS__)
 
 const iso_field iso_periodic_fields[] = {
     FIELD("level", level, "", "(H/eps) J2^(1/k), J2 the middle moment"),
@@ -184,7 +184,7 @@ static void find_event(const void *row, int i, iso_value *v)
     v->text = iso_branch_kind_name(((const iso_branch_row *)row)->event->kind);
 }
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_branch_point, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_branch_point, key, member, __VA_ARGS__)
 
 static const iso_field point_fields[] = {
     FIELD("value", value, "", "what varies: k, J1, J2, J3, ratio or level"),
@@ -195,7 +195,7 @@ static const iso_field point_fields[] = {
 };
 #undef FIELD
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_branch_event, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_branch_event, key, member, __VA_ARGS__)
 
 static const iso_field event_fields[] = {
     ISO_STRUCT(iso_branch_event, "", at, point_fields, "where"),
@@ -207,7 +207,7 @@ static const iso_field event_fields[] = {
 };
 #undef FIELD
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_branch, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_branch, key, member, __VA_ARGS__)
 
 static const iso_field branch_fields[] = {
     FIELD("period", period, "", "returns to the section"),
@@ -220,12 +220,12 @@ static const iso_field branch_fields[] = {
 #undef FIELD
 
 const iso_field iso_continuation_fields[] = {
-    ISO_FIELD(iso_continuations, "parameter", vary, "", "what varies", .word = iso_vary_name),
+    ISO_MEMBER(iso_continuations, "parameter", vary, "", "what varies", .word = iso_vary_name),
     ISO_LIST_AT(iso_continuations, "branches", branch, count, branch_fields, "of orbits"),
     ISO_FIELD_END,
 };
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_branch_row, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_branch_row, key, member, __VA_ARGS__)
 
 const iso_field iso_branch_row_fields[] = {
     FIELD("branch", number, "", "its number, from 1"),
@@ -243,7 +243,7 @@ const iso_field iso_branch_row_fields[] = {
 
 /* --- the chart --------------------------------------------------------------------------------------------------- */
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_chart_row, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_chart_row, key, member, __VA_ARGS__)
 
 const iso_field iso_chart_row_fields[] = {
     FIELD("kind", kind, "", "grid: traces at a point of the grid; border: where one of them is 2 or -2"),

@@ -21,7 +21,7 @@ static bool is_undone(const void *row)
     return ((const iso_separatrix_splitting *)row)->status == ISO_STOPPED;
 }
 
-#define FIELD(key, member, ...) ISO_FIELD(iso_separatrix_splitting, key, member, __VA_ARGS__)
+#define FIELD(key, member, ...) ISO_MEMBER(iso_separatrix_splitting, key, member, __VA_ARGS__)
 enum { AXIS = ISO_OPTIONAL | ISO_IN_TREE | ISO_FROM_ONE };
 #define FOUND(key, member, ...) FIELD(key, member, __VA_ARGS__, .there = is_found)
 #define MORE(key, member, ...) FOUND(key, member, __VA_ARGS__, .how = ISO_OPTIONAL | ISO_IN_TREE)
@@ -83,6 +83,6 @@ const iso_field iso_separatrix_table_fields[] = {
     ISO_COUNT("middle", middle_of, "", "the axis of the middle moment", .how = ISO_FROM_ONE),
     LIST("rows", row, rows, "one for each k or level"),
     LIST("zeros", zero, zeros, "zeros of m between them"),
-    ISO_FIELD(iso_separatrix_table, "lost", lost, "", "zeros that were not found"),
+    ISO_MEMBER(iso_separatrix_table, "lost", lost, "", "zeros that were not found"),
     ISO_FIELD_END,
 };
