@@ -20,7 +20,7 @@
  *
  * Option structs come from their *_defaults function; then members are set. Its member `size` is the size of the
  *   struct in the headers that the program was compiled with, so the struct can grow. 0 means: as in
- *   version 0.1. The library refuses a size that is larger than its own.
+ *   version 0.2. The library refuses a size that is larger than its own.
  *
  * Units are the caller's own, any that fit together (SI, for example). Angles are in radians. Axes are those of the
  *   body. Vectors have three numbers, states six: omega, n of the ball; M, gamma of the point.
@@ -60,6 +60,6 @@
 
 /* io: scene and trajectory files */
 #include "io/scene_file.h"
-#include "io/trajectory.h"
+#include "io/table.h"
 
 #endif

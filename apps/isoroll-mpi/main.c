@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "program.h"
+#include "command.h"
 #include "ranks.h"
 
 static ranks all; /* the command's `run` has no other way to it */

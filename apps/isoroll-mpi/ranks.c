@@ -1,29 +1,56 @@
-/* ranks.c - the ranks of MPI as the team of a sweep (see ranks.h). */
+/* ranks.c - the ranks of MPI as the team of a sweep, and what they send to each other (see ranks.h). */
 #define _GNU_SOURCE /* CPU_COUNT */
 #include "ranks.h"
 
 #include <limits.h>
 #include <sched.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "progress.h"
+#include "sweep/sweep_store_impl.h"
+
+enum { TAG = 18, WORDS = 1024 };
+
+/* Stands before the rows of a chunk, or before the words of a failure. */
+typedef struct message_head {
+    uint64_t chunk;       /* UINT64_MAX: the rank has ended */
+    int32_t status, stop; /* how it has ended; the signal that told it to, or 0 */
+} message_head;
 
 /* --- meeting ---------------------------------------------------------------------------------------------------- */
+
+/* Sleeps: longer each time, up to a millisecond. *seconds begins as 0. */
+static void pause_for(double *seconds)
+{
+    const double least = 2e-5, most = 1e-3;
+    *seconds = *seconds < least ? least : 2 * *seconds < most ? 2 * *seconds : most;
+    nanosleep(&(struct timespec){.tv_nsec = (long)(1e9 * *seconds)}, NULL);
+}
+
+/* Waits until a request is done; looks at it now and then. */
+static void wait_for(MPI_Request *request)
+{
+    double pause = 0;
+    int done;
+    while (MPI_Test(request, &done, MPI_STATUS_IGNORE), !done) pause_for(&pause);
+}
 
 void ranks_meet(ranks *r)
 {
     MPI_Request request;
     MPI_Ibarrier(r->comm, &request);
-    ranks_wait(&request);
+    wait_for(&request);
 }
 
 static void tell(ranks *r, void *numbers, size_t count)
 {
     MPI_Request request;
     MPI_Ibcast(numbers, (int)count, MPI_UINT64_T, 0, r->comm, &request);
-    ranks_wait(&request);
+    wait_for(&request);
 }
 
 /* Rank 0 says its own words at once. If it has none, the first rank with trouble says its words. */
@@ -34,13 +61,14 @@ static int agree(void *data, int result)
     r->agreed = true;
     int mine[2] = {result, result == EXIT_DONE ? INT_MIN : -r->rank}, all[2];
     MPI_Iallreduce(mine, all, 2, MPI_INT, MPI_MAX, r->comm, &request);
-    ranks_wait(&request);
+    wait_for(&request);
     if (r->rank > 0 && all[1] == -r->rank) fprintf(stderr, "isoroll: rank %d: %s\n", r->rank, complaint());
     return all[0];
 }
 
-/* A processor that n ranks may use counts as 1/n for each. */
-int ranks_threads(const ranks *r)
+/* Threads of this rank, so that all ranks of a machine use each of its processors once: one that n ranks may use
+ * counts as 1/n for each. */
+static int threads_of(const ranks *r)
 {
     MPI_Comm machine;
     cpu_set_t mine, *all;
@@ -72,7 +100,8 @@ static int64_t change_counter(ranks *r, int64_t by, MPI_Op how)
     return old;
 }
 
-void ranks_stop(ranks *r)
+/* Nobody gets a further chunk. */
+static void stop_all(ranks *r)
 {
     change_counter(r, INT64_MAX / 2, MPI_REPLACE);
 }
@@ -80,15 +109,9 @@ void ranks_stop(ranks *r)
 /* The missing chunk of this number: in the last gap that begins with it or before it. */
 static size_t chunk_of(const ranks *r, uint64_t number)
 {
-    size_t low = 0, high = r->gaps - 1;
-    while (low < high) {
-        const size_t middle = (low + high + 1) / 2;
-        if (r->gap[middle].before > number)
-            high = middle - 1;
-        else
-            low = middle;
-    }
-    return (size_t)(r->gap[low].first + (number - r->gap[low].before) * r->gap[low].step);
+    const missing *gap = r->gap + r->gaps - 1;
+    while (gap->before > number) gap--;
+    return (size_t)(gap->first + (number - gap->before) * gap->step);
 }
 
 static bool fetch(void *data, size_t *c)
@@ -96,7 +119,7 @@ static bool fetch(void *data, size_t *c)
     ranks *r = data;
     pthread_mutex_lock(&r->lock);
     const double begun = wall_seconds();
-    if (interrupted()) ranks_stop(r);
+    if (interrupted()) stop_all(r);
     const int64_t number = change_counter(r, 1, MPI_SUM);
     r->times[FETCHES]++;
     r->times[FETCH_SECONDS] += wall_seconds() - begun;
@@ -106,21 +129,122 @@ static bool fetch(void *data, size_t *c)
     return true;
 }
 
+/* --- messages to rank 0: the rows of chunks, and a last one when a rank ends ------------------------------------ */
+
+/* Returns when rank 0 takes the message. Until then this rank must be inside MPI now and then. */
+static void send(ranks *r, message_head head, size_t length)
+{
+    MPI_Request request;
+    memcpy(r->bytes, &head, sizeof head);
+    MPI_Issend(r->bytes, (int)(sizeof head + length), MPI_BYTE, 0, TAG, r->comm, &request);
+    wait_for(&request);
+}
+
+/* Other ranks: send the rows of a chunk. */
+static void send_rows(ranks *r, size_t c, const iso_sweep_rows *rows)
+{
+    const double begun = wall_seconds();
+    send(r, (message_head){.chunk = c}, iso_sweep_rows_pack(rows, r->bytes + sizeof(message_head)));
+    r->times[SENDS]++;
+    r->times[SEND_SECONDS] += wall_seconds() - begun;
+}
+
+/* Tells rank 0 that this rank has ended, and how. */
+static void send_end(ranks *r, iso_status status, const char *words)
+{
+    const size_t length = strnlen(words, WORDS);
+    const int stop = !interrupted() ? 0 : limit_is_near() ? SIGUSR1 : SIGINT;
+    memcpy(r->bytes + sizeof(message_head), words, length);
+    send(r, (message_head){.chunk = UINT64_MAX, .status = (int32_t)status, .stop = stop}, length);
+}
+
+static void note_failure(ranks *r, iso_status status)
+{
+    r->status = status;
+    stop_all(r);
+}
+
+static void take_rows(ranks *r, int from, size_t c, size_t length)
+{
+    const iso_sweep_head *head = iso_sweep_head_of(r->sweep);
+    if (r->status != ISO_OK) return; /* rows that come after a failure are thrown away */
+    const bool known = c < iso_sweep_chunks(head);
+    r->rows.first = c * head->chunk;
+    r->rows.count = known ? iso_sweep_chunk_points(head, c) : 0;
+    iso_status status;
+    if (known && iso_sweep_rows_unpack(r->bytes + sizeof(message_head), length, &r->rows))
+        status = r->source->take(r->source->data, r->ctx, c, &r->rows);
+    else
+        status = iso_context_fail(r->ctx, ISO_NUMERICAL, "", "rank %d has sent a damaged chunk", from);
+    if (status != ISO_OK) note_failure(r, status);
+}
+
+/* A signal that another rank got counts as ours: all ranks end in the same way. */
+static void take_end(ranks *r, int from, const message_head *head, size_t length)
+{
+    if (head->stop != 0 && !interrupted()) raise(head->stop);
+    if (head->status == ISO_OK || r->status != ISO_OK) return;
+    note_failure(r, iso_context_fail(r->ctx, (iso_status)head->status, "", "rank %d: %.*s", from, (int)length,
+                                     (const char *)r->bytes + sizeof *head));
+}
+
+/* Takes a message if there is one. *left: ranks that have not ended. */
+static bool take_message(ranks *r, int *left)
+{
+    MPI_Status about;
+    message_head head;
+    int there, length;
+    MPI_Iprobe(MPI_ANY_SOURCE, TAG, r->comm, &there, &about);
+    if (!there) return false;
+    const double begun = wall_seconds();
+    MPI_Get_count(&about, MPI_BYTE, &length);
+    MPI_Recv(r->bytes, length, MPI_BYTE, about.MPI_SOURCE, TAG, r->comm, MPI_STATUS_IGNORE);
+    memcpy(&head, r->bytes, sizeof head);
+    const size_t rest = (size_t)length - sizeof head;
+    if (head.chunk == UINT64_MAX)
+        take_end(r, about.MPI_SOURCE, &head, rest), --*left;
+    else
+        take_rows(r, about.MPI_SOURCE, head.chunk, rest);
+    r->times[WRITES]++;
+    r->times[BYTES] += length;
+    r->times[WRITE_SECONDS] += wall_seconds() - begun;
+    return true;
+}
+
+/* Rank 0: takes messages until every other rank has ended. */
+static void *listen_on(void *data)
+{
+    ranks *r = data;
+    bool told = false;
+    double pause = 0;
+    for (int left = r->size - 1; left > 0;) {
+        pthread_mutex_lock(&r->lock);
+        const bool there = take_message(r, &left);
+        if (interrupted() && !told) told = true, stop_all(r);
+        pthread_mutex_unlock(&r->lock);
+        if (there)
+            pause = 0;
+        else
+            pause_for(&pause);
+    }
+    return NULL;
+}
+
+/* --- a run ------------------------------------------------------------------------------------------------------ */
+
 static iso_status take(void *data, iso_context *ctx, size_t c, const iso_sweep_rows *rows)
 {
     ranks *r = data;
     iso_status status = ISO_OK;
     pthread_mutex_lock(&r->lock);
     if (r->rank > 0)
-        ranks_send(r, c, rows);
+        send_rows(r, c, rows);
     else if (r->status == ISO_OK)
         status = r->source->take(r->source->data, ctx, c, rows);
-    if (status != ISO_OK) ranks_stop(r);
+    if (status != ISO_OK) stop_all(r);
     pthread_mutex_unlock(&r->lock);
     return status;
 }
-
-/* --- a run ------------------------------------------------------------------------------------------------------ */
 
 static void no_memory(const ranks *r)
 {
@@ -191,11 +315,11 @@ static iso_status compute(ranks *r, iso_context *ctx, int threads, bool same)
 static iso_status compute_and_write(ranks *r, iso_context *ctx, int threads)
 {
     pthread_t listener;
-    if (pthread_create(&listener, NULL, ranks_listen, r) != 0) no_memory(r);
+    if (pthread_create(&listener, NULL, listen_on, r) != 0) no_memory(r);
     const iso_status status = compute(r, ctx, threads, true);
     if (status != ISO_OK) {
         pthread_mutex_lock(&r->lock);
-        ranks_stop(r);
+        stop_all(r);
         pthread_mutex_unlock(&r->lock);
     }
     pthread_join(listener, NULL);
@@ -214,7 +338,7 @@ static void print_times(ranks *r)
     MPI_Request request;
     double t[TIMES];
     MPI_Ireduce(r->times, t, TIMES, MPI_DOUBLE, MPI_SUM, 0, r->comm, &request);
-    ranks_wait(&request);
+    wait_for(&request);
     const char *wanted = getenv("ISOROLL_TIMES"); /* counts only if it is not empty */
     if (r->rank > 0 || !wanted || !*wanted) return;
     fprintf(stderr, "isoroll: %d ranks: %.0f fetches of %.2f us, %.0f messages sent in %.1f us, ", r->size,
@@ -226,8 +350,9 @@ static void print_times(ranks *r)
 static iso_status prepare(ranks *r, iso_context *ctx)
 {
     const iso_sweep_head *head = iso_sweep_head_of(r->sweep);
-    r->room = ranks_message_size(r->sweep);
-    r->bytes = r->room < INT_MAX ? malloc(r->room) : NULL;
+    const size_t rows = iso_sweep_rows_bytes(&(iso_sweep_rows){.columns = head->columns}, head->chunk);
+    const size_t room = sizeof(message_head) + (rows > WORDS ? rows : WORDS);
+    r->bytes = room < INT_MAX ? malloc(room) : NULL;
     r->ctx = iso_context_create();
     if (!r->bytes || !r->ctx) return iso_context_no_memory(ctx, "messages of a chunk");
     return r->rank > 0 ? ISO_OK : iso_sweep_rows_create(ctx, head->columns, head->chunk, &r->rows);
@@ -250,14 +375,14 @@ static iso_status run(void *data, iso_context *ctx, const iso_sweep *sweep, int 
     if (prepare(r, ctx) != ISO_OK) no_memory(r);
     if (source) list_missing(r, source);
     const bool same = share_missing(r);
-    if (threads == 0) threads = ranks_threads(r);
+    if (threads == 0) threads = threads_of(r);
     open_counter(r);
     iso_status status = ISO_OK;
     if (r->rank == 0) {
         status = compute_and_write(r, ctx, threads);
     } else {
         const iso_status mine = compute(r, ctx, threads, same);
-        ranks_send_end(r, mine, mine == ISO_OK ? "" : iso_context_message(ctx));
+        send_end(r, mine, mine == ISO_OK ? "" : iso_context_message(ctx));
     }
     ranks_meet(r);
     print_times(r);

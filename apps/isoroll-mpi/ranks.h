@@ -39,9 +39,8 @@ typedef struct ranks {
     const iso_sweep *sweep;
     const iso_sweep_source *source; /* of rank 0 */
     unsigned char *bytes;           /* one message */
-    size_t room;
-    iso_sweep_rows rows; /* of rank 0: what came */
-    iso_context *ctx;    /* of rank 0: the first failure of a rank, or of writing what came */
+    iso_sweep_rows rows;            /* of rank 0: what came */
+    iso_context *ctx;               /* of rank 0: the first failure of a rank, or of writing what came */
     iso_status status;
     double times[TIMES];
 } ranks;
@@ -51,29 +50,5 @@ void ranks_begin(ranks *r);
 
 /* Waits for all ranks without using the processor. */
 void ranks_meet(ranks *r);
-
-/* --- for ranks.c alone ------------------------------------------------------------------------------------------ */
-
-/* Threads of this rank, so that all ranks of a machine use each of its processors once. */
-int ranks_threads(const ranks *r);
-
-/* Waits until a request is done; looks at it now and then. */
-void ranks_wait(MPI_Request *request);
-
-/* Sleeps: longer each time, up to a millisecond. *seconds begins as 0. */
-void ranks_pause(double *seconds);
-
-/* rank 0: takes messages until every other rank has ended. */
-void *ranks_listen(void *r);
-
-/* Other ranks: send rows; tell rank 0 that this rank has ended, and how. */
-void ranks_send(ranks *r, size_t c, const iso_sweep_rows *rows);
-void ranks_send_end(ranks *r, iso_status status, const char *words);
-
-/* Nobody gets a further chunk. */
-void ranks_stop(ranks *r);
-
-/* Room for a message of one chunk. */
-size_t ranks_message_size(const iso_sweep *sweep);
 
 #endif

@@ -2,12 +2,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "base/number_impl.h"
 #include "parameters.h"
 #include "scene_options.h"
 #include "study/analogue.h"
 
-/* What analogue can be told. */
 typedef struct options {
     const char *file;
     double k, J[3], eps, neumann[3], energy; /* NAN: not given               */
@@ -177,9 +176,7 @@ static iso_status problem_of_scene(iso_context *ctx, const options *o, task *t)
     t->started = true;
     t->end = scene.end;
     t->rows = scene.step > 0 ? fabs(scene.end) / scene.step : 0;
-    const char *name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file;
-    if (status == ISO_OK || status == ISO_FILE_TROUBLE) return status;
-    return name_the_file(ctx, o->file, iso_scene_blame(ctx, &scene, name, status));
+    return name_the_file(ctx, o->file, iso_scene_blame(ctx, &scene, iso_text_name(o->file), status));
 }
 
 static iso_status answer(iso_context *ctx, const options *o, task *t)
@@ -217,11 +214,8 @@ static int run(iso_context *ctx, const void *options_given)
     const bool stated = problem_of_options(o, &t.problem, &usage);
     if (usage) return EXIT_USAGE;
     iso_status status = stated ? ISO_OK : problem_of_scene(ctx, o, &t);
-    stop_gently();
-    progress_begin();
-    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    begin_work(ctx, NULL);
     if (status == ISO_OK) status = answer(ctx, o, &t);
-    iso_context_set_monitor(ctx, NULL, NULL);
     return finish(ctx, status);
 }
 
@@ -237,25 +231,20 @@ static const options defaults = {.file = "-",
 static const option_row rows[] = {
     ROW("neumann", "C", "three numbers C1,C2,C3", "C1,C2,C3 of Neumann's problem V = (1/2) sum C_i gamma_i^2",
         set_vector, options, neumann),
-    ROW("k", "K", "a number", "k of the problem V = -eps (gamma, J gamma)^(-1/k)", set_number, options, k),
+    ROW("k", "K", "a number", "k of the problem V = -eps (gamma, J gamma)^(-1/k)", iso_set_number, options, k),
     ROW("J", "J1,J2,J3", "three numbers J1,J2,J3", "J of this problem", set_vector, options, J),
-    ROW("eps", "X", "a number", "eps of this problem", set_number, options, eps),
-    ROW("energy", "E", "a number", "energy of the point, M^2/2 + V (default 0)", set_number, options, energy),
-    ROW("level", NULL, NULL, "k = -1: a ball in the potential of a level, even where there is a free one", set_flag,
-        options, level),
-    ROW("mass", "M", "a positive number", "mass of the ball (default: chosen)", set_positive, options, mass),
-    ROW("radius", "B", "a positive number", "radius of the ball (default: chosen)", set_positive, options, radius),
+    ROW("eps", "X", "a number", "eps of this problem", iso_set_number, options, eps),
+    ROW("energy", "E", "a number", "energy of the point, M^2/2 + V (default 0)", iso_set_number, options, energy),
+    ROW("level", NULL, NULL, "k = -1: a ball in the potential of a level, even where there is a free one",
+        iso_set_flag, options, level),
+    ROW("mass", "M", "a positive number", "mass of the ball (default: chosen)", iso_set_positive, options, mass),
+    ROW("radius", "B", "a positive number", "radius of the ball (default: chosen)", iso_set_positive, options,
+        radius),
     ROW_END,
 };
 
 const command command_analogue = {
-    .name = "analogue",
-    .argument = "[SCENE]",
-    .doc = "find a ball that realises a problem of a point on a sphere",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, file),
+    COMMAND("analogue", "[SCENE]", "find a ball that realises a problem of a point on a sphere", file),
     .takes = FILE_SCENE,
     .description =
         "The problem is a scene of a 'point', or --neumann, or --k, --J and --eps. If the problem is a "
@@ -265,5 +254,4 @@ const command command_analogue = {
         "there is one, else k and J alone. Mass and radius that are not given are round numbers, chosen so that the "
         "angular velocity is of order one.",
     .example = "isoroll analogue --neumann 1,2,2.5 --energy 2 > ball.yaml\nisoroll compare ball.yaml",
-    .run = run,
 };

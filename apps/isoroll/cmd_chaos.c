@@ -2,20 +2,18 @@
 #include <math.h>
 #include <string.h>
 
-#include "io/output.h"
 #include "json.h"
 #include "plot/plot.h"
 #include "progress.h"
 #include "scene_options.h"
-#include "study/chaos/chaos.h"
+#include "study/chaos/chaos_impl.h"
 #include "table.h"
 
 /* What chaos can be told. */
 typedef struct options {
-    scene_options scene;           /* only its file and tolerance are used */
-    const char *axis, *csv, *plot; /* NULL: not given                      */
-    double turns, exponent_turns, starts, seed, threads;
-    iso_models models; /* ISO_SHOW_START: not given */
+    iso_chaos_request study;
+    scene_options scene;    /* only its file is used */
+    const char *csv, *plot; /* NULL: not given       */
     bool json;
 } options;
 
@@ -29,7 +27,7 @@ static void print_head(const iso_scene *scene, const iso_chaos *c)
         printf("a turn is a step of %.6g in t: no section n_a = 0 is known to be global here\n", c->turn);
     else
         printf("a turn is a return to the section n_%d = 0, n_%d increasing\n", c->axis + 1, c->axis + 1);
-    if (c->integral) printf("%s is a further integral: no orbit is chaotic\n", c->integral->name);
+    if (c->integral) printf("%s is an additional integral: no orbit is chaotic\n", c->integral->name);
     printf("\nthis orbit: %s", iso_verdict_name(c->own.verdict));
     if (c->own.disagree) printf(": ball and point disagree");
     if (c->plane >= 0) {
@@ -126,85 +124,52 @@ static void print_table(const iso_scene *scene, const iso_chaos *c)
 
 /* --- files ------------------------------------------------------------------------------------------------------ */
 
-/* The exponent per turn, from the first model whose verdict is that of the orbit; regular: 0; undecided: NaN. */
-static double exponent_of(const iso_chaos *c, const iso_chaos_orbit *o)
-{
-    if (o->verdict == ISO_REGULAR) return 0;
-    if (o->verdict == ISO_UNDECIDED) return NAN;
-    for (int m = 0; m < 2; m++)
-        if (c->with[m] && o->told[m].verdict == o->verdict) return o->told[m].per_turn;
-    return NAN;
-}
-
 /* How many of the spread starts the result has; some of them may not have been followed. */
 static size_t spread_of(const iso_chaos *c)
 {
     return c->starts < c->share.asked ? c->starts : c->share.asked;
 }
 
-/* Orbit 0 is the scene's own. Other orbits that were not followed have no row. */
-static iso_status write_csv(iso_context *ctx, const options *o, const iso_scene *scene, const iso_chaos *c,
-                            iso_output *csv)
+static void name_picture(const iso_scene *scene, const iso_chaos *c, char title[ISO_PLOT_TITLE])
 {
+    const iso_chaos_fraction *s = &c->share;
+    if (s->count > 0)
+        iso_plot_title(title, &scene->params, ": %.3g of the area is chaotic (95 %%: %.3g to %.3g), %.3g undecided",
+                       s->share, s->low, s->high, (double)s->undecided / (double)s->count);
+    else
+        iso_plot_title(title, &scene->params, ": %s", iso_verdict_name(c->own.verdict));
+}
+
+/* Orbit 0 is the scene's own. Other orbits that were not followed have no row. */
+static iso_status make_table(iso_context *ctx, const options *o, const iso_scene *scene, const iso_chaos *c,
+                             const char *title, iso_record **table)
+{
+    const iso_chaos_options *how = &o->study.how;
     const table_line lines[] = {
-        {.key = "turns", .number = o->turns},
-        {.key = "exponent_turns", .number = o->exponent_turns},
-        {.key = "starts", .number = o->starts},
-        {.key = "seed", .number = o->seed},
+        {.key = "turns", .number = (double)how->turns},
+        {.key = "exponent_turns", .number = (double)how->exponent_turns},
+        {.key = "starts", .number = (double)how->starts},
+        {.key = "seed", .number = (double)how->seed},
         {.key = "axis", .number = c->axis + 1},
-        {.key = "tolerance", .number = isnan(o->scene.tolerance) ? scene->tolerance : o->scene.tolerance},
+        {.key = "tolerance", .number = isnan(how->tolerance) ? scene->tolerance : how->tolerance},
         {.key = "orbit 0", .text = "the scene's own; l and x are nan: it need not start on the section"},
         {.key = "nan elsewhere", .text = "not known; an orbit that was not followed has no row"},
+        {.key = "title", .text = title},
         {.key = NULL}};
     iso_field fields[ISO_MOST_FIELDS];
     iso_chaos_columns(c, fields);
-    const iso_status status = table_begin(ctx, csv, "chaos", scene, lines, fields);
+    iso_status status = table_create(ctx, "chaos", scene, lines, fields, table);
     for (size_t i = 0; status == ISO_OK && i <= spread_of(c); i++) {
         const iso_chaos_orbit *orbit = i == 0 ? &c->own : &c->start[i - 1];
-        if (i == 0 || iso_chaos_followed(orbit)) iso_row_write(iso_output_stream(csv), fields, orbit);
+        if (i == 0 || iso_chaos_followed(orbit)) status = iso_columns_append(ctx, fields, orbit, *table);
     }
-    return table_end(ctx, csv, status);
-}
-
-/* Columns l, x, exponent per turn (0: regular, NaN: undecided) of the starts that were followed. */
-static iso_status draw_section(iso_context *ctx, const options *o, const iso_chaos *c, const char *title)
-{
-    static const char *const names[] = {"l", "x", "exponent"};
-    iso_record *r;
-    iso_status status = iso_record_create(ctx, 3, names, &r);
-    for (size_t i = 0; i < spread_of(c) && status == ISO_OK; i++) {
-        double *row;
-        if (!iso_chaos_followed(&c->start[i])) continue;
-        status = iso_record_append(ctx, r, &row);
-        if (status != ISO_OK) break;
-        row[0] = c->start[i].l;
-        row[1] = c->start[i].x;
-        row[2] = exponent_of(c, &c->start[i]);
-    }
-    if (status == ISO_OK) status = iso_plot_exponents(ctx, o->plot, title, c->axis, r);
-    iso_record_free(r);
     return status;
-}
-
-static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scene, const iso_chaos *c)
-{
-    const double *J = scene->params.J;
-    char title[200];
-    if (c->share.count > 0) {
-        snprintf(title, sizeof title,
-                 "k = %.6g, J = %.6g %.6g %.6g: %.3g of the area is chaotic (95 %%: %.3g to %.3g), %.3g undecided",
-                 scene->params.k, J[0], J[1], J[2], c->share.share, c->share.low, c->share.high,
-                 (double)c->share.undecided / (double)c->share.count);
-        return draw_section(ctx, o, c, title);
-    }
-    snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g: %s", scene->params.k, J[0], J[1], J[2],
-             iso_verdict_name(c->own.verdict));
-    return iso_plot_indicators(ctx, o->plot, title, c->trace[ISO_BALL], c->trace[ISO_POINT]);
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-static int report(iso_context *ctx, const options *o, const iso_scene *scene, const iso_chaos *c, iso_output *csv)
+static int report(iso_context *ctx, const options *o, const iso_scene *scene, const iso_chaos *c,
+                  iso_table_writer *csv)
 {
     int result = c->failure == ISO_OK ? EXIT_DONE : EXIT_SOME_FAILED;
     if (c->failure != ISO_OK) complain("an orbit was not followed to the end: %s", c->words);
@@ -212,34 +177,29 @@ static int report(iso_context *ctx, const options *o, const iso_scene *scene, co
         result = json_print(json_of_scene(scene, iso_chaos_fields, c)) ? result : EXIT_NUMERICAL;
     else if (!o->csv || strcmp(o->csv, "-") != 0)
         print_table(scene, c);
-    if (csv) result = worse(result, finish(ctx, write_csv(ctx, o, scene, c, csv)));
-    if (o->plot && c->plane >= 0 && c->share.count == 0)
+    char title[ISO_PLOT_TITLE];
+    iso_record *table = NULL;
+    const bool section = c->share.count > 0;
+    name_picture(scene, c, title);
+    const iso_status made = make_table(ctx, o, scene, c, title, &table);
+    result = worse(result, table_finish(ctx, csv, section ? o->plot : NULL, made, table));
+    if (o->plot && !section && c->plane >= 0)
         complain("no picture: a rotation in a principal plane is periodic, and was not followed");
-    else if (o->plot)
-        result = worse(result, finish(ctx, draw(ctx, o, scene, c)));
+    else if (o->plot && !section)
+        result = worse(
+            result, finish(ctx, iso_plot_indicators(ctx, o->plot, title, c->trace[ISO_BALL], c->trace[ISO_POINT])));
     return result;
 }
 
 /* Reads the scene and opens the files. Refuses wrong options before the work begins. */
-static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, iso_chaos_options *how,
-                          iso_output **csv)
+static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, iso_table_writer **csv)
 {
-    *how = iso_chaos_defaults();
     if (o->csv && strcmp(o->csv, "-") == 0 && o->json)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "csv",
                                 "chaos: standard output has room for one of --csv - and --json");
     iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
-    if (status == ISO_OK) status = read_axis(ctx, o->axis, &how->axis);
-    how->turns = (long)o->turns;
-    how->exponent_turns = (long)o->exponent_turns;
-    how->starts = (size_t)o->starts;
-    how->seed = (uint64_t)o->seed;
-    how->threads = as_int(o->threads);
-    how->models = o->models;
-    how->tolerance = o->scene.tolerance;
-    how->progress = progress_told;
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
-    return status == ISO_OK && o->csv ? iso_output_open(ctx, o->csv, csv) : status;
+    return status == ISO_OK && o->csv ? iso_table_writer_open(ctx, o->csv, "chaos", csv) : status;
 }
 
 static void complain_interrupted(const iso_chaos_options *how, const iso_chaos *c)
@@ -255,62 +215,41 @@ static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
     iso_scene scene = {.places = 0};
-    iso_output *csv = NULL;
+    iso_table_writer *csv = NULL;
     iso_chaos *c = NULL;
-    iso_chaos_options how;
-    iso_status status = prepare(ctx, o, &scene, &how, &csv);
+    iso_chaos_options how = o->study.how;
+    how.progress = progress_told;
+    iso_status status = prepare(ctx, o, &scene, &csv);
     if (status != ISO_OK) return finish(ctx, status);
-    stop_gently();
-    progress_begin();
-    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    begin_work(ctx, NULL);
     status = iso_chaos_run(ctx, &scene, &how, &c);
-    iso_context_set_monitor(ctx, NULL, NULL);
     progress_end();
     int result = finish_scene(ctx, &o->scene, &scene, status);
     if (status == ISO_STOPPED) complain_interrupted(&how, c);
     if (c)
         result = worse(result, report(ctx, o, &scene, c, csv));
     else
-        iso_output_close(ctx, csv, false);
+        iso_table_writer_close(ctx, csv, false);
     iso_chaos_free(c);
     return result;
 }
 
-static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .turns = 3000, .models = ISO_SHOW_START};
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET};
 
 static const option_row rows[] = {
-    ROW("turns", "N", "a whole number from 1 on",
-        "follow each orbit for at most N turns (default 3000); it ends earlier once there is a verdict", set_count,
-        options, turns),
-    ROW("exponent-turns", "N", "a whole number from 0 on",
-        "go on with a chaotic orbit until it has N turns, for its exponent; default 0: it ends with the verdict",
-        set_whole, options, exponent_turns),
-    ROW("starts", "M", "a whole number from 0 on",
-        "M more orbits of the same energy, spread evenly over the section: tells which part of it is chaotic",
-        set_whole, options, starts),
-    ROW_SEED(options, seed),
-    ROW_MODELS(options, models),
-    ROW("axis", "A", "auto, 1, 2 or 3",
-        "a turn is a return to n_A = 0, n_A increasing, which must be global; auto (default): one that is", set_text,
-        options, axis),
-    ROW_TOLERANCE(options, scene),
-    ROW_THREADS(options, threads),
+    ROWS_OF_STUDY(iso_chaos_option, 0, 8),
     ROW_PLOT(options, plot),
-    ROW_OF_FILE("csv", "FILE", "a file", "write one row for each orbit to FILE; - is standard output", set_text,
+    ROW_OF_FILE("csv", "FILE", "a file", "write one row for each orbit to FILE; - is standard output", iso_set_text,
                 options, csv, 0, OPTION_WRITES),
     ROW_JSON(options, json),
     ROW_END,
 };
 
 const command command_chaos = {
-    .name = "chaos",
-    .argument = "SCENE",
-    .doc = "tell whether an orbit is chaotic, and which part of the section is chaotic",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, scene.file),
+    COMMAND("chaos", "SCENE", "tell whether an orbit is chaotic, and which part of the section is chaotic",
+            scene.file),
     .takes = FILE_SCENE,
+    .study = &iso_chaos_study,
     .description =
         "Follows the scene's orbit from turn to turn, with two deviations beside it, until the indicators decide: "
         "regular, chaotic, or undecided after --turns. A turn is a return to a global section n_A = 0, on every "
@@ -333,5 +272,4 @@ const command command_chaos = {
     .example = "isoroll chaos scene.yaml --starts 1000 --plot chaos.png",
     .exits = "1: interrupted, or some orbits were not followed to the end\n"
              "4: the computation failed, or no memory",
-    .run = run,
 };

@@ -4,9 +4,8 @@
 
 #include "json.h"
 #include "parameters.h"
-#include "study/check/check.h"
+#include "study/check/check_impl.h"
 
-/* What check can be told. */
 typedef struct options {
     file_options from;
     double tolerance, bound; /* NAN: not given */
@@ -61,33 +60,19 @@ static void print_table(const options *o, const findings *f)
     if (json_array_size(f->unseen) > 0) print_names("not looked at:", f->unseen);
 }
 
-/* A residual, and whether it is above the bound. */
-typedef struct judged {
-    iso_residual residual;
-    bool above;
-} judged;
-
-/* All that is told. */
-typedef struct told {
-    size_t rows, passed;
-    double bound;
-    int count;
-    judged list[ISO_MAX_RESIDUALS];
-} told;
-
 static bool print_json(const options *o, const findings *f)
 {
-    static const iso_field judged_fields[] = {
-        ISO_STRUCT(judged, "", residual, iso_residual_fields, "what was found"),
-        ISO_MEMBER(judged, "above_the_bound", above, "", "whether it is above the bound"), ISO_FIELD_END};
-    static const iso_field fields[] = {ISO_MEMBER(told, "rows", rows, "", "of the file"),
-                                       ISO_MEMBER(told, "passed_over", passed, "", "rows of nan"),
-                                       ISO_MEMBER(told, "bound", bound, "", "of --max"),
-                                       ISO_LIST(told, "residuals", list, count, judged_fields, "all"), ISO_FIELD_END};
-    const iso_residuals *r = &f->residuals;
-    told all = {.rows = r->rows, .passed = r->passed, .bound = o->bound, .count = r->count};
-    for (int i = 0; i < r->count; i++) all.list[i] = (judged){r->residual[i], is_bad(o, &r->residual[i])};
-    json_t *made = json_of(fields, &all);
+    static const iso_field counts[] = {ISO_MEMBER(iso_residuals, "rows", rows, "", "of the file"),
+                                       ISO_MEMBER(iso_residuals, "passed_over", passed, "", "rows of nan"),
+                                       ISO_FIELD_END},
+                           all[] = {ISO_LIST(iso_residuals, "residuals", residual, count, iso_residual_fields, "all"),
+                                    ISO_FIELD_END};
+    json_t *made = json_of(counts, &f->residuals), *one;
+    size_t i;
+    json_put(made, "bound", json_number(o->bound));
+    json_add(made, all, &f->residuals);
+    json_array_foreach(json_object_get(made, "residuals"), i, one)
+        json_put(one, "above_the_bound", json_boolean(is_bad(o, &f->residuals.residual[i])));
     json_put(made, "not_looked_at", json_incref(f->unseen));
     return json_print(made);
 }
@@ -105,13 +90,13 @@ static void keep_name(void *data, const char *name)
 }
 
 /* Columns that are none of a trajectory never come so far that they could be compared. */
-static void keep_ignored(const iso_trajectory_reader *in, findings *f)
+static void keep_ignored(const iso_table_reader *in, findings *f)
 {
-    const char *ignored = iso_trajectory_ignored(in);
+    const char *ignored = iso_table_at(in)->ignored;
     if (ignored) keep(f, json_sprintf("other columns: %s", ignored));
 }
 
-static iso_status end_check(iso_context *ctx, iso_checking *checking, const iso_trajectory_reader *in, findings *f)
+static iso_status end_check(iso_context *ctx, iso_checking *checking, const iso_table_reader *in, findings *f)
 {
     iso_status status = iso_checking_end(checking, &f->residuals);
     if (status != ISO_OK) return status;
@@ -124,24 +109,24 @@ static iso_status end_check(iso_context *ctx, iso_checking *checking, const iso_
 
 /* Checks the rows one after the other, as they are read. A mistake in the first one is told before what the header
  * lacks. */
-static iso_status check_rows(iso_context *ctx, const options *o, iso_trajectory_reader *in, findings *f)
+static iso_status check_rows(iso_context *ctx, const options *o, iso_table_reader *in, findings *f)
 {
     double row[ISO_TRAJECTORY_COLUMNS];
     iso_params params;
     iso_checking *checking = NULL;
-    iso_record *const header = iso_trajectory_header(in);
+    iso_record *const header = iso_table_header(in);
     bool more;
     size_t passed = 0;
-    iso_status status = iso_trajectory_next(ctx, in, row, &more);
+    iso_status status = iso_table_next(ctx, in, row, &more);
     if (status == ISO_OK) status = parameters_of_file(ctx, &o->from, header, &params);
     if (status == ISO_OK)
         status = iso_checking_create(ctx, &params, header, isnan(o->tolerance) ? 1e-13 : o->tolerance, &checking);
     while (status == ISO_OK) {
-        for (; passed < iso_trajectory_passed(in); passed++) iso_checking_pass(checking);
+        for (; passed < iso_table_at(in)->passed; passed++) iso_checking_pass(checking);
         if (!more) break;
-        if (iso_trajectory_begins_orbit(in)) iso_checking_begin_orbit(checking);
+        if (iso_table_at(in)->begins_orbit) iso_checking_begin_orbit(checking);
         status = iso_checking_put(checking, row);
-        if (status == ISO_OK) status = iso_trajectory_next(ctx, in, row, &more);
+        if (status == ISO_OK) status = iso_table_next(ctx, in, row, &more);
     }
     if (status == ISO_OK) status = end_check(ctx, checking, in, f);
     iso_checking_free(checking);
@@ -162,20 +147,18 @@ static int report(const options *o, const findings *f)
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
-    iso_trajectory_reader *in = NULL;
+    iso_table_reader *in = NULL;
     findings f = {.residuals = {.rows = 0}};
     json_begin();
-    iso_status status = iso_trajectory_reader_open(ctx, o->from.file, o->from.columns, &in);
+    iso_status status = iso_table_reader_open(ctx, o->from.file, "trajectory", o->from.columns, &in);
     if (status == ISO_OK) {
-        iso_trajectory_pass_nan(in);
+        iso_table_pass_nan(in);
         progress_begin();
         status = check_rows(ctx, o, in, &f);
         progress_end();
     }
-    iso_trajectory_reader_close(in);
-    if (status != ISO_OK && status != ISO_BAD_ARGUMENT && status != ISO_FILE_TROUBLE)
-        status = name_the_file(ctx, o->from.file, status);
-    const int result = status == ISO_OK ? report(o, &f) : finish(ctx, status);
+    iso_table_reader_close(in);
+    const int result = status == ISO_OK ? report(o, &f) : finish(ctx, name_the_file(ctx, o->from.file, status));
     json_decref(f.unseen);
     return result;
 }
@@ -184,7 +167,7 @@ static const options defaults = {.from = FILE_OPTIONS_UNSET, .tolerance = NAN, .
 
 static const option_row rows[] = {
     ROW("tol", "X", "a number in " ISO_TOLERANCE_RANGE, "tolerance of the flow from row to row (default 1e-13)",
-        set_tolerance, options, tolerance),
+        iso_set_tolerance, options, tolerance),
     ROWS_OF_FILE(options, from),
     ROW("max", "X", "a number from 0 on", "exit with status 1 if a residual is larger than X", set_bound, options,
         bound),
@@ -193,13 +176,7 @@ static const option_row rows[] = {
 };
 
 const command command_check = {
-    .name = "check",
-    .argument = "[FILE]",
-    .doc = "test whether a trajectory solves its model",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, from.file),
+    COMMAND("check", "[FILE]", "test whether a trajectory solves its model", from.file),
     .takes = FILE_ROWS | FILE_ORBITS,
     .description =
         "Prints residuals: of constraints, of integrals, of every column, and of the # lines that state an energy "
@@ -213,5 +190,4 @@ const command command_check = {
         "Rows of nan, which convert writes, are passed over and counted.",
     .example = "isoroll check trajectory.csv --max 1e-9",
     .exits = "1: a residual is larger than --max",
-    .run = run,
 };

@@ -126,7 +126,7 @@ static void print_table(const iso_scene *scene, const options *o, const iso_comp
     }
 }
 
-/* --- JSON -------------------------------------------------------------------------------------------------------- */
+/* --- JSON ------------------------------------------------------------------------------------------------------- */
 
 static void put_worst(json_t *o, const iso_comparison *c, const char *where, const double worst[ISO_DIFFERENCES])
 {
@@ -170,27 +170,23 @@ static iso_status differences_drawn(iso_context *ctx, const iso_comparison *c, i
     iso_status status = iso_record_create(ctx, (size_t)(ISO_DIFFERENCES + exact), names, drawn);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(c->difference); i++) {
         const double *d = iso_record_const_row(c->difference, i);
-        double *row;
-        status = iso_record_append(ctx, *drawn, &row);
-        for (int j = 0; status == ISO_OK && j < ISO_DIFFERENCES; j++) row[j] = d[j];
-        for (int b = 0; status == ISO_OK && b < exact; b++) {
-            const double *from = iso_record_const_row(c->from_exact[b], i);
-            row[ISO_DIFFERENCES + b] = 0;
+        double row[ISO_DIFFERENCES + ISO_INTEGRATED] = {0};
+        for (int j = 0; j < ISO_DIFFERENCES; j++) row[j] = d[j];
+        for (int b = 0; b < exact; b++)
             for (int j = 1; j < ISO_DIFFERENCES; j++)
-                row[ISO_DIFFERENCES + b] = fmax(row[ISO_DIFFERENCES + b], from[j]);
-        }
+                row[ISO_DIFFERENCES + b] =
+                    fmax(row[ISO_DIFFERENCES + b], iso_record_const_row(c->from_exact[b], i)[j]);
+        status = iso_record_add(ctx, *drawn, 1, row);
     }
     return status;
 }
 
 static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scene, const iso_comparison *c)
 {
-    char title[128];
-    snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g", scene->params.k, scene->params.J[0],
-             scene->params.J[1], scene->params.J[2]);
+    char title[ISO_PLOT_TITLE];
     iso_record *drawn;
     iso_status status = differences_drawn(ctx, c, &drawn);
-    const iso_plot plot = {.title = title,
+    const iso_plot plot = {.title = iso_plot_title(title, &scene->params, "%s", ""),
                            .tolerance = scene->tolerance,
                            .ball = c->run[ISO_BALL].trajectory,
                            .point = c->run[ISO_POINT].trajectory,
@@ -207,11 +203,8 @@ static int run(iso_context *ctx, const void *options_given)
     iso_comparison *c = NULL;
     iso_status status = scene_with_options(ctx, &o->scene, &scene);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
-    stop_gently();
-    progress_begin();
-    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    begin_work(ctx, NULL);
     if (status == ISO_OK) status = iso_compare(ctx, &scene, show, NULL, &c);
-    iso_context_set_monitor(ctx, NULL, NULL);
     int result = finish_scene(ctx, &o->scene, &scene, status);
     progress_end();
     if (!c) return result;
@@ -241,25 +234,19 @@ static const option_row rows[] = {
     ROW_TOLERANCE(options, scene),
     ROW_T_END(options, scene),
     ROW_STEP(options, scene),
-    ROW("rows", "N", "a whole number from 1 on", "rows of the table to print (default 6)", set_count, options, rows),
+    ROW("rows", "N", "a whole number from 1 on", "rows of the table to print (default 6)", iso_set_count, options,
+        rows),
     ROW_PLOT(options, plot),
     ROW_JSON(options, json),
     ROW_END,
 };
 
 const command command_compare = {
-    .name = "compare",
-    .argument = "SCENE",
-    .doc = "compute an orbit by every backend and show the differences",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, scene.file),
+    COMMAND("compare", "SCENE", "compute an orbit by every backend and show the differences", scene.file),
     .takes = FILE_SCENE,
     .description =
         "The backends are ball, point and, where there is a closed solution, exact. The table shows states, "
         "clocks and integrals by each of them. Differences of states are relative to the size of the "
         "vector, those of clocks to the largest value of the clock.",
     .example = "isoroll compare scene.yaml --plot orbit.svg",
-    .run = run,
 };

@@ -2,10 +2,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "orbit/convert_impl.h"
 #include "parameters.h"
 #include "scene_options.h"
 
-/* What convert can be told. */
 typedef struct options {
     file_options from;
     const char *output;
@@ -19,28 +19,71 @@ typedef struct filter {
     iso_context *ctx;
     const options *o;
     const char *name; /* of the file, in messages */
-    iso_trajectory_reader *in;
-    iso_trajectory_writer *out;
+    iso_table_reader *in;
+    iso_table_writer *out;
+    iso_params params;
     iso_conversion *conversion;
-    size_t columns;
-    size_t unnamed; /* bad rows after the first NAMED */
+    iso_conversion_summary all; /* of the orbits before this one */
+    double orbit;               /* its number */
+    size_t marks;               /* rows of orbits without a good row, which wait for the header */
+    iso_status failure;         /* of the first such orbit */
+    iso_record *header;         /* of the result; NULL: not yet written */
+    size_t unnamed;             /* bad rows after the first NAMED */
     size_t named;
 } filter;
 
 enum { NAMED = 20 };
 
+/* One file states one energy, by lines of these names: later orbits must have that of the first. */
+static iso_status check_energy(const filter *f, const iso_record *header)
+{
+    static const char *const keys[] = {"h", "eps", "level.c"};
+    const double digits = 10 * iso_record_row_tolerance(iso_table_header(f->in));
+    for (int i = 0; i < 3; i++) {
+        double first = NAN, now = NAN;
+        iso_status status = ISO_OK;
+        iso_record_get_numbers(f->ctx, f->header, keys[i], 1, &first, &status);
+        if (status == ISO_OK) iso_record_get_numbers(f->ctx, header, keys[i], 1, &now, &status);
+        ISO_TRY(status);
+        if ((isnan(first) && isnan(now)) || fabs(now - first) <= digits * fabs(first)) continue;
+        return iso_context_fail(f->ctx, ISO_BAD_INPUT, "",
+                                "orbit %.17g has %s = %.6g, the first one %.6g: convert orbits of different energies "
+                                "one by one",
+                                f->orbit, keys[i], now, first);
+    }
+    return ISO_OK;
+}
+
+/* A row of nan for each row of orbits without a good one. */
+static iso_status put_marks(filter *f)
+{
+    for (; f->marks > 0; f->marks--) ISO_TRY(iso_table_write_row(f->ctx, f->out, NULL));
+    return ISO_OK;
+}
+
+/* A file of several orbits has the column `orbit` before the others, and one header. The time at which the first
+ * orbit begins is not that of the others. */
 static iso_status put_header(void *data, const iso_record *header)
 {
     filter *f = data;
-    f->columns = iso_record_columns(header);
-    return iso_trajectory_write_header(f->ctx, f->out, header);
+    const char *names[1 + ISO_TRAJECTORY_COLUMNS] = {"orbit"};
+    const size_t own = iso_table_at(f->in)->orbits, columns = iso_record_columns(header);
+    if (f->header) return check_energy(f, header);
+    for (size_t i = 0; i < columns; i++) names[own + i] = iso_record_name(header, i);
+    ISO_TRY(iso_record_create_like(f->ctx, header, own + columns, names, &f->header));
+    if (own) ISO_TRY(iso_record_set(f->ctx, f->header, "t0", NULL));
+    if (own) ISO_TRY(iso_record_set(f->ctx, f->header, "s0", NULL));
+    ISO_TRY(iso_table_write_header(f->ctx, f->out, f->header));
+    return put_marks(f);
 }
 
 static iso_status put_row(void *data, const double row[])
 {
     filter *f = data;
-    return row ? iso_trajectory_write_row(f->ctx, f->out, row, f->columns)
-               : iso_trajectory_write_mark(f->ctx, f->out);
+    double with_orbit[1 + ISO_TRAJECTORY_COLUMNS] = {f->orbit};
+    if (!row || !iso_table_at(f->in)->orbits) return iso_table_write_row(f->ctx, f->out, row);
+    memcpy(with_orbit + 1, row, (iso_record_columns(f->header) - 1) * sizeof *row);
+    return iso_table_write_row(f->ctx, f->out, with_orbit);
 }
 
 /* Names a bad row on stderr. After the first NAMED they are only counted. */
@@ -66,31 +109,56 @@ static iso_status put_bad(void *data, size_t line, iso_status why, const char *w
     return ISO_OK;
 }
 
+static iso_status begin_orbit(filter *f)
+{
+    const iso_conversion_target target = {put_header, put_row, put_bad, f};
+    iso_conversion_options how = iso_conversion_defaults();
+    if (!isnan(f->o->tolerance)) how.tolerance = f->o->tolerance;
+    how.shift_J = f->o->shift_J;
+    return iso_conversion_create(f->ctx, &f->params, iso_table_header(f->in), f->o->to, &how, &target,
+                                 &f->conversion);
+}
+
+/* Ends an orbit, and adds its summary to that of those before. */
+static iso_status end_orbit(filter *f)
+{
+    iso_conversion_summary one;
+    const iso_status status = iso_conversion_end(f->conversion, &one);
+    iso_conversion_free(f->conversion);
+    f->conversion = NULL;
+    iso_conversion_summary_add(&f->all, &one);
+    if (status == ISO_OK || !iso_table_at(f->in)->orbits || one.rows == 0 || one.bad < one.rows) return status;
+    f->marks += one.rows;
+    if (f->failure == ISO_OK) f->failure = status;
+    return f->header ? put_marks(f) : ISO_OK;
+}
+
 /* One row from in to out. */
 static iso_status filter_row(filter *f, double row[], bool *more)
 {
-    const iso_status status = iso_trajectory_next(f->ctx, f->in, row, more);
-    if (status == ISO_OK && *more && iso_trajectory_begins_orbit(f->in))
-        return iso_context_fail(f->ctx, ISO_BAD_INPUT, "",
-                                "line %zu: here another orbit begins; convert takes a file of one orbit",
-                                iso_trajectory_line(f->in));
-    if (status == ISO_OK) return *more ? iso_conversion_put(f->conversion, row, iso_trajectory_line(f->in)) : ISO_OK;
+    const iso_status status = iso_table_next(f->ctx, f->in, row, more);
+    if (status == ISO_OK && *more && iso_table_at(f->in)->begins_orbit) {
+        ISO_TRY(end_orbit(f));
+        ISO_TRY(begin_orbit(f));
+    }
+    if (status == ISO_OK) f->orbit = iso_table_at(f->in)->orbit;
+    if (status == ISO_OK) return *more ? iso_conversion_put(f->conversion, row, iso_table_at(f->in)->line) : ISO_OK;
     if (status != ISO_BAD_INPUT || f->o->strict) return status;
     name_bad_row(f, 0, iso_context_message(f->ctx));
     return iso_conversion_skip(f->conversion);
 }
 
-static iso_status filter_rows(filter *f, iso_conversion_summary *summary)
+static iso_status filter_rows(filter *f)
 {
     double row[ISO_TRAJECTORY_COLUMNS];
     iso_status status = ISO_OK;
     bool more = true;
-    iso_context_set_monitor(f->ctx, not_interrupted, NULL);
     while (status == ISO_OK && more && !interrupted()) status = filter_row(f, row, &more);
     if (status == ISO_OK && more) status = iso_context_stopped(f->ctx);
     iso_context_set_monitor(f->ctx, NULL, NULL);
     const bool settle = status == ISO_OK || status == ISO_STOPPED;
-    const iso_status ended = settle ? iso_conversion_end(f->conversion, summary) : status;
+    const iso_status ended = settle && f->conversion ? end_orbit(f) : status;
+    if (status == ISO_OK && ended == ISO_OK && !f->header) return f->failure;
     return status == ISO_OK ? ended : status;
 }
 
@@ -99,8 +167,8 @@ static iso_status write_clock(filter *f, const iso_conversion_summary *s)
 {
     char key[2][ISO_NAME_SIZE], text[2][160];
     if (!iso_conversion_clock_lines(s, key, text)) return ISO_OK;
-    const iso_status status = iso_trajectory_write_line(f->ctx, f->out, key[0], text[0]);
-    return status == ISO_OK ? iso_trajectory_write_line(f->ctx, f->out, key[1], text[1]) : status;
+    const iso_status status = iso_table_write_line(f->ctx, f->out, key[0], text[0]);
+    return status == ISO_OK ? iso_table_write_line(f->ctx, f->out, key[1], text[1]) : status;
 }
 
 static void report_summary(const filter *f, const iso_conversion_summary *s)
@@ -128,7 +196,7 @@ static void warn_of_lines(const filter *f, const iso_conversion_summary *s)
 
 static double largest_drift(const filter *f)
 {
-    return iso_conversion_largest_drift(f->ctx, iso_trajectory_header(f->in), f->o->from.row_tolerance);
+    return iso_conversion_largest_drift(f->ctx, iso_table_header(f->in), f->o->from.row_tolerance);
 }
 
 /* Whether all rows could be converted, and follow the equations that the file states. Says why not. */
@@ -152,18 +220,17 @@ static bool judge(const filter *f, const iso_conversion_summary *s)
     return good;
 }
 
-static int finish_filter(filter *f, iso_status status, const iso_conversion_summary *s)
+static int finish_filter(filter *f, iso_status status)
 {
+    const iso_conversion_summary *s = &f->all;
     if (status == ISO_OK || status == ISO_STOPPED) {
-        const iso_status written = f->columns > 0 ? write_clock(f, s) : ISO_OK;
+        const iso_status written = f->header ? write_clock(f, s) : ISO_OK;
         if (status == ISO_OK) status = written;
     }
     if (f->unnamed > 0) complain("%s: %zu more bad rows are not named", f->name, f->unnamed);
-    const bool keep = f->columns > 0 && (status == ISO_OK || status == ISO_STOPPED);
-    const bool has_name = status == ISO_FILE_TROUBLE || status == ISO_CLOSED_PIPE || status == ISO_BAD_ARGUMENT;
-    if (status != ISO_OK && !has_name) status = name_the_file(f->ctx, f->o->from.file, status);
-    const int result = finish(f->ctx, status);
-    const iso_status closed = iso_trajectory_close(f->ctx, f->out, keep);
+    const bool keep = f->header && (status == ISO_OK || status == ISO_STOPPED);
+    const int result = finish(f->ctx, name_the_file(f->ctx, f->o->from.file, status));
+    const iso_status closed = iso_table_writer_close(f->ctx, f->out, keep);
     if (closed != ISO_OK) return result == EXIT_DONE ? finish(f->ctx, closed) : result;
     if (status == ISO_STOPPED) complain("interrupted: %zu rows were converted", s->rows - s->bad);
     if (status != ISO_OK) return result;
@@ -172,45 +239,32 @@ static int finish_filter(filter *f, iso_status status, const iso_conversion_summ
     return judge(f, s) ? EXIT_DONE : EXIT_SOME_FAILED;
 }
 
-static iso_status open_filter(filter *f, iso_params *params)
+static iso_status open_filter(filter *f)
 {
     const options *o = f->o;
-    const iso_conversion_target target = {put_header, put_row, put_bad, f};
-    iso_conversion_options how = iso_conversion_defaults();
-    if (!isnan(o->tolerance)) how.tolerance = o->tolerance;
-    how.shift_J = o->shift_J;
-    iso_status status = iso_trajectory_reader_open(f->ctx, o->from.file, o->from.columns, &f->in);
-    if (status == ISO_OK) status = parameters_of_file(f->ctx, &o->from, iso_trajectory_header(f->in), params);
-    if (status == ISO_OK)
-        status =
-            iso_conversion_create(f->ctx, params, iso_trajectory_header(f->in), o->to, &how, &target, &f->conversion);
-    if (status != ISO_OK)
-        return status == ISO_BAD_ARGUMENT || status == ISO_FILE_TROUBLE ? status
-                                                                        : name_the_file(f->ctx, o->from.file, status);
-    if (iso_trajectory_ignored(f->in) && !o->quiet)
-        complain("%s: passed over: %s", f->name, iso_trajectory_ignored(f->in));
-    stop_gently();
-    progress_begin_rows(o->output);
-    status = iso_trajectory_open(f->ctx, o->output, &f->out);
-    if (status == ISO_OK) iso_trajectory_set_digits(f->out, o->digits);
+    iso_status status = iso_table_reader_open(f->ctx, o->from.file, "trajectory", o->from.columns, &f->in);
+    if (status == ISO_OK) status = parameters_of_file(f->ctx, &o->from, iso_table_header(f->in), &f->params);
+    if (status == ISO_OK) status = begin_orbit(f);
+    if (status != ISO_OK) return status;
+    if (iso_table_at(f->in)->ignored && !o->quiet)
+        complain("%s: passed over: %s", f->name, iso_table_at(f->in)->ignored);
+    begin_work(f->ctx, o->output);
+    status = iso_table_writer_open(f->ctx, o->output, "trajectory", &f->out);
+    if (status == ISO_OK) iso_table_set_digits(f->out, o->digits);
     return status;
 }
 
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
-    filter f = {.ctx = ctx, .o = o, .name = strcmp(o->from.file, "-") == 0 ? "<stdin>" : o->from.file};
-    iso_params params;
-    iso_conversion_summary summary = {.rows = 0};
+    filter f = {.ctx = ctx, .o = o, .name = iso_text_name(o->from.file)};
     if ((int)o->to < 0) return complain("convert: --to ball or --to point is missing"), EXIT_USAGE;
-    iso_status status = open_filter(&f, &params);
-    int result;
-    if (status == ISO_OK)
-        result = finish_filter(&f, filter_rows(&f, &summary), &summary);
-    else
-        result = finish(ctx, status);
+    const iso_status status = open_filter(&f);
+    const int result =
+        status == ISO_OK ? finish_filter(&f, filter_rows(&f)) : finish(ctx, name_the_file(ctx, o->from.file, status));
     iso_conversion_free(f.conversion);
-    iso_trajectory_reader_close(f.in);
+    iso_record_free(f.header);
+    iso_table_reader_close(f.in);
     return result;
 }
 
@@ -223,30 +277,24 @@ static const options defaults = {.from = FILE_OPTIONS_UNSET,
 
 static const option_row rows[] = {
     ROW_OF_WORDS("to", "MODEL", "ball or point", "the model to convert to: ball, point", set_target, options, to,
-                 target_word),
+                 iso_model_kind_name),
     ROW_OUTPUT(options, output),
     ROW_OF_FILE("digits", "N", "1 to 17, or hex", "significant digits of numbers, 1 to 17 (default), or hex",
                 set_digits, options, digits, 'p', OPTION_NO_FILE),
     ROW("tol", "X", "a number in " ISO_TOLERANCE_RANGE, "relative error of the other model's clock (default 1e-14)",
-        set_tolerance, options, tolerance),
+        iso_set_tolerance, options, tolerance),
     ROWS_OF_FILE(options, from),
     ROW("max-defect", "X", "a number from 0 on",
         "exit with status 1 if a row is farther than X from the orbit before it", set_bound, options, max_defect),
-    ROW("shift-J", NULL, NULL, "k = -1: a point off H = 0 becomes a free ball with moments J + E/eps", set_flag,
+    ROW("shift-J", NULL, NULL, "k = -1: a point off H = 0 becomes a free ball with moments J + E/eps", iso_set_flag,
         options, shift_J),
-    ROW("strict", NULL, NULL, "stop at the first bad row", set_flag, options, strict),
-    ROW("quiet", NULL, NULL, "print no summary on stderr", set_flag, options, quiet),
+    ROW("strict", NULL, NULL, "stop at the first bad row", iso_set_flag, options, strict),
+    ROW("quiet", NULL, NULL, "print no summary on stderr", iso_set_flag, options, quiet),
     ROW_END,
 };
 
 const command command_convert = {
-    .name = "convert",
-    .argument = "[FILE]",
-    .doc = "convert a trajectory of one model into one of the other",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, from.file),
+    COMMAND("convert", "[FILE]", "convert a trajectory of one model into one of the other", from.file),
     .takes = FILE_ROWS,
     .description =
         "A filter: row by row, in constant memory. It reads files of other programs, too. k, J and h or eps come "
@@ -254,6 +302,8 @@ const command command_convert = {
         "States are mapped by (18) of the paper. The clock of the other model, unless the file has it, is computed "
         "from the rows by two-point Taylor quadrature to --tol. Where the rows are too far apart it is integrated. "
         "It is 0 at the first row.\n\n"
+        "A file may have several orbits of one energy, told apart by a column `orbit`, such as a section with "
+        "states. They are converted one after the other. Each begins with the other clock at 0.\n\n"
         "A row that cannot be converted becomes a row of nan. The first 20 are named, the others are counted. Rows "
         "with few digits need a --row-tolerance.\n\n"
         "If the # line h, eps or level.c does not fit the first row, beyond rounding, a message names it, and the "
@@ -262,5 +312,4 @@ const command command_convert = {
         "becomes a free ball.",
     .example = "isoroll convert --to point ball.csv -o point.csv",
     .exits = "1: a row was bad, or the rows do not lie on one orbit",
-    .run = run,
 };

@@ -4,9 +4,10 @@
 #include <string.h>
 
 #include "cost_report.h"
-#include "io/output.h"
 #include "plot/plot.h"
 #include "scene_options.h"
+#include "study/cost/cost_impl.h"
+#include "table.h"
 
 /* What cost can be told. */
 typedef struct options {
@@ -74,61 +75,6 @@ static void grow(iso_context *ctx, const options *o, const iso_cost_series *cons
     }
 }
 
-/* --- the picture ------------------------------------------------------------------------------------------------ */
-
-enum { NAMED = 6 }; /* so many methods of each backend have a name in the picture */
-
-/* Whether the picture names a line: one of the first of its backend, or of a method that is named already. */
-static bool has_name(const iso_plot_work *work, int in_panel, int *names, const char *name)
-{
-    for (int s = 0; s < work->count; s++)
-        if (work->series[s].name && strcmp(work->series[s].name, name) == 0) return true;
-    return in_panel < NAMED && (*names)++ < ISO_PLOT_NAMES;
-}
-
-/* Adds the lines of one backend, the fastest first. `error` and `seconds` hold the numbers of all cells. */
-static void add_panel(const iso_cost *cost, const iso_cost_series *const line[], iso_backend backend,
-                      const double *error, const double *seconds, iso_plot_work *work, iso_plot_series *series,
-                      int *names)
-{
-    int in_panel = 0;
-    for (int l = 0; l < cost->lines && work->count < ISO_PLOT_SERIES; l++) {
-        const iso_cost_series *one = line[l];
-        if (!one->method || one->backend != backend) continue;
-        const bool named = has_name(work, in_panel++, names, one->method->name);
-        series[work->count++] = (iso_plot_series){.panel = iso_backend_name((int)backend),
-                                                  .name = named ? one->method->name : NULL,
-                                                  .count = one->count,
-                                                  .error = error + one->first,
-                                                  .seconds = seconds + one->first};
-    }
-}
-
-static iso_status draw(iso_context *ctx, const options *o, const iso_cost_series *const line[], const cost_report *r)
-{
-    const iso_params *p = &r->scene->params;
-    const iso_cost *cost = r->cost;
-    char title[128];
-    snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g, %s = %.6g, about %.3g turns", p->k, p->J[0], p->J[1],
-             p->J[2], r->scene->start.model == ISO_BALL ? "t" : "s", cost->end, cost->turns);
-    iso_plot_series series[ISO_PLOT_SERIES];
-    iso_plot_work work = {.title = title, .series = series, .closed = {NAN, NAN}, .uncertainty = cost->uncertainty};
-    double *error = calloc(2 * (size_t)cost->cells + 1, sizeof *error), *seconds = error + cost->cells;
-    int names = 0;
-    if (!error) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to draw");
-    for (int i = 0; i < cost->cells; i++) {
-        const iso_cost_cell *c = &cost->cell[i];
-        error[i] = iso_cost_is_measured(c) ? c->error : (double)NAN;
-        seconds[i] = c->total;
-        if (!c->method) work.closed[0] = error[i], work.closed[1] = seconds[i];
-    }
-    add_panel(cost, line, ISO_BACKEND_BALL, error, seconds, &work, series, &names);
-    add_panel(cost, line, ISO_BACKEND_POINT, error, seconds, &work, series, &names);
-    const iso_status status = iso_plot_cost(ctx, o->plot, &work);
-    free(error);
-    return status;
-}
-
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
 /* Prints the choice for --want as options of `run`. The error and time to expect go to stderr. */
@@ -155,24 +101,24 @@ static int print_report(const options *o, const iso_cost_series *const line[], c
 }
 
 /* Prints and draws what was asked for. */
-static int report(iso_context *ctx, const options *o, cost_report *r, iso_output *csv)
+static int report(iso_context *ctx, const options *o, cost_report *r, iso_table_writer *csv)
 {
     const iso_cost_series **line = cost_sort_lines(r->cost);
-    if (!line) return complain("out of memory"), iso_output_close(ctx, csv, false), EXIT_NUMERICAL;
+    if (!line) return complain("out of memory"), iso_table_writer_close(ctx, csv, false), EXIT_NUMERICAL;
     if (o->horizons > 0 && r->cost->complete) grow(ctx, o, line, r);
     progress_end();
     int result = print_report(o, line, r);
-    if (csv) result = worse(result, finish(ctx, cost_write_csv(ctx, r, csv)));
-    if (o->plot && cost_count(r->cost, iso_cost_is_measured) > 0)
-        result = worse(result, finish(ctx, draw(ctx, o, line, r)));
-    else if (o->plot)
-        complain("no picture: nothing has been measured");
+    iso_record *table = NULL;
+    const bool measured = cost_count(r->cost, iso_cost_is_measured) > 0;
+    const iso_status made = cost_table(ctx, r, line, &table);
+    result = worse(result, table_finish(ctx, csv, measured ? o->plot : NULL, made, table));
+    if (o->plot && !measured) complain("no picture: nothing has been measured");
     free(line);
     return result;
 }
 
 /* Reads the scene and opens the files. Refuses wrong options before the work begins. */
-static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, iso_output **csv)
+static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, iso_table_writer **csv)
 {
     if (o->csv && strcmp(o->csv, "-") == 0 && (o->json || !isnan(o->want)))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "csv",
@@ -183,7 +129,7 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
             "cost: --want and --csv - leave no room for what --horizons tells: leave one of them out");
     iso_status status = scene_with_options(ctx, &o->scene, scene);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
-    if (status == ISO_OK && o->csv) status = iso_output_open(ctx, o->csv, csv);
+    if (status == ISO_OK && o->csv) status = iso_table_writer_open(ctx, o->csv, "cost", csv);
     return status;
 }
 
@@ -191,13 +137,11 @@ static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
     iso_scene scene = {.places = 0};
-    iso_output *csv = NULL;
+    iso_table_writer *csv = NULL;
     iso_cost *cost = NULL;
     iso_status status = prepare(ctx, o, &scene, &csv);
     const iso_cost_options how = options_of(o);
-    stop_gently();
-    progress_begin();
-    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    begin_work(ctx, NULL);
     if (status == ISO_OK) status = iso_cost_measure(ctx, &scene, &how, &cost);
     int result = finish_scene(ctx, &o->scene, &scene, status);
     const int measured = cost ? cost_count(cost, iso_cost_is_measured) : 0;
@@ -214,9 +158,8 @@ static int run(iso_context *ctx, const void *options_given)
             result = worse(result, EXIT_SOME_FAILED);
         }
     } else {
-        iso_output_close(ctx, csv, false);
+        iso_table_writer_close(ctx, csv, false);
     }
-    iso_context_set_monitor(ctx, NULL, NULL);
     iso_cost_free(cost);
     return result;
 }
@@ -224,7 +167,7 @@ static int run(iso_context *ctx, const void *options_given)
 /* The number of orbits may be left out. */
 static bool set_horizons(void *at, const char *text)
 {
-    const bool set = set_count(at, text ? text : "6");
+    const bool set = iso_set_count(at, text ? text : "6");
     return set && *(double *)at <= ISO_COST_HORIZONS;
 }
 
@@ -235,26 +178,20 @@ static const option_row rows[] = {
     ROW_METHOD(options, scene),
     ROW_TOLERANCE(options, scene),
     ROW_T_END(options, scene),
-    ROW("quick", NULL, NULL, "measure three tolerances only: a few seconds", set_flag, options, quick),
-    ROW("want", "X", "a positive number", "print only the cheapest choice with an error of at most X", set_positive,
-        options, want),
+    ROW("quick", NULL, NULL, "measure three tolerances only: a few seconds", iso_set_flag, options, quick),
+    ROW("want", "X", "a positive number", "print only the cheapest choice with an error of at most X",
+        iso_set_positive, options, want),
     ROW("horizons", "[=N]", "a whole number from 1 to 24",
         "growth over N orbits (default 6), each twice as long as the one before", set_horizons, options, horizons),
     ROW_PLOT(options, plot),
-    ROW_OF_FILE("csv", "FILE", "a file", "write the table as CSV to FILE; - is standard output", set_text, options,
-                csv, 0, OPTION_WRITES),
+    ROW_OF_FILE("csv", "FILE", "a file", "write the table as CSV to FILE; - is standard output", iso_set_text,
+                options, csv, 0, OPTION_WRITES),
     ROW_JSON(options, json),
     ROW_END,
 };
 
 const command command_cost = {
-    .name = "cost",
-    .argument = "SCENE",
-    .doc = "measure error against time for every backend, method and tolerance",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, scene.file),
+    COMMAND("cost", "SCENE", "measure error against time for every backend, method and tolerance", scene.file),
     .takes = FILE_SCENE,
     .description =
         "All backends, methods and tolerances are measured. --backend, --method or --tol restrict the measurement to "
@@ -268,5 +205,4 @@ const command command_cost = {
     .example = "isoroll cost scene.yaml --quick --plot cost.svg\n"
                "isoroll run scene.yaml $(isoroll cost scene.yaml --want 1e-9)",
     .exits = "1: a run failed, or nothing reaches the error that --want asks for",
-    .run = run,
 };

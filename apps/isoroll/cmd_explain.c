@@ -1,13 +1,13 @@
 /* isoroll explain - tells what would be simulated, and why. */
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/seconds_impl.h"
+#include "exact/exact_impl.h"
 #include "scene_options.h"
-#include "study/section/section.h"
-#include "sweep_explain.h"
+#include "study/section/section_impl.h"
+#include "sweep_team.h"
 
-/* What explain can be told. */
 typedef struct options {
     scene_options scene;
 } options;
@@ -30,18 +30,12 @@ static void explain_ball(const iso_params *p)
     printf("\n");
 }
 
-/* The effects, with their numbers. */
+/* The effects, with their numbers; which of them only observes from this start on: weight on a horizontal plane. */
 static void explain_effects(const iso_orbit *orbit)
 {
     const iso_effects effects = iso_orbit_effects(orbit);
-    print_effects(&effects, true);
-}
-
-/* An effect that observes from this start on: the weight on a horizontal plane. */
-static void explain_idle(const iso_orbit *orbit)
-{
-    const iso_effects effects = iso_orbit_effects(orbit);
     const iso_effect *idle = iso_effects_idle(&effects);
+    print_effects(&effects, true);
     if (idle)
         printf("  '%s' has no torque here: it only observes, and the motion is that without it\n\n", idle->name);
 }
@@ -53,7 +47,7 @@ static void explain_map(const iso_params *p, const iso_orbit *orbit)
     const char *kind = p->k == -1  ? "Neumann's problem: integrable"
                        : p->k == 1 ? "Braden's problem: integrable"
                        : symmetric ? "integrable, since two moments are equal"
-                                   : "no further integral is known";
+                                   : "no additional integral is known";
     const iso_effects effects = iso_orbit_effects(orbit);
     const iso_effect *breaking = iso_effects_breaking(&effects);
     const bool pulled = iso_effects_have_image(&effects);
@@ -137,14 +131,9 @@ static void explain_states(const iso_scene *scene, const iso_orbit *orbit, const
     printf("\n\n");
 }
 
-static bool holds(const iso_integral *integral, const iso_problem *f)
-{
-    return !integral->holds || integral->holds(f);
-}
-
 static void explain_integral(const char *whose, const iso_integral *i, const iso_problem *f, bool wanted)
 {
-    if (holds(i, f) == wanted) printf("  %-5s %-10s %s\n", whose, i->name, i->doc);
+    if ((!i->holds || i->holds(f)) == wanted) printf("  %-5s %-10s %s\n", whose, i->name, i->doc);
 }
 
 /* The integrals of both models. Without a twin: of the integrated model alone. */
@@ -163,14 +152,6 @@ static void explain_integrals(const iso_orbit *orbit)
     }
 }
 
-/* Processor time of this thread. The time of the process has only milliseconds where a limit is set (ulimit -t). */
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* Seconds for one right-hand side: the least of several rounds. */
 static double cost(const iso_model *m, const double y[])
 {
@@ -178,12 +159,12 @@ static double cost(const iso_model *m, const double y[])
     double dy[ISO_MAX_STATE], x[ISO_MAX_STATE] = {0}, best = INFINITY;
     for (int i = 0; i < m->dim; i++) x[i] = y[i];
     for (int round = 0; round < ROUNDS; round++) {
-        const double begin = seconds();
+        const double begin = processor_seconds();
         for (int i = 0; i < CALLS; i++) {
             m->rhs(m, x, dy);
             x[0] += 1e-18 * dy[0]; /* so each call must wait for the one before */
         }
-        best = fmin(best, (seconds() - begin) / CALLS);
+        best = fmin(best, (processor_seconds() - begin) / CALLS);
     }
     return best;
 }
@@ -212,7 +193,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_scene scene = {.places = 0};
     iso_orbit *orbit;
     int columns[ISO_MAX_COLUMNS], count;
-    if (is_sweep(o->scene.file)) return explain_sweep(ctx, o->scene.file);
+    if (file_kind(o->scene.file) == FILE_SWEEP) return explain_sweep(ctx, o->scene.file);
     iso_status status = scene_with_options(ctx, &o->scene, &scene);
     if (status != ISO_OK) return finish(ctx, status);
     count = iso_scene_columns(&scene, columns);
@@ -220,7 +201,6 @@ static int run(iso_context *ctx, const void *options_given)
     if (status != ISO_OK) return finish_scene(ctx, &o->scene, &scene, status);
     explain_ball(&scene.params);
     explain_effects(orbit);
-    explain_idle(orbit);
     explain_map(&scene.params, orbit);
     explain_section(orbit);
     status = explain_exact(ctx, &scene, columns, count);
@@ -236,23 +216,12 @@ static int run(iso_context *ctx, const void *options_given)
 static const options defaults = {.scene = SCENE_OPTIONS_UNSET};
 
 static const option_row rows[] = {
-    ROW_BACKEND(options, scene),
-    ROW_METHOD(options, scene),
-    ROW_TOLERANCE(options, scene),
-    ROW_AS(options, scene),
-    ROW_T_END(options, scene),
-    ROW_STEP(options, scene),
+    ROWS_OF_SCENE(options, scene),
     ROW_END,
 };
 
 const command command_explain = {
-    .name = "explain",
-    .argument = "SCENE",
-    .doc = "say what would be simulated and why, without doing it",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, scene.file),
+    COMMAND("explain", "SCENE", "say what would be simulated and why, without doing it", scene.file),
     .takes = FILE_SCENE | FILE_SWEEP,
     .description =
         "Tells the ball's parameters, the effects that act, whether the orbit has a twin, which Poincare section is "
@@ -261,5 +230,4 @@ const command command_explain = {
         "Of a sweep: how many points it has, its columns, what its quantities cost, and how long it takes here. For "
         "this a few of its points are computed.",
     .example = "isoroll explain scene.yaml",
-    .run = run,
 };

@@ -12,21 +12,11 @@
 
 /* What frequencies can be told. */
 typedef struct options {
-    scene_options scene;   /* only its file and its end are used */
-    const char *plot;      /* NULL: not given */
-    double turns, samples; /* NAN: not given  */
+    iso_frequencies_options study;
+    scene_options scene; /* only its file is used */
+    const char *plot;    /* NULL: not given       */
     bool json;
 } options;
-
-static iso_frequencies_options options_of(const options *o)
-{
-    iso_frequencies_options how = iso_frequencies_defaults();
-    how.turns = o->turns;
-    how.end = o->scene.end;
-    how.samples = o->samples;
-    how.progress = progress_told;
-    return how;
-}
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
@@ -150,7 +140,8 @@ static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene
                              const iso_frequencies *found)
 {
     static const char *const names[] = {"frequency", "amplitude", "signal", "m", "n"};
-    const iso_frequencies_options how = options_of(o);
+    iso_frequencies_options how = o->study;
+    how.progress = progress_told;
     iso_frequencies f = *found;
     iso_record *r;
     iso_status status = f.estimated ? ISO_OK : iso_frequencies_estimate(ctx, scene, &how, &f);
@@ -160,13 +151,8 @@ static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene
     for (int s = 0; s < 2; s++)
         for (int i = 0; status == ISO_OK && i < f.estimate.lines[s]; i++) {
             const iso_identified_line *l = &f.estimate.line[s][i];
-            double *row;
-            status = iso_record_append(ctx, r, &row);
-            if (status != ISO_OK) break;
-            const double m = l->m, n = l->n;
-            const double values[] = {l->line.frequency, l->line.amplitude, s, l->known ? m : (double)NAN,
-                                     l->known ? n : (double)NAN};
-            memcpy(row, values, sizeof values);
+            const double m = l->known ? l->m : (double)NAN, n = l->known ? l->n : (double)NAN;
+            status = iso_record_add(ctx, r, 1, (double[]){l->line.frequency, l->line.amplitude, s, m, n});
         }
     if (status == ISO_OK) status = iso_plot_lines(ctx, o->plot, title, f.estimate.axis, r);
     iso_record_free(r);
@@ -175,10 +161,9 @@ static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene
 
 static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scene, const iso_frequencies *f)
 {
-    const double *J = scene->params.J;
-    char title[128];
+    char title[ISO_PLOT_TITLE];
     iso_momentum m;
-    snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g", scene->params.k, J[0], J[1], J[2]);
+    iso_plot_title(title, &scene->params, "%s", "");
     bool mapped =
         f->integral && f->h > 0 && iso_momentum_make(&scene->params, f->H, &m) && strcmp(f->integral->name, m.F) == 0;
     double low, high; /* with equal moments the image has no area */
@@ -193,13 +178,12 @@ static int run(iso_context *ctx, const void *options_given)
     const options *o = options_given;
     iso_scene scene = {.places = 0};
     iso_frequencies f;
-    const iso_frequencies_options how = options_of(o);
+    iso_frequencies_options how = o->study;
+    how.progress = progress_told;
     iso_status status = iso_scene_read(ctx, o->scene.file, &scene);
     iso_scene_forget_place(&scene, "end"); /* --t-end says it, not the scene */
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
-    stop_gently();
-    progress_begin();
-    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    begin_work(ctx, NULL);
     if (status == ISO_OK) status = iso_frequencies_find(ctx, &scene, &how, &f);
     progress_end();
     int result = finish_scene(ctx, &o->scene, &scene, status);
@@ -210,34 +194,22 @@ static int run(iso_context *ctx, const void *options_given)
             result = EXIT_NUMERICAL;
         if (o->plot && result == EXIT_DONE) result = finish(ctx, draw(ctx, o, &scene, &f));
     }
-    iso_context_set_monitor(ctx, NULL, NULL);
     return result;
 }
 
-static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .turns = NAN, .samples = NAN};
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET};
 
 static const option_row rows[] = {
-    ROW("turns", "N", "a positive number", "length of the orbit in turns, 20 or more (default 1000, more if needed)",
-        set_positive, options, turns),
-    ROW("t-end", "T", "a positive number", "length of the orbit in time t, in place of --turns", set_positive,
-        options, scene.end),
-    ROW("samples", "N", "a whole number from 1 on",
-        "number of samples of the orbit, at most 4194304, rounded up to a power of 2 (default 32 each turn)",
-        set_count, options, samples),
+    ROWS_OF_STUDY(iso_frequencies_option, 0, 3),
     ROW_PLOT(options, plot),
     ROW_JSON(options, json),
     ROW_END,
 };
 
 const command command_frequencies = {
-    .name = "frequencies",
-    .argument = "SCENE",
-    .doc = "compute frequencies, actions, rotation number and near resonances",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, scene.file),
+    COMMAND("frequencies", "SCENE", "compute frequencies, actions, rotation number and near resonances", scene.file),
     .takes = FILE_SCENE,
+    .study = &iso_frequencies_study,
     .description =
         "Where there is a closed solution (k = 1, k = -1, equal moments, principal planes) the numbers are exact. "
         "Elsewhere they are estimated from an orbit in the ball's time t, by Laskar's frequency analysis. --turns, "
@@ -245,5 +217,4 @@ const command command_frequencies = {
         "--plot draws the image of the momentum map (h, F) with the orbit in it. Where there is no such map, it "
         "draws the spectral lines of n(t).",
     .example = "isoroll frequencies scene.yaml --plot map.svg",
-    .run = run,
 };

@@ -1,15 +1,15 @@
-/* isoroll integrals - searches for further first integrals: polynomials in M that are constant on many orbits. */
+/* isoroll integrals - searches for additional first integrals: polynomials in M that are constant on many orbits. */
 #include <math.h>
 
 #include "json.h"
 #include "progress.h"
 #include "scene_options.h"
-#include "study/integrals/integrals.h"
+#include "study/integrals/integrals_impl.h"
 
 /* What integrals can be told. */
 typedef struct options {
-    scene_options scene; /* only its file and tolerance are used */
-    double degree, coefficients, orbits, turns, seed, within, threads;
+    iso_integral_search_options study;
+    scene_options scene; /* only its file is used */
     bool json;
 } options;
 
@@ -25,7 +25,7 @@ static void print_head(const options *o, const iso_scene *scene, const iso_integ
            "functions h^j M^a gamma^b, |a| + 2 j = degree, |b| <= %d; a value is the variation of a function along\n"
            "orbits by its size: 0 for an integral\n\n"
            "  degree  functions  integrals  further  doubtful   their values up to  smallest other value\n",
-           r->orbits, o->turns, ISO_INTEGRAL_ROWS, r->delta, r->coefficients);
+           r->orbits, o->study.turns, ISO_INTEGRAL_ROWS, r->delta, r->coefficients);
 }
 
 static void print_value(int width, double x)
@@ -63,13 +63,13 @@ static void print_verdict(const options *o, const iso_integral_search *r)
         printf("found: %d independent integral%s beside the energy\n", r->independent, r->independent > 1 ? "s" : "");
     else if (r->verdict == ISO_INTEGRALS_NONE)
         printf("none beside the energy up to degree %d within %g: the smallest value is %.1e\n", r->degrees,
-               o->within, iso_integral_smallest(r));
-    else if (r->degrees < (int)o->degree)
+               o->study.within, iso_integral_smallest(r));
+    else if (r->degrees < o->study.degree)
         printf("undecided: stopped after degree %d\n", r->degrees);
     else if (r->independent > 0)
         printf("undecided: k and J are so near those of an integrable ball that its integral is constant here\n");
     else
-        printf("undecided: there are values between their error and %g\n", o->within);
+        printf("undecided: there are values between their error and %g\n", o->study.within);
 }
 
 static void print_table(const options *o, const iso_scene *scene, const iso_integral_search *r)
@@ -96,21 +96,6 @@ static bool print_json(const iso_integral_search_options *how, const iso_scene *
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-static iso_integral_search_options options_of(const options *o)
-{
-    iso_integral_search_options how = iso_integral_search_defaults();
-    how.degree = o->degree < 1000 ? (int)o->degree : 1000;
-    if (!isnan(o->coefficients)) how.coefficients = o->coefficients < 1000 ? (int)o->coefficients : 1000;
-    how.orbits = isnan(o->orbits) ? 0 : (size_t)o->orbits;
-    how.turns = o->turns;
-    how.seed = (uint64_t)o->seed;
-    how.within = o->within;
-    if (!isnan(o->scene.tolerance)) how.tolerance = o->scene.tolerance;
-    how.threads = as_int(o->threads);
-    how.progress = progress_told;
-    return how;
-}
-
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
@@ -118,12 +103,10 @@ static int run(iso_context *ctx, const void *options_given)
     iso_integral_search r = {.degrees = 0};
     iso_status status = iso_scene_read(ctx, o->scene.file, &scene);
     if (status != ISO_OK) return finish(ctx, status);
-    const iso_integral_search_options how = options_of(o);
-    stop_gently();
-    progress_begin();
-    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    iso_integral_search_options how = o->study;
+    how.progress = progress_told;
+    begin_work(ctx, NULL);
     status = iso_integral_search_run(ctx, &scene, &how, &r);
-    iso_context_set_monitor(ctx, NULL, NULL);
     progress_end();
     const int result = finish_scene(ctx, &o->scene, &scene, status);
     if (status != ISO_OK && status != ISO_STOPPED) return result;
@@ -132,42 +115,18 @@ static int run(iso_context *ctx, const void *options_given)
     return print_json(&how, &scene, &r) ? result : EXIT_NUMERICAL;
 }
 
-static const options defaults = {
-    .scene = SCENE_OPTIONS_UNSET, .degree = 2, .coefficients = NAN, .orbits = NAN, .turns = 50, .within = 1e-10};
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET};
 
 static const option_row rows[] = {
-    ROW("degree", "D", "a whole number from 1 on", "largest degree in M, to 8 (default 2)", set_count, options,
-        degree),
-    ROW("coefficients", "E", "a whole number from 0 on",
-        "largest degree in gamma of the coefficients, to 8 (default D, at least 2)", set_whole, options,
-        coefficients),
-    ROW("orbits", "N", "a whole number from 1 on", "orbits that are sampled (default 64, more for high degrees)",
-        set_count, options, orbits),
-    ROW("turns", "T", "a positive number", "turns of each orbit, about, 1 to 1e5 (default 50)", set_positive, options,
-        turns),
-    ROW("seed", "N", "a whole number from 0 on", "other starts and times (default 0)", set_whole, options, seed),
-    ROW("within", "X", "a positive number", "a function that varies by more than X is no integral (default 1e-10)",
-        set_positive, options, within),
-    {.name = "tol",
-     .argument = "X",
-     .expected = "a number in " ISO_TOLERANCE_RANGE,
-     .doc = "largest relative error of one step (default 1e-14)",
-     .set = set_tolerance,
-     .offset = offsetof(options, scene.tolerance)},
-    ROW_THREADS(options, threads),
+    ROWS_OF_STUDY(iso_integrals_option, 0, 8),
     ROW_JSON(options, json),
     ROW_END,
 };
 
 const command command_integrals = {
-    .name = "integrals",
-    .argument = "SCENE",
-    .doc = "search for further first integrals",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, scene.file),
+    COMMAND("integrals", "SCENE", "search for additional first integrals", scene.file),
     .takes = FILE_SCENE,
+    .study = &iso_integrals_study,
     .description =
         "Looks for functions of the point's state that are constant along orbits: polynomials in M of degree D or "
         "less, with coefficients that are polynomials in gamma of degree E or less. Of the scene it reads k, J and "
@@ -185,5 +144,4 @@ const command command_integrals = {
     .exits = "1: interrupted\n"
              "3: bad input: an effect that acts, other than 'level', or k too near 0\n"
              "4: the computation failed, or no memory",
-    .run = run,
 };

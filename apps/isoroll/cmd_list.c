@@ -1,11 +1,11 @@
 /* isoroll list - prints what there is: systems, backends, effects, methods and so on. */
 #include <string.h>
 
-#include "base/nearest.h"
+#include "base/nearest_impl.h"
 #include "command.h"
+#include "method/methods_impl.h"
 #include "study/tables/tables.h"
 
-/* What list can be told. */
 typedef struct options {
     const char *topic;
 } options;
@@ -168,17 +168,10 @@ static const options defaults = {.topic = "-"};
 static const option_row rows[] = {ROW_END};
 
 const command command_list = {
-    .name = "list",
-    .argument = "[TOPIC]",
-    .doc = "list what there is: systems, backends, effects, methods, columns, ...",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, topic),
+    COMMAND("list", "[TOPIC]", "list what there is: systems, backends, effects, methods, columns, ...", topic),
     .word = topic_word,
     .description = "A topic is systems, backends, effects, methods, surfaces, integrals, clocks, columns or tables. "
                    "Without one, "
                    "all topics are listed.",
     .example = "isoroll list methods",
-    .run = run,
 };

@@ -1,11 +1,10 @@
 /* isoroll manual - prints the man pages and the completions for shells; the build installs what it prints. */
 #include <string.h>
 
-#include "base/nearest.h"
-#include "io/output.h"
-#include "manual.h"
+#include "base/nearest_impl.h"
+#include "command.h"
+#include "io/output_impl.h"
 
-/* What manual can be told. */
 typedef struct options {
     const char *page, *output;
 } options;
@@ -52,17 +51,10 @@ static const options defaults = {.page = "-", .output = "-"};
 static const option_row rows[] = {ROW_OUTPUT(options, output), ROW_END};
 
 const command command_manual = {
-    .name = "manual",
-    .argument = "[PAGE]",
-    .doc = "print a man page, or the completion of a shell",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, page),
+    COMMAND("manual", "[PAGE]", "print a man page, or the completion of a shell", page),
     .word = page_word,
     .description =
         "A page is isoroll (the default), the name of a command, bash or zsh. Installation puts all of them in "
         "their places. Where isoroll is not installed, this command prints them.",
     .example = "isoroll manual run | man -l -\nsource <(isoroll manual bash)",
-    .run = run,
 };

@@ -2,27 +2,17 @@
 #include <math.h>
 #include <string.h>
 
-#include "io/output.h"
 #include "json.h"
-#include "periodic_chart.h"
-#include "periodic_follow.h"
-#include "periodic_report.h"
+#include "periodic.h"
 #include "plot/plot.h"
 #include "progress.h"
 #include "scene_options.h"
 
-/* What periodic can be told. */
-typedef struct options {
-    scene_options scene; /* only its file is used */
-    const char *output, *plot;
-    const char *chart, *k, *level, *follow;
-    double period, grid, steps, threads, orbit; /* orbit 0: all */
-    bool all, polish, json, branches;
-} options;
+typedef periodic_options options;
 
 /* --- the list --------------------------------------------------------------------------------------------------- */
 
-static int tell_gaps(const iso_periodic *f)
+static void tell_gaps(const iso_periodic *f)
 {
     if (f->unresolved > 0)
         complain("on %zu intervals of the symmetry lines the samples are too far apart: orbits may be missing",
@@ -32,87 +22,71 @@ static int tell_gaps(const iso_periodic *f)
         complain(
             "on this level the point can come to rest: orbits that do so and go back the same way are listed only "
             "if they have another symmetry, or with --all");
-    return EXIT_DONE;
 }
 
-static int follow(iso_context *ctx, const options *o, const iso_scene *scene, const iso_periodic *found,
-                  iso_output *csv)
-{
-    const periodic_follow how = {.range = o->follow,
-                                 .orbit = o->orbit,
-                                 .period = as_int(o->period),
-                                 .branches = o->branches,
-                                 .threads = as_int(o->threads),
-                                 .rows = csv,
-                                 .alone = o->output && strcmp(o->output, "-") == 0,
-                                 .plot = o->plot,
-                                 .json = o->json};
-    return follow_orbits(ctx, scene, found, &how);
-}
-
-static int report(iso_context *ctx, const options *o, const periodic_report *r, iso_output *csv)
+static int report(iso_context *ctx, const options *o, const iso_scene *scene, const iso_periodic *found,
+                  iso_table_writer *csv)
 {
     int result = EXIT_DONE;
     if (o->json)
-        result = json_print(json_of_scene(r->scene, iso_periodic_fields, r->found)) ? result : EXIT_NUMERICAL;
+        result = json_print(json_of_scene(scene, iso_periodic_fields, found)) ? result : EXIT_NUMERICAL;
     else if (!o->output || strcmp(o->output, "-") != 0)
-        periodic_print(r);
-    if (csv) result = worse(result, finish(ctx, periodic_write_csv(ctx, r, csv)));
-    if (o->plot && r->found->count == 0)
-        complain("no picture: there is no orbit"), result = worse(result, EXIT_SOME_FAILED);
-    else if (o->plot)
-        result = worse(result, finish(ctx, periodic_draw(ctx, r, o->plot)));
-    return worse(result, tell_gaps(r->found));
+        periodic_print(o, scene, found);
+    iso_record *table = NULL;
+    iso_status made = csv ? periodic_table(ctx, scene, found, false, &table) : ISO_OK;
+    result = worse(result, table_finish(ctx, csv, NULL, made, table));
+    if (o->plot && found->count == 0) {
+        complain("no picture: there is no orbit");
+        result = worse(result, EXIT_SOME_FAILED);
+    } else if (o->plot) {
+        made = periodic_table(ctx, scene, found, true, &table);
+        result = worse(result, table_finish(ctx, NULL, o->plot, made, table));
+    }
+    tell_gaps(found);
+    return result;
 }
 
-static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_output *csv)
+static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_table_writer *csv)
 {
-    iso_periodic_options how = iso_periodic_defaults();
+    iso_periodic_options how = o->study;
     iso_periodic *found = NULL;
-    how.period = as_int(o->period);
-    how.grid = o->grid < 1e18 ? (long)o->grid : 1000000000000000000;
-    how.all = o->all;
-    how.polish = o->polish;
-    how.threads = as_int(o->threads);
     how.progress = progress_told;
-    stop_gently();
-    progress_begin();
-    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    begin_work(ctx, NULL);
     const iso_status status = iso_periodic_run(ctx, scene, &how, &found);
     progress_end();
     int result = finish_scene(ctx, &o->scene, scene, status);
     if (status == ISO_STOPPED) complain("interrupted: orbits are missing");
     if (!found || (o->follow && found->count == 0 && status == ISO_STOPPED))
-        iso_output_close(ctx, csv, false);
+        iso_table_writer_close(ctx, csv, false);
     else if (o->follow)
-        result = worse(result, follow(ctx, o, scene, found, csv));
+        result = worse(result, follow_orbits(ctx, o, scene, found, csv));
     else
-        result = worse(result, report(ctx, o, &(periodic_report){scene, found, o->polish, o->all}, csv));
-    iso_context_set_monitor(ctx, NULL, NULL);
+        result = worse(result, report(ctx, o, scene, found, csv));
     iso_periodic_free(found);
     return result;
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .period = 6, .grid = 2000, .steps = 120};
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .steps = 120};
 
 /* Refuses wrong options before the work begins. */
-static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, iso_output **csv)
+static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, iso_table_writer **csv)
 {
+    const iso_periodic_options *how = &o->study, usual = iso_periodic_defaults();
     iso_status status = check_json_alone(ctx, "periodic", o->output, o->json);
     if (status != ISO_OK) return status;
     if (o->chart && o->follow)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "chart", "periodic: --chart or --follow, not both");
     if ((o->orbit > 0 || o->branches) && !o->follow)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "follow", "periodic: --orbit and --branches go with --follow");
-    if (o->follow && o->polish)
+    if (o->follow && how->polish)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "polish",
                                 "periodic: --follow computes with 64 bits, not --polish");
-    if (o->chart && (o->all || o->polish || o->period != defaults.period))
+    if (o->chart && (how->all || how->polish || how->period != usual.period))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "chart",
                                 "periodic: --all, --polish and --period do not go with --chart");
-    if (o->grid != defaults.grid && !o->all)
+    if (how->grid != usual.grid && !how->all)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "grid", "periodic: --grid goes with --all");
     if (o->steps != defaults.steps && !o->chart)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "steps", "periodic: --steps goes with --chart");
@@ -125,52 +99,38 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
     if (o->plot) status = iso_plot_check_format(ctx, o->plot);
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
     if (status == ISO_OK && o->follow) status = follow_check(ctx, scene, o->follow);
-    return status == ISO_OK && o->output ? iso_output_open(ctx, o->output, csv) : status;
+    const char *kind = o->chart ? "periodic chart" : o->follow ? "periodic follow" : "periodic";
+    return status == ISO_OK && o->output ? iso_table_writer_open(ctx, o->output, kind, csv) : status;
 }
 
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
     iso_scene scene = {.places = 0};
-    iso_output *csv = NULL;
+    iso_table_writer *csv = NULL;
     const iso_status status = prepare(ctx, o, &scene, &csv);
     if (status != ISO_OK) return finish(ctx, status);
-    if (o->chart)
-        return draw_chart(ctx, &scene,
-                          &(periodic_chart){.moment = o->chart,
-                                            .k = o->k,
-                                            .level = o->level,
-                                            .steps = o->steps,
-                                            .threads = as_int(o->threads),
-                                            .rows = csv,
-                                            .alone = o->output && strcmp(o->output, "-") == 0,
-                                            .plot = o->plot,
-                                            .json = o->json});
+    if (o->chart) return draw_chart(ctx, o, &scene, csv);
     return list(ctx, o, &scene, csv);
 }
 
 static const option_row rows[] = {
-    ROW("period", "P", "a whole number from 1 on", "orbits of at most P returns to the section (default 6)",
-        set_count, options, period),
-    ROW("all", NULL, NULL, "orbits without a symmetry as well, by Newton's method from a grid", set_flag, options,
-        all),
-    ROW("grid", "N", "a whole number from 1 on", "points of that grid (default 2000)", set_count, options, grid),
-    ROW("polish", NULL, NULL, "compute with 128 bits and print 30 digits", set_flag, options, polish),
+    ROWS_OF_STUDY(iso_periodic_option, 0, 4),
     ROW("follow", "NAME=A:B", "k, J1, J2, J3, ratio or level, =, two numbers and a colon",
-        "follow orbits while k, a moment, the ratio (J2 - J1)/(J3 - J1) or the level goes from A to B", set_text,
+        "follow orbits while k, a moment, the ratio (J2 - J1)/(J3 - J1) or the level goes from A to B", iso_set_text,
         options, follow),
-    ROW("orbit", "N", "a whole number from 1 on", "follow orbit N of the list alone", set_count, options, orbit),
-    ROW("branches", NULL, NULL, "follow what branches off, too", set_flag, options, branches),
+    ROW("orbit", "N", "a whole number from 1 on", "follow orbit N of the list alone", iso_set_count, options, orbit),
+    ROW("branches", NULL, NULL, "follow what branches off, too", iso_set_flag, options, branches),
     ROW("chart", "MOMENT", "J1, J2 or J3, or J2=A:B, or level=A:B",
         "in place of all that: where rotations are stable, in the plane of k and this moment or the level, from A "
         "to B",
-        set_text, options, chart),
-    ROW("k", "A:B", "two numbers and a colon", "k of --chart (default -3:3)", set_text, options, k),
-    ROW("level", "X", "a number", "the level of --chart, everywhere (default: the scene's)", set_text, options,
+        iso_set_text, options, chart),
+    ROW("k", "A:B", "two numbers and a colon", "k of --chart (default -3:3)", iso_set_text, options, k),
+    ROW("level", "X", "a number", "the level of --chart, everywhere (default: the scene's)", iso_set_text, options,
         level),
-    ROW("steps", "N", "a whole number from 1 on", "steps of --chart in both directions (default 120)", set_count,
-        options, steps),
-    ROW_THREADS(options, threads),
+    ROW("steps", "N", "a whole number from 1 on", "steps of --chart in both directions (default 120)",
+        iso_set_count_int, options, steps),
+    ROWS_OF_STUDY(iso_periodic_option, 4, 1),
     ROW_OUTPUT(options, output),
     ROW_PLOT(options, plot),
     ROW_JSON(options, json),
@@ -178,14 +138,9 @@ static const option_row rows[] = {
 };
 
 const command command_periodic = {
-    .name = "periodic",
-    .argument = "SCENE",
-    .doc = "find periodic orbits, and whether they are stable",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, scene.file),
+    COMMAND("periodic", "SCENE", "find periodic orbits, and whether they are stable", scene.file),
     .takes = FILE_SCENE,
+    .study = &iso_periodic_study,
     .description =
         "Shows the rotations about the principal axes first: the trace of Hill's equation over half a turn, found "
         "in two ways, stable between -2 and 2. Then it searches for all symmetric periodic orbits of at most P "
@@ -219,5 +174,4 @@ const command command_periodic = {
              "3: bad input: an effect that acts, other than 'level', two equal moments, a ball at rest, a range "
              "without the "
              "scene's value",
-    .run = run,
 };

@@ -3,16 +3,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/nearest.h"
+#include "base/nearest_impl.h"
 #include "io/table.h"
 #include "parameters.h"
 #include "plot/plot.h"
-#include "plot_table.h"
-#include "study/check/check.h"
+#include "study/check/check_impl.h"
 #include "study/energy.h"
 #include "sweep_plot.h"
 
-/* What plot can be told. */
 typedef struct options {
     file_options from;
     const char *output, *value; /* value NULL: not given */
@@ -40,11 +38,9 @@ static iso_status pair_clocks(iso_context *ctx, parts *p)
     if (own < 0 || (here < 0 && there < 0)) return ISO_OK;
     iso_status status = iso_record_create(ctx, 2, names, &p->clocks);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(p->file); i++) {
-        double *row;
-        status = iso_record_append(ctx, p->clocks, &row);
-        if (status != ISO_OK) break;
-        row[0] = iso_record_const_row(p->file, i)[own];
-        row[1] = here >= 0 ? iso_record_const_row(p->file, i)[here] : iso_record_const_row(p->twin, i)[there];
+        const double *row = iso_record_const_row(p->file, i);
+        const double other = here >= 0 ? row[here] : iso_record_const_row(p->twin, i)[there];
+        status = iso_record_add(ctx, p->clocks, 1, (double[]){row[own], other});
     }
     return status;
 }
@@ -63,7 +59,7 @@ static iso_status find_twin(iso_context *ctx, const iso_params *params, parts *p
 static const char *name_of(const options *o)
 {
     const char *slash = strrchr(o->from.file, '/');
-    return strcmp(o->from.file, "-") == 0 ? "<stdin>" : slash ? slash + 1 : o->from.file;
+    return slash ? slash + 1 : iso_text_name(o->from.file);
 }
 
 /* Whether the file has the path of a ball in space; into `space`, what the file says of it. */
@@ -123,7 +119,7 @@ static bool names_two(const char *columns, char name[2][NAME])
 static iso_status read_good(iso_context *ctx, const options *o, const char *columns, iso_record **file)
 {
     size_t passed;
-    const iso_status status = iso_trajectory_read_good(ctx, o->from.file, columns, file, &passed);
+    const iso_status status = iso_table_read(ctx, o->from.file, "trajectory", columns, file, &passed);
     if (status != ISO_OK || passed == 0) return status;
     complain("%s: %zu rows of nan were passed over", name_of(o), passed);
     return ISO_OK;
@@ -190,6 +186,15 @@ static iso_status draw_file(iso_context *ctx, const options *o)
     return status;
 }
 
+static iso_status draw_table(iso_context *ctx, const options *o)
+{
+    iso_record *table = NULL;
+    iso_status status = iso_table_read(ctx, o->from.file, NULL, NULL, &table, NULL);
+    if (status == ISO_OK) status = iso_plot_table(ctx, o->output, name_of(o), table);
+    iso_record_free(table);
+    return status;
+}
+
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
@@ -198,53 +203,45 @@ static int run(iso_context *ctx, const void *options_given)
         return complain("plot: -o FILE is missing: name a file that ends in .svg, .png or .pdf"), EXIT_USAGE;
     iso_status status = iso_plot_check_format(ctx, o->output);
     progress_begin();
-    const bool sweep = status == ISO_OK && is_sweep_result(o->from.file);
+    if (status == ISO_OK) iso_table_kind(o->from.file, kind);
+    const bool sweep = strcmp(kind, "sweep") == 0 || strcmp(kind, "sweep part") == 0;
     if (sweep && o->from.columns)
         return complain("plot: --columns is for trajectories; of a sweep give --value NAME"), EXIT_USAGE;
     if (sweep) return finish(ctx, plot_sweep(ctx, o->from.file, o->value, o->output));
     if (status == ISO_OK && o->value)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "plot: --value is for results of sweeps");
-    if (status == ISO_OK && !o->from.columns) iso_table_kind(o->from.file, kind);
-    if (status == ISO_OK && has_table_picture(kind)) return finish(ctx, plot_table(ctx, o->from.file, o->output));
+    if (status == ISO_OK && !o->from.columns && iso_plot_has_kind(kind)) return finish(ctx, draw_table(ctx, o));
     if (status == ISO_OK) status = names_two(o->from.columns, name) ? draw_two(ctx, o, name) : draw_file(ctx, o);
-    if (status != ISO_OK && status != ISO_BAD_ARGUMENT && status != ISO_FILE_TROUBLE)
-        status = name_the_file(ctx, o->from.file, status);
-    return finish(ctx, status);
+    return finish(ctx, name_the_file(ctx, o->from.file, status));
 }
 
 static const options defaults = {.from = FILE_OPTIONS_UNSET, .output = "-"};
 
 static const option_row rows[] = {
-    ROW_OF_FILE("output", "FILE", "a file", "the picture: .svg, .png or .pdf", set_text, options, output, 'o',
+    ROW_OF_FILE("output", "FILE", "a file", "the picture: .svg, .png or .pdf", iso_set_text, options, output, 'o',
                 OPTION_WRITES),
-    ROW("value", "NAME", "a name", "of a sweep: which column is drawn, such as splitting_m", set_text, options,
+    ROW("value", "NAME", "a name", "of a sweep: which column is drawn, such as splitting_m", iso_set_text, options,
         value),
     ROWS_OF_FILE(options, from),
     ROW_END,
 };
 
 const command command_plot = {
-    .name = "plot",
-    .argument = "[FILE]",
-    .doc = "draw a trajectory, or any other table",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, from.file),
+    COMMAND("plot", "[FILE]", "draw a trajectory, or any other table", from.file),
     .takes = FILE_ROWS | FILE_RESULT | FILE_TABLE | FILE_ORBITS,
-    .description = "-o FILE is needed; its ending chooses the format. The path and the clock of the other model are "
-                   "computed, where the orbit has a twin. If the file has the columns of the effect attitude, the "
-                   "picture also shows the path of the ball from above and from the side; if it has those of "
-                   "reactions, also the pressure, the friction coefficient mu, and where contact is lost.\n\n"
-                   "--columns X,Y draws only these two columns: Y upward, X to the right, as in --columns t,n3. If "
-                   "the file has no names of columns, name its columns from left to right, with - for each that "
-                   "is not drawn.\n\n"
-                   "Of a sweep: a value over the number that varies, as a curve with its error; over two numbers, as "
-                   "a map; over J, as a map of J1/J3 and J2/J3 where J1 < J2 < J3. Further numbers that vary make "
-                   "several maps. k = 1 and k = -1 are marked.\n\nOther tables are drawn from their columns, without "
-                   "computing anew: sections; the starts of chaos, coloured by exponent; periodic orbits, by one "
-                   "crossing of each and its images; branches of --follow; charts; splittings.\n\ngnuplot draws "
-                   "the picture.",
+    .description =
+        "-o FILE is needed; its ending chooses the format. The path and the clock of the other model are "
+        "computed, where the orbit has a twin. If the file has the columns of the effect attitude, the "
+        "picture also shows the path of the ball from above and from the side; if it has those of "
+        "reactions, also the pressure, the friction coefficient mu, and where contact is lost.\n\n"
+        "--columns X,Y draws only these two columns: Y upward, X to the right, as in --columns t,n3. If "
+        "the file has no names of columns, name its columns from left to right, with - for each that "
+        "is not drawn.\n\n"
+        "Of a sweep: a value over the number that varies, as a curve with its error; over two numbers, as "
+        "a map; over J, as a map of J1/J3 and J2/J3 where J1 < J2 < J3. Further numbers that vary make "
+        "several maps. k = 1 and k = -1 are marked.\n\nOther tables are drawn from their columns, without "
+        "computing anew: sections; the starts of chaos, coloured by exponent; periodic orbits, by one "
+        "crossing of each and its images; branches of --follow; charts; splittings; costs.\n\ngnuplot draws "
+        "the picture.",
     .example = "isoroll plot trajectory.csv -o trajectory.svg",
-    .run = run,
 };

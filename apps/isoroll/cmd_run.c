@@ -4,9 +4,7 @@
 #include <string.h>
 
 #include "scene_options.h"
-#include "times.h"
 
-/* What run can be told. */
 typedef struct options {
     scene_options scene;
     const char *output;
@@ -19,7 +17,7 @@ typedef struct target {
     iso_context *ctx;
     const options *o;
     bool opened; /* the orbit could be made: what goes wrong from here on is no mistake in the scene */
-    iso_trajectory_writer *writer;
+    iso_table_writer *writer;
 } target;
 
 static iso_status open_file(void *data, const iso_record *header)
@@ -28,14 +26,15 @@ static iso_status open_file(void *data, const iso_record *header)
     t->opened = true;
     stop_gently();
     progress_begin_rows(t->o->output);
-    const iso_status status = iso_trajectory_open(t->ctx, t->o->output, &t->writer);
-    return status == ISO_OK ? iso_trajectory_write_header(t->ctx, t->writer, header) : status;
+    const iso_status status = iso_table_writer_open(t->ctx, t->o->output, "trajectory", &t->writer);
+    return status == ISO_OK ? iso_table_write_header(t->ctx, t->writer, header) : status;
 }
 
 static iso_status write_row(void *data, const double row[], size_t count)
 {
     target *t = data;
-    return iso_trajectory_write_row(t->ctx, t->writer, row, count);
+    (void)count;
+    return iso_table_write_row(t->ctx, t->writer, row);
 }
 
 static void tell_note(void *data, iso_run_note note, const char *words)
@@ -108,7 +107,7 @@ static int close_file(const target *t, iso_status status, const iso_run_result *
     const bool keep = status == ISO_OK || status == ISO_STOPPED || (status == ISO_NUMERICAL && r->rows > 0);
     const int result = finish(t->ctx, status);
     if (!t->writer) return result;
-    const iso_status closed = iso_trajectory_close(t->ctx, t->writer, keep);
+    const iso_status closed = iso_table_writer_close(t->ctx, t->writer, keep);
     if (closed != ISO_OK) return result == EXIT_DONE ? finish(t->ctx, closed) : result;
     if (t->o->verbose) report_run(r);
     if (result == EXIT_NUMERICAL || status == ISO_STOPPED)
@@ -117,10 +116,10 @@ static int close_file(const target *t, iso_status status, const iso_run_result *
     return result;
 }
 
-static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene, const times *asked)
+static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene, const output_times *asked)
 {
     target t = {ctx, o, .opened = false};
-    const iso_run_sink sink = {open_file, write_row, tell_note, show_progress, &t};
+    const iso_run_sink sink = {open_file, write_row, tell_note, show_progress, &t, NULL};
     iso_run_options how = iso_run_defaults();
     iso_run_result r;
     how.times = asked->list;
@@ -128,7 +127,6 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     how.errors = o->verbose;
     iso_context_set_monitor(ctx, go_on, NULL);
     const iso_status status = iso_run(ctx, scene, &how, &sink, &r);
-    iso_context_set_monitor(ctx, NULL, NULL);
     if (!t.opened) return finish_scene(ctx, &o->scene, scene, status);
     const int result = close_file(&t, status, &r);
     if (o->verbose && result != EXIT_FILE) tell_errors(&r);
@@ -146,7 +144,7 @@ static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
     iso_scene scene = {.places = 0};
-    times asked = {.list = NULL};
+    output_times asked = {.list = NULL};
     iso_status status = check_files(ctx, o);
     if (status == ISO_OK) status = scene_with_options(ctx, &o->scene, &scene);
     if (status == ISO_OK && o->times) status = times_read(ctx, o->times, &asked);
@@ -160,27 +158,16 @@ static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .output = "-"};
 
 static const option_row rows[] = {
     ROW_OUTPUT(options, output),
-    ROW_BACKEND(options, scene),
-    ROW_METHOD(options, scene),
-    ROW_TOLERANCE(options, scene),
-    ROW_AS(options, scene),
-    ROW_T_END(options, scene),
-    ROW_STEP(options, scene),
-    ROW_OF_FILE("times", "FILE", "a file", "output times from FILE, in any order; # begins a comment", set_text,
+    ROWS_OF_SCENE(options, scene),
+    ROW_OF_FILE("times", "FILE", "a file", "output times from FILE, in any order; # begins a comment", iso_set_text,
                 options, times, 0, OPTION_READS),
-    ROW("verbose", NULL, NULL, "tell on stderr how the run went, and the error of the rows", set_flag, options,
+    ROW("verbose", NULL, NULL, "tell on stderr how the run went, and the error of the rows", iso_set_flag, options,
         verbose),
     ROW_END,
 };
 
 const command command_run = {
-    .name = "run",
-    .argument = "SCENE",
-    .doc = "compute a scene's orbit and write its trajectory",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, scene.file),
+    COMMAND("run", "SCENE", "compute a scene's orbit and write its trajectory", scene.file),
     .takes = FILE_SCENE,
     .description =
         "The times of --t-end, --step and --times are those of the scene's model: t of a ball, s of a point. With "
@@ -195,5 +182,4 @@ const command command_run = {
         "After Ctrl-C, the rows computed so far are kept.",
     .example = "isoroll run scene.yaml -o trajectory.csv",
     .exits = "1: interrupted\n4: the computation failed; the rows before the failure are kept",
-    .run = run,
 };

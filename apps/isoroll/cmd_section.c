@@ -1,27 +1,20 @@
 /* isoroll section - the Poincare section of a scene, by the ball, by the point, or by both. */
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/nearest.h"
-#include "base/number.h"
 #include "plot/plot.h"
+#include "plot/section_picture.h"
 #include "scene_options.h"
 #include "section_cloud.h"
-#include "section_plot.h"
-#include "study/section/section.h"
-
-enum { MOST_AT = 64 };
+#include "study/section/section_impl.h"
 
 /* What section can be told. */
 typedef struct options {
-    scene_options scene;
-    const char *axis, *event, *output, *plot; /* NULL: not given                */
-    const char *at[MOST_AT + 1];              /* as they were typed, then NULL  */
-    double crossings, starts, seed, threads;
-    double cloud;      /* 0: not given                  */
-    iso_models models; /* ISO_SHOW_START: not given      */
+    iso_section_request study;
+    scene_options scene;       /* only its file is used */
+    const char *output, *plot; /* NULL: not given       */
+    double cloud;              /* 0: not given          */
     bool quiet;
 } options;
 
@@ -30,96 +23,26 @@ typedef struct target {
     iso_context *ctx;
     const options *o;
     bool opened; /* from here on, an error is no mistake in the scene */
-    iso_trajectory_writer *writer;
+    iso_table_writer *writer;
     section_picture *picture; /* NULL: none is drawn */
 } target;
 
 /* --- what is typed ---------------------------------------------------------------------------------------------- */
 
-/* One more --at. */
-static bool set_at(void *at, const char *text)
-{
-    const char **list = at;
-    int i = 0;
-    while (list[i]) i++;
-    if (i == MOST_AT) return false;
-    list[i] = text;
-    return *text != '\0';
-}
-
-/* Points l,x with semicolons between. */
-static iso_status read_points(iso_context *ctx, const char *text, double (**list)[2], size_t *count)
-{
-    for (const char *c = text; *c; c += *c == ';') {
-        const size_t l = strcspn(c, ",;"), x = c[l] == ',' ? strcspn(c + l + 1, ";") : 0;
-        double(*more)[2] = realloc(*list, (*count + 1) * sizeof *more);
-        if (!more) return iso_context_no_memory(ctx, "the starts");
-        *list = more;
-        if (x == 0 || !iso_number_read(c, l, &more[*count][0]) || !iso_number_read(c + l + 1, x, &more[*count][1]))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                    "--at '%s': expected l,x, or several of them with ; between: 0.5,0.2;1,-0.3",
-                                    text);
-        ++*count;
-        c += l + 1 + x;
-    }
-    return ISO_OK;
-}
-
-/* COLUMN=VALUE */
-static iso_status read_event(iso_context *ctx, const char *text, iso_section_options *how)
-{
-    char name[ISO_NAME_SIZE] = "", suggested[ISO_SUGGEST_SIZE];
-    const size_t length = text ? strcspn(text, "=") : 0;
-    if (!text) return ISO_OK;
-    if (length < sizeof name) memcpy(name, text, length);
-    if (text[length] != '=' || !iso_number_read(text + length + 1, strlen(text + length + 1), &how->value))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--event '%s': expected COLUMN=VALUE, such as omega1=0.5",
-                                text);
-    how->column = iso_column_find(name);
-    if (how->column >= ISO_CLOCKS) return ISO_OK;
-    if (how->column >= 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--event: the clock '%s' passes each value only once", name);
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--event: there is no column '%s'; %s", name,
-                            iso_suggest_word(suggested, name, iso_column_name));
-}
-
 /* --cloud writes no rows and draws no picture. Refuses options that ask for them. */
 static iso_status check_cloud(iso_context *ctx, const options *o)
 {
-    const char *lost = strcmp(o->output, "-") != 0        ? "--output"
-                       : o->plot                          ? "--plot"
-                       : o->event                         ? "--event"
-                       : o->at[0]                         ? "--at"
-                       : o->starts > 0                    ? "--starts"
-                       : (int)o->models != ISO_SHOW_START ? "--model"
-                       : (int)o->scene.as >= 0            ? "--as"
-                                                          : NULL;
+    const iso_section_options *how = &o->study.how;
+    const char *lost = strcmp(o->output, "-") != 0     ? "--output"
+                       : o->plot                       ? "--plot"
+                       : o->study.event                ? "--event"
+                       : o->study.words.at[0]          ? "--at"
+                       : how->starts > 0               ? "--starts"
+                       : how->models != ISO_SHOW_START ? "--model"
+                       : how->shown != ISO_SHOW_START  ? "--as"
+                                                       : NULL;
     if (o->cloud == 0 || !lost) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --cloud takes no %s: it only prints the test", lost);
-}
-
-/* `at` is the caller's to free. */
-static iso_status read_options(iso_context *ctx, const options *o, iso_section_options *how, double (**at)[2])
-{
-    int axis;
-    *how = iso_section_defaults();
-    how->crossings = (size_t)o->crossings;
-    how->starts = (size_t)o->starts;
-    how->seed = (uint64_t)o->seed;
-    how->threads = o->threads < 1e6 ? (int)o->threads : 1000000;
-    how->models = o->models;
-    how->tolerance = o->scene.tolerance;
-    if ((int)o->scene.as >= 0) how->shown = o->scene.as;
-    iso_status status = read_axis(ctx, o->axis, &how->axis);
-    if (status == ISO_OK) status = read_event(ctx, o->event, how);
-    for (int i = 0; status == ISO_OK && o->at[i]; i++) status = read_points(ctx, o->at[i], at, &how->at_count);
-    how->at = (const double(*)[2]) * at;
-    if (status == ISO_OK && o->axis && o->event)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --axis or --event, not both");
-    if (status == ISO_OK && o->plot && how->column >= 0 && !iso_section_is_of_axis(how->column, how->value, &axis))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                "--plot draws sections n_A = 0: an event has no coordinates l, x");
-    return status;
 }
 
 /* --- the rows --------------------------------------------------------------------------------------------------- */
@@ -129,17 +52,16 @@ static iso_status open_file(void *data, const iso_record *header)
     target *t = data;
     t->opened = true;
     if (t->picture) section_picture_begin(t->picture, header);
-    const iso_status status = iso_trajectory_open(t->ctx, t->o->output, &t->writer);
-    if (status != ISO_OK) return status;
-    iso_trajectory_set_kind(t->writer, "section");
-    return iso_trajectory_write_header(t->ctx, t->writer, header);
+    const iso_status status = iso_table_writer_open(t->ctx, t->o->output, "section", &t->writer);
+    return status == ISO_OK ? iso_table_write_header(t->ctx, t->writer, header) : status;
 }
 
 static iso_status write_row(void *data, const double row[], size_t count)
 {
     const target *t = data;
-    if (t->picture && !section_picture_row(t->picture, row)) return iso_context_no_memory(t->ctx, "the picture");
-    return iso_trajectory_write_row(t->ctx, t->writer, row, count);
+    (void)count;
+    const iso_status status = t->picture ? section_picture_row(t->ctx, t->picture, row) : ISO_OK;
+    return status != ISO_OK ? status : iso_table_write_row(t->ctx, t->writer, row);
 }
 
 static iso_status keep_pair(void *data, size_t orbit, const iso_crossing *ball, const iso_crossing *point)
@@ -225,7 +147,7 @@ static int close_file(const target *t, iso_status status, const iso_section_resu
     const bool keep = r->rows > 0 && status != ISO_FILE_TROUBLE && status != ISO_CLOSED_PIPE;
     int result = finish(t->ctx, status);
     if (!t->writer) return result;
-    const iso_status closed = iso_trajectory_close(t->ctx, t->writer, keep);
+    const iso_status closed = iso_table_writer_close(t->ctx, t->writer, keep);
     if (closed != ISO_OK) return result == EXIT_DONE ? finish(t->ctx, closed) : result;
     if (status == ISO_STOPPED) complain("interrupted: %zu crossings were written", r->rows);
     if (!keep) return result;
@@ -240,20 +162,16 @@ static int close_file(const target *t, iso_status status, const iso_section_resu
 static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene, const iso_section_options *how)
 {
     target t = {.ctx = ctx, .o = o};
-    const iso_section_sink sink = {open_file, write_row, keep_pair, tell_note, show_progress, &t};
+    const iso_section_sink sink = {open_file, write_row, keep_pair, tell_note, show_progress, &t, NULL};
     iso_section_result r;
-    if (o->plot) t.picture = section_picture_create(scene);
-    stop_gently();
-    progress_begin_rows(o->output);
-    iso_context_set_monitor(ctx, not_interrupted, NULL);
-    const iso_status status =
-        o->plot && !t.picture ? iso_context_no_memory(ctx, "a picture") : iso_section_run(ctx, scene, how, &sink, &r);
+    begin_work(ctx, o->output);
+    iso_status status = o->plot ? section_picture_create(ctx, &scene->params, &t.picture) : ISO_OK;
+    if (status == ISO_OK) status = iso_section_run(ctx, scene, how, &sink, &r);
     int result = t.opened ? close_file(&t, status, &r) : finish_scene(ctx, &o->scene, scene, status);
     if (t.opened && o->plot && r.rows > 0 && result <= EXIT_SOME_FAILED) {
         const int drawn = draw(&t, scene, how, &r);
         if (drawn != EXIT_DONE) result = drawn;
     }
-    iso_context_set_monitor(ctx, NULL, NULL);
     section_picture_free(t.picture);
     return result;
 }
@@ -262,59 +180,37 @@ static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
     iso_scene scene = {.places = 0};
-    iso_section_options how;
-    double(*at)[2] = NULL;
+    const iso_section_options *how = &o->study.how;
+    int axis;
     iso_status status = check_cloud(ctx, o);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
-    if (status == ISO_OK) status = read_options(ctx, o, &how, &at);
+    if (status == ISO_OK && o->plot && how->column >= 0 && !iso_section_is_of_axis(how->column, how->value, &axis))
+        status = iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                                  "--plot draws sections n_A = 0: an event has no coordinates l, x");
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, &scene);
-    int result = finish(ctx, status);
-    if (status == ISO_OK && o->cloud > 0)
-        result = section_cloud(ctx, &o->scene, &scene, &how, o->cloud);
-    else if (status == ISO_OK)
-        result = run_scene(ctx, o, &scene, &how);
-    free(at);
-    return result;
+    if (status != ISO_OK) return finish(ctx, status);
+    return o->cloud > 0 ? section_cloud(ctx, &o->scene, &scene, how, o->cloud) : run_scene(ctx, o, &scene, how);
 }
 
-static const options defaults = {
-    .scene = SCENE_OPTIONS_UNSET, .output = "-", .crossings = 500, .models = ISO_SHOW_START};
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .output = "-"};
 
 static const option_row rows[] = {
     ROW_OUTPUT(options, output),
-    ROW("crossings", "N", "a whole number from 1 on", "crossings of each orbit (default 500)", set_count, options,
-        crossings),
-    ROW("axis", "A", "auto, 1, 2 or 3", "which section n_A = 0, n_A increasing; auto (default): a global one",
-        set_text, options, axis),
-    ROW("event", "COLUMN=VALUE", "COLUMN=VALUE",
-        "in place of --axis: crossings where this column passes this value upwards", set_text, options, event),
-    ROW("starts", "M", "a whole number from 0 on", "M more orbits of the same energy, spread evenly over the section",
-        set_whole, options, starts),
-    ROW_SEED(options, seed),
-    ROW("at", "L,X", "l,x, at most 64 times",
-        "one more orbit, which starts at (l, x); for several: L,X;L,X or --at again", set_at, options, at),
+    ROWS_OF_STUDY(iso_section_option, 0, 6),
     ROW("cloud", "N", "a whole number from 1 on",
         "write no crossings: test with N states, 512 or more, whether the flow keeps the invariant measure",
-        set_count, options, cloud),
-    ROW_MODELS(options, models),
-    ROW_OF_WORDS("as", "WHAT", "ball, point or both", "add the states of a model to each row: ball, point, both",
-                 set_as, options, scene.as, as_word),
+        iso_set_count, options, cloud),
+    ROWS_OF_STUDY(iso_section_option, 6, 2),
     ROW_PLOT(options, plot),
-    ROW_TOLERANCE(options, scene),
-    ROW_THREADS(options, threads),
-    ROW("quiet", NULL, NULL, "print no summary on stderr", set_flag, options, quiet),
+    ROWS_OF_STUDY(iso_section_option, 8, 2),
+    ROW("quiet", NULL, NULL, "print no summary on stderr", iso_set_flag, options, quiet),
     ROW_END,
 };
 
 const command command_section = {
-    .name = "section",
-    .argument = "SCENE",
-    .doc = "compute the Poincare section of both models",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, scene.file),
+    COMMAND("section", "SCENE", "compute the Poincare section of both models", scene.file),
     .takes = FILE_SCENE,
+    .study = &iso_section_study,
     .description =
         "Follows orbits and writes a row for each crossing of the section n_A = 0, n_A increasing. The section is "
         "the same for ball and point. A row has the number of the orbit, the number of the crossing (from 1), t, "
@@ -342,5 +238,4 @@ const command command_section = {
     .example = "isoroll section scene.yaml --starts 100 -o section.csv --plot section.png",
     .exits = "1: interrupted, some orbits did not get to the end, or a cloud does not keep the measure\n"
              "4: the computation failed before the first crossing",
-    .run = run,
 };

@@ -3,8 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number.h"
-#include "io/output.h"
+#include "base/number_impl.h"
 #include "plot/plot.h"
 #include "scene_options.h"
 #include "splitting_report.h"
@@ -15,7 +14,7 @@ typedef struct options {
     scene_options scene;                   /* only its file is used */
     const char *k, *level, *output, *plot; /* NULL: not given */
     iso_separatrix_digits digits;
-    double threads;
+    int threads;
     bool json;
 } options;
 
@@ -23,17 +22,12 @@ enum { MOST_K = 100000 };
 
 /* --- what is typed ---------------------------------------------------------------------------------------------- */
 
-static const char *digits_word(int i)
-{
-    static const char *const words[] = {"double", "quad", "auto"};
-    return i < 3 ? words[i] : NULL;
-}
-
 static bool set_splitting_digits(void *at, const char *text)
 {
-    for (int i = 0; digits_word(i); i++)
-        if (strcmp(text, digits_word(i)) == 0) return *(iso_separatrix_digits *)at = (iso_separatrix_digits)i, true;
-    return false;
+    int i = 0;
+    while (i < 3 && strcmp(text, iso_separatrix_digits_name(i)) != 0) i++;
+    *(iso_separatrix_digits *)at = (iso_separatrix_digits)i;
+    return i < 3;
 }
 
 /* A number, or a fraction p/q. */
@@ -152,36 +146,31 @@ static int judge(iso_context *ctx, const iso_separatrix_table *s)
 }
 
 static int report(iso_context *ctx, const options *o, const iso_scene *scene, const iso_separatrix_table *s,
-                  iso_output *csv)
+                  iso_table_writer *csv)
 {
     int result = judge(ctx, s);
-    const splitting_report r = {scene, scene->params.J, s};
-    const bool some = splitting_has_rows(&r);
+    const bool some = splitting_has_rows(s);
     if (some && o->json)
-        result = splitting_print_json(&r) ? result : EXIT_NUMERICAL;
+        result = splitting_print_json(scene, s) ? result : EXIT_NUMERICAL;
     else if (some && (!o->output || strcmp(o->output, "-") != 0))
-        splitting_print(&r);
+        splitting_print(scene, s);
     if (s->lost > 0) complain("%zu zeros of m lie between these values, but were not found", s->lost);
-    if (csv) {
-        const iso_status status = some ? splitting_write_csv(ctx, &r, csv) : iso_output_close(ctx, csv, false);
-        result = worse(result, finish(ctx, status));
-    }
-    if (some && o->plot && !interrupted()) result = worse(result, finish(ctx, splitting_draw(ctx, &r, o->plot)));
+    result = worse(result, splitting_save(ctx, scene, s, csv, interrupted() ? NULL : o->plot));
     return result;
 }
 
 static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, numbers *k, numbers *level,
-                          iso_output **csv)
+                          iso_table_writer **csv)
 {
     iso_status status = check_json_alone(ctx, "splitting", o->output, o->json);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
     if (status == ISO_OK) status = read_lists(ctx, o, scene, k, level);
-    return status == ISO_OK && o->output ? iso_output_open(ctx, o->output, csv) : status;
+    return status == ISO_OK && o->output ? iso_table_writer_open(ctx, o->output, "splitting", csv) : status;
 }
 
 static int work(iso_context *ctx, const options *o, const iso_scene *scene, const numbers *k, const numbers *level,
-                iso_output *csv)
+                iso_table_writer *csv)
 {
     iso_separatrix_table *s = NULL;
     iso_separatrix_options how = iso_separatrix_defaults();
@@ -189,20 +178,17 @@ static int work(iso_context *ctx, const options *o, const iso_scene *scene, cons
     for (int i = 0; i < 3; i++) how.J[i] = scene->params.J[i];
     how.scene = scene;
     how.digits = o->digits;
-    how.threads = as_int(o->threads);
+    how.threads = o->threads;
     how.progress = progress_told;
-    stop_gently();
-    progress_begin();
-    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    begin_work(ctx, NULL);
     const iso_status status = iso_separatrix_run(ctx, &how, &s);
-    iso_context_set_monitor(ctx, NULL, NULL);
     progress_end();
     int result = status == ISO_STOPPED ? EXIT_SOME_FAILED : finish_scene(ctx, &o->scene, scene, status);
     if (status == ISO_STOPPED) complain("interrupted: only rows that are done are shown");
     if (s)
         result = worse(result, report(ctx, o, scene, s, csv));
     else
-        iso_output_close(ctx, csv, false);
+        iso_table_writer_close(ctx, csv, false);
     iso_separatrix_free(s);
     return result;
 }
@@ -211,7 +197,7 @@ static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
     iso_scene scene = {.places = 0};
-    iso_output *csv = NULL;
+    iso_table_writer *csv = NULL;
     numbers k = {.name = "k"}, level = {.name = "level"};
     const iso_status status = prepare(ctx, o, &scene, &k, &level, &csv);
     const int result =
@@ -226,14 +212,14 @@ static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .digits = ISO_SEP
 static const option_row rows[] = {
     ROW("k", "LIST", "values and ranges A:B:STEP",
         "values of k in place of the scene's, with commas between: ranges A:B:STEP, numbers, fractions such as 1/3",
-        set_text, options, k),
+        iso_set_text, options, k),
     ROW("level", "LIST", "values and ranges A:B:STEP",
-        "levels in place of the scene's, at one k: a list like that of --k", set_text, options, level),
+        "levels in place of the scene's, at one k: a list like that of --k", iso_set_text, options, level),
     ROW_OF_WORDS("digits", "D", "double, quad or auto",
                  "double: 64 bits of mantissa (19 digits); quad: 128 bits (32 digits); auto: 128 bits where 64 give "
                  "less than 3 "
                  "digits of m (default)",
-                 set_splitting_digits, options, digits, digits_word),
+                 set_splitting_digits, options, digits, iso_separatrix_digits_name),
     ROW_THREADS(options, threads),
     ROW_OUTPUT(options, output),
     ROW_PLOT(options, plot),
@@ -242,23 +228,17 @@ static const option_row rows[] = {
 };
 
 const command command_splitting = {
-    .name = "splitting",
-    .argument = "SCENE",
-    .doc = "measure how far the separatrix splits: why only k = 1 and k = -1",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, scene.file),
+    COMMAND("splitting", "SCENE", "measure how far the separatrix splits: why only k = 1 and k = -1", scene.file),
     .takes = FILE_SCENE,
     .description =
         "The rotation about the middle axis is unstable. On the section n_a = 0, a the axis after the middle one, "
         "it is a point (l, x); l and x are those of isoroll section. One curve leaves it: the orbits that come "
         "from this rotation. Another one enters its mirror: the orbits that end in the opposite rotation. If there "
-        "is a further analytic integral, both are one curve. If they cross, there is none. This command follows "
+        "is an additional analytic integral, both are one curve. If they cross, there is none. This command follows "
         "the curve that leaves to its first point with l = pi/2. It finds x = M_a/|M| there, and the slope m = "
         "dx/dl; the other curve has the slope -m. So m = 0 at k = 1 and k = -1, on every level. Where m is not 0, "
         "the curves cross. The command shows this numerically, with an estimated error; it does not prove that "
-        "there is no further analytic integral.\n\n"
+        "there is no additional analytic integral.\n\n"
         "Each m has its error, from a second computation. m falls very fast with |k|: where 64 bits do not "
         "distinguish it from 0, 128 bits are taken, which need from seconds to a minute for each k. Other zeros of "
         "m between two values of k or the level are located. There the curves touch at one point. The slope at the "
@@ -276,5 +256,4 @@ const command command_splitting = {
              "3: bad input: an effect that acts, other than 'level', equal or nearly equal moments, or a level "
              "without the rotation\n"
              "4: the computation failed, or no memory",
-    .run = run,
 };

@@ -5,18 +5,17 @@
 #include <sys/stat.h>
 
 #include "scene_options.h"
-#include "sweep/sweep_file.h"
-#include "sweep/sweep_store.h"
+#include "sweep/sweep_store_impl.h"
 #include "sweep_team.h"
 
 extern const command command_sweep;
 
-/* What sweep can be told. */
 typedef struct options {
     const char *file;
     file_list parts; /* of --merge */
     const char *output, *shard;
-    double threads, point; /* point NAN: not given */
+    double point; /* NAN: not given */
+    int threads;
     bool resume, merge;
 } options;
 
@@ -27,7 +26,7 @@ static bool read_whole(const char *text, size_t length, double *x)
     char copy[24] = "";
     if (length == 0 || length >= sizeof copy) return false;
     memcpy(copy, text, length);
-    return set_whole(x, copy);
+    return iso_set_whole(x, copy);
 }
 
 static bool from_environment(const char *name, double usual, double *x)
@@ -101,7 +100,7 @@ typedef struct work {
 
 static void show(const work *w)
 {
-    progress_show((double)iso_sweep_journal_done(w->journal) / (double)iso_sweep_journal_wanted(w->journal));
+    progress_show((double)w->journal->done / (double)w->journal->wanted);
 }
 
 static bool next_chunk(void *data, size_t *c)
@@ -123,8 +122,8 @@ static iso_status take_chunk(void *data, iso_context *ctx, size_t c, const iso_s
 
 static int tell_interrupted(const options *o, const work *w)
 {
-    const size_t done = iso_sweep_journal_done(w->journal), all = iso_sweep_journal_wanted(w->journal);
-    if (!iso_sweep_journal_lasts(w->journal) || done == 0) {
+    const size_t done = w->journal->done, all = w->journal->wanted;
+    if (!w->journal->name || done == 0) {
         complain("interrupted: nothing was written");
         return limit_is_near() && done == 0 ? EXIT_DONE : EXIT_SOME_FAILED;
     }
@@ -143,14 +142,14 @@ static int tell_failures(const iso_sweep_failures *f, const char *of)
 
 static int threads_of(const options *o)
 {
-    return o->threads < 1024 ? (int)o->threads : 1024;
+    return o->threads < 1024 ? o->threads : 1024;
 }
 
 /* Before the work begins, not hours later. */
 static void warn_of_zeros(const iso_sweep_file *file, const iso_sweep_journal *journal)
 {
     const size_t zeros = iso_sweep_zeros_of_k(file);
-    if (zeros > 0 && iso_sweep_journal_done(journal) < iso_sweep_journal_wanted(journal))
+    if (zeros > 0 && journal->done < journal->wanted)
         complain("sweep: %zu of %zu points have k = 0, where there is no ball: they will fail", zeros,
                  iso_sweep_file_plan(file)->family.count);
 }
@@ -168,20 +167,20 @@ static int compute(iso_context *ctx, const options *o, const sweep_team *team, c
     iso_status status = team->run(team->data, ctx, sweep, threads_of(o), &source);
     progress_end();
     if (status != ISO_OK) return finish(ctx, status);
-    if (iso_sweep_journal_done(journal) < iso_sweep_journal_wanted(journal)) return tell_interrupted(o, &w);
+    if (journal->done < journal->wanted) return tell_interrupted(o, &w);
     status = iso_sweep_journal_finish(ctx, journal);
-    snprintf(of, sizeof of, "of %zu ", iso_sweep_journal_points(journal));
-    return status == ISO_OK ? tell_failures(iso_sweep_journal_failures(journal), of) : finish(ctx, status);
+    snprintf(of, sizeof of, "of %zu ", iso_sweep_shard_points(head, journal->share));
+    return status == ISO_OK ? tell_failures(&journal->failures, of) : finish(ctx, status);
 }
 
 /* A quantity that the scene does not have is refused where the file asks for it. */
 static int refused(iso_context *ctx, const options *o, const iso_sweep_plan *plan, iso_status status)
 {
-    const char *name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file;
     for (int i = 0; i < plan->wishes; i++) {
         const iso_place *at = &plan->wish[i].place;
         if (status == ISO_BAD_INPUT && strcmp(at->key, iso_context_about(ctx)) == 0)
-            iso_context_fail(ctx, status, "", "%s:%d:%d: %s", name, at->line, at->column, iso_context_message(ctx));
+            iso_context_fail(ctx, status, "", "%s:%d:%d: %s", iso_text_name(o->file), at->line, at->column,
+                             iso_context_message(ctx));
     }
     return finish(ctx, status);
 }
@@ -271,7 +270,7 @@ int sweep_with(iso_context *ctx, const void *options_given, const sweep_team *te
         return complain("sweep: mpirun does not tell whether its output arrives: give -o FILE"), EXIT_USAGE;
     if (!computes && !team->writes) return EXIT_DONE;
     if (o->merge) return merge(ctx, o);
-    int result = finish(ctx, iso_sweep_read(ctx, o->file, iso_sweep_quantities(), &file));
+    int result = finish(ctx, iso_sweep_read(ctx, o->file, &file));
     if (computes) result = team->agree(team->data, result);
     if (result == EXIT_DONE) result = computes ? run_file(ctx, o, team, file) : print_point(ctx, o, file);
     iso_sweep_file_free(file);
@@ -303,28 +302,22 @@ static const options defaults = {.file = "-", .output = "-", .point = NAN};
 
 static const option_row rows[] = {
     ROW_OF_FILE("output", "FILE", "a file", "write to FILE: HDF5 if it ends in .h5, else CSV; - is standard output",
-                set_text, options, output, 'o', OPTION_WRITES),
+                iso_set_text, options, output, 'o', OPTION_WRITES),
     ROW_THREADS(options, threads),
-    ROW("resume", NULL, NULL, "go on with what FILE.part has; begin if there is none", set_flag, options, resume),
+    ROW("resume", NULL, NULL, "go on with what FILE.part has; begin if there is none", iso_set_flag, options, resume),
     ROW("shard", "I/N", "i/n, slurm or slurm/n",
         "compute every N-th chunk, from the I-th on; slurm/N: I is the number of the task of a Slurm array; slurm: "
         "I and N come from the array, which must be whole",
-        set_text, options, shard),
-    ROW("merge", NULL, NULL, "put the files of all shards together: the arguments are these files", set_flag, options,
-        merge),
-    ROW("point", "I", "a whole number from 0 on", "print the scene of point I and do nothing else", set_whole,
+        iso_set_text, options, shard),
+    ROW("merge", NULL, NULL, "put the files of all shards together: the arguments are these files", iso_set_flag,
+        options, merge),
+    ROW("point", "I", "a whole number from 0 on", "print the scene of point I and do nothing else", iso_set_whole,
         options, point),
     ROW_END,
 };
 
 const command command_sweep = {
-    .name = "sweep",
-    .argument = "SWEEP",
-    .doc = "measure many orbits or balls, on all cores, resumable",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, file),
+    COMMAND("sweep", "SWEEP", "measure many orbits or balls, on all cores, resumable", file),
     .takes = FILE_SWEEP | FILE_RESULT | FILE_HDF5,
     .files = offsetof(options, parts),
     .description =
@@ -342,5 +335,4 @@ const command command_sweep = {
                "isoroll sweep --merge out.*.h5 -o out.h5",
     .exits = "0: done, or stopped by SIGTERM or SIGUSR1\n"
              "1: some points failed, or interrupted by Ctrl-C",
-    .run = run,
 };

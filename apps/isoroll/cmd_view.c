@@ -5,11 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "io/table.h"
 #include "scene_options.h"
 #include "view.h"
 
-/* What view can be told. */
 typedef struct options {
     file_options from;
     const char *output; /* NULL: not given */
@@ -42,12 +40,8 @@ static iso_status make_seekable(iso_context *ctx)
 static view_kind kind_of(const file_options *from)
 {
     static const char *const endings[] = {".h5", ".csv", ".txt", ".dat", ".tsv"};
-    char text[64], kind[ISO_KIND_SIZE] = "";
-    read_beginning(from->file, text, sizeof text);
-    if (strncmp(text, "# isoroll section ", 18) == 0) return SECTION;
-    if (ends_with(from->file, ".h5")) iso_table_kind(from->file, kind);
-    if (strcmp(kind, "section") == 0) return SECTION;
-    if (strncmp(text, "# isoroll trajectory ", 21) == 0) return TRAJECTORY;
+    const unsigned kind = file_kind(strcmp(from->file, "-") == 0 ? "/dev/stdin" : from->file);
+    if (kind == FILE_SECTION || kind == FILE_TRAJECTORY) return kind == FILE_SECTION ? SECTION : TRAJECTORY;
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
         if (ends_with(from->file, endings[i])) return TRAJECTORY;
     const bool told = from->columns || from->scene || !isnan(from->k) || !isnan(from->J[0]);
@@ -79,10 +73,9 @@ static iso_status of_scene(iso_context *ctx, const options *o, view_page *page)
 {
     iso_scene scene = {.places = 0};
     iso_status status = iso_scene_read(ctx, o->from.file, &scene);
-    const char *name = strcmp(o->from.file, "-") == 0 ? "<stdin>" : o->from.file;
     if (status == ISO_OK) status = iso_scene_check_times(ctx, &scene);
     if (status == ISO_OK) status = view_of_scene(ctx, &scene, page);
-    return blame_pipe(ctx, o->from.file, iso_scene_blame(ctx, &scene, name, status));
+    return blame_pipe(ctx, o->from.file, iso_scene_blame(ctx, &scene, iso_text_name(o->from.file), status));
 }
 
 static iso_status make(iso_context *ctx, const options *o, view_kind kind, view_page *page)
@@ -110,12 +103,13 @@ static int run(iso_context *ctx, const void *options_given)
     if (status == ISO_OK && standard) status = make_seekable(ctx);
     if (status != ISO_OK) return finish(ctx, status);
     const view_kind kind = kind_of(&o->from);
-    view_page page = view_page_empty(standard ? "<stdin>" : short_name(o->from.file), names[kind]);
-    stop_gently();
-    progress_begin();
-    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    view_page page = {.title = standard ? "<stdin>" : short_name(o->from.file),
+                      .kind = names[kind],
+                      .eps = NAN,
+                      .h = NAN,
+                      .every = 1};
+    begin_work(ctx, NULL);
     status = make(ctx, o, kind, &page);
-    iso_context_set_monitor(ctx, NULL, NULL);
     const bool no_orbit = page.no_orbit;
     view_page_free(&page);
     if (status == ISO_STOPPED) complain("interrupted: %s", iso_context_message(ctx));
@@ -126,25 +120,20 @@ static int run(iso_context *ctx, const void *options_given)
 static const options defaults = {.from = FILE_OPTIONS_UNSET, .frames = {.fps = 25, .seconds = 10}};
 
 static const option_row rows[] = {
-    ROW_OF_FILE("output", "FILE", "a file", "the page; - is standard output", set_text, options, output, 'o',
+    ROW_OF_FILE("output", "FILE", "a file", "the page; - is standard output", iso_set_text, options, output, 'o',
                 OPTION_WRITES),
-    ROW("frames", "DIR", "a folder", "draw the motion as DIR/frame0001.png, ... (needs Chromium)", set_text, options,
-        frames.folder),
-    ROW("fps", "N", "a positive number", "pictures in each second (default 25)", set_positive, options, frames.fps),
-    ROW("seconds", "N", "a positive number", "seconds that the whole motion takes (default 10)", set_positive,
+    ROW("frames", "DIR", "a folder", "draw the motion as DIR/frame0001.png, ... (needs Chromium)", iso_set_text,
+        options, frames.folder),
+    ROW("fps", "N", "a positive number", "pictures in each second (default 25)", iso_set_positive, options,
+        frames.fps),
+    ROW("seconds", "N", "a positive number", "seconds that the whole motion takes (default 10)", iso_set_positive,
         options, frames.seconds),
     ROWS_OF_FILE(options, from),
     ROW_END,
 };
 
 const command command_view = {
-    .name = "view",
-    .argument = "FILE",
-    .doc = "make a page in which ball and point move side by side",
-    .rows = rows,
-    .defaults = &defaults,
-    .size = sizeof defaults,
-    .file = offsetof(options, from.file),
+    COMMAND("view", "FILE", "make a page in which ball and point move side by side", from.file),
     .takes = FILE_SCENE | FILE_ROWS,
     .description =
         "FILE is a scene, or a trajectory or section (CSV or HDF5). The page is one file. It opens from disk in "
@@ -162,5 +151,4 @@ const command command_view = {
         "--frames draws pictures of 1280 x 720 pixels with Chromium, without a window; -o is then not needed.",
     .exits = "1: interrupted, or the rows of a trajectory are no orbit (the page is there)",
     .example = "isoroll view scene.yaml -o page.html\nisoroll view section.csv -o section.html",
-    .run = run,
 };

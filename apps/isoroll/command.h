@@ -19,6 +19,7 @@ typedef struct command {
     size_t file;                /* offset of the argument in it, a const char *                         */
     unsigned takes;             /* kinds of file that the argument can be (file_kind.h); 0: not looked at */
     size_t files;               /* offset of a file_list in it, for further arguments; 0: there are none */
+    const iso_study *study;     /* its struct of options is the first member; NULL: none             */
     const char *(*word)(int i); /* the words that the argument can be; NULL: it is a file           */
     const char *description;    /* paragraphs with an empty line between; lines are folded          */
     const char *example;        /* lines as they are typed                                          */
@@ -26,7 +27,13 @@ typedef struct command {
     int (*run)(iso_context *ctx, const void *options); /* gives the exit status                     */
 } command;
 
-/* All commands in the order of --help; NULL after the last. Adding a command is one file and one line in
+/* What the row of every command begins with: name, argument and doc as above, and where the argument stands in its
+ * `options`. Its file has `rows`, `defaults` and `run`. */
+#define COMMAND(name_, argument_, doc_, file_)                                                                       \
+    .name = name_, .argument = argument_, .doc = doc_, .rows = rows, .defaults = &defaults, .size = sizeof defaults, \
+    .file = offsetof(options, file_), .run = run
+
+/* All commands in the order of --help; NULL after the last. Adding a command is one file and one word in
  * commands.c. */
 extern const command *const commands[];
 
@@ -43,5 +50,24 @@ extern const char *const about_exits;
 /* Prints the help of one command, of the program. */
 void help_command(const command *c, FILE *to);
 void help_program(FILE *to);
+
+/* The man pages isoroll(1) and isoroll-NAME(1), in the format man(7); scripts that complete the command line. */
+void manual_program(FILE *to);
+void manual_command(const command *c, FILE *to);
+void complete_bash(FILE *to);
+void complete_zsh(FILE *to);
+
+/* --- program.c: how a program of isoroll begins, runs a command, and ends -------------------------------------- */
+
+/* Sets up the process: streams, signals, the libraries. Call it first. */
+void program_begin(void);
+
+/* Reads the options and runs the command; argv[0] is its name. Gives the exit status. */
+int program_run(const command *c, int argc, char **argv);
+
+/* Writes what was printed. Gives the exit status: another one if that fails. */
+int program_flush(int status);
+
+void program_version(void);
 
 #endif

@@ -3,29 +3,14 @@
 
 #include "command.h"
 
-extern const command command_run, command_convert, command_compare, command_cost, command_check, command_analogue,
-    command_frequencies, command_explain, command_list, command_plot, command_manual, command_section, command_chaos,
-    command_periodic, command_splitting, command_integrals, command_sweep, command_view;
+#define COMMANDS(X)                                                                                                  \
+    X(run) X(convert) X(compare) X(cost) X(check) X(plot) X(view) X(section) X(chaos) X(periodic) X(splitting)       \
+    X(integrals) X(sweep) X(explain) X(analogue) X(frequencies) X(list) X(manual)
+#define DECLARE(name) extern const command command_##name;
+#define ADDRESS(name) &command_##name,
 
-const command *const commands[] = {&command_run,
-                                   &command_convert,
-                                   &command_compare,
-                                   &command_cost,
-                                   &command_check,
-                                   &command_plot,
-                                   &command_view,
-                                   &command_section,
-                                   &command_chaos,
-                                   &command_periodic,
-                                   &command_splitting,
-                                   &command_integrals,
-                                   &command_sweep,
-                                   &command_explain,
-                                   &command_analogue,
-                                   &command_frequencies,
-                                   &command_list,
-                                   &command_manual,
-                                   NULL};
+COMMANDS(DECLARE)
+const command *const commands[] = {COMMANDS(ADDRESS) NULL};
 
 const char *const about_isoroll =
     "isoroll simulates the rubber Chaplygin ball that rolls on a sphere, and its twin, a point on a sphere in a "

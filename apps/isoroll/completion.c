@@ -1,7 +1,7 @@
 /* completion.c - scripts for bash and zsh that complete the command line, made from the tables of the commands. */
 #include <string.h>
 
-#include "manual.h"
+#include "command.h"
 
 /* --- bash ------------------------------------------------------------------------------------------------------- */
 

@@ -3,20 +3,26 @@
 
 #include "cost_report.h"
 #include "json.h"
+#include "plot/plot.h"
 #include "table.h"
 
-iso_status cost_write_csv(iso_context *ctx, const cost_report *r, iso_output *to)
+iso_status cost_table(iso_context *ctx, const cost_report *r, const iso_cost_series *const line[], iso_record **table)
 {
     const iso_cost *c = r->cost;
+    char title[ISO_PLOT_TITLE];
+    iso_plot_title(title, &r->scene->params, ", %s = %.6g, about %.3g turns",
+                   r->scene->start.model == ISO_BALL ? "t" : "s", c->end, c->turns);
     const table_line lines[] = {{.key = "end", .number = c->end},
                                 {.key = "reference", .text = c->reference},
                                 {.key = "second reference", .text = c->second},
                                 {.key = "uncertainty", .number = c->uncertainty},
+                                {.key = "title", .text = title},
                                 {.key = NULL}};
-    const iso_status status = table_begin(ctx, to, "cost", r->scene, lines, iso_cost_cell_fields);
-    for (int i = 0; status == ISO_OK && i < c->cells; i++)
-        iso_row_write(iso_output_stream(to), iso_cost_cell_fields, &c->cell[i]);
-    return table_end(ctx, to, status);
+    iso_status status = table_create(ctx, "cost", r->scene, lines, iso_cost_cell_fields, table);
+    for (int l = 0; l < c->lines; l++)
+        for (int i = line[l]->first; status == ISO_OK && i < line[l]->first + line[l]->count; i++)
+            status = iso_columns_append(ctx, iso_cost_cell_fields, &c->cell[i], *table);
+    return status;
 }
 
 static void find_why(const void *row, int i, iso_value *v)

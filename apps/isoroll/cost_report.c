@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "cost_report.h"
-#include "study/cost/cost.h"
+#include "study/cost/cost_impl.h"
 
 bool cost_is_failed(const iso_cost_cell *cell)
 {

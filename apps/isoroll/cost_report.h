@@ -4,7 +4,6 @@
 #ifndef ISOROLL_COST_REPORT_H
 #define ISOROLL_COST_REPORT_H
 
-#include "io/output.h"
 #include "scene_options.h"
 #include "study/cost/cost.h"
 
@@ -52,7 +51,8 @@ const char *cost_seconds(double seconds, char words[COST_SECONDS]);
 void cost_print(const cost_report *r, const iso_cost_series *const line[]);
 bool cost_print_json(const cost_report *r);
 
-/* Writes the cells as CSV. */
-iso_status cost_write_csv(iso_context *ctx, const cost_report *r, iso_output *to);
+/* The cells as a table, to be freed, with the lines in this order. */
+iso_status cost_table(iso_context *ctx, const cost_report *r, const iso_cost_series *const line[],
+                      iso_record **table);
 
 #endif

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "cost_report.h"
-#include "study/cost/cost.h"
+#include "study/cost/cost_impl.h"
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
 

@@ -8,22 +8,37 @@
 
 #include "command.h"
 #include "io/table.h"
-
-enum { BEGINNING = 65536 };
-
-void read_beginning(const char *path, char *text, size_t size)
-{
-    const bool standard = strcmp(path, "-") == 0;
-    const bool regular = standard || is_regular(path);
-    const int file = standard ? STDIN_FILENO : regular ? open(path, O_RDONLY | O_CLOEXEC) : -1;
-    const ssize_t got = file >= 0 ? pread(file, text, size - 1, 0) : 0;
-    text[got > 0 ? got : 0] = '\0';
-    if (file >= 0 && !standard) close(file);
-}
+#include "sweep/sweep_impl.h"
 
 /* --- the kind --------------------------------------------------------------------------------------------------- */
 
-/* The kind of one of isoroll's own tables, which say what they are; else "". */
+static const struct {
+    const char *table; /* NULL: it is none of isoroll's tables, which say what they are */
+    unsigned kind;
+    const char *words;
+} kinds[] = {{"trajectory", FILE_TRAJECTORY, "a trajectory"},
+             {"section", FILE_SECTION, "a section"},
+             {"sweep", FILE_RESULT, "the result of a sweep"},
+             {"sweep part", FILE_RESULT, "the result of a sweep"},
+             {"periodic", FILE_ORBITS, "a table of periodic orbits"},
+             {NULL, FILE_SCENE, "a scene"},
+             {NULL, FILE_SWEEP, "a sweep"},
+             {NULL, FILE_HDF5, "an HDF5 file"}};
+
+/* The first bytes of a regular file, as text in whole lines; "" of others: they can be read only once. */
+static const char *beginning_of(const char *path)
+{
+    static char text[1 << 20];
+    const int file = strcmp(path, "-") != 0 && is_regular(path) ? open(path, O_RDONLY | O_CLOEXEC) : -1;
+    const ssize_t got = file >= 0 ? read(file, text, sizeof text - 1) : 0;
+    text[got > 0 ? got : 0] = '\0';
+    if (file >= 0) close(file);
+    char *last = got == sizeof text - 1 ? strrchr(text, '\n') : NULL;
+    if (last) *last = '\0'; /* the line behind it was cut */
+    return text;
+}
+
+/* The kind of one of isoroll's own tables; else "". */
 static void table_name(const char *path, const char *text, char name[ISO_KIND_SIZE])
 {
     *name = '\0';
@@ -32,72 +47,41 @@ static void table_name(const char *path, const char *text, char name[ISO_KIND_SI
     if (strncmp(text, "\211HDF\r\n", 6) == 0) iso_table_kind(path, name);
 }
 
-static unsigned kind_of_table(const char *kind)
-{
-    static const struct {
-        const char *name;
-        unsigned kind;
-    } kinds[] = {{"trajectory", FILE_TRAJECTORY},
-                 {"section", FILE_SECTION},
-                 {"sweep", FILE_RESULT},
-                 {"sweep part", FILE_RESULT},
-                 {"periodic", FILE_ORBITS}};
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
-        if (strcmp(kind, kinds[i].name) == 0) return kinds[i].kind;
-    return FILE_TABLE;
-}
-
-/* Whether a line has this key of YAML at its beginning. */
-static bool has_key(const char *line, const char *const keys[])
-{
-    const size_t length = strcspn(line, ": \t\r\n");
-    const char *behind = line + length + strspn(line + length, " \t");
-    for (int i = 0; *behind == ':' && keys[i]; i++)
-        if (strlen(keys[i]) == length && strncmp(line, keys[i], length) == 0) return true;
-    return false;
-}
-
-/* A sweep or a scene: each line is a key of theirs, a comment, or indented. */
+/* A sweep, or a scene: each line is a key of its, a comment, or indented. */
 static unsigned kind_of_yaml(const char *text)
 {
-    static const char *const sweeps[] = {"scene", "vary", "measure", "until", "samples", "chunk", "vectors", NULL};
-    static const char *const scenes[] = {"ball", "reduced", "point",  "surface", "initial",
-                                         "time", "solver",  "output", "effects", NULL};
+    static const char *const keys[] = {"ball", "reduced", "point",  "surface", "initial",
+                                       "time", "solver",  "output", "effects", NULL};
     unsigned kind = 0;
+    if ((strstr(text, "vary") || strstr(text, "measure")) && iso_sweep_is_one(text, strlen(text))) return FILE_SWEEP;
     for (const char *line = text; *line; line += strcspn(line, "\n"), line += *line == '\n') {
+        const size_t length = strcspn(line, ": \t\r\n");
+        int i = 0;
         if (strchr("# \t\r\n", *line) || strncmp(line, "---", 3) == 0) continue;
-        if (!has_key(line, sweeps) && !has_key(line, scenes)) return 0;
-        kind = kind == FILE_SWEEP || has_key(line, sweeps) ? FILE_SWEEP : FILE_SCENE;
+        while (keys[i] && (strlen(keys[i]) != length || strncmp(line, keys[i], length) != 0)) i++;
+        if (!keys[i] || line[length + strspn(line + length, " \t")] != ':') return 0;
+        kind = FILE_SCENE;
     }
     return kind;
 }
 
-unsigned file_kind(const char *path)
+static unsigned find_kind(const char *path, char table[ISO_KIND_SIZE])
 {
-    char text[BEGINNING], name[ISO_KIND_SIZE];
-    if (strcmp(path, "-") == 0) return 0; /* what is read here is lost for the command */
-    read_beginning(path, text, sizeof text);
-    char *last = strlen(text) == sizeof text - 1 ? strrchr(text, '\n') : NULL;
-    if (last) *last = '\0'; /* the line behind it was cut */
-    table_name(path, text, name);
-    if (*name) return kind_of_table(name);
+    const char *text = beginning_of(path);
+    table_name(path, text, table);
+    for (size_t i = 0; *table && i < sizeof kinds / sizeof *kinds; i++)
+        if (kinds[i].table && strcmp(table, kinds[i].table) == 0) return kinds[i].kind;
+    if (*table) return FILE_TABLE;
     return strncmp(text, "\211HDF\r\n", 6) == 0 ? FILE_HDF5 : kind_of_yaml(text);
 }
 
-/* --- the refusal ------------------------------------------------------------------------------------------------ */
-
-static const char *name_of(unsigned kind)
+unsigned file_kind(const char *path)
 {
-    switch (kind) {
-    case FILE_SCENE: return "a scene";
-    case FILE_SWEEP: return "a sweep";
-    case FILE_TRAJECTORY: return "a trajectory";
-    case FILE_SECTION: return "a section";
-    case FILE_RESULT: return "the result of a sweep";
-    case FILE_ORBITS: return "a table of periodic orbits";
-    default: return "an HDF5 file";
-    }
+    char table[ISO_KIND_SIZE];
+    return find_kind(path, table);
 }
+
+/* --- the refusal ------------------------------------------------------------------------------------------------ */
 
 /* The commands that take a kind, with commas between. */
 static void list_commands(unsigned kind, char list[200])
@@ -111,8 +95,9 @@ static void list_commands(unsigned kind, char list[200])
 
 bool file_fits(const command *c, const char *path)
 {
-    char list[200], text[64], name[ISO_KIND_SIZE];
-    const unsigned kind = c->takes ? file_kind(path) : 0;
+    char list[200], table[ISO_KIND_SIZE];
+    const unsigned kind = c->takes ? find_kind(path, table) : 0;
+    size_t i = 0;
     if (kind == 0 || c->takes & kind) return true;
     list_commands(kind, list);
     if (kind == FILE_SCENE && c->takes & FILE_SWEEP)
@@ -122,12 +107,12 @@ bool file_fits(const command *c, const char *path)
         complain("%s: '%s' is a scene, and no trajectory: 'isoroll run %s -o trajectory.csv' makes one; scenes are "
                  "for: %s",
                  c->name, path, path, list);
-    else if (kind == FILE_TABLE) {
-        read_beginning(path, text, sizeof text);
-        table_name(path, text, name);
-        complain("%s: '%s' is a table '%s', with no states of one scene, which is for: %s", c->name, path, name,
+    else if (kind == FILE_TABLE)
+        complain("%s: '%s' is a table '%s', with no states of one scene, which is for: %s", c->name, path, table,
                  list);
-    } else
-        complain("%s: '%s' is %s, which is for: %s", c->name, path, name_of(kind), list);
+    else {
+        while (kinds[i].kind != kind) i++;
+        complain("%s: '%s' is %s, which is for: %s", c->name, path, kinds[i].words, list);
+    }
     return false;
 }

@@ -5,6 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "io/text_impl.h"
+
 struct command;
 
 /* The kinds, as bits of command.takes. */
@@ -19,9 +21,6 @@ enum {
     FILE_ORBITS = 128, /* of periodic: each row is an orbit */
     FILE_ROWS = FILE_TRAJECTORY | FILE_SECTION | FILE_HDF5
 };
-
-/* The first bytes of a regular file, or of a standard input that can be read again ("-"), as text; "" of others. */
-void read_beginning(const char *path, char *text, size_t size);
 
 /* One of the kinds. 0: the file is no regular file, cannot be read, or its beginning does not tell. */
 unsigned file_kind(const char *path);

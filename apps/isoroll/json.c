@@ -71,7 +71,7 @@ json_t *json_effects(const iso_effects *effects, bool all)
     return o;
 }
 
-/* --- results ----------------------------------------------------------------------------------------------------- */
+/* --- results ---------------------------------------------------------------------------------------------------- */
 
 static json_t *value_of(const iso_field *f, const void *row, int i)
 {
@@ -174,7 +174,7 @@ json_t *json_of_scene(const iso_scene *scene, const iso_field *fields, const voi
     return o;
 }
 
-/* --- printing ---------------------------------------------------------------------------------------------------- */
+/* --- printing --------------------------------------------------------------------------------------------------- */
 
 bool json_whole(const json_t *o)
 {

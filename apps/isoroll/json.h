@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "isoroll.h"
+#include "study/fields_impl.h"
 
 /* Call it before any other function of jansson. */
 void json_begin(void);

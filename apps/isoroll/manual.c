@@ -1,6 +1,7 @@
 /* manual.c - man pages in the format man(7), made from the tables of the commands. */
-#include "manual.h"
+#include "command.h"
 
+#include <ctype.h>
 #include <string.h>
 
 /* Prints `length` characters as plain text of roff: a backslash, a dash and a quote have other meanings there. */
@@ -39,8 +40,7 @@ static void put_head(const char *name, const char *doc, FILE *to)
 {
     char upper[64];
     snprintf(upper, sizeof upper, "ISOROLL%s%s", name ? "-" : "", name ? name : "");
-    for (char *c = upper; *c; c++)
-        if (*c >= 'a' && *c <= 'z') *c = (char)(*c - 'a' + 'A');
+    for (char *c = upper; *c; c++) *c = (char)toupper((unsigned char)*c);
     fputs(".\\\" made by 'isoroll manual' from the tables of the commands\n.TH ", to);
     fprintf(to, "%s 1 \"\" \"isoroll %s\" \"User Commands\"\n.SH NAME\nisoroll%s%s \\- ", upper, iso_version(),
             name ? "\\-" : "", name ? name : "");
@@ -51,9 +51,8 @@ static void put_head(const char *name, const char *doc, FILE *to)
 static void put_row(const option_row *r, FILE *to)
 {
     fputs(".TP\n", to);
-    if (r->letter) fprintf(to, "\\fB\\-%c\\fR", r->letter);
-    if (r->letter && r->argument) fprintf(to, " \\fI%s\\fR", r->argument);
-    if (r->letter) fputs(", ", to);
+    if (r->letter && r->argument) fprintf(to, "\\fB\\-%c\\fR \\fI%s\\fR, ", r->letter, r->argument);
+    if (r->letter && !r->argument) fprintf(to, "\\fB\\-%c\\fR, ", r->letter);
     fputs("\\fB\\-\\-", to);
     put(r->name, to);
     fputs("\\fR", to);
@@ -67,22 +66,18 @@ static void put_row(const option_row *r, FILE *to)
     fputs(".\n", to);
 }
 
-static void put_example(const char *example, FILE *to)
+/* Lines as they are. */
+static void put_block(const char *head, const char *lines, FILE *to)
 {
-    fputs(".SH EXAMPLE\n.nf\n", to);
-    put_lines(example, "", to);
+    fprintf(to, "%s.nf\n", head);
+    put_lines(lines, "", to);
     fputs(".fi\n", to);
 }
 
 static void put_exits(const char *special, FILE *to)
 {
-    fputs(".SH EXIT STATUS\n.nf\n", to);
-    put_lines(about_exits, "", to);
-    fputs(".fi\n", to);
-    if (!special) return;
-    fputs(".PP\nFor this command:\n.PP\n.nf\n", to);
-    put_lines(special, "", to);
-    fputs(".fi\n", to);
+    put_block(".SH EXIT STATUS\n", about_exits, to);
+    if (special) put_block(".PP\nFor this command:\n.PP\n", special, to);
 }
 
 void manual_command(const command *c, FILE *to)
@@ -96,7 +91,7 @@ void manual_command(const command *c, FILE *to)
     fputs(".SH OPTIONS\n", to);
     for (int i = 0; options_row(c, i); i++) put_row(options_row(c, i), to);
     put_exits(c->exits, to);
-    put_example(c->example, to);
+    put_block(".SH EXAMPLE\n", c->example, to);
     fputs(".SH SEE ALSO\n.BR isoroll (1)\n", to);
 }
 
@@ -114,7 +109,7 @@ void manual_program(FILE *to)
     }
     put_exits(NULL, to);
     fputs(".SH ENVIRONMENT\n.TP\n.B NO_COLOR\nIf it is not empty, the progress bar has no colour.\n", to);
-    put_example(command_find("run")->example, to);
+    put_block(".SH EXAMPLE\n", command_find("run")->example, to);
     fputs(".SH SEE ALSO\n", to);
     for (int i = 0; commands[i]; i++)
         fprintf(to, ".BR isoroll\\-%s (1)%s\n", commands[i]->name, commands[i + 1] ? "," : "");

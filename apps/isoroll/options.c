@@ -6,58 +6,15 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/nearest.h"
-#include "base/number.h"
+#include "base/nearest_impl.h"
+#include "base/number_impl.h"
 #include "command.h"
 
 /* --- setters ---------------------------------------------------------------------------------------------------- */
 
-bool set_text(void *at, const char *text)
-{
-    *(const char **)at = text;
-    return *text != '\0';
-}
-
-bool set_flag(void *at, const char *text)
-{
-    (void)text;
-    return *(bool *)at = true;
-}
-
-bool set_number(void *at, const char *text)
-{
-    return iso_number_read(text, strlen(text), at);
-}
-
-bool set_tolerance(void *at, const char *text)
-{
-    return set_number(at, text) && *(double *)at >= ISO_LEAST_TOLERANCE && *(double *)at <= ISO_MOST_TOLERANCE;
-}
-
-bool set_positive(void *at, const char *text)
-{
-    return set_number(at, text) && *(double *)at > 0;
-}
-
-bool set_count(void *at, const char *text)
-{
-    return set_number(at, text) && *(double *)at >= 1 && *(double *)at == floor(*(double *)at) &&
-           *(double *)at < 9e15;
-}
-
 bool set_bound(void *at, const char *text)
 {
-    return set_number(at, text) && *(double *)at >= 0;
-}
-
-bool set_whole(void *at, const char *text)
-{
-    return set_bound(at, text) && *(double *)at == floor(*(double *)at) && *(double *)at < 9e15;
-}
-
-int as_int(double whole)
-{
-    return whole < 1e9 ? (int)whole : 1000000000;
+    return iso_set_number(at, text) && *(double *)at >= 0;
 }
 
 bool set_vector(void *at, const char *text)
@@ -71,46 +28,34 @@ bool set_vector(void *at, const char *text)
     return true;
 }
 
-/* The value of a word that the option takes: its place among the names of the enumeration. -1: no such word. */
-static int value_of(const char *text, const char *(*word)(int i), const char *(*name)(int value))
+/* An enumeration whose names are these. */
+static bool set_value(void *at, const char *text, const char *(*name)(int value))
 {
-    int i = 0, value = 0;
-    while (word(i) && strcmp(text, word(i)) != 0) i++;
-    if (!word(i)) return -1;
+    int value = 0;
     while (name(value) && strcmp(text, name(value)) != 0) value++;
-    return name(value) ? value : -1;
+    if (name(value)) *(int *)at = value;
+    return name(value) != NULL;
 }
 
 bool set_backend(void *at, const char *text)
 {
-    const int value = value_of(text, backend_word, iso_backend_name);
-    if (value >= 0) *(iso_backend *)at = (iso_backend)value;
-    return value >= 0;
-}
-
-bool set_as(void *at, const char *text)
-{
-    const int value = value_of(text, as_word, iso_shown_name);
-    if (value >= 0) *(iso_models *)at = (iso_models)value;
-    return value >= 0;
+    return set_value(at, text, iso_backend_name);
 }
 
 bool set_target(void *at, const char *text)
 {
-    const int value = value_of(text, target_word, iso_model_kind_name);
-    if (value >= 0) *(iso_model_kind *)at = (iso_model_kind)value;
-    return value >= 0;
+    return set_value(at, text, iso_model_kind_name);
 }
 
 bool set_method(void *at, const char *text)
 {
-    return (strcmp(text, "auto") == 0 || iso_method_find(text)) && set_text(at, text);
+    return (strcmp(text, "auto") == 0 || iso_method_find(text)) && iso_set_text(at, text);
 }
 
 bool set_digits(void *at, const char *text)
 {
     double digits = ISO_HEXADECIMAL;
-    const bool set = strcmp(text, "hex") == 0 || (set_count(&digits, text) && digits <= 17);
+    const bool set = strcmp(text, "hex") == 0 || (iso_set_count(&digits, text) && digits <= 17);
     *(int *)at = (int)digits;
     return set;
 }
@@ -120,18 +65,6 @@ bool set_digits(void *at, const char *text)
 const char *backend_word(int i)
 {
     static const char *const words[] = {"ball", "point", "exact", "auto", NULL};
-    return words[i];
-}
-
-const char *as_word(int i)
-{
-    static const char *const words[] = {"ball", "point", "both", NULL};
-    return words[i];
-}
-
-const char *target_word(int i)
-{
-    static const char *const words[] = {"ball", "point", NULL};
     return words[i];
 }
 
@@ -184,9 +117,10 @@ static const option_row help_row = {.name = "help", .doc = "print this text", .l
 
 const option_row *options_row(const command *c, int i)
 {
-    for (int j = 0; j < i; j++)
-        if (!c->rows[j].name) return NULL;
-    return c->rows[i].name ? &c->rows[i] : &help_row;
+    const option_row *r = c->rows;
+    for (; r->name && i >= (r->more ? r->count : 1); r++) i -= r->more ? r->count : 1;
+    if (!r->name) return i == 0 ? &help_row : NULL;
+    return r->more ? &r->more[i] : r;
 }
 
 static bool set_option(const command *c, const option_row *r, const char *text, char *options)
@@ -305,7 +239,7 @@ static bool same_file(const char *a, const char *b, const char *stream)
 /* The path that a row of this kind has been given; NULL: none, or the row is of another kind. */
 static const char *path_of(const option_row *r, option_file kind, const char *options)
 {
-    return r->file == kind ? *(const char *const *)(const void *)(options + r->offset) : NULL;
+    return r->file == (int)kind ? *(const char *const *)(const void *)(options + r->offset) : NULL;
 }
 
 /* Whether `path` names a file that is read: the argument, or one of an option. */

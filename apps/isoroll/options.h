@@ -13,23 +13,15 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "study/options_impl.h"
+
 struct command;
 
 /* What a file named by an option is for. No file is written over one that is read, or written twice. */
 typedef enum option_file { OPTION_NO_FILE, OPTION_READS, OPTION_WRITES } option_file;
 
-typedef struct option_row {
-    const char *name;     /* without the two dashes; NULL ends a table              */
-    const char *argument; /* in --help; "[=N]": it may be left out; NULL: no argument */
-    const char *expected; /* in the message about a wrong argument                  */
-    const char *doc;
-    bool (*set)(void *at, const char *text); /* false: the text is wrong            */
-    size_t offset;                           /* of the field in the command's struct */
-    char letter;                             /* of the short form, 'o' for -o; 0: none */
-    option_file file;
-    const char *(*word)(int i); /* the i-th word that the argument can be, NULL after the last; NULL: no such list */
-    bool aside;                 /* changes no number of a table; so does a row whose file is written         */
-} option_row;
+/* A row of a study (study/study.h), or of the command alone; `file` is an option_file. */
+typedef iso_option option_row;
 
 typedef enum options_result { OPTIONS_WRONG, OPTIONS_HELP, OPTIONS_DONE } options_result;
 
@@ -50,24 +42,13 @@ const char *options_command(void);
 /* The rows of a command, and after them --help; NULL after the last. */
 const option_row *options_row(const struct command *c, int i);
 
-/* Setters: each reads one kind of argument into the field at `at`. */
-bool set_text(void *at, const char *text);      /* const char *, not empty              */
-bool set_flag(void *at, const char *text);      /* bool                                 */
-bool set_number(void *at, const char *text);    /* double, finite                       */
-bool set_positive(void *at, const char *text);  /* double, > 0                          */
-bool set_bound(void *at, const char *text);     /* double, >= 0                         */
-bool set_whole(void *at, const char *text);     /* double, a whole number from 0 on     */
-bool set_count(void *at, const char *text);     /* double, a whole number from 1 on     */
-bool set_tolerance(void *at, const char *text); /* double, as the methods take it       */
-bool set_vector(void *at, const char *text);    /* double[3], three numbers and commas  */
-bool set_method(void *at, const char *text);    /* const char *, a method or auto       */
-bool set_backend(void *at, const char *text);   /* iso_backend: ball, point, exact, auto */
-bool set_as(void *at, const char *text);        /* iso_models: ball, point, both         */
-bool set_target(void *at, const char *text);    /* iso_model_kind: ball, point          */
-bool set_digits(void *at, const char *text);    /* int, 1 to 17, or ISO_HEXADECIMAL     */
-
-/* A whole number from 0 on, as set_whole and set_count read it, as an int: 1e9 if it is larger. */
-int as_int(double whole);
+/* Setters, beside those of studies (study/options_impl.h). */
+bool set_bound(void *at, const char *text);   /* double, >= 0                         */
+bool set_vector(void *at, const char *text);  /* double[3], three numbers and commas  */
+bool set_method(void *at, const char *text);  /* const char *, a method or auto       */
+bool set_backend(void *at, const char *text); /* iso_backend: ball, point, exact, auto */
+bool set_target(void *at, const char *text);  /* iso_model_kind: ball, point          */
+bool set_digits(void *at, const char *text);  /* int, 1 to 17, or ISO_HEXADECIMAL     */
 
 /* Whether `path` names a regular file. Of a pipe nothing may be read to see what it is: it can be read only once. */
 bool is_regular(const char *path);
@@ -75,62 +56,42 @@ bool is_regular(const char *path);
 /* Whether a path ends in `ending`, in these letters, and has more before it. */
 bool ends_with(const char *path, const char *ending);
 
-/* Lists of words. */
 const char *backend_word(int i);
-const char *as_word(int i);
-const char *target_word(int i);
 
-/* A row: name, argument, expected and doc as above, its setter, and its field in the struct `type`. */
-#define ROW(name_, argument_, expected_, doc_, set_, type, field)                                                    \
+/* A row: name, argument, expected, doc, setter, and place in the struct `type`, as above; and further members. */
+#define ROW_WITH(name_, argument_, expected_, doc_, set_, type, field, ...)                                          \
     {                                                                                                                \
         .name = name_, .argument = argument_, .expected = expected_, .doc = doc_, .set = set_,                       \
-        .offset = offsetof(type, field)                                                                              \
+        .offset = offsetof(type, field), __VA_ARGS__                                                                 \
+    }
+#define ROW ISO_OPTION
+
+/* `count` rows of a study, from `first` on. Its struct of options must be the first member of the command's. */
+#define ROWS_OF_STUDY(rows, first, count_)                                                                           \
+    {                                                                                                                \
+        .name = "", .more = &(rows)[first], .count = count_                                                          \
     }
 
 /* The row of a file, with its short form (0: none) and what the file is for. */
 #define ROW_OF_FILE(name_, argument_, expected_, doc_, set_, type, field, letter_, file_)                            \
-    {                                                                                                                \
-        .name = name_, .argument = argument_, .expected = expected_, .doc = doc_, .set = set_,                       \
-        .offset = offsetof(type, field), .letter = letter_, .file = file_                                            \
-    }
+    ROW_WITH(name_, argument_, expected_, doc_, set_, type, field, .letter = letter_, .file = file_)
 
 /* The row of an option whose argument is one of a list of words. */
 #define ROW_OF_WORDS(name_, argument_, expected_, doc_, set_, type, field, word_)                                    \
-    {                                                                                                                \
-        .name = name_, .argument = argument_, .expected = expected_, .doc = doc_, .set = set_,                       \
-        .offset = offsetof(type, field), .word = word_                                                               \
-    }
+    ROW_WITH(name_, argument_, expected_, doc_, set_, type, field, .word = word_)
 
 /* The last row of a table. */
-#define ROW_END                                                                                                      \
-    {                                                                                                                \
-        .name = NULL                                                                                                 \
-    }
+#define ROW_END ISO_OPTION_END
 
 /* Rows that several commands have; `field` is their place in the struct `type`. */
 #define ROW_OUTPUT(type, field)                                                                                      \
-    ROW_OF_FILE("output", "FILE", "a file", "write to FILE; - is standard output", set_text, type, field, 'o',       \
+    ROW_OF_FILE("output", "FILE", "a file", "write to FILE; - is standard output", iso_set_text, type, field, 'o',   \
                 OPTION_WRITES)
 #define ROW_PLOT(type, field)                                                                                        \
-    ROW_OF_FILE("plot", "FILE", "a file", "draw a picture: .svg, .png or .pdf", set_text, type, field, 0,            \
+    ROW_OF_FILE("plot", "FILE", "a file", "draw a picture: .svg, .png or .pdf", iso_set_text, type, field, 0,        \
                 OPTION_WRITES)
-#define ROW_THREADS(type, field)                                                                                     \
-    {                                                                                                                \
-        .name = "threads", .argument = "N", .expected = "a whole number from 1 on",                                  \
-        .doc = "threads that work (default: one for each processor)", .set = set_count,                              \
-        .offset = offsetof(type, field), .letter = 'j', .aside = true                                                \
-    }
-#define ROW_MODELS(type, field)                                                                                      \
-    ROW_OF_WORDS("model", "M", "ball, point or both",                                                                \
-                 "which model is integrated (default: both, where the ball has a twin)", set_as, type, field,        \
-                 as_word)
-#define ROW_SEED(type, field)                                                                                        \
-    ROW("seed", "N", "a whole number from 0 on", "another number spreads --starts in another way (default 0)",       \
-        set_whole, type, field)
+#define ROW_THREADS ISO_OPTION_THREADS
 #define ROW_JSON(type, field)                                                                                        \
-    {                                                                                                                \
-        .name = "json", .doc = "print everything as JSON", .set = set_flag, .offset = offsetof(type, field),         \
-        .aside = true                                                                                                \
-    }
+    ROW_WITH("json", NULL, NULL, "print everything as JSON", iso_set_flag, type, field, .aside = true)
 
 #endif

@@ -55,7 +55,9 @@ iso_status parameters_of_file(iso_context *ctx, const file_options *o, iso_recor
 
 iso_status name_the_file(iso_context *ctx, const char *file, iso_status status)
 {
-    const char *name = strcmp(file, "-") == 0 ? "<stdin>" : file;
-    if (iso_context_has_place(ctx)) return status;
-    return iso_context_fail(ctx, status, iso_context_about(ctx), "%s: %s", name, iso_context_message(ctx));
+    const bool named = status == ISO_OK || status == ISO_BAD_ARGUMENT || status == ISO_FILE_TROUBLE ||
+                       status == ISO_CLOSED_PIPE || iso_context_has_place(ctx);
+    if (named) return status;
+    return iso_context_fail(ctx, status, iso_context_about(ctx), "%s: %s", iso_text_name(file),
+                            iso_context_message(ctx));
 }

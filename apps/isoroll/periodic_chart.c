@@ -1,12 +1,11 @@
-/* periodic_chart.c - the chart of stable rotations, as rows, as JSON and as a picture (see periodic_chart.h). */
-#include "periodic_chart.h"
+/* periodic_chart.c - the chart of stable rotations, as rows, as JSON and as a picture (see periodic.h). */
+#include "periodic.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/number.h"
-#include "io/output.h"
+#include "base/number_impl.h"
 #include "json.h"
 #include "plot/plot.h"
 #include "progress.h"
@@ -23,7 +22,7 @@ bool read_range(const char *text, double range[2])
            iso_number_read(colon + 1, strlen(colon + 1), &range[1]);
 }
 
-static iso_status read_level(iso_context *ctx, const iso_scene *scene, const periodic_chart *c,
+static iso_status read_level(iso_context *ctx, const iso_scene *scene, const periodic_options *c,
                              iso_stability_options *o)
 {
     if (!c->level) return iso_level_of_scene(ctx, scene, "the chart is drawn", &o->level);
@@ -33,12 +32,12 @@ static iso_status read_level(iso_context *ctx, const iso_scene *scene, const per
     return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--level '%s': expected a number", c->level);
 }
 
-static iso_status read_words(iso_context *ctx, const iso_scene *scene, const periodic_chart *c,
+static iso_status read_words(iso_context *ctx, const iso_scene *scene, const periodic_options *c,
                              iso_stability_options *o)
 {
     double k[2] = {-3, 3}, moment[2];
     *o = iso_stability_defaults();
-    const char *name = c->moment, *equals = strchr(name, '=');
+    const char *name = c->chart, *equals = strchr(name, '=');
     const size_t length = strcspn(name, "=");
     o->moment = -1;
     for (int i = 0; i <= ISO_CHART_LEVEL; i++)
@@ -59,31 +58,41 @@ static iso_status read_words(iso_context *ctx, const iso_scene *scene, const per
         return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--k '%s': expected A:B, A < B", c->k);
     o->from[0] = k[0], o->to[0] = k[1];
     o->from[1] = moment[0], o->to[1] = moment[1];
-    o->steps = as_int(c->steps);
-    o->threads = c->threads;
+    o->steps = c->steps;
+    o->threads = c->study.threads;
     o->progress = progress_told;
     return ISO_OK;
 }
 
-static iso_status write_rows(iso_context *ctx, const iso_scene *scene, const iso_stability_options *o,
-                             const iso_record *grid, const iso_record *borders, iso_output *to)
+static iso_status make_table(iso_context *ctx, const iso_scene *scene, const iso_stability_options *o,
+                             const iso_record *grid, const iso_record *borders, iso_record **table)
 {
-    const table_line lines[] = {{.key = o->moment == ISO_CHART_LEVEL ? NULL : "level", .number = o->level},
-                                {.key = NULL}};
+    char title[ISO_PLOT_TITLE];
+    const double *J = o->J;
+    const bool by_level = o->moment == ISO_CHART_LEVEL;
+    const int a = (o->moment + 1) % 3, b = (o->moment + 2) % 3;
+    const table_line lines[] = {
+        {.key = "title", .text = title}, {.key = by_level ? NULL : "level", .number = o->level}, {.key = NULL}};
     iso_field fields[ISO_MOST_FIELDS];
+    if (by_level)
+        snprintf(title, sizeof title, "J = %.6g %.6g %.6g", J[0], J[1], J[2]);
+    else if (o->level == 0)
+        snprintf(title, sizeof title, "J%d = %.6g, J%d = %.6g", a + 1, J[a], b + 1, J[b]);
+    else
+        snprintf(title, sizeof title, "J%d = %.6g, J%d = %.6g, level %.6g", a + 1, J[a], b + 1, J[b], o->level);
     table_rename(iso_chart_row_fields, "J2", iso_chart_name(o->moment), fields);
-    const iso_status status = table_begin(ctx, to, "periodic chart", scene, lines, fields);
+    iso_status status = table_create(ctx, "periodic chart", scene, lines, fields, table);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(grid); i++) {
         const double *at = iso_record_const_row(grid, i);
-        iso_row_write(iso_output_stream(to), fields, &(iso_chart_row){"grid", at[0], at[1], at[2], at[3]});
+        status = iso_columns_append(ctx, fields, &(iso_chart_row){"grid", at[0], at[1], at[2], at[3]}, *table);
     }
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(borders); i++) {
         const double *at = iso_record_const_row(borders, i), trace[] = {at[1], NAN};
         const int greatest = at[0] > 0;
-        iso_row_write(iso_output_stream(to), fields,
-                      &(iso_chart_row){"border", at[2], at[3], trace[greatest], trace[!greatest]});
+        status = iso_columns_append(
+            ctx, fields, &(iso_chart_row){"border", at[2], at[3], trace[greatest], trace[!greatest]}, *table);
     }
-    return table_end(ctx, to, status);
+    return status;
 }
 
 static bool print_json(const iso_stability_options *o, const iso_record *grid, const iso_record *borders)
@@ -129,43 +138,20 @@ static void print_table(const iso_stability_options *o, const iso_record *grid, 
     printf("%zu points of the borders T = 2 and T = -2: see -o, --json and --plot\n", iso_record_rows(borders));
 }
 
-static iso_status write_all(iso_context *ctx, const iso_scene *scene, const periodic_chart *c,
-                            const iso_stability_options *o, const iso_record *grid, const iso_record *borders)
-{
-    const char *moment = iso_chart_name(o->moment);
-    const double *J = o->J;
-    char title[160];
-    const iso_status status = c->rows ? write_rows(ctx, scene, o, grid, borders, c->rows) : ISO_OK;
-    const int a = (o->moment + 1) % 3, b = (o->moment + 2) % 3;
-    if (o->moment == ISO_CHART_LEVEL)
-        snprintf(title, sizeof title, "J = %.6g %.6g %.6g", J[0], J[1], J[2]);
-    else if (o->level == 0)
-        snprintf(title, sizeof title, "J%d = %.6g, J%d = %.6g", a + 1, J[a], b + 1, J[b]);
-    else
-        snprintf(title, sizeof title, "J%d = %.6g, J%d = %.6g, level %.6g", a + 1, J[a], b + 1, J[b], o->level);
-    return status == ISO_OK && c->plot ? iso_plot_stability(ctx, c->plot, title, moment, grid, borders) : status;
-}
-
-int draw_chart(iso_context *ctx, const iso_scene *scene, const periodic_chart *c)
+int draw_chart(iso_context *ctx, const periodic_options *c, const iso_scene *scene, iso_table_writer *rows)
 {
     iso_stability_options o;
-    iso_record *grid = NULL, *borders = NULL;
+    iso_record *grid = NULL, *borders = NULL, *table = NULL;
     iso_status status = read_words(ctx, scene, c, &o);
-    stop_gently();
-    progress_begin();
-    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    begin_work(ctx, NULL);
     if (status == ISO_OK) status = iso_stability_chart(ctx, &o, &grid, &borders);
     progress_end();
     if (status == ISO_STOPPED) complain("interrupted: no chart");
-    iso_context_set_monitor(ctx, NULL, NULL);
     if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT;
     if (status == ISO_OK && c->json && !print_json(&o, grid, borders)) status = ISO_NO_MEMORY;
-    if (status == ISO_OK && !c->json && !c->alone) print_table(&o, grid, borders);
-    if (status == ISO_OK)
-        status = write_all(ctx, scene, c, &o, grid, borders);
-    else if (c->rows)
-        iso_output_close(ctx, c->rows, false);
+    if (status == ISO_OK && !c->json && !(c->output && strcmp(c->output, "-") == 0)) print_table(&o, grid, borders);
+    if (status == ISO_OK) status = make_table(ctx, scene, &o, grid, borders, &table);
     iso_record_free(grid);
     iso_record_free(borders);
-    return finish(ctx, status);
+    return table_finish(ctx, rows, c->plot, status, table);
 }

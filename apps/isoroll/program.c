@@ -1,5 +1,5 @@
-/* program.c - how a program of isoroll begins, runs a command, and ends (see program.h). */
-#include "program.h"
+/* program.c - how a program of isoroll begins, runs a command, and ends (see command.h). */
+#include "command.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -28,6 +28,7 @@ static int run_with(iso_context *ctx, void *options, const command *c, int argc,
 {
     if (!ctx || !options) return complain("out of memory"), EXIT_NUMERICAL;
     memcpy(options, c->defaults, c->size);
+    if (c->study) c->study->begin(options);
     switch (options_read(c, argc, argv, options)) {
     case OPTIONS_WRONG: return EXIT_USAGE;
     case OPTIONS_HELP: help_command(c, stdout); return EXIT_DONE;
@@ -35,7 +36,11 @@ static int run_with(iso_context *ctx, void *options, const command *c, int argc,
     }
     if (!c->files && !file_fits(c, *(const char *const *)(const void *)((const char *)options + c->file)))
         return EXIT_BAD_INPUT;
-    return c->run(ctx, options);
+    if (!c->study) return c->run(ctx, options);
+    const iso_status status = c->study->prepare ? c->study->prepare(ctx, options) : ISO_OK;
+    const int result = status == ISO_OK ? c->run(ctx, options) : finish(ctx, status);
+    if (c->study->end) c->study->end(options);
+    return result;
 }
 
 int program_run(const command *c, int argc, char **argv)

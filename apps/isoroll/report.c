@@ -55,6 +55,19 @@ bool interrupted(void)
     return stop_asked != 0;
 }
 
+static bool not_interrupted(void *unused)
+{
+    (void)unused;
+    return !interrupted();
+}
+
+void begin_work(iso_context *ctx, const char *rows)
+{
+    stop_gently();
+    progress_begin_rows(rows ? rows : "");
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
+}
+
 static bool silently;
 static char kept[2048];
 

@@ -4,7 +4,9 @@
 
 #include <stdbool.h>
 
+#include "io/table_impl.h"
 #include "isoroll.h"
+#include "orbit/orbit_impl.h"
 
 enum exit_status {
     EXIT_DONE = 0,
@@ -40,5 +42,9 @@ bool limit_is_near(void);
 
 /* True once the user has asked to stop. */
 bool interrupted(void);
+
+/* Long work begins: stop_gently, and the library asks interrupted(); a bar shows the progress. rows: where the work
+ * writes rows, as for progress_begin_rows; NULL: nowhere yet. */
+void begin_work(iso_context *ctx, const char *rows);
 
 #endif

@@ -4,8 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "orbit/crossings.h"
-
 /* What an option says does not stand in the file. Of end and step, a wrong one may be due to the other. */
 static void forget_places(const scene_options *o, iso_scene *scene)
 {
@@ -31,18 +29,7 @@ iso_status scene_with_options(iso_context *ctx, const scene_options *o, iso_scen
 
 int finish_scene(iso_context *ctx, const scene_options *o, const iso_scene *scene, iso_status status)
 {
-    const char *name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file;
-    return finish(ctx, iso_scene_blame(ctx, scene, name, status));
-}
-
-iso_status read_axis(iso_context *ctx, const char *text, int *axis)
-{
-    *axis = ISO_AXIS_AUTO;
-    if (!text || strcmp(text, "auto") == 0) return ISO_OK;
-    *axis = text[0] - '1';
-    if (strlen(text) == 1 && *axis >= 0 && *axis < 3) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--axis '%s': an axis is 1, 2 or 3, or auto: the global section",
-                            text);
+    return finish(ctx, iso_scene_blame(ctx, scene, iso_text_name(o->file), status));
 }
 
 iso_status check_json_alone(iso_context *ctx, const char *name, const char *output, bool json)
@@ -52,8 +39,31 @@ iso_status check_json_alone(iso_context *ctx, const char *name, const char *outp
                             "%s: -o - and --json both write to standard output: choose one", name);
 }
 
-bool not_interrupted(void *unused)
+/* --- effects ---------------------------------------------------------------------------------------------------- */
+
+/* The numbers of an effect, on a line of their own or not; none that a scene alone states. */
+static void print_numbers(const iso_effects *effects, iso_effect_id id, const char *begin)
 {
-    (void)unused;
-    return !interrupted();
+    for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++) {
+        if (n->scene_only) continue;
+        const double *x = iso_effect_values(effects, id, n);
+        printf("%s  %s =", begin, n->name);
+        for (int i = 0; i < n->count; i++) printf(" %.10g", x[i]);
+        begin = "";
+    }
+}
+
+void print_effects(const iso_effects *effects, bool docs)
+{
+    char line[32];
+    int shown = 0;
+    snprintf(line, sizeof line, "\n  %-18s", "");
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        if (!effects->on[e]) continue;
+        printf("%s  %-18s", shown++ ? "" : "effects\n", iso_effect_list[e]->name);
+        if (docs) printf(" %s", iso_effect_list[e]->doc);
+        print_numbers(effects, e, docs ? line : "");
+        printf("\n");
+    }
+    if (shown) printf("\n");
 }

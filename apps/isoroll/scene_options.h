@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "command.h"
+#include "method/methods_impl.h"
 
 /* A scene's file and what options put in the place of its lines. */
 typedef struct scene_options {
@@ -27,17 +28,17 @@ typedef struct scene_options {
 #define ROW_METHOD(type, scene)                                                                                      \
     ROW_OF_WORDS("method", "NAME", "a method of 'isoroll list methods', or auto", "the integrator, or auto",         \
                  set_method, type, scene.method, iso_method_word)
-#define ROW_TOLERANCE(type, scene)                                                                                   \
-    ROW("tol", "X", "a number in " ISO_TOLERANCE_RANGE,                                                              \
-        "largest relative error of one step, in " ISO_TOLERANCE_RANGE, set_tolerance, type, scene.tolerance)
+#define ROW_TOLERANCE(type, scene) ISO_OPTION_TOLERANCE(ISO_TOLERANCE_OF_STEPS, type, scene.tolerance)
 #define ROW_AS(type, scene)                                                                                          \
-    ROW_OF_WORDS("as", "WHAT", "ball, point or both", "which model is written: ball, point, both", set_as, type,     \
-                 scene.as, as_word)
+    ISO_OPTION_MODELS("as", "WHAT", "which model is written: ball, point, both", type, scene.as)
 #define ROW_T_END(type, scene)                                                                                       \
-    ROW("t-end", "T", "a number", "last time, in place of the scene's", set_number, type, scene.end)
+    ROW("t-end", "T", "a number", "last time, in place of the scene's", iso_set_number, type, scene.end)
 #define ROW_STEP(type, scene)                                                                                        \
-    ROW("step", "DT", "a positive number", "time between rows, in place of the scene's", set_positive, type,         \
+    ROW("step", "DT", "a positive number", "time between rows, in place of the scene's", iso_set_positive, type,     \
         scene.step)
+#define ROWS_OF_SCENE(type, scene)                                                                                   \
+    ROW_BACKEND(type, scene), ROW_METHOD(type, scene), ROW_TOLERANCE(type, scene), ROW_AS(type, scene),              \
+        ROW_T_END(type, scene), ROW_STEP(type, scene)
 
 /* Reads the scene and puts the options into it. */
 iso_status scene_with_options(iso_context *ctx, const scene_options *o, iso_scene *scene);
@@ -46,16 +47,20 @@ iso_status scene_with_options(iso_context *ctx, const scene_options *o, iso_scen
  * there. */
 int finish_scene(iso_context *ctx, const scene_options *o, const iso_scene *scene, iso_status status);
 
-/* An axis as typed: 1, 2 or 3 becomes 0 to 2; auto or NULL ISO_AXIS_AUTO. Errors: ISO_BAD_INPUT. */
-iso_status read_axis(iso_context *ctx, const char *text, int *axis);
-
 /* Refuses `-o -` beside --json: both write to standard output. output NULL: not given. name: of the command. */
 iso_status check_json_alone(iso_context *ctx, const char *name, const char *output, bool json);
 
+/* The times that `run --times FILE` reads, in the order of the file. */
+typedef struct output_times {
+    double *list;
+    size_t count;
+} output_times;
+
+/* Reads them; "-" is standard input. *t begins as {NULL, 0}; the caller frees t->list, after an error, too. Errors:
+ * ISO_BAD_INPUT with the place, ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+iso_status times_read(iso_context *ctx, const char *path, output_times *t);
+
 /* Prints the effects that act, with their numbers and, if wanted, what they are. Prints nothing where none acts. */
 void print_effects(const iso_effects *effects, bool docs);
-
-/* For iso_context_set_monitor: false once the user has asked to stop. */
-bool not_interrupted(void *unused);
 
 #endif

@@ -73,12 +73,10 @@ int section_cloud(iso_context *ctx, const scene_options *o, const iso_scene *sce
 {
     const iso_measure_options m = options_of(how, count);
     bool kept = true;
-    stop_gently();
-    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    begin_work(ctx, NULL);
     iso_status status = flow(ctx, scene, m, ISO_CLOCK_T, &kept);
     if (status == ISO_OK) status = flow(ctx, scene, m, ISO_CLOCK_S, &kept);
     if (status == ISO_OK) status = returns(ctx, scene, &m, &kept);
-    iso_context_set_monitor(ctx, NULL, NULL);
     const int result = finish_scene(ctx, o, scene, status);
     return result == EXIT_DONE && !kept ? EXIT_SOME_FAILED : result;
 }

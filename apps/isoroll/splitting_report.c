@@ -6,6 +6,7 @@
 
 #include "json.h"
 #include "plot/plot.h"
+#include "report.h"
 #include "table.h"
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
@@ -31,15 +32,13 @@ static double number_of(const iso_separatrix_splitting *s, bool by_level)
     return by_level ? s->level : s->k;
 }
 
-bool splitting_has_rows(const splitting_report *r)
+bool splitting_has_rows(const iso_separatrix_table *s)
 {
-    return first_good(r->found) != NULL;
+    return first_good(s) != NULL;
 }
 
-static void print_head(const splitting_report *r, bool by_level)
+static void print_head(const double J[3], const iso_separatrix_splitting *row, bool by_level)
 {
-    const double *J = r->J;
-    const iso_separatrix_splitting *row = first_good(r->found);
     printf("J = %.15g %.15g %.15g\n", J[0], J[1], J[2]);
     if (!row) return;
     if (by_level) printf("k = %.15g\n", row->k);
@@ -82,39 +81,36 @@ static void print_zero(const iso_separatrix_splitting *s, bool by_level)
     printf("\n");
 }
 
-void splitting_print(const splitting_report *r)
+void splitting_print(const iso_scene *scene, const iso_separatrix_table *s)
 {
-    const iso_separatrix_table *s = r->found;
     const bool by_level = splitting_is_by_level(s);
-    print_head(r, by_level);
+    print_head(scene->params.J, first_good(s), by_level);
     for (size_t i = 0; i < s->rows; i++) print_row(&s->row[i], by_level);
     for (size_t i = 0; i < s->zeros; i++) print_zero(&s->zero[i], by_level);
 }
 
 /* --- JSON and CSV ----------------------------------------------------------------------------------------------- */
 
-bool splitting_print_json(const splitting_report *r)
+bool splitting_print_json(const iso_scene *scene, const iso_separatrix_table *s)
 {
     static const iso_field J[] = {ISO_MEMBER(iso_params, "J", J, "moment of inertia", "about the contact"),
                                   ISO_FIELD_END};
-    json_t *o = json_of(J, &r->scene->params);
-    json_add(o, iso_separatrix_table_fields, r->found);
+    json_t *o = json_of(J, &scene->params);
+    json_add(o, iso_separatrix_table_fields, s);
     return json_print(o);
 }
 
-static void write_rows(FILE *to, const iso_separatrix_splitting *rows, size_t count)
+/* A row for each k or level that did not fail, then one for each zero. */
+static iso_status make_table(iso_context *ctx, const iso_scene *scene, const iso_separatrix_table *s,
+                             const char *title, iso_record **table)
 {
-    for (size_t i = 0; i < count; i++)
-        if (rows[i].status == ISO_OK) iso_row_write(to, iso_separatrix_fields, &rows[i]);
-}
-
-iso_status splitting_write_csv(iso_context *ctx, const splitting_report *r, iso_output *to)
-{
-    const iso_separatrix_table *s = r->found;
-    const iso_status status = table_begin(ctx, to, "splitting", r->scene, NULL, iso_separatrix_fields);
-    if (status == ISO_OK) write_rows(iso_output_stream(to), s->row, s->rows);
-    if (status == ISO_OK) write_rows(iso_output_stream(to), s->zero, s->zeros);
-    return table_end(ctx, to, status);
+    const table_line lines[] = {{.key = "title", .text = title}, {.key = NULL}};
+    iso_status status = table_create(ctx, "splitting", scene, lines, iso_separatrix_fields, table);
+    for (size_t i = 0; status == ISO_OK && i < s->rows + s->zeros; i++) {
+        const iso_separatrix_splitting *row = i < s->rows ? &s->row[i] : &s->zero[i - s->rows];
+        if (row->status == ISO_OK) status = iso_columns_append(ctx, iso_separatrix_fields, row, *table);
+    }
+    return status;
 }
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
@@ -131,21 +127,6 @@ static const iso_separatrix_splitting *clearest(const iso_separatrix_table *s)
     return best;
 }
 
-static iso_status collect(iso_context *ctx, const iso_separatrix_table *s, iso_record **rows)
-{
-    const bool by_level = splitting_is_by_level(s);
-    const char *const names[] = {by_level ? "level" : "k", "m", "error"};
-    iso_status status = iso_record_create(ctx, 3, names, rows);
-    for (size_t i = 0; i < s->rows && status == ISO_OK; i++) {
-        double *row;
-        if (s->row[i].status != ISO_OK) continue;
-        status = iso_record_append(ctx, *rows, &row);
-        if (status == ISO_OK)
-            row[0] = number_of(&s->row[i], by_level), row[1] = s->row[i].m, row[2] = s->row[i].error;
-    }
-    return status;
-}
-
 /* As many half returns beyond the crossing as the lobes need to be seen: they grow like lambda^(1/2) each. */
 static int halves_of(const iso_separatrix_splitting *s)
 {
@@ -153,25 +134,27 @@ static int halves_of(const iso_separatrix_splitting *s)
     return (int)fmin(fmax(needed, 2) + 2, 60);
 }
 
-iso_status splitting_draw(iso_context *ctx, const splitting_report *r, const char *path)
+int splitting_save(iso_context *ctx, const iso_scene *scene, const iso_separatrix_table *s, iso_table_writer *to,
+                   const char *plot)
 {
-    const double *J = r->J;
-    const iso_separatrix_table *s = r->found;
+    const double *J = scene->params.J;
     const iso_separatrix_splitting *at = clearest(s);
-    iso_record *rows = NULL, *curve = NULL;
+    iso_record *table = NULL, *curve = NULL;
     char title[160];
-    if (!at) return ISO_OK;
+    if (!at) return finish(ctx, table_write(ctx, to, ISO_STOPPED, NULL));
     const bool by_level = splitting_is_by_level(s);
     int length = snprintf(title, sizeof title, "splitting of the separatrix, J = %.6g %.6g %.6g", J[0], J[1], J[2]);
     if (by_level)
         snprintf(title + length, sizeof title - (size_t)length, ", k = %.6g", at->k);
     else if (at->level != 0)
         snprintf(title + length, sizeof title - (size_t)length, ", level %.6g", at->level);
-    iso_status status = iso_separatrix_curve(ctx, at->k, J, at->level, halves_of(at), &curve);
-    if (status == ISO_OK && s->rows > 1) status = collect(ctx, s, &rows);
-    if (status == ISO_OK)
-        status = iso_plot_splitting(ctx, path, title, rows, curve, number_of(at, by_level), at->section);
-    iso_record_free(rows);
+    iso_status status = make_table(ctx, scene, s, title, &table);
+    status = table_write(ctx, to, status, table);
+    if (status == ISO_OK && plot) status = iso_separatrix_curve(ctx, at->k, J, at->level, halves_of(at), &curve);
+    if (status == ISO_OK && plot)
+        status = iso_plot_splitting(ctx, plot, title, s->rows > 1 ? table : NULL, curve, number_of(at, by_level),
+                                    at->section);
+    iso_record_free(table);
     iso_record_free(curve);
-    return status;
+    return finish(ctx, status);
 }

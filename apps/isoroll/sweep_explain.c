@@ -1,42 +1,22 @@
-/* sweep_explain.c - tells how many points a sweep has, and measures what they cost here (see sweep_explain.h). */
+/* sweep_explain.c - tells how many points a sweep has, and measures what they cost here (see sweep_team.h). */
 #define _GNU_SOURCE /* CPU_COUNT */
-#include "sweep_explain.h"
 
 #include <math.h>
 #include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/seconds_impl.h"
 #include "options.h"
 #include "progress.h"
-#include "sweep/sweep.h"
-#include "sweep/sweep_file.h"
+#include "sweep/sweep_impl.h"
+#include "sweep_team.h"
 
 /* Places of the sweep at which points are computed, how many of each, and for how long at most. A chaotic share is
  * measured with STARTS orbits where it asks for many more: its time grows with them. */
 enum { PLACES = 8, POINTS = 64, STARTS = 48 };
 static const double patience = 10; /* seconds for each quantity */
-
-bool is_sweep(const char *path)
-{
-    static const size_t most = 1 << 20;
-    bool found = false;
-    FILE *file = is_regular(path) ? fopen(path, "r") : NULL;
-    char *text = file ? malloc(most) : NULL;
-    if (text) found = iso_sweep_is_one(text, fread(text, 1, most, file));
-    free(text);
-    if (file) fclose(file);
-    return found;
-}
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* Seconds of one point: the mean, and the largest mean of a place. */
 typedef struct cost {
@@ -57,9 +37,9 @@ static iso_status measure(iso_context *ctx, const iso_sweep *sweep, iso_sweep_ro
         if (count > head->count - first) count = head->count - first;
         if (c->points > 0 && total / (double)c->points * (double)count > patience) count = 1; /* they are slow */
         if (p == 0 || head->count < PLACES) count = 1;
-        const double before = now();
+        const double before = processor_seconds();
         const iso_status status = iso_sweep_compute_points(ctx, sweep, first, count, rows);
-        const double time = now() - before;
+        const double time = processor_seconds() - before;
         if (status != ISO_OK) return status;
         total += time;
         c->points += count;
@@ -89,11 +69,6 @@ static int processors(void)
 {
     cpu_set_t set;
     return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
-}
-
-static size_t head_count(const iso_sweep *sweep)
-{
-    return iso_sweep_head_of(sweep)->count;
 }
 
 /* Gives by how much a point with all its starts takes longer. */
@@ -134,10 +109,10 @@ static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan,
         print_time(c.mean);
         printf(" a point, up to ");
         print_time(c.most);
-        printf(" (%zu points, %zu of them failed%s); columns", c.points, c.failed,
-               c.places > 1 || head_count(sweep) == 1 ? ""
-                                                      : "; one place alone: others may take several times as long");
         const iso_sweep_head *head = iso_sweep_head_of(sweep);
+        const bool alone = c.places < 2 && head->count > 1;
+        printf(" (%zu points, %zu of them failed%s); columns", c.points, c.failed,
+               alone ? "; one place alone: others may take several times as long" : "");
         for (int i = plan->family.columns; i < head->columns; i++) printf(" %s", head->column[i].name);
         printf("\n");
         *mean = c.mean;
@@ -180,7 +155,7 @@ static iso_status explain(iso_context *ctx, const iso_sweep_file *file)
 int explain_sweep(iso_context *ctx, const char *path)
 {
     iso_sweep_file *file;
-    iso_status status = iso_sweep_read(ctx, path, iso_sweep_quantities(), &file);
+    iso_status status = iso_sweep_read(ctx, path, &file);
     if (status != ISO_OK) return finish(ctx, status);
     status = explain(ctx, file);
     iso_sweep_file_free(file);

@@ -6,95 +6,74 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/nearest.h"
+#include "base/nearest_impl.h"
 #include "io/table.h"
 #include "options.h"
 #include "plot/plot.h"
-#include "sweep/sweep_store.h"
+#include "sweep/sweep_store_impl.h"
 
-enum { MOST_AXES = 16, NAME = 2 * ISO_NAME_SIZE + 2 };
+enum { MOST_KEPT = 64, NAME = ISO_SWEEP_NAME };
 
-/* The columns of a result that the picture may need: all that vary, the value and its error. */
+/* The columns of a result that the picture may need: all that vary, then the value and its error. */
 typedef struct table {
     const iso_sweep_head *head;
+    int kept[MOST_KEPT], columns, varying; /* columns of the result; how many of them vary in a sweep */
+    iso_record *rows;                      /* with these columns                                        */
     size_t count;
-    int *kept;      /* of each column of the result: its place in a row here; -1: it is not kept */
-    size_t columns; /* that are kept */
-    double *number;
-    int axis[MOST_AXES], axes; /* columns that vary */
-    int value, low, high;      /* columns; low, high -1: there is no error */
+    int axis[MOST_KEPT], axes; /* columns of the record that differ from row to row */
+    int value, low, high;      /* likewise; low, high -1: there is no error          */
     bool relative;             /* high is an error +- */
 } table;
-
-static void name_of(const iso_sweep_column *c, char name[NAME])
-{
-    const bool vary = strcmp(c->group, "vary") == 0;
-    snprintf(name, NAME, "%s%s%s", vary ? "" : c->group, vary ? "" : "_", c->name);
-}
 
 static int find(const table *t, const char *wanted)
 {
     char name[NAME];
-    for (int c = 0; c < t->head->columns; c++) {
-        name_of(&t->head->column[c], name);
-        if (strcmp(name, wanted) == 0) return c;
+    for (int c = 0; wanted && c < t->head->columns; c++) {
+        if (strcmp(iso_sweep_column_name(&t->head->column[c], name), wanted) == 0) return c;
     }
     return -1;
 }
 
 static double at(const table *t, size_t row, int column)
 {
-    return t->number[row * t->columns + (size_t)t->kept[column]];
-}
-
-bool is_sweep_result(const char *path)
-{
-    char kind[ISO_KIND_SIZE];
-    iso_table_kind(path, kind);
-    return strcmp(kind, "sweep") == 0 || strcmp(kind, "sweep part") == 0;
+    return iso_record_const_row(t->rows, row)[column];
 }
 
 /* --- what is drawn ---------------------------------------------------------------------------------------------- */
 
-static bool make_room(table *t)
+static int keep(table *t, int column)
 {
-    t->kept = malloc(((size_t)t->head->columns + 1) * sizeof *t->kept);
-    for (int c = 0; t->kept && c < t->head->columns; c++) {
-        const bool keeps =
-            strcmp(t->head->column[c].group, "vary") == 0 || c == t->value || c == t->low || c == t->high;
-        t->kept[c] = keeps ? (int)t->columns++ : -1;
-    }
-    t->number =
-        calloc(t->head->count + 1, (t->columns + 1) * sizeof *t->number); /* calloc checks the product for overflow */
-    return t->kept && t->number;
-}
-
-static void keep_row(table *t, const double row[])
-{
-    double *to = t->number + t->count++ * t->columns;
-    for (int c = 0; c < t->head->columns; c++)
-        if (t->kept[c] >= 0) *to++ = row[c];
+    if (column < 0 || t->columns == MOST_KEPT) return -1;
+    t->kept[t->columns] = column;
+    return t->columns++;
 }
 
 static iso_status read_rows(iso_context *ctx, iso_sweep_reader *reader, table *t)
 {
+    char name[MOST_KEPT][NAME];
+    const char *names[MOST_KEPT];
     iso_sweep_rows rows;
-    iso_status status = iso_sweep_rows_create(ctx, t->head->columns, t->head->chunk, &rows);
-    if (status == ISO_OK && !make_room(t)) status = iso_context_no_memory(ctx, "the rows");
+    for (int k = 0; k < t->columns; k++) names[k] = iso_sweep_column_name(&t->head->column[t->kept[k]], name[k]);
+    iso_status status = iso_record_create(ctx, (size_t)t->columns, names, &t->rows);
+    if (status == ISO_OK) status = iso_sweep_rows_create(ctx, t->head->columns, t->head->chunk, &rows);
+    if (status != ISO_OK) return status;
     for (size_t c = 0; c < iso_sweep_chunks(t->head) && status == ISO_OK; c++) {
         status = iso_sweep_reader_rows(ctx, reader, iso_sweep_chunk_points(t->head, c), &rows);
-        for (size_t i = 0; i < rows.count && status == ISO_OK; i++)
-            keep_row(t, rows.number + i * (size_t)rows.columns);
+        for (size_t i = 0; i < rows.count && status == ISO_OK; i++) {
+            double row[MOST_KEPT];
+            for (int k = 0; k < t->columns; k++) row[k] = rows.number[i * (size_t)rows.columns + (size_t)t->kept[k]];
+            status = iso_record_add(ctx, t->rows, 1, row);
+        }
     }
     iso_sweep_rows_free(&rows);
+    t->count = iso_record_rows(t->rows);
     return status;
 }
 
 static void find_axes(table *t)
 {
-    for (int c = 0; c < t->head->columns && t->axes < MOST_AXES; c++) {
+    for (int c = 0; c < t->varying; c++) {
         bool varies = false;
-        if (strcmp(t->head->column[c].group, "vary") != 0) continue;
         for (size_t i = 1; i < t->count && !varies; i++) varies = at(t, i, c) != at(t, 0, c);
         if (varies) t->axis[t->axes++] = c;
     }
@@ -121,7 +100,7 @@ static iso_status no_such_column(iso_context *ctx, const char *wanted, const tab
     char name[MOST][NAME], suggested[ISO_SUGGEST_SIZE];
     const char *names[MOST];
     const int count = t->head->columns < MOST ? t->head->columns : MOST;
-    for (int c = 0; c < count; c++) name_of(&t->head->column[c], name[c]), names[c] = name[c];
+    for (int c = 0; c < count; c++) names[c] = iso_sweep_column_name(&t->head->column[c], name[c]);
     return iso_context_fail(ctx, ISO_BAD_INPUT, "value", "--value %s: there is no such column; %s", wanted,
                             iso_suggest(suggested, wanted, (size_t)count, names));
 }
@@ -129,22 +108,28 @@ static iso_status no_such_column(iso_context *ctx, const char *wanted, const tab
 static iso_status choose_value(iso_context *ctx, const char *wanted, table *t)
 {
     const size_t count = sizeof known / sizeof *known;
-    t->value = wanted ? find(t, wanted) : -1;
-    if (wanted && t->value < 0) return no_such_column(ctx, wanted, t);
-    for (size_t i = 0; !wanted && i < count && t->value < 0; i++) t->value = find(t, known[i].value);
-    for (int c = 0; c < t->head->columns && t->value < 0; c++) {
-        const iso_sweep_column *column = &t->head->column[c];
-        const bool clock = strcmp(column->group, "state") == 0 && strcmp(column->name, "t") == 0; /* often constant */
-        if (strcmp(column->group, "vary") != 0 && !clock) t->value = c;
-    }
-    if (t->value < 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "value", "nothing was measured");
+    const iso_sweep_column *column = t->head->column;
     char name[NAME];
-    name_of(&t->head->column[t->value], name);
+    int value = find(t, wanted);
+    if (wanted && value < 0) return no_such_column(ctx, wanted, t);
+    for (size_t i = 0; i < count && value < 0; i++) value = find(t, known[i].value);
+    for (int c = 0; c < t->head->columns; c++) {
+        const bool clock = strcmp(column[c].group, "state") == 0 && strcmp(column[c].name, "t") == 0,
+                   vary = strcmp(column[c].group, "vary") == 0;
+        if (vary) t->varying += keep(t, c) >= 0;
+        if (value < 0 && !vary && !clock) value = c; /* the clock is often constant */
+    }
+    if (value < 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "value", "nothing was measured");
+    if (strcmp(column[value].group, "vary") == 0)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "value", "--value %s: it varies: name one that was measured",
+                                wanted);
+    iso_sweep_column_name(&column[value], name);
+    t->value = keep(t, value);
     t->low = t->high = -1;
     for (size_t i = 0; i < count; i++) {
         if (strcmp(known[i].value, name) != 0) continue;
-        t->low = known[i].low ? find(t, known[i].low) : -1;
-        t->high = known[i].high ? find(t, known[i].high) : -1;
+        t->low = keep(t, find(t, known[i].low));
+        t->high = keep(t, find(t, known[i].high));
         t->relative = !known[i].low;
     }
     return ISO_OK;
@@ -169,27 +154,20 @@ static void error_of(const table *t, size_t row, double *low, double *high)
 
 static iso_status draw_curve(iso_context *ctx, const table *t, const char *title, const char *output)
 {
-    static const char *const names[] = {"x", "value", "low", "high"};
-    char value[NAME];
-    const char *name = t->head->column[t->axis[0]].name;
-    double(*sorted)[4] = malloc((t->count + 1) * sizeof *sorted);
-    iso_record *rows = NULL;
-    iso_status status = sorted ? iso_record_create(ctx, 4, names, &rows) : iso_context_no_memory(ctx, "the rows");
+    const char *const names[] = {iso_record_name(t->rows, (size_t)t->axis[0]),
+                                 iso_record_name(t->rows, (size_t)t->value), "low", "high"};
+    iso_record *rows;
+    iso_status status = iso_record_create(ctx, 4, names, &rows);
     for (size_t i = 0; i < t->count && status == ISO_OK; i++) {
-        sorted[i][0] = at(t, i, t->axis[0]);
-        sorted[i][1] = at(t, i, t->value);
-        error_of(t, i, &sorted[i][2], &sorted[i][3]);
+        double row[4] = {at(t, i, t->axis[0]), at(t, i, t->value)};
+        error_of(t, i, &row[2], &row[3]);
+        status = iso_record_add(ctx, rows, 1, row);
     }
-    if (status == ISO_OK) qsort(sorted, t->count, sizeof *sorted, by_x);
-    for (size_t i = 0; i < t->count && status == ISO_OK; i++) {
-        double *row;
-        status = iso_record_append(ctx, rows, &row);
-        if (status == ISO_OK) memcpy(row, sorted[i], sizeof sorted[i]);
+    if (status == ISO_OK) {
+        qsort(iso_record_row(rows, 0), t->count, 4 * sizeof(double), by_x);
+        status = iso_plot_sweep_curve(ctx, output, title, rows);
     }
-    name_of(&t->head->column[t->value], value);
-    if (status == ISO_OK) status = iso_plot_sweep_curve(ctx, output, title, name, value, rows);
     iso_record_free(rows);
-    free(sorted);
     return status;
 }
 
@@ -221,7 +199,7 @@ static bool takes_moments(const table *t, layout *l, int rest[], int *others)
     int moments = 0;
     *others = 0;
     for (int i = 0; i < t->axes; i++) {
-        const char *name = t->head->column[t->axis[i]].name;
+        const char *name = iso_record_name(t->rows, (size_t)t->axis[i]);
         const bool moment = name[0] == 'J' && name[1] >= '1' && name[1] <= '3' && name[2] == '\0';
         if (moment && moments++ == 0) l->J = t->axis[i];
         if (!moment) rest[(*others)++] = t->axis[i];
@@ -269,7 +247,7 @@ static void take_columns(const table *t, layout *l)
 
 static iso_status choose_layout(iso_context *ctx, const table *t, layout *l)
 {
-    int rest[MOST_AXES], others;
+    int rest[MOST_KEPT], others;
     *l = (layout){.panel = -1};
     const bool moments = takes_moments(t, l, rest, &others);
     const int left = moments ? others : t->axes - 2;
@@ -281,45 +259,33 @@ static iso_status choose_layout(iso_context *ctx, const table *t, layout *l)
         return ISO_OK;
     }
     take_columns(t, l);
-    snprintf(l->x_name, NAME, "%s", t->head->column[l->x].name);
-    snprintf(l->y_name, NAME, "%s", t->head->column[l->y].name);
+    snprintf(l->x_name, NAME, "%s", iso_record_name(t->rows, (size_t)l->x));
+    snprintf(l->y_name, NAME, "%s", iso_record_name(t->rows, (size_t)l->y));
     return ISO_OK;
 }
 
-typedef struct maps {
-    int count;
-    double key[ISO_PLOT_MAPS];
-    char name[ISO_PLOT_MAPS][NAME];
-    iso_record *rows[ISO_PLOT_MAPS];
-} maps;
-
 /* The map of a row; -1: there are too many. */
-static int map_of(const table *t, const layout *l, maps *m, size_t row)
+static int map_of(const table *t, const layout *l, iso_plot_panels *m, size_t row)
 {
     const double key = l->panel < 0 ? 0 : at(t, row, l->panel);
     for (int i = 0; i < m->count; i++)
         if (m->key[i] == key) return i;
     if (m->count == ISO_PLOT_MAPS) return -1;
     m->key[m->count] = key;
-    if (l->panel >= 0) snprintf(m->name[m->count], NAME, "%s = %.6g", t->head->column[l->panel].name, key);
     return m->count++;
 }
 
-static iso_status collect(iso_context *ctx, const table *t, const layout *l, maps *m)
+static iso_status collect(iso_context *ctx, const table *t, const layout *l, iso_plot_panels *m)
 {
-    static const char *const names[] = {"x", "y", "value"};
     for (size_t i = 0; i < t->count; i++) {
         const int map = map_of(t, l, m, i);
-        double *row;
-        iso_status status = ISO_OK;
+        double row[4] = {0, 0, at(t, i, t->value), map};
         if (map < 0)
             return iso_context_fail(ctx, ISO_BAD_INPUT, "", "more than %d values of '%s': a picture has no room",
-                                    ISO_PLOT_MAPS, t->head->column[l->panel].name);
-        if (!m->rows[map]) status = iso_record_create(ctx, 3, names, &m->rows[map]);
-        if (status == ISO_OK) status = iso_record_append(ctx, m->rows[map], &row);
-        if (status != ISO_OK) return status;
+                                    ISO_PLOT_MAPS, m->key_name);
         place(t, l, i, &row[0], &row[1]);
-        row[2] = at(t, i, t->value);
+        const iso_status status = iso_record_add(ctx, m->rows, 1, row);
+        if (status != ISO_OK) return status;
     }
     return ISO_OK;
 }
@@ -327,16 +293,15 @@ static iso_status collect(iso_context *ctx, const table *t, const layout *l, map
 static iso_status draw_maps(iso_context *ctx, const table *t, const char *title, const char *output)
 {
     layout l;
-    maps m = {.count = 0};
-    char value[NAME];
-    const char *names[ISO_PLOT_MAPS];
+    iso_plot_panels m = {.title = title};
     iso_status status = choose_layout(ctx, t, &l);
+    if (status != ISO_OK) return status;
+    m.key_name = l.panel < 0 ? NULL : iso_record_name(t->rows, (size_t)l.panel);
+    const char *const names[] = {l.x_name, l.y_name, iso_record_name(t->rows, (size_t)t->value), "panel"};
+    status = iso_record_create(ctx, 4, names, &m.rows);
     if (status == ISO_OK) status = collect(ctx, t, &l, &m);
-    name_of(&t->head->column[t->value], value);
-    for (int i = 0; i < m.count; i++) names[i] = m.name[i];
-    const iso_plot_panels p = {title, l.x_name, l.y_name, value, m.count, names, (const iso_record *const *)m.rows};
-    if (status == ISO_OK) status = iso_plot_sweep_maps(ctx, output, &p);
-    for (int i = 0; i < m.count; i++) iso_record_free(m.rows[i]);
+    if (status == ISO_OK) status = iso_plot_sweep_maps(ctx, output, &m);
+    iso_record_free(m.rows);
     return status;
 }
 
@@ -347,8 +312,8 @@ iso_status plot_sweep(iso_context *ctx, const char *path, const char *value, con
     table t = {.count = 0};
     iso_status status = iso_sweep_reader_open(ctx, path, &reader);
     if (status != ISO_OK) return status;
-    t.head = iso_sweep_reader_head(reader);
-    if (iso_sweep_reader_share(reader).count > 1)
+    t.head = &reader->head;
+    if (reader->share.count > 1)
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "'%s' is a part of a sweep: merge the parts first", path);
     if (status == ISO_OK) status = choose_value(ctx, value, &t);
     if (status == ISO_OK) status = read_rows(ctx, reader, &t);
@@ -359,8 +324,7 @@ iso_status plot_sweep(iso_context *ctx, const char *path, const char *value, con
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "nothing varies in '%s'", path);
     if (status == ISO_OK)
         status = t.axes == 1 ? draw_curve(ctx, &t, title, output) : draw_maps(ctx, &t, title, output);
-    free(t.kept);
-    free(t.number);
+    iso_record_free(t.rows);
     iso_sweep_reader_close(reader);
     return status;
 }

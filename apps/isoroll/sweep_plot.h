@@ -4,9 +4,6 @@
 
 #include "report.h"
 
-/* Whether the file is the result of a sweep. */
-bool is_sweep_result(const char *path);
-
 /* Draws a column (NULL: the first that is there of a list of usual ones) over the numbers that vary. Errors:
  * ISO_BAD_INPUT about a column that is not there, or a sweep that no picture shows. */
 iso_status plot_sweep(iso_context *ctx, const char *path, const char *value, const char *output);

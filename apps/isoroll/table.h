@@ -1,8 +1,8 @@
-/* table.h - how the tables of commands begin: with the scene, the version, the command, and what it was told. */
+/* table.h - the table of a command: a record, which is written to a file and drawn. */
 #ifndef ISOROLL_TABLE_H
 #define ISOROLL_TABLE_H
 
-#include "io/output.h"
+#include "io/table.h"
 #include "isoroll.h"
 
 /* A line "# key: value" of the command's own: `text`, or if that is NULL `number`. A NAN is left out. */
@@ -12,17 +12,20 @@ typedef struct table_line {
     const char *text;
 } table_line;
 
-/* Writes the beginning of a table: "# isoroll KIND 1"; the scene's numbers (description.h), the version of isoroll and
- * the command line, from which the table can be made again; lines (NULL: none); and the columns that the fields make.
- */
-iso_status table_begin(iso_context *ctx, iso_output *to, const char *kind, const iso_scene *scene,
-                       const table_line *lines, const iso_field *fields);
+/* Makes a table without rows, to be freed also after an error. It says of what it is: the scene's numbers
+ * (description.h), the version of isoroll, the command line, from which it can be made again, and lines (NULL: none).
+ * Its columns are those of the fields; iso_columns_append adds a row. */
+iso_status table_create(iso_context *ctx, const char *kind, const iso_scene *scene, const table_line *lines,
+                        const iso_field *fields, iso_record **table);
 
 /* Copies fields, one of them with another name. */
 void table_rename(const iso_field *fields, const char *old, const char *name, iso_field copy[ISO_MOST_FIELDS]);
 
-/* Ends a table. `status` says whether its rows are all there; otherwise no trace of the file is left. Gives the first
- * failure. */
-iso_status table_end(iso_context *ctx, iso_output *to, iso_status status);
+/* Writes the table to the open file (NULL: there is none) and ends it. `status` says whether the table is whole;
+ * otherwise no trace of the file is left. Gives the first failure. */
+iso_status table_write(iso_context *ctx, iso_table_writer *to, iso_status status, const iso_record *table);
+
+/* The same, then draws the table (plot NULL: not) and frees it. Gives the exit status. */
+int table_finish(iso_context *ctx, iso_table_writer *to, const char *plot, iso_status status, iso_record *table);
 
 #endif

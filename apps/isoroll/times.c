@@ -1,6 +1,6 @@
 /* Reads output times: numbers between blanks, commas, new lines and comments. */
-#include "base/number.h"
-#include "times.h"
+#include "base/number_impl.h"
+#include "scene_options.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@ typedef struct place {
     int line, column;
 } place;
 
-static iso_status add_time(iso_context *ctx, times *t, size_t *room, double time)
+static iso_status add_time(iso_context *ctx, output_times *t, size_t *room, double time)
 {
     if (t->count == *room) {
         *room = *room ? 2 * *room : 64;
@@ -49,7 +49,7 @@ static size_t next_word(FILE *file, char word[WORD], place *at)
     return length;
 }
 
-static iso_status read_words(iso_context *ctx, const char *name, FILE *file, times *t)
+static iso_status read_words(iso_context *ctx, const char *name, FILE *file, output_times *t)
 {
     iso_status status = ISO_OK;
     char word[WORD];
@@ -71,11 +71,11 @@ static iso_status read_words(iso_context *ctx, const char *name, FILE *file, tim
     return status;
 }
 
-iso_status times_read(iso_context *ctx, const char *path, times *t)
+iso_status times_read(iso_context *ctx, const char *path, output_times *t)
 {
-    FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "r");
-    if (!file) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", path, strerror(errno));
-    const iso_status status = read_words(ctx, file == stdin ? "<stdin>" : path, file, t);
-    if (file != stdin) fclose(file);
+    FILE *file = iso_text_open(ctx, path);
+    if (!file) return ISO_FILE_TROUBLE;
+    const iso_status status = read_words(ctx, iso_text_name(path), file, t);
+    iso_text_close(file);
     return status;
 }

@@ -12,7 +12,8 @@
 #ifndef ISOROLL_VIEW_H
 #define ISOROLL_VIEW_H
 
-#include "isoroll.h"
+#include <jansson.h>
+
 #include "parameters.h"
 
 /* Bounds that keep a page below 3 MB. In base64 a number takes 10.7 bytes. */
@@ -27,15 +28,12 @@ enum {
  * right to 1e-6 of the radius. */
 #define VIEW_TURN 0.1
 
-/* Digits of base64. */
-#define VIEW_BASE64 "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"
-
 enum { VIEW_NOTES = 8, VIEW_WORDS = 512 };
 
 typedef struct view_integral {
     const iso_integral *integral;
     iso_model_kind model;
-    double start, worst; /* value at the start in the caller's units; largest drift */
+    double first, start, worst; /* its first value in own units; in the caller's; largest drift */
 } view_integral;
 
 typedef struct view_section {
@@ -58,6 +56,8 @@ typedef struct view_page {
     char note[VIEW_NOTES][VIEW_WORDS];
     int notes;
     iso_record *rows;    /* by columns of iso_column_name, in the order of their times  */
+    double *times;       /* of a scene: those of the rows                               */
+    size_t count;        /* of times                                                    */
     size_t total, every; /* rows of the file or scene; each `every`-th of them is here  */
     size_t between;      /* rows put between two of the scene's                         */
     iso_record *drifts;  /* a column for each integral, rows as above; NULL: none       */
@@ -68,7 +68,6 @@ typedef struct view_page {
     bool no_orbit;         /* rows of a trajectory do not follow the equations: a note says so */
 } view_page;
 
-view_page view_page_empty(const char *title, const char *kind);
 void view_page_free(view_page *page);
 
 /* Whether an effect breaks the isomorphism; if so, page->alone gets the words. Reads page->effects. */
@@ -77,9 +76,9 @@ bool view_is_broken(view_page *page);
 /* page->effects from the lines of a trajectory; which of them are idle, from its first row. */
 iso_status view_read_effects(iso_context *ctx, const iso_record *r, view_page *page);
 
-/* page->h and page->eps by the lines of the file; NAN without such a line. Reads page->params. Errors: ISO_BAD_INPUT
- * about a line that is no number. */
-iso_status view_read_energy(iso_context *ctx, const iso_record *r, view_page *page);
+/* Parameters, effects, h and eps of the page by the lines of a file and the options; h and eps are NAN without such a
+ * line. Errors: ISO_BAD_INPUT about a line. */
+iso_status view_read_lines(iso_context *ctx, const file_options *from, iso_record *r, view_page *page);
 
 /* Adds a line that the page shows. */
 void view_note(view_page *page, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -135,6 +134,23 @@ double view_largest_turn(const iso_record *r, double k);
 void view_note_turn(view_page *page);
 
 /* --- output ----------------------------------------------------------------------------------------------------- */
+
+#define VIEW_BASE64 "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/" /* its digits */
+
+/* The data of a page: numbers one by one, columns as base64 of little-endian doubles. The caller releases it. If
+ * memory is short, parts are missing; json_whole() then says so. */
+json_t *view_data(const view_page *page);
+
+/* The files of view/ and three.js, which the build puts into the program (view/embed.cmake). */
+typedef struct view_file {
+    const char *name; /* "page", "style", "three", "clocks", ...: without its ending; NULL after the last */
+    const unsigned char *bytes;
+    size_t length; /* 0: the build had no such file */
+} view_file;
+extern const view_file view_files[];
+
+/* The file called `name`, or the row without a name, which is empty. */
+const view_file *view_file_find(const char *name);
 
 /* Whether this build has what a page needs. Errors: ISO_BAD_ARGUMENT: it was built without three.js. */
 iso_status view_check_build(iso_context *ctx);

@@ -2,9 +2,9 @@
  * map (18); the clocks and the attitude come from short orbits.
  *
  * A short orbit begins at a row and gives the clocks, q, contact and centre at the next SEGMENT rows. There the next
- * one begins. So these columns stay close to the file's own rows, also on chaotic orbits. Where a short orbit misses a
- * row of the file by more than MISSED, the next one begins at the row before. If that one misses it too, the rows are
- * no orbit.
+ * one begins. So these columns stay close to the file's own rows, also on chaotic orbits. Where a short orbit misses
+ * a row of the file by more than MISSED, the next one begins at the row before. If that one misses it too, the rows
+ * are no orbit.
  */
 #include <math.h>
 #include <string.h>
@@ -15,24 +15,22 @@
 /* An orbit misses a row if it is farther from it. */
 #define MISSED 1e-3
 
-enum { SEGMENT = 16, MOST_COLUMNS = ISO_TRAJECTORY_COLUMNS };
-
-static const char *const attitude_names[] = {"q0",       "q1",       "q2",      "q3",      "contact1",
-                                             "contact2", "contact3", "centre1", "centre2", "centre3"};
-enum { ATTITUDE = 10, CONTACT = 4, CENTRE = 7 };
+enum { SEGMENT = 16 };
 
 typedef struct completion {
     iso_context *ctx;
     const view_page *page;
     const iso_record *in;
     iso_record *out;
-    iso_model_kind model; /* whose states the rows have              */
-    iso_clock clock;      /* that gives the times of the rows        */
-    bool twin;
-    double begun[ISO_CLOCKS]; /* clocks where this short orbit began     */
-    double shift[3];          /* on a plane: the contact there           */
-    double q[4];              /* attitude there                          */
-    double bound, speed;      /* a row is missed by more; largest |omega| */
+    int column[ISO_TRAJECTORY_COLUMNS]; /* of the result, as iso_column_name counts     */
+    bool given[ISO_TRAJECTORY_COLUMNS]; /* the file has it                              */
+    int q, contact, centre;             /* places in iso_sample.effect                  */
+    iso_model_kind model;               /* whose states the rows have                   */
+    iso_clock clock;                    /* that gives the times of the rows             */
+    double begun[ISO_CLOCKS];           /* clocks where this short orbit began          */
+    double shift[3];                    /* on a plane: the contact there                */
+    double attitude[4];                 /* there                                        */
+    double bound, speed;                /* a row is missed by more; largest |omega|     */
     view_miss *worst;
 } completion;
 
@@ -44,44 +42,39 @@ static bool has(const iso_record *r, const char *name)
 /* The columns of the result: those of both models, of the effects that the rows have, and of the attitude. */
 static iso_status create(completion *c)
 {
-    const char *names[MOST_COLUMNS];
+    const char *names[ISO_TRAJECTORY_COLUMNS];
     size_t count = 0;
+    c->q = iso_column_find("q0") - ISO_COLUMN_EFFECTS;
+    c->contact = iso_column_find("contact1") - ISO_COLUMN_EFFECTS;
+    c->centre = iso_column_find("centre1") - ISO_COLUMN_EFFECTS;
     for (int i = 0; i < iso_columns_count(); i++) {
         const char *name = iso_column_name(i);
-        bool wanted = i >= ISO_COLUMN_EFFECTS ? has(c->in, name) : !view_is_of_point(i) || c->twin;
-        for (int a = 0; a < ATTITUDE; a++) wanted = wanted || strcmp(name, attitude_names[a]) == 0;
-        if (wanted) names[count++] = name;
+        const bool given = has(c->in, name);
+        const int e = i - ISO_COLUMN_EFFECTS;
+        const bool attitude = (e >= c->q && e < c->contact + 3) || (e >= c->centre && e < c->centre + 3);
+        if (e < 0 ? view_is_of_point(i) && *c->page->alone : !given && !attitude) continue;
+        c->given[count] = given;
+        c->column[count] = i;
+        names[count++] = name;
     }
     return iso_record_create_like(c->ctx, c->in, count, names, &c->out);
-}
-
-static void put(completion *c, double *row, const char *name, double value)
-{
-    if (has(c->out, name) && !has(c->in, name)) row[iso_record_find(c->out, name)] = value;
 }
 
 /* Copies a row of the file, and adds its state in the other model. */
 static iso_status copy_row(completion *c, size_t i)
 {
-    double *row, ball[ISO_STATE], point[ISO_STATE];
-    const double *from = iso_record_const_row(c->in, i);
+    double *row;
+    iso_sample given, mapped;
     const iso_status status = iso_record_append(c->ctx, c->out, &row);
     if (status != ISO_OK) return status;
-    for (size_t j = 0; j < iso_record_columns(c->out); j++) {
-        const int column = iso_record_find(c->in, iso_record_name(c->out, j));
-        if (column >= 0) row[j] = from[column];
-    }
-    const bool is_ball = c->model == ISO_BALL;
-    const char *const *names = (is_ball ? &iso_system_ball : &iso_system_point)->state;
-    for (int j = 0; j < ISO_STATE; j++) (is_ball ? ball : point)[j] = from[iso_record_find(c->in, names[j])];
-    if (is_ball)
-        iso_ball_to_point(&c->page->params, ball, point);
+    iso_record_sample(c->in, i, &given);
+    mapped = given;
+    if (c->model == ISO_BALL)
+        iso_ball_to_point(&c->page->params, given.ball, mapped.point);
     else
-        iso_point_to_ball(&c->page->params, point, ball);
-    for (int j = 0; j < ISO_STATE; j++) {
-        put(c, row, iso_system_ball.state[j], ball[j]);
-        put(c, row, iso_system_point.state[j], point[j]);
-    }
+        iso_point_to_ball(&c->page->params, given.point, mapped.ball);
+    for (size_t j = 0; j < iso_record_columns(c->out); j++)
+        row[j] = iso_sample_column(c->given[j] ? &given : &mapped, c->column[j]);
     return ISO_OK;
 }
 
@@ -93,12 +86,12 @@ static iso_status begin(completion *c, size_t row, iso_orbit **orbit)
     iso_effects effects = c->page->effects;
     iso_status status = iso_record_start(c->ctx, c->in, &c->page->params, c->model, row, &start, &effects);
     if (status == ISO_OK && row > 0 && !has(c->in, "q0"))
-        status = iso_effects_set(c->ctx, &effects, "attitude", "quaternion", 4, c->q);
+        status = iso_effects_set(c->ctx, &effects, "attitude", "quaternion", 4, c->attitude);
     if (status != ISO_OK) return status;
     return view_orbit(c->ctx, c->page, &start, &effects, c->clock, orbit);
 }
 
-/* Puts into row `i` what the short orbit gives at its time. */
+/* Puts into row `i` the clocks and the attitude that the short orbit gives at its time. */
 static iso_status fill(completion *c, iso_orbit *orbit, size_t first, size_t i, iso_sample *sample)
 {
     const int time = iso_record_find(c->in, iso_clock_name(c->clock));
@@ -106,12 +99,13 @@ static iso_status fill(completion *c, iso_orbit *orbit, size_t first, size_t i, 
     const iso_status status = iso_orbit_at(orbit, since, sample);
     if (status != ISO_OK) return status;
     sample->clock[c->clock] = since;
-    double *row = iso_record_row(c->out, i);
-    for (int j = 0; j < ISO_CLOCKS; j++) put(c, row, iso_clock_name((iso_clock)j), c->begun[j] + sample->clock[j]);
-    for (int a = 0; a < ATTITUDE; a++) {
-        const double moved = a < CONTACT ? 0 : c->shift[(a - CONTACT) % 3];
-        put(c, row, attitude_names[a], iso_sample_get(sample, attitude_names[a]) + moved);
-    }
+    iso_sample whole = *sample;
+    for (int j = 0; j < ISO_CLOCKS; j++) whole.clock[j] += c->begun[j];
+    for (int a = 0; a < 3; a++)
+        whole.effect[c->contact + a] += c->shift[a], whole.effect[c->centre + a] += c->shift[a];
+    for (size_t j = 0; j < iso_record_columns(c->out); j++)
+        if (!c->given[j] && (c->column[j] < ISO_COLUMN_BALL || c->column[j] >= ISO_COLUMN_EFFECTS))
+            iso_record_row(c->out, i)[j] = iso_sample_column(&whole, c->column[j]);
     return ISO_OK;
 }
 
@@ -142,9 +136,8 @@ static void find_bound(completion *c)
 static void go_on(completion *c, const iso_sample *now)
 {
     for (int j = 0; j < ISO_CLOCKS; j++) c->begun[j] += now->clock[j];
-    for (int a = 0; a < 4; a++) c->q[a] = iso_sample_get(now, attitude_names[a]);
-    for (int a = 0; a < 3 && c->page->params.k == 1; a++)
-        c->shift[a] += iso_sample_get(now, attitude_names[CONTACT + a]);
+    memcpy(c->attitude, now->effect + c->q, sizeof c->attitude);
+    for (int a = 0; a < 3 && c->page->params.k == 1; a++) c->shift[a] += now->effect[c->contact + a];
 }
 
 /* The rows after `first` by the orbit that begins there; *last: the row where the next one begins. */
@@ -187,7 +180,7 @@ static iso_status complete(completion *c)
 iso_status view_complete(iso_context *ctx, const view_page *page, iso_record *rows, iso_record **made,
                          view_miss *worst)
 {
-    completion c = {.ctx = ctx, .page = page, .in = rows, .twin = !*page->alone, .worst = worst};
+    completion c = {.ctx = ctx, .page = page, .in = rows, .worst = worst};
     *worst = (view_miss){0, 0};
     c.model = has(rows, "omega1") && has(rows, "n1") ? ISO_BALL : ISO_POINT;
     c.clock = has(rows, "t") ? ISO_CLOCK_T : ISO_CLOCK_S;

@@ -1,55 +1,34 @@
-/* view_data.c - the data of a page as JSON (see view_data.h). */
-#include "view_data.h"
-
+/* view_data.c - the data of a page as JSON (see view.h). */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/version.h"
 #include "json.h"
+#include "view.h"
 
-/* --- base64 ----------------------------------------------------------------------------------------------------- */
+/* --- columns ---------------------------------------------------------------------------------------------------- */
 
-/* The bytes of numbers in base64; a json string, NULL: no memory. */
-static json_t *base64(const unsigned char *bytes, size_t count)
+/* Byte i of the numbers of a column, little-endian; 0 behind them. */
+static unsigned byte_of(const iso_record *r, size_t column, size_t i)
 {
-    static const char digit[] = VIEW_BASE64;
-    char *text = json_allocate((count + 2) / 3 * 4 + 1), *to = text;
-    if (!text) return NULL;
-    for (size_t i = 0; i < count; i += 3) {
-        const unsigned second = i + 1 < count ? bytes[i + 1] : 0, third = i + 2 < count ? bytes[i + 2] : 0;
-        const unsigned group = (unsigned)bytes[i] << 16 | second << 8 | third;
-        *to++ = digit[group >> 18];
-        *to++ = digit[group >> 12 & 63];
-        *to++ = i + 1 < count ? digit[group >> 6 & 63] : '=';
-        *to++ = i + 2 < count ? digit[group & 63] : '=';
-    }
-    json_t *made = json_stringn_nocheck(text, (size_t)(to - text));
-    free(text);
-    return made;
+    uint64_t bits = 0;
+    if (i / 8 < iso_record_rows(r)) memcpy(&bits, iso_record_const_row(r, i / 8) + column, sizeof bits);
+    return (unsigned)(bits >> 8 * (i % 8)) & 0xFF;
 }
 
-/* Numbers, little-endian. */
-static json_t *packed(size_t count, const double numbers[])
-{
-    unsigned char *bytes = json_allocate(8 * count + 1);
-    if (!bytes) return NULL;
-    for (size_t i = 0; i < count; i++) {
-        uint64_t bits;
-        memcpy(&bits, &numbers[i], sizeof bits);
-        for (size_t b = 0; b < 8; b++) bytes[8 * i + b] = (unsigned char)(bits >> 8 * b);
-    }
-    json_t *made = base64(bytes, 8 * count);
-    free(bytes);
-    return made;
-}
-
+/* A column in base64; a json string, NULL: no memory. */
 static json_t *column_of(const iso_record *r, size_t column)
 {
-    const size_t rows = iso_record_rows(r);
-    double *numbers = json_allocate(rows * sizeof *numbers + 1);
-    for (size_t i = 0; numbers && i < rows; i++) numbers[i] = iso_record_const_row(r, i)[column];
-    json_t *made = numbers ? packed(rows, numbers) : NULL;
-    free(numbers);
+    const size_t bytes = 8 * iso_record_rows(r), length = (bytes + 2) / 3 * 4;
+    char *text = json_allocate(length + 1);
+    for (size_t i = 0; text && i < length; i++) {
+        const size_t first = i / 4 * 3, digit = i % 4;
+        const unsigned group =
+            byte_of(r, column, first) << 16 | byte_of(r, column, first + 1) << 8 | byte_of(r, column, first + 2);
+        text[i] = first + digit > bytes ? '=' : VIEW_BASE64[group >> (18 - 6 * digit) & 63];
+    }
+    json_t *made = text ? json_stringn_nocheck(text, length) : NULL;
+    free(text);
     return made;
 }
 

@@ -1,9 +1,9 @@
 /* view_frames.c - pictures of a page, drawn by a Chromium without a window (see view.h).
  *
  * Chromium opens the page with a fragment #frames=FIRST,COUNT,ALL. The page draws these pictures while it loads and
- * writes each into <pre id="frames"> as a line "frame NUMBER data:image/png;base64,...", which --dump-dom prints. Texts
- * of files come before it, and have no "<" there: they cannot forge a picture. One run draws BATCH pictures, so memory
- * stays small. No port is opened and nothing is loaded from a network.
+ * writes each into <pre id="frames"> as a line "frame NUMBER data:image/png;base64,...", which --dump-dom prints.
+ * Texts of files come before it, and have no "<" there: they cannot forge a picture. One run draws BATCH pictures, so
+ * memory stays small. No port is opened and nothing is loaded from a network.
  */
 #include <dirent.h>
 #include <errno.h>
@@ -18,7 +18,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "io/output.h"
+#include "io/output_impl.h"
 #include "progress.h"
 #include "view.h"
 

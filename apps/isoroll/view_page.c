@@ -6,11 +6,6 @@
 
 #include "view.h"
 
-view_page view_page_empty(const char *title, const char *kind)
-{
-    return (view_page){.title = title, .kind = kind, .eps = NAN, .h = NAN, .every = 1};
-}
-
 static void free_section(view_section *s)
 {
     if (!s) return;
@@ -26,6 +21,7 @@ void view_page_free(view_page *page)
     iso_record_free(page->rows);
     iso_record_free(page->drifts);
     iso_record_free(page->apart);
+    free(page->times);
     free_section(page->section);
 }
 
@@ -50,12 +46,12 @@ bool view_is_broken(view_page *page)
     return breaking != NULL;
 }
 
-iso_status view_read_energy(iso_context *ctx, const iso_record *r, view_page *page)
+iso_status view_read_lines(iso_context *ctx, const file_options *from, iso_record *r, view_page *page)
 {
-    iso_status status = ISO_OK;
-    if (!iso_record_get_numbers(ctx, r, "h", 1, &page->h, &status) && status == ISO_OK) page->h = NAN;
-    if (status != ISO_OK) return status;
-    if (!iso_record_coupling(ctx, r, &page->params, &page->eps, &status) && status == ISO_OK) page->eps = NAN;
+    iso_status status = parameters_of_file(ctx, from, r, &page->params);
+    if (status == ISO_OK) status = view_read_effects(ctx, r, page);
+    if (status == ISO_OK && !iso_record_get_numbers(ctx, r, "h", 1, &page->h, &status)) page->h = NAN;
+    if (status == ISO_OK && !iso_record_coupling(ctx, r, &page->params, &page->eps, &status)) page->eps = NAN;
     return status;
 }
 

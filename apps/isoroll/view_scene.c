@@ -9,57 +9,30 @@
 /* Two runs whose unit vectors differ by more are no longer the same orbit. */
 #define PARTED 1e-3
 
-/* Rows of a run. */
-typedef struct collector {
-    iso_context *ctx;
-    view_page *page; /* NULL: notes are not wanted */
-    iso_record *rows;
-} collector;
-
-static iso_status keep_header(void *data, const iso_record *header)
-{
-    collector *c = data;
-    return iso_record_create_like(c->ctx, header, 0, NULL, &c->rows);
-}
-
-static iso_status keep_row(void *data, const double row[], size_t count)
-{
-    collector *c = data;
-    double *to;
-    const iso_status status = iso_record_append(c->ctx, c->rows, &to);
-    if (status == ISO_OK) memcpy(to, row, count * sizeof *row);
-    return status;
-}
-
 static void show_progress(void *data, double part)
 {
     (void)data;
     progress_show(part);
 }
 
-static void keep_note(void *data, iso_run_note note, const char *words)
+/* page NULL: notes are not wanted. */
+static void keep_note(void *page, iso_run_note note, const char *words)
 {
-    collector *c = data;
     (void)note;
-    if (c->page) view_note(c->page, "%s", words);
+    if (page) view_note(page, "%s", words);
 }
 
-/* Runs a scene at the given times (count 0: the scene's own) into a new record. */
+/* Runs a scene at the given times (NULL: the scene's own) into a new record. */
 static iso_status run_at(iso_context *ctx, const iso_scene *scene, const double times[], size_t count,
                          view_page *page, iso_record **rows)
 {
-    collector c = {ctx, page, NULL};
-    const iso_run_sink sink = {
-        .header = keep_header, .row = keep_row, .note = keep_note, .progress = show_progress, .data = &c};
+    const iso_run_sink sink = {.note = keep_note, .progress = show_progress, .data = page, .record = rows};
     iso_run_options how = iso_run_defaults();
-    iso_run_result result;
-    how.times = count > 0 ? times : NULL;
+    how.times = times;
     how.count = count;
-    const iso_status status = iso_run(ctx, scene, &how, &sink, &result);
-    *rows = c.rows;
-    if (status == ISO_OK) return status;
-    iso_record_free(c.rows);
     *rows = NULL;
+    const iso_status status = iso_run(ctx, scene, &how, &sink, NULL);
+    if (status != ISO_OK) iso_record_free(*rows), *rows = NULL;
     return status;
 }
 
@@ -82,26 +55,21 @@ static void choose_columns(iso_scene *scene, bool twin)
 
 /* The times of the page, growing: those of each `every`-th row of the scene and of the last row. After each but the
  * last there are `between` more. */
-static double *times_of(const iso_scene *scene, const view_page *page, size_t *count)
+static iso_status find_times(iso_context *ctx, const iso_scene *scene, view_page *page)
 {
-    const size_t rows = iso_scene_rows(scene), pieces = page->between + 1;
-    const size_t steps = (rows - 1 + page->every - 1) / page->every;
-    double *times = malloc((steps * pieces + 1) * sizeof *times);
-    if (!times) return NULL;
-    *count = 0;
-    for (size_t i = 0; i < steps; i++) {
-        const double from = iso_scene_time(scene, i * page->every);
-        const size_t last = (i + 1) * page->every < rows - 1 ? (i + 1) * page->every : rows - 1;
-        const double step = (iso_scene_time(scene, last) - from) / (double)pieces;
-        for (size_t j = 0; j < pieces; j++) times[(*count)++] = from + (double)j * step;
+    const size_t last = iso_scene_rows(scene) - 1, pieces = page->between + 1;
+    page->count = (last + page->every - 1) / page->every * pieces + 1;
+    free(page->times);
+    page->times = malloc(page->count * sizeof *page->times);
+    if (!page->times) return iso_context_no_memory(ctx, "the times");
+    for (size_t n = 0; n < page->count; n++) {
+        const size_t m = scene->end < 0 ? page->count - 1 - n : n, row = m / pieces * page->every;
+        const double from = iso_scene_time(scene, row < last ? row : last);
+        const double to = iso_scene_time(scene, row + page->every < last ? row + page->every : last);
+        const double step = (to - from) / (double)pieces;
+        page->times[n] = from + (double)(m % pieces) * step;
     }
-    times[(*count)++] = iso_scene_time(scene, rows - 1);
-    for (size_t i = 0, j = *count - 1; scene->end < 0 && i < j; i++, j--) {
-        const double swapped = times[i];
-        times[i] = times[j];
-        times[j] = swapped;
-    }
-    return times;
+    return ISO_OK;
 }
 
 /* Chooses page->every, or runs the scene once at its own times and chooses page->between. */
@@ -126,31 +94,27 @@ static iso_status choose_rows(iso_context *ctx, const iso_scene *scene, view_pag
 /* --- the two models --------------------------------------------------------------------------------------------- */
 
 /* The ball by its own equations, with its attitude; with `twin` also the point that belongs to it. */
-static iso_status run_with(iso_context *ctx, iso_scene *scene, bool twin, view_page *page, double **times,
-                           size_t *count)
+static iso_status run_with(iso_context *ctx, iso_scene *scene, bool twin, view_page *page)
 {
     scene->as = twin ? ISO_SHOW_BOTH : ISO_SHOW_BALL;
     choose_columns(scene, twin);
-    const iso_status status = choose_rows(ctx, scene, page);
-    if (status != ISO_OK) return status;
-    free(*times);
-    *times = times_of(scene, page, count);
-    if (!*times) return iso_context_no_memory(ctx, "the times");
-    return run_at(ctx, scene, *times, *count, page, &page->rows);
+    iso_status status = choose_rows(ctx, scene, page);
+    if (status == ISO_OK) status = find_times(ctx, scene, page);
+    return status == ISO_OK ? run_at(ctx, scene, page->times, page->count, page, &page->rows) : status;
 }
 
 /* The ball and its point, or the ball alone where it has none. */
-static iso_status run_ball(iso_context *ctx, const iso_scene *asked, view_page *page, double **times, size_t *count)
+static iso_status run_ball(iso_context *ctx, const iso_scene *asked, view_page *page)
 {
     iso_scene scene = *asked;
     iso_status status = iso_effects_set(ctx, &scene.effects, "attitude", NULL, 0, NULL);
     scene.backend = ISO_BACKEND_BALL;
-    if (status == ISO_OK) status = run_with(ctx, &scene, true, page, times, count);
+    if (status == ISO_OK) status = run_with(ctx, &scene, true, page);
     if (status != ISO_NOT_MAPPED || scene.start.model != ISO_BALL) return status;
     page->effects = scene.effects;
     page->notes = 0;
     if (!view_is_broken(page)) snprintf(page->alone, sizeof page->alone, "%s", iso_context_message(ctx));
-    return run_with(ctx, &scene, false, page, times, count);
+    return run_with(ctx, &scene, false, page);
 }
 
 /* Puts the columns M and gamma of the point's own run into the rows of the page, and how far n and gamma of the two
@@ -162,12 +126,11 @@ static iso_status compare(iso_context *ctx, view_page *page, const iso_record *o
     bool parted = false;
     iso_status status = iso_record_create(ctx, 2, names, &page->apart);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(page->rows); i++) {
-        double *to, *row = iso_record_row(page->rows, i);
+        double *row = iso_record_row(page->rows, i);
         double *gamma = row + iso_record_find(page->rows, "gamma1"), *M = row + iso_record_find(page->rows, "M1");
-        status = iso_record_append(ctx, page->apart, &to);
-        if (status != ISO_OK) break;
-        to[0] = view_distance(view_vector(page->rows, i, "n1"), view_vector(own, i, "n1"));
-        to[1] = view_distance(gamma, view_vector(own, i, "gamma1"));
+        const double to[] = {view_distance(view_vector(page->rows, i, "n1"), view_vector(own, i, "n1")),
+                             view_distance(gamma, view_vector(own, i, "gamma1"))};
+        status = iso_record_add(ctx, page->apart, 1, to);
         memcpy(gamma, view_vector(own, i, "gamma1"), 3 * sizeof *gamma);
         memcpy(M, view_vector(own, i, "M1"), 3 * sizeof *M);
         if (parted || !(fmax(to[0], to[1]) > PARTED)) continue;
@@ -180,8 +143,7 @@ static iso_status compare(iso_context *ctx, view_page *page, const iso_record *o
 }
 
 /* The same orbit by the point's own equations. */
-static iso_status run_point(iso_context *ctx, const iso_scene *asked, view_page *page, const double times[],
-                            size_t count)
+static iso_status run_point(iso_context *ctx, const iso_scene *asked, view_page *page)
 {
     static const char *const names[] = {"n1", "n2", "n3", "M1", "M2", "M3", "gamma1", "gamma2", "gamma3"};
     iso_record *own = NULL;
@@ -192,41 +154,30 @@ static iso_status run_point(iso_context *ctx, const iso_scene *asked, view_page 
     scene.effects = iso_scene_acting(asked);
     scene.columns = sizeof names / sizeof *names;
     for (size_t i = 0; i < scene.columns; i++) snprintf(scene.column[i], ISO_NAME_SIZE, "%s", names[i]);
-    iso_status status = run_at(ctx, &scene, times, count, NULL, &own);
-    if (status == ISO_OK) {
+    iso_status status = run_at(ctx, &scene, page->times, iso_record_rows(page->rows), NULL, &own);
+    if (status == ISO_OK)
         status = compare(ctx, page, own);
-        iso_record_free(own);
-        return status;
+    else if (status != ISO_STOPPED && status != ISO_NO_MEMORY) {
+        view_note(page, "The point was not integrated by itself: %s. It is computed from the ball, by the map.",
+                  iso_context_message(ctx));
+        status = ISO_OK;
     }
-    if (status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
-    view_note(page, "The point was not integrated by itself: %s. It is computed from the ball, by the map.",
-              iso_context_message(ctx));
-    return ISO_OK;
-}
-
-/* The ball's run may have ended before the last of the times, where contact is lost: the point's shall end there. */
-static size_t end_of(const view_page *page, double times[])
-{
-    const size_t count = iso_record_rows(page->rows);
-    const int clock = iso_record_find(page->rows, iso_clock_name(page->clock));
-    if (clock >= 0) times[count - 1] = iso_record_const_row(page->rows, count - 1)[clock];
-    return count;
+    iso_record_free(own);
+    return status;
 }
 
 iso_status view_of_scene(iso_context *ctx, const iso_scene *scene, view_page *page)
 {
-    double *times = NULL;
-    size_t count;
     page->params = scene->params;
     page->clock = scene->start.model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
-    iso_status status = run_ball(ctx, scene, page, &times, &count);
+    iso_status status = run_ball(ctx, scene, page);
     if (status == ISO_OK) status = view_read_effects(ctx, page->rows, page);
-    if (status == ISO_OK && !*page->alone) {
-        iso_record_get_numbers(ctx, page->rows, "h", 1, &page->h, &status);
-        iso_record_get_numbers(ctx, page->rows, "eps", 1, &page->eps, &status);
-        count = end_of(page, times);
-        status = run_point(ctx, scene, page, times, count);
-    }
-    free(times);
-    return status;
+    if (status != ISO_OK || *page->alone) return status;
+    iso_record_get_numbers(ctx, page->rows, "h", 1, &page->h, &status);
+    iso_record_get_numbers(ctx, page->rows, "eps", 1, &page->eps, &status);
+    /* where contact is lost, the ball's run has ended before the last of the times: the point's shall end there */
+    const size_t last = iso_record_rows(page->rows) - 1;
+    page->times[last] =
+        iso_record_const_row(page->rows, last)[iso_record_find(page->rows, iso_clock_name(page->clock))];
+    return run_point(ctx, scene, page);
 }

@@ -99,7 +99,6 @@ static iso_status keep_crossings(builder *b)
     const size_t each = VIEW_MOST_CROSSINGS / orbits;
     iso_status status = iso_record_create(b->ctx, 3, (const char *const[]){"orbit", "l", "x"}, &s->crossings);
     size_t first = 0, most = 0, orbit = 0;
-    double *row;
     s->total = iso_record_rows(b->in);
     for (size_t i = 0; status == ISO_OK && i < s->total; i++) {
         const double *from = iso_record_const_row(b->in, i);
@@ -107,8 +106,7 @@ static iso_status keep_crossings(builder *b)
         if (orbit == orbits) break;
         if (i - first + 1 > most) most = i - first + 1;
         if (i - first >= each) continue;
-        status = iso_record_append(b->ctx, s->crossings, &row);
-        if (status == ISO_OK) row[0] = from[b->orbit], row[1] = from[b->l], row[2] = from[b->x];
+        status = iso_record_add(b->ctx, s->crossings, 1, (double[]){from[b->orbit], from[b->l], from[b->x]});
     }
     if (orbits < s->orbits) view_note(b->page, "The section shows the first %zu of %zu orbits.", orbits, s->orbits);
     if (most > each)
@@ -207,19 +205,11 @@ static iso_status run_orbits(builder *b)
 
 /* --- the page --------------------------------------------------------------------------------------------------- */
 
-static iso_status read_lines(iso_context *ctx, const file_options *from, iso_record *in, view_page *page)
-{
-    iso_status status = parameters_of_file(ctx, from, in, &page->params);
-    if (status == ISO_OK) status = iso_record_effects(ctx, in, &page->effects);
-    if (status != ISO_OK) return status;
-    view_is_broken(page);
-    return view_read_energy(ctx, in, page);
-}
-
 static iso_status of_record(iso_context *ctx, const file_options *from, iso_record *in, view_page *page)
 {
     builder b = {.ctx = ctx, .page = page, .in = in};
-    iso_status status = read_lines(ctx, from, in, page);
+    iso_status status = view_read_lines(ctx, from, in, page);
+    view_is_broken(page);
     if (status == ISO_OK) status = check(&b);
     if (status == ISO_OK) status = check_rows(&b);
     if (status != ISO_OK) return status;
@@ -234,10 +224,10 @@ iso_status view_of_section(iso_context *ctx, const file_options *from, view_page
     iso_record *in = NULL;
     page->section = calloc(1, sizeof *page->section);
     if (!page->section) return iso_context_no_memory(ctx, "a section");
-    iso_status status = iso_table_read(ctx, from->file, "section", &in); /* its messages already name the file */
+    iso_status status =
+        iso_table_read(ctx, from->file, "section", NULL, &in, NULL); /* its messages already name the file */
     if (status != ISO_OK) return status;
     status = of_record(ctx, from, in, page);
-    if (status != ISO_OK) status = name_the_file(ctx, from->file, status);
     iso_record_free(in);
-    return status;
+    return name_the_file(ctx, from->file, status);
 }

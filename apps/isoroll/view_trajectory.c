@@ -10,17 +10,12 @@
 
 /* --- what the file must have ------------------------------------------------------------------------------------ */
 
-static bool has_all(const iso_record *r, const char *const names[], const char **missing)
-{
-    int columns[ISO_STATE];
-    return iso_record_find_all(r, ISO_STATE, names, columns, missing);
-}
-
 static iso_status check_columns(iso_context *ctx, const iso_record *r, iso_clock *clock)
 {
     const char *ball, *point;
-    const bool is_ball = has_all(r, iso_system_ball.state, &ball),
-               is_point = has_all(r, iso_system_point.state, &point);
+    int columns[ISO_STATE];
+    const bool is_ball = iso_record_find_all(r, ISO_STATE, iso_system_ball.state, columns, &ball),
+               is_point = iso_record_find_all(r, ISO_STATE, iso_system_point.state, columns, &point);
     if (!is_ball && !is_point) {
         const bool more_ball = iso_record_find(r, "n1") >= 0 || iso_record_find(r, "omega1") >= 0;
         return iso_context_fail(ctx, ISO_BAD_INPUT, "columns",
@@ -48,7 +43,6 @@ static iso_status pick(iso_context *ctx, const iso_record *in, int time, size_t 
     for (size_t i = 0; i < rows; i++) {
         const size_t from = back ? rows - 1 - i : i;
         const double *row = iso_record_const_row(in, from);
-        double *to;
         if (row[time] == last) continue;
         if (row[time] < last)
             return iso_context_fail(ctx, ISO_BAD_INPUT, "",
@@ -57,9 +51,8 @@ static iso_status pick(iso_context *ctx, const iso_record *in, int time, size_t 
                                     from + 1, iso_record_name(in, (size_t)time), row[time]);
         last = row[time];
         if (i % every != 0 && i != rows - 1) continue;
-        const iso_status status = iso_record_append(ctx, out, &to);
+        const iso_status status = iso_record_add(ctx, out, 1, row);
         if (status != ISO_OK) return status;
-        memcpy(to, row, iso_record_columns(in) * sizeof *row);
     }
     return ISO_OK;
 }
@@ -92,16 +85,13 @@ static void find_twin(view_page *page, const iso_record *r)
 /* If the file does not state h and eps: from its first row, if the ball is free. */
 static void find_energy(view_page *page)
 {
-    double ball[ISO_STATE];
+    iso_sample first;
     const iso_effects acting = iso_effects_acting(&page->effects);
     if (*page->alone || !isnan(page->eps)) return;
     for (int e = 0; e < ISO_EFFECTS; e++)
         if (acting.on[e]) return;
-    for (int i = 0; i < 3; i++) {
-        ball[i] = view_vector(page->rows, 0, "omega1")[i];
-        ball[i + 3] = view_vector(page->rows, 0, "n1")[i];
-    }
-    page->h = iso_ball_energy(&page->params, ball);
+    iso_record_sample(page->rows, 0, &first);
+    page->h = iso_ball_energy(&page->params, first.ball);
     page->eps = iso_coupling(&page->params, page->h);
 }
 
@@ -144,10 +134,8 @@ static iso_status of_record(iso_context *ctx, const file_options *from, iso_reco
 {
     iso_record *thin = NULL;
     view_miss worst;
-    iso_status status = parameters_of_file(ctx, from, in, &page->params);
+    iso_status status = view_read_lines(ctx, from, in, page);
     if (status == ISO_OK) status = check_columns(ctx, in, &page->clock);
-    if (status == ISO_OK) status = view_read_effects(ctx, in, page);
-    if (status == ISO_OK) status = view_read_energy(ctx, in, page);
     if (status == ISO_OK) status = thin_out(ctx, in, page, &thin);
     if (status == ISO_OK) find_twin(page, thin);
     if (status == ISO_OK) status = view_complete(ctx, page, thin, &page->rows, &worst);
@@ -161,10 +149,8 @@ static iso_status of_record(iso_context *ctx, const file_options *from, iso_reco
 iso_status view_of_trajectory(iso_context *ctx, const file_options *from, view_page *page)
 {
     iso_record *in = NULL;
-    iso_status status = iso_trajectory_read(ctx, from->file, from->columns, &in);
+    iso_status status = iso_table_read(ctx, from->file, "trajectory", from->columns, &in, NULL);
     if (status == ISO_OK) status = of_record(ctx, from, in, page);
-    if (status != ISO_OK && status != ISO_BAD_ARGUMENT && status != ISO_FILE_TROUBLE)
-        status = name_the_file(ctx, from->file, status);
     iso_record_free(in);
-    return status;
+    return name_the_file(ctx, from->file, status);
 }

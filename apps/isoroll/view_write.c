@@ -5,11 +5,9 @@
  */
 #include <string.h>
 
-#include "io/output.h"
+#include "io/output_impl.h"
 #include "json.h"
 #include "view.h"
-#include "view_data.h"
-#include "view_files.h"
 
 iso_status view_check_build(iso_context *ctx)
 {

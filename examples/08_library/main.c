@@ -57,7 +57,7 @@ int main(void)
     double worst = 0;
     printf("t = 10         backend ball         backend point  difference\n");
     for (int i = 0; i < ISO_STATE; i++) {
-        printf("%-6s %20.15f  %20.15f  %10.1e\n", iso_system_ball.state[i], a.ball[i], b.ball[i],
+        printf("%-6s %20.15f  %20.15f  %10.1e\n", iso_system_at(ISO_BALL)->state[i], a.ball[i], b.ball[i],
                b.ball[i] - a.ball[i]);
         worst = fmax(worst, fabs(b.ball[i] - a.ball[i]));
     }

@@ -30,7 +30,7 @@ static int chaotic(iso_context *ctx, double k)
     for (int i = 0; random && i < BALLS; i += 2) {
         iso_start *one = &starts[i], *other = &starts[i + 1];
         one->model = ISO_BALL;
-        iso_system_ball.sample(&problem, random, one->y);
+        iso_system_at(ISO_BALL)->sample(&problem, random, one->y);
         const double scale = sqrt(1 / iso_ball_energy(&p, one->y));
         for (int c = 0; c < 3; c++) one->y[c] *= scale;
         *other = *one;

@@ -1,13 +1,14 @@
-/* field.c - reads the members of structs through their fields: as values, as columns, as rows of CSV (see field.h). */
+/* field.c - reads the members of structs through their fields: as values, as columns, as rows of records. */
 #include "base/field.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "base/number_impl.h"
+#include "base/record_impl.h"
 
-/* --- values ------------------------------------------------------------------------------------------------------ */
+/* --- values ----------------------------------------------------------------------------------------------------- */
 
 static void read_member(const iso_field *f, const char *at, int i, iso_value *v)
 {
@@ -91,7 +92,7 @@ void iso_fields_copy(const iso_field *fields, const char *without, iso_field cop
     copy[count] = (iso_field)ISO_FIELD_END;
 }
 
-/* --- columns ----------------------------------------------------------------------------------------------------- */
+/* --- columns ---------------------------------------------------------------------------------------------------- */
 
 /* The name of a column: that of the outer structs, the field's, and of several numbers that of the one. */
 static void name_column(char name[ISO_COLUMN_SIZE], const char *outer, const iso_field *f, int i)
@@ -130,21 +131,21 @@ void iso_columns_visit(const iso_field *fields, const void *row, iso_column_visi
     visit_columns("", fields, row, visit, data);
 }
 
-/* --- records ----------------------------------------------------------------------------------------------------- */
+/* --- records ---------------------------------------------------------------------------------------------------- */
 
 typedef struct columns {
     char name[ISO_MOST_FIELDS][ISO_COLUMN_SIZE];
-    double number[ISO_MOST_FIELDS];
+    const iso_field *field[ISO_MOST_FIELDS];
     size_t count;
 } columns;
 
 static void keep(void *data, const char *name, const iso_field *field, const iso_value *value)
 {
     columns *c = data;
-    (void)field;
+    (void)value;
     if (c->count == ISO_MOST_FIELDS) return;
     memcpy(c->name[c->count], name, strlen(name) + 1);
-    c->number[c->count++] = value->number;
+    c->field[c->count++] = field;
 }
 
 iso_status iso_columns_create(iso_context *ctx, const iso_field *fields, iso_record **record)
@@ -153,53 +154,87 @@ iso_status iso_columns_create(iso_context *ctx, const iso_field *fields, iso_rec
     const char *names[ISO_MOST_FIELDS];
     iso_columns_visit(fields, NULL, keep, &c);
     for (size_t i = 0; i < c.count; i++) names[i] = c.name[i];
-    return iso_record_create(ctx, c.count, names, record);
+    const iso_status status = iso_record_create(ctx, c.count, names, record);
+    for (size_t i = 0; status == ISO_OK && i < c.count; i++) {
+        const iso_field *f = c.field[i];
+        iso_record_set_words(*record, i, is_text(f));
+        *iso_record_format(*record, i) =
+            (iso_column_format){f->digits, f->type != ISO_FIELD_REAL || f->how & ISO_EMPTY, !(f->how & ISO_QUOTED)};
+    }
+    return status;
+}
+
+typedef struct filling {
+    iso_context *ctx;
+    iso_record *record;
+    double *cell;
+    size_t column;
+    iso_status status;
+} filling;
+
+static void fill(void *data, const char *name, const iso_field *field, const iso_value *value)
+{
+    filling *to = data;
+    (void)name, (void)field;
+    double *const cell = &to->cell[to->column];
+    *cell = value->there ? value->number : (double)NAN;
+    if (to->status == ISO_OK && iso_record_has_words(to->record, to->column++))
+        to->status = iso_record_intern(to->ctx, to->record, value->there ? value->text : "", cell);
 }
 
 iso_status iso_columns_append(iso_context *ctx, const iso_field *fields, const void *row, iso_record *record)
 {
-    columns c = {.count = 0};
-    double *to;
-    const iso_status status = iso_record_append(ctx, record, &to);
-    if (status != ISO_OK) return status;
-    iso_columns_visit(fields, row, keep, &c);
-    memcpy(to, c.number, c.count * sizeof *to);
-    return ISO_OK;
+    filling to = {.ctx = ctx, .record = record};
+    to.status = iso_record_append(ctx, record, &to.cell);
+    if (to.status == ISO_OK) iso_columns_visit(fields, row, fill, &to);
+    return to.status;
 }
 
-/* --- text -------------------------------------------------------------------------------------------------------- */
+typedef struct lines {
+    iso_context *ctx;
+    iso_record *record;
+    iso_status status;
+} lines;
 
-typedef struct writer {
-    FILE *to;
-    int written;
-} writer;
+static void set_fields(lines *l, const char *outer, const iso_field *f, const void *row);
 
-static void write_text(FILE *to, const iso_field *f, const char *text)
+/* Of a struct, a list, or the numbers of a field. */
+static void set_inner(lines *l, const char *key, const iso_field *f, const void *row)
 {
-    const char *quote = f->how & ISO_QUOTED ? "\"" : "";
-    fputs(quote, to);
-    for (; text && *text; text++) fprintf(to, *quote && *text == '"' ? "\"%c" : "%c", *text);
-    fputs(quote, to);
-}
-
-static void write_value(void *data, const char *name, const iso_field *f, const iso_value *v)
-{
-    writer *w = data;
-    char digits[ISO_NUMBER_SIZE] = "";
-    (void)name;
-    if (w->written++) fputc(',', w->to);
-    if (is_text(f)) {
-        write_text(w->to, f, v->text);
-        return;
+    char inner[3 * ISO_COLUMN_SIZE];
+    const void *item = row;
+    iso_value v;
+    if (f->type == ISO_FIELD_STRUCT && (item = iso_field_struct(f, row))) set_fields(l, key, f->fields, item);
+    for (size_t i = 0; f->type == ISO_FIELD_LIST && (item = iso_field_item(f, row, i)); i++) {
+        snprintf(inner, sizeof inner, "%s.%zu", key, i);
+        if (!f->skip || !f->skip(item)) set_fields(l, inner, f->fields, item);
     }
-    if (f->type != ISO_FIELD_REAL ? v->there : isfinite(v->number) || !(f->how & ISO_EMPTY))
-        iso_number_print_as(digits, v->number, f->digits ? f->digits : 17);
-    fputs(digits, w->to);
+    for (int i = 0; f->type < ISO_FIELD_STRUCT && (i == 0 || i < f->count); i++) {
+        char last[ISO_NUMBER_SIZE];
+        snprintf(last, sizeof last, "%d", i);
+        snprintf(inner, sizeof inner, "%s%s%s", key, f->count > 1 ? "." : "",
+                 f->count <= 1 ? ""
+                 : f->word     ? f->word(i)
+                               : last);
+        iso_field_read(f, row, i, &v);
+        if (l->status != ISO_OK || !v.there) continue;
+        l->status = v.text ? iso_record_set(l->ctx, l->record, inner, v.text)
+                           : iso_record_set_numbers(l->ctx, l->record, inner, 1, &v.number);
+    }
 }
 
-void iso_row_write(FILE *to, const iso_field *fields, const void *row)
+static void set_fields(lines *l, const char *outer, const iso_field *f, const void *row)
 {
-    writer w = {.to = to};
-    iso_columns_visit(fields, row, write_value, &w);
-    fputc('\n', to);
+    char key[2 * ISO_COLUMN_SIZE];
+    for (; f->name; f++) {
+        snprintf(key, sizeof key, "%s%s%s", outer, *outer && *f->name ? "." : "", f->name);
+        if (!(f->how & ISO_IN_TABLE) && iso_field_is_there(f, row)) set_inner(l, key, f, row);
+    }
+}
+
+iso_status iso_record_set_fields(iso_context *ctx, iso_record *record, const iso_field *fields, const void *row)
+{
+    lines l = {ctx, record, ISO_OK};
+    set_fields(&l, "", fields, row);
+    return l.status;
 }

@@ -5,7 +5,7 @@
  *         ISO_MEMBER(circle, "centre", at, "length", "its place"),              double at[2]: centre1, centre2
  *         ISO_FIELD_END,
  *     };
- *     iso_row_write(stdout, fields, &c);                                       a row of CSV
+ *     iso_columns_append(ctx, fields, &c, record);                             a row
  *
  * From such a list are made: the columns of tables and their rows, JSON, and lists of the columns with their meaning.
  * So a member becomes a column by one line. In JSON "ball.exponent" is the member "exponent" of the object "ball"; in
@@ -16,7 +16,6 @@
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdio.h>
 
 #include "api.h"
 #include "record.h"
@@ -43,7 +42,7 @@ enum {
     ISO_OPTIONAL = 4, /* JSON leaves it out where it is not there; else it is null. A nan is there   */
     ISO_FROM_ONE = 8, /* a number that counts from 0, such as an axis, is shown from 1 on; < 0 is none */
     ISO_EMPTY = 16,   /* tables leave a nan out                                                        */
-    ISO_QUOTED = 32   /* tables quote this text                                                        */
+    ISO_QUOTED = 32   /* tables quote this text if it has a blank                                           */
 };
 
 enum { ISO_VALUE_ROOM = 64, ISO_COLUMN_SIZE = 64 };
@@ -153,12 +152,14 @@ ISO_API void iso_fields_copy(const iso_field *fields, const char *without, iso_f
 typedef void iso_column_visitor(void *data, const char *name, const iso_field *field, const iso_value *value);
 ISO_API void iso_columns_visit(const iso_field *fields, const void *row, iso_column_visitor *visit, void *data);
 
-/* A record with these columns, and a row of it: a word is its number, another text NaN. Errors: those of record.h. */
+/* A record with these columns, and a row of it. What is not there is NaN, or the empty word. Errors: as record.h. */
 ISO_API iso_status iso_columns_create(iso_context *ctx, const iso_field *fields, iso_record **record);
 ISO_API iso_status iso_columns_append(iso_context *ctx, const iso_field *fields, const void *row, iso_record *record);
 
-/* Writes a row of CSV. Whether the text arrived, the stream tells. */
-ISO_API void iso_row_write(FILE *to, const iso_field *fields, const void *row);
+/* Puts all that JSON shows of a struct into lines of a record: "ball.exponent.t", and of the structs of a list
+ * "orbit.0.period". What is not there has no line. Errors: those of iso_record_set. */
+ISO_API iso_status iso_record_set_fields(iso_context *ctx, iso_record *record, const iso_field *fields,
+                                         const void *row);
 
 ISO_C_END
 

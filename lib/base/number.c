@@ -1,6 +1,6 @@
-/* number.c - reads and prints doubles, in any locale (number.h). */
+/* number.c - reads and prints doubles, in any locale (number_impl.h). */
 #define _GNU_SOURCE /* strtod_l, strfromd */
-#include "base/number.h"
+#include "base/number_impl.h"
 
 #include <limits.h>
 #include <locale.h>

@@ -12,7 +12,7 @@
 #include "base/context.h"
 
 /* Copies what the program gives over the defaults in `own`, whose size is `known`. given NULL: the defaults stay.
- * A size of 0 means the size in version 0.1, which is still `known`: when a struct grows, keep the old size for it.
+ * A size of 0 means the size in version 0.2, which is still `known`: when a struct grows, keep the old size for it.
  * `name` is the struct's, for the message.
  * Errors: ISO_BAD_ARGUMENT about "size": larger than `known`. */
 iso_status iso_options_take(iso_context *ctx, const char *name, void *own, size_t known, const void *given);

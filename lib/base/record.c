@@ -6,23 +6,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "base/number_impl.h"
 
 enum { NAME_SIZE = 64, KIND_SIZE = 32 };
 
 typedef struct line {
     char *key, *value;
+    size_t length, room; /* of a value that grows; else 0 */
 } line;
 
 struct iso_record {
     size_t columns, rows, room;
-    char (*names)[NAME_SIZE];
+    struct {
+        char name[NAME_SIZE];
+        bool words;
+        iso_column_format format;
+    } * column;
     double *data;
     size_t lines;
     line *line;
     double row_tolerance;
     char kind[KIND_SIZE];
-    bool *has_words;       /* of each column */
     size_t words, buckets; /* buckets: 0, or a power of 2 above twice the words */
     char **word;           /* by its number, from 1 on */
     size_t *bucket;        /* the number of a word whose hash leads here; 0: none */
@@ -48,10 +52,9 @@ iso_status iso_record_create(iso_context *ctx, size_t columns, const char *const
     if (!r) return no_memory(ctx);
     r->columns = columns;
     r->row_tolerance = ISO_ROW_TOLERANCE;
-    r->names = calloc(columns ? columns : 1, sizeof *r->names);
-    r->has_words = calloc(columns + 1, sizeof *r->has_words);
-    if (!r->names || !r->has_words) return iso_record_free(r), no_memory(ctx);
-    for (size_t i = 0; i < columns; i++) memcpy(r->names[i], names[i], strlen(names[i]) + 1);
+    r->column = calloc(columns + 1, sizeof *r->column);
+    if (!r->column) return iso_record_free(r), no_memory(ctx);
+    for (size_t i = 0; i < columns; i++) memcpy(r->column[i].name, names[i], strlen(names[i]) + 1);
     *record = r;
     return ISO_OK;
 }
@@ -66,9 +69,8 @@ void iso_record_free(iso_record *r)
     for (size_t i = 1; i <= r->words; i++) free(r->word[i]);
     free(r->word);
     free(r->bucket);
-    free(r->has_words);
     free(r->line);
-    free(r->names);
+    free(r->column);
     free(r->data);
     free(r);
 }
@@ -87,13 +89,13 @@ iso_status iso_record_create_like(iso_context *ctx, const iso_record *other, siz
     const size_t count = names ? columns : other->columns;
     const char **name = calloc(count + 1, sizeof *name);
     *record = NULL;
-    for (size_t i = 0; name && i < count; i++) name[i] = names ? names[i] : other->names[i];
+    for (size_t i = 0; name && i < count; i++) name[i] = names ? names[i] : other->column[i].name;
     iso_status status = name ? iso_record_create(ctx, count, name, record) : no_memory(ctx);
     free(name);
     if (status != ISO_OK) return status;
     (*record)->row_tolerance = other->row_tolerance;
     iso_record_set_kind(*record, other->kind);
-    if (!names) memcpy((*record)->has_words, other->has_words, count * sizeof *other->has_words);
+    if (!names) memcpy((*record)->column, other->column, count * sizeof *other->column);
     status = copy_lines(ctx, other, *record);
     if (status != ISO_OK) iso_record_free(*record), *record = NULL;
     return status;
@@ -133,13 +135,13 @@ size_t iso_record_rows(const iso_record *r)
 
 const char *iso_record_name(const iso_record *r, size_t column)
 {
-    return r->names[column];
+    return r->column[column].name;
 }
 
 int iso_record_find(const iso_record *r, const char *name)
 {
     for (size_t i = 0; i < r->columns; i++)
-        if (strcmp(r->names[i], name) == 0) return (int)i;
+        if (strcmp(r->column[i].name, name) == 0) return (int)i;
     return -1;
 }
 
@@ -179,16 +181,32 @@ iso_status iso_record_append(iso_context *ctx, iso_record *r, double **row)
     return ISO_OK;
 }
 
+iso_status iso_record_add(iso_context *ctx, iso_record *r, size_t count, const double rows[])
+{
+    iso_status status = ISO_OK;
+    double *row;
+    for (size_t i = 0; status == ISO_OK && i < count; i++) {
+        status = iso_record_append(ctx, r, &row);
+        if (status == ISO_OK && r->columns > 0) memcpy(row, rows + i * r->columns, r->columns * sizeof *row);
+    }
+    return status;
+}
+
 /* --- words ------------------------------------------------------------------------------------------------------ */
 
-void iso_record_set_words(iso_record *r, size_t column)
+void iso_record_set_words(iso_record *r, size_t column, bool words)
 {
-    r->has_words[column] = true;
+    r->column[column].words = words;
 }
 
 bool iso_record_has_words(const iso_record *r, size_t column)
 {
-    return r->has_words[column];
+    return r->column[column].words;
+}
+
+iso_column_format *iso_record_format(const iso_record *r, size_t column)
+{
+    return &r->column[column].format;
 }
 
 /* Where the word is, or would be. */
@@ -275,7 +293,7 @@ iso_status iso_record_set(iso_context *ctx, iso_record *r, const char *key, cons
     line *l = find_line(r, key);
     if (l) {
         free(l->value);
-        l->value = copy;
+        *l = (line){.key = l->key, .value = copy};
         return ISO_OK;
     }
     line *grown = realloc(r->line, (r->lines + 1) * sizeof *grown);
@@ -283,6 +301,23 @@ iso_status iso_record_set(iso_context *ctx, iso_record *r, const char *key, cons
     char *name = grown ? strdup(key) : NULL;
     if (!name) return free(copy), no_memory(ctx);
     r->line[r->lines++] = (line){.key = name, .value = copy};
+    return ISO_OK;
+}
+
+iso_status iso_record_add_line(iso_context *ctx, iso_record *r, const char *key, const char *text)
+{
+    const size_t length = strlen(text);
+    ISO_TRY(find_line(r, key) ? ISO_OK : iso_record_set(ctx, r, key, ""));
+    line *l = find_line(r, key);
+    if (l->room == 0) l->length = strlen(l->value);
+    const size_t room = l->length + length + 2;
+    char *value = room > l->room ? realloc(l->value, 2 * room) : l->value;
+    if (!value) return no_memory(ctx);
+    if (room > l->room) l->room = 2 * room;
+    l->value = value;
+    memcpy(value + l->length, text, length);
+    memcpy(value + l->length + length, "\n", 2);
+    l->length += length + 1;
     return ISO_OK;
 }
 

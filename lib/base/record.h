@@ -48,10 +48,13 @@ ISO_API const double *iso_record_const_row(const iso_record *record, size_t row)
 /* Adds a row and gives it in *row, filled with zeros. Errors: ISO_NO_MEMORY. */
 ISO_API iso_status iso_record_append(iso_context *ctx, iso_record *record, double **row);
 
+/* Adds `count` rows, one after the other in rows[]. Errors: ISO_NO_MEMORY. */
+ISO_API iso_status iso_record_add(iso_context *ctx, iso_record *record, size_t count, const double rows[]);
+
 /* Columns of words, such as a verdict. A row holds a number for each word; 0 is the empty word. The record owns the
- * words: iso_record_intern gives the number of one (the same number for equal words) and iso_record_word the word of a
- * number ("" if there is none). Errors: ISO_NO_MEMORY. */
-ISO_API void iso_record_set_words(iso_record *record, size_t column);
+ * words: iso_record_intern gives the number of one (the same number for equal words) and iso_record_word the word of
+ * a number ("" if there is none). Errors: ISO_NO_MEMORY. */
+ISO_API void iso_record_set_words(iso_record *record, size_t column, bool words);
 ISO_API bool iso_record_has_words(const iso_record *record, size_t column);
 ISO_API iso_status iso_record_intern(iso_context *ctx, iso_record *record, const char *word, double *number);
 ISO_API const char *iso_record_word(const iso_record *record, double number);

@@ -31,6 +31,14 @@ typedef enum iso_status {
 /* The status in a few words; "unknown status" for a number that is none. */
 ISO_API const char *iso_status_text(iso_status status);
 
+/* For functions that give an iso_status: makes the call. If its status is not ISO_OK, the function returns that
+ * status at once, so nothing may be open. */
+#define ISO_TRY(call)                                                                                                \
+    do {                                                                                                             \
+        const iso_status iso_answer = (call);                                                                        \
+        if (iso_answer != ISO_OK) return iso_answer;                                                                 \
+    } while (0)
+
 ISO_C_END
 
 #endif

@@ -6,10 +6,10 @@
  *     iso_separation_point(&problem.p, &at, point);
  *     double c = iso_separation_constant(&problem, &at, excess);  excess[1] > 0: u librates, < 0: v librates
  *
- * u <= v are the coordinates of gamma (model/conical_impl.h) in b = 1/J for k = 1, where they are 1/mu and 1/lam of the
- * ball (section 3 of the paper), and in b = J for other k. The problem separates in them at k = -1 and at k = 1, H = 0.
- * Their momenta p_u, p_v in s are infinite where u or v meets a b. Those of the angles are finite, p_phi =
- * p_u du/dphi = length1 speed1 and p_psi = p_v dv/dpsi = length2 speed2 of iso_conical:
+ * u <= v are the coordinates of gamma (model/conical_impl.h) in b = 1/J for k = 1, where they are 1/mu and 1/lam of
+ * the ball (section 3 of the paper), and in b = J for other k. The problem separates in them at k = -1 and at k = 1,
+ * H = 0. Their momenta p_u, p_v in s are infinite where u or v meets a b. Those of the angles are finite, p_phi = p_u
+ * du/dphi = length1 speed1 and p_psi = p_v dv/dpsi = length2 speed2 of iso_conical:
  *
  *     2 A(u) p_u^2 = -(b3 - u) p_phi^2/2,   2 A(v) p_v^2 = (v - b1) p_psi^2/2,   A(z) = (b1 - z)(b2 - z)(b3 - z).
  *

@@ -10,6 +10,24 @@
 
 #include "exact/exact.h"
 
+/* The motion on its torus. A number that the kind has not is NaN. */
+typedef struct iso_exact_torus {
+    iso_exact_kind kind;
+    int angles; /* 2, 1 or 0 */
+    /* Mean, radians in each clock (NaN: not made). The state returns where both angles have grown by multiples of
+     * 2 pi. */
+    double frequency[ISO_CLOCKS][2];
+    /* (1/2 pi) times the integral of (momentum) d(coordinate) round the loop of each angle, >= 0; about an axis:
+     * M along it, with its sign. */
+    double action[2];
+    double c; /* separated: the constant of 2 A(z) p_z^2 = R(z) + c */
+    /* 0 on the separatrix of the rotation about the middle axis, or in the equator: (R(b2) + c)/|R(b2) - H b2|, > 0
+     * where the lower coordinate librates; or (dx/ds)^2/M^2 at the equator, > 0 where it is crossed. */
+    double distance;
+} iso_exact_torus;
+
+iso_exact_torus iso_exact_describe(const iso_exact *exact);
+
 /* From the state (M, gamma) at time 0, in any consistent units. gamma is made a unit vector; on the level H = 0 M is
  * scaled to that level.
  * `clocks` are those that will be asked for, as a time or with a state. Takes less than a millisecond, longer next to

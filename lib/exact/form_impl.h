@@ -3,7 +3,7 @@
 #define ISO_EXACT_FORM_IMPL_H
 
 #include "exact/elliptic_impl.h"
-#include "exact/exact.h"
+#include "exact/exact_impl.h"
 
 /* A state, its clocks, and `along`: the form's own angle or clock, which grows with time. */
 typedef struct form_place {

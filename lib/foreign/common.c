@@ -1,12 +1,10 @@
-/* common.c - what the calls for other languages share: notes, copied headers, words, and the slow monitor. */
-#include <math.h>
+/* common.c - what the calls for other languages share: notes, words, and the slow monitor. */
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-#include "base/nearest.h"
+#include "base/nearest_impl.h"
 #include "foreign/foreign_impl.h"
-#include "method/integrator_impl.h"
 
 int iso_foreign_abi(void)
 {
@@ -33,20 +31,6 @@ void iso_notes_add(notes *n, const char *words)
     put(n, words);
 }
 
-/* --- records ---------------------------------------------------------------------------------------------------- */
-
-iso_status iso_foreign_record_append(iso_context *ctx, iso_record *record, size_t count, const double rows[])
-{
-    const size_t columns = iso_record_columns(record);
-    iso_status status = ISO_OK;
-    double *row;
-    for (size_t i = 0; status == ISO_OK && i < count; i++) {
-        status = iso_record_append(ctx, record, &row);
-        if (status == ISO_OK && columns > 0) memcpy(row, rows + i * columns, columns * sizeof *row);
-    }
-    return status;
-}
-
 /* --- words ------------------------------------------------------------------------------------------------------ */
 
 iso_status iso_foreign_word(iso_context *ctx, const char *key, const char *(*name)(int), const char *word,
@@ -58,26 +42,6 @@ iso_status iso_foreign_word(iso_context *ctx, const char *key, const char *(*nam
         if (strcmp(name(*number), word) == 0) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "%s cannot be '%s'; %s", key, word,
                             iso_suggest_word(suggested, word, name));
-}
-
-iso_status iso_foreign_shown(iso_context *ctx, const char *key, const char *word, iso_models *shown)
-{
-    int number;
-    const iso_status status = iso_foreign_word(ctx, key, iso_shown_name, word, &number);
-    *shown = (iso_models)number;
-    return status;
-}
-
-iso_status iso_foreign_tolerance(iso_context *ctx, double asked, double *tolerance)
-{
-    *tolerance = asked == 0 ? NAN : asked;
-    return asked == 0 ? ISO_OK : iso_tolerance_check(ctx, asked);
-}
-
-iso_status iso_foreign_count(iso_context *ctx, const char *key, size_t count)
-{
-    if (count <= (uint64_t)1 << 53) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "%s is %zu, more than 2^53", key, count);
 }
 
 /* --- the monitor ------------------------------------------------------------------------------------------------ */

@@ -33,7 +33,7 @@ ISO_C_BEGIN
 
 /* The number of this interface. It grows when a function here changes its arguments, so that a caller without headers
  * can refuse a library that it does not know. */
-enum { ISO_FOREIGN_ABI = 1 };
+enum { ISO_FOREIGN_ABI = 2 };
 ISO_API int iso_foreign_abi(void);
 
 /* --- stopping --------------------------------------------------------------------------------------------------- */
@@ -65,7 +65,7 @@ ISO_API iso_status iso_foreign_scene_set(iso_context *ctx, iso_foreign_scene *sc
                                          const char *value);
 
 /* Gives the scene another k, J (three) or start (six: omega, n; or M, gamma); NULL: as it was. The rules and errors
- * are those of iso_foreign_batch. After an error the scene is as it was. */
+ * are those of iso_scene_replace. After an error the scene is as it was. */
 ISO_API iso_status iso_foreign_scene_replace(iso_context *ctx, iso_foreign_scene *scene, const double *k,
                                              const double J[3], const double start[6]);
 
@@ -77,7 +77,8 @@ ISO_API int iso_foreign_scene_numbers(const iso_foreign_scene *scene, const char
 /* The word of a key: "model" (of the start), "backend", "method", "as", "name"; NULL: there is no such key. */
 ISO_API const char *iso_foreign_scene_word(const iso_foreign_scene *scene, const char *key);
 
-/* How many columns the scene asks for, and their numbers (iso_column_name); columns[] has room for ISO_MAX_COLUMNS. */
+/* How many columns the scene asks for, and their numbers (iso_column_name); columns[] has room for
+ * ISO_MAX_COLUMNS. */
 ISO_API int iso_foreign_scene_columns(const iso_foreign_scene *scene, int columns[]);
 
 /* --- runs and orbits -------------------------------------------------------------------------------------------- */
@@ -114,26 +115,8 @@ ISO_API iso_status iso_foreign_orbit_at(iso_foreign_orbit *orbit, const double t
 
 /* --- many orbits ------------------------------------------------------------------------------------------------ */
 
-/* Runs `count` orbits at the same times, on all processors (orbit/batch.h). table[] has room for count x rows x
- * columns: row j of orbit i is number i rows + j.
- * scene[]: `scenes` of them, 1 for all orbits or `count`. They agree in columns, backend, tolerance and the model of
- *   the start. The method is `taylor`, in lanes: scenes with another one are refused.
- * k, J, start: NULL, or what replaces the scene's: count numbers; 3 count; 6 count (omega, n; or M, gamma). With k or
- *   J the ball is a reduced one (its body is forgotten, D stays), and effects keep their numbers. A scene of a point
- *   that states eps keeps it: with another k, J or start the point then has another energy
- *   H = M^2/2 - eps (gamma, J gamma)^(-1/k), which is not 0 if it was. Without eps in the scene each orbit has
- *   the eps with which its H = 0.
- * times: `rows` of them, away from 0 in one direction: t for a ball's scene, s for a point's.
- * Units, in any consistent system: k, n and gamma have none; J mass length^2; omega 1/time; t time;
- *   s (unit of J)^(1/(2k) - 2) time; M 1/(unit of s); eps (unit of J)^4/time^2.
- * threads: 0: one for each processor. vectors: NULL: the widest.
- * status[] (may be NULL) has an iso_status for each orbit. Rows that an orbit has not reached are NaN.
- * Gives ISO_OK, or the status of the first orbit that failed; its number (from 0) and reason are in the message.
- * ISO_STOPPED by the monitor and ISO_NO_MEMORY are also the status of every orbit that was not followed therefore.
- * A k, J or start that makes no sense is the failure of that orbit alone.
- * Errors of a call that makes no sense, which leaves table[] and status[] as they were: ISO_BAD_ARGUMENT as
- * iso_batch_run; about "scenes": they do not agree, or a ball could lose contact (reactions without two_sided: only
- * a run watches this). */
+/* Runs `count` orbits at the same times, on all processors: iso_batch_table (orbit/batch.h). status[] (may be NULL)
+ * has an iso_status for each orbit; rows that an orbit has not reached are NaN. */
 ISO_API iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *const scene[], size_t scenes,
                                      size_t count, const double k[], const double J[], const double start[],
                                      const double times[], size_t rows, int threads, const char *vectors,
@@ -141,50 +124,31 @@ ISO_API iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *
 
 /* --- studies ---------------------------------------------------------------------------------------------------- */
 
-/* The Poincare section of a scene (study/section/section.h).
- * at: l, x of further starts, at_count pairs. axis: 0 to 2, or -1: the global one.
- * event: NULL, or a column; crossings are then where it passes `value` upwards. models: those that are integrated.
- * shown: whose states are in the rows; NULL or "auto": no states. tolerance: 1e-15 to 0.1, or 0: the scene's.
- * *record is what the file of `isoroll section` holds. *point (may be NULL): if both models are integrated, the
- *   crossings as the point finds them, with the columns orbit, crossing, t, tau, s, l, x; else NULL.
- * Notes: the section is not global; how many orbits failed, and why; how many orbits of the two models part.
- * Errors: those of iso_section_run; ISO_BAD_ARGUMENT about "models", "as", "event", "tolerance", or about
- * "crossings" or "starts" above 2^53. The records then have the rows that were found before, or are NULL. */
-ISO_API iso_status iso_foreign_section(iso_context *ctx, const iso_foreign_scene *scene, size_t crossings,
-                                       size_t starts, uint64_t seed, const double at[], size_t at_count, int axis,
-                                       const char *event, double value, const char *models, const char *shown,
-                                       double tolerance, int threads, iso_record **record, iso_record **point,
-                                       char notes[], size_t room);
-
-/* Which orbits are chaotic (study/chaos/chaos.h); arguments and tolerance as for sections.
- * *record has a row for each orbit; row 0 is the scene's own. Columns:
- *     orbit l x verdict disagree      l, x: where it starts; NaN: the scene's own. verdict: a number of iso_verdict
- *     ball_status ball_verdict ball_turns ball_exponent_turns ball_megno ball_gali2 ball_per_turn
- *     ball_per_turn_error ball_exponent_t ball_exponent_tau ball_exponent_s    ball_error_t ball_error_tau
- *     ball_error_s ball_digits        for each model that was integrated: ball_, point_
- *   Lines: model, k, J, section (axis and what a turn is); of the orbits spread over the section asked, count (those
- *   that were followed), chaotic, regular, undecided, failed, share, low and high; integral if a further one is known;
- *   failure of the first orbit that failed.
- * trace[0], trace[1] (trace may be NULL): the indicators of the scene's own orbit by the turns, of ball and point;
- *   NULL: not integrated. Errors: those of iso_chaos_run; ISO_BAD_ARGUMENT about "models", "tolerance", or
- *   about "starts" above 2^53. */
-ISO_API iso_status iso_foreign_chaos(iso_context *ctx, const iso_foreign_scene *scene, long turns,
-                                     long exponent_turns, size_t starts, uint64_t seed, const double at[],
-                                     size_t at_count, int axis, const char *models, double tolerance, int threads,
-                                     iso_record **record, iso_record *trace[2]);
+/* Runs a study of the scene by its name, "section", "chaos", ... (study/study.h).
+ * options: lines NAME=VALUE with a newline between, or NULL. Names and values are those of the command, such as
+ *   "starts=12\nat=0.5,0.2;1,-0.3\nmodel=both"; a flag is "NAME=true".
+ * table[]: room for three, of which those not made are NULL. The lines of table[0] are the scene's, and the result by
+ *   the names of the command's --json. The caller frees each (iso_record_free).
+ *   section: what its file holds; if both models are integrated, the crossings as the point finds them, in the
+ *     columns orbit, crossing, t, tau, s, l, x.
+ *   chaos: a row for each orbit, row 0 the scene's own, in the columns of the file of `isoroll chaos`; the indicators
+ *     of the scene's own orbit by the turns, of the ball and of the point.
+ * Errors: those of the study; ISO_BAD_ARGUMENT about "study" or about an option. The tables then have the rows that
+ * were found before, or are NULL. */
+ISO_API iso_status iso_foreign_study(iso_context *ctx, const iso_foreign_scene *scene, const char *name,
+                                     const char *options, iso_record *table[3], char notes[], size_t room);
 
 /* --- records and files ------------------------------------------------------------------------------------------ */
 
-/* Adds `count` rows to a record. Errors: ISO_NO_MEMORY. */
-ISO_API iso_status iso_foreign_record_append(iso_context *ctx, iso_record *record, size_t count, const double rows[]);
-
-/* Reads a trajectory (io/trajectory.h): CSV, or HDF5 if the name ends in .h5. Notes: columns that are passed over.
- * columns: NULL, or the names from left to right. Errors: those of iso_trajectory_read. */
+/* Reads a table of any kind (io/table.h), or a trajectory of another program: CSV, or HDF5 if the
+ * name ends in .h5. columns: NULL, or those of a trajectory from left to right. Notes: columns that are passed over.
+ * Errors: those of iso_table_read. */
 ISO_API iso_status iso_foreign_read(iso_context *ctx, const char *path, const char *columns, iso_record **record,
                                     char notes[], size_t room);
 
-/* Writes a record, with 1 to 17 digits, or 0: C's hexadecimal %a. kind: "trajectory" or "section". Errors: those of
- * iso_trajectory_open and iso_trajectory_write_row; ISO_BAD_ARGUMENT about "digits", "kind". */
+/* Writes a record, with 1 to 17 digits, or 0: C's hexadecimal %a. kind: "trajectory", "section", "chaos", ...; the
+ * numbers of the first two must be finite. Errors: those of iso_table_write;
+ * ISO_BAD_ARGUMENT about "digits". */
 ISO_API iso_status iso_foreign_write(iso_context *ctx, const char *path, const iso_record *record, int digits,
                                      const char *kind);
 

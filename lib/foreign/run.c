@@ -1,4 +1,4 @@
-/* run.c - runs whose rows are kept, and orbits that are asked for arrays of times. */
+/* run.c - runs whose rows are kept, orbits that are asked for arrays of times, and batches of orbits. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,40 +7,17 @@
 #include "base/arithmetic_impl.h"
 #include "base/monitor_impl.h"
 #include "foreign/foreign_impl.h"
+#include "orbit/batch.h"
 #include "orbit/orbit_impl.h"
 #include "study/run.h"
-#include "study/run_times_impl.h"
+#include "study/study_impl.h"
 
 /* --- runs ------------------------------------------------------------------------------------------------------- */
 
-/* Where the rows go: to a record, or to a table. */
-typedef struct keeper {
-    iso_context *ctx;
-    iso_record *record;
-    double *table;
-    notes notes;
-} keeper;
-
-static iso_status keep_header(void *data, const iso_record *header)
-{
-    keeper *k = data;
-    return k->table ? ISO_OK : iso_record_create_like(k->ctx, header, 0, NULL, &k->record);
-}
-
-static iso_status keep_row(void *data, const double row[], size_t count)
-{
-    keeper *k = data;
-    if (!k->table) return iso_foreign_record_append(k->ctx, k->record, 1, row);
-    memcpy(k->table, row, count * sizeof *row);
-    k->table += count;
-    return ISO_OK;
-}
-
 static void keep_note(void *data, iso_run_note note, const char *words)
 {
-    keeper *k = data;
     (void)note;
-    iso_notes_add(&k->notes, words);
+    iso_notes_add(data, words);
 }
 
 static iso_status no_place(iso_context *ctx, size_t count)
@@ -65,8 +42,8 @@ static void tell_errors(const iso_run_result *r, double errors[5], notes *n)
 iso_status iso_foreign_run(iso_context *ctx, const iso_foreign_scene *scene, const double times[], size_t count,
                            double errors[5], iso_record **record, char text[], size_t room)
 {
-    keeper kept = {.ctx = ctx, .notes = iso_notes_begin(text, room)};
-    const iso_run_sink sink = {.header = keep_header, .row = keep_row, .note = keep_note, .data = &kept};
+    notes n = iso_notes_begin(text, room);
+    const iso_run_sink sink = {.note = keep_note, .data = &n, .record = record};
     iso_run_options how = iso_run_defaults();
     iso_run_result result;
     *record = NULL;
@@ -76,10 +53,9 @@ iso_status iso_foreign_run(iso_context *ctx, const iso_foreign_scene *scene, con
     how.count = count;
     how.errors = errors != NULL;
     iso_status status = iso_run(ctx, &scene->scene, &how, &sink, &result);
-    if (errors) tell_errors(&result, errors, &kept.notes);
-    if (!kept.record) status = iso_foreign_blame(ctx, scene, status);
-    if (status != ISO_OK && result.rows == 0) iso_record_free(kept.record), kept.record = NULL;
-    *record = kept.record;
+    if (errors) tell_errors(&result, errors, &n);
+    if (!*record) status = iso_foreign_blame(ctx, scene, status);
+    if (status != ISO_OK && result.rows == 0) iso_record_free(*record), *record = NULL;
     return status;
 }
 
@@ -166,14 +142,15 @@ static iso_status fill_sorted(iso_foreign_orbit *o, const double times[], size_t
 /* A ball that can lose contact: a run watches it. Where it has lost it there is no row, which is refused. */
 static iso_status fill_watched(iso_foreign_orbit *o, const double times[], size_t count, double table[], notes *n)
 {
-    keeper kept = {.ctx = o->ctx, .table = table, .notes = *n};
-    const iso_run_sink sink = {.header = keep_header, .row = keep_row, .note = keep_note, .data = &kept};
+    iso_record *rows = NULL;
+    const iso_run_sink sink = {.note = keep_note, .data = n, .record = &rows};
     iso_run_options how = iso_run_defaults();
     iso_run_result r;
     how.times = times;
     how.count = count;
     const iso_status status = iso_run(o->ctx, &o->scene, &how, &sink, &r);
-    *n = kept.notes;
+    if (status == ISO_OK) memcpy(table, iso_record_row(rows, 0), r.rows * (size_t)o->count * sizeof *table);
+    iso_record_free(rows);
     if (status != ISO_OK) return status;
     for (size_t i = 0; i < count; i++) {
         const int side = times[i] < 0;
@@ -202,4 +179,28 @@ iso_status iso_foreign_orbit_at(iso_foreign_orbit *o, const double times[], size
     for (size_t i = 0; status == ISO_OK && i < count; i++)
         status = fill_row(o, times[i], table + i * (size_t)o->count);
     return status;
+}
+
+/* --- many orbits ------------------------------------------------------------------------------------------------ */
+
+_Static_assert(sizeof(iso_status) == sizeof(int32_t), "a status has 32 bits");
+
+iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *const scene[], size_t scenes, size_t count,
+                             const double k[], const double J[], const double start[], const double times[],
+                             size_t rows, int threads, const char *vectors, double table[], int32_t status[])
+{
+    const size_t given = scenes == 0 || scenes == count ? scenes : 1; /* any other number is refused below */
+    const iso_scene **inside = malloc((scenes + 1) * sizeof *inside);
+    int columns[ISO_MAX_COLUMNS];
+    for (size_t i = 0; inside && i < given; i++) inside[i] = &scene[i]->scene;
+    if (!inside) {
+        const size_t width = (size_t)iso_scene_columns(&scene[0]->scene, columns);
+        for (size_t i = 0; i < count * rows * width; i++) table[i] = NAN;
+        for (size_t i = 0; status && i < count; i++) status[i] = ISO_NO_MEMORY;
+        return no_orbit(ctx);
+    }
+    const iso_status answer = iso_batch_table(ctx, inside, scenes, count, k, J, start, times, rows, threads, vectors,
+                                              table, (iso_status *)status);
+    free(inside);
+    return answer;
 }

@@ -5,12 +5,8 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/nearest.h"
-#include "base/number.h"
 #include "foreign/foreign_impl.h"
 #include "io/scene_file.h"
-#include "method/integrator_impl.h"
-#include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
 
 static iso_status create(iso_context *ctx, const char *name, iso_foreign_scene **scene)
@@ -66,90 +62,31 @@ iso_status iso_foreign_blame(iso_context *ctx, const iso_foreign_scene *scene, i
 
 /* --- changes ---------------------------------------------------------------------------------------------------- */
 
-static iso_status set_word(iso_context *ctx, iso_scene *scene, const char *key, const char *value)
-{
-    const bool backend = strcmp(key, "backend") == 0;
-    int number;
-    const iso_status status = iso_foreign_word(ctx, key, backend ? iso_backend_name : iso_shown_name, value, &number);
-    if (status != ISO_OK) return status;
-    if (backend)
-        scene->backend = (iso_backend)number;
-    else
-        scene->as = (iso_models)number, scene->columns = 0;
-    return ISO_OK;
-}
-
-static iso_status set_method(iso_context *ctx, iso_scene *scene, const char *value)
-{
-    const iso_status status = iso_method_check(ctx, value);
-    if (status == ISO_OK) snprintf(scene->method, sizeof scene->method, "%s", value);
-    return status;
-}
-
-static iso_status set_number(iso_context *ctx, iso_scene *scene, const char *key, const char *value)
-{
-    double x;
-    if (!iso_number_read(value, strlen(value), &x))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "%s is '%s', it must be a finite number", key, value);
-    if (strcmp(key, "tolerance") == 0) {
-        const iso_status status = iso_tolerance_check(ctx, x);
-        if (status == ISO_OK) scene->tolerance = x;
-        return status;
-    }
-    if (strcmp(key, "step") == 0 && x <= 0)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "step is %g, it must be above 0", x);
-    if (strcmp(key, "end") == 0)
-        scene->end = x;
-    else
-        scene->step = x;
-    iso_scene_forget_place(scene, "end"); /* of end and step, a wrong one may be due to the other */
-    iso_scene_forget_place(scene, "step");
-    return ISO_OK; /* the two together are checked by a run: they are set one after the other */
-}
-
-static iso_status set_columns(iso_context *ctx, iso_scene *scene, const char *value)
-{
-    if (!*value) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "columns", "there are no columns in the list");
-    scene->columns = 0;
-    for (const char *at = value; *at; at += *at == ',') {
-        const size_t length = strcspn(at, ",");
-        char name[ISO_NAME_SIZE] = "", suggested[ISO_SUGGEST_SIZE];
-        if (length < sizeof name) memcpy(name, at, length);
-        if (iso_column_find(name) < 0)
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "columns", "there is no column '%.*s'; %s",
-                                    length < 100 ? (int)length : 100, at,
-                                    iso_suggest_word(suggested, name, iso_column_name));
-        for (size_t i = 0; i < scene->columns; i++)
-            if (strcmp(scene->column[i], name) == 0)
-                return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "columns", "column '%s' appears twice", name);
-        if (scene->columns == ISO_MAX_COLUMNS)
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "columns", "there are more than %d", ISO_MAX_COLUMNS);
-        memcpy(scene->column[scene->columns++], name, sizeof name);
-        at += length;
-    }
-    return iso_scene_check_columns(ctx, scene);
-}
-
 iso_status iso_foreign_scene_set(iso_context *ctx, iso_foreign_scene *scene, const char *key, const char *value)
 {
-    iso_scene changed = scene->scene;
-    iso_status status = ISO_OK;
-    iso_scene_forget_place(&changed, key);
-    if (strcmp(key, "backend") == 0 || strcmp(key, "as") == 0)
-        status = set_word(ctx, &changed, key, value);
-    else if (strcmp(key, "method") == 0)
-        status = set_method(ctx, &changed, value);
-    else if (strcmp(key, "tolerance") == 0 || strcmp(key, "end") == 0 || strcmp(key, "step") == 0)
-        status = set_number(ctx, &changed, key, value);
-    else if (strcmp(key, "columns") == 0)
-        status = set_columns(ctx, &changed, value);
-    else
-        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, key,
-                                  "'%s' is no key that can be changed: backend, method, tolerance, end, step, as, "
-                                  "columns",
-                                  key);
-    if (status == ISO_OK) scene->scene = changed;
-    return status == ISO_BAD_INPUT ? ISO_BAD_ARGUMENT : status; /* it is the call that is wrong, no file */
+    const size_t room = strlen(key) + strlen(value) + sizeof ": []";
+    const bool time = strcmp(key, "end") == 0 || strcmp(key, "step") == 0;
+    char *text = malloc(room);
+    if (!text) return iso_context_no_memory(ctx, "a scene");
+    snprintf(text, room, strcmp(key, "columns") == 0 ? "%s: [%s]" : "%s: %s", key, value);
+    const iso_status status = iso_scene_change(ctx, text, &scene->scene);
+    free(text);
+    if (status == ISO_OK) iso_scene_forget_place(&scene->scene, time ? "end" : key);
+    if (status == ISO_OK && time) iso_scene_forget_place(&scene->scene, "step"); /* it may be due to the other */
+    if (status != ISO_BAD_INPUT) return status;
+    const char *words = strstr(iso_context_message(ctx), ": "); /* behind the place: no file is wrong */
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "%s", words ? words + 2 : iso_context_message(ctx));
+}
+
+iso_status iso_foreign_scene_replace(iso_context *ctx, iso_foreign_scene *scene, const double *k, const double J[3],
+                                     const double start[6])
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_params params;
+    iso_start y;
+    const iso_status status = iso_scene_replace(ctx, &scene->scene, k, J, start, &params, &y);
+    if (status == ISO_OK) scene->scene.params = params, scene->scene.start = y;
+    return status;
 }
 
 /* --- questions -------------------------------------------------------------------------------------------------- */

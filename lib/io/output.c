@@ -1,5 +1,5 @@
 /* output.c - writes text files: into a file that gets its name when it is complete. */
-#include "io/output.h"
+#include "io/output_impl.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -43,12 +43,11 @@ static bool is_direct(const char *path, const struct stat *old)
 static iso_status open_regular(iso_context *ctx, iso_output *out, const char *path)
 {
     int fd;
-    iso_status status = iso_replacement_open(ctx, path, false, &out->replacement, &fd);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_replacement_open(ctx, path, false, &out->replacement, &fd));
     out->name = out->replacement.target;
     out->file = fdopen(fd, "w");
     if (out->file) return ISO_OK;
-    status = iso_file_trouble(ctx, "write", path);
+    const iso_status status = iso_file_trouble(ctx, "write", path);
     iso_replacement_close(ctx, &out->replacement, fd, false);
     close(fd);
     return status;
@@ -119,8 +118,7 @@ iso_status iso_output_check(iso_context *ctx, iso_output *out)
 
 static iso_status flush(iso_context *ctx, iso_output *out)
 {
-    const iso_status status = iso_output_check(ctx, out);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_output_check(ctx, out));
     return fflush(out->file) == 0 ? ISO_OK : iso_file_trouble(ctx, "write", out->name);
 }
 

@@ -3,9 +3,9 @@
  *
  * A file without a name is gone when its program is, killed or not. A file needs a name beside its target where the
  * file system has no unnamed files, for HDF5, and for the moment of replacing an older file. Such names are few for
- * each target and machine, and who writes a file holds its lock. So the next program that writes the same target meets
- * what a killed one has left, and knows by the lock that nobody writes it any more. Where files cannot be locked,
- * nothing is removed.
+ * each target and machine, and who writes a file holds its lock. So the next program that writes the same target
+ * meets what a killed one has left, and knows by the lock that nobody writes it any more. Where files cannot be
+ * locked, nothing is removed.
  */
 #define _GNU_SOURCE /* asprintf, O_TMPFILE, F_OFD_SETLK, renameat2 */
 #include "io/replacement_impl.h"

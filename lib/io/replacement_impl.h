@@ -1,6 +1,6 @@
-/* replacement_impl.h - a file that gets its name when it is whole: nobody sees half of it, and a program that is killed
- * leaves nothing behind. What must have a name before is ".isoroll-*.tmp" in the same folder; if its program is
- * killed, the next one that writes the same file removes it.
+/* replacement_impl.h - a file that gets its name when it is whole: nobody sees half of it, and a program that is
+ * killed leaves nothing behind. What must have a name before is ".isoroll-*.tmp" in the same folder; if its program
+ * is killed, the next one that writes the same file removes it.
  *
  * Behind a link it is the file that is replaced, not the link; a file keeps its permissions, and one that may not be
  * written is not replaced.

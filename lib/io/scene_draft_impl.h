@@ -9,8 +9,8 @@
 /* What the file says, before physics has looked at it. */
 typedef struct iso_draft {
     iso_yaml yaml;
-    const yaml_node_t *root;
-    int surface, backend, as; /* enumerators */
+    const yaml_node_t *root, *key; /* key: whose value is being read */
+    int surface, backend, as;      /* enumerators */
     iso_body body;
     double k, J[3], eps;
     double D; /* NAN: not written */
@@ -18,6 +18,9 @@ typedef struct iso_draft {
     bool project;
     iso_scene scene;
 } iso_draft;
+
+/* Records "name:line:column: ..." at a node and returns ISO_BAD_INPUT. */
+#define ISO_FAIL_AT(draft, node, ...) iso_yaml_fail(&(draft)->yaml, (node)->start_mark, __VA_ARGS__)
 
 /* A draft before its text is read. */
 iso_draft iso_draft_empty(iso_context *ctx, const char *name);
@@ -28,6 +31,9 @@ bool iso_draft_initial_key(int i, const char **name, iso_models *model);
 /* Reads every key under d->root into the draft: types, ranges, unknown, duplicate and missing keys.
  * What must hold between sections is left to the caller. Errors: ISO_BAD_INPUT. */
 iso_status iso_draft_read_keys(iso_draft *d);
+
+/* The same for changes of the scene that the draft holds. */
+iso_status iso_draft_read_changes(iso_draft *d);
 
 /* Checks what must hold between keys and makes d->scene. The yaml is only read, so that copies of a draft, with other
  * numbers in them, can be made on several threads at the same time. Errors: ISO_BAD_INPUT. */

@@ -44,25 +44,20 @@ static iso_status check_sections(iso_draft *d, const char **model)
     for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
         if (!find_key(d, models[i], NULL, &key, NULL)) continue;
         if (*model)
-            return iso_yaml_fail(
-                &d->yaml, key->start_mark.index > last->start_mark.index ? key->start_mark : last->start_mark,
-                "'%s' and '%s' both: a scene has one of 'ball', 'reduced' and 'point'", *model, models[i]);
+            return ISO_FAIL_AT(d, key->start_mark.index > last->start_mark.index ? key : last,
+                               "'%s' and '%s' both: a scene has one of 'ball', 'reduced' and 'point'", *model,
+                               models[i]);
         *model = models[i];
         last = key;
     }
     const bool has_surface = find_key(d, "surface", NULL, &surface, NULL);
-    if (has_surface && !*model)
-        return iso_yaml_fail(&d->yaml, surface->start_mark, "'surface' needs a 'ball' that rolls on it");
-    if (!*model)
-        return iso_yaml_fail(&d->yaml, d->root->start_mark,
-                             "missing 'ball' and 'surface' (or 'reduced', or 'point')");
+    if (has_surface && !*model) return ISO_FAIL_AT(d, surface, "'surface' needs a 'ball' that rolls on it");
+    if (!*model) return ISO_FAIL_AT(d, d->root, "missing 'ball' and 'surface' (or 'reduced', or 'point')");
     const bool ball = strcmp(*model, "ball") == 0;
     if (ball && !has_surface)
-        return iso_yaml_fail(&d->yaml, last->start_mark,
-                             "'ball' needs a 'surface', such as 'surface: {kind: plane}'");
+        return ISO_FAIL_AT(d, last, "'ball' needs a 'surface', such as 'surface: {kind: plane}'");
     if (!ball && has_surface)
-        return iso_yaml_fail(&d->yaml, surface->start_mark, "'surface' goes with 'ball'; '%s' has its k instead",
-                             *model);
+        return ISO_FAIL_AT(d, surface, "'surface' goes with 'ball'; '%s' has its k instead", *model);
     return ISO_OK;
 }
 
@@ -71,11 +66,9 @@ static iso_status check_surface(iso_draft *d)
     const yaml_node_t *surface, *radius;
     if (!find_key(d, "surface", NULL, &surface, NULL)) return ISO_OK;
     const bool has_radius = find_key(d, "surface", "radius", &radius, NULL), plane = d->surface == ISO_PLANE;
-    if (plane && has_radius)
-        return iso_yaml_fail(&d->yaml, radius->start_mark, "a plane has no 'radius': take it out");
+    if (plane && has_radius) return ISO_FAIL_AT(d, radius, "a plane has no 'radius': take it out");
     if (!plane && !has_radius)
-        return iso_yaml_fail(&d->yaml, surface->start_mark,
-                             "missing 'radius' in 'surface': that of the fixed sphere");
+        return ISO_FAIL_AT(d, surface, "missing 'radius' in 'surface': that of the fixed sphere");
     return ISO_OK;
 }
 
@@ -91,9 +84,9 @@ static iso_status check_initial(iso_draft *d, iso_model_kind model)
     for (int i = 0; iso_draft_initial_key(i, &name, &whose); i++) {
         const bool present = find_key(d, "initial", name, &key, NULL);
         if ((int)whose == (int)model && !present)
-            return iso_yaml_fail(&d->yaml, initial->start_mark, "missing '%s' in 'initial': %s", name, what);
+            return ISO_FAIL_AT(d, initial, "missing '%s' in 'initial': %s", name, what);
         if ((int)whose != (int)model && whose != ISO_SHOW_BOTH && present)
-            return iso_yaml_fail(&d->yaml, key->start_mark, "'%s' does not belong here: %s", name, what);
+            return ISO_FAIL_AT(d, key, "'%s' does not belong here: %s", name, what);
     }
     return ISO_OK;
 }
@@ -103,9 +96,8 @@ static iso_status check_time(iso_draft *d)
     const yaml_node_t *step;
     if (!find_key(d, "time", "step", NULL, &step) || fabs(d->scene.end) / d->scene.step <= ISO_MOST_ROWS)
         return ISO_OK;
-    return iso_yaml_fail(&d->yaml, step->start_mark,
-                         "a step of %g to the end %g is more than %g rows: give a larger 'step'", d->scene.step,
-                         d->scene.end, ISO_MOST_ROWS);
+    return ISO_FAIL_AT(d, step, "a step of %g to the end %g is more than %g rows: give a larger 'step'",
+                       d->scene.step, d->scene.end, ISO_MOST_ROWS);
 }
 
 /* ---- Physics: the checks are the library's, the places are the file's ---- */
@@ -124,7 +116,7 @@ static iso_status fail_at_field(iso_draft *d, iso_status status, const char *sec
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
         if (strcmp(about, elsewhere[i].about) == 0) section = elsewhere[i].section, about = elsewhere[i].key;
     if (!find_key(d, section, about, NULL, &place)) find_key(d, section, NULL, &place, NULL);
-    return iso_yaml_fail(&d->yaml, place->start_mark, "%s", iso_context_message(d->yaml.ctx));
+    return ISO_FAIL_AT(d, place, "%s", iso_context_message(d->yaml.ctx));
 }
 
 static iso_status make_params(iso_draft *d, const char *model)
@@ -173,7 +165,7 @@ static iso_status complete_effect(iso_draft *d, iso_model_kind model, const yaml
     if (status != ISO_BAD_INPUT) return status;
     if (!find_effect_key(d, effects, effect->name, iso_context_about(d->yaml.ctx), &key))
         iso_yaml_find(&d->yaml, effects, effect->name, &key, NULL);
-    return iso_yaml_fail(&d->yaml, key->start_mark, "%s", iso_context_message(d->yaml.ctx));
+    return ISO_FAIL_AT(d, key, "%s", iso_context_message(d->yaml.ctx));
 }
 
 static iso_status make_effects(iso_draft *d, iso_model_kind model)
@@ -203,16 +195,15 @@ static iso_status make_start(iso_draft *d, iso_model_kind model)
 iso_status iso_draft_make(iso_draft *d)
 {
     const char *name;
-    iso_status status = check_sections(d, &name);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_sections(d, &name));
     const iso_model_kind model = strcmp(name, "point") == 0 ? ISO_POINT : ISO_BALL;
-    if ((status = check_surface(d)) != ISO_OK) return status;
-    if ((status = check_initial(d, model)) != ISO_OK) return status;
-    if ((status = check_time(d)) != ISO_OK) return status;
-    if ((status = make_params(d, name)) != ISO_OK) return status;
-    if ((status = make_D(d)) != ISO_OK) return status;
-    if ((status = make_effects(d, model)) != ISO_OK) return status;
-    if ((status = make_start(d, model)) != ISO_OK) return status;
+    ISO_TRY(check_surface(d));
+    ISO_TRY(check_initial(d, model));
+    ISO_TRY(check_time(d));
+    ISO_TRY(make_params(d, name));
+    ISO_TRY(make_D(d));
+    ISO_TRY(make_effects(d, model));
+    ISO_TRY(make_start(d, model));
     d->scene.backend = (iso_backend)d->backend;
     d->scene.as = (iso_models)d->as;
     return iso_scene_blame(d->yaml.ctx, &d->scene, d->yaml.name, iso_scene_check_columns(d->yaml.ctx, &d->scene));
@@ -230,12 +221,31 @@ iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text,
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_draft d = iso_draft_empty(ctx, name);
-    iso_status status = iso_yaml_load(&d.yaml, text, length);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_yaml_load(&d.yaml, text, length));
     d.root = yaml_document_get_root_node(&d.yaml.document);
-    status = iso_draft_read_keys(&d);
+    iso_status status = iso_draft_read_keys(&d);
     if (status == ISO_OK) status = iso_draft_make(&d);
     iso_yaml_free(&d.yaml);
+    if (status == ISO_OK) *scene = d.scene;
+    return status;
+}
+
+iso_status iso_scene_change(iso_context *ctx, const char *text, iso_scene *scene)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_draft d = iso_draft_empty(ctx, "change");
+    iso_status status = iso_yaml_load(&d.yaml, text, strlen(text));
+    if (status != ISO_OK) return status;
+    d.root = yaml_document_get_root_node(&d.yaml.document);
+    d.scene = *scene;
+    d.backend = (int)scene->backend;
+    d.as = (int)scene->as;
+    status = iso_draft_read_changes(&d);
+    iso_yaml_free(&d.yaml);
+    d.scene.backend = (iso_backend)d.backend;
+    d.scene.as = (iso_models)d.as;
+    d.scene.places = scene->places; /* the change has none in the file */
+    if (status == ISO_OK) status = iso_scene_check_columns(ctx, &d.scene);
     if (status == ISO_OK) *scene = d.scene;
     return status;
 }
@@ -244,9 +254,8 @@ iso_status iso_scene_read(iso_context *ctx, const char *path, iso_scene *scene)
 {
     char *text;
     size_t length;
-    iso_status status = iso_text_load(ctx, path, LARGEST_FILE, &text, &length);
-    if (status != ISO_OK) return status;
-    status = iso_scene_parse(ctx, iso_text_name(path), text, length, scene);
+    ISO_TRY(iso_text_load(ctx, path, LARGEST_FILE, &text, &length));
+    const iso_status status = iso_scene_parse(ctx, iso_text_name(path), text, length, scene);
     free(text);
     return status;
 }

@@ -33,6 +33,11 @@ ISO_API iso_status iso_scene_read(iso_context *ctx, const char *path, iso_scene 
 ISO_API iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length,
                                    iso_scene *scene);
 
+/* Changes a scene by a mapping of backend, method, tolerance, end, step, as and columns, such as "tolerance: 1e-9".
+ * "as" sets the columns as well, unless they are there, too. After an error the scene is as it was. Errors:
+ * ISO_BAD_INPUT, ISO_NO_MEMORY. */
+ISO_API iso_status iso_scene_change(iso_context *ctx, const char *text, iso_scene *scene);
+
 ISO_C_END
 
 #endif

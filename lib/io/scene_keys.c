@@ -6,7 +6,7 @@
 
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"
-#include "method/method.h"
+#include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
 
 enum { MAX_KEYS = 32, MAX_METHODS = 64, EFFECT_KEYS = ISO_EFFECT_NUMBERS + 2 };
@@ -15,13 +15,13 @@ _Static_assert((int)MAX_KEYS >= (int)ISO_EFFECTS && (int)MAX_KEYS >= (int)EFFECT
 /* One key that a mapping may have: what reads its value, and where in the draft the value goes. */
 typedef struct entry {
     const char *name;
-    iso_status (*read)(iso_draft *d, const struct entry *e, const yaml_node_t *key, const yaml_node_t *value);
+    iso_status (*read)(iso_draft *d, const struct entry *e, const yaml_node_t *value);
     size_t offset;
     bool required;
     const struct entry *section;     /* read_section: the keys inside       */
     const char *(*word)(int);        /* read_word: the names of an enum ... */
     unsigned words;                  /* ... and which of them (1 << value)  */
-    iso_models model;                 /* of `initial`: whose start this is   */
+    iso_models model;                /* of `initial`: whose start this is   */
     iso_effect_id effect;            /* read_effect, read_effect_number: which effect ... */
     const iso_effect_number *number; /* ... and which number of it */
 } entry;
@@ -33,30 +33,26 @@ static void *target(iso_draft *d, const entry *e)
     return (char *)d + e->offset;
 }
 
-static iso_status read_number(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+static iso_status read_number(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    (void)key;
     return iso_yaml_number(&d->yaml, value, e->name, target(d, e));
 }
 
-static iso_status read_vector(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+static iso_status read_vector(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    (void)key;
     return iso_yaml_numbers(&d->yaml, value, e->name, 3, target(d, e));
 }
 
-static iso_status read_flag(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+static iso_status read_flag(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    (void)key;
     return iso_yaml_flag(&d->yaml, value, e->name, target(d, e));
 }
 
 /* One of the words an enum is written with. */
-static iso_status read_word(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+static iso_status read_word(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     const char *names[MAX_KEYS];
     size_t count = 0;
-    (void)key;
     for (int i = 0; e->word(i); i++) {
         if (!(e->words & (1u << i))) continue;
         if (iso_yaml_is(value, e->word(i))) return *(int *)target(d, e) = i, ISO_OK;
@@ -67,29 +63,26 @@ static iso_status read_word(iso_draft *d, const entry *e, const yaml_node_t *key
     return iso_yaml_unknown(&d->yaml, value, e->name, count, names);
 }
 
-static iso_status read_step(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+static iso_status read_step(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    const iso_status status = read_number(d, e, key, value);
+    const iso_status status = read_number(d, e, value);
     if (status != ISO_OK || d->scene.step > 0) return status;
-    return iso_yaml_fail(&d->yaml, value->start_mark, "'step' is %g, it must be positive (backwards: negative 'end')",
-                         d->scene.step);
+    return ISO_FAIL_AT(d, value, "'step' is %g, it must be positive (backwards: negative 'end')", d->scene.step);
 }
 
-static iso_status read_tolerance(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+static iso_status read_tolerance(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    const iso_status status = read_number(d, e, key, value);
+    const iso_status status = read_number(d, e, value);
     const double tolerance = d->scene.tolerance;
     if (status != ISO_OK || (tolerance >= ISO_LEAST_TOLERANCE && tolerance <= ISO_MOST_TOLERANCE)) return status;
-    return iso_yaml_fail(&d->yaml, value->start_mark, "'tolerance' is %g, it must be in [1e-15, 0.1]",
-                         d->scene.tolerance);
+    return ISO_FAIL_AT(d, value, "'tolerance' is %g, it must be in " ISO_TOLERANCE_RANGE, d->scene.tolerance);
 }
 
 /* Keeps the full name of the method, whichever of its spellings was used. */
-static iso_status read_method(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+static iso_status read_method(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     const char *names[MAX_METHODS] = {"auto"}, *text = (const char *)value->data.scalar.value;
     size_t count = 1;
-    (void)key;
     if (value->type != YAML_SCALAR_NODE || !iso_yaml_is(value, text) || *text == '\0')
         return iso_yaml_expected(&d->yaml, value, e->name, "the name of a method");
     const iso_method *method = iso_method_find(text);
@@ -111,15 +104,13 @@ static iso_status read_column(iso_draft *d, const yaml_node_t *item)
         if (iso_yaml_is(item, names[i])) name = names[i];
     if (!name) return iso_yaml_unknown(&d->yaml, item, "column", (size_t)columns, names);
     for (size_t i = 0; i < s->columns; i++)
-        if (strcmp(s->column[i], name) == 0)
-            return iso_yaml_fail(&d->yaml, item->start_mark, "column '%s' is listed twice", name);
+        if (strcmp(s->column[i], name) == 0) return ISO_FAIL_AT(d, item, "column '%s' is listed twice", name);
     strcpy(s->column[s->columns++], name);
     return ISO_OK;
 }
 
-static iso_status read_columns(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+static iso_status read_columns(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    (void)key;
     if (value->type != YAML_SEQUENCE_NODE || value->data.sequence.items.start == value->data.sequence.items.top)
         return iso_yaml_expected(&d->yaml, value, e->name, "a list of at least one column name");
     iso_status status = ISO_OK;
@@ -129,12 +120,12 @@ static iso_status read_columns(iso_draft *d, const entry *e, const yaml_node_t *
 }
 
 /* D = m b^2, which `reduced` may have as well as the effects that need it. */
-static iso_status read_D(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+static iso_status read_D(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     const double before = d->D;
-    const iso_status status = read_number(d, e, key, value);
+    const iso_status status = read_number(d, e, value);
     if (status != ISO_OK || isnan(before) || before == d->D) return status;
-    return iso_yaml_fail(&d->yaml, value->start_mark, "'D' is %g here and %g elsewhere", d->D, before);
+    return ISO_FAIL_AT(d, value, "'D' is %g here and %g elsewhere", d->D, before);
 }
 
 /* Three rows of three numbers. */
@@ -143,13 +134,10 @@ static iso_status read_matrix(iso_draft *d, const entry *e, const yaml_node_t *v
     if (value->type != YAML_SEQUENCE_NODE)
         return iso_yaml_expected(&d->yaml, value, e->name, "three rows of three numbers");
     const int rows = (int)(value->data.sequence.items.top - value->data.sequence.items.start);
-    if (rows != 3)
-        return iso_yaml_fail(&d->yaml, value->start_mark, "'%s' should be three rows of three numbers, not %d",
-                             e->name, rows);
+    if (rows != 3) return ISO_FAIL_AT(d, value, "'%s' should be three rows of three numbers, not %d", e->name, rows);
     for (int i = 0; i < 3; i++) {
         const yaml_node_t *row = iso_yaml_node(&d->yaml, value->data.sequence.items.start[i]);
-        const iso_status status = iso_yaml_numbers(&d->yaml, row, e->name, 3, matrix + 3 * i);
-        if (status != ISO_OK) return status;
+        ISO_TRY(iso_yaml_numbers(&d->yaml, row, e->name, 3, matrix + 3 * i));
     }
     return ISO_OK;
 }
@@ -163,10 +151,9 @@ static iso_status read_effect_flag(iso_draft *d, const entry *e, const yaml_node
 }
 
 /* A number of an effect: true or false, one number, a matrix or a list. */
-static iso_status read_effect_number(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+static iso_status read_effect_number(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     double *x = iso_effect_values(&d->scene.effects, e->effect, e->number);
-    (void)key;
     if (e->number->kind == ISO_NUMBER_FLAG) return read_effect_flag(d, e, value, x);
     if (e->number->count == 1) return iso_yaml_number(&d->yaml, value, e->name, x);
     if (e->number->count == 9) return read_matrix(d, e, value, x);
@@ -182,18 +169,16 @@ static const entry *find_entry(const entry *entries, const yaml_node_t *key)
     return NULL;
 }
 
-static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value);
+static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *value);
 
 static iso_status unknown_key(iso_draft *d, const entry *entries, const yaml_node_t *key)
 {
     const char *names[MAX_KEYS];
     size_t count = 0;
-    if (key->type != YAML_SCALAR_NODE)
-        return iso_yaml_fail(&d->yaml, key->start_mark, "a key should be a name, not a list or a mapping");
+    if (key->type != YAML_SCALAR_NODE) return ISO_FAIL_AT(d, key, "a key should be a name, not a list or a mapping");
     for (; entries[count].name && count < MAX_KEYS; count++) names[count] = entries[count].name;
     if (count == 0)
-        return iso_yaml_fail(&d->yaml, key->start_mark, "'%s': this has no settings: write {}",
-                             (const char *)key->data.scalar.value);
+        return ISO_FAIL_AT(d, key, "'%s': this has no settings: write {}", (const char *)key->data.scalar.value);
     return iso_yaml_unknown(&d->yaml, key, entries->read == read_effect ? "effect" : "key", count, names);
 }
 
@@ -215,11 +200,12 @@ static iso_status read_pair(iso_draft *d, const entry *entries, const yaml_node_
     if (!e) return unknown_key(d, entries, key);
     iso_yaml_find(&d->yaml, mapping, e->name, &first, NULL);
     if (first != key)
-        return iso_yaml_fail(&d->yaml, key->start_mark, "duplicate key '%s', first written in line %zu", e->name,
-                             first->start_mark.line + 1);
+        return ISO_FAIL_AT(d, key, "duplicate key '%s', first written in line %zu", e->name,
+                           first->start_mark.line + 1);
     const yaml_node_t *value = iso_yaml_node(&d->yaml, pair->value);
     note_place(&d->scene, e->name, value->start_mark);
-    return e->read(d, e, key, value);
+    d->key = key;
+    return e->read(d, e, value);
 }
 
 /* Reads a mapping by its table; `owner` is its key, or the mapping itself at the top of the file. */
@@ -227,13 +213,11 @@ static iso_status read_mapping(iso_draft *d, const entry *entries, const char *n
                                const yaml_node_t *mapping)
 {
     const yaml_node_pair_t *end = mapping->data.mapping.pairs.top;
-    for (const yaml_node_pair_t *p = mapping->data.mapping.pairs.start; p < end; p++) {
-        const iso_status status = read_pair(d, entries, mapping, p);
-        if (status != ISO_OK) return status;
-    }
+    for (const yaml_node_pair_t *p = mapping->data.mapping.pairs.start; p < end; p++)
+        ISO_TRY(read_pair(d, entries, mapping, p));
     for (const entry *e = entries; e->name; e++)
         if (e->required && !iso_yaml_find(&d->yaml, mapping, e->name, NULL, NULL))
-            return iso_yaml_fail(&d->yaml, owner->start_mark, "missing '%s' in %s", e->name, name);
+            return ISO_FAIL_AT(d, owner, "missing '%s' in %s", e->name, name);
     return ISO_OK;
 }
 
@@ -247,12 +231,12 @@ static iso_status fail_section(iso_draft *d, const entry *e, const yaml_node_t *
     return iso_yaml_expected(&d->yaml, value, e->name, expected);
 }
 
-static iso_status read_section(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+static iso_status read_section(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     char name[ISO_QUOTE_SIZE];
     if (value->type != YAML_MAPPING_NODE) return fail_section(d, e, value);
     snprintf(name, sizeof name, "'%s'", e->name);
-    return read_mapping(d, e->section, name, key, value);
+    return read_mapping(d, e->section, name, d->key, value);
 }
 
 /* ---- The tables: adding a key is adding its line ---- */
@@ -303,7 +287,7 @@ static const entry time_keys[] = {
 };
 
 /* The keys of an effect: its numbers, and D where it is needed. */
-static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     const iso_effect *effect = iso_effect_list[e->effect];
     entry keys[EFFECT_KEYS] = {{0}};
@@ -314,16 +298,16 @@ static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *k
             (entry){n->name, read_effect_number, .required = n->required, .effect = e->effect, .number = n};
     if (effect->needs_D) keys[count] = (entry){"D", read_D, AT(D)};
     d->scene.effects.on[e->effect] = true;
-    return read_section(d, &with_keys, key, value);
+    return read_section(d, &with_keys, value);
 }
 
-static iso_status read_effects(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+static iso_status read_effects(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     entry effects[ISO_EFFECTS + 1] = {{0}};
     const entry with_effects = {e->name, .section = effects};
     for (iso_effect_id i = 0; i < ISO_EFFECTS; i++)
         effects[i] = (entry){iso_effect_list[i]->name, read_effect, .effect = i};
-    return read_section(d, &with_effects, key, value);
+    return read_section(d, &with_effects, value);
 }
 
 static const entry solver_keys[] = {
@@ -351,6 +335,26 @@ static const entry scene_keys[] = {
     {"output", read_section, .section = output_keys},
     {0},
 };
+
+/* Those of a scene that is already read, in one mapping. */
+static const entry change_keys[] = {
+    {"backend", read_word, AT(backend), .word = iso_backend_name, .words = ~0u},
+    {"method", read_method, AT(scene.method)},
+    {"tolerance", read_tolerance, AT(scene.tolerance)},
+    {"end", read_number, AT(scene.end)},
+    {"step", read_step, AT(scene.step)},
+    {"as", read_word, AT(as), .word = iso_shown_name, .words = ~0u},
+    {"columns", .read = read_columns},
+    {0},
+};
+
+iso_status iso_draft_read_changes(iso_draft *d)
+{
+    if (d->root->type != YAML_MAPPING_NODE) return iso_yaml_expected(&d->yaml, d->root, "change", "a mapping");
+    if (iso_yaml_find(&d->yaml, d->root, "as", NULL, NULL) || iso_yaml_find(&d->yaml, d->root, "columns", NULL, NULL))
+        d->scene.columns = 0;
+    return read_mapping(d, change_keys, "the change", d->root, d->root);
+}
 
 bool iso_draft_initial_key(int i, const char **name, iso_models *model)
 {

@@ -1,6 +1,7 @@
 /* table.c - files of tables: takes the format from the name of the file, and calls its reader or writer. */
 #include "io/table.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +11,7 @@
 #include "base/arithmetic_impl.h"
 #include "io/table_impl.h"
 #include "io/text_impl.h"
+#include "orbit/scene.h"
 
 /* Of a record. Unwritten rows take no room in a file: a small file can promise more than memory holds. */
 #define MOST_NUMBERS 1e8
@@ -40,16 +42,15 @@ static bool begins_as_hdf5(const char *path)
 }
 
 #ifdef ISO_HDF5
-static const bool has_hdf5 = true;
 #define HDF5(format) &(format)
 #else
-static const bool has_hdf5 = false;
 #define HDF5(format) NULL
 #endif
 
 static iso_status check(iso_context *ctx, const char *path, bool hdf5)
 {
-    if (has_hdf5 || !hdf5) return ISO_OK;
+    const iso_table_reading *format = HDF5(iso_hdf5_reading);
+    if (format || !hdf5) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "'%s': this build has no HDF5 (.h5), use CSV, a name in .csv",
                             path);
 }
@@ -71,30 +72,26 @@ bool iso_table_has_words(const char *name)
 
 /* --- reading ---------------------------------------------------------------------------------------------------- */
 
-iso_status iso_table_reader_make(iso_context *ctx, const char *path, const char *columns, const iso_table_reader *how,
+iso_status iso_table_reader_open(iso_context *ctx, const char *path, const char *kind, const char *columns,
                                  iso_table_reader **reader)
 {
     *reader = NULL;
-    const bool hdf5 = how->trajectory ? iso_table_is_hdf5(path) : begins_as_hdf5(path);
-    iso_status status = check(ctx, path, hdf5);
-    if (status != ISO_OK) return status;
-    iso_table_reader *r = malloc(sizeof *r);
-    if (!r) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", path);
-    *r = *how;
+    const bool hdf5 = begins_as_hdf5(path);
+    ISO_TRY(check(ctx, path, hdf5));
+    iso_table_reader *r = calloc(1, sizeof *r);
+    if (!r) return iso_text_no_memory(ctx, "read", path);
     r->format = hdf5 ? HDF5(iso_hdf5_reading) : &iso_csv_reading;
     r->path = path;
     r->name = iso_text_name(path);
-    status = r->format->open(ctx, r, columns);
+    r->kind = kind;
+    r->trajectory = kind && strcmp(kind, ISO_TRAJECTORY_KIND) == 0;
+    const iso_status status = r->format->open(ctx, r, columns);
+    if (*r->ignored) r->at.ignored = r->ignored;
     if (status == ISO_OK)
         *reader = r;
     else
         iso_table_reader_close(r);
     return status;
-}
-
-iso_status iso_table_reader_open(iso_context *ctx, const char *path, const char *kind, iso_table_reader **reader)
-{
-    return iso_table_reader_make(ctx, path, NULL, &(iso_table_reader){.kind = kind}, reader);
 }
 
 void iso_table_reader_close(iso_table_reader *r)
@@ -105,20 +102,30 @@ void iso_table_reader_close(iso_table_reader *r)
     free(r);
 }
 
-void iso_table_pass_words(iso_table_reader *r)
-{
-    r->forgets = true;
-}
-
 iso_record *iso_table_header(iso_table_reader *r)
 {
     return r->header;
 }
 
+void iso_table_pass_nan(iso_table_reader *r)
+{
+    r->passes = true;
+}
+
+const iso_table_place *iso_table_at(const iso_table_reader *r)
+{
+    return &r->at;
+}
+
 iso_status iso_table_next(iso_context *ctx, iso_table_reader *r, double row[], bool *more)
 {
     ISO_DEFAULT_ARITHMETIC;
-    return r->format->next(ctx, r, row, more);
+    const double before = r->at.orbit;
+    const iso_status status = r->format->next(ctx, r, row, more);
+    if (status != ISO_OK || !*more) return status;
+    r->at.begins_orbit = r->any && r->at.orbit != before;
+    r->any = true;
+    return ISO_OK;
 }
 
 iso_status iso_table_read_all(iso_context *ctx, iso_table_reader *r, iso_record **record)
@@ -131,7 +138,7 @@ iso_status iso_table_read_all(iso_context *ctx, iso_table_reader *r, iso_record 
                                 r->name, r->rows, columns, MOST_NUMBERS);
     double *row = malloc((columns + 1) * sizeof *row), *to;
     bool more = true;
-    if (!row) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", r->name);
+    if (!row) return iso_text_no_memory(ctx, "read", r->name);
     iso_status status;
     while ((status = iso_table_next(ctx, r, row, &more)) == ISO_OK && more) {
         status = iso_record_append(ctx, r->header, &to);
@@ -143,12 +150,15 @@ iso_status iso_table_read_all(iso_context *ctx, iso_table_reader *r, iso_record 
     return status;
 }
 
-iso_status iso_table_read(iso_context *ctx, const char *path, const char *kind, iso_record **record)
+iso_status iso_table_read(iso_context *ctx, const char *path, const char *kind, const char *columns,
+                          iso_record **record, size_t *passed)
 {
     iso_table_reader *r;
     *record = NULL;
-    iso_status status = iso_table_reader_open(ctx, path, kind, &r);
-    if (status == ISO_OK) status = iso_table_read_all(ctx, r, record);
+    ISO_TRY(iso_table_reader_open(ctx, path, kind, columns, &r));
+    r->passes = passed != NULL;
+    const iso_status status = iso_table_read_all(ctx, r, record);
+    if (passed) *passed = r->at.passed;
     iso_table_reader_close(r);
     return status;
 }
@@ -158,8 +168,9 @@ void iso_table_kind(const char *path, char kind[ISO_KIND_SIZE])
     iso_context *ctx = iso_context_create();
     iso_table_reader *r = NULL;
     struct stat s;
+    const bool regular = stat(path, &s) == 0 && S_ISREG(s.st_mode);
     *kind = '\0';
-    if (ctx && stat(path, &s) == 0 && S_ISREG(s.st_mode) && iso_table_reader_open(ctx, path, NULL, &r) == ISO_OK)
+    if (ctx && regular && iso_table_reader_open(ctx, path, NULL, NULL, &r) == ISO_OK)
         snprintf(kind, ISO_KIND_SIZE, "%s", iso_record_kind(r->header));
     iso_table_reader_close(r);
     iso_context_free(ctx);
@@ -168,8 +179,7 @@ void iso_table_kind(const char *path, char kind[ISO_KIND_SIZE])
 iso_status iso_table_name_columns(iso_context *ctx, iso_table_reader *r, size_t count, const char *const names[])
 {
     iso_record *named;
-    const iso_status status = iso_record_create_like(ctx, r->header, count, names, &named);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_record_create_like(ctx, r->header, count, names, &named));
     iso_record_free(r->header);
     r->header = named;
     return ISO_OK;
@@ -186,15 +196,15 @@ static void release(iso_table_writer *w)
 iso_status iso_table_writer_open(iso_context *ctx, const char *path, const char *kind, iso_table_writer **writer)
 {
     *writer = NULL;
-    iso_status status = iso_table_check_format(ctx, path);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_table_check_format(ctx, path));
     iso_table_writer *w = calloc(1, sizeof *w);
-    if (!w) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write '%s'", path);
+    if (!w) return iso_text_no_memory(ctx, "write", path);
     w->format = iso_table_is_hdf5(path) ? HDF5(iso_hdf5_writing) : &iso_csv_writing;
     w->digits = 17;
     w->kind = kind;
+    w->finite = strcmp(kind, ISO_TRAJECTORY_KIND) == 0 || strcmp(kind, "section") == 0;
     w->expected = SIZE_MAX;
-    status = w->format->open(ctx, w, path);
+    const iso_status status = w->format->open(ctx, w, path);
     if (status == ISO_OK)
         *writer = w;
     else
@@ -202,19 +212,9 @@ iso_status iso_table_writer_open(iso_context *ctx, const char *path, const char 
     return status;
 }
 
-void iso_table_writer_expect(iso_table_writer *w, size_t rows)
+void iso_table_set_digits(iso_table_writer *w, int digits)
 {
-    w->expected = rows;
-}
-
-void iso_table_writer_keep_others(iso_table_writer *w)
-{
-    w->fresh = true;
-}
-
-bool iso_table_writer_waits(const iso_table_writer *w)
-{
-    return w->waits;
+    w->digits = digits;
 }
 
 /* Readers of CSV know columns of words by their names. */
@@ -233,16 +233,36 @@ static iso_status look_for_words(iso_context *ctx, iso_table_writer *w, const is
 iso_status iso_table_write_header(iso_context *ctx, iso_table_writer *w, const iso_record *header)
 {
     if (w->header) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "the header is already written");
+    if (w->finite && iso_record_columns(header) > (size_t)iso_columns_count())
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a trajectory has at most %d columns",
+                                iso_columns_count());
     iso_status status = look_for_words(ctx, w, header);
     if (status == ISO_OK) status = iso_record_create_like(ctx, header, 0, NULL, &w->header);
     return status == ISO_OK ? w->format->header(ctx, w, header) : status;
 }
 
+/* Only finite numbers can be read back as a trajectory. */
+static iso_status check_row(iso_context *ctx, const iso_table_writer *w, const double row[])
+{
+    size_t i = 0;
+    const size_t columns = iso_record_columns(w->header);
+    while (i < columns && isfinite(row[i])) i++;
+    if (i == columns) return ISO_OK;
+    const char *name = iso_record_name(w->header, i);
+    return iso_context_fail(ctx, ISO_NUMERICAL, name, "row %zu of '%s': %s is not finite", w->rows + 1, w->name,
+                            name);
+}
+
 iso_status iso_table_write_row(iso_context *ctx, iso_table_writer *w, const double row[])
 {
     ISO_DEFAULT_ARITHMETIC;
+    double mark[ISO_TRAJECTORY_COLUMNS];
+    if (!w->header || (!row && !w->finite))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "no header before the row, or no row");
+    for (size_t i = 0; !row && i < iso_record_columns(w->header); i++) mark[i] = NAN;
+    ISO_TRY(row && w->finite ? check_row(ctx, w, row) : ISO_OK);
     w->rows++;
-    return w->format->row(ctx, w, row);
+    return w->format->row(ctx, w, row ? row : mark);
 }
 
 iso_status iso_table_write_line(iso_context *ctx, iso_table_writer *w, const char *key, const char *value)
@@ -258,15 +278,27 @@ iso_status iso_table_writer_close(iso_context *ctx, iso_table_writer *w, bool ke
     return status;
 }
 
-iso_status iso_table_write(iso_context *ctx, const char *path, const iso_record *record)
+iso_status iso_table_write_all(iso_context *ctx, iso_table_writer *w, const iso_record *record)
 {
-    iso_table_writer *w;
-    iso_status status = iso_table_writer_open(ctx, path, iso_record_kind(record), &w);
-    if (status != ISO_OK) return status;
-    iso_table_writer_expect(w, iso_record_rows(record));
-    status = iso_table_write_header(ctx, w, record);
+    w->expected = iso_record_rows(record);
+    iso_status status = iso_table_write_header(ctx, w, record);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(record); i++)
         status = iso_table_write_row(ctx, w, iso_record_const_row(record, i));
     const iso_status closed = iso_table_writer_close(ctx, w, status == ISO_OK);
     return status != ISO_OK ? status : closed;
+}
+
+iso_status iso_table_write_as(iso_context *ctx, const char *path, const char *kind, int digits,
+                              const iso_record *record)
+{
+    iso_table_writer *w;
+    ISO_TRY(iso_table_writer_open(ctx, path, kind, &w));
+    w->digits = digits;
+    return iso_table_write_all(ctx, w, record);
+}
+
+iso_status iso_table_write(iso_context *ctx, const char *path, const iso_record *record)
+{
+    const char *kind = iso_record_kind(record);
+    return iso_table_write_as(ctx, path, *kind ? kind : ISO_TRAJECTORY_KIND, 17, record);
 }

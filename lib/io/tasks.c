@@ -6,14 +6,15 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
-#include "orbit/pool_impl.h"
+#include "base/pool_impl.h"
 
-enum { MOST = 3 };
+enum { MOST = 3, QUEUE = 16 };
 
 struct iso_tasks {
     pthread_mutex_t lock;
     pthread_cond_t given, done; /* a task waits, or all end; a task is done */
-    iso_task *first, *last;
+    iso_task *queue[QUEUE];     /* those that wait: from `first` to `last` */
+    unsigned first, last;
     int size, started;
     bool tried, ends; /* tried: to start the threads */
     pthread_t thread[MOST];
@@ -38,14 +39,11 @@ int iso_tasks_size(const iso_tasks *c)
 /* Works off the first task that waits. The lock is held before and after. */
 static void work_off(iso_tasks *c)
 {
-    iso_task *task = c->first;
-    c->first = task->next;
-    if (!c->first) c->last = NULL;
-    task->state = ISO_TASK_RUNS;
+    iso_task *task = c->queue[c->first++ % QUEUE];
     pthread_mutex_unlock(&c->lock);
     task->work(task->data);
     pthread_mutex_lock(&c->lock);
-    task->state = ISO_TASK_DONE;
+    task->given = false;
     pthread_cond_broadcast(&c->done);
 }
 
@@ -55,7 +53,7 @@ static void *attend(void *tasks)
     iso_tasks *c = tasks;
     pthread_mutex_lock(&c->lock);
     while (!c->ends)
-        if (c->first)
+        if (c->first != c->last)
             work_off(c);
         else
             pthread_cond_wait(&c->given, &c->lock);
@@ -92,13 +90,8 @@ void iso_tasks_give(iso_tasks *c, iso_task *task)
 {
     if (!c->tried) start(c);
     pthread_mutex_lock(&c->lock);
-    task->state = ISO_TASK_WAITS;
-    task->next = NULL;
-    if (c->last)
-        c->last->next = task;
-    else
-        c->first = task;
-    c->last = task;
+    task->given = true;
+    c->queue[c->last++ % QUEUE] = task;
     pthread_cond_signal(&c->given);
     pthread_mutex_unlock(&c->lock);
 }
@@ -107,8 +100,8 @@ void iso_tasks_finish(iso_tasks *c, iso_task *task)
 {
     ISO_DEFAULT_ARITHMETIC;
     pthread_mutex_lock(&c->lock);
-    while (task->state != ISO_TASK_DONE)
-        if (c->first)
+    while (task->given)
+        if (c->first != c->last)
             work_off(c);
         else
             pthread_cond_wait(&c->done, &c->lock);
@@ -118,7 +111,7 @@ void iso_tasks_finish(iso_tasks *c, iso_task *task)
 bool iso_tasks_is_done(iso_tasks *c, const iso_task *task)
 {
     pthread_mutex_lock(&c->lock);
-    const bool done = task->state == ISO_TASK_DONE;
+    const bool done = !task->given;
     pthread_mutex_unlock(&c->lock);
     return done;
 }

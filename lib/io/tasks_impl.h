@@ -16,14 +16,11 @@
 
 typedef struct iso_tasks iso_tasks;
 
-typedef enum iso_task_state { ISO_TASK_DONE, ISO_TASK_WAITS, ISO_TASK_RUNS } iso_task_state;
-
 /* The caller sets work and data, and the rest to 0. */
 typedef struct iso_task {
     void (*work)(void *data); /* in default arithmetic (base/arithmetic_impl.h); no signal comes to its thread */
     void *data;
-    iso_task_state state; /* set here, as is next */
-    struct iso_task *next;
+    bool given; /* set here: it waits or runs */
 } iso_task;
 
 /* No thread starts before the first task. NULL: no memory. */
@@ -35,8 +32,8 @@ void iso_tasks_free(iso_tasks *tasks);
 /* Threads that work beside the caller: 0 to 3. */
 int iso_tasks_size(const iso_tasks *tasks);
 
-/* Puts a task behind those that wait. It must not be one that waits or runs. Starts the threads, as many as can be
- * had. */
+/* Puts a task behind those that wait, which are fewer than 16. It must not be one that waits or runs. Starts the
+ * threads, as many as can be had. */
 void iso_tasks_give(iso_tasks *tasks, iso_task *task);
 
 /* Returns when the task is done. Meanwhile the caller works off tasks that wait: this one, or those before it. A task

@@ -1,8 +1,8 @@
 /* text.c - text of users: opening and loading files, and what a message may show of them. */
 #include "base/place_impl.h"
+#include "io/replacement_impl.h"
 #include "io/text_impl.h"
 
-#include <errno.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,11 +12,16 @@ const char *iso_text_name(const char *path)
     return strcmp(path, "-") == 0 ? "<stdin>" : path;
 }
 
+iso_status iso_text_no_memory(iso_context *ctx, const char *what, const char *name)
+{
+    return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to %s '%s'", what, name);
+}
+
 FILE *iso_text_open(iso_context *ctx, const char *path)
 {
     if (strcmp(path, "-") == 0) return stdin;
     FILE *file = fopen(path, "re");
-    if (!file) iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", path, strerror(errno));
+    if (!file) iso_file_trouble(ctx, "open", path);
     return file;
 }
 
@@ -33,12 +38,11 @@ static iso_status load(iso_context *ctx, FILE *file, const char *path, size_t li
     while (!feof(file) && *length <= limit) {
         if (room - *length < 2) {
             char *grown = realloc(*text, room = 2 * room + 4096);
-            if (!grown) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for '%s'", path);
+            if (!grown) return iso_context_no_memory(ctx, "'%s'", path);
             *text = grown;
         }
         *length += fread(*text + *length, 1, room - *length - 1, file);
-        if (ferror(file))
-            return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot read '%s': %s", path, strerror(errno));
+        if (ferror(file)) return iso_file_trouble(ctx, "read", path);
     }
     (*text)[*length] = '\0';
     if (*length <= limit) return ISO_OK;

@@ -12,6 +12,9 @@ enum { ISO_QUOTE_SIZE = 64 };
 /* How messages call the file `path`: "<stdin>" for "-". */
 const char *iso_text_name(const char *path);
 
+/* Records "no memory to WHAT 'name'" and returns ISO_NO_MEMORY. */
+iso_status iso_text_no_memory(iso_context *ctx, const char *what, const char *name);
+
 /* Opens `path` for reading, "-" being standard input. NULL: ISO_FILE_TROUBLE is recorded in ctx. */
 FILE *iso_text_open(iso_context *ctx, const char *path);
 void iso_text_close(FILE *file);

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/nearest.h"
-#include "base/number.h"
+#include "base/nearest_impl.h"
+#include "base/number_impl.h"
 #include "base/place_impl.h"
 #include "io/text_impl.h"
 
@@ -48,7 +48,7 @@ static iso_status fail_syntax(const iso_yaml *y, const yaml_parser_t *p, const c
 {
     const char *problem = p->problem ? p->problem : "unknown problem", *context = p->context;
     const bool no_memory = p->error == YAML_MEMORY_ERROR || p->error == YAML_NO_ERROR; /* it does not always say so */
-    if (no_memory) return iso_context_fail(y->ctx, ISO_NO_MEMORY, "", "no memory for a scene");
+    if (no_memory) return iso_context_no_memory(y->ctx, "a scene");
     if (p->error != YAML_READER_ERROR)
         return iso_yaml_fail(y, p->problem_mark, "not valid YAML: %s%s%s", context ? context : "",
                              context ? ", " : "", problem);
@@ -119,7 +119,7 @@ static iso_status check_events(const iso_yaml *y, const char *text, size_t lengt
     iso_status status = ISO_OK;
     tally seen = {0};
     bool more = true;
-    if (!open_parser(&parser, text, length)) return iso_context_fail(y->ctx, ISO_NO_MEMORY, "", "no memory");
+    if (!open_parser(&parser, text, length)) return iso_context_no_memory(y->ctx, "a scene");
     while (more && status == ISO_OK) {
         yaml_event_t event;
         if (!yaml_parser_parse(&parser, &event)) {
@@ -140,7 +140,7 @@ iso_status iso_yaml_load(iso_yaml *y, const char *text, size_t length)
     if (length >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) text += 3, length -= 3; /* byte order mark */
     iso_status status = check_events(y, text, length);
     if (status != ISO_OK) return status;
-    if (!open_parser(&parser, text, length)) return iso_context_fail(y->ctx, ISO_NO_MEMORY, "", "no memory");
+    if (!open_parser(&parser, text, length)) return iso_context_no_memory(y->ctx, "a scene");
     if (!yaml_parser_load(&parser, &y->document)) status = fail_syntax(y, &parser, text, length);
     yaml_parser_delete(&parser);
     return status;

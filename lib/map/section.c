@@ -167,3 +167,20 @@ void iso_section_bounds(iso_point_motion m, int axis, double W[2])
     W[0] = sqrt(fmax(least, 0));
     W[1] = sqrt(fmax(most, 0));
 }
+
+/* --- the level -------------------------------------------------------------------------------------------------- */
+
+static double middle(const double J[3])
+{
+    return fmax(fmin(J[0], J[1]), fmin(fmax(J[0], J[1]), J[2]));
+}
+
+double iso_level_energy(const iso_params *p, double level)
+{
+    return level == 0 ? 0 : level * pow(middle(p->J), -1 / p->k);
+}
+
+double iso_level_of(const iso_params *p, double energy)
+{
+    return energy == 0 ? 0 : energy * pow(middle(p->J), 1 / p->k);
+}

@@ -33,4 +33,39 @@ void iso_section_slope(iso_point_motion m, int axis, const double point[ISO_STAT
  * in s (infinity for W[0] = 0). The bounds are rounded, and an orbit can reach them: allow a rounding error. */
 void iso_section_bounds(iso_point_motion m, int axis, double W[2]);
 
+/* Whether every orbit crosses the section of `axis` for ever: it is such an axis (of equal moments each one is), or
+ * W^2 > 0 wherever the point can be. */
+bool iso_section_is_global(iso_point_motion m, int axis);
+
+/* G(l): the largest |L| at l; 0 where the point cannot be. The derivative of the return map in (l, x) has the
+ * determinant G(l)/G(l'), where l' is that of the image. */
+double iso_section_momentum(iso_point_motion m, int axis, double l);
+
+/* Points spread evenly over the section by the area dL dl. For every N, the first N points leave smaller holes than N
+ * random points. They do not depend on eps.
+ *
+ *     iso_section_spread spread;
+ *     iso_section_spread_prepare(&spread, &p, axis, seed);
+ *     iso_section_spread_point(&spread, i, &l, &x);
+ *
+ * Point i does not depend on earlier calls; it takes a few microseconds. Equal seeds give equal points. The points
+ * are those of the additive recurrence R2, (u_1, u_2) = shift + i (1/r, 1/r^2) modulo 1, r^3 = r + 1. The shift comes
+ * from the seed. Integers of 64 bits make this exact for every i below 2^64. x = 2 u_2 - 1, and l is the angle up to
+ * which the integral of G is the part u_1 of the whole. */
+enum { ISO_SPREAD_STEPS = 184 };
+typedef struct iso_section_spread {
+    double k, eps, energy;             /* G ~ sqrt(energy + eps (q/largest)^(-1/k))          */
+    double J[2], largest;              /* q = J[0] cos^2 + J[1] sin^2, from the middle of an open arc */
+    double reach;                      /* of sin^2 to the border of this arc; 1: all is open   */
+    double middle;                     /* l of the middle: 0 or pi/2                         */
+    double part[ISO_SPREAD_STEPS + 1]; /* of the integral of G over half of an arc           */
+    uint64_t shift[2];                 /* in units of 2^-64                                  */
+} iso_section_spread;
+void iso_section_spread_prepare(iso_section_spread *spread, iso_point_motion m, int axis, uint64_t seed);
+void iso_section_spread_point(const iso_section_spread *spread, uint64_t i, double *l, double *x);
+
+/* The energy H of the point for eps = 1, in the units of J, from its level (study/level.h), and back. */
+double iso_level_energy(const iso_params *p, double level);
+double iso_level_of(const iso_params *p, double energy);
+
 #endif

@@ -8,8 +8,8 @@
 
 _Static_assert((int)ISO_SPREAD_STEPS == (int)ISO_QUARTER_STEPS, "iso_section_spread holds a table of a quarter");
 
-/* Where only arcs of the circle are open, the angle is not l, but a with sin l = sqrt(reach) sin a, l counted from the
- * middle of an arc. At its border, a = pi/2, G goes to 0 like cos a, and the integral of G stays smooth. */
+/* Where only arcs of the circle are open, the angle is not l, but a with sin l = sqrt(reach) sin a, l counted from
+ * the middle of an arc. At its border, a = pi/2, G goes to 0 like cos a, and the integral of G stays smooth. */
 static double cos2_of_l(const iso_section_spread *s, double sin2, double cos2)
 {
     return s->reach == 1 ? cos2 : 1 - s->reach * sin2;

@@ -79,13 +79,12 @@ static iso_status step(iso_integrator *it, double y[], double *h)
     return ISO_OK;
 }
 
-#define ARKODE_METHOD                                                                                                \
+#define METHOD                                                                                                       \
     .family = "arkode", .projects = true, .fixed = true, .create = create, .start = start, .step = step,             \
     .free = release
-
-#define ERK(id, name_, order_, table, doc_)                                                                          \
+#define ERK(id, name_, order_, table, ...)                                                                           \
     const iso_method iso_method_##id = {                                                                             \
-        .name = name_, .order = order_, .variant = ARKODE_##table, .doc = doc_, ARKODE_METHOD};
+        .name = name_, .order = order_, .variant = ARKODE_##table, METHOD, .doc = __VA_ARGS__};
 
 /*  identifier        name               order, SUNDIALS table                                                   */
 ERK(heun_euler, "heun_euler_2_1_2", 2, HEUN_EULER_2_1_2, "ERKStep, Heun-Euler 2(1)")
@@ -101,10 +100,4 @@ ERK(dormand_prince, "dormand_prince_7_4_5", 5, DORMAND_PRINCE_7_4_5, "ERKStep, D
 ERK(ark548, "ark548l2sa_erk_8_4_5", 5, ARK548L2SA_ERK_8_4_5, "ERKStep, explicit part of ARK5(4)8L[2]SA")
 ERK(ark548b, "ark548l2sab_erk_8_4_5", 5, ARK548L2SAb_ERK_8_4_5, "ERKStep, explicit part of ARK5(4)8L[2]SAb")
 ERK(verner, "verner_8_5_6", 6, VERNER_8_5_6, "ERKStep, Verner 6(5)")
-
-const iso_method iso_method_fehlberg78 = {.name = "fehlberg_13_7_8",
-                                          .order = 8,
-                                          .variant = ARKODE_FEHLBERG_13_7_8,
-                                          .witness = 2,
-                                          .doc = "ERKStep, Fehlberg 8(7)",
-                                          ARKODE_METHOD};
+ERK(fehlberg78, "fehlberg_13_7_8", 8, FEHLBERG_13_7_8, "ERKStep, Fehlberg 8(7)", .witness = 2)

@@ -154,16 +154,10 @@ static iso_suits bdf_suits(const iso_model *m)
     return stiffness > ISO_VERY_STIFF ? ISO_BEST : stiffness > ISO_STIFF ? ISO_WELL : ISO_NEVER;
 }
 
-#define CVODE_METHOD .family = "cvode", .create = create, .start = start, .step = step, .free = release
+#define METHOD .family = "cvode", .create = create, .start = start, .step = step, .free = release
+#define CVODE(id, variant_, doc_, ...)                                                                               \
+    const iso_method iso_method_##id = {.name = #id, .variant = variant_, .doc = doc_, METHOD, __VA_ARGS__};
 
-const iso_method iso_method_adams = {
-    .name = "adams", .variant = CV_ADAMS, .doc = "CVODE, variable-order Adams-Moulton, orders 1-12", CVODE_METHOD};
-const iso_method iso_method_bdf = {.name = "bdf",
-                                   .variant = CV_BDF,
-                                   .implicit = true,
-                                   .projects = true,
-                                   .suits = bdf_suits,
-                                   .witness = 4,
-                                   .dense = dense,
-                                   .doc = "CVODE, variable-order BDF, orders 1-5, analytic Jacobian, projection",
-                                   CVODE_METHOD};
+CVODE(adams, CV_ADAMS, "CVODE, variable-order Adams-Moulton, orders 1-12", .order = 0)
+CVODE(bdf, CV_BDF, "CVODE, variable-order BDF, orders 1-5, analytic Jacobian, projection", .implicit = true,
+      .projects = true, .suits = bdf_suits, .witness = 4, .dense = dense)

@@ -45,8 +45,7 @@ iso_status iso_dense_at(iso_integrator *it, double dt, double y[])
     iso_gsl_start(g, state, dt);
     for (long steps = 0; g->t != dt; steps++) {
         if (!iso_context_goes_on(it->ctx)) return iso_context_stopped(it->ctx);
-        const iso_status status = iso_gsl_step(it, g, dt, state, &h);
-        if (status != ISO_OK) return status;
+        ISO_TRY(iso_gsl_step(it, g, dt, state, &h));
         if (steps > MOST_STEPS) return iso_integrator_stopped(it, "too many steps between its own");
         if (g->t != dt && fabs(h) <= 64 * DBL_EPSILON * fabs(g->t))
             return iso_integrator_stopped(it, "steps between its own shrink to nothing");

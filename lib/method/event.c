@@ -155,8 +155,8 @@ iso_status iso_integrator_event(iso_integrator *it, const iso_event *event, doub
     const int direction = to > 0 ? 1 : -1;
     *found = false;
     if (!isfinite(from) || !isfinite(to) || direction * from < 0 || direction * (to - from) < 0)
-        return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "", "events are sought away from 0: %g to %g is not",
-                                from, to);
+        return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "", "events are sought away from 0: %g to %g is not", from,
+                                to);
     search s = {.it = it, .event = event, .status = iso_integrator_reach(it, direction, from)};
     for (double dt; s.status == ISO_OK; s.status = iso_integrator_advance(it)) {
         const double skip = direction * fmax(1e-9 * fabs(it->h), 4 * DBL_EPSILON * fabs(from)); /* a zero at `from` */

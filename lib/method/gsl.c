@@ -65,51 +65,16 @@ static iso_suits bsimp_suits(const iso_model *m)
     return stiffness > ISO_VERY_STIFF ? ISO_WELL : stiffness > ISO_STIFF ? ISO_BEST : ISO_NEVER;
 }
 
-#define GSL_METHOD .family = "gsl", .create = create, .start = start, .step = step, .free = release
+#define METHOD .family = "gsl", .create = create, .start = start, .step = step, .free = release
+#define GSL(id, variant_, doc_, ...)                                                                                 \
+    const iso_method iso_method_##id = {.name = #id, .variant = variant_, .doc = doc_, METHOD, __VA_ARGS__};
+#define FIXED .fixed = true, .projects = true
 
-const iso_method iso_method_rk4 = {.name = "rk4",
-                                   .order = 4,
-                                   .variant = RK4,
-                                   .fixed = true,
-                                   .projects = true,
-                                   .doc = "classical Runge-Kutta 4, error by step doubling",
-                                   GSL_METHOD};
-const iso_method iso_method_rkf45 = {.name = "rkf45",
-                                     .order = 5,
-                                     .variant = RKF45,
-                                     .fixed = true,
-                                     .projects = true,
-                                     .doc = "Runge-Kutta-Fehlberg 4(5)",
-                                     GSL_METHOD};
-const iso_method iso_method_rkck = {.name = "rkck",
-                                    .order = 5,
-                                    .variant = RKCK,
-                                    .fixed = true,
-                                    .projects = true,
-                                    .doc = "Runge-Kutta Cash-Karp 4(5)",
-                                    GSL_METHOD};
-const iso_method iso_method_rk8pd = {.name = "rk8pd",
-                                     .order = 8,
-                                     .variant = RK8PD,
-                                     .suits = rk8pd_suits,
-                                     .witness = 1,
-                                     .fixed = true,
-                                     .projects = true,
-                                     .doc = "Runge-Kutta Prince-Dormand 8(9)",
-                                     GSL_METHOD};
-const iso_method iso_method_msadams = {
-    .name = "msadams", .variant = MSADAMS, .doc = "variable-order Adams in Nordsieck form, orders 1-12", GSL_METHOD};
-const iso_method iso_method_msbdf = {.name = "msbdf",
-                                     .variant = MSBDF,
-                                     .implicit = true,
-                                     .doc = "variable-order BDF in Nordsieck form, orders 1-5",
-                                     GSL_METHOD};
-const iso_method iso_method_bsimp = {.name = "bsimp",
-                                     .variant = BSIMP,
-                                     .suits = bsimp_suits,
-                                     .witness = 3,
-                                     .implicit = true,
-                                     .projects = true,
-                                     .fixed = true,
-                                     .doc = "implicit Bulirsch-Stoer of Bader and Deuflhard, seven columns",
-                                     GSL_METHOD};
+GSL(rk4, RK4, "classical Runge-Kutta 4, error by step doubling", .order = 4, FIXED)
+GSL(rkf45, RKF45, "Runge-Kutta-Fehlberg 4(5)", .order = 5, FIXED)
+GSL(rkck, RKCK, "Runge-Kutta Cash-Karp 4(5)", .order = 5, FIXED)
+GSL(rk8pd, RK8PD, "Runge-Kutta Prince-Dormand 8(9)", .order = 8, FIXED, .suits = rk8pd_suits, .witness = 1)
+GSL(msadams, MSADAMS, "variable-order Adams in Nordsieck form, orders 1-12", .order = 0)
+GSL(msbdf, MSBDF, "variable-order BDF in Nordsieck form, orders 1-5", .implicit = true)
+GSL(bsimp, BSIMP, "implicit Bulirsch-Stoer of Bader and Deuflhard, seven columns", .implicit = true, FIXED,
+    .suits = bsimp_suits, .witness = 3)

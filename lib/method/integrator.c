@@ -9,7 +9,7 @@
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
-#include "model/rest_impl.h"
+#include "model/model_impl.h"
 
 iso_status iso_tolerance_check(iso_context *ctx, double tolerance)
 {
@@ -134,8 +134,7 @@ static iso_status take_next_step(iso_integrator *it)
     if (is_new && it->options.max_steps > 0 && it->statistics.steps >= it->options.max_steps)
         return iso_integrator_stopped(it, "more steps than allowed");
     copy(it->at_right, y, it->model.dim);
-    const iso_status status = take_step(it, y, &h);
-    if (status != ISO_OK) return status;
+    ISO_TRY(take_step(it, y, &h));
     const char *end = find_end(it, y);
     if (end) return iso_integrator_stopped(it, end);
     /* some methods never end before a place that they cannot pass: their steps hardly move the clock */
@@ -177,8 +176,7 @@ static iso_status jump(iso_integrator *it, int direction, double t)
     double y[ISO_MAX_STATE];
     if (!iso_context_goes_on(it->ctx)) return iso_context_stopped(it->ctx);
     if (t == 0) copy(it->y0, y, it->model.dim);
-    const iso_status status = t == 0 ? ISO_OK : it->method->at(it, t, y);
-    if (status != ISO_OK) return status;
+    ISO_TRY(t == 0 ? ISO_OK : it->method->at(it, t, y));
     it->direction = direction;
     it->stopped = false;
     it->left = (iso_instant){t, 0};
@@ -230,8 +228,7 @@ iso_status iso_integrator_at(iso_integrator *it, double t, double y[])
 {
     ISO_DEFAULT_ARITHMETIC;
     if (!isfinite(t)) return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "", "a time is not finite");
-    const iso_status status = iso_integrator_reach(it, t > 0 ? 1 : t < 0 ? -1 : it->direction, t);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_integrator_reach(it, t > 0 ? 1 : t < 0 ? -1 : it->direction, t));
     return iso_integrator_within(it, since_end(it, t) == 0 ? it->h : iso_integrator_since(it, t), y);
 }
 

@@ -10,7 +10,7 @@
 #define ISO_METHOD_INTEGRATOR_IMPL_H
 
 #include "base/sum_impl.h"
-#include "method/method.h"
+#include "method/methods_impl.h"
 
 typedef struct iso_dense iso_dense;
 

@@ -4,7 +4,7 @@
 #include <ctype.h>
 #include <string.h>
 
-#include "base/nearest.h"
+#include "base/nearest_impl.h"
 #include "method/methods_impl.h"
 
 const iso_method *const iso_methods[] = {
@@ -31,6 +31,11 @@ static const char *without_family(const char *pattern, const char *family)
     for (size_t i = 0; i < length; i++)
         if (tolower((unsigned char)pattern[i]) != family[i]) return pattern;
     return pattern[length] == '-' || pattern[length] == '_' ? pattern + length + 1 : pattern;
+}
+
+const iso_method *iso_method_at(int i)
+{
+    return i >= 0 && i < (int)(sizeof iso_methods / sizeof *iso_methods) ? iso_methods[i] : NULL;
 }
 
 const iso_method *iso_method_find(const char *name)

@@ -26,10 +26,6 @@ ISO_C_BEGIN
 
 typedef struct iso_integrator iso_integrator;
 
-#define ISO_LEAST_TOLERANCE 1e-15
-#define ISO_MOST_TOLERANCE 0.1
-#define ISO_TOLERANCE_RANGE "[1e-15, 0.1]"
-
 typedef struct iso_method_options {
     double tolerance;  /* from ISO_LEAST_TOLERANCE to ISO_MOST_TOLERANCE                               */
     double fixed_step; /* > 0: steps of exactly this size without error control, to measure an order   */
@@ -38,6 +34,10 @@ typedef struct iso_method_options {
     long max_steps;   /* 0: no bound; else ISO_NUMERICAL when more are needed, from the start on      */
     size_t memory;    /* bytes in which the ends of steps are kept, for each direction; 0: none is    */
 } iso_method_options;
+
+#define ISO_LEAST_TOLERANCE 1e-15
+#define ISO_MOST_TOLERANCE 0.1
+#define ISO_TOLERANCE_RANGE "[1e-15, 0.1]"
 
 typedef struct iso_statistics {
     long steps, rejected, rhs, jacobians; /* rhs includes dense output                                 */
@@ -93,15 +93,12 @@ typedef struct iso_method {
 
 enum { ISO_DOUBLE_DIGITS = 16 };
 
-/* The registry, ended by NULL. */
-ISO_API extern const iso_method *const iso_methods[];
+/* The i-th method; NULL past the last. */
+ISO_API const iso_method *iso_method_at(int i);
 
 /* The method called `name`, or NULL. Upper and lower case, '-' and '_' are the same, the family may stand before
  * ("gsl-rk8pd", "cvode_adams"), and a beginning that fits only one method is enough ("dormand_prince"). */
 ISO_API const iso_method *iso_method_find(const char *name);
-
-/* The names that a scene can give its method: "auto", then those of the methods. NULL past the last. */
-ISO_API const char *iso_method_word(int i);
 
 ISO_C_END
 

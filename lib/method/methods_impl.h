@@ -61,4 +61,10 @@ const iso_method *iso_method_auto(const iso_model *model);
 const iso_method *iso_method_with_more_digits(int digits);
 const iso_method *iso_method_witness(int place);
 
+/* The registry, ended by NULL. */
+extern const iso_method *const iso_methods[];
+
+/* The names that a scene can give its method: "auto", then those of the methods. NULL past the last. */
+const char *iso_method_word(int i);
+
 #endif

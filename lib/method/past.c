@@ -16,7 +16,7 @@
 
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
-#include "model/rest_impl.h"
+#include "model/model_impl.h"
 
 /* The head of a place. The state follows: of the method, or at the end of the step. */
 typedef struct place {

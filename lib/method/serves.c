@@ -20,7 +20,7 @@ static bool has_formulas(const iso_method *method, const iso_model *model, char 
 {
     const char *needs = method->implicit ? "solves with slopes" : "expands the equations in series";
     if (!method->implicit && !method->own_equations) return true;
-    const iso_effect *lacking = iso_model_without_formula(model);
+    const iso_effect *lacking = model->without_formula;
     if (!iso_system_has_recurrences(model->system))
         snprintf(why, ISO_WHY_SIZE, "%s, and there are no recurrences of the %s to make them from", needs,
                  model->system->name);

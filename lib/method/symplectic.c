@@ -390,30 +390,15 @@ static void recall(iso_integrator *it, const void *from, double y[])
     plan(&tables[it->method->variant], it->direction * d->step, &d->whole);
 }
 
-#define SPLITTING                                                                                                    \
+#define METHOD                                                                                                       \
     .family = "splitting", .own_equations = true, .system = &iso_system_point,                                       \
     .system_why = "only its equations split into flows that are known exactly", .steps_in_s = true, .fixed = true,   \
     .create = create, .start = start, .step = step, .dense = dense, .save = save, .recall = recall, .free = release
+#define SPLITTING(id, order_, variant_, doc_)                                                                        \
+    const iso_method iso_method_##id = {.name = #id, .order = order_, .variant = variant_, .doc = doc_, METHOD};
 
-const iso_method iso_method_strang = {
-    .name = "strang", .order = 2, .variant = STRANG, .doc = "Strang's splitting", SPLITTING};
-const iso_method iso_method_blanes_moan4 = {.name = "blanes_moan4",
-                                            .order = 4,
-                                            .variant = BLANES_MOAN4,
-                                            .doc = "Blanes-Moan splitting SRKN 6b, 7 kicks",
-                                            SPLITTING};
-const iso_method iso_method_blanes_moan6 = {.name = "blanes_moan6",
-                                            .order = 6,
-                                            .variant = BLANES_MOAN6,
-                                            .doc = "Blanes-Moan splitting SRKN 14a, 14 kicks",
-                                            SPLITTING};
-const iso_method iso_method_kahan_li8 = {.name = "kahan_li8",
-                                         .order = 8,
-                                         .variant = KAHAN_LI8,
-                                         .doc = "Kahan-Li composition s17odr8a, 17 kicks",
-                                         SPLITTING};
-const iso_method iso_method_sofroniou_spaletta10 = {.name = "sofroniou_spaletta10",
-                                                    .order = 10,
-                                                    .variant = SOFRONIOU_SPALETTA10,
-                                                    .doc = "Sofroniou-Spaletta composition, 35 kicks",
-                                                    SPLITTING};
+SPLITTING(strang, 2, STRANG, "Strang's splitting")
+SPLITTING(blanes_moan4, 4, BLANES_MOAN4, "Blanes-Moan splitting SRKN 6b, 7 kicks")
+SPLITTING(blanes_moan6, 6, BLANES_MOAN6, "Blanes-Moan splitting SRKN 14a, 14 kicks")
+SPLITTING(kahan_li8, 8, KAHAN_LI8, "Kahan-Li composition s17odr8a, 17 kicks")
+SPLITTING(sofroniou_spaletta10, 10, SOFRONIOU_SPALETTA10, "Sofroniou-Spaletta composition, 35 kicks")

@@ -1,5 +1,5 @@
-/* two_point_impl.h - how far the clocks and the state go between two samples of an orbit, from the equations of motion at
- * both samples.
+/* two_point_impl.h - how far the clocks and the state go between two samples of an orbit, from the equations of
+ * motion at both samples.
  *
  *     iso_two_point *b;
  *     iso_two_point_create(ctx, &model, 1e-14, &b);
@@ -15,8 +15,8 @@
  *     c_j = (p+1)! (2p+1-j)! j! / ((2p+2)! (j+1)! (p-j)!)
  *
  * is exact for polynomials of degree 2p+1: two-point Taylor, Hermite's or Obreshkov's quadrature. If f is the rate of
- * a clock, the integral is the time that the clock goes on. If f is y' and both samples lie on one orbit, the integral
- * is y1 - y0. If it is not, the difference is the defect.
+ * a clock, the integral is the time that the clock goes on. If f is y' and both samples lie on one orbit, the
+ * integral is y1 - y0. If it is not, the difference is the defect.
  */
 #ifndef ISO_METHOD_TWO_POINT_IMPL_H
 #define ISO_METHOD_TWO_POINT_IMPL_H

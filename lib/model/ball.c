@@ -22,7 +22,6 @@
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
 #include "model/integrals_impl.h"
-#include "model/system.h"
 
 /* (n,Jw), as (n,(J - min J) w) */
 static double along_normal(const iso_params *p, const double y[])
@@ -135,20 +134,9 @@ static double f_axis(const iso_problem *f, const double y[], int axis, double *s
     return density * y[axis];
 }
 
-static double f_axis1(const iso_problem *f, const double y[], double *size)
-{
-    return f_axis(f, y, 0, size);
-}
-
-static double f_axis2(const iso_problem *f, const double y[], double *size)
-{
-    return f_axis(f, y, 1, size);
-}
-
-static double f_axis3(const iso_problem *f, const double y[], double *size)
-{
-    return f_axis(f, y, 2, size);
-}
+ISO_OF_AXIS(1)
+ISO_OF_AXIS(2)
+ISO_OF_AXIS(3)
 
 static double remove_spin(const iso_params *p, double y[])
 {
@@ -200,43 +188,16 @@ static void sample(iso_problem *f, iso_random *r, double y[ISO_STATE])
 static const char *const state_names[] = {"omega1", "omega2", "omega3", "n1", "n2", "n3"};
 
 static const iso_integral integrals[] = {
-    {.name = "h",
-     .doc = "energy (w,Jw)/2, with the potentials of its effects",
-     .dimension = {1, 0, 2},
-     .holds = iso_effects_keep_energy,
-     .value = energy},
-    {.name = "omega.n",
-     .known = ISO_ZERO,
-     .doc = "no twist: (w,n) = 0",
-     .dimension = {0, 0, 1},
-     .holds = is_rigid,
-     .value = spin},
-    {.name = "|n|", .known = ISO_ONE, .doc = "unit normal: 1", .value = normal_length},
-    {.name = "F_plane",
-     .doc = "(Jw x n, Jw x n), k = 1",
-     .dimension = {2, 0, 2},
-     .holds = holds_plane,
-     .value = f_plane},
-    {.name = "F_shell",
-     .doc = "[(Jw,Jw) + det J (w,Jw)(J^-1 n,J^-1 n)]/(n,J^-1 n), k = -1 (11)",
-     .dimension = {3, 0, 2},
-     .holds = holds_shell,
-     .value = f_shell},
-    {.name = "F_axis1",
-     .doc = "(n,J^-1 n)^(1/(2k)) w1, J2 = J3",
-     .dimension = {0, -1, 1},
-     .holds = holds_axis1,
-     .value = f_axis1},
-    {.name = "F_axis2",
-     .doc = "(n,J^-1 n)^(1/(2k)) w2, J3 = J1",
-     .dimension = {0, -1, 1},
-     .holds = holds_axis2,
-     .value = f_axis2},
-    {.name = "F_axis3",
-     .doc = "(n,J^-1 n)^(1/(2k)) w3, J1 = J2",
-     .dimension = {0, -1, 1},
-     .holds = holds_axis3,
-     .value = f_axis3},
+    ISO_INTEGRAL("h", 1, 0, 2, energy, .holds = iso_effects_keep_energy,
+                 .doc = "energy (w,Jw)/2, with the potentials of its effects"),
+    ISO_INTEGRAL("omega.n", 0, 0, 1, spin, .known = ISO_ZERO, .holds = is_rigid, .doc = "no twist: (w,n) = 0"),
+    ISO_INTEGRAL("|n|", 0, 0, 0, normal_length, .known = ISO_ONE, .doc = "unit normal: 1"),
+    ISO_INTEGRAL("F_plane", 2, 0, 2, f_plane, .holds = holds_plane, .doc = "(Jw x n, Jw x n), k = 1"),
+    ISO_INTEGRAL("F_shell", 3, 0, 2, f_shell, .holds = holds_shell,
+                 .doc = "[(Jw,Jw) + det J (w,Jw)(J^-1 n,J^-1 n)]/(n,J^-1 n), k = -1 (11)"),
+    ISO_AXIS_INTEGRAL(1, "(n,J^-1 n)^(1/(2k)) w1, J2 = J3"),
+    ISO_AXIS_INTEGRAL(2, "(n,J^-1 n)^(1/(2k)) w2, J3 = J1"),
+    ISO_AXIS_INTEGRAL(3, "(n,J^-1 n)^(1/(2k)) w3, J1 = J2"),
     {0},
 };
 

@@ -14,6 +14,7 @@
 
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
+#include "model/model_impl.h"
 
 static void turn_of_normal(const iso_problem *f, const double y[], double n_dot[3])
 {

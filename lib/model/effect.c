@@ -4,7 +4,7 @@
  * The table here lists the rows, and some rows ask the functions here about the other effects: gravity asks whether
  * attitude is on, the twisting contact whether another torque acts. This circle of calls is meant. It stays within
  * the files of the effects, the contact and the two systems: effects have a part in their integrals and energies. */
-#include "model/effect.h"
+#include "model/model_impl.h"
 
 #include <string.h>
 
@@ -18,6 +18,11 @@ const iso_effect *const iso_effect_list[ISO_EFFECTS] = {
     ISO_EFFECT_LIST(ISO_EFFECT_ENTRY)
 #undef ISO_EFFECT_ENTRY
 };
+
+const iso_effect *iso_effect_at(int i)
+{
+    return i >= 0 && i < ISO_EFFECTS ? iso_effect_list[i] : NULL;
+}
 
 iso_effect_id iso_effect_find(const char *name)
 {
@@ -78,65 +83,26 @@ const char *iso_effect_why_broken(const iso_effect *effect)
     return "its row gives it no image on the point";
 }
 
-const iso_effect *iso_effects_breaking(const iso_effects *effects)
-{
-    int e = 0;
-    const iso_effect *effect;
-    while ((effect = next_acting(effects, &e)) && !iso_effect_why_broken(effect)) {
+/* The first effect of which the condition holds (NULL: none), or whether there is one. next: of those that are on, or
+ * of those that act. */
+#define FIRST(type, question, next, condition)                                                                       \
+    type question(const iso_effects *effects)                                                                        \
+    {                                                                                                                \
+        const iso_effect *effect;                                                                                    \
+        int e = iso_effects_none(effects) ? ISO_EFFECTS : 0;                                                         \
+        while ((effect = next(effects, &e)) && !(condition)) continue;                                               \
+        return effect;                                                                                               \
     }
-    return effect;
-}
 
-const iso_effect *iso_effects_ball_only(const iso_effects *effects)
-{
-    int e = 0;
-    const iso_effect *effect;
-    while ((effect = next_on(effects, &e)) && !effect->ball_only) {
-    }
-    return effect;
-}
-
-bool iso_effects_twist(const iso_effects *effects)
-{
-    const iso_effect *effect;
-    bool found = false;
-    if (iso_effects_none(effects)) return false;
-    for (int e = 0; (effect = next_on(effects, &e));) found = found || effect->twists;
-    return found;
-}
-
-bool iso_effects_clocks(const iso_effects *effects)
-{
-    const iso_effect *effect;
-    bool found = false;
-    for (int e = 0; (effect = next_on(effects, &e));) found = found || effect->clocks;
-    return found;
-}
-
-bool iso_effects_need_D(const iso_effects *effects)
-{
-    const iso_effect *effect;
-    bool found = false;
-    for (int e = 0; (effect = next_on(effects, &e));) found = found || effect->needs_D;
-    return found;
-}
-
-bool iso_effects_need_radius(const iso_effects *effects)
-{
-    const iso_effect *effect;
-    bool found = false;
-    for (int e = 0; (effect = next_on(effects, &e));) found = found || effect->needs_radius;
-    return found;
-}
-
-const iso_effect *iso_effects_beyond_level(const iso_effects *effects)
-{
-    int e = 0;
-    const iso_effect *effect;
-    while ((effect = next_acting(effects, &e)) && effect->is_level) {
-    }
-    return effect;
-}
+FIRST(const iso_effect *, iso_effects_breaking, next_acting, iso_effect_why_broken(effect))
+FIRST(const iso_effect *, iso_effects_beyond_level, next_acting, !effect->is_level)
+FIRST(const iso_effect *, iso_effects_ball_only, next_on, effect->ball_only)
+FIRST(bool, iso_effects_twist, next_on, effect->twists)
+FIRST(bool, iso_effects_clocks, next_on, effect->clocks)
+FIRST(bool, iso_effects_need_D, next_on, effect->needs_D)
+FIRST(bool, iso_effects_need_radius, next_on, effect->needs_radius)
+FIRST(bool, iso_effects_have_image, next_acting, effect->image)
+FIRST(bool, iso_effects_pull, next_acting, effect->potential)
 
 bool iso_effects_are_free(const iso_effects *effects)
 {
@@ -151,22 +117,6 @@ const iso_effect *iso_effects_without_frequencies(const iso_problem *f, const ch
     while (!*why && (effect = next_acting(&f->effects, &e)))
         *why = effect->no_frequencies ? effect->no_frequencies(f) : NULL;
     return *why ? effect : NULL;
-}
-
-bool iso_effects_have_image(const iso_effects *effects)
-{
-    const iso_effect *effect;
-    bool found = false;
-    for (int e = 0; (effect = next_acting(effects, &e));) found = found || effect->image;
-    return found;
-}
-
-bool iso_effects_pull(const iso_effects *effects)
-{
-    const iso_effect *effect;
-    bool pulls = false;
-    for (int e = 0; (effect = next_acting(effects, &e));) pulls = pulls || effect->potential;
-    return pulls;
 }
 
 bool iso_effects_keep(const iso_problem *f, iso_additional integral)
@@ -195,8 +145,7 @@ const iso_effect *iso_effects_taking_energy(const iso_problem *f)
 {
     int e = 0;
     const iso_effect *effect;
-    while ((effect = next_acting(&f->effects, &e)) && work_of(f, effect) != ISO_WORK_LOST) {
-    }
+    while ((effect = next_acting(&f->effects, &e)) && work_of(f, effect) != ISO_WORK_LOST) continue;
     return effect;
 }
 
@@ -347,36 +296,24 @@ double iso_effects_image(const iso_problem *f, const double y[])
     return iso_formula_image(&F, &f->p, y, NULL);
 }
 
-double iso_effects_strength(const iso_problem *f, const double y[])
-{
-    const iso_effect *effect;
-    double most = 0;
-    for (int e = 0; (effect = next_acting(&f->effects, &e));)
-        if (effect->strength) most = fmax(most, effect->strength(f, y));
-    return most;
-}
+/* The largest number that a function of the rows gives; 0: none has the function. */
+#define LARGEST(question, function, parameters, arguments)                                                           \
+    double question parameters                                                                                       \
+    {                                                                                                                \
+        const iso_effect *effect;                                                                                    \
+        double most = 0;                                                                                             \
+        for (int e = 0; (effect = next_acting(&f->effects, &e));)                                                    \
+            if (effect->function) most = fmax(most, effect->function arguments);                                     \
+        return most;                                                                                                 \
+    }
 
-double iso_effects_largest(const iso_problem *f, const double y[])
-{
-    const iso_effect *effect;
-    double most = 0;
-    for (int e = 0; (effect = next_acting(&f->effects, &e));)
-        if (effect->range) most = fmax(most, effect->range(f, y));
-    return most;
-}
+LARGEST(iso_effects_strength, strength, (const iso_problem *f, const double y[]), (f, y))
+LARGEST(iso_effects_largest, range, (const iso_problem *f, const double y[]), (f, y))
+LARGEST(iso_effects_stiffness, stiffness, (const iso_problem *f), (f))
 
 double iso_effects_range(const iso_problem *f, const double y[])
 {
     return fmax(iso_effects_strength(f, y), iso_effects_largest(f, y));
-}
-
-double iso_effects_stiffness(const iso_problem *f)
-{
-    const iso_effect *effect;
-    double most = 0;
-    for (int e = 0; (effect = next_acting(&f->effects, &e));)
-        if (effect->stiffness) most = fmax(most, effect->stiffness(f));
-    return most;
 }
 
 /* Everything that acts takes motion away, and something does. */

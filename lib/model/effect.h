@@ -81,7 +81,7 @@ typedef enum iso_work {
     ISO_WORK_LOST     /* it only decreases */
 } iso_work;
 
-/* The further integrals of the two systems (ball.c, point.c). */
+/* The additional integrals of the two systems (ball.c, point.c). */
 typedef enum iso_additional { ISO_F_PLANE, ISO_F_SHELL, ISO_F_AXIS1, ISO_F_AXIS2, ISO_F_AXIS3 } iso_additional;
 
 typedef struct iso_effect {
@@ -153,13 +153,7 @@ typedef struct iso_effect {
     const iso_integral *integrals; /* that come with it, ended by a row without a name; NULL: none                  */
 } iso_effect;
 
-/* The registry, in the order of iso_effect_id. */
-ISO_API extern const iso_effect *const iso_effect_list[ISO_EFFECTS];
-
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
-
-/* Where an effect's number stands: number->count doubles, as const as `effects` is. */
-ISO_API double *iso_effect_values(const iso_effects *effects, iso_effect_id id, const iso_effect_number *number);
 
 /* No effects; every number as it is where a scene does not state it. */
 ISO_API iso_effects iso_effects_default(void);
@@ -169,48 +163,18 @@ ISO_API iso_effects iso_effects_default(void);
 ISO_API iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *effect, const char *name,
                                    int count, const double values[]);
 
-/* The energy level of the point that an effect states, c of U = -c (n,J^-1 n)^(-1/k), and whether there is one. */
-ISO_API bool iso_effects_have_level(const iso_effects *effects);
-ISO_API double iso_effects_level(const iso_effects *effects);
-
-/* The name of the effect that states it. */
-ISO_API const char *iso_level_name(void);
-
 /* --- what they do to the motion --------------------------------------------------------------------------------- */
-
-/* Those that act, of effects that are settled; of a scene: iso_scene_acting (orbit/scene.h). */
-ISO_API iso_effects iso_effects_acting(const iso_effects *effects);
-
-/* The first effect that is idle; NULL: none. */
-ISO_API const iso_effect *iso_effects_idle(const iso_effects *effects);
-
-/* The first effect that breaks the isomorphism, and why; NULL: none. */
-ISO_API const iso_effect *iso_effects_breaking(const iso_effects *effects);
-ISO_API const char *iso_effect_why_broken(const iso_effect *effect);
-
-/* Whether a run ends where contact is lost. */
-ISO_API bool iso_effects_watch_contact(const iso_effects *effects);
-
-/* Whether one of them has an image: a potential on the point, beyond a level. */
-ISO_API bool iso_effects_have_image(const iso_effects *effects);
 
 /* --- columns ---------------------------------------------------------------------------------------------------- */
 
 enum { ISO_EFFECT_COLUMNS = 28 }; /* room for the columns of all effects */
 
-/* The columns of all effects, in the order of the registry: column i, from 0; its effect, its group and which of the
- * group it is (each may be NULL). NULL past the last. */
-ISO_API const char *iso_effect_column_name(int i, iso_effect_id *effect, const iso_effect_column **group,
-                                           int *in_group);
-
 /* --- integrals -------------------------------------------------------------------------------------------------- */
 
 enum { ISO_MAX_INTEGRALS = 24 };
 
-/* The integrals of a system that hold for a problem, those of its effects last: at most `most` into list, and how
- * many there are. */
-ISO_API int iso_integrals_holding(const iso_system *system, const iso_problem *f, const iso_integral *list[],
-                                  int most);
+/* The i-th effect, in the order of iso_effect_id; NULL past the last. */
+ISO_API const iso_effect *iso_effect_at(int i);
 
 ISO_C_END
 

@@ -11,7 +11,7 @@
 #include <math.h>
 
 #include "base/vec3_impl.h"
-#include "model/attitude_impl.h"
+#include "model/effects_impl.h"
 #include "model/formula_impl.h"
 #include "model/model_impl.h"
 

@@ -90,8 +90,7 @@ static bool keeps(const iso_problem *f, iso_additional integral)
 static iso_status check(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *e)
 {
     double *C = e->number[ISO_FIELD] + QUADRATIC, most = 0, varies = largest(e->number[ISO_FIELD] + LINEAR);
-    (void)p;
-    (void)n;
+    (void)p, (void)n;
     for (int i = 0; i < 9; i++) most = fmax(most, fabs(C[i]));
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < i; j++) {
@@ -117,9 +116,7 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
 static iso_status complete(iso_context *ctx, const iso_params *p, int model, double number[],
                            bool (*given)(const void *scene, const char *key), const void *scene)
 {
-    (void)p;
-    (void)model;
-    (void)number;
+    (void)p, (void)model, (void)number;
     if (given(scene, "quadratic") || given(scene, "linear")) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, "field", "missing 'quadratic' or 'linear' in 'field'");
 }

@@ -13,7 +13,7 @@
 #include <math.h>
 
 #include "base/vec3_impl.h"
-#include "model/attitude_impl.h"
+#include "model/effects_impl.h"
 #include "model/formula_impl.h"
 #include "model/model_impl.h"
 
@@ -135,8 +135,7 @@ static bool idle(const iso_params *p, const double n[3], const iso_effects *e)
 
 static iso_status check(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *e)
 {
-    (void)p;
-    (void)n;
+    (void)p, (void)n;
     if (e->number[ISO_GRAVITY][MGB] == 0)
         return iso_context_fail(ctx, ISO_BAD_INPUT, "gravity", "gravity of 0 changes nothing: take it out");
     if (e->on[ISO_REACTIONS] || !e->idle[ISO_GRAVITY]) return ISO_OK;

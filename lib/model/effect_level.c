@@ -3,8 +3,8 @@
  *     U = -c g^(-1/k),  g = (n, J^-1 n):     MQ = k n x dU/dn = 2 c g^(-1/k - 1) n x J^-1 n
  *
  * On the point U/G = -c det J/k^2 is a constant, which makes no force. The point's equations stay the same, but its
- * orbit is on the level H = c det J/k^2, not on H = 0. That level is the problem's `energy`. With three equal moments U
- * is a constant as well: the ball moves as a free one, and still its point has this H.
+ * orbit is on the level H = c det J/k^2, not on H = 0. That level is the problem's `energy`. With three equal moments
+ * U is a constant as well: the ball moves as a free one, and still its point has this H.
  */
 #include <math.h>
 
@@ -42,8 +42,7 @@ static double strength(const iso_problem *f, const double y[])
 
 static bool keeps(const iso_problem *f, iso_additional integral)
 {
-    (void)f;
-    (void)integral;
+    (void)f, (void)integral;
     return true;
 }
 
@@ -51,8 +50,7 @@ static bool keeps(const iso_problem *f, iso_additional integral)
 static iso_status complete(iso_context *ctx, const iso_params *p, int model, double number[],
                            bool (*given)(const void *scene, const char *key), const void *scene)
 {
-    (void)p;
-    (void)number;
+    (void)p, (void)number;
     if (model != 0 || given(scene, "c")) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, "level", "missing 'c' in 'level': a ball's energy does not tell it");
 }

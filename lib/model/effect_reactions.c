@@ -1,5 +1,5 @@
-/* effect_reactions.c - what the support does to the ball. It only observes: the motion, which these forces make, stays
- * as it is.
+/* effect_reactions.c - what the support does to the ball. It only observes: the motion, which these forces make,
+ * stays as it is.
  *
  *     a_c = b [ w' x n + w x n' + w x (w x n) ]          acceleration of the centre, in body axes
  *     N = m a_c - F,   F = -m g e under gravity           contact force

@@ -20,6 +20,7 @@
 #include "model/contact_impl.h"
 #include "model/effects_impl.h"
 #include "model/formula_impl.h"
+#include "model/integrals_impl.h"
 
 static double c_of(const iso_problem *f)
 {
@@ -152,21 +153,12 @@ static bool keeps_up(const iso_problem *f)
 }
 
 static const iso_integral integrals[] = {
-    {.name = "K.K",
-     .doc = "(K,K), K = J w - D (w,n) n, momentum about the contact; c = 0 and no torque",
-     .dimension = {2, 0, 2},
-     .holds = keeps_square,
-     .value = momentum_square},
-    {.name = "K.n",
-     .doc = "(K,n), k = 1, c = 0 and no rolling resistance",
-     .dimension = {1, 0, 1},
-     .holds = keeps_normal,
-     .value = momentum_normal},
-    {.name = "K.e",
-     .doc = "(K,e), c = 0 and no torque but the weight's",
-     .dimension = {1, 0, 1},
-     .holds = keeps_up,
-     .value = momentum_up},
+    ISO_INTEGRAL("K.K", 2, 0, 2, momentum_square, .holds = keeps_square,
+                 .doc = "(K,K), K = J w - D (w,n) n, momentum about the contact; c = 0 and no torque"),
+    ISO_INTEGRAL("K.n", 1, 0, 1, momentum_normal, .holds = keeps_normal,
+                 .doc = "(K,n), k = 1, c = 0 and no rolling resistance"),
+    ISO_INTEGRAL("K.e", 1, 0, 1, momentum_up, .holds = keeps_up,
+                 .doc = "(K,e), c = 0 and no torque but the weight's"),
     {0},
 };
 

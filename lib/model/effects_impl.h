@@ -108,7 +108,7 @@ bool iso_effects_are_free(const iso_effects *effects);
 /* Whether the effects have potentials, which move a ball that is at rest. */
 bool iso_effects_pull(const iso_effects *effects);
 
-/* Whether one of the further integrals survives all effects. */
+/* Whether one of the additional integrals survives all effects. */
 bool iso_effects_keep(const iso_problem *f, iso_additional integral);
 
 /* Whether the energy is conserved, and known from the state: on a plane the height is a state of `attitude`. */
@@ -142,5 +142,50 @@ int iso_effect_columns(void);
 
 /* Of effect `id`: its first column. */
 int iso_effect_first_column(iso_effect_id id);
+
+/* The registry, in the order of iso_effect_id. */
+extern const iso_effect *const iso_effect_list[ISO_EFFECTS];
+
+/* Where an effect's number stands: number->count doubles, as const as `effects` is. */
+double *iso_effect_values(const iso_effects *effects, iso_effect_id id, const iso_effect_number *number);
+
+/* The energy level of the point that an effect states, c of U = -c (n,J^-1 n)^(-1/k), and whether there is one. */
+bool iso_effects_have_level(const iso_effects *effects);
+double iso_effects_level(const iso_effects *effects);
+
+/* The name of the effect that states it. */
+const char *iso_level_name(void);
+
+/* Those that act, of effects that are settled; of a scene: iso_scene_acting (orbit/scene.h). */
+iso_effects iso_effects_acting(const iso_effects *effects);
+
+/* The first effect that is idle; NULL: none. */
+const iso_effect *iso_effects_idle(const iso_effects *effects);
+
+/* The first effect that breaks the isomorphism, and why; NULL: none. */
+const iso_effect *iso_effects_breaking(const iso_effects *effects);
+const char *iso_effect_why_broken(const iso_effect *effect);
+
+/* Whether a run ends where contact is lost. */
+bool iso_effects_watch_contact(const iso_effects *effects);
+
+/* Whether one of them has an image: a potential on the point, beyond a level. */
+bool iso_effects_have_image(const iso_effects *effects);
+
+/* The columns of all effects, in the order of the registry: column i, from 0; its effect, its group and which of the
+ * group it is (each may be NULL). NULL past the last. */
+const char *iso_effect_column_name(int i, iso_effect_id *effect, const iso_effect_column **group, int *in_group);
+
+/* The integrals of a system that hold for a problem, those of its effects last: at most `most` into list, and how
+ * many there are. */
+int iso_integrals_holding(const iso_system *system, const iso_problem *f, const iso_integral *list[], int most);
+
+/* --- how the ball stands in space: the states of `attitude` (effect_attitude.c) --------------------------------- */
+
+/* The vector v of body axes in space axes, by the quaternion Q (its rotation times |Q|^2). */
+void iso_turn_to_space(const double Q[4], const double v[3], double in_space[3]);
+
+/* The same as a formula. */
+iso_vector iso_in_space(iso_formula *F, const iso_problem *f, iso_vector v);
 
 #endif

@@ -1,14 +1,14 @@
-/* effects_numbers.c - the numbers of effects: where they stand, their units, the level, and whether they make sense.
- */
+/* effects_numbers.c - the numbers of effects: where they stand, their units, the level, whether they make sense; and
+ * their columns, counted through. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/nearest.h"
+#include "base/nearest_impl.h"
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
-#include "model/model.h"
+#include "model/model_impl.h"
 
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
 
@@ -274,4 +274,34 @@ iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double
         if (status == ISO_OK) status = check_equations(ctx, p, effects, e);
     }
     return status;
+}
+
+/* --- columns ---------------------------------------------------------------------------------------------------- */
+
+const char *iso_effect_column_name(int i, iso_effect_id *effect, const iso_effect_column **group, int *in_group)
+{
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_column *c = iso_effect_list[e]->columns; c && c->name; c++) {
+            if (i < c->count) {
+                if (effect) *effect = e;
+                if (group) *group = c;
+                if (in_group) *in_group = i;
+                return c->column[i];
+            }
+            i -= c->count;
+        }
+    return NULL;
+}
+
+int iso_effect_columns(void)
+{
+    return iso_effect_first_column(ISO_EFFECTS);
+}
+
+int iso_effect_first_column(iso_effect_id id)
+{
+    int count = 0;
+    for (iso_effect_id e = 0; e < id; e++)
+        for (const iso_effect_column *c = iso_effect_list[e]->columns; c && c->name; c++) count += c->count;
+    return count;
 }

@@ -3,6 +3,7 @@
 #define ISO_MODEL_INTEGRALS_IMPL_H
 
 #include "model/effects_impl.h"
+#include "model/model_impl.h"
 
 static inline bool holds_plane(const iso_problem *f)
 {
@@ -20,19 +21,22 @@ static inline bool holds_axis(const iso_problem *f, int axis)
     return iso_params_symmetric(&f->p, axis) && iso_effects_keep(f, (iso_additional)(ISO_F_AXIS1 + axis));
 }
 
-static inline bool holds_axis1(const iso_problem *f)
-{
-    return holds_axis(f, 0);
-}
+/* The same as functions of rows, for axis i = 1, 2, 3, and the integral f_axis(f, y, axis, size) of the file. */
+#define ISO_OF_AXIS(i)                                                                                               \
+    static bool holds_axis##i(const iso_problem *f)                                                                  \
+    {                                                                                                                \
+        return holds_axis(f, i - 1);                                                                                 \
+    }                                                                                                                \
+    static double f_axis##i(const iso_problem *f, const double y[], double *size)                                    \
+    {                                                                                                                \
+        return f_axis(f, y, i - 1, size);                                                                            \
+    }
 
-static inline bool holds_axis2(const iso_problem *f)
-{
-    return holds_axis(f, 1);
-}
-
-static inline bool holds_axis3(const iso_problem *f)
-{
-    return holds_axis(f, 2);
-}
+/* A row: name, dimension, value, further members; and that of F_axis i. */
+#define ISO_INTEGRAL(name_, a, b, c, value_, ...)                                                                    \
+    {                                                                                                                \
+        .name = name_, .dimension = {a, b, c}, .value = value_, __VA_ARGS__                                          \
+    }
+#define ISO_AXIS_INTEGRAL(i, doc_) ISO_INTEGRAL("F_axis" #i, 0, -1, 1, f_axis##i, .holds = holds_axis##i, .doc = doc_)
 
 #endif

@@ -144,19 +144,14 @@ static void record(iso_model *m)
     }
 }
 
-/* Whether an effect has a torque, as a formula or as a function. */
-static bool has_torques(const iso_model *m)
-{
-    return m->problem.motion.torques || m->without_formula != NULL;
-}
-
 /* Takes the plainest function that does it. A late rate needs omega', which only ball_rhs has. */
 static void choose_equations(iso_model *m)
 {
     const bool ball = m->system == &iso_system_ball;
     m->own_rhs = free_rhs;
     if (ball && m->followers > 0) m->own_rhs = free_rhs_followed;
-    if (ball && (has_torques(m) || m->problem.motion.late || m->contact == &iso_contact_twisting))
+    const iso_formula *motion = &m->problem.motion;
+    if (ball && (motion->torques || m->without_formula || motion->late || m->contact == &iso_contact_twisting))
         m->own_rhs = ball_rhs;
     if (!ball && m->problem.energy_formula.lines > 0) m->own_rhs = point_rhs;
 }
@@ -168,11 +163,6 @@ const char *iso_model_too_large(const iso_model *m)
     if (f->motion.overrun || f->energy_formula.overrun)
         return "the equations of the effects have more lines than there is room for (formula.h)";
     return f->motion.wrong ? f->motion.wrong : f->energy_formula.wrong;
-}
-
-const iso_effect *iso_model_without_formula(const iso_model *m)
-{
-    return m->without_formula;
 }
 
 iso_model iso_model_assemble(const iso_system *system, const iso_problem *problem, iso_clock clock,

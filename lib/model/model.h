@@ -38,17 +38,6 @@ struct iso_model {
     const iso_effect *without_formula; /* the first effect whose equations are no formula; NULL: none */
 };
 
-/* Assembles. Of problem->effects the point takes what has an image, the ball everything; problem->at is filled in.
- * with_clock[c] asks for clock c as a state; the independent clock is never one. */
-ISO_API iso_model iso_model_assemble(const iso_system *system, const iso_problem *problem, iso_clock clock,
-                                     const bool with_clock[ISO_CLOCKS]);
-
-/* The state at the start: the system's six numbers as they are, effects at their beginnings, clocks at 0. */
-ISO_API void iso_model_begin(const iso_model *m, const double start[ISO_STATE], double y[]);
-
-/* The name of state i, and why it is there: "" for the system's own. */
-ISO_API const char *iso_model_state_name(const iso_model *m, int i, const char **reason);
-
 ISO_C_END
 
 #endif

@@ -47,10 +47,6 @@ bool iso_params_steep(const iso_params *p);
 /* Why the model cannot be simulated: more effects than there is room for; NULL: it can. */
 const char *iso_model_too_large(const iso_model *m);
 
-/* The first of its effects whose equations are no formula: only methods that need nothing but y' can take it. NULL:
- * none. */
-const iso_effect *iso_model_without_formula(const iso_model *m);
-
 /* Restores the constraints of system and effects, and the energy where it is conserved; gives the relative size of
  * the correction. */
 double iso_model_project(const iso_model *m, double y[]);
@@ -63,7 +59,55 @@ void iso_model_size(const iso_model *m, const double y[], double size[]);
 bool iso_system_has_recurrences(const iso_system *system);
 
 /* The Jacobian in the system's own clock, moving x moving, row-major: that of the formulas,
- * iso_model_without_formula() must be NULL. */
+ * m->without_formula must be NULL. */
 void iso_model_slopes(const iso_model *m, const double y[], double jac[]);
+
+/* Assembles. Of problem->effects the point takes what has an image, the ball everything; problem->at is filled in.
+ * with_clock[c] asks for clock c as a state; the independent clock is never one. */
+iso_model iso_model_assemble(const iso_system *system, const iso_problem *problem, iso_clock clock,
+                             const bool with_clock[ISO_CLOCKS]);
+
+/* The state at the start: the system's six numbers as they are, effects at their beginnings, clocks at 0. */
+void iso_model_begin(const iso_model *m, const double start[ISO_STATE], double y[]);
+
+/* The name of state i, and why it is there: "" for the system's own. */
+const char *iso_model_state_name(const iso_model *m, int i, const char **reason);
+
+/* One own unit of a quantity of dimension d, in the caller's units: caller's number = own number * iso_unit().
+ * Infinite or zero when it does not fit a double. */
+double iso_unit(const iso_units *units, iso_dimension d);
+
+extern const iso_system iso_system_ball;
+extern const iso_system iso_system_point;
+
+/* The registry, ended by NULL. */
+extern const iso_system *const iso_systems[];
+
+/* Whether two moments of inertia are equal (to 4 units in the last place), making axis `axis` (0-2) one of symmetry.
+ */
+bool iso_params_symmetric(const iso_params *p, int axis);
+
+/* --- where a motion ends: what an integrator asks (rest.c) ------------------------------------------------------ */
+
+/* A ball that only loses motion comes to rest, and rests from then on. Three things follow, which no step of a method
+ * can find by itself:
+ * - At rest nothing changes but clocks, and these go on evenly: any time is one step away.
+ * - Backwards in time resistance drives the ball. It turns faster without end, and no number of steps is enough.
+ * - While a ball loses its motion, what a method has lost of a constraint stays. In the end that loss is all there
+ *   is. */
+
+/* Whether the model rests in state y, and stays there from then on. */
+bool iso_model_at_rest(const iso_model *m, const double y[]);
+
+/* y becomes the state a time dt after y, for a model at rest. One evaluation of m->rhs. */
+void iso_model_rest(const iso_model *m, double dt, double y[]);
+
+/* Whether the model, going backwards in time from y0, has come to a y from which it goes on ever faster. Returns what
+ * happens, in words; NULL: it does not. */
+const char *iso_model_speeds_up(const iso_model *m, const double y0[], const double y[]);
+
+/* Whether a state y, found by a method that does not restore constraints, has lost one so far that y is no answer any
+ * more. `tolerance` is that of the steps. Returns what is lost, in words; NULL: nothing. */
+const char *iso_model_lost(const iso_model *m, const double y[], double tolerance);
 
 #endif

@@ -7,15 +7,12 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/names_impl.h"
 #include "base/vec3_impl.h"
 
 const iso_dimension iso_dimension_h = {1, 0, 2}, iso_dimension_eps = {4, 0, 2};
 
-const char *iso_surface_name(int surface)
-{
-    static const char *const names[] = {"reduced", "plane", "outside", "inside", "shell"};
-    return surface >= 0 && surface < (int)(sizeof names / sizeof *names) ? names[surface] : NULL;
-}
+ISO_NAMES(iso_surface_name, int, "reduced", "plane", "outside", "inside", "shell")
 
 static bool is_positive(double x)
 {
@@ -120,8 +117,7 @@ iso_status iso_params_physical(iso_context *ctx, const iso_body *b, iso_params *
                                     "inequality); for k and J without a body use 'reduced:'",
                                     i + 1, I[i], j + 1, l + 1, I[j] + I[l]);
     }
-    const iso_status status = check_radii(ctx, b);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_radii(ctx, b));
     double J[3];
     const double D = b->mass * b->radius * b->radius;
     for (int i = 0; i < 3; i++) J[i] = I[i] + D;

@@ -72,10 +72,6 @@ typedef struct iso_units {
     iso_params own; /* the same ball, J in the unit J       */
 } iso_units;
 
-/* One own unit of a quantity of dimension d, in the caller's units: caller's number = own number * iso_unit().
- * Infinite or zero when it does not fit a double. */
-ISO_API double iso_unit(const iso_units *units, iso_dimension d);
-
 ISO_C_END
 
 #endif

@@ -105,20 +105,9 @@ static double f_axis(const iso_problem *f, const double y[], int axis, double *s
     return factor * y[axis];
 }
 
-static double f_axis1(const iso_problem *f, const double y[], double *size)
-{
-    return f_axis(f, y, 0, size);
-}
-
-static double f_axis2(const iso_problem *f, const double y[], double *size)
-{
-    return f_axis(f, y, 1, size);
-}
-
-static double f_axis3(const iso_problem *f, const double y[], double *size)
-{
-    return f_axis(f, y, 2, size);
-}
+ISO_OF_AXIS(1)
+ISO_OF_AXIS(2)
+ISO_OF_AXIS(3)
 
 /* As for the ball: at turning points M is small, and H cannot be restored by scaling M. */
 static double project(const iso_problem *f, double y[])
@@ -158,34 +147,16 @@ static void sample(iso_problem *f, iso_random *r, double y[ISO_STATE])
 static const char *const state_names[] = {"M1", "M2", "M3", "gamma1", "gamma2", "gamma3"};
 
 static const iso_integral integrals[] = {
-    {.name = "H", .doc = "energy M^2/2 - eps (gamma,J gamma)^(-1/k) (24)", .dimension = {4, -2, 2}, .value = energy},
-    {.name = "M.gamma", .known = ISO_ZERO, .doc = "(M,gamma) = 0 (19)", .dimension = {2, -1, 1}, .value = spin},
-    {.name = "|gamma|", .known = ISO_ONE, .doc = "point on the unit sphere: 1 (19)", .value = gamma_length},
-    {.name = "F_plane",
-     .doc = "(gamma',J^-1 gamma') + 2 H (gamma,J^-1 gamma), k = 1",
-     .dimension = {2, 0, 2},
-     .holds = holds_plane,
-     .value = f_plane},
-    {.name = "F_shell",
-     .doc = "(M,J M)/det J + 2 eps (gamma,J^-1 gamma), k = -1",
-     .dimension = {3, 0, 2},
-     .holds = holds_shell,
-     .value = f_shell},
-    {.name = "F_axis1",
-     .doc = "k M1/sqrt(J1 det J), J2 = J3",
-     .dimension = {0, -1, 1},
-     .holds = holds_axis1,
-     .value = f_axis1},
-    {.name = "F_axis2",
-     .doc = "k M2/sqrt(J2 det J), J3 = J1",
-     .dimension = {0, -1, 1},
-     .holds = holds_axis2,
-     .value = f_axis2},
-    {.name = "F_axis3",
-     .doc = "k M3/sqrt(J3 det J), J1 = J2",
-     .dimension = {0, -1, 1},
-     .holds = holds_axis3,
-     .value = f_axis3},
+    ISO_INTEGRAL("H", 4, -2, 2, energy, .doc = "energy M^2/2 - eps (gamma,J gamma)^(-1/k) (24)"),
+    ISO_INTEGRAL("M.gamma", 2, -1, 1, spin, .known = ISO_ZERO, .doc = "(M,gamma) = 0 (19)"),
+    ISO_INTEGRAL("|gamma|", 0, 0, 0, gamma_length, .known = ISO_ONE, .doc = "point on the unit sphere: 1 (19)"),
+    ISO_INTEGRAL("F_plane", 2, 0, 2, f_plane, .holds = holds_plane,
+                 .doc = "(gamma',J^-1 gamma') + 2 H (gamma,J^-1 gamma), k = 1"),
+    ISO_INTEGRAL("F_shell", 3, 0, 2, f_shell, .holds = holds_shell,
+                 .doc = "(M,J M)/det J + 2 eps (gamma,J^-1 gamma), k = -1"),
+    ISO_AXIS_INTEGRAL(1, "k M1/sqrt(J1 det J), J2 = J3"),
+    ISO_AXIS_INTEGRAL(2, "k M2/sqrt(J2 det J), J3 = J1"),
+    ISO_AXIS_INTEGRAL(3, "k M3/sqrt(J3 det J), J1 = J2"),
     {0},
 };
 

@@ -1,10 +1,10 @@
 /* rest.c - where a motion ends: the ball at rest, the ball that resistance drives backwards in time, and the
- * constraint that is lost while the motion dies away. See rest_impl.h.
+ * constraint that is lost while the motion dies away. See model_impl.h.
  *
  * Resistance takes motion out at the rate iso_effects_stiffness() > 0. Only the ball has resistance: it breaks the
  * isomorphism, so that no point has any.
  */
-#include "model/rest_impl.h"
+#include "model/model_impl.h"
 
 #include <math.h>
 

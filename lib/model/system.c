@@ -4,15 +4,17 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/names_impl.h"
 #include "base/vec3_impl.h"
 
 const iso_system *const iso_systems[] = {&iso_system_ball, &iso_system_point, NULL};
 
-const char *iso_clock_name(iso_clock clock)
+const iso_system *iso_system_at(int i)
 {
-    static const char *const names[ISO_CLOCKS] = {"t", "tau", "s"};
-    return names[clock];
+    return i == 0 || i == 1 ? iso_systems[i] : NULL;
 }
+
+ISO_NAMES(iso_clock_name, iso_clock, "t", "tau", "s")
 
 iso_dimension iso_clock_dimension(iso_clock clock)
 {

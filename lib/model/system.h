@@ -64,15 +64,8 @@ typedef struct iso_system {
     void (*sample)(iso_problem *f, iso_random *r, double y[ISO_STATE]);
 } iso_system;
 
-ISO_API extern const iso_system iso_system_ball;
-ISO_API extern const iso_system iso_system_point;
-
-/* The registry, ended by NULL. */
-ISO_API extern const iso_system *const iso_systems[];
-
-/* Whether two moments of inertia are equal (to 4 units in the last place), making axis `axis` (0-2) one of symmetry.
- */
-ISO_API bool iso_params_symmetric(const iso_params *p, int axis);
+/* The system of a ball (0) or of a point (1); NULL past the end. */
+ISO_API const iso_system *iso_system_at(int i);
 
 ISO_C_END
 

@@ -1,4 +1,5 @@
-/* batch.c - many orbits at once: threads take orbits in chunks, and solve a chunk in the lanes of vectors. */
+/* batch.c - many orbits at once: threads take orbits in chunks, and solve a chunk in the lanes of vectors. Samples go
+ * to the caller, or their columns to a table. */
 #include "orbit/batch.h"
 
 #include <math.h>
@@ -8,25 +9,38 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "method/integrator_impl.h"
+#include "orbit/lane_groups_impl.h"
 #include "orbit/orbit_impl.h"
-#include "orbit/pool_impl.h"
 
-/* Orbits that a thread takes at a time: enough to keep its lanes busy to the end. */
-enum { CHUNK = 256 };
+/* Orbits that a thread takes at a time: enough to keep its lanes busy to the end. For a table a thread has room for
+ * the samples of its chunk, which should stay in the cache; fewer orbits than LEAST would leave lanes empty. */
+enum { CHUNK = 256, LEAST = 64, ROOM = 1 << 22 };
+
+/* The status of an orbit that no thread has taken. */
+static const iso_status UNTOUCHED = (iso_status)-1;
 
 /* What all threads share. */
 typedef struct batch {
-    const iso_batch_orbit *orbits;
-    size_t rows;
-    const iso_batch_options *options;
+    const iso_batch_orbit *orbits; /* NULL: those of the scenes */
+    size_t count, rows;
+    iso_batch_options options;
     const double *times;
-    iso_sample *samples;
+    iso_sample *samples; /* NULL: they are only on the way to the table */
     iso_status *status;
     const iso_lane_code *code;
+    const iso_scene *const *scene;
+    size_t scenes;
+    const double *k, *J, *start; /* in place of the scenes'; NULL: theirs */
+    double *table;
+    int columns[ISO_MAX_COLUMNS], width;
 } batch;
 
 /* An orbit of a chunk: prepared, then solved by one of its lanes. */
 typedef struct member {
+    iso_batch_orbit given;
+    iso_params params; /* of a scene's orbit */
+    iso_start start;
+    iso_sample *sample; /* its rows */
     iso_orbit orbit;
     iso_lane_job job;
 } member;
@@ -51,10 +65,24 @@ static void note(iso_pool_worker *w, const batch *b, size_t i, iso_status status
     iso_pool_note(w, i, status);
 }
 
-static iso_orbit_options options_of(const batch *b, size_t i, iso_backend backend)
+static const iso_scene *scene_of(const batch *b, size_t i)
 {
-    const iso_batch_options *o = b->options;
-    return (iso_orbit_options){.effects = b->orbits[i].effects,
+    return b->scene[b->scenes == 1 ? 0 : i];
+}
+
+static iso_status choose(iso_context *ctx, const batch *b, size_t i, member *m)
+{
+    if (b->orbits) return m->given = b->orbits[i], ISO_OK;
+    const iso_scene *scene = scene_of(b, i);
+    m->given = (iso_batch_orbit){&m->params, &m->start, &scene->effects};
+    return iso_scene_replace(ctx, scene, b->k ? b->k + i : NULL, b->J ? b->J + 3 * i : NULL,
+                             b->start ? b->start + 6 * i : NULL, &m->params, &m->start);
+}
+
+static iso_orbit_options options_of(const batch *b, const member *m, iso_backend backend)
+{
+    const iso_batch_options *o = &b->options;
+    return (iso_orbit_options){.effects = m->given.effects,
                                .backend = backend,
                                .tolerance = o->tolerance,
                                .max_steps = o->max_steps,
@@ -65,29 +93,28 @@ static iso_orbit_options options_of(const batch *b, size_t i, iso_backend backen
 
 static iso_status prepare(iso_pool_worker *w, const batch *b, size_t i, member *m)
 {
-    const iso_batch_orbit *orbit = &b->orbits[i];
-    const iso_backend asked = b->options->backend;
-    iso_way way = iso_way_first(orbit->params, asked, asked, false);
-    iso_status status;
+    iso_status status = choose(w->ctx, b, i, m);
+    if (status != ISO_OK) return status;
+    const iso_backend asked = b->options.backend;
+    iso_way way = iso_way_first(m->given.params, asked, asked, false);
     do {
         memset(&m->orbit, 0, sizeof m->orbit);
         m->orbit.ctx = w->ctx;
-        m->orbit.options = options_of(b, i, way.backend);
-        status = iso_orbit_prepare(&m->orbit, orbit->params, orbit->start, m->job.start);
+        m->orbit.options = options_of(b, m, way.backend);
+        status = iso_orbit_prepare(&m->orbit, m->given.params, m->given.start, m->job.start);
     } while (iso_way_next(&way, status));
     return status == ISO_OK && b->rows > 0 ? iso_orbit_check_time(&m->orbit, b->times[b->rows - 1]) : status;
 }
 
-/* Follows an orbit alone, if lanes cannot hold it (iso_pool_suits). */
-static iso_status solve_alone(iso_pool_worker *w, const batch *b, size_t i)
+/* Follows an orbit alone, if lanes cannot hold it (iso_lanes_suit). */
+static iso_status solve_alone(iso_pool_worker *w, const batch *b, const member *m)
 {
-    const iso_orbit_options options = options_of(b, i, b->options->backend);
+    const iso_orbit_options options = options_of(b, m, b->options.backend);
     iso_orbit *orbit;
-    iso_status status = iso_orbit_create(w->ctx, b->orbits[i].params, b->orbits[i].start, &options, &orbit);
+    iso_status status = iso_orbit_create(w->ctx, m->given.params, m->given.start, &options, &orbit);
     for (size_t j = 0; j < b->rows && status == ISO_OK; j++) {
-        iso_sample *sample = &b->samples[i * b->rows + j];
-        status = iso_orbit_at(orbit, b->times[j], sample);
-        if (status != ISO_OK) iso_sample_blank(sample);
+        status = iso_orbit_at(orbit, b->times[j], &m->sample[j]);
+        if (status != ISO_OK) iso_sample_blank(&m->sample[j]);
     }
     iso_orbit_free(orbit);
     return status;
@@ -96,16 +123,15 @@ static iso_status solve_alone(iso_pool_worker *w, const batch *b, size_t i)
 /* --- a chunk of them -------------------------------------------------------------------------------------------- */
 
 /* The samples of what a lane has reached: each stands where its state did. */
-static iso_status finish(iso_pool_worker *w, const batch *b, size_t i, const member *m)
+static iso_status finish(iso_pool_worker *w, const batch *b, const member *m)
 {
     const iso_lane_job *job = &m->job;
-    if (job->error) iso_sample_blank(&b->samples[i * b->rows + job->done]);
+    if (job->error) iso_sample_blank(&m->sample[job->done]);
     for (size_t j = 0; j < job->done; j++) {
         double y[ISO_MAX_STATE];
-        iso_sample *sample = &b->samples[i * b->rows + j];
-        memcpy(y, sample, (size_t)m->orbit.model.dim * sizeof *y);
-        const iso_status status = iso_orbit_make_sample(&m->orbit, b->times[j], y, sample);
-        for (; status != ISO_OK && j < job->done; j++) iso_sample_blank(&b->samples[i * b->rows + j]);
+        memcpy(y, &m->sample[j], (size_t)m->orbit.model.dim * sizeof *y);
+        const iso_status status = iso_orbit_make_sample(&m->orbit, b->times[j], y, &m->sample[j]);
+        for (; status != ISO_OK && j < job->done; j++) iso_sample_blank(&m->sample[j]);
         if (status != ISO_OK) return status;
     }
     if (job->error)
@@ -114,43 +140,60 @@ static iso_status finish(iso_pool_worker *w, const batch *b, size_t i, const mem
     return job->done == b->rows ? ISO_OK : iso_context_stopped(w->ctx);
 }
 
-static void set_job(const batch *b, size_t i, member *m)
+static void set_job(const batch *b, member *m)
 {
     iso_lane_job *job = &m->job;
     job->model = &m->orbit.model;
-    job->unit = m->orbit.unit_clock[b->options->clock];
+    job->unit = m->orbit.unit_clock[b->options.clock];
     job->rows = b->rows;
     job->time = b->times;
-    job->states = (double *)&b->samples[i * b->rows];
+    job->states = (double *)m->sample;
     job->stride = sizeof(iso_sample) / sizeof(double);
 }
 
 static bool solve_members(iso_pool_worker *w, const batch *b, member members[], size_t first, size_t count)
 {
-    const iso_batch_options *o = b->options;
     iso_lane_job *jobs[CHUNK];
     bool in_lanes[CHUNK] = {false};
     size_t waiting = 0;
     for (size_t i = 0; i < count && iso_pool_goes_on(w); i++) {
         member *m = &members[i];
         iso_status status = prepare(w, b, first + i, m);
-        in_lanes[i] = status == ISO_OK && iso_pool_suits(&m->orbit);
-        if (status == ISO_OK && !in_lanes[i]) status = solve_alone(w, b, first + i);
+        in_lanes[i] = status == ISO_OK && iso_lanes_suit(&m->orbit);
+        if (status == ISO_OK && !in_lanes[i]) status = solve_alone(w, b, m);
         note(w, b, first + i, status);
         if (!in_lanes[i]) continue;
-        set_job(b, first + i, m);
+        set_job(b, m);
         jobs[waiting++] = &m->job;
     }
-    const bool memory = iso_pool_in_groups(w, b->code, o->tolerance, o->max_steps, jobs, waiting);
+    const bool memory = iso_lanes_in_groups(w, b->code, b->options.tolerance, b->options.max_steps, jobs, waiting);
     for (size_t i = 0; i < count; i++)
-        if (in_lanes[i]) note(w, b, first + i, finish(w, b, first + i, &members[i]));
+        if (in_lanes[i]) note(w, b, first + i, finish(w, b, &members[i]));
     return memory;
+}
+
+/* The samples of a chunk go to the table. Their numbers stand in the order of the columns. */
+static void take_columns(const batch *b, const iso_sample sample[], size_t first, size_t count)
+{
+    _Static_assert(sizeof(iso_sample) == ISO_TRAJECTORY_COLUMNS * sizeof(double), "an array of its columns");
+    const double *from = (const double *)sample;
+    double *to = b->table + first * b->rows * (size_t)b->width;
+    for (size_t i = 0; i < count * b->rows; i++, from += ISO_TRAJECTORY_COLUMNS)
+        for (int c = 0; c < b->width; c++) *to++ = from[b->columns[c]];
 }
 
 static bool solve_chunk(iso_pool_worker *w, void *data, size_t first, size_t count)
 {
+    const batch *b = data;
     member *members = calloc(count, sizeof *members);
-    const bool memory = members && solve_members(w, data, members, first, count);
+    if (b->table && !w->room) w->room = malloc(w->all->chunk * b->rows * sizeof(iso_sample) + 1);
+    iso_sample *samples = b->table ? w->room : b->samples + first * b->rows;
+    bool memory = members && (samples || !b->table);
+    for (size_t i = 0; memory && i < count; i++) members[i].sample = samples + i * b->rows;
+    for (size_t i = 0; memory && i < count * b->rows; i++) iso_sample_blank(&samples[i]);
+    memory = memory && solve_members(w, b, members, first, count);
+    if (memory && b->table) take_columns(b, samples, first, count);
+    for (size_t i = first; !memory && i < first + count; i++) b->status[i] = UNTOUCHED;
     free(members);
     return memory;
 }
@@ -180,25 +223,116 @@ static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_
     return ISO_OK;
 }
 
+/* An orbit that no thread has taken has no rows, and the status of the call. */
+static void leave(const batch *b, size_t i, iso_status answer)
+{
+    if (b->status && b->status[i] != UNTOUCHED) return;
+    if (b->status) b->status[i] = answer;
+    const size_t each = b->rows * (size_t)b->width;
+    for (size_t j = 0; b->table && j < each; j++) b->table[i * each + j] = NAN;
+    for (size_t j = 0; !b->table && j < b->rows; j++) iso_sample_blank(&b->samples[i * b->rows + j]);
+}
+
+/* Looks at the options, then solves all. */
+static iso_status run(iso_context *ctx, batch *b, const iso_batch_options *options, iso_status status[])
+{
+    const iso_batch_options defaults = iso_batch_defaults();
+    b->options = defaults;
+    iso_status answer = iso_options_take(ctx, "iso_batch_options", &b->options, sizeof defaults, options);
+    if (answer != ISO_OK) return answer;
+    b->code = iso_lane_code_find(b->options.vectors, false);
+    answer = check(ctx, &b->options, b->code, b->times, b->rows);
+    if (answer != ISO_OK) return answer;
+    const size_t fits = ROOM / ((b->rows + 1) * sizeof(iso_sample));
+    const size_t chunk = !b->table || fits > CHUNK ? CHUNK : fits < LEAST ? LEAST : fits;
+    iso_pool pool = {.what = "orbit", .count = b->count, .chunk = chunk, .solve = solve_chunk, .data = b};
+    const size_t threads = iso_pool_threads(b->options.threads, b->count, b->code->lanes);
+    b->status = status ? status : malloc((b->count + 1) * sizeof *b->status);
+    for (size_t i = 0; b->status && i < b->count; i++) b->status[i] = UNTOUCHED;
+    answer = b->status ? iso_pool_run(ctx, &pool, threads, b->status) : iso_context_no_memory(ctx, "a batch");
+    for (size_t i = 0; i < b->count; i++) leave(b, i, answer);
+    if (!status) free(b->status);
+    return answer;
+}
+
 iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
                          const iso_batch_options *options, const double times[], size_t rows, iso_sample samples[],
                          iso_status status[])
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_batch_options own = iso_batch_defaults();
-    iso_status checked = iso_options_take(ctx, "iso_batch_options", &own, sizeof own, options);
-    if (checked != ISO_OK) return checked;
-    const iso_lane_code *code = iso_lane_code_find(own.vectors, false);
-    checked = check(ctx, &own, code, times, rows);
-    if (checked != ISO_OK) return checked;
-    for (size_t i = 0; i < count * rows; i++) iso_sample_blank(&samples[i]);
-    const size_t threads = iso_pool_threads(own.threads, count, code->lanes);
-    batch b = {.orbits = orbits, .rows = rows, .options = &own, .times = times, .samples = samples, .code = code};
-    iso_pool pool = {.count = count, .chunk = CHUNK, .solve = solve_chunk, .data = &b};
-    b.status = status ? status : malloc((count + 1) * sizeof *b.status);
-    if (!b.status) return iso_context_no_memory(ctx, "a batch");
-    for (size_t i = 0; i < count; i++) b.status[i] = ISO_STOPPED;
-    checked = iso_pool_run(ctx, &pool, threads, b.status);
-    if (!status) free(b.status);
-    return checked;
+    batch b = {.orbits = orbits, .count = count, .rows = rows, .times = times, .samples = samples};
+    return run(ctx, &b, options, status);
+}
+
+/* --- scenes ----------------------------------------------------------------------------------------------------- */
+
+static bool same_columns(const batch *b, const iso_scene *scene)
+{
+    int columns[ISO_MAX_COLUMNS];
+    return iso_scene_columns(scene, columns) == b->width &&
+           memcmp(columns, b->columns, (size_t)b->width * sizeof *columns) == 0;
+}
+
+static iso_status check_scene(iso_context *ctx, const batch *b, size_t i)
+{
+    const iso_scene *first = scene_of(b, 0), *scene = scene_of(b, i);
+    const char *apart = !same_columns(b, scene)                    ? "columns"
+                        : scene->backend != first->backend         ? "backend"
+                        : scene->tolerance != first->tolerance     ? "tolerance"
+                        : scene->start.model != first->start.model ? "model of the start"
+                                                                   : NULL;
+    if (apart)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scenes", "scene %zu has another %s than scene 0", i, apart);
+    if (strcmp(scene->method, "auto") != 0 && strcmp(scene->method, "taylor") != 0)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method",
+                                "scene %zu: a batch is by method taylor, not '%s': run it by itself", i,
+                                scene->method);
+    if (iso_effects_watch_contact(&scene->effects))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scenes",
+                                "scene %zu: a batch does not see where contact is lost: write "
+                                "'reactions: {two_sided: true}', or run it by itself",
+                                i);
+    return iso_scene_check_columns(ctx, scene);
+}
+
+/* Options that all orbits share, from the first scene and its columns. */
+static iso_batch_options shared_options(const batch *b, int threads, const char *vectors)
+{
+    const iso_scene *scene = scene_of(b, 0);
+    iso_batch_options o = iso_batch_defaults();
+    bool ball = false, point = false;
+    for (int i = 0; i < b->width; i++) {
+        const int c = b->columns[i];
+        if (c < ISO_CLOCKS) o.with_clock[c] = true;
+        point = point || (c >= ISO_COLUMN_POINT && c < ISO_COLUMN_EFFECTS);
+        ball = ball || (c >= ISO_COLUMN_BALL && c < ISO_COLUMN_POINT) || c >= ISO_COLUMN_EFFECTS;
+    }
+    o.shown = ball && point ? ISO_SHOW_BOTH
+              : ball        ? ISO_SHOW_BALL
+              : point       ? ISO_SHOW_POINT
+                            : (iso_models)scene->start.model;
+    o.clock = scene->start.model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
+    o.backend = scene->backend;
+    o.tolerance = scene->tolerance;
+    o.threads = threads;
+    o.vectors = vectors;
+    return o;
+}
+
+iso_status iso_batch_table(iso_context *ctx, const iso_scene *const scene[], size_t scenes, size_t count,
+                           const double k[], const double J[], const double start[], const double times[],
+                           size_t rows, int threads, const char *vectors, double table[], iso_status status[])
+{
+    ISO_DEFAULT_ARITHMETIC;
+    batch b = {.count = count, .rows = rows, .times = times, .scene = scene, .scenes = scenes};
+    b.k = k, b.J = J, b.start = start, b.table = table;
+    if (scenes == 0 || (scenes != 1 && scenes != count))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scenes",
+                                "%zu scenes for %zu orbits: give one, or one for each", scenes, count);
+    if (count == 0) return ISO_OK;
+    b.width = iso_scene_columns(scene_of(&b, 0), b.columns);
+    iso_status answer = ISO_OK;
+    for (size_t i = 0; answer == ISO_OK && i < scenes; i++) answer = check_scene(ctx, &b, i);
+    const iso_batch_options o = shared_options(&b, threads, vectors);
+    return answer == ISO_OK ? run(ctx, &b, &o, status) : answer;
 }

@@ -60,6 +60,24 @@ ISO_API iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[
                                  const iso_batch_options *options, const double times[], size_t rows,
                                  iso_sample samples[], iso_status status[]);
 
+/* The same for `count` orbits of scenes, in the scenes' own columns: row j of orbit i is number i rows + j of
+ * table[], which has room for count x rows x columns.
+ * scene[]: `scenes` of them, 1 for all orbits or `count`. They agree in columns, backend, tolerance and the model of
+ *   the start. The method is `taylor`, in lanes: scenes with another one are refused.
+ * k, J, start: NULL, or what replaces the scenes': count numbers; 3 count; 6 count (see iso_scene_replace). One that
+ *   makes no sense is the failure of that orbit alone.
+ * times: t for a ball's scene, s for a point's.
+ * Units, in any consistent system: k, n and gamma have none; J mass length^2; omega 1/time; t time;
+ *   s (unit of J)^(1/(2k) - 2) time; M 1/(unit of s); eps (unit of J)^4/time^2.
+ * threads, vectors: as in the options.
+ * ISO_STOPPED and ISO_NO_MEMORY are also the status of every orbit that was not followed therefore. Other errors of a
+ * call that makes no sense leave table[] and status[] as they were: about "scenes" also that they do not agree, or a
+ * ball could lose contact (reactions without two_sided: only a run watches this). */
+ISO_API iso_status iso_batch_table(iso_context *ctx, const iso_scene *const scene[], size_t scenes, size_t count,
+                                   const double k[], const double J[], const double start[], const double times[],
+                                   size_t rows, int threads, const char *vectors, double table[],
+                                   iso_status status[]);
+
 /* The vectors of this processor, widest first: "avx512", "avx2", "plain", and how many orbits stand in one (lanes may
  * be NULL); NULL past the end. */
 ISO_API const char *iso_batch_vectors(int i, int *lanes);

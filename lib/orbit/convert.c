@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
@@ -54,9 +55,8 @@ iso_status iso_conversion_put(iso_conversion *c, const double row[], size_t line
     ISO_DEFAULT_ARITHMETIC;
     conversion_row r = {.line = line};
     c->summary.rows++;
-    iso_status status = settle_effects(c, row);
-    if (status != ISO_OK) return status;
-    status = iso_conversion_read_row(c, row, &r);
+    ISO_TRY(settle_effects(c, row));
+    iso_status status = iso_conversion_read_row(c, row, &r);
     if (status != ISO_OK) return is_eps_wrong(c, &r) ? status : iso_conversion_bad(c, line, status);
     c->good++;
     if (!c->begun) status = begin(c, &r);
@@ -82,6 +82,31 @@ iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *summary
     if (c->first_words) return iso_context_fail(c->ctx, c->first_failure, "", "%s", c->first_words);
     return iso_context_fail(c->ctx, ISO_BAD_INPUT, "",
                             c->summary.rows ? "no row could be read" : "the trajectory has no rows");
+}
+
+static void add_worst(iso_worst *all, const iso_worst *one)
+{
+    if (one->line > 0) iso_worst_note(all, one->value, one->line);
+}
+
+void iso_conversion_summary_add(iso_conversion_summary *all, const iso_conversion_summary *one)
+{
+    const iso_conversion_summary before = *all;
+    *all = *one;
+    if (before.rows == 0) return;
+    all->rows += before.rows;
+    all->bad += before.bad;
+    add_worst(&all->constraint, &before.constraint);
+    add_worst(&all->energy, &before.energy);
+    add_worst(&all->defect, &before.defect);
+    add_worst(&all->drift, &before.drift);
+    all->checked = all->checked || before.checked;
+    all->between += before.between;
+    all->integrated += before.integrated;
+    all->error = fmax(all->error, before.error);
+    if (before.stated_count == 0) return;
+    all->stated_count = before.stated_count;
+    memcpy(all->stated, before.stated, sizeof before.stated);
 }
 
 /* --- beginning and end ------------------------------------------------------------------------------------------ */
@@ -128,6 +153,7 @@ iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, con
     iso_conversion_options own = iso_conversion_defaults();
     iso_status status = iso_options_take(ctx, "iso_conversion_options", &own, sizeof own, options);
     c->tolerance = own.tolerance;
+    c->row_tolerance = own.row_tolerance > 0 ? own.row_tolerance : iso_record_row_tolerance(header);
     c->shift_J = own.shift_J;
     if (status == ISO_OK) status = find_columns(c);
     if (status == ISO_OK && c->shift_J && (c->from != ISO_POINT || params->k != -1))
@@ -165,10 +191,7 @@ static iso_status keep_header(void *data, const iso_record *header)
 static iso_status keep_row(void *data, const double row[])
 {
     whole *w = data;
-    double *to;
-    const iso_status status = iso_record_append(w->ctx, w->out, &to);
-    if (status == ISO_OK) copy(row, to, (int)iso_record_columns(w->out));
-    return status;
+    return iso_record_add(w->ctx, w->out, 1, row);
 }
 
 static iso_status stop_at(void *data, size_t line, iso_status why, const char *words)
@@ -179,17 +202,24 @@ static iso_status stop_at(void *data, size_t line, iso_status why, const char *w
 iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
                        double tolerance, iso_record **out)
 {
+    iso_conversion_options options = iso_conversion_defaults();
+    options.tolerance = tolerance;
+    return iso_convert_as(ctx, params, in, to, &options, NULL, out);
+}
+
+iso_status iso_convert_as(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
+                          const iso_conversion_options *options, iso_conversion_summary *summary, iso_record **out)
+{
     ISO_DEFAULT_ARITHMETIC;
     whole w = {.ctx = ctx};
     const iso_conversion_target target = {keep_header, keep_row, stop_at, &w};
     iso_conversion *c;
     *out = NULL;
-    const iso_conversion_options options = {.tolerance = tolerance};
-    iso_status status = iso_conversion_create(ctx, params, in, to, &options, &target, &c);
+    iso_status status = iso_conversion_create(ctx, params, in, to, options, &target, &c);
     if (status != ISO_OK) return status;
     for (size_t row = 0; status == ISO_OK && row < iso_record_rows(in); row++)
-        status = iso_conversion_put(c, iso_record_const_row(in, row), row + 1);
-    if (status == ISO_OK) status = iso_conversion_end(c, NULL);
+        status = iso_conversion_put(c, iso_record_const_row(in, row), row + options->first_row);
+    if (status == ISO_OK) status = iso_conversion_end(c, summary);
     iso_conversion_free(c);
     if (status == ISO_OK)
         *out = w.out;

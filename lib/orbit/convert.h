@@ -80,6 +80,8 @@ typedef struct iso_conversion_options {
      * J + E/eps, where E is the energy of the first row: the same motion. false: it becomes a ball in the potential
      * of the effect `level`. */
     bool shift_J;
+    double row_tolerance; /* 0: that of the header                                                            */
+    size_t first_row;     /* its number in messages about a whole record, and in its summary                  */
 } iso_conversion_options;
 
 /* Tolerance 1e-14, J as it is. */
@@ -88,49 +90,9 @@ static inline iso_conversion_options iso_conversion_defaults(void)
     iso_conversion_options o = ISO_ALL_ZERO;
     o.size = sizeof o;
     o.tolerance = 1e-14;
+    o.first_row = 1;
     return o;
 }
-
-/* header: columns, lines and row tolerance of what is converted. It and params must outlive the conversion; lines
- * may be added to it meanwhile. It must have the six columns of one model. The clock of the result is
- * - the column of the header, if it has the other model's clock;
- * - else computed, from the line `t0` or `s0` of an earlier conversion on, or from 0;
- * - none, if the header has no clock.
- * Errors: ISO_BAD_INPUT about columns or lines, ISO_NOT_MAPPED about an effect that breaks the isomorphism,
- * ISO_BAD_ARGUMENT (shift_J without a point, or with k other than -1), ISO_NO_MEMORY. */
-ISO_API iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header,
-                                         iso_model_kind to, const iso_conversion_options *options,
-                                         const iso_conversion_target *target, iso_conversion **conversion);
-ISO_API void iso_conversion_free(iso_conversion *conversion);
-
-/* The next row. The first good one is held against the lines: where h, eps or c of a level does not fit it beyond
- * rounding, the result states the row's own number, and the summary tells. Of the three the one is off that the other
- * two and the row contradict. A point off the level H = 0 becomes a ball in the potential of the effect `level`,
- * which the lines of the result then name. A bad row goes to target->bad: it is no state, it is at rest, its time
- * turns back, or its energy is not that of the rows before. Errors: the status of the target; ISO_NO_MEMORY,
- * ISO_STOPPED. */
-ISO_API iso_status iso_conversion_put(iso_conversion *conversion, const double row[], size_t line);
-
-/* Call this in the place of a row that could not even be read. */
-ISO_API iso_status iso_conversion_skip(iso_conversion *conversion);
-
-/* Call this after the last row. summary may be NULL. Errors: as for a row; if no row could be converted, the reason
- * for the first one. */
-ISO_API iso_status iso_conversion_end(iso_conversion *conversion, iso_conversion_summary *summary);
-
-/* The drift that the rows of an orbit may have is the largest of
- * - 1e-5, what six digits make of it; rows of other equations, a thousandth beside the stated ones, drift by more;
- * - a hundred times the tolerance with which the header says they were made;
- * - ten times the row tolerance, where that is wider than ISO_ROW_TOLERANCE: the rows then have few digits. */
-ISO_API double iso_conversion_largest_drift(iso_context *ctx, const iso_record *header, double row_tolerance);
-
-/* The two lines that say how the other clock was computed, and its error. False: it was not computed. */
-ISO_API bool iso_conversion_clock_lines(const iso_conversion_summary *summary, char key[2][ISO_NAME_SIZE],
-                                        char value[2][160]);
-
-/* What is to be told of the line summary->stated[i]; false: there is none. */
-enum { ISO_STATED_SIZE = 240 };
-ISO_API bool iso_conversion_stated_words(const iso_conversion_summary *summary, int i, char words[ISO_STATED_SIZE]);
 
 /* --- whole ------------------------------------------------------------------------------------------------------ */
 
@@ -142,6 +104,11 @@ ISO_API bool iso_conversion_stated_words(const iso_conversion_summary *summary, 
  * - ISO_NUMERICAL, ISO_NO_MEMORY. */
 ISO_API iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
                                double tolerance, iso_record **out);
+
+/* The same with all options, and a summary (may be NULL). */
+ISO_API iso_status iso_convert_as(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
+                                  const iso_conversion_options *options, iso_conversion_summary *summary,
+                                  iso_record **out);
 
 ISO_C_END
 

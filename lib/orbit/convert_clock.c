@@ -144,8 +144,7 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
     iso_conversion_summary *s = &c->summary;
     if (c->trouble != ISO_OK) return c->trouble;
     if (c->unwritten) {
-        const iso_status status = write_first(c);
-        if (status != ISO_OK) return status;
+        ISO_TRY(write_first(c));
     }
     c->doubted = 0;
     by_steps ? s->integrated++ : s->between++;
@@ -283,8 +282,7 @@ static iso_status decide(iso_conversion *c, const conversion_row *next)
 iso_status iso_conversion_follow(iso_conversion *c, const conversion_row *row)
 {
     iso_gap gap;
-    iso_status status = c->is_held ? decide(c, row) : ISO_OK;
-    if (status != ISO_OK) return status;
+    ISO_TRY(c->is_held ? decide(c, row) : ISO_OK);
     if (!c->has_last) {
         c->has_last = true;
         c->last = *row;

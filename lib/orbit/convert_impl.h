@@ -23,7 +23,7 @@ struct iso_conversion {
     const iso_record *in;
     iso_conversion_target target;
     iso_model_kind from;
-    double tolerance;
+    double tolerance, row_tolerance;
     bool shift_J;
     iso_params shifted;           /* what params then points to                                          */
     int state[ISO_STATE];         /* columns of the model converted from                                 */
@@ -80,9 +80,9 @@ void iso_worst_note(iso_worst *worst, double value, size_t line);
 
 /* --- convert_stated.c: what the lines state of the energy; calls none of the others --- */
 
-/* Holds the lines against the first row, whose orbit c->first gives the units: notes in the summary what is off, mends
- * c of the level. True: the orbit of the row has the row's own energy, which is near the stated one or takes its
- * place; false: that of a point is another. */
+/* Holds the lines against the first row, whose orbit c->first gives the units: notes in the summary what is off,
+ * mends c of the level. True: the orbit of the row has the row's own energy, which is near the stated one or takes
+ * its place; false: that of a point is another. */
 bool iso_conversion_reconcile(iso_conversion *c, const conversion_row *r);
 
 /* How well energies of rows agree, relative: 1e-6. With a wider row tolerance the caller says that the rows have
@@ -112,5 +112,49 @@ iso_status iso_conversion_follow(iso_conversion *c, const conversion_row *row);
 
 /* No row comes behind the held one. */
 iso_status iso_conversion_settle(iso_conversion *c);
+
+/* header: columns, lines and row tolerance of what is converted. It and params must outlive the conversion; lines
+ * may be added to it meanwhile. It must have the six columns of one model. The clock of the result is
+ * - the column of the header, if it has the other model's clock;
+ * - else computed, from the line `t0` or `s0` of an earlier conversion on, or from 0;
+ * - none, if the header has no clock.
+ * Errors: ISO_BAD_INPUT about columns or lines, ISO_NOT_MAPPED about an effect that breaks the isomorphism,
+ * ISO_BAD_ARGUMENT (shift_J without a point, or with k other than -1), ISO_NO_MEMORY. */
+iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header,
+                                 iso_model_kind to, const iso_conversion_options *options,
+                                 const iso_conversion_target *target, iso_conversion **conversion);
+void iso_conversion_free(iso_conversion *conversion);
+
+/* The next row. The first good one is held against the lines: where h, eps or c of a level does not fit it beyond
+ * rounding, the result states the row's own number, and the summary tells. Of the three the one is off that the other
+ * two and the row contradict. A point off the level H = 0 becomes a ball in the potential of the effect `level`,
+ * which the lines of the result then name. A bad row goes to target->bad: it is no state, it is at rest, its time
+ * turns back, or its energy is not that of the rows before. Errors: the status of the target; ISO_NO_MEMORY,
+ * ISO_STOPPED. */
+iso_status iso_conversion_put(iso_conversion *conversion, const double row[], size_t line);
+
+/* Call this in the place of a row that could not even be read. */
+iso_status iso_conversion_skip(iso_conversion *conversion);
+
+/* Call this after the last row. summary may be NULL. Errors: as for a row; if no row could be converted, the reason
+ * for the first one. */
+iso_status iso_conversion_end(iso_conversion *conversion, iso_conversion_summary *summary);
+
+/* Adds the summary of one more orbit of a file to those before it: sums, and the worst of all. */
+void iso_conversion_summary_add(iso_conversion_summary *all, const iso_conversion_summary *one);
+
+/* The drift that the rows of an orbit may have is the largest of
+ * - 1e-5, what six digits make of it; rows of other equations, a thousandth beside the stated ones, drift by more;
+ * - a hundred times the tolerance with which the header says they were made;
+ * - ten times the row tolerance, where that is wider than ISO_ROW_TOLERANCE: the rows then have few digits. */
+double iso_conversion_largest_drift(iso_context *ctx, const iso_record *header, double row_tolerance);
+
+/* The two lines that say how the other clock was computed, and its error. False: it was not computed. */
+bool iso_conversion_clock_lines(const iso_conversion_summary *summary, char key[2][ISO_NAME_SIZE],
+                                char value[2][160]);
+
+/* What is to be told of the line summary->stated[i]; false: there is none. */
+enum { ISO_STATED_SIZE = 240 };
+bool iso_conversion_stated_words(const iso_conversion_summary *summary, int i, char words[ISO_STATED_SIZE]);
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "base/vec3_impl.h"
 #include "orbit/convert_impl.h"
+#include "orbit/orbit_impl.h"
 
 /* Lines for the first value of a clock that the result has no column for. */
 static const char *const origin_line[] = {[ISO_CLOCK_T] = "t0", [ISO_CLOCK_S] = "s0"};

@@ -14,7 +14,7 @@
 iso_status iso_conversion_start(const iso_conversion *c, const double y[ISO_STATE], iso_start *start)
 {
     return iso_start_from_row(c->ctx, c->from, y, isnan(c->stated_eps) ? NULL : &c->stated_eps, false,
-                              iso_record_row_tolerance(c->in), start);
+                              c->row_tolerance, start);
 }
 
 iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *row, bool clock, iso_orbit **orbit)
@@ -94,12 +94,6 @@ static iso_status map_state(const iso_conversion *c, conversion_row *r)
     return iso_context_fail(c->ctx, ISO_NUMERICAL, "", "the result does not fit a double: use other units of time");
 }
 
-/* The other clock, where the file has it. */
-static void given_clock(const iso_conversion *c, const double row[], conversion_row *r)
-{
-    if (c->other_column >= 0) r->out[0] = row[c->other_column];
-}
-
 /* --- the first row ---------------------------------------------------------------------------------------------- */
 
 static iso_status create_first(iso_conversion *c, const iso_start *start, bool clock)
@@ -111,24 +105,23 @@ static iso_status create_first(iso_conversion *c, const iso_start *start, bool c
     return status;
 }
 
-/* The orbit of the first row. Where its energy is not the stated one, it gets its own. But a point whose energy is far
- * from the stated one is another one: without a level in the lines it gets the level of its energy, with one it is
- * refused. */
+/* The orbit of the first row. Where its energy is not the stated one, it gets its own. But a point whose energy is
+ * far from the stated one is another one: without a level in the lines it gets the level of its energy, with one it
+ * is refused. */
 static iso_status open_first(iso_conversion *c, const conversion_row *r)
 {
     iso_start start;
     const bool clock = c->own_column >= 0, level = iso_effects_have_level(&c->effects);
-    iso_status status = iso_conversion_start(c, r->y, &start);
+    ISO_TRY(iso_conversion_start(c, r->y, &start));
     const double eps = start.eps;
     if (level) start.eps = NAN;
-    if (status == ISO_OK) status = create_first(c, &start, clock);
-    if (status != ISO_OK) return status;
+    ISO_TRY(create_first(c, &start, clock));
     const bool own = iso_conversion_reconcile(c, r);
     const iso_effects found = iso_orbit_effects(c->first);
     const bool fits = own ? !c->replaces && iso_effects_have_level(&found) == level : !level;
     start.eps = own ? NAN : eps;
-    if (!fits) status = create_first(c, &start, clock);
-    if (status != ISO_OK || c->from == ISO_BALL) return status;
+    if (!fits) ISO_TRY(create_first(c, &start, clock));
+    if (c->from == ISO_BALL) return ISO_OK;
     if (own && !isnan(c->stated_eps)) c->stated_eps = iso_orbit_coupling(c->first);
     if (!level) c->effects = iso_orbit_effects(c->first);
     return ISO_OK;
@@ -155,9 +148,8 @@ static iso_status shift_moments(iso_conversion *c, const conversion_row *r)
 
 static iso_status open_units(iso_conversion *c, const conversion_row *r)
 {
-    iso_status status = shift_moments(c, r);
-    if (status == ISO_OK) status = open_first(c, r);
-    if (status != ISO_OK) return status;
+    ISO_TRY(shift_moments(c, r));
+    ISO_TRY(open_first(c, r));
     const double unit_M = iso_unit(&c->units, iso_system_point.fast_dimension);
     c->unit_from = c->from == ISO_BALL ? c->units.w : unit_M;
     c->unit_to = c->from == ISO_BALL ? unit_M : c->units.w;
@@ -179,15 +171,14 @@ iso_status iso_conversion_read_row(iso_conversion *c, const double row[], conver
     iso_start start;
     for (int i = 0; i < ISO_STATE; i++) r->y[i] = row[c->state[i]];
     r->time = c->own_column >= 0 ? row[c->own_column] : 0;
-    iso_status status = check_finite(c, row);
-    if (status == ISO_OK) status = iso_conversion_start(c, r->y, &start);
-    if (status == ISO_OK && !c->begun) status = open_units(c, r);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_finite(c, row));
+    ISO_TRY(iso_conversion_start(c, r->y, &start));
+    if (!c->begun) ISO_TRY(open_units(c, r));
     copy(r->y, r->own, ISO_STATE);
     for (int i = 0; i < 3; i++) r->own[i] /= c->unit_from;
-    status = check_energy(c, r);
-    if (status == ISO_OK) status = map_state(c, r);
-    if (status == ISO_OK) note_constraints(c, r);
-    given_clock(c, row, r);
-    return status;
+    ISO_TRY(check_energy(c, r));
+    ISO_TRY(map_state(c, r));
+    note_constraints(c, r);
+    if (c->other_column >= 0) r->out[0] = row[c->other_column];
+    return ISO_OK;
 }

@@ -20,8 +20,7 @@ typedef struct account {
 
 double iso_conversion_digits(const iso_conversion *c)
 {
-    const double tolerance = iso_record_row_tolerance(c->in);
-    return tolerance > ISO_ROW_TOLERANCE ? 10 * tolerance : 1e-6;
+    return c->row_tolerance > ISO_ROW_TOLERANCE ? 10 * c->row_tolerance : 1e-6;
 }
 
 /* --- how exact a row is ----------------------------------------------------------------------------------------- */

@@ -1,4 +1,5 @@
-/* crossings.c - many orbits from crossing to crossing: checks the options, follows the orbits in lanes or one by one. */
+/* crossings.c - many orbits from crossing to crossing: checks the options, follows the orbits in lanes or one by
+ * one. */
 #include "orbit/crossings.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/crossings_impl.h"
-#include "orbit/pool_impl.h"
+#include "orbit/lane_groups_impl.h"
 
 /* --- making ----------------------------------------------------------------------------------------------------- */
 
@@ -143,7 +144,7 @@ static bool follow_chunk(iso_pool_worker *w, void *data, size_t first, size_t co
 static iso_status one_by_one(iso_crossings *c, const iso_crossings_task *t, const bool taken[])
 {
     loners l = {c, t, taken};
-    iso_pool pool = {.count = c->count, .chunk = 1, .solve = follow_chunk, .data = &l};
+    iso_pool pool = {.what = "orbit", .count = c->count, .chunk = 1, .solve = follow_chunk, .data = &l};
     size_t alone = 0;
     for (size_t i = 0; i < c->count; i++) alone += !taken[i];
     if (alone == 0) return ISO_OK;

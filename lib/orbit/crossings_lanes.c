@@ -13,8 +13,8 @@
 #include "method/integrator_impl.h"
 #include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
+#include "orbit/lane_groups_impl.h"
 #include "orbit/orbit_impl.h"
-#include "orbit/pool_impl.h"
 
 /* CHUNK: orbits that a thread takes at a time. BYTES: its room for their crossings. */
 enum { CHUNK = 64, BYTES = 1 << 24 };
@@ -73,7 +73,7 @@ static iso_status prepare(iso_pool_worker *w, const iso_crossings *c, size_t i, 
 /* Whether lanes can follow the orbit: on a global section, or in equal steps of a clock. */
 static bool suits(const iso_crossings *c, const struct iso_crossings_lane *lane, const iso_crossed *o)
 {
-    if (!iso_pool_suits(&lane->orbit) || c->options.kind == ISO_SECTION_COLUMN) return false;
+    if (!iso_lanes_suit(&lane->orbit) || c->options.kind == ISO_SECTION_COLUMN) return false;
     if (c->options.kind == ISO_SECTION_CLOCK) return true;
     return lane->has_clocks && isfinite(o->bound[0]) && isfinite(o->bound[1]);
 }
@@ -295,7 +295,7 @@ static bool pass(iso_pool_worker *w, const follower *f, size_t first, size_t cou
         orbit[(*waiting)++] = i;
     }
     const size_t solved = *waiting;
-    const bool memory = iso_pool_in_groups(w, f->code, o->tolerance, o->max_steps, jobs, solved);
+    const bool memory = iso_lanes_in_groups(w, f->code, o->tolerance, o->max_steps, jobs, solved);
     for (size_t j = 0; j < solved; j++) {
         const size_t i = orbit[j];
         t->status[i] = finish(w, f, i);
@@ -331,7 +331,7 @@ iso_status iso_crossings_in_lanes(iso_crossings *c, const iso_crossings_task *ta
 {
     follower f = {c, task, iso_lane_code_find(c->options.vectors, c->options.deviations), taken};
     const size_t threads = iso_pool_threads(c->options.threads, c->count, f.code->lanes);
-    iso_pool pool = {.count = c->count, .chunk = CHUNK, .solve = solve_chunk, .data = &f};
+    iso_pool pool = {.what = "orbit", .count = c->count, .chunk = CHUNK, .solve = solve_chunk, .data = &f};
     if (task->each == 0 || c->options.kind == ISO_SECTION_COLUMN) return ISO_OK;
     return iso_pool_run(c->ctx, &pool, threads, NULL);
 }

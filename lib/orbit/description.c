@@ -6,10 +6,11 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/nearest.h"
+#include "base/nearest_impl.h"
 #include "base/vec3_impl.h"
+#include "base/version.h"
 #include "map/state.h"
-#include "model/attitude_impl.h"
+#include "model/effects_impl.h"
 #include "model/model_impl.h"
 
 void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const iso_effect_number *n)
@@ -69,8 +70,7 @@ iso_status iso_record_params(iso_context *ctx, const iso_record *r, iso_params *
     if (status != ISO_OK) return status;
     if (has_k && has_J) {
         double D;
-        status = iso_params_reduced(ctx, k, J, p);
-        if (status != ISO_OK) return status;
+        ISO_TRY(iso_params_reduced(ctx, k, J, p));
         if (iso_record_get_numbers(ctx, r, "D", 1, &D, &status)) status = iso_params_set_D(ctx, D, p);
         if (status == ISO_OK) iso_record_get_numbers(ctx, r, "radius", 1, &p->body.radius, &status);
         return status;
@@ -97,15 +97,6 @@ bool iso_record_coupling(iso_context *ctx, const iso_record *r, const iso_params
     const double h = *eps;
     *eps = iso_coupling(p, h); /* may not fit a double where h does */
     return h == 0 || isnormal(*eps);
-}
-
-static iso_effect_id find_effect(const char *name, size_t length)
-{
-    int e = 0;
-    while (e < ISO_EFFECTS &&
-           (strlen(iso_effect_list[e]->name) != length || strncmp(iso_effect_list[e]->name, name, length) != 0))
-        e++;
-    return (iso_effect_id)e;
 }
 
 /* Numbers of an effect that the line `effects` does not name, or columns of one that acts: the line is lost or
@@ -151,14 +142,6 @@ static iso_status read_effect(iso_context *ctx, const iso_record *r, iso_effect_
     return ISO_OK;
 }
 
-static iso_status no_effect(iso_context *ctx, const char *name, size_t length)
-{
-    char wrong[ISO_NAME_SIZE] = "", suggested[ISO_SUGGEST_SIZE];
-    if (length < sizeof wrong) memcpy(wrong, name, length);
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "there is no effect '%.*s'; %s", (int)length, name,
-                            iso_suggest_word(suggested, wrong, iso_effect_name));
-}
-
 iso_status iso_record_effects(iso_context *ctx, const iso_record *r, iso_effects *effects)
 {
     ISO_DEFAULT_ARITHMETIC;
@@ -167,10 +150,13 @@ iso_status iso_record_effects(iso_context *ctx, const iso_record *r, iso_effects
     if (names) names += strspn(names, " \t");
     for (size_t length; names && *names; names += length + strspn(names + length, " \t")) {
         length = strcspn(names, " \t");
-        const iso_effect_id e = find_effect(names, length);
-        if (e == ISO_EFFECTS) return no_effect(ctx, names, length);
-        const iso_status status = read_effect(ctx, r, e, effects);
-        if (status != ISO_OK) return status;
+        char name[ISO_NAME_SIZE] = "", suggested[ISO_SUGGEST_SIZE];
+        if (length < sizeof name) memcpy(name, names, length);
+        const iso_effect_id e = iso_effect_find(name);
+        if (e == ISO_EFFECTS)
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "there is no effect '%.*s'; %s", (int)length,
+                                    names, iso_suggest_word(suggested, name, iso_effect_name));
+        ISO_TRY(read_effect(ctx, r, e, effects));
     }
     return check_named(ctx, r, effects);
 }
@@ -277,16 +263,16 @@ iso_status iso_record_start_at(iso_context *ctx, const iso_record *r, const iso_
     ISO_DEFAULT_ARITHMETIC;
     int columns[ISO_STATE];
     double y[ISO_STATE], eps;
-    iso_status status = iso_record_find_state(ctx, r, model, columns);
-    if (status == ISO_OK) status = turn_effects(ctx, r, row, effects);
-    if (status != ISO_OK) return status;
+    iso_status status = ISO_OK;
+    ISO_TRY(iso_record_find_state(ctx, r, model, columns));
+    ISO_TRY(turn_effects(ctx, r, row, effects));
     for (int i = 0; i < ISO_STATE; i++) y[i] = row[columns[i]];
     const bool states_eps = model == ISO_POINT && iso_record_coupling(ctx, r, p, &eps, &status);
     if (status != ISO_OK) return status;
-    status = iso_start_from_row(ctx, model, y, states_eps ? &eps : NULL, iso_effects_twist(effects),
-                                iso_record_row_tolerance(r), start);
-    if (status == ISO_OK) iso_start_settle(p, start, effects);
-    return status;
+    ISO_TRY(iso_start_from_row(ctx, model, y, states_eps ? &eps : NULL, iso_effects_twist(effects),
+                               iso_record_row_tolerance(r), start));
+    iso_start_settle(p, start, effects);
+    return ISO_OK;
 }
 
 iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_params *p, iso_model_kind model,
@@ -295,4 +281,38 @@ iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_par
     const iso_status status = iso_record_start_at(ctx, r, p, model, iso_record_const_row(r, row), start, effects);
     if (status == ISO_OK) return ISO_OK;
     return iso_context_fail(ctx, status, "", "row %zu: %s", row + 1, iso_context_message(ctx));
+}
+
+void iso_record_sample(const iso_record *record, size_t row, iso_sample *sample)
+{
+    const double *x = iso_record_const_row(record, row);
+    iso_sample_blank(sample);
+    for (size_t j = 0; j < iso_record_columns(record); j++) {
+        const int column = iso_column_find(iso_record_name(record, j));
+        if (column >= 0) iso_sample_set_column(sample, column, x[j]);
+    }
+}
+
+/* --- tables: the scene that they are of ------------------------------------------------------------------------- */
+
+iso_status iso_record_describe_start(iso_context *ctx, iso_record *r, const iso_start *start)
+{
+    const bool ball = start->model == ISO_BALL;
+    ISO_TRY(iso_record_set_numbers(ctx, r, ball ? "initial.normal" : "initial.gamma", 3, start->y + 3));
+    return iso_record_set_numbers(ctx, r, ball ? "initial.angular_velocity" : "initial.M", 3, start->y);
+}
+
+iso_status iso_record_describe_scene(iso_context *ctx, iso_record *r, const iso_scene *scene)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_orbit *orbit; /* knows h and eps; NULL: it cannot be computed, but the table may be of others */
+    iso_orbit_options o = iso_orbit_defaults(&scene->start);
+    o.effects = &scene->effects;
+    iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
+    const char *model = iso_model_kind_name((int)scene->start.model);
+    iso_status status = iso_record_describe(ctx, r, model, &scene->params, orbit);
+    if (status == ISO_OK && !orbit) status = iso_record_describe_effects(ctx, r, &scene->effects);
+    iso_orbit_free(orbit);
+    if (status == ISO_OK) status = iso_record_describe_start(ctx, r, &scene->start);
+    return status == ISO_OK ? iso_record_set(ctx, r, "isoroll", ISO_VERSION) : status;
 }

@@ -14,20 +14,6 @@
 
 ISO_C_BEGIN
 
-/* Writes the lines without which a record cannot be converted back: model, k and J. An orbit (may be NULL) also gives
- * h, eps and the effects. A number that is no normal double in these units is left out: h, eps and the level of a
- * point follow from any row. */
-ISO_API iso_status iso_record_describe(iso_context *ctx, iso_record *record, const char *model,
-                                       const iso_params *params, const iso_orbit *orbit);
-
-/* Writes only the lines of the effects. */
-ISO_API iso_status iso_record_describe_effects(iso_context *ctx, iso_record *record, const iso_effects *effects);
-
-/* Writes all that a scene says but its times, columns and solver: a table of its orbits begins with these lines, and
- * the scene can be made again from them. They are those of iso_record_describe, the start, and the version of
- * isoroll. */
-ISO_API iso_status iso_record_describe_scene(iso_context *ctx, iso_record *record, const iso_scene *scene);
-
 /* Reads the parameters from the lines `k`, `J` and `D`. Errors: ISO_BAD_INPUT about "k", "J" or "D" (absent,
  * wrong). */
 ISO_API iso_status iso_record_params(iso_context *ctx, const iso_record *record, iso_params *params);
@@ -35,14 +21,12 @@ ISO_API iso_status iso_record_params(iso_context *ctx, const iso_record *record,
 /* The effects of the lines, `up` and `quaternion` as at time 0. Errors: ISO_BAD_INPUT about "effects". */
 ISO_API iso_status iso_record_effects(iso_context *ctx, const iso_record *record, iso_effects *effects);
 
-/* The upward vertical in axes of space, where it is constant: R(Q) u, by the lines `attitude.quaternion` (Q) and
- * `gravity.up` (u), or by the columns q0..3 and e1..3 of the first row. False: the record does not tell it, or a line
- * is damaged. */
-ISO_API bool iso_record_up(iso_context *ctx, const iso_record *record, double up[3]);
-
 /* The coupling that the lines state, by eps or by h; false: they do not, or *status says what is wrong with them. */
 ISO_API bool iso_record_coupling(iso_context *ctx, const iso_record *record, const iso_params *params, double *eps,
                                  iso_status *status);
+
+/* Row `row` of a trajectory as a sample; what it lacks is NaN. */
+ISO_API void iso_record_sample(const iso_record *record, size_t row, iso_sample *sample);
 
 /* Row `row` of a record as the start of an orbit in `model`, whose columns it must have; of `effects`, those of the
  * record, `up` and `quaternion` become the row's. A point's coupling is the record's eps (or that of its h), or

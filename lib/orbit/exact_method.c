@@ -54,9 +54,8 @@ static iso_status at(iso_integrator *it, double t, double y[])
     closed *c = it->data;
     double state[ISO_MAX_STATE], clocks[ISO_CLOCKS];
     it->statistics.states++;
-    const iso_status status = c->even ? iso_exact_walk_to(it->ctx, c->exact, &c->walk, m->clock, t, state, clocks)
-                                      : iso_exact_at(it->ctx, c->exact, m->clock, t, state, clocks);
-    if (status != ISO_OK) return status;
+    ISO_TRY(c->even ? iso_exact_walk_to(it->ctx, c->exact, &c->walk, m->clock, t, state, clocks)
+                    : iso_exact_at(it->ctx, c->exact, m->clock, t, state, clocks));
     for (int i = 0; i < m->clocks; i++) state[m->moving + i] = clocks[m->clock_of[i]];
     if (!all_finite(state, m->dim)) return iso_integrator_stopped(it, "the closed solution is not finite");
     copy(state, y, m->dim);

@@ -55,8 +55,7 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
     if (exact && opt->method && opt->method != &iso_method_exact)
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "method",
                                 "backend exact does not integrate: leave the method out, or take backend point");
-    iso_status status = iso_orbit_find_start(o, p, start, six);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_orbit_find_start(o, p, start, six));
     const iso_problem problem = {.p = o->units.own, .eps = o->eps, .energy = o->level, .effects = o->effects};
     o->model = iso_model_assemble(o->system, &problem, opt->clock, opt->with_clock);
     iso_model_begin(&o->model, six, y);
@@ -69,14 +68,13 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
 static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *start)
 {
     double y[ISO_MAX_STATE];
-    iso_status status = iso_orbit_prepare(o, p, start, y);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_orbit_prepare(o, p, start, y));
     const iso_orbit_options *opt = &o->options;
     const iso_method_options m = {.tolerance = opt->tolerance,
                                   .time_unit = o->unit_clock[opt->clock],
                                   .max_steps = opt->max_steps,
                                   .memory = opt->memory};
-    status = iso_integrator_create(o->ctx, opt->method, &o->model, &m, &o->integrator);
+    iso_status status = iso_integrator_create(o->ctx, opt->method, &o->model, &m, &o->integrator);
     return status == ISO_OK ? iso_integrator_start(o->integrator, y) : status;
 }
 

@@ -69,9 +69,6 @@ typedef struct iso_sample {
 /* The number in the column called `name`, such as "pressure" or "e1"; NaN where there is no such column. */
 ISO_API double iso_sample_get(const iso_sample *sample, const char *name);
 
-/* The number in a column (iso_column_find). */
-ISO_API double iso_sample_column(const iso_sample *sample, int column);
-
 /* A point's orbit has a ball at every energy: off the level H = 0 in the potential of the effect `level`, which is
  * then added. Errors:
  * - ISO_NOT_MAPPED if the other model is needed and has no such orbit. A free ball at rest (h = 0) has no point, and
@@ -117,18 +114,10 @@ ISO_API iso_statistics iso_orbit_statistics(const iso_orbit *orbit);
 
 /* What the orbit is made of: the backend (not ISO_BACKEND_AUTO), the model in own units, the units, the method. */
 ISO_API iso_backend iso_orbit_backend(const iso_orbit *orbit);
-ISO_API const iso_model *iso_orbit_model(const iso_orbit *orbit);
-ISO_API const iso_units *iso_orbit_units(const iso_orbit *orbit);
 ISO_API const iso_method *iso_orbit_method(const iso_orbit *orbit);
-
-/* The closed solution behind an orbit of backend ISO_BACKEND_EXACT, in own units; NULL for other backends. */
-ISO_API const iso_exact *iso_orbit_exact(const iso_orbit *orbit);
 
 /* Whether the orbit has both models: no effect that breaks the isomorphism, and a ball that moves. */
 ISO_API bool iso_orbit_has_twin(const iso_orbit *orbit);
-
-/* The effects that act, in the caller's units: those asked for, and the level of a point off H = 0. */
-ISO_API iso_effects iso_orbit_effects(const iso_orbit *orbit);
 
 /* Energy h of the ball and coupling eps of the point in the caller's units (infinite or 0 where they do not fit). */
 ISO_API double iso_orbit_energy(const iso_orbit *orbit);

@@ -2,6 +2,7 @@
 #ifndef ISO_ORBIT_ORBIT_IMPL_H
 #define ISO_ORBIT_ORBIT_IMPL_H
 
+#include "model/model_impl.h"
 #include "orbit/description.h"
 
 struct iso_orbit {
@@ -107,8 +108,8 @@ void iso_start_settle(const iso_params *params, const iso_start *start, iso_effe
 /* The effects of a scene, settled. */
 iso_effects iso_scene_effects(const iso_scene *scene);
 
-/* Puts the scene on a level of the point's energy, (H/eps) J2^(1/k) (study/level.h); 0 is the free motion. A point keeps
- * eps, gamma and the direction of M. A ball keeps omega and n, and gets the effect `level`, or loses it.
+/* Puts the scene on a level of the point's energy, (H/eps) J2^(1/k) (study/level.h); 0 is the free motion. A point
+ * keeps eps, gamma and the direction of M. A ball keeps omega and n, and gets the effect `level`, or loses it.
  * Errors: ISO_BAD_INPUT: about "level", where the point cannot be at this gamma on this level; about "M" or
  * "angular_velocity" at rest; about "eps", not above 0; about an effect that acts. Those of iso_orbit_create. */
 iso_status iso_scene_on_level(iso_context *ctx, iso_scene *scene, double level);
@@ -146,5 +147,54 @@ iso_status iso_start_from_row(iso_context *ctx, iso_model_kind model, const doub
  * give its place. */
 iso_status iso_record_start_at(iso_context *ctx, const iso_record *record, const iso_params *params,
                                iso_model_kind model, const double row[], iso_start *start, iso_effects *effects);
+
+/* Writes the lines without which a record cannot be converted back: model, k and J. An orbit (may be NULL) also gives
+ * h, eps and the effects. A number that is no normal double in these units is left out: h, eps and the level of a
+ * point follow from any row. */
+iso_status iso_record_describe(iso_context *ctx, iso_record *record, const char *model, const iso_params *params,
+                               const iso_orbit *orbit);
+
+/* Writes only the lines of the effects. */
+iso_status iso_record_describe_effects(iso_context *ctx, iso_record *record, const iso_effects *effects);
+
+/* Writes all that a scene says but its times, columns and solver: a table of its orbits begins with these lines, and
+ * the scene can be made again from them. They are those of iso_record_describe, the start, and the version of
+ * isoroll. */
+iso_status iso_record_describe_scene(iso_context *ctx, iso_record *record, const iso_scene *scene);
+
+/* The upward vertical in axes of space, where it is constant: R(Q) u, by the lines `attitude.quaternion` (Q) and
+ * `gravity.up` (u), or by the columns q0..3 and e1..3 of the first row. False: the record does not tell it, or a line
+ * is damaged. */
+bool iso_record_up(iso_context *ctx, const iso_record *record, double up[3]);
+
+/* The number in a column (iso_column_find). */
+double iso_sample_column(const iso_sample *sample, int column);
+
+const iso_model *iso_orbit_model(const iso_orbit *orbit);
+const iso_units *iso_orbit_units(const iso_orbit *orbit);
+
+/* The closed solution behind an orbit of backend ISO_BACKEND_EXACT, in own units; NULL for other backends. */
+const iso_exact *iso_orbit_exact(const iso_orbit *orbit);
+
+/* The effects that act, in the caller's units: those asked for, and the level of a point off H = 0. */
+iso_effects iso_orbit_effects(const iso_orbit *orbit);
+
+/* The effects that act on the motion of a scene: all but observers, and but those that only observe from its start
+ * on, as the weight on a horizontal plane does. */
+iso_effects iso_scene_acting(const iso_scene *scene);
+
+/* Puts "name:line:column: " before the context's message if the failure is about a key that the scene was read with,
+ * or about one that follows from it (k from `surface`). Then it is a mistake in the file, and ISO_BAD_ARGUMENT
+ * becomes ISO_BAD_INPUT. Gives the status. */
+iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status);
+
+/* The value of this key no longer comes from the file: iso_scene_blame puts no place before failures about it. */
+void iso_scene_forget_place(iso_scene *scene, const char *key);
+
+/* Errors: ISO_BAD_ARGUMENT about "end" or "step": not finite, or more than ISO_MOST_ROWS rows. */
+iso_status iso_scene_check_times(iso_context *ctx, const iso_scene *scene);
+
+/* The column called `name`; -1: there is none. */
+int iso_column_find(const char *name);
 
 #endif

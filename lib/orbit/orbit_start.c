@@ -231,16 +231,13 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
     if (!all_finite(start->y, ISO_STATE) || (start->model == ISO_POINT && isinf(start->eps)))
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "", "the start is not finite");
     o->length = p->body.radius > 0 ? p->body.radius : 1;
-    iso_status status = check_effects(o, p, start);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_effects(o, p, start));
     set_units(o, p, 0);
-    status = need.powers ? check_powers(o, start) : ISO_OK;
-    if (status != ISO_OK) return status;
+    if (need.powers) ISO_TRY(check_powers(o, start));
     if (start->model == ISO_BALL)
         start_ball(o, p, start, y);
     else
-        status = start_point(o, p, start, y);
-    if (status != ISO_OK) return status;
+        ISO_TRY(start_point(o, p, start, y));
     /* where the normal is to turn once in a unit of time, h goes like k^-2 and eps like k^-4 */
     const bool still = start->model == ISO_BALL && o->h == 0 && !iso_orbit_has_twin(o);
     const bool lost = start->model == ISO_BALL && o->h != 0 && !(isnormal(o->h) && isnormal(o->eps));
@@ -249,14 +246,12 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
     if (need.point && still)
         return iso_context_fail(o->ctx, ISO_NOT_MAPPED, "angular_velocity",
                                 "a ball at rest (h = 0) has no twin: the point's potential would vanish");
-    status = check_units(o, start);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_units(o, start));
     if (start->model == ISO_BALL && iso_effects_have_level(&o->effects) && iso_effects_level(&o->effects) == 0)
         return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
                                 "level: c is out of the range of doubles in the ball's own units");
     o->system = choose_system(o);
-    status = check_form(o);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_form(o));
     to_system(o, start->model, y);
     const bool level = need.ball || start->model == ISO_BALL; /* the ball's is asked for, and may not fit a double */
     const iso_effects in_users_units = iso_orbit_effects(o);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/names_impl.h"
 #include "base/place_impl.h"
 #include "base/vec3_impl.h"
 #include "model/model_impl.h"
@@ -50,27 +51,9 @@ iso_effect_id iso_column_effect(int column)
 
 /* --- starts ----------------------------------------------------------------------------------------------------- */
 
-const char *iso_model_kind_name(int kind)
-{
-    static const char *const names[] = {[ISO_BALL] = "ball", [ISO_POINT] = "point"};
-    return kind >= 0 && kind < (int)(sizeof names / sizeof *names) ? names[kind] : NULL;
-}
-
-const char *iso_backend_name(int backend)
-{
-    static const char *const names[] = {[ISO_BACKEND_BALL] = "ball",
-                                        [ISO_BACKEND_POINT] = "point",
-                                        [ISO_BACKEND_AUTO] = "auto",
-                                        [ISO_BACKEND_EXACT] = "exact"};
-    return backend >= 0 && backend < (int)(sizeof names / sizeof *names) ? names[backend] : NULL;
-}
-
-const char *iso_shown_name(int shown)
-{
-    static const char *const names[] = {
-        [ISO_SHOW_BALL] = "ball", [ISO_SHOW_POINT] = "point", [ISO_SHOW_BOTH] = "both", [ISO_SHOW_START] = "auto"};
-    return shown >= 0 && shown < (int)(sizeof names / sizeof *names) ? names[shown] : NULL;
-}
+ISO_NAMES(iso_model_kind_name, int, "ball", "point")
+ISO_NAMES(iso_backend_name, int, "ball", "point", "auto", "exact")
+ISO_NAMES(iso_shown_name, int, "ball", "point", "both", "auto")
 
 /* A unit vector and a vector orthogonal to it, from numbers typed by hand. */
 static iso_status check_pair(iso_context *ctx, const char *unit_name, const char *vector_name, iso_spin spin,
@@ -130,6 +113,20 @@ iso_status iso_start_point(iso_context *ctx, const double M[3], const double gam
     if (eps && !isfinite(*eps))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "eps", "eps = %g: the coupling must be finite", *eps);
     return check_pair(ctx, "gamma", "M", project ? ISO_SPIN_REMOVE : ISO_SPIN_REFUSE, start->y + 3, start->y);
+}
+
+iso_status iso_scene_replace(iso_context *ctx, const iso_scene *s, const double *k, const double J[3],
+                             const double y[6], iso_params *params, iso_start *start)
+{
+    iso_status status = ISO_OK;
+    *params = s->params;
+    *start = s->start;
+    if (k || J) status = iso_params_reduced(ctx, k ? *k : s->params.k, J ? J : s->params.J, params);
+    if (status == ISO_OK && (k || J) && s->params.D > 0) status = iso_params_set_D(ctx, s->params.D, params);
+    if (status != ISO_OK || !y) return status;
+    if (s->start.model == ISO_BALL)
+        return iso_start_ball(ctx, y, y + 3, s->effects.on[ISO_TWIST] ? ISO_SPIN_KEEP : ISO_SPIN_REFUSE, start);
+    return iso_start_point(ctx, y, y + 3, isnan(s->start.eps) ? NULL : &s->start.eps, false, start);
 }
 
 /* n = J^(1/2) gamma, as a unit vector (18) */

@@ -90,26 +90,19 @@ typedef struct iso_scene {
     iso_place place[ISO_MAX_PLACES];
 } iso_scene;
 
-/* The effects that act on the motion of a scene: all but observers, and but those that only observe from its start
- * on, as the weight on a horizontal plane does. */
-ISO_API iso_effects iso_scene_acting(const iso_scene *scene);
-
-/* Puts "name:line:column: " before the context's message if the failure is about a key that the scene was read with,
- * or about one that follows from it (k from `surface`). Then it is a mistake in the file, and ISO_BAD_ARGUMENT
- * becomes ISO_BAD_INPUT. Gives the status. */
-ISO_API iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status);
-
-/* The value of this key no longer comes from the file: iso_scene_blame puts no place before failures about it. */
-ISO_API void iso_scene_forget_place(iso_scene *scene, const char *key);
-
 /* A scene without a ball: backend and method "auto", tolerance 1e-12, as ISO_SHOW_START (the model of the start). */
 ISO_API iso_scene iso_scene_default(void);
 
+/* The ball and the start of a scene with another k, J (three) or start (six: omega, n; or M, gamma); NULL: the
+ * scene's. With k or J the ball is a reduced one: its body is forgotten, D stays; effects keep their numbers. A scene
+ * of a point that states eps keeps it: the point then has another energy H = M^2/2 - eps (gamma, J gamma)^(-1/k),
+ * which is not 0 if it was. Without eps in the scene it is the one with which H = 0.
+ * Errors: those of iso_params_reduced, iso_start_ball, iso_start_point. */
+ISO_API iso_status iso_scene_replace(iso_context *ctx, const iso_scene *scene, const double *k, const double J[3],
+                                     const double start[6], iso_params *params, iso_start *replaced);
+
 /* More rows than this in a scene file are a mistake in `step`. */
 #define ISO_MOST_ROWS 1e8
-
-/* Errors: ISO_BAD_ARGUMENT about "end" or "step": not finite, or more than ISO_MOST_ROWS rows. */
-ISO_API iso_status iso_scene_check_times(iso_context *ctx, const iso_scene *scene);
 
 /* Output times: row i of a scene's time grid, i = 0 ... iso_scene_rows() - 1; the last row is exactly `end`. */
 ISO_API size_t iso_scene_rows(const iso_scene *scene);
@@ -142,9 +135,6 @@ enum {
 /* How many there are, and their names; NULL past the last. */
 ISO_API int iso_columns_count(void);
 ISO_API const char *iso_column_name(int column);
-
-/* The column called `name`; -1: there is none. */
-ISO_API int iso_column_find(const char *name);
 
 ISO_C_END
 

@@ -2,7 +2,6 @@
 #include <math.h>
 
 #include "base/vec3_impl.h"
-#include "map/level_impl.h"
 #include "map/section_impl.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
@@ -65,10 +64,9 @@ iso_status iso_scene_on_level(iso_context *ctx, iso_scene *scene, double level)
     if (!isfinite(level)) return iso_context_fail(ctx, ISO_BAD_INPUT, "level", "%g is no level", level);
     if (ball) iso_effects_set_level(&acting, false, 0);
     o.effects = &acting;
-    iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit));
     if (!ball) iso_effects_set_level(&scene->effects, false, 0);
-    status = ball ? move_ball(ctx, orbit, level, scene) : move_point(ctx, orbit, level, &scene->start);
+    iso_status status = ball ? move_ball(ctx, orbit, level, scene) : move_point(ctx, orbit, level, &scene->start);
     iso_orbit_free(orbit);
     return status;
 }

@@ -1,5 +1,6 @@
 /* analogue.c - from a problem of a point on a sphere to a ball that realises it (see analogue.h). */
 #include "study/analogue.h"
+#include "orbit/orbit_impl.h"
 
 #include <float.h>
 #include <math.h>
@@ -11,7 +12,7 @@
 #include "base/vec3_impl.h"
 #include "map/state.h"
 #include "model/model_impl.h"
-#include "study/analogue_impl.h"
+#include "study/study_impl.h"
 
 /* The largest ratio of moments of a free ball with J = 2 E - c. The least moment is a difference, and loses as
  * many digits as the ratio has. */
@@ -112,8 +113,7 @@ static double triangle_room(const double J[3])
 static iso_status make_ball(iso_context *ctx, double k, const double J[3], double eps, double level_energy,
                             iso_analogue_ball *ball)
 {
-    const iso_status status = iso_params_reduced(ctx, k, J, &ball->params);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_params_reduced(ctx, k, J, &ball->params));
     ball->eps = eps;
     ball->h = iso_energy(&ball->params, eps);
     ball->level = iso_energy(&ball->params, level_energy);
@@ -245,12 +245,10 @@ iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *probl
     ISO_DEFAULT_ARITHMETIC;
     memset(a, 0, sizeof *a);
     a->problem = *problem;
-    iso_status status = check_numbers(ctx, problem);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_numbers(ctx, problem));
     find_range(problem, &a->lowest, &a->highest);
-    status = check_energy(ctx, a);
-    if (status == ISO_OK) status = make_reduced(ctx, a);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_energy(ctx, a));
+    ISO_TRY(make_reduced(ctx, a));
     if (a->reduced.level == 0) a->not_free[0] = '\0';
     make_body(ctx, mass, radius, a);
     return ISO_OK;
@@ -278,12 +276,10 @@ iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso
     iso_effects effects = iso_scene_acting(scene);
     if (scene->start.model != ISO_POINT)
         return iso_context_fail(ctx, ISO_BAD_INPUT, "", "this scene is a ball already: an analogue is of a 'point'");
-    iso_status status = check_effects(ctx, &effects);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_effects(ctx, &effects));
     o.effects = &effects;
-    status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
-    if (status != ISO_OK) return status;
-    status = iso_orbit_at(orbit, 0, &sample);
+    ISO_TRY(iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit));
+    iso_status status = iso_orbit_at(orbit, 0, &sample);
     if (status == ISO_OK) {
         effects = iso_orbit_effects(orbit);
         *problem = (iso_analogue_problem){.k = scene->params.k, .eps = iso_orbit_coupling(orbit)};
@@ -346,15 +342,13 @@ iso_status iso_analogue_scene(iso_context *ctx, const iso_analogue_ball *ball, c
     iso_scene s = iso_scene_default();
     s.params = ball->params;
     iso_effects_set_level(&s.effects, ball->level != 0, ball->level);
-    iso_status status = start_ball(ctx, &s.params, point, &s.start);
-    if (status != ISO_OK) return status;
+    ISO_TRY(start_ball(ctx, &s.params, point, &s.start));
     iso_orbit_options o = iso_orbit_defaults(&s.start);
     o.effects = &s.effects;
     o.clock = ISO_CLOCK_S;
     o.with_clock[ISO_CLOCK_T] = true;
-    status = iso_orbit_create(ctx, &s.params, &s.start, &o, &orbit);
-    if (status != ISO_OK) return status;
-    status = iso_orbit_at(orbit, s_end, &sample);
+    ISO_TRY(iso_orbit_create(ctx, &s.params, &s.start, &o, &orbit));
+    iso_status status = iso_orbit_at(orbit, s_end, &sample);
     s.end = sample.clock[ISO_CLOCK_T];
     iso_orbit_free(orbit);
     if (status == ISO_OK) *scene = s;

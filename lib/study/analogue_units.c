@@ -8,10 +8,10 @@
 #include <stdio.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/number.h"
+#include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
-#include "study/analogue_impl.h"
+#include "study/study_impl.h"
 
 /* The n-th of the numbers ..., 0.5, 1, 2, 5, 10, ...: 1 is the 0th. */
 static double round_number(int n)

@@ -15,8 +15,9 @@
 #include <string.h>
 
 #include "model/model_impl.h"
-#include "study/backend_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/run.h"
+#include "study/study_impl.h"
 
 #define FINEST_OF_POINT 1e-12 /* a tolerance: below it the ball is more exact */
 #define LEAST_K 0.5           /* below it its errors are as large as the ball's, some larger */

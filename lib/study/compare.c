@@ -78,10 +78,8 @@ static iso_status open_backend(runner *r, iso_backend backend)
     iso_orbit_options o = iso_orbit_defaults(&r->scene->start);
     const char *names[ISO_TRAJECTORY_COLUMNS];
     iso_column_names(names);
-    iso_status status = iso_record_create(r->ctx, ISO_COLUMN_EFFECTS, names, &run->trajectory);
-    if (status != ISO_OK) return status;
-    status = iso_method_check(r->ctx, r->scene->method);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_record_create(r->ctx, ISO_COLUMN_EFFECTS, names, &run->trajectory));
+    ISO_TRY(iso_method_check(r->ctx, r->scene->method));
     o.effects = &r->effects;
     o.backend = run->backend = backend;
     o.method = method_for(r->scene, backend);
@@ -89,8 +87,7 @@ static iso_status open_backend(runner *r, iso_backend backend)
     o.shown = ISO_SHOW_BOTH;
     for (int clock = 0; clock < ISO_CLOCKS; clock++) o.with_clock[clock] = true;
     const double begin = processor_seconds();
-    status = iso_orbit_create(r->ctx, &r->scene->params, &r->scene->start, &o, &r->orbit[which]);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_orbit_create(r->ctx, &r->scene->params, &r->scene->start, &o, &r->orbit[which]));
     run->seconds = processor_seconds() - begin;
     run->method = iso_orbit_method(r->orbit[which]);
     r->out->clock = o.clock;
@@ -123,8 +120,7 @@ static iso_status find_sample(runner *r, int which, size_t i, iso_sample *sample
 static iso_status keep(runner *r, int which, size_t i, const iso_sample *sample)
 {
     double *row;
-    const iso_status status = iso_record_append(r->ctx, r->out->run[which].trajectory, &row);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_record_append(r->ctx, r->out->run[which].trajectory, &row));
     for (int c = 0; c < ISO_COLUMN_EFFECTS; c++) row[c] = iso_sample_column(sample, c);
     if (i == 0) list_drifts(r, which, sample);
     follow_drifts(r, which, sample);
@@ -146,8 +142,7 @@ static iso_status add_rows(runner *r, bool (*progress)(double part, void *data),
 {
     const size_t rows = iso_scene_rows(r->scene);
     for (size_t i = 0; i < rows; i++) {
-        const iso_status status = add_row(r, i);
-        if (status != ISO_OK) return status;
+        ISO_TRY(add_row(r, i));
         if (progress && !progress((double)(i + 1) / (double)rows, data)) break;
     }
     return ISO_OK;

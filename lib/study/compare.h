@@ -55,7 +55,6 @@ typedef struct iso_comparison {
     iso_record *from_exact[ISO_INTEGRATED]; /* the same of [ISO_BALL] and [ISO_POINT] from the closed solution */
     double worst_from_exact[ISO_INTEGRATED][ISO_DIFFERENCES];
 } iso_comparison;
-ISO_API extern const iso_field iso_comparison_fields[];
 
 /* Finds the scene's orbit by every backend, row by row; where there is no closed solution, by ball and point. The
  * scene's own choice of a backend is not read. `progress` (may be NULL) is called after each row with the part done,

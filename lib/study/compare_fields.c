@@ -1,15 +1,12 @@
 /* compare_fields.c - what a comparison holds: its numbers with their meaning (compare.h). */
 #include "study/compare.h"
+#include "study/study_impl.h"
 
-static const char *clock_word(int clock)
-{
-    return iso_clock_name((iso_clock)clock);
-}
-
-/* --- one backend ------------------------------------------------------------------------------------------------- */
+/* --- one backend ------------------------------------------------------------------------------------------------ */
 
 static const iso_field system_fields[] = {ISO_MEMBER(iso_system, "system", name, "", "ball or point"), ISO_FIELD_END};
-static const iso_field method_fields[] = {ISO_MEMBER(iso_method, "method", name, "", "of integration"), ISO_FIELD_END};
+static const iso_field method_fields[] = {ISO_MEMBER(iso_method, "method", name, "", "of integration"),
+                                          ISO_FIELD_END};
 static const iso_field integral_fields[] = {
     ISO_MEMBER(iso_integral, "name", name, "", "of the integral"),
     ISO_MEMBER(iso_integral, "doc", doc, "", "what it is"),
@@ -40,7 +37,7 @@ static const iso_field run_fields[] = {
 };
 #undef FIELD
 
-/* --- all --------------------------------------------------------------------------------------------------------- */
+/* --- all -------------------------------------------------------------------------------------------------------- */
 
 static bool has_exact(const void *row)
 {
@@ -58,7 +55,7 @@ static bool has_no_exact(const void *row)
 const iso_field iso_comparison_fields[] = {
     FIELD("h", h, "energy", "of the ball"),
     FIELD("eps", eps, "", "coupling of the point"),
-    FIELD("clock", clock, "", "in which the scene counts its times", .word = clock_word),
+    FIELD("clock", clock, "", "in which the scene counts its times", .word = iso_clock_word),
     FIELD("difference", difference, "", "of ball and point, row by row"),
     ISO_STRUCT(iso_comparison, "backends.ball", run[ISO_BALL], run_fields, "the ball"),
     ISO_STRUCT(iso_comparison, "backends.point", run[ISO_POINT], run_fields, "the point"),

@@ -112,15 +112,13 @@ iso_status iso_record_energies(iso_context *ctx, const iso_params *params, const
     for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
         e.columns[i] = i < iso_columns_count() ? iso_record_find(record, iso_column_name(i)) : -1;
     if (iso_record_rows(record) == 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "", "the trajectory has no rows");
-    iso_status status = iso_record_effects(ctx, record, &e.effects);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_record_effects(ctx, record, &e.effects));
     leave_out_observers(&e);
     iso_effects effects = e.effects;
-    status = iso_record_start(ctx, record, params, ISO_BALL, 0, &start, &effects);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_record_start(ctx, record, params, ISO_BALL, 0, &start, &effects));
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &effects;
-    status = iso_orbit_create(ctx, params, &start, &o, &first);
+    iso_status status = iso_orbit_create(ctx, params, &start, &o, &first);
     e.first = first;
     if (status == ISO_OK && is_known(&e)) status = read_rows(&e, answer);
     iso_orbit_free(first);

@@ -1,5 +1,5 @@
 /* The estimated error of an orbit: a finer orbit and four moved ones run beside it, see error.h. */
-#include "study/error_impl.h"
+#include "study/study_impl.h"
 
 #include <float.h>
 #include <math.h>

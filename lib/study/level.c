@@ -1,12 +1,11 @@
-/* level.c - the level of a scene (level_impl.h). */
+/* level.c - the level of a scene (study_impl.h). */
 #include <math.h>
 
-#include "map/level_impl.h"
+#include "map/section_impl.h"
 #include "map/state.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-#include "study/level_impl.h"
-#include "study/refusals_impl.h"
+#include "study/study_impl.h"
 
 /* The orbit of a scene on which nothing acts but a level. */
 static iso_status open_orbit(iso_context *ctx, const iso_scene *scene, const char *what, iso_orbit **orbit)
@@ -23,8 +22,7 @@ iso_status iso_level_motion(iso_context *ctx, const iso_scene *scene, const char
                             iso_point_motion *motion)
 {
     iso_orbit *orbit;
-    const iso_status status = open_orbit(ctx, scene, what, &orbit);
-    if (status != ISO_OK) return status;
+    ISO_TRY(open_orbit(ctx, scene, what, &orbit));
     *own = iso_orbit_units(orbit)->own;
     *motion = iso_orbit_motion(orbit);
     motion->p = own;
@@ -35,11 +33,10 @@ iso_status iso_level_motion(iso_context *ctx, const iso_scene *scene, const char
 iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *what, iso_on_level *on)
 {
     iso_orbit *orbit;
-    iso_status status = open_orbit(ctx, scene, what, &orbit);
-    if (status != ISO_OK) return status;
+    ISO_TRY(open_orbit(ctx, scene, what, &orbit));
     const iso_effects acting = iso_orbit_effects(orbit);
     const iso_point_motion m = iso_orbit_motion(orbit);
-    status = iso_refuse_coupling(ctx, orbit, what);
+    iso_status status = iso_refuse_coupling(ctx, orbit, what);
     on->units = *iso_orbit_units(orbit);
     on->h = iso_orbit_energy(orbit) / iso_unit(&on->units, iso_dimension_h);
     on->energy = m.energy == 0 ? 0 : m.energy / m.eps;

@@ -1,8 +1,8 @@
-/* refusals.c - the sentences of refusals_impl.h. */
+/* refusals.c - what studies refuse (study_impl.h). */
 #include "map/section_impl.h"
 #include "model/effects_impl.h"
 #include "orbit/orbit_impl.h"
-#include "study/refusals_impl.h"
+#include "study/study_impl.h"
 
 #include <math.h>
 #include <stdio.h>

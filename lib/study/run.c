@@ -14,9 +14,7 @@
 #include "method/methods_impl.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-#include "study/backend_impl.h"
-#include "study/error_impl.h"
-#include "study/run_times_impl.h"
+#include "study/study_impl.h"
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
 
@@ -121,7 +119,10 @@ static iso_status give_header(const runner *r)
     iso_record *header = NULL;
     iso_status status = describe(r, &header);
     if (status == ISO_OK && r->sink->header) status = r->sink->header(r->sink->data, header);
-    iso_record_free(header);
+    if (status == ISO_OK && r->sink->record)
+        *r->sink->record = header;
+    else
+        iso_record_free(header);
     return status;
 }
 
@@ -172,8 +173,7 @@ static iso_status look_both_ways(runner *r)
     for (int side = 0; side < 2; side++) {
         iso_sample sample;
         const double moment = (side ? -1e-6 : 1e-6) * (end != 0 ? fabs(end) : 1);
-        const iso_status status = iso_orbit_at(r->orbit, moment, &sample);
-        if (status != ISO_OK) return status;
+        ISO_TRY(iso_orbit_at(r->orbit, moment, &sample));
         r->result->lost[side] = iso_sample_get(&sample, "pressure") < 0;
     }
     r->pressed = true;
@@ -189,8 +189,7 @@ static iso_status look_at_contact(runner *r)
     iso_sample sample;
     char words[160];
     if (!iso_effects_watch_contact(e)) return ISO_OK;
-    const iso_status status = iso_orbit_at(r->orbit, 0, &sample);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_orbit_at(r->orbit, 0, &sample));
     const double pressure = iso_sample_get(&sample, "pressure");
     r->pressed = pressure > 0;
     if (pressure == 0 && iso_effects_change_pressure(&r->scene->params, e)) return look_both_ways(r);
@@ -233,8 +232,7 @@ static iso_status find_sample(runner *r, double time, iso_sample *sample, bool *
     if (!r->pressed || fabs(time) <= fabs(r->safe_to[side])) return follow_to(r, time, sample);
     *row = !*lost;
     if (*lost) return ISO_OK;
-    const iso_status status = iso_orbit_lost_contact(r->orbit, r->safe_to[side], time, lost, sample);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_orbit_lost_contact(r->orbit, r->safe_to[side], time, lost, sample));
     r->safe_to[side] = *lost ? sample->clock[r->how.clock] : time;
     if (!*lost) return iso_orbit_at(r->orbit, time, sample);
     say_lost(r, side, r->safe_to[side]);
@@ -281,7 +279,8 @@ static void close_errors(runner *r)
 
 static iso_status give_row(runner *r, const double row[])
 {
-    const iso_status status = r->sink->row ? r->sink->row(r->sink->data, row, (size_t)r->count) : ISO_OK;
+    iso_status status = r->sink->record ? iso_record_add(r->ctx, *r->sink->record, 1, row) : ISO_OK;
+    if (status == ISO_OK && r->sink->row) status = r->sink->row(r->sink->data, row, (size_t)r->count);
     r->result->rows += status == ISO_OK;
     return status;
 }
@@ -332,9 +331,8 @@ static bool monitor(void *data)
 
 static iso_status check(runner *r)
 {
-    iso_status status = check_times(r);
-    if (status == ISO_OK) status = iso_scene_check_columns(r->ctx, r->scene);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_times(r));
+    ISO_TRY(iso_scene_check_columns(r->ctx, r->scene));
     r->count = iso_scene_columns(r->scene, r->columns);
     r->result->asked = r->options.times ? r->options.count : iso_scene_rows(r->scene);
     return iso_method_check(r->ctx, r->scene->method);
@@ -346,8 +344,7 @@ static iso_status open_orbit(runner *r)
     r->how.memory = 0; /* times are put in order */
     r->result->clock = r->how.clock;
     const iso_questions q = {.rows = r->result->asked, .farthest = r->farthest};
-    iso_status status = iso_backend_open(r->ctx, r->scene, &r->how, &q, &r->orbit);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_backend_open(r->ctx, r->scene, &r->how, &q, &r->orbit));
     r->result->backend = r->how.backend = iso_orbit_backend(r->orbit);
     r->result->method = iso_orbit_method(r->orbit);
     if (!r->options.times) iso_orbit_expect_even_times(r->orbit);

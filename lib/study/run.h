@@ -62,6 +62,7 @@ typedef struct iso_run_sink {
     void (*note)(void *data, iso_run_note note, const char *words);  /* one line without a newline                */
     void (*progress)(void *data, double part); /* at each step: the part done of the farthest time, in [0, 1]      */
     void *data;
+    iso_record **record; /* where a new record with header and rows goes; NULL: none is made                      */
 } iso_run_sink;
 
 typedef struct iso_run_result {

@@ -1,5 +1,5 @@
-/* run_times.c - times put in the order in which an orbit is followed to them, see run_times_impl.h. */
-#include "study/run_times_impl.h"
+/* run_times.c - times put in the order in which an orbit is followed to them, see study_impl.h. */
+#include "study/study_impl.h"
 
 #include <math.h>
 #include <stdlib.h>

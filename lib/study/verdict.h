@@ -6,7 +6,7 @@
 
 ISO_C_BEGIN
 
-/* ISO_INTEGRABLE: regular because there is a further integral, although the estimated frequencies have not
+/* ISO_INTEGRABLE: regular because there is an additional integral, although the estimated frequencies have not
  * settled. */
 typedef enum iso_verdict { ISO_REGULAR, ISO_CHAOTIC, ISO_UNDECIDED, ISO_INTEGRABLE } iso_verdict;
 

@@ -1,13 +1,14 @@
-/* sweep.c - the rows of a sweep: columns, points, and what is noted of those that fail (see sweep.h). */
-#include "sweep/sweep.h"
-
+/* sweep.c - the rows of a sweep: columns, chunks, points, and what is noted of those that fail (see sweep.h). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/low_discrepancy_impl.h"
 #include "orbit/batch.h"
+#include "orbit/orbit_impl.h"
+#include "study/study_impl.h"
 #include "sweep/sweep_impl.h"
 
 #define QUANTITY(name) &iso_sweep_##name,
@@ -19,8 +20,7 @@ static const iso_sweep_quantity *const topics[] = {ISO_SWEEP_LIST(TOPIC) NULL};
 struct iso_sweep {
     const iso_sweep_plan *plan;
     iso_sweep_head head;
-    int asks;
-    iso_sweep_job ask[ISO_SWEEP_REQUESTS];
+    iso_sweep_job job[ISO_SWEEP_REQUESTS];
     iso_sweep_column *column;
 };
 
@@ -29,65 +29,147 @@ const iso_sweep_quantity *const *iso_sweep_quantities(void)
     return topics;
 }
 
+iso_status iso_sweep_rows_create(iso_context *ctx, int columns, size_t most, iso_sweep_rows *rows)
+{
+    *rows = (iso_sweep_rows){.columns = columns, .most = most};
+    rows->number = calloc(most + 1, ((size_t)columns + 1) * sizeof *rows->number);
+    rows->status = calloc(most + 1, sizeof *rows->status);
+    rows->reason = calloc(most + 1, sizeof *rows->reason);
+    if (rows->number && rows->status && rows->reason) return ISO_OK;
+    iso_sweep_rows_free(rows);
+    return iso_context_no_memory(ctx, "the rows of %zu points", most);
+}
+
+void iso_sweep_rows_free(iso_sweep_rows *rows)
+{
+    free(rows->number);
+    free(rows->status);
+    free(rows->reason);
+    *rows = (iso_sweep_rows){.columns = 0};
+}
+
+size_t iso_sweep_chunks(const iso_sweep_head *head)
+{
+    return head->count / head->chunk + (head->count % head->chunk > 0);
+}
+
+size_t iso_sweep_chunk_points(const iso_sweep_head *head, size_t c)
+{
+    const size_t first = c * head->chunk;
+    return head->count - first < head->chunk ? head->count - first : head->chunk;
+}
+
 /* --- what the quantities share ---------------------------------------------------------------------------------- */
 
-void iso_sweep_note(iso_context *ctx, const iso_sweep_job *ask, iso_sweep_batch *batch, size_t i, iso_status status)
+/* Each byte goes through splitmix64, once for each half. */
+void iso_sweep_hash(uint64_t hash[2], const void *bytes, size_t length)
+{
+    const unsigned char *byte = bytes;
+    for (size_t i = 0; i < length; i++) {
+        hash[0] = iso_scatter(hash[0] ^ byte[i]);
+        hash[1] = iso_scatter(hash[1] + hash[0]);
+    }
+}
+
+iso_status iso_sweep_note(iso_context *ctx, const iso_sweep_job *job, iso_sweep_batch *batch, size_t i,
+                          iso_status status)
 {
     iso_sweep_rows *rows = batch->rows;
-    if (rows->status[i] != ISO_OK) return;
+    if (status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
+    if (status == ISO_OK || rows->status[i] != ISO_OK) return ISO_OK;
     rows->status[i] = status;
-    snprintf(rows->reason[i], sizeof rows->reason[i], "%s%s%s", ask ? ask->quantity->topic.name : "", ask ? ": " : "",
+    snprintf(rows->reason[i], sizeof rows->reason[i], "%s%s%s", job ? job->quantity->topic.name : "", job ? ": " : "",
              iso_context_message(ctx));
     for (char *c = rows->reason[i]; *c; c++)
         if (*c == '"' || (unsigned char)*c < ' ') *c = '\'';
+    return ISO_OK;
 }
 
-double *iso_sweep_numbers(const iso_sweep_job *ask, const iso_sweep_batch *batch, size_t i)
+double *iso_sweep_numbers(const iso_sweep_job *job, const iso_sweep_batch *batch, size_t i)
 {
-    return batch->rows->number + i * (size_t)batch->rows->columns + ask->first;
+    return batch->rows->number + i * (size_t)batch->rows->columns + job->first;
 }
 
-int iso_sweep_names(const char *name[], int count, const char *const names[])
+const char *iso_sweep_models(int i)
 {
-    for (int i = 0; i < count; i++) name[i] = names[i];
-    return count;
+    return i <= ISO_SHOW_BOTH ? iso_shown_name(i) : NULL;
+}
+
+iso_status iso_sweep_refuse_effects(iso_context *ctx, const iso_sweep_job *job)
+{
+    const iso_effects acting = iso_scene_acting(job->base);
+    return iso_refuse_beyond_level(ctx, &acting, "it is known");
+}
+
+void iso_sweep_add(iso_sweep_job *job, const char *prefix, const char *names)
+{
+    for (int used = 0; job->count < ISO_SWEEP_NUMBERS && *names; names += used) {
+        iso_sweep_column *c = &job->column[job->count++];
+        snprintf(c->group, sizeof c->group, "%s", job->quantity->topic.name);
+        sscanf(names, "%24s %n", strcpy(c->name, prefix) + strlen(prefix), &used);
+    }
+}
+
+typedef struct filled {
+    const iso_sweep_job *job;
+    double *number;
+} filled;
+
+static void fill(void *data, const char *name, const iso_field *field, const iso_value *value)
+{
+    const filled *f = data;
+    (void)field;
+    for (int i = 0; i < f->job->count; i++)
+        if (strcmp(f->job->column[i].name, name) == 0) f->number[i] = value->number;
+}
+
+void iso_sweep_fill(const iso_sweep_job *job, const iso_field fields[], const void *row, double number[])
+{
+    iso_field all[ISO_MOST_FIELDS];
+    iso_fields_copy(fields, NULL, all);
+    for (iso_field *f = all; f->name; f++) f->how &= ~(unsigned)ISO_IN_TREE;
+    iso_columns_visit(all, row, fill, &(filled){job, number});
 }
 
 /* --- columns ---------------------------------------------------------------------------------------------------- */
 
-static void add_column(iso_sweep *s, const char *group, const char *name)
+static iso_status make_job(iso_context *ctx, iso_sweep *s, const iso_sweep_request *wish, iso_sweep_job *job)
 {
-    iso_sweep_column *c = &s->column[s->head.columns++];
-    snprintf(c->group, sizeof c->group, "%s", group);
-    snprintf(c->name, sizeof c->name, "%s", name);
+    const iso_sweep_computation *q = quantities[wish->topic];
+    *job = (iso_sweep_job){.quantity = q,
+                           .turns = s->plan->turns,
+                           .time = s->plan->time,
+                           .vectors = s->head.vectors,
+                           .base = s->plan->family.base,
+                           .first = s->head.columns,
+                           .column = s->column + s->head.columns};
+    memcpy(job->setting, wish->setting, sizeof job->setting);
+    const iso_status status = q->refuse && job->base ? q->refuse(ctx, job) : ISO_OK;
+    if (status == ISO_BAD_INPUT)
+        iso_context_fail(ctx, status, q->topic.name, "%s: %s", q->topic.name, iso_context_message(ctx));
+    if (status != ISO_OK) return status;
+    if (q->names)
+        iso_sweep_add(job, "", q->names);
+    else
+        q->columns(job);
+    s->head.columns += job->count;
+    return ISO_OK;
 }
 
-static void make_columns(iso_sweep *s)
+/* The columns of what varies, and those of each quantity. */
+static iso_status make_columns(iso_context *ctx, iso_sweep *s)
 {
     const iso_family *f = &s->plan->family;
-    for (int i = 0; i < f->columns; i++) add_column(s, "vary", f->name[i]);
-    for (int i = 0; i < s->asks; i++) {
-        iso_sweep_job *ask = &s->ask[i];
-        const char *names[ISO_SWEEP_NUMBERS];
-        ask->first = s->head.columns;
-        ask->count = ask->quantity->columns(ask, names);
-        for (int c = 0; c < ask->count; c++) add_column(s, ask->quantity->topic.name, names[c]);
-    }
+    iso_status status = ISO_OK;
     s->head.column = s->column;
-}
-
-static void make_asks(iso_sweep *s)
-{
-    for (int i = 0; i < s->plan->wishes; i++) {
-        const iso_sweep_request *wish = &s->plan->wish[i];
-        iso_sweep_job *ask = &s->ask[s->asks++];
-        ask->quantity = quantities[wish->topic];
-        memcpy(ask->setting, wish->setting, sizeof ask->setting);
-        ask->turns = s->plan->turns;
-        ask->time = s->plan->time;
-        ask->vectors = s->head.vectors;
-        ask->base = s->plan->family.base;
+    for (int c = 0; c < f->columns; c++) {
+        strcpy(s->column[c].group, "vary");
+        strcpy(s->column[c].name, f->name[c]);
     }
+    s->head.columns = f->columns;
+    for (int i = 0; i < s->plan->wishes && status == ISO_OK; i++)
+        status = make_job(ctx, s, &s->plan->wish[i], &s->job[i]);
+    return status;
 }
 
 /* The size that the quantities suggest. A sweep of few points gets smaller chunks, so that every thread has some.
@@ -97,27 +179,28 @@ static size_t chunk_of(const iso_sweep *s)
     enum { CHUNKS = 64, LANES = 8 };
     size_t chunk = s->head.count / CHUNKS + 1;
     if (chunk > LANES / 2) chunk = (chunk + LANES - 1) / LANES * LANES;
-    for (int i = 0; i < s->asks; i++) {
-        const size_t fits = s->ask[i].quantity->chunk(&s->ask[i]);
+    for (const iso_sweep_job *job = s->job; job < s->job + s->plan->wishes; job++) {
+        const size_t fits = job->quantity->points > 0 ? job->quantity->points : job->quantity->chunk(job);
         if (fits < chunk) chunk = fits;
     }
     return chunk;
 }
 
-/* An orbit that is alone takes AVX2 where it is, whatever `vectors` says. */
-static bool has_avx2(void)
+/* The vectors of this processor that are asked for; "": the widest. NULL: it has none of them. */
+static const char *find_vectors(const char *asked)
 {
     const char *kind;
-    for (int i = 0; (kind = iso_batch_vectors(i, NULL)) != NULL; i++)
-        if (strcmp(kind, "avx2") == 0) return true;
-    return false;
+    int i = 0;
+    while ((kind = iso_batch_vectors(i++, NULL)) != NULL && *asked && strcmp(asked, kind) != 0) continue;
+    return kind;
 }
 
 /* Everything that the rows depend on. */
 static void make_head(iso_sweep *s)
 {
     iso_sweep_head *h = &s->head;
-    const unsigned char alone = has_avx2();
+    /* An orbit that is alone takes these vectors, if they are there. */
+    const unsigned char alone = find_vectors("avx2") != NULL;
     h->count = s->plan->family.count;
     h->chunk = s->plan->chunk > 0 ? s->plan->chunk : chunk_of(s);
     h->text = s->plan->text ? s->plan->text : "";
@@ -133,52 +216,24 @@ static void make_head(iso_sweep *s)
     }
 }
 
-static iso_status choose_vectors(iso_context *ctx, iso_sweep *s)
-{
-    const char *asked = s->plan->vectors, *kind;
-    for (int i = 0; (kind = iso_batch_vectors(i, NULL)) != NULL; i++) {
-        if (*asked && strcmp(asked, kind) != 0) continue;
-        snprintf(s->head.vectors, sizeof s->head.vectors, "%s", kind);
-        return ISO_OK;
-    }
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors", "this processor has no vectors '%s'", asked);
-}
-
-static iso_status check(iso_context *ctx, const iso_sweep *s)
-{
-    iso_status status = ISO_OK;
-    for (int i = 0; i < s->asks && status == ISO_OK; i++) {
-        const iso_sweep_computation *q = s->ask[i].quantity;
-        if (q->refuse && s->ask[i].base) status = q->refuse(ctx, &s->ask[i]);
-        if (status == ISO_BAD_INPUT)
-            status = iso_context_fail(ctx, status, q->topic.name, "%s: %s", q->topic.name, iso_context_message(ctx));
-    }
-    return status;
-}
-
 iso_status iso_sweep_create(iso_context *ctx, const iso_sweep_plan *plan, iso_sweep **sweep)
 {
     ISO_DEFAULT_ARITHMETIC;
+    const char *vectors = find_vectors(plan->vectors);
     *sweep = NULL;
+    if (!vectors)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors", "this processor has no vectors '%s'",
+                                plan->vectors);
     iso_sweep *s = calloc(1, sizeof *s);
-    if (s) s->column = calloc((size_t)plan->family.columns + ISO_SWEEP_REQUESTS * ISO_SWEEP_NUMBERS, sizeof *s->column);
-    if (!s || !s->column) {
-        iso_sweep_free(s);
-        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sweep");
-    }
+    if (!s) return iso_context_no_memory(ctx, "a sweep");
     s->plan = plan;
-    iso_status status = choose_vectors(ctx, s);
-    if (status == ISO_OK) {
-        make_asks(s);
-        status = check(ctx, s);
-    }
-    if (status == ISO_OK) {
-        make_columns(s);
-        make_head(s);
-        *sweep = s;
-    } else {
+    snprintf(s->head.vectors, sizeof s->head.vectors, "%s", vectors);
+    s->column = calloc((size_t)plan->family.columns + ISO_SWEEP_REQUESTS * ISO_SWEEP_NUMBERS, sizeof *s->column);
+    const iso_status status = s->column ? make_columns(ctx, s) : iso_context_no_memory(ctx, "a sweep");
+    if (status == ISO_OK)
+        make_head(s), *sweep = s;
+    else
         iso_sweep_free(s);
-    }
     return status;
 }
 
@@ -201,38 +256,26 @@ static iso_status make_points(iso_context *ctx, const iso_sweep *s, size_t first
 {
     const iso_family *f = &s->plan->family;
     iso_sweep_rows *r = b->rows;
-    for (size_t i = 0; i < b->count; i++) {
+    iso_status status = ISO_OK;
+    for (size_t i = 0; i < b->count && status == ISO_OK; i++) {
         double *row = r->number + i * (size_t)r->columns;
         for (int c = 0; c < r->columns; c++) row[c] = NAN;
         r->status[i] = ISO_OK;
         r->reason[i][0] = '\0';
-        const iso_status status = f->scene(ctx, f->data, first + i, &b->scene[i], row);
-        if (status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
-        if (status != ISO_OK) iso_sweep_note(ctx, NULL, b, i, status);
+        status = iso_sweep_note(ctx, NULL, b, i, f->scene(ctx, f->data, first + i, &b->room[i], row));
+        b->scene[i] = r->status[i] == ISO_OK ? &b->room[i] : NULL;
     }
-    return ISO_OK;
+    return status;
 }
 
 /* A point that has failed in an earlier quantity is still asked for the others, but not if it has no scene. */
-static iso_status find_each(iso_context *ctx, const iso_sweep_job *ask, iso_sweep_batch *b)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        if (!b->made[i]) continue;
-        const iso_status status = ask->quantity->find(ctx, ask, &b->scene[i], iso_sweep_numbers(ask, b, i));
-        if (status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
-        if (status != ISO_OK) iso_sweep_note(ctx, ask, b, i, status);
-    }
-    return ISO_OK;
-}
-
-static iso_status find_all(iso_context *ctx, const iso_sweep *s, iso_sweep_batch *b)
+static iso_status find_each(iso_context *ctx, const iso_sweep_job *job, iso_sweep_batch *b)
 {
     iso_status status = ISO_OK;
-    for (int i = 0; i < s->asks && status == ISO_OK; i++) {
-        const iso_sweep_job *ask = &s->ask[i];
-        const iso_sweep_computation *q = ask->quantity;
-        status = q->find_all && q->together(ask) ? q->find_all(ctx, ask, b) : find_each(ctx, ask, b);
-    }
+    for (size_t i = 0; i < b->count && status == ISO_OK; i++)
+        if (b->scene[i])
+            status = iso_sweep_note(ctx, job, b, i,
+                                    job->quantity->find(ctx, job, b->scene[i], iso_sweep_numbers(job, b, i)));
     return status;
 }
 
@@ -241,25 +284,17 @@ iso_status iso_sweep_compute_points(iso_context *ctx, const iso_sweep *s, size_t
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_sweep_batch b = {.count = count, .rows = rows};
-    iso_status status = ISO_OK;
     rows->first = first;
     rows->count = count;
+    b.room = malloc((count + 1) * sizeof *b.room);
     b.scene = malloc((count + 1) * sizeof *b.scene);
-    bool *made = malloc((count + 1) * sizeof *made);
-    if (b.scene && made) {
-        status = make_points(ctx, s, first, &b);
-        for (size_t i = 0; i < count; i++) made[i] = rows->status[i] == ISO_OK;
-        b.made = made;
-        if (status == ISO_OK) status = find_all(ctx, s, &b);
-    } else {
-        status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu points", count);
+    const bool memory = b.room && b.scene;
+    iso_status status = memory ? make_points(ctx, s, first, &b) : iso_context_no_memory(ctx, "%zu points", count);
+    for (const iso_sweep_job *job = s->job; job < s->job + s->plan->wishes && status == ISO_OK; job++) {
+        const iso_sweep_computation *q = job->quantity;
+        status = q->find_all && q->together(job) ? q->find_all(ctx, job, &b) : find_each(ctx, job, &b);
     }
+    free(b.room);
     free(b.scene);
-    free(made);
     return status;
-}
-
-iso_status iso_sweep_compute(iso_context *ctx, const iso_sweep *s, size_t c, iso_sweep_rows *rows)
-{
-    return iso_sweep_compute_points(ctx, s, c * s->head.chunk, iso_sweep_chunk_points(&s->head, c), rows);
 }

@@ -1,15 +1,16 @@
-/* sweep.h - the rows of a sweep: what is measured at each of many points.
+/* sweep.h - sweeps: many scenes that differ in some numbers, and what is measured at each of them.
  *
+ *     iso_sweep_file *file;
  *     iso_sweep *sweep;
- *     iso_sweep_rows rows;
- *     const iso_sweep_head *head;
- *     status = iso_sweep_create(ctx, plan, &sweep);                     plan: sweep/sweep_file.h
- *     head = iso_sweep_head_of(sweep);
- *     iso_sweep_rows_create(ctx, head->columns, head->chunk, &rows);
- *     status = iso_sweep_compute(ctx, sweep, 3, &rows);                 chunk 3
+ *     status = iso_sweep_read(ctx, "sweep.yaml", &file);
+ *     status = iso_sweep_create(ctx, iso_sweep_file_plan(file), &sweep);
+ *     status = iso_sweep_run(ctx, sweep, 0, &source);                   source.take gets the rows, chunk by chunk
  *     iso_sweep_free(sweep);
+ *     iso_sweep_file_free(file);
  *
- * or all chunks on many threads: iso_sweep_run.
+ * A point of a sweep is one scene. Point i is a pure function of i. Points are computed in chunks, whose size follows
+ * from the plan alone. So the rows of a chunk are the same whoever computes them, on how many threads, and in which
+ * order. lib/doc/formats.md tells what stands in a file of a sweep and in its result.
  *
  * Each quantity calls the function of the library that its command calls. So its numbers are those that the command
  * gives for the scene of the point, to the bit, with the same vectors.
@@ -26,16 +27,108 @@
  *
  * A verdict is 0 (regular), 1 (chaotic), 2 (undecided) or 3 (integrable).
  */
-#ifndef ISO_STUDY_SWEEP_H
-#define ISO_STUDY_SWEEP_H
+#ifndef ISO_SWEEP_H
+#define ISO_SWEEP_H
+
+#include <stdint.h>
 
 #include "../base/api.h"
-#include "family.h"
+#include "../orbit/scene.h"
 
 ISO_C_BEGIN
 
-/* What can be measured, ended by NULL; for iso_sweep_read. */
+/* --- the points ------------------------------------------------------------------------------------------------- */
+
+typedef struct iso_family {
+    size_t count;                      /* of points */
+    int columns;                       /* how many numbers vary ... */
+    const char (*name)[ISO_NAME_SIZE]; /* ... and their names */
+    /* Makes the scene of point i, and the numbers that vary. Threads call it at the same time, each with its own
+     * context. After an error numbers that are not known are NaN. Errors: those of iso_scene_read. */
+    iso_status (*scene)(iso_context *ctx, const void *data, size_t i, iso_scene *scene, double numbers[]);
+    const void *data;
+    const iso_scene *base; /* the scene that the others are made from: every point has its effects and columns */
+} iso_family;
+
+/* --- what is asked ---------------------------------------------------------------------------------------------- */
+
+enum { ISO_SWEEP_SETTINGS = 6, ISO_SWEEP_REQUESTS = 16 };
+
+/* A number or a word in a mapping of a sweep file. */
+typedef struct iso_sweep_setting {
+    const char *name;           /* NULL ends a list                                                     */
+    const char *(*word)(int i); /* the words that it can be: the setting is then i; NULL: it is a number */
+    double usual;               /* where the file does not say it; NaN: the scene's                      */
+    double least, most;         /* of a number; both 0: any                                              */
+    bool whole, flag;           /* the number is whole; true or false                                    */
+    const char *missing;        /* it must be there, or it is "missing in ..."; NULL: it may be absent   */
+} iso_sweep_setting;
+
+/* What can be measured. */
+typedef struct iso_sweep_quantity {
+    const char *name, *doc;
+    const iso_sweep_setting *settings; /* NULL: none                                          */
+    bool turns, time;                  /* it can go on for a number of turns; to a given time */
+} iso_sweep_quantity;
+
+/* All of them, ended by NULL. */
 ISO_API const iso_sweep_quantity *const *iso_sweep_quantities(void);
+
+/* One quantity that is asked for. */
+typedef struct iso_sweep_request {
+    int topic; /* its number in the list of quantities */
+    double setting[ISO_SWEEP_SETTINGS];
+    iso_place place; /* where the file asks for it; line 0: nowhere */
+} iso_sweep_request;
+
+/* Filled by iso_sweep_read, or by hand. */
+typedef struct iso_sweep_plan {
+    iso_family family;
+    int wishes;
+    iso_sweep_request wish[ISO_SWEEP_REQUESTS];
+    double turns, time;          /* how long each orbit goes on; NaN: not said           */
+    size_t chunk;                /* points of a chunk; 0: as the quantities suggest      */
+    char vectors[ISO_NAME_SIZE]; /* see batch.h; empty: the widest of this processor     */
+    uint64_t hash[2];            /* of the texts of the sweep and its scene; 0 by hand   */
+    const char *text, *scene;    /* of the sweep file and its scene's file, for the result; may be NULL */
+} iso_sweep_plan;
+
+typedef struct iso_sweep_file iso_sweep_file;
+
+/* Reads the sweep in the file `path` ("-" is standard input). The file of its scene is sought in the same folder.
+ * Errors: ISO_BAD_INPUT with line and column, ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+ISO_API iso_status iso_sweep_read(iso_context *ctx, const char *path, iso_sweep_file **file);
+ISO_API void iso_sweep_file_free(iso_sweep_file *file);
+
+/* What the file says. It is valid until the file is freed. */
+ISO_API const iso_sweep_plan *iso_sweep_file_plan(const iso_sweep_file *file);
+
+/* --- what comes out --------------------------------------------------------------------------------------------- */
+
+enum { ISO_REASON_SIZE = 200 };
+
+typedef struct iso_sweep_column {
+    char group[ISO_NAME_SIZE], name[ISO_NAME_SIZE]; /* group: "vary", or the quantity's name */
+} iso_sweep_column;
+
+/* What the rows of a sweep are: all that a file of results says besides the rows. */
+typedef struct iso_sweep_head {
+    size_t count, chunk; /* points, and points of a chunk; the last chunk may have fewer */
+    int columns;
+    const iso_sweep_column *column;
+    char vectors[ISO_NAME_SIZE];
+    uint64_t hash[2];         /* of everything that the rows depend on */
+    const char *text, *scene; /* of the sweep file, and of the scene's own; scene NULL: it is in the sweep's */
+} iso_sweep_head;
+
+/* The rows of one chunk. A point that fails has a status and a reason; its missing numbers are NaN. */
+typedef struct iso_sweep_rows {
+    int columns;
+    size_t most, first, count; /* room, in points; first point; points here */
+    double *number;            /* number[columns i + c]                     */
+    iso_status *status;
+    char (*reason)[ISO_REASON_SIZE];
+} iso_sweep_rows;
 
 typedef struct iso_sweep iso_sweep;
 
@@ -47,11 +140,8 @@ ISO_API void iso_sweep_free(iso_sweep *sweep);
 /* What its rows are. It is valid until the sweep is freed. */
 ISO_API const iso_sweep_head *iso_sweep_head_of(const iso_sweep *sweep);
 
-/* The same for `count` points from `first` on, at most rows->most. */
-ISO_API iso_status iso_sweep_compute_points(iso_context *ctx, const iso_sweep *sweep, size_t first, size_t count,
-                                            iso_sweep_rows *rows);
-
-/* --- all chunks ------------------------------------------------------------------------------------------------- */
+/* The number of chunks. */
+ISO_API size_t iso_sweep_chunks(const iso_sweep_head *head);
 
 /* Where chunks come from and where their rows go. Both functions are called by one thread at a time. */
 typedef struct iso_sweep_source {

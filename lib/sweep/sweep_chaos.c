@@ -4,167 +4,109 @@
 #include <stdlib.h>
 
 #include "model/model_impl.h"
-#include "study/chaos/chaos.h"
+#include "orbit/orbit_impl.h"
+#include "study/chaos/chaos_impl.h"
+#include "study/fields_impl.h"
 #include "sweep/sweep_impl.h"
 
-enum { STARTS, SEED, MODEL, EXPONENT_TURNS, OF_MODEL = 11 };
+enum { STARTS, SEED, MODEL, EXPONENT_TURNS };
 
-static const char *model_word(int i)
+static bool with_model(const iso_sweep_job *job, int model)
 {
-    static const char *const words[] = {"ball", "point", "both"};
-    return i < 3 ? words[i] : NULL;
-}
-
-static bool with_model(const iso_sweep_job *ask, int model)
-{
-    const double asked = ask->setting[MODEL];
+    const double asked = job->setting[MODEL];
     return isnan(asked) || asked == ISO_SHOW_BOTH || asked == model;
 }
 
-static int chaos_columns(const iso_sweep_job *ask, const char *name[])
+static void chaos_columns(iso_sweep_job *job)
 {
-    static const char *const share[] = {"share", "share_low", "share_high", "regular", "undecided", "failed"};
-    static const char *const models[2][OF_MODEL] = {
-        {"ball_verdict", "ball_turns", "ball_megno", "ball_gali2", "ball_per_turn", "ball_exponent_t",
-         "ball_exponent_tau", "ball_exponent_s", "ball_error_t", "ball_error_tau", "ball_error_s"},
-        {"point_verdict", "point_turns", "point_megno", "point_gali2", "point_per_turn", "point_exponent_t",
-         "point_exponent_tau", "point_exponent_s", "point_error_t", "point_error_tau", "point_error_s"}};
-    int count = 0;
-    name[count++] = "verdict";
-    if (ask->setting[STARTS] > 0) count += iso_sweep_names(name + count, 6, share);
-    for (int m = 0; m < 2; m++)
-        if (with_model(ask, m)) count += iso_sweep_names(name + count, OF_MODEL, models[m]);
-    return count;
+    static const char of_model[] =
+        "verdict turns megno gali2 per_turn exponent_t exponent_tau exponent_s error_t error_tau error_s";
+    iso_sweep_add(job, "", "verdict");
+    if (job->setting[STARTS] > 0) iso_sweep_add(job, "", "share share_low share_high regular undecided failed");
+    if (with_model(job, ISO_BALL)) iso_sweep_add(job, "ball_", of_model);
+    if (with_model(job, ISO_POINT)) iso_sweep_add(job, "point_", of_model);
 }
 
-static void tell_model(const iso_indication *i, double number[])
+/* status: of the study. Errors: that, or why the scene's own orbit was not followed. */
+static iso_status take(iso_context *ctx, const iso_sweep_job *job, const iso_chaos *c, iso_status status,
+                       double number[])
 {
-    number[0] = i->verdict;
-    number[1] = (double)i->turns;
-    number[2] = i->megno;
-    number[3] = i->gali2;
-    number[4] = i->per_turn;
-    for (int c = 0; c < ISO_CLOCKS; c++) {
-        number[5 + c] = i->exponent[c];
-        number[8 + c] = i->error[c];
-    }
+    iso_field fields[ISO_MOST_FIELDS];
+    if (status != ISO_OK) return iso_context_fail(ctx, status, "", "%s", c ? c->words : "it failed");
+    iso_chaos_columns(c, fields);
+    iso_sweep_fill(job, fields, &c->own, number);
+    if (job->setting[STARTS] > 0) iso_sweep_fill(job, iso_chaos_fraction_fields, &c->share, number);
+    if (c->own.status[ISO_BALL] == ISO_OK && c->own.status[ISO_POINT] == ISO_OK) return ISO_OK;
+    return iso_context_fail(ctx, c->failure, "", "%s", c->words);
 }
 
-static void tell_share(const iso_chaos_fraction *s, double number[])
-{
-    const double n = (double)s->count;
-    number[0] = s->share;
-    number[1] = s->low;
-    number[2] = s->high;
-    number[3] = (double)s->regular / n;
-    number[4] = (double)s->undecided / n;
-    number[5] = (double)s->failed;
-}
-
-static void tell(const iso_sweep_job *ask, const iso_chaos_orbit *own, const bool with[2],
-                 const iso_chaos_fraction *share, double number[])
-{
-    int at = 1;
-    number[0] = own->verdict;
-    if (ask->setting[STARTS] > 0) tell_share(share, number + at), at += 6;
-    for (int m = 0; m < 2; m++) {
-        if (!with_model(ask, m)) continue;
-        if (with[m]) tell_model(&own->told[m], number + at);
-        at += OF_MODEL;
-    }
-}
-
-static iso_chaos_options options_of(const iso_sweep_job *ask)
+static iso_chaos_options options_of(const iso_sweep_job *job)
 {
     iso_chaos_options o = iso_chaos_defaults();
-    if (!isnan(ask->turns)) o.turns = (long)ask->turns;
-    o.exponent_turns = (long)ask->setting[EXPONENT_TURNS];
-    o.starts = (size_t)ask->setting[STARTS];
-    o.seed = (uint64_t)ask->setting[SEED];
-    if (!isnan(ask->setting[MODEL])) o.models = (iso_models)ask->setting[MODEL];
+    if (!isnan(job->turns)) o.turns = (long)job->turns;
+    o.exponent_turns = (long)job->setting[EXPONENT_TURNS];
+    o.starts = (size_t)job->setting[STARTS];
+    o.seed = (uint64_t)job->setting[SEED];
+    if (!isnan(job->setting[MODEL])) o.models = (iso_models)job->setting[MODEL];
     o.threads = 1;
-    o.vectors = ask->vectors;
+    o.vectors = job->vectors;
     return o;
 }
 
-static iso_status chaos_find(iso_context *ctx, const iso_sweep_job *ask, const iso_scene *scene, double number[])
+static iso_status chaos_find(iso_context *ctx, const iso_sweep_job *job, const iso_scene *scene, double number[])
 {
-    const iso_chaos_options o = options_of(ask);
+    const iso_chaos_options o = options_of(job);
     iso_chaos *c = NULL;
     iso_status status = iso_chaos_run(ctx, scene, &o, &c);
-    if (status == ISO_OK) {
-        tell(ask, &c->own, c->with, &c->share, number);
-        const iso_status *own = c->own.status; /* of other starts, only the number is told */
-        if (own[0] != ISO_OK || own[1] != ISO_OK) status = iso_context_fail(ctx, c->failure, "", "%s", c->words);
-    }
+    if (status == ISO_OK) status = take(ctx, job, c, status, number);
     iso_chaos_free(c);
     return status;
 }
 
 /* The points of a chunk, followed together. */
-static iso_status find_together(iso_context *ctx, const iso_sweep_job *ask, iso_sweep_batch *b,
-                                const iso_scene *scene[], iso_chaos *chaos[], iso_status status[])
+static iso_status chaos_find_all(iso_context *ctx, const iso_sweep_job *job, iso_sweep_batch *b)
 {
-    const iso_chaos_options o = options_of(ask);
-    for (size_t i = 0; i < b->count; i++) scene[i] = b->made[i] ? &b->scene[i] : NULL;
-    iso_status answer = iso_chaos_run_many(ctx, b->count, scene, &o, chaos, status);
-    for (size_t i = 0; i < b->count && answer == ISO_OK; i++) {
-        const iso_chaos *c = chaos[i];
-        const bool followed = status[i] == ISO_OK;
-        if (!b->made[i]) continue;
-        if (followed) tell(ask, &c->own, c->with, &c->share, iso_sweep_numbers(ask, b, i));
-        if (followed && c->own.status[0] == ISO_OK && c->own.status[1] == ISO_OK) continue;
-        const iso_status why = followed ? c->failure : status[i];
-        iso_context_fail(ctx, why, "", "%s", c ? c->words : "it failed");
-        if (why == ISO_NO_MEMORY || why == ISO_STOPPED)
-            answer = why; /* this computer failed now, not the point */
-        else
-            iso_sweep_note(ctx, ask, b, i, why);
-    }
-    for (size_t i = 0; i < b->count; i++) iso_chaos_free(chaos[i]);
-    return answer;
-}
-
-static iso_status chaos_find_all(iso_context *ctx, const iso_sweep_job *ask, iso_sweep_batch *b)
-{
-    const iso_scene **scene = calloc(b->count + 1, sizeof *scene);
+    const iso_chaos_options o = options_of(job);
     iso_chaos **chaos = calloc(b->count + 1, sizeof *chaos);
     iso_status *status = calloc(b->count + 1, sizeof *status);
-    const bool room = scene && chaos && status;
-    const iso_status answer = room ? find_together(ctx, ask, b, scene, chaos, status)
-                                   : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the orbits of a chunk");
-    free(scene);
+    iso_status answer = chaos && status ? iso_chaos_run_many(ctx, b->count, b->scene, &o, chaos, status)
+                                        : iso_context_no_memory(ctx, "the orbits of a chunk");
+    for (size_t i = 0; i < b->count && answer == ISO_OK; i++)
+        if (b->scene[i])
+            answer =
+                iso_sweep_note(ctx, job, b, i, take(ctx, job, chaos[i], status[i], iso_sweep_numbers(job, b, i)));
+    for (size_t i = 0; chaos && i < b->count; i++) iso_chaos_free(chaos[i]);
     free(chaos);
     free(status);
     return answer;
 }
 
 /* Starts of one section already fill the lanes. */
-static bool chaos_together(const iso_sweep_job *ask)
+static bool chaos_together(const iso_sweep_job *job)
 {
-    return ask->setting[STARTS] == 0;
+    return job->setting[STARTS] == 0;
 }
 
 /* A turn takes about 15 microseconds by each model, and most orbits have a verdict after 1000. Orbits are followed in
  * the lanes of vectors, so points come in eights. With effects a turn takes 300 microseconds, and each orbit goes
  * alone. */
-static size_t chaos_chunk(const iso_sweep_job *ask)
+static size_t chaos_chunk(const iso_sweep_job *job)
 {
     enum { MOST = 512, LANES = 8 };
-    const double asked = fmax(isnan(ask->turns) ? 1000 : fmin(ask->turns, 1000), ask->setting[EXPONENT_TURNS]),
-                 models = with_model(ask, 0) + with_model(ask, 1);
-    const iso_effects acting = ask->base ? iso_scene_acting(ask->base) : iso_effects_default();
+    const double asked = fmax(isnan(job->turns) ? 1000 : fmin(job->turns, 1000), job->setting[EXPONENT_TURNS]),
+                 models = with_model(job, 0) + with_model(job, 1);
+    const iso_effects acting = job->base ? iso_scene_acting(job->base) : iso_effects_default();
     const bool effects = iso_effects_beyond_level(&acting);
-    const double point = (effects ? 300e-6 : 15e-6) * asked * models * (ask->setting[STARTS] + 1),
+    const double point = (effects ? 300e-6 : 15e-6) * asked * models * (job->setting[STARTS] + 1),
                  fits = fmin(1 / point, MOST);
-    if (ask->setting[STARTS] > 0 || effects) return fits > 1 ? (size_t)fits : 1;
+    if (job->setting[STARTS] > 0 || effects) return fits > 1 ? (size_t)fits : 1;
     return fits > LANES ? (size_t)(fits / LANES) * LANES : LANES;
 }
 
 static const iso_sweep_setting chaos_settings[] = {
     [STARTS] = {.name = "starts", .usual = 0, .least = 0, .most = 1e9, .whole = true},
     [SEED] = {.name = "seed", .usual = 0, .least = 0, .most = 0x1p53, .whole = true},
-    [MODEL] = {.name = "model", .word = model_word, .usual = NAN},
+    [MODEL] = {.name = "model", .word = iso_sweep_models, .usual = NAN},
     [EXPONENT_TURNS] = {.name = "exponent_turns", .usual = 0, .least = 0, .most = 1e9, .whole = true},
     {.name = NULL},
 };

@@ -1,11 +1,11 @@
-/* sweep_draft_impl.h - a sweep's text, as its files share it: sweep_file.c reads its keys, sweep_vary.c and
- * sweep_level.c what varies (and asks sweep_file.c for keys and whole numbers), sweep_point.c makes the points. */
-#ifndef ISO_IO_SWEEP_DRAFT_IMPL_H
-#define ISO_IO_SWEEP_DRAFT_IMPL_H
+/* sweep_draft_impl.h - a sweep's text, as its files share it: sweep_file.c reads its keys, sweep_vary.c what varies,
+ * sweep_point.c makes the points. */
+#ifndef ISO_SWEEP_DRAFT_IMPL_H
+#define ISO_SWEEP_DRAFT_IMPL_H
 
 #include "io/scene_draft_impl.h"
 #include "map/section.h"
-#include "sweep/sweep_file.h"
+#include "sweep/sweep_impl.h"
 
 enum { ISO_SWEEP_AXES = 24, ISO_SWEEP_NAMES = 64, ISO_SWEEP_DRAWN = 8 };
 
@@ -73,17 +73,12 @@ struct iso_sweep_file {
  * ISO_NO_MEMORY. */
 iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples);
 
-/* sweep_level.c: whether an axis is that of the level; what it needs of the scene's text. Errors: ISO_BAD_INPUT. */
-bool iso_sweep_find_level(iso_sweep_axis *a);
-iso_status iso_sweep_check_level(iso_sweep_file *f, const yaml_node_t *key, iso_sweep_axis *a);
-
-/* The keys of a mapping must be among `names`, each once. Errors: ISO_BAD_INPUT. */
-iso_status iso_sweep_check_keys(iso_yaml *y, const yaml_node_t *mapping, const char *what, size_t count,
-                                const char *const names[]);
-
-/* A whole number in [least, most]. Errors: ISO_BAD_INPUT. */
-iso_status iso_sweep_whole(iso_yaml *y, const yaml_node_t *node, const char *what, double least, double most,
-                           double *value);
+/* Reads a mapping, which has no other keys than these settings; or those of its keys that are settings. setting i
+ * becomes value[i]. settings NULL: it is empty. Errors: ISO_BAD_INPUT. */
+iso_status iso_sweep_read_mapping(iso_yaml *y, const yaml_node_t *mapping, const char *what,
+                                  const iso_sweep_setting settings[], double value[]);
+iso_status iso_sweep_read_settings(iso_yaml *y, const yaml_node_t *mapping, const iso_sweep_setting settings[],
+                                   double value[]);
 
 /* Value j of a range of a->count values; with equal steps 0.1, 0.2, ... are what one writes. */
 double iso_sweep_in_range(const iso_sweep_axis *a, size_t j);

@@ -1,8 +1,8 @@
 /* sweep_file.c - reads a sweep's text: its scene, what is measured, and for how long. sweep_vary.c reads what varies.
  * A failure is reported at its line and column. */
-#include "sweep/sweep_file.h"
-
+#define _GNU_SOURCE /* asprintf */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,8 +16,9 @@ enum { LARGEST_FILE = 16 << 20, MOST_TOPICS = 32 };
 
 /* --- what keys and values have in common ------------------------------------------------------------------------ */
 
-iso_status iso_sweep_check_keys(iso_yaml *y, const yaml_node_t *mapping, const char *what, size_t count,
-                                const char *const names[])
+/* The keys of a mapping must be among `names`, each once. */
+static iso_status check_keys(iso_yaml *y, const yaml_node_t *mapping, const char *what, size_t count,
+                             const char *const names[])
 {
     if (mapping->type != YAML_MAPPING_NODE) return iso_yaml_expected(y, mapping, what, "a mapping");
     for (const yaml_node_pair_t *p = mapping->data.mapping.pairs.start; p < mapping->data.mapping.pairs.top; p++) {
@@ -38,36 +39,67 @@ iso_status iso_sweep_check_keys(iso_yaml *y, const yaml_node_t *mapping, const c
     return ISO_OK;
 }
 
-iso_status iso_sweep_whole(iso_yaml *y, const yaml_node_t *node, const char *what, double least, double most,
-                           double *value)
+static iso_status read_word(iso_yaml *y, const yaml_node_t *node, const iso_sweep_setting *s, double *value)
 {
-    const iso_status status = iso_yaml_number(y, node, what, value);
-    if (status != ISO_OK || (*value >= least && *value <= most && *value == floor(*value))) return status;
-    return iso_yaml_fail(y, node->start_mark, "'%s' is %g, it must be a whole number from %g to %g", what, *value,
-                         least, most);
+    const char *names[MOST_TOPICS];
+    size_t count = 0;
+    for (int i = 0; s->word(i) && count < MOST_TOPICS; i++) {
+        if (iso_yaml_is(node, s->word(i))) return *value = i, ISO_OK;
+        names[count++] = s->word(i);
+    }
+    if (node->type != YAML_SCALAR_NODE || node->data.scalar.length == 0)
+        return iso_yaml_expected(y, node, s->name, "a name");
+    return iso_yaml_unknown(y, node, s->name, count, names);
+}
+
+static iso_status read_setting(iso_yaml *y, const yaml_node_t *node, const iso_sweep_setting *s, double *value)
+{
+    bool flag = false;
+    if (s->word) return read_word(y, node, s, value);
+    const iso_status status =
+        s->flag ? iso_yaml_flag(y, node, s->name, &flag) : iso_yaml_number(y, node, s->name, value);
+    if (s->flag) *value = flag;
+    const bool fits = s->least == s->most || (*value >= s->least && *value <= s->most);
+    if (status != ISO_OK || (fits && (!s->whole || *value == floor(*value)))) return status;
+    return iso_yaml_fail(y, node->start_mark, "'%s' is %g, it must be %sfrom %g to %g", s->name, *value,
+                         s->whole ? "a whole number " : "", s->least, s->most);
+}
+
+iso_status iso_sweep_read_settings(iso_yaml *y, const yaml_node_t *mapping, const iso_sweep_setting settings[],
+                                   double value[])
+{
+    iso_status status = ISO_OK;
+    for (const iso_sweep_setting *s = settings; s && s->name && status == ISO_OK; s++, value++) {
+        const yaml_node_t *node;
+        *value = s->usual;
+        if (iso_yaml_find(y, mapping, s->name, NULL, &node))
+            status = read_setting(y, node, s, value);
+        else if (s->missing)
+            status = iso_yaml_fail(y, mapping->start_mark, "missing '%s' in %s", s->name, s->missing);
+    }
+    return status;
+}
+
+iso_status iso_sweep_read_mapping(iso_yaml *y, const yaml_node_t *mapping, const char *what,
+                                  const iso_sweep_setting settings[], double value[])
+{
+    const char *names[ISO_SWEEP_SETTINGS];
+    size_t count = 0;
+    for (const iso_sweep_setting *s = settings; s && s->name; s++) names[count++] = s->name;
+    const iso_status status = check_keys(y, mapping, what, count, names);
+    return status == ISO_OK ? iso_sweep_read_settings(y, mapping, settings, value) : status;
 }
 
 /* --- the scene -------------------------------------------------------------------------------------------------- */
 
-/* The path of the scene's file: beside the sweep's. NULL: no memory. */
-static char *beside(const char *name, const char *path)
-{
-    const char *slash = strrchr(name, '/');
-    const size_t folder = slash && *path != '/' ? (size_t)(slash - name) + 1 : 0;
-    char *all = malloc(folder + strlen(path) + 1);
-    if (!all) return NULL;
-    memcpy(all, name, folder);
-    strcpy(all + folder, path);
-    return all;
-}
-
 static iso_status load_scene_file(iso_context *ctx, iso_sweep_file *f, const yaml_node_t *node)
 {
-    const char *path = (const char *)node->data.scalar.value;
+    const char *path = (const char *)node->data.scalar.value, *slash = strrchr(f->name, '/');
+    const int folder = slash && *path != '/' ? (int)(slash - f->name) + 1 : 0; /* beside the sweep's file */
     if (node->data.scalar.length == 0 || strcmp(path, "-") == 0)
         return iso_yaml_expected(&f->yaml, node, "scene", "the name of a file, or a scene");
-    f->scene_name = beside(f->name, path);
-    if (!f->scene_name) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sweep");
+    if (asprintf(&f->scene_name, "%.*s%s", folder, f->name, path) < 0)
+        return f->scene_name = NULL, iso_context_no_memory(ctx, "a sweep");
     iso_status status = iso_text_load(ctx, f->scene_name, LARGEST_FILE, &f->scene_text, &f->scene_length);
     if (status == ISO_FILE_TROUBLE) return iso_yaml_fail(&f->yaml, node->start_mark, "%s", iso_context_message(ctx));
     if (status != ISO_OK) return status;
@@ -101,54 +133,14 @@ static iso_status read_scene(iso_context *ctx, iso_sweep_file *f, const yaml_nod
 
 /* --- what is measured ------------------------------------------------------------------------------------------- */
 
-static iso_status read_word(iso_yaml *y, const yaml_node_t *node, const iso_sweep_setting *s, double *value)
-{
-    const char *names[MOST_TOPICS];
-    size_t count = 0;
-    for (int i = 0; s->word(i) && count < MOST_TOPICS; i++) {
-        if (iso_yaml_is(node, s->word(i))) return *value = i, ISO_OK;
-        names[count++] = s->word(i);
-    }
-    if (node->type != YAML_SCALAR_NODE || node->data.scalar.length == 0)
-        return iso_yaml_expected(y, node, s->name, "a name");
-    return iso_yaml_unknown(y, node, s->name, count, names);
-}
-
-static iso_status read_setting(iso_yaml *y, const yaml_node_t *node, const iso_sweep_setting *s, double *value)
-{
-    if (s->word) return read_word(y, node, s, value);
-    if (s->whole) return iso_sweep_whole(y, node, s->name, s->least, s->most, value);
-    const iso_status status = iso_yaml_number(y, node, s->name, value);
-    if (status != ISO_OK || (*value >= s->least && *value <= s->most)) return status;
-    return iso_yaml_fail(y, node->start_mark, "'%s' is %g, it must be from %g to %g", s->name, *value, s->least,
-                         s->most);
-}
-
-static iso_status read_wish(iso_yaml *y, const iso_sweep_quantity *topic, const yaml_node_t *settings,
-                            iso_sweep_request *wish)
-{
-    const char *names[ISO_SWEEP_SETTINGS];
-    size_t count = 0;
-    for (const iso_sweep_setting *s = topic->settings; s && s->name; s++) {
-        wish->setting[count] = s->usual;
-        names[count++] = s->name;
-    }
-    iso_status status = iso_sweep_check_keys(y, settings, topic->name, count, names);
-    for (size_t i = 0; i < count && status == ISO_OK; i++) {
-        const yaml_node_t *value;
-        if (iso_yaml_find(y, settings, names[i], NULL, &value))
-            status = read_setting(y, value, &topic->settings[i], &wish->setting[i]);
-    }
-    return status;
-}
-
-static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure, const iso_sweep_quantity *const topics[])
+static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure)
 {
     const char *names[MOST_TOPICS];
     size_t count = 0;
     iso_yaml *y = &f->yaml;
+    const iso_sweep_quantity *const *topics = iso_sweep_quantities();
     while (topics[count] && count < MOST_TOPICS) names[count] = topics[count]->name, count++;
-    iso_status status = iso_sweep_check_keys(y, measure, "measure", count, names);
+    iso_status status = check_keys(y, measure, "measure", count, names);
     if (status != ISO_OK) return status;
     const yaml_node_pair_t *end = measure->data.mapping.pairs.top;
     for (const yaml_node_pair_t *p = measure->data.mapping.pairs.start; p < end && status == ISO_OK; p++) {
@@ -161,7 +153,8 @@ static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure, co
         snprintf(wish->place.key, sizeof wish->place.key, "%s", names[wish->topic]);
         wish->place.line = (int)key->start_mark.line + 1;
         wish->place.column = (int)key->start_mark.column + 1;
-        status = read_wish(y, topics[wish->topic], iso_yaml_node(y, p->value), wish);
+        const iso_sweep_quantity *topic = topics[wish->topic];
+        status = iso_sweep_read_mapping(y, iso_yaml_node(y, p->value), topic->name, topic->settings, wish->setting);
     }
     if (status == ISO_OK && f->plan.wishes == 0)
         return iso_yaml_fail(y, measure->start_mark, "nothing is to be measured: write chaos: {}, for example");
@@ -171,12 +164,12 @@ static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure, co
 /* --- for how long ----------------------------------------------------------------------------------------------- */
 
 /* What goes on to a time only cannot be told a number of turns, and the other way round. */
-static iso_status check_until(iso_sweep_file *f, const yaml_node_t *until, const iso_sweep_quantity *const topics[])
+static iso_status check_until(iso_sweep_file *f, const yaml_node_t *until)
 {
     const bool turns = !isnan(f->plan.turns);
     bool used = false;
     for (int i = 0; i < f->plan.wishes; i++) {
-        const iso_sweep_quantity *t = topics[f->plan.wish[i].topic];
+        const iso_sweep_quantity *t = iso_sweep_quantities()[f->plan.wish[i].topic];
         used = used || (turns ? t->turns : t->time);
         if (turns ? t->time && !t->turns : t->turns && !t->time)
             return iso_yaml_fail(&f->yaml, until->start_mark, "'%s' needs 'until: {%s: ...}'", t->name,
@@ -186,26 +179,26 @@ static iso_status check_until(iso_sweep_file *f, const yaml_node_t *until, const
     return iso_yaml_fail(&f->yaml, until->start_mark, "no quantity in 'measure' uses %s", turns ? "turns" : "a time");
 }
 
-static iso_status read_until(iso_sweep_file *f, const yaml_node_t *until, const iso_sweep_quantity *const topics[])
+static iso_status read_until(iso_sweep_file *f, const yaml_node_t *until)
 {
-    static const char *const names[] = {"turns", "time"};
-    const yaml_node_t *turns = NULL, *time = NULL;
-    iso_yaml *y = &f->yaml;
-    iso_status status = iso_sweep_check_keys(y, until, "until", 2, names);
+    static const iso_sweep_setting settings[] = {
+        {.name = "turns", .usual = NAN, .least = 1, .most = 1e12, .whole = true},
+        {.name = "time", .usual = NAN},
+        {.name = NULL},
+    };
+    double value[2];
+    const iso_status status = iso_sweep_read_mapping(&f->yaml, until, "until", settings, value);
     if (status != ISO_OK) return status;
-    iso_yaml_find(y, until, "turns", NULL, &turns);
-    iso_yaml_find(y, until, "time", NULL, &time);
-    if (!turns == !time) return iso_yaml_fail(y, until->start_mark, "'until' has one of 'turns' and 'time'");
-    if (turns)
-        status = iso_sweep_whole(y, turns, "turns", 1, 1e12, &f->plan.turns);
-    else
-        status = iso_yaml_number(y, time, "time", &f->plan.time);
-    return status == ISO_OK ? check_until(f, until, topics) : status;
+    f->plan.turns = value[0];
+    f->plan.time = value[1];
+    if (isnan(value[0]) == isnan(value[1]))
+        return iso_yaml_fail(&f->yaml, until->start_mark, "'until' has one of 'turns' and 'time'");
+    return check_until(f, until);
 }
 
 /* Refuses numbers that vary but are not used: `until` replaces the scene's end, and a quantity's own setting replaces
  * that of the scene. */
-static iso_status check_used(iso_sweep_file *f, const yaml_node_t *vary, const iso_sweep_quantity *const topics[])
+static iso_status check_used(iso_sweep_file *f, const yaml_node_t *vary)
 {
     const iso_sweep_plan *p = &f->plan;
     for (int i = 0; i < f->axes; i++) {
@@ -213,7 +206,7 @@ static iso_status check_used(iso_sweep_file *f, const yaml_node_t *vary, const i
         if (strcmp(name, "end") == 0 && !(isnan(p->turns) && isnan(p->time)))
             return iso_yaml_fail(&f->yaml, vary->start_mark, "'end' varies, but 'until' replaces it");
         for (int w = 0; w < p->wishes; w++) {
-            const iso_sweep_quantity *t = topics[p->wish[w].topic];
+            const iso_sweep_quantity *t = iso_sweep_quantities()[p->wish[w].topic];
             for (int s = 0; t->settings && t->settings[s].name; s++)
                 if (strcmp(name, t->settings[s].name) == 0 && !isnan(p->wish[w].setting[s]))
                     return iso_yaml_fail(&f->yaml, vary->start_mark, "'%s' varies, but '%s' sets its own", name,
@@ -225,24 +218,26 @@ static iso_status check_used(iso_sweep_file *f, const yaml_node_t *vary, const i
 
 /* --- the whole -------------------------------------------------------------------------------------------------- */
 
+static const char *const kinds[] = {"avx512", "avx2", "plain", NULL};
+
+static const char *kind_of_vectors(int i)
+{
+    return kinds[i];
+}
+
 static iso_status read_rest(iso_sweep_file *f, const yaml_node_t *root)
 {
-    const yaml_node_t *node;
-    iso_status status = ISO_OK;
-    if (iso_yaml_find(&f->yaml, root, "chunk", NULL, &node)) {
-        double chunk = 0;
-        status = iso_sweep_whole(&f->yaml, node, "chunk", 1, 4096, &chunk);
-        f->plan.chunk = (size_t)chunk;
-    }
-    if (status == ISO_OK && iso_yaml_find(&f->yaml, root, "vectors", NULL, &node)) {
-        static const char *const kinds[] = {"avx512", "avx2", "plain"};
-        for (int i = 0; i < 3; i++)
-            if (iso_yaml_is(node, kinds[i])) strcpy(f->plan.vectors, kinds[i]);
-        if (!*f->plan.vectors)
-            status = node->type == YAML_SCALAR_NODE ? iso_yaml_unknown(&f->yaml, node, "vectors", 3, kinds)
-                                                    : iso_yaml_expected(&f->yaml, node, "vectors", "a name");
-    }
-    return status;
+    static const iso_sweep_setting settings[] = {
+        {.name = "chunk", .least = 1, .most = 4096, .whole = true},
+        {.name = "vectors", .word = kind_of_vectors, .usual = NAN},
+        {.name = NULL},
+    };
+    double value[2];
+    const iso_status status = iso_sweep_read_settings(&f->yaml, root, settings, value);
+    if (status != ISO_OK) return status;
+    f->plan.chunk = (size_t)value[0];
+    if (!isnan(value[1])) strcpy(f->plan.vectors, kinds[(int)value[1]]);
+    return ISO_OK;
 }
 
 /* The reason of a point that fails is part of the result, whose bytes do not depend on the folder or on the path that
@@ -262,51 +257,45 @@ static void finish_plan(iso_sweep_file *f, const yaml_node_t *scene)
     p->family.base = &f->base;
 }
 
-static iso_status read_root(iso_context *ctx, iso_sweep_file *f, const iso_sweep_quantity *const topics[])
+static iso_status read_root(iso_context *ctx, iso_sweep_file *f)
 {
     static const char *const names[] = {"scene", "vary", "measure", "until", "samples", "chunk", "vectors"};
     const yaml_node_t *root = yaml_document_get_root_node(&f->yaml.document), *node[5] = {NULL};
     if (root->type != YAML_MAPPING_NODE)
         return iso_yaml_expected(&f->yaml, root, "sweep", "a mapping with scene, vary and measure");
-    iso_status status = iso_sweep_check_keys(&f->yaml, root, "sweep", sizeof names / sizeof *names, names);
+    iso_status status = check_keys(&f->yaml, root, "sweep", sizeof names / sizeof *names, names);
     for (int i = 0; i < 5 && status == ISO_OK; i++)
         if (!iso_yaml_find(&f->yaml, root, names[i], NULL, &node[i]) && i < 3)
             status = iso_yaml_fail(&f->yaml, root->start_mark, "missing '%s' in the sweep", names[i]);
     if (status == ISO_OK) status = read_scene(ctx, f, node[0]);
     if (status == ISO_OK) status = iso_sweep_read_vary(f, node[1], node[4]);
-    if (status == ISO_OK) status = read_measure(f, node[2], topics);
-    if (status == ISO_OK && node[3]) status = read_until(f, node[3], topics);
-    if (status == ISO_OK) status = check_used(f, node[1], topics);
+    if (status == ISO_OK) status = read_measure(f, node[2]);
+    if (status == ISO_OK && node[3]) status = read_until(f, node[3]);
+    if (status == ISO_OK) status = check_used(f, node[1]);
     if (status == ISO_OK) status = read_rest(f, root);
     if (status == ISO_OK) finish_plan(f, node[0]);
     return status;
 }
 
-static iso_status parse(iso_context *ctx, iso_sweep_file *f, const iso_sweep_quantity *const topics[])
+static iso_status parse(iso_context *ctx, iso_sweep_file *f)
 {
     f->yaml = (iso_yaml){.ctx = ctx, .name = f->name};
     f->plan.turns = f->plan.time = NAN;
     iso_status status = iso_yaml_load(&f->yaml, f->text, f->length);
     f->loaded = status == ISO_OK;
-    return status == ISO_OK ? read_root(ctx, f, topics) : status;
+    return status == ISO_OK ? read_root(ctx, f) : status;
 }
 
-iso_status iso_sweep_parse(iso_context *ctx, const char *name, const char *text, size_t length,
-                           const iso_sweep_quantity *const topics[], iso_sweep_file **file)
+iso_status iso_sweep_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_sweep_file **file)
 {
     ISO_DEFAULT_ARITHMETIC;
     *file = NULL;
     iso_sweep_file *f = calloc(1, sizeof *f);
     if (f) f->name = strdup(name);
     if (f) f->text = malloc(length + 1);
-    iso_status status = ISO_NO_MEMORY;
-    if (f && f->name && f->text) {
-        memcpy(f->text, text, length);
-        f->text[f->length = length] = '\0';
-        status = parse(ctx, f, topics);
-    } else {
-        iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sweep");
-    }
+    const bool memory = f && f->name && f->text;
+    if (memory) memcpy(f->text, text, length), f->text[f->length = length] = '\0';
+    const iso_status status = memory ? parse(ctx, f) : iso_context_no_memory(ctx, "a sweep");
     if (status == ISO_OK)
         *file = f;
     else
@@ -314,15 +303,14 @@ iso_status iso_sweep_parse(iso_context *ctx, const char *name, const char *text,
     return status;
 }
 
-iso_status iso_sweep_read(iso_context *ctx, const char *path, const iso_sweep_quantity *const topics[],
-                          iso_sweep_file **file)
+iso_status iso_sweep_read(iso_context *ctx, const char *path, iso_sweep_file **file)
 {
     char *text;
     size_t length;
     *file = NULL;
     iso_status status = iso_text_load(ctx, path, LARGEST_FILE, &text, &length);
     if (status != ISO_OK) return status;
-    status = iso_sweep_parse(ctx, iso_text_name(path), text, length, topics, file);
+    status = iso_sweep_parse(ctx, iso_text_name(path), text, length, file);
     free(text);
     return status;
 }
@@ -350,21 +338,19 @@ bool iso_sweep_axis_words(const iso_sweep_file *f, int i, char words[ISO_SWEEP_W
 {
     if (i >= f->axes) return false;
     const iso_sweep_axis *a = &f->axis[i];
-    const char *steps = a->logarithmic ? ", logarithmic" : "";
-    char what[96] = "";
+    const char *drawn = a->values != ISO_FROM_DRAWING ? "" : f->random ? " drawn at random" : " drawn evenly";
+    const size_t count = *drawn ? f->samples : a->count;
+    int used = snprintf(words, ISO_SWEEP_WORDS, "%s: %zu ", a->name, count);
     switch (a->values) {
-    case ISO_FROM_LIST: snprintf(what, sizeof what, "%zu value%s", a->count, a->count == 1 ? "" : "s"); break;
+    case ISO_FROM_LIST: snprintf(words + used, 8, count == 1 ? "value" : "values"); break;
     case ISO_FROM_RANGE:
-        snprintf(what, sizeof what, "%zu values from %g to %g%s", a->count, a->from, a->to, steps);
-        break;
     case ISO_FROM_DRAWING:
-        snprintf(what, sizeof what, "%zu values drawn %s from %g to %g%s", f->samples,
-                 f->random ? "at random" : "evenly", a->from, a->to, steps);
+        snprintf(words + used, 90, "values%s from %g to %g%s", drawn, a->from, a->to,
+                 a->logarithmic ? ", logarithmic" : "");
         break;
-    case ISO_FROM_TRIANGLE: snprintf(what, sizeof what, "%zu values of a triangle", a->count); break;
-    case ISO_FROM_SPREAD: snprintf(what, sizeof what, "%zu starts spread over the section", a->count); break;
+    case ISO_FROM_TRIANGLE: strcpy(words + used, "values of a triangle"); break;
+    case ISO_FROM_SPREAD: strcpy(words + used, "starts spread over the section"); break;
     }
-    snprintf(words, ISO_SWEEP_WORDS, "%s: %s", a->name, what);
     return true;
 }
 

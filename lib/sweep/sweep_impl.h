@@ -1,71 +1,113 @@
-/* sweep_impl.h - what can be measured at the points of a sweep: one struct for each quantity.
+/* sweep_impl.h - what can be measured at the points of a sweep: one struct for each quantity; and what the library
+ * and the command need besides of sweeps, their files and rows.
  *
  * To add a quantity, write its struct and a line in ISO_SWEEP_LIST. The reader of sweep files, the help and the rows
- * of results know it from there. sweep.c calls the quantities through this table; their files call back to note
- * failures and names of columns.
+ * of results know it from there.
  */
-#ifndef ISO_STUDY_SWEEP_IMPL_H
-#define ISO_STUDY_SWEEP_IMPL_H
+#ifndef ISO_SWEEP_IMPL_H
+#define ISO_SWEEP_IMPL_H
 
+#include "base/field.h"
 #include "sweep/sweep.h"
 
 enum { ISO_SWEEP_NUMBERS = 48 /* of one quantity, at most */ };
 
 struct iso_sweep_computation;
 
-/* A wish of the plan with all that its quantity needs: settings, length, vectors, and its columns in a row. */
+/* A request of the plan with all that its quantity needs: settings, length, vectors, and its columns. */
 typedef struct iso_sweep_job {
     const struct iso_sweep_computation *quantity;
     double setting[ISO_SWEEP_SETTINGS];
     double turns, time; /* NaN: not said */
     const char *vectors;
     const iso_scene *base;
-    int count; /* of its columns in a row, from `first` on */
-    int first;
+    iso_sweep_column *column; /* of its own ... */
+    int count, first;         /* ... of which there are `count`; in a row they begin at `first` */
 } iso_sweep_job;
 
 /* The points of a chunk. */
 typedef struct iso_sweep_batch {
     size_t count;
-    iso_scene *scene;
-    const bool *made; /* whether point i has a scene */
+    iso_scene *room;
+    const iso_scene **scene; /* of point i; NULL: it could not be made */
     iso_sweep_rows *rows;
 } iso_sweep_batch;
 
 typedef struct iso_sweep_computation {
     iso_sweep_quantity topic;
-    /* The names of its columns, at most ISO_SWEEP_NUMBERS; gives their number. */
-    int (*columns)(const iso_sweep_job *ask, const char *name[]);
-    /* How many points make a chunk of about a second. */
-    size_t (*chunk)(const iso_sweep_job *ask);
+    const char *names; /* of its columns, with blanks between; NULL: `columns` adds them */
+    void (*columns)(iso_sweep_job *job);
+    size_t points; /* of a chunk of about a second; 0: `chunk` tells */
+    size_t (*chunk)(const iso_sweep_job *job);
     /* Why the scenes of this sweep do not have it. NULL: all do. Errors: ISO_BAD_INPUT. */
-    iso_status (*refuse)(iso_context *ctx, const iso_sweep_job *ask);
+    iso_status (*refuse)(iso_context *ctx, const iso_sweep_job *job);
     /* Its numbers for one scene. Numbers that are not set are NaN. Errors: those of the point. */
-    iso_status (*find)(iso_context *ctx, const iso_sweep_job *ask, const iso_scene *scene, double number[]);
+    iso_status (*find)(iso_context *ctx, const iso_sweep_job *job, const iso_scene *scene, double number[]);
     /* Instead of find, where `together` says so: for all points of a chunk. Errors: ISO_STOPPED, ISO_NO_MEMORY. */
-    iso_status (*find_all)(iso_context *ctx, const iso_sweep_job *ask, iso_sweep_batch *batch);
-    bool (*together)(const iso_sweep_job *ask);
+    iso_status (*find_all)(iso_context *ctx, const iso_sweep_job *job, iso_sweep_batch *batch);
+    bool (*together)(const iso_sweep_job *job);
 } iso_sweep_computation;
 
 #define ISO_SWEEP_LIST(X) X(state) X(chaos) X(frequencies) X(splitting) X(rotations) X(backends) X(error) X(contact)
 #define ISO_SWEEP_DECLARE(name) extern const iso_sweep_computation iso_sweep_##name;
 ISO_SWEEP_LIST(ISO_SWEEP_DECLARE)
 
-/* Notes a failure of point i, whose words the context has. A second failure of the same point is not noted. */
-void iso_sweep_note(iso_context *ctx, const iso_sweep_job *ask, iso_sweep_batch *batch, size_t i, iso_status status);
+/* Adds columns, whose names have blanks between, each behind the prefix. */
+void iso_sweep_add(iso_sweep_job *job, const char *prefix, const char *names);
+
+/* Fills those columns that a list of fields has, also those that are not for tables. */
+void iso_sweep_fill(const iso_sweep_job *job, const iso_field fields[], const void *row, double number[]);
+
+/* Notes a failure of point i, whose words the context has; a second one of the same point is not noted. Gives ISO_OK,
+ * or the status if this computer failed now, not the point: ISO_NO_MEMORY, ISO_STOPPED. */
+iso_status iso_sweep_note(iso_context *ctx, const iso_sweep_job *job, iso_sweep_batch *batch, size_t i,
+                          iso_status status);
 
 /* The numbers of this quantity in the row of point i. */
-double *iso_sweep_numbers(const iso_sweep_job *ask, const iso_sweep_batch *batch, size_t i);
+double *iso_sweep_numbers(const iso_sweep_job *job, const iso_sweep_batch *batch, size_t i);
 
-/* Fills name[] and gives the number of names. */
-int iso_sweep_names(const char *name[], int count, const char *const names[]);
+/* About an effect that acts, other than a level; the refusal of several quantities. */
+iso_status iso_sweep_refuse_effects(iso_context *ctx, const iso_sweep_job *job);
+
+/* ball, point, both */
+const char *iso_sweep_models(int i);
 
 /* Adds bytes to a hash of 128 bits, which begins as {0, 0}. It is for telling sweeps apart, not for secrets. */
 void iso_sweep_hash(uint64_t hash[2], const void *bytes, size_t length);
 
-/* Measures the points of chunk c. rows has room for head->chunk points. Threads may call this at the same time, with
- * contexts and rows of their own. A point that fails is a row with its reason, and no error of the call.
- * Errors: ISO_STOPPED by the context's monitor, ISO_NO_MEMORY: then the rows are not valid. */
-iso_status iso_sweep_compute(iso_context *ctx, const iso_sweep *sweep, size_t c, iso_sweep_rows *rows);
+/* --- rows ------------------------------------------------------------------------------------------------------- */
+
+/* Errors: ISO_NO_MEMORY. */
+iso_status iso_sweep_rows_create(iso_context *ctx, int columns, size_t most, iso_sweep_rows *rows);
+void iso_sweep_rows_free(iso_sweep_rows *rows);
+
+/* How many points chunk c has. */
+size_t iso_sweep_chunk_points(const iso_sweep_head *head, size_t c);
+
+/* Measures `count` points from `first` on. rows has room for them. Threads may call this at the
+ * same time, with contexts and rows of their own. A point that fails is a row with its reason, and no error of the
+ * call. Errors: ISO_STOPPED by the context's monitor, ISO_NO_MEMORY: then the rows are not valid. */
+iso_status iso_sweep_compute_points(iso_context *ctx, const iso_sweep *sweep, size_t first, size_t count,
+                                    iso_sweep_rows *rows);
+
+/* --- files ------------------------------------------------------------------------------------------------------ */
+
+/* As iso_sweep_read, from text, which messages call `name`. A scene's file is sought in the folder of `name`. */
+iso_status iso_sweep_parse(iso_context *ctx, const char *name, const char *text, size_t length,
+                           iso_sweep_file **file);
+
+/* What varies, in words, such as "k: 61 values from -3 to 3"; false past the last. */
+enum { ISO_SWEEP_WORDS = 176 };
+bool iso_sweep_axis_words(const iso_sweep_file *file, int i, char words[ISO_SWEEP_WORDS]);
+
+/* How many points have k = 0, where there is no ball: they will fail. Of values that are drawn none is counted. */
+size_t iso_sweep_zeros_of_k(const iso_sweep_file *file);
+
+/* The scene of point i as text: that of the scene's file with the numbers of the point in it. It reads back as the
+ * same scene, to the bit. *text is the caller's to free. Errors: ISO_NO_MEMORY, and those of the point. */
+iso_status iso_sweep_scene_text(iso_context *ctx, const iso_sweep_file *file, size_t i, char **text);
+
+/* Whether a text is a sweep, with mistakes in it or not: YAML that has a key `vary` or `measure` at its top. */
+bool iso_sweep_is_one(const char *text, size_t length);
 
 #endif

@@ -13,11 +13,9 @@
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "io/replacement_impl.h"
-#include "io/table_impl.h"
 #include "sweep/sweep_store_impl.h"
 
 typedef struct journal_head {
@@ -26,37 +24,11 @@ typedef struct journal_head {
     uint64_t hash[2], points, chunk, columns, index, count, checksum;
 } journal_head;
 
-struct iso_sweep_journal {
-    char *path, *name; /* of the result, of the journal; name NULL: it has none */
-    const iso_sweep_head *head;
-    iso_sweep_shard share;
-    int descriptor;
-    off_t end;
-    off_t *at; /* of the record of each chunk; 0: it is not there */
-    size_t done;
-    iso_sweep_failures failures;
-    bool complete; /* the result is there already */
-    bool ours;     /* the journal's file was not refused */
-    unsigned char *buffer;
-    size_t room;
-    time_t synced;
-};
-
 /* --- small things ----------------------------------------------------------------------------------------------- */
 
 static iso_status trouble(iso_context *ctx, const iso_sweep_journal *j, const char *what)
 {
     return iso_file_trouble(ctx, what, j->name ? j->name : "a temporary file");
-}
-
-static bool make_room(iso_sweep_journal *j, size_t length)
-{
-    if (length <= j->room) return true;
-    unsigned char *more = realloc(j->buffer, 2 * length);
-    if (!more) return false;
-    j->buffer = more;
-    j->room = 2 * length;
-    return true;
 }
 
 static journal_head head_of(const iso_sweep_journal *j)
@@ -113,11 +85,9 @@ static iso_status append(iso_context *ctx, iso_sweep_journal *j, const void *byt
 /* Reads the record at `at` into rows. False: it is not whole (errno is 0), or it cannot be read. */
 static bool read_record(iso_sweep_journal *j, off_t at, iso_sweep_record *r, iso_sweep_rows *rows)
 {
-    const size_t most = iso_sweep_rows_bytes(rows, rows->most);
     if (!read_at(j, at, r, sizeof *r)) return false;
     errno = 0;
-    if (r->length > most || r->chunk >= iso_sweep_chunks(j->head)) return false;
-    if (!make_room(j, r->length + 1)) return errno = ENOMEM, false;
+    if (r->length > j->room - sizeof *r || r->chunk >= iso_sweep_chunks(j->head)) return false;
     if (!read_at(j, at + (off_t)sizeof *r, j->buffer, r->length)) return false;
     rows->first = r->chunk * j->head->chunk;
     rows->count = iso_sweep_chunk_points(j->head, r->chunk);
@@ -145,23 +115,20 @@ static bool is_empty(iso_sweep_journal *j, off_t at, off_t size)
 
 /* Whether what follows j->end can be a record that was cut short: it is not longer than one, and no whole record
  * stands in it. False with errno 0: it cannot. */
-static bool is_torn(iso_sweep_journal *j, off_t size, const iso_sweep_rows *rows)
+static bool is_torn(iso_sweep_journal *j, off_t size)
 {
-    const size_t most = sizeof(iso_sweep_record) + iso_sweep_rows_bytes(rows, rows->most);
-    if (!make_room(j, most)) return errno = ENOMEM, false;
     if (is_empty(j, j->end, size)) return true;
-    if (errno != 0 || size - j->end > (off_t)most) return false;
+    if (errno != 0 || size - j->end > (off_t)j->room) return false;
     const size_t length = (size_t)(size - j->end);
     return read_at(j, j->end, j->buffer, length) && !iso_sweep_record_inside(j->head, j->buffer, length);
 }
 
 /* What is behind the last whole record is cut off if it is a record that was cut short. Else chunks would be lost. */
-static iso_status cut_tail(iso_context *ctx, iso_sweep_journal *j, off_t size, const iso_sweep_rows *rows)
+static iso_status cut_tail(iso_context *ctx, iso_sweep_journal *j, off_t size)
 {
     if (j->end >= size) return ISO_OK;
-    j->ours = errno == 0 && is_torn(j, size, rows);
+    j->ours = errno == 0 && is_torn(j, size);
     if (j->ours) return ftruncate(j->descriptor, j->end) == 0 ? ISO_OK : trouble(ctx, j, "write");
-    if (errno == ENOMEM) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", j->name);
     return errno != 0 ? trouble(ctx, j, "read") : refuse(ctx, j->name, "is damaged: remove it to begin again");
 }
 
@@ -181,7 +148,7 @@ static iso_status scan(iso_context *ctx, iso_sweep_journal *j, off_t size)
         }
         j->end += (off_t)(sizeof r + r.length);
     }
-    status = cut_tail(ctx, j, size, &rows);
+    status = cut_tail(ctx, j, size);
     iso_sweep_rows_free(&rows);
     return status;
 }
@@ -208,10 +175,8 @@ static iso_status look_at_result(iso_context *ctx, iso_sweep_journal *j, bool re
     iso_status status = iso_sweep_reader_open(ctx, j->path, &reader);
     if (status == ISO_NO_MEMORY) return status;
     if (status != ISO_OK) return refuse(ctx, j->path, "is there, and is no result of a sweep: it is not overwritten");
-    const iso_sweep_head *head = iso_sweep_reader_head(reader);
-    const iso_sweep_shard share = iso_sweep_reader_share(reader);
-    const bool same = memcmp(head->hash, j->head->hash, sizeof head->hash) == 0 && share.index == j->share.index &&
-                      share.count == j->share.count;
+    const bool same = memcmp(reader->head.hash, j->head->hash, sizeof j->head->hash) == 0 &&
+                      reader->share.index == j->share.index && reader->share.count == j->share.count;
     if (same && resume) status = iso_sweep_reader_failures(ctx, reader, &j->failures);
     iso_sweep_reader_close(reader);
     if (status != ISO_OK) return status;
@@ -219,7 +184,7 @@ static iso_status look_at_result(iso_context *ctx, iso_sweep_journal *j, bool re
     if (!resume) return refuse(ctx, j->path, "is there already, the result of this sweep: it is not overwritten");
     remove_old(j);
     j->complete = true;
-    j->done = iso_sweep_journal_wanted(j);
+    j->done = j->wanted;
     return ISO_OK;
 }
 
@@ -274,7 +239,7 @@ static iso_status open_named(iso_context *ctx, iso_sweep_journal *j, bool resume
     struct stat s;
     if (asprintf(&j->name, "%s.part", j->path) < 0) {
         j->name = NULL;
-        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sweep");
+        return iso_context_no_memory(ctx, "a sweep");
     }
     const iso_status status = open_locked(ctx, j, &s);
     if (status != ISO_OK) return status;
@@ -309,18 +274,19 @@ iso_status iso_sweep_journal_open(iso_context *ctx, const char *path, const iso_
 {
     *journal = NULL;
     iso_sweep_journal *j = calloc(1, sizeof *j);
-    iso_status status = ISO_NO_MEMORY;
-    if (j) {
-        j->descriptor = -1;
-        j->path = strdup(path);
-        j->head = head;
-        j->share = share;
-        j->at = calloc(iso_sweep_chunks(head) + 1, sizeof *j->at);
-    }
-    if (j && j->path && j->at)
-        status = open_journal(ctx, j, resume);
-    else
-        iso_context_fail(ctx, status, "", "no memory for a sweep");
+    if (!j) return iso_context_no_memory(ctx, "a sweep");
+    const size_t chunks = iso_sweep_chunks(head);
+    j->descriptor = -1;
+    j->path = strdup(path);
+    j->head = head;
+    j->share = share;
+    j->wanted = chunks > share.index ? (chunks - share.index - 1) / share.count + 1 : 0;
+    j->at = calloc(chunks + 1, sizeof *j->at);
+    j->room =
+        sizeof(iso_sweep_record) + iso_sweep_rows_bytes(&(iso_sweep_rows){.columns = head->columns}, head->chunk);
+    j->buffer = malloc(j->room);
+    const iso_status status =
+        j->path && j->at && j->buffer ? open_journal(ctx, j, resume) : iso_context_no_memory(ctx, "a sweep");
     if (status == ISO_OK)
         *journal = j;
     else
@@ -350,32 +316,6 @@ bool iso_sweep_journal_has(const iso_sweep_journal *j, size_t c)
     return j->complete || c % j->share.count != j->share.index || j->at[c] != 0;
 }
 
-size_t iso_sweep_journal_wanted(const iso_sweep_journal *j)
-{
-    const size_t chunks = iso_sweep_chunks(j->head), i = j->share.index, n = j->share.count;
-    return chunks > i ? (chunks - i - 1) / n + 1 : 0;
-}
-
-size_t iso_sweep_journal_done(const iso_sweep_journal *j)
-{
-    return j->done;
-}
-
-const iso_sweep_failures *iso_sweep_journal_failures(const iso_sweep_journal *j)
-{
-    return &j->failures;
-}
-
-size_t iso_sweep_journal_points(const iso_sweep_journal *j)
-{
-    return iso_sweep_shard_points(j->head, j->share);
-}
-
-bool iso_sweep_journal_lasts(const iso_sweep_journal *j)
-{
-    return j->name != NULL;
-}
-
 /* --- adding and finishing --------------------------------------------------------------------------------------- */
 
 /* Against a loss of power, at most every fifth second. */
@@ -392,8 +332,6 @@ iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t 
     if (iso_sweep_journal_has(j, c)) return ISO_OK;
     iso_sweep_record r = {.chunk = c};
     const off_t at = j->end;
-    if (!make_room(j, sizeof r + iso_sweep_rows_bytes(rows, rows->count)))
-        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a chunk");
     const size_t length = r.length = iso_sweep_rows_pack(rows, j->buffer + sizeof r);
     r.checksum = iso_sweep_record_sum(&r, j->buffer + sizeof r);
     memcpy(j->buffer, &r, sizeof r);
@@ -406,36 +344,19 @@ iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t 
     return ISO_OK;
 }
 
-static iso_status write_chunks(iso_context *ctx, iso_sweep_journal *j, iso_sweep_writer *writer, uint64_t *sum)
+static iso_status next_rows(iso_context *ctx, void *journal, size_t c, iso_sweep_rows *rows)
 {
-    iso_sweep_rows rows;
-    *sum = 0;
-    iso_status status = iso_sweep_rows_create(ctx, j->head->columns, j->head->chunk, &rows);
-    if (status != ISO_OK) return status;
-    for (size_t c = j->share.index; c < iso_sweep_chunks(j->head) && status == ISO_OK; c += j->share.count) {
-        iso_sweep_record r;
-        if (!read_record(j, j->at[c], &r, &rows)) {
-            if (errno == 0) errno = EIO;
-            status = trouble(ctx, j, "read");
-        } else {
-            *sum = iso_sweep_sum(*sum, &rows);
-            status = iso_sweep_writer_rows(ctx, writer, &rows);
-        }
-    }
-    iso_sweep_rows_free(&rows);
-    return status;
+    iso_sweep_journal *j = journal;
+    iso_sweep_record r;
+    if (read_record(j, j->at[c], &r, rows)) return ISO_OK;
+    if (errno == 0) errno = EIO;
+    return trouble(ctx, j, "read");
 }
 
 iso_status iso_sweep_journal_finish(iso_context *ctx, iso_sweep_journal *j)
 {
-    iso_sweep_writer *writer;
-    uint64_t sum;
     if (j->complete) return ISO_OK;
-    iso_status status = iso_sweep_writer_open(ctx, j->path, j->head, j->share, &writer);
-    if (status != ISO_OK) return status;
-    status = write_chunks(ctx, j, writer, &sum);
-    const iso_status closed = iso_sweep_writer_close(ctx, writer, status == ISO_OK ? &sum : NULL);
-    if (status == ISO_OK) status = closed;
+    const iso_status status = iso_sweep_write(ctx, j->path, j->head, j->share, next_rows, j);
     if (status == ISO_OK && j->name) unlink(j->name);
     return status;
 }

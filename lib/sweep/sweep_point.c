@@ -1,15 +1,17 @@
 /* sweep_point.c - point i of a sweep: its numbers, its scene, and its scene as text. Everything is a pure function of
  * i. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/low_discrepancy_impl.h"
-#include "base/number.h"
+#include "base/number_impl.h"
 #include "map/section_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
+#include "study/study_impl.h"
 #include "sweep/sweep_draft_impl.h"
 
 /* --- the numbers ------------------------------------------------------------------------------------------------ */
@@ -140,9 +142,9 @@ static iso_status settle(iso_context *ctx, iso_start *start)
     return status;
 }
 
-/* l and x of the point. Errors: ISO_BAD_INPUT outside of the chart. */
-static iso_status chart_of(iso_context *ctx, const iso_sweep_file *f, size_t i, const iso_orbit *orbit, int axis,
-                           double numbers[], double *l, double *x)
+/* l and x of the point. */
+static void chart_of(const iso_sweep_file *f, size_t i, const iso_orbit *orbit, int axis, double numbers[],
+                     double lx[2])
 {
     size_t index[ISO_SWEEP_AXES], sample;
     take_apart(f, i, index, &sample);
@@ -155,12 +157,9 @@ static iso_status chart_of(iso_context *ctx, const iso_sweep_file *f, size_t i, 
             iso_section_spread_prepare(&spread, iso_orbit_motion(orbit), axis, a->seed);
             iso_section_spread_point(&spread, index[n], &value[0], &value[1]);
         }
-        if (a->chart != 1) *l = value[0];
-        if (a->chart != 0) *x = value[a->width - 1];
+        if (a->chart != 1) lx[0] = value[0];
+        if (a->chart != 0) lx[1] = value[a->width - 1];
     }
-    if (!(fabs(*x) < 1)) return iso_context_fail(ctx, ISO_BAD_INPUT, "x", "x = %g is outside the chart: |x| < 1", *x);
-    if (iso_section_is_open(iso_orbit_motion(orbit), axis, *l)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "l", "at l = %g the point cannot be on this level", *l);
 }
 
 /* Puts the start on the global section, with the energy that the scene's start has. */
@@ -170,16 +169,17 @@ static iso_status on_section(iso_context *ctx, const iso_sweep_file *f, size_t i
     const double eps = scene->start.eps;
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
     iso_orbit *orbit;
-    double l = 0, x = 0;
+    double lx[1][2];
     o.effects = &effects;
     iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
     if (status != ISO_OK) return status;
     const int axis = iso_section_axis(iso_orbit_motion(orbit));
+    chart_of(f, i, orbit, axis, numbers, *lx);
     if (!iso_orbit_has_twin(orbit))
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "angular_velocity", "a start on the section needs motion");
-    if (status == ISO_OK) status = chart_of(ctx, f, i, orbit, axis, numbers, &l, &x);
+    if (status == ISO_OK) status = iso_refuse_starts(ctx, orbit, &effects, axis, (const double(*)[2])lx, 1, false);
     if (status == ISO_OK) {
-        scene->start = iso_section_start(orbit, scene->start.model, axis, l, x);
+        scene->start = iso_section_start(orbit, scene->start.model, axis, lx[0][0], lx[0][1]);
         scene->start.eps = eps;
         status = settle(ctx, &scene->start);
     }
@@ -203,10 +203,12 @@ iso_status iso_sweep_point(iso_context *ctx, const void *file, size_t i, iso_sce
 
 /* --- the scene as text ------------------------------------------------------------------------------------------ */
 
-/* A part of the scene's text and what stands in its place. */
+/* Numbers that stand in the place of a part of the scene's text. */
 typedef struct patch {
     size_t from, to; /* bytes */
-    char text[9 * (ISO_NUMBER_SIZE + 4)];
+    bool block;      /* a list in lines of its own */
+    int count;       /* 1, 3 or 9 */
+    double number[9];
 } patch;
 
 typedef struct patches {
@@ -228,40 +230,27 @@ static size_t byte_of(const patches *p, yaml_mark_t mark)
     return byte;
 }
 
+static bool is_block(const yaml_node_t *n)
+{
+    return n->type == YAML_SEQUENCE_NODE && n->data.sequence.style == YAML_BLOCK_SEQUENCE_STYLE;
+}
+
 /* A list in lines of its own ends behind its last item; what libyaml calls its end is the next key. */
 static yaml_mark_t end_of(patches *p, const yaml_node_t *n)
 {
-    if (n->type != YAML_SEQUENCE_NODE || n->data.sequence.style != YAML_BLOCK_SEQUENCE_STYLE) return n->end_mark;
-    return end_of(p, iso_yaml_node(&p->f->draft.yaml, n->data.sequence.items.top[-1]));
+    return is_block(n) ? end_of(p, iso_yaml_node(&p->f->draft.yaml, n->data.sequence.items.top[-1])) : n->end_mark;
 }
 
-static void print_numbers(const double number[], int count, char text[])
-{
-    const int rows = count == 9 ? 3 : 1, each = count / rows;
-    char *at = text;
-    at += sprintf(at, count == 9 ? "[" : "");
-    for (int r = 0; r < rows; r++) {
-        at += sprintf(at, "%s%s", r > 0 ? ", " : "", count > 1 ? "[" : "");
-        for (int i = 0; i < each; i++) {
-            at += sprintf(at, "%s", i > 0 ? ", " : "");
-            at += iso_number_print(at, number[r * each + i]);
-        }
-        at += sprintf(at, count > 1 ? "]" : "");
-    }
-    sprintf(at, count == 9 ? "]" : "");
-}
-
+/* A later one for the same part counts no more. */
 static void add_patch(patches *p, const yaml_node_t *node, const double number[], int count)
 {
-    const bool block = node->type == YAML_SEQUENCE_NODE && node->data.sequence.style == YAML_BLOCK_SEQUENCE_STYLE;
     const size_t from = byte_of(p, node->start_mark);
     int i = p->count;
     for (int j = 0; j < p->count; j++)
         if (p->list[j].from == from) return;
-    while (i > 0 && p->list[i - 1].from > from) p->list[i] = p->list[i - 1], i--;
-    p->list[i] = (patch){from, byte_of(p, end_of(p, node)), ""};
-    if (block) p->list[i].text[0] = ' '; /* deeper than its key */
-    print_numbers(number, count, p->list[i].text + block);
+    for (; i > 0 && p->list[i - 1].from > from; i--) p->list[i] = p->list[i - 1];
+    p->list[i] = (patch){from, byte_of(p, end_of(p, node)), is_block(node), count, {0}};
+    memcpy(p->list[i].number, number, (size_t)count * sizeof *number);
     p->count++;
 }
 
@@ -276,39 +265,35 @@ static void add_start(patches *p, const iso_scene *scene)
             add_patch(p, value, scene->start.y + 3 * v, 3);
 }
 
-/* The scene's part of the text: all of it, or the value of `scene`. */
-static void bounds(const patches *p, size_t *from, size_t *to)
+static void write_numbers(FILE *to, const patch *one)
+{
+    char digits[ISO_NUMBER_SIZE];
+    const bool matrix = one->count == 9, list = one->count > 1;
+    if (one->block) fputc(' ', to); /* deeper than its key */
+    for (int i = 0; i < one->count; i++) {
+        iso_number_print(digits, one->number[i]);
+        fprintf(to, "%s%s%s%s%s%s", i > 0 ? ", " : "", matrix && i == 0 ? "[" : "", list && i % 3 == 0 ? "[" : "",
+                digits, list && i % 3 == 2 ? "]" : "", matrix && i == 8 ? "]" : "");
+    }
+}
+
+/* The scene's part of the text: all of it, or the value of `scene` with the indentation of its first line. */
+static void write_text(FILE *to, const patches *p)
 {
     const yaml_node_t *root = p->f->draft.root;
-    *from = 0;
-    *to = p->length;
-    if (!p->f->inside) return;
-    *from = byte_of(p, root->start_mark);
-    *to = byte_of(p, root->end_mark);
-    while (*from > 0 && p->text[*from - 1] == ' ') --*from; /* the indentation of its first line */
-}
-
-static char *put_together(const patches *p)
-{
-    size_t at, end;
-    bounds(p, &at, &end);
-    char *text = malloc(end - at + (size_t)p->count * sizeof p->list[0].text + 2), *to = text;
-    if (!text) return NULL;
-    for (int i = 0; i < p->count; i++) {
-        const patch *one = &p->list[i];
-        memcpy(to, p->text + at, one->from - at);
-        to += one->from - at;
-        to += sprintf(to, "%s", one->text);
+    size_t at = p->f->inside ? byte_of(p, root->start_mark) : 0;
+    const size_t end = p->f->inside ? byte_of(p, root->end_mark) : p->length;
+    while (p->f->inside && at > 0 && p->text[at - 1] == ' ') at--;
+    for (const patch *one = p->list; one < p->list + p->count; one++) {
+        fwrite(p->text + at, 1, one->from - at, to);
+        write_numbers(to, one);
         at = one->to;
     }
-    memcpy(to, p->text + at, end - at);
-    to += end - at;
-    if (to > text && to[-1] != '\n') *to++ = '\n';
-    *to = '\0';
-    return text;
+    fwrite(p->text + at, 1, end - at, to);
+    if (end > 0 && p->text[end - 1] != '\n') fputc('\n', to);
 }
 
-/* The text as libyaml counts it, without a byte order mark. */
+/* Text as libyaml counts it, without a byte order mark. */
 static void take_text(patches *p, const iso_sweep_file *f)
 {
     p->text = f->inside ? f->text : f->scene_text;
@@ -319,29 +304,30 @@ static void take_text(patches *p, const iso_sweep_file *f)
 iso_status iso_sweep_scene_text(iso_context *ctx, const iso_sweep_file *file, size_t i, char **text)
 {
     ISO_DEFAULT_ARITHMETIC;
+    patches p = {.f = (iso_sweep_file *)file}; /* libyaml's nodes are asked through pointers that are not const */
     double numbers[9 * ISO_SWEEP_AXES];
     iso_scene scene;
+    size_t length;
     *text = NULL;
     const iso_status status = iso_sweep_point(ctx, file, i, &scene, numbers);
     if (status != ISO_OK) return status;
-    if (file->level && scene.start.model == ISO_BALL && !iso_effects_have_level(&scene.effects))
+    const bool ball = scene.start.model == ISO_BALL;
+    if (file->level && ball && !iso_effects_have_level(&scene.effects))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "level",
                                 "the ball of level 0 has no effect 'level': take it out of the scene's text");
-    patches *p = calloc(1, sizeof *p);
-    if (!p) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a scene");
     const iso_draft d = draft_of(ctx, file, i, numbers);
-    p->f = (iso_sweep_file *)file; /* libyaml's nodes are asked through pointers that are not const */
-    take_text(p, file);
+    take_text(&p, file);
     for (int n = 0; n < file->axes; n++) {
         const iso_sweep_axis *a = &file->axis[n];
         const double *at = (const double *)(const void *)((const char *)&d + a->offset);
         if (a->target == ISO_TO_NUMBER || a->target == ISO_TO_RATIO)
-            add_patch(p, a->node, at - a->part * (a->target == ISO_TO_NUMBER), a->whole);
+            add_patch(&p, a->node, at - a->part * (a->target == ISO_TO_NUMBER), a->whole);
     }
-    if (file->on_section || (file->level && scene.start.model == ISO_POINT)) add_start(p, &scene);
+    if (file->on_section || (file->level && !ball)) add_start(&p, &scene);
     const double c = iso_effects_level(&scene.effects);
-    if (file->level && scene.start.model == ISO_BALL) add_patch(p, file->level->node, &c, 1);
-    *text = put_together(p);
-    free(p);
-    return *text ? ISO_OK : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a scene");
+    if (file->level && ball) add_patch(&p, file->level->node, &c, 1);
+    FILE *to = open_memstream(text, &length);
+    if (to) write_text(to, &p);
+    if (to && fclose(to) == 0) return ISO_OK;
+    return iso_context_no_memory(ctx, "a scene");
 }

@@ -7,10 +7,9 @@
 #include <unistd.h>
 
 #include "io/replacement_impl.h"
-#include "io/table_impl.h"
 #include "sweep/sweep_store_impl.h"
 
-enum { MOST_CHUNK = 1 << 16 }; /* of files; a sweep has 4096 at most */
+enum { MOST_CHUNK = 1 << 16, MOST_COLUMNS = 4096 }; /* of files; a sweep has 4096 at most, and about 1000 */
 
 static iso_status damaged(iso_context *ctx, const char *path, const char *why)
 {
@@ -38,12 +37,30 @@ static bool take_part(const iso_record *r, iso_sweep_shard *share)
     return share->index-- > 0 && share->count > 1;
 }
 
+/* "vary/k chaos/verdict": all columns. NULL: no memory, or no such text. */
+static iso_sweep_column *scan_columns(const char *text, int *count)
+{
+    *count = 1;
+    for (const char *c = text; *c && *count <= MOST_COLUMNS; c++) *count += *c == ' ';
+    if (*count > MOST_COLUMNS) return NULL;
+    iso_sweep_column *columns = calloc((size_t)*count, sizeof *columns);
+    for (int i = 0; columns && i < *count; i++) {
+        int used = 0;
+        if (sscanf(text, " %31[^/ ]/%31[^ ]%n", columns[i].group, columns[i].name, &used) != 2) {
+            free(columns);
+            return NULL;
+        }
+        text += used;
+    }
+    return columns;
+}
+
 /* The columns are those that the line "columns" says. */
 static bool take_columns(const iso_record *r, iso_sweep_head *h)
 {
     char name[ISO_SWEEP_NAME];
     const char *text = iso_record_get(r, "columns");
-    const iso_sweep_column *column = h->column = text ? iso_sweep_columns_scan(text, &h->columns) : NULL;
+    const iso_sweep_column *column = h->column = text ? scan_columns(text, &h->columns) : NULL;
     const size_t columns = column ? (size_t)h->columns : 0;
     bool good = columns > 0 && iso_record_columns(r) == columns + 3 && strcmp(iso_record_name(r, 0), "point") == 0 &&
                 strcmp(iso_record_name(r, columns + 1), "status") == 0 && iso_record_has_words(r, columns + 2);
@@ -60,7 +77,8 @@ static bool take_head(iso_sweep_reader *r)
                *text = iso_record_get(lines, ISO_TABLE_TEXT);
     h->text = text ? text : "";
     h->scene = iso_record_get(lines, "scene");
-    return take_part(lines, &r->share) && hash && iso_sweep_hash_scan(hash, h->hash) && vectors &&
+    return take_part(lines, &r->share) && hash && strlen(hash) == 32 &&
+           sscanf(hash, "%16" SCNx64 "%16" SCNx64, &h->hash[0], &h->hash[1]) == 2 && vectors &&
            snprintf(h->vectors, sizeof h->vectors, "%s", vectors) < ISO_NAME_SIZE &&
            take_size(lines, "points", &h->count) && take_size(lines, "chunk", &h->chunk) && take_columns(lines, h);
 }
@@ -105,14 +123,14 @@ static iso_status open_table(iso_context *ctx, iso_sweep_reader *r)
 {
     const char *last;
     if (access(r->path, R_OK) != 0) return iso_file_trouble(ctx, "open", r->path);
-    const iso_status status = iso_table_reader_open(ctx, r->path, NULL, &r->table);
+    const iso_status status = iso_table_reader_open(ctx, r->path, NULL, NULL, &r->table);
     if (status == ISO_NO_MEMORY) return status;
     if (status == ISO_BAD_ARGUMENT) return damaged(ctx, r->path, "this build has no HDF5");
     if (status != ISO_OK || !take_head(r)) return damaged(ctx, r->path, "it is no result of a sweep");
     if (!makes_sense(r)) return damaged(ctx, r->path, "its head is damaged");
-    iso_table_pass_words(r->table);
+    r->table->forgets = true;
     r->row = calloc((size_t)r->head.columns + 3, sizeof *r->row);
-    if (!r->row) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for '%s'", r->path);
+    if (!r->row) return iso_context_no_memory(ctx, "'%s'", r->path);
     r->lines = count_lines(r, &last);
     r->points = iso_sweep_shard_points(&r->head, r->share);
     return r->points > 0 ? ISO_OK : check_sum(ctx, r);
@@ -125,7 +143,7 @@ iso_status iso_sweep_reader_open(iso_context *ctx, const char *path, iso_sweep_r
     if (r) r->path = strdup(path);
     if (!r || !r->path) {
         free(r);
-        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for '%s'", path);
+        return iso_context_no_memory(ctx, "'%s'", path);
     }
     const iso_status status = open_table(ctx, r);
     if (status == ISO_OK)
@@ -143,16 +161,6 @@ void iso_sweep_reader_close(iso_sweep_reader *r)
     free(r->row);
     free(r->path);
     free(r);
-}
-
-const iso_sweep_head *iso_sweep_reader_head(const iso_sweep_reader *r)
-{
-    return &r->head;
-}
-
-iso_sweep_shard iso_sweep_reader_share(const iso_sweep_reader *r)
-{
-    return r->share;
 }
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */

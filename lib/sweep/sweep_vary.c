@@ -42,30 +42,34 @@ static bool find_number(const iso_draft_number list[], int count, iso_sweep_axis
 /* "J2/J1" */
 static bool find_ratio(const iso_draft_number list[], int count, iso_sweep_axis *a)
 {
-    char above[3] = {a->name[0], a->name[1], '\0'};
-    const int part = component(above, "J"), of = strlen(a->name) == 5 ? component(a->name + 3, "J") : -1;
-    if (part < 0 || of < 0 || a->name[2] != '/' || part == of) return false;
+    char part[2], of[2];
+    int used = 0;
+    if (sscanf(a->name, "J%1[123]/J%1[123]%n", part, of, &used) < 2 || a->name[used] || *part == *of) return false;
     for (int i = 0; i < count; i++) {
         if (strcmp(list[i].name, "J") != 0) continue;
-        *a = (iso_sweep_axis){.target = ISO_TO_RATIO, .node = list[i].value, .whole = 3, .width = 1, .part = part};
-        snprintf(a->name, sizeof a->name, "J%d/J%d", part + 1, of + 1);
-        a->of = of;
+        a->target = ISO_TO_RATIO;
+        a->node = list[i].value;
+        a->whole = 3;
+        a->width = 1;
+        a->part = *part - '1';
+        a->of = *of - '1';
         a->offset = list[i].offset;
         return true;
     }
     return false;
 }
 
-static bool find_chart(iso_sweep_axis *a)
+/* A place on the section, or the level. */
+static bool find_place(iso_sweep_axis *a)
 {
-    static const char *const names[] = {"l", "x", "start"};
-    for (int i = 0; i < 3; i++)
-        if (strcmp(a->name, names[i]) == 0) {
-            a->target = ISO_TO_CHART;
-            a->chart = i;
-            a->width = i == 2 ? 2 : 1;
-            return true;
-        }
+    static const char *const names[] = {"l", "x", "start", "level"};
+    for (int i = 0; i < 4; i++) {
+        if (strcmp(a->name, names[i]) != 0) continue;
+        a->target = i == 3 ? ISO_TO_LEVEL : ISO_TO_CHART;
+        a->chart = i;
+        a->width = i == 2 ? 2 : 1;
+        return true;
+    }
     return false;
 }
 
@@ -79,8 +83,7 @@ static iso_status find_target(iso_sweep_file *f, const yaml_node_t *key, iso_swe
     if (key->type != YAML_SCALAR_NODE || key->data.scalar.length >= ISO_NAME_SIZE)
         return iso_yaml_fail(&f->yaml, key->start_mark, "a key should be the name of a number of the scene");
     snprintf(a->name, sizeof a->name, "%s", (const char *)key->data.scalar.value);
-    if (find_chart(a) || iso_sweep_find_level(a) || find_number(list, count, a) || find_ratio(list, count, a))
-        return ISO_OK;
+    if (find_place(a) || find_number(list, count, a) || find_ratio(list, count, a)) return ISO_OK;
     for (int i = 0; i < count; i++) names[named++] = list[i].name;
     const bool moments = strstr(a->name, "J") != NULL;
     for (size_t i = 0; i < (moments ? 9u : 4u); i++) names[named++] = others[i];
@@ -108,22 +111,7 @@ static iso_status make_list(iso_sweep_file *f, iso_sweep_axis *a, size_t count)
     a->values = ISO_FROM_LIST;
     a->count = count;
     a->list = calloc(count + 1, (size_t)a->width * sizeof *a->list);
-    return a->list ? ISO_OK : iso_context_fail(f->yaml.ctx, ISO_NO_MEMORY, "", "no memory for '%s'", a->name);
-}
-
-static iso_status read_flag(iso_sweep_file *f, const yaml_node_t *mapping, const char *name, bool *flag)
-{
-    const yaml_node_t *value;
-    if (!iso_yaml_find(&f->yaml, mapping, name, NULL, &value)) return ISO_OK;
-    return iso_yaml_flag(&f->yaml, value, name, flag);
-}
-
-static iso_status read_end(iso_sweep_file *f, const yaml_node_t *node, const char *name, double *value)
-{
-    const yaml_node_t *end;
-    if (!iso_yaml_find(&f->yaml, node, name, NULL, &end))
-        return iso_yaml_fail(&f->yaml, node->start_mark, "missing '%s' in a range", name);
-    return iso_yaml_number(&f->yaml, end, name, value);
+    return a->list ? ISO_OK : iso_context_no_memory(f->yaml.ctx, "'%s'", a->name);
 }
 
 /* No value between the ends may overflow on its way. */
@@ -140,21 +128,23 @@ static iso_status check_range(iso_sweep_file *f, const yaml_node_t *node, const 
 
 static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
 {
-    static const char *const names[] = {"from", "to", "count", "logarithmic"};
-    const yaml_node_t *value;
-    double count = 1;
+    static const iso_sweep_setting settings[] = {
+        {.name = "from", .missing = "a range"},
+        {.name = "to", .missing = "a range"},
+        {.name = "count", .usual = NAN, .least = 1, .most = 1e9, .whole = true},
+        {.name = "logarithmic", .flag = true},
+        {.name = NULL},
+    };
+    double value[4];
     if (a->width != 1) return iso_yaml_expected(&f->yaml, node, a->name, "a list of vectors");
-    iso_status status = iso_sweep_check_keys(&f->yaml, node, a->name, 4, names);
-    if (status == ISO_OK) status = read_end(f, node, "from", &a->from);
-    if (status == ISO_OK) status = read_end(f, node, "to", &a->to);
-    if (status == ISO_OK) status = read_flag(f, node, "logarithmic", &a->logarithmic);
-    a->values = ISO_FROM_DRAWING;
-    if (status == ISO_OK && iso_yaml_find(&f->yaml, node, "count", NULL, &value)) {
-        status = iso_sweep_whole(&f->yaml, value, "count", 1, 1e9, &count);
-        a->values = ISO_FROM_RANGE;
-    }
-    a->count = (size_t)count;
-    return status == ISO_OK ? check_range(f, node, a) : status;
+    const iso_status status = iso_sweep_read_mapping(&f->yaml, node, a->name, settings, value);
+    if (status != ISO_OK) return status;
+    a->from = value[0];
+    a->to = value[1];
+    a->values = isnan(value[2]) ? ISO_FROM_DRAWING : ISO_FROM_RANGE;
+    a->count = isnan(value[2]) ? 1 : (size_t)value[2];
+    a->logarithmic = value[3] > 0;
+    return check_range(f, node, a);
 }
 
 /* A range with a count, as an item of a list. */
@@ -209,37 +199,37 @@ static size_t triangle_count(long sum, bool ordered)
 
 static iso_status read_triangle(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
 {
-    static const char *const names[] = {"triangle", "ordered"};
-    const yaml_node_t *value;
-    double sum = 0;
-    iso_status status = iso_sweep_check_keys(&f->yaml, node, a->name, 2, names);
+    static const iso_sweep_setting settings[] = {
+        {.name = "triangle", .usual = NAN, .least = 6, .most = 100000, .whole = true},
+        {.name = "ordered", .flag = true},
+        {.name = NULL},
+    };
+    double value[2];
+    const iso_status status = iso_sweep_read_mapping(&f->yaml, node, a->name, settings, value);
     if (status != ISO_OK) return status;
-    if (strcmp(a->name, "J") != 0 || !iso_yaml_find(&f->yaml, node, "triangle", NULL, &value))
+    if (strcmp(a->name, "J") != 0 || isnan(value[0]))
         return iso_yaml_expected(&f->yaml, node, a->name, "a list of vectors");
-    status = iso_sweep_whole(&f->yaml, value, "triangle", 6, 100000, &sum);
-    if (status == ISO_OK) status = read_flag(f, node, "ordered", &a->ordered);
     a->values = ISO_FROM_TRIANGLE;
-    a->sum = (long)sum;
+    a->sum = (long)value[0];
+    a->ordered = value[1] > 0;
     a->count = triangle_count(a->sum, a->ordered);
-    return status;
+    return ISO_OK;
 }
 
 static iso_status read_spread(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
 {
-    static const char *const names[] = {"spread", "seed"};
-    const yaml_node_t *value;
-    double count = 0, seed = 0;
-    iso_status status = iso_sweep_check_keys(&f->yaml, node, a->name, 2, names);
+    static const iso_sweep_setting settings[] = {
+        {.name = "spread", .least = 1, .most = 1e12, .whole = true, .missing = "'start': the number of starts"},
+        {.name = "seed", .least = 0, .most = 0x1p53, .whole = true},
+        {.name = NULL},
+    };
+    double value[2];
+    const iso_status status = iso_sweep_read_mapping(&f->yaml, node, a->name, settings, value);
     if (status != ISO_OK) return status;
-    if (!iso_yaml_find(&f->yaml, node, "spread", NULL, &value))
-        return iso_yaml_fail(&f->yaml, node->start_mark, "missing 'spread' in 'start': the number of starts");
-    status = iso_sweep_whole(&f->yaml, value, "spread", 1, 1e12, &count);
-    if (status == ISO_OK && iso_yaml_find(&f->yaml, node, "seed", NULL, &value))
-        status = iso_sweep_whole(&f->yaml, value, "seed", 0, 0x1p53, &seed);
     a->values = ISO_FROM_SPREAD;
-    a->count = (size_t)count;
-    a->seed = (uint64_t)seed;
-    return status;
+    a->count = (size_t)value[0];
+    a->seed = (uint64_t)value[1];
+    return ISO_OK;
 }
 
 static iso_status read_values(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
@@ -282,6 +272,26 @@ static iso_status check_chart(iso_sweep_file *f, const yaml_node_t *node, const 
     }
     if (!a->list && a->chart == 1 && !(fabs(a->from) < 1 && fabs(a->to) < 1))
         return iso_yaml_fail(&f->yaml, node->start_mark, "x is from %g to %g: |x| < 1 in the chart", a->from, a->to);
+    return ISO_OK;
+}
+
+/* A point's eps, or a ball's c, must stand in the scene: so its text can state the level. */
+static iso_status check_level(iso_sweep_file *f, const yaml_node_t *key, iso_sweep_axis *a)
+{
+    iso_draft_number list[ISO_SWEEP_NAMES];
+    const bool point = f->base.start.model == ISO_POINT;
+    const char *needed = point ? "eps" : "level.c";
+    if (a->target != ISO_TO_LEVEL) return ISO_OK;
+    f->level = a;
+    const int count = iso_draft_numbers(&f->draft, ISO_SWEEP_NAMES, list);
+    for (int i = 0; i < count; i++)
+        if (strcmp(list[i].name, needed) == 0) a->node = list[i].value;
+    if (!a->node)
+        return iso_yaml_fail(&f->yaml, key->start_mark, "'level' needs %s in the scene",
+                             point ? "'eps'" : "'effects: {level: {c: 1}}', whose c it sets,");
+    for (const iso_sweep_axis *b = f->axis; b < f->axis + f->axes; b++)
+        if (strcmp(b->name, needed) == 0 && !point)
+            return iso_yaml_fail(&f->yaml, key->start_mark, "'level' and '%s' set the same number", needed);
     return ISO_OK;
 }
 
@@ -348,7 +358,7 @@ static iso_status read_axis(iso_sweep_file *f, const yaml_node_pair_t *pair)
     if (status == ISO_OK) status = read_values(f, value, a);
     if (status == ISO_OK) status = check_tolerance(f, value, a);
     if (status == ISO_OK) status = check_chart(f, value, a);
-    if (status == ISO_OK) status = iso_sweep_check_level(f, key, a);
+    if (status == ISO_OK) status = check_level(f, key, a);
     if (status == ISO_OK) status = name_columns(f, key, a);
     if (status == ISO_OK) status = check_moments(f, key, a);
     if (status != ISO_OK || a->values != ISO_FROM_DRAWING) return status;
@@ -379,35 +389,33 @@ static void prepare_drawing(iso_sweep_file *f)
     }
 }
 
-static iso_status read_samples(iso_sweep_file *f, const yaml_node_t *samples)
+static const char *kind_of_samples(int i)
 {
-    static const char *const names[] = {"count", "kind", "seed"}, *const kinds[] = {"even", "random"};
-    const yaml_node_t *value;
-    double count = 0, seed = 0;
-    iso_status status = iso_sweep_check_keys(&f->yaml, samples, "samples", 3, names);
-    if (status != ISO_OK) return status;
-    if (!iso_yaml_find(&f->yaml, samples, "count", NULL, &value))
-        return iso_yaml_fail(&f->yaml, samples->start_mark, "missing 'count' in 'samples'");
-    status = iso_sweep_whole(&f->yaml, value, "count", 1, 1e12, &count);
-    f->samples = (size_t)count;
-    if (status == ISO_OK && iso_yaml_find(&f->yaml, samples, "seed", NULL, &value))
-        status = iso_sweep_whole(&f->yaml, value, "seed", 0, 0x1p53, &seed);
-    f->seed = (uint64_t)seed;
-    if (status != ISO_OK || !iso_yaml_find(&f->yaml, samples, "kind", NULL, &value)) return status;
-    f->random = iso_yaml_is(value, kinds[1]);
-    if (f->random || iso_yaml_is(value, kinds[0])) return ISO_OK;
-    if (value->type != YAML_SCALAR_NODE) return iso_yaml_expected(&f->yaml, value, "kind", "even or random");
-    return iso_yaml_unknown(&f->yaml, value, "kind", 2, kinds);
+    static const char *const words[] = {"even", "random", NULL};
+    return words[i];
 }
 
-static iso_status check_samples(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples)
+static iso_status read_samples(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples)
 {
+    static const iso_sweep_setting settings[] = {
+        {.name = "count", .least = 1, .most = 1e12, .whole = true, .missing = "'samples'"},
+        {.name = "kind", .word = kind_of_samples},
+        {.name = "seed", .least = 0, .most = 0x1p53, .whole = true},
+        {.name = NULL},
+    };
+    double value[3];
     if (f->drawn > 0 && !samples)
         return iso_yaml_fail(&f->yaml, vary->start_mark,
                              "a range without a count is drawn: 'samples: {count: ...}' is missing");
-    if (f->drawn == 0 && samples)
+    if (!samples) return ISO_OK;
+    if (f->drawn == 0)
         return iso_yaml_fail(&f->yaml, samples->start_mark,
                              "'samples' draws numbers of ranges without a count, and there are none");
+    const iso_status status = iso_sweep_read_mapping(&f->yaml, samples, "samples", settings, value);
+    if (status != ISO_OK) return status;
+    f->samples = (size_t)value[0];
+    f->random = value[1] > 0;
+    f->seed = (uint64_t)value[2];
     return ISO_OK;
 }
 
@@ -430,14 +438,13 @@ iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const
     if (vary->type != YAML_MAPPING_NODE)
         return iso_yaml_expected(&f->yaml, vary, "vary", "a mapping with the numbers that vary");
     f->column = calloc(9 * ISO_SWEEP_AXES, sizeof *f->column);
-    if (!f->column) return iso_context_fail(f->yaml.ctx, ISO_NO_MEMORY, "", "no memory for a sweep");
+    if (!f->column) return iso_context_no_memory(f->yaml.ctx, "a sweep");
     iso_status status = ISO_OK;
     const yaml_node_pair_t *end = vary->data.mapping.pairs.top;
     for (const yaml_node_pair_t *p = vary->data.mapping.pairs.start; p < end && status == ISO_OK; p++)
         status = read_axis(f, p);
     if (status == ISO_OK) status = check_start(f, vary);
-    if (status == ISO_OK) status = check_samples(f, vary, samples);
-    if (status == ISO_OK && samples) status = read_samples(f, samples);
+    if (status == ISO_OK) status = read_samples(f, vary, samples);
     if (status == ISO_OK) prepare_drawing(f);
     return status == ISO_OK ? count_points(f, vary) : status;
 }

@@ -15,14 +15,9 @@
 #include <string.h>
 
 #include "base/version.h"
-#include "io/table_impl.h"
 #include "sweep/sweep_store_impl.h"
 
-struct iso_sweep_writer {
-    iso_table_writer *table;
-    iso_record *header;
-    double *row;
-};
+typedef iso_status (*source)(iso_context *ctx, void *data, size_t c, iso_sweep_rows *rows);
 
 static iso_status set_size(iso_context *ctx, iso_record *r, const char *key, size_t size)
 {
@@ -37,7 +32,7 @@ static iso_status set_text(iso_context *ctx, iso_record *r, const char *key, con
     const size_t length = strlen(text);
     if (hdf5 || length == 0 || text[length - 1] == '\n') return iso_record_set(ctx, r, key, length ? text : NULL);
     char *ended = malloc(length + 2);
-    if (!ended) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sweep");
+    if (!ended) return iso_context_no_memory(ctx, "a sweep");
     memcpy(ended, text, length);
     memcpy(ended + length, "\n", 2);
     const iso_status status = iso_record_set(ctx, r, key, ended);
@@ -48,17 +43,28 @@ static iso_status set_text(iso_context *ctx, iso_record *r, const char *key, con
 static iso_status set_part(iso_context *ctx, iso_record *r, iso_sweep_shard share, bool hdf5)
 {
     char text[64];
-    if (iso_sweep_shard_is_all(share)) return ISO_OK;
+    if (share.count == 1) return ISO_OK;
     snprintf(text, sizeof text, hdf5 ? "%zu %zu" : "%zu of %zu", share.index + 1, share.count);
     return iso_record_set(ctx, r, "part", text);
+}
+
+/* "vary/k chaos/verdict": all columns, as text. NULL: no memory. */
+static char *print_columns(const iso_sweep_head *head)
+{
+    char *text = malloc((size_t)(head->columns + 1) * 2 * ISO_NAME_SIZE), *at = text;
+    if (!text) return NULL;
+    *at = '\0';
+    for (int i = 0; i < head->columns; i++)
+        at += sprintf(at, "%s%s/%s", i > 0 ? " " : "", head->column[i].group, head->column[i].name);
+    return text;
 }
 
 static iso_status set_lines(iso_context *ctx, iso_record *r, const iso_sweep_head *head, iso_sweep_shard share,
                             bool hdf5)
 {
-    char hash[ISO_HASH_SIZE], *columns = iso_sweep_columns_print(head);
-    if (!columns) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sweep");
-    iso_sweep_hash_print(hash, head->hash);
+    char hash[33], *columns = print_columns(head);
+    if (!columns) return iso_context_no_memory(ctx, "a sweep");
+    snprintf(hash, sizeof hash, "%016" PRIx64 "%016" PRIx64, head->hash[0], head->hash[1]);
     iso_status status = iso_record_set(ctx, r, "isoroll", ISO_VERSION);
     if (status == ISO_OK) status = iso_record_set(ctx, r, "hash", hash);
     if (status == ISO_OK) status = set_size(ctx, r, "points", head->count);
@@ -78,79 +84,73 @@ static iso_status make_header(iso_context *ctx, const iso_sweep_head *head, iso_
     const size_t columns = (size_t)head->columns;
     char(*text)[ISO_SWEEP_NAME] = calloc(columns + 1, sizeof *text);
     const char **name = calloc(columns + 3, sizeof *name);
-    iso_status status = ISO_NO_MEMORY;
-    if (text && name) {
-        for (size_t i = 0; i < columns; i++) name[i + 1] = iso_sweep_column_name(&head->column[i], text[i]);
-        name[0] = "point";
-        name[columns + 1] = "status";
-        name[columns + 2] = "reason";
-        status = iso_record_create(ctx, columns + 3, name, r);
-    } else
-        iso_context_fail(ctx, status, "", "no memory for a sweep");
-    if (status == ISO_OK) iso_record_set_words(*r, columns + 2);
+    const bool memory = text && name;
+    if (memory) name[0] = "point", name[columns + 1] = "status", name[columns + 2] = "reason";
+    for (size_t i = 0; memory && i < columns; i++) name[i + 1] = iso_sweep_column_name(&head->column[i], text[i]);
+    const iso_status status =
+        memory ? iso_record_create(ctx, columns + 3, name, r) : iso_context_no_memory(ctx, "a sweep");
+    if (status == ISO_OK) iso_record_set_words(*r, columns + 2, true);
     free(text);
     free(name);
     return status;
 }
 
-static iso_status begin(iso_context *ctx, const char *path, const iso_sweep_head *head, iso_sweep_shard share,
-                        iso_sweep_writer *w)
-{
-    const bool all = iso_sweep_shard_is_all(share);
-    w->row = calloc((size_t)head->columns + 3, sizeof *w->row);
-    if (!w->row) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sweep");
-    iso_status status = make_header(ctx, head, &w->header);
-    if (status == ISO_OK) status = set_lines(ctx, w->header, head, share, iso_table_is_hdf5(path));
-    if (status == ISO_OK)
-        status = iso_table_writer_open(ctx, path, all ? ISO_SWEEP_KIND : ISO_SWEEP_PART_KIND, &w->table);
-    if (status != ISO_OK) return status;
-    iso_table_writer_keep_others(w->table);
-    iso_table_writer_expect(w->table, iso_sweep_shard_points(head, share));
-    return iso_table_write_header(ctx, w->table, w->header);
-}
-
-iso_status iso_sweep_writer_open(iso_context *ctx, const char *path, const iso_sweep_head *head,
-                                 iso_sweep_shard share, iso_sweep_writer **writer)
-{
-    *writer = NULL;
-    iso_sweep_writer *w = calloc(1, sizeof *w);
-    if (!w) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sweep");
-    const iso_status status = begin(ctx, path, head, share, w);
-    if (status == ISO_OK)
-        *writer = w;
-    else
-        iso_sweep_writer_close(ctx, w, NULL);
-    return status;
-}
-
-iso_status iso_sweep_writer_rows(iso_context *ctx, iso_sweep_writer *w, const iso_sweep_rows *rows)
+static iso_status write_rows(iso_context *ctx, iso_table_writer *table, iso_record *header,
+                             const iso_sweep_rows *rows, double row[])
 {
     iso_status status = ISO_OK;
     const size_t columns = (size_t)rows->columns;
     for (size_t i = 0; i < rows->count && status == ISO_OK; i++) {
         const double *number = rows->number + i * columns;
         const bool failed = rows->status[i] != ISO_OK;
-        if (!iso_table_writer_waits(w->table)) iso_record_forget_words(w->header);
-        w->row[0] = (double)(rows->first + i);
-        for (size_t c = 0; c < columns; c++) w->row[c + 1] = isnan(number[c]) ? (double)NAN : number[c];
-        w->row[columns + 1] = (double)rows->status[i];
-        status = iso_record_intern(ctx, w->header, failed ? rows->reason[i] : "", &w->row[columns + 2]);
-        if (status == ISO_OK) status = iso_table_write_row(ctx, w->table, w->row);
+        if (!table->waits) iso_record_forget_words(header);
+        row[0] = (double)(rows->first + i);
+        for (size_t c = 0; c < columns; c++) row[c + 1] = isnan(number[c]) ? (double)NAN : number[c];
+        row[columns + 1] = (double)rows->status[i];
+        status = iso_record_intern(ctx, header, failed ? rows->reason[i] : "", &row[columns + 2]);
+        if (status == ISO_OK) status = iso_table_write_row(ctx, table, row);
     }
     return status;
 }
 
-iso_status iso_sweep_writer_close(iso_context *ctx, iso_sweep_writer *w, const uint64_t *sum)
+/* All chunks and their sum. */
+static iso_status write_chunks(iso_context *ctx, iso_table_writer *table, iso_record *header,
+                               const iso_sweep_head *head, iso_sweep_shard share, source next, void *data)
 {
+    iso_sweep_rows rows;
+    uint64_t sum = 0;
     char text[17];
-    iso_status status = ISO_OK;
-    if (sum) {
-        snprintf(text, sizeof text, "%016" PRIx64, *sum);
-        status = iso_table_write_line(ctx, w->table, "sum", text);
+    double *row = calloc((size_t)head->columns + 3, sizeof *row);
+    iso_status status = iso_sweep_rows_create(ctx, head->columns, head->chunk, &rows);
+    if (!row) status = iso_context_no_memory(ctx, "a sweep");
+    for (size_t c = share.index; c < iso_sweep_chunks(head) && status == ISO_OK; c += share.count) {
+        status = next(ctx, data, c, &rows);
+        if (status == ISO_OK) status = write_rows(ctx, table, header, &rows, row);
+        sum = iso_sweep_sum(sum, &rows);
     }
-    const iso_status closed = iso_table_writer_close(ctx, w->table, sum && status == ISO_OK);
-    iso_record_free(w->header);
-    free(w->row);
-    free(w);
-    return status == ISO_OK ? closed : status;
+    iso_sweep_rows_free(&rows);
+    free(row);
+    snprintf(text, sizeof text, "%016" PRIx64, sum);
+    return status == ISO_OK ? iso_table_write_line(ctx, table, "sum", text) : status;
+}
+
+iso_status iso_sweep_write(iso_context *ctx, const char *path, const iso_sweep_head *head, iso_sweep_shard share,
+                           source next, void *data)
+{
+    iso_table_writer *table = NULL;
+    iso_record *header = NULL;
+    iso_status status = make_header(ctx, head, &header);
+    if (status == ISO_OK) status = set_lines(ctx, header, head, share, iso_table_is_hdf5(path));
+    if (status == ISO_OK)
+        status = iso_table_writer_open(ctx, path, share.count == 1 ? ISO_SWEEP_KIND : ISO_SWEEP_PART_KIND, &table);
+    if (status == ISO_OK) {
+        table->fresh = true;
+        table->expected = iso_sweep_shard_points(head, share);
+        status = iso_table_write_header(ctx, table, header);
+        if (status == ISO_OK) status = write_chunks(ctx, table, header, head, share, next, data);
+        const iso_status closed = iso_table_writer_close(ctx, table, status == ISO_OK);
+        if (status == ISO_OK) status = closed;
+    }
+    iso_record_free(header);
+    return status;
 }

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "base/number_impl.h"
 #include "base/random_impl.h"
 
 /* Reads from a buffer that ends where the text does, so that AddressSanitizer sees a step beyond. */

@@ -8,9 +8,11 @@
 
 #include "base/options_impl.h"
 #include "isoroll.h"
+#include "orbit/convert_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/cost/cost.h"
-#include "study/error_impl.h"
 #include "study/frequencies/frequencies.h"
+#include "study/study_impl.h"
 
 static void test_version(void)
 {

@@ -23,6 +23,7 @@
 
 #include "bench.h"
 #include "map/state.h"
+#include "model/model_impl.h"
 #include "orbit/batch.h"
 
 enum { ORBITS = 1000, LOOSEST = 6, TIGHTEST = 13 };

@@ -3,7 +3,7 @@
  *     bench_chaos [ORBITS] [TURNS] [ROWS]        orbits of each row (default 300), turns of each (default 3000);
  *                                                rows: all, integrable, others
  *
- * Regular orbits have a further integral: k = 1, k = -1, two or three equal moments. They are spread over the
+ * Regular orbits have an additional integral: k = 1, k = -1, two or three equal moments. They are spread over the
  * section, or next to the separatrix, at distances of 1e-3 to 1e-6 of F. Chaotic orbits are those of k = 0.5, 0.3 and
  * -0.5 whose deviations grow by exp(60) within five times as many turns. This is found by a separate run of the
  * point, without the indicators.

@@ -22,7 +22,7 @@
 
 #include "base/vec3_impl.h"
 #include "bench.h"
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "map/state.h"
 #include "orbit/crossings.h"
 

@@ -15,6 +15,7 @@
 
 #include "bench.h"
 #include "isoroll.h"
+#include "orbit/orbit_impl.h"
 
 enum { CALLS = 20000, ROUNDS = 15, MOST = 16 };
 

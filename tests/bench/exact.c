@@ -26,6 +26,7 @@
 #include "exact/exact_impl.h"
 #include "map/state.h"
 #include "method/integrator_impl.h"
+#include "model/model_impl.h"
 
 enum { ORBITS = 30, ROUNDS = 5, TIMES = 50, POINTS = 300 };
 

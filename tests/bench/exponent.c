@@ -13,9 +13,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "study/chaos/chaos.h"
-#include "study/chaos/indicators_impl.h"
+#include "study/chaos/chaos_impl.h"
 
 enum { EACH = 250, LENGTHS = 16 };
 

@@ -25,6 +25,7 @@
 #include "bench.h"
 #include "map/state.h"
 #include "method/integrator_impl.h"
+#include "model/model_impl.h"
 
 enum { GEOMETRIES = 5, LOOSEST = 6, TIGHTEST = 15, PASSES = 5, MOST_METHODS = 64, FORMS = 3 };
 

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 
 #include "study/chaos/chaos.h"
-#include "study/chaos/share_impl.h"
+#include "study/chaos/chaos_impl.h"
 
 typedef struct motion {
     double k, J[3];

@@ -18,9 +18,7 @@
 
 #include "bench.h"
 #include "study/chaos/chaos.h"
-#include "sweep/sweep.h"
-#include "sweep/sweep_file.h"
-#include "sweep/sweep_store.h"
+#include "sweep/sweep_store_impl.h"
 
 static iso_context *ctx;
 
@@ -56,7 +54,7 @@ static iso_sweep_file *sweep_of(size_t orbits, long turns, size_t chunk)
              "  {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}}\n"
              "vary: {start: {spread: %zu}}\nmeasure: {chaos: {model: point}}\nuntil: {turns: %ld}\n%s",
              orbits, turns, more);
-    must(iso_sweep_parse(ctx, "bench.yaml", text, strlen(text), iso_sweep_quantities(), &file));
+    must(iso_sweep_parse(ctx, "bench.yaml", text, strlen(text), &file));
     return file;
 }
 

@@ -19,9 +19,8 @@
 #include <unistd.h>
 
 #include "bench.h"
-#include "sweep/sweep_file.h"
 #include "sweep/sweep_impl.h"
-#include "sweep/sweep_store.h"
+#include "sweep/sweep_store_impl.h"
 
 enum { SAMPLES = 60, PER_RANK = 100, DAY = 86400 };
 
@@ -39,7 +38,7 @@ static void must(iso_status status)
 static iso_sweep *sweep_of(const char *text, iso_sweep_file **file)
 {
     iso_sweep *sweep;
-    must(iso_sweep_parse(ctx, "bench.yaml", text, strlen(text), iso_sweep_quantities(), file));
+    must(iso_sweep_parse(ctx, "bench.yaml", text, strlen(text), file));
     must(iso_sweep_create(ctx, iso_sweep_file_plan(*file), &sweep));
     return sweep;
 }
@@ -60,7 +59,7 @@ static void measure_chunks(double times[SAMPLES])
     must(iso_sweep_rows_create(ctx, iso_sweep_head_of(sweep)->columns, 1, &rows));
     for (size_t i = 0; i < SAMPLES; i++) {
         const double begun = bench_milliseconds();
-        must(iso_sweep_compute(ctx, sweep, i, &rows));
+        must(iso_sweep_compute_points(ctx, sweep, i, 1, &rows));
         times[i] = bench_milliseconds() - begun;
         sum += times[i];
     }
@@ -89,7 +88,7 @@ static void measure_rows(double *journal_row, double *result_row)
     if (!mkdtemp(name)) exit(1);
     snprintf(path, sizeof path, "%s/out.h5", name);
     must(iso_sweep_rows_create(ctx, head->columns, CHUNK, &rows));
-    must(iso_sweep_compute(ctx, sweep, 0, &rows));
+    must(iso_sweep_compute_points(ctx, sweep, 0, CHUNK, &rows));
     must(iso_sweep_journal_open(ctx, path, head, (iso_sweep_shard){0, 1}, false, &journal));
     double begun = bench_wall_milliseconds();
     for (size_t c = 0; c < CHUNKS; c++) {

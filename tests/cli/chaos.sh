@@ -21,11 +21,11 @@ spin="0.9, -0.3, -0.225" normal="0.36, 0.48, 0.8"
 scene 0.5 "1, 2, 5" "$spin" "$normal" 10 0.5 >chaotic.yaml
 scene -1 "1.4, 2.1, 3" "$spin" "$normal" 10 0.5 >regular.yaml
 
-# --- a further integral excludes chaos, even where deviations grow by 1e5 next to a separatrix
+# --- an additional integral excludes chaos, even where deviations grow by 1e5 next to a separatrix
 printf '%s\n' 'reduced: {k: -1, J: [1.4, 2.1, 3.0]}' 'time: {end: 1, step: 1}' \
     'initial: {normal: [0.8, 0, 0.6], angular_velocity: [1.0e-5, 1, 1.0e-5], project: true}' >near.yaml
 run 0 chaos near.yaml
-check "the integral" grep -q "F_shell is a further integral: no orbit is chaotic" out
+check "the integral" grep -q "F_shell is an additional integral: no orbit is chaotic" out
 check "never chaotic" sh -c '! grep -q "orbit: chaotic" out'
 run 0 chaos near.yaml --json
 check "the integral in JSON" grep -q '"integral": "F_shell"' out
@@ -118,7 +118,7 @@ if has gnuplot pictures; then
 fi
 refuses 2 "must end in .svg" chaos chaotic.yaml --plot x.gif
 
-# --- where a further integral is known, undecided orbits are not chaotic
+# --- where an additional integral is known, undecided orbits are not chaotic
 run 0 chaos regular.yaml --starts 40 --turns 20 --json
 check "all are undecided" test "$(value undecided_starts)" = 40
 check "and none of them may be chaotic" between "$(sed -n 's/^ *"high": \([0-9.e-]*\),*$/\1/p' out)" 0 0.1

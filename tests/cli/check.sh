@@ -219,9 +219,19 @@ formats=csv
 "$isoroll" run several.yaml -o several.h5 2>/dev/null && formats="csv h5"
 for format in $formats; do
     run 0 section several.yaml --starts 3 --crossings 6 --as point --quiet -o several.$format
+    [ $format != csv ] || rows several.csv | cut -d, -f1,8-13 >several.points
     run 0 check --max 1e-9 several.$format
     check "$format: rows of all orbits" grep -qx '24 rows' out
-    check "$format: the number of the orbit is named" grep -q "^not looked at: other columns: 'orbit', 'crossing'" out
+    check "$format: what is not looked at" grep -q "^not looked at: other columns: 'crossing', 'l', 'x'" out
+    # converted orbit by orbit, there and back
+    run 0 convert several.$format --to ball --quiet -o there.$format
+    run 0 check --max 1e-9 there.$format
+    check "$format: rows of all orbits, converted" grep -qx '24 rows' out
+    run 0 convert there.$format --to point --quiet -o back.csv
+    rows back.csv >back.rows
+    at_most "$format: there and back" "$(paste -d, several.points back.rows | awk -F, '
+        /^[0-9]/ { for (i = 1; i <= 7; i++) { d = $i - $(i + 7 + (i > 1)); if (d < 0) d = -d; if (d > w) w = d } }
+        END { print NR == 24 ? w + 0 : 1 }')" 1e-13
 done
 sed 's/^orbit,/number,/' several.csv >damaged.csv # without the column it would be one orbit
 finds "orbits that are taken for one" "point flow"
@@ -230,9 +240,20 @@ awk -F, -v OFS=, -v CONVFMT=%.17g '/^[123],/ { for (i = 8; i <= 10; i++) $i *= 1
 finds "the level of other orbits" "point H" "# h" "# eps"
 awk -F, -v OFS=, -v CONVFMT=%.17g '/^3,2,/ { $8 *= 1.000001; $9 *= 1.000001; $10 *= 1.000001 } { print }' several.csv >damaged.csv
 finds "a row of the last orbit" "point H" "point flow"
-refuses 3 "another orbit begins; convert takes a file of one orbit" convert several.csv --to ball --quiet -o none.csv
-check "nothing is written" test ! -e none.csv
 scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >half.yaml
+run 0 section half.yaml --starts 2 --crossings 4 --as ball --quiet -o balls.csv
+for orbit in 0 1; do # one without a good row: its rows are nan, the others are as without it
+    sed -E "s/^($orbit,.*),[^,]*\$/\1,7/" balls.csv >damaged.csv
+    "$isoroll" convert damaged.csv --to point --quiet -o marked.csv 2>err
+    check "orbit $orbit: exit status 1" test $? -eq 1
+    check "orbit $orbit: its rows" test "$(grep -c '^nan,' marked.csv)" -eq 4
+    check "the other orbits" test "$(rows marked.csv | grep -vc nan)" -eq 8
+done
+awk -F, -v OFS=, -v CONVFMT=%.17g '/^[12],/ { for (i = 8; i <= 10; i++) $i *= 1.01 } /^# (eps|h):/ { next } { print }' balls.csv >damaged.csv
+refuses 3 "convert orbits of different energies one by one" convert damaged.csv --to point --quiet -o none.csv
+check "nothing is written" test ! -e none.csv
+awk '/^1,/ && !n++ { print "# eps: x" } { print }' balls.csv >damaged.csv # a line before the second orbit
+refuses 3 "'eps: x' should be 1 finite number" convert damaged.csv --to point --quiet -o none.csv
 run 0 periodic half.yaml --period 2 -o orbits.csv
 run 0 check --max 1e-9 orbits.csv
 check "periodic: no flow" grep -q "the flow from row to row, t, tau, s" out

@@ -39,6 +39,15 @@ for recipe in effect_drag effect_drag_plain kutta38; do # also with the warnings
         -Wconversion -Werror -I"$copy/lib" -c "$recipes/$recipe.c" -o recipe.o
 done
 
+# A table of a new kind: one description of its columns makes files of both formats.
+check "table_turns.c" "${CC:-cc}" -std=c11 -Wall -Wextra -Wpedantic -Werror -I"$source/lib" "$recipes/table_turns.c" \
+    -o turns -L"$ISO_BUILD" -lisoroll -Wl,-rpath,"$ISO_BUILD"
+check "a table of turns" ./turns turns.csv
+check "it says its kind" grep -qx '# isoroll turns 1' turns.csv
+check "its columns" test "$(columns turns.csv)" = number,angle
+check "its rows" test "$(tail -n 1 turns.csv)" = 3,0.16666666666666666
+./turns turns.h5 || skip "a table of turns in HDF5" "this build has none"
+
 build() {
     checks=$((checks + 1))
     if ! { cmake -S "$copy" -B "$work/build" -DCMAKE_C_COMPILER="${CC:-cc}" -DISO_WERROR=ON -DBUILD_TESTING=OFF \

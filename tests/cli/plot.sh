@@ -192,6 +192,7 @@ run 0 periodic scene.yaml --period 2 -o orbits.csv
 run 0 periodic scene.yaml --period 1 --follow k=0.45:0.55 -o follow.csv
 run 0 periodic scene.yaml --chart J2 --steps 3 -o chart.csv
 run 0 splitting scene.yaml --k 0.5,0.6 --digits double -o splitting.csv
+run 0 cost scene.yaml --method taylor --csv cost.csv
 if has gnuplot "pictures of tables"; then
     while read -r table words; do
         run 0 plot "$table.csv" -o "$table.svg"
@@ -202,11 +203,16 @@ chaos undecided
 orbits unstable
 follow place on the line
 chart least
-splitting splitting.csv: k = 0.5
+splitting splitting of the separatrix, J = 1 2 5
+cost processor time in seconds
 END
     run 0 section scene.yaml --crossings 20 --starts 3 -o section.h5
     run 0 plot section.h5 -o same.svg
     check "a section in HDF5 gives the same picture" cmp section.svg same.svg
+    run 0 chaos scene.yaml --turns 20 --starts 5 --csv chaos.h5 --plot same.svg
+    check "chaos --plot draws what plot draws" cmp chaos.svg same.svg
+    run 0 plot chaos.h5 -o same.svg
+    check "also from HDF5" cmp chaos.svg same.svg
 fi
 sed '/^# axis/d' chaos.csv >bad.csv
 refuses 3 "the table does not say its axis" plot bad.csv -o none.svg

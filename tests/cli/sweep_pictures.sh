@@ -30,6 +30,7 @@ check "a curve" grep -q '</svg>' curve.svg
 run 0 plot each.csv -o curve.svg --value rotations_trace2
 check "its name" grep -q 'rotations_trace2' curve.svg
 refuses 3 "there is no such column" plot each.csv -o curve.svg --value nothing
+refuses 3 "it varies" plot each.csv -o curve.svg --value k
 
 printf 'scene: scene.yaml\nvary: {k: [-1, -0.5, 0.5, 1]}\nmeasure: {state: {}}\n' >signs.yaml
 run 0 sweep signs.yaml -o signs.csv

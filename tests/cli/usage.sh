@@ -102,7 +102,7 @@ refuses 3 "'scene.yaml' is a scene: a sweep has the keys scene, vary and measure
 refuses 3 "sweep: 'ball.csv' is a trajectory, which is for: convert, check, plot, view" sweep ball.csv
 refuses 3 "'sweep.yaml' is a sweep" view sweep.yaml -o a.html
 refuses 5 "cannot open 'a?[31m?b'" run "$(printf 'a\033[31m\nb')" # nothing that moves the cursor
-refuses 5 "cannot open 'xxxxx" run "$(printf '%05000d' 0 | tr 0 x)"
+refuses 5 "File name too long" run "$(printf '%05000d' 0 | tr 0 x)"
 refuses 5 "cannot read '.': Is a directory" run .
 refuses 5 "cannot write '.'" run scene.yaml -o .
 refuses 3 ":1:1" run /dev/null

@@ -8,6 +8,7 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "map/state.h"
+#include "model/model_impl.h"
 #include "reduction.h"
 
 static double A(const double b[3], double z)

@@ -294,69 +294,59 @@ static void check_coupling(const char *eps)
 
 /* --- studies and files ------------------------------------------------------------------------------------------ */
 
+static iso_record *table_of[3];
+
+/* Runs a study; the tables of the one before are freed. */
+static iso_status study(const iso_foreign_scene *scene, const char *name, const char *options)
+{
+    for (int i = 0; i < 3; i++) iso_record_free(table_of[i]);
+    return iso_foreign_study(ctx, scene, name, options, table_of, notes, sizeof notes);
+}
+
 static void check_studies(const iso_foreign_scene *scene)
 {
-    const double at[] = {0.5, 0.2};
-    iso_record *record, *point, *trace[2];
-    gsl_test(iso_foreign_section(ctx, scene, 20, 2, 0, at, 1, -1, NULL, 0, NULL, "both", 0, 0, &record, &point, notes,
-                                 sizeof notes) != ISO_OK ||
-                 iso_record_rows(record) != 80 || iso_record_rows(point) != 80,
+    gsl_test(study(scene, "section", "crossings=20\nstarts=2\nat=0.5,0.2\nas=both\n") != ISO_OK ||
+                 iso_record_rows(table_of[0]) != 80 || iso_record_rows(table_of[1]) != 80 || table_of[2],
              "a section of both models");
     int wrong = 0;
     for (size_t i = 0; i < 80; i++)
         for (int c = 0; c < 7; c++)
-            wrong += !(fabs(iso_record_row(record, i)[c] - iso_record_row(point, i)[c]) <= 1e-7);
-    gsl_test(wrong, "has the same crossings");
-    iso_record_free(record);
-    iso_record_free(point);
-    gsl_test(iso_foreign_section(ctx, scene, 20, 2, 0, NULL, 0, -1, NULL, 0, "x", NULL, 0, 0, &record, &point, notes,
-                                 sizeof notes) != ISO_BAD_ARGUMENT ||
-                 record || point || !about("models"),
-             "no model");
-    gsl_test(iso_foreign_chaos(ctx, scene, 50, 0, 2, 0, at, 1, -1, NULL, 0, 0, &record, trace) != ISO_OK ||
-                 iso_record_rows(record) != 4 || iso_record_columns(record) != 35 || !trace[0] || !trace[1] ||
-                 !iso_record_get(record, "share"),
+            wrong += !(fabs(iso_record_row(table_of[0], i)[c] - iso_record_row(table_of[1], i)[c]) <= 1e-7);
+    gsl_test(wrong || strcmp(iso_record_kind(table_of[0]), "section") != 0, "has the same crossings");
+    gsl_test(study(scene, "chaos", "turns=50\nstarts=2\nat=0.5,0.2") != ISO_OK ||
+                 iso_record_rows(table_of[0]) != 4 || iso_record_columns(table_of[0]) != 35 || !table_of[1] ||
+                 !table_of[2] || !iso_record_get(table_of[0], "share.chaotic") ||
+                 strcmp(iso_record_get(table_of[0], "k"), "0.5") != 0,
              "chaos");
-    iso_record_free(record);
-    for (int m = 0; m < 2; m++) iso_record_free(trace[m]);
-    gsl_test(iso_foreign_chaos(ctx, scene, 0, 0, 0, 0, NULL, 0, -1, NULL, 0, 0, &record, NULL) != ISO_BAD_ARGUMENT ||
-                 record,
-             "no turns");
+    gsl_test(study(scene, "chaos", NULL) != ISO_OK || iso_record_rows(table_of[0]) != 1, "with its defaults");
 }
 
-/* A tolerance of 0 is the scene's; a number that went wrong is refused, and it is not the scene that is blamed. */
+/* What is refused: a number that went wrong, -1 in another language, a word that is none. It is not the scene that is
+ * blamed. */
 static void check_numbers(void)
 {
     iso_foreign_scene *scene = made(FREE "solver: {tolerance: 1e-9}\n");
-    const double bad[] = {NAN, -1e-9, 1e-16, 0.2, INFINITY};
-    iso_record *record;
-    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        gsl_test(iso_foreign_section(ctx, scene, 5, 0, 0, NULL, 0, -1, NULL, 0, NULL, NULL, bad[i], 1, &record, NULL,
-                                     NULL, 0) != ISO_BAD_ARGUMENT ||
-                     record || !about("tolerance"),
-                 "a section: %s", iso_context_message(ctx));
-        gsl_test(iso_foreign_chaos(ctx, scene, 5, 0, 0, 0, NULL, 0, -1, NULL, bad[i], 1, &record, NULL) !=
-                         ISO_BAD_ARGUMENT ||
-                     record || !about("tolerance"),
-                 "chaos: %s", iso_context_message(ctx));
-    }
-    for (int i = 0; i < 3; i++) { /* -1 in another language */
-        const size_t none = (size_t)-1, crossings = i == 0 ? none : 5, spread = i == 0 ? 0 : none;
-        const iso_status found =
-            i < 2 ? iso_foreign_section(ctx, scene, crossings, spread, 0, NULL, 0, -1, NULL, 0, NULL, NULL, 0, 1,
-                                        &record, NULL, NULL, 0)
-                  : iso_foreign_chaos(ctx, scene, 5, 0, none, 0, NULL, 0, -1, NULL, 0, 1, &record, NULL);
-        gsl_test(found != ISO_BAD_ARGUMENT || record || !about(i == 0 ? "crossings" : "starts"), "no count: %s",
+    static const char *const bad[][2] = {
+        {"tol=nan", "tol"},      {"tol=-1e-9", "tol"},     {"tol=1e-16", "tol"},  {"tol=0.2", "tol"},
+        {"tol=inf", "tol"},      {"tol=0", "tol"},         {"starts=-1", "starts"}, {"starts=1.5", "starts"},
+        {"starts=1e17", "starts"}, {"model=x", "model"},   {"seed=", "seed"},     {"at", "at"},
+        {"mood=1", "mood"},      {"axis=4", ""},           {"at=1", ""},          {"at=1,2;x", ""}};
+    for (size_t i = 0; i < 2 * sizeof bad / sizeof *bad; i++)
+        gsl_test(study(scene, i % 2 ? "chaos" : "section", bad[i / 2][0]) != ISO_BAD_ARGUMENT || table_of[0] ||
+                     table_of[1] || !about(bad[i / 2][1]) || strstr(iso_context_message(ctx), "scene:"),
+                 "%s: %s", bad[i / 2][0], iso_context_message(ctx));
+    static const char *const section[] = {"crossings=0", "event=x=1", "event=t=1", "event=n1", "axis=1\nevent=n1=0"};
+    for (size_t i = 0; i < sizeof section / sizeof *section; i++)
+        gsl_test(study(scene, "section", section[i]) != ISO_BAD_ARGUMENT || table_of[0], "%s: %s", section[i],
                  iso_context_message(ctx));
-    }
-    for (int own = 0; own < 2; own++) {
-        gsl_test(iso_foreign_section(ctx, scene, 5, 0, 0, NULL, 0, -1, NULL, 0, NULL, NULL, own ? 1e-6 : 0, 1,
-                                     &record, NULL, NULL, 0) != ISO_OK ||
-                     strcmp(iso_record_get(record, "tolerance"),
+    gsl_test(study(scene, "chaos", "turns=0") != ISO_BAD_ARGUMENT || !about("turns"), "no turns");
+    gsl_test(study(scene, "poetry", NULL) != ISO_BAD_ARGUMENT || !about("study"), "no study");
+    for (int own = 0; own < 2; own++)
+        gsl_test(study(scene, "section", own ? "crossings=5\ntol=1e-6" : "crossings=5") != ISO_OK ||
+                     strcmp(iso_record_get(table_of[0], "tolerance"),
                             own ? "9.9999999999999995e-07" : "1.0000000000000001e-09"),
                  "the section says its tolerance");
-        iso_record_free(record);
-    }
+    for (int i = 0; i < 3; i++) iso_record_free(table_of[i]);
     iso_foreign_scene_free(scene);
 }
 
@@ -380,7 +370,7 @@ static void check_files(const iso_foreign_scene *scene)
             wrong += !(fabs(iso_record_row(ball, i)[c] - iso_record_row(back, i)[c]) <= 1e-13);
     gsl_test(wrong, "the same ball");
     gsl_test(iso_foreign_write(ctx, "foreign.csv", ball, 18, "trajectory") != ISO_BAD_ARGUMENT, "18 digits");
-    gsl_test(iso_foreign_write(ctx, "foreign.csv", ball, 17, "poem") != ISO_BAD_ARGUMENT, "no kind");
+    gsl_test(iso_foreign_write(ctx, "foreign.csv", ball, 17, "a/poem") != ISO_BAD_ARGUMENT, "no kind");
     iso_record_free(read);
     gsl_test(iso_foreign_read(ctx, "absent.csv", NULL, &read, notes, sizeof notes) != ISO_FILE_TROUBLE || read,
              "none");

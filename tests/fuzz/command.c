@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 
 #include "fuzz.h"
-#include "io/trajectory.h"
+#include "io/table.h"
 
 enum { STEPS = 2000, ARGUMENTS = 24 };
 
@@ -125,7 +125,7 @@ static void check_output(int status, const char *out, size_t size)
     iso_record *record = NULL;
     char path[32];
     fuzz_file((const uint8_t *)out, size, path);
-    const iso_status read = iso_trajectory_read(ctx, path, NULL, &record);
+    const iso_status read = iso_table_read(ctx, path, "trajectory", NULL, &record, NULL);
     FUZZ_REQUIRE(read == ISO_OK, "%s\n", iso_context_message(ctx));
     iso_record_free(record);
     iso_context_free(ctx);

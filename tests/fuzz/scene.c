@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "fuzz.h"
+#include "exact/exact_impl.h"
 #include "io/scene_file.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "fuzz.h"
-#include "io/trajectory.h"
+#include "io/table.h"
 #include "orbit/convert.h"
 #include "study/check/check.h"
 
@@ -53,7 +53,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char path[32];
     if (!ctx) return 0;
     fuzz_file(data, size, path);
-    const iso_status status = iso_trajectory_read(ctx, path, NULL, &record);
+    const iso_status status = iso_table_read(ctx, path, "trajectory", NULL, &record, NULL);
     if (status != ISO_OK) {
         fuzz_failed(ctx, status);
         FUZZ_REQUIRE(status == ISO_BAD_INPUT && strstr(iso_context_message(ctx), path), "status %d says '%s'\n",

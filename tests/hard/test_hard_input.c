@@ -10,7 +10,7 @@
 #include "fuzz/fuzz.h"
 #include "hard.h"
 #include "io/scene_file.h"
-#include "io/trajectory.h"
+#include "io/table.h"
 
 enum { MOST_FILES = 4000, MOST_BYTES = 1 << 16, MOST_SECONDS = 60 /* of the processor, for one input */ };
 
@@ -122,7 +122,7 @@ static bool trajectory_accepts(const char *number)
     iso_context *ctx = iso_context_create();
     snprintf(text, sizeof text, "t,omega1\n0,%s\n", number);
     fuzz_file((const uint8_t *)text, strlen(text), path);
-    const iso_status status = iso_trajectory_read(ctx, path, NULL, &record);
+    const iso_status status = iso_table_read(ctx, path, "trajectory", NULL, &record, NULL);
     iso_record_free(record);
     iso_context_free(ctx);
     return status == ISO_OK;

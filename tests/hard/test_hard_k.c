@@ -343,7 +343,7 @@ static void neighbours(void)
 {
     static const double at[] = {0.5, 1, -1}, apart[] = {0, DBL_EPSILON, -DBL_EPSILON / 2, 1e-15, -1e-15};
     hard_case("next to 1/2, 1, -1", "all columns at t = 20 for k (1 +- 1e-15), against those for k",
-              "at 1/2 tau is t, at 1 and -1 there are further integrals, closed solutions, other series");
+              "at 1/2 tau is t, at 1 and -1 there are additional integrals, closed solutions, other series");
     open_book();
     for (int i = 0; i < 3; i++) {
         question q = ask(at[i], bodies[1], 20);

@@ -12,13 +12,13 @@
 #include "foreign/foreign.h"
 #include "hard.h"
 #include "io/scene_file.h"
-#include "io/trajectory.h"
+#include "io/table.h"
 #include "orbit/convert.h"
 #include "study/check/check.h"
 #include "study/compare.h"
 #include "study/cost/cost.h"
-#include "study/error_impl.h"
 #include "study/frequencies/frequencies.h"
+#include "study/study_impl.h"
 
 static iso_context *ctx;
 static batch_pool pool;
@@ -169,8 +169,8 @@ static iso_status study(const hard_road *way)
     if (status == ISO_OK) status = iso_record_set_numbers(ctx, written, "k", 1, &scene.params.k);
     if (status == ISO_OK) status = iso_record_set_numbers(ctx, written, "J", 3, scene.params.J);
     if (status == ISO_OK) status = iso_record_set_numbers(ctx, written, "h", 1, &c->h);
-    if (status == ISO_OK) status = iso_trajectory_write(ctx, "hard_memory.csv", written);
-    if (status == ISO_OK) status = iso_trajectory_read(ctx, "hard_memory.csv", NULL, &read);
+    if (status == ISO_OK) status = iso_table_write(ctx, "hard_memory.csv", written);
+    if (status == ISO_OK) status = iso_table_read(ctx, "hard_memory.csv", "trajectory", NULL, &read, NULL);
     if (status == ISO_OK) status = iso_convert(ctx, &scene.params, read, ISO_POINT, 1e-12, &converted);
     if (status == ISO_OK) status = iso_check(ctx, &scene.params, read, 1e-12, &residuals);
     if (status == ISO_OK) digits = c->worst[1] + iso_record_const_row(converted, 4)[2] + residuals.residual[0].worst;
@@ -185,7 +185,7 @@ static iso_status call_foreign(const hard_road *way)
 {
     iso_foreign_scene *scene = NULL;
     iso_foreign_orbit *one = NULL;
-    iso_record *ball = NULL, *point = NULL, *twin = NULL, *chaos = NULL;
+    iso_record *ball = NULL, *point = NULL, *section[3] = {NULL}, *chaos[3] = {NULL};
     char notes[80];
     double table[4 * 7];
     (void)way;
@@ -205,14 +205,13 @@ static iso_status call_foreign(const hard_road *way)
         status = iso_foreign_batch(ctx, (const iso_foreign_scene *[]){scene}, 1, 4, (double[]){1, 2, 3, 4}, NULL,
                                    NULL, (double[]){1}, 1, 1, NULL, table, NULL);
     if (status == ISO_OK)
-        status = iso_foreign_section(ctx, scene, 2, 1, 0, NULL, 0, -1, NULL, 0, NULL, NULL, 0, 1, &point, &twin,
-                                     notes, sizeof notes);
-    if (status == ISO_OK) status = iso_foreign_chaos(ctx, scene, 4, 0, 1, 0, NULL, 0, -1, NULL, 0, 1, &chaos, NULL);
-    digits = status == ISO_OK ? digits + table[27] + iso_record_row(twin, 3)[6] : 0;
+        status = iso_foreign_study(ctx, scene, "section", "crossings=2\nat=0.5,0.2\nthreads=1", section, notes, 80);
+    if (status == ISO_OK)
+        status = iso_foreign_study(ctx, scene, "chaos", "turns=4\nstarts=1\nthreads=1", chaos, notes, 80);
+    digits = status == ISO_OK ? digits + table[27] + iso_record_row(section[1], 3)[6] : 0;
     iso_record_free(ball);
     iso_record_free(point);
-    iso_record_free(twin);
-    iso_record_free(chaos);
+    for (int i = 0; i < 3; i++) iso_record_free(section[i]), iso_record_free(chaos[i]);
     iso_foreign_orbit_free(one);
     iso_foreign_scene_free(scene);
     return status;

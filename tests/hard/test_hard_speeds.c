@@ -8,6 +8,7 @@
 #include "isoroll.h"
 #include "laws.h"
 #include "map/state.h"
+#include "orbit/orbit_impl.h"
 #include "study/compare.h"
 #include "study/frequencies/frequencies.h"
 

@@ -2,16 +2,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "base/number_impl.h"
 #include "hard.h"
 #include "isoroll.h"
+#include "orbit/orbit_impl.h"
 #include "study/analogue.h"
 #include "study/check/check.h"
 #include "study/compare.h"
-#include "study/cost/cost.h"
+#include "study/cost/cost_impl.h"
 #include "study/frequencies/frequencies.h"
+#include "study/frequencies/frequencies_impl.h"
 #include "study/frequencies/momentum.h"
-#include "study/frequencies/spectrum_impl.h"
 #include "sweep.h"
 
 /* --- records ---------------------------------------------------------------------------------------------------- */
@@ -116,15 +117,15 @@ static iso_status lines(iso_context *ctx, const void *data, const double v[], sw
 
 static iso_status written(iso_context *ctx, const void *data, const double v[], sweep_answer *a)
 {
-    iso_trajectory_writer *w;
+    iso_table_writer *w;
     iso_record *header;
     iso_status status = iso_record_create(ctx, ROW, ball_columns, &header);
     (void)data, (void)a;
     if (status != ISO_OK) return status;
-    status = iso_trajectory_open(ctx, "hard_numbers.csv", &w);
-    if (status == ISO_OK) status = iso_trajectory_write_header(ctx, w, header);
-    if (status == ISO_OK) status = iso_trajectory_write_row(ctx, w, v, ROW);
-    const iso_status closed = iso_trajectory_close(ctx, w, false);
+    status = iso_table_writer_open(ctx, "hard_numbers.csv", "trajectory", &w);
+    if (status == ISO_OK) status = iso_table_write_header(ctx, w, header);
+    if (status == ISO_OK) status = iso_table_write_row(ctx, w, v);
+    const iso_status closed = iso_table_writer_close(ctx, w, false);
     iso_record_free(header);
     return status == ISO_OK ? closed : status;
 }

@@ -8,6 +8,7 @@
 #include "hard_loss.h"
 #include "map/state.h"
 #include "numbers.h"
+#include "orbit/orbit_impl.h"
 
 static iso_context *ctx;
 static const double J_three[3] = {1.4, 2.1, 3.0};

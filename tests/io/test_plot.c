@@ -204,72 +204,84 @@ static void test_refused(void)
     gsl_test(files_in_folder() != 0, "nothing is left");
 }
 
+static iso_record *make_work(void)
+{
+    iso_record *r;
+    gsl_test((int)iso_record_create(ctx, 4, (const char *[]){"backend", "method", "error", "total"}, &r), "a record");
+    for (size_t i = 0; i < 2; i++) iso_record_set_words(r, i, true);
+    return r;
+}
+
+static void put_work(iso_record *r, const char *backend, const char *method, double error, double seconds)
+{
+    double *row;
+    gsl_test((int)iso_record_append(ctx, r, &row), "a row");
+    iso_record_intern(ctx, r, backend, &row[0]);
+    iso_record_intern(ctx, r, method, &row[1]);
+    row[2] = error;
+    row[3] = seconds;
+}
+
 /* A work-precision diagram: what it draws of what was measured, and what it refuses. */
 static void test_work(void)
 {
     const char *path = in_folder("w.svg");
     const double error[] = {1e-3, 0, NAN, 1e-9, 5}, seconds[] = {1e-5, 1e-3, 1, -1, 1e-6};
-    iso_plot_series series[ISO_PLOT_NAMES + 2];
-    for (int i = 0; i < ISO_PLOT_NAMES + 2; i++)
-        series[i] = (iso_plot_series){"ball", "it's `touch OWNED` <b>", 5, error, seconds};
-    series[1].name = NULL;
-    series[2].panel = "po'int\n!touch OWNED";
-    iso_plot_work work = {"a/0 'title'", 3, series, {0, 1e-6}, 1e-14};
-    gsl_test((int)iso_plot_cost(ctx, path, &work), "%s", iso_context_message(ctx));
+    iso_record *r = make_work();
+    for (int i = 0; i < 5; i++) {
+        put_work(r, "ball", "it's `touch OWNED` <b>", error[i], seconds[i]);
+        put_work(r, "po'int\n!touch OWNED", "b", error[i], seconds[i]);
+    }
+    put_work(r, "exact", "", 0, 1e-6);
+    iso_record_set(ctx, r, "uncertainty", "1e-14");
+    gsl_test((int)iso_plot_cost(ctx, path, "a/0 'title'", r), "%s", iso_context_message(ctx));
     gsl_test(!file_contains(path, "`touch OWNED` &lt;b"), "a name is drawn as it is");
-    gsl_test(!file_contains(path, "closed solution") || !file_contains(path, "other methods"),
-             "what there is is named");
-    work.closed[0] = NAN;
-    work.uncertainty = INFINITY;
-    work.count = 1;
-    gsl_test((int)iso_plot_cost(ctx, path, &work), "nothing is known: %s", iso_context_message(ctx));
-    gsl_test(file_contains(path, "closed solution") || file_contains(path, "other methods"),
-             "what there is not is not");
+    gsl_test(!file_contains(path, "closed solution") || file_contains(path, "other methods"),
+             "what there is is named, what there is not is not");
+    iso_record_free(r);
     unlink(path);
-    series[0].count = 0;
-    gsl_test(iso_plot_cost(ctx, path, &work) != ISO_BAD_ARGUMENT, "no points");
-    work.closed[0] = 1e-15;
-    gsl_test((int)iso_plot_cost(ctx, path, &work), "the closed solution alone: %s", iso_context_message(ctx));
+    r = make_work();
+    put_work(r, "ball", "a", NAN, 1);
+    gsl_test(iso_plot_cost(ctx, path, "", r) != ISO_BAD_INPUT, "no points");
+    put_work(r, "exact", "", 1e-15, 1e-6);
+    gsl_test((int)iso_plot_cost(ctx, path, NULL, r), "the closed solution alone: %s", iso_context_message(ctx));
+    gsl_test(file_contains(path, "below what is known"), "nothing is known of it");
+    static const char *const many[] = {"a", "b", "c", "d", "e", "f", "g", "h"};
+    for (int i = 0; i < 8; i++) put_work(r, "point", many[i], 1e-3, 1e-5);
+    gsl_test((int)iso_plot_cost(ctx, path, NULL, r), "%s", iso_context_message(ctx));
+    gsl_test(!file_contains(path, ">f<") || file_contains(path, ">g<") || !file_contains(path, "other methods"),
+             "six methods of a backend have names");
+    iso_record_free(r);
     unlink(path);
-    static const char *const many[] = {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l"};
-    for (int i = 0; i < ISO_PLOT_NAMES + 2; i++) series[i] = (iso_plot_series){"ball", many[i], 5, error, seconds};
-    work.count = ISO_PLOT_NAMES;
-    gsl_test((int)iso_plot_cost(ctx, path, &work), "as many names as there is room for: %s",
-             iso_context_message(ctx));
-    unlink(path);
-    work.count++;
-    gsl_test(iso_plot_cost(ctx, path, &work) != ISO_BAD_ARGUMENT, "too many names");
-    for (int i = 0; i < 4; i++) series[i].panel = many[i];
-    gsl_test(iso_plot_cost(ctx, path, &work) != ISO_BAD_ARGUMENT, "too many panels");
     gsl_test(files_in_folder() != 0, "nothing is left");
 }
 
 /* Sections: two models, grey orbits, one crossing, and what is refused. */
 static void test_sections(void)
 {
-    static const double chart[][2] = {{0.1, 0.2}, {-3, -0.999999}, {3.1, 1 - 1e-12}};
-    static const uint32_t orbit[] = {0, 1, 1}, beyond[] = {0, 2, 1};
+    static const double rows[][6] = {
+        {0, 0.1, 0.2, 0, 0.1, 0.2}, {1, -3, -0.999999, 1, -3, -0.9}, {1, 3.1, 1 - 1e-12, 1, 3.1, 1}};
+    static const char *const names[] = {"orbit", "l", "x", "grey", "point_l", "point_x"};
     const char *path = in_folder("s.svg");
     iso_params p;
+    iso_record *r;
+    double *row;
     iso_params_reduced(ctx, -1, (double[]){1, 2, 5}, &p);
-    iso_plot_section section = {"it's `touch OWNED`",  &p,       6.5, 0, 0, 3, orbit, chart, chart, 2,
-                                (bool[]){false, true}, "chaotic"};
+    iso_record_create(ctx, 6, names, &r);
+    iso_plot_section section = {
+        .title = "it's `touch OWNED`", .params = &p, .eps = 6.5, .axis = 0, .rows = r, .grey_means = "chaotic"};
+    gsl_test(iso_plot_sections(ctx, path, &section) != ISO_BAD_ARGUMENT, "no crossing");
+    for (int i = 0; i < 3; i++)
+        if (iso_record_append(ctx, r, &row) == ISO_OK) memcpy(row, rows[i], sizeof rows[i]);
     gsl_test((int)iso_plot_sections(ctx, path, &section), "%s", iso_context_message(ctx));
     gsl_test(!file_contains(path, ">chaotic<") || !file_contains(path, "units of the scene"), "key and axes");
     section.eps = 0;
-    section.grey = NULL;
-    section.count = 1;
     gsl_test((int)iso_plot_sections(ctx, path, &section), "no free point: %s", iso_context_message(ctx));
     gsl_test(file_contains(path, "units of the scene"), "then x is drawn");
     unlink(path);
-    section.count = 0;
-    gsl_test(iso_plot_sections(ctx, path, &section) != ISO_BAD_ARGUMENT, "no crossing");
-    section.count = 3;
-    section.orbit = beyond;
-    gsl_test(iso_plot_sections(ctx, path, &section) != ISO_BAD_ARGUMENT, "an orbit that is none");
-    section.orbit = orbit;
     section.axis = 3;
     gsl_test(iso_plot_sections(ctx, path, &section) != ISO_BAD_ARGUMENT, "an axis that is none");
+    iso_record_free(r);
     gsl_test(files_in_folder() != 0, "nothing is left");
 }
 

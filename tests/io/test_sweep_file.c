@@ -14,8 +14,7 @@
 #include "length.h"
 #include "map/section.h"
 #include "map/state.h"
-#include "sweep/sweep.h"
-#include "sweep/sweep_file.h"
+#include "sweep/sweep_impl.h"
 
 static const char *const inside = "scene:\n"
                                   "  # a ball in a bowl, in lines of their own\n"
@@ -59,7 +58,7 @@ static const char *const point = "scene: {point: {k: -0.75, J: [1, 2, 5]}, time:
 static iso_sweep_file *read(iso_context *ctx, const char *text)
 {
     iso_sweep_file *f = NULL;
-    const iso_status status = iso_sweep_parse(ctx, "test.yaml", text, strlen(text), iso_sweep_quantities(), &f);
+    const iso_status status = iso_sweep_parse(ctx, "test.yaml", text, strlen(text), &f);
     gsl_test(status != ISO_OK, "reading: %s", status == ISO_OK ? "done" : iso_context_message(ctx));
     return f;
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/field.h"
 #include "io/table.h"
 
 static iso_context *ctx;
@@ -78,6 +79,7 @@ static iso_record *make(const char *kind, const char *columns, size_t rows)
     static const char *const words[] = {"", "chaotic", "R, S1 S2 and T", "it \"said\" so", "nan", "12", "#a"};
     char text[512], *rest = text;
     const char *names[64];
+    const bool finite = strcmp(kind, "section") == 0; /* the writer refuses others */
     bool is_word[64];
     iso_record *r;
     size_t count = 0;
@@ -89,7 +91,7 @@ static iso_record *make(const char *kind, const char *columns, size_t rows)
     if (iso_record_create(ctx, count, names, &r) != ISO_OK) exit(1);
     iso_record_set_kind(r, kind);
     for (size_t c = 0; c < count; c++)
-        if (is_word[c]) iso_record_set_words(r, c);
+        if (is_word[c]) iso_record_set_words(r, c, true);
     iso_record_set(ctx, r, "model", "both: ball and point");
     iso_record_set_numbers(ctx, r, "J", 3, numbers);
     iso_record_set(ctx, r, "isoroll", "0.1.0");
@@ -101,7 +103,10 @@ static iso_record *make(const char *kind, const char *columns, size_t rows)
             if (is_word[c])
                 iso_record_intern(ctx, r, words[(3 * i + c) % 7], &row[c]);
             else
-                row[c] = (i + c) % 5 == 4 ? (double)NAN : (i + c) % 11 == 3 ? -INFINITY : numbers[(i + c) % 9];
+                row[c] = finite               ? numbers[(i + c) % 9]
+                         : (i + c) % 5 == 4   ? (double)NAN
+                         : (i + c) % 11 == 3 ? -INFINITY
+                                              : numbers[(i + c) % 9];
     }
     if (strncmp(kind, "sweep", 5) == 0) make_sweep(r);
     return r;
@@ -142,7 +147,7 @@ static void there_and_back(const iso_record *r, const char *name)
     const char *path = in_folder(name), *again = in_folder("again.csv"), *first = in_folder("first.csv");
     iso_record *read = NULL;
     iso_status status = iso_table_write(ctx, path, r);
-    if (status == ISO_OK) status = iso_table_read(ctx, path, iso_record_kind(r), &read);
+    if (status == ISO_OK) status = iso_table_read(ctx, path, iso_record_kind(r), NULL, &read, NULL);
     if (status == ISO_BAD_ARGUMENT && strstr(iso_context_message(ctx), "no HDF5")) return;
     has_hdf5 = has_hdf5 || strstr(name, ".h5");
     gsl_test(status != ISO_OK, "%s, %s: %s", name, iso_record_kind(r), iso_context_message(ctx));
@@ -156,7 +161,7 @@ static void there_and_back(const iso_record *r, const char *name)
         free(a), free(b);
     }
     iso_record_free(read);
-    gsl_test(iso_table_read(ctx, path, "orbit of nobody", &read) != ISO_BAD_INPUT || read,
+    gsl_test(iso_table_read(ctx, path, "orbit of nobody", NULL, &read, NULL) != ISO_BAD_INPUT || read,
              "%s: another kind is wanted", name);
 }
 
@@ -197,10 +202,74 @@ static void test_words(void)
                  *iso_record_word(r, -1) || *iso_record_word(r, MANY + 1) || *iso_record_word(r, NAN),
              "numbers of no word are the empty word");
     iso_record_set_kind(r, "test");
-    iso_record_set_words(r, 1);
+    iso_record_set_words(r, 1, true);
     gsl_test(iso_table_write(ctx, in_folder("words.csv"), r) != ISO_BAD_ARGUMENT,
              "a column of words that a reader would not know is refused");
     iso_record_free(r);
+}
+
+/* --- fields ----------------------------------------------------------------------------------------------------- */
+
+typedef struct thing {
+    double whole, error;
+    int number;
+    const char *kind, *reason;
+} thing;
+
+/* What fields make of a struct: digits of their own, words, and empty cells where nothing is there. */
+static void test_fields(void)
+{
+    static const iso_field fields[] = {ISO_MEMBER(thing, "whole", whole, "", "all digits, or nan"),
+                                       ISO_MEMBER(thing, "error", error, "", "few", .digits = 3),
+                                       ISO_MEMBER(thing, "if", error, "", "empty if not finite", .how = ISO_EMPTY),
+                                       ISO_MEMBER(thing, "number", number, "", "from 1", .how = ISO_FROM_ONE),
+                                       ISO_MEMBER(thing, "kind", kind, "", "a text"),
+                                       ISO_MEMBER(thing, "reason", reason, "", "a text", .how = ISO_QUOTED),
+                                       ISO_FIELD_END};
+    static const thing things[] = {
+        {0.1, 1.0 / 3, 4, "one, two", "x y"}, {NAN, INFINITY, -1, NULL, "y"}, {1, 0.25, 0, "it is so", ""}};
+    iso_record *r = NULL;
+    iso_status status = iso_columns_create(ctx, fields, &r);
+    for (size_t i = 0; status == ISO_OK && i < 3; i++) status = iso_columns_append(ctx, fields, &things[i], r);
+    if (status == ISO_OK) iso_record_set_kind(r, "things");
+    if (status == ISO_OK) status = iso_table_write(ctx, in_folder("fields.csv"), r);
+    gsl_test(status != ISO_OK, "fields: %s", iso_context_message(ctx));
+    char *text = load(in_folder("fields.csv"));
+    gsl_test(!text || strcmp(text, "# isoroll things 1\nwhole,error,if,number,kind,reason\n"
+                                   "0.10000000000000001,0.333,0.33333333333333331,5,\"one, two\",\"x y\"\n"
+                                   "nan,inf,,,,y\n1,0.25,0.25,1,it is so,\n"),
+             "rows made of fields: %s", text);
+    free(text);
+    if (status == ISO_OK && has_hdf5) there_and_back(r, "fields.h5");
+    iso_record_free(r);
+}
+
+/* A row of a trajectory or a section is finite, or a mark: nan in every column. Marks are passed over if that is asked.
+ */
+static void test_finite(void)
+{
+    static const char *const kinds[] = {"trajectory", "section", "periodic"}, *const names[] = {"t", "n1"};
+    static const double good[] = {1, 2}, bad[] = {1, NAN};
+    const char *path = in_folder("good.csv");
+    for (int i = 0; i < 3; i++) {
+        iso_table_writer *w;
+        iso_record *r, *read;
+        size_t passed;
+        if (iso_record_create(ctx, 2, names, &r) != ISO_OK) exit(1);
+        iso_status status = iso_table_writer_open(ctx, path, kinds[i], &w);
+        if (status == ISO_OK) status = iso_table_write_header(ctx, w, r);
+        gsl_test(status != ISO_OK, "%s: %s", kinds[i], iso_context_message(ctx));
+        gsl_test(iso_table_write_row(ctx, w, bad) != (i < 2 ? ISO_NUMERICAL : ISO_OK), "%s: nan", kinds[i]);
+        gsl_test(iso_table_write_row(ctx, w, NULL) != (i < 2 ? ISO_OK : ISO_BAD_ARGUMENT), "%s: a mark", kinds[i]);
+        gsl_test(iso_table_write_row(ctx, w, good) != ISO_OK || iso_table_writer_close(ctx, w, true) != ISO_OK,
+                 "%s: a row", kinds[i]);
+        iso_record_free(r);
+        if (i > 0) continue;
+        gsl_test(iso_table_read(ctx, path, kinds[i], NULL, &r, NULL) != ISO_BAD_INPUT || r, "a mark is refused");
+        status = iso_table_read(ctx, path, kinds[i], NULL, &read, &passed);
+        gsl_test(status != ISO_OK || passed != 1 || iso_record_rows(read) != 1, "a mark is passed over");
+        if (status == ISO_OK) iso_record_free(read);
+    }
 }
 
 /* --- damaged files ---------------------------------------------------------------------------------------------- */
@@ -210,7 +279,7 @@ static void refuse(const char *text, const char *words)
     iso_record *r;
     const char *path = in_folder("bad.csv");
     put(path, text);
-    const iso_status status = iso_table_read(ctx, path, NULL, &r);
+    const iso_status status = iso_table_read(ctx, path, NULL, NULL, &r, NULL);
     const char *message = iso_context_message(ctx);
     const char *found = status == ISO_BAD_INPUT && !r ? strstr(message, words) : NULL;
     gsl_test(!found || strncmp(message, path, strlen(path)) != 0, "'%s' is wanted: status %d, %s", words, (int)status,
@@ -247,7 +316,7 @@ static void test_tolerated(void)
     const char *path = in_folder("good.csv");
     put(path, "# isoroll cost 1\r\n# k: 1\r\nbackend,error,failure\r\n\r\nball,,\"a \"\"b\"\"\"\r\npoint,-nan,\r\n"
               "# later: yes\r\n# | text\r\n# |\r\n# | more");
-    gsl_test(iso_table_read(ctx, path, "cost", &r) != ISO_OK, "%s", iso_context_message(ctx));
+    gsl_test(iso_table_read(ctx, path, "cost", NULL, &r, NULL) != ISO_OK, "%s", iso_context_message(ctx));
     if (!r) return;
     const double *row = iso_record_const_row(r, 0);
     gsl_test(iso_record_rows(r) != 2 || !isnan(row[1]) || !isnan(row[4]) ||
@@ -281,11 +350,13 @@ int main(void)
     if (!ctx || !mkdtemp(folder)) return 1;
     test_kinds();
     test_words();
+    test_fields();
+    test_finite();
     test_damaged();
     test_tolerated();
     test_long_lines();
     static const char *const files[] = {"table.csv", "table.h5", "again.csv", "first.csv",
-                                        "bad.csv",   "good.csv", "long.csv"};
+                                        "bad.csv",   "good.csv", "long.csv", "fields.csv", "fields.h5"};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) unlink(in_folder(files[i]));
     gsl_test(rmdir(folder) != 0, "nothing is left over");
     iso_context_free(ctx);

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "io/trajectory.h"
+#include "io/table_impl.h"
 
 static iso_context *ctx;
 static char folder[] = "/tmp/isoroll-test-XXXXXX";
@@ -82,14 +82,14 @@ static iso_record *make_record(void)
 /* Writes with so many digits. */
 static iso_status write_digits(const char *path, const iso_record *a, int digits)
 {
-    iso_trajectory_writer *w;
-    iso_status status = iso_trajectory_open(ctx, path, &w);
+    iso_table_writer *w;
+    iso_status status = iso_table_writer_open(ctx, path, "trajectory", &w);
     if (status != ISO_OK) return status;
-    iso_trajectory_set_digits(w, digits);
-    status = iso_trajectory_write_header(ctx, w, a);
+    iso_table_set_digits(w, digits);
+    status = iso_table_write_header(ctx, w, a);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(a); i++)
-        status = iso_trajectory_write_row(ctx, w, iso_record_const_row(a, i), iso_record_columns(a));
-    const iso_status closed = iso_trajectory_close(ctx, w, status == ISO_OK);
+        status = iso_table_write_row(ctx, w, iso_record_const_row(a, i));
+    const iso_status closed = iso_table_writer_close(ctx, w, status == ISO_OK);
     return status == ISO_OK ? closed : status;
 }
 
@@ -104,7 +104,7 @@ static void test_round_trip(const char *name, int digits)
         return;
     }
     gsl_test(failed(written), "write: %s", iso_context_message(ctx));
-    gsl_test(failed(iso_trajectory_read(ctx, path, NULL, &b)), "read: %s", iso_context_message(ctx));
+    gsl_test(failed(iso_table_read(ctx, path, "trajectory", NULL, &b, NULL)), "read: %s", iso_context_message(ctx));
     if (!b) exit(1);
     gsl_test(iso_record_rows(b) != iso_record_rows(a) || iso_record_columns(b) != 3, "as many rows and columns");
     for (size_t i = 0; i < iso_record_rows(b); i++)
@@ -124,30 +124,30 @@ static void test_rows(void)
 {
     static const char text[] = "# isoroll trajectory 1\n# k: 1\nt,n1\n1,2\n3,x\n\nnan,nan\n4,5\n# k: 2\n";
     const char *path = in_folder("a.csv"), *const ignored = "x,t,n1,\n1,2,3,4\n";
-    iso_trajectory_reader *r;
+    iso_table_reader *r;
     double row[2];
     bool more;
     put(path, text, sizeof text - 1);
-    gsl_test(failed(iso_trajectory_reader_open(ctx, path, NULL, &r)), "opened: %s", iso_context_message(ctx));
-    gsl_test(iso_trajectory_next(ctx, r, row, &more) != ISO_OK || !more || row[1] != 2, "a row");
-    gsl_test(iso_trajectory_next(ctx, r, row, &more) != ISO_BAD_INPUT, "a bad one");
-    gsl_test(iso_trajectory_line(r) != 5 || !strstr(iso_context_message(ctx), ":5:3: "), "and its line");
-    gsl_test(iso_trajectory_next(ctx, r, row, &more) != ISO_BAD_INPUT || iso_trajectory_line(r) != 7, "a mark");
-    gsl_test(iso_trajectory_next(ctx, r, row, &more) != ISO_OK || !more || row[1] != 5, "the row behind them");
-    gsl_test(iso_trajectory_next(ctx, r, row, &more) != ISO_OK || more, "the end");
-    gsl_test(strcmp(iso_record_get(iso_trajectory_header(r), "k"), "2") != 0, "a line behind the rows");
-    gsl_test(iso_trajectory_ignored(r) != NULL, "nothing is passed over");
-    iso_trajectory_reader_close(r);
+    gsl_test(failed(iso_table_reader_open(ctx, path, "trajectory", NULL, &r)), "opened: %s", iso_context_message(ctx));
+    gsl_test(iso_table_next(ctx, r, row, &more) != ISO_OK || !more || row[1] != 2, "a row");
+    gsl_test(iso_table_next(ctx, r, row, &more) != ISO_BAD_INPUT, "a bad one");
+    gsl_test(iso_table_at(r)->line != 5 || !strstr(iso_context_message(ctx), ":5:3: "), "and its line");
+    gsl_test(iso_table_next(ctx, r, row, &more) != ISO_BAD_INPUT || iso_table_at(r)->line != 7, "a mark");
+    gsl_test(iso_table_next(ctx, r, row, &more) != ISO_OK || !more || row[1] != 5, "the row behind them");
+    gsl_test(iso_table_next(ctx, r, row, &more) != ISO_OK || more, "the end");
+    gsl_test(strcmp(iso_record_get(iso_table_header(r), "k"), "2") != 0, "a line behind the rows");
+    gsl_test(iso_table_at(r)->ignored != NULL, "nothing is passed over");
+    iso_table_reader_close(r);
     put(path, ignored, strlen(ignored));
-    gsl_test(failed(iso_trajectory_reader_open(ctx, path, NULL, &r)), "opened: %s", iso_context_message(ctx));
-    gsl_test(!iso_trajectory_ignored(r) || !strstr(iso_trajectory_ignored(r), "'x'"), "x is passed over");
-    gsl_test(iso_trajectory_next(ctx, r, row, &more) != ISO_OK || row[0] != 2 || row[1] != 3, "the others are read");
-    iso_trajectory_reader_close(r);
-    gsl_test(failed(iso_trajectory_reader_open(ctx, path, "n1,-,-,t", &r)), "named: %s", iso_context_message(ctx));
-    gsl_test(iso_trajectory_next(ctx, r, row, &more) != ISO_OK || row[0] != 1 || row[1] != 4,
+    gsl_test(failed(iso_table_reader_open(ctx, path, "trajectory", NULL, &r)), "opened: %s", iso_context_message(ctx));
+    gsl_test(!iso_table_at(r)->ignored || !strstr(iso_table_at(r)->ignored, "'x'"), "x is passed over");
+    gsl_test(iso_table_next(ctx, r, row, &more) != ISO_OK || row[0] != 2 || row[1] != 3, "the others are read");
+    iso_table_reader_close(r);
+    gsl_test(failed(iso_table_reader_open(ctx, path, "trajectory", "n1,-,-,t", &r)), "named: %s", iso_context_message(ctx));
+    gsl_test(iso_table_next(ctx, r, row, &more) != ISO_OK || row[0] != 1 || row[1] != 4,
              "by the caller's names");
-    iso_trajectory_reader_close(r);
-    gsl_test(iso_trajectory_reader_open(ctx, path, "n1,t,t", &r) != ISO_BAD_ARGUMENT || r, "a name twice");
+    iso_table_reader_close(r);
+    gsl_test(iso_table_reader_open(ctx, path, "trajectory", "n1,t,t", &r) != ISO_BAD_ARGUMENT || r, "a name twice");
     unlink(path);
 }
 
@@ -173,7 +173,7 @@ static void test_accepted(void)
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         iso_record *record;
         put(path, texts[i], strlen(texts[i]));
-        gsl_test(failed(iso_trajectory_read(ctx, path, NULL, &record)), "text %zu: %s", i, iso_context_message(ctx));
+        gsl_test(failed(iso_table_read(ctx, path, "trajectory", NULL, &record, NULL)), "text %zu: %s", i, iso_context_message(ctx));
         if (!record) continue;
         gsl_test(iso_record_rows(record) != 2 || iso_record_row(record, 1)[1] != 4, "numbers of text %zu", i);
         const char *k = iso_record_get(record, "k"), *interrupted = iso_record_get(record, "interrupted");
@@ -222,14 +222,14 @@ static void test_mistakes(void)
         char place[192];
         put(path, m->text, strlen(m->text));
         snprintf(place, sizeof place, "%s:%d:%d: ", path, m->line, m->column);
-        gsl_test(iso_trajectory_read(ctx, path, NULL, &record) != ISO_BAD_INPUT || record, "mistake %zu", i);
+        gsl_test(iso_table_read(ctx, path, "trajectory", NULL, &record, NULL) != ISO_BAD_INPUT || record, "mistake %zu", i);
         const char *message = iso_context_message(ctx);
         gsl_test(strncmp(message, place, strlen(place)) != 0, "mistake %zu at %sis said: %s", i, place, message);
         gsl_test(!strstr(message, m->says), "mistake %zu, \"%s\": %s", i, m->says, message);
     }
     iso_record *record;
     put(path, "t,n1\n0,\0001\n", 10);
-    gsl_test(iso_trajectory_read(ctx, path, NULL, &record) != ISO_BAD_INPUT, "a NUL byte");
+    gsl_test(iso_table_read(ctx, path, "trajectory", NULL, &record, NULL) != ISO_BAD_INPUT, "a NUL byte");
     gsl_test(!strstr(iso_context_message(ctx), ":2:3: a NUL byte"), "%s", iso_context_message(ctx));
     unlink(path);
 }
@@ -237,17 +237,17 @@ static void test_mistakes(void)
 static void test_troubles(void)
 {
     iso_record *record, *r = make_record();
-    gsl_test(iso_trajectory_read(ctx, "/nowhere/a.csv", NULL, &record) != ISO_FILE_TROUBLE, "no file to read");
-    gsl_test(iso_trajectory_read(ctx, folder, NULL, &record) != ISO_FILE_TROUBLE, "a folder to read");
-    gsl_test(iso_trajectory_write(ctx, "/nowhere/a.csv", r) != ISO_FILE_TROUBLE, "no folder to write in");
-    gsl_test(iso_trajectory_write(ctx, folder, r) != ISO_FILE_TROUBLE, "a folder to write");
+    gsl_test(iso_table_read(ctx, "/nowhere/a.csv", "trajectory", NULL, &record, NULL) != ISO_FILE_TROUBLE, "no file to read");
+    gsl_test(iso_table_read(ctx, folder, "trajectory", NULL, &record, NULL) != ISO_FILE_TROUBLE, "a folder to read");
+    gsl_test(iso_table_write(ctx, "/nowhere/a.csv", r) != ISO_FILE_TROUBLE, "no folder to write in");
+    gsl_test(iso_table_write(ctx, folder, r) != ISO_FILE_TROUBLE, "a folder to write");
     if (access("/dev/full", W_OK) == 0) {
-        gsl_test(iso_trajectory_write(ctx, "/dev/full", r) != ISO_FILE_TROUBLE, "a full disk");
+        gsl_test(iso_table_write(ctx, "/dev/full", r) != ISO_FILE_TROUBLE, "a full disk");
         gsl_test(!strstr(iso_context_message(ctx), "No space left"), "%s", iso_context_message(ctx));
         gsl_test(access("/dev/full", W_OK) != 0, "/dev/full is still there");
     }
     iso_record_set(ctx, r, "note", "two\nlines");
-    gsl_test(iso_trajectory_write(ctx, in_folder("b.csv"), r) != ISO_BAD_ARGUMENT, "a value of two lines");
+    gsl_test(iso_table_write(ctx, in_folder("b.csv"), r) != ISO_BAD_ARGUMENT, "a value of two lines");
     gsl_test(files_in_folder() != 0, "nothing is left of it");
     iso_record_free(r);
 }
@@ -256,28 +256,27 @@ static void test_troubles(void)
 static void test_replacing(void)
 {
     const char *path = in_folder("old.csv"), *link_path = in_folder("link.csv");
-    iso_trajectory_writer *w;
+    iso_table_writer *w;
     iso_record *r = make_record();
     double row[3] = {1, 2, GSL_NAN};
     struct stat s;
     put(path, "old", 3);
     chmod(path, 0640);
     gsl_test(symlink(path, link_path), "symlink");
-    gsl_test(failed(iso_trajectory_open(ctx, link_path, &w)), "open: %s", iso_context_message(ctx));
-    gsl_test(iso_trajectory_write_row(ctx, w, row, 3) != ISO_BAD_ARGUMENT, "a row before the header");
-    gsl_test(failed(iso_trajectory_write_header(ctx, w, r)), "header: %s", iso_context_message(ctx));
-    gsl_test(iso_trajectory_write_header(ctx, w, r) != ISO_BAD_ARGUMENT, "a second header");
-    gsl_test(iso_trajectory_write_row(ctx, w, row, 3) != ISO_NUMERICAL, "a row that is not finite");
+    gsl_test(failed(iso_table_writer_open(ctx, link_path, "trajectory", &w)), "open: %s", iso_context_message(ctx));
+    gsl_test(iso_table_write_row(ctx, w, row) != ISO_BAD_ARGUMENT, "a row before the header");
+    gsl_test(failed(iso_table_write_header(ctx, w, r)), "header: %s", iso_context_message(ctx));
+    gsl_test(iso_table_write_header(ctx, w, r) != ISO_BAD_ARGUMENT, "a second header");
+    gsl_test(iso_table_write_row(ctx, w, row) != ISO_NUMERICAL, "a row that is not finite");
     gsl_test(strcmp(iso_context_about(ctx), "n1") != 0, "its column");
-    gsl_test(iso_trajectory_write_row(ctx, w, row, 2) != ISO_BAD_ARGUMENT, "a short row");
-    gsl_test(failed(iso_trajectory_close(ctx, w, false)), "close");
+    gsl_test(failed(iso_table_writer_close(ctx, w, false)), "close");
     gsl_test(!holds(path, "old"), "the old file stays");
     gsl_test(files_in_folder() != 2, "the new one goes");
-    gsl_test(failed(iso_trajectory_write(ctx, link_path, r)), "write: %s", iso_context_message(ctx));
+    gsl_test(failed(iso_table_write(ctx, link_path, r)), "write: %s", iso_context_message(ctx));
     gsl_test(lstat(link_path, &s) || !S_ISLNK(s.st_mode), "the link stays a link");
     gsl_test(stat(path, &s) || (s.st_mode & 0777) != 0640 || holds(path, "old"), "the file behind it is replaced");
     gsl_test(files_in_folder() != 2, "no temporary file is left");
-    gsl_test(failed(iso_trajectory_close(ctx, NULL, true)), "closing nothing");
+    gsl_test(failed(iso_table_writer_close(ctx, NULL, true)), "closing nothing");
     iso_record_free(r);
     unlink(link_path);
     unlink(path);
@@ -294,7 +293,7 @@ static void test_pipe(void)
     close(ends[0]);
     dup2(ends[1], 1);
     close(ends[1]);
-    const iso_status status = iso_trajectory_write(ctx, "-", r);
+    const iso_status status = iso_table_write(ctx, "-", r);
     dup2(saved, 1);
     close(saved);
     clearerr(stdout);

@@ -8,6 +8,7 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "map/state.h"
+#include "model/model_impl.h"
 #include "poisson.h"
 
 enum { N = ISO_STATE };

@@ -14,6 +14,7 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "map/state.h"
+#include "model/model_impl.h"
 
 enum { STATES = 3, TRIPS = 1000 };
 

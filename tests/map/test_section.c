@@ -12,6 +12,7 @@
 #include "laws.h"
 #include "map/section_impl.h"
 #include "map/state.h"
+#include "model/model_impl.h"
 #include "orbit/orbit.h"
 #include "section_area.h"
 

@@ -12,6 +12,7 @@
 #include "map/section.h"
 #include "map/section_impl.h"
 #include "map/state.h"
+#include "model/model_impl.h"
 #include "section_area.h"
 
 enum { CASES = 300, STEPS = 20000 };

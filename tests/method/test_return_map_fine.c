@@ -9,7 +9,7 @@
 #include "base/pi_impl.h"
 #include "laws.h"
 #include "length.h"
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "method/methods_impl.h"
 #include "method/taylor/lanes_impl.h"
 #include "method/taylor/return_map_impl.h"

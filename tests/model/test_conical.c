@@ -7,6 +7,7 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "model/conical_impl.h"
+#include "model/model_impl.h"
 
 /* Indices of b from the least to the largest */
 static void order_of(const double b[3], int order[3])

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "model/model_impl.h"
-#include "orbit/scene.h"
+#include "orbit/orbit_impl.h"
 
 static void complete(const iso_effect *e, bool holds, const char *what)
 {

@@ -7,6 +7,7 @@
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
+#include "model/model_impl.h"
 
 typedef struct integral_at {
     const iso_integral *integral;

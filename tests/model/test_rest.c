@@ -1,7 +1,7 @@
-/* The end of a motion (model/rest_impl.h): rest, endless speeding up backwards in time, a constraint that is lost. */
+/* The end of a motion (model/rest.c): rest, endless speeding up backwards in time, a constraint that is lost. */
 #include <float.h>
 
-#include "model/rest_impl.h"
+#include "model/model_impl.h"
 #include "numbers.h"
 #include "orbits.h"
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "batches.h"
+#include "orbit/orbit_impl.h"
 
 static iso_context *ctx;
 static iso_random *dice;

@@ -9,6 +9,7 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "orbit/convert.h"
+#include "orbit/orbit_impl.h"
 
 static const double J_three[3] = {1.4, 2.1, 3.0};
 

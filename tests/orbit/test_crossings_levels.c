@@ -13,6 +13,7 @@
 #include "length.h"
 #include "map/section_impl.h"
 #include "map/state.h"
+#include "model/model_impl.h"
 #include "orbit/crossings.h"
 
 static iso_context *ctx;

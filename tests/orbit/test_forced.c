@@ -1,6 +1,7 @@
 /* Balls under forces: energy along the orbit, both backends in potentials fixed in the body, points at any energy,
  * and motion run backwards. */
 #include "base/random_impl.h"
+#include "orbit/orbit_impl.h"
 #include "scenes.h"
 
 static iso_context *ctx;

@@ -10,7 +10,7 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "numbers.h"
-#include "orbit/orbit.h"
+#include "orbit/orbit_impl.h"
 #include "scenes.h"
 
 static const double J_three[3] = {1.4, 2.1, 3.0};

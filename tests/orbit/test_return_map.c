@@ -11,7 +11,7 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "length.h"
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "map/state.h"
 #include "orbit/crossings.h"
 

@@ -50,7 +50,10 @@ class Files(Case):
         isoroll.write(table, self.path("hex.csv"), digits="hex")
         for path in (self.path("hex.csv"), os.fsencode(self.path("hex.csv"))):
             self.same(isoroll.read(path).array, table.array)
-        self.refuses(isoroll.BadArgument, "CSV only", isoroll.write, table, self.path("s.h5"))
+        isoroll.write(table, self.path("s.h5"))
+        again = isoroll.read(self.path("s.h5"))
+        self.same(again.array, table.array)
+        self.assertEqual((again.kind, again.columns, again.lines), ("section", table.columns, table.lines))
         isoroll.write(isoroll.section(WILD, crossings=3, states="both"), self.path("both.csv"))
         self.assertEqual(isoroll.read(self.path("both.csv")).M.shape, (3, 3))
 
@@ -92,27 +95,37 @@ class Files(Case):
                          digits=digits)
         with open(self.path("s.csv"), "w", encoding="utf-8") as file:
             file.write("# isoroll section 1\norbit,l\n0,1\n0\n")
-        self.refuses(isoroll.BadInput, "s.csv:4:1: expected 2 numbers", isoroll.read, self.path("s.csv"))
+        self.refuses(isoroll.BadInput, "s.csv:4:2: expected more cells", isoroll.read, self.path("s.csv"))
 
     def test_damaged_sections(self):
         head = b"# isoroll section 1\n# k: 1\norbit,l,x\n"
-        for text, words in ((head + b"0,1,2,0,1,2\n0,3,4,0,5,6\n", ":4:1: expected 3 numbers"),
-                            (head + b"0,1,2\n0,1\n", ":5:1: expected 3 numbers"),
-                            (head + b"0,1,nan\n", ":4:5: expected a finite number for x, not 'nan'"),
-                            (head + b"0,inf,2\n", ":4:3: "), (head + b"0,1_0,2\n", ":4:3: "),
+        for text, words in ((head + b"0,1,2,0,1,2\n0,3,4,0,5,6\n", ":4:7: expected one cell for each column"),
+                            (head + b"0,1,2\n0,1\n", ":5:4: expected more cells"),
+                            (head + b"0,x,2\n", ":4:3: "), (head + b"0,1_0,2\n", ":4:3: "),
                             (head + b"0,1e999,2\n", ":4:3: "), (head + b"0,1,2\n#junk\n", ":5:1: "),
                             (head + b"0,1,2#junk\n", ":4:5: "), (head + b"0,1,\0\n", ":4:5: a NUL byte"),
-                            (head + b"0,1," + b"1" * 70000 + b"\n", ":4:1: this line is longer than 64 KiB"),
-                            (head.replace(b"l,x", b"l,l"), ":3:9: duplicate column 'l'"),
-                            (head.replace(b"l,x", b"l,y"), ":3:9: unknown column 'y'"),
-                            (head.replace(b"on 1", b"on 12"), ":1:1: expected '# isoroll section 1'"),
+                            (head + b"0,1," + b"1" * 70000 + b"\n", ":4:5: expected a number for x"),
+                            (head.replace(b"l,x", b"l,l"), ":3:1: expected names of columns, all different"),
+                            (head.replace(b"on 1", b"on 12"), ":1:19: expected version 1 of the format"),
                             (b"# isoroll section 1\n", ":1:1: expected a line of column names")):
             with open(self.path("s.csv"), "wb") as file:
                 file.write(text)
             self.refuses(isoroll.BadInput, "s.csv" + words, isoroll.read, self.path("s.csv"))
-        with open(self.path("s.csv"), "wb") as file:
-            file.write(head)
-        self.assertEqual(isoroll.read(self.path("s.csv")).array.shape, (0, 3))
+        for rows, count in ((b"", 0), (b"0,1,inf\n", 1), (b"0,1,nan\n", 1)):
+            with open(self.path("s.csv"), "wb") as file:
+                file.write(head + rows)
+            self.assertEqual(isoroll.read(self.path("s.csv")).array.shape, (count, 3))
+        self.refuses(isoroll.NumericalFailure, "x is not finite", isoroll.write, isoroll.read(self.path("s.csv")),
+                     self.path("t.csv"))
+
+    def test_other_tables(self):
+        self.command("chaos", WILD, "--starts", "3", "--turns", "100", "--csv", "chaos.csv")
+        table = isoroll.read(self.path("chaos.csv"))
+        self.assertEqual((table.kind, len(table), table.lines["turns"]), ("chaos", 4, "100"))
+        self.assertTrue(set(table.words("ball_verdict")) <= {"regular", "chaotic", "undecided"})
+        self.refuses(isoroll.BadArgument, "numbers alone", isoroll.trajectory({"t": [0.0]}).words, "t")
+        isoroll.write(table, self.path("again.csv"))
+        self.same_files(self.path("chaos.csv"), self.path("again.csv"))
 
 
 class Conversion(Case):

@@ -46,7 +46,7 @@ class Sections(Case):
 
     def test_refused(self):
         refuse = lambda kind, words, **named: self.refuses(kind, words, isoroll.section, WILD, **named)
-        refuse(isoroll.BadArgument, "axis is 4", axis=4)
+        refuse(isoroll.BadArgument, "axis '4'", axis=4)
         refuse(isoroll.BadArgument, "no column 'foo'", event=("foo", 1))
         refuse(isoroll.BadArgument, "only once", event=("t", 1))
         refuse(isoroll.BadArgument, "not both", event=("n3", 0), axis=1)
@@ -55,15 +55,39 @@ class Sections(Case):
         refuse(isoroll.BadArgument, "starts is 4611686018427387904", starts=2**62)
         refuse(isoroll.BadArgument, "1e9 rows", crossings=2**62)
         refuse(isoroll.BadArgument, "1e9 rows", crossings=10**6, starts=1000)
-        refuse(isoroll.BadArgument, "seed is -1", seed=-1)
+        refuse(isoroll.BadArgument, "seed is '-1'", seed=-1)
         refuse(isoroll.BadArgument, "", event=("n1", np.nan))
         refuse(isoroll.BadArgument, "", tolerance=2)
-        refuse(isoroll.BadArgument, "tolerance is nan", tolerance=np.nan, about="tolerance")
-        refuse(isoroll.BadInput, "", at=[[np.nan, 0]])
+        refuse(isoroll.BadArgument, "tol is 'nan'", tolerance=np.nan, about="tol")
+        refuse(isoroll.BadArgument, "expected l,x", at=[[np.nan, 0]])
         refuse(isoroll.BadArgument, "shape (3,)", at=[1, 2, 3])
-        refuse(isoroll.BadArgument, "valid are", models="neither")
+        refuse(isoroll.BadArgument, "expected ball, point or both", models="neither")
         refuse(isoroll.BadInput, "", at=[[0, 2]])
         self.refuses(isoroll.BadInput, "", isoroll.section, example("10_bowl"))
+
+
+class Names(Case):
+    def test_a_study_by_its_name(self):
+        table, point, none = isoroll.study(WILD, "section", crossings=20, at=[[0.5, 0.2]], as_="both")
+        named = isoroll.section(WILD, crossings=20, at=[[0.5, 0.2]], states="both")
+        self.same(table.array, named.array)
+        self.same(point.array, named.point.array)
+        self.assertEqual((table.kind, dict(table.lines), none), ("section", dict(named.lines), None))
+
+    def test_lines_are_those_of_json(self):
+        command = json.loads(self.command("chaos", WILD, "--starts", "12", "--turns", "300", "--json"))
+        lines = isoroll.study(WILD, "chaos", starts=12, turns=300, exponent_turns=None)[0].lines
+        self.assertEqual(lines["ball.verdict"], command["ball"]["verdict"])
+        self.assertEqual(float(lines["point.exponent.tau"]), command["point"]["exponent"]["tau"])
+        self.assertEqual(float(lines["share.low"]), command["share"]["low"])
+        self.assertEqual(int(lines["section.axis"]), command["section"]["axis"])
+
+    def test_refused(self):
+        refuse = lambda words, *given, **named: self.refuses(isoroll.BadArgument, words, isoroll.study, WILD, *given,
+                                                             **named)
+        refuse("no study 'chaso'; did you mean 'chaos'?", "chaso")
+        refuse("chaos has no option 'turn'; did you mean 'turns'?", "chaos", turn=3)
+        refuse("turns is 'true': expected a whole number from 1 on", "chaos", turns=True)
 
 
 class Verdicts(Case):
@@ -111,7 +135,7 @@ class Verdicts(Case):
         self.refuses(isoroll.BadArgument, "turns is 0", isoroll.chaos, WILD, turns=0)
         self.refuses(isoroll.BadArgument, "starts is", isoroll.chaos, WILD, starts=2**61)
         self.refuses(isoroll.BadArgument, "turns is", isoroll.chaos, WILD, turns=2**40)
-        self.refuses(isoroll.BadArgument, "tolerance is nan", isoroll.chaos, WILD, tolerance=np.nan)
+        self.refuses(isoroll.BadArgument, "tol is 'nan'", isoroll.chaos, WILD, tolerance=np.nan)
         self.refuses(isoroll.BadInput, "", isoroll.chaos, example("10_bowl"))
         self.refuses(isoroll.NotMapped, "", isoroll.chaos, example("11_rubber_and_marble"), models="point")
 

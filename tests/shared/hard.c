@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "base/vec3_impl.h"
+#include "method/methods_impl.h"
+#include "model/model_impl.h"
 
 hard_road hard_way[HARD_WAYS];
 int hard_ways;

@@ -13,6 +13,7 @@
 
 #include "base/vec3_impl.h"
 #include "hard.h"
+#include "orbit/orbit_impl.h"
 #include "scenes.h"
 
 /* h or H; |n|, |gamma|, |e| and |Q|; (omega,n) or (M,gamma); F */

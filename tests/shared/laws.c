@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/vec3_impl.h"
+#include "model/model_impl.h"
 
 const double laws_k[LAWS_K] = {1, -1, 0.5, 0.75, -0.4, 1.5, -2, 0.25, 4, 0.05, 50};
 

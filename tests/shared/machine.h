@@ -8,19 +8,19 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/number.h"
+#include "base/number_impl.h"
 #include "batches.h"
 #include "hard.h"
 #include "io/scene_file.h"
-#include "io/trajectory.h"
+#include "io/table.h"
 #include "orbit/convert.h"
-#include "orbit/description.h"
+#include "orbit/orbit_impl.h"
 #include "study/analogue.h"
 #include "study/check/check.h"
 #include "study/compare.h"
 #include "study/cost/cost.h"
-#include "study/error_impl.h"
 #include "study/frequencies/frequencies.h"
+#include "study/study_impl.h"
 
 static iso_context *ctx;
 static batch_pool pool; /* filled before the machine's state is changed */
@@ -173,8 +173,8 @@ static void put_studies(FILE *to)
     iso_record *const written = c->run[ISO_BALL].trajectory;
     put_status(to, ctx, iso_record_describe(ctx, written, "both", &scene.params, NULL), true);
     put_status(to, ctx, iso_record_set_numbers(ctx, written, "h", 1, &c->h), true);
-    put_status(to, ctx, iso_trajectory_write(ctx, "hard_machine.csv", written), true);
-    status = iso_trajectory_read(ctx, "hard_machine.csv", NULL, &read);
+    put_status(to, ctx, iso_table_write(ctx, "hard_machine.csv", written), true);
+    status = iso_table_read(ctx, "hard_machine.csv", "trajectory", NULL, &read, NULL);
     put_file(to, "hard_machine.csv");
     put_status(to, ctx, status, true);
     if (status == ISO_OK) {

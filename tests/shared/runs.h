@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "io/scene_file.h"
+#include "orbit/orbit_impl.h"
 #include "scenes.h"
 #include "study/run.h"
 
@@ -87,7 +88,7 @@ static inline kept *run_like(const kept *like, const iso_scene *scene, const dou
     kept *k = malloc(sizeof *k);
     if (!k) scene_stops("no memory", ctx);
     *k = *like;
-    const iso_run_sink sink = {keep_header, keep_row, keep_note, keep_progress, k};
+    const iso_run_sink sink = {keep_header, keep_row, keep_note, keep_progress, k, NULL};
     const iso_run_options o = {.times = times, .count = count, .errors = errors};
     k->status = iso_run(ctx, scene, &o, &sink, &k->result);
     gsl_test(k->result.rows != k->rows, "the result counts the sink's rows");

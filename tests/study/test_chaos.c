@@ -8,7 +8,7 @@
 #include "laws.h"
 #include "length.h"
 #include "study/chaos/chaos.h"
-#include "study/chaos/share_impl.h"
+#include "study/chaos/chaos_impl.h"
 
 static iso_context *ctx;
 
@@ -280,7 +280,7 @@ static void check_stopped(void)
             gsl_test(!isnan(s->share) || !isnan(s->low) || !isnan(s->high), "no orbit, no share: %g", s->share);
         else
             gsl_test(!c->integral && !(s->high >= (double)s->undecided / (double)s->count),
-                     "undecided are possible, unless a further integral excludes chaos: %g", s->high);
+                     "undecided are possible, unless an additional integral excludes chaos: %g", s->high);
         none = none || s->count == 0;
         some = some || (s->count > 0 && s->count < o.starts);
         iso_chaos_free(c);

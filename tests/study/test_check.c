@@ -4,7 +4,7 @@
 #include "effects.h"
 #include "orbit/description.h"
 #include "scenes.h"
-#include "study/check/check.h"
+#include "study/check/check_impl.h"
 #include "study/run.h"
 
 static iso_context *ctx;

@@ -5,6 +5,7 @@
 
 #include "base/vec3_impl.h"
 #include "costs.h"
+#include "study/cost/cost_impl.h"
 
 static iso_context *ctx;
 

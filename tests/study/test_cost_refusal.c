@@ -5,6 +5,7 @@
 
 #include "costs.h"
 #include "numbers.h"
+#include "study/cost/cost_impl.h"
 
 static iso_context *ctx;
 

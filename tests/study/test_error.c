@@ -10,7 +10,7 @@
 #include "numbers.h"
 #include "reference.h"
 #include "scenes.h"
-#include "study/error_impl.h"
+#include "study/study_impl.h"
 
 static iso_context *ctx;
 

@@ -13,7 +13,7 @@
 #include "map/state.h"
 #include "numbers.h"
 #include "study/frequencies/frequencies.h"
-#include "study/frequencies/momentum_impl.h"
+#include "study/frequencies/frequencies_impl.h"
 
 static iso_context *ctx;
 

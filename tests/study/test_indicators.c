@@ -7,7 +7,7 @@
 #include "base/pi_impl.h"
 #include "base/random_impl.h"
 #include "length.h"
-#include "study/chaos/indicators_impl.h"
+#include "study/chaos/chaos_impl.h"
 
 enum { TURNS = 3000 };
 

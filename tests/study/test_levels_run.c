@@ -1,4 +1,4 @@
-/* Studies on levels of the energy: rows of sections have the scene's H and its further integral, shares are 0 where
+/* Studies on levels of the energy: rows of sections have the scene's H and its additional integral, shares are 0 where
  * they must be, a scene is put on a level (iso_scene_on_level), and what cannot be is refused. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -11,7 +11,7 @@
 #include "io/scene_file.h"
 #include "laws.h"
 #include "length.h"
-#include "map/level_impl.h"
+#include "map/section_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/chaos/chaos.h"
 #include "study/check/check.h"
@@ -31,7 +31,7 @@ static iso_scene scene_of(const char *text)
 
 /* --- rows have the scene's numbers ------------------------------------------------------------------------------ */
 
-/* H and the further integrals of the points in the rows, against those of the first. */
+/* H and the additional integrals of the points in the rows, against those of the first. */
 typedef struct law {
     iso_problem problem;
     const iso_integral *integral[4];
@@ -164,7 +164,7 @@ static void check_rows(void)
         check_file(&k);
     }
     laws_report(&k.H, "rows of a section have the H of the scene");
-    laws_report(&k.F, "and keep the further integral on every level");
+    laws_report(&k.F, "and keep the additional integral on every level");
     iso_random_free(r);
 }
 

@@ -7,7 +7,7 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "length.h"
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "study/section/measure.h"
 
 static iso_context *ctx;

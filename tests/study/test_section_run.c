@@ -10,10 +10,10 @@
 #include "io/scene_file.h"
 #include "laws.h"
 #include "length.h"
-#include "map/section.h"
+#include "orbit/orbit_impl.h"
 #include "map/state.h"
 #include "poisson.h"
-#include "study/section/section.h"
+#include "study/section/section_impl.h"
 
 static iso_context *ctx;
 
@@ -78,7 +78,7 @@ static kept *run(const char *text, const iso_section_options *o, size_t most)
     kept *k = calloc(1, sizeof *k);
     k->row = calloc(MOST, sizeof *k->row);
     k->most = most;
-    const iso_section_sink sink = {keep_header, keep_row, keep_pair, keep_note, keep_progress, k};
+    const iso_section_sink sink = {keep_header, keep_row, keep_pair, keep_note, keep_progress, k, NULL};
     if (iso_scene_parse(ctx, "test", text, strlen(text), &scene) != ISO_OK) {
         gsl_test(1, "a scene is refused: %s", iso_context_message(ctx));
         exit(gsl_test_summary());

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "study/frequencies/spectrum_impl.h"
+#include "study/frequencies/frequencies_impl.h"
 
 static iso_context *ctx;
 

@@ -8,8 +8,8 @@
 #include "base/pi_impl.h"
 #include "laws.h"
 #include "length.h"
-#include "map/level_impl.h"
 #include "map/section.h"
+#include "map/section_impl.h"
 #include "orbit/crossings.h"
 #include "study/separatrix/separatrix.h"
 

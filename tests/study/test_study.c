@@ -8,6 +8,7 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "orbit/convert.h"
+#include "orbit/orbit_impl.h"
 #include "study/check/check.h"
 #include "study/compare.h"
 

@@ -15,7 +15,7 @@
 #include "study/chaos/chaos.h"
 #include "study/compare.h"
 #include "study/separatrix/separatrix.h"
-#include "sweep/sweep.h"
+#include "sweep/sweep_impl.h"
 
 static iso_context *ctx;
 

@@ -1,7 +1,7 @@
 /* gnuplot.c - runs gnuplot. Its standard input is the script, its standard output the picture, its messages go to a
  * third file. All three are files, not pipes: nothing can block or raise SIGPIPE, and no script contains a file
  * name. */
-#define _GNU_SOURCE /* memmem */
+#define _GNU_SOURCE /* memmem, mempcpy */
 #include "plot/gnuplot.h"
 
 #include <errno.h>
@@ -13,8 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/number.h"
-#include "io/output.h"
+#include "io/output_impl.h"
 
 #define INSTALL "install gnuplot (package gnuplot-nox)"
 
@@ -38,12 +37,13 @@ static const format formats[] = {
      "in", 0.01, "%%EOF"},
 };
 
-struct iso_gnuplot {
+/* The picture that is drawn. */
+static struct {
+    iso_status status;
     const format *format;
     FILE *script, *complaints; /* without a name */
     iso_output *output;        /* the picture    */
-    int picture;               /* its descriptor */
-};
+} g;
 
 static const format *find_format(const char *path)
 {
@@ -70,74 +70,34 @@ static iso_status trouble(iso_context *ctx, const char *what, const char *name)
                             name + hidden, strerror(errno));
 }
 
-static void release(iso_gnuplot *g)
-{
-    if (g->script) fclose(g->script);
-    if (g->complaints) fclose(g->complaints);
-    free(g);
-}
-
 /* ---- Opening ---- */
 
-static iso_status open_picture(iso_context *ctx, iso_gnuplot *g, const char *path)
+static iso_status open_files(iso_context *ctx, const char *path)
 {
     struct stat old;
-    if (stat(path, &old) == 0 && !S_ISREG(old.st_mode))
-        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot write '%s': it is not a regular file", path);
-    const iso_status status = iso_output_open(ctx, path, &g->output);
-    if (status == ISO_OK) g->picture = fileno(iso_output_stream(g->output));
-    return status;
-}
-
-iso_status iso_gnuplot_open(iso_context *ctx, const char *path, int width, int height, iso_gnuplot **answer)
-{
-    *answer = NULL;
     iso_status status = iso_gnuplot_check_format(ctx, path);
+    if (status == ISO_OK && stat(path, &old) == 0 && !S_ISREG(old.st_mode))
+        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot write '%s': it is not a regular file", path);
+    if (status == ISO_OK) status = iso_output_open(ctx, path, &g.output);
     if (status != ISO_OK) return status;
-    iso_gnuplot *g = calloc(1, sizeof *g);
-    if (!g) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to draw");
-    g->format = find_format(path);
-    status = open_picture(ctx, g, path);
-    if (status == ISO_OK) {
-        g->script = tmpfile();
-        g->complaints = tmpfile();
-        if (!g->script || !g->complaints) status = trouble(ctx, "open", "a temporary file");
-    }
-    if (status != ISO_OK) {
-        iso_output_close(ctx, g->output, false);
-        release(g);
-        return status;
-    }
-    fprintf(g->script, "set encoding utf8\nset terminal %s size ", g->format->terminal);
-    iso_gnuplot_number(g->script, width * g->format->scale);
-    fprintf(g->script, "%s,", g->format->unit);
-    iso_gnuplot_number(g->script, height * g->format->scale);
-    fprintf(g->script, "%s\n", g->format->unit);
-    *answer = g;
-    return ISO_OK;
+    g.script = tmpfile();
+    g.complaints = tmpfile();
+    return g.script && g.complaints ? ISO_OK : trouble(ctx, "open", "a temporary file");
 }
 
-FILE *iso_gnuplot_script(iso_gnuplot *g)
+FILE *iso_gnuplot_open(iso_context *ctx, const char *path, int width, int height)
 {
-    return g->script;
+    g.output = NULL;
+    g.script = g.complaints = NULL;
+    g.format = find_format(path);
+    g.status = open_files(ctx, path);
+    if (!g.script) return stdin; /* takes nothing */
+    fprintf(g.script, "set encoding utf8\nset terminal %s size %.17g%s,%.17g%s\n", g.format->terminal,
+            width * g.format->scale, g.format->unit, height * g.format->scale, g.format->unit);
+    return g.script;
 }
 
-/* ---- Numbers and texts ---- */
-
-void iso_gnuplot_number(FILE *script, double value)
-{
-    char text[ISO_NUMBER_SIZE];
-    iso_number_print(text, value);
-    fputs(text, script);
-}
-
-void iso_gnuplot_pair(FILE *script, double x, double y)
-{
-    iso_gnuplot_number(script, x);
-    fputc(' ', script);
-    iso_gnuplot_number(script, y);
-    fputc('\n', script);
-}
+/* ---- Texts ---- */
 
 /* The length of the character that begins text, 0 if it is none that XML and pango take (controls, broken UTF-8). */
 static int character(const unsigned char *text)
@@ -165,21 +125,23 @@ static bool is_plain(unsigned char c)
 /* Every other character is written in octal. (In single quotes gnuplot 5.4 fails on a text that begins with a quote.)
  * gnuplot reads a fourth digit as part of the number: before a digit the text is closed, and joined to the next by a
  * dot. */
-void iso_gnuplot_text(FILE *script, const char *text, int longest)
+const char *iso_gnuplot_quote(char quoted[static ISO_QUOTED], const char *text, int longest)
 {
-    const unsigned char *c = (const unsigned char *)text;
-    fputc('"', script);
+    const unsigned char *c = (const unsigned char *)(text ? text : "");
+    char *to = quoted;
+    *to++ = '"';
     for (int i = 0; *c && i < longest; i++) {
         const int length = character(c);
         if (length == 0)
-            fputc(*c < 0x20 ? ' ' : '.', script);
+            *to++ = *c < 0x20 ? ' ' : '.';
         else if (is_plain(*c))
-            fwrite(c, 1, (size_t)length, script);
+            to = mempcpy(to, c, (size_t)length);
         else
-            fprintf(script, c[1] >= '0' && c[1] <= '9' ? "\\%03o\".\"" : "\\%03o", *c);
+            to += sprintf(to, c[1] >= '0' && c[1] <= '9' ? "\\%03o\".\"" : "\\%03o", *c);
         c += length > 0 ? length : 1;
     }
-    fputs(*c ? "…\"" : "\"", script);
+    strcpy(to, *c ? "…\"" : "\"");
+    return quoted;
 }
 
 /* ---- Drawing ---- */
@@ -204,10 +166,10 @@ static void read_complaints(FILE *file, char words[], size_t size)
 }
 
 /* Starts gnuplot with its three files; returns an errno. -d: no start-up file of the user changes the picture. */
-static int spawn(iso_gnuplot *g, pid_t *child)
+static int spawn(pid_t *child)
 {
     char name[] = "gnuplot", settings[] = "-d", input[] = "-", *const arguments[] = {name, settings, input, NULL};
-    const int wanted[3] = {fileno(g->script), g->picture, fileno(g->complaints)};
+    const int wanted[3] = {fileno(g.script), fileno(iso_output_stream(g.output)), fileno(g.complaints)};
     int copies[3] = {-1, -1, -1}, error = 0; /* above 2: where they stand, dup2 cannot overwrite one with another */
     posix_spawn_file_actions_t actions;
     if ((error = posix_spawn_file_actions_init(&actions)) != 0) return error;
@@ -222,32 +184,33 @@ static int spawn(iso_gnuplot *g, pid_t *child)
     return error;
 }
 
-static bool is_whole(const iso_gnuplot *g)
+static bool is_whole(void)
 {
     char tail[32];
-    const off_t length = lseek(g->picture, 0, SEEK_END);
+    const off_t length = lseek(fileno(iso_output_stream(g.output)), 0, SEEK_END);
     const off_t from = length > (off_t)sizeof tail ? length - (off_t)sizeof tail : 0;
-    const ssize_t got = pread(g->picture, tail, sizeof tail, from);
-    return got > 0 && memmem(tail, (size_t)got, g->format->ending, strlen(g->format->ending));
+    const ssize_t got = pread(fileno(iso_output_stream(g.output)), tail, sizeof tail, from);
+    return got > 0 && memmem(tail, (size_t)got, g.format->ending, strlen(g.format->ending));
 }
 
 /* Why nothing more can be written to the picture, as an errno; 0: something can. */
-static int why_full(const iso_gnuplot *g)
+static int why_full(void)
 {
     static const char block[1 << 16];
-    const off_t end = lseek(g->picture, 0, SEEK_END);
-    const ssize_t put = end < 0 ? 0 : pwrite(g->picture, block, sizeof block, end);
+    const off_t end = lseek(fileno(iso_output_stream(g.output)), 0, SEEK_END);
+    const ssize_t put = end < 0 ? 0 : pwrite(fileno(iso_output_stream(g.output)), block, sizeof block, end);
     return put < 0 ? errno : put < (ssize_t)sizeof block ? ENOSPC : 0;
 }
 
-static iso_status run(iso_context *ctx, iso_gnuplot *g)
+static iso_status run(iso_context *ctx)
 {
     char words[200];
     pid_t child, ended;
     int result = 0;
-    if (fflush(g->script) != 0 || ferror(g->script) || fseek(g->script, 0, SEEK_SET) != 0)
+    fputs("\nunset multiplot\nunset output\n", g.script);
+    if (fflush(g.script) != 0 || ferror(g.script) || fseek(g.script, 0, SEEK_SET) != 0)
         return trouble(ctx, "write", "gnuplot's temporary script");
-    const int error = spawn(g, &child);
+    const int error = spawn(&child);
     if (error != 0)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot run gnuplot: %s; " INSTALL, strerror(error));
     do ended = waitpid(child, &result, 0);
@@ -255,20 +218,21 @@ static iso_status run(iso_context *ctx, iso_gnuplot *g)
     if (ended == child && WIFSIGNALED(result))
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "",
                                 "gnuplot was ended by signal %d; if it cannot run here, " INSTALL, WTERMSIG(result));
-    if (ended == child && WEXITSTATUS(result) == 0 && is_whole(g)) return ISO_OK;
-    if (ended < 0 && is_whole(g)) return ISO_OK;
-    errno = why_full(g);
-    if (errno != 0) return trouble(ctx, "write", iso_output_name(g->output));
-    read_complaints(g->complaints, words, sizeof words);
+    if (ended == child && WEXITSTATUS(result) == 0 && is_whole()) return ISO_OK;
+    if (ended < 0 && is_whole()) return ISO_OK;
+    errno = why_full();
+    if (errno != 0) return trouble(ctx, "write", iso_output_name(g.output));
+    read_complaints(g.complaints, words, sizeof words);
     return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "gnuplot did not draw '%s' (exit status %d); it said: %s",
-                            iso_output_name(g->output), ended == child ? WEXITSTATUS(result) : -1, words[0] ? words : "nothing");
+                            iso_output_name(g.output), ended == child ? WEXITSTATUS(result) : -1,
+                            words[0] ? words : "nothing");
 }
 
-iso_status iso_gnuplot_close(iso_context *ctx, iso_gnuplot *g, bool keep)
+iso_status iso_gnuplot_close(iso_context *ctx, bool keep)
 {
-    if (!g) return ISO_OK;
-    const iso_status drawn = keep ? run(ctx, g) : ISO_OK;
-    const iso_status status = iso_output_close(ctx, g->output, keep && drawn == ISO_OK);
-    release(g);
+    const iso_status drawn = g.status == ISO_OK && keep ? run(ctx) : g.status;
+    const iso_status status = iso_output_close(ctx, g.output, keep && drawn == ISO_OK);
+    if (g.script) fclose(g.script);
+    if (g.complaints) fclose(g.complaints);
     return drawn != ISO_OK ? drawn : status;
 }

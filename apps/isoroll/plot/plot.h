@@ -11,10 +11,13 @@
 #ifndef ISOROLL_PLOT_H
 #define ISOROLL_PLOT_H
 
-#include <stdint.h>
-
 #include "base/record.h"
 #include "model/params.h"
+
+/* "k = ..., J = ...", and what follows. Gives `title`. */
+enum { ISO_PLOT_TITLE = 200 };
+char *iso_plot_title(char title[static ISO_PLOT_TITLE], const iso_params *p, const char *more, ...)
+    __attribute__((format(printf, 3, 4)));
 
 /* The two models on one orbit. Records are as iso_compare makes them; further columns are not read. */
 typedef struct iso_plot {
@@ -71,7 +74,7 @@ iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plo
  * the least and the largest number in each of 1000 slots, else 5000 rows. Errors: ISO_BAD_ARGUMENT (name, columns, no
  * rows), ISO_NUMERICAL (a number that is not finite), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 iso_status iso_plot_columns(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
-                                    const char *x, const char *y, bool equal);
+                            const char *x, const char *y, bool equal);
 
 /* A map of kinds of motion over the energy h and a second integral F. */
 enum { ISO_PLOT_PARTS = 4, ISO_PLOT_LINES = 4 };
@@ -90,94 +93,77 @@ iso_status iso_plot_momentum(iso_context *ctx, const char *path, const iso_plot_
 /* The lines of two signals, the pair of components across `axis` (0 to 2) and the one along it: columns frequency,
  * amplitude > 0, signal (0, 1), and m and n of the combination that a line is (NaN: of none).
  * Errors: as iso_plot_momentum. */
-iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis,
-                                  const iso_record *lines);
+iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis, const iso_record *lines);
 
 /* The indicators of chaos against the turns. The records have the columns turn, t, growth, megno, mean and gali2, as
  * in iso_chaos. Above: ln D. Below: MEGNO and its mean on the left, GALI_2 on the right. A record that is NULL or
  * empty is left out.
  * Errors: as iso_plot_momentum. */
 iso_status iso_plot_indicators(iso_context *ctx, const char *path, const char *title, const iso_record *ball,
-                                       const iso_record *point);
+                               const iso_record *point);
 
-/* The section n_axis = 0 (axis: 0 to 2), with one spot for each row. The columns are l, x and exponent: > 0 chaotic,
- * 0 regular, NaN undecided. Errors: as iso_plot_momentum. */
-iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, int axis,
-                                      const iso_record *spots);
+/* --- tables of commands ----------------------------------------------------------------------------------------- */
 
-/* The splitting of the separatrix. On the left |m| over k or the level, as spots with errors, blue for m > 0,
- * vermillion for m < 0, triangles where m is not distinguished from 0: they are upper bounds. On the right, if there
- * is a curve, W^u(O) and its mirror W^s(O') on the section. rows: columns k or level, m, error; NULL or empty: only
- * the right one. curve: columns u and x, as iso_separatrix_curve has them; NULL: none. at: the k or level of the
- * curve. axis: of its section, 0 to 2. Errors: as iso_plot_momentum. */
-iso_status iso_plot_splitting(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
-                                      const iso_record *curve, double at, int axis);
+/* Whether there is a picture of such tables ("section", "chaos", ...); trajectories and sweeps have their own. */
+bool iso_plot_has_kind(const char *kind);
 
-/* One method's line of a work-precision diagram. */
-typedef struct iso_plot_series {
-    const char *panel, *name; /* a name looks the same in every panel; NULL: a thin grey line, one of the others */
-    int count;
-    const double *error, *seconds; /* points with an error that is not finite, or seconds not above 0, are left out */
-} iso_plot_series;
+/* Draws a table by its kind. Its title is its line "title", else the name with k and J. Errors: ISO_BAD_INPUT: a
+ * column or a line that the picture needs is missing, or there is no row; those of the picture. */
+iso_status iso_plot_table(iso_context *ctx, const char *path, const char *name, const iso_record *table);
 
-enum { ISO_PLOT_PANELS = 3, ISO_PLOT_NAMES = 10, ISO_PLOT_SERIES = 128 };
-typedef struct iso_plot_work {
-    const char *title;
-    int count; /* at most ISO_PLOT_SERIES, in at most ISO_PLOT_PANELS panels, of at most ISO_PLOT_NAMES names */
-    const iso_plot_series *series;
-    double closed[2];   /* error and seconds of the closed solution, in every panel; NaN: none */
-    double uncertainty; /* of the errors: up to there a band; 0: none */
-} iso_plot_work;
+/* Of chaos: the section, with a spot for each orbit that starts on it, coloured by its exponent. Of periodic orbits
+ * that are followed: trace and place over what varies. Of a chart: where the rotations about the axes of least and
+ * greatest moment are stable. Errors: as iso_plot_momentum. */
+iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, const iso_record *table);
+iso_status iso_plot_branches(iso_context *ctx, const char *path, const char *title, const iso_record *table);
+iso_status iso_plot_stability(iso_context *ctx, const char *path, const char *title, const iso_record *table);
 
-/* A work-precision diagram, time over error, both logarithmic, small errors on the right; panels side by side in the
- * order of the series. Errors: as iso_plot_momentum. */
-iso_status iso_plot_cost(iso_context *ctx, const char *path, const iso_plot_work *work);
+/* Of cost: a work-precision diagram, time over error, both logarithmic, small errors on the right; a panel for each
+ * backend. The first methods of each, which should be the fastest, have names. Errors: as iso_plot_momentum. */
+iso_status iso_plot_cost(iso_context *ctx, const char *path, const char *title, const iso_record *table);
+
+/* Of the splitting of the separatrix. On the left |m| over k or the level, as spots with errors, blue for m > 0,
+ * vermillion for m < 0, triangles where m is not distinguished from 0: they are upper bounds. On the right, if
+ * there is a curve, W^u(O) and its mirror W^s(O') on the section. table NULL: only the right one. curve: columns u
+ * and x, as iso_separatrix_curve has them; NULL: none. at: the k or level of the curve. axis: of its section, 0 to
+ * 2. Errors: as iso_plot_momentum. */
+iso_status iso_plot_splitting(iso_context *ctx, const char *path, const char *title, const iso_record *table,
+                              const iso_record *curve, double at, int axis);
 
 /* Crossings of one section n_a = 0 by both models, as points (l, x) of the chart (map/section.h). */
 typedef struct iso_plot_section {
     const char *title; /* one line, any characters; NULL: none                                          */
     const iso_params *params;
-    double eps, energy;       /* coupling, > 0, and level H, if nothing acts but a level; eps 0: x is drawn, not L */
-    int axis;                 /* a, 0 to 2                                                                     */
-    size_t count;             /* crossings, 1 or more                                                          */
-    const uint32_t *orbit;    /* of each: the orbit it belongs to                                              */
-    const double (*ball)[2];  /* (l, x) of each by the ball ...                                                */
-    const double (*point)[2]; /* ... and by the point; the same array where there is only one                  */
-    size_t orbits;
-    const bool *grey;       /* of each orbit: it is drawn in grey, behind the others; NULL: none             */
-    const char *grey_means; /* what the key says of grey, such as "chaotic"; NULL: there is no key           */
+    double eps, energy; /* coupling, > 0, and level H, if nothing acts but a level; eps 0: x is drawn, not L */
+    int axis;           /* a, 0 to 2                                                                     */
+    /* Columns orbit (0, 1, ...), l, x and grey: not 0 of orbits that are drawn in grey, behind the others. The
+     * crossings of the point are the same, or in columns point_l, point_x. */
+    const iso_record *rows;
+    const char *grey_means; /* what the key says of grey, such as "chaotic"; NULL: there is no key */
 } iso_plot_section;
 
 /* Left: the section of the ball. Its axes are the angle of n in the plane n_a = 0, and omega_a/|omega|. Right: that
  * of the point. Its axes are l and L = M_a, and its boundaries are L = +-G(l). Each orbit has one colour.
- * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis or orbit), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+ * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *section);
 
-/* A value over one number: a curve, and the band of its error. rows: columns x, value, low, high, by growing x; low
- * and high may be NaN. name, value: of the axes. An axis that has the name k has marks at +-1. If values of both
- * signs or of very different sizes are there, |value| has a logarithmic axis. Errors: as iso_plot_momentum. */
-iso_status iso_plot_sweep_curve(iso_context *ctx, const char *path, const char *title, const char *name,
-                                        const char *value, const iso_record *rows);
+/* A value over one number: a curve, and the band of its error. rows: the number, by growing size, the value, low and
+ * high, which may be NaN; the names of the first two are those of the axes. An axis that has the name k has marks at
+ * +-1. If values of both signs or of very different sizes are there, |value| has a logarithmic axis. Errors: as
+ * iso_plot_momentum. */
+iso_status iso_plot_sweep_curve(iso_context *ctx, const char *path, const char *title, const iso_record *rows);
 
 /* A value over two numbers: maps side by side, with one scale of colours. A NaN is grey. An axis that has the name k
  * has marks at +-1. */
 enum { ISO_PLOT_MAPS = 6 };
 typedef struct iso_plot_panels {
-    const char *title, *x, *y, *value; /* of the picture, of the axes, of the scale */
-    int count;                         /* of panels, at most ISO_PLOT_MAPS          */
-    const char *const *name;           /* of each; "": none                         */
-    const iso_record *const *rows;     /* of each: columns x, y, value              */
+    const char *title;
+    const char *key_name; /* of what differs from map to map; NULL: there is one */
+    int count;            /* of maps, at most ISO_PLOT_MAPS */
+    double key[ISO_PLOT_MAPS];
+    iso_record
+        *rows; /* x, y, the value, and the map, from 0; the names of the first three are those of axes and scale */
 } iso_plot_panels;
 iso_status iso_plot_sweep_maps(iso_context *ctx, const char *path, const iso_plot_panels *panels);
-
-/* Where the rotations about the axes of least and greatest moment are stable: the records of
- * study/periodic/stability_chart.h. moment: the name of the one that varies. Errors: as iso_plot_momentum. */
-iso_status iso_plot_stability(iso_context *ctx, const char *path, const char *title, const char *moment,
-                                      const iso_record *grid, const iso_record *borders);
-
-/* Followed orbits: columns branch (0, 1, ...), value, x, trace, by branch and along it; x is |x|, or on x = 0 the
- * part 2 l/pi. parameter: the name of what varies. Errors: as iso_plot_momentum. */
-iso_status iso_plot_branches(iso_context *ctx, const char *path, const char *title, const char *parameter,
-                                     const iso_record *points);
 
 #endif

@@ -16,9 +16,7 @@ void iso_plot_place(FILE *f, const iso_plot_box *box)
     static const char *const side[] = {"lmargin", "rmargin", "bmargin", "tmargin"};
     const double at[] = {box->left, box->right, box->bottom, box->top};
     for (int i = 0; i < 4; i++) {
-        fprintf(f, "set %s at screen ", side[i]);
-        iso_gnuplot_number(f, at[i]);
-        fputs(i < 3 ? "; " : "\n", f);
+        fprintf(f, "set %s at screen %.17g%s", side[i], at[i], i < 3 ? "; " : "\n");
     }
 }
 
@@ -95,9 +93,8 @@ static void put_name(FILE *f, const ticks *t, const iso_plot_axis *axis, char te
              shifted ? (t->base < 0 ? " + " : " − ") : "", shifted ? base : "", shifted && taken ? ")" : "",
              taken ? " / " : "", taken ? power : "", axis->units ? axis->units : "");
     if (!axis->label) return;
-    fprintf(f, "set %slabel ", axis->which);
-    iso_gnuplot_text(f, text, ISO_PLOT_NAME);
-    fprintf(f, " noenhanced offset %s\n", *axis->which == 'x' ? "0,0.3" : "0.5,0");
+    fprintf(f, "set %slabel %s noenhanced offset %s\n", axis->which, QUOTED(text, ISO_PLOT_NAME),
+            *axis->which == 'x' ? "0,0.3" : "0.5,0");
 }
 
 void iso_plot_ticks(FILE *f, const iso_plot_axis *axis, char name[static ISO_PLOT_NAME])
@@ -111,16 +108,12 @@ void iso_plot_ticks(FILE *f, const iso_plot_axis *axis, char name[static ISO_PLO
     const double room = span > 1e-12 * size && span > DBL_MIN / DBL_EPSILON ? 0 : size > 0 ? size / 2 : 0.5;
     const double low = axis->low - room, high = axis->high + room; /* a single number gets room on both sides */
     const ticks t = choose(low, high, axis->most);
-    fprintf(f, "set %srange [", axis->which);
-    iso_gnuplot_number(f, low);
-    fputc(':', f);
-    iso_gnuplot_number(f, high);
-    fprintf(f, "]\nset %stics nomirror out scale 0.6 norotate (", axis->which);
+    fprintf(f, "set %srange [%.17g:%.17g]\nset %stics nomirror out scale 0.6 norotate (", axis->which, low, high,
+            axis->which);
     for (long long i = t.first; i <= t.last; i++) {
         char text[64];
         print_decimal(text, (i - t.base) * t.digit, t.power - t.taken);
-        fprintf(f, "%s'%s' ", i == t.first ? "" : ", ", text);
-        iso_gnuplot_number(f, (double)(i * t.digit) * pow(10, t.power));
+        fprintf(f, "%s'%s' %.17g", i == t.first ? "" : ", ", text, (double)(i * t.digit) * pow(10, t.power));
     }
     fputs(")\n", f);
     put_name(f, &t, axis, name);

@@ -60,7 +60,7 @@ static double put_differences(FILE *f, const iso_record *r, int column)
         const double *worst = iso_record_const_row(r, slot * rows / slots);
         for (size_t i = slot * rows / slots; i < (slot + 1) * rows / slots; i++)
             if (iso_record_const_row(r, i)[column] > worst[column]) worst = iso_record_const_row(r, i);
-        iso_gnuplot_pair(f, worst[0], fmax(worst[column], FLOOR));
+        fprintf(f, "%.17g %.17g\n", worst[0], fmax(worst[column], FLOOR));
         largest = fmax(largest, worst[column]);
     }
     fputs("EOD\n", f);
@@ -72,11 +72,8 @@ static double put_differences(FILE *f, const iso_record *r, int column)
 /* A line across. */
 static void put_level(FILE *f, int tag, double level)
 {
-    fprintf(f, "set arrow %d from graph 0, first ", tag);
-    iso_gnuplot_number(f, level);
-    fputs(" to graph 1, first ", f);
-    iso_gnuplot_number(f, level);
-    fputs(" nohead back " LEVEL "\n", f);
+    fprintf(f, "set arrow %d from graph 0, first %.17g to graph 1, first %.17g nohead back " LEVEL "\n", tag, level,
+            level);
 }
 
 /* Axes of the chart. Its lowest tick stands for 0 as well. */
@@ -92,16 +89,13 @@ static void put_axes(FILE *f, const iso_record *r, double top, const iso_plot_ch
                                  .units = chart->units,
                                  .label = true};
     char name[ISO_PLOT_NAME];
-    fputs("unset label; unset arrow; unset object; set size noratio; set border 3 lc rgb '#606060'; set logscale y\n"
-          "set grid ytics back lt 1 lw 0.8 lc rgb '#DDE1E5'; unset ylabel\n"
-          "set key left top Left reverse vertical maxrows 16 samplen 2 spacing 1.2 noenhanced title 'largest' left "
-          "enhanced\nset key at screen ",
-          f);
-    iso_gnuplot_number(f, chart->box.right + 0.015);
-    fputc(',', f);
-    iso_gnuplot_number(f, chart->box.top + 0.015);
-    fprintf(f, "\nunset title; set label 1 '%s' left at graph 0,1.09\nset yrange [5e-18:1e%d]\n", chart->title,
-            highest);
+    fprintf(f,
+            "unset label; unset arrow; unset object; set size noratio; set border 3 lc rgb '#606060'; set "
+            "logscale y\nset grid ytics back lt 1 lw 0.8 lc rgb '#DDE1E5'; unset ylabel\n"
+            "set key left top Left reverse vertical maxrows 16 samplen 2 spacing 1.2 noenhanced title 'largest' "
+            "left enhanced\nset key at screen %.17g,%.17g\nunset title; set label 1 '%s' left at graph 0,1.09\n"
+            "set yrange [5e-18:1e%d]\n",
+            chart->box.right + 0.015, chart->box.top + 0.015, chart->title, highest);
     iso_plot_place(f, &chart->box);
     iso_plot_powers(f, LOWEST, highest, 8);
     iso_plot_ticks(f, &clock, name);
@@ -113,7 +107,7 @@ static void put_name(FILE *f, const char *name, double largest)
     char words[64], number[16];
     snprintf(number, sizeof number, "%.0e", largest); /* no decimal mark, which is the locale's */
     snprintf(words, sizeof words, "%s  %s", iso_plot_symbol(name), largest > 0 ? number : "0");
-    iso_gnuplot_text(f, words, 60);
+    fputs(QUOTED(words, 60), f);
 }
 
 /* A line for names that have no look of their own. */

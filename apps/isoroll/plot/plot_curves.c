@@ -24,8 +24,8 @@ static void put_slot(FILE *f, const iso_plot_panel *p, int column, size_t from, 
         if (number_at(p, i, column) > number_at(p, largest, column)) largest = i;
     }
     const size_t first = least < largest ? least : largest, last = least < largest ? largest : least;
-    iso_gnuplot_pair(f, number_at(p, first, p->over), number_at(p, first, column));
-    if (last != first) iso_gnuplot_pair(f, number_at(p, last, p->over), number_at(p, last, column));
+    fprintf(f, "%.17g %.17g\n", number_at(p, first, p->over), number_at(p, first, column));
+    if (last != first) fprintf(f, "%.17g %.17g\n", number_at(p, last, p->over), number_at(p, last, column));
 }
 
 /* One block of data for each curve. Where one column is drawn over another that is no clock, thinning cannot keep the
@@ -37,7 +37,8 @@ static void put_data(FILE *f, const iso_plot_panel *p, int curve)
     fprintf(f, "$curve%d << EOD\n", curve);
     if (p->equal || rows <= 2 * SLOTS)
         for (size_t i = 0; i < drawn; i++)
-            iso_gnuplot_pair(f, iso_plot_drawn_row(p->rows, i)[p->over], iso_plot_drawn_row(p->rows, i)[column]);
+            fprintf(f, "%.17g %.17g\n", iso_plot_drawn_row(p->rows, i)[p->over],
+                    iso_plot_drawn_row(p->rows, i)[column]);
     else
         for (size_t slot = 0; slot < SLOTS; slot++)
             put_slot(f, p, column, slot * rows / SLOTS, (slot + 1) * rows / SLOTS);
@@ -103,10 +104,9 @@ static void put_y_axis(FILE *f, const iso_plot_panel *p, bool right)
     iso_plot_ticks(f, &axis, name);
     if (strcmp(name, NUMBER) == 0) return;
     const bool short_name = strncmp(name, power, strlen(power)) == 0;
-    fprintf(f, "set label %d ", 2 + right);
-    iso_gnuplot_text(f, short_name ? name + strlen(power) : name, ISO_PLOT_NAME);
-    fprintf(f, " noenhanced tc rgb '#404040' %s at graph %d,1.0 offset %s,0.6\n",
-            short_name == right ? "left" : "right", right,
+    fprintf(f, "set label %d %s noenhanced tc rgb '#404040' %s at graph %d,1.0 offset %s,0.6\n", 2 + right,
+            QUOTED(short_name ? name + strlen(power) : name, ISO_PLOT_NAME), short_name == right ? "left" : "right",
+            right,
             !short_name ? "0"
             : right     ? "1"
                         : "-1");
@@ -123,31 +123,26 @@ static void put_marks(FILE *f, const iso_plot_panel *p)
 {
     for (int i = 0; i < p->marks; i++) {
         const double x = number_at(p, p->mark[i], p->over);
-        fprintf(f, "set arrow %d from first ", i + 1);
-        iso_gnuplot_number(f, x);
-        fputs(", graph 0 to first ", f);
-        iso_gnuplot_number(f, x);
-        fputs(", graph 1 nohead " ISO_PLOT_LOST_LINE "\n", f);
+        fprintf(f, "set arrow %d from first %.17g, graph 0 to first %.17g, graph 1 nohead " ISO_PLOT_LOST_LINE "\n",
+                i + 1, x, x);
     }
 }
 
 static void put_title(FILE *f, const char *title)
 {
     if (!title) return;
-    fputs("set label 1 ", f);
-    iso_gnuplot_text(f, title, 90);
-    fputs(" left noenhanced at graph 0,1 offset 0,0.9\n", f);
+    fprintf(f, "set label 1 %s left noenhanced at graph 0,1 offset 0,0.9\n", QUOTED(title, 90));
 }
 
 void iso_plot_curves(FILE *f, const iso_plot_panel *p)
 {
     for (int c = 0; c < p->count; c++) put_data(f, p, c);
-    fputs("unset label; unset arrow; unset object; unset title; unset logscale; set border 3 lc rgb '#606060'\n"
-          "set grid xtics ytics back lt 1 lw 0.8 lc rgb '#DDE1E5'; unset xlabel; unset ylabel; unset y2tics\n"
-          "set key default; set key noenhanced horizontal maxrows 1 Left reverse samplen 2 at graph 1,1.03 right "
-          "bottom\n",
-          f);
-    fprintf(f, "set size %s\n", p->equal ? "ratio -1" : "noratio");
+    fprintf(f,
+            "unset label; unset arrow; unset object; unset title; unset logscale; set border 3 lc rgb '#606060'\n"
+            "set grid xtics ytics back lt 1 lw 0.8 lc rgb '#DDE1E5'; unset xlabel; unset ylabel; unset y2tics\n"
+            "set key default; set key noenhanced horizontal maxrows 1 Left reverse samplen 2 at graph 1,1.03 "
+            "right bottom\nset size %s\n",
+            p->equal ? "ratio -1" : "noratio");
     iso_plot_place(f, &p->box);
     put_axes(f, p);
     for (int c = 0; c < p->count; c++)
@@ -156,10 +151,10 @@ void iso_plot_curves(FILE *f, const iso_plot_panel *p)
     put_title(f, p->title);
     for (int c = 0; c < p->count; c++) {
         const iso_plot_curve *curve = &p->curve[c];
-        fprintf(f, "%s $curve%d axes x1y%d with %s lc rgb %s ", c ? "," : "plot", c, curve->right ? 2 : 1,
-                iso_record_rows(p->rows) > 1 ? "lines lw 1.5" : "points pt 7", curve->colour);
-        fputs(curve->name ? "title " : "notitle", f);
-        if (curve->name) iso_gnuplot_text(f, curve->name, 60);
+        fprintf(f, "%s $curve%d axes x1y%d with %s lc rgb %s %s", c ? "," : "plot", c, curve->right ? 2 : 1,
+                iso_record_rows(p->rows) > 1 ? "lines lw 1.5" : "points pt 7", curve->colour,
+                curve->name ? "title " : "notitle");
+        if (curve->name) fputs(QUOTED(curve->name, 60), f);
     }
     if (p->marks && p->count < 3) fprintf(f, ", NaN with lines " ISO_PLOT_LOST_LINE " title '%s'", p->marked);
     fputs("\nset autoscale; unset y2tics; unset y2label; unset label; unset arrow; set size noratio\n", f);
@@ -167,26 +162,20 @@ void iso_plot_curves(FILE *f, const iso_plot_panel *p)
 
 void iso_plot_heading(FILE *f, const char *title, double y)
 {
-    fputs("unset border; unset tics; unset key; set xrange [0:1]; set yrange [0:1]\n"
-          "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
-          "set label 1 ",
-          f);
-    iso_gnuplot_text(f, title ? title : "", 95);
-    fputs(" at screen 0.5,", f);
-    iso_gnuplot_number(f, y);
-    fputs(" center noenhanced font ',12'\nplot NaN notitle\nunset label\n", f);
+    fprintf(f,
+            "unset border; unset tics; unset key; set xrange [0:1]; set yrange [0:1]\n"
+            "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
+            "set label 1 %s at screen 0.5,%.17g center noenhanced font ',12'\nplot NaN notitle\nunset label\n",
+            QUOTED(title, 95), y);
 }
 
 void iso_plot_key(FILE *f, double x, double y, const char *entries)
 {
-    fputs(
-        "unset border; unset tics; unset label; unset arrow; unset object; unset title; unset logscale; unset grid\n"
-        "unset xlabel; unset ylabel; set size noratio; set xrange [0:1]; set yrange [0:1]\n"
-        "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
-        "set key default; set key horizontal maxrows 1 samplen 1.4 Left reverse center center at screen ",
-        f);
-    iso_gnuplot_number(f, x);
-    fputc(',', f);
-    iso_gnuplot_number(f, y);
-    fprintf(f, "\nplot %s\nunset key\n", entries);
+    fprintf(f,
+            "unset border; unset tics; unset label; unset arrow; unset object; unset title; unset logscale; "
+            "unset grid\nunset xlabel; unset ylabel; set size noratio; set xrange [0:1]; set yrange [0:1]\n"
+            "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
+            "set key default; set key horizontal maxrows 1 samplen 1.4 Left reverse center center at screen "
+            "%.17g,%.17g\nplot %s\nunset key\n",
+            x, y, entries);
 }

@@ -14,8 +14,6 @@ static const char *const strokes[ISO_PLOT_LINES] = {
     "dt 1 lw 1.8 lc rgb " ISO_PLOT_BLUE, "dt (8,4) lw 2.2 lc rgb 'black'", "dt 1 lw 1.8 lc rgb " ISO_PLOT_VERMILLION,
     "dt (2,3) lw 2.2 lc rgb '#404040'"};
 #define ORBIT "pt 7 ps 1.2 lc rgb 'black'"
-#define AXES                                                                                                         \
-    "set border 3 lc rgb '#606060'; set tics nomirror out scale 0.6; set grid back lt 1 lw 0.8 lc rgb '#DDE1E5'\n"
 
 /* --- the map ---------------------------------------------------------------------------------------------------- */
 
@@ -29,10 +27,9 @@ static bool put_block(FILE *f, const iso_plot_map *map, const char *name, int nu
         const double *row = iso_record_const_row(map->bounds, i);
         if (!isfinite(row[first]) || !isfinite(row[last])) continue;
         any = true;
-        iso_gnuplot_number(f, row[0]);
+        fprintf(f, "%.17g", row[0]);
         for (int c = first; c <= last; c++) {
-            fputc(' ', f);
-            iso_gnuplot_number(f, over_h ? row[c] / row[0] : row[c]);
+            fprintf(f, " %.17g", over_h ? row[c] / row[0] : row[c]);
         }
         fputc('\n', f);
     }
@@ -71,13 +68,8 @@ static void put_label(FILE *f, const iso_plot_map *map, int part, double room)
     }
     if (!(thickest > room)) return;
     snprintf(name, sizeof name, "%.*s", (int)strcspn(map->part[part], ":"), map->part[part]);
-    fputs("set label ", f);
-    iso_gnuplot_text(f, name, 60);
-    fputs(" at ", f);
-    iso_gnuplot_number(f, best[0]);
-    fputc(',', f);
-    iso_gnuplot_number(f, (best[low] + best[high]) / 2 / best[0]);
-    fputs(" center front noenhanced\n", f);
+    fprintf(f, "set label %s at %.17g,%.17g center front noenhanced\n", QUOTED(name, 60), best[0],
+            (best[low] + best[high]) / 2 / best[0]);
 }
 
 static void put_panel(FILE *f, const iso_plot_map *map, bool over_h, bool key)
@@ -88,20 +80,20 @@ static void put_panel(FILE *f, const iso_plot_map *map, bool over_h, bool key)
     for (int i = 0; i < map->lines; i++)
         line[i] = put_block(f, map, "line", i, 1 + 2 * map->parts + i, 1 + 2 * map->parts + i, over_h);
     fputs("$orbit << EOD\n", f);
-    iso_gnuplot_pair(f, map->at[0], over_h ? map->at[1] / map->at[0] : map->at[1]);
+    fprintf(f, "%.17g %.17g\n", map->at[0], over_h ? map->at[1] / map->at[0] : map->at[1]);
     fputs("EOD\n", f);
     for (int i = 0; i < map->parts; i++) {
         if (!part[i]) continue;
         fprintf(f, "%s$part%d u 1:2:3 with filledcurves fs solid 1 noborder lc rgb %s %s ", comma, i, fills[i],
                 key ? "title" : "notitle");
         comma = ", ";
-        if (key) iso_gnuplot_text(f, map->part[i], 60);
+        if (key) fputs(QUOTED(map->part[i], 60), f);
     }
     for (int i = 0; i < map->lines; i++) {
         if (!line[i]) continue;
         fprintf(f, "%s$line%d with lines %s %s ", comma, i, strokes[i], key ? "title" : "notitle");
         comma = ", ";
-        if (key) iso_gnuplot_text(f, map->line[i], 60);
+        if (key) fputs(QUOTED(map->line[i], 60), f);
     }
     fprintf(f, "%s$orbit with points " ORBIT " %s\n", comma, key ? "title 'this orbit'" : "notitle");
 }
@@ -110,37 +102,27 @@ iso_status iso_plot_momentum(iso_context *ctx, const char *path, const iso_plot_
 {
     const iso_record *r = map->bounds;
     const size_t columns = 1 + 2 * (size_t)map->parts + (size_t)map->lines;
-    iso_gnuplot *g;
     double range[2];
     if (!r || iso_record_rows(r) == 0 || iso_record_columns(r) != columns || map->parts > ISO_PLOT_PARTS ||
         map->lines > ISO_PLOT_LINES || !(map->at[0] > 0) || !isfinite(map->at[1]))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a map needs bounds, h > 0 and a finite F");
-    iso_status status = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT, &g);
-    if (status != ISO_OK) return status;
-    FILE *f = iso_gnuplot_script(g);
-    fputs("set multiplot\n" AXES "set tmargin at screen 0.9; set bmargin at screen 0.36\nset label 1 ", f);
-    iso_gnuplot_text(f, map->title ? map->title : "", 95);
-    fputs(" at screen 0.5,0.96 center noenhanced font ',12'\nset xlabel 'energy h'; set xrange [0:", f);
-    iso_gnuplot_number(f, 2 * map->at[0]);
+    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
     fprintf(f,
-            "]\nset key off; set lmargin at screen 0.1; set rmargin at screen 0.48; set ylabel '%s'\n"
-            "set xtics autofreq\n",
-            map->F);
+            "set multiplot\n" ISO_PLOT_AXES "set tmargin at screen 0.9; set bmargin at screen 0.36\n"
+            "set label 1 %s at screen 0.5,0.96 center noenhanced font ',12'\n"
+            "set xlabel 'energy h'; set xrange [0:%.17g]\nset key off; set lmargin at screen 0.1; set rmargin at "
+            "screen 0.48; set ylabel '%s'\nset xtics autofreq\n",
+            QUOTED(map->title, 95), 2 * map->at[0], map->F);
     put_panel(f, map, false, false);
     fprintf(f,
             "unset label; set lmargin at screen 0.6; set rmargin at screen 0.98; set ylabel '%s / h'\n"
             "set key at screen 0.1,0.24 left top Left reverse vertical maxrows 5 samplen 3 spacing 1.2 noenhanced\n",
             map->F);
     find_range(map, range);
-    fputs("set yrange [", f);
-    iso_gnuplot_number(f, range[0]);
-    fputc(':', f);
-    iso_gnuplot_number(f, range[1]);
-    fputs("]\n", f);
+    fprintf(f, "set yrange [%.17g:%.17g]\n", range[0], range[1]);
     for (int i = 0; i < map->parts; i++) put_label(f, map, i, 0.12 * (range[1] - range[0]));
     put_panel(f, map, true, true);
-    fputs("unset multiplot\nunset output\n", f);
-    return iso_gnuplot_close(ctx, g, true);
+    return iso_gnuplot_close(ctx, true);
 }
 
 /* --- lines ------------------------------------------------------------------------------------------------------ */
@@ -154,7 +136,7 @@ static bool put_signal(FILE *f, const iso_record *r, int signal, double *least)
         if ((int)row[2] != signal || !(row[1] > 0)) continue;
         any = true;
         *least = fmin(*least, row[1]);
-        iso_gnuplot_pair(f, row[0], row[1]);
+        fprintf(f, "%.17g %.17g\n", row[0], row[1]);
     }
     fputs("EOD\n", f);
     return any;
@@ -167,34 +149,27 @@ static void put_names(FILE *f, const iso_record *r)
     for (size_t i = 0; i < iso_record_rows(r); i++) {
         const double *row = iso_record_const_row(r, i);
         if (isnan(row[3]) || put[(int)row[2] & 1]++ >= LABELLED) continue;
-        fprintf(f, "set label '%d,%d' at ", (int)row[3], (int)row[4]);
-        iso_gnuplot_number(f, row[0]);
-        fputc(',', f);
-        iso_gnuplot_number(f, row[1]);
-        fputs(" left rotate by 60 offset 0,0.5 font ',8'\n", f);
+        fprintf(f, "set label '%d,%d' at %.17g,%.17g left rotate by 60 offset 0,0.5 font ',8'\n", (int)row[3],
+                (int)row[4], row[0], row[1]);
     }
 }
 
 iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis, const iso_record *r)
 {
-    iso_gnuplot *g;
     double least = 1;
     if (!r || iso_record_rows(r) == 0 || iso_record_columns(r) != 5 || axis < 0 || axis > 2)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                 "a picture of lines needs a record with five columns and at least one row");
-    iso_status status = iso_gnuplot_open(ctx, path, WIDTH, LINES_HEIGHT, &g);
-    if (status != ISO_OK) return status;
-    FILE *f = iso_gnuplot_script(g);
-    fputs(AXES "set title ", f);
-    iso_gnuplot_text(f, title ? title : "", 95);
-    fputs(" noenhanced font ',12'\nset logscale y; set format y '10^{%T}'; set key outside bottom center horizontal\n"
-          "set xlabel 'frequency in t; m, n: m times frequency 1 and n times frequency 2'; set ylabel 'amplitude'\n",
-          f);
+    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, LINES_HEIGHT);
+    fprintf(f,
+            ISO_PLOT_AXES
+            "set title %s noenhanced font ',12'\nset logscale y; set format y '10^{%%T}'; set key outside bottom "
+            "center horizontal\nset xlabel 'frequency in t; m, n: m times frequency 1 and n times frequency 2'; "
+            "set ylabel 'amplitude'\n",
+            QUOTED(title, 95));
     const bool any[2] = {put_signal(f, r, 0, &least), put_signal(f, r, 1, &least)};
     put_names(f, r);
-    fputs("set offsets graph 0.04, graph 0.04, 0, 0\nset yrange [", f);
-    iso_gnuplot_number(f, pow(10, floor(log10(least)) - 1));
-    fputs(":4]\n", f);
+    fprintf(f, "set offsets graph 0.04, graph 0.04, 0, 0\nset yrange [%.17g:4]\n", pow(10, floor(log10(least)) - 1));
     const int j = (axis + 1) % 3 + 1, l = (axis + 2) % 3 + 1;
     if (any[0])
         fprintf(f,
@@ -206,6 +181,5 @@ iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title,
                 "%s$signal1 with impulses dt (4,2) lw 2 lc rgb " ISO_PLOT_VERMILLION " title 'n_%d', "
                 "$signal1 with points pt 6 ps 0.8 lc rgb " ISO_PLOT_VERMILLION " notitle",
                 any[0] ? ", " : "plot ", axis + 1);
-    fputs("\nunset output\n", f);
-    return iso_gnuplot_close(ctx, g, any[0] || any[1]);
+    return iso_gnuplot_close(ctx, any[0] || any[1]);
 }

@@ -25,6 +25,21 @@ enum {
 #define ISO_PLOT_LOST "pt 2 ps 1.7 lw 3 lc rgb " ISO_PLOT_VERMILLION
 #define ISO_PLOT_LOST_LINE "dt (6,4) lw 1.5 lc rgb " ISO_PLOT_VERMILLION
 
+/* Axes on the left and below, and a grid. */
+#define ISO_PLOT_AXES                                                                                                \
+    "set border 3 lc rgb '#606060'; set tics nomirror out scale 0.6; set grid back lt 1 lw 0.8 lc rgb '#DDE1E5'\n"
+
+/* A number of a table by the name of its column (NaN: there is none); whether a word is this one; the axis of the
+ * line "axis", 0 to 2 (-1: there is none). */
+double iso_plot_number(const iso_record *table, size_t row, const char *column);
+bool iso_plot_is(const iso_record *table, size_t row, const char *column, const char *word);
+int iso_plot_axis_of(const iso_record *table);
+
+/* The first of `count` columns side by side that are finite in all rows. Errors: ISO_BAD_ARGUMENT (they are not
+ * there, or no row is), ISO_NUMERICAL; *first is then -1. */
+iso_status iso_plot_find(iso_context *ctx, const iso_record *r, int count, const char *const names[], int *first);
+extern const char *const iso_plot_normal[3], *const iso_plot_place_of_point[3]; /* n, gamma */
+
 /* A rectangle in parts of the page: 0 and 1 are its edges, (0, 0) is its lower left corner. */
 typedef struct iso_plot_box {
     double left, right, bottom, top;

@@ -10,7 +10,7 @@
  */
 #include <math.h>
 
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "plot/gnuplot.h"
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
@@ -29,9 +29,9 @@ static int part_of(double hue, double shift)
 }
 
 /* The hues of successive orbits differ by the golden section of the circle. The first is a strong blue. */
-static long colour_of(const iso_plot_section *s, uint32_t orbit)
+static long colour_of(double orbit, bool grey)
 {
-    if (s->grey && s->grey[orbit]) return 0xB0B0B0;
+    if (grey) return 0xB0B0B0;
     const double hue = fmod(0.6 + orbit * 0.61803398874989485, 1);
     return (long)part_of(hue, 0) << 16 | (long)part_of(hue, -1.0 / 3) << 8 | part_of(hue, -2.0 / 3);
 }
@@ -63,16 +63,21 @@ static spot of_point(const iso_plot_section *s, const double chart[2])
     return (spot){chart[0], chart[1] * largest_momentum(s, chart[0])};
 }
 
-/* A block of crossings. The grey ones come first, so that they lie behind the others. */
+/* A block of crossings, of the point where it has columns of its own. The grey ones come first, so that they lie
+ * behind the others. */
 static void put_crossings(FILE *f, const iso_plot_section *s, bool ball)
 {
+    const int orbit = iso_record_find(s->rows, "orbit"), own = ball ? -1 : iso_record_find(s->rows, "point_l");
+    const int l = own < 0 ? iso_record_find(s->rows, "l") : own, shade = iso_record_find(s->rows, "grey");
+    const int x = iso_record_find(s->rows, own < 0 ? "x" : "point_x");
     fprintf(f, "$%s << EOD\n", ball ? "ball" : "point");
     for (int grey = 1; grey >= 0; grey--)
-        for (size_t i = 0; i < s->count; i++) {
-            if ((s->grey && s->grey[s->orbit[i]]) != grey) continue;
-            const spot at = ball ? of_ball(s, s->ball[i]) : of_point(s, s->point[i]);
+        for (size_t i = 0; i < iso_record_rows(s->rows); i++) {
+            const double *row = iso_record_const_row(s->rows, i), chart[] = {row[l], row[x]};
+            if ((row[shade] != 0) != grey) continue;
+            const spot at = ball ? of_ball(s, chart) : of_point(s, chart);
             if (!isfinite(at.right) || !isfinite(at.up)) continue;
-            fprintf(f, "%.5f %.6g %ld\n", at.right, at.up, colour_of(s, s->orbit[i]));
+            fprintf(f, "%.5f %.6g %ld\n", at.right, at.up, colour_of(row[orbit], grey));
         }
     fputs("EOD\n", f);
 }
@@ -101,16 +106,14 @@ static double size_of(size_t count)
 
 static void put_heading(FILE *f, const iso_plot_section *s)
 {
-    fputs("set multiplot\nunset border; unset tics; set xrange [0:1]; set yrange [0:1]\n"
-          "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
-          "set key at screen 0.985,0.962 right center samplen 1\n"
-          "set label 1 ",
-          f);
-    iso_gnuplot_text(f, s->title ? s->title : "", 95);
-    fputs(" at screen 0.015,0.962 left noenhanced font ',12'\nplot NaN notitle", f);
+    fprintf(f,
+            "set multiplot\nunset border; unset tics; set xrange [0:1]; set yrange [0:1]\n"
+            "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
+            "set key at screen 0.985,0.962 right center samplen 1\n"
+            "set label 1 %s at screen 0.015,0.962 left noenhanced font ',12'\nplot NaN notitle",
+            QUOTED(s->title, 95));
     if (s->grey_means) {
-        fputs(", NaN w p pt 7 ps 1 lc rgb '#B0B0B0' title ", f);
-        iso_gnuplot_text(f, s->grey_means, 60);
+        fprintf(f, ", NaN w p pt 7 ps 1 lc rgb '#B0B0B0' title %s", QUOTED(s->grey_means, 60));
     }
     fputs("\nunset label 1; unset key\n"
           "set border 15 lw 0.8 lc rgb '#606060'; set tics out scale 0.6 nomirror; set tmargin at screen 0.86\n"
@@ -126,65 +129,44 @@ static void put_ball(FILE *f, const iso_plot_section *s, double size)
             "set lmargin at screen 0.075; set rmargin at screen 0.485; set yrange [-1:1]; set ytics 0.5\n"
             "set title 'ball: n_%d = 0, n_%d increasing' offset 0,-0.5\n"
             "set xlabel 'ψ,  where n_%d = cos ψ, n_%d = −sin ψ' offset 0,0.3\n"
-            "set ylabel 'ω_%d / |ω|' offset 1,0\n"
-            "plot $ball using 1:2:3 with points pt 7 ps ",
-            a, a, b, c, a);
-    iso_gnuplot_number(f, size);
-    fputs(" lc rgb variable notitle\n", f);
+            "set ylabel 'ω_%d / |ω|' offset 1,0\nplot $ball using 1:2:3 with points pt 7 ps %.17g lc rgb "
+            "variable notitle\n",
+            a, a, b, c, a, size);
 }
 
 static void put_point(FILE *f, const iso_plot_section *s, double size, double most)
 {
     const int a = s->axis + 1, b = (s->axis + 1) % 3 + 1, c = (s->axis + 2) % 3 + 1;
-    fputs("set lmargin at screen 0.575; set rmargin at screen 0.985; set ytics autofreq; set yrange [", f);
-    iso_gnuplot_number(f, -TOP * most);
-    fputc(':', f);
-    iso_gnuplot_number(f, TOP * most);
     fprintf(f,
-            "]\nset title '%s: γ_%d = 0, γ_%d increasing'\n"
+            "set lmargin at screen 0.575; set rmargin at screen 0.985; set ytics autofreq; set yrange "
+            "[%.17g:%.17g]\nset title '%s: γ_%d = 0, γ_%d increasing'\n"
             "set xlabel 'l,  where γ_%d = cos l, γ_%d = −sin l'\n",
-            s->eps > 0 ? "point" : "directions of γ and M", a, a, b, c);
+            -TOP * most, TOP * most, s->eps > 0 ? "point" : "directions of γ and M", a, a, b, c);
     fprintf(f, s->eps > 0 ? "set ylabel 'L = M_%d, in the units of the scene'\n" : "set ylabel 'x = M_%d / |M|'\n",
             a);
     fputs("plot ", f);
     for (int side = 1; side >= -1; side -= 2) { /* outside of the boundaries */
-        fprintf(f, "$boundary using 1:(%d*$2):(", side);
-        iso_gnuplot_number(f, side * TOP * most);
-        fputs(") with filledcurves fc rgb '#ECEFF1' notitle, "
-              "$boundary using 1:(",
-              f);
-        fprintf(f, "%d*$2) with lines lw 1 lc rgb '#606060' notitle, ", side);
+        fprintf(f,
+                "$boundary using 1:(%d*$2):(%.17g) with filledcurves fc rgb '#ECEFF1' notitle, $boundary using "
+                "1:(%d*$2) with lines lw 1 lc rgb '#606060' notitle, ",
+                side, side * TOP * most, side);
     }
-    fputs("$point using 1:2:3 with points pt 7 ps ", f);
-    iso_gnuplot_number(f, size);
-    fputs(" lc rgb variable notitle\n", f);
-}
-
-static iso_status check(iso_context *ctx, const iso_plot_section *s)
-{
-    if (s->count == 0 || s->axis < 0 || s->axis > 2)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                                "a picture of a section n_a = 0 needs at least one crossing, and a = 1, 2 or 3");
-    for (size_t i = 0; i < s->count; i++)
-        if (s->orbit[i] >= s->orbits)
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture of a section: there is no orbit %lu",
-                                    (unsigned long)s->orbit[i]);
-    return ISO_OK;
+    fprintf(f, "$point using 1:2:3 with points pt 7 ps %.17g lc rgb variable notitle\n", size);
 }
 
 iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *s)
 {
-    iso_gnuplot *g;
-    iso_status status = check(ctx, s);
-    if (status == ISO_OK) status = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT, &g);
-    if (status != ISO_OK) return status;
-    FILE *f = iso_gnuplot_script(g);
+    int column[4];
+    if (!iso_record_find_all(s->rows, 4, (const char *[]){"orbit", "l", "x", "grey"}, column, NULL) ||
+        iso_record_rows(s->rows) == 0 || s->axis < 0 || s->axis > 2)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
+                                "a picture of a section n_a = 0 needs at least one crossing, and a = 1, 2 or 3");
+    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
     put_crossings(f, s, true);
     put_crossings(f, s, false);
-    const double most = put_boundary(f, s), size = size_of(s->count);
+    const double most = put_boundary(f, s), size = size_of(iso_record_rows(s->rows));
     put_heading(f, s);
     put_ball(f, s, size);
     put_point(f, s, size, most);
-    fputs("unset multiplot\nunset output\n", f);
-    return iso_gnuplot_close(ctx, g, true);
+    return iso_gnuplot_close(ctx, true);
 }

@@ -27,20 +27,6 @@ static const double *vector_at(const iso_record *r, size_t row, int column)
 
 /* --- columns ---------------------------------------------------------------------------------------------------- */
 
-/* The first of three columns side by side, or -1; a number that is not finite is an error. */
-static int find_vector(iso_context *ctx, const iso_record *r, const char *const names[3], iso_status *status)
-{
-    int column[3];
-    if (!iso_record_find_all(r, 3, names, column, NULL)) return -1;
-    if (column[1] != column[0] + 1 || column[2] != column[0] + 2) return -1;
-    for (size_t i = 0; *status == ISO_OK && i < iso_record_rows(r); i++)
-        for (int c = 0; c < 3; c++)
-            if (!isfinite(vector_at(r, i, column[0])[c]))
-                *status = iso_context_fail(ctx, ISO_NUMERICAL, names[c], "a picture: %s is not finite in row %zu",
-                                           names[c], i + 1);
-    return column[0];
-}
-
 /* The path that is drawn: of the centre if it is known, else of the contact. */
 static const double *place_at(const iso_plot_scenery *s, size_t row)
 {
@@ -230,12 +216,11 @@ iso_status iso_plot_look_around(iso_context *ctx, const iso_plot_space *space, i
                                                                                                "contact3"};
     static const double axis_3[3] = {0, 0, 1};
     double normal[3];
-    iso_status status = ISO_OK;
     *s = (iso_plot_scenery){.rows = space->rows, .plane = space->plane, .vertical = space->up != NULL};
-    s->centre = find_vector(ctx, s->rows, centre, &status);
-    s->contact = status == ISO_OK ? find_vector(ctx, s->rows, contact, &status) : -1;
-    if (status != ISO_OK) return status;
-    if (iso_record_rows(s->rows) == 0 || (s->centre < 0 && s->contact < 0))
+    iso_status status = iso_plot_find(ctx, s->rows, 3, centre, &s->centre);
+    if (status != ISO_NUMERICAL) status = iso_plot_find(ctx, s->rows, 3, contact, &s->contact);
+    if (status == ISO_NUMERICAL) return status;
+    if (s->centre < 0 && s->contact < 0)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "centre1",
                                 "a picture of space: no columns centre1, centre2, centre3 or contact1, contact2, "
                                 "contact3 side by side");

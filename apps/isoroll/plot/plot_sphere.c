@@ -74,8 +74,8 @@ static void put_arc(FILE *f, const double a[3], const double b[3], bool near, bo
         for (int j = 0; j < 3; j++) v[j] /= sqrt(length);
         const spot to = project(v);
         const bool seen = (from.depth + to.depth > 0) == near;
-        if (seen && !*open) iso_gnuplot_pair(f, from.x, from.y);
-        if (seen) iso_gnuplot_pair(f, to.x, to.y);
+        if (seen && !*open) fprintf(f, "%.17g %.17g\n", from.x, from.y);
+        if (seen) fprintf(f, "%.17g %.17g\n", to.x, to.y);
         if (!seen && *open) fputc('\n', f);
         *open = seen;
         from = to;
@@ -105,7 +105,7 @@ static void put_path(FILE *f, const iso_record *r, int column, bool near)
         const double *v = iso_plot_drawn_row(r, i) + column;
         const spot s = project(v);
         if (joined && i > 0) put_arc(f, iso_plot_drawn_row(r, i - 1) + column, v, near, &open);
-        if (!joined && (s.depth > 0) == near) iso_gnuplot_pair(f, s.x, s.y);
+        if (!joined && (s.depth > 0) == near) fprintf(f, "%.17g %.17g\n", s.x, s.y);
     }
     fputs("EOD\n", f);
 }
@@ -116,7 +116,7 @@ static void put_markers(FILE *f, const iso_record *r, int column, bool near)
     begin_block(f, "marker", near);
     for (size_t i = 0; i < count; i++) {
         const spot s = project(iso_record_const_row(r, (2 * i + 1) * rows / (2 * count)) + column);
-        if ((s.depth > 0) == near) iso_gnuplot_pair(f, s.x, s.y);
+        if ((s.depth > 0) == near) fprintf(f, "%.17g %.17g\n", s.x, s.y);
     }
     fputs("EOD\n", f);
 }
@@ -126,11 +126,7 @@ static void put_end(FILE *f, const double v[3], const char *type)
 {
     const spot s = project(v);
     const char *colour = s.depth > 0 ? "'black'" : "'#909090'";
-    fputs("set label '' at ", f);
-    iso_gnuplot_number(f, s.x);
-    fputc(',', f);
-    iso_gnuplot_number(f, s.y);
-    fprintf(f, " front point %s lc rgb %s\n", type, colour);
+    fprintf(f, "set label '' at %.17g,%.17g front point %s lc rgb %s\n", s.x, s.y, type, colour);
 }
 
 static void put_graticule(FILE *f, bool near)
@@ -160,19 +156,10 @@ static void put_axes(FILE *f)
         v[axis] = 1;
         const spot s = project(v);
         const double end = 1 + 0.14 / fmax(hypot(s.x, s.y), 0.5), label = end + 0.07 / fmax(hypot(s.x, s.y), 0.5);
-        fprintf(f, "set arrow %d nohead back lw 1.2 lc rgb '#606060' from ", axis + 1);
-        iso_gnuplot_number(f, s.x);
-        fputc(',', f);
-        iso_gnuplot_number(f, s.y);
-        fputs(" to ", f);
-        iso_gnuplot_number(f, s.x * end);
-        fputc(',', f);
-        iso_gnuplot_number(f, s.y * end);
-        fprintf(f, "\nset label %d '%d' center tc rgb '#404040' at ", axis + 1, axis + 1);
-        iso_gnuplot_number(f, s.x * label);
-        fputc(',', f);
-        iso_gnuplot_number(f, s.y * label);
-        fputc('\n', f);
+        fprintf(f,
+                "set arrow %d nohead back lw 1.2 lc rgb '#606060' from %.17g,%.17g to %.17g,%.17g\n"
+                "set label %d '%d' center tc rgb '#404040' at %.17g,%.17g\n",
+                axis + 1, s.x, s.y, s.x * end, s.y * end, axis + 1, axis + 1, s.x * label, s.y * label);
     }
 }
 
@@ -206,8 +193,7 @@ void iso_plot_sphere(FILE *f, const iso_plot_box *box, const iso_record *line, i
     put_axes(f);
     put_end(f, iso_plot_drawn_row(line, 0) + line_column, ISO_PLOT_START);
     put_end(f, iso_plot_drawn_row(line, iso_plot_drawn_rows(line) - 1) + line_column, ISO_PLOT_END);
-    fputs("plot $grid0 w l lw 0.6 lc rgb '#DDE1E5',", f);
-    fprintf(f, " $path0 w %s lc rgb " ISO_PLOT_FAR_BLUE ",", far_style);
+    fprintf(f, "plot $grid0 w l lw 0.6 lc rgb '#DDE1E5', $path0 w %s lc rgb " ISO_PLOT_FAR_BLUE ",", far_style);
     if (markers) fputs(" $marker0 w p pt 6 ps 0.8 lw 1 lc rgb " ISO_PLOT_FAR_VERMILLION ",", f);
     fprintf(f, " $grid1 w l lw 0.8 lc rgb '#B9C0C7', $path1 w %s lc rgb " ISO_PLOT_BLUE, near_style);
     if (markers) fputs(", $marker1 w p pt 6 ps 0.85 lw 1.5 lc rgb " ISO_PLOT_VERMILLION, f);

@@ -1,18 +1,17 @@
 /* plot_splitting.c - a picture of the splitting: |m| over k or the level, and the two manifolds on the section. */
 #include <math.h>
-#include <string.h>
 
 #include "plot/gnuplot.h"
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
 
 enum { WIDTH = 1000, HEIGHT = 470 };
-enum { AT, M, ERROR };
 #define TOLD 10 /* errors from which on m is drawn as a spot */
 
-static bool has_rows(const iso_record *r, size_t columns)
+/* What varies from row to row. */
+static const char *name_of(const iso_record *r)
 {
-    return r && iso_record_rows(r) > 0 && iso_record_columns(r) == columns;
+    return r && iso_record_rows(r) > 1 && iso_plot_number(r, 0, "k") == iso_plot_number(r, 1, "k") ? "level" : "k";
 }
 
 /* Rows with m > 0, m < 0, and those that are only bounded. Gives their number. */
@@ -23,11 +22,12 @@ static size_t put_rows(FILE *f, const iso_record *r, const char *name, kind want
     size_t count = 0;
     fprintf(f, "$%s << EOD\n", name);
     for (size_t i = 0; i < iso_record_rows(r); i++) {
-        const double *row = iso_record_const_row(r, i), size = fabs(row[M]), error = row[ERROR];
-        const kind is = size < TOLD * error ? BOUNDED : row[M] > 0 ? POSITIVE : NEGATIVE;
-        if (is != wanted || !isfinite(row[AT]) || !isfinite(row[M]) || !(error > 0)) continue;
-        fprintf(f, "%.17g %.6g %.6g %.6g\n", row[AT], is == BOUNDED ? size + error : size, size - error,
-                size + error);
+        const double at = iso_plot_number(r, i, name_of(r)), m = iso_plot_number(r, i, "m"), size = fabs(m),
+                     error = iso_plot_number(r, i, "error");
+        const kind is = size < TOLD * error ? BOUNDED : m > 0 ? POSITIVE : NEGATIVE;
+        if (is != wanted || !isfinite(at) || !isfinite(m) || !(error > 0) || iso_plot_number(r, i, "zero") == 1)
+            continue;
+        fprintf(f, "%.17g %.6g %.6g %.6g\n", at, is == BOUNDED ? size + error : size, size - error, size + error);
         count++;
     }
     fputs("EOD\n", f);
@@ -43,11 +43,11 @@ static void put_size(FILE *f, const iso_record *r)
     const char *comma = "plot ";
     size_t count[3];
     for (int i = 0; i < 3; i++) count[i] = put_rows(f, r, name[i], (kind)i);
-    fputs("set border 3 lc rgb '#606060'; set tics nomirror out scale 0.6\n"
-          "set grid back lt 1 lw 0.8 lc rgb '#DDE1E5'\nset logscale y; set format y '10^{%T}'; set xlabel ",
-          f);
-    iso_gnuplot_text(f, iso_record_name(r, AT), 8);
-    fputs("\nset ylabel '|m|' offset 1,0; set key outside top center horizontal maxrows 1 samplen 0.5\n", f);
+    fprintf(f,
+            "set border 3 lc rgb '#606060'; set tics nomirror out scale 0.6\n"
+            "set grid back lt 1 lw 0.8 lc rgb '#DDE1E5'\nset logscale y; set format y '10^{%%T}'; set xlabel %s\n"
+            "set ylabel '|m|' offset 1,0; set key outside top center horizontal maxrows 1 samplen 0.5\n",
+            QUOTED(name_of(r), 8));
     for (int i = 0; i < 3; i++) {
         if (count[i] == 0) continue;
         fprintf(f, "%s$%s using 1:2%s with %s %s", comma, name[i], i == BOUNDED ? "" : ":3:4",
@@ -66,34 +66,25 @@ static void put_curve(FILE *f, const iso_record *curve, const char *name, double
         const double *row = iso_record_const_row(curve, i);
         if (isfinite(row[0]) && isfinite(row[1])) fprintf(f, "%.6f %.6f\n", row[0], row[1]);
     }
-    fputs("EOD\nset border 15 lw 0.8 lc rgb '#606060'; set tics out scale 0.6 nomirror; unset grid\n"
-          "set xrange [-0.35:pi+0.35]; set xtics ('O' 0, 'π/4' pi/4, 'π/2' pi/2, '3π/4' 3*pi/4, \"O'\" pi)\n"
-          "set arrow 1 from first pi/2, graph 0 to first pi/2, graph 1 nohead back dt (3,3) lw 1.2 lc rgb '#707070'\n"
-          "set key outside bottom center horizontal samplen 2\n",
-          f);
     fprintf(f,
+            "EOD\nset border 15 lw 0.8 lc rgb '#606060'; set tics out scale 0.6 nomirror; unset grid\n"
+            "set xrange [-0.35:pi+0.35]; set xtics ('O' 0, 'π/4' pi/4, 'π/2' pi/2, '3π/4' 3*pi/4, \"O'\" pi)\n"
+            "set arrow 1 from first pi/2, graph 0 to first pi/2, graph 1 nohead back dt (3,3) lw 1.2 lc rgb "
+            "'#707070'\nset key outside bottom center horizontal samplen 2\n"
             "set xlabel 'l − l(O) on the section γ_%d = 0, %s = %.6g'; set ylabel 'M_%d / |M|' offset 1,0\n"
-            "plot $curve using 1:2 with lines lw 1.6 lc rgb " ISO_PLOT_VERMILLION " title 'unstable, from O', "
-            "$curve using (pi-$1):2 with lines lw 1.6 dt (6,2) lc rgb " ISO_PLOT_BLUE " title \"stable, to O'\"\n",
+            "plot $curve using 1:2 with lines lw 1.6 lc rgb " ISO_PLOT_VERMILLION
+            " title 'unstable, from O', $curve using (pi-$1):2 with lines lw 1.6 dt (6,2) lc rgb " ISO_PLOT_BLUE
+            " title \"stable, to O'\"\n",
             axis + 1, name, at, axis + 1);
 }
 
 iso_status iso_plot_splitting(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
                               const iso_record *curve, double at, int axis)
 {
-    const bool with_rows = has_rows(rows, 3), with_curve = has_rows(curve, 2);
-    iso_gnuplot *g;
-    if ((!with_rows && !with_curve) || axis < 0 || axis > 2)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture of the splitting needs rows or a curve");
-    iso_status status = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT, &g);
-    if (status != ISO_OK) return status;
-    FILE *f = iso_gnuplot_script(g);
-    fprintf(f, "set multiplot layout 1,%d title ", with_rows && with_curve ? 2 : 1);
-    iso_gnuplot_text(f, title ? title : "", 110);
-    fputs(" noenhanced font ',12'\n", f);
-    if (with_rows) put_size(f, rows);
-    if (with_curve)
-        put_curve(f, curve, with_rows && strcmp(iso_record_name(rows, AT), "level") == 0 ? "level" : "k", at, axis);
-    fputs("unset multiplot\nunset output\n", f);
-    return iso_gnuplot_close(ctx, g, true);
+    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
+    fprintf(f, "set multiplot layout 1,%d title %s noenhanced font ',12'\n", rows && curve ? 2 : 1,
+            QUOTED(title, 110));
+    if (rows) put_size(f, rows);
+    if (curve) put_curve(f, curve, name_of(rows), at, axis);
+    return iso_gnuplot_close(ctx, true);
 }

@@ -10,38 +10,9 @@
 enum { WIDTH = 900, CURVE_HEIGHT = 480, PANEL_HEIGHT = 400, LONGEST = 110 };
 enum { X, VALUE, LOW, HIGH }; /* of a curve */
 
-#define AXES                                                                                                         \
-    "set border 3 lc rgb '#606060'; set tics nomirror out scale 0.6; set grid back lt 1 lw 0.8 lc rgb '#DDE1E5'\n"
-
 static void put_label(FILE *f, const char *axis, const char *name)
 {
-    fprintf(f, "set %s ", axis);
-    iso_gnuplot_text(f, name, 40);
-    fputs(" noenhanced\n", f);
-}
-
-/* What numbers are there, to choose a scale. */
-typedef struct spread {
-    double low, high;
-    double *size; /* of numbers other than 0 */
-    size_t sizes, room;
-} spread;
-
-static const spread no_numbers = {INFINITY, -INFINITY, NULL, 0, 0};
-
-/* Without memory for their sizes the scale is even. */
-static void add_numbers(spread *s, const iso_record *rows, int column)
-{
-    const size_t room = s->sizes + iso_record_rows(rows);
-    double *more = room > 0 ? realloc(s->size, room * sizeof *more) : NULL;
-    if (more) s->size = more;
-    for (size_t i = 0; i < iso_record_rows(rows); i++) {
-        const double x = iso_record_const_row(rows, i)[column];
-        if (!isfinite(x)) continue;
-        s->low = fmin(s->low, x);
-        s->high = fmax(s->high, x);
-        if (x != 0 && more) s->size[s->sizes++] = fabs(x);
-    }
+    fprintf(f, "set %s %s noenhanced\n", axis, QUOTED(name, 40));
 }
 
 static int by_size(const void *a, const void *b)
@@ -50,20 +21,34 @@ static int by_size(const void *a, const void *b)
     return (*one > *other) - (*one < *other);
 }
 
-/* Whether sizes are drawn: a tenth of them are smaller than the largest by 1e4, or by 1e3 if there are both signs.
- * One small number does not count: every smooth function that changes its sign has one. Frees the sizes; *least: the
- * smallest of them. */
-static bool wants_sizes(spread *s, double *least)
+/* The numbers of a column, to choose a scale. */
+typedef struct spread {
+    double low, high, least; /* least: the smallest size but 0 */
+    bool sizes;              /* whether sizes are drawn        */
+} spread;
+
+/* Sizes are drawn if a tenth of them are smaller than the largest by 1e4, or by 1e3 if there are both signs. One
+ * small number does not count: every smooth function that changes its sign has one. Without memory the scale is
+ * even. */
+static spread spread_of(const iso_record *rows, int column)
 {
-    bool wants = false;
-    if (s->sizes > 0) {
-        qsort(s->size, s->sizes, sizeof *s->size, by_size);
-        *least = s->size[0];
-        wants = s->size[s->sizes - 1] > (s->low < 0 && s->high > 0 ? 1e3 : 1e4) * s->size[s->sizes / 10];
+    spread s = {.low = INFINITY, .high = -INFINITY};
+    double *size = malloc((iso_record_rows(rows) + 1) * sizeof *size);
+    size_t count = 0;
+    for (size_t i = 0; i < iso_record_rows(rows); i++) {
+        const double x = iso_record_const_row(rows, i)[column];
+        if (!isfinite(x)) continue;
+        s.low = fmin(s.low, x);
+        s.high = fmax(s.high, x);
+        if (x != 0 && size) size[count++] = fabs(x);
     }
-    free(s->size);
-    s->size = NULL;
-    return wants;
+    if (count > 0) {
+        qsort(size, count, sizeof *size, by_size);
+        s.least = size[0];
+        s.sizes = size[count - 1] > (s.low < 0 && s.high > 0 ? 1e3 : 1e4) * size[count / 10];
+    }
+    free(size);
+    return s;
 }
 
 /* --- axes ------------------------------------------------------------------------------------------------------- */
@@ -92,16 +77,14 @@ static bool grows_by_ratios(const line *l)
 }
 
 /* count = 0: no memory. */
-static line line_of(const iso_record *const rows[], int records, int column, const char *name)
+static line line_of(const iso_record *rows, size_t column)
 {
-    line l = {.k = strcmp(name, "k") == 0};
-    size_t all = 0, used = 0;
-    for (int r = 0; r < records; r++) all += iso_record_rows(rows[r]);
-    l.at = malloc((all + 1) * sizeof *l.at);
-    for (int r = 0; l.at && r < records; r++)
-        for (size_t i = 0; i < iso_record_rows(rows[r]); i++) l.at[used++] = iso_record_const_row(rows[r], i)[column];
-    if (l.at) qsort(l.at, used, sizeof *l.at, by_size);
-    for (size_t i = 0; i < used; i++)
+    const size_t all = iso_record_rows(rows);
+    line l = {.k = strcmp(iso_record_name(rows, column), "k") == 0, .at = malloc((all + 1) * sizeof *l.at)};
+    if (!l.at) return l;
+    for (size_t i = 0; i < all; i++) l.at[i] = iso_record_const_row(rows, i)[column];
+    qsort(l.at, all, sizeof *l.at, by_size);
+    for (size_t i = 0; i < all; i++)
         if (l.count == 0 || l.at[i] != l.at[l.count - 1]) l.at[l.count++] = l.at[i];
     l.logarithmic = grows_by_ratios(&l);
     return l;
@@ -159,37 +142,29 @@ static bool put_curve(FILE *f, const iso_record *rows, bool sizes, bool k)
     return band;
 }
 
-iso_status iso_plot_sweep_curve(iso_context *ctx, const char *path, const char *title, const char *name,
-                                const char *value, const iso_record *rows)
+iso_status iso_plot_sweep_curve(iso_context *ctx, const char *path, const char *title, const iso_record *rows)
 {
-    iso_gnuplot *g;
     if (!rows || iso_record_columns(rows) != 4 || iso_record_rows(rows) == 0)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a curve needs rows of x, value, low and high");
-    const iso_status status = iso_gnuplot_open(ctx, path, WIDTH, CURVE_HEIGHT, &g);
-    if (status != ISO_OK) return status;
-    FILE *f = iso_gnuplot_script(g);
-    const line x = line_of(&rows, 1, X, name);
-    spread values = no_numbers;
-    double least;
-    add_numbers(&values, rows, VALUE);
-    const bool sizes = wants_sizes(&values, &least), band = put_curve(f, rows, sizes, x.k);
-    fputs("set title ", f);
-    iso_gnuplot_text(f, title, LONGEST);
-    fputs(" noenhanced\n" AXES "unset key\n", f);
-    put_label(f, "xlabel", name);
-    put_value_label(f, "ylabel", value, sizes);
+    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, CURVE_HEIGHT);
+    const line x = line_of(rows, X);
+    const bool sizes = spread_of(rows, VALUE).sizes, band = put_curve(f, rows, sizes, x.k);
+    fprintf(f, "set title %s noenhanced\n" ISO_PLOT_AXES "unset key\n", QUOTED(title, LONGEST));
+    put_label(f, "xlabel", iso_record_name(rows, X));
+    put_value_label(f, "ylabel", iso_record_name(rows, VALUE), sizes);
     if (sizes) fputs("set logscale y; set format y '10^{%T}'\n", f);
     put_axis(f, "x", &x);
     free(x.at);
     fputs("plot ", f);
     if (band) fputs("$curve using 1:3:4 with filledcurves fc rgb " ISO_PLOT_FAR_BLUE " fs solid 0.7 noborder, ", f);
     fputs("$curve using 1:2 with linespoints pt 7 ps 0.45 lw 1.4 lc rgb " ISO_PLOT_BLUE "\n", f);
-    return iso_gnuplot_close(ctx, g, true);
+    return iso_gnuplot_close(ctx, true);
 }
 
 /* --- maps ------------------------------------------------------------------------------------------------------- */
 
-/* The points of all panels: cells if they are a grid, else squares that fill a panel as if they were spread evenly. */
+/* The points of all panels: cells if they are a grid, else squares that fill a panel as if they were spread
+ * evenly. */
 typedef struct grid {
     line x, y;
     bool cells;
@@ -198,9 +173,8 @@ typedef struct grid {
 
 static grid grid_of(const iso_plot_panels *p)
 {
-    grid g = {.x = line_of(p->rows, p->count, 0, p->x), .y = line_of(p->rows, p->count, 1, p->y)};
-    size_t points = 0;
-    for (int i = 0; i < p->count; i++) points += iso_record_rows(p->rows[i]);
+    grid g = {.x = line_of(p->rows, 0), .y = line_of(p->rows, 1)};
+    const size_t points = iso_record_rows(p->rows);
     const double side = 640.0 / (p->count > 3 ? 3 : p->count), count = fmax(1, (double)points / p->count);
     g.size = fmin(3, fmax(0.15, side / sqrt(count) / 9));
     g.cells = g.x.count > 1 && g.y.count > 1 && (double)g.x.count * (double)g.y.count < 1.2 * count;
@@ -239,50 +213,48 @@ static void cell_of(const line *l, double x, double edge[2])
 }
 
 /* With sizes a value is drawn as its size. There is a last line so that no block is empty. */
-static void put_points(FILE *f, const iso_record *rows, const grid *g, bool there, bool sizes)
+static void put_points(FILE *f, const iso_record *rows, int map, const grid *g, bool there, bool sizes)
 {
     for (size_t r = 0; r < iso_record_rows(rows); r++) {
         const double *row = iso_record_const_row(rows, r), value = sizes ? fabs(row[2]) : row[2];
         double x[2] = {0}, y[2] = {0};
-        if ((isfinite(value) && !(sizes && value == 0)) != there) continue;
+        if ((isfinite(value) && !(sizes && value == 0)) != there || row[3] != map) continue;
         if (g->cells) cell_of(&g->x, row[0], x), cell_of(&g->y, row[1], y);
-        fprintf(f, "%.17g %.17g %.9g ", row[0], row[1], there ? value : 0);
-        fprintf(f, "%.17g %.17g %.17g %.17g\n", x[0], x[1], y[0], y[1]);
+        fprintf(f, "%.17g %.17g %.9g %.17g %.17g %.17g %.17g\n", row[0], row[1], there ? value : 0, x[0], x[1], y[0],
+                y[1]);
     }
     fputs("NaN NaN NaN NaN NaN NaN NaN\n", f);
 }
 
 static void put_panel(FILE *f, const iso_plot_panels *p, int i, const grid *g, bool sizes)
 {
-    char with[96];
+    char with[96], name[80] = "";
+    if (p->key_name) snprintf(name, sizeof name, "%s = %.6g", p->key_name, p->key[i]);
     for (int there = 1; there >= 0; there--) {
         fprintf(f, "$%s%d << EOD\n", there ? "value" : "none", i);
-        put_points(f, p->rows[i], g, there, sizes);
+        put_points(f, p->rows, i, g, there, sizes);
         fputs("EOD\n", f);
     }
     if (g->cells)
         snprintf(with, sizeof with, "using 1:2:4:5:6:7:3 with boxxyerror fs solid 1 noborder lw 0");
     else
         snprintf(with, sizeof with, "using 1:2:3 with points pt 5 ps %.3g", g->size);
-    fputs(g->cells ? "set autoscale noextend; set offsets graph 0.02, graph 0.02, graph 0.02, graph 0.02\n" : "", f);
-    fputs("set title ", f);
-    iso_gnuplot_text(f, p->name[i], 40);
-    fprintf(f, " noenhanced\nplot $none%d %s lc rgb '#B0B0B0', $value%d %s lc palette\n", i, with, i, with);
+    fprintf(f, "%sset title %s noenhanced\nplot $none%d %s lc rgb '#B0B0B0', $value%d %s lc palette\n",
+            g->cells ? "set autoscale noextend; set offsets graph 0.02, graph 0.02, graph 0.02, graph 0.02\n" : "",
+            QUOTED(name, 40), i, with, i, with);
 }
 
 /* One scale for all panels. */
 static bool put_scale(FILE *f, const iso_plot_panels *p)
 {
-    spread s = no_numbers;
-    double least = 0;
-    for (int i = 0; i < p->count; i++) add_numbers(&s, p->rows[i], 2);
-    const bool sizes = wants_sizes(&s, &least);
-    double low = sizes ? least : s.low, high = sizes ? fmax(fabs(s.low), fabs(s.high)) : s.high;
+    const spread s = spread_of(p->rows, 2);
+    const bool sizes = s.sizes;
+    double low = sizes ? s.least : s.low, high = sizes ? fmax(fabs(s.low), fabs(s.high)) : s.high;
     if (!(low < high)) low = isfinite(low) ? low : 0, high = low + 1;
     fprintf(f, "set cbrange [%.9g:%.9g]\n", low, high);
     if (sizes) fputs("set logscale cb; set format cb '10^{%T}'\n", f);
     fputs("set palette defined (0 '#0B2E59', 1 '#0072B2', 2 '#A9CDE2', 3 '#F7E3B0', 4 '#E69F00', 5 '#A03A00')\n", f);
-    put_value_label(f, "cblabel", p->value, sizes);
+    put_value_label(f, "cblabel", iso_record_name(p->rows, 2), sizes);
     return sizes;
 }
 
@@ -292,8 +264,10 @@ static void put_place(FILE *f, int i, int across, int down)
     const double wide = 0.83 / across, high = 0.9 / down;
     const double left = 0.075 + wide * (i % across), bottom = 0.91 - high * (i / across + 1);
     fprintf(f, i % across == 0 ? "" : "unset ylabel\n");
-    fprintf(f, "set lmargin at screen %.4f; set rmargin at screen %.4f\n", left, left + wide - 0.065);
-    fprintf(f, "set bmargin at screen %.4f; set tmargin at screen %.4f\n", bottom + 0.13, bottom + high - 0.06);
+    fprintf(f,
+            "set lmargin at screen %.4f; set rmargin at screen %.4f\n"
+            "set bmargin at screen %.4f; set tmargin at screen %.4f\n",
+            left, left + wide - 0.065, bottom + 0.13, bottom + high - 0.06);
 }
 
 /* About four steps of 1, 2 or 5 times a power of ten: panels are narrow. */
@@ -307,32 +281,29 @@ static void put_steps(FILE *f, const line *x)
 
 iso_status iso_plot_sweep_maps(iso_context *ctx, const char *path, const iso_plot_panels *p)
 {
-    iso_gnuplot *g;
     const int across = p->count > 3 ? 3 : p->count, down = p->count > 3 ? 2 : 1;
     if (p->count < 1 || p->count > ISO_PLOT_MAPS)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%d maps: a picture has 1 to %d", p->count, ISO_PLOT_MAPS);
-    const iso_status status = iso_gnuplot_open(ctx, path, WIDTH, down * PANEL_HEIGHT + (across == 1 ? 200 : 0), &g);
-    if (status != ISO_OK) return status;
-    FILE *f = iso_gnuplot_script(g);
+    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, down * PANEL_HEIGHT + (across == 1 ? 200 : 0));
     const grid points = grid_of(p);
-    fputs("set multiplot title ", f);
-    iso_gnuplot_text(f, p->title, LONGEST);
-    fputs(" noenhanced\nset border 15 lc rgb '#606060'; set tics nomirror out scale 0.6; unset key\n", f);
-    put_label(f, "xlabel", p->x);
-    put_label(f, "ylabel", p->y);
+    fprintf(f,
+            "set multiplot title %s noenhanced\nset border 15 lc rgb '#606060'; set tics nomirror out scale 0.6; "
+            "unset key\n",
+            QUOTED(p->title, LONGEST));
+    put_label(f, "xlabel", iso_record_name(p->rows, 0));
+    put_label(f, "ylabel", iso_record_name(p->rows, 1));
     const bool sizes = put_scale(f, p);
     put_steps(f, &points.x);
     put_axis(f, "x", &points.x);
     put_axis(f, "y", &points.y);
     fputs("set colorbox user origin 0.865,0.25 size 0.015,0.5\n", f);
     for (int i = 0; i < p->count; i++) {
-        if (i % across == 0) put_label(f, "ylabel", p->y);
+        if (i % across == 0) put_label(f, "ylabel", iso_record_name(p->rows, 1));
         put_place(f, i, across, down);
         if (i == 1) fputs("unset colorbox\n", f);
         put_panel(f, p, i, &points, sizes);
     }
     free(points.x.at);
     free(points.y.at);
-    fputs("unset multiplot\n", f);
-    return iso_gnuplot_close(ctx, g, true);
+    return iso_gnuplot_close(ctx, true);
 }

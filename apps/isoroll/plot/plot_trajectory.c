@@ -36,25 +36,6 @@ typedef struct sheet {
 
 /* --- what there is ---------------------------------------------------------------------------------------------- */
 
-/* Where a record has three columns side by side; all rows finite. -1, and *status says why, if not. */
-static int find_path(iso_context *ctx, const iso_record *r, const char *const names[3], iso_status *status)
-{
-    int column[3];
-    const char *missing;
-    if (iso_record_rows(r) == 0)
-        *status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture needs at least one row");
-    else if (!iso_record_find_all(r, 3, names, column, &missing) || column[1] != column[0] + 1 ||
-             column[2] != column[0] + 2)
-        *status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, names[0], "a picture: no columns %s, %s, %s side by side",
-                                   names[0], names[1], names[2]);
-    for (size_t i = 0; *status == ISO_OK && i < iso_record_rows(r); i++)
-        for (int c = 0; c < 3; c++)
-            if (!isfinite(iso_record_const_row(r, i)[column[c]]))
-                *status = iso_context_fail(ctx, ISO_NUMERICAL, names[c], "a picture: %s is not finite in row %zu",
-                                           names[c], i + 1);
-    return *status == ISO_OK ? column[0] : -1;
-}
-
 /* The contact on the ball as unit vectors, if the ball has the columns trace1..3. */
 static iso_status find_trace(iso_context *ctx, sheet *s)
 {
@@ -64,16 +45,14 @@ static iso_status find_trace(iso_context *ctx, sheet *s)
     if (s->plot->point || !iso_record_find_all(r, 3, names, column, NULL)) return ISO_OK;
     iso_status status = iso_record_create(ctx, 3, names, &s->trace);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(r); i++) {
-        double *to;
-        status = iso_record_append(ctx, s->trace, &to);
-        if (status != ISO_OK) break;
+        double to[3];
         for (int c = 0; c < 3; c++) to[c] = iso_record_const_row(r, i)[column[c]];
         if (norm(to) == 0)
-            status = iso_context_fail(ctx, ISO_NUMERICAL, names[0], "a picture: the trace is 0 in row %zu", i + 1);
+            return iso_context_fail(ctx, ISO_NUMERICAL, names[0], "a picture: the trace is 0 in row %zu", i + 1);
         scale(to, 1 / norm(to));
+        status = iso_record_add(ctx, s->trace, 1, to);
     }
-    if (status == ISO_OK) s->ball = find_path(ctx, s->trace, names, &status);
-    return status;
+    return status == ISO_OK ? iso_plot_find(ctx, s->trace, 3, names, &s->ball) : status;
 }
 
 static bool is_constant(const iso_record *r)
@@ -280,15 +259,13 @@ static void put_noise(const sheet *s)
         used += largest > 0 ? snprintf(text + used, sizeof text - (size_t)used, "%.0e", largest)
                             : snprintf(text + used, sizeof text - (size_t)used, "0");
     }
-    fputs("unset border; unset tics; unset key; unset label; unset arrow; unset object; unset title; unset grid\n"
-          "unset logscale; unset xlabel; unset ylabel; set xrange [0:1]; set yrange [0:1]; set size noratio\n"
-          "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
-          "set label 1 ",
-          s->f);
-    iso_gnuplot_text(s->f, text, 130);
-    fputs(" at screen 0.5,", s->f);
-    iso_gnuplot_number(s->f, 1 - (s->y + LINE / 2.0) / s->height);
-    fputs(" center noenhanced tc rgb '#404040'\nplot NaN notitle\nunset label\n", s->f);
+    fprintf(s->f,
+            "unset border; unset tics; unset key; unset label; unset arrow; unset object; unset title; unset "
+            "grid\nunset logscale; unset xlabel; unset ylabel; set xrange [0:1]; set yrange [0:1]; set size "
+            "noratio\nset lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at "
+            "screen 0\nset label 1 %s at screen 0.5,%.17g center noenhanced tc rgb '#404040'\nplot NaN notitle\n"
+            "unset label\n",
+            QUOTED(text, 130), 1 - (s->y + LINE / 2.0) / s->height);
 }
 
 /* --- the sheet -------------------------------------------------------------------------------------------------- */
@@ -330,12 +307,12 @@ static void put_sheet(sheet *s)
 
 static iso_status look_at(iso_context *ctx, sheet *s)
 {
-    static const char *const normal[] = {"n1", "n2", "n3"}, *const place[] = {"gamma1", "gamma2", "gamma3"};
     const iso_plot_orbit *plot = s->plot;
     iso_status status = ISO_OK;
-    if (plot->ball) s->ball = find_path(ctx, plot->ball, normal, &status);
+    if (plot->ball) status = iso_plot_find(ctx, plot->ball, 3, iso_plot_normal, &s->ball);
     if (status == ISO_OK && plot->ball) status = find_trace(ctx, s);
-    if (status == ISO_OK && plot->point) s->point = find_path(ctx, plot->point, place, &status);
+    if (status == ISO_OK && plot->point)
+        status = iso_plot_find(ctx, plot->point, 3, iso_plot_place_of_point, &s->point);
     if (status == ISO_OK && plot->space) status = iso_plot_look_around(ctx, plot->space, &s->scenery);
     if (status == ISO_OK && s->ball < 0 && s->point < 0 && !plot->space)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture needs the path of the ball or of the point");
@@ -348,17 +325,14 @@ static iso_status look_at(iso_context *ctx, sheet *s)
 
 iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plot_orbit *plot)
 {
-    iso_gnuplot *g = NULL;
     sheet s = {.plot = plot, .ball = -1, .point = -1};
     iso_status status = look_at(ctx, &s);
-    if (status == ISO_OK) status = iso_gnuplot_open(ctx, path, WIDTH, s.height, &g);
     if (status == ISO_OK) {
-        s.f = iso_gnuplot_script(g);
+        s.f = iso_gnuplot_open(ctx, path, WIDTH, s.height);
         fputs("set multiplot\n", s.f);
         iso_plot_heading(s.f, s.plot->title, 1 - 22.0 / s.height);
         put_sheet(&s);
-        fputs("unset multiplot\nunset output\n", s.f);
-        status = iso_gnuplot_close(ctx, g, true);
+        status = iso_gnuplot_close(ctx, true);
     }
     iso_record_free(s.trace);
     return status;

@@ -74,7 +74,8 @@ static void put_path(FILE *f, const view *v, int column, const char *name, bool 
         double at[2];
         const bool seen = !hides || v->sign * dot(place, v->towards) >= -OUTLINE * v->s->support;
         project(v, place, at);
-        if (seen == near || open) iso_gnuplot_pair(f, at[0], at[1]); /* a piece ends where the next one begins */
+        if (seen == near || open)
+            fprintf(f, "%.17g %.17g\n", at[0], at[1]); /* a piece ends where the next one begins */
         if (seen != near && open) fputc('\n', f);
         open = seen == near;
     }
@@ -85,22 +86,12 @@ static void put_sign(FILE *f, const view *v, size_t row, const char *type)
 {
     double at[2];
     project(v, iso_record_const_row(v->s->rows, row) + (v->s->centre >= 0 ? v->s->centre : v->s->contact), at);
-    fputs("set label '' at ", f);
-    iso_gnuplot_number(f, at[0]);
-    fputc(',', f);
-    iso_gnuplot_number(f, at[1]);
-    fprintf(f, " front point %s\n", type);
+    fprintf(f, "set label '' at %.17g,%.17g front point %s\n", at[0], at[1], type);
 }
 
 static void put_circle(FILE *f, int tag, const double at[2], double radius, const char *style)
 {
-    fprintf(f, "set object %d circle at ", tag);
-    iso_gnuplot_number(f, at[0]);
-    fputc(',', f);
-    iso_gnuplot_number(f, at[1]);
-    fputs(" size ", f);
-    iso_gnuplot_number(f, radius);
-    fprintf(f, " %s\n", style);
+    fprintf(f, "set object %d circle at %.17g,%.17g size %.17g %s\n", tag, at[0], at[1], radius, style);
 }
 
 /* --- the support, and the ball on it ---------------------------------------------------------------------------- */
@@ -115,10 +106,8 @@ static void put_plane(FILE *f, const view *v, double range[2][2])
     const double slope = -(centre[0] - contact[0]) / (centre[1] - contact[1]);
     fputs("set arrow 1 nohead back lw 3 lc rgb '#8A939B' from ", f);
     for (int end = 0; end < 2; end++) {
-        iso_gnuplot_number(f, range[0][end]);
-        fputc(',', f);
-        iso_gnuplot_number(f, contact[1] + slope * (range[0][end] - contact[0]));
-        fputs(end ? "\n" : " to ", f);
+        fprintf(f, "%.17g,%.17g%s", range[0][end], contact[1] + slope * (range[0][end] - contact[0]),
+                end ? "\n" : " to ");
     }
 }
 
@@ -215,9 +204,8 @@ static void put_axes(FILE *f, const view *v, double range[2][2])
 
 static void put_title(FILE *f, const view *v, bool from_above)
 {
-    fputs("set title ", f);
-    iso_gnuplot_text(f, from_above ? v->s->from_above : v->s->from_side, 90);
-    fputs(" noenhanced offset 0,-0.3\n", f);
+    fprintf(f, "set title %s noenhanced offset 0,-0.3\n",
+            QUOTED(from_above ? v->s->from_above : v->s->from_side, 90));
 }
 
 static void put_signs(FILE *f, const view *v)
@@ -252,10 +240,10 @@ void iso_plot_view(FILE *f, const iso_plot_box *box, const iso_plot_scenery *s, 
         put_path(f, &v, column, "way", near);
         if (shows_contact(s)) put_path(f, &v, s->contact, "touch", near);
     }
-    fputs("unset label; unset arrow; unset object; unset key; unset logscale; set border 3 lc rgb '#606060'\n"
-          "set grid xtics ytics back lt 1 lw 0.8 lc rgb '#EEF0F2'\n",
-          f);
-    fprintf(f, "set size %s\n", v.narrow ? "noratio" : "ratio -1");
+    fprintf(f,
+            "unset label; unset arrow; unset object; unset key; unset logscale; set border 3 lc rgb '#606060'\n"
+            "set grid xtics ytics back lt 1 lw 0.8 lc rgb '#EEF0F2'\nset size %s\n",
+            v.narrow ? "noratio" : "ratio -1");
     iso_plot_place(f, box);
     find_range(&v, range);
     put_axes(f, &v, range);

@@ -19,7 +19,7 @@ endfunction()
 file(WRITE "${OUTPUT}.new" "/* Made by apps/isoroll/view/embed.cmake. */
 #include <string.h>
 
-#include \"view_files.h\"
+#include \"view.h\"
 
 ")
 foreach(path IN LISTS files)

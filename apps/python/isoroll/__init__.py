@@ -18,7 +18,7 @@ from ._files import convert, read, write
 from ._library import lib as _lib
 from ._orbit import Batch, Orbit, Run, batch, orbit, run
 from ._scene import Scene
-from ._study import Chaos, Section, Share, chaos, section
+from ._study import Chaos, Section, Share, chaos, section, study
 from ._table import Table, trajectory
 from ._version import __version__ as __version__
 
@@ -28,4 +28,4 @@ library_version: str = _lib.iso_version().decode()
 __all__ = ["BadArgument", "BadInput", "Batch", "Chaos", "ClosedPipe", "FileTrouble", "IsorollError", "IsorollWarning",
            "LibraryError", "NoMemory", "NotMapped", "NumericalFailure", "Orbit", "Run", "Scene", "Section", "Share",
            "Stopped", "Table", "batch", "chaos", "convert", "library_version", "orbit", "read", "run", "section",
-           "trajectory", "write"]
+           "study", "trajectory", "write"]

@@ -11,13 +11,13 @@ import signal
 import sys
 import threading
 import warnings
-from ctypes import POINTER, c_bool, c_char_p, c_double, c_int, c_long, c_size_t, c_uint64, c_void_p
+from ctypes import POINTER, c_bool, c_char_p, c_double, c_int, c_size_t, c_void_p
 from typing import Any, Callable, Iterator, List, Optional, Tuple
 
 from . import _errors
 from ._version import __version__
 
-ABI = 1  # ISO_FOREIGN_ABI of lib/foreign/foreign.h
+ABI = 2  # ISO_FOREIGN_ABI of lib/foreign/foreign.h
 _OBJECT = POINTER(c_void_p)  # where a new object goes
 
 _NAMES = {"darwin": "libisoroll.0.dylib", "win32": "isoroll.dll"}
@@ -36,16 +36,17 @@ _TABLE = {
     "iso_foreign_monitor_create": (c_int, c_void_p, c_double, c_void_p, c_void_p, _OBJECT),
     "iso_foreign_monitor_free": (None, c_void_p),
     "iso_column_name": (c_char_p, c_int),
-    "iso_verdict_name": (c_char_p, c_int),
     "iso_record_create": (c_int, c_void_p, c_size_t, POINTER(c_char_p), _OBJECT),
     "iso_record_free": (None, c_void_p),
+    "iso_record_kind": (c_char_p, c_void_p),
     "iso_record_columns": (c_size_t, c_void_p),
     "iso_record_rows": (c_size_t, c_void_p),
     "iso_record_name": (c_char_p, c_void_p, c_size_t),
+    "iso_record_word": (c_char_p, c_void_p, c_double),
     "iso_record_row": (c_void_p, c_void_p, c_size_t),
     "iso_record_line": (c_bool, c_void_p, c_size_t, POINTER(c_char_p), POINTER(c_char_p)),
     "iso_record_set": (c_int, c_void_p, c_void_p, c_char_p, c_char_p),
-    "iso_foreign_record_append": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
+    "iso_record_add": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
     "iso_foreign_scene_read": (c_int, c_void_p, c_char_p, _OBJECT),
     "iso_foreign_scene_parse": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, _OBJECT),
     "iso_foreign_scene_copy": (c_int, c_void_p, c_void_p, _OBJECT),
@@ -68,10 +69,7 @@ _TABLE = {
     "iso_orbit_has_twin": (c_bool, c_void_p),
     "iso_foreign_batch": (c_int, c_void_p, POINTER(c_void_p), c_size_t, c_size_t, c_void_p, c_void_p, c_void_p,
                           c_void_p, c_size_t, c_int, c_char_p, c_void_p, c_void_p),
-    "iso_foreign_section": (c_int, c_void_p, c_void_p, c_size_t, c_size_t, c_uint64, c_void_p, c_size_t, c_int,
-                            c_char_p, c_double, c_char_p, c_char_p, c_double, c_int, _OBJECT, _OBJECT) + _NOTES,
-    "iso_foreign_chaos": (c_int, c_void_p, c_void_p, c_long, c_long, c_size_t, c_uint64, c_void_p, c_size_t, c_int,
-                          c_char_p, c_double, c_int, _OBJECT, _OBJECT),
+    "iso_foreign_study": (c_int, c_void_p, c_void_p, c_char_p, c_char_p, c_void_p) + _NOTES,
     "iso_foreign_read": (c_int, c_void_p, c_char_p, c_char_p, _OBJECT) + _NOTES,
     "iso_foreign_write": (c_int, c_void_p, c_char_p, c_void_p, c_int, c_char_p),
     "iso_foreign_convert": (c_int, c_void_p, c_void_p, c_char_p, c_double, c_double, c_bool, _OBJECT) + _NOTES,
@@ -291,11 +289,11 @@ class Notes:
         self.buffer = _thread.notes
         self.arguments = (self.buffer, self._ROOM)
 
-    def tell(self) -> None:
+    def tell(self, level: int = 3) -> None:
         if self.buffer[0] == b"\0":
             return
         for line in self.buffer.value.decode("utf-8", "replace").split("\n"):
-            warnings.warn(line, _errors.IsorollWarning, stacklevel=3)
+            warnings.warn(line, _errors.IsorollWarning, stacklevel=level)
 
 
 class _OfThread(threading.local):

@@ -1,52 +1,77 @@
-"""Studies of all orbits of one energy: sections, chaos."""
+"""Studies by their names; sections and chaos, of all orbits of one energy."""
 
 from __future__ import annotations
 
-from ctypes import byref, c_void_p
-from typing import Any, Dict, NamedTuple, Optional, Tuple
+import os
+from ctypes import c_void_p
+from typing import Any, Callable, Dict, Mapping, NamedTuple, Optional, Tuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors
-from ._library import New, Notes, check, context, encoded, interruptible, lib, whole
+from ._library import Notes, check, context, encoded, interruptible, lib, whole
 from ._scene import SceneLike, as_scene
 from ._table import Table, doubles, from_record, new_record
 
-
 _MOST_STARTS, _MOST_ROWS = 10**7, 10**9
+_Made = TypeVar("_Made")
 
 
-def _axis(axis: Optional[int]) -> int:
-    if axis is None:
-        return -1
-    if axis not in (1, 2, 3):
-        raise _errors.BadArgument(f"axis is {axis}: it must be 1, 2 or 3, or None: the global section")
-    return int(axis) - 1
+def _text(name: str, value: Any) -> str:
+    """An option as it is typed after the command."""
+    if isinstance(value, (str, bytes, bool)):
+        return "true" if value is True else os.fsdecode(value)
+    if isinstance(value, (int, np.integer)):
+        return str(int(value))
+    numbers = doubles(name, value)
+    if numbers.ndim == 0:
+        return repr(float(numbers))
+    return ";".join(",".join(map(repr, row)) for row in np.atleast_2d(numbers).tolist())
+
+
+def _run(scene: SceneLike, name: str, options: Mapping[str, Any], make: Callable[..., _Made]) -> _Made:
+    """What `make` makes of the tables of a study; so also an exception's `partial`."""
+    chosen, ctx, notes, made = as_scene(scene, {}), context(), Notes(), (c_void_p * 3)()
+    given = {key.rstrip("_").replace("_", "-"): value for key, value in options.items()
+             if value is not None and value is not False and not (key == "at" and np.size(value) == 0)}
+    text = "\n".join(f"{key}={_text(key, value)}" for key, value in given.items())
+
+    def found() -> Optional[_Made]:
+        news = [new_record() for _ in made]
+        for new, pointer in zip(news, made):
+            new.value = pointer
+        return make(*(from_record(new) if new.value else None for new in news)) if made[0] else None
+
+    with interruptible(found):
+        status = lib.iso_foreign_study(ctx, chosen.pointer, encoded(name), encoded(text), made, *notes.arguments)
+    result = found()
+    try:
+        check(status, ctx)
+    except _errors.IsorollError as error:
+        error.partial = result
+        raise
+    notes.tell(4)
+    return result  # type: ignore[return-value]
+
+
+def study(scene: SceneLike, name: str, **options: Any) -> Tuple[Optional[Table], ...]:
+    """Any study of a scene, with the options of the command of this name: "section", "chaos", ...
+
+    options  as the command has them, exponent_turns=700 for --exponent-turns 700, as_="both" for --as both; True: one
+             without an argument; None, False: not given
+
+    Returns three tables, None in place of those that are not made (iso_foreign_study in lib/foreign/foreign.h). The
+    lines of the first have the scene, and the result by the names of the command's --json.
+    """
+    return _run(scene, name, options, lambda *tables: tables)
 
 
 def _points(at: Optional[ArrayLike]) -> NDArray[np.float64]:
-    points = np.ascontiguousarray(np.empty((0, 2)) if at is None else doubles("at", at))
+    points = np.empty((0, 2)) if at is None else doubles("at", at)
     if points.ndim > 2 or points.shape[-1] != 2:
         raise _errors.BadArgument(f"at has shape {points.shape}, it must be (starts, 2): l, x")
     return points.reshape(-1, 2)
-
-
-def _tolerance(tolerance: Optional[float]) -> float:
-    """For C, where 0 means the scene's. From the caller 0 and nan are refused, as in run."""
-    if tolerance is None:
-        return 0.0
-    if not float(tolerance) > 0:
-        error = _errors.BadArgument(f"tolerance is {tolerance}, it must be a positive number")
-        error.about = "tolerance"
-        raise error
-    return float(tolerance)
-
-
-def _taken(pointer: int) -> New:
-    new = new_record()
-    new.value = pointer
-    return new
 
 
 def _orbits(starts: int, at: int, rows: int, what: str) -> int:
@@ -59,12 +84,16 @@ def _orbits(starts: int, at: int, rows: int, what: str) -> int:
     return number
 
 
-def _event(event: Optional[Tuple[str, float]]) -> Tuple[Optional[bytes], float]:
+def _event(event: Optional[Tuple[str, float]]) -> Optional[str]:
     if event is None:
-        return None, 0.0
+        return None
     if isinstance(event, str) or len(event) != 2 or not isinstance(event[0], str):
         raise _errors.BadArgument(f"event is {event!r:.60}: it must be (column, value), such as ('n1', 0)")
-    return encoded(event[0]), float(event[1])
+    return f"{event[0]}={float(event[1])!r}"
+
+
+def _model(models: str) -> Optional[str]:
+    return None if models == "auto" else models
 
 
 class Section(Table):
@@ -77,10 +106,9 @@ class Section(Table):
     point: Optional[Table] = None
 
 
-def _section(record: New, point: New) -> Section:
-    table = from_record(record, "section")
+def _section(table: Table, point: Optional[Table], _unused: None) -> Section:
     result = Section(table.array, table.columns, table.lines, kind="section", record=table._record)
-    result.point = from_record(point, "section") if point.value else None
+    result.point = point
     return result
 
 
@@ -100,28 +128,10 @@ def section(scene: SceneLike, *, crossings: int = 500, starts: int = 0, seed: in
 
     l is an angle in (-pi, pi], x is in (-1, 1); both models have the same l and x.
     """
-    chosen, ctx, new, point, notes = as_scene(scene, {}), context(), new_record(), new_record(), Notes()
     points, rows = _points(at), whole("crossings", crossings, 1)
-    if axis is not None and event is not None:
-        raise _errors.BadArgument("axis or event, not both")
-
-    def so_far() -> Optional[Section]:
-        return _section(new, point) if new.value else None
-
-    with interruptible(so_far):
-        status = lib.iso_foreign_section(
-            ctx, chosen.pointer, rows, _orbits(starts, len(points), rows, "crossings"),
-            whole("seed", seed, 0), points.ctypes.data, len(points), _axis(axis),
-            *_event(event), encoded(models),
-            encoded(states) if states else None, _tolerance(tolerance),
-            whole("threads", threads, 0, 1024), byref(new), byref(point), *notes.arguments)
-    try:
-        check(status, ctx)
-    except _errors.IsorollError as error:
-        error.partial = so_far()
-        raise
-    notes.tell()
-    return _section(new, point)
+    return _run(scene, "section", dict(
+        crossings=rows, starts=_orbits(starts, len(points), rows, "crossings"), seed=seed, at=points, axis=axis,
+        event=_event(event), model=_model(models), as_=states, tol=tolerance, threads=threads or None), _section)
 
 
 class Share(NamedTuple):
@@ -143,26 +153,29 @@ class Share(NamedTuple):
     high: float
 
 
+_SHARE = ("followed", "chaotic_starts", "regular_starts", "undecided_starts", "failed", "starts", "chaotic", "low",
+          "high")  # as the lines call them
+
+
 class Chaos:
     """Which orbits are chaotic.
 
     verdict   of the scene's own orbit: "regular", "chaotic" or "undecided"
     verdicts  of all orbits, shape (orbits,), as words; orbit 0 is the scene's own
     orbits    a Table with a row for each orbit: orbit, l, x, verdict, disagree, then for each model that was
-              integrated ball_exponent_t, ball_error_t, ball_megno, ball_gali2, ... (lib/foreign/foreign.h)
+              integrated ball_exponent_t, ball_error_t, ball_megno, ball_gali2, ... (`isoroll list tables`)
     share     a Share, or None without starts
     trace     {"ball": Table, "point": Table}: the indicators of the scene's own orbit by turns
-    lines     what is known besides: "section", "integral", "failure", ...
+    lines     what is known besides, as `isoroll chaos --json` calls it: "section.axis", "integral", ...; "failure"
     """
 
     def __init__(self, orbits: Table, trace: Dict[str, Table]) -> None:
         self.orbits, self.trace, self.lines = orbits, trace, orbits.lines
-        names = [lib.iso_verdict_name(i).decode() for i in range(4)]
-        self.verdicts = np.array(names)[orbits["verdict"].astype(int)]
+        self.verdicts = orbits.words("verdict")
         self.verdict = str(self.verdicts[0])
         self.share: Optional[Share] = None
-        if "share" in self.lines:
-            numbers = [float(self.lines[key]) for key in ("count", *Share._fields[1:])]
+        if "share.starts" in self.lines:
+            numbers = [float(self.lines.get("share." + key, "nan")) for key in _SHARE]
             self.share = Share(*(int(x) for x in numbers[:6]), *numbers[6:])
 
     def __getstate__(self) -> Dict[str, Any]:
@@ -176,6 +189,10 @@ class Chaos:
         return f"<isoroll.Chaos: {self.verdict}, {len(self.orbits)} orbits, {self.share}>"
 
 
+def _chaos(orbits: Table, *traces: Optional[Table]) -> Chaos:
+    return Chaos(orbits, {name: trace for name, trace in zip(("ball", "point"), traces) if trace is not None})
+
+
 def chaos(scene: SceneLike, *, turns: int = 3000, starts: int = 0, seed: int = 0, at: Optional[ArrayLike] = None,
           axis: Optional[int] = None, models: str = "auto", tolerance: Optional[float] = None,
           threads: int = 0, exponent_turns: int = 0) -> Chaos:
@@ -184,16 +201,9 @@ def chaos(scene: SceneLike, *, turns: int = 3000, starts: int = 0, seed: int = 0
     turns           at most, of each orbit. Exponents are per unit of t, tau and s.
     exponent_turns  a chaotic orbit goes on to so many turns, for its exponent; errors that are not known are NaN
     """
-    chosen, ctx, new, trace, points = as_scene(scene, {}), context(), new_record(), (c_void_p * 2)(), _points(at)
-    try:
-        with interruptible():
-            status = lib.iso_foreign_chaos(
-                ctx, chosen.pointer, whole("turns", turns, 1, _MOST_ROWS),
-                whole("exponent_turns", exponent_turns, 0, _MOST_ROWS), _orbits(starts, len(points), 1, "turns"),
-                whole("seed", seed, 0),
-                points.ctypes.data, len(points), _axis(axis), encoded(models), _tolerance(tolerance),
-                whole("threads", threads, 0, 1024), byref(new), trace)
-    finally:
-        traces = {name: from_record(_taken(pointer)) for name, pointer in zip(("ball", "point"), trace) if pointer}
-    check(status, ctx)
-    return Chaos(from_record(new), traces)
+    points = _points(at)
+    return _run(scene, "chaos", dict(
+        turns=whole("turns", turns, 1, _MOST_ROWS),
+        exponent_turns=whole("exponent_turns", exponent_turns, 0, _MOST_ROWS),
+        starts=_orbits(starts, len(points), 1, "turns"), seed=seed, at=points, axis=axis, model=_model(models),
+        tol=tolerance, threads=threads or None), _chaos)

@@ -146,6 +146,12 @@ class Table:
     def __contains__(self, name: str) -> bool:
         return name in self.columns or (name in VECTORS and all(part in self.columns for part in VECTORS[name]))
 
+    def words(self, name: str) -> NDArray[np.str_]:
+        """A column of words, such as verdict, whose numbers stand for them. For a table from a file or a study."""
+        if self._record is None:
+            raise _errors.BadArgument("this table has numbers alone: its words went with the file or the study")
+        return np.array([lib.iso_record_word(self._record.pointer, x).decode() for x in self[name]])
+
     def __getattr__(self, name: str) -> NDArray[np.float64]:
         if name.startswith("_") or "_columns" not in self.__dict__:
             raise AttributeError(name)
@@ -199,11 +205,12 @@ def new_record() -> New:
     return New(lib.iso_record_free)
 
 
-def from_record(new: New, kind: str = "trajectory") -> Table:
+def from_record(new: New) -> Table:
     """The table of a new record, which it takes over."""
     if not new.value:
         raise _errors.IsorollError("the library gave no record")
     record = Record(new.take() or 0)
+    kind = lib.iso_record_kind(record.pointer).decode() or "trajectory"
     return Table(record.array(), record.columns(), record.lines(), kind=kind, record=record)
 
 
@@ -229,7 +236,7 @@ def as_record(table: Table) -> Record:
     record = Record(new.take() or 0)
     for key, value in table.lines.items():
         check(lib.iso_record_set(ctx, record.pointer, _bytes(key), _bytes(value)), ctx)
-    check(lib.iso_foreign_record_append(ctx, record.pointer, len(array), array.ctypes.data), ctx)
+    check(lib.iso_record_add(ctx, record.pointer, len(array), array.ctypes.data), ctx)
     return record
 
 

@@ -11,7 +11,6 @@
 #include <locale.h>
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdio.h>
 
 #include "base/record.h"
 
@@ -26,6 +25,7 @@ typedef struct iso_csv_format {
     size_t fields, columns;        /* columns: the numbers of a row                                     */
     short column[ISO_MOST_FIELDS]; /* of the row, for each field of the file; -1: passed over           */
     locale_t plain;                /* the C locale                                                      */
+    size_t longest;                /* a line is shorter than this                                       */
 } iso_csv_format;
 
 /* What is wrong with a row. */
@@ -56,21 +56,9 @@ char *iso_csv_next_cell(char **rest);
 /* Reads a cell as a number: finite, nan, inf, or empty, which is nan. */
 bool iso_csv_read_cell(locale_t plain, char *cell, double *value);
 
-/* Writes a cell. words: the record that has the words of its column, if there are any; else NULL. */
-void iso_csv_print_cell(FILE *to, const iso_record *words, size_t column, double value, int digits);
-
-/* Lines of a text so far, each with its end, and the key of the text. */
 enum { ISO_TEXT_KEY = 32 };
-typedef struct iso_csv_text {
-    char *text, key[ISO_TEXT_KEY];
-    size_t length, room;
-} iso_csv_text;
-
 /* The text in "# KEY | TEXT", and its key; NULL: the line is another one. */
 const char *iso_csv_text_line(const char *line, char key[ISO_TEXT_KEY]);
-
-/* Adds a line. False: no memory. */
-bool iso_csv_text_add(iso_csv_text *text, const char *key, const char *line);
 
 /* --- csv_lines.c ------------------------------------------------------------------------------------------------ */
 
@@ -83,15 +71,11 @@ typedef struct iso_csv_line {
     bool too_long;     /* longer than a line may be: the text is a part of it                              */
 } iso_csv_line;
 
-/* Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. name: what messages call the file; it must outlive the lines. */
-iso_status iso_csv_lines_open(iso_context *ctx, const char *path, const char *name, iso_csv_lines **lines);
+/* name: what messages call the file. format: as soon as it has columns, lines that are not yet in memory are read as
+ * rows, ahead. Both must outlive the lines. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+iso_status iso_csv_lines_open(iso_context *ctx, const char *path, const char *name, const iso_csv_format *format,
+                              iso_csv_lines **lines);
 void iso_csv_lines_close(iso_csv_lines *lines);
-
-/* Lines that are not yet in memory are read as rows from now on, ahead. The format must outlive the lines. */
-void iso_csv_lines_read_rows(iso_csv_lines *lines, const iso_csv_format *format);
-
-/* From now on lines may be as long as ISO_LONGEST_TEXT. */
-void iso_csv_lines_allow_texts(iso_csv_lines *lines);
 
 /* The next line; it is valid until the next call. *more false: there is none. Errors: ISO_FILE_TROUBLE; ISO_STOPPED,
  * if a signal comes while a pipe is waited for and the monitor of ctx says so. */

@@ -16,6 +16,7 @@
 
 #include "base/monitor_impl.h"
 #include "io/csv/csv_impl.h"
+#include "io/replacement_impl.h"
 #include "io/tasks_impl.h"
 #include "io/text_impl.h"
 
@@ -40,12 +41,11 @@ struct iso_csv_lines {
     bool ready, ended; /* ready: a regular file, which never lets one wait */
     int error;         /* errno of read(): told behind the lines before it */
     iso_tasks *tasks;
-    const iso_csv_format *format; /* NULL: rows are not yet read ahead */
+    const iso_csv_format *format; /* without columns: rows are not yet read ahead */
     block *ring[BLOCKS];
     int first, count; /* blocks that hold lines: count from first on */
     char *tail;       /* the beginning of the next block             */
     size_t tail_length, tail_room;
-    size_t longest; /* a line may be shorter than this */
 };
 
 /* --- a block's rows, by a thread -------------------------------------------------------------------------------- */
@@ -105,11 +105,6 @@ static bool is_ready(const iso_csv_lines *c)
     return c->ready || poll(&(struct pollfd){.fd = fileno(c->file), .events = POLLIN}, 1, 0) > 0;
 }
 
-static iso_status stopped(iso_context *ctx)
-{
-    return iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
-}
-
 /* Reads on, at most ISO_LONGEST_LINE characters. *got 0: the end, or an error, which is kept. */
 static iso_status read_more(iso_context *ctx, iso_csv_lines *c, char *to, size_t *got)
 {
@@ -119,7 +114,7 @@ static iso_status read_more(iso_context *ctx, iso_csv_lines *c, char *to, size_t
         c->ended = n == 0 || errno != EINTR;
         if (n < 0 && c->ended) c->error = errno;
         if (c->ended) return ISO_OK;
-        if (!iso_context_goes_on(ctx)) return stopped(ctx);
+        if (!iso_context_goes_on(ctx)) return iso_context_stopped(ctx);
     }
 }
 
@@ -131,7 +126,7 @@ static iso_status make_room(iso_context *ctx, iso_csv_lines *c, block *b, size_t
     char *tail = c->tail_room < room ? realloc(c->tail, room) : c->tail;
     if (tail) c->tail = tail, c->tail_room = room;
     char *text = tail ? realloc(b->text, room + 1) : NULL;
-    if (!text) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", c->name);
+    if (!text) return iso_text_no_memory(ctx, "read", c->name);
     b->text = text;
     b->room = room;
     return ISO_OK;
@@ -152,8 +147,8 @@ static iso_status skip_line(iso_context *ctx, iso_csv_lines *c, block *b)
     iso_status status = ISO_OK;
     b->too_long = true;
     b->length = 1;
-    while (status == ISO_OK && !c->ended && !end) {
-        status = iso_context_goes_on(ctx) ? read_more(ctx, c, rest, &got) : stopped(ctx); /* it may never end */
+    while (status == ISO_OK && !c->ended && !end) { /* it may never end */
+        status = iso_context_goes_on(ctx) ? read_more(ctx, c, rest, &got) : iso_context_stopped(ctx);
         end = memchr(rest, '\n', got);
     }
     if (end) keep_tail(c, end + 1, got - (size_t)(end + 1 - rest));
@@ -164,17 +159,16 @@ static iso_status skip_line(iso_context *ctx, iso_csv_lines *c, block *b)
 static iso_status fill(iso_context *ctx, iso_csv_lines *c, block *b)
 {
     size_t length = c->tail_length, got;
-    iso_status status = make_room(ctx, c, b, length);
-    if (status != ISO_OK) return status;
+    ISO_TRY(make_room(ctx, c, b, length));
     memcpy(b->text, c->tail, length);
     c->tail_length = b->length = b->at = b->known = b->next = 0;
     b->next_row = b->row;
     b->too_long = false;
     const char *end = memrchr(b->text, '\n', length);
     while (!c->ended && (!end || (length < ISO_LONGEST_LINE / 2 && is_ready(c)))) {
-        if (!end && length >= c->longest) return skip_line(ctx, c, b);
+        if (!end && length >= c->format->longest) return skip_line(ctx, c, b);
         got = 0;
-        status = make_room(ctx, c, b, length);
+        iso_status status = make_room(ctx, c, b, length);
         if (status == ISO_OK) status = read_more(ctx, c, b->text + length, &got);
         const char *later = memrchr(b->text + length, '\n', got);
         if (later) end = later;
@@ -194,7 +188,8 @@ static iso_status add_block(iso_context *ctx, iso_csv_lines *c)
     if (status != ISO_OK || b->length == 0) return status;
     c->count++;
     b->format = c->format;
-    if (c->format && !b->too_long && !memchr(b->text, '\0', b->length)) iso_tasks_give(c->tasks, &b->task);
+    if (c->format->columns > 0 && !b->too_long && !memchr(b->text, '\0', b->length))
+        iso_tasks_give(c->tasks, &b->task);
     return ISO_OK;
 }
 
@@ -202,7 +197,7 @@ static iso_status add_block(iso_context *ctx, iso_csv_lines *c)
 static int depth(const iso_csv_lines *c)
 {
     const int size = iso_tasks_size(c->tasks);
-    return c->format && size > 0 ? 2 * size + 2 : 1;
+    return c->format->columns > 0 && size > 0 ? 2 * size + 2 : 1;
 }
 
 /* Whether there is room for one more block, in which to read ahead. */
@@ -221,9 +216,9 @@ static iso_status next_block(iso_context *ctx, iso_csv_lines *c)
     if (c->count > 0) c->first = (c->first + 1) % BLOCKS, c->count--;
     while (status == ISO_OK && !c->ended && has_room(c) && (c->count == 0 || is_ready(c))) status = add_block(ctx, c);
     if (status == ISO_OK && c->count == 0 && c->error != 0)
-        status = iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot read '%s': %s", c->name, strerror(c->error));
+        errno = c->error, status = iso_file_trouble(ctx, "read", c->name);
     if (status == ISO_OK && c->count == 0 && !c->ended) /* not even one block could be made */
-        status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", c->name);
+        status = iso_text_no_memory(ctx, "read", c->name);
     if (status == ISO_OK && c->count > 0) iso_tasks_finish(c->tasks, &c->ring[c->first]->task);
     return status;
 }
@@ -247,7 +242,7 @@ static void take_unknown(const iso_csv_lines *c, block *b, iso_csv_line *line)
 {
     char *const text = b->text + b->at, *end = memchr(text, '\n', b->length - b->at);
     *line = (iso_csv_line){.text = text, .length = (size_t)((end ? end : b->text + b->length) - text)};
-    line->too_long = b->too_long || line->length >= c->longest;
+    line->too_long = b->too_long || line->length >= c->format->longest;
     b->at += line->length + (end != NULL);
     text[line->length] = '\0';
 }
@@ -260,19 +255,8 @@ iso_status iso_csv_lines_next(iso_context *ctx, iso_csv_lines *c, iso_csv_line *
         if (*more && b->next < b->known) return take_known(c, b, line), ISO_OK;
         if (*more && b->at < b->length) return take_unknown(c, b, line), ISO_OK;
         if (!*more && c->ended && c->error == 0) return ISO_OK;
-        const iso_status status = next_block(ctx, c);
-        if (status != ISO_OK) return status;
+        ISO_TRY(next_block(ctx, c));
     }
-}
-
-void iso_csv_lines_read_rows(iso_csv_lines *c, const iso_csv_format *format)
-{
-    c->format = format;
-}
-
-void iso_csv_lines_allow_texts(iso_csv_lines *c)
-{
-    c->longest = ISO_LONGEST_TEXT;
 }
 
 /* --- opening and closing ---------------------------------------------------------------------------------------- */
@@ -288,18 +272,18 @@ void iso_csv_lines_close(iso_csv_lines *c)
     free(c);
 }
 
-iso_status iso_csv_lines_open(iso_context *ctx, const char *path, const char *name, iso_csv_lines **lines)
+iso_status iso_csv_lines_open(iso_context *ctx, const char *path, const char *name, const iso_csv_format *format,
+                              iso_csv_lines **lines)
 {
     struct stat kind;
     iso_csv_lines *c = *lines = calloc(1, sizeof *c);
-    if (!c) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", name);
+    if (!c) return iso_text_no_memory(ctx, "read", name);
     c->name = name;
+    c->format = format;
     c->tasks = iso_tasks_create();
     c->tail_room = 2 * ISO_LONGEST_LINE;
     c->tail = malloc(c->tail_room);
-    c->longest = ISO_LONGEST_LINE;
-    if (!c->tasks || !c->tail || !has_room(c))
-        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", name);
+    if (!c->tasks || !c->tail || !has_room(c)) return iso_text_no_memory(ctx, "read", name);
     c->file = iso_text_open(ctx, path);
     if (!c->file) return ISO_FILE_TROUBLE;
     c->ready = fstat(fileno(c->file), &kind) == 0 && S_ISREG(kind.st_mode);

@@ -1,15 +1,17 @@
-/* csv_reader.c - reads tables from text: files of isoroll, and trajectories of other programs. csv_writer.c writes them.
- * This file knows the header and the messages, csv_lines.c reads lines, csv_row.c and csv_table.c what is in them. */
+/* csv_reader.c - reads tables from text: files of isoroll, and trajectories of other programs. This file knows the
+ * header and the messages, csv_lines.c reads lines, csv_row.c and csv_table.c what is in them. */
 #define _GNU_SOURCE /* strtod_l */
 #include <ctype.h>
 #include <locale.h>
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-#include "base/nearest.h"
-#include "base/number.h"
+#include "base/nearest_impl.h"
+#include "base/number_impl.h"
 #include "base/place_impl.h"
 #include "io/csv/csv_impl.h"
 #include "io/table_impl.h"
@@ -23,14 +25,13 @@ typedef struct csv {
     iso_table_reader *r;
     iso_csv_lines *lines;
     iso_csv_format format;
-    bool ours, again;               /* the file has our first line; the line is to be read once more */
+    bool ours, again;               /* a trajectory with our first line; the line is to be read once more */
     size_t orbit;                   /* the field of that name, from 1; 0: there is none              */
     bool callers;                   /* `line` is the caller's names of columns, no line of the file  */
     char *line;                     /* without its end                                               */
     size_t length, number;          /* number: of the line, from 1                                   */
     const double *row;              /* the line's numbers, if it was read ahead                      */
     char comment[ISO_LONGEST_LINE]; /* the last line of # that is no key: perhaps names              */
-    iso_csv_text text;
 } csv;
 
 /* A part of a line without the blanks around it, and the quotes. */
@@ -39,13 +40,22 @@ typedef struct field {
     size_t length;
 } field;
 
-static iso_status fail(const csv *c, const char *at, const char *message, const char *detail)
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+static iso_status
+fail(const csv *c, const char *at, const char *format, ...)
 {
-    if (c->callers) return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "columns", "columns: %s%s", message, detail);
+    char message[1024];
     size_t column = 1; /* in characters of UTF-8, as for scenes */
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    if (c->callers) return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "columns", "columns: %s", message);
     for (const char *x = c->line; at && x < at; x++) column += (*x & 0xC0) != 0x80;
-    return iso_context_placed(c->ctx, iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s:%zu:%zu: %s%s", c->r->name,
-                                                       c->number ? c->number : 1, column, message, detail));
+    return iso_context_placed(c->ctx, iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s:%zu:%zu: %s", c->r->name,
+                                                       c->number ? c->number : 1, column, message));
 }
 
 /* --- lines ------------------------------------------------------------------------------------------------------ */
@@ -63,10 +73,10 @@ static iso_status next_line(csv *c, bool *more)
     c->row = line.row;
     c->number++;
     if (c->row) return ISO_OK;
-    if (line.too_long) return fail(c, c->line, "this line is longer than 64 KiB: is this a trajectory file?", "");
+    if (line.too_long) return fail(c, c->line, "this line is longer than 64 KiB: is this a trajectory file?");
     if (c->number == 1 && strncmp(c->line, "\xEF\xBB\xBF", 3) == 0) c->line += 3, c->length -= 3; /* byte order */
     const char *nul = memchr(c->line, '\0', c->length);
-    if (nul) return fail(c, nul, "a NUL byte: this is not a text file", "");
+    if (nul) return fail(c, nul, "a NUL byte: this is not a text file");
     while (c->length > 0 && c->line[c->length - 1] == '\r') c->line[--c->length] = '\0';
     return ISO_OK;
 }
@@ -89,73 +99,49 @@ static iso_status read_key_line(csv *c)
     if (key.length == 0 || (colon[1] && !iso_is_blank(colon[1]))) return ISO_OK;
     key.text[key.length] = value.text[value.length] = '\0';
     if (iso_record_get(c->r->header, key.text) && c->format.fields == 0)
-        return fail(c, key.text, "duplicate key ", iso_text_quote(quoted, key.text, key.length));
+        return fail(c, key.text, "duplicate key %s", iso_text_quote(quoted, key.text, key.length));
     if (iso_record_line(c->r->header, MOST_KEYS - 1, &last_key, &last_value))
-        return fail(c, key.text, "more than 4096 lines '# key: value': is this a trajectory file?", "");
+        return fail(c, key.text, "more than 4096 lines '# key: value': is this a trajectory file?");
     return iso_record_set(c->ctx, c->r->header, key.text, value.text);
 }
 
 /* --- the lines of tables of isoroll ----------------------------------------------------------------------------- */
 
-/* The text that has come so far is a line of the header. */
-static iso_status end_text(csv *c)
-{
-    if (c->text.length == 0) return ISO_OK;
-    c->text.length = 0;
-    return iso_record_set(c->ctx, c->r->header, c->text.key, c->text.text);
-}
-
-/* "# KEY | LINE". *is_text false: it is no line of a text. */
-static iso_status read_text_line(csv *c, bool *is_text)
-{
-    char key[ISO_TEXT_KEY];
-    const char *line = iso_csv_text_line(c->line, key);
-    *is_text = line != NULL;
-    const iso_status status = line && strcmp(key, c->text.key) == 0 ? ISO_OK : end_text(c);
-    if (status != ISO_OK || !line) return status;
-    if (iso_csv_text_add(&c->text, key, line)) return ISO_OK;
-    return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", c->r->name);
-}
-
 /* "# isoroll KIND 1" */
 static iso_status read_kind(csv *c)
 {
     static const char begin[] = "# isoroll ";
-    char quoted[ISO_QUOTE_SIZE], kind[32], message[128];
+    char quoted[ISO_QUOTE_SIZE], kind[32];
     char *const at = c->line + strlen(begin), *version = strrchr(c->line, ' ');
     if (strncmp(c->line, begin, strlen(begin)) != 0 || version < at || version - at >= (ptrdiff_t)sizeof kind)
-        return fail(c, NULL, "expected '# isoroll KIND 1', the first line of a table of isoroll", "");
+        return fail(c, NULL, "expected '# isoroll KIND 1', the first line of a table of isoroll");
     *version++ = '\0';
     snprintf(kind, sizeof kind, "%s", at);
-    iso_text_quote(quoted, strcmp(version, "1") == 0 ? at : version,
-                   strlen(strcmp(version, "1") == 0 ? at : version));
-    snprintf(message, sizeof message, "expected version 1 of the format, not ");
-    if (strcmp(version, "1") != 0) return fail(c, version, message, quoted);
-    snprintf(message, sizeof message, "expected a table of the kind '%.32s', not ", c->r->kind ? c->r->kind : kind);
-    if (c->r->kind && strcmp(kind, c->r->kind) != 0) return fail(c, at, message, quoted);
+    if (strcmp(version, "1") != 0)
+        return fail(c, version, "expected version 1 of the %sformat, not %s", c->ours ? "trajectory " : "",
+                    iso_text_quote(quoted, version, strlen(version)));
+    if (c->r->kind && strcmp(kind, c->r->kind) != 0)
+        return fail(c, at, "expected a table of the kind '%.32s', not %s", c->r->kind,
+                    iso_text_quote(quoted, at, strlen(at)));
     iso_record_set_kind(c->r->header, kind);
-    iso_csv_lines_allow_texts(c->lines);
+    if (!c->ours) c->format.longest = ISO_LONGEST_TEXT;
     return ISO_OK;
 }
 
-static iso_status read_line_of_table(csv *c)
+/* A line of #. Files of other programs have lines of any text. */
+static iso_status read_comment(csv *c)
 {
-    bool text;
+    if (c->r->trajectory) {
+        const bool magic = strncmp(c->line, ISO_TRAJECTORY_MAGIC, strlen(ISO_TRAJECTORY_MAGIC)) == 0;
+        if (magic && c->format.fields > 0) return ISO_OK;
+        c->ours = c->ours || (magic && c->number == 1);
+        return magic && c->number == 1 ? read_kind(c) : read_key_line(c);
+    }
     if (c->number == 1) return read_kind(c);
-    const iso_status status = read_text_line(c, &text);
-    if (status != ISO_OK || text) return status;
-    if (strchr(c->line, ':')) return read_key_line(c);
-    return fail(c, NULL, "expected '# key: value'", "");
-}
-
-static iso_status read_magic(csv *c)
-{
-    const char *version = c->line + strlen(ISO_TRAJECTORY_MAGIC);
-    char quoted[ISO_QUOTE_SIZE];
-    c->ours = true;
-    if (strcmp(version, ISO_TRAJECTORY_VERSION) == 0) return ISO_OK;
-    return fail(c, version, "expected version " ISO_TRAJECTORY_VERSION " of the trajectory format, not ",
-                iso_text_quote(quoted, version, strlen(version)));
+    char key[ISO_TEXT_KEY];
+    const char *line = iso_csv_text_line(c->line, key);
+    if (line) return iso_record_add_line(c->ctx, c->r->header, key, line);
+    return strchr(c->line, ':') ? read_key_line(c) : fail(c, NULL, "expected '# key: value'");
 }
 
 /* The next line that is neither empty nor of #. */
@@ -163,20 +149,8 @@ static iso_status next_data(csv *c, bool *more)
 {
     iso_status status;
     while ((status = next_line(c, more)) == ISO_OK && *more) {
-        if (c->row) return ISO_OK;
-        if (c->line[0] != '#') {
-            if (trim(c->line, c->length).length > 0) return ISO_OK;
-            continue;
-        }
-        if (!c->r->trajectory) {
-            status = read_line_of_table(c);
-            if (status != ISO_OK) return status;
-            continue;
-        }
-        const bool magic = strncmp(c->line, ISO_TRAJECTORY_MAGIC, strlen(ISO_TRAJECTORY_MAGIC)) == 0;
-        if (magic && c->format.fields > 0) continue;
-        status = magic && c->number == 1 ? read_magic(c) : read_key_line(c);
-        if (status != ISO_OK) return status;
+        if (c->row || (*c->line != '#' && trim(c->line, c->length).length > 0)) return ISO_OK;
+        if (*c->line == '#' && (status = read_comment(c)) != ISO_OK) return status;
     }
     return status;
 }
@@ -205,15 +179,12 @@ static field next_field(char separator, char **rest)
 /* A column with an unknown name. In a file of isoroll it is a mistake; in other files it is ignored. */
 static iso_status skip_column(csv *c, const field *f, bool named)
 {
-    char quoted[ISO_QUOTE_SIZE], suggested[ISO_SUGGEST_SIZE], detail[ISO_QUOTE_SIZE + ISO_SUGGEST_SIZE + 8];
+    char quoted[ISO_QUOTE_SIZE], suggested[ISO_SUGGEST_SIZE];
     iso_text_quote(quoted, f->text, f->length);
     const char *names[ISO_TRAJECTORY_COLUMNS];
     const int columns = iso_column_names(names);
     iso_suggest(suggested, quoted, (size_t)columns, names);
-    if (c->ours || named) {
-        snprintf(detail, sizeof detail, "'%s'; %s", quoted, suggested);
-        return fail(c, f->text, "unknown column ", detail);
-    }
+    if (c->ours || named) return fail(c, f->text, "unknown column '%s'; %s", quoted, suggested);
     char *to = c->r->ignored;
     const size_t used = strlen(to), room = sizeof c->r->ignored - used;
     const bool near = iso_nearest(quoted, (size_t)columns, names) != NULL;
@@ -232,22 +203,23 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
     iso_status status = ISO_OK;
     for (char *rest = line; rest && status == ISO_OK; c->format.fields++) {
         const field f = next_field(separator, &rest);
-        if (c->format.fields == ISO_MOST_FIELDS) return fail(c, f.text, "more than 1024 columns", "");
+        if (c->format.fields == ISO_MOST_FIELDS) return fail(c, f.text, "more than 1024 columns");
         f.text[f.length] = '\0';
         c->format.column[c->format.fields] = -1;
         const int known = iso_column_find(f.text);
         if (named && strcmp(f.text, "-") == 0) continue;
         if (c->again && iso_number_read(f.text, f.length, &number))
-            return fail(c, f.text, "expected a line of column names such as t,omega1,omega2,... before the numbers",
-                        "; without one, --columns t,omega1,... names them");
+            return fail(c, f.text,
+                        "expected a line of column names such as t,omega1,omega2,... before the numbers; "
+                        "without one, --columns t,omega1,... names them");
         if (known < 0) {
-            const bool orbit = !c->ours && c->orbit == 0 && strcmp(f.text, ISO_ORBIT_COLUMN) == 0;
-            if (orbit) c->orbit = c->format.fields + 1;
-            if (!orbit || !named) status = skip_column(c, &f, named);
+            const bool orbit = c->orbit == 0 && strcmp(f.text, ISO_ORBIT_COLUMN) == 0;
+            if (orbit) c->orbit = c->format.fields + 1, c->r->at.orbits = true;
+            if (!orbit) status = skip_column(c, &f, named);
             continue;
         }
         for (size_t i = 0; i < count; i++)
-            if (strcmp(names[i], f.text) == 0) return fail(c, f.text, "duplicate column ", f.text);
+            if (strcmp(names[i], f.text) == 0) return fail(c, f.text, "duplicate column %s", f.text);
         c->format.column[c->format.fields] = (short)count;
         names[count++] = iso_column_name(known);
     }
@@ -272,19 +244,18 @@ static bool begins_with_number(csv *c)
 static iso_status read_header(csv *c, const char *columns)
 {
     bool more;
-    iso_status status = next_data(c, &more);
-    if (status != ISO_OK) return status;
+    ISO_TRY(next_data(c, &more));
     if (!more)
-        return fail(c, NULL, "expected a line of column names such as t,omega1,omega2,..., found the end of the file",
-                    "");
+        return fail(c, NULL,
+                    "expected a line of column names such as t,omega1,omega2,..., found the end of the file");
     char *const line = c->line, *names = columns ? strdup(columns) : NULL;
     const bool numbers = c->again = begins_with_number(c);
     c->format.separator = separator_of(line);
-    if (columns && !names) return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory for column names");
+    if (columns && !names) return iso_context_no_memory(c->ctx, "column names");
     const bool above = !columns && numbers && !c->ours && *c->comment;
     if (columns || above) c->line = columns ? names : c->comment;
     c->callers = columns != NULL;
-    status = read_names(c, c->line, columns ? ',' : separator_of(c->line), columns != NULL);
+    const iso_status status = read_names(c, c->line, columns ? ',' : separator_of(c->line), columns != NULL);
     c->callers = false;
     free(names);
     c->line = line;
@@ -297,20 +268,18 @@ static iso_status read_header_of_table(csv *c)
     const char *names[ISO_MOST_COLUMNS];
     bool more;
     size_t count = 0;
-    iso_status status = next_data(c, &more);
-    if (status == ISO_OK) status = end_text(c);
-    if (status != ISO_OK) return status;
-    if (!more || c->number == 1) return more ? read_kind(c) : fail(c, NULL, "expected a line of column names", "");
+    ISO_TRY(next_data(c, &more));
+    if (!more || c->number == 1) return more ? read_kind(c) : fail(c, NULL, "expected a line of column names");
     for (char *rest = c->line, *name; rest; names[count++] = name) {
-        if (count == ISO_MOST_COLUMNS) return fail(c, rest, "more than 5000 columns", "");
+        if (count == ISO_MOST_COLUMNS) return fail(c, rest, "more than 5000 columns");
         char *const at = rest;
         name = iso_csv_next_cell(&rest);
-        if (!name || !*name) return fail(c, at, "expected the name of a column", "");
+        if (!name || !*name) return fail(c, at, "expected the name of a column");
     }
-    status = iso_table_name_columns(c->ctx, c->r, count, names);
-    if (status == ISO_BAD_ARGUMENT) return fail(c, NULL, "expected names of columns, all different", "");
+    const iso_status status = iso_table_name_columns(c->ctx, c->r, count, names);
+    if (status == ISO_BAD_ARGUMENT) return fail(c, NULL, "expected names of columns, all different");
     for (size_t i = 0; status == ISO_OK && i < count; i++)
-        if (iso_table_has_words(names[i])) iso_record_set_words(c->r->header, i);
+        if (iso_table_has_words(names[i])) iso_record_set_words(c->r->header, i, true);
     c->format.fields = count;
     return status;
 }
@@ -319,21 +288,18 @@ static iso_status read_header_of_table(csv *c)
 
 static iso_status fail_count(const csv *c, const char *at, size_t found)
 {
-    char detail[64];
-    snprintf(detail, sizeof detail, "%zu numbers, one for each column, found %s%zu", c->format.fields,
-             at ? "more than " : "", found);
-    return fail(c, at ? at : c->line + strlen(c->line), "expected ", detail);
+    return fail(c, at ? at : c->line + strlen(c->line), "expected %zu numbers, one for each column, found %s%zu",
+                c->format.fields, at ? "more than " : "", found);
 }
 
 static iso_status fail_number(const csv *c, char *start, size_t i)
 {
-    char quoted[ISO_QUOTE_SIZE], detail[2 * ISO_QUOTE_SIZE], *rest = start;
+    char quoted[ISO_QUOTE_SIZE], *rest = start;
     const field f = next_field(c->format.separator, &rest);
     const bool comma = c->format.separator != ',' && memchr(f.text, ',', f.length);
-    snprintf(detail, sizeof detail, comma ? "%s, with a decimal point, not '%s'" : "%s, not '%s'",
-             i + 1 == c->orbit ? ISO_ORBIT_COLUMN : iso_record_name(c->r->header, (size_t)c->format.column[i]),
-             iso_text_quote(quoted, f.text, f.length));
-    return fail(c, f.text, "expected a finite number for ", detail);
+    return fail(c, f.text, "expected a finite number for %s%s, not '%s'",
+                i + 1 == c->orbit ? ISO_ORBIT_COLUMN : iso_record_name(c->r->header, (size_t)c->format.column[i]),
+                comma ? ", with a decimal point" : "", iso_text_quote(quoted, f.text, f.length));
 }
 
 static iso_status read_row(const csv *c, double row[])
@@ -351,20 +317,19 @@ static iso_status read_row(const csv *c, double row[])
 static iso_status read_row_of_table(csv *c, double row[])
 {
     iso_record *const r = c->r->header;
-    char *rest = c->line, quoted[ISO_QUOTE_SIZE], message[160];
+    char *rest = c->line, quoted[ISO_QUOTE_SIZE];
     for (size_t i = 0; i < c->format.fields; i++) {
         char *const at = rest ? rest : c->line + c->length;
-        if (!rest) return fail(c, at, "expected more cells, one for each column", "");
+        if (!rest) return fail(c, at, "expected more cells, one for each column");
         char *const cell = iso_csv_next_cell(&rest);
-        if (!cell) return fail(c, at, "expected a closing quote", "");
+        if (!cell) return fail(c, at, "expected a closing quote");
         const bool words = iso_record_has_words(r, i);
-        const iso_status status = words ? iso_record_intern(c->ctx, r, cell, &row[i]) : ISO_OK;
-        if (status != ISO_OK) return status;
-        snprintf(message, sizeof message, "expected a number for %s, not ", iso_record_name(r, i));
+        ISO_TRY(words ? iso_record_intern(c->ctx, r, cell, &row[i]) : ISO_OK);
         if (!words && !iso_csv_read_cell(c->format.plain, cell, &row[i]))
-            return fail(c, at, message, iso_text_quote(quoted, cell, strlen(cell)));
+            return fail(c, at, "expected a number for %s, not %s", iso_record_name(r, i),
+                        iso_text_quote(quoted, cell, strlen(cell)));
     }
-    return rest ? fail(c, rest, "expected one cell for each column, found more", "") : ISO_OK;
+    return rest ? fail(c, rest, "expected one cell for each column, found more") : ISO_OK;
 }
 
 /* Whether every field of the line is nan. */
@@ -386,11 +351,10 @@ static iso_status csv_next(iso_context *ctx, iso_table_reader *r, double row[], 
     const double *numbers = own;
     c->ctx = ctx;
     iso_status status = next_data(c, more);
-    for (; status == ISO_OK && *more && !c->row && r->passes && is_nan_row(c); r->passed++)
+    for (; status == ISO_OK && *more && !c->row && r->passes && is_nan_row(c); r->at.passed++)
         status = next_data(c, more);
-    r->line = c->number;
-    if (status == ISO_OK && !*more) return end_text(c);
-    if (status != ISO_OK) return status;
+    r->at.line = c->number;
+    if (status != ISO_OK || !*more) return status;
     if (r->forgets) iso_record_forget_words(r->header);
     if (!r->trajectory) return read_row_of_table(c, row);
     if (c->row)
@@ -400,7 +364,7 @@ static iso_status csv_next(iso_context *ctx, iso_table_reader *r, double row[], 
     if (status != ISO_OK) return status;
     const size_t columns = iso_record_columns(r->header);
     memcpy(row, numbers, columns * sizeof *row);
-    r->orbit = c->orbit > 0 ? numbers[columns] : 0;
+    r->at.orbit = c->orbit > 0 ? numbers[columns] : 0;
     return ISO_OK;
 }
 
@@ -412,7 +376,6 @@ static void csv_close(iso_table_reader *r)
     if (!c) return;
     iso_csv_lines_close(c->lines);
     if (c->format.plain) freelocale(c->format.plain);
-    free(c->text.text);
     free(c);
 }
 
@@ -423,16 +386,16 @@ static iso_status csv_open(iso_context *ctx, iso_table_reader *r, const char *co
         c->ctx = ctx;
         c->r = r;
         c->line = c->comment; /* "" */
+        c->format.longest = ISO_LONGEST_LINE;
         c->format.plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
     }
-    if (!c || !c->format.plain) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", r->name);
-    iso_status status = iso_csv_lines_open(ctx, r->path, r->name, &c->lines);
+    if (!c || !c->format.plain) return iso_text_no_memory(ctx, "read", r->name);
+    iso_status status = iso_csv_lines_open(ctx, r->path, r->name, &c->format, &c->lines);
     if (status == ISO_OK) status = iso_record_create(ctx, 0, NULL, &r->header);
     if (status == ISO_OK) status = r->trajectory ? read_header(c, columns) : read_header_of_table(c);
     if (status != ISO_OK || !r->trajectory) return status;
     c->format.columns = iso_record_columns(r->header);
     if (c->orbit > 0) c->format.column[c->orbit - 1] = (short)c->format.columns++;
-    iso_csv_lines_read_rows(c->lines, &c->format);
     return ISO_OK;
 }
 

@@ -13,7 +13,8 @@ static const unsigned char digit[256] = {
     ['+'] = 3, ['-'] = 3, ['.'] = 3, ['e'] = 3, ['E'] = 3, ['d'] = 3, ['D'] = 3, ['a'] = 2, ['b'] = 2, ['c'] = 2,
     ['f'] = 2, ['A'] = 2, ['B'] = 2, ['C'] = 2, ['F'] = 2, ['x'] = 2, ['X'] = 2, ['p'] = 2, ['P'] = 2};
 
-/* An exponent may have the letter D, as Fortran writes it. strtod would also take "nan" and "infinity"; their letters are not in the table above. */
+/* An exponent may have the letter D, as Fortran writes it. strtod would also take "nan" and "infinity"; their letters
+ * are not in the table above. */
 bool iso_csv_read_number(locale_t plain, char **at, double *value)
 {
     char *const start = *at, *end = start, *seen;

@@ -1,10 +1,10 @@
-/* csv_table.c - what only tables of isoroll have: cells with nan and words, perhaps in quotes; texts in lines of #. */
+/* csv_table.c - what only tables of isoroll have: cells with nan and words, perhaps in quotes; texts in lines of
+ * #. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number.h"
 #include "io/csv/csv_impl.h"
 #include "io/table_impl.h"
 
@@ -41,22 +41,6 @@ bool iso_csv_read_cell(locale_t plain, char *cell, double *value)
     return isnan(*value) || strcmp(cell + minus, "inf") == 0 || (iso_csv_read_number(plain, &end, value) && !*end);
 }
 
-void iso_csv_print_cell(FILE *to, const iso_record *words, size_t column, double value, int digits)
-{
-    char text[ISO_NUMBER_SIZE] = "nan";
-    if (words && iso_record_has_words(words, column)) {
-        const char *word = iso_record_word(words, value);
-        const bool empty_line = !*word && iso_record_columns(words) == 1;
-        const bool quoted = strpbrk(word, ", \"\r\n") || *word == '#' || empty_line;
-        if (quoted) putc('"', to);
-        for (; *word; word++) fprintf(to, quoted && *word == '"' ? "\"%c" : "%c", *word);
-        if (quoted) putc('"', to);
-        return;
-    }
-    if (!isnan(value)) iso_number_print_as(text, value, digits);
-    fputs(text, to);
-}
-
 /* --- texts ------------------------------------------------------------------------------------------------------ */
 
 const char *iso_csv_text_line(const char *line, char key[ISO_TEXT_KEY])
@@ -67,18 +51,4 @@ const char *iso_csv_text_line(const char *line, char key[ISO_TEXT_KEY])
     if (*bar != '|' || length >= ISO_TEXT_KEY || (bar[1] && bar[1] != ' ')) return NULL;
     snprintf(key, ISO_TEXT_KEY, "%.*s", length ? (int)length : ISO_TEXT_KEY, length ? begin : ISO_TABLE_TEXT);
     return bar + 1 + (bar[1] == ' ');
-}
-
-bool iso_csv_text_add(iso_csv_text *t, const char *key, const char *line)
-{
-    const size_t length = strlen(line), room = t->length + length + 2;
-    char *text = room > t->room ? realloc(t->text, 2 * room) : t->text;
-    if (!text) return false;
-    if (room > t->room) t->room = 2 * room;
-    t->text = text;
-    memcpy(text + t->length, line, length);
-    memcpy(text + t->length + length, "\n", 2);
-    t->length += length + 1;
-    strcpy(t->key, key);
-    return true;
 }

@@ -8,11 +8,12 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/number.h"
+#include "base/number_impl.h"
 #include "io/csv/csv_impl.h"
-#include "io/output.h"
+#include "io/output_impl.h"
 #include "io/table_impl.h"
 #include "io/tasks_impl.h"
+#include "io/text_impl.h"
 
 /* Rows of a block. A block holds LEAST rows at first, later a quarter of the rows before it, at most MOST. */
 enum { BLOCKS = 8, LEAST = 32, MOST = 512 };
@@ -31,7 +32,8 @@ typedef struct block {
 typedef struct csv {
     iso_output *out;
     iso_tasks *tasks;
-    bool seen; /* the file is a terminal: each row is shown at once */
+    bool seen;   /* the file is a terminal: each row is shown at once */
+    bool styled; /* some column has words, or a format of its own */
     block block[BLOCKS];
     int first, count; /* blocks that are printed, or wait for it; the one behind them is being filled */
     size_t rows;      /* given to blocks so far */
@@ -116,13 +118,59 @@ static FILE *stream_behind_rows(csv *c)
     return iso_output_stream(c->out);
 }
 
+/* --- lines ------------------------------------------------------------------------------------------------------ */
+
+/* Whether reading the line back gives the same key and value. */
+static bool is_line(const char *key, const char *value)
+{
+    const size_t k = strlen(key), v = strlen(value);
+    if (k == 0 || strpbrk(key, ":\r\n") || strpbrk(value, "\r\n")) return false;
+    if (strchr(" \t", key[0]) || strchr(" \t", key[k - 1])) return false;
+    return v == 0 || (!strchr(" \t", value[0]) && !strchr(" \t", value[v - 1]));
+}
+
+/* A text of whole lines, under a key that is one word. */
+static bool is_text(const char *key, const char *value)
+{
+    const size_t length = strlen(value);
+    return *key && !strpbrk(key, " \t:|\r\n") && length > 0 && value[length - 1] == '\n';
+}
+
+static iso_status check_line(iso_context *ctx, const char *key, const char *value)
+{
+    if (is_line(key, value) || is_text(key, value)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
+                            "'%s' cannot be a line '# key: value': a key has no colon, and both are one line", key);
+}
+
+/* Each line of a text as a comment. */
+static void write_text(FILE *to, const char *key, const char *text)
+{
+    const bool plain = strcmp(key, ISO_TABLE_TEXT) == 0;
+    while (*text) {
+        const size_t length = strcspn(text, "\r\n");
+        fprintf(to, "# %s%s| %.*s\n", plain ? "" : key, plain ? "" : " ", (int)length, text);
+        text += length;
+        if (*text == '\r') text++;
+        if (*text == '\n') text++;
+    }
+}
+
+static void write_line(FILE *to, const char *key, const char *value)
+{
+    if (is_text(key, value))
+        write_text(to, key, value);
+    else
+        fprintf(to, *value ? "# %s: %s\n" : "# %s:\n", key, value);
+}
+
 /* --- the file --------------------------------------------------------------------------------------------------- */
 
 static iso_status csv_open(iso_context *ctx, iso_table_writer *w, const char *path)
 {
     csv *c = w->data = calloc(1, sizeof *c);
     if (c) c->tasks = iso_tasks_create();
-    if (!c || !c->tasks) return free(c), iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write '%s'", path);
+    if (!c || !c->tasks) return free(c), iso_text_no_memory(ctx, "write", path);
     const iso_status status = iso_output_open(ctx, path, &c->out);
     if (status != ISO_OK) return iso_tasks_free(c->tasks), free(c), status;
     w->name = iso_output_name(c->out);
@@ -134,23 +182,57 @@ static iso_status csv_open(iso_context *ctx, iso_table_writer *w, const char *pa
 static iso_status csv_line(iso_context *ctx, iso_table_writer *w, const char *key, const char *value)
 {
     csv *c = w->data;
-    const iso_status status = iso_table_line(ctx, stream_behind_rows(c), key, value);
-    return status == ISO_OK ? iso_output_check(ctx, c->out) : status;
+    FILE *to = stream_behind_rows(c);
+    ISO_TRY(check_line(ctx, key, value));
+    write_line(to, key, value);
+    return iso_output_check(ctx, c->out);
 }
 
 static iso_status csv_header(iso_context *ctx, iso_table_writer *w, const iso_record *header)
 {
     csv *c = w->data;
-    const iso_status status = iso_table_begin(ctx, iso_output_stream(c->out), w->kind, header);
-    return status == ISO_OK ? iso_output_check(ctx, c->out) : status;
+    FILE *const to = iso_output_stream(c->out);
+    const char *key, *value;
+    const size_t columns = iso_record_columns(header);
+    for (size_t i = 0; iso_record_line(header, i, &key, &value); i++) ISO_TRY(check_line(ctx, key, value));
+    fprintf(to, "# isoroll %s 1\n", w->kind);
+    for (size_t i = 0; iso_record_line(header, i, &key, &value); i++) write_line(to, key, value);
+    for (size_t i = 0; i < columns; i++) {
+        const iso_column_format *format = iso_record_format(header, i);
+        c->styled = c->styled || iso_record_has_words(header, i) || format->digits || format->empty;
+        fprintf(to, "%s%c", iso_record_name(header, i), i + 1 < columns ? ',' : '\n');
+    }
+    return iso_output_check(ctx, c->out);
 }
 
-/* Rows with words are written as they come. */
-static void write_words(iso_table_writer *w, FILE *to, const double row[])
+/* In quotes where it would not read back without. */
+static void print_word(FILE *to, const char *word, bool plain, bool alone)
+{
+    const bool quoted = strpbrk(word, plain ? ",\"\r\n" : ", \"\r\n") || *word == '#' || (alone && !*word);
+    if (quoted) putc('"', to);
+    for (; *word; word++) fprintf(to, quoted && *word == '"' ? "\"%c" : "%c", *word);
+    if (quoted) putc('"', to);
+}
+
+static void print_cell(FILE *to, const iso_record *r, size_t column, double value, int digits)
+{
+    char text[ISO_NUMBER_SIZE] = "nan";
+    const iso_column_format *format = iso_record_format(r, column);
+    if (iso_record_has_words(r, column)) {
+        print_word(to, iso_record_word(r, value), format->plain, iso_record_columns(r) == 1);
+        return;
+    }
+    if (!isfinite(value) && format->empty) return;
+    if (!isnan(value)) iso_number_print_as(text, value, format->digits ? format->digits : digits);
+    fputs(text, to);
+}
+
+/* Rows with words, or with formats, are written as they come. */
+static void write_styled(const iso_table_writer *w, FILE *to, const double row[])
 {
     const size_t columns = iso_record_columns(w->header);
     for (size_t i = 0; i < columns; i++) {
-        iso_csv_print_cell(to, w->words, i, row[i], w->digits);
+        print_cell(to, w->words ? w->words : w->header, i, row[i], w->digits);
         putc(i + 1 < columns ? ',' : '\n', to);
     }
 }
@@ -158,13 +240,13 @@ static void write_words(iso_table_writer *w, FILE *to, const double row[])
 static iso_status csv_row(iso_context *ctx, iso_table_writer *w, const double row[])
 {
     csv *c = w->data;
-    if (w->words) {
-        write_words(w, iso_output_stream(c->out), row);
+    if (c->styled) {
+        write_styled(w, iso_output_stream(c->out), row);
         return iso_output_check(ctx, c->out);
     }
     block *b = &c->block[(c->first + c->count) % BLOCKS];
     const size_t columns = iso_record_columns(w->header);
-    if (!has_room(b, columns)) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for rows of '%s'", w->name);
+    if (!has_room(b, columns)) return iso_context_no_memory(ctx, "rows of '%s'", w->name);
     b->digits = w->digits;
     memcpy(b->row + b->rows++ * columns, row, columns * sizeof *row);
     c->rows++;

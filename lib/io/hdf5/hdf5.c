@@ -1,33 +1,41 @@
 /* hdf5.c - what the reader and the writer of tables as HDF5 share. */
 #include "io/hdf5/hdf5_impl.h"
 #include "model/model_impl.h"
+#include "orbit/orbit_impl.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const iso_hdf5_part own_parts[] = {
-    {"clock", "t", ISO_CLOCK_T, 1},
-    {"clock", "tau", ISO_CLOCK_TAU, 1},
-    {"clock", "s", ISO_CLOCK_S, 1},
-    {"ball", "omega", ISO_COLUMN_BALL, 3},
-    {"ball", "n", ISO_COLUMN_BALL + 3, 3},
-    {"point", "M", ISO_COLUMN_POINT, 3},
-    {"point", "gamma", ISO_COLUMN_POINT + 3, 3},
-};
-
-int iso_hdf5_parts(iso_hdf5_part parts[ISO_HDF5_PARTS])
+int iso_hdf5_part(const char *const names[], size_t count, const char **group, const char **name)
 {
-    int count = (int)(sizeof own_parts / sizeof *own_parts), column = ISO_COLUMN_EFFECTS;
-    const int end = iso_columns_count();
-    memcpy(parts, own_parts, sizeof own_parts);
-    while (column < end) {
-        const iso_effect_column *group;
-        iso_effect_column_name(column - ISO_COLUMN_EFFECTS, NULL, &group, NULL);
-        parts[count++] = (iso_hdf5_part){"ball", group->name, column, group->count};
-        column += group->count;
+    static const struct {
+        const char *group, *name;
+        int first, count;
+    } parts[] = {{"clock", "t", ISO_CLOCK_T, 1},
+                 {"clock", "tau", ISO_CLOCK_TAU, 1},
+                 {"clock", "s", ISO_CLOCK_S, 1},
+                 {"ball", "omega", ISO_COLUMN_BALL, 3},
+                 {"ball", "n", ISO_COLUMN_BALL + 3, 3},
+                 {"point", "M", ISO_COLUMN_POINT, 3},
+                 {"point", "gamma", ISO_COLUMN_POINT + 3, 3}};
+    const int at = iso_column_find(names[0]);
+    int first = at, columns = 1;
+    const char *whole = names[0];
+    if (at < 0) return 1;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        if (parts[i].first <= at && at < parts[i].first + parts[i].count)
+            *group = parts[i].group, whole = parts[i].name, first = parts[i].first, columns = parts[i].count;
+    if (at >= ISO_COLUMN_EFFECTS) {
+        const iso_effect_column *of;
+        iso_effect_column_name(at - ISO_COLUMN_EFFECTS, NULL, &of, &first);
+        first = at - first;
+        *group = "ball", whole = of->name, columns = of->count;
     }
-    return count;
+    for (int i = 0; i < columns; i++)
+        if (at != first || (size_t)i == count || strcmp(names[i], iso_column_name(first + i)) != 0) return 1;
+    *name = whole;
+    return columns;
 }
 
 iso_status iso_hdf5_trouble(iso_context *ctx, const char *what, const char *name)
@@ -39,10 +47,8 @@ iso_status iso_hdf5_trouble(iso_context *ctx, const char *what, const char *name
                             name);
 }
 
-/* HDF5 would close at exit what it could not close before, a file on a full disk, and crash on it (1.10). */
 iso_hdf5_store *iso_hdf5_store_create(void)
 {
-    H5dont_atexit();
     iso_hdf5_store *s = calloc(1, sizeof *s);
     if (!s) return NULL;
     s->file = s->failed.point = s->failed.reason = -1;
@@ -62,7 +68,7 @@ bool iso_hdf5_store_add(iso_hdf5_store *s, iso_hdf5_set set)
         s->set = more;
         s->set[s->sets++] = set;
     } else if (set.id >= 0) {
-        H5Dclose(set.id);
+        h5.Dclose(set.id);
     }
     return more != NULL;
 }
@@ -79,11 +85,11 @@ bool iso_hdf5_store_free(iso_hdf5_store *s)
 {
     bool good = true;
     if (!s) return true;
-    for (int i = 0; i < s->sets; i++) good = H5Dclose(s->set[i].id) >= 0 && good;
-    if (s->failed.point >= 0) good = H5Dclose(s->failed.point) >= 0 && good;
-    if (s->failed.reason >= 0) good = H5Dclose(s->failed.reason) >= 0 && good;
+    for (int i = 0; i < s->sets; i++) good = h5.Dclose(s->set[i].id) >= 0 && good;
+    if (s->failed.point >= 0) good = h5.Dclose(s->failed.point) >= 0 && good;
+    if (s->failed.reason >= 0) good = h5.Dclose(s->failed.reason) >= 0 && good;
     free(s->set);
-    if (s->file >= 0) good = H5Fclose(s->file) >= 0 && good;
+    if (s->file >= 0) good = h5.Fclose(s->file) >= 0 && good;
     free(s->block);
     free(s->packed);
     free(s);
@@ -92,20 +98,10 @@ bool iso_hdf5_store_free(iso_hdf5_store *s)
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
-/* Without HDF5's own lock: on some network file systems it would meet the one that a replacement holds. */
-hid_t iso_hdf5_create(const char *path)
-{
-    const hid_t plan = H5Pcreate(H5P_FILE_ACCESS);
-    H5Pset_file_locking(plan, false, true);
-    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, plan);
-    H5Pclose(plan);
-    return file;
-}
-
 hid_t iso_hdf5_access(void)
 {
-    const hid_t plan = H5Pcreate(H5P_DATASET_ACCESS);
-    H5Pset_chunk_cache(plan, 1, 4 * ISO_HDF5_BLOCK * sizeof(double), 1);
+    const hid_t plan = h5.Pcreate(H5P_DATASET_ACCESS);
+    h5.Pset_chunk_cache(plan, 1, 4 * ISO_HDF5_BLOCK * sizeof(double), 1);
     return plan;
 }
 
@@ -113,13 +109,13 @@ hid_t iso_hdf5_access(void)
 static bool move(const iso_hdf5_set *d, hid_t type, hsize_t first, hsize_t rows, void *data, bool write)
 {
     const hsize_t start[2] = {first, 0}, size[2] = {rows, (hsize_t)d->count}, end[2] = {first + rows, size[1]};
-    if (write && d->grows && H5Dset_extent(d->id, end) < 0) return false;
-    const hid_t there = H5Dget_space(d->id), here = H5Screate_simple(d->count > 1 ? 2 : 1, size, NULL);
-    bool good = H5Sselect_hyperslab(there, H5S_SELECT_SET, start, NULL, size, NULL) >= 0;
-    if (good && write) good = H5Dwrite(d->id, type, here, there, H5P_DEFAULT, data) >= 0;
-    if (good && !write) good = H5Dread(d->id, type, here, there, H5P_DEFAULT, data) >= 0;
-    H5Sclose(here);
-    H5Sclose(there);
+    if (write && d->grows && h5.Dset_extent(d->id, end) < 0) return false;
+    const hid_t there = h5.Dget_space(d->id), here = h5.Screate_simple(d->count > 1 ? 2 : 1, size, NULL);
+    bool good = h5.Sselect_hyperslab(there, H5S_SELECT_SET, start, NULL, size, NULL) >= 0;
+    if (good && write) good = h5.Dwrite(d->id, type, here, there, H5P_DEFAULT, data) >= 0;
+    if (good && !write) good = h5.Dread(d->id, type, here, there, H5P_DEFAULT, data) >= 0;
+    h5.Sclose(here);
+    h5.Sclose(there);
     return good;
 }
 
@@ -141,9 +137,9 @@ static bool move_numbers(const iso_hdf5_store *s, const iso_hdf5_set *d, hsize_t
 static bool move_texts(const iso_hdf5_store *s, const iso_hdf5_set *d, hsize_t first, size_t count,
                        double *const number[], bool write)
 {
-    const hid_t type = H5Dget_type(d->id);
-    const bool varies = H5Tis_variable_str(type) > 0;
-    const size_t size = varies ? sizeof(char *) : H5Tget_size(type);
+    const hid_t type = h5.Dget_type(d->id);
+    const bool varies = h5.Tis_variable_str(type) > 0;
+    const size_t size = varies ? sizeof(char *) : h5.Tget_size(type);
     char *text = calloc(count + 1, size), **texts = (char **)(void *)text;
     bool good = text && (varies || size > 0);
     for (size_t i = 0; good && write && i < count; i++) {
@@ -160,9 +156,9 @@ static bool move_texts(const iso_hdf5_store *s, const iso_hdf5_set *d, hsize_t f
         good = iso_record_intern(s->ctx, s->interned, word ? word : "", number[i]) == ISO_OK;
     }
     for (size_t i = 0; text && varies && !write && i < count; i++)
-        if (texts[i]) H5free_memory(texts[i]);
+        if (texts[i]) h5.free_memory(texts[i]);
     free(text);
-    H5Tclose(type);
+    h5.Tclose(type);
     return good;
 }
 
@@ -203,35 +199,4 @@ bool iso_hdf5_transfer(iso_hdf5_store *s, hsize_t first, bool write)
     }
     for (size_t i = 0; s->counts && !write && i < s->filled; i++) s->block[i * s->columns] = (double)(first + i);
     return good && move_failures(s, write);
-}
-
-/* --- attributes ------------------------------------------------------------------------------------------------- */
-
-static bool write_attribute(hid_t at, const char *key, hid_t type, hid_t space, const void *value)
-{
-    const hid_t attribute = H5Acreate2(at, key, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    const bool written = attribute >= 0 && H5Awrite(attribute, type, value) >= 0;
-    if (attribute >= 0) H5Aclose(attribute);
-    return written;
-}
-
-/* Text of variable length, since Python reads that as text and not as bytes. */
-bool iso_hdf5_write_text(hid_t at, const char *key, const char *value)
-{
-    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
-    H5Tset_size(type, H5T_VARIABLE);
-    H5Tset_cset(type, H5T_CSET_UTF8);
-    const bool written = write_attribute(at, key, type, space, &value);
-    H5Tclose(type);
-    H5Sclose(space);
-    return written;
-}
-
-bool iso_hdf5_write_numbers(hid_t at, const char *key, int count, const double numbers[])
-{
-    const hsize_t size = (hsize_t)count;
-    const hid_t space = count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, NULL);
-    const bool written = write_attribute(at, key, H5T_NATIVE_DOUBLE, space, numbers);
-    H5Sclose(space);
-    return written;
 }

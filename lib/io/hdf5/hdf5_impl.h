@@ -9,8 +9,9 @@
  *     /point        M, gamma                  rows x 3
  *     /KIND         all other columns, such as /section/orbit: doubles, or texts of variable length
  *
- * Numbers are doubles. If the number of rows is known before them, a dataset has just their room; else it has chunks of
- * ISO_HDF5_BLOCK rows. Trajectories and sections of version 0.1 have no "columns"; their datasets may stand at the root.
+ * Numbers are doubles. If the number of rows is known before them, a dataset has just their room; else it has chunks
+ * of ISO_HDF5_BLOCK rows. Trajectories and sections of version 0.1 have no "columns"; their datasets may stand at the
+ * root.
  *
  * The result of a sweep has the line "columns" of its own, which names datasets:
  *
@@ -27,18 +28,12 @@
 #include "io/table_impl.h"
 #include "orbit/scene.h"
 
-enum { ISO_HDF5_BLOCK = 4096, ISO_HDF5_NUMBERS = 16 /* of an attribute */, ISO_HDF5_REASON = 200 };
+enum { ISO_HDF5_BLOCK = 4096, ISO_HDF5_NUMBERS = 16 /* of an attribute */, ISO_HDF5_TEXT = 200 };
 #define ISO_HDF5_COLUMNS "columns"
 
-/* A dataset of the layout: it holds columns first ... first + count - 1 of a trajectory (iso_column_name). */
-typedef struct iso_hdf5_part {
-    const char *group, *name;
-    int first, count;
-} iso_hdf5_part;
-enum { ISO_HDF5_PARTS = ISO_TRAJECTORY_COLUMNS }; /* room for them */
-
-/* Lists them, those of the effects last; gives how many there are. */
-int iso_hdf5_parts(iso_hdf5_part parts[ISO_HDF5_PARTS]);
+/* How many of these columns, from the first on, stand in one dataset: those of a whole part of a trajectory, such as
+ * /ball/omega, or one. *group and *name are set to those of the dataset if it is of a trajectory. */
+int iso_hdf5_part(const char *const names[], size_t count, const char **group, const char **name);
 
 /* One dataset and the columns of the record it holds. */
 typedef struct iso_hdf5_set {
@@ -90,15 +85,8 @@ bool iso_hdf5_store_free(iso_hdf5_store *s);
 /* The block's rows from row `first` of the file on, between the block and every dataset. */
 bool iso_hdf5_transfer(iso_hdf5_store *s, hsize_t first, bool write);
 
-/* A file that is to be written, under the name that a replacement has; negative: it fails. */
-hid_t iso_hdf5_create(const char *path);
-
 /* How datasets are accessed: chunk by chunk, of which none need be kept. */
 hid_t iso_hdf5_access(void);
-
-/* Attributes: text, and numbers. False: it fails. */
-bool iso_hdf5_write_text(hid_t at, const char *key, const char *value);
-bool iso_hdf5_write_numbers(hid_t at, const char *key, int count, const double numbers[]);
 
 /* Records that the HDF5 library failed, which does not say why. Returns ISO_FILE_TROUBLE. */
 iso_status iso_hdf5_trouble(iso_context *ctx, const char *what, const char *name);

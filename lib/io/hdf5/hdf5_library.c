@@ -1,15 +1,13 @@
 /* hdf5_library.c - loads the HDF5 library when it is first needed (hdf5_library_impl.h). The table is the library's:
  * there is one in a process, as there is one HDF5. */
-#define ISO_HDF5_TABLE
 #include "io/hdf5/hdf5_library_impl.h"
 
 #include <dlfcn.h>
 #include <pthread.h>
 #include <string.h>
 
-iso_hdf5_library iso_hdf5;
+iso_hdf5_library h5;
 
-static pthread_once_t once = PTHREAD_ONCE_INIT;
 static char trouble[256]; /* "": the table is full */
 
 /* Finds the address of a function or a variable of the library. */
@@ -25,18 +23,17 @@ static void find(void *library, const char *name, void *pointer)
 static void load(void)
 {
     void *const library = dlopen(ISO_HDF5_SONAME, RTLD_NOW | RTLD_LOCAL);
-#define FIND(name) find(library, #name, &iso_hdf5.name);
+#define FIND(name) find(library, "H5" #name, &h5.name);
     ISO_HDF5_NAMES(FIND)
-}
-
-bool iso_hdf5_is_there(void)
-{
-    pthread_once(&once, load);
-    return !*trouble;
+    if (*trouble) return;
+    h5.dont_atexit(); /* it would close what it could not close before, as on a full disk, and crash (1.10) */
+    h5.open();
 }
 
 iso_status iso_hdf5_load(iso_context *ctx)
 {
-    if (iso_hdf5_is_there()) return ISO_OK;
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, load);
+    if (!*trouble) return ISO_OK;
     return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "no HDF5 library, which files in .h5 need: %s", trouble);
 }

@@ -8,6 +8,7 @@
 #include "base/place_impl.h"
 #include "io/hdf5/hdf5_impl.h"
 #include "io/text_impl.h"
+#include "orbit/orbit_impl.h"
 
 static iso_status bad_file(iso_context *ctx, const iso_table_reader *r, const char *what, const char *name)
 {
@@ -18,15 +19,15 @@ static iso_status bad_file(iso_context *ctx, const iso_table_reader *r, const ch
 static char *read_text(hid_t a, hid_t type)
 {
     char *text = NULL, *variable = NULL;
-    if (H5Tis_variable_str(type) > 0) {
-        const hid_t memory = H5Tcopy(H5T_C_S1);
-        H5Tset_size(memory, H5T_VARIABLE);
-        H5Tset_cset(memory, H5Tget_cset(type));
-        if (H5Aread(a, memory, &variable) >= 0 && variable) text = strdup(variable);
-        if (variable) H5free_memory(variable);
-        H5Tclose(memory);
-    } else if ((text = calloc(1, H5Tget_size(type) + 1))) {
-        H5Aread(a, type, text);
+    if (h5.Tis_variable_str(type) > 0) {
+        const hid_t memory = h5.Tcopy(H5T_C_S1);
+        h5.Tset_size(memory, H5T_VARIABLE);
+        h5.Tset_cset(memory, h5.Tget_cset(type));
+        if (h5.Aread(a, memory, &variable) >= 0 && variable) text = strdup(variable);
+        if (variable) h5.free_memory(variable);
+        h5.Tclose(memory);
+    } else if ((text = calloc(1, h5.Tget_size(type) + 1))) {
+        h5.Aread(a, type, text);
     }
     return text;
 }
@@ -54,20 +55,20 @@ static iso_status read_attribute(iso_context *ctx, iso_table_reader *r, hid_t fi
     double numbers[ISO_HDF5_NUMBERS];
     char *text = NULL;
     iso_status status = ISO_OK;
-    const hid_t a = H5Aopen(file, key, H5P_DEFAULT), type = H5Aget_type(a), space = H5Aget_space(a);
-    const hssize_t count = H5Sget_simple_extent_npoints(space);
-    const H5T_class_t class = H5Tget_class(type);
+    const hid_t a = h5.Aopen(file, key, H5P_DEFAULT), type = h5.Aget_type(a), space = h5.Aget_space(a);
+    const hssize_t count = h5.Sget_simple_extent_npoints(space);
+    const H5T_class_t class = h5.Tget_class(type);
     if ((class == H5T_FLOAT || class == H5T_INTEGER) && count >= 1 && count <= ISO_HDF5_NUMBERS) {
-        if (H5Aread(a, H5T_NATIVE_DOUBLE, numbers) >= 0)
+        if (h5.Aread(a, H5T_NATIVE_DOUBLE, numbers) >= 0)
             status = iso_record_set_numbers(ctx, r->header, key, (size_t)count, numbers);
     } else if (class == H5T_STRING && count == 1 && (text = read_text(a, type))) {
         if (r->trajectory) text[strcspn(text, "\r\n")] = '\0';
         status = strcmp(key, "format") == 0 ? read_format(ctx, r, text) : iso_record_set(ctx, r->header, key, text);
     }
     free(text);
-    H5Sclose(space);
-    H5Tclose(type);
-    H5Aclose(a);
+    h5.Sclose(space);
+    h5.Tclose(type);
+    h5.Aclose(a);
     return status;
 }
 
@@ -76,10 +77,10 @@ static iso_status read_attributes(iso_context *ctx, iso_table_reader *r, hid_t f
     char key[256];
     iso_status status = ISO_OK;
     H5O_info1_t info;
-    if (H5Oget_info2(file, &info, H5O_INFO_NUM_ATTRS) < 0) return iso_hdf5_trouble(ctx, "read", r->name);
+    if (h5.Oget_info2(file, &info, H5O_INFO_NUM_ATTRS) < 0) return iso_hdf5_trouble(ctx, "read", r->name);
     for (hsize_t i = 0; status == ISO_OK && i < info.num_attrs; i++) {
         const ssize_t length =
-            H5Aget_name_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, i, key, sizeof key, H5P_DEFAULT);
+            h5.Aget_name_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, i, key, sizeof key, H5P_DEFAULT);
         if (length > 0 && (size_t)length < sizeof key) status = read_attribute(ctx, r, file, key);
     }
     if (status == ISO_OK && !r->trajectory && !*iso_record_kind(r->header))
@@ -87,163 +88,132 @@ static iso_status read_attributes(iso_context *ctx, iso_table_reader *r, hid_t f
     return status;
 }
 
+/* Whether there is /group/name, which *path then is. */
+static bool is_in_group(hid_t file, const char *group, const char *name, char path[ISO_HDF5_TEXT])
+{
+    snprintf(path, ISO_HDF5_TEXT, "/%s/%s", group, name);
+    return *group && h5.Lexists(file, group, H5P_DEFAULT) > 0 && h5.Lexists(file, path, H5P_DEFAULT) > 0;
+}
+
 /* Opens /group/name, or /name. */
 static hid_t open_set(hid_t file, const char *group, const char *name)
 {
-    char path[200];
-    snprintf(path, sizeof path, "/%s/%s", group, name);
-    const bool grouped = *group && H5Lexists(file, group, H5P_DEFAULT) > 0 && H5Lexists(file, path, H5P_DEFAULT) > 0;
-    if (!grouped && H5Lexists(file, name, H5P_DEFAULT) <= 0) return -1;
-    const hid_t access = iso_hdf5_access(), id = H5Dopen2(file, grouped ? path : name, access);
-    H5Pclose(access);
+    char path[ISO_HDF5_TEXT];
+    const bool grouped = is_in_group(file, group, name, path);
+    if (!grouped && h5.Lexists(file, name, H5P_DEFAULT) <= 0) return -1;
+    const hid_t access = iso_hdf5_access(), id = h5.Dopen2(file, grouped ? path : name, access);
+    h5.Pclose(access);
     return id;
 }
 
 /* --- columns ---------------------------------------------------------------------------------------------------- */
 
-/* The columns found so far, and those that the file names, if it does. */
+/* The columns found so far; the names of those that may come next stand behind them. */
 typedef struct finding {
     iso_context *ctx;
     iso_table_reader *r;
     size_t count;
-    const char *name[ISO_MOST_COLUMNS + 4];
-    bool words[ISO_MOST_COLUMNS + 4];
+    const char *name[ISO_MOST_COLUMNS + ISO_TRAJECTORY_COLUMNS];
 } finding;
 
 /* Adds a dataset of `count` columns (id < 0: there is none). It must have as many rows as the others. */
-static iso_status add_set(finding *c, hid_t id, const char *name, const char *const names[], int count)
+static iso_status add_set(finding *c, hid_t id, const char *name, int count)
 {
     iso_hdf5_store *s = c->r->data;
     hsize_t size[2] = {0, 1};
     if (id < 0) return ISO_OK;
-    const hid_t space = H5Dget_space(id), type = H5Dget_type(id);
-    const int rank = H5Sget_simple_extent_ndims(space);
-    const bool words = H5Tget_class(type) == H5T_STRING, first = s->sets == 0;
-    if (rank == 1 || rank == 2) H5Sget_simple_extent_dims(space, size, NULL);
-    H5Tclose(type);
-    H5Sclose(space);
+    const hid_t space = h5.Dget_space(id), type = h5.Dget_type(id);
+    const int rank = h5.Sget_simple_extent_ndims(space);
+    const bool words = h5.Tget_class(type) == H5T_STRING, first = s->sets == 0;
+    if (rank == 1 || rank == 2) h5.Sget_simple_extent_dims(space, size, NULL);
+    h5.Tclose(type);
+    h5.Sclose(space);
     if (!iso_hdf5_store_add(s, (iso_hdf5_set){.id = id, .first = (int)c->count, .count = count, .words = words}))
-        return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", c->r->name);
+        return iso_text_no_memory(c->ctx, "read", c->r->name);
     if (rank != (count > 1 ? 2 : 1) || size[1] != (hsize_t)count || (words && (count > 1 || c->r->trajectory)))
         return bad_file(c->ctx, c->r, "expected a dataset of rows x components: ", name);
     if (!first && size[0] != s->rows)
         return bad_file(c->ctx, c->r, "this dataset has another number of rows than the others: ", name);
     s->rows = size[0];
-    if (c->count + (size_t)count > ISO_MOST_COLUMNS) return bad_file(c->ctx, c->r, "more than 5000 columns", "");
-    for (int i = 0; i < count; i++, c->count++) {
-        c->name[c->count] = names[i];
-        c->words[c->count] = words;
-    }
-    return ISO_OK;
+    c->count += (size_t)count;
+    return c->count <= ISO_MOST_COLUMNS ? ISO_OK : bad_file(c->ctx, c->r, "more than 5000 columns", "");
 }
 
-/* Those of a trajectory. */
-static iso_status find_parts(finding *c)
+/* Adds the datasets of these columns, in their order. A column without one is passed over. */
+static iso_status find_columns(finding *c, const char *group, const char *const names[], size_t count)
 {
     const iso_hdf5_store *s = c->r->data;
-    iso_hdf5_part parts[ISO_HDF5_PARTS];
     iso_status status = ISO_OK;
-    const int count = iso_hdf5_parts(parts);
-    for (int p = 0; status == ISO_OK && p < count; p++) {
-        const iso_hdf5_part *part = &parts[p];
-        const char *names[ISO_TRAJECTORY_COLUMNS];
-        for (int i = 0; i < part->count; i++) names[i] = iso_column_name(part->first + i);
-        const hid_t whole = open_set(s->file, part->group, part->name);
-        status = add_set(c, whole, part->name, names, part->count);
-        for (int i = 0; status == ISO_OK && whole < 0 && part->count > 1 && i < part->count; i++)
-            status = add_set(c, open_set(s->file, part->group, names[i]), names[i], &names[i], 1);
+    for (size_t i = 0; status == ISO_OK && i < count;) {
+        const char *in = group, *name = names[i];
+        int taken = iso_hdf5_part(names + i, count - i, &in, &name);
+        hid_t id = open_set(s->file, in, name);
+        if (id < 0 && taken > 1) taken = 1, id = open_set(s->file, in, name = names[i]);
+        memcpy(c->name + c->count, names + i, (size_t)taken * sizeof *names);
+        status = add_set(c, id, name, taken);
+        i += (size_t)taken;
     }
     return status;
-}
-
-/* The datasets that only sections have. Of a trajectory's reader they are passed over, but for the numbers of the
- * orbits, which it reads behind the others of a row. */
-static iso_status find_section(finding *c)
-{
-    static const char *const group = "section", *const sets[] = {ISO_ORBIT_COLUMN, "crossing", "l", "x"};
-    iso_table_reader *r = c->r;
-    const iso_hdf5_store *s = r->data;
-    iso_status status = ISO_OK;
-    for (size_t i = 0; status == ISO_OK && i < sizeof sets / sizeof *sets; i++) {
-        char path[32];
-        const size_t used = strlen(r->ignored);
-        snprintf(path, sizeof path, "/%s/%s", group, sets[i]);
-        const bool there = H5Lexists(s->file, group, H5P_DEFAULT) > 0 && H5Lexists(s->file, path, H5P_DEFAULT) > 0;
-        if (there) snprintf(r->ignored + used, sizeof r->ignored - used, "%s'%s'", used ? ", " : "", sets[i]);
-        if (i == 0 || (there && !r->trajectory))
-            status = add_set(c, open_set(s->file, group, sets[i]), sets[i], &sets[i], 1);
-    }
-    return status;
-}
-
-/* The columns that the file names, those of no trajectory in the group of its kind. They get the order of the names. */
-static iso_status find_named(finding *c, char *list)
-{
-    iso_hdf5_store *s = c->r->data;
-    const char *ordered[ISO_MOST_COLUMNS];
-    size_t count = 0;
-    iso_status status = ISO_OK;
-    for (char *name; status == ISO_OK && (name = strsep(&list, ","));) {
-        if (count == ISO_MOST_COLUMNS) return bad_file(c->ctx, c->r, "more than 5000 columns", "");
-        ordered[count++] = name;
-        if (iso_column_find(name) >= 0) continue;
-        const hid_t id = open_set(s->file, iso_record_kind(c->r->header), name);
-        status = add_set(c, id, name, &ordered[count - 1], 1);
-    }
-    bool words[ISO_MOST_COLUMNS] = {false};
-    for (int i = 0; status == ISO_OK && i < s->sets; i++) {
-        size_t at = 0;
-        const size_t from = (size_t)s->set[i].first;
-        while (at < count && strcmp(ordered[at], c->name[from]) != 0) at++;
-        if (at + (size_t)s->set[i].count > count || count != c->count)
-            return bad_file(c->ctx, c->r, "the attribute 'columns' does not name the datasets", "");
-        words[at] = c->words[from];
-        s->set[i].first = (int)at;
-    }
-    if (status != ISO_OK) return status;
-    memcpy(c->name, ordered, count * sizeof *ordered);
-    memcpy(c->words, words, count * sizeof *words);
-    return ISO_OK;
 }
 
 /* Columns and lines into the header. */
-static iso_status name_columns(finding *c, size_t count, size_t numbers)
+static iso_status name_columns(finding *c, size_t count)
 {
     iso_table_reader *r = c->r;
     iso_hdf5_store *s = r->data;
     iso_status status = iso_table_name_columns(c->ctx, r, count, c->name);
-    for (size_t i = 0; status == ISO_OK && i < count; i++)
-        if (c->words[i]) iso_record_set_words(r->header, i);
-    if (status == ISO_OK && !iso_hdf5_store_room(s, numbers))
-        status = iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", r->name);
+    for (int i = 0; status == ISO_OK && i < s->sets; i++)
+        if (s->set[i].words) iso_record_set_words(r->header, (size_t)s->set[i].first, true);
+    if (status == ISO_OK && !iso_hdf5_store_room(s, c->count)) status = iso_text_no_memory(c->ctx, "read", r->name);
     s->interned = r->header;
     r->rows = (size_t)s->rows;
     return status;
 }
 
+/* The columns that only sections have. */
+static const char *const section[] = {ISO_ORBIT_COLUMN, "crossing", "l", "x"};
+enum { SECTION = sizeof section / sizeof *section };
+
+/* Behind the columns of a row stands the number of its orbit. Others of a section are passed over. */
 static iso_status find_trajectory(finding *c)
 {
-    const bool section = strcmp(iso_record_kind(c->r->header), "section") == 0;
-    iso_status status = find_parts(c);
-    if (section) iso_record_set(c->ctx, c->r->header, ISO_HDF5_COLUMNS, NULL);
+    const char *names[ISO_TRAJECTORY_COLUMNS];
+    char path[ISO_HDF5_TEXT], *ignored = c->r->ignored;
+    const iso_hdf5_store *s = c->r->data;
+    iso_status status = find_columns(c, "", names, (size_t)iso_column_names(names));
+    if (strcmp(iso_record_kind(c->r->header), "section") == 0)
+        iso_record_set(c->ctx, c->r->header, ISO_HDF5_COLUMNS, NULL);
     if (status == ISO_OK && c->count == 0)
         status = bad_file(c->ctx, c->r, "no dataset of a trajectory, such as /clock/t or /ball/omega", "");
     const size_t count = c->count;
-    if (status == ISO_OK) status = find_section(c);
-    return status == ISO_OK ? name_columns(c, count, c->count) : status;
+    for (int i = 1; i < SECTION; i++)
+        if (is_in_group(s->file, "section", section[i], path))
+            sprintf(ignored + strlen(ignored), "%s'%s'", *ignored ? ", " : "", section[i]);
+    const bool converted = is_in_group(s->file, ISO_TRAJECTORY_KIND, ISO_ORBIT_COLUMN, path);
+    if (status == ISO_OK) status = find_columns(c, converted ? ISO_TRAJECTORY_KIND : "section", section, 1);
+    c->r->at.orbits = c->count > count;
+    return status == ISO_OK ? name_columns(c, count) : status;
 }
 
+/* The columns that the file names; of a trajectory or a section of version 0.1, which names none, those it can
+ * have. */
 static iso_status find_table(finding *c)
 {
-    const char *named = iso_record_get(c->r->header, ISO_HDF5_COLUMNS);
-    char *list = named ? strdup(named) : NULL;
-    if (named && !list) return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", c->r->name);
-    iso_status status = list ? ISO_OK : find_section(c);
-    iso_record_set(c->ctx, c->r->header, ISO_HDF5_COLUMNS, NULL);
-    if (status == ISO_OK) status = find_parts(c);
-    if (status == ISO_OK && list) status = find_named(c, list);
+    iso_record *const header = c->r->header;
+    const char *named = iso_record_get(header, ISO_HDF5_COLUMNS), *names[ISO_MOST_COLUMNS];
+    char *list = named ? strdup(named) : NULL, *rest = list;
+    size_t count = 0;
+    iso_status status = named && !list ? iso_text_no_memory(c->ctx, "read", c->r->name) : ISO_OK;
+    iso_record_set(c->ctx, header, ISO_HDF5_COLUMNS, NULL);
+    while (rest && count < ISO_MOST_COLUMNS) names[count++] = strsep(&rest, ",");
+    if (rest) status = bad_file(c->ctx, c->r, "more than 5000 columns", "");
+    if (!list && status == ISO_OK) status = find_columns(c, "section", section, SECTION);
+    if (!list) count = (size_t)iso_column_names(names);
+    if (status == ISO_OK) status = find_columns(c, iso_record_kind(header), names, count);
+    if (status == ISO_OK && list && c->count != count)
+        status = bad_file(c->ctx, c->r, "the attribute 'columns' does not name the datasets", "");
     if (status == ISO_OK && c->count == 0) status = bad_file(c->ctx, c->r, "no dataset of a table", "");
-    if (status == ISO_OK) status = name_columns(c, c->count, c->count);
+    if (status == ISO_OK) status = name_columns(c, c->count);
     free(list);
     return status;
 }
@@ -251,31 +221,34 @@ static iso_status find_table(finding *c)
 /* The columns of a sweep (hdf5_impl.h). Those that "columns" calls vary/NAME are NAME, others GROUP_NAME. */
 static iso_status find_sweep(finding *c)
 {
-    static const char *const point = "point", *const last[] = {"status", "reason"};
     iso_hdf5_store *s = c->r->data;
     const char *text = iso_record_get(c->r->header, ISO_HDF5_COLUMNS);
     char *list = text ? strdup(text) : NULL, *rest = list, *path;
     iso_status status =
         list ? ISO_OK : bad_file(c->ctx, c->r, "the result of a sweep without the line 'columns'", "");
     s->counts = strcmp(iso_record_kind(c->r->header), "sweep") == 0;
-    if (s->counts) c->name[c->count++] = point;
-    if (status == ISO_OK && !s->counts) status = add_set(c, open_set(s->file, "", point), point, &point, 1);
+    c->name[c->count] = "point";
+    if (s->counts)
+        c->count++;
+    else if (status == ISO_OK)
+        status = add_set(c, open_set(s->file, "", "point"), "point", 1);
     while (status == ISO_OK && (path = strsep(&rest, " "))) {
         const hid_t id = open_set(s->file, "", path);
         char *const slash = strchr(path, '/');
         if (slash) *slash = '_';
-        const char *name = strncmp(path, "vary_", 5) == 0 ? path + 5 : path;
-        status = id < 0 ? bad_file(c->ctx, c->r, "there is no dataset for the column ", path)
-                        : add_set(c, id, path, &name, 1);
+        c->name[c->count] = strncmp(path, "vary_", 5) == 0 ? path + 5 : path;
+        status =
+            id < 0 ? bad_file(c->ctx, c->r, "there is no dataset for the column ", path) : add_set(c, id, path, 1);
     }
-    if (status == ISO_OK) status = add_set(c, open_set(s->file, "", last[0]), last[0], &last[0], 1);
+    c->name[c->count] = "status";
+    if (status == ISO_OK) status = add_set(c, open_set(s->file, "", "status"), "status", 1);
     s->failed = (iso_hdf5_failures){.point = -1, .status_column = (int)c->count - 1, .reason_column = (int)c->count};
     s->failed.reason = open_set(s->file, "failed", "reason");
     if (status == ISO_OK && s->failed.reason < 0)
         status = bad_file(c->ctx, c->r, "there is no dataset for reasons", "");
-    c->name[c->count] = last[1];
-    c->words[c->count++] = true;
-    if (status == ISO_OK) status = name_columns(c, c->count, c->count);
+    c->name[c->count++] = "reason";
+    if (status == ISO_OK) status = name_columns(c, c->count);
+    if (status == ISO_OK) iso_record_set_words(c->r->header, c->count - 1, true);
     free(list);
     return status;
 }
@@ -283,7 +256,7 @@ static iso_status find_sweep(finding *c)
 static iso_status find_sets(iso_context *ctx, iso_table_reader *r)
 {
     finding *c = calloc(1, sizeof *c);
-    if (!c) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", r->name);
+    if (!c) return iso_text_no_memory(ctx, "read", r->name);
     c->ctx = ctx;
     c->r = r;
     const bool sweep = !r->trajectory && iso_hdf5_is_sweep(iso_record_kind(r->header));
@@ -292,29 +265,27 @@ static iso_status find_sets(iso_context *ctx, iso_table_reader *r)
     return status;
 }
 
+static iso_status read_header(iso_context *ctx, iso_table_reader *r)
+{
+    iso_hdf5_store *s = r->data;
+    s->file = h5.Fopen(r->path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (s->file < 0) return bad_file(ctx, r, "this is not an HDF5 file, or it is damaged", "");
+    const iso_status status = read_attributes(ctx, r, s->file);
+    return status == ISO_OK ? find_sets(ctx, r) : status;
+}
+
 static iso_status hdf5_open(iso_context *ctx, iso_table_reader *r, const char *columns)
 {
-    iso_status status = iso_hdf5_load(ctx);
-    if (status != ISO_OK) return status;
+    iso_status status;
+    ISO_TRY(iso_hdf5_load(ctx));
     iso_hdf5_store *s = r->data = iso_hdf5_store_create();
-    if (!s) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", r->name);
+    if (!s) return iso_text_no_memory(ctx, "read", r->name);
     if (columns)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "columns",
                                 "--columns is for text: in HDF5 the datasets have names");
-    status = iso_record_create(ctx, 0, NULL, &r->header);
-    if (status != ISO_OK) return status;
-    if (access(r->path, R_OK) != 0)
-        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", r->path, strerror(errno));
-    H5E_BEGIN_TRY
-    {
-        s->file = H5Fopen(r->path, H5F_ACC_RDONLY, H5P_DEFAULT);
-        if (s->file < 0)
-            status = bad_file(ctx, r, "this is not an HDF5 file, or it is damaged", "");
-        else
-            status = read_attributes(ctx, r, s->file);
-        if (status == ISO_OK) status = find_sets(ctx, r);
-    }
-    H5E_END_TRY
+    ISO_TRY(iso_record_create(ctx, 0, NULL, &r->header));
+    if (access(r->path, R_OK) != 0) return iso_file_trouble(ctx, "open", r->path);
+    ISO_HDF5_QUIETLY(status = read_header(ctx, r));
     return status;
 }
 
@@ -327,11 +298,7 @@ static iso_status read_block(iso_context *ctx, iso_table_reader *r)
     if (r->forgets) iso_record_forget_words(r->header);
     s->filled = left < ISO_HDF5_BLOCK ? (size_t)left : ISO_HDF5_BLOCK;
     s->next = 0;
-    H5E_BEGIN_TRY
-    {
-        good = iso_hdf5_transfer(s, s->begun, false);
-    }
-    H5E_END_TRY
+    ISO_HDF5_QUIETLY(good = iso_hdf5_transfer(s, s->begun, false));
     s->begun += s->filled;
     return good ? ISO_OK : iso_hdf5_trouble(ctx, "read", r->name);
 }
@@ -346,8 +313,8 @@ static iso_status take_row(iso_context *ctx, iso_table_reader *r, double row[], 
     if (!*more) return status;
     const double *numbers = s->block + s->next++ * s->columns;
     memcpy(row, numbers, columns * sizeof *row);
-    r->orbit = s->columns > columns ? numbers[columns] : 0;
-    r->line++;
+    r->at.orbit = s->columns > columns ? numbers[columns] : 0;
+    r->at.line++;
     return ISO_OK;
 }
 
@@ -363,24 +330,20 @@ static iso_status hdf5_next(iso_context *ctx, iso_table_reader *r, double row[],
     const size_t columns = iso_record_columns(r->header);
     iso_status status = take_row(ctx, r, row, more);
     if (!r->trajectory) return status;
-    for (; *more && r->passes && is_nan_row(row, columns); r->passed++) status = take_row(ctx, r, row, more);
+    for (; *more && r->passes && is_nan_row(row, columns); r->at.passed++) status = take_row(ctx, r, row, more);
     if (!*more) return status;
     for (size_t i = 0; i < columns; i++)
         if (!isfinite(row[i]))
             return iso_context_placed(ctx, iso_context_fail(ctx, ISO_BAD_INPUT, "",
                                                             "%s:%zu: expected a finite number for %s", r->name,
-                                                            r->line, iso_record_name(r->header, i)));
+                                                            r->at.line, iso_record_name(r->header, i)));
     return ISO_OK;
 }
 
 static void hdf5_close(iso_table_reader *r)
 {
     if (!r->data) return;
-    H5E_BEGIN_TRY
-    {
-        iso_hdf5_store_free(r->data);
-    }
-    H5E_END_TRY
+    ISO_HDF5_QUIETLY(iso_hdf5_store_free(r->data));
 }
 
 const iso_table_reading iso_hdf5_reading = {hdf5_open, hdf5_next, hdf5_close};

@@ -191,8 +191,8 @@ static void flow_now(form *T, state *flow)
     T->S.order = order;
 }
 
-/* The change of a loaded ball's energy along d, by a central difference over six points: its error is about 1e-13, and
- * 1e-12 for |k| = 0.1, where powers are steep. */
+/* The change of a loaded ball's energy along d, by a central difference over six points: its error is about 1e-13,
+ * and 1e-12 for |k| = 0.1, where powers are steep. */
 static double change_of_energy(const form *T, int lane, const state *d)
 {
     static const double step = 1e-3, weight[] = {3 / 4., -3 / 20., 1 / 60.};

@@ -6,6 +6,7 @@
 
 #include "method/methods_impl.h"
 #include "model/formula_lines_impl.h"
+#include "model/model_impl.h"
 
 const iso_lane_code *const iso_lane_codes[] = {
 #ifdef ISO_TAYLOR_X86

@@ -15,9 +15,8 @@
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/chaos/chaos_impl.h"
-#include "study/chaos/share_impl.h"
-#include "study/refusals_impl.h"
 #include "study/section/section_impl.h"
+#include "study/study_impl.h"
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
 
@@ -156,21 +155,17 @@ static void count_shares(const iso_chaos_walk *w)
 static iso_status prepare(iso_chaos_walk *w)
 {
     iso_sample start;
-    iso_status status = check_options(w);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_options(w));
     w->effects = iso_scene_acting(w->scene);
     choose_models(w);
-    status = iso_refuse_rest(w->ctx, &w->scene->start, &w->effects, what);
-    if (status == ISO_OK) status = open_orbit(w, &start);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_refuse_rest(w->ctx, &w->scene->start, &w->effects, what));
+    ISO_TRY(open_orbit(w, &start));
     const iso_effects effects = iso_orbit_effects(w->orbit);
     const iso_effect *effect = iso_effects_beyond_level(&effects);
-    status = check_motion(w, &start);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_motion(w, &start));
     choose_turn(w, &start, effect);
-    status = check_section(w);
-    if (status == ISO_OK) status = check_starts(w);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_section(w));
+    ISO_TRY(check_starts(w));
     iso_section_state_level(w->orbit, &w->effects);
     if (w->options.starts > 0)
         iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->out->axis, w->options.seed);
@@ -183,9 +178,8 @@ static iso_status prepare(iso_chaos_walk *w)
 
 static iso_status run(iso_chaos_walk *w)
 {
-    iso_status status = prepare(w);
-    if (status != ISO_OK) return status;
-    status = iso_chaos_follow(w);
+    ISO_TRY(prepare(w));
+    iso_status status = iso_chaos_follow(w);
     count_shares(w);
     return status;
 }
@@ -193,8 +187,7 @@ static iso_status run(iso_chaos_walk *w)
 static iso_status begin(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options, iso_chaos_walk *w)
 {
     *w = (iso_chaos_walk){.ctx = ctx, .scene = scene, .options = iso_chaos_defaults()};
-    const iso_status status = iso_options_take(ctx, "iso_chaos_options", &w->options, sizeof w->options, options);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_options_take(ctx, "iso_chaos_options", &w->options, sizeof w->options, options));
     if (isnan(w->options.tolerance)) w->options.tolerance = scene->tolerance;
     w->out = calloc(1, sizeof *w->out);
     if (!w->out) return iso_context_no_memory(ctx, "the indicators");
@@ -208,9 +201,8 @@ iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const iso_cha
     ISO_DEFAULT_ARITHMETIC;
     iso_chaos_walk w;
     *chaos = NULL;
-    iso_status status = begin(ctx, scene, options, &w);
-    if (status != ISO_OK) return status;
-    status = run(&w);
+    ISO_TRY(begin(ctx, scene, options, &w));
+    iso_status status = run(&w);
     iso_orbit_free(w.orbit);
     if (status == ISO_OK || status == ISO_STOPPED)
         *chaos = w.out;

@@ -18,7 +18,7 @@
  * With `starts`, more orbits of the scene's energy begin on the section, spread evenly by the area dL dl. The share
  * of them that is chaotic estimates the chaotic part of the area. Its confidence interval of 95 % comes from the
  * starts themselves: they are 16 copies of one even sequence, each with a random shift of its own, and the scatter of
- * the copies tells the error (share_impl.h). An orbit that stays undecided may be either: at the low end of the
+ * the copies tells the error (share.c). An orbit that stays undecided may be either: at the low end of the
  * interval it counts as not chaotic, at the high end as chaotic. Orbits that were not followed, because they failed
  * or because the call was stopped, do not count. After a stop the orbits that have made a turn count, so that an
  * early verdict has no advantage; those without a verdict are undecided.
@@ -33,6 +33,7 @@
 #include "../../base/record.h"
 #include "../../orbit/crossings.h"
 #include "../../orbit/scene.h"
+#include "../section/section.h"
 #include "indicators.h"
 
 ISO_C_BEGIN
@@ -78,7 +79,6 @@ typedef struct iso_chaos_orbit {
     iso_status status[2]; /* ISO_OK, or why it was not followed to its verdict                                 */
     size_t number;        /* 0: the scene's own; then the starts, from 1 on                                    */
 } iso_chaos_orbit;
-ISO_API extern const iso_field iso_chaos_orbit_fields[];
 
 /* Counts of the orbits that were spread over the section. */
 typedef struct iso_chaos_fraction {
@@ -88,7 +88,6 @@ typedef struct iso_chaos_fraction {
      * both ways; NaN: no orbit was followed. */
     double share, low, high;
 } iso_chaos_fraction;
-ISO_API extern const iso_field iso_chaos_fraction_fields[];
 
 typedef struct iso_chaos {
     bool with[2]; /* whether the ball, the point was integrated                           */
@@ -97,7 +96,8 @@ typedef struct iso_chaos {
     /* 0 to 2: the scene's orbit is the rotation about this axis, in a principal plane; it is periodic, and not
      * followed. -1: it is no such rotation. */
     int plane;
-    /* A further integral, which excludes chaos: then no verdict is "chaotic"; NULL: none is known, or effects act. */
+    /* An additional integral, which excludes chaos: then no verdict is "chaotic"; NULL: none is known, or effects
+     * act. */
     const iso_integral *integral;
     iso_chaos_orbit own;    /* the scene's orbit                                                    */
     size_t starts;          /* other orbits that were followed: spread ones, then given ones */
@@ -109,10 +109,6 @@ typedef struct iso_chaos {
     iso_status failure; /* of the first orbit that failed (0: the scene's; i: start i - 1), with its words */
     char words[512];
 } iso_chaos;
-ISO_API extern const iso_field iso_chaos_fields[];
-
-/* The columns of a table of its orbits: those of iso_chaos_orbit_fields for the models that were integrated. */
-ISO_API void iso_chaos_columns(const iso_chaos *chaos, iso_field fields[ISO_MOST_FIELDS]);
 
 /* Orbits that fail are counted in the result. The call fails only if no model can follow the scene's own orbit.
  * options NULL: iso_chaos_defaults().
@@ -126,16 +122,6 @@ ISO_API void iso_chaos_columns(const iso_chaos *chaos, iso_field fields[ISO_MOST
 ISO_API iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options,
                                  iso_chaos **chaos);
 ISO_API void iso_chaos_free(iso_chaos *chaos);
-
-/* The own orbits of many scenes, followed together: as fast as the starts of one scene. options: no starts, no axis.
- * scene[i] may be NULL. chaos[i], status[i]: what iso_chaos_run gives for scene i, to the bit, but without a trace.
- * After a failure of scene i, chaos[i]->words says why (chaos[i] may be NULL). The caller frees each chaos[i].
- * Errors of the call: ISO_NO_MEMORY, ISO_STOPPED, and those of iso_crossings_create: then every chaos[i] is NULL. */
-ISO_API iso_status iso_chaos_run_many(iso_context *ctx, size_t count, const iso_scene *const scene[],
-                                      const iso_chaos_options *options, iso_chaos *chaos[], iso_status status[]);
-
-/* Whether at least one model has followed this orbit for a turn, and none failed before there was a verdict. */
-ISO_API bool iso_chaos_followed(const iso_chaos_orbit *orbit);
 
 ISO_C_END
 

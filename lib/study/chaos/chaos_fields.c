@@ -1,22 +1,13 @@
 /* chaos_fields.c - what the result of chaos holds: its numbers with their meaning (chaos.h, indicators.h). */
-#include "study/chaos/chaos.h"
+#include "study/chaos/chaos_impl.h"
+#include "study/study_impl.h"
 
-static const char *verdict_word(int verdict)
-{
-    return iso_verdict_name((iso_verdict)verdict);
-}
-
-static const char *clock_word(int clock)
-{
-    return iso_clock_name((iso_clock)clock);
-}
-
-/* --- what one model has found ------------------------------------------------------------------------------------ */
+/* --- what one model has found ----------------------------------------------------------------------------------- */
 
 #define FIELD(key, member, ...) ISO_MEMBER(iso_indication, key, member, __VA_ARGS__)
 
 const iso_field iso_indication_fields[] = {
-    FIELD("verdict", verdict, "", "regular, chaotic or undecided, by this model", .word = verdict_word),
+    FIELD("verdict", verdict, "", "regular, chaotic or undecided, by this model", .word = iso_verdict_word),
     FIELD("turns", turns, "", "turns until the verdict; undecided: all"),
     FIELD("exponent_turns", exponent_turns, "", "turns that the exponent is from"),
     FIELD("megno", megno, "", "MEGNO: its limit if regular, else its mean"),
@@ -25,14 +16,14 @@ const iso_field iso_indication_fields[] = {
     FIELD("gali2", gali2, "", "GALI_2: sine of the angle between the deviations"),
     FIELD("exponent_per_turn", per_turn, "1/turn", "the largest exponent", .column = "per_turn"),
     FIELD("error_per_turn", per_turn_error, "1/turn", "its error", .column = "per_turn_error"),
-    FIELD("exponent", exponent, "1/time", "the largest exponent, in this clock", .word = clock_word),
-    FIELD("error", error, "1/time", "its error; NaN: the orbit is too short to know it", .word = clock_word),
+    FIELD("exponent", exponent, "1/time", "the largest exponent, in this clock", .word = iso_clock_word),
+    FIELD("error", error, "1/time", "its error; NaN: the orbit is too short to know it", .word = iso_clock_word),
     FIELD("digits", digits, "", "digits to which the means over the two halves agree"),
     ISO_FIELD_END,
 };
 #undef FIELD
 
-/* --- one orbit --------------------------------------------------------------------------------------------------- */
+/* --- one orbit -------------------------------------------------------------------------------------------------- */
 
 #define FIELD(key, member, ...) ISO_MEMBER(iso_chaos_orbit, key, member, __VA_ARGS__)
 
@@ -40,7 +31,7 @@ const iso_field iso_chaos_orbit_fields[] = {
     FIELD("orbit", number, "", "0: the scene's own; others that were not followed have no row"),
     FIELD("l", l, "rad", "where it begins on the section (l, x); NaN: the scene's own"),
     FIELD("x", x, "", "the other coordinate"),
-    FIELD("verdict", verdict, "", "regular, chaotic or undecided, by all models", .word = verdict_word),
+    FIELD("verdict", verdict, "", "regular, chaotic or undecided, by all models", .word = iso_verdict_word),
     FIELD("disagree", disagree, "", "1: one model says regular, the other one chaotic"),
     FIELD("ball.status", status[ISO_BALL], "", "0, or why the ball was not followed: a number of iso_status"),
     ISO_STRUCT(iso_chaos_orbit, "ball", told[ISO_BALL], iso_indication_fields, "what the ball tells"),
@@ -55,7 +46,7 @@ void iso_chaos_columns(const iso_chaos *c, iso_field fields[ISO_MOST_FIELDS])
     iso_fields_copy(iso_chaos_orbit_fields, c->with[ISO_BALL] ? c->with[ISO_POINT] ? NULL : "point" : "ball", fields);
 }
 
-/* --- the shares -------------------------------------------------------------------------------------------------- */
+/* --- the shares ------------------------------------------------------------------------------------------------- */
 
 static double half_interval(const void *row)
 {
@@ -96,7 +87,7 @@ const iso_field iso_chaos_fraction_fields[] = {
 };
 #undef FIELD
 
-/* --- the whole --------------------------------------------------------------------------------------------------- */
+/* --- the whole -------------------------------------------------------------------------------------------------- */
 
 static bool has_section(const void *row)
 {
@@ -122,7 +113,7 @@ static double turns_of(const void *row)
 #define STRUCT(key, member, fields, ...) ISO_STRUCT(iso_chaos, key, member, fields, __VA_ARGS__)
 
 static const iso_field integral_fields[] = {
-    ISO_MEMBER(iso_integral, "integral", name, "", "a further integral, which excludes chaos"), ISO_FIELD_END};
+    ISO_MEMBER(iso_integral, "integral", name, "", "an additional integral, which excludes chaos"), ISO_FIELD_END};
 static const iso_field section_fields[] = {FIELD("axis", axis, "", "a of n_a = 0", .how = ISO_FROM_ONE),
                                            ISO_FIELD_END};
 
@@ -130,7 +121,7 @@ const iso_field iso_chaos_fields[] = {
     ISO_GROUP("section", section_fields, "to which a turn returns", .there = has_section),
     FIELD("turn", turn, "time", "length of a turn, if there is no section"),
     STRUCT("", integral, integral_fields, "what excludes chaos", .pointer = true),
-    FIELD("verdict", own.verdict, "", "on the scene's orbit", .word = verdict_word),
+    FIELD("verdict", own.verdict, "", "on the scene's orbit", .word = iso_verdict_word),
     FIELD("disagree", own.disagree, "", "whether the models contradict each other"),
     ISO_COUNT("turns", turns_of, "", "turns until the verdict"),
     STRUCT("ball", own.told[ISO_BALL], iso_indication_fields, "what the ball tells",

@@ -6,8 +6,9 @@
 #ifndef ISO_STUDY_CHAOS_IMPL_H
 #define ISO_STUDY_CHAOS_IMPL_H
 
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "study/chaos/chaos.h"
+#include "study/options_impl.h"
 
 typedef struct iso_chaos_walk {
     iso_context *ctx;
@@ -30,5 +31,85 @@ iso_status iso_chaos_follow_each(size_t count, iso_chaos_walk *const walk[]);
 
 /* The failure of the scene's own orbit if no model could follow it. */
 iso_status iso_chaos_check_own(const iso_chaos_walk *w);
+
+/* The columns of a table of its orbits: those of iso_chaos_orbit_fields for the models that were integrated. */
+void iso_chaos_columns(const iso_chaos *chaos, iso_field fields[ISO_MOST_FIELDS]);
+
+/* The own orbits of many scenes, followed together: as fast as the starts of one scene. options: no starts, no axis.
+ * scene[i] may be NULL. chaos[i], status[i]: what iso_chaos_run gives for scene i, to the bit, but without a trace.
+ * After a failure of scene i, chaos[i]->words says why (chaos[i] may be NULL). The caller frees each chaos[i].
+ * Errors of the call: ISO_NO_MEMORY, ISO_STOPPED, and those of iso_crossings_create: then every chaos[i] is NULL. */
+iso_status iso_chaos_run_many(iso_context *ctx, size_t count, const iso_scene *const scene[],
+                              const iso_chaos_options *options, iso_chaos *chaos[], iso_status status[]);
+
+/* Whether at least one model has followed this orbit for a turn, and none failed before there was a verdict. */
+bool iso_chaos_followed(const iso_chaos_orbit *orbit);
+
+/* --- the indicators of one orbit, turn by turn (indicators.c) --------------------------------------------------- */
+
+enum { ISO_SEEN = 3, ISO_WINDOWS = 4, ISO_PARTS = 32 };
+
+/* One beat. Numbers that are not known are NaN. */
+typedef struct iso_turn_sample {
+    double clock[ISO_CLOCKS];      /* since the start                                                            */
+    double growth[ISO_DEVIATIONS]; /* ln |d1|, ln |d2|; 0 at the start                                           */
+    double area;                   /* sine of the angle between them                                             */
+    double seen[ISO_SEEN];         /* smooth, one-valued functions of the place, of size 1; NaN: none            */
+} iso_turn_sample;
+
+/* Sums of one look; see indicators.c. */
+typedef struct iso_window {
+    long first, last; /* the turns n that it uses: first < n <= last */
+    double weight[2], megno[2], growth[2], seen[2][ISO_SEEN], square[2][ISO_SEEN]; /* of each half               */
+    double whole, megno_whole, inverse[3], power[5], length[3];                    /* of all                     */
+} iso_window;
+
+/* All that is known of one orbit so far, in memory of fixed size. Read it only with iso_indicators_read. */
+typedef struct iso_indicators {
+    long turns, most, number; /* number: of the next look */
+    double before, area, step_sum, mean_sum;
+    iso_window look[ISO_WINDOWS];
+    long part; /* beats in one part */
+    int parts;
+    double sum[ISO_PARTS + 1][1 + ISO_CLOCKS]; /* ln D and the clocks at the ends of the parts */
+    double now[1 + ISO_CLOCKS];
+    double limit, megno, digits, gain, gain_before, halves[2]; /* of the last look */
+    bool looked_regular;
+    /* Set by the caller after iso_indicators_begin: an additional integral is known, so the orbit cannot be chaotic,
+     * however its deviations grow near a separatrix. */
+    bool integrable;
+    int verdict;
+    long decided;
+} iso_indicators;
+
+/* most: the number of turns of the last look, 1 or more. After it the orbit may go on: the next look is at sqrt(2)
+ * times as many turns, and so on. */
+void iso_indicators_begin(iso_indicators *it, long most);
+
+/* Takes the next beat. The first one is that of the first crossing after the start. */
+void iso_indicators_add(iso_indicators *it, const iso_turn_sample *beat);
+
+/* The number of turns at the next look. */
+long iso_indicators_next(const iso_indicators *it);
+
+/* Once the verdict is regular or chaotic, it does not change any more. */
+iso_verdict iso_indicators_verdict(const iso_indicators *it);
+void iso_indicators_read(const iso_indicators *it, iso_indication *told);
+
+/* --- which share of the area do orbits of some kind have? (share.c) --------------------------------------------- */
+
+enum { ISO_SHIFTS = 16 };
+
+/* Start i. Of `spread`, which iso_section_spread_prepare has made, only the shift is changed. */
+void iso_share_start(iso_section_spread *spread, uint64_t seed, size_t i, double *l, double *x);
+
+/* found[r] of count[r] starts of copy r are in the set. Without a start: NaN. */
+void iso_share_interval(const size_t count[ISO_SHIFTS], const size_t found[ISO_SHIFTS], double *low, double *high);
+
+/* What the options of the study hold. */
+typedef struct iso_chaos_request {
+    iso_chaos_options how;
+    iso_section_words words;
+} iso_chaos_request;
 
 #endif

@@ -7,8 +7,6 @@
 
 #include "orbit/crossings_impl.h"
 #include "study/chaos/chaos_impl.h"
-#include "study/chaos/indicators_impl.h"
-#include "study/chaos/share_impl.h"
 
 /* GROUP: orbits that are followed together. ROUND: the most turns of a round. Together some 25 MB of crossings. */
 enum { GROUP = 1024, ROUND = 240, TRACE_ROWS = 4000 };
@@ -95,8 +93,7 @@ static iso_status trace(const iso_chaos_walk *w, int model, const iso_indicators
     iso_indication told;
     double *row;
     if (shown->turns % every != 0) return ISO_OK;
-    const iso_status status = iso_record_append(w->ctx, w->out->trace[model], &row);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_record_append(w->ctx, w->out->trace[model], &row));
     iso_indicators_read(shown, &told);
     const bool t = !isnan(shown->now[1]);
     const double values[] = {(double)shown->turns, shown->now[1 + (t ? ISO_CLOCK_T : ISO_CLOCK_S)],

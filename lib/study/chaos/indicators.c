@@ -3,7 +3,8 @@
  * A look at N turns uses the turns from N/4 to N. Its sums grow while the turns pass. The sums of the looks at N,
  * sqrt(2) N, 2 N and 2 sqrt(2) N grow at the same time. Those of the look at 4 N begin when the look at N ends.
  */
-#include "study/chaos/indicators_impl.h"
+#include "base/names_impl.h"
+#include "study/chaos/chaos_impl.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -12,14 +13,7 @@
 /* There is no look at fewer turns: the sums would say too little. */
 static const long LEAST_TURNS = 90;
 
-const char *iso_verdict_name(iso_verdict verdict)
-{
-    static const char *const names[] = {[ISO_REGULAR] = "regular",
-                                        [ISO_CHAOTIC] = "chaotic",
-                                        [ISO_UNDECIDED] = "undecided",
-                                        [ISO_INTEGRABLE] = "integrable"};
-    return names[verdict];
-}
+ISO_NAMES(iso_verdict_name, iso_verdict, "regular", "chaotic", "undecided", "integrable")
 
 /* --- the sums of a look ----------------------------------------------------------------------------------------- */
 
@@ -139,8 +133,8 @@ static double rate(const iso_indicators *it, int c)
     return parts < 4 ? (double)NAN : gained[0] / (c < 0 ? (double)(parts * it->part) : gained[1 + c]);
 }
 
-/* The standard error of the rate lam, from the scatter of blocks of `wide` parts each; *blocks: their number. ln D also
- * changes with the place: 1 stands for that. */
+/* The standard error of the rate lam, from the scatter of blocks of `wide` parts each; *blocks: their number. ln D
+ * also changes with the place: 1 stands for that. */
 static double scatter(const iso_indicators *it, int c, double lam, int wide, int *blocks)
 {
     int first;
@@ -159,15 +153,16 @@ static double scatter(const iso_indicators *it, int c, double lam, int wide, int
 /* The error that is stated for a chaotic orbit. It has two parts.
  *
  * - An orbit of the sea stays near islands again and again, for times of all lengths. So neighbouring blocks are not
- *   independent, and long blocks scatter more than short ones. Blocks of 1, 2 and 4 parts are tried. The standard error
- *   from m blocks is multiplied by half of Student's quantile of 95 % for m - 1 degrees of freedom. The largest counts.
+ *   independent, and long blocks scatter more than short ones. Blocks of 1, 2 and 4 parts are tried. The standard
+ *   error from m blocks is multiplied by half of Student's quantile of 95 % for m - 1 degrees of freedom. The largest
+ *   counts.
  * - Stays that are as long as the orbit do not show as scatter. So a gain g of ln D is not known better than
  *   MISSED sqrt(g).
  *
- * MISSED and LEAST_GAIN, below which no error is stated, were chosen once, by many orbits of the standard map (K = 1.3
- * to 5) and of four seas (tests/bench/exponent.c): at every length from 300 to 20000 turns at most one orbit in ten
- * should be off by more than two errors. Near K = 1 this fails: leaky barriers divide the sea, and for very long its
- * parts have exponents of their own. */
+ * MISSED and LEAST_GAIN, below which no error is stated, were chosen once, by many orbits of the standard map
+ * (K = 1.3 to 5) and of four seas (tests/bench/exponent.c): at every length from 300 to 20000 turns at most one orbit
+ * in ten should be off by more than two errors. Near K = 1 this fails: leaky barriers divide the sea, and for very
+ * long its parts have exponents of their own. */
 static double error_of(const iso_indicators *it, int c, double lam)
 {
     static const double MISSED = 2.5, LEAST_GAIN = 400, OUTSIDE = 0.025;
@@ -193,8 +188,8 @@ static double tell_rate(const iso_indicators *it, int c, double *error)
 
 /* Limits for the verdict. Two successive looks must agree. `gain` is the growth of ln D between the middles of the
  * two halves, at 7/16 and 13/16 of the turns: ln(13/7) = 0.62 on a regular orbit, 3/8 lam n on a chaotic one. Next to
- * the separatrix of a resonance a regular orbit looks chaotic for a while. So ln D itself must be large as well, GALI_2
- * small, and the exponent larger than its error. */
+ * the separatrix of a resonance a regular orbit looks chaotic for a while. So ln D itself must be large as well,
+ * GALI_2 small, and the exponent larger than its error. */
 static const double ERRORS = 1, MOST_REGULAR_GAIN = 0.8, LEAST_CHAOTIC_GAIN = 2.5, LEAST_GAIN_BEFORE = 1.25,
                     LEAST_GROWTH = 9, MOST_AREA = 1e-4;
 

@@ -14,10 +14,10 @@
  * times a bounded factor that depends on the place only. On a chaotic orbit D_n^2 grows like exp(2 lam n).
  *
  * - Exponent: the gain of ln D per unit of a clock, without the first eighth of the turns. Its error comes from the
- *   scatter of blocks of the other turns, from 28 short ones to 3 long ones, and has a part for the times near islands
- *   that the orbit has missed. At most one orbit in ten should be off by more than two errors. While ln D is below
- *   400 the orbit is too short to know the error, and none is stated. A regular orbit has the exponent 0: its error
- *   is the estimate itself. An orbit may go on after its verdict, for a better exponent.
+ *   scatter of blocks of the other turns, from 28 short ones to 3 long ones, and has a part for the times near
+ *   islands that the orbit has missed. At most one orbit in ten should be off by more than two errors. While ln D is
+ *   below 400 the orbit is too short to know the error, and none is stated. A regular orbit has the exponent 0: its
+ *   error is the estimate itself. An orbit may go on after its verdict, for a better exponent.
  * - MEGNO: Y_n = (2/n) sum (j - 1/2) ln(D_j/D_(j-1)), and its mean over all turns so far. On a regular orbit both
  *   approach 2 like 1/n. On a chaotic orbit Y_n grows like lam n, and its mean like lam n/2.
  * - The limit of MEGNO on a regular orbit: the mean of 2 (j - 1/2) ln(D_j/D_(j-1)) with the smooth weight
@@ -59,7 +59,6 @@ typedef struct iso_indication {
     double gali2;
     double digits; /* to which the means over the two halves agree                                            */
 } iso_indication;
-ISO_API extern const iso_field iso_indication_fields[];
 
 ISO_C_END
 

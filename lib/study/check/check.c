@@ -13,6 +13,7 @@
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/check/check_impl.h"
+#include "study/fields_impl.h"
 
 /* --- beginning -------------------------------------------------------------------------------------------------- */
 
@@ -51,12 +52,11 @@ static iso_status begin(checker *c)
     for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
         c->columns[i] = i < iso_columns_count() ? iso_record_find(c->record, iso_column_name(i)) : -1;
     c->width = iso_record_columns(c->record);
-    iso_status status = iso_record_effects(c->ctx, c->record, &c->effects);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_record_effects(c->ctx, c->record, &c->effects));
     c->stated = c->effects;
     iso_checker_choose_observers(c);
-    for (int k = 0; status == ISO_OK && k < 2; k++) status = find_model(c, (iso_model_kind)k);
-    if (status != ISO_OK || c->model[0].there || c->model[1].there) return status;
+    for (int k = 0; k < 2; k++) ISO_TRY(find_model(c, (iso_model_kind)k));
+    if (c->model[0].there || c->model[1].there) return ISO_OK;
     return iso_context_fail(c->ctx, ISO_BAD_INPUT, "columns",
                             "the trajectory has neither a ball's six columns "
                             "(omega1 ... n3) nor a point's (M1 ... gamma3)");
@@ -95,8 +95,7 @@ static iso_status open_first(checker *c, checked_model *m, const double row[])
 {
     iso_start start;
     iso_effects effects = iso_checker_effects(c, m->kind);
-    iso_status status = find_start(c, m, row, &start, &effects);
-    if (status != ISO_OK) return status;
+    ISO_TRY(find_start(c, m, row, &start, &effects));
     for (int e = 0; e < ISO_EFFECTS; e++) c->effects.idle[e] = c->effects.idle[e] || effects.idle[e];
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &effects;
@@ -124,8 +123,7 @@ static iso_status check_model(checker *c, checked_model *m, const double row[])
 {
     iso_start start;
     iso_effects effects = iso_checker_effects(c, m->kind);
-    iso_status status = m->orbit ? find_start(c, m, row, &start, &effects) : open_first(c, m, row);
-    if (status != ISO_OK) return status;
+    ISO_TRY(m->orbit ? find_start(c, m, row, &start, &effects) : open_first(c, m, row));
     if (c->begins) iso_checker_expect(c, m, row);
     iso_checker_integrals(c, m, row);
     if (m->kind == ISO_BALL) iso_checker_beginning(c, m, row);
@@ -143,16 +141,14 @@ static void check_map(checker *c, const double row[])
                      c->number);
 }
 
-iso_status iso_checking_put(iso_checking *checking, const double row[])
+iso_status iso_checking_put(iso_checking *c, const double row[])
 {
     ISO_DEFAULT_ARITHMETIC;
-    checker *c = &checking->all;
     c->before = c->number;
     c->number = ++c->rows + c->passed;
-    iso_status status = measure_clocks(c, row);
+    ISO_TRY(measure_clocks(c, row));
     for (int k = 0; k < 2; k++)
-        if (status == ISO_OK && c->model[k].there) status = check_model(c, &c->model[k], row);
-    if (status != ISO_OK) return status;
+        if (c->model[k].there) ISO_TRY(check_model(c, &c->model[k], row));
     if (c->model[0].there && c->model[1].there) check_map(c, row);
     if (c->rows <= 2) memcpy(c->rows == 1 ? c->first : c->second, row, c->width * sizeof *row);
     memcpy(c->last, row, c->width * sizeof *row);
@@ -160,14 +156,14 @@ iso_status iso_checking_put(iso_checking *checking, const double row[])
     return ISO_OK;
 }
 
-void iso_checking_begin_orbit(iso_checking *checking)
+void iso_checking_begin_orbit(iso_checking *c)
 {
-    checking->all.begins = true;
+    c->begins = true;
 }
 
-void iso_checking_pass(iso_checking *checking)
+void iso_checking_pass(iso_checking *c)
 {
-    checking->all.passed++;
+    c->passed++;
 }
 
 /* --- the answer ------------------------------------------------------------------------------------------------- */
@@ -191,10 +187,9 @@ static void add(const checker *c, const iso_residuals *found, iso_residuals *all
     }
 }
 
-iso_status iso_checking_end(iso_checking *checking, iso_residuals *residuals)
+iso_status iso_checking_end(iso_checking *c, iso_residuals *residuals)
 {
     ISO_DEFAULT_ARITHMETIC;
-    const checker *c = &checking->all;
     *residuals = (iso_residuals){.rows = c->rows + c->passed, .passed = c->passed};
     if (c->rows == 0)
         return iso_context_fail(c->ctx, ISO_BAD_INPUT, "",
@@ -204,31 +199,31 @@ iso_status iso_checking_end(iso_checking *checking, iso_residuals *residuals)
     return ISO_OK;
 }
 
-void iso_checking_free(iso_checking *checking)
+void iso_checking_free(iso_checking *c)
 {
-    if (!checking) return;
+    if (!c) return;
     for (int k = 0; k < 2; k++) {
-        forget_flow(&checking->all.model[k]);
-        iso_orbit_free(checking->all.model[k].orbit);
+        forget_flow(&c->model[k]);
+        iso_orbit_free(c->model[k].orbit);
     }
-    free(checking->all.last);
-    free(checking);
+    free(c->last);
+    free(c);
 }
 
 iso_status iso_checking_create(iso_context *ctx, const iso_params *params, const iso_record *header, double tolerance,
                                iso_checking **checking)
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_checking *made = *checking = calloc(1, sizeof *made);
-    if (!made) return iso_context_no_memory(ctx, "a check");
-    made->all = (checker){.ctx = ctx, .params = params, .record = header, .tolerance = tolerance, .begins = true};
-    made->all.last = calloc(3 * iso_record_columns(header) + 1, sizeof *made->all.last);
-    made->all.first = made->all.last ? made->all.last + iso_record_columns(header) : NULL;
-    made->all.second = made->all.first ? made->all.first + iso_record_columns(header) : NULL;
-    iso_units_choose(params, 0, &made->all.units);
-    const iso_status status = made->all.last ? begin(&made->all) : iso_context_no_memory(ctx, "a check");
+    const size_t width = iso_record_columns(header);
+    checker *c = *checking = calloc(1, sizeof *c);
+    if (!c) return iso_context_no_memory(ctx, "a check");
+    *c = (checker){.ctx = ctx, .params = params, .record = header, .tolerance = tolerance, .begins = true};
+    c->last = calloc(3 * width + 1, sizeof *c->last);
+    if (c->last) c->first = c->last + width, c->second = c->first + width;
+    iso_units_choose(params, 0, &c->units);
+    const iso_status status = c->last ? begin(c) : iso_context_no_memory(ctx, "a check");
     if (status == ISO_OK) return ISO_OK;
-    iso_checking_free(made);
+    iso_checking_free(c);
     *checking = NULL;
     return status;
 }
@@ -296,15 +291,13 @@ static iso_status look_at_rows(checker *c, checked_model *m, const iso_record *r
 iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record, iso_record **drifts)
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_checking *checking;
+    checker *c;
     *drifts = NULL;
-    iso_status status = iso_checking_create(ctx, params, record, 1e-12, &checking);
-    if (status != ISO_OK) return status;
-    checker *c = &checking->all;
+    ISO_TRY(iso_checking_create(ctx, params, record, 1e-12, &c));
     checked_model *m = &c->model[c->model[ISO_BALL].there ? ISO_BALL : ISO_POINT];
-    status = look_at_rows(c, m, record);
+    iso_status status = look_at_rows(c, m, record);
     if (status == ISO_OK) status = record_drifts(c, m, record, drifts);
-    iso_checking_free(checking);
+    iso_checking_free(c);
     if (status != ISO_OK) iso_record_free(*drifts), *drifts = NULL;
     return status;
 }

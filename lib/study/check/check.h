@@ -18,7 +18,6 @@ typedef struct iso_residual {
     double worst;     /* the largest, relative                              */
     size_t row;       /* the row of the largest, from 1; 0: all are zero    */
 } iso_residual;
-ISO_API extern const iso_field iso_residual_fields[];
 
 typedef struct iso_residuals {
     size_t rows, passed; /* all rows, and those of nan, which were passed over */
@@ -44,50 +43,6 @@ typedef struct iso_residuals {
  * ISO_NOT_MAPPED (a point with H not 0 in the times of a ball), ISO_NUMERICAL, ISO_NO_MEMORY. */
 ISO_API iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
                              iso_residuals *residuals);
-
-/* --- row by row ---------------------------------------------------------------------------------------------------
- *
- *     iso_checking_create(ctx, &params, header, 1e-13, &c);
- *     while (next(row)) status = iso_checking_put(c, row); (before it iso_checking_begin_orbit, where one begins)
- *     status = iso_checking_end(c, &residuals);
- *     iso_checking_free(c);
- *
- * The same as iso_check, in constant memory. Where two rows are near each other, two-point Taylor quadrature
- * finds the rows that are worst, and these alone are integrated. */
-typedef struct iso_checking iso_checking;
-
-/* header: columns, lines and row tolerance; it and params must outlive the check. Errors: those of iso_check about
- * columns and lines; *checking is then NULL. */
-ISO_API iso_status iso_checking_create(iso_context *ctx, const iso_params *params, const iso_record *header,
-                                       double tolerance, iso_checking **checking);
-ISO_API void iso_checking_free(iso_checking *checking);
-
-/* The next row: as many numbers as the header has columns. Errors: those of iso_check. */
-ISO_API iso_status iso_checking_put(iso_checking *checking, const double row[]);
-
-/* The next row is the first of another orbit, of the same energy: no flow goes to it from the row before, and the
- * integrals but the energy may have other values. */
-ISO_API void iso_checking_begin_orbit(iso_checking *checking);
-
-/* Call this in the place of a row of nan: it is counted, and the flow goes from the row before to the one behind. */
-ISO_API void iso_checking_pass(iso_checking *checking);
-
-/* After the last row. Errors: ISO_BAD_INPUT, if there was none. */
-ISO_API iso_status iso_checking_end(iso_checking *checking, iso_residuals *residuals);
-
-/* What the check does not look at: columns that nothing was compared with, and lines in which each number can be
- * another by a millionth, or the words others, without any residual to show it. This is tried, number by number, at
- * the first row and a little later. Calls `tell` for each: "mu", "# tolerance", "# J, number 2"; and "the flow from row
- * to row" where no orbit has two rows, or no clock. Call it after
- * iso_checking_end. Errors: ISO_NO_MEMORY, ISO_STOPPED. */
-ISO_API iso_status iso_checking_unseen(iso_checking *checking, void (*tell)(void *data, const char *name),
-                                       void *data);
-
-/* The drifts of the integrals that hold, row by row, as a new record. The first column is the model's first clock, or
- * "row", the row's number. The others ("h", "F_shell", ...) are |I(row) - I(first row)| / size; for a constraint its
- * exact value stands in the place of I(first row). Errors: those of iso_check. */
-ISO_API iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record,
-                                    iso_record **drifts);
 
 ISO_C_END
 

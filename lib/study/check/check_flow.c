@@ -1,7 +1,7 @@
 /* check_flow.c - from each row to the next: the state and the other clocks (check_impl.h).
  *
- * Two-point Taylor quadrature (method/two_point_impl.h) tells in about a microsecond how far a row is from the orbit of
- * the row before it. That is a sieve: rows which are off by more than half of the worst so far are integrated from
+ * Two-point Taylor quadrature (method/two_point_impl.h) tells in about a microsecond how far a row is from the orbit
+ * of the row before it. That is a sieve: rows which are off by more than half of the worst so far are integrated from
  * the row before, and what is reported comes from these integrations alone. So the numbers do not depend on the
  * quadrature, and few rows of a good trajectory are integrated. Rows far apart, and models with states or columns of
  * effects, are always integrated. */
@@ -37,10 +37,9 @@ iso_status iso_checker_open(const checker *c, const checked_model *m, const doub
 {
     iso_start start;
     iso_effects effects = iso_checker_effects(c, m->kind);
-    iso_status status = iso_record_start_at(c->ctx, c->record, c->params, m->kind, row, &start, &effects);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_record_start_at(c->ctx, c->record, c->params, m->kind, row, &start, &effects));
     iso_orbit_options o = options_of(c, m, &start, &effects);
-    status = iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
+    iso_status status = iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
     if (status != ISO_NOT_MAPPED) return status;
     for (int k = 0; k < ISO_CLOCKS; k++) o.with_clock[k] = false;
     return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
@@ -64,8 +63,7 @@ static iso_status check_alone(checker *c, checked_model *m, const double row[])
 {
     iso_sample sample;
     if (m->kind != ISO_BALL || !iso_checker_has_effects(c)) return ISO_OK;
-    const iso_status status = integrate(c, m, row, c->number, 0, &sample);
-    if (status != ISO_OK) return status;
+    ISO_TRY(integrate(c, m, row, c->number, 0, &sample));
     iso_checker_go_on(c, row, &sample);
     iso_checker_effects_flow(c, &m->found, &sample, row);
     return ISO_OK;
@@ -77,8 +75,7 @@ static iso_status check_step(checker *c, checked_model *m, const double row[])
     double here[ISO_STATE];
     char name[sizeof m->found.residual[0].name];
     const double time = iso_checker_at(c, row, m->clock) - iso_checker_at(c, c->last, m->clock);
-    const iso_status status = integrate(c, m, c->last, c->before, time, &sample);
-    if (status != ISO_OK) return status;
+    ISO_TRY(integrate(c, m, c->last, c->before, time, &sample));
     m->followed = c->looked[m->clock] = true;
     iso_checker_go_on(c, c->last, &sample);
     iso_checker_state(c, m, row, here);

@@ -17,7 +17,50 @@
 #include "orbit/orbit_impl.h"
 #include "study/check/check.h"
 
-typedef struct checker checker;
+/* --- row by row ---------------------------------------------------------------------------------------------------
+ *
+ *     iso_checking_create(ctx, &params, header, 1e-13, &c);
+ *     while (next(row)) status = iso_checking_put(c, row); (before it iso_checking_begin_orbit, where one begins)
+ *     status = iso_checking_end(c, &residuals);
+ *     iso_checking_free(c);
+ *
+ * The same as iso_check, in constant memory. Where two rows are near each other, two-point Taylor quadrature
+ * finds the rows that are worst, and these alone are integrated. */
+typedef struct iso_checking iso_checking;
+
+/* header: columns, lines and row tolerance; it and params must outlive the check. Errors: those of iso_check about
+ * columns and lines; *checking is then NULL. */
+iso_status iso_checking_create(iso_context *ctx, const iso_params *params, const iso_record *header, double tolerance,
+                               iso_checking **checking);
+void iso_checking_free(iso_checking *checking);
+
+/* The next row: as many numbers as the header has columns. Errors: those of iso_check. */
+iso_status iso_checking_put(iso_checking *checking, const double row[]);
+
+/* The next row is the first of another orbit, of the same energy: no flow goes to it from the row before, and the
+ * integrals but the energy may have other values. */
+void iso_checking_begin_orbit(iso_checking *checking);
+
+/* Call this in the place of a row of nan: it is counted, and the flow goes from the row before to the one behind. */
+void iso_checking_pass(iso_checking *checking);
+
+/* After the last row. Errors: ISO_BAD_INPUT, if there was none. */
+iso_status iso_checking_end(iso_checking *checking, iso_residuals *residuals);
+
+/* What the check does not look at: columns that nothing was compared with, and lines in which each number can be
+ * another by a millionth, or the words others, without any residual to show it. This is tried, number by number, at
+ * the first row and a little later. Calls `tell` for each: "mu", "# tolerance", "# J, number 2"; and "the flow from
+ * row to row" where no orbit has two rows, or no clock. Call it after iso_checking_end. Errors: ISO_NO_MEMORY,
+ * ISO_STOPPED. */
+iso_status iso_checking_unseen(iso_checking *checking, void (*tell)(void *data, const char *name), void *data);
+
+/* The drifts of the integrals that hold, row by row, as a new record. The first column is the model's first clock, or
+ * "row", the row's number. The others ("h", "F_shell", ...) are |I(row) - I(first row)| / size; for a constraint its
+ * exact value stands in the place of I(first row). Errors: those of iso_check. */
+iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record,
+                            iso_record **drifts);
+
+typedef struct iso_checking checker;
 
 /* The integrals that hold for a model, and the value each should have. */
 typedef struct expectations {
@@ -50,7 +93,7 @@ typedef struct checked_model {
     iso_residuals found;
 } checked_model;
 
-struct checker {
+struct iso_checking {
     iso_context *ctx;
     const iso_params *params;
     const iso_record *record;    /* its names, lines and row tolerance; no rows */
@@ -59,19 +102,15 @@ struct checker {
     int columns[ISO_TRAJECTORY_COLUMNS]; /* of the record, -1: not there           */
     bool looked[ISO_TRAJECTORY_COLUMNS]; /* the column was compared with something */
     size_t width;                        /* of a row                               */
-    size_t rows, passed;     /* so far; passed over                                           */
-    size_t number, before;   /* of the row in hand, and of the last                           */
-    bool begins;             /* the row in hand is the first of its orbit */
-    double *last;            /* the last row                           */
-    double *first, *second;  /* the first two                          */
-    double span[ISO_CLOCKS]; /* largest |clock| so far                 */
-    iso_units units;         /* for the map                            */
+    size_t rows, passed;                 /* so far; passed over                                           */
+    size_t number, before;               /* of the row in hand, and of the last                           */
+    bool begins;                         /* the row in hand is the first of its orbit */
+    double *last;                        /* the last row                           */
+    double *first, *second;              /* the first two                          */
+    double span[ISO_CLOCKS];             /* largest |clock| so far                 */
+    iso_units units;                     /* for the map                            */
     checked_model model[2];
     iso_residuals map;
-};
-
-struct iso_checking {
-    checker all;
 };
 
 /* --- check_common.c --------------------------------------------------------------------------------------------- */
@@ -112,8 +151,8 @@ void iso_checker_own(const checker *c, const expectations *e, const double row[]
 
 /* --- check_lines.c ---------------------------------------------------------------------------------------------- */
 
-/* The energy that lines state (h, eps, the level's c), against the first row of a model. Errors: ISO_BAD_INPUT about a
- * line. */
+/* The energy that lines state (h, eps, the level's c), against the first row of a model. Errors: ISO_BAD_INPUT about
+ * a line. */
 iso_status iso_checker_energy(checker *c, checked_model *m, const double first[]);
 
 /* The numbers of lines that turn with the ball, such as `# gravity.up`, against the columns of a row at time 0. */

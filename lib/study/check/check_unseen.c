@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/number.h"
+#include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "study/check/check_impl.h"
 
@@ -56,11 +56,10 @@ static iso_status go_later(const trial *t, const checked_model *m, bool *gone)
     iso_orbit *orbit = NULL;
     iso_sample sample;
     if (!m->followed) return ISO_OK;
-    iso_status status = iso_checker_open(c, m, c->first, &orbit);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_checker_open(c, m, c->first, &orbit));
     const int column = c->columns[m->clock];
     if (!*gone) t->later[column] = later_time(c, m, orbit);
-    status = iso_orbit_at(orbit, t->later[column] - c->first[column], &sample);
+    iso_status status = iso_orbit_at(orbit, t->later[column] - c->first[column], &sample);
     iso_orbit_free(orbit);
     if (status == ISO_OK) put_sample(c, &sample, t->later);
     *gone = true;
@@ -203,19 +202,17 @@ static void try_line(trial *t, const char *key, const char *value, void (*tell)(
 static iso_status try_lines(trial *t, void (*tell)(void *data, const char *name), void *data)
 {
     const char *key, *value;
-    iso_status status = iso_record_create_like(t->c->ctx, t->c->record, 0, NULL, &t->header);
-    if (status == ISO_OK) status = make_later(t);
-    if (status == ISO_OK) status = check_again(t, &t->usual);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_record_create_like(t->c->ctx, t->c->record, 0, NULL, &t->header));
+    ISO_TRY(make_later(t));
+    ISO_TRY(check_again(t, &t->usual));
     for (size_t i = 0; t->trouble == ISO_OK && iso_record_line(t->c->record, i, &key, &value); i++)
         try_line(t, key, value, tell, data);
     return t->trouble;
 }
 
-iso_status iso_checking_unseen(iso_checking *checking, void (*tell)(void *data, const char *name), void *data)
+iso_status iso_checking_unseen(iso_checking *c, void (*tell)(void *data, const char *name), void *data)
 {
     ISO_DEFAULT_ARITHMETIC;
-    checker *c = &checking->all;
     trial t = {.c = c};
     if (!followed(c)) tell(data, "the flow from row to row");
     for (size_t i = 0; i < c->width; i++) {

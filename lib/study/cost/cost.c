@@ -1,5 +1,7 @@
 /* cost.c - measures error and time of every backend, method and tolerance on one scene, see cost.h. */
 #include "study/cost/cost.h"
+#include "method/methods_impl.h"
+#include "model/model_impl.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -56,21 +58,13 @@ static iso_cost_series *add_line(measurer *m, iso_backend backend, const iso_met
     iso_cost *c = m->out;
     iso_cost_series *line = &c->line[c->lines++];
     *line = (iso_cost_series){backend, method, c->cells, count, NAN, NAN, NAN, NAN};
-    for (int i = 0; i < count; i++)
-        c->cell[c->cells++] = (iso_cost_cell){.backend = backend,
-                                              .method = method,
-                                              .tolerance = method ? m->tolerance[i] : NAN,
-                                              .status = ISO_STOPPED,
-                                              .why = "not reached",
-                                              .error = NAN,
-                                              .clock_error = NAN,
-                                              .energy_drift = NAN,
-                                              .constraint_drift = NAN,
-                                              .setup = NAN,
-                                              .fastest = NAN,
-                                              .median = NAN,
-                                              .slowest = NAN,
-                                              .total = NAN};
+    for (int i = 0; i < count; i++) {
+        iso_cost_cell *cell = &c->cell[c->cells++];
+        *cell = (iso_cost_cell){.backend = backend, .method = method, .status = ISO_STOPPED, .why = "not reached"};
+        cell->tolerance = method ? m->tolerance[i] : NAN;
+        cell->error = cell->clock_error = cell->energy_drift = cell->constraint_drift = cell->setup = NAN;
+        cell->fastest = cell->median = cell->slowest = cell->total = NAN;
+    }
     return line;
 }
 
@@ -277,9 +271,7 @@ static iso_status find_reference(measurer *m)
     if (!m->time) return iso_context_no_memory(m->p.user, "%d times", times);
     for (int i = 0; i < times; i++) m->time[i] = i + 1 == times ? m->p.end : m->p.end * ((i + 1.0) / times);
     report_progress(m, "reference");
-    const iso_status status =
-        iso_cost_reference_find(&m->p, times, m->time, REFERENCES * m->seconds, false, &m->reference);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_cost_reference_find(&m->p, times, m->time, REFERENCES * m->seconds, false, &m->reference));
     snprintf(m->out->reference, sizeof m->out->reference, "%s", m->reference.what);
     snprintf(m->out->second, sizeof m->out->second, "%s", m->reference.second_what);
     m->out->uncertainty = m->reference.uncertainty;
@@ -290,10 +282,9 @@ static iso_status find_reference(measurer *m)
 static iso_status measure(measurer *m)
 {
     iso_cost *c = m->out;
-    iso_status status = find_reference(m);
-    if (status == ISO_OK) status = choose_cells(m);
-    double *about = status == ISO_OK ? calloc((size_t)c->cells + 1, sizeof *about) : NULL;
-    if (status != ISO_OK) return status;
+    ISO_TRY(find_reference(m));
+    ISO_TRY(choose_cells(m));
+    double *about = calloc((size_t)c->cells + 1, sizeof *about);
     if (!about) return iso_context_no_memory(m->p.user, "the cells");
     check_cells(m, about);
     time_cells(m, about);
@@ -312,13 +303,11 @@ iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_
     iso_cost_options own = iso_cost_defaults();
     measurer m = {.options = &own, .begin = processor_seconds()};
     *cost = NULL;
-    iso_status status = iso_options_take(ctx, "iso_cost_options", &own, sizeof own, options);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_options_take(ctx, "iso_cost_options", &own, sizeof own, options));
     m.seconds = own.seconds > 0 ? own.seconds : own.quick ? QUICK : LONG;
-    status = iso_cost_problem_open(&m.p, ctx, scene, &own);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_cost_problem_open(&m.p, ctx, scene, &own));
     m.out = calloc(1, sizeof *m.out);
-    status = m.out ? ISO_OK : iso_context_no_memory(ctx, "the measurement");
+    iso_status status = m.out ? ISO_OK : iso_context_no_memory(ctx, "the measurement");
     if (status == ISO_OK) {
         *m.out = (iso_cost){.end = m.p.end, .turns = NAN, .uncertainty = INFINITY};
         status = measure(&m);

@@ -65,7 +65,6 @@ typedef struct iso_cost_cell {
     bool below;  /* the reference is not exact enough to tell: error < 3 uncertainties             */
     bool pareto; /* no other cell is as exact and faster (1.05 times)                              */
 } iso_cost_cell;
-ISO_API extern const iso_field iso_cost_cell_fields[];
 
 /* One method of one backend, over its tolerances, the loosest first. */
 typedef struct iso_cost_series {
@@ -88,7 +87,6 @@ typedef struct iso_cost {
     iso_cost_cell *cell;
     iso_cost_series *line;
 } iso_cost;
-ISO_API extern const iso_field iso_cost_fields[];
 
 /* Failing cells are no failure. Errors: those of the scene itself, or of a backend and a method asked for (as
  * iso_orbit_create); ISO_BAD_ARGUMENT about "end" for a scene without length; ISO_NUMERICAL where no reference gets
@@ -97,15 +95,6 @@ ISO_API extern const iso_field iso_cost_fields[];
 ISO_API iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_cost_options *options,
                                     iso_cost **cost);
 ISO_API void iso_cost_free(iso_cost *cost);
-
-/* Whether a cell has a result. */
-ISO_API bool iso_cost_is_measured(const iso_cost_cell *cell);
-
-/* Whether its error is at most `want`; an error below the uncertainty of the reference counts as that uncertainty. */
-ISO_API bool iso_cost_reaches(const iso_cost *cost, const iso_cost_cell *cell, double want);
-
-/* The cell with the least `total` of those that reach `want`; NULL: none does. */
-ISO_API const iso_cost_cell *iso_cost_choose(const iso_cost *cost, double want);
 
 enum { ISO_COST_HORIZONS = 24 };
 
@@ -126,12 +115,6 @@ typedef struct iso_cost_growth {
     char reference[120], second[120];
     char why[160]; /* it ends before `horizons`; "": it does not                                  */
 } iso_cost_growth;
-ISO_API extern const iso_field iso_cost_growth_fields[];
-
-/* `horizons` lengths, from 1 to ISO_COST_HORIZONS: the scene's end and its doublings. Those beyond about 40 s of
- * processor time are left out. Errors: as iso_cost_measure; ISO_BAD_ARGUMENT about "horizons". */
-ISO_API iso_status iso_cost_grow(iso_context *ctx, const iso_scene *scene, const iso_cost_cell *cell, int horizons,
-                                 iso_cost_growth *growth);
 
 ISO_C_END
 

@@ -1,5 +1,5 @@
 /* cost_fields.c - what the measurements of cost hold: their numbers with their meaning (cost.h). */
-#include "study/cost/cost.h"
+#include "study/cost/cost_impl.h"
 
 static bool is_measured(const void *row)
 {

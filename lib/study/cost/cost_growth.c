@@ -92,14 +92,12 @@ static void measure_errors(grower *g)
 static iso_status find_errors(grower *g, int horizons)
 {
     const iso_cost_cell *c = &g->cell;
-    iso_status status = iso_cost_reference_find(&g->p, TIMES * horizons, g->time, REFERENCES, true, &g->reference);
-    const int reached = status == ISO_OK ? g->reference.first.reached / TIMES : 0;
-    if (status == ISO_OK && reached == 0)
-        return iso_context_fail(g->p.user, ISO_NUMERICAL, "", "no reference gets to %g", g->p.end);
-    if (status == ISO_OK) status = iso_cost_track_make(&g->p, TIMES * reached, g->time, &g->track);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_cost_reference_find(&g->p, TIMES * horizons, g->time, REFERENCES, true, &g->reference));
+    const int reached = g->reference.first.reached / TIMES;
+    if (reached == 0) return iso_context_fail(g->p.user, ISO_NUMERICAL, "", "no reference gets to %g", g->p.end);
+    ISO_TRY(iso_cost_track_make(&g->p, TIMES * reached, g->time, &g->track));
     if (reached < horizons) snprintf(g->out->why, sizeof g->out->why, "no reference gets farther");
-    status = iso_cost_walk(&g->p, c->backend, c->method, c->tolerance, false, ERRORS, &g->track);
+    const iso_status status = iso_cost_walk(&g->p, c->backend, c->method, c->tolerance, false, ERRORS, &g->track);
     if (iso_cost_is_stopped(&g->p)) return iso_context_stopped(g->p.user);
     if (status != ISO_OK)
         snprintf(g->out->why, sizeof g->out->why, "%.159s",
@@ -207,15 +205,13 @@ static iso_status grow(grower *g, int horizons)
     fill_times(g, horizons);
     iso_verdict verdict;
     double exponent;
-    iso_status status = choose_horizons(g, &horizons);
-    if (status == ISO_OK) status = find_errors(g, horizons);
-    if (status != ISO_OK) return status;
+    ISO_TRY(choose_horizons(g, &horizons));
+    ISO_TRY(find_errors(g, horizons));
     snprintf(g->out->reference, sizeof g->out->reference, "%s",
              g->cell.backend == ISO_BACKEND_EXACT ? g->reference.second_what : g->reference.what);
     snprintf(g->out->second, sizeof g->out->second, "%s", g->reference.second_what);
     measure_horizons(g);
-    status = ask_indicators(g, &verdict, &exponent);
-    if (status != ISO_OK) return status;
+    ISO_TRY(ask_indicators(g, &verdict, &exponent));
     fit_errors(g, verdict, exponent);
     fit_seconds(g->out);
     return iso_cost_is_stopped(&g->p) ? iso_context_stopped(g->p.user) : ISO_OK;

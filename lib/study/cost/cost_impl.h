@@ -100,4 +100,18 @@ double iso_cost_slope(int count, const double x[], const double y[], double apar
 /* Fits the lines, and finds the cells that are pareto. */
 void iso_cost_judge(iso_cost *cost);
 
+/* Whether a cell has a result. */
+bool iso_cost_is_measured(const iso_cost_cell *cell);
+
+/* Whether its error is at most `want`; an error below the uncertainty of the reference counts as that uncertainty. */
+bool iso_cost_reaches(const iso_cost *cost, const iso_cost_cell *cell, double want);
+
+/* The cell with the least `total` of those that reach `want`; NULL: none does. */
+const iso_cost_cell *iso_cost_choose(const iso_cost *cost, double want);
+
+/* `horizons` lengths, from 1 to ISO_COST_HORIZONS: the scene's end and its doublings. Those beyond about 40 s of
+ * processor time are left out. Errors: as iso_cost_measure; ISO_BAD_ARGUMENT about "horizons". */
+iso_status iso_cost_grow(iso_context *ctx, const iso_scene *scene, const iso_cost_cell *cell, int horizons,
+                         iso_cost_growth *growth);
+
 #endif

@@ -139,10 +139,9 @@ iso_status iso_cost_reference_find(cost_problem *p, int times, const double time
 {
     source from;
     *r = (cost_reference){.uncertainty = INFINITY};
-    iso_status status = iso_cost_track_make(p, times, time, &r->first);
-    if (status == ISO_OK) status = iso_cost_track_make(p, times, time, &r->second);
-    if (status == ISO_OK) status = find_first(p, seconds / 3, may_fall_short, r, &from);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_cost_track_make(p, times, time, &r->first));
+    ISO_TRY(iso_cost_track_make(p, times, time, &r->second));
+    ISO_TRY(find_first(p, seconds / 3, may_fall_short, r, &from));
     snprintf(r->second_what, sizeof r->second_what, "none");
     r->doubted = find_by_series(p, &from, seconds / 3, r);
     if (!r->doubted) r->doubted = find_by_others(p, &from, seconds / 24, r);

@@ -35,8 +35,7 @@ iso_status iso_cost_time(cost_problem *p, const iso_cost_cell *cell, double end,
 {
     const int count = about < SHORT / TOGETHER ? TOGETHER : about < SHORT ? (int)ceil(SHORT / about) : 1;
     if (about < 10 * SHORT) { /* fills the caches, which hold the data of another cell */
-        const iso_status status = run_some(p, cell, end, 1, setup, stepping, statistics);
-        if (status != ISO_OK) return status;
+        ISO_TRY(run_some(p, cell, end, 1, setup, stepping, statistics));
     }
     return run_some(p, cell, end, count, setup, stepping, statistics);
 }

@@ -61,17 +61,10 @@ iso_status iso_cost_problem_open(cost_problem *p, iso_context *user, const iso_s
     p->clock = iso_orbit_defaults(&scene->start).clock;
     p->other = p->clock == ISO_CLOCK_T ? ISO_CLOCK_S : ISO_CLOCK_T;
     p->end = scene->end;
-    const iso_status status = check_scene(user, scene, &p->effects, o);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_scene(user, scene, &p->effects, o));
     p->ctx = iso_context_create();
     if (!p->ctx) return iso_context_no_memory(user, "a context");
     return ISO_OK;
-}
-
-/* Called for each orbit, when the problem no longer moves: the context keeps the address of its monitor. */
-static void set_monitor(cost_problem *p)
-{
-    iso_context_set_monitor(p->ctx, go_on, &p->monitor);
 }
 
 void iso_cost_problem_close(cost_problem *p)
@@ -89,7 +82,7 @@ iso_status iso_cost_orbit_open(cost_problem *p, iso_backend backend, const iso_m
     if (method) o.tolerance = tolerance;
     o.shown = ISO_SHOW_BALL;
     o.with_clock[p->other] = with_clock;
-    set_monitor(p);
+    iso_context_set_monitor(p->ctx, go_on, &p->monitor); /* by its address: here the problem no longer moves */
     return iso_orbit_create(p->ctx, &p->scene->params, &p->scene->start, &o, orbit);
 }
 

@@ -1,6 +1,7 @@
 /* frequencies.c - the frequencies of a motion, see frequencies.h: from the closed solution where there is one, else
  * the estimate of frequencies_estimate.c. */
 #include "study/frequencies/frequencies.h"
+#include "orbit/orbit_impl.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,6 +15,7 @@
 #include "map/state.h"
 #include "model/model_impl.h"
 #include "study/frequencies/frequencies_impl.h"
+#include "study/frequencies/momentum.h"
 
 /* --- the closed solution ---------------------------------------------------------------------------------------- */
 

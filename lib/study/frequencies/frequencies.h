@@ -120,7 +120,6 @@ typedef struct iso_frequencies {
     double closed[ISO_CLOCKS];
     iso_estimate estimate;
 } iso_frequencies;
-ISO_API extern const iso_field iso_frequencies_fields[];
 
 /* Errors:
  * - ISO_BAD_INPUT about an effect that takes energy or lets the ball roll away: no such motion is quasi-periodic;

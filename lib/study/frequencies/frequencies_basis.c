@@ -1,18 +1,14 @@
 /* frequencies_basis.c - from the lines of n(t) to the two frequencies that they are combinations of. */
-#include "study/frequencies/frequencies_basis_impl.h"
+#include "study/frequencies/frequencies_impl.h"
 
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
-#include "study/frequencies/frequencies_impl.h"
-#include "study/frequencies/spectrum_impl.h"
-
-iso_status iso_basis_lines(iso_context *ctx, const series *s, size_t first, size_t count, int most, lines *l)
+iso_status iso_basis_lines(iso_context *ctx, const series *s, size_t first, size_t count, int most, line_list *l)
 {
     l->resolution = 2 * ISO_PI / ((double)count * s->step);
-    iso_status status = iso_spectrum_find(ctx, s->pair + 2 * first, count, s->step, most, l->line[0], &l->count[0]);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_spectrum_find(ctx, s->pair + 2 * first, count, s->step, most, l->line[0], &l->count[0]));
     return iso_spectrum_find(ctx, s->third + 2 * first, count, s->step, most, l->line[1], &l->count[1]);
 }
 
@@ -31,7 +27,7 @@ bool iso_basis_combine(double nu, const double f[2], double within, int *m, int 
     return least < INT_MAX;
 }
 
-double iso_basis_unexplained(const lines *l, const double f[2])
+double iso_basis_unexplained(const line_list *l, const double f[2])
 {
     double all = 0, unknown = 0;
     int m, n;
@@ -46,7 +42,7 @@ double iso_basis_unexplained(const lines *l, const double f[2])
 
 /* The strongest line of signal s that is no multiple of f (f = 0: the strongest that is not constant); -1: there is
  * none. Lines with an amplitude below 1e-10 are ignored. */
-static int strongest(const lines *l, int s, double f)
+static int strongest(const line_list *l, int s, double f)
 {
     for (int i = 0; i < l->count[s] && l->line[s][i].amplitude > 1e-10; i++) {
         const double nu = l->line[s][i].frequency, times = f != 0 ? round(nu / f) : 0;
@@ -57,7 +53,7 @@ static int strongest(const lines *l, int s, double f)
 
 /* The strongest line of the pair, and the strongest line that is no multiple of it: of the third, or else of the
  * pair. */
-static basis first_basis(const lines *l)
+static basis first_basis(const line_list *l)
 {
     basis b = {.angles = 0};
     const int one = strongest(l, 0, 0);
@@ -73,7 +69,7 @@ static basis first_basis(const lines *l)
     return b;
 }
 
-basis iso_basis_find(const lines *l)
+basis iso_basis_find(const line_list *l)
 {
     enum { STRONGEST = 12 };
     basis b = first_basis(l);
@@ -93,7 +89,7 @@ basis iso_basis_find(const lines *l)
     return b;
 }
 
-double iso_basis_nearest(const lines *l, bool pair, double nu)
+double iso_basis_nearest(const line_list *l, bool pair, double nu)
 {
     const int s = pair ? 0 : 1;
     double best = NAN;
@@ -105,7 +101,7 @@ double iso_basis_nearest(const lines *l, bool pair, double nu)
 iso_status iso_basis_in_part(iso_context *ctx, const series *s, const basis *whole, size_t first, size_t count,
                              double frequency[2])
 {
-    lines l;
+    line_list l;
     const iso_status status = iso_basis_lines(ctx, s, first, count, ISO_PART_LINES, &l);
     for (int i = 0; status == ISO_OK && i < whole->angles; i++)
         frequency[i] = iso_basis_nearest(&l, whole->of_pair[i], whole->frequency[i]);

@@ -5,7 +5,7 @@
 
 #include "orbit/orbit_impl.h"
 #include "study/frequencies/frequencies_impl.h"
-#include "study/refusals_impl.h"
+#include "study/study_impl.h"
 
 iso_status iso_frequencies_check(iso_context *ctx, const iso_frequencies_options *o)
 {

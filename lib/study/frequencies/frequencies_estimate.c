@@ -9,9 +9,8 @@
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/chaos/chaos.h"
-#include "study/frequencies/frequencies_basis_impl.h"
 #include "study/frequencies/frequencies_impl.h"
-#include "study/refusals_impl.h"
+#include "study/study_impl.h"
 
 /* Relative differences between the halves of an orbit below this are rounding. */
 static const double ROUNDING = 1e-14;
@@ -159,7 +158,7 @@ static iso_status ask_indicators(estimator *e)
 
 /* Names each line by its combination of the frequencies of the angles. These are > 0, and in the order of the angles,
  * which is the reverse of that of the basis. */
-static void name_lines(iso_frequencies *f, const lines *l)
+static void name_lines(iso_frequencies *f, const line_list *l)
 {
     iso_estimate *e = &f->estimate;
     const double one = f->angle[0].frequency[ISO_CLOCK_T], other = f->angle[1].frequency[ISO_CLOCK_T];
@@ -184,12 +183,11 @@ static iso_status estimate_in_t(estimator *e, const series *s, basis *b)
     iso_frequencies *f = e->f;
     iso_estimate *out = &f->estimate;
     double drift[2], before[2] = {NAN, NAN}, error[2];
-    lines l;
-    iso_status status = iso_basis_lines(e->ctx, s, 0, s->count, ISO_LINES, &l);
-    if (status != ISO_OK) return status;
+    line_list l;
+    ISO_TRY(iso_basis_lines(e->ctx, s, 0, s->count, ISO_LINES, &l));
     *b = iso_basis_find(&l);
     f->angles = b->angles;
-    status = find_drift(e, s, b, s->count / 2, drift, error);
+    iso_status status = find_drift(e, s, b, s->count / 2, drift, error);
     if (status == ISO_OK) status = find_drift(e, s, b, s->count / 8, before, NULL);
     out->drift = out->drift_before = 0;
     for (int i = 0; i < b->angles; i++) {
@@ -213,7 +211,7 @@ static iso_status estimate_in(estimator *e, iso_clock clock, const basis *in_t)
 {
     const double ratio = e->end[ISO_CLOCK_T] / e->end[clock];
     series s = {.pair = NULL};
-    lines l;
+    line_list l;
     basis b = *in_t;
     double drift[2], error[2] = {NAN, NAN};
     for (int i = 0; i < b.angles; i++) b.frequency[i] *= ratio;
@@ -271,9 +269,8 @@ static iso_status estimate(estimator *e)
     }
     if (e->indicated == ISO_REGULAR) out->verdict = ISO_REGULAR;
     const bool others = e->twin && out->verdict == ISO_REGULAR;
-    for (iso_clock clock = ISO_CLOCK_TAU; status == ISO_OK && others && clock < ISO_CLOCKS; clock++)
-        status = estimate_in(e, clock, &b);
     if (status != ISO_OK) return status;
+    for (iso_clock clock = ISO_CLOCK_TAU; others && clock < ISO_CLOCKS; clock++) ISO_TRY(estimate_in(e, clock, &b));
     say(e->f);
     iso_frequencies_finish(e->f);
     return ISO_OK;
@@ -334,15 +331,14 @@ iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, co
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_frequencies_options own = iso_frequencies_defaults();
-    iso_status status = iso_options_take(ctx, "iso_frequencies_options", &own, sizeof own, options);
-    if (status == ISO_OK) status = iso_frequencies_check(ctx, &own);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_options_take(ctx, "iso_frequencies_options", &own, sizeof own, options));
+    ISO_TRY(iso_frequencies_check(ctx, &own));
     const bool fixed = !isnan(own.turns) || !isnan(own.end) || !isnan(own.samples);
     estimator e = {.ctx = ctx, .scene = scene, .fixed = fixed, .effects = iso_scene_acting(scene), .f = f};
     e.progress = own.progress;
     e.data = own.data;
     iso_frequencies_blank(f);
     f->estimated = true;
-    status = prepare(&e, &own);
+    iso_status status = prepare(&e, &own);
     return status == ISO_OK ? estimate(&e) : status;
 }

@@ -1,36 +1,23 @@
 /* frequencies_fields.c - what frequencies hold: their numbers with their meaning (frequencies.h). */
+#include "base/names_impl.h"
 #include "study/frequencies/frequencies.h"
+#include "study/options_impl.h"
+#include "study/study_impl.h"
 
-static const char *clock_word(int clock)
-{
-    return iso_clock_name((iso_clock)clock);
-}
+static ISO_NAMES(kind_word, int, "separated", "symmetric", "plane", "separatrix", "rest", "unknown")
 
-static const char *verdict_word(int verdict)
-{
-    return iso_verdict_name((iso_verdict)verdict);
-}
-
-static const char *kind_word(int kind)
-{
-    static const char *const words[] = {
-        [ISO_EXACT_SEPARATED] = "separated",   [ISO_EXACT_SYMMETRIC] = "symmetric", [ISO_EXACT_PLANE] = "plane",
-        [ISO_EXACT_SEPARATRIX] = "separatrix", [ISO_EXACT_REST] = "rest",           [ISO_EXACT_KINDS] = "unknown"};
-    return words[kind];
-}
-
-/* --- the motion -------------------------------------------------------------------------------------------------- */
+/* --- the motion ------------------------------------------------------------------------------------------------- */
 
 #define FIELD(key, member, ...) ISO_MEMBER(iso_angle, key, member, __VA_ARGS__)
 
-static const iso_field angle_fields[] = {
-    FIELD("what", what, "", "what turns or swings"),
-    FIELD("frequency", frequency, "rad/time", "in each clock", .word = clock_word),
-    FIELD("period", period, "time", "in each clock", .word = clock_word),
-    FIELD("error", error, "rad/time", "of the frequency, if estimated", .word = clock_word),
-    FIELD("drift", drift, "", "of the frequency in t between halves of the orbit, if estimated"),
-    FIELD("action", action, "", "of a closed solution"),
-    ISO_FIELD_END,
+    static const iso_field angle_fields[] = {
+        FIELD("what", what, "", "what turns or swings"),
+        FIELD("frequency", frequency, "rad/time", "in each clock", .word = iso_clock_word),
+        FIELD("period", period, "time", "in each clock", .word = iso_clock_word),
+        FIELD("error", error, "rad/time", "of the frequency, if estimated", .word = iso_clock_word),
+        FIELD("drift", drift, "", "of the frequency in t between halves of the orbit, if estimated"),
+        FIELD("action", action, "", "of a closed solution"),
+        ISO_FIELD_END,
 };
 #undef FIELD
 
@@ -40,7 +27,7 @@ static const iso_field resonance_fields[] = {
     FIELD("p", p, "", "times the first frequency is nearly"),
     FIELD("q", q, "", "times the second one"),
     FIELD("gap", gap, "", "the relative difference"),
-    FIELD("beat", beat, "time", "in which p angle 1 - q angle 2 turns once", .word = clock_word),
+    FIELD("beat", beat, "time", "in which p angle 1 - q angle 2 turns once", .word = iso_clock_word),
     FIELD("met", met, "", "the gap is within the error"),
     ISO_FIELD_END,
 };
@@ -52,7 +39,7 @@ static const iso_field separatrix_fields[] = {
     ISO_FIELD_END,
 };
 
-/* --- the estimate ------------------------------------------------------------------------------------------------ */
+/* --- the estimate ----------------------------------------------------------------------------------------------- */
 
 #define FIELD(key, member, ...) ISO_MEMBER(iso_identified_line, key, member, __VA_ARGS__)
 
@@ -68,7 +55,7 @@ static const iso_field line_fields[] = {
 #define FIELD(key, member, ...) ISO_MEMBER(iso_estimate, key, member, __VA_ARGS__)
 
 static const iso_field found_fields[] = {
-    FIELD("verdict", verdict, "", "on the orbit", .word = verdict_word),
+    FIELD("verdict", verdict, "", "on the orbit", .word = iso_verdict_word),
     FIELD("length", length, "time", "of the orbit, in t"),
     FIELD("turns", turns, "", "of n"),
     FIELD("samples", samples, "", "of the orbit"),
@@ -82,7 +69,7 @@ static const iso_field found_fields[] = {
 };
 #undef FIELD
 
-/* --- all --------------------------------------------------------------------------------------------------------- */
+/* --- all -------------------------------------------------------------------------------------------------------- */
 
 static void find_solution(const void *row, int i, iso_value *v)
 {
@@ -124,7 +111,36 @@ const iso_field iso_frequencies_fields[] = {
     FIELD("rotation_number", rotation, "", "frequency 1 by frequency 2"),
     LIST("resonances", resonance, resonances, resonance_fields, "that are near"),
     LIST("separatrices", separatrix, separatrices, separatrix_fields, "that are near"),
-    FIELD("closed_orbit", closed, "time", "period of a closed orbit", .word = clock_word),
+    FIELD("closed_orbit", closed, "time", "period of a closed orbit", .word = iso_clock_word),
     ISO_GROUP("estimate", estimate_fields, "how the frequencies were found", ISO_WHEN(iso_frequencies, estimated)),
     ISO_FIELD_END,
 };
+
+/* --- the study -------------------------------------------------------------------------------------------------- */
+
+ISO_STUDY_BEGIN(iso_frequencies_options, iso_frequencies_defaults)
+
+static iso_status run(iso_context *ctx, const iso_scene *scene, const void *options, iso_study_result *result)
+{
+    iso_frequencies f;
+    const iso_status status = iso_frequencies_find(ctx, scene, options, &f);
+    if (status != ISO_OK) return status;
+    return iso_study_table(ctx, "frequencies", scene, iso_frequencies_fields, &f, NULL, &result->table[0]);
+}
+
+#define ROW(name, argument, expected, doc, set, member)                                                              \
+    ISO_OPTION(name, argument, expected, doc, set, iso_frequencies_options, member)
+
+const iso_option iso_frequencies_option[] = {
+    ROW("turns", "N", "a positive number", "length of the orbit in turns, 20 or more (default 1000, more if needed)",
+        iso_set_positive, turns),
+    ROW("t-end", "T", "a positive number", "length of the orbit in time t, in place of --turns", iso_set_positive,
+        end),
+    ROW("samples", "N", "a whole number from 1 on",
+        "number of samples of the orbit, at most 4194304, rounded up to a power of 2 (default 32 each turn)",
+        iso_set_count, samples),
+    ISO_OPTION_END,
+};
+
+const iso_study iso_frequencies_study = {"frequencies", iso_frequencies_option, sizeof(iso_frequencies_options),
+                                         begin, .run = run};

@@ -1,5 +1,5 @@
 /* momentum.c - the image of the momentum map and its parts; the formulas stand in momentum.h. */
-#include "study/frequencies/momentum_impl.h"
+#include "study/frequencies/frequencies_impl.h"
 
 #include <math.h>
 #include <stdio.h>

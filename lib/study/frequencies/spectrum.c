@@ -1,5 +1,5 @@
 /* spectrum.c - the lines of a signal by frequency analysis; the definitions stand in spectrum.h. */
-#include "study/frequencies/spectrum_impl.h"
+#include "study/frequencies/frequencies_impl.h"
 
 #include <complex.h>
 #include <gsl/gsl_fft_complex.h>

@@ -1,17 +1,18 @@
-/* integrals.c - the search for further first integrals, see integrals.h: what is refused, and what the parts of the
- * spaces tell together. Samples are taken in integrals_orbits.c, linear algebra is in integrals_part.c. */
+/* integrals.c - the search for additional first integrals, see integrals.h: what is refused, and what the parts of
+ * the spaces tell together. Samples are taken in integrals_orbits.c, linear algebra is in integrals_part.c. */
 #include "study/integrals/integrals.h"
+#include "model/model_impl.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/monitor_impl.h"
+#include "base/names_impl.h"
 #include "base/options_impl.h"
-#include "map/level_impl.h"
 #include "map/section_impl.h"
 #include "study/integrals/integrals_impl.h"
-#include "study/level_impl.h"
+#include "study/study_impl.h"
 
 enum { LEAST_ORBITS = 64, MOST_ORBITS = 10000, PROBES = 16 };
 
@@ -26,11 +27,7 @@ typedef struct search {
     const iso_integral *known[ISO_INTEGRAL_KNOWN];
 } search;
 
-const char *iso_integral_verdict_name(iso_integral_verdict verdict)
-{
-    static const char *const names[] = {"none", "found", "undecided"};
-    return (int)verdict >= 0 && verdict <= ISO_INTEGRALS_UNDECIDED ? names[verdict] : NULL;
-}
+ISO_NAMES(iso_integral_verdict_name, iso_integral_verdict, "none", "found", "undecided")
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
 
@@ -64,9 +61,8 @@ static iso_status choose_orbits(iso_context *ctx, iso_integral_search_options *o
 
 static iso_status check_options(iso_context *ctx, iso_integral_search_options *o)
 {
-    iso_status status = check_degrees(ctx, o);
-    if (status == ISO_OK) status = choose_orbits(ctx, o);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_degrees(ctx, o));
+    ISO_TRY(choose_orbits(ctx, o));
     if (!(o->turns >= 1 && o->turns <= 1e5))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "turns", "%g turns are not in [1, 1e5]", o->turns);
     if (!(o->within > 0 && o->within < 1))
@@ -218,11 +214,8 @@ static iso_status search_part(search *s, int degree, unsigned parity)
 static iso_status search_degree(search *s, int degree)
 {
     iso_integral_degree *at = &s->out->at[degree];
-    iso_status status = ISO_OK;
     *at = (iso_integral_degree){.degree = degree, .largest = NAN, .smallest = NAN};
-    for (unsigned parity = 0; parity < INTEGRAL_PARITIES && status == ISO_OK; parity++)
-        status = search_part(s, degree, parity);
-    if (status != ISO_OK) return status;
+    for (unsigned parity = 0; parity < INTEGRAL_PARITIES; parity++) ISO_TRY(search_part(s, degree, parity));
     const size_t known = degree <= 2 ? (size_t)(degree == 2) : s->found[degree % 2]; /* V_2: the energy */
     at->further = at->found > known ? at->found - known : 0;
     s->found[degree % 2] = at->found;
@@ -268,29 +261,22 @@ static void judge(search *s)
         out->verdict = ISO_INTEGRALS_UNDECIDED;
 }
 
-/* What steps of this tolerance do to an integral, with a margin (measured at k = 1 and k = -1, see the test). */
-static double relative_error(const iso_integral_search_options *o)
-{
-    return 5e-15 + 1e-4 * o->tolerance * o->turns;
-}
-
 static iso_status run(search *s, const iso_scene *scene)
 {
     iso_params own;
     iso_point_motion motion;
-    iso_status status = check_options(s->ctx, &s->options);
-    if (status == ISO_OK) status = iso_level_motion(s->ctx, scene, "integrals are sought", &own, &motion);
-    if (status == ISO_OK)
-        status = iso_integral_prepare(s->ctx, motion, s->options.seed, s->options.orbits, &s->samples);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_options(s->ctx, &s->options));
+    ISO_TRY(iso_level_motion(s->ctx, scene, "integrals are sought", &own, &motion));
+    ISO_TRY(iso_integral_prepare(s->ctx, motion, s->options.seed, s->options.orbits, &s->samples));
     const iso_problem *f = &s->samples.problem;
     s->out->level = f->energy == 0 ? 0 : iso_level_of(&f->p, f->energy / f->eps);
     s->out->coefficients = s->options.coefficients;
     s->out->orbits = s->options.orbits;
-    s->out->delta = relative_error(&s->options);
+    /* What steps of this tolerance do to an integral, with a margin (measured at k = 1 and k = -1, see the test). */
+    s->out->delta = 5e-15 + 1e-4 * s->options.tolerance * s->options.turns;
     s->all = (size_t)s->options.degree * INTEGRAL_PARITIES;
     list_known(s);
-    status = iso_integral_follow(s->ctx, &s->options, &s->samples, &s->out->energy);
+    iso_status status = iso_integral_follow(s->ctx, &s->options, &s->samples, &s->out->energy);
     for (int d = 1; d <= s->options.degree && status == ISO_OK; d++) status = search_degree(s, d);
     if (status == ISO_OK || status == ISO_STOPPED) judge(s);
     return status;

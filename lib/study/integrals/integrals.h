@@ -1,4 +1,4 @@
-/* integrals.h - are there further first integrals? A search for polynomials in M that are constant on many orbits.
+/* integrals.h - are there additional first integrals? A search for polynomials in M that are constant on many orbits.
  *
  *     iso_integral_search found;
  *     iso_integral_search_options o = iso_integral_search_defaults();
@@ -48,6 +48,7 @@
 #include "../../base/field.h"
 #include "../../orbit/orbit.h"
 
+
 ISO_C_BEGIN
 
 enum {
@@ -89,9 +90,6 @@ typedef enum iso_integral_verdict {
     ISO_INTEGRALS_FOUND,    /* at least one that does not depend on the energy                   */
     ISO_INTEGRALS_UNDECIDED /* a value is doubtful, the search was stopped, or see `near`        */
 } iso_integral_verdict;
-
-/* "none", "found", "undecided" */
-ISO_API const char *iso_integral_verdict_name(iso_integral_verdict verdict);
 
 /* One singular value. */
 typedef struct iso_integral_value {
@@ -138,10 +136,6 @@ typedef struct iso_integral_search {
     int known_count;
     iso_integral_known known[ISO_INTEGRAL_KNOWN];
 } iso_integral_search;
-ISO_API extern const iso_field iso_integral_search_fields[];
-
-/* The smallest value that is no integral's, over all degrees; NaN: there is none. */
-ISO_API double iso_integral_smallest(const iso_integral_search *found);
 
 /* Only k, J and the effects of the scene are read, and the level H of its start.
  * Errors: ISO_BAD_ARGUMENT about "degree", "coefficients", "orbits" (too few for the functions, or more than 10000),

@@ -1,7 +1,8 @@
 /* integrals_fields.c - what a search for integrals holds: its numbers with their meaning (integrals.h). */
 #include <math.h>
 
-#include "study/integrals/integrals.h"
+#include "study/integrals/integrals_impl.h"
+#include "study/options_impl.h"
 
 static const char *verdict_word(int verdict)
 {
@@ -20,7 +21,7 @@ static const iso_field value_fields[] = {
     ISO_FIELD_END,
 };
 
-/* --- degrees ----------------------------------------------------------------------------------------------------- */
+/* --- degrees ---------------------------------------------------------------------------------------------------- */
 
 static double gap_of(const void *row)
 {
@@ -45,7 +46,7 @@ static const iso_field degree_fields[] = {
 };
 #undef FIELD
 
-/* --- known integrals --------------------------------------------------------------------------------------------- */
+/* --- known integrals -------------------------------------------------------------------------------------------- */
 
 static bool is_found(const void *row)
 {
@@ -65,7 +66,7 @@ static const iso_field known_fields[] = {
 };
 #undef FIELD
 
-/* --- the search -------------------------------------------------------------------------------------------------- */
+/* --- the search ------------------------------------------------------------------------------------------------- */
 
 double iso_integral_smallest(const iso_integral_search *r)
 {
@@ -115,3 +116,39 @@ const iso_field iso_integral_search_fields[] = {
     ISO_ITEMS("degrees", degree_of, degree_fields, "the spaces that were searched"),
     ISO_FIELD_END,
 };
+
+/* --- the study -------------------------------------------------------------------------------------------------- */
+
+ISO_STUDY_BEGIN(iso_integral_search_options, iso_integral_search_defaults)
+
+static iso_status run(iso_context *ctx, const iso_scene *scene, const void *options, iso_study_result *result)
+{
+    iso_integral_search r = {.degrees = 0};
+    const iso_status status = iso_integral_search_run(ctx, scene, options, &r);
+    if (status != ISO_OK) return status;
+    return iso_study_table(ctx, "integrals", scene, iso_integral_search_fields, &r, NULL, &result->table[0]);
+}
+
+#define ROW(name, argument, expected, doc, set, member)                                                              \
+    ISO_OPTION(name, argument, expected, doc, set, iso_integral_search_options, member)
+
+const iso_option iso_integrals_option[] = {
+    ROW("degree", "D", "a whole number from 1 on", "largest degree in M, to 8 (default 2)", iso_set_count_int,
+        degree),
+    ROW("coefficients", "E", "a whole number from 0 on",
+        "largest degree in gamma of the coefficients, to 8 (default D, at least 2)", iso_set_whole_int, coefficients),
+    ROW("orbits", "N", "a whole number from 1 on", "orbits that are sampled (default 64, more for high degrees)",
+        iso_set_count_size, orbits),
+    ROW("turns", "T", "a positive number", "turns of each orbit, about, 1 to 1e5 (default 50)", iso_set_positive,
+        turns),
+    ISO_OPTION_SEED("other starts and times (default 0)", iso_integral_search_options, seed),
+    ROW("within", "X", "a positive number", "a function that varies by more than X is no integral (default 1e-10)",
+        iso_set_positive, within),
+    ISO_OPTION_TOLERANCE("largest relative error of one step (default 1e-14)", iso_integral_search_options,
+                         tolerance),
+    ISO_OPTION_THREADS(iso_integral_search_options, threads),
+    ISO_OPTION_END,
+};
+
+const iso_study iso_integrals_study = {"integrals", iso_integrals_option, sizeof(iso_integral_search_options), begin,
+                                       .run = run};

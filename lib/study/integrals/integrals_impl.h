@@ -2,7 +2,7 @@
 #ifndef ISO_STUDY_INTEGRALS_IMPL_H
 #define ISO_STUDY_INTEGRALS_IMPL_H
 
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "study/integrals/integrals.h"
 
 enum { INTEGRAL_POWERS = ISO_INTEGRAL_DEGREE + 1, INTEGRAL_PARITIES = 8 };
@@ -63,5 +63,11 @@ static inline bool integral_is_found(const iso_integral_value *v, double within)
 {
     return v->value <= v->error && v->error <= within;
 }
+
+/* "none", "found", "undecided" */
+const char *iso_integral_verdict_name(iso_integral_verdict verdict);
+
+/* The smallest value that is no integral's, over all degrees; NaN: there is none. */
+double iso_integral_smallest(const iso_integral_search *found);
 
 #endif

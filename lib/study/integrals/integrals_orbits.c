@@ -14,13 +14,12 @@
 static iso_status choose_unit(iso_context *ctx, const iso_params *p, iso_params *own, double *unit)
 {
     *unit = p->k > 0 ? min3(p->J) : max3(p->J);
-    const iso_status status = iso_params_check_powers(ctx, p);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_params_check_powers(ctx, p));
     return iso_params_reduced(ctx, p->k, (double[]){p->J[0] / *unit, p->J[1] / *unit, p->J[2] / *unit}, own);
 }
 
-/* A time unit with which |M| <= 1, so that no power of it overflows: M^2/2 = H + eps q^(-1/k) has its largest value at
- * the smallest or at the largest q. On H = 0 then eps = 1/2, whatever the scene's is. */
+/* A time unit with which |M| <= 1, so that no power of it overflows: M^2/2 = H + eps q^(-1/k) has its largest value
+ * at the smallest or at the largest q. On H = 0 then eps = 1/2, whatever the scene's is. */
 static iso_status choose_level(iso_context *ctx, iso_point_motion m, double unit, iso_problem *f)
 {
     const double eps = m.energy == 0 ? 1 : m.eps * pow(unit, -1 / m.p->k), k = m.p->k;
@@ -44,9 +43,8 @@ iso_status iso_integral_prepare(iso_context *ctx, iso_point_motion motion, uint6
 {
     double unit;
     *s = (integral_samples){.orbits = orbits, .rows = orbits * ISO_INTEGRAL_ROWS};
-    iso_status status = choose_unit(ctx, motion.p, &s->problem.p, &unit);
-    if (status == ISO_OK) status = choose_level(ctx, motion, unit, &s->problem);
-    if (status != ISO_OK) return status;
+    ISO_TRY(choose_unit(ctx, motion.p, &s->problem.p, &unit));
+    ISO_TRY(choose_level(ctx, motion, unit, &s->problem));
     s->axis = iso_section_axis(iso_integral_motion(s));
     iso_section_spread_prepare(&s->spread, iso_integral_motion(s), s->axis, seed);
     return ISO_OK;
@@ -141,8 +139,7 @@ static iso_status follow(iso_context *ctx, const iso_integral_search_options *op
         iso_section_point(iso_integral_motion(s), s->axis, l, x, r->start[i].y);
         r->orbit[i] = (iso_batch_orbit){&s->problem.p, &r->start[i], NULL};
     }
-    const iso_status status = choose_times(ctx, options, s, times);
-    if (status != ISO_OK) return status;
+    ISO_TRY(choose_times(ctx, options, s, times));
     return iso_batch_run(ctx, r->orbit, s->orbits, &o, times, ISO_INTEGRAL_ROWS, r->sample, NULL);
 }
 

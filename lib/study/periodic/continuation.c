@@ -10,20 +10,17 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/monitor_impl.h"
+#include "base/names_impl.h"
 #include "base/options_impl.h"
 #include "base/pi_impl.h"
-#include "orbit/pool_impl.h"
-#include "study/level_impl.h"
+#include "base/pool_impl.h"
 #include "study/periodic/continuation_impl.h"
+#include "study/study_impl.h"
 
 #define NEAR_END 4e-3 /* of the line, in u: here a collision is foretold */
 
-const char *iso_branch_kind_name(iso_branch_kind kind)
-{
-    static const char *const names[] = {
-        "fold", "period doubling", "symmetry breaking", "collision", "torus", "end", "failure", "touch", "undecided"};
-    return (int)kind >= 0 && kind <= ISO_BRANCH_UNDECIDED ? names[kind] : NULL;
-}
+ISO_NAMES(iso_branch_kind_name, iso_branch_kind, "fold", "period doubling", "symmetry breaking", "collision", "torus",
+          "end", "failure", "touch", "undecided")
 
 static double value_of(const iso_params *p, double level, iso_vary vary)
 {
@@ -336,7 +333,7 @@ static iso_status follow_all(crowd *c, size_t count, iso_continuations *out)
     iso_context *ctx = c->family->ctx;
     c->of = calloc(count + 1, sizeof *c->of);
     if (!c->of) return iso_context_no_memory(ctx, "branches");
-    iso_pool pool = {.count = count, .chunk = 1, .solve = follow_some, .data = c};
+    iso_pool pool = {.what = "orbit", .count = count, .chunk = 1, .solve = follow_some, .data = c};
     const size_t threads = iso_pool_threads(c->family->options.threads, count > 0 ? count - 1 : 0, 1);
     const iso_status status = iso_pool_run(ctx, &pool, threads, NULL);
     const iso_status gathered = gather(ctx, c->of, count, out);
@@ -380,15 +377,14 @@ iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const 
     iso_continuation f;
     double own;
     *follow = NULL;
-    iso_status status = prepare(ctx, scene, options, &f, &own);
-    if (status == ISO_OK) status = check_lines(ctx, orbits, count);
-    if (status == ISO_OK && count == 0)
-        status = iso_context_fail(ctx, ISO_BAD_INPUT, "orbit", "no symmetric orbit to follow: the list is empty");
-    if (status != ISO_OK) return status;
+    ISO_TRY(prepare(ctx, scene, options, &f, &own));
+    ISO_TRY(check_lines(ctx, orbits, count));
+    if (count == 0)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "orbit", "no symmetric orbit to follow: the list is empty");
     iso_continuations *out = calloc(1, sizeof *out);
     if (!out) return iso_context_no_memory(ctx, "branches");
     out->vary = f.options.vary;
-    status = follow_all(&(crowd){.family = &f, .orbit = orbits, .own = own}, count, out);
+    const iso_status status = follow_all(&(crowd){.family = &f, .orbit = orbits, .own = own}, count, out);
     if (status == ISO_OK || status == ISO_STOPPED)
         *follow = out;
     else

@@ -87,7 +87,6 @@ typedef struct iso_continuations {
     size_t count;
     iso_branch *branch;
 } iso_continuations;
-ISO_API extern const iso_field iso_continuation_fields[];
 
 /* A row of a table of branches: a point, or an event. */
 typedef struct iso_branch_row {
@@ -96,7 +95,6 @@ typedef struct iso_branch_row {
     iso_branch_point at;
     const iso_branch_event *event; /* NULL: none */
 } iso_branch_row;
-ISO_API extern const iso_field iso_branch_row_fields[];
 
 /* Whether the options suit the scene: the errors of iso_continuation_run about "range". */
 ISO_API iso_status iso_continuation_check(iso_context *ctx, const iso_scene *scene,

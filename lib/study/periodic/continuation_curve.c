@@ -2,16 +2,13 @@
 #define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 
+#include "base/names_impl.h"
 #include "base/pi_impl.h"
-#include "map/level_impl.h"
+#include "map/section_impl.h"
 #include "model/model_impl.h"
 #include "study/periodic/continuation_impl.h"
 
-const char *iso_vary_name(int vary)
-{
-    static const char *const names[] = {"k", "J1", "J2", "J3", "ratio", "level"};
-    return vary >= 0 && vary < 6 ? names[vary] : NULL;
-}
+ISO_NAMES(iso_vary_name, int, "k", "J1", "J2", "J3", "ratio", "level")
 
 bool iso_continuation_params(const iso_continuation *f, double value, iso_params *p, double *energy)
 {

@@ -97,8 +97,8 @@ static iso_status look_beside(const finder *s, const double before[2], const dou
 }
 
 iso_status iso_continuation_switch(const iso_continuation *f, const iso_branch *b, const iso_branch_event *e,
-                             iso_status (*found)(void *data, const iso_continuation *f, double u, double value),
-                             void *data)
+                                   iso_status (*found)(void *data, const iso_continuation *f, double u, double value),
+                                   void *data)
 {
     iso_continuation other = *f;
     iso_params p;

@@ -6,7 +6,7 @@
 
 #include "base/pi_impl.h"
 #include "study/periodic/hill_trace_impl.h"
-#include "study/periodic/hill_wide_impl.h"
+#include "study/periodic/periodic_impl.h"
 
 /* --- the length of a step --------------------------------------------------------------------------------------- */
 
@@ -26,8 +26,8 @@ static void add_point(hill_pace *s, double at, double height)
     s->height[s->points++] = height;
 }
 
-/* Where 1 + E q^(1/k) = 0: ln q = -k ln |E| + i k pi n, n odd for E > 0 and even for E < 0. Where q goes round its zero
- * farther than arg = 3 pi/2 no disc of convergence comes. */
+/* Where 1 + E q^(1/k) = 0: ln q = -k ln |E| + i k pi n, n odd for E > 0 and even for E < 0. Where q goes round its
+ * zero farther than arg = 3 pi/2 no disc of convergence comes. */
 static void add_level(double k, double energy, double m, double d, hill_pace *s)
 {
     for (int n = energy > 0 ? 1 : 0; fabs(k) * n <= 1.5 && energy != 0; n += 2) {

@@ -1,12 +1,12 @@
-/* hill_impl.h - Hill's equation of a rotation by Taylor series, in numbers of the type NUMBER; see hill.c. On the level
- * H = E, with eps = 1 and u = E q^(1+1/k):
+/* hill_impl.h - Hill's equation of a rotation by Taylor series, in numbers of the type NUMBER; see hill.c. On the
+ * level H = E, with eps = 1 and u = E q^(1+1/k):
  *
- *     (q + u) y'' = (q'/(2k)) y' - ((1/k) (J_i - (1-k) q) + u) y,   q = m + d cos 2 phi = J_a cos^2 phi + J_b sin^2 phi
+ *     (q + u) y'' = (q'/(2k)) y' - ((1/k) (J_i - (1-k) q) + u) y, q = m + d cos 2 phi = J_a cos^2 phi + J_b sin^2 phi
  *     q u' = (1 + 1/k) q' u
  *
  * The singular points are the zeros of q: cos 2 phi = -m/d, at phi = pi/2 (d > 0) or 0 (d < 0), up to i b,
- * cosh 2b = m/|d|; and those of 1 + E q^(1/k). Each step is a fixed part of the distance to them, and has as many terms
- * as the digits need.
+ * cosh 2b = m/|d|; and those of 1 + E q^(1/k). Each step is a fixed part of the distance to them, and has as many
+ * terms as the digits need.
  */
 typedef struct HILL(problem) {
     NUMBER k, Ji, m, d, energy;

@@ -8,22 +8,18 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/names_impl.h"
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
-#include "map/level_impl.h"
+#include "map/section_impl.h"
 #include "model/model_impl.h"
-#include "orbit/orbit.h"
-#include "study/level_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/periodic/hill_trace_impl.h"
 #include "study/periodic/periodic_impl.h"
 #include "study/periodic/stability_chart.h"
-#include "study/refusals_impl.h"
+#include "study/study_impl.h"
 
-const char *iso_stability_name(iso_stability stability)
-{
-    static const char *const names[] = {"stable", "unstable", "inverse", "degenerate", "undecided"};
-    return (int)stability >= 0 && stability <= ISO_STABILITY_UNDECIDED ? names[stability] : NULL;
-}
+ISO_NAMES(iso_stability_name, iso_stability, "stable", "unstable", "inverse", "degenerate", "undecided")
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
 
@@ -70,21 +66,18 @@ static iso_status check_scene(iso_periodic_work *w)
     static const char what[] = "periodic orbits are sought";
     const iso_effects effects = iso_scene_acting(w->scene);
     iso_on_level on;
-    iso_status status = iso_refuse_beyond_level(w->ctx, &effects, what);
-    if (status == ISO_OK) status = check_numbers(w);
-    if (status == ISO_OK) status = check_moments(w);
-    if (status == ISO_OK)
-        status = iso_refuse_rest(w->ctx, &w->scene->start, &effects, "has no periodic orbits of its energy");
-    if (status == ISO_OK) status = iso_level_find(w->ctx, w->scene, what, &on);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_refuse_beyond_level(w->ctx, &effects, what));
+    ISO_TRY(check_numbers(w));
+    ISO_TRY(check_moments(w));
+    ISO_TRY(iso_refuse_rest(w->ctx, &w->scene->start, &effects, "has no periodic orbits of its energy"));
+    ISO_TRY(iso_level_find(w->ctx, w->scene, what, &on));
     w->units = on.units, w->h = on.h, w->energy = on.energy, w->H = on.H;
     w->out->level = iso_level_of(&w->units.own, w->energy);
     const double slow = 1 / sqrt(iso_coupling(&w->units.own, w->h));
     for (iso_clock c = 0; c < ISO_CLOCKS; c++) w->unit_clock[c] = slow * iso_unit(&w->units, iso_clock_dimension(c));
-    if (!isfinite(w->unit_clock[ISO_CLOCK_T]))
-        status = iso_context_fail(w->ctx, ISO_BAD_INPUT, "angular_velocity",
-                                  "the energy of this start is too large or too small for doubles");
-    return status;
+    if (isfinite(w->unit_clock[ISO_CLOCK_T])) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, "angular_velocity",
+                            "the energy of this start is too large or too small for doubles");
 }
 
 /* --- the work --------------------------------------------------------------------------------------------------- */
@@ -115,14 +108,13 @@ static void put_in_order(iso_periodic *out, bool polished)
 
 static iso_status work(iso_periodic_work *w)
 {
-    iso_status status = check_options(w);
-    if (status == ISO_OK) status = check_scene(w);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_options(w));
+    ISO_TRY(check_scene(w));
     iso_periodic_map_prepare(w->ctx, &w->units.own, w->energy, w->options.threads, &w->map);
     w->out->axis = w->map.axis;
     w->out->closed = is_closed(&w->map);
     w->out->longest = w->options.period;
-    status = iso_periodic_rotations(w);
+    iso_status status = iso_periodic_rotations(w);
     if (w->options.rotations_alone) return status;
     if (status == ISO_OK && !(w->options.all && w->options.no_lines)) status = iso_periodic_search(w);
     if (status == ISO_OK && w->options.all) status = iso_periodic_from_grid(w);
@@ -136,11 +128,10 @@ iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_
     ISO_DEFAULT_ARITHMETIC;
     iso_periodic_work w = {.ctx = ctx, .scene = scene, .options = iso_periodic_defaults()};
     *found = NULL;
-    iso_status status = iso_options_take(ctx, "iso_periodic_options", &w.options, sizeof w.options, options);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_options_take(ctx, "iso_periodic_options", &w.options, sizeof w.options, options));
     w.out = calloc(1, sizeof *w.out);
     if (!w.out) return iso_context_no_memory(ctx, "periodic orbits");
-    status = work(&w);
+    iso_status status = work(&w);
     free(w.folded);
     if (status == ISO_OK || status == ISO_STOPPED)
         *found = w.out;

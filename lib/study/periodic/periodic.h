@@ -37,6 +37,7 @@
 #include "../../model/system.h"
 #include "../../orbit/scene.h"
 
+
 ISO_C_BEGIN
 
 /* The multipliers of a map of the plane that keeps an area: lambda and 1/lambda, lambda + 1/lambda = trace. */
@@ -111,7 +112,6 @@ typedef struct iso_periodic_orbit {
     size_t number;      /* in the list, from 1                                                                   */
     bool polished;      /* found with numbers of 128 bits                                                        */
 } iso_periodic_orbit;
-ISO_API extern const iso_field iso_periodic_orbit_fields[];
 
 typedef struct iso_periodic_options {
     size_t size;   /* set by iso_periodic_defaults; see isoroll.h */
@@ -147,7 +147,6 @@ typedef struct iso_periodic {
     size_t unresolved; /* intervals of the lines in which the samples could not be made close enough              */
     size_t lost;       /* sign changes that did not end in an orbit: closer pairs, or a failure                   */
 } iso_periodic;
-ISO_API extern const iso_field iso_periodic_fields[];
 
 /* options NULL: iso_periodic_defaults(). Errors:
  * - ISO_BAD_ARGUMENT about "period" or "grid", or about "polish" where there are no numbers of 128 bits;

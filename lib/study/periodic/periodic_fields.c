@@ -1,13 +1,10 @@
 /* periodic_fields.c - what the results of periodic orbits hold: their numbers with their meaning (periodic.h,
  * continuation.h, stability_chart.h). */
+#include "study/options_impl.h"
 #include "study/periodic/continuation.h"
 #include "study/periodic/periodic.h"
 #include "study/periodic/stability_chart.h"
-
-static const char *clock_word(int clock)
-{
-    return iso_clock_name((iso_clock)clock);
-}
+#include "study/study_impl.h"
 
 static const char *stability_word(int stability)
 {
@@ -16,7 +13,7 @@ static const char *stability_word(int stability)
 
 static const iso_field pair[] = {{.name = "", .type = ISO_FIELD_REAL, .count = 2}, ISO_FIELD_END};
 
-/* --- multipliers ------------------------------------------------------------------------------------------------- */
+/* --- multipliers ------------------------------------------------------------------------------------------------ */
 
 static bool is_stable(const void *row)
 {
@@ -40,7 +37,7 @@ static const iso_field multipliers[] = {
 };
 #undef FIELD
 
-/* --- rotations --------------------------------------------------------------------------------------------------- */
+/* --- rotations -------------------------------------------------------------------------------------------------- */
 
 static bool rotates(const void *row)
 {
@@ -78,14 +75,15 @@ static const iso_field rotation_fields[] = {
     FIELD("x", x, "", "1: on the boundary"),
     FIELD("oscillates", oscillates, "", "there is no rotation, but an oscillation between two places of rest"),
     ISO_STRUCT(iso_rotation, "", half, multipliers, "of half a turn", .there = rotates, .how = ISO_OPTIONAL),
-    FIELD("", clock, "time", "a whole turn in this clock", .word = clock_word, .there = rotates, .how = ISO_OPTIONAL),
+    FIELD("", clock, "time", "a whole turn in this clock", .word = iso_clock_word, .there = rotates,
+          .how = ISO_OPTIONAL),
     ISO_FOUND("half_turn_trace_digits", ISO_FIELD_TEXT, find_rotation_digits, "", "all digits", .there = has_digits,
               .how = ISO_OPTIONAL),
     ISO_FIELD_END,
 };
 #undef FIELD
 
-/* --- orbits ------------------------------------------------------------------------------------------------------ */
+/* --- orbits ----------------------------------------------------------------------------------------------------- */
 
 static void find_symmetry(const void *row, int i, iso_value *v)
 {
@@ -135,7 +133,7 @@ const iso_field iso_periodic_orbit_fields[] = {
     ISO_FOUND("symmetry", ISO_FIELD_TEXT, find_symmetry, "", "reversors that map it to itself"),
     FIELD("copies", copies, "", "orbits that R, S1 S2 and T make of it, itself among them", .how = ISO_IN_TABLE),
     ISO_LIST(iso_periodic_orbit, "copies", copy, copies, pair, "a point (l, x) of each copy"),
-    FIELD("", clock, "time", "its period in this clock", .word = clock_word),
+    FIELD("", clock, "time", "its period in this clock", .word = iso_clock_word),
     FIELD("closure", closure, "", "distance in (l, x) after a period, by the derivative's size if above 1",
           .digits = 3),
     ISO_NUMBER("determinant", determinant_of, "", "of the same derivative", .how = ISO_IN_TREE),
@@ -166,7 +164,7 @@ const iso_field iso_periodic_fields[] = {
 };
 #undef FIELD
 
-/* --- branches ---------------------------------------------------------------------------------------------------- */
+/* --- branches --------------------------------------------------------------------------------------------------- */
 
 static const char *kind_word(int kind)
 {
@@ -241,7 +239,7 @@ const iso_field iso_branch_row_fields[] = {
 };
 #undef FIELD
 
-/* --- the chart --------------------------------------------------------------------------------------------------- */
+/* --- the chart -------------------------------------------------------------------------------------------------- */
 
 #define FIELD(key, member, ...) ISO_MEMBER(iso_chart_row, key, member, __VA_ARGS__)
 
@@ -253,3 +251,38 @@ const iso_field iso_chart_row_fields[] = {
     FIELD("greatest", greatest, "", "the same about the axis of the greatest moment"),
     ISO_FIELD_END,
 };
+
+/* --- the study -------------------------------------------------------------------------------------------------- */
+
+ISO_STUDY_BEGIN(iso_periodic_options, iso_periodic_defaults)
+
+static iso_status run(iso_context *ctx, const iso_scene *scene, const void *options, iso_study_result *result)
+{
+    iso_field fields[ISO_MOST_FIELDS];
+    iso_periodic *found = NULL;
+    iso_record **table = &result->table[0];
+    iso_status status = iso_periodic_run(ctx, scene, options, &found);
+    iso_fields_copy(iso_periodic_fields, "orbits", fields);
+    if (status == ISO_OK)
+        status = iso_study_table(ctx, "periodic", scene, fields, found, iso_periodic_orbit_fields, table);
+    for (size_t i = 0; status == ISO_OK && i < found->count; i++)
+        status = iso_columns_append(ctx, iso_periodic_orbit_fields, &found->orbit[i], *table);
+    iso_periodic_free(found);
+    return status;
+}
+
+#define ROW(name, argument, expected, doc, set, member)                                                              \
+    ISO_OPTION(name, argument, expected, doc, set, iso_periodic_options, member)
+
+const iso_option iso_periodic_option[] = {
+    ROW("period", "P", "a whole number from 1 on", "orbits of at most P returns to the section (default 6)",
+        iso_set_count_int, period),
+    ROW("all", NULL, NULL, "orbits without a symmetry as well, by Newton's method from a grid", iso_set_flag, all),
+    ROW("grid", "N", "a whole number from 1 on", "points of that grid (default 2000)", iso_set_count_long, grid),
+    ROW("polish", NULL, NULL, "compute with 128 bits and print 30 digits", iso_set_flag, polish),
+    ISO_OPTION_THREADS(iso_periodic_options, threads),
+    ISO_OPTION_END,
+};
+
+const iso_study iso_periodic_study = {"periodic", iso_periodic_option, sizeof(iso_periodic_options), begin,
+                                      .run = run};

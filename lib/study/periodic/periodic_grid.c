@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/pi_impl.h"
+#include "map/section_impl.h"
 #include "study/periodic/periodic_impl.h"
 
 enum { STEPS = 10 };

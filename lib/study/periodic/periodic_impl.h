@@ -203,4 +203,10 @@ iso_status iso_periodic_from_grid(iso_periodic_work *w);
 /* The multipliers of a matrix of determinant 1. sense: of its lower left number. */
 iso_multipliers iso_multipliers_of(double trace, double error, double sense);
 
+/* --- Hill's equation of the rotations (hill.c) ------------------------------------------------------------------ */
+
+/* The matrix of (gamma_i, dgamma_i/dphi) over half a turn about `axis`, on the level H = energy with eps = 1. Where
+ * the compiler has no numbers of 128 bits, it has 64 bits. */
+void iso_hill_matrix_wide(double k, const double J[3], double energy, int axis, iso_wide y[2][2]);
+
 #endif

@@ -104,9 +104,8 @@ static iso_status go(const iso_periodic_map *map, const walk *w, double toleranc
     o.deviations = w->deviations;
     o.tolerance = tolerance;
     o.threads = map->threads;
-    iso_status status = iso_crossings_create(map->ctx, w->orbit, w->orbits, &o, &c);
-    if (status != ISO_OK) return status;
-    status = iso_crossings_go(c, NULL, w->each, w->crossing, NULL, w->done, w->status);
+    ISO_TRY(iso_crossings_create(map->ctx, w->orbit, w->orbits, &o, &c));
+    iso_status status = iso_crossings_go(c, NULL, w->each, w->crossing, NULL, w->done, w->status);
     iso_crossings_free(c);
     return status == ISO_NO_MEMORY || status == ISO_STOPPED ? status : ISO_OK; /* some starts may fail */
 }

@@ -6,10 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/names_impl.h"
 #include "base/pi_impl.h"
+#include "base/pool_impl.h"
 #include "map/state.h"
 #include "model/model_impl.h"
-#include "orbit/pool_impl.h"
 #include "study/periodic/periodic_impl.h"
 
 #define SAME 1e-7 /* points of the section that are closer are the same */
@@ -196,7 +197,7 @@ static bool solve_some(iso_pool_worker *worker, void *data, size_t first, size_t
 
 static iso_status finish_wave(iso_periodic_work *w, wave *a)
 {
-    iso_pool pool = {.count = a->count, .chunk = 1, .solve = solve_some, .data = a};
+    iso_pool pool = {.what = "orbit", .count = a->count, .chunk = 1, .solve = solve_some, .data = a};
     iso_status status = iso_pool_run(w->ctx, &pool, iso_pool_threads(w->options.threads, a->count - 1, 1), NULL);
     for (size_t i = 0; i < a->count && status == ISO_OK; i++)
         if (a->of[i].answer == ISO_PERIODIC_FOUND)
@@ -231,11 +232,7 @@ void iso_periodic_digits(double head, double tail, char text[ISO_DIGITS_SIZE])
 #endif
 }
 
-const char *iso_symmetry_line_name(int line)
-{
-    static const char *const names[] = {"S1", "S2", "S3", "TS1", "TS2", "TS3"};
-    return line >= 0 && line < LINES ? names[line] : NULL;
-}
+ISO_NAMES(iso_symmetry_line_name, int, "S1", "S2", "S3", "TS1", "TS2", "TS3")
 
 int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE])
 {

@@ -7,7 +7,6 @@
 #include "base/pi_impl.h"
 #include "orbit/crossings_impl.h"
 #include "study/periodic/hill_trace_impl.h"
-#include "study/periodic/hill_wide_impl.h"
 #include "study/periodic/periodic_impl.h"
 
 /* The fixed point of the rotation about `axis`; the section's own axis has the boundary. */

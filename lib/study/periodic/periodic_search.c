@@ -115,10 +115,9 @@ static iso_status take_samples(search *s, size_t count, const double u[])
 {
     const size_t P = (size_t)s->periods;
     misses m;
-    iso_status status = grow(s->w->ctx, (void **)&s->sample, &s->sample_room, s->samples, count, sizeof(sample));
-    if (status == ISO_OK) status = make_misses(s, count, P, &m);
-    if (status != ISO_OK) return status;
-    status = evaluate(s, count, u, s->periods, 1e-10, &m);
+    ISO_TRY(grow(s->w->ctx, (void **)&s->sample, &s->sample_room, s->samples, count, sizeof(sample)));
+    ISO_TRY(make_misses(s, count, P, &m));
+    iso_status status = evaluate(s, count, u, s->periods, 1e-10, &m);
     for (size_t i = 0; i < count && status == ISO_OK; i++) {
         sample *to = &s->sample[s->samples++];
         to->u = u[i];
@@ -145,9 +144,7 @@ static bool is_clear(const sample *a, const sample *b, int n)
 
 static iso_status add_bracket(search *s, const sample *a, const sample *b, int n)
 {
-    const iso_status status =
-        grow(s->w->ctx, (void **)&s->bracket, &s->bracket_room, s->brackets, 1, sizeof(bracket));
-    if (status != ISO_OK) return status;
+    ISO_TRY(grow(s->w->ctx, (void **)&s->bracket, &s->bracket_room, s->brackets, 1, sizeof(bracket)));
     const double low = a->u, high = b->u, part = a->off[n] / (a->off[n] - b->off[n]);
     s->bracket[s->brackets++] =
         (bracket){.n = n + 1, .low = low, .high = high, .off_low = a->off[n], .u = low + part * (high - low)};
@@ -206,12 +203,11 @@ static iso_status sample_line(search *s)
     const double end = range[1] - range[0] - 2 * SKIPPED;
     if (!(end > 0)) return ISO_OK;
     for (int i = 0; i <= FIRST; i++) u[i] = range[0] + SKIPPED + end * i / FIRST;
-    iso_status status = take_samples(s, FIRST + 1, u);
-    if (status == ISO_OK) status = grow(s->w->ctx, (void **)&s->open, &s->open_room, 0, FIRST, sizeof(interval));
-    if (status != ISO_OK) return status;
+    ISO_TRY(take_samples(s, FIRST + 1, u));
+    ISO_TRY(grow(s->w->ctx, (void **)&s->open, &s->open_room, 0, FIRST, sizeof(interval)));
     for (size_t i = 0; i < FIRST; i++) s->open[s->opened++] = (interval){i, i + 1, 0};
-    while (status == ISO_OK && s->opened > 0) status = refine_samples(s);
-    return status;
+    while (s->opened > 0) ISO_TRY(refine_samples(s));
+    return ISO_OK;
 }
 
 /* --- roots ------------------------------------------------------------------------------------------------------ */

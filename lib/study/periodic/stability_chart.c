@@ -6,10 +6,11 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/monitor_impl.h"
+#include "base/names_impl.h"
 #include "base/options_impl.h"
+#include "base/pool_impl.h"
 #include "base/vec3_impl.h"
-#include "map/level_impl.h"
-#include "orbit/pool_impl.h"
+#include "map/section_impl.h"
 #include "study/periodic/hill_trace_impl.h"
 
 typedef struct chart {
@@ -73,7 +74,7 @@ static iso_status fill_grid(chart *c)
         if (status == ISO_OK) place(c, i % n, i / n, row);
         if (status == ISO_OK) row[2] = row[3] = NAN;
     }
-    iso_pool pool = {.count = (size_t)n, .chunk = 1, .solve = fill_lines, .data = c};
+    iso_pool pool = {.what = "orbit", .count = (size_t)n, .chunk = 1, .solve = fill_lines, .data = c};
     return status == ISO_OK ? iso_pool_run(c->ctx, &pool, iso_pool_threads(c->o.threads, pool.count - 1, 1), NULL)
                             : status;
 }
@@ -147,11 +148,7 @@ static iso_status check(const chart *c)
     return ISO_OK;
 }
 
-const char *iso_chart_name(int moment)
-{
-    static const char *const names[] = {"J1", "J2", "J3", "level"};
-    return moment >= 0 && moment <= ISO_CHART_LEVEL ? names[moment] : NULL;
-}
+ISO_NAMES(iso_chart_name, int, "J1", "J2", "J3", "level")
 
 iso_status iso_stability_chart(iso_context *ctx, const iso_stability_options *options, iso_record **grid,
                                iso_record **borders)
@@ -162,7 +159,8 @@ iso_status iso_stability_chart(iso_context *ctx, const iso_stability_options *op
     *grid = *borders = NULL;
     if (status == ISO_OK) status = check(&c);
     const char *const varies = status == ISO_OK ? iso_chart_name(c.o.moment) : NULL;
-    const char *const of_grid[] = {"k", varies, "least", "greatest"}, *const of_borders[] = {"axis", "trace", "k", varies};
+    const char *const of_grid[] = {"k", varies, "least", "greatest"};
+    const char *const of_borders[] = {"axis", "trace", "k", varies};
     if (status == ISO_OK) status = iso_record_create(ctx, 4, of_grid, &c.grid);
     if (status == ISO_OK) status = iso_record_create(ctx, 4, of_borders, &c.borders);
     if (status == ISO_OK) status = fill_grid(&c);

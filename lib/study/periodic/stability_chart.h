@@ -46,13 +46,12 @@ typedef struct iso_chart_row {
     double k, value;  /* value: of the moment, or the level */
     double least, greatest;
 } iso_chart_row;
-ISO_API extern const iso_field iso_chart_row_fields[];
 
-/* grid: columns k, J1 (or J2, J3, level: what varies), least, greatest (half-turn traces of the rotations about these axes; NaN: there
- * is none on this level, see iso_hill_has_rotation). borders: columns axis (0: of the least moment, 1: of the
- * greatest), trace (2 or -2), k and what varies: points of the border curves, where they cross the lines of the
- * grid of equal J and of equal k. The caller frees both records. Errors: ISO_BAD_ARGUMENT about "k", "J", "level",
- * "steps"; ISO_NO_MEMORY; ISO_STOPPED. */
+/* grid: columns k, J1 (or J2, J3, level: what varies), least, greatest (half-turn traces of the rotations about these
+ * axes; NaN: there is none on this level, see iso_hill_has_rotation). borders: columns axis (0: of the least moment,
+ * 1: of the greatest), trace (2 or -2), k and what varies: points of the border curves, where they cross the lines of
+ * the grid of equal J and of equal k. The caller frees both records. Errors: ISO_BAD_ARGUMENT about "k", "J",
+ * "level", "steps"; ISO_NO_MEMORY; ISO_STOPPED. */
 ISO_API iso_status iso_stability_chart(iso_context *ctx, const iso_stability_options *options, iso_record **grid,
                                        iso_record **borders);
 

@@ -11,8 +11,6 @@
 #include "orbit/batch.h"
 #include "study/section/measure_impl.h"
 
-enum { BLOCK = 4096 }; /* orbits that are carried at a time */
-
 /* --- test functions --------------------------------------------------------------------------------------------- */
 
 /* The test functions: first the energy, which is the same for all states. Then functions of n alone, of which three
@@ -90,15 +88,15 @@ static void functions_of_n(double g, const double n2[3], double value[])
 
 typedef struct carrier {
     iso_context *ctx;
-    const iso_measure_options *options;
-    const measure_scene *scene;
+    iso_measure_options options;
+    measure_scene scene;
     measure_draw draw;
     double times[ISO_MEASURE_ROWS];
     measure_sums sums;
-    iso_start *start;
-    iso_batch_orbit *orbit;
-    iso_sample *sample;
-    double *kinetic, *sharp; /* of each orbit of the block, at the start */
+    iso_start start[MEASURE_BLOCK];
+    iso_batch_orbit orbit[MEASURE_BLOCK];
+    iso_sample sample[MEASURE_BLOCK * ISO_MEASURE_ROWS];
+    double kinetic[MEASURE_BLOCK], sharp[MEASURE_BLOCK]; /* of each orbit of the block, at the start */
 } carrier;
 
 /* The power of g in the clock's measure, g^power dn dtheta, for this factor of the exponent 1/(2k). It is the power
@@ -110,13 +108,15 @@ static double power_of_g(const iso_params *p, iso_clock clock, double factor)
     return factor / (2 * p->k) - 0.5 - e;
 }
 
-static iso_status draw_block(carrier *c, const uint64_t shift[3], uint64_t first, size_t count)
+static iso_status draw_block(carrier *c, int cloud, uint64_t first, size_t count)
 {
-    const iso_params *p = c->scene->params;
+    const iso_params *p = c->scene.params;
+    uint64_t shift[3];
+    iso_measure_shift(&c->options, cloud, 3, shift);
     for (size_t i = 0; i < count; i++) {
         double n[3], v[3];
         iso_measure_draw_state(&c->draw, shift, first + i, n, v);
-        const double T = c->scene->energy - iso_measure_potential(c->scene, n);
+        const double T = c->scene.energy - iso_measure_potential(&c->scene, n);
         if (!(T > 0))
             return iso_context_fail(
                 c->ctx, ISO_BAD_INPUT, "energy",
@@ -128,93 +128,54 @@ static iso_status draw_block(carrier *c, const uint64_t shift[3], uint64_t first
             c->start[i].y[j] = sqrt(2 * T) * v[j] / p->root_J[j];
             c->start[i].y[3 + j] = n[j];
         }
-        c->orbit[i] = (iso_batch_orbit){p, &c->start[i], c->scene->free ? NULL : &c->scene->effects};
+        c->orbit[i] = (iso_batch_orbit){p, &c->start[i], c->scene.free ? NULL : &c->scene.effects};
         c->kinetic[i] = T;
         c->sharp[i] = ln_g(p, n) / (2 * p->k);
         double value[FUNCTIONS];
-        functions(c->scene, T, c->start[i].y, value);
+        functions(&c->scene, T, c->start[i].y, value);
         iso_measure_sums_start(&c->sums, c->sharp[i], value);
     }
     return ISO_OK;
 }
 
-static iso_status carry_block(carrier *c, int cloud, size_t count)
+static iso_status carry_block(void *data, int cloud, uint64_t first, size_t count)
 {
+    carrier *c = data;
     iso_batch_options o = iso_batch_defaults();
-    o.backend = c->options->backend;
-    o.tolerance = c->options->tolerance;
-    o.clock = c->options->clock;
-    o.threads = c->options->threads;
-    const iso_status status = iso_batch_run(c->ctx, c->orbit, count, &o, c->times, ISO_MEASURE_ROWS, c->sample, NULL);
+    o.backend = c->options.backend;
+    o.tolerance = c->options.tolerance;
+    o.clock = c->options.clock;
+    o.threads = c->options.threads;
+    iso_status status = draw_block(c, cloud, first, count);
+    if (status == ISO_OK)
+        status = iso_batch_run(c->ctx, c->orbit, count, &o, c->times, ISO_MEASURE_ROWS, c->sample, NULL);
     for (size_t i = 0; i < count && status == ISO_OK; i++)
         for (int row = 0; row < ISO_MEASURE_ROWS; row++) {
             double value[FUNCTIONS];
-            functions(c->scene, c->kinetic[i], c->sample[i * ISO_MEASURE_ROWS + (size_t)row].ball, value);
+            functions(&c->scene, c->kinetic[i], c->sample[i * ISO_MEASURE_ROWS + (size_t)row].ball, value);
             iso_measure_sums_add(&c->sums, cloud, row, c->sharp[i], value);
         }
-    return status;
-}
-
-static iso_status carry(carrier *c)
-{
-    const size_t each = c->options->count / ISO_MEASURE_CLOUDS;
-    iso_status status = ISO_OK;
-    for (int cloud = 0; cloud < ISO_MEASURE_CLOUDS; cloud++) {
-        uint64_t shift[3];
-        iso_measure_shift(c->options, cloud, 3, shift);
-        for (size_t first = 0; first < each; first += BLOCK) {
-            const size_t count = each - first < BLOCK ? each - first : BLOCK;
-            if (status == ISO_OK) status = draw_block(c, shift, first, count);
-            if (status == ISO_OK) status = carry_block(c, cloud, count);
-            if (status != ISO_OK) return status;
-            iso_measure_progress(c->options,
-                                 ((double)cloud + (double)(first + count) / (double)each) / ISO_MEASURE_CLOUDS);
-        }
-    }
     return status;
 }
 
 /* n turns at the rate |k w|, where |w| is about (2 T/J)^(1/2), J the middle moment. Clocks go as fast as at q = J. */
 static void choose_times(carrier *c)
 {
-    const iso_params *p = c->scene->params;
+    const iso_params *p = c->scene.params;
     int axis[3];
     sort_by(p->J, axis);
-    const double J = p->J[axis[1]], turn = 2 * ISO_PI / (fabs(p->k) * sqrt(2 * c->scene->kinetic / J));
-    const double rate = iso_clock_rate(p, c->options->clock, J, NULL);
-    const double end = isnan(c->options->end) ? c->options->turns * turn * rate : c->options->end;
+    const double J = p->J[axis[1]], turn = 2 * ISO_PI / (fabs(p->k) * sqrt(2 * c->scene.kinetic / J));
+    const double rate = iso_clock_rate(p, c->options.clock, J, NULL);
+    const double end = isnan(c->options.end) ? c->options.turns * turn * rate : c->options.end;
     for (int i = 0; i < ISO_MEASURE_ROWS; i++) c->times[i] = ldexp(end, 2 * (i + 1 - ISO_MEASURE_ROWS));
-}
-
-static iso_status allocate(carrier *c)
-{
-    c->start = calloc(BLOCK, sizeof *c->start);
-    c->orbit = calloc(BLOCK, sizeof *c->orbit);
-    c->sample = calloc((size_t)BLOCK * ISO_MEASURE_ROWS, sizeof *c->sample);
-    c->kinetic = calloc(BLOCK, sizeof *c->kinetic);
-    c->sharp = calloc(BLOCK, sizeof *c->sharp);
-    if (!c->start || !c->orbit || !c->sample || !c->kinetic || !c->sharp)
-        return iso_context_no_memory(c->ctx, "%d orbits", BLOCK);
-    return iso_measure_sums_create(c->ctx, FUNCTIONS, c->options->count, &c->sums);
-}
-
-static void release(carrier *c)
-{
-    free(c->start);
-    free(c->orbit);
-    free(c->sample);
-    free(c->kinetic);
-    free(c->sharp);
-    iso_measure_sums_free(&c->sums);
 }
 
 static void judge(carrier *c, iso_measure *m)
 {
     double expected[FUNCTIONS] = {0};
     iso_measure_draw_means(&c->draw, OTHERS, functions_of_n, expected);
-    *m = (iso_measure){.axis = -1, .clock = c->options->clock, .end = c->times[ISO_MEASURE_ROWS - 1]};
-    iso_measure_judge(&c->sums, names, expected, c->times, iso_measure_floor(c->options), c->options->significance,
-                      m);
+    *m = (iso_measure){.axis = -1, .clock = c->options.clock, .end = c->times[ISO_MEASURE_ROWS - 1]};
+    iso_measure_judge(&c->sums, &c->options, names, expected, c->times, m);
 }
 
 static iso_status check_times(iso_context *ctx, const iso_measure_options *o)
@@ -233,19 +194,20 @@ iso_status iso_measure_flow(iso_context *ctx, const iso_scene *scene, const iso_
                             iso_measure *measure)
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_measure_options own;
-    measure_scene s;
-    carrier c = {.ctx = ctx, .options = &own, .scene = &s};
-    iso_status status = iso_measure_open(ctx, scene, options, &own, &s);
-    if (status == ISO_OK) status = check_times(ctx, &own);
-    if (status == ISO_OK) status = allocate(&c);
+    carrier *c = calloc(1, sizeof *c);
+    if (!c) return iso_context_no_memory(ctx, "%d orbits", MEASURE_BLOCK);
+    c->ctx = ctx;
+    c->sums.functions = FUNCTIONS;
+    iso_status status = iso_measure_open(ctx, scene, options, &c->options, &c->scene);
+    if (status == ISO_OK) status = check_times(ctx, &c->options);
     if (status == ISO_OK) {
-        iso_measure_draw_prepare(&c.draw, s.params, power_of_g(s.params, own.clock, own.exponent));
-        choose_times(&c);
-        status = carry(&c);
+        iso_measure_draw_prepare(&c->draw, c->scene.params,
+                                 power_of_g(c->scene.params, c->options.clock, c->options.exponent));
+        choose_times(c);
+        status = iso_measure_carry(&c->options, carry_block, c);
     }
-    if (status == ISO_OK) judge(&c, measure);
-    release(&c);
-    iso_orbit_free(s.orbit);
+    if (status == ISO_OK) judge(c, measure);
+    iso_orbit_free(c->scene.orbit);
+    free(c);
     return status;
 }

@@ -5,6 +5,7 @@
 #include "base/options_impl.h"
 #include "map/state.h"
 #include "model/model_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/section/measure_impl.h"
 
 static iso_status check_options(iso_context *ctx, iso_measure_options *o)
@@ -54,23 +55,21 @@ iso_status iso_measure_open(iso_context *ctx, const iso_scene *scene, const iso_
 {
     *options = iso_measure_defaults();
     *s = (measure_scene){.params = &scene->params};
-    iso_status status = iso_options_take(ctx, "iso_measure_options", options, sizeof *options, given);
-    if (status == ISO_OK) status = check_options(ctx, options);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_options_take(ctx, "iso_measure_options", options, sizeof *options, given));
+    ISO_TRY(check_options(ctx, options));
     iso_effects acting = iso_scene_acting(scene);
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
     o.effects = &acting;
     o.backend = ISO_BACKEND_BALL;
     o.shown = ISO_SHOW_BALL;
     iso_sample sample;
-    status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &s->orbit);
-    if (status == ISO_OK) status = iso_orbit_at(s->orbit, 0, &sample);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_orbit_create(ctx, &scene->params, &scene->start, &o, &s->orbit));
+    ISO_TRY(iso_orbit_at(s->orbit, 0, &sample));
     s->effects = iso_orbit_effects(s->orbit);
     s->kinetic = iso_ball_energy(s->params, sample.ball);
     if (!(s->kinetic > 0))
         return iso_context_fail(ctx, ISO_NOT_MAPPED, "", "the ball is at rest: no ball moves with this energy");
-    status = check_effects(ctx, s);
+    iso_status status = check_effects(ctx, s);
     s->energy = s->kinetic + (status == ISO_OK ? iso_measure_potential(s, sample.ball + 3) : 0);
     return status;
 }
@@ -81,12 +80,16 @@ void iso_measure_shift(const iso_measure_options *o, int cloud, int count, uint6
     for (int i = 0; i < count; i++) shift[i] = number = iso_scatter(number);
 }
 
-double iso_measure_floor(const iso_measure_options *o)
+iso_status iso_measure_carry(const iso_measure_options *o,
+                             iso_status (*block)(void *data, int cloud, uint64_t first, size_t count), void *data)
 {
-    return fmax(1e3 * o->tolerance, 1e-11);
-}
-
-void iso_measure_progress(const iso_measure_options *o, double share)
-{
-    if (o->progress) o->progress(share, o->data);
+    const size_t each = o->count / ISO_MEASURE_CLOUDS;
+    for (int cloud = 0; cloud < ISO_MEASURE_CLOUDS; cloud++)
+        for (size_t first = 0; first < each; first += MEASURE_BLOCK) {
+            const size_t count = each - first < MEASURE_BLOCK ? each - first : MEASURE_BLOCK;
+            ISO_TRY(block(data, cloud, first, count));
+            if (o->progress)
+                o->progress((cloud + (double)(first + count) / (double)each) / ISO_MEASURE_CLOUDS, o->data);
+        }
+    return ISO_OK;
 }

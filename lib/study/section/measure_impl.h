@@ -20,8 +20,7 @@ typedef struct measure_draw {
     int axis[3];                         /* the axis of J[i]                                                        */
     double second[2];                    /* the density of phi: a (second[0] cos^2 phi + second[1])                 */
     double phi[ISO_QUARTER_STEPS + 1];   /* the integral of that                                                    */
-    double psi[2]
-              [ISO_QUARTER_STEPS + 1]; /* the integrals of m3 sin^2 psi b, and of b                               */
+    double psi[2][ISO_QUARTER_STEPS + 1]; /* the integrals of m3 sin^2 psi b, and of b                          */
 } measure_draw;
 
 void iso_measure_draw_prepare(measure_draw *d, const iso_params *p, double power);
@@ -37,24 +36,20 @@ void iso_measure_draw_means(const measure_draw *d, int count, void (*f)(double g
 
 typedef struct measure_sums {
     int functions;
-    size_t count;                       /* points of all clouds together                                         */
-    double (*value)[ISO_MEASURE_LINES]; /* of each cloud: sums of the functions, row after row                   */
-    double product[ISO_MEASURE_LINES];  /* over all clouds: sums of them times `sharp`                           */
+    double value[ISO_MEASURE_CLOUDS][ISO_MEASURE_LINES]; /* of each cloud: sums of the functions, row after row */
+    double product[ISO_MEASURE_LINES];                   /* over all clouds: sums of them times `sharp`         */
     double first[ISO_MEASURE_FUNCTIONS], first_product[ISO_MEASURE_FUNCTIONS]; /* the same at the start */
-    double sharp, sharp_square; /* over all clouds                                                       */
+    double sharp, sharp_square;                                                /* over all clouds       */
 } measure_sums;
-
-iso_status iso_measure_sums_create(iso_context *ctx, int functions, size_t count, measure_sums *sums);
-void iso_measure_sums_free(measure_sums *sums);
 
 /* Adds one point of a cloud: its functions at the start, then in each row. sharp: d ln(density)/d(exponent) at the
  * start. */
 void iso_measure_sums_start(measure_sums *sums, double sharp, const double value[]);
 void iso_measure_sums_add(measure_sums *sums, int cloud, int row, double sharp, const double value[]);
 
-/* Fills lines, p, kept and resolution. name, expected: of each function; floor: the least standard error. */
-void iso_measure_judge(const measure_sums *sums, const char *const name[], const double expected[],
-                       const double time[ISO_MEASURE_ROWS], double floor, double significance, iso_measure *m);
+/* Fills lines, p, kept and resolution. name, expected: of each function. */
+void iso_measure_judge(const measure_sums *sums, const iso_measure_options *o, const char *const name[],
+                       const double expected[], const double time[ISO_MEASURE_ROWS], iso_measure *m);
 
 /* --- what flow and returns share (measure_common.c) ------------------------------------------------------------ */
 
@@ -76,10 +71,9 @@ double iso_measure_potential(const measure_scene *s, const double n[3]);
 /* Shifts of cloud number `cloud`, in units of 2^-64. */
 void iso_measure_shift(const iso_measure_options *o, int cloud, int count, uint64_t shift[]);
 
-/* The least standard error of a mean. It stands for the errors of the integration, which do not show as scatter. */
-double iso_measure_floor(const iso_measure_options *o);
-
-/* Reports the part of the work that is done. */
-void iso_measure_progress(const iso_measure_options *o, double share);
+/* Draws and carries all clouds, a block of orbits at a time, and reports the progress. */
+enum { MEASURE_BLOCK = 4096 };
+iso_status iso_measure_carry(const iso_measure_options *o,
+                             iso_status (*block)(void *data, int cloud, uint64_t first, size_t count), void *data);
 
 #endif

@@ -3,12 +3,12 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
-#include "map/section.h"
+#include "map/section_impl.h"
 #include "map/state.h"
 #include "orbit/crossings_impl.h"
 #include "study/section/measure_impl.h"
 
-enum { BLOCK = 4096, AT_ONCE = 16 }; /* orbits; crossings of one orbit that are kept at a time */
+enum { AT_ONCE = 16 }; /* crossings of one orbit that are kept at a time */
 
 /* --- test functions --------------------------------------------------------------------------------------------- */
 
@@ -69,30 +69,30 @@ static void expectations(const iso_params *p, int axis, double exponent, double 
 
 typedef struct returner {
     iso_context *ctx;
-    const iso_measure_options *options;
-    const measure_scene *scene;
+    iso_measure_options options;
+    measure_scene scene;
     int axis, returns[ISO_MEASURE_ROWS];
     size_t lost;
     measure_sums sums;
-    iso_start *start;
-    iso_batch_orbit *orbit;
-    iso_crossing *crossing;
-    iso_sample *sample;
-    size_t *done;
-    iso_status *status;
-    double *sharp; /* of each orbit, at the start */
+    iso_start start[MEASURE_BLOCK];
+    iso_batch_orbit orbit[MEASURE_BLOCK];
+    iso_crossing crossing[MEASURE_BLOCK * AT_ONCE];
+    iso_sample sample[MEASURE_BLOCK];
+    size_t done[MEASURE_BLOCK];
+    iso_status status[MEASURE_BLOCK];
+    double sharp[MEASURE_BLOCK]; /* of each orbit, at the start */
 } returner;
 
 /* Draws orbits with the density G^exponent, which is G for k/exponent in the place of k. */
 static void draw_block(returner *r, int cloud, uint64_t first, size_t count)
 {
-    const iso_params *p = r->scene->params;
-    const double eps = iso_coupling(p, r->scene->energy);
+    const iso_params *p = r->scene.params;
+    const double eps = iso_coupling(p, r->scene.energy);
     iso_params drawn = *p;
-    drawn.k = p->k / r->options->exponent;
+    drawn.k = p->k / r->options.exponent;
     uint64_t seed;
     iso_section_spread spread;
-    iso_measure_shift(r->options, cloud, 1, &seed);
+    iso_measure_shift(&r->options, cloud, 1, &seed);
     iso_section_spread_prepare(&spread, iso_free_point(&drawn, 1), r->axis, seed);
     for (size_t i = 0; i < count; i++) {
         double l, x, point[ISO_STATE];
@@ -100,7 +100,7 @@ static void draw_block(returner *r, int cloud, uint64_t first, size_t count)
         iso_section_point(iso_free_point(p, eps), r->axis, l, x, point);
         r->start[i] = (iso_start){.model = ISO_BALL, .eps = NAN};
         iso_point_to_ball(p, point, r->start[i].y);
-        r->orbit[i] = (iso_batch_orbit){p, &r->start[i], r->scene->free ? NULL : &r->scene->effects};
+        r->orbit[i] = (iso_batch_orbit){p, &r->start[i], r->scene.free ? NULL : &r->scene.effects};
         r->sharp[i] = log(iso_section_momentum(iso_free_point(p, 0.5), r->axis, l));
         double value[FUNCTIONS];
         functions(p, r->axis, l, x, 1, value);
@@ -111,9 +111,9 @@ static void draw_block(returner *r, int cloud, uint64_t first, size_t count)
 /* Adds the last crossing of each orbit, and the ball there, to the sums. */
 static void add_row(returner *r, int cloud, int row, size_t count)
 {
-    const iso_params *p = r->scene->params;
+    const iso_params *p = r->scene.params;
     for (size_t i = 0; i < count; i++) {
-        const double kinetic = iso_ball_energy(p, r->sample[i].ball) / r->scene->energy;
+        const double kinetic = iso_ball_energy(p, r->sample[i].ball) / r->scene.energy;
         double value[FUNCTIONS];
         functions(p, r->axis, r->crossing[i].l, r->crossing[i].x, kinetic, value);
         iso_measure_sums_add(&r->sums, cloud, row, r->sharp[i], value);
@@ -132,80 +132,37 @@ static iso_status go(returner *r, iso_crossings *c, int number)
     return status == ISO_OK ? iso_crossings_go(c, NULL, 1, r->crossing, r->sample, r->done, r->status) : status;
 }
 
-static iso_status carry_block(returner *r, int cloud, size_t count)
+/* Effects may stop a ball before it returns: then there is no return map. One such block ends the test. */
+static iso_status carry_block(void *data, int cloud, uint64_t first, size_t count)
 {
+    returner *r = data;
     iso_crossings *c = NULL;
     iso_crossings_options o = iso_crossings_defaults();
-    o.backend = r->options->backend;
+    draw_block(r, cloud, first, count);
+    o.backend = r->options.backend;
     o.axis = r->axis;
-    o.tolerance = r->options->tolerance;
-    o.threads = r->options->threads;
+    o.tolerance = r->options.tolerance;
+    o.threads = r->options.threads;
     iso_status status = iso_crossings_create(r->ctx, r->orbit, count, &o, &c);
     for (int row = 0; row < ISO_MEASURE_ROWS && status == ISO_OK; row++) {
         status = go(r, c, r->returns[row] - (row > 0 ? r->returns[row - 1] : 0));
         if (status == ISO_OK) add_row(r, cloud, row, count);
     }
     iso_crossings_free(c);
+    for (size_t i = 0; i < count && status == ISO_NUMERICAL && !r->scene.free; i++) r->lost += r->status[i] != ISO_OK;
     return status;
-}
-
-/* Effects may stop a ball before it returns: then there is no return map. One such block ends the test. */
-static void count_lost(returner *r, size_t count)
-{
-    for (size_t i = 0; i < count; i++) r->lost += r->status[i] != ISO_OK;
-}
-
-static iso_status carry(returner *r)
-{
-    const size_t each = r->options->count / ISO_MEASURE_CLOUDS;
-    for (int cloud = 0; cloud < ISO_MEASURE_CLOUDS; cloud++)
-        for (size_t first = 0; first < each; first += BLOCK) {
-            const size_t count = each - first < BLOCK ? each - first : BLOCK;
-            draw_block(r, cloud, first, count);
-            const iso_status status = carry_block(r, cloud, count);
-            if (status == ISO_NUMERICAL && !r->scene->free) return count_lost(r, count), ISO_OK;
-            if (status != ISO_OK) return status;
-            iso_measure_progress(r->options, (cloud + (double)(first + count) / (double)each) / ISO_MEASURE_CLOUDS);
-        }
-    return ISO_OK;
-}
-
-static iso_status allocate(returner *r)
-{
-    r->start = calloc(BLOCK, sizeof *r->start);
-    r->orbit = calloc(BLOCK, sizeof *r->orbit);
-    r->crossing = calloc((size_t)BLOCK * AT_ONCE, sizeof *r->crossing);
-    r->sample = calloc(BLOCK, sizeof *r->sample);
-    r->done = calloc(BLOCK, sizeof *r->done);
-    r->status = calloc(BLOCK, sizeof *r->status);
-    r->sharp = calloc(BLOCK, sizeof *r->sharp);
-    if (!r->start || !r->orbit || !r->crossing || !r->sample || !r->done || !r->status || !r->sharp)
-        return iso_context_no_memory(r->ctx, "%d orbits", BLOCK);
-    return iso_measure_sums_create(r->ctx, FUNCTIONS, r->options->count, &r->sums);
-}
-
-static void release(returner *r)
-{
-    free(r->start);
-    free(r->orbit);
-    free(r->crossing);
-    free(r->sample);
-    free(r->done);
-    free(r->status);
-    free(r->sharp);
-    iso_measure_sums_free(&r->sums);
 }
 
 static iso_status check_section(returner *r)
 {
-    const int axis = r->options->axis;
+    const int axis = r->options.axis;
     if (iso_crossings_check_axis(r->ctx, axis) != ISO_OK) return ISO_BAD_ARGUMENT;
-    if (r->options->returns < ISO_MEASURE_RETURNS || r->options->returns > 1000000)
+    if (r->options.returns < ISO_MEASURE_RETURNS || r->options.returns > 1000000)
         return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "returns", "%d returns are not in [%d, 1e6]",
-                                r->options->returns, ISO_MEASURE_RETURNS);
-    r->axis = axis == ISO_AXIS_AUTO ? iso_section_axis(iso_free_point(r->scene->params, 1)) : axis;
-    for (int i = 0; i < ISO_MEASURE_ROWS; i++) r->returns[i] = r->options->returns >> (ISO_MEASURE_ROWS - 1 - i);
-    if (r->scene->pulled)
+                                r->options.returns, ISO_MEASURE_RETURNS);
+    r->axis = axis == ISO_AXIS_AUTO ? iso_section_axis(iso_free_point(r->scene.params, 1)) : axis;
+    for (int i = 0; i < ISO_MEASURE_ROWS; i++) r->returns[i] = r->options.returns >> (ISO_MEASURE_ROWS - 1 - i);
+    if (r->scene.pulled)
         return iso_context_fail(r->ctx, ISO_NOT_MAPPED, "effects",
                                 "the section of a ball in a potential has another chart: only the flow can be "
                                 "tested");
@@ -215,7 +172,7 @@ static iso_status check_section(returner *r)
 /* The only line says that not every orbit returned. */
 static void judge_lost(const returner *r, iso_measure *m)
 {
-    m->count = r->options->count;
+    m->count = r->options.count;
     m->lost = r->lost;
     m->resolution = NAN;
     m->lines = 1;
@@ -226,29 +183,30 @@ static void judge_lost(const returner *r, iso_measure *m)
 static void judge(returner *r, iso_measure *m)
 {
     double expected[FUNCTIONS], number[ISO_MEASURE_ROWS];
-    expectations(r->scene->params, r->axis, r->options->exponent, expected);
+    expectations(r->scene.params, r->axis, r->options.exponent, expected);
     for (int i = 0; i < ISO_MEASURE_ROWS; i++) number[i] = r->returns[i];
-    *m = (iso_measure){.axis = r->axis, .clock = r->options->clock, .end = number[ISO_MEASURE_ROWS - 1]};
+    *m = (iso_measure){.axis = r->axis, .clock = r->options.clock, .end = number[ISO_MEASURE_ROWS - 1]};
     if (r->lost > 0) {
         judge_lost(r, m);
         return;
     }
-    iso_measure_judge(&r->sums, names, expected, number, iso_measure_floor(r->options), r->options->significance, m);
+    iso_measure_judge(&r->sums, &r->options, names, expected, number, m);
 }
 
 iso_status iso_measure_returns(iso_context *ctx, const iso_scene *scene, const iso_measure_options *options,
                                iso_measure *measure)
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_measure_options own;
-    measure_scene s;
-    returner r = {.ctx = ctx, .options = &own, .scene = &s};
-    iso_status status = iso_measure_open(ctx, scene, options, &own, &s);
-    if (status == ISO_OK) status = check_section(&r);
-    if (status == ISO_OK) status = allocate(&r);
-    if (status == ISO_OK) status = carry(&r);
-    if (status == ISO_OK) judge(&r, measure);
-    release(&r);
-    iso_orbit_free(s.orbit);
+    returner *r = calloc(1, sizeof *r);
+    if (!r) return iso_context_no_memory(ctx, "%d orbits", MEASURE_BLOCK);
+    r->ctx = ctx;
+    r->sums.functions = FUNCTIONS;
+    iso_status status = iso_measure_open(ctx, scene, options, &r->options, &r->scene);
+    if (status == ISO_OK) status = check_section(r);
+    if (status == ISO_OK) status = iso_measure_carry(&r->options, carry_block, r);
+    if (r->lost > 0) status = ISO_OK;
+    if (status == ISO_OK) judge(r, measure);
+    iso_orbit_free(r->scene.orbit);
+    free(r);
     return status;
 }

@@ -1,21 +1,8 @@
 /* measure_test.c - sums of test functions over clouds, and whether their means are those of the measure. */
 #include <gsl/gsl_cdf.h>
 #include <math.h>
-#include <stdlib.h>
 
 #include "study/section/measure_impl.h"
-
-iso_status iso_measure_sums_create(iso_context *ctx, int functions, size_t count, measure_sums *sums)
-{
-    *sums = (measure_sums){.functions = functions, .count = count};
-    sums->value = calloc(ISO_MEASURE_CLOUDS, sizeof *sums->value);
-    return sums->value ? ISO_OK : iso_context_no_memory(ctx, "the sums over the clouds");
-}
-
-void iso_measure_sums_free(measure_sums *sums)
-{
-    free(sums->value);
-}
 
 void iso_measure_sums_start(measure_sums *sums, double sharp, const double value[])
 {
@@ -39,10 +26,10 @@ void iso_measure_sums_add(measure_sums *sums, int cloud, int row, double sharp, 
 /* The mean of the clouds' means, its standard error from their scatter, and d(mean - expected)/d(exponent). Here
  * d(mean)/d(exponent) is the covariance of the values with d ln(density)/d(exponent) at the start, and
  * d(expected)/d(exponent) is the same covariance of the values at the start. */
-static void find_mean(const measure_sums *sums, int at, iso_measure_entry *line)
+static void find_mean(const measure_sums *sums, double count, int at, iso_measure_entry *line)
 {
     const int f = at % sums->functions;
-    const double each = (double)sums->count / ISO_MEASURE_CLOUDS, count = (double)sums->count;
+    const double each = count / ISO_MEASURE_CLOUDS;
     double mean = 0, square = 0;
     for (int c = 0; c < ISO_MEASURE_CLOUDS; c++) mean += sums->value[c][at] / each / ISO_MEASURE_CLOUDS;
     for (int c = 0; c < ISO_MEASURE_CLOUDS; c++) square += pow(sums->value[c][at] / each - mean, 2);
@@ -52,27 +39,28 @@ static void find_mean(const measure_sums *sums, int at, iso_measure_entry *line)
         (sums->product[at] - sums->first_product[f]) / count - sums->sharp / count * (mean - sums->first[f] / count);
 }
 
-void iso_measure_judge(const measure_sums *sums, const char *const name[], const double expected[],
-                       const double time[ISO_MEASURE_ROWS], double floor, double significance, iso_measure *m)
+void iso_measure_judge(const measure_sums *sums, const iso_measure_options *o, const char *const name[],
+                       const double expected[], const double time[ISO_MEASURE_ROWS], iso_measure *m)
 {
-    const double freedom = ISO_MEASURE_CLOUDS - 1, count = (double)sums->count;
+    const double freedom = ISO_MEASURE_CLOUDS - 1, count = (double)o->count;
+    const double least = fmax(1e3 * o->tolerance, 1e-11); /* of the integration, which does not show as scatter */
     const bool flat = sums->sharp_square / count - pow(sums->sharp / count, 2) < 1e-13 * sums->sharp_square / count;
-    m->count = sums->count;
+    m->count = o->count;
     m->lines = sums->functions * ISO_MEASURE_ROWS;
     m->worst = 0;
     m->resolution = INFINITY;
-    const double critical = gsl_cdf_tdist_Qinv(significance / 2 / m->lines, freedom);
+    const double critical = gsl_cdf_tdist_Qinv(o->significance / 2 / m->lines, freedom);
     for (int i = 0; i < m->lines; i++) {
         const int f = i % sums->functions;
         iso_measure_entry *line = &m->line[i];
         *line = (iso_measure_entry){.name = name[f], .time = time[i / sums->functions], .expected = expected[f]};
-        find_mean(sums, i, line);
-        line->error = fmax(line->error, floor);
+        find_mean(sums, count, i, line);
+        line->error = fmax(line->error, least);
         line->deviation = (line->mean - line->expected) / line->error;
         line->p = 2 * gsl_cdf_tdist_Q(fabs(line->deviation), freedom);
         if (!(fabs(line->deviation) <= fabs(m->line[m->worst].deviation))) m->worst = i;
         if (!flat) m->resolution = fmin(m->resolution, critical * line->error / fabs(line->slope));
     }
     m->p = fmin(1, m->line[m->worst].p * m->lines);
-    m->kept = m->p >= significance;
+    m->kept = m->p >= o->significance;
 }

@@ -15,8 +15,8 @@
 #include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
-#include "study/refusals_impl.h"
 #include "study/section/section_impl.h"
+#include "study/study_impl.h"
 
 /* --- which section is global ------------------------------------------------------------------------------------ */
 
@@ -186,18 +186,16 @@ static void tell_nature(iso_section_walk *w)
 
 static iso_status set_up(iso_section_walk *w)
 {
-    iso_status status = check(w);
-    if (status == ISO_OK) status = open_orbit(w);
-    if (status == ISO_OK) status = iso_refuse_losses(w->ctx, w->orbit, what);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check(w));
+    ISO_TRY(open_orbit(w));
+    ISO_TRY(iso_refuse_losses(w->ctx, w->orbit, what));
     if (w->options.axis == ISO_AXIS_AUTO) w->options.axis = iso_section_axis(iso_orbit_motion(w->orbit));
-    status = check_starts(w);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_starts(w));
     choose_columns(w);
     iso_section_state_level(w->orbit, &w->effects);
     if (w->options.starts > 0)
         iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->options.axis, w->options.seed);
-    status = iso_section_make_room(w);
+    iso_status status = iso_section_make_room(w);
     return status == ISO_OK ? iso_section_open_group(w) : status;
 }
 

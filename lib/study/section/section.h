@@ -34,12 +34,6 @@ typedef struct iso_section_nature {
     char words[256]; /* one line: why it is global, or why it is not known to be                                */
 } iso_section_nature;
 
-/* The nature of n_a = 0 for this orbit (axis: 0 to 2, or ISO_AXIS_AUTO). */
-ISO_API iso_section_nature iso_section_of(const iso_orbit *orbit, int axis);
-
-/* Whether an event is a section n_a = 0: the column is n_a or gamma_a, and the value is 0. Sets *axis if so. */
-ISO_API bool iso_section_is_of_axis(int column, double value, int *axis);
-
 typedef struct iso_section_options {
     size_t size;           /* set by iso_section_defaults; see isoroll.h */
     size_t crossings;      /* of each orbit, 1 or more                                                           */
@@ -50,8 +44,8 @@ typedef struct iso_section_options {
     int axis;   /* 0 to 2; ISO_AXIS_AUTO: the global one                                              */
     int column; /* -1, or the column (iso_column_find) whose passing of `value` is looked for instead  */
     double value;
-    iso_models models; /* those integrated, each by itself; ISO_SHOW_START: both if the ball has a twin       */
-    iso_models shown;  /* the model whose states the rows have; ISO_SHOW_START: no states                      */
+    iso_models models;   /* those integrated, each by itself; ISO_SHOW_START: both if the ball has a twin       */
+    iso_models shown;    /* the model whose states the rows have; ISO_SHOW_START: no states                      */
     double tolerance;    /* NAN: the scene's                                                                   */
     int threads;         /* 0: as many as there are processors to run on                                       */
     const char *vectors; /* see batch.h                                                                        */
@@ -81,18 +75,16 @@ typedef struct iso_section_sink {
     void (*note)(void *data, const char *words); /* one line without a newline: the section is not global, ...      */
     void (*progress)(void *data, double part);   /* the part done, in [0, 1]                                        */
     void *data;
+    iso_record **record; /* where a new record with header and rows goes; NULL: none is made                      */
 } iso_section_sink;
 
 /* Two models part on an orbit when their distance passes this. On chaotic orbits the rounding errors of the models
  * grow until they part. */
 #define ISO_SECTION_PARTED 1e-3
 
-/* The distance of two crossings in the chart: the larger one of |dl|, modulo 2 pi, and |dx|. */
-ISO_API double iso_section_distance(const iso_crossing *a, const iso_crossing *b);
-
 typedef struct iso_section_result {
     iso_section_nature nature;
-    iso_models models;    /* that were integrated: ball, point or both                                            */
+    iso_models models;   /* that were integrated: ball, point or both                                            */
     size_t orbits, rows; /* orbits asked for; rows that the sink has taken                                       */
     size_t crossings[2]; /* found by the ball, by the point                                                      */
     size_t failed;       /* orbits that have fewer crossings than asked for                                      */

@@ -73,7 +73,10 @@ iso_status iso_section_give_header(iso_section_walk *w)
     iso_status status = create_header(w, &header);
     if (status == ISO_OK) status = describe(w, header);
     if (status == ISO_OK && w->sink->header) status = w->sink->header(w->sink->data, header);
-    iso_record_free(header);
+    if (status == ISO_OK && w->sink->record)
+        *w->sink->record = header;
+    else
+        iso_record_free(header);
     w->begun = true;
     return status;
 }

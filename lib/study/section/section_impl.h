@@ -7,7 +7,8 @@
 #ifndef ISO_STUDY_SECTION_IMPL_H
 #define ISO_STUDY_SECTION_IMPL_H
 
-#include "map/section.h"
+#include "map/section_impl.h"
+#include "study/options_impl.h"
 #include "study/section/section.h"
 
 /* What is known of one orbit of the group. */
@@ -17,6 +18,10 @@ typedef struct iso_section_member {
     double distance; /* the largest so far between the models; its crossing   */
     size_t crossing;
 } iso_section_member;
+
+/* The axis and the starts that are typed; the caller frees words->points. Errors: ISO_BAD_INPUT. */
+iso_status iso_section_words_read(iso_context *ctx, iso_section_words *words, int *axis, const double (**at)[2],
+                                  size_t *count);
 
 typedef struct iso_section_walk {
     iso_context *ctx;
@@ -62,5 +67,21 @@ iso_status iso_section_walk_group(iso_section_walk *w);
 
 /* States the level of the orbit among the effects: then every start is on it, not near it. */
 void iso_section_state_level(const iso_orbit *orbit, iso_effects *effects);
+
+/* The nature of n_a = 0 for this orbit (axis: 0 to 2, or ISO_AXIS_AUTO). */
+iso_section_nature iso_section_of(const iso_orbit *orbit, int axis);
+
+/* Whether an event is a section n_a = 0: the column is n_a or gamma_a, and the value is 0. Sets *axis if so. */
+bool iso_section_is_of_axis(int column, double value, int *axis);
+
+/* The distance of two crossings in the chart: the larger one of |dl|, modulo 2 pi, and |dx|. */
+double iso_section_distance(const iso_crossing *a, const iso_crossing *b);
+
+/* What the options of the study hold. */
+typedef struct iso_section_request {
+    iso_section_options how;
+    iso_section_words words;
+    const char *event; /* COLUMN=VALUE */
+} iso_section_request;
 
 #endif

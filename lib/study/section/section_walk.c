@@ -219,6 +219,7 @@ static iso_status give_row(iso_section_walk *w, size_t i, const iso_crossing *at
         return ISO_OK;
     }
     iso_status status = w->begun ? ISO_OK : iso_section_give_header(w);
+    if (status == ISO_OK && w->sink->record) status = iso_record_add(w->ctx, *w->sink->record, 1, row);
     if (status == ISO_OK && w->sink->row) status = w->sink->row(w->sink->data, row, n);
     w->result->rows += status == ISO_OK;
     return status;

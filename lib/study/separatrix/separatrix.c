@@ -7,7 +7,10 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/names_impl.h"
 #include "study/separatrix/separatrix_impl.h"
+
+ISO_NAMES(iso_separatrix_digits_name, int, "double", "quad", "auto")
 
 /* Terms of the polynomial, and of the one that is compared with it. Its domain is 3/4 as large. */
 typedef struct numbers {
@@ -137,13 +140,12 @@ static iso_status find(iso_context *ctx, const double J[3], iso_separatrix_digit
 {
     iso_manifold m;
     iso_manifold_crossing c, n;
-    iso_status status = check_digits(ctx, digits);
-    if (status == ISO_OK) status = iso_manifold_find(ctx, s->k, J, s->level, &m);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_digits(ctx, digits));
+    ISO_TRY(iso_manifold_find(ctx, s->k, J, s->level, &m));
     s->section = m.axis;
     s->middle = m.corner == 0 ? (m.axis + 2) % 3 : (m.axis + 1) % 3;
     s->axis = (s->middle + 1) % 3;
-    status = iso_manifold_first(&m, &c);
+    iso_status status = iso_manifold_first(&m, &c);
     if (status == ISO_OK) status = compute(&m, &with_64_bits, &c, s);
     if (status == ISO_OK) status = find_finer(&m, &c, digits, s);
     if (status != ISO_OK || !next) return status;

@@ -9,7 +9,7 @@
  * point's energy (study/level.h) on which the rotation exists: those on which the point can reach the whole sphere.
  *
  *     iso_separatrix_splitting s;
- *     status = iso_separatrix_at(ctx, 0.5, (double[3]){1.4, 2.1, 3}, 0, ISO_SEPARATRIX_AUTO, &s);     s.x, s.m, s.error
+ *     status = iso_separatrix_at(ctx, 0.5, (double[3]){1.4, 2.1, 3}, 0, ISO_SEPARATRIX_AUTO, &s); s.x, s.m, s.error
  *
  * The manifold near O is a polynomial W with g(W(theta)) = W(lambda^(1/2) theta), g half a return, found by Newton's
  * method; farther out it is followed by half returns with their derivatives. Numbers have 64 bits of mantissa, and
@@ -35,6 +35,9 @@ typedef enum iso_separatrix_digits {
     ISO_SEPARATRIX_AUTO
 } iso_separatrix_digits;
 
+/* "double", "quad", "auto"; NULL past the end. */
+ISO_API const char *iso_separatrix_digits_name(int digits);
+
 /* What is found at one k, on one level. */
 typedef struct iso_separatrix_splitting {
     double k, level;
@@ -56,7 +59,6 @@ typedef struct iso_separatrix_splitting {
     iso_status status;           /* ISO_OK, or why there is nothing                                               */
     char words[200];             /* of a failure; with ISO_OK: "", or why 128 bits failed where 64 did not         */
 } iso_separatrix_splitting;
-ISO_API extern const iso_field iso_separatrix_fields[];
 
 /* Errors: ISO_BAD_INPUT about "k" or "J": those of iso_params_reduced; two equal moments (the body is integrable, and
  * there is no middle axis); lambda below 1.02 (moments that are nearly equal, large |k|, a high level), where m is
@@ -100,12 +102,11 @@ typedef struct iso_separatrix_table {
     iso_separatrix_splitting
         *zero; /* zeros of m other than k = +-1, by growing k and level                          */
 } iso_separatrix_table;
-ISO_API extern const iso_field iso_separatrix_table_fields[];
 
 /* Other zeros of m than k = 1 and k = -1 are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1): there is one between two
  * neighbours that are distinguished from 0 if their r have opposite signs. Neighbours have the same level, or else
  * the same k. There the manifolds touch at one point. If they cross at the next one (next_m != 0), there is no
- * further integral. A failure at one k stands in its row, and is no failure of the call. Errors: ISO_BAD_ARGUMENT
+ * additional integral. A failure at one k stands in its row, and is no failure of the call. Errors: ISO_BAD_ARGUMENT
  * (no k; "digits"); ISO_BAD_INPUT about an effect that acts on the ball, other than `level`; where the scene starts
  * as a point, or has a level, those of iso_orbit_create; ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *s has
  * the rows that are done. */

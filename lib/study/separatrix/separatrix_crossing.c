@@ -19,8 +19,8 @@ typedef struct piece {
     int count, halves;
     double close;
     double base; /* u of the first sample, with whole turns */
-    iso_manifold_point *at;
-    double *u; /* of each sample, with whole turns */
+    iso_manifold_point at[MOST_SAMPLES];
+    double u[MOST_SAMPLES]; /* of each sample, with whole turns */
 } piece;
 
 static double nearest(iso_wide u, double to)
@@ -40,11 +40,6 @@ static bool is_far(const iso_manifold_point *a, const iso_manifold_point *b, dou
     return hypot(du, dx) > close;
 }
 
-static iso_wide middle(const iso_manifold_point *a, const iso_manifold_point *b)
-{
-    return WIDE_ROOT(a->theta * b->theta);
-}
-
 /* Puts samples between those that are far apart. */
 static iso_status fill(piece *p)
 {
@@ -58,8 +53,7 @@ static iso_status fill(piece *p)
             return iso_context_fail(p->m->ctx, ISO_NUMERICAL, "",
                                     "splitting at k = %.15g: the manifold is too long before it meets the line",
                                     p->m->problem.p.k);
-        const iso_status status = iso_manifold_at(p->m, middle(&p->at[i], &p->at[i + 1]), p->halves, &between);
-        if (status != ISO_OK) return status;
+        ISO_TRY(iso_manifold_at(p->m, WIDE_ROOT(p->at[i].theta * p->at[i + 1].theta), p->halves, &between));
         for (int j = p->count++; j > i + 1; j--) p->at[j] = p->at[j - 1];
         p->at[i + 1] = between;
     }
@@ -67,25 +61,14 @@ static iso_status fill(piece *p)
     return ISO_OK;
 }
 
-static void close_piece(piece *p)
-{
-    free(p->at);
-    free(p->u);
-    p->at = NULL;
-    p->u = NULL;
-}
-
-static iso_status open_piece(const iso_manifold *m, double close, piece *p)
+/* *opened is for the caller to free, after a failure, too. */
+static iso_status open_piece(const iso_manifold *m, double close, piece **opened)
 {
     enum { FIRST = 4 };
     const double step = log((double)m->lambda) / (FIRST - 1);
-    *p = (piece){.m = m, .count = FIRST, .close = close};
-    p->at = malloc(MOST_SAMPLES * sizeof *p->at);
-    p->u = malloc(MOST_SAMPLES * sizeof *p->u);
-    if (!p->at || !p->u) {
-        close_piece(p);
-        return iso_context_no_memory(m->ctx, "a manifold");
-    }
+    piece *p = *opened = calloc(1, sizeof *p);
+    if (!p) return iso_context_no_memory(m->ctx, "a manifold");
+    p->m = m, p->count = FIRST, p->close = close;
     for (int i = 0; i < FIRST; i++) {
         const iso_wide theta = i == FIRST - 1 ? 1 : i == 0 ? 1 / m->lambda : (iso_wide)exp((i + 1 - FIRST) * step);
         iso_manifold_at(m, theta, 0, &p->at[i]);
@@ -97,8 +80,7 @@ static iso_status advance(piece *p)
 {
     p->base = p->u[p->count - 1];
     for (int i = 0; i < p->count; i++) {
-        const iso_status status = iso_manifold_go_on(p->m, &p->at[i]);
-        if (status != ISO_OK) return status;
+        ISO_TRY(iso_manifold_go_on(p->m, &p->at[i]));
     }
     p->halves++;
     return fill(p);
@@ -126,8 +108,7 @@ typedef struct approach {
 static iso_status approach_at(const iso_manifold *m, iso_wide theta, approach *a, iso_manifold_crossing *c)
 {
     iso_manifold_point p;
-    const iso_status status = iso_manifold_at(m, theta, c->halves, &p);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_manifold_at(m, theta, c->halves, &p));
     const iso_wide over = iso_wide_turned(p.z[0] - WIDE_PI / 2), slope = p.t[1] / p.t[0], moved = over - a->over;
     if (a->steps++ > 0 && WIDE_ABS(moved) > 10 * WIDE_ABS(over)) {
         a->bend = (slope - a->slope) / moved;
@@ -171,8 +152,7 @@ iso_status iso_manifold_refine(const iso_manifold *m, iso_manifold_crossing *c)
     approach a = {0};
     for (int i = 0; i < 30; i++) {
         const iso_wide last = a.over, theta = i == 0 ? c->theta : c->theta - a.over / a.speed;
-        const iso_status status = approach_at(m, theta, &a, c);
-        if (status != ISO_OK) return status;
+        ISO_TRY(approach_at(m, theta, &a, c));
         if (i > 0 && is_there(m, a.over, last)) return measure_scatter(m, &a, c);
         if (!(WIDE_ABS(a.over / a.speed) < c->theta / 2)) break;
     }
@@ -183,22 +163,22 @@ iso_status iso_manifold_refine(const iso_manifold *m, iso_manifold_crossing *c)
 
 iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
 {
-    piece p;
+    piece *p;
     iso_status status = open_piece(m, CLOSE, &p);
     int found = 0;
     while (status == ISO_OK && found == 0) {
-        for (int i = 0; i < p.count && found == 0; i++)
-            if (p.u[i] >= ISO_PI / 2) found = i > 0 ? i : 1;
+        for (int i = 0; i < p->count && found == 0; i++)
+            if (p->u[i] >= ISO_PI / 2) found = i > 0 ? i : 1;
         if (found > 0) break;
-        status = p.halves < MOST_HALVES
-                     ? advance(&p)
+        status = p->halves < MOST_HALVES
+                     ? advance(p)
                      : iso_context_fail(m->ctx, ISO_NUMERICAL, "",
                                         "splitting at k = %.15g: the manifold does not meet the line of symmetry "
                                         "within %d half turns",
                                         m->problem.p.k, MOST_HALVES);
     }
-    if (status == ISO_OK) *c = (iso_manifold_crossing){.halves = p.halves, .theta = guess(&p, found)};
-    close_piece(&p);
+    if (status == ISO_OK) *c = (iso_manifold_crossing){.halves = p->halves, .theta = guess(p, found)};
+    free(p);
     return status;
 }
 
@@ -213,8 +193,7 @@ typedef struct mirror {
 
 static iso_status look(const iso_manifold *m, iso_wide theta, int halves, mirror *r)
 {
-    const iso_status status = iso_manifold_at(m, theta, halves, &r->p);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_manifold_at(m, theta, halves, &r->p));
     r->image = r->p;
     r->image.z[0] = WIDE_PI - r->p.z[0];
     r->image.t[0] = -r->p.t[0];
@@ -229,8 +208,7 @@ iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing 
     iso_wide last = 1;
     for (int i = 0; i < 30; i++) {
         mirror r;
-        const iso_status status = look(m, c->theta, c->halves, &r);
-        if (status != ISO_OK) return status;
+        ISO_TRY(look(m, c->theta, c->halves, &r));
         const iso_wide apart = iso_wide_turned(r.image.z[0] - r.p.z[0]), step = apart / (r.image.t[0] - r.p.t[0]);
         for (int j = 0; j < 2; j++) c->z[j] = r.p.z[j];
         c->slope = (r.p.t[1] / r.p.t[0] - r.image.t[1] / r.image.t[0]) / 2;
@@ -249,8 +227,7 @@ static iso_status append(iso_context *ctx, const piece *p, int from, iso_record 
 {
     for (int i = from; i < p->count; i++) {
         double *row;
-        const iso_status status = iso_record_append(ctx, curve, &row);
-        if (status != ISO_OK) return status;
+        ISO_TRY(iso_record_append(ctx, curve, &row));
         row[0] = p->u[i];
         row[1] = (double)p->at[i].z[1];
     }
@@ -260,22 +237,18 @@ static iso_status append(iso_context *ctx, const piece *p, int from, iso_record 
 /* Until the lobes are too long to be held: that is no failure. */
 static iso_status draw(iso_context *ctx, const iso_manifold *m, int halves, iso_record *curve)
 {
-    piece p;
+    piece *p;
     double *origin;
-    iso_status status = iso_record_append(ctx, curve, &origin);
-    if (status == ISO_OK) status = open_piece(m, CLOSE_DRAWN, &p);
-    if (status != ISO_OK) return status;
-    status = append(ctx, &p, 0, curve);
-    for (int left = halves, met = 0; status == ISO_OK && left > 0 && p.halves < MOST_HALVES; left -= met) {
-        status = advance(&p);
-        if (status == ISO_NUMERICAL && met) {
-            close_piece(&p);
-            return ISO_OK;
-        }
-        met = met || p.u[p.count - 1] >= ISO_PI / 2;
-        if (status == ISO_OK) status = append(ctx, &p, 1, curve);
+    ISO_TRY(iso_record_append(ctx, curve, &origin));
+    iso_status status = open_piece(m, CLOSE_DRAWN, &p);
+    if (status == ISO_OK) status = append(ctx, p, 0, curve);
+    for (int left = halves, met = 0; status == ISO_OK && left > 0 && p->halves < MOST_HALVES; left -= met) {
+        status = advance(p);
+        if (status == ISO_NUMERICAL && met) return free(p), ISO_OK;
+        met = met || p->u[p->count - 1] >= ISO_PI / 2;
+        if (status == ISO_OK) status = append(ctx, p, 1, curve);
     }
-    close_piece(&p);
+    free(p);
     return status;
 }
 

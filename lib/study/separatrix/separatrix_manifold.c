@@ -12,8 +12,8 @@
 
 #include "base/monitor_impl.h"
 #include "base/pi_impl.h"
-#include "map/level_impl.h"
 #include "map/section.h"
+#include "map/section_impl.h"
 #include "method/taylor/lanes_impl.h"
 #include "orbit/crossings_impl.h"
 #include "study/separatrix/separatrix_impl.h"
@@ -61,11 +61,9 @@ static iso_status find_direction(iso_manifold *m)
 {
     const iso_wide origin[2] = {0, 0};
     iso_wide image[2], A[2][2];
-    iso_status status = map_half(m, origin, image, A);
-    if (status != ISO_OK) return status;
+    ISO_TRY(map_half(m, origin, image, A));
     const iso_wide trace = A[0][0] + A[1][1];
-    status = check_trace(m, (double)trace);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_trace(m, (double)trace));
     m->lambda = (trace + WIDE_ROOT((trace - 2) * (trace + 2))) / 2;
     m->v[0] = A[0][1];
     m->v[1] = m->lambda - A[0][0];
@@ -115,9 +113,8 @@ iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], doub
     const double top = fmax(J[0], fmax(J[1], J[2]));
     frexp(isfinite(top) && top > 0 ? top : 1, &exponent);
     const double scaled[3] = {ldexp(J[0], 1 - exponent), ldexp(J[1], 1 - exponent), ldexp(J[2], 1 - exponent)};
-    iso_status status = iso_params_reduced(ctx, k, scaled, &m->problem.p);
-    if (status == ISO_OK) status = check_moments(ctx, J);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_params_reduced(ctx, k, scaled, &m->problem.p));
+    ISO_TRY(check_moments(ctx, J));
     const iso_params *p = &m->problem.p;
     if (!(fabs(k) >= 0.05 && fabs(k) <= 50))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "k", "splitting: k = %.15g: give 0.05 <= |k| <= 50", k);
@@ -126,8 +123,7 @@ iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], doub
     m->problem.energy = iso_level_energy(p, level);
     const iso_point_motion motion = {p, 1, m->problem.energy};
     m->axis = iso_section_axis(motion);
-    status = check_level(m);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_level(m));
     const int b = (m->axis + 1) % 3, c = (m->axis + 2) % 3;
     const bool at_zero = k > 0 ? p->J[c] > p->J[b] : p->J[c] < p->J[b]; /* c is the middle axis */
     m->corner = at_zero ? 0 : WIDE_PI / 2;
@@ -238,8 +234,7 @@ static iso_status improve(iso_manifold *m, linear *L, double *change)
     iso_wide most = 0;
     L->n = 2 * m->terms;
     for (int j = 0; j < m->terms; j++) {
-        const iso_status status = set_rows(m, j, L);
-        if (status != ISO_OK) return status;
+        ISO_TRY(set_rows(m, j, L));
     }
     eliminate(L);
     for (int i = 0; i < L->n; i++) {
@@ -267,8 +262,7 @@ iso_status iso_manifold_solve(iso_manifold *m)
     double change = 1;
     const double near = sqrt(m->code->error) / 100;
     for (int i = 0; i < 12; i++) {
-        const iso_status status = improve(m, &L, &change);
-        if (status != ISO_OK) return status;
+        ISO_TRY(improve(m, &L, &change));
         if (change < near || !(change < 1e3)) break;
     }
     m->rate = falling(m);
@@ -282,8 +276,7 @@ iso_status iso_manifold_solve(iso_manifold *m)
 iso_status iso_manifold_go_on(const iso_manifold *m, iso_manifold_point *p)
 {
     iso_wide image[2], A[2][2];
-    const iso_status status = map_half(m, p->z, image, A);
-    if (status != ISO_OK) return status;
+    ISO_TRY(map_half(m, p->z, image, A));
     const iso_wide t[2] = {A[0][0] * p->t[0] + A[0][1] * p->t[1], A[1][0] * p->t[0] + A[1][1] * p->t[1]};
     for (int i = 0; i < 2; i++) p->z[i] = image[i], p->t[i] = t[i];
     return ISO_OK;

@@ -6,10 +6,10 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/pi_impl.h"
-#include "orbit/pool_impl.h"
-#include "study/level_impl.h"
-#include "study/refusals_impl.h"
+#include "base/pool_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/separatrix/separatrix_impl.h"
+#include "study/study_impl.h"
 
 /* m has the zeros k = 1 and k = -1 anyway. Others are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1), which is of the
  * same size everywhere. Two neighbours with one between, along k or along the level. */
@@ -184,7 +184,7 @@ static void blank(double k, double level, iso_separatrix_splitting *s)
 static iso_status run_pool(iso_context *ctx, scan *c, size_t count,
                            bool (*solve)(iso_pool_worker *, void *, size_t, size_t))
 {
-    iso_pool pool = {.count = count, .chunk = 1, .solve = solve, .data = c};
+    iso_pool pool = {.what = "orbit", .count = count, .chunk = 1, .solve = solve, .data = c};
     return count == 0 ? ISO_OK : iso_pool_run(ctx, &pool, iso_pool_threads(c->o->threads, count - 1, 1), NULL);
 }
 
@@ -238,14 +238,12 @@ iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *op
     *s = NULL;
     iso_separatrix_options o = iso_separatrix_defaults();
     double level = 0;
-    iso_status status = iso_options_take(ctx, "iso_separatrix_options", &o, sizeof o, options);
-    if (status == ISO_OK && o.count == 0)
-        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "splitting: there is no k");
-    if (status == ISO_OK && o.scene) status = check_scene(ctx, &o, &level);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_options_take(ctx, "iso_separatrix_options", &o, sizeof o, options));
+    if (o.count == 0) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "splitting: there is no k");
+    if (o.scene) ISO_TRY(check_scene(ctx, &o, &level));
     iso_separatrix_table *found = calloc(1, sizeof *found);
     if (!found) return iso_context_no_memory(ctx, "the splitting");
-    status = run(ctx, &o, level, found);
+    const iso_status status = run(ctx, &o, level, found);
     if (status == ISO_OK || status == ISO_STOPPED)
         *s = found;
     else

@@ -1,12 +1,33 @@
-/* tables.c - the list of the tables that studies make (see tables.h). */
+/* tables.c - the lists of studies (study/study.h) and of the tables that they make (see tables.h). */
 #include "study/tables/tables.h"
+#include "study/fields_impl.h"
+
+#include <string.h>
 
 #include "study/chaos/chaos.h"
 #include "study/cost/cost.h"
+#include "study/frequencies/frequencies.h"
+#include "study/integrals/integrals.h"
 #include "study/periodic/continuation.h"
 #include "study/periodic/periodic.h"
 #include "study/periodic/stability_chart.h"
+#include "study/section/section.h"
 #include "study/separatrix/separatrix.h"
+#include "study/options_impl.h"
+
+const iso_study *iso_study_at(int i)
+{
+    static const iso_study *const studies[] = {&iso_section_study, &iso_chaos_study, &iso_frequencies_study,
+                                               &iso_periodic_study, &iso_integrals_study};
+    return i >= 0 && i < (int)(sizeof studies / sizeof *studies) ? studies[i] : NULL;
+}
+
+const iso_study *iso_study_find(const char *name)
+{
+    int i = 0;
+    while (iso_study_at(i) && strcmp(iso_study_at(i)->name, name) != 0) i++;
+    return iso_study_at(i);
+}
 
 const iso_result_table *iso_result_table_at(int i)
 {

@@ -1,0 +1,23 @@
+/* number_impl.h - numbers as text, the same in every locale: a host program may have set a decimal comma. */
+#ifndef ISO_BASE_NUMBER_IMPL_H
+#define ISO_BASE_NUMBER_IMPL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Room for one number written by iso_number_print, with its end mark. */
+#define ISO_NUMBER_SIZE 32
+
+/* Reads the whole of text[0..length) as one finite decimal number ("1", "-2.5e-3"). False for anything else: an
+ * empty text, blanks, trailing characters, hexadecimal, nan, inf, and what overflows a double.
+ * What underflows becomes the nearest double, subnormal or zero. */
+bool iso_number_read(const char *text, size_t length, double *value);
+
+/* Writes value in %.17g (reads back as the same double) with a decimal point, and gives the length. */
+int iso_number_print(char text[ISO_NUMBER_SIZE], double value);
+
+/* The same with 1 to 17 significant digits; 0: C's hexadecimal %a, which reads back exactly, too. Rounds as the
+ * caller has set it. */
+int iso_number_print_as(char text[ISO_NUMBER_SIZE], double value, int digits);
+
+#endif

@@ -1,0 +1,45 @@
+/* lane_groups.c - which orbits the lanes of vectors can follow, and which of them together (lane_groups_impl.h). */
+#include "orbit/lane_groups_impl.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "method/methods_impl.h"
+#include "model/model_impl.h"
+#include "orbit/orbit_impl.h"
+
+bool iso_lanes_suit(const iso_orbit *orbit)
+{
+    char why[ISO_WHY_SIZE];
+    return !orbit->rests && iso_effects_stiffness(&orbit->model.problem) <= ISO_STIFF &&
+           iso_method_serves(&iso_method_taylor, &orbit->model, why);
+}
+
+static bool share_lanes(const iso_lane_job *a, const iso_lane_job *b)
+{
+    return a->axis == b->axis && !a->time == !b->time && iso_lanes_alike(a->model, b->model);
+}
+
+bool iso_lanes_in_groups(iso_pool_worker *w, const iso_lane_code *code, double tolerance, long max_steps,
+                         iso_lane_job *jobs[], size_t count)
+{
+    const iso_lane_options lanes = {tolerance, max_steps, iso_pool_goes_on, w};
+    iso_lane_job **other = malloc((count + 1) * sizeof *other);
+    bool memory = other != NULL;
+    while (memory && count > 0) {
+        size_t alike = 1, others = 0;
+        for (size_t i = 1; i < count; i++)
+            if (share_lanes(jobs[0], jobs[i]))
+                jobs[alike++] = jobs[i];
+            else
+                other[others++] = jobs[i];
+        if (!code->solve(jobs, alike, &lanes)) {
+            memory = atomic_load(&w->all->stopped);
+            break;
+        }
+        memcpy(jobs, other, others * sizeof *jobs);
+        count = others;
+    }
+    free(other);
+    return memory;
+}

@@ -1,0 +1,18 @@
+/* lane_groups_impl.h - orbits in the lanes of vectors (method/taylor/lanes_impl.h), by the threads of
+ * base/pool_impl.h. */
+#ifndef ISO_ORBIT_LANE_GROUPS_IMPL_H
+#define ISO_ORBIT_LANE_GROUPS_IMPL_H
+
+#include "base/pool_impl.h"
+#include "method/taylor/lanes_impl.h"
+#include "orbit/orbit.h"
+
+/* Solves jobs in lanes, in groups of jobs that can share the lanes. Overwrites jobs[]. False: no memory. */
+bool iso_lanes_in_groups(iso_pool_worker *w, const iso_lane_code *code, double tolerance, long max_steps,
+                         iso_lane_job *jobs[], size_t count);
+
+/* Whether lanes can follow an orbit. Lanes compute Taylor series, so the ball must move, must not be stiff, and must
+ * have equations for series. */
+bool iso_lanes_suit(const iso_orbit *orbit);
+
+#endif
