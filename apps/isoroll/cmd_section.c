@@ -185,7 +185,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = check_cloud(ctx, o);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     if (status == ISO_OK && o->plot && how->column >= 0 && !iso_section_is_of_axis(how->column, how->value, &axis))
-        status = iso_context_fail(ctx, ISO_BAD_INPUT, "",
+        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                   "--plot draws sections n_A = 0: an event has no coordinates l, x");
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, &scene);
     if (status != ISO_OK) return finish(ctx, status);

@@ -52,7 +52,7 @@ typedef struct numbers {
 static iso_status bad_list(iso_context *ctx, const numbers *list, const char *text)
 {
     return iso_context_fail(
-        ctx, ISO_BAD_INPUT, "",
+        ctx, ISO_BAD_ARGUMENT, "",
         "--%s '%s': expected values and ranges A:B:STEP, STEP not 0, with commas between, at most "
         "%d values: 0.25:3:0.25, or 1/3,1/2,-0.5",
         list->name, text, MOST_K);
@@ -118,7 +118,7 @@ static iso_status read_lists(iso_context *ctx, const options *o, const iso_scene
     if (status == ISO_OK) status = read_list(ctx, o->k, scene->params.k, k);
     if (status == ISO_OK) status = read_list(ctx, o->level, own, level);
     if (status == ISO_OK && k->count > 1 && level->count > 1)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                 "--k has %zu values and --level %zu: give many k and one level, or one k and many "
                                 "levels",
                                 k->count, level->count);

@@ -27,9 +27,9 @@ static iso_status read_level(iso_context *ctx, const iso_scene *scene, const per
 {
     if (!c->level) return iso_level_of_scene(ctx, scene, "the chart is drawn", &o->level);
     if (o->moment == ISO_CHART_LEVEL)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--level does not go with --chart level=A:B");
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--level does not go with --chart level=A:B");
     if (iso_number_read(c->level, strlen(c->level), &o->level)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--level '%s': expected a number", c->level);
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--level '%s': expected a number", c->level);
 }
 
 static iso_status read_words(iso_context *ctx, const iso_scene *scene, const periodic_options *c,
@@ -43,7 +43,7 @@ static iso_status read_words(iso_context *ctx, const iso_scene *scene, const per
     for (int i = 0; i <= ISO_CHART_LEVEL; i++)
         if (strlen(iso_chart_name(i)) == length && strncmp(name, iso_chart_name(i), length) == 0) o->moment = i;
     if (o->moment < 0 || (o->moment == ISO_CHART_LEVEL && !equals))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                 "--chart '%s': expected J1, J2 or J3, or J2=A:B, or level=A:B", name);
     memcpy(o->J, scene->params.J, sizeof o->J);
     const iso_status status = read_level(ctx, scene, c, o);
@@ -52,10 +52,10 @@ static iso_status read_words(iso_context *ctx, const iso_scene *scene, const per
     moment[0] = fmin(one, other);
     moment[1] = one + other;
     if (equals && !read_range(equals + 1, moment))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--chart '%s': expected %s=A:B, A < B", name,
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--chart '%s': expected %s=A:B, A < B", name,
                                 iso_chart_name(o->moment));
     if (c->k && !read_range(c->k, k))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--k '%s': expected A:B, A < B", c->k);
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--k '%s': expected A:B, A < B", c->k);
     o->from[0] = k[0], o->to[0] = k[1];
     o->from[1] = moment[0], o->to[1] = moment[1];
     o->steps = c->steps;
@@ -147,7 +147,6 @@ int draw_chart(iso_context *ctx, const periodic_options *c, const iso_scene *sce
     if (status == ISO_OK) status = iso_stability_chart(ctx, &o, &grid, &borders);
     progress_end();
     if (status == ISO_STOPPED) complain("interrupted: no chart");
-    if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT;
     if (status == ISO_OK && c->json && !print_json(&o, grid, borders)) status = ISO_NO_MEMORY;
     if (status == ISO_OK && !c->json && !(c->output && strcmp(c->output, "-") == 0)) print_table(&o, grid, borders);
     if (status == ISO_OK) status = make_table(ctx, scene, &o, grid, borders, &table);

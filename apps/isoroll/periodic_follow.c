@@ -24,7 +24,7 @@ static iso_status read_words(iso_context *ctx, const char *given, iso_continuati
             strncmp(iso_vary_name(vary), given, (size_t)(equals - given)) != 0))
         vary++;
     if (!equals || !iso_vary_name(vary) || !read_range(equals + 1, range))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                 "--follow '%s': expected NAME=A:B, NAME one of k, J1, J2, J3, ratio, level", given);
     o->vary = (iso_vary)vary;
     o->from = range[0];
@@ -35,9 +35,8 @@ static iso_status read_words(iso_context *ctx, const char *given, iso_continuati
 iso_status follow_check(iso_context *ctx, const iso_scene *scene, const char *range)
 {
     iso_continuation_options o;
-    iso_status status = read_words(ctx, range, &o);
-    if (status == ISO_OK) status = iso_continuation_check(ctx, scene, &o);
-    return status == ISO_BAD_ARGUMENT ? ISO_BAD_INPUT : status;
+    const iso_status status = read_words(ctx, range, &o);
+    return status == ISO_OK ? iso_continuation_check(ctx, scene, &o) : status;
 }
 
 /* --- what is shown ---------------------------------------------------------------------------------------------- */
@@ -143,7 +142,6 @@ int follow_orbits(iso_context *ctx, const periodic_options *o, const iso_scene *
     if (status == ISO_OK) status = iso_continuation_run(ctx, scene, list, count, &how, &f);
     progress_end();
     if (status == ISO_STOPPED) complain("interrupted: branches are missing or cut");
-    if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT;
     int result = finish(ctx, status);
     if (f)
         result = worse(result, show(ctx, scene, f, o, iso_vary_name((int)how.vary), rows));

@@ -96,9 +96,9 @@ iso_status iso_foreign_convert(iso_context *ctx, const iso_record *in, const cha
     o.row_tolerance = row_tolerance;
     o.first_row = 0;
     iso_status status = iso_foreign_word(ctx, "to", iso_model_kind_name, to, &model);
-    if (status == ISO_OK && !(row_tolerance > 0 && row_tolerance <= 0.1))
-        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "row_tolerance", "row_tolerance %g is not in (0, 0.1]",
-                                  row_tolerance);
+    if (status == ISO_OK && !iso_tolerance_is_good(row_tolerance))
+        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "row_tolerance",
+                                  "row_tolerance %g is not in " ISO_TOLERANCE_RANGE, row_tolerance);
     if (status == ISO_OK) status = iso_tolerance_check(ctx, tolerance);
     if (status == ISO_OK) status = iso_record_params(ctx, in, &params);
     if (status == ISO_OK) status = iso_convert_as(ctx, &params, in, (iso_model_kind)model, &o, &summary, out);

@@ -37,7 +37,6 @@ static iso_status run(iso_context *ctx, const iso_foreign_scene *scene, const is
     study->begin(how);
     iso_status status = set_options(ctx, study, text, how);
     if (status == ISO_OK && study->prepare) status = study->prepare(ctx, how);
-    if (status == ISO_BAD_INPUT) status = ISO_BAD_ARGUMENT; /* it is the call that is wrong, no file */
     if (status == ISO_OK) {
         status = study->run(ctx, &scene->scene, how, result);
         if (!result->table[0]) status = iso_foreign_blame(ctx, scene, status);

@@ -73,8 +73,7 @@ static iso_status read_step(iso_draft *d, const entry *e, const yaml_node_t *val
 static iso_status read_tolerance(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     const iso_status status = read_number(d, e, value);
-    const double tolerance = d->scene.tolerance;
-    if (status != ISO_OK || (tolerance >= ISO_LEAST_TOLERANCE && tolerance <= ISO_MOST_TOLERANCE)) return status;
+    if (status != ISO_OK || iso_tolerance_is_good(d->scene.tolerance)) return status;
     return ISO_FAIL_AT(d, value, "'tolerance' is %g, it must be in " ISO_TOLERANCE_RANGE, d->scene.tolerance);
 }
 

@@ -13,7 +13,7 @@
 
 iso_status iso_tolerance_check(iso_context *ctx, double tolerance)
 {
-    if (tolerance >= ISO_LEAST_TOLERANCE && tolerance <= ISO_MOST_TOLERANCE) return ISO_OK;
+    if (iso_tolerance_is_good(tolerance)) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in " ISO_TOLERANCE_RANGE,
                             tolerance);
 }

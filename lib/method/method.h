@@ -38,6 +38,10 @@ typedef struct iso_method_options {
 #define ISO_LEAST_TOLERANCE 1e-15
 #define ISO_MOST_TOLERANCE 0.1
 #define ISO_TOLERANCE_RANGE "[1e-15, 0.1]"
+static inline bool iso_tolerance_is_good(double tolerance)
+{
+    return tolerance >= ISO_LEAST_TOLERANCE && tolerance <= ISO_MOST_TOLERANCE;
+}
 
 typedef struct iso_statistics {
     long steps, rejected, rhs, jacobians; /* rhs includes dense output                                 */

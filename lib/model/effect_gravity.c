@@ -68,8 +68,7 @@ static iso_work work(const iso_problem *f)
 
 static const char *no_frequencies(const iso_problem *f)
 {
-    return iso_is_plane(f) ? "on a tilted plane the ball rolls away ever faster: its motion has no frequencies"
-                           : NULL;
+    return iso_is_plane(f) ? "on a tilted plane the ball rolls away ever faster" : NULL;
 }
 
 static void begin(const iso_problem *f, double y[])

@@ -206,12 +206,8 @@ static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_
     if (o->backend == ISO_BACKEND_EXACT)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "backend",
                                 "a batch integrates: backend exact is for single orbits, which share nothing");
-    if (iso_tolerance_check(ctx, o->tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;
-    if (o->threads < 0 || o->threads > ISO_MOST_THREADS)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "threads", "%d threads are not in [0, 1024]", o->threads);
-    if (!code)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors",
-                                "this processor, or this build, has no vectors '%s'", o->vectors);
+    ISO_TRY(iso_tolerance_check(ctx, o->tolerance));
+    ISO_TRY(iso_lanes_check(ctx, o->threads, o->vectors, code != NULL));
     for (size_t j = 0; j < rows; j++) {
         const double before = j > 0 ? times[j - 1] : 0;
         const bool back = times[rows - 1] < 0;

@@ -46,13 +46,8 @@ static iso_status check(iso_context *ctx, const iso_crossings_options *o)
     if ((int)o->backend < 0 || o->backend > ISO_BACKEND_EXACT || (int)o->shown < 0 || o->shown > ISO_SHOW_BOTH)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "backend",
                                 "crossings are found by backend ball or point, and shown as ball, point or both");
-    if (iso_tolerance_check(ctx, o->tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;
-    if (o->threads < 0 || o->threads > ISO_MOST_THREADS)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "threads", "%d threads are not in [0, %d]", o->threads,
-                                ISO_MOST_THREADS);
-    if (!iso_lane_code_find(o->vectors, o->deviations))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors",
-                                "this processor, or this build, has no vectors '%s'", o->vectors);
+    ISO_TRY(iso_tolerance_check(ctx, o->tolerance));
+    ISO_TRY(iso_lanes_check(ctx, o->threads, o->vectors, iso_lane_code_find(o->vectors, o->deviations) != NULL));
     return check_section(ctx, o);
 }
 

@@ -69,10 +69,7 @@ iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, c
 {
     const bool moved = iso_effects_pull(&orbit->effects) && !iso_effects_are_free(&orbit->effects);
     if (!iso_section_is_rotation(y, axis) || moved) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "axis",
-                            "this orbit is the rotation about axis %d, in the plane n_%d = 0 itself: it is the "
-                            "boundary of the section, and never crosses it",
-                            axis + 1, axis + 1);
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "axis", "this orbit is " ISO_NEVER_CROSSES, axis + 1, axis + 1);
 }
 
 /* Only where nothing acts but a level, orbits obey gamma_a'' = -W^2 gamma_a. */

@@ -87,6 +87,11 @@ iso_model_kind iso_crossings_model(const iso_orbit *orbit);
 /* Refuses an axis that is neither ISO_AXIS_AUTO nor 0 to 2: ISO_BAD_ARGUMENT about "axis". */
 iso_status iso_crossings_check_axis(iso_context *ctx, int axis);
 
+/* Why an orbit, or a start at |x| = 1, does not cross the section n_axis = 0; both numbers are the axis, from 1. */
+#define ISO_NEVER_CROSSES                                                                                            \
+    "the rotation about axis %d, in the plane n_%d = 0 itself: it is the boundary of the section, and never "        \
+    "crosses it"
+
 /* Refuses an orbit that lies, and stays, in the plane n_axis = 0 itself. */
 iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, const double y[], int axis);
 

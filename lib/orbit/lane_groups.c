@@ -15,6 +15,16 @@ bool iso_lanes_suit(const iso_orbit *orbit)
            iso_method_serves(&iso_method_taylor, &orbit->model, why);
 }
 
+iso_status iso_lanes_check(iso_context *ctx, int threads, const char *vectors, bool found)
+{
+    if (threads < 0 || threads > ISO_MOST_THREADS)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "threads", "%d threads are not in [0, %d]", threads,
+                                ISO_MOST_THREADS);
+    if (found) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors", "this processor, or this build, has no vectors '%s'",
+                            vectors);
+}
+
 static bool share_lanes(const iso_lane_job *a, const iso_lane_job *b)
 {
     return a->axis == b->axis && !a->time == !b->time && iso_lanes_alike(a->model, b->model);

@@ -7,6 +7,9 @@
 #include "method/taylor/lanes_impl.h"
 #include "orbit/orbit.h"
 
+/* Refuses a number of threads, or vectors that were not found: ISO_BAD_ARGUMENT about "threads" or "vectors". */
+iso_status iso_lanes_check(iso_context *ctx, int threads, const char *vectors, bool found);
+
 /* Solves jobs in lanes, in groups of jobs that can share the lanes. Overwrites jobs[]. False: no memory. */
 bool iso_lanes_in_groups(iso_pool_worker *w, const iso_lane_code *code, double tolerance, long max_steps,
                          iso_lane_job *jobs[], size_t count);

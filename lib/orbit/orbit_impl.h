@@ -20,6 +20,9 @@ struct iso_orbit {
     iso_integrator *integrator;
 };
 
+/* Refuses the point, because this effect breaks the isomorphism: ISO_NOT_MAPPED about the effect. */
+iso_status iso_orbit_no_point(iso_context *ctx, const iso_effect *breaking);
+
 /* Sets o->units, o->effects, o->h, o->eps, o->level and o->system from a start and what o->options ask for (the
  * backend not ISO_BACKEND_AUTO), and gives the start in that system's variables and own units. Errors: those of
  * iso_orbit_create. */

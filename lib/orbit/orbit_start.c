@@ -156,6 +156,13 @@ static iso_status check_closed(iso_context *ctx, const iso_effects *effects)
                             iso_level_name(), effect->name, iso_effect_why_broken(effect) ? "ball" : "point");
 }
 
+iso_status iso_orbit_no_point(iso_context *ctx, const iso_effect *breaking)
+{
+    return iso_context_fail(ctx, ISO_NOT_MAPPED, breaking->name,
+                            "'%s' breaks the isomorphism: %s. There is no such point; the ball alone can be had",
+                            breaking->name, iso_effect_why_broken(breaking));
+}
+
 static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_start *start)
 {
     double n[3];
@@ -166,10 +173,7 @@ static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_sta
     if (start->model == ISO_POINT && isnan(iso_effects_level(e)))
         iso_effects_set_level(e, false, NAN); /* as it comes */
     if (o->options.backend == ISO_BACKEND_EXACT && check_closed(o->ctx, e) != ISO_OK) return ISO_BAD_ARGUMENT;
-    if (breaking && point)
-        return iso_context_fail(o->ctx, ISO_NOT_MAPPED, breaking->name,
-                                "'%s' breaks the isomorphism: %s. There is no such point; the ball alone can be had",
-                                breaking->name, iso_effect_why_broken(breaking));
+    if (breaking && point) return iso_orbit_no_point(o->ctx, breaking);
     if (only_ball && by_point)
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, only_ball->name, "'%s' is the ball's: take backend ball",
                                 only_ball->name);

@@ -82,7 +82,7 @@ typedef struct iso_scene {
     double step;                /* between output rows, > 0; 0: a hundredth of |end|                       */
     iso_backend backend;        /* what finds the orbit                                                   */
     char method[ISO_NAME_SIZE]; /* a name of iso_methods, or "auto"                                        */
-    double tolerance;           /* largest relative error of one step, in [1e-15, 0.1]                     */
+    double tolerance;           /* largest relative error of one step, in ISO_TOLERANCE_RANGE                     */
     iso_models as;              /* whose states are written                                               */
     size_t columns;             /* names of the columns wanted; 0: those of `as`                           */
     char column[ISO_MAX_COLUMNS][ISO_NAME_SIZE];

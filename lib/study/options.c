@@ -34,7 +34,7 @@ bool iso_set_positive(void *at, const char *text)
 
 bool iso_set_tolerance(void *at, const char *text)
 {
-    return iso_set_positive(at, text) && *(double *)at >= ISO_LEAST_TOLERANCE && *(double *)at <= ISO_MOST_TOLERANCE;
+    return iso_set_number(at, text) && iso_tolerance_is_good(*(double *)at);
 }
 
 /* clang-format off */

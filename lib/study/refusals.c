@@ -1,9 +1,11 @@
 /* refusals.c - what studies refuse (study_impl.h). */
 #include "map/section_impl.h"
 #include "model/effects_impl.h"
+#include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/study_impl.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -47,7 +49,20 @@ iso_status iso_refuse_unbound(iso_context *ctx, const iso_orbit *orbit, const ch
     const iso_status status = iso_refuse_losses(ctx, orbit, what);
     const iso_effect *without = iso_effects_without_frequencies(&iso_orbit_model(orbit)->problem, &why);
     if (status != ISO_OK || !without) return status;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, without->name, "%s", why);
+    return iso_context_fail(ctx, ISO_BAD_INPUT, without->name, "%s: its motion %s", why, what);
+}
+
+/* --- the body --------------------------------------------------------------------------------------------------- */
+
+iso_status iso_refuse_equal_moments(iso_context *ctx, const double J[3], const char *what)
+{
+    for (int i = 0; i < 3; i++)
+        if (fabs(J[(i + 1) % 3] - J[(i + 2) % 3]) <= 4 * DBL_EPSILON * min3(J))
+            return iso_context_fail(
+                ctx, ISO_BAD_INPUT, "J",
+                "J%d and J%d are equal: a rotation about axis %d carries every orbit along, so %s", (i + 1) % 3 + 1,
+                (i + 2) % 3 + 1, i + 1, what);
+    return ISO_OK;
 }
 
 /* --- starts ----------------------------------------------------------------------------------------------------- */
@@ -59,6 +74,13 @@ iso_status iso_refuse_rest(iso_context *ctx, const iso_start *start, const iso_e
     if (largest(start->y) > 0 || iso_effects_pull(effects)) return ISO_OK;
     if (!ball && start->eps != 0 && !isnan(start->eps)) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, ball ? "angular_velocity" : "M", "a %s at rest %s",
+                            iso_model_kind_name((int)start->model), what);
+}
+
+iso_status iso_refuse_start_at_rest(iso_context *ctx, const iso_start *start, const char *what)
+{
+    return iso_context_fail(ctx, ISO_BAD_INPUT, start->model == ISO_BALL ? "angular_velocity" : "M",
+                            "the %s starts at rest, where %s: start it a little later",
                             iso_model_kind_name((int)start->model), what);
 }
 
@@ -85,10 +107,8 @@ static iso_status check_at(iso_context *ctx, const iso_orbit *orbit, int axis, c
     const double l = at[0], x = at[1];
     char where[48];
     if (fabs(x) == 1)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "at",
-                                "l, x = %g, %g is on the boundary of the chart: it is the rotation about axis %d, in "
-                                "the plane n_%d = 0, which never crosses the section",
-                                l, x, axis + 1, axis + 1);
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "at", "l, x = %g, %g is " ISO_NEVER_CROSSES, l, x, axis + 1,
+                                axis + 1);
     if (!isfinite(l) || !(fabs(x) < 1))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "at",
                                 "l, x = %g, %g is outside the chart: l is any angle, x is between -1 and 1", l, x);

@@ -64,8 +64,8 @@ typedef struct iso_study {
     size_t size;                  /* of its struct of options */
     void (*begin)(void *options); /* puts the defaults there */
     void (*end)(void *options);   /* frees what `prepare` has allocated; NULL: nothing */
-    /* Reads the arguments that setters only kept as text; NULL: there are none. Errors: ISO_BAD_INPUT,
-     * ISO_BAD_ARGUMENT. */
+    /* Reads the arguments that setters only kept as text; NULL: there are none. Errors: ISO_BAD_ARGUMENT,
+     * ISO_NO_MEMORY. */
     iso_status (*prepare)(iso_context *ctx, void *options);
     /* The `key: value` lines of the first table hold the whole result, with the names of the command's JSON. After an
      * error the tables may have what was found before. Errors: those of the study. */

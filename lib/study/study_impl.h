@@ -36,11 +36,19 @@ iso_status iso_refuse_coupling(iso_context *ctx, const iso_orbit *orbit, const c
 /* About an effect that takes energy from the ball of this orbit. what: as in "has no frequencies". */
 iso_status iso_refuse_losses(iso_context *ctx, const iso_orbit *orbit, const char *what);
 
-/* Losses, and effects that let the ball roll away. */
+/* Losses, and effects that let the ball roll away. what: as above. */
 iso_status iso_refuse_unbound(iso_context *ctx, const iso_orbit *orbit, const char *what);
+
+/* About "J", where two moments are equal. what: as in "no periodic orbit is isolated". */
+iso_status iso_refuse_equal_moments(iso_context *ctx, const double J[3], const char *what);
+
+#define ISO_NO_RETURN "comes back to no section"
 
 /* About "angular_velocity" or "M", at rest where no potential is. what: as in "has no frequencies". */
 iso_status iso_refuse_rest(iso_context *ctx, const iso_start *start, const iso_effects *effects, const char *what);
+
+/* About the same, at a start at rest in a potential, which will move. what: as in "deviations have no size". */
+iso_status iso_refuse_start_at_rest(iso_context *ctx, const iso_start *start, const char *what);
 
 /* Whether other starts can be given on the section n_axis = 0 of this orbit: `count` of them at (l, x), and spread
  * ones anywhere. About an effect with which the section has no chart; about "at" or "starts", where the start is

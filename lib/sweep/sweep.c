@@ -8,6 +8,7 @@
 #include "base/low_discrepancy_impl.h"
 #include "orbit/batch.h"
 #include "orbit/orbit_impl.h"
+#include "orbit/lane_groups_impl.h"
 #include "study/study_impl.h"
 #include "sweep/sweep_impl.h"
 
@@ -145,7 +146,7 @@ static iso_status make_job(iso_context *ctx, iso_sweep *s, const iso_sweep_reque
                            .column = s->column + s->head.columns};
     memcpy(job->setting, wish->setting, sizeof job->setting);
     const iso_status status = q->refuse && job->base ? q->refuse(ctx, job) : ISO_OK;
-    if (status == ISO_BAD_INPUT)
+    if (status != ISO_OK)
         iso_context_fail(ctx, status, q->topic.name, "%s: %s", q->topic.name, iso_context_message(ctx));
     if (status != ISO_OK) return status;
     if (q->names)
@@ -221,9 +222,7 @@ iso_status iso_sweep_create(iso_context *ctx, const iso_sweep_plan *plan, iso_sw
     ISO_DEFAULT_ARITHMETIC;
     const char *vectors = find_vectors(plan->vectors);
     *sweep = NULL;
-    if (!vectors)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors", "this processor has no vectors '%s'",
-                                plan->vectors);
+    ISO_TRY(iso_lanes_check(ctx, 0, plan->vectors, vectors != NULL));
     iso_sweep *s = calloc(1, sizeof *s);
     if (!s) return iso_context_no_memory(ctx, "a sweep");
     s->plan = plan;

@@ -39,7 +39,7 @@ typedef struct iso_sweep_computation {
     void (*columns)(iso_sweep_job *job);
     size_t points; /* of a chunk of about a second; 0: `chunk` tells */
     size_t (*chunk)(const iso_sweep_job *job);
-    /* Why the scenes of this sweep do not have it. NULL: all do. Errors: ISO_BAD_INPUT. */
+    /* Why the scenes of this sweep do not have it. NULL: all do. */
     iso_status (*refuse)(iso_context *ctx, const iso_sweep_job *job);
     /* Its numbers for one scene. Numbers that are not set are NaN. Errors: those of the point. */
     iso_status (*find)(iso_context *ctx, const iso_sweep_job *job, const iso_scene *scene, double number[]);

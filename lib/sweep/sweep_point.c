@@ -175,8 +175,7 @@ static iso_status on_section(iso_context *ctx, const iso_sweep_file *f, size_t i
     if (status != ISO_OK) return status;
     const int axis = iso_section_axis(iso_orbit_motion(orbit));
     chart_of(f, i, orbit, axis, numbers, *lx);
-    if (!iso_orbit_has_twin(orbit))
-        status = iso_context_fail(ctx, ISO_BAD_INPUT, "angular_velocity", "a start on the section needs motion");
+    status = iso_refuse_rest(ctx, &scene->start, &effects, ISO_NO_RETURN);
     if (status == ISO_OK) status = iso_refuse_starts(ctx, orbit, &effects, axis, (const double(*)[2])lx, 1, false);
     if (status == ISO_OK) {
         scene->start = iso_section_start(orbit, scene->start.model, axis, lx[0][0], lx[0][1]);

@@ -147,9 +147,7 @@ static iso_status backends_refuse(iso_context *ctx, const iso_sweep_job *job)
 {
     const iso_effects acting = iso_scene_acting(job->base);
     const iso_effect *breaking = iso_effects_breaking(&acting);
-    if (!breaking) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, breaking->name, "'%s' breaks the isomorphism: %s", breaking->name,
-                            iso_effect_why_broken(breaking));
+    return breaking ? iso_orbit_no_point(ctx, breaking) : ISO_OK;
 }
 
 /* `largest` is that of the states. */

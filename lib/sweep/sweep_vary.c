@@ -6,6 +6,7 @@
 
 #include "base/low_discrepancy_impl.h"
 #include "io/text_impl.h"
+#include "method/method.h"
 #include "model/model_impl.h"
 #include "sweep/sweep_draft_impl.h"
 
@@ -252,9 +253,9 @@ static iso_status check_tolerance(iso_sweep_file *f, const yaml_node_t *node, co
 {
     bool good = true;
     if (strcmp(a->name, "tolerance") != 0) return ISO_OK;
-    for (size_t i = 0; a->list && i < a->count; i++) good = good && a->list[i] >= 1e-15 && a->list[i] <= 0.1;
-    if (!a->list) good = fmin(a->from, a->to) >= 1e-15 && fmax(a->from, a->to) <= 0.1;
-    return good ? ISO_OK : iso_yaml_fail(&f->yaml, node->start_mark, "'tolerance' must be in [1e-15, 0.1]");
+    for (size_t i = 0; a->list && i < a->count; i++) good = good && iso_tolerance_is_good(a->list[i]);
+    if (!a->list) good = iso_tolerance_is_good(a->from) && iso_tolerance_is_good(a->to);
+    return good ? ISO_OK : iso_yaml_fail(&f->yaml, node->start_mark, "'tolerance' must be in " ISO_TOLERANCE_RANGE);
 }
 
 static iso_status check_chart(iso_sweep_file *f, const yaml_node_t *node, const iso_sweep_axis *a)

@@ -102,7 +102,7 @@ run 0 chaos plane.yaml
 check "a rotation is periodic" grep -q "rotation about axis 3 in a principal plane, which is periodic" out
 run 0 chaos plane.yaml --json
 check "nothing is told of deviations that are not followed" test "$(grep -c '"gali2": null' out)" -eq 2
-refuses 3 "an axis is 1, 2 or 3" chaos chaotic.yaml --axis 4
+refuses 2 "expected auto, 1, 2 or 3" chaos chaotic.yaml --axis 4
 refuses 2 "--turns '0'" chaos chaotic.yaml --turns 0
 refuses 2 "--exponent-turns '-5'" chaos chaotic.yaml --exponent-turns -5
 refuses 2 "--starts '-1'" chaos chaotic.yaml --starts -1

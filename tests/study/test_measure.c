@@ -277,14 +277,14 @@ static void refusals(void)
     refused(iso_measure_returns, &scene, &once, ISO_BAD_ARGUMENT, "returns");
     refused(iso_measure_returns, &scene, &axis, ISO_BAD_ARGUMENT, "axis");
     with(&pulled, "field", "linear", 3, (const double[]){0.2, 0, -0.1});
-    refused(iso_measure_returns, &pulled, &o, ISO_NOT_MAPPED, "effects");
+    refused(iso_measure_returns, &pulled, &o, ISO_BAD_INPUT, "effects");
     with(&low, "field", "linear", 3, (const double[]){0, 0, -20});
     refused(iso_measure_flow, &low, &o, ISO_BAD_INPUT, "energy");
     with(&heavy, "gravity", "mgb", 1, (const double[]){1});
     with(&heavy, "gravity", "up", 3, (const double[]){0, 1, 0});
-    refused(iso_measure_flow, &heavy, &o, ISO_NOT_MAPPED, "gravity");
+    refused(iso_measure_flow, &heavy, &o, ISO_BAD_INPUT, "gravity");
     for (int i = 0; i < 3; i++) rest.start.y[i] = 0;
-    refused(iso_measure_flow, &rest, &o, ISO_NOT_MAPPED, "");
+    refused(iso_measure_flow, &rest, &o, ISO_BAD_INPUT, "angular_velocity");
     iso_context_set_monitor(ctx, never, NULL);
     refused(iso_measure_flow, &scene, &o, ISO_STOPPED, "");
     iso_context_set_monitor(ctx, NULL, NULL);

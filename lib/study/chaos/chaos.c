@@ -24,12 +24,9 @@ static const char what[] = "is neither chaotic nor regular";
 
 static iso_status check_motion(const iso_chaos_walk *w, const iso_sample *start)
 {
-    const iso_model_kind model = w->scene->start.model;
     const iso_status status = iso_refuse_unbound(w->ctx, w->orbit, what);
     if (status != ISO_OK || largest(w->out->with[ISO_BALL] ? start->ball : start->point) > 0) return status;
-    return iso_context_fail(w->ctx, ISO_BAD_INPUT, model == ISO_BALL ? "angular_velocity" : "M",
-                            "the %s starts at rest, where deviations have no size: start it a little later",
-                            iso_model_kind_name((int)model));
+    return iso_refuse_start_at_rest(w->ctx, &w->scene->start, "deviations have no size");
 }
 
 static iso_status check_starts(const iso_chaos_walk *w)

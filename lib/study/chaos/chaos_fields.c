@@ -75,7 +75,7 @@ const iso_field iso_chaos_fraction_fields[] = {
     FIELD("low", low, "", "the low end of the interval", .column = "share_low"),
     FIELD("high", high, "", "the high end", .column = "share_high"),
     ISO_NUMBER("regular", regular_share, "", "the regular share"),
-    ISO_NUMBER("undecided", undecided_share, "", "the share that is not decided"),
+    ISO_NUMBER("undecided", undecided_share, "", "the share that is undecided"),
     FIELD("starts", asked, "", "orbits that were asked for", .how = ISO_IN_TREE),
     FIELD("followed", count, "", "orbits that were followed", .how = ISO_IN_TREE),
     FIELD("chaotic_starts", chaotic, "", "how many of them are chaotic", .how = ISO_IN_TREE),

@@ -41,24 +41,12 @@ static iso_status check_numbers(const iso_periodic_work *w)
 {
     const double k = w->scene->params.k, *J = w->scene->params.J, ratio = max3(J) / min3(J) / fabs(k);
     if (fabs(k) < ISO_LEAST_K)
-        return iso_context_fail(w->ctx, ISO_BAD_INPUT, "k", "periodic orbits: k = %.12g: give |k| >= %g", k,
-                                ISO_LEAST_K);
+        return iso_context_fail(w->ctx, ISO_BAD_INPUT, "k",
+                                "k = %.15g: periodic orbits are sought only for |k| >= %g", k, ISO_LEAST_K);
     if (ratio <= 1e5) return ISO_OK;
     return iso_context_fail(w->ctx, ISO_BAD_INPUT, "J",
-                            "periodic orbits: max J/(min J |k|) is %.3g: give moments for which it is 1e5 at most",
+                            "max J/(min J |k|) is %.3g: periodic orbits are sought only where it is 1e5 at most",
                             ratio);
-}
-
-static iso_status check_moments(const iso_periodic_work *w)
-{
-    for (int i = 0; i < 3; i++)
-        if (iso_params_symmetric(&w->scene->params, i))
-            return iso_context_fail(
-                w->ctx, ISO_BAD_INPUT, "J",
-                "J%d and J%d are equal: a rotation about axis %d carries every orbit along, so no "
-                "periodic orbit is isolated",
-                (i + 1) % 3 + 1, (i + 2) % 3 + 1, i + 1);
-    return ISO_OK;
 }
 
 static iso_status check_scene(iso_periodic_work *w)
@@ -68,7 +56,7 @@ static iso_status check_scene(iso_periodic_work *w)
     iso_on_level on;
     ISO_TRY(iso_refuse_beyond_level(w->ctx, &effects, what));
     ISO_TRY(check_numbers(w));
-    ISO_TRY(check_moments(w));
+    ISO_TRY(iso_refuse_equal_moments(w->ctx, w->scene->params.J, "no periodic orbit is isolated"));
     ISO_TRY(iso_refuse_rest(w->ctx, &w->scene->start, &effects, "has no periodic orbits of its energy"));
     ISO_TRY(iso_level_find(w->ctx, w->scene, what, &on));
     w->units = on.units, w->h = on.h, w->energy = on.energy, w->H = on.H;

@@ -124,13 +124,13 @@ typedef struct iso_measure {
 /* The scene gives the ball, the energy and the effects. Of its start only the energy matters. With a potential that
  * depends on n only (effects `field` and `level`) the measure is the same, and the energy gives |w| at each n.
  * Effects without a potential act on the cloud of the free ball; the test detects that they do not keep its measure.
- * Errors: ISO_BAD_ARGUMENT about "count", "turns", "end", "exponent", "significance" or "clock"; ISO_NOT_MAPPED for a
- * ball at rest, and about an effect whose potential depends on more than n; ISO_BAD_INPUT about "energy" if the ball
- * cannot reach every n with it; those of iso_batch_run, among them ISO_STOPPED. */
+ * Errors: ISO_BAD_ARGUMENT about "count", "turns", "end", "exponent", "significance" or "clock"; ISO_BAD_INPUT at rest,
+ * about an effect whose potential depends on more than n, and about "energy" if the ball cannot reach every n with
+ * it; those of iso_batch_run, among them ISO_STOPPED. */
 ISO_API iso_status iso_measure_flow(iso_context *ctx, const iso_scene *scene, const iso_measure_options *options,
                                     iso_measure *measure);
 
-/* Effects with a potential are refused: ISO_NOT_MAPPED. Otherwise as above; errors also ISO_BAD_ARGUMENT about
+/* Effects with a potential are refused: ISO_BAD_INPUT. Otherwise as above; errors also ISO_BAD_ARGUMENT about
  * "returns" or "axis", and those of iso_crossings_go. */
 ISO_API iso_status iso_measure_returns(iso_context *ctx, const iso_scene *scene, const iso_measure_options *options,
                                        iso_measure *measure);

@@ -7,6 +7,7 @@
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/section/measure_impl.h"
+#include "study/study_impl.h"
 
 static iso_status check_options(iso_context *ctx, iso_measure_options *o)
 {
@@ -33,7 +34,7 @@ static iso_status check_effects(iso_context *ctx, measure_scene *s)
         if (!e->potential) continue;
         s->pulled = true;
         if (e->breaks)
-            return iso_context_fail(ctx, ISO_NOT_MAPPED, e->name,
+            return iso_context_fail(ctx, ISO_BAD_INPUT, e->name,
                                     "the measure (10) is one of omega and n, but the potential of %s depends on "
                                     "more than n",
                                     e->name);
@@ -63,12 +64,12 @@ iso_status iso_measure_open(iso_context *ctx, const iso_scene *scene, const iso_
     o.backend = ISO_BACKEND_BALL;
     o.shown = ISO_SHOW_BALL;
     iso_sample sample;
+    ISO_TRY(iso_refuse_rest(ctx, &scene->start, &acting, "has no cloud of its energy"));
     ISO_TRY(iso_orbit_create(ctx, &scene->params, &scene->start, &o, &s->orbit));
     ISO_TRY(iso_orbit_at(s->orbit, 0, &sample));
     s->effects = iso_orbit_effects(s->orbit);
     s->kinetic = iso_ball_energy(s->params, sample.ball);
-    if (!(s->kinetic > 0))
-        return iso_context_fail(ctx, ISO_NOT_MAPPED, "", "the ball is at rest: no ball moves with this energy");
+    if (!(s->kinetic > 0)) return iso_refuse_start_at_rest(ctx, &scene->start, "a cloud of its energy is not known");
     iso_status status = check_effects(ctx, s);
     s->energy = s->kinetic + (status == ISO_OK ? iso_measure_potential(s, sample.ball + 3) : 0);
     return status;

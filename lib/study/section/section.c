@@ -72,8 +72,6 @@ bool iso_section_is_of_axis(int column, double value, int *axis)
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
 
-static const char what[] = "comes back to no section";
-
 static iso_status check_starts(const iso_section_walk *w)
 {
     const iso_section_options *o = &w->options;
@@ -168,8 +166,11 @@ static iso_status check(iso_section_walk *w)
     choose_section(w);
     choose_effects(w);
     choose_models(w);
+    const iso_effect *breaking = iso_effects_breaking(&w->effects);
+    if (breaking && (o->shown == ISO_SHOW_POINT || o->shown == ISO_SHOW_BOTH))
+        return iso_orbit_no_point(w->ctx, breaking);
     w->result->orbits = 1 + o->starts + o->at_count;
-    const iso_status status = iso_refuse_rest(w->ctx, &w->scene->start, &w->effects, what);
+    const iso_status status = iso_refuse_rest(w->ctx, &w->scene->start, &w->effects, ISO_NO_RETURN);
     return status == ISO_OK ? check_column(w) : status;
 }
 
@@ -188,7 +189,7 @@ static iso_status set_up(iso_section_walk *w)
 {
     ISO_TRY(check(w));
     ISO_TRY(open_orbit(w));
-    ISO_TRY(iso_refuse_losses(w->ctx, w->orbit, what));
+    ISO_TRY(iso_refuse_losses(w->ctx, w->orbit, ISO_NO_RETURN));
     if (w->options.axis == ISO_AXIS_AUTO) w->options.axis = iso_section_axis(iso_orbit_motion(w->orbit));
     ISO_TRY(check_starts(w));
     choose_columns(w);

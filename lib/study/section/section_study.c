@@ -28,8 +28,7 @@ static iso_status read_axis(iso_context *ctx, const char *text, int *axis)
     if (!text || strcmp(text, "auto") == 0) return ISO_OK;
     *axis = text[0] - '1';
     if (strlen(text) == 1 && *axis >= 0 && *axis < 3) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--axis '%s': an axis is 1, 2 or 3, or auto: the global section",
-                            text);
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--axis '%s': expected auto, 1, 2 or 3", text);
 }
 
 /* Points l,x with semicolons between. */
@@ -43,7 +42,7 @@ static iso_status read_points(iso_context *ctx, const char *text, double (**list
     for (const char *c = text; *c; c += *c == ';') {
         const size_t l = strcspn(c, ",;"), x = c[l] == ',' ? strcspn(c + l + 1, ";") : 0;
         if (x == 0 || !iso_number_read(c, l, &more[*count][0]) || !iso_number_read(c + l + 1, x, &more[*count][1]))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                     "--at '%s': expected l,x, or several of them with ; between: 0.5,0.2;1,-0.3",
                                     text);
         ++*count;
@@ -71,13 +70,14 @@ static iso_status read_event(iso_context *ctx, const char *text, iso_section_opt
     if (!text) return ISO_OK;
     if (length < sizeof name) memcpy(name, text, length);
     if (text[length] != '=' || !iso_number_read(text + length + 1, strlen(text + length + 1), &how->value))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--event '%s': expected COLUMN=VALUE, such as omega1=0.5",
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--event '%s': expected COLUMN=VALUE, such as omega1=0.5",
                                 text);
     how->column = iso_column_find(name);
     if (how->column >= ISO_CLOCKS) return ISO_OK;
     if (how->column >= 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--event: the clock '%s' passes each value only once", name);
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--event: there is no column '%s'; %s", name,
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--event: the clock '%s' passes each value only once",
+                                name);
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--event: there is no column '%s'; %s", name,
                             iso_suggest_word(suggested, name, iso_column_name));
 }
 

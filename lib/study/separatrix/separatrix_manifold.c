@@ -17,6 +17,7 @@
 #include "method/taylor/lanes_impl.h"
 #include "orbit/crossings_impl.h"
 #include "study/separatrix/separatrix_impl.h"
+#include "study/study_impl.h"
 
 /* --- the map ---------------------------------------------------------------------------------------------------- */
 
@@ -82,15 +83,6 @@ iso_status iso_manifold_use(iso_manifold *m, const iso_return_code *code)
 
 /* --- preparing -------------------------------------------------------------------------------------------------- */
 
-static iso_status check_moments(iso_context *ctx, const double J[3])
-{
-    if (J[0] != J[1] && J[1] != J[2] && J[2] != J[0]) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "J",
-                            "splitting: two moments of inertia are equal, J = %.15g %.15g %.15g: the body is "
-                            "symmetric, its motion integrable for every k, and there is no middle axis",
-                            J[0], J[1], J[2]);
-}
-
 /* Below this level the circle of the middle axis' rotation is not open as a whole. */
 static iso_status check_level(const iso_manifold *m)
 {
@@ -114,11 +106,12 @@ iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], doub
     frexp(isfinite(top) && top > 0 ? top : 1, &exponent);
     const double scaled[3] = {ldexp(J[0], 1 - exponent), ldexp(J[1], 1 - exponent), ldexp(J[2], 1 - exponent)};
     ISO_TRY(iso_params_reduced(ctx, k, scaled, &m->problem.p));
-    ISO_TRY(check_moments(ctx, J));
+    ISO_TRY(iso_refuse_equal_moments(ctx, J, ISO_NO_SPLITTING));
     const iso_params *p = &m->problem.p;
     if (!(fabs(k) >= 0.05 && fabs(k) <= 50))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "k", "splitting: k = %.15g: give 0.05 <= |k| <= 50", k);
-    if (!isfinite(level)) return iso_context_fail(ctx, ISO_BAD_INPUT, "level", "splitting: level %g", level);
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "k", "k = %.15g: " ISO_SPLITTING_IS " only for 0.05 <= |k| <= 50",
+                                k);
+    if (!isfinite(level)) return iso_context_fail(ctx, ISO_BAD_INPUT, "level", "%g is no level", level);
     m->problem.eps = 1;
     m->problem.energy = iso_level_energy(p, level);
     const iso_point_motion motion = {p, 1, m->problem.energy};

@@ -216,7 +216,7 @@ static iso_status run_zeros(iso_context *ctx, scan *c)
 /* *level: that of the scene, where the options give none. */
 static iso_status check_scene(iso_context *ctx, const iso_separatrix_options *o, double *level)
 {
-    static const char what[] = "the splitting is measured";
+    static const char what[] = ISO_SPLITTING_IS;
     const iso_effects acting = iso_scene_acting(o->scene);
     return o->level ? iso_refuse_beyond_level(ctx, &acting, what) : iso_level_of_scene(ctx, o->scene, what, level);
 }
@@ -240,6 +240,7 @@ iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *op
     double level = 0;
     ISO_TRY(iso_options_take(ctx, "iso_separatrix_options", &o, sizeof o, options));
     if (o.count == 0) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "splitting: there is no k");
+    ISO_TRY(iso_refuse_equal_moments(ctx, o.J, ISO_NO_SPLITTING));
     if (o.scene) ISO_TRY(check_scene(ctx, &o, &level));
     iso_separatrix_table *found = calloc(1, sizeof *found);
     if (!found) return iso_context_no_memory(ctx, "the splitting");
