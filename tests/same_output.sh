@@ -22,17 +22,18 @@ try() {
     echo "exit $status" >>"$name.err"
 }
 
-untimed='walk(if type == "object" then del(.seconds, .isoroll) else . end)' # of JSON
-
-# Without what is another one in each build
+# Without what is another one in each build; the data of a page are a line of JSON
+untimed='walk(if type == "object" then del(.seconds, .isoroll, .version) else . end)'
 tidy() {
-    find . -type f ! -name '*.h5' ! -name '*.png' -exec sed -i \
-        -e '/^# isoroll: /d' -e 's/isoroll [0-9][0-9.]*[0-9]/isoroll VERSION/g' \
-        -e 's/[0-9.e-]* ms$/TIME/' -e '/^cost of a right-hand side: /d' \
-        -e "s|$isoroll|isoroll|g" {} +
+    for page in *.html; do
+        [ ! -e "$page" ] || { sed -n '/^{"/p' "$page" >"$page-json.out" && sed -i '/^{"/d' "$page"; }
+    done
     for file in *json.out; do
         [ ! -s "$file" ] || { jq -S "$untimed" "$file" >sorted && mv sorted "$file"; }
     done
+    find . -type f ! -name '*.h5' ! -name '*.png' -exec sed -i \
+        -e '/^# isoroll: /d' -e '/^# hash: /d' -e 's/isoroll [0-9][0-9.]*[0-9]/isoroll VERSION/g' \
+        -e 's/[0-9.e-]* ms/TIME/g' -e '/^cost of a right-hand side: /d' -e "s|$isoroll|isoroll|g" {} +
     rm -f -- *.h5
 }
 
