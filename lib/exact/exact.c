@@ -262,8 +262,7 @@ iso_status iso_exact_at(iso_context *ctx, const iso_exact *x, iso_clock clock, d
 {
     ISO_DEFAULT_ARITHMETIC;
     form_place p = {.along = NAN};
-    const iso_status status = check_time(ctx, x, clock, time);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_time(ctx, x, clock, time));
     find(x, clock, time, &p);
     hand_over(x, &p, point, clocks);
     return check_place(ctx, x, &p);
@@ -288,8 +287,7 @@ iso_status iso_exact_walk_to(iso_context *ctx, const iso_exact *x, iso_exact_wal
                              double point[ISO_STATE], double clocks[ISO_CLOCKS])
 {
     ISO_DEFAULT_ARITHMETIC;
-    const iso_status status = check_time(ctx, x, clock, time);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_time(ctx, x, clock, time));
     if (w->known > 0 && !(fabs(time - w->time) <= w->longest * x->moment[clock])) w->known = 0;
     const real even = time / x->form->rate(x->data, clock);
     const real guess = w->known == ISO_EXACT_TRAIL ? even + extrapolate(w->trail, ISO_EXACT_TRAIL) : NAN;
@@ -328,8 +326,7 @@ static iso_status check_angles(iso_context *ctx, const iso_exact *x)
 iso_status iso_exact_angles(iso_context *ctx, const iso_exact *x, const double point[ISO_STATE], double angle[2])
 {
     ISO_DEFAULT_ARITHMETIC;
-    const iso_status status = check_angles(ctx, x);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_angles(ctx, x));
     if (!all_finite(point, ISO_STATE) || !x->form->angles(x->data, point, angle))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "this state is not on the torus of this motion");
     for (int i = 0; i < 2; i++) angle[i] -= 2 * ISO_PI * floor(angle[i] / (2 * ISO_PI));
@@ -339,8 +336,7 @@ iso_status iso_exact_angles(iso_context *ctx, const iso_exact *x, const double p
 iso_status iso_exact_point(iso_context *ctx, const iso_exact *x, const double angle[2], double point[ISO_STATE])
 {
     ISO_DEFAULT_ARITHMETIC;
-    const iso_status status = check_angles(ctx, x);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_angles(ctx, x));
     x->form->point(x->data, angle, point);
     if (all_finite(point, ISO_STATE)) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "an angle is not finite");

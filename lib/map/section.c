@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-#include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
 

@@ -1,5 +1,4 @@
 /* convert_lines.c - the header of a converted trajectory: its columns and its `# key: value` lines. */
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -3,14 +3,12 @@
 #include "orbit/crossings.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "method/integrator_impl.h"
-#include "method/methods_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/lane_groups_impl.h"
 

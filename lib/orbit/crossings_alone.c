@@ -137,14 +137,12 @@ static bool is_start(const iso_crossed *o, double time, double s)
 static iso_status step(iso_crossings *c, iso_crossed *o, iso_crossing *crossing, iso_sample *sample, bool *counts)
 {
     iso_sample here;
-    iso_status status = next_sample(c, o, &here);
-    if (status != ISO_OK) return status;
+    ISO_TRY(next_sample(c, o, &here));
     const double s = here.clock[ISO_CLOCK_S] / o->alone->unit_clock[ISO_CLOCK_S];
     o->time = here.clock[o->alone->options.clock];
     *counts = !is_start(o, o->time, s);
     if (!*counts) return ISO_OK;
-    status = iso_crossings_hold(o->ctx, c, o, o->alone, s);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_crossings_hold(o->ctx, c, o, o->alone, s));
     fill(o, &here, crossing);
     if (sample) iso_crossings_give(c, &here, sample);
     o->s = s;

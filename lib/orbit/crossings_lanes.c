@@ -6,11 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
 #include "map/state.h"
-#include "method/integrator_impl.h"
 #include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/lane_groups_impl.h"
@@ -190,8 +188,7 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
     const iso_params *own = &orbit->units.own;
     double point[ISO_STATE];
     const double s = clock_of(orbit, ISO_CLOCK_S, y, time);
-    iso_status status = iso_crossings_hold(w->ctx, c, o, orbit, s);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_crossings_hold(w->ctx, c, o, orbit, s));
     iso_crossing_blank(to);
     for (iso_clock k = 0; k < ISO_CLOCKS; k++) to->clock[k] = clock_of(orbit, k, y, time) * orbit->unit_clock[k];
     if (o->axis >= 0) {
@@ -204,7 +201,7 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
     o->count++;
     if (!sample) return ISO_OK;
     iso_sample here;
-    status = iso_orbit_make_sample(orbit, time * lane->job.unit, y, &here);
+    iso_status status = iso_orbit_make_sample(orbit, time * lane->job.unit, y, &here);
     if (status == ISO_OK) iso_crossings_give(c, &here, sample);
     return status;
 }

@@ -9,7 +9,6 @@
 #include "base/nearest_impl.h"
 #include "base/vec3_impl.h"
 #include "base/version.h"
-#include "map/state.h"
 #include "model/effects_impl.h"
 #include "model/model_impl.h"
 

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "method/methods_impl.h"
-#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 
 bool iso_lanes_suit(const iso_orbit *orbit)

@@ -12,7 +12,6 @@
 #include "base/options_impl.h"
 #include "base/version.h"
 #include "method/methods_impl.h"
-#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/study_impl.h"
 

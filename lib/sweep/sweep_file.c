@@ -187,8 +187,7 @@ static iso_status read_until(iso_sweep_file *f, const yaml_node_t *until)
         {.name = NULL},
     };
     double value[2];
-    const iso_status status = iso_sweep_read_mapping(&f->yaml, until, "until", settings, value);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_read_mapping(&f->yaml, until, "until", settings, value));
     f->plan.turns = value[0];
     f->plan.time = value[1];
     if (isnan(value[0]) == isnan(value[1]))
@@ -233,8 +232,7 @@ static iso_status read_rest(iso_sweep_file *f, const yaml_node_t *root)
         {.name = NULL},
     };
     double value[2];
-    const iso_status status = iso_sweep_read_settings(&f->yaml, root, settings, value);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_read_settings(&f->yaml, root, settings, value));
     f->plan.chunk = (size_t)value[0];
     if (!isnan(value[1])) strcpy(f->plan.vectors, kinds[(int)value[1]]);
     return ISO_OK;
@@ -308,9 +306,8 @@ iso_status iso_sweep_read(iso_context *ctx, const char *path, iso_sweep_file **f
     char *text;
     size_t length;
     *file = NULL;
-    iso_status status = iso_text_load(ctx, path, LARGEST_FILE, &text, &length);
-    if (status != ISO_OK) return status;
-    status = iso_sweep_parse(ctx, iso_text_name(path), text, length, file);
+    ISO_TRY(iso_text_load(ctx, path, LARGEST_FILE, &text, &length));
+    iso_status status = iso_sweep_parse(ctx, iso_text_name(path), text, length, file);
     free(text);
     return status;
 }

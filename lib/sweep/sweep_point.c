@@ -309,8 +309,7 @@ iso_status iso_sweep_scene_text(iso_context *ctx, const iso_sweep_file *file, si
     iso_scene scene;
     size_t length;
     *text = NULL;
-    const iso_status status = iso_sweep_point(ctx, file, i, &scene, numbers);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_point(ctx, file, i, &scene, numbers));
     const bool ball = scene.start.model == ISO_BALL;
     if (file->level && ball && !iso_effects_have_level(&scene.effects))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "level",

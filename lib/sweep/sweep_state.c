@@ -187,8 +187,7 @@ static iso_status error_find(iso_context *ctx, const iso_sweep_job *job, const i
     iso_run_result r;
     o.errors = true;
     if (!isnan(job->setting[0])) s.tolerance = job->setting[0];
-    const iso_status status = iso_run(ctx, &s, &o, &sink, &r);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_run(ctx, &s, &o, &sink, &r));
     if (r.error_status != ISO_OK)
         return iso_context_fail(ctx, r.error_status, "", "the error is not known: %s", r.error_words);
     for (int m = 0; m < 2; m++) {

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/low_discrepancy_impl.h"
-#include "io/text_impl.h"
 #include "model/model_impl.h"
 #include "sweep/sweep_draft_impl.h"
 
@@ -137,8 +136,7 @@ static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_swe
     };
     double value[4];
     if (a->width != 1) return iso_yaml_expected(&f->yaml, node, a->name, "a list of vectors");
-    const iso_status status = iso_sweep_read_mapping(&f->yaml, node, a->name, settings, value);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_read_mapping(&f->yaml, node, a->name, settings, value));
     a->from = value[0];
     a->to = value[1];
     a->values = isnan(value[2]) ? ISO_FROM_DRAWING : ISO_FROM_RANGE;
@@ -205,8 +203,7 @@ static iso_status read_triangle(iso_sweep_file *f, const yaml_node_t *node, iso_
         {.name = NULL},
     };
     double value[2];
-    const iso_status status = iso_sweep_read_mapping(&f->yaml, node, a->name, settings, value);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_read_mapping(&f->yaml, node, a->name, settings, value));
     if (strcmp(a->name, "J") != 0 || isnan(value[0]))
         return iso_yaml_expected(&f->yaml, node, a->name, "a list of vectors");
     a->values = ISO_FROM_TRIANGLE;
@@ -224,8 +221,7 @@ static iso_status read_spread(iso_sweep_file *f, const yaml_node_t *node, iso_sw
         {.name = NULL},
     };
     double value[2];
-    const iso_status status = iso_sweep_read_mapping(&f->yaml, node, a->name, settings, value);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_read_mapping(&f->yaml, node, a->name, settings, value));
     a->values = ISO_FROM_SPREAD;
     a->count = (size_t)value[0];
     a->seed = (uint64_t)value[1];
@@ -411,8 +407,7 @@ static iso_status read_samples(iso_sweep_file *f, const yaml_node_t *vary, const
     if (f->drawn == 0)
         return iso_yaml_fail(&f->yaml, samples->start_mark,
                              "'samples' draws numbers of ranges without a count, and there are none");
-    const iso_status status = iso_sweep_read_mapping(&f->yaml, samples, "samples", settings, value);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_read_mapping(&f->yaml, samples, "samples", settings, value));
     f->samples = (size_t)value[0];
     f->random = value[1] > 0;
     f->seed = (uint64_t)value[2];

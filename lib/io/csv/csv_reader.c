@@ -3,7 +3,6 @@
 #define _GNU_SOURCE /* strtod_l */
 #include <ctype.h>
 #include <locale.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>

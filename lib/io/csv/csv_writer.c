@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "base/number_impl.h"
-#include "io/csv/csv_impl.h"
 #include "io/output_impl.h"
 #include "io/table_impl.h"
 #include "io/tasks_impl.h"

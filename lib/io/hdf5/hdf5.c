@@ -1,6 +1,5 @@
 /* hdf5.c - what the reader and the writer of tables as HDF5 share. */
 #include "io/hdf5/hdf5_impl.h"
-#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 
 #include <errno.h>

@@ -1,5 +1,4 @@
 /* hdf5_reader.c - tables from HDF5, ours and others' trajectories of the same layout, block by block. */
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

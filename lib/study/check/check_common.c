@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/vec3_impl.h"
-#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/check/check_impl.h"
 

@@ -1,7 +1,5 @@
 /* check_integrals.c - constraints and integrals at each row, in the units of the first one (check_impl.h). */
-#include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "model/model_impl.h"
 #include "study/check/check_impl.h"

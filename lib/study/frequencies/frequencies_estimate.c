@@ -6,7 +6,6 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
-#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/chaos/chaos.h"
 #include "study/frequencies/frequencies_impl.h"

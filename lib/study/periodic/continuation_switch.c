@@ -6,7 +6,6 @@
  */
 #define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/pi_impl.h"
 #include "study/periodic/continuation_impl.h"

@@ -5,7 +5,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/names_impl.h"

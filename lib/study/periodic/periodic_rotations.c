@@ -5,7 +5,6 @@
 
 #include "base/monitor_impl.h"
 #include "base/pi_impl.h"
-#include "orbit/crossings_impl.h"
 #include "study/periodic/hill_trace_impl.h"
 #include "study/periodic/periodic_impl.h"
 

@@ -9,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/pi_impl.h"
 #include "study/periodic/periodic_impl.h"
 
 enum { FIRST = 192 /* intervals of a line at first */, DEEPEST = 14 /* halvings */, MOST_SAMPLES = 60000 };

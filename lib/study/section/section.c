@@ -4,13 +4,11 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/pi_impl.h"
-#include "base/vec3_impl.h"
 #include "map/section_impl.h"
 #include "model/model_impl.h"
 #include "orbit/crossings_impl.h"

@@ -8,8 +8,6 @@
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
-#include "map/state.h"
-#include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/section/section_impl.h"
