@@ -1,5 +1,5 @@
 /* csv_reader.c - reads tables from text: files of isoroll, and trajectories of other programs. This file knows the
- * header and the messages, csv_lines.c reads lines, csv_row.c and csv_table.c what is in them. */
+ * header and the messages, csv_lines.c reads lines, csv_row.c what is in them. */
 #define _GNU_SOURCE /* strtod_l */
 #include <ctype.h>
 #include <locale.h>

@@ -13,7 +13,6 @@
 #include "map/section_impl.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-#include "study/periodic/hill_trace_impl.h"
 #include "study/periodic/periodic_impl.h"
 #include "study/periodic/stability_chart.h"
 #include "study/study_impl.h"

@@ -1,5 +1,6 @@
 /* stability_chart.c - the chart of stable rotations in the plane of k and one moment, or k and the level
  * (stability_chart.h). */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include "study/periodic/stability_chart.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@
 #include "base/pool_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
-#include "study/periodic/hill_trace_impl.h"
+#include "study/periodic/periodic_impl.h"
 
 typedef struct chart {
     iso_context *ctx;

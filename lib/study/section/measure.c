@@ -17,31 +17,12 @@
  * have means other than 0. Then functions of n and of v = J^(1/2) omega/|..|, with u = gamma x v. Their means over
  * theta are 0 at each n. */
 enum { ENERGY, LN_G, N1_SQUARE, N2_SQUARE, OTHERS, FUNCTIONS = 23 };
+/* clang-format off */
 static const char *const names[FUNCTIONS] = {
-    "h",
-    "ln g",
-    "n1^2",
-    "n2^2",
-    "n1",
-    "n2",
-    "n3",
-    "n1 n2",
-    "n2 n3",
-    "n3 n1",
-    "v1",
-    "v2",
-    "v3",
-    "u1",
-    "u2",
-    "u3",
-    "v1^2 - (1 - gamma1^2)/2",
-    "v2^2 - (1 - gamma2^2)/2",
-    "v1 v2 + gamma1 gamma2/2",
-    "v2 v3 + gamma2 gamma3/2",
-    "v3 v1 + gamma3 gamma1/2",
-    "v1 u1",
-    "v2 u2",
-};
+    "h", "ln g", "n1^2", "n2^2", "n1", "n2", "n3", "n1 n2", "n2 n3", "n3 n1", "v1", "v2", "v3", "u1", "u2", "u3",
+    "v1^2 - (1 - gamma1^2)/2", "v2^2 - (1 - gamma2^2)/2", "v1 v2 + gamma1 gamma2/2", "v2 v3 + gamma2 gamma3/2",
+    "v3 v1 + gamma3 gamma1/2", "v1 u1", "v2 u2"};
+/* clang-format on */
 
 static double ln_g(const iso_params *p, const double n[3])
 {

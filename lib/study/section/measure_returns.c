@@ -15,23 +15,11 @@ enum { AT_ONCE = 16 }; /* crossings of one orbit that are kept at a time */
 /* The energy, which is the same for all states; functions of l whose means are not 0; others, whose means are 0: they
  * are odd under a symmetry of the measure, or have a factor x or x^2 - 1/3. */
 enum { ENERGY, LN_G, COS_2L, COS_4L, OTHERS, FUNCTIONS = 15 };
+/* clang-format off */
 static const char *const names[FUNCTIONS] = {
-    "h",
-    "ln G",
-    "cos 2l",
-    "cos 4l",
-    "cos l",
-    "sin l",
-    "sin 2l",
-    "x",
-    "x^2 - 1/3",
-    "x cos l",
-    "x sin l",
-    "x cos 2l",
-    "x sin 2l",
-    "(x^2 - 1/3) cos 2l",
-    "(x^2 - 1/3) sin 2l",
-};
+    "h", "ln G", "cos 2l", "cos 4l", "cos l", "sin l", "sin 2l", "x", "x^2 - 1/3", "x cos l", "x sin l", "x cos 2l",
+    "x sin 2l", "(x^2 - 1/3) cos 2l", "(x^2 - 1/3) sin 2l"};
+/* clang-format on */
 
 static void functions_of_l(const iso_params *p, int axis, double l, double value[OTHERS])
 {
