@@ -141,10 +141,10 @@ iso_status iso_options_take(iso_context *ctx, const char *name, void *own, size_
     if (!given) return ISO_OK;
     memcpy(&size, given, sizeof size);
     if (size > known)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "size",
-                                "%s has %zu bytes, isoroll %s knows %zu: the program was compiled against a newer "
-                                "isoroll, or did not set size",
-                                name, size, ISO_VERSION, known);
+        return ISO_FAIL_ARGUMENT(ctx, "size",
+                                 "%s has %zu bytes, isoroll %s knows %zu: the program was compiled against a newer "
+                                 "isoroll, or did not set size",
+                                 name, size, ISO_VERSION, known);
     memcpy(own, given, size > 0 ? size : known);
     memcpy(own, &known, sizeof known);
     return ISO_OK;

@@ -133,7 +133,7 @@ static iso_status make_D(iso_draft *d)
     if (isnan(d->D)) return ISO_OK;
     iso_status status;
     if (d->scene.params.D > 0)
-        status = iso_context_fail(d->yaml.ctx, ISO_BAD_INPUT, "D", "this ball's D = m b^2 is known: take it out");
+        status = ISO_FAIL_INPUT(d->yaml.ctx, "D", "this ball's D = m b^2 is known: take it out");
     else
         status = iso_params_set_D(d->yaml.ctx, d->D, &d->scene.params);
     return iso_scene_blame(d->yaml.ctx, &d->scene, d->yaml.name, status);

@@ -25,8 +25,8 @@ iso_status iso_yaml_fail(const iso_yaml *y, yaml_mark_t at, const char *format, 
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
-    return iso_context_placed(y->ctx, iso_context_fail(y->ctx, ISO_BAD_INPUT, "", "%s:%zu:%zu: %s", y->name,
-                                                       at.line + 1, at.column + 1, message));
+    return iso_context_placed(
+        y->ctx, ISO_FAIL_INPUT(y->ctx, "", "%s:%zu:%zu: %s", y->name, at.line + 1, at.column + 1, message));
 }
 
 /* Line and column (in characters) of a byte: errors of libyaml's reader carry no mark. */

@@ -64,8 +64,8 @@ iso_status iso_method_check(iso_context *ctx, const char *name)
 {
     char suggested[ISO_SUGGEST_SIZE];
     if (strcmp(name, "auto") == 0 || iso_method_find(name)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "there is no method '%s'; %s", name,
-                            iso_suggest_word(suggested, name, iso_method_word));
+    return ISO_FAIL_ARGUMENT(ctx, "method", "there is no method '%s'; %s", name,
+                             iso_suggest_word(suggested, name, iso_method_word));
 }
 
 const iso_method *iso_method_auto(const iso_model *model)

@@ -159,7 +159,7 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
     if (s->computed) {
         c->last.out[0] = c->sum + c->lost;
         if (!isfinite(c->last.out[0])) {
-            iso_context_fail(c->ctx, ISO_NUMERICAL, "", "%s is too large for a double", iso_clock_name(c->other));
+            ISO_FAIL_NUMERICAL(c->ctx, "%s is too large for a double", iso_clock_name(c->other));
             return iso_conversion_bad(c, row->line, ISO_NUMERICAL);
         }
     }
@@ -169,15 +169,14 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
 static iso_status refuse_time(iso_conversion *c, const conversion_row *row)
 {
     if (c->trouble != ISO_OK) return c->trouble;
-    iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s turns back: sort the rows by time", iso_clock_name(c->own));
+    ISO_FAIL_INPUT(c->ctx, "", "%s turns back: sort the rows by time", iso_clock_name(c->own));
     return iso_conversion_bad(c, row->line, ISO_BAD_INPUT);
 }
 
 static iso_status refuse_defect(iso_conversion *c, const conversion_row *row)
 {
     if (c->trouble != ISO_OK) return c->trouble;
-    iso_context_fail(c->ctx, ISO_BAD_INPUT, "",
-                     "this row is damaged: it does not lie on the orbit of the rows beside it");
+    ISO_FAIL_INPUT(c->ctx, "", "this row is damaged: it does not lie on the orbit of the rows beside it");
     return iso_conversion_bad(c, row->line, ISO_BAD_INPUT);
 }
 

@@ -93,7 +93,7 @@ static iso_status map_state(const iso_conversion *c, conversion_row *r)
         fits = fits && isfinite(to[i]) && isfinite(to[3 + i]);
     }
     if (fits && (rest || size >= DBL_MIN)) return ISO_OK;
-    return iso_context_fail(c->ctx, ISO_NUMERICAL, "", "the result does not fit a double: use other units of time");
+    return ISO_FAIL_NUMERICAL(c->ctx, "the result does not fit a double: use other units of time");
 }
 
 /* --- the first row ---------------------------------------------------------------------------------------------- */
@@ -163,8 +163,7 @@ static iso_status open_units(iso_conversion *c, const conversion_row *r)
 static iso_status check_finite(const iso_conversion *c, const double row[])
 {
     for (size_t i = 0; i < iso_record_columns(c->in); i++)
-        if (!isfinite(row[i]))
-            return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s is not finite", iso_record_name(c->in, i));
+        if (!isfinite(row[i])) return ISO_FAIL_INPUT(c->ctx, "", "%s is not finite", iso_record_name(c->in, i));
     return ISO_OK;
 }
 

@@ -271,8 +271,8 @@ static iso_status finish(iso_pool_worker *w, const follower *f, size_t i)
         ++*done;
     }
     if (job->error)
-        return iso_context_fail(w->ctx, ISO_NUMERICAL, "", "taylor stopped: %s; last good %s = %.17g", job->error,
-                                iso_clock_name(lane->orbit.model.clock), job->last * job->unit);
+        return ISO_FAIL_NUMERICAL(w->ctx, "taylor stopped: %s; last good %s = %.17g", job->error,
+                                  iso_clock_name(lane->orbit.model.clock), job->last * job->unit);
     return job->done == job->rows ? ISO_OK : iso_context_stopped(w->ctx);
 }
 

@@ -51,14 +51,11 @@ static int find_range(const iso_analogue_problem *p, double *lowest, double *hig
 static iso_status check_numbers(iso_context *ctx, const iso_analogue_problem *p)
 {
     iso_params params;
-    if (!isfinite(p->energy))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "energy", "energy %g: it must be finite", p->energy);
+    if (!isfinite(p->energy)) return ISO_FAIL_INPUT(ctx, "energy", "energy %g: it must be finite", p->energy);
     for (int i = 0; p->neumann && i < 3; i++)
-        if (!isfinite(p->c[i]))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "c", "c%d = %g: it must be finite", i + 1, p->c[i]);
+        if (!isfinite(p->c[i])) return ISO_FAIL_INPUT(ctx, "c", "c%d = %g: it must be finite", i + 1, p->c[i]);
     if (p->neumann) return ISO_OK;
-    if (!isfinite(p->eps))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "eps", "eps = %g: the coupling must be finite", p->eps);
+    if (!isfinite(p->eps)) return ISO_FAIL_INPUT(ctx, "eps", "eps = %g: the coupling must be finite", p->eps);
     return iso_params_reduced(ctx, p->k, p->J, &params);
 }
 
@@ -121,8 +118,8 @@ static iso_status make_ball(iso_context *ctx, double k, const double J[3], doubl
     const bool fits = isnormal(ball->params.det_J) && isfinite(eps) && isfinite(ball->h) && isfinite(ball->level) &&
                       (eps == 0) == (ball->h == 0) && (level_energy == 0) == (ball->level == 0);
     if (fits) return ISO_OK;
-    return iso_context_fail(
-        ctx, ISO_NUMERICAL, "",
+    return ISO_FAIL_NUMERICAL(
+        ctx,
         "the ball of k = %g, J = %g %g %g, eps = %g, E = %g has an h or c that does not fit a double: "
         "use other units",
         k, J[0], J[1], J[2], eps, level_energy);
@@ -276,7 +273,7 @@ iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
     iso_effects effects = iso_scene_acting(scene);
     if (scene->start.model != ISO_POINT)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "this scene is a ball already: an analogue is of a 'point'");
+        return ISO_FAIL_INPUT(ctx, "", "this scene is a ball already: an analogue is of a 'point'");
     ISO_TRY(check_effects(ctx, &effects));
     o.effects = &effects;
     ISO_TRY(iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit));

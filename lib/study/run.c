@@ -153,11 +153,10 @@ static iso_status check_times(runner *r)
         r->farthest = r->scene->end;
         return iso_scene_check_times(r->ctx, r->scene);
     }
-    if (o->count == 0) return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "times", "there are no times");
+    if (o->count == 0) return ISO_FAIL_ARGUMENT(r->ctx, "times", "there are no times");
     for (size_t i = 0; i < o->count; i++) {
         if (!isfinite(o->times[i]))
-            return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "times", "time %zu must be finite, not %g", i + 1,
-                                    o->times[i]);
+            return ISO_FAIL_ARGUMENT(r->ctx, "times", "time %zu must be finite, not %g", i + 1, o->times[i]);
         if (fabs(o->times[i]) > fabs(r->farthest)) r->farthest = o->times[i];
     }
     return ISO_OK;

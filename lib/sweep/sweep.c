@@ -223,9 +223,7 @@ iso_status iso_sweep_create(iso_context *ctx, const iso_sweep_plan *plan, iso_sw
     ISO_DEFAULT_ARITHMETIC;
     const char *vectors = find_vectors(plan->vectors);
     *sweep = NULL;
-    if (!vectors)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors", "this processor has no vectors '%s'",
-                                plan->vectors);
+    if (!vectors) return ISO_FAIL_ARGUMENT(ctx, "vectors", "this processor has no vectors '%s'", plan->vectors);
     iso_sweep *s = calloc(1, sizeof *s);
     if (!s) return iso_context_no_memory(ctx, "a sweep");
     s->plan = plan;

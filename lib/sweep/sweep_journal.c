@@ -258,8 +258,8 @@ static iso_status open_journal(iso_context *ctx, iso_sweep_journal *j, bool resu
 {
     struct stat s;
     if (j->share.count > ISO_SWEEP_MOST_SHARES)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--shard: n is %zu, it must be at most %d", j->share.count,
-                                ISO_SWEEP_MOST_SHARES);
+        return ISO_FAIL_ARGUMENT(ctx, "", "--shard: n is %zu, it must be at most %d", j->share.count,
+                                 ISO_SWEEP_MOST_SHARES);
     ISO_TRY(iso_table_check_format(ctx, j->path));
     if (strcmp(j->path, "-") == 0) return open_unnamed(ctx, j);
     if (stat(j->path, &s) != 0) return open_named(ctx, j, resume);

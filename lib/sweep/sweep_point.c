@@ -176,7 +176,7 @@ static iso_status on_section(iso_context *ctx, const iso_sweep_file *f, size_t i
     const int axis = iso_section_axis(iso_orbit_motion(orbit));
     chart_of(f, i, orbit, axis, numbers, *lx);
     if (!iso_orbit_has_twin(orbit))
-        status = iso_context_fail(ctx, ISO_BAD_INPUT, "angular_velocity", "a start on the section needs motion");
+        status = ISO_FAIL_INPUT(ctx, "angular_velocity", "a start on the section needs motion");
     if (status == ISO_OK) status = iso_refuse_starts(ctx, orbit, &effects, axis, (const double(*)[2])lx, 1, false);
     if (status == ISO_OK) {
         scene->start = iso_section_start(orbit, scene->start.model, axis, lx[0][0], lx[0][1]);
@@ -312,8 +312,8 @@ iso_status iso_sweep_scene_text(iso_context *ctx, const iso_sweep_file *file, si
     ISO_TRY(iso_sweep_point(ctx, file, i, &scene, numbers));
     const bool ball = scene.start.model == ISO_BALL;
     if (file->level && ball && !iso_effects_have_level(&scene.effects))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "level",
-                                "the ball of level 0 has no effect 'level': take it out of the scene's text");
+        return ISO_FAIL_INPUT(ctx, "level",
+                              "the ball of level 0 has no effect 'level': take it out of the scene's text");
     const iso_draft d = draft_of(ctx, file, i, numbers);
     take_text(&p, file);
     for (int n = 0; n < file->axes; n++) {

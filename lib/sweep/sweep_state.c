@@ -49,7 +49,7 @@ static iso_status state_refuse(iso_context *ctx, const iso_sweep_job *job)
 {
     const iso_scene s = shown_scene(job, job->base);
     if (!isnan(job->setting[1]) && isnan(job->turns))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "model", "'model' is for 'until: {turns: ...}'");
+        return ISO_FAIL_INPUT(ctx, "model", "'model' is for 'until: {turns: ...}'");
     return iso_scene_check_columns(ctx, &s);
 }
 
@@ -148,8 +148,8 @@ static iso_status backends_refuse(iso_context *ctx, const iso_sweep_job *job)
     const iso_effects acting = iso_scene_acting(job->base);
     const iso_effect *breaking = iso_effects_breaking(&acting);
     if (!breaking) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, breaking->name, "'%s' breaks the isomorphism: %s", breaking->name,
-                            iso_effect_why_broken(breaking));
+    return ISO_FAIL_INPUT(ctx, breaking->name, "'%s' breaks the isomorphism: %s", breaking->name,
+                          iso_effect_why_broken(breaking));
 }
 
 /* `largest` is that of the states. */
@@ -218,7 +218,7 @@ const iso_sweep_computation iso_sweep_error = {
 static iso_status contact_refuse(iso_context *ctx, const iso_sweep_job *job)
 {
     if (iso_effects_watch_contact(&job->base->effects)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "the scene needs the effect 'reactions'");
+    return ISO_FAIL_INPUT(ctx, "effects", "the scene needs the effect 'reactions'");
 }
 
 /* The side of the start on which the end lies. */

@@ -51,10 +51,10 @@ fail(const csv *c, const char *at, const char *format, ...)
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
-    if (c->callers) return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "columns", "columns: %s", message);
+    if (c->callers) return ISO_FAIL_ARGUMENT(c->ctx, "columns", "columns: %s", message);
     for (const char *x = c->line; at && x < at; x++) column += (*x & 0xC0) != 0x80;
-    return iso_context_placed(c->ctx, iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s:%zu:%zu: %s", c->r->name,
-                                                       c->number ? c->number : 1, column, message));
+    return iso_context_placed(
+        c->ctx, ISO_FAIL_INPUT(c->ctx, "", "%s:%zu:%zu: %s", c->r->name, c->number ? c->number : 1, column, message));
 }
 
 /* --- lines ------------------------------------------------------------------------------------------------------ */

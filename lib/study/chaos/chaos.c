@@ -25,9 +25,9 @@ static iso_status check_motion(const iso_chaos_walk *w, const iso_sample *start)
     const iso_model_kind model = w->scene->start.model;
     const iso_status status = iso_refuse_unbound(w->ctx, w->orbit, what);
     if (status != ISO_OK || largest(w->out->with[ISO_BALL] ? start->ball : start->point) > 0) return status;
-    return iso_context_fail(w->ctx, ISO_BAD_INPUT, model == ISO_BALL ? "angular_velocity" : "M",
-                            "the %s starts at rest, where deviations have no size: start it a little later",
-                            iso_model_kind_name((int)model));
+    return ISO_FAIL_INPUT(w->ctx, model == ISO_BALL ? "angular_velocity" : "M",
+                          "the %s starts at rest, where deviations have no size: start it a little later",
+                          iso_model_kind_name((int)model));
 }
 
 static iso_status check_starts(const iso_chaos_walk *w)
@@ -40,11 +40,9 @@ static iso_status check_starts(const iso_chaos_walk *w)
 static iso_status check_options(const iso_chaos_walk *w)
 {
     const iso_chaos_options *o = &w->options;
-    if (o->turns < 1)
-        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "turns", "%ld turns: give 1 or more", o->turns);
+    if (o->turns < 1) return ISO_FAIL_ARGUMENT(w->ctx, "turns", "%ld turns: give 1 or more", o->turns);
     if (o->exponent_turns < 0)
-        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "exponent_turns", "%ld turns: give 0 or more",
-                                o->exponent_turns);
+        return ISO_FAIL_ARGUMENT(w->ctx, "exponent_turns", "%ld turns: give 0 or more", o->exponent_turns);
     return iso_crossings_check_axis(w->ctx, o->axis);
 }
 
@@ -54,9 +52,9 @@ static iso_status check_section(const iso_chaos_walk *w)
     const iso_point_motion m = iso_orbit_motion(w->orbit);
     const int axis = w->out->axis;
     if (axis < 0 || iso_section_is_global(m, axis)) return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_BAD_INPUT, "axis",
-                            "orbits can stay away from the section n_%d = 0 for ever: take n_%d = 0, which is global",
-                            axis + 1, iso_section_axis(m) + 1);
+    return ISO_FAIL_INPUT(w->ctx, "axis",
+                          "orbits can stay away from the section n_%d = 0 for ever: take n_%d = 0, which is global",
+                          axis + 1, iso_section_axis(m) + 1);
 }
 
 /* --- what a turn is --------------------------------------------------------------------------------------------- */

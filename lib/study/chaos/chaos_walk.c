@@ -143,7 +143,7 @@ static iso_status take(group *g, int model, size_t i)
         make_beat(&g->crossing[at], g->sample ? &g->sample[at] : NULL, &beat);
         if (isnan(beat.growth[0] + beat.growth[1])) {
             static const char *const words = "it stands still: its deviations have no length";
-            r->status[i] = iso_context_fail(w->ctx, ISO_NUMERICAL, "", "%s", words);
+            r->status[i] = ISO_FAIL_NUMERICAL(w->ctx, "%s", words);
             note_failure(g, model, i, words);
             break;
         }

@@ -12,10 +12,9 @@
 iso_status iso_frequencies_check(iso_context *ctx, const iso_frequencies_options *o)
 {
     if (o->samples > ISO_MOST_SAMPLES)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "samples", "an estimate takes %d samples at most",
-                                ISO_MOST_SAMPLES);
+        return ISO_FAIL_ARGUMENT(ctx, "samples", "an estimate takes %d samples at most", ISO_MOST_SAMPLES);
     if (!(o->turns <= 0) && !(o->end <= 0) && !(o->samples <= 0)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "turns, the end and samples are numbers > 0");
+    return ISO_FAIL_ARGUMENT(ctx, "", "turns, the end and samples are numbers > 0");
 }
 
 void iso_frequencies_blank(iso_frequencies *f)

@@ -206,20 +206,18 @@ static iso_status check(const iso_continuation *f, double own)
     iso_params p;
     double energy;
     if (!name || !(o->from < o->to) || !isfinite(o->to - o->from))
-        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range", "%s from %g to %g: give A:B with A < B",
-                                name ? name : "?", o->from, o->to);
+        return ISO_FAIL_ARGUMENT(f->ctx, "range", "%s from %g to %g: give A:B with A < B", name ? name : "?", o->from,
+                                 o->to);
     if (o->vary == ISO_VARY_K && o->from <= 0 && o->to >= 0)
-        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range",
-                                "the range %g to %g contains k = 0, where there is no ball", o->from, o->to);
+        return ISO_FAIL_ARGUMENT(f->ctx, "range", "the range %g to %g contains k = 0, where there is no ball",
+                                 o->from, o->to);
     if (!(own >= o->from && own <= o->to))
-        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range",
-                                "the scene has %s = %.12g: the range %g to %g must contain it", name, own, o->from,
-                                o->to);
+        return ISO_FAIL_ARGUMENT(f->ctx, "range", "the scene has %s = %.12g: the range %g to %g must contain it",
+                                 name, own, o->from, o->to);
     if (o->vary != ISO_VARY_K &&
         (!iso_continuation_params(f, o->from, &p, &energy) || !iso_continuation_params(f, o->to, &p, &energy)))
-        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range",
-                                "%s from %g to %g leaves the range in which J%d is the %s moment", name, o->from,
-                                o->to, f->axis + 1, f->base.k > 0 ? "largest" : "smallest");
+        return ISO_FAIL_ARGUMENT(f->ctx, "range", "%s from %g to %g leaves the range in which J%d is the %s moment",
+                                 name, o->from, o->to, f->axis + 1, f->base.k > 0 ? "largest" : "smallest");
     return ISO_OK;
 }
 
@@ -346,7 +344,7 @@ static iso_status check_lines(iso_context *ctx, const iso_periodic_orbit orbits[
 {
     for (size_t i = 0; i < count; i++)
         if (!iso_symmetry_line_name(orbits[i].line))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "orbit", "an orbit without a symmetry cannot be followed");
+            return ISO_FAIL_INPUT(ctx, "orbit", "an orbit without a symmetry cannot be followed");
     return ISO_OK;
 }
 
@@ -379,8 +377,7 @@ iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const 
     *follow = NULL;
     ISO_TRY(prepare(ctx, scene, options, &f, &own));
     ISO_TRY(check_lines(ctx, orbits, count));
-    if (count == 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "orbit", "no symmetric orbit to follow: the list is empty");
+    if (count == 0) return ISO_FAIL_INPUT(ctx, "orbit", "no symmetric orbit to follow: the list is empty");
     iso_continuations *out = calloc(1, sizeof *out);
     if (!out) return iso_context_no_memory(ctx, "branches");
     out->vary = f.options.vary;

@@ -186,8 +186,7 @@ iso_status iso_periodic_rotations(iso_periodic_work *w)
     for (int axis = 0; axis < 3; axis++)
         if (!find_rotation(w, axis))
             return iso_context_goes_on(w->ctx)
-                       ? iso_context_fail(w->ctx, ISO_NUMERICAL, "", "the rotation about axis %d was not followed",
-                                          axis + 1)
+                       ? ISO_FAIL_NUMERICAL(w->ctx, "the rotation about axis %d was not followed", axis + 1)
                        : iso_context_stopped(w->ctx);
     return ISO_OK;
 }

@@ -25,12 +25,11 @@ static iso_status check_options(const iso_periodic_work *w)
 {
     const iso_periodic_options *o = &w->options;
     if (o->period < 1 || o->period > ISO_PERIODIC_MOST)
-        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "period", "a period of %d: give 1 to %d", o->period,
-                                ISO_PERIODIC_MOST);
+        return ISO_FAIL_ARGUMENT(w->ctx, "period", "a period of %d: give 1 to %d", o->period, ISO_PERIODIC_MOST);
     if (o->grid < 1 || o->grid > 10000000)
-        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "grid", "a grid of %ld points: give 1 to 1e7", o->grid);
+        return ISO_FAIL_ARGUMENT(w->ctx, "grid", "a grid of %ld points: give 1 to 1e7", o->grid);
     if (!iso_return_code_of(o->polish))
-        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "polish", "this build has no numbers of 128 bits");
+        return ISO_FAIL_ARGUMENT(w->ctx, "polish", "this build has no numbers of 128 bits");
     return ISO_OK;
 }
 
@@ -39,23 +38,20 @@ static iso_status check_numbers(const iso_periodic_work *w)
 {
     const double k = w->scene->params.k, *J = w->scene->params.J, ratio = max3(J) / min3(J) / fabs(k);
     if (fabs(k) < ISO_LEAST_K)
-        return iso_context_fail(w->ctx, ISO_BAD_INPUT, "k", "periodic orbits: k = %.12g: give |k| >= %g", k,
-                                ISO_LEAST_K);
+        return ISO_FAIL_INPUT(w->ctx, "k", "periodic orbits: k = %.12g: give |k| >= %g", k, ISO_LEAST_K);
     if (ratio <= 1e5) return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_BAD_INPUT, "J",
-                            "periodic orbits: max J/(min J |k|) is %.3g: give moments for which it is 1e5 at most",
-                            ratio);
+    return ISO_FAIL_INPUT(
+        w->ctx, "J", "periodic orbits: max J/(min J |k|) is %.3g: give moments for which it is 1e5 at most", ratio);
 }
 
 static iso_status check_moments(const iso_periodic_work *w)
 {
     for (int i = 0; i < 3; i++)
         if (iso_params_symmetric(&w->scene->params, i))
-            return iso_context_fail(
-                w->ctx, ISO_BAD_INPUT, "J",
-                "J%d and J%d are equal: a rotation about axis %d carries every orbit along, so no "
-                "periodic orbit is isolated",
-                (i + 1) % 3 + 1, (i + 2) % 3 + 1, i + 1);
+            return ISO_FAIL_INPUT(w->ctx, "J",
+                                  "J%d and J%d are equal: a rotation about axis %d carries every orbit along, so no "
+                                  "periodic orbit is isolated",
+                                  (i + 1) % 3 + 1, (i + 2) % 3 + 1, i + 1);
     return ISO_OK;
 }
 
@@ -74,8 +70,8 @@ static iso_status check_scene(iso_periodic_work *w)
     const double slow = 1 / sqrt(iso_coupling(&w->units.own, w->h));
     for (iso_clock c = 0; c < ISO_CLOCKS; c++) w->unit_clock[c] = slow * iso_unit(&w->units, iso_clock_dimension(c));
     if (isfinite(w->unit_clock[ISO_CLOCK_T])) return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_BAD_INPUT, "angular_velocity",
-                            "the energy of this start is too large or too small for doubles");
+    return ISO_FAIL_INPUT(w->ctx, "angular_velocity",
+                          "the energy of this start is too large or too small for doubles");
 }
 
 /* --- the work --------------------------------------------------------------------------------------------------- */

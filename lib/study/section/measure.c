@@ -99,8 +99,8 @@ static iso_status draw_block(carrier *c, int cloud, uint64_t first, size_t count
         iso_measure_draw_state(&c->draw, shift, first + i, n, v);
         const double T = c->scene.energy - iso_measure_potential(&c->scene, n);
         if (!(T > 0))
-            return iso_context_fail(
-                c->ctx, ISO_BAD_INPUT, "energy",
+            return ISO_FAIL_INPUT(
+                c->ctx, "energy",
                 "with this energy the ball does not reach n = (%.4g, %.4g, %.4g): the test needs an "
                 "energy with which it reaches every n",
                 n[0], n[1], n[2]);
@@ -161,13 +161,11 @@ static void judge(carrier *c, iso_measure *m)
 
 static iso_status check_times(iso_context *ctx, const iso_measure_options *o)
 {
-    if ((int)o->clock < 0 || o->clock >= ISO_CLOCKS)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "clock", "no such clock");
+    if ((int)o->clock < 0 || o->clock >= ISO_CLOCKS) return ISO_FAIL_ARGUMENT(ctx, "clock", "no such clock");
     if (isnan(o->end) && !(o->turns > 0 && o->turns <= 1e6))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "turns", "%g turns are not in (0, 1e6]", o->turns);
+        return ISO_FAIL_ARGUMENT(ctx, "turns", "%g turns are not in (0, 1e6]", o->turns);
     if (!isnan(o->end) && !(o->end > 0 && isfinite(o->end)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "end", "the flow ends at a finite time above 0, not at %g",
-                                o->end);
+        return ISO_FAIL_ARGUMENT(ctx, "end", "the flow ends at a finite time above 0, not at %g", o->end);
     return ISO_OK;
 }
 

@@ -13,12 +13,11 @@
 static iso_status check_options(iso_context *ctx, iso_measure_options *o)
 {
     if (o->count < ISO_MEASURE_LEAST || o->count > SIZE_MAX / 2)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "count", "a cloud has %d orbits or more", ISO_MEASURE_LEAST);
+        return ISO_FAIL_ARGUMENT(ctx, "count", "a cloud has %d orbits or more", ISO_MEASURE_LEAST);
     if (!isfinite(o->exponent) || fabs(o->exponent) > 10)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "exponent", "exponent %g is not in [-10, 10]", o->exponent);
+        return ISO_FAIL_ARGUMENT(ctx, "exponent", "exponent %g is not in [-10, 10]", o->exponent);
     if (!(o->significance > 0 && o->significance < 1))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "significance", "significance %g is not in (0, 1)",
-                                o->significance);
+        return ISO_FAIL_ARGUMENT(ctx, "significance", "significance %g is not in (0, 1)", o->significance);
     const size_t clouds = ISO_MEASURE_CLOUDS;
     o->count = (o->count + clouds - 1) / clouds * clouds;
     return ISO_OK;

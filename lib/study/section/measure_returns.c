@@ -146,8 +146,8 @@ static iso_status check_section(returner *r)
     const int axis = r->options.axis;
     if (iso_crossings_check_axis(r->ctx, axis) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (r->options.returns < ISO_MEASURE_RETURNS || r->options.returns > 1000000)
-        return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "returns", "%d returns are not in [%d, 1e6]",
-                                r->options.returns, ISO_MEASURE_RETURNS);
+        return ISO_FAIL_ARGUMENT(r->ctx, "returns", "%d returns are not in [%d, 1e6]", r->options.returns,
+                                 ISO_MEASURE_RETURNS);
     r->axis = axis == ISO_AXIS_AUTO ? iso_section_axis(iso_free_point(r->scene.params, 1)) : axis;
     for (int i = 0; i < ISO_MEASURE_ROWS; i++) r->returns[i] = r->options.returns >> (ISO_MEASURE_ROWS - 1 - i);
     if (r->scene.pulled)

@@ -50,9 +50,9 @@ static iso_status fill(piece *p)
         }
         iso_manifold_point between;
         if (p->count == MOST_SAMPLES)
-            return iso_context_fail(p->m->ctx, ISO_NUMERICAL, "",
-                                    "splitting at k = %.15g: the manifold is too long before it meets the line",
-                                    p->m->problem.p.k);
+            return ISO_FAIL_NUMERICAL(p->m->ctx,
+                                      "splitting at k = %.15g: the manifold is too long before it meets the line",
+                                      p->m->problem.p.k);
         ISO_TRY(iso_manifold_at(p->m, WIDE_ROOT(p->at[i].theta * p->at[i + 1].theta), p->halves, &between));
         for (int j = p->count++; j > i + 1; j--) p->at[j] = p->at[j - 1];
         p->at[i + 1] = between;
@@ -156,9 +156,8 @@ iso_status iso_manifold_refine(const iso_manifold *m, iso_manifold_crossing *c)
         if (i > 0 && is_there(m, a.over, last)) return measure_scatter(m, &a, c);
         if (!(WIDE_ABS(a.over / a.speed) < c->theta / 2)) break;
     }
-    return iso_context_fail(m->ctx, ISO_NUMERICAL, "",
-                            "splitting at k = %.15g: the crossing with the line of symmetry was not found",
-                            m->problem.p.k);
+    return ISO_FAIL_NUMERICAL(m->ctx, "splitting at k = %.15g: the crossing with the line of symmetry was not found",
+                              m->problem.p.k);
 }
 
 iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
@@ -172,10 +171,10 @@ iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
         if (found > 0) break;
         status = p->halves < MOST_HALVES
                      ? advance(p)
-                     : iso_context_fail(m->ctx, ISO_NUMERICAL, "",
-                                        "splitting at k = %.15g: the manifold does not meet the line of symmetry "
-                                        "within %d half turns",
-                                        m->problem.p.k, MOST_HALVES);
+                     : ISO_FAIL_NUMERICAL(m->ctx,
+                                          "splitting at k = %.15g: the manifold does not meet the line of symmetry "
+                                          "within %d half turns",
+                                          m->problem.p.k, MOST_HALVES);
     }
     if (status == ISO_OK) *c = (iso_manifold_crossing){.halves = p->halves, .theta = guess(p, found)};
     free(p);
@@ -217,8 +216,8 @@ iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing 
         c->theta -= step;
         last = apart;
     }
-    return iso_context_fail(m->ctx, ISO_NUMERICAL, "",
-                            "splitting at k = %.15g: the next point of both manifolds was not found", m->problem.p.k);
+    return ISO_FAIL_NUMERICAL(m->ctx, "splitting at k = %.15g: the next point of both manifolds was not found",
+                              m->problem.p.k);
 }
 
 /* --- as a line -------------------------------------------------------------------------------------------------- */

@@ -22,8 +22,7 @@
 
 static iso_status no_return(const iso_manifold *m)
 {
-    return iso_context_fail(m->ctx, ISO_NUMERICAL, "", "splitting at k = %.15g: a return could not be computed",
-                            m->problem.p.k);
+    return ISO_FAIL_NUMERICAL(m->ctx, "splitting at k = %.15g: a return could not be computed", m->problem.p.k);
 }
 
 /* g at z, and the derivative. u of the image is in (-pi, pi]. */
@@ -49,8 +48,8 @@ static iso_status check_trace(const iso_manifold *m, double trace)
     const double apart = trace - 2; /* (lambda - 1)^2/lambda */
     if (apart > 1e-4) return ISO_OK;
     const double exponent = 2 * sqrt(fmax(apart, 1e-15)); /* ln lambda^2 */
-    return iso_context_fail(
-        m->ctx, ISO_BAD_INPUT, "J",
+    return ISO_FAIL_INPUT(
+        m->ctx, "J",
         "splitting at k = %.15g: the middle axis has the multiplier 1 + %.1e, too near 1: m is about "
         "exp(-2 pi^2/ln of it) = 1e-%.0f or less, which 128 bits do not tell from 0",
         m->problem.p.k, expm1(exponent), 2 * ISO_PI * ISO_PI / exponent / log(10));
@@ -85,10 +84,10 @@ iso_status iso_manifold_use(iso_manifold *m, const iso_return_code *code)
 static iso_status check_moments(iso_context *ctx, const double J[3])
 {
     if (J[0] != J[1] && J[1] != J[2] && J[2] != J[0]) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "J",
-                            "splitting: two moments of inertia are equal, J = %.15g %.15g %.15g: the body is "
-                            "symmetric, its motion integrable for every k, and there is no middle axis",
-                            J[0], J[1], J[2]);
+    return ISO_FAIL_INPUT(ctx, "J",
+                          "splitting: two moments of inertia are equal, J = %.15g %.15g %.15g: the body is "
+                          "symmetric, its motion integrable for every k, and there is no middle axis",
+                          J[0], J[1], J[2]);
 }
 
 /* Below this level the circle of the middle axis' rotation is not open as a whole. */
@@ -97,11 +96,10 @@ static iso_status check_level(const iso_manifold *m)
     const iso_params *p = &m->problem.p;
     const double a = p->J[m->axis], lowest = iso_level_of(p, -pow(a, -1 / p->k));
     if (m->level > lowest) return ISO_OK;
-    return iso_context_fail(
-        m->ctx, ISO_BAD_INPUT, "level",
-        "splitting at k = %.15g, level %.15g: the middle axis has no rotation, but an oscillation "
-        "between two places of rest: it has no separatrix. Give a level above %.12g",
-        p->k, m->level, lowest);
+    return ISO_FAIL_INPUT(m->ctx, "level",
+                          "splitting at k = %.15g, level %.15g: the middle axis has no rotation, but an oscillation "
+                          "between two places of rest: it has no separatrix. Give a level above %.12g",
+                          p->k, m->level, lowest);
 }
 
 iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)
@@ -117,8 +115,8 @@ iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], doub
     ISO_TRY(check_moments(ctx, J));
     const iso_params *p = &m->problem.p;
     if (!(fabs(k) >= 0.05 && fabs(k) <= 50))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "k", "splitting: k = %.15g: give 0.05 <= |k| <= 50", k);
-    if (!isfinite(level)) return iso_context_fail(ctx, ISO_BAD_INPUT, "level", "splitting: level %g", level);
+        return ISO_FAIL_INPUT(ctx, "k", "splitting: k = %.15g: give 0.05 <= |k| <= 50", k);
+    if (!isfinite(level)) return ISO_FAIL_INPUT(ctx, "level", "splitting: level %g", level);
     m->problem.eps = 1;
     m->problem.energy = iso_level_energy(p, level);
     const iso_point_motion motion = {p, 1, m->problem.energy};
@@ -267,8 +265,8 @@ iso_status iso_manifold_solve(iso_manifold *m)
     }
     m->rate = falling(m);
     if (change < near) return ISO_OK;
-    return iso_context_fail(m->ctx, ISO_NUMERICAL, "",
-                            "splitting at k = %.15g: the series of the manifold was not found", m->problem.p.k);
+    return ISO_FAIL_NUMERICAL(m->ctx, "splitting at k = %.15g: the series of the manifold was not found",
+                              m->problem.p.k);
 }
 
 /* --- farther out ------------------------------------------------------------------------------------------------ */
@@ -306,9 +304,9 @@ static iso_status find_domain(iso_manifold *m)
         if (status == ISO_OK && change > 0.85 && change < 1.3) return ISO_OK;
         size *= (iso_wide)fmax(change, 0.1);
     }
-    return iso_context_fail(
-        m->ctx, ISO_NUMERICAL, "",
-        "splitting at k = %.15g: no domain was found on which the series of the manifold converges", m->problem.p.k);
+    return ISO_FAIL_NUMERICAL(
+        m->ctx, "splitting at k = %.15g: no domain was found on which the series of the manifold converges",
+        m->problem.p.k);
 }
 
 iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)
