@@ -188,11 +188,11 @@ static iso_status make(iso_context *ctx, const iso_problem *problem, const doubl
     if (status == ISO_NO_MEMORY) return iso_context_fail(ctx, status, "", "no memory for a closed solution");
     if (status != ISO_OK)
         return iso_context_fail(ctx, status, "",
-                                "the closed solution would need too many terms: a body too extreme, "
-                                "or an orbit too close to a separatrix");
+                                "the closed solution would need too many terms: a body too extreme, or an orbit too "
+                                "close to a separatrix");
     if (!begins(x, point))
-        return ISO_FAIL_NUMERICAL(ctx, "the closed solution has too few digits: a body too extreme, or "
-                                       "an orbit that comes to rest");
+        return ISO_FAIL_NUMERICAL(
+            ctx, "the closed solution has too few digits: a body too extreme, or an orbit that comes to rest");
     x->params = problem->p;
     find_moments(problem, point, x->moment);
     const int axis = x->form->unstable(x->data);

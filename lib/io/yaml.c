@@ -84,8 +84,7 @@ static iso_status check_event(const iso_yaml *y, const yaml_event_t *e, tally *s
     case YAML_DOCUMENT_START_EVENT:
         if (++seen->documents > 1)
             return iso_yaml_fail(y, e->start_mark,
-                                 "a second document: a file holds one scene, put others in files "
-                                 "of their own");
+                                 "a second document: a file holds one scene, put others in files of their own");
         break;
     case YAML_STREAM_END_EVENT:
         if (seen->documents == 0)

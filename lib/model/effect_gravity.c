@@ -139,10 +139,9 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
     if (e->number[ISO_GRAVITY][MGB] == 0)
         return ISO_FAIL_INPUT(ctx, "gravity", "gravity of 0 changes nothing: take it out");
     if (e->on[ISO_REACTIONS] || !e->idle[ISO_GRAVITY]) return ISO_OK;
-    return ISO_FAIL_INPUT(
-        ctx, "gravity",
-        "on a horizontal plane (up along the normal) gravity has no torque and changes nothing: take it "
-        "out, tilt the plane, or ask for 'reactions'");
+    return ISO_FAIL_INPUT(ctx, "gravity",
+                          "on a horizontal plane (up along the normal) gravity has no torque and changes nothing: "
+                          "take it out, tilt the plane, or ask for 'reactions'");
 }
 
 /* g of a body gives mgb, the weight times the signed radius. */

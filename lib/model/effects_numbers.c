@@ -162,10 +162,10 @@ static iso_status check_D(iso_context *ctx, const iso_params *p, const char *eff
                               "= %g: give a ball with larger ones",
                               effect, p->D);
     if (p->D > 0) return ISO_OK;
-    return ISO_FAIL_INPUT(ctx, effect,
-                          "'%s' needs the ball's mass and radius: give D = m b^2 ('%s: {D: ...}'), or a ball and a "
-                          "surface",
-                          effect, effect);
+    return ISO_FAIL_INPUT(
+        ctx, effect,
+        "'%s' needs the ball's mass and radius: give D = m b^2 ('%s: {D: ...}'), or a ball and a surface", effect,
+        effect);
 }
 
 /* Whether a group of columns holds the number at later times, if it says so. */

@@ -36,15 +36,13 @@ iso_status iso_params_reduced(iso_context *ctx, double k, const double J[3], iso
     ISO_DEFAULT_ARITHMETIC;
     if (!isfinite(k) || !isnormal(k))
         return ISO_FAIL_INPUT(ctx, "k",
-                              "k = %.17g: the geometry number must be finite and not 0 (at k = 0 the normal does "
-                              "not move and the isomorphism does not exist)",
+                              "k = %.17g: the geometry number must be finite and not 0 (at k = 0 the normal does not "
+                              "move and the isomorphism does not exist)",
                               k);
     for (int i = 0; i < 3; i++)
         if (!is_positive(J[i]))
-            return ISO_FAIL_INPUT(ctx, "J",
-                                  "J%d = %.17g: moments of inertia must be positive "
-                                  "and finite",
-                                  i + 1, J[i]);
+            return ISO_FAIL_INPUT(ctx, "J", "J%d = %.17g: moments of inertia must be positive and finite", i + 1,
+                                  J[i]);
     memset(p, 0, sizeof *p);
     p->body.surface = ISO_REDUCED;
     fill(k, J, p);
@@ -55,10 +53,9 @@ iso_status iso_params_set_D(iso_context *ctx, double D, iso_params *p)
 {
     ISO_DEFAULT_ARITHMETIC;
     if (!(is_positive(D) && D < min3(p->J)))
-        return ISO_FAIL_INPUT(ctx, "D",
-                              "D = %.17g: m b^2 must be positive and less than each J (J - D are the moments about "
-                              "the centre)",
-                              D);
+        return ISO_FAIL_INPUT(
+            ctx, "D",
+            "D = %.17g: m b^2 must be positive and less than each J (J - D are the moments about the centre)", D);
     p->D = D;
     return ISO_OK;
 }
@@ -104,9 +101,7 @@ iso_status iso_params_physical(iso_context *ctx, const iso_body *b, iso_params *
     for (int i = 0; i < 3; i++)
         if (!is_positive(I[i]))
             return ISO_FAIL_INPUT(ctx, "inertia",
-                                  "inertia %d is %.17g: principal moments must be "
-                                  "positive and finite",
-                                  i + 1, I[i]);
+                                  "inertia %d is %.17g: principal moments must be positive and finite", i + 1, I[i]);
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, l = (i + 2) % 3;
         /* the sum of two numbers typed in decimal may miss the third by their rounding: a flat body is allowed */

@@ -286,8 +286,8 @@ static iso_status check_scene(iso_context *ctx, const batch *b, size_t i)
                                  i, scene->method);
     if (iso_effects_watch_contact(&scene->effects))
         return ISO_FAIL_ARGUMENT(ctx, "scenes",
-                                 "scene %zu: a batch does not see where contact is lost: write "
-                                 "'reactions: {two_sided: true}', or run it by itself",
+                                 "scene %zu: a batch does not see where contact is lost: write 'reactions: "
+                                 "{two_sided: true}', or run it by itself",
                                  i);
     return iso_scene_check_columns(ctx, scene);
 }

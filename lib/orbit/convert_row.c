@@ -62,8 +62,8 @@ static iso_status check_energy(iso_conversion *c, conversion_row *r)
         stated && !(fabs(off) <= fmax(1e-3, iso_conversion_digits(c))); /* methods of low order reach that */
     if (r->other_energy)
         return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "eps",
-                                "the energy of this point is not that of the rows before: its M does not fit "
-                                "eps = %.10g; leave out --eps and --h to take them from the first row",
+                                "the energy of this point is not that of the rows before: its M does not fit eps = "
+                                "%.10g; leave out --eps and --h to take them from the first row",
                                 c->stated_eps);
     iso_worst_note(&c->summary.energy, off, r->line);
     return ISO_OK;
@@ -142,10 +142,10 @@ static iso_status shift_moments(iso_conversion *c, const conversion_row *r)
         iso_effects_set_level(&c->effects, false, NAN);
         return ISO_OK;
     }
-    return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "",
-                            "no free ball has this energy, J + E/eps: %s; without a shift "
-                            "there is one in the potential of a level",
-                            iso_context_message(c->ctx));
+    return iso_context_fail(
+        c->ctx, ISO_NOT_MAPPED, "",
+        "no free ball has this energy, J + E/eps: %s; without a shift there is one in the potential of a level",
+        iso_context_message(c->ctx));
 }
 
 static iso_status open_units(iso_conversion *c, const conversion_row *r)

@@ -41,8 +41,8 @@ static iso_status refuse_deviations(const iso_crossings *c, size_t i)
     const iso_params *p = c->orbits[i].params;
     if (c->options.kind == ISO_SECTION_AXIS && iso_params_check_powers(ctx, p) != ISO_OK) return ISO_BAD_INPUT;
     return ISO_FAIL_INPUT(ctx, "deviations",
-                          "deviations are computed for free orbits on a global section, and at equal steps of "
-                          "a clock; not for stiff balls, balls at rest, or effects without a formula");
+                          "deviations are computed for free orbits on a global section, and at equal steps of a "
+                          "clock; not for stiff balls, balls at rest, or effects without a formula");
 }
 
 static iso_status begin(iso_crossings *c, size_t i)

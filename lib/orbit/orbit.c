@@ -49,9 +49,8 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
     opt->backend = choose_backend(opt, &o->effects, start);
     const bool ball = opt->backend == ISO_BACKEND_BALL, exact = opt->backend == ISO_BACKEND_EXACT;
     if ((!ball && !exact && opt->backend != ISO_BACKEND_POINT) || (int)opt->shown < 0 || opt->shown > ISO_SHOW_BOTH)
-        return ISO_FAIL_ARGUMENT(o->ctx, "backend",
-                                 "an orbit is found by backend ball, point or exact, "
-                                 "and shown as ball, point or both");
+        return ISO_FAIL_ARGUMENT(
+            o->ctx, "backend", "an orbit is found by backend ball, point or exact, and shown as ball, point or both");
     if (exact && opt->method && opt->method != &iso_method_exact)
         return ISO_FAIL_ARGUMENT(o->ctx, "method",
                                  "backend exact does not integrate: leave the method out, or take backend point");
@@ -188,11 +187,10 @@ static iso_status check_steps(const iso_orbit *o, double turns)
     const iso_problem *f = &o->model.problem;
     const double stiffness = iso_effects_stiffness(f), steps = stiffness * fmin(turns, iso_effects_moving(f));
     if (o->options.method->implicit || !(stiffness > ISO_STIFF && steps > MOST_STIFF_STEPS)) return ISO_OK;
-    return ISO_FAIL_ARGUMENT(
-        o->ctx, "method",
-        "this model is stiff: what resists acts %.1g times as fast as the ball turns, and %s, which is "
-        "explicit, would take about %.1g steps: take bdf or bsimp",
-        stiffness, o->options.method->name, steps);
+    return ISO_FAIL_ARGUMENT(o->ctx, "method",
+                             "this model is stiff: what resists acts %.1g times as fast as the ball turns, and %s, "
+                             "which is explicit, would take about %.1g steps: take bdf or bsimp",
+                             stiffness, o->options.method->name, steps);
 }
 
 /* Beyond 1e15 turns a double does not tell one part of a turn from another (and no one would live to see it). */

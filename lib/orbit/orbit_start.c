@@ -150,10 +150,10 @@ static iso_status check_closed(iso_context *ctx, const iso_effects *effects)
 {
     const iso_effect *effect = iso_effects_beyond_level(effects);
     if (!effect) return ISO_OK;
-    return ISO_FAIL_ARGUMENT(ctx, effect->name,
-                             "the closed solution is for a ball on which nothing acts but '%s', not for one with "
-                             "'%s': take backend %s",
-                             iso_level_name(), effect->name, iso_effect_why_broken(effect) ? "ball" : "point");
+    return ISO_FAIL_ARGUMENT(
+        ctx, effect->name,
+        "the closed solution is for a ball on which nothing acts but '%s', not for one with '%s': take backend %s",
+        iso_level_name(), effect->name, iso_effect_why_broken(effect) ? "ball" : "point");
 }
 
 static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_start *start)
@@ -255,10 +255,9 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
     const bool level = need.ball || start->model == ISO_BALL; /* the ball's is asked for, and may not fit a double */
     const iso_effects in_users_units = iso_orbit_effects(o);
     if (level && iso_effects_have_level(&o->effects) && !isnormal(iso_effects_level(&in_users_units)))
-        return iso_context_fail(
-            o->ctx, ISO_NUMERICAL, "c",
-            "level: c of the ball is out of the range of doubles in these units: use other units, or "
-            "ask for the point in its time s alone");
+        return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
+                                "level: c of the ball is out of the range of doubles in these units: use other "
+                                "units, or ask for the point in its time s alone");
     if (all_finite(y, ISO_STATE) && isfinite(o->h) && (!need.point || isfinite(o->eps))) return ISO_OK;
     return ISO_FAIL_NUMERICAL(o->ctx, "the start is out of the range of doubles in the ball's own units");
 }

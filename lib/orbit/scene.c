@@ -83,8 +83,8 @@ static iso_status check_pair(iso_context *ctx, const char *unit_name, const char
     const double along = remove_along(v, unit);
     if (spin == ISO_SPIN_REFUSE && fabs(along) > 1e-9 * hypot(norm(v), along))
         return ISO_FAIL_INPUT(ctx, vector_name,
-                              "%s has a part %.6g along %s, it must be orthogonal to it (to 1e-9): write "
-                              "[%.17g, %.17g, %.17g], or 'project: true'",
+                              "%s has a part %.6g along %s, it must be orthogonal to it (to 1e-9): write [%.17g, "
+                              "%.17g, %.17g], or 'project: true'",
                               vector_name, along * size, unit_name, v[0] * size, v[1] * size, v[2] * size);
     remove_along(v, unit);
     for (int i = 0; i < 3; i++) vector[i] = v[i] * size;
@@ -281,11 +281,10 @@ iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char 
 
 static iso_status refuse_place(iso_context *ctx, const iso_point_motion m, double level, double q, const char *name)
 {
-    return ISO_FAIL_INPUT(
-        ctx, "level",
-        "level %.10g is not reached at this %s: the potential there is %.10g, counted like the level, and "
-        "the level must be above it",
-        level, name, -iso_level_of(m.p, pow(q, -1 / m.p->k)));
+    return ISO_FAIL_INPUT(ctx, "level",
+                          "level %.10g is not reached at this %s: the potential there is %.10g, counted like the "
+                          "level, and the level must be above it",
+                          level, name, -iso_level_of(m.p, pow(q, -1 / m.p->k)));
 }
 
 /* Keeps eps, gamma and the direction of M. */

@@ -80,8 +80,7 @@ static iso_status check_energy(iso_context *ctx, const iso_analogue *a)
                       (a->problem.neumann || a->problem.eps == 0 || (isnormal(a->lowest) && isnormal(a->highest)));
     if (!fits)
         return iso_context_fail(ctx, ISO_NUMERICAL, "k",
-                                "V leaves the range of doubles on the sphere: k is too small, "
-                                "or J too far from 1");
+                                "V leaves the range of doubles on the sphere: k is too small, or J too far from 1");
     if (is_constant(&a->problem) && E - a->lowest <= rounding(a))
         return iso_context_fail(ctx, ISO_NOT_MAPPED, "energy",
                                 "V = %.10g is constant, so at the energy %.10g %s: a ball at rest has no twin",
@@ -89,11 +88,10 @@ static iso_status check_energy(iso_context *ctx, const iso_analogue *a)
                                 E < a->lowest ? "there is no motion" : "the point rests wherever it is");
     if (E - a->lowest >= -rounding(a)) return ISO_OK;
     if (E == 0 && !a->problem.neumann)
-        return iso_context_fail(
-            ctx, ISO_NOT_MAPPED, "energy",
-            "no motion has the energy 0: eps = %.10g is negative, and so is h = eps k^2/det J of a "
-            "free ball. V is at least %.10g, from that energy on there is a ball",
-            a->problem.eps, a->lowest);
+        return iso_context_fail(ctx, ISO_NOT_MAPPED, "energy",
+                                "no motion has the energy 0: eps = %.10g is negative, and so is h = eps k^2/det J of "
+                                "a free ball. V is at least %.10g, from that energy on there is a ball",
+                                a->problem.eps, a->lowest);
     return iso_context_fail(ctx, ISO_NOT_MAPPED, "energy",
                             "no motion has the energy %.10g: V is between %.10g and %.10g on the sphere", E,
                             a->lowest, a->highest);
@@ -118,11 +116,10 @@ static iso_status make_ball(iso_context *ctx, double k, const double J[3], doubl
     const bool fits = isnormal(ball->params.det_J) && isfinite(eps) && isfinite(ball->h) && isfinite(ball->level) &&
                       (eps == 0) == (ball->h == 0) && (level_energy == 0) == (ball->level == 0);
     if (fits) return ISO_OK;
-    return ISO_FAIL_NUMERICAL(
-        ctx,
-        "the ball of k = %g, J = %g %g %g, eps = %g, E = %g has an h or c that does not fit a double: "
-        "use other units",
-        k, J[0], J[1], J[2], eps, level_energy);
+    return ISO_FAIL_NUMERICAL(ctx,
+                              "the ball of k = %g, J = %g %g %g, eps = %g, E = %g has an h or c that does not fit a "
+                              "double: use other units",
+                              k, J[0], J[1], J[2], eps, level_energy);
 }
 
 /* V is a constant: takes the stated moments if they are equal, else moments that make the ball of order one. */
@@ -215,8 +212,8 @@ static void make_body(iso_context *ctx, double mass, double radius, iso_analogue
     a->room = triangle_room(r->params.J);
     if (!(a->room > 0)) {
         snprintf(a->no_body, sizeof a->no_body,
-                 "triangle inequality: J1 + J2 - J3 = %.6g is not positive (J sorted), so that I = J - D breaks "
-                 "I3 <= I1 + I2 for every D = m B^2 > 0",
+                 "triangle inequality: J1 + J2 - J3 = %.6g is not positive (J sorted), so that I = J - D breaks I3 "
+                 "<= I1 + I2 for every D = m B^2 > 0",
                  a->room);
         return;
     }

@@ -207,12 +207,10 @@ static iso_status take_old(iso_context *ctx, iso_sweep_journal *j, off_t size, b
     if (memcmp(&there, &mine, sizeof mine) != 0)
         return refuse(
             ctx, j->name,
-            "is the journal of another sweep, shard, version or kind of vectors: remove it, or give another "
-            "name");
+            "is the journal of another sweep, shard, version or kind of vectors: remove it, or give another name");
     if (!resume)
         return refuse(ctx, j->name,
-                      "has chunks of this sweep: add --resume to go on with it, or remove it to begin "
-                      "again");
+                      "has chunks of this sweep: add --resume to go on with it, or remove it to begin again");
     j->end = (off_t)sizeof mine;
     return scan(ctx, j, size);
 }

@@ -209,8 +209,8 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
         if (named && strcmp(f.text, "-") == 0) continue;
         if (c->again && iso_number_read(f.text, f.length, &number))
             return fail(c, f.text,
-                        "expected a line of column names such as t,omega1,omega2,... before the numbers; "
-                        "without one, --columns t,omega1,... names them");
+                        "expected a line of column names such as t,omega1,omega2,... before the numbers; without "
+                        "one, --columns t,omega1,... names them");
         if (known < 0) {
             const bool orbit = c->orbit == 0 && strcmp(f.text, ISO_ORBIT_COLUMN) == 0;
             if (orbit) c->orbit = c->format.fields + 1, c->r->at.orbits = true;

@@ -56,9 +56,9 @@ static iso_status begin(checker *c)
     iso_checker_choose_observers(c);
     for (int k = 0; k < 2; k++) ISO_TRY(find_model(c, (iso_model_kind)k));
     if (c->model[0].there || c->model[1].there) return ISO_OK;
-    return ISO_FAIL_INPUT(c->ctx, "columns",
-                          "the trajectory has neither a ball's six columns "
-                          "(omega1 ... n3) nor a point's (M1 ... gamma3)");
+    return ISO_FAIL_INPUT(
+        c->ctx, "columns",
+        "the trajectory has neither a ball's six columns (omega1 ... n3) nor a point's (M1 ... gamma3)");
 }
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */

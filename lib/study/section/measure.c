@@ -99,11 +99,10 @@ static iso_status draw_block(carrier *c, int cloud, uint64_t first, size_t count
         iso_measure_draw_state(&c->draw, shift, first + i, n, v);
         const double T = c->scene.energy - iso_measure_potential(&c->scene, n);
         if (!(T > 0))
-            return ISO_FAIL_INPUT(
-                c->ctx, "energy",
-                "with this energy the ball does not reach n = (%.4g, %.4g, %.4g): the test needs an "
-                "energy with which it reaches every n",
-                n[0], n[1], n[2]);
+            return ISO_FAIL_INPUT(c->ctx, "energy",
+                                  "with this energy the ball does not reach n = (%.4g, %.4g, %.4g): the test needs "
+                                  "an energy with which it reaches every n",
+                                  n[0], n[1], n[2]);
         c->start[i] = (iso_start){.model = ISO_BALL, .eps = NAN};
         for (int j = 0; j < 3; j++) {
             c->start[i].y[j] = sqrt(2 * T) * v[j] / p->root_J[j];

@@ -34,10 +34,9 @@ static iso_status check_effects(iso_context *ctx, measure_scene *s)
         if (!e->potential) continue;
         s->pulled = true;
         if (e->breaks)
-            return iso_context_fail(ctx, ISO_NOT_MAPPED, e->name,
-                                    "the measure (10) is one of omega and n, but the potential of %s depends on "
-                                    "more than n",
-                                    e->name);
+            return iso_context_fail(
+                ctx, ISO_NOT_MAPPED, e->name,
+                "the measure (10) is one of omega and n, but the potential of %s depends on more than n", e->name);
     }
     return ISO_OK;
 }

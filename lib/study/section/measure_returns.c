@@ -151,9 +151,9 @@ static iso_status check_section(returner *r)
     r->axis = axis == ISO_AXIS_AUTO ? iso_section_axis(iso_free_point(r->scene.params, 1)) : axis;
     for (int i = 0; i < ISO_MEASURE_ROWS; i++) r->returns[i] = r->options.returns >> (ISO_MEASURE_ROWS - 1 - i);
     if (r->scene.pulled)
-        return iso_context_fail(r->ctx, ISO_NOT_MAPPED, "effects",
-                                "the section of a ball in a potential has another chart: only the flow can be "
-                                "tested");
+        return iso_context_fail(
+            r->ctx, ISO_NOT_MAPPED, "effects",
+            "the section of a ball in a potential has another chart: only the flow can be tested");
     return ISO_OK;
 }
 

@@ -169,12 +169,13 @@ iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
         for (int i = 0; i < p->count && found == 0; i++)
             if (p->u[i] >= ISO_PI / 2) found = i > 0 ? i : 1;
         if (found > 0) break;
-        status = p->halves < MOST_HALVES
-                     ? advance(p)
-                     : ISO_FAIL_NUMERICAL(m->ctx,
-                                          "splitting at k = %.15g: the manifold does not meet the line of symmetry "
-                                          "within %d half turns",
-                                          m->problem.p.k, MOST_HALVES);
+        status =
+            p->halves < MOST_HALVES
+                ? advance(p)
+                : ISO_FAIL_NUMERICAL(
+                      m->ctx,
+                      "splitting at k = %.15g: the manifold does not meet the line of symmetry within %d half turns",
+                      m->problem.p.k, MOST_HALVES);
     }
     if (status == ISO_OK) *c = (iso_manifold_crossing){.halves = p->halves, .theta = guess(p, found)};
     free(p);

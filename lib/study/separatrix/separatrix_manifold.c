@@ -48,11 +48,10 @@ static iso_status check_trace(const iso_manifold *m, double trace)
     const double apart = trace - 2; /* (lambda - 1)^2/lambda */
     if (apart > 1e-4) return ISO_OK;
     const double exponent = 2 * sqrt(fmax(apart, 1e-15)); /* ln lambda^2 */
-    return ISO_FAIL_INPUT(
-        m->ctx, "J",
-        "splitting at k = %.15g: the middle axis has the multiplier 1 + %.1e, too near 1: m is about "
-        "exp(-2 pi^2/ln of it) = 1e-%.0f or less, which 128 bits do not tell from 0",
-        m->problem.p.k, expm1(exponent), 2 * ISO_PI * ISO_PI / exponent / log(10));
+    return ISO_FAIL_INPUT(m->ctx, "J",
+                          "splitting at k = %.15g: the middle axis has the multiplier 1 + %.1e, too near 1: m is "
+                          "about exp(-2 pi^2/ln of it) = 1e-%.0f or less, which 128 bits do not tell from 0",
+                          m->problem.p.k, expm1(exponent), 2 * ISO_PI * ISO_PI / exponent / log(10));
 }
 
 /* lambda and v from the derivative at the fixed point, whose determinant is 1. */
