@@ -233,9 +233,9 @@ iso_status iso_table_write_header(iso_context *ctx, iso_table_writer *w, const i
     if (w->header) return ISO_FAIL_ARGUMENT(ctx, "", "the header is already written");
     if (w->finite && iso_record_columns(header) > (size_t)iso_columns_count())
         return ISO_FAIL_ARGUMENT(ctx, "", "a trajectory has at most %d columns", iso_columns_count());
-    iso_status status = look_for_words(ctx, w, header);
-    if (status == ISO_OK) status = iso_record_create_like(ctx, header, 0, NULL, &w->header);
-    return status == ISO_OK ? w->format->header(ctx, w, header) : status;
+    ISO_TRY(look_for_words(ctx, w, header));
+    ISO_TRY(iso_record_create_like(ctx, header, 0, NULL, &w->header));
+    return w->format->header(ctx, w, header);
 }
 
 /* Only finite numbers can be read back as a trajectory. */

@@ -132,8 +132,8 @@ static iso_status release_marks(iso_conversion *c)
 static iso_status write_first(iso_conversion *c)
 {
     c->unwritten = false;
-    const iso_status status = iso_conversion_emit(c, &c->last);
-    return status == ISO_OK ? iso_conversion_write_marks(c, &c->first_marks) : status;
+    ISO_TRY(iso_conversion_emit(c, &c->last));
+    return iso_conversion_write_marks(c, &c->first_marks);
 }
 
 /* The row follows the last one, and becomes it. */
@@ -143,9 +143,7 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
     double lost;
     iso_conversion_summary *s = &c->summary;
     if (c->trouble != ISO_OK) return c->trouble;
-    if (c->unwritten) {
-        ISO_TRY(write_first(c));
-    }
+    if (c->unwritten) ISO_TRY(write_first(c));
     c->doubted = 0;
     by_steps ? s->integrated++ : s->between++;
     iso_worst_note(&s->defect, gap->defect, row->line);

@@ -221,8 +221,8 @@ iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why)
         c->first_words = strdup(iso_context_message(c->ctx));
     }
     c->summary.bad++;
-    const iso_status status = c->target.bad(c->target.data, line, why, iso_context_message(c->ctx));
-    return status == ISO_OK ? iso_conversion_mark(c) : status;
+    ISO_TRY(c->target.bad(c->target.data, line, why, iso_context_message(c->ctx)));
+    return iso_conversion_mark(c);
 }
 
 iso_status iso_conversion_emit(iso_conversion *c, const conversion_row *row)

@@ -73,8 +73,8 @@ static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *sta
                                   .time_unit = o->unit_clock[opt->clock],
                                   .max_steps = opt->max_steps,
                                   .memory = opt->memory};
-    iso_status status = iso_integrator_create(o->ctx, opt->method, &o->model, &m, &o->integrator);
-    return status == ISO_OK ? iso_integrator_start(o->integrator, y) : status;
+    ISO_TRY(iso_integrator_create(o->ctx, opt->method, &o->model, &m, &o->integrator));
+    return iso_integrator_start(o->integrator, y);
 }
 
 iso_status iso_orbit_create(iso_context *ctx, const iso_params *p, const iso_start *start,

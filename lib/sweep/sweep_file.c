@@ -86,8 +86,8 @@ iso_status iso_sweep_read_mapping(iso_yaml *y, const yaml_node_t *mapping, const
     const char *names[ISO_SWEEP_SETTINGS];
     size_t count = 0;
     for (const iso_sweep_setting *s = settings; s && s->name; s++) names[count++] = s->name;
-    const iso_status status = check_keys(y, mapping, what, count, names);
-    return status == ISO_OK ? iso_sweep_read_settings(y, mapping, settings, value) : status;
+    ISO_TRY(check_keys(y, mapping, what, count, names));
+    return iso_sweep_read_settings(y, mapping, settings, value);
 }
 
 /* --- the scene -------------------------------------------------------------------------------------------------- */

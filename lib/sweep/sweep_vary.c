@@ -181,9 +181,9 @@ static iso_status read_list(iso_sweep_file *f, const yaml_node_t *node, iso_swee
     size_t count;
     if (node->data.sequence.items.start == node->data.sequence.items.top)
         return iso_yaml_expected(&f->yaml, node, a->name, "a list of at least one value");
-    iso_status status = read_items(f, node, a, &count);
-    if (status == ISO_OK) status = make_list(f, a, count);
-    return status == ISO_OK ? read_items(f, node, a, &count) : status;
+    ISO_TRY(read_items(f, node, a, &count));
+    ISO_TRY(make_list(f, a, count));
+    return read_items(f, node, a, &count);
 }
 
 /* All a + b + c = sum from 1 on; ordered: a < b < c. */
@@ -238,8 +238,8 @@ static iso_status read_values(iso_sweep_file *f, const yaml_node_t *node, iso_sw
     if (a->width > 1)
         return iso_yaml_expected(&f->yaml, node, a->name,
                                  a->chart == 2 ? "a list of [l, x], or {spread: ...}" : "a list of vectors");
-    const iso_status status = make_list(f, a, 1);
-    return status == ISO_OK ? iso_yaml_number(&f->yaml, node, a->name, a->list) : status;
+    ISO_TRY(make_list(f, a, 1));
+    return iso_yaml_number(&f->yaml, node, a->name, a->list);
 }
 
 /* --- what must hold --------------------------------------------------------------------------------------------- */

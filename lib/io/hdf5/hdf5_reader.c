@@ -269,8 +269,8 @@ static iso_status read_header(iso_context *ctx, iso_table_reader *r)
     iso_hdf5_store *s = r->data;
     s->file = h5.Fopen(r->path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (s->file < 0) return bad_file(ctx, r, "this is not an HDF5 file, or it is damaged", "");
-    const iso_status status = read_attributes(ctx, r, s->file);
-    return status == ISO_OK ? find_sets(ctx, r) : status;
+    ISO_TRY(read_attributes(ctx, r, s->file));
+    return find_sets(ctx, r);
 }
 
 static iso_status hdf5_open(iso_context *ctx, iso_table_reader *r, const char *columns)

@@ -105,8 +105,8 @@ static iso_status open_orbit(iso_chaos_walk *w, iso_sample *start)
     o.clock = with[ISO_BALL] ? ISO_CLOCK_T : ISO_CLOCK_S;
     o.shown = with[ISO_BALL] && with[ISO_POINT] ? ISO_SHOW_BOTH : with[ISO_BALL] ? ISO_SHOW_BALL : ISO_SHOW_POINT;
     o.tolerance = w->options.tolerance;
-    const iso_status status = iso_orbit_create(w->ctx, &w->scene->params, &w->scene->start, &o, &w->orbit);
-    return status == ISO_OK ? iso_orbit_at(w->orbit, 0, start) : status;
+    ISO_TRY(iso_orbit_create(w->ctx, &w->scene->params, &w->scene->start, &o, &w->orbit));
+    return iso_orbit_at(w->orbit, 0, start);
 }
 
 /* --- the result ------------------------------------------------------------------------------------------------- */

@@ -113,8 +113,8 @@ static iso_status begin_model(checker *c, checked_model *m, const double row[])
 {
     for (int i = 0; i < ISO_STATE; i++) c->looked[m->first + i] = true;
     forget_flow(m);
-    const iso_status status = iso_checker_energy(c, m, row);
-    return status == ISO_OK ? iso_checker_flow_begin(c, m, row) : status;
+    ISO_TRY(iso_checker_energy(c, m, row));
+    return iso_checker_flow_begin(c, m, row);
 }
 
 static iso_status check_model(checker *c, checked_model *m, const double row[])

@@ -117,10 +117,9 @@ iso_status iso_frequencies_open(iso_context *ctx, const iso_scene *scene, const 
     o.effects = effects;
     o.backend = twin ? ISO_BACKEND_POINT : ISO_BACKEND_BALL;
     o.shown = twin ? ISO_SHOW_BOTH : ISO_SHOW_BALL;
-    iso_status status = iso_refuse_rest(ctx, &scene->start, effects, ISO_NO_FREQUENCIES);
-    if (status == ISO_OK) status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
-    if (status == ISO_OK) status = iso_orbit_at(*orbit, 0, sample);
-    return status;
+    ISO_TRY(iso_refuse_rest(ctx, &scene->start, effects, ISO_NO_FREQUENCIES));
+    ISO_TRY(iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit));
+    return iso_orbit_at(*orbit, 0, sample);
 }
 
 /* --- basis ------------------------------------------------------------------------------------------------------ */

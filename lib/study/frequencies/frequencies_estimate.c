@@ -338,6 +338,6 @@ iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, co
     e.data = own.data;
     iso_frequencies_blank(f);
     f->estimated = true;
-    iso_status status = prepare(&e, &own);
-    return status == ISO_OK ? estimate(&e) : status;
+    ISO_TRY(prepare(&e, &own));
+    return estimate(&e);
 }

@@ -68,8 +68,8 @@ static iso_status end_at(const iso_continuation *f, iso_branch *b, const iso_con
     at.value = value;
     iso_branch_event e = {.kind = ISO_BRANCH_END, .at = iso_continuation_tell(&at, arc), .axis = -1};
     snprintf(e.words, sizeof e.words, "the end of the range");
-    const iso_status status = add_point(f, b, &at, arc);
-    return status == ISO_OK ? iso_continuation_add_event(f, b, &e) : status;
+    ISO_TRY(add_point(f, b, &at, arc));
+    return iso_continuation_add_event(f, b, &e);
 }
 
 static bool ends_in_collision(const iso_continuation_point *at, const iso_continuation_point *next)
@@ -92,14 +92,14 @@ static iso_status accept(const iso_continuation *f, iso_branch *b, const iso_con
     }
     if (next->u < 0 || next->u > ISO_PI / 2) return fail_at(f, b, at, arc, "too near a rotation to go on");
     *over = false;
-    const iso_status status = iso_continuation_events(f, b, at, next, ds, arc);
-    return status == ISO_OK ? add_point(f, b, next, arc + ds) : status;
+    ISO_TRY(iso_continuation_events(f, b, at, next, ds, arc));
+    return add_point(f, b, next, arc + ds);
 }
 
 static iso_status stop_at(const iso_continuation *f, iso_branch *b, const iso_continuation_point *at, double arc)
 {
-    const iso_status status = fail_at(f, b, at, arc, "stopped on request");
-    return status == ISO_OK ? iso_context_stopped(f->ctx) : status;
+    ISO_TRY(fail_at(f, b, at, arc, "stopped on request"));
+    return iso_context_stopped(f->ctx);
 }
 
 /* Why no step can be taken from `at`. */

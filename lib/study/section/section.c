@@ -166,8 +166,8 @@ static iso_status check(iso_section_walk *w)
     choose_effects(w);
     choose_models(w);
     w->result->orbits = 1 + o->starts + o->at_count;
-    const iso_status status = iso_refuse_rest(w->ctx, &w->scene->start, &w->effects, what);
-    return status == ISO_OK ? check_column(w) : status;
+    ISO_TRY(iso_refuse_rest(w->ctx, &w->scene->start, &w->effects, what));
+    return check_column(w);
 }
 
 static void tell_nature(iso_section_walk *w)
@@ -192,8 +192,8 @@ static iso_status set_up(iso_section_walk *w)
     iso_section_state_level(w->orbit, &w->effects);
     if (w->options.starts > 0)
         iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->options.axis, w->options.seed);
-    iso_status status = iso_section_make_room(w);
-    return status == ISO_OK ? iso_section_open_group(w) : status;
+    ISO_TRY(iso_section_make_room(w));
+    return iso_section_open_group(w);
 }
 
 static iso_status walk(iso_section_walk *w)

@@ -79,9 +79,7 @@ static iso_status open_piece(const iso_manifold *m, double close, piece **opened
 static iso_status advance(piece *p)
 {
     p->base = p->u[p->count - 1];
-    for (int i = 0; i < p->count; i++) {
-        ISO_TRY(iso_manifold_go_on(p->m, &p->at[i]));
-    }
+    for (int i = 0; i < p->count; i++) ISO_TRY(iso_manifold_go_on(p->m, &p->at[i]));
     p->halves++;
     return fill(p);
 }

@@ -230,9 +230,7 @@ static iso_status improve(iso_manifold *m, linear *L, double *change)
 {
     iso_wide most = 0;
     L->n = 2 * m->terms;
-    for (int j = 0; j < m->terms; j++) {
-        ISO_TRY(set_rows(m, j, L));
-    }
+    for (int j = 0; j < m->terms; j++) ISO_TRY(set_rows(m, j, L));
     eliminate(L);
     for (int i = 0; i < L->n; i++) {
         const iso_wide size = WIDE_ABS(L->b[i]);
@@ -310,6 +308,6 @@ static iso_status find_domain(iso_manifold *m)
 
 iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)
 {
-    const iso_status status = iso_manifold_open(ctx, k, J, level, m);
-    return status == ISO_OK ? find_domain(m) : status;
+    ISO_TRY(iso_manifold_open(ctx, k, J, level, m));
+    return find_domain(m);
 }
