@@ -50,9 +50,7 @@ static iso_status fill(piece *p)
         }
         iso_manifold_point between;
         if (p->count == MOST_SAMPLES)
-            return ISO_FAIL_NUMERICAL(p->m->ctx,
-                                      "splitting at k = %.15g: the manifold is too long before it meets the line",
-                                      p->m->problem.p.k);
+            return iso_manifold_lost(p->m, "the manifold is too long before it meets the line");
         ISO_TRY(iso_manifold_at(p->m, WIDE_ROOT(p->at[i].theta * p->at[i + 1].theta), p->halves, &between));
         for (int j = p->count++; j > i + 1; j--) p->at[j] = p->at[j - 1];
         p->at[i + 1] = between;
@@ -154,8 +152,7 @@ iso_status iso_manifold_refine(const iso_manifold *m, iso_manifold_crossing *c)
         if (i > 0 && is_there(m, a.over, last)) return measure_scatter(m, &a, c);
         if (!(WIDE_ABS(a.over / a.speed) < c->theta / 2)) break;
     }
-    return ISO_FAIL_NUMERICAL(m->ctx, "splitting at k = %.15g: the crossing with the line of symmetry was not found",
-                              m->problem.p.k);
+    return iso_manifold_lost(m, "the crossing with the line of symmetry was not found");
 }
 
 iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
@@ -215,8 +212,7 @@ iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing 
         c->theta -= step;
         last = apart;
     }
-    return ISO_FAIL_NUMERICAL(m->ctx, "splitting at k = %.15g: the next point of both manifolds was not found",
-                              m->problem.p.k);
+    return iso_manifold_lost(m, "the next point of both manifolds was not found");
 }
 
 /* --- as a line -------------------------------------------------------------------------------------------------- */

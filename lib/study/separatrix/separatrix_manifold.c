@@ -22,7 +22,7 @@
 
 static iso_status no_return(const iso_manifold *m)
 {
-    return ISO_FAIL_NUMERICAL(m->ctx, "splitting at k = %.15g: a return could not be computed", m->problem.p.k);
+    return iso_manifold_lost(m, "a return could not be computed");
 }
 
 /* g at z, and the derivative. u of the image is in (-pi, pi]. */
@@ -262,8 +262,7 @@ iso_status iso_manifold_solve(iso_manifold *m)
     }
     m->rate = falling(m);
     if (change < near) return ISO_OK;
-    return ISO_FAIL_NUMERICAL(m->ctx, "splitting at k = %.15g: the series of the manifold was not found",
-                              m->problem.p.k);
+    return iso_manifold_lost(m, "the series of the manifold was not found");
 }
 
 /* --- farther out ------------------------------------------------------------------------------------------------ */
@@ -301,9 +300,7 @@ static iso_status find_domain(iso_manifold *m)
         if (status == ISO_OK && change > 0.85 && change < 1.3) return ISO_OK;
         size *= (iso_wide)fmax(change, 0.1);
     }
-    return ISO_FAIL_NUMERICAL(
-        m->ctx, "splitting at k = %.15g: no domain was found on which the series of the manifold converges",
-        m->problem.p.k);
+    return iso_manifold_lost(m, "no domain was found on which the series of the manifold converges");
 }
 
 iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)
