@@ -17,6 +17,16 @@ void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const is
     snprintf(key, ISO_NAME_SIZE, "%s.%s", effect->name, n->name);
 }
 
+int iso_effect_group(iso_effect_id id, const char *name, const iso_effect_column **group)
+{
+    int column = ISO_COLUMN_EFFECTS + iso_effect_first_column(id);
+    for (const iso_effect_column *g = iso_effect_list[id]->columns; g && g->name; column += g->count, g++) {
+        if (group) *group = g;
+        if (name ? strcmp(g->name, name) == 0 : g->moves) return column;
+    }
+    return -1;
+}
+
 iso_status iso_record_describe_effects(iso_context *ctx, iso_record *r, const iso_effects *effects)
 {
     ISO_DEFAULT_ARITHMETIC;
@@ -176,24 +186,18 @@ bool iso_record_up(iso_context *ctx, const iso_record *r, double up[3])
     return fabs(length - 1) <= 1e-3;
 }
 
-/* The group of an effect's columns that is called `name`. */
-static const iso_effect_column *find_group(const iso_effect *effect, const char *name)
-{
-    const iso_effect_column *group = effect->columns;
-    while (strcmp(group->name, name) != 0) group++;
-    return group;
-}
-
 /* Numbers that turn with the ball: an orbit that starts at this row starts with the vertical, or quaternion, of the
  * row. */
-static iso_status turn_number(iso_context *ctx, const double row[], const iso_record *r, const iso_effect *effect,
+static iso_status turn_number(iso_context *ctx, const double row[], const iso_record *r, iso_effect_id id,
                               const iso_effect_number *n, double x[])
 {
     int columns[ISO_EFFECT_NUMBERS];
     const char *missing;
-    if (!iso_record_find_all(r, (size_t)n->count, find_group(effect, n->turns_with)->column, columns, &missing))
+    const iso_effect_column *group;
+    iso_effect_group(id, n->turns_with, &group);
+    if (!iso_record_find_all(r, (size_t)n->count, group->column, columns, &missing))
         return ISO_FAIL_INPUT(ctx, "columns", "the trajectory has no column '%s', without which '%s' is not known",
-                              missing, effect->name);
+                              missing, iso_effect_list[id]->name);
     for (int i = 0; i < n->count; i++) x[i] = row[columns[i]];
     return ISO_OK;
 }
@@ -204,7 +208,7 @@ static iso_status turn_effects(iso_context *ctx, const iso_record *r, const doub
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
         for (const iso_effect_number *n = iso_effect_list[e]->numbers; effects->on[e] && n && n->name; n++)
             if (status == ISO_OK && n->turns_with)
-                status = turn_number(ctx, row, r, iso_effect_list[e], n, iso_effect_values(effects, e, n));
+                status = turn_number(ctx, row, r, e, n, iso_effect_values(effects, e, n));
     return status;
 }
 

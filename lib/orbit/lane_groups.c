@@ -14,11 +14,6 @@ bool iso_lanes_suit(const iso_orbit *orbit)
            iso_method_serves(&iso_method_taylor, &orbit->model, why);
 }
 
-static bool share_lanes(const iso_lane_job *a, const iso_lane_job *b)
-{
-    return a->axis == b->axis && !a->time == !b->time && iso_lanes_alike(a->model, b->model);
-}
-
 bool iso_lanes_in_groups(iso_pool_worker *w, const iso_lane_code *code, double tolerance, long max_steps,
                          iso_lane_job *jobs[], size_t count)
 {
@@ -26,9 +21,10 @@ bool iso_lanes_in_groups(iso_pool_worker *w, const iso_lane_code *code, double t
     iso_lane_job **other = malloc((count + 1) * sizeof *other);
     bool memory = other != NULL;
     while (memory && count > 0) {
+        const iso_lane_job *a = jobs[0];
         size_t alike = 1, others = 0;
         for (size_t i = 1; i < count; i++)
-            if (share_lanes(jobs[0], jobs[i]))
+            if (a->axis == jobs[i]->axis && !a->time == !jobs[i]->time && iso_lanes_alike(a->model, jobs[i]->model))
                 jobs[alike++] = jobs[i];
             else
                 other[others++] = jobs[i];

@@ -30,13 +30,6 @@ static iso_status check_motion(const iso_chaos_walk *w, const iso_sample *start)
                           iso_model_kind_name((int)model));
 }
 
-static iso_status check_starts(const iso_chaos_walk *w)
-{
-    const iso_chaos_options *o = &w->options;
-    if (o->starts + o->at_count == 0) return ISO_OK;
-    return iso_refuse_starts(w->ctx, w->orbit, &w->effects, w->out->axis, o->at, o->at_count, o->starts > 0);
-}
-
 static iso_status check_options(const iso_chaos_walk *w)
 {
     const iso_chaos_options *o = &w->options;
@@ -150,6 +143,8 @@ static void count_shares(const iso_chaos_walk *w)
 /* All that comes before the first turn. */
 static iso_status prepare(iso_chaos_walk *w)
 {
+    const iso_chaos_options *o = &w->options;
+    const size_t starts = o->starts + o->at_count;
     iso_sample start;
     ISO_TRY(check_options(w));
     w->effects = iso_scene_acting(w->scene);
@@ -161,14 +156,14 @@ static iso_status prepare(iso_chaos_walk *w)
     ISO_TRY(check_motion(w, &start));
     choose_turn(w, &start, effect);
     ISO_TRY(check_section(w));
-    ISO_TRY(check_starts(w));
+    if (starts > 0)
+        ISO_TRY(iso_refuse_starts(w->ctx, w->orbit, &w->effects, w->out->axis, o->at, o->at_count, o->starts > 0));
     iso_section_state_level(w->orbit, &w->effects);
-    if (w->options.starts > 0)
-        iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->out->axis, w->options.seed);
+    if (o->starts > 0) iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->out->axis, o->seed);
     w->out->plane = effect ? -1 : find_plane(w->out->with[ISO_BALL] ? start.ball : start.point);
-    w->out->start = calloc(w->options.starts + w->options.at_count + 1, sizeof *w->out->start);
+    w->out->start = calloc(starts + 1, sizeof *w->out->start);
     if (!w->out->start) return iso_context_no_memory(w->ctx, "the starts");
-    for (size_t i = 0; i < w->options.starts + w->options.at_count; i++) w->out->start[i].number = i + 1;
+    for (size_t i = 0; i < starts; i++) w->out->start[i].number = i + 1;
     return ISO_OK;
 }
 

@@ -9,15 +9,6 @@
 #include "orbit/orbit_impl.h"
 #include "study/check/check_impl.h"
 
-/* The first column of a group of an effect, in a trajectory; NULL: that of the first group that moves. -1: none. */
-static int column_of(iso_effect_id id, const char *name)
-{
-    int column = ISO_COLUMN_EFFECTS + iso_effect_first_column(id);
-    for (const iso_effect_column *g = iso_effect_list[id]->columns; g && g->name; column += g->count, g++)
-        if (name ? strcmp(g->name, name) == 0 : g->moves) return column;
-    return -1;
-}
-
 /* Groups that are side by side and have one name in the report: `count` columns from `first` on. */
 typedef struct checked {
     const iso_effect_column *group;
@@ -30,12 +21,12 @@ typedef struct checked {
 static double other_size(const checker *c, const checked *k, const iso_sample *flow)
 {
     const double radius = c->params->body.radius > 0 ? c->params->body.radius : 1;
+    const iso_effect_column *g;
     double size = 0;
     if (!k->group->sized_by) return 0;
-    int first = ISO_COLUMN_EFFECTS + iso_effect_first_column(k->effect);
-    for (const iso_effect_column *g = iso_effect_list[k->effect]->columns; g->name; first += g->count, g++)
-        for (int i = 0; strcmp(g->name, k->group->sized_by) == 0 && i < g->count; i++)
-            size = fmax(size, fabs(iso_sample_column(flow, first + i)) * pow(radius, k->group->length - g->length));
+    const int first = iso_effect_group(k->effect, k->group->sized_by, &g);
+    for (int i = 0; i < g->count; i++)
+        size = fmax(size, fabs(iso_sample_column(flow, first + i)) * pow(radius, k->group->length - g->length));
     return size;
 }
 
@@ -87,7 +78,8 @@ void iso_checker_go_on(const checker *c, const double row[], iso_sample *flow)
     for (iso_effect_id e = 0; c->params->k == 1 && e < ISO_EFFECTS; e++)
         for (const iso_effect_column *g = iso_effect_list[e]->columns; g && g->name; column += g->count, g++)
             for (int i = 0; g->moves && i < g->count; i++) {
-                const int from = c->columns[column_of(e, NULL) + i]; /* the centre lacks only its height b n */
+                const int from =
+                    c->columns[iso_effect_group(e, NULL, NULL) + i]; /* the centre lacks only its height b n */
                 const double there = iso_sample_column(flow, column + i);
                 iso_sample_set_column(flow, column + i, from < 0 ? NAN : there + row[from]);
             }
@@ -102,10 +94,10 @@ bool iso_checker_has_effects(const checker *c)
 
 bool iso_checker_has_group(const checker *c, iso_effect_id id, const char *name)
 {
-    const iso_effect_column *g = iso_effect_list[id]->columns;
-    while (name ? strcmp(g->name, name) != 0 : !g->moves) g++;
+    const iso_effect_column *g;
+    const int first = iso_effect_group(id, name, &g);
     for (int i = 0; i < g->count; i++)
-        if (c->columns[column_of(id, name) + i] < 0) return false;
+        if (c->columns[first + i] < 0) return false;
     return true;
 }
 
@@ -113,7 +105,7 @@ bool iso_checker_has_group(const checker *c, iso_effect_id id, const char *name)
  * on a plane the displacement, without which the height is not known. */
 static bool has_beginning(const checker *c, iso_effect_id id)
 {
-    bool has = c->params->k != 1 || column_of(id, NULL) < 0 || iso_checker_has_group(c, id, NULL);
+    bool has = c->params->k != 1 || iso_effect_group(id, NULL, NULL) < 0 || iso_checker_has_group(c, id, NULL);
     for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++)
         if (n->turns_with) has = has && iso_checker_has_group(c, id, n->turns_with);
     return has;
@@ -210,11 +202,9 @@ iso_status iso_checker_energy(checker *c, checked_model *m, const double first[]
 static void compare_beginning(checker *c, checked_model *ball, iso_effect_id id, const iso_effect_number *n,
                               const double row[])
 {
-    const iso_effect_column *g = iso_effect_list[id]->columns;
-    int column = ISO_COLUMN_EFFECTS + iso_effect_first_column(id);
+    const int column = iso_effect_group(id, n->turns_with, NULL);
     double error = 0, size = 0;
     char key[ISO_NAME_SIZE];
-    for (; strcmp(g->name, n->turns_with) != 0; g++) column += g->count;
     for (int i = 0; i < n->count; i++) {
         const double stated = iso_effect_values(&c->stated, id, n)[i], there = iso_checker_at(c, row, column + i);
         error = fmax(error, fabs(there - stated));
