@@ -29,7 +29,7 @@ if(ISO_HDF5)
   endforeach()
 endif()
 
-# HDF5 is not linked: it is loaded when the first .h5 file is opened (io/hdf5/hdf5_library_impl.h). Here is its name.
+# HDF5 is not linked: it is loaded when the first .h5 file is opened (io/hdf5/hdf5_impl.h). Here is its name.
 if(ISO_HDF5 AND isoroll_hdf5_FOUND)
   list(FILTER isoroll_hdf5_LINK_LIBRARIES INCLUDE REGEX "libhdf5[^/]*$")
   set(ISO_HDF5_FILE NOTFOUND ${isoroll_hdf5_LINK_LIBRARIES})

@@ -1,14 +1,19 @@
-/* context.c - the context: the message of the last failure, the monitor, the SUNDIALS context (context.h). */
+/* context.c - the context: the message of the last failure, the monitor, the SUNDIALS context (context.h); and what
+ * every call begins with: options of a known size, default arithmetic. */
 #include "base/context.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/monitor_impl.h"
+#include "base/options_impl.h"
 #include "base/place_impl.h"
 #include "base/room_impl.h"
 #include "base/sundials_impl.h"
+#include "base/version.h"
 
 struct iso_context {
     SUNContext sun; /* made when the first SUNDIALS method asks for it */
@@ -127,3 +132,55 @@ void iso_sundials_quiet(int code, const char *module, const char *function, char
     (void)code, (void)module, (void)function, (void)message, (void)user;
 }
 #endif
+
+/* --- options ---------------------------------------------------------------------------------------------------- */
+
+iso_status iso_options_take(iso_context *ctx, const char *name, void *own, size_t known, const void *given)
+{
+    size_t size;
+    if (!given) return ISO_OK;
+    memcpy(&size, given, sizeof size);
+    if (size > known)
+        return ISO_FAIL_ARGUMENT(ctx, "size",
+                                 "%s has %zu bytes, isoroll %s knows %zu: the program was compiled against a newer "
+                                 "isoroll, or did not set size",
+                                 name, size, ISO_VERSION, known);
+    memcpy(own, given, size > 0 ? size : known);
+    memcpy(own, &known, sizeof known);
+    return ISO_OK;
+}
+
+/* --- arithmetic ------------------------------------------------------------------------------------------------- */
+
+#if defined(__x86_64__) && defined(__GLIBC__)
+#include <fpu_control.h>
+#include <xmmintrin.h>
+
+/* Asking the control words costs a hundredth of setting them. */
+static bool is_default(void)
+{
+    enum {
+        FLAGS = 0x3F,
+        NO_TRAPS_TO_NEAREST = 0x1F80
+    }; /* of MXCSR: what has happened; flush-to-zero is in its rest */
+    fpu_control_t x87;
+    _FPU_GETCW(x87);
+    return x87 == _FPU_DEFAULT && (_mm_getcsr() & ~(unsigned)FLAGS) == NO_TRAPS_TO_NEAREST;
+}
+#else
+static bool is_default(void)
+{
+    return false;
+}
+#endif
+
+void iso_arithmetic_enter(iso_arithmetic *a)
+{
+    a->changed = !is_default() && fegetenv(&a->host) == 0;
+    if (a->changed) fesetenv(FE_DFL_ENV);
+}
+
+void iso_arithmetic_leave(iso_arithmetic *a)
+{
+    if (a->changed) fesetenv(&a->host);
+}

@@ -48,6 +48,12 @@ ISO_API iso_status iso_context_fail(iso_context *ctx, iso_status status, const c
 #endif
     ;
 
+/* The three most frequent: a call with numbers or names that it does not take, a scene or a file that says what cannot
+ * be, and numbers that do not get there. */
+#define ISO_FAIL_ARGUMENT(ctx, about, ...) iso_context_fail(ctx, ISO_BAD_ARGUMENT, about, __VA_ARGS__)
+#define ISO_FAIL_INPUT(ctx, about, ...) iso_context_fail(ctx, ISO_BAD_INPUT, about, __VA_ARGS__)
+#define ISO_FAIL_NUMERICAL(ctx, ...) iso_context_fail(ctx, ISO_NUMERICAL, "", __VA_ARGS__)
+
 /* Two frequent failures: ISO_NO_MEMORY, "no memory for " and what, in printf's words; ISO_STOPPED, "stopped on
  * request". */
 ISO_API iso_status iso_context_no_memory(iso_context *ctx, const char *what, ...)

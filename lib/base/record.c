@@ -42,11 +42,11 @@ iso_status iso_record_create(iso_context *ctx, size_t columns, const char *const
     *record = NULL;
     for (size_t i = 0; i < columns; i++) {
         if (strlen(names[i]) >= NAME_SIZE)
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "column name '%s' is longer than %d characters",
-                                    names[i], NAME_SIZE - 1);
+            return ISO_FAIL_ARGUMENT(ctx, "", "column name '%s' is longer than %d characters", names[i],
+                                     NAME_SIZE - 1);
         for (size_t j = 0; j < i; j++)
             if (strcmp(names[i], names[j]) == 0)
-                return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "column '%s' appears twice", names[i]);
+                return ISO_FAIL_ARGUMENT(ctx, "", "column '%s' appears twice", names[i]);
     }
     iso_record *r = calloc(1, sizeof *r);
     if (!r) return no_memory(ctx);
@@ -364,7 +364,7 @@ bool iso_record_get_numbers(iso_context *ctx, const iso_record *r, const char *k
         at += length;
     }
     if (found == count) return true;
-    *status = iso_context_fail(ctx, ISO_BAD_INPUT, key, "'%s: %s' should be %zu finite number%s", key, text, count,
-                               count == 1 ? "" : "s");
+    *status =
+        ISO_FAIL_INPUT(ctx, key, "'%s: %s' should be %zu finite number%s", key, text, count, count == 1 ? "" : "s");
     return false;
 }

@@ -37,14 +37,13 @@ static iso_status check_numbers(iso_context *ctx, const iso_problem *f, const do
 {
     const double *g = point + 3, square = dot(g, g);
     if (!all_finite(point, ISO_STATE) || !(square > 0))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "the start is not finite, or gamma is zero");
+        return ISO_FAIL_ARGUMENT(ctx, "", "the start is not finite, or gamma is zero");
     if (!(f->eps > 0 && isnormal(f->eps)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "eps", "the closed solution needs a coupling eps > 0");
+        return ISO_FAIL_ARGUMENT(ctx, "eps", "the closed solution needs a coupling eps > 0");
     const double q = dot_diag(g, f->p.J, g) / square, fall = f->eps * pow(q, -1 / f->p.k), M2 = dot(point, point);
     const bool on_level = f->energy == 0 ? M2 > 0 : fabs(M2 / 2 - fall - f->energy) <= 1e-6 * (M2 / 2 + fall);
     if (isfinite(fall) && on_level) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_level_name(), "this start is not on the level H = %g",
-                            f->energy);
+    return ISO_FAIL_ARGUMENT(ctx, iso_level_name(), "this start is not on the level H = %g", f->energy);
 }
 
 static iso_status check(iso_context *ctx, const iso_problem *f, const double point[ISO_STATE])
@@ -52,8 +51,8 @@ static iso_status check(iso_context *ctx, const iso_problem *f, const double poi
     const iso_effect *effect = iso_effects_beyond_level(&f->effects);
     if (!effect) effect = iso_effects_ball_only(&f->effects);
     if (!effect) return check_numbers(ctx, f, point);
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, effect->name,
-                            "the closed solution is for a free motion, not one with '%s'", effect->name);
+    return ISO_FAIL_ARGUMENT(ctx, effect->name, "the closed solution is for a free motion, not one with '%s'",
+                             effect->name);
 }
 
 static const iso_form *form_for(const iso_problem *f, const double point[ISO_STATE])
@@ -75,12 +74,11 @@ static iso_status find_form(iso_context *ctx, const iso_problem *f, double point
     *form = form_for(f, snapped);
     if (*form) return copy(snapped, point, ISO_STATE), ISO_OK;
     if (f->p.k == 1)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_level_name(),
-                                "k = 1 has a closed solution on the level H = 0 alone");
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k",
-                            "k = %.*g has a closed solution only where two moments of inertia are equal, or in a "
-                            "principal plane; k = 1 and k = -1 have one everywhere",
-                            fabs(fabs(f->p.k) - 1) < 1e-14 ? 17 : 15, f->p.k); /* 1 + 1e-15 must not read as 1 */
+        return ISO_FAIL_ARGUMENT(ctx, iso_level_name(), "k = 1 has a closed solution on the level H = 0 alone");
+    return ISO_FAIL_ARGUMENT(ctx, "k",
+                             "k = %.*g has a closed solution only where two moments of inertia are equal, or in a "
+                             "principal plane; k = 1 and k = -1 have one everywhere",
+                             fabs(fabs(f->p.k) - 1) < 1e-14 ? 17 : 15, f->p.k); /* 1 + 1e-15 must not read as 1 */
 }
 
 /* A time so short that gamma turns by a tenth of a radian at most, and the clocks' rates change
@@ -156,8 +154,7 @@ static iso_status find_end(iso_context *ctx, const iso_problem *f, const iso_exa
                 iso_clock_rate(&f->p, ISO_CLOCK_S, q, NULL) * 2 * ISO_PI_LONG / STEPS_A_TURN / speed;
     }
     if (near < STEPS_A_TURN)
-        return iso_context_fail(ctx, ISO_NUMERICAL, "",
-                                "the orbit lies on a separatrix that it follows for too long");
+        return ISO_FAIL_NUMERICAL(ctx, "the orbit lies on a separatrix that it follows for too long");
     for (int i = 0; i < 3; i++) {
         end->clock[i] = p.clock[i];
         if (i == axis) p.point[3 + i] = 0;
@@ -191,12 +188,11 @@ static iso_status make(iso_context *ctx, const iso_problem *problem, const doubl
     if (status == ISO_NO_MEMORY) return iso_context_fail(ctx, status, "", "no memory for a closed solution");
     if (status != ISO_OK)
         return iso_context_fail(ctx, status, "",
-                                "the closed solution would need too many terms: a body too extreme, "
-                                "or an orbit too close to a separatrix");
+                                "the closed solution would need too many terms: a body too extreme, or an orbit too "
+                                "close to a separatrix");
     if (!begins(x, point))
-        return iso_context_fail(ctx, ISO_NUMERICAL, "",
-                                "the closed solution has too few digits: a body too extreme, or "
-                                "an orbit that comes to rest");
+        return ISO_FAIL_NUMERICAL(
+            ctx, "the closed solution has too few digits: a body too extreme, or an orbit that comes to rest");
     x->params = problem->p;
     find_moments(problem, point, x->moment);
     const int axis = x->form->unstable(x->data);
@@ -238,9 +234,9 @@ void iso_exact_free(iso_exact *x)
 static iso_status check_time(iso_context *ctx, const iso_exact *x, iso_clock clock, double time)
 {
     if (!x->has[clock])
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "this closed solution was made without the clock %s",
-                                iso_clock_name(clock));
-    return isfinite(time) ? ISO_OK : iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a time is not finite");
+        return ISO_FAIL_ARGUMENT(ctx, "", "this closed solution was made without the clock %s",
+                                 iso_clock_name(clock));
+    return isfinite(time) ? ISO_OK : ISO_FAIL_ARGUMENT(ctx, "", "a time is not finite");
 }
 
 static iso_status check_place(iso_context *ctx, const iso_exact *x, const form_place *p)
@@ -248,7 +244,7 @@ static iso_status check_place(iso_context *ctx, const iso_exact *x, const form_p
     bool finite = all_finite(p->point, ISO_STATE);
     for (int c = 0; c < ISO_CLOCKS; c++) finite = finite && (!x->has[c] || isfinite((double)p->clock[c]));
     if (finite) return ISO_OK;
-    return iso_context_fail(ctx, ISO_NUMERICAL, "", "the closed solution is not finite, or has no memory");
+    return ISO_FAIL_NUMERICAL(ctx, "the closed solution is not finite, or has no memory");
 }
 
 static void hand_over(const iso_exact *x, const form_place *p, double point[ISO_STATE], double clocks[ISO_CLOCKS])
@@ -262,8 +258,7 @@ iso_status iso_exact_at(iso_context *ctx, const iso_exact *x, iso_clock clock, d
 {
     ISO_DEFAULT_ARITHMETIC;
     form_place p = {.along = NAN};
-    const iso_status status = check_time(ctx, x, clock, time);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_time(ctx, x, clock, time));
     find(x, clock, time, &p);
     hand_over(x, &p, point, clocks);
     return check_place(ctx, x, &p);
@@ -288,8 +283,7 @@ iso_status iso_exact_walk_to(iso_context *ctx, const iso_exact *x, iso_exact_wal
                              double point[ISO_STATE], double clocks[ISO_CLOCKS])
 {
     ISO_DEFAULT_ARITHMETIC;
-    const iso_status status = check_time(ctx, x, clock, time);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_time(ctx, x, clock, time));
     if (w->known > 0 && !(fabs(time - w->time) <= w->longest * x->moment[clock])) w->known = 0;
     const real even = time / x->form->rate(x->data, clock);
     const real guess = w->known == ISO_EXACT_TRAIL ? even + extrapolate(w->trail, ISO_EXACT_TRAIL) : NAN;
@@ -322,16 +316,15 @@ iso_status iso_exact_grid(iso_context *ctx, const iso_exact *x, iso_clock clock,
 static iso_status check_angles(iso_context *ctx, const iso_exact *x)
 {
     if (x->form->angles && !x->past.rotation) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a point at rest and an orbit on a separatrix have no angles");
+    return ISO_FAIL_ARGUMENT(ctx, "", "a point at rest and an orbit on a separatrix have no angles");
 }
 
 iso_status iso_exact_angles(iso_context *ctx, const iso_exact *x, const double point[ISO_STATE], double angle[2])
 {
     ISO_DEFAULT_ARITHMETIC;
-    const iso_status status = check_angles(ctx, x);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_angles(ctx, x));
     if (!all_finite(point, ISO_STATE) || !x->form->angles(x->data, point, angle))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "this state is not on the torus of this motion");
+        return ISO_FAIL_ARGUMENT(ctx, "", "this state is not on the torus of this motion");
     for (int i = 0; i < 2; i++) angle[i] -= 2 * ISO_PI * floor(angle[i] / (2 * ISO_PI));
     return ISO_OK;
 }
@@ -339,11 +332,10 @@ iso_status iso_exact_angles(iso_context *ctx, const iso_exact *x, const double p
 iso_status iso_exact_point(iso_context *ctx, const iso_exact *x, const double angle[2], double point[ISO_STATE])
 {
     ISO_DEFAULT_ARITHMETIC;
-    const iso_status status = check_angles(ctx, x);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_angles(ctx, x));
     x->form->point(x->data, angle, point);
     if (all_finite(point, ISO_STATE)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "an angle is not finite");
+    return ISO_FAIL_ARGUMENT(ctx, "", "an angle is not finite");
 }
 
 iso_exact_torus iso_exact_describe(const iso_exact *x)

@@ -64,12 +64,6 @@ static iso_status open_direct(iso_context *ctx, iso_output *out, const char *pat
     return status;
 }
 
-static void open_stdout(iso_output *out)
-{
-    out->file = stdout;
-    out->name = "<stdout>";
-}
-
 iso_status iso_output_open(iso_context *ctx, const char *path, iso_output **answer)
 {
     struct stat old;
@@ -79,7 +73,7 @@ iso_status iso_output_open(iso_context *ctx, const char *path, iso_output **answ
     if (!out) return no_memory(ctx);
     const struct stat *known = stat(path, &old) == 0 ? &old : NULL;
     if (strcmp(path, "-") == 0)
-        open_stdout(out);
+        out->file = stdout, out->name = "<stdout>";
     else
         status = is_direct(path, known) ? open_direct(ctx, out, path) : open_regular(ctx, out, path);
     if (status == ISO_OK)

@@ -9,7 +9,6 @@
 #include "base/arithmetic_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"
-#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 
 enum { LARGEST_FILE = 16 << 20 };
@@ -134,7 +133,7 @@ static iso_status make_D(iso_draft *d)
     if (isnan(d->D)) return ISO_OK;
     iso_status status;
     if (d->scene.params.D > 0)
-        status = iso_context_fail(d->yaml.ctx, ISO_BAD_INPUT, "D", "this ball's D = m b^2 is known: take it out");
+        status = ISO_FAIL_INPUT(d->yaml.ctx, "D", "this ball's D = m b^2 is known: take it out");
     else
         status = iso_params_set_D(d->yaml.ctx, d->D, &d->scene.params);
     return iso_scene_blame(d->yaml.ctx, &d->scene, d->yaml.name, status);
@@ -234,13 +233,12 @@ iso_status iso_scene_change(iso_context *ctx, const char *text, iso_scene *scene
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_draft d = iso_draft_empty(ctx, "change");
-    iso_status status = iso_yaml_load(&d.yaml, text, strlen(text));
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_yaml_load(&d.yaml, text, strlen(text)));
     d.root = yaml_document_get_root_node(&d.yaml.document);
     d.scene = *scene;
     d.backend = (int)scene->backend;
     d.as = (int)scene->as;
-    status = iso_draft_read_changes(&d);
+    iso_status status = iso_draft_read_changes(&d);
     iso_yaml_free(&d.yaml);
     d.scene.backend = (iso_backend)d.backend;
     d.scene.as = (iso_models)d.as;

@@ -51,16 +51,7 @@ static iso_status read_flag(iso_draft *d, const entry *e, const yaml_node_t *val
 /* One of the words an enum is written with. */
 static iso_status read_word(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    const char *names[MAX_KEYS];
-    size_t count = 0;
-    for (int i = 0; e->word(i); i++) {
-        if (!(e->words & (1u << i))) continue;
-        if (iso_yaml_is(value, e->word(i))) return *(int *)target(d, e) = i, ISO_OK;
-        names[count++] = e->word(i);
-    }
-    if (value->type != YAML_SCALAR_NODE || value->data.scalar.length == 0)
-        return iso_yaml_expected(&d->yaml, value, e->name, "a name");
-    return iso_yaml_unknown(&d->yaml, value, e->name, count, names);
+    return iso_yaml_word(&d->yaml, value, e->name, e->word, e->words, target(d, e));
 }
 
 static iso_status read_step(iso_draft *d, const entry *e, const yaml_node_t *value)
@@ -127,20 +118,6 @@ static iso_status read_D(iso_draft *d, const entry *e, const yaml_node_t *value)
     return ISO_FAIL_AT(d, value, "'D' is %g here and %g elsewhere", d->D, before);
 }
 
-/* Three rows of three numbers. */
-static iso_status read_matrix(iso_draft *d, const entry *e, const yaml_node_t *value, double matrix[9])
-{
-    if (value->type != YAML_SEQUENCE_NODE)
-        return iso_yaml_expected(&d->yaml, value, e->name, "three rows of three numbers");
-    const int rows = (int)(value->data.sequence.items.top - value->data.sequence.items.start);
-    if (rows != 3) return ISO_FAIL_AT(d, value, "'%s' should be three rows of three numbers, not %d", e->name, rows);
-    for (int i = 0; i < 3; i++) {
-        const yaml_node_t *row = iso_yaml_node(&d->yaml, value->data.sequence.items.start[i]);
-        ISO_TRY(iso_yaml_numbers(&d->yaml, row, e->name, 3, matrix + 3 * i));
-    }
-    return ISO_OK;
-}
-
 static iso_status read_effect_flag(iso_draft *d, const entry *e, const yaml_node_t *value, double *number)
 {
     bool flag = false;
@@ -155,31 +132,12 @@ static iso_status read_effect_number(iso_draft *d, const entry *e, const yaml_no
     double *x = iso_effect_values(&d->scene.effects, e->effect, e->number);
     if (e->number->kind == ISO_NUMBER_FLAG) return read_effect_flag(d, e, value, x);
     if (e->number->count == 1) return iso_yaml_number(&d->yaml, value, e->name, x);
-    if (e->number->count == 9) return read_matrix(d, e, value, x);
     return iso_yaml_numbers(&d->yaml, value, e->name, e->number->count, x);
 }
 
 /* ---- Sections ---- */
 
-static const entry *find_entry(const entry *entries, const yaml_node_t *key)
-{
-    for (; entries->name; entries++)
-        if (iso_yaml_is(key, entries->name)) return entries;
-    return NULL;
-}
-
 static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *value);
-
-static iso_status unknown_key(iso_draft *d, const entry *entries, const yaml_node_t *key)
-{
-    const char *names[MAX_KEYS];
-    size_t count = 0;
-    if (key->type != YAML_SCALAR_NODE) return ISO_FAIL_AT(d, key, "a key should be a name, not a list or a mapping");
-    for (; entries[count].name && count < MAX_KEYS; count++) names[count] = entries[count].name;
-    if (count == 0)
-        return ISO_FAIL_AT(d, key, "'%s': this has no settings: write {}", (const char *)key->data.scalar.value);
-    return iso_yaml_unknown(&d->yaml, key, entries->read == read_effect ? "effect" : "key", count, names);
-}
 
 /* For what is found wrong only later, when an orbit is made. */
 static void note_place(iso_scene *s, const char *key, yaml_mark_t at)
@@ -194,14 +152,12 @@ static void note_place(iso_scene *s, const char *key, yaml_mark_t at)
 static iso_status read_pair(iso_draft *d, const entry *entries, const yaml_node_t *mapping,
                             const yaml_node_pair_t *pair)
 {
-    const yaml_node_t *key = iso_yaml_node(&d->yaml, pair->key), *first;
-    const entry *e = find_entry(entries, key);
-    if (!e) return unknown_key(d, entries, key);
-    iso_yaml_find(&d->yaml, mapping, e->name, &first, NULL);
-    if (first != key)
-        return ISO_FAIL_AT(d, key, "duplicate key '%s', first written in line %zu", e->name,
-                           first->start_mark.line + 1);
-    const yaml_node_t *value = iso_yaml_node(&d->yaml, pair->value);
+    const yaml_node_t *key = iso_yaml_node(&d->yaml, pair->key), *value = iso_yaml_node(&d->yaml, pair->value);
+    const char *names[MAX_KEYS], *what = entries->read == read_effect ? "effect" : "key";
+    size_t count = 0, i;
+    for (; entries[count].name && count < MAX_KEYS; count++) names[count] = entries[count].name;
+    ISO_TRY(iso_yaml_key(&d->yaml, mapping, key, what, count, names, &i));
+    const entry *e = &entries[i];
     note_place(&d->scene, e->name, value->start_mark);
     d->key = key;
     return e->read(d, e, value);

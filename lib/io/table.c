@@ -51,8 +51,7 @@ static iso_status check(iso_context *ctx, const char *path, bool hdf5)
 {
     const iso_table_reading *format = HDF5(iso_hdf5_reading);
     if (format || !hdf5) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "'%s': this build has no HDF5 (.h5), use CSV, a name in .csv",
-                            path);
+    return ISO_FAIL_ARGUMENT(ctx, "", "'%s': this build has no HDF5 (.h5), use CSV, a name in .csv", path);
 }
 
 iso_status iso_table_check_format(iso_context *ctx, const char *path)
@@ -134,8 +133,8 @@ iso_status iso_table_read_all(iso_context *ctx, iso_table_reader *r, iso_record 
     const double numbers = (double)r->rows * (double)columns;
     *record = NULL;
     if (!r->trajectory && numbers > MOST_NUMBERS)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s: %zu rows of %zu columns are more than %g numbers",
-                                r->name, r->rows, columns, MOST_NUMBERS);
+        return ISO_FAIL_INPUT(ctx, "", "%s: %zu rows of %zu columns are more than %g numbers", r->name, r->rows,
+                              columns, MOST_NUMBERS);
     double *row = malloc((columns + 1) * sizeof *row), *to;
     bool more = true;
     if (!row) return iso_text_no_memory(ctx, "read", r->name);
@@ -224,21 +223,19 @@ static iso_status look_for_words(iso_context *ctx, iso_table_writer *w, const is
         if (!iso_record_has_words(header, i)) continue;
         w->words = header;
         if (iso_table_has_words(iso_record_name(header, i))) continue;
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "the column '%s' cannot have words",
-                                iso_record_name(header, i));
+        return ISO_FAIL_ARGUMENT(ctx, "", "the column '%s' cannot have words", iso_record_name(header, i));
     }
     return ISO_OK;
 }
 
 iso_status iso_table_write_header(iso_context *ctx, iso_table_writer *w, const iso_record *header)
 {
-    if (w->header) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "the header is already written");
+    if (w->header) return ISO_FAIL_ARGUMENT(ctx, "", "the header is already written");
     if (w->finite && iso_record_columns(header) > (size_t)iso_columns_count())
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a trajectory has at most %d columns",
-                                iso_columns_count());
-    iso_status status = look_for_words(ctx, w, header);
-    if (status == ISO_OK) status = iso_record_create_like(ctx, header, 0, NULL, &w->header);
-    return status == ISO_OK ? w->format->header(ctx, w, header) : status;
+        return ISO_FAIL_ARGUMENT(ctx, "", "a trajectory has at most %d columns", iso_columns_count());
+    ISO_TRY(look_for_words(ctx, w, header));
+    ISO_TRY(iso_record_create_like(ctx, header, 0, NULL, &w->header));
+    return w->format->header(ctx, w, header);
 }
 
 /* Only finite numbers can be read back as a trajectory. */
@@ -257,8 +254,7 @@ iso_status iso_table_write_row(iso_context *ctx, iso_table_writer *w, const doub
 {
     ISO_DEFAULT_ARITHMETIC;
     double mark[ISO_TRAJECTORY_COLUMNS];
-    if (!w->header || (!row && !w->finite))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "no header before the row, or no row");
+    if (!w->header || (!row && !w->finite)) return ISO_FAIL_ARGUMENT(ctx, "", "no header before the row, or no row");
     for (size_t i = 0; !row && i < iso_record_columns(w->header); i++) mark[i] = NAN;
     ISO_TRY(row && w->finite ? check_row(ctx, w, row) : ISO_OK);
     w->rows++;

@@ -47,8 +47,7 @@ static iso_status load(iso_context *ctx, FILE *file, const char *path, size_t li
     (*text)[*length] = '\0';
     if (*length <= limit) return ISO_OK;
     return iso_context_placed(
-        ctx,
-        iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s:1:1: larger than %zu MiB: this is no scene", path, limit >> 20));
+        ctx, ISO_FAIL_INPUT(ctx, "", "%s:1:1: larger than %zu MiB: this is no scene", path, limit >> 20));
 }
 
 iso_status iso_text_load(iso_context *ctx, const char *path, size_t limit, char **text, size_t *length)

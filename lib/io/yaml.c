@@ -25,8 +25,8 @@ iso_status iso_yaml_fail(const iso_yaml *y, yaml_mark_t at, const char *format, 
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
-    return iso_context_placed(y->ctx, iso_context_fail(y->ctx, ISO_BAD_INPUT, "", "%s:%zu:%zu: %s", y->name,
-                                                       at.line + 1, at.column + 1, message));
+    return iso_context_placed(
+        y->ctx, ISO_FAIL_INPUT(y->ctx, "", "%s:%zu:%zu: %s", y->name, at.line + 1, at.column + 1, message));
 }
 
 /* Line and column (in characters) of a byte: errors of libyaml's reader carry no mark. */
@@ -84,8 +84,7 @@ static iso_status check_event(const iso_yaml *y, const yaml_event_t *e, tally *s
     case YAML_DOCUMENT_START_EVENT:
         if (++seen->documents > 1)
             return iso_yaml_fail(y, e->start_mark,
-                                 "a second document: a file holds one scene, put others in files "
-                                 "of their own");
+                                 "a second document: a file holds one scene, put others in files of their own");
         break;
     case YAML_STREAM_END_EVENT:
         if (seen->documents == 0)
@@ -203,6 +202,37 @@ iso_status iso_yaml_unknown(const iso_yaml *y, const yaml_node_t *n, const char 
                          iso_suggest(suggested, quoted, count, names));
 }
 
+iso_status iso_yaml_key(iso_yaml *y, const yaml_node_t *mapping, const yaml_node_t *key, const char *unknown,
+                        size_t count, const char *const names[], size_t *i)
+{
+    const yaml_node_t *first;
+    if (key->type != YAML_SCALAR_NODE)
+        return iso_yaml_fail(y, key->start_mark, "a key should be a name, not a list or a mapping");
+    for (*i = 0; *i < count && !iso_yaml_is(key, names[*i]);) ++*i;
+    if (count == 0)
+        return iso_yaml_fail(y, key->start_mark, "'%s': this has no settings: write {}",
+                             (const char *)key->data.scalar.value);
+    if (*i == count) return iso_yaml_unknown(y, key, unknown, count, names);
+    iso_yaml_find(y, mapping, names[*i], &first, NULL);
+    if (first == key) return ISO_OK;
+    return iso_yaml_fail(y, key->start_mark, "duplicate key '%s', first written in line %zu", names[*i],
+                         first->start_mark.line + 1);
+}
+
+iso_status iso_yaml_word(const iso_yaml *y, const yaml_node_t *n, const char *what, const char *(*word)(int),
+                         unsigned allowed, int *value)
+{
+    const char *names[8 * sizeof allowed];
+    size_t count = 0;
+    for (int i = 0; i < (int)(8 * sizeof allowed) && word(i); i++) {
+        if (!(allowed >> i & 1)) continue;
+        if (iso_yaml_is(n, word(i))) return *value = i, ISO_OK;
+        names[count++] = word(i);
+    }
+    if (n->type != YAML_SCALAR_NODE || n->data.scalar.length == 0) return iso_yaml_expected(y, n, what, "a name");
+    return iso_yaml_unknown(y, n, what, count, names);
+}
+
 static bool number(const yaml_node_t *n, double *value)
 {
     return n->type == YAML_SCALAR_NODE && n->data.scalar.style == YAML_PLAIN_SCALAR_STYLE &&
@@ -214,9 +244,21 @@ iso_status iso_yaml_number(const iso_yaml *y, const yaml_node_t *n, const char *
     return number(n, value) ? ISO_OK : iso_yaml_expected(y, n, what, "a finite number");
 }
 
+static iso_status three_rows(iso_yaml *y, const yaml_node_t *n, const char *what, double matrix[9])
+{
+    if (n->type != YAML_SEQUENCE_NODE) return iso_yaml_expected(y, n, what, "three rows of three numbers");
+    const yaml_node_item_t *items = n->data.sequence.items.start;
+    const int rows = (int)(n->data.sequence.items.top - items);
+    if (rows != 3)
+        return iso_yaml_fail(y, n->start_mark, "'%s' should be three rows of three numbers, not %d", what, rows);
+    for (int i = 0; i < 3; i++) ISO_TRY(iso_yaml_numbers(y, iso_yaml_node(y, items[i]), what, 3, matrix + 3 * i));
+    return ISO_OK;
+}
+
 iso_status iso_yaml_numbers(iso_yaml *y, const yaml_node_t *n, const char *what, int count, double values[])
 {
     char expected[48];
+    if (count == 9) return three_rows(y, n, what, values);
     snprintf(expected, sizeof expected, "a list of %d finite numbers", count);
     if (n->type != YAML_SEQUENCE_NODE) return iso_yaml_expected(y, n, what, expected);
     const yaml_node_item_t *items = n->data.sequence.items.start;

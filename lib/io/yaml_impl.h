@@ -46,7 +46,16 @@ iso_status iso_yaml_expected(const iso_yaml *y, const yaml_node_t *node, const c
 iso_status iso_yaml_unknown(const iso_yaml *y, const yaml_node_t *node, const char *what, size_t count,
                             const char *const names[]);
 
-/* The value of `what` as a finite number, a list of `count` numbers, true or false. */
+/* Which of the names a key of the mapping is, in *i; unknown: what messages call it ("key"). Errors: ISO_BAD_INPUT,
+ * also for a key that is there twice. */
+iso_status iso_yaml_key(iso_yaml *y, const yaml_node_t *mapping, const yaml_node_t *key, const char *unknown,
+                        size_t count, const char *const names[], size_t *i);
+
+/* The value of `what` as one of the words of an enum (word(0), word(1), ...), those whose bit is set in `allowed`. */
+iso_status iso_yaml_word(const iso_yaml *y, const yaml_node_t *n, const char *what, const char *(*word)(int),
+                         unsigned allowed, int *value);
+
+/* The value of `what` as a finite number, a list of `count` numbers (9: three rows of three), true or false. */
 iso_status iso_yaml_number(const iso_yaml *y, const yaml_node_t *node, const char *what, double *value);
 iso_status iso_yaml_numbers(iso_yaml *y, const yaml_node_t *node, const char *what, int count, double values[]);
 iso_status iso_yaml_flag(const iso_yaml *y, const yaml_node_t *node, const char *what, bool *value);

@@ -15,16 +15,12 @@ struct iso_dense {
     iso_gsl gsl;
 };
 
-static const gsl_odeiv2_step_type *step_type(const iso_integrator *it)
-{
-    return iso_method_auto(&it->model)->implicit ? gsl_odeiv2_step_bsimp : gsl_odeiv2_step_rk8pd;
-}
-
 iso_status iso_dense_create(iso_integrator *it)
 {
+    const bool implicit = iso_method_auto(&it->model)->implicit;
     iso_dense *dense = calloc(1, sizeof *dense);
     if (!dense) return iso_context_no_memory(it->ctx, "an integrator");
-    const iso_status status = iso_gsl_open(it, step_type(it), &dense->gsl);
+    const iso_status status = iso_gsl_open(it, implicit ? gsl_odeiv2_step_bsimp : gsl_odeiv2_step_rk8pd, &dense->gsl);
     if (status != ISO_OK) return free(dense), status;
     it->dense = dense;
     return ISO_OK;

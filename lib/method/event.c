@@ -36,7 +36,7 @@ static double g_of(search *s, const double y[])
 {
     const double g = s->event->g(&s->it->model, y, s->event->data);
     if (!isfinite(g) && s->status == ISO_OK)
-        s->status = iso_context_fail(s->it->ctx, ISO_NUMERICAL, "", "the event function is not finite");
+        s->status = ISO_FAIL_NUMERICAL(s->it->ctx, "the event function is not finite");
     return s->status == ISO_OK ? g : 0;
 }
 
@@ -155,8 +155,7 @@ iso_status iso_integrator_event(iso_integrator *it, const iso_event *event, doub
     const int direction = to > 0 ? 1 : -1;
     *found = false;
     if (!isfinite(from) || !isfinite(to) || direction * from < 0 || direction * (to - from) < 0)
-        return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "", "events are sought away from 0: %g to %g is not", from,
-                                to);
+        return ISO_FAIL_ARGUMENT(it->ctx, "", "events are sought away from 0: %g to %g is not", from, to);
     search s = {.it = it, .event = event, .status = iso_integrator_reach(it, direction, from)};
     for (double dt; s.status == ISO_OK; s.status = iso_integrator_advance(it)) {
         const double skip = direction * fmax(1e-9 * fabs(it->h), 4 * DBL_EPSILON * fabs(from)); /* a zero at `from` */

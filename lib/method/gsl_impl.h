@@ -1,4 +1,4 @@
-/* gsl_impl.h - GSL's loop over the steps of a model (gsl_loop.c): the methods of gsl.c and dense.c use it. */
+/* gsl_impl.h - GSL's loop over the steps of a model (gsl.c), which dense.c uses as well. */
 #ifndef ISO_METHOD_GSL_IMPL_H
 #define ISO_METHOD_GSL_IMPL_H
 

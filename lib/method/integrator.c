@@ -14,8 +14,7 @@
 iso_status iso_tolerance_check(iso_context *ctx, double tolerance)
 {
     if (iso_tolerance_is_good(tolerance)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in " ISO_TOLERANCE_RANGE,
-                            tolerance);
+    return ISO_FAIL_ARGUMENT(ctx, "tolerance", "tolerance %g is not in " ISO_TOLERANCE_RANGE, tolerance);
 }
 
 /* Whether the method serves the model, and takes the fixed steps that the options ask for. */
@@ -24,15 +23,13 @@ static iso_status check_method(iso_context *ctx, const iso_method *method, const
 {
     char why[ISO_WHY_SIZE];
     if (!iso_method_serves(method, model, why))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "%s %s; take %s", method->name, why,
-                                iso_method_auto(model)->name);
+        return ISO_FAIL_ARGUMENT(ctx, "method", "%s %s; take %s", method->name, why, iso_method_auto(model)->name);
     if (!(options->fixed_step > 0)) return ISO_OK;
     if (!method->fixed)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%s takes no fixed steps: it chooses its own",
-                                method->name);
+        return ISO_FAIL_ARGUMENT(ctx, "", "%s takes no fixed steps: it chooses its own", method->name);
     if (!method->steps_in_s || model->clock == ISO_CLOCK_S) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "the steps of %s are fixed in s: they cannot be in %s",
-                            method->name, iso_clock_name(model->clock));
+    return ISO_FAIL_ARGUMENT(ctx, "method", "the steps of %s are fixed in s: they cannot be in %s", method->name,
+                             iso_clock_name(model->clock));
 }
 
 iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, const iso_model *model,
@@ -41,10 +38,9 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
     ISO_DEFAULT_ARITHMETIC;
     *integrator = NULL;
     iso_method_options o = *options;
-    if (!method) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "no such method");
+    if (!method) return ISO_FAIL_ARGUMENT(ctx, "method", "no such method");
     if (!(o.fixed_step >= 0 && isfinite(o.fixed_step)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a fixed step must be finite and >= 0, not %g",
-                                o.fixed_step);
+        return ISO_FAIL_ARGUMENT(ctx, "", "a fixed step must be finite and >= 0, not %g", o.fixed_step);
     if (check_method(ctx, method, model, &o) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (o.fixed_step > 0 && o.tolerance == 0) o.tolerance = 1e-14; /* of dense output */
     if (iso_tolerance_check(ctx, o.tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;
@@ -94,7 +90,7 @@ iso_status iso_integrator_start(iso_integrator *it, const double y0[])
     iso_past_forget(it);
     set_out(it, 0);
     if (!iso_integrator_rhs(it, y0, f))
-        return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "", "the equations of motion are not finite at the start");
+        return ISO_FAIL_ARGUMENT(it->ctx, "", "the equations of motion are not finite at the start");
     return it->method->at ? it->method->start(it) : ISO_OK;
 }
 
@@ -227,7 +223,7 @@ iso_status iso_integrator_within(iso_integrator *it, double dt, double y[])
 iso_status iso_integrator_at(iso_integrator *it, double t, double y[])
 {
     ISO_DEFAULT_ARITHMETIC;
-    if (!isfinite(t)) return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "", "a time is not finite");
+    if (!isfinite(t)) return ISO_FAIL_ARGUMENT(it->ctx, "", "a time is not finite");
     ISO_TRY(iso_integrator_reach(it, t > 0 ? 1 : t < 0 ? -1 : it->direction, t));
     return iso_integrator_within(it, since_end(it, t) == 0 ? it->h : iso_integrator_since(it, t), y);
 }

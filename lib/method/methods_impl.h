@@ -3,8 +3,8 @@
  * 1. Write lib/method/NAME.c with one row, `const iso_method iso_method_NAME = {...}`. Every member is explained in
  *    method.h, what `create`, `start` and `step` must do in integrator_impl.h. gsl.c is a short example.
  * 2. Say in the row what the method needs of a model: `implicit`, `own_equations`, `steps_in_s`, `system`. A model
- *    that lacks it is then refused by name (serves.c), and "auto" passes the method over. If the method needs
- *    something that has no member yet, add the member to iso_method and the check to serves.c.
+ *    that lacks it is then refused by name (method.c), and "auto" passes the method over. If the method needs
+ *    something that has no member yet, add the member to iso_method and the check to method.c.
  * 3. If "auto" may take it, write `suits`, with the measurement that says when it is the best.
  * 4. Add X(NAME) to ISO_METHOD_LIST below. No other list names a method: commands, scenes, comparisons and tests go
  *    through this one.
@@ -27,9 +27,9 @@
 
 /* Every method of the library, in the order in which lists show them. */
 #define ISO_METHOD_LIST(X)                                                                                         \
-    X(adams) X(bdf)                                                                           /* cvode.c  */       \
+    X(adams) X(bdf)                                                                           /* sundials.c */     \
     X(heun_euler) X(bogacki_shampine) X(ark324) X(zonneveld) X(ark436) X(ark437) X(sayfy_aburub)                   \
-    X(cash_karp) X(fehlberg45) X(dormand_prince) X(ark548) X(ark548b) X(verner) X(fehlberg78) /* arkode.c */       \
+    X(cash_karp) X(fehlberg45) X(dormand_prince) X(ark548) X(ark548b) X(verner) X(fehlberg78) /* sundials.c */     \
     X(rk4) X(rkf45) X(rkck) X(rk8pd) X(msadams) X(msbdf) X(bsimp)                             /* gsl.c    */       \
     X(taylor) X(taylor_extended) ISO_QUAD(X)                                                  /* taylor.c */       \
     X(strang) X(blanes_moan4) X(blanes_moan6) X(kahan_li8) X(sofroniou_spaletta10)        /* symplectic.c */

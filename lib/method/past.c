@@ -10,7 +10,6 @@
  *   the memory, the older half is dropped. Times before it are found from the start again.
  * A method that finds times within a step from its history (bdf) keeps nothing.
  */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

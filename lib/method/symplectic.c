@@ -12,7 +12,7 @@
  * potential that depends on positions only, its kick adds h r(gamma) to c, and the composition has its order for c
  * too.
  *
- * Steps are fixed in s. This does not suit a potential that spans many decades (serves.c). In a run in another clock
+ * Steps are fixed in s. This does not suit a potential that spans many decades (method.c). In a run in another clock
  * Newton's method finds the s at which that clock shows a given time. Sums over steps are compensated, which makes
  * the rounding errors ten times smaller or more (by the angle of a stage).
  */

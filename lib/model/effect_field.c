@@ -95,22 +95,21 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < i; j++) {
             if (!(fabs(C[3 * i + j] - C[3 * j + i]) <= 1e-12 * most))
-                return iso_context_fail(ctx, ISO_BAD_INPUT, "quadratic",
-                                        "the matrix of a quadratic form is symmetric: C%d%d = %.17g is not C%d%d = "
-                                        "%.17g",
-                                        i + 1, j + 1, C[3 * i + j], j + 1, i + 1, C[3 * j + i]);
+                return ISO_FAIL_INPUT(
+                    ctx, "quadratic",
+                    "the matrix of a quadratic form is symmetric: C%d%d = %.17g is not C%d%d = %.17g", i + 1, j + 1,
+                    C[3 * i + j], j + 1, i + 1, C[3 * j + i]);
             C[3 * j + i] = C[3 * i + j];
             varies = fmax(varies, fmax(fabs(C[3 * i + j]), fabs(C[4 * i] - C[4 * j])));
         }
     if (varies > 0 && varies < 1e-10 * most)
-        return iso_context_fail(
-            ctx, ISO_BAD_INPUT, "quadratic",
-            "all but %.1g of this matrix is a constant on the unit sphere, which does nothing but "
-            "cost digits: subtract it from the diagonal",
-            varies / most);
+        return ISO_FAIL_INPUT(ctx, "quadratic",
+                              "all but %.1g of this matrix is a constant on the unit sphere, which does nothing but "
+                              "cost digits: subtract it from the diagonal",
+                              varies / most);
     if (varies > 0) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "field",
-                            "this potential is a constant on the unit sphere and changes nothing: take it out");
+    return ISO_FAIL_INPUT(ctx, "field",
+                          "this potential is a constant on the unit sphere and changes nothing: take it out");
 }
 
 static iso_status complete(iso_context *ctx, const iso_params *p, int model, double number[],
@@ -118,7 +117,7 @@ static iso_status complete(iso_context *ctx, const iso_params *p, int model, dou
 {
     (void)p, (void)model, (void)number;
     if (given(scene, "quadratic") || given(scene, "linear")) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "field", "missing 'quadratic' or 'linear' in 'field'");
+    return ISO_FAIL_INPUT(ctx, "field", "missing 'quadratic' or 'linear' in 'field'");
 }
 
 static const iso_effect_number numbers[] = {

@@ -136,12 +136,11 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
 {
     (void)p, (void)n;
     if (e->number[ISO_GRAVITY][MGB] == 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "gravity", "gravity of 0 changes nothing: take it out");
+        return ISO_FAIL_INPUT(ctx, "gravity", "gravity of 0 changes nothing: take it out");
     if (e->on[ISO_REACTIONS] || !e->idle[ISO_GRAVITY]) return ISO_OK;
-    return iso_context_fail(
-        ctx, ISO_BAD_INPUT, "gravity",
-        "on a horizontal plane (up along the normal) gravity has no torque and changes nothing: take it "
-        "out, tilt the plane, or ask for 'reactions'");
+    return ISO_FAIL_INPUT(ctx, "gravity",
+                          "on a horizontal plane (up along the normal) gravity has no torque and changes nothing: "
+                          "take it out, tilt the plane, or ask for 'reactions'");
 }
 
 /* g of a body gives mgb, the weight times the signed radius. */
@@ -152,14 +151,13 @@ static iso_status complete(iso_context *ctx, const iso_params *p, int model, dou
     const char *wanted = body ? "g" : "mgb", *other = body ? "mgb" : "g";
     (void)model;
     if (given(scene, other))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, other, "'%s' does not belong here: %s, give '%s'", other,
-                                body ? "the ball's mass and radius are known" : "k and J know no mass", wanted);
-    if (!given(scene, wanted))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "gravity", "missing '%s' in 'gravity'", wanted);
+        return ISO_FAIL_INPUT(ctx, other, "'%s' does not belong here: %s, give '%s'", other,
+                              body ? "the ball's mass and radius are known" : "k and J know no mass", wanted);
+    if (!given(scene, wanted)) return ISO_FAIL_INPUT(ctx, "gravity", "missing '%s' in 'gravity'", wanted);
     if (body) number[MGB] = p->body.mass * number[G] * (iso_params_sign_of_radius(p) * p->body.radius);
     number[G] = 0;
     if (isfinite(number[MGB])) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, wanted, "the weight m g times the radius b does not fit a double");
+    return ISO_FAIL_INPUT(ctx, wanted, "the weight m g times the radius b does not fit a double");
 }
 
 static const char *const e_names[] = {"e1", "e2", "e3"};

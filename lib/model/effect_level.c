@@ -52,7 +52,7 @@ static iso_status complete(iso_context *ctx, const iso_params *p, int model, dou
 {
     (void)p, (void)number;
     if (model != 0 || given(scene, "c")) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "level", "missing 'c' in 'level': a ball's energy does not tell it");
+    return ISO_FAIL_INPUT(ctx, "level", "missing 'c' in 'level': a ball's energy does not tell it");
 }
 
 static const double unknown[] = {NAN};

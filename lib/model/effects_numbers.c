@@ -43,19 +43,17 @@ iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *e
     const iso_effect_id e = iso_effect_find(effect);
     char suggested[ISO_SUGGEST_SIZE];
     if (e == ISO_EFFECTS)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, effect, "there is no effect '%s'; %s", effect,
-                                iso_suggest_word(suggested, effect, iso_effect_name));
+        return ISO_FAIL_ARGUMENT(ctx, effect, "there is no effect '%s'; %s", effect,
+                                 iso_suggest_word(suggested, effect, iso_effect_name));
     effects->on[e] = true;
     if (!name) return ISO_OK;
     for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
         if (strcmp(n->name, name) != 0) continue;
         if (n->scene_only && n->kind != ISO_NUMBER_FLAG)
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name,
-                                    "'%s' of '%s' is for scenes alone: set the number that is computed from it", name,
-                                    effect);
+            return ISO_FAIL_ARGUMENT(
+                ctx, name, "'%s' of '%s' is for scenes alone: set the number that is computed from it", name, effect);
         if (n->count != count || !has_room(n))
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "'%s' of '%s' has %d numbers, not %d", name, effect,
-                                    n->count, count);
+            return ISO_FAIL_ARGUMENT(ctx, name, "'%s' of '%s' has %d numbers, not %d", name, effect, n->count, count);
         copy(values, iso_effect_values(effects, e, n), count);
         return ISO_OK;
     }
@@ -63,8 +61,8 @@ iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *e
     size_t known = 0;
     for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name && known < ISO_EFFECT_NUMBERS; n++)
         names[known++] = n->name;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "the effect '%s' has no number '%s'%s%s", effect, name,
-                            known > 0 ? "; " : "", known > 0 ? iso_suggest(suggested, name, known, names) : "");
+    return ISO_FAIL_ARGUMENT(ctx, name, "the effect '%s' has no number '%s'%s%s", effect, name, known > 0 ? "; " : "",
+                             known > 0 ? iso_suggest(suggested, name, known, names) : "");
 }
 
 iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power)
@@ -128,9 +126,8 @@ static iso_status check_unit(iso_context *ctx, const char *name, int count, doub
     for (int i = 0; i < count && length > 0 && isfinite(length); i++)
         used += snprintf(unit + used, sizeof unit - (size_t)used, "%s%.10g", i ? ", " : ": write [", x[i] / length);
     if (!(fabs(length - 1) <= 1e-6))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, name,
-                                "'%s' has length %.10g, it must be a unit vector (to 1e-6)%s%s", name, length, unit,
-                                used ? "]" : "");
+        return ISO_FAIL_INPUT(ctx, name, "'%s' has length %.10g, it must be a unit vector (to 1e-6)%s%s", name,
+                              length, unit, used ? "]" : "");
     for (int i = 0; i < count; i++) x[i] /= length;
     return ISO_OK;
 }
@@ -138,8 +135,7 @@ static iso_status check_unit(iso_context *ctx, const char *name, int count, doub
 static iso_status check_number(iso_context *ctx, const char *effect, const iso_effect_number *n, double x[])
 {
     for (int i = 0; i < n->count; i++)
-        if (!isfinite(x[i]))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, n->name, "%s: '%s' is not finite", effect, n->name);
+        if (!isfinite(x[i])) return ISO_FAIL_INPUT(ctx, n->name, "%s: '%s' is not finite", effect, n->name);
     if (n->kind == ISO_NUMBER_UNIT) return check_unit(ctx, n->name, n->count, x);
     const bool resists = n->kind == ISO_NUMBER_POSITIVE || n->kind == ISO_NUMBER_NOT_NEGATIVE;
     int zeros = 0;
@@ -149,10 +145,9 @@ static iso_status check_number(iso_context *ctx, const char *effect, const iso_e
         negative = negative || x[i] < 0;
     }
     if (resists && negative)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, n->name, "%s: '%s' is negative: it must resist", effect, n->name);
+        return ISO_FAIL_INPUT(ctx, n->name, "%s: '%s' is negative: it must resist", effect, n->name);
     if ((n->kind == ISO_NUMBER_POSITIVE && zeros > 0) || (n->kind == ISO_NUMBER_NOT_ZERO && zeros == n->count))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, n->name, "%s: '%s' is 0 and changes nothing: take it out", effect,
-                                n->name);
+        return ISO_FAIL_INPUT(ctx, n->name, "%s: '%s' is 0 and changes nothing: take it out", effect, n->name);
     return ISO_OK;
 }
 
@@ -160,19 +155,17 @@ static iso_status check_D(iso_context *ctx, const iso_params *p, const char *eff
 {
     const bool body = p->body.surface != ISO_REDUCED;
     if (body && !isnormal(p->D))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, effect,
-                                "'%s' needs m b^2, which does not fit a double: use other units", effect);
+        return ISO_FAIL_INPUT(ctx, effect, "'%s' needs m b^2, which does not fit a double: use other units", effect);
     if (body && p->D >= min3(p->J))
-        return iso_context_fail(
-            ctx, ISO_BAD_INPUT, effect,
-            "'%s' needs the moments about the centre, which are less than the last digit of m b^2 "
-            "= %g: give a ball with larger ones",
-            effect, p->D);
+        return ISO_FAIL_INPUT(ctx, effect,
+                              "'%s' needs the moments about the centre, which are less than the last digit of m b^2 "
+                              "= %g: give a ball with larger ones",
+                              effect, p->D);
     if (p->D > 0) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, effect,
-                            "'%s' needs the ball's mass and radius: give D = m b^2 ('%s: {D: ...}'), or a ball and a "
-                            "surface",
-                            effect, effect);
+    return ISO_FAIL_INPUT(
+        ctx, effect,
+        "'%s' needs the ball's mass and radius: give D = m b^2 ('%s: {D: ...}'), or a ball and a surface", effect,
+        effect);
 }
 
 /* Whether a group of columns holds the number at later times, if it says so. */
@@ -212,12 +205,11 @@ static iso_status check_row(iso_context *ctx, const iso_effect *effect)
 {
     const char *wrong = what_is_wrong(effect);
     if (iso_effect_columns() > ISO_EFFECT_COLUMNS)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
-                                "the effects have %d columns, and there is room for %d: set ISO_EFFECT_COLUMNS to %d",
-                                iso_effect_columns(), ISO_EFFECT_COLUMNS, iso_effect_columns());
+        return ISO_FAIL_INPUT(ctx, effect->name,
+                              "the effects have %d columns, and there is room for %d: set ISO_EFFECT_COLUMNS to %d",
+                              iso_effect_columns(), ISO_EFFECT_COLUMNS, iso_effect_columns());
     if (!wrong) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name, "the row of '%s' is not complete: %s", effect->name,
-                            wrong);
+    return ISO_FAIL_INPUT(ctx, effect->name, "the row of '%s' is not complete: %s", effect->name, wrong);
 }
 
 /* The equations of each effect alone, with its own states in place: they must be equations that all can compute. */
@@ -238,8 +230,8 @@ static iso_status check_equations(iso_context *ctx, const iso_params *p, const i
     if (!F.wrong) iso_effects_record_energy(&f, &F);
     if (!F.wrong) iso_effects_record_image(&f, &F);
     if (!F.wrong) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, iso_effect_list[e]->name,
-                            "the equations of '%s' cannot be computed: %s", iso_effect_list[e]->name, F.wrong);
+    return ISO_FAIL_INPUT(ctx, iso_effect_list[e]->name, "the equations of '%s' cannot be computed: %s",
+                          iso_effect_list[e]->name, F.wrong);
 }
 
 void iso_effects_settle(const iso_params *p, const double normal[3], iso_effects *effects)

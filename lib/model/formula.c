@@ -1,7 +1,6 @@
 /* formula.c - writes formulas down, line by line (formula.h). series/evaluate_impl.h computes them. */
 #include "model/formula_lines_impl.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "model/system.h"

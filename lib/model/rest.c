@@ -41,8 +41,8 @@ const char *iso_model_speeds_up(const iso_model *m, const double y0[], const dou
     if (!is_resisted(m)) return NULL;
     const double before = m->system->speed(&m->problem, y0), now = m->system->speed(&m->problem, y);
     if (now <= MOST_GROWTH * before) return NULL;
-    return "backwards in time resistance drives the ball, without end: "
-           "it turns more than 10000 times as fast as at the start";
+    return "backwards in time resistance drives the ball, without end: it turns more than 10000 times as fast as at "
+           "the start";
 }
 
 /* By how much the constraint of the contact is broken, in units of omega:

@@ -135,8 +135,8 @@ static iso_status finish(iso_pool_worker *w, const batch *b, const member *m)
         if (status != ISO_OK) return status;
     }
     if (job->error)
-        return iso_context_fail(w->ctx, ISO_NUMERICAL, "", "taylor stopped after %ld steps: %s; last good %s = %.17g",
-                                job->steps, job->error, iso_clock_name(m->orbit.model.clock), job->last * job->unit);
+        return ISO_FAIL_NUMERICAL(w->ctx, "taylor stopped after %ld steps: %s; last good %s = %.17g", job->steps,
+                                  job->error, iso_clock_name(m->orbit.model.clock), job->last * job->unit);
     return job->done == b->rows ? ISO_OK : iso_context_stopped(w->ctx);
 }
 
@@ -204,17 +204,17 @@ static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_
                         size_t rows)
 {
     if (o->backend == ISO_BACKEND_EXACT)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "backend",
-                                "a batch integrates: backend exact is for single orbits, which share nothing");
+        return ISO_FAIL_ARGUMENT(ctx, "backend",
+                                 "a batch integrates: backend exact is for single orbits, which share nothing");
     ISO_TRY(iso_tolerance_check(ctx, o->tolerance));
     ISO_TRY(iso_lanes_check(ctx, o->threads, o->vectors, code != NULL));
     for (size_t j = 0; j < rows; j++) {
         const double before = j > 0 ? times[j - 1] : 0;
         const bool back = times[rows - 1] < 0;
         if (!isfinite(times[j]) || (back ? times[j] > before || times[j] > 0 : times[j] < before))
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "times",
-                                    "the times of a batch go away from 0, in one direction: not %g after %g",
-                                    times[j], before);
+            return ISO_FAIL_ARGUMENT(ctx, "times",
+                                     "the times of a batch go away from 0, in one direction: not %g after %g",
+                                     times[j], before);
     }
     return ISO_OK;
 }
@@ -277,17 +277,15 @@ static iso_status check_scene(iso_context *ctx, const batch *b, size_t i)
                         : scene->tolerance != first->tolerance     ? "tolerance"
                         : scene->start.model != first->start.model ? "model of the start"
                                                                    : NULL;
-    if (apart)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scenes", "scene %zu has another %s than scene 0", i, apart);
+    if (apart) return ISO_FAIL_ARGUMENT(ctx, "scenes", "scene %zu has another %s than scene 0", i, apart);
     if (strcmp(scene->method, "auto") != 0 && strcmp(scene->method, "taylor") != 0)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method",
-                                "scene %zu: a batch is by method taylor, not '%s': run it by itself", i,
-                                scene->method);
+        return ISO_FAIL_ARGUMENT(ctx, "method", "scene %zu: a batch is by method taylor, not '%s': run it by itself",
+                                 i, scene->method);
     if (iso_effects_watch_contact(&scene->effects))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scenes",
-                                "scene %zu: a batch does not see where contact is lost: write "
-                                "'reactions: {two_sided: true}', or run it by itself",
-                                i);
+        return ISO_FAIL_ARGUMENT(ctx, "scenes",
+                                 "scene %zu: a batch does not see where contact is lost: write 'reactions: "
+                                 "{two_sided: true}', or run it by itself",
+                                 i);
     return iso_scene_check_columns(ctx, scene);
 }
 
@@ -323,8 +321,8 @@ iso_status iso_batch_table(iso_context *ctx, const iso_scene *const scene[], siz
     batch b = {.count = count, .rows = rows, .times = times, .scene = scene, .scenes = scenes};
     b.k = k, b.J = J, b.start = start, b.table = table;
     if (scenes == 0 || (scenes != 1 && scenes != count))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scenes",
-                                "%zu scenes for %zu orbits: give one, or one for each", scenes, count);
+        return ISO_FAIL_ARGUMENT(ctx, "scenes", "%zu scenes for %zu orbits: give one, or one for each", scenes,
+                                 count);
     if (count == 0) return ISO_OK;
     b.width = iso_scene_columns(scene_of(&b, 0), b.columns);
     iso_status answer = ISO_OK;

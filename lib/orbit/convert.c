@@ -80,8 +80,7 @@ iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *summary
     if (summary) *summary = c->summary;
     if (status != ISO_OK || c->begun) return status;
     if (c->first_words) return iso_context_fail(c->ctx, c->first_failure, "", "%s", c->first_words);
-    return iso_context_fail(c->ctx, ISO_BAD_INPUT, "",
-                            c->summary.rows ? "no row could be read" : "the trajectory has no rows");
+    return ISO_FAIL_INPUT(c->ctx, "", c->summary.rows ? "no row could be read" : "the trajectory has no rows");
 }
 
 static void add_worst(iso_worst *all, const iso_worst *one)
@@ -117,8 +116,7 @@ static iso_status find_columns(iso_conversion *c)
     const iso_model_kind to = c->from == ISO_BALL ? ISO_POINT : ISO_BALL;
     const iso_status status = iso_record_find_state(c->ctx, c->in, c->from, c->state);
     if (status != ISO_OK && iso_record_find_state(c->ctx, c->in, to, columns) == ISO_OK)
-        return iso_context_fail(c->ctx, ISO_BAD_INPUT, "columns", "this is a %s's trajectory already",
-                                iso_model_kind_name((int)to));
+        return ISO_FAIL_INPUT(c->ctx, "columns", "this is a %s's trajectory already", iso_model_kind_name((int)to));
     if (status != ISO_OK) return iso_record_find_state(c->ctx, c->in, c->from, c->state);
     c->own = c->from == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
     c->other = c->from == ISO_BALL ? ISO_CLOCK_S : ISO_CLOCK_T;
@@ -157,8 +155,7 @@ iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, con
     c->shift_J = own.shift_J;
     if (status == ISO_OK) status = find_columns(c);
     if (status == ISO_OK && c->shift_J && (c->from != ISO_POINT || params->k != -1))
-        status =
-            iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shift-J", "energy can shift J for a point with k = -1 alone");
+        status = ISO_FAIL_ARGUMENT(ctx, "shift-J", "energy can shift J for a point with k = -1 alone");
     if (status == ISO_OK) status = read_lines(c);
     if (status == ISO_OK) return ISO_OK;
     iso_conversion_free(c);

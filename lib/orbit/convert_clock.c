@@ -132,8 +132,8 @@ static iso_status release_marks(iso_conversion *c)
 static iso_status write_first(iso_conversion *c)
 {
     c->unwritten = false;
-    const iso_status status = iso_conversion_emit(c, &c->last);
-    return status == ISO_OK ? iso_conversion_write_marks(c, &c->first_marks) : status;
+    ISO_TRY(iso_conversion_emit(c, &c->last));
+    return iso_conversion_write_marks(c, &c->first_marks);
 }
 
 /* The row follows the last one, and becomes it. */
@@ -143,9 +143,7 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
     double lost;
     iso_conversion_summary *s = &c->summary;
     if (c->trouble != ISO_OK) return c->trouble;
-    if (c->unwritten) {
-        ISO_TRY(write_first(c));
-    }
+    if (c->unwritten) ISO_TRY(write_first(c));
     c->doubted = 0;
     by_steps ? s->integrated++ : s->between++;
     iso_worst_note(&s->defect, gap->defect, row->line);
@@ -159,7 +157,7 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
     if (s->computed) {
         c->last.out[0] = c->sum + c->lost;
         if (!isfinite(c->last.out[0])) {
-            iso_context_fail(c->ctx, ISO_NUMERICAL, "", "%s is too large for a double", iso_clock_name(c->other));
+            ISO_FAIL_NUMERICAL(c->ctx, "%s is too large for a double", iso_clock_name(c->other));
             return iso_conversion_bad(c, row->line, ISO_NUMERICAL);
         }
     }
@@ -169,15 +167,14 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
 static iso_status refuse_time(iso_conversion *c, const conversion_row *row)
 {
     if (c->trouble != ISO_OK) return c->trouble;
-    iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s turns back: sort the rows by time", iso_clock_name(c->own));
+    ISO_FAIL_INPUT(c->ctx, "", "%s turns back: sort the rows by time", iso_clock_name(c->own));
     return iso_conversion_bad(c, row->line, ISO_BAD_INPUT);
 }
 
 static iso_status refuse_defect(iso_conversion *c, const conversion_row *row)
 {
     if (c->trouble != ISO_OK) return c->trouble;
-    iso_context_fail(c->ctx, ISO_BAD_INPUT, "",
-                     "this row is damaged: it does not lie on the orbit of the rows beside it");
+    ISO_FAIL_INPUT(c->ctx, "", "this row is damaged: it does not lie on the orbit of the rows beside it");
     return iso_conversion_bad(c, row->line, ISO_BAD_INPUT);
 }
 

@@ -1,6 +1,5 @@
 /* convert_impl.h - what a conversion is made of. convert.c is the top layer and calls those below, which call each
- * other in one direction only: convert_clock.c and convert_lines.c -> convert_row.c -> convert_stated.c and
- * convert_write.c. */
+ * other in one direction only: convert_clock.c -> convert_row.c -> convert_stated.c. */
 #ifndef ISO_ORBIT_CONVERT_IMPL_H
 #define ISO_ORBIT_CONVERT_IMPL_H
 
@@ -61,7 +60,7 @@ struct iso_conversion {
     iso_conversion_summary summary;
 };
 
-/* --- convert_write.c: what leaves; calls none of the others --- */
+/* --- convert_row.c: what leaves --- */
 
 /* Writes a good row. */
 iso_status iso_conversion_emit(iso_conversion *c, const conversion_row *row);
@@ -89,7 +88,7 @@ bool iso_conversion_reconcile(iso_conversion *c, const conversion_row *r);
  * fewer digits; an energy is then off by several times that tolerance. */
 double iso_conversion_digits(const iso_conversion *c);
 
-/* --- convert_row.c: one row of the file; calls convert_write.c --- */
+/* --- convert_row.c: one row of the file; calls convert_stated.c --- */
 
 /* Everything of a row but its place among the others: r->line is given. */
 iso_status iso_conversion_read_row(iso_conversion *c, const double row[], conversion_row *r);
@@ -100,12 +99,10 @@ iso_status iso_conversion_start(const iso_conversion *c, const double y[ISO_STAT
 /* An orbit of the record's own model from a row on, with the other clock. */
 iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *start, bool clock, iso_orbit **orbit);
 
-/* --- convert_lines.c: the header of the result; calls convert_row.c --- */
-
 /* The columns and lines of the result. */
 iso_status iso_conversion_describe(iso_conversion *c, double begin, iso_record **header);
 
-/* --- convert_clock.c: rows one after the other; calls convert_row.c and convert_write.c --- */
+/* --- convert_clock.c: rows one after the other; calls convert_row.c --- */
 
 /* Adds a row: accepts it, with its clock and its defect, or holds it. */
 iso_status iso_conversion_follow(iso_conversion *c, const conversion_row *row);

@@ -1,7 +1,9 @@
 /* convert_row.c - one row of the file: whether it is a state of the model and has the energy of the others, and its
- * state in the other model. The first good row also gives the units and the level. */
+ * state in the other model. The first good row also gives the units and the level. And what leaves: good rows, marks
+ * in the place of bad ones, and the words about these. */
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "base/vec3_impl.h"
 #include "map/state.h"
@@ -60,8 +62,8 @@ static iso_status check_energy(iso_conversion *c, conversion_row *r)
         stated && !(fabs(off) <= fmax(1e-3, iso_conversion_digits(c))); /* methods of low order reach that */
     if (r->other_energy)
         return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "eps",
-                                "the energy of this point is not that of the rows before: its M does not fit "
-                                "eps = %.10g; leave out --eps and --h to take them from the first row",
+                                "the energy of this point is not that of the rows before: its M does not fit eps = "
+                                "%.10g; leave out --eps and --h to take them from the first row",
                                 c->stated_eps);
     iso_worst_note(&c->summary.energy, off, r->line);
     return ISO_OK;
@@ -91,7 +93,7 @@ static iso_status map_state(const iso_conversion *c, conversion_row *r)
         fits = fits && isfinite(to[i]) && isfinite(to[3 + i]);
     }
     if (fits && (rest || size >= DBL_MIN)) return ISO_OK;
-    return iso_context_fail(c->ctx, ISO_NUMERICAL, "", "the result does not fit a double: use other units of time");
+    return ISO_FAIL_NUMERICAL(c->ctx, "the result does not fit a double: use other units of time");
 }
 
 /* --- the first row ---------------------------------------------------------------------------------------------- */
@@ -140,10 +142,10 @@ static iso_status shift_moments(iso_conversion *c, const conversion_row *r)
         iso_effects_set_level(&c->effects, false, NAN);
         return ISO_OK;
     }
-    return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "",
-                            "no free ball has this energy, J + E/eps: %s; without a shift "
-                            "there is one in the potential of a level",
-                            iso_context_message(c->ctx));
+    return iso_context_fail(
+        c->ctx, ISO_NOT_MAPPED, "",
+        "no free ball has this energy, J + E/eps: %s; without a shift there is one in the potential of a level",
+        iso_context_message(c->ctx));
 }
 
 static iso_status open_units(iso_conversion *c, const conversion_row *r)
@@ -161,8 +163,7 @@ static iso_status open_units(iso_conversion *c, const conversion_row *r)
 static iso_status check_finite(const iso_conversion *c, const double row[])
 {
     for (size_t i = 0; i < iso_record_columns(c->in); i++)
-        if (!isfinite(row[i]))
-            return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s is not finite", iso_record_name(c->in, i));
+        if (!isfinite(row[i])) return ISO_FAIL_INPUT(c->ctx, "", "%s is not finite", iso_record_name(c->in, i));
     return ISO_OK;
 }
 
@@ -181,4 +182,57 @@ iso_status iso_conversion_read_row(iso_conversion *c, const double row[], conver
     note_constraints(c, r);
     if (c->other_column >= 0) r->out[0] = row[c->other_column];
     return ISO_OK;
+}
+
+/* --- what leaves a conversion ----------------------------------------------------------------------------------- */
+
+void iso_worst_note(iso_worst *worst, double value, size_t line)
+{
+    if (worst->line > 0 && !(fabs(value) > worst->value) && !isnan(value)) return;
+    worst->value = isnan(value) ? INFINITY : fabs(value);
+    worst->line = line;
+}
+
+/* If so many rows at the beginning of a file are all bad, the conversion ends. */
+enum { HOPELESS = 20 };
+
+static iso_status give_up(const iso_conversion *c)
+{
+    const char *words = c->first_words ? c->first_words : "none can be read";
+    return iso_context_fail(c->ctx, c->first_words ? c->first_failure : ISO_BAD_INPUT, "",
+                            "not one of the first %d rows can be converted: %s", HOPELESS, words);
+}
+
+iso_status iso_conversion_mark(iso_conversion *c)
+{
+    if (!c->begun && c->summary.bad == HOPELESS) return give_up(c);
+    if (c->begun && !c->is_held && !c->unwritten) return c->target.row(c->target.data, NULL);
+    ++*(c->unwritten && !c->is_held ? &c->first_marks : &c->marks);
+    return ISO_OK;
+}
+
+iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why)
+{
+    const bool ends = why == ISO_NO_MEMORY || why == ISO_STOPPED || why == ISO_FILE_TROUBLE || why == ISO_CLOSED_PIPE;
+    if (ends) return why;
+    if (why == ISO_BAD_ARGUMENT) why = ISO_BAD_INPUT; /* the argument comes from the file */
+    if (!c->begun && !c->first_words) {
+        c->first_failure = why;
+        c->first_words = strdup(iso_context_message(c->ctx));
+    }
+    c->summary.bad++;
+    ISO_TRY(c->target.bad(c->target.data, line, why, iso_context_message(c->ctx)));
+    return iso_conversion_mark(c);
+}
+
+iso_status iso_conversion_emit(iso_conversion *c, const conversion_row *row)
+{
+    return c->target.row(c->target.data, row->out);
+}
+
+iso_status iso_conversion_write_marks(iso_conversion *c, size_t *marks)
+{
+    iso_status status = ISO_OK;
+    for (; status == ISO_OK && *marks > 0; --*marks) status = c->target.row(c->target.data, NULL);
+    return status;
 }

@@ -3,14 +3,12 @@
 #include "orbit/crossings.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "method/integrator_impl.h"
-#include "method/methods_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/lane_groups_impl.h"
 
@@ -19,33 +17,32 @@
 static iso_status check_section(iso_context *ctx, const iso_crossings_options *o)
 {
     if (o->kind != ISO_SECTION_AXIS && o->kind != ISO_SECTION_COLUMN && o->kind != ISO_SECTION_CLOCK)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "axis", "there is no such kind of section");
+        return ISO_FAIL_ARGUMENT(ctx, "axis", "there is no such kind of section");
     if (o->kind == ISO_SECTION_AXIS && iso_crossings_check_axis(ctx, o->axis) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (o->kind == ISO_SECTION_COLUMN && (o->column < ISO_CLOCKS || o->column >= iso_columns_count()))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "column",
-                                o->column >= 0 && o->column < ISO_CLOCKS
-                                    ? "a clock passes each value once: take equal steps of the clock"
-                                    : "there is no such column");
+        return ISO_FAIL_ARGUMENT(ctx, "column",
+                                 o->column >= 0 && o->column < ISO_CLOCKS
+                                     ? "a clock passes each value once: take equal steps of the clock"
+                                     : "there is no such column");
     if (o->kind == ISO_SECTION_COLUMN && !isfinite(o->value))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "a column cannot pass %g", o->value);
+        return ISO_FAIL_ARGUMENT(ctx, "value", "a column cannot pass %g", o->value);
     if (o->kind == ISO_SECTION_CLOCK && !(o->value > 0 && isfinite(o->value)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "a clock cannot go on in steps of %g", o->value);
+        return ISO_FAIL_ARGUMENT(ctx, "value", "a clock cannot go on in steps of %g", o->value);
     if (o->kind == ISO_SECTION_CLOCK && ((int)o->clock < 0 || o->clock >= ISO_CLOCKS))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "there is no such clock");
+        return ISO_FAIL_ARGUMENT(ctx, "value", "there is no such clock");
     if (o->kind == ISO_SECTION_COLUMN && o->deviations)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "deviations",
-                                "deviations are computed only on sections n_a = 0 and at equal steps of a clock");
+        return ISO_FAIL_ARGUMENT(ctx, "deviations",
+                                 "deviations are computed only on sections n_a = 0 and at equal steps of a clock");
     return ISO_OK;
 }
 
 static iso_status check(iso_context *ctx, const iso_crossings_options *o)
 {
     if (o->backend == ISO_BACKEND_EXACT)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "backend",
-                                "crossings are found by integration: take backend ball or point");
+        return ISO_FAIL_ARGUMENT(ctx, "backend", "crossings are found by integration: take backend ball or point");
     if ((int)o->backend < 0 || o->backend > ISO_BACKEND_EXACT || (int)o->shown < 0 || o->shown > ISO_SHOW_BOTH)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "backend",
-                                "crossings are found by backend ball or point, and shown as ball, point or both");
+        return ISO_FAIL_ARGUMENT(ctx, "backend",
+                                 "crossings are found by backend ball or point, and shown as ball, point or both");
     ISO_TRY(iso_tolerance_check(ctx, o->tolerance));
     ISO_TRY(iso_lanes_check(ctx, o->threads, o->vectors, iso_lane_code_find(o->vectors, o->deviations) != NULL));
     return check_section(ctx, o);

@@ -40,9 +40,9 @@ static iso_status refuse_deviations(const iso_crossings *c, size_t i)
     iso_context *ctx = c->orbit[i].ctx;
     const iso_params *p = c->orbits[i].params;
     if (c->options.kind == ISO_SECTION_AXIS && iso_params_check_powers(ctx, p) != ISO_OK) return ISO_BAD_INPUT;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "deviations",
-                            "deviations are computed for free orbits on a global section, and at equal steps of "
-                            "a clock; not for stiff balls, balls at rest, or effects without a formula");
+    return ISO_FAIL_INPUT(ctx, "deviations",
+                          "deviations are computed for free orbits on a global section, and at equal steps of a "
+                          "clock; not for stiff balls, balls at rest, or effects without a formula");
 }
 
 static iso_status begin(iso_crossings *c, size_t i)
@@ -54,7 +54,7 @@ static iso_status begin(iso_crossings *c, size_t i)
     if (status == ISO_OK) status = iso_orbit_at(o->alone, 0, &start);
     if (status != ISO_OK) return status;
     if (o->alone->rests && c->options.kind != ISO_SECTION_CLOCK)
-        return iso_context_fail(o->ctx, ISO_NUMERICAL, "", "the ball rests: it crosses no section");
+        return ISO_FAIL_NUMERICAL(o->ctx, "the ball rests: it crosses no section");
     iso_crossings_find_section(c, o->alone, o);
     if (o->axis < 0) return ISO_OK;
     const double *y = state_of(o->alone, &start);
@@ -98,11 +98,9 @@ static iso_status next_event(iso_crossings *c, iso_crossed *o, iso_sample *sampl
                                   : iso_orbit_event(o->alone, beyond_value, &c->options, 1, from, to, &found, sample);
     if (status != ISO_OK || found) return status;
     if (o->count == 0)
-        return iso_context_fail(o->ctx, ISO_NUMERICAL, "", "no crossing within %d turns after the start",
-                                ISO_MOST_BETWEEN);
-    return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
-                            "no crossing within %d turns after crossing %zu, at %s = %.17g", ISO_MOST_BETWEEN,
-                            o->count, iso_clock_name(o->alone->options.clock), from);
+        return ISO_FAIL_NUMERICAL(o->ctx, "no crossing within %d turns after the start", ISO_MOST_BETWEEN);
+    return ISO_FAIL_NUMERICAL(o->ctx, "no crossing within %d turns after crossing %zu, at %s = %.17g",
+                              ISO_MOST_BETWEEN, o->count, iso_clock_name(o->alone->options.clock), from);
 }
 
 static iso_status next_sample(iso_crossings *c, iso_crossed *o, iso_sample *sample)
@@ -137,14 +135,12 @@ static bool is_start(const iso_crossed *o, double time, double s)
 static iso_status step(iso_crossings *c, iso_crossed *o, iso_crossing *crossing, iso_sample *sample, bool *counts)
 {
     iso_sample here;
-    iso_status status = next_sample(c, o, &here);
-    if (status != ISO_OK) return status;
+    ISO_TRY(next_sample(c, o, &here));
     const double s = here.clock[ISO_CLOCK_S] / o->alone->unit_clock[ISO_CLOCK_S];
     o->time = here.clock[o->alone->options.clock];
     *counts = !is_start(o, o->time, s);
     if (!*counts) return ISO_OK;
-    status = iso_crossings_hold(o->ctx, c, o, o->alone, s);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_crossings_hold(o->ctx, c, o, o->alone, s));
     fill(o, &here, crossing);
     if (sample) iso_crossings_give(c, &here, sample);
     o->s = s;

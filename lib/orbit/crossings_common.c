@@ -61,7 +61,7 @@ iso_model_kind iso_crossings_model(const iso_orbit *orbit)
 iso_status iso_crossings_check_axis(iso_context *ctx, int axis)
 {
     if (axis == ISO_AXIS_AUTO || (axis >= 0 && axis <= 2)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "axis", "axis %lld is not 1, 2 or 3", axis + 1LL);
+    return ISO_FAIL_ARGUMENT(ctx, "axis", "axis %lld is not 1, 2 or 3", axis + 1LL);
 }
 
 /* An orbit in the plane n_a = 0 stays in it, unless a potential beyond the level moves it. */
@@ -69,7 +69,7 @@ iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, c
 {
     const bool moved = iso_effects_pull(&orbit->effects) && !iso_effects_are_free(&orbit->effects);
     if (!iso_section_is_rotation(y, axis) || moved) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "axis", "this orbit is " ISO_NEVER_CROSSES, axis + 1, axis + 1);
+    return ISO_FAIL_INPUT(ctx, "axis", "this orbit is " ISO_NEVER_CROSSES, axis + 1, axis + 1);
 }
 
 /* Only where nothing acts but a level, orbits obey gamma_a'' = -W^2 gamma_a. */
@@ -150,10 +150,11 @@ iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const is
     const double bound[2] = {(1 - loose) * o->bound[0], (1 + loose) * o->bound[1]};
     if (iso_crossings_apart(bound, least, s - o->s, s, c->options.tolerance)) return ISO_OK;
     const double unit = orbit->unit_clock[ISO_CLOCK_S];
-    return iso_context_fail(ctx, ISO_NUMERICAL, "",
-                            "crossings %zu and %zu of n_%d = 0 are %.10g apart in s, not between %.10g and %.10g: "
-                            "the computation is wrong there; take a smaller tolerance",
-                            o->count, o->count + 1, o->axis + 1, (s - o->s) * unit, bound[0] * unit, bound[1] * unit);
+    return ISO_FAIL_NUMERICAL(ctx,
+                              "crossings %zu and %zu of n_%d = 0 are %.10g apart in s, not between %.10g and %.10g: "
+                              "the computation is wrong there; take a smaller tolerance",
+                              o->count, o->count + 1, o->axis + 1, (s - o->s) * unit, bound[0] * unit,
+                              bound[1] * unit);
 }
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */

@@ -6,11 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
 #include "map/state.h"
-#include "method/integrator_impl.h"
 #include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/lane_groups_impl.h"
@@ -190,8 +188,7 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
     const iso_params *own = &orbit->units.own;
     double point[ISO_STATE];
     const double s = clock_of(orbit, ISO_CLOCK_S, y, time);
-    iso_status status = iso_crossings_hold(w->ctx, c, o, orbit, s);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_crossings_hold(w->ctx, c, o, orbit, s));
     iso_crossing_blank(to);
     for (iso_clock k = 0; k < ISO_CLOCKS; k++) to->clock[k] = clock_of(orbit, k, y, time) * orbit->unit_clock[k];
     if (o->axis >= 0) {
@@ -204,7 +201,7 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
     o->count++;
     if (!sample) return ISO_OK;
     iso_sample here;
-    status = iso_orbit_make_sample(orbit, time * lane->job.unit, y, &here);
+    iso_status status = iso_orbit_make_sample(orbit, time * lane->job.unit, y, &here);
     if (status == ISO_OK) iso_crossings_give(c, &here, sample);
     return status;
 }
@@ -274,8 +271,8 @@ static iso_status finish(iso_pool_worker *w, const follower *f, size_t i)
         ++*done;
     }
     if (job->error)
-        return iso_context_fail(w->ctx, ISO_NUMERICAL, "", "taylor stopped: %s; last good %s = %.17g", job->error,
-                                iso_clock_name(lane->orbit.model.clock), job->last * job->unit);
+        return ISO_FAIL_NUMERICAL(w->ctx, "taylor stopped: %s; last good %s = %.17g", job->error,
+                                  iso_clock_name(lane->orbit.model.clock), job->last * job->unit);
     return job->done == job->rows ? ISO_OK : iso_context_stopped(w->ctx);
 }
 

@@ -9,13 +9,22 @@
 #include "base/nearest_impl.h"
 #include "base/vec3_impl.h"
 #include "base/version.h"
-#include "map/state.h"
 #include "model/effects_impl.h"
 #include "model/model_impl.h"
 
 void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const iso_effect_number *n)
 {
     snprintf(key, ISO_NAME_SIZE, "%s.%s", effect->name, n->name);
+}
+
+int iso_effect_group(iso_effect_id id, const char *name, const iso_effect_column **group)
+{
+    int column = ISO_COLUMN_EFFECTS + iso_effect_first_column(id);
+    for (const iso_effect_column *g = iso_effect_list[id]->columns; g && g->name; column += g->count, g++) {
+        if (group) *group = g;
+        if (name ? strcmp(g->name, name) == 0 : g->moves) return column;
+    }
+    return -1;
 }
 
 iso_status iso_record_describe_effects(iso_context *ctx, iso_record *r, const iso_effects *effects)
@@ -75,9 +84,9 @@ iso_status iso_record_params(iso_context *ctx, const iso_record *r, iso_params *
         if (status == ISO_OK) iso_record_get_numbers(ctx, r, "radius", 1, &p->body.radius, &status);
         return status;
     }
-    return iso_context_fail(ctx, ISO_BAD_INPUT, has_k ? "J" : "k",
-                            "the trajectory does not say its %s: write it in a line '# %s' of the file, or give --%s",
-                            has_k ? "J" : "k", has_k ? "J: J1 J2 J3" : "k: K", has_k ? "J J1,J2,J3" : "k K");
+    return ISO_FAIL_INPUT(ctx, has_k ? "J" : "k",
+                          "the trajectory does not say its %s: write it in a line '# %s' of the file, or give --%s",
+                          has_k ? "J" : "k", has_k ? "J: J1 J2 J3" : "k: K", has_k ? "J J1,J2,J3" : "k K");
 }
 
 iso_status iso_record_find_state(iso_context *ctx, const iso_record *r, iso_model_kind model, int columns[ISO_STATE])
@@ -86,8 +95,8 @@ iso_status iso_record_find_state(iso_context *ctx, const iso_record *r, iso_mode
     const char *const *names = (model == ISO_BALL ? &iso_system_ball : &iso_system_point)->state;
     const char *missing;
     if (iso_record_find_all(r, ISO_STATE, names, columns, &missing)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "the trajectory has no column '%s', which a %s has",
-                            missing, iso_model_kind_name((int)model));
+    return ISO_FAIL_INPUT(ctx, "columns", "the trajectory has no column '%s', which a %s has", missing,
+                          iso_model_kind_name((int)model));
 }
 
 bool iso_record_coupling(iso_context *ctx, const iso_record *r, const iso_params *p, double *eps, iso_status *status)
@@ -108,13 +117,12 @@ static iso_status check_unnamed(iso_context *ctx, const iso_record *r, const iso
     for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
         iso_effect_line(key, effect, n);
         if (iso_record_get(r, key))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "effects",
-                                    "there is a line '# %s', but no line '# effects' that names '%s'", key,
-                                    effect->name);
+            return ISO_FAIL_INPUT(ctx, "effects", "there is a line '# %s', but no line '# effects' that names '%s'",
+                                  key, effect->name);
     }
     if (!column || iso_record_find(r, column) < 0) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "effects",
-                            "there is a column '%s', but no line '# effects' that names '%s'", column, effect->name);
+    return ISO_FAIL_INPUT(ctx, "effects", "there is a column '%s', but no line '# effects' that names '%s'", column,
+                          effect->name);
 }
 
 static iso_status check_named(iso_context *ctx, const iso_record *r, const iso_effects *effects)
@@ -136,8 +144,7 @@ static iso_status read_effect(iso_context *ctx, const iso_record *r, iso_effect_
         if (iso_record_get_numbers(ctx, r, key, (size_t)n->count, iso_effect_values(effects, e, n), &status))
             continue;
         if (status != ISO_OK) return status;
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "effect '%s' needs a line '# %s: ...'",
-                                iso_effect_list[e]->name, key);
+        return ISO_FAIL_INPUT(ctx, "effects", "effect '%s' needs a line '# %s: ...'", iso_effect_list[e]->name, key);
     }
     return ISO_OK;
 }
@@ -154,8 +161,8 @@ iso_status iso_record_effects(iso_context *ctx, const iso_record *r, iso_effects
         if (length < sizeof name) memcpy(name, names, length);
         const iso_effect_id e = iso_effect_find(name);
         if (e == ISO_EFFECTS)
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "there is no effect '%.*s'; %s", (int)length,
-                                    names, iso_suggest_word(suggested, name, iso_effect_name));
+            return ISO_FAIL_INPUT(ctx, "effects", "there is no effect '%.*s'; %s", (int)length, names,
+                                  iso_suggest_word(suggested, name, iso_effect_name));
         ISO_TRY(read_effect(ctx, r, e, effects));
     }
     return check_named(ctx, r, effects);
@@ -179,25 +186,18 @@ bool iso_record_up(iso_context *ctx, const iso_record *r, double up[3])
     return fabs(length - 1) <= 1e-3;
 }
 
-/* The group of an effect's columns that is called `name`. */
-static const iso_effect_column *find_group(const iso_effect *effect, const char *name)
-{
-    const iso_effect_column *group = effect->columns;
-    while (strcmp(group->name, name) != 0) group++;
-    return group;
-}
-
 /* Numbers that turn with the ball: an orbit that starts at this row starts with the vertical, or quaternion, of the
  * row. */
-static iso_status turn_number(iso_context *ctx, const double row[], const iso_record *r, const iso_effect *effect,
+static iso_status turn_number(iso_context *ctx, const double row[], const iso_record *r, iso_effect_id id,
                               const iso_effect_number *n, double x[])
 {
     int columns[ISO_EFFECT_NUMBERS];
     const char *missing;
-    if (!iso_record_find_all(r, (size_t)n->count, find_group(effect, n->turns_with)->column, columns, &missing))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "columns",
-                                "the trajectory has no column '%s', without which '%s' is not known", missing,
-                                effect->name);
+    const iso_effect_column *group;
+    iso_effect_group(id, n->turns_with, &group);
+    if (!iso_record_find_all(r, (size_t)n->count, group->column, columns, &missing))
+        return ISO_FAIL_INPUT(ctx, "columns", "the trajectory has no column '%s', without which '%s' is not known",
+                              missing, iso_effect_list[id]->name);
     for (int i = 0; i < n->count; i++) x[i] = row[columns[i]];
     return ISO_OK;
 }
@@ -208,7 +208,7 @@ static iso_status turn_effects(iso_context *ctx, const iso_record *r, const doub
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
         for (const iso_effect_number *n = iso_effect_list[e]->numbers; effects->on[e] && n && n->name; n++)
             if (status == ISO_OK && n->turns_with)
-                status = turn_number(ctx, row, r, iso_effect_list[e], n, iso_effect_values(effects, e, n));
+                status = turn_number(ctx, row, r, e, n, iso_effect_values(effects, e, n));
     return status;
 }
 
@@ -224,17 +224,16 @@ static const char *advice(double off, char text[64])
 static iso_status refuse_length(iso_context *ctx, iso_model_kind model, double length, double tolerance)
 {
     char text[64];
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "|%s| = %.10g: a unit vector to %g is expected%s",
-                            model == ISO_BALL ? "n" : "gamma", length, tolerance, advice(fabs(length - 1), text));
+    return ISO_FAIL_INPUT(ctx, "", "|%s| = %.10g: a unit vector to %g is expected%s",
+                          model == ISO_BALL ? "n" : "gamma", length, tolerance, advice(fabs(length - 1), text));
 }
 
 static iso_status refuse_spin(iso_context *ctx, iso_model_kind model, double along, double tolerance)
 {
     char text[64];
     const bool ball = model == ISO_BALL;
-    return iso_context_fail(
-        ctx, ISO_BAD_INPUT, "",
-        "%s has a part %.3g of its size along %s: this is no %s (a right angle to %g is expected%s)",
+    return ISO_FAIL_INPUT(
+        ctx, "", "%s has a part %.3g of its size along %s: this is no %s (a right angle to %g is expected%s)",
         ball ? "omega" : "M", along, ball ? "n" : "gamma", ball ? "rubber ball's motion" : "point on a sphere",
         tolerance, advice(fabs(along), text));
 }

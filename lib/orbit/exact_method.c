@@ -4,7 +4,6 @@
  * library, and a user chooses it as a backend. Only a search for events follows the orbit step by step; in a step the
  * state changes by half its size.
  */
-#include <math.h>
 #include <stdlib.h>
 
 #include "base/finite_impl.h"

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "method/methods_impl.h"
-#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 
 bool iso_lanes_suit(const iso_orbit *orbit)
@@ -18,16 +17,9 @@ bool iso_lanes_suit(const iso_orbit *orbit)
 iso_status iso_lanes_check(iso_context *ctx, int threads, const char *vectors, bool found)
 {
     if (threads < 0 || threads > ISO_MOST_THREADS)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "threads", "%d threads are not in [0, %d]", threads,
-                                ISO_MOST_THREADS);
+        return ISO_FAIL_ARGUMENT(ctx, "threads", "%d threads are not in [0, %d]", threads, ISO_MOST_THREADS);
     if (found) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors", "this processor, or this build, has no vectors '%s'",
-                            vectors);
-}
-
-static bool share_lanes(const iso_lane_job *a, const iso_lane_job *b)
-{
-    return a->axis == b->axis && !a->time == !b->time && iso_lanes_alike(a->model, b->model);
+    return ISO_FAIL_ARGUMENT(ctx, "vectors", "this processor, or this build, has no vectors '%s'", vectors);
 }
 
 bool iso_lanes_in_groups(iso_pool_worker *w, const iso_lane_code *code, double tolerance, long max_steps,
@@ -37,9 +29,10 @@ bool iso_lanes_in_groups(iso_pool_worker *w, const iso_lane_code *code, double t
     iso_lane_job **other = malloc((count + 1) * sizeof *other);
     bool memory = other != NULL;
     while (memory && count > 0) {
+        const iso_lane_job *a = jobs[0];
         size_t alike = 1, others = 0;
         for (size_t i = 1; i < count; i++)
-            if (share_lanes(jobs[0], jobs[i]))
+            if (a->axis == jobs[i]->axis && !a->time == !jobs[i]->time && iso_lanes_alike(a->model, jobs[i]->model))
                 jobs[alike++] = jobs[i];
             else
                 other[others++] = jobs[i];

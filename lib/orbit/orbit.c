@@ -49,12 +49,11 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
     opt->backend = choose_backend(opt, &o->effects, start);
     const bool ball = opt->backend == ISO_BACKEND_BALL, exact = opt->backend == ISO_BACKEND_EXACT;
     if ((!ball && !exact && opt->backend != ISO_BACKEND_POINT) || (int)opt->shown < 0 || opt->shown > ISO_SHOW_BOTH)
-        return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "backend",
-                                "an orbit is found by backend ball, point or exact, "
-                                "and shown as ball, point or both");
+        return ISO_FAIL_ARGUMENT(
+            o->ctx, "backend", "an orbit is found by backend ball, point or exact, and shown as ball, point or both");
     if (exact && opt->method && opt->method != &iso_method_exact)
-        return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "method",
-                                "backend exact does not integrate: leave the method out, or take backend point");
+        return ISO_FAIL_ARGUMENT(o->ctx, "method",
+                                 "backend exact does not integrate: leave the method out, or take backend point");
     ISO_TRY(iso_orbit_find_start(o, p, start, six));
     const iso_problem problem = {.p = o->units.own, .eps = o->eps, .energy = o->level, .effects = o->effects};
     o->model = iso_model_assemble(o->system, &problem, opt->clock, opt->with_clock);
@@ -74,8 +73,8 @@ static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *sta
                                   .time_unit = o->unit_clock[opt->clock],
                                   .max_steps = opt->max_steps,
                                   .memory = opt->memory};
-    iso_status status = iso_integrator_create(o->ctx, opt->method, &o->model, &m, &o->integrator);
-    return status == ISO_OK ? iso_integrator_start(o->integrator, y) : status;
+    ISO_TRY(iso_integrator_create(o->ctx, opt->method, &o->model, &m, &o->integrator));
+    return iso_integrator_start(o->integrator, y);
 }
 
 iso_status iso_orbit_create(iso_context *ctx, const iso_params *p, const iso_start *start,
@@ -117,9 +116,8 @@ static iso_status to_users_units(const iso_orbit *o, const char *name, double un
         finite = finite && isfinite(x[i]);
     }
     if (finite && (before == 0 || vanishes || fmin(before, after) >= DBL_MIN)) return ISO_OK;
-    return iso_context_fail(
-        o->ctx, ISO_NUMERICAL, "",
-        "%s is out of the range of doubles in these units: use other units of mass, length or time", name);
+    return ISO_FAIL_NUMERICAL(
+        o->ctx, "%s is out of the range of doubles in these units: use other units of mass, length or time", name);
 }
 
 /* The state of what is integrated as a ball's, or as a point's. */
@@ -189,11 +187,10 @@ static iso_status check_steps(const iso_orbit *o, double turns)
     const iso_problem *f = &o->model.problem;
     const double stiffness = iso_effects_stiffness(f), steps = stiffness * fmin(turns, iso_effects_moving(f));
     if (o->options.method->implicit || !(stiffness > ISO_STIFF && steps > MOST_STIFF_STEPS)) return ISO_OK;
-    return iso_context_fail(
-        o->ctx, ISO_BAD_ARGUMENT, "method",
-        "this model is stiff: what resists acts %.1g times as fast as the ball turns, and %s, which is "
-        "explicit, would take about %.1g steps: take bdf or bsimp",
-        stiffness, o->options.method->name, steps);
+    return ISO_FAIL_ARGUMENT(o->ctx, "method",
+                             "this model is stiff: what resists acts %.1g times as fast as the ball turns, and %s, "
+                             "which is explicit, would take about %.1g steps: take bdf or bsimp",
+                             stiffness, o->options.method->name, steps);
 }
 
 /* Beyond 1e15 turns a double does not tell one part of a turn from another (and no one would live to see it). */
@@ -208,9 +205,9 @@ static iso_status to_own_time(const iso_orbit *o, double time, double *own_time)
     const double turns = *own_time / fastest;
     if (o->rests && isfinite(*own_time)) return ISO_OK; /* what rests has no turns */
     if (fabs(turns) <= 1e15) return check_steps(o, turns);
-    return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "end",
-                            "%s = %g is out of range: it is %g turns of this ball, and 1e15 can be told apart",
-                            iso_clock_name(clock), time, turns);
+    return ISO_FAIL_ARGUMENT(o->ctx, "end",
+                             "%s = %g is out of range: it is %g turns of this ball, and 1e15 can be told apart",
+                             iso_clock_name(clock), time, turns);
 }
 
 iso_status iso_orbit_check_time(const iso_orbit *o, double time)
@@ -229,9 +226,8 @@ static iso_status check_drift(const iso_orbit *o, const double y[])
     const double energy = o->model.system->energy(&o->model.problem, y, &size);
     const double drift = size > 0 ? fabs(energy - o->model.problem.energy) / size : 0;
     if (drift <= fmax(1e-3, 1e4 * o->options.tolerance)) return ISO_OK;
-    return iso_context_fail(
-        o->ctx, ISO_NUMERICAL, "",
-        "%s has lost the energy (by %.1g of it): take the other backend, or a method with projection",
+    return ISO_FAIL_NUMERICAL(
+        o->ctx, "%s has lost the energy (by %.1g of it): take the other backend, or a method with projection",
         o->options.method->name, drift);
 }
 

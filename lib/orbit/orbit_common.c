@@ -110,8 +110,8 @@ bool iso_way_next(iso_way *way, iso_status status)
 iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *way_out)
 {
     const iso_params *p = &o->units.own;
-    return iso_context_fail(o->ctx, ISO_NUMERICAL, "k",
-                            "k = %g is too extreme for %s with max J/min J = %.3g: powers q^(1/k) leave the "
-                            "range of doubles; %s",
-                            p->k, what, max3(p->J) / min3(p->J), way_out);
+    return iso_context_fail(
+        o->ctx, ISO_NUMERICAL, "k",
+        "k = %g is too extreme for %s with max J/min J = %.3g: powers q^(1/k) leave the range of doubles; %s", p->k,
+        what, max3(p->J) / min3(p->J), way_out);
 }

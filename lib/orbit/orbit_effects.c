@@ -34,9 +34,8 @@ static bool show_effect(const iso_orbit *o, const iso_effect *effect, const doub
 static iso_status out_of_range(const iso_orbit *o, const iso_sample *s, int column)
 {
     while (isfinite(s->effect[column])) column++;
-    return iso_context_fail(
-        o->ctx, ISO_NUMERICAL, "",
-        "%s is out of the range of doubles in these units: use other units of mass, length or time",
+    return ISO_FAIL_NUMERICAL(
+        o->ctx, "%s is out of the range of doubles in these units: use other units of mass, length or time",
         iso_effect_column_name(column, NULL, NULL, NULL));
 }
 

@@ -128,6 +128,10 @@ iso_status iso_scene_check_columns(iso_context *ctx, const iso_scene *scene);
 
 /* --- descriptions ----------------------------------------------------------------------------------------------- */
 
+/* The first column, in a trajectory, of a group of an effect's columns, and the group (NULL: not asked). name NULL: the
+ * first group that moves. -1: there is none. */
+int iso_effect_group(iso_effect_id id, const char *name, const iso_effect_column **group);
+
 /* The key of the line that states a number of an effect: "effect.number". */
 void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const iso_effect_number *number);
 

@@ -24,10 +24,10 @@ static iso_status check_units(const iso_orbit *o, const iso_start *start)
     for (int c = 0; c < ISO_CLOCKS; c++)
         fits = fits && ((c != (int)opt->clock && !opt->with_clock[c]) || isnormal(o->unit_clock[c]));
     if (fits) return ISO_OK;
-    return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
-                            "M (about %g) or a clock (s about %g) does not fit a double in these units: use other "
-                            "units of mass, length or time, or ask for the ball in its time t alone",
-                            o->unit_M, o->unit_clock[ISO_CLOCK_S]);
+    return ISO_FAIL_NUMERICAL(o->ctx,
+                              "M (about %g) or a clock (s about %g) does not fit a double in these units: use other "
+                              "units of mass, length or time, or ask for the ball in its time t alone",
+                              o->unit_M, o->unit_clock[ISO_CLOCK_S]);
 }
 
 /* Whether q^(exponent), times k^2/det J, is a double for all these q. */
@@ -138,9 +138,9 @@ static iso_status start_point(iso_orbit *o, const iso_params *p, const iso_start
     iso_effects_set_level(&o->effects, o->level != 0, iso_energy(&problem.p, o->level));
     if (agrees) return ISO_OK;
     const double unit = iso_unit(&o->units, iso_level_dimension());
-    return iso_context_fail(o->ctx, ISO_BAD_INPUT, "c",
-                            "level: this point has the energy of c = %.17g, not of c = %.17g: leave c out, or eps",
-                            iso_effects_level(&o->effects) * unit, stated * unit);
+    return ISO_FAIL_INPUT(o->ctx, "c",
+                          "level: this point has the energy of c = %.17g, not of c = %.17g: leave c out, or eps",
+                          iso_effects_level(&o->effects) * unit, stated * unit);
 }
 
 /* --- what effects allow ----------------------------------------------------------------------------------------- */
@@ -150,10 +150,10 @@ static iso_status check_closed(iso_context *ctx, const iso_effects *effects)
 {
     const iso_effect *effect = iso_effects_beyond_level(effects);
     if (!effect) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, effect->name,
-                            "the closed solution is for a ball on which nothing acts but '%s', not for one with "
-                            "'%s': take backend %s",
-                            iso_level_name(), effect->name, iso_effect_why_broken(effect) ? "ball" : "point");
+    return ISO_FAIL_ARGUMENT(
+        ctx, effect->name,
+        "the closed solution is for a ball on which nothing acts but '%s', not for one with '%s': take backend %s",
+        iso_level_name(), effect->name, iso_effect_why_broken(effect) ? "ball" : "point");
 }
 
 iso_status iso_orbit_no_point(iso_context *ctx, const iso_effect *breaking)
@@ -175,8 +175,7 @@ static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_sta
     if (o->options.backend == ISO_BACKEND_EXACT && check_closed(o->ctx, e) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (breaking && point) return iso_orbit_no_point(o->ctx, breaking);
     if (only_ball && by_point)
-        return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, only_ball->name, "'%s' is the ball's: take backend ball",
-                                only_ball->name);
+        return ISO_FAIL_ARGUMENT(o->ctx, only_ball->name, "'%s' is the ball's: take backend ball", only_ball->name);
     iso_start_normal(p, start, n);
     return iso_effects_check(o->ctx, p, n, e);
 }
@@ -231,9 +230,9 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
 {
     const needs need = what_is_needed(&o->options, start);
     if (start->model != ISO_BALL && start->model != ISO_POINT)
-        return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "", "an orbit starts as a ball or as a point");
+        return ISO_FAIL_ARGUMENT(o->ctx, "", "an orbit starts as a ball or as a point");
     if (!all_finite(start->y, ISO_STATE) || (start->model == ISO_POINT && isinf(start->eps)))
-        return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "", "the start is not finite");
+        return ISO_FAIL_ARGUMENT(o->ctx, "", "the start is not finite");
     o->length = p->body.radius > 0 ? p->body.radius : 1;
     ISO_TRY(check_effects(o, p, start));
     set_units(o, p, 0);
@@ -260,11 +259,9 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
     const bool level = need.ball || start->model == ISO_BALL; /* the ball's is asked for, and may not fit a double */
     const iso_effects in_users_units = iso_orbit_effects(o);
     if (level && iso_effects_have_level(&o->effects) && !isnormal(iso_effects_level(&in_users_units)))
-        return iso_context_fail(
-            o->ctx, ISO_NUMERICAL, "c",
-            "level: c of the ball is out of the range of doubles in these units: use other units, or "
-            "ask for the point in its time s alone");
+        return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
+                                "level: c of the ball is out of the range of doubles in these units: use other "
+                                "units, or ask for the point in its time s alone");
     if (all_finite(y, ISO_STATE) && isfinite(o->h) && (!need.point || isfinite(o->eps))) return ISO_OK;
-    return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
-                            "the start is out of the range of doubles in the ball's own units");
+    return ISO_FAIL_NUMERICAL(o->ctx, "the start is out of the range of doubles in the ball's own units");
 }

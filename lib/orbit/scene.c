@@ -1,4 +1,4 @@
-/* scene.c - what a scene asks for: columns and models by their names, starts, and times. */
+/* scene.c - what a scene asks for: columns and models by their names, starts, times, and levels. */
 #include "orbit/orbit_impl.h"
 
 #include <math.h>
@@ -8,6 +8,7 @@
 #include "base/names_impl.h"
 #include "base/place_impl.h"
 #include "base/vec3_impl.h"
+#include "map/section_impl.h"
 #include "model/model_impl.h"
 
 /* --- columns ---------------------------------------------------------------------------------------------------- */
@@ -60,34 +61,31 @@ static iso_status check_pair(iso_context *ctx, const char *unit_name, const char
                              double unit[3], double vector[3])
 {
     for (int i = 0; i < 3; i++) {
-        if (!isfinite(unit[i])) return iso_context_fail(ctx, ISO_BAD_INPUT, unit_name, "%s is not finite", unit_name);
-        if (!isfinite(vector[i]))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, vector_name, "%s is not finite", vector_name);
+        if (!isfinite(unit[i])) return ISO_FAIL_INPUT(ctx, unit_name, "%s is not finite", unit_name);
+        if (!isfinite(vector[i])) return ISO_FAIL_INPUT(ctx, vector_name, "%s is not finite", vector_name);
     }
     const double length = hypot(hypot(unit[0], unit[1]), unit[2]);
-    if (length == 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, unit_name, "%s is zero, it must be a unit vector", unit_name);
+    if (length == 0) return ISO_FAIL_INPUT(ctx, unit_name, "%s is zero, it must be a unit vector", unit_name);
     if (!(fabs(length - 1) <= 1e-6))
-        return iso_context_fail(
-            ctx, ISO_BAD_INPUT, unit_name,
-            "%s has length %.10g, it must be a unit vector (to 1e-6): write [%.10g, %.10g, %.10g]", unit_name, length,
-            unit[0] / length, unit[1] / length, unit[2] / length);
+        return ISO_FAIL_INPUT(ctx, unit_name,
+                              "%s has length %.10g, it must be a unit vector (to 1e-6): write [%.10g, %.10g, %.10g]",
+                              unit_name, length, unit[0] / length, unit[1] / length, unit[2] / length);
     make_unit(unit);
     const double most = largest(vector);
     if (most == 0) return ISO_OK;
     if (!isnormal(most))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, vector_name,
-                                "%s = %g is too small for a double to hold its digits: use a longer unit of time",
-                                vector_name, most);
+        return ISO_FAIL_INPUT(ctx, vector_name,
+                              "%s = %g is too small for a double to hold its digits: use a longer unit of time",
+                              vector_name, most);
     if (spin == ISO_SPIN_KEEP) return ISO_OK;
     const double size = ldexp(1, ilogb(most)); /* a power of two: dividing by it rounds nothing */
     double v[3] = {vector[0] / size, vector[1] / size, vector[2] / size}; /* no overflow in the products */
     const double along = remove_along(v, unit);
     if (spin == ISO_SPIN_REFUSE && fabs(along) > 1e-9 * hypot(norm(v), along))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, vector_name,
-                                "%s has a part %.6g along %s, it must be orthogonal to it (to 1e-9): write "
-                                "[%.17g, %.17g, %.17g], or 'project: true'",
-                                vector_name, along * size, unit_name, v[0] * size, v[1] * size, v[2] * size);
+        return ISO_FAIL_INPUT(ctx, vector_name,
+                              "%s has a part %.6g along %s, it must be orthogonal to it (to 1e-9): write [%.17g, "
+                              "%.17g, %.17g], or 'project: true'",
+                              vector_name, along * size, unit_name, v[0] * size, v[1] * size, v[2] * size);
     remove_along(v, unit);
     for (int i = 0; i < 3; i++) vector[i] = v[i] * size;
     return ISO_OK;
@@ -110,8 +108,7 @@ iso_status iso_start_point(iso_context *ctx, const double M[3], const double gam
     *start = (iso_start){.model = ISO_POINT, .eps = eps ? *eps : NAN};
     copy(M, start->y, 3);
     copy(gamma, start->y + 3, 3);
-    if (eps && !isfinite(*eps))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "eps", "eps = %g: the coupling must be finite", *eps);
+    if (eps && !isfinite(*eps)) return ISO_FAIL_INPUT(ctx, "eps", "eps = %g: the coupling must be finite", *eps);
     return check_pair(ctx, "gamma", "M", project ? ISO_SPIN_REMOVE : ISO_SPIN_REFUSE, start->y + 3, start->y);
 }
 
@@ -178,11 +175,11 @@ static double steps_to_end(const iso_scene *scene)
 
 iso_status iso_scene_check_times(iso_context *ctx, const iso_scene *scene)
 {
-    if (!isfinite(scene->end)) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "end", "the last time is not finite");
+    if (!isfinite(scene->end)) return ISO_FAIL_ARGUMENT(ctx, "end", "the last time is not finite");
     if (!(scene->step >= 0 && isfinite(scene->step)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "step", "a step of %g is none", scene->step);
+        return ISO_FAIL_ARGUMENT(ctx, "step", "a step of %g is none", scene->step);
     if (steps_to_end(scene) <= ISO_MOST_ROWS) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "step", "more than 1e8 rows: take a longer step");
+    return ISO_FAIL_ARGUMENT(ctx, "step", "more than 1e8 rows: take a longer step");
 }
 
 size_t iso_scene_rows(const iso_scene *scene)
@@ -244,10 +241,10 @@ iso_status iso_scene_check_columns(iso_context *ctx, const iso_scene *scene)
         const iso_effect_id effect = iso_column_effect(columns[i]);
         if (is_filled(scene, columns[i])) continue;
         if (scene->effects.on[effect])
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "column '%s': %s", iso_column_name(columns[i]),
-                                    why_empty(scene, columns[i]));
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "column '%s' needs the effect '%s'",
-                                iso_column_name(columns[i]), iso_effect_list[effect]->name);
+            return ISO_FAIL_INPUT(ctx, "columns", "column '%s': %s", iso_column_name(columns[i]),
+                                  why_empty(scene, columns[i]));
+        return ISO_FAIL_INPUT(ctx, "columns", "column '%s' needs the effect '%s'", iso_column_name(columns[i]),
+                              iso_effect_list[effect]->name);
     }
     return ISO_OK;
 }
@@ -278,4 +275,65 @@ iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char 
     return iso_context_placed(ctx,
                               iso_context_fail(ctx, status == ISO_BAD_ARGUMENT ? ISO_BAD_INPUT : status, "",
                                                "%s:%d:%d: %s", name, at->line, at->column, iso_context_message(ctx)));
+}
+
+/* --- levels ----------------------------------------------------------------------------------------------------- */
+
+static iso_status refuse_place(iso_context *ctx, const iso_point_motion m, double level, double q, const char *name)
+{
+    return ISO_FAIL_INPUT(ctx, "level",
+                          "level %.10g is not reached at this %s: the potential there is %.10g, counted like the "
+                          "level, and the level must be above it",
+                          level, name, -iso_level_of(m.p, pow(q, -1 / m.p->k)));
+}
+
+/* Keeps eps, gamma and the direction of M. */
+static iso_status move_point(iso_context *ctx, const iso_orbit *orbit, double level, iso_start *start)
+{
+    iso_point_motion m = iso_orbit_motion(orbit);
+    const double q = dot_diag(start->y + 3, m.p->J, start->y + 3), size = largest(start->y);
+    m.energy = m.eps * iso_level_energy(m.p, level);
+    const double M = iso_section_momentum_at(m.p->k, m.eps, m.energy, q);
+    if (!(m.eps > 0)) return ISO_FAIL_INPUT(ctx, "eps", "a level is counted in units of eps, which must be above 0");
+    if (size == 0) return ISO_FAIL_INPUT(ctx, "M", "M is 0 and has no direction: a level sets only the length of M");
+    if (!(M > 0 && isfinite(M))) return refuse_place(ctx, m, level, q, "gamma");
+    scale(start->y, 1 / size);
+    scale(start->y, M / norm(start->y) * iso_unit(iso_orbit_units(orbit), iso_system_point.fast_dimension));
+    if (isnan(start->eps)) start->eps = iso_orbit_coupling(orbit);
+    return ISO_OK;
+}
+
+/* Keeps omega and n, and finds c: with eta = level J2^(-1/k) the energy is h = T - c g^(-1/k), c = eta h, so
+ * h = T/(1 + eta g^(-1/k)). */
+static iso_status move_ball(iso_context *ctx, const iso_orbit *orbit, double level, iso_scene *scene)
+{
+    const iso_point_motion m = iso_orbit_motion(orbit);
+    const double *n = scene->start.y + 3, q = 1 / dot_diag(n, m.p->inv_J, n);
+    const double T = iso_energy(m.p, m.eps), eta = iso_level_energy(m.p, level);
+    const double h = T / (1 + eta * pow(q, 1 / m.p->k));
+    if (!(T > 0)) return ISO_FAIL_INPUT(ctx, "angular_velocity", "a ball at rest cannot be put on a level");
+    if (!(h > 0 && isfinite(h))) return refuse_place(ctx, m, level, q, "normal");
+    iso_effects_set_level(&scene->effects, level != 0,
+                          eta * h * iso_unit(iso_orbit_units(orbit), iso_level_dimension()));
+    return ISO_OK;
+}
+
+iso_status iso_scene_on_level(iso_context *ctx, iso_scene *scene, double level)
+{
+    iso_effects acting = iso_scene_acting(scene);
+    const iso_effect *effect = iso_effects_beyond_level(&acting);
+    const bool ball = scene->start.model == ISO_BALL;
+    iso_orbit_options o = iso_orbit_defaults(&scene->start);
+    iso_orbit *orbit;
+    if (effect)
+        return ISO_FAIL_INPUT(ctx, effect->name, "a level needs a motion on which nothing else acts: remove '%s'",
+                              effect->name);
+    if (!isfinite(level)) return ISO_FAIL_INPUT(ctx, "level", "%g is no level", level);
+    if (ball) iso_effects_set_level(&acting, false, 0);
+    o.effects = &acting;
+    ISO_TRY(iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit));
+    if (!ball) iso_effects_set_level(&scene->effects, false, 0);
+    iso_status status = ball ? move_ball(ctx, orbit, level, scene) : move_point(ctx, orbit, level, &scene->start);
+    iso_orbit_free(orbit);
+    return status;
 }

@@ -1,6 +1,5 @@
 /* analogue.c - from a problem of a point on a sphere to a ball that realises it (see analogue.h). */
 #include "study/analogue.h"
-#include "orbit/orbit_impl.h"
 
 #include <float.h>
 #include <math.h>
@@ -8,10 +7,12 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/number_impl.h"
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
 #include "model/model_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/study_impl.h"
 
 /* The largest ratio of moments of a free ball with J = 2 E - c. The least moment is a difference, and loses as
@@ -50,14 +51,11 @@ static int find_range(const iso_analogue_problem *p, double *lowest, double *hig
 static iso_status check_numbers(iso_context *ctx, const iso_analogue_problem *p)
 {
     iso_params params;
-    if (!isfinite(p->energy))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "energy", "energy %g: it must be finite", p->energy);
+    if (!isfinite(p->energy)) return ISO_FAIL_INPUT(ctx, "energy", "energy %g: it must be finite", p->energy);
     for (int i = 0; p->neumann && i < 3; i++)
-        if (!isfinite(p->c[i]))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "c", "c%d = %g: it must be finite", i + 1, p->c[i]);
+        if (!isfinite(p->c[i])) return ISO_FAIL_INPUT(ctx, "c", "c%d = %g: it must be finite", i + 1, p->c[i]);
     if (p->neumann) return ISO_OK;
-    if (!isfinite(p->eps))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "eps", "eps = %g: the coupling must be finite", p->eps);
+    if (!isfinite(p->eps)) return ISO_FAIL_INPUT(ctx, "eps", "eps = %g: the coupling must be finite", p->eps);
     return iso_params_reduced(ctx, p->k, p->J, &params);
 }
 
@@ -82,8 +80,7 @@ static iso_status check_energy(iso_context *ctx, const iso_analogue *a)
                       (a->problem.neumann || a->problem.eps == 0 || (isnormal(a->lowest) && isnormal(a->highest)));
     if (!fits)
         return iso_context_fail(ctx, ISO_NUMERICAL, "k",
-                                "V leaves the range of doubles on the sphere: k is too small, "
-                                "or J too far from 1");
+                                "V leaves the range of doubles on the sphere: k is too small, or J too far from 1");
     if (is_constant(&a->problem) && E - a->lowest <= rounding(a))
         return iso_context_fail(ctx, ISO_NOT_MAPPED, "energy",
                                 "V = %.10g is constant, so at the energy %.10g %s: a ball at rest has no twin",
@@ -91,11 +88,10 @@ static iso_status check_energy(iso_context *ctx, const iso_analogue *a)
                                 E < a->lowest ? "there is no motion" : "the point rests wherever it is");
     if (E - a->lowest >= -rounding(a)) return ISO_OK;
     if (E == 0 && !a->problem.neumann)
-        return iso_context_fail(
-            ctx, ISO_NOT_MAPPED, "energy",
-            "no motion has the energy 0: eps = %.10g is negative, and so is h = eps k^2/det J of a "
-            "free ball. V is at least %.10g, from that energy on there is a ball",
-            a->problem.eps, a->lowest);
+        return iso_context_fail(ctx, ISO_NOT_MAPPED, "energy",
+                                "no motion has the energy 0: eps = %.10g is negative, and so is h = eps k^2/det J of "
+                                "a free ball. V is at least %.10g, from that energy on there is a ball",
+                                a->problem.eps, a->lowest);
     return iso_context_fail(ctx, ISO_NOT_MAPPED, "energy",
                             "no motion has the energy %.10g: V is between %.10g and %.10g on the sphere", E,
                             a->lowest, a->highest);
@@ -120,11 +116,10 @@ static iso_status make_ball(iso_context *ctx, double k, const double J[3], doubl
     const bool fits = isnormal(ball->params.det_J) && isfinite(eps) && isfinite(ball->h) && isfinite(ball->level) &&
                       (eps == 0) == (ball->h == 0) && (level_energy == 0) == (ball->level == 0);
     if (fits) return ISO_OK;
-    return iso_context_fail(
-        ctx, ISO_NUMERICAL, "",
-        "the ball of k = %g, J = %g %g %g, eps = %g, E = %g has an h or c that does not fit a double: "
-        "use other units",
-        k, J[0], J[1], J[2], eps, level_energy);
+    return ISO_FAIL_NUMERICAL(ctx,
+                              "the ball of k = %g, J = %g %g %g, eps = %g, E = %g has an h or c that does not fit a "
+                              "double: use other units",
+                              k, J[0], J[1], J[2], eps, level_energy);
 }
 
 /* V is a constant: takes the stated moments if they are equal, else moments that make the ball of order one. */
@@ -217,8 +212,8 @@ static void make_body(iso_context *ctx, double mass, double radius, iso_analogue
     a->room = triangle_room(r->params.J);
     if (!(a->room > 0)) {
         snprintf(a->no_body, sizeof a->no_body,
-                 "triangle inequality: J1 + J2 - J3 = %.6g is not positive (J sorted), so that I = J - D breaks "
-                 "I3 <= I1 + I2 for every D = m B^2 > 0",
+                 "triangle inequality: J1 + J2 - J3 = %.6g is not positive (J sorted), so that I = J - D breaks I3 "
+                 "<= I1 + I2 for every D = m B^2 > 0",
                  a->room);
         return;
     }
@@ -275,7 +270,7 @@ iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
     iso_effects effects = iso_scene_acting(scene);
     if (scene->start.model != ISO_POINT)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "this scene is a ball already: an analogue is of a 'point'");
+        return ISO_FAIL_INPUT(ctx, "", "this scene is a ball already: an analogue is of a 'point'");
     ISO_TRY(check_effects(ctx, &effects));
     o.effects = &effects;
     ISO_TRY(iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit));
@@ -353,4 +348,81 @@ iso_status iso_analogue_scene(iso_context *ctx, const iso_analogue_ball *ball, c
     iso_orbit_free(orbit);
     if (status == ISO_OK) *scene = s;
     return status;
+}
+
+/* --- units ------------------------------------------------------------------------------------------------------ */
+
+/* A problem of a point fixes the ball's J up to a scale s (analogue.h). The angular velocity goes as
+ * s^((1/k - 4)/2). With D = m B^2 in the middle of its range, s is 2 D/(J1 + J2 - J3). So there is one D for which
+ * the angular velocity is 1. Mass and radius are round numbers with a product m B^2 near this D. */
+
+/* The n-th of the numbers ..., 0.5, 1, 2, 5, 10, ...: 1 is the 0th. */
+static double round_number(int n)
+{
+    static const int digit[] = {1, 2, 5};
+    char text[ISO_NUMBER_SIZE];
+    const int place = ((n % 3) + 3) % 3;
+    double x = NAN;
+    const int length = snprintf(text, sizeof text, "%de%d", digit[place], (n - place) / 3);
+    return iso_number_read(text, (size_t)length, &x) ? x : NAN;
+}
+
+/* Which of them is nearest to x > 0, by ratio. */
+static int nearest_round(double x)
+{
+    x = fmin(fmax(x, 1e-100), 1e100);
+    int n = 3 * (int)floor(log10(x));
+    while (x * x > round_number(n) * round_number(n + 1)) n++;
+    return n;
+}
+
+double iso_analogue_round_up(double x)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    if (!(x > 1e-300 && x < 1e300)) return x;
+    int n = 3 * (int)floor(log10(x)) - 1;
+    while (round_number(n) < x) n++;
+    return round_number(n);
+}
+
+/* The ball's angular velocity at the point's start. */
+static double angular_velocity(const iso_analogue *a, const double start[ISO_STATE])
+{
+    double ball[ISO_STATE];
+    iso_point_to_ball(&a->reduced.params, start, ball);
+    return norm(ball);
+}
+
+/* The D = m B^2 for which the angular velocity of the body is 1. For k near 1/4 it hardly depends on D: then, and
+ * where the ball is at rest, D is 1. */
+static double best_D(const iso_analogue *a, const double start[ISO_STATE])
+{
+    const double power = (1 / a->reduced.params.k - 4) / 2, w = angular_velocity(a, start);
+    const double D = a->room / 2 * pow(w, -1 / power);
+    if (!(w > 0) || !isfinite(w) || !(fabs(power) > 0.25)) return 1;
+    return fmin(fmax(D, 1e-9), 1e9);
+}
+
+/* The round mass and radius whose m B^2 is nearest to D. The radius is one of three near the cube root of D. */
+static void choose_both(double D, double *mass, double *radius)
+{
+    const int middle = nearest_round(cbrt(D));
+    double best = INFINITY;
+    for (int n = middle - 1; n <= middle + 1; n++) {
+        const double B = round_number(n), m = round_number(nearest_round(D / (B * B)));
+        const double off = fabs(log(m * B * B / D));
+        if (off < best) best = off, *mass = m, *radius = B;
+    }
+}
+
+void iso_analogue_choose_units(const iso_analogue *a, const double start[ISO_STATE], double *mass, double *radius)
+{
+    if (!isnan(*mass) && !isnan(*radius)) return;
+    const double D = best_D(a, start);
+    if (isnan(*mass) && isnan(*radius))
+        choose_both(D, mass, radius);
+    else if (isnan(*mass))
+        *mass = round_number(nearest_round(D / *radius / *radius));
+    else
+        *radius = round_number(nearest_round(sqrt(D / *mass)));
 }

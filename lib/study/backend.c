@@ -14,7 +14,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/run.h"
 #include "study/study_impl.h"

@@ -111,7 +111,7 @@ iso_status iso_record_energies(iso_context *ctx, const iso_params *params, const
     while (strcmp(e.h->name, "h") != 0) e.h++;
     for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
         e.columns[i] = i < iso_columns_count() ? iso_record_find(record, iso_column_name(i)) : -1;
-    if (iso_record_rows(record) == 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "", "the trajectory has no rows");
+    if (iso_record_rows(record) == 0) return ISO_FAIL_INPUT(ctx, "", "the trajectory has no rows");
     ISO_TRY(iso_record_effects(ctx, record, &e.effects));
     leave_out_observers(&e);
     iso_effects effects = e.effects;

@@ -1,8 +1,6 @@
 /* level.c - the level of a scene (study_impl.h). */
-#include <math.h>
 
 #include "map/section_impl.h"
-#include "map/state.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/study_impl.h"

@@ -19,28 +19,27 @@ iso_status iso_refuse_beyond_level(iso_context *ctx, const iso_effects *effects,
 {
     const iso_effect *effect = iso_effects_beyond_level(effects);
     if (!effect) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
-                            "%s only of the free ball and of the point, on every level of its energy: remove '%s'",
-                            what, effect->name);
+    return ISO_FAIL_INPUT(ctx, effect->name,
+                          "%s only of the free ball and of the point, on every level of its energy: remove '%s'",
+                          what, effect->name);
 }
 
 iso_status iso_refuse_coupling(iso_context *ctx, const iso_orbit *orbit, const char *what)
 {
     const iso_point_motion m = iso_orbit_motion(orbit);
     if (m.eps > 0 || m.energy == 0) return ISO_OK;
-    return iso_context_fail(
-        ctx, ISO_BAD_INPUT, iso_level_name(),
-        "%s only where the point's coupling eps is above 0; here it is %.6g: the ball's energy in "
-        "the potential of 'level' is not positive",
-        what, iso_orbit_coupling(orbit));
+    return ISO_FAIL_INPUT(ctx, iso_level_name(),
+                          "%s only where the point's coupling eps is above 0; here it is %.6g: the ball's energy in "
+                          "the potential of 'level' is not positive",
+                          what, iso_orbit_coupling(orbit));
 }
 
 iso_status iso_refuse_losses(iso_context *ctx, const iso_orbit *orbit, const char *what)
 {
     const iso_effect *taking = iso_effects_taking_energy(&iso_orbit_model(orbit)->problem);
     if (!taking) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, taking->name,
-                            "'%s' takes energy from the ball: a motion that comes to rest %s", taking->name, what);
+    return ISO_FAIL_INPUT(ctx, taking->name, "'%s' takes energy from the ball: a motion that comes to rest %s",
+                          taking->name, what);
 }
 
 iso_status iso_refuse_unbound(iso_context *ctx, const iso_orbit *orbit, const char *what)
@@ -49,7 +48,7 @@ iso_status iso_refuse_unbound(iso_context *ctx, const iso_orbit *orbit, const ch
     const iso_status status = iso_refuse_losses(ctx, orbit, what);
     const iso_effect *without = iso_effects_without_frequencies(&iso_orbit_model(orbit)->problem, &why);
     if (status != ISO_OK || !without) return status;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, without->name, "%s: its motion %s", why, what);
+    return ISO_FAIL_INPUT(ctx, without->name, "%s: its motion %s", why, what);
 }
 
 /* --- the body --------------------------------------------------------------------------------------------------- */
@@ -58,10 +57,9 @@ iso_status iso_refuse_equal_moments(iso_context *ctx, const double J[3], const c
 {
     for (int i = 0; i < 3; i++)
         if (fabs(J[(i + 1) % 3] - J[(i + 2) % 3]) <= 4 * DBL_EPSILON * min3(J))
-            return iso_context_fail(
-                ctx, ISO_BAD_INPUT, "J",
-                "J%d and J%d are equal: a rotation about axis %d carries every orbit along, so %s", (i + 1) % 3 + 1,
-                (i + 2) % 3 + 1, i + 1, what);
+            return ISO_FAIL_INPUT(ctx, "J",
+                                  "J%d and J%d are equal: a rotation about axis %d carries every orbit along, so %s",
+                                  (i + 1) % 3 + 1, (i + 2) % 3 + 1, i + 1, what);
     return ISO_OK;
 }
 
@@ -73,15 +71,15 @@ iso_status iso_refuse_rest(iso_context *ctx, const iso_start *start, const iso_e
     const bool ball = start->model == ISO_BALL;
     if (largest(start->y) > 0 || iso_effects_pull(effects)) return ISO_OK;
     if (!ball && start->eps != 0 && !isnan(start->eps)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, ball ? "angular_velocity" : "M", "a %s at rest %s",
-                            iso_model_kind_name((int)start->model), what);
+    return ISO_FAIL_INPUT(ctx, ball ? "angular_velocity" : "M", "a %s at rest %s",
+                          iso_model_kind_name((int)start->model), what);
 }
 
 iso_status iso_refuse_start_at_rest(iso_context *ctx, const iso_start *start, const char *what)
 {
-    return iso_context_fail(ctx, ISO_BAD_INPUT, start->model == ISO_BALL ? "angular_velocity" : "M",
-                            "the %s starts at rest, where %s: start it a little later",
-                            iso_model_kind_name((int)start->model), what);
+    return ISO_FAIL_INPUT(ctx, start->model == ISO_BALL ? "angular_velocity" : "M",
+                          "the %s starts at rest, where %s: start it a little later",
+                          iso_model_kind_name((int)start->model), what);
 }
 
 /* Of a closed part of the circle: where gamma is at l the point has not enough energy. */
@@ -90,9 +88,9 @@ static iso_status refuse_closed(iso_context *ctx, const iso_orbit *orbit, int ax
 {
     const iso_point_motion m = iso_orbit_motion(orbit);
     const double unit = iso_unit(iso_orbit_units(orbit), iso_system_point.fast_dimension);
-    return iso_context_fail(ctx, ISO_BAD_INPUT, about,
-                            "n_%d = 0 is closed %s on the level H = %.6g: the potential there is not below H",
-                            axis + 1, where, m.energy * unit * unit);
+    return ISO_FAIL_INPUT(ctx, about,
+                          "n_%d = 0 is closed %s on the level H = %.6g: the potential there is not below H", axis + 1,
+                          where, m.energy * unit * unit);
 }
 
 static iso_status check_spread(iso_context *ctx, const iso_orbit *orbit, int axis)
@@ -107,11 +105,10 @@ static iso_status check_at(iso_context *ctx, const iso_orbit *orbit, int axis, c
     const double l = at[0], x = at[1];
     char where[48];
     if (fabs(x) == 1)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "at", "l, x = %g, %g is " ISO_NEVER_CROSSES, l, x, axis + 1,
-                                axis + 1);
+        return ISO_FAIL_INPUT(ctx, "at", "l, x = %g, %g is " ISO_NEVER_CROSSES, l, x, axis + 1, axis + 1);
     if (!isfinite(l) || !(fabs(x) < 1))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "at",
-                                "l, x = %g, %g is outside the chart: l is any angle, x is between -1 and 1", l, x);
+        return ISO_FAIL_INPUT(ctx, "at", "l, x = %g, %g is outside the chart: l is any angle, x is between -1 and 1",
+                              l, x);
     if (iso_section_is_open(iso_orbit_motion(orbit), axis, l)) return ISO_OK;
     snprintf(where, sizeof where, "at l = %g", l);
     return refuse_closed(ctx, orbit, axis, "at", where);
@@ -122,10 +119,10 @@ iso_status iso_refuse_starts(iso_context *ctx, const iso_orbit *orbit, const iso
 {
     const iso_effect *effect = iso_effects_beyond_level(effects);
     if (effect)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
-                                "no other starts can be given here: the section has a chart only where nothing acts "
-                                "but a level, without '%s'",
-                                effect->name);
+        return ISO_FAIL_INPUT(ctx, effect->name,
+                              "no other starts can be given here: the section has a chart only where nothing acts "
+                              "but a level, without '%s'",
+                              effect->name);
     for (size_t i = 0; i < count; i++)
         if (check_at(ctx, orbit, axis, at[i]) != ISO_OK) return ISO_BAD_INPUT;
     return spread ? check_spread(ctx, orbit, axis) : ISO_OK;

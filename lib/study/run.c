@@ -12,7 +12,6 @@
 #include "base/options_impl.h"
 #include "base/version.h"
 #include "method/methods_impl.h"
-#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/study_impl.h"
 
@@ -154,11 +153,10 @@ static iso_status check_times(runner *r)
         r->farthest = r->scene->end;
         return iso_scene_check_times(r->ctx, r->scene);
     }
-    if (o->count == 0) return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "times", "there are no times");
+    if (o->count == 0) return ISO_FAIL_ARGUMENT(r->ctx, "times", "there are no times");
     for (size_t i = 0; i < o->count; i++) {
         if (!isfinite(o->times[i]))
-            return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "times", "time %zu must be finite, not %g", i + 1,
-                                    o->times[i]);
+            return ISO_FAIL_ARGUMENT(r->ctx, "times", "time %zu must be finite, not %g", i + 1, o->times[i]);
         if (fabs(o->times[i]) > fabs(r->farthest)) r->farthest = o->times[i];
     }
     return ISO_OK;
@@ -381,4 +379,30 @@ iso_status iso_run(iso_context *ctx, const iso_scene *scene, const iso_run_optio
     iso_context_set_monitor(ctx, r.monitor.go_on, r.monitor.data);
     close_run(&r);
     return status;
+}
+
+/* --- times ------------------------------------------------------------------------------------------------------ */
+
+static int by_work(const void *first, const void *second)
+{
+    const iso_asked_time *a = first, *b = second;
+    if ((a->time < 0) != (b->time < 0)) return a->time < 0 ? 1 : -1;
+    if (a->time != b->time) return fabs(a->time) > fabs(b->time) ? 1 : -1;
+    return (a->row > b->row) - (a->row < b->row);
+}
+
+bool iso_times_in_order(const double times[], size_t count)
+{
+    for (size_t i = 1; i < count; i++)
+        if (by_work(&(iso_asked_time){times[i - 1], i - 1}, &(iso_asked_time){times[i], i}) > 0) return false;
+    return true;
+}
+
+iso_asked_time *iso_times_sorted(const double times[], size_t count)
+{
+    iso_asked_time *order = malloc(count * sizeof *order);
+    if (!order) return NULL;
+    for (size_t i = 0; i < count; i++) order[i] = (iso_asked_time){times[i], i};
+    qsort(order, count, sizeof *order, by_work);
+    return order;
 }

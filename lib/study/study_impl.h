@@ -88,7 +88,7 @@ typedef struct iso_questions {
 iso_status iso_backend_open(iso_context *ctx, const iso_scene *scene, const iso_orbit_options *how,
                             const iso_questions *questions, iso_orbit **orbit);
 
-/* --- the order in which an orbit is followed to times that come in any order (run_times.c) ---------------------- */
+/* --- the order in which an orbit is followed to times that come in any order (run.c) ---------------------------- */
 
 /* The orbit is followed away from its start, and keeps no ends of steps. For a time that lies behind, it begins at
  * the start again. So the order of the work is: times after the start, then those before it; on each side the nearer
@@ -127,7 +127,7 @@ iso_status iso_error_finder_add(iso_error_finder *finder, const iso_sample *row)
 /* The errors of the rows so far; with rows = 0 nothing is known. */
 iso_error iso_error_finder_read(const iso_error_finder *finder);
 
-/* --- analogue_units.c ------------------------------------------------------------------------------------------- */
+/* --- analogue.c ------------------------------------------------------------------------------------------------- */
 
 /* Chooses what is NAN of mass and radius. a->room and a->reduced are known and have a body; start: of the point. */
 void iso_analogue_choose_units(const iso_analogue *a, const double start[ISO_STATE], double *mass, double *radius);

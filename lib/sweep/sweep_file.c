@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/names_impl.h"
 #include "base/version.h"
 #include "io/text_impl.h"
 #include "sweep/sweep_draft_impl.h"
@@ -21,41 +22,20 @@ static iso_status check_keys(iso_yaml *y, const yaml_node_t *mapping, const char
                              const char *const names[])
 {
     if (mapping->type != YAML_MAPPING_NODE) return iso_yaml_expected(y, mapping, what, "a mapping");
-    for (const yaml_node_pair_t *p = mapping->data.mapping.pairs.start; p < mapping->data.mapping.pairs.top; p++) {
-        const yaml_node_t *key = iso_yaml_node(y, p->key), *first;
-        size_t i = 0;
-        if (key->type != YAML_SCALAR_NODE)
-            return iso_yaml_fail(y, key->start_mark, "a key should be a name, not a list or a mapping");
-        while (i < count && !iso_yaml_is(key, names[i])) i++;
-        if (i == count && count > 0) return iso_yaml_unknown(y, key, "key", count, names);
-        if (i == count)
-            return iso_yaml_fail(y, key->start_mark, "'%s': this has no settings: write {}",
-                                 (const char *)key->data.scalar.value);
-        iso_yaml_find(y, mapping, names[i], &first, NULL);
-        if (first != key)
-            return iso_yaml_fail(y, key->start_mark, "duplicate key '%s', first written in line %zu", names[i],
-                                 first->start_mark.line + 1);
-    }
+    size_t i;
+    for (const yaml_node_pair_t *p = mapping->data.mapping.pairs.start; p < mapping->data.mapping.pairs.top; p++)
+        ISO_TRY(iso_yaml_key(y, mapping, iso_yaml_node(y, p->key), "key", count, names, &i));
     return ISO_OK;
-}
-
-static iso_status read_word(iso_yaml *y, const yaml_node_t *node, const iso_sweep_setting *s, double *value)
-{
-    const char *names[MOST_TOPICS];
-    size_t count = 0;
-    for (int i = 0; s->word(i) && count < MOST_TOPICS; i++) {
-        if (iso_yaml_is(node, s->word(i))) return *value = i, ISO_OK;
-        names[count++] = s->word(i);
-    }
-    if (node->type != YAML_SCALAR_NODE || node->data.scalar.length == 0)
-        return iso_yaml_expected(y, node, s->name, "a name");
-    return iso_yaml_unknown(y, node, s->name, count, names);
 }
 
 static iso_status read_setting(iso_yaml *y, const yaml_node_t *node, const iso_sweep_setting *s, double *value)
 {
     bool flag = false;
-    if (s->word) return read_word(y, node, s, value);
+    int word;
+    if (s->word) {
+        ISO_TRY(iso_yaml_word(y, node, s->name, s->word, ~0u, &word));
+        return *value = word, ISO_OK;
+    }
     const iso_status status =
         s->flag ? iso_yaml_flag(y, node, s->name, &flag) : iso_yaml_number(y, node, s->name, value);
     if (s->flag) *value = flag;
@@ -86,8 +66,8 @@ iso_status iso_sweep_read_mapping(iso_yaml *y, const yaml_node_t *mapping, const
     const char *names[ISO_SWEEP_SETTINGS];
     size_t count = 0;
     for (const iso_sweep_setting *s = settings; s && s->name; s++) names[count++] = s->name;
-    const iso_status status = check_keys(y, mapping, what, count, names);
-    return status == ISO_OK ? iso_sweep_read_settings(y, mapping, settings, value) : status;
+    ISO_TRY(check_keys(y, mapping, what, count, names));
+    return iso_sweep_read_settings(y, mapping, settings, value);
 }
 
 /* --- the scene -------------------------------------------------------------------------------------------------- */
@@ -101,7 +81,7 @@ static iso_status load_scene_file(iso_context *ctx, iso_sweep_file *f, const yam
     if (asprintf(&f->scene_name, "%.*s%s", folder, f->name, path) < 0)
         return f->scene_name = NULL, iso_context_no_memory(ctx, "a sweep");
     iso_status status = iso_text_load(ctx, f->scene_name, LARGEST_FILE, &f->scene_text, &f->scene_length);
-    if (status == ISO_FILE_TROUBLE) return iso_yaml_fail(&f->yaml, node->start_mark, "%s", iso_context_message(ctx));
+    if (status == ISO_FILE_TROUBLE) return ISO_FAIL_AT(f, node, "%s", iso_context_message(ctx));
     if (status != ISO_OK) return status;
     f->draft = iso_draft_empty(ctx, f->scene_name);
     status = iso_yaml_load(&f->draft.yaml, f->scene_text, f->scene_length);
@@ -172,11 +152,10 @@ static iso_status check_until(iso_sweep_file *f, const yaml_node_t *until)
         const iso_sweep_quantity *t = iso_sweep_quantities()[f->plan.wish[i].topic];
         used = used || (turns ? t->turns : t->time);
         if (turns ? t->time && !t->turns : t->turns && !t->time)
-            return iso_yaml_fail(&f->yaml, until->start_mark, "'%s' needs 'until: {%s: ...}'", t->name,
-                                 turns ? "time" : "turns");
+            return ISO_FAIL_AT(f, until, "'%s' needs 'until: {%s: ...}'", t->name, turns ? "time" : "turns");
     }
     if (used) return ISO_OK;
-    return iso_yaml_fail(&f->yaml, until->start_mark, "no quantity in 'measure' uses %s", turns ? "turns" : "a time");
+    return ISO_FAIL_AT(f, until, "no quantity in 'measure' uses %s", turns ? "turns" : "a time");
 }
 
 static iso_status read_until(iso_sweep_file *f, const yaml_node_t *until)
@@ -187,12 +166,10 @@ static iso_status read_until(iso_sweep_file *f, const yaml_node_t *until)
         {.name = NULL},
     };
     double value[2];
-    const iso_status status = iso_sweep_read_mapping(&f->yaml, until, "until", settings, value);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_read_mapping(&f->yaml, until, "until", settings, value));
     f->plan.turns = value[0];
     f->plan.time = value[1];
-    if (isnan(value[0]) == isnan(value[1]))
-        return iso_yaml_fail(&f->yaml, until->start_mark, "'until' has one of 'turns' and 'time'");
+    if (isnan(value[0]) == isnan(value[1])) return ISO_FAIL_AT(f, until, "'until' has one of 'turns' and 'time'");
     return check_until(f, until);
 }
 
@@ -204,13 +181,12 @@ static iso_status check_used(iso_sweep_file *f, const yaml_node_t *vary)
     for (int i = 0; i < f->axes; i++) {
         const char *name = f->axis[i].name;
         if (strcmp(name, "end") == 0 && !(isnan(p->turns) && isnan(p->time)))
-            return iso_yaml_fail(&f->yaml, vary->start_mark, "'end' varies, but 'until' replaces it");
+            return ISO_FAIL_AT(f, vary, "'end' varies, but 'until' replaces it");
         for (int w = 0; w < p->wishes; w++) {
             const iso_sweep_quantity *t = iso_sweep_quantities()[p->wish[w].topic];
             for (int s = 0; t->settings && t->settings[s].name; s++)
                 if (strcmp(name, t->settings[s].name) == 0 && !isnan(p->wish[w].setting[s]))
-                    return iso_yaml_fail(&f->yaml, vary->start_mark, "'%s' varies, but '%s' sets its own", name,
-                                         t->name);
+                    return ISO_FAIL_AT(f, vary, "'%s' varies, but '%s' sets its own", name, t->name);
         }
     }
     return ISO_OK;
@@ -218,14 +194,9 @@ static iso_status check_used(iso_sweep_file *f, const yaml_node_t *vary)
 
 /* --- the whole -------------------------------------------------------------------------------------------------- */
 
-static const char *const kinds[] = {"avx512", "avx2", "plain", NULL};
+static ISO_NAMES(kind_of_vectors, int, "avx512", "avx2", "plain")
 
-static const char *kind_of_vectors(int i)
-{
-    return kinds[i];
-}
-
-static iso_status read_rest(iso_sweep_file *f, const yaml_node_t *root)
+    static iso_status read_rest(iso_sweep_file *f, const yaml_node_t *root)
 {
     static const iso_sweep_setting settings[] = {
         {.name = "chunk", .least = 1, .most = 4096, .whole = true},
@@ -233,10 +204,9 @@ static iso_status read_rest(iso_sweep_file *f, const yaml_node_t *root)
         {.name = NULL},
     };
     double value[2];
-    const iso_status status = iso_sweep_read_settings(&f->yaml, root, settings, value);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_read_settings(&f->yaml, root, settings, value));
     f->plan.chunk = (size_t)value[0];
-    if (!isnan(value[1])) strcpy(f->plan.vectors, kinds[(int)value[1]]);
+    if (!isnan(value[1])) strcpy(f->plan.vectors, kind_of_vectors((int)value[1]));
     return ISO_OK;
 }
 
@@ -266,7 +236,7 @@ static iso_status read_root(iso_context *ctx, iso_sweep_file *f)
     iso_status status = check_keys(&f->yaml, root, "sweep", sizeof names / sizeof *names, names);
     for (int i = 0; i < 5 && status == ISO_OK; i++)
         if (!iso_yaml_find(&f->yaml, root, names[i], NULL, &node[i]) && i < 3)
-            status = iso_yaml_fail(&f->yaml, root->start_mark, "missing '%s' in the sweep", names[i]);
+            status = ISO_FAIL_AT(f, root, "missing '%s' in the sweep", names[i]);
     if (status == ISO_OK) status = read_scene(ctx, f, node[0]);
     if (status == ISO_OK) status = iso_sweep_read_vary(f, node[1], node[4]);
     if (status == ISO_OK) status = read_measure(f, node[2]);
@@ -308,9 +278,8 @@ iso_status iso_sweep_read(iso_context *ctx, const char *path, iso_sweep_file **f
     char *text;
     size_t length;
     *file = NULL;
-    iso_status status = iso_text_load(ctx, path, LARGEST_FILE, &text, &length);
-    if (status != ISO_OK) return status;
-    status = iso_sweep_parse(ctx, iso_text_name(path), text, length, file);
+    ISO_TRY(iso_text_load(ctx, path, LARGEST_FILE, &text, &length));
+    iso_status status = iso_sweep_parse(ctx, iso_text_name(path), text, length, file);
     free(text);
     return status;
 }

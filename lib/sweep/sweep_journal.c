@@ -137,8 +137,7 @@ static iso_status scan(iso_context *ctx, iso_sweep_journal *j, off_t size)
 {
     iso_sweep_rows rows;
     iso_sweep_record r;
-    iso_status status = iso_sweep_rows_create(ctx, j->head->columns, j->head->chunk, &rows);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_rows_create(ctx, j->head->columns, j->head->chunk, &rows));
     j->ours = true;
     while (j->end < size && read_record(j, j->end, &r, &rows)) {
         if (r.chunk % j->share.count == j->share.index && j->at[r.chunk] == 0) {
@@ -148,7 +147,7 @@ static iso_status scan(iso_context *ctx, iso_sweep_journal *j, off_t size)
         }
         j->end += (off_t)(sizeof r + r.length);
     }
-    status = cut_tail(ctx, j, size);
+    iso_status status = cut_tail(ctx, j, size);
     iso_sweep_rows_free(&rows);
     return status;
 }
@@ -208,12 +207,10 @@ static iso_status take_old(iso_context *ctx, iso_sweep_journal *j, off_t size, b
     if (memcmp(&there, &mine, sizeof mine) != 0)
         return refuse(
             ctx, j->name,
-            "is the journal of another sweep, shard, version or kind of vectors: remove it, or give another "
-            "name");
+            "is the journal of another sweep, shard, version or kind of vectors: remove it, or give another name");
     if (!resume)
         return refuse(ctx, j->name,
-                      "has chunks of this sweep: add --resume to go on with it, or remove it to begin "
-                      "again");
+                      "has chunks of this sweep: add --resume to go on with it, or remove it to begin again");
     j->end = (off_t)sizeof mine;
     return scan(ctx, j, size);
 }
@@ -241,8 +238,7 @@ static iso_status open_named(iso_context *ctx, iso_sweep_journal *j, bool resume
         j->name = NULL;
         return iso_context_no_memory(ctx, "a sweep");
     }
-    const iso_status status = open_locked(ctx, j, &s);
-    if (status != ISO_OK) return status;
+    ISO_TRY(open_locked(ctx, j, &s));
     if (!S_ISREG(s.st_mode)) return refuse(ctx, j->name, "is no regular file");
     return take_old(ctx, j, s.st_size, resume);
 }
@@ -260,10 +256,9 @@ static iso_status open_journal(iso_context *ctx, iso_sweep_journal *j, bool resu
 {
     struct stat s;
     if (j->share.count > ISO_SWEEP_MOST_SHARES)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--shard: n is %zu, it must be at most %d", j->share.count,
-                                ISO_SWEEP_MOST_SHARES);
-    const iso_status status = iso_table_check_format(ctx, j->path);
-    if (status != ISO_OK) return status;
+        return ISO_FAIL_ARGUMENT(ctx, "", "--shard: n is %zu, it must be at most %d", j->share.count,
+                                 ISO_SWEEP_MOST_SHARES);
+    ISO_TRY(iso_table_check_format(ctx, j->path));
     if (strcmp(j->path, "-") == 0) return open_unnamed(ctx, j);
     if (stat(j->path, &s) != 0) return open_named(ctx, j, resume);
     return S_ISREG(s.st_mode) ? look_at_result(ctx, j, resume) : open_unnamed(ctx, j);
@@ -335,8 +330,7 @@ iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t 
     const size_t length = r.length = iso_sweep_rows_pack(rows, j->buffer + sizeof r);
     r.checksum = iso_sweep_record_sum(&r, j->buffer + sizeof r);
     memcpy(j->buffer, &r, sizeof r);
-    const iso_status status = append(ctx, j, j->buffer, sizeof r + length);
-    if (status != ISO_OK) return status;
+    ISO_TRY(append(ctx, j, j->buffer, sizeof r + length));
     j->at[c] = at;
     j->done++;
     iso_sweep_failures_add(&j->failures, rows);

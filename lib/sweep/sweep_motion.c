@@ -12,8 +12,7 @@ static iso_status frequencies_find(iso_context *ctx, const iso_sweep_job *job, c
     iso_frequencies f;
     o.turns = job->turns;
     o.end = job->time;
-    const iso_status status = iso_frequencies_find(ctx, scene, &o, &f);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_frequencies_find(ctx, scene, &o, &f));
     number[0] = f.rotation;
     for (int a = 0; a < f.angles; a++) {
         for (int c = 0; c < ISO_CLOCKS; c++) number[1 + 3 * a + c] = f.angle[a].frequency[c];

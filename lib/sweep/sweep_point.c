@@ -308,12 +308,11 @@ iso_status iso_sweep_scene_text(iso_context *ctx, const iso_sweep_file *file, si
     iso_scene scene;
     size_t length;
     *text = NULL;
-    const iso_status status = iso_sweep_point(ctx, file, i, &scene, numbers);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_point(ctx, file, i, &scene, numbers));
     const bool ball = scene.start.model == ISO_BALL;
     if (file->level && ball && !iso_effects_have_level(&scene.effects))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "level",
-                                "the ball of level 0 has no effect 'level': take it out of the scene's text");
+        return ISO_FAIL_INPUT(ctx, "level",
+                              "the ball of level 0 has no effect 'level': take it out of the scene's text");
     const iso_draft d = draft_of(ctx, file, i, numbers);
     take_text(&p, file);
     for (int n = 0; n < file->axes; n++) {

@@ -1,5 +1,4 @@
 /* sweep_reader.c - reads results of sweeps (sweep_writer.c says what stands in them), and finds out damaged ones. */
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -63,10 +63,9 @@ static iso_status check_part(iso_context *ctx, merger *m, const iso_sweep_reader
 static iso_status add_part(iso_context *ctx, merger *m, const char *path)
 {
     iso_sweep_reader *r;
-    iso_status status = iso_sweep_reader_open(ctx, path, &r);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_reader_open(ctx, path, &r));
     if (!m->part) m->first = r;
-    status = check_part(ctx, m, r);
+    iso_status status = check_part(ctx, m, r);
     if (status == ISO_OK)
         m->part[r->share.index] = r;
     else

@@ -49,7 +49,7 @@ static iso_status state_refuse(iso_context *ctx, const iso_sweep_job *job)
 {
     const iso_scene s = shown_scene(job, job->base);
     if (!isnan(job->setting[1]) && isnan(job->turns))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "model", "'model' is for 'until: {turns: ...}'");
+        return ISO_FAIL_INPUT(ctx, "model", "'model' is for 'until: {turns: ...}'");
     return iso_scene_check_columns(ctx, &s);
 }
 
@@ -185,8 +185,7 @@ static iso_status error_find(iso_context *ctx, const iso_sweep_job *job, const i
     iso_run_result r;
     o.errors = true;
     if (!isnan(job->setting[0])) s.tolerance = job->setting[0];
-    const iso_status status = iso_run(ctx, &s, &o, &sink, &r);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_run(ctx, &s, &o, &sink, &r));
     if (r.error_status != ISO_OK)
         return iso_context_fail(ctx, r.error_status, "", "the error is not known: %s", r.error_words);
     for (int m = 0; m < 2; m++) {
@@ -217,7 +216,7 @@ const iso_sweep_computation iso_sweep_error = {
 static iso_status contact_refuse(iso_context *ctx, const iso_sweep_job *job)
 {
     if (iso_effects_watch_contact(&job->base->effects)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "the scene needs the effect 'reactions'");
+    return ISO_FAIL_INPUT(ctx, "effects", "the scene needs the effect 'reactions'");
 }
 
 /* The side of the start on which the end lies. */

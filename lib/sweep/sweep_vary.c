@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/low_discrepancy_impl.h"
-#include "io/text_impl.h"
+#include "base/names_impl.h"
 #include "method/method.h"
 #include "model/model_impl.h"
 #include "sweep/sweep_draft_impl.h"
@@ -82,7 +82,7 @@ static iso_status find_target(iso_sweep_file *f, const yaml_node_t *key, iso_swe
     size_t named = 0;
     const int count = iso_draft_numbers(&f->draft, ISO_SWEEP_NAMES, list);
     if (key->type != YAML_SCALAR_NODE || key->data.scalar.length >= ISO_NAME_SIZE)
-        return iso_yaml_fail(&f->yaml, key->start_mark, "a key should be the name of a number of the scene");
+        return ISO_FAIL_AT(f, key, "a key should be the name of a number of the scene");
     snprintf(a->name, sizeof a->name, "%s", (const char *)key->data.scalar.value);
     if (find_place(a) || find_number(list, count, a) || find_ratio(list, count, a)) return ISO_OK;
     for (int i = 0; i < count; i++) names[named++] = list[i].name;
@@ -93,18 +93,11 @@ static iso_status find_target(iso_sweep_file *f, const yaml_node_t *key, iso_swe
 
 /* --- where they come from --------------------------------------------------------------------------------------- */
 
-/* The numbers of one item of a list. A matrix is written as three rows. */
+/* The numbers of one item of a list. */
 static iso_status read_item(iso_sweep_file *f, const yaml_node_t *item, const iso_sweep_axis *a, double value[])
 {
-    iso_status status = ISO_OK;
     if (a->width == 1) return iso_yaml_number(&f->yaml, item, a->name, value);
-    if (a->width < 9) return iso_yaml_numbers(&f->yaml, item, a->name, a->width, value);
-    if (item->type != YAML_SEQUENCE_NODE || item->data.sequence.items.top - item->data.sequence.items.start != 3)
-        return iso_yaml_expected(&f->yaml, item, a->name, "three rows of three numbers");
-    for (int i = 0; i < 3 && status == ISO_OK; i++)
-        status = iso_yaml_numbers(&f->yaml, iso_yaml_node(&f->yaml, item->data.sequence.items.start[i]), a->name, 3,
-                                  value + 3 * i);
-    return status;
+    return iso_yaml_numbers(&f->yaml, item, a->name, a->width, value);
 }
 
 static iso_status make_list(iso_sweep_file *f, iso_sweep_axis *a, size_t count)
@@ -120,11 +113,10 @@ static iso_status check_range(iso_sweep_file *f, const yaml_node_t *node, const 
 {
     const double ratio = a->to / a->from, most = fmax(fabs(a->from), fabs(a->to)) * fmax((double)a->count, 2);
     if (a->logarithmic && !(copysign(1, a->from) * a->to > 0 && a->from != 0))
-        return iso_yaml_fail(&f->yaml, node->start_mark,
-                             "a logarithmic range from %g to %g: both ends must be above 0, or both below", a->from,
-                             a->to);
+        return ISO_FAIL_AT(f, node, "a logarithmic range from %g to %g: both ends must be above 0, or both below",
+                           a->from, a->to);
     if (a->logarithmic ? isfinite(ratio) && ratio > 0 : isfinite(most)) return ISO_OK;
-    return iso_yaml_fail(&f->yaml, node->start_mark, "a range from %g to %g is too wide", a->from, a->to);
+    return ISO_FAIL_AT(f, node, "a range from %g to %g is too wide", a->from, a->to);
 }
 
 static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
@@ -138,8 +130,7 @@ static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_swe
     };
     double value[4];
     if (a->width != 1) return iso_yaml_expected(&f->yaml, node, a->name, "a list of vectors");
-    const iso_status status = iso_sweep_read_mapping(&f->yaml, node, a->name, settings, value);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_read_mapping(&f->yaml, node, a->name, settings, value));
     a->from = value[0];
     a->to = value[1];
     a->values = isnan(value[2]) ? ISO_FROM_DRAWING : ISO_FROM_RANGE;
@@ -153,7 +144,7 @@ static iso_status read_range_of_list(iso_sweep_file *f, const yaml_node_t *item,
 {
     iso_status status = read_range(f, item, range);
     if (status != ISO_OK || (range->values == ISO_FROM_RANGE && range->count <= MOST_LISTED)) return status;
-    return iso_yaml_fail(&f->yaml, item->start_mark, "a range in a list needs a 'count', at most %d", MOST_LISTED);
+    return ISO_FAIL_AT(f, item, "a range in a list needs a 'count', at most %d", MOST_LISTED);
 }
 
 /* Values, and ranges of values. list NULL: only counts them. */
@@ -184,9 +175,9 @@ static iso_status read_list(iso_sweep_file *f, const yaml_node_t *node, iso_swee
     size_t count;
     if (node->data.sequence.items.start == node->data.sequence.items.top)
         return iso_yaml_expected(&f->yaml, node, a->name, "a list of at least one value");
-    iso_status status = read_items(f, node, a, &count);
-    if (status == ISO_OK) status = make_list(f, a, count);
-    return status == ISO_OK ? read_items(f, node, a, &count) : status;
+    ISO_TRY(read_items(f, node, a, &count));
+    ISO_TRY(make_list(f, a, count));
+    return read_items(f, node, a, &count);
 }
 
 /* All a + b + c = sum from 1 on; ordered: a < b < c. */
@@ -206,8 +197,7 @@ static iso_status read_triangle(iso_sweep_file *f, const yaml_node_t *node, iso_
         {.name = NULL},
     };
     double value[2];
-    const iso_status status = iso_sweep_read_mapping(&f->yaml, node, a->name, settings, value);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_read_mapping(&f->yaml, node, a->name, settings, value));
     if (strcmp(a->name, "J") != 0 || isnan(value[0]))
         return iso_yaml_expected(&f->yaml, node, a->name, "a list of vectors");
     a->values = ISO_FROM_TRIANGLE;
@@ -225,8 +215,7 @@ static iso_status read_spread(iso_sweep_file *f, const yaml_node_t *node, iso_sw
         {.name = NULL},
     };
     double value[2];
-    const iso_status status = iso_sweep_read_mapping(&f->yaml, node, a->name, settings, value);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_read_mapping(&f->yaml, node, a->name, settings, value));
     a->values = ISO_FROM_SPREAD;
     a->count = (size_t)value[0];
     a->seed = (uint64_t)value[1];
@@ -243,8 +232,8 @@ static iso_status read_values(iso_sweep_file *f, const yaml_node_t *node, iso_sw
     if (a->width > 1)
         return iso_yaml_expected(&f->yaml, node, a->name,
                                  a->chart == 2 ? "a list of [l, x], or {spread: ...}" : "a list of vectors");
-    const iso_status status = make_list(f, a, 1);
-    return status == ISO_OK ? iso_yaml_number(&f->yaml, node, a->name, a->list) : status;
+    ISO_TRY(make_list(f, a, 1));
+    return iso_yaml_number(&f->yaml, node, a->name, a->list);
 }
 
 /* --- what must hold --------------------------------------------------------------------------------------------- */
@@ -255,7 +244,7 @@ static iso_status check_tolerance(iso_sweep_file *f, const yaml_node_t *node, co
     if (strcmp(a->name, "tolerance") != 0) return ISO_OK;
     for (size_t i = 0; a->list && i < a->count; i++) good = good && iso_tolerance_is_good(a->list[i]);
     if (!a->list) good = iso_tolerance_is_good(a->from) && iso_tolerance_is_good(a->to);
-    return good ? ISO_OK : iso_yaml_fail(&f->yaml, node->start_mark, "'tolerance' must be in " ISO_TOLERANCE_RANGE);
+    return good ? ISO_OK : ISO_FAIL_AT(f, node, "'tolerance' must be in " ISO_TOLERANCE_RANGE);
 }
 
 static iso_status check_chart(iso_sweep_file *f, const yaml_node_t *node, const iso_sweep_axis *a)
@@ -264,15 +253,14 @@ static iso_status check_chart(iso_sweep_file *f, const yaml_node_t *node, const 
     if (a->target != ISO_TO_CHART) return ISO_OK;
     f->on_section = true;
     if (effect)
-        return iso_yaml_fail(&f->yaml, node->start_mark,
-                             "'%s' acts: a start on the section needs a free motion, without it", effect->name);
+        return ISO_FAIL_AT(f, node, "'%s' acts: a start on the section needs a free motion, without it",
+                           effect->name);
     for (size_t i = 0; a->list && a->chart > 0 && i < a->count; i++) {
         const double x = a->list[i * (size_t)a->width + (size_t)a->width - 1];
-        if (!(fabs(x) < 1))
-            return iso_yaml_fail(&f->yaml, node->start_mark, "x = %g is outside the chart: |x| < 1", x);
+        if (!(fabs(x) < 1)) return ISO_FAIL_AT(f, node, "x = %g is outside the chart: |x| < 1", x);
     }
     if (!a->list && a->chart == 1 && !(fabs(a->from) < 1 && fabs(a->to) < 1))
-        return iso_yaml_fail(&f->yaml, node->start_mark, "x is from %g to %g: |x| < 1 in the chart", a->from, a->to);
+        return ISO_FAIL_AT(f, node, "x is from %g to %g: |x| < 1 in the chart", a->from, a->to);
     return ISO_OK;
 }
 
@@ -288,11 +276,11 @@ static iso_status check_level(iso_sweep_file *f, const yaml_node_t *key, iso_swe
     for (int i = 0; i < count; i++)
         if (strcmp(list[i].name, needed) == 0) a->node = list[i].value;
     if (!a->node)
-        return iso_yaml_fail(&f->yaml, key->start_mark, "'level' needs %s in the scene",
-                             point ? "'eps'" : "'effects: {level: {c: 1}}', whose c it sets,");
+        return ISO_FAIL_AT(f, key, "'level' needs %s in the scene",
+                           point ? "'eps'" : "'effects: {level: {c: 1}}', whose c it sets,");
     for (const iso_sweep_axis *b = f->axis; b < f->axis + f->axes; b++)
         if (strcmp(b->name, needed) == 0 && !point)
-            return iso_yaml_fail(&f->yaml, key->start_mark, "'level' and '%s' set the same number", needed);
+            return ISO_FAIL_AT(f, key, "'level' and '%s' set the same number", needed);
     return ISO_OK;
 }
 
@@ -323,9 +311,9 @@ static iso_status check_moments(iso_sweep_file *f, const yaml_node_t *key, const
 {
     for (const iso_sweep_axis *b = f->axis; b < a; b++) {
         if (moments_of(a) & moments_of(b))
-            return iso_yaml_fail(&f->yaml, key->start_mark, "'%s' and '%s' set the same moment", b->name, a->name);
+            return ISO_FAIL_AT(f, key, "'%s' and '%s' set the same moment", b->name, a->name);
         if (b->target == ISO_TO_RATIO && moments_of(a) & 1 << b->of)
-            return iso_yaml_fail(&f->yaml, key->start_mark, "'%s' changes '%s': write it first", a->name, b->name);
+            return ISO_FAIL_AT(f, key, "'%s' changes '%s': write it first", a->name, b->name);
     }
     return ISO_OK;
 }
@@ -343,8 +331,7 @@ static iso_status name_columns(iso_sweep_file *f, const yaml_node_t *key, iso_sw
         else
             snprintf(name, ISO_NAME_SIZE, "%.29s%s", a->name, digit);
         for (int c = 0; c < f->plan.family.columns - 1; c++)
-            if (strcmp(f->column[c], name) == 0)
-                return iso_yaml_fail(&f->yaml, key->start_mark, "'%s' varies twice", name);
+            if (strcmp(f->column[c], name) == 0) return ISO_FAIL_AT(f, key, "'%s' varies twice", name);
     }
     return ISO_OK;
 }
@@ -352,8 +339,7 @@ static iso_status name_columns(iso_sweep_file *f, const yaml_node_t *key, iso_sw
 static iso_status read_axis(iso_sweep_file *f, const yaml_node_pair_t *pair)
 {
     const yaml_node_t *key = iso_yaml_node(&f->yaml, pair->key), *value = iso_yaml_node(&f->yaml, pair->value);
-    if (f->axes == ISO_SWEEP_AXES)
-        return iso_yaml_fail(&f->yaml, key->start_mark, "more than %d numbers vary", ISO_SWEEP_AXES);
+    if (f->axes == ISO_SWEEP_AXES) return ISO_FAIL_AT(f, key, "more than %d numbers vary", ISO_SWEEP_AXES);
     iso_sweep_axis *a = &f->axis[f->axes++];
     iso_status status = find_target(f, key, a);
     if (status == ISO_OK) status = read_values(f, value, a);
@@ -363,8 +349,7 @@ static iso_status read_axis(iso_sweep_file *f, const yaml_node_pair_t *pair)
     if (status == ISO_OK) status = name_columns(f, key, a);
     if (status == ISO_OK) status = check_moments(f, key, a);
     if (status != ISO_OK || a->values != ISO_FROM_DRAWING) return status;
-    if (f->drawn == ISO_SWEEP_DRAWN)
-        return iso_yaml_fail(&f->yaml, key->start_mark, "more than %d numbers are drawn", ISO_SWEEP_DRAWN);
+    if (f->drawn == ISO_SWEEP_DRAWN) return ISO_FAIL_AT(f, key, "more than %d numbers are drawn", ISO_SWEEP_DRAWN);
     a->drawn = f->drawn++;
     return ISO_OK;
 }
@@ -390,13 +375,9 @@ static void prepare_drawing(iso_sweep_file *f)
     }
 }
 
-static const char *kind_of_samples(int i)
-{
-    static const char *const words[] = {"even", "random", NULL};
-    return words[i];
-}
+static ISO_NAMES(kind_of_samples, int, "even", "random")
 
-static iso_status read_samples(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples)
+    static iso_status read_samples(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples)
 {
     static const iso_sweep_setting settings[] = {
         {.name = "count", .least = 1, .most = 1e12, .whole = true, .missing = "'samples'"},
@@ -406,14 +387,11 @@ static iso_status read_samples(iso_sweep_file *f, const yaml_node_t *vary, const
     };
     double value[3];
     if (f->drawn > 0 && !samples)
-        return iso_yaml_fail(&f->yaml, vary->start_mark,
-                             "a range without a count is drawn: 'samples: {count: ...}' is missing");
+        return ISO_FAIL_AT(f, vary, "a range without a count is drawn: 'samples: {count: ...}' is missing");
     if (!samples) return ISO_OK;
     if (f->drawn == 0)
-        return iso_yaml_fail(&f->yaml, samples->start_mark,
-                             "'samples' draws numbers of ranges without a count, and there are none");
-    const iso_status status = iso_sweep_read_mapping(&f->yaml, samples, "samples", settings, value);
-    if (status != ISO_OK) return status;
+        return ISO_FAIL_AT(f, samples, "'samples' draws numbers of ranges without a count, and there are none");
+    ISO_TRY(iso_sweep_read_mapping(&f->yaml, samples, "samples", settings, value));
     f->samples = (size_t)value[0];
     f->random = value[1] > 0;
     f->seed = (uint64_t)value[2];
@@ -426,7 +404,7 @@ static iso_status count_points(iso_sweep_file *f, const yaml_node_t *vary)
     f->plan.family.count = f->drawn > 0 ? f->samples : 1;
     for (int i = 0; i < f->axes; i++) {
         count *= (double)f->axis[i].count;
-        if (count > most_points) return iso_yaml_fail(&f->yaml, vary->start_mark, "more than %g points", most_points);
+        if (count > most_points) return ISO_FAIL_AT(f, vary, "more than %g points", most_points);
         f->plan.family.count *= f->axis[i].count;
     }
     return ISO_OK;
@@ -435,7 +413,7 @@ static iso_status count_points(iso_sweep_file *f, const yaml_node_t *vary)
 iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples)
 {
     if (vary->type == YAML_MAPPING_NODE && vary->data.mapping.pairs.start == vary->data.mapping.pairs.top)
-        return iso_yaml_fail(&f->yaml, vary->start_mark, "'vary' names no number: write k: [0.5, 1], for example");
+        return ISO_FAIL_AT(f, vary, "'vary' names no number: write k: [0.5, 1], for example");
     if (vary->type != YAML_MAPPING_NODE)
         return iso_yaml_expected(&f->yaml, vary, "vary", "a mapping with the numbers that vary");
     f->column = calloc(9 * ISO_SWEEP_AXES, sizeof *f->column);

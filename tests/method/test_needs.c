@@ -1,4 +1,4 @@
-/* What methods need of a model (lib/method/serves.c): a formula of every effect, room, a system; else they refuse
+/* What methods need of a model (lib/method/method.c): a formula of every effect, room, a system; else they refuse
  * it. */
 #include <string.h>
 

@@ -1,5 +1,6 @@
 /* Following periodic orbits (lib/study/periodic/continuation.h): points of a branch are periodic orbits, events are where
  * their law says, branches that meet agree; refusals. */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -7,7 +8,7 @@
 
 #include "laws.h"
 #include "study/periodic/continuation.h"
-#include "study/periodic/hill_trace_impl.h"
+#include "study/periodic/periodic_impl.h"
 #include "study/periodic/stability_chart.h"
 
 static iso_context *ctx;

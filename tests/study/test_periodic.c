@@ -1,5 +1,6 @@
 /* Periodic orbits (lib/study/periodic/periodic.h): the rotations' traces against a table and the section, orbits against their
  * laws, the search along lines against Newton's method from a grid, k = 1 and -1. */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <gsl/gsl_test.h>
@@ -13,7 +14,7 @@
 #include "map/section.h"
 #include "method/methods_impl.h"
 #include "orbit/crossings.h"
-#include "study/periodic/hill_trace_impl.h"
+#include "study/periodic/periodic_impl.h"
 
 static iso_context *ctx;
 

@@ -1,6 +1,7 @@
 /* Rotations and periodic orbits on every level of the point's energy: Hill's equation against a table and
  * the section, orbits in direct integration by both models, a branch against searches at its ends, and what does not
  * exist on a level. */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -18,7 +19,7 @@
 #include "orbit/orbit.h"
 #include "study/level.h"
 #include "study/periodic/continuation.h"
-#include "study/periodic/hill_trace_impl.h"
+#include "study/periodic/periodic_impl.h"
 #include "study/periodic/stability_chart.h"
 #include "study/separatrix/separatrix.h"
 

@@ -1,9 +1,8 @@
 /* csv_impl.h - what reading a table from text is made of.
  *
  *     csv_reader.c   lines of #, the names of the columns of trajectories
- *     csv_table.c    the cells of other tables: numbers, nan among them, and words
  *     csv_lines.c    the lines of the file, in blocks; rows are read ahead by other threads
- *     csv_row.c      the numbers of one line
+ *     csv_row.c      the numbers of one line; the cells of other tables: numbers, nan among them, and words
  */
 #ifndef ISO_IO_CSV_IMPL_H
 #define ISO_IO_CSV_IMPL_H
@@ -46,8 +45,6 @@ static inline bool iso_is_blank(char x)
 {
     return x == ' ' || x == '\t';
 }
-
-/* --- csv_table.c ------------------------------------------------------------------------------------------------ */
 
 /* Takes the next cell of *rest, which then begins behind it (NULL after the last): without quotes, ended with '\0'.
  * NULL: it has no closing quote. */

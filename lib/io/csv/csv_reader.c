@@ -1,9 +1,8 @@
 /* csv_reader.c - reads tables from text: files of isoroll, and trajectories of other programs. This file knows the
- * header and the messages, csv_lines.c reads lines, csv_row.c and csv_table.c what is in them. */
+ * header and the messages, csv_lines.c reads lines, csv_row.c what is in them. */
 #define _GNU_SOURCE /* strtod_l */
 #include <ctype.h>
 #include <locale.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -52,10 +51,10 @@ fail(const csv *c, const char *at, const char *format, ...)
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
-    if (c->callers) return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "columns", "columns: %s", message);
+    if (c->callers) return ISO_FAIL_ARGUMENT(c->ctx, "columns", "columns: %s", message);
     for (const char *x = c->line; at && x < at; x++) column += (*x & 0xC0) != 0x80;
-    return iso_context_placed(c->ctx, iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s:%zu:%zu: %s", c->r->name,
-                                                       c->number ? c->number : 1, column, message));
+    return iso_context_placed(
+        c->ctx, ISO_FAIL_INPUT(c->ctx, "", "%s:%zu:%zu: %s", c->r->name, c->number ? c->number : 1, column, message));
 }
 
 /* --- lines ------------------------------------------------------------------------------------------------------ */
@@ -210,8 +209,8 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
         if (named && strcmp(f.text, "-") == 0) continue;
         if (c->again && iso_number_read(f.text, f.length, &number))
             return fail(c, f.text,
-                        "expected a line of column names such as t,omega1,omega2,... before the numbers; "
-                        "without one, --columns t,omega1,... names them");
+                        "expected a line of column names such as t,omega1,omega2,... before the numbers; without "
+                        "one, --columns t,omega1,... names them");
         if (known < 0) {
             const bool orbit = c->orbit == 0 && strcmp(f.text, ISO_ORBIT_COLUMN) == 0;
             if (orbit) c->orbit = c->format.fields + 1, c->r->at.orbits = true;

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "base/number_impl.h"
-#include "io/csv/csv_impl.h"
 #include "io/output_impl.h"
 #include "io/table_impl.h"
 #include "io/tasks_impl.h"
@@ -139,8 +138,8 @@ static bool is_text(const char *key, const char *value)
 static iso_status check_line(iso_context *ctx, const char *key, const char *value)
 {
     if (is_line(key, value) || is_text(key, value)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                            "'%s' cannot be a line '# key: value': a key has no colon, and both are one line", key);
+    return ISO_FAIL_ARGUMENT(ctx, "",
+                             "'%s' cannot be a line '# key: value': a key has no colon, and both are one line", key);
 }
 
 /* Each line of a text as a comment. */

@@ -1,11 +1,14 @@
-/* hdf5.c - what the reader and the writer of tables as HDF5 share. */
+/* hdf5.c - what the reader and the writer of tables as HDF5 share; and the HDF5 library, loaded when it is first needed
+ * (hdf5_impl.h). */
 #include "io/hdf5/hdf5_impl.h"
-#include "model/model_impl.h"
-#include "orbit/orbit_impl.h"
 
+#include <dlfcn.h>
 #include <errno.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "orbit/orbit_impl.h"
 
 int iso_hdf5_part(const char *const names[], size_t count, const char **group, const char **name)
 {
@@ -199,4 +202,38 @@ bool iso_hdf5_transfer(iso_hdf5_store *s, hsize_t first, bool write)
     }
     for (size_t i = 0; s->counts && !write && i < s->filled; i++) s->block[i * s->columns] = (double)(first + i);
     return good && move_failures(s, write);
+}
+
+/* --- the library ------------------------------------------------------------------------------------------------ */
+
+iso_hdf5_library h5;
+
+static char trouble[256]; /* "": the table is full */
+
+/* Finds the address of a function or a variable of the library. */
+static void find(void *library, const char *name, void *pointer)
+{
+    void *const address = library ? dlsym(library, name) : NULL;
+    memcpy(pointer, &address, sizeof address);
+    if (address || *trouble) return;
+    const char *why = dlerror();
+    strncat(trouble, why ? why : name, sizeof trouble - 1);
+}
+
+static void load(void)
+{
+    void *const library = dlopen(ISO_HDF5_SONAME, RTLD_NOW | RTLD_LOCAL);
+#define FIND(name) find(library, "H5" #name, &h5.name);
+    ISO_HDF5_NAMES(FIND)
+    if (*trouble) return;
+    h5.dont_atexit(); /* it would close what it could not close before, as on a full disk, and crash (1.10) */
+    h5.open();
+}
+
+iso_status iso_hdf5_load(iso_context *ctx)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, load);
+    if (!*trouble) return ISO_OK;
+    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "no HDF5 library, which files in .h5 need: %s", trouble);
 }

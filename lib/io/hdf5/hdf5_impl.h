@@ -23,10 +23,84 @@
 #ifndef ISO_IO_HDF5_IMPL_H
 #define ISO_IO_HDF5_IMPL_H
 
-#include "io/hdf5/hdf5_library_impl.h"
+#include <hdf5.h>
+
 #include "io/replacement_impl.h"
 #include "io/table_impl.h"
-#include "orbit/scene.h"
+
+/* --- the HDF5 library, which is loaded when the first .h5 file is opened -------------------------------------------
+ *
+ * Linked in the ordinary way it costs each start of the command three milliseconds: it brings 30 other libraries,
+ * for network access among them. So what we call of it is a table of pointers: H5Fopen is h5.Fopen. Macros of HDF5
+ * name things without the table; for them stand the macros at the end.
+ *
+ * Every function that opens a .h5 file begins with
+ *
+ *     iso_status status = iso_hdf5_load(ctx);
+ */
+
+/* clang-format off */
+#ifdef H5_NO_DEPRECATED_SYMBOLS
+#define ISO_HDF5_OLD(X)
+#else
+#define ISO_HDF5_OLD(X) X(Eauto_is_v2) X(Eget_auto1) X(Eset_auto1) /* H5E_BEGIN_TRY calls them */
+#endif
+
+/* Functions, and numbers that H5open() sets. */
+#define ISO_HDF5_NAMES(X)                                                                                            \
+    ISO_HDF5_OLD(X) X(Aclose) X(Acreate2) X(Aget_name_by_idx) X(Aget_space) X(Aget_type) X(Aopen) X(Aread) X(Awrite) \
+    X(Dclose) X(Dcreate2) X(Dget_space) X(Dget_type) X(Dopen2) X(Dread) X(Dset_extent) X(Dwrite) X(Eget_auto2)       \
+    X(Eset_auto2) X(Fclose) X(Fcreate) X(Fopen) X(Lexists) X(Oget_info2) X(Pclose) X(Pcreate) X(Pset_alloc_time)     \
+    X(Pset_chunk) X(Pset_chunk_cache) X(Pset_create_intermediate_group) X(Pset_file_locking) X(Pset_fill_time)       \
+    X(Pset_obj_track_times) X(Sclose) X(Screate) X(Screate_simple) X(Sget_simple_extent_dims)                        \
+    X(Sget_simple_extent_ndims) X(Sget_simple_extent_npoints) X(Sselect_hyperslab) X(Tclose) X(Tcopy) X(Tget_class)  \
+    X(Tget_cset) X(Tget_size) X(Tis_variable_str) X(Tset_cset) X(Tset_size) X(dont_atexit) X(free_memory) X(open)    \
+    X(T_NATIVE_DOUBLE_g) X(T_NATIVE_INT_g) X(T_NATIVE_INT64_g) X(T_C_S1_g) X(P_CLS_DATASET_ACCESS_ID_g)              \
+    X(P_CLS_DATASET_CREATE_ID_g) X(P_CLS_FILE_ACCESS_ID_g) X(P_CLS_LINK_CREATE_ID_g)
+
+typedef struct iso_hdf5_library {
+#define ISO_HDF5_POINTER(name) __typeof__(H5##name) *name;
+    ISO_HDF5_NAMES(ISO_HDF5_POINTER)
+#undef ISO_HDF5_POINTER
+} iso_hdf5_library;
+/* clang-format on */
+
+#define h5 iso_hdf5
+extern iso_hdf5_library h5; /* set once, by iso_hdf5_load */
+
+/* Loads the library, if it is not yet there. Errors: ISO_FILE_TROUBLE: it is not installed, or lacks a name. */
+iso_status iso_hdf5_load(iso_context *ctx);
+
+/* Without messages of HDF5. */
+#define ISO_HDF5_QUIETLY(...)                                                                                        \
+    H5E_BEGIN_TRY                                                                                                    \
+    {                                                                                                                \
+        __VA_ARGS__;                                                                                                 \
+    }                                                                                                                \
+    H5E_END_TRY
+
+#undef H5OPEN /* it is open, */
+#define H5OPEN
+#undef H5CHECK /* and HDF5 ends the program if it finds another release of this library; its soname suffices */
+#define H5CHECK
+#if !H5_VERSION_GE(1, 12, 0) /* what H5Oget_info2 fills has this name since */
+#define H5O_info1_t H5O_info_t
+#endif
+#define H5Eauto_is_v2 h5.Eauto_is_v2
+#define H5Eget_auto1 h5.Eget_auto1
+#define H5Eset_auto1 h5.Eset_auto1
+#define H5Eget_auto2 h5.Eget_auto2
+#define H5Eset_auto2 h5.Eset_auto2
+#define H5T_NATIVE_DOUBLE_g (*h5.T_NATIVE_DOUBLE_g)
+#define H5T_NATIVE_INT_g (*h5.T_NATIVE_INT_g)
+#define H5T_NATIVE_INT64_g (*h5.T_NATIVE_INT64_g)
+#define H5T_C_S1_g (*h5.T_C_S1_g)
+#define H5P_CLS_DATASET_ACCESS_ID_g (*h5.P_CLS_DATASET_ACCESS_ID_g)
+#define H5P_CLS_DATASET_CREATE_ID_g (*h5.P_CLS_DATASET_CREATE_ID_g)
+#define H5P_CLS_FILE_ACCESS_ID_g (*h5.P_CLS_FILE_ACCESS_ID_g)
+#define H5P_CLS_LINK_CREATE_ID_g (*h5.P_CLS_LINK_CREATE_ID_g)
+
+/* --- files ------------------------------------------------------------------------------------------------------ */
 
 enum { ISO_HDF5_BLOCK = 4096, ISO_HDF5_NUMBERS = 16 /* of an attribute */, ISO_HDF5_TEXT = 200 };
 #define ISO_HDF5_COLUMNS "columns"

@@ -1,5 +1,4 @@
 /* hdf5_reader.c - tables from HDF5, ours and others' trajectories of the same layout, block by block. */
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +11,7 @@
 
 static iso_status bad_file(iso_context *ctx, const iso_table_reader *r, const char *what, const char *name)
 {
-    return iso_context_placed(ctx, iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s: %s%s", r->name, what, name));
+    return iso_context_placed(ctx, ISO_FAIL_INPUT(ctx, "", "%s: %s%s", r->name, what, name));
 }
 
 /* The text of an attribute, to be freed by the caller; NULL: there is none. */
@@ -270,8 +269,8 @@ static iso_status read_header(iso_context *ctx, iso_table_reader *r)
     iso_hdf5_store *s = r->data;
     s->file = h5.Fopen(r->path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (s->file < 0) return bad_file(ctx, r, "this is not an HDF5 file, or it is damaged", "");
-    const iso_status status = read_attributes(ctx, r, s->file);
-    return status == ISO_OK ? find_sets(ctx, r) : status;
+    ISO_TRY(read_attributes(ctx, r, s->file));
+    return find_sets(ctx, r);
 }
 
 static iso_status hdf5_open(iso_context *ctx, iso_table_reader *r, const char *columns)
@@ -280,9 +279,7 @@ static iso_status hdf5_open(iso_context *ctx, iso_table_reader *r, const char *c
     ISO_TRY(iso_hdf5_load(ctx));
     iso_hdf5_store *s = r->data = iso_hdf5_store_create();
     if (!s) return iso_text_no_memory(ctx, "read", r->name);
-    if (columns)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "columns",
-                                "--columns is for text: in HDF5 the datasets have names");
+    if (columns) return ISO_FAIL_ARGUMENT(ctx, "columns", "--columns is for text: in HDF5 the datasets have names");
     ISO_TRY(iso_record_create(ctx, 0, NULL, &r->header));
     if (access(r->path, R_OK) != 0) return iso_file_trouble(ctx, "open", r->path);
     ISO_HDF5_QUIETLY(status = read_header(ctx, r));
@@ -334,9 +331,8 @@ static iso_status hdf5_next(iso_context *ctx, iso_table_reader *r, double row[],
     if (!*more) return status;
     for (size_t i = 0; i < columns; i++)
         if (!isfinite(row[i]))
-            return iso_context_placed(ctx, iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                                            "%s:%zu: expected a finite number for %s", r->name,
-                                                            r->at.line, iso_record_name(r->header, i)));
+            return iso_context_placed(ctx, ISO_FAIL_INPUT(ctx, "", "%s:%zu: expected a finite number for %s", r->name,
+                                                          r->at.line, iso_record_name(r->header, i)));
     return ISO_OK;
 }
 

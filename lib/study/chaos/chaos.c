@@ -4,14 +4,12 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
-#include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/chaos/chaos_impl.h"
@@ -29,21 +27,12 @@ static iso_status check_motion(const iso_chaos_walk *w, const iso_sample *start)
     return iso_refuse_start_at_rest(w->ctx, &w->scene->start, "deviations have no size");
 }
 
-static iso_status check_starts(const iso_chaos_walk *w)
-{
-    const iso_chaos_options *o = &w->options;
-    if (o->starts + o->at_count == 0) return ISO_OK;
-    return iso_refuse_starts(w->ctx, w->orbit, &w->effects, w->out->axis, o->at, o->at_count, o->starts > 0);
-}
-
 static iso_status check_options(const iso_chaos_walk *w)
 {
     const iso_chaos_options *o = &w->options;
-    if (o->turns < 1)
-        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "turns", "%ld turns: give 1 or more", o->turns);
+    if (o->turns < 1) return ISO_FAIL_ARGUMENT(w->ctx, "turns", "%ld turns: give 1 or more", o->turns);
     if (o->exponent_turns < 0)
-        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "exponent_turns", "%ld turns: give 0 or more",
-                                o->exponent_turns);
+        return ISO_FAIL_ARGUMENT(w->ctx, "exponent_turns", "%ld turns: give 0 or more", o->exponent_turns);
     return iso_crossings_check_axis(w->ctx, o->axis);
 }
 
@@ -53,9 +42,9 @@ static iso_status check_section(const iso_chaos_walk *w)
     const iso_point_motion m = iso_orbit_motion(w->orbit);
     const int axis = w->out->axis;
     if (axis < 0 || iso_section_is_global(m, axis)) return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_BAD_INPUT, "axis",
-                            "orbits can stay away from the section n_%d = 0 for ever: take n_%d = 0, which is global",
-                            axis + 1, iso_section_axis(m) + 1);
+    return ISO_FAIL_INPUT(w->ctx, "axis",
+                          "orbits can stay away from the section n_%d = 0 for ever: take n_%d = 0, which is global",
+                          axis + 1, iso_section_axis(m) + 1);
 }
 
 /* --- what a turn is --------------------------------------------------------------------------------------------- */
@@ -106,8 +95,8 @@ static iso_status open_orbit(iso_chaos_walk *w, iso_sample *start)
     o.clock = with[ISO_BALL] ? ISO_CLOCK_T : ISO_CLOCK_S;
     o.shown = with[ISO_BALL] && with[ISO_POINT] ? ISO_SHOW_BOTH : with[ISO_BALL] ? ISO_SHOW_BALL : ISO_SHOW_POINT;
     o.tolerance = w->options.tolerance;
-    const iso_status status = iso_orbit_create(w->ctx, &w->scene->params, &w->scene->start, &o, &w->orbit);
-    return status == ISO_OK ? iso_orbit_at(w->orbit, 0, start) : status;
+    ISO_TRY(iso_orbit_create(w->ctx, &w->scene->params, &w->scene->start, &o, &w->orbit));
+    return iso_orbit_at(w->orbit, 0, start);
 }
 
 /* --- the result ------------------------------------------------------------------------------------------------- */
@@ -151,6 +140,8 @@ static void count_shares(const iso_chaos_walk *w)
 /* All that comes before the first turn. */
 static iso_status prepare(iso_chaos_walk *w)
 {
+    const iso_chaos_options *o = &w->options;
+    const size_t starts = o->starts + o->at_count;
     iso_sample start;
     ISO_TRY(check_options(w));
     w->effects = iso_scene_acting(w->scene);
@@ -162,14 +153,14 @@ static iso_status prepare(iso_chaos_walk *w)
     ISO_TRY(check_motion(w, &start));
     choose_turn(w, &start, effect);
     ISO_TRY(check_section(w));
-    ISO_TRY(check_starts(w));
+    if (starts > 0)
+        ISO_TRY(iso_refuse_starts(w->ctx, w->orbit, &w->effects, w->out->axis, o->at, o->at_count, o->starts > 0));
     iso_section_state_level(w->orbit, &w->effects);
-    if (w->options.starts > 0)
-        iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->out->axis, w->options.seed);
+    if (o->starts > 0) iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->out->axis, o->seed);
     w->out->plane = effect ? -1 : find_plane(w->out->with[ISO_BALL] ? start.ball : start.point);
-    w->out->start = calloc(w->options.starts + w->options.at_count + 1, sizeof *w->out->start);
+    w->out->start = calloc(starts + 1, sizeof *w->out->start);
     if (!w->out->start) return iso_context_no_memory(w->ctx, "the starts");
-    for (size_t i = 0; i < w->options.starts + w->options.at_count; i++) w->out->start[i].number = i + 1;
+    for (size_t i = 0; i < starts; i++) w->out->start[i].number = i + 1;
     return ISO_OK;
 }
 

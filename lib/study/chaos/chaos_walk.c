@@ -68,21 +68,17 @@ static void make_starts(group *g)
 
 /* --- beats ------------------------------------------------------------------------------------------------------ */
 
-/* Smooth functions of the place, without a symmetry. u: M/|M| on the section, else n. */
-static void see(const double u[3], double seen[ISO_SEEN])
-{
-    seen[0] = u[0] + u[0] * u[0];
-    seen[1] = u[1] + u[1] * u[1];
-    seen[2] = u[2] + u[0] * u[1] * u[2];
-}
-
 static void make_beat(const iso_crossing *c, const iso_sample *sample, iso_turn_sample *beat)
 {
     const double root = sqrt(fmax(0, 1 - c->x * c->x)), direction[3] = {root * sin(c->l), root * cos(c->l), c->x};
     memcpy(beat->clock, c->clock, sizeof beat->clock);
     memcpy(beat->growth, c->growth, sizeof beat->growth);
     beat->area = c->area;
-    see(sample ? sample->ball + 3 : direction, beat->seen);
+    /* smooth functions of the place, without a symmetry: of M/|M| on the section, else of n */
+    const double *u = sample ? sample->ball + 3 : direction;
+    beat->seen[0] = u[0] + u[0] * u[0];
+    beat->seen[1] = u[1] + u[1] * u[1];
+    beat->seen[2] = u[2] + u[0] * u[1] * u[2];
 }
 
 static iso_status trace(const iso_chaos_walk *w, int model, const iso_indicators *shown)
@@ -143,7 +139,7 @@ static iso_status take(group *g, int model, size_t i)
         make_beat(&g->crossing[at], g->sample ? &g->sample[at] : NULL, &beat);
         if (isnan(beat.growth[0] + beat.growth[1])) {
             static const char *const words = "it stands still: its deviations have no length";
-            r->status[i] = iso_context_fail(w->ctx, ISO_NUMERICAL, "", "%s", words);
+            r->status[i] = ISO_FAIL_NUMERICAL(w->ctx, "%s", words);
             note_failure(g, model, i, words);
             break;
         }

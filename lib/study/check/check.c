@@ -3,7 +3,6 @@
 #include "study/check/check.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,9 +56,9 @@ static iso_status begin(checker *c)
     iso_checker_choose_observers(c);
     for (int k = 0; k < 2; k++) ISO_TRY(find_model(c, (iso_model_kind)k));
     if (c->model[0].there || c->model[1].there) return ISO_OK;
-    return iso_context_fail(c->ctx, ISO_BAD_INPUT, "columns",
-                            "the trajectory has neither a ball's six columns "
-                            "(omega1 ... n3) nor a point's (M1 ... gamma3)");
+    return ISO_FAIL_INPUT(
+        c->ctx, "columns",
+        "the trajectory has neither a ball's six columns (omega1 ... n3) nor a point's (M1 ... gamma3)");
 }
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
@@ -70,8 +69,7 @@ static iso_status measure_clocks(checker *c, const double row[])
         if (c->columns[k] < 0) continue;
         const double time = iso_checker_at(c, row, k);
         if (!isfinite(time))
-            return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "row %zu: %s is not finite", c->number,
-                                    iso_clock_name((iso_clock)k));
+            return ISO_FAIL_INPUT(c->ctx, "", "row %zu: %s is not finite", c->number, iso_clock_name((iso_clock)k));
         c->span[k] = fmax(c->span[k], fabs(time));
     }
     return ISO_OK;
@@ -115,8 +113,8 @@ static iso_status begin_model(checker *c, checked_model *m, const double row[])
 {
     for (int i = 0; i < ISO_STATE; i++) c->looked[m->first + i] = true;
     forget_flow(m);
-    const iso_status status = iso_checker_energy(c, m, row);
-    return status == ISO_OK ? iso_checker_flow_begin(c, m, row) : status;
+    ISO_TRY(iso_checker_energy(c, m, row));
+    return iso_checker_flow_begin(c, m, row);
 }
 
 static iso_status check_model(checker *c, checked_model *m, const double row[])
@@ -192,8 +190,8 @@ iso_status iso_checking_end(iso_checking *c, iso_residuals *residuals)
     ISO_DEFAULT_ARITHMETIC;
     *residuals = (iso_residuals){.rows = c->rows + c->passed, .passed = c->passed};
     if (c->rows == 0)
-        return iso_context_fail(c->ctx, ISO_BAD_INPUT, "",
-                                c->passed ? "all rows of the trajectory are nan" : "the trajectory has no rows");
+        return ISO_FAIL_INPUT(c->ctx, "",
+                              c->passed ? "all rows of the trajectory are nan" : "the trajectory has no rows");
     for (int k = 0; k < 2; k++) add(c, &c->model[k].found, residuals);
     add(c, &c->map, residuals);
     return ISO_OK;
@@ -275,7 +273,7 @@ static iso_status look_at_rows(checker *c, checked_model *m, const iso_record *r
 {
     iso_start start;
     iso_status status = ISO_OK;
-    if (iso_record_rows(rows) == 0) return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "the trajectory has no rows");
+    if (iso_record_rows(rows) == 0) return ISO_FAIL_INPUT(c->ctx, "", "the trajectory has no rows");
     for (size_t row = 0; status == ISO_OK && row < iso_record_rows(rows); row++) {
         iso_effects effects = iso_checker_effects(c, m->kind);
         c->number = row + 1;

@@ -1,4 +1,5 @@
-/* check_common.c - what all parts of a check ask: residuals by name, a row as a state and as a sample, distances. */
+/* check_common.c - what all parts of a check ask: residuals by name, a row as a state and as a sample, distances; and
+ * constraints and integrals at each row, in the units of the first one. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -58,4 +59,67 @@ double iso_checker_distance(const double a[ISO_STATE], const double b[ISO_STATE]
         d[3 + i] = a[3 + i] - b[3 + i];
     }
     return fmax(norm(d), norm(d + 3));
+}
+
+/* --- integrals -------------------------------------------------------------------------------------------------- */
+
+void iso_checker_own(const checker *c, const expectations *e, const double row[], double own[ISO_MAX_STATE])
+{
+    iso_sample sample;
+    iso_checker_sample(c, row, &sample);
+    iso_orbit_state_of(e->first, e->system, &sample, own);
+}
+
+double iso_checker_drift(const expectations *e, int i, const double own[])
+{
+    double size;
+    const double value = e->integral[i]->value(&e->problem, own, &size);
+    return value == e->value[i] ? 0 : (value - e->value[i]) / size;
+}
+
+static void find_integrals(const checker *c, checked_model *m)
+{
+    expectations *e = &m->expect;
+    const iso_units *units = iso_orbit_units(m->orbit);
+    const double level = iso_effects_level(&c->effects) / iso_unit(units, iso_level_dimension());
+    const bool twin = c->columns[ISO_CLOCK_T] >= 0 || c->columns[ISO_CLOCK_TAU] >= 0 || c->model[ISO_BALL].there;
+    e->level = iso_effects_have_level(&c->effects) ? iso_coupling(&units->own, level) : 0;
+    e->on_level = twin || iso_effects_have_level(&c->effects);
+    e->system = m->system;
+    e->first = m->orbit;
+    e->problem = iso_orbit_model(m->orbit)->problem;
+    e->problem.eps = m->orbit->eps;
+    e->count = iso_integrals_holding(e->system, &iso_orbit_model(m->orbit)->problem, e->integral, ISO_MAX_INTEGRALS);
+}
+
+/* An integral should keep the value of the first row of its orbit. There are three exceptions: a constraint has its
+ * own exact value; all orbits of a file have the energy of its first row; and H of the point must be the level that
+ * the lines state, or 0 where the record has a ball's columns or clocks. */
+void iso_checker_expect(const checker *c, checked_model *m, const double first[])
+{
+    expectations *e = &m->expect;
+    const bool again = e->first != NULL;
+    double own[ISO_MAX_STATE], size;
+    if (!again) find_integrals(c, m);
+    iso_checker_own(c, e, first, own);
+    for (int i = 0; i < e->count; i++) {
+        const iso_integral *integral = e->integral[i];
+        const bool energy = integral->value == e->system->energy, free = integral->known == ISO_ANY_VALUE;
+        if (again && (energy || !free)) continue;
+        e->value[i] = integral->known == ISO_ONE ? 1 : energy ? e->level : 0;
+        if (free && !(energy && e->on_level && m->kind == ISO_POINT))
+            e->value[i] = integral->value(&e->problem, own, &size);
+    }
+}
+
+void iso_checker_integrals(const checker *c, checked_model *m, const double row[])
+{
+    char name[sizeof m->found.residual[0].name];
+    double own[ISO_MAX_STATE];
+    const expectations *e = &m->expect;
+    iso_checker_own(c, e, row, own);
+    for (int i = 0; i < e->count; i++) {
+        snprintf(name, sizeof name, "%s %s", e->system->name, e->integral[i]->name);
+        iso_checker_note(&m->found, name, e->integral[i]->doc, iso_checker_drift(e, i, own), c->number);
+    }
 }

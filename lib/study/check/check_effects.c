@@ -1,4 +1,6 @@
-/* check_effects.c - the columns of effects: each row integrated to the next, and compared (check_impl.h). */
+/* check_effects.c - the columns of effects: each row integrated to the next, and compared; and what
+ * lines state of the energy and of the start, against a row. These numbers make no motion of their own, so that no flow
+ * shows when they are wrong. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,15 +8,6 @@
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/check/check_impl.h"
-
-/* The first column of a group of an effect, in a trajectory; NULL: that of the first group that moves. -1: none. */
-static int column_of(iso_effect_id id, const char *name)
-{
-    int column = ISO_COLUMN_EFFECTS + iso_effect_first_column(id);
-    for (const iso_effect_column *g = iso_effect_list[id]->columns; g && g->name; column += g->count, g++)
-        if (name ? strcmp(g->name, name) == 0 : g->moves) return column;
-    return -1;
-}
 
 /* Groups that are side by side and have one name in the report: `count` columns from `first` on. */
 typedef struct checked {
@@ -28,12 +21,12 @@ typedef struct checked {
 static double other_size(const checker *c, const checked *k, const iso_sample *flow)
 {
     const double radius = c->params->body.radius > 0 ? c->params->body.radius : 1;
+    const iso_effect_column *g;
     double size = 0;
     if (!k->group->sized_by) return 0;
-    int first = ISO_COLUMN_EFFECTS + iso_effect_first_column(k->effect);
-    for (const iso_effect_column *g = iso_effect_list[k->effect]->columns; g->name; first += g->count, g++)
-        for (int i = 0; strcmp(g->name, k->group->sized_by) == 0 && i < g->count; i++)
-            size = fmax(size, fabs(iso_sample_column(flow, first + i)) * pow(radius, k->group->length - g->length));
+    const int first = iso_effect_group(k->effect, k->group->sized_by, &g);
+    for (int i = 0; i < g->count; i++)
+        size = fmax(size, fabs(iso_sample_column(flow, first + i)) * pow(radius, k->group->length - g->length));
     return size;
 }
 
@@ -85,7 +78,8 @@ void iso_checker_go_on(const checker *c, const double row[], iso_sample *flow)
     for (iso_effect_id e = 0; c->params->k == 1 && e < ISO_EFFECTS; e++)
         for (const iso_effect_column *g = iso_effect_list[e]->columns; g && g->name; column += g->count, g++)
             for (int i = 0; g->moves && i < g->count; i++) {
-                const int from = c->columns[column_of(e, NULL) + i]; /* the centre lacks only its height b n */
+                const int from =
+                    c->columns[iso_effect_group(e, NULL, NULL) + i]; /* the centre lacks only its height b n */
                 const double there = iso_sample_column(flow, column + i);
                 iso_sample_set_column(flow, column + i, from < 0 ? NAN : there + row[from]);
             }
@@ -100,10 +94,10 @@ bool iso_checker_has_effects(const checker *c)
 
 bool iso_checker_has_group(const checker *c, iso_effect_id id, const char *name)
 {
-    const iso_effect_column *g = iso_effect_list[id]->columns;
-    while (name ? strcmp(g->name, name) != 0 : !g->moves) g++;
+    const iso_effect_column *g;
+    const int first = iso_effect_group(id, name, &g);
     for (int i = 0; i < g->count; i++)
-        if (c->columns[column_of(id, name) + i] < 0) return false;
+        if (c->columns[first + i] < 0) return false;
     return true;
 }
 
@@ -111,7 +105,7 @@ bool iso_checker_has_group(const checker *c, iso_effect_id id, const char *name)
  * on a plane the displacement, without which the height is not known. */
 static bool has_beginning(const checker *c, iso_effect_id id)
 {
-    bool has = c->params->k != 1 || column_of(id, NULL) < 0 || iso_checker_has_group(c, id, NULL);
+    bool has = c->params->k != 1 || iso_effect_group(id, NULL, NULL) < 0 || iso_checker_has_group(c, id, NULL);
     for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++)
         if (n->turns_with) has = has && iso_checker_has_group(c, id, n->turns_with);
     return has;
@@ -134,4 +128,96 @@ void iso_checker_choose_observers(checker *c)
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
         if (iso_effect_list[e]->observes)
             c->effects.on[e] = (c->effects.on[e] && has_beginning(c, e)) || is_shown(c, e);
+}
+
+/* --- lines: h, eps, c ------------------------------------------------------------------------------------------- */
+
+/* The energy h in own units that a line states, by itself or by eps; false: it does not, or *status. */
+static bool stated_energy(const checker *c, const iso_units *units, const char *key, double *h, iso_status *status)
+{
+    const bool eps = strcmp(key, "eps") == 0;
+    if (!iso_record_get_numbers(c->ctx, c->record, key, 1, h, status)) return false;
+    *h /= iso_unit(units, eps ? iso_dimension_eps : iso_dimension_h);
+    if (eps) *h = iso_energy(&units->own, *h);
+    return isfinite(*h);
+}
+
+/* How far the first row is from the energy h, relative to the size of its terms. A point has it if its H is that of
+ * its level. */
+static double off_energy(const checked_model *m, const double own[], double h)
+{
+    double size;
+    iso_problem f = m->expect.problem;
+    const bool ball = m->kind == ISO_BALL;
+    if (!ball) f.eps = iso_coupling(&f.p, h);
+    const double here = m->system->energy(&f, own, &size), wanted = ball ? h : m->expect.level;
+    return here == wanted ? 0 : fabs(here - wanted) / fmax(size, fabs(wanted));
+}
+
+/* A free point may have any H: then only h and eps can be compared, with each other. */
+static void take_level(checked_model *m, const double own[], double eps)
+{
+    double size;
+    iso_problem f = m->expect.problem;
+    f.eps = eps;
+    m->expect.level = m->system->energy(&f, own, &size);
+}
+
+static void note_line(checker *c, checked_model *m, const char *key, const char *what, double off)
+{
+    char name[sizeof m->found.residual[0].name];
+    snprintf(name, sizeof name, "# %s", key);
+    iso_checker_note(&m->found, name, what, off, c->number);
+}
+
+iso_status iso_checker_energy(checker *c, checked_model *m, const double first[])
+{
+    const iso_units *units = iso_orbit_units(m->orbit);
+    const bool ball = m->kind == ISO_BALL, level = iso_effects_have_level(&c->stated);
+    const bool any_level = !ball && !m->expect.on_level;
+    const char *what = any_level ? "h and eps of the file, against each other" : "this line, against the first row";
+    double h, eps, own[ISO_MAX_STATE], least = INFINITY;
+    iso_status status = ISO_OK;
+    const bool has_h = stated_energy(c, units, "h", &h, &status);
+    const bool has_eps = status == ISO_OK && stated_energy(c, units, "eps", &eps, &status);
+    if (status != ISO_OK || !iso_orbit_has_twin(m->orbit) || (!ball && c->model[ISO_BALL].there)) return status;
+    iso_checker_own(c, &m->expect, first, own);
+    if (any_level) { /* nothing but the other of the two can be compared with it; the flow depends on eps */
+        if (!has_h || !has_eps) return ISO_OK;
+        take_level(m, own, iso_coupling(&units->own, eps));
+    }
+    if (has_h) note_line(c, m, "h", what, least = off_energy(m, own, h));
+    if (has_eps) note_line(c, m, "eps", what, off_energy(m, own, any_level ? h : eps));
+    if (has_eps) least = fmin(least, off_energy(m, own, eps));
+    char key[ISO_NAME_SIZE];
+    const iso_effect *of_level = level ? iso_effect_list[iso_effect_find(iso_level_name())] : NULL;
+    if (!level || isinf(least)) return ISO_OK;
+    iso_effect_line(key, of_level, of_level->numbers);
+    note_line(c, m, key, "this line, against the first row and h or eps", least);
+    return ISO_OK;
+}
+
+/* --- lines: the start ------------------------------------------------------------------------------------------- */
+
+static void compare_beginning(checker *c, checked_model *ball, iso_effect_id id, const iso_effect_number *n,
+                              const double row[])
+{
+    const int column = iso_effect_group(id, n->turns_with, NULL);
+    double error = 0, size = 0;
+    char key[ISO_NAME_SIZE];
+    for (int i = 0; i < n->count; i++) {
+        const double stated = iso_effect_values(&c->stated, id, n)[i], there = iso_checker_at(c, row, column + i);
+        error = fmax(error, fabs(there - stated));
+        size = fmax(size, fmax(fabs(there), fabs(stated)));
+    }
+    iso_effect_line(key, iso_effect_list[id], n);
+    note_line(c, ball, key, "this line, against the row at time 0", size > 0 ? error / size : 0);
+}
+
+void iso_checker_beginning(checker *c, checked_model *ball, const double row[])
+{
+    if (ball->clock < 0 || iso_checker_at(c, row, ball->clock) != 0) return;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; c->stated.on[e] && n && n->name; n++)
+            if (n->turns_with && iso_checker_has_group(c, e, n->turns_with)) compare_beginning(c, ball, e, n, row);
 }

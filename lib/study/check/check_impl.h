@@ -3,11 +3,9 @@
  *
  *     check_unseen.c      which numbers no residual depends on
  *     check.c             rows come in, residuals go out
- *     check_integrals.c   constraints and integrals at each row
- *     check_lines.c       what lines state of the energy and of the start, against a row
  *     check_flow.c        from each row to the next: state and clocks
- *     check_effects.c     the same for the columns of effects
- *     check_common.c      residuals by name, rows as states
+ *     check_effects.c     the same for the columns of effects; what lines state, against a row
+ *     check_common.c      residuals by name, rows as states; constraints and integrals at each row
  */
 #ifndef ISO_STUDY_CHECK_IMPL_H
 #define ISO_STUDY_CHECK_IMPL_H
@@ -138,8 +136,6 @@ iso_effects iso_checker_effects(const checker *c, iso_model_kind kind);
 
 double iso_checker_distance(const double a[ISO_STATE], const double b[ISO_STATE]);
 
-/* --- check_integrals.c ------------------------------------------------------------------------------------------ */
-
 /* The first row of an orbit gives the values. */
 void iso_checker_expect(const checker *c, checked_model *m, const double first[]);
 
@@ -148,15 +144,6 @@ void iso_checker_integrals(const checker *c, checked_model *m, const double row[
 /* The integral less its expected value, relative to the size of its terms, at a state of iso_checker_own. */
 double iso_checker_drift(const expectations *e, int i, const double own[]);
 void iso_checker_own(const checker *c, const expectations *e, const double row[], double own[ISO_MAX_STATE]);
-
-/* --- check_lines.c ---------------------------------------------------------------------------------------------- */
-
-/* The energy that lines state (h, eps, the level's c), against the first row of a model. Errors: ISO_BAD_INPUT about
- * a line. */
-iso_status iso_checker_energy(checker *c, checked_model *m, const double first[]);
-
-/* The numbers of lines that turn with the ball, such as `# gravity.up`, against the columns of a row at time 0. */
-void iso_checker_beginning(checker *c, checked_model *ball, const double row[]);
 
 /* --- check_flow.c ----------------------------------------------------------------------------------------------- */
 
@@ -186,5 +173,12 @@ void iso_checker_go_on(const checker *c, const double row[], iso_sample *flow);
 
 /* Compares the columns of effects in a row with the flow from the last row, relative to the group's largest. */
 void iso_checker_effects_flow(checker *c, iso_residuals *found, const iso_sample *flow, const double row[]);
+
+/* The energy that lines state (h, eps, the level's c), against the first row of a model. Errors: ISO_BAD_INPUT about
+ * a line. */
+iso_status iso_checker_energy(checker *c, checked_model *m, const double first[]);
+
+/* The numbers of lines that turn with the ball, such as `# gravity.up`, against the columns of a row at time 0. */
+void iso_checker_beginning(checker *c, checked_model *ball, const double row[]);
 
 #endif

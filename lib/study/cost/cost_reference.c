@@ -89,8 +89,8 @@ static iso_status find_first(cost_problem *p, double seconds, bool may_fall_shor
     const int i = best_source(p, s.list, s.count, seconds, &r->first);
     if (iso_cost_is_stopped(p)) return iso_context_stopped(p->user);
     if (i < 0 || (r->first.reached < r->first.times && !may_fall_short))
-        return iso_context_fail(p->user, ISO_NUMERICAL, "", "no reference gets to %s = %g in %.2g s: %s",
-                                iso_clock_name(p->clock), p->end, seconds, iso_context_message(p->ctx));
+        return ISO_FAIL_NUMERICAL(p->user, "no reference gets to %s = %g in %.2g s: %s", iso_clock_name(p->clock),
+                                  p->end, seconds, iso_context_message(p->ctx));
     *from = s.list[i];
     r->exact = from->backend == ISO_BACKEND_EXACT;
     describe(from, r->what);

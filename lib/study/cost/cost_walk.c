@@ -48,8 +48,7 @@ static iso_status check_scene(iso_context *ctx, const iso_scene *scene, const is
     if (status == ISO_OK) status = iso_orbit_check_time(orbit, scene->end);
     iso_orbit_free(orbit);
     if (status == ISO_OK && scene->end == 0)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "end",
-                                "the scene ends where it begins: nothing is to be measured");
+        return ISO_FAIL_ARGUMENT(ctx, "end", "the scene ends where it begins: nothing is to be measured");
     return status;
 }
 

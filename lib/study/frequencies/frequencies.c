@@ -12,7 +12,6 @@
 #include "base/vec3_impl.h"
 #include "exact/coordinates_impl.h"
 #include "exact/exact_impl.h"
-#include "map/state.h"
 #include "model/model_impl.h"
 #include "study/frequencies/frequencies_impl.h"
 #include "study/frequencies/momentum.h"

@@ -6,7 +6,6 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
-#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/chaos/chaos.h"
 #include "study/frequencies/frequencies_impl.h"
@@ -286,9 +285,9 @@ static iso_status choose_length(estimator *e, double speed, const iso_frequencie
     const double turns = isnan(o->turns) ? 1000 * fmin(fmax(4 * k, 0.05), 1) : o->turns;
     const double length = e->end[ISO_CLOCK_T] = isnan(o->end) ? turns * turn : o->end;
     if (!(length >= LEAST_TURNS * turn * (1 - ROUNDING)))
-        return iso_context_fail(e->ctx, ISO_BAD_ARGUMENT, isnan(o->end) ? "turns" : "end",
-                                "an orbit to t = %g is %g turns: frequencies are estimated from %g or more", length,
-                                length / turn, LEAST_TURNS);
+        return ISO_FAIL_ARGUMENT(e->ctx, isnan(o->end) ? "turns" : "end",
+                                 "an orbit to t = %g is %g turns: frequencies are estimated from %g or more", length,
+                                 length / turn, LEAST_TURNS);
     e->turns = e->fixed && length / turn < MOST_TURNS ? (long)(length / turn) : MOST_TURNS;
     const double samples = isnan(o->samples) ? fmax(32 * length / turn, 12 * length * fast) : o->samples;
     e->count = 512;
@@ -296,15 +295,15 @@ static iso_status choose_length(estimator *e, double speed, const iso_frequencie
     const double needed = 8 * length * fast; /* for each turn of the ball */
     if ((double)e->count >= needed) return ISO_OK;
     if (needed <= ISO_MOST_SAMPLES)
-        return iso_context_fail(
-            e->ctx, ISO_BAD_ARGUMENT, "samples",
+        return ISO_FAIL_ARGUMENT(
+            e->ctx, "samples",
             "%zu samples of %g turns of the ball are fewer than 8 for each turn: take %.0f or more", e->count,
             length * fast, ceil(needed));
     const double most = ISO_MOST_SAMPLES / (8 * fast); /* in t */
-    return iso_context_fail(e->ctx, ISO_BAD_ARGUMENT, isnan(o->end) ? "turns" : "end",
-                            "an estimate takes at most %d samples, 8 for each turn of the ball: take %.0f turns or "
-                            "fewer, or t = %.6g or less",
-                            ISO_MOST_SAMPLES, floor(most / turn), most * (1 - 1e-6));
+    return ISO_FAIL_ARGUMENT(e->ctx, isnan(o->end) ? "turns" : "end",
+                             "an estimate takes at most %d samples, 8 for each turn of the ball: take %.0f turns or "
+                             "fewer, or t = %.6g or less",
+                             ISO_MOST_SAMPLES, floor(most / turn), most * (1 - 1e-6));
 }
 
 /* Checks the scene, and chooses the length of the orbit. */
@@ -339,6 +338,6 @@ iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, co
     e.data = own.data;
     iso_frequencies_blank(f);
     f->estimated = true;
-    iso_status status = prepare(&e, &own);
-    return status == ISO_OK ? estimate(&e) : status;
+    ISO_TRY(prepare(&e, &own));
+    return estimate(&e);
 }

@@ -38,7 +38,7 @@ void iso_frequencies_finish(iso_frequencies *f);
 iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t count, double step, int most,
                              iso_spectral_line line[], int *found);
 
-/* --- the two frequencies of which the lines of n(t) are combinations (frequencies_basis.c) ---------------------- */
+/* --- the two frequencies of which the lines of n(t) are combinations (frequencies_common.c) --------------------- */
 
 enum { ISO_LINES = 16, ISO_PART_LINES = 8, ISO_MOST_FACTOR = 16 /* of a frequency in a combination */ };
 

@@ -102,14 +102,14 @@ iso_status iso_momentum_bounds(iso_context *ctx, const iso_momentum *m, double h
         "swings_low", "swings_high", "rotation_1",   "rotation_2",  "rotation_3",   "roots_meet"};
     *bounds = NULL;
     if (!isfinite(m->H) || !(h > 0 && isfinite(h)))
-        return iso_context_fail(ctx, ISO_NUMERICAL, "",
-                                "h = %g, H = %g: no point of the image of (h, %s) has such values", h, m->H, m->F);
+        return ISO_FAIL_NUMERICAL(ctx, "h = %g, H = %g: no point of the image of (h, %s) has such values", h, m->H,
+                                  m->F);
     iso_status status = iso_record_create(ctx, sizeof names / sizeof *names, names, bounds);
     for (int i = 0; status == ISO_OK && i < ROWS; i++) {
         double *row;
         status = iso_record_append(ctx, *bounds, &row);
         if (status == ISO_OK && !fill(m, h * fmax(2.0 * i / (ROWS - 1), 1e-6), row) && m->H == 0)
-            status = iso_context_fail(ctx, ISO_NUMERICAL, "", "the image of (h, %s) does not fit doubles", m->F);
+            status = ISO_FAIL_NUMERICAL(ctx, "the image of (h, %s) does not fit doubles", m->F);
     }
     if (status == ISO_OK) return ISO_OK;
     iso_record_free(*bounds);

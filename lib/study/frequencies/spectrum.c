@@ -255,12 +255,11 @@ iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t cou
     *found = 0;
     if (count < 64 || (count & (count - 1)) != 0 || !(step > 0) || !isnormal(step) ||
         !isfinite(step * (double)count) || most < 1 || most > ISO_MAX_LINES)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                                "a spectrum needs a power of two samples, 64 or more, a step > 0, and 1 to %d lines",
-                                ISO_MAX_LINES);
+        return ISO_FAIL_ARGUMENT(ctx, "",
+                                 "a spectrum needs a power of two samples, 64 or more, a step > 0, and 1 to %d lines",
+                                 ISO_MAX_LINES);
     for (size_t j = 0; j < 2 * count; j++)
-        if (!isfinite(signal[j]))
-            return iso_context_fail(ctx, ISO_NUMERICAL, "", "a sample of the signal is not finite");
+        if (!isfinite(signal[j])) return ISO_FAIL_NUMERICAL(ctx, "a sample of the signal is not finite");
     analysis z = {.ctx = ctx, .count = count, .signal = signal, .window = malloc(5 * count * sizeof *z.window)};
     z.table = gsl_fft_complex_wavetable_alloc(count);
     z.space = gsl_fft_complex_workspace_alloc(count);

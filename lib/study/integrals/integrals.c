@@ -34,13 +34,12 @@ ISO_NAMES(iso_integral_verdict_name, iso_integral_verdict, "none", "found", "und
 static iso_status check_degrees(iso_context *ctx, iso_integral_search_options *o)
 {
     if (o->degree < 1 || o->degree > ISO_INTEGRAL_DEGREE)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "degree", "degree %d of the polynomials in M: give 1 to %d",
-                                o->degree, ISO_INTEGRAL_DEGREE);
+        return ISO_FAIL_ARGUMENT(ctx, "degree", "degree %d of the polynomials in M: give 1 to %d", o->degree,
+                                 ISO_INTEGRAL_DEGREE);
     if (o->coefficients == -1) o->coefficients = o->degree > 2 ? o->degree : 2;
     if (o->coefficients >= 0 && o->coefficients <= ISO_INTEGRAL_DEGREE) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "coefficients",
-                            "degree %d of the coefficients in gamma: give 0 to %d", o->coefficients,
-                            ISO_INTEGRAL_DEGREE);
+    return ISO_FAIL_ARGUMENT(ctx, "coefficients", "degree %d of the coefficients in gamma: give 0 to %d",
+                             o->coefficients, ISO_INTEGRAL_DEGREE);
 }
 
 /* Twice as many conditions as there are terms. */
@@ -55,8 +54,8 @@ static iso_status choose_orbits(iso_context *ctx, iso_integral_search_options *o
     const size_t least = 4 + 2 * most / (ISO_INTEGRAL_ROWS - 1);
     if (o->orbits == 0) o->orbits = least > LEAST_ORBITS ? least : LEAST_ORBITS;
     if (o->orbits >= least && o->orbits <= MOST_ORBITS) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "orbits", "%zu orbits: these degrees need %zu to %d", o->orbits,
-                            least, MOST_ORBITS);
+    return ISO_FAIL_ARGUMENT(ctx, "orbits", "%zu orbits: these degrees need %zu to %d", o->orbits, least,
+                             MOST_ORBITS);
 }
 
 static iso_status check_options(iso_context *ctx, iso_integral_search_options *o)
@@ -64,9 +63,9 @@ static iso_status check_options(iso_context *ctx, iso_integral_search_options *o
     ISO_TRY(check_degrees(ctx, o));
     ISO_TRY(choose_orbits(ctx, o));
     if (!(o->turns >= 1 && o->turns <= 1e5))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "turns", "%g turns are not in [1, 1e5]", o->turns);
+        return ISO_FAIL_ARGUMENT(ctx, "turns", "%g turns are not in [1, 1e5]", o->turns);
     if (!(o->within > 0 && o->within < 1))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "within", "within %g is not in (0, 1)", o->within);
+        return ISO_FAIL_ARGUMENT(ctx, "within", "within %g is not in (0, 1)", o->within);
     return ISO_OK;
 }
 

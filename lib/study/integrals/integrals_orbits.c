@@ -26,8 +26,7 @@ static iso_status choose_level(iso_context *ctx, iso_point_motion m, double unit
     const double least = m.energy + eps * pow(min3(f->p.J), -1 / k),
                  most = m.energy + eps * pow(max3(f->p.J), -1 / k);
     const double size = 2 * fmax(least, most);
-    if (!(size > 0 && isfinite(size)))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "M", "on this level the point can only be at rest");
+    if (!(size > 0 && isfinite(size))) return ISO_FAIL_INPUT(ctx, "M", "on this level the point can only be at rest");
     f->eps = eps / size;
     f->energy = m.energy / size;
     return ISO_OK;
@@ -157,5 +156,5 @@ iso_status iso_integral_follow(iso_context *ctx, const iso_integral_search_optio
     free(r.orbit);
     free(r.sample);
     if (status != ISO_OK || isfinite(*energy)) return status;
-    return iso_context_fail(ctx, ISO_NUMERICAL, "", "powers of q do not fit a double for this k and J");
+    return ISO_FAIL_NUMERICAL(ctx, "powers of q do not fit a double for this k and J");
 }

@@ -294,7 +294,7 @@ static bool keep(algebra *a, unsigned parity, double delta, double within, integ
 static iso_status solve(iso_context *ctx, algebra *a, int degree, int coefficients, unsigned parity)
 {
     iso_integral_terms(degree, coefficients, parity, a->term);
-    if (!fill(a)) return iso_context_fail(ctx, ISO_NUMERICAL, "", "powers of M do not fit a double for this k and J");
+    if (!fill(a)) return ISO_FAIL_NUMERICAL(ctx, "powers of M do not fit a double for this k and J");
     if (!make_basis(a) || (a->functions > 0 && !begin_basis(a)))
         return iso_context_no_memory(ctx, "%zu functions", a->functions);
     if (a->functions == 0) return ISO_OK;

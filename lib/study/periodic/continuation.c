@@ -68,8 +68,8 @@ static iso_status end_at(const iso_continuation *f, iso_branch *b, const iso_con
     at.value = value;
     iso_branch_event e = {.kind = ISO_BRANCH_END, .at = iso_continuation_tell(&at, arc), .axis = -1};
     snprintf(e.words, sizeof e.words, "the end of the range");
-    const iso_status status = add_point(f, b, &at, arc);
-    return status == ISO_OK ? iso_continuation_add_event(f, b, &e) : status;
+    ISO_TRY(add_point(f, b, &at, arc));
+    return iso_continuation_add_event(f, b, &e);
 }
 
 static bool ends_in_collision(const iso_continuation_point *at, const iso_continuation_point *next)
@@ -92,14 +92,14 @@ static iso_status accept(const iso_continuation *f, iso_branch *b, const iso_con
     }
     if (next->u < 0 || next->u > ISO_PI / 2) return fail_at(f, b, at, arc, "too near a rotation to go on");
     *over = false;
-    const iso_status status = iso_continuation_events(f, b, at, next, ds, arc);
-    return status == ISO_OK ? add_point(f, b, next, arc + ds) : status;
+    ISO_TRY(iso_continuation_events(f, b, at, next, ds, arc));
+    return add_point(f, b, next, arc + ds);
 }
 
 static iso_status stop_at(const iso_continuation *f, iso_branch *b, const iso_continuation_point *at, double arc)
 {
-    const iso_status status = fail_at(f, b, at, arc, "stopped on request");
-    return status == ISO_OK ? iso_context_stopped(f->ctx) : status;
+    ISO_TRY(fail_at(f, b, at, arc, "stopped on request"));
+    return iso_context_stopped(f->ctx);
 }
 
 /* Why no step can be taken from `at`. */
@@ -206,20 +206,18 @@ static iso_status check(const iso_continuation *f, double own)
     iso_params p;
     double energy;
     if (!name || !(o->from < o->to) || !isfinite(o->to - o->from))
-        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range", "%s from %g to %g: give A:B with A < B",
-                                name ? name : "?", o->from, o->to);
+        return ISO_FAIL_ARGUMENT(f->ctx, "range", "%s from %g to %g: give A:B with A < B", name ? name : "?", o->from,
+                                 o->to);
     if (o->vary == ISO_VARY_K && o->from <= 0 && o->to >= 0)
-        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range",
-                                "the range %g to %g contains k = 0, where there is no ball", o->from, o->to);
+        return ISO_FAIL_ARGUMENT(f->ctx, "range", "the range %g to %g contains k = 0, where there is no ball",
+                                 o->from, o->to);
     if (!(own >= o->from && own <= o->to))
-        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range",
-                                "the scene has %s = %.12g: the range %g to %g must contain it", name, own, o->from,
-                                o->to);
+        return ISO_FAIL_ARGUMENT(f->ctx, "range", "the scene has %s = %.12g: the range %g to %g must contain it",
+                                 name, own, o->from, o->to);
     if (o->vary != ISO_VARY_K &&
         (!iso_continuation_params(f, o->from, &p, &energy) || !iso_continuation_params(f, o->to, &p, &energy)))
-        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range",
-                                "%s from %g to %g leaves the range in which J%d is the %s moment", name, o->from,
-                                o->to, f->axis + 1, f->base.k > 0 ? "largest" : "smallest");
+        return ISO_FAIL_ARGUMENT(f->ctx, "range", "%s from %g to %g leaves the range in which J%d is the %s moment",
+                                 name, o->from, o->to, f->axis + 1, f->base.k > 0 ? "largest" : "smallest");
     return ISO_OK;
 }
 
@@ -346,7 +344,7 @@ static iso_status check_lines(iso_context *ctx, const iso_periodic_orbit orbits[
 {
     for (size_t i = 0; i < count; i++)
         if (!iso_symmetry_line_name(orbits[i].line))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "orbit", "an orbit without a symmetry cannot be followed");
+            return ISO_FAIL_INPUT(ctx, "orbit", "an orbit without a symmetry cannot be followed");
     return ISO_OK;
 }
 
@@ -379,8 +377,7 @@ iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const 
     *follow = NULL;
     ISO_TRY(prepare(ctx, scene, options, &f, &own));
     ISO_TRY(check_lines(ctx, orbits, count));
-    if (count == 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "orbit", "no symmetric orbit to follow: the list is empty");
+    if (count == 0) return ISO_FAIL_INPUT(ctx, "orbit", "no symmetric orbit to follow: the list is empty");
     iso_continuations *out = calloc(1, sizeof *out);
     if (!out) return iso_context_no_memory(ctx, "branches");
     out->vary = f.options.vary;

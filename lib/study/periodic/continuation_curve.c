@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "base/names_impl.h"
-#include "base/pi_impl.h"
 #include "map/section_impl.h"
 #include "model/model_impl.h"
 #include "study/periodic/continuation_impl.h"

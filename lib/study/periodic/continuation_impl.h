@@ -2,8 +2,7 @@
  *
  *     continuation.c          the call, the two directions, the branches that are switched to
  *     continuation_curve.c    the curve F(u, value) = 0: one evaluation, the corrector, one step
- *     continuation_events.c   what happens between two points of the curve, and exactly where
- *     continuation_switch.c   the orbits that branch off
+ *     continuation_events.c   what happens between two points of the curve, and exactly where; what branches off
  */
 #ifndef ISO_STUDY_FOLLOW_IMPL_H
 #define ISO_STUDY_FOLLOW_IMPL_H

@@ -5,7 +5,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/names_impl.h"
@@ -14,7 +13,6 @@
 #include "map/section_impl.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-#include "study/periodic/hill_trace_impl.h"
 #include "study/periodic/periodic_impl.h"
 #include "study/periodic/stability_chart.h"
 #include "study/study_impl.h"
@@ -27,12 +25,11 @@ static iso_status check_options(const iso_periodic_work *w)
 {
     const iso_periodic_options *o = &w->options;
     if (o->period < 1 || o->period > ISO_PERIODIC_MOST)
-        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "period", "a period of %d: give 1 to %d", o->period,
-                                ISO_PERIODIC_MOST);
+        return ISO_FAIL_ARGUMENT(w->ctx, "period", "a period of %d: give 1 to %d", o->period, ISO_PERIODIC_MOST);
     if (o->grid < 1 || o->grid > 10000000)
-        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "grid", "a grid of %ld points: give 1 to 1e7", o->grid);
+        return ISO_FAIL_ARGUMENT(w->ctx, "grid", "a grid of %ld points: give 1 to 1e7", o->grid);
     if (!iso_return_code_of(o->polish))
-        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "polish", "this build has no numbers of 128 bits");
+        return ISO_FAIL_ARGUMENT(w->ctx, "polish", "this build has no numbers of 128 bits");
     return ISO_OK;
 }
 
@@ -41,12 +38,11 @@ static iso_status check_numbers(const iso_periodic_work *w)
 {
     const double k = w->scene->params.k, *J = w->scene->params.J, ratio = max3(J) / min3(J) / fabs(k);
     if (fabs(k) < ISO_LEAST_K)
-        return iso_context_fail(w->ctx, ISO_BAD_INPUT, "k",
-                                "k = %.15g: periodic orbits are sought only for |k| >= %g", k, ISO_LEAST_K);
+        return ISO_FAIL_INPUT(w->ctx, "k", "k = %.15g: periodic orbits are sought only for |k| >= %g", k,
+                              ISO_LEAST_K);
     if (ratio <= 1e5) return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_BAD_INPUT, "J",
-                            "max J/(min J |k|) is %.3g: periodic orbits are sought only where it is 1e5 at most",
-                            ratio);
+    return ISO_FAIL_INPUT(
+        w->ctx, "J", "max J/(min J |k|) is %.3g: periodic orbits are sought only where it is 1e5 at most", ratio);
 }
 
 static iso_status check_scene(iso_periodic_work *w)
@@ -64,8 +60,8 @@ static iso_status check_scene(iso_periodic_work *w)
     const double slow = 1 / sqrt(iso_coupling(&w->units.own, w->h));
     for (iso_clock c = 0; c < ISO_CLOCKS; c++) w->unit_clock[c] = slow * iso_unit(&w->units, iso_clock_dimension(c));
     if (isfinite(w->unit_clock[ISO_CLOCK_T])) return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_BAD_INPUT, "angular_velocity",
-                            "the energy of this start is too large or too small for doubles");
+    return ISO_FAIL_INPUT(w->ctx, "angular_velocity",
+                          "the energy of this start is too large or too small for doubles");
 }
 
 /* --- the work --------------------------------------------------------------------------------------------------- */

@@ -37,7 +37,6 @@
 #include "../../model/system.h"
 #include "../../orbit/scene.h"
 
-
 ISO_C_BEGIN
 
 /* The multipliers of a map of the plane that keeps an area: lambda and 1/lambda, lambda + 1/lambda = trace. */

@@ -1,12 +1,10 @@
 /* periodic_impl.h - what the files of periodic orbits share.
  *
- *     hill.c                 Hill's equation of the rotations
+ *     hill.c                 the rotations, by Hill's equation
  *     periodic.c             the call: what is refused, the order of the work, the list
  *     periodic_map.c         the map g (half a return and T) and f = g g: many points in lanes, one in more digits
- *     periodic_rotations.c   the rotations
  *     periodic_line.c        the six symmetry lines, and shots from one of them to itself
- *     periodic_search.c      symmetric orbits along the symmetry lines
- *     periodic_grid.c        other orbits from a grid
+ *     periodic_search.c      symmetric orbits along the symmetry lines; other orbits from a grid
  *     periodic_solve.c       an orbit from a place near it: digits, trace, error, closure
  *     periodic_orbit.c       the list: what is new, symmetry, copies
  *
@@ -208,5 +206,15 @@ iso_multipliers iso_multipliers_of(double trace, double error, double sense);
 /* The matrix of (gamma_i, dgamma_i/dphi) over half a turn about `axis`, on the level H = energy with eps = 1. Where
  * the compiler has no numbers of 128 bits, it has 64 bits. */
 void iso_hill_matrix_wide(double k, const double J[3], double energy, int axis, iso_wide y[2][2]);
+
+/* The half-turn trace of Hill's equation about `axis` (0 to 2) on the level H = energy of the point with eps = 1, by
+ * numbers of 64 bits of mantissa, and in *error (NULL: not asked) how far it may be off. NaN for |k| < 1e-4, a moment
+ * <= 0, or where there is no such rotation. It is below -2 about the axis of the middle moment, for all k and J and
+ * on every level on which this rotation exists. */
+double iso_hill_trace(double k, const double J[3], double energy, int axis, double *error);
+
+/* Whether the whole circle gamma_axis = 0 can be reached on this level, energy + q^(-1/k) > 0. If not, there is no
+ * rotation, but an oscillation between two places of rest. */
+bool iso_hill_has_rotation(double k, const double J[3], double energy, int axis);
 
 #endif

@@ -7,7 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/pi_impl.h"
 #include "study/periodic/periodic_impl.h"
 
 /* What is being computed of one orbit. */

@@ -1,5 +1,6 @@
 /* stability_chart.c - the chart of stable rotations in the plane of k and one moment, or k and the level
  * (stability_chart.h). */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include "study/periodic/stability_chart.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@
 #include "base/pool_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
-#include "study/periodic/hill_trace_impl.h"
+#include "study/periodic/periodic_impl.h"
 
 typedef struct chart {
     iso_context *ctx;
@@ -127,24 +128,22 @@ static iso_status check(const chart *c)
 {
     const iso_stability_options *o = &c->o;
     if (!(o->from[0] < o->to[0]) || !isfinite(o->to[0] - o->from[0]))
-        return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "k", "k from %g to %g: give A:B with A < B", o->from[0],
-                                o->to[0]);
+        return ISO_FAIL_ARGUMENT(c->ctx, "k", "k from %g to %g: give A:B with A < B", o->from[0], o->to[0]);
     if (o->from[0] > -ISO_LEAST_K && o->to[0] < ISO_LEAST_K)
-        return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "k", "k from %g to %g: nothing is computed for |k| < %g",
-                                o->from[0], o->to[0], ISO_LEAST_K);
+        return ISO_FAIL_ARGUMENT(c->ctx, "k", "k from %g to %g: nothing is computed for |k| < %g", o->from[0],
+                                 o->to[0], ISO_LEAST_K);
     const bool by_level = o->moment == ISO_CHART_LEVEL;
     if (by_level ? !(o->from[1] < o->to[1]) || !isfinite(o->to[1] - o->from[1]) : !isfinite(o->level))
-        return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "level", "level from %g to %g: give A:B with A < B",
-                                o->from[1], o->to[1]);
+        return ISO_FAIL_ARGUMENT(c->ctx, "level", "level from %g to %g: give A:B with A < B", o->from[1], o->to[1]);
     if (o->moment < 0 || o->moment > ISO_CHART_LEVEL ||
         (!by_level && (!(o->from[1] > 0) || !(o->from[1] < o->to[1]) || !isfinite(o->to[1]))))
-        return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "J", "J%d from %g to %g: give A:B with 0 < A < B",
-                                o->moment + 1, o->from[1], o->to[1]);
+        return ISO_FAIL_ARGUMENT(c->ctx, "J", "J%d from %g to %g: give A:B with 0 < A < B", o->moment + 1, o->from[1],
+                                 o->to[1]);
     for (int i = 0; i < 3; i++)
         if (i != o->moment && !(o->J[i] > 0 && isfinite(o->J[i])))
-            return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "J", "J%d = %g is not positive", i + 1, o->J[i]);
+            return ISO_FAIL_ARGUMENT(c->ctx, "J", "J%d = %g is not positive", i + 1, o->J[i]);
     if (o->steps < 2 || o->steps > 2000)
-        return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "steps", "%d steps: give 2 to 2000", o->steps);
+        return ISO_FAIL_ARGUMENT(c->ctx, "steps", "%d steps: give 2 to 2000", o->steps);
     return ISO_OK;
 }
 

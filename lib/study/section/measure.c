@@ -17,31 +17,12 @@
  * have means other than 0. Then functions of n and of v = J^(1/2) omega/|..|, with u = gamma x v. Their means over
  * theta are 0 at each n. */
 enum { ENERGY, LN_G, N1_SQUARE, N2_SQUARE, OTHERS, FUNCTIONS = 23 };
+/* clang-format off */
 static const char *const names[FUNCTIONS] = {
-    "h",
-    "ln g",
-    "n1^2",
-    "n2^2",
-    "n1",
-    "n2",
-    "n3",
-    "n1 n2",
-    "n2 n3",
-    "n3 n1",
-    "v1",
-    "v2",
-    "v3",
-    "u1",
-    "u2",
-    "u3",
-    "v1^2 - (1 - gamma1^2)/2",
-    "v2^2 - (1 - gamma2^2)/2",
-    "v1 v2 + gamma1 gamma2/2",
-    "v2 v3 + gamma2 gamma3/2",
-    "v3 v1 + gamma3 gamma1/2",
-    "v1 u1",
-    "v2 u2",
-};
+    "h", "ln g", "n1^2", "n2^2", "n1", "n2", "n3", "n1 n2", "n2 n3", "n3 n1", "v1", "v2", "v3", "u1", "u2", "u3",
+    "v1^2 - (1 - gamma1^2)/2", "v2^2 - (1 - gamma2^2)/2", "v1 v2 + gamma1 gamma2/2", "v2 v3 + gamma2 gamma3/2",
+    "v3 v1 + gamma3 gamma1/2", "v1 u1", "v2 u2"};
+/* clang-format on */
 
 static double ln_g(const iso_params *p, const double n[3])
 {
@@ -118,11 +99,10 @@ static iso_status draw_block(carrier *c, int cloud, uint64_t first, size_t count
         iso_measure_draw_state(&c->draw, shift, first + i, n, v);
         const double T = c->scene.energy - iso_measure_potential(&c->scene, n);
         if (!(T > 0))
-            return iso_context_fail(
-                c->ctx, ISO_BAD_INPUT, "energy",
-                "with this energy the ball does not reach n = (%.4g, %.4g, %.4g): the test needs an "
-                "energy with which it reaches every n",
-                n[0], n[1], n[2]);
+            return ISO_FAIL_INPUT(c->ctx, "energy",
+                                  "with this energy the ball does not reach n = (%.4g, %.4g, %.4g): the test needs "
+                                  "an energy with which it reaches every n",
+                                  n[0], n[1], n[2]);
         c->start[i] = (iso_start){.model = ISO_BALL, .eps = NAN};
         for (int j = 0; j < 3; j++) {
             c->start[i].y[j] = sqrt(2 * T) * v[j] / p->root_J[j];
@@ -180,13 +160,11 @@ static void judge(carrier *c, iso_measure *m)
 
 static iso_status check_times(iso_context *ctx, const iso_measure_options *o)
 {
-    if ((int)o->clock < 0 || o->clock >= ISO_CLOCKS)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "clock", "no such clock");
+    if ((int)o->clock < 0 || o->clock >= ISO_CLOCKS) return ISO_FAIL_ARGUMENT(ctx, "clock", "no such clock");
     if (isnan(o->end) && !(o->turns > 0 && o->turns <= 1e6))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "turns", "%g turns are not in (0, 1e6]", o->turns);
+        return ISO_FAIL_ARGUMENT(ctx, "turns", "%g turns are not in (0, 1e6]", o->turns);
     if (!isnan(o->end) && !(o->end > 0 && isfinite(o->end)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "end", "the flow ends at a finite time above 0, not at %g",
-                                o->end);
+        return ISO_FAIL_ARGUMENT(ctx, "end", "the flow ends at a finite time above 0, not at %g", o->end);
     return ISO_OK;
 }
 

@@ -32,7 +32,7 @@ void iso_measure_draw_state(const measure_draw *d, const uint64_t shift[3], uint
 void iso_measure_draw_means(const measure_draw *d, int count, void (*f)(double g, const double n2[3], double value[]),
                             double mean[]);
 
-/* --- sums over clouds, and the test (measure_test.c) ------------------------------------------------------------ */
+/* --- sums over clouds, and the test (measure_common.c) ---------------------------------------------------------- */
 
 typedef struct measure_sums {
     int functions;

@@ -15,23 +15,11 @@ enum { AT_ONCE = 16 }; /* crossings of one orbit that are kept at a time */
 /* The energy, which is the same for all states; functions of l whose means are not 0; others, whose means are 0: they
  * are odd under a symmetry of the measure, or have a factor x or x^2 - 1/3. */
 enum { ENERGY, LN_G, COS_2L, COS_4L, OTHERS, FUNCTIONS = 15 };
+/* clang-format off */
 static const char *const names[FUNCTIONS] = {
-    "h",
-    "ln G",
-    "cos 2l",
-    "cos 4l",
-    "cos l",
-    "sin l",
-    "sin 2l",
-    "x",
-    "x^2 - 1/3",
-    "x cos l",
-    "x sin l",
-    "x cos 2l",
-    "x sin 2l",
-    "(x^2 - 1/3) cos 2l",
-    "(x^2 - 1/3) sin 2l",
-};
+    "h", "ln G", "cos 2l", "cos 4l", "cos l", "sin l", "sin 2l", "x", "x^2 - 1/3", "x cos l", "x sin l", "x cos 2l",
+    "x sin 2l", "(x^2 - 1/3) cos 2l", "(x^2 - 1/3) sin 2l"};
+/* clang-format on */
 
 static void functions_of_l(const iso_params *p, int axis, double l, double value[OTHERS])
 {
@@ -158,14 +146,14 @@ static iso_status check_section(returner *r)
     const int axis = r->options.axis;
     if (iso_crossings_check_axis(r->ctx, axis) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (r->options.returns < ISO_MEASURE_RETURNS || r->options.returns > 1000000)
-        return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "returns", "%d returns are not in [%d, 1e6]",
-                                r->options.returns, ISO_MEASURE_RETURNS);
+        return ISO_FAIL_ARGUMENT(r->ctx, "returns", "%d returns are not in [%d, 1e6]", r->options.returns,
+                                 ISO_MEASURE_RETURNS);
     r->axis = axis == ISO_AXIS_AUTO ? iso_section_axis(iso_free_point(r->scene.params, 1)) : axis;
     for (int i = 0; i < ISO_MEASURE_ROWS; i++) r->returns[i] = r->options.returns >> (ISO_MEASURE_ROWS - 1 - i);
     if (r->scene.pulled)
-        return iso_context_fail(r->ctx, ISO_BAD_INPUT, "effects",
-                                "the section of a ball in a potential has another chart: only the flow can be "
-                                "tested");
+        return ISO_FAIL_INPUT(r->ctx, "effects",
+                              "the section of a ball in a potential has another chart: only the flow can be "
+                              "tested");
     return ISO_OK;
 }
 

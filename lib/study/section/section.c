@@ -4,13 +4,11 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/pi_impl.h"
-#include "base/vec3_impl.h"
 #include "map/section_impl.h"
 #include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
@@ -77,8 +75,7 @@ static iso_status check_starts(const iso_section_walk *w)
     const iso_section_options *o = &w->options;
     if (o->starts == 0 && o->at_count == 0) return ISO_OK;
     if (!w->chart)
-        return iso_context_fail(w->ctx, ISO_BAD_INPUT, "starts",
-                                "no other starts can be given here: an event has no chart");
+        return ISO_FAIL_INPUT(w->ctx, "starts", "no other starts can be given here: an event has no chart");
     return iso_refuse_starts(w->ctx, w->orbit, &w->effects, o->axis, o->at, o->at_count, o->starts > 0);
 }
 
@@ -88,8 +85,8 @@ static iso_status check_column(const iso_section_walk *w)
     if (w->chart || column >= iso_columns_count() || column < ISO_COLUMN_EFFECTS) return ISO_OK;
     const iso_effect_id effect = iso_column_effect(column);
     if (w->scene->effects.on[effect]) return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_BAD_INPUT, "columns", "column '%s' needs the effect '%s'",
-                            iso_column_name(column), iso_effect_list[effect]->name);
+    return ISO_FAIL_INPUT(w->ctx, "columns", "column '%s' needs the effect '%s'", iso_column_name(column),
+                          iso_effect_list[effect]->name);
 }
 
 /* --- what is done ----------------------------------------------------------------------------------------------- */
@@ -160,7 +157,7 @@ static void choose_columns(iso_section_walk *w)
 static iso_status check(iso_section_walk *w)
 {
     iso_section_options *o = &w->options;
-    if (o->crossings == 0) return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "crossings", "no crossing is asked for");
+    if (o->crossings == 0) return ISO_FAIL_ARGUMENT(w->ctx, "crossings", "no crossing is asked for");
     if (iso_crossings_check_axis(w->ctx, o->axis) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (isnan(o->tolerance)) o->tolerance = w->scene->tolerance;
     choose_section(w);
@@ -196,8 +193,8 @@ static iso_status set_up(iso_section_walk *w)
     iso_section_state_level(w->orbit, &w->effects);
     if (w->options.starts > 0)
         iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->options.axis, w->options.seed);
-    iso_status status = iso_section_make_room(w);
-    return status == ISO_OK ? iso_section_open_group(w) : status;
+    ISO_TRY(iso_section_make_room(w));
+    return iso_section_open_group(w);
 }
 
 static iso_status walk(iso_section_walk *w)

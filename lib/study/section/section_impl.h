@@ -1,8 +1,7 @@
 /* section_impl.h - what the files of iso_section_run share.
  *
  *     section.c           checks, the groups of orbits
- *     section_header.c    the columns and the lines
- *     section_walk.c      one group: its starts, its crossings by one model or two, its rows
+ *     section_walk.c      one group: its starts, its crossings by one model or two, its rows; the header
  */
 #ifndef ISO_STUDY_SECTION_IMPL_H
 #define ISO_STUDY_SECTION_IMPL_H

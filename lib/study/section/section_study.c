@@ -28,7 +28,7 @@ static iso_status read_axis(iso_context *ctx, const char *text, int *axis)
     if (!text || strcmp(text, "auto") == 0) return ISO_OK;
     *axis = text[0] - '1';
     if (strlen(text) == 1 && *axis >= 0 && *axis < 3) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--axis '%s': expected auto, 1, 2 or 3", text);
+    return ISO_FAIL_ARGUMENT(ctx, "", "--axis '%s': expected auto, 1, 2 or 3", text);
 }
 
 /* Points l,x with semicolons between. */
@@ -42,7 +42,7 @@ static iso_status read_points(iso_context *ctx, const char *text, double (**list
     for (const char *c = text; *c; c += *c == ';') {
         const size_t l = strcspn(c, ",;"), x = c[l] == ',' ? strcspn(c + l + 1, ";") : 0;
         if (x == 0 || !iso_number_read(c, l, &more[*count][0]) || !iso_number_read(c + l + 1, x, &more[*count][1]))
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
+            return ISO_FAIL_ARGUMENT(ctx, "",
                                     "--at '%s': expected l,x, or several of them with ; between: 0.5,0.2;1,-0.3",
                                     text);
         ++*count;
@@ -70,14 +70,14 @@ static iso_status read_event(iso_context *ctx, const char *text, iso_section_opt
     if (!text) return ISO_OK;
     if (length < sizeof name) memcpy(name, text, length);
     if (text[length] != '=' || !iso_number_read(text + length + 1, strlen(text + length + 1), &how->value))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--event '%s': expected COLUMN=VALUE, such as omega1=0.5",
+        return ISO_FAIL_ARGUMENT(ctx, "", "--event '%s': expected COLUMN=VALUE, such as omega1=0.5",
                                 text);
     how->column = iso_column_find(name);
     if (how->column >= ISO_CLOCKS) return ISO_OK;
     if (how->column >= 0)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--event: the clock '%s' passes each value only once",
+        return ISO_FAIL_ARGUMENT(ctx, "", "--event: the clock '%s' passes each value only once",
                                 name);
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--event: there is no column '%s'; %s", name,
+    return ISO_FAIL_ARGUMENT(ctx, "", "--event: there is no column '%s'; %s", name,
                             iso_suggest_word(suggested, name, iso_column_name));
 }
 
@@ -87,7 +87,7 @@ static iso_status prepare(iso_context *ctx, void *options)
     iso_status status = iso_section_words_read(ctx, &r->words, &r->how.axis, &r->how.at, &r->how.at_count);
     if (status == ISO_OK) status = read_event(ctx, r->event, &r->how);
     if (status == ISO_OK && r->words.axis && r->event)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --axis or --event, not both");
+        return ISO_FAIL_ARGUMENT(ctx, "", "section: --axis or --event, not both");
     return status;
 }
 

@@ -88,7 +88,7 @@ static iso_status compute(iso_manifold *m, const numbers *l, iso_manifold_crossi
 static iso_status check_digits(iso_context *ctx, iso_separatrix_digits digits)
 {
     if (digits != ISO_SEPARATRIX_QUAD || iso_return_code_of(true)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "digits", "splitting: this build has no numbers of 128 bits");
+    return ISO_FAIL_ARGUMENT(ctx, "digits", "splitting: this build has no numbers of 128 bits");
 }
 
 /* Where there are numbers of 128 bits. */

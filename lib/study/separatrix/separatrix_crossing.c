@@ -50,9 +50,7 @@ static iso_status fill(piece *p)
         }
         iso_manifold_point between;
         if (p->count == MOST_SAMPLES)
-            return iso_context_fail(p->m->ctx, ISO_NUMERICAL, "",
-                                    "splitting at k = %.15g: the manifold is too long before it meets the line",
-                                    p->m->problem.p.k);
+            return iso_manifold_lost(p->m, "the manifold is too long before it meets the line");
         ISO_TRY(iso_manifold_at(p->m, WIDE_ROOT(p->at[i].theta * p->at[i + 1].theta), p->halves, &between));
         for (int j = p->count++; j > i + 1; j--) p->at[j] = p->at[j - 1];
         p->at[i + 1] = between;
@@ -79,9 +77,7 @@ static iso_status open_piece(const iso_manifold *m, double close, piece **opened
 static iso_status advance(piece *p)
 {
     p->base = p->u[p->count - 1];
-    for (int i = 0; i < p->count; i++) {
-        ISO_TRY(iso_manifold_go_on(p->m, &p->at[i]));
-    }
+    for (int i = 0; i < p->count; i++) ISO_TRY(iso_manifold_go_on(p->m, &p->at[i]));
     p->halves++;
     return fill(p);
 }
@@ -156,9 +152,7 @@ iso_status iso_manifold_refine(const iso_manifold *m, iso_manifold_crossing *c)
         if (i > 0 && is_there(m, a.over, last)) return measure_scatter(m, &a, c);
         if (!(WIDE_ABS(a.over / a.speed) < c->theta / 2)) break;
     }
-    return iso_context_fail(m->ctx, ISO_NUMERICAL, "",
-                            "splitting at k = %.15g: the crossing with the line of symmetry was not found",
-                            m->problem.p.k);
+    return iso_manifold_lost(m, "the crossing with the line of symmetry was not found");
 }
 
 iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
@@ -170,12 +164,13 @@ iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
         for (int i = 0; i < p->count && found == 0; i++)
             if (p->u[i] >= ISO_PI / 2) found = i > 0 ? i : 1;
         if (found > 0) break;
-        status = p->halves < MOST_HALVES
-                     ? advance(p)
-                     : iso_context_fail(m->ctx, ISO_NUMERICAL, "",
-                                        "splitting at k = %.15g: the manifold does not meet the line of symmetry "
-                                        "within %d half turns",
-                                        m->problem.p.k, MOST_HALVES);
+        status =
+            p->halves < MOST_HALVES
+                ? advance(p)
+                : ISO_FAIL_NUMERICAL(
+                      m->ctx,
+                      "splitting at k = %.15g: the manifold does not meet the line of symmetry within %d half turns",
+                      m->problem.p.k, MOST_HALVES);
     }
     if (status == ISO_OK) *c = (iso_manifold_crossing){.halves = p->halves, .theta = guess(p, found)};
     free(p);
@@ -217,8 +212,7 @@ iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing 
         c->theta -= step;
         last = apart;
     }
-    return iso_context_fail(m->ctx, ISO_NUMERICAL, "",
-                            "splitting at k = %.15g: the next point of both manifolds was not found", m->problem.p.k);
+    return iso_manifold_lost(m, "the next point of both manifolds was not found");
 }
 
 /* --- as a line -------------------------------------------------------------------------------------------------- */

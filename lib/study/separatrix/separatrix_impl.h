@@ -80,6 +80,12 @@ iso_status iso_manifold_refine(const iso_manifold *m, iso_manifold_crossing *c);
 /* The next point where the manifolds meet, between that and its image. */
 iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing *from, iso_manifold_crossing *c);
 
+/* Records why the splitting at this k is not found, ISO_NUMERICAL. */
+static inline iso_status iso_manifold_lost(const iso_manifold *m, const char *why)
+{
+    return ISO_FAIL_NUMERICAL(m->ctx, "splitting at k = %.15g: %s", m->problem.p.k, why);
+}
+
 /* angle, less whole turns. */
 static inline iso_wide iso_wide_turned(iso_wide angle)
 {

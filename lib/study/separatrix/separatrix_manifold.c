@@ -23,8 +23,7 @@
 
 static iso_status no_return(const iso_manifold *m)
 {
-    return iso_context_fail(m->ctx, ISO_NUMERICAL, "", "splitting at k = %.15g: a return could not be computed",
-                            m->problem.p.k);
+    return iso_manifold_lost(m, "a return could not be computed");
 }
 
 /* g at z, and the derivative. u of the image is in (-pi, pi]. */
@@ -50,11 +49,10 @@ static iso_status check_trace(const iso_manifold *m, double trace)
     const double apart = trace - 2; /* (lambda - 1)^2/lambda */
     if (apart > 1e-4) return ISO_OK;
     const double exponent = 2 * sqrt(fmax(apart, 1e-15)); /* ln lambda^2 */
-    return iso_context_fail(
-        m->ctx, ISO_BAD_INPUT, "J",
-        "splitting at k = %.15g: the middle axis has the multiplier 1 + %.1e, too near 1: m is about "
-        "exp(-2 pi^2/ln of it) = 1e-%.0f or less, which 128 bits do not tell from 0",
-        m->problem.p.k, expm1(exponent), 2 * ISO_PI * ISO_PI / exponent / log(10));
+    return ISO_FAIL_INPUT(m->ctx, "J",
+                          "splitting at k = %.15g: the middle axis has the multiplier 1 + %.1e, too near 1: m is "
+                          "about exp(-2 pi^2/ln of it) = 1e-%.0f or less, which 128 bits do not tell from 0",
+                          m->problem.p.k, expm1(exponent), 2 * ISO_PI * ISO_PI / exponent / log(10));
 }
 
 /* lambda and v from the derivative at the fixed point, whose determinant is 1. */
@@ -89,11 +87,10 @@ static iso_status check_level(const iso_manifold *m)
     const iso_params *p = &m->problem.p;
     const double a = p->J[m->axis], lowest = iso_level_of(p, -pow(a, -1 / p->k));
     if (m->level > lowest) return ISO_OK;
-    return iso_context_fail(
-        m->ctx, ISO_BAD_INPUT, "level",
-        "splitting at k = %.15g, level %.15g: the middle axis has no rotation, but an oscillation "
-        "between two places of rest: it has no separatrix. Give a level above %.12g",
-        p->k, m->level, lowest);
+    return ISO_FAIL_INPUT(m->ctx, "level",
+                          "splitting at k = %.15g, level %.15g: the middle axis has no rotation, but an oscillation "
+                          "between two places of rest: it has no separatrix. Give a level above %.12g",
+                          p->k, m->level, lowest);
 }
 
 iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)
@@ -109,9 +106,8 @@ iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], doub
     ISO_TRY(iso_refuse_equal_moments(ctx, J, ISO_NO_SPLITTING));
     const iso_params *p = &m->problem.p;
     if (!(fabs(k) >= 0.05 && fabs(k) <= 50))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "k", "k = %.15g: " ISO_SPLITTING_IS " only for 0.05 <= |k| <= 50",
-                                k);
-    if (!isfinite(level)) return iso_context_fail(ctx, ISO_BAD_INPUT, "level", "%g is no level", level);
+        return ISO_FAIL_INPUT(ctx, "k", "k = %.15g: " ISO_SPLITTING_IS " only for 0.05 <= |k| <= 50", k);
+    if (!isfinite(level)) return ISO_FAIL_INPUT(ctx, "level", "%g is no level", level);
     m->problem.eps = 1;
     m->problem.energy = iso_level_energy(p, level);
     const iso_point_motion motion = {p, 1, m->problem.energy};
@@ -226,9 +222,7 @@ static iso_status improve(iso_manifold *m, linear *L, double *change)
 {
     iso_wide most = 0;
     L->n = 2 * m->terms;
-    for (int j = 0; j < m->terms; j++) {
-        ISO_TRY(set_rows(m, j, L));
-    }
+    for (int j = 0; j < m->terms; j++) ISO_TRY(set_rows(m, j, L));
     eliminate(L);
     for (int i = 0; i < L->n; i++) {
         const iso_wide size = WIDE_ABS(L->b[i]);
@@ -260,8 +254,7 @@ iso_status iso_manifold_solve(iso_manifold *m)
     }
     m->rate = falling(m);
     if (change < near) return ISO_OK;
-    return iso_context_fail(m->ctx, ISO_NUMERICAL, "",
-                            "splitting at k = %.15g: the series of the manifold was not found", m->problem.p.k);
+    return iso_manifold_lost(m, "the series of the manifold was not found");
 }
 
 /* --- farther out ------------------------------------------------------------------------------------------------ */
@@ -299,13 +292,11 @@ static iso_status find_domain(iso_manifold *m)
         if (status == ISO_OK && change > 0.85 && change < 1.3) return ISO_OK;
         size *= (iso_wide)fmax(change, 0.1);
     }
-    return iso_context_fail(
-        m->ctx, ISO_NUMERICAL, "",
-        "splitting at k = %.15g: no domain was found on which the series of the manifold converges", m->problem.p.k);
+    return iso_manifold_lost(m, "no domain was found on which the series of the manifold converges");
 }
 
 iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)
 {
-    const iso_status status = iso_manifold_open(ctx, k, J, level, m);
-    return status == ISO_OK ? find_domain(m) : status;
+    ISO_TRY(iso_manifold_open(ctx, k, J, level, m));
+    return find_domain(m);
 }

@@ -239,7 +239,7 @@ iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *op
     iso_separatrix_options o = iso_separatrix_defaults();
     double level = 0;
     ISO_TRY(iso_options_take(ctx, "iso_separatrix_options", &o, sizeof o, options));
-    if (o.count == 0) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "splitting: there is no k");
+    if (o.count == 0) return ISO_FAIL_ARGUMENT(ctx, "k", "splitting: there is no k");
     ISO_TRY(iso_refuse_equal_moments(ctx, o.J, ISO_NO_SPLITTING));
     if (o.scene) ISO_TRY(check_scene(ctx, &o, &level));
     iso_separatrix_table *found = calloc(1, sizeof *found);
