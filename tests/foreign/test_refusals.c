@@ -11,7 +11,6 @@
 #include "study/chaos/chaos.h"
 #include "study/section/measure.h"
 #include "study/section/section.h"
-#include "study/separatrix/separatrix.h"
 #include "study/study.h"
 #include "study/tables/tables.h"
 
@@ -59,7 +58,7 @@ static const situation situations[] = {
      "* only of the free ball and of the point, on every level of its energy: remove 'gravity'"},
     {"a tilted plane", tilted, "chaos,frequencies", ISO_BAD_INPUT,
      "on a tilted plane the ball rolls away ever faster: its motion *"},
-    {"no point", heavy, "section model point,chaos model both,section as both", ISO_NOT_MAPPED,
+    {"no point", heavy, "section model point,chaos model both,section as both,compare", ISO_NOT_MAPPED,
      "'gravity' breaks the isomorphism: *. There is no such point; the ball alone can be had"},
     {"a level that drives the point off", level, "periodic,splitting", ISO_BAD_INPUT,
      "* only where the point's coupling eps is above 0; here it is *"},
@@ -94,7 +93,6 @@ static const situation situations[] = {
     {"no tolerance of a program", free_ball,
      "iso_section_run tolerance,iso_chaos_run tolerance,iso_crossings_create tolerance", ISO_BAD_ARGUMENT,
      "tolerance 2 is not in [[]1e-15, 0.1]"},
-    {"no level", free_ball, "splitting level", ISO_BAD_INPUT, "* is no level"},
 };
 
 /* --- who is asked ----------------------------------------------------------------------------------------------- */
@@ -103,34 +101,14 @@ static const situation situations[] = {
 static iso_status by_name(const iso_study *study, const iso_scene *scene, char *options)
 {
     iso_study_result result = {0};
-    void *how = malloc(study->size);
-    iso_status status = ISO_OK;
-    study->begin(how);
-    for (char *name = strtok(options, " "), *value; name && status == ISO_OK; name = strtok(NULL, " ")) {
-        value = strtok(NULL, " ");
-        for (char *c = value; *c; c++) *c = *c == ';' ? ',' : *c;
-        status = iso_study_set(ctx, study, name, value, how);
+    const iso_study_subject subject = {.scene = scene};
+    bool value = false;
+    for (char *c = options; *c; c++) {
+        if (*c == ' ') *c = (value = !value) ? '=' : '\n';
+        if (*c == ';') *c = ',';
     }
-    if (status == ISO_OK && study->prepare) status = study->prepare(ctx, how);
-    if (status == ISO_OK) status = study->run(ctx, scene, how, &result);
-    if (study->end) study->end(how);
-    for (int i = 0; i < ISO_STUDY_TABLES; i++) iso_record_free(result.table[i]);
-    free(how);
-    return status;
-}
-
-static iso_status splitting(const iso_scene *scene, bool no_level)
-{
-    const double k[] = {0.5}, level_of_it[] = {NAN};
-    iso_separatrix_options o = iso_separatrix_defaults();
-    iso_separatrix_table *table = NULL;
-    memcpy(o.J, scene->params.J, sizeof o.J);
-    o.k = k, o.count = 1, o.scene = scene;
-    if (no_level) o.level = level_of_it;
-    iso_status status = iso_separatrix_run(ctx, &o, &table);
-    if (status == ISO_OK && table->row[0].status != ISO_OK)
-        status = iso_context_fail(ctx, table->row[0].status, "", "%s", table->row[0].words);
-    iso_separatrix_free(table);
+    const iso_status status = iso_study_ask(ctx, study, &subject, options, &result);
+    iso_study_result_free(&result);
     return status;
 }
 
@@ -190,9 +168,11 @@ static iso_status ask(const iso_scene *scene, const char *name, char *options)
         const char *name;
         iso_status (*call)(const iso_scene *scene, bool flag);
         const char *flag; /* the word that sets it */
-    } calls[] = {{"splitting", splitting, "level"},      {"cloud", cloud, ""},
-                 {"iso_measure_returns", cloud, "axis"}, {"iso_section_run", section_run, "axis"},
-                 {"iso_chaos_run", chaos_run, "axis"},   {"iso_crossings_create", crossings_create, "axis"}};
+    } calls[] = {{"cloud", cloud, ""},
+                 {"iso_measure_returns", cloud, "axis"},
+                 {"iso_section_run", section_run, "axis"},
+                 {"iso_chaos_run", chaos_run, "axis"},
+                 {"iso_crossings_create", crossings_create, "axis"}};
     for (size_t i = 0; i < sizeof calls / sizeof *calls; i++)
         if (strcmp(calls[i].name, name) == 0)
             return calls[i].call(scene, strcmp(options, calls[i].flag) == 0 && *options);

@@ -17,7 +17,7 @@ from typing import Any, Callable, Iterator, List, Optional, Tuple
 from . import _errors
 from ._version import __version__
 
-ABI = 2  # ISO_FOREIGN_ABI of lib/foreign/foreign.h
+ABI = 3  # ISO_FOREIGN_ABI of lib/foreign/foreign.h
 _OBJECT = POINTER(c_void_p)  # where a new object goes
 
 _NAMES = {"darwin": "libisoroll.0.dylib", "win32": "isoroll.dll"}
@@ -69,7 +69,8 @@ _TABLE = {
     "iso_orbit_has_twin": (c_bool, c_void_p),
     "iso_foreign_batch": (c_int, c_void_p, POINTER(c_void_p), c_size_t, c_size_t, c_void_p, c_void_p, c_void_p,
                           c_void_p, c_size_t, c_int, c_char_p, c_void_p, c_void_p),
-    "iso_foreign_study": (c_int, c_void_p, c_void_p, c_char_p, c_char_p, c_void_p) + _NOTES,
+    "iso_foreign_study": (c_int, c_void_p, c_void_p, c_void_p, c_char_p, c_char_p, c_void_p, c_void_p,
+                          c_void_p) + _NOTES,
     "iso_foreign_read": (c_int, c_void_p, c_char_p, c_char_p, _OBJECT) + _NOTES,
     "iso_foreign_write": (c_int, c_void_p, c_char_p, c_void_p, c_int, c_char_p),
     "iso_foreign_convert": (c_int, c_void_p, c_void_p, c_char_p, c_double, c_double, c_bool, _OBJECT) + _NOTES,

@@ -32,7 +32,7 @@ def _text(name: str, value: Any) -> str:
 
 def _run(scene: SceneLike, name: str, options: Mapping[str, Any], make: Callable[..., _Made]) -> _Made:
     """What `make` makes of the tables of a study; so also an exception's `partial`."""
-    chosen, ctx, notes, made = as_scene(scene, {}), context(), Notes(), (c_void_p * 3)()
+    chosen, ctx, notes, made = as_scene(scene, {}), context(), Notes(), (c_void_p * 6)()
     given = {key.rstrip("_").replace("_", "-"): value for key, value in options.items()
              if value is not None and value is not False and not (key == "at" and np.size(value) == 0)}
     text = "\n".join(f"{key}={_text(key, value)}" for key, value in given.items())
@@ -44,7 +44,8 @@ def _run(scene: SceneLike, name: str, options: Mapping[str, Any], make: Callable
         return make(*(from_record(new) if new.value else None for new in news)) if made[0] else None
 
     with interruptible(found):
-        status = lib.iso_foreign_study(ctx, chosen.pointer, encoded(name), encoded(text), made, *notes.arguments)
+        status = lib.iso_foreign_study(ctx, chosen.pointer, None, encoded(name), encoded(text), None, None, made,
+                                       *notes.arguments)
     result = found()
     try:
         check(status, ctx)
@@ -61,7 +62,7 @@ def study(scene: SceneLike, name: str, **options: Any) -> Tuple[Optional[Table],
     options  as the command has them, exponent_turns=700 for --exponent-turns 700, as_="both" for --as both; True: one
              without an argument; None, False: not given
 
-    Returns three tables, None in place of those that are not made (iso_foreign_study in lib/foreign/foreign.h). The
+    Returns six tables, None in place of those that are not made (iso_foreign_study in lib/foreign/foreign.h). The
     lines of the first have the scene, and the result by the names of the command's --json.
     """
     return _run(scene, name, options, lambda *tables: tables)
@@ -106,7 +107,7 @@ class Section(Table):
     point: Optional[Table] = None
 
 
-def _section(table: Table, point: Optional[Table], _unused: None) -> Section:
+def _section(table: Table, point: Optional[Table], *_unused: None) -> Section:
     result = Section(table.array, table.columns, table.lines, kind="section", record=table._record)
     result.point = point
     return result
