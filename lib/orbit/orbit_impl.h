@@ -129,6 +129,16 @@ iso_status iso_scene_check_columns(iso_context *ctx, const iso_scene *scene);
  * first group that moves. -1: there is none. */
 int iso_effect_group(iso_effect_id id, const char *name, const iso_effect_column **group);
 
+/* The column of a record for each number of a sample; -1: it is not there. And a row as a sample: NaN for those. */
+void iso_record_find_columns(const iso_record *r, int columns[ISO_TRAJECTORY_COLUMNS]);
+void iso_sample_of_row(const int columns[ISO_TRAJECTORY_COLUMNS], const double row[], iso_sample *sample);
+
+/* Whether all columns of a group of an effect are there; name NULL: of the first group that moves. And those of what
+ * an effect that acts on nothing begins with: the numbers that turn with the ball, and on a plane the displacement,
+ * without which the height is not known. */
+bool iso_columns_have_group(const int columns[ISO_TRAJECTORY_COLUMNS], iso_effect_id id, const char *name);
+bool iso_columns_have_beginning(const int columns[ISO_TRAJECTORY_COLUMNS], const iso_params *p, iso_effect_id id);
+
 /* The key of the line that states a number of an effect: "effect.number". */
 void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const iso_effect_number *number);
 
