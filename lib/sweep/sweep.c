@@ -338,8 +338,7 @@ static bool solve(iso_pool_worker *w, void *data, size_t first, size_t count)
     const iso_sweep_head *head = iso_sweep_head_of(all->sweep);
     iso_sweep_rows rows;
     size_t c;
-    (void)first;
-    (void)count;
+    (void)first, (void)count;
     if (!next_chunk(all, &c)) return true;
     if (iso_sweep_rows_create(w->ctx, head->columns, head->chunk, &rows) != ISO_OK) return false;
     give_away(w, all, c, &rows,
