@@ -145,10 +145,9 @@ static iso_status check_unnamed(iso_context *ctx, const iso_record *r, const iso
 
 static iso_status check_named(iso_context *ctx, const iso_record *r, const iso_effects *effects)
 {
-    iso_status status = ISO_OK;
-    for (iso_effect_id e = 0; status == ISO_OK && e < ISO_EFFECTS; e++)
-        if (!effects->on[e]) status = check_unnamed(ctx, r, iso_effect_list[e]);
-    return status;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        if (!effects->on[e]) ISO_TRY(check_unnamed(ctx, r, iso_effect_list[e]));
+    return ISO_OK;
 }
 
 static iso_status read_effect(iso_context *ctx, const iso_record *r, iso_effect_id e, iso_effects *effects)
