@@ -88,11 +88,8 @@ iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
  * its last digits depend on the times before. Uneven times still give right states. Other backends ignore this. */
 void iso_orbit_expect_even_times(iso_orbit *orbit);
 
-/* How far the integration has come, in the options' clock: for progress. */
+/* The end of the last good step, in the options' clock. */
 double iso_orbit_reached(const iso_orbit *orbit);
-
-/* The end of the last good step, after a failure. */
-iso_status iso_orbit_last(iso_orbit *orbit, iso_sample *sample);
 
 /* The motion of the point, own units: its coupling, and its level H, which is 0 for the point of a free ball. */
 iso_point_motion iso_orbit_motion(const iso_orbit *orbit);
