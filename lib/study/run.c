@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "base/options_impl.h"
 #include "base/version.h"
 #include "method/methods_impl.h"

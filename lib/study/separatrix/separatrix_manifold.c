@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "base/pi_impl.h"
 #include "map/section.h"
 #include "map/section_impl.h"
