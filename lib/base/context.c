@@ -1,6 +1,6 @@
 /* context.c - the context: the message of the last failure, the monitor, the SUNDIALS context (context.h); and what
  * every call begins with: options of a known size, default arithmetic. */
-#include "base/context.h"
+#include "base/context_impl.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -8,9 +8,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/monitor_impl.h"
 #include "base/options_impl.h"
-#include "base/place_impl.h"
 #include "base/room_impl.h"
 #include "base/sundials_impl.h"
 #include "base/version.h"

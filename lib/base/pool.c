@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 
 void iso_pool_note(iso_pool_worker *w, size_t i, iso_status status)
 {

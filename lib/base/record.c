@@ -77,10 +77,8 @@ void iso_record_free(iso_record *r)
 
 static iso_status copy_lines(iso_context *ctx, const iso_record *from, iso_record *to)
 {
-    iso_status status = ISO_OK;
-    for (size_t i = 0; status == ISO_OK && i < from->lines; i++)
-        status = iso_record_set(ctx, to, from->line[i].key, from->line[i].value);
-    return status;
+    for (size_t i = 0; i < from->lines; i++) ISO_TRY(iso_record_set(ctx, to, from->line[i].key, from->line[i].value));
+    return ISO_OK;
 }
 
 iso_status iso_record_create_like(iso_context *ctx, const iso_record *other, size_t columns,

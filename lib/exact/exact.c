@@ -12,7 +12,6 @@
 #include "base/finite_impl.h"
 #include "base/vec3_impl.h"
 #include "exact/form_impl.h"
-#include "exact/walk_impl.h"
 #include "model/model_impl.h"
 
 static const iso_form *const forms[] = {&iso_form_rest, &iso_form_revolution, &iso_form_separated, NULL};
@@ -266,6 +265,9 @@ iso_status iso_exact_at(iso_context *ctx, const iso_exact *x, iso_clock clock, d
 
 /* --- grids ------------------------------------------------------------------------------------------------------ */
 
+/* The longest step with a guess, in moments in which gamma turns by a tenth of a radian at most: for longer ones a guess
+ * saves little, or nothing. */
+static const double LONGEST = 4;
 static const double POOR = 1e-3; /* a guess that is wrong by more, about in radians, is of no use */
 
 /* The next value after `count` even steps, by their differences. */
@@ -284,7 +286,7 @@ iso_status iso_exact_walk_to(iso_context *ctx, const iso_exact *x, iso_exact_wal
 {
     ISO_DEFAULT_ARITHMETIC;
     ISO_TRY(check_time(ctx, x, clock, time));
-    if (w->known > 0 && !(fabs(time - w->time) <= w->longest * x->moment[clock])) w->known = 0;
+    if (w->known > 0 && !(fabs(time - w->time) <= LONGEST * x->moment[clock])) w->known = 0;
     const real even = time / x->form->rate(x->data, clock);
     const real guess = w->known == ISO_EXACT_TRAIL ? even + extrapolate(w->trail, ISO_EXACT_TRAIL) : NAN;
     form_place p = {.along = guess};
@@ -296,19 +298,6 @@ iso_status iso_exact_walk_to(iso_context *ctx, const iso_exact *x, iso_exact_wal
     w->trail[w->known++] = p.along - even;
     w->time = time;
     return check_place(ctx, x, &p);
-}
-
-iso_status iso_exact_grid(iso_context *ctx, const iso_exact *x, iso_clock clock, double start, double step,
-                          size_t count, double points[], double clocks[])
-{
-    ISO_DEFAULT_ARITHMETIC;
-    iso_exact_walk walk = {.longest = INFINITY};
-    iso_status status = check_time(ctx, x, clock, start);
-    if (status == ISO_OK && count > 0) status = check_time(ctx, x, clock, start + (double)(count - 1) * step);
-    for (size_t i = 0; status == ISO_OK && i < count; i++)
-        status = iso_exact_walk_to(ctx, x, &walk, clock, start + (double)i * step, points + ISO_STATE * i,
-                                   clocks ? clocks + ISO_CLOCKS * i : NULL);
-    return status;
 }
 
 /* --- angles ----------------------------------------------------------------------------------------------------- */

@@ -1,4 +1,4 @@
-/* exact_impl.h - the closed solution (exact.h): states, rows of states, angles.
+/* exact_impl.h - the closed solution (exact.h): states, also in a row, and angles.
  *
  *     iso_exact *exact;
  *     iso_exact_create(ctx, &problem, point, all_clocks, &exact); problem: k, J, eps and the level H
@@ -44,11 +44,18 @@ void iso_exact_free(iso_exact *exact);
 iso_status iso_exact_at(iso_context *ctx, const iso_exact *exact, iso_clock clock, double time,
                         double point[ISO_STATE], double clocks[ISO_CLOCKS]);
 
-/* The states at the times start + i step, i < count. They are those of iso_exact_at to rounding, and take less time
- * where steps are short: points[ISO_STATE i ...], clocks[ISO_CLOCKS i ...]; clocks may be NULL. Errors: as
- * iso_exact_at. */
-iso_status iso_exact_grid(iso_context *ctx, const iso_exact *exact, iso_clock clock, double start, double step,
-                          size_t count, double points[], double clocks[]);
+/* At times that follow each other: iso_exact_walk walk = {0}; for (...) iso_exact_walk_to(ctx, exact, &walk, ...).
+ * Where steps are short, the places before extrapolate to a guess of the next one, and Newton's method needs fewer
+ * steps from there. The states are those of iso_exact_at to rounding, and errors are its errors. Times may be uneven:
+ * the guess is then poor, and forgotten. One walk is in one clock. */
+enum { ISO_EXACT_TRAIL = 8 };
+typedef struct iso_exact_walk {
+    long double trail[ISO_EXACT_TRAIL]; /* the places before, less an even motion */
+    int known;                          /* how many of them there are */
+    double time;                        /* of the last one */
+} iso_exact_walk;
+iso_status iso_exact_walk_to(iso_context *ctx, const iso_exact *exact, iso_exact_walk *walk, iso_clock clock,
+                             double time, double point[ISO_STATE], double clocks[ISO_CLOCKS]);
 
 /* The angles, in [0, 2 pi), of a state on the orbit's torus, and the state at given angles. A motion with one angle
  * has NaN as its second. Angles grow evenly with sigma for a separated motion, else with s; where they are 0 is the

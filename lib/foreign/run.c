@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "foreign/foreign_impl.h"
 #include "orbit/batch.h"
 #include "orbit/orbit_impl.h"

@@ -76,10 +76,8 @@ iso_status iso_output_open(iso_context *ctx, const char *path, iso_output **answ
         out->file = stdout, out->name = "<stdout>";
     else
         status = is_direct(path, known) ? open_direct(ctx, out, path) : open_regular(ctx, out, path);
-    if (status == ISO_OK)
-        *answer = out;
-    else
-        release(out);
+    if (status != ISO_OK) release(out), out = NULL;
+    *answer = out;
     return status;
 }
 

@@ -170,11 +170,10 @@ static iso_status complete_effect(iso_draft *d, iso_model_kind model, const yaml
 static iso_status make_effects(iso_draft *d, iso_model_kind model)
 {
     const yaml_node_t *effects;
-    iso_status status = ISO_OK;
     if (!find_key(d, "effects", NULL, NULL, &effects)) return ISO_OK;
-    for (iso_effect_id e = 0; status == ISO_OK && e < ISO_EFFECTS; e++)
-        if (d->scene.effects.on[e] && iso_effect_list[e]->complete) status = complete_effect(d, model, effects, e);
-    return status;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        if (d->scene.effects.on[e] && iso_effect_list[e]->complete) ISO_TRY(complete_effect(d, model, effects, e));
+    return ISO_OK;
 }
 
 static iso_status make_start(iso_draft *d, iso_model_kind model)

@@ -86,10 +86,8 @@ iso_status iso_table_reader_open(iso_context *ctx, const char *path, const char 
     r->trajectory = kind && strcmp(kind, ISO_TRAJECTORY_KIND) == 0;
     const iso_status status = r->format->open(ctx, r, columns);
     if (*r->ignored) r->at.ignored = r->ignored;
-    if (status == ISO_OK)
-        *reader = r;
-    else
-        iso_table_reader_close(r);
+    if (status != ISO_OK) iso_table_reader_close(r), r = NULL;
+    *reader = r;
     return status;
 }
 
@@ -204,10 +202,8 @@ iso_status iso_table_writer_open(iso_context *ctx, const char *path, const char 
     w->finite = strcmp(kind, ISO_TRAJECTORY_KIND) == 0 || strcmp(kind, "section") == 0;
     w->expected = SIZE_MAX;
     const iso_status status = w->format->open(ctx, w, path);
-    if (status == ISO_OK)
-        *writer = w;
-    else
-        release(w);
+    if (status != ISO_OK) release(w), w = NULL;
+    *writer = w;
     return status;
 }
 

@@ -1,5 +1,5 @@
 /* text.c - text of users: opening and loading files, and what a message may show of them. */
-#include "base/place_impl.h"
+#include "base/context_impl.h"
 #include "io/replacement_impl.h"
 #include "io/text_impl.h"
 

@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/context_impl.h"
 #include "base/nearest_impl.h"
 #include "base/number_impl.h"
-#include "base/place_impl.h"
 #include "io/text_impl.h"
 
 /* Scenes need three levels and fewer than a hundred values; libyaml's time grows with the square of the depth, its

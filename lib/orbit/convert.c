@@ -218,9 +218,7 @@ iso_status iso_convert_as(iso_context *ctx, const iso_params *params, const iso_
         status = iso_conversion_put(c, iso_record_const_row(in, row), row + options->first_row);
     if (status == ISO_OK) status = iso_conversion_end(c, summary);
     iso_conversion_free(c);
-    if (status == ISO_OK)
-        *out = w.out;
-    else
-        iso_record_free(w.out);
+    if (status != ISO_OK) iso_record_free(w.out), w.out = NULL;
+    *out = w.out;
     return status;
 }

@@ -232,7 +232,6 @@ iso_status iso_conversion_emit(iso_conversion *c, const conversion_row *row)
 
 iso_status iso_conversion_write_marks(iso_conversion *c, size_t *marks)
 {
-    iso_status status = ISO_OK;
-    for (; status == ISO_OK && *marks > 0; --*marks) status = c->target.row(c->target.data, NULL);
-    return status;
+    for (; *marks > 0; --*marks) ISO_TRY(c->target.row(c->target.data, NULL));
+    return ISO_OK;
 }

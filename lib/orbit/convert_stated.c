@@ -201,14 +201,13 @@ static bool is_left_behind(const iso_conversion *c, const char *key)
 static iso_status set_lines(const iso_conversion *c, iso_model_kind to, double begin, iso_record *out)
 {
     const char *key, *value, *origin = origin_line[c->own];
-    iso_status status = ISO_OK;
-    for (size_t i = 0; status == ISO_OK && iso_record_line(c->in, i, &key, &value); i++)
-        if (!is_left_behind(c, key)) status = iso_record_set(c->ctx, out, key, value);
-    if (status == ISO_OK) status = iso_record_describe_effects(c->ctx, out, &c->effects);
-    if (status == ISO_OK) status = describe_energy(c, to, out);
-    if (status == ISO_OK && c->own_column >= 0 && (begin != 0 || iso_record_get(out, origin)))
-        status = iso_record_set_numbers(c->ctx, out, origin, 1, &begin);
-    return status;
+    for (size_t i = 0; iso_record_line(c->in, i, &key, &value); i++)
+        if (!is_left_behind(c, key)) ISO_TRY(iso_record_set(c->ctx, out, key, value));
+    ISO_TRY(iso_record_describe_effects(c->ctx, out, &c->effects));
+    ISO_TRY(describe_energy(c, to, out));
+    if (c->own_column >= 0 && (begin != 0 || iso_record_get(out, origin)))
+        ISO_TRY(iso_record_set_numbers(c->ctx, out, origin, 1, &begin));
+    return ISO_OK;
 }
 
 /* The first value of the computed clock. */

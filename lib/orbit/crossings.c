@@ -54,9 +54,8 @@ iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[]
     ISO_DEFAULT_ARITHMETIC;
     iso_crossings_options own = iso_crossings_defaults();
     *crossings = NULL;
-    iso_status status = iso_options_take(ctx, "iso_crossings_options", &own, sizeof own, options);
-    if (status == ISO_OK) status = check(ctx, &own);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_options_take(ctx, "iso_crossings_options", &own, sizeof own, options));
+    ISO_TRY(check(ctx, &own));
     iso_crossings *c = calloc(1, sizeof *c);
     iso_crossed *each = calloc(count + 1, sizeof *each);
     if (!c || !each) {

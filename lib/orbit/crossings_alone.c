@@ -6,7 +6,7 @@
  */
 #include <math.h>
 
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section.h"
@@ -50,9 +50,8 @@ static iso_status begin(iso_crossings *c, size_t i)
     iso_crossed *o = &c->orbit[i];
     iso_sample start;
     if (c->options.deviations) return refuse_deviations(c, i);
-    iso_status status = create(c, i, &o->alone);
-    if (status == ISO_OK) status = iso_orbit_at(o->alone, 0, &start);
-    if (status != ISO_OK) return status;
+    ISO_TRY(create(c, i, &o->alone));
+    ISO_TRY(iso_orbit_at(o->alone, 0, &start));
     if (o->alone->rests && c->options.kind != ISO_SECTION_CLOCK)
         return ISO_FAIL_NUMERICAL(o->ctx, "the ball rests: it crosses no section");
     iso_crossings_find_section(c, o->alone, o);

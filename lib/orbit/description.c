@@ -20,11 +20,29 @@ void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const is
 int iso_effect_group(iso_effect_id id, const char *name, const iso_effect_column **group)
 {
     int column = ISO_COLUMN_EFFECTS + iso_effect_first_column(id);
+    if (group) *group = NULL;
     for (const iso_effect_column *g = iso_effect_list[id]->columns; g && g->name; column += g->count, g++) {
         if (group) *group = g;
         if (name ? strcmp(g->name, name) == 0 : g->moves) return column;
     }
     return -1;
+}
+
+bool iso_columns_have_group(const int columns[ISO_TRAJECTORY_COLUMNS], iso_effect_id id, const char *name)
+{
+    const iso_effect_column *g;
+    const int first = iso_effect_group(id, name, &g);
+    for (int i = 0; i < g->count; i++)
+        if (columns[first + i] < 0) return false;
+    return true;
+}
+
+bool iso_columns_have_beginning(const int columns[ISO_TRAJECTORY_COLUMNS], const iso_params *p, iso_effect_id id)
+{
+    bool has = p->k != 1 || iso_effect_group(id, NULL, NULL) < 0 || iso_columns_have_group(columns, id, NULL);
+    for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++)
+        if (n->turns_with) has = has && iso_columns_have_group(columns, id, n->turns_with);
+    return has;
 }
 
 iso_status iso_record_describe_effects(iso_context *ctx, iso_record *r, const iso_effects *effects)
@@ -127,10 +145,9 @@ static iso_status check_unnamed(iso_context *ctx, const iso_record *r, const iso
 
 static iso_status check_named(iso_context *ctx, const iso_record *r, const iso_effects *effects)
 {
-    iso_status status = ISO_OK;
-    for (iso_effect_id e = 0; status == ISO_OK && e < ISO_EFFECTS; e++)
-        if (!effects->on[e]) status = check_unnamed(ctx, r, iso_effect_list[e]);
-    return status;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        if (!effects->on[e]) ISO_TRY(check_unnamed(ctx, r, iso_effect_list[e]));
+    return ISO_OK;
 }
 
 static iso_status read_effect(iso_context *ctx, const iso_record *r, iso_effect_id e, iso_effects *effects)
@@ -284,12 +301,21 @@ iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_par
 
 void iso_record_sample(const iso_record *record, size_t row, iso_sample *sample)
 {
-    const double *x = iso_record_const_row(record, row);
-    iso_sample_blank(sample);
-    for (size_t j = 0; j < iso_record_columns(record); j++) {
-        const int column = iso_column_find(iso_record_name(record, j));
-        if (column >= 0) iso_sample_set_column(sample, column, x[j]);
-    }
+    int columns[ISO_TRAJECTORY_COLUMNS];
+    iso_record_find_columns(record, columns);
+    iso_sample_of_row(columns, iso_record_const_row(record, row), sample);
+}
+
+void iso_record_find_columns(const iso_record *r, int columns[ISO_TRAJECTORY_COLUMNS])
+{
+    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
+        columns[i] = i < iso_columns_count() ? iso_record_find(r, iso_column_name(i)) : -1;
+}
+
+void iso_sample_of_row(const int columns[ISO_TRAJECTORY_COLUMNS], const double row[], iso_sample *sample)
+{
+    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
+        iso_sample_set_column(sample, i, columns[i] < 0 ? NAN : row[columns[i]]);
 }
 
 /* --- tables: the scene that they are of ------------------------------------------------------------------------- */

@@ -9,7 +9,6 @@
 #include "base/finite_impl.h"
 #include "base/vec3_impl.h"
 #include "exact/exact_impl.h"
-#include "exact/walk_impl.h"
 #include "method/integrator_impl.h"
 #include "orbit/orbit_impl.h"
 
@@ -40,7 +39,7 @@ static iso_status start(iso_integrator *it)
     clocks[m->clock] = true;
     for (int i = 0; i < m->clocks; i++) clocks[m->clock_of[i]] = true;
     iso_exact_free(c->exact);
-    *c = (closed){.walk.longest = ISO_EXACT_SHORT};
+    *c = (closed){0};
     const iso_status status = iso_exact_create(it->ctx, &m->problem, it->y0, clocks, &c->exact);
     if (status != ISO_BAD_ARGUMENT) return status;
     return iso_context_fail(it->ctx, status, iso_context_about(it->ctx), "%s: take backend point",

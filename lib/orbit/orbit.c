@@ -302,14 +302,6 @@ double iso_orbit_reached(const iso_orbit *o)
     return own_time * o->unit_clock[o->model.clock];
 }
 
-iso_status iso_orbit_last(iso_orbit *o, iso_sample *sample)
-{
-    ISO_DEFAULT_ARITHMETIC;
-    double own_time, y[ISO_MAX_STATE];
-    iso_integrator_last(o->integrator, &own_time, y);
-    return iso_orbit_make_sample(o, iso_orbit_reached(o), y, sample);
-}
-
 void iso_orbit_allow_steps(iso_orbit *o, long max_steps)
 {
     o->options.max_steps = o->integrator->options.max_steps = max_steps;

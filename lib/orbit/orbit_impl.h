@@ -91,11 +91,8 @@ iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
  * its last digits depend on the times before. Uneven times still give right states. Other backends ignore this. */
 void iso_orbit_expect_even_times(iso_orbit *orbit);
 
-/* How far the integration has come, in the options' clock: for progress. */
+/* The end of the last good step, in the options' clock. */
 double iso_orbit_reached(const iso_orbit *orbit);
-
-/* The end of the last good step, after a failure. */
-iso_status iso_orbit_last(iso_orbit *orbit, iso_sample *sample);
 
 /* The motion of the point, own units: its coupling, and its level H, which is 0 for the point of a free ball. */
 iso_point_motion iso_orbit_motion(const iso_orbit *orbit);
@@ -131,6 +128,16 @@ iso_status iso_scene_check_columns(iso_context *ctx, const iso_scene *scene);
 /* The first column, in a trajectory, of a group of an effect's columns, and the group (NULL: not asked). name NULL: the
  * first group that moves. -1: there is none. */
 int iso_effect_group(iso_effect_id id, const char *name, const iso_effect_column **group);
+
+/* The column of a record for each number of a sample; -1: it is not there. And a row as a sample: NaN for those. */
+void iso_record_find_columns(const iso_record *r, int columns[ISO_TRAJECTORY_COLUMNS]);
+void iso_sample_of_row(const int columns[ISO_TRAJECTORY_COLUMNS], const double row[], iso_sample *sample);
+
+/* Whether all columns of a group of an effect are there; name NULL: of the first group that moves. And those of what
+ * an effect that acts on nothing begins with: the numbers that turn with the ball, and on a plane the displacement,
+ * without which the height is not known. */
+bool iso_columns_have_group(const int columns[ISO_TRAJECTORY_COLUMNS], iso_effect_id id, const char *name);
+bool iso_columns_have_beginning(const int columns[ISO_TRAJECTORY_COLUMNS], const iso_params *p, iso_effect_id id);
 
 /* The key of the line that states a number of an effect: "effect.number". */
 void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const iso_effect_number *number);

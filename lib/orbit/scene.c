@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/context_impl.h"
 #include "base/names_impl.h"
-#include "base/place_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
 #include "model/model_impl.h"

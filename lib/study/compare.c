@@ -131,11 +131,9 @@ static iso_status keep(runner *r, int which, size_t i, const iso_sample *sample)
 static iso_status add_row(runner *r, size_t i)
 {
     iso_sample sample[ISO_BACKENDS];
-    iso_status status = ISO_OK;
-    for (int which = 0; status == ISO_OK && which < r->out->runs; which++)
-        status = find_sample(r, which, i, &sample[which]);
-    for (int which = 0; status == ISO_OK && which < r->out->runs; which++) status = keep(r, which, i, &sample[which]);
-    return status;
+    for (int which = 0; which < r->out->runs; which++) ISO_TRY(find_sample(r, which, i, &sample[which]));
+    for (int which = 0; which < r->out->runs; which++) ISO_TRY(keep(r, which, i, &sample[which]));
+    return ISO_OK;
 }
 
 static iso_status add_rows(runner *r, bool (*progress)(double part, void *data), void *data)
@@ -186,10 +184,10 @@ static iso_status compare_rows(iso_context *ctx, const iso_comparison *c, int ru
 
 static iso_status compare_runs(iso_context *ctx, iso_comparison *c)
 {
-    iso_status status = compare_rows(ctx, c, ISO_BALL, ISO_POINT, &c->difference, c->worst);
-    for (int b = 0; status == ISO_OK && c->runs == ISO_BACKENDS && b < ISO_INTEGRATED; b++)
-        status = compare_rows(ctx, c, ISO_BY_EXACT, b, &c->from_exact[b], c->worst_from_exact[b]);
-    return status;
+    ISO_TRY(compare_rows(ctx, c, ISO_BALL, ISO_POINT, &c->difference, c->worst));
+    for (int b = 0; c->runs == ISO_BACKENDS && b < ISO_INTEGRATED; b++)
+        ISO_TRY(compare_rows(ctx, c, ISO_BY_EXACT, b, &c->from_exact[b], c->worst_from_exact[b]));
+    return ISO_OK;
 }
 
 iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(double part, void *data),

@@ -21,28 +21,6 @@ typedef struct energies {
     const iso_integral *h;
 } energies;
 
-/* Whether the record has what an effect begins with: the columns of a number that turns with the ball, and on a plane
- * those of what moves. */
-static bool has_beginning(const energies *e, iso_effect_id id)
-{
-    bool has = true;
-    int i = ISO_COLUMN_EFFECTS + iso_effect_first_column(id);
-    for (const iso_effect_column *g = iso_effect_list[id]->columns; g && g->name; g++) {
-        bool needed = g->moves && e->params->k == 1;
-        for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++)
-            needed = needed || (n->turns_with && strcmp(n->turns_with, g->name) == 0);
-        for (const int end = i + g->count; i < end; i++) has = has && (!needed || e->columns[i] >= 0);
-    }
-    return has;
-}
-
-/* Effects that act on nothing are left out if the record lacks their columns: the motion does not need them. */
-static void leave_out_observers(energies *e)
-{
-    for (iso_effect_id id = 0; id < ISO_EFFECTS; id++)
-        if (iso_effect_list[id]->observes && !has_beginning(e, id)) e->effects.on[id] = false;
-}
-
 /* Whether all effects say what they do to the energy. */
 static bool is_known(const energies *e)
 {
@@ -69,8 +47,7 @@ static void read_row(const energies *e, int clock, size_t row, double to[4])
     iso_sample sample;
     double size;
     const double *x = iso_record_const_row(e->record, row);
-    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
-        iso_sample_set_column(&sample, i, e->columns[i] < 0 ? NAN : x[e->columns[i]]);
+    iso_sample_of_row(e->columns, x, &sample);
     to[0] = clock < 0 ? (double)row + 1 : x[e->columns[clock]];
     to[1] = iso_orbit_integral(e->first, &iso_system_ball, e->h, &sample, &size) *
             iso_unit(iso_orbit_units(e->first), e->h->dimension);
@@ -109,11 +86,13 @@ iso_status iso_record_energies(iso_context *ctx, const iso_params *params, const
     iso_orbit *first = NULL;
     *answer = NULL;
     while (strcmp(e.h->name, "h") != 0) e.h++;
-    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
-        e.columns[i] = i < iso_columns_count() ? iso_record_find(record, iso_column_name(i)) : -1;
+    iso_record_find_columns(record, e.columns);
     if (iso_record_rows(record) == 0) return ISO_FAIL_INPUT(ctx, "", "the trajectory has no rows");
     ISO_TRY(iso_record_effects(ctx, record, &e.effects));
-    leave_out_observers(&e);
+    /* effects that act on nothing are left out if the record lacks their columns: the motion does not need them */
+    for (iso_effect_id id = 0; id < ISO_EFFECTS; id++)
+        if (iso_effect_list[id]->observes && !iso_columns_have_beginning(e.columns, params, id))
+            e.effects.on[id] = false;
     iso_effects effects = e.effects;
     ISO_TRY(iso_record_start(ctx, record, params, ISO_BALL, 0, &start, &effects));
     iso_orbit_options o = iso_orbit_defaults(&start);

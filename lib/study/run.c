@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "base/options_impl.h"
 #include "base/version.h"
 #include "method/methods_impl.h"
@@ -102,15 +102,13 @@ static iso_status describe(const runner *r, iso_record **header)
     const iso_scene *scene = r->scene;
     const iso_models as = scene->as == ISO_SHOW_START ? (iso_models)scene->start.model : scene->as;
     for (int i = 0; i < r->count; i++) names[i] = iso_column_name(r->columns[i]);
-    iso_status status = iso_record_create(r->ctx, (size_t)r->count, names, header);
-    if (status == ISO_OK)
-        status = iso_record_describe(r->ctx, *header, iso_shown_name((int)as), &scene->params, r->orbit);
-    if (status == ISO_OK)
-        status = iso_record_set(r->ctx, *header, "backend", iso_backend_name((int)iso_orbit_backend(r->orbit)));
-    if (status == ISO_OK) status = iso_record_set(r->ctx, *header, "method", iso_orbit_method(r->orbit)->name);
-    if (status == ISO_OK && !iso_orbit_exact(r->orbit))
-        status = iso_record_set_numbers(r->ctx, *header, "tolerance", 1, &scene->tolerance);
-    return status == ISO_OK ? iso_record_set(r->ctx, *header, "isoroll", ISO_VERSION) : status;
+    ISO_TRY(iso_record_create(r->ctx, (size_t)r->count, names, header));
+    ISO_TRY(iso_record_describe(r->ctx, *header, iso_shown_name((int)as), &scene->params, r->orbit));
+    ISO_TRY(iso_record_set(r->ctx, *header, "backend", iso_backend_name((int)iso_orbit_backend(r->orbit))));
+    ISO_TRY(iso_record_set(r->ctx, *header, "method", iso_orbit_method(r->orbit)->name));
+    if (!iso_orbit_exact(r->orbit))
+        ISO_TRY(iso_record_set_numbers(r->ctx, *header, "tolerance", 1, &scene->tolerance));
+    return iso_record_set(r->ctx, *header, "isoroll", ISO_VERSION);
 }
 
 static iso_status give_header(const runner *r)
@@ -301,10 +299,9 @@ static iso_status work_on(runner *r, iso_asked_time asked)
 /* The rows that have waited, in the order asked for; after a failure, too. */
 static iso_status give_waiting(runner *r)
 {
-    iso_status status = ISO_OK;
-    for (size_t i = 0; r->found && status == ISO_OK && i < r->options.count; i++)
-        if (r->found[i]) status = give_row(r, r->waiting + i * (size_t)r->count);
-    return status;
+    for (size_t i = 0; r->found && i < r->options.count; i++)
+        if (r->found[i]) ISO_TRY(give_row(r, r->waiting + i * (size_t)r->count));
+    return ISO_OK;
 }
 
 static iso_status work(runner *r)

@@ -163,16 +163,14 @@ static iso_status make_job(iso_context *ctx, iso_sweep *s, const iso_sweep_reque
 static iso_status make_columns(iso_context *ctx, iso_sweep *s)
 {
     const iso_family *f = &s->plan->family;
-    iso_status status = ISO_OK;
     s->head.column = s->column;
     for (int c = 0; c < f->columns; c++) {
         strcpy(s->column[c].group, "vary");
         strcpy(s->column[c].name, f->name[c]);
     }
     s->head.columns = f->columns;
-    for (int i = 0; i < s->plan->wishes && status == ISO_OK; i++)
-        status = make_job(ctx, s, &s->plan->wish[i], &s->job[i]);
-    return status;
+    for (int i = 0; i < s->plan->wishes; i++) ISO_TRY(make_job(ctx, s, &s->plan->wish[i], &s->job[i]));
+    return ISO_OK;
 }
 
 /* The size that the quantities suggest. A sweep of few points gets smaller chunks, so that every thread has some.
@@ -272,12 +270,11 @@ static iso_status make_points(iso_context *ctx, const iso_sweep *s, size_t first
 /* A point that has failed in an earlier quantity is still asked for the others, but not if it has no scene. */
 static iso_status find_each(iso_context *ctx, const iso_sweep_job *job, iso_sweep_batch *b)
 {
-    iso_status status = ISO_OK;
-    for (size_t i = 0; i < b->count && status == ISO_OK; i++)
+    for (size_t i = 0; i < b->count; i++)
         if (b->scene[i])
-            status = iso_sweep_note(ctx, job, b, i,
-                                    job->quantity->find(ctx, job, b->scene[i], iso_sweep_numbers(job, b, i)));
-    return status;
+            ISO_TRY(iso_sweep_note(ctx, job, b, i,
+                                   job->quantity->find(ctx, job, b->scene[i], iso_sweep_numbers(job, b, i))));
+    return ISO_OK;
 }
 
 iso_status iso_sweep_compute_points(iso_context *ctx, const iso_sweep *s, size_t first, size_t count,
@@ -339,8 +336,7 @@ static bool solve(iso_pool_worker *w, void *data, size_t first, size_t count)
     const iso_sweep_head *head = iso_sweep_head_of(all->sweep);
     iso_sweep_rows rows;
     size_t c;
-    (void)first;
-    (void)count;
+    (void)first, (void)count;
     if (!next_chunk(all, &c)) return true;
     if (iso_sweep_rows_create(w->ctx, head->columns, head->chunk, &rows) != ISO_OK) return false;
     give_away(w, all, c, &rows,

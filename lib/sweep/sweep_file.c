@@ -266,10 +266,8 @@ iso_status iso_sweep_parse(iso_context *ctx, const char *name, const char *text,
     const bool memory = f && f->name && f->text;
     if (memory) memcpy(f->text, text, length), f->text[f->length = length] = '\0';
     const iso_status status = memory ? parse(ctx, f) : iso_context_no_memory(ctx, "a sweep");
-    if (status == ISO_OK)
-        *file = f;
-    else
-        iso_sweep_file_free(f);
+    if (status != ISO_OK) iso_sweep_file_free(f), f = NULL;
+    *file = f;
     return status;
 }
 

@@ -282,10 +282,8 @@ iso_status iso_sweep_journal_open(iso_context *ctx, const char *path, const iso_
     j->buffer = malloc(j->room);
     const iso_status status =
         j->path && j->at && j->buffer ? open_journal(ctx, j, resume) : iso_context_no_memory(ctx, "a sweep");
-    if (status == ISO_OK)
-        *journal = j;
-    else
-        iso_sweep_journal_close(j);
+    if (status != ISO_OK) iso_sweep_journal_close(j), j = NULL;
+    *journal = j;
     return status;
 }
 

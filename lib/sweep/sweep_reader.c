@@ -145,10 +145,8 @@ iso_status iso_sweep_reader_open(iso_context *ctx, const char *path, iso_sweep_r
         return iso_context_no_memory(ctx, "'%s'", path);
     }
     const iso_status status = open_table(ctx, r);
-    if (status == ISO_OK)
-        *reader = r;
-    else
-        iso_sweep_reader_close(r);
+    if (status != ISO_OK) iso_sweep_reader_close(r), r = NULL;
+    *reader = r;
     return status;
 }
 

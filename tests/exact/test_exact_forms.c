@@ -16,6 +16,19 @@ static bool state_at(const iso_exact *exact, iso_clock clock, double time, doubl
     return iso_exact_at(ctx, exact, clock, time, y, unused) == ISO_OK;
 }
 
+/* Many times that follow each other. */
+static bool walk(const iso_exact *exact, iso_clock clock, double start, double step, int count, double points[],
+                 double clocks[])
+{
+    iso_exact_walk w = {0};
+    bool good = true;
+    for (int i = 0; i < count; i++)
+        good = iso_exact_walk_to(ctx, exact, &w, clock, start + i * step, points + ISO_STATE * i,
+                                 clocks + ISO_CLOCKS * i) == ISO_OK &&
+               good;
+    return good;
+}
+
 /* --- grids ------------------------------------------------------------------------------------------------------ */
 
 enum { COUNT = 200, GRIDS = EXACT_NEAR_POLE };
@@ -24,15 +37,11 @@ enum { COUNT = 200, GRIDS = EXACT_NEAR_POLE };
 static void note_grid(const orbit *o, const iso_exact *exact, iso_clock clock, double start, double step, double near,
                       laws_worst *worst)
 {
-    static double points[ISO_STATE * (COUNT + 1)], clocks[ISO_CLOCKS * (COUNT + 1)], alone[ISO_STATE * COUNT];
+    static double points[ISO_STATE * COUNT], clocks[ISO_CLOCKS * COUNT];
     const iso_params *p = &o->model.problem.p;
     double unused[ISO_STATE], unit[ISO_CLOCKS];
     iso_exact_at(ctx, exact, clock, o->unit, unused, unit);
-    points[ISO_STATE * COUNT] = clocks[ISO_CLOCKS * COUNT] = 17;
-    if (iso_exact_grid(ctx, exact, clock, start, step, COUNT, points, clocks) != ISO_OK) points[0] = NAN;
-    if (iso_exact_grid(ctx, exact, clock, start, step, COUNT, alone, NULL) != ISO_OK) points[0] = NAN;
-    gsl_test(points[ISO_STATE * COUNT] != 17 || clocks[ISO_CLOCKS * COUNT] != 17, "a grid ends where it should");
-    gsl_test(memcmp(points, alone, sizeof alone) != 0, "a grid without clocks has the same states");
+    if (!walk(exact, clock, start, step, COUNT, points, clocks)) points[0] = NAN;
     for (int i = 0; i < COUNT; i++) {
         const double time = start + i * step, *c = clocks + ISO_CLOCKS * i;
         double y[ISO_STATE], wanted[ISO_CLOCKS];
@@ -61,11 +70,8 @@ static void check_grids(void)
         for (int e = -3; e <= 3; e++)
             note_grid(&o, exact, clock, (e - 1) * 3.3 * o.unit, ((i + e) % 2 ? -1 : 1) * pow(10, e) * o.unit,
                       family < EXACT_SEPARATRIX ? 1e-13 : 1e-12, &worst[family]);
-        double y[ISO_STATE], single[ISO_STATE] = {17};
-        gsl_test(iso_exact_grid(ctx, exact, clock, 3, NAN, 0, single, NULL) != ISO_OK || single[0] != 17,
-                 "a grid of nothing");
-        gsl_test(!state_at(exact, clock, 3, y) ||
-                     iso_exact_grid(ctx, exact, clock, 3, 1, 1, single, NULL) != ISO_OK ||
+        double y[ISO_STATE], single[ISO_STATE], clocks[ISO_CLOCKS];
+        gsl_test(!state_at(exact, clock, 3, y) || !walk(exact, clock, 3, 1, 1, single, clocks) ||
                      memcmp(y, single, sizeof y) != 0,
                  "a grid of one time");
         iso_exact_free(exact);
@@ -272,17 +278,15 @@ static void check_times(void)
         const double wrong[] = {NAN, INFINITY, -INFINITY};
         for (size_t j = 0; j < 3; j++) {
             gsl_test(iso_exact_at(ctx, exact, ISO_CLOCK_T, wrong[j], y, c) != ISO_BAD_ARGUMENT, "t = %g", wrong[j]);
-            gsl_test(iso_exact_grid(ctx, exact, ISO_CLOCK_T, wrong[j], 1, 1, y, c) != ISO_BAD_ARGUMENT,
-                     "a grid from %g", wrong[j]);
-            gsl_test(iso_exact_grid(ctx, exact, ISO_CLOCK_T, 0, wrong[j], 2, y, c) != ISO_BAD_ARGUMENT,
-                     "a grid of step %g", wrong[j]);
+            iso_exact_walk w = {0};
+            gsl_test(iso_exact_walk_to(ctx, exact, &w, ISO_CLOCK_T, wrong[j], y, c) != ISO_BAD_ARGUMENT,
+                     "a grid at %g", wrong[j]);
         }
-        gsl_test(iso_exact_grid(ctx, exact, ISO_CLOCK_T, DBL_MAX, DBL_MAX, 2, y, c) != ISO_BAD_ARGUMENT,
-                 "a grid beyond what there is");
         gsl_test(iso_exact_at(ctx, exact, ISO_CLOCK_S, 1, y, c) != ISO_BAD_ARGUMENT ||
                      !strstr(iso_context_message(ctx), "clock s"),
                  "a clock that was not made: %s", iso_context_message(ctx));
-        gsl_test(iso_exact_grid(ctx, exact, ISO_CLOCK_TAU, 0, 1, 1, y, c) != ISO_BAD_ARGUMENT, "nor in a grid");
+        gsl_test(iso_exact_walk_to(ctx, exact, &(iso_exact_walk){0}, ISO_CLOCK_TAU, 0, y, c) != ISO_BAD_ARGUMENT,
+                 "nor in a grid");
         gsl_test(iso_exact_at(ctx, exact, ISO_CLOCK_T, 1, y, c) != ISO_OK || c[ISO_CLOCK_T] != 1, "%s: its own clock",
                  exact_names[list[i]]);
         gsl_test(!isnan(c[ISO_CLOCK_TAU]) || !isnan(c[ISO_CLOCK_S]), "%s: clocks that were not made are NaN",

@@ -212,15 +212,18 @@ static iso_status exact(iso_context *ctx, const void *data, const double v[], sw
     const bool clocks[ISO_CLOCKS] = {true, true, true};
     iso_problem f = {.eps = v[10], .energy = v[11]};
     iso_exact *x;
-    double point[4 * ISO_STATE], shown[4 * ISO_CLOCKS], angle[2];
+    double point[ISO_STATE], shown[ISO_CLOCKS], angle[2];
+    iso_exact_walk walk = {0};
     (void)data;
     iso_status status = iso_params_reduced(ctx, v[0], v + 1, &f.p);
     if (status == ISO_OK) status = iso_exact_create(ctx, &f, v + 4, clocks, &x);
     if (status != ISO_OK) return status;
     status = iso_exact_at(ctx, x, ISO_CLOCK_T, v[12], point, shown);
     if (status == ISO_OK) sweep_give(a, point, ISO_STATE), sweep_give(a, shown, ISO_CLOCKS);
-    if (status == ISO_OK) status = iso_exact_grid(ctx, x, ISO_CLOCK_S, v[12], v[13], 4, point, shown);
-    if (status == ISO_OK) sweep_give(a, point, 4 * ISO_STATE), sweep_give(a, shown, 4 * ISO_CLOCKS);
+    for (int i = 0; i < 4 && status == ISO_OK; i++) {
+        status = iso_exact_walk_to(ctx, x, &walk, ISO_CLOCK_S, v[12] + i * v[13], point, shown);
+        if (status == ISO_OK) sweep_give(a, point, ISO_STATE), sweep_give(a, shown, ISO_CLOCKS);
+    }
     if (status == ISO_OK) status = iso_exact_point(ctx, x, v + 14, point);
     if (status == ISO_OK) sweep_give(a, point, ISO_STATE);
     if (status == ISO_OK) status = iso_exact_angles(ctx, x, point, angle);

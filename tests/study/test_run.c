@@ -1,6 +1,6 @@
 /* test_run.c - iso_run (study/run.h): every row is that of a new orbit asked for this time alone. Times come in any
  * order; the sink, the monitor or a failure may end the run early. */
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "runs.h"
 
 /* Scenes of every kind, none of which loses contact. */

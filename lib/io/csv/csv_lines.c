@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "io/csv/csv_impl.h"
 #include "io/replacement_impl.h"
 #include "io/tasks_impl.h"

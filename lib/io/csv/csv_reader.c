@@ -9,9 +9,9 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/context_impl.h"
 #include "base/nearest_impl.h"
 #include "base/number_impl.h"
-#include "base/place_impl.h"
 #include "io/csv/csv_impl.h"
 #include "io/table_impl.h"
 #include "io/text_impl.h"

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/place_impl.h"
+#include "base/context_impl.h"
 #include "io/hdf5/hdf5_impl.h"
 #include "io/text_impl.h"
 #include "orbit/orbit_impl.h"

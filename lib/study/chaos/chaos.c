@@ -192,10 +192,8 @@ iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const iso_cha
     ISO_TRY(begin(ctx, scene, options, &w));
     iso_status status = run(&w);
     iso_orbit_free(w.orbit);
-    if (status == ISO_OK || status == ISO_STOPPED)
-        *chaos = w.out;
-    else
-        iso_chaos_free(w.out);
+    if (status != ISO_OK && status != ISO_STOPPED) iso_chaos_free(w.out), w.out = NULL;
+    *chaos = w.out;
     return status;
 }
 

@@ -48,8 +48,7 @@ static iso_status find_model(checker *c, iso_model_kind kind)
 /* Reads the names and lines of the record, chooses effects, finds the models. Errors: those of iso_check. */
 static iso_status begin(checker *c)
 {
-    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
-        c->columns[i] = i < iso_columns_count() ? iso_record_find(c->record, iso_column_name(i)) : -1;
+    iso_record_find_columns(c->record, c->columns);
     c->width = iso_record_columns(c->record);
     ISO_TRY(iso_record_effects(c->ctx, c->record, &c->effects));
     c->stated = c->effects;

@@ -35,12 +35,6 @@ void iso_checker_state(const checker *c, const checked_model *m, const double ro
     for (int i = 0; i < ISO_STATE; i++) y[i] = iso_checker_at(c, row, m->first + i);
 }
 
-void iso_checker_sample(const checker *c, const double row[], iso_sample *sample)
-{
-    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
-        iso_sample_set_column(sample, i, c->columns[i] < 0 ? NAN : row[c->columns[i]]);
-}
-
 iso_effects iso_checker_effects(const checker *c, iso_model_kind kind)
 {
     if (kind == ISO_BALL) return c->effects;
@@ -66,7 +60,7 @@ double iso_checker_distance(const double a[ISO_STATE], const double b[ISO_STATE]
 void iso_checker_own(const checker *c, const expectations *e, const double row[], double own[ISO_MAX_STATE])
 {
     iso_sample sample;
-    iso_checker_sample(c, row, &sample);
+    iso_sample_of_row(c->columns, row, &sample);
     iso_orbit_state_of(e->first, e->system, &sample, own);
 }
 

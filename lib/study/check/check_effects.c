@@ -92,25 +92,6 @@ bool iso_checker_has_effects(const checker *c)
     return false;
 }
 
-bool iso_checker_has_group(const checker *c, iso_effect_id id, const char *name)
-{
-    const iso_effect_column *g;
-    const int first = iso_effect_group(id, name, &g);
-    for (int i = 0; i < g->count; i++)
-        if (c->columns[first + i] < 0) return false;
-    return true;
-}
-
-/* Whether the record has what an effect that acts on nothing begins with: the numbers that turn with the ball, and
- * on a plane the displacement, without which the height is not known. */
-static bool has_beginning(const checker *c, iso_effect_id id)
-{
-    bool has = c->params->k != 1 || iso_effect_group(id, NULL, NULL) < 0 || iso_checker_has_group(c, id, NULL);
-    for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++)
-        if (n->turns_with) has = has && iso_checker_has_group(c, id, n->turns_with);
-    return has;
-}
-
 /* Whether an effect that acts on nothing can be asked for because its columns are there: no line has to state a
  * number. */
 static bool is_shown(const checker *c, iso_effect_id id)
@@ -127,7 +108,8 @@ void iso_checker_choose_observers(checker *c)
 {
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
         if (iso_effect_list[e]->observes)
-            c->effects.on[e] = (c->effects.on[e] && has_beginning(c, e)) || is_shown(c, e);
+            c->effects.on[e] =
+                (c->effects.on[e] && iso_columns_have_beginning(c->columns, c->params, e)) || is_shown(c, e);
 }
 
 /* --- lines: h, eps, c ------------------------------------------------------------------------------------------- */
@@ -219,5 +201,6 @@ void iso_checker_beginning(checker *c, checked_model *ball, const double row[])
     if (ball->clock < 0 || iso_checker_at(c, row, ball->clock) != 0) return;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
         for (const iso_effect_number *n = iso_effect_list[e]->numbers; c->stated.on[e] && n && n->name; n++)
-            if (n->turns_with && iso_checker_has_group(c, e, n->turns_with)) compare_beginning(c, ball, e, n, row);
+            if (n->turns_with && iso_columns_have_group(c->columns, e, n->turns_with))
+                compare_beginning(c, ball, e, n, row);
 }

@@ -129,9 +129,6 @@ static inline double iso_checker_at(const checker *c, const double row[], int co
 
 void iso_checker_state(const checker *c, const checked_model *m, const double row[], double y[ISO_STATE]);
 
-/* The columns of the row as a sample; NaN for columns that are missing. */
-void iso_checker_sample(const checker *c, const double row[], iso_sample *sample);
-
 /* The effects of a model's orbit. A point shows nothing that belongs to the ball alone, and its level follows from
  * each row if eps is known. */
 iso_effects iso_checker_effects(const checker *c, iso_model_kind kind);
@@ -166,9 +163,6 @@ void iso_checker_choose_observers(checker *c);
 
 /* Whether any column of an effect is checked. */
 bool iso_checker_has_effects(const checker *c);
-
-/* Whether the record has all columns of a group of an effect; name NULL: of the first group that moves. */
-bool iso_checker_has_group(const checker *c, iso_effect_id id, const char *name);
 
 /* What moves along a plane goes on from the row in which the flow began. */
 void iso_checker_go_on(const checker *c, const double row[], iso_sample *flow);

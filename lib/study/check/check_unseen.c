@@ -80,9 +80,8 @@ static iso_status make_later(trial *t)
     t->later = calloc(c->width + 1, sizeof *t->later);
     if (!t->later) return iso_context_no_memory(c->ctx, "a check");
     memcpy(t->later, c->first, c->width * sizeof *t->later);
-    iso_status status = ISO_OK;
-    for (int k = 0; status == ISO_OK && k < 2; k++) status = go_later(t, &c->model[k], &gone);
-    return status;
+    for (int k = 0; k < 2; k++) ISO_TRY(go_later(t, &c->model[k], &gone));
+    return ISO_OK;
 }
 
 /* --- one small check -------------------------------------------------------------------------------------------- */

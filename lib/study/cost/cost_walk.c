@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "base/vec3_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/cost/cost_impl.h"

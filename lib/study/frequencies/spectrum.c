@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "base/pi_impl.h"
 
 static const double LEAST = 1e-14; /* amplitudes that count, relative to the largest */

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "base/names_impl.h"
 #include "base/options_impl.h"
 #include "map/section_impl.h"

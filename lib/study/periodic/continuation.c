@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "base/names_impl.h"
 #include "base/options_impl.h"
 #include "base/pi_impl.h"
@@ -131,9 +131,7 @@ static iso_status go(const iso_continuation *f, iso_branch *b, iso_continuation_
         while (!iso_continuation_step(f, &at, taken, &next, &steps)) {
             if (!iso_context_goes_on(f->ctx)) return stop_at(f, b, &at, arc);
             taken /= 2;
-            if (taken < 1e-7) {
-                return fail_at(f, b, &at, arc, why_stuck(f, &at));
-            }
+            if (taken < 1e-7) return fail_at(f, b, &at, arc, why_stuck(f, &at));
         }
         const iso_status status = accept(f, b, &at, &next, taken, arc, &over);
         if (status != ISO_OK || over) return status;
@@ -382,10 +380,8 @@ iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const 
     if (!out) return iso_context_no_memory(ctx, "branches");
     out->vary = f.options.vary;
     const iso_status status = follow_all(&(crowd){.family = &f, .orbit = orbits, .own = own}, count, out);
-    if (status == ISO_OK || status == ISO_STOPPED)
-        *follow = out;
-    else
-        iso_continuation_free(out);
+    if (status != ISO_OK && status != ISO_STOPPED) iso_continuation_free(out), out = NULL;
+    *follow = out;
     return status;
 }
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "base/pi_impl.h"
 #include "study/periodic/periodic_impl.h"
 

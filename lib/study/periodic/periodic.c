@@ -117,10 +117,8 @@ iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_
     if (!w.out) return iso_context_no_memory(ctx, "periodic orbits");
     iso_status status = work(&w);
     free(w.folded);
-    if (status == ISO_OK || status == ISO_STOPPED)
-        *found = w.out;
-    else
-        iso_periodic_free(w.out);
+    if (status != ISO_OK && status != ISO_STOPPED) iso_periodic_free(w.out), w.out = NULL;
+    *found = w.out;
     return status;
 }
 

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "base/vec3_impl.h"
 #include "method/taylor/lanes_impl.h"
 #include "model/model_impl.h"

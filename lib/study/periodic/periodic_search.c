@@ -161,10 +161,9 @@ static iso_status look_at(search *s, const interval *in, bool *split)
     *split = !clear && in->depth < DEEPEST && s->samples < MOST_SAMPLES;
     if (*split) return ISO_OK;
     s->w->out->unresolved += !clear;
-    iso_status status = ISO_OK;
-    for (int n = 0; n < s->periods && status == ISO_OK; n++)
-        if (a->off[n] * b->off[n] < 0 || a->off[n] == 0) status = add_bracket(s, a, b, n);
-    return status;
+    for (int n = 0; n < s->periods; n++)
+        if (a->off[n] * b->off[n] < 0 || a->off[n] == 0) ISO_TRY(add_bracket(s, a, b, n));
+    return ISO_OK;
 }
 
 /* One round: intervals that are not clear are halved. */
@@ -318,9 +317,8 @@ static iso_status search_line(iso_periodic_work *w, int line)
 
 iso_status iso_periodic_search(iso_periodic_work *w)
 {
-    iso_status status = ISO_OK;
-    for (int line = 0; line < LINES && status == ISO_OK; line++) status = search_line(w, line);
-    return status;
+    for (int line = 0; line < LINES; line++) ISO_TRY(search_line(w, line));
+    return ISO_OK;
 }
 
 /* --- other orbits, from a grid ---------------------------------------------------------------------------------- */
@@ -366,11 +364,9 @@ static iso_status try_period(iso_periodic_work *w, const iso_section_spread *spr
                              iso_periodic_point *at, iso_periodic_candidate *arrived)
 {
     size_t count = (size_t)w->options.grid;
-    iso_status status = ISO_OK;
     for (size_t i = 0; i < count; i++) iso_section_spread_point(spread, i, &z[i][0], &z[i][1]);
-    for (int steps = 0; steps < STEPS && count > 0 && status == ISO_OK; steps++)
-        status = sweep(w, period, z, at, arrived, &count);
-    return status;
+    for (int steps = 0; steps < STEPS && count > 0; steps++) ISO_TRY(sweep(w, period, z, at, arrived, &count));
+    return ISO_OK;
 }
 
 iso_status iso_periodic_from_grid(iso_periodic_work *w)

@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "base/names_impl.h"
 #include "base/options_impl.h"
 #include "base/pool_impl.h"

@@ -313,11 +313,8 @@ static iso_status create_header(const iso_section_walk *w, iso_record **header)
     if (w->chart) names[n++] = "l";
     if (w->chart) names[n++] = "x";
     for (int c = 0; c < w->count; c++) names[n++] = iso_column_name(w->columns[c]);
-    iso_status status = iso_record_create(w->ctx, n, names, header);
-    if (status == ISO_OK)
-        status =
-            iso_record_describe(w->ctx, *header, iso_shown_name((int)w->result->models), &w->scene->params, w->orbit);
-    return status;
+    ISO_TRY(iso_record_create(w->ctx, n, names, header));
+    return iso_record_describe(w->ctx, *header, iso_shown_name((int)w->result->models), &w->scene->params, w->orbit);
 }
 
 /* Numbers that are whole, as text. */
@@ -355,15 +352,15 @@ static iso_status set_at(const iso_section_walk *w, iso_record *r)
 static iso_status describe(const iso_section_walk *w, iso_record *r)
 {
     const iso_section_options *o = &w->options;
-    iso_status status = iso_record_describe_start(w->ctx, r, &w->scene->start);
-    if (status == ISO_OK) status = set_section(w, r);
-    if (status == ISO_OK) status = set_whole(w, r, "crossings", o->crossings);
-    if (status == ISO_OK && o->starts > 0) status = set_whole(w, r, "starts", o->starts);
-    if (status == ISO_OK && o->starts > 0) status = set_whole(w, r, "seed", o->seed);
-    if (status == ISO_OK && o->at_count > 0) status = set_at(w, r);
-    if (status == ISO_OK) status = iso_record_set(w->ctx, r, "backend", iso_backend_name((int)w->model[0]));
-    if (status == ISO_OK) status = iso_record_set_numbers(w->ctx, r, "tolerance", 1, &o->tolerance);
-    return status == ISO_OK ? iso_record_set(w->ctx, r, "isoroll", ISO_VERSION) : status;
+    ISO_TRY(iso_record_describe_start(w->ctx, r, &w->scene->start));
+    ISO_TRY(set_section(w, r));
+    ISO_TRY(set_whole(w, r, "crossings", o->crossings));
+    if (o->starts > 0) ISO_TRY(set_whole(w, r, "starts", o->starts));
+    if (o->starts > 0) ISO_TRY(set_whole(w, r, "seed", o->seed));
+    if (o->at_count > 0) ISO_TRY(set_at(w, r));
+    ISO_TRY(iso_record_set(w->ctx, r, "backend", iso_backend_name((int)w->model[0])));
+    ISO_TRY(iso_record_set_numbers(w->ctx, r, "tolerance", 1, &o->tolerance));
+    return iso_record_set(w->ctx, r, "isoroll", ISO_VERSION);
 }
 
 iso_status iso_section_give_header(iso_section_walk *w)

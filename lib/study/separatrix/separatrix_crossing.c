@@ -257,9 +257,7 @@ iso_status iso_separatrix_curve(iso_context *ctx, double k, const double J[3], d
     iso_status status = iso_manifold_find(ctx, k, J, level, &m);
     if (status == ISO_OK) status = iso_record_create(ctx, 2, names, &r);
     if (status == ISO_OK) status = draw(ctx, &m, halves, r);
-    if (status == ISO_OK)
-        *curve = r;
-    else
-        iso_record_free(r);
+    if (status != ISO_OK) iso_record_free(r), r = NULL;
+    *curve = r;
     return status;
 }

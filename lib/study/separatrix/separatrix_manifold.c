@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "base/pi_impl.h"
 #include "map/section.h"
 #include "map/section_impl.h"
@@ -270,10 +270,9 @@ iso_status iso_manifold_go_on(const iso_manifold *m, iso_manifold_point *p)
 
 iso_status iso_manifold_at(const iso_manifold *m, iso_wide theta, int halves, iso_manifold_point *p)
 {
-    iso_status status = ISO_OK;
     polynomial_at(m, theta, p);
-    for (int i = 0; i < halves && status == ISO_OK; i++) status = iso_manifold_go_on(m, p);
-    return status;
+    for (int i = 0; i < halves; i++) ISO_TRY(iso_manifold_go_on(m, p));
+    return ISO_OK;
 }
 
 /* --- the domain ------------------------------------------------------------------------------------------------- */

@@ -245,10 +245,8 @@ iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *op
     iso_separatrix_table *found = calloc(1, sizeof *found);
     if (!found) return iso_context_no_memory(ctx, "the splitting");
     const iso_status status = run(ctx, &o, level, found);
-    if (status == ISO_OK || status == ISO_STOPPED)
-        *s = found;
-    else
-        iso_separatrix_free(found);
+    if (status != ISO_OK && status != ISO_STOPPED) iso_separatrix_free(found), found = NULL;
+    *s = found;
     return status;
 }
 
