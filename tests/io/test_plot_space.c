@@ -11,7 +11,7 @@
 #include "base/random_impl.h"
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
-#include "plot/vectors.h"
+#include "base/vec3_impl.h"
 
 static iso_context *ctx;
 static char folder[] = "/tmp/isoroll-test-XXXXXX", script[1 << 22];

@@ -125,7 +125,7 @@ static bool is_plain(unsigned char c)
 /* Every other character is written in octal. (In single quotes gnuplot 5.4 fails on a text that begins with a quote.)
  * gnuplot reads a fourth digit as part of the number: before a digit the text is closed, and joined to the next by a
  * dot. */
-const char *iso_gnuplot_quote(char quoted[static ISO_QUOTED], const char *text, int longest)
+const char *iso_gnuplot_quote(char quoted[static ISO_QUOTED_SIZE], const char *text, int longest)
 {
     const unsigned char *c = (const unsigned char *)(text ? text : "");
     char *to = quoted;

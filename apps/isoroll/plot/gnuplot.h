@@ -25,8 +25,8 @@ iso_status iso_gnuplot_close(iso_context *ctx, bool keep);
 
 /* A text as gnuplot takes it, whatever it is (NULL: ""): one quoted string of one line, valid UTF-8, cut after
  * `longest` characters, at most 160. It still needs `noenhanced`. */
-enum { ISO_QUOTED = 1280 };
-const char *iso_gnuplot_quote(char quoted[static ISO_QUOTED], const char *text, int longest);
-#define QUOTED(text, longest) iso_gnuplot_quote((char[ISO_QUOTED]){0}, text, longest)
+enum { ISO_QUOTED_SIZE = 1280 };
+const char *iso_gnuplot_quote(char quoted[static ISO_QUOTED_SIZE], const char *text, int longest);
+#define QUOTED(text, longest) iso_gnuplot_quote((char[ISO_QUOTED_SIZE]){0}, text, longest)
 
 #endif

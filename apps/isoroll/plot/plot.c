@@ -9,19 +9,16 @@
 
 enum { WIDTH = 900, HEIGHT = 800 };
 
-/* The title, and the key of the spheres, which stands between them and the chart: a plot of its own, as wide as the
- * page. */
+/* The title, and the key of the spheres, which stands between them and the chart. */
 static void put_heading(FILE *f, const char *title)
 {
     fprintf(
         f,
-        "unset border; unset tics; set xrange [0:1]; set yrange [0:1]\n"
-        "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
+        "set multiplot\n" ISO_PLOT_PAGE
         "set key at screen 0.5,0.408 center center horizontal maxrows 1 samplen 2 Left reverse\n"
         "set label 1 %s at screen 0.5,0.972 center noenhanced font ',12'\nplot NaN w l lw 1.8 lc rgb " ISO_PLOT_BLUE
         " title 'backend ball', NaN w p pt 6 ps 0.85 lw 1.5 lc rgb " ISO_PLOT_VERMILLION
-        " title 'backend point', NaN w p " ISO_PLOT_START " lc rgb 'black' title 'start', NaN w p " ISO_PLOT_END
-        " lc rgb 'black' title 'end', NaN w l lw 1.8 lc rgb " ISO_PLOT_FAR_BLUE " title 'far side'\n",
+        " title 'backend point', " ISO_PLOT_ENDS ", NaN w l lw 1.8 lc rgb " ISO_PLOT_FAR_BLUE " title 'far side'\n",
         QUOTED(title, 95));
 }
 
@@ -90,7 +87,6 @@ iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plo
     if (status != ISO_OK) return status;
     FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
     const bool fine = iso_plot_is_long(plot->ball, n[0]) || iso_plot_is_long(plot->ball, gamma[0]);
-    fputs("set multiplot\n", f);
     put_heading(f, plot->title);
     static const iso_plot_box left = {0.01, 0.49, 0.43, 0.905}, right = {0.51, 0.99, 0.43, 0.905};
     fputs("set title 'ball: the normal n at the contact'\n", f);

@@ -111,12 +111,9 @@ bool iso_plot_has_kind(const char *kind);
  * column or a line that the picture needs is missing, or there is no row; those of the picture. */
 iso_status iso_plot_table(iso_context *ctx, const char *path, const char *name, const iso_record *table);
 
-/* Of chaos: the section, with a spot for each orbit that starts on it, coloured by its exponent. Of periodic orbits
- * that are followed: trace and place over what varies. Of a chart: where the rotations about the axes of least and
- * greatest moment are stable. Errors: as iso_plot_momentum. */
+/* Of chaos: the section, with a spot for each orbit that starts on it, coloured by its exponent. Errors: as
+ * iso_plot_momentum. */
 iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, const iso_record *table);
-iso_status iso_plot_branches(iso_context *ctx, const char *path, const char *title, const iso_record *table);
-iso_status iso_plot_stability(iso_context *ctx, const char *path, const char *title, const iso_record *table);
 
 /* Of cost: a work-precision diagram, time over error, both logarithmic, small errors on the right; a panel for each
  * backend. The first methods of each, which should be the fastest, have names. Errors: as iso_plot_momentum. */
@@ -147,23 +144,10 @@ typedef struct iso_plot_section {
  * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *section);
 
-/* A value over one number: a curve, and the band of its error. rows: the number, by growing size, the value, low and
- * high, which may be NaN; the names of the first two are those of the axes. An axis that has the name k has marks at
- * +-1. If values of both signs or of very different sizes are there, |value| has a logarithmic axis. Errors: as
- * iso_plot_momentum. */
-iso_status iso_plot_sweep_curve(iso_context *ctx, const char *path, const char *title, const iso_record *rows);
-
-/* A value over two numbers: maps side by side, with one scale of colours. A NaN is grey. An axis that has the name k
- * has marks at +-1. */
-enum { ISO_PLOT_MAPS = 6 };
-typedef struct iso_plot_panels {
-    const char *title;
-    const char *key_name; /* of what differs from map to map; NULL: there is one */
-    int count;            /* of maps, at most ISO_PLOT_MAPS */
-    double key[ISO_PLOT_MAPS];
-    iso_record
-        *rows; /* x, y, the value, and the map, from 0; the names of the first three are those of axes and scale */
-} iso_plot_panels;
-iso_status iso_plot_sweep_maps(iso_context *ctx, const char *path, const iso_plot_panels *panels);
+/* The result of a sweep in a file. value: which column is drawn (NULL: the first that is there of a list of usual
+ * ones), over the numbers that vary: over one as a curve with the band of its error, over two as maps. Marks stand at
+ * k = +-1. Values of both signs or of very different sizes are drawn as |value| on a logarithmic axis. Errors:
+ * ISO_BAD_INPUT: no such column, or a sweep that no picture shows; those of iso_plot_momentum. */
+iso_status iso_plot_sweep(iso_context *ctx, const char *path, const char *file, const char *value);
 
 #endif

@@ -69,13 +69,6 @@ static double put_differences(FILE *f, const iso_record *r, int column)
 
 #define LEVEL "dt (3,3) lw 1.2 lc rgb '#707070'"
 
-/* A line across. */
-static void put_level(FILE *f, int tag, double level)
-{
-    fprintf(f, "set arrow %d from graph 0, first %.17g to graph 1, first %.17g nohead back " LEVEL "\n", tag, level,
-            level);
-}
-
 /* Axes of the chart. Its lowest tick stands for 0 as well. */
 static void put_axes(FILE *f, const iso_record *r, double top, const iso_plot_chart *chart)
 {
@@ -97,7 +90,10 @@ static void put_axes(FILE *f, const iso_record *r, double top, const iso_plot_ch
             "set yrange [5e-18:1e%d]\n",
             chart->box.right + 0.015, chart->box.top + 0.015, chart->title, highest);
     iso_plot_place(f, &chart->box);
-    iso_plot_powers(f, LOWEST, highest, 8);
+    const int step = 1 + (highest - LOWEST) / 8;
+    fprintf(f, "set ytics nomirror out scale 0.6 ('≤10^{%d}' 1e%d", LOWEST, LOWEST);
+    for (int power = LOWEST + step; power <= highest; power += step) fprintf(f, ", '10^{%d}' 1e%d", power, power);
+    fputs(")\n", f);
     iso_plot_ticks(f, &clock, name);
 }
 
@@ -132,7 +128,9 @@ void iso_plot_differences(FILE *f, const iso_record *r, double tolerance, const 
         top = fmax(top, largest[c]);
     }
     put_axes(f, r, top, chart);
-    if (tolerance > 0) put_level(f, 2, tolerance);
+    if (tolerance > 0)
+        fprintf(f, "set arrow 2 from graph 0, first %.17g to graph 1, first %.17g nohead back " LEVEL "\n", tolerance,
+                tolerance);
     for (int c = 1; c < columns; c++) {
         const char *name = iso_record_name(r, (size_t)c), *line = line_of(name, c - 1);
         fprintf(f, "%s $difference%d with ", c == 1 ? "plot" : ",", c);

@@ -17,21 +17,23 @@ static const char *const strokes[ISO_PLOT_LINES] = {
 
 /* --- the map ---------------------------------------------------------------------------------------------------- */
 
-/* A block of data: h and columns `first` to `last`, divided by h for the right picture. Says whether there is any. */
-static bool put_block(FILE *f, const iso_plot_map *map, const char *name, int number, int first, int last,
-                      bool over_h)
+/* The columns of the bounds of shape i: two of a part, one of a line; the lines come after the parts. */
+static int first_of(const iso_plot_map *map, int i)
 {
+    return i < map->parts ? 1 + 2 * i : 1 + map->parts + i;
+}
+
+/* Block i: h and the bounds of shape i, divided by h for the right picture. Says whether there is any. */
+static bool put_block(FILE *f, const iso_plot_map *map, int i, bool over_h)
+{
+    const int first = first_of(map, i), last = first + (i < map->parts);
     bool any = false;
-    fprintf(f, "$%s%d << EOD\n", name, number);
-    for (size_t i = 0; i < iso_record_rows(map->bounds); i++) {
-        const double *row = iso_record_const_row(map->bounds, i);
+    fprintf(f, "$shape%d << EOD\n", i);
+    for (size_t r = 0; r < iso_record_rows(map->bounds); r++) {
+        const double *row = iso_record_const_row(map->bounds, r), by = over_h ? row[0] : 1;
         if (!isfinite(row[first]) || !isfinite(row[last])) continue;
         any = true;
-        fprintf(f, "%.17g", row[0]);
-        for (int c = first; c <= last; c++) {
-            fprintf(f, " %.17g", over_h ? row[c] / row[0] : row[c]);
-        }
-        fputc('\n', f);
+        fprintf(f, "%.17g %.17g %.17g\n", row[0], row[first] / by, row[last] / by);
     }
     fputs("EOD\n", f);
     return any;
@@ -74,28 +76,21 @@ static void put_label(FILE *f, const iso_plot_map *map, int part, double room)
 
 static void put_panel(FILE *f, const iso_plot_map *map, bool over_h, bool key)
 {
-    bool part[ISO_PLOT_PARTS], line[ISO_PLOT_LINES];
-    const char *comma = "plot ";
-    for (int i = 0; i < map->parts; i++) part[i] = put_block(f, map, "part", i, 1 + 2 * i, 2 + 2 * i, over_h);
-    for (int i = 0; i < map->lines; i++)
-        line[i] = put_block(f, map, "line", i, 1 + 2 * map->parts + i, 1 + 2 * map->parts + i, over_h);
-    fputs("$orbit << EOD\n", f);
-    fprintf(f, "%.17g %.17g\n", map->at[0], over_h ? map->at[1] / map->at[0] : map->at[1]);
-    fputs("EOD\n", f);
-    for (int i = 0; i < map->parts; i++) {
-        if (!part[i]) continue;
-        fprintf(f, "%s$part%d u 1:2:3 with filledcurves fs solid 1 noborder lc rgb %s %s ", comma, i, fills[i],
-                key ? "title" : "notitle");
-        comma = ", ";
-        if (key) fputs(QUOTED(map->part[i], 60), f);
+    bool any[ISO_PLOT_PARTS + ISO_PLOT_LINES];
+    const char *const title = key ? "title" : "notitle", *before = "plot";
+    for (int i = 0; i < map->parts + map->lines; i++) any[i] = put_block(f, map, i, over_h);
+    fprintf(f, "$orbit << EOD\n%.17g %.17g\nEOD\n", map->at[0], over_h ? map->at[1] / map->at[0] : map->at[1]);
+    for (int i = 0; i < map->parts + map->lines; i++) {
+        const int line = i - map->parts;
+        if (!any[i]) continue;
+        fprintf(f,
+                line < 0 ? "%s $shape%d u 1:2:3 with filledcurves fs solid 1 noborder lc rgb %s %s "
+                         : "%s $shape%d with lines %s %s ",
+                before, i, line < 0 ? fills[i] : strokes[line], title);
+        before = ",";
+        if (key) fputs(QUOTED(line < 0 ? map->part[i] : map->line[line], 60), f);
     }
-    for (int i = 0; i < map->lines; i++) {
-        if (!line[i]) continue;
-        fprintf(f, "%s$line%d with lines %s %s ", comma, i, strokes[i], key ? "title" : "notitle");
-        comma = ", ";
-        if (key) fputs(QUOTED(map->line[i], 60), f);
-    }
-    fprintf(f, "%s$orbit with points " ORBIT " %s\n", comma, key ? "title 'this orbit'" : "notitle");
+    fprintf(f, "%s $orbit with points " ORBIT " %s\n", before, key ? "title 'this orbit'" : "notitle");
 }
 
 iso_status iso_plot_momentum(iso_context *ctx, const char *path, const iso_plot_map *map)
@@ -127,21 +122,6 @@ iso_status iso_plot_momentum(iso_context *ctx, const char *path, const iso_plot_
 
 /* --- lines ------------------------------------------------------------------------------------------------------ */
 
-static bool put_signal(FILE *f, const iso_record *r, int signal, double *least)
-{
-    bool any = false;
-    fprintf(f, "$signal%d << EOD\n", signal);
-    for (size_t i = 0; i < iso_record_rows(r); i++) {
-        const double *row = iso_record_const_row(r, i);
-        if ((int)row[2] != signal || !(row[1] > 0)) continue;
-        any = true;
-        *least = fmin(*least, row[1]);
-        fprintf(f, "%.17g %.17g\n", row[0], row[1]);
-    }
-    fputs("EOD\n", f);
-    return any;
-}
-
 /* The combinations (m, n) at the strongest lines of each signal, which come first. */
 static void put_names(FILE *f, const iso_record *r)
 {
@@ -156,6 +136,10 @@ static void put_names(FILE *f, const iso_record *r)
 
 iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis, const iso_record *r)
 {
+    static const char *const stems[2] = {"lw 2 lc rgb " ISO_PLOT_BLUE, "dt (4,2) lw 2 lc rgb " ISO_PLOT_VERMILLION};
+    static const char *const heads[2] = {"pt 7 ps 0.6 lc rgb " ISO_PLOT_BLUE,
+                                         "pt 6 ps 0.8 lc rgb " ISO_PLOT_VERMILLION};
+    char name[2][32];
     double least = 1;
     if (!r || iso_record_rows(r) == 0 || iso_record_columns(r) != 5 || axis < 0 || axis > 2)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
@@ -167,19 +151,25 @@ iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title,
             "center horizontal\nset xlabel 'frequency in t; m, n: m times frequency 1 and n times frequency 2'; "
             "set ylabel 'amplitude'\n",
             QUOTED(title, 95));
-    const bool any[2] = {put_signal(f, r, 0, &least), put_signal(f, r, 1, &least)};
+    snprintf(name[0], sizeof name[0], "n_%d + i n_%d", (axis + 1) % 3 + 1, (axis + 2) % 3 + 1);
+    snprintf(name[1], sizeof name[1], "n_%d", axis + 1);
+    bool any[2] = {false};
+    fputs("$lines << EOD\n", f);
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        const double *row = iso_record_const_row(r, i);
+        if (!(row[1] > 0)) continue;
+        any[(int)row[2] & 1] = true;
+        least = fmin(least, row[1]);
+        fprintf(f, "%.17g %.17g %.0f\n", row[0], row[1], row[2]);
+    }
+    fputs("EOD\n", f);
     put_names(f, r);
     fprintf(f, "set offsets graph 0.04, graph 0.04, 0, 0\nset yrange [%.17g:4]\n", pow(10, floor(log10(least)) - 1));
-    const int j = (axis + 1) % 3 + 1, l = (axis + 2) % 3 + 1;
-    if (any[0])
-        fprintf(f,
-                "plot $signal0 with impulses lw 2 lc rgb " ISO_PLOT_BLUE " title 'n_%d + i n_%d', "
-                "$signal0 with points pt 7 ps 0.6 lc rgb " ISO_PLOT_BLUE " notitle",
-                j, l);
-    if (any[1])
-        fprintf(f,
-                "%s$signal1 with impulses dt (4,2) lw 2 lc rgb " ISO_PLOT_VERMILLION " title 'n_%d', "
-                "$signal1 with points pt 6 ps 0.8 lc rgb " ISO_PLOT_VERMILLION " notitle",
-                any[0] ? ", " : "plot ", axis + 1);
+    for (int s = 0; s < 2; s++)
+        if (any[s])
+            fprintf(f,
+                    "%s $lines using 1:($3 == %d ? $2 : NaN) with impulses %s title '%s', "
+                    "$lines using 1:($3 == %d ? $2 : NaN) with points %s notitle",
+                    s == 1 && any[0] ? "," : "plot", s, stems[s], name[s], s, heads[s]);
     return iso_gnuplot_close(ctx, any[0] || any[1]);
 }
