@@ -227,7 +227,7 @@ static const option_row rows[] = {
 
 const command command_plot = {
     COMMAND("plot", "[FILE]", "draw a trajectory, or any other table", from.file),
-    .takes = FILE_ROWS | FILE_RESULT | FILE_TABLE | FILE_ORBITS,
+    .takes = FILE_ROWS | FILE_RESULT | FILE_TABLE,
     .description =
         "-o FILE is needed; its ending chooses the format. The path and the clock of the other model are "
         "computed, where the orbit has a twin. If the file has the columns of the effect attitude, the "

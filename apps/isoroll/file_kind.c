@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "command.h"
-#include "io/table.h"
+#include "io/table_impl.h"
 #include "sweep/sweep_impl.h"
 
 /* --- the kind --------------------------------------------------------------------------------------------------- */
@@ -20,7 +20,7 @@ static const struct {
              {"section", FILE_SECTION, "a section"},
              {"sweep", FILE_RESULT, "the result of a sweep"},
              {"sweep part", FILE_RESULT, "the result of a sweep"},
-             {"periodic", FILE_ORBITS, "a table of periodic orbits"},
+             {ISO_ORBITS_KIND, FILE_SECTION, "a table of periodic orbits"},
              {NULL, FILE_SCENE, "a scene"},
              {NULL, FILE_SWEEP, "a sweep"},
              {NULL, FILE_HDF5, "an HDF5 file"}};

@@ -224,8 +224,7 @@ iso_status view_of_section(iso_context *ctx, const file_options *from, view_page
     iso_record *in = NULL;
     page->section = calloc(1, sizeof *page->section);
     if (!page->section) return iso_context_no_memory(ctx, "a section");
-    iso_status status =
-        iso_table_read(ctx, from->file, "section", NULL, &in, NULL); /* its messages already name the file */
+    iso_status status = iso_table_read(ctx, from->file, NULL, NULL, &in, NULL); /* its messages name the file */
     if (status != ISO_OK) return status;
     status = of_record(ctx, from, in, page);
     iso_record_free(in);
