@@ -23,7 +23,6 @@ static iso_measure_options options_of(const iso_section_options *how, double cou
 static void print_cloud(const char *what, const iso_measure *m)
 {
     const iso_measure_entry *worst = &m->line[m->worst];
-    progress_end();
     if (m->lost > 0) {
         printf("%-10s not kept: at least %zu of %zu orbits do not return\n", what, m->lost, m->count);
         return;
@@ -34,37 +33,23 @@ static void print_cloud(const char *what, const iso_measure *m)
     printf("\n");
 }
 
-/* Says why a test is left out that this scene cannot have. */
-static iso_status left_out(iso_context *ctx, const char *what)
-{
-    progress_end();
-    printf("%-10s not tried: %s\n", what, iso_context_message(ctx));
-    return ISO_OK;
-}
-
-static iso_status flow(iso_context *ctx, const iso_scene *scene, iso_measure_options m, iso_clock clock, bool *kept)
+/* One test; clock NULL: of the returns. A test that this scene cannot have is left out, with the reason. */
+static iso_status test(iso_context *ctx, const iso_scene *scene, iso_measure_options m, const iso_clock *clock,
+                       bool *kept)
 {
     iso_measure found;
-    m.clock = clock;
+    const char *what = !clock ? "returns" : *clock == ISO_CLOCK_T ? "flow in t" : "flow in s";
+    if (clock) m.clock = *clock;
     progress_begin();
-    const char *what = clock == ISO_CLOCK_T ? "flow in t" : "flow in s";
-    const iso_status status = iso_measure_flow(ctx, scene, &m, &found);
-    if (status == ISO_NOT_MAPPED && clock == ISO_CLOCK_S) return left_out(ctx, what);
+    const iso_status status = (clock ? iso_measure_flow : iso_measure_returns)(ctx, scene, &m, &found);
+    progress_end();
+    if ((status == ISO_NOT_MAPPED && !(clock && *clock == ISO_CLOCK_T)) || (status == ISO_BAD_INPUT && !clock)) {
+        printf("%-10s not tried: %s\n", what, iso_context_message(ctx));
+        return ISO_OK;
+    }
     if (status != ISO_OK) return status;
     *kept = *kept && found.kept;
     print_cloud(what, &found);
-    return ISO_OK;
-}
-
-static iso_status returns(iso_context *ctx, const iso_scene *scene, const iso_measure_options *m, bool *kept)
-{
-    iso_measure found;
-    progress_begin();
-    const iso_status status = iso_measure_returns(ctx, scene, m, &found);
-    if (status == ISO_NOT_MAPPED || status == ISO_BAD_INPUT) return left_out(ctx, "returns");
-    if (status != ISO_OK) return status;
-    *kept = *kept && found.kept;
-    print_cloud("returns", &found);
     return ISO_OK;
 }
 
@@ -74,9 +59,9 @@ int section_cloud(iso_context *ctx, const scene_options *o, const iso_scene *sce
     const iso_measure_options m = options_of(how, count);
     bool kept = true;
     begin_work(ctx, NULL);
-    iso_status status = flow(ctx, scene, m, ISO_CLOCK_T, &kept);
-    if (status == ISO_OK) status = flow(ctx, scene, m, ISO_CLOCK_S, &kept);
-    if (status == ISO_OK) status = returns(ctx, scene, &m, &kept);
+    iso_status status = test(ctx, scene, m, &(iso_clock){ISO_CLOCK_T}, &kept);
+    if (status == ISO_OK) status = test(ctx, scene, m, &(iso_clock){ISO_CLOCK_S}, &kept);
+    if (status == ISO_OK) status = test(ctx, scene, m, NULL, &kept);
     const int result = finish_scene(ctx, o, scene, status);
     return result == EXIT_DONE && !kept ? EXIT_SOME_FAILED : result;
 }

@@ -10,7 +10,6 @@
 #include <fcntl.h>
 #include <limits.h>
 #include <math.h>
-#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
@@ -19,12 +18,11 @@
 #include <unistd.h>
 
 #include "io/output_impl.h"
+#include "plot/gnuplot.h"
 #include "progress.h"
 #include "view.h"
 
 enum { BATCH = 20, MOST_FRAMES = 100000 };
-
-extern char **environ;
 
 /* --- Chromium --------------------------------------------------------------------------------------------------- */
 
@@ -33,29 +31,15 @@ static int spawn(const char *address, int out, pid_t *child)
 {
     static const char *const names[] = {"chromium", "chromium-browser", "google-chrome", "chrome"};
     const char *sandbox = geteuid() == 0 ? "--no-sandbox" : "--headless"; /* for root, Chromium has no sandbox */
-    const char *arguments[] = {NULL,
-                               "--headless",
-                               sandbox,
-                               "--disable-gpu",
-                               "--use-angle=swiftshader",
-                               "--enable-unsafe-swiftshader",
-                               "--host-resolver-rules=MAP * ~NOTFOUND",
-                               "--no-first-run",
-                               "--dump-dom",
-                               address,
-                               NULL};
-    posix_spawn_file_actions_t actions;
-    int error = posix_spawn_file_actions_init(&actions);
-    if (error != 0) return error;
-    posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    error = ENOENT;
-    for (size_t i = 0; i < sizeof names / sizeof *names && error == ENOENT; i++) {
-        arguments[0] = names[i];
-        error = posix_spawnp(child, names[i], &actions, NULL, (char *const *)(void *)arguments, environ);
-    }
-    posix_spawn_file_actions_destroy(&actions);
+    const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+    int error = nothing < 0 ? errno : ENOENT;
+    for (size_t i = 0; i < sizeof names / sizeof *names && nothing >= 0 && error == ENOENT; i++)
+        error = program_start((const char *[]){names[i], "--headless", sandbox, "--disable-gpu",
+                                               "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                                               "--host-resolver-rules=MAP * ~NOTFOUND", "--no-first-run",
+                                               "--dump-dom", address, NULL},
+                              (int[]){nothing, out, nothing}, child);
+    if (nothing >= 0) close(nothing);
     return error;
 }
 
@@ -77,19 +61,13 @@ static iso_status run_chromium(iso_context *ctx, const char *address, FILE *out)
 
 /* --- pictures --------------------------------------------------------------------------------------------------- */
 
-static int value_of(char c)
-{
-    static const char digit[] = VIEW_BASE64;
-    const char *at = c ? strchr(digit, c) : NULL;
-    return at ? (int)(at - digit) : -1;
-}
-
 static void put_base64(FILE *to, const char *text)
 {
+    static const char digits[] = VIEW_BASE64;
     unsigned bits = 0;
     int held = 0;
-    for (int v; (v = value_of(*text)) >= 0; text++) {
-        bits = (bits << 6 | (unsigned)v) & 0xFFFFFF;
+    for (const char *digit; *text && (digit = strchr(digits, *text)); text++) {
+        bits = (bits << 6 | (unsigned)(digit - digits)) & 0xFFFFFF;
         held += 6;
         if (held < 8) continue;
         held -= 8;

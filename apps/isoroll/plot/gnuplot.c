@@ -165,19 +165,17 @@ static void read_complaints(FILE *file, char words[], size_t size)
     words[kept] = '\0';
 }
 
-/* Starts gnuplot with its three files; returns an errno. -d: no start-up file of the user changes the picture. */
-static int spawn(pid_t *child)
+int program_start(const char *const arguments[], const int streams[3], pid_t *child)
 {
-    char name[] = "gnuplot", settings[] = "-d", input[] = "-", *const arguments[] = {name, settings, input, NULL};
-    const int wanted[3] = {fileno(g.script), fileno(iso_output_stream(g.output)), fileno(g.complaints)};
     int copies[3] = {-1, -1, -1}, error = 0; /* above 2: where they stand, dup2 cannot overwrite one with another */
     posix_spawn_file_actions_t actions;
     if ((error = posix_spawn_file_actions_init(&actions)) != 0) return error;
     for (int i = 0; i < 3 && error == 0; i++) {
-        copies[i] = fcntl(wanted[i], F_DUPFD_CLOEXEC, 3);
+        copies[i] = fcntl(streams[i], F_DUPFD_CLOEXEC, 3);
         error = copies[i] < 0 ? errno : posix_spawn_file_actions_adddup2(&actions, copies[i], i);
     }
-    if (error == 0) error = posix_spawnp(child, name, &actions, NULL, arguments, environ);
+    if (error == 0)
+        error = posix_spawnp(child, arguments[0], &actions, NULL, (char *const *)(void *)arguments, environ);
     for (int i = 0; i < 3; i++)
         if (copies[i] >= 0) close(copies[i]);
     posix_spawn_file_actions_destroy(&actions);
@@ -210,7 +208,10 @@ static iso_status run(iso_context *ctx)
     fputs("\nunset multiplot\nunset output\n", g.script);
     if (fflush(g.script) != 0 || ferror(g.script) || fseek(g.script, 0, SEEK_SET) != 0)
         return trouble(ctx, "write", "gnuplot's temporary script");
-    const int error = spawn(&child);
+    /* -d: no start-up file of the user changes the picture */
+    const int error =
+        program_start((const char *[]){"gnuplot", "-d", "-", NULL},
+                      (int[]){fileno(g.script), fileno(iso_output_stream(g.output)), fileno(g.complaints)}, &child);
     if (error != 0)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot run gnuplot: %s; " INSTALL, strerror(error));
     do ended = waitpid(child, &result, 0);

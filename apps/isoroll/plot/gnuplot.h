@@ -9,6 +9,7 @@
 
 #include <stdbool.h>
 #include <stdio.h>
+#include <sys/types.h>
 
 #include "base/context.h"
 
@@ -22,6 +23,10 @@ FILE *iso_gnuplot_open(iso_context *ctx, const char *path, int width, int height
 /* Ends the picture. keep: draws it and gives the picture its name; else nothing is left. Errors: ISO_BAD_ARGUMENT
  * (format); ISO_FILE_TROUBLE: no gnuplot, gnuplot's own complaint, or the picture cannot be written. */
 iso_status iso_gnuplot_close(iso_context *ctx, bool keep);
+
+/* Starts a program that is searched for in PATH, its name and arguments with NULL behind them, with these standard
+ * streams. Gives an errno, 0 if it runs. */
+int program_start(const char *const arguments[], const int streams[3], pid_t *child);
 
 /* A text as gnuplot takes it, whatever it is (NULL: ""): one quoted string of one line, valid UTF-8, cut after
  * `longest` characters, at most 160. It still needs `noenhanced`. */
