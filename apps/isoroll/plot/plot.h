@@ -13,6 +13,8 @@
 
 #include "base/record.h"
 #include "model/params.h"
+#include "study/frequencies/frequencies.h"
+#include "study/frequencies/momentum.h"
 
 /* "k = ..., J = ...", and what follows. Gives `title`. */
 enum { ISO_PLOT_TITLE = 200 };
@@ -76,24 +78,15 @@ iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plo
 iso_status iso_plot_columns(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
                             const char *x, const char *y, bool equal);
 
-/* A map of kinds of motion over the energy h and a second integral F. */
-enum { ISO_PLOT_PARTS = 4, ISO_PLOT_LINES = 4 };
-typedef struct iso_plot_map {
-    const char *title, *F; /* F: as gnuplot writes it, "F_{shell}"                                    */
-    int parts, lines;      /* at most ISO_PLOT_PARTS, ISO_PLOT_LINES                                  */
-    const char *part[ISO_PLOT_PARTS], *line[ISO_PLOT_LINES]; /* their names                                       */
-    const iso_record *bounds; /* columns h > 0, low and high F of each part, F of each line; NaN: none */
-    double at[2];             /* (h, F) of an orbit, h > 0                                               */
-} iso_plot_map;
+/* The image of the momentum map: kinds of motion over the energy h and a second integral F, with the orbit at
+ * (h, F) in it. On the left F over h, on the right F/h over h, where thin parts can be told apart.
+ * Errors: ISO_BAD_ARGUMENT (name), those of iso_momentum_bounds, ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+iso_status iso_plot_momentum(iso_context *ctx, const char *path, const char *title, const iso_momentum *m,
+                             const double at[2]);
 
-/* On the left F over h, on the right F/h over h, where thin parts can be told apart.
- * Errors: ISO_BAD_ARGUMENT (name, columns, no rows, nothing in them), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-iso_status iso_plot_momentum(iso_context *ctx, const char *path, const iso_plot_map *map);
-
-/* The lines of two signals, the pair of components across `axis` (0 to 2) and the one along it: columns frequency,
- * amplitude > 0, signal (0, 1), and m and n of the combination that a line is (NaN: of none).
- * Errors: as iso_plot_momentum. */
-iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis, const iso_record *lines);
+/* The spectral lines of n(t): of the pair of components across the axis, and of the one along it. Errors: as
+ * iso_plot_momentum; ISO_BAD_ARGUMENT: there is no line. */
+iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, const iso_estimate *estimate);
 
 /* The indicators of chaos against the turns. The records have the columns turn, t, growth, megno, mean and gali2, as
  * in iso_chaos. Above: ln D. Below: MEGNO and its mean on the left, GALI_2 on the right. A record that is NULL or
