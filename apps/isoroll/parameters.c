@@ -19,24 +19,26 @@ static iso_status set_line(iso_context *ctx, iso_record *record, const char *key
     return iso_record_set_numbers(ctx, record, key, count, values);
 }
 
+/* Makes numbers (NAN: none) a line, if the record has none of that key. */
+static iso_status add_line(iso_context *ctx, iso_record *record, const char *key, size_t count, const double values[])
+{
+    if (isnan(values[0]) || iso_record_get(record, key)) return ISO_OK;
+    return iso_record_set_numbers(ctx, record, key, count, values);
+}
+
 /* Takes from a scene what the file does not say: k, J and D, the effects that act, a point's eps. */
 static iso_status set_scene(iso_context *ctx, const char *path, iso_record *record)
 {
     iso_scene scene;
-    iso_status status = iso_scene_read(ctx, path, &scene);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_scene_read(ctx, path, &scene));
     const iso_effects effects = iso_scene_acting(&scene);
-    const double eps = scene.start.model == ISO_POINT ? scene.start.eps : NAN;
-    if (!iso_record_get(record, "k")) status = iso_record_set_numbers(ctx, record, "k", 1, &scene.params.k);
-    if (status == ISO_OK && !iso_record_get(record, "J"))
-        status = iso_record_set_numbers(ctx, record, "J", 3, scene.params.J);
-    if (status == ISO_OK && scene.params.D > 0 && !iso_record_get(record, "D"))
-        status = iso_record_set_numbers(ctx, record, "D", 1, &scene.params.D);
-    if (status == ISO_OK && !isnan(eps) && !iso_record_get(record, "eps") && !iso_record_get(record, "h"))
-        status = iso_record_set_numbers(ctx, record, "eps", 1, &eps);
-    if (status == ISO_OK && !iso_record_get(record, "effects"))
-        status = iso_record_describe_effects(ctx, record, &effects);
-    return status;
+    const bool coupled = scene.start.model == ISO_POINT && !iso_record_get(record, "h");
+    const double D = scene.params.D > 0 ? scene.params.D : (double)NAN, eps = coupled ? scene.start.eps : (double)NAN;
+    ISO_TRY(add_line(ctx, record, "k", 1, &scene.params.k));
+    ISO_TRY(add_line(ctx, record, "J", 3, scene.params.J));
+    ISO_TRY(add_line(ctx, record, "D", 1, &D));
+    ISO_TRY(add_line(ctx, record, "eps", 1, &eps));
+    return iso_record_get(record, "effects") ? ISO_OK : iso_record_describe_effects(ctx, record, &effects);
 }
 
 iso_status parameters_of_file(iso_context *ctx, const file_options *o, iso_record *record, iso_params *params)
@@ -45,12 +47,12 @@ iso_status parameters_of_file(iso_context *ctx, const file_options *o, iso_recor
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "eps",
                                 "--h and --eps say the same thing: leave one of them out");
     iso_record_set_row_tolerance(record, o->row_tolerance);
-    iso_status status = set_line(ctx, record, "k", 1, &o->k);
-    if (status == ISO_OK) status = set_line(ctx, record, "J", 3, o->J);
-    if (status == ISO_OK && o->scene) status = set_scene(ctx, o->scene, record);
-    if (status == ISO_OK) status = set_line(ctx, record, "h", 1, &o->h);
-    if (status == ISO_OK) status = set_line(ctx, record, "eps", 1, &o->eps);
-    return status == ISO_OK ? iso_record_params(ctx, record, params) : status;
+    ISO_TRY(set_line(ctx, record, "k", 1, &o->k));
+    ISO_TRY(set_line(ctx, record, "J", 3, o->J));
+    if (o->scene) ISO_TRY(set_scene(ctx, o->scene, record));
+    ISO_TRY(set_line(ctx, record, "h", 1, &o->h));
+    ISO_TRY(set_line(ctx, record, "eps", 1, &o->eps));
+    return iso_record_params(ctx, record, params);
 }
 
 iso_status name_the_file(iso_context *ctx, const char *file, iso_status status)

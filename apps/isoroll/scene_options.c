@@ -15,8 +15,7 @@ static void forget_places(const scene_options *o, iso_scene *scene)
 
 iso_status scene_with_options(iso_context *ctx, const scene_options *o, iso_scene *scene)
 {
-    const iso_status status = iso_scene_read(ctx, o->file, scene);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_scene_read(ctx, o->file, scene));
     if ((int)o->backend >= 0) scene->backend = o->backend;
     if ((int)o->as >= 0) scene->as = o->as, scene->columns = 0;
     if (o->method) snprintf(scene->method, sizeof scene->method, "%s", o->method);

@@ -96,9 +96,8 @@ static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan,
     one.chunk = chunk;
     const iso_sweep_quantity *topic = iso_sweep_quantities()[one.wish[0].topic];
     const double scale = take_few_starts(topic, &one.wish[0]);
-    iso_status status = iso_sweep_create(ctx, &one, &sweep);
-    if (status != ISO_OK) return status;
-    status = iso_sweep_rows_create(ctx, iso_sweep_head_of(sweep)->columns, chunk, &rows);
+    ISO_TRY(iso_sweep_create(ctx, &one, &sweep));
+    iso_status status = iso_sweep_rows_create(ctx, iso_sweep_head_of(sweep)->columns, chunk, &rows);
     progress_begin();
     if (status == ISO_OK) status = measure(ctx, sweep, &rows, &c);
     progress_end();

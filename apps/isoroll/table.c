@@ -18,10 +18,9 @@ void table_rename(const iso_field *fields, const char *old, const char *name, is
 iso_status table_create(iso_context *ctx, const char *kind, const iso_scene *scene, const table_line *lines,
                         const iso_field *fields, iso_record **table)
 {
-    iso_status status = iso_columns_create(ctx, fields, table);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_columns_create(ctx, fields, table));
     iso_record_set_kind(*table, kind);
-    status = iso_record_describe_scene(ctx, *table, scene);
+    iso_status status = iso_record_describe_scene(ctx, *table, scene);
     if (status == ISO_OK) status = iso_record_set(ctx, *table, "command", options_command());
     for (const table_line *l = lines; status == ISO_OK && l && l->key; l++)
         if (l->text)

@@ -80,8 +80,7 @@ static iso_status write_picture(iso_context *ctx, const char *folder, unsigned l
     char path[PATH_MAX];
     iso_output *out;
     snprintf(path, sizeof path, "%s/frame%04lu.png", folder, number + 1);
-    const iso_status status = iso_output_open(ctx, path, &out);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_output_open(ctx, path, &out));
     put_base64(iso_output_stream(out), base64);
     return iso_output_close(ctx, out, true);
 }
@@ -206,8 +205,7 @@ static iso_status put_page(iso_context *ctx, const char *path, const view_page *
 {
     for (;;) {
         struct stat mine, named;
-        const iso_status status = view_write(ctx, path, page);
-        if (status != ISO_OK) return status;
+        ISO_TRY(view_write(ctx, path, page));
         *lock = open(path, O_RDWR | O_CLOEXEC);
         if (*lock < 0 && errno != ENOENT) return ISO_OK; /* it goes on without a lock */
         if (*lock < 0) continue;
@@ -230,10 +228,9 @@ iso_status view_write_frames(iso_context *ctx, const view_frames *f, const view_
                                 strerror(errno));
     if (!realpath(f->folder, folder))
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", f->folder, strerror(errno));
-    iso_status status = check_folder(ctx, f->folder, (size_t)all);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_folder(ctx, f->folder, (size_t)all));
     snprintf(path, sizeof path, "%s/.isoroll-%ld.html", folder, (long)getpid());
-    status = put_page(ctx, path, page, &lock);
+    iso_status status = put_page(ctx, path, page, &lock);
     if (status != ISO_OK) return status;
     status = draw(ctx, f, path, (size_t)all);
     unlink(path);

@@ -75,11 +75,10 @@ static iso_status trouble(iso_context *ctx, const char *what, const char *name)
 static iso_status open_files(iso_context *ctx, const char *path)
 {
     struct stat old;
-    iso_status status = iso_gnuplot_check_format(ctx, path);
-    if (status == ISO_OK && stat(path, &old) == 0 && !S_ISREG(old.st_mode))
+    ISO_TRY(iso_gnuplot_check_format(ctx, path));
+    if (stat(path, &old) == 0 && !S_ISREG(old.st_mode))
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot write '%s': it is not a regular file", path);
-    if (status == ISO_OK) status = iso_output_open(ctx, path, &g.output);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_output_open(ctx, path, &g.output));
     g.script = tmpfile();
     g.complaints = tmpfile();
     return g.script && g.complaints ? ISO_OK : trouble(ctx, "open", "a temporary file");

@@ -78,13 +78,11 @@ iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plo
 {
     int n[2], gamma[2];
     const iso_record *const model[] = {plot->ball, plot->point};
-    iso_status status = ISO_OK;
     for (int m = 0; m < 2; m++) {
-        if (status == ISO_OK) status = iso_plot_find(ctx, model[m], 3, iso_plot_normal, &n[m]);
-        if (status == ISO_OK) status = iso_plot_find(ctx, model[m], 3, iso_plot_place_of_point, &gamma[m]);
+        ISO_TRY(iso_plot_find(ctx, model[m], 3, iso_plot_normal, &n[m]));
+        ISO_TRY(iso_plot_find(ctx, model[m], 3, iso_plot_place_of_point, &gamma[m]));
     }
-    if (status == ISO_OK) status = check_differences(ctx, plot);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_differences(ctx, plot));
     FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
     const bool fine = iso_plot_is_long(plot->ball, n[0]) || iso_plot_is_long(plot->ball, gamma[0]);
     put_heading(f, plot->title);

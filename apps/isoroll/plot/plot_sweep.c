@@ -268,11 +268,10 @@ iso_status iso_plot_sweep(iso_context *ctx, const char *path, const char *file, 
     iso_sweep_reader *reader;
     char title[160];
     table t = {.axes = 0};
-    iso_status status = iso_sweep_reader_open(ctx, file, &reader);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_sweep_reader_open(ctx, file, &reader));
+    iso_status status = create_rows(ctx, reader, &t);
     if (reader->share.count > 1)
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "'%s' is a part of a sweep: merge the parts first", file);
-    if (status == ISO_OK) status = create_rows(ctx, reader, &t);
     if (status == ISO_OK) status = choose_value(ctx, value, &t);
     if (status == ISO_OK) status = read_rows(ctx, reader, &t);
     if (status == ISO_OK) find_axes(&t);

@@ -110,15 +110,13 @@ static iso_status put_images(iso_context *ctx, const iso_record *r, size_t i, is
 {
     const double pi = acos(-1), l = iso_plot_number(r, i, "l"), x = iso_plot_number(r, i, "x");
     const bool grey = iso_plot_is(r, i, "stability", "unstable") || iso_plot_is(r, i, "stability", "inverse");
-    iso_status status = ISO_OK;
-    for (int n = 0; n < 8 && status == ISO_OK; n++) {
-        const double sign = n & 1 ? -1 : 1;
-        status = iso_record_add(ctx, images, 1,
-                                (double[]){iso_plot_number(r, i, "orbit") - 1,
-                                           remainder(sign * l + (n & 2 ? pi : 0), 2 * pi), (n & 4 ? -sign : sign) * x,
-                                           grey});
+    for (int n = 0; n < 8; n++) {
+        const double sign = n & 1 ? -1 : 1,
+                     image[] = {iso_plot_number(r, i, "orbit") - 1, remainder(sign * l + (n & 2 ? pi : 0), 2 * pi),
+                                (n & 4 ? -sign : sign) * x, grey};
+        ISO_TRY(iso_record_add(ctx, images, 1, image));
     }
-    return status;
+    return ISO_OK;
 }
 
 static iso_status draw_orbits(iso_context *ctx, const char *path, const char *title, const iso_record *r)
@@ -190,9 +188,8 @@ iso_status iso_plot_table(iso_context *ctx, const char *path, const char *name, 
     char title[160];
     iso_params p;
     const struct kind *kind = find_kind(iso_record_kind(r));
-    iso_status status = check(ctx, r, kind);
-    if (status == ISO_OK) status = iso_record_params(ctx, r, &p);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check(ctx, r, kind));
+    ISO_TRY(iso_record_params(ctx, r, &p));
     snprintf(title, sizeof title, "%.60s: k = %.6g, J = %.6g %.6g %.6g", name, p.k, p.J[0], p.J[1], p.J[2]);
     const char *own = iso_record_get(r, "title");
     return kind->draw(ctx, path, own ? own : title, r);

@@ -295,15 +295,12 @@ static void put_sheet(sheet *s)
 static iso_status look_at(iso_context *ctx, sheet *s)
 {
     const iso_plot_orbit *plot = s->plot;
-    iso_status status = ISO_OK;
-    if (plot->ball) status = iso_plot_find(ctx, plot->ball, 3, iso_plot_normal, &s->ball);
-    if (status == ISO_OK && plot->ball) status = find_trace(ctx, s);
-    if (status == ISO_OK && plot->point)
-        status = iso_plot_find(ctx, plot->point, 3, iso_plot_place_of_point, &s->point);
-    if (status == ISO_OK && plot->space) status = iso_plot_look_around(ctx, plot->space, &s->scenery);
-    if (status == ISO_OK && s->ball < 0 && s->point < 0 && !plot->space)
-        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture needs the path of the ball or of the point");
-    if (status != ISO_OK) return status;
+    if (plot->ball) ISO_TRY(iso_plot_find(ctx, plot->ball, 3, iso_plot_normal, &s->ball));
+    if (plot->ball) ISO_TRY(find_trace(ctx, s));
+    if (plot->point) ISO_TRY(iso_plot_find(ctx, plot->point, 3, iso_plot_place_of_point, &s->point));
+    if (plot->space) ISO_TRY(iso_plot_look_around(ctx, plot->space, &s->scenery));
+    if (s->ball < 0 && s->point < 0 && !plot->space)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture needs the path of the ball or of the point");
     s->narrow = plot->space && iso_plot_is_narrow(&s->scenery);
     choose_panels(s);
     choose_height(s);
