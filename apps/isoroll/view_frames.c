@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include "io/output_impl.h"
+#include "io/replacement_impl.h"
 #include "plot/gnuplot.h"
 #include "progress.h"
 #include "view.h"
@@ -141,7 +142,7 @@ static iso_status check_folder(iso_context *ctx, const char *folder, size_t all)
 {
     iso_status status = ISO_OK;
     DIR *list = opendir(folder);
-    if (!list) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", folder, strerror(errno));
+    if (!list) return iso_file_trouble(ctx, "open", folder);
     for (const struct dirent *one; status == ISO_OK && (one = readdir(list));) {
         if (is_page(one->d_name)) remove_dead(list, one->d_name);
         if (number_of(one->d_name) > all)
@@ -223,11 +224,8 @@ iso_status view_write_frames(iso_context *ctx, const view_frames *f, const view_
     if (all > MOST_FRAMES)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--frames: fps times seconds is %g pictures, more than %d",
                                 all, MOST_FRAMES);
-    if (mkdir(f->folder, 0777) != 0 && errno != EEXIST)
-        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot make the folder '%s': %s", f->folder,
-                                strerror(errno));
-    if (!realpath(f->folder, folder))
-        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", f->folder, strerror(errno));
+    if (mkdir(f->folder, 0777) != 0 && errno != EEXIST) return iso_file_trouble(ctx, "make the folder", f->folder);
+    if (!realpath(f->folder, folder)) return iso_file_trouble(ctx, "open", f->folder);
     ISO_TRY(check_folder(ctx, f->folder, (size_t)all));
     snprintf(path, sizeof path, "%s/.isoroll-%ld.html", folder, (long)getpid());
     iso_status status = put_page(ctx, path, page, &lock);

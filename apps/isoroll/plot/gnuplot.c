@@ -14,6 +14,8 @@
 #include <unistd.h>
 
 #include "io/output_impl.h"
+#include "io/replacement_impl.h"
+#include "plot/plot.h"
 
 #define INSTALL "install gnuplot (package gnuplot-nox)"
 
@@ -55,19 +57,11 @@ static const format *find_format(const char *path)
     return NULL;
 }
 
-iso_status iso_gnuplot_check_format(iso_context *ctx, const char *path)
+iso_status iso_plot_check_format(iso_context *ctx, const char *path)
 {
     if (find_format(path)) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "'%s': the name of a picture must end in .svg, .png or .pdf",
                             path);
-}
-
-static iso_status trouble(iso_context *ctx, const char *what, const char *name)
-{
-    enum { SHOWN = 400 }; /* its end: the reason must have room behind it */
-    const size_t length = strlen(name), hidden = length > SHOWN ? length - SHOWN : 0;
-    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot %s '%s%s': %s", what, hidden ? "..." : "",
-                            name + hidden, strerror(errno));
 }
 
 /* ---- Opening ---- */
@@ -75,13 +69,13 @@ static iso_status trouble(iso_context *ctx, const char *what, const char *name)
 static iso_status open_files(iso_context *ctx, const char *path)
 {
     struct stat old;
-    ISO_TRY(iso_gnuplot_check_format(ctx, path));
+    ISO_TRY(iso_plot_check_format(ctx, path));
     if (stat(path, &old) == 0 && !S_ISREG(old.st_mode))
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot write '%s': it is not a regular file", path);
     ISO_TRY(iso_output_open(ctx, path, &g.output));
     g.script = tmpfile();
     g.complaints = tmpfile();
-    return g.script && g.complaints ? ISO_OK : trouble(ctx, "open", "a temporary file");
+    return g.script && g.complaints ? ISO_OK : iso_file_trouble(ctx, "open", "a temporary file");
 }
 
 FILE *iso_gnuplot_open(iso_context *ctx, const char *path, int width, int height)
@@ -206,7 +200,7 @@ static iso_status run(iso_context *ctx)
     int result = 0;
     fputs("\nunset multiplot\nunset output\n", g.script);
     if (fflush(g.script) != 0 || ferror(g.script) || fseek(g.script, 0, SEEK_SET) != 0)
-        return trouble(ctx, "write", "gnuplot's temporary script");
+        return iso_file_trouble(ctx, "write", "gnuplot's temporary script");
     /* -d: no start-up file of the user changes the picture */
     const int error =
         program_start((const char *[]){"gnuplot", "-d", "-", NULL},
@@ -221,7 +215,7 @@ static iso_status run(iso_context *ctx)
     if (ended == child && WEXITSTATUS(result) == 0 && is_whole()) return ISO_OK;
     if (ended < 0 && is_whole()) return ISO_OK;
     errno = why_full();
-    if (errno != 0) return trouble(ctx, "write", iso_output_name(g.output));
+    if (errno != 0) return iso_file_trouble(ctx, "write", iso_output_name(g.output));
     read_complaints(g.complaints, words, sizeof words);
     return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "gnuplot did not draw '%s' (exit status %d); it said: %s",
                             iso_output_name(g.output), ended == child ? WEXITSTATUS(result) : -1,

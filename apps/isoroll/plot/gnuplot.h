@@ -13,9 +13,6 @@
 
 #include "base/context.h"
 
-/* Whether the name ends in .svg, .png or .pdf. Errors: ISO_BAD_ARGUMENT. */
-iso_status iso_gnuplot_check_format(iso_context *ctx, const char *path);
-
 /* Begins a picture of width x height, in pixels of a page 900 wide: the same lay-out in every format. One at a time.
  * Gives the script, never NULL; what goes wrong, closing tells. */
 FILE *iso_gnuplot_open(iso_context *ctx, const char *path, int width, int height);

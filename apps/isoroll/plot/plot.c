@@ -69,11 +69,6 @@ char *iso_plot_title(char title[static ISO_PLOT_TITLE], const iso_params *p, con
     return title;
 }
 
-iso_status iso_plot_check_format(iso_context *ctx, const char *path)
-{
-    return iso_gnuplot_check_format(ctx, path);
-}
-
 iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot *plot)
 {
     int n[2], gamma[2];
@@ -86,13 +81,13 @@ iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plo
     FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
     const bool fine = iso_plot_is_long(plot->ball, n[0]) || iso_plot_is_long(plot->ball, gamma[0]);
     put_heading(f, plot->title);
-    static const iso_plot_box left = {0.01, 0.49, 0.43, 0.905}, right = {0.51, 0.99, 0.43, 0.905};
+    static const iso_plot_box left = {0.01, 0.49, 0.43, 0.905}, right = {0.51, 0.99, 0.43, 0.905},
+                              below = {0.095, 0.78, 0.085, 0.34};
     fputs("set title 'ball: the normal n at the contact'\n", f);
     iso_plot_sphere(f, &left, plot->ball, n[0], plot->point, n[1], fine);
     fputs("set title 'point: its place γ'\n", f);
     iso_plot_sphere(f, &right, plot->ball, gamma[0], plot->point, gamma[1], fine);
-    static const iso_plot_chart chart = {
-        {0.095, 0.78, 0.085, 0.34}, "relative difference of the two computations", ", in the units of the scene"};
-    iso_plot_differences(f, plot->difference, plot->tolerance, &chart);
+    iso_plot_differences(f, plot->difference, plot->tolerance, &below, "relative difference of the two computations",
+                         ", in the units of the scene");
     return iso_gnuplot_close(ctx, true);
 }

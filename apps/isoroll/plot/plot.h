@@ -32,7 +32,8 @@ typedef struct iso_plot {
     double tolerance; /* a line drawn among the differences for comparison; 0: none */
 } iso_plot;
 
-/* Whether a picture can have this name, to ask before the work. Errors: ISO_BAD_ARGUMENT. */
+/* Whether a picture can have this name, one that ends in .svg, .png or .pdf: to ask before the work. Errors:
+ * ISO_BAD_ARGUMENT. */
 iso_status iso_plot_check_format(iso_context *ctx, const char *path);
 
 /* Above: the ball's path n and the point's path gamma, each on its unit sphere seen from the same side, the backend

@@ -84,7 +84,7 @@ static size_t put_spots(FILE *f, const iso_record *r, size_t count[KINDS])
 iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, const iso_record *r)
 {
     static const char *const name[] = {"regular", "chaotic", "undecided"};
-    static const char *const mark[] = {"pt 7 lc rgb " ISO_PLOT_FAR_BLUE, "pt 7 palette", "pt 2 lc rgb 'black'"};
+    static const char *const mark[] = {("pt 7 lc rgb " ISO_PLOT_FAR_BLUE), "pt 7 palette", "pt 2 lc rgb 'black'"};
     const int axis = iso_plot_axis_of(r);
     size_t count[KINDS] = {0};
     const char *before = "plot";

@@ -81,14 +81,10 @@ enum { ISO_PLOT_NAME = 160 };
 /* Sets the range, the ticks and the label. Writes into `name` what the ticks mean, such as "t / 10⁶". */
 void iso_plot_ticks(FILE *script, const iso_plot_axis *axis, char name[static ISO_PLOT_NAME]);
 
-/* A chart of differences: its axes, a title above them, a key on the right. */
-typedef struct iso_plot_chart {
-    iso_plot_box box;
-    const char *title, *units; /* units: said after the name of the clock */
-} iso_plot_chart;
-
-/* Column 0 is a clock, the others are drawn over it on a logarithmic axis. */
-void iso_plot_differences(FILE *script, const iso_record *record, double tolerance, const iso_plot_chart *chart);
+/* A chart of differences in a box, with a title above and a key on the right. Column 0 is a clock, the others are drawn
+ * over it on a logarithmic axis. units: said after the name of the clock. */
+void iso_plot_differences(FILE *script, const iso_record *record, double tolerance, const iso_plot_box *box,
+                          const char *title, const char *units);
 
 /* A symbol for the name of a column: "γ" for "gamma"; the name itself if there is none. */
 const char *iso_plot_symbol(const char *name);

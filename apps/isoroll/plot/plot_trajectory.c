@@ -232,9 +232,8 @@ static void put_curves(const sheet *s, chart which, const iso_plot_box *box)
 static void put_chart(const sheet *s, chart which, int left, int right, int top, int height)
 {
     const iso_plot_box box = box_of(s, left + 75, right - (which == DRIFT ? 180 : 55), top + 40, top + height - 52);
-    static const char title[] = "relative drift of the integrals";
     if (which == DRIFT)
-        iso_plot_differences(s->f, s->plot->drift, 0, &(iso_plot_chart){box, title, ""});
+        iso_plot_differences(s->f, s->plot->drift, 0, &box, "relative drift of the integrals", "");
     else
         put_curves(s, which, &box);
 }
