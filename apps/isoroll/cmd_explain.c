@@ -193,7 +193,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_scene scene = {.places = 0};
     iso_orbit *orbit;
     int columns[ISO_MAX_COLUMNS], count;
-    if (file_kind(o->scene.file) == FILE_SWEEP) return explain_sweep(ctx, o->scene.file);
+    if (file_kind(o->scene.file, (char[ISO_KIND_SIZE]){0}) == FILE_SWEEP) return explain_sweep(ctx, o->scene.file);
     iso_status status = scene_with_options(ctx, &o->scene, &scene);
     if (status != ISO_OK) return finish(ctx, status);
     count = iso_scene_columns(&scene, columns);

@@ -40,7 +40,8 @@ static iso_status make_seekable(iso_context *ctx)
 static view_kind kind_of(const file_options *from)
 {
     static const char *const endings[] = {".h5", ".csv", ".txt", ".dat", ".tsv"};
-    const unsigned kind = file_kind(strcmp(from->file, "-") == 0 ? "/dev/stdin" : from->file);
+    char table[ISO_KIND_SIZE];
+    const unsigned kind = file_kind(strcmp(from->file, "-") == 0 ? "/dev/stdin" : from->file, table);
     if (kind == FILE_SECTION || kind == FILE_TRAJECTORY) return kind == FILE_SECTION ? SECTION : TRAJECTORY;
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
         if (ends_with(from->file, endings[i])) return TRAJECTORY;

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "io/table_impl.h"
 #include "io/text_impl.h"
 
 struct command;
@@ -21,8 +22,9 @@ enum {
     FILE_ROWS = FILE_TRAJECTORY | FILE_SECTION | FILE_HDF5
 };
 
-/* One of the kinds. 0: the file is no regular file, cannot be read, or its beginning does not tell. */
-unsigned file_kind(const char *path);
+/* One of the kinds. 0: the file is no regular file, cannot be read, or its beginning does not tell. table: the name of
+ * one of isoroll's tables; else "". */
+unsigned file_kind(const char *path, char table[ISO_KIND_SIZE]);
 
 /* Refuses a file that is surely of a kind that the command does not take: says what it is, and for what. False: it
  * was refused. */

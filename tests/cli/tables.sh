@@ -155,6 +155,7 @@ take() {
         rows converted.csv >"$2.rows"
         check "$2: there are converted rows" test -s "$2.rows"
         [ -z "$views" ] || run 0 view "$2" -o page.html
+        [ "$1" != periodic ] || refuses 3 "is a table of periodic orbits, which is for: " run "$2"
         ;;
     *)
         refuses 3 "which is for: plot" check "$2"
