@@ -102,7 +102,7 @@ static const option_row rows[] = {
 
 const command command_check = {
     COMMAND_OF_STUDY(check, "[FILE]", file),
-    .takes = FILE_ROWS | FILE_ORBITS,
+    .takes = FILE_ROWS,
     .description =
         "Prints residuals: of constraints, of integrals, of every column, and of the # lines that state an energy "
         "or the start. Residuals are relative. The residual 'flow' integrates each row to the time of the next row "

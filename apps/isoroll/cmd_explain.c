@@ -17,8 +17,8 @@ static int run(iso_context *ctx, const void *options_given)
 {
     static const shell_parts parts = {.study = &iso_explain_study, .change = shell_change, .print = print_text};
     const options *o = options_given;
-    return file_kind(o->shell.file) == FILE_SWEEP ? explain_sweep(ctx, o->shell.file)
-                                                  : shell_run(ctx, &parts, o, &o->shell);
+    return file_kind(o->shell.file, (char[ISO_KIND_SIZE]){0}) == FILE_SWEEP ? explain_sweep(ctx, o->shell.file)
+                                                                            : shell_run(ctx, &parts, o, &o->shell);
 }
 
 static const options defaults = {.shell = {.file = "-"}};

@@ -106,58 +106,22 @@ static void print_table(const shell *s)
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-/* Draws the image of the momentum map with the orbit in it. */
-static iso_status draw_map(iso_context *ctx, const options *o, const iso_momentum *m, const char *title,
-                           const iso_frequencies *f)
-{
-    char part[ISO_MOMENTUM_PARTS][ISO_MOMENTUM_WORDS], line[ISO_MOMENTUM_LINES][ISO_MOMENTUM_WORDS];
-    iso_plot_map plot = {.title = title, .F = m->k == 1 ? "F_{plane}" : "F_{shell}", .at = {f->h, f->F}};
-    iso_record *bounds;
-    iso_status status = iso_momentum_bounds(ctx, m, f->h, &bounds);
-    if (status != ISO_OK) return status;
-    plot.bounds = bounds;
-    plot.parts = ISO_MOMENTUM_PARTS;
-    plot.lines = ISO_MOMENTUM_LINES;
-    for (int i = 0; i < plot.parts; i++) {
-        iso_momentum_name_part(m, (iso_momentum_part)i, part[i]);
-        plot.part[i] = part[i];
-    }
-    for (int i = 0; i < plot.lines; i++) {
-        iso_momentum_name_line(m, i, line[i]);
-        plot.line[i] = line[i];
-    }
-    status = iso_plot_momentum(ctx, o->shell.plot, &plot);
-    iso_record_free(bounds);
-    return status;
-}
-
 /* Draws the spectral lines of n(t). After a closed solution they are estimated here. */
 static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene *scene, const char *title,
                              const iso_frequencies *found)
 {
-    static const char *const names[] = {"frequency", "amplitude", "signal", "m", "n"};
     iso_frequencies_options how = o->study;
     how.progress = progress_told;
     iso_frequencies f = *found;
-    iso_record *r;
-    iso_status status = f.estimated ? ISO_OK : iso_frequencies_estimate(ctx, scene, &how, &f);
+    const iso_status status = f.estimated ? ISO_OK : iso_frequencies_estimate(ctx, scene, &how, &f);
     progress_end();
-    if (status == ISO_OK) status = iso_record_create(ctx, 5, names, &r);
-    if (status != ISO_OK) return status;
-    for (int s = 0; s < 2; s++)
-        for (int i = 0; status == ISO_OK && i < f.estimate.lines[s]; i++) {
-            const iso_identified_line *l = &f.estimate.line[s][i];
-            const double m = l->known ? l->m : (double)NAN, n = l->known ? l->n : (double)NAN;
-            status = iso_record_add(ctx, r, 1, (double[]){l->line.frequency, l->line.amplitude, s, m, n});
-        }
-    if (status == ISO_OK) status = iso_plot_lines(ctx, o->shell.plot, title, f.estimate.axis, r);
-    iso_record_free(r);
-    return status;
+    return status == ISO_OK ? iso_plot_lines(ctx, o->shell.plot, title, &f.estimate) : status;
 }
 
 static int draw(const shell *s)
 {
     char title[ISO_PLOT_TITLE];
+    const options *o = s->options;
     const iso_frequencies *f = s->result.found;
     const iso_params *p = &s->scene.params;
     iso_momentum m;
@@ -165,8 +129,8 @@ static int draw(const shell *s)
     bool mapped = f->integral && f->h > 0 && iso_momentum_make(p, f->H, &m) && strcmp(f->integral->name, m.F) == 0;
     double low, high; /* with equal moments the image has no area */
     mapped = mapped && iso_momentum_interval(&m, f->h, iso_momentum_find(&m, f->h, f->F), &low, &high);
-    return finish(s->ctx, mapped ? draw_map(s->ctx, s->options, &m, title, f)
-                                 : draw_lines(s->ctx, s->options, &s->scene, title, f));
+    return finish(s->ctx, mapped ? iso_plot_momentum(s->ctx, o->shell.plot, title, &m, (double[]){f->h, f->F})
+                                 : draw_lines(s->ctx, o, &s->scene, title, f));
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */

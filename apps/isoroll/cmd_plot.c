@@ -9,7 +9,6 @@
 #include "plot/plot.h"
 #include "study/check/check_impl.h"
 #include "study/energy.h"
-#include "sweep_plot.h"
 
 typedef struct options {
     file_options from;
@@ -207,7 +206,7 @@ static int run(iso_context *ctx, const void *options_given)
     const bool sweep = strcmp(kind, "sweep") == 0 || strcmp(kind, "sweep part") == 0;
     if (sweep && o->from.columns)
         return complain("plot: --columns is for trajectories; of a sweep give --value NAME"), EXIT_USAGE;
-    if (sweep) return finish(ctx, plot_sweep(ctx, o->from.file, o->value, o->output));
+    if (sweep) return finish(ctx, iso_plot_sweep(ctx, o->output, o->from.file, o->value));
     if (status == ISO_OK && o->value)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "plot: --value is for results of sweeps");
     if (status == ISO_OK && !o->from.columns && iso_plot_has_kind(kind)) return finish(ctx, draw_table(ctx, o));
@@ -228,7 +227,7 @@ static const option_row rows[] = {
 
 const command command_plot = {
     COMMAND("plot", "[FILE]", "draw a trajectory, or any other table", from.file),
-    .takes = FILE_ROWS | FILE_RESULT | FILE_TABLE | FILE_ORBITS,
+    .takes = FILE_ROWS | FILE_RESULT | FILE_TABLE,
     .description =
         "-o FILE is needed; its ending chooses the format. The path and the clock of the other model are "
         "computed, where the orbit has a twin. If the file has the columns of the effect attitude, the "

@@ -116,14 +116,14 @@ static int close_file(const target *t, iso_status status, const iso_run_result *
     return result;
 }
 
-static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene, const output_times *asked)
+static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene, const iso_record *times)
 {
     target t = {ctx, o, .opened = false};
     const iso_run_sink sink = {open_file, write_row, tell_note, show_progress, &t, NULL};
     iso_run_options how = iso_run_defaults();
     iso_run_result r;
-    how.times = asked->list;
-    how.count = asked->count;
+    how.times = times ? iso_record_const_row(times, 0) : NULL;
+    how.count = times ? iso_record_rows(times) : 0;
     how.errors = o->verbose;
     iso_context_set_monitor(ctx, go_on, NULL);
     const iso_status status = iso_run(ctx, scene, &how, &sink, &r);
@@ -144,14 +144,14 @@ static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
     iso_scene scene = {.places = 0};
-    output_times asked = {.list = NULL};
+    iso_record *times = NULL;
     iso_status status = check_files(ctx, o);
     if (status == ISO_OK) status = iso_scene_read(ctx, o->file, &scene);
     if (status == ISO_OK) status = iso_scene_apply(ctx, &o->change, &scene);
-    if (status == ISO_OK && o->times) status = times_read(ctx, o->times, &asked);
+    if (status == ISO_OK && o->times) status = times_read(ctx, o->times, &times);
     const int result =
-        status == ISO_OK ? run_scene(ctx, o, &scene, &asked) : finish_scene(ctx, o->file, &scene, status);
-    free(asked.list);
+        status == ISO_OK ? run_scene(ctx, o, &scene, times) : finish_scene(ctx, o->file, &scene, status);
+    iso_record_free(times);
     return result;
 }
 

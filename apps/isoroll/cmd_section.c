@@ -30,8 +30,8 @@ static iso_status open_file(void *data, const iso_record *header)
 {
     target *t = data;
     t->opened = true;
-    if (t->picture) section_picture_begin(t->picture, header);
-    const iso_status status = iso_table_writer_open(t->ctx, t->o->shell.table, "section", &t->writer);
+    iso_status status = t->o->shell.plot ? section_picture_create(t->ctx, header, &t->picture) : ISO_OK;
+    if (status == ISO_OK) status = iso_table_writer_open(t->ctx, t->o->shell.table, "section", &t->writer);
     return status == ISO_OK ? iso_table_write_header(t->ctx, t->writer, header) : status;
 }
 
@@ -47,8 +47,7 @@ static iso_status keep_pair(void *data, size_t orbit, const iso_crossing *ball, 
 {
     const target *t = data;
     (void)orbit;
-    if (t->picture) section_picture_pair(t->picture, ball, point);
-    return ISO_OK;
+    return t->picture ? section_picture_pair(t->ctx, t->picture, ball, point) : ISO_OK;
 }
 
 static void tell_note(void *data, const char *words)
@@ -108,7 +107,7 @@ static void judge(iso_context *ctx, const iso_scene *scene, const iso_section_op
     c.tolerance = how->tolerance;
     c.threads = how->threads;
     if (r->orbits > MOST_ORBITS) return;
-    if (iso_chaos_run(ctx, scene, &c, &chaos) == ISO_OK) section_picture_judge(picture, chaos);
+    if (iso_chaos_run(ctx, scene, &c, &chaos) == ISO_OK) section_picture_judge(ctx, picture, chaos);
     iso_chaos_free(chaos);
 }
 
@@ -144,8 +143,7 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     const iso_section_sink sink = {open_file, write_row, keep_pair, tell_note, show_progress, &t, NULL};
     iso_section_result r;
     begin_work(ctx, o->shell.table);
-    iso_status status = o->shell.plot ? section_picture_create(ctx, &scene->params, &t.picture) : ISO_OK;
-    if (status == ISO_OK) status = iso_section_run(ctx, scene, how, &sink, &r);
+    const iso_status status = iso_section_run(ctx, scene, how, &sink, &r);
     int result = t.opened ? close_file(&t, status, &r) : finish_scene(ctx, o->shell.file, scene, status);
     if (t.opened && o->shell.plot && r.rows > 0 && result <= EXIT_SOME_FAILED) {
         const int drawn = draw(&t, scene, how, &r);

@@ -40,7 +40,8 @@ static iso_status make_seekable(iso_context *ctx)
 static view_kind kind_of(const file_options *from)
 {
     static const char *const endings[] = {".h5", ".csv", ".txt", ".dat", ".tsv"};
-    const unsigned kind = file_kind(strcmp(from->file, "-") == 0 ? "/dev/stdin" : from->file);
+    char table[ISO_KIND_SIZE];
+    const unsigned kind = file_kind(strcmp(from->file, "-") == 0 ? "/dev/stdin" : from->file, table);
     if (kind == FILE_SECTION || kind == FILE_TRAJECTORY) return kind == FILE_SECTION ? SECTION : TRAJECTORY;
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
         if (ends_with(from->file, endings[i])) return TRAJECTORY;
@@ -136,8 +137,8 @@ const command command_view = {
     COMMAND("view", "FILE", "make a page in which ball and point move side by side", from.file),
     .takes = FILE_SCENE | FILE_ROWS,
     .description =
-        "FILE is a scene, or a trajectory or section (CSV or HDF5). The page is one file. It opens from disk in "
-        "any browser with WebGL, and needs no network.\n\n"
+        "FILE is a scene, a trajectory, a section or periodic orbits (CSV or HDF5). The page is one file. It opens "
+        "from disk in any browser with WebGL, and needs no network.\n\n"
         "Left, the ball rolls on its plane or sphere; right, the point moves in its potential. Choose which clock "
         "runs evenly, t, tau or s: the other model then hurries and waits. For a scene, each model is integrated by "
         "itself, and the page shows how far they differ. Columns that a trajectory lacks (clocks, attitude, the "

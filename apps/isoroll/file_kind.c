@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "command.h"
-#include "io/table.h"
+#include "io/table_impl.h"
 #include "sweep/sweep_impl.h"
 
 /* --- the kind --------------------------------------------------------------------------------------------------- */
@@ -20,7 +20,7 @@ static const struct {
              {"section", FILE_SECTION, "a section"},
              {"sweep", FILE_RESULT, "the result of a sweep"},
              {"sweep part", FILE_RESULT, "the result of a sweep"},
-             {"periodic", FILE_ORBITS, "a table of periodic orbits"},
+             {ISO_ORBITS_KIND, FILE_SECTION, "a table of periodic orbits"},
              {NULL, FILE_SCENE, "a scene"},
              {NULL, FILE_SWEEP, "a sweep"},
              {NULL, FILE_HDF5, "an HDF5 file"}};
@@ -65,7 +65,7 @@ static unsigned kind_of_yaml(const char *text)
     return kind;
 }
 
-static unsigned find_kind(const char *path, char table[ISO_KIND_SIZE])
+unsigned file_kind(const char *path, char table[ISO_KIND_SIZE])
 {
     const char *text = beginning_of(path);
     table_name(path, text, table);
@@ -73,12 +73,6 @@ static unsigned find_kind(const char *path, char table[ISO_KIND_SIZE])
         if (kinds[i].table && strcmp(table, kinds[i].table) == 0) return kinds[i].kind;
     if (*table) return FILE_TABLE;
     return strncmp(text, "\211HDF\r\n", 6) == 0 ? FILE_HDF5 : kind_of_yaml(text);
-}
-
-unsigned file_kind(const char *path)
-{
-    char table[ISO_KIND_SIZE];
-    return find_kind(path, table);
 }
 
 /* --- the refusal ------------------------------------------------------------------------------------------------ */
@@ -96,7 +90,7 @@ static void list_commands(unsigned kind, char list[200])
 bool file_fits(const command *c, const char *path)
 {
     char list[200], table[ISO_KIND_SIZE];
-    const unsigned kind = c->takes ? find_kind(path, table) : 0;
+    const unsigned kind = c->takes ? file_kind(path, table) : 0;
     size_t i = 0;
     if (kind == 0 || c->takes & kind) return true;
     list_commands(kind, list);
@@ -111,7 +105,7 @@ bool file_fits(const command *c, const char *path)
         complain("%s: '%s' is a table '%s', with no states of one scene, which is for: %s", c->name, path, table,
                  list);
     else {
-        while (kinds[i].kind != kind) i++;
+        while (kinds[i].kind != kind || (*table && strcmp(kinds[i].table, table) != 0)) i++;
         complain("%s: '%s' is %s, which is for: %s", c->name, path, kinds[i].words, list);
     }
     return false;

@@ -11,14 +11,9 @@ int finish_scene(iso_context *ctx, const char *file, const iso_scene *scene, iso
 /* Refuses `-o -` beside --json: both write to standard output. output NULL: not given. name: of the command. */
 iso_status check_json_alone(iso_context *ctx, const char *name, const char *output, bool json);
 
-/* The times that `run --times FILE` reads, in the order of the file. */
-typedef struct output_times {
-    double *list;
-    size_t count;
-} output_times;
-
-/* Reads them; "-" is standard input. *t begins as {NULL, 0}; the caller frees t->list, after an error, too. Errors:
- * ISO_BAD_INPUT with the place, ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-iso_status times_read(iso_context *ctx, const char *path, output_times *t);
+/* The times that `run --times FILE` reads, in the order of the file, as rows of one column; "-" is standard input. The
+ * caller frees the record, after an error, too. Errors: ISO_BAD_INPUT with the place, ISO_FILE_TROUBLE,
+ * ISO_NO_MEMORY. */
+iso_status times_read(iso_context *ctx, const char *path, iso_record **times);
 
 #endif

@@ -1,12 +1,10 @@
 /* sweep_explain.c - tells how many points a sweep has, and measures what they cost here (see sweep_team.h). */
-#define _GNU_SOURCE /* CPU_COUNT */
-
 #include <math.h>
-#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/pool_impl.h"
 #include "base/seconds_impl.h"
 #include "options.h"
 #include "progress.h"
@@ -65,12 +63,6 @@ static void print_time(double seconds)
         printf("%.3g days", seconds / 86400);
 }
 
-static int processors(void)
-{
-    cpu_set_t set;
-    return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
-}
-
 /* Gives by how much a point with all its starts takes longer. */
 static double take_few_starts(const iso_sweep_quantity *topic, iso_sweep_request *wish)
 {
@@ -96,9 +88,8 @@ static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan,
     one.chunk = chunk;
     const iso_sweep_quantity *topic = iso_sweep_quantities()[one.wish[0].topic];
     const double scale = take_few_starts(topic, &one.wish[0]);
-    iso_status status = iso_sweep_create(ctx, &one, &sweep);
-    if (status != ISO_OK) return status;
-    status = iso_sweep_rows_create(ctx, iso_sweep_head_of(sweep)->columns, chunk, &rows);
+    ISO_TRY(iso_sweep_create(ctx, &one, &sweep));
+    iso_status status = iso_sweep_rows_create(ctx, iso_sweep_head_of(sweep)->columns, chunk, &rows);
     progress_begin();
     if (status == ISO_OK) status = measure(ctx, sweep, &rows, &c);
     progress_end();
@@ -126,6 +117,7 @@ static iso_status explain(iso_context *ctx, const iso_sweep_file *file)
 {
     const iso_sweep_plan *plan = iso_sweep_file_plan(file);
     iso_sweep *sweep;
+    const size_t processors = iso_pool_threads(0, SIZE_MAX - 1, 1);
     char words[ISO_SWEEP_WORDS];
     double total = 0;
     iso_status status = iso_sweep_create(ctx, plan, &sweep);
@@ -144,8 +136,8 @@ static iso_status explain(iso_context *ctx, const iso_sweep_file *file)
     if (status != ISO_OK) return status;
     printf("\ntime\n  about ");
     print_time(total * (double)head.count);
-    printf(" of processor time; here, with %d threads, about ", processors());
-    print_time(total * (double)head.count / processors());
+    printf(" of processor time; here, with %zu threads, about ", processors);
+    print_time(total * (double)head.count / (double)processors);
     printf("\n  a chunk takes about ");
     print_time(total * (double)iso_sweep_chunk_points(&head, 0));
     printf("\n  a file of about %.3g MB\n", ((double)head.columns + 0.5) * 8e-6 * (double)head.count);

@@ -1,27 +1,14 @@
 /* Reads output times: numbers between blanks, commas, new lines and comments. */
 #include "base/number_impl.h"
+#include "io/replacement_impl.h"
 #include "scene_options.h"
 
-#include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Where in a file, from 1, columns in characters. */
 typedef struct place {
     int line, column;
 } place;
-
-static iso_status add_time(iso_context *ctx, output_times *t, size_t *room, double time)
-{
-    if (t->count == *room) {
-        *room = *room ? 2 * *room : 64;
-        double *grown = realloc(t->list, *room * sizeof *grown);
-        if (!grown) return iso_context_no_memory(ctx, "the output times");
-        t->list = grown;
-    }
-    t->list[t->count++] = time;
-    return ISO_OK;
-}
 
 enum { WORD = 512 }; /* as long as a number can be (iso_number_read) */
 
@@ -49,33 +36,31 @@ static size_t next_word(FILE *file, char word[WORD], place *at)
     return length;
 }
 
-static iso_status read_words(iso_context *ctx, const char *name, FILE *file, output_times *t)
+static iso_status read_words(iso_context *ctx, const char *name, FILE *file, iso_record *times)
 {
-    iso_status status = ISO_OK;
     char word[WORD];
     place at = {1, 1};
-    size_t room = 0, length;
+    size_t length;
     double time;
-    while (status == ISO_OK && (length = next_word(file, word, &at)) > 0) {
+    while ((length = next_word(file, word, &at)) > 0) {
         if (!iso_number_read(word, length, &time))
             return iso_context_fail(ctx, ISO_BAD_INPUT, "",
                                     "%s:%d:%d: '%.40s' is not a time: expected a finite number", name, at.line,
                                     at.column, word);
-        status = add_time(ctx, t, &room, time);
+        ISO_TRY(iso_record_add(ctx, times, 1, &time));
         at.column += (int)length;
     }
-    if (ferror(file))
-        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot read '%s': %s", name, strerror(errno));
-    if (status == ISO_OK && t->count == 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s:1:1: no times in this file: expected numbers", name);
-    return status;
+    if (ferror(file)) return iso_file_trouble(ctx, "read", name);
+    if (iso_record_rows(times) > 0) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s:1:1: no times in this file: expected numbers", name);
 }
 
-iso_status times_read(iso_context *ctx, const char *path, output_times *t)
+iso_status times_read(iso_context *ctx, const char *path, iso_record **times)
 {
+    ISO_TRY(iso_record_create(ctx, 1, (const char *[]){"time"}, times));
     FILE *file = iso_text_open(ctx, path);
     if (!file) return ISO_FILE_TROUBLE;
-    const iso_status status = read_words(ctx, iso_text_name(path), file, t);
+    const iso_status status = read_words(ctx, iso_text_name(path), file, *times);
     iso_text_close(file);
     return status;
 }

@@ -65,8 +65,7 @@ static iso_status copy_row(completion *c, size_t i)
 {
     double *row;
     iso_sample given, mapped;
-    const iso_status status = iso_record_append(c->ctx, c->out, &row);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_record_append(c->ctx, c->out, &row));
     iso_record_sample(c->in, i, &given);
     mapped = given;
     if (c->model == ISO_BALL)
@@ -84,10 +83,9 @@ static iso_status begin(completion *c, size_t row, iso_orbit **orbit)
 {
     iso_start start;
     iso_effects effects = c->page->effects;
-    iso_status status = iso_record_start(c->ctx, c->in, &c->page->params, c->model, row, &start, &effects);
-    if (status == ISO_OK && row > 0 && !has(c->in, "q0"))
-        status = iso_effects_set(c->ctx, &effects, "attitude", "quaternion", 4, c->attitude);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_record_start(c->ctx, c->in, &c->page->params, c->model, row, &start, &effects));
+    if (row > 0 && !has(c->in, "q0"))
+        ISO_TRY(iso_effects_set(c->ctx, &effects, "attitude", "quaternion", 4, c->attitude));
     return view_orbit(c->ctx, c->page, &start, &effects, c->clock, orbit);
 }
 
@@ -96,8 +94,7 @@ static iso_status fill(completion *c, iso_orbit *orbit, size_t first, size_t i, 
 {
     const int time = iso_record_find(c->in, iso_clock_name(c->clock));
     const double since = iso_record_const_row(c->in, i)[time] - iso_record_const_row(c->in, first)[time];
-    const iso_status status = iso_orbit_at(orbit, since, sample);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_orbit_at(orbit, since, sample));
     sample->clock[c->clock] = since;
     iso_sample whole = *sample;
     for (int j = 0; j < ISO_CLOCKS; j++) whole.clock[j] += c->begun[j];

@@ -10,7 +10,6 @@
 #include <fcntl.h>
 #include <limits.h>
 #include <math.h>
-#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
@@ -19,12 +18,12 @@
 #include <unistd.h>
 
 #include "io/output_impl.h"
+#include "io/replacement_impl.h"
+#include "plot/gnuplot.h"
 #include "progress.h"
 #include "view.h"
 
 enum { BATCH = 20, MOST_FRAMES = 100000 };
-
-extern char **environ;
 
 /* --- Chromium --------------------------------------------------------------------------------------------------- */
 
@@ -33,29 +32,15 @@ static int spawn(const char *address, int out, pid_t *child)
 {
     static const char *const names[] = {"chromium", "chromium-browser", "google-chrome", "chrome"};
     const char *sandbox = geteuid() == 0 ? "--no-sandbox" : "--headless"; /* for root, Chromium has no sandbox */
-    const char *arguments[] = {NULL,
-                               "--headless",
-                               sandbox,
-                               "--disable-gpu",
-                               "--use-angle=swiftshader",
-                               "--enable-unsafe-swiftshader",
-                               "--host-resolver-rules=MAP * ~NOTFOUND",
-                               "--no-first-run",
-                               "--dump-dom",
-                               address,
-                               NULL};
-    posix_spawn_file_actions_t actions;
-    int error = posix_spawn_file_actions_init(&actions);
-    if (error != 0) return error;
-    posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    error = ENOENT;
-    for (size_t i = 0; i < sizeof names / sizeof *names && error == ENOENT; i++) {
-        arguments[0] = names[i];
-        error = posix_spawnp(child, names[i], &actions, NULL, (char *const *)(void *)arguments, environ);
-    }
-    posix_spawn_file_actions_destroy(&actions);
+    const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+    int error = nothing < 0 ? errno : ENOENT;
+    for (size_t i = 0; i < sizeof names / sizeof *names && nothing >= 0 && error == ENOENT; i++)
+        error = program_start((const char *[]){names[i], "--headless", sandbox, "--disable-gpu",
+                                               "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                                               "--host-resolver-rules=MAP * ~NOTFOUND", "--no-first-run",
+                                               "--dump-dom", address, NULL},
+                              (int[]){nothing, out, nothing}, child);
+    if (nothing >= 0) close(nothing);
     return error;
 }
 
@@ -77,19 +62,13 @@ static iso_status run_chromium(iso_context *ctx, const char *address, FILE *out)
 
 /* --- pictures --------------------------------------------------------------------------------------------------- */
 
-static int value_of(char c)
-{
-    static const char digit[] = VIEW_BASE64;
-    const char *at = c ? strchr(digit, c) : NULL;
-    return at ? (int)(at - digit) : -1;
-}
-
 static void put_base64(FILE *to, const char *text)
 {
+    static const char digits[] = VIEW_BASE64;
     unsigned bits = 0;
     int held = 0;
-    for (int v; (v = value_of(*text)) >= 0; text++) {
-        bits = (bits << 6 | (unsigned)v) & 0xFFFFFF;
+    for (const char *digit; *text && (digit = strchr(digits, *text)); text++) {
+        bits = (bits << 6 | (unsigned)(digit - digits)) & 0xFFFFFF;
         held += 6;
         if (held < 8) continue;
         held -= 8;
@@ -102,8 +81,7 @@ static iso_status write_picture(iso_context *ctx, const char *folder, unsigned l
     char path[PATH_MAX];
     iso_output *out;
     snprintf(path, sizeof path, "%s/frame%04lu.png", folder, number + 1);
-    const iso_status status = iso_output_open(ctx, path, &out);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_output_open(ctx, path, &out));
     put_base64(iso_output_stream(out), base64);
     return iso_output_close(ctx, out, true);
 }
@@ -164,7 +142,7 @@ static iso_status check_folder(iso_context *ctx, const char *folder, size_t all)
 {
     iso_status status = ISO_OK;
     DIR *list = opendir(folder);
-    if (!list) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", folder, strerror(errno));
+    if (!list) return iso_file_trouble(ctx, "open", folder);
     for (const struct dirent *one; status == ISO_OK && (one = readdir(list));) {
         if (is_page(one->d_name)) remove_dead(list, one->d_name);
         if (number_of(one->d_name) > all)
@@ -228,8 +206,7 @@ static iso_status put_page(iso_context *ctx, const char *path, const view_page *
 {
     for (;;) {
         struct stat mine, named;
-        const iso_status status = view_write(ctx, path, page);
-        if (status != ISO_OK) return status;
+        ISO_TRY(view_write(ctx, path, page));
         *lock = open(path, O_RDWR | O_CLOEXEC);
         if (*lock < 0 && errno != ENOENT) return ISO_OK; /* it goes on without a lock */
         if (*lock < 0) continue;
@@ -247,15 +224,11 @@ iso_status view_write_frames(iso_context *ctx, const view_frames *f, const view_
     if (all > MOST_FRAMES)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--frames: fps times seconds is %g pictures, more than %d",
                                 all, MOST_FRAMES);
-    if (mkdir(f->folder, 0777) != 0 && errno != EEXIST)
-        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot make the folder '%s': %s", f->folder,
-                                strerror(errno));
-    if (!realpath(f->folder, folder))
-        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", f->folder, strerror(errno));
-    iso_status status = check_folder(ctx, f->folder, (size_t)all);
-    if (status != ISO_OK) return status;
+    if (mkdir(f->folder, 0777) != 0 && errno != EEXIST) return iso_file_trouble(ctx, "make the folder", f->folder);
+    if (!realpath(f->folder, folder)) return iso_file_trouble(ctx, "open", f->folder);
+    ISO_TRY(check_folder(ctx, f->folder, (size_t)all));
     snprintf(path, sizeof path, "%s/.isoroll-%ld.html", folder, (long)getpid());
-    status = put_page(ctx, path, page, &lock);
+    iso_status status = put_page(ctx, path, page, &lock);
     if (status != ISO_OK) return status;
     status = draw(ctx, f, path, (size_t)all);
     unlink(path);

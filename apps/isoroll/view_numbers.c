@@ -9,8 +9,7 @@ static iso_status orbit_of(iso_context *ctx, const view_page *page, iso_orbit **
 {
     iso_start start;
     iso_effects effects = page->effects;
-    iso_status status = iso_record_start(ctx, page->rows, &page->params, ISO_BALL, 0, &start, &effects);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_record_start(ctx, page->rows, &page->params, ISO_BALL, 0, &start, &effects));
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &effects;
     return iso_orbit_create(ctx, &page->params, &start, &o, orbit);

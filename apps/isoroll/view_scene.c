@@ -82,8 +82,7 @@ static iso_status choose_rows(iso_context *ctx, const iso_scene *scene, view_pag
     page->every = (page->total + VIEW_MOST_ROWS - 2) / (VIEW_MOST_ROWS - 1);
     page->between = 0;
     if (page->every > 1) return ISO_OK;
-    const iso_status status = run_at(ctx, scene, NULL, 0, NULL, &rough);
-    if (status != ISO_OK) return status;
+    ISO_TRY(run_at(ctx, scene, NULL, 0, NULL, &rough));
     const double pieces = ceil(view_largest_turn(rough, scene->params.k) / VIEW_TURN);
     const double most = floor((double)(VIEW_MOST_ROWS - 1) / (double)(page->total - 1));
     page->between = (size_t)fmax(fmin(pieces, most), 1) - 1;

@@ -208,15 +208,13 @@ static iso_status run_orbits(builder *b)
 static iso_status of_record(iso_context *ctx, const file_options *from, iso_record *in, view_page *page)
 {
     builder b = {.ctx = ctx, .page = page, .in = in};
-    iso_status status = view_read_lines(ctx, from, in, page);
+    ISO_TRY(view_read_lines(ctx, from, in, page));
     view_is_broken(page);
-    if (status == ISO_OK) status = check(&b);
-    if (status == ISO_OK) status = check_rows(&b);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check(&b));
+    ISO_TRY(check_rows(&b));
     page->section->orbits = count_orbits(&b);
-    status = keep_crossings(&b);
-    if (status == ISO_OK) status = run_orbits(&b);
-    return status;
+    ISO_TRY(keep_crossings(&b));
+    return run_orbits(&b);
 }
 
 iso_status view_of_section(iso_context *ctx, const file_options *from, view_page *page)
@@ -224,10 +222,8 @@ iso_status view_of_section(iso_context *ctx, const file_options *from, view_page
     iso_record *in = NULL;
     page->section = calloc(1, sizeof *page->section);
     if (!page->section) return iso_context_no_memory(ctx, "a section");
-    iso_status status =
-        iso_table_read(ctx, from->file, "section", NULL, &in, NULL); /* its messages already name the file */
-    if (status != ISO_OK) return status;
-    status = of_record(ctx, from, in, page);
+    ISO_TRY(iso_table_read(ctx, from->file, NULL, NULL, &in, NULL)); /* its messages name the file */
+    iso_status status = of_record(ctx, from, in, page);
     iso_record_free(in);
     return name_the_file(ctx, from->file, status);
 }

@@ -51,8 +51,7 @@ static iso_status pick(iso_context *ctx, const iso_record *in, int time, size_t 
                                     from + 1, iso_record_name(in, (size_t)time), row[time]);
         last = row[time];
         if (i % every != 0 && i != rows - 1) continue;
-        const iso_status status = iso_record_add(ctx, out, 1, row);
-        if (status != ISO_OK) return status;
+        ISO_TRY(iso_record_add(ctx, out, 1, row));
     }
     return ISO_OK;
 }

@@ -62,19 +62,15 @@ static bool put_page(FILE *to, const json_t *data)
     return true;
 }
 
-static iso_status no_memory(iso_context *ctx)
-{
-    return iso_context_no_memory(ctx, "the page");
-}
-
 iso_status view_write(iso_context *ctx, const char *path, const view_page *page)
 {
     iso_output *out;
     json_begin();
     json_t *data = view_data(page);
-    iso_status status = json_whole(data) ? iso_output_open(ctx, path, &out) : no_memory(ctx);
+    iso_status status = json_whole(data) ? iso_output_open(ctx, path, &out) : iso_context_no_memory(ctx, "the page");
     if (status == ISO_OK) {
-        status = put_page(iso_output_stream(out), data) ? iso_output_check(ctx, out) : no_memory(ctx);
+        status = put_page(iso_output_stream(out), data) ? iso_output_check(ctx, out)
+                                                        : iso_context_no_memory(ctx, "the page");
         const iso_status closed = iso_output_close(ctx, out, status == ISO_OK);
         if (status == ISO_OK) status = closed;
     }

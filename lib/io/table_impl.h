@@ -8,6 +8,7 @@
 enum { ISO_MOST_COLUMNS = 5000 }; /* of a table; a sweep has 1000 or so */
 
 #define ISO_TRAJECTORY_KIND "trajectory"
+#define ISO_ORBITS_KIND "periodic" /* its rows are states, as those of a section */
 #define ISO_TRAJECTORY_MAGIC "# isoroll " ISO_TRAJECTORY_KIND " "
 
 /* --- formats ---------------------------------------------------------------------------------------------------- */

@@ -1,6 +1,7 @@
 #!/bin/sh
 # tables.sh ISOROLL - every table says where it comes from: the scene, the version and the command are in its lines,
-# and what is made again from these lines alone has the same rows, to the byte.
+# and what is made again from these lines alone has the same rows, to the byte. Each kind of table, as CSV and as HDF5:
+# `plot` draws it, and `check`, `convert` and `view` take it if its rows are states.
 . "$(dirname "$0")/lib.sh"
 
 # say FILE KEY: the value of a line "# KEY: VALUE"
@@ -127,6 +128,64 @@ sed -n 's/^# scene | //p' swept.csv >other/ball.yaml
 sed -n 's/^# | //p' swept.csv >other/sweep.yaml
 (cd other && "$isoroll" sweep sweep.yaml -o swept.csv) || fail "the sweep of a result"
 check "a sweep made again" cmp swept.csv other/swept.csv
+
+# Every kind of table, as CSV and as HDF5. make KIND FILE
+make() {
+    case $1 in
+    trajectory) run 0 run ball.yaml -o "$2" ;;
+    section) run 0 section ball.yaml --crossings 5 --starts 2 --as both --quiet -o "$2" ;;
+    sweep) run 0 sweep sweep.yaml -o "$2" ;;
+    chaos) run 0 chaos ball.yaml --turns 60 --starts 4 --csv "$2" ;;
+    periodic) run 0 periodic ball.yaml --period 2 -o "$2" ;;
+    "periodic follow") run 0 periodic ball.yaml --period 1 --follow k=0.5:0.52 -o "$2" ;;
+    "periodic chart") run 0 periodic ball.yaml --chart J2=1.5:2.5 --k 0.2:1 --steps 8 -o "$2" ;;
+    splitting) run 0 splitting ball.yaml --k 0.5,-1/2 --digits double -o "$2" ;;
+    cost) run 0 cost ball.yaml --quick --method rk8pd --backend ball --csv "$2" ;;
+    *) fail "this test does not make the table '$1'" ;;
+    esac
+}
+
+# take KIND FILE: what the commands do with it. Pictures and converted rows go to FILE.svg and FILE.rows
+take() {
+    [ -z "$draws" ] || run 0 plot "$2" -o "$2.svg"
+    case $1 in
+    trajectory | section | periodic)
+        run 0 check "$2" --max 1e-9
+        run 0 convert --to point "$2" -o converted.csv
+        rows converted.csv >"$2.rows"
+        check "$2: there are converted rows" test -s "$2.rows"
+        [ -z "$views" ] || run 0 view "$2" -o page.html
+        [ "$1" != periodic ] || refuses 3 "is a table of periodic orbits, which is for: " run "$2"
+        ;;
+    *)
+        refuses 3 "which is for: plot" check "$2"
+        refuses 3 "which is for: plot" convert --to point "$2"
+        refuses 3 "which is for: plot" view "$2" -o page.html
+        ;;
+    esac
+}
+
+draws='' views='' endings=csv
+if has gnuplot "pictures of tables"; then draws=yes; fi
+if "$isoroll" view ball.yaml -o page.html 2>/dev/null; then views=yes; else skip "pages of tables" "this build has no three.js"; fi
+if "$isoroll" run ball.yaml -o probe.h5 2>/dev/null; then endings="csv h5"; else skip "HDF5" "this build has none"; fi
+run 0 list tables
+{ printf '%s\n' trajectory section sweep && sed -n 's/^  \([a-z ]*[a-z]\)  *a row is .*/\1/p' out; } >kinds
+check "tables of studies are listed" test "$(wc -l <kinds)" -ge 9
+while read -r kind; do
+    for ending in $endings; do
+        make "$kind" table.$ending
+        take "$kind" table.$ending
+    done
+    [ "$endings" != csv ] && [ "$kind" != cost ] || continue # the times of cost are never the same twice
+    check "$kind: HDF5 and CSV are converted to the same rows" test ! -e table.csv.rows -o \
+        "$(cat table.csv.rows 2>/dev/null)" = "$(cat table.h5.rows 2>/dev/null)"
+    if [ -n "$draws" ]; then
+        sed -i 's/table\.h5/table.csv/' table.h5.svg
+        check "$kind: HDF5 and CSV give the same picture" cmp table.csv.svg table.h5.svg
+    fi
+    rm -f table.*
+done <kinds
 
 # A command is one line that a shell reads, whatever the file is called.
 odd=$(printf "a b'c\$d")

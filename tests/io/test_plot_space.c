@@ -9,9 +9,9 @@
 #include <unistd.h>
 
 #include "base/random_impl.h"
+#include "base/vec3_impl.h"
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
-#include "plot/vectors.h"
 
 static iso_context *ctx;
 static char folder[] = "/tmp/isoroll-test-XXXXXX", script[1 << 22];

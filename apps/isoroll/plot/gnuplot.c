@@ -14,6 +14,8 @@
 #include <unistd.h>
 
 #include "io/output_impl.h"
+#include "io/replacement_impl.h"
+#include "plot/plot.h"
 
 #define INSTALL "install gnuplot (package gnuplot-nox)"
 
@@ -55,19 +57,11 @@ static const format *find_format(const char *path)
     return NULL;
 }
 
-iso_status iso_gnuplot_check_format(iso_context *ctx, const char *path)
+iso_status iso_plot_check_format(iso_context *ctx, const char *path)
 {
     if (find_format(path)) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "'%s': the name of a picture must end in .svg, .png or .pdf",
                             path);
-}
-
-static iso_status trouble(iso_context *ctx, const char *what, const char *name)
-{
-    enum { SHOWN = 400 }; /* its end: the reason must have room behind it */
-    const size_t length = strlen(name), hidden = length > SHOWN ? length - SHOWN : 0;
-    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot %s '%s%s': %s", what, hidden ? "..." : "",
-                            name + hidden, strerror(errno));
 }
 
 /* ---- Opening ---- */
@@ -75,14 +69,13 @@ static iso_status trouble(iso_context *ctx, const char *what, const char *name)
 static iso_status open_files(iso_context *ctx, const char *path)
 {
     struct stat old;
-    iso_status status = iso_gnuplot_check_format(ctx, path);
-    if (status == ISO_OK && stat(path, &old) == 0 && !S_ISREG(old.st_mode))
+    ISO_TRY(iso_plot_check_format(ctx, path));
+    if (stat(path, &old) == 0 && !S_ISREG(old.st_mode))
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot write '%s': it is not a regular file", path);
-    if (status == ISO_OK) status = iso_output_open(ctx, path, &g.output);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_output_open(ctx, path, &g.output));
     g.script = tmpfile();
     g.complaints = tmpfile();
-    return g.script && g.complaints ? ISO_OK : trouble(ctx, "open", "a temporary file");
+    return g.script && g.complaints ? ISO_OK : iso_file_trouble(ctx, "open", "a temporary file");
 }
 
 FILE *iso_gnuplot_open(iso_context *ctx, const char *path, int width, int height)
@@ -125,7 +118,7 @@ static bool is_plain(unsigned char c)
 /* Every other character is written in octal. (In single quotes gnuplot 5.4 fails on a text that begins with a quote.)
  * gnuplot reads a fourth digit as part of the number: before a digit the text is closed, and joined to the next by a
  * dot. */
-const char *iso_gnuplot_quote(char quoted[static ISO_QUOTED], const char *text, int longest)
+const char *iso_gnuplot_quote(char quoted[static ISO_QUOTED_SIZE], const char *text, int longest)
 {
     const unsigned char *c = (const unsigned char *)(text ? text : "");
     char *to = quoted;
@@ -165,19 +158,17 @@ static void read_complaints(FILE *file, char words[], size_t size)
     words[kept] = '\0';
 }
 
-/* Starts gnuplot with its three files; returns an errno. -d: no start-up file of the user changes the picture. */
-static int spawn(pid_t *child)
+int program_start(const char *const arguments[], const int streams[3], pid_t *child)
 {
-    char name[] = "gnuplot", settings[] = "-d", input[] = "-", *const arguments[] = {name, settings, input, NULL};
-    const int wanted[3] = {fileno(g.script), fileno(iso_output_stream(g.output)), fileno(g.complaints)};
     int copies[3] = {-1, -1, -1}, error = 0; /* above 2: where they stand, dup2 cannot overwrite one with another */
     posix_spawn_file_actions_t actions;
     if ((error = posix_spawn_file_actions_init(&actions)) != 0) return error;
     for (int i = 0; i < 3 && error == 0; i++) {
-        copies[i] = fcntl(wanted[i], F_DUPFD_CLOEXEC, 3);
+        copies[i] = fcntl(streams[i], F_DUPFD_CLOEXEC, 3);
         error = copies[i] < 0 ? errno : posix_spawn_file_actions_adddup2(&actions, copies[i], i);
     }
-    if (error == 0) error = posix_spawnp(child, name, &actions, NULL, arguments, environ);
+    if (error == 0)
+        error = posix_spawnp(child, arguments[0], &actions, NULL, (char *const *)(void *)arguments, environ);
     for (int i = 0; i < 3; i++)
         if (copies[i] >= 0) close(copies[i]);
     posix_spawn_file_actions_destroy(&actions);
@@ -209,8 +200,11 @@ static iso_status run(iso_context *ctx)
     int result = 0;
     fputs("\nunset multiplot\nunset output\n", g.script);
     if (fflush(g.script) != 0 || ferror(g.script) || fseek(g.script, 0, SEEK_SET) != 0)
-        return trouble(ctx, "write", "gnuplot's temporary script");
-    const int error = spawn(&child);
+        return iso_file_trouble(ctx, "write", "gnuplot's temporary script");
+    /* -d: no start-up file of the user changes the picture */
+    const int error =
+        program_start((const char *[]){"gnuplot", "-d", "-", NULL},
+                      (int[]){fileno(g.script), fileno(iso_output_stream(g.output)), fileno(g.complaints)}, &child);
     if (error != 0)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot run gnuplot: %s; " INSTALL, strerror(error));
     do ended = waitpid(child, &result, 0);
@@ -221,7 +215,7 @@ static iso_status run(iso_context *ctx)
     if (ended == child && WEXITSTATUS(result) == 0 && is_whole()) return ISO_OK;
     if (ended < 0 && is_whole()) return ISO_OK;
     errno = why_full();
-    if (errno != 0) return trouble(ctx, "write", iso_output_name(g.output));
+    if (errno != 0) return iso_file_trouble(ctx, "write", iso_output_name(g.output));
     read_complaints(g.complaints, words, sizeof words);
     return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "gnuplot did not draw '%s' (exit status %d); it said: %s",
                             iso_output_name(g.output), ended == child ? WEXITSTATUS(result) : -1,

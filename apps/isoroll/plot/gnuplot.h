@@ -9,11 +9,9 @@
 
 #include <stdbool.h>
 #include <stdio.h>
+#include <sys/types.h>
 
 #include "base/context.h"
-
-/* Whether the name ends in .svg, .png or .pdf. Errors: ISO_BAD_ARGUMENT. */
-iso_status iso_gnuplot_check_format(iso_context *ctx, const char *path);
 
 /* Begins a picture of width x height, in pixels of a page 900 wide: the same lay-out in every format. One at a time.
  * Gives the script, never NULL; what goes wrong, closing tells. */
@@ -23,10 +21,14 @@ FILE *iso_gnuplot_open(iso_context *ctx, const char *path, int width, int height
  * (format); ISO_FILE_TROUBLE: no gnuplot, gnuplot's own complaint, or the picture cannot be written. */
 iso_status iso_gnuplot_close(iso_context *ctx, bool keep);
 
+/* Starts a program that is searched for in PATH, its name and arguments with NULL behind them, with these standard
+ * streams. Gives an errno, 0 if it runs. */
+int program_start(const char *const arguments[], const int streams[3], pid_t *child);
+
 /* A text as gnuplot takes it, whatever it is (NULL: ""): one quoted string of one line, valid UTF-8, cut after
  * `longest` characters, at most 160. It still needs `noenhanced`. */
-enum { ISO_QUOTED = 1280 };
-const char *iso_gnuplot_quote(char quoted[static ISO_QUOTED], const char *text, int longest);
-#define QUOTED(text, longest) iso_gnuplot_quote((char[ISO_QUOTED]){0}, text, longest)
+enum { ISO_QUOTED_SIZE = 1280 };
+const char *iso_gnuplot_quote(char quoted[static ISO_QUOTED_SIZE], const char *text, int longest);
+#define QUOTED(text, longest) iso_gnuplot_quote((char[ISO_QUOTED_SIZE]){0}, text, longest)
 
 #endif

@@ -9,19 +9,16 @@
 
 enum { WIDTH = 900, HEIGHT = 800 };
 
-/* The title, and the key of the spheres, which stands between them and the chart: a plot of its own, as wide as the
- * page. */
+/* The title, and the key of the spheres, which stands between them and the chart. */
 static void put_heading(FILE *f, const char *title)
 {
     fprintf(
         f,
-        "unset border; unset tics; set xrange [0:1]; set yrange [0:1]\n"
-        "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
+        "set multiplot\n" ISO_PLOT_PAGE
         "set key at screen 0.5,0.408 center center horizontal maxrows 1 samplen 2 Left reverse\n"
         "set label 1 %s at screen 0.5,0.972 center noenhanced font ',12'\nplot NaN w l lw 1.8 lc rgb " ISO_PLOT_BLUE
         " title 'backend ball', NaN w p pt 6 ps 0.85 lw 1.5 lc rgb " ISO_PLOT_VERMILLION
-        " title 'backend point', NaN w p " ISO_PLOT_START " lc rgb 'black' title 'start', NaN w p " ISO_PLOT_END
-        " lc rgb 'black' title 'end', NaN w l lw 1.8 lc rgb " ISO_PLOT_FAR_BLUE " title 'far side'\n",
+        " title 'backend point', " ISO_PLOT_ENDS ", NaN w l lw 1.8 lc rgb " ISO_PLOT_FAR_BLUE " title 'far side'\n",
         QUOTED(title, 95));
 }
 
@@ -72,33 +69,25 @@ char *iso_plot_title(char title[static ISO_PLOT_TITLE], const iso_params *p, con
     return title;
 }
 
-iso_status iso_plot_check_format(iso_context *ctx, const char *path)
-{
-    return iso_gnuplot_check_format(ctx, path);
-}
-
 iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot *plot)
 {
     int n[2], gamma[2];
     const iso_record *const model[] = {plot->ball, plot->point};
-    iso_status status = ISO_OK;
     for (int m = 0; m < 2; m++) {
-        if (status == ISO_OK) status = iso_plot_find(ctx, model[m], 3, iso_plot_normal, &n[m]);
-        if (status == ISO_OK) status = iso_plot_find(ctx, model[m], 3, iso_plot_place_of_point, &gamma[m]);
+        ISO_TRY(iso_plot_find(ctx, model[m], 3, iso_plot_normal, &n[m]));
+        ISO_TRY(iso_plot_find(ctx, model[m], 3, iso_plot_place_of_point, &gamma[m]));
     }
-    if (status == ISO_OK) status = check_differences(ctx, plot);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_differences(ctx, plot));
     FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
     const bool fine = iso_plot_is_long(plot->ball, n[0]) || iso_plot_is_long(plot->ball, gamma[0]);
-    fputs("set multiplot\n", f);
     put_heading(f, plot->title);
-    static const iso_plot_box left = {0.01, 0.49, 0.43, 0.905}, right = {0.51, 0.99, 0.43, 0.905};
+    static const iso_plot_box left = {0.01, 0.49, 0.43, 0.905}, right = {0.51, 0.99, 0.43, 0.905},
+                              below = {0.095, 0.78, 0.085, 0.34};
     fputs("set title 'ball: the normal n at the contact'\n", f);
     iso_plot_sphere(f, &left, plot->ball, n[0], plot->point, n[1], fine);
     fputs("set title 'point: its place γ'\n", f);
     iso_plot_sphere(f, &right, plot->ball, gamma[0], plot->point, gamma[1], fine);
-    static const iso_plot_chart chart = {
-        {0.095, 0.78, 0.085, 0.34}, "relative difference of the two computations", ", in the units of the scene"};
-    iso_plot_differences(f, plot->difference, plot->tolerance, &chart);
+    iso_plot_differences(f, plot->difference, plot->tolerance, &below, "relative difference of the two computations",
+                         ", in the units of the scene");
     return iso_gnuplot_close(ctx, true);
 }

@@ -13,6 +13,8 @@
 
 #include "base/record.h"
 #include "model/params.h"
+#include "study/frequencies/frequencies.h"
+#include "study/frequencies/momentum.h"
 
 /* "k = ..., J = ...", and what follows. Gives `title`. */
 enum { ISO_PLOT_TITLE = 200 };
@@ -30,7 +32,8 @@ typedef struct iso_plot {
     double tolerance; /* a line drawn among the differences for comparison; 0: none */
 } iso_plot;
 
-/* Whether a picture can have this name, to ask before the work. Errors: ISO_BAD_ARGUMENT. */
+/* Whether a picture can have this name, one that ends in .svg, .png or .pdf: to ask before the work. Errors:
+ * ISO_BAD_ARGUMENT. */
 iso_status iso_plot_check_format(iso_context *ctx, const char *path);
 
 /* Above: the ball's path n and the point's path gamma, each on its unit sphere seen from the same side, the backend
@@ -76,24 +79,15 @@ iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plo
 iso_status iso_plot_columns(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
                             const char *x, const char *y, bool equal);
 
-/* A map of kinds of motion over the energy h and a second integral F. */
-enum { ISO_PLOT_PARTS = 4, ISO_PLOT_LINES = 4 };
-typedef struct iso_plot_map {
-    const char *title, *F; /* F: as gnuplot writes it, "F_{shell}"                                    */
-    int parts, lines;      /* at most ISO_PLOT_PARTS, ISO_PLOT_LINES                                  */
-    const char *part[ISO_PLOT_PARTS], *line[ISO_PLOT_LINES]; /* their names                                       */
-    const iso_record *bounds; /* columns h > 0, low and high F of each part, F of each line; NaN: none */
-    double at[2];             /* (h, F) of an orbit, h > 0                                               */
-} iso_plot_map;
+/* The image of the momentum map: kinds of motion over the energy h and a second integral F, with the orbit at
+ * (h, F) in it. On the left F over h, on the right F/h over h, where thin parts can be told apart.
+ * Errors: ISO_BAD_ARGUMENT (name), those of iso_momentum_bounds, ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+iso_status iso_plot_momentum(iso_context *ctx, const char *path, const char *title, const iso_momentum *m,
+                             const double at[2]);
 
-/* On the left F over h, on the right F/h over h, where thin parts can be told apart.
- * Errors: ISO_BAD_ARGUMENT (name, columns, no rows, nothing in them), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-iso_status iso_plot_momentum(iso_context *ctx, const char *path, const iso_plot_map *map);
-
-/* The lines of two signals, the pair of components across `axis` (0 to 2) and the one along it: columns frequency,
- * amplitude > 0, signal (0, 1), and m and n of the combination that a line is (NaN: of none).
- * Errors: as iso_plot_momentum. */
-iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis, const iso_record *lines);
+/* The spectral lines of n(t): of the pair of components across the axis, and of the one along it. Errors: as
+ * iso_plot_momentum; ISO_BAD_ARGUMENT: there is no line. */
+iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, const iso_estimate *estimate);
 
 /* The indicators of chaos against the turns. The records have the columns turn, t, growth, megno, mean and gali2, as
  * in iso_chaos. Above: ln D. Below: MEGNO and its mean on the left, GALI_2 on the right. A record that is NULL or
@@ -111,12 +105,9 @@ bool iso_plot_has_kind(const char *kind);
  * column or a line that the picture needs is missing, or there is no row; those of the picture. */
 iso_status iso_plot_table(iso_context *ctx, const char *path, const char *name, const iso_record *table);
 
-/* Of chaos: the section, with a spot for each orbit that starts on it, coloured by its exponent. Of periodic orbits
- * that are followed: trace and place over what varies. Of a chart: where the rotations about the axes of least and
- * greatest moment are stable. Errors: as iso_plot_momentum. */
+/* Of chaos: the section, with a spot for each orbit that starts on it, coloured by its exponent. Errors: as
+ * iso_plot_momentum. */
 iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, const iso_record *table);
-iso_status iso_plot_branches(iso_context *ctx, const char *path, const char *title, const iso_record *table);
-iso_status iso_plot_stability(iso_context *ctx, const char *path, const char *title, const iso_record *table);
 
 /* Of cost: a work-precision diagram, time over error, both logarithmic, small errors on the right; a panel for each
  * backend. The first methods of each, which should be the fastest, have names. Errors: as iso_plot_momentum. */
@@ -147,23 +138,10 @@ typedef struct iso_plot_section {
  * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *section);
 
-/* A value over one number: a curve, and the band of its error. rows: the number, by growing size, the value, low and
- * high, which may be NaN; the names of the first two are those of the axes. An axis that has the name k has marks at
- * +-1. If values of both signs or of very different sizes are there, |value| has a logarithmic axis. Errors: as
- * iso_plot_momentum. */
-iso_status iso_plot_sweep_curve(iso_context *ctx, const char *path, const char *title, const iso_record *rows);
-
-/* A value over two numbers: maps side by side, with one scale of colours. A NaN is grey. An axis that has the name k
- * has marks at +-1. */
-enum { ISO_PLOT_MAPS = 6 };
-typedef struct iso_plot_panels {
-    const char *title;
-    const char *key_name; /* of what differs from map to map; NULL: there is one */
-    int count;            /* of maps, at most ISO_PLOT_MAPS */
-    double key[ISO_PLOT_MAPS];
-    iso_record
-        *rows; /* x, y, the value, and the map, from 0; the names of the first three are those of axes and scale */
-} iso_plot_panels;
-iso_status iso_plot_sweep_maps(iso_context *ctx, const char *path, const iso_plot_panels *panels);
+/* The result of a sweep in a file. value: which column is drawn (NULL: the first that is there of a list of usual
+ * ones), over the numbers that vary: over one as a curve with the band of its error, over two as maps. Marks stand at
+ * k = +-1. Values of both signs or of very different sizes are drawn as |value| on a logarithmic axis. Errors:
+ * ISO_BAD_INPUT: no such column, or a sweep that no picture shows; those of iso_plot_momentum. */
+iso_status iso_plot_sweep(iso_context *ctx, const char *path, const char *file, const char *value);
 
 #endif

@@ -118,12 +118,3 @@ void iso_plot_ticks(FILE *f, const iso_plot_axis *axis, char name[static ISO_PLO
     fputs(")\n", f);
     put_name(f, &t, axis, name);
 }
-
-/* Every `step`-th power of ten, on a logarithmic axis whose lowest tick stands for 0 and all below it. */
-void iso_plot_powers(FILE *f, int lowest, int highest, int most)
-{
-    const int step = 1 + (highest - lowest) / most;
-    fprintf(f, "set ytics nomirror out scale 0.6 ('≤10^{%d}' 1e%d", lowest, lowest);
-    for (int power = lowest + step; power <= highest; power += step) fprintf(f, ", '10^{%d}' 1e%d", power, power);
-    fputs(")\n", f);
-}

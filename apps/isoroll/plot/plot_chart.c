@@ -69,24 +69,18 @@ static double put_differences(FILE *f, const iso_record *r, int column)
 
 #define LEVEL "dt (3,3) lw 1.2 lc rgb '#707070'"
 
-/* A line across. */
-static void put_level(FILE *f, int tag, double level)
-{
-    fprintf(f, "set arrow %d from graph 0, first %.17g to graph 1, first %.17g nohead back " LEVEL "\n", tag, level,
-            level);
-}
-
 /* Axes of the chart. Its lowest tick stands for 0 as well. */
-static void put_axes(FILE *f, const iso_record *r, double top, const iso_plot_chart *chart)
+static void put_axes(FILE *f, const iso_record *r, double top, const iso_plot_box *box, const char *title,
+                     const char *units)
 {
     const double a = iso_record_const_row(r, 0)[0], b = iso_record_const_row(r, iso_record_rows(r) - 1)[0];
     const int highest = (int)ceil(log10(fmax(top, 1e-15)) + 0.3);
     const iso_plot_axis clock = {.which = "x",
                                  .low = fmin(a, b),
                                  .high = fmax(a, b),
-                                 .most = chart->box.right - chart->box.left > 0.4 ? 8 : 4,
+                                 .most = box->right - box->left > 0.4 ? 8 : 4,
                                  .name = iso_plot_symbol(iso_record_name(r, 0)),
-                                 .units = chart->units,
+                                 .units = units,
                                  .label = true};
     char name[ISO_PLOT_NAME];
     fprintf(f,
@@ -95,9 +89,12 @@ static void put_axes(FILE *f, const iso_record *r, double top, const iso_plot_ch
             "set key left top Left reverse vertical maxrows 16 samplen 2 spacing 1.2 noenhanced title 'largest' "
             "left enhanced\nset key at screen %.17g,%.17g\nunset title; set label 1 '%s' left at graph 0,1.09\n"
             "set yrange [5e-18:1e%d]\n",
-            chart->box.right + 0.015, chart->box.top + 0.015, chart->title, highest);
-    iso_plot_place(f, &chart->box);
-    iso_plot_powers(f, LOWEST, highest, 8);
+            box->right + 0.015, box->top + 0.015, title, highest);
+    iso_plot_place(f, box);
+    const int step = 1 + (highest - LOWEST) / 8;
+    fprintf(f, "set ytics nomirror out scale 0.6 ('≤10^{%d}' 1e%d", LOWEST, LOWEST);
+    for (int power = LOWEST + step; power <= highest; power += step) fprintf(f, ", '10^{%d}' 1e%d", power, power);
+    fputs(")\n", f);
     iso_plot_ticks(f, &clock, name);
 }
 
@@ -123,7 +120,8 @@ static const char *line_of(const char *name, int c)
     return l->name ? l->line : lines[c % (int)(sizeof lines / sizeof *lines)];
 }
 
-void iso_plot_differences(FILE *f, const iso_record *r, double tolerance, const iso_plot_chart *chart)
+void iso_plot_differences(FILE *f, const iso_record *r, double tolerance, const iso_plot_box *box, const char *title,
+                          const char *units)
 {
     const int columns = (int)iso_record_columns(r);
     double top = tolerance, largest[ISO_PLOT_DIFFERENCES + 1];
@@ -131,8 +129,10 @@ void iso_plot_differences(FILE *f, const iso_record *r, double tolerance, const 
         largest[c] = put_differences(f, r, c);
         top = fmax(top, largest[c]);
     }
-    put_axes(f, r, top, chart);
-    if (tolerance > 0) put_level(f, 2, tolerance);
+    put_axes(f, r, top, box, title, units);
+    if (tolerance > 0)
+        fprintf(f, "set arrow 2 from graph 0, first %.17g to graph 1, first %.17g nohead back " LEVEL "\n", tolerance,
+                tolerance);
     for (int c = 1; c < columns; c++) {
         const char *name = iso_record_name(r, (size_t)c), *line = line_of(name, c - 1);
         fprintf(f, "%s $difference%d with ", c == 1 ? "plot" : ",", c);

@@ -22,10 +22,9 @@ static const char *const strokes[NAMES] = {
 #define CLOSED "points pt 3 ps 1.5 lw 2 lc rgb 'black'"
 #define BAND "'#E4E7EA'"
 
-/* Rows from .. to - 1 of one backend and method; name -1: one of the others. */
+/* A line of the picture; name -1: it is one of the others. */
 typedef struct series {
     int panel, name;
-    size_t from, to;
 } series;
 
 typedef struct layout {
@@ -61,12 +60,10 @@ static int find_name(layout *l, const char *name, int in_panel)
     return l->names++;
 }
 
-static void widen(layout *l, double error, double seconds)
+static void widen(double range[2], double x)
 {
-    l->error[0] = fmin(l->error[0], fmax(error, FLOOR));
-    l->error[1] = fmax(l->error[1], fmax(error, FLOOR));
-    l->seconds[0] = fmin(l->seconds[0], seconds);
-    l->seconds[1] = fmax(l->seconds[1], seconds);
+    range[0] = fmin(range[0], x);
+    range[1] = fmax(range[1], x);
 }
 
 /* From whole to whole powers of ten. */
@@ -76,28 +73,35 @@ static void round_out(double range[2])
     range[1] = pow(10, ceil(log10(range[1]) + 0.05));
 }
 
-/* The series of a backend that have something to draw. */
-static void find_series(layout *l, int panel)
+static void put_point(FILE *f, double error, double seconds, int number)
+{
+    fprintf(f, "%.17g %.17g %d\n", fmax(error, FLOOR), seconds, number);
+}
+
+/* The points of a backend. Rows of one method that follow each other are a series. */
+static void put_series(FILE *f, layout *l, int panel)
 {
     const iso_record *r = l->rows;
     int in_panel = 0;
-    for (size_t from = 0, to; from < iso_record_rows(r); from = to) {
-        bool any = false;
-        for (to = from; to < iso_record_rows(r) && strcmp(method_of(r, to), method_of(r, from)) == 0 &&
-                        iso_plot_is(r, to, "backend", backends[panel]);
-             to++)
-            any = any || is_drawn(r, to);
-        if (to == from) to++;
-        if (!any || l->count == SERIES) continue;
-        const int name = find_name(l, method_of(r, from), in_panel++);
-        l->one[l->count++] = (series){panel, name, from, to};
-        l->panels = panel + 1;
-        l->others = l->others || name < 0;
+    bool open = false;
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        const bool here = iso_plot_is(r, i, "backend", backends[panel]);
+        open = open && here && strcmp(method_of(r, i), method_of(r, i - 1)) == 0;
+        if (!here || !is_drawn(r, i) || (!open && l->count == SERIES)) continue;
+        if (!open) {
+            const int name = find_name(l, method_of(r, i), in_panel++);
+            l->one[l->count++] = (series){panel, name};
+            l->panels = panel + 1;
+            l->others = l->others || name < 0;
+            open = true;
+        }
+        put_point(f, iso_plot_number(r, i, "error"), iso_plot_number(r, i, "total"), l->count - 1);
     }
 }
 
-/* False: there is nothing to draw. */
-static bool lay_out(const iso_record *r, layout *l)
+/* Writes the block $series: error, seconds and the number of the series, -1 for the closed solution. False: there is
+ * nothing to draw. */
+static bool lay_out(FILE *f, const iso_record *r, layout *l)
 {
     const char *uncertainty = iso_record_get(r, "uncertainty");
     *l = (layout){.rows = r,
@@ -105,13 +109,17 @@ static bool lay_out(const iso_record *r, layout *l)
                   .uncertainty = uncertainty ? strtod(uncertainty, NULL) : 0,
                   .error = {INFINITY, 0},
                   .seconds = {INFINITY, 0}};
-    for (int panel = 0; panel < PANELS; panel++) find_series(l, panel);
+    fputs("set datafile missing NaN\n$series << EOD\n", f);
+    for (int panel = 0; panel < PANELS; panel++) put_series(f, l, panel);
     for (size_t i = 0; i < iso_record_rows(r); i++) {
         const double error = iso_plot_number(r, i, "error"), seconds = iso_plot_number(r, i, "total");
         if (!is_drawn(r, i)) continue;
-        widen(l, error, seconds);
+        widen(l->error, fmax(error, FLOOR));
+        widen(l->seconds, seconds);
         if (!*method_of(r, i)) l->closed[0] = error, l->closed[1] = seconds;
     }
+    if (isfinite(l->closed[0])) put_point(f, l->closed[0], l->closed[1], -1);
+    fputs("EOD\n", f);
     l->error[1] = fmin(l->error[1], 0.8); /* larger errors are no results */
     l->error[0] = fmin(l->error[0], l->error[1]);
     round_out(l->error);
@@ -119,30 +127,10 @@ static bool lay_out(const iso_record *r, layout *l)
     return l->count > 0 || isfinite(l->closed[0]);
 }
 
-static void put_point(FILE *f, double error, double seconds)
-{
-    fprintf(f, "%.17g %.17g\n", fmax(error, FLOOR), seconds);
-}
-
-static void put_data(FILE *f, const layout *l)
-{
-    for (int s = 0; s < l->count; s++) {
-        fprintf(f, "$series%d << EOD\n", s);
-        for (size_t i = l->one[s].from; i < l->one[s].to; i++)
-            if (is_drawn(l->rows, i))
-                put_point(f, iso_plot_number(l->rows, i, "error"), iso_plot_number(l->rows, i, "total"));
-        fputs("EOD\n", f);
-    }
-    fputs("$closed << EOD\n", f);
-    if (isfinite(l->closed[0])) put_point(f, l->closed[0], l->closed[1]);
-    fputs("EOD\n", f);
-}
-
 static void put_axes(FILE *f, const char *title, const layout *l)
 {
     fprintf(f,
-            "set border 3 lc rgb '#606060'; set tics nomirror out scale 0.6; unset key\n"
-            "set grid back lt 1 lw 0.8 lc rgb '#DDE1E5'\nset logscale xy; set format x '10^{%%T}'; unset mxtics\n"
+            "set multiplot\n" ISO_PLOT_AXES "unset key; set logscale xy; set format x '10^{%%T}'; unset mxtics\n"
             "set xlabel 'largest relative error of (ω, n)' offset 0,0.3\n"
             "set label 1 %s at screen 0.5,0.96 center noenhanced font ',12'\n"
             "set tmargin at screen 0.88; set bmargin at screen %.17g\n"
@@ -155,18 +143,22 @@ static void put_axes(FILE *f, const char *title, const layout *l)
             fmin(l->uncertainty, l->error[1]));
 }
 
+#define OF_SERIES "%s $series using ($3 == %d ? $1 : NaN):2 title '$series%d' with "
+
 /* Lines of one panel, the named ones last, on top. */
 static void put_lines(FILE *f, const layout *l, int panel)
 {
-    const char *comma = "plot";
+    const char *before = "plot";
     for (int named = 0; named < 2; named++)
         for (int s = 0; s < l->count; s++) {
             if (l->one[s].panel != panel || (l->one[s].name >= 0) != named) continue;
-            fprintf(f, "%s $series%d with %s%s", comma, s, named ? "linespoints ps 0.75 " : OTHER,
+            fprintf(f, OF_SERIES "%s%s", before, s, s, named ? "linespoints ps 0.75 " : OTHER,
                     named ? strokes[l->one[s].name] : "");
-            comma = ",";
+            before = ",";
         }
-    fprintf(f, isfinite(l->closed[0]) ? "%s $closed with " CLOSED "\n" : "\n", comma);
+    if (isfinite(l->closed[0]))
+        fprintf(f, "%s $series using ($3 == -1 ? $1 : NaN):2 title '$closed' with " CLOSED, before);
+    fputc('\n', f);
 }
 
 /* Panels side by side; a backend without lines has none. */
@@ -191,10 +183,8 @@ static void put_key(FILE *f, const layout *l)
 {
     const int entries = l->names + l->others + isfinite(l->closed[0]) + (l->uncertainty > 0);
     fprintf(f,
-            "unset border; unset tics; unset title; unset object; unset logscale; unset xlabel; unset ylabel\n"
-            "set xrange [0:1]; set yrange [0:1]; set lmargin at screen 0; set rmargin at screen 1\n"
-            "set bmargin at screen 0; set tmargin at screen 1\nset key at screen 0.5,%.17g center top Left "
-            "reverse vertical maxrows %d samplen 3.5 spacing 1.05 width -1 noenhanced font ',9'\nplot",
+            ISO_PLOT_PAGE "set key at screen 0.5,%.17g center top Left reverse vertical maxrows %d samplen 3.5 "
+                          "spacing 1.05 width -1 noenhanced font ',9'\nplot",
             (double)KEY / HEIGHT, (entries + KEY_COLUMNS - 1) / KEY_COLUMNS);
     for (int n = 0; n < l->names; n++)
         fprintf(f, " NaN with linespoints ps 0.75 %s title %s,", strokes[n], QUOTED(l->name[n], 24));
@@ -208,12 +198,12 @@ static void put_key(FILE *f, const layout *l)
 iso_status iso_plot_cost(iso_context *ctx, const char *path, const char *title, const iso_record *r)
 {
     layout l;
-    if (!lay_out(r, &l)) return iso_context_fail(ctx, ISO_BAD_INPUT, "", "there are no measurements to draw");
     FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
-    put_data(f, &l);
-    fputs("set multiplot\n", f);
+    const bool any = lay_out(f, r, &l);
     put_axes(f, title, &l);
     put_panels(f, &l);
     put_key(f, &l);
-    return iso_gnuplot_close(ctx, true);
+    const iso_status status = iso_gnuplot_close(ctx, any);
+    if (status != ISO_OK || any) return status;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "there are no measurements to draw");
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "plot/gnuplot.h"
+#include "plot/plot.h"
 #include "plot/plot_parts.h"
 
 enum { SLOTS = 1000 /* of the rows; each shows its least and its largest number, so that thinning hides none */ };
@@ -47,18 +48,26 @@ static void put_data(FILE *f, const iso_plot_panel *p, int curve)
 
 /* --- axes ------------------------------------------------------------------------------------------------------- */
 
+void iso_plot_range(const iso_record *r, int column, double range[2])
+{
+    range[0] = INFINITY, range[1] = -INFINITY;
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        range[0] = fmin(range[0], iso_record_const_row(r, i)[column]);
+        range[1] = fmax(range[1], iso_record_const_row(r, i)[column]);
+    }
+}
+
 /* The range of the curves of one axis, with room; false: it has none. */
 static bool range_of(const iso_plot_panel *p, bool right, double range[2])
 {
-    bool found = false;
-    for (int c = 0; c < p->count; c++)
-        for (size_t i = 0; p->curve[c].right == right && i < iso_record_rows(p->rows); i++) {
-            const double x = number_at(p, i, p->curve[c].column);
-            range[0] = found ? fmin(range[0], x) : x;
-            range[1] = found ? fmax(range[1], x) : x;
-            found = true;
-        }
-    if (!found) return false;
+    double own[2];
+    range[0] = INFINITY, range[1] = -INFINITY;
+    for (int c = 0; c < p->count; c++) {
+        if (p->curve[c].right != right) continue;
+        iso_plot_range(p->rows, p->curve[c].column, own);
+        range[0] = fmin(range[0], own[0]), range[1] = fmax(range[1], own[1]);
+    }
+    if (range[0] > range[1]) return false;
     if (p->top[right] > 0) range[1] = fmin(range[1], p->top[right]);
     const double room = ROOM * (range[1] - range[0]);
     if (!(range[0] >= 0 && range[0] < 0.3 * range[1]))
@@ -72,11 +81,8 @@ static bool range_of(const iso_plot_panel *p, bool right, double range[2])
 static void put_x_axis(FILE *f, const iso_plot_panel *p)
 {
     char name[ISO_PLOT_NAME];
-    double x[2] = {number_at(p, 0, p->over), number_at(p, 0, p->over)};
-    for (size_t i = 0; i < iso_record_rows(p->rows); i++) {
-        x[0] = fmin(x[0], number_at(p, i, p->over));
-        x[1] = fmax(x[1], number_at(p, i, p->over));
-    }
+    double x[2];
+    iso_plot_range(p->rows, p->over, x);
     const double room = p->equal ? ROOM * (x[1] - x[0]) : 0;
     const iso_plot_axis axis = {.which = "x",
                                 .low = x[0] - room,
@@ -96,6 +102,7 @@ static void put_y_axis(FILE *f, const iso_plot_panel *p, bool right)
     char name[ISO_PLOT_NAME];
     double range[2];
     if (!range_of(p, right, range)) return;
+    if (right) fputs("set border 11\n", f);
     const iso_plot_axis axis = {.which = right ? "y2" : "y",
                                 .low = range[0],
                                 .high = range[1],
@@ -112,28 +119,6 @@ static void put_y_axis(FILE *f, const iso_plot_panel *p, bool right)
                         : "-1");
 }
 
-static void put_axes(FILE *f, const iso_plot_panel *p)
-{
-    put_x_axis(f, p);
-    put_y_axis(f, p, false);
-    put_y_axis(f, p, true);
-}
-
-static void put_marks(FILE *f, const iso_plot_panel *p)
-{
-    for (int i = 0; i < p->marks; i++) {
-        const double x = number_at(p, p->mark[i], p->over);
-        fprintf(f, "set arrow %d from first %.17g, graph 0 to first %.17g, graph 1 nohead " ISO_PLOT_LOST_LINE "\n",
-                i + 1, x, x);
-    }
-}
-
-static void put_title(FILE *f, const char *title)
-{
-    if (!title) return;
-    fprintf(f, "set label 1 %s left noenhanced at graph 0,1 offset 0,0.9\n", QUOTED(title, 90));
-}
-
 void iso_plot_curves(FILE *f, const iso_plot_panel *p)
 {
     for (int c = 0; c < p->count; c++) put_data(f, p, c);
@@ -144,11 +129,14 @@ void iso_plot_curves(FILE *f, const iso_plot_panel *p)
             "right bottom\nset size %s\n",
             p->equal ? "ratio -1" : "noratio");
     iso_plot_place(f, &p->box);
-    put_axes(f, p);
-    for (int c = 0; c < p->count; c++)
-        if (p->curve[c].right) fputs("set border 11\n", f);
-    put_marks(f, p);
-    put_title(f, p->title);
+    put_x_axis(f, p);
+    for (int right = 0; right < 2; right++) put_y_axis(f, p, right);
+    for (int i = 0; i < p->marks; i++) {
+        const double x = number_at(p, p->mark[i], p->over);
+        fprintf(f, "set arrow %d from first %.17g, graph 0 to first %.17g, graph 1 nohead " ISO_PLOT_LOST_LINE "\n",
+                i + 1, x, x);
+    }
+    if (p->title) fprintf(f, "set label 1 %s left noenhanced at graph 0,1 offset 0,0.9\n", QUOTED(p->title, 90));
     for (int c = 0; c < p->count; c++) {
         const iso_plot_curve *curve = &p->curve[c];
         fprintf(f, "%s $curve%d axes x1y%d with %s lc rgb %s %s", c ? "," : "plot", c, curve->right ? 2 : 1,
@@ -160,22 +148,37 @@ void iso_plot_curves(FILE *f, const iso_plot_panel *p)
     fputs("\nset autoscale; unset y2tics; unset y2label; unset label; unset arrow; set size noratio\n", f);
 }
 
-void iso_plot_heading(FILE *f, const char *title, double y)
+iso_status iso_plot_columns(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
+                            const char *x, const char *y, bool equal)
+{
+    iso_plot_curve curve = {0, NULL, ISO_PLOT_BLUE, false};
+    iso_plot_panel panel = {.rows = rows, .count = 1, .curve = &curve, .equal = equal};
+    char words[100];
+    const int width = 900, height = equal ? 900 : 560;
+    ISO_TRY(iso_plot_find(ctx, rows, 1, &x, &panel.over));
+    ISO_TRY(iso_plot_find(ctx, rows, 1, &y, &curve.column));
+    snprintf(words, sizeof words, "%s over %s", iso_plot_symbol(y), iso_plot_symbol(x));
+    panel.title = words;
+    panel.box = (iso_plot_box){95.0 / width, 1 - 55.0 / width, 60.0 / height, 1 - 85.0 / height};
+    FILE *f = iso_gnuplot_open(ctx, path, width, height);
+    fputs("set multiplot\n", f);
+    iso_plot_words(f, title, 95, 1 - 22.0 / height, "font ',12'");
+    iso_plot_curves(f, &panel);
+    return iso_gnuplot_close(ctx, true);
+}
+
+void iso_plot_words(FILE *f, const char *words, int longest, double y, const char *look)
 {
     fprintf(f,
-            "unset border; unset tics; unset key; set xrange [0:1]; set yrange [0:1]\n"
-            "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
-            "set label 1 %s at screen 0.5,%.17g center noenhanced font ',12'\nplot NaN notitle\nunset label\n",
-            QUOTED(title, 95), y);
+            ISO_PLOT_PAGE "unset key; set label 1 %s at screen 0.5,%.17g center noenhanced %s\nplot NaN notitle\n"
+                          "unset label\n",
+            QUOTED(words, longest), y, look);
 }
 
 void iso_plot_key(FILE *f, double x, double y, const char *entries)
 {
     fprintf(f,
-            "unset border; unset tics; unset label; unset arrow; unset object; unset title; unset logscale; "
-            "unset grid\nunset xlabel; unset ylabel; set size noratio; set xrange [0:1]; set yrange [0:1]\n"
-            "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
-            "set key default; set key horizontal maxrows 1 samplen 1.4 Left reverse center center at screen "
-            "%.17g,%.17g\nplot %s\nunset key\n",
+            ISO_PLOT_PAGE "set key default; set key horizontal maxrows 1 samplen 1.4 Left reverse center center at "
+                          "screen %.17g,%.17g\nplot %s\nunset key\n",
             x, y, entries);
 }

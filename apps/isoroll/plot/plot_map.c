@@ -9,42 +9,45 @@
 enum { WIDTH = 900, HEIGHT = 560, LINES_HEIGHT = 420, LABELLED = 3 };
 
 /* Pale fills that differ in lightness, and lines that differ in their dashes. */
-static const char *const fills[ISO_PLOT_PARTS] = {"'#A9CDE2'", "'#F7E3B0'", "'#D9A9C6'", "'#8FCBB4'"};
-static const char *const strokes[ISO_PLOT_LINES] = {
-    "dt 1 lw 1.8 lc rgb " ISO_PLOT_BLUE, "dt (8,4) lw 2.2 lc rgb 'black'", "dt 1 lw 1.8 lc rgb " ISO_PLOT_VERMILLION,
-    "dt (2,3) lw 2.2 lc rgb '#404040'"};
+static const char *const fills[] = {"'#A9CDE2'", "'#F7E3B0'", "'#D9A9C6'", "'#8FCBB4'"};
+static const char *const strokes[] = {"dt 1 lw 1.8 lc rgb " ISO_PLOT_BLUE, "dt (8,4) lw 2.2 lc rgb 'black'",
+                                      "dt 1 lw 1.8 lc rgb " ISO_PLOT_VERMILLION, "dt (2,3) lw 2.2 lc rgb '#404040'"};
 #define ORBIT "pt 7 ps 1.2 lc rgb 'black'"
 
 /* --- the map ---------------------------------------------------------------------------------------------------- */
 
-/* A block of data: h and columns `first` to `last`, divided by h for the right picture. Says whether there is any. */
-static bool put_block(FILE *f, const iso_plot_map *map, const char *name, int number, int first, int last,
-                      bool over_h)
+/* The bounds have h, low and high of each part, and F of each line. */
+enum { PARTS = ISO_MOMENTUM_PARTS, SHAPES = PARTS + ISO_MOMENTUM_LINES };
+
+static int first_of(int shape)
 {
+    return shape < PARTS ? 1 + 2 * shape : 1 + PARTS + shape;
+}
+
+/* Block i: h and the bounds of a part or a line, divided by h for the right picture. Says whether there is any. */
+static bool put_block(FILE *f, const iso_record *bounds, int i, bool over_h)
+{
+    const int first = first_of(i), last = first + (i < PARTS);
     bool any = false;
-    fprintf(f, "$%s%d << EOD\n", name, number);
-    for (size_t i = 0; i < iso_record_rows(map->bounds); i++) {
-        const double *row = iso_record_const_row(map->bounds, i);
+    fprintf(f, "$shape%d << EOD\n", i);
+    for (size_t r = 0; r < iso_record_rows(bounds); r++) {
+        const double *row = iso_record_const_row(bounds, r), by = over_h ? row[0] : 1;
         if (!isfinite(row[first]) || !isfinite(row[last])) continue;
         any = true;
-        fprintf(f, "%.17g", row[0]);
-        for (int c = first; c <= last; c++) {
-            fprintf(f, " %.17g", over_h ? row[c] / row[0] : row[c]);
-        }
-        fputc('\n', f);
+        fprintf(f, "%.17g %.17g %.17g\n", row[0], row[first] / by, row[last] / by);
     }
     fputs("EOD\n", f);
     return any;
 }
 
 /* Largest and least F/h, with room. */
-static void find_range(const iso_plot_map *map, double range[2])
+static void find_range(const iso_record *bounds, double range[2])
 {
     double low = INFINITY, high = -INFINITY;
-    const size_t rows = iso_record_rows(map->bounds);
+    const size_t rows = iso_record_rows(bounds);
     for (size_t i = rows / 4; i < rows; i++) /* near h = 0, off H = 0, it grows without bound */
-        for (int c = 1; c <= 2 * map->parts; c++) {
-            const double *row = iso_record_const_row(map->bounds, i), x = row[c] / row[0];
+        for (int c = 1; c <= 2 * PARTS; c++) {
+            const double *row = iso_record_const_row(bounds, i), x = row[c] / row[0];
             if (!isfinite(x)) continue;
             low = fmin(low, x);
             high = fmax(high, x);
@@ -55,111 +58,105 @@ static void find_range(const iso_plot_map *map, double range[2])
 }
 
 /* The name of a part, up to its colon, where the part is thickest, if it is thicker than `room`. */
-static void put_label(FILE *f, const iso_plot_map *map, int part, double room)
+static void put_label(FILE *f, const iso_momentum *m, const iso_record *bounds, int part, double room)
 {
-    const size_t rows = iso_record_rows(map->bounds);
-    const double *best = iso_record_const_row(map->bounds, rows * 2 / 5);
-    char name[64];
-    const int low = 1 + 2 * part, high = low + 1;
+    const size_t rows = iso_record_rows(bounds);
+    const double *best = iso_record_const_row(bounds, rows * 2 / 5);
+    char name[ISO_MOMENTUM_WORDS];
+    const int low = first_of(part), high = low + 1;
     double thickest = isfinite(best[low]) ? 1.001 * (best[high] - best[low]) / best[0] : 0;
     for (size_t i = rows / 4; i < rows * 3 / 4; i++) {
-        const double *row = iso_record_const_row(map->bounds, i), here = (row[high] - row[low]) / row[0];
+        const double *row = iso_record_const_row(bounds, i), here = (row[high] - row[low]) / row[0];
         if (here > thickest) thickest = here, best = row;
     }
     if (!(thickest > room)) return;
-    snprintf(name, sizeof name, "%.*s", (int)strcspn(map->part[part], ":"), map->part[part]);
+    iso_momentum_name_part(m, (iso_momentum_part)part, name);
+    name[strcspn(name, ":")] = '\0';
     fprintf(f, "set label %s at %.17g,%.17g center front noenhanced\n", QUOTED(name, 60), best[0],
             (best[low] + best[high]) / 2 / best[0]);
 }
 
-static void put_panel(FILE *f, const iso_plot_map *map, bool over_h, bool key)
+/* at: h and F of the orbit. Only the right picture, F/h, has a key. */
+static void put_panel(FILE *f, const iso_momentum *m, const iso_record *bounds, const double at[2], bool over_h)
 {
-    bool part[ISO_PLOT_PARTS], line[ISO_PLOT_LINES];
-    const char *comma = "plot ";
-    for (int i = 0; i < map->parts; i++) part[i] = put_block(f, map, "part", i, 1 + 2 * i, 2 + 2 * i, over_h);
-    for (int i = 0; i < map->lines; i++)
-        line[i] = put_block(f, map, "line", i, 1 + 2 * map->parts + i, 1 + 2 * map->parts + i, over_h);
-    fputs("$orbit << EOD\n", f);
-    fprintf(f, "%.17g %.17g\n", map->at[0], over_h ? map->at[1] / map->at[0] : map->at[1]);
-    fputs("EOD\n", f);
-    for (int i = 0; i < map->parts; i++) {
-        if (!part[i]) continue;
-        fprintf(f, "%s$part%d u 1:2:3 with filledcurves fs solid 1 noborder lc rgb %s %s ", comma, i, fills[i],
-                key ? "title" : "notitle");
-        comma = ", ";
-        if (key) fputs(QUOTED(map->part[i], 60), f);
+    bool any[SHAPES];
+    char name[ISO_MOMENTUM_WORDS];
+    const char *const title = over_h ? "title" : "notitle", *before = "plot";
+    for (int i = 0; i < SHAPES; i++) any[i] = put_block(f, bounds, i, over_h);
+    fprintf(f, "$orbit << EOD\n%.17g %.17g\nEOD\n", at[0], over_h ? at[1] / at[0] : at[1]);
+    for (int i = 0; i < SHAPES; i++) {
+        const int line = i - PARTS;
+        if (!any[i]) continue;
+        fprintf(f,
+                line < 0 ? "%s $shape%d u 1:2:3 with filledcurves fs solid 1 noborder lc rgb %s %s "
+                         : "%s $shape%d with lines %s %s ",
+                before, i, line < 0 ? fills[i] : strokes[line], title);
+        before = ",";
+        if (line < 0)
+            iso_momentum_name_part(m, (iso_momentum_part)i, name);
+        else
+            iso_momentum_name_line(m, line, name);
+        if (over_h) fputs(QUOTED(name, 60), f);
     }
-    for (int i = 0; i < map->lines; i++) {
-        if (!line[i]) continue;
-        fprintf(f, "%s$line%d with lines %s %s ", comma, i, strokes[i], key ? "title" : "notitle");
-        comma = ", ";
-        if (key) fputs(QUOTED(map->line[i], 60), f);
-    }
-    fprintf(f, "%s$orbit with points " ORBIT " %s\n", comma, key ? "title 'this orbit'" : "notitle");
+    fprintf(f, "%s $orbit with points " ORBIT " %s\n", before, over_h ? "title 'this orbit'" : "notitle");
 }
 
-iso_status iso_plot_momentum(iso_context *ctx, const char *path, const iso_plot_map *map)
+iso_status iso_plot_momentum(iso_context *ctx, const char *path, const char *title, const iso_momentum *m,
+                             const double at[2])
 {
-    const iso_record *r = map->bounds;
-    const size_t columns = 1 + 2 * (size_t)map->parts + (size_t)map->lines;
+    const char *F = m->k == 1 ? "F_{plane}" : "F_{shell}";
+    iso_record *bounds;
     double range[2];
-    if (!r || iso_record_rows(r) == 0 || iso_record_columns(r) != columns || map->parts > ISO_PLOT_PARTS ||
-        map->lines > ISO_PLOT_LINES || !(map->at[0] > 0) || !isfinite(map->at[1]))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a map needs bounds, h > 0 and a finite F");
+    ISO_TRY(iso_momentum_bounds(ctx, m, at[0], &bounds));
     FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
     fprintf(f,
             "set multiplot\n" ISO_PLOT_AXES "set tmargin at screen 0.9; set bmargin at screen 0.36\n"
             "set label 1 %s at screen 0.5,0.96 center noenhanced font ',12'\n"
             "set xlabel 'energy h'; set xrange [0:%.17g]\nset key off; set lmargin at screen 0.1; set rmargin at "
             "screen 0.48; set ylabel '%s'\nset xtics autofreq\n",
-            QUOTED(map->title, 95), 2 * map->at[0], map->F);
-    put_panel(f, map, false, false);
+            QUOTED(title, 95), 2 * at[0], F);
+    put_panel(f, m, bounds, at, false);
     fprintf(f,
             "unset label; set lmargin at screen 0.6; set rmargin at screen 0.98; set ylabel '%s / h'\n"
             "set key at screen 0.1,0.24 left top Left reverse vertical maxrows 5 samplen 3 spacing 1.2 noenhanced\n",
-            map->F);
-    find_range(map, range);
+            F);
+    find_range(bounds, range);
     fprintf(f, "set yrange [%.17g:%.17g]\n", range[0], range[1]);
-    for (int i = 0; i < map->parts; i++) put_label(f, map, i, 0.12 * (range[1] - range[0]));
-    put_panel(f, map, true, true);
+    for (int i = 0; i < PARTS; i++) put_label(f, m, bounds, i, 0.12 * (range[1] - range[0]));
+    put_panel(f, m, bounds, at, true);
+    iso_record_free(bounds);
     return iso_gnuplot_close(ctx, true);
 }
 
 /* --- lines ------------------------------------------------------------------------------------------------------ */
 
-static bool put_signal(FILE *f, const iso_record *r, int signal, double *least)
+/* The lines of a signal as a block; then their combinations (m, n) at the strongest of them, which come first. Gives
+ * the least amplitude; infinite: there is none. */
+static double put_signal(FILE *f, const iso_estimate *e, int signal)
 {
-    bool any = false;
+    double least = INFINITY;
     fprintf(f, "$signal%d << EOD\n", signal);
-    for (size_t i = 0; i < iso_record_rows(r); i++) {
-        const double *row = iso_record_const_row(r, i);
-        if ((int)row[2] != signal || !(row[1] > 0)) continue;
-        any = true;
-        *least = fmin(*least, row[1]);
-        fprintf(f, "%.17g %.17g\n", row[0], row[1]);
+    for (int i = 0; i < e->lines[signal]; i++) {
+        const iso_spectral_line *l = &e->line[signal][i].line;
+        if (!(l->amplitude > 0)) continue;
+        least = fmin(least, l->amplitude);
+        fprintf(f, "%.17g %.17g\n", l->frequency, l->amplitude);
     }
     fputs("EOD\n", f);
-    return any;
-}
-
-/* The combinations (m, n) at the strongest lines of each signal, which come first. */
-static void put_names(FILE *f, const iso_record *r)
-{
-    int put[2] = {0};
-    for (size_t i = 0; i < iso_record_rows(r); i++) {
-        const double *row = iso_record_const_row(r, i);
-        if (isnan(row[3]) || put[(int)row[2] & 1]++ >= LABELLED) continue;
-        fprintf(f, "set label '%d,%d' at %.17g,%.17g left rotate by 60 offset 0,0.5 font ',8'\n", (int)row[3],
-                (int)row[4], row[0], row[1]);
+    for (int i = 0, put = 0; i < e->lines[signal] && put < LABELLED; i++) {
+        const iso_identified_line *l = &e->line[signal][i];
+        if (!l->known) continue;
+        put++;
+        fprintf(f, "set label '%d,%d' at %.17g,%.17g left rotate by 60 offset 0,0.5 font ',8'\n", l->m, l->n,
+                l->line.frequency, l->line.amplitude);
     }
+    return least;
 }
 
-iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis, const iso_record *r)
+iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, const iso_estimate *e)
 {
-    double least = 1;
-    if (!r || iso_record_rows(r) == 0 || iso_record_columns(r) != 5 || axis < 0 || axis > 2)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                                "a picture of lines needs a record with five columns and at least one row");
+    const int axis = e->axis, j = (axis + 1) % 3 + 1, l = (axis + 2) % 3 + 1;
+    double least[2];
     FILE *f = iso_gnuplot_open(ctx, path, WIDTH, LINES_HEIGHT);
     fprintf(f,
             ISO_PLOT_AXES
@@ -167,10 +164,10 @@ iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title,
             "center horizontal\nset xlabel 'frequency in t; m, n: m times frequency 1 and n times frequency 2'; "
             "set ylabel 'amplitude'\n",
             QUOTED(title, 95));
-    const bool any[2] = {put_signal(f, r, 0, &least), put_signal(f, r, 1, &least)};
-    put_names(f, r);
-    fprintf(f, "set offsets graph 0.04, graph 0.04, 0, 0\nset yrange [%.17g:4]\n", pow(10, floor(log10(least)) - 1));
-    const int j = (axis + 1) % 3 + 1, l = (axis + 2) % 3 + 1;
+    for (int s = 0; s < 2; s++) least[s] = put_signal(f, e, s);
+    fprintf(f, "set offsets graph 0.04, graph 0.04, 0, 0\nset yrange [%.17g:4]\n",
+            pow(10, floor(log10(fmin(1, fmin(least[0], least[1])))) - 1));
+    const bool any[2] = {isfinite(least[0]), isfinite(least[1])};
     if (any[0])
         fprintf(f,
                 "plot $signal0 with impulses lw 2 lc rgb " ISO_PLOT_BLUE " title 'n_%d + i n_%d', "
@@ -181,5 +178,7 @@ iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title,
                 "%s$signal1 with impulses dt (4,2) lw 2 lc rgb " ISO_PLOT_VERMILLION " title 'n_%d', "
                 "$signal1 with points pt 6 ps 0.8 lc rgb " ISO_PLOT_VERMILLION " notitle",
                 any[0] ? ", " : "plot ", axis + 1);
-    return iso_gnuplot_close(ctx, any[0] || any[1]);
+    if (any[0] || any[1]) return iso_gnuplot_close(ctx, true);
+    iso_gnuplot_close(ctx, false);
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture of lines needs at least one line");
 }

@@ -20,6 +20,8 @@ enum {
 /* The signs of the first and the last row. */
 #define ISO_PLOT_START "pt 7 ps 1.1"
 #define ISO_PLOT_END "pt 9 ps 1.3"
+#define ISO_PLOT_ENDS                                                                                                \
+    "NaN w p " ISO_PLOT_START " lc rgb 'black' title 'start', NaN w p " ISO_PLOT_END " lc rgb 'black' title 'end'"
 
 /* Where the contact is lost: on a path, and over a clock. */
 #define ISO_PLOT_LOST "pt 2 ps 1.7 lw 3 lc rgb " ISO_PLOT_VERMILLION
@@ -29,11 +31,28 @@ enum {
 #define ISO_PLOT_AXES                                                                                                \
     "set border 3 lc rgb '#606060'; set tics nomirror out scale 0.6; set grid back lt 1 lw 0.8 lc rgb '#DDE1E5'\n"
 
+/* A plot that is the whole page, without axes: for titles and keys. */
+#define ISO_PLOT_PAGE                                                                                                \
+    "unset border; unset tics; unset label; unset arrow; unset object; unset title; unset logscale; unset grid\n"    \
+    "unset xlabel; unset ylabel; set size noratio; set xrange [0:1]; set yrange [0:1]\nset lmargin at screen 0; "    \
+    "set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
+
+/* Axes on all sides, and one of angles below. */
+#define ISO_PLOT_FRAME "set border 15 lw 0.8 lc rgb '#606060'; set tics out scale 0.6 nomirror; unset grid\n"
+#define ISO_PLOT_ANGLES "set xrange [-pi:pi]; set xtics ('−π' -pi, '−π/2' -pi/2, '0' 0, 'π/2' pi/2, 'π' pi)\n"
+
 /* A number of a table by the name of its column (NaN: there is none); whether a word is this one; the axis of the
  * line "axis", 0 to 2 (-1: there is none). */
 double iso_plot_number(const iso_record *table, size_t row, const char *column);
 bool iso_plot_is(const iso_record *table, size_t row, const char *column, const char *word);
 int iso_plot_axis_of(const iso_record *table);
+
+/* A block of data: columns of a record (NULL: without rows) in this order, NULL ends them. Words stand in quotes. What
+ * is no finite number, and a column that is not there, is NaN, and from now on missing: lines go on across it. */
+void iso_plot_block(FILE *script, const char *name, const iso_record *record, const char *const columns[]);
+
+/* The least and the largest number of a column. */
+void iso_plot_range(const iso_record *r, int column, double range[2]);
 
 /* The first of `count` columns side by side that are finite in all rows. Errors: ISO_BAD_ARGUMENT (they are not
  * there, or no row is), ISO_NUMERICAL; *first is then -1. */
@@ -62,17 +81,10 @@ enum { ISO_PLOT_NAME = 160 };
 /* Sets the range, the ticks and the label. Writes into `name` what the ticks mean, such as "t / 10⁶". */
 void iso_plot_ticks(FILE *script, const iso_plot_axis *axis, char name[static ISO_PLOT_NAME]);
 
-/* The ticks of a logarithmic y axis, from 10^lowest on; that tick stands for all below it. */
-void iso_plot_powers(FILE *script, int lowest, int highest, int most);
-
-/* A chart of differences: its axes, a title above them, a key on the right. */
-typedef struct iso_plot_chart {
-    iso_plot_box box;
-    const char *title, *units; /* units: said after the name of the clock */
-} iso_plot_chart;
-
-/* Column 0 is a clock, the others are drawn over it on a logarithmic axis. */
-void iso_plot_differences(FILE *script, const iso_record *record, double tolerance, const iso_plot_chart *chart);
+/* A chart of differences in a box, with a title above and a key on the right. Column 0 is a clock, the others are drawn
+ * over it on a logarithmic axis. units: said after the name of the clock. */
+void iso_plot_differences(FILE *script, const iso_record *record, double tolerance, const iso_plot_box *box,
+                          const char *title, const char *units);
 
 /* A symbol for the name of a column: "γ" for "gamma"; the name itself if there is none. */
 const char *iso_plot_symbol(const char *name);
@@ -82,6 +94,13 @@ const char *iso_plot_symbol(const char *name);
 void iso_plot_sphere(FILE *script, const iso_plot_box *box, const iso_record *line, int line_column,
                      const iso_record *markers, int marker_column, bool fine);
 
+/* Whether no two rows are so far apart, in radians about 0, that they are no path: then they are drawn as dots. */
+bool iso_plot_is_joined(const iso_record *record, int column);
+
+/* Begins a block of data called `name` with the number of the side. Its first point is NaN, so that no block is
+ * empty. */
+void iso_plot_begin_side(FILE *script, const char *name, bool near);
+
 /* Whether a path has so many turns that it wants a fine line. */
 bool iso_plot_is_long(const iso_record *record, int column);
 
@@ -89,8 +108,8 @@ bool iso_plot_is_long(const iso_record *record, int column);
 size_t iso_plot_drawn_rows(const iso_record *record);
 const double *iso_plot_drawn_row(const iso_record *record, size_t i);
 
-/* A plot that is only the title of the page, at the height y. */
-void iso_plot_heading(FILE *script, const char *title, double y);
+/* A plot that is only a line of words in the middle of the page at the height y; look: its font or colour. */
+void iso_plot_words(FILE *script, const char *words, int longest, double y, const char *look);
 
 /* A plot that is only a key, in one line: its entries, as gnuplot's `plot` takes them, at (x, y). */
 void iso_plot_key(FILE *script, double x, double y, const char *entries);
@@ -129,6 +148,7 @@ struct iso_plot_space;
 typedef struct iso_plot_scenery {
     const iso_record *rows;
     int centre, contact;             /* first columns, -1: not there                                        */
+    int place;                       /* the path that is drawn: of the centre if it is known, else of the contact */
     bool plane, level;               /* the support is a plane; a plane that is level, or up is not known   */
     bool normal;                     /* the columns tell its normal                                         */
     bool vertical;                   /* whether up[] is the vertical                                        */
@@ -163,5 +183,20 @@ double iso_plot_view_shape(const iso_plot_scenery *scenery);
 
 /* The entries of their key, into text. */
 void iso_plot_view_key(const iso_plot_scenery *scenery, char text[static 512]);
+
+/* --- sweeps ----------------------------------------------------------------------------------------------------- */
+
+/* A curve; rows: the number that varies, by growing size, the value, low and high, which may be NaN. */
+iso_status iso_plot_sweep_curve(iso_context *ctx, const char *path, const char *title, const iso_record *rows);
+
+/* Maps side by side, with one scale of colours; a NaN is grey. */
+enum { ISO_PLOT_MAPS = 6 };
+typedef struct iso_plot_maps {
+    const char *key_name; /* of what differs from map to map; NULL: there is one */
+    int count;            /* of maps, at most ISO_PLOT_MAPS */
+    double key[ISO_PLOT_MAPS];
+    iso_record *rows; /* x, y, the value, and the map, from 0; the names of the first three are shown */
+} iso_plot_maps;
+iso_status iso_plot_sweep_maps(iso_context *ctx, const char *path, const char *title, const iso_plot_maps *maps);
 
 #endif

@@ -10,11 +10,11 @@
  */
 #include <math.h>
 
+#include "base/vec3_impl.h"
 #include "map/section_impl.h"
 #include "plot/gnuplot.h"
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
-#include "plot/vectors.h"
 
 enum { WIDTH = 900, HEIGHT = 470, BOUNDARY = 240 };
 #define TOP 1.05 /* of the axis of L, by the largest L */
@@ -107,18 +107,12 @@ static double size_of(size_t count)
 static void put_heading(FILE *f, const iso_plot_section *s)
 {
     fprintf(f,
-            "set multiplot\nunset border; unset tics; set xrange [0:1]; set yrange [0:1]\n"
-            "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
-            "set key at screen 0.985,0.962 right center samplen 1\n"
+            "set multiplot\n" ISO_PLOT_PAGE "set key at screen 0.985,0.962 right center samplen 1\n"
             "set label 1 %s at screen 0.015,0.962 left noenhanced font ',12'\nplot NaN notitle",
             QUOTED(s->title, 95));
-    if (s->grey_means) {
-        fprintf(f, ", NaN w p pt 7 ps 1 lc rgb '#B0B0B0' title %s", QUOTED(s->grey_means, 60));
-    }
-    fputs("\nunset label 1; unset key\n"
-          "set border 15 lw 0.8 lc rgb '#606060'; set tics out scale 0.6 nomirror; set tmargin at screen 0.86\n"
-          "set bmargin at screen 0.14; set xrange [-pi:pi]\n"
-          "set xtics ('−π' -pi, '−π/2' -pi/2, '0' 0, 'π/2' pi/2, 'π' pi)\n",
+    if (s->grey_means) fprintf(f, ", NaN w p pt 7 ps 1 lc rgb '#B0B0B0' title %s", QUOTED(s->grey_means, 60));
+    fputs("\nunset label 1; unset key\n" ISO_PLOT_FRAME
+          "set tmargin at screen 0.86\nset bmargin at screen 0.14\n" ISO_PLOT_ANGLES,
           f);
 }
 

@@ -11,9 +11,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vec3_impl.h"
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
-#include "plot/vectors.h"
 
 #define ALIKE 1e-6 /* directions and radii that differ by less are the same             */
 #define NARROW 6   /* a path that is so many times longer than wide has a wide panel    */
@@ -25,12 +25,9 @@ static const double *vector_at(const iso_record *r, size_t row, int column)
     return iso_record_const_row(r, row) + column;
 }
 
-/* --- columns ---------------------------------------------------------------------------------------------------- */
-
-/* The path that is drawn: of the centre if it is known, else of the contact. */
 static const double *place_at(const iso_plot_scenery *s, size_t row)
 {
-    return vector_at(s->rows, row, s->centre >= 0 ? s->centre : s->contact);
+    return vector_at(s->rows, row, s->place);
 }
 
 /* --- the support ------------------------------------------------------------------------------------------------ */
@@ -224,6 +221,7 @@ iso_status iso_plot_look_around(iso_context *ctx, const iso_plot_space *space, i
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "centre1",
                                 "a picture of space: no columns centre1, centre2, centre3 or contact1, contact2, "
                                 "contact3 side by side");
+    s->place = s->centre >= 0 ? s->centre : s->contact;
     find_radii(s);
     const bool known = s->normal = s->plane && find_normal(s, normal);
     copy(space->up ? space->up : known ? normal : axis_3, s->up, 3);

@@ -14,13 +14,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vec3_impl.h"
 #include "plot/gnuplot.h"
 #include "plot/plot_parts.h"
 
-enum {
-    MARKERS = 48, /* of the second backend on each path  */
-    FEW = 500     /* rows that are drawn as larger dots  */
-};
+enum { MARKERS = 48 /* of the second backend on each path */, FEW = 500 /* rows that are drawn as larger dots */ };
 #define ARC 0.1    /* longest straight piece of a path, in radians                     */
 #define JOINED 0.6 /* rows farther apart than this are no path: they are drawn as dots */
 #define LONG 40.0  /* a path of more radians is drawn with a finer line                */
@@ -49,16 +47,14 @@ static spot project(const double v[3])
     static const double right[3] = {-0.42261826174069944, 0.90630778703664996, 0}; /* a = 25, e = 24 degrees */
     static const double up[3] = {-0.36862823570066146, -0.17189417172037236, 0.91354545764260087};
     static const double d[3] = {0.82795218756063110, 0.38608045045127610, 0.40673664307580021};
-    return (spot){v[0] * right[0] + v[1] * right[1] + v[2] * right[2], v[0] * up[0] + v[1] * up[1] + v[2] * up[2],
-                  v[0] * d[0] + v[1] * d[1] + v[2] * d[2]};
+    return (spot){dot(v, right), dot(v, up), dot(v, d)};
 }
 
-/* Angle between two vectors of about unit length. */
 static double angle(const double a[3], const double b[3])
 {
-    const double half =
-        0.5 * sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
-    return 2 * asin(fmin(half, 1));
+    double a_b[3];
+    cross(a, b, a_b);
+    return atan2(norm(a_b), dot(a, b));
 }
 
 /* The great circle from a to b, as far as it lies on one side; *open: whether the last piece did. */
@@ -68,10 +64,9 @@ static void put_arc(FILE *f, const double a[3], const double b[3], bool near, bo
     spot from = project(a);
     for (int i = 1; i <= pieces; i++) {
         const double part = (double)i / pieces;
-        double v[3], length = 0;
+        double v[3];
         for (int j = 0; j < 3; j++) v[j] = (1 - part) * a[j] + part * b[j];
-        for (int j = 0; j < 3; j++) length += v[j] * v[j];
-        for (int j = 0; j < 3; j++) v[j] /= sqrt(length);
+        make_unit(v);
         const spot to = project(v);
         const bool seen = (from.depth + to.depth > 0) == near;
         if (seen && !*open) fprintf(f, "%.17g %.17g\n", from.x, from.y);
@@ -82,25 +77,23 @@ static void put_arc(FILE *f, const double a[3], const double b[3], bool near, bo
     }
 }
 
-static bool is_joined(const iso_record *r, int column)
+bool iso_plot_is_joined(const iso_record *r, int column)
 {
     for (size_t i = 1; i < iso_plot_drawn_rows(r); i++)
         if (angle(iso_plot_drawn_row(r, i - 1) + column, iso_plot_drawn_row(r, i) + column) > JOINED) return false;
     return true;
 }
 
-/* Begins a block of data called `name` with the number of the side. Its first point is NaN, so that no block is
- * empty. */
-static void begin_block(FILE *f, const char *name, bool near)
+void iso_plot_begin_side(FILE *f, const char *name, bool near)
 {
     fprintf(f, "$%s%d << EOD\nNaN NaN\n\n", name, near);
 }
 
 static void put_path(FILE *f, const iso_record *r, int column, bool near)
 {
-    const bool joined = is_joined(r, column);
+    const bool joined = iso_plot_is_joined(r, column);
     bool open = false;
-    begin_block(f, "path", near);
+    iso_plot_begin_side(f, "path", near);
     for (size_t i = 0; i < iso_plot_drawn_rows(r); i++) {
         const double *v = iso_plot_drawn_row(r, i) + column;
         const spot s = project(v);
@@ -113,7 +106,7 @@ static void put_path(FILE *f, const iso_record *r, int column, bool near)
 static void put_markers(FILE *f, const iso_record *r, int column, bool near)
 {
     const size_t rows = iso_record_rows(r), count = rows < MARKERS ? rows : MARKERS;
-    begin_block(f, "marker", near);
+    iso_plot_begin_side(f, "marker", near);
     for (size_t i = 0; i < count; i++) {
         const spot s = project(iso_record_const_row(r, (2 * i + 1) * rows / (2 * count)) + column);
         if ((s.depth > 0) == near) fprintf(f, "%.17g %.17g\n", s.x, s.y);
@@ -132,7 +125,7 @@ static void put_end(FILE *f, const double v[3], const char *type)
 static void put_graticule(FILE *f, bool near)
 {
     const double degree = M_PI / 180;
-    begin_block(f, "grid", near);
+    iso_plot_begin_side(f, "grid", near);
     for (int circle = 0; circle < 11; circle++) { /* 6 meridians, 5 parallels, 30 degrees apart */
         const double angle0 = (circle < 6 ? circle : circle - 8) * 30 * degree;
         double last[3] = {0, 0, 0};
@@ -181,7 +174,7 @@ void iso_plot_sphere(FILE *f, const iso_plot_box *box, const iso_record *line, i
 {
     const char *near_style = fine ? "lines lw 0.8" : "lines lw 1.8";
     const char *far_style = "lines lw 0.8";
-    if (!is_joined(line, line_column))
+    if (!iso_plot_is_joined(line, line_column))
         near_style = far_style = iso_plot_drawn_rows(line) > FEW ? "points pt 7 ps 0.2" : "points pt 7 ps 0.5";
     for (int near = 0; near < 2; near++) {
         put_graticule(f, near);

@@ -14,47 +14,44 @@ static const char *name_of(const iso_record *r)
     return r && iso_record_rows(r) > 1 && iso_plot_number(r, 0, "k") == iso_plot_number(r, 1, "k") ? "level" : "k";
 }
 
-/* Rows with m > 0, m < 0, and those that are only bounded. Gives their number. */
-typedef enum kind { POSITIVE, NEGATIVE, BOUNDED } kind;
+/* The block $rows: |m| with its error, and the kind: m > 0, m < 0, or only bounded. Counts the rows of each kind. */
+enum { POSITIVE, NEGATIVE, BOUNDED, KINDS };
 
-static size_t put_rows(FILE *f, const iso_record *r, const char *name, kind wanted)
+static void put_rows(FILE *f, const iso_record *r, size_t count[KINDS])
 {
-    size_t count = 0;
-    fprintf(f, "$%s << EOD\n", name);
+    fputs("$rows << EOD\n", f);
     for (size_t i = 0; i < iso_record_rows(r); i++) {
         const double at = iso_plot_number(r, i, name_of(r)), m = iso_plot_number(r, i, "m"), size = fabs(m),
                      error = iso_plot_number(r, i, "error");
-        const kind is = size < TOLD * error ? BOUNDED : m > 0 ? POSITIVE : NEGATIVE;
-        if (is != wanted || !isfinite(at) || !isfinite(m) || !(error > 0) || iso_plot_number(r, i, "zero") == 1)
-            continue;
-        fprintf(f, "%.17g %.6g %.6g %.6g\n", at, is == BOUNDED ? size + error : size, size - error, size + error);
-        count++;
+        const int kind = size < TOLD * error ? BOUNDED : m > 0 ? POSITIVE : NEGATIVE;
+        if (!isfinite(at) || !isfinite(m) || !(error > 0) || iso_plot_number(r, i, "zero") == 1) continue;
+        fprintf(f, "%.17g %.6g %.6g %.6g %d\n", at, kind == BOUNDED ? size + error : size, size - error, size + error,
+                kind);
+        count[kind]++;
     }
     fputs("EOD\n", f);
-    return count;
 }
 
 static void put_size(FILE *f, const iso_record *r)
 {
-    static const char *const name[] = {"positive", "negative", "bounded"};
-    static const char *const look[] = {"pt 7 ps 0.7 lc rgb " ISO_PLOT_BLUE " title 'm > 0'",
-                                       "pt 7 ps 0.7 lc rgb " ISO_PLOT_VERMILLION " title 'm < 0'",
-                                       "pt 11 ps 1 lc rgb '#606060' title 'm below'"};
-    const char *comma = "plot ";
-    size_t count[3];
-    for (int i = 0; i < 3; i++) count[i] = put_rows(f, r, name[i], (kind)i);
+    static const char *const look[] = {":3:4 with yerrorbars pt 7 ps 0.7 lc rgb " ISO_PLOT_BLUE " title 'm > 0'",
+                                       ":3:4 with yerrorbars pt 7 ps 0.7 lc rgb " ISO_PLOT_VERMILLION
+                                       " title 'm < 0'",
+                                       " with points pt 11 ps 1 lc rgb '#606060' title 'm below'"};
+    const char *before = "plot";
+    size_t count[KINDS] = {0};
+    put_rows(f, r, count);
     fprintf(f,
-            "set border 3 lc rgb '#606060'; set tics nomirror out scale 0.6\n"
-            "set grid back lt 1 lw 0.8 lc rgb '#DDE1E5'\nset logscale y; set format y '10^{%%T}'; set xlabel %s\n"
+            ISO_PLOT_AXES
+            "set logscale y; set format y '10^{%%T}'; set xlabel %s\n"
             "set ylabel '|m|' offset 1,0; set key outside top center horizontal maxrows 1 samplen 0.5\n",
             QUOTED(name_of(r), 8));
-    for (int i = 0; i < 3; i++) {
-        if (count[i] == 0) continue;
-        fprintf(f, "%s$%s using 1:2%s with %s %s", comma, name[i], i == BOUNDED ? "" : ":3:4",
-                i == BOUNDED ? "points" : "yerrorbars", look[i]);
-        comma = ", ";
+    for (int kind = 0; kind < KINDS; kind++) {
+        if (count[kind] == 0) continue;
+        fprintf(f, "%s $rows using ($5 == %d ? $1 : NaN):2%s", before, kind, look[kind]);
+        before = ",";
     }
-    if (count[0] + count[1] + count[2] == 0) fputs("plot 1 notitle with lines lc rgb 'white'", f);
+    if (*before == 'p') fputs("plot 1 notitle with lines lc rgb 'white'", f);
     fputs("\nunset logscale y; set format y '%g'\n", f);
 }
 
@@ -62,12 +59,10 @@ static void put_size(FILE *f, const iso_record *r)
 static void put_curve(FILE *f, const iso_record *curve, const char *name, double at, int axis)
 {
     fputs("$curve << EOD\n", f);
-    for (size_t i = 0; i < iso_record_rows(curve); i++) {
-        const double *row = iso_record_const_row(curve, i);
-        if (isfinite(row[0]) && isfinite(row[1])) fprintf(f, "%.6f %.6f\n", row[0], row[1]);
-    }
+    for (size_t i = 0; i < iso_record_rows(curve); i++)
+        fprintf(f, "%.6f %.6f\n", iso_record_const_row(curve, i)[0], iso_record_const_row(curve, i)[1]);
     fprintf(f,
-            "EOD\nset border 15 lw 0.8 lc rgb '#606060'; set tics out scale 0.6 nomirror; unset grid\n"
+            "EOD\n" ISO_PLOT_FRAME
             "set xrange [-0.35:pi+0.35]; set xtics ('O' 0, 'π/4' pi/4, 'π/2' pi/2, '3π/4' 3*pi/4, \"O'\" pi)\n"
             "set arrow 1 from first pi/2, graph 0 to first pi/2, graph 1 nohead back dt (3,3) lw 1.2 lc rgb "
             "'#707070'\nset key outside bottom center horizontal samplen 2\n"

@@ -1,309 +1,288 @@
-/* plot_sweep.c - pictures of sweeps: a value over one number as a curve, over two as a map. */
+/* plot_sweep.c - the picture of the result of a sweep: chooses what is drawn; plot_maps.c draws it. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "plot/gnuplot.h"
+#include "base/nearest_impl.h"
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
+#include "sweep/sweep_store_impl.h"
 
-enum { WIDTH = 900, CURVE_HEIGHT = 480, PANEL_HEIGHT = 400, LONGEST = 110 };
-enum { X, VALUE, LOW, HIGH }; /* of a curve */
+enum { MOST_AXES = 64, MOST_NAMES = 4096, SUGGESTED = 64, NAME = 64 };
 
-static void put_label(FILE *f, const char *axis, const char *name)
+/* The rows of a result, and which columns are drawn. */
+typedef struct table {
+    const iso_sweep_head *head;
+    iso_record *rows;
+    int axis[MOST_AXES], axes; /* those that vary, and differ from row to row           */
+    int value, low, high;      /* -1: there is none; low -1: high is an error +-        */
+} table;
+
+static double at(const iso_record *rows, size_t row, int column)
 {
-    fprintf(f, "set %s %s noenhanced\n", axis, QUOTED(name, 40));
+    return iso_record_const_row(rows, row)[column];
 }
 
-static int by_size(const void *a, const void *b)
+/* --- the columns ------------------------------------------------------------------------------------------------ */
+
+/* A column, and those of its error. */
+static const struct {
+    const char *value, *low, *high; /* low NULL: high is an error +- */
+} known[] = {{"chaos_share", "chaos_share_low", "chaos_share_high"},
+             {"splitting_m", NULL, "splitting_error"},
+             {"splitting_x", NULL, "splitting_x_error"},
+             {"frequencies_f1_t", NULL, "frequencies_f1_error"},
+             {"frequencies_f2_t", NULL, "frequencies_f2_error"},
+             {"frequencies_rotation", NULL, NULL},
+             {"rotations_trace1", NULL, "rotations_error1"},
+             {"rotations_trace2", NULL, "rotations_error2"},
+             {"rotations_trace3", NULL, "rotations_error3"},
+             {"backends_largest", NULL, NULL},
+             {"contact_time", NULL, NULL}};
+enum { KNOWN = sizeof known / sizeof *known };
+
+static int find(const table *t, const char *name)
+{
+    return name ? iso_record_find(t->rows, name) : -1;
+}
+
+static bool varies(const table *t, int column)
+{
+    return strcmp(t->head->column[column].group, "vary") == 0;
+}
+
+static iso_status no_such_column(iso_context *ctx, const char *wanted, const table *t)
+{
+    char suggested[ISO_SUGGEST_SIZE];
+    const char *names[SUGGESTED];
+    size_t count = 0;
+    for (; count < iso_record_columns(t->rows) && count < SUGGESTED; count++)
+        names[count] = iso_record_name(t->rows, count);
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "value", "--value %s: there is no such column; %s", wanted,
+                            iso_suggest(suggested, wanted, count, names));
+}
+
+static iso_status choose_value(iso_context *ctx, const char *wanted, table *t)
+{
+    const iso_sweep_column *column = t->head->column;
+    int value = find(t, wanted);
+    if (wanted && value < 0) return no_such_column(ctx, wanted, t);
+    for (size_t i = 0; i < KNOWN && value < 0; i++) value = find(t, known[i].value);
+    for (int c = 0; c < t->head->columns && value < 0; c++) {
+        const bool clock = strcmp(column[c].group, "state") == 0 && strcmp(column[c].name, "t") == 0;
+        if (!varies(t, c) && !clock) value = c; /* the clock is often constant */
+    }
+    if (value < 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "value", "nothing was measured");
+    if (varies(t, value))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "value", "--value %s: it varies: name one that was measured",
+                                wanted);
+    t->value = value;
+    t->low = t->high = -1;
+    for (size_t i = 0; i < KNOWN; i++)
+        if (find(t, known[i].value) == value) t->low = find(t, known[i].low), t->high = find(t, known[i].high);
+    return ISO_OK;
+}
+
+/* A record with the columns of the result. */
+static iso_status create_rows(iso_context *ctx, const iso_sweep_reader *reader, table *t)
+{
+    static const char *names[MOST_NAMES];
+    const iso_record *header = iso_table_header(reader->table); /* one column more in front */
+    t->head = &reader->head;
+    for (size_t c = 0; c < (size_t)t->head->columns; c++) names[c] = iso_record_name(header, c + 1);
+    return iso_record_create(ctx, (size_t)t->head->columns, names, &t->rows);
+}
+
+static iso_status read_rows(iso_context *ctx, iso_sweep_reader *reader, table *t)
+{
+    iso_sweep_rows rows;
+    iso_status status = iso_sweep_rows_create(ctx, t->head->columns, t->head->chunk, &rows);
+    for (size_t c = 0; status == ISO_OK && c < iso_sweep_chunks(t->head); c++) {
+        status = iso_sweep_reader_rows(ctx, reader, iso_sweep_chunk_points(t->head, c), &rows);
+        if (status == ISO_OK) status = iso_record_add(ctx, t->rows, rows.count, rows.number);
+    }
+    iso_sweep_rows_free(&rows);
+    return status;
+}
+
+static void find_axes(table *t)
+{
+    for (int c = 0; c < t->head->columns && t->axes < MOST_AXES; c++) {
+        bool differs = false;
+        for (size_t i = 1; varies(t, c) && i < iso_record_rows(t->rows) && !differs; i++)
+            differs = at(t->rows, i, c) != at(t->rows, 0, c);
+        if (differs) t->axis[t->axes++] = c;
+    }
+}
+
+/* --- one number varies ------------------------------------------------------------------------------------------ */
+
+static int by_x(const void *a, const void *b)
 {
     const double *one = a, *other = b;
     return (*one > *other) - (*one < *other);
 }
 
-/* The numbers of a column, to choose a scale. */
-typedef struct spread {
-    double low, high, least; /* least: the smallest size but 0 */
-    bool sizes;              /* whether sizes are drawn        */
-} spread;
-
-/* Sizes are drawn if a tenth of them are smaller than the largest by 1e4, or by 1e3 if there are both signs. One
- * small number does not count: every smooth function that changes its sign has one. Without memory the scale is
- * even. */
-static spread spread_of(const iso_record *rows, int column)
+static iso_status draw_curve(iso_context *ctx, const table *t, const char *title, const char *path)
 {
-    spread s = {.low = INFINITY, .high = -INFINITY};
-    double *size = malloc((iso_record_rows(rows) + 1) * sizeof *size);
-    size_t count = 0;
-    for (size_t i = 0; i < iso_record_rows(rows); i++) {
-        const double x = iso_record_const_row(rows, i)[column];
-        if (!isfinite(x)) continue;
-        s.low = fmin(s.low, x);
-        s.high = fmax(s.high, x);
-        if (x != 0 && size) size[count++] = fabs(x);
+    const char *const names[] = {iso_record_name(t->rows, (size_t)t->axis[0]),
+                                 iso_record_name(t->rows, (size_t)t->value), "low", "high"};
+    const size_t count = iso_record_rows(t->rows);
+    iso_record *rows;
+    iso_status status = iso_record_create(ctx, 4, names, &rows);
+    for (size_t i = 0; i < count && status == ISO_OK; i++) {
+        const double value = at(t->rows, i, t->value), error = t->high < 0 ? (double)NAN : at(t->rows, i, t->high);
+        const double high = t->low < 0 ? error + value : error;
+        const double low = t->low < 0 ? 2 * value - high : at(t->rows, i, t->low);
+        status = iso_record_add(ctx, rows, 1, (double[]){at(t->rows, i, t->axis[0]), value, low, high});
     }
-    if (count > 0) {
-        qsort(size, count, sizeof *size, by_size);
-        s.least = size[0];
-        s.sizes = size[count - 1] > (s.low < 0 && s.high > 0 ? 1e3 : 1e4) * size[count / 10];
+    if (status == ISO_OK) {
+        qsort(iso_record_row(rows, 0), count, 4 * sizeof(double), by_x);
+        status = iso_plot_sweep_curve(ctx, path, title, rows);
     }
-    free(size);
-    return s;
-}
-
-/* --- axes ------------------------------------------------------------------------------------------------------- */
-
-/* The numbers along one axis, each once, by size. */
-typedef struct line {
-    double *at;
-    size_t count;
-    bool logarithmic; /* they grow by equal ratios, not by equal steps */
-    bool k;
-} line;
-
-/* Ratios that differ by little, steps that differ by much. */
-static bool grows_by_ratios(const line *l)
-{
-    double least_ratio = INFINITY, most_ratio = 0, least_step = INFINITY, most_step = 0;
-    if (l->count < 4 || !(l->at[0] > 0)) return false;
-    for (size_t i = 1; i < l->count; i++) {
-        const double ratio = log(l->at[i] / l->at[i - 1]), step = l->at[i] - l->at[i - 1];
-        least_ratio = fmin(least_ratio, ratio);
-        most_ratio = fmax(most_ratio, ratio);
-        least_step = fmin(least_step, step);
-        most_step = fmax(most_step, step);
-    }
-    return most_ratio < 1.2 * least_ratio && most_step > 3 * least_step;
-}
-
-/* count = 0: no memory. */
-static line line_of(const iso_record *rows, size_t column)
-{
-    const size_t all = iso_record_rows(rows);
-    line l = {.k = strcmp(iso_record_name(rows, column), "k") == 0, .at = malloc((all + 1) * sizeof *l.at)};
-    if (!l.at) return l;
-    for (size_t i = 0; i < all; i++) l.at[i] = iso_record_const_row(rows, i)[column];
-    qsort(l.at, all, sizeof *l.at, by_size);
-    for (size_t i = 0; i < all; i++)
-        if (l.count == 0 || l.at[i] != l.at[l.count - 1]) l.at[l.count++] = l.at[i];
-    l.logarithmic = grows_by_ratios(&l);
-    return l;
-}
-
-/* k = 1 and k = -1: only there the problem is integrable. axis: "x" or "y". */
-static void put_axis(FILE *f, const char *axis, const line *l)
-{
-    if (l->logarithmic) fprintf(f, "set logscale %s; set format %s '10^{%%T}'\n", axis, axis);
-    for (int k = -1; k <= 1 && l->k && l->count > 0; k += 2) {
-        if (k < l->at[0] || k > l->at[l->count - 1]) continue;
-        fprintf(f,
-                *axis == 'x' ? "set arrow from first %d, graph 0 to first %d, graph 1"
-                             : "set arrow from graph 0, first %d to graph 1, first %d",
-                k, k);
-        fputs(" nohead front dt (4,3) lw 1.2 lc rgb '#404040'\n", f);
-    }
-}
-
-/* --- a curve ---------------------------------------------------------------------------------------------------- */
-
-static void put_value_label(FILE *f, const char *axis, const char *value, bool sizes)
-{
-    char size[48];
-    snprintf(size, sizeof size, sizes ? "|%.40s|" : "%.40s", value);
-    put_label(f, axis, size);
-}
-
-/* A gap of the curve where there is no value, and at k = 0, where there is no ball. With sizes the band may not
- * reach 0. */
-static bool put_curve(FILE *f, const iso_record *rows, bool sizes, bool k)
-{
-    bool band = false;
-    fputs("$curve << EOD\n", f);
-    for (size_t i = 0; i < iso_record_rows(rows); i++) {
-        const double *row = iso_record_const_row(rows, i);
-        double value = row[VALUE], low = row[LOW], high = row[HIGH];
-        if (k && i > 0 && iso_record_const_row(rows, i - 1)[X] < 0 && row[X] > 0) fputs("\n", f);
-        if (!isfinite(value)) {
-            fputs("\n", f);
-            continue;
-        }
-        if (sizes) {
-            const double error = (high - low) / 2;
-            value = fabs(value);
-            low = fmax(value - error, value / 1e3);
-            high = value + error;
-        }
-        if (!isfinite(low) || !isfinite(high)) low = high = value;
-        band = band || high > low;
-        if (sizes && !(value > 0)) continue;
-        fprintf(f, "%.17g %.12g %.12g %.12g\n", row[X], value, low, high);
-    }
-    fputs("EOD\n", f);
-    return band;
-}
-
-iso_status iso_plot_sweep_curve(iso_context *ctx, const char *path, const char *title, const iso_record *rows)
-{
-    if (!rows || iso_record_columns(rows) != 4 || iso_record_rows(rows) == 0)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a curve needs rows of x, value, low and high");
-    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, CURVE_HEIGHT);
-    const line x = line_of(rows, X);
-    const bool sizes = spread_of(rows, VALUE).sizes, band = put_curve(f, rows, sizes, x.k);
-    fprintf(f, "set title %s noenhanced\n" ISO_PLOT_AXES "unset key\n", QUOTED(title, LONGEST));
-    put_label(f, "xlabel", iso_record_name(rows, X));
-    put_value_label(f, "ylabel", iso_record_name(rows, VALUE), sizes);
-    if (sizes) fputs("set logscale y; set format y '10^{%T}'\n", f);
-    put_axis(f, "x", &x);
-    free(x.at);
-    fputs("plot ", f);
-    if (band) fputs("$curve using 1:3:4 with filledcurves fc rgb " ISO_PLOT_FAR_BLUE " fs solid 0.7 noborder, ", f);
-    fputs("$curve using 1:2 with linespoints pt 7 ps 0.45 lw 1.4 lc rgb " ISO_PLOT_BLUE "\n", f);
-    return iso_gnuplot_close(ctx, true);
+    iso_record_free(rows);
+    return status;
 }
 
 /* --- maps ------------------------------------------------------------------------------------------------------- */
 
-/* The points of all panels: cells if they are a grid, else squares that fill a panel as if they were spread
- * evenly. */
-typedef struct grid {
-    line x, y;
-    bool cells;
-    double size; /* of a square */
-} grid;
+/* What the axes of the maps are, and which column tells the maps apart. */
+typedef struct layout {
+    int x, y, panel;       /* columns of the table; panel -1: one map */
+    bool ratios, triangle; /* x and y come from J: J1/J3 and J2/J3, or places in the triangle of J */
+    int J;
+    char x_name[NAME], y_name[NAME];
+    iso_plot_maps maps;
+} layout;
 
-static grid grid_of(const iso_plot_panels *p)
+static void place(const table *t, const layout *l, size_t row, double to[2])
 {
-    grid g = {.x = line_of(p->rows, 0), .y = line_of(p->rows, 1)};
-    const size_t points = iso_record_rows(p->rows);
-    const double side = 640.0 / (p->count > 3 ? 3 : p->count), count = fmax(1, (double)points / p->count);
-    g.size = fmin(3, fmax(0.15, side / sqrt(count) / 9));
-    g.cells = g.x.count > 1 && g.y.count > 1 && (double)g.x.count * (double)g.y.count < 1.2 * count;
-    return g;
-}
-
-/* Half way to a neighbour, but not across k = 0, and not much farther than to the other neighbour. */
-static double edge_of(const line *l, double x, double step, double other)
-{
-    const double half = (fabs(step) < 1.5 * fabs(other) ? step : copysign(1.5 * other, step)) / 2;
-    return l->k && x * (x + half) < 0 ? 0 : x + half;
-}
-
-/* Of a logarithmic axis the steps are those of the logarithm. */
-static void cell_of(const line *l, double x, double edge[2])
-{
-    size_t low = 0, high = l->count - 1;
-    while (low < high) {
-        const size_t middle = (low + high) / 2;
-        if (l->at[middle] < x)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    const bool first = low == 0, last = low + 1 == l->count;
-    const double left = l->at[first ? 0 : low - 1], right = l->at[last ? low : low + 1];
-    if (l->logarithmic) {
-        const double before = first ? right / x : x / left, after = last ? before : right / x;
-        edge[0] = x / sqrt(before);
-        edge[1] = x * sqrt(after);
+    const double *from = iso_record_const_row(t->rows, row);
+    if (!l->ratios && !l->triangle) {
+        to[0] = from[l->x], to[1] = from[l->y];
         return;
     }
-    const double before = first ? right - x : x - left, after = last ? x - left : right - x;
-    edge[0] = edge_of(l, x, -before, after);
-    edge[1] = edge_of(l, x, after, before);
+    const double a = from[l->J], b = from[l->J + 1], c = from[l->J + 2], sum = a + b + c;
+    to[0] = l->ratios ? a / c : (b + c / 2) / sum;
+    to[1] = l->ratios ? b / c : c * sqrt(0.75) / sum;
 }
 
-/* With sizes a value is drawn as its size. There is a last line so that no block is empty. */
-static void put_points(FILE *f, const iso_record *rows, int map, const grid *g, bool there, bool sizes)
+/* The three moments vary: they are one point of a triangle. */
+static bool takes_moments(const table *t, layout *l, int rest[], int *others)
 {
-    for (size_t r = 0; r < iso_record_rows(rows); r++) {
-        const double *row = iso_record_const_row(rows, r), value = sizes ? fabs(row[2]) : row[2];
-        double x[2] = {0}, y[2] = {0};
-        if ((isfinite(value) && !(sizes && value == 0)) != there || row[3] != map) continue;
-        if (g->cells) cell_of(&g->x, row[0], x), cell_of(&g->y, row[1], y);
-        fprintf(f, "%.17g %.17g %.9g %.17g %.17g %.17g %.17g\n", row[0], row[1], there ? value : 0, x[0], x[1], y[0],
-                y[1]);
+    int moments = 0;
+    *others = 0;
+    for (int i = 0; i < t->axes; i++) {
+        const char *name = iso_record_name(t->rows, (size_t)t->axis[i]);
+        const bool moment = name[0] == 'J' && name[1] >= '1' && name[1] <= '3' && name[2] == '\0';
+        if (moment && moments++ == 0) l->J = t->axis[i];
+        if (!moment) rest[(*others)++] = t->axis[i];
     }
-    fputs("NaN NaN NaN NaN NaN NaN NaN\n", f);
-}
-
-static void put_panel(FILE *f, const iso_plot_panels *p, int i, const grid *g, bool sizes)
-{
-    char with[96], name[80] = "";
-    if (p->key_name) snprintf(name, sizeof name, "%s = %.6g", p->key_name, p->key[i]);
-    for (int there = 1; there >= 0; there--) {
-        fprintf(f, "$%s%d << EOD\n", there ? "value" : "none", i);
-        put_points(f, p->rows, i, g, there, sizes);
-        fputs("EOD\n", f);
+    if (moments != 3) return false;
+    l->ratios = true;
+    for (size_t i = 0; i < iso_record_rows(t->rows); i++) {
+        const double *J = iso_record_const_row(t->rows, i) + l->J;
+        l->ratios = l->ratios && J[0] <= J[1] && J[1] <= J[2];
     }
-    if (g->cells)
-        snprintf(with, sizeof with, "using 1:2:4:5:6:7:3 with boxxyerror fs solid 1 noborder lw 0");
-    else
-        snprintf(with, sizeof with, "using 1:2:3 with points pt 5 ps %.3g", g->size);
-    fprintf(f, "%sset title %s noenhanced\nplot $none%d %s lc rgb '#B0B0B0', $value%d %s lc palette\n",
-            g->cells ? "set autoscale noextend; set offsets graph 0.02, graph 0.02, graph 0.02, graph 0.02\n" : "",
-            QUOTED(name, 40), i, with, i, with);
+    l->triangle = !l->ratios;
+    snprintf(l->x_name, NAME, "%s", l->ratios ? "J1/J3" : "(J2 + J3/2)/(J1 + J2 + J3)");
+    snprintf(l->y_name, NAME, "%s", l->ratios ? "J2/J3" : "(sqrt(3)/2) J3/(J1 + J2 + J3)");
+    return true;
 }
 
-/* One scale for all panels. */
-static bool put_scale(FILE *f, const iso_plot_panels *p)
+/* The place of a number in a list, at whose end it is put; -1: the list is full. */
+static int place_in(double list[ISO_PLOT_MAPS], int *count, double x)
 {
-    const spread s = spread_of(p->rows, 2);
-    const bool sizes = s.sizes;
-    double low = sizes ? s.least : s.low, high = sizes ? fmax(fabs(s.low), fabs(s.high)) : s.high;
-    if (!(low < high)) low = isfinite(low) ? low : 0, high = low + 1;
-    fprintf(f, "set cbrange [%.9g:%.9g]\n", low, high);
-    if (sizes) fputs("set logscale cb; set format cb '10^{%T}'\n", f);
-    fputs("set palette defined (0 '#0B2E59', 1 '#0072B2', 2 '#A9CDE2', 3 '#F7E3B0', 4 '#E69F00', 5 '#A03A00')\n", f);
-    put_value_label(f, "cblabel", iso_record_name(p->rows, 2), sizes);
-    return sizes;
+    int i = 0;
+    while (i < *count && list[i] != x) i++;
+    if (i == ISO_PLOT_MAPS) return -1;
+    list[i] = x;
+    if (i == *count) ++*count;
+    return i;
 }
 
-/* Panels of one size, left to right, then below; the scale of colours stands on the right of all. */
-static void put_place(FILE *f, int i, int across, int down)
+/* Of three numbers that vary the one with the fewest values tells the maps apart. */
+static void take_columns(const table *t, layout *l)
 {
-    const double wide = 0.83 / across, high = 0.9 / down;
-    const double left = 0.075 + wide * (i % across), bottom = 0.91 - high * (i / across + 1);
-    fprintf(f, i % across == 0 ? "" : "unset ylabel\n");
-    fprintf(f,
-            "set lmargin at screen %.4f; set rmargin at screen %.4f\n"
-            "set bmargin at screen %.4f; set tmargin at screen %.4f\n",
-            left, left + wide - 0.065, bottom + 0.13, bottom + high - 0.06);
-}
-
-/* About four steps of 1, 2 or 5 times a power of ten: panels are narrow. */
-static void put_steps(FILE *f, const line *x)
-{
-    if (x->logarithmic || x->count < 2) return;
-    const double rough = (x->at[x->count - 1] - x->at[0]) / 3.5, power = pow(10, floor(log10(rough))),
-                 digit = rough / power;
-    fprintf(f, "set xtics %.6g\n", power * (digit < 2 ? 1 : digit < 5 ? 2 : 5));
-}
-
-iso_status iso_plot_sweep_maps(iso_context *ctx, const char *path, const iso_plot_panels *p)
-{
-    const int across = p->count > 3 ? 3 : p->count, down = p->count > 3 ? 2 : 1;
-    if (p->count < 1 || p->count > ISO_PLOT_MAPS)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%d maps: a picture has 1 to %d", p->count, ISO_PLOT_MAPS);
-    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, down * PANEL_HEIGHT + (across == 1 ? 200 : 0));
-    const grid points = grid_of(p);
-    fprintf(f,
-            "set multiplot title %s noenhanced\nset border 15 lc rgb '#606060'; set tics nomirror out scale 0.6; "
-            "unset key\n",
-            QUOTED(p->title, LONGEST));
-    put_label(f, "xlabel", iso_record_name(p->rows, 0));
-    put_label(f, "ylabel", iso_record_name(p->rows, 1));
-    const bool sizes = put_scale(f, p);
-    put_steps(f, &points.x);
-    put_axis(f, "x", &points.x);
-    put_axis(f, "y", &points.y);
-    fputs("set colorbox user origin 0.865,0.25 size 0.015,0.5\n", f);
-    for (int i = 0; i < p->count; i++) {
-        if (i % across == 0) put_label(f, "ylabel", iso_record_name(p->rows, 1));
-        put_place(f, i, across, down);
-        if (i == 1) fputs("unset colorbox\n", f);
-        put_panel(f, p, i, &points, sizes);
+    int panel = -1, fewest = ISO_PLOT_MAPS + 2, rest[3], others = 0;
+    for (int i = 0; i < t->axes && t->axes == 3; i++) {
+        double seen[ISO_PLOT_MAPS];
+        int values = 0;
+        for (size_t row = 0; values <= ISO_PLOT_MAPS && row < iso_record_rows(t->rows); row++)
+            if (place_in(seen, &values, at(t->rows, row, t->axis[i])) < 0) values = ISO_PLOT_MAPS + 1;
+        if (values < fewest) fewest = values, panel = i;
     }
-    free(points.x.at);
-    free(points.y.at);
-    return iso_gnuplot_close(ctx, true);
+    for (int i = 0; i < t->axes; i++)
+        if (i != panel) rest[others++] = t->axis[i];
+    if (panel >= 0) l->panel = t->axis[panel];
+    l->x = rest[0];
+    l->y = rest[1];
+    snprintf(l->x_name, NAME, "%s", iso_record_name(t->rows, (size_t)l->x));
+    snprintf(l->y_name, NAME, "%s", iso_record_name(t->rows, (size_t)l->y));
+}
+
+static iso_status choose_layout(iso_context *ctx, const table *t, layout *l)
+{
+    int rest[MOST_AXES], others;
+    const bool moments = takes_moments(t, l, rest, &others);
+    const int left = moments ? others : t->axes - 2;
+    if (left < 0 || left > 1)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                                "%d numbers vary: a picture shows one, two, or three (J counts as two)", t->axes);
+    if (!moments) take_columns(t, l);
+    if (moments && left == 1) l->panel = rest[0];
+    return ISO_OK;
+}
+
+static iso_status collect(iso_context *ctx, const table *t, layout *l)
+{
+    const char *const names[] = {l->x_name, l->y_name, iso_record_name(t->rows, (size_t)t->value), "panel"};
+    iso_status status = iso_record_create(ctx, 4, names, &l->maps.rows);
+    if (l->panel >= 0) l->maps.key_name = iso_record_name(t->rows, (size_t)l->panel);
+    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(t->rows); i++) {
+        const int map = place_in(l->maps.key, &l->maps.count, l->panel < 0 ? 0 : at(t->rows, i, l->panel));
+        double row[4] = {0, 0, at(t->rows, i, t->value), map};
+        if (map < 0)
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "", "more than %d values of '%s': a picture has no room",
+                                    ISO_PLOT_MAPS, l->maps.key_name);
+        place(t, l, i, row);
+        status = iso_record_add(ctx, l->maps.rows, 1, row);
+    }
+    return status;
+}
+
+static iso_status draw_maps(iso_context *ctx, const table *t, const char *title, const char *path)
+{
+    layout l = {.panel = -1};
+    iso_status status = choose_layout(ctx, t, &l);
+    if (status == ISO_OK) status = collect(ctx, t, &l);
+    if (status == ISO_OK) status = iso_plot_sweep_maps(ctx, path, title, &l.maps);
+    iso_record_free(l.maps.rows);
+    return status;
+}
+
+/* --- the picture ------------------------------------------------------------------------------------------------ */
+
+iso_status iso_plot_sweep(iso_context *ctx, const char *path, const char *file, const char *value)
+{
+    iso_sweep_reader *reader;
+    char title[160];
+    table t = {.axes = 0};
+    ISO_TRY(iso_sweep_reader_open(ctx, file, &reader));
+    iso_status status = create_rows(ctx, reader, &t);
+    if (reader->share.count > 1)
+        status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "'%s' is a part of a sweep: merge the parts first", file);
+    if (status == ISO_OK) status = choose_value(ctx, value, &t);
+    if (status == ISO_OK) status = read_rows(ctx, reader, &t);
+    if (status == ISO_OK) find_axes(&t);
+    if (status == ISO_OK && t.axes == 0)
+        status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "nothing varies in '%s'", file);
+    if (status == ISO_OK) {
+        const char *slash = strrchr(file, '/');
+        snprintf(title, sizeof title, "%.60s: %zu points", slash ? slash + 1 : file, iso_record_rows(t.rows));
+        status = (t.axes == 1 ? draw_curve : draw_maps)(ctx, &t, title, path);
+    }
+    iso_record_free(t.rows);
+    iso_sweep_reader_close(reader);
+    return status;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "orbit/description.h"
+#include "plot/gnuplot.h"
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
 #include "plot/section_picture.h"
@@ -25,14 +26,78 @@ int iso_plot_axis_of(const iso_record *r)
     return axis && axis[0] >= '1' && axis[0] <= '3' ? axis[0] - '1' : -1;
 }
 
+void iso_plot_block(FILE *f, const char *name, const iso_record *r, const char *const columns[])
+{
+    fprintf(f, "set datafile missing NaN\n$%s << EOD\n", name);
+    for (size_t i = 0; r && i < iso_record_rows(r); i++) {
+        for (const char *const *c = columns; *c; c++) {
+            const int column = iso_record_find(r, *c);
+            const double x = iso_plot_number(r, i, *c);
+            if (column >= 0 && iso_record_has_words(r, (size_t)column))
+                fprintf(f, "%s ", QUOTED(iso_record_word(r, x), 40));
+            else
+                fprintf(f, isfinite(x) ? "%.17g " : "NaN ", x);
+        }
+        fputc('\n', f);
+    }
+    fputs("EOD\n", f);
+}
+
+/* --- pictures that are a script of gnuplot ---------------------------------------------------------------------- */
+
+/* Follows the columns as the block $table, the title and the name of what varies. */
+static iso_status draw_script(iso_context *ctx, const char *path, const char *title, const iso_record *r,
+                              const char *const columns[], const char *varies, int height, const char *script)
+{
+    FILE *f = iso_gnuplot_open(ctx, path, 900, height);
+    iso_plot_block(f, "table", r, columns);
+    fprintf(f, "set multiplot; set label 1 %s noenhanced at screen 0.5,0.97 center\n", QUOTED(title, 120));
+    fprintf(f, "varies = %s; set tics nomirror out scale 0.6\n%s", QUOTED(varies, 8), script);
+    return iso_gnuplot_close(ctx, true);
+}
+
+/* A bifurcation diagram. A row with an event repeats a point. */
+static iso_status draw_branches(iso_context *ctx, const char *path, const char *title, const iso_record *r)
+{
+    const char *varies = iso_record_name(r, 3), *const columns[] = {"branch", varies, "trace", "u", "event", NULL};
+    return draw_script(
+        ctx, path, title, r, columns, varies, 640,
+        "unset key; set lmargin at screen 0.1; set rmargin at screen 0.97; last = int(word($table[|$table|], 1))\n"
+        "set tmargin at screen 0.93; set bmargin at screen 0.54; set ylabel 'trace' offset 1,0; set yrange [-6:6]\n"
+        "set arrow 1 from graph 0, first 2 to graph 1, first 2 nohead dt 2 lc rgb '#707070'\n"
+        "set arrow 2 from graph 0, first -2 to graph 1, first -2 nohead dt 2 lc rgb '#707070'\n"
+        "plot for [b=1:last] $table using ($1 == b && strcol(5) eq '' ? $2 : NaN):3 w l lw 1.5 lc b-1 title 'trace'\n"
+        "unset arrow; set yrange [0:1]; set tmargin at screen 0.48; set bmargin at screen 0.09\n"
+        "set ylabel 'place on the line: 2 u/π' offset 1,0; set xlabel varies\n"
+        "plot for [b=1:last] $table using ($1 == b && strcol(5) eq '' ? $2 : NaN):(2 / pi * $4) w l lw 1.5 lc b-1 "
+        "title 'place'");
+}
+
+/* Where a rotation is stable, and the borders. With equal moments a trace is -2 up to rounding. */
+static iso_status draw_stability(iso_context *ctx, const char *path, const char *title, const iso_record *r)
+{
+    const char *varies = iso_record_name(r, 2), *const columns[] = {"k", varies, "least", "greatest", "kind", NULL};
+    return draw_script(
+        ctx, path, title, r, columns, varies, 480,
+        "set tmargin at screen 0.86; set bmargin at screen 0.2; set xlabel 'k'; set ylabel varies offset 1,0\n"
+        "set key at screen 0.5,0.08 center horizontal samplen 1; edge = 2 + 1e-9; set datafile missing\n"
+        "grid(T) = strcol(5) ne 'grid' || T != T ? NaN : T <= -edge ? -1 : T > edge ? 1 : 0\n"
+        "do for [i=3:4] {\nset title 'rotation about the axis of the '.(i == 3 ? 'least' : 'greatest').' moment'\n"
+        "set lmargin at screen i == 3 ? 0.08 : 0.56; set rmargin at screen i == 3 ? 0.49 : 0.97\n"
+        "plot $table u (grid(column(i)) == 0 ? $1 : NaN):2 w p pt 5 ps 0.3 lc rgb '#CFE3F2' title 'stable', "
+        "'' u (grid(column(i)) == -1 ? $1 : NaN):2 w p pt 5 ps 0.3 lc rgb '#E69F00' title 'T < -2', "
+        "'' u (grid(column(i)) == 1 ? $1 : NaN):2 w p pt 5 ps 0.3 lc rgb '#D55E00' title 'T > 2', "
+        "'' u (strcol(5) eq 'border' && column(i) == column(i) ? $1 : NaN):2 w p pt 7 ps 0.15 lc rgb 'black' "
+        "title 'T = 2, -2'\n}");
+}
+
+/* --- sections --------------------------------------------------------------------------------------------------- */
+
 static iso_status draw_section(iso_context *ctx, const char *path, const char *title, const iso_record *r)
 {
-    (void)title;
-    iso_params params;
     section_picture *p = NULL;
-    iso_status status = iso_record_params(ctx, r, &params);
-    if (status == ISO_OK) status = section_picture_create(ctx, &params, &p);
-    if (status == ISO_OK) section_picture_begin(p, r);
+    iso_status status = section_picture_create(ctx, r, &p);
+    (void)title;
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(r); i++)
         status = section_picture_row(ctx, p, iso_record_const_row(r, i));
     if (status == ISO_OK) status = section_picture_draw(ctx, p, path);
@@ -45,15 +110,13 @@ static iso_status put_images(iso_context *ctx, const iso_record *r, size_t i, is
 {
     const double pi = acos(-1), l = iso_plot_number(r, i, "l"), x = iso_plot_number(r, i, "x");
     const bool grey = iso_plot_is(r, i, "stability", "unstable") || iso_plot_is(r, i, "stability", "inverse");
-    iso_status status = ISO_OK;
-    for (int n = 0; n < 8 && status == ISO_OK; n++) {
-        const double sign = n & 1 ? -1 : 1;
-        status = iso_record_add(ctx, images, 1,
-                                (double[]){iso_plot_number(r, i, "orbit") - 1,
-                                           remainder(sign * l + (n & 2 ? pi : 0), 2 * pi), (n & 4 ? -sign : sign) * x,
-                                           grey});
+    for (int n = 0; n < 8; n++) {
+        const double sign = n & 1 ? -1 : 1,
+                     image[] = {iso_plot_number(r, i, "orbit") - 1, remainder(sign * l + (n & 2 ? pi : 0), 2 * pi),
+                                (n & 4 ? -sign : sign) * x, grey};
+        ISO_TRY(iso_record_add(ctx, images, 1, image));
     }
-    return status;
+    return ISO_OK;
 }
 
 static iso_status draw_orbits(iso_context *ctx, const char *path, const char *title, const iso_record *r)
@@ -90,8 +153,8 @@ static const struct kind {
     {"section", {"orbit", "l", "x"}, true, draw_section},
     {"chaos", {"l", "x", "verdict"}, true, iso_plot_exponents},
     {"periodic", {"orbit", "l", "x", "stability"}, true, draw_orbits},
-    {"periodic follow", {"branch", "u", "trace", "event"}, false, iso_plot_branches},
-    {"periodic chart", {"kind", "k", "least", "greatest"}, false, iso_plot_stability},
+    {"periodic follow", {"branch", "u", "trace", "event"}, false, draw_branches},
+    {"periodic chart", {"kind", "k", "least", "greatest"}, false, draw_stability},
     {"cost", {"backend", "method", "error", "total"}, false, iso_plot_cost},
     {"splitting", {"k", "level", "m", "error"}, false, draw_splitting},
 };
@@ -125,9 +188,8 @@ iso_status iso_plot_table(iso_context *ctx, const char *path, const char *name, 
     char title[160];
     iso_params p;
     const struct kind *kind = find_kind(iso_record_kind(r));
-    iso_status status = check(ctx, r, kind);
-    if (status == ISO_OK) status = iso_record_params(ctx, r, &p);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check(ctx, r, kind));
+    ISO_TRY(iso_record_params(ctx, r, &p));
     snprintf(title, sizeof title, "%.60s: k = %.6g, J = %.6g %.6g %.6g", name, p.k, p.J[0], p.J[1], p.J[2]);
     const char *own = iso_record_get(r, "title");
     return kind->draw(ctx, path, own ? own : title, r);

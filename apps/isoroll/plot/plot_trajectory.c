@@ -8,10 +8,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/vec3_impl.h"
 #include "plot/gnuplot.h"
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
-#include "plot/vectors.h"
 
 /* In pixels. */
 enum { WIDTH = 900, TITLE = 50, SQUARE = 420, VIEW = 320, WIDE = 270, CHART = 260, LINE = 40, FOOT = 12 };
@@ -57,24 +57,27 @@ static iso_status find_trace(iso_context *ctx, sheet *s)
 
 static bool is_constant(const iso_record *r)
 {
-    const size_t columns = iso_record_columns(r);
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, size = 0;
-    for (size_t i = 0; i < iso_record_rows(r); i++)
-        for (size_t c = 1; c < columns && c < 4; c++) {
-            const double x = iso_record_const_row(r, i)[c];
-            low[c - 1] = fmin(low[c - 1], x), high[c - 1] = fmax(high[c - 1], x), size = fmax(size, fabs(x));
-        }
-    for (size_t c = 1; c < columns && c < 4; c++)
-        if (high[c - 1] - low[c - 1] > 1e-9 * size) return false;
-    return true;
+    double range[2], size = 0, most = 0;
+    for (int c = 1; c < (int)iso_record_columns(r) && c < 4; c++) {
+        iso_plot_range(r, c, range);
+        size = fmax(size, fmax(fabs(range[0]), fabs(range[1])));
+        most = fmax(most, range[1] - range[0]);
+    }
+    return !(most > 1e-9 * size);
 }
 
-static double largest_drift(const iso_record *r)
+static double largest_of(const iso_record *r, size_t column)
 {
-    double largest = 0;
-    for (size_t i = 0; i < iso_record_rows(r); i++)
-        for (size_t c = 1; c < iso_record_columns(r); c++) largest = fmax(largest, iso_record_const_row(r, i)[c]);
-    return largest;
+    double range[2];
+    iso_plot_range(r, (int)column, range);
+    return fmax(0, range[1]);
+}
+
+static bool is_noise(const iso_record *drift)
+{
+    bool noise = drift != NULL;
+    for (size_t c = 1; noise && c < iso_record_columns(drift); c++) noise = largest_of(drift, c) < 1000 * DBL_EPSILON;
+    return noise;
 }
 
 /* The first clock of a record, or -1. */
@@ -98,7 +101,7 @@ static void choose_panels(sheet *s)
     if (p->space && !(s->scenery.plane && s->scenery.level)) s->square[s->squares++] = FROM_SIDE;
     if (s->ball >= 0) s->square[s->squares++] = ON_BALL;
     if (s->point >= 0) s->square[s->squares++] = ON_POINT;
-    s->noise = p->drift && largest_drift(p->drift) < 1000 * DBL_EPSILON;
+    s->noise = is_noise(p->drift);
     if (p->energies && !is_constant(p->energies)) s->chart[s->charts++] = ENERGIES;
     if (has_pressure(p)) s->chart[s->charts++] = PRESSURE;
     const bool drift = p->drift && !s->noise, odd = s->squares % 2;
@@ -148,8 +151,7 @@ static void put_key(const sheet *s, square which, double x, int from_above)
                  is_view(which) ? text
                                 : "NaN w l lw 1.8 lc rgb " ISO_PLOT_BLUE " title 'near side',"
                                   " NaN w l lw 1.8 lc rgb " ISO_PLOT_FAR_BLUE " title 'far side',"
-                                  " NaN w p " ISO_PLOT_START " lc rgb 'black' title 'start',"
-                                  " NaN w p " ISO_PLOT_END " lc rgb 'black' title 'end'");
+                                  " " ISO_PLOT_ENDS);
 }
 
 static void put_sphere(const sheet *s, const iso_plot_box *box, const iso_record *r, int column, const char *title)
@@ -174,22 +176,6 @@ static void put_square(const sheet *s, square which, int left, int height)
 
 /* --- charts ----------------------------------------------------------------------------------------------------- */
 
-static void put_energies(const sheet *s, const iso_plot_box *box)
-{
-    static const iso_plot_curve curve[] = {{1, "energy h", "'black'", false},
-                                           {2, "kinetic", ISO_PLOT_BLUE, false},
-                                           {3, "potential", "'#E69F00'", false}};
-    const int count = (int)iso_record_columns(s->plot->energies) - 1;
-    iso_plot_curves(s->f, &(iso_plot_panel){.box = *box,
-                                            .rows = s->plot->energies,
-                                            .count = count < 3 ? count : 3,
-                                            .curve = curve,
-
-                                            .mark = s->lost,
-                                            .marks = s->losses,
-                                            .marked = iso_plot_loss_name(s->plot->ball, s->lost, s->losses)});
-}
-
 /* mu grows without bound where the pressure falls to 0: then its axis ends at about 3 times its usual size. 0: all of
  * mu is drawn. */
 static double top_of_mu(const iso_record *r, int mu)
@@ -204,44 +190,52 @@ static double top_of_mu(const iso_record *r, int mu)
     return most > 5 * usual ? fmax(3 * usual, 2 * iso_record_const_row(r, 0)[mu]) : 0;
 }
 
-static void put_pressure(const sheet *s, const iso_plot_box *box)
-{
-    const iso_record *r = s->plot->ball;
-    const int pressure = iso_record_find(r, "pressure"), mu = iso_record_find(r, "mu");
-    const iso_plot_curve curve[] = {{pressure, "pressure", ISO_PLOT_BLUE, false},
-                                    {mu, "mu (right)", "'#CC79A7'", true}};
-    iso_plot_curves(s->f, &(iso_plot_panel){.box = *box,
-                                            .rows = r,
-                                            .over = clock_of(r),
-                                            .count = mu < 0 ? 1 : 2,
-                                            .curve = curve,
-                                            .top = {0, mu < 0 ? 0 : top_of_mu(r, mu)},
-                                            .mark = s->lost,
-                                            .marks = s->losses,
-                                            .marked = iso_plot_loss_name(s->plot->ball, s->lost, s->losses)});
-}
+/* The curves of charts; those whose column is not there are left out. Of the clocks column 1 is drawn. */
+static const struct {
+    const char *column, *name, *colour;
+    bool right;
+} curves[CHARTS][3] = {
+    [ENERGIES] = {{"h", "energy h", "'black'", false},
+                  {"kinetic", "kinetic", ISO_PLOT_BLUE, false},
+                  {"potential", "potential", "'#E69F00'", false}},
+    [PRESSURE] = {{"pressure", "pressure", ISO_PLOT_BLUE, false}, {"mu", "mu (right)", "'#CC79A7'", true}},
+    [CLOCKS] = {{NULL, NULL, ISO_PLOT_BLUE, false}},
+};
 
-static void put_clocks(const sheet *s, const iso_plot_box *box)
+static void put_curves(const sheet *s, chart which, const iso_plot_box *box)
 {
-    const iso_record *r = s->plot->clocks;
-    const iso_plot_curve curve = {1, NULL, ISO_PLOT_BLUE, false};
+    const iso_plot_orbit *plot = s->plot;
+    const iso_record *r = which == CLOCKS ? plot->clocks : which == ENERGIES ? plot->energies : plot->ball;
+    iso_plot_curve curve[3];
     char title[120];
-    snprintf(title, sizeof title, "the clock %s over the clock %s", iso_plot_symbol(iso_record_name(r, 1)),
-             iso_plot_symbol(iso_record_name(r, 0)));
-    iso_plot_curves(s->f, &(iso_plot_panel){.box = *box, .rows = r, .count = 1, .curve = &curve, .title = title});
+    iso_plot_panel p = {.box = *box, .rows = r, .curve = curve};
+    for (int i = 0; i < 3 && curves[which][i].colour; i++) {
+        const int column = curves[which][i].column ? iso_record_find(r, curves[which][i].column) : 1;
+        if (column < 0) continue;
+        curve[p.count++] =
+            (iso_plot_curve){column, curves[which][i].name, curves[which][i].colour, curves[which][i].right};
+        if (curves[which][i].right) p.top[1] = top_of_mu(r, column);
+    }
+    if (which == PRESSURE) p.over = clock_of(r);
+    if (which == CLOCKS) {
+        snprintf(title, sizeof title, "the clock %s over the clock %s", iso_plot_symbol(iso_record_name(r, 1)),
+                 iso_plot_symbol(iso_record_name(r, 0)));
+        p.title = title;
+    } else {
+        p.mark = s->lost, p.marks = s->losses;
+        p.marked = iso_plot_loss_name(plot->ball, s->lost, s->losses);
+    }
+    iso_plot_curves(s->f, &p);
 }
 
 /* A chart in this part of the sheet, with its title above and its numbers around it. */
 static void put_chart(const sheet *s, chart which, int left, int right, int top, int height)
 {
-    const iso_plot_box box = box_of(s, left + 75, right - 55, top + 40, top + height - 52);
-    const iso_plot_box beside_key = box_of(s, left + 75, right - 180, top + 40, top + height - 52);
-    if (which == ENERGIES) put_energies(s, &box);
-    if (which == PRESSURE) put_pressure(s, &box);
-    if (which == CLOCKS) put_clocks(s, &box);
+    const iso_plot_box box = box_of(s, left + 75, right - (which == DRIFT ? 180 : 55), top + 40, top + height - 52);
     if (which == DRIFT)
-        iso_plot_differences(s->f, s->plot->drift, 0,
-                             &(iso_plot_chart){beside_key, "relative drift of the integrals", ""});
+        iso_plot_differences(s->f, s->plot->drift, 0, &box, "relative drift of the integrals", "");
+    else
+        put_curves(s, which, &box);
 }
 
 /* "integrals hold up to rounding; largest relative drift: h 3e-16, ..." */
@@ -251,21 +245,13 @@ static void put_noise(const sheet *s)
     char text[400];
     int used = snprintf(text, sizeof text, "integrals hold up to rounding; largest relative drift: ");
     for (size_t c = 1; c < iso_record_columns(r); c++) {
-        double largest = 0;
-        for (size_t i = 0; i < iso_record_rows(r); i++) largest = fmax(largest, iso_record_const_row(r, i)[c]);
+        const double largest = largest_of(r, c);
         if (used >= 300) continue;
         used +=
             snprintf(text + used, sizeof text - (size_t)used, "%s%.31s ", c > 1 ? ",  " : "", iso_record_name(r, c));
-        used += largest > 0 ? snprintf(text + used, sizeof text - (size_t)used, "%.0e", largest)
-                            : snprintf(text + used, sizeof text - (size_t)used, "0");
+        used += snprintf(text + used, sizeof text - (size_t)used, largest > 0 ? "%.0e" : "%.0f", largest);
     }
-    fprintf(s->f,
-            "unset border; unset tics; unset key; unset label; unset arrow; unset object; unset title; unset "
-            "grid\nunset logscale; unset xlabel; unset ylabel; set xrange [0:1]; set yrange [0:1]; set size "
-            "noratio\nset lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at "
-            "screen 0\nset label 1 %s at screen 0.5,%.17g center noenhanced tc rgb '#404040'\nplot NaN notitle\n"
-            "unset label\n",
-            QUOTED(text, 130), 1 - (s->y + LINE / 2.0) / s->height);
+    iso_plot_words(s->f, text, 130, 1 - (s->y + LINE / 2.0) / s->height, "tc rgb '#404040'");
 }
 
 /* --- the sheet -------------------------------------------------------------------------------------------------- */
@@ -308,15 +294,12 @@ static void put_sheet(sheet *s)
 static iso_status look_at(iso_context *ctx, sheet *s)
 {
     const iso_plot_orbit *plot = s->plot;
-    iso_status status = ISO_OK;
-    if (plot->ball) status = iso_plot_find(ctx, plot->ball, 3, iso_plot_normal, &s->ball);
-    if (status == ISO_OK && plot->ball) status = find_trace(ctx, s);
-    if (status == ISO_OK && plot->point)
-        status = iso_plot_find(ctx, plot->point, 3, iso_plot_place_of_point, &s->point);
-    if (status == ISO_OK && plot->space) status = iso_plot_look_around(ctx, plot->space, &s->scenery);
-    if (status == ISO_OK && s->ball < 0 && s->point < 0 && !plot->space)
-        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture needs the path of the ball or of the point");
-    if (status != ISO_OK) return status;
+    if (plot->ball) ISO_TRY(iso_plot_find(ctx, plot->ball, 3, iso_plot_normal, &s->ball));
+    if (plot->ball) ISO_TRY(find_trace(ctx, s));
+    if (plot->point) ISO_TRY(iso_plot_find(ctx, plot->point, 3, iso_plot_place_of_point, &s->point));
+    if (plot->space) ISO_TRY(iso_plot_look_around(ctx, plot->space, &s->scenery));
+    if (s->ball < 0 && s->point < 0 && !plot->space)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture needs the path of the ball or of the point");
     s->narrow = plot->space && iso_plot_is_narrow(&s->scenery);
     choose_panels(s);
     choose_height(s);
@@ -330,7 +313,7 @@ iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plo
     if (status == ISO_OK) {
         s.f = iso_gnuplot_open(ctx, path, WIDTH, s.height);
         fputs("set multiplot\n", s.f);
-        iso_plot_heading(s.f, s.plot->title, 1 - 22.0 / s.height);
+        iso_plot_words(s.f, s.plot->title, 95, 1 - 22.0 / s.height, "font ',12'");
         put_sheet(&s);
         status = iso_gnuplot_close(ctx, true);
     }

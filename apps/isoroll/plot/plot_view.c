@@ -3,11 +3,10 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/vec3_impl.h"
 #include "plot/gnuplot.h"
 #include "plot/plot_parts.h"
-#include "plot/vectors.h"
 
-#define JOINED 0.6    /* radians: rows farther apart, seen from the centre of the sphere, are drawn as dots */
 #define OUTLINE 0.1   /* nothing is hidden this near the outline of the support; part of its radius */
 #define FLATTEST 0.45 /* least height of a view as a part of its width, and least width as a part of its height */
 #define MARGIN 0.06
@@ -35,7 +34,7 @@ static view make_view(const iso_plot_scenery *s, bool from_above)
 static void project(const view *v, const double place[3], double at[2])
 {
     const iso_plot_scenery *s = v->s;
-    const double *origin = iso_record_const_row(s->rows, 0) + (s->centre >= 0 ? s->centre : s->contact);
+    const double *origin = iso_record_const_row(s->rows, 0) + s->place;
     at[0] = dot(place, v->across) - (v->narrow ? dot(origin, v->across) : 0);
     at[1] = dot(place, v->along) - (v->narrow ? dot(origin, v->along) : 0);
 }
@@ -50,25 +49,12 @@ static bool is_solid(const iso_plot_scenery *s)
 
 /* --- data ------------------------------------------------------------------------------------------------------- */
 
-static bool is_joined(const view *v, int column)
-{
-    if (v->s->plane) return true;
-    for (size_t i = 1; i < iso_plot_drawn_rows(v->s->rows); i++) {
-        const double *a = iso_plot_drawn_row(v->s->rows, i - 1) + column;
-        const double *b = iso_plot_drawn_row(v->s->rows, i) + column;
-        double a_b[3];
-        cross(a, b, a_b);
-        if (atan2(norm(a_b), dot(a, b)) > JOINED) return false;
-    }
-    return true;
-}
-
 /* The rows before (near: behind) the middle of the support. */
 static void put_path(FILE *f, const view *v, int column, const char *name, bool near)
 {
     const bool hides = is_solid(v->s) && v->s->ball <= v->s->support;
     bool open = false;
-    fprintf(f, "$%s%d << EOD\nNaN NaN\n\n", name, near);
+    iso_plot_begin_side(f, name, near);
     for (size_t i = 0; i < iso_plot_drawn_rows(v->s->rows); i++) {
         const double *place = iso_plot_drawn_row(v->s->rows, i) + column;
         double at[2];
@@ -85,7 +71,7 @@ static void put_path(FILE *f, const view *v, int column, const char *name, bool 
 static void put_sign(FILE *f, const view *v, size_t row, const char *type)
 {
     double at[2];
-    project(v, iso_record_const_row(v->s->rows, row) + (v->s->centre >= 0 ? v->s->centre : v->s->contact), at);
+    project(v, iso_record_const_row(v->s->rows, row) + v->s->place, at);
     fprintf(f, "set label '' at %.17g,%.17g front point %s\n", at[0], at[1], type);
 }
 
@@ -162,8 +148,8 @@ static void find_range(const view *v, double range[2][2])
     const int axis[2] = {0, v->along_range};
     double start[2] = {0, 0};
     if (v->narrow)
-        project(&(view){.s = s, .across = v->across, .along = v->along},
-                iso_record_const_row(s->rows, 0) + (s->centre >= 0 ? s->centre : s->contact), start);
+        project(&(view){.s = s, .across = v->across, .along = v->along}, iso_record_const_row(s->rows, 0) + s->place,
+                start);
     for (int a = 0; a < 2; a++) {
         const double room = v->narrow ? 0 : s->ball;
         range[a][0] = s->low[axis[a]] - start[a] - room;
@@ -234,10 +220,9 @@ static bool shows_contact(const iso_plot_scenery *s)
 void iso_plot_view(FILE *f, const iso_plot_box *box, const iso_plot_scenery *s, bool from_above)
 {
     const view v = make_view(s, from_above);
-    const int column = s->centre >= 0 ? s->centre : s->contact;
     double range[2][2];
     for (int near = 0; near < 2; near++) {
-        put_path(f, &v, column, "way", near);
+        put_path(f, &v, s->place, "way", near);
         if (shows_contact(s)) put_path(f, &v, s->contact, "touch", near);
     }
     fprintf(f,
@@ -251,7 +236,8 @@ void iso_plot_view(FILE *f, const iso_plot_box *box, const iso_plot_scenery *s, 
     put_support(f, &v, range);
     put_balls(f, &v);
     put_signs(f, &v);
-    put_lines(f, is_joined(&v, column) ? "lines" : "points pt 7 ps 0.2", shows_contact(s));
+    put_lines(f, s->plane || iso_plot_is_joined(s->rows, s->place) ? "lines" : "points pt 7 ps 0.2",
+              shows_contact(s));
 }
 
 void iso_plot_view_key(const iso_plot_scenery *s, char text[static 512])

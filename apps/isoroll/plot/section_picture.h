@@ -3,24 +3,25 @@
 #define ISOROLL_SECTION_PICTURE_H
 
 #include "isoroll.h"
+#include "orbit/crossings.h"
 #include "study/chaos/chaos.h"
 
 typedef struct section_picture section_picture;
 
-iso_status section_picture_create(iso_context *ctx, const iso_params *params, section_picture **picture);
+/* Takes the header of the rows; to be freed also after an error. */
+iso_status section_picture_create(iso_context *ctx, const iso_record *header, section_picture **picture);
 void section_picture_free(section_picture *p);
 
-/* Takes the header of the rows, then each row. Of very many rows only an even choice is kept. Errors:
- * ISO_NO_MEMORY. */
-void section_picture_begin(section_picture *p, const iso_record *header);
+/* Takes the next row. Of very many rows only an even choice is kept. Errors: ISO_NO_MEMORY. */
 iso_status section_picture_row(iso_context *ctx, section_picture *p, const double row[]);
 
 /* Takes the crossing of the last row by both models. */
-void section_picture_pair(section_picture *p, const iso_crossing *ball, const iso_crossing *point);
+iso_status section_picture_pair(iso_context *ctx, section_picture *p, const iso_crossing *ball,
+                                const iso_crossing *point);
 
 /* Tells which orbits are chaotic, by their numbers in the rows: these are drawn in grey. Without this call, the
  * orbits on which the two models part are drawn in grey. */
-void section_picture_judge(section_picture *p, const iso_chaos *chaos);
+iso_status section_picture_judge(iso_context *ctx, section_picture *p, const iso_chaos *chaos);
 
 /* Draws the picture. Errors: ISO_BAD_INPUT if the section is an event, which has no coordinates; those of
  * iso_plot_sections. */

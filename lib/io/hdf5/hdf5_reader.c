@@ -39,7 +39,9 @@ static iso_status read_format(iso_context *ctx, const iso_table_reader *r, const
     const size_t length = strlen(kind);
     if (one && length > 1) kind[length - 1] = '\0'; /* the blank before the version */
     iso_text_quote(quoted, text, strlen(text));
-    if (r->trajectory && (!one || (strcmp(kind, ISO_TRAJECTORY_KIND) != 0 && strcmp(kind, "section") != 0)))
+    const bool states =
+        strcmp(kind, ISO_TRAJECTORY_KIND) == 0 || strcmp(kind, "section") == 0 || strcmp(kind, ISO_ORBITS_KIND) == 0;
+    if (r->trajectory && !(one && states))
         return bad_file(ctx, r, "expected the format 'isoroll trajectory 1' or 'isoroll section 1', not ", quoted);
     if (!one) return bad_file(ctx, r, "expected the format 'isoroll KIND 1', not ", quoted);
     if (!r->trajectory && r->kind && strcmp(kind, r->kind) != 0)
@@ -173,23 +175,39 @@ static iso_status name_columns(finding *c, size_t count)
 static const char *const section[] = {ISO_ORBIT_COLUMN, "crossing", "l", "x"};
 enum { SECTION = sizeof section / sizeof *section };
 
-/* Behind the columns of a row stands the number of its orbit. Others of a section are passed over. */
+/* Says which columns of the group are passed over: those of a list with commas that are none of a trajectory. */
+static void pass_over(finding *c, const char *group, const char *list)
+{
+    const iso_hdf5_store *s = c->r->data;
+    char name[ISO_HDF5_TEXT], path[ISO_HDF5_TEXT], *ignored = c->r->ignored;
+    for (const char *at = list; *at; at += strcspn(at, ","), at += *at == ',') {
+        const size_t used = strlen(ignored), room = sizeof c->r->ignored - used;
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
+        if (iso_column_find(name) < 0 && strcmp(name, ISO_ORBIT_COLUMN) != 0 &&
+            is_in_group(s->file, group, name, path) && strlen(name) + 5 < room)
+            snprintf(ignored + used, room, "%s'%s'", *ignored ? ", " : "", name);
+    }
+}
+
+/* Behind the columns of a row stands the number of its orbit. Others of a section and of periodic orbits are passed
+ * over. */
 static iso_status find_trajectory(finding *c)
 {
-    const char *names[ISO_TRAJECTORY_COLUMNS];
-    char path[ISO_HDF5_TEXT], *ignored = c->r->ignored;
+    iso_record *const header = c->r->header;
+    const char *names[ISO_TRAJECTORY_COLUMNS], *kind = iso_record_kind(header);
+    const char *named = iso_record_get(header, ISO_HDF5_COLUMNS);
+    char path[ISO_HDF5_TEXT];
     const iso_hdf5_store *s = c->r->data;
+    const bool orbits = strcmp(kind, ISO_ORBITS_KIND) == 0;
+    const char *group = orbits ? kind : "section";
     iso_status status = find_columns(c, "", names, (size_t)iso_column_names(names));
-    if (strcmp(iso_record_kind(c->r->header), "section") == 0)
-        iso_record_set(c->ctx, c->r->header, ISO_HDF5_COLUMNS, NULL);
     if (status == ISO_OK && c->count == 0)
         status = bad_file(c->ctx, c->r, "no dataset of a trajectory, such as /clock/t or /ball/omega", "");
     const size_t count = c->count;
-    for (int i = 1; i < SECTION; i++)
-        if (is_in_group(s->file, "section", section[i], path))
-            sprintf(ignored + strlen(ignored), "%s'%s'", *ignored ? ", " : "", section[i]);
-    const bool converted = is_in_group(s->file, ISO_TRAJECTORY_KIND, ISO_ORBIT_COLUMN, path);
-    if (status == ISO_OK) status = find_columns(c, converted ? ISO_TRAJECTORY_KIND : "section", section, 1);
+    pass_over(c, group, orbits && named ? named : "crossing,l,x");
+    if (strcmp(kind, ISO_TRAJECTORY_KIND) != 0) iso_record_set(c->ctx, header, ISO_HDF5_COLUMNS, NULL);
+    if (is_in_group(s->file, ISO_TRAJECTORY_KIND, ISO_ORBIT_COLUMN, path)) group = ISO_TRAJECTORY_KIND;
+    if (status == ISO_OK) status = find_columns(c, group, section, 1);
     c->r->at.orbits = c->count > count;
     return status == ISO_OK ? name_columns(c, count) : status;
 }

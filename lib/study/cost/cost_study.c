@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/monitor_impl.h"
+#include "base/context_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/cost/cost_impl.h"
