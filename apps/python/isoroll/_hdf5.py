@@ -19,10 +19,10 @@ def _choose() -> Any:
         return threading.Lock()
     try:
         from h5py._objects import phil  # h5py holds this lock while it calls HDF5
-    except Exception:  # absent or broken: the library then looks for HDF5 itself, and says what it finds
+        with open("/proc/self/maps") as maps:
+            found = re.search(r"/.*/libhdf5(_serial)?(-[0-9a-f]+)?\.so\b.*", maps.read())
+    except Exception:  # no h5py that works: the library then looks for HDF5 itself, and says what it finds
         return threading.Lock()
-    with open("/proc/self/maps") as maps:
-        found = re.search(r"/.*/libhdf5(_serial)?(-[0-9a-f]+)?\.so\b.*", maps.read())
     if found:
         os.environ.setdefault("ISOROLL_HDF5", found[0])
     return phil
