@@ -34,7 +34,7 @@ endif()
 set(ISO_WHEEL FALSE)
 if(missing)
   list(JOIN missing ", " missing)
-  add_custom_target(wheel COMMENT "No wheel without ${missing}" COMMAND ${CMAKE_COMMAND} -E false)
+  add_custom_target(wheel COMMENT "A wheel cannot be made here. Missing: ${missing}" COMMAND ${CMAKE_COMMAND} -E false)
 else()
   set(ISO_WHEEL TRUE)
   add_library(isoroll_wheel MODULE EXCLUDE_FROM_ALL apps/packaging/stand_in.c $<TARGET_OBJECTS:isoroll_objects>
