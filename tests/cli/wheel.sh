@@ -14,7 +14,7 @@ python=
 for candidate in ${ISO_PYTHON-} python3 /usr/bin/python3; do
     [ -n "$python" ] || ! "$candidate" -c "import numpy, pip, venv" 2>/dev/null || python=$candidate
 done
-[ -n "$python" ] || impossible "python3-numpy, python3-pip or python3-venv is not installed"
+[ -n "$python" ] || impossible "python3-numpy or python3-pip is not installed"
 wheel=$(ls "$ISO_BUILD"/wheel/*.whl 2>/dev/null)
 [ -n "$wheel" ] || impossible "the build made none: cmake --build $ISO_BUILD --target wheel says why"
 pack=$source/apps/python/pack.py
@@ -29,7 +29,7 @@ for file in isoroll/__init__.py isoroll/py.typed isoroll/libisoroll.so.0 "isorol
     "$about/METADATA" "$about/licenses/LICENSE" "$about/licenses/NOTICES"; do
     check "the wheel has $file" grep -q "^$file " list
 done
-check "every module" test "$(grep -c '^isoroll/.*\.py ' list)" -eq "$(ls "$source"/apps/python/isoroll/*.py | wc -l)"
+check "every module" test "$(grep -c '^isoroll/.*\.py ' list)" -eq "$(find "$source/apps/python/isoroll" -name "*.py" | wc -l)"
 
 # --- pip installs it
 checks=$((checks + 1))
@@ -73,8 +73,8 @@ with open("/proc/self/maps") as maps:
     print(*sorted({line.split()[-1] for line in maps if "/" in line and ".so" in line}), sep="\n")
 END
 methods="taylor rk8pd bsimp adams verner_8_5_6"
-"$isoroll" list methods >methods
-for method in $methods; do check "there is the method $method" grep -q -w "$method" methods; done
+"$isoroll" list methods >known
+for method in $methods; do check "there is the method $method" grep -q -w "$method" known; done
 checks=$((checks + 1))
 # shellcheck disable=SC2086 # a list
 env -i there/bin/python use.py $methods >maps 2>err || fail "isoroll in the virtual environment"
