@@ -6,7 +6,7 @@ import os
 from ctypes import byref
 from typing import Optional, Sequence, Union
 
-from . import _errors
+from . import _errors, _hdf5
 from ._library import Notes, check, context, encoded, interruptible, lib, whole
 from ._table import Table, as_record, from_record, new_record
 
@@ -22,9 +22,9 @@ def read(path: PathLike, columns: Optional[Union[str, Sequence[str]]] = None) ->
     """
     if columns is not None and not isinstance(columns, str):
         columns = ",".join(columns)
-    ctx, new, notes = context(), new_record(), Notes()
-    with interruptible():
-        status = lib.iso_foreign_read(ctx, encoded(path), None if columns is None else encoded(columns),
+    ctx, new, notes, name = context(), new_record(), Notes(), encoded(path)
+    with _hdf5.calls(name), interruptible():
+        status = lib.iso_foreign_read(ctx, name, None if columns is None else encoded(columns),
                                       byref(new), *notes.arguments)
     check(status, ctx)
     notes.tell()
@@ -38,10 +38,10 @@ def write(table: Table, path: PathLike, *, digits: Union[int, str] = 17) -> None
 
     In trajectories and sections a number that is not finite is refused.
     """
-    ctx, record = context(), as_record(table)
+    ctx, record, name = context(), as_record(table), encoded(path)
     number = 0 if digits == "hex" else whole("digits", digits, 1, 17)
-    with interruptible():
-        status = lib.iso_foreign_write(ctx, encoded(path), record.pointer, number, encoded(table.kind))
+    with _hdf5.calls(name), interruptible():
+        status = lib.iso_foreign_write(ctx, name, record.pointer, number, encoded(table.kind))
     check(status, ctx)
 
 

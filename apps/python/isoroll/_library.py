@@ -22,6 +22,7 @@ _OBJECT = POINTER(c_void_p)  # where a new object goes
 
 _NAMES = {"darwin": "libisoroll.0.dylib", "win32": "isoroll.dll"}
 NAME = _NAMES.get(sys.platform, "libisoroll.so.0")
+INSIDE = os.path.join(os.path.dirname(os.path.abspath(__file__)), NAME)  # a wheel has the library
 
 # --- the functions: name, result, arguments -------------------------------------------------------------------------
 
@@ -81,6 +82,8 @@ _TABLE = {
 
 def _candidates() -> Iterator[str]:
     """Names and paths to try. The loader knows the usual folders, LD_LIBRARY_PATH and ld.so.conf."""
+    if os.path.exists(INSIDE):
+        yield INSIDE
     yield NAME
     for prefix in (sys.prefix, "/usr/local", os.path.expanduser("~/.local")):
         yield os.path.join(prefix, "lib", NAME)

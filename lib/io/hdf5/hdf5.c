@@ -208,7 +208,7 @@ bool iso_hdf5_transfer(iso_hdf5_store *s, hsize_t first, bool write)
 
 iso_hdf5_library h5;
 
-static char trouble[256]; /* "": the table is full */
+static char trouble[512]; /* "": the table is full */
 
 /* Finds the address of a function or a variable of the library. */
 static void find(void *library, const char *name, void *pointer)
@@ -222,7 +222,9 @@ static void find(void *library, const char *name, void *pointer)
 
 static void load(void)
 {
-    void *const library = dlopen(ISO_HDF5_SONAME, RTLD_NOW | RTLD_LOCAL);
+    const char *wanted = getenv("ISOROLL_HDF5"); /* counts only if it is not empty */
+    const char *name = wanted && *wanted ? wanted : ISO_HDF5_SONAME;
+    void *const library = dlopen(name, RTLD_NOW | RTLD_LOCAL);
 #define FIND(name) find(library, "H5" #name, &h5.name);
     ISO_HDF5_NAMES(FIND)
     if (*trouble) return;
@@ -235,5 +237,9 @@ iso_status iso_hdf5_load(iso_context *ctx)
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, load);
     if (!*trouble) return ISO_OK;
-    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "no HDF5 library, which files in .h5 need: %s", trouble);
+    return iso_context_fail(
+        ctx, ISO_FILE_TROUBLE, "",
+        "no HDF5 library, which files in .h5 need: %s. Install HDF5 1.10 or later (for Python: h5py), or set "
+        "ISOROLL_HDF5 to the path of its libhdf5",
+        trouble);
 }

@@ -34,6 +34,9 @@
  * for network access among them. So what we call of it is a table of pointers: H5Fopen is h5.Fopen. Macros of HDF5
  * name things without the table; for them stand the macros at the end.
  *
+ * ISOROLL_HDF5 in the environment is the path of the library; without it, it is the one that CMake found, by its name.
+ * It may be another release than that of the headers: since 1.10.7 HDF5 has all these names with the same types.
+ *
  * Every function that opens a .h5 file begins with
  *
  *     iso_status status = iso_hdf5_load(ctx);
