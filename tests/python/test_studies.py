@@ -68,11 +68,11 @@ class Sections(Case):
 
 class Names(Case):
     def test_a_study_by_its_name(self):
-        table, point, none = isoroll.study(WILD, "section", crossings=20, at=[[0.5, 0.2]], as_="both")
+        table, point, *none = isoroll.study(WILD, "section", crossings=20, at=[[0.5, 0.2]], as_="both")
         named = isoroll.section(WILD, crossings=20, at=[[0.5, 0.2]], states="both")
         self.same(table.array, named.array)
         self.same(point.array, named.point.array)
-        self.assertEqual((table.kind, dict(table.lines), none), ("section", dict(named.lines), None))
+        self.assertEqual((table.kind, dict(table.lines), none), ("section", dict(named.lines), [None] * 4))
 
     def test_lines_are_those_of_json(self):
         command = json.loads(self.command("chaos", WILD, "--starts", "12", "--turns", "300", "--json"))
