@@ -161,8 +161,8 @@ typedef struct iso_plot_panels {
     const char *key_name; /* of what differs from map to map; NULL: there is one */
     int count;            /* of maps, at most ISO_PLOT_MAPS */
     double key[ISO_PLOT_MAPS];
-    iso_record
-        *rows; /* x, y, the value, and the map, from 0; the names of the first three are those of axes and scale */
+    /* Columns: x, y, the value, and the map, from 0. The names of the first three are those of axes and scale. */
+    iso_record *rows;
 } iso_plot_panels;
 iso_status iso_plot_sweep_maps(iso_context *ctx, const char *path, const iso_plot_panels *panels);
 

@@ -54,15 +54,15 @@ typedef struct iso_turn_sample {
     double clock[ISO_CLOCKS];      /* since the start                                                            */
     double growth[ISO_DEVIATIONS]; /* ln |d1|, ln |d2|; 0 at the start                                           */
     double area;                   /* sine of the angle between them                                             */
-    double
-        observable[ISO_OBSERVABLES]; /* smooth, one-valued functions of the place, of size 1; NaN: none            */
+    /* Smooth, one-valued functions of the place, of size 1; NaN: none. */
+    double observable[ISO_OBSERVABLES];
 } iso_turn_sample;
 
 /* Sums of one look; see indicators.c. */
 typedef struct iso_window {
     long first, last; /* the turns n that it uses: first < n <= last */
-    double weight[2], megno[2], growth[2], observable[2][ISO_OBSERVABLES],
-        square[2][ISO_OBSERVABLES];                             /* of each half               */
+    /* Of each half. */
+    double weight[2], megno[2], growth[2], observable[2][ISO_OBSERVABLES], square[2][ISO_OBSERVABLES];
     double whole, megno_whole, inverse[3], power[5], length[3]; /* of all                     */
 } iso_window;
 
