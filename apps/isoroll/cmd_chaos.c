@@ -46,7 +46,7 @@ static void print_rate(double x, double error)
 
 static void print_model(const iso_chaos *c, int model)
 {
-    const iso_indication *i = &c->own.told[model];
+    const iso_indication *i = &c->own.result[model];
     if (!c->with[model]) return;
     printf("  %-5s  %-9s  %7ld  %8.4g  %7.1e", iso_model_kind_name(model), iso_verdict_name(i->verdict), i->turns,
            i->megno, i->gali2);
@@ -57,7 +57,7 @@ static void print_model(const iso_chaos *c, int model)
 /* lam_t by the ball and by the point */
 static void print_agreement(const iso_chaos *c)
 {
-    const iso_indication *one = &c->own.told[ISO_BALL], *other = &c->own.told[ISO_POINT];
+    const iso_indication *one = &c->own.result[ISO_BALL], *other = &c->own.result[ISO_POINT];
     const double apart = fabs(one->exponent[ISO_CLOCK_T] - other->exponent[ISO_CLOCK_T]),
                  error = hypot(one->error[ISO_CLOCK_T], other->error[ISO_CLOCK_T]);
     if (!c->with[ISO_BALL] || !c->with[ISO_POINT] || isnan(apart) || isnan(error)) return;
@@ -70,7 +70,7 @@ static void print_worth(const iso_chaos *c)
     bool rough = false;
     long longest = 0;
     for (int m = 0; m < 2; m++) {
-        const iso_indication *i = &c->own.told[m];
+        const iso_indication *i = &c->own.result[m];
         if (!c->with[m] || i->verdict != ISO_CHAOTIC) continue;
         rough = rough || isnan(i->error[ISO_CLOCK_T] + i->per_turn_error);
         if (i->exponent_turns > i->turns && i->exponent_turns > longest) longest = i->exponent_turns;

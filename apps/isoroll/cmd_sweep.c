@@ -176,8 +176,8 @@ static int compute(iso_context *ctx, const options *o, const sweep_team *team, c
 /* A quantity that the scene does not have is refused where the file asks for it. */
 static int refused(iso_context *ctx, const options *o, const iso_sweep_plan *plan, iso_status status)
 {
-    for (int i = 0; i < plan->wishes; i++) {
-        const iso_place *at = &plan->wish[i].place;
+    for (int i = 0; i < plan->requests; i++) {
+        const iso_place *at = &plan->request[i].place;
         if (status == ISO_BAD_INPUT && strcmp(at->key, iso_context_about(ctx)) == 0)
             iso_context_fail(ctx, status, "", "%s:%d:%d: %s", iso_text_name(o->file), at->line, at->column,
                              iso_context_message(ctx));

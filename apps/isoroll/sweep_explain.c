@@ -64,12 +64,12 @@ static void print_time(double seconds)
 }
 
 /* Gives by how much a point with all its starts takes longer. */
-static double take_few_starts(const iso_sweep_quantity *topic, iso_sweep_request *wish)
+static double take_few_starts(const iso_sweep_quantity *quantity, iso_sweep_request *request)
 {
-    for (int i = 0; topic->settings && topic->settings[i].name; i++) {
-        const double starts = wish->setting[i];
-        if (strcmp(topic->settings[i].name, "starts") != 0 || !(starts > 2 * STARTS)) continue;
-        wish->setting[i] = STARTS;
+    for (int i = 0; quantity->settings && quantity->settings[i].name; i++) {
+        const double starts = request->setting[i];
+        if (strcmp(quantity->settings[i].name, "starts") != 0 || !(starts > 2 * STARTS)) continue;
+        request->setting[i] = STARTS;
         return starts / STARTS;
     }
     return 1;
@@ -83,11 +83,11 @@ static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan,
     iso_sweep *sweep;
     iso_sweep_rows rows;
     cost c = {.mean = 0};
-    one.wishes = 1;
-    one.wish[0] = plan->wish[which];
+    one.requests = 1;
+    one.request[0] = plan->request[which];
     one.chunk = chunk;
-    const iso_sweep_quantity *topic = iso_sweep_quantities()[one.wish[0].topic];
-    const double scale = take_few_starts(topic, &one.wish[0]);
+    const iso_sweep_quantity *quantity = iso_sweep_quantities()[one.request[0].quantity];
+    const double scale = take_few_starts(quantity, &one.request[0]);
     ISO_TRY(iso_sweep_create(ctx, &one, &sweep));
     iso_status status = iso_sweep_rows_create(ctx, iso_sweep_head_of(sweep)->columns, chunk, &rows);
     progress_begin();
@@ -96,7 +96,7 @@ static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan,
     c.mean *= scale;
     c.most *= scale;
     if (status == ISO_OK) {
-        printf("  %-12s %s\n  %-12s ", topic->name, topic->doc, "");
+        printf("  %-12s %s\n  %-12s ", quantity->name, quantity->doc, "");
         print_time(c.mean);
         printf(" a point, up to ");
         print_time(c.most);
@@ -127,7 +127,7 @@ static iso_status explain(iso_context *ctx, const iso_sweep_file *file)
            head.chunk, head.columns, head.vectors);
     for (int i = 0; iso_sweep_axis_words(file, i, words); i++) printf("  %s\n", words);
     printf("\nmeasured\n");
-    for (int i = 0; i < plan->wishes && status == ISO_OK; i++) {
+    for (int i = 0; i < plan->requests && status == ISO_OK; i++) {
         double mean = 0;
         status = explain_quantity(ctx, plan, i, head.chunk, &mean);
         total += mean;

@@ -14,8 +14,8 @@ typedef struct keeper {
     iso_record *table;
     iso_sweep_rows rows; /* room for a chunk */
     packed *chunk;
-    size_t chunks, next, taken,
-        added; /* next: to be computed; taken: were computed; added: looked at for the table */
+    /* next: to be computed; taken: were computed; added: looked at for the table */
+    size_t chunks, next, taken, added;
     void (*progress)(double part, void *data);
     void *data;
 } keeper;

@@ -70,8 +70,8 @@ typedef struct iso_effect_state {
         ISO_STATE_INTEGRAL, /* no other rate depends on it                                                          */
         ISO_STATE_DERIVED   /* `begin` gives it at any time, from omega and n                                       */
     } kind;
-    bool (*there)(
-        const iso_problem *f); /* whether the effect has them here; NULL: always                            */
+    /* Whether the effect has them here; NULL: always. */
+    bool (*there)(const iso_problem *f);
 } iso_effect_state;
 
 /* What the effect does to the ball's energy. */
@@ -99,8 +99,8 @@ typedef struct iso_effect {
     bool clocks;        /* it asks for the clocks as columns, and for nothing else                            */
     bool is_level;      /* its potential is the energy level of the point: no force on the point              */
     iso_work (*work)(const iso_problem *f); /* NULL: unknown; for an observer: none            */
-    bool (*keeps)(const iso_problem *f,
-                  iso_additional integral);              /* NULL: it keeps none; an observer: all           */
+    /* Whether an additional integral holds with it. NULL: none does; an observer keeps all. */
+    bool (*keeps)(const iso_problem *f, iso_additional integral);
     const char *(*no_frequencies)(const iso_problem *f); /* why n(t) is not quasi-periodic; NULL: it may be */
 
     /* --- its numbers and columns --- */
@@ -134,21 +134,21 @@ typedef struct iso_effect {
     /* --- its states --- */
     const iso_effect_state *states; /* ended by a row without a name; NULL: none                    */
     const char *states_doc;         /* why they are there                                           */
-    void (*begin)(const iso_problem *f,
-                  double y[]); /* at the start                                                 */
-    void (*size)(const iso_problem *f, const double y[],
-                 double size[]); /* for error control                        */
-    double (*restore)(const iso_problem *f,
-                      double y[]); /* constraints that are no unit vectors; the relative correction */
+    /* Sets its states at the start. */
+    void (*begin)(const iso_problem *f, double y[]);
+    /* How large its states are, for error control. */
+    void (*size)(const iso_problem *f, const double y[], double size[]);
+    /* Restores constraints that are no unit vectors; gives the relative correction. */
+    double (*restore)(const iso_problem *f, double y[]);
 
     /* --- sizes --- */
-    double (*strength)(const iso_problem *f,
-                       const double y[]);                    /* how large U is made, for the speed it can give     */
+    /* How large U is made, for the speed it can give. */
+    double (*strength)(const iso_problem *f, const double y[]);
     double (*range)(const iso_problem *f, const double y[]); /* how large U can be, if more than that              */
-    double (*stiffness)(
-        const iso_problem *f); /* how many times faster than the ball turns it makes motion die away */
-    double (*time_to_rest)(
-        const iso_problem *f); /* until motion is less than ISO_REST; NULL: it does not end it     */
+    /* How many times faster than the ball turns it makes motion die away. */
+    double (*stiffness)(const iso_problem *f);
+    /* The time until motion is less than ISO_REST; NULL: it does not end motion. */
+    double (*time_to_rest)(const iso_problem *f);
 
     const iso_integral *integrals; /* that come with it, ended by a row without a name; NULL: none                  */
 } iso_effect;

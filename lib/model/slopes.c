@@ -42,10 +42,10 @@ static void set_numbers(series *S, const iso_model *m)
 {
     const iso_params *p = &m->problem.p;
     const bool is_t = m->system == &iso_system_point_t;
-    for (int i = 0; i < KEPT; i++) S->count[i] = S->inverse[i] = spread(1); /* in place of n and 1/n: see above */
+    for (int i = 0; i < KEPT; i++) S->count[i] = S->inverse[i] = broadcast(1); /* in place of n and 1/n: see above */
     for (int lane = 0; lane < LANES; lane++) set_ball(S, lane, p, S->formula);
-    S->alpha = spread(is_t ? 1 / sqrt(p->det_J) : -1 - 1 / p->k);
-    S->coupling = spread(2 * m->problem.eps / p->k);
+    S->alpha = broadcast(is_t ? 1 / sqrt(p->det_J) : -1 - 1 / p->k);
+    S->coupling = broadcast(2 * m->problem.eps / p->k);
 }
 
 /* Where coefficient n of state y[i] stands; NULL: no equation of motion has to do with it. */
@@ -67,7 +67,7 @@ static void set_states(series *S, const iso_model *m, const double y[], int firs
     for (int i = 0; i < m->moving; i++) {
         real *at = coefficients(S, &m->problem.motion, i, 1);
         if (!at) continue;
-        *coefficients(S, &m->problem.motion, i, 0) = spread(y[i]);
+        *coefficients(S, &m->problem.motion, i, 0) = broadcast(y[i]);
         for (int lane = 0; lane < LANES; lane++) LANE(*at, lane) = i == first + lane;
     }
 }

@@ -27,7 +27,7 @@ typedef struct iso_batch_orbit {
 typedef struct iso_batch_options {
     size_t size; /* set by iso_batch_defaults; see isoroll.h */
     /* ISO_BACKEND_AUTO: the cheaper point, where the orbit has one and |k| >= 1/8; else the start's own model; not
-     * ISO_BACKEND_EXACT, whose orbits have nothing to do together: iso_orbit. */
+     * ISO_BACKEND_EXACT: its orbits share no work, so iso_orbit is as fast. */
     iso_backend backend;
     double tolerance;
     long max_steps; /* of each orbit; 0: no bound                                                         */
@@ -64,15 +64,15 @@ ISO_API iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[
  * table[], which has room for count x rows x columns.
  * scene[]: `scenes` of them, 1 for all orbits or `count`. They agree in columns, backend, tolerance and the model of
  *   the start. The method is `taylor`, in lanes: scenes with another one are refused.
- * k, J, start: NULL, or what replaces the scenes': count numbers; 3 count; 6 count (see iso_scene_replace). One that
- *   makes no sense is the failure of that orbit alone.
+ * k, J, start: NULL, or numbers in place of the scenes': 1, 3 and 6 for each orbit (see iso_scene_replace). If they
+ *   make no sense, that orbit alone fails.
  * times: t for a ball's scene, s for a point's.
  * Units, in any consistent system: k, n and gamma have none; J mass length^2; omega 1/time; t time;
  *   s (unit of J)^(1/(2k) - 2) time; M 1/(unit of s); eps (unit of J)^4/time^2.
  * threads, vectors: as in the options.
- * ISO_STOPPED and ISO_NO_MEMORY are also the status of every orbit that was not followed therefore. Other errors of a
- * call that makes no sense leave table[] and status[] as they were: about "scenes" also that they do not agree, or a
- * ball could lose contact (reactions without two_sided: only a run watches this). */
+ * After ISO_STOPPED or ISO_NO_MEMORY each orbit that was not followed has this status, too. Other errors of the call
+ * leave table[] and status[] as they were. Those about "scenes": they do not agree; or a ball could lose contact,
+ * which only a run watches (reactions without two_sided). */
 ISO_API iso_status iso_batch_table(iso_context *ctx, const iso_scene *const scene[], size_t scenes, size_t count,
                                    const double k[], const double J[], const double start[], const double times[],
                                    size_t rows, int threads, const char *vectors, double table[],

@@ -123,8 +123,8 @@ iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, con
 void iso_conversion_free(iso_conversion *conversion);
 
 /* The next row. The first good one is held against the lines: where h, eps or c of a level does not fit it beyond
- * rounding, the result states the row's own number, and the summary tells. Of the three the one is off that the other
- * two and the row contradict. A point off the level H = 0 becomes a ball in the potential of the effect `level`,
+ * rounding, the result states the row's own number, and the summary tells. The wrong one of the three is the one
+ * that the other two and the row contradict. A point off the level H = 0 becomes a ball in the potential of the effect `level`,
  * which the lines of the result then name. A bad row goes to target->bad: it is no state, it is at rest, its time
  * turns back, or its energy is not that of the rows before. Errors: the status of the target; ISO_NO_MEMORY,
  * ISO_STOPPED. */

@@ -12,14 +12,14 @@
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
 
-typedef struct runner {
+typedef struct comparer {
     iso_context *ctx;
     const iso_scene *scene;
     iso_effects effects; /* those that act */
     iso_comparison *out;
     iso_orbit *orbit[ISO_BACKENDS];
     double at_start[ISO_BACKENDS][ISO_MAX_INTEGRALS]; /* the integrals, in own units */
-} runner;
+} comparer;
 
 /* The larger of `largest` and |x|; a NaN counts as infinite. */
 static double larger(double largest, double x)
@@ -30,7 +30,7 @@ static double larger(double largest, double x)
 /* --- integrals along an orbit ----------------------------------------------------------------------------------- */
 
 /* Lists the integrals that hold, with their values at the start. */
-static void list_drifts(runner *r, int which, const iso_sample *start)
+static void list_drifts(comparer *r, int which, const iso_sample *start)
 {
     const iso_orbit *orbit = r->orbit[which];
     const iso_units *units = iso_orbit_units(orbit);
@@ -49,7 +49,7 @@ static void list_drifts(runner *r, int which, const iso_sample *start)
     }
 }
 
-static void follow_drifts(const runner *r, int which, const iso_sample *sample)
+static void follow_drifts(const comparer *r, int which, const iso_sample *sample)
 {
     iso_backend_run *run = &r->out->run[which];
     for (int i = 0; i < run->drifts; i++) {
@@ -71,7 +71,7 @@ static const iso_method *method_for(const iso_scene *scene, iso_backend backend)
     return !m || backend == ISO_BACKEND_EXACT || (m->system && m->system != system) ? NULL : m;
 }
 
-static iso_status open_backend(runner *r, iso_backend backend)
+static iso_status open_backend(comparer *r, iso_backend backend)
 {
     const int which = r->out->runs;
     iso_backend_run *run = &r->out->run[which];
@@ -99,7 +99,7 @@ static iso_status open_backend(runner *r, iso_backend backend)
 }
 
 /* It is no failure if there is no closed solution, or if it cannot be found. */
-static iso_status open_exact(runner *r)
+static iso_status open_exact(comparer *r)
 {
     const iso_status status = open_backend(r, ISO_BACKEND_EXACT);
     if (status != ISO_BAD_ARGUMENT && status != ISO_NUMERICAL) return status;
@@ -107,7 +107,7 @@ static iso_status open_exact(runner *r)
     return ISO_OK;
 }
 
-static iso_status find_sample(runner *r, int which, size_t i, iso_sample *sample)
+static iso_status find_sample(comparer *r, int which, size_t i, iso_sample *sample)
 {
     iso_backend_run *run = &r->out->run[which];
     const double begin = processor_seconds();
@@ -117,7 +117,7 @@ static iso_status find_sample(runner *r, int which, size_t i, iso_sample *sample
     return status;
 }
 
-static iso_status keep(runner *r, int which, size_t i, const iso_sample *sample)
+static iso_status keep(comparer *r, int which, size_t i, const iso_sample *sample)
 {
     double *row;
     ISO_TRY(iso_record_append(r->ctx, r->out->run[which].trajectory, &row));
@@ -128,7 +128,7 @@ static iso_status keep(runner *r, int which, size_t i, const iso_sample *sample)
 }
 
 /* A row is kept only when every backend has found it: so all have the same rows when one of them fails. */
-static iso_status add_row(runner *r, size_t i)
+static iso_status add_row(comparer *r, size_t i)
 {
     iso_sample sample[ISO_BACKENDS];
     for (int which = 0; which < r->out->runs; which++) ISO_TRY(find_sample(r, which, i, &sample[which]));
@@ -136,7 +136,7 @@ static iso_status add_row(runner *r, size_t i)
     return ISO_OK;
 }
 
-static iso_status add_rows(runner *r, bool (*progress)(double part, void *data), void *data)
+static iso_status add_rows(comparer *r, bool (*progress)(double part, void *data), void *data)
 {
     const size_t rows = iso_scene_rows(r->scene);
     for (size_t i = 0; i < rows; i++) {
@@ -196,7 +196,7 @@ iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress
     ISO_DEFAULT_ARITHMETIC;
     iso_comparison *c = *comparison = calloc(1, sizeof *c);
     if (!c) return iso_context_no_memory(ctx, "a comparison");
-    runner r = {.ctx = ctx, .scene = scene, .effects = iso_scene_acting(scene), .out = c};
+    comparer r = {.ctx = ctx, .scene = scene, .effects = iso_scene_acting(scene), .out = c};
     iso_status status = iso_scene_check_times(ctx, scene);
     if (status == ISO_OK) status = open_backend(&r, ISO_BACKEND_BALL);
     if (status == ISO_OK) status = iso_orbit_check_time(r.orbit[ISO_BALL], scene->end);

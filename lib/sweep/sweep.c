@@ -14,11 +14,11 @@
 #include "study/study_impl.h"
 #include "sweep/sweep_impl.h"
 
-#define QUANTITY(name) &iso_sweep_##name,
-static const iso_sweep_computation *const quantities[] = {ISO_SWEEP_LIST(QUANTITY) NULL};
+#define COMPUTATION(name) &iso_sweep_##name,
+static const iso_sweep_computation *const computations[] = {ISO_SWEEP_LIST(COMPUTATION) NULL};
 
-#define TOPIC(name) &iso_sweep_##name.topic,
-static const iso_sweep_quantity *const topics[] = {ISO_SWEEP_LIST(TOPIC) NULL};
+#define QUANTITY(name) &iso_sweep_##name.quantity,
+static const iso_sweep_quantity *const quantities[] = {ISO_SWEEP_LIST(QUANTITY) NULL};
 
 struct iso_sweep {
     const iso_sweep_plan *plan;
@@ -29,7 +29,7 @@ struct iso_sweep {
 
 const iso_sweep_quantity *const *iso_sweep_quantities(void)
 {
-    return topics;
+    return quantities;
 }
 
 iso_status iso_sweep_rows_create(iso_context *ctx, int columns, size_t most, iso_sweep_rows *rows)
@@ -81,8 +81,8 @@ iso_status iso_sweep_note(iso_context *ctx, const iso_sweep_job *job, iso_sweep_
     if (status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
     if (status == ISO_OK || rows->status[i] != ISO_OK) return ISO_OK;
     rows->status[i] = status;
-    snprintf(rows->reason[i], sizeof rows->reason[i], "%s%s%s", job ? job->quantity->topic.name : "", job ? ": " : "",
-             iso_context_message(ctx));
+    snprintf(rows->reason[i], sizeof rows->reason[i], "%s%s%s", job ? job->computation->quantity.name : "",
+             job ? ": " : "", iso_context_message(ctx));
     for (char *c = rows->reason[i]; *c; c++)
         if (*c == '"' || (unsigned char)*c < ' ') *c = '\'';
     return ISO_OK;
@@ -108,7 +108,7 @@ void iso_sweep_add(iso_sweep_job *job, const char *prefix, const char *names)
 {
     for (int used = 0; job->count < ISO_SWEEP_NUMBERS && *names; names += used) {
         iso_sweep_column *c = &job->column[job->count++];
-        snprintf(c->group, sizeof c->group, "%s", job->quantity->topic.name);
+        snprintf(c->group, sizeof c->group, "%s", job->computation->quantity.name);
         sscanf(names, "%24s %n", strcpy(c->name, prefix) + strlen(prefix), &used);
     }
 }
@@ -136,20 +136,20 @@ void iso_sweep_fill(const iso_sweep_job *job, const iso_field fields[], const vo
 
 /* --- columns ---------------------------------------------------------------------------------------------------- */
 
-static iso_status make_job(iso_context *ctx, iso_sweep *s, const iso_sweep_request *wish, iso_sweep_job *job)
+static iso_status make_job(iso_context *ctx, iso_sweep *s, const iso_sweep_request *request, iso_sweep_job *job)
 {
-    const iso_sweep_computation *q = quantities[wish->topic];
-    *job = (iso_sweep_job){.quantity = q,
+    const iso_sweep_computation *q = computations[request->quantity];
+    *job = (iso_sweep_job){.computation = q,
                            .turns = s->plan->turns,
                            .time = s->plan->time,
                            .vectors = s->head.vectors,
                            .base = s->plan->family.base,
                            .first = s->head.columns,
                            .column = s->column + s->head.columns};
-    memcpy(job->setting, wish->setting, sizeof job->setting);
+    memcpy(job->setting, request->setting, sizeof job->setting);
     const iso_status status = q->refuse && job->base ? q->refuse(ctx, job) : ISO_OK;
     if (status != ISO_OK)
-        iso_context_fail(ctx, status, q->topic.name, "%s: %s", q->topic.name, iso_context_message(ctx));
+        iso_context_fail(ctx, status, q->quantity.name, "%s: %s", q->quantity.name, iso_context_message(ctx));
     if (status != ISO_OK) return status;
     if (q->names)
         iso_sweep_add(job, "", q->names);
@@ -169,7 +169,7 @@ static iso_status make_columns(iso_context *ctx, iso_sweep *s)
         strcpy(s->column[c].name, f->name[c]);
     }
     s->head.columns = f->columns;
-    for (int i = 0; i < s->plan->wishes; i++) ISO_TRY(make_job(ctx, s, &s->plan->wish[i], &s->job[i]));
+    for (int i = 0; i < s->plan->requests; i++) ISO_TRY(make_job(ctx, s, &s->plan->request[i], &s->job[i]));
     return ISO_OK;
 }
 
@@ -180,8 +180,8 @@ static size_t chunk_of(const iso_sweep *s)
     enum { CHUNKS = 64, LANES = 8 };
     size_t chunk = s->head.count / CHUNKS + 1;
     if (chunk > LANES / 2) chunk = (chunk + LANES - 1) / LANES * LANES;
-    for (const iso_sweep_job *job = s->job; job < s->job + s->plan->wishes; job++) {
-        const size_t fits = job->quantity->points > 0 ? job->quantity->points : job->quantity->chunk(job);
+    for (const iso_sweep_job *job = s->job; job < s->job + s->plan->requests; job++) {
+        const size_t fits = job->computation->points > 0 ? job->computation->points : job->computation->chunk(job);
         if (fits < chunk) chunk = fits;
     }
     return chunk;
@@ -273,7 +273,7 @@ static iso_status find_each(iso_context *ctx, const iso_sweep_job *job, iso_swee
     for (size_t i = 0; i < b->count; i++)
         if (b->scene[i])
             ISO_TRY(iso_sweep_note(ctx, job, b, i,
-                                   job->quantity->find(ctx, job, b->scene[i], iso_sweep_numbers(job, b, i))));
+                                   job->computation->find(ctx, job, b->scene[i], iso_sweep_numbers(job, b, i))));
     return ISO_OK;
 }
 
@@ -288,8 +288,8 @@ iso_status iso_sweep_compute_points(iso_context *ctx, const iso_sweep *s, size_t
     b.scene = malloc((count + 1) * sizeof *b.scene);
     const bool memory = b.room && b.scene;
     iso_status status = memory ? make_points(ctx, s, first, &b) : iso_context_no_memory(ctx, "%zu points", count);
-    for (const iso_sweep_job *job = s->job; job < s->job + s->plan->wishes && status == ISO_OK; job++) {
-        const iso_sweep_computation *q = job->quantity;
+    for (const iso_sweep_job *job = s->job; job < s->job + s->plan->requests && status == ISO_OK; job++) {
+        const iso_sweep_computation *q = job->computation;
         status = q->find_all && q->together(job) ? q->find_all(ctx, job, &b) : find_each(ctx, job, &b);
     }
     free(b.room);

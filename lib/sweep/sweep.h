@@ -76,7 +76,7 @@ ISO_API const iso_sweep_quantity *const *iso_sweep_quantities(void);
 
 /* One quantity that is asked for. */
 typedef struct iso_sweep_request {
-    int topic; /* its number in the list of quantities */
+    int quantity; /* its number in the list of quantities */
     double setting[ISO_SWEEP_SETTINGS];
     iso_place place; /* where the file asks for it; line 0: nowhere */
 } iso_sweep_request;
@@ -84,8 +84,8 @@ typedef struct iso_sweep_request {
 /* Filled by iso_sweep_read, or by hand. */
 typedef struct iso_sweep_plan {
     iso_family family;
-    int wishes;
-    iso_sweep_request wish[ISO_SWEEP_REQUESTS];
+    int requests;
+    iso_sweep_request request[ISO_SWEEP_REQUESTS];
     double turns, time;          /* how long each orbit goes on; NaN: not said           */
     size_t chunk;                /* points of a chunk; 0: as the quantities suggest      */
     char vectors[ISO_NAME_SIZE]; /* see batch.h; empty: the widest of this processor     */

@@ -111,10 +111,10 @@ static const iso_sweep_setting chaos_settings[] = {
 };
 
 const iso_sweep_computation iso_sweep_chaos = {
-    .topic = {.name = "chaos",
-              .doc = "verdict, exponents and indicators; with starts, the chaotic share of the section",
-              .settings = chaos_settings,
-              .turns = true},
+    .quantity = {.name = "chaos",
+                 .doc = "verdict, exponents and indicators; with starts, the chaotic share of the section",
+                 .settings = chaos_settings,
+                 .turns = true},
     .columns = chaos_columns,
     .chunk = chaos_chunk,
     .find = chaos_find,

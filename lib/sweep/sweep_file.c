@@ -13,7 +13,7 @@
 #include "sweep/sweep_draft_impl.h"
 #include "sweep/sweep_impl.h"
 
-enum { LARGEST_FILE = 16 << 20, MOST_TOPICS = 32 };
+enum { LARGEST_FILE = 16 << 20, MOST_QUANTITIES = 32 };
 
 /* --- what keys and values have in common ------------------------------------------------------------------------ */
 
@@ -115,28 +115,29 @@ static iso_status read_scene(iso_context *ctx, iso_sweep_file *f, const yaml_nod
 
 static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure)
 {
-    const char *names[MOST_TOPICS];
+    const char *names[MOST_QUANTITIES];
     size_t count = 0;
     iso_yaml *y = &f->yaml;
-    const iso_sweep_quantity *const *topics = iso_sweep_quantities();
-    while (topics[count] && count < MOST_TOPICS) names[count] = topics[count]->name, count++;
+    const iso_sweep_quantity *const *quantities = iso_sweep_quantities();
+    while (quantities[count] && count < MOST_QUANTITIES) names[count] = quantities[count]->name, count++;
     iso_status status = check_keys(y, measure, "measure", count, names);
     if (status != ISO_OK) return status;
     const yaml_node_pair_t *end = measure->data.mapping.pairs.top;
     for (const yaml_node_pair_t *p = measure->data.mapping.pairs.start; p < end && status == ISO_OK; p++) {
         const yaml_node_t *key = iso_yaml_node(y, p->key);
-        iso_sweep_request *wish = &f->plan.wish[f->plan.wishes];
-        if (f->plan.wishes++ == ISO_SWEEP_REQUESTS)
+        iso_sweep_request *request = &f->plan.request[f->plan.requests];
+        if (f->plan.requests++ == ISO_SWEEP_REQUESTS)
             return iso_yaml_fail(y, key->start_mark, "more than %d things to measure", ISO_SWEEP_REQUESTS);
         for (size_t i = 0; i < count; i++)
-            if (iso_yaml_is(key, names[i])) wish->topic = (int)i;
-        snprintf(wish->place.key, sizeof wish->place.key, "%s", names[wish->topic]);
-        wish->place.line = (int)key->start_mark.line + 1;
-        wish->place.column = (int)key->start_mark.column + 1;
-        const iso_sweep_quantity *topic = topics[wish->topic];
-        status = iso_sweep_read_mapping(y, iso_yaml_node(y, p->value), topic->name, topic->settings, wish->setting);
+            if (iso_yaml_is(key, names[i])) request->quantity = (int)i;
+        snprintf(request->place.key, sizeof request->place.key, "%s", names[request->quantity]);
+        request->place.line = (int)key->start_mark.line + 1;
+        request->place.column = (int)key->start_mark.column + 1;
+        const iso_sweep_quantity *quantity = quantities[request->quantity];
+        status = iso_sweep_read_mapping(y, iso_yaml_node(y, p->value), quantity->name, quantity->settings,
+                                        request->setting);
     }
-    if (status == ISO_OK && f->plan.wishes == 0)
+    if (status == ISO_OK && f->plan.requests == 0)
         return iso_yaml_fail(y, measure->start_mark, "nothing is to be measured: write chaos: {}, for example");
     return status;
 }
@@ -148,8 +149,8 @@ static iso_status check_until(iso_sweep_file *f, const yaml_node_t *until)
 {
     const bool turns = !isnan(f->plan.turns);
     bool used = false;
-    for (int i = 0; i < f->plan.wishes; i++) {
-        const iso_sweep_quantity *t = iso_sweep_quantities()[f->plan.wish[i].topic];
+    for (int i = 0; i < f->plan.requests; i++) {
+        const iso_sweep_quantity *t = iso_sweep_quantities()[f->plan.request[i].quantity];
         used = used || (turns ? t->turns : t->time);
         if (turns ? t->time && !t->turns : t->turns && !t->time)
             return ISO_FAIL_AT(f, until, "'%s' needs 'until: {%s: ...}'", t->name, turns ? "time" : "turns");
@@ -182,10 +183,10 @@ static iso_status check_used(iso_sweep_file *f, const yaml_node_t *vary)
         const char *name = f->axis[i].name;
         if (strcmp(name, "end") == 0 && !(isnan(p->turns) && isnan(p->time)))
             return ISO_FAIL_AT(f, vary, "'end' varies, but 'until' replaces it");
-        for (int w = 0; w < p->wishes; w++) {
-            const iso_sweep_quantity *t = iso_sweep_quantities()[p->wish[w].topic];
+        for (int w = 0; w < p->requests; w++) {
+            const iso_sweep_quantity *t = iso_sweep_quantities()[p->request[w].quantity];
             for (int s = 0; t->settings && t->settings[s].name; s++)
-                if (strcmp(name, t->settings[s].name) == 0 && !isnan(p->wish[w].setting[s]))
+                if (strcmp(name, t->settings[s].name) == 0 && !isnan(p->request[w].setting[s]))
                     return ISO_FAIL_AT(f, vary, "'%s' varies, but '%s' sets its own", name, t->name);
         }
     }

@@ -16,7 +16,7 @@ struct iso_sweep_computation;
 
 /* A request of the plan with all that its quantity needs: settings, length, vectors, and its columns. */
 typedef struct iso_sweep_job {
-    const struct iso_sweep_computation *quantity;
+    const struct iso_sweep_computation *computation;
     double setting[ISO_SWEEP_SETTINGS];
     double turns, time; /* NaN: not said */
     const char *vectors;
@@ -34,7 +34,7 @@ typedef struct iso_sweep_batch {
 } iso_sweep_batch;
 
 typedef struct iso_sweep_computation {
-    iso_sweep_quantity topic;
+    iso_sweep_quantity quantity;
     const char *names; /* of its columns, with blanks between; NULL: `columns` adds them */
     void (*columns)(iso_sweep_job *job);
     size_t points; /* of a chunk of about a second; 0: `chunk` tells */

@@ -26,7 +26,7 @@ static iso_status frequencies_find(iso_context *ctx, const iso_sweep_job *job, c
 }
 
 const iso_sweep_computation iso_sweep_frequencies = {
-    .topic = {.name = "frequencies", .doc = "frequencies and rotation number", .turns = true, .time = true},
+    .quantity = {.name = "frequencies", .doc = "frequencies and rotation number", .turns = true, .time = true},
     .names = "rotation f1_t f1_tau f1_s f2_t f2_tau f2_s f1_error f2_error verdict estimated h F",
     .points = 2,
     .find = frequencies_find,
@@ -61,9 +61,9 @@ static const iso_sweep_setting splitting_settings[] = {
 };
 
 const iso_sweep_computation iso_sweep_splitting = {
-    .topic = {.name = "splitting",
-              .doc = "x and m of the separatrix, and their errors",
-              .settings = splitting_settings},
+    .quantity = {.name = "splitting",
+                 .doc = "x and m of the separatrix, and their errors",
+                 .settings = splitting_settings},
     .names = "x m error x_error x_tail m_tail digits multiplier from_zero axis",
     .points = 2,
     .refuse = iso_sweep_refuse_effects,
@@ -87,7 +87,7 @@ static iso_status rotations_find(iso_context *ctx, const iso_sweep_job *job, con
 }
 
 const iso_sweep_computation iso_sweep_rotations = {
-    .topic = {.name = "rotations", .doc = "half-turn traces of the rotations about the three axes"},
+    .quantity = {.name = "rotations", .doc = "half-turn traces of the rotations about the three axes"},
     .names = "trace1 trace2 trace3 error1 error2 error3",
     .points = 64,
     .refuse = iso_sweep_refuse_effects,

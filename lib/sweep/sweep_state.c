@@ -123,11 +123,11 @@ static const iso_sweep_setting state_settings[] = {
 };
 
 const iso_sweep_computation iso_sweep_state = {
-    .topic = {.name = "state",
-              .doc = "the state at the end (the time of `until`, or the turn)",
-              .settings = state_settings,
-              .turns = true,
-              .time = true},
+    .quantity = {.name = "state",
+                 .doc = "the state at the end (the time of `until`, or the turn)",
+                 .settings = state_settings,
+                 .turns = true,
+                 .time = true},
     .columns = state_columns,
     .chunk = state_chunk,
     .refuse = state_refuse,
@@ -166,9 +166,9 @@ static iso_status backends_find(iso_context *ctx, const iso_sweep_job *job, cons
 }
 
 const iso_sweep_computation iso_sweep_backends = {
-    .topic = {.name = "backends",
-              .doc = "the largest differences of the backends over the rows of `compare`",
-              .time = true},
+    .quantity = {.name = "backends",
+                 .doc = "the largest differences of the backends over the rows of `compare`",
+                 .time = true},
     .columns = backends_columns,
     .points = 8,
     .refuse = backends_refuse,
@@ -202,10 +202,10 @@ static const iso_sweep_setting error_settings[] = {
 };
 
 const iso_sweep_computation iso_sweep_error = {
-    .topic = {.name = "error",
-              .doc = "the largest errors over the rows of `run`, at a tolerance",
-              .settings = error_settings,
-              .time = true},
+    .quantity = {.name = "error",
+                 .doc = "the largest errors over the rows of `run`, at a tolerance",
+                 .settings = error_settings,
+                 .time = true},
     .names = "ball ball_last point point_last start",
     .points = 8,
     .find = error_find,
@@ -234,7 +234,7 @@ static iso_status contact_find(iso_context *ctx, const iso_sweep_job *job, const
 }
 
 const iso_sweep_computation iso_sweep_contact = {
-    .topic = {.name = "contact", .doc = "whether contact is lost before the end, and when first", .time = true},
+    .quantity = {.name = "contact", .doc = "whether contact is lost before the end, and when first", .time = true},
     .names = "lost time",
     .chunk = state_chunk,
     .refuse = contact_refuse,

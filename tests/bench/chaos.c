@@ -122,9 +122,9 @@ static void measure(iso_context *ctx, const family *f, size_t count, long turns,
         out->disagree += one->disagree;
         out->failed += one->status[0] != ISO_OK || one->status[1] != ISO_OK;
         for (int m = 0; m < 2; m++) {
-            const double megno = one->told[m].megno;
-            out->turns[m] += (double)one->told[m].turns / (double)count;
-            out->off += one->told[m].verdict == ISO_REGULAR && fabs(megno - 2) > 0.02 && fabs(megno) > 0.02;
+            const double megno = one->result[m].megno;
+            out->turns[m] += (double)one->result[m].turns / (double)count;
+            out->off += one->result[m].verdict == ISO_REGULAR && fabs(megno - 2) > 0.02 && fabs(megno) > 0.02;
         }
     }
     iso_chaos_free(c);

@@ -37,7 +37,7 @@ typedef struct work {
     size_t *done;
     iso_status *status;
     bool *wanted;
-    iso_indication *told; /* [length][orbit] */
+    iso_indication *result; /* [length][orbit] */
 } work;
 
 static void must(const iso_context *ctx, iso_status status, const char *what)
@@ -50,12 +50,12 @@ static void must(const iso_context *ctx, iso_status status, const char *what)
 static void add(work *w, size_t i, const iso_crossing *c)
 {
     iso_indicators *shown = &w->shown[i];
-    iso_turn_sample beat = {.area = c->area, .seen = {NAN, NAN, NAN}};
-    for (int n = 0; n < ISO_CLOCKS; n++) beat.clock[n] = c->clock[n];
-    for (int n = 0; n < ISO_DEVIATIONS; n++) beat.growth[n] = c->growth[n];
-    iso_indicators_add(shown, &beat);
+    iso_turn_sample turn = {.area = c->area, .observable = {NAN, NAN, NAN}};
+    for (int n = 0; n < ISO_CLOCKS; n++) turn.clock[n] = c->clock[n];
+    for (int n = 0; n < ISO_DEVIATIONS; n++) turn.growth[n] = c->growth[n];
+    iso_indicators_add(shown, &turn);
     for (int n = 0; n < w->lengths; n++)
-        if (shown->turns == w->length[n]) iso_indicators_read(shown, &w->told[(size_t)n * w->count + i]);
+        if (shown->turns == w->length[n]) iso_indicators_read(shown, &w->result[(size_t)n * w->count + i]);
     if (shown->turns == w->turns / 2) w->half[i] = *c;
 }
 
@@ -135,9 +135,9 @@ static void print(const work *w, int length, bool t, double truth)
     size_t stated = 0, none = 0, two = 0, three = 0;
     double square = 0, mean = 0, worst = 0;
     for (size_t i = 0; i < w->count; i++) {
-        const iso_indication *told = &w->told[(size_t)length * w->count + i];
-        const double x = t ? told->exponent[ISO_CLOCK_T] : told->per_turn,
-                     error = t ? told->error[ISO_CLOCK_T] : told->per_turn_error, off = fabs(x - truth);
+        const iso_indication *result = &w->result[(size_t)length * w->count + i];
+        const double x = t ? result->exponent[ISO_CLOCK_T] : result->per_turn,
+                     error = t ? result->error[ISO_CLOCK_T] : result->per_turn_error, off = fabs(x - truth);
         if (!w->wanted[i]) continue;
         if (isnan(error)) {
             none++;

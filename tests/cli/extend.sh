@@ -27,6 +27,22 @@ cp "$recipes/kutta38.c" "$copy/lib/method/"
 column=$(sed -n 's/^    FIELD("u", /&/p' "$source/lib/README.md")
 sed -i "s|^    FIELD(\"torus\", .*|&\n$column|" "$copy/lib/study/periodic/periodic_fields.c"
 
+# The description of a table of a new kind, and its row.
+sed -n '/^typedef struct turn/,/^ *ISO_FIELD_END};/p' "$recipes/table_turns.c" >turns.c
+awk '/^const iso_result_table \*iso_result_table_at/ { while ((getline line < "turns.c") > 0) print line; print "" }
+    { print }
+    /iso_result_table tables\[\] = / { print "        {.kind = \"turns\", .doc = \"a turn\", .fields = turn_fields}," }
+    ' "$source/lib/study/tables/tables.c" >"$copy/lib/study/tables/tables.c"
+
+# short FILE: a recipe is a diff of at most 15 lines
+short() {
+    lines=$(diff "$source/$1" "$copy/$1" | grep -c '^[<>]')
+    check "$1: $lines lines" test "$lines" -ge 1 -a "$lines" -le 15
+}
+short lib/model/ball.c
+short lib/study/periodic/periodic_fields.c
+short lib/study/tables/tables.c
+
 # The system of lib/README.md: every block from "circle.c" to the end of its row compiles.
 awk '/^    \/\* circle\.c/ { on = 1 } on && /^[^ ]/ { exit } on { sub(/^    /, ""); print }' \
     "$source/lib/README.md" >"$work/circle.c"
@@ -72,8 +88,9 @@ grep -q '^  kutta38 ' out || fail "list methods has no kutta38"
 awk 'NF > 2 && $1 != "name" && /^  / { print $1 }' out >methods
 [ "$(wc -l <methods)" -gt 20 ] || fail "list methods has fewer than 20 rows"
 
-# the column: in the list, in the table and in JSON
+# the table, and the column: in the list, in the table and in JSON
 run 0 list tables
+grep -q '^  turns  *a row is a turn$' out && grep -q '^    angle  *rad  *by which it goes on$' out || fail "list tables has no turns"
 grep -q '^    u  *rad  *where it passes its symmetry line$' out || fail "list tables has no column u"
 scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >free_ball.yaml
 run 0 periodic free_ball.yaml --period 1 -o periodic.csv

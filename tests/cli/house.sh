@@ -149,6 +149,14 @@ find lib -name '*.[ch]' | while read -r file; do
         sed "s|^|$file: |"
 done | complain "the library does not print, end the program or set the locale"
 
+# A long comment stands above what it describes: one that begins behind code ends on its line.
+find lib apps tests examples -name '*.[ch]' -exec awk '
+    FNR == 1 { open = 0 }
+    { i = index($0, "/*"); rest = substr($0, i + 2); behind = substr($0, 1, i - 1)
+      if (!open && i > 0 && behind ~ /[^ \t]/ && behind !~ /"/ && !index(rest, "*/")) print FILENAME ":" FNR
+      for (s = $0; i = index(s, open ? "*/" : "/*"); open = !open) s = substr(s, i + 2) }' {} + |
+    complain "a comment behind code is one line"
+
 # Places and lengths of files.
 ls -A | grep -vxE '\..*|lib|apps|tests|examples|CMakeLists\.txt|README\.md|LICENSE|CITATION\.cff' | complain "nothing else at the top"
 for entry in lib apps tests examples CMakeLists.txt README.md LICENSE; do

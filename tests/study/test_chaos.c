@@ -56,7 +56,7 @@ static void check_chaotic(void)
     gsl_test_int(c->axis, 2, "its section is that of the largest moment");
     gsl_test(!isnan(c->turn), "its turns are returns");
     for (int m = 0; m < 2; m++) {
-        const iso_indication *i = &c->own.told[m];
+        const iso_indication *i = &c->own.result[m];
         check_indication(i, "a chaotic orbit");
         gsl_test_int((int)i->verdict, ISO_CHAOTIC, "verdict of model %d", m);
         gsl_test_abs(i->per_turn, sea_per_turn, 4 * i->per_turn_error, "model %d: exponent per turn", m);
@@ -66,7 +66,7 @@ static void check_chaotic(void)
         gsl_test(!(i->turns < 500), "turns until the verdict: %ld", i->turns);
         gsl_test_int((int)iso_record_rows(c->trace[m]), 1500, "rows of the trace");
     }
-    const iso_indication *one = &c->own.told[ISO_BALL], *other = &c->own.told[ISO_POINT];
+    const iso_indication *one = &c->own.result[ISO_BALL], *other = &c->own.result[ISO_POINT];
     for (int clock = 0; clock < ISO_CLOCKS; clock++)
         gsl_test_abs(one->exponent[clock], other->exponent[clock], 4 * hypot(one->error[clock], other->error[clock]),
                      "exponents of both models in clock %d", clock);
@@ -86,7 +86,7 @@ static void check_end(void)
     o.exponent_turns = 700;
     must(iso_chaos_run(ctx, &scene, &o, &far), "beyond the verdict");
     for (size_t i = 0; i < o.starts; i++) {
-        const iso_indication *a = &brief->start[i].told[ISO_POINT], *b = &far->start[i].told[ISO_POINT];
+        const iso_indication *a = &brief->start[i].result[ISO_POINT], *b = &far->start[i].result[ISO_POINT];
         gsl_test(a->verdict != b->verdict || a->turns != b->turns, "start %zu: %d after %ld turns, %d after %ld", i,
                  (int)a->verdict, a->turns, (int)b->verdict, b->turns);
         gsl_test_int((int)b->exponent_turns, b->verdict == ISO_CHAOTIC ? 700 : (int)b->turns, "start %zu: its end",
@@ -110,7 +110,7 @@ static void check_errors(void)
     o.turns = o.exponent_turns = tests_length(800, 8000);
     must(iso_chaos_run(ctx, &scene, &o, &c), "a sea");
     for (size_t i = 0; i < o.starts; i++) {
-        const iso_indication *told = &c->start[i].told[ISO_POINT];
+        const iso_indication *told = &c->start[i].result[ISO_POINT];
         if (told->verdict != ISO_CHAOTIC || isnan(told->per_turn_error)) continue;
         stated++;
         off[0] += fabs(told->per_turn - sea_per_turn) > 2 * told->per_turn_error;
@@ -131,8 +131,8 @@ static void check_regular(void)
         must(iso_chaos_run(ctx, &scene, NULL, &c), "a regular orbit");
         gsl_test_int((int)c->own.verdict, ISO_REGULAR, "k = %g: verdict", k[j]);
         for (int m = 0; m < 2; m++) {
-            check_indication(&c->own.told[m], "a regular orbit");
-            gsl_test_abs(c->own.told[m].megno, 2, 0.02, "k = %g: MEGNO of model %d", k[j], m);
+            check_indication(&c->own.result[m], "a regular orbit");
+            gsl_test_abs(c->own.result[m].megno, 2, 0.02, "k = %g: MEGNO of model %d", k[j], m);
         }
         iso_chaos_free(c);
     }
@@ -140,7 +140,7 @@ static void check_regular(void)
     iso_chaos *c;
     must(iso_chaos_run(ctx, &scene, NULL, &c), "three equal moments");
     gsl_test_int((int)c->own.verdict, ISO_REGULAR, "three equal moments: verdict");
-    gsl_test_abs(c->own.told[ISO_BALL].megno, 0, 0.02, "three equal moments: MEGNO");
+    gsl_test_abs(c->own.result[ISO_BALL].megno, 0, 0.02, "three equal moments: MEGNO");
     iso_chaos_free(c);
 }
 
@@ -210,8 +210,8 @@ static void check_alone(void)
         const iso_chaos_orbit *b = &one->start[0];
         gsl_test_int((int)b->verdict, (int)a->verdict, "start %zu alone: verdict", i);
         for (int m = 0; m < 2; m++)
-            gsl_test(b->told[m].turns != a->told[m].turns ||
-                         memcmp(b->told[m].exponent, a->told[m].exponent, sizeof a->told[m].exponent) != 0,
+            gsl_test(b->result[m].turns != a->result[m].turns ||
+                         memcmp(b->result[m].exponent, a->result[m].exponent, sizeof a->result[m].exponent) != 0,
                      "start %zu alone: the same by model %d", i, m);
         iso_chaos_free(one);
     }
@@ -272,7 +272,7 @@ static void check_stopped(void)
         iso_context_set_monitor(ctx, NULL, NULL);
         const iso_chaos_fraction *s = &c->share;
         size_t followed = 0;
-        for (size_t i = 0; i < c->starts; i++) followed += c->start[i].told[ISO_POINT].turns > 0;
+        for (size_t i = 0; i < c->starts; i++) followed += c->start[i].result[ISO_POINT].turns > 0;
         gsl_test(s->asked != o.starts || s->count != followed || s->failed > 0, "%d calls: %zu of %zu followed",
                  calls, s->count, followed);
         gsl_test_int((int)(s->chaotic + s->regular + s->undecided), (int)s->count, "%d calls: the parts", calls);

@@ -79,7 +79,7 @@ static orbit start(double x, double y)
 }
 
 /* The clocks run 2, 3 and 1/2 times as fast as the turns. */
-static iso_turn_sample beat_of(const orbit *o)
+static iso_turn_sample turn_of(const orbit *o)
 {
     const double n = (double)o->turns, x = o->x, y = o->y;
     iso_turn_sample b = {.clock = {2 * n, 3 * n, n / 2}};
@@ -89,9 +89,9 @@ static iso_turn_sample beat_of(const orbit *o)
         b.growth[i] = o->grown[i] + log(length[i]);
     }
     b.area = fabs(o->d[0][0] * o->d[1][1] - o->d[0][1] * o->d[1][0]) / (length[0] * length[1]);
-    b.seen[0] = cos(x) + sin(x) * cos(y);
-    b.seen[1] = sin(x + 1) * sin(x + 1);
-    b.seen[2] = cos(y) + sin(y) / 2;
+    b.observable[0] = cos(x) + sin(x) * cos(y);
+    b.observable[1] = sin(x + 1) * sin(x + 1);
+    b.observable[2] = cos(y) + sin(y) / 2;
     return b;
 }
 
@@ -99,16 +99,16 @@ static iso_turn_sample beat_of(const orbit *o)
 static iso_indication follow(const map *m, orbit *o, long most)
 {
     iso_indicators it;
-    iso_indication told;
+    iso_indication result;
     iso_indicators_begin(&it, most);
     while (o->turns < most && iso_indicators_verdict(&it) == ISO_UNDECIDED) {
         m->step(o, m->parameter);
         o->turns++;
-        const iso_turn_sample b = beat_of(o);
+        const iso_turn_sample b = turn_of(o);
         iso_indicators_add(&it, &b);
     }
-    iso_indicators_read(&it, &told);
-    return told;
+    iso_indicators_read(&it, &result);
+    return result;
 }
 
 /* Whether the orbit goes on to grow apart by exp(40): longer than a regular orbit can make a linear growth. */
@@ -129,17 +129,18 @@ static void check_cat(void)
     const double exact = log((3 + sqrt(5)) / 2);
     const map m = {"the cat map", cat, 0};
     orbit o = start(1, 0.3);
-    const iso_indication told = follow(&m, &o, TURNS);
-    gsl_test_int((int)told.verdict, ISO_CHAOTIC, "verdict of the cat map");
-    gsl_test_int(told.turns < 200, 1, "the cat map is decided at %ld turns", told.turns);
-    gsl_test(!isnan(told.per_turn_error), "an orbit that is too short to know the error: %g", told.per_turn_error);
-    gsl_test_abs(told.per_turn, exact, 1e-12, "exponent of the cat map");
-    gsl_test_abs(told.exponent[ISO_CLOCK_T], exact / 2, 1e-12, "... per unit of t");
-    gsl_test_abs(told.exponent[ISO_CLOCK_TAU], exact / 3, 1e-12, "... of tau");
-    gsl_test_abs(told.exponent[ISO_CLOCK_S], exact * 2, 1e-12, "... of s");
-    gsl_test_abs(told.megno_now, exact * (double)told.turns, 2, "MEGNO of the cat map, lam n");
-    gsl_test_abs(told.megno_mean, exact * (double)(told.turns + 1) / 2, 2, "its mean, lam n/2");
-    gsl_test(!(told.gali2 < 1e-12), "GALI_2 of the cat map: %g", told.gali2);
+    const iso_indication result = follow(&m, &o, TURNS);
+    gsl_test_int((int)result.verdict, ISO_CHAOTIC, "verdict of the cat map");
+    gsl_test_int(result.turns < 200, 1, "the cat map is decided at %ld turns", result.turns);
+    gsl_test(!isnan(result.per_turn_error), "an orbit that is too short to know the error: %g",
+             result.per_turn_error);
+    gsl_test_abs(result.per_turn, exact, 1e-12, "exponent of the cat map");
+    gsl_test_abs(result.exponent[ISO_CLOCK_T], exact / 2, 1e-12, "... per unit of t");
+    gsl_test_abs(result.exponent[ISO_CLOCK_TAU], exact / 3, 1e-12, "... of tau");
+    gsl_test_abs(result.exponent[ISO_CLOCK_S], exact * 2, 1e-12, "... of s");
+    gsl_test_abs(result.megno_now, exact * (double)result.turns, 2, "MEGNO of the cat map, lam n");
+    gsl_test_abs(result.megno_mean, exact * (double)(result.turns + 1) / 2, 2, "its mean, lam n/2");
+    gsl_test(!(result.gali2 < 1e-12), "GALI_2 of the cat map: %g", result.gali2);
 }
 
 /* A rotation has no shear: MEGNO is 0. A rotation is a regular motion. */
@@ -147,24 +148,24 @@ static void check_rotation(void)
 {
     const map m = {"a rotation", turn, 2.3};
     orbit o = start(1, 0.3);
-    const iso_indication told = follow(&m, &o, TURNS);
-    gsl_test_int((int)told.verdict, ISO_REGULAR, "verdict of a rotation");
-    gsl_test_abs(told.megno, 0, 0.02, "MEGNO of a rotation");
-    gsl_test_abs(told.gali2, 1, 1e-9, "GALI_2 of a rotation");
-    gsl_test_abs(told.per_turn, 0, 1e-9, "exponent of a rotation");
+    const iso_indication result = follow(&m, &o, TURNS);
+    gsl_test_int((int)result.verdict, ISO_REGULAR, "verdict of a rotation");
+    gsl_test_abs(result.megno, 0, 0.02, "MEGNO of a rotation");
+    gsl_test_abs(result.gali2, 1, 1e-9, "GALI_2 of a rotation");
+    gsl_test_abs(result.per_turn, 0, 1e-9, "exponent of a rotation");
 }
 
 static iso_indication go_to(const map *m, orbit *o, iso_indicators *it, long turns)
 {
-    iso_indication told;
+    iso_indication result;
     while (o->turns < turns) {
         m->step(o, m->parameter);
         o->turns++;
-        const iso_turn_sample b = beat_of(o);
+        const iso_turn_sample b = turn_of(o);
         iso_indicators_add(it, &b);
     }
-    iso_indicators_read(it, &told);
-    return told;
+    iso_indicators_read(it, &result);
+    return result;
 }
 
 /* For large K the exponent of the standard map is ln(K/2) + O(1/K^2), and nothing sticks. The error that is stated is
@@ -179,11 +180,11 @@ static void check_exponent(iso_random *r)
         orbit o = start(iso_random_uniform(r, -ISO_PI, ISO_PI), iso_random_uniform(r, -ISO_PI, ISO_PI));
         iso_indicators it;
         iso_indicators_begin(&it, LONG);
-        const iso_indication told = go_to(&m, &o, &it, LONG);
-        gsl_test_int((int)told.exponent_turns, LONG, "turns of the exponent");
-        sum += told.per_turn;
-        square += (told.per_turn - log(15)) * (told.per_turn - log(15));
-        stated += told.per_turn_error;
+        const iso_indication result = go_to(&m, &o, &it, LONG);
+        gsl_test_int((int)result.exponent_turns, LONG, "turns of the exponent");
+        sum += result.per_turn;
+        square += (result.per_turn - log(15)) * (result.per_turn - log(15));
+        stated += result.per_turn_error;
     }
     const double scatter = sqrt(square / ORBITS), mean = stated / ORBITS, missed = 2.5 * sqrt(log(15) / LONG);
     gsl_test_abs(sum / ORBITS, log(15), 2e-3, "exponent of the standard map at K = 30");
@@ -199,14 +200,14 @@ static void check_error(iso_random *r, double K)
     enum { MOST = 200, LENGTHS = 3, LATE = 12000 };
     static const long length[LENGTHS] = {1000, 2000, 4000};
     const map m = {"standard", standard, K};
-    static iso_indication told[MOST][LENGTHS];
+    static iso_indication result[MOST][LENGTHS];
     double late[MOST], sea = 0, among = 0;
     const int count = tests_length(MOST / 2, MOST);
     for (int i = 0; i < count; i++) {
         orbit o = start(iso_random_uniform(r, -ISO_PI, ISO_PI), iso_random_uniform(r, -ISO_PI, ISO_PI));
         iso_indicators it;
         iso_indicators_begin(&it, TURNS);
-        for (int n = 0; n < LENGTHS; n++) told[i][n] = go_to(&m, &o, &it, length[n]);
+        for (int n = 0; n < LENGTHS; n++) result[i][n] = go_to(&m, &o, &it, length[n]);
         const double before = it.before;
         go_to(&m, &o, &it, LATE);
         late[i] = (it.before - before) / (double)(LATE - length[LENGTHS - 1]);
@@ -221,7 +222,7 @@ static void check_error(iso_random *r, double K)
     for (int n = 0; n < LENGTHS; n++) {
         int stated = 0, off = 0, of_regular = 0;
         for (int i = 0; i < count; i++) {
-            const iso_indication *t = &told[i][n];
+            const iso_indication *t = &result[i][n];
             of_regular += t->verdict == ISO_REGULAR && !(fabs(t->per_turn) <= t->per_turn_error);
             if (!(late[i] > sea / 2) || isnan(t->per_turn_error)) continue;
             stated++;
@@ -249,9 +250,9 @@ static void check_separatrix(iso_random *r)
         const double root = (mu - 1) * (mu - 1) + I, square = mu - 1 + sqrt(fmax(root, 0));
         const map m = {"McMillan", mcmillan, mu};
         orbit o = start(sqrt(square), sqrt(square));
-        const iso_indication told = follow(&m, &o, TURNS);
-        verdicts[told.verdict]++;
-        off += told.verdict == ISO_REGULAR && fabs(told.megno - 2) > 0.02 && fabs(told.megno) > 0.02;
+        const iso_indication result = follow(&m, &o, TURNS);
+        verdicts[result.verdict]++;
+        off += result.verdict == ISO_REGULAR && fabs(result.megno - 2) > 0.02 && fabs(result.megno) > 0.02;
     }
     gsl_test_int(verdicts[ISO_CHAOTIC], 0, "integrable orbits called chaotic, of %d", count);
     gsl_test(verdicts[ISO_UNDECIDED] > count / 100, "integrable orbits undecided: %d of %d", verdicts[ISO_UNDECIDED],
@@ -267,9 +268,9 @@ static void check_sea(iso_random *r, double K, double most_undecided)
     int sea[3] = {0}, rest[3] = {0}, all = 0;
     for (int i = 0; i < count; i++) {
         orbit o = start(iso_random_uniform(r, -ISO_PI, ISO_PI), iso_random_uniform(r, -ISO_PI, ISO_PI));
-        const iso_indication told = follow(&m, &o, TURNS);
+        const iso_indication result = follow(&m, &o, TURNS);
         const bool chaotic = grows(&m, &o, 100000);
-        (chaotic ? sea : rest)[told.verdict]++;
+        (chaotic ? sea : rest)[result.verdict]++;
         all += chaotic;
     }
     gsl_test_int(sea[ISO_REGULAR], 0, "K = %g: chaotic orbits called regular, of %d", K, all);
@@ -282,22 +283,22 @@ static void check_sea(iso_random *r, double K, double most_undecided)
              count - all);
 }
 
-/* A verdict holds, and what is told before there is anything to tell is NaN. */
+/* A verdict holds, and what is result before there is anything to tell is NaN. */
 static void check_edges(void)
 {
     iso_indicators it;
-    iso_indication told;
+    iso_indication result;
     iso_indicators_begin(&it, TURNS);
-    iso_indicators_read(&it, &told);
-    gsl_test_int((int)told.verdict, ISO_UNDECIDED, "verdict of nothing");
-    gsl_test(!isnan(told.per_turn) || !isnan(told.megno), "exponent and MEGNO of nothing are not known");
+    iso_indicators_read(&it, &result);
+    gsl_test_int((int)result.verdict, ISO_UNDECIDED, "verdict of nothing");
+    gsl_test(!isnan(result.per_turn) || !isnan(result.megno), "exponent and MEGNO of nothing are not known");
     const map m = {"K = 5", standard, 5};
     orbit o = start(3, 0.2);
     const iso_indication first = follow(&m, &o, 50);
     gsl_test_int((int)first.verdict, ISO_UNDECIDED, "verdict at 50 turns");
     iso_indicators_begin(&it, 50); /* it may go on */
     for (o = start(3, 0.2); o.turns < 1000; o.turns++) {
-        const iso_turn_sample b = beat_of(&o);
+        const iso_turn_sample b = turn_of(&o);
         if (o.turns > 0) iso_indicators_add(&it, &b);
         m.step(&o, m.parameter);
     }

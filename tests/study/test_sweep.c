@@ -43,7 +43,7 @@ static iso_status scene_of(iso_context *of, const void *data, size_t i, iso_scen
     return iso_params_reduced(of, numbers[0], (double[]){1, numbers[1], 5}, &scene->params);
 }
 
-static int topic(const char *name)
+static int quantity(const char *name)
 {
     int i = 0;
     while (strcmp(iso_sweep_quantities()[i]->name, name) != 0) i++;
@@ -52,11 +52,11 @@ static int topic(const char *name)
 
 static void ask(iso_sweep_plan *plan, const char *name)
 {
-    iso_sweep_request *wish = &plan->wish[plan->wishes++];
-    wish->topic = topic(name);
-    const iso_sweep_setting *s = iso_sweep_quantities()[wish->topic]->settings;
-    for (int i = 0; s && s[i].name; i++) wish->setting[i] = s[i].usual;
-    if (strcmp(name, "splitting") == 0) wish->setting[0] = ISO_SEPARATRIX_DOUBLE; /* 128 bits take long */
+    iso_sweep_request *request = &plan->request[plan->requests++];
+    request->quantity = quantity(name);
+    const iso_sweep_setting *s = iso_sweep_quantities()[request->quantity]->settings;
+    for (int i = 0; s && s[i].name; i++) request->setting[i] = s[i].usual;
+    if (strcmp(name, "splitting") == 0) request->setting[0] = ISO_SEPARATRIX_DOUBLE; /* 128 bits take long */
 }
 
 static iso_sweep_plan plan_of(double turns, double time, size_t chunk)

@@ -238,7 +238,7 @@ static void find_rows(crew *c, real length, real dt)
 static int find_parts(const crew *c, real length, real *parts)
 {
     int most = 1;
-    *parts = spread(1);
+    *parts = broadcast(1);
     for (int i = 0; i < LANES; i++) {
         const double own = ceil(fabs((double)(LANE(length, i) * LANE(c->zeros, i))));
         if (c->job[i] && own > 1) LANE(*parts, i) = own < MOST_PARTS ? own : MOST_PARTS;
@@ -272,7 +272,7 @@ static void find_crossings(crew *c, real length)
     for (int i = 0; i < LANES; i++)
         if (c->job[i] && c->job[i]->on_section && c->head[i] == 0) LANE(at_a, i) = 0;
     for (int part = 1; part <= most; part++) {
-        const mask last = parts <= spread((NUMBER)part);
+        const mask last = parts <= broadcast((NUMBER)part);
         const real b = choose(last, length, length * ((NUMBER)part / parts));
         const real inside = part < most ? component(T, c->axis, b) : zero;
         const real at_b = choose(last, c->after.n[c->axis], inside);
@@ -409,7 +409,7 @@ static void start_crew(crew *c, queue *jobs, const iso_lane_job *first, const is
     set_shape(&c->T, first->model, options->tolerance);
     for (int i = 0; i < LANES; i++)
         start_orbit(&c->T, i, first->model, first->start); /* a lane without a job needs numbers, too */
-    c->direction = spread(1);
+    c->direction = broadcast(1);
     c->options = options;
     c->crossings = !first->time;
     c->axis = first->axis;

@@ -159,7 +159,7 @@ static void flow_at(const form *T, real x, state *f)
 static real inner(const form *T, const state *s, const state *a, const state *b)
 {
     const real square = T->loaded ? T->speed_square : inner3(s->w, s->w);
-    real sum = inner3(a->n, b->n) + inner3(a->w, b->w) / choose(square > zero, square, spread(1));
+    real sum = inner3(a->n, b->n) + inner3(a->w, b->w) / choose(square > zero, square, broadcast(1));
     const units u = units_of(T, false);
     for (int i = 0; i < u.count; i++) sum += inner_of(a->own + u.at[i], b->own + u.at[i], u.size[i]);
     return sum;
@@ -200,7 +200,7 @@ static double change_of_energy(const form *T, int lane, const state *d)
     for (int i = 0; i < 6; i++) {
         state moved = T->now;
         const double sign = i % 2 ? 1 : -1;
-        add_state(T, &moved, spread((NUMBER)(sign * (i / 2 + 1) * step)), d);
+        add_state(T, &moved, broadcast((NUMBER)(sign * (i / 2 + 1) * step)), d);
         store(T, lane, &moved, y);
         sum += sign * weight[i / 2] * iso_system_ball.energy(T->problem[lane], y, &size);
     }
@@ -226,7 +226,7 @@ static void start_on_level(const form *T, state *d)
 static void find_deviations(form *T, state d[SLOTS])
 {
     const state *s = &T->now;
-    const real square = inner3(s->w, s->w), speed = root(choose(square > zero, square, spread(1)));
+    const real square = inner3(s->w, s->w), speed = root(choose(square > zero, square, broadcast(1)));
     real across[3];
     state flow;
     flow_now(T, &flow);
@@ -278,9 +278,9 @@ static void end_deviations(form *T, real length, const state *s)
         state *d = &T->deviation[c];
         deviation_at(T, c, length, s, d);
         const real square = inner(T, s, d, d);
-        const mask is_long = both(square > spread((NUMBER)1e16), square < spread((NUMBER)1e290));
+        const mask is_long = both(square > broadcast((NUMBER)1e16), square < broadcast((NUMBER)1e290));
         if (!any(is_long)) continue;
-        const real size = root(choose(is_long, square, spread(1)));
+        const real size = root(choose(is_long, square, broadcast(1)));
         scale_state(T, d, 1 / size);
         for (int i = 0; i < LANES; i++)
             if (LANE(is_long, i)) LANE(T->scale[c], i) += (NUMBER)log((double)LANE(size, i));

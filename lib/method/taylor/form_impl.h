@@ -165,7 +165,7 @@ static real q_of(const series *S, const real gamma[])
 /* d(own variable)/ds of a point at gamma */
 static real pace(const form *T, const real gamma[])
 {
-    if (!T->in_t) return spread(1);
+    if (!T->in_t) return broadcast(1);
     return T->S.factor * raised(q_of(&T->S, gamma), -1 - 1 / (2 * T->S.k));
 }
 

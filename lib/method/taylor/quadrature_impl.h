@@ -41,11 +41,11 @@ static void make_rule(quadrature *rule)
         legendre(NODES, x, &before);
         slope = NODES * before / (1 - x * x);
         const NUMBER weight = 1 / ((1 - x * x) * slope * slope);
-        rule->node[i] = spread((1 + x) / 2);
-        rule->weight[i] = spread(weight);
-        rule->last[0][i] = spread((2 * NODES - 1) * weight * before);
+        rule->node[i] = broadcast((1 + x) / 2);
+        rule->weight[i] = broadcast(weight);
+        rule->last[0][i] = broadcast((2 * NODES - 1) * weight * before);
         legendre(NODES - 1, x, &before);
-        rule->last[1][i] = spread((2 * NODES - 3) * weight * before);
+        rule->last[1][i] = broadcast((2 * NODES - 3) * weight * before);
     }
 }
 

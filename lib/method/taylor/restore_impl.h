@@ -27,7 +27,7 @@ static inline real restore_length(real a[], int count, real target, mask wanted)
         const real part = choose(wanted, defect_of(a, a, count, target) / (2 * target), zero);
         for (int i = 0; i < count; i++) a[i] -= part * a[i];
         worst += magnitude(part);
-        wanted = both(wanted, magnitude(part) >= spread((NUMBER)1e-9));
+        wanted = both(wanted, magnitude(part) >= broadcast((NUMBER)1e-9));
     }
     return worst;
 }
@@ -98,7 +98,7 @@ static void second_of_point(const form *T, const state *s, second_integral *F)
     const series *S = &T->S;
     real M[3];
     F->count = 6;
-    F->divisor = spread(1);
+    F->divisor = broadcast(1);
     cross_product(s->w, s->n, M);
     cross_product(s->n, s->w, F->across);
     for (int i = 0; i < 3; i++) {
@@ -134,7 +134,7 @@ static void second_of_ball(const form *T, const state *s, second_integral *F)
     cross_product(s->n, K, F->across);
     for (int i = 0; i < 3; i++) change[i] = AT(S->J, i) * F->across[i];
     F->count = 3;
-    F->divisor = spread(1);
+    F->divisor = broadcast(1);
     if (T->second_of == PLANE) {
         cross_product_exactly(K, s->n, F->a);
         cross_product(change, s->n, F->b);
@@ -177,7 +177,7 @@ static void restore_second(const form *T, state *s)
 
 static real restore_point(const form *T, state *s)
 {
-    real worst = restore_length(s->n, 3, spread(1), everywhere());
+    real worst = restore_length(s->n, 3, broadcast(1), everywhere());
     const real along = defect_of(s->n, s->w, 3, zero);
     for (int i = 0; i < 3; i++) s->w[i] -= along * s->n[i];
     real terms;
@@ -191,7 +191,7 @@ static real restore_point(const form *T, state *s)
 
 static real restore_point_t(const form *T, state *s)
 {
-    const real worst = restore_length(s->n, 3, spread(1), everywhere());
+    const real worst = restore_length(s->n, 3, broadcast(1), everywhere());
     const real along = defect_of(s->n, s->w, 3, zero), square = T->S.coupling;
     for (int i = 0; i < 3; i++) s->w[i] -= along * s->n[i];
     return worst + restore_length(s->w, 3, square, square > zero);
@@ -225,7 +225,7 @@ static void energy_of(const form *T, const state *s, energy_sum *E)
     }
     if (T->twists) add(E, -S->D * spin, spin);
     E->kinetic = E->sum;
-    add(E, 2 * potential_at(T, s->n, g, s, &size, &gradient), spread(1));
+    add(E, 2 * potential_at(T, s->n, g, s, &size, &gradient), broadcast(1));
     E->range = larger(2 * T->range, magnitude(E->sum - E->kinetic));
 }
 
@@ -248,7 +248,7 @@ static real restore_energy(const form *T, state *s)
 static real restore_ball(const form *T, state *s)
 {
     const series *S = &T->S;
-    real worst = restore_length(s->n, 3, spread(1), everywhere()), K[3];
+    real worst = restore_length(s->n, 3, broadcast(1), everywhere()), K[3];
     real g = zero;
     for (int i = 0; i < 3; i++) g += s->n[i] * AT(S->inv_J, i) * s->n[i];
     const real spin = T->twists ? zero : defect_of(s->w, s->n, 3, zero) / g;
@@ -272,7 +272,7 @@ static real restore_unit_states(const form *T, state *s)
         real *own = s->own + (f->at[e] - ISO_STATE);
         for (const iso_effect_state *i = iso_effect_list[e]->states; i->name; i++) {
             if (i->there && !i->there(f)) continue;
-            if (i->kind == ISO_STATE_UNIT) worst += restore_length(own, i->count, spread(1), everywhere());
+            if (i->kind == ISO_STATE_UNIT) worst += restore_length(own, i->count, broadcast(1), everywhere());
             own += i->count;
         }
     }

@@ -130,14 +130,14 @@ static real coefficient(const form *T, int n)
     real most = largest(S->n[n]);
     const vector rest = T->is_point ? times(S->count[n + 1], S->n[n + 1]) : S->w[n]; /* of gamma', or w */
     const real speed = largest(T->is_point ? S->n[1] : S->w[0]);
-    most = larger(most, largest(rest) / (speed + spread((NUMBER)ISO_REST)));
+    most = larger(most, largest(rest) / (speed + broadcast((NUMBER)ISO_REST)));
     for (int i = 0; i < T->motion.states; i++) {
         const int node = T->motion.state[i].node * ROOM, kind = T->motion.state[i].kind;
         if (kind == ISO_STATE_INTEGRAL) continue;
         const bool is_vector = T->motion.state[i].is_vector;
         const real size = is_vector ? largest(S->vector[node + n]) : magnitude(S->scalar[node + n]);
         const real start = is_vector ? largest(S->vector[node]) : magnitude(S->scalar[node]);
-        most = larger(most, kind == ISO_STATE_UNIT ? size : size / (spread(1) + start));
+        most = larger(most, kind == ISO_STATE_UNIT ? size : size / (broadcast(1) + start));
     }
     return most;
 }
@@ -170,7 +170,7 @@ static inline real rough_root(real x, int n)
 static real longest_step(const series *S)
 {
     const real pace = larger(largest(S->n[1]), root(largest(S->n[2])));
-    return 1000 / choose(pace > spread((NUMBER)1e-100), pace, spread(1));
+    return 1000 / choose(pace > broadcast((NUMBER)1e-100), pace, broadcast(1));
 }
 
 /* The longest step for the poles of 1/g. A ball that rolls in a principal plane turns evenly: its own series
@@ -179,8 +179,8 @@ static real longest_step(const series *S)
  * digits: this costs other orbits 2 % more steps. All digits would cost a fifth more. */
 static real for_poles(const form *T, int n)
 {
-    return rough_root(T->at_poles * magnitude(T->S.pole[0]) / larger(magnitude(T->S.pole[n]), spread((NUMBER)1e-290)),
-                      n);
+    return rough_root(
+        T->at_poles * magnitude(T->S.pole[0]) / larger(magnitude(T->S.pole[n]), broadcast((NUMBER)1e-290)), n);
 }
 
 /* The step for which the last three terms are as small as the tolerance, and at most the longest step. It is
@@ -188,7 +188,7 @@ static real for_poles(const form *T, int n)
  * a cosine of n, and two of them may be small by chance. */
 static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
 {
-    const real least = spread((NUMBER)1e-290), tolerance = spread(T->tolerance);
+    const real least = broadcast((NUMBER)1e-290), tolerance = broadcast(T->tolerance);
     real h = longest_step(&T->S);
     for (int n = T->S.order - 2; n <= T->S.order; n++) {
         const real longest = rough_root(T->tolerance / larger(coefficient(T, n), least), n);
@@ -200,10 +200,10 @@ static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
     for (int i = 0;; i++) {
         const real doubt =
             integrate_clocks(T, direction * h, gained); /* NaN where the polynomial is no rate any more */
-        const mask good = doubt <= tolerance, close = doubt < spread((NUMBER)1e10);
+        const mask good = doubt <= tolerance, close = doubt < broadcast((NUMBER)1e10);
         if (i == 40 || !any(other(good))) return direction * h;
         const real less = rough_root(tolerance / larger(doubt, least), 2 * NODES);
-        h = choose(good, h, h * (NUMBER)0.9 * choose(close, less, spread((NUMBER)0.5)));
+        h = choose(good, h, h * (NUMBER)0.9 * choose(close, less, broadcast((NUMBER)0.5)));
     }
 }
 

@@ -71,7 +71,7 @@ static inline mask other(mask a)
 
 static const real zero = {0};
 
-static inline real spread(NUMBER x)
+static inline real broadcast(NUMBER x)
 {
     return x - zero;
 }
@@ -98,7 +98,7 @@ static inline real magnitude(real a)
 #if LANES == 1
     return ABS(a);
 #else
-    return (real)((mask)a & ~(mask)spread((NUMBER)-0.0));
+    return (real)((mask)a & ~(mask)broadcast((NUMBER)-0.0));
 #endif
 }
 
@@ -118,7 +118,7 @@ static inline real fused(real a, real b, real c)
 /* a^(twice/2) for a > 0 */
 static inline real half_power(real a, int twice)
 {
-    real power = twice % 2 != 0 ? root(a) : spread(1);
+    real power = twice % 2 != 0 ? root(a) : broadcast(1);
     for (int i = abs(twice) / 2; i > 0; i--) power *= a;
     return twice < 0 ? 1 / power : power;
 }
@@ -139,7 +139,7 @@ static inline real raised(real a, real p)
 #endif
     const int first = twice_of(LANE(p, 0));
     real result = half_power(a, first);
-    for (int i = 0; i < LANES && any(2 * p != spread((NUMBER)first)); i++) {
+    for (int i = 0; i < LANES && any(2 * p != broadcast((NUMBER)first)); i++) {
         const NUMBER own = LANE(p, i);
         const int twice = twice_of(own);
         if (twice == first && 2 * own == (NUMBER)first) continue;

@@ -123,7 +123,7 @@ static inline void twisting_ball(series *S, int c, int n)
 static inline void twisting(series *S, int c, int n)
 {
     const int i = place(c, n);
-    S->gap[i] = (i == 0 ? spread(1) : zero) - S->D * S->base[i];
+    S->gap[i] = (i == 0 ? broadcast(1) : zero) - S->D * S->base[i];
     if (i == 0) S->over_gap = 1 / S->gap[0];
     S->lambda[i] = quotient(dot(S->u, S->x, c, n), S->gap, S->over_gap, S->lambda, c, n);
     S->w[i + 1] = times(S->inverse[n + 1], plus(by(S->inv_J, S->x[i]), times(S->D, scaled(S->lambda, S->u, c, n))));
@@ -348,22 +348,23 @@ static inline void set_ball_recurrences(series *S, bool twists, const iso_formul
 {
     const bool effective = formula && formula->lines > 0;
     S->formula = effective ? formula : NULL;
-    set_recurrences(S, 1, (recurrences){{
-                           twists ? twisting_ball : ball,
-                           effective ? effects : NULL,
-                           twists                          ? twisting
-                           : effective && formula->torques ? forced
-                                                           : rigid,
-                           effective && formula->late ? late_effects : NULL,
-                           poles,
-                       }});
+    set_recurrences(S, 1,
+                    (recurrences){{
+                        twists ? twisting_ball : ball,
+                        effective ? effects : NULL,
+                        twists                          ? twisting
+                        : effective && formula->torques ? forced
+                                                        : rigid,
+                        effective && formula->late ? late_effects : NULL,
+                        poles,
+                    }});
 }
 
 /* n, 1/n */
 static inline void set_counts(series *S)
 {
     S->count[0] = S->inverse[0] = zero;
-    for (int i = 1; i < KEPT; i++) S->count[i] = spread((NUMBER)i), S->inverse[i] = 1 / S->count[i];
+    for (int i = 1; i < KEPT; i++) S->count[i] = broadcast((NUMBER)i), S->inverse[i] = 1 / S->count[i];
 }
 
 /* The numbers of the ball (or of the point) in a lane, but alpha and coupling; F: its own formula, or NULL. */

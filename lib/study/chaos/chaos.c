@@ -108,7 +108,7 @@ static bool could_not_be_followed(const iso_chaos_orbit *o)
 
 bool iso_chaos_followed(const iso_chaos_orbit *o)
 {
-    return !could_not_be_followed(o) && o->told[ISO_BALL].turns + o->told[ISO_POINT].turns > 0;
+    return !could_not_be_followed(o) && o->result[ISO_BALL].turns + o->result[ISO_POINT].turns > 0;
 }
 
 static void count_shares(const iso_chaos_walk *w)

@@ -2,7 +2,7 @@
  *
  *     iso_chaos *c;
  *     iso_chaos_options o = iso_chaos_defaults();
- *     status = iso_chaos_run(ctx, &scene, &o, &c);     c->own.verdict, c->own.told[ISO_BALL].exponent[ISO_CLOCK_T]
+ *     status = iso_chaos_run(ctx, &scene, &o, &c);     c->own.verdict, c->own.result[ISO_BALL].exponent[ISO_CLOCK_T]
  *     iso_chaos_free(c);
  *
  * An orbit is followed from turn to turn, with two deviations beside it (orbit/crossings.h), until the indicators
@@ -68,14 +68,14 @@ static inline iso_chaos_options iso_chaos_defaults(void)
     return o;
 }
 
-/* One orbit. told[ISO_BALL], told[ISO_POINT]: what each model has found. A model that was not integrated, or that
+/* One orbit. result[ISO_BALL], result[ISO_POINT]: what each model has found. A model that was not integrated, or that
  * failed, has the verdict ISO_UNDECIDED. */
 typedef struct iso_chaos_orbit {
     double l, x; /* where it begins on the section; NaN: the scene's own */
     /* Of both models. If one is undecided, that of the other counts. If they disagree, the orbit is undecided. */
     iso_verdict verdict;
     bool disagree; /* one model says regular, the other one says chaotic */
-    iso_indication told[2];
+    iso_indication result[2];
     iso_status status[2]; /* ISO_OK, or why it was not followed to its verdict                                 */
     size_t number;        /* 0: the scene's own; then the starts, from 1 on                                    */
 } iso_chaos_orbit;

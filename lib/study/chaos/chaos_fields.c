@@ -34,9 +34,9 @@ const iso_field iso_chaos_orbit_fields[] = {
     FIELD("verdict", verdict, "", "regular, chaotic or undecided, by all models", .word = iso_verdict_word),
     FIELD("disagree", disagree, "", "1: one model says regular, the other one chaotic"),
     FIELD("ball.status", status[ISO_BALL], "", "0, or why the ball was not followed: a number of iso_status"),
-    ISO_STRUCT(iso_chaos_orbit, "ball", told[ISO_BALL], iso_indication_fields, "what the ball tells"),
+    ISO_STRUCT(iso_chaos_orbit, "ball", result[ISO_BALL], iso_indication_fields, "what the ball tells"),
     FIELD("point.status", status[ISO_POINT], "", "the same of the point"),
-    ISO_STRUCT(iso_chaos_orbit, "point", told[ISO_POINT], iso_indication_fields, "what the point tells"),
+    ISO_STRUCT(iso_chaos_orbit, "point", result[ISO_POINT], iso_indication_fields, "what the point tells"),
     ISO_FIELD_END,
 };
 #undef FIELD
@@ -105,7 +105,7 @@ static double turns_of(const void *row)
     const iso_chaos *c = row;
     double turns = 0;
     for (int m = 0; m < 2; m++)
-        if (c->with[m]) turns = fmax(turns, (double)c->own.told[m].turns);
+        if (c->with[m]) turns = fmax(turns, (double)c->own.result[m].turns);
     return turns;
 }
 
@@ -124,9 +124,9 @@ const iso_field iso_chaos_fields[] = {
     FIELD("verdict", own.verdict, "", "on the scene's orbit", .word = iso_verdict_word),
     FIELD("disagree", own.disagree, "", "whether the models contradict each other"),
     ISO_COUNT("turns", turns_of, "", "turns until the verdict"),
-    STRUCT("ball", own.told[ISO_BALL], iso_indication_fields, "what the ball tells",
+    STRUCT("ball", own.result[ISO_BALL], iso_indication_fields, "what the ball tells",
            ISO_WHEN(iso_chaos, with[ISO_BALL])),
-    STRUCT("point", own.told[ISO_POINT], iso_indication_fields, "what the point tells",
+    STRUCT("point", own.result[ISO_POINT], iso_indication_fields, "what the point tells",
            ISO_WHEN(iso_chaos, with[ISO_POINT])),
     STRUCT("share", share, iso_chaos_fraction_fields, "of orbits spread over the section", .there = has_share,
            .how = ISO_OPTIONAL),

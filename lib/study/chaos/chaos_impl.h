@@ -47,29 +47,31 @@ bool iso_chaos_followed(const iso_chaos_orbit *orbit);
 
 /* --- the indicators of one orbit, turn by turn (indicators.c) --------------------------------------------------- */
 
-enum { ISO_SEEN = 3, ISO_WINDOWS = 4, ISO_PARTS = 32 };
+enum { ISO_OBSERVABLES = 3, ISO_WINDOWS = 4, ISO_PARTS = 32 };
 
-/* One beat. Numbers that are not known are NaN. */
+/* One turn. Numbers that are not known are NaN. */
 typedef struct iso_turn_sample {
     double clock[ISO_CLOCKS];      /* since the start                                                            */
     double growth[ISO_DEVIATIONS]; /* ln |d1|, ln |d2|; 0 at the start                                           */
     double area;                   /* sine of the angle between them                                             */
-    double seen[ISO_SEEN];         /* smooth, one-valued functions of the place, of size 1; NaN: none            */
+    /* Smooth, one-valued functions of the place, of size 1; NaN: none. */
+    double observable[ISO_OBSERVABLES];
 } iso_turn_sample;
 
 /* Sums of one look; see indicators.c. */
 typedef struct iso_window {
     long first, last; /* the turns n that it uses: first < n <= last */
-    double weight[2], megno[2], growth[2], seen[2][ISO_SEEN], square[2][ISO_SEEN]; /* of each half               */
-    double whole, megno_whole, inverse[3], power[5], length[3];                    /* of all                     */
+    /* Of each half. */
+    double weight[2], megno[2], growth[2], observable[2][ISO_OBSERVABLES], square[2][ISO_OBSERVABLES];
+    double whole, megno_whole, inverse[3], power[5], length[3]; /* of all                     */
 } iso_window;
 
 /* All that is known of one orbit so far, in memory of fixed size. Read it only with iso_indicators_read. */
 typedef struct iso_indicators {
     long turns, most, number; /* number: of the next look */
     double before, area, step_sum, mean_sum;
-    iso_window look[ISO_WINDOWS];
-    long part; /* beats in one part */
+    iso_window window[ISO_WINDOWS];
+    long part; /* turns in one part */
     int parts;
     double sum[ISO_PARTS + 1][1 + ISO_CLOCKS]; /* ln D and the clocks at the ends of the parts */
     double now[1 + ISO_CLOCKS];
@@ -86,15 +88,15 @@ typedef struct iso_indicators {
  * times as many turns, and so on. */
 void iso_indicators_begin(iso_indicators *it, long most);
 
-/* Takes the next beat. The first one is that of the first crossing after the start. */
-void iso_indicators_add(iso_indicators *it, const iso_turn_sample *beat);
+/* Takes the next turn. The first one is that of the first crossing after the start. */
+void iso_indicators_add(iso_indicators *it, const iso_turn_sample *turn);
 
 /* The number of turns at the next look. */
 long iso_indicators_next(const iso_indicators *it);
 
 /* Once the verdict is regular or chaotic, it does not change any more. */
 iso_verdict iso_indicators_verdict(const iso_indicators *it);
-void iso_indicators_read(const iso_indicators *it, iso_indication *told);
+void iso_indicators_read(const iso_indicators *it, iso_indication *result);
 
 /* --- which share of the area do orbits of some kind have? (share.c) --------------------------------------------- */
 

@@ -12,14 +12,14 @@
 enum { GROUP = 1024, ROUND = 240, TRACE_ROWS = 4000 };
 
 /* One model's part of a group. */
-typedef struct runner {
+typedef struct model_walk {
     iso_crossings *crossings;
     size_t each; /* turns of the last round, the same for all orbits that go on */
     bool wanted[GROUP];
     iso_indicators shown[GROUP];
     size_t done[GROUP];
     iso_status status[GROUP];
-} runner;
+} model_walk;
 
 typedef struct group {
     iso_chaos_walk *w;
@@ -27,7 +27,7 @@ typedef struct group {
     size_t first, count;         /* orbits; orbit 0 is the scene's own, orbit i is start i - 1 */
     iso_start start[GROUP];
     iso_batch_orbit orbit[GROUP];
-    runner model[2];
+    model_walk model[2];
     iso_crossing *crossing;
     iso_sample *sample; /* NULL: not needed */
 } group;
@@ -66,19 +66,19 @@ static void make_starts(group *g)
     }
 }
 
-/* --- beats ------------------------------------------------------------------------------------------------------ */
+/* --- turns ------------------------------------------------------------------------------------------------------ */
 
-static void make_beat(const iso_crossing *c, const iso_sample *sample, iso_turn_sample *beat)
+static void make_turn(const iso_crossing *c, const iso_sample *sample, iso_turn_sample *turn)
 {
     const double root = sqrt(fmax(0, 1 - c->x * c->x)), direction[3] = {root * sin(c->l), root * cos(c->l), c->x};
-    memcpy(beat->clock, c->clock, sizeof beat->clock);
-    memcpy(beat->growth, c->growth, sizeof beat->growth);
-    beat->area = c->area;
+    memcpy(turn->clock, c->clock, sizeof turn->clock);
+    memcpy(turn->growth, c->growth, sizeof turn->growth);
+    turn->area = c->area;
     /* smooth functions of the place, without a symmetry: of M/|M| on the section, else of n */
     const double *u = sample ? sample->ball + 3 : direction;
-    beat->seen[0] = u[0] + u[0] * u[0];
-    beat->seen[1] = u[1] + u[1] * u[1];
-    beat->seen[2] = u[2] + u[0] * u[1] * u[2];
+    turn->observable[0] = u[0] + u[0] * u[0];
+    turn->observable[1] = u[1] + u[1] * u[1];
+    turn->observable[2] = u[2] + u[0] * u[1] * u[2];
 }
 
 static iso_status trace(const iso_chaos_walk *w, int model, const iso_indicators *shown)
@@ -86,15 +86,15 @@ static iso_status trace(const iso_chaos_walk *w, int model, const iso_indicators
     const iso_chaos_options *o = &w->options;
     const long most = o->turns > o->exponent_turns ? o->turns : o->exponent_turns,
                every = (most + TRACE_ROWS - 1) / TRACE_ROWS;
-    iso_indication told;
+    iso_indication result;
     double *row;
     if (shown->turns % every != 0) return ISO_OK;
     ISO_TRY(iso_record_append(w->ctx, w->out->trace[model], &row));
-    iso_indicators_read(shown, &told);
+    iso_indicators_read(shown, &result);
     const bool t = !isnan(shown->now[1]);
     const double values[] = {(double)shown->turns, shown->now[1 + (t ? ISO_CLOCK_T : ISO_CLOCK_S)],
-                             shown->before,        told.megno_now,
-                             told.megno_mean,      told.gali2};
+                             shown->before,        result.megno_now,
+                             result.megno_mean,    result.gali2};
     memcpy(row, values, sizeof values);
     return ISO_OK;
 }
@@ -112,7 +112,7 @@ static void note_failure(const group *g, int model, size_t i, const char *words)
 
 static void note_failures(const group *g, int model)
 {
-    const runner *r = &g->model[model];
+    const model_walk *r = &g->model[model];
     for (size_t i = 0; i < g->count; i++)
         if (r->status[i] != ISO_OK && r->status[i] != ISO_STOPPED)
             note_failure(g, model, i, iso_crossings_why(r->crossings, i));
@@ -129,21 +129,21 @@ static long most_turns(const iso_chaos_walk *w, const iso_indicators *shown)
 static iso_status take(group *g, int model, size_t i)
 {
     const iso_chaos_walk *w = g->w;
-    runner *r = &g->model[model];
+    model_walk *r = &g->model[model];
     iso_indicators *shown = &r->shown[i];
     iso_status status = ISO_OK;
     for (size_t j = 0; j < r->done[i] && status == ISO_OK; j++) {
         if (shown->turns >= most_turns(w, shown)) break;
         const size_t at = r->each * i + j;
-        iso_turn_sample beat;
-        make_beat(&g->crossing[at], g->sample ? &g->sample[at] : NULL, &beat);
-        if (isnan(beat.growth[0] + beat.growth[1])) {
+        iso_turn_sample turn;
+        make_turn(&g->crossing[at], g->sample ? &g->sample[at] : NULL, &turn);
+        if (isnan(turn.growth[0] + turn.growth[1])) {
             static const char *const words = "it stands still: its deviations have no length";
             r->status[i] = ISO_FAIL_NUMERICAL(w->ctx, "%s", words);
             note_failure(g, model, i, words);
             break;
         }
-        iso_indicators_add(shown, &beat);
+        iso_indicators_add(shown, &turn);
         if (!g->each && g->first + i == 0) status = trace(w, model, shown);
     }
     r->wanted[i] = r->status[i] == ISO_OK && shown->turns < most_turns(w, shown);
@@ -172,7 +172,7 @@ static iso_status open_model(group *g, int model)
     c.shown = w->out->axis < 0 ? ISO_SHOW_BALL : (iso_models)model;
     c.threads = o->threads;
     c.vectors = o->vectors;
-    runner *r = &g->model[model];
+    model_walk *r = &g->model[model];
     for (size_t i = 0; i < g->count; i++) {
         iso_indicators_begin(&r->shown[i], o->turns);
         r->shown[i].integrable = (g->each ? g->each[i]->out : w->out)->integral != NULL;
@@ -186,11 +186,11 @@ static iso_status open_model(group *g, int model)
 static void tell(group *g, int model)
 {
     for (size_t i = 0; i < g->count; i++)
-        iso_indicators_read(&g->model[model].shown[i], &orbit_of(g, i)->told[model]);
+        iso_indicators_read(&g->model[model].shown[i], &orbit_of(g, i)->result[model]);
 }
 
 /* The turns until the next look at the orbits that go on, at most ROUND; 0: none goes on. */
-static size_t turns_of_round(const group *g, const runner *r)
+static size_t turns_of_round(const group *g, const model_walk *r)
 {
     for (size_t i = 0; i < g->count; i++) {
         if (!r->wanted[i]) continue;
@@ -205,7 +205,7 @@ static size_t turns_of_round(const group *g, const runner *r)
 /* One round of one model. Errors: ISO_STOPPED, ISO_NO_MEMORY. */
 static iso_status go_on(group *g, int model, bool *any)
 {
-    runner *r = &g->model[model];
+    model_walk *r = &g->model[model];
     r->each = turns_of_round(g, r);
     if (r->each == 0) return ISO_OK;
     const iso_status went =
@@ -230,7 +230,7 @@ static void show_progress(const group *g)
     if (!w->options.progress) return;
     for (int m = 0; m < 2; m++)
         for (size_t i = 0; w->out->with[m] && i < g->count; i++) {
-            const runner *r = &g->model[m];
+            const model_walk *r = &g->model[m];
             done += r->wanted[i] ? (double)r->shown[i].turns / (double)most_turns(w, &r->shown[i]) : 1;
             models += i == 0;
         }
@@ -243,7 +243,7 @@ static void judge(const iso_chaos *c, iso_chaos_orbit *orbit)
 {
     bool found[3] = {false, false, false};
     for (int m = 0; m < 2; m++)
-        if (c->with[m]) found[orbit->told[m].verdict] = true;
+        if (c->with[m]) found[orbit->result[m].verdict] = true;
     orbit->disagree = found[ISO_REGULAR] && found[ISO_CHAOTIC];
     orbit->verdict = orbit->disagree      ? ISO_UNDECIDED
                      : found[ISO_CHAOTIC] ? ISO_CHAOTIC
@@ -291,8 +291,8 @@ static void tell_plane(iso_chaos *c)
     c->own = (iso_chaos_orbit){.l = NAN, .x = NAN, .verdict = ISO_REGULAR};
     iso_indicators_begin(&none, 1);
     for (int m = 0; m < 2; m++) {
-        iso_indicators_read(&none, &c->own.told[m]);
-        if (c->with[m]) c->own.told[m].verdict = ISO_REGULAR;
+        iso_indicators_read(&none, &c->own.result[m]);
+        if (c->with[m]) c->own.result[m].verdict = ISO_REGULAR;
     }
 }
 

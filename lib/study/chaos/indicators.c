@@ -1,4 +1,4 @@
-/* indicators.c - exponent, MEGNO, GALI_2 and the verdict from the beats of an orbit, see indicators.h.
+/* indicators.c - exponent, MEGNO, GALI_2 and the verdict from the turns of an orbit, see indicators.h.
  *
  * A look at N turns uses the turns from N/4 to N. Its sums grow while the turns pass. The sums of the looks at N,
  * sqrt(2) N, 2 N and 2 sqrt(2) N grow at the same time. Those of the look at 4 N begin when the look at N ends.
@@ -26,10 +26,10 @@ static long turns_of(const iso_indicators *it, long i)
 
 static void begin_look(iso_indicators *it, long i)
 {
-    iso_window *look = &it->look[(unsigned long)i % ISO_WINDOWS];
-    memset(look, 0, sizeof *look);
-    look->last = turns_of(it, i);
-    look->first = look->last / 4;
+    iso_window *window = &it->window[(unsigned long)i % ISO_WINDOWS];
+    memset(window, 0, sizeof *window);
+    window->last = turns_of(it, i);
+    window->first = window->last / 4;
 }
 
 /* exp(-1/(u (1 - u))), 1 at its top; 0 outside of (0, 1) */
@@ -39,43 +39,45 @@ static double weight(double u)
 }
 
 /* step: ln(D_n/D_(n-1)). D_n^2 is cut off where it is so large that no polynomial will be fitted to it. */
-static void add_to_look(iso_window *look, long n, double growth, double step, const double seen[ISO_SEEN])
+static void add_to_window(iso_window *window, long n, double growth, double step,
+                          const double observable[ISO_OBSERVABLES])
 {
     static const double MOST_GROWTH = 100;
-    const double turn = (double)n, last = (double)look->last;
-    const double u = (turn - 0.5 - (double)look->first) / (last - (double)look->first), v = turn / last;
+    const double turn = (double)n, last = (double)window->last;
+    const double u = (turn - 0.5 - (double)window->first) / (last - (double)window->first), v = turn / last;
     const double megno = (2 * turn - 1) * step, square = exp(2 * fmin(growth, MOST_GROWTH));
     const int h = u > 0.5;
     const double w = weight(h ? 2 * u - 1 : 2 * u), all = weight(u);
-    look->weight[h] += w;
-    look->megno[h] += w * megno;
-    look->growth[h] += w * growth;
-    for (int i = 0; i < ISO_SEEN; i++) {
-        look->seen[h][i] += w * seen[i];
-        look->square[h][i] += w * seen[i] * seen[i];
+    window->weight[h] += w;
+    window->megno[h] += w * megno;
+    window->growth[h] += w * growth;
+    for (int i = 0; i < ISO_OBSERVABLES; i++) {
+        window->observable[h][i] += w * observable[i];
+        window->square[h][i] += w * observable[i] * observable[i];
     }
-    look->whole += all;
-    look->megno_whole += all * megno;
-    look->inverse[0] += all / v;
-    look->inverse[1] += all / (v * v);
-    look->inverse[2] += all / v * megno;
+    window->whole += all;
+    window->megno_whole += all * megno;
+    window->inverse[0] += all / v;
+    window->inverse[1] += all / (v * v);
+    window->inverse[2] += all / v * megno;
     double term = all;
     for (int i = 0; i < 5; i++, term *= v) {
-        look->power[i] += term;
-        if (i < 3) look->length[i] += term * square;
+        window->power[i] += term;
+        if (i < 3) window->length[i] += term * square;
     }
 }
 
 /* --- the results of a look -------------------------------------------------------------------------------------- */
 
 /* To how many digits the means over the two halves agree. Differences are divided by the spread of the function. */
-static double digits_of(const iso_window *look)
+static double digits_of(const iso_window *window)
 {
     static const double LEAST_SPREAD = 1e-4, ROUNDING = 1e-16;
     double worst = ROUNDING;
-    for (int i = 0; i < ISO_SEEN; i++) {
-        const double one = look->seen[0][i] / look->weight[0], other = look->seen[1][i] / look->weight[1];
-        const double spread = sqrt(fmax(0, look->square[0][i] / look->weight[0] - one * one));
+    for (int i = 0; i < ISO_OBSERVABLES; i++) {
+        const double one = window->observable[0][i] / window->weight[0],
+                     other = window->observable[1][i] / window->weight[1];
+        const double spread = sqrt(fmax(0, window->square[0][i] / window->weight[0] - one * one));
         const double difference = fabs(one - other) / (spread + LEAST_SPREAD);
         if (!(difference <= worst)) worst = difference;
     }
@@ -83,17 +85,17 @@ static double digits_of(const iso_window *look)
 }
 
 /* 2 (n - 1/2) ln(D_n/D_(n-1)) = limit + A/n by least squares. */
-static double limit_of_steps(const iso_window *look)
+static double limit_of_steps(const iso_window *window)
 {
-    const double w = look->whole, x = look->inverse[0] / w, y = look->megno_whole / w;
-    const double slope = (look->inverse[2] / w - x * y) / (look->inverse[1] / w - x * x);
+    const double w = window->whole, x = window->inverse[0] / w, y = window->megno_whole / w;
+    const double slope = (window->inverse[2] / w - x * y) / (window->inverse[1] / w - x * x);
     return y - slope * x;
 }
 
 /* D_n^2 = a + b v + c v^2, v = n/last, by least squares (Cramer's rule). */
-static void fit_square(const iso_window *look, double coefficient[3])
+static void fit_square(const iso_window *window, double coefficient[3])
 {
-    const double *p = look->power, *y = look->length;
+    const double *p = window->power, *y = window->length;
     const double m00 = p[2] * p[4] - p[3] * p[3], m01 = p[1] * p[4] - p[2] * p[3], m02 = p[1] * p[3] - p[2] * p[2],
                  m11 = p[0] * p[4] - p[2] * p[2], m12 = p[0] * p[3] - p[1] * p[2], m22 = p[0] * p[2] - p[1] * p[1];
     const double det = p[0] * m00 - p[1] * m01 + p[2] * m02;
@@ -104,11 +106,11 @@ static void fit_square(const iso_window *look, double coefficient[3])
 
 /* The limit of MEGNO where D has grown little; NaN: not known. The coefficients are as accurate as the smooth means,
  * which agree to `digits`. */
-static double limit_of_square(const iso_window *look, double digits)
+static double limit_of_square(const iso_window *window, double digits)
 {
     static const double FLAT = 1e-4, GROWING = 1e-3;
     double c[3];
-    fit_square(look, c);
+    fit_square(window, c);
     const double size = fabs(c[0]);
     if (c[2] > fmax(GROWING, pow(10, 1 - digits)) * size && c[0] + c[1] + c[2] > 0) return 2;
     return fabs(c[1]) < FLAT * size && fabs(c[2]) < FLAT * size ? 0 : (double)NAN;
@@ -177,7 +179,7 @@ static double error_of(const iso_indicators *it, int c, double lam)
 }
 
 /* The exponent of a regular orbit is 0, so its estimate is its error. */
-static double tell_rate(const iso_indicators *it, int c, double *error)
+static double read_rate(const iso_indicators *it, int c, double *error)
 {
     const double found = rate(it, c), lam = isfinite(found) ? found : (double)NAN; /* it may not fit a double */
     *error = it->verdict == ISO_REGULAR ? fabs(lam) : it->verdict == ISO_CHAOTIC ? error_of(it, c, lam) : (double)NAN;
@@ -208,17 +210,17 @@ static bool is_two(double megno, double within)
 }
 
 /* within HALF: whether this look says that the orbit is regular. within ROUGHLY: whether it may be regular. */
-static bool looks_regular(iso_indicators *it, const iso_window *look, double within)
+static bool looks_regular(iso_indicators *it, const iso_window *window, double within)
 {
     const double *half = it->halves;
-    if (!(it->gain < MOST_REGULAR_GAIN && it->digits >= DIGITS && look->last >= LEAST_REGULAR)) return false;
+    if (!(it->gain < MOST_REGULAR_GAIN && it->digits >= DIGITS && window->last >= LEAST_REGULAR)) return false;
     if (is_two(it->limit, ROUGHLY) && is_two(half[0], within) && is_two(half[1], within)) {
-        if (!is_two(it->limit, MEGNO)) it->limit = look->megno_whole / look->whole;
+        if (!is_two(it->limit, MEGNO)) it->limit = window->megno_whole / window->whole;
         return within > HALF || is_two(it->limit, MEGNO);
     }
     const bool flat = fmin(half[0], half[1]) > -ROUGHLY && fmax(half[0], half[1]) < 2 + ROUGHLY;
     if (!flat || it->digits < (it->before < LITTLE ? DIGITS_LITTLE : DIGITS_FLAT)) return false;
-    it->limit = limit_of_square(look, it->digits);
+    it->limit = limit_of_square(window, it->digits);
     return !isnan(it->limit);
 }
 
@@ -231,23 +233,23 @@ static bool looks_chaotic(const iso_indicators *it)
     return exponent > ERRORS * scatter(it, -1, exponent, 1, &parts);
 }
 
-static void judge(iso_indicators *it, const iso_window *look)
+static void judge(iso_indicators *it, const iso_window *window)
 {
     const bool before = it->looked_regular;
     it->gain_before = it->gain;
-    it->digits = digits_of(look);
-    it->limit = limit_of_steps(look);
-    it->gain = look->growth[1] / look->weight[1] - look->growth[0] / look->weight[0];
-    for (int h = 0; h < 2; h++) it->halves[h] = look->megno[h] / look->weight[h];
-    const bool regular = before && looks_regular(it, look, HALF);
-    it->looked_regular = regular || looks_regular(it, look, ROUGHLY);
+    it->digits = digits_of(window);
+    it->limit = limit_of_steps(window);
+    it->gain = window->growth[1] / window->weight[1] - window->growth[0] / window->weight[0];
+    for (int h = 0; h < 2; h++) it->halves[h] = window->megno[h] / window->weight[h];
+    const bool regular = before && looks_regular(it, window, HALF);
+    it->looked_regular = regular || looks_regular(it, window, ROUGHLY);
     if (it->verdict != ISO_UNDECIDED) return;
     if (regular) it->verdict = ISO_REGULAR, it->megno = it->limit;
     if (looks_chaotic(it)) it->verdict = ISO_CHAOTIC;
     if (it->verdict != ISO_UNDECIDED) it->decided = it->turns;
 }
 
-/* --- beats ------------------------------------------------------------------------------------------------------ */
+/* --- turns ------------------------------------------------------------------------------------------------------ */
 
 void iso_indicators_begin(iso_indicators *it, long most)
 {
@@ -279,27 +281,28 @@ static double ln_length(const double growth[ISO_DEVIATIONS])
     return larger + log1p(exp(2 * (smaller - larger))) / 2 - log(2) / 2;
 }
 
-void iso_indicators_add(iso_indicators *it, const iso_turn_sample *beat)
+void iso_indicators_add(iso_indicators *it, const iso_turn_sample *turn)
 {
-    const double growth = ln_length(beat->growth), step = growth - it->before;
+    const double growth = ln_length(turn->growth), step = growth - it->before;
     const long n = ++it->turns;
     it->before = it->now[0] = growth;
-    memcpy(it->now + 1, beat->clock, sizeof beat->clock);
-    it->area = beat->area;
+    memcpy(it->now + 1, turn->clock, sizeof turn->clock);
+    it->area = turn->area;
     it->step_sum += ((double)n - 0.5) * step;
     it->mean_sum += 2 * it->step_sum / (double)n;
     if (n % it->part == 0) end_part(it);
     for (int i = 0; i < ISO_WINDOWS; i++)
-        if (n > it->look[i].first && n <= it->look[i].last) add_to_look(&it->look[i], n, growth, step, beat->seen);
-    iso_window *look = &it->look[(unsigned long)it->number % ISO_WINDOWS];
-    if (n < look->last) return;
-    judge(it, look);
+        if (n > it->window[i].first && n <= it->window[i].last)
+            add_to_window(&it->window[i], n, growth, step, turn->observable);
+    iso_window *window = &it->window[(unsigned long)it->number % ISO_WINDOWS];
+    if (n < window->last) return;
+    judge(it, window);
     begin_look(it, it->number++ + ISO_WINDOWS);
 }
 
 long iso_indicators_next(const iso_indicators *it)
 {
-    return it->look[(unsigned long)it->number % ISO_WINDOWS].last;
+    return it->window[(unsigned long)it->number % ISO_WINDOWS].last;
 }
 
 iso_verdict iso_indicators_verdict(const iso_indicators *it)
@@ -309,17 +312,17 @@ iso_verdict iso_indicators_verdict(const iso_indicators *it)
 
 /* --- the indication --------------------------------------------------------------------------------------------- */
 
-void iso_indicators_read(const iso_indicators *it, iso_indication *told)
+void iso_indicators_read(const iso_indicators *it, iso_indication *result)
 {
     const double n = (double)it->turns;
-    *told = (iso_indication){.verdict = iso_indicators_verdict(it)};
-    told->turns = it->decided > 0 ? it->decided : it->turns;
-    told->exponent_turns = it->turns;
-    told->per_turn = tell_rate(it, -1, &told->per_turn_error);
-    for (int c = 0; c < ISO_CLOCKS; c++) told->exponent[c] = tell_rate(it, c, &told->error[c]);
-    told->megno_now = n > 0 ? 2 * it->step_sum / n : NAN;
-    told->megno_mean = n > 0 ? it->mean_sum / n : NAN;
-    told->megno = told->verdict == ISO_REGULAR ? it->megno : told->megno_mean;
-    told->gali2 = n > 0 ? it->area : NAN;
-    told->digits = it->digits;
+    *result = (iso_indication){.verdict = iso_indicators_verdict(it)};
+    result->turns = it->decided > 0 ? it->decided : it->turns;
+    result->exponent_turns = it->turns;
+    result->per_turn = read_rate(it, -1, &result->per_turn_error);
+    for (int c = 0; c < ISO_CLOCKS; c++) result->exponent[c] = read_rate(it, c, &result->error[c]);
+    result->megno_now = n > 0 ? 2 * it->step_sum / n : NAN;
+    result->megno_mean = n > 0 ? it->mean_sum / n : NAN;
+    result->megno = result->verdict == ISO_REGULAR ? it->megno : result->megno_mean;
+    result->gali2 = n > 0 ? it->area : NAN;
+    result->digits = it->digits;
 }

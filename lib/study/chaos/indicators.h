@@ -1,15 +1,15 @@
 /* indicators.h - is an orbit chaotic? The answer comes from its turns: returns to a section, or equal steps of a
- * clock. What is measured at the end of a turn is called a beat.
+ * clock. What is measured at the end of a turn is called a turn.
  *
  *     iso_indicators it;
  *     iso_indicators_begin(&it, 3000);                          no more than 3000 turns
  *     while (iso_indicators_verdict(&it) == ISO_UNDECIDED && it.turns < 3000) {
  *         ... the next crossing
- *         iso_indicators_add(&it, &beat);
+ *         iso_indicators_add(&it, &turn);
  *     }
- *     iso_indicators_read(&it, &told);                          told.verdict, told.exponent[ISO_CLOCK_T]
+ *     iso_indicators_read(&it, &result);                          result.verdict, result.exponent[ISO_CLOCK_T]
  *
- * Each beat gives the lengths of two deviations d1, d2, which start orthogonal, with length 1. After n turns
+ * Each sample gives the lengths of two deviations d1, d2, which start orthogonal, with length 1. After n turns
  * D_n = sqrt((|d1|^2 + |d2|^2)/2). D_n is the same for every such pair. On a regular orbit D_n^2 is a + b n + c n^2,
  * times a bounded factor that depends on the place only. On a chaotic orbit D_n^2 grows like exp(2 lam n).
  *

@@ -160,7 +160,7 @@ static iso_status ask_indicators(grower *g, iso_verdict *verdict, double *expone
     iso_cost_allow(&g->p, INDICATORS);
     const iso_status status = iso_chaos_run(g->p.ctx, g->p.scene, NULL, &c);
     *verdict = status == ISO_OK ? c->own.verdict : ISO_UNDECIDED;
-    if (status == ISO_OK) *exponent = c->own.told[c->with[model] ? model : 1 - model].exponent[g->p.clock];
+    if (status == ISO_OK) *exponent = c->own.result[c->with[model] ? model : 1 - model].exponent[g->p.clock];
     iso_chaos_free(c);
     return status == ISO_NO_MEMORY ? iso_context_no_memory(g->p.user, "the indicators") : ISO_OK;
 }

@@ -100,15 +100,15 @@ void iso_cost_track_free(cost_track *track)
 }
 
 /* The ball's energy, where it is kept, and its constraints. */
-typedef struct keeper {
+typedef struct drift_watch {
     const iso_integral *list[ISO_MAX_INTEGRALS];
     int count;
     double energy;
-} keeper;
+} drift_watch;
 
-static keeper find_integrals(const iso_orbit *orbit, const iso_sample *start, cost_track *track)
+static drift_watch find_integrals(const iso_orbit *orbit, const iso_sample *start, cost_track *track)
 {
-    keeper k;
+    drift_watch k;
     double size;
     k.count = iso_integrals_holding(&iso_system_ball, &iso_orbit_model(orbit)->problem, k.list, ISO_MAX_INTEGRALS);
     track->energy_drift = track->constraint_drift = NAN;
@@ -121,7 +121,8 @@ static keeper find_integrals(const iso_orbit *orbit, const iso_sample *start, co
     return k;
 }
 
-static void follow_integrals(const keeper *k, const iso_orbit *orbit, const iso_sample *sample, cost_track *track)
+static void follow_integrals(const drift_watch *k, const iso_orbit *orbit, const iso_sample *sample,
+                             cost_track *track)
 {
     for (int i = 0; i < k->count; i++) {
         const iso_integral *integral = k->list[i];
@@ -148,7 +149,7 @@ static iso_status walk(cost_problem *p, iso_orbit *orbit, double seconds, cost_t
     const double begin = processor_seconds();
     iso_status status = iso_orbit_at(orbit, 0, &sample);
     if (status != ISO_OK) return status;
-    const keeper k = find_integrals(orbit, &sample, track);
+    const drift_watch k = find_integrals(orbit, &sample, track);
     for (int i = 0; i < track->times; i++) {
         status = iso_orbit_at(orbit, track->time[i], &sample);
         track->seconds = processor_seconds() - begin;

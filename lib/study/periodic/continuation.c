@@ -39,14 +39,14 @@ static iso_status add_point(const iso_continuation *f, iso_branch *b, const iso_
         if (!larger) return iso_context_no_memory(f->ctx, "a branch");
         b->point = larger;
     }
-    b->point[b->points++] = iso_continuation_tell(at, arc);
+    b->point[b->points++] = iso_continuation_read(at, arc);
     return ISO_OK;
 }
 
 static iso_status fail_at(const iso_continuation *f, iso_branch *b, const iso_continuation_point *at, double arc,
                           const char *why)
 {
-    iso_branch_event e = {.kind = ISO_BRANCH_FAILURE, .at = iso_continuation_tell(at, arc), .axis = -1};
+    iso_branch_event e = {.kind = ISO_BRANCH_FAILURE, .at = iso_continuation_read(at, arc), .axis = -1};
     snprintf(e.words, sizeof e.words, "%s at %s = %.12g, l = %.9g, x = %.9g", why,
              iso_vary_name((int)f->options.vary), at->value, e.at.l, e.at.x);
     return iso_continuation_add_event(f, b, &e);
@@ -66,7 +66,7 @@ static iso_status end_at(const iso_continuation *f, iso_branch *b, const iso_con
     }
     if (!there) return fail_at(f, b, last, arc, "the last step to the end of the range failed");
     at.value = value;
-    iso_branch_event e = {.kind = ISO_BRANCH_END, .at = iso_continuation_tell(&at, arc), .axis = -1};
+    iso_branch_event e = {.kind = ISO_BRANCH_END, .at = iso_continuation_read(&at, arc), .axis = -1};
     snprintf(e.words, sizeof e.words, "the end of the range");
     ISO_TRY(add_point(f, b, &at, arc));
     return iso_continuation_add_event(f, b, &e);

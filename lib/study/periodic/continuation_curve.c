@@ -98,7 +98,7 @@ bool iso_continuation_step(const iso_continuation *f, const iso_continuation_poi
     return to->tangent[0] * t[0] + to->tangent[1] * t[1] > 0.9;
 }
 
-iso_branch_point iso_continuation_tell(const iso_continuation_point *at, double arc)
+iso_branch_point iso_continuation_read(const iso_continuation_point *at, double arc)
 {
     return (iso_branch_point){at->value, at->u, at->z[0], at->z[1], at->trace, arc};
 }

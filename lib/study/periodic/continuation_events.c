@@ -192,7 +192,7 @@ iso_status iso_continuation_events(const iso_continuation *f, iso_branch *b, con
         name(f, &at, test, test == TEST_FOLD && a->tangent[1] * to->tangent[1] < 0, &e);
         if (test == TEST_TURN) name_turn(f, &at, &e);
         if (e.kind == ISO_BRANCH_DOUBLING && test != TEST_TURN) name_touch(f, &at, doubles(a, to, test, ds, &at), &e);
-        e.at = iso_continuation_tell(&at, arc + part);
+        e.at = iso_continuation_read(&at, arc + part);
         if (is_there(b, &e)) continue;
         status = iso_continuation_add_event(f, b, &e);
     }
@@ -248,7 +248,7 @@ bool iso_continuation_collision(const iso_continuation *f, const iso_continuatio
     at.u = end ? ISO_PI / 2 : 0;
     at.z[0] = axis == (f->axis + 1) % 3 ? ISO_PI / 2 : 0; /* the fixed point of the rotation */
     at.z[1] = axis == f->axis ? 1 : 0;
-    e->at = iso_continuation_tell(&at, 0);
+    e->at = iso_continuation_read(&at, 0);
     snprintf(e->words, sizeof e->words, "it shrinks onto the rotation about axis %d at %s = %.12g", axis + 1,
              iso_vary_name((int)f->options.vary), at.value);
     return true;

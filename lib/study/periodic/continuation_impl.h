@@ -47,7 +47,7 @@ bool iso_continuation_step(const iso_continuation *f, const iso_continuation_poi
 /* Sets the tangent, so that it goes on like `like` (NULL: v grows). */
 void iso_continuation_turn(iso_continuation_point *at, const double like[2]);
 
-iso_branch_point iso_continuation_tell(const iso_continuation_point *at, double arc);
+iso_branch_point iso_continuation_read(const iso_continuation_point *at, double arc);
 
 /* Adds the events between a and b, ds apart. */
 iso_status iso_continuation_events(const iso_continuation *f, iso_branch *b, const iso_continuation_point *a,

@@ -45,9 +45,8 @@ static iso_status read_points(iso_context *ctx, const char *text, double (**list
     for (const char *c = text; *c; c += *c == ';') {
         const size_t l = strcspn(c, ",;"), x = c[l] == ',' ? strcspn(c + l + 1, ";") : 0;
         if (x == 0 || !iso_number_read(c, l, &more[*count][0]) || !iso_number_read(c + l + 1, x, &more[*count][1]))
-            return ISO_FAIL_ARGUMENT(ctx, "",
-                                    "--at '%s': expected l,x, or several of them with ; between: 0.5,0.2;1,-0.3",
-                                    text);
+            return ISO_FAIL_ARGUMENT(
+                ctx, "", "--at '%s': expected l,x, or several of them with ; between: 0.5,0.2;1,-0.3", text);
         ++*count;
         c += l + 1 + x;
     }
@@ -73,15 +72,13 @@ static iso_status read_event(iso_context *ctx, const char *text, iso_section_opt
     if (!text) return ISO_OK;
     if (length < sizeof name) memcpy(name, text, length);
     if (text[length] != '=' || !iso_number_read(text + length + 1, strlen(text + length + 1), &how->value))
-        return ISO_FAIL_ARGUMENT(ctx, "", "--event '%s': expected COLUMN=VALUE, such as omega1=0.5",
-                                text);
+        return ISO_FAIL_ARGUMENT(ctx, "", "--event '%s': expected COLUMN=VALUE, such as omega1=0.5", text);
     how->column = iso_column_find(name);
     if (how->column >= ISO_CLOCKS) return ISO_OK;
     if (how->column >= 0)
-        return ISO_FAIL_ARGUMENT(ctx, "", "--event: the clock '%s' passes each value only once",
-                                name);
+        return ISO_FAIL_ARGUMENT(ctx, "", "--event: the clock '%s' passes each value only once", name);
     return ISO_FAIL_ARGUMENT(ctx, "", "--event: there is no column '%s'; %s", name,
-                            iso_suggest_word(suggested, name, iso_column_name));
+                             iso_suggest_word(suggested, name, iso_column_name));
 }
 
 /* A test writes no crossings. Refuses options that ask for them. */
@@ -111,17 +108,17 @@ static iso_status prepare(iso_context *ctx, void *options)
 /* --- tables ----------------------------------------------------------------------------------------------------- */
 
 /* The rows of the file, and the same crossings as the point finds them, if both models are integrated. */
-typedef struct keeper {
+typedef struct collector {
     iso_context *ctx;
     iso_study_result *result;
     size_t orbit, crossing; /* of the last pair */
-} keeper;
+} collector;
 
 /* Called after the ball's row; a pair of the same orbit is its next crossing. */
 static iso_status keep_pair(void *data, size_t orbit, const iso_crossing *ball, const iso_crossing *point)
 {
     static const char *const names[] = {"orbit", "crossing", "t", "tau", "s", "l", "x"};
-    keeper *k = data;
+    collector *k = data;
     iso_record **table = &k->result->table[1];
     iso_status status = ISO_OK;
     (void)ball;
@@ -139,13 +136,13 @@ static iso_status keep_pair(void *data, size_t orbit, const iso_crossing *ball, 
 
 static void keep_note(void *data, const char *words)
 {
-    const keeper *k = data;
+    const collector *k = data;
     iso_study_note(k->result, "%s", words);
 }
 
 static void show(void *data, double part)
 {
-    const keeper *k = data;
+    const collector *k = data;
     iso_study_progress(k->result, part);
 }
 
@@ -159,7 +156,7 @@ static void end(void *options)
 static iso_status find_crossings(iso_context *ctx, const iso_scene *scene, const iso_section_request *request,
                                  iso_study_result *result)
 {
-    keeper k = {.ctx = ctx, .result = result, .orbit = SIZE_MAX};
+    collector k = {.ctx = ctx, .result = result, .orbit = SIZE_MAX};
     const iso_section_sink sink = {
         .pair = keep_pair, .note = keep_note, .progress = show, .data = &k, .record = &result->table[0]};
     iso_section_result r = {.rows = 0};

@@ -97,10 +97,10 @@ static inline iso_separatrix_options iso_separatrix_defaults(void)
 typedef struct iso_separatrix_table {
     size_t rows, zeros;
     size_t lost; /* zeros that lie between two rows and were not found: a failure, or +-1 too close  */
-    iso_separatrix_splitting
-        *row; /* one for each k of the options, in their order; status ISO_STOPPED: not done    */
-    iso_separatrix_splitting
-        *zero; /* zeros of m other than k = +-1, by growing k and level                          */
+    /* One for each k of the options, in their order; status ISO_STOPPED: not done. */
+    iso_separatrix_splitting *row;
+    /* Zeros of m other than k = +-1, by growing k and level. */
+    iso_separatrix_splitting *zero;
 } iso_separatrix_table;
 
 /* Other zeros of m than k = 1 and k = -1 are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1): there is one between two
