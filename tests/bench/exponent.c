@@ -174,7 +174,7 @@ int main(int argc, char **argv)
     w.done = calloc(w.count, sizeof *w.done);
     w.status = calloc(w.count, sizeof *w.status);
     w.wanted = calloc(w.count, sizeof *w.wanted);
-    w.told = calloc(w.count * LENGTHS, sizeof *w.told);
+    w.result = calloc(w.count * LENGTHS, sizeof *w.result);
     for (size_t s = 0; s < sizeof seas / sizeof *seas; s++) {
         follow(ctx, &seas[s], seed, &w);
         for (int t = 0; t < 2; t++) {
@@ -186,7 +186,7 @@ int main(int argc, char **argv)
         }
     }
     free(w.orbit), free(w.start), free(w.shown), free(w.found), free(w.half);
-    free(w.done), free(w.status), free(w.wanted), free(w.told);
+    free(w.done), free(w.status), free(w.wanted), free(w.result);
     iso_context_free(ctx);
     return 0;
 }
