@@ -42,7 +42,7 @@ iso_status iso_refuse_losses(iso_context *ctx, const iso_orbit *orbit, const cha
 /* Losses, and effects that let the ball roll away. what: as above. */
 iso_status iso_refuse_unbound(iso_context *ctx, const iso_orbit *orbit, const char *what);
 
-/* About "J", where two moments are equal. what: as in "no periodic orbit is isolated". */
+/* About "J", where two moments are equal within rounding. what: as in "no periodic orbit is isolated". */
 iso_status iso_refuse_equal_moments(iso_context *ctx, const double J[3], const char *what);
 
 #define ISO_NO_RETURN "comes back to no section"
