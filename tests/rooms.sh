@@ -3,6 +3,7 @@
 # folder it also names the files of one folder that call each other in a circle. It reads the source where it stands,
 # or in $ISO_SOURCE: so the same picture is drawn of another state of isoroll.
 set -u
+objects=${1:+$(realpath "$1")/CMakeFiles/isoroll_objects.dir/lib}
 cd "${ISO_SOURCE:-$(dirname "$0")/..}" || exit 1
 
 echo "folder (files): the folders that it includes"
@@ -29,7 +30,6 @@ find lib apps -name '*.[ch]' ! -path lib/isoroll.h -exec awk '
          function rank(f,   top) { top = f; sub(/\/.*/, "", top); return sprintf("%02d %s", floor[top], f) }' |
     sort | cut -f 2-
 
-objects=${1:+$1/CMakeFiles/isoroll_objects.dir/lib}
 [ -n "$objects" ] || exit 0
 echo "files of one folder that call each other in a circle:"
 find "$objects" -name '*.o' -exec nm -A -g {} + | awk -v objects="$objects/" '

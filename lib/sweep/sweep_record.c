@@ -6,6 +6,27 @@
 #include "sweep/sweep_impl.h"
 #include "sweep/sweep_store_impl.h"
 
+size_t iso_sweep_shard_points(const iso_sweep_head *head, iso_sweep_shard share)
+{
+    const size_t chunks = iso_sweep_chunks(head);
+    if (share.index >= chunks) return 0;
+    const size_t mine = (chunks - share.index - 1) / share.count + 1, last = share.index + (mine - 1) * share.count;
+    return (mine - 1) * head->chunk + iso_sweep_chunk_points(head, last);
+}
+
+/* All its chunks are full, but perhaps the last one. */
+size_t iso_sweep_shard_point(const iso_sweep_head *head, iso_sweep_shard share, size_t i)
+{
+    return (share.index + i / head->chunk * share.count) * head->chunk + i % head->chunk;
+}
+
+const char *iso_sweep_column_name(const iso_sweep_column *c, char name[ISO_SWEEP_NAME])
+{
+    const bool vary = strcmp(c->group, "vary") == 0;
+    snprintf(name, ISO_SWEEP_NAME, "%s%s%s", vary ? "" : c->group, vary ? "" : "_", c->name);
+    return name;
+}
+
 size_t iso_sweep_rows_bytes(const iso_sweep_rows *rows, size_t count)
 {
     return count * ((size_t)rows->columns * sizeof(double) + sizeof(int32_t) + 1 + ISO_REASON_SIZE);

@@ -29,7 +29,7 @@
 #define ISO_SWEEP_KIND "sweep"
 #define ISO_SWEEP_PART_KIND "sweep part"
 
-/* --- shards, failures, sums (sweep_result.c, sweep_record.c) ---------------------------------------------------- */
+/* --- shards, failures, sums (sweep_record.c) -------------------------------------------------------------------- */
 
 /* Chunks index, index + count, ...; {0, 1}: all. count is at most ISO_SWEEP_MOST_SHARES. */
 enum { ISO_SWEEP_MOST_SHARES = 1000000 };

@@ -283,7 +283,10 @@ static iso_status chart(iso_context *ctx, const iso_scene *scene, const iso_peri
     f->level = f->how.moment == ISO_CHART_LEVEL ? (double)NAN : f->how.level;
     f->how.progress = result->progress;
     f->how.data = result->data;
-    ISO_TRY(iso_stability_chart(ctx, &f->how, &f->grid, &f->borders));
+    const iso_status status = iso_stability_chart(ctx, &f->how, &f->grid, &f->borders);
+    if (status == ISO_BAD_ARGUMENT) /* the ranges are the option's, not the scene's */
+        return iso_context_fail(ctx, status, "chart", "%s", iso_context_message(ctx));
+    ISO_TRY(status);
     return put_chart(ctx, scene, f, &result->table[0]);
 }
 
