@@ -105,8 +105,11 @@ static void list_clocks(void)
 
 static void list_columns(void)
 {
-    for (int i = 0; i < iso_columns_count(); i++) printf("%s%s", i ? " " : "  ", iso_column_name(i));
-    printf("\n");
+    const char *unit;
+    for (int i = 0; i < iso_columns_count(); i++) {
+        const char *doc = iso_column_doc(i, &unit);
+        printf("  %-22s %-10s %s\n", iso_column_name(i), *unit ? unit : "-", doc);
+    }
 }
 
 static void print_column(void *data, const char *name, const iso_field *field, const iso_value *value)
@@ -136,7 +139,7 @@ static const struct {
     {"surfaces", "what the ball rolls on (surface: kind)", list_surfaces},
     {"integrals", "first integrals, each with the k, J and effects for which it holds", list_integrals},
     {"clocks", "times of an orbit", list_clocks},
-    {"columns", "of trajectory files", list_columns},
+    {"columns", "of trajectory files, with unit and meaning", list_columns},
     {"tables", "that commands write: their columns, with unit and meaning", list_tables},
 };
 enum { TOPICS = sizeof topics / sizeof *topics };

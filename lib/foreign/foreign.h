@@ -77,6 +77,15 @@ ISO_API int iso_foreign_scene_numbers(const iso_foreign_scene *scene, const char
 /* The word of a key: "model" (of the start), "backend", "method", "as", "name"; NULL: there is no such key. */
 ISO_API const char *iso_foreign_scene_word(const iso_foreign_scene *scene, const char *key);
 
+/* The i-th key that the text of a scene can have, and its section, such as "reduced" and "k"; those of "effects" are
+ * the names of the effects. False: there are no more. */
+ISO_API bool iso_foreign_scene_key(int i, const char **section, const char **key);
+
+/* The text of a scene or of a sweep, YAML of `bytes` bytes, as JSON: as much of it as there is room for, with an end
+ * mark; *length is that of all of it. Errors: ISO_BAD_INPUT about its YAML, with line and column in `name`. */
+ISO_API iso_status iso_foreign_yaml_json(iso_context *ctx, const char *name, const char *text, size_t bytes,
+                                         char json[], size_t room, size_t *length);
+
 /* How many columns the scene asks for, and their numbers (iso_column_name); columns[] has room for
  * ISO_MAX_COLUMNS. */
 ISO_API int iso_foreign_scene_columns(const iso_foreign_scene *scene, int columns[]);
@@ -151,6 +160,10 @@ ISO_API iso_status iso_foreign_read(iso_context *ctx, const char *path, const ch
  * ISO_BAD_ARGUMENT about "digits". */
 ISO_API iso_status iso_foreign_write(iso_context *ctx, const char *path, const iso_record *record, int digits,
                                      const char *kind);
+
+/* What a column is, in one line, and its unit ("": a number without one), in a table of this kind: those of
+ * iso_result_table_at, and of a trajectory. NULL: nothing is known of it. */
+ISO_API const char *iso_foreign_column_doc(const char *kind, const char *column, const char **unit);
 
 /* Converts a record to the model `to`, "ball" or "point" (orbit/convert.h). k, J and h or eps are in its lines.
  * shift_J: see iso_conversion_options. row_tolerance: see iso_record_set_row_tolerance.

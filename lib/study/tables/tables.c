@@ -8,12 +8,12 @@
 #include "study/cost/cost.h"
 #include "study/frequencies/frequencies.h"
 #include "study/integrals/integrals.h"
+#include "study/options_impl.h"
 #include "study/periodic/continuation.h"
 #include "study/periodic/periodic.h"
 #include "study/periodic/stability_chart.h"
 #include "study/section/section.h"
 #include "study/separatrix/separatrix.h"
-#include "study/options_impl.h"
 
 const iso_study *iso_study_at(int i)
 {
@@ -32,6 +32,7 @@ const iso_study *iso_study_find(const char *name)
 const iso_result_table *iso_result_table_at(int i)
 {
     static const iso_result_table tables[] = {
+        {"section", "a crossing of the section", iso_section_fields},
         {"chaos", "an orbit", iso_chaos_orbit_fields},
         {"periodic", "a periodic orbit", iso_periodic_orbit_fields},
         {"periodic follow", "a point of a branch, or an event on it", iso_branch_row_fields},
