@@ -44,7 +44,7 @@ class Errors(Case):
         around = {}
         around["a"] = around
         for bad in (around, {"reduced": {"k": "\ud800"}}, "a: \ud800\n", {"k": 10**5000}):
-            self.refuses(isoroll.BadArgument, "made into text", isoroll.Scene, bad)
+            self.refuses(isoroll.BadArgument, "made into the text", isoroll.Scene, bad)
         masked = {"reduced": {"k": 1, "J": np.ma.masked_equal([1, 2, 5], 5)}}
         self.refuses(isoroll.BadArgument, "not MaskedArray", isoroll.Scene, masked)
         scene = example("11_rubber_and_marble")

@@ -72,7 +72,7 @@ class Names(Case):
         named = isoroll.section(WILD, crossings=20, at=[[0.5, 0.2]], states="both")
         self.same(table.array, named.array)
         self.same(point.array, named.point.array)
-        self.assertEqual((table.kind, dict(table.lines), none), ("section", dict(named.lines), None))
+        self.assertEqual((table.kind, dict(table.lines.text), none), ("section", dict(named.lines.text), None))
 
     def test_lines_are_those_of_json(self):
         command = json.loads(self.command("chaos", WILD, "--starts", "12", "--turns", "300", "--json"))
@@ -96,17 +96,17 @@ class Verdicts(Case):
             command = json.loads(self.command("chaos", scene, "--starts", "12", "--turns", "1500", "--json"))
             found = isoroll.chaos(scene, starts=12, turns=1500)
             with self.subTest(scene=scene):
-                self.assertEqual(found.verdict, command["ball"]["verdict"])
+                self.assertEqual(found.verdict[0], command["ball"]["verdict"])
                 self.assertEqual(found.share.chaotic, command["share"]["chaotic_starts"])
                 self.assertEqual(found.share.undecided, command["share"]["undecided_starts"])
                 self.assertEqual((found.share.asked, found.share.orbits), (12, command["share"]["followed"]))
                 self.assertEqual((found.share.low, found.share.high),
                                  (command["share"]["low"], command["share"]["high"]))
-                self.assertEqual(found.orbits["ball_exponent_t"][0], command["ball"]["exponent"]["t"])
-                self.assertEqual(found.orbits["point_megno"][0], command["point"]["megno"])
-                spread = found.verdicts[1:]
+                self.assertEqual(found["ball_exponent_t"][0], command["ball"]["exponent"]["t"])
+                self.assertEqual(found["point_megno"][0], command["point"]["megno"])
+                spread = found.verdict[1:]
                 self.assertEqual(int(np.sum(spread == "chaotic")), found.share.chaotic)
-                self.assertEqual(len(found.orbits), 13)
+                self.assertEqual(len(found), 13)
 
     def test_k_minus_one_has_no_chaos(self):
         found = isoroll.chaos(BALL, starts=12, turns=1500)
@@ -116,20 +116,20 @@ class Verdicts(Case):
 
     def test_exponent_goes_on(self):
         brief, far = (isoroll.chaos(WILD, models="point", exponent_turns=turns) for turns in (0, 700))
-        self.assertTrue(np.isnan(brief.orbits["point_error_t"][0]))
-        self.assertGreater(far.orbits["point_error_t"][0], 0)
-        self.assertEqual(far.orbits["point_exponent_turns"][0], 700)
-        self.assertEqual(far.orbits["point_turns"][0], brief.orbits["point_turns"][0])
+        self.assertTrue(np.isnan(brief["point_error_t"][0]))
+        self.assertGreater(far["point_error_t"][0], 0)
+        self.assertEqual(far["point_exponent_turns"][0], 700)
+        self.assertEqual(far["point_turns"][0], brief["point_turns"][0])
 
     def test_trace(self):
         found = isoroll.chaos(WILD, turns=300, models="ball")
         again = pickle.loads(pickle.dumps(found))
-        self.assertEqual((again.verdict, dict(again.lines)), (found.verdict, dict(found.lines)))
-        self.assertEqual(list(found.trace), ["ball"])
-        self.assertEqual(found.trace["ball"].columns, ("turn", "t", "growth", "megno", "mean", "gali2"))
-        self.assertEqual(found.trace["ball"]["turn"][0], 1)
+        self.assertEqual((again.verdict[0], again.lines), (found.verdict[0], found.lines))
+        self.assertEqual(list(found.indicators), ["ball"])
+        self.assertEqual(found.indicators["ball"].columns, ("turn", "t", "growth", "megno", "mean", "gali2"))
+        self.assertEqual(found.indicators["ball"]["turn"][0], 1)
         self.assertIsNone(found.share)
-        self.assertNotIn("point_megno", found.orbits)
+        self.assertNotIn("point_megno", found)
 
     def test_refused(self):
         self.refuses(isoroll.BadArgument, "turns is 0", isoroll.chaos, WILD, turns=0)

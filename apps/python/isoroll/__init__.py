@@ -16,9 +16,10 @@ from ._errors import (BadArgument, BadInput, ClosedPipe, FileTrouble, IsorollErr
                       NoMemory, NotMapped, NumericalFailure, Stopped)
 from ._files import convert, read, write
 from ._library import lib as _lib
-from ._orbit import Batch, Orbit, Run, batch, orbit, run
+from ._kinds import Branch, Chaos, Chart, Cost, Periodic, Section, Share, Splitting, Sweep, Trajectory
+from ._orbit import Batch, Orbit, batch, orbit, run
 from ._scene import Scene
-from ._study import Chaos, Section, Share, chaos, section, study
+from ._study import chaos, section, study
 from ._table import Table, trajectory
 from ._version import __version__ as __version__
 

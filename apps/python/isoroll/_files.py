@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-import os
 from ctypes import byref
 from typing import Optional, Sequence, Union
 
 from . import _errors
-from ._library import Notes, check, context, encoded, interruptible, lib, whole
-from ._table import Table, as_record, from_record, new_record
-
-PathLike = Union[str, bytes, "os.PathLike[str]"]
+from ._library import Notes, check, context, encoded, interruptible, lib
+from ._table import PathLike, Table, as_record, from_record, new_record
 
 
 def read(path: PathLike, columns: Optional[Union[str, Sequence[str]]] = None) -> Table:
-    """Reads a table: CSV, or HDF5 if the name ends in .h5; a trajectory also from files of other programs.
+    """Reads a table of any kind, old ones too: CSV, or HDF5; a trajectory also from files of other programs.
 
     columns  for files without names: those of the columns from left to right, "-" for one to be passed over
 
-    Returns a table of shape (rows, columns), whose kind is that of the file: "trajectory", "section", "chaos", ...
+    Returns a table of the class of its kind: Trajectory, Section, Chaos, Periodic, Branch, Chart, Splitting, Cost,
+    Sweep.
     """
     if columns is not None and not isinstance(columns, str):
         columns = ",".join(columns)
@@ -32,17 +30,10 @@ def read(path: PathLike, columns: Optional[Union[str, Sequence[str]]] = None) ->
 
 
 def write(table: Table, path: PathLike, *, digits: Union[int, str] = 17) -> None:
-    """Writes a table: CSV, or HDF5 if the name ends in .h5. The file appears when it is whole.
-
-    digits  1 to 17, or "hex": C's %a. With 17 and "hex" the numbers read back exactly.
-
-    In trajectories and sections a number that is not finite is refused.
-    """
-    ctx, record = context(), as_record(table)
-    number = 0 if digits == "hex" else whole("digits", digits, 1, 17)
-    with interruptible():
-        status = lib.iso_foreign_write(ctx, encoded(path), record.pointer, number, encoded(table.kind))
-    check(status, ctx)
+    """Writes a table: table.write(path), which see."""
+    if not isinstance(table, Table):
+        raise TypeError(f"a Table is needed, not {type(table).__name__}: see isoroll.trajectory")
+    table.write(path, digits=digits)
 
 
 def convert(table: Table, to: str, *, tolerance: float = 1e-14, row_tolerance: float = 1e-5,

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors
 from ._library import Notes, check, context, encoded, interruptible, lib, whole
 from ._scene import SceneLike, as_scene
+from ._kinds import Chaos, Section
 from ._table import Table, doubles, from_record, new_record
 
 _MOST_STARTS, _MOST_ROWS = 10**7, 10**9
@@ -96,20 +97,9 @@ def _model(models: str) -> Optional[str]:
     return None if models == "auto" else models
 
 
-class Section(Table):
-    """Crossings, a row each: columns orbit (from 0), crossing (from 1), t, tau, s, l, x, and the states asked for.
-
-    point   the same crossings as the point finds them by itself, with the columns orbit, crossing, t, tau, s, l, x;
-            None unless both models are integrated
-    """
-
-    point: Optional[Table] = None
-
-
-def _section(table: Table, point: Optional[Table], _unused: None) -> Section:
-    result = Section(table.array, table.columns, table.lines, kind="section", record=table._record)
-    result.point = point
-    return result
+def _section(table: Section, point: Optional[Table], _unused: None) -> Section:
+    table.point = point
+    return table
 
 
 def section(scene: SceneLike, *, crossings: int = 500, starts: int = 0, seed: int = 0,
@@ -134,63 +124,9 @@ def section(scene: SceneLike, *, crossings: int = 500, starts: int = 0, seed: in
         event=_event(event), model=_model(models), as_=states, tol=tolerance, threads=threads or None), _section)
 
 
-class Share(NamedTuple):
-    """The orbits spread over the section.
-
-    orbits     those that were followed; `asked` were to be, `failed` failed
-    share      the chaotic fraction of them; NaN if none was followed
-    low, high  its 95 % confidence interval; undecided orbits are not chaotic at the low end, chaotic at the high end
-    """
-
-    orbits: int
-    chaotic: int
-    regular: int
-    undecided: int
-    failed: int
-    asked: int
-    share: float
-    low: float
-    high: float
-
-
-_SHARE = ("followed", "chaotic_starts", "regular_starts", "undecided_starts", "failed", "starts", "chaotic", "low",
-          "high")  # as the lines call them
-
-
-class Chaos:
-    """Which orbits are chaotic.
-
-    verdict   of the scene's own orbit: "regular", "chaotic" or "undecided"
-    verdicts  of all orbits, shape (orbits,), as words; orbit 0 is the scene's own
-    orbits    a Table with a row for each orbit: orbit, l, x, verdict, disagree, then for each model that was
-              integrated ball_exponent_t, ball_error_t, ball_megno, ball_gali2, ... (`isoroll list tables`)
-    share     a Share, or None without starts
-    trace     {"ball": Table, "point": Table}: the indicators of the scene's own orbit by turns
-    lines     what is known besides, as `isoroll chaos --json` calls it: "section.axis", "integral", ...; "failure"
-    """
-
-    def __init__(self, orbits: Table, trace: Dict[str, Table]) -> None:
-        self.orbits, self.trace, self.lines = orbits, trace, orbits.lines
-        self.verdicts = orbits.words("verdict")
-        self.verdict = str(self.verdicts[0])
-        self.share: Optional[Share] = None
-        if "share.starts" in self.lines:
-            numbers = [float(self.lines.get("share." + key, "nan")) for key in _SHARE]
-            self.share = Share(*(int(x) for x in numbers[:6]), *numbers[6:])
-
-    def __getstate__(self) -> Dict[str, Any]:
-        return {**self.__dict__, "lines": None}
-
-    def __setstate__(self, state: Dict[str, Any]) -> None:
-        self.__dict__.update(state)
-        self.lines = self.orbits.lines
-
-    def __repr__(self) -> str:
-        return f"<isoroll.Chaos: {self.verdict}, {len(self.orbits)} orbits, {self.share}>"
-
-
-def _chaos(orbits: Table, *traces: Optional[Table]) -> Chaos:
-    return Chaos(orbits, {name: trace for name, trace in zip(("ball", "point"), traces) if trace is not None})
+def _chaos(orbits: Chaos, *traces: Optional[Table]) -> Chaos:
+    orbits.indicators = {name: trace for name, trace in zip(("ball", "point"), traces) if trace is not None}
+    return orbits
 
 
 def chaos(scene: SceneLike, *, turns: int = 3000, starts: int = 0, seed: int = 0, at: Optional[ArrayLike] = None,
