@@ -2,19 +2,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "json.h"
-#include "plot/plot.h"
-#include "progress.h"
-#include "scene_options.h"
+#include "shell.h"
 #include "study/chaos/chaos_impl.h"
-#include "table.h"
 
 /* What chaos can be told. */
 typedef struct options {
     iso_chaos_request study;
-    scene_options scene;    /* only its file is used */
-    const char *csv, *plot; /* NULL: not given       */
-    bool json;
+    shell_options shell;
 } options;
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
@@ -113,9 +107,10 @@ static void print_share(const iso_chaos_fraction *s)
     if (s->disagree > 0) printf("  of the undecided: ball and point disagree about %zu\n", s->disagree);
 }
 
-static void print_table(const iso_scene *scene, const iso_chaos *c)
+static void print_table(const shell *s)
 {
-    print_head(scene, c);
+    const iso_chaos *c = s->result.found;
+    print_head(&s->scene, c);
     for (int m = 0; m < 2 && c->plane < 0; m++) print_model(c, m);
     if (c->plane < 0) print_worth(c);
     print_agreement(c);
@@ -124,86 +119,56 @@ static void print_table(const iso_scene *scene, const iso_chaos *c)
 
 /* --- files ------------------------------------------------------------------------------------------------------ */
 
-/* How many of the spread starts the result has; some of them may not have been followed. */
-static size_t spread_of(const iso_chaos *c)
-{
-    return c->starts < c->share.asked ? c->starts : c->share.asked;
-}
-
-static void name_picture(const iso_scene *scene, const iso_chaos *c, char title[ISO_PLOT_TITLE])
-{
-    const iso_chaos_fraction *s = &c->share;
-    if (s->count > 0)
-        iso_plot_title(title, &scene->params, ": %.3g of the area is chaotic (95 %%: %.3g to %.3g), %.3g undecided",
-                       s->share, s->low, s->high, (double)s->undecided / (double)s->count);
-    else
-        iso_plot_title(title, &scene->params, ": %s", iso_verdict_name(c->own.verdict));
-}
-
 /* Orbit 0 is the scene's own. Other orbits that were not followed have no row. */
-static iso_status make_table(iso_context *ctx, const options *o, const iso_scene *scene, const iso_chaos *c,
-                             const char *title, iso_record **table)
+static iso_status describe(shell *s)
 {
-    const iso_chaos_options *how = &o->study.how;
-    const table_line lines[] = {
-        {.key = "turns", .number = (double)how->turns},
-        {.key = "exponent_turns", .number = (double)how->exponent_turns},
-        {.key = "starts", .number = (double)how->starts},
-        {.key = "seed", .number = (double)how->seed},
-        {.key = "axis", .number = c->axis + 1},
-        {.key = "tolerance", .number = isnan(how->tolerance) ? scene->tolerance : how->tolerance},
-        {.key = "orbit 0", .text = "the scene's own; l and x are nan: it need not start on the section"},
-        {.key = "nan elsewhere", .text = "not known; an orbit that was not followed has no row"},
-        {.key = "title", .text = title},
-        {.key = NULL}};
-    iso_field fields[ISO_MOST_FIELDS];
-    iso_chaos_columns(c, fields);
-    iso_status status = table_create(ctx, "chaos", scene, lines, fields, table);
-    for (size_t i = 0; status == ISO_OK && i <= spread_of(c); i++) {
-        const iso_chaos_orbit *orbit = i == 0 ? &c->own : &c->start[i - 1];
-        if (i == 0 || iso_chaos_followed(orbit)) status = iso_columns_append(ctx, fields, orbit, *table);
-    }
-    return status;
+    const iso_chaos_options *how = &((const options *)s->options)->study.how;
+    const iso_chaos *c = s->result.found;
+    const iso_chaos_fraction *part = &c->share;
+    if (part->count > 0)
+        iso_plot_title(s->title, &s->scene.params,
+                       ": %.3g of the area is chaotic (95 %%: %.3g to %.3g), %.3g undecided", part->share, part->low,
+                       part->high, (double)part->undecided / (double)part->count);
+    else
+        iso_plot_title(s->title, &s->scene.params, ": %s", iso_verdict_name(c->own.verdict));
+    return shell_lines(
+        s, (const table_line[]){
+               {.key = "turns", .number = (double)how->turns},
+               {.key = "exponent_turns", .number = (double)how->exponent_turns},
+               {.key = "starts", .number = (double)how->starts},
+               {.key = "seed", .number = (double)how->seed},
+               {.key = "axis", .number = c->axis + 1},
+               {.key = "tolerance", .number = isnan(how->tolerance) ? s->scene.tolerance : how->tolerance},
+               {.key = "orbit 0", .text = "the scene's own; l and x are nan: it need not start on the section"},
+               {.key = "nan elsewhere", .text = "not known; an orbit that was not followed has no row"},
+               {.key = "title", .text = s->title},
+               {.key = NULL}});
+}
+
+static int draw(const shell *s)
+{
+    const iso_chaos *c = s->result.found;
+    if (c->share.count > 0) return shell_draw(s, s->result.table[0]);
+    if (c->plane < 0)
+        return finish(s->ctx,
+                      iso_plot_indicators(s->ctx, s->told->plot, s->title, c->trace[ISO_BALL], c->trace[ISO_POINT]));
+    complain("no picture: a rotation in a principal plane is periodic, and was not followed");
+    return EXIT_DONE;
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-static int report(iso_context *ctx, const options *o, const iso_scene *scene, const iso_chaos *c,
-                  iso_table_writer *csv)
+static iso_status check(const shell *s)
 {
-    int result = c->failure == ISO_OK ? EXIT_DONE : EXIT_SOME_FAILED;
-    if (c->failure != ISO_OK) complain("an orbit was not followed to the end: %s", c->words);
-    if (o->json)
-        result = json_print(json_of_scene(scene, iso_chaos_fields, c)) ? result : EXIT_NUMERICAL;
-    else if (!o->csv || strcmp(o->csv, "-") != 0)
-        print_table(scene, c);
-    char title[ISO_PLOT_TITLE];
-    iso_record *table = NULL;
-    const bool section = c->share.count > 0;
-    name_picture(scene, c, title);
-    const iso_status made = make_table(ctx, o, scene, c, title, &table);
-    result = worse(result, table_finish(ctx, csv, section ? o->plot : NULL, made, table));
-    if (o->plot && !section && c->plane >= 0)
-        complain("no picture: a rotation in a principal plane is periodic, and was not followed");
-    else if (o->plot && !section)
-        result = worse(
-            result, finish(ctx, iso_plot_indicators(ctx, o->plot, title, c->trace[ISO_BALL], c->trace[ISO_POINT])));
-    return result;
+    if (!s->told->table || strcmp(s->told->table, "-") != 0 || !s->told->json) return ISO_OK;
+    return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "csv",
+                            "chaos: standard output has room for one of --csv - and --json");
 }
 
-/* Reads the scene and opens the files. Refuses wrong options before the work begins. */
-static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, iso_table_writer **csv)
+static void complain_interrupted(const shell *s)
 {
-    if (o->csv && strcmp(o->csv, "-") == 0 && o->json)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "csv",
-                                "chaos: standard output has room for one of --csv - and --json");
-    iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
-    if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
-    return status == ISO_OK && o->csv ? iso_table_writer_open(ctx, o->csv, "chaos", csv) : status;
-}
-
-static void complain_interrupted(const iso_chaos_options *how, const iso_chaos *c)
-{
+    const iso_chaos_options *how = &((const options *)s->options)->study.how;
+    const iso_chaos *c = s->result.found;
     if (how->starts > 0)
         complain("interrupted: %zu of %zu starts were followed, some of them not for all turns",
                  c ? c->share.count : 0, how->starts);
@@ -211,45 +176,38 @@ static void complain_interrupted(const iso_chaos_options *how, const iso_chaos *
         complain("interrupted: without a verdict so far, the orbit is undecided");
 }
 
-static int run(iso_context *ctx, const void *options_given)
+static int judge(const shell *s)
 {
-    const options *o = options_given;
-    iso_scene scene = {.places = 0};
-    iso_table_writer *csv = NULL;
-    iso_chaos *c = NULL;
-    iso_chaos_options how = o->study.how;
-    how.progress = progress_told;
-    iso_status status = prepare(ctx, o, &scene, &csv);
-    if (status != ISO_OK) return finish(ctx, status);
-    begin_work(ctx, NULL);
-    status = iso_chaos_run(ctx, &scene, &how, &c);
-    progress_end();
-    int result = finish_scene(ctx, &o->scene, &scene, status);
-    if (status == ISO_STOPPED) complain_interrupted(&how, c);
-    if (c)
-        result = worse(result, report(ctx, o, &scene, c, csv));
-    else
-        iso_table_writer_close(ctx, csv, false);
-    iso_chaos_free(c);
-    return result;
+    return ((const iso_chaos *)s->result.found)->failure == ISO_OK ? EXIT_DONE : EXIT_SOME_FAILED;
 }
 
-static const options defaults = {.scene = SCENE_OPTIONS_UNSET};
+static int run(iso_context *ctx, const void *options_given)
+{
+    static const shell_parts parts = {.study = &iso_chaos_study,
+                                      .kind = "chaos",
+                                      .check = check,
+                                      .interrupted = complain_interrupted,
+                                      .judge = judge,
+                                      .print = print_table,
+                                      .describe = describe,
+                                      .draw = draw};
+    return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
+}
+
+static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_chaos_option, 0, 8),
-    ROW_PLOT(options, plot),
+    ROW_PLOT(options, shell.plot),
     ROW_OF_FILE("csv", "FILE", "a file", "write one row for each orbit to FILE; - is standard output", iso_set_text,
-                options, csv, 0, OPTION_WRITES),
-    ROW_JSON(options, json),
+                options, shell.table, 0, OPTION_WRITES),
+    ROW_JSON(options, shell.json),
     ROW_END,
 };
 
 const command command_chaos = {
-    COMMAND("chaos", "SCENE", "tell whether an orbit is chaotic, and which part of the section is chaotic",
-            scene.file),
+    COMMAND_OF_STUDY(chaos, "SCENE", shell.file),
     .takes = FILE_SCENE,
-    .study = &iso_chaos_study,
     .description =
         "Follows the scene's orbit from turn to turn, with two deviations beside it, until the indicators decide: "
         "regular, chaotic, or undecided after --turns. A turn is a return to a global section n_A = 0, on every "

@@ -1,17 +1,14 @@
 /* isoroll compare - computes one orbit by every backend and shows the differences: table, picture, JSON. */
 #include <math.h>
 
-#include "json.h"
-#include "plot/plot.h"
-#include "scene_options.h"
-#include "study/compare.h"
+#include "shell.h"
+#include "study/study_impl.h"
 
 /* What compare can be told. */
 typedef struct options {
-    scene_options scene;
-    const char *plot; /* NULL: not given */
+    iso_compare_request study;
+    shell_options shell;
     double rows;
-    bool json;
 } options;
 
 static const char *backend_name(const iso_comparison *c, int run)
@@ -26,7 +23,7 @@ static void print_head(const iso_scene *scene, const iso_comparison *c)
     const iso_params *p = &scene->params;
     printf("k = %.10g (%s), J = %.10g %.10g %.10g\nh = %.10g, eps = %.10g, tolerance %g\n\n", p->k,
            iso_surface_name((int)p->body.surface), p->J[0], p->J[1], p->J[2], c->h, c->eps, scene->tolerance);
-    print_effects(&c->effects, false);
+    iso_effects_print(stdout, &c->effects, false);
     for (int b = 0; b < ISO_INTEGRATED; b++) {
         const iso_backend_run *r = &c->run[b];
         printf("backend %-5s  %s: %ld steps, %ld rejected, %ld right-hand sides, %.3g ms\n", backend_name(c, b),
@@ -109,11 +106,14 @@ static void print_worst(const iso_comparison *c, const double worst[ISO_DIFFEREN
         printf(" %s %.1e%s", iso_record_name(c->difference, i), worst[i], i + 1 < ISO_DIFFERENCES ? "," : "\n");
 }
 
-static void print_table(const iso_scene *scene, const options *o, const iso_comparison *c)
+static void print_table(const shell *s)
 {
-    const size_t rows = iso_record_rows(c->difference), wanted = (size_t)fmin(o->rows, 1e9);
+    const iso_comparison *c = s->result.found;
+    const size_t rows = iso_record_rows(c->difference),
+                 wanted = (size_t)fmin(((const options *)s->options)->rows, 1e9);
     const size_t shown = wanted < rows ? wanted : rows;
-    print_head(scene, c);
+    if (rows == 0) return;
+    print_head(&s->scene, c);
     print_model(c, ISO_BALL, shown, rows);
     print_model(c, ISO_POINT, shown, rows);
     print_clocks(c, shown, rows);
@@ -128,37 +128,28 @@ static void print_table(const iso_scene *scene, const options *o, const iso_comp
 
 /* --- JSON ------------------------------------------------------------------------------------------------------- */
 
-static void put_worst(json_t *o, const iso_comparison *c, const char *where, const double worst[ISO_DIFFERENCES])
+static void add_worst(json_t *o, const iso_comparison *c, const char *where, size_t offset)
 {
-    for (size_t i = 1; i < ISO_DIFFERENCES; i++) {
-        char name[ISO_COLUMN_SIZE];
-        snprintf(name, sizeof name, "%sworst_difference.%s", where, iso_record_name(c->difference, i));
-        json_put(o, name, json_number(worst[i]));
-    }
+    iso_worst_fields w;
+    iso_comparison_worst(c, where, offset, &w);
+    json_add(o, w.field, c);
 }
 
-/* False: there is no memory. A full disk shows later, when the output is flushed. */
-static bool print_json(const iso_scene *scene, const iso_comparison *c)
+static json_t *json(const shell *s)
 {
-    json_t *o = json_of_scene(scene, iso_comparison_fields, c);
-    json_put(o, "tolerance", json_number(scene->tolerance));
+    const iso_comparison *c = s->result.found;
+    const size_t from_exact = offsetof(iso_comparison, worst_from_exact);
+    json_t *o = json_of_scene(&s->scene, s->result.fields, c);
+    json_put(o, "tolerance", json_number(s->scene.tolerance));
     json_put(o, "effects", json_effects(&c->effects, false));
-    put_worst(o, c, "", c->worst);
-    if (c->runs == ISO_BACKENDS) {
-        put_worst(o, c, "from_exact.ball.", c->worst_from_exact[ISO_BALL]);
-        put_worst(o, c, "from_exact.point.", c->worst_from_exact[ISO_POINT]);
-    }
-    return json_print(o);
+    add_worst(o, c, "", offsetof(iso_comparison, worst));
+    if (c->runs < ISO_BACKENDS) return o;
+    add_worst(o, c, "from_exact.ball.", from_exact);
+    add_worst(o, c, "from_exact.point.", from_exact + sizeof c->worst);
+    return o;
 }
 
-/* --- the command ------------------------------------------------------------------------------------------------ */
-
-static bool show(double part, void *data)
-{
-    (void)data;
-    progress_show(part);
-    return true;
-}
+/* --- the picture ------------------------------------------------------------------------------------------------ */
 
 /* The curves of the picture: the differences of ball and point, and the largest difference of each of them from the
  * closed solution. */
@@ -181,68 +172,57 @@ static iso_status differences_drawn(iso_context *ctx, const iso_comparison *c, i
     return status;
 }
 
-static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scene, const iso_comparison *c)
+static int draw(const shell *s)
 {
     char title[ISO_PLOT_TITLE];
+    const iso_comparison *c = s->result.found;
     iso_record *drawn;
-    iso_status status = differences_drawn(ctx, c, &drawn);
-    const iso_plot plot = {.title = iso_plot_title(title, &scene->params, "%s", ""),
-                           .tolerance = scene->tolerance,
+    if (iso_record_rows(c->difference) == 0) return EXIT_DONE;
+    iso_status status = differences_drawn(s->ctx, c, &drawn);
+    const iso_plot plot = {.title = iso_plot_title(title, &s->scene.params, "%s", ""),
+                           .tolerance = s->scene.tolerance,
                            .ball = c->run[ISO_BALL].trajectory,
                            .point = c->run[ISO_POINT].trajectory,
                            .difference = drawn};
-    if (status == ISO_OK) status = iso_plot_comparison(ctx, o->plot, &plot);
+    if (status == ISO_OK) status = iso_plot_comparison(s->ctx, s->told->plot, &plot);
     iso_record_free(drawn);
-    return status;
+    return finish(s->ctx, status);
+}
+
+/* --- the command ------------------------------------------------------------------------------------------------ */
+
+static void complain_interrupted(const shell *s)
+{
+    const iso_comparison *c = s->result.found;
+    if (c)
+        complain("interrupted: %zu of %zu rows were compared", iso_record_rows(c->difference),
+                 iso_scene_rows(&s->scene));
 }
 
 static int run(iso_context *ctx, const void *options_given)
 {
-    const options *o = options_given;
-    iso_scene scene = {.places = 0};
-    iso_comparison *c = NULL;
-    iso_status status = scene_with_options(ctx, &o->scene, &scene);
-    if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
-    begin_work(ctx, NULL);
-    if (status == ISO_OK) status = iso_compare(ctx, &scene, show, NULL, &c);
-    int result = finish_scene(ctx, &o->scene, &scene, status);
-    progress_end();
-    if (!c) return result;
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        if (scene.effects.on[e] && iso_effect_list[e]->ball_only)
-            complain("'%s' acts on nothing and is not compared", iso_effect_list[e]->name);
-    if (status == ISO_STOPPED)
-        complain("interrupted: %zu of %zu rows were compared", iso_record_rows(c->difference),
-                 iso_scene_rows(&scene));
-    if (o->json) {
-        if (!print_json(&scene, c)) result = EXIT_NUMERICAL;
-    } else if (iso_record_rows(c->difference) > 0) {
-        print_table(&scene, o, c);
-    }
-    if (o->plot && iso_record_rows(c->difference) > 0) {
-        const int drawn = finish(ctx, draw(ctx, o, &scene, c));
-        if (result == EXIT_DONE) result = drawn;
-    }
-    iso_comparison_free(c);
-    return result;
+    static const shell_parts parts = {.study = &iso_compare_study,
+                                      .change = shell_change,
+                                      .interrupted = complain_interrupted,
+                                      .json = json,
+                                      .print = print_table,
+                                      .draw = draw};
+    return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
 }
 
-static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .rows = 6};
+static const options defaults = {.shell = {.file = "-"}, .rows = 6};
 
 static const option_row rows[] = {
-    ROW_METHOD(options, scene),
-    ROW_TOLERANCE(options, scene),
-    ROW_T_END(options, scene),
-    ROW_STEP(options, scene),
+    ROWS_OF_STUDY(iso_compare_option, 0, 4),
     ROW("rows", "N", "a whole number from 1 on", "rows of the table to print (default 6)", iso_set_count, options,
         rows),
-    ROW_PLOT(options, plot),
-    ROW_JSON(options, json),
+    ROW_PLOT(options, shell.plot),
+    ROW_JSON(options, shell.json),
     ROW_END,
 };
 
 const command command_compare = {
-    COMMAND("compare", "SCENE", "compute an orbit by every backend and show the differences", scene.file),
+    COMMAND_OF_STUDY(compare, "SCENE", shell.file),
     .takes = FILE_SCENE,
     .description =
         "The backends are ball, point and, where there is a closed solution, exact. The table shows states, "

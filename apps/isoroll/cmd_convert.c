@@ -196,7 +196,7 @@ static void warn_of_lines(const filter *f, const iso_conversion_summary *s)
 
 static double largest_drift(const filter *f)
 {
-    return iso_conversion_largest_drift(f->ctx, iso_table_header(f->in), f->o->from.row_tolerance);
+    return iso_conversion_largest_drift(f->ctx, iso_table_header(f->in), f->o->from.added.row_tolerance);
 }
 
 /* Whether all rows could be converted, and follow the equations that the file states. Says why not. */
@@ -285,7 +285,7 @@ static const option_row rows[] = {
         iso_set_tolerance, options, tolerance),
     ROWS_OF_FILE(options, from),
     ROW("max-defect", "X", "a number from 0 on",
-        "exit with status 1 if a row is farther than X from the orbit before it", set_bound, options, max_defect),
+        "exit with status 1 if a row is farther than X from the orbit before it", iso_set_bound, options, max_defect),
     ROW("shift-J", NULL, NULL, "k = -1: a point off H = 0 becomes a free ball with moments J + E/eps", iso_set_flag,
         options, shift_J),
     ROW("strict", NULL, NULL, "stop at the first bad row", iso_set_flag, options, strict),

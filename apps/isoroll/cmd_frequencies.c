@@ -3,19 +3,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "json.h"
-#include "plot/plot.h"
-#include "progress.h"
-#include "scene_options.h"
+#include "shell.h"
 #include "study/frequencies/frequencies.h"
 #include "study/frequencies/momentum.h"
 
 /* What frequencies can be told. */
 typedef struct options {
     iso_frequencies_options study;
-    scene_options scene; /* only its file is used */
-    const char *plot;    /* NULL: not given       */
-    bool json;
+    shell_options shell;
 } options;
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
@@ -99,9 +94,10 @@ static void print_resonances(const iso_frequencies *f)
     }
 }
 
-static void print_table(const iso_scene *scene, const iso_frequencies *f)
+static void print_table(const shell *s)
 {
-    print_head(scene, f);
+    const iso_frequencies *f = s->result.found;
+    print_head(&s->scene, f);
     if (f->separatrices > 0) printf("\nrelative distance from the separatrix of an unstable rotation\n");
     print_separatrices(f);
     if (f->angles > 0) print_angles(f);
@@ -130,7 +126,7 @@ static iso_status draw_map(iso_context *ctx, const options *o, const iso_momentu
         iso_momentum_name_line(m, i, line[i]);
         plot.line[i] = line[i];
     }
-    status = iso_plot_momentum(ctx, o->plot, &plot);
+    status = iso_plot_momentum(ctx, o->shell.plot, &plot);
     iso_record_free(bounds);
     return status;
 }
@@ -154,62 +150,53 @@ static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene
             const double m = l->known ? l->m : (double)NAN, n = l->known ? l->n : (double)NAN;
             status = iso_record_add(ctx, r, 1, (double[]){l->line.frequency, l->line.amplitude, s, m, n});
         }
-    if (status == ISO_OK) status = iso_plot_lines(ctx, o->plot, title, f.estimate.axis, r);
+    if (status == ISO_OK) status = iso_plot_lines(ctx, o->shell.plot, title, f.estimate.axis, r);
     iso_record_free(r);
     return status;
 }
 
-static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scene, const iso_frequencies *f)
+static int draw(const shell *s)
 {
     char title[ISO_PLOT_TITLE];
+    const iso_frequencies *f = s->result.found;
+    const iso_params *p = &s->scene.params;
     iso_momentum m;
-    iso_plot_title(title, &scene->params, "%s", "");
-    bool mapped =
-        f->integral && f->h > 0 && iso_momentum_make(&scene->params, f->H, &m) && strcmp(f->integral->name, m.F) == 0;
+    iso_plot_title(title, p, "%s", "");
+    bool mapped = f->integral && f->h > 0 && iso_momentum_make(p, f->H, &m) && strcmp(f->integral->name, m.F) == 0;
     double low, high; /* with equal moments the image has no area */
     mapped = mapped && iso_momentum_interval(&m, f->h, iso_momentum_find(&m, f->h, f->F), &low, &high);
-    return mapped ? draw_map(ctx, o, &m, title, f) : draw_lines(ctx, o, scene, title, f);
+    return finish(s->ctx, mapped ? draw_map(s->ctx, s->options, &m, title, f)
+                                 : draw_lines(s->ctx, s->options, &s->scene, title, f));
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-static int run(iso_context *ctx, const void *options_given)
+/* --t-end says the end, not the scene. */
+static iso_status forget_end(shell *s)
 {
-    const options *o = options_given;
-    iso_scene scene = {.places = 0};
-    iso_frequencies f;
-    iso_frequencies_options how = o->study;
-    how.progress = progress_told;
-    iso_status status = iso_scene_read(ctx, o->scene.file, &scene);
-    iso_scene_forget_place(&scene, "end"); /* --t-end says it, not the scene */
-    if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
-    begin_work(ctx, NULL);
-    if (status == ISO_OK) status = iso_frequencies_find(ctx, &scene, &how, &f);
-    progress_end();
-    int result = finish_scene(ctx, &o->scene, &scene, status);
-    if (status == ISO_OK) {
-        if (!o->json)
-            print_table(&scene, &f);
-        else if (!json_print(json_of_scene(&scene, iso_frequencies_fields, &f)))
-            result = EXIT_NUMERICAL;
-        if (o->plot && result == EXIT_DONE) result = finish(ctx, draw(ctx, o, &scene, &f));
-    }
-    return result;
+    iso_scene_forget_place(&s->scene, "end");
+    return ISO_OK;
 }
 
-static const options defaults = {.scene = SCENE_OPTIONS_UNSET};
+static int run(iso_context *ctx, const void *options_given)
+{
+    static const shell_parts parts = {
+        .study = &iso_frequencies_study, .change = forget_end, .print = print_table, .draw = draw};
+    return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
+}
+
+static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_frequencies_option, 0, 3),
-    ROW_PLOT(options, plot),
-    ROW_JSON(options, json),
+    ROW_PLOT(options, shell.plot),
+    ROW_JSON(options, shell.json),
     ROW_END,
 };
 
 const command command_frequencies = {
-    COMMAND("frequencies", "SCENE", "compute frequencies, actions, rotation number and near resonances", scene.file),
+    COMMAND_OF_STUDY(frequencies, "SCENE", shell.file),
     .takes = FILE_SCENE,
-    .study = &iso_frequencies_study,
     .description =
         "Where there is a closed solution (k = 1, k = -1, equal moments, principal planes) the numbers are exact. "
         "Elsewhere they are estimated from an orbit in the ball's time t, by Laskar's frequency analysis. --turns, "

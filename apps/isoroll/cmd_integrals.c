@@ -1,16 +1,13 @@
 /* isoroll integrals - searches for additional first integrals: polynomials in M that are constant on many orbits. */
 #include <math.h>
 
-#include "json.h"
-#include "progress.h"
-#include "scene_options.h"
+#include "shell.h"
 #include "study/integrals/integrals_impl.h"
 
 /* What integrals can be told. */
 typedef struct options {
     iso_integral_search_options study;
-    scene_options scene; /* only its file is used */
-    bool json;
+    shell_options shell;
 } options;
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
@@ -72,61 +69,43 @@ static void print_verdict(const options *o, const iso_integral_search *r)
         printf("undecided: there are values between their error and %g\n", o->study.within);
 }
 
-static void print_table(const options *o, const iso_scene *scene, const iso_integral_search *r)
+static void print_table(const shell *s)
 {
-    print_head(o, scene, r);
+    const options *o = s->options;
+    const iso_integral_search *r = &((const iso_integrals_found *)s->result.found)->search;
+    print_head(o, &s->scene, r);
     for (int d = 1; d <= r->degrees; d++) print_degree(&r->at[d]);
     printf("\n");
     print_known(r);
     print_verdict(o, r);
 }
 
-/* False: there is no memory. */
-static bool print_json(const iso_integral_search_options *how, const iso_scene *scene, const iso_integral_search *r)
-{
-    static const iso_field asked[] = {
-        ISO_MEMBER(iso_integral_search_options, "degree", degree, "", "the largest, in M"),
-        ISO_MEMBER(iso_integral_search_options, "turns", turns, "", "of each orbit"),
-        ISO_MEMBER(iso_integral_search_options, "within", within, "", "which varies more is no integral"),
-        ISO_FIELD_END};
-    json_t *o = json_of_scene(scene, asked, how);
-    json_add(o, iso_integral_search_fields, r);
-    return json_print(o);
-}
-
 /* --- the command ------------------------------------------------------------------------------------------------ */
+
+static void complain_interrupted(const shell *s)
+{
+    (void)s;
+    complain("interrupted: what is known by now is printed");
+}
 
 static int run(iso_context *ctx, const void *options_given)
 {
-    const options *o = options_given;
-    iso_scene scene = {.places = 0};
-    iso_integral_search r = {.degrees = 0};
-    iso_status status = iso_scene_read(ctx, o->scene.file, &scene);
-    if (status != ISO_OK) return finish(ctx, status);
-    iso_integral_search_options how = o->study;
-    how.progress = progress_told;
-    begin_work(ctx, NULL);
-    status = iso_integral_search_run(ctx, &scene, &how, &r);
-    progress_end();
-    const int result = finish_scene(ctx, &o->scene, &scene, status);
-    if (status != ISO_OK && status != ISO_STOPPED) return result;
-    if (status == ISO_STOPPED) complain("interrupted: what is known by now is printed");
-    if (!o->json) return print_table(o, &scene, &r), result;
-    return print_json(&how, &scene, &r) ? result : EXIT_NUMERICAL;
+    static const shell_parts parts = {
+        .study = &iso_integrals_study, .interrupted = complain_interrupted, .print = print_table};
+    return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
 }
 
-static const options defaults = {.scene = SCENE_OPTIONS_UNSET};
+static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_integrals_option, 0, 8),
-    ROW_JSON(options, json),
+    ROW_JSON(options, shell.json),
     ROW_END,
 };
 
 const command command_integrals = {
-    COMMAND("integrals", "SCENE", "search for additional first integrals", scene.file),
+    COMMAND_OF_STUDY(integrals, "SCENE", shell.file),
     .takes = FILE_SCENE,
-    .study = &iso_integrals_study,
     .description =
         "Looks for functions of the point's state that are constant along orbits: polynomials in M of degree D or "
         "less, with coefficients that are polynomials in gamma of degree E or less. Of the scene it reads k, J and "

@@ -123,6 +123,7 @@ static void list_tables(void)
 {
     const iso_result_table *t;
     for (int i = 0; (t = iso_result_table_at(i)); i++) {
+        if (t->in_memory) continue;
         printf("  %-22s a row is %s\n", t->kind, t->doc);
         iso_columns_visit(t->fields, NULL, print_column, NULL);
     }

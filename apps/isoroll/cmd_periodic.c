@@ -1,146 +1,300 @@
-/* isoroll periodic - finds periodic orbits and tells whether they are stable. */
+/* isoroll periodic - finds periodic orbits and tells whether they are stable; follows them; draws a chart. */
 #include <math.h>
-#include <string.h>
+#include <stdlib.h>
 
-#include "json.h"
-#include "periodic.h"
-#include "plot/plot.h"
-#include "progress.h"
 #include "scene_options.h"
+#include "shell.h"
+#include "study/periodic/periodic_study_impl.h"
 
-typedef periodic_options options;
+/* What periodic can be told. */
+typedef struct options {
+    iso_periodic_request study;
+    shell_options shell;
+} options;
 
 /* --- the list --------------------------------------------------------------------------------------------------- */
 
-static void tell_gaps(const iso_periodic *f)
+static void print_multipliers(const iso_multipliers *m)
 {
-    if (f->unresolved > 0)
-        complain("on %zu intervals of the symmetry lines the samples are too far apart: orbits may be missing",
-                 f->unresolved);
-    if (f->lost > 0) complain("%zu zeros were seen where no orbit was found: orbits may be missing", f->lost);
-    if (f->closed)
-        complain(
-            "on this level the point can come to rest: orbits that do so and go back the same way are listed only "
-            "if they have another symmetry, or with --all");
-}
-
-static int report(iso_context *ctx, const options *o, const iso_scene *scene, const iso_periodic *found,
-                  iso_table_writer *csv)
-{
-    int result = EXIT_DONE;
-    if (o->json)
-        result = json_print(json_of_scene(scene, iso_periodic_fields, found)) ? result : EXIT_NUMERICAL;
-    else if (!o->output || strcmp(o->output, "-") != 0)
-        periodic_print(o, scene, found);
-    iso_record *table = NULL;
-    iso_status made = csv ? periodic_table(ctx, scene, found, false, &table) : ISO_OK;
-    result = worse(result, table_finish(ctx, csv, NULL, made, table));
-    if (o->plot && found->count == 0) {
-        complain("no picture: there is no orbit");
-        result = worse(result, EXIT_SOME_FAILED);
-    } else if (o->plot) {
-        made = periodic_table(ctx, scene, found, true, &table);
-        result = worse(result, table_finish(ctx, NULL, o->plot, made, table));
-    }
-    tell_gaps(found);
-    return result;
-}
-
-static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_table_writer *csv)
-{
-    iso_periodic_options how = o->study;
-    iso_periodic *found = NULL;
-    how.progress = progress_told;
-    begin_work(ctx, NULL);
-    const iso_status status = iso_periodic_run(ctx, scene, &how, &found);
-    progress_end();
-    int result = finish_scene(ctx, &o->scene, scene, status);
-    if (status == ISO_STOPPED) complain("interrupted: orbits are missing");
-    if (!found || (o->follow && found->count == 0 && status == ISO_STOPPED))
-        iso_table_writer_close(ctx, csv, false);
-    else if (o->follow)
-        result = worse(result, follow_orbits(ctx, o, scene, found, csv));
+    if (m->krein)
+        printf("exp(+-%.9g i), Krein %+d", atan2(m->value[0][1], m->value[0][0]), m->krein);
     else
-        result = worse(result, report(ctx, o, scene, found, csv));
-    iso_periodic_free(found);
+        printf("%.9g, %.9g", m->value[0][0], m->value[1][0]);
+}
+
+static void print_rotations(const iso_periodic *found, bool polish)
+{
+    printf("rotations about the principal axes, half a turn (Hill's equation)\n");
+    printf("  axis  %-*s  error    %-10s  multipliers\n", polish ? 33 : 20, "trace", "");
+    for (int a = 0; a < 3; a++) {
+        const iso_rotation *o = &found->rotation[a];
+        char text[ISO_DIGITS_SIZE];
+        iso_periodic_digits(o->half_turn_trace, o->tail, text);
+        printf("  %4d  ", a + 1);
+        if (o->oscillates) {
+            printf("none on this level: an oscillation between two places of rest\n");
+            continue;
+        }
+        polish ? printf("%-33s", text) : printf("%-20.15g", o->half_turn_trace);
+        printf("  %.1e  %-10s  ", o->error, iso_stability_name(o->half.stability));
+        print_multipliers(&o->half);
+        putchar('\n');
+    }
+}
+
+static void print_orbit(const iso_periodic *found, bool polish, size_t i)
+{
+    const iso_periodic_orbit *o = &found->orbit[i];
+    char words[ISO_DIGITS_SIZE], l[ISO_DIGITS_SIZE], x[ISO_DIGITS_SIZE], trace[ISO_DIGITS_SIZE];
+    iso_symmetry_words(o->symmetry, words);
+    if (!polish) {
+        printf("%4zu  %4d  %18.15f  %18.15f  %18.11g  %.0e  %-10s  %-8s  %6d  %.9g\n", i + 1, o->period, o->l, o->x,
+               o->trace, o->error, iso_stability_name(o->multipliers.stability), words, o->copies, o->clock[0]);
+        return;
+    }
+    iso_periodic_digits(o->l, o->l_tail, l);
+    iso_periodic_digits(o->x, o->x_tail, x);
+    iso_periodic_digits(o->trace, o->trace_tail, trace);
+    printf("%4zu  %4d  %34s  %34s  %34s  %.0e  %7.0e  %-10s  %s\n", i + 1, o->period, l, x, trace, o->error,
+           o->closure, iso_stability_name(o->multipliers.stability), words);
+}
+
+static void print_list(const shell *s)
+{
+    const iso_periodic_options *how = &((const options *)s->options)->study.how;
+    const iso_periodic *f = s->result.found;
+    const iso_params *p = &s->scene.params;
+    size_t copies = 0, tori = 0;
+    printf("k = %.15g, J = %.15g %.15g %.15g; section n_%d = 0, n_%d increasing\n", p->k, p->J[0], p->J[1], p->J[2],
+           f->axis + 1, f->axis + 1);
+    if (f->level != 0) printf("level of the point, (H/eps) J2^(1/k): %.15g\n", f->level);
+    putchar('\n');
+    print_rotations(f, how->polish);
+    printf("\n%s orbits of %d returns at most, but the rotations: %zu\n",
+           how->all ? "periodic" : "symmetric periodic", f->longest, f->count);
+    if (f->count > 0)
+        printf(how->polish ? "  no  period  %25s  %34s  %34s  error  closure  stability   symmetry\n"
+                           : "  no  period  %10s  %18s  %24s  error  stability   symmetry  copies  t\n",
+               "l", "x", "trace");
+    for (size_t i = 0; i < f->count; i++) {
+        print_orbit(f, how->polish, i);
+        copies += (size_t)f->orbit[i].copies;
+        tori += f->orbit[i].torus;
+    }
+    if (f->count > 0) printf("with their copies by R, S1 S2 and T%s: %zu\n", how->all ? " (and S1)" : "", copies);
+    if (tori > 0)
+        printf(
+            "k = %g: %zu of them lie on resonant tori, which are full of such orbits: the trace is 2, and they are "
+            "degenerate\n",
+            p->k, tori);
+}
+
+static iso_status describe_list(shell *s)
+{
+    const iso_periodic *f = s->result.found;
+    return shell_lines(s, (const table_line[]){{.key = "level", .number = f->level},
+                                               {.key = "longest_period", .number = f->longest},
+                                               {.key = "axis", .number = f->axis + 1},
+                                               {.key = NULL}});
+}
+
+/* A row for each crossing of each orbit, as it is drawn. */
+static iso_status put_crossings(iso_context *ctx, const iso_periodic *found, iso_record *table)
+{
+    iso_status status = ISO_OK;
+    for (size_t i = 0; i < found->count; i++) {
+        iso_periodic_orbit o = found->orbit[i];
+        for (int n = 0; status == ISO_OK && n < 2 * o.period; n++) {
+            o.l = found->orbit[i].half[n][0], o.x = found->orbit[i].half[n][1];
+            status = iso_columns_append(ctx, iso_periodic_orbit_fields, &o, table);
+        }
+    }
+    return status;
+}
+
+static int draw_list(const shell *s)
+{
+    const iso_periodic *f = s->result.found;
+    char title[ISO_PLOT_TITLE];
+    iso_record *whole = NULL;
+    if (f->count == 0) return complain("no picture: there is no orbit"), EXIT_SOME_FAILED;
+    iso_plot_title(title, &s->scene.params, ": periodic orbits of %d returns at most", f->longest);
+    iso_status status = iso_record_create_like(s->ctx, s->result.table[0], 0, NULL, &whole);
+    if (status == ISO_OK) status = iso_record_set(s->ctx, whole, "title", title);
+    if (status == ISO_OK) status = put_crossings(s->ctx, f, whole);
+    const int result = status == ISO_OK ? shell_draw(s, whole) : finish(s->ctx, status);
+    iso_record_free(whole);
     return result;
+}
+
+static void complain_orbits(const shell *s)
+{
+    (void)s;
+    complain("interrupted: orbits are missing");
+}
+
+/* --- branches --------------------------------------------------------------------------------------------------- */
+
+static void print_branch(const iso_continuations *f, size_t i, const char *name)
+{
+    const iso_branch *b = &f->branch[i];
+    double low = INFINITY, high = -INFINITY;
+    for (size_t j = 0; j < b->points; j++) low = fmin(low, b->point[j].value), high = fmax(high, b->point[j].value);
+    printf("branch %zu: period %d, on the line of %s, %s from %.12g to %.12g, %zu points", i + 1, b->period,
+           iso_symmetry_line_name(b->line), name, low, high, b->points);
+    if (b->parent >= 0) printf(", from branch %d", b->parent + 1);
+    putchar('\n');
+    for (size_t j = 0; j < b->events; j++)
+        printf("  %-17s  %s = %-18.13g  l = %-14.9g  x = %-14.9g  trace %-12.8g  %s\n",
+               iso_branch_kind_name(b->event[j].kind), name, b->event[j].at.value, b->event[j].at.l, b->event[j].at.x,
+               b->event[j].at.trace, b->event[j].words);
+}
+
+static void print_branches(const shell *s)
+{
+    const iso_continuations *f = s->result.found;
+    for (size_t i = 0; i < f->count; i++) print_branch(f, i, iso_vary_name((int)f->vary));
+}
+
+static iso_status describe_branches(shell *s)
+{
+    const iso_continuations *f = s->result.found;
+    iso_plot_title(s->title, &s->scene.params, ", along %s", iso_vary_name((int)f->vary));
+    return shell_lines(s, (const table_line[]){{.key = "title", .text = s->title}, {.key = NULL}});
+}
+
+static int judge_branches(const shell *s)
+{
+    const iso_continuations *f = s->result.found;
+    size_t failed = 0;
+    for (size_t i = 0; i < f->count; i++)
+        for (size_t j = 0; j < f->branch[i].events; j++) failed += f->branch[i].event[j].kind == ISO_BRANCH_FAILURE;
+    return failed > 0 ? EXIT_SOME_FAILED : EXIT_DONE;
+}
+
+static int draw_branches(const shell *s)
+{
+    return ((const iso_continuations *)s->result.found)->count > 0 ? shell_draw(s, s->result.table[0]) : EXIT_DONE;
+}
+
+/* Interrupted while orbits were sought, or followed. */
+static void complain_branches(const shell *s)
+{
+    complain(s->result.found ? "interrupted: branches are missing or cut" : "interrupted: orbits are missing");
+}
+
+/* --- the chart -------------------------------------------------------------------------------------------------- */
+
+#define EDGE 1e-9 /* with equal moments a trace is 2 or -2 up to rounding */
+
+static void print_chart(const shell *s)
+{
+    const iso_chart_found *f = s->result.found;
+    const iso_stability_options *o = &f->how;
+    const iso_record *grid = f->grid;
+    size_t count[2][3] = {{0}}, none[2] = {0};
+    static const char *const axes[] = {"least", "greatest"};
+    for (size_t i = 0; i < iso_record_rows(grid); i++)
+        for (int which = 0; which < 2; which++) {
+            const double T = iso_record_const_row(grid, i)[2 + which];
+            if (!isnan(T))
+                count[which][T < -2 - EDGE ? 0 : T > 2 + EDGE ? 2 : 1]++;
+            else
+                none[which] += fabs(iso_record_const_row(grid, i)[0]) >= ISO_LEAST_K;
+        }
+    printf("k from %g to %g, %s from %g to %g; share of the grid points\n%20s  T < -2    stable    T > 2\n",
+           o->from[0], o->to[0], iso_chart_name(o->moment), o->from[1], o->to[1], "");
+    for (int which = 0; which < 2; which++) {
+        const double all = (double)(count[which][0] + count[which][1] + count[which][2]);
+        printf("  %-8s moment    %6.4f    %6.4f    %6.4f\n", axes[which], (double)count[which][0] / all,
+               (double)count[which][1] / all, (double)count[which][2] / all);
+    }
+    if (o->level != 0) printf("level of the point, (H/eps) J2^(1/k): %.15g\n", o->level);
+    for (int which = 0; which < 2; which++)
+        if (none[which] > 0)
+            printf("left out: %zu grid points, where there is no rotation about the axis of the %s moment, but an "
+                   "oscillation between two places of rest\n",
+                   none[which], axes[which]);
+    printf("%zu points of the borders T = 2 and T = -2: see -o, --json and --plot\n", iso_record_rows(f->borders));
+}
+
+static iso_status describe_chart(shell *s)
+{
+    const iso_stability_options *o = &((const iso_chart_found *)s->result.found)->how;
+    const double *J = o->J;
+    const bool by_level = o->moment == ISO_CHART_LEVEL;
+    const int a = (o->moment + 1) % 3, b = (o->moment + 2) % 3;
+    if (by_level)
+        snprintf(s->title, sizeof s->title, "J = %.6g %.6g %.6g", J[0], J[1], J[2]);
+    else if (o->level == 0)
+        snprintf(s->title, sizeof s->title, "J%d = %.6g, J%d = %.6g", a + 1, J[a], b + 1, J[b]);
+    else
+        snprintf(s->title, sizeof s->title, "J%d = %.6g, J%d = %.6g, level %.6g", a + 1, J[a], b + 1, J[b], o->level);
+    return shell_lines(s, (const table_line[]){{.key = "title", .text = s->title},
+                                               {.key = by_level ? NULL : "level", .number = o->level},
+                                               {.key = NULL}});
+}
+
+static void complain_chart(const shell *s)
+{
+    (void)s;
+    complain("interrupted: no chart");
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .steps = 120};
-
-/* Refuses wrong options before the work begins. */
-static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, iso_table_writer **csv)
+static iso_status check(const shell *s)
 {
-    const iso_periodic_options *how = &o->study, usual = iso_periodic_defaults();
-    iso_status status = check_json_alone(ctx, "periodic", o->output, o->json);
-    if (status != ISO_OK) return status;
-    if (o->chart && o->follow)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "chart", "periodic: --chart or --follow, not both");
-    if ((o->orbit > 0 || o->branches) && !o->follow)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "follow", "periodic: --orbit and --branches go with --follow");
-    if (o->follow && how->polish)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "polish",
-                                "periodic: --follow computes with 64 bits, not --polish");
-    if (o->chart && (how->all || how->polish || how->period != usual.period))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "chart",
-                                "periodic: --all, --polish and --period do not go with --chart");
-    if (how->grid != usual.grid && !how->all)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "grid", "periodic: --grid goes with --all");
-    if (o->steps != defaults.steps && !o->chart)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "steps", "periodic: --steps goes with --chart");
-    if (o->k && !o->chart)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "periodic: --k is the range of --chart");
-    if (o->level && !o->chart)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "level",
-                                "periodic: --level is for --chart; elsewhere the level is the scene's, and --follow "
-                                "level=A:B changes it");
-    if (o->plot) status = iso_plot_check_format(ctx, o->plot);
-    if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
-    if (status == ISO_OK && o->follow) status = follow_check(ctx, scene, o->follow);
-    const char *kind = o->chart ? "periodic chart" : o->follow ? "periodic follow" : "periodic";
-    return status == ISO_OK && o->output ? iso_table_writer_open(ctx, o->output, kind, csv) : status;
+    return check_json_alone(s->ctx, "periodic", s->told->table, s->told->json);
+}
+
+static json_t *json_without_scene(const shell *s)
+{
+    return json_of(s->result.fields, s->result.found);
 }
 
 static int run(iso_context *ctx, const void *options_given)
 {
+    static const shell_parts list = {.study = &iso_periodic_study,
+                                     .kind = "periodic",
+                                     .check = check,
+                                     .interrupted = complain_orbits,
+                                     .print = print_list,
+                                     .describe = describe_list,
+                                     .draw = draw_list},
+                             follow = {.study = &iso_periodic_study,
+                                       .kind = "periodic follow",
+                                       .check = check,
+                                       .interrupted = complain_branches,
+                                       .judge = judge_branches,
+                                       .json = json_without_scene,
+                                       .print = print_branches,
+                                       .describe = describe_branches,
+                                       .draw = draw_branches},
+                             chart = {.study = &iso_periodic_study,
+                                      .kind = "periodic chart",
+                                      .check = check,
+                                      .interrupted = complain_chart,
+                                      .json = json_without_scene,
+                                      .print = print_chart,
+                                      .describe = describe_chart};
     const options *o = options_given;
-    iso_scene scene = {.places = 0};
-    iso_table_writer *csv = NULL;
-    const iso_status status = prepare(ctx, o, &scene, &csv);
-    if (status != ISO_OK) return finish(ctx, status);
-    if (o->chart) return draw_chart(ctx, o, &scene, csv);
-    return list(ctx, o, &scene, csv);
+    return shell_run(ctx, o->study.chart ? &chart : o->study.follow ? &follow : &list, o, &o->shell);
 }
 
+static const options defaults = {.shell = {.file = "-"}};
+
 static const option_row rows[] = {
-    ROWS_OF_STUDY(iso_periodic_option, 0, 4),
-    ROW("follow", "NAME=A:B", "k, J1, J2, J3, ratio or level, =, two numbers and a colon",
-        "follow orbits while k, a moment, the ratio (J2 - J1)/(J3 - J1) or the level goes from A to B", iso_set_text,
-        options, follow),
-    ROW("orbit", "N", "a whole number from 1 on", "follow orbit N of the list alone", iso_set_count, options, orbit),
-    ROW("branches", NULL, NULL, "follow what branches off, too", iso_set_flag, options, branches),
-    ROW("chart", "MOMENT", "J1, J2 or J3, or J2=A:B, or level=A:B",
-        "in place of all that: where rotations are stable, in the plane of k and this moment or the level, from A "
-        "to B",
-        iso_set_text, options, chart),
-    ROW("k", "A:B", "two numbers and a colon", "k of --chart (default -3:3)", iso_set_text, options, k),
-    ROW("level", "X", "a number", "the level of --chart, everywhere (default: the scene's)", iso_set_text, options,
-        level),
-    ROW("steps", "N", "a whole number from 1 on", "steps of --chart in both directions (default 120)",
-        iso_set_count_int, options, steps),
-    ROWS_OF_STUDY(iso_periodic_option, 4, 1),
-    ROW_OUTPUT(options, output),
-    ROW_PLOT(options, plot),
-    ROW_JSON(options, json),
+    ROWS_OF_STUDY(iso_periodic_option, 0, 12),
+    ROW_OUTPUT(options, shell.table),
+    ROW_PLOT(options, shell.plot),
+    ROW_JSON(options, shell.json),
     ROW_END,
 };
 
 const command command_periodic = {
-    COMMAND("periodic", "SCENE", "find periodic orbits, and whether they are stable", scene.file),
+    COMMAND_OF_STUDY(periodic, "SCENE", shell.file),
     .takes = FILE_SCENE,
-    .study = &iso_periodic_study,
     .description =
         "Shows the rotations about the principal axes first: the trace of Hill's equation over half a turn, found "
         "in two ways, stable between -2 and 2. Then it searches for all symmetric periodic orbits of at most P "

@@ -6,8 +6,8 @@
 #include "scene_options.h"
 
 typedef struct options {
-    scene_options scene;
-    const char *output;
+    iso_scene_changes change;
+    const char *file, *output;
     const char *times; /* NULL: not given */
     bool verbose;
 } options;
@@ -127,7 +127,7 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     how.errors = o->verbose;
     iso_context_set_monitor(ctx, go_on, NULL);
     const iso_status status = iso_run(ctx, scene, &how, &sink, &r);
-    if (!t.opened) return finish_scene(ctx, &o->scene, scene, status);
+    if (!t.opened) return finish_scene(ctx, o->file, scene, status);
     const int result = close_file(&t, status, &r);
     if (o->verbose && result != EXIT_FILE) tell_errors(&r);
     return result;
@@ -135,7 +135,7 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
 
 static iso_status check_files(iso_context *ctx, const options *o)
 {
-    if (o->times && strcmp(o->times, "-") == 0 && strcmp(o->scene.file, "-") == 0)
+    if (o->times && strcmp(o->times, "-") == 0 && strcmp(o->file, "-") == 0)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "times", "standard input is the scene or the times, not both");
     return ISO_OK;
 }
@@ -146,19 +146,20 @@ static int run(iso_context *ctx, const void *options_given)
     iso_scene scene = {.places = 0};
     output_times asked = {.list = NULL};
     iso_status status = check_files(ctx, o);
-    if (status == ISO_OK) status = scene_with_options(ctx, &o->scene, &scene);
+    if (status == ISO_OK) status = iso_scene_read(ctx, o->file, &scene);
+    if (status == ISO_OK) status = iso_scene_apply(ctx, &o->change, &scene);
     if (status == ISO_OK && o->times) status = times_read(ctx, o->times, &asked);
     const int result =
-        status == ISO_OK ? run_scene(ctx, o, &scene, &asked) : finish_scene(ctx, &o->scene, &scene, status);
+        status == ISO_OK ? run_scene(ctx, o, &scene, &asked) : finish_scene(ctx, o->file, &scene, status);
     free(asked.list);
     return result;
 }
 
-static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .output = "-"};
+static const options defaults = {.change = ISO_SCENE_AS_IT_IS, .output = "-"};
 
 static const option_row rows[] = {
     ROW_OUTPUT(options, output),
-    ROWS_OF_SCENE(options, scene),
+    ROWS_OF_STUDY(iso_explain_option, 0, 6),
     ROW_OF_FILE("times", "FILE", "a file", "output times from FILE, in any order; # begins a comment", iso_set_text,
                 options, times, 0, OPTION_READS),
     ROW("verbose", NULL, NULL, "tell on stderr how the run went, and the error of the rows", iso_set_flag, options,
@@ -167,7 +168,7 @@ static const option_row rows[] = {
 };
 
 const command command_run = {
-    COMMAND("run", "SCENE", "compute a scene's orbit and write its trajectory", scene.file),
+    COMMAND("run", "SCENE", "compute a scene's orbit and write its trajectory", file),
     .takes = FILE_SCENE,
     .description =
         "The times of --t-end, --step and --times are those of the scene's model: t of a ball, s of a point. With "

@@ -3,18 +3,15 @@
 #include <math.h>
 #include <string.h>
 
-#include "plot/plot.h"
 #include "plot/section_picture.h"
 #include "scene_options.h"
-#include "section_cloud.h"
+#include "shell.h"
 #include "study/section/section_impl.h"
 
 /* What section can be told. */
 typedef struct options {
     iso_section_request study;
-    scene_options scene;       /* only its file is used */
-    const char *output, *plot; /* NULL: not given       */
-    double cloud;              /* 0: not given          */
+    shell_options shell;
     bool quiet;
 } options;
 
@@ -27,24 +24,6 @@ typedef struct target {
     section_picture *picture; /* NULL: none is drawn */
 } target;
 
-/* --- what is typed ---------------------------------------------------------------------------------------------- */
-
-/* --cloud writes no rows and draws no picture. Refuses options that ask for them. */
-static iso_status check_cloud(iso_context *ctx, const options *o)
-{
-    const iso_section_options *how = &o->study.how;
-    const char *lost = strcmp(o->output, "-") != 0     ? "--output"
-                       : o->plot                       ? "--plot"
-                       : o->study.event                ? "--event"
-                       : o->study.words.at[0]          ? "--at"
-                       : how->starts > 0               ? "--starts"
-                       : how->models != ISO_SHOW_START ? "--model"
-                       : how->shown != ISO_SHOW_START  ? "--as"
-                                                       : NULL;
-    if (o->cloud == 0 || !lost) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --cloud takes no %s: it only prints the test", lost);
-}
-
 /* --- the rows --------------------------------------------------------------------------------------------------- */
 
 static iso_status open_file(void *data, const iso_record *header)
@@ -52,7 +31,7 @@ static iso_status open_file(void *data, const iso_record *header)
     target *t = data;
     t->opened = true;
     if (t->picture) section_picture_begin(t->picture, header);
-    const iso_status status = iso_table_writer_open(t->ctx, t->o->output, "section", &t->writer);
+    const iso_status status = iso_table_writer_open(t->ctx, t->o->shell.table, "section", &t->writer);
     return status == ISO_OK ? iso_table_write_header(t->ctx, t->writer, header) : status;
 }
 
@@ -136,7 +115,7 @@ static void judge(iso_context *ctx, const iso_scene *scene, const iso_section_op
 static int draw(target *t, const iso_scene *scene, const iso_section_options *how, const iso_section_result *r)
 {
     if (!interrupted()) judge(t->ctx, scene, how, r, t->picture);
-    return finish(t->ctx, section_picture_draw(t->ctx, t->picture, t->o->plot));
+    return finish(t->ctx, section_picture_draw(t->ctx, t->picture, t->o->shell.plot));
 }
 
 /* --- the whole -------------------------------------------------------------------------------------------------- */
@@ -164,11 +143,11 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     target t = {.ctx = ctx, .o = o};
     const iso_section_sink sink = {open_file, write_row, keep_pair, tell_note, show_progress, &t, NULL};
     iso_section_result r;
-    begin_work(ctx, o->output);
-    iso_status status = o->plot ? section_picture_create(ctx, &scene->params, &t.picture) : ISO_OK;
+    begin_work(ctx, o->shell.table);
+    iso_status status = o->shell.plot ? section_picture_create(ctx, &scene->params, &t.picture) : ISO_OK;
     if (status == ISO_OK) status = iso_section_run(ctx, scene, how, &sink, &r);
-    int result = t.opened ? close_file(&t, status, &r) : finish_scene(ctx, &o->scene, scene, status);
-    if (t.opened && o->plot && r.rows > 0 && result <= EXIT_SOME_FAILED) {
+    int result = t.opened ? close_file(&t, status, &r) : finish_scene(ctx, o->shell.file, scene, status);
+    if (t.opened && o->shell.plot && r.rows > 0 && result <= EXIT_SOME_FAILED) {
         const int drawn = draw(&t, scene, how, &r);
         if (drawn != EXIT_DONE) result = drawn;
     }
@@ -176,41 +155,88 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     return result;
 }
 
-static int run(iso_context *ctx, const void *options_given)
+static int section(iso_context *ctx, const options *o)
 {
-    const options *o = options_given;
     iso_scene scene = {.places = 0};
     const iso_section_options *how = &o->study.how;
     int axis;
-    iso_status status = check_cloud(ctx, o);
-    if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
-    if (status == ISO_OK && o->plot && how->column >= 0 && !iso_section_is_of_axis(how->column, how->value, &axis))
+    iso_status status = o->shell.plot ? iso_plot_check_format(ctx, o->shell.plot) : ISO_OK;
+    if (status == ISO_OK && o->shell.plot && how->column >= 0 &&
+        !iso_section_is_of_axis(how->column, how->value, &axis))
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "",
                                   "--plot draws sections n_A = 0: an event has no coordinates l, x");
-    if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, &scene);
-    if (status != ISO_OK) return finish(ctx, status);
-    return o->cloud > 0 ? section_cloud(ctx, &o->scene, &scene, how, o->cloud) : run_scene(ctx, o, &scene, how);
+    if (status == ISO_OK) status = iso_scene_read(ctx, o->shell.file, &scene);
+    return status == ISO_OK ? run_scene(ctx, o, &scene, how) : finish(ctx, status);
 }
 
-static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .output = "-"};
+/* --- clouds in place of crossings ------------------------------------------------------------------------------- */
+
+/* They write no rows and draw no picture. */
+static iso_status check_cloud(const shell *s)
+{
+    const shell_options *o = &((const options *)s->options)->shell;
+    const char *lost = strcmp(o->table, "-") != 0 ? "--output" : o->plot ? "--plot" : NULL;
+    if (!lost) return ISO_OK;
+    return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "", "section: --cloud takes no %s: it only prints the test",
+                            lost);
+}
+
+/* One line about a cloud. */
+static void print_cloud(const iso_cloud *c)
+{
+    const iso_measure *m = &c->measure;
+    const iso_measure_entry *worst = &m->line[m->worst];
+    if (*c->why) {
+        printf("%-10s not tried: %s\n", c->what, c->why);
+        return;
+    }
+    if (m->lost > 0) {
+        printf("%-10s not kept: at least %zu of %zu orbits do not return\n", c->what, m->lost, m->count);
+        return;
+    }
+    printf("%-10s %-9s p = %-8.2g  %s at %.6g is off by %.2g standard errors", c->what, m->kept ? "kept" : "not kept",
+           m->p, worst->name, worst->time, fabs(worst->deviation));
+    if (isfinite(m->resolution)) printf("; an exponent wrong by %.2g %% would be detected", 100 * m->resolution);
+    printf("\n");
+}
+
+static void print_clouds(const shell *s)
+{
+    const iso_clouds *f = s->result.found;
+    for (int i = 0; i < f->count; i++) print_cloud(&f->cloud[i]);
+}
+
+static int judge_clouds(const shell *s)
+{
+    const iso_clouds *f = s->result.found;
+    bool kept = true;
+    for (int i = 0; i < f->count; i++) kept = kept && (*f->cloud[i].why || f->cloud[i].measure.kept);
+    return kept ? EXIT_DONE : EXIT_SOME_FAILED;
+}
+
+static int run(iso_context *ctx, const void *options_given)
+{
+    static const shell_parts clouds = {
+        .study = &iso_section_study, .check = check_cloud, .judge = judge_clouds, .print = print_clouds};
+    const options *o = options_given;
+    if (o->study.cloud == 0) return section(ctx, o);
+    return shell_run(ctx, &clouds, o, &(shell_options){.file = o->shell.file});
+}
+
+static const options defaults = {.shell = {.file = "-", .table = "-"}};
 
 static const option_row rows[] = {
-    ROW_OUTPUT(options, output),
-    ROWS_OF_STUDY(iso_section_option, 0, 6),
-    ROW("cloud", "N", "a whole number from 1 on",
-        "write no crossings: test with N states, 512 or more, whether the flow keeps the invariant measure",
-        iso_set_count, options, cloud),
-    ROWS_OF_STUDY(iso_section_option, 6, 2),
-    ROW_PLOT(options, plot),
-    ROWS_OF_STUDY(iso_section_option, 8, 2),
+    ROW_OUTPUT(options, shell.table),
+    ROWS_OF_STUDY(iso_section_option, 0, 9),
+    ROW_PLOT(options, shell.plot),
+    ROWS_OF_STUDY(iso_section_option, 9, 2),
     ROW("quiet", NULL, NULL, "print no summary on stderr", iso_set_flag, options, quiet),
     ROW_END,
 };
 
 const command command_section = {
-    COMMAND("section", "SCENE", "compute the Poincare section of both models", scene.file),
+    COMMAND_OF_STUDY(section, "SCENE", shell.file),
     .takes = FILE_SCENE,
-    .study = &iso_section_study,
     .description =
         "Follows orbits and writes a row for each crossing of the section n_A = 0, n_A increasing. The section is "
         "the same for ball and point. A row has the number of the orbit, the number of the crossing (from 1), t, "

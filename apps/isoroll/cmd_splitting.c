@@ -1,234 +1,192 @@
 /* isoroll splitting - how far the separatrix of the middle axis' rotation splits: why only k = 1 and k = -1. */
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "base/number_impl.h"
-#include "plot/plot.h"
 #include "scene_options.h"
-#include "splitting_report.h"
-#include "study/level.h"
+#include "shell.h"
+#include "study/separatrix/separatrix_study_impl.h"
 
 /* What splitting can be told. */
 typedef struct options {
-    scene_options scene;                   /* only its file is used */
-    const char *k, *level, *output, *plot; /* NULL: not given */
-    iso_separatrix_digits digits;
-    int threads;
-    bool json;
+    iso_separatrix_request study;
+    shell_options shell;
 } options;
 
-enum { MOST_K = 100000 };
+/* --- the table -------------------------------------------------------------------------------------------------- */
 
-/* --- what is typed ---------------------------------------------------------------------------------------------- */
-
-static bool set_splitting_digits(void *at, const char *text)
+/* The axes are those of each row that did not fail; NULL: all did. */
+static const iso_separatrix_splitting *first_good(const iso_separatrix_table *s)
 {
-    int i = 0;
-    while (i < 3 && strcmp(text, iso_separatrix_digits_name(i)) != 0) i++;
-    *(iso_separatrix_digits *)at = (iso_separatrix_digits)i;
-    return i < 3;
+    for (size_t i = 0; i < s->rows; i++)
+        if (s->row[i].status == ISO_OK) return &s->row[i];
+    return NULL;
 }
 
-/* A number, or a fraction p/q. */
-static bool read_number(const char *text, size_t length, double *x)
+/* What differs from row to row. */
+static double number_of(const iso_separatrix_splitting *s, bool by_level)
 {
-    const char *slash = memchr(text, '/', length);
-    double below;
-    if (!slash) return iso_number_read(text, length, x);
-    const size_t first = (size_t)(slash - text);
-    if (!iso_number_read(text, first, x) || !iso_number_read(slash + 1, length - first - 1, &below)) return false;
-    *x /= below;
-    return isfinite(*x);
+    return by_level ? s->level : s->k;
 }
 
-/* The values of --k or --level. */
-typedef struct numbers {
-    const char *name;
-    double *x;
-    size_t count;
-} numbers;
-
-static iso_status bad_list(iso_context *ctx, const numbers *list, const char *text)
+static void print_head(const double J[3], const iso_separatrix_splitting *row, bool by_level)
 {
-    return iso_context_fail(
-        ctx, ISO_BAD_INPUT, "",
-        "--%s '%s': expected values and ranges A:B:STEP, STEP not 0, with commas between, at most "
-        "%d values: 0.25:3:0.25, or 1/3,1/2,-0.5",
-        list->name, text, MOST_K);
+    printf("J = %.15g %.15g %.15g\n", J[0], J[1], J[2]);
+    if (!row) return;
+    if (by_level) printf("k = %.15g\n", row->k);
+    if (!by_level && row->level != 0) printf("level of the point, (H/eps) J2^(1/k): %.15g\n", row->level);
+    printf("The unstable manifold of the rotation about axis %d meets l = pi/2 on the section n_%d = 0 at x,\n"
+           "with the slope m. The stable one has -m: they are one curve only if m = 0.\n\n",
+           row->middle + 1, row->axis + 1);
+    printf("%16s %11s %19s %24s %7s %7s\n", by_level ? "level" : "k", "multiplier", "x", "m", "error", "digits");
 }
 
-static iso_status append(iso_context *ctx, numbers *list, double x)
+static void print_row(const iso_separatrix_splitting *s, bool by_level)
 {
-    double *more = realloc(list->x, (list->count + 1) * sizeof *more);
-    if (!more) return iso_context_no_memory(ctx, "%zu values of %s", list->count + 1, list->name);
-    list->x = more;
-    list->x[list->count++] = x;
-    return ISO_OK;
-}
-
-/* 0.1 + 2 0.1 shall be 0.3, -0.3 + 3 0.1 shall be 0, and 1/3 stay as it is. */
-static double rounded(double k, double step)
-{
-    char digits[ISO_NUMBER_SIZE];
-    double tidy;
-    if (fabs(k) < 1e-9 * fabs(step)) return 0;
-    iso_number_print_as(digits, k, 12);
-    return iso_number_read(digits, strlen(digits), &tidy) && fabs(tidy - k) < 1e-15 * fmax(1, fabs(k)) ? tidy : k;
-}
-
-/* A, or A, A + STEP, ... up to B, which a rounding error does not cut off. STEP goes towards B, whatever its sign. */
-static iso_status read_item(iso_context *ctx, const char *text, const char *item, size_t length, numbers *list)
-{
-    double number[3];
-    int parts = 0;
-    for (const char *c = item; c <= item + length; parts++) {
-        const size_t left = (size_t)(item + length - c), part = strcspn(c, ":") < left ? strcspn(c, ":") : left;
-        if (parts == 3 || !read_number(c, part, &number[parts])) return bad_list(ctx, list, text);
-        c += part + 1;
+    const double at = number_of(s, by_level);
+    if (s->status == ISO_STOPPED) return;
+    if (s->status != ISO_OK) {
+        printf("%16.15g %s\n", at, s->words);
+        return;
     }
-    if (parts == 1) return append(ctx, list, number[0]);
-    const double way = number[1] - number[0], step = copysign(number[2], way), steps = floor(way / step + 1e-9);
-    if (parts != 3 || number[2] == 0 || !(steps < MOST_K)) return bad_list(ctx, list, text);
-    iso_status status = ISO_OK;
-    for (double i = 0; i <= steps && status == ISO_OK; i++)
-        status = append(ctx, list, rounded(number[0] + i * step, step));
-    return status;
+    printf("%16.15g %11.8g %19.16g ", at, s->lambda, s->x);
+    if (s->from_zero)
+        printf("%24.16e %7.1e %7d\n", s->m, s->error, s->digits);
+    else if (fabs(s->m) > s->error)
+        printf("%24.16e %7.1e %7d   undecided: less than 100 errors from 0\n", s->m, s->error, s->digits);
+    else /* 1.05: rounding of the bound to two digits must not make it smaller */
+        printf("%24s %7.1e %7d   not distinguishable from 0: below %.1e\n", "0", s->error, s->digits,
+               1.05 * (fabs(s->m) + s->error));
+    if (s->words[0]) printf("%16s %s\n", "", s->words);
 }
 
-/* What is typed, or the scene's one. The values are the caller's to free. */
-static iso_status read_list(iso_context *ctx, const char *text, double scenes, numbers *list)
+static void print_zero(const iso_separatrix_splitting *s, bool by_level)
 {
-    if (!text) return append(ctx, list, scenes);
-    for (const char *c = text;; c++) {
-        const size_t length = strcspn(c, ",");
-        const iso_status status = read_item(ctx, text, c, length, list);
-        if (status != ISO_OK) return status;
-        if (list->count > MOST_K) return bad_list(ctx, list, text);
-        c += length;
-        if (!*c) return ISO_OK;
+    printf("\nm = 0 at %s = %.16g +- %.1e, where the manifolds touch at x = %.15g.\n", by_level ? "level" : "k",
+           number_of(s, by_level), by_level ? s->level_error : s->k_error, s->x);
+    if (isfinite(s->next_m))
+        printf("On the section n_%d = 0 they meet next at l = %.12g, x = %.12g,\n"
+               "and there with slopes %.6e above and below their mean: %s.",
+               s->section + 1, s->next_l, s->next_x, fabs(s->next_m),
+               fabs(s->next_m) > 100 * fmax(s->error, fabs(s->m)) ? "they cross there"
+                                                                  : "too small for these digits, undecided");
+    printf("\n");
+}
+
+static void print_table(const shell *s)
+{
+    const iso_separatrix_table *t = s->result.found;
+    const bool by_level = iso_separatrix_by_level(t);
+    print_head(s->scene.params.J, first_good(t), by_level);
+    for (size_t i = 0; i < t->rows; i++) print_row(&t->row[i], by_level);
+    for (size_t i = 0; i < t->zeros; i++) print_zero(&t->zero[i], by_level);
+}
+
+static json_t *json(const shell *s)
+{
+    static const iso_field J[] = {ISO_MEMBER(iso_params, "J", J, "moment of inertia", "about the contact"),
+                                  ISO_FIELD_END};
+    json_t *o = json_of(J, &s->scene.params);
+    json_add(o, s->result.fields, s->result.found);
+    return o;
+}
+
+/* --- the picture ------------------------------------------------------------------------------------------------ */
+
+/* The row whose curves are best seen: |m| is about 1/30. */
+static const iso_separatrix_splitting *clearest(const iso_separatrix_table *s)
+{
+    const iso_separatrix_splitting *best = NULL;
+    double least = INFINITY;
+    for (size_t i = 0; i < s->rows; i++) {
+        const double apart = fabs(log(fmax(fabs(s->row[i].m), 1e-40) * 30));
+        if (s->row[i].status == ISO_OK && apart < least) best = &s->row[i], least = apart;
     }
+    return best;
 }
 
-/* Many k on one level, or many levels at one k: the shorter list is repeated. */
-static iso_status read_lists(iso_context *ctx, const options *o, const iso_scene *scene, numbers *k, numbers *level)
+/* As many half returns beyond the crossing as the lobes need to be seen: they grow like lambda^(1/2) each. */
+static int halves_of(const iso_separatrix_splitting *s)
 {
-    double own = 0;
-    iso_status status = o->level ? ISO_OK : iso_level_of_scene(ctx, scene, "the splitting is measured", &own);
-    if (status == ISO_OK) status = read_list(ctx, o->k, scene->params.k, k);
-    if (status == ISO_OK) status = read_list(ctx, o->level, own, level);
-    if (status == ISO_OK && k->count > 1 && level->count > 1)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                "--k has %zu values and --level %zu: give many k and one level, or one k and many "
-                                "levels",
-                                k->count, level->count);
-    while (status == ISO_OK && k->count < level->count) status = append(ctx, k, k->x[0]);
-    while (status == ISO_OK && level->count < k->count) status = append(ctx, level, level->x[0]);
-    return status;
+    const double needed = log(0.3 / fmax(fabs(s->section_m), 1e-4)) / (log(s->lambda) / 2);
+    return (int)fmin(fmax(needed, 2) + 2, 60);
+}
+
+static iso_status describe(shell *s)
+{
+    const iso_separatrix_splitting *at = clearest(s->result.found);
+    const double *J = s->scene.params.J;
+    char *title = s->title;
+    int length =
+        snprintf(title, sizeof s->title, "splitting of the separatrix, J = %.6g %.6g %.6g", J[0], J[1], J[2]);
+    if (at && iso_separatrix_by_level(s->result.found))
+        snprintf(title + length, sizeof s->title - (size_t)length, ", k = %.6g", at->k);
+    else if (at && at->level != 0)
+        snprintf(title + length, sizeof s->title - (size_t)length, ", level %.6g", at->level);
+    return shell_lines(s, (const table_line[]){{.key = "title", .text = title}, {.key = NULL}});
+}
+
+/* |m| over k or the level, where there are several rows, and both curves of one of them. */
+static int draw(const shell *s)
+{
+    const iso_separatrix_table *t = s->result.found;
+    const iso_separatrix_splitting *at = clearest(t);
+    iso_record *curve = NULL;
+    if (interrupted()) return EXIT_DONE;
+    iso_status status = iso_separatrix_curve(s->ctx, at->k, s->scene.params.J, at->level, halves_of(at), &curve);
+    if (status == ISO_OK)
+        status = iso_plot_splitting(s->ctx, s->told->plot, s->title, t->rows > 1 ? s->result.table[0] : NULL, curve,
+                                    number_of(at, iso_separatrix_by_level(t)), at->section);
+    iso_record_free(curve);
+    return finish(s->ctx, status);
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-/* All rows failed: the first one's reason is that of the command. Some: they are told. */
-static int judge(iso_context *ctx, const iso_separatrix_table *s)
+static iso_status check(const shell *s)
 {
-    size_t failed = 0, first = s->rows;
-    for (size_t i = 0; i < s->rows; i++) {
-        if (s->row[i].status == ISO_OK || s->row[i].status == ISO_STOPPED) continue;
-        if (failed++ == 0) first = i;
-    }
-    if (failed == 0) return EXIT_DONE;
-    if (failed == s->rows)
-        return finish(ctx, iso_context_fail(ctx, s->row[first].status, "", "%s", s->row[first].words));
-    complain("%zu of %zu values of %s failed: %s", failed, s->rows, splitting_is_by_level(s) ? "the level" : "k",
-             s->row[first].words);
-    return EXIT_SOME_FAILED;
+    return check_json_alone(s->ctx, "splitting", s->told->table, s->told->json);
 }
 
-static int report(iso_context *ctx, const options *o, const iso_scene *scene, const iso_separatrix_table *s,
-                  iso_table_writer *csv)
+static void complain_interrupted(const shell *s)
 {
-    int result = judge(ctx, s);
-    const bool some = splitting_has_rows(s);
-    if (some && o->json)
-        result = splitting_print_json(scene, s) ? result : EXIT_NUMERICAL;
-    else if (some && (!o->output || strcmp(o->output, "-") != 0))
-        splitting_print(scene, s);
-    if (s->lost > 0) complain("%zu zeros of m lie between these values, but were not found", s->lost);
-    result = worse(result, splitting_save(ctx, scene, s, csv, interrupted() ? NULL : o->plot));
-    return result;
+    (void)s;
+    complain("interrupted: only rows that are done are shown");
 }
 
-static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, numbers *k, numbers *level,
-                          iso_table_writer **csv)
+/* Some rows failed: they are told. */
+static int judge(const shell *s)
 {
-    iso_status status = check_json_alone(ctx, "splitting", o->output, o->json);
-    if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
-    if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
-    if (status == ISO_OK) status = read_lists(ctx, o, scene, k, level);
-    return status == ISO_OK && o->output ? iso_table_writer_open(ctx, o->output, "splitting", csv) : status;
-}
-
-static int work(iso_context *ctx, const options *o, const iso_scene *scene, const numbers *k, const numbers *level,
-                iso_table_writer *csv)
-{
-    iso_separatrix_table *s = NULL;
-    iso_separatrix_options how = iso_separatrix_defaults();
-    how.k = k->x, how.level = level->x, how.count = k->count;
-    for (int i = 0; i < 3; i++) how.J[i] = scene->params.J[i];
-    how.scene = scene;
-    how.digits = o->digits;
-    how.threads = o->threads;
-    how.progress = progress_told;
-    begin_work(ctx, NULL);
-    const iso_status status = iso_separatrix_run(ctx, &how, &s);
-    progress_end();
-    int result = status == ISO_STOPPED ? EXIT_SOME_FAILED : finish_scene(ctx, &o->scene, scene, status);
-    if (status == ISO_STOPPED) complain("interrupted: only rows that are done are shown");
-    if (s)
-        result = worse(result, report(ctx, o, scene, s, csv));
-    else
-        iso_table_writer_close(ctx, csv, false);
-    iso_separatrix_free(s);
-    return result;
+    const iso_separatrix_table *t = s->result.found;
+    size_t failed = 0;
+    for (size_t i = 0; i < t->rows; i++) failed += t->row[i].status != ISO_OK && t->row[i].status != ISO_STOPPED;
+    return failed > 0 ? EXIT_SOME_FAILED : EXIT_DONE;
 }
 
 static int run(iso_context *ctx, const void *options_given)
 {
-    const options *o = options_given;
-    iso_scene scene = {.places = 0};
-    iso_table_writer *csv = NULL;
-    numbers k = {.name = "k"}, level = {.name = "level"};
-    const iso_status status = prepare(ctx, o, &scene, &k, &level, &csv);
-    const int result =
-        status == ISO_OK ? work(ctx, o, &scene, &k, &level, csv) : finish_scene(ctx, &o->scene, &scene, status);
-    free(k.x);
-    free(level.x);
-    return result;
+    static const shell_parts parts = {.study = &iso_splitting_study,
+                                      .kind = "splitting",
+                                      .check = check,
+                                      .interrupted = complain_interrupted,
+                                      .judge = judge,
+                                      .json = json,
+                                      .print = print_table,
+                                      .describe = describe,
+                                      .draw = draw};
+    return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
 }
 
-static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .digits = ISO_SEPARATRIX_AUTO};
+static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
-    ROW("k", "LIST", "values and ranges A:B:STEP",
-        "values of k in place of the scene's, with commas between: ranges A:B:STEP, numbers, fractions such as 1/3",
-        iso_set_text, options, k),
-    ROW("level", "LIST", "values and ranges A:B:STEP",
-        "levels in place of the scene's, at one k: a list like that of --k", iso_set_text, options, level),
-    ROW_OF_WORDS("digits", "D", "double, quad or auto",
-                 "double: 64 bits of mantissa (19 digits); quad: 128 bits (32 digits); auto: 128 bits where 64 give "
-                 "less than 3 "
-                 "digits of m (default)",
-                 set_splitting_digits, options, digits, iso_separatrix_digits_name),
-    ROW_THREADS(options, threads),
-    ROW_OUTPUT(options, output),
-    ROW_PLOT(options, plot),
-    ROW_JSON(options, json),
+    ROWS_OF_STUDY(iso_splitting_option, 0, 4),
+    ROW_OUTPUT(options, shell.table),
+    ROW_PLOT(options, shell.plot),
+    ROW_JSON(options, shell.json),
     ROW_END,
 };
 
 const command command_splitting = {
-    COMMAND("splitting", "SCENE", "measure how far the separatrix splits: why only k = 1 and k = -1", scene.file),
+    COMMAND_OF_STUDY(splitting, "SCENE", shell.file),
     .takes = FILE_SCENE,
     .description =
         "The rotation about the middle axis is unstable. On the section n_a = 0, a the axis after the middle one, "

@@ -44,7 +44,7 @@ static view_kind kind_of(const file_options *from)
     if (kind == FILE_SECTION || kind == FILE_TRAJECTORY) return kind == FILE_SECTION ? SECTION : TRAJECTORY;
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
         if (ends_with(from->file, endings[i])) return TRAJECTORY;
-    const bool told = from->columns || from->scene || !isnan(from->k) || !isnan(from->J[0]);
+    const bool told = from->columns || from->scene || !isnan(from->added.k) || !isnan(from->added.J[0]);
     return told ? TRAJECTORY : SCENE;
 }
 

@@ -12,7 +12,7 @@
 typedef struct command {
     const char *name;
     const char *argument;       /* "SCENE", "[FILE]", "[TOPIC]": in brackets it may be left out, and is then "-" */
-    const char *doc;            /* one line                                                             */
+    const char *doc;            /* one line; NULL: the study's                                          */
     const option_row *rows;     /* of its options                                                       */
     const void *defaults;       /* a value of its struct of options                                     */
     size_t size;                /* of that struct                                                       */
@@ -32,6 +32,13 @@ typedef struct command {
 #define COMMAND(name_, argument_, doc_, file_)                                                                       \
     .name = name_, .argument = argument_, .doc = doc_, .rows = rows, .defaults = &defaults, .size = sizeof defaults, \
     .file = offsetof(options, file_), .run = run
+
+/* The same for a study, whose name and doc it has. */
+#define COMMAND_OF_STUDY(study_, argument_, file_)                                                                   \
+    COMMAND(#study_, argument_, NULL, file_), .study = &iso_##study_##_study
+
+/* What it does, in one line. */
+const char *command_doc(const command *c);
 
 /* All commands in the order of --help; NULL after the last. Adding a command is one file and one word in
  * commands.c. */

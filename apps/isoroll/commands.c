@@ -4,8 +4,9 @@
 #include "command.h"
 
 #define COMMANDS(X)                                                                                                  \
-    X(run) X(convert) X(compare) X(cost) X(check) X(plot) X(view) X(section) X(chaos) X(periodic) X(splitting)       \
-    X(integrals) X(sweep) X(explain) X(analogue) X(frequencies) X(list) X(manual)
+    X(run)                                                                                                           \
+    X(convert) X(compare) X(cost) X(check) X(plot) X(view) X(section) X(chaos) X(periodic) X(splitting) X(integrals) \
+        X(sweep) X(explain) X(analogue) X(frequencies) X(list) X(manual)
 #define DECLARE(name) extern const command command_##name;
 #define ADDRESS(name) &command_##name,
 
@@ -26,6 +27,11 @@ const char *const about_exits = "0: done\n"
 const char *command_word(int i)
 {
     return commands[i] ? commands[i]->name : NULL;
+}
+
+const char *command_doc(const command *c)
+{
+    return c->doc ? c->doc : c->study->doc;
 }
 
 const command *command_find(const char *name)

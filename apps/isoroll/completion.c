@@ -137,7 +137,7 @@ void complete_zsh(FILE *to)
           to);
     for (int i = 0; commands[i]; i++) {
         fprintf(to, "        '%s:", commands[i]->name);
-        put_quoted(commands[i]->doc, to);
+        put_quoted(command_doc(commands[i]), to);
         fputs("'\n", to);
     }
     fputs("    )\n    if ((CURRENT == 2)); then\n        _describe command commands\n"

@@ -1,9 +1,33 @@
 /* cost_table.c - `isoroll cost` on a terminal: a table of all that was measured, and the answer in words. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "cost_report.h"
-#include "study/cost/cost_impl.h"
+
+/* --- words ------------------------------------------------------------------------------------------------------ */
+
+const char *cost_options_of(const iso_cost_cell *cell, char words[COST_OPTIONS])
+{
+    const char *backend = iso_backend_name((int)cell->backend);
+    if (cell->method)
+        snprintf(words, COST_OPTIONS, "--backend %s --method %s --tol %g", backend, cell->method->name,
+                 cell->tolerance);
+    else
+        snprintf(words, COST_OPTIONS, "--backend %s", backend);
+    return words;
+}
+
+const char *cost_seconds(double seconds, char words[COST_SECONDS])
+{
+    static const char *const units[] = {"ns", "us", "ms", "s"};
+    int unit = 0;
+    double x = 1e9 * seconds;
+    while (unit < 3 && x >= 999.5) x /= 1000, unit++;
+    if (isnan(x))
+        snprintf(words, COST_SECONDS, "-");
+    else
+        snprintf(words, COST_SECONDS, x < 9.995 ? "%.2f %s" : x < 99.95 ? "%.1f %s" : "%.0f %s", x, units[unit]);
+    return words;
+}
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
@@ -14,14 +38,13 @@ static const char *method_name(const iso_method *method)
     return method ? method->name : "closed solution";
 }
 
-static void print_head(const cost_report *r)
+static void print_head(const iso_scene *scene, const iso_cost *c)
 {
-    const iso_params *p = &r->scene->params;
-    const iso_cost *c = r->cost;
+    const iso_params *p = &scene->params;
     printf("k = %.10g (%s), J = %.10g %.10g %.10g; from 0 to %s = %.10g, about %.3g turns\n\n", p->k,
            iso_surface_name((int)p->body.surface), p->J[0], p->J[1], p->J[2],
-           r->scene->start.model == ISO_BALL ? "t" : "s", c->end, c->turns);
-    if (iso_effects_watch_contact(&r->scene->effects))
+           scene->start.model == ISO_BALL ? "t" : "s", c->end, c->turns);
+    if (iso_effects_watch_contact(&scene->effects))
         printf("the motion is followed to the end, also where contact is lost\n\n");
     printf("error: the largest relative error of (omega, n), against a reference\nreference: %s\n", c->reference);
     if (isfinite(c->uncertainty))
@@ -61,7 +84,7 @@ static void print_cell(const iso_cost_cell *c)
            cost_seconds(c->setup, setup));
 }
 
-static void print_cells(const iso_cost *cost, const iso_cost_series *const line[])
+static void print_cells(const iso_cost *cost, const iso_cost_series *const *line)
 {
     printf("  %-5s  %-22s %7s %9s %8s %8s %9s %7s %9s %9s %9s\n", "", "method", "tol", "error", "clocks", "energy",
            "time", "spread", "steps", "rhs", "set-up");
@@ -76,10 +99,10 @@ static void print_cells(const iso_cost *cost, const iso_cost_series *const line[
 
 static void print_failed(const iso_cost *cost)
 {
-    if (cost_count(cost, cost_is_failed) > 0) printf("\nfailed\n");
+    if (iso_cost_count(cost, iso_cost_has_failed) > 0) printf("\nfailed\n");
     for (int i = 0; i < cost->cells; i++) {
         const iso_cost_cell *c = &cost->cell[i];
-        if (!cost_is_failed(c)) continue;
+        if (!iso_cost_has_failed(c)) continue;
         printf(" ");
         print_name(c);
         printf(" %s\n", c->why);
@@ -107,11 +130,11 @@ static void print_left_out(const iso_cost *cost)
 static void print_time_to(const iso_cost *cost, const iso_cost_series *line, double want)
 {
     char words[COST_SECONDS];
-    const iso_cost_cell *c = cost_choose_steps(cost, line, want);
+    const iso_cost_cell *c = iso_cost_choose_steps(cost, line, want);
     printf(" %9s", cost_seconds(c ? c->total : (double)NAN, words));
 }
 
-static void print_lines(const iso_cost *cost, const iso_cost_series *const line[])
+static void print_lines(const iso_cost *cost, const iso_cost_series *const *line)
 {
     printf(
         "\nmethods, sorted by their time to an error of 1e-9: time to reach an error, factor in time for one more\n"
@@ -145,7 +168,7 @@ static void print_lines(const iso_cost *cost, const iso_cost_series *const line[
 
 static const iso_cost_cell *choose_steps(const iso_cost *cost, double want)
 {
-    return cost_choose_steps(cost, NULL, want);
+    return iso_cost_choose_steps(cost, NULL, want);
 }
 
 static void print_choice(const iso_cost_cell *c, int digits)
@@ -190,7 +213,7 @@ static void print_answer(const iso_cost *cost)
     }
 }
 
-static void print_growth(const cost_growth *g)
+static void print_growth(const iso_cost_growing *g)
 {
     char words[COST_OPTIONS], seconds[COST_SECONDS];
     const iso_cost_growth *x = &g->growth;
@@ -217,13 +240,13 @@ static void print_growth(const cost_growth *g)
         printf(", the time like length^%.2f\n", x->time_power);
 }
 
-void cost_print(const cost_report *r, const iso_cost_series *const line[])
+void cost_print(const iso_scene *scene, const iso_cost_found *f)
 {
-    print_head(r);
-    print_cells(r->cost, line);
-    if (r->cost->complete) print_left_out(r->cost);
-    print_failed(r->cost);
-    if (cost_choose_steps(r->cost, NULL, INFINITY)) print_lines(r->cost, line);
-    print_answer(r->cost);
-    for (int i = 0; i < r->growths; i++) print_growth(&r->growth[i]);
+    print_head(scene, f->cost);
+    print_cells(f->cost, f->line);
+    if (f->cost->complete) print_left_out(f->cost);
+    print_failed(f->cost);
+    if (iso_cost_choose_steps(f->cost, NULL, INFINITY)) print_lines(f->cost, f->line);
+    print_answer(f->cost);
+    for (int i = 0; i < f->growths; i++) print_growth(&f->growth[i]);
 }

@@ -58,7 +58,7 @@ static void print_indented(const char *text, FILE *to)
 
 void help_command(const command *c, FILE *to)
 {
-    fprintf(to, "usage: isoroll %s [options] %s\n%s\n\n", c->name, c->argument, c->doc);
+    fprintf(to, "usage: isoroll %s [options] %s\n%s\n\n", c->name, c->argument, command_doc(c));
     for (int i = 0; options_row(c, i); i++) print_row(options_row(c, i), to);
     fputc('\n', to);
     print_folded(c->description, to);
@@ -74,7 +74,7 @@ void help_program(FILE *to)
     print_folded(about_isoroll, to);
     fputs("\nusage: isoroll COMMAND [options] [SCENE or FILE]      - is standard input or output\n\n", to);
     for (int i = 0; commands[i]; i++)
-        fprintf(to, "  %-11s %-9s %s\n", commands[i]->name, commands[i]->argument, commands[i]->doc);
+        fprintf(to, "  %-11s %-9s %s\n", commands[i]->name, commands[i]->argument, command_doc(commands[i]));
     fputs("\n  isoroll help COMMAND       the options of a command, as isoroll COMMAND --help\n"
           "  isoroll --version          the versions of isoroll and its libraries\n\nexit status\n",
           to);

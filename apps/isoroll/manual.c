@@ -82,7 +82,7 @@ static void put_exits(const char *special, FILE *to)
 
 void manual_command(const command *c, FILE *to)
 {
-    put_head(c->name, c->doc, to);
+    put_head(c->name, command_doc(c), to);
     fprintf(to, ".SH SYNOPSIS\n.B isoroll %s\n[\\fIoptions\\fR] \\fI%s\\fR\n.SH DESCRIPTION\n", c->name, c->argument);
     put_lines(c->description, ".PP\n", to);
     if (!c->word)
@@ -105,7 +105,7 @@ void manual_program(FILE *to)
     fputs(".SH COMMANDS\n", to);
     for (int i = 0; commands[i]; i++) {
         fprintf(to, ".TP\n.BR isoroll\\-%s (1)\n", commands[i]->name);
-        put_lines(commands[i]->doc, "", to);
+        put_lines(command_doc(commands[i]), "", to);
     }
     put_exits(NULL, to);
     fputs(".SH ENVIRONMENT\n.TP\n.B NO_COLOR\nIf it is not empty, the progress bar has no colour.\n", to);

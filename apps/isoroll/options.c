@@ -12,44 +12,12 @@
 
 /* --- setters ---------------------------------------------------------------------------------------------------- */
 
-bool set_bound(void *at, const char *text)
-{
-    return iso_set_number(at, text) && *(double *)at >= 0;
-}
-
-bool set_vector(void *at, const char *text)
-{
-    double *x = at;
-    for (int i = 0; i < 3; i++) {
-        const size_t length = strcspn(text, ",");
-        if (!iso_number_read(text, length, &x[i]) || (text[length] == ',') != (i < 2)) return false;
-        text += length + 1;
-    }
-    return true;
-}
-
-/* An enumeration whose names are these. */
-static bool set_value(void *at, const char *text, const char *(*name)(int value))
-{
-    int value = 0;
-    while (name(value) && strcmp(text, name(value)) != 0) value++;
-    if (name(value)) *(int *)at = value;
-    return name(value) != NULL;
-}
-
-bool set_backend(void *at, const char *text)
-{
-    return set_value(at, text, iso_backend_name);
-}
-
 bool set_target(void *at, const char *text)
 {
-    return set_value(at, text, iso_model_kind_name);
-}
-
-bool set_method(void *at, const char *text)
-{
-    return (strcmp(text, "auto") == 0 || iso_method_find(text)) && iso_set_text(at, text);
+    int model = 0;
+    while (iso_model_kind_name(model) && strcmp(text, iso_model_kind_name(model)) != 0) model++;
+    *(iso_model_kind *)at = (iso_model_kind)model;
+    return iso_model_kind_name(model) != NULL;
 }
 
 bool set_digits(void *at, const char *text)
@@ -58,14 +26,6 @@ bool set_digits(void *at, const char *text)
     const bool set = strcmp(text, "hex") == 0 || (iso_set_count(&digits, text) && digits <= 17);
     *(int *)at = (int)digits;
     return set;
-}
-
-/* --- words ------------------------------------------------------------------------------------------------------ */
-
-const char *backend_word(int i)
-{
-    static const char *const words[] = {"ball", "point", "exact", "auto", NULL};
-    return words[i];
 }
 
 /* --- the command line ------------------------------------------------------------------------------------------- */

@@ -43,20 +43,14 @@ const char *options_command(void);
 const option_row *options_row(const struct command *c, int i);
 
 /* Setters, beside those of studies (study/options_impl.h). */
-bool set_bound(void *at, const char *text);   /* double, >= 0                         */
-bool set_vector(void *at, const char *text);  /* double[3], three numbers and commas  */
-bool set_method(void *at, const char *text);  /* const char *, a method or auto       */
-bool set_backend(void *at, const char *text); /* iso_backend: ball, point, exact, auto */
-bool set_target(void *at, const char *text);  /* iso_model_kind: ball, point          */
-bool set_digits(void *at, const char *text);  /* int, 1 to 17, or ISO_HEXADECIMAL     */
+bool set_target(void *at, const char *text); /* iso_model_kind: ball, point      */
+bool set_digits(void *at, const char *text); /* int, 1 to 17, or ISO_HEXADECIMAL */
 
 /* Whether `path` names a regular file. Of a pipe nothing may be read to see what it is: it can be read only once. */
 bool is_regular(const char *path);
 
 /* Whether a path ends in `ending`, in these letters, and has more before it. */
 bool ends_with(const char *path, const char *ending);
-
-const char *backend_word(int i);
 
 /* A row: name, argument, expected, doc, setter, and place in the struct `type`, as above; and further members. */
 #define ROW_WITH(name_, argument_, expected_, doc_, set_, type, field, ...)                                          \

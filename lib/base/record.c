@@ -304,6 +304,11 @@ iso_status iso_record_set(iso_context *ctx, iso_record *r, const char *key, cons
     return ISO_OK;
 }
 
+void iso_record_forget_lines(iso_record *r)
+{
+    while (r->lines > 0) remove_line(r, &r->line[r->lines - 1]);
+}
+
 iso_status iso_record_add_line(iso_context *ctx, iso_record *r, const char *key, const char *text)
 {
     const size_t length = strlen(text);

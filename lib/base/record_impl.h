@@ -15,7 +15,8 @@ iso_column_format *iso_record_format(const iso_record *record, size_t column);
 /* Adds a line, and an end to it, to the text that is the value of a key. */
 iso_status iso_record_add_line(iso_context *ctx, iso_record *record, const char *key, const char *line);
 
-/* Forgets all words: for rows that pass by. */
+/* Forgets all words: for rows that pass by. And all lines. */
 void iso_record_forget_words(iso_record *record);
+void iso_record_forget_lines(iso_record *record);
 
 #endif

@@ -7,8 +7,6 @@
 #include "io/table_impl.h"
 #include "method/integrator_impl.h"
 #include "orbit/convert_impl.h"
-#include "orbit/orbit_impl.h"
-#include "study/tables/tables.h"
 
 /* --- reading ---------------------------------------------------------------------------------------------------- */
 
@@ -43,30 +41,6 @@ iso_status iso_foreign_read(iso_context *ctx, const char *path, const char *colu
     }
     iso_table_reader_close(in);
     return status;
-}
-
-/* --- columns ---------------------------------------------------------------------------------------------------- */
-
-typedef struct wanted {
-    const char *name, *unit, *doc;
-} wanted;
-
-static void look(void *data, const char *name, const iso_field *field, const iso_value *value)
-{
-    wanted *w = data;
-    (void)value;
-    if (!w->doc && strcmp(name, w->name) == 0) w->unit = field->unit, w->doc = field->doc;
-}
-
-const char *iso_foreign_column_doc(const char *kind, const char *column, const char **unit)
-{
-    wanted w = {.name = column};
-    const iso_result_table *t;
-    for (int i = 0; (t = iso_result_table_at(i)); i++)
-        if (strcmp(t->kind, kind) == 0) iso_columns_visit(t->fields, NULL, look, &w);
-    if (!w.doc) w.doc = iso_column_doc(iso_column_find(column), &w.unit);
-    *unit = w.unit;
-    return w.doc;
 }
 
 /* --- writing ---------------------------------------------------------------------------------------------------- */

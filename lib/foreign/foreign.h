@@ -33,7 +33,7 @@ ISO_C_BEGIN
 
 /* The number of this interface. It grows when a function here changes its arguments, so that a caller without headers
  * can refuse a library that it does not know. */
-enum { ISO_FOREIGN_ABI = 2 };
+enum { ISO_FOREIGN_ABI = 3 };
 ISO_API int iso_foreign_abi(void);
 
 /* --- stopping --------------------------------------------------------------------------------------------------- */
@@ -133,19 +133,57 @@ ISO_API iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *
 
 /* --- studies ---------------------------------------------------------------------------------------------------- */
 
-/* Runs a study of the scene by its name, "section", "chaos", ... (study/study.h).
+/* Runs a study by its name, "section", "chaos", ... (study/study.h).
+ * scene, record: what is studied. Most studies need a scene; check needs a trajectory, and takes k, J and effects from
+ *   a scene; analogue needs a scene or the problem in its options. NULL: not given.
  * options: lines NAME=VALUE with a newline between, or NULL. Names and values are those of the command, such as
  *   "starts=12\nat=0.5,0.2;1,-0.3\nmodel=both"; a flag is "NAME=true".
- * table[]: room for three, of which those not made are NULL. The lines of table[0] are the scene's, and the result by
- *   the names of the command's --json. The caller frees each (iso_record_free).
+ * progress: is told the part of the work that is done, in [0, 1], also by other threads; NULL: nobody is.
+ * table[]: room for six, of which those not made are NULL. The lines of table[0] are the scene's, and the result by
+ *   the names of the command's --json, but what the rows have. The caller frees each (iso_record_free).
  *   section: what its file holds; if both models are integrated, the crossings as the point finds them, in the
- *     columns orbit, crossing, t, tau, s, l, x.
+ *     columns orbit, crossing, t, tau, s, l, x; with cloud: a row for each test of the measure.
  *   chaos: a row for each orbit, row 0 the scene's own, in the columns of the file of `isoroll chaos`; the indicators
  *     of the scene's own orbit by the turns, of the ball and of the point.
- * Errors: those of the study; ISO_BAD_ARGUMENT about "study" or about an option. The tables then have the rows that
- * were found before, or are NULL. */
-ISO_API iso_status iso_foreign_study(iso_context *ctx, const iso_foreign_scene *scene, const char *name,
-                                     const char *options, iso_record *table[3], char notes[], size_t room);
+ *   periodic: what its file holds, also with follow and chart. splitting, cost: what their files hold.
+ *   compare: differences of ball and point; orbits of ball, point and closed solution; differences of ball and point
+ *     from the closed solution.
+ *   check: a row for each residual. explain, analogue: the line "text" is what the command prints; no rows.
+ * Errors: those of the study; ISO_BAD_ARGUMENT about "study", "scene", "record" or about an option. The tables then
+ * have the rows that were found before, or are NULL. */
+ISO_API iso_status iso_foreign_study(iso_context *ctx, const iso_foreign_scene *scene, const iso_record *record,
+                                     const char *name, const char *options, void (*progress)(double part, void *data),
+                                     void *data, iso_record *table[6], char notes[], size_t room);
+
+/* The name of the i-th study; NULL past the end. In one line, what it does; what it is of: bit 0: it needs a scene;
+ * bit 1: it needs a record; bit 2: it takes a scene as well. NULL, 0: there is no such study. */
+ISO_API const char *iso_foreign_study_name(int i);
+ISO_API const char *iso_foreign_study_doc(const char *name);
+ISO_API int iso_foreign_study_of(const char *name);
+
+/* The i-th option of a study: its name, type ("flag", "whole", "number", "numbers", "word" or "text"), argument as in
+ * --help ("" for a flag), what is expected in words, and what it does in one line. false: past the end. */
+ISO_API bool iso_foreign_option(const char *study, int i, const char *text[5]);
+
+/* A word that the argument of this option can be; NULL past the last, or where it is no word of a list. */
+ISO_API const char *iso_foreign_option_word(const char *study, int i, int word);
+
+/* The kind of the i-th table that studies make; NULL past the end. And its columns: the name of the i-th, its unit
+ * ("": none), and what it is in one line. false: past the end. */
+ISO_API const char *iso_foreign_table_kind(int i);
+ISO_API bool iso_foreign_column(const char *kind, int i, char name[64], const char *text[2]);
+
+/* --- sweeps ----------------------------------------------------------------------------------------------------- */
+
+/* Measures all points of a sweep (sweep/sweep.h).
+ * path: of its file; with text, what messages call it, and in whose folder a scene's file is sought.
+ * text: the sweep in YAML, `length` bytes; NULL: the file is read.
+ * threads: 0: as many as there are processors.
+ * record: what the file of `isoroll sweep` holds, a row for each point in order. Points that fail have a status and a
+ *   reason. After a failure or a stop on the way it has the points of finished chunks, and is NULL if there is none.
+ * Errors: those of iso_sweep_read, iso_sweep_create and iso_sweep_run. */
+ISO_API iso_status iso_foreign_sweep(iso_context *ctx, const char *path, const char *text, size_t length, int threads,
+                                     void (*progress)(double part, void *data), void *data, iso_record **record);
 
 /* --- records and files ------------------------------------------------------------------------------------------ */
 
@@ -160,10 +198,6 @@ ISO_API iso_status iso_foreign_read(iso_context *ctx, const char *path, const ch
  * ISO_BAD_ARGUMENT about "digits". */
 ISO_API iso_status iso_foreign_write(iso_context *ctx, const char *path, const iso_record *record, int digits,
                                      const char *kind);
-
-/* What a column is, in one line, and its unit ("": a number without one), in a table of this kind: those of
- * iso_result_table_at, and of a trajectory. NULL: nothing is known of it. */
-ISO_API const char *iso_foreign_column_doc(const char *kind, const char *column, const char **unit);
 
 /* Converts a record to the model `to`, "ball" or "point" (orbit/convert.h). k, J and h or eps are in its lines.
  * shift_J: see iso_conversion_options. row_tolerance: see iso_record_set_row_tolerance.

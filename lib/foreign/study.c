@@ -1,73 +1,137 @@
-/* study.c - any study of a scene, by its name and options as text. */
-#include <stdlib.h>
+/* study.c - any study by its name and options as text; and what studies, options and tables there are. */
 #include <string.h>
 
 #include "base/nearest_impl.h"
 #include "foreign/foreign_impl.h"
 #include "study/study.h"
+#include "study/tables/tables.h"
+
+/* --- asking ----------------------------------------------------------------------------------------------------- */
+
+/* Where a study's words go. */
+typedef struct listener {
+    notes notes;
+    void (*progress)(double part, void *data);
+    void *data;
+} listener;
 
 static void keep_note(void *data, const char *words)
 {
-    iso_notes_add(data, words);
+    iso_notes_add(&((listener *)data)->notes, words);
 }
 
-static const char *study_name(int i)
+static void show(double part, void *data)
+{
+    const listener *l = data;
+    if (l->progress) l->progress(part, l->data);
+}
+
+static iso_status find(iso_context *ctx, const char *name, const iso_study **study)
+{
+    char suggested[ISO_SUGGEST_SIZE];
+    *study = iso_study_find(name);
+    if (*study) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "study", "there is no study '%s'; %s", name,
+                            iso_suggest_word(suggested, name, iso_foreign_study_name));
+}
+
+iso_status iso_foreign_study(iso_context *ctx, const iso_foreign_scene *scene, const iso_record *record,
+                             const char *name, const char *options, void (*progress)(double part, void *data),
+                             void *data, iso_record *table[ISO_STUDY_TABLES], char text[], size_t room)
+{
+    const iso_study *study;
+    listener l = {iso_notes_begin(text, room), progress, data};
+    iso_study_result result = {.note = keep_note, .progress = show, .data = &l};
+    const iso_study_subject subject = {scene ? &scene->scene : NULL, record};
+    for (int i = 0; i < ISO_STUDY_TABLES; i++) table[i] = NULL;
+    iso_status status = find(ctx, name, &study);
+    if (status == ISO_OK) status = iso_study_ask(ctx, study, &subject, options, &result);
+    const bool of_scene = status != ISO_OK && status != ISO_BAD_ARGUMENT && scene && !result.table[0];
+    if (of_scene) status = iso_foreign_blame(ctx, scene, status);
+    for (int i = 0; i < ISO_STUDY_TABLES; i++) {
+        table[i] = result.table[i];
+        result.table[i] = NULL;
+    }
+    iso_study_result_free(&result);
+    return status;
+}
+
+/* --- what there is ---------------------------------------------------------------------------------------------- */
+
+const char *iso_foreign_study_name(int i)
 {
     return iso_study_at(i) ? iso_study_at(i)->name : NULL;
 }
 
-/* Ends the words of text, which then are names and values in turn. */
-static iso_status set_options(iso_context *ctx, const iso_study *study, char *text, void *how)
+const char *iso_foreign_study_doc(const char *name)
 {
-    iso_status status = ISO_OK;
-    for (char *name = text, *next; status == ISO_OK && *name; name = next) {
-        next = name + strcspn(name, "\n");
-        if (*next) *next++ = '\0';
-        char *value = strchr(name, '=');
-        if (!value) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "'%s' is no option: write NAME=VALUE", name);
-        *value++ = '\0';
-        status = iso_study_set(ctx, study, name, value, how);
-    }
-    return status;
+    return iso_study_find(name) ? iso_study_find(name)->doc : NULL;
 }
 
-static iso_status run(iso_context *ctx, const iso_foreign_scene *scene, const iso_study *study, char *text, void *how,
-                      iso_study_result *result)
+int iso_foreign_study_of(const char *name)
 {
-    study->begin(how);
-    iso_status status = set_options(ctx, study, text, how);
-    if (status == ISO_OK && study->prepare) status = study->prepare(ctx, how);
-    if (status == ISO_BAD_INPUT) status = ISO_BAD_ARGUMENT; /* it is the call that is wrong, no file */
-    if (status == ISO_OK) {
-        status = study->run(ctx, &scene->scene, how, result);
-        if (!result->table[0]) status = iso_foreign_blame(ctx, scene, status);
-    }
-    if (study->end) study->end(how);
-    return status;
+    return iso_study_find(name) ? (int)iso_study_find(name)->of : 0;
 }
 
-iso_status iso_foreign_study(iso_context *ctx, const iso_foreign_scene *scene, const char *name, const char *options,
-                             iso_record *table[ISO_STUDY_TABLES], char notes_[], size_t room)
+static const iso_option *option_at(const char *study, int i)
 {
-    notes n = iso_notes_begin(notes_, room);
-    const iso_study *study = iso_study_find(name);
-    iso_study_result result = {.note = keep_note, .data = &n};
-    char suggested[ISO_SUGGEST_SIZE];
-    for (int i = 0; i < ISO_STUDY_TABLES; i++) table[i] = NULL;
-    if (!study)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "study", "there is no study '%s'; %s", name,
-                                iso_suggest_word(suggested, name, study_name));
-    char *text = strdup(options ? options : "");
-    void *how = malloc(study->size);
-    const iso_status status =
-        text && how ? run(ctx, scene, study, text, how, &result) : iso_context_no_memory(ctx, "a study");
-    free(how);
-    free(text);
-    const bool none = status != ISO_OK && (!result.table[0] || iso_record_rows(result.table[0]) == 0);
-    for (int i = 0; i < ISO_STUDY_TABLES; i++)
-        if (none)
-            iso_record_free(result.table[i]);
-        else
-            table[i] = result.table[i];
-    return status;
+    const iso_study *s = iso_study_find(study);
+    const iso_option *o = s ? s->options : NULL;
+    for (; o && o->name && i > 0; o++) i--;
+    return o && o->name && i == 0 ? o : NULL;
+}
+
+bool iso_foreign_option(const char *study, int i, const char *text[5])
+{
+    const iso_option *o = option_at(study, i);
+    if (!o) return false;
+    text[0] = o->name;
+    text[1] = iso_option_type(o);
+    text[2] = o->argument ? o->argument : "";
+    text[3] = o->expected ? o->expected : "";
+    text[4] = o->doc;
+    return true;
+}
+
+const char *iso_foreign_option_word(const char *study, int i, int word)
+{
+    const iso_option *o = option_at(study, i);
+    for (int w = 0; o && o->word && o->word(w); w++)
+        if (w == word) return o->word(w);
+    return NULL;
+}
+
+/* --- tables ----------------------------------------------------------------------------------------------------- */
+
+const char *iso_foreign_table_kind(int i)
+{
+    return iso_result_table_at(i) ? iso_result_table_at(i)->kind : NULL;
+}
+
+typedef struct column {
+    int wanted;
+    const iso_field *field;
+    char name[ISO_COLUMN_SIZE];
+} column;
+
+static void look(void *data, const char *name, const iso_field *field, const iso_value *value)
+{
+    column *c = data;
+    (void)value;
+    if (c->wanted-- != 0) return;
+    c->field = field;
+    memcpy(c->name, name, strlen(name) + 1);
+}
+
+bool iso_foreign_column(const char *kind, int i, char name[64], const char *text[2])
+{
+    column c = {.wanted = i};
+    for (int t = 0; iso_result_table_at(t); t++)
+        if (strcmp(iso_result_table_at(t)->kind, kind) == 0)
+            iso_columns_visit(iso_result_table_at(t)->fields, NULL, look, &c);
+    if (!c.field) return false;
+    memcpy(name, c.name, sizeof c.name);
+    text[0] = c.field->unit;
+    text[1] = c.field->doc;
+    return true;
 }

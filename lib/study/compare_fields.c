@@ -1,5 +1,12 @@
 /* compare_fields.c - what a comparison holds: its numbers with their meaning (compare.h). */
-#include "study/compare.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "method/methods_impl.h"
+#include "orbit/orbit_impl.h"
+#include "study/fields_impl.h"
+#include "study/options_impl.h"
 #include "study/study_impl.h"
 
 /* --- one backend ------------------------------------------------------------------------------------------------ */
@@ -65,3 +72,104 @@ const iso_field iso_comparison_fields[] = {
     FIELD("from_exact.point.difference", from_exact[ISO_POINT], "", "of point and closed solution", EXACT),
     ISO_FIELD_END,
 };
+
+/* --- the largest differences ------------------------------------------------------------------------------------ */
+
+void iso_comparison_worst(const iso_comparison *c, const char *where, size_t offset, iso_worst_fields *w)
+{
+    for (size_t i = 1; i < ISO_DIFFERENCES; i++) {
+        char *name = w->name[i - 1];
+        snprintf(name, sizeof w->name[0], "%sworst_difference.%s", where, iso_record_name(c->difference, i));
+        w->field[i - 1] = (iso_field){.name = name,
+                                      .type = ISO_FIELD_REAL,
+                                      .offset = offset + i * sizeof(double),
+                                      .unit = "",
+                                      .doc = "the largest difference"};
+    }
+    w->field[ISO_DIFFERENCES - 1] = (iso_field)ISO_FIELD_END;
+}
+
+static iso_status put_worst(iso_context *ctx, const iso_comparison *c, const char *where, size_t offset,
+                            iso_record *r)
+{
+    iso_worst_fields w;
+    iso_comparison_worst(c, where, offset, &w);
+    return iso_record_set_fields(ctx, r, w.field, c);
+}
+
+/* --- the study -------------------------------------------------------------------------------------------------- */
+
+ISO_STUDY_BEGIN(iso_compare_request, (iso_compare_request){.change = ISO_SCENE_AS_IT_IS})
+
+/* The records are tables of the result. */
+static void free_comparison(void *found)
+{
+    iso_comparison *c = found;
+    c->difference = NULL;
+    for (int b = 0; b < ISO_BACKENDS; b++) c->run[b].trajectory = NULL;
+    for (int b = 0; b < ISO_INTEGRATED; b++) c->from_exact[b] = NULL;
+    iso_comparison_free(c);
+}
+
+static iso_status describe(iso_context *ctx, const iso_scene *scene, const iso_comparison *c)
+{
+    iso_record *r = c->difference;
+    iso_status status = iso_record_describe_scene(ctx, r, scene);
+    if (status == ISO_OK) status = iso_record_set_fields(ctx, r, iso_comparison_fields, c);
+    if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "tolerance", 1, &scene->tolerance);
+    if (status == ISO_OK) status = put_worst(ctx, c, "", offsetof(iso_comparison, worst), r);
+    for (int b = 0; status == ISO_OK && b < ISO_INTEGRATED && c->runs == ISO_BACKENDS; b++)
+        status = put_worst(ctx, c, b == ISO_BALL ? "from_exact.ball." : "from_exact.point.",
+                           offsetof(iso_comparison, worst_from_exact) + (size_t)b * sizeof c->worst, r);
+    return status;
+}
+
+static bool show(double part, void *data)
+{
+    iso_study_progress(data, part);
+    return true;
+}
+
+static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
+                      iso_study_result *result)
+{
+    iso_scene scene = *subject->scene;
+    iso_comparison *c = NULL;
+    ISO_TRY(iso_scene_apply(ctx, &((const iso_compare_request *)options)->change, &scene));
+    const iso_status status = iso_compare(ctx, &scene, show, result, &c);
+    if (!c) return status;
+    iso_record *const tables[ISO_STUDY_TABLES] = {c->difference,
+                                                  c->run[ISO_BALL].trajectory,
+                                                  c->run[ISO_POINT].trajectory,
+                                                  c->run[ISO_BY_EXACT].trajectory,
+                                                  c->from_exact[ISO_BALL],
+                                                  c->from_exact[ISO_POINT]};
+    result->found = c;
+    result->fields = iso_comparison_fields;
+    result->free = free_comparison;
+    for (int i = 0; i < ISO_STUDY_TABLES; i++) {
+        result->table[i] = tables[i];
+        if (tables[i]) iso_record_set_kind(tables[i], i > 0 && i < 4 ? "trajectory" : "compare");
+    }
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        if (scene.effects.on[e] && iso_effect_list[e]->ball_only)
+            iso_study_note(result, "'%s' acts on nothing and is not compared", iso_effect_list[e]->name);
+    const iso_status made = describe(ctx, &scene, c);
+    return status == ISO_OK ? made : status;
+}
+
+const iso_option iso_compare_option[] = {
+    ISO_OPTION_METHOD(iso_compare_request, change),
+    ISO_OPTION_TOLERANCE(ISO_TOLERANCE_OF_STEPS, iso_compare_request, change.tolerance),
+    ISO_OPTION_T_END(iso_compare_request, change),
+    ISO_OPTION_STEP(iso_compare_request, change),
+    ISO_OPTION_END,
+};
+
+const iso_study iso_compare_study = {"compare",
+                                     "compute an orbit by every backend and show the differences",
+                                     iso_compare_option,
+                                     sizeof(iso_compare_request),
+                                     begin,
+                                     .run = run,
+                                     .of = ISO_STUDY_OF_SCENE};

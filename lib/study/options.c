@@ -1,10 +1,14 @@
 /* options.c - options of studies as text, and tables that begin with what they found (see study.h). */
 #include <math.h>
+#include <stdarg.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/nearest_impl.h"
 #include "base/number_impl.h"
+#include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/options_impl.h"
 
@@ -57,6 +61,40 @@ WHOLE(count_size, size_t, 1)
 WHOLE(seed, uint64_t, 0)
 /* clang-format on */
 
+bool iso_set_bound(void *at, const char *text)
+{
+    return iso_set_number(at, text) && *(double *)at >= 0;
+}
+
+bool iso_set_vector(void *at, const char *text)
+{
+    double *x = at;
+    for (int i = 0; i < 3; i++) {
+        const size_t length = strcspn(text, ",");
+        if (!iso_number_read(text, length, &x[i]) || (text[length] == ',') != (i < 2)) return false;
+        text += length + 1;
+    }
+    return true;
+}
+
+const char *iso_backend_word(int i)
+{
+    static const char *const words[] = {"ball", "point", "exact", "auto", NULL};
+    return words[i];
+}
+
+bool iso_set_backend(void *at, const char *text)
+{
+    for (int i = 0; iso_backend_name(i); i++)
+        if (strcmp(text, iso_backend_name(i)) == 0) return *(iso_backend *)at = (iso_backend)i, true;
+    return false;
+}
+
+bool iso_set_method(void *at, const char *text)
+{
+    return (strcmp(text, "auto") == 0 || iso_method_find(text)) && iso_set_text(at, text);
+}
+
 const char *iso_models_word(int i)
 {
     return i < ISO_SHOW_START ? iso_shown_name(i) : NULL;
@@ -86,14 +124,143 @@ iso_status iso_study_set(iso_context *ctx, const iso_study *study, const char *n
                             o->argument ? o->expected : "true");
 }
 
+const char *iso_option_type(const iso_option *o)
+{
+    static const struct {
+        bool (*set)(void *at, const char *text);
+        const char *type;
+    } types[] = {{iso_set_flag, "flag"},        {iso_set_number, "number"},    {iso_set_positive, "number"},
+                 {iso_set_tolerance, "number"}, {iso_set_bound, "number"},     {iso_set_vector, "numbers"},
+                 {iso_set_whole, "whole"},      {iso_set_count, "whole"},      {iso_set_whole_int, "whole"},
+                 {iso_set_count_int, "whole"},  {iso_set_whole_long, "whole"}, {iso_set_count_long, "whole"},
+                 {iso_set_whole_size, "whole"}, {iso_set_count_size, "whole"}, {iso_set_seed, "whole"}};
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (types[i].set == o->set) return types[i].type;
+    return o->word ? "word" : "text";
+}
+
+/* --- scenes ----------------------------------------------------------------------------------------------------- */
+
+/* What an option says does not stand in the file. Of end and step, a wrong one may be due to the other. */
+static void forget_places(const iso_scene_changes *c, iso_scene *scene)
+{
+    if (c->method) iso_scene_forget_place(scene, "method");
+    if (isnan(c->end) && isnan(c->step)) return;
+    iso_scene_forget_place(scene, "end");
+    iso_scene_forget_place(scene, "step");
+}
+
+iso_status iso_scene_apply(iso_context *ctx, const iso_scene_changes *c, iso_scene *scene)
+{
+    if ((int)c->backend >= 0) scene->backend = c->backend;
+    if ((int)c->as >= 0) scene->as = c->as, scene->columns = 0;
+    if (c->method) snprintf(scene->method, sizeof scene->method, "%s", c->method);
+    if (!isnan(c->tolerance)) scene->tolerance = c->tolerance;
+    if (!isnan(c->end)) scene->end = c->end;
+    if (!isnan(c->step)) scene->step = c->step;
+    forget_places(c, scene);
+    return iso_scene_check_times(ctx, scene);
+}
+
+/* --- asking ----------------------------------------------------------------------------------------------------- */
+
+static iso_status refuse_subject(iso_context *ctx, const iso_study *study, const iso_study_subject *subject)
+{
+    if (study->of & ISO_STUDY_OF_SCENE && !subject->scene)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scene", "%s needs a scene", study->name);
+    if (study->of & ISO_STUDY_OF_RECORD && !subject->record)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "record", "%s needs a trajectory", study->name);
+    if (subject->scene && !(study->of & (ISO_STUDY_OF_SCENE | ISO_STUDY_USES_SCENE)))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scene", "%s takes no scene", study->name);
+    if (subject->record && !(study->of & ISO_STUDY_OF_RECORD))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "record", "%s takes no trajectory", study->name);
+    return ISO_OK;
+}
+
+/* Ends the words of text, which then are names and values in turn. */
+static iso_status set_options(iso_context *ctx, const iso_study *study, char *text, void *how)
+{
+    iso_status status = ISO_OK;
+    for (char *name = text, *next; status == ISO_OK && *name; name = next) {
+        next = name + strcspn(name, "\n");
+        if (*next) *next++ = '\0';
+        char *value = strchr(name, '=');
+        if (!value) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "'%s' is no option: write NAME=VALUE", name);
+        *value++ = '\0';
+        status = iso_study_set(ctx, study, name, value, how);
+    }
+    return status;
+}
+
+static iso_status ask(iso_context *ctx, const iso_study *study, const iso_study_subject *subject, char *text,
+                      void *how, iso_study_result *result)
+{
+    iso_status status = refuse_subject(ctx, study, subject);
+    if (status != ISO_OK) return status;
+    study->begin(how);
+    status = set_options(ctx, study, text, how);
+    if (status == ISO_OK && study->prepare) status = study->prepare(ctx, how);
+    if (status == ISO_BAD_INPUT) status = ISO_BAD_ARGUMENT; /* it is the call that is wrong, no file */
+    if (status == ISO_OK) status = study->run(ctx, subject, how, result);
+    if (study->end) study->end(how);
+    return status;
+}
+
+iso_status iso_study_ask(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
+                         const char *options, iso_study_result *result)
+{
+    char *text = strdup(options ? options : "");
+    void *how = malloc(study->size);
+    const iso_status status =
+        text && how ? ask(ctx, study, subject, text, how, result) : iso_context_no_memory(ctx, "a study");
+    free(how);
+    free(text);
+    if (status != ISO_OK && (!result->table[0] || iso_record_rows(result->table[0]) == 0))
+        iso_study_result_free(result);
+    return status;
+}
+
+void iso_study_result_free(iso_study_result *result)
+{
+    for (int i = 0; i < ISO_STUDY_TABLES; i++) {
+        iso_record_free(result->table[i]);
+        result->table[i] = NULL;
+    }
+    if (result->free) result->free(result->found);
+    result->found = NULL;
+    result->free = NULL;
+}
+
+void iso_study_note(const iso_study_result *result, const char *format, ...)
+{
+    char words[640];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(words, sizeof words, format, args);
+    va_end(args);
+    if (result->note) result->note(result->data, words);
+}
+
+void iso_study_progress(const iso_study_result *result, double part)
+{
+    if (result->progress) result->progress(part, result->data);
+}
+
 /* --- tables ----------------------------------------------------------------------------------------------------- */
 
+void iso_fields_rename(const iso_field *fields, const char *old, const char *name, iso_field copy[ISO_MOST_FIELDS])
+{
+    iso_fields_copy(fields, NULL, copy);
+    for (iso_field *f = copy; f->name; f++)
+        if (strcmp(f->name, old) == 0) f->name = name;
+}
+
 iso_status iso_study_table(iso_context *ctx, const char *kind, const iso_scene *scene, const iso_field *fields,
-                           const void *result, const iso_field *rows, iso_record **table)
+                           const void *found, const iso_field *rows, iso_record **table)
 {
     static const iso_field none[] = {ISO_FIELD_END};
     ISO_TRY(iso_columns_create(ctx, rows ? rows : none, table));
     iso_record_set_kind(*table, kind);
-    iso_status status = iso_record_describe_scene(ctx, *table, scene);
-    return status == ISO_OK ? iso_record_set_fields(ctx, *table, fields, result) : status;
+    const iso_status status = scene ? iso_record_describe_scene(ctx, *table, scene) : ISO_OK;
+    return status == ISO_OK && fields ? iso_record_set_fields(ctx, *table, fields, found) : status;
 }

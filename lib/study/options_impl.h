@@ -7,12 +7,16 @@
 #include "study/study.h"
 
 /* The studies and their options. Each stands in the room of its study. Their tables: of chaos the orbits and both
- * traces; of periodic the orbits; of section the crossings, and those that the point finds; frequencies and integrals
- * have one without rows. */
-extern const iso_study iso_chaos_study, iso_frequencies_study, iso_integrals_study, iso_periodic_study,
-    iso_section_study;
-extern const iso_option iso_chaos_option[], iso_frequencies_option[], iso_integrals_option[], iso_periodic_option[],
-    iso_section_option[];
+ * traces; of periodic the orbits, the branches or the chart; of section the crossings, and those that the point finds,
+ * or the clouds; of splitting and cost their rows; of compare the differences, and those of ball and point from the
+ * closed solution; of check the residuals. Those of the others have no rows. */
+#define ISO_STUDY_LIST(X)                                                                                            \
+    X(section)                                                                                                       \
+    X(chaos) X(frequencies) X(periodic) X(splitting) X(integrals) X(cost) X(compare) X(check) X(explain) X(analogue)
+#define ISO_STUDY_DECLARE(name)                                                                                      \
+    extern const iso_study iso_##name##_study;                                                                       \
+    extern const iso_option iso_##name##_option[];
+ISO_STUDY_LIST(ISO_STUDY_DECLARE)
 
 /* Setters: each reads one kind of argument into the member at `at`. Whole numbers are below 9e15; an int becomes at
  * most 1e9. */
@@ -29,10 +33,15 @@ bool iso_set_whole_long(void *at, const char *text);
 bool iso_set_count_long(void *at, const char *text);
 bool iso_set_whole_size(void *at, const char *text); /* size_t                              */
 bool iso_set_count_size(void *at, const char *text);
-bool iso_set_seed(void *at, const char *text);   /* uint64_t, from 0 on                      */
-bool iso_set_models(void *at, const char *text); /* iso_models: a word of iso_models_word    */
-const char *iso_models_word(int i);              /* "ball", "point", "both"                  */
-bool iso_set_at(void *at, const char *text);     /* one more of iso_section_words  */
+bool iso_set_seed(void *at, const char *text);    /* uint64_t, from 0 on                      */
+bool iso_set_models(void *at, const char *text);  /* iso_models: a word of iso_models_word    */
+const char *iso_models_word(int i);               /* "ball", "point", "both"                  */
+bool iso_set_at(void *at, const char *text);      /* one more of iso_section_words  */
+bool iso_set_bound(void *at, const char *text);   /* double, >= 0                           */
+bool iso_set_vector(void *at, const char *text);  /* double[3], three numbers and commas    */
+bool iso_set_method(void *at, const char *text);  /* const char *, a method or auto         */
+bool iso_set_backend(void *at, const char *text); /* iso_backend: a word of iso_backend_word */
+const char *iso_backend_word(int i);              /* "ball", "point", "exact", "auto"       */
 
 #define ISO_AT_EXPECTED "l,x, at most 64 times"
 #define ISO_SEED_SPREADS "another number spreads --starts in another way (default 0)"
@@ -59,17 +68,68 @@ bool iso_set_at(void *at, const char *text);     /* one more of iso_section_word
         .offset = offsetof(type, member), .letter = 'j', .aside = true                                               \
     }
 
-/* begin() of a study whose options are the struct T. */
-#define ISO_STUDY_BEGIN(T, defaults)                                                                                 \
-    static void begin(void *options)                                                                                 \
+/* --- what changes something in a scene --------------------------------------------------------------------------- */
+
+typedef struct iso_scene_changes {
+    const char *method;          /* NULL: as the scene says */
+    iso_backend backend;         /* -1: as the scene says   */
+    iso_models as;               /* likewise                */
+    double tolerance, end, step; /* NAN: as the scene says  */
+} iso_scene_changes;
+
+#define ISO_SCENE_AS_IT_IS                                                                                           \
     {                                                                                                                \
-        *(T *)options = defaults();                                                                                  \
+        .backend = (iso_backend)-1, .as = (iso_models)-1, .tolerance = NAN, .end = NAN, .step = NAN                  \
     }
 
-/* A table of a study: its kind, the scene, the result in its lines, and the columns of `rows` (NULL: none). Later
- * calls add rows. Errors: ISO_NO_MEMORY. */
+/* Their rows; `change` is the place of an iso_scene_changes in the struct `type`. */
+#define ISO_OPTION_WORDS(key, argument_, expected_, doc_, set_, type, member, word_)                                 \
+    {                                                                                                                \
+        .name = key, .argument = argument_, .expected = expected_, .doc = doc_, .set = set_,                         \
+        .offset = offsetof(type, member), .word = word_                                                              \
+    }
+#define ISO_OPTION_BACKEND(type, change)                                                                             \
+    ISO_OPTION_WORDS("backend", "B", "ball, point, exact or auto",                                                   \
+                     "what computes the orbit: ball, point, exact, auto", iso_set_backend, type, change.backend,     \
+                     iso_backend_word)
+#define ISO_OPTION_METHOD(type, change)                                                                              \
+    ISO_OPTION_WORDS("method", "NAME", "a method of 'isoroll list methods', or auto", "the integrator, or auto",     \
+                     iso_set_method, type, change.method, iso_method_word)
+#define ISO_OPTION_T_END(type, change)                                                                               \
+    ISO_OPTION("t-end", "T", "a number", "last time, in place of the scene's", iso_set_number, type, change.end)
+#define ISO_OPTION_STEP(type, change)                                                                                \
+    ISO_OPTION("step", "DT", "a positive number", "time between rows, in place of the scene's", iso_set_positive,    \
+               type, change.step)
+
+typedef struct iso_compare_request {
+    iso_scene_changes change;
+} iso_compare_request;
+
+/* Puts the changes into the scene. Errors: those of iso_scene_check_times. */
+iso_status iso_scene_apply(iso_context *ctx, const iso_scene_changes *change, iso_scene *scene);
+
+/* --- results ---------------------------------------------------------------------------------------------------- */
+
+/* begin() of a study whose options are the struct T. */
+#define ISO_STUDY_BEGIN(T, ...)                                                                                      \
+    static void begin(void *options)                                                                                 \
+    {                                                                                                                \
+        *(T *)options = __VA_ARGS__;                                                                                 \
+    }
+
+/* Passes a remark on, in printf's words. */
+void iso_study_note(const iso_study_result *result, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The part of the work that is done, from a study whose own function takes other arguments. */
+void iso_study_progress(const iso_study_result *result, double part);
+
+/* Copies fields, one of them with another name. */
+void iso_fields_rename(const iso_field *fields, const char *old, const char *name, iso_field copy[ISO_MOST_FIELDS]);
+
+/* The first table of a study: its kind, the scene (NULL: none), what is found in its lines (fields NULL: nothing), and
+ * the columns of `rows` (NULL: none). Later calls add rows. Errors: ISO_NO_MEMORY. */
 iso_status iso_study_table(iso_context *ctx, const char *kind, const iso_scene *scene, const iso_field *fields,
-                           const void *result, const iso_field *rows, iso_record **table);
+                           const void *found, const iso_field *rows, iso_record **table);
 
 /* The texts given for axis and starts; NULL: not given. `points`: those of `at`, allocated by prepare, freed by
  * end. */

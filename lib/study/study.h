@@ -1,16 +1,11 @@
-/* study.h - studies by their names, with options as text: what the command, Python and others ask of every study.
+/* study.h - studies by their names, with options as text: what the command, Python and others ask of a scene or of a
+ * trajectory.
  *
- *     const iso_study *study = iso_study_find("chaos");
- *     iso_study_result result = {0};
- *     void *how = malloc(study->size);
- *     study->begin(how);
- *     status = iso_study_set(ctx, study, "turns", "500", how);
- *     if (status == ISO_OK && study->prepare) status = study->prepare(ctx, how);
- *     if (status == ISO_OK) status = study->run(ctx, &scene, how, &result);
- *     if (study->end) study->end(how);
- *     free(how);
- *
- * Then result.table[0] has a row for each orbit; iso_record_free frees it.
+ *     iso_study_result result = {.note = show, .progress = draw};
+ *     const iso_study_subject subject = {.scene = &scene};
+ *     status = iso_study_ask(ctx, iso_study_find("chaos"), &subject, "turns=500\nstarts=20", &result);
+ *     ... iso_record_rows(result.table[0]) ...
+ *     iso_study_result_free(&result);
  *
  * An option of a study is described once, by an iso_option: its name, help and place in the struct of options. The
  * command line and the calls for other languages are read by the same rows.
@@ -22,6 +17,7 @@
 #include <stddef.h>
 
 #include "../base/api.h"
+#include "../base/field.h"
 #include "../base/record.h"
 #include "../orbit/scene.h"
 
@@ -49,27 +45,46 @@ typedef struct iso_option {
         .offset = offsetof(type, member)                                                                             \
     }
 
-enum { ISO_STUDY_TABLES = 3, ISO_STUDY_MOST_AT = 64 };
+/* What its text is: "flag", "whole", "number", "numbers" (three, with commas between), "word", or "text". */
+ISO_API const char *iso_option_type(const iso_option *option);
 
-/* What a study gives. The tables are the caller's to free; NULL: there is none. */
+enum { ISO_STUDY_TABLES = 6, ISO_STUDY_MOST_AT = 64 };
+
+/* What is studied. */
+typedef struct iso_study_subject {
+    const iso_scene *scene;   /* NULL: none               */
+    const iso_record *record; /* a trajectory; NULL: none */
+} iso_study_subject;
+
+/* What a study gives, and whom it tells. */
 typedef struct iso_study_result {
+    /* NULL: there is none. The lines of the first table hold the scene, and the whole result with the names of the
+     * command's JSON. */
     iso_record *table[ISO_STUDY_TABLES];
-    void (*note)(void *data, const char *words); /* called with a remark for the user; NULL: remarks are dropped */
+    const iso_field *fields; /* of `found`: the result as a struct, ...                         */
+    void *found;             /* ... which some studies have besides                             */
+    void (*free)(void *found);
+    void (*note)(void *data, const char *words); /* called with a remark for the user; NULL: nobody is */
+    void (*progress)(double part, void *data);   /* the part of the work that is done, in [0, 1]; NULL: nobody is */
     void *data;
 } iso_study_result;
 
+/* What a study needs, ... and what it can use as well. */
+enum { ISO_STUDY_OF_SCENE = 1, ISO_STUDY_OF_RECORD = 2, ISO_STUDY_USES_SCENE = 4 };
+
 typedef struct iso_study {
-    const char *name;
+    const char *name, *doc; /* doc: one line */
     const iso_option *options;
     size_t size;                  /* of its struct of options */
     void (*begin)(void *options); /* puts the defaults there */
     void (*end)(void *options);   /* frees what `prepare` has allocated; NULL: nothing */
-    /* Reads the arguments that setters only kept as text; NULL: there are none. Errors: ISO_BAD_INPUT,
-     * ISO_BAD_ARGUMENT. */
+    /* Reads the arguments that setters only kept as text, and refuses options that exclude each other; NULL: there is
+     * nothing to do. Errors: ISO_BAD_INPUT, ISO_BAD_ARGUMENT. */
     iso_status (*prepare)(iso_context *ctx, void *options);
-    /* The `key: value` lines of the first table hold the whole result, with the names of the command's JSON. After an
-     * error the tables may have what was found before. Errors: those of the study. */
-    iso_status (*run)(iso_context *ctx, const iso_scene *scene, const void *options, iso_study_result *result);
+    /* After an error the result may have what was found before. Errors: those of the study. */
+    iso_status (*run)(iso_context *ctx, const iso_study_subject *subject, const void *options,
+                      iso_study_result *result);
+    unsigned of; /* ISO_STUDY_OF_SCENE, ... */
 } iso_study;
 
 /* The i-th study; NULL past the end. By its name; NULL: there is none. */
@@ -80,6 +95,14 @@ ISO_API const iso_study *iso_study_find(const char *name);
  * name. */
 ISO_API iso_status iso_study_set(iso_context *ctx, const iso_study *study, const char *name, const char *text,
                                  void *options);
+
+/* Runs a study. options: lines NAME=VALUE with a newline between, or NULL. Errors: ISO_BAD_ARGUMENT about an option,
+ * or about "scene" or "record", which the study needs; those of the study. Without a row the tables are NULL then. */
+ISO_API iso_status iso_study_ask(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
+                                 const char *options, iso_study_result *result);
+
+/* Frees the tables and what was found. */
+ISO_API void iso_study_result_free(iso_study_result *result);
 
 ISO_C_END
 

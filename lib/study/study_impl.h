@@ -2,8 +2,11 @@
 #ifndef ISO_STUDY_STUDY_IMPL_H
 #define ISO_STUDY_STUDY_IMPL_H
 
+#include <stdio.h>
+
 #include "map/section.h"
 #include "study/analogue.h"
+#include "study/compare.h"
 #include "study/error.h"
 #include "study/level.h"
 #include "study/verdict.h"
@@ -118,6 +121,38 @@ iso_status iso_error_finder_add(iso_error_finder *finder, const iso_sample *row)
 
 /* The errors of the rows so far; with rows = 0 nothing is known. */
 iso_error iso_error_finder_read(const iso_error_finder *finder);
+
+/* --- effects in words (effects.c) ------------------------------------------------------------------------------- */
+
+/* Prints those that act, with their numbers and, if wanted, what they are. Prints nothing where none acts. */
+void iso_effects_print(FILE *to, const iso_effects *effects, bool docs);
+
+/* --- comparisons (compare_fields.c) ----------------------------------------------------------------------------- */
+
+/* Fields of a comparison, whose names depend on it: the largest differences. where: before the name; offset: of the
+ * numbers. */
+typedef struct iso_worst_fields {
+    char name[ISO_DIFFERENCES - 1][ISO_COLUMN_SIZE];
+    iso_field field[ISO_DIFFERENCES];
+} iso_worst_fields;
+void iso_comparison_worst(const iso_comparison *c, const char *where, size_t offset, iso_worst_fields *w);
+
+/* --- the study analogue (analogue_study.c) ---------------------------------------------------------------------- */
+
+typedef struct iso_analogue_request {
+    double k, J[3], eps, neumann[3], energy; /* NAN: not given               */
+    double mass, radius;                     /* NAN: analogue chooses        */
+    bool level;
+} iso_analogue_request;
+
+/* Whether the options state a problem. If not, a scene must. */
+bool iso_analogue_is_stated(const iso_analogue_request *request);
+
+typedef struct iso_analogue_found {
+    iso_analogue analogue;
+    iso_analogue_ball ball;
+    char *text; /* the scene of the ball, with a report in # lines */
+} iso_analogue_found;
 
 /* --- analogue_units.c ------------------------------------------------------------------------------------------- */
 

@@ -148,6 +148,11 @@ iso_status iso_sweep_write(iso_context *ctx, const char *path, const iso_sweep_h
                            iso_status (*next)(iso_context *ctx, void *data, size_t c, iso_sweep_rows *rows),
                            void *data);
 
+/* The same in memory: a table without rows, to be freed also after an error, and the rows of a chunk. Errors:
+ * ISO_NO_MEMORY. */
+iso_status iso_sweep_table(iso_context *ctx, const iso_sweep_head *head, iso_record **table);
+iso_status iso_sweep_table_add(iso_context *ctx, iso_record *table, const iso_sweep_rows *rows);
+
 /* Puts the parts of one sweep together. *failures: those of all parts. Errors: ISO_FILE_TROUBLE: a part is missing,
  * is there twice, was changed or damaged, or belongs to another sweep; `path` is there. */
 iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path,

@@ -95,20 +95,43 @@ static iso_status make_header(iso_context *ctx, const iso_sweep_head *head, iso_
     return status;
 }
 
+/* Row i of a chunk as the table has it. */
+static iso_status fill_row(iso_context *ctx, iso_record *table, const iso_sweep_rows *rows, size_t i, double row[])
+{
+    const size_t columns = (size_t)rows->columns;
+    const double *number = rows->number + i * columns;
+    row[0] = (double)(rows->first + i);
+    for (size_t c = 0; c < columns; c++) row[c + 1] = isnan(number[c]) ? (double)NAN : number[c];
+    row[columns + 1] = (double)rows->status[i];
+    return iso_record_intern(ctx, table, rows->status[i] != ISO_OK ? rows->reason[i] : "", &row[columns + 2]);
+}
+
 static iso_status write_rows(iso_context *ctx, iso_table_writer *table, iso_record *header,
                              const iso_sweep_rows *rows, double row[])
 {
     iso_status status = ISO_OK;
-    const size_t columns = (size_t)rows->columns;
     for (size_t i = 0; i < rows->count && status == ISO_OK; i++) {
-        const double *number = rows->number + i * columns;
-        const bool failed = rows->status[i] != ISO_OK;
         if (!table->waits) iso_record_forget_words(header);
-        row[0] = (double)(rows->first + i);
-        for (size_t c = 0; c < columns; c++) row[c + 1] = isnan(number[c]) ? (double)NAN : number[c];
-        row[columns + 1] = (double)rows->status[i];
-        status = iso_record_intern(ctx, header, failed ? rows->reason[i] : "", &row[columns + 2]);
+        status = fill_row(ctx, header, rows, i, row);
         if (status == ISO_OK) status = iso_table_write_row(ctx, table, row);
+    }
+    return status;
+}
+
+iso_status iso_sweep_table(iso_context *ctx, const iso_sweep_head *head, iso_record **table)
+{
+    ISO_TRY(make_header(ctx, head, table));
+    iso_record_set_kind(*table, ISO_SWEEP_KIND);
+    return set_lines(ctx, *table, head, (iso_sweep_shard){0, 1}, false);
+}
+
+iso_status iso_sweep_table_add(iso_context *ctx, iso_record *table, const iso_sweep_rows *rows)
+{
+    iso_status status = ISO_OK;
+    double *row;
+    for (size_t i = 0; i < rows->count && status == ISO_OK; i++) {
+        status = iso_record_append(ctx, table, &row);
+        if (status == ISO_OK) status = fill_row(ctx, table, rows, i, row);
     }
     return status;
 }

@@ -6,6 +6,7 @@
 
 #include "orbit/batch.h"
 #include "runs.h"
+#include "study/study.h"
 
 #define FREE REDUCED("0.5") TIME
 enum { ORBITS = 700, WIDTH = 7 };
@@ -294,13 +295,13 @@ static void check_coupling(const char *eps)
 
 /* --- studies and files ------------------------------------------------------------------------------------------ */
 
-static iso_record *table_of[3];
+static iso_record *table_of[ISO_STUDY_TABLES];
 
 /* Runs a study; the tables of the one before are freed. */
 static iso_status study(const iso_foreign_scene *scene, const char *name, const char *options)
 {
-    for (int i = 0; i < 3; i++) iso_record_free(table_of[i]);
-    return iso_foreign_study(ctx, scene, name, options, table_of, notes, sizeof notes);
+    for (int i = 0; i < ISO_STUDY_TABLES; i++) iso_record_free(table_of[i]);
+    return iso_foreign_study(ctx, scene, NULL, name, options, NULL, NULL, table_of, notes, sizeof notes);
 }
 
 static void check_studies(const iso_foreign_scene *scene)
@@ -313,9 +314,9 @@ static void check_studies(const iso_foreign_scene *scene)
         for (int c = 0; c < 7; c++)
             wrong += !(fabs(iso_record_row(table_of[0], i)[c] - iso_record_row(table_of[1], i)[c]) <= 1e-7);
     gsl_test(wrong || strcmp(iso_record_kind(table_of[0]), "section") != 0, "has the same crossings");
-    gsl_test(study(scene, "chaos", "turns=50\nstarts=2\nat=0.5,0.2") != ISO_OK ||
-                 iso_record_rows(table_of[0]) != 4 || iso_record_columns(table_of[0]) != 35 || !table_of[1] ||
-                 !table_of[2] || !iso_record_get(table_of[0], "share.chaotic") ||
+    gsl_test(study(scene, "chaos", "turns=50\nstarts=2\nat=0.5,0.2") != ISO_OK || iso_record_rows(table_of[0]) != 4 ||
+                 iso_record_columns(table_of[0]) != 35 || !table_of[1] || !table_of[2] ||
+                 !iso_record_get(table_of[0], "share.chaotic") ||
                  strcmp(iso_record_get(table_of[0], "k"), "0.5") != 0,
              "chaos");
     gsl_test(study(scene, "chaos", NULL) != ISO_OK || iso_record_rows(table_of[0]) != 1, "with its defaults");
@@ -326,11 +327,12 @@ static void check_studies(const iso_foreign_scene *scene)
 static void check_numbers(void)
 {
     iso_foreign_scene *scene = made(FREE "solver: {tolerance: 1e-9}\n");
-    static const char *const bad[][2] = {
-        {"tol=nan", "tol"},      {"tol=-1e-9", "tol"},     {"tol=1e-16", "tol"},  {"tol=0.2", "tol"},
-        {"tol=inf", "tol"},      {"tol=0", "tol"},         {"starts=-1", "starts"}, {"starts=1.5", "starts"},
-        {"starts=1e17", "starts"}, {"model=x", "model"},   {"seed=", "seed"},     {"at", "at"},
-        {"mood=1", "mood"},      {"axis=4", ""},           {"at=1", ""},          {"at=1,2;x", ""}};
+    static const char *const bad[][2] = {{"tol=nan", "tol"},      {"tol=-1e-9", "tol"},     {"tol=1e-16", "tol"},
+                                         {"tol=0.2", "tol"},      {"tol=inf", "tol"},       {"tol=0", "tol"},
+                                         {"starts=-1", "starts"}, {"starts=1.5", "starts"}, {"starts=1e17", "starts"},
+                                         {"model=x", "model"},    {"seed=", "seed"},        {"at", "at"},
+                                         {"mood=1", "mood"},      {"axis=4", ""},           {"at=1", ""},
+                                         {"at=1,2;x", ""}};
     for (size_t i = 0; i < 2 * sizeof bad / sizeof *bad; i++)
         gsl_test(study(scene, i % 2 ? "chaos" : "section", bad[i / 2][0]) != ISO_BAD_ARGUMENT || table_of[0] ||
                      table_of[1] || !about(bad[i / 2][1]) || strstr(iso_context_message(ctx), "scene:"),
@@ -346,7 +348,7 @@ static void check_numbers(void)
                      strcmp(iso_record_get(table_of[0], "tolerance"),
                             own ? "9.9999999999999995e-07" : "1.0000000000000001e-09"),
                  "the section says its tolerance");
-    for (int i = 0; i < 3; i++) iso_record_free(table_of[i]);
+    for (int i = 0; i < ISO_STUDY_TABLES; i++) iso_record_free(table_of[i]);
     iso_foreign_scene_free(scene);
 }
 

@@ -185,7 +185,7 @@ static iso_status call_foreign(const hard_road *way)
 {
     iso_foreign_scene *scene = NULL;
     iso_foreign_orbit *one = NULL;
-    iso_record *ball = NULL, *point = NULL, *section[3] = {NULL}, *chaos[3] = {NULL};
+    iso_record *ball = NULL, *point = NULL, *section[6] = {NULL}, *chaos[6] = {NULL};
     char notes[80];
     double table[4 * 7];
     (void)way;
@@ -205,13 +205,15 @@ static iso_status call_foreign(const hard_road *way)
         status = iso_foreign_batch(ctx, (const iso_foreign_scene *[]){scene}, 1, 4, (double[]){1, 2, 3, 4}, NULL,
                                    NULL, (double[]){1}, 1, 1, NULL, table, NULL);
     if (status == ISO_OK)
-        status = iso_foreign_study(ctx, scene, "section", "crossings=2\nat=0.5,0.2\nthreads=1", section, notes, 80);
+        status = iso_foreign_study(ctx, scene, NULL, "section", "crossings=2\nat=0.5,0.2\nthreads=1", NULL, NULL,
+                                   section, notes, 80);
     if (status == ISO_OK)
-        status = iso_foreign_study(ctx, scene, "chaos", "turns=4\nstarts=1\nthreads=1", chaos, notes, 80);
+        status = iso_foreign_study(ctx, scene, NULL, "chaos", "turns=4\nstarts=1\nthreads=1", NULL, NULL, chaos, notes,
+                                   80);
     digits = status == ISO_OK ? digits + table[27] + iso_record_row(section[1], 3)[6] : 0;
     iso_record_free(ball);
     iso_record_free(point);
-    for (int i = 0; i < 3; i++) iso_record_free(section[i]), iso_record_free(chaos[i]);
+    for (int i = 0; i < 6; i++) iso_record_free(section[i]), iso_record_free(chaos[i]);
     iso_foreign_orbit_free(one);
     iso_foreign_scene_free(scene);
     return status;

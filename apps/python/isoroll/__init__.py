@@ -19,7 +19,8 @@ from ._library import lib as _lib
 from ._kinds import Branch, Chaos, Chart, Cost, Periodic, Section, Share, Splitting, Sweep, Trajectory
 from ._orbit import Batch, Orbit, batch, orbit, run
 from ._scene import Scene
-from ._study import chaos, section, study
+from ._instruments import *
+from ._study import study
 from ._table import Table, trajectory
 from ._version import __version__ as __version__
 

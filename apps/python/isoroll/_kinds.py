@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Mapping, NamedTuple, Optional
+import html
+from typing import Any, Dict, Iterable, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,6 +118,78 @@ class Sweep(Table):
     _kind = "sweep"
 
 
-for _class in (Trajectory, Section, Chaos, Periodic, Branch, Chart, Splitting, Cost, Sweep):
+class Comparison(Table):
+    """An orbit by every backend: differences of ball and point over the time.
+
+    ball, point, exact       the orbits themselves; None where there is none
+    ball_exact, point_exact  differences from the closed solution; None where there is none
+    """
+
+    _kind = "compare"
+    ball: Optional[Table] = None
+    point: Optional[Table] = None
+    exact: Optional[Table] = None
+    ball_exact: Optional[Table] = None
+    point_exact: Optional[Table] = None
+
+
+def _with_lists(found: Any) -> Any:
+    """Dicts whose keys are 0, 1, 2, ... as lists."""
+    if not isinstance(found, dict):
+        return found
+    values = {key: _with_lists(value) for key, value in found.items()}
+    return list(values.values()) if values and list(values) == [str(i) for i in range(len(values))] else values
+
+
+class Result(Table):
+    """A result without rows: what was found stands in its lines, by the names of the command's --json.
+
+    >>> isoroll.frequencies("scene.yaml").rotation_number
+    >>> isoroll.frequencies("scene.yaml").angles[0]["frequency"]["t"]
+
+    tree  all lines as dicts and lists: tree["angles"][0]["frequency"]["t"] is the line "angles.0.frequency.t"
+    text  of explain and analogue: what the command prints; of others: the lines
+    """
+
+    @property
+    def tree(self) -> Dict[str, Any]:
+        """The lines as dicts and lists; the first of them can also be written as attributes."""
+        found: Dict[str, Any] = {}
+        for key, value in self.lines.items():
+            *path, last = key.split(".")
+            place = found
+            for step in path:
+                inner = place.setdefault(step, {})
+                place = inner if isinstance(inner, dict) else place.setdefault(step + ".", {})
+            place[last] = value
+        return _with_lists(found)  # type: ignore[no-any-return]
+
+    @property
+    def text(self) -> str:
+        """What the command prints, or the lines."""
+        lines = self.lines.text
+        return lines["text"] if "text" in lines else "\n".join(f"{key}: {value}" for key, value in lines.items())
+
+    def __getattr__(self, name: str) -> Any:
+        if not name.startswith("_") and "_columns" in self.__dict__ and name in self.tree:
+            return self.tree[name]
+        return super().__getattr__(name)
+
+    def __dir__(self) -> Iterable[str]:
+        return [*super().__dir__(), *(key for key in self.tree if key.isidentifier())]
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(self.text)}</pre>"
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __repr__(self) -> str:
+        return f"<isoroll.Result: {self.kind}; {', '.join(self.lines)}>"
+
+
+for _class in (Comparison, Trajectory, Section, Chaos, Periodic, Branch, Chart, Splitting, Cost, Sweep):
     CLASSES[_class._kind] = _class
 CLASSES["sweep part"] = Sweep
+for _kind in ("frequencies", "integrals", "explain", "analogue"):
+    CLASSES[_kind] = Result

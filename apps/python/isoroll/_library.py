@@ -17,7 +17,7 @@ from typing import Any, Callable, Iterator, List, Optional, Tuple
 from . import _errors
 from ._version import __version__
 
-ABI = 2  # ISO_FOREIGN_ABI of lib/foreign/foreign.h
+ABI = 3  # ISO_FOREIGN_ABI of lib/foreign/foreign.h
 _OBJECT = POINTER(c_void_p)  # where a new object goes
 
 _NAMES = {"darwin": "libisoroll.0.dylib", "win32": "isoroll.dll"}
@@ -36,6 +36,7 @@ _TABLE = {
     "iso_foreign_monitor_create": (c_int, c_void_p, c_double, c_void_p, c_void_p, _OBJECT),
     "iso_foreign_monitor_free": (None, c_void_p),
     "iso_column_name": (c_char_p, c_int),
+    "iso_column_doc": (c_char_p, c_int, POINTER(c_char_p)),
     "iso_record_create": (c_int, c_void_p, c_size_t, POINTER(c_char_p), _OBJECT),
     "iso_record_free": (None, c_void_p),
     "iso_record_kind": (c_char_p, c_void_p),
@@ -75,9 +76,17 @@ _TABLE = {
     "iso_orbit_has_twin": (c_bool, c_void_p),
     "iso_foreign_batch": (c_int, c_void_p, POINTER(c_void_p), c_size_t, c_size_t, c_void_p, c_void_p, c_void_p,
                           c_void_p, c_size_t, c_int, c_char_p, c_void_p, c_void_p),
-    "iso_foreign_study": (c_int, c_void_p, c_void_p, c_char_p, c_char_p, c_void_p) + _NOTES,
+    "iso_foreign_study": (c_int, c_void_p, c_void_p, c_void_p, c_char_p, c_char_p, c_void_p, c_void_p,
+                          c_void_p) + _NOTES,
+    "iso_foreign_study_name": (c_char_p, c_int),
+    "iso_foreign_study_doc": (c_char_p, c_char_p),
+    "iso_foreign_study_of": (c_int, c_char_p),
+    "iso_foreign_option": (c_bool, c_char_p, c_int, POINTER(c_char_p)),
+    "iso_foreign_option_word": (c_char_p, c_char_p, c_int, c_int),
+    "iso_foreign_table_kind": (c_char_p, c_int),
+    "iso_foreign_column": (c_bool, c_char_p, c_int, c_char_p, POINTER(c_char_p)),
+    "iso_foreign_sweep": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, c_int, c_void_p, c_void_p, _OBJECT),
     "iso_foreign_read": (c_int, c_void_p, c_char_p, c_char_p, _OBJECT) + _NOTES,
-    "iso_foreign_column_doc": (c_char_p, c_char_p, c_char_p, POINTER(c_char_p)),
     "iso_foreign_write": (c_int, c_void_p, c_char_p, c_void_p, c_int, c_char_p),
     "iso_foreign_convert": (c_int, c_void_p, c_void_p, c_char_p, c_double, c_double, c_bool, _OBJECT) + _NOTES,
 }

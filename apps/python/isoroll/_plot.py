@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from . import _errors
 from ._plot_orbits import draw_chaos, draw_periodic, draw_section, draw_trajectory
-from ._plot_parts import (BLUE, DARK, FAR_BLUE, GREEN, LINE, Numbers, ORANGE, PINK, SKY, VERMILLION, axes_of, given, name_of, needs, plain, pyplot, title_of)
+from ._plot_parts import (BLUE, DARK, FAR_BLUE, GREEN, LINE, Numbers, ORANGE, PINK, SKY, VERMILLION, axes_of, given,
+                           name_of, needs, plain, pyplot, title_of)
 from ._table import VECTORS, Table
 
 

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _errors
-from ._plot_parts import (BLUE, DARK, FAR_BLUE, GREY, LINE, Numbers, ORANGE, PI_TICKS, axes_of, axis_of, given, name_of, needs, plain, pyplot, title_of)
+from ._plot_parts import (BLUE, DARK, FAR_BLUE, GREY, LINE, Numbers, ORANGE, PI_TICKS, axes_of, axis_of, given,
+                           name_of, needs, plain, pyplot, title_of)
 from ._table import Table
 
 _MOST_ROWS = 5000  # of a path
@@ -38,8 +39,8 @@ def _graticule() -> Numbers:
 
 def _sphere(ax: Any, paths: Numbers, title: str) -> None:
     """The unit sphere with paths on it, shape (paths, rows, 3): the far side pale, the near side on top."""
-    pyplot, lattice = pyplot(), _graticule()
-    ax.add_patch(pyplot.Circle((0, 0), 1, fc="#F4F6F8", ec="#8A939B", zorder=0))
+    lattice = _graticule()
+    ax.add_patch(pyplot().Circle((0, 0), 1, fc="#F4F6F8", ec="#8A939B", zorder=0))
     colours = [BLUE] if len(paths) == 1 else [colour_of(i) for i in range(len(paths))]
     for near in (False, True):
         ax.plot(*_project(lattice, near), color="#B9C0C7" if near else "#DDE1E5", lw=0.6, zorder=1 + 2 * near)

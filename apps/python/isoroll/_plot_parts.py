@@ -17,8 +17,6 @@ PI_TICKS = ((-np.pi, -np.pi / 2, 0, np.pi / 2, np.pi), ("−π", "−π/2", "0",
 Numbers = NDArray[np.float64]
 
 
-
-
 def pyplot() -> Any:
     try:
         import matplotlib.pyplot as found

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import html
 import os
-from ctypes import byref, c_char_p, c_double
+from ctypes import byref, c_char_p, c_double, create_string_buffer
 from types import MappingProxyType
 from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
 
@@ -150,7 +151,7 @@ class Table:
         return {name: doc for name, (_, doc) in self._described().items()}
 
     def _described(self) -> Dict[str, Tuple[str, str]]:
-        return {name: column_doc(self.kind, name) for name in self.columns}
+        return {name: columns_of(self.kind).get(name, ("", "")) for name in self.columns}
 
     # --- columns -----------------------------------------------------------------------------------------------------
 
@@ -306,11 +307,20 @@ class Table:
 CLASSES: Dict[str, Type[Table]] = {}
 
 
-def column_doc(kind: str, name: str) -> Tuple[str, str]:
-    """The unit and the meaning of a column of a kind of table; of one that is not known both are ""."""
-    unit = c_char_p()
-    doc = lib.iso_foreign_column_doc(kind.encode(), name.encode(), byref(unit))
-    return (unit.value or b"").decode(), (doc or b"").decode()
+@functools.lru_cache(maxsize=None)
+def columns_of(kind: str) -> Mapping[str, Tuple[str, str]]:
+    """The columns of a kind of table: name, unit and meaning. Of one that is not known: those of a trajectory."""
+    name, text, unit = create_string_buffer(64), (c_char_p * 2)(), c_char_p()
+    found: Dict[str, Tuple[str, str]] = {}
+    i = 0
+    while lib.iso_foreign_column(kind.encode(), i, name, text):
+        found[name.value.decode()] = (text[0] or b"").decode(), (text[1] or b"").decode()
+        i += 1
+    i = 0
+    while doc := lib.iso_column_doc(i, byref(unit)):
+        found.setdefault(lib.iso_column_name(i).decode(), ((unit.value or b"").decode(), doc.decode()))
+        i += 1
+    return found
 
 
 def new_record() -> New:

@@ -22,7 +22,15 @@ static iso_status prepare(iso_context *ctx, void *options)
     return iso_section_words_read(ctx, &r->words, &r->how.axis, &r->how.at, &r->how.at_count);
 }
 
-/* A row for each orbit, that of the scene first. */
+/* The traces are tables of the result. */
+static void free_chaos(void *found)
+{
+    iso_chaos *c = found;
+    if (c) c->trace[ISO_BALL] = c->trace[ISO_POINT] = NULL;
+    iso_chaos_free(c);
+}
+
+/* A row for each orbit that was followed, that of the scene first. */
 static iso_status put_orbits(iso_context *ctx, const iso_scene *scene, const iso_chaos *c, iso_record **table)
 {
     iso_field fields[ISO_MOST_FIELDS];
@@ -31,19 +39,26 @@ static iso_status put_orbits(iso_context *ctx, const iso_scene *scene, const iso
     if (status == ISO_OK && c->failure != ISO_OK) status = iso_record_set(ctx, *table, "failure", c->words);
     if (status == ISO_OK) status = iso_columns_append(ctx, fields, &c->own, *table);
     for (size_t i = 0; status == ISO_OK && i < c->starts; i++)
-        status = iso_columns_append(ctx, fields, &c->start[i], *table);
+        if (iso_chaos_followed(&c->start[i])) status = iso_columns_append(ctx, fields, &c->start[i], *table);
     return status;
 }
 
-static iso_status run(iso_context *ctx, const iso_scene *scene, const void *options, iso_study_result *result)
+static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
+                      iso_study_result *result)
 {
-    const iso_chaos_request *r = options;
+    iso_chaos_options how = ((const iso_chaos_request *)options)->how;
     iso_chaos *c = NULL;
-    iso_status status = iso_chaos_run(ctx, scene, &r->how, &c);
-    if (status == ISO_OK) status = put_orbits(ctx, scene, c, &result->table[0]);
-    for (int m = 0; status == ISO_OK && m < 2; m++) result->table[1 + m] = c->trace[m], c->trace[m] = NULL;
-    iso_chaos_free(c);
-    return status;
+    how.progress = result->progress;
+    how.data = result->data;
+    const iso_status status = iso_chaos_run(ctx, subject->scene, &how, &c);
+    result->fields = iso_chaos_fields;
+    result->found = c;
+    result->free = free_chaos;
+    if (!c) return status;
+    if (c->failure != ISO_OK) iso_study_note(result, "an orbit was not followed to the end: %s", c->words);
+    const iso_status made = put_orbits(ctx, subject->scene, c, &result->table[0]);
+    for (int m = 0; m < 2; m++) result->table[1 + m] = c->trace[m];
+    return status == ISO_OK ? made : status;
 }
 
 #define ROW(name, argument, expected, doc, set, member)                                                              \
@@ -71,4 +86,12 @@ const iso_option iso_chaos_option[] = {
     ISO_OPTION_END,
 };
 
-const iso_study iso_chaos_study = {"chaos", iso_chaos_option, sizeof(iso_chaos_request), begin, end, prepare, run};
+const iso_study iso_chaos_study = {"chaos",
+                                   "tell whether an orbit is chaotic, and which part of the section is chaotic",
+                                   iso_chaos_option,
+                                   sizeof(iso_chaos_request),
+                                   begin,
+                                   end,
+                                   prepare,
+                                   run,
+                                   ISO_STUDY_OF_SCENE};

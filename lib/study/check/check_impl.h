@@ -1,6 +1,7 @@
-/* check_impl.h - what a check is made of. check.c is above the others, but check_unseen.c is above check.c. Of the
- * others, check_flow.c calls check_effects.c. All call check_common.c.
+/* check_impl.h - what a check is made of. check.c is above the others, but check_unseen.c and check_study.c are above
+ * check.c. Of the others, check_flow.c calls check_effects.c. All call check_common.c.
  *
+ *     check_study.c       what is typed, rows, and the table
  *     check_unseen.c      which numbers no residual depends on
  *     check.c             rows come in, residuals go out
  *     check_integrals.c   constraints and integrals at each row
@@ -15,6 +16,7 @@
 #include "method/two_point_impl.h"
 #include "orbit/description.h"
 #include "orbit/orbit_impl.h"
+#include "study/added_impl.h"
 #include "study/check/check.h"
 
 /* --- row by row ---------------------------------------------------------------------------------------------------
@@ -186,5 +188,55 @@ void iso_checker_go_on(const checker *c, const double row[], iso_sample *flow);
 
 /* Compares the columns of effects in a row with the flow from the last row, relative to the group's largest. */
 void iso_checker_effects_flow(checker *c, iso_residuals *found, const iso_sample *flow, const double row[]);
+
+/* --- the study (check_study.c) ---------------------------------------------------------------------------------- */
+
+typedef struct iso_check_request {
+    iso_added added;
+    double tolerance, bound; /* bound NAN: not given */
+} iso_check_request;
+
+#define ISO_CHECK_UNSET                                                                                              \
+    {                                                                                                                \
+        .added = ISO_ADDED_UNSET, .tolerance = 1e-13, .bound = NAN                                                   \
+    }
+
+/* A residual, and the bound that it is held to. */
+typedef struct iso_checked {
+    iso_residual residual;
+    double bound;
+} iso_checked;
+bool iso_checked_is_bad(const void *checked);
+
+/* What the study finds; a name of what is not looked at. */
+enum { ISO_UNSEEN_SIZE = 560 };
+typedef struct iso_check_found {
+    size_t rows, passed;
+    double bound;
+    int count;
+    iso_checked checked[ISO_MAX_RESIDUALS];
+    size_t unseen_count;
+    char (*unseen)[ISO_UNSEEN_SIZE];
+} iso_check_found;
+void iso_check_found_free(void *found);
+extern const iso_field iso_check_fields[];
+
+/* Where rows come from: next() gives one in *row, which has the last one before. */
+typedef struct iso_check_row {
+    double *number;
+    bool more, begins_orbit;
+    size_t passed;       /* rows of nan so far                                         */
+    const char *ignored; /* columns that are no part of the rows, in words; NULL: none */
+} iso_check_row;
+
+typedef struct iso_check_source {
+    iso_status (*next)(iso_context *ctx, void *data, iso_check_row *row);
+    void *data;
+} iso_check_source;
+
+/* Checks the rows one after the other. A mistake in the first one is told before what the header lacks. header: gets
+ * the lines that the request and the scene (NULL: none) state. *f begins as zeros, and is to be freed. */
+iso_status iso_check_rows(iso_context *ctx, const iso_check_request *r, const iso_scene *scene, iso_record *header,
+                          const iso_check_source *from, iso_check_found *f);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "base/seconds_impl.h"
 #include "study/cost/cost.h"
+#include "study/options_impl.h"
 
 /* What may end a run: the caller's own monitor, or a limit of processor time. */
 typedef struct cost_monitor {
@@ -113,5 +114,44 @@ const iso_cost_cell *iso_cost_choose(const iso_cost *cost, double want);
  * processor time are left out. Errors: as iso_cost_measure; ISO_BAD_ARGUMENT about "horizons". */
 iso_status iso_cost_grow(iso_context *ctx, const iso_scene *scene, const iso_cost_cell *cell, int horizons,
                          iso_cost_growth *growth);
+
+/* --- the study (cost_study.c) ----------------------------------------------------------------------------------- */
+
+typedef struct iso_cost_request {
+    iso_scene_changes change;
+    double want;     /* NAN: not given */
+    double horizons; /* 0: not given   */
+    bool quick;
+} iso_cost_request;
+
+/* How error and time of one cell grow with the length of the orbit. */
+typedef struct iso_cost_growing {
+    const iso_cost_cell *cell;
+    char why[160]; /* why it failed; "" if it did not */
+    iso_cost_growth growth;
+} iso_cost_growing;
+
+enum { ISO_COST_GROWTHS = 3 };
+
+/* What the study finds. */
+typedef struct iso_cost_found {
+    iso_cost *cost;
+    /* All lines: the closed solution first, then the methods, the fastest to an error of 1e-9 first. Methods that do
+     * not reach it are sorted by 1e-6, then by 1e-3. */
+    const iso_cost_series **line;
+    double want;                 /* NAN: nothing is wanted          */
+    const iso_cost_cell *choice; /* for `want`; NULL: there is none */
+    int growths;
+    iso_cost_growing growth[ISO_COST_GROWTHS];
+} iso_cost_found;
+
+/* Whether a cell failed. Cells that were left out for lack of time did not. */
+bool iso_cost_has_failed(const iso_cost_cell *cell);
+
+/* How many cells there are for which `is` is true. */
+int iso_cost_count(const iso_cost *cost, bool (*is)(const iso_cost_cell *cell));
+
+/* As iso_cost_choose, but only among the methods that take steps, and in one line (NULL: in all). */
+const iso_cost_cell *iso_cost_choose_steps(const iso_cost *cost, const iso_cost_series *line, double want);
 
 #endif

@@ -1,4 +1,6 @@
 /* frequencies_fields.c - what frequencies hold: their numbers with their meaning (frequencies.h). */
+#include <stdlib.h>
+
 #include "base/names_impl.h"
 #include "study/frequencies/frequencies.h"
 #include "study/options_impl.h"
@@ -118,14 +120,20 @@ const iso_field iso_frequencies_fields[] = {
 
 /* --- the study -------------------------------------------------------------------------------------------------- */
 
-ISO_STUDY_BEGIN(iso_frequencies_options, iso_frequencies_defaults)
+ISO_STUDY_BEGIN(iso_frequencies_options, iso_frequencies_defaults())
 
-static iso_status run(iso_context *ctx, const iso_scene *scene, const void *options, iso_study_result *result)
+static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
+                      iso_study_result *result)
 {
-    iso_frequencies f;
-    const iso_status status = iso_frequencies_find(ctx, scene, options, &f);
-    if (status != ISO_OK) return status;
-    return iso_study_table(ctx, "frequencies", scene, iso_frequencies_fields, &f, NULL, &result->table[0]);
+    iso_frequencies_options how = *(const iso_frequencies_options *)options;
+    iso_frequencies *f = result->found = malloc(sizeof *f);
+    if (!f) return iso_context_no_memory(ctx, "frequencies");
+    result->fields = iso_frequencies_fields;
+    result->free = free;
+    how.progress = result->progress;
+    how.data = result->data;
+    ISO_TRY(iso_frequencies_find(ctx, subject->scene, &how, f));
+    return iso_study_table(ctx, "frequencies", subject->scene, result->fields, f, NULL, &result->table[0]);
 }
 
 #define ROW(name, argument, expected, doc, set, member)                                                              \
@@ -142,5 +150,10 @@ const iso_option iso_frequencies_option[] = {
     ISO_OPTION_END,
 };
 
-const iso_study iso_frequencies_study = {"frequencies", iso_frequencies_option, sizeof(iso_frequencies_options),
-                                         begin, .run = run};
+const iso_study iso_frequencies_study = {"frequencies",
+                                         "compute frequencies, actions, rotation number and near resonances",
+                                         iso_frequencies_option,
+                                         sizeof(iso_frequencies_options),
+                                         begin,
+                                         .run = run,
+                                         .of = ISO_STUDY_OF_SCENE};

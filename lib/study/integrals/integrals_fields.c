@@ -1,5 +1,6 @@
 /* integrals_fields.c - what a search for integrals holds: its numbers with their meaning (integrals.h). */
 #include <math.h>
+#include <stdlib.h>
 
 #include "study/integrals/integrals_impl.h"
 #include "study/options_impl.h"
@@ -119,14 +120,33 @@ const iso_field iso_integral_search_fields[] = {
 
 /* --- the study -------------------------------------------------------------------------------------------------- */
 
-ISO_STUDY_BEGIN(iso_integral_search_options, iso_integral_search_defaults)
+ISO_STUDY_BEGIN(iso_integral_search_options, iso_integral_search_defaults())
 
-static iso_status run(iso_context *ctx, const iso_scene *scene, const void *options, iso_study_result *result)
+#define ASKED(key, member, ...) ISO_MEMBER(iso_integrals_found, key, how.member, __VA_ARGS__)
+
+static const iso_field found_fields[] = {
+    ASKED("degree", degree, "", "the largest, in M"),
+    ASKED("turns", turns, "", "of each orbit"),
+    ASKED("within", within, "", "which varies more is no integral"),
+    ISO_STRUCT(iso_integrals_found, "", search, iso_integral_search_fields, "what was found"),
+    ISO_FIELD_END,
+};
+
+static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
+                      iso_study_result *result)
 {
-    iso_integral_search r = {.degrees = 0};
-    const iso_status status = iso_integral_search_run(ctx, scene, options, &r);
-    if (status != ISO_OK) return status;
-    return iso_study_table(ctx, "integrals", scene, iso_integral_search_fields, &r, NULL, &result->table[0]);
+    iso_integrals_found *found = result->found = malloc(sizeof *found);
+    if (!found) return iso_context_no_memory(ctx, "integrals");
+    *found = (iso_integrals_found){.how = *(const iso_integral_search_options *)options};
+    result->fields = found_fields;
+    result->free = free;
+    found->how.progress = result->progress;
+    found->how.data = result->data;
+    const iso_status status = iso_integral_search_run(ctx, subject->scene, &found->how, &found->search);
+    if (status != ISO_OK && status != ISO_STOPPED) return status;
+    const iso_status made =
+        iso_study_table(ctx, "integrals", subject->scene, found_fields, found, NULL, &result->table[0]);
+    return status == ISO_OK ? made : status;
 }
 
 #define ROW(name, argument, expected, doc, set, member)                                                              \
@@ -150,5 +170,10 @@ const iso_option iso_integrals_option[] = {
     ISO_OPTION_END,
 };
 
-const iso_study iso_integrals_study = {"integrals", iso_integrals_option, sizeof(iso_integral_search_options), begin,
-                                       .run = run};
+const iso_study iso_integrals_study = {"integrals",
+                                       "search for additional first integrals",
+                                       iso_integrals_option,
+                                       sizeof(iso_integral_search_options),
+                                       begin,
+                                       .run = run,
+                                       .of = ISO_STUDY_OF_SCENE};

@@ -67,6 +67,12 @@ static inline bool integral_is_found(const iso_integral_value *v, double within)
 /* "none", "found", "undecided" */
 const char *iso_integral_verdict_name(iso_integral_verdict verdict);
 
+/* What the study finds: what was asked, and the answer. */
+typedef struct iso_integrals_found {
+    iso_integral_search_options how;
+    iso_integral_search search;
+} iso_integrals_found;
+
 /* The smallest value that is no integral's, over all degrees; NaN: there is none. */
 double iso_integral_smallest(const iso_integral_search *found);
 

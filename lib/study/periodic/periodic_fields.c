@@ -1,9 +1,6 @@
 /* periodic_fields.c - what the results of periodic orbits hold: their numbers with their meaning (periodic.h,
  * continuation.h, stability_chart.h). */
-#include "study/options_impl.h"
-#include "study/periodic/continuation.h"
-#include "study/periodic/periodic.h"
-#include "study/periodic/stability_chart.h"
+#include "study/periodic/periodic_study_impl.h"
 #include "study/study_impl.h"
 
 static const char *stability_word(int stability)
@@ -251,38 +248,14 @@ const iso_field iso_chart_row_fields[] = {
     FIELD("greatest", greatest, "", "the same about the axis of the greatest moment"),
     ISO_FIELD_END,
 };
+#undef FIELD
 
-/* --- the study -------------------------------------------------------------------------------------------------- */
+#define FIELD(key, member, ...) ISO_MEMBER(iso_chart_found, key, member, __VA_ARGS__)
 
-ISO_STUDY_BEGIN(iso_periodic_options, iso_periodic_defaults)
-
-static iso_status run(iso_context *ctx, const iso_scene *scene, const void *options, iso_study_result *result)
-{
-    iso_field fields[ISO_MOST_FIELDS];
-    iso_periodic *found = NULL;
-    iso_record **table = &result->table[0];
-    iso_status status = iso_periodic_run(ctx, scene, options, &found);
-    iso_fields_copy(iso_periodic_fields, "orbits", fields);
-    if (status == ISO_OK)
-        status = iso_study_table(ctx, "periodic", scene, fields, found, iso_periodic_orbit_fields, table);
-    for (size_t i = 0; status == ISO_OK && i < found->count; i++)
-        status = iso_columns_append(ctx, iso_periodic_orbit_fields, &found->orbit[i], *table);
-    iso_periodic_free(found);
-    return status;
-}
-
-#define ROW(name, argument, expected, doc, set, member)                                                              \
-    ISO_OPTION(name, argument, expected, doc, set, iso_periodic_options, member)
-
-const iso_option iso_periodic_option[] = {
-    ROW("period", "P", "a whole number from 1 on", "orbits of at most P returns to the section (default 6)",
-        iso_set_count_int, period),
-    ROW("all", NULL, NULL, "orbits without a symmetry as well, by Newton's method from a grid", iso_set_flag, all),
-    ROW("grid", "N", "a whole number from 1 on", "points of that grid (default 2000)", iso_set_count_long, grid),
-    ROW("polish", NULL, NULL, "compute with 128 bits and print 30 digits", iso_set_flag, polish),
-    ISO_OPTION_THREADS(iso_periodic_options, threads),
-    ISO_OPTION_END,
+const iso_field iso_chart_fields[] = {
+    FIELD("moment", how.moment, "", "what varies", .word = iso_chart_name),
+    FIELD("level", level, "", "on which it is drawn"),
+    FIELD("grid", grid, "", "traces at its points"),
+    FIELD("borders", borders, "", "where a trace is 2 or -2"),
+    ISO_FIELD_END,
 };
-
-const iso_study iso_periodic_study = {"periodic", iso_periodic_option, sizeof(iso_periodic_options), begin,
-                                      .run = run};

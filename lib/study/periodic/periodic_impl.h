@@ -9,6 +9,7 @@
  *     periodic_grid.c        other orbits from a grid
  *     periodic_solve.c       an orbit from a place near it: digits, trace, error, closure
  *     periodic_orbit.c       the list: what is new, symmetry, copies
+ *     periodic_study.c       what is typed, and the tables
  *
  * All of them compute in own units with eps = 1, on the level H = energy of the point.
  */

@@ -9,6 +9,7 @@
 
 #include "map/section_impl.h"
 #include "study/options_impl.h"
+#include "study/section/measure.h"
 #include "study/section/section.h"
 
 /* What is known of one orbit of the group. */
@@ -82,6 +83,21 @@ typedef struct iso_section_request {
     iso_section_options how;
     iso_section_words words;
     const char *event; /* COLUMN=VALUE */
+    double cloud;      /* 0: not given */
 } iso_section_request;
+
+/* A test of the invariant measure, and those that the study finds: by the flow in t, by the flow in s if the ball has
+ * a twin, and by returns to the section. */
+typedef struct iso_cloud {
+    const char *what;
+    iso_measure measure;
+    char why[256]; /* why it was not tried; "": it was */
+} iso_cloud;
+
+enum { ISO_CLOUDS = 3 };
+typedef struct iso_clouds {
+    int count;
+    iso_cloud cloud[ISO_CLOUDS];
+} iso_clouds;
 
 #endif

@@ -1,4 +1,6 @@
-/* section_study.c - the section by its name: its options, as words first, and its tables (study/study.h). */
+/* section_study.c - the section by its name: its options, as words first, and its tables; and the clouds that test the
+ * invariant measure, in place of crossings (study/study.h). */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,6 +8,7 @@
 #include "base/nearest_impl.h"
 #include "base/number_impl.h"
 #include "orbit/orbit_impl.h"
+#include "study/fields_impl.h"
 #include "study/options_impl.h"
 #include "study/section/section.h"
 #include "study/section/section_impl.h"
@@ -81,6 +84,20 @@ static iso_status read_event(iso_context *ctx, const char *text, iso_section_opt
                             iso_suggest_word(suggested, name, iso_column_name));
 }
 
+/* A test writes no crossings. Refuses options that ask for them. */
+static iso_status check_cloud(iso_context *ctx, const iso_section_request *r)
+{
+    const iso_section_options *how = &r->how;
+    const char *lost = r->event                        ? "--event"
+                       : r->words.at[0]                ? "--at"
+                       : how->starts > 0               ? "--starts"
+                       : how->models != ISO_SHOW_START ? "--model"
+                       : how->shown != ISO_SHOW_START  ? "--as"
+                                                       : NULL;
+    if (r->cloud == 0 || !lost) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --cloud takes no %s: it only prints the test", lost);
+}
+
 static iso_status prepare(iso_context *ctx, void *options)
 {
     iso_section_request *r = options;
@@ -88,7 +105,7 @@ static iso_status prepare(iso_context *ctx, void *options)
     if (status == ISO_OK) status = read_event(ctx, r->event, &r->how);
     if (status == ISO_OK && r->words.axis && r->event)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --axis or --event, not both");
-    return status;
+    return status == ISO_OK ? check_cloud(ctx, r) : status;
 }
 
 /* --- tables ----------------------------------------------------------------------------------------------------- */
@@ -123,32 +140,150 @@ static iso_status keep_pair(void *data, size_t orbit, const iso_crossing *ball, 
 static void keep_note(void *data, const char *words)
 {
     const keeper *k = data;
-    if (k->result->note) k->result->note(k->result->data, words);
+    iso_study_note(k->result, "%s", words);
 }
 
-static void begin(void *options)
+static void show(void *data, double part)
 {
-    *(iso_section_request *)options = (iso_section_request){.how = iso_section_defaults()};
+    const keeper *k = data;
+    iso_study_progress(k->result, part);
 }
+
+ISO_STUDY_BEGIN(iso_section_request, (iso_section_request){.how = iso_section_defaults()})
 
 static void end(void *options)
 {
     free(((iso_section_request *)options)->words.points);
 }
 
-static iso_status run(iso_context *ctx, const iso_scene *scene, const void *options, iso_study_result *result)
+static iso_status find_crossings(iso_context *ctx, const iso_scene *scene, const iso_section_request *request,
+                                 iso_study_result *result)
 {
     keeper k = {.ctx = ctx, .result = result, .orbit = SIZE_MAX};
-    const iso_section_sink sink = {.pair = keep_pair, .note = keep_note, .data = &k, .record = &result->table[0]};
-    const iso_section_request *request = options;
+    const iso_section_sink sink = {
+        .pair = keep_pair, .note = keep_note, .progress = show, .data = &k, .record = &result->table[0]};
     iso_section_result r = {.rows = 0};
-    char words[640];
     const iso_status status = iso_section_run(ctx, scene, &request->how, &sink, &r);
     for (int i = 0; i < 2; i++)
         if (result->table[i]) iso_record_set_kind(result->table[i], "section");
-    snprintf(words, sizeof words, "%zu of %zu orbits did not get to the end; %s", r.failed, r.orbits, r.words);
-    if (r.failed > 0) keep_note(&k, words);
+    if (r.failed > 0)
+        iso_study_note(result, "%zu of %zu orbits did not get to the end; %s", r.failed, r.orbits, r.words);
     return status;
+}
+
+/* --- clouds ----------------------------------------------------------------------------------------------------- */
+
+static const iso_measure_entry *worst_of(const void *cloud)
+{
+    const iso_measure *m = &((const iso_cloud *)cloud)->measure;
+    return m->lines > 0 ? &m->line[m->worst] : NULL;
+}
+
+static bool is_tried(const void *cloud)
+{
+    return !*((const iso_cloud *)cloud)->why;
+}
+
+static bool has_worst(const void *cloud)
+{
+    return is_tried(cloud) && worst_of(cloud);
+}
+
+static void find_name(const void *cloud, int i, iso_value *v)
+{
+    (void)i;
+    v->text = worst_of(cloud)->name;
+}
+
+static double time_of(const void *cloud)
+{
+    return worst_of(cloud)->time;
+}
+
+static double deviation_of(const void *cloud)
+{
+    return worst_of(cloud)->deviation;
+}
+
+#define FIELD(key, member, ...) ISO_MEMBER(iso_cloud, key, member, __VA_ARGS__)
+#define TRIED(key, member, ...) FIELD(key, measure.member, __VA_ARGS__, .there = is_tried)
+
+const iso_field iso_cloud_fields[] = {
+    FIELD("carried", what, "", "by the flow in equal times t or s, or by returns to the section"),
+    TRIED("kept", kept, "", "whether the cloud is still distributed by the measure"),
+    TRIED("p", p, "", "probability that a measure that is kept deviates as much"),
+    TRIED("count", count, "", "states"),
+    TRIED("lost", lost, "", "orbits that do not return, among the first few thousand"),
+    ISO_FOUND("worst", ISO_FIELD_NAME, find_name, "", "the function that deviates most", .there = has_worst),
+    ISO_NUMBER("at", time_of, "", "when it does: a time of the clock, or a number of returns", .there = has_worst),
+    ISO_NUMBER("deviation", deviation_of, "", "by how many standard errors", .there = has_worst),
+    TRIED("resolution", resolution, "", "least relative error of the exponent that would be detected"),
+    FIELD("failure", why, "", "why the test was not tried"),
+    ISO_FIELD_END,
+};
+#undef FIELD
+
+static const iso_field clouds_fields[] = {ISO_LIST(iso_clouds, "clouds", cloud, count, iso_cloud_fields, "tests"),
+                                          ISO_FIELD_END};
+
+/* The tests follow each other. */
+typedef struct phase {
+    const iso_study_result *result;
+    int number;
+} phase;
+
+static void show_phase(double share, void *data)
+{
+    const phase *p = data;
+    iso_study_progress(p->result, (p->number + share) / ISO_CLOUDS);
+}
+
+static iso_status carry(iso_context *ctx, const iso_scene *scene, iso_measure_options *m, int which, iso_cloud *cloud)
+{
+    static const char *const names[] = {"flow in t", "flow in s", "returns"};
+    const bool returns = which == 2;
+    cloud->what = names[which];
+    m->clock = which == 1 ? ISO_CLOCK_S : ISO_CLOCK_T;
+    const iso_status status = returns ? iso_measure_returns(ctx, scene, m, &cloud->measure)
+                                      : iso_measure_flow(ctx, scene, m, &cloud->measure);
+    const bool lacks = which > 0 && (status == ISO_NOT_MAPPED || (returns && status == ISO_BAD_INPUT));
+    if (lacks) snprintf(cloud->why, sizeof cloud->why, "%s", iso_context_message(ctx));
+    return lacks ? ISO_OK : status;
+}
+
+static iso_status find_clouds(iso_context *ctx, const iso_scene *scene, const iso_section_request *r,
+                              iso_study_result *result)
+{
+    iso_clouds *found = result->found = calloc(1, sizeof *found);
+    phase p = {result, 0};
+    iso_measure_options m = iso_measure_defaults();
+    if (!found) return iso_context_no_memory(ctx, "clouds");
+    result->fields = clouds_fields;
+    result->free = free;
+    m.count = (size_t)r->cloud;
+    m.seed = (unsigned long)r->how.seed + 1;
+    m.axis = r->how.axis;
+    m.threads = r->how.threads;
+    if (!isnan(r->how.tolerance)) m.tolerance = r->how.tolerance;
+    m.progress = show_phase;
+    m.data = &p;
+    iso_status status = ISO_OK;
+    for (; status == ISO_OK && found->count < ISO_CLOUDS; p.number++) {
+        status = carry(ctx, scene, &m, p.number, &found->cloud[found->count]);
+        found->count += status == ISO_OK;
+    }
+    iso_status made = iso_study_table(ctx, "section cloud", scene, NULL, NULL, iso_cloud_fields, &result->table[0]);
+    for (int i = 0; made == ISO_OK && i < found->count; i++)
+        made = iso_columns_append(ctx, iso_cloud_fields, &found->cloud[i], result->table[0]);
+    return status == ISO_OK ? made : status;
+}
+
+static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
+                      iso_study_result *result)
+{
+    const iso_section_request *r = options;
+    return r->cloud > 0 ? find_clouds(ctx, subject->scene, r, result)
+                        : find_crossings(ctx, subject->scene, r, result);
 }
 
 #define ROW(name, argument, expected, doc, set, member)                                                              \
@@ -166,6 +301,9 @@ const iso_option iso_section_option[] = {
     ISO_OPTION_SEED(ISO_SEED_SPREADS, iso_section_request, how.seed),
     ROW("at", "L,X", ISO_AT_EXPECTED, "one more orbit, which starts at (l, x); for several: L,X;L,X or --at again",
         iso_set_at, words.at),
+    ROW("cloud", "N", "a whole number from 1 on",
+        "write no crossings: test with N states, 512 or more, whether the flow keeps the invariant measure",
+        iso_set_count, cloud),
     ISO_OPTION_MODELS("model", "M", ISO_MODELS_INTEGRATED, iso_section_request, how.models),
     ISO_OPTION_MODELS("as", "WHAT", "add the states of a model to each row: ball, point, both", iso_section_request,
                       how.shown),
@@ -174,5 +312,12 @@ const iso_option iso_section_option[] = {
     ISO_OPTION_END,
 };
 
-const iso_study iso_section_study = {"section", iso_section_option, sizeof(iso_section_request), begin, end, prepare,
-                                     run};
+const iso_study iso_section_study = {"section",
+                                     "compute the Poincare section of both models",
+                                     iso_section_option,
+                                     sizeof(iso_section_request),
+                                     begin,
+                                     end,
+                                     prepare,
+                                     run,
+                                     ISO_STUDY_OF_SCENE};

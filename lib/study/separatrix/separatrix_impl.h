@@ -4,6 +4,7 @@
  *     separatrix_crossing.c  the manifold farther out, and where it crosses its symmetry lines
  *     separatrix.c           one k, with its error
  *     separatrix_scan.c      many k, and the zeros between them
+ *     separatrix_study.c     what is typed, and the table
  *
  * Coordinates are z = (u, x): u = l - l0, so that the fixed point is 0. The map is g, half a return
  * (return_map_impl.h). Here lambda is its multiplier, the square root of iso_separatrix_splitting.lambda. It is above

@@ -15,10 +15,11 @@
 #include "study/section/section.h"
 #include "study/separatrix/separatrix.h"
 
+#define ISO_STUDY_ROW(name) &iso_##name##_study,
+
 const iso_study *iso_study_at(int i)
 {
-    static const iso_study *const studies[] = {&iso_section_study, &iso_chaos_study, &iso_frequencies_study,
-                                               &iso_periodic_study, &iso_integrals_study};
+    static const iso_study *const studies[] = {ISO_STUDY_LIST(ISO_STUDY_ROW)};
     return i >= 0 && i < (int)(sizeof studies / sizeof *studies) ? studies[i] : NULL;
 }
 
@@ -32,13 +33,15 @@ const iso_study *iso_study_find(const char *name)
 const iso_result_table *iso_result_table_at(int i)
 {
     static const iso_result_table tables[] = {
-        {"section", "a crossing of the section", iso_section_fields},
-        {"chaos", "an orbit", iso_chaos_orbit_fields},
-        {"periodic", "a periodic orbit", iso_periodic_orbit_fields},
-        {"periodic follow", "a point of a branch, or an event on it", iso_branch_row_fields},
-        {"periodic chart", "a point of the chart, or of a border in it", iso_chart_row_fields},
-        {"splitting", "a value of k or of the level", iso_separatrix_fields},
-        {"cost", "a backend with a method and a tolerance", iso_cost_cell_fields},
+        {"section", "a crossing of the section", iso_section_fields, false},
+        {"chaos", "an orbit", iso_chaos_orbit_fields, false},
+        {"periodic", "a periodic orbit", iso_periodic_orbit_fields, false},
+        {"periodic follow", "a point of a branch, or an event on it", iso_branch_row_fields, false},
+        {"periodic chart", "a point of the chart, or of a border in it", iso_chart_row_fields, false},
+        {"splitting", "a value of k or of the level", iso_separatrix_fields, false},
+        {"cost", "a backend with a method and a tolerance", iso_cost_cell_fields, false},
+        {"check", "a residual", iso_checked_fields, true},
+        {"section cloud", "a test of the invariant measure", iso_cloud_fields, true},
     };
     return i >= 0 && i < (int)(sizeof tables / sizeof *tables) ? &tables[i] : NULL;
 }

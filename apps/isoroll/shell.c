@@ -1,0 +1,112 @@
+/* shell.c - a command that asks a study, from its options to its exit status (see shell.h). */
+#include "shell.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/record_impl.h"
+#include "scene_options.h"
+
+/* --- before ----------------------------------------------------------------------------------------------------- */
+
+static void tell_note(void *data, const char *words)
+{
+    (void)data;
+    complain("%s", words);
+}
+
+iso_status shell_change(shell *s)
+{
+    const iso_scene_changes *change = s->options;
+    return iso_scene_apply(s->ctx, change, &s->scene);
+}
+
+/* Reads the scene and opens the file. Refuses wrong options before the work begins. */
+static iso_status prepare(shell *s, const shell_parts *parts, iso_table_writer **writer)
+{
+    const shell_options *o = s->told;
+    iso_status status = parts->check ? parts->check(s) : ISO_OK;
+    if (status == ISO_OK && o->plot) status = iso_plot_check_format(s->ctx, o->plot);
+    if (status == ISO_OK) status = iso_scene_read(s->ctx, o->file, &s->scene);
+    if (status == ISO_OK && parts->change) status = parts->change(s);
+    return status == ISO_OK && o->table ? iso_table_writer_open(s->ctx, o->table, parts->kind, writer) : status;
+}
+
+/* --- after ------------------------------------------------------------------------------------------------------ */
+
+/* The table says of what it is: the scene's numbers (description.h), the version of isoroll, the command line, from
+ * which it can be made again, and what the command adds. */
+static iso_status describe(shell *s, const shell_parts *parts)
+{
+    iso_record *table = s->result.table[0];
+    iso_record_forget_lines(table);
+    iso_status status = iso_record_describe_scene(s->ctx, table, &s->scene);
+    if (status == ISO_OK) status = iso_record_set(s->ctx, table, "command", options_command());
+    return status == ISO_OK && parts->describe ? parts->describe(s) : status;
+}
+
+iso_status shell_lines(shell *s, const table_line *l)
+{
+    iso_record *table = s->result.table[0];
+    iso_status status = ISO_OK;
+    for (; status == ISO_OK && l->key; l++)
+        if (l->text)
+            status = iso_record_set(s->ctx, table, l->key, l->text);
+        else if (!isnan(l->number))
+            status = iso_record_set_numbers(s->ctx, table, l->key, 1, &l->number);
+    return status;
+}
+
+int shell_draw(const shell *s, const iso_record *table)
+{
+    return finish(s->ctx, iso_plot_table(s->ctx, s->told->plot, "", table));
+}
+
+/* Prints words or JSON, unless the table goes to standard output. */
+static int print(const shell *s, const shell_parts *parts)
+{
+    const iso_study_result *r = &s->result;
+    if (s->told->json) {
+        json_t *o = parts->json ? parts->json(s) : json_of_scene(&s->scene, r->fields, r->found);
+        return json_print(o) ? EXIT_DONE : EXIT_NUMERICAL;
+    }
+    if (parts->print && !(s->told->table && strcmp(s->told->table, "-") == 0)) parts->print(s);
+    return EXIT_DONE;
+}
+
+/* Without a row there is no file. */
+static int save(shell *s, const shell_parts *parts, iso_table_writer *writer)
+{
+    iso_status status = describe(s, parts);
+    const bool made = status == ISO_OK;
+    if (writer && made)
+        status = iso_table_write_all(s->ctx, writer, s->result.table[0]);
+    else if (writer)
+        iso_table_writer_close(s->ctx, writer, false);
+    const int result = finish(s->ctx, status);
+    if (!s->told->plot || !made) return result;
+    return worse(result, parts->draw ? parts->draw(s) : shell_draw(s, s->result.table[0]));
+}
+
+int shell_run(iso_context *ctx, const shell_parts *parts, const void *options, const shell_options *told)
+{
+    shell s = {
+        .ctx = ctx, .options = options, .told = told, .result = {.note = tell_note, .progress = progress_told}};
+    iso_table_writer *writer = NULL;
+    iso_status status = prepare(&s, parts, &writer);
+    if (status != ISO_OK) return finish_scene(ctx, told->file, &s.scene, status);
+    begin_work(ctx, NULL);
+    status = parts->study->run(ctx, &(iso_study_subject){.scene = &s.scene}, options, &s.result);
+    progress_end();
+    int result = finish_scene(ctx, told->file, &s.scene, status);
+    if (status == ISO_STOPPED && parts->interrupted) parts->interrupted(&s);
+    if (!s.result.table[0]) {
+        iso_table_writer_close(ctx, writer, false);
+    } else {
+        if (parts->judge) result = worse(result, parts->judge(&s));
+        result = worse(result, print(&s, parts));
+        result = worse(result, save(&s, parts, writer));
+    }
+    iso_study_result_free(&s.result);
+    return result;
+}

@@ -1,0 +1,59 @@
+/* shell.h - how a command asks a study (study/study.h) and shows what it gives: words, JSON, a table, a picture. */
+#ifndef ISOROLL_SHELL_H
+#define ISOROLL_SHELL_H
+
+#include "command.h"
+#include "json.h"
+#include "plot/plot.h"
+
+/* What every such command can be told. */
+typedef struct shell_options {
+    const char *file;         /* of the scene    */
+    const char *table, *plot; /* NULL: not given */
+    bool json;
+} shell_options;
+
+/* What is at hand when the study has been asked. */
+typedef struct shell {
+    iso_context *ctx;
+    const void *options; /* of the command */
+    const shell_options *told;
+    iso_scene scene;
+    iso_study_result result; /* table[0] is there */
+    char title[ISO_PLOT_TITLE];
+} shell;
+
+/* A command's own part of it. A function that is NULL has nothing to do. */
+typedef struct shell_parts {
+    const iso_study *study;
+    const char *kind;                    /* of the table in files                                   */
+    iso_status (*check)(const shell *s); /* refuses options, before the scene is read               */
+    iso_status (*change)(shell *s);      /* changes the scene                                       */
+    void (*interrupted)(const shell *s); /* complains after Ctrl-C; table[0] may be NULL            */
+    int (*judge)(const shell *s);        /* an exit status, besides that of the study               */
+    json_t *(*json)(const shell *s);     /* NULL: version, k, J and all that was found              */
+    void (*print)(const shell *s);       /* words on standard output                                */
+    iso_status (*describe)(shell *s);    /* adds lines to the table, among them its title           */
+    int (*draw)(const shell *s);         /* the exit status; NULL: the table is drawn by its kind   */
+} shell_parts;
+
+/* Gives the exit status. */
+int shell_run(iso_context *ctx, const shell_parts *parts, const void *options, const shell_options *told);
+
+/* A `change` of commands whose options begin with those that change something in a scene. */
+iso_status shell_change(shell *s);
+
+/* A line "# key: value" of a table: `text`, or if that is NULL `number`. A NAN is left out. */
+typedef struct table_line {
+    const char *key; /* NULL ends a list */
+    double number;
+    const char *text;
+} table_line;
+
+/* Adds them to the table of the study. */
+iso_status shell_lines(shell *s, const table_line *lines);
+
+/* A picture of a table by its kind; its exit status. */
+int shell_draw(const shell *s, const iso_record *table);
+
+#endif

@@ -1,0 +1,32 @@
+/* effects.c - the effects that act, in words. */
+#include <stdio.h>
+
+#include "orbit/orbit_impl.h"
+#include "study/study_impl.h"
+
+/* The numbers of an effect, on a line of their own or not; none that a scene alone states. */
+static void print_numbers(FILE *to, const iso_effects *effects, iso_effect_id id, const char *begin)
+{
+    for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++) {
+        if (n->scene_only) continue;
+        const double *x = iso_effect_values(effects, id, n);
+        fprintf(to, "%s  %s =", begin, n->name);
+        for (int i = 0; i < n->count; i++) fprintf(to, " %.10g", x[i]);
+        begin = "";
+    }
+}
+
+void iso_effects_print(FILE *to, const iso_effects *effects, bool docs)
+{
+    char line[32];
+    int shown = 0;
+    snprintf(line, sizeof line, "\n  %-18s", "");
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        if (!effects->on[e]) continue;
+        fprintf(to, "%s  %-18s", shown++ ? "" : "effects\n", iso_effect_list[e]->name);
+        if (docs) fprintf(to, " %s", iso_effect_list[e]->doc);
+        print_numbers(to, effects, e, docs ? line : "");
+        fprintf(to, "\n");
+    }
+    if (shown) fprintf(to, "\n");
+}

@@ -1,0 +1,18 @@
+/* explain_impl.h - what the study explain is asked, and what it finds. */
+#ifndef ISO_STUDY_EXPLAIN_IMPL_H
+#define ISO_STUDY_EXPLAIN_IMPL_H
+
+#include "study/options_impl.h"
+
+typedef struct iso_explain_request {
+    iso_scene_changes change;
+} iso_explain_request;
+
+typedef struct iso_explanation {
+    const char *backend, *method; /* method NULL: the closed solution */
+    bool twin;
+    size_t rows;
+    char *text; /* all, in words */
+} iso_explanation;
+
+#endif
