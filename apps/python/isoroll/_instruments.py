@@ -8,22 +8,19 @@ from __future__ import annotations
 
 import inspect
 import keyword
-import os
 import re
 import textwrap
-from typing import Any, Callable, Dict, List, Literal, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple
 
-from numpy.typing import ArrayLike
+import numpy as np
 
 from . import _errors
-from ._files import read
-from ._kinds import Chaos, Comparison, Periodic, Result, Section
+from ._files import as_table
+from ._kinds import Chaos, Comparison, Section
 from ._library import lib
-from ._scene import Scene, SceneLike
-from ._study import (NEEDS_RECORD, NEEDS_SCENE, STUDIES, Option, ProgressLike, ask, docs, options_of)
-from ._table import PathLike, Table, as_record
+from ._study import NEEDS_RECORD, NEEDS_SCENE, STUDIES, Option, ask, docs, options_of
+from ._table import Table, as_record, doubles
 
-TableLike = Union[Table, PathLike]
 _MOST_ROWS = 1e9  # of a section: more would fill the memory
 
 # --- what comes back ------------------------------------------------------------------------------------------------
@@ -51,10 +48,10 @@ def _compare(table: Comparison, *others: Any) -> Comparison:
 
 #: how the tables of a study become what its function returns, and what that is
 _RETURNS: Dict[str, Tuple[Callable[..., Any], str, str]] = {
-    "section": (_section, "Union[Section, Table]", "a Section: a row for each crossing. With cloud a Table: a row for each "
-                "test of the measure."),
+    "section": (_section, "Union[Section, Table]", "a Section: a row for each "
+                "crossing. With cloud a Table: a row for each test of the measure."),
     "chaos": (_chaos, "Chaos", "a Chaos: a row for each orbit, the scene's own first; its `share`, its `indicators`."),
-    "frequencies": (_first, "Result", "a Result: numbers by the names of the command's --json, result.rotation, ..."),
+    "frequencies": (_first, "Result", "a Result: numbers by the names of the command's --json, result.rotation_number, ..."),
     "periodic": (_first, "Union[Periodic, Branch, Chart]", "a Periodic: a row for each orbit; with follow a Branch, with "
                  "chart a Chart."),
     "splitting": (_first, "Splitting", "a Splitting: a row for each k or level."),
@@ -137,8 +134,8 @@ def _doc(study: str, signature: inspect.Signature) -> str:
             words = _OF_RECORD.get(name) if "table" in signature.parameters else None
             lines.append(fold(name, words or _SUBJECTS[name]))
     returns = _RETURNS.get(study, (_first, "", "a Table."))[2]
-    return "\n".join([*lines, "", f"Returns {returns} After a failure or Ctrl-C, the exception's",
-                      "`partial` is what was found before."])
+    end = f"Returns {returns} After a failure or Ctrl-C, the exception's `partial` is what was found before."
+    return "\n".join([*lines, "", textwrap.fill(end, 100)])
 
 
 # --- functions ------------------------------------------------------------------------------------------------------
@@ -160,8 +157,6 @@ def _points(given: Dict[str, Any]) -> None:
     """One point (l, x), or an array of them."""
     at = given.get("at")
     if at is not None and not isinstance(at, str):
-        import numpy as np
-        from ._table import doubles
         points = doubles("at", at)
         if points.size and (points.ndim > 2 or points.shape[-1] != 2):
             raise _errors.BadArgument(f"at has shape {points.shape}, it must be (starts, 2): l, x")
@@ -180,7 +175,7 @@ def _make(study: str) -> Callable[..., Any]:
         _guard(study, given)
         record = None
         if table is not None:
-            record = as_record(table if isinstance(table, Table) else read(table, columns))
+            record = as_record(as_table(table, columns))
         return ask(study, scene, record, given, make, progress, 5)
 
     instrument.__name__ = instrument.__qualname__ = study

@@ -111,11 +111,21 @@ class Cost(Table):
 class Sweep(Table):
     """Many scenes, a row each: the number of the point, what varies, what is measured, status, reason.
 
-    text   the text of the sweep file
+    text   the text of the sweep
     scene  the text of its scene's file; "": the scene stands in the sweep
     """
 
     _kind = "sweep"
+
+    @property
+    def text(self) -> str:
+        """The text of the sweep."""
+        return str(self.lines.text.get("sweep", ""))
+
+    @property
+    def scene(self) -> str:
+        """The text of its scene's file; "": the scene stands in the sweep."""
+        return str(self.lines.text.get("scene", ""))
 
 
 class Comparison(Table):

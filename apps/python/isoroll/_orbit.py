@@ -23,17 +23,28 @@ def _times(times: ArrayLike) -> NDArray[np.float64]:
     return np.asarray(doubles("times", times), order="C")
 
 
-def run(scene: SceneLike, times: Optional[ArrayLike] = None, *, errors: bool = False, **changes: Any) -> Trajectory:
+def run(scene: SceneLike, times: Optional[ArrayLike] = None, *, backend: Optional[str] = None,
+        method: Optional[str] = None, tol: Optional[float] = None, as_: Optional[str] = None,
+        t_end: Optional[float] = None, step: Optional[float] = None, errors: bool = False,
+        **changes: Any) -> Trajectory:
     """The trajectory of a scene: what `isoroll run` writes, to the bit.
 
     scene    a path, YAML text, a dict or a Scene
     times    shape (N,), in any order, t of a ball's scene, s of a point's; without it the scene's own grid
+    backend  "ball", "point", "exact", "auto": what computes the orbit
+    method   the integrator, or "auto"
+    tol      largest relative error of one step, in [1e-15, 0.1]
+    as_      "ball", "point", "both": which model is written
+    t_end    last time, in place of the scene's
+    step     time between rows, in place of the scene's
     errors   also find the largest errors of the rows, table.errors; this takes many times as long
-    changes  backend, method, tolerance, end, step, as_, columns, k, J, ...: keywords of Scene
+    changes  columns, k, J, ...: other keywords of Scene
 
     Returns a table of shape (rows, columns). There are fewer rows than times if the ball loses contact: a warning
     says when. After a failure, error.partial has the rows before it.
     """
+    changes.update({key: value for key, value in (("backend", backend), ("method", method), ("tolerance", tol),
+                                                  ("as_", as_), ("end", t_end), ("step", step)) if value is not None})
     chosen, ctx, new, notes = as_scene(scene, changes), context(), new_record(), Notes()
     asked = None if times is None else np.atleast_1d(_times(times)).ravel()
     found = np.full(5, np.nan) if errors else None

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
+import os
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,8 @@ from . import _errors
 from ._plot_orbits import draw_chaos, draw_periodic, draw_section, draw_trajectory
 from ._plot_parts import (BLUE, DARK, FAR_BLUE, GREEN, LINE, Numbers, ORANGE, PINK, SKY, VERMILLION, axes_of, given,
                            name_of, needs, plain, pyplot, title_of)
-from ._table import VECTORS, Table
+from ._files import as_table
+from ._table import VECTORS, PathLike, Table
 
 
 # --- curves and charts ----------------------------------------------------------------------------------------------
@@ -114,17 +116,14 @@ _ERRORS = {"chaos_share": ("chaos_share_low", "chaos_share_high"), "splitting_m"
 def _measured(table: Table, value: Optional[str]) -> Tuple[List[str], str]:
     """The columns that vary from row to row, and the one that is drawn."""
     own = [name for name in table.columns if name not in ("point", "status", "reason")]
-    varying = [name for name in own if "_" not in name or name.split("_")[0] not in _groups(table)]
+    groups = [name.partition("/") for name in str(table.lines.text.get("columns", "")).split()]
+    varying = [name for group, _, name in groups if group == "vary"]
     measured = [name for name in own if name not in varying and name not in table._words]
     if value is None:
         value = next((name for name in (*_ERRORS, *measured) if name in measured and name != "state_t"), None)
     if value not in measured:
         raise _errors.BadInput(f"no picture: '{value}' is not measured; there are {', '.join(measured)}")
     return [name for name in varying if np.ptp(table[name]) > 0], value
-
-
-def _groups(table: Table) -> Sequence[str]:
-    return ("state", "chaos", "frequencies", "splitting", "rotations", "backends", "error", "contact")
 
 
 def _map(table: Table, at: Any, rows: NDArray[np.bool_], places: Mapping[str, Numbers], value: str) -> Any:
@@ -185,14 +184,14 @@ def _sweep(table: Table, ax: Any, value: Optional[str] = None, title: Optional[s
 
 # --- all ------------------------------------------------------------------------------------------------------------
 
-def _curve(table: Table, ax: Any, x: str, y: str) -> Any:
+def _curve(table: Table, ax: Any, x: str, y: str, title: Optional[str] = None) -> Any:
     needs(table, x, y)
     axes = axes_of(ax, 1, (9, 4.8))
     for name in VECTORS[y] if y not in table.columns else (y,):
         axes[0].plot(np.atleast_2d(table[x].T).T, np.atleast_2d(table[name].T).T, lw=1.2, label=name)
     if y not in table.columns:
         axes[0].legend(frameon=False)
-    axes[0].set(xlabel=name_of(table, x), ylabel=name_of(table, y))
+    axes[0].set(xlabel=name_of(table, x), ylabel=name_of(table, y), title=title or "")
     plain(axes[0])
     return axes[0]
 
@@ -206,12 +205,35 @@ _DRAW: Dict[str, Callable[..., Any]] = {
 def draw(table: Table, ax: Any, how: Mapping[str, Any]) -> Any:
     """Draws a table by its kind, or the column y over x."""
     pyplot()
-    if how.get("x") is not None or how.get("y") is not None:
-        if set(how) != {"x", "y"}:
-            raise TypeError("x and y go together, and with nothing else")
-        return _curve(table, ax, how["x"], how["y"])
+    if how.get("columns") is not None:
+        names = how["columns"].split(",") if isinstance(how["columns"], str) else list(how["columns"])
+        if len(names) != 2:
+            raise _errors.BadArgument(f"columns is {how['columns']!r:.60}: it must be two names, such as ('t', 'n3')")
+        return _curve(table, ax, names[0], names[1], how.get("title"))
+    how = {key: value for key, value in how.items() if value is not None}
     function = _DRAW.get(table.kind)
     if function is None:
-        raise _errors.BadInput(f"no picture of a table of kind '{table.kind}': table.plot(x=..., y=...) draws a column "
+        raise _errors.BadInput(f"no picture of a table of kind '{table.kind}': table.plot(columns=(X, Y)) draws a column "
                                f"over another; it has {', '.join(table.columns)}")
     return function(table, ax, **how)
+
+
+def plot(table: Union[Table, PathLike], output: Optional[PathLike] = None, *, ax: Any = None,
+         value: Optional[str] = None, columns: Union[None, str, Sequence[str]] = None,
+         title: Optional[str] = None) -> Any:
+    """Draws any table with matplotlib, in the style of `isoroll plot`.
+
+    table    a table, or the path of its file
+    output   the file of the picture: .svg, .png, .pdf, ...; None: none is written
+    ax       where to draw: Axes, or as many as the picture has parts; None: a new figure
+    value    of a sweep: which column is drawn, such as "splitting_m"
+    columns  draws only these two: ("t", "n3") is n3 over t; a vector is three curves
+    title    above the picture
+
+    Returns the Axes, or an array of them where the picture has several parts. Nothing is computed anew; of more than
+    5000 rows of a path 5000 are drawn.
+    """
+    found = draw(as_table(table), ax, {"value": value, "columns": columns, "title": title})
+    if output is not None:
+        np.ravel(np.asarray(found, dtype=object))[0].figure.savefig(os.fsdecode(output))
+    return found

@@ -86,7 +86,7 @@ def draw_trajectory(table: Table, ax: Any, title: Optional[str] = None) -> Any:
                                                  ("gamma", "point: its place γ")) if name in table]
     above, force = "contact" in table and table.array.ndim == 2, "pressure" in table and table.array.ndim == 2
     if len(table) == 0 or not (spheres or above or force):
-        raise _errors.BadInput(f"no picture: the table has no rows of n or gamma; table.plot(x=..., y=...) draws a "
+        raise _errors.BadInput(f"no picture: the table has no rows of n or gamma; table.plot(columns=(X, Y)) draws a "
                                f"column over another; it has {', '.join(table.columns)}")
     count = len(spheres) + above + force
     axes = axes_of(ax, count, (4.5 * min(count, 2), 4.7 * (1 + (count > 2))), 1 + (count > 2))

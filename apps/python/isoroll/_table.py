@@ -337,9 +337,9 @@ def from_record(new: New) -> Table:
     return CLASSES.get(kind, Table)(record.array(), record.columns(), record.lines(), kind=kind, record=record)
 
 
-def _bytes(text: str) -> bytes:
-    """A name or a line for C. It came from a file, perhaps not in UTF-8, or from the caller."""
-    if "\0" in text or "\n" in text or "\r" in text:
+def _bytes(text: str, value: bool = False) -> bytes:
+    """A name, or the value of a line, for C. It came from a file, perhaps not in UTF-8, or from the caller."""
+    if "\0" in text or (not value and ("\n" in text or "\r" in text)):
         raise _errors.BadArgument(f"{text!r} has the end of a line in it, or a zero byte")
     return text.encode("utf-8", "surrogateescape")
 
@@ -372,7 +372,7 @@ def as_record(table: Table) -> Record:
     record = Record(new.take() or 0)
     lib.iso_record_set_kind(record.pointer, _bytes(table.kind))
     for key, value in table.lines.text.items():
-        check(lib.iso_record_set(ctx, record.pointer, _bytes(key), _bytes(value)), ctx)
+        check(lib.iso_record_set(ctx, record.pointer, _bytes(key), _bytes(value, True)), ctx)
     if table._words:
         array = _with_words(ctx, record, table, array)
     check(lib.iso_record_add(ctx, record.pointer, len(array), array.ctypes.data), ctx)
