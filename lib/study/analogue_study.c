@@ -241,7 +241,7 @@ static const iso_field fields[] = {
 
 static void free_found(void *found)
 {
-    free(((iso_analogue_found *)found)->text);
+    free((char *)((iso_analogue_found *)found)->text);
     free(found);
 }
 
@@ -249,6 +249,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
                       iso_study_result *result)
 {
     task t;
+    char *text = NULL;
     size_t size;
     iso_scene scene;
     iso_analogue_found *f = result->found = calloc(1, sizeof *f);
@@ -258,9 +259,10 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     ISO_TRY(state(ctx, subject->scene, options, &t));
     ISO_TRY(answer(ctx, options, &t, &f->analogue, &scene));
     f->ball = f->analogue.has_body ? f->analogue.body : f->analogue.reduced;
-    FILE *to = open_memstream(&f->text, &size);
+    FILE *to = open_memstream(&text, &size);
     if (to) report(to, &f->analogue, &t, &scene);
-    if (!to || fclose(to) != 0) return iso_context_no_memory(ctx, "words");
+    if (!to || fclose(to) != 0) return free(text), iso_context_no_memory(ctx, "words");
+    f->text = text;
     return iso_study_table(ctx, "analogue", &scene, fields, f, NULL, &result->table[0]);
 }
 

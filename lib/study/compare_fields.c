@@ -101,13 +101,13 @@ static iso_status put_worst(iso_context *ctx, const iso_comparison *c, const cha
 
 ISO_STUDY_BEGIN(iso_compare_request, (iso_compare_request){.change = ISO_SCENE_AS_IT_IS})
 
-/* The records are tables of the result. */
+/* The records that are tables of the result. */
 static void free_comparison(void *found)
 {
     iso_comparison *c = found;
     c->difference = NULL;
-    for (int b = 0; b < ISO_BACKENDS; b++) c->run[b].trajectory = NULL;
-    for (int b = 0; b < ISO_INTEGRATED; b++) c->from_exact[b] = NULL;
+    for (int b = 0; b < c->runs; b++) c->run[b].trajectory = NULL;
+    for (int b = 0; b < ISO_INTEGRATED && c->runs == ISO_BACKENDS; b++) c->from_exact[b] = NULL;
     iso_comparison_free(c);
 }
 
@@ -147,7 +147,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     result->found = c;
     result->fields = iso_comparison_fields;
     result->free = free_comparison;
-    for (int i = 0; i < ISO_STUDY_TABLES; i++) {
+    for (int i = 0; i <= (c->runs == ISO_BACKENDS ? 5 : 2); i++) {
         result->table[i] = tables[i];
         if (tables[i]) iso_record_set_kind(tables[i], i > 0 && i < 4 ? "trajectory" : "compare");
     }

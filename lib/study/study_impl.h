@@ -151,7 +151,7 @@ bool iso_analogue_is_stated(const iso_analogue_request *request);
 typedef struct iso_analogue_found {
     iso_analogue analogue;
     iso_analogue_ball ball;
-    char *text; /* the scene of the ball, with a report in # lines */
+    const char *text; /* the scene of the ball, with a report in # lines; it is freed with the rest */
 } iso_analogue_found;
 
 /* --- analogue_units.c ------------------------------------------------------------------------------------------- */

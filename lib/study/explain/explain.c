@@ -225,7 +225,7 @@ static const iso_field fields[] = {
 
 static void free_explanation(void *found)
 {
-    free(((iso_explanation *)found)->text);
+    free((char *)((iso_explanation *)found)->text);
     free(found);
 }
 
@@ -233,6 +233,7 @@ static iso_status fill(iso_context *ctx, const iso_scene *scene, iso_explanation
 {
     iso_orbit *orbit;
     int columns[ISO_MAX_COLUMNS];
+    char *text = NULL;
     size_t size;
     const int count = iso_scene_columns(scene, columns);
     ISO_TRY(iso_scene_orbit(ctx, scene, columns, count, &orbit));
@@ -240,9 +241,10 @@ static iso_status fill(iso_context *ctx, const iso_scene *scene, iso_explanation
                            .method = iso_orbit_exact(orbit) ? NULL : iso_orbit_method(orbit)->name,
                            .twin = iso_orbit_has_twin(orbit),
                            .rows = iso_scene_rows(scene)};
-    FILE *to = open_memstream(&e->text, &size);
+    FILE *to = open_memstream(&text, &size);
     iso_status status = to ? explain(ctx, to, scene, orbit, columns, count) : ISO_OK;
     if (!to || fclose(to) != 0) status = iso_context_no_memory(ctx, "words");
+    e->text = text;
     iso_orbit_free(orbit);
     return status;
 }

@@ -12,7 +12,7 @@ typedef struct iso_explanation {
     const char *backend, *method; /* method NULL: the closed solution */
     bool twin;
     size_t rows;
-    char *text; /* all, in words */
+    const char *text; /* all, in words; it is freed with the rest */
 } iso_explanation;
 
 #endif
