@@ -54,7 +54,7 @@ class Files(Case):
         again = isoroll.read(self.path("s.h5"))
         self.same(again.array, table.array)
         self.assertEqual((again.kind, again.columns, again.lines), ("section", table.columns, table.lines))
-        isoroll.write(isoroll.section(WILD, crossings=3, states="both"), self.path("both.csv"))
+        isoroll.write(isoroll.section(WILD, crossings=3, as_="both"), self.path("both.csv"))
         self.assertEqual(isoroll.read(self.path("both.csv")).M.shape, (3, 3))
 
     def test_files_of_others(self):
@@ -162,10 +162,10 @@ class Conversion(Case):
         ball = isoroll.run(BALL)
         self.refuses(isoroll.BadArgument, "valid are ball, point", isoroll.convert, ball, "both", about="to")
         self.refuses(isoroll.BadInput, "already", isoroll.convert, ball, "ball")
-        self.refuses(isoroll.BadArgument, "tolerance 2", isoroll.convert, ball, "point", tolerance=2)
+        self.refuses(isoroll.BadArgument, "tolerance 2", isoroll.convert, ball, "point", tol=2)
         self.refuses(isoroll.BadArgument, "row_tolerance", isoroll.convert, ball, "point", row_tolerance=0)
         bare = isoroll.trajectory({"t": ball.t, "omega": ball.omega, "n": ball.n})
-        self.refuses(isoroll.BadInput, "no line 'k': isoroll.trajectory", isoroll.convert, bare, "point")
+        self.refuses(isoroll.BadInput, "no line 'k': give k=", isoroll.convert, bare, "point")
         ball.n[5] *= 1.1
         self.refuses(isoroll.BadInput, "row 5: ", isoroll.convert, ball, "point")
         rough = isoroll.run(example("11_rubber_and_marble"))

@@ -69,7 +69,7 @@ class Errors(Case):
             self.refuses(isoroll.BadArgument, "", isoroll.batch, WILD, [1.0], start=[[1, 0, 0, 0, 0, bad]])
         self.refuses(isoroll.BadArgument, "end is", isoroll.run, BALL, end=10**400)
         for event in ((), ("omega1",), "n1", (1, 1)):
-            self.refuses(isoroll.BadArgument, "event is", isoroll.section, WILD, event=event)
+            self.refuses(isoroll.BadArgument, "event", isoroll.section, WILD, event=event)
         for kind in (isoroll.Scene, isoroll.Orbit):
             self.refuses(isoroll.BadArgument, "never made", lambda: kind.__new__(kind).pointer)
         self.refuses(isoroll.BadArgument, "never made", lambda: isoroll.Scene.__new__(isoroll.Scene).k)

@@ -167,8 +167,11 @@ def _make(study: str) -> Callable[..., Any]:
     signature, make = _signature(study), _RETURNS.get(study, (_first, "", ""))[0]
 
     def instrument(*arguments: Any, **keywords: Any) -> Any:
-        bound = signature.bind(*arguments, **keywords)
-        given = dict(bound.arguments)
+        try:
+            bound = signature.bind(*arguments, **keywords).arguments
+        except TypeError as error:
+            raise TypeError(f"{study}() {error}: it takes {', '.join(signature.parameters)}") from None
+        given = {key: bound[key] for key in (*keywords, *bound)}  # as they are written, for the line `command`
         scene, progress, table = given.pop("scene", None), given.pop("progress", None), given.pop("table", None)
         columns = given.pop("columns", None)
         _points(given)

@@ -50,6 +50,7 @@ _TABLE = {
     "iso_record_word": (c_char_p, c_void_p, c_double),
     "iso_record_row": (c_void_p, c_void_p, c_size_t),
     "iso_record_line": (c_bool, c_void_p, c_size_t, POINTER(c_char_p), POINTER(c_char_p)),
+    "iso_record_get": (c_char_p, c_void_p, c_char_p),
     "iso_record_set": (c_int, c_void_p, c_void_p, c_char_p, c_char_p),
     "iso_record_add": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
     "iso_foreign_scene_read": (c_int, c_void_p, c_char_p, _OBJECT),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import sys
 import threading
 from ctypes import CFUNCTYPE, c_char_p, c_double, c_void_p, cast
@@ -79,14 +80,33 @@ def text_of(name: str, value: Any) -> str:
     return ";".join(",".join(text_of(name, x) for x in row) for row in np.atleast_2d(numbers).tolist())
 
 
-def _lines(options: Mapping[str, Any]) -> bytes:
+def _given(options: Mapping[str, Any]) -> Dict[str, str]:
+    """Options by the names of the command, as text."""
     given = {key.rstrip("_").replace("_", "-"): value for key, value in options.items()
-             if value is not None and value is not False and not (not isinstance(value, Mapping) and np.size(value) == 0)}
-    texts = [f"{key}={text_of(key, value)}" for key, value in given.items()]
-    for text in texts:
+             if value is not None and value is not False and not (key == "at" and np.size(value) == 0)}
+    texts = {key: text_of(key, value) for key, value in given.items()}
+    for key, text in texts.items():
         if "\n" in text:
-            raise _errors.BadArgument(f"{text!r:.60} has the end of a line in it")
-    return encoded("\n".join(texts))
+            raise _errors.BadArgument(f"{key} is {text!r:.60}: it has the end of a line in it")
+    return texts
+
+
+def _say_how(record: int, name: str, options: Mapping[str, str], scene: Optional[Scene]) -> None:
+    """The lines that the command writes into a table of this study: the command line, and the axis."""
+    if name == "section":
+        return  # its own lines say all
+    flags = {option.name for option in options_of(name) if option.type == "flag"}
+    words = ["isoroll", name]
+    for key, value in options.items():
+        if key != "threads":  # it changes no row
+            words += [f"--{key}"] if key in flags else [f"--{key}", value]
+    if scene is not None:
+        words.append(scene.name)
+    ctx = context()
+    lib.iso_record_set(ctx, record, b"command", encoded(shlex.join(words)))
+    axis = lib.iso_record_get(record, b"section.axis")
+    if axis and not lib.iso_record_get(record, b"axis"):
+        lib.iso_record_set(ctx, record, b"axis", axis)
 
 
 # --- progress -------------------------------------------------------------------------------------------------------
@@ -142,9 +162,13 @@ def ask(name: str, scene: Optional[SceneLike], record: Optional[Record], options
     chosen: Optional[Scene] = None if scene is None else as_scene(scene, {})
     ctx, notes, made, shown = context(), Notes(), (c_void_p * TABLES)(), Progress(progress)
     kept: List[Any] = []
+    given = _given(options)
+    text = "\n".join(f"{key}={value}" for key, value in given.items())
 
     def found() -> Optional[_Made]:
         if not kept:
+            if made[0]:
+                _say_how(made[0], name, given, chosen)
             news = [new_record() for _ in made]
             for new, pointer in zip(news, made):
                 new.value = pointer
@@ -154,7 +178,7 @@ def ask(name: str, scene: Optional[SceneLike], record: Optional[Record], options
 
     with interruptible(found):
         status = lib.iso_foreign_study(ctx, None if chosen is None else chosen.pointer,
-                                       None if record is None else record.pointer, encoded(name), _lines(options),
+                                       None if record is None else record.pointer, encoded(name), encoded(text),
                                        shown.pointer, None, made, *notes.arguments)
     result = found()
     try:
