@@ -14,7 +14,7 @@ from . import _errors
 #: what a line can say
 Value = Union[float, str, "NDArray[np.float64]"]
 
-_NUMBER = r"[+-]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|nan|inf)"
+_NUMBER = r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|nan|inf)"
 _NUMBERS = re.compile(rf"{_NUMBER}(?: {_NUMBER})*")
 
 
