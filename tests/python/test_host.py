@@ -55,7 +55,7 @@ class Errors(Case):
         with self.assertRaises(TypeError):
             isoroll.run(3)
         with self.assertRaises(TypeError):
-            isoroll.run(BALL, tol=3)
+            isoroll.run(BALL, toll=3)
 
     def test_words_of_arguments(self):
         for key, value in (("backend", "x"), ("method", "x"), ("tolerance", 3), ("step", -1), ("end", np.inf),

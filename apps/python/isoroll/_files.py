@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from ctypes import byref
 from typing import Any, Dict, Mapping, Optional, Sequence, Union
 
@@ -43,7 +44,12 @@ def write(table: Table, path: PathLike, *, digits: Union[int, str] = 17) -> None
 
 def as_table(source: Union[Table, PathLike], columns: Optional[Union[str, Sequence[str]]] = None) -> Table:
     """A table as it is, or that of a file."""
-    return source if isinstance(source, Table) else read(source, columns)
+    if isinstance(source, Table):
+        return source
+    if not isinstance(source, (str, bytes, os.PathLike)):
+        raise TypeError(f"a Table is needed, or the path of its file, not {type(source).__name__}: see "
+                        "isoroll.trajectory")
+    return read(source, columns)
 
 
 def _with_lines(table: Table, scene: Optional[SceneLike], given: Mapping[str, Any]) -> Table:
