@@ -36,7 +36,7 @@ def read(path: PathLike, columns: Optional[Union[str, Sequence[str]]] = None) ->
 
 
 def write(table: Table, path: PathLike, *, digits: Union[int, str] = 17) -> None:
-    """Writes a table: table.write(path), which see."""
+    """Writes a table: see table.write."""
     if not isinstance(table, Table):
         raise TypeError(f"a Table is needed, not {type(table).__name__}: see isoroll.trajectory")
     table.write(path, digits=digits)

@@ -109,6 +109,18 @@ def _signature(study: str) -> inspect.Signature:
     return inspect.Signature(parameters, return_annotation=_RETURNS.get(study, (_first, "Table", ""))[1])
 
 
+#: how Python writes options that are texts for the command; and what Python does in place of what the command does
+_FORMS: Dict[Any, str] = {
+    "at": "an array of shape (starts, 2)", "axis": '1, 2, 3 or "auto"', "event": '("omega1", 0.1)',
+    "follow": '{"k": (0.4, 0.6)}', "chart": '"J2", {"J2": (1, 4)} or {"level": (-1, 1)}', "J": "three numbers",
+    "neumann": "three numbers", "horizons": "a whole number", ("periodic", "k"): "(-3, 3)",
+    ("periodic", "level"): "a number", ("splitting", "k"): 'numbers, or a text such as "0.5:3:0.25,1/3"',
+    ("splitting", "level"): "likewise"}
+_WORDS: Dict[Any, str] = {
+    "at": "further orbits, which start at these (l, x)",
+    ("check", "max"): "marks residuals that are larger, in the column above_the_bound",
+    ("cost", "want"): "the lines `choice...` name the cheapest choice with an error of at most this"}
+
 _SUBJECTS = {"scene": "a path, YAML text, a dict or a Scene", "table": "a table, or the path of its file",
              "columns": "of a file without names: those of its columns from left to right, \"-\" for one passed over"}
 _OF_RECORD = {"scene": "take k, J and the effects from this scene"}
@@ -125,9 +137,10 @@ def _doc(study: str, signature: inspect.Signature) -> str:
     for name in signature.parameters:
         option = own.get(name)
         if option is not None:
-            words = re.sub(r"--([a-z][a-z-]*)", lambda found: python_name(found.group(1)), option.doc)
-            expects = f" [{option.expected}]" if option.type in ("text", "numbers") else ""
-            lines.append(fold(name, words + expects))
+            words = _WORDS.get((study, name)) or _WORDS.get(name) or option.doc
+            words = re.sub(r"--([a-z][a-z-]*)", lambda found: python_name(found.group(1)), words)
+            form = _FORMS.get((study, name)) or _FORMS.get(name, option.expected)
+            lines.append(fold(name, f"{words}: {form}" if option.type in ("text", "numbers") else words))
         elif name == "progress":
             lines.append(fold(name, "True: a bar on stderr; a function that is called with the part that is done"))
         else:

@@ -34,14 +34,13 @@ def section(
 
     scene            a path, YAML text, a dict or a Scene
     crossings        crossings of each orbit (default 500)
-    axis             which section n_A = 0, n_A increasing; auto (default): a global one [auto, 1, 2 or
-                     3]
-    event            in place of axis: crossings where this column passes this value upwards
-                     [COLUMN=VALUE]
+    axis             which section n_A = 0, n_A increasing; auto (default): a global one: 1, 2, 3 or
+                     "auto"
+    event            in place of axis: crossings where this column passes this value upwards: ("omega1",
+                     0.1)
     starts           M more orbits of the same energy, spread evenly over the section
     seed             another number spreads starts in another way (default 0)
-    at               one more orbit, which starts at (l, x); for several: L,X;L,X or at again [l,x, at
-                     most 64 times]
+    at               further orbits, which start at these (l, x): an array of shape (starts, 2)
     cloud            write no crossings: test with N states, 512 or more, whether the flow keeps the
                      invariant measure
     model            which model is integrated (default: both, where the ball has a twin)
@@ -79,11 +78,10 @@ def chaos(
     seed             another number spreads starts in another way (default 0)
     model            which model is integrated (default: both, where the ball has a twin)
     axis             a turn is a return to n_A = 0, n_A increasing, which must be global; auto
-                     (default): one that is [auto, 1, 2 or 3]
+                     (default): one that is: 1, 2, 3 or "auto"
     tol              largest relative error of one step, in [1e-15, 0.1]
     threads          threads that work (default: one for each processor)
-    at               one more orbit, which starts at (l, x); it is not in the share [l,x, at most 64
-                     times]
+    at               further orbits, which start at these (l, x): an array of shape (starts, 2)
     progress         True: a bar on stderr; a function that is called with the part that is done
 
     Returns a Chaos: a row for each orbit, the scene's own first; its `share`, its `indicators`. After a
@@ -134,13 +132,13 @@ def periodic(
     grid             points of that grid (default 2000)
     polish           compute with 128 bits and print 30 digits
     follow           follow orbits while k, a moment, the ratio (J2 - J1)/(J3 - J1) or the level goes
-                     from A to B [k, J1, J2, J3, ratio or level, =, two numbers and a colon]
+                     from A to B: {"k": (0.4, 0.6)}
     orbit            follow orbit N of the list alone
     branches         follow what branches off, too
     chart            in place of all that: where rotations are stable, in the plane of k and this moment
-                     or the level, from A to B [J1, J2 or J3, or J2=A:B, or level=A:B]
-    k                k of chart (default -3:3) [two numbers and a colon]
-    level            the level of chart, everywhere (default: the scene's) [a number]
+                     or the level, from A to B: "J2", {"J2": (1, 4)} or {"level": (-1, 1)}
+    k                k of chart (default -3:3): (-3, 3)
+    level            the level of chart, everywhere (default: the scene's): a number
     steps            steps of chart in both directions (default 120)
     threads          threads that work (default: one for each processor)
     progress         True: a bar on stderr; a function that is called with the part that is done
@@ -161,9 +159,8 @@ def splitting(
 
     scene            a path, YAML text, a dict or a Scene
     k                values of k in place of the scene's, with commas between: ranges A:B:STEP, numbers,
-                     fractions such as 1/3 [values and ranges A:B:STEP]
-    level            levels in place of the scene's, at one k: a list like that of k [values and ranges
-                     A:B:STEP]
+                     fractions such as 1/3: numbers, or a text such as "0.5:3:0.25,1/3"
+    level            levels in place of the scene's, at one k: a list like that of k: likewise
     digits           double: 64 bits of mantissa (19 digits); quad: 128 bits (32 digits); auto: 128 bits
                      where 64 give less than 3 digits of m (default)
     threads          threads that work (default: one for each processor)
@@ -221,9 +218,9 @@ def cost(
     tol              largest relative error of one step, in [1e-15, 0.1]
     t_end            last time, in place of the scene's
     quick            measure three tolerances only: a few seconds
-    want             print only the cheapest choice with an error of at most X
-    horizons         growth over N orbits (default 6), each twice as long as the one before [a whole
-                     number from 1 to 24]
+    want             the lines `choice...` name the cheapest choice with an error of at most this
+    horizons         growth over N orbits (default 6), each twice as long as the one before: a whole
+                     number
     progress         True: a bar on stderr; a function that is called with the part that is done
 
     Returns a Cost: a row for each backend, method and tolerance. After a failure or Ctrl-C, the
@@ -273,12 +270,11 @@ def check(
                      passed over
     tol              tolerance of the flow from row to row (default 1e-13)
     k                geometry number k, if the file does not say it
-    J                moments about the contact point, if the file does not say them [three numbers
-                     J1,J2,J3]
+    J                moments about the contact point, if the file does not say them: three numbers
     eps              coupling of the point's potential, if the file does not say it
     h                energy of the ball, in place of eps
     row_tolerance    largest error of a row's state (default 1e-5); more for rows of few digits
-    max              exit with status 1 if a residual is larger than X
+    max              marks residuals that are larger, in the column above_the_bound
     progress         True: a bar on stderr; a function that is called with the part that is done
 
     Returns a Table: a row for each residual. After a failure or Ctrl-C, the exception's `partial` is
@@ -325,9 +321,9 @@ def analogue(
     """Find a ball that realises a problem of a point on a sphere: `isoroll analogue`.
 
     scene            a path, YAML text, a dict or a Scene
-    neumann          C1,C2,C3 of Neumann's problem V = (1/2) sum C_i gamma_i^2 [three numbers C1,C2,C3]
+    neumann          C1,C2,C3 of Neumann's problem V = (1/2) sum C_i gamma_i^2: three numbers
     k                k of the problem V = -eps (gamma, J gamma)^(-1/k)
-    J                J of this problem [three numbers J1,J2,J3]
+    J                J of this problem: three numbers
     eps              eps of this problem
     energy           energy of the point, M^2/2 + V (default 0)
     level            k = -1: a ball in the potential of a level, even where there is a free one

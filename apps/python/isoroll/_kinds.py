@@ -143,14 +143,6 @@ class Comparison(Table):
     point_exact: Optional[Table] = None
 
 
-def _with_lists(found: Any) -> Any:
-    """Dicts whose keys are 0, 1, 2, ... as lists."""
-    if not isinstance(found, dict):
-        return found
-    values = {key: _with_lists(value) for key, value in found.items()}
-    return list(values.values()) if values and list(values) == [str(i) for i in range(len(values))] else values
-
-
 class Result(Table):
     """A result without rows: what was found stands in its lines, by the names of the command's --json.
 
@@ -163,16 +155,8 @@ class Result(Table):
 
     @property
     def tree(self) -> Dict[str, Any]:
-        """The lines as dicts and lists; the first of them can also be written as attributes."""
-        found: Dict[str, Any] = {}
-        for key, value in self.lines.items():
-            *path, last = key.split(".")
-            place = found
-            for step in path:
-                inner = place.setdefault(step, {})
-                place = inner if isinstance(inner, dict) else place.setdefault(step + ".", {})
-            place[last] = value
-        return _with_lists(found)  # type: ignore[no-any-return]
+        """The lines as dicts and lists. Its keys can also be written as attributes."""
+        return self.lines.tree
 
     @property
     def text(self) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from types import MappingProxyType
-from typing import Any, Iterator, Mapping, Union
+from typing import Any, Dict, Iterator, Mapping, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,11 +42,20 @@ def text_of(value: Any) -> str:
     return " ".join("%.17g" % x for x in numbers)
 
 
+def _with_lists(found: Any) -> Any:
+    """Dicts whose keys are 0, 1, 2, ... as lists."""
+    if not isinstance(found, dict):
+        return found
+    values = {key: _with_lists(value) for key, value in found.items()}
+    return list(values.values()) if values and list(values) == [str(i) for i in range(len(values))] else values
+
+
 class Lines(Mapping[str, Any]):
     """What a file says in its lines of `#`, by key. lines["k"] is a float, lines["J"] an array that cannot be
     written to, lines["model"] a text.
 
     text  the same with all values as they stand in the file
+    tree  the same as dicts and lists: tree["angles"][0]["frequency"]["t"] is the line "angles.0.frequency.t"
     """
 
     text: Mapping[str, str]
@@ -54,6 +63,19 @@ class Lines(Mapping[str, Any]):
     def __init__(self, lines: Mapping[str, Any]) -> None:
         found = lines.text if isinstance(lines, Lines) else {str(key): text_of(lines[key]) for key in lines}
         self.__dict__["text"] = found if isinstance(found, MappingProxyType) else MappingProxyType(dict(found))
+
+    @property
+    def tree(self) -> Dict[str, Any]:
+        """The lines as dicts and lists."""
+        found: Dict[str, Any] = {}
+        for key, value in self.items():
+            *path, last = key.split(".")
+            place = found
+            for step in path:
+                inner = place.setdefault(step, {})
+                place = inner if isinstance(inner, dict) else place.setdefault(step + ".", {})
+            place[last] = value
+        return _with_lists(found)  # type: ignore[no-any-return]
 
     def __getitem__(self, key: str) -> Value:
         return value_of(self.text[key])

@@ -80,11 +80,14 @@ def text_of(name: str, value: Any) -> str:
     return ";".join(",".join(text_of(name, x) for x in row) for row in np.atleast_2d(numbers).tolist())
 
 
-def _given(options: Mapping[str, Any]) -> Dict[str, str]:
+def _given(study: str, options: Mapping[str, Any]) -> Dict[str, str]:
     """Options by the names of the command, as text."""
+    ranges = {option.name for option in options_of(study) if option.argument == "A:B"}
     given = {key.rstrip("_").replace("_", "-"): value for key, value in options.items()
              if value is not None and value is not False and not (key == "at" and np.size(value) == 0)}
-    texts = {key: text_of(key, value) for key, value in given.items()}
+    texts = {key: text_of(key, {key: value} if key in ranges and not isinstance(value, str) else value)
+             for key, value in given.items()}
+    texts.update((key, texts[key].partition("=")[2]) for key in ranges & texts.keys() if "=" in texts[key])
     for key, text in texts.items():
         if "\n" in text:
             raise _errors.BadArgument(f"{key} is {text!r:.60}: it has the end of a line in it")
@@ -162,7 +165,7 @@ def ask(name: str, scene: Optional[SceneLike], record: Optional[Record], options
     chosen: Optional[Scene] = None if scene is None else as_scene(scene, {})
     ctx, notes, made, shown = context(), Notes(), (c_void_p * TABLES)(), Progress(progress)
     kept: List[Any] = []
-    given = _given(options)
+    given = _given(name, options)
     text = "\n".join(f"{key}={value}" for key, value in given.items())
 
     def found() -> Optional[_Made]:
