@@ -176,18 +176,12 @@ static void complain_interrupted(const shell *s)
         complain("interrupted: without a verdict so far, the orbit is undecided");
 }
 
-static int judge(const shell *s)
-{
-    return ((const iso_chaos *)s->result.found)->failure == ISO_OK ? EXIT_DONE : EXIT_SOME_FAILED;
-}
-
 static int run(iso_context *ctx, const void *options_given)
 {
     static const shell_parts parts = {.study = &iso_chaos_study,
                                       .kind = "chaos",
                                       .check = check,
                                       .interrupted = complain_interrupted,
-                                      .judge = judge,
                                       .print = print_table,
                                       .describe = describe,
                                       .draw = draw};

@@ -40,13 +40,6 @@ static void complain_interrupted(const shell *s)
         complain("interrupted: nothing has been measured");
 }
 
-static int judge(const shell *s)
-{
-    const iso_cost_found *f = s->result.found;
-    const bool lost = !f->cost->complete || iso_cost_count(f->cost, iso_cost_has_failed) > 0;
-    return (isnan(f->want) ? lost : !f->choice) ? EXIT_SOME_FAILED : EXIT_DONE;
-}
-
 /* Prints the choice for --want as options of `run`. The error and time to expect go to stderr. */
 static void tell_choice(const iso_cost_found *f)
 {
@@ -97,7 +90,6 @@ static int run(iso_context *ctx, const void *options_given)
                                       .check = check,
                                       .change = shell_change,
                                       .interrupted = complain_interrupted,
-                                      .judge = judge,
                                       .print = print_found,
                                       .describe = describe,
                                       .draw = draw};

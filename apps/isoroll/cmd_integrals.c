@@ -82,16 +82,10 @@ static void print_table(const shell *s)
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-static void complain_interrupted(const shell *s)
-{
-    (void)s;
-    complain("interrupted: what is known by now is printed");
-}
-
 static int run(iso_context *ctx, const void *options_given)
 {
     static const shell_parts parts = {
-        .study = &iso_integrals_study, .interrupted = complain_interrupted, .print = print_table};
+        .study = &iso_integrals_study, .stopped = "what is known by now is printed", .print = print_table};
     return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
 }
 

@@ -127,12 +127,6 @@ static int draw_list(const shell *s)
     return result;
 }
 
-static void complain_orbits(const shell *s)
-{
-    (void)s;
-    complain("interrupted: orbits are missing");
-}
-
 /* --- branches --------------------------------------------------------------------------------------------------- */
 
 static void print_branch(const iso_continuations *f, size_t i, const char *name)
@@ -161,15 +155,6 @@ static iso_status describe_branches(shell *s)
     const iso_continuations *f = s->result.found;
     iso_plot_title(s->title, &s->scene.params, ", along %s", iso_vary_name((int)f->vary));
     return shell_lines(s, (const table_line[]){{.key = "title", .text = s->title}, {.key = NULL}});
-}
-
-static int judge_branches(const shell *s)
-{
-    const iso_continuations *f = s->result.found;
-    size_t failed = 0;
-    for (size_t i = 0; i < f->count; i++)
-        for (size_t j = 0; j < f->branch[i].events; j++) failed += f->branch[i].event[j].kind == ISO_BRANCH_FAILURE;
-    return failed > 0 ? EXIT_SOME_FAILED : EXIT_DONE;
 }
 
 static int draw_branches(const shell *s)
@@ -235,18 +220,7 @@ static iso_status describe_chart(shell *s)
                                                {.key = NULL}});
 }
 
-static void complain_chart(const shell *s)
-{
-    (void)s;
-    complain("interrupted: no chart");
-}
-
 /* --- the command ------------------------------------------------------------------------------------------------ */
-
-static iso_status check(const shell *s)
-{
-    return check_json_alone(s->ctx, "periodic", s->told->table, s->told->json);
-}
 
 static json_t *json_without_scene(const shell *s)
 {
@@ -257,24 +231,20 @@ static int run(iso_context *ctx, const void *options_given)
 {
     static const shell_parts list = {.study = &iso_periodic_study,
                                      .kind = "periodic",
-                                     .check = check,
-                                     .interrupted = complain_orbits,
+                                     .stopped = "orbits are missing",
                                      .print = print_list,
                                      .describe = describe_list,
                                      .draw = draw_list},
                              follow = {.study = &iso_periodic_study,
                                        .kind = "periodic follow",
-                                       .check = check,
                                        .interrupted = complain_branches,
-                                       .judge = judge_branches,
                                        .json = json_without_scene,
                                        .print = print_branches,
                                        .describe = describe_branches,
                                        .draw = draw_branches},
                              chart = {.study = &iso_periodic_study,
                                       .kind = "periodic chart",
-                                      .check = check,
-                                      .interrupted = complain_chart,
+                                      .stopped = "no chart",
                                       .json = json_without_scene,
                                       .print = print_chart,
                                       .describe = describe_chart};

@@ -206,18 +206,9 @@ static void print_clouds(const shell *s)
     for (int i = 0; i < f->count; i++) print_cloud(&f->cloud[i]);
 }
 
-static int judge_clouds(const shell *s)
-{
-    const iso_clouds *f = s->result.found;
-    bool kept = true;
-    for (int i = 0; i < f->count; i++) kept = kept && (*f->cloud[i].why || f->cloud[i].measure.kept);
-    return kept ? EXIT_DONE : EXIT_SOME_FAILED;
-}
-
 static int run(iso_context *ctx, const void *options_given)
 {
-    static const shell_parts clouds = {
-        .study = &iso_section_study, .check = check_cloud, .judge = judge_clouds, .print = print_clouds};
+    static const shell_parts clouds = {.study = &iso_section_study, .check = check_cloud, .print = print_clouds};
     const options *o = options_given;
     if (o->study.cloud == 0) return section(ctx, o);
     return shell_run(ctx, &clouds, o, &(shell_options){.file = o->shell.file});

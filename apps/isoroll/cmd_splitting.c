@@ -141,33 +141,11 @@ static int draw(const shell *s)
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-static iso_status check(const shell *s)
-{
-    return check_json_alone(s->ctx, "splitting", s->told->table, s->told->json);
-}
-
-static void complain_interrupted(const shell *s)
-{
-    (void)s;
-    complain("interrupted: only rows that are done are shown");
-}
-
-/* Some rows failed: they are told. */
-static int judge(const shell *s)
-{
-    const iso_separatrix_table *t = s->result.found;
-    size_t failed = 0;
-    for (size_t i = 0; i < t->rows; i++) failed += t->row[i].status != ISO_OK && t->row[i].status != ISO_STOPPED;
-    return failed > 0 ? EXIT_SOME_FAILED : EXIT_DONE;
-}
-
 static int run(iso_context *ctx, const void *options_given)
 {
     static const shell_parts parts = {.study = &iso_splitting_study,
                                       .kind = "splitting",
-                                      .check = check,
-                                      .interrupted = complain_interrupted,
-                                      .judge = judge,
+                                      .stopped = "only rows that are done are shown",
                                       .json = json,
                                       .print = print_table,
                                       .describe = describe,

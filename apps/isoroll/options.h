@@ -71,8 +71,7 @@ bool ends_with(const char *path, const char *ending);
     ROW_WITH(name_, argument_, expected_, doc_, set_, type, field, .letter = letter_, .file = file_)
 
 /* The row of an option whose argument is one of a list of words. */
-#define ROW_OF_WORDS(name_, argument_, expected_, doc_, set_, type, field, word_)                                    \
-    ROW_WITH(name_, argument_, expected_, doc_, set_, type, field, .word = word_)
+#define ROW_OF_WORDS ISO_OPTION_WORDS
 
 /* The last row of a table. */
 #define ROW_END ISO_OPTION_END

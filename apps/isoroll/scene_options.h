@@ -8,9 +8,6 @@
  * there. */
 int finish_scene(iso_context *ctx, const char *file, const iso_scene *scene, iso_status status);
 
-/* Refuses `-o -` beside --json: both write to standard output. output NULL: not given. name: of the command. */
-iso_status check_json_alone(iso_context *ctx, const char *name, const char *output, bool json);
-
 /* The times that `run --times FILE` reads, in the order of the file. */
 typedef struct output_times {
     double *list;

@@ -15,6 +15,15 @@ static void tell_note(void *data, const char *words)
     complain("%s", words);
 }
 
+/* Refuses `-o -` beside --json: both write to standard output. */
+static iso_status check_json_alone(const shell *s, const shell_parts *parts)
+{
+    const char *table = s->told->table;
+    if (!s->told->json || !table || strcmp(table, "-") != 0) return ISO_OK;
+    return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "output",
+                            "%s: -o - and --json both write to standard output: choose one", parts->study->name);
+}
+
 iso_status shell_change(shell *s)
 {
     const iso_scene_changes *change = s->options;
@@ -25,7 +34,7 @@ iso_status shell_change(shell *s)
 static iso_status prepare(shell *s, const shell_parts *parts, iso_table_writer **writer)
 {
     const shell_options *o = s->told;
-    iso_status status = parts->check ? parts->check(s) : ISO_OK;
+    iso_status status = parts->check ? parts->check(s) : check_json_alone(s, parts);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(s->ctx, o->plot);
     if (status == ISO_OK) status = iso_scene_read(s->ctx, o->file, &s->scene);
     if (status == ISO_OK && parts->change) status = parts->change(s);
@@ -99,11 +108,12 @@ int shell_run(iso_context *ctx, const shell_parts *parts, const void *options, c
     status = parts->study->run(ctx, &(iso_study_subject){.scene = &s.scene}, options, &s.result);
     progress_end();
     int result = finish_scene(ctx, told->file, &s.scene, status);
+    if (status == ISO_STOPPED && parts->stopped) complain("interrupted: %s", parts->stopped);
     if (status == ISO_STOPPED && parts->interrupted) parts->interrupted(&s);
     if (!s.result.table[0]) {
         iso_table_writer_close(ctx, writer, false);
     } else {
-        if (parts->judge) result = worse(result, parts->judge(&s));
+        if (s.result.failed) result = worse(result, EXIT_SOME_FAILED);
         result = worse(result, print(&s, parts));
         result = worse(result, save(&s, parts, writer));
     }

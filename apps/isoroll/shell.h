@@ -26,15 +26,15 @@ typedef struct shell {
 /* A command's own part of it. A function that is NULL has nothing to do. */
 typedef struct shell_parts {
     const iso_study *study;
-    const char *kind;                    /* of the table in files                                   */
-    iso_status (*check)(const shell *s); /* refuses options, before the scene is read               */
-    iso_status (*change)(shell *s);      /* changes the scene                                       */
-    void (*interrupted)(const shell *s); /* complains after Ctrl-C; table[0] may be NULL            */
-    int (*judge)(const shell *s);        /* an exit status, besides that of the study               */
-    json_t *(*json)(const shell *s);     /* NULL: version, k, J and all that was found              */
-    void (*print)(const shell *s);       /* words on standard output                                */
-    iso_status (*describe)(shell *s);    /* adds lines to the table, among them its title           */
-    int (*draw)(const shell *s);         /* the exit status; NULL: the table is drawn by its kind   */
+    const char *kind;                    /* of the table in files                                 */
+    iso_status (*check)(const shell *s); /* refuses options; NULL: `-o -` beside --json           */
+    iso_status (*change)(shell *s);      /* changes the scene                                     */
+    const char *stopped;                 /* what to say after Ctrl-C ...                          */
+    void (*interrupted)(const shell *s); /* ... or who says it; table[0] may be NULL              */
+    json_t *(*json)(const shell *s);     /* NULL: version, k, J and all that was found            */
+    void (*print)(const shell *s);       /* words on standard output                              */
+    iso_status (*describe)(shell *s);    /* adds lines to the table, among them its title         */
+    int (*draw)(const shell *s);         /* the exit status; NULL: the table is drawn by its kind */
 } shell_parts;
 
 /* Gives the exit status. */

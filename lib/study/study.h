@@ -64,6 +64,7 @@ typedef struct iso_study_result {
     const iso_field *fields; /* of `found`: the result as a struct, ...                         */
     void *found;             /* ... which some studies have besides                             */
     void (*free)(void *found);
+    bool failed; /* some of what was asked for failed, or was found to be wrong: notes or the tables say what */
     void (*note)(void *data, const char *words); /* called with a remark for the user; NULL: nobody is */
     void (*progress)(double part, void *data);   /* the part of the work that is done, in [0, 1]; NULL: nobody is */
     void *data;

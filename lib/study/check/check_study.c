@@ -167,6 +167,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     iso_fields_copy(iso_check_fields, "residuals", fields);
     iso_status status =
         iso_study_table(ctx, "check", subject->scene, fields, f, iso_checked_fields, &result->table[0]);
+    for (int i = 0; i < f->count; i++) result->failed = result->failed || iso_checked_is_bad(&f->checked[i]);
     for (int i = 0; status == ISO_OK && i < f->count; i++)
         status = iso_columns_append(ctx, iso_checked_fields, &f->checked[i], result->table[0]);
     return status;

@@ -188,6 +188,8 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     if (!f->line) return iso_context_no_memory(ctx, "a cost");
     if (!isnan(r->want)) f->choice = iso_cost_choose(f->cost, r->want);
     if (status == ISO_OK && r->horizons > 0) status = grow(ctx, &scene, (int)r->horizons, f);
+    const bool lost = !f->cost->complete || iso_cost_count(f->cost, iso_cost_has_failed) > 0;
+    result->failed = isnan(r->want) ? lost : !f->choice;
     const iso_status made = put(ctx, &scene, f, &result->table[0]);
     return status == ISO_OK ? made : status;
 }

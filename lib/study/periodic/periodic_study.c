@@ -184,6 +184,7 @@ static iso_status follow(iso_context *ctx, const iso_scene *scene, const iso_per
     result->free = free_branches;
     for (size_t i = 0; i < f->count; i++)
         for (size_t j = 0; j < f->branch[i].events; j++) failed += f->branch[i].event[j].kind == ISO_BRANCH_FAILURE;
+    result->failed = failed > 0;
     if (failed > 0)
         iso_study_note(result, "%zu branches could not be followed to their ends: see their failures", failed);
     const iso_status made = put_branches(ctx, scene, f, &result->table[0]);

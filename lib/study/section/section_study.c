@@ -166,6 +166,7 @@ static iso_status find_crossings(iso_context *ctx, const iso_scene *scene, const
     const iso_status status = iso_section_run(ctx, scene, &request->how, &sink, &r);
     for (int i = 0; i < 2; i++)
         if (result->table[i]) iso_record_set_kind(result->table[i], "section");
+    result->failed = r.failed > 0;
     if (r.failed > 0)
         iso_study_note(result, "%zu of %zu orbits did not get to the end; %s", r.failed, r.orbits, r.words);
     return status;
@@ -270,7 +271,9 @@ static iso_status find_clouds(iso_context *ctx, const iso_scene *scene, const is
     iso_status status = ISO_OK;
     for (; status == ISO_OK && found->count < ISO_CLOUDS; p.number++) {
         status = carry(ctx, scene, &m, p.number, &found->cloud[found->count]);
+        const iso_cloud *cloud = &found->cloud[found->count];
         found->count += status == ISO_OK;
+        result->failed = result->failed || (status == ISO_OK && !*cloud->why && !cloud->measure.kept);
     }
     iso_status made = iso_study_table(ctx, "section cloud", scene, NULL, NULL, iso_cloud_fields, &result->table[0]);
     for (int i = 0; made == ISO_OK && i < found->count; i++)

@@ -141,7 +141,7 @@ static iso_status put_rows(iso_context *ctx, const iso_separatrix_table *s, iso_
 }
 
 /* All rows failed: the first one's reason is that of the study. Some: they are told. */
-static iso_status judge(iso_context *ctx, const iso_separatrix_table *s, const iso_study_result *result)
+static iso_status judge(iso_context *ctx, const iso_separatrix_table *s, iso_study_result *result)
 {
     size_t failed = 0, first = s->rows;
     for (size_t i = 0; i < s->rows; i++) {
@@ -150,6 +150,7 @@ static iso_status judge(iso_context *ctx, const iso_separatrix_table *s, const i
     }
     if (failed > 0 && failed == s->rows)
         return iso_context_fail(ctx, s->row[first].status, "", "%s", s->row[first].words);
+    result->failed = failed > 0;
     if (failed > 0)
         iso_study_note(result, "%zu of %zu values of %s failed: %s", failed, s->rows,
                        iso_separatrix_by_level(s) ? "the level" : "k", s->row[first].words);
