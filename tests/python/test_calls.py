@@ -187,6 +187,16 @@ class Numbers(Case):
         self.assertLess(isoroll.check(bare, scene=BALL).worst.max(), 1e-11)
         self.assertNotIn("k", bare.lines)
 
+    def test_convert_what_says_little(self):
+        table = isoroll.run(BALL)
+        bare = isoroll.trajectory({"t": table.t, "omega": table.omega, "n": table.n})
+        wanted = isoroll.convert(table, "point")
+        self.same(isoroll.convert(bare, "point", k=-1, J=(1, 2, 5)).array, wanted.array)
+        self.same(isoroll.convert(bare, "point", scene=BALL).array, wanted.array)
+        np.savetxt(self.path("own.txt"), table.array)
+        self.same(isoroll.convert(self.path("own.txt"), "point", columns=table.columns, scene=BALL).array, wanted.array)
+        self.refuses(isoroll.BadInput, "no line 'k'", isoroll.convert, bare, "point")
+
     def test_words(self):
         wanted = self.command("explain", BALL)
         self.assertEqual(re.sub("cost of.*", "", str(isoroll.explain(BALL))), re.sub("cost of.*", "", wanted))
@@ -233,6 +243,29 @@ class Numbers(Case):
         os.environ["ISOROLL_COMMAND"] = os.environ["ISO_COMMAND"]
 
 
+class Newcomers(Case):
+    """What somebody new tried, and did not get."""
+
+    def test_list(self):
+        for command, words in (("periodic", ["--period", "1", "-o", "per.csv"]), ("chaos", ["--csv", "c.csv", "--turns", "9"])):
+            self.command(command, WILD, *words)
+        table = isoroll.read(self.path("per.csv"))
+        self.assertEqual((table.kind, table.period.tolist()), ("periodic", [1]))
+        self.assertEqual(table.trace.shape, (1,))
+        self.command("sweep", os.path.join(SOURCE, "examples/19_atlas/sweep.yaml"), "--point", "0")
+        with open(self.path("share.yaml"), "w", encoding="utf-8") as file:
+            file.write(f"scene: {WILD}\nvary: {{k: [0.5, 0.75]}}\nmeasure: {{chaos: {{starts: 2}}}}\nuntil: {{turns: 5}}\n")
+        self.command("sweep", "share.yaml", "-o", "share.h5")
+        self.assertEqual(isoroll.read(self.path("share.h5"))["k"].tolist(), [0.5, 0.75])
+        self.assertIn("chaos_share", isoroll.read(self.path("share.h5")))
+        base = isoroll.Scene(WILD)
+        self.assertEqual(isoroll.Scene(base, k=0.4).k, 0.4)
+        self.assertEqual(isoroll.run(base, t_end=1).lines["k"], 0.5)
+        for name in "check compare cost explain frequencies splitting periodic integrals sweep analogue plot view " \
+                "list_".split():
+            self.assertTrue(callable(getattr(isoroll, name)))
+
+
 class Refusals(Case):
     def test_name_what_there_is(self):
         for call, words in ((lambda: isoroll.chaos(WILD, turn=3), "unexpected keyword argument 'turn'.*exponent_turns"),
@@ -275,10 +308,12 @@ class Meanwhile(Case):
         def stop(part):
             raise ZeroDivisionError("enough")
 
-        plan = {"scene": isoroll.Scene(WILD), "vary": {"k": {"from": 0.5, "to": 0.7, "count": 50}},
-                "measure": {"state": {}}, "until": {"time": 100}}
-        with self.assertRaisesRegex(ZeroDivisionError, "enough"):
+        plan = {"scene": isoroll.Scene(WILD), "vary": {"k": {"from": 0.5, "to": 0.7, "count": 3000}},
+                "measure": {"state": {}}, "until": {"time": 2000}}
+        with self.assertRaisesRegex(ZeroDivisionError, "enough") as raised:
             isoroll.sweep(plan, progress=stop)
+        self.assertLess(len(raised.exception.partial), 3000)  # it ends the call
+        plan["until"] = {"time": 20}
         caught = []
 
         def work():
