@@ -51,7 +51,7 @@ else()
   endforeach()
 
   configure_file(apps/packaging/notices.in ${wheel}/NOTICES @ONLY)
-  file(GLOB modules CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/python/isoroll/*.py)
+  file(GLOB modules CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/python/isoroll/*.py*)
   add_custom_command(OUTPUT ${wheel}/packed VERBATIM
     COMMAND ${pack} wheel ${wheel}
     COMMAND ${CMAKE_COMMAND} -E touch ${wheel}/packed

@@ -78,7 +78,7 @@ def glibc(path):
 
 def wheel_files(folder, tag):
     """Names in the wheel and their bytes."""
-    modules = sorted((HERE / "isoroll").glob("*.py")) + [HERE / "isoroll/py.typed"]
+    modules = sorted((HERE / "isoroll").glob("*.py*")) + [HERE / "isoroll/py.typed"]
     about, data = f"isoroll-{version()}.dist-info", f"isoroll-{version()}.data"
     files = {f"isoroll/{path.name}": path.read_bytes() for path in modules}
     files[f"isoroll/{LIBRARY}"] = (folder / LIBRARY).read_bytes()

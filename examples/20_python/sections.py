@@ -17,12 +17,12 @@ print(scene)
 print("gamma at t = 0, 10, 5:", *both.gamma)
 
 # %% 60 orbits of the same energy, spread over the section. Which of them are chaotic?
-chaos = isoroll.chaos(scene, starts=60, models="ball")
+chaos = isoroll.chaos(scene, starts=60, model="ball")
 print(f"chaotic: {chaos.share.share:.0%} of the section, between {chaos.share.low:.0%} and {chaos.share.high:.0%}")
 
 # %% The section of these orbits. Each model is integrated by itself.
-starts = np.column_stack([chaos.orbits["l"], chaos.orbits["x"]])[1:]  # orbit 0 is the scene's own
-section = isoroll.section(scene, at=starts, crossings=400, states="both")
+starts = np.column_stack([chaos.l, chaos.x])[1:]  # orbit 0 is the scene's own
+section = isoroll.section(scene, at=starts, crossings=400, as_="both")
 print(f"n{section.lines['section'][1:]}: {len(section)} crossings by the ball, {len(section.point)} by the point")
 
 # %% Left: directions of the ball's n and omega. Right: place and momentum of the point.
@@ -35,7 +35,7 @@ b, c = (a + 1) % 3, (a + 2) % 3
 
 
 def draw(axes, orbit, angle, part, title):
-    grey = (chaos.verdicts == "chaotic")[orbit.astype(int)]
+    grey = (chaos.verdict == "chaotic")[orbit.astype(int)]
     axes.plot(angle[grey], part[grey], ",", color="0.6")
     axes.scatter(angle[~grey], part[~grey], s=0.3, c=orbit[~grey], cmap="turbo", linewidths=0)
     axes.set(title=title, xlim=(-np.pi, np.pi), ylim=(-1, 1))

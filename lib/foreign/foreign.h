@@ -77,6 +77,15 @@ ISO_API int iso_foreign_scene_numbers(const iso_foreign_scene *scene, const char
 /* The word of a key: "model" (of the start), "backend", "method", "as", "name"; NULL: there is no such key. */
 ISO_API const char *iso_foreign_scene_word(const iso_foreign_scene *scene, const char *key);
 
+/* The i-th key that the text of a scene can have, and its section, such as "reduced" and "k"; those of "effects" are
+ * the names of the effects. False: there are no more. */
+ISO_API bool iso_foreign_scene_key(int i, const char **section, const char **key);
+
+/* The text of a scene or of a sweep, YAML of `bytes` bytes, as JSON: as much of it as there is room for, with an end
+ * mark; *length is that of all of it. Errors: ISO_BAD_INPUT about its YAML, with line and column in `name`. */
+ISO_API iso_status iso_foreign_yaml_json(iso_context *ctx, const char *name, const char *text, size_t bytes,
+                                         char json[], size_t room, size_t *length);
+
 /* How many columns the scene asks for, and their numbers (iso_column_name); columns[] has room for
  * ISO_MAX_COLUMNS. */
 ISO_API int iso_foreign_scene_columns(const iso_foreign_scene *scene, int columns[]);
@@ -163,6 +172,10 @@ ISO_API const char *iso_foreign_option_word(const char *study, int i, int word);
  * ("": none), and what it is in one line. false: past the end. */
 ISO_API const char *iso_foreign_table_kind(int i);
 ISO_API bool iso_foreign_column(const char *kind, int i, char name[64], const char *text[2]);
+
+/* What there is, in the words of `isoroll list`: as much of it as there is room for, with an end mark; *length is that
+ * of all of it. topic: "methods", ...; NULL: all. Errors: ISO_BAD_ARGUMENT about "topic", ISO_NO_MEMORY. */
+ISO_API iso_status iso_foreign_list(iso_context *ctx, const char *topic, char text[], size_t room, size_t *length);
 
 /* --- sweeps ----------------------------------------------------------------------------------------------------- */
 

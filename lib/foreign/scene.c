@@ -6,6 +6,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "foreign/foreign_impl.h"
+#include "io/scene_draft_impl.h"
 #include "io/scene_file.h"
 #include "orbit/orbit_impl.h"
 
@@ -123,4 +124,15 @@ const char *iso_foreign_scene_word(const iso_foreign_scene *scene, const char *k
 int iso_foreign_scene_columns(const iso_foreign_scene *scene, int columns[])
 {
     return iso_scene_columns(&scene->scene, columns);
+}
+
+bool iso_foreign_scene_key(int i, const char **section, const char **key)
+{
+    return iso_scene_key(i, section, key);
+}
+
+iso_status iso_foreign_yaml_json(iso_context *ctx, const char *name, const char *text, size_t bytes, char json[],
+                                 size_t room, size_t *length)
+{
+    return iso_yaml_json(ctx, name, text, bytes, json, room, length);
 }

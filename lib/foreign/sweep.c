@@ -1,4 +1,6 @@
 /* sweep.c - a whole sweep, as a table. Chunks end in any order; those that come early wait as bytes. */
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "foreign/foreign_impl.h"
@@ -16,6 +18,7 @@ typedef struct keeper {
     packed *chunk;
     /* next: to be computed; taken: were computed; added: looked at for the table */
     size_t chunks, next, taken, added;
+    uint64_t sum; /* of the rows of the table, in order */
     void (*progress)(double part, void *data);
     void *data;
 } keeper;
@@ -37,6 +40,7 @@ static iso_status add(iso_context *ctx, keeper *k, size_t c)
     iso_sweep_rows_unpack(p->bytes, p->length, &k->rows); /* they are our own bytes */
     free(p->bytes);
     *p = (packed){NULL, 0};
+    k->sum = iso_sweep_sum(k->sum, &k->rows);
     return iso_sweep_table_add(ctx, k->table, &k->rows);
 }
 
@@ -69,6 +73,14 @@ static iso_status compute(iso_context *ctx, const iso_sweep *sweep, int threads,
     return status == ISO_OK ? added : status;
 }
 
+/* A file without the sum is no whole result. */
+static iso_status set_sum(iso_context *ctx, const keeper *k)
+{
+    char text[17];
+    snprintf(text, sizeof text, "%016" PRIx64, k->sum);
+    return iso_record_set(ctx, k->table, "sum", text);
+}
+
 static iso_status run(iso_context *ctx, const iso_sweep_file *file, int threads, keeper *k)
 {
     iso_sweep *sweep;
@@ -78,6 +90,7 @@ static iso_status run(iso_context *ctx, const iso_sweep_file *file, int threads,
     status = iso_sweep_rows_create(ctx, k->head->columns, k->head->chunk, &k->rows);
     if (status == ISO_OK) status = iso_sweep_table(ctx, k->head, &k->table);
     if (status == ISO_OK) status = compute(ctx, sweep, threads, k);
+    if (status == ISO_OK) status = set_sum(ctx, k);
     iso_sweep_rows_free(&k->rows);
     iso_sweep_free(sweep);
     return status;

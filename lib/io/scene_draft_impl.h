@@ -28,6 +28,10 @@ iso_draft iso_draft_empty(iso_context *ctx, const char *name);
 /* A key of `initial` and the model whose start it states (ISO_SHOW_BOTH: either). */
 bool iso_draft_initial_key(int i, const char **name, iso_models *model);
 
+/* The i-th key that a scene can have, and its section; those of `effects` are the names of the effects. False: there
+ * are no more. */
+bool iso_scene_key(int i, const char **section, const char **key);
+
 /* Reads every key under d->root into the draft: types, ranges, unknown, duplicate and missing keys.
  * What must hold between sections is left to the caller. Errors: ISO_BAD_INPUT. */
 iso_status iso_draft_read_keys(iso_draft *d);

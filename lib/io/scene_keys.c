@@ -325,6 +325,18 @@ iso_status iso_draft_read_keys(iso_draft *d)
     return read_mapping(d, scene_keys, "the scene", d->root, d->root);
 }
 
+bool iso_scene_key(int i, const char **section, const char **key)
+{
+    for (const entry *e = scene_keys; e->name; e++) {
+        int keys = e->section ? 0 : ISO_EFFECTS;
+        while (e->section && e->section[keys].name) keys++;
+        *section = e->name;
+        if (i < keys) return *key = e->section ? e->section[i].name : iso_effect_list[i]->name, true;
+        i -= keys;
+    }
+    return false;
+}
+
 /* --- the numbers of a text, for sweeps --- */
 
 typedef struct listing {

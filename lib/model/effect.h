@@ -52,6 +52,7 @@ typedef struct iso_effect_column {
     const char *name;          /* of the group                                                                      */
     const char *const *column; /* the names of its columns                                                          */
     int count;
+    const char *unit, *doc;  /* one line; unit "": numbers without one                                            */
     iso_dimension dimension; /* of its numbers ...                                                                */
     int length;              /* ... times the ball's radius to this power                                         */
     const char *checked_as;  /* `check` reports "<this> flow"; NULL: it is not compared                           */

@@ -170,7 +170,12 @@ static const iso_effect_number numbers[] = {
 };
 
 static const iso_effect_column columns[] = {
-    {.name = "e", .column = e_names, .count = 3, .checked_as = "e"},
+    {.name = "e",
+     .column = e_names,
+     .count = 3,
+     .unit = "",
+     .doc = "upward vertical, in the ball's axes",
+     .checked_as = "e"},
     {0},
 };
 

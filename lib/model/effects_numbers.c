@@ -185,6 +185,8 @@ static const char *what_is_wrong(const iso_effect *effect)
     if (!effect->observes && !effect->motion && !effect->torque) return "it acts, but has no equations of motion";
     if (effect->observes && (effect->torque || effect->potential || effect->image || effect->twists))
         return "it observes, but has a torque, a potential, an image or a contact that twists";
+    for (const iso_effect_column *c = effect->columns; c && c->name; c++)
+        if (!c->unit || !c->doc) return "a column of it has no unit, or no line of documentation";
     if (effect->columns && !effect->show) return "it has columns, but no `show`";
     if (s && !effect->begin) return "it has states, but no `begin`";
     if (s && !effect->motion) return "it has states, but no `motion` with their rates";

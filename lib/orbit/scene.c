@@ -28,6 +28,30 @@ const char *iso_column_name(int c)
     return iso_effect_column_name(c - ISO_COLUMN_EFFECTS, NULL, NULL, NULL);
 }
 
+const char *iso_column_doc(int c, const char **unit)
+{
+    static const struct {
+        int first;
+        const char *unit, *doc;
+    } vectors[] = {{ISO_COLUMN_EFFECTS - 3, "", "place of the point on the unit sphere"},
+                   {ISO_COLUMN_POINT, "1/time", "momentum of the point, gamma' x gamma, by its clock s"},
+                   {ISO_COLUMN_POINT - 3, "", "unit normal at the contact, in the ball's axes"},
+                   {ISO_COLUMN_BALL, "1/time", "angular velocity, in the ball's principal axes"},
+                   {ISO_CLOCK_S, "time", "the time of the point"},
+                   {ISO_CLOCK_TAU, "time", "the time in which the ball is Hamiltonian"},
+                   {ISO_CLOCK_T, "time", "the time of the ball"}};
+    const iso_effect_column *group = NULL;
+    int i = 0;
+    *unit = NULL;
+    if (c < 0 || c >= iso_columns_count()) return NULL;
+    if (c >= ISO_COLUMN_EFFECTS) {
+        iso_effect_column_name(c - ISO_COLUMN_EFFECTS, NULL, &group, NULL);
+        return *unit = group->unit, group->doc;
+    }
+    while (c < vectors[i].first) i++;
+    return *unit = vectors[i].unit, vectors[i].doc;
+}
+
 int iso_column_names(const char *names[ISO_TRAJECTORY_COLUMNS])
 {
     const int count = iso_columns_count();

@@ -136,6 +136,9 @@ enum {
 ISO_API int iso_columns_count(void);
 ISO_API const char *iso_column_name(int column);
 
+/* What a column is, in one line, and its unit ("": a number without one); NULL past the last. */
+ISO_API const char *iso_column_doc(int column, const char **unit);
+
 ISO_C_END
 
 #endif

@@ -231,7 +231,11 @@ static const iso_field fields[] = {
     ISO_MEMBER(iso_analogue_found, "eps", ball.eps, "", "coupling of its twin"),
     ISO_MEMBER(iso_analogue_found, "h", ball.h, "energy", "of the ball, without that of the level's potential"),
     ISO_MEMBER(iso_analogue_found, "level", ball.level, "", "c of the effect level; 0: the ball is free"),
-    ISO_MEMBER(iso_analogue_found, "text", text, "", "the scene of the ball, with a report in # lines"),
+    {.name = "text",
+     .type = ISO_FIELD_NAME,
+     .offset = offsetof(iso_analogue_found, text),
+     .unit = "",
+     .doc = "the scene of the ball, with a report in # lines"},
     ISO_FIELD_END,
 };
 

@@ -3,7 +3,7 @@
 . "$(dirname "$0")/lib.sh"
 doc=$source/lib/doc/formats.md
 
-for column in $("$isoroll" list columns | tail -n +2); do
+for column in $("$isoroll" list columns | awk 'NR > 1 {print $1}'); do
     check "column $column" grep -q -w -e "$column" "$doc"
 done
 

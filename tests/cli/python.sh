@@ -4,6 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 : "${ISO_BUILD:?}"
 export ISOROLL_LIBRARY="$ISO_BUILD/libisoroll.so.0" ISO_COMMAND="$isoroll" ISO_SOURCE="$source"
+export ISOROLL_COMMAND="$isoroll"
 export PYTHONDONTWRITEBYTECODE=1
 python=
 for candidate in ${ISO_PYTHON-} python3 /usr/bin/python3; do

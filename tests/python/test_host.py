@@ -44,7 +44,7 @@ class Errors(Case):
         around = {}
         around["a"] = around
         for bad in (around, {"reduced": {"k": "\ud800"}}, "a: \ud800\n", {"k": 10**5000}):
-            self.refuses(isoroll.BadArgument, "made into text", isoroll.Scene, bad)
+            self.refuses(isoroll.BadArgument, "made into the text", isoroll.Scene, bad)
         masked = {"reduced": {"k": 1, "J": np.ma.masked_equal([1, 2, 5], 5)}}
         self.refuses(isoroll.BadArgument, "not MaskedArray", isoroll.Scene, masked)
         scene = example("11_rubber_and_marble")
@@ -55,7 +55,7 @@ class Errors(Case):
         with self.assertRaises(TypeError):
             isoroll.run(3)
         with self.assertRaises(TypeError):
-            isoroll.run(BALL, tol=3)
+            isoroll.run(BALL, toll=3)
 
     def test_words_of_arguments(self):
         for key, value in (("backend", "x"), ("method", "x"), ("tolerance", 3), ("step", -1), ("end", np.inf),
@@ -69,7 +69,7 @@ class Errors(Case):
             self.refuses(isoroll.BadArgument, "", isoroll.batch, WILD, [1.0], start=[[1, 0, 0, 0, 0, bad]])
         self.refuses(isoroll.BadArgument, "end is", isoroll.run, BALL, end=10**400)
         for event in ((), ("omega1",), "n1", (1, 1)):
-            self.refuses(isoroll.BadArgument, "event is", isoroll.section, WILD, event=event)
+            self.refuses(isoroll.BadArgument, "event", isoroll.section, WILD, event=event)
         for kind in (isoroll.Scene, isoroll.Orbit):
             self.refuses(isoroll.BadArgument, "never made", lambda: kind.__new__(kind).pointer)
         self.refuses(isoroll.BadArgument, "never made", lambda: isoroll.Scene.__new__(isoroll.Scene).k)

@@ -51,7 +51,7 @@ output: {as: ball, columns: [n1, t]}
         tables = [isoroll.run(source) for source in (sections, text, self.path("scene.yaml"), isoroll.Scene(text))]
         for table in tables[1:]:
             self.same(tables[0].array, table.array)
-            self.assertEqual(dict(tables[0].lines), dict(table.lines))
+            self.assertEqual(dict(tables[0].lines.text), dict(table.lines.text))
         self.assertEqual(tables[0].columns, ("n1", "t"))
         scene = isoroll.Scene(sections)
         self.assertEqual((scene.model, scene.k, scene.end), ("ball", 0.5, 7))
@@ -144,7 +144,7 @@ class Orbits(Case):
         self.assertFalse(isoroll.orbit(example("11_rubber_and_marble")).has_twin)
         table = orbit.at([1, 2, 3])
         again = isoroll.run(BALL, [1, 2, 3], backend=orbit.backend)
-        self.assertEqual(dict(table.lines), dict(again.lines))
+        self.assertEqual(dict(table.lines.text), dict(again.lines.text))
         self.same(isoroll.convert(table, "point").gamma, isoroll.convert(again, "point").gamma)
 
     def test_backends(self):
@@ -207,17 +207,17 @@ class Batches(Case):
             scene = {"reduced": {"k": k[i], "J": [1, 2, 5]}, "time": {"end": 50, "step": 0.5},
                      "initial": {"normal": first[i, 3:], "angular_velocity": first[i, :3]}}
             alone, own = isoroll.orbit(scene, backend="ball").at(times), table.orbit(i)
-            self.assertEqual({**own.lines, "backend": "ball"}, dict(alone.lines))
+            self.assertEqual({**own.lines.text, "backend": "ball"}, dict(alone.lines.text))
             self.near(isoroll.convert(own, "point").array, isoroll.convert(alone, "point").array, 1e-8)
             isoroll.write(own, self.path("a.csv"))
             self.command("convert", "--to", "point", "a.csv", "-o", "point.csv", "--quiet")
         with self.assertRaises(IndexError):
             table.orbit(3)
-        self.assertEqual(dict(pickle.loads(pickle.dumps(table)).orbit(0).lines), {})
+        self.assertEqual(dict(pickle.loads(pickle.dumps(table)).orbit(0).lines.text), {})
         for name in ("07_neumann_point", "12_neumann_off_level"):
             point = isoroll.batch(example(name), [0, 0.5, 1], J=[[1, 1.5, 2], [1, 1.5, 2.5]])
             alone = isoroll.orbit(example(name), backend="point").at([0, 0.5, 1])
-            self.assertEqual({**point.orbit(0).lines, "backend": "point"}, dict(alone.lines))
+            self.assertEqual({**point.orbit(0).lines.text, "backend": "point"}, dict(alone.lines.text))
             self.near(isoroll.convert(point.orbit(0), "ball").n, isoroll.convert(alone, "ball").n, 1e-9)
         self.assertEqual(point.orbit(1).J[2], 2.5)
         self.assertEqual(point.orbit(1).lines["eps"], point.orbit(0).lines["eps"])

@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import os
 from ctypes import byref
-from typing import Optional, Sequence, Union
+from typing import Any, Dict, Mapping, Optional, Sequence, Union
+
+from numpy.typing import ArrayLike
 
 from . import _errors, _hdf5
-from ._library import Notes, check, context, encoded, interruptible, lib, whole
-from ._table import Table, as_record, from_record, new_record
-
-PathLike = Union[str, bytes, "os.PathLike[str]"]
+from ._library import Notes, check, context, encoded, interruptible, lib
+from ._kinds import Trajectory
+from ._orbit import run
+from ._scene import SceneLike
+from ._table import PathLike, Table, as_record, from_record, new_record
 
 
 def read(path: PathLike, columns: Optional[Union[str, Sequence[str]]] = None) -> Table:
-    """Reads a table: CSV, or HDF5 if the name ends in .h5; a trajectory also from files of other programs.
+    """Reads a table of any kind, old ones too: CSV, or HDF5; a trajectory also from files of other programs.
 
     columns  for files without names: those of the columns from left to right, "-" for one to be passed over
 
-    Returns a table of shape (rows, columns), whose kind is that of the file: "trajectory", "section", "chaos", ...
+    Returns a table of the class of its kind: Trajectory, Section, Chaos, Periodic, Branch, Chart, Splitting, Cost,
+    Sweep.
     """
     if columns is not None and not isinstance(columns, str):
         columns = ",".join(columns)
@@ -32,38 +36,63 @@ def read(path: PathLike, columns: Optional[Union[str, Sequence[str]]] = None) ->
 
 
 def write(table: Table, path: PathLike, *, digits: Union[int, str] = 17) -> None:
-    """Writes a table: CSV, or HDF5 if the name ends in .h5. The file appears when it is whole.
-
-    digits  1 to 17, or "hex": C's %a. With 17 and "hex" the numbers read back exactly.
-
-    In trajectories and sections a number that is not finite is refused.
-    """
-    ctx, record, name = context(), as_record(table), encoded(path)
-    number = 0 if digits == "hex" else whole("digits", digits, 1, 17)
-    with _hdf5.calls(name), interruptible():
-        status = lib.iso_foreign_write(ctx, name, record.pointer, number, encoded(table.kind))
-    check(status, ctx)
+    """Writes a table: see table.write."""
+    if not isinstance(table, Table):
+        raise TypeError(f"a Table is needed, not {type(table).__name__}: see isoroll.trajectory")
+    table.write(path, digits=digits)
 
 
-def convert(table: Table, to: str, *, tolerance: float = 1e-14, row_tolerance: float = 1e-5,
-            shift_J: bool = False) -> Table:
-    """Converts a trajectory to the model `to`, "ball" or "point"; k, J and h or eps are in its lines.
+def as_table(source: Union[Table, PathLike], columns: Optional[Union[str, Sequence[str]]] = None) -> Table:
+    """A table as it is, or that of a file."""
+    if isinstance(source, Table):
+        return source
+    if not isinstance(source, (str, bytes, os.PathLike)):
+        raise TypeError(f"a Table is needed, or the path of its file, not {type(source).__name__}: see "
+                        "isoroll.trajectory")
+    return read(source, columns)
 
-    tolerance      relative error of the other model's clock, from row to row
+
+def _with_lines(table: Table, scene: Optional[SceneLike], given: Mapping[str, Any]) -> Table:
+    """The table with what its lines do not say: of a scene k, J and the effects."""
+    added: Dict[str, Any] = {}
+    if scene is not None:
+        of_orbit = ("model", "h", "eps", "backend", "method", "tolerance", "isoroll")
+        added.update((key, value) for key, value in run(scene, [0.0]).lines.text.items() if key not in of_orbit)
+    added.update((key, value) for key, value in given.items() if value is not None)
+    missing = {key: value for key, value in added.items() if key not in table.lines}
+    if not missing:
+        return table
+    return type(table)(table.array, table.columns, {**table.lines.text, **missing}, kind=table.kind)
+
+
+def convert(table: Union[Table, PathLike], to: str, *, tol: float = 1e-14, k: Optional[float] = None,
+            J: Optional[ArrayLike] = None, eps: Optional[float] = None, h: Optional[float] = None,
+            scene: Optional[SceneLike] = None, columns: Optional[Union[str, Sequence[str]]] = None,
+            row_tolerance: float = 1e-5, shift_J: bool = False) -> Trajectory:
+    """Converts a trajectory to the model `to`, "ball" or "point".
+
+    table          a trajectory, or the path of its file; k, J and h or eps are in its lines
+    tol            relative error of the other model's clock, from row to row
+    k, J, eps, h   if the lines do not say them
+    scene          take k, J and the effects from this scene, if the lines do not say them
+    columns        of a file without names: those of its columns from left to right, "-" for one passed over
     row_tolerance  how far a row may be from a unit vector and from a right angle: for rows with few digits
     shift_J        k = -1: a point off H = 0 becomes a free ball with the moments J + E/eps
 
     Returns a table with a row for each row: the clock, then omega, n or M, gamma. A warning says if the rows do not
     solve the equations that their lines state.
     """
+    table = _with_lines(as_table(table, columns), scene, {"k": k, "J": J, "eps": eps, "h": h})
     for key in ("k", "J"):
-        if key not in getattr(table, "lines", (key,)):
-            raise _errors.BadInput(f"the table has no line '{key}': isoroll.trajectory(..., k=..., J=...) gives one")
+        if key not in table.lines:
+            raise _errors.BadInput(f"the table has no line '{key}': give {key}=...; its lines are "
+                                   f"{', '.join(table.lines) or 'none'}")
     ctx, record, new, notes = context(), as_record(table), new_record(), Notes()
     with interruptible():
-        status = lib.iso_foreign_convert(ctx, record.pointer, encoded(to), float(tolerance), float(row_tolerance),
-                                         bool(shift_J),
-                                         byref(new), *notes.arguments)
+        status = lib.iso_foreign_convert(ctx, record.pointer, encoded(to), float(tol), float(row_tolerance),
+                                         bool(shift_J), byref(new), *notes.arguments)
     check(status, ctx)
     notes.tell()
-    return from_record(new)
+    found = from_record(new)
+    assert isinstance(found, Trajectory)
+    return found

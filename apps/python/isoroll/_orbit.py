@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors
 from ._library import Monitor, New, Notes, Owned, check, context, encoded, interruptible, lib, whole
 from ._scene import Scene, SceneLike, as_scene, as_scenes
+from ._kinds import Trajectory
+from ._lines import Lines
 from ._table import Table, doubles, from_record, new_record
 
 _ERRORS = ("ball", "point", "t", "tau", "s")
@@ -21,24 +23,28 @@ def _times(times: ArrayLike) -> NDArray[np.float64]:
     return np.asarray(doubles("times", times), order="C")
 
 
-class Run(Table):
-    """The table of a run. errors: if asked for, the largest relative errors of its rows, by "ball" (omega, n),
-    "point" (M, gamma), "t", "tau", "s"; NaN where the rows do not show them, or where they are not known."""
-
-    errors: Optional[Dict[str, float]] = None
-
-
-def run(scene: SceneLike, times: Optional[ArrayLike] = None, *, errors: bool = False, **changes: Any) -> Run:
+def run(scene: SceneLike, times: Optional[ArrayLike] = None, *, backend: Optional[str] = None,
+        method: Optional[str] = None, tol: Optional[float] = None, as_: Optional[str] = None,
+        t_end: Optional[float] = None, step: Optional[float] = None, errors: bool = False,
+        **changes: Any) -> Trajectory:
     """The trajectory of a scene: what `isoroll run` writes, to the bit.
 
     scene    a path, YAML text, a dict or a Scene
     times    shape (N,), in any order, t of a ball's scene, s of a point's; without it the scene's own grid
-    errors   also find the largest error of the rows; this takes many times as long
-    changes  backend, method, tolerance, end, step, as_, columns: see Scene
+    backend  "ball", "point", "exact", "auto": what computes the orbit
+    method   the integrator, or "auto"
+    tol      largest relative error of one step, in [1e-15, 0.1]
+    as_      "ball", "point", "both": which model is written
+    t_end    last time, in place of the scene's
+    step     time between rows, in place of the scene's
+    errors   also find the largest errors of the rows, table.errors; this takes many times as long
+    changes  columns, k, J, ...: other keywords of Scene
 
     Returns a table of shape (rows, columns). There are fewer rows than times if the ball loses contact: a warning
     says when. After a failure, error.partial has the rows before it.
     """
+    changes.update({key: value for key, value in (("backend", backend), ("method", method), ("tolerance", tol),
+                                                  ("as_", as_), ("end", t_end), ("step", step)) if value is not None})
     chosen, ctx, new, notes = as_scene(scene, changes), context(), new_record(), Notes()
     asked = None if times is None else np.atleast_1d(_times(times)).ravel()
     found = np.full(5, np.nan) if errors else None
@@ -57,13 +63,13 @@ def run(scene: SceneLike, times: Optional[ArrayLike] = None, *, errors: bool = F
         raise
     notes.tell()
     table = from_record(new)
-    result = Run(table.array, table.columns, table.lines, record=table._record)
+    assert isinstance(table, Trajectory)
     if found is not None:
-        result.errors = dict(zip(_ERRORS, found.tolist()))
-    return result
+        table.errors = dict(zip(_ERRORS, found.tolist()))
+    return table
 
 
-class _OfOrbit(Table):
+class _OfOrbit(Trajectory):
     """A table of an orbit. Its lines are those of a run; they are made when they are asked for."""
 
     _scene: Optional[Scene]
@@ -71,13 +77,14 @@ class _OfOrbit(Table):
 
     def __init__(self, array: NDArray[np.float64], orbit: Orbit) -> None:
         # not by Table.__init__, which would take a third of the time of a short call; the array is known to fit
-        self.__dict__.update(_array=array, _columns=orbit.columns, kind="trajectory", _record=None, _lines={},
-                             _scene=orbit.scene, _backend=orbit.backend)
+        self.__dict__.update(_array=array, _columns=orbit.columns, kind="trajectory", _record=None, _lines=None,
+                             _words={}, _scene=orbit.scene, _backend=orbit.backend)
 
     @property
-    def lines(self) -> Mapping[str, str]:
-        if not self._lines and self._scene is not None:
-            self._lines = run(self._scene, [0.0], backend=self._backend).lines
+    def lines(self) -> Lines:
+        """What a run says in its lines of `#`."""
+        if self._lines is None and self._scene is not None:
+            self.__dict__["_lines"] = run(self._scene, [0.0], backend=self._backend).lines
         return self._lines
 
     def __getstate__(self) -> Dict[str, Any]:
@@ -151,7 +158,7 @@ def orbit(scene: SceneLike, **changes: Any) -> Orbit:
     return Orbit(scene, **changes)
 
 
-class Batch(Table):
+class Batch(Trajectory):
     """The table of a batch: array has shape (orbits, rows, columns); table.n has shape (orbits, rows, 3). What
     differs from orbit to orbit, such as k and J, is in the lines of batch.orbit(i).
 
@@ -163,19 +170,19 @@ class Batch(Table):
     failure: Optional[_errors.IsorollError] = None
     _origin: Optional[Tuple[List[Scene], List[Optional[NDArray[np.float64]]]]] = None
 
-    def orbit(self, i: int) -> Table:
+    def orbit(self, i: int) -> Trajectory:
         """The rows of one orbit, a view of shape (rows, columns), with its k, J, h, eps, effects in the lines."""
-        return Table(self.array[i], self.columns, self._lines_of(range(len(self.array))[i]))
+        return Trajectory(self.array[i], self.columns, self._lines_of(range(len(self.array))[i]))
 
-    def _lines_of(self, i: int) -> Dict[str, str]:
+    def _lines_of(self, i: int) -> Mapping[str, str]:
         if self._origin is None:
-            return dict(self.lines)
+            return self.lines
         scenes, replaced = self._origin
         scene, ctx = Scene(scenes[i if len(scenes) > 1 else 0]), context()
         own = [None if values is None else np.ascontiguousarray(values[i]) for values in replaced]
         check(lib.iso_foreign_scene_replace(ctx, scene.pointer, *(None if x is None else x.ctypes.data for x in own)),
               ctx)
-        lines = dict(run(scene, [0.0]).lines)
+        lines = dict(run(scene, [0.0]).lines.text)
         if scene.backend == "auto":
             del lines["backend"]  # a batch chooses by its own times
         return lines

@@ -1,98 +1,206 @@
-"""Scenes: a ball or a point, its start, times, effects; from a file, from text, or from a dict."""
+"""Scenes: a ball or a point, its start, times, effects; from keywords, a file, text, or a dict."""
 
 from __future__ import annotations
 
+import difflib
 import json
 import os
-import re
-from ctypes import byref, c_double, c_int, c_void_p
-from typing import Any, Iterable, List, Mapping, Tuple, Union
+import sys
+from ctypes import byref, c_char_p, c_double, c_int, c_void_p
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _errors
 from ._library import Owned, check, context, encoded, lib
+from ._yaml import dump, load, plain
 
 SceneLike = Union["Scene", str, "os.PathLike[str]", Mapping[str, Any]]
 
 _MOST_COLUMNS = 64  # ISO_MAX_COLUMNS
+_MOST_BYTES = 16 << 20  # of a file
+_SET = ("backend", "method", "tolerance", "end", "step", "as", "columns")  # what iso_foreign_scene_set can change
 
 
-def _yaml(value: Any) -> str:
-    """A value as YAML in one line."""
-    if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_word(str(key))}: {_yaml(item)}" for key, item in value.items()) + "}"
-    if isinstance(value, (bool, np.bool_)):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        return _word(value)
-    if isinstance(value, (int, np.integer)):
-        return str(int(value))
-    if isinstance(value, (float, np.floating)):
-        return repr(float(value))
-    if isinstance(value, np.ndarray) and not np.ma.is_masked(value):
-        return _yaml(value.tolist())
-    if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(_yaml(item) for item in value) + "]"
-    raise _errors.BadArgument(f"a scene has numbers, words, lists and dicts, not {type(value).__name__}: {value!r}")
+def _keys() -> Dict[str, Dict[str, None]]:
+    """The keys of each section, in the order of the library; those of "effects" are the effects."""
+    section, key = c_char_p(), c_char_p()
+    found: Dict[str, Dict[str, None]] = {}
+    i = 0
+    while lib.iso_foreign_scene_key(i, byref(section), byref(key)):
+        found.setdefault((section.value or b"").decode(), {})[(key.value or b"").decode()] = None
+        i += 1
+    return found
 
 
-def _word(text: str) -> str:
-    return text if re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", text) else json.dumps(text, ensure_ascii=False)
+KEYS = _keys()
+_SECTION = {key: section for section in reversed(list(KEYS)) for key in KEYS[section]}  # the first that has the key
+_SECTION.update(k="", J="", D="")  # of `reduced` or of `point`
+_BALL, _POINT = ("normal", "angular_velocity"), ("gamma", "M")
 
 
-def _text(source: Union[str, Mapping[str, Any]]) -> bytes:
-    """The YAML text of a dict, or a text as it is."""
-    try:
-        if isinstance(source, str):
-            return source.encode()
-        return "".join(f"{_word(str(key))}: {_yaml(value)}\n" for key, value in source.items()).encode()
-    except (RecursionError, UnicodeError, ValueError) as error:
-        if isinstance(error, _errors.IsorollError):
-            raise
-        raise _errors.BadArgument(f"the scene cannot be made into text: {error}") from None
+def _unknown(key: str) -> TypeError:
+    names = [*KEYS, *_SECTION]
+    near = difflib.get_close_matches(key, names, 1)
+    meant = f"did you mean '{near[0]}'?" if near else "it takes " + ", ".join(dict.fromkeys(names))
+    return TypeError(f"a scene has no keyword '{key}': {meant}")
+
+
+class _Draft:
+    """The sections of a scene while keywords change them."""
+
+    def __init__(self, sections: Mapping[str, Any], base: Any) -> None:
+        self.sections: Dict[str, Any] = plain(sections)
+        self.base = base
+
+    def section(self, name: str) -> Dict[str, Any]:
+        found = self.sections.setdefault(name, {})
+        if not isinstance(found, dict):
+            raise _errors.BadInput(f"'{name}' is {found!r:.60}, it should be a dict")
+        return found
+
+    def become(self, model: str) -> None:
+        """One of ball, reduced and point, with the same k and J where they are known."""
+        if model in self.sections:
+            return
+        old = next((self.sections[m] for m in ("reduced", "point") if m in self.sections), {})
+        known = {key: old[key] for key in ("k", "J") if key in old}
+        if "ball" in self.sections and model != "ball":
+            scene = self.base()
+            known = {"k": scene.k, "J": scene.J.tolist()}
+        others = [name for name in ("ball", "surface", "reduced", "point") if name != model]
+        rest = {name: value for name, value in self.sections.items() if name not in others}
+        self.sections = {model: {} if model == "ball" else known, **rest}
+        start = self.sections.get("initial", {})
+        for key in _BALL if model == "point" else _POINT:
+            start.pop(key, None)
+
+    def put(self, key: str, value: Any) -> None:
+        if key in KEYS and value is None:
+            self.sections.pop(key, None)
+        elif key in KEYS:
+            self.sections[key] = {"kind": value} if key == "surface" and isinstance(value, str) else plain(value)
+        elif key in KEYS["effects"]:
+            if value is None or value is False:
+                self.section("effects").pop(key, None)
+            else:
+                self.section("effects")[key] = {} if value is True else plain(value)
+        elif value is not None:
+            name = _SECTION[key] or ("point" if "point" in self.sections else "reduced")
+            self.section(name)[key] = plain(value)
+
+    def change(self, keys: Mapping[str, Any]) -> None:
+        said = {key for key, value in keys.items() if value is not None}
+        for model, own in (("ball", {"ball", "surface", *KEYS["ball"]}), ("point", {"point", "eps", *_POINT})):
+            if said & own:
+                self.become(model)
+        if said & {"k", "J", "D", "reduced"} and "point" not in self.sections:
+            self.become("reduced")
+        if said & set(_BALL) and "point" in self.sections and not said & set(_POINT):
+            self.become("reduced")
+        for key, value in keys.items():
+            self.put(key, value)
 
 
 class Scene(Owned):
-    """A scene (lib/doc/formats.md, section 1).
+    """A scene: a ball or a point, its start, times, effects, and how to solve (lib/doc/formats.md, section 1).
 
-    source   the path of a YAML file; a str with a newline: YAML text; a dict of its sections; another Scene
-    changes  backend, method, tolerance, end, step, as_ ("ball", "point", "both"), columns (a list of names):
-             they override the scene, like the options of the command; columns come last, after those of as_
+    source   the path of a YAML file; a str with a newline: YAML text; a dict of the sections of such a file;
+             another Scene. None: the keywords say all
+    others   keys of a scene file, and names of effects; they change the source. A section, such as `surface`, or an
+             effect is a dict; True is an effect without numbers; None or False takes an effect away
 
-    >>> isoroll.Scene({"reduced": {"k": -1, "J": [1, 2, 5]},
-    ...                "initial": {"normal": [0.36, 0.48, 0.8], "angular_velocity": [0.8, -0.6, 0]},
-    ...                "time": {"end": 100, "step": 0.1}})
+    A ball has k and J, or mass, radius, inertia and surface; it starts from normal and angular_velocity. A point has
+    k, J and perhaps eps; it starts from gamma and M. Where k or J replace those of a body, the ball is a reduced one.
+    Without a source the last time is 100 unless `end` says otherwise.
+
+    >>> ball = isoroll.Scene(k=0.5, J=(1, 2, 5), normal=(0.36, 0.48, 0.8), angular_velocity=(0.9, -0.3, -0.225))
+    >>> isoroll.Scene(ball, k=0.4, end=20, gravity={"mgb": 0.7, "up": (0, 0.6, 0.8)})
+    >>> isoroll.Scene(mass=6.8, radius=0.11, inertia=(0.027, 0.028, 0.029), surface="plane", normal=(0, 0, 1),
+    ...               angular_velocity=(1, 2, 0))
+    >>> isoroll.Scene(k=-1, J=(6, 4, 2), eps=0.5, gamma=(1, 0, 0), M=(0, 0.1, 0.2))
+
+    Scenes are values: equal if they say the same, whatever the order and the digits; they can be keys of dicts, and
+    be copied and pickled. They cannot be changed.
     """
 
-    def __init__(self, source: SceneLike, **changes: Any) -> None:
+    _text: bytes
+    _name: str
+    _from_text: bool
+
+    def __init__(self, source: Optional[SceneLike] = None, *, k: Optional[float] = None,
+                 J: Optional[ArrayLike] = None, D: Optional[float] = None, eps: Optional[float] = None,
+                 normal: Optional[ArrayLike] = None, angular_velocity: Optional[ArrayLike] = None,
+                 gamma: Optional[ArrayLike] = None, M: Optional[ArrayLike] = None, project: Optional[bool] = None,
+                 mass: Optional[float] = None, radius: Optional[float] = None, inertia: Optional[ArrayLike] = None,
+                 surface: Union[None, str, Mapping[str, Any]] = None, end: Optional[float] = None,
+                 step: Optional[float] = None, backend: Optional[str] = None, method: Optional[str] = None,
+                 tolerance: Optional[float] = None, as_: Optional[str] = None,
+                 columns: Union[None, str, Sequence[str]] = None, **others: Any) -> None:
+        asked = dict(k=k, J=J, D=D, eps=eps, normal=normal, angular_velocity=angular_velocity, gamma=gamma, M=M,
+                     project=project, mass=mass, radius=radius, inertia=inertia, surface=surface)
+        keys = {key: value for key, value in asked.items() if value is not None}
+        keys.update((key.rstrip("_"), value) for key, value in others.items())
+        for key in keys:
+            if key not in KEYS and key not in _SECTION:
+                raise _unknown(key)
+        settings = {"backend": backend, "method": method, "tolerance": tolerance, "end": end, "step": step, "as": as_,
+                    "columns": columns}  # the columns last: those of `as` stand behind it
+        self._settings: Dict[str, Any] = {}
+        if keys or source is None:
+            self._parse(self._changed(source, keys), "<keywords>")
+            self._from_text = False
+        else:
+            self._take(source)
+        for key, value in settings.items():
+            if value is not None:
+                self._set(key, value)
+
+    # --- making -----------------------------------------------------------------------------------------------------
+
+    def _parse(self, text: bytes, name: str) -> None:
         new, ctx = c_void_p(), context()
+        check(lib.iso_foreign_scene_parse(ctx, encoded(name), text, len(text), byref(new)), ctx)
+        self._own(new.value, lib.iso_foreign_scene_free)
+        self._text, self._name, self._from_text = text, name, True
+        self._find_columns()
+
+    def _take(self, source: SceneLike) -> None:
+        """A scene as the source has it."""
         if isinstance(source, Scene):
-            status = lib.iso_foreign_scene_copy(ctx, source.pointer, byref(new))
+            new, ctx = c_void_p(), context()
+            check(lib.iso_foreign_scene_copy(ctx, source.pointer, byref(new)), ctx)
+            self._own(new.value, lib.iso_foreign_scene_free)
+            self._text, self._name, self._from_text = source._text, source._name, source._from_text
+            self._settings, self._columns = dict(source._settings), source._columns
         elif isinstance(source, Mapping):
-            text = _text(source)
-            status = lib.iso_foreign_scene_parse(ctx, b"<dict>", text, len(text), byref(new))
+            self._parse(dump(source), "<dict>")
+            self._from_text = False
         elif isinstance(source, str) and "\n" in source:
-            text = _text(source)
-            status = lib.iso_foreign_scene_parse(ctx, b"<text>", text, len(text), byref(new))
+            try:
+                self._parse(source.encode(), "<text>")
+            except UnicodeError as error:
+                raise _errors.BadArgument(f"this cannot be made into the text of a scene: {error}") from None
         elif isinstance(source, (str, os.PathLike)):
-            status = lib.iso_foreign_scene_read(ctx, encoded(source), byref(new))
+            self._parse(*_file(source))
         else:
             raise TypeError(f"a scene is a path, a text, a dict or a Scene, not {type(source).__name__}")
-        check(status, ctx)
-        self._own(new.value, lib.iso_foreign_scene_free)
-        for key in sorted(changes, key="columns".__eq__):  # last: as_ sets columns of its own
-            self._set(key, changes[key])
-        numbers = (c_int * _MOST_COLUMNS)()
-        count = lib.iso_foreign_scene_columns(self.pointer, numbers)
-        self._columns = tuple(lib.iso_column_name(c).decode() for c in numbers[:count])
+
+    @staticmethod
+    def _changed(source: Optional[SceneLike], keys: Mapping[str, Any]) -> bytes:
+        if source is None:
+            draft = _Draft({"time": {"end": 100}}, None)
+        elif isinstance(source, Mapping):
+            draft = _Draft(source, lambda: Scene(source))
+        else:
+            base = source if isinstance(source, Scene) else Scene(source)
+            draft = _Draft(base.sections, lambda: base)
+        draft.change(keys)
+        order = [*KEYS, *draft.sections]
+        return dump({name: draft.sections[name] for name in dict.fromkeys(order) if name in draft.sections})
 
     def _set(self, key: str, value: Any) -> None:
-        if value is None:
-            return
-        if key not in ("backend", "method", "tolerance", "end", "step", "as_", "columns"):
-            raise TypeError(f"'{key}' is no argument: backend, method, tolerance, end, step, as_, columns")
         if key == "columns" and not isinstance(value, str):
             value = ",".join(value)
         if key == "columns" and not value:
@@ -105,7 +213,67 @@ class Scene(Owned):
             except (TypeError, ValueError, OverflowError) as wrong:
                 raise _errors.BadArgument(f"{key} is {value!r:.60}: {wrong}") from None
         ctx = context()
-        check(lib.iso_foreign_scene_set(ctx, self.pointer, key.rstrip("_").encode(), encoded(value)), ctx)
+        check(lib.iso_foreign_scene_set(ctx, self.pointer, key.encode(), encoded(value)), ctx)
+        if key == "as":
+            self._settings.pop("columns", None)
+        self._settings[key] = value
+        self._find_columns()
+
+    def _find_columns(self) -> None:
+        numbers = (c_int * _MOST_COLUMNS)()
+        count = lib.iso_foreign_scene_columns(self.pointer, numbers)
+        self._columns = tuple(lib.iso_column_name(c).decode() for c in numbers[:count])
+
+    # --- as text ----------------------------------------------------------------------------------------------------
+
+    @property
+    def sections(self) -> Dict[str, Any]:
+        """What the scene says, as a dict of its sections: Scene(scene.sections) == scene."""
+        found = load(self._text, self._name)
+        for key, value in self._settings.items():
+            section = found.setdefault(_SECTION[key], {})
+            if key == "as":
+                section.pop("columns", None)
+                section.pop("as", None)
+            if not (key == "as" and value == "auto"):
+                section[key] = _setting(key, value)
+        return {name: value for name, value in found.items() if value != {}}
+
+    @property
+    def text(self) -> str:
+        """YAML that the command takes, and that gives the same run to the bit. Of a file it is the file's own text,
+        unless something was changed."""
+        pure = self._from_text and not self._settings
+        return (self._text if pure else dump(self.sections)).decode("utf-8-sig")
+
+    def _value(self) -> str:
+        return json.dumps(_canonical(self.sections), sort_keys=True)
+
+    def __eq__(self, other: object) -> bool:
+        return self._value() == other._value() if isinstance(other, Scene) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._value())
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        return _again, (self._text, self._name, self._from_text, self._settings)
+
+    def __copy__(self) -> Scene:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Scene:
+        return self
+
+    def __repr__(self) -> str:
+        if not self._pointer:
+            return "<isoroll.Scene that was never made>"
+        words = []
+        for name, section in self.sections.items():
+            flat = {name: section} if name == "surface" or not isinstance(section, dict) else section
+            words += [f"{'as_' if key == 'as' else key}={value!r}" for key, value in flat.items()]
+        return f"isoroll.Scene({', '.join(words)})"
+
+    # --- questions --------------------------------------------------------------------------------------------------
 
     def _numbers(self, key: str) -> NDArray[np.float64]:
         values = (c_double * 6)()
@@ -115,6 +283,11 @@ class Scene(Owned):
     def _word(self, key: str) -> str:
         word: bytes = lib.iso_foreign_scene_word(self.pointer, key.encode())
         return word.decode("utf-8", "replace")
+
+    @property
+    def name(self) -> str:
+        """What messages call it: the path of its file, or <text>, <dict>, <keywords>."""
+        return self._name
 
     @property
     def model(self) -> str:
@@ -127,6 +300,11 @@ class Scene(Owned):
         return self._word("backend")
 
     @property
+    def method(self) -> str:
+        """The integrator, or "auto"."""
+        return self._word("method")
+
+    @property
     def k(self) -> float:
         """The geometry number."""
         return float(self._numbers("k")[0])
@@ -137,14 +315,29 @@ class Scene(Owned):
         return self._numbers("J")
 
     @property
+    def eps(self) -> float:
+        """The coupling of a point's potential as the scene states it; NaN: the scene is a ball's, or H = 0."""
+        return float(self._numbers("eps")[0])
+
+    @property
     def start(self) -> NDArray[np.float64]:
         """The state at time 0, shape (6,): omega [1/time], n; of a point M, gamma."""
         return self._numbers("start")
 
     @property
+    def effects(self) -> Tuple[str, ...]:
+        """The names of the effects that the scene states."""
+        return tuple(self.sections.get("effects", ()))
+
+    @property
     def end(self) -> float:
         """The last time of a run: t of a ball, s of a point."""
         return float(self._numbers("end")[0])
+
+    @property
+    def step(self) -> float:
+        """The time between the rows of a run."""
+        return float(self._numbers("step")[0]) or abs(self.end) / 100
 
     @property
     def tolerance(self) -> float:
@@ -156,8 +349,53 @@ class Scene(Owned):
         """The columns that its rows have."""
         return self._columns
 
-    def __repr__(self) -> str:
-        return f"<isoroll.Scene {self._word('name')}: {self.model}, k = {self.k:g}, J = {self.J.tolist()}>"
+
+def _file(path: Union[str, "os.PathLike[str]"]) -> Tuple[bytes, str]:
+    """The text of a file, and what messages call it. The library words what goes wrong."""
+    code = encoded(path)
+    name = os.fsdecode(code)
+    if name == "-":
+        return sys.stdin.buffer.read(_MOST_BYTES + 1), "<stdin>"
+    try:
+        with open(code, "rb") as file:
+            text = file.read(_MOST_BYTES + 1)
+    except OSError:
+        text = None
+    if text is None or len(text) > _MOST_BYTES:
+        new, ctx = c_void_p(), context()
+        status = lib.iso_foreign_scene_read(ctx, code, byref(new))
+        if new.value:
+            lib.iso_foreign_scene_free(new.value)
+        check(status, ctx)
+        raise _errors.FileTrouble(f"'{name}' changes while it is read")
+    return text, name
+
+
+def _setting(key: str, value: str) -> Any:
+    """A setting as a section has it."""
+    if key == "columns":
+        return value.split(",")
+    return float(value) if key in ("tolerance", "end", "step") else value
+
+
+def _canonical(value: Any) -> Any:
+    """A value in which equal numbers are alike."""
+    if isinstance(value, dict):
+        return {key: _canonical(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_canonical(item) for item in value]
+    return value if isinstance(value, bool) or not isinstance(value, (int, float)) else float(value)
+
+
+def _again(text: bytes, name: str, from_text: bool, settings: Mapping[str, Any]) -> Scene:
+    """A scene that was pickled."""
+    scene = Scene.__new__(Scene)
+    scene._settings = {}
+    scene._parse(text, name)
+    scene._from_text = from_text
+    for key, value in settings.items():
+        scene._set(key, value)
+    return scene
 
 
 def as_scene(source: SceneLike, changes: Mapping[str, Any]) -> Scene:

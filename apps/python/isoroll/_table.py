@@ -1,25 +1,32 @@
-"""Tables: named columns of doubles and lines `key: value`; what the library calls a record."""
+"""Tables: named columns of numbers or words and lines `key: value`; what the library calls a record."""
 
 from __future__ import annotations
 
-from ctypes import byref, c_char_p, c_double
+import functools
+import html
+import os
+from ctypes import byref, c_char_p, c_double, create_string_buffer
 from types import MappingProxyType
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _errors
-from ._library import New, Owned, check, context, lib
+from . import _errors, _hdf5
+from ._library import New, Owned, check, context, encoded, interruptible, lib, whole
+from ._lines import Lines, text_of
+
+PathLike = Union[str, bytes, "os.PathLike[str]"]
 
 #: vectors by the names of their columns
 VECTORS = {name: tuple(f"{name}{i}" for i in range(1, 4))
            for name in ("omega", "n", "M", "gamma", "e", "contact", "trace", "centre", "N")}
 VECTORS["q"] = ("q0", "q1", "q2", "q3")
 
-
 #: names of columns, which are no names for other things
 _NAMES = frozenset(("t", "tau", "s")).union(VECTORS, *VECTORS.values())
+_TRAJECTORY = "trajectory"
+_Made = TypeVar("_Made", bound="Table")
 
 
 def _decoded(text: c_char_p) -> str:
@@ -51,88 +58,112 @@ class Record(Owned):
         return tuple(lib.iso_record_name(self.pointer, c).decode()
                      for c in range(lib.iso_record_columns(self.pointer)))
 
-    def lines(self) -> Mapping[str, str]:
+    def lines(self) -> Lines:
         key, value = c_char_p(), c_char_p()
         found: Dict[str, str] = {}
         number = 0
         while lib.iso_record_line(self.pointer, number, byref(key), byref(value)):
             found[_decoded(key)] = _decoded(value)
             number += 1
-        return MappingProxyType(found)
+        return Lines(MappingProxyType(found))
+
+    def with_words(self) -> List[int]:
+        """The columns of words."""
+        pointer, has = self.pointer, lib.iso_record_has_words
+        return [column for column in range(lib.iso_record_columns(pointer)) if has(pointer, column)]
+
+    def words(self, column: int, numbers: NDArray[np.float64]) -> Dict[float, str]:
+        """The words that the numbers of a column stand for."""
+        return {x: lib.iso_record_word(self.pointer, x).decode("utf-8", "surrogateescape")
+                for x in np.unique(numbers).tolist()}
 
     def array(self) -> NDArray[np.float64]:
         """The rows, not copied: shape (rows, columns)."""
         rows, columns = lib.iso_record_rows(self.pointer), lib.iso_record_columns(self.pointer)
-        if rows == 0:
-            return np.empty((0, columns))
+        if rows == 0 or columns == 0:
+            return np.empty((rows, columns))
         memory = (c_double * (rows * columns)).from_address(lib.iso_record_row(self.pointer, 0))
         memory._record = self
         return np.frombuffer(memory, dtype=np.float64).reshape(rows, columns)
 
 
 class Table:
-    """Numbers in named columns.
+    """Numbers and words in named columns.
 
-    array    float64, shape (..., columns): (rows, columns) for a trajectory, (orbits, rows, columns) for a batch,
-             (columns,) for a single time
+    array    float64, shape (..., columns): (rows, columns) for a file, (orbits, rows, columns) for a batch,
+             (columns,) for a single time. A word is a number here; table["verdict"] has the words
     columns  names of the columns, such as ("t", "omega1", "omega2", "omega3", "n1", "n2", "n3")
-    lines    what a file says in its lines of `#`: "k", "J", "model", ... as text
+    lines    what a file says in its lines of `#`: lines["k"] is a float, lines["J"] an array, lines["model"] a text;
+             lines.text has all of them as they stand in the file
+    kind     "trajectory", "section", "chaos", ..., as in the first line of a file
+    units    the unit of each column, "" for a number without one
+    doc      what each column is
 
-    The numbers can be changed (table.n[3] = ...); array, columns and lines themselves cannot: make another table.
     table["t"] is a column, shape (...); table["omega"] is a vector, shape (..., 3). Both are views of the array. Only
-    if the columns of a vector do not stand side by side, in order, it is a copy, which cannot be written to. The
-    clocks and the states of both models can also be written table.t, table.omega, table.n, table.M, ... Units are
-    the scene's.
+    if the columns of a vector do not stand side by side, in order, it is a copy, which cannot be written to; so are
+    words. All columns can also be written table.t, table.omega, table.verdict, ...; table.k and table.J are in the
+    lines, unless they are columns. Where a table has something else of the same name, as a chart has its kind,
+    write table["kind"]. The numbers can be changed (table.n[3] = ...); array, columns and lines themselves cannot:
+    make another table. Units are the scene's.
     """
 
     kind: str
     _array: NDArray[np.float64]
     _columns: Tuple[str, ...]
-    _lines: Mapping[str, str]
+    _lines: Lines
     _record: Optional[Record]
+    _words: Mapping[str, Mapping[float, str]]
 
-    def __init__(self, array: ArrayLike, columns: Sequence[str], lines: Optional[Mapping[str, str]] = None, *,
-                 kind: str = "trajectory", record: Optional[Record] = None) -> None:
+    #: the kind of a new one
+    _kind = _TRAJECTORY
+
+    def __init__(self, array: ArrayLike, columns: Sequence[str], lines: Optional[Mapping[str, Any]] = None, *,
+                 kind: Optional[str] = None, record: Optional[Record] = None) -> None:
         numbers, names = doubles("array", array), tuple(columns)
         if numbers.ndim == 0 or numbers.shape[-1] != len(names):
             raise _errors.BadArgument(f"array has shape {numbers.shape}, and there are {len(names)} columns: its "
                                       "last length must be their number")
-        self.__dict__.update(_array=numbers, _columns=names, kind=kind, _record=record,
-                             _lines=MappingProxyType(dict(lines or {})))
+        words = {} if record is None else {names[i]: record.words(i, numbers[..., i]) for i in record.with_words()}
+        self.__dict__.update(_array=numbers, _columns=names, kind=kind or self._kind, _record=record,
+                             _words=words, _lines=lines if isinstance(lines, Lines) else Lines(lines or {}))
 
     @property
     def array(self) -> NDArray[np.float64]:
+        """All numbers, shape (..., columns)."""
         return self._array
 
     @property
     def columns(self) -> Tuple[str, ...]:
+        """The names of the columns."""
         return self._columns
 
     @property
-    def lines(self) -> Mapping[str, str]:
+    def lines(self) -> Lines:
+        """What a file says in its lines of `#`, with numbers as numbers."""
         return self._lines
 
     @property
-    def k(self) -> float:
-        """The geometry number, from the lines."""
-        return float(self._line("k"))
+    def units(self) -> Dict[str, str]:
+        """The unit of each column; "" for a number without one, and for words."""
+        return {name: unit for name, (unit, _) in self._described().items()}
 
     @property
-    def J(self) -> NDArray[np.float64]:
-        """The moments about the contact point, shape (3,), from the lines."""
-        return np.array([float(x) for x in self._line("J").split()])
+    def doc(self) -> Dict[str, str]:
+        """What each column is, in one line."""
+        return {name: doc for name, (_, doc) in self._described().items()}
 
-    def _line(self, key: str) -> str:
-        if key not in self.lines:
-            raise _errors.BadInput(f"the table has no line '{key}'")
-        return self.lines[key]
+    def _described(self) -> Dict[str, Tuple[str, str]]:
+        return {name: columns_of(self.kind).get(name, ("", "")) for name in self.columns}
 
-    def __getitem__(self, name: str) -> NDArray[np.float64]:
-        """A column (...,) or a vector (..., 3) by its name."""
+    # --- columns ----------------------------------------------------------------------------------------------------
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        """A column (...,) or a vector (..., 3) by its name; words as an array of str."""
         if not isinstance(name, str):
             raise TypeError(f"a table has columns by their names, not by {name!r}: table.array has the numbers")
         if name in self.columns:
-            return self.array[..., self.columns.index(name)]
+            numbers = self.array[..., self.columns.index(name)]
+            return self._as_words(name, numbers) if name in self._words else numbers
         parts = VECTORS.get(name, ())
         if not parts or any(part not in self.columns for part in parts):
             raise KeyError(f"there is no column '{name}': the table has {', '.join(self.columns)}")
@@ -143,18 +174,25 @@ class Table:
         copied.flags.writeable = False  # numbers written to it would go nowhere
         return copied
 
-    def __contains__(self, name: str) -> bool:
-        return name in self.columns or (name in VECTORS and all(part in self.columns for part in VECTORS[name]))
+    def _as_words(self, name: str, numbers: NDArray[np.float64]) -> NDArray[np.str_]:
+        found = self._words[name]
+        if self._record is not None:  # the numbers may have been changed
+            found = self._record.words(self.columns.index(name), numbers)
+        keys, place = np.unique(numbers, return_inverse=True)
+        words = np.array([found.get(x, "") for x in keys.tolist()] or [""])[place].reshape(numbers.shape)
+        words.flags.writeable = False
+        return words
 
-    def words(self, name: str) -> NDArray[np.str_]:
-        """A column of words, such as verdict, whose numbers stand for them. For a table from a file or a study."""
-        if self._record is None:
-            raise _errors.BadArgument("this table has numbers alone: its words went with the file or the study")
-        return np.array([lib.iso_record_word(self._record.pointer, x).decode() for x in self[name]])
+    def __contains__(self, name: object) -> bool:
+        return name in self.columns or (name in VECTORS and all(part in self.columns for part in VECTORS[str(name)]))
 
-    def __getattr__(self, name: str) -> NDArray[np.float64]:
+    def __getattr__(self, name: str) -> Any:
         if name.startswith("_") or "_columns" not in self.__dict__:
             raise AttributeError(name)
+        if name in ("k", "J") and name not in self.columns:
+            if name in self.lines:
+                return self.lines[name]
+            raise AttributeError(f"the table has no column and no line '{name}'")
         try:
             return self[name]
         except KeyError as error:
@@ -162,7 +200,7 @@ class Table:
 
     def __setattr__(self, name: str, value: Any) -> None:
         """What would change no number of the table is refused."""
-        if name in ("array", "columns", "lines"):
+        if name in ("array", "columns", "lines", "units", "doc"):
             raise AttributeError(f"'{name}' of a table cannot be replaced: change numbers in it (table.array[...] = "
                                  "...), or make another one, isoroll.Table(array, columns, lines)")
         if name in _NAMES or name in self.__dict__.get("_columns", ()):
@@ -170,17 +208,25 @@ class Table:
                                  "make another table by isoroll.trajectory")
         super().__setattr__(name, value)
 
+    def __dir__(self) -> Iterable[str]:
+        return [*super().__dir__(), *self.columns, *(name for name in VECTORS if name in self)]
+
+    def _ipython_key_completions_(self) -> List[str]:
+        return [*self.columns, *(name for name in VECTORS if name in self)]
+
     def __len__(self) -> int:
         return len(self.array)
 
+    # --- other forms ------------------------------------------------------------------------------------------------
+
     def __getstate__(self) -> Dict[str, Any]:
         """For pickle and copy: without the library's record, so the array is a copy."""
-        lines = dict(self.lines)
-        return {**self.__dict__, "_array": self.array.copy(), "_lines": lines, "_record": None}
+        words = {name: self._record.words(i, self.array[..., i]) if self._record is not None else self._words[name]
+                 for i, name in enumerate(self.columns) if name in self._words}
+        return {**self.__dict__, "_array": self.array.copy(), "_lines": self.lines, "_record": None, "_words": words}
 
     def __setstate__(self, state: Dict[str, Any]) -> None:
         self.__dict__.update(state)
-        self._lines = MappingProxyType(state["_lines"])
 
     def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> NDArray[Any]:
         if copy:
@@ -196,8 +242,87 @@ class Table:
             array.flags.writeable = False
         return array.view(dtype)[..., 0]
 
+    def to_pandas(self) -> Any:
+        """A DataFrame with the columns; its attrs are the lines. Numbers are not copied, unless there are words."""
+        try:
+            import pandas
+        except ImportError:
+            raise ImportError("to_pandas needs pandas, which is not installed here: pip install pandas") from None
+        array = np.atleast_2d(self.array)
+        if array.ndim > 2:
+            raise _errors.BadArgument("this table has many orbits: take one of them, table.orbit(i)")
+        if self._words:
+            frame = pandas.DataFrame({name: np.atleast_1d(self[name]) for name in self.columns})
+        else:
+            frame = pandas.DataFrame(array, columns=list(self.columns), copy=False)
+        frame.attrs.update(self.lines.text)
+        return frame
+
+    def write(self, path: PathLike, *, digits: Union[int, str] = 17) -> None:
+        """Writes the table: CSV, or HDF5 if the name ends in .h5. The file appears when it is whole.
+
+        digits  1 to 17, or "hex": C's %a. With 17 and "hex" the numbers read back exactly.
+
+        In trajectories and sections a number that is not finite is refused.
+        """
+        ctx, record, name = context(), as_record(self), encoded(path)
+        number = 0 if digits == "hex" else whole("digits", digits, 1, 17)
+        with _hdf5.calls(name), interruptible():
+            status = lib.iso_foreign_write(ctx, name, record.pointer, number, encoded(self.kind))
+        check(status, ctx)
+
+    def plot(self, ax: Any = None, **how: Any) -> Any:
+        """Draws the table with matplotlib, in the style of `isoroll plot`, and returns the Axes, or an array of them.
+
+        ax   where to draw: Axes, or as many as the picture has parts; None: a new figure
+        how  of the kind of table: see isoroll.plot
+        """
+        from ._plot import draw
+        return draw(self, ax, how)
+
     def __repr__(self) -> str:
-        return f"<isoroll.Table {self.array.shape}: {', '.join(self.columns)}>"
+        shape = f"{len(self)} rows" if self.array.ndim == 2 else f"shape {self.array.shape}"
+        return f"<isoroll.{type(self).__name__}: {shape}; {', '.join(self.columns)}>"
+
+    def _repr_html_(self) -> str:
+        """For notebooks: the first and the last rows, with units."""
+        flat = self.array.reshape(-1, len(self.columns)) if self.columns else self.array
+        count = len(flat)
+        shown = list(range(count)) if count <= 12 else [*range(5), None, *range(count - 5, count)]
+        words = {name: np.ravel(self[name]) for name in self._words}
+        units = self.units
+
+        def cell(row: int, i: int, name: str) -> str:
+            return html.escape(str(words[name][row])) if name in words else f"{flat[row, i]:.6g}"
+
+        head = "".join(f"<th>{html.escape(name)}<br><small>{html.escape(units[name])}</small></th>"
+                       for name in self.columns)
+        body = "".join("<tr>" + ("<td>...</td>" * len(self.columns) if row is None else
+                                 "".join(f"<td>{cell(row, i, name)}</td>" for i, name in enumerate(self.columns)))
+                       + "</tr>" for row in shown)
+        said = ", ".join(f"{key} = {self.lines.text[key]}" for key in ("k", "J") if key in self.lines)
+        caption = html.escape(f"{self.kind}, {count} rows" + (f", {said}" if said else ""))
+        return f"<table><caption>{caption}</caption><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+#: the class of each kind; others are plain tables (_kinds.py fills it)
+CLASSES: Dict[str, Type[Table]] = {}
+
+
+@functools.lru_cache(maxsize=None)
+def columns_of(kind: str) -> Mapping[str, Tuple[str, str]]:
+    """The columns of a kind of table: name, unit and meaning. Of one that is not known: those of a trajectory."""
+    name, text, unit = create_string_buffer(64), (c_char_p * 2)(), c_char_p()
+    found: Dict[str, Tuple[str, str]] = {}
+    i = 0
+    while lib.iso_foreign_column(kind.encode(), i, name, text):
+        found[name.value.decode()] = (text[0] or b"").decode(), (text[1] or b"").decode()
+        i += 1
+    i = 0
+    while doc := lib.iso_column_doc(i, byref(unit)):
+        found.setdefault(lib.iso_column_name(i).decode(), ((unit.value or b"").decode(), doc.decode()))
+        i += 1
+    return found
 
 
 def new_record() -> New:
@@ -206,19 +331,32 @@ def new_record() -> New:
 
 
 def from_record(new: New) -> Table:
-    """The table of a new record, which it takes over."""
+    """The table of a new record, which it takes over, of the class of its kind."""
     if not new.value:
         raise _errors.IsorollError("the library gave no record")
     record = Record(new.take() or 0)
-    kind = lib.iso_record_kind(record.pointer).decode() or "trajectory"
-    return Table(record.array(), record.columns(), record.lines(), kind=kind, record=record)
+    kind = lib.iso_record_kind(record.pointer).decode() or _TRAJECTORY
+    return CLASSES.get(kind, Table)(record.array(), record.columns(), record.lines(), kind=kind, record=record)
 
 
-def _bytes(text: str) -> bytes:
-    """A name or a line for C. It came from a file, perhaps not in UTF-8, or from the caller."""
-    if "\0" in text or "\n" in text or "\r" in text:
+def _bytes(text: str, value: bool = False) -> bytes:
+    """A name, or the value of a line, for C. It came from a file, perhaps not in UTF-8, or from the caller."""
+    if "\0" in text or (not value and ("\n" in text or "\r" in text)):
         raise _errors.BadArgument(f"{text!r} has the end of a line in it, or a zero byte")
     return text.encode("utf-8", "surrogateescape")
+
+
+def _with_words(ctx: int, record: Record, table: Table, array: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The rows of a table without a record, with the numbers that its words have in the new one."""
+    array, number = array.copy(), c_double()
+    for name, words in table._words.items():
+        column = table.columns.index(name)
+        lib.iso_record_set_words(record.pointer, column, True)
+        old = array[:, column].copy()
+        for code, word in words.items():
+            check(lib.iso_record_intern(ctx, record.pointer, _bytes(word), byref(number)), ctx)
+            array[old == code, column] = number.value
+    return array
 
 
 def as_record(table: Table) -> Record:
@@ -234,16 +372,13 @@ def as_record(table: Table) -> Record:
     new, ctx = new_record(), context()
     check(lib.iso_record_create(ctx, len(names), names, byref(new)), ctx)
     record = Record(new.take() or 0)
-    for key, value in table.lines.items():
-        check(lib.iso_record_set(ctx, record.pointer, _bytes(key), _bytes(value)), ctx)
+    lib.iso_record_set_kind(record.pointer, _bytes(table.kind))
+    for key, value in table.lines.text.items():
+        check(lib.iso_record_set(ctx, record.pointer, _bytes(key), _bytes(value, True)), ctx)
+    if table._words:
+        array = _with_words(ctx, record, table, array)
     check(lib.iso_record_add(ctx, record.pointer, len(array), array.ctypes.data), ctx)
     return record
-
-
-def _text(value: Union[str, ArrayLike]) -> str:
-    if isinstance(value, str):
-        return value
-    return " ".join("%.17g" % x for x in np.ravel(doubles("a line", value)))
 
 
 def trajectory(columns: Mapping[str, ArrayLike], **lines: Union[str, ArrayLike]) -> Table:
@@ -269,8 +404,8 @@ def trajectory(columns: Mapping[str, ArrayLike], **lines: Union[str, ArrayLike])
         parts.append(array)
     if not parts:
         raise _errors.BadArgument("a trajectory needs columns")
-    said = {key.replace("_", "."): _text(value) for key, value in lines.items()}
+    said = {key.replace("_", "."): text_of(value) for key, value in lines.items()}
     if "model" not in said:
         ball, point = "omega1" in names, "M1" in names
         said = {"model": "both" if ball and point else "point" if point else "ball", **said}
-    return Table(np.ascontiguousarray(np.hstack(parts)), names, said)
+    return CLASSES[_TRAJECTORY](np.ascontiguousarray(np.hstack(parts)), names, said)

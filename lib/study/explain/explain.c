@@ -215,7 +215,11 @@ static const iso_field fields[] = {
     ISO_MEMBER(iso_explanation, "method", method, "", "of integration; none: the closed solution"),
     ISO_MEMBER(iso_explanation, "twin", twin, "", "whether the orbit has both models"),
     ISO_MEMBER(iso_explanation, "rows", rows, "", "that would be written"),
-    ISO_MEMBER(iso_explanation, "text", text, "", "all, in words"),
+    {.name = "text",
+     .type = ISO_FIELD_NAME,
+     .offset = offsetof(iso_explanation, text),
+     .unit = "",
+     .doc = "all, in words"},
     ISO_FIELD_END,
 };
 

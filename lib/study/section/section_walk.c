@@ -12,6 +12,7 @@
 #include "map/section_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
+#include "study/fields_impl.h"
 #include "study/section/section_impl.h"
 
 /* Crossings that are kept in memory: about 50 MB for each model, and as much for samples. */
@@ -304,6 +305,18 @@ iso_status iso_section_walk_group(iso_section_walk *w)
 }
 
 /* --- the header ------------------------------------------------------------------------------------------------- */
+
+/* Of the columns before the states; the clocks are those of a trajectory. */
+const iso_field iso_section_fields[] = {
+    {.name = "orbit", .unit = "", .doc = "number of the orbit; 0 is the scene's own"},
+    {.name = "crossing", .unit = "", .doc = "number of the crossing, from 1 on"},
+    {.name = "t", .unit = "time", .doc = "the ball's time since the start of the orbit"},
+    {.name = "tau", .unit = "time", .doc = "the same in the time in which the ball is Hamiltonian"},
+    {.name = "s", .unit = "time", .doc = "the same in the point's time"},
+    {.name = "l", .unit = "rad", .doc = "angle of the crossing on the section, in (-pi, pi]"},
+    {.name = "x", .unit = "", .doc = "the other coordinate, M_a/|M| on the section n_a = 0, in (-1, 1)"},
+    ISO_FIELD_END,
+};
 
 static iso_status create_header(const iso_section_walk *w, iso_record **header)
 {

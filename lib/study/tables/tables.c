@@ -33,6 +33,7 @@ const iso_study *iso_study_find(const char *name)
 const iso_result_table *iso_result_table_at(int i)
 {
     static const iso_result_table tables[] = {
+        {"section", "a crossing of the section", iso_section_fields, false},
         {"chaos", "an orbit", iso_chaos_orbit_fields, false},
         {"periodic", "a periodic orbit", iso_periodic_orbit_fields, false},
         {"periodic follow", "a point of a branch, or an event on it", iso_branch_row_fields, false},

@@ -1,0 +1,109 @@
+"""What the command `isoroll` does for Python: pages of moving models, whose script and style are in the command."""
+
+from __future__ import annotations
+
+import html
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import warnings
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
+
+from numpy.typing import ArrayLike
+
+from . import _errors
+from ._scene import Scene, SceneLike
+from ._study import text_of
+from ._table import PathLike, Table
+
+_STATUS = {2: _errors.BadArgument, 3: _errors.BadInput, 4: _errors.NumericalFailure, 5: _errors.FileTrouble}
+
+
+def find() -> str:
+    """The path of the command: ISOROLL_COMMAND, or that of this Python, or of the shell."""
+    beside = os.path.join(sys.prefix, "bin", "isoroll")
+    path = os.environ.get("ISOROLL_COMMAND") or (beside if os.path.exists(beside) else shutil.which("isoroll"))
+    if not path:
+        raise _errors.FileTrouble("this needs the command `isoroll`, which is not found: install it, or set "
+                                  "ISOROLL_COMMAND to its path")
+    return path
+
+
+def run_command(arguments: Sequence[str], folder: Optional[str] = None) -> str:
+    """What the command prints. Its failures are exceptions with its words."""
+    path = find()
+    try:
+        done = subprocess.run([path, *arguments], capture_output=True, cwd=folder, check=False)
+    except OSError as error:
+        raise _errors.FileTrouble(f"the command '{path}' cannot be run: {error}") from None
+    said = done.stderr.decode("utf-8", "replace").strip().replace("isoroll: ", "")
+    if done.returncode == 1:
+        warnings.warn(said, _errors.IsorollWarning, stacklevel=4)
+    elif done.returncode != 0:
+        raise _STATUS.get(done.returncode, _errors.IsorollError)(said or f"'{path}' ended with {done.returncode}")
+    return done.stdout.decode("utf-8", "replace")
+
+
+class Page(str):
+    """A page of HTML, as a str; a notebook shows it."""
+
+    def _repr_html_(self) -> str:
+        return f'<iframe srcdoc="{html.escape(self)}" width="100%" height="640" frameborder="0"></iframe>'
+
+
+def _options(given: Mapping[str, Any]) -> List[str]:
+    return [f"--{key.replace('_', '-')}={text_of(key, value)}" for key, value in given.items() if value is not None]
+
+
+def view(source: Union[SceneLike, Table], output: Optional[PathLike] = None, *, frames: Optional[PathLike] = None,
+         fps: Optional[float] = None, seconds: Optional[float] = None, k: Optional[float] = None,
+         J: Optional[ArrayLike] = None, eps: Optional[float] = None, h: Optional[float] = None,
+         scene: Optional[SceneLike] = None, columns: Union[None, str, Sequence[str]] = None,
+         row_tolerance: Optional[float] = None) -> Optional[Page]:
+    """A page in which ball and point move side by side: `isoroll view`, which must be installed.
+
+    source         a scene, a trajectory or a section; or the path of a file of one of these
+    output         the file of the page; None: the page is returned, and a notebook shows it
+    frames         draw the motion as pictures in this folder instead: frame0001.png, ... (needs Chromium)
+    fps, seconds   pictures in each second (default 25), seconds that the motion takes (default 10), of frames
+    k, J, eps, h   if the table does not say them
+    scene          take k, J and the effects from this scene
+    columns        of a file without names: those of its columns from left to right
+    row_tolerance  largest error of a row's state (default 1e-5)
+
+    The page is one file that needs no network. Its script, its style and how it is put together are in the command;
+    a second copy here could differ. So this function runs the command that ISOROLL_COMMAND names, or that stands
+    beside this Python, or that the shell finds.
+    """
+    given: Dict[str, Any] = {"fps": fps, "seconds": seconds, "k": k, "J": J, "eps": eps, "h": h,
+                             "row_tolerance": row_tolerance}
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "page.html") if output is None else os.path.abspath(os.fsdecode(output))
+        if isinstance(source, Table):
+            file = os.path.join(folder, "table.csv")
+            source.write(file)
+        else:
+            file = _file_of(source, os.path.join(folder, "scene.yaml"))
+        if scene is not None:
+            given["scene"] = _file_of(scene, os.path.join(folder, "of.yaml"))
+        if columns is not None:
+            given["columns"] = columns if isinstance(columns, str) else ",".join(columns)
+        if frames is not None:
+            given["frames"] = os.path.abspath(os.fsdecode(frames))
+        wanted = [] if frames is not None and output is None else ["-o", path]
+        run_command(["view", *_options(given), *wanted, "--", file])
+        if output is not None or frames is not None:
+            return None
+        with open(path, encoding="utf-8") as page:
+            return Page(page.read())
+
+
+def _file_of(source: SceneLike, path: str) -> str:
+    """The file of a scene; a scene that has none is written to this one. Other files are left to the command."""
+    if isinstance(source, (str, os.PathLike)) and "\n" not in os.fspath(source):
+        return os.path.abspath(os.fspath(source))
+    with open(path, "w", encoding="utf-8") as file:
+        file.write((source if isinstance(source, Scene) else Scene(source)).text)
+    return path

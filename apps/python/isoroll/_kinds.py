@@ -1,0 +1,189 @@
+"""The classes of tables, one for each kind of file."""
+
+from __future__ import annotations
+
+import html
+from typing import Any, Dict, Iterable, NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._table import CLASSES, Table
+
+
+class Trajectory(Table):
+    """Rows of orbits: the clocks t, tau, s; omega and n of the ball, M and gamma of the point; columns of effects.
+
+    errors  if they were asked for, the largest relative errors of the rows, by "ball" (omega, n), "point" (M, gamma),
+            "t", "tau", "s"; NaN where the rows do not show them, or where they are not known; else None
+    """
+
+    _kind = "trajectory"
+    errors: Optional[Dict[str, float]] = None
+
+
+class Section(Table):
+    """Crossings, a row each: columns orbit (from 0), crossing (from 1), t, tau, s, l, x, and the states asked for.
+
+    point   the same crossings as the point finds them by itself, with the columns orbit, crossing, t, tau, s, l, x;
+            None unless both models are integrated here
+    """
+
+    _kind = "section"
+    point: Optional[Table] = None
+
+
+class Share(NamedTuple):
+    """The orbits spread over the section.
+
+    orbits     those that were followed; `asked` were to be, `failed` failed
+    share      the chaotic fraction of them; NaN if none was followed
+    low, high  its 95 % confidence interval; undecided orbits are not chaotic at the low end, chaotic at the high end
+    """
+
+    orbits: int
+    chaotic: int
+    regular: int
+    undecided: int
+    failed: int
+    asked: int
+    share: float
+    low: float
+    high: float
+
+
+_SHARE = ("followed", "chaotic_starts", "regular_starts", "undecided_starts", "failed", "starts", "chaotic", "low",
+          "high")  # as the lines call them
+
+
+class Chaos(Table):
+    """Which orbits are chaotic, a row each: orbit, l, x, verdict ("regular", "chaotic", "undecided"), disagree, then
+    for each model that was integrated ball_exponent_t, ball_error_t, ball_megno, ball_gali2, ... Orbit 0 is the
+    scene's own: table.verdict[0].
+
+    indicators  {"ball": Table, "point": Table}: those of the scene's own orbit, by turns; {} of a file
+    """
+
+    _kind = "chaos"
+    indicators: Dict[str, Table] = {}
+
+    @property
+    def share(self) -> Optional[Share]:
+        """Which part of the section is chaotic; None without starts, and of a file."""
+        if "share.starts" not in self.lines:
+            return None
+        numbers = [float(self.lines.text.get("share." + key, "nan")) for key in _SHARE]
+        return Share(*(int(x) for x in numbers[:6]), *numbers[6:])
+
+
+class Periodic(Table):
+    """Periodic orbits, a row each: period, l, x, trace, error, stability, symmetry, t, tau, s, and the start in both
+    models."""
+
+    _kind = "periodic"
+
+
+class Branch(Table):
+    """Points of branches of periodic orbits, and events on them, whose `event` is not empty."""
+
+    _kind = "periodic follow"
+
+
+class Chart(Table):
+    """Stability of the rotations over k and a moment, or the level. The column `kind`, table["kind"], is "grid", or
+    says which border passes there; table.kind is "periodic chart"."""
+
+    _kind = "periodic chart"
+
+
+class Splitting(Table):
+    """The splitting of the separatrix, a row for each k or level: m is the slope of the curves where they meet."""
+
+    _kind = "splitting"
+
+
+class Cost(Table):
+    """What accuracy costs, a row for each backend, method and tolerance."""
+
+    _kind = "cost"
+
+
+class Sweep(Table):
+    """Many scenes, a row each: the number of the point, what varies, what is measured, status, reason.
+
+    text   the text of the sweep
+    scene  the text of its scene's file; "": the scene stands in the sweep
+    """
+
+    _kind = "sweep"
+
+    @property
+    def text(self) -> str:
+        """The text of the sweep."""
+        return str(self.lines.text.get("sweep", ""))
+
+    @property
+    def scene(self) -> str:
+        """The text of its scene's file; "": the scene stands in the sweep."""
+        return str(self.lines.text.get("scene", ""))
+
+
+class Comparison(Table):
+    """An orbit by every backend: differences of ball and point over the time.
+
+    ball, point, exact       the orbits themselves; None where there is none
+    ball_exact, point_exact  differences from the closed solution; None where there is none
+    """
+
+    _kind = "compare"
+    ball: Optional[Table] = None
+    point: Optional[Table] = None
+    exact: Optional[Table] = None
+    ball_exact: Optional[Table] = None
+    point_exact: Optional[Table] = None
+
+
+class Result(Table):
+    """A result without rows: what was found stands in its lines, by the names of the command's --json.
+
+    >>> isoroll.frequencies("scene.yaml").rotation_number
+    >>> isoroll.frequencies("scene.yaml").angles[0]["frequency"]["t"]
+
+    tree  all lines as dicts and lists: tree["angles"][0]["frequency"]["t"] is the line "angles.0.frequency.t"
+    text  of explain and analogue: what the command prints; of others: the lines
+    """
+
+    @property
+    def tree(self) -> Dict[str, Any]:
+        """The lines as dicts and lists. Its keys can also be written as attributes."""
+        return self.lines.tree
+
+    @property
+    def text(self) -> str:
+        """What the command prints, or the lines."""
+        lines = self.lines.text
+        return lines["text"] if "text" in lines else "\n".join(f"{key}: {value}" for key, value in lines.items())
+
+    def __getattr__(self, name: str) -> Any:
+        if not name.startswith("_") and "_columns" in self.__dict__ and name in self.tree:
+            return self.tree[name]
+        return super().__getattr__(name)
+
+    def __dir__(self) -> Iterable[str]:
+        return [*super().__dir__(), *(key for key in self.tree if key.isidentifier())]
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(self.text)}</pre>"
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __repr__(self) -> str:
+        return f"<isoroll.Result: {self.kind}; {', '.join(self.lines)}>"
+
+
+for _class in (Comparison, Trajectory, Section, Chaos, Periodic, Branch, Chart, Splitting, Cost, Sweep):
+    CLASSES[_class._kind] = _class
+CLASSES["sweep part"] = Sweep
+for _kind in ("frequencies", "integrals", "explain", "analogue"):
+    CLASSES[_kind] = Result

@@ -1,0 +1,66 @@
+"""Sweeps: many scenes that differ in some numbers, and what is measured at each of them."""
+
+from __future__ import annotations
+
+import os
+from ctypes import byref
+from typing import Any, Mapping, Union
+
+from . import _errors
+from ._kinds import Sweep
+from ._library import check, context, encoded, interruptible, lib, whole
+from ._scene import Scene
+from ._study import Progress, ProgressLike
+from ._table import from_record, new_record
+from ._yaml import dump
+
+
+def _text(source: Mapping[str, Any]) -> bytes:
+    return dump({key: value.sections if isinstance(value, Scene) else value for key, value in source.items()})
+
+
+def sweep(source: Union[str, "os.PathLike[str]", Mapping[str, Any]], *, threads: int = 0,
+          progress: ProgressLike = None) -> Sweep:
+    """Measures many scenes on all processors: `isoroll sweep`.
+
+    source    the path of a sweep file (lib/doc/formats.md, section 7); a str with a newline: its text; a dict of its
+              keys, whose "scene" can also be a Scene
+    threads   0: one for each processor
+    progress  True: a bar on stderr; a function that is called with the part that is done, 0 to 1
+
+    >>> isoroll.sweep({"scene": scene, "vary": {"k": {"from": 0.5, "to": 3, "count": 26}},
+    ...                "measure": {"chaos": {}}, "until": {"turns": 1000}}, progress=True)
+
+    Returns a Sweep: a row for each point, with what varies, what was measured, status and reason; a point that fails
+    has a status that is not 0. After Ctrl-C, the exception's `partial` has the points that are done. A sweep that
+    goes on after days, on many machines, is for the command: --resume, --shard, --merge.
+    """
+    if isinstance(source, Mapping):
+        name, text = "<dict>", _text(source)
+    elif isinstance(source, str) and "\n" in source:
+        name, text = "<text>", source.encode("utf-8", "surrogateescape")
+    elif isinstance(source, (str, os.PathLike)):
+        name, text = os.fspath(source), None
+    else:
+        raise TypeError(f"a sweep is a path, a text or a dict, not {type(source).__name__}")
+    new, ctx, shown = new_record(), context(), Progress(progress)
+    kept: list[Any] = []
+
+    def found() -> Any:
+        if not kept:
+            kept.append(from_record(new) if new.value else None)
+        return kept[0]
+
+    with interruptible(found):
+        status = lib.iso_foreign_sweep(ctx, encoded(name), text, len(text or b""), whole("threads", threads, 0, 1024),
+                                       shown.pointer, None, byref(new))
+    try:
+        shown.end()
+        check(status, ctx)
+    except BaseException as error:
+        error.partial = found()  # type: ignore[attr-defined]
+        raise
+    table = found()
+    if not isinstance(table, Sweep):
+        raise _errors.IsorollError("the library gave no result of a sweep")
+    return table
