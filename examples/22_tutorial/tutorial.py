@@ -62,9 +62,9 @@ orbit.plot()
 # %% [markdown]
 # ## Arrays of your own
 #
-# Any arrays become a table. Here they come from 15 lines of Runge and Kutta, with the equations of the ball. `check`
-# says how well the rows solve the equations, and `convert` carries them to the point. A step of 0.02 leaves errors
-# below 1e-6.
+# Any arrays become a table. Here they come from a program of our own: the equations of the ball, and the method of
+# Runge and Kutta. `check` says how well the rows solve the equations, and `convert` carries them to the point. With a
+# step of 0.02 the rows are right to 6 digits until t = 20.
 
 
 # %%
@@ -137,8 +137,8 @@ section.plot()
 # %% [markdown]
 # ## The chaotic share
 #
-# How large is the sea? `chaos` follows each start until its neighbours tell. Orbit 0 is the scene's own. About half
-# of the section is chaotic; the 95 % interval says how sure that is. `help(isoroll.chaos)` has all options.
+# How large is the sea? `chaos` follows each start until its neighbours tell. Orbit 0 is the scene's own; it is chaotic.
+# So is about half of the section; the 95 % interval says how sure that is. `help(isoroll.chaos)` has all options.
 
 # %%
 chaos = isoroll.chaos(scene, starts=starts, turns=turns, model="point")
@@ -175,7 +175,7 @@ print(f"after t = {closed.end:.2f} it is back to {np.abs(ends.n[1] - ends.n[0]).
 #
 # The rotation about the middle axis is unstable. The curve of orbits that leave it meets its mirror curve with the
 # slopes m and -m. If m is not 0, the curves cross, and no other analytic integral exists. m is 0.1419 at k = 1/2. It
-# falls with k, and is 0 at k = 1: there it is smaller than its error. Beyond, m is negative, and at most 1e-3.
+# falls with k, and is 0 at k = 1: there it is smaller than its error. Beyond, m is negative, and smaller than 1e-3.
 
 # %%
 splitting = isoroll.splitting(scene, k=ks, digits="double")
@@ -196,7 +196,8 @@ for at in axes[0]:
 for stable, look in ((True, "ok"), (False, "xk")):
     rows = (periodic.stability == "stable") == stable
     axes[0, 1].plot(periodic.l[rows], periodic.M[rows, 2], look, ms=4, mfc="white", label="stable" if stable else "unstable")
-axes[0, 1].legend(loc="upper right")
+axes[0, 1].set_ylim(bottom=-9)
+axes[0, 1].legend(loc="lower center", ncols=3)
 sweep.plot(ax=axes[1, 0])
 axes[1, 0].set_ylabel("chaotic share of the section")
 splitting.plot(ax=axes[1, 1])
@@ -204,4 +205,4 @@ axes[1, 1].set(ylabel="splitting |m|", title="")
 for letter, at in zip("abcd", axes.flat):
     at.set_title(f"({letter})", loc="left", fontweight="bold")
 for name in ("figure.pdf", "figure.png"):
-    figure.savefig(name, dpi=150)
+    figure.savefig(name, dpi=120)
