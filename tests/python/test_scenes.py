@@ -40,9 +40,10 @@ class Keywords(Case):
         self.assertEqual(ball, isoroll.Scene({
             "reduced": {"k": 0.5, "J": [1, 2, 5]}, "time": {"end": 7.0},
             "initial": {"angular_velocity": np.array([0.9, -0.3, -0.225]), "normal": [0.36, 0.48, 0.8]}}))
-        self.assertEqual((ball.k, ball.J.tolist(), ball.end, ball.step, ball.model), (0.5, [1, 2, 5], 7, 0.07, "ball"))
+        self.assertEqual((ball.k, ball.J.tolist(), ball.end, ball.step), (0.5, [1, 2, 5], 7, 0.07))
         body = isoroll.Scene(mass=6.8, radius=0.1092, inertia=(0.027, 0.0274, 0.0283),
-                             surface={"kind": "shell", "radius": 0.0546}, normal=(0, 0, 1), angular_velocity=(1, 0, 0))
+                             surface={"kind": "shell", "radius": 0.0546}, normal=(0, 0, 1),
+                             angular_velocity=(1, 0, 0))
         self.assertEqual(body.k, -1)
         self.near(body.J, np.array([0.027, 0.0274, 0.0283]) + 6.8 * 0.1092**2, 1e-16)
         point = isoroll.Scene(k=-1, J=(6, 4, 2), eps=0.5, gamma=(1, 0, 0), M=(0, 0.1, 0.2))
@@ -129,7 +130,8 @@ class Values(Case):
     def test_equal_if_they_say_the_same(self):
         one, other = isoroll.Scene(**WHOLE), isoroll.Scene("time: {end: 1.0e2}\n# a comment\n"
                                                            "initial: {angular_velocity: [.9, -0.30, -0.225], "
-                                                           "normal: [0.36, 0.48, 0.8]}\nreduced: {J: [1, 2.0, 5], k: 0.5}\n")
+                                                           "normal: [0.36, 0.48, 0.8]}\n"
+                                                           "reduced: {J: [1, 2.0, 5], k: 0.5}\n")
         self.assertEqual(one, other)
         self.assertEqual(hash(one), hash(other))
         self.assertEqual(len({one, other, isoroll.Scene(one, end=100.0)}), 1)

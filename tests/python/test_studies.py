@@ -72,7 +72,7 @@ class Names(Case):
         named = isoroll.section(WILD, crossings=20, at=[[0.5, 0.2]], as_="both")
         self.same(table.array, named.array)
         self.same(point.array, named.point.array)
-        self.assertEqual((table.kind, dict(table.lines.text), others), ("section", dict(named.lines.text), [None] * 4))
+        self.assertEqual((table.kind, table.lines, others), ("section", named.lines, [None] * 4))
 
     def test_lines_are_those_of_json(self):
         command = json.loads(self.command("chaos", WILD, "--starts", "12", "--turns", "300", "--json"))

@@ -70,14 +70,17 @@ class Words(Case):
 class Lines(Case):
     def test_numbers_are_numbers(self):
         lines = isoroll.run(BALL).lines
-        self.assertEqual((lines["k"], lines["model"], lines.text["k"], lines["isoroll"]), (-1.0, "ball", "-1", "0.2.0"))
+        self.assertEqual((lines["k"], lines["model"], lines.text["k"]), (-1.0, "ball", "-1"))
+        self.assertEqual(lines["isoroll"], isoroll.__version__)
         self.assertIsInstance(lines["k"], float)
         self.assertEqual(lines["J"].tolist(), [1, 2, 5])
         with self.assertRaisesRegex(ValueError, "read-only"):
             lines["J"][0] = 2
         self.assertEqual(lines.get("absent", 3), 3)
-        own = isoroll.Table([[0.0]], ["t"], {"k": 1 / 3, "J": (1, 2, 5), "note": "a text", "at": "1 2 x", "e": "-1e-3"})
-        self.assertEqual((own.k, own.lines["note"], own.lines["at"], own.lines["e"]), (1 / 3, "a text", "1 2 x", -1e-3))
+        own = isoroll.Table([[0.0]], ["t"], {"k": 1 / 3, "J": (1, 2, 5), "note": "a text", "at": "1 2 x", "e": "-1e-3"}
+                            )
+        self.assertEqual((own.k, own.lines["note"]), (1 / 3, "a text"))
+        self.assertEqual((own.lines["at"], own.lines["e"]), ("1 2 x", -1e-3))
         self.assertEqual(own.lines.text["k"], "0.33333333333333331")
         self.assertEqual(pickle.loads(pickle.dumps(lines)), lines)
         for bad in ("1_0", "0x1p3", "1,2", "", "nano", "1 ", "١"):
@@ -198,9 +201,9 @@ class OldFiles(Case):
                                   ("b.h5", "no HDF5", ""), ("c.csv", "", "")):
             with open(self.path(name), "w", encoding="utf-8") as file:
                 file.write(text)
-            self.refuses(isoroll.IsorollError if name == "b.h5" else isoroll.BadInput, words, isoroll.read,
-                         self.path(name)) if name != "b.h5" else self.assertRaises(
-                             isoroll.IsorollError, isoroll.read, self.path(name))
+            with self.assertRaises(isoroll.IsorollError) as caught:
+                isoroll.read(self.path(name))
+            self.assertIn(words, str(caught.exception))
         with self.assertRaisesRegex(KeyError, "no column 'x': the table has t, omega1"):
             isoroll.run(BALL)["x"]
 
@@ -240,7 +243,8 @@ class Pictures(Case):
                 table.write(self.path("a.h5")) if table.array.ndim == 2 else None
                 own = pyplot.figure().subplots(1, parts)
                 self.assertIs(np.ravel(np.asarray(table.plot(own), dtype=object))[0], np.ravel(own)[0])
-                self.refuses(isoroll.BadArgument, "this picture has", table.plot, pyplot.figure().subplots(1, parts + 1))
+                more = pyplot.figure().subplots(1, parts + 1)
+                self.refuses(isoroll.BadArgument, "this picture has", table.plot, more)
                 pyplot.close("all")
 
     def test_draw_the_numbers(self):
@@ -270,7 +274,7 @@ class Pictures(Case):
         for table, words in ((isoroll.frequencies(BALL), "no picture of a table of kind 'frequencies'"),
                              (isoroll.run(BALL, columns=["t"]), "no rows of n or gamma"),
                              (isoroll.trajectory({"t": [], "n": np.ones((0, 3))}), "no rows"),
-                             (isoroll.Table([[0.0, 1, 1]], ["orbit", "l", "x"], kind="section"), "does not say its axis")):
+                             (isoroll.Table([[0.0, 1, 1]], ["orbit", "l", "x"], kind="section"), "say its axis")):
             self.refuses(isoroll.BadInput, words, table.plot)
         self.refuses(isoroll.BadInput, "no column 'x'", isoroll.run(BALL).plot, columns=("t", "x"))
         self.refuses(isoroll.BadArgument, "two names", isoroll.run(BALL).plot, columns="t")

@@ -7,8 +7,8 @@
     isoroll.chaos(scene, starts=100).share            # which part of the section is chaotic
     isoroll.convert(table, "point").write("point.csv")
 
-Every instrument of the command `isoroll` is a function of the same name; its options are keywords: --exponent-turns 700
-is exponent_turns=700, --as both is as_="both". Files, scenes and tables are those of the command.
+Every instrument of the command `isoroll` is a function of the same name; its options are keywords: --exponent-turns
+700 is exponent_turns=700, --as both is as_="both". Files, scenes and tables are those of the command.
 
     Scene run orbit batch trajectory              what moves, and its rows
     section chaos periodic splitting              all orbits of one energy

@@ -48,14 +48,16 @@ def _compare(table: Comparison, *others: Any) -> Comparison:
 
 #: how the tables of a study become what its function returns, and what that is
 _RETURNS: Dict[str, Tuple[Callable[..., Any], str, str]] = {
-    "section": (_section, "Union[Section, Table]", "a Section: a row for each "
-                "crossing. With cloud a Table: a row for each test of the measure."),
-    "chaos": (_chaos, "Chaos", "a Chaos: a row for each orbit, the scene's own first; its `share`, its `indicators`."),
-    "frequencies": (_first, "Result", "a Result: numbers by the names of the command's --json, result.rotation_number, ..."),
-    "periodic": (_first, "Union[Periodic, Branch, Chart]", "a Periodic: a row for each orbit; with follow a Branch, with "
-                 "chart a Chart."),
+    "section": (_section, "Union[Section, Table]",
+                "a Section: a row for each crossing. With cloud a Table: a row for each test of the measure."),
+    "chaos": (_chaos, "Chaos",
+              "a Chaos: a row for each orbit, the scene's own first; its `share`, its `indicators`."),
+    "frequencies": (_first, "Result",
+                    "a Result: numbers by the names of the command's --json, result.rotation_number, ..."),
+    "periodic": (_first, "Union[Periodic, Branch, Chart]",
+                 "a Periodic: a row for each orbit; with follow a Branch, with chart a Chart."),
     "splitting": (_first, "Splitting", "a Splitting: a row for each k or level."),
-    "integrals": (_first, "Result", "a Result: what is found, by the names of the command's --json, in its lines."),
+    "integrals": (_first, "Result", "a Result: what is found, by the names of the command's --json."),
     "cost": (_first, "Cost", "a Cost: a row for each backend, method and tolerance."),
     "compare": (_compare, "Comparison", "a Comparison: differences of ball and point over the time; the orbits "
                 "themselves in its `ball`, `point`, `exact`."),
@@ -162,8 +164,8 @@ def _guard(study: str, given: Mapping[str, Any]) -> None:
     points = 0 if at is None or isinstance(at, str) else len(at)
     numbers = [x for x in (crossings, starts) if isinstance(x, (int, float))]
     if len(numbers) == 2 and (starts + points + 1) * crossings > _MOST_ROWS:
-        raise _errors.BadArgument(f"crossings is {crossings}: with {starts + points + 1} orbits these are more than 1e9 "
-                                  "rows")
+        raise _errors.BadArgument(f"crossings is {crossings}: with {starts + points + 1} orbits these are more than "
+                                  "1e9 rows")
 
 
 def _points(given: Dict[str, Any]) -> None:

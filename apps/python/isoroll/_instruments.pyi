@@ -195,8 +195,8 @@ def integrals(
     threads          threads that work (default: one for each processor)
     progress         True: a bar on stderr; a function that is called with the part that is done
 
-    Returns a Result: what is found, by the names of the command's --json, in its lines. After a failure
-    or Ctrl-C, the exception's `partial` is what was found before."""
+    Returns a Result: what is found, by the names of the command's --json. After a failure or Ctrl-C,
+    the exception's `partial` is what was found before."""
 
 def cost(
     scene: SceneLike,

@@ -61,7 +61,8 @@ def _splitting(table: Table, ax: Any, title: Optional[str] = None) -> Any:
     at, m, error = axes_of(ax, 1, (9, 4.7))[0], table["m"], table["error"]
     good = np.isfinite(m) & (error > 0) & (table["zero"] != 1 if "zero" in table else True)
     known = np.abs(m) >= 10 * error
-    for rows, colour, word in ((good & known & (m > 0), BLUE, "m > 0"), (good & known & (m < 0), VERMILLION, "m < 0")):
+    signs = (m > 0, BLUE, "m > 0"), (m < 0, VERMILLION, "m < 0")
+    for rows, colour, word in ((good & known & sign, colour, word) for sign, colour, word in signs):
         if rows.any():
             at.errorbar(table[over][rows], np.abs(m[rows]), error[rows], fmt="o", ms=4, color=colour, label=word)
     if (rows := good & ~known).any():
@@ -213,8 +214,8 @@ def draw(table: Table, ax: Any, how: Mapping[str, Any]) -> Any:
     how = {key: value for key, value in how.items() if value is not None}
     function = _DRAW.get(table.kind)
     if function is None:
-        raise _errors.BadInput(f"no picture of a table of kind '{table.kind}': table.plot(columns=(X, Y)) draws a column "
-                               f"over another; it has {', '.join(table.columns)}")
+        raise _errors.BadInput(f"no picture of a table of kind '{table.kind}': table.plot(columns=(X, Y)) draws a "
+                               f"column over another; it has {', '.join(table.columns)}")
     return function(table, ax, **how)
 
 

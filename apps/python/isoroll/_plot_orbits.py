@@ -227,5 +227,5 @@ def draw_chaos(table: Table, ax: Any, title: Optional[str] = None) -> Any:
     at.set(xlim=(-np.pi, np.pi), ylim=(-1, 1), title=title_of(table, title), ylabel=f"M{a + 1} / |M|",
            xlabel=f"l,  where γ{b} = cos l, γ{c} = −sin l")
     at.set_xticks(*PI_TICKS)
-    at.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=3, frameon=False)
+    at.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=3, frameon=False)
     return at

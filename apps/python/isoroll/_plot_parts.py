@@ -21,8 +21,8 @@ def pyplot() -> Any:
     try:
         import matplotlib.pyplot as found
     except ImportError:
-        raise ImportError("plot needs matplotlib, which is not installed here: pip install matplotlib; `isoroll plot` "
-                          "draws files without it") from None
+        raise ImportError("plot needs matplotlib, which is not installed here: pip install matplotlib; `isoroll "
+                          "plot` draws files without it") from None
     return found
 
 

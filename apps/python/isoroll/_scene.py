@@ -157,7 +157,7 @@ class Scene(Owned):
             if value is not None:
                 self._set(key, value)
 
-    # --- making ------------------------------------------------------------------------------------------------------
+    # --- making -----------------------------------------------------------------------------------------------------
 
     def _parse(self, text: bytes, name: str) -> None:
         new, ctx = c_void_p(), context()
@@ -224,7 +224,7 @@ class Scene(Owned):
         count = lib.iso_foreign_scene_columns(self.pointer, numbers)
         self._columns = tuple(lib.iso_column_name(c).decode() for c in numbers[:count])
 
-    # --- as text -----------------------------------------------------------------------------------------------------
+    # --- as text ----------------------------------------------------------------------------------------------------
 
     @property
     def sections(self) -> Dict[str, Any]:
@@ -273,7 +273,7 @@ class Scene(Owned):
             words += [f"{'as_' if key == 'as' else key}={value!r}" for key, value in flat.items()]
         return f"isoroll.Scene({', '.join(words)})"
 
-    # --- questions ---------------------------------------------------------------------------------------------------
+    # --- questions --------------------------------------------------------------------------------------------------
 
     def _numbers(self, key: str) -> NDArray[np.float64]:
         values = (c_double * 6)()

@@ -155,7 +155,7 @@ class Table:
     def _described(self) -> Dict[str, Tuple[str, str]]:
         return {name: columns_of(self.kind).get(name, ("", "")) for name in self.columns}
 
-    # --- columns -----------------------------------------------------------------------------------------------------
+    # --- columns ----------------------------------------------------------------------------------------------------
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         """A column (...,) or a vector (..., 3) by its name; words as an array of str."""
@@ -217,7 +217,7 @@ class Table:
     def __len__(self) -> int:
         return len(self.array)
 
-    # --- other forms -------------------------------------------------------------------------------------------------
+    # --- other forms ------------------------------------------------------------------------------------------------
 
     def __getstate__(self) -> Dict[str, Any]:
         """For pickle and copy: without the library's record, so the array is a copy."""
