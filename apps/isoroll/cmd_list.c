@@ -1,170 +1,19 @@
 /* isoroll list - prints what there is: systems, backends, effects, methods and so on. */
 #include <string.h>
 
-#include "base/nearest_impl.h"
 #include "command.h"
-#include "method/methods_impl.h"
-#include "study/tables/tables.h"
+#include "study/tables/list_impl.h"
 
 typedef struct options {
     const char *topic;
 } options;
 
-static void list_systems(void)
-{
-    for (int s = 0; iso_systems[s]; s++) {
-        printf("  %-22s %s\n", iso_systems[s]->name, iso_systems[s]->doc);
-        printf("  %-22s state:", "");
-        for (int i = 0; i < ISO_STATE; i++) printf(" %s", iso_systems[s]->state[i]);
-        printf("; clock: %s\n", iso_clock_name(iso_systems[s]->clock));
-    }
-}
-
-static void list_backends(void)
-{
-    static const char *const docs[] = {
-        [ISO_BACKEND_BALL] = "integrates the ball (9)",
-        [ISO_BACKEND_POINT] = "integrates the point (24)",
-        [ISO_BACKEND_AUTO] =
-            "chooses: the cheapest for the rows of a free orbit; the ball if an effect needs it (see explain)",
-        [ISO_BACKEND_EXACT] = "evaluates the closed solution, where there is one; every time costs the same",
-    };
-    for (int i = 0; iso_backend_name(i); i++) printf("  %-22s %s\n", iso_backend_name(i), docs[i]);
-}
-
-static void list_integrals(void)
-{
-    for (int s = 0; iso_systems[s]; s++)
-        for (const iso_integral *i = iso_systems[s]->integrals; i->name; i++)
-            printf("  %-18s %-10s %s\n", iso_systems[s]->name, i->name, i->doc);
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        for (const iso_integral *i = iso_effect_list[e]->integrals; i && i->name; i++)
-            printf("  %-18s %-10s %s\n", iso_effect_list[e]->name, i->name, i->doc);
-}
-
-/* A vector has its length behind its name, a key that may be left out is in brackets. */
-static void list_numbers(const iso_effect *effect)
-{
-    if (effect->numbers) printf("  %-22s numbers:", "");
-    for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
-        printf(n->required ? " %s" : " [%s", n->name);
-        if (n->count == 9)
-            printf("(3x3)");
-        else if (n->count > 1)
-            printf("(%d)", n->count);
-        printf(n->required ? "" : "]");
-    }
-    if (effect->numbers) printf("\n");
-}
-
-static void list_effects(void)
-{
-    for (int e = 0; e < ISO_EFFECTS; e++) {
-        const iso_effect *effect = iso_effect_list[e];
-        printf("  %-22s %s\n", effect->name, effect->doc);
-        const char *broken = iso_effect_why_broken(effect);
-        list_numbers(effect);
-        if (effect->states) printf("  %-22s states: %s\n", "", effect->states_doc);
-        printf("  %-22s isomorphism: %s%s\n", "", broken ? "lost, " : "kept", broken ? broken : "");
-    }
-}
-
-static void list_methods(void)
-{
-    printf("  %-22s %-9s %-6s %s\n", "name", "family", "order", "");
-    for (int i = 0; iso_methods[i]; i++) {
-        const iso_method *m = iso_methods[i];
-        char order[16] = "varies";
-        if (m->order) snprintf(order, sizeof order, "%d", m->order);
-        printf("  %-22s %-9s %-6s %s%s%s", m->name, m->family, order, m->doc, m->implicit ? "; stiff" : "",
-               m->projects ? "" : "; no projection");
-        printf(m->system ? "; %s only\n" : "\n", m->system ? m->system->name : "");
-    }
-}
-
-static void list_surfaces(void)
-{
-    static const char *const docs[] = {
-        [ISO_PLANE] = "a ball on a plane, k = 1",
-        [ISO_OUTSIDE] = "a ball on the outside of a fixed sphere, k = A/(A+B)",
-        [ISO_INSIDE] = "a ball inside a fixed sphere, k = A/(A-B)",
-        [ISO_SHELL] = "a hollow sphere around a fixed ball, k = -A/(B-A)",
-    };
-    for (int i = ISO_PLANE; iso_surface_name(i); i++) printf("  %-22s %s\n", iso_surface_name(i), docs[i]);
-}
-
-static void list_clocks(void)
-{
-    static const char *const docs[] = {
-        [ISO_CLOCK_T] = "the ball's time",
-        [ISO_CLOCK_TAU] = "the time in which the ball is Hamiltonian, dtau/dt = N (16)",
-        [ISO_CLOCK_S] = "the point's time, ds/dt = G N (24)",
-    };
-    for (iso_clock c = 0; c < ISO_CLOCKS; c++) printf("  %-22s %s\n", iso_clock_name(c), docs[c]);
-}
-
-static void list_columns(void)
-{
-    const char *unit;
-    for (int i = 0; i < iso_columns_count(); i++) {
-        const char *doc = iso_column_doc(i, &unit);
-        printf("  %-22s %-10s %s\n", iso_column_name(i), *unit ? unit : "-", doc);
-    }
-}
-
-static void print_column(void *data, const char *name, const iso_field *field, const iso_value *value)
-{
-    (void)data;
-    (void)value;
-    printf("    %-20s %-10s %s\n", name, *field->unit ? field->unit : "-", field->doc);
-}
-
-static void list_tables(void)
-{
-    const iso_result_table *t;
-    for (int i = 0; (t = iso_result_table_at(i)); i++) {
-        if (t->in_memory) continue;
-        printf("  %-22s a row is %s\n", t->kind, t->doc);
-        iso_columns_visit(t->fields, NULL, print_column, NULL);
-    }
-}
-
-static const struct {
-    const char *name, *doc;
-    void (*list)(void);
-} topics[] = {
-    {"systems", "the two models", list_systems},
-    {"backends", "what computes an orbit (--backend)", list_backends},
-    {"effects", "what can act on the ball, and what can be computed beside its motion (effects:)", list_effects},
-    {"methods", "integrators (--method)", list_methods},
-    {"surfaces", "what the ball rolls on (surface: kind)", list_surfaces},
-    {"integrals", "first integrals, each with the k, J and effects for which it holds", list_integrals},
-    {"clocks", "times of an orbit", list_clocks},
-    {"columns", "of trajectory files, with unit and meaning", list_columns},
-    {"tables", "that commands write: their columns, with unit and meaning", list_tables},
-};
-enum { TOPICS = sizeof topics / sizeof *topics };
-
-static const char *topic_word(int i)
-{
-    return i < TOPICS ? topics[i].name : NULL;
-}
-
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
-    const bool all = strcmp(o->topic, "-") == 0;
-    int listed = 0;
-    (void)ctx;
-    for (int i = 0; i < TOPICS; i++) {
-        if (!all && strcmp(o->topic, topics[i].name) != 0) continue;
-        printf("%s%s: %s\n", listed++ ? "\n" : "", topics[i].name, topics[i].doc);
-        topics[i].list();
-    }
-    if (listed) return EXIT_DONE;
-    char suggested[ISO_SUGGEST_SIZE];
-    complain("list: nothing is called '%s'; %s", o->topic, iso_suggest_word(suggested, o->topic, topic_word));
-    return EXIT_USAGE;
+    const iso_status status = iso_list(ctx, strcmp(o->topic, "-") == 0 ? NULL : o->topic, stdout);
+    if (status == ISO_BAD_ARGUMENT) return complain("%s", iso_context_message(ctx)), EXIT_USAGE;
+    return finish(ctx, status);
 }
 
 static const options defaults = {.topic = "-"};
@@ -173,7 +22,7 @@ static const option_row rows[] = {ROW_END};
 
 const command command_list = {
     COMMAND("list", "[TOPIC]", "list what there is: systems, backends, effects, methods, columns, ...", topic),
-    .word = topic_word,
+    .word = iso_list_topic,
     .description = "A topic is systems, backends, effects, methods, surfaces, integrals, clocks, columns or tables. "
                    "Without one, "
                    "all topics are listed.",

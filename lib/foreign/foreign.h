@@ -173,6 +173,10 @@ ISO_API const char *iso_foreign_option_word(const char *study, int i, int word);
 ISO_API const char *iso_foreign_table_kind(int i);
 ISO_API bool iso_foreign_column(const char *kind, int i, char name[64], const char *text[2]);
 
+/* What there is, in the words of `isoroll list`: as much of it as there is room for, with an end mark; *length is that
+ * of all of it. topic: "methods", ...; NULL: all. Errors: ISO_BAD_ARGUMENT about "topic", ISO_NO_MEMORY. */
+ISO_API iso_status iso_foreign_list(iso_context *ctx, const char *topic, char text[], size_t room, size_t *length);
+
 /* --- sweeps ----------------------------------------------------------------------------------------------------- */
 
 /* Measures all points of a sweep (sweep/sweep.h).

@@ -1,9 +1,12 @@
 /* study.c - any study by its name and options as text; and what studies, options and tables there are. */
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/nearest_impl.h"
 #include "foreign/foreign_impl.h"
 #include "study/study.h"
+#include "study/tables/list_impl.h"
 #include "study/tables/tables.h"
 
 /* --- asking ----------------------------------------------------------------------------------------------------- */
@@ -99,6 +102,18 @@ const char *iso_foreign_option_word(const char *study, int i, int word)
     for (int w = 0; o && o->word && o->word(w); w++)
         if (w == word) return o->word(w);
     return NULL;
+}
+
+iso_status iso_foreign_list(iso_context *ctx, const char *topic, char text[], size_t room, size_t *length)
+{
+    char *words = NULL;
+    FILE *to = open_memstream(&words, length);
+    if (!to) return iso_context_no_memory(ctx, "a list");
+    const iso_status status = iso_list(ctx, topic, to);
+    const bool whole = fclose(to) == 0 && words;
+    if (whole && room > 0) snprintf(text, room, "%s", words);
+    free(words);
+    return whole ? status : iso_context_no_memory(ctx, "a list");
 }
 
 /* --- tables ----------------------------------------------------------------------------------------------------- */

@@ -58,6 +58,35 @@ static void check_scenes(void)
     iso_foreign_scene_free(NULL);
 }
 
+/* Texts that languages without YAML or without our structs need. */
+static void check_texts(void)
+{
+    static const char yaml[] = "a: {x: 0.1, y: -0, \"z\\n\": [1e400, true, tr\"ue, '1', ~, ]}\nb:\n";
+    static const char json[] = "{\"a\": {\"x\": 0.10000000000000001, \"y\": -0.0, \"z\\u000a\": [\"1e400\", true, "
+                               "\"tr\\u0022ue\", \"1\", \"~\"]}, \"b\": null}";
+    char text[200], part[8];
+    const char *section = "", *key = "";
+    size_t length = 0, whole = 0;
+    int keys = 0;
+    gsl_test(iso_foreign_yaml_json(ctx, "y", yaml, strlen(yaml), text, sizeof text, &length) != ISO_OK ||
+                 strcmp(text, json) != 0 || length != strlen(json),
+             "YAML as JSON: %s", text);
+    gsl_test(iso_foreign_yaml_json(ctx, "y", yaml, strlen(yaml), part, sizeof part, &length) != ISO_OK ||
+                 strcmp(part, "{\"a\": {") != 0 || length != strlen(json),
+             "as much as there is room for: %s", part);
+    gsl_test(iso_foreign_yaml_json(ctx, "y", "[a]: 1", 6, text, sizeof text, &length) != ISO_BAD_INPUT ||
+                 strncmp(iso_context_message(ctx), "y:1:1: ", 7) != 0,
+             "a key that is a list: %s", iso_context_message(ctx));
+    while (iso_foreign_scene_key(keys, &section, &key)) keys++;
+    gsl_test(keys < 30 || strcmp(section, "output") != 0 || strcmp(key, "columns") != 0, "%d keys, then %s.%s", keys,
+             section, key);
+    gsl_test(iso_foreign_list(ctx, NULL, NULL, 0, &whole) != ISO_OK ||
+                 iso_foreign_list(ctx, "clocks", text, sizeof text, &length) != ISO_OK || length >= whole ||
+                 strncmp(text, "clocks: ", 8) != 0,
+             "lists: %zu of %zu", length, whole);
+    gsl_test(iso_foreign_list(ctx, "clock", NULL, 0, &length) != ISO_BAD_ARGUMENT || !about("topic"), "no such list");
+}
+
 /* Rows of the scene by iso_foreign_run and by an orbit, times in two orders. */
 static void check_rows(const char *text)
 {
@@ -387,6 +416,7 @@ int main(void)
     if (!ctx) return 1;
     gsl_test(iso_foreign_abi() != ISO_FOREIGN_ABI, "the interface has its number");
     check_scenes();
+    check_texts();
     check_rows(FREE);
     check_rows(REDUCED("-1") "time: {end: -3, step: 0.25}\noutput: {as: both}\n");
     check_rows(POINT TIME "output: {as: ball}\n");

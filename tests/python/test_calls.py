@@ -200,7 +200,10 @@ class Numbers(Case):
         found = isoroll.analogue(neumann=(1, 2, 2.5), energy=2)
         self.assertEqual(found.text, self.command("analogue", "--neumann", "1,2,2.5", "--energy", "2"))
         self.assertEqual(isoroll.Scene(found.text).k, -1)
-        self.assertEqual(isoroll.list_("clocks"), self.command("list", "clocks"))
+        for topic in ("clocks", "methods", "tables"):
+            self.assertEqual(isoroll.list_(topic), self.command("list", topic))
+        self.assertEqual(isoroll.list_(), self.command("list"))
+        self.refuses(isoroll.BadArgument, "nothing is called 'method'; did you mean 'methods'?", isoroll.list_, "method")
 
     def test_sweep(self):
         scene = isoroll.Scene(WILD, end=20)

@@ -22,7 +22,7 @@ space (lib/doc/formats.md, section 4). A failure raises an IsorollError with the
 be called by several threads at the same time; they compute side by side.
 """
 
-from ._command import Page, list_, view
+from ._command import Page, view
 from ._errors import (BadArgument, BadInput, ClosedPipe, FileTrouble, IsorollError, IsorollWarning, LibraryError,
                       NoMemory, NotMapped, NumericalFailure, Stopped)
 from ._files import convert, read, write
@@ -35,7 +35,7 @@ from ._lines import Lines
 from ._orbit import Batch, Orbit, batch, orbit, run
 from ._plot import plot
 from ._scene import Scene
-from ._study import study
+from ._study import list_, study
 from ._sweep import sweep
 from ._table import Table, trajectory
 from ._version import __version__ as __version__

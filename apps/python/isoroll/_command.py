@@ -17,7 +17,6 @@ from . import _errors
 from ._scene import Scene, SceneLike
 from ._study import text_of
 from ._table import PathLike, Table
-from ._version import __version__
 
 _STATUS = {2: _errors.BadArgument, 3: _errors.BadInput, 4: _errors.NumericalFailure, 5: _errors.FileTrouble}
 
@@ -45,11 +44,6 @@ def run_command(arguments: Sequence[str], folder: Optional[str] = None) -> str:
     elif done.returncode != 0:
         raise _STATUS.get(done.returncode, _errors.IsorollError)(said or f"'{path}' ended with {done.returncode}")
     return done.stdout.decode("utf-8", "replace")
-
-
-def version() -> str:
-    """The version of the command that is found."""
-    return run_command(["--version"]).split("\n")[0].split()[-1]
 
 
 class Page(str):
@@ -113,14 +107,3 @@ def _file_of(source: SceneLike, path: str) -> str:
     with open(path, "w", encoding="utf-8") as file:
         file.write((source if isinstance(source, Scene) else Scene(source)).text)
     return path
-
-
-def list_(topic: Optional[str] = None) -> str:
-    """What there is, as text: `isoroll list`, which must be installed.
-
-    topic  "systems", "backends", "effects", "methods", "surfaces", "integrals", "clocks", "columns", "tables";
-           None: all of them
-
-    The columns of a table, with unit and meaning, need no command: table.units, table.doc.
-    """
-    return run_command(["list", *([] if topic is None else [topic])])

@@ -61,8 +61,11 @@ class Lines(Mapping[str, Any]):
     text: Mapping[str, str]
 
     def __init__(self, lines: Mapping[str, Any]) -> None:
-        found = lines.text if isinstance(lines, Lines) else {str(key): text_of(lines[key]) for key in lines}
-        self.__dict__["text"] = found if isinstance(found, MappingProxyType) else MappingProxyType(dict(found))
+        if isinstance(lines, Lines):
+            lines = lines.text
+        if not isinstance(lines, MappingProxyType):  # else they are texts already
+            lines = MappingProxyType({str(key): text_of(lines[key]) for key in lines})
+        self.__dict__["text"] = lines
 
     @property
     def tree(self) -> Dict[str, Any]:

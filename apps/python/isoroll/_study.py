@@ -6,7 +6,7 @@ import os
 import shlex
 import sys
 import threading
-from ctypes import CFUNCTYPE, c_char_p, c_double, c_void_p, cast
+from ctypes import CFUNCTYPE, byref, c_char_p, c_double, c_size_t, c_void_p, cast, create_string_buffer
 from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Tuple, TypeVar, Union
 
 import numpy as np
@@ -211,3 +211,21 @@ def study(scene: Optional[SceneLike], name: str, *, progress: ProgressLike = Non
 def docs() -> Dict[str, str]:
     """What each study does, in one line."""
     return {name: lib.iso_foreign_study_doc(name.encode()).decode() for name in STUDIES}
+
+
+def list_(topic: Optional[str] = None) -> str:
+    """What there is, as text: `isoroll list`.
+
+    topic  "systems", "backends", "effects", "methods", "surfaces", "integrals", "clocks", "columns", "tables";
+           None: all of them
+
+    >>> print(isoroll.list_("methods"))
+
+    The columns of a table that is there are in table.units and table.doc.
+    """
+    ctx, length = context(), c_size_t()
+    named = None if topic is None else encoded(topic)
+    check(lib.iso_foreign_list(ctx, named, None, 0, byref(length)), ctx)
+    text = create_string_buffer(length.value + 1)
+    check(lib.iso_foreign_list(ctx, named, text, length.value + 1, byref(length)), ctx)
+    return text.value.decode()

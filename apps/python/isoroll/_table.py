@@ -69,12 +69,15 @@ class Record(Owned):
             number += 1
         return Lines(MappingProxyType(found))
 
+    def with_words(self) -> List[int]:
+        """The columns of words."""
+        pointer, has = self.pointer, lib.iso_record_has_words
+        return [column for column in range(lib.iso_record_columns(pointer)) if has(pointer, column)]
+
     def words(self, column: int, numbers: NDArray[np.float64]) -> Dict[float, str]:
-        """The words that the numbers of a column stand for; {}: it is a column of numbers."""
-        if not lib.iso_record_has_words(self.pointer, column):
-            return {}
+        """The words that the numbers of a column stand for."""
         return {x: lib.iso_record_word(self.pointer, x).decode("utf-8", "surrogateescape")
-                for x in np.unique(numbers).tolist()} or {0.0: ""}
+                for x in np.unique(numbers).tolist()}
 
     def array(self) -> NDArray[np.float64]:
         """The rows, not copied: shape (rows, columns)."""
@@ -122,8 +125,7 @@ class Table:
         if numbers.ndim == 0 or numbers.shape[-1] != len(names):
             raise _errors.BadArgument(f"array has shape {numbers.shape}, and there are {len(names)} columns: its "
                                       "last length must be their number")
-        words = {name: found for i, name in enumerate(names)
-                 if record is not None for found in (record.words(i, numbers[..., i]),) if found}
+        words = {} if record is None else {names[i]: record.words(i, numbers[..., i]) for i in record.with_words()}
         self.__dict__.update(_array=numbers, _columns=names, kind=kind or self._kind, _record=record,
                              _words=words, _lines=lines if isinstance(lines, Lines) else Lines(lines or {}))
 
