@@ -1,5 +1,5 @@
 #!/bin/sh
-# pictures.sh BUILD - draws the pictures of examples/README.md: examples/NN_name/picture.svg (.png of 16 and 20), lane.svg of
+# pictures.sh BUILD - draws the pictures of examples/README.md: examples/NN_name/picture.svg (.png of 16 and 22), lane.svg of
 # 01, and cost.svg of 02.
 #     cmake -S . -B .build/release && cmake --build .build/release -j 2 && sh examples/pictures.sh .build/release
 # BUILD is a folder that cmake has built, with the tests. Times and steps are shortened to keep the files small.
@@ -91,7 +91,8 @@ plot '$work/chaos.txt' using 1:2 skip 2 with linespoints pt 7 ps 0.8 lw 1.5 lc r
 EOF
 # from Python, with the library of this build
 if python3 -c "import numpy, matplotlib" 2>"$work/out"; then
-    PYTHONPATH=../apps/python ISOROLL_LIBRARY=$build/libisoroll.so.0 python3 -B 20_python/sections.py \
-        20_python/picture.png
+    tutorial=$PWD/22_tutorial
+    (cd "$work" && PYTHONPATH=$tutorial/../../apps/python ISOROLL_LIBRARY=$build/libisoroll.so.0 \
+        python3 -B "$tutorial/tutorial.py" >out && mv figure.png "$tutorial/picture.png")
 fi
 ls -l ./*/picture.*

@@ -65,7 +65,7 @@ static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure)
     iso_yaml *y = &f->yaml;
     const iso_sweep_quantity *const *quantities = iso_sweep_quantities();
     while (quantities[count] && count < MOST_QUANTITIES) names[count] = quantities[count]->name, count++;
-    iso_status status = check_keys(y, measure, "measure", count, names);
+    iso_status status = iso_sweep_check_keys(y, measure, "measure", count, names);
     if (status != ISO_OK) return status;
     const yaml_node_pair_t *end = measure->data.mapping.pairs.top;
     for (const yaml_node_pair_t *p = measure->data.mapping.pairs.start; p < end && status == ISO_OK; p++) {
@@ -179,7 +179,7 @@ static iso_status read_root(iso_context *ctx, iso_sweep_file *f)
     const yaml_node_t *root = yaml_document_get_root_node(&f->yaml.document), *node[5] = {NULL};
     if (root->type != YAML_MAPPING_NODE)
         return iso_yaml_expected(&f->yaml, root, "sweep", "a mapping with scene, vary and measure");
-    iso_status status = check_keys(&f->yaml, root, "sweep", sizeof names / sizeof *names, names);
+    iso_status status = iso_sweep_check_keys(&f->yaml, root, "sweep", sizeof names / sizeof *names, names);
     for (int i = 0; i < 5 && status == ISO_OK; i++)
         if (!iso_yaml_find(&f->yaml, root, names[i], NULL, &node[i]) && i < 3)
             status = ISO_FAIL_AT(f, root, "missing '%s' in the sweep", names[i]);

@@ -4,9 +4,8 @@
 #include "sweep/sweep_draft_impl.h"
 #include "sweep/sweep_impl.h"
 
-/* The keys of a mapping must be among `names`, each once. */
-static iso_status check_keys(iso_yaml *y, const yaml_node_t *mapping, const char *what, size_t count,
-                             const char *const names[])
+iso_status iso_sweep_check_keys(iso_yaml *y, const yaml_node_t *mapping, const char *what, size_t count,
+                                const char *const names[])
 {
     if (mapping->type != YAML_MAPPING_NODE) return iso_yaml_expected(y, mapping, what, "a mapping");
     size_t i;
@@ -53,6 +52,6 @@ iso_status iso_sweep_read_mapping(iso_yaml *y, const yaml_node_t *mapping, const
     const char *names[ISO_SWEEP_SETTINGS];
     size_t count = 0;
     for (const iso_sweep_setting *s = settings; s && s->name; s++) names[count++] = s->name;
-    ISO_TRY(check_keys(y, mapping, what, count, names));
+    ISO_TRY(iso_sweep_check_keys(y, mapping, what, count, names));
     return iso_sweep_read_settings(y, mapping, settings, value);
 }

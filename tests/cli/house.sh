@@ -171,13 +171,13 @@ find lib apps tests CMakeLists.txt -type f \( -name '*.[ch]' -o -name '*.sh' -o 
 for folder in examples/*/; do
     case ${folder#examples/} in [0-9][0-9]_*) ;; *) echo "$folder is not called NN_name" ;; esac
     found=
-    for file in "$folder"main.c "$folder"scene.yaml; do
+    for file in "$folder"main.c "$folder"scene.yaml "$folder"tutorial.py; do
         [ -f "$file" ] || continue
         found=yes
         head -n 10 "$file" |
             grep -qE '(/\*|//|#|^ \*).*[A-Za-z]+ [a-z]+ [a-z]+' || echo "$file has no comment on its purpose"
     done
-    [ -n "$found" ] || echo "$folder has neither main.c nor scene.yaml"
+    [ -n "$found" ] || echo "$folder has no main.c, scene.yaml or tutorial.py"
 done | complain "examples"
 
 cat "$complaints"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import html
 import os
+import textwrap
 from ctypes import byref, c_char_p, c_double, create_string_buffer
 from types import MappingProxyType
 from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
@@ -26,6 +27,7 @@ VECTORS["q"] = ("q0", "q1", "q2", "q3")
 #: names of columns, which are no names for other things
 _NAMES = frozenset(("t", "tau", "s")).union(VECTORS, *VECTORS.values())
 _TRAJECTORY = "trajectory"
+_WIDTH = 100  # of a printed table
 _Made = TypeVar("_Made", bound="Table")
 
 
@@ -284,25 +286,43 @@ class Table:
         shape = f"{len(self)} rows" if self.array.ndim == 2 else f"shape {self.array.shape}"
         return f"<isoroll.{type(self).__name__}: {shape}; {', '.join(self.columns)}>"
 
-    def _repr_html_(self) -> str:
-        """For notebooks: the first and the last rows, with units."""
-        flat = self.array.reshape(-1, len(self.columns)) if self.columns else self.array
+    def _cells(self) -> List[List[str]]:
+        """The first and the last rows as texts, column by column; "..." stands for rows between."""
+        flat = self.array.reshape(-1, len(self.columns))
         count = len(flat)
         shown = list(range(count)) if count <= 12 else [*range(5), None, *range(count - 5, count)]
         words = {name: np.ravel(self[name]) for name in self._words}
+        return [["..." if row is None else str(words[name][row]) if name in words else f"{flat[row, i]:.6g}"
+                 for row in shown] for i, name in enumerate(self.columns)]
+
+    def __str__(self) -> str:
+        """The first and the last rows, and as many columns as there is room for."""
+        columns = [[name, *cells] for name, cells in zip(self.columns, self._cells())]
+        columns = [[text.rjust(max(map(len, column)) + 2) for text in column] for column in columns]
+        ends = np.cumsum([len(column[0]) for column in columns])
+        count = max(1, int(np.sum(ends <= _WIDTH)))
+        lines = [self._heading(), *map("".join, zip(*columns[:count]))]
+        if count < len(columns):
+            lines += textwrap.wrap("more columns: " + ", ".join(self.columns[count:]), _WIDTH)
+        return "\n".join(lines)
+
+    def _heading(self) -> str:
+        said = ""
+        for key in ("k", "J"):
+            values = np.ravel(self.lines[key]).tolist() if key in self.lines and key not in self.columns else []
+            said += f", {key} = " + " ".join(f"{x:.6g}" if isinstance(x, float) else x for x in values) if values else ""
+        shape = f"{len(self)} rows" if self.array.ndim == 2 else f"shape {self.array.shape}"
+        return f"{self.kind}, {shape}{said}"
+
+    def _repr_html_(self) -> str:
+        """For notebooks: the first and the last rows, with units."""
         units = self.units
-
-        def cell(row: int, i: int, name: str) -> str:
-            return html.escape(str(words[name][row])) if name in words else f"{flat[row, i]:.6g}"
-
         head = "".join(f"<th>{html.escape(name)}<br><small>{html.escape(units[name])}</small></th>"
                        for name in self.columns)
-        body = "".join("<tr>" + ("<td>...</td>" * len(self.columns) if row is None else
-                                 "".join(f"<td>{cell(row, i, name)}</td>" for i, name in enumerate(self.columns)))
-                       + "</tr>" for row in shown)
-        said = ", ".join(f"{key} = {self.lines.text[key]}" for key in ("k", "J") if key in self.lines)
-        caption = html.escape(f"{self.kind}, {count} rows" + (f", {said}" if said else ""))
-        return f"<table><caption>{caption}</caption><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+        rows = zip(*self._cells())
+        body = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
+        caption = f"<caption>{html.escape(self._heading())}</caption>"
+        return f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
 
 #: the class of each kind; others are plain tables (_kinds.py fills it)
