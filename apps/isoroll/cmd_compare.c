@@ -1,6 +1,7 @@
 /* isoroll compare - computes one orbit by every backend and shows the differences: table, picture, JSON. */
 #include <math.h>
 
+#include "plot/stretch.h"
 #include "shell.h"
 #include "study/study_impl.h"
 
@@ -151,41 +152,45 @@ static json_t *json(const shell *s)
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-/* The curves of the picture: the differences of ball and point, and the largest difference of each of them from the
- * closed solution. */
-static iso_status differences_drawn(iso_context *ctx, const iso_comparison *c, iso_record **drawn)
+static double largest(const double worst[ISO_DIFFERENCES])
 {
-    const char *names[ISO_DIFFERENCES + ISO_INTEGRATED] = {[ISO_DIFFERENCES] = "ball - exact", "point - exact"};
-    const int exact = c->runs == ISO_BACKENDS ? ISO_INTEGRATED : 0;
-    for (size_t i = 0; i < ISO_DIFFERENCES; i++) names[i] = iso_record_name(c->difference, i);
-    iso_status status = iso_record_create(ctx, (size_t)(ISO_DIFFERENCES + exact), names, drawn);
-    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(c->difference); i++) {
-        const double *d = iso_record_const_row(c->difference, i);
-        double row[ISO_DIFFERENCES + ISO_INTEGRATED] = {0};
-        for (int j = 0; j < ISO_DIFFERENCES; j++) row[j] = d[j];
-        for (int b = 0; b < exact; b++)
-            for (int j = 1; j < ISO_DIFFERENCES; j++)
-                row[ISO_DIFFERENCES + b] =
-                    fmax(row[ISO_DIFFERENCES + b], iso_record_const_row(c->from_exact[b], i)[j]);
-        status = iso_record_add(ctx, *drawn, 1, row);
-    }
-    return status;
+    double most = 0;
+    for (int i = 1; i < ISO_DIFFERENCES; i++) most = fmax(most, worst[i]);
+    return most;
+}
+
+static void tell_result(const iso_comparison *c, char text[], size_t size)
+{
+    const bool exact = c->runs == ISO_BACKENDS;
+    double most = largest(c->worst);
+    for (int b = 0; exact && b < ISO_INTEGRATED; b++) most = fmax(most, largest(c->worst_from_exact[b]));
+    snprintf(text, size, "both computations%s agree to %.1e, over the whole orbit to %s = %.6g",
+             exact ? " and the closed solution" : "", most, iso_clock_name(c->clock), c->worst[0]);
 }
 
 static int draw(const shell *s)
 {
-    char title[ISO_PLOT_TITLE];
+    char words[ISO_PLOT_TITLE], title[2 * ISO_PLOT_TITLE], drawn[100], result[200];
     const iso_comparison *c = s->result.found;
-    iso_record *drawn;
-    if (iso_record_rows(c->difference) == 0) return EXIT_DONE;
-    iso_status status = differences_drawn(s->ctx, c, &drawn);
-    const iso_plot plot = {.title = iso_plot_title(title, &s->scene.params, "%s", ""),
-                           .tolerance = s->scene.tolerance,
-                           .ball = c->run[ISO_BALL].trajectory,
-                           .point = c->run[ISO_POINT].trajectory,
-                           .difference = drawn};
-    if (status == ISO_OK) status = iso_plot_comparison(s->ctx, s->told->plot, &plot);
-    iso_record_free(drawn);
+    const size_t rows = iso_record_rows(c->difference);
+    iso_record *curve, *states;
+    if (rows == 0) return EXIT_DONE;
+    const double end = iso_record_const_row(c->run[ISO_BALL].trajectory, rows - 1)[ISO_CLOCK_T];
+    iso_status status = iso_plot_stretch(s->ctx, &s->scene, end, &curve, &states);
+    if (status == ISO_OK) {
+        snprintf(title, sizeof title, "One orbit, two worlds, two clocks        %s",
+                 iso_plot_title(words, &s->scene.params, "%s", ""));
+        const double last = iso_record_const_row(states, ISO_STRETCH_STATES - 1)[0];
+        if (last == end)
+            snprintf(drawn, sizeof drawn, "drawn: the whole orbit");
+        else
+            snprintf(drawn, sizeof drawn, "drawn: the first %d turns of n", ISO_STRETCH_TURNS);
+        tell_result(c, result, sizeof result);
+        const iso_plot_twins plot = {title, drawn, result, curve, states};
+        status = iso_plot_comparison(s->ctx, s->told->plot, &plot);
+    }
+    iso_record_free(curve);
+    iso_record_free(states);
     return finish(s->ctx, status);
 }
 

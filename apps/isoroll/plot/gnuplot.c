@@ -31,11 +31,13 @@ typedef struct format {
 } format;
 
 static const format formats[] = {
-    {".svg", "svg enhanced background 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,10' fontscale 1.3", "", 1,
-     "</svg>"},
-    {".png", "pngcairo enhanced background 'white' font 'DejaVu Sans,10' fontscale 2 linewidth 2 pointscale 2.1", "",
+    {".svg", "svg enhanced rounded background 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,10' fontscale 1.3",
+     "", 1, "</svg>"},
+    {".png",
+     "pngcairo enhanced rounded background 'white' font 'DejaVu Sans,10' fontscale 2 linewidth 2 pointscale 2.1", "",
      2, "IEND\xAE\x42\x60\x82"},
-    {".pdf", "pdfcairo enhanced background 'white' font 'DejaVu Sans,10' fontscale 0.72 linewidth 1.6 pointscale 1",
+    {".pdf",
+     "pdfcairo enhanced rounded background 'white' font 'DejaVu Sans,10' fontscale 0.72 linewidth 1.6 pointscale 1",
      "in", 0.01, "%%EOF"},
 };
 

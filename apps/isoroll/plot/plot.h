@@ -1,8 +1,7 @@
 /* plot.h - pictures, drawn by gnuplot (package gnuplot-nox), which is started for each.
  *
- *     iso_comparison *c;                                                          (study/compare.h)
- *     iso_plot plot = {.title = "a shell, k = -1", .tolerance = scene.tolerance, .difference = c->difference,
- *                      .ball = c->run[ISO_BALL].trajectory, .point = c->run[ISO_POINT].trajectory};
+ *     status = iso_plot_stretch(ctx, &scene, 30, &curve, &states);                (plot/stretch.h)
+ *     iso_plot_twins plot = {"k = -1", "to t = 30", "both agree", curve, states};
  *     status = iso_plot_comparison(ctx, "orbit.svg", &plot);
  *
  * The file's name chooses the format: .svg, .png or .pdf. It is written whole, then renamed: on failure nothing has
@@ -21,27 +20,22 @@ enum { ISO_PLOT_TITLE = 200 };
 char *iso_plot_title(char title[static ISO_PLOT_TITLE], const iso_params *p, const char *more, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* The two models on one orbit. Records are as iso_compare makes them; further columns are not read. */
-typedef struct iso_plot {
-    const char *title;       /* one line, any characters; NULL: none                                        */
-    const iso_record *ball;  /* what the backend `ball` found: columns n1..3 and gamma1..3, a row or more   */
-    const iso_record *point; /* the same from the backend `point`                                           */
-    /* A clock, then non-negative differences; "omega", "M", "t", ... get symbols, "ball - exact", "point - exact"
-     * lines of their own. */
-    const iso_record *difference;
-    double tolerance; /* a line drawn among the differences for comparison; 0: none */
-} iso_plot;
+/* One orbit in both models. Texts are one line, any characters; NULL: none. */
+typedef struct iso_plot_twins {
+    const char *title, *drawn, *result; /* above; below: what is drawn, and what was found               */
+    const iso_record *curve, *states;   /* columns t, s, n1..3, gamma1..3 from the first on, a row or more */
+} iso_plot_twins;
 
 /* Whether a picture can have this name, one that ends in .svg, .png or .pdf: to ask before the work. Errors:
  * ISO_BAD_ARGUMENT. */
 iso_status iso_plot_check_format(iso_context *ctx, const char *path);
 
-/* Above: the ball's path n and the point's path gamma, each on its unit sphere seen from the same side, the backend
- * `ball` as a line, the backend `point` as markers on it. Below: their difference over time, zeros at 1e-17.
- * At most 5000 rows of a record are drawn.
+/* Left n on the sphere of the ball, right gamma on that of the point, seen from the same side, coloured by t. The
+ * states, at equal steps of t, are joined between the two clocks below; every 8th has a number, the same wherever it
+ * stands.
  * Errors: ISO_BAD_ARGUMENT (name, missing columns or rows), ISO_NUMERICAL (a number that is not finite),
  * ISO_FILE_TROUBLE (no gnuplot, or what it said; the file cannot be written), ISO_NO_MEMORY. */
-iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot *plot);
+iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot_twins *plot);
 
 /* The path of a ball in space. If the columns do not tell where the support is, it is not drawn. */
 typedef struct iso_plot_space {

@@ -79,7 +79,7 @@ static ticks choose(double low, double high, int most)
     return t;
 }
 
-/* "name", "name / 10⁶", "name − 1000", "(name − 1000) / 10⁻⁴"; after it the units. */
+/* "name", "name / 10⁶", "name − 1000", "(name − 1000) / 10⁻⁴". */
 static void put_name(FILE *f, const ticks *t, const iso_plot_axis *axis, char text[static ISO_PLOT_NAME])
 {
     char base[64], power[64];
@@ -89,9 +89,9 @@ static void put_name(FILE *f, const ticks *t, const iso_plot_axis *axis, char te
     print_decimal(base, count, places);
     print_power(power, t->taken);
     const bool shifted = t->base != 0, taken = t->taken != 0;
-    snprintf(text, ISO_PLOT_NAME, "%s%s%s%s%s%s%s%s", shifted && taken ? "(" : "", axis->name,
+    snprintf(text, ISO_PLOT_NAME, "%s%s%s%s%s%s%s", shifted && taken ? "(" : "", axis->name,
              shifted ? (t->base < 0 ? " + " : " − ") : "", shifted ? base : "", shifted && taken ? ")" : "",
-             taken ? " / " : "", taken ? power : "", axis->units ? axis->units : "");
+             taken ? " / " : "", taken ? power : "");
     if (!axis->label) return;
     fprintf(f, "set %slabel %s noenhanced offset %s\n", axis->which, QUOTED(text, ISO_PLOT_NAME),
             *axis->which == 'x' ? "0,0.3" : "0.5,0");

@@ -1,4 +1,4 @@
-/* plot_chart.c - a chart of differences over a clock, below the spheres of a picture.
+/* plot_chart.c - a chart of drifts over a clock.
  *
  * Each column of a record is one line on a logarithmic axis. A key on the right gives its symbol and its largest
  * value.
@@ -16,38 +16,12 @@ enum {
 #define FLOOR                                                                                                        \
     1e-17 /* 10^LOWEST, stands for 0 on the logarithmic axis; below any difference of doubles of order one */
 
-/* How a column of differences looks; every other name is drawn as the last. In grey they differ by their dashes: the
- * ball's are solid, the point's dashed, clocks dotted. */
-typedef struct look {
-    const char *name, *symbol, *line;
-} look;
-
-/* clang-format off */
-static const look looks[] = {
-    {"omega", "ω", "dt 1 lw 1.8 lc rgb " ISO_PLOT_BLUE},
-    {"n",     "n", "dt 1 lw 1.8 lc rgb " ISO_PLOT_VERMILLION},
-    {"M",     "M", "dt (8,4) lw 1.8 lc rgb '#56B4E9'"},
-    {"gamma", "γ", "dt (8,4) lw 1.8 lc rgb '#E69F00'"},
-    {"t",     "t", "dt (2,3) lw 1.8 lc rgb '#009E73'"},
-    {"tau",   "τ", "dt (2,3) lw 1.8 lc rgb '#009E73'"},
-    {"s",     "s", "dt (8,3,2,3) lw 1.8 lc rgb '#CC79A7'"},
-    {"ball - exact",  "ball−exact",  "dt 1 lw 1.2 lc rgb 'black'"},
-    {"point - exact", "point−exact", "dt (8,4) lw 1.2 lc rgb 'black'"},
-    {NULL,    NULL, "dt 4 lw 1.8 lc rgb 'black'"},
-};
-/* clang-format on */
-
-static const look *find_look(const char *name)
-{
-    const look *l = looks;
-    while (l->name && strcmp(l->name, name) != 0) l++;
-    return l;
-}
-
 const char *iso_plot_symbol(const char *name)
 {
-    const look *l = find_look(name);
-    return l->name ? l->symbol : name;
+    static const char *const symbols[][2] = {{"omega", "ω"}, {"gamma", "γ"}, {"tau", "τ"}};
+    for (size_t i = 0; i < sizeof symbols / sizeof *symbols; i++)
+        if (strcmp(symbols[i][0], name) == 0) return symbols[i][1];
+    return name;
 }
 
 /* One column over the first: in each slot of rows the largest, at its own time. Answers the largest of all. */
@@ -67,11 +41,8 @@ static double put_differences(FILE *f, const iso_record *r, int column)
     return largest;
 }
 
-#define LEVEL "dt (3,3) lw 1.2 lc rgb '#707070'"
-
 /* Axes of the chart. Its lowest tick stands for 0 as well. */
-static void put_axes(FILE *f, const iso_record *r, double top, const iso_plot_box *box, const char *title,
-                     const char *units)
+static void put_axes(FILE *f, const iso_record *r, double top, const iso_plot_box *box, const char *title)
 {
     const double a = iso_record_const_row(r, 0)[0], b = iso_record_const_row(r, iso_record_rows(r) - 1)[0];
     const int highest = (int)ceil(log10(fmax(top, 1e-15)) + 0.3);
@@ -80,7 +51,6 @@ static void put_axes(FILE *f, const iso_record *r, double top, const iso_plot_bo
                                  .high = fmax(a, b),
                                  .most = box->right - box->left > 0.4 ? 8 : 4,
                                  .name = iso_plot_symbol(iso_record_name(r, 0)),
-                                 .units = units,
                                  .label = true};
     char name[ISO_PLOT_NAME];
     fprintf(f,
@@ -107,8 +77,7 @@ static void put_name(FILE *f, const char *name, double largest)
     fputs(QUOTED(words, 60), f);
 }
 
-/* A line for names that have no look of their own. */
-static const char *line_of(const char *name, int c)
+static const char *line_of(int c)
 {
     static const char *const lines[] = {
         "dt 1 lw 1.5 lc rgb " ISO_PLOT_BLUE, "dt 1 lw 1.5 lc rgb " ISO_PLOT_VERMILLION,
@@ -116,33 +85,24 @@ static const char *line_of(const char *name, int c)
         "dt (8,4) lw 1.5 lc rgb '#56B4E9'",  "dt (8,4) lw 1.5 lc rgb '#E69F00'",
         "dt (2,3) lw 1.5 lc rgb 'black'",
     };
-    const look *l = find_look(name);
-    return l->name ? l->line : lines[c % (int)(sizeof lines / sizeof *lines)];
+    return lines[c % (int)(sizeof lines / sizeof *lines)];
 }
 
-void iso_plot_differences(FILE *f, const iso_record *r, double tolerance, const iso_plot_box *box, const char *title,
-                          const char *units)
+void iso_plot_differences(FILE *f, const iso_record *r, const iso_plot_box *box, const char *title)
 {
     const int columns = (int)iso_record_columns(r);
-    double top = tolerance, largest[ISO_PLOT_DIFFERENCES + 1];
+    double top = 0, largest[ISO_PLOT_DIFFERENCES + 1];
     for (int c = 1; c < columns; c++) {
         largest[c] = put_differences(f, r, c);
         top = fmax(top, largest[c]);
     }
-    put_axes(f, r, top, box, title, units);
-    if (tolerance > 0)
-        fprintf(f, "set arrow 2 from graph 0, first %.17g to graph 1, first %.17g nohead back " LEVEL "\n", tolerance,
-                tolerance);
+    put_axes(f, r, top, box, title);
     for (int c = 1; c < columns; c++) {
-        const char *name = iso_record_name(r, (size_t)c), *line = line_of(name, c - 1);
+        const char *name = iso_record_name(r, (size_t)c), *line = line_of(c - 1);
         fprintf(f, "%s $difference%d with ", c == 1 ? "plot" : ",", c);
         fprintf(f, iso_record_rows(r) > 1 ? "lines %s title " : "points pt 7 %s title ",
                 iso_record_rows(r) > 1 ? line : strstr(line, "lc"));
         put_name(f, name, largest[c]);
-    }
-    if (tolerance > 0) {
-        fputs(", NaN w l " LEVEL " title ", f);
-        put_name(f, "tolerance", tolerance);
     }
     fputc('\n', f);
 }

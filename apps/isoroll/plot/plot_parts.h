@@ -67,13 +67,13 @@ typedef struct iso_plot_box {
 /* The next plot's axes fill the box. */
 void iso_plot_place(FILE *script, const iso_plot_box *box);
 
-/* An axis from low to high with about `most` ticks. `name`: what the numbers are; units may follow it. */
+/* An axis from low to high with about `most` ticks. `name`: what the numbers are. */
 typedef struct iso_plot_axis {
     const char *which; /* "x", "y", "y2" */
     double low, high;  /* equal: a single number, which gets room on both sides */
     int most;
-    const char *name, *units; /* units NULL: none */
-    bool label;               /* whether the name stands at the axis */
+    const char *name;
+    bool label; /* whether the name stands at the axis */
 } iso_plot_axis;
 
 enum { ISO_PLOT_NAME = 160 };
@@ -82,17 +82,21 @@ enum { ISO_PLOT_NAME = 160 };
 void iso_plot_ticks(FILE *script, const iso_plot_axis *axis, char name[static ISO_PLOT_NAME]);
 
 /* A chart of differences in a box, with a title above and a key on the right. Column 0 is a clock, the others are drawn
- * over it on a logarithmic axis. units: said after the name of the clock. */
-void iso_plot_differences(FILE *script, const iso_record *record, double tolerance, const iso_plot_box *box,
-                          const char *title, const char *units);
+ * over it on a logarithmic axis. */
+void iso_plot_differences(FILE *script, const iso_record *record, const iso_plot_box *box, const char *title);
 
 /* A symbol for the name of a column: "γ" for "gamma"; the name itself if there is none. */
 const char *iso_plot_symbol(const char *name);
 
-/* A plot of the unit sphere with a path, `line`, and markers on it (NULL: none): three columns of unit vectors
- * each. */
-void iso_plot_sphere(FILE *script, const iso_plot_box *box, const iso_record *line, int line_column,
-                     const iso_record *markers, int marker_column, bool fine);
+/* A plot of the unit sphere with a path on it: three columns of unit vectors. */
+void iso_plot_sphere(FILE *script, const iso_plot_box *box, const iso_record *line, int column);
+
+/* The principal axes, where they leave a sphere about (x, y). */
+void iso_plot_put_axes(FILE *script, double x, double y, double radius);
+
+/* For plots that project vectors themselves: X(x,y,z), Y(x,y,z) and D(x,y,z), which is > 0 on the near side; meridians
+ * and parallels, $grid0 behind the unit sphere, $grid1 before it. */
+void iso_plot_put_globe(FILE *script);
 
 /* Whether no two rows are so far apart, in radians about 0, that they are no path: then they are drawn as dots. */
 bool iso_plot_is_joined(const iso_record *record, int column);
@@ -100,9 +104,6 @@ bool iso_plot_is_joined(const iso_record *record, int column);
 /* Begins a block of data called `name` with the number of the side. Its first point is NaN, so that no block is
  * empty. */
 void iso_plot_begin_side(FILE *script, const char *name, bool near);
-
-/* Whether a path has so many turns that it wants a fine line. */
-bool iso_plot_is_long(const iso_record *record, int column);
 
 /* The rows that are drawn: all, or ISO_PLOT_ROWS of them with the first and the last. */
 size_t iso_plot_drawn_rows(const iso_record *record);

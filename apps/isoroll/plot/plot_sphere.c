@@ -18,7 +18,7 @@
 #include "plot/gnuplot.h"
 #include "plot/plot_parts.h"
 
-enum { MARKERS = 48 /* of the second backend on each path */, FEW = 500 /* rows that are drawn as larger dots */ };
+enum { FEW = 500 /* rows that are drawn as larger dots */ };
 #define ARC 0.1    /* longest straight piece of a path, in radians                     */
 #define JOINED 0.6 /* rows farther apart than this are no path: they are drawn as dots */
 #define LONG 40.0  /* a path of more radians is drawn with a finer line                */
@@ -42,12 +42,14 @@ typedef struct spot {
     double x, y, depth;
 } spot;
 
+/* right, up, d */
+static const double frame[3][3] = {{-0.42261826174069944, 0.90630778703664996, 0}, /* a = 25, e = 24 degrees */
+                                   {-0.36862823570066146, -0.17189417172037236, 0.91354545764260087},
+                                   {0.82795218756063110, 0.38608045045127610, 0.40673664307580021}};
+
 static spot project(const double v[3])
 {
-    static const double right[3] = {-0.42261826174069944, 0.90630778703664996, 0}; /* a = 25, e = 24 degrees */
-    static const double up[3] = {-0.36862823570066146, -0.17189417172037236, 0.91354545764260087};
-    static const double d[3] = {0.82795218756063110, 0.38608045045127610, 0.40673664307580021};
-    return (spot){dot(v, right), dot(v, up), dot(v, d)};
+    return (spot){dot(v, frame[0]), dot(v, frame[1]), dot(v, frame[2])};
 }
 
 static double angle(const double a[3], const double b[3])
@@ -103,17 +105,6 @@ static void put_path(FILE *f, const iso_record *r, int column, bool near)
     fputs("EOD\n", f);
 }
 
-static void put_markers(FILE *f, const iso_record *r, int column, bool near)
-{
-    const size_t rows = iso_record_rows(r), count = rows < MARKERS ? rows : MARKERS;
-    iso_plot_begin_side(f, "marker", near);
-    for (size_t i = 0; i < count; i++) {
-        const spot s = project(iso_record_const_row(r, (2 * i + 1) * rows / (2 * count)) + column);
-        if ((s.depth > 0) == near) fprintf(f, "%.17g %.17g\n", s.x, s.y);
-    }
-    fputs("EOD\n", f);
-}
-
 /* A sign for the first or the last row. It is a label, so that it stays visible where both are at the same place. */
 static void put_end(FILE *f, const double v[3], const char *type)
 {
@@ -141,19 +132,25 @@ static void put_graticule(FILE *f, bool near)
     fputs("EOD\n", f);
 }
 
-/* The principal axes of inertia, where they leave the sphere. */
-static void put_axes(FILE *f)
+void iso_plot_put_axes(FILE *f, double x, double y, double radius)
 {
     for (int axis = 0; axis < 3; axis++) {
-        double v[3] = {0, 0, 0};
-        v[axis] = 1;
+        const double v[3] = {axis == 0, axis == 1, axis == 2};
         const spot s = project(v);
         const double end = 1 + 0.14 / fmax(hypot(s.x, s.y), 0.5), label = end + 0.07 / fmax(hypot(s.x, s.y), 0.5);
         fprintf(f,
-                "set arrow %d nohead back lw 1.2 lc rgb '#606060' from %.17g,%.17g to %.17g,%.17g\n"
-                "set label %d '%d' center tc rgb '#404040' at %.17g,%.17g\n",
-                axis + 1, s.x, s.y, s.x * end, s.y * end, axis + 1, axis + 1, s.x * label, s.y * label);
+                "set arrow nohead back lw 1.2 lc rgb '#606060' from %.17g,%.17g to %.17g,%.17g\n"
+                "set label '%d' center tc rgb '#404040' at %.17g,%.17g\n",
+                x + radius * s.x, y + radius * s.y, x + radius * s.x * end, y + radius * s.y * end, axis + 1,
+                x + radius * s.x * label, y + radius * s.y * label);
     }
+}
+
+void iso_plot_put_globe(FILE *f)
+{
+    for (int i = 0; i < 3; i++)
+        fprintf(f, "%c(x,y,z) = %.17g*x + %.17g*y + %.17g*z\n", "XYD"[i], frame[i][0], frame[i][1], frame[i][2]);
+    for (int near = 0; near < 2; near++) put_graticule(f, near);
 }
 
 static const char *const setup =
@@ -161,7 +158,7 @@ static const char *const setup =
     "set xrange [-1.2:1.2]; set yrange [-1.07:1.2]\n"
     "set object 1 circle at 0,0 size 1 back fillcolor rgb '#F4F6F8' fillstyle solid border lc rgb '#8A939B'\n";
 
-bool iso_plot_is_long(const iso_record *r, int column)
+static bool is_long(const iso_record *r, int column)
 {
     double length = 0;
     for (size_t i = 1; i < iso_plot_drawn_rows(r); i++)
@@ -169,26 +166,22 @@ bool iso_plot_is_long(const iso_record *r, int column)
     return length > LONG;
 }
 
-void iso_plot_sphere(FILE *f, const iso_plot_box *box, const iso_record *line, int line_column,
-                     const iso_record *markers, int marker_column, bool fine)
+void iso_plot_sphere(FILE *f, const iso_plot_box *box, const iso_record *line, int line_column)
 {
-    const char *near_style = fine ? "lines lw 0.8" : "lines lw 1.8";
+    const char *near_style = is_long(line, line_column) ? "lines lw 0.8" : "lines lw 1.8";
     const char *far_style = "lines lw 0.8";
     if (!iso_plot_is_joined(line, line_column))
         near_style = far_style = iso_plot_drawn_rows(line) > FEW ? "points pt 7 ps 0.2" : "points pt 7 ps 0.5";
     for (int near = 0; near < 2; near++) {
         put_graticule(f, near);
         put_path(f, line, line_column, near);
-        if (markers) put_markers(f, markers, marker_column, near);
     }
     fputs(setup, f);
     iso_plot_place(f, box);
-    put_axes(f);
+    iso_plot_put_axes(f, 0, 0, 1);
     put_end(f, iso_plot_drawn_row(line, 0) + line_column, ISO_PLOT_START);
     put_end(f, iso_plot_drawn_row(line, iso_plot_drawn_rows(line) - 1) + line_column, ISO_PLOT_END);
     fprintf(f, "plot $grid0 w l lw 0.6 lc rgb '#DDE1E5', $path0 w %s lc rgb " ISO_PLOT_FAR_BLUE ",", far_style);
-    if (markers) fputs(" $marker0 w p pt 6 ps 0.8 lw 1 lc rgb " ISO_PLOT_FAR_VERMILLION ",", f);
     fprintf(f, " $grid1 w l lw 0.8 lc rgb '#B9C0C7', $path1 w %s lc rgb " ISO_PLOT_BLUE, near_style);
-    if (markers) fputs(", $marker1 w p pt 6 ps 0.85 lw 1.5 lc rgb " ISO_PLOT_VERMILLION, f);
     fputs("\n", f);
 }

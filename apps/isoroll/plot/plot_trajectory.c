@@ -157,7 +157,7 @@ static void put_key(const sheet *s, square which, double x, int from_above)
 static void put_sphere(const sheet *s, const iso_plot_box *box, const iso_record *r, int column, const char *title)
 {
     fprintf(s->f, "unset grid; unset object; unset xlabel; unset ylabel; set title '%s' offset 0,0\n", title);
-    iso_plot_sphere(s->f, box, r, column, NULL, 0, iso_plot_is_long(r, column));
+    iso_plot_sphere(s->f, box, r, column);
 }
 
 static void put_square(const sheet *s, square which, int left, int height)
@@ -233,7 +233,7 @@ static void put_chart(const sheet *s, chart which, int left, int right, int top,
 {
     const iso_plot_box box = box_of(s, left + 75, right - (which == DRIFT ? 180 : 55), top + 40, top + height - 52);
     if (which == DRIFT)
-        iso_plot_differences(s->f, s->plot->drift, 0, &box, "relative drift of the integrals", "");
+        iso_plot_differences(s->f, s->plot->drift, &box, "relative drift of the integrals");
     else
         put_curves(s, which, &box);
 }

@@ -183,9 +183,8 @@ static void put_axes(FILE *f, const view *v, double range[2][2])
     const iso_plot_scenery *s = v->s;
     char name[ISO_PLOT_NAME];
     const char *along = v->along_range == 1 ? s->away_name : s->up_name;
-    iso_plot_ticks(f, &(iso_plot_axis){"x", range[0][0], range[0][1], v->narrow ? 10 : 5, s->right_name, NULL, true},
-                   name);
-    iso_plot_ticks(f, &(iso_plot_axis){"y", range[1][0], range[1][1], v->narrow ? 4 : 5, along, NULL, true}, name);
+    iso_plot_ticks(f, &(iso_plot_axis){"x", range[0][0], range[0][1], v->narrow ? 10 : 5, s->right_name, true}, name);
+    iso_plot_ticks(f, &(iso_plot_axis){"y", range[1][0], range[1][1], v->narrow ? 4 : 5, along, true}, name);
 }
 
 static void put_title(FILE *f, const view *v, bool from_above)

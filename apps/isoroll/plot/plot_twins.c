@@ -1,0 +1,166 @@
+/* plot_twins.c - the picture of a comparison: one orbit on the ball's sphere and on the point's, coloured by its phase
+ * t, with the same number at the same state; below, equal states joined between the two clocks.
+ *
+ * The whole picture is one plot, in pixels from the lower left corner. The data are in the script as they are, and
+ * gnuplot projects them: X(), Y() and D() of plot_sphere.c.
+ */
+#include <math.h>
+
+#include "plot/gnuplot.h"
+#include "plot/plot.h"
+#include "plot/plot_parts.h"
+
+enum {
+    WIDTH = 900,
+    HEIGHT = 650,
+    STEP = 8,     /* states from number to number           */
+    COLOURS = 96, /* neighbours of one colour are one line  */
+    RADIUS = 150,
+    CENTRE = 395, /* of both spheres, and their ladder's rails */
+    UPPER = 190,
+    LOWER = 110
+};
+static const int middle[2] = {190, 710};
+
+/* --- colours ---------------------------------------------------------------------------------------------------- */
+
+/* The scale viridis: it grows lighter throughout, so that it can be read in grey, too. */
+static const int viridis[] = {0x440154, 0x472C7A, 0x3B518B, 0x2C718E, 0x21908D,
+                              0x27AD81, 0x5CC863, 0xAADC32, 0xFDE725};
+enum { PIECES = sizeof viridis / sizeof *viridis - 1, SPHERE = 0xF4F6F8, FAINT = 0x707880 };
+
+static int mix(int a, int b, double part)
+{
+    int colour = 0;
+    for (int shift = 0; shift < 24; shift += 8)
+        colour |= (int)lround((1 - part) * (a >> shift & 255) + part * (b >> shift & 255)) << shift;
+    return colour;
+}
+
+static int colour_of(double phase)
+{
+    const int piece = phase < 1 ? (int)(phase * PIECES) : PIECES - 1;
+    return mix(viridis[piece], viridis[piece + 1], phase * PIECES - piece);
+}
+
+/* --- data ------------------------------------------------------------------------------------------------------- */
+
+/* Columns 1 to 8 as they are, the parts of both clocks that have passed (9, 10), the colour (11), the same behind a
+ * sphere (12), the colours of a number on both (13, 14), and the number (15). */
+static void put_states(FILE *f, const char *name, const iso_record *r)
+{
+    const size_t rows = iso_record_rows(r);
+    const double *last = iso_record_const_row(r, rows - 1);
+    fprintf(f, "$%s << EOD\n", name);
+    for (size_t i = 0; i < rows; i++) {
+        const double *row = iso_record_const_row(r, i);
+        for (int c = 0; c < 8; c++) fprintf(f, "%.17g ", row[c]);
+        const double t = last[0] == 0 ? 0 : row[0] / last[0], s = last[1] == 0 ? 0 : row[1] / last[1];
+        const int colour = colour_of(floor(fmin(fmax(t, 0), 1) * COLOURS) / COLOURS);
+        fprintf(f, "%.17g %.17g %d %d %d %d %zu\n", t, s, colour, mix(colour, SPHERE, 0.7), t < 0.6 ? 0xFFFFFF : 0,
+                FAINT, i / STEP);
+    }
+    fputs("EOD\n", f);
+}
+
+/* --- what stands where ------------------------------------------------------------------------------------------ */
+
+static void put_word(FILE *f, double x, double y, const char *look, const char *words)
+{
+    fprintf(f, "set label %s at %.17g,%.17g %s\n", words, x, y, look);
+}
+
+/* gamma = J^(-1/2) n / |J^(-1/2) n|. No label has two fonts or a blank beside a change of height: renderers of SVG
+ * do not agree on the place of what follows. */
+static void put_formula(FILE *f)
+{
+    const double x = (middle[0] + middle[1]) / 2.0, y = CENTRE + 20;
+    put_word(f, x - 58, y, "center font ',16'", "'γ ='");
+    put_word(f, x + 16, y + 17, "center font ',15'", "'J^{−1/2}n'");
+    put_word(f, x + 16, y - 18, "center font ',15'", "'|J^{−1/2}n|'");
+    fprintf(f, "set arrow from %.17g,%.17g to %.17g,%.17g nohead lw 1.2 lc rgb 'black'\n", x - 28, y, x + 60, y);
+    put_word(f, x, y - 64, "center tc rgb '#505050'", "'same number,'");
+    put_word(f, x, y - 82, "center tc rgb '#505050'", "'same state'");
+}
+
+static void put_clock(FILE *f, double y, const char *words, char clock, double last)
+{
+    char end[40];
+    snprintf(end, sizeof end, "%c = %.4g", clock, last);
+    put_word(f, 60, y, "left noenhanced", words);
+    put_word(f, WIDTH - 60, y, "right noenhanced", QUOTED(end, 40));
+}
+
+static void put_words(FILE *f, const iso_plot_twins *plot, const double *last)
+{
+    const double x = WIDTH / 2.0;
+    put_word(f, x, HEIGHT - 24, "center noenhanced font ',14'", QUOTED(plot->title, 100));
+    put_word(f, middle[0], HEIGHT - 58, "center font ',11'", "'a rolling ball: n(t), the normal where it touches'");
+    put_word(f, middle[1], HEIGHT - 58, "center font ',11'", "'a point in a potential: γ(s), its place'");
+    put_formula(f);
+    put_clock(f, UPPER + 27, "'the clock t of the ball, in equal steps'", 't', last[0]);
+    put_clock(f, LOWER - 27, "'the clock s of the point, at the same states'", 's', last[1]);
+    put_word(f, x, 48, "center noenhanced tc rgb '#505050'", QUOTED(plot->drawn, 150));
+    put_word(f, x, 24, "center noenhanced font ',11'", QUOTED(plot->result, 150));
+}
+
+static void put_spheres(FILE *f)
+{
+    for (int side = 0; side < 2; side++) {
+        fprintf(f, "set object circle at %d,%d size R back fc rgb '#%06X' fs solid border lc rgb '#8A939B'\n",
+                middle[side], CENTRE, SPHERE);
+        iso_plot_put_axes(f, middle[side], CENTRE, RADIUS);
+    }
+}
+
+/* --- what is drawn ---------------------------------------------------------------------------------------------- */
+
+/* On side 0 n is projected, columns 3 to 5; on side 1 gamma, columns 6 to 8. A line goes on a little behind the
+ * outline, where the other half of it begins. Then the ladder: thin rungs, rungs with numbers, the numbers. */
+static const char *const script =
+    "set macros; near(i) = depth(i) > 0; ring = 'w p pt 7 ps 2.15 lc rgb \"white\"'; disc = 'w p pt 7 ps 1.85 lc rgb "
+    "variable'\n"
+    "number = 'w labels center font \",8\" tc rgb variable'\n"
+    "column3(i,k) = column(3 + 3*i + k); depth(i) = D(column3(i,0), column3(i,1), column3(i,2))\n"
+    "x(i) = middle(i) + R*X(column3(i,0), column3(i,1), column3(i,2))\n"
+    "y(i) = centre + R*Y(column3(i,0), column3(i,1), column3(i,2)); rail(c) = 70 + 760*column(c)\n"
+    "plot for [i=0:1] $grid0 u (middle(i) + R*$1):(centre + R*$2) w l lw 0.6 lc rgb '#E4E8EC', "
+    "for [i=0:1] $curve u (depth(i) < 0.03 ? x(i) : NaN):(y(i)):12 w l lw 2 lc rgb variable, "
+    "for [i=0:1] $states u (near(i) ? NaN : x(i)):(y(i)) every 8 @ring, "
+    "for [i=0:1] $states u (near(i) ? NaN : x(i)):(y(i)):12 every 8 @disc, "
+    "for [i=0:1] $states u (near(i) ? NaN : x(i)):(y(i)):15:14 every 8 @number, "
+    "for [i=0:1] $grid1 u (middle(i) + R*$1):(centre + R*$2) w l lw 0.7 lc rgb '#CCD2D8', "
+    "for [i=0:1] $curve u (depth(i) > -0.03 ? x(i) : NaN):(y(i)):11 w l lw 3 lc rgb variable, "
+    "for [i=0:1] $states u (near(i) ? x(i) : NaN):(y(i)) every 8 @ring, "
+    "for [i=0:1] $states u (near(i) ? x(i) : NaN):(y(i)):11 every 8 @disc, "
+    "for [i=0:1] $states u (near(i) ? x(i) : NaN):(y(i)):15:13 every 8 @number, "
+    "for [i=0:1] $states u (rail(9)):(upper):(rail(10) - rail(9)):(lower - upper):11 every (i ? 8 : 1) w vectors "
+    "nohead lw (i ? 2.5 : 0.8) lc rgb variable, "
+    "for [i=0:1] $states u (rail(9 + i)):(i ? lower : upper) every 8 @ring, "
+    "for [i=0:1] $states u (rail(9 + i)):(i ? lower : upper):11 every 8 @disc, "
+    "for [i=0:1] $states u (rail(9 + i)):(i ? lower : upper):15:13 every 8 @number\n";
+
+static iso_status check(iso_context *ctx, const iso_record *r)
+{
+    static const char *const names[] = {"t", "s", "n1", "n2", "n3", "gamma1", "gamma2", "gamma3"};
+    int first;
+    return iso_plot_find(ctx, r, 8, names, &first);
+}
+
+iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot_twins *plot)
+{
+    ISO_TRY(check(ctx, plot->curve));
+    ISO_TRY(check(ctx, plot->states));
+    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
+    fprintf(f,
+            ISO_PLOT_PAGE "unset key; set xrange [0:%d]; set yrange [0:%d]\n"
+                          "R = %d; centre = %d; upper = %d; lower = %d; middle(i) = i ? %d : %d\n",
+            WIDTH, HEIGHT, RADIUS, CENTRE, UPPER, LOWER, middle[1], middle[0]);
+    iso_plot_put_globe(f);
+    put_states(f, "curve", plot->curve);
+    put_states(f, "states", plot->states);
+    put_spheres(f);
+    put_words(f, plot, iso_record_const_row(plot->states, iso_record_rows(plot->states) - 1));
+    fputs(script, f);
+    return iso_gnuplot_close(ctx, true);
+}
