@@ -1,6 +1,6 @@
 #!/bin/sh
 # pictures.sh BUILD - draws the pictures of examples/README.md: examples/NN_name/picture.svg (.png of 16 and 22), lane.svg of
-# 01, and cost.svg of 02.
+# 01, cost.svg of 02, and orbit.svg of 16.
 #     cmake -S . -B .build/release && cmake --build .build/release -j 2 && sh examples/pictures.sh .build/release
 # BUILD is a folder that cmake has built, with the tests. Times and steps are shortened to keep the files small.
 # cost.svg shows times of this machine: draw it on a quiet one, with `pictures.sh BUILD cost`.
@@ -17,21 +17,12 @@ if [ "${2-}" = cost ]; then
     exit
 fi
 
-# compared NAME OPTION...: the ball's path, the point's path, and how far the two computations are apart
-compared() {
-    name=$1
-    shift
-    "$isoroll" compare "$name/scene.yaml" --plot "$name/picture.svg" "$@" >"$work/out"
-}
-compared 01_bowling_ball --t-end 60 --step 0.35
-compared 02_neumann_shell --t-end 50 --step 0.5
-compared 03_outside --t-end 30 --step 0.3
-compared 04_inside --t-end 25 --step 0.25
-compared 05_equal_radii --t-end 30 --step 0.3
-compared 06_braden_reduced --t-end 40 --step 0.4
-compared 07_neumann_point --t-end 30 --step 0.3
-compared 12_neumann_off_level --t-end 30 --step 0.3
-compared 15_two_spheres
+# one orbit on both spheres, and its two clocks
+for name in 01_bowling_ball 02_neumann_shell 03_outside 04_inside 05_equal_radii 06_braden_reduced 07_neumann_point \
+    12_neumann_off_level 15_two_spheres; do
+    "$isoroll" compare $name/scene.yaml --plot $name/picture.svg >"$work/out"
+done
+"$isoroll" compare 16_sections/scene.yaml --plot 16_sections/orbit.svg >"$work/out"
 
 # a trajectory of somebody else
 "$isoroll" plot --scene 14_from_python/scene.yaml 14_from_python/orbit.txt -o 14_from_python/picture.svg

@@ -184,7 +184,7 @@ static int draw(const shell *s)
         if (last == end)
             snprintf(drawn, sizeof drawn, "drawn: the whole orbit");
         else
-            snprintf(drawn, sizeof drawn, "drawn: the first %d turns of n", ISO_STRETCH_TURNS);
+            snprintf(drawn, sizeof drawn, "drawn: the first %.2g turns of n", ISO_STRETCH_TURNS);
         tell_result(c, result, sizeof result);
         const iso_plot_twins plot = {title, drawn, result, curve, states};
         status = iso_plot_comparison(s->ctx, s->told->plot, &plot);

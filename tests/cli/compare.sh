@@ -91,6 +91,69 @@ if has gnuplot "--plot"; then
     run 0 compare scene.yaml --plot folder/a.svg
     check "no temporary files" test "$(ls -A folder)" = a.svg
 fi
+
+# --- what the picture says is true. gnuplot is replaced by a script that keeps its input.
+mkdir bin
+cat >bin/gnuplot <<END
+#!/bin/sh
+cat >"$work/script"
+echo '<svg></svg>'
+END
+chmod +x bin/gnuplot
+real_path=$PATH
+
+# draws ARGUMENT...: the picture of a comparison; its states are in `states`, its curves in `curve`
+draws() {
+    PATH=$work/bin:$real_path
+    run 0 compare "$@" --plot drawn.svg
+    PATH=$real_path
+    for block in states curve; do
+        awk -v head="\$$block << EOD" '$0 == "EOD" { inside = 0 } inside; $0 == head { inside = 1 }' script >$block
+    done
+}
+
+# true_picture NAME J1 J2 J3: rows "t s n gamma ...": gamma = J^(-1/2) n / |J^(-1/2) n|, equal steps of t, 0 to 8 in
+# order at every 8th row, each with its parts of both clocks; neighbours of a curve are near
+true_picture() {
+    at_most "$1: equal numbers at equal states" "$(awk -v a="$2" -v b="$3" -v c="$4" '
+        function abs(x) { return x < 0 ? -x : x }
+        { x = $3 / sqrt(a); y = $4 / sqrt(b); z = $5 / sqrt(c); r = sqrt(x * x + y * y + z * z)
+          d = abs(x / r - $6) + abs(y / r - $7) + abs(z / r - $8); if (d > worst) worst = d }
+        END { print NR == 65 ? worst + 0 : "not 65 rows" }' states)" 1e-10
+    at_most "$1: equal steps of t" "$(awk '
+        function abs(x) { return x < 0 ? -x : x }
+        { t[NR] = $1; s[NR] = $2; u[NR] = $9; v[NR] = $10 }
+        END { for (i = 1; i <= NR; i++) {
+                  part = (i - 1) / 64; d = abs(t[i] / t[NR] - part) + abs(u[i] - part) + abs(v[i] - s[i] / s[NR]);
+                  if (d > worst) worst = d }
+              print worst + 0 }' states)" 1e-14
+    check "$1: numbers" test "$(awk 'NR % 8 == 1 { printf "%s", $15 }' states)" = 012345678
+    at_most "$1: steps of the curves" "$(awk '
+        NR > 1 { for (i = 3; i < 9; i += 3) {
+                     d = 0; for (j = i; j < i + 3; j++) d += ($j - p[j]) ^ 2;
+                     if (sqrt(d) > worst) worst = sqrt(d) } }
+        { for (i = 3; i < 9; i++) p[i] = $i } END { print (NR > 9 ? worst : "few rows") }' curve)" 0.06
+    check "$1: the curve ends where the states end" test "$(tail -n 1 curve | cut -d ' ' -f 1)" = \
+        "$(tail -n 1 states | cut -d ' ' -f 1)"
+}
+draws scene.yaml
+true_picture "a ball" 1.4 2.1 3.0
+check "a result in words" grep -q 'both computations and the closed solution agree to [0-9.]*e-1' script
+check_not "no word of the inside" grep -qi -e backend -e scene.yaml script
+draws scene.yaml --step 10
+true_picture "whatever the rows are" 1.4 2.1 3.0
+draws scene.yaml --t-end 0.5
+true_picture "a short orbit" 1.4 2.1 3.0
+check "a short orbit is drawn whole" grep -q 'the whole orbit' script
+check "and ends with it" test "$(tail -n 1 states | cut -d ' ' -f 1)" = 0.5
+draws point.yaml
+true_picture "a point, backwards" 1.4 2.1 3.0
+draws "$source/examples/12_neumann_off_level/scene.yaml"
+true_picture "a point that starts at rest" 1 1.5 2
+draws "$source/examples/16_sections/scene.yaml"
+true_picture "chaos" 1 2 5
+check "two computations" grep -q 'both computations agree to' script
+run 0 compare scene.yaml --t-end 0 --plot drawn.svg
 for name in a.jpg a '' svg; do refuses 2 "" compare scene.yaml --plot "$name"; done
 # refused before the work, which would take days
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 1e12 1e11 >endless.yaml

@@ -57,21 +57,20 @@ static bool file_contains(const char *path, const char *text)
 /* --- records
  * ------------------------------------------------------------------------------------------------------ */
 
-/* A backend's record: n and gamma on curves, `turn` radians between rows. */
+/* n and gamma on curves, `turn` radians between rows. */
 static iso_record *make_path(size_t rows, double turn)
 {
-    static const char *const names[] = {"t",  "tau", "s",  "omega1", "omega2", "omega3", "n1",    "n2",
-                                        "n3", "M1",  "M2", "M3",     "gamma1", "gamma2", "gamma3"};
+    static const char *const names[] = {"t", "s", "n1", "n2", "n3", "gamma1", "gamma2", "gamma3"};
     iso_record *r;
     double *row;
-    if (iso_record_create(ctx, 15, names, &r) != ISO_OK) exit(1);
+    if (iso_record_create(ctx, 8, names, &r) != ISO_OK) exit(1);
     for (size_t i = 0; i < rows; i++) {
         const double a = turn * (double)i, b = 0.3 + 0.1 * a;
         const double n[3] = {cos(a) * cos(b), cos(a) * sin(b), sin(a)}, gamma[3] = {n[1], n[2], n[0]};
         if (iso_record_append(ctx, r, &row) != ISO_OK) exit(1);
-        row[0] = a;
-        memcpy(row + 6, n, sizeof n);
-        memcpy(row + 12, gamma, sizeof gamma);
+        row[0] = a, row[1] = a + 0.1 * sin(a);
+        memcpy(row + 2, n, sizeof n);
+        memcpy(row + 5, gamma, sizeof gamma);
     }
     return r;
 }
@@ -90,19 +89,28 @@ static iso_record *make_differences(size_t rows, double turn, double size)
     return r;
 }
 
-/* Draws, and takes the picture's records apart again. */
-static iso_status draw(const char *path, const char *title, iso_record *r, iso_record *d)
+/* Draws a comparison, and takes its record apart again. */
+static iso_status draw(const char *path, const char *title, iso_record *r)
 {
-    const iso_plot plot = {.title = title, .ball = r, .point = r, .difference = d, .tolerance = 1e-12};
+    const iso_plot_twins plot = {.title = title, .drawn = title, .result = title, .curve = r, .states = r};
     const iso_status status = iso_plot_comparison(ctx, path, &plot);
     iso_record_free(r);
-    iso_record_free(d);
     return status;
 }
 
 static iso_status draw_simple(const char *path, const char *title)
 {
-    return draw(path, title, make_path(100, 0.1), make_differences(100, 0.1, 1e-13));
+    return draw(path, title, make_path(100, 0.1));
+}
+
+/* The same of a trajectory with drifts. */
+static iso_status draw_sheet(const char *path, const char *title, iso_record *r, iso_record *d)
+{
+    const iso_plot_orbit plot = {.title = title, .ball = r, .point = r, .drift = d};
+    const iso_status status = iso_plot_trajectory(ctx, path, &plot);
+    iso_record_free(r);
+    iso_record_free(d);
+    return status;
 }
 
 /* --- tests
@@ -169,18 +177,20 @@ static void test_hostile_texts(void)
 static void test_records(void)
 {
     const char *path = in_folder("c.svg");
-    gsl_test((int)draw(path, "one row", make_path(1, 1), make_differences(1, 1, 0)), "%s", iso_context_message(ctx));
-    gsl_test((int)draw(path, "rows far apart", make_path(50, 2), make_differences(50, 2, 0)), "all equal: %s",
+    gsl_test((int)draw(path, "one row", make_path(1, 1)), "%s", iso_context_message(ctx));
+    gsl_test((int)draw(path, "backwards", make_path(50, -0.1)), "%s", iso_context_message(ctx));
+    gsl_test((int)draw(path, "no time passes", make_path(50, 0)), "%s", iso_context_message(ctx));
+    gsl_test((int)draw_sheet(path, "one row", make_path(1, 1), make_differences(1, 1, 0)), "%s",
+             iso_context_message(ctx));
+    gsl_test((int)draw_sheet(path, "rows far apart", make_path(50, 2), make_differences(50, 2, 1e-9)), "%s",
              iso_context_message(ctx));
     gsl_test(!file_contains(path, "≤10"), "the floor is a tick");
-    gsl_test((int)draw(path, "backwards", make_path(50, -0.1), make_differences(50, -0.1, 1e-15)), "%s",
+    gsl_test((int)draw_sheet(path, "wrong by all", make_path(50, -0.1), make_differences(50, 1e-200, 1e10)), "%s",
              iso_context_message(ctx));
-    gsl_test((int)draw(path, "wrong by all", make_path(50, 0.1), make_differences(50, 1e-200, 1e10)), "%s",
+    gsl_test((int)draw_sheet(path, "long times", make_path(50, 0.1), make_differences(50, 1e200, 1e-10)), "%s",
              iso_context_message(ctx));
-    gsl_test((int)draw(path, "long times", make_path(50, 0.1), make_differences(50, 1e200, 1e-10)), "%s",
-             iso_context_message(ctx));
-    gsl_test((int)draw(path, "many rows", make_path(200000, 0.001), make_differences(200000, 0.001, 1e-18)), "%s",
-             iso_context_message(ctx));
+    gsl_test((int)draw_sheet(path, "many rows", make_path(200000, 0.001), make_differences(200000, 0.001, 1e-8)),
+             "%s", iso_context_message(ctx));
     struct stat s;
     gsl_test(stat(path, &s) != 0 || s.st_size > 1 << 20, "200000 rows are thinned");
     unlink(path);
@@ -191,16 +201,15 @@ static void test_refused(void)
 {
     static const double bad[] = {NAN, INFINITY, -INFINITY};
     const char *path = in_folder("d.svg");
-    for (int i = 0; i < 6; i++) {
-        iso_record *r = make_path(10, 0.1), *d = make_differences(10, 0.1, 1e-13);
-        (i < 3 ? iso_record_row(r, 7) : iso_record_row(d, 7))[i < 3 ? 13 : 2] = bad[i % 3];
-        gsl_test(draw(path, "not finite", r, d) != ISO_NUMERICAL, "not finite: %s", iso_context_message(ctx));
-        gsl_test(strcmp(iso_context_about(ctx), i < 3 ? "gamma2" : "n") != 0, "which: %s", iso_context_about(ctx));
+    for (int i = 0; i < 3; i++) {
+        iso_record *r = make_path(10, 0.1);
+        iso_record_row(r, 7)[6] = bad[i];
+        gsl_test(draw(path, "not finite", r) != ISO_NUMERICAL, "not finite: %s", iso_context_message(ctx));
+        gsl_test(strcmp(iso_context_about(ctx), "gamma2") != 0, "which: %s", iso_context_about(ctx));
     }
-    gsl_test(draw(path, "", make_path(0, 1), make_differences(5, 1, 1)) != ISO_BAD_ARGUMENT, "no rows");
-    gsl_test(draw(path, "", make_path(5, 1), make_differences(0, 1, 1)) != ISO_BAD_ARGUMENT, "no differences");
-    gsl_test(draw(path, "", make_path(5, 1), NULL) != ISO_BAD_ARGUMENT, "no record");
-    gsl_test(draw(path, "", make_differences(5, 1, 1), make_differences(5, 1, 1)) != ISO_BAD_ARGUMENT, "no n1");
+    gsl_test(draw(path, "", make_path(0, 1)) != ISO_BAD_ARGUMENT, "no rows");
+    gsl_test(draw(path, "", NULL) != ISO_BAD_ARGUMENT, "no record");
+    gsl_test(draw(path, "", make_differences(5, 1, 1)) != ISO_BAD_ARGUMENT, "no n1");
     gsl_test(files_in_folder() != 0, "nothing is left");
 }
 

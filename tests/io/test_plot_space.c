@@ -350,7 +350,7 @@ static void test_ticks(void)
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         char name[ISO_PLOT_NAME], text[4000] = "";
         FILE *file = tmpfile();
-        const iso_plot_axis axis = {"x", list[i].low, list[i].high, 5, "t", NULL, true};
+        const iso_plot_axis axis = {"x", list[i].low, list[i].high, 5, "t", true};
         iso_plot_ticks(file, &axis, name);
         rewind(file);
         text[fread(text, 1, sizeof text - 1, file)] = '\0';

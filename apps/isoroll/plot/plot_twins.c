@@ -116,9 +116,11 @@ static void put_spheres(FILE *f)
 /* --- what is drawn ---------------------------------------------------------------------------------------------- */
 
 /* On side 0 n is projected, columns 3 to 5; on side 1 gamma, columns 6 to 8. A line goes on a little behind the
- * outline, where the other half of it begins. Then the ladder: thin rungs, rungs with numbers, the numbers. */
+ * outline, where the other half of it begins. A hidden number is off the page: gnuplot 5.4 ends by a signal where
+ * all are NaN. Then the ladder: thin rungs, rungs with numbers, the numbers. */
 static const char *const script =
-    "set macros; near(i) = depth(i) > 0; ring = 'w p pt 7 ps 2.15 lc rgb \"white\"'; disc = 'w p pt 7 ps 1.85 lc rgb "
+    "set macros; out = -1000; near(i) = depth(i) > 0; ring = 'w p pt 7 ps 2.15 lc rgb \"white\"'; disc = 'w p pt 7 "
+    "ps 1.85 lc rgb "
     "variable'\n"
     "number = 'w labels center font \",8\" tc rgb variable'\n"
     "column3(i,k) = column(3 + 3*i + k); depth(i) = D(column3(i,0), column3(i,1), column3(i,2))\n"
@@ -128,12 +130,12 @@ static const char *const script =
     "for [i=0:1] $curve u (depth(i) < 0.03 ? x(i) : NaN):(y(i)):12 w l lw 2 lc rgb variable, "
     "for [i=0:1] $states u (near(i) ? NaN : x(i)):(y(i)) every 8 @ring, "
     "for [i=0:1] $states u (near(i) ? NaN : x(i)):(y(i)):12 every 8 @disc, "
-    "for [i=0:1] $states u (near(i) ? NaN : x(i)):(y(i)):15:14 every 8 @number, "
+    "for [i=0:1] $states u (near(i) ? out : x(i)):(y(i)):15:14 every 8 @number, "
     "for [i=0:1] $grid1 u (middle(i) + R*$1):(centre + R*$2) w l lw 0.7 lc rgb '#CCD2D8', "
     "for [i=0:1] $curve u (depth(i) > -0.03 ? x(i) : NaN):(y(i)):11 w l lw 3 lc rgb variable, "
     "for [i=0:1] $states u (near(i) ? x(i) : NaN):(y(i)) every 8 @ring, "
     "for [i=0:1] $states u (near(i) ? x(i) : NaN):(y(i)):11 every 8 @disc, "
-    "for [i=0:1] $states u (near(i) ? x(i) : NaN):(y(i)):15:13 every 8 @number, "
+    "for [i=0:1] $states u (near(i) ? x(i) : out):(y(i)):15:13 every 8 @number, "
     "for [i=0:1] $states u (rail(9)):(upper):(rail(10) - rail(9)):(lower - upper):11 every (i ? 8 : 1) w vectors "
     "nohead lw (i ? 2.5 : 0.8) lc rgb variable, "
     "for [i=0:1] $states u (rail(9 + i)):(i ? lower : upper) every 8 @ring, "

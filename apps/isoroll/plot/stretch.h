@@ -5,10 +5,10 @@
 #include "base/record.h"
 #include "orbit/orbit.h"
 
-enum {
-    ISO_STRETCH_TURNS = 2, /* n goes this often around its sphere, by the length of its path */
-    ISO_STRETCH_STATES = 65
-};
+enum { ISO_STRETCH_STATES = 65 };
+
+/* n goes this often around its sphere, by the length of its path. States of different turns stand apart. */
+#define ISO_STRETCH_TURNS 1.5
 
 /* Two tables with the columns t, s, n1..3 and gamma1..3, from the start to t = end or for ISO_STRETCH_TURNS turns if
  * these end before. curve: neighbours are about two degrees apart on both spheres. states: ISO_STRETCH_STATES at equal
