@@ -115,7 +115,9 @@ static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene
     iso_frequencies f = *found;
     const iso_status status = f.estimated ? ISO_OK : iso_frequencies_estimate(ctx, scene, &how, &f);
     progress_end();
-    return status == ISO_OK ? iso_plot_lines(ctx, o->shell.plot, title, &f.estimate) : status;
+    char words[2 * ISO_PLOT_TITLE];
+    snprintf(words, sizeof words, "Spectrum of n(t)        %s", title);
+    return status == ISO_OK ? iso_plot_lines(ctx, o->shell.plot, words, &f.estimate) : status;
 }
 
 static int draw(const shell *s)

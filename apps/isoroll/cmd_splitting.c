@@ -116,7 +116,7 @@ static iso_status describe(shell *s)
     const double *J = s->scene.params.J;
     char *title = s->title;
     int length =
-        snprintf(title, sizeof s->title, "splitting of the separatrix, J = %.6g %.6g %.6g", J[0], J[1], J[2]);
+        snprintf(title, sizeof s->title, "splitting of the separatrix, J = (%.6g, %.6g, %.6g)", J[0], J[1], J[2]);
     if (at && iso_separatrix_by_level(s->result.found))
         snprintf(title + length, sizeof s->title - (size_t)length, ", k = %.6g", at->k);
     else if (at && at->level != 0)

@@ -112,6 +112,12 @@ if has gnuplot "--plot"; then
     run 0 frequencies estimate.yaml --turns 200 --plot lines.svg
     silent
     check "lines" grep -q 'amplitude' lines.svg
+    check_not "no warning" grep -q "is chaotic" lines.svg
+    run 0 frequencies "$source/examples/16_sections/scene.yaml" --turns 100 --plot lines.svg
+    check "a warning on an orbit that is not decided" grep -q "it is not decided" lines.svg
+    run 0 frequencies "$source/examples/16_sections/scene.yaml" --plot lines.svg
+    check "a warning on a chaotic orbit" grep -q "this orbit is chaotic" lines.svg
+    check_not "and no combinations" grep -q ">1,0<" lines.svg
     run 5 frequencies estimate.yaml --turns 50 --plot absent/a.svg
 else
     echo "gnuplot is not installed: no pictures"

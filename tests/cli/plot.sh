@@ -203,7 +203,7 @@ chaos undecided
 orbits unstable
 follow place on the line
 chart least
-splitting splitting of the separatrix, J = 1 2 5
+splitting splitting of the separatrix, J = (1, 2, 5)
 cost processor time in seconds
 END
     run 0 section scene.yaml --crossings 20 --starts 3 -o section.h5

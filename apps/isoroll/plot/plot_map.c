@@ -130,8 +130,18 @@ iso_status iso_plot_momentum(iso_context *ctx, const char *path, const char *tit
 
 /* --- lines ------------------------------------------------------------------------------------------------------ */
 
-/* The lines of a signal as a block; then their combinations (m, n) at the strongest of them, which come first. Gives
- * the least amplitude; infinite: there is none. */
+/* NULL: there is none. */
+static const char *warning_of(const iso_estimate *e)
+{
+    if (e->verdict == ISO_CHAOTIC)
+        return "this orbit is chaotic: it has no fixed frequencies, and these lines are of this stretch only";
+    if (e->verdict == ISO_UNDECIDED)
+        return "it is not decided whether this orbit has fixed frequencies: a longer one may tell";
+    return NULL;
+}
+
+/* The lines of a signal as a block; then their combinations (m, n) at the strongest of them, which come first, if
+ * the orbit is regular. Gives the least amplitude; infinite: there is no line. */
 static double put_signal(FILE *f, const iso_estimate *e, int signal)
 {
     double least = INFINITY;
@@ -143,7 +153,7 @@ static double put_signal(FILE *f, const iso_estimate *e, int signal)
         fprintf(f, "%.17g %.17g\n", l->frequency, l->amplitude);
     }
     fputs("EOD\n", f);
-    for (int i = 0, put = 0; i < e->lines[signal] && put < LABELLED; i++) {
+    for (int i = 0, put = 0; i < e->lines[signal] && put < LABELLED && !warning_of(e); i++) {
         const iso_identified_line *l = &e->line[signal][i];
         if (!l->known) continue;
         put++;
@@ -157,13 +167,17 @@ iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title,
 {
     const int axis = e->axis, j = (axis + 1) % 3 + 1, l = (axis + 2) % 3 + 1;
     double least[2];
+    const char *warning = warning_of(e);
     FILE *f = iso_gnuplot_open(ctx, path, WIDTH, LINES_HEIGHT);
     fprintf(f,
             ISO_PLOT_AXES
-            "set title %s noenhanced font ',12'\nset logscale y; set format y '10^{%%T}'; set key outside bottom "
-            "center horizontal\nset xlabel 'frequency in t; m, n: m times frequency 1 and n times frequency 2'; "
-            "set ylabel 'amplitude'\n",
-            QUOTED(title, 95));
+            "set label 1 %s at screen 0.5,0.95 center noenhanced font ',12'\n"
+            "set lmargin at screen 0.09; set rmargin at screen 0.97; set bmargin at screen 0.15\n"
+            "set tmargin at screen %s; set logscale y; set format y '10^{%%T}'; set key at graph 1,1.02 "
+            "right bottom horizontal\nset xlabel '%s'; set ylabel 'amplitude'\n",
+            QUOTED(title, 95), warning ? "0.78" : "0.84",
+            warning ? "frequency in t" : "frequency in t; m,n: m times frequency 1 and n times frequency 2");
+    if (warning) fprintf(f, "set label 2 '%s' at screen 0.5,0.885 center tc rgb " ISO_PLOT_VERMILLION "\n", warning);
     for (int s = 0; s < 2; s++) least[s] = put_signal(f, e, s);
     fprintf(f, "set offsets graph 0.04, graph 0.04, 0, 0\nset yrange [%.17g:4]\n",
             pow(10, floor(log10(fmin(1, fmin(least[0], least[1])))) - 1));

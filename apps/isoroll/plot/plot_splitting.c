@@ -37,14 +37,14 @@ static void put_size(FILE *f, const iso_record *r)
     static const char *const look[] = {":3:4 with yerrorbars pt 7 ps 0.7 lc rgb " ISO_PLOT_BLUE " title 'm > 0'",
                                        ":3:4 with yerrorbars pt 7 ps 0.7 lc rgb " ISO_PLOT_VERMILLION
                                        " title 'm < 0'",
-                                       " with points pt 11 ps 1 lc rgb '#606060' title 'm below'"};
+                                       " with points pt 11 ps 1 lc rgb '#606060' title '|m| below'"};
     const char *before = "plot";
     size_t count[KINDS] = {0};
     put_rows(f, r, count);
     fprintf(f,
-            ISO_PLOT_AXES
-            "set logscale y; set format y '10^{%%T}'; set xlabel %s\n"
-            "set ylabel '|m|' offset 1,0; set key outside top center horizontal maxrows 1 samplen 0.5\n",
+            ISO_PLOT_AXES "set logscale y; set format y '10^{%%T}'; set xlabel %s offset 0,0.5\n"
+                          "set ylabel 'slope |m| of the curves at π/2; 0: no splitting' offset 1,0\n"
+                          "set key outside bottom center horizontal maxrows 1 Left reverse samplen 1 width 2\n",
             QUOTED(name_of(r), 8));
     for (int kind = 0; kind < KINDS; kind++) {
         if (count[kind] == 0) continue;
@@ -65,7 +65,7 @@ static void put_curve(FILE *f, const iso_record *curve, const char *name, double
             "EOD\n" ISO_PLOT_FRAME
             "set xrange [-0.35:pi+0.35]; set xtics ('O' 0, 'π/4' pi/4, 'π/2' pi/2, '3π/4' 3*pi/4, \"O'\" pi)\n"
             "set arrow 1 from first pi/2, graph 0 to first pi/2, graph 1 nohead back dt (3,3) lw 1.2 lc rgb "
-            "'#707070'\nset key outside bottom center horizontal samplen 2\n"
+            "'#707070'\nset key outside bottom center horizontal Left reverse samplen 2 width 2\n"
             "set xlabel 'l − l(O) on the section γ_%d = 0, %s = %.6g'; set ylabel 'M_%d / |M|' offset 1,0\n"
             "plot $curve using 1:2 with lines lw 1.6 lc rgb " ISO_PLOT_VERMILLION
             " title 'unstable, from O', $curve using (pi-$1):2 with lines lw 1.6 dt (6,2) lc rgb " ISO_PLOT_BLUE
