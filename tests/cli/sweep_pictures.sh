@@ -28,7 +28,8 @@ run 0 sweep each.yaml -o each.csv
 run 0 plot each.csv -o curve.svg
 check "a curve" grep -q '</svg>' curve.svg
 run 0 plot each.csv -o curve.svg --value rotations_trace2
-check "its name" grep -q 'rotations_trace2' curve.svg
+check "its name" grep -q 'trace of the rotation about axis 2' curve.svg
+check_not "no raw name" grep -q rotations_trace curve.svg
 refuses 3 "there is no such column" plot each.csv -o curve.svg --value nothing
 refuses 3 "it varies" plot each.csv -o curve.svg --value k
 
@@ -52,6 +53,17 @@ check "a grid is drawn as cells" test "$(grep -c 'boxxyerror fs solid' script.gp
 check "a cell reaches half way to its neighbours" grep -q '^1 0.8[0-9]* [^ ]* 0.9[0-9]* 1.1[0-9]* 0.67[0-9]* 0.92[0-9]*$' script.gp
 check "k = -1 is marked, on the vertical axis" grep -q '^set arrow from graph 0, first -1 ' script.gp
 check_not "k = 1 is not: it is not there" grep -q 'first 1' script.gp
+
+# of three moments: squares that do not overlap
+printf 'scene: scene.yaml\nvary: {J: {triangle: 12, ordered: true}}\nmeasure: {rotations: {}}\n' >moments.yaml
+run 0 sweep moments.yaml -o moments.csv
+run 0 plot moments.csv -o map.svg
+sed -n '/^\$value0 <</,/^EOD/p' script.gp | awk 'NF == 7 && $1 != "NaN"' >squares
+check "squares" test "$(wc -l <squares)" -gt 5
+check "no two overlap" test "$(awk '
+    { for (i = 1; i < NR; i++) n += $4 + 1e-9 < r[i] && $5 > l[i] + 1e-9 && $6 + 1e-9 < t[i] && $7 > b[i] + 1e-9
+      l[NR] = $4; r[NR] = $5; b[NR] = $6; t[NR] = $7; empty += !($5 > $4 && $7 > $6) }
+    END { print n + empty }' squares)" -eq 0
 
 # --- what no picture shows
 sed 's/^vary: .*/vary: {k: [0.5, 0.6], J1: [1, 2], l: [0.3, 0.4],\n  x: [0.1, 0.2]}/' signs.yaml >four.yaml

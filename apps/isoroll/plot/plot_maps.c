@@ -161,20 +161,63 @@ iso_status iso_plot_sweep_curve(iso_context *ctx, const char *path, const char *
 
 /* --- maps ------------------------------------------------------------------------------------------------------- */
 
-/* The points of all maps: cells if they are a grid, else squares that fill a map as if they were spread evenly. */
+/* The points of all maps. If they are a grid, they are its cells, else squares. */
 typedef struct grid {
     line x, y;
     bool cells;
-    double size; /* of a square */
+    double *half; /* of the square of each row, half its side as a part of an axis */
 } grid;
+
+/* A point of a map, for the search of its neighbours; its axes go from 0 to 1. */
+typedef struct spot {
+    double map, x, y;
+    size_t row;
+} spot;
+
+static int by_map(const void *a, const void *b)
+{
+    const spot *one = a, *other = b;
+    return one->map != other->map ? by_size(&one->map, &other->map) : by_size(&one->x, &other->x);
+}
+
+/* The distance of a point from its nearest neighbour, the larger of both axes; 1 at most. The points are in order. */
+static double nearest(const spot *all, size_t count, size_t i)
+{
+    double best = 1;
+    for (int way = -1; way <= 1; way += 2)
+        for (size_t j = i + (size_t)way; j < count && all[j].map == all[i].map; j += (size_t)way) {
+            const double x = fabs(all[j].x - all[i].x), d = fmax(x, fabs(all[j].y - all[i].y));
+            if (x >= best) break;
+            if (d > 0) best = fmin(best, d);
+        }
+    return best;
+}
+
+static double range_of(const line *l)
+{
+    return l->count > 1 ? l->at[l->count - 1] - l->at[0] : 1;
+}
+
+/* Squares of half the way to the nearest neighbour do not overlap; `most`: of a lonely one. Without memory there are
+ * none. */
+static void choose_squares(const iso_record *rows, double most, grid *g)
+{
+    const size_t count = iso_record_rows(rows);
+    spot *all = malloc((count + 1) * sizeof *all);
+    g->half = calloc(count + 1, sizeof *g->half);
+    for (size_t i = 0; all && i < count; i++)
+        all[i] = (spot){at(rows, i, 3), at(rows, i, 0) / range_of(&g->x), at(rows, i, 1) / range_of(&g->y), i};
+    if (all) qsort(all, count, sizeof *all, by_map);
+    for (size_t i = 0; all && g->half && i < count; i++) g->half[all[i].row] = fmin(nearest(all, count, i) / 2, most);
+    free(all);
+}
 
 static grid grid_of(const iso_plot_maps *m)
 {
     grid g = {.x = line_of(m->rows, 0), .y = line_of(m->rows, 1)};
-    const size_t points = iso_record_rows(m->rows);
-    const double side = 640.0 / (m->count > 3 ? 3 : m->count), count = fmax(1, (double)points / m->count);
-    g.size = fmin(3, fmax(0.15, side / sqrt(count) / 9));
+    const double count = fmax(1, (double)iso_record_rows(m->rows) / m->count);
     g.cells = g.x.count > 1 && g.y.count > 1 && (double)g.x.count * (double)g.y.count < 1.2 * count;
+    if (!g.cells) choose_squares(m->rows, 0.4 / sqrt(count), &g);
     return g;
 }
 
@@ -202,6 +245,12 @@ static void cell_of(const line *l, double x, double edge[2])
     edge[1] = edge_of(l, x, after, before);
 }
 
+static void square_of(const line *l, double x, double half, double edge[2])
+{
+    edge[0] = x - half * range_of(l);
+    edge[1] = x + half * range_of(l);
+}
+
 /* A block of points of one map: those with a value, or without. With sizes a value is drawn as its size. There is a
  * last line so that no block is empty. */
 static void put_points(FILE *f, const iso_record *rows, int map, const grid *g, bool there, bool sizes)
@@ -211,7 +260,11 @@ static void put_points(FILE *f, const iso_record *rows, int map, const grid *g, 
         const double *row = iso_record_const_row(rows, r), value = sizes ? fabs(row[2]) : row[2];
         double x[2] = {0}, y[2] = {0};
         if ((isfinite(value) && !(sizes && value == 0)) != there || row[3] != map) continue;
-        if (g->cells) cell_of(&g->x, row[0], x), cell_of(&g->y, row[1], y);
+        if (g->cells)
+            cell_of(&g->x, row[0], x), cell_of(&g->y, row[1], y);
+        else
+            square_of(&g->x, row[0], g->half ? g->half[r] : 0, x),
+                square_of(&g->y, row[1], g->half ? g->half[r] : 0, y);
         fprintf(f, "%.17g %.17g %.9g %.17g %.17g %.17g %.17g\n", row[0], row[1], there ? value : 0, x[0], x[1], y[0],
                 y[1]);
     }
@@ -220,13 +273,11 @@ static void put_points(FILE *f, const iso_record *rows, int map, const grid *g, 
 
 static void put_map(FILE *f, const iso_plot_maps *m, int i, const grid *g, bool sizes)
 {
-    char with[96] = "using 1:2:4:5:6:7:3 with boxxyerror fs solid 1 noborder lw 0", name[80] = "";
+    const char *with = "using 1:2:4:5:6:7:3 with boxxyerror fs solid 1 noborder lw 0";
+    char name[80] = "";
     if (m->key_name) snprintf(name, sizeof name, "%s = %.6g", m->key_name, m->key[i]);
     for (int there = 1; there >= 0; there--) put_points(f, m->rows, i, g, there, sizes);
-    if (g->cells)
-        fputs("set autoscale noextend; set offsets graph 0.02, graph 0.02, graph 0.02, graph 0.02\n", f);
-    else
-        snprintf(with, sizeof with, "using 1:2:3 with points pt 5 ps %.3g", g->size);
+    fputs("set autoscale noextend; set offsets graph 0.02, graph 0.02, graph 0.02, graph 0.02\n", f);
     fprintf(f, "set title %s noenhanced\nplot $none%d %s lc rgb '#B0B0B0', $value%d %s lc palette\n",
             QUOTED(name, 40), i, with, i, with);
 }
@@ -288,5 +339,6 @@ iso_status iso_plot_sweep_maps(iso_context *ctx, const char *path, const char *t
     }
     free(points.x.at);
     free(points.y.at);
+    free(points.half);
     return iso_gnuplot_close(ctx, true);
 }

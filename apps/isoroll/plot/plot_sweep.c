@@ -16,6 +16,7 @@ typedef struct table {
     iso_record *rows;
     int axis[MOST_AXES], axes; /* those that vary, and differ from row to row           */
     int value, low, high;      /* -1: there is none; low -1: high is an error +-        */
+    const char *words;         /* what the value is                                     */
 } table;
 
 static double at(const iso_record *rows, size_t row, int column)
@@ -25,20 +26,20 @@ static double at(const iso_record *rows, size_t row, int column)
 
 /* --- the columns ------------------------------------------------------------------------------------------------ */
 
-/* A column, and those of its error. */
+/* A column, in words, and those of its error. */
 static const struct {
-    const char *value, *low, *high; /* low NULL: high is an error +- */
-} known[] = {{"chaos_share", "chaos_share_low", "chaos_share_high"},
-             {"splitting_m", NULL, "splitting_error"},
-             {"splitting_x", NULL, "splitting_x_error"},
-             {"frequencies_f1_t", NULL, "frequencies_f1_error"},
-             {"frequencies_f2_t", NULL, "frequencies_f2_error"},
-             {"frequencies_rotation", NULL, NULL},
-             {"rotations_trace1", NULL, "rotations_error1"},
-             {"rotations_trace2", NULL, "rotations_error2"},
-             {"rotations_trace3", NULL, "rotations_error3"},
-             {"backends_largest", NULL, NULL},
-             {"contact_time", NULL, NULL}};
+    const char *value, *words, *low, *high; /* low NULL: high is an error +- */
+} known[] = {{"chaos_share", "chaotic share of the section", "chaos_share_low", "chaos_share_high"},
+             {"splitting_m", "slope m of the splitting", NULL, "splitting_error"},
+             {"splitting_x", "place x of the splitting", NULL, "splitting_x_error"},
+             {"frequencies_f1_t", "frequency 1, in t", NULL, "frequencies_f1_error"},
+             {"frequencies_f2_t", "frequency 2, in t", NULL, "frequencies_f2_error"},
+             {"frequencies_rotation", "rotation number", NULL, NULL},
+             {"rotations_trace1", "trace of the rotation about axis 1", NULL, "rotations_error1"},
+             {"rotations_trace2", "trace of the rotation about axis 2", NULL, "rotations_error2"},
+             {"rotations_trace3", "trace of the rotation about axis 3", NULL, "rotations_error3"},
+             {"backends_largest", "largest difference of the computations", NULL, NULL},
+             {"contact_time", "time at which contact is lost", NULL, NULL}};
 enum { KNOWN = sizeof known / sizeof *known };
 
 static int find(const table *t, const char *name)
@@ -78,8 +79,10 @@ static iso_status choose_value(iso_context *ctx, const char *wanted, table *t)
                                 wanted);
     t->value = value;
     t->low = t->high = -1;
+    t->words = iso_record_name(t->rows, (size_t)value);
     for (size_t i = 0; i < KNOWN; i++)
-        if (find(t, known[i].value) == value) t->low = find(t, known[i].low), t->high = find(t, known[i].high);
+        if (find(t, known[i].value) == value)
+            t->words = known[i].words, t->low = find(t, known[i].low), t->high = find(t, known[i].high);
     return ISO_OK;
 }
 
@@ -123,10 +126,10 @@ static int by_x(const void *a, const void *b)
     return (*one > *other) - (*one < *other);
 }
 
-static iso_status draw_curve(iso_context *ctx, const table *t, const char *title, const char *path)
+static iso_status draw_curve(iso_context *ctx, const table *t, const char *path)
 {
-    const char *const names[] = {iso_record_name(t->rows, (size_t)t->axis[0]),
-                                 iso_record_name(t->rows, (size_t)t->value), "low", "high"};
+    char title[160];
+    const char *const names[] = {iso_record_name(t->rows, (size_t)t->axis[0]), t->words, "low", "high"};
     const size_t count = iso_record_rows(t->rows);
     iso_record *rows;
     iso_status status = iso_record_create(ctx, 4, names, &rows);
@@ -137,6 +140,7 @@ static iso_status draw_curve(iso_context *ctx, const table *t, const char *title
         status = iso_record_add(ctx, rows, 1, (double[]){at(t->rows, i, t->axis[0]), value, low, high});
     }
     if (status == ISO_OK) {
+        snprintf(title, sizeof title, "%s over %s", t->words, names[0]);
         qsort(iso_record_row(rows, 0), count, 4 * sizeof(double), by_x);
         status = iso_plot_sweep_curve(ctx, path, title, rows);
     }
@@ -236,7 +240,7 @@ static iso_status choose_layout(iso_context *ctx, const table *t, layout *l)
 
 static iso_status collect(iso_context *ctx, const table *t, layout *l)
 {
-    const char *const names[] = {l->x_name, l->y_name, iso_record_name(t->rows, (size_t)t->value), "panel"};
+    const char *const names[] = {l->x_name, l->y_name, t->words, "panel"};
     iso_status status = iso_record_create(ctx, 4, names, &l->maps.rows);
     if (l->panel >= 0) l->maps.key_name = iso_record_name(t->rows, (size_t)l->panel);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(t->rows); i++) {
@@ -251,11 +255,13 @@ static iso_status collect(iso_context *ctx, const table *t, layout *l)
     return status;
 }
 
-static iso_status draw_maps(iso_context *ctx, const table *t, const char *title, const char *path)
+static iso_status draw_maps(iso_context *ctx, const table *t, const char *path)
 {
+    char title[160];
     layout l = {.panel = -1};
     iso_status status = choose_layout(ctx, t, &l);
     if (status == ISO_OK) status = collect(ctx, t, &l);
+    snprintf(title, sizeof title, "%s over %.31s and %.31s", t->words, l.x_name, l.y_name);
     if (status == ISO_OK) status = iso_plot_sweep_maps(ctx, path, title, &l.maps);
     iso_record_free(l.maps.rows);
     return status;
@@ -266,7 +272,6 @@ static iso_status draw_maps(iso_context *ctx, const table *t, const char *title,
 iso_status iso_plot_sweep(iso_context *ctx, const char *path, const char *file, const char *value)
 {
     iso_sweep_reader *reader;
-    char title[160];
     table t = {.axes = 0};
     ISO_TRY(iso_sweep_reader_open(ctx, file, &reader));
     iso_status status = create_rows(ctx, reader, &t);
@@ -277,11 +282,7 @@ iso_status iso_plot_sweep(iso_context *ctx, const char *path, const char *file, 
     if (status == ISO_OK) find_axes(&t);
     if (status == ISO_OK && t.axes == 0)
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "nothing varies in '%s'", file);
-    if (status == ISO_OK) {
-        const char *slash = strrchr(file, '/');
-        snprintf(title, sizeof title, "%.60s: %zu points", slash ? slash + 1 : file, iso_record_rows(t.rows));
-        status = (t.axes == 1 ? draw_curve : draw_maps)(ctx, &t, title, path);
-    }
+    if (status == ISO_OK) status = (t.axes == 1 ? draw_curve : draw_maps)(ctx, &t, path);
     iso_record_free(t.rows);
     iso_sweep_reader_close(reader);
     return status;
