@@ -1,5 +1,6 @@
 /* isoroll plot - draws a trajectory: the path in space, paths on the spheres, energies, integrals, clocks; or any two
  * of its columns. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -17,7 +18,7 @@ typedef struct options {
 
 /* What is drawn: the file, its conversion, and numbers from both. */
 typedef struct parts {
-    iso_record *file, *twin, *drifts, *clocks, *energies;
+    iso_record *file, *twin, *drifts, *paces, *energies;
 } parts;
 
 /* The model of the file; the ball if it has both. */
@@ -26,22 +27,44 @@ static iso_model_kind model_of(const iso_record *record)
     return iso_record_find(record, "n1") >= 0 && iso_record_find(record, "omega1") >= 0 ? ISO_BALL : ISO_POINT;
 }
 
-/* Puts the file's clock and the other model's clock side by side. The other one comes from the file or from its
- * twin. */
-static iso_status pair_clocks(iso_context *ctx, parts *p)
+/* ds/dt and dtau/dt in every row, up to their factors: powers of q = (gamma, J gamma), (16) and (24) of the theory. */
+static iso_status add_paces(iso_context *ctx, const iso_params *params, const iso_record *r, int clock,
+                            iso_record *paces)
 {
-    const iso_model_kind model = model_of(p->file);
-    const char *names[] = {model == ISO_BALL ? "t" : "s", model == ISO_BALL ? "s" : "t"};
-    const int own = iso_record_find(p->file, names[0]), here = iso_record_find(p->file, names[1]);
-    const int there = p->twin ? iso_record_find(p->twin, names[1]) : -1;
-    if (own < 0 || (here < 0 && there < 0)) return ISO_OK;
-    iso_status status = iso_record_create(ctx, 2, names, &p->clocks);
-    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(p->file); i++) {
-        const double *row = iso_record_const_row(p->file, i);
-        const double other = here >= 0 ? row[here] : iso_record_const_row(p->twin, i)[there];
-        status = iso_record_add(ctx, p->clocks, 1, (double[]){row[own], other});
+    const bool ball = model_of(r) == ISO_BALL;
+    const int place = iso_record_find(r, ball ? "n1" : "gamma1");
+    double first = 0;
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        double y[ISO_STATE] = {0};
+        const double *row = iso_record_const_row(r, i), e = 1 / (2 * params->k);
+        for (int c = 0; c < 3; c++) y[3 + c] = row[place + c];
+        const double q = iso_system_at(ball ? ISO_BALL : ISO_POINT)->q(params, y, NULL);
+        if (i == 0) first = q;
+        ISO_TRY(iso_record_add(ctx, paces, 1, (double[]){row[clock], pow(q / first, 1 + e), pow(q / first, 1 - e)}));
     }
-    return status;
+    return ISO_OK;
+}
+
+/* Makes the mean of a column 1. */
+static void divide_by_mean(iso_record *r, int column)
+{
+    double sum = 0;
+    const size_t rows = iso_record_rows(r);
+    for (size_t i = 0; i < rows; i++) sum += iso_record_const_row(r, i)[column];
+    for (size_t i = 0; i < rows; i++) iso_record_row(r, i)[column] *= (double)rows / sum;
+}
+
+/* Where there is a twin, there are other clocks. */
+static iso_status find_paces(iso_context *ctx, const iso_params *params, parts *p)
+{
+    const char *names[] = {model_of(p->file) == ISO_BALL ? "t" : "s", "ds/dt", "dtau/dt"};
+    const int clock = iso_record_find(p->file, names[0]);
+    const bool both = iso_record_find(p->file, "n1") >= 0 && iso_record_find(p->file, "gamma1") >= 0;
+    if (clock < 0 || !(p->twin || both)) return ISO_OK;
+    ISO_TRY(iso_record_create(ctx, 3, names, &p->paces));
+    ISO_TRY(add_paces(ctx, params, p->file, clock, p->paces));
+    for (int c = 1; c < 3; c++) divide_by_mean(p->paces, c);
+    return ISO_OK;
 }
 
 /* Converts the file. A ball at rest, or with effects that break the isomorphism, has no twin and is drawn alone. */
@@ -72,11 +95,11 @@ static bool find_space(iso_context *ctx, const iso_params *params, const iso_rec
 
 static iso_status draw(iso_context *ctx, const options *o, const iso_params *params, parts *p)
 {
-    char title[160];
+    char words[ISO_PLOT_TITLE], title[2 * ISO_PLOT_TITLE];
     double up[3];
     iso_plot_space space;
     iso_status status = find_twin(ctx, params, p);
-    if (status == ISO_OK) status = pair_clocks(ctx, p);
+    if (status == ISO_OK) status = find_paces(ctx, params, p);
     if (status == ISO_OK) status = iso_check_drifts(ctx, params, p->file, &p->drifts);
     /* of a free ball the energy is one of the integrals, whose drift is drawn */
     const bool forced = model_of(p->file) == ISO_BALL && iso_record_get(p->file, "effects");
@@ -84,13 +107,18 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_params *par
     if (status != ISO_OK) return status;
     const bool ball = iso_record_find(p->file, "n1") >= 0, point = iso_record_find(p->file, "gamma1") >= 0;
     const bool in_space = find_space(ctx, params, p->file, up, &space);
-    snprintf(title, sizeof title, "%.60s: k = %.6g, J = %.6g, %.6g, %.6g, %zu rows", name_of(o), params->k,
-             params->J[0], params->J[1], params->J[2], iso_record_rows(p->file));
+    const bool twins = (ball || point) && (p->twin || (ball && point));
+    snprintf(title, sizeof title, "%s        %s",
+             in_space ? "The path of a ball"
+             : twins  ? "One orbit on both spheres"
+             : ball   ? "A ball without a twin"
+                      : "A point without a twin",
+             iso_plot_title(words, params, "%s", ""));
     const iso_plot_orbit plot = {.title = title,
                                  .ball = ball ? p->file : p->twin,
                                  .point = point ? p->file : p->twin,
                                  .drift = p->drifts,
-                                 .clocks = p->clocks,
+                                 .paces = p->paces,
                                  .energies = p->energies,
                                  .space = in_space ? &space : NULL};
     return iso_plot_trajectory(ctx, o->output, &plot);
@@ -180,7 +208,7 @@ static iso_status draw_file(iso_context *ctx, const options *o)
     iso_record_free(p.file);
     iso_record_free(p.twin);
     iso_record_free(p.drifts);
-    iso_record_free(p.clocks);
+    iso_record_free(p.paces);
     iso_record_free(p.energies);
     return status;
 }

@@ -62,7 +62,7 @@ bowl=$source/examples/10_bowl/scene.yaml
 run 0 run "$bowl" --t-end 8 --step 0.02 -o bowl.csv
 draw bowl.csv
 tells "bowl" "the path of the ball, seen from above" "seen from the side" "height \\050axis 3\\051" \
-    "energy h" "pressure" "mu " "up to rounding" \
+    "energy h" "pressure" "μ needed" "up to rounding" \
     "where it touched the support"
 tells_not "bowl" "contact lost" '$difference' "or less than"
 at_most "radius of the support" "$(sed -n 's/^set object 1 circle at 0,0 size \([^ ]*\).*/\1/p' script | head -n 2 | awk '
@@ -120,10 +120,19 @@ at_most "the height of a ball on a level lane is its radius" "$(columns_of lane.
 scene -1 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 1.0e+6 1.0e+4 >free.yaml
 run 0 run free.yaml --tol 1e-9 -o free.csv
 draw free.csv
-tells "long times" '"t / 10⁶"' "'0.4' 400000" '"the clock s over the clock t"'
+tells "long times" '"t / 10⁶"' "'0.4' 400000" 'title "ds/dt"' '"paces \050mean 1\051"'
 tells_not "a free ball" "seen from" "energy h" "pressure" "or less than"
 scene -1 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.1 >free.yaml
 run 0 run free.yaml -o free.csv
+draw free.csv
+columns_of free.csv n1 n2 n3 | awk '{ printf "%.17g\n", 1 / ($1 * $1 / 1.4 + $2 * $2 / 2.1 + $3 * $3 / 3) }' >q
+for pace in 0 1; do # q^(1 + 1/(2k)) and q^(1 - 1/(2k)), their means 1
+    block curve$pace 1 | paste - q >a
+    at_most "pace $pace" "$(awk -v e=$((2 * pace + 1)) '
+        { x[NR] = $2; y[NR] = $3 ^ (e / 2); sum += $2; r = x[NR] / y[NR] / (x[1] / y[1]) - 1
+          if (r < 0) r = -r; if (r > worst) worst = r }
+        END { r = sum / NR - 1; if (r < 0) r = -r; print (NR > 50 ? worst + r : "few rows") }' a)" 1e-13
+done
 awk -F, -v OFS=, '/^[0-9]/ { $1 = sprintf("%.17g", $1 + 1000000000) } { print }' free.csv >late.csv
 draw late.csv --columns t,n3
 tells "late times" '"t − 1000000000"'

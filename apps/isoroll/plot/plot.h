@@ -51,7 +51,7 @@ typedef struct iso_plot_orbit {
     const char *title;
     const iso_record *ball, *point; /* columns n1..3, and gamma1..3; NULL: not known                              */
     const iso_record *drift;        /* a clock, then non-negative drifts of integrals; NULL: none                 */
-    const iso_record *clocks;       /* a clock, then one other; NULL: only one is known                           */
+    const iso_record *paces;        /* a clock, then "ds/dt" and "dtau/dt"; NULL: no other clock is known         */
     const iso_record *energies;     /* a clock, then "h", "kinetic", "potential"; NULL: not known                 */
     const iso_plot_space *space;    /* NULL: not known                                                            */
 } iso_plot_orbit;
@@ -63,7 +63,7 @@ typedef struct iso_plot_orbit {
  *   is drawn without its point;
  * - energies over time, unless they are constant; pressure and mu, if the ball has these columns;
  * - the integrals' drift; if all drifts are rounding (below 1000 DBL_EPSILON = 2.2e-13), one line of text instead;
- * - the one clock over the other.
+ * - how fast the clocks s and tau run against t.
  * Errors: as iso_plot_comparison. */
 iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plot_orbit *plot);
 

@@ -19,7 +19,7 @@
 #include "plot/plot_parts.h"
 
 enum { FEW = 500 /* rows that are drawn as larger dots */ };
-#define ARC 0.1    /* longest straight piece of a path, in radians                     */
+#define ARC 0.15   /* longest straight piece of a path, in radians                     */
 #define JOINED 0.6 /* rows farther apart than this are no path: they are drawn as dots */
 #define LONG 40.0  /* a path of more radians is drawn with a finer line                */
 

@@ -17,7 +17,7 @@
 enum { WIDTH = 900, TITLE = 50, SQUARE = 420, VIEW = 320, WIDE = 270, CHART = 260, LINE = 40, FOOT = 12 };
 
 typedef enum square { FROM_ABOVE, FROM_SIDE, ON_BALL, ON_POINT, SQUARES } square;
-typedef enum chart { ENERGIES, PRESSURE, DRIFT, CLOCKS, CHARTS } chart;
+typedef enum chart { ENERGIES, PRESSURE, DRIFT, PACES, CHARTS } chart;
 
 typedef struct sheet {
     FILE *f;
@@ -106,7 +106,7 @@ static void choose_panels(sheet *s)
     if (has_pressure(p)) s->chart[s->charts++] = PRESSURE;
     const bool drift = p->drift && !s->noise, odd = s->squares % 2;
     if (drift && !odd) s->chart[s->charts++] = DRIFT;
-    if (p->clocks) s->chart[s->charts++] = CLOCKS;
+    if (p->paces) s->chart[s->charts++] = PACES;
     s->beside = !odd ? 0 : s->charts < 2 ? s->charts : 2;
     if (drift && odd) s->chart[s->charts++] = DRIFT; /* its key needs room: not beside a square */
     if (p->ball) s->losses = iso_plot_losses(p->ball, s->lost);
@@ -190,7 +190,7 @@ static double top_of_mu(const iso_record *r, int mu)
     return most > 5 * usual ? fmax(3 * usual, 2 * iso_record_const_row(r, 0)[mu]) : 0;
 }
 
-/* The curves of charts; those whose column is not there are left out. Of the clocks column 1 is drawn. */
+/* The curves of charts; those whose column is not there are left out. The last one is drawn on top. */
 static const struct {
     const char *column, *name, *colour;
     bool right;
@@ -198,29 +198,26 @@ static const struct {
     [ENERGIES] = {{"h", "energy h", "'black'", false},
                   {"kinetic", "kinetic", ISO_PLOT_BLUE, false},
                   {"potential", "potential", "'#E69F00'", false}},
-    [PRESSURE] = {{"pressure", "pressure", ISO_PLOT_BLUE, false}, {"mu", "mu (right)", "'#CC79A7'", true}},
-    [CLOCKS] = {{NULL, NULL, ISO_PLOT_BLUE, false}},
+    [PRESSURE] = {{"mu", "μ needed (right)", "'#CC79A7'", true}, {"pressure", "pressure", ISO_PLOT_BLUE, false}},
+    [PACES] = {{"ds/dt", "ds/dt", ISO_PLOT_BLUE, false}, {"dtau/dt", "dτ/dt", "'#E69F00'", false}},
 };
 
 static void put_curves(const sheet *s, chart which, const iso_plot_box *box)
 {
     const iso_plot_orbit *plot = s->plot;
-    const iso_record *r = which == CLOCKS ? plot->clocks : which == ENERGIES ? plot->energies : plot->ball;
+    const iso_record *r = which == PACES ? plot->paces : which == ENERGIES ? plot->energies : plot->ball;
     iso_plot_curve curve[3];
-    char title[120];
     iso_plot_panel p = {.box = *box, .rows = r, .curve = curve};
     for (int i = 0; i < 3 && curves[which][i].colour; i++) {
-        const int column = curves[which][i].column ? iso_record_find(r, curves[which][i].column) : 1;
+        const int column = iso_record_find(r, curves[which][i].column);
         if (column < 0) continue;
         curve[p.count++] =
             (iso_plot_curve){column, curves[which][i].name, curves[which][i].colour, curves[which][i].right};
         if (curves[which][i].right) p.top[1] = top_of_mu(r, column);
     }
     if (which == PRESSURE) p.over = clock_of(r);
-    if (which == CLOCKS) {
-        snprintf(title, sizeof title, "the clock %s over the clock %s", iso_plot_symbol(iso_record_name(r, 1)),
-                 iso_plot_symbol(iso_record_name(r, 0)));
-        p.title = title;
+    if (which == PACES) {
+        p.title = "paces (mean 1)";
     } else {
         p.mark = s->lost, p.marks = s->losses;
         p.marked = iso_plot_loss_name(plot->ball, s->lost, s->losses);
