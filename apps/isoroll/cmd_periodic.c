@@ -153,7 +153,7 @@ static void print_branches(const shell *s)
 static iso_status describe_branches(shell *s)
 {
     const iso_continuations *f = s->result.found;
-    iso_plot_title(s->title, &s->scene.params, ", along %s", iso_vary_name((int)f->vary));
+    iso_plot_title(s->title, &s->scene.params, ": periodic orbits followed along %s", iso_vary_name((int)f->vary));
     return shell_lines(s, (const table_line[]){{.key = "title", .text = s->title}, {.key = NULL}});
 }
 
@@ -210,11 +210,12 @@ static iso_status describe_chart(shell *s)
     const bool by_level = o->moment == ISO_CHART_LEVEL;
     const int a = (o->moment + 1) % 3, b = (o->moment + 2) % 3;
     if (by_level)
-        snprintf(s->title, sizeof s->title, "J = %.6g %.6g %.6g", J[0], J[1], J[2]);
+        snprintf(s->title, sizeof s->title, "stable rotations: J = (%.6g, %.6g, %.6g)", J[0], J[1], J[2]);
     else if (o->level == 0)
-        snprintf(s->title, sizeof s->title, "J%d = %.6g, J%d = %.6g", a + 1, J[a], b + 1, J[b]);
+        snprintf(s->title, sizeof s->title, "stable rotations: J%d = %.6g, J%d = %.6g", a + 1, J[a], b + 1, J[b]);
     else
-        snprintf(s->title, sizeof s->title, "J%d = %.6g, J%d = %.6g, level %.6g", a + 1, J[a], b + 1, J[b], o->level);
+        snprintf(s->title, sizeof s->title, "stable rotations: J%d = %.6g, J%d = %.6g, level %.6g", a + 1, J[a],
+                 b + 1, J[b], o->level);
     return shell_lines(s, (const table_line[]){{.key = "title", .text = s->title},
                                                {.key = by_level ? NULL : "level", .number = o->level},
                                                {.key = NULL}});

@@ -85,6 +85,7 @@ if has gnuplot "--plot"; then
         silent
         check "a picture in .$format" is_picture $format
     done
+    steady picture.svg
     mkdir folder
     run 5 compare scene.yaml --plot folder/absent/a.svg
     says "absent"

@@ -100,6 +100,7 @@ if has gnuplot "--plot"; then
     run 0 frequencies "$source/examples/02_neumann_shell/scene.yaml" --plot map.svg
     silent
     check "a map" grep -q 'rotation about axis 2, separatrix' map.svg
+    steady map.svg
     run 0 frequencies "$source/examples/12_neumann_off_level/scene.yaml" --plot map.pdf
     check "a map off the level H = 0" test "$(head -c 5 map.pdf)" = %PDF-
     run 0 frequencies "$source/examples/06_braden_reduced/scene.yaml" --plot map.png
@@ -112,6 +113,7 @@ if has gnuplot "--plot"; then
     run 0 frequencies estimate.yaml --turns 200 --plot lines.svg
     silent
     check "lines" grep -q 'amplitude' lines.svg
+    steady lines.svg
     check_not "no warning" grep -q "is chaotic" lines.svg
     run 0 frequencies "$source/examples/16_sections/scene.yaml" --turns 100 --plot lines.svg
     check "a warning on an orbit that is not decided" grep -q "it is not decided" lines.svg

@@ -198,6 +198,13 @@ at_most() {
         fail "$1: $2 is above $3"
 }
 
+# steady FILE: no piece of a text in the picture begins or ends with a blank: some renderers of SVG drop it, and what
+# follows shifts
+steady() {
+    check_not "$1: a blank beside a change of height or font" \
+        grep -qE '<tspan[^>]* dy="[^" ]*">( [^<]*|[^<]* )</tspan>|"[ ]?>[^<]* </tspan><tspan' "$1"
+}
+
 # larger A B: the larger of two numbers
 larger() {
     awk -v a="$1" -v b="$2" 'BEGIN { print (a + 0 > b + 0 ? a : b) }'

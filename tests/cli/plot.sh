@@ -198,7 +198,7 @@ scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml
 run 0 section scene.yaml --crossings 20 --starts 3 -o section.csv
 run 0 chaos scene.yaml --turns 20 --starts 5 --csv chaos.csv
 run 0 periodic scene.yaml --period 2 -o orbits.csv
-run 0 periodic scene.yaml --period 1 --follow k=0.45:0.55 -o follow.csv
+run 0 periodic scene.yaml --period 1 --follow k=0.4:0.5 -o follow.csv
 run 0 periodic scene.yaml --chart J2 --steps 3 -o chart.csv
 run 0 splitting scene.yaml --k 0.5,0.6 --digits double -o splitting.csv
 run 0 cost scene.yaml --method taylor --csv cost.csv
@@ -206,11 +206,12 @@ if has gnuplot "pictures of tables"; then
     while read -r table words; do
         run 0 plot "$table.csv" -o "$table.svg"
         check "the picture of $table" grep -q "$words" "$table.svg"
+        steady "$table.svg"
     done <<'END'
 section 4 orbits
 chaos undecided
 orbits unstable
-follow place on the line
+follow >symmetry breaking<
 chart least
 splitting splitting of the separatrix, J = (1, 2, 5)
 cost processor time in seconds

@@ -125,6 +125,7 @@ typedef struct iso_plot_section {
      * crossings of the point are the same, or in columns point_l, point_x. */
     const iso_record *rows;
     const char *grey_means; /* what the key says of grey, such as "chaotic"; NULL: there is no key */
+    bool few;               /* few crossings, as of periodic orbits: in colours and large; the axes end with them */
 } iso_plot_section;
 
 /* Left: the section of the ball. Its axes are the angle of n in the plane n_a = 0, and omega_a/|omega|. Right: that

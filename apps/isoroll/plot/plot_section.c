@@ -17,7 +17,8 @@
 #include "plot/plot_parts.h"
 
 enum { WIDTH = 900, HEIGHT = 470, BOUNDARY = 240 };
-#define TOP 1.05 /* of the axis of L, by the largest L */
+#define TOP 1.05 /* of the axis of L, by the largest L               */
+#define ROOM 1.2 /* beyond the crossings, where a picture shows few  */
 
 /* --- colours ---------------------------------------------------------------------------------------------------- */
 
@@ -64,12 +65,13 @@ static spot of_point(const iso_plot_section *s, const double chart[2])
 }
 
 /* A block of crossings, of the point where it has columns of its own. The grey ones come first, so that they lie
- * behind the others. */
-static void put_crossings(FILE *f, const iso_plot_section *s, bool ball)
+ * behind the others. Gives how far up they go. */
+static double put_crossings(FILE *f, const iso_plot_section *s, bool ball)
 {
     const int orbit = iso_record_find(s->rows, "orbit"), own = ball ? -1 : iso_record_find(s->rows, "point_l");
     const int l = own < 0 ? iso_record_find(s->rows, "l") : own, shade = iso_record_find(s->rows, "grey");
     const int x = iso_record_find(s->rows, own < 0 ? "x" : "point_x");
+    double most = 0;
     fprintf(f, "$%s << EOD\n", ball ? "ball" : "point");
     for (int grey = 1; grey >= 0; grey--)
         for (size_t i = 0; i < iso_record_rows(s->rows); i++) {
@@ -77,9 +79,11 @@ static void put_crossings(FILE *f, const iso_plot_section *s, bool ball)
             if ((row[shade] != 0) != grey) continue;
             const spot at = ball ? of_ball(s, chart) : of_point(s, chart);
             if (!isfinite(at.right) || !isfinite(at.up)) continue;
-            fprintf(f, "%.5f %.6g %ld\n", at.right, at.up, colour_of(row[orbit], grey));
+            fprintf(f, "%.5f %.6g %ld %d\n", at.right, at.up, colour_of(row[orbit], grey), grey);
+            most = fmax(most, fabs(at.up));
         }
     fputs("EOD\n", f);
+    return most;
 }
 
 /* Writes the boundary L = G(l). Gives the largest G. */
@@ -98,10 +102,15 @@ static double put_boundary(FILE *f, const iso_plot_section *s)
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-/* The size of a spot: the more points, the smaller. */
-static double size_of(size_t count)
+/* Spots of a section: the more, the smaller. Periodic orbits are few: those in colours are large. */
+static void put_spots(FILE *f, const iso_plot_section *s, const char *block)
 {
-    return fmin(fmax(9 / sqrt((double)count), 0.05), 0.4);
+    const double size = fmin(fmax(9 / sqrt((double)iso_record_rows(s->rows)), 0.05), 0.4);
+    if (s->few)
+        fprintf(f, "$%s using 1:2:($4 > 0 ? 0.45 : 1.1):3 with points pt 7 ps variable lc rgb variable notitle\n",
+                block);
+    else
+        fprintf(f, "$%s using 1:2:3 with points pt 7 ps %.17g lc rgb variable notitle\n", block, size);
 }
 
 static void put_heading(FILE *f, const iso_plot_section *s)
@@ -116,27 +125,29 @@ static void put_heading(FILE *f, const iso_plot_section *s)
           f);
 }
 
-static void put_ball(FILE *f, const iso_plot_section *s, double size)
+static void put_ball(FILE *f, const iso_plot_section *s, double top)
 {
     const int a = s->axis + 1, b = (s->axis + 1) % 3 + 1, c = (s->axis + 2) % 3 + 1;
     fprintf(f,
-            "set lmargin at screen 0.075; set rmargin at screen 0.485; set yrange [-1:1]; set ytics 0.5\n"
-            "set title 'ball: n_%d = 0, n_%d increasing' offset 0,-0.5\n"
-            "set xlabel 'ψ,  where n_%d = cos ψ, n_%d = −sin ψ' offset 0,0.3\n"
-            "set ylabel 'ω_%d / |ω|' offset 1,0\nplot $ball using 1:2:3 with points pt 7 ps %.17g lc rgb "
-            "variable notitle\n",
-            a, a, b, c, a, size);
+            "set lmargin at screen 0.075; set rmargin at screen 0.485; set yrange [-%.17g:%.17g]\n"
+            "set ytics autofreq\n"
+            "set title 'ball: n_%d\u00A0= 0, n_%d\u00A0increasing' offset 0,-0.5\n"
+            "set xlabel 'ψ,  where n_%d\u00A0= cos ψ, n_%d\u00A0= −sin ψ' offset 0,0.3\n"
+            "set ylabel 'ω_%d\u00A0/ |ω|' offset 1,0\nplot ",
+            top, top, a, a, b, c, a);
+    put_spots(f, s, "ball");
 }
 
-static void put_point(FILE *f, const iso_plot_section *s, double size, double most)
+static void put_point(FILE *f, const iso_plot_section *s, double top, double most)
 {
     const int a = s->axis + 1, b = (s->axis + 1) % 3 + 1, c = (s->axis + 2) % 3 + 1;
     fprintf(f,
             "set lmargin at screen 0.575; set rmargin at screen 0.985; set ytics autofreq; set yrange "
-            "[%.17g:%.17g]\nset title '%s: γ_%d = 0, γ_%d increasing'\n"
-            "set xlabel 'l,  where γ_%d = cos l, γ_%d = −sin l'\n",
-            -TOP * most, TOP * most, s->eps > 0 ? "point" : "directions of γ and M", a, a, b, c);
-    fprintf(f, s->eps > 0 ? "set ylabel 'L = M_%d, in the units of the scene'\n" : "set ylabel 'x = M_%d / |M|'\n",
+            "[%.17g:%.17g]\nset title '%s: γ_%d\u00A0= 0, γ_%d\u00A0increasing'\n"
+            "set xlabel 'l,  where γ_%d\u00A0= cos l, γ_%d\u00A0= −sin l'\n",
+            -top, top, s->eps > 0 ? "point" : "directions of γ and M", a, a, b, c);
+    fprintf(f,
+            s->eps > 0 ? "set ylabel 'L = M_%d, in the units of the scene'\n" : "set ylabel 'x = M_%d\u00A0/ |M|'\n",
             a);
     fputs("plot ", f);
     for (int side = 1; side >= -1; side -= 2) { /* outside of the boundaries */
@@ -145,7 +156,7 @@ static void put_point(FILE *f, const iso_plot_section *s, double size, double mo
                 "1:(%d*$2) with lines lw 1 lc rgb '#606060' notitle, ",
                 side, side * TOP * most, side);
     }
-    fprintf(f, "$point using 1:2:3 with points pt 7 ps %.17g lc rgb variable notitle\n", size);
+    put_spots(f, s, "point");
 }
 
 iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *s)
@@ -156,11 +167,9 @@ iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                 "a picture of a section n_a = 0 needs at least one crossing, and a = 1, 2 or 3");
     FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
-    put_crossings(f, s, true);
-    put_crossings(f, s, false);
-    const double most = put_boundary(f, s), size = size_of(iso_record_rows(s->rows));
+    const double ball = put_crossings(f, s, true), point = put_crossings(f, s, false), most = put_boundary(f, s);
     put_heading(f, s);
-    put_ball(f, s, size);
-    put_point(f, s, size, most);
+    put_ball(f, s, s->few ? fmin(1, ROOM * ball + 1e-3) : 1);
+    put_point(f, s, TOP * (s->few ? fmin(most, ROOM * point + 1e-3 * most) : most), most);
     return iso_gnuplot_close(ctx, true);
 }

@@ -56,39 +56,70 @@ static iso_status draw_script(iso_context *ctx, const char *path, const char *ti
     return iso_gnuplot_close(ctx, true);
 }
 
+/* Whether there is a bifurcation: gnuplot 5.4 cannot draw labels of which none is there. */
+static bool has_events(const iso_record *r)
+{
+    for (size_t i = 0; i < iso_record_rows(r); i++)
+        if (!iso_plot_is(r, i, "event", "") && !iso_plot_is(r, i, "event", "end")) return true;
+    return false;
+}
+
 /* A bifurcation diagram. A row with an event repeats a point. */
 static iso_status draw_branches(iso_context *ctx, const char *path, const char *title, const iso_record *r)
 {
     const char *varies = iso_record_name(r, 3), *const columns[] = {"branch", varies, "trace", "u", "event", NULL};
-    return draw_script(
-        ctx, path, title, r, columns, varies, 640,
+    static const char script[] =
         "unset key; set lmargin at screen 0.1; set rmargin at screen 0.97; last = int(word($table[|$table|], 1))\n"
+        "x(event) = strcol(5) eq '' ? (event ? NaN : $2) : event && strcol(5) ne 'end' ? $2 : NaN\n"
         "set tmargin at screen 0.93; set bmargin at screen 0.54; set ylabel 'trace' offset 1,0; set yrange [-6:6]\n"
-        "set arrow 1 from graph 0, first 2 to graph 1, first 2 nohead dt 2 lc rgb '#707070'\n"
-        "set arrow 2 from graph 0, first -2 to graph 1, first -2 nohead dt 2 lc rgb '#707070'\n"
-        "plot for [b=1:last] $table using ($1 == b && strcol(5) eq '' ? $2 : NaN):3 w l lw 1.5 lc b-1 title 'trace'\n"
-        "unset arrow; set yrange [0:1]; set tmargin at screen 0.48; set bmargin at screen 0.09\n"
+        "set object 1 rectangle from graph 0, first -2 to graph 1, first 2 back fc rgb '#E3EEF6' fs solid noborder\n"
+        "set label 2 'stable' at graph 0.01, first 1.5 tc rgb '#505050'\n"
+        "plot for [b=1:last] $table using ($1 == b ? x(0) : NaN):3 w l lw 1.5 lc b title 'trace'%s\n"
+        "unset label; unset object; set yrange [0:1]; set tmargin at screen 0.48; set bmargin at screen 0.09\n"
         "set ylabel 'place on the line: 2 u/π' offset 1,0; set xlabel varies\n"
-        "plot for [b=1:last] $table using ($1 == b && strcol(5) eq '' ? $2 : NaN):(2 / pi * $4) w l lw 1.5 lc b-1 "
-        "title 'place'");
+        "plot for [b=1:last] $table using ($1 == b ? x(0) : NaN):(2 / pi * $4) w l lw 1.5 lc b title 'place', "
+        "$table using (x(1)):(2 / pi * $4) w p pt 7 ps 0.8 lc rgb 'black'";
+    char whole[sizeof script + 200];
+    snprintf(whole, sizeof whole, script,
+             has_events(r)
+                 ? ", $table using (x(1)):3:5 w labels left offset 0.7,0.7 rotate by 15 font ',8' point pt 7 "
+                   "ps 0.8 lc rgb 'black'"
+                 : "");
+    return draw_script(ctx, path, title, r, columns, varies, 640, whole);
+}
+
+/* The least step of a column of the grid. */
+static double step_of(const iso_record *r, int column)
+{
+    double step = INFINITY;
+    for (size_t i = 1; i < iso_record_rows(r); i++) {
+        const double d = fabs(iso_record_const_row(r, i)[column] - iso_record_const_row(r, i - 1)[column]);
+        if (iso_plot_is(r, i, "kind", "grid") && iso_plot_is(r, i - 1, "kind", "grid") && d > 0) step = fmin(step, d);
+    }
+    return isfinite(step) ? step : 1;
 }
 
 /* Where a rotation is stable, and the borders. With equal moments a trace is -2 up to rounding. */
 static iso_status draw_stability(iso_context *ctx, const char *path, const char *title, const iso_record *r)
 {
+    const int k = iso_record_find(r, "k");
     const char *varies = iso_record_name(r, 2), *const columns[] = {"k", varies, "least", "greatest", "kind", NULL};
-    return draw_script(
-        ctx, path, title, r, columns, varies, 480,
+    static const char script[] =
         "set tmargin at screen 0.86; set bmargin at screen 0.2; set xlabel 'k'; set ylabel varies offset 1,0\n"
-        "set key at screen 0.5,0.08 center horizontal samplen 1; edge = 2 + 1e-9; set datafile missing\n"
+        "set key at screen 0.5,0.07 center horizontal samplen 1 Left reverse width 2; edge = 2 + 1e-9\n"
+        "set datafile missing; set autoscale noextend; dx = %.17g / 2; dy = %.17g / 2\n"
         "grid(T) = strcol(5) ne 'grid' || T != T ? NaN : T <= -edge ? -1 : T > edge ? 1 : 0\n"
+        "cell = 'w boxxy fs solid 1 noborder lw 0 lc rgb'; set macros\n"
         "do for [i=3:4] {\nset title 'rotation about the axis of the '.(i == 3 ? 'least' : 'greatest').' moment'\n"
         "set lmargin at screen i == 3 ? 0.08 : 0.56; set rmargin at screen i == 3 ? 0.49 : 0.97\n"
-        "plot $table u (grid(column(i)) == 0 ? $1 : NaN):2 w p pt 5 ps 0.3 lc rgb '#CFE3F2' title 'stable', "
-        "'' u (grid(column(i)) == -1 ? $1 : NaN):2 w p pt 5 ps 0.3 lc rgb '#E69F00' title 'T < -2', "
-        "'' u (grid(column(i)) == 1 ? $1 : NaN):2 w p pt 5 ps 0.3 lc rgb '#D55E00' title 'T > 2', "
-        "'' u (strcol(5) eq 'border' && column(i) == column(i) ? $1 : NaN):2 w p pt 7 ps 0.15 lc rgb 'black' "
-        "title 'T = 2, -2'\n}");
+        "plot $table u (grid(column(i)) == 0 ? $1 : NaN):2:(dx):(dy) @cell '#CFE3F2' title 'stable', "
+        "'' u (grid(column(i)) == -1 ? $1 : NaN):2:(dx):(dy) @cell '#E69F00' title 'unstable, T < −2', "
+        "'' u (grid(column(i)) == 1 ? $1 : NaN):2:(dx):(dy) @cell '#D55E00' title 'unstable, T > 2', "
+        "'' u (strcol(5) eq 'border' && column(i) == column(i) ? $1 : NaN):2 w p pt 7 ps 0.25 lc rgb 'black' "
+        "title 'border, T = ±2'\nunset label 1\n}";
+    char whole[sizeof script + 60];
+    snprintf(whole, sizeof whole, script, step_of(r, k), step_of(r, 2));
+    return draw_script(ctx, path, title, r, columns, varies, 480, whole);
 }
 
 /* --- sections --------------------------------------------------------------------------------------------------- */
@@ -130,8 +161,12 @@ static iso_status draw_orbits(iso_context *ctx, const char *path, const char *ti
     iso_status status = iso_record_params(ctx, r, &params);
     if (status == ISO_OK) status = iso_record_create(ctx, 4, names, &images);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(r); i++) status = put_images(ctx, r, i, images);
-    const iso_plot_section plot = {
-        .title = words, .params = &params, .axis = iso_plot_axis_of(r), .rows = images, .grey_means = "unstable"};
+    const iso_plot_section plot = {.title = words,
+                                   .params = &params,
+                                   .axis = iso_plot_axis_of(r),
+                                   .rows = images,
+                                   .grey_means = "unstable (stable: in colours)",
+                                   .few = true};
     if (status == ISO_OK) status = iso_plot_sections(ctx, path, &plot);
     iso_record_free(images);
     return status;
