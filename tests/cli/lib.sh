@@ -202,7 +202,7 @@ at_most() {
 # follows shifts
 steady() {
     check_not "$1: a blank beside a change of height or font" \
-        grep -qE '<tspan[^>]* dy="[^" ]*">( [^<]*|[^<]* )</tspan>|"[ ]?>[^<]* </tspan><tspan' "$1"
+        grep -qE '<tspan[^>]* dy="[^" ]*">(( | )[^<]*|[^<]* )</tspan>|"[ ]?>[^<]* </tspan><tspan' "$1"
 }
 
 # larger A B: the larger of two numbers

@@ -90,14 +90,14 @@ iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *ti
     const char *before = "plot";
     FILE *f = iso_gnuplot_open(ctx, path, WIDTH, SECTION_HEIGHT);
     const size_t all = put_spots(f, r, count);
-    fprintf(f,
-            ISO_PLOT_FRAME ISO_PLOT_ANGLES
-            "set title %s noenhanced font ',12'; set yrange [-1:1]; set ytics 0.5; set cblabel 'exponent per turn'\n"
-            "set xlabel 'l,  where γ_%d\u00A0= cos l, γ_%d\u00A0= −sin l'; set ylabel 'M_%d\u00A0/ |M|' offset 1,0\n"
-            "set cbrange [0:*]; set palette defined (0 '#F7E3B0', 0.5 '#E69F00', 1 '#8B1A00')\n"
-            "set key outside bottom center horizontal samplen 1; %s\n",
-            QUOTED(title, 110), (axis + 1) % 3 + 1, (axis + 2) % 3 + 1, axis + 1,
-            count[CHAOTIC] ? "" : "unset colorbox");
+    fprintf(
+        f,
+        ISO_PLOT_FRAME ISO_PLOT_ANGLES
+        "set title %s noenhanced font ',12'; set yrange [-1:1]; set ytics 0.5; set cblabel 'exponent per turn'\n"
+        "set xlabel 'l,  where γ_%d\u2060 = cos l, γ_%d\u2060 = −sin l'; set ylabel 'M_%d\u2060 / |M|' offset 1,0\n"
+        "set cbrange [0:*]; set palette defined (0 '#F7E3B0', 0.5 '#E69F00', 1 '#8B1A00')\n"
+        "set key outside bottom center horizontal samplen 1; %s\n",
+        QUOTED(title, 110), (axis + 1) % 3 + 1, (axis + 2) % 3 + 1, axis + 1, count[CHAOTIC] ? "" : "unset colorbox");
     for (int kind = 0; kind < KINDS; kind++) {
         if (count[kind] == 0) continue;
         fprintf(f, "%s $spots using ($4 == %d ? $1 : NaN):2%s with points %s ps %.17g title '%s'", before, kind,

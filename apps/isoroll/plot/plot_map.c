@@ -117,7 +117,7 @@ iso_status iso_plot_momentum(iso_context *ctx, const char *path, const char *tit
             QUOTED(title, 95), 2 * at[0], F);
     put_panel(f, m, bounds, at, false);
     fprintf(f,
-            "unset label; set lmargin at screen 0.6; set rmargin at screen 0.98; set ylabel '%s\u00A0/ h'\n"
+            "unset label; set lmargin at screen 0.6; set rmargin at screen 0.98; set ylabel '%s\u2060 / h'\n"
             "set key at screen 0.1,0.24 left top Left reverse vertical maxrows 5 samplen 3 spacing 1.2 noenhanced\n",
             F);
     find_range(bounds, range);
@@ -184,7 +184,7 @@ iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title,
     const bool any[2] = {isfinite(least[0]), isfinite(least[1])};
     if (any[0])
         fprintf(f,
-                "plot $signal0 with impulses lw 2 lc rgb " ISO_PLOT_BLUE " title 'n_%d\u00A0+ i n_%d', "
+                "plot $signal0 with impulses lw 2 lc rgb " ISO_PLOT_BLUE " title 'n_%d\u2060 + i n_%d', "
                 "$signal0 with points pt 7 ps 0.6 lc rgb " ISO_PLOT_BLUE " notitle",
                 j, l);
     if (any[1])

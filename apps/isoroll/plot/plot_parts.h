@@ -27,6 +27,9 @@ enum {
 #define ISO_PLOT_LOST "pt 2 ps 1.7 lw 3 lc rgb " ISO_PLOT_VERMILLION
 #define ISO_PLOT_LOST_LINE "dt (6,4) lw 1.5 lc rgb " ISO_PLOT_VERMILLION
 
+/* In labels \u2060, which is not seen, stands before a blank that follows a subscript: some renderers of SVG drop a
+ * blank at the beginning of a piece of a text. */
+
 /* Axes on the left and below, and a grid. */
 #define ISO_PLOT_AXES                                                                                                \
     "set border 3 lc rgb '#606060'; set tics nomirror out scale 0.6; set grid back lt 1 lw 0.8 lc rgb '#DDE1E5'\n"

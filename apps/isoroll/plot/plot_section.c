@@ -131,9 +131,9 @@ static void put_ball(FILE *f, const iso_plot_section *s, double top)
     fprintf(f,
             "set lmargin at screen 0.075; set rmargin at screen 0.485; set yrange [-%.17g:%.17g]\n"
             "set ytics autofreq\n"
-            "set title 'ball: n_%d\u00A0= 0, n_%d\u00A0increasing' offset 0,-0.5\n"
-            "set xlabel 'ψ,  where n_%d\u00A0= cos ψ, n_%d\u00A0= −sin ψ' offset 0,0.3\n"
-            "set ylabel 'ω_%d\u00A0/ |ω|' offset 1,0\nplot ",
+            "set title 'ball: n_%d\u2060 = 0, n_%d\u2060 increasing' offset 0,-0.5\n"
+            "set xlabel 'ψ,  where n_%d\u2060 = cos ψ, n_%d\u2060 = −sin ψ' offset 0,0.3\n"
+            "set ylabel 'ω_%d\u2060 / |ω|' offset 1,0\nplot ",
             top, top, a, a, b, c, a);
     put_spots(f, s, "ball");
 }
@@ -143,11 +143,11 @@ static void put_point(FILE *f, const iso_plot_section *s, double top, double mos
     const int a = s->axis + 1, b = (s->axis + 1) % 3 + 1, c = (s->axis + 2) % 3 + 1;
     fprintf(f,
             "set lmargin at screen 0.575; set rmargin at screen 0.985; set ytics autofreq; set yrange "
-            "[%.17g:%.17g]\nset title '%s: γ_%d\u00A0= 0, γ_%d\u00A0increasing'\n"
-            "set xlabel 'l,  where γ_%d\u00A0= cos l, γ_%d\u00A0= −sin l'\n",
+            "[%.17g:%.17g]\nset title '%s: γ_%d\u2060 = 0, γ_%d\u2060 increasing'\n"
+            "set xlabel 'l,  where γ_%d\u2060 = cos l, γ_%d\u2060 = −sin l'\n",
             -top, top, s->eps > 0 ? "point" : "directions of γ and M", a, a, b, c);
     fprintf(f,
-            s->eps > 0 ? "set ylabel 'L = M_%d, in the units of the scene'\n" : "set ylabel 'x = M_%d\u00A0/ |M|'\n",
+            s->eps > 0 ? "set ylabel 'L = M_%d, in the units of the scene'\n" : "set ylabel 'x = M_%d\u2060 / |M|'\n",
             a);
     fputs("plot ", f);
     for (int side = 1; side >= -1; side -= 2) { /* outside of the boundaries */

@@ -61,16 +61,17 @@ static void put_curve(FILE *f, const iso_record *curve, const char *name, double
     fputs("$curve << EOD\n", f);
     for (size_t i = 0; i < iso_record_rows(curve); i++)
         fprintf(f, "%.6f %.6f\n", iso_record_const_row(curve, i)[0], iso_record_const_row(curve, i)[1]);
-    fprintf(f,
-            "EOD\n" ISO_PLOT_FRAME
-            "set xrange [-0.35:pi+0.35]; set xtics ('O' 0, 'π/4' pi/4, 'π/2' pi/2, '3π/4' 3*pi/4, \"O'\" pi)\n"
-            "set arrow 1 from first pi/2, graph 0 to first pi/2, graph 1 nohead back dt (3,3) lw 1.2 lc rgb "
-            "'#707070'\nset key outside bottom center horizontal Left reverse samplen 2 width 2\n"
-            "set xlabel 'l − l(O) on the section γ_%d\u00A0= 0, %s = %.6g'; set ylabel 'M_%d\u00A0/ |M|' offset 1,0\n"
-            "plot $curve using 1:2 with lines lw 1.6 lc rgb " ISO_PLOT_VERMILLION
-            " title 'unstable, from O', $curve using (pi-$1):2 with lines lw 1.6 dt (6,2) lc rgb " ISO_PLOT_BLUE
-            " title \"stable, to O'\"\n",
-            axis + 1, name, at, axis + 1);
+    fprintf(
+        f,
+        "EOD\n" ISO_PLOT_FRAME
+        "set xrange [-0.35:pi+0.35]; set xtics ('O' 0, 'π/4' pi/4, 'π/2' pi/2, '3π/4' 3*pi/4, \"O'\" pi)\n"
+        "set arrow 1 from first pi/2, graph 0 to first pi/2, graph 1 nohead back dt (3,3) lw 1.2 lc rgb "
+        "'#707070'\nset key outside bottom center horizontal Left reverse samplen 2 width 2\n"
+        "set xlabel 'l − l(O) on the section γ_%d\u2060 = 0, %s = %.6g'; set ylabel 'M_%d\u2060 / |M|' offset 1,0\n"
+        "plot $curve using 1:2 with lines lw 1.6 lc rgb " ISO_PLOT_VERMILLION
+        " title 'unstable, from O', $curve using (pi-$1):2 with lines lw 1.6 dt (6,2) lc rgb " ISO_PLOT_BLUE
+        " title \"stable, to O'\"\n",
+        axis + 1, name, at, axis + 1);
 }
 
 iso_status iso_plot_splitting(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
