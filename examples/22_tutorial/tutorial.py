@@ -195,7 +195,7 @@ section.plot(ax=axes[0])
 for at in axes[0]:
     at.collections[0].set_sizes([0.5])  # dots for a small figure
 stable = periodic.stability == "stable"
-for rows, look, word in ((stable, "ok", "stable orbit"), (~stable, "xk", "unstable orbit")):
+for rows, look, word in ((stable, "ok", "stable"), (~stable, "xk", "unstable")):
     axes[0, 1].plot(periodic.l[rows], periodic.M[rows, 2], look, ms=4, mfc="white", label=word)
 axes[0, 1].set_ylim(bottom=-9)
 axes[0, 1].legend(loc="lower center", ncols=3)
