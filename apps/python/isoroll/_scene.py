@@ -40,9 +40,15 @@ _SECTION.update(k="", J="", D="")  # of `reduced` or of `point`
 _BALL, _POINT = ("normal", "angular_velocity"), ("gamma", "M")
 
 
+#: what others call a key: columns of a table, options of the command, letters of the theory
+_ALSO = {"omega": "angular_velocity", "w": "angular_velocity", "n": "normal", "tol": "tolerance", "t_end": "end",
+         "m": "mass", "I": "inertia"}
+
+
 def _unknown(key: str) -> TypeError:
     names = [*KEYS, *_SECTION]
-    near = difflib.get_close_matches(key, names, 1)
+    near = [_ALSO[key]] if key in _ALSO else [name for name in names if name.lower() == key.lower()]
+    near = near or difflib.get_close_matches(key, names, 1)
     meant = f"did you mean '{near[0]}'?" if near else "it takes " + ", ".join(dict.fromkeys(names))
     return TypeError(f"a scene has no keyword '{key}': {meant}")
 
@@ -197,6 +203,8 @@ class Scene(Owned):
             base = source if isinstance(source, Scene) else Scene(source)
             draft = _Draft(base.sections, lambda: base)
         draft.change(keys)
+        if "initial" not in draft.sections:
+            raise _errors.BadInput("the scene has no start: give normal and angular_velocity; of a point gamma and M")
         order = [*KEYS, *draft.sections]
         return dump({name: draft.sections[name] for name in dict.fromkeys(order) if name in draft.sections})
 
@@ -257,6 +265,11 @@ class Scene(Owned):
 
     def __reduce_ex__(self, protocol: Any) -> Any:
         return _again, (self._text, self._name, self._from_text, self._settings)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            raise AttributeError(f"a scene cannot be changed: isoroll.Scene(scene, {name}=...) is another one")
+        super().__setattr__(name, value)
 
     def __copy__(self) -> Scene:
         return self
@@ -323,6 +336,31 @@ class Scene(Owned):
     def start(self) -> NDArray[np.float64]:
         """The state at time 0, shape (6,): omega [1/time], n; of a point M, gamma."""
         return self._numbers("start")
+
+    def _part(self, model: str, name: str, part: slice) -> NDArray[np.float64]:
+        if self.model != model:
+            raise AttributeError(f"this scene starts from a {self.model}: it has no {name}")
+        return self.start[part]
+
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """n at time 0, of a ball's scene, shape (3,)."""
+        return self._part("ball", "normal", slice(3, 6))
+
+    @property
+    def angular_velocity(self) -> NDArray[np.float64]:
+        """omega at time 0, of a ball's scene, shape (3,), 1/time."""
+        return self._part("ball", "angular_velocity", slice(0, 3))
+
+    @property
+    def gamma(self) -> NDArray[np.float64]:
+        """gamma at time 0, of a point's scene, shape (3,)."""
+        return self._part("point", "gamma", slice(3, 6))
+
+    @property
+    def M(self) -> NDArray[np.float64]:
+        """M at time 0, of a point's scene, shape (3,), 1/time."""
+        return self._part("point", "M", slice(0, 3))
 
     @property
     def effects(self) -> Tuple[str, ...]:

@@ -198,7 +198,8 @@ class Table:
         try:
             return self[name]
         except KeyError as error:
-            raise AttributeError(error.args[0]) from None
+            of_lines = f"; it is a line: table.lines['{name}']" if name in self.lines else ""
+            raise AttributeError(error.args[0] + of_lines) from None
 
     def __setattr__(self, name: str, value: Any) -> None:
         """What would change no number of the table is refused."""
@@ -257,7 +258,8 @@ class Table:
             frame = pandas.DataFrame({name: np.atleast_1d(self[name]) for name in self.columns})
         else:
             frame = pandas.DataFrame(array, columns=list(self.columns), copy=False)
-        frame.attrs.update(self.lines.text)
+        frame.attrs.update({key: value.tolist() if isinstance(value, np.ndarray) else value
+                            for key, value in self.lines.items()})  # pandas compares attrs: arrays it could not
         return frame
 
     def write(self, path: PathLike, *, digits: Union[int, str] = 17) -> None:
@@ -310,7 +312,8 @@ class Table:
         said = ""
         for key in ("k", "J"):
             values = np.ravel(self.lines[key]).tolist() if key in self.lines and key not in self.columns else []
-            said += f", {key} = " + " ".join(f"{x:.6g}" if isinstance(x, float) else x for x in values) if values else ""
+            if values:
+                said += f", {key} = " + " ".join(f"{x:.6g}" if isinstance(x, float) else x for x in values)
         shape = f"{len(self)} rows" if self.array.ndim == 2 else f"shape {self.array.shape}"
         return f"{self.kind}, {shape}{said}"
 
@@ -417,7 +420,9 @@ def trajectory(columns: Mapping[str, ArrayLike], **lines: Union[str, ArrayLike])
         if array.ndim < 2:
             array = array.reshape(-1, 1)
         if array.ndim > 2 or array.shape[1] != len(group):
-            raise _errors.BadArgument(f"column '{name}' has shape {np.shape(values)}")
+            wanted = f"(rows, {len(group)})" if len(group) > 1 else "(rows,)"
+            vectors = "" if len(group) > 1 else "; vectors are " + ", ".join(VECTORS)
+            raise _errors.BadArgument(f"column '{name}' has shape {np.shape(values)}, it must be {wanted}{vectors}")
         if parts and len(array) != len(parts[0]):
             raise _errors.BadArgument(f"column '{name}' has {len(array)} rows, the others have {len(parts[0])}")
         names.extend(group)
