@@ -59,13 +59,18 @@ iso_status iso_table_check_format(iso_context *ctx, const char *path)
     return check(ctx, path, iso_table_is_hdf5(path));
 }
 
-bool iso_table_has_words(const char *name)
+bool iso_table_has_words(const char *kind, const char *name)
 {
+    static const struct {
+        const char *kind, *name;
+    } own[] = {{"check", "name"}, {"check", "of"}, {"section cloud", "carried"}, {"section cloud", "worst"}};
     static const char *const names[] = {"verdict",  "ball_verdict", "point_verdict", "stability",
                                         "symmetry", "line",         "event",         "kind",
                                         "backend",  "method",       "failure",       "reason"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(name, names[i]) == 0) return true;
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        if (strcmp(kind, own[i].kind) == 0 && strcmp(name, own[i].name) == 0) return true;
     return false;
 }
 
@@ -218,7 +223,7 @@ static iso_status look_for_words(iso_context *ctx, iso_table_writer *w, const is
     for (size_t i = 0; i < iso_record_columns(header); i++) {
         if (!iso_record_has_words(header, i)) continue;
         w->words = header;
-        if (iso_table_has_words(iso_record_name(header, i))) continue;
+        if (iso_table_has_words(w->kind, iso_record_name(header, i))) continue;
         return ISO_FAIL_ARGUMENT(ctx, "", "the column '%s' cannot have words", iso_record_name(header, i));
     }
     return ISO_OK;
@@ -266,6 +271,8 @@ static iso_status check_names(iso_context *ctx, const iso_record *header)
 iso_status iso_table_write_header(iso_context *ctx, iso_table_writer *w, const iso_record *header)
 {
     if (w->header) return ISO_FAIL_ARGUMENT(ctx, "", "the header is already written");
+    if (iso_record_columns(header) == 0)
+        return ISO_FAIL_ARGUMENT(ctx, "", "a table needs columns in a file; this one, '%s', has only lines", w->kind);
     if (w->finite && iso_record_columns(header) > (size_t)iso_columns_count())
         return ISO_FAIL_ARGUMENT(ctx, "", "a trajectory has at most %d columns", iso_columns_count());
     ISO_TRY(look_for_words(ctx, w, header));

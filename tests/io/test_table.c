@@ -56,7 +56,9 @@ static const struct {
     {"cost", "@backend,@method,tolerance,error,steps,@failure"},
     {"sweep", "point,k,state_n1,status,@reason"},
     {"sweep part", "point,k,state_n1,status,@reason"},
-    {"something new", "a,b,omega2"},
+    {"check", "@name,worst,row,@of,above_the_bound"},
+    {"section cloud", "@carried,kept,p,@worst,@failure"},
+    {"something new", "a,b,omega2,worst,name"},
     {"something new", "@method"},
 };
 
@@ -230,8 +232,12 @@ static void test_lost(void)
     static const char *const lines[][2] = {{"a:b", "x"}, {"a", " x"}, {"a", "x\r"}, {"a", "x\ny"}, {"", "x"}};
     for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) refuse_write("mine", columns[i], NULL, NULL);
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) refuse_write("mine", "a,b", lines[i][0], lines[i][1]);
+    iso_record *r;
+    if (iso_record_create(ctx, 0, NULL, &r) != ISO_OK) exit(1);
+    gsl_test(iso_table_write(ctx, in_folder("table.csv"), r) != ISO_BAD_ARGUMENT, "a table without columns");
+    iso_record_free(r);
     if (!has_hdf5) return;
-    iso_record *r = make("something new", "x,k,state_n1,failure_of,why", 2);
+    r = make("something new", "x,k,state_n1,failure_of,why", 2);
     iso_record_set_kind(r, "sweep");
     iso_record_set(ctx, r, "columns", "vary/k state/n1");
     gsl_test(iso_table_write(ctx, in_folder("table.h5"), r) != ISO_BAD_ARGUMENT ||

@@ -70,6 +70,22 @@ class Sections(Case):
         self.refuses(isoroll.BadInput, "", isoroll.section, example("10_bowl"))
 
 
+class Written(Case):
+    def test_each_table_reads_back(self):
+        chaos, section = isoroll.chaos(WILD, turns=100), isoroll.section(WILD, crossings=3)
+        for table in (chaos, chaos.indicators["ball"], section, section.point, isoroll.section(WILD, cloud=512),
+                      isoroll.check(isoroll.run(BALL)), isoroll.compare(isoroll.Scene(BALL, end=2))):
+            for path in map(self.path, ("a.csv", "a.h5")):
+                with self.subTest(kind=table.kind, path=path):
+                    table.write(path)
+                    again = isoroll.read(path)
+                    self.assertEqual((again.kind, again.columns, again.lines), (table.kind, table.columns, table.lines))
+                    for name in table.columns:
+                        np.testing.assert_array_equal(again[name], table[name])
+        for table in (isoroll.explain(WILD), isoroll.frequencies(BALL, turns=20)):
+            self.refuses(isoroll.BadArgument, "has only lines", table.write, self.path("b.csv"))
+
+
 class Names(Case):
     def test_a_study_by_its_name(self):
         table, point, *others = isoroll.study(WILD, "section", crossings=20, at=[[0.5, 0.2]], as_="both")
