@@ -82,6 +82,11 @@ class Files(Case):
         done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=True)
         self.assertEqual(done.stdout, "3\n")
         self.same_files(self.path("a.csv"), self.path("b.csv"))
+        with open(self.path("c.csv"), "wb") as file:
+            file.write(b"# isoroll mine 1\nt,\xb5\n0,1\n")
+        isoroll.read(self.path("c.csv")).write(self.path("d.csv"))
+        with open(self.path("d.csv"), "rb") as file:
+            self.assertIn(b"t,\xb5\n", file.read())
 
     def test_refused(self):
         self.refuses(isoroll.FileTrouble, "No such file", isoroll.read, self.path("absent.csv"))

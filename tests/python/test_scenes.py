@@ -106,6 +106,8 @@ class Keywords(Case):
         refuse(isoroll.BadArgument, "must be in", tolerance=4)
         self.refuses(isoroll.BadInput, "no start", isoroll.Scene, k=1, J=(1, 2, 5))
         self.refuses(isoroll.BadInput, "no start", isoroll.Scene)
+        self.refuses(isoroll.BadInput, "give either", isoroll.Scene, k=1, J=(1, 2, 5), mass=2, surface="plane")
+        self.refuses(isoroll.BadArgument, "surrogates", isoroll.Scene, "\ud800.yaml")
 
 
 class Text(Case):
@@ -153,6 +155,11 @@ class Values(Case):
         self.assertEqual(one, other)
         self.assertEqual(hash(one), hash(other))
         self.assertEqual(len({one, other, isoroll.Scene(one, end=100.0)}), 1)
+        for odd in (dict(columns="t, n1"), dict(columns=["t", "n1\n"]), dict(method=" taylor"), dict(backend="'ball'"),
+                    dict(as_="both\n"), dict(end="5 # seconds")):  # what YAML takes
+            scene = isoroll.Scene(one, **odd)
+            self.assertEqual(isoroll.Scene(scene.text), scene)
+            self.assertEqual(isoroll.Scene(scene.text).columns, scene.columns)
         for change in (dict(end=99), dict(k=0.5000000001), dict(attitude=True), dict(as_="both")):
             self.assertNotEqual(isoroll.Scene(one, **change), one)
         self.assertEqual(isoroll.Scene(one, as_="both", end=5), isoroll.Scene(one, end=5, as_="both"))

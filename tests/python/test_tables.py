@@ -174,6 +174,16 @@ class Forms(Case):
         self.same(isoroll.run(WILD, times).t, np.ascontiguousarray(times))
 
 
+    def test_without_columns(self):
+        for table in (isoroll.Table(np.empty((3, 0)), []), isoroll.explain(WILD)):
+            self.assertEqual(table.rows.shape, (len(table),))
+            self.assertEqual(table.columns, ())
+            self.assertTrue(str(table) and table._repr_html_())
+        for columns, kind in (([1, 2], None), (["a", None], None), (["a", "b"], 5)):
+            make = lambda: isoroll.Table(np.zeros((1, 2)), columns, kind=kind)
+            self.refuses(isoroll.BadArgument, "are texts", make)
+
+
 class OldFiles(Case):
     def test_are_read(self):
         """Those that older versions wrote: the numbers that NumPy reads in CSV, and the same in HDF5."""

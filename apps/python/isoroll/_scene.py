@@ -73,6 +73,8 @@ class _Draft:
         old = next((self.sections[m] for m in ("reduced", "point") if m in self.sections), {})
         known = {key: old[key] for key in ("k", "J") if key in old}
         if "ball" in self.sections and model != "ball":
+            if self.base is None:
+                raise _errors.BadInput("a ball has mass, radius, inertia and surface, or k and J: give either")
             scene = self.base()
             known = {"k": scene.k, "J": scene.J.tolist()}
         others = [name for name in ("ball", "surface", "reduced", "point") if name != model]
@@ -224,8 +226,13 @@ class Scene(Owned):
         check(lib.iso_foreign_scene_set(ctx, self.pointer, key.encode(), encoded(value)), ctx)
         if key == "as":
             self._settings.pop("columns", None)
-        self._settings[key] = value
         self._find_columns()
+        self._settings[key] = self._setting(key)  # as the library has understood it
+
+    def _setting(self, key: str) -> Any:
+        if key == "columns":
+            return list(self._columns)
+        return float(self._numbers(key)[0]) if key in ("tolerance", "end", "step") else self._word(key)
 
     def _find_columns(self) -> None:
         numbers = (c_int * _MOST_COLUMNS)()
@@ -244,7 +251,7 @@ class Scene(Owned):
                 section.pop("columns", None)
                 section.pop("as", None)
             if not (key == "as" and value == "auto"):
-                section[key] = _setting(key, value)
+                section[key] = value
         return {name: value for name, value in found.items() if value != {}}
 
     @property
@@ -407,13 +414,6 @@ def _file(path: Union[str, "os.PathLike[str]"]) -> Tuple[bytes, str]:
         check(status, ctx)
         raise _errors.FileTrouble(f"'{name}' changes while it is read")
     return text, name
-
-
-def _setting(key: str, value: str) -> Any:
-    """A setting as a section has it."""
-    if key == "columns":
-        return value.split(",")
-    return float(value) if key in ("tolerance", "end", "step") else value
 
 
 def _canonical(value: Any) -> Any:

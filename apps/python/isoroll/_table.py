@@ -57,7 +57,7 @@ class Record(Owned):
         self._own(pointer, lib.iso_record_free)
 
     def columns(self) -> Tuple[str, ...]:
-        return tuple(lib.iso_record_name(self.pointer, c).decode()
+        return tuple(lib.iso_record_name(self.pointer, c).decode("utf-8", "surrogateescape")
                      for c in range(lib.iso_record_columns(self.pointer)))
 
     def lines(self) -> Lines:
@@ -122,6 +122,8 @@ class Table:
     def __init__(self, array: ArrayLike, columns: Sequence[str], lines: Optional[Mapping[str, Any]] = None, *,
                  kind: Optional[str] = None, record: Optional[Record] = None) -> None:
         numbers, names = doubles("array", array), tuple(columns)
+        if not all(isinstance(name, str) for name in (*names, kind or "")):
+            raise _errors.BadArgument(f"columns and kind are texts, not {names}, {kind!r}")
         if numbers.ndim == 0 or numbers.shape[-1] != len(names):
             raise _errors.BadArgument(f"array has shape {numbers.shape}, and there are {len(names)} columns: its "
                                       "last length must be their number")
@@ -241,6 +243,8 @@ class Table:
         """The same memory as a structured array, shape (...): rows["t"], rows[5]["omega1"]. Only if the array has
         gaps, it is a copy, which cannot be written to."""
         dtype, array = np.dtype([(name, np.float64) for name in self.columns]), np.ascontiguousarray(self.array)
+        if not self.columns:
+            return np.empty(array.shape[:-1], dtype)
         if not np.may_share_memory(array, self.array):
             array.flags.writeable = False
         return array.view(dtype)[..., 0]
@@ -290,8 +294,8 @@ class Table:
 
     def _cells(self) -> List[List[str]]:
         """The first and the last rows as texts, column by column; "..." stands for rows between."""
-        flat = self.array.reshape(-1, len(self.columns))
-        count = len(flat)
+        count = int(np.prod(self.array.shape[:-1]))
+        flat = self.array.reshape(count, len(self.columns))
         shown = list(range(count)) if count <= 12 else [*range(5), None, *range(count - 5, count)]
         words = {name: np.ravel(self[name]) for name in self._words}
         return [["..." if row is None else str(words[name][row]) if name in words else f"{flat[row, i]:.6g}"
