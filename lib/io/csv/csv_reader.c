@@ -202,7 +202,7 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
     iso_status status = ISO_OK;
     for (char *rest = line; rest && status == ISO_OK; c->format.fields++) {
         const field f = next_field(separator, &rest);
-        if (c->format.fields == ISO_MOST_FIELDS) return fail(c, f.text, "more than 1024 columns");
+        if (c->format.fields == ISO_MOST_CSV_FIELDS) return fail(c, f.text, "more than 1024 columns");
         f.text[f.length] = '\0';
         c->format.column[c->format.fields] = -1;
         const int known = iso_column_find(f.text);
