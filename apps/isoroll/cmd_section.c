@@ -98,15 +98,12 @@ static void judge(iso_context *ctx, const iso_scene *scene, const iso_section_op
     enum { MOST_ORBITS = 3000 };
     iso_chaos *chaos = NULL;
     iso_chaos_options c = iso_chaos_defaults();
-    c.starts = how->starts;
-    c.seed = how->seed;
-    c.at = how->at;
-    c.at_count = how->at_count;
+    c.at_count = section_picture_starts(picture, &c.at);
     c.models = r->models == ISO_SHOW_BOTH ? ISO_SHOW_BALL : r->models;
     c.axis = r->nature.axis;
     c.tolerance = how->tolerance;
     c.threads = how->threads;
-    if (r->orbits > MOST_ORBITS) return;
+    if (r->orbits > MOST_ORBITS || c.at_count == 0) return;
     if (iso_chaos_run(ctx, scene, &c, &chaos) == ISO_OK) section_picture_judge(ctx, picture, chaos);
     iso_chaos_free(chaos);
 }

@@ -184,6 +184,13 @@ if has gnuplot "--plot"; then
     run 0 section wild.yaml --starts 30 --crossings 100 -o wild.csv --plot wild.svg --quiet
     silent
     check "a picture of both: chaotic orbits" grep -q ">chaotic<" wild.svg
+    # each orbit has the verdict of its own: for J = 1, 2, 5 those with |omega3| > 0.6 |omega| are regular
+    mkdir bin && printf '#!/bin/sh\ncat >"%s"/script\necho "</svg>"\n' "$PWD" >bin/gnuplot && chmod +x bin/gnuplot
+    PATH=$PWD/bin:$PATH "$isoroll" section wild.yaml --starts 30 --crossings 100 -o wild.csv --plot none.svg --quiet
+    # 11579568 is the grey of chaotic orbits
+    sed -n '/^\$ball <</,/^EOD/p' script |
+        awk 'NF == 3 && $2 * $2 > 0.36 { n[$3 == 11579568]++ } END { print n[0] + 0, n[1] + 0 }' >a
+    check "outside of the sea all orbits are in colours" grep -q '^[1-9][0-9]* 0$' a
     run 0 section tame.yaml --starts 30 --crossings 100 -o tame.csv --plot tame.svg --quiet
     check_not "k = -1: none is chaotic" grep -q ">chaotic<" tame.svg
     check "its axes" grep -q "in the units of the scene" wild.svg

@@ -24,7 +24,8 @@ struct section_picture {
     bool last_kept;
     iso_record *kept;
     size_t orbits;
-    iso_record *grey; /* of each orbit: 1: ball and point have parted, or a verdict says that it is chaotic */
+    iso_record *first, *who; /* the first crossing of each orbit that has one, (l, x), and whose it is */
+    iso_record *grey;        /* of each orbit: 1: ball and point have parted, or a verdict says that it is chaotic */
 };
 
 iso_status section_picture_create(iso_context *ctx, const iso_record *header, section_picture **picture)
@@ -43,6 +44,8 @@ iso_status section_picture_create(iso_context *ctx, const iso_record *header, se
     p->plot.eps = eps && (!effects || level) ? strtod(eps, NULL) : 0; /* with other effects L is not G(l) x */
     p->plot.energy = level ? iso_coupling(&p->params, strtod(c, NULL)) : 0;
     ISO_TRY(iso_record_create(ctx, COLUMNS, names, &p->kept));
+    ISO_TRY(iso_record_create(ctx, 2, &names[L], &p->first));
+    ISO_TRY(iso_record_create(ctx, 1, names, &p->who));
     return iso_record_create(ctx, 1, &names[GREY], &p->grey);
 }
 
@@ -50,6 +53,8 @@ void section_picture_free(section_picture *p)
 {
     if (!p) return;
     iso_record_free(p->kept);
+    iso_record_free(p->first);
+    iso_record_free(p->who);
     iso_record_free(p->grey);
     free(p);
 }
@@ -84,7 +89,10 @@ iso_status section_picture_row(iso_context *ctx, section_picture *p, const doubl
 {
     const double hash = hash_of(p->rows++);
     if (p->l < 0) return ISO_OK;
+    const bool is_first = iso_record_rows(p->who) == 0 || (size_t)row[0] >= p->orbits;
     p->orbits = (size_t)row[0] + 1;
+    if (is_first) ISO_TRY(iso_record_add(ctx, p->first, 1, (double[]){row[p->l], row[p->x]}));
+    if (is_first) ISO_TRY(iso_record_add(ctx, p->who, 1, row));
     ISO_TRY(thin_out(ctx, p, MOST - 1));
     p->last_kept = hash < p->limit;
     if (!p->last_kept) return ISO_OK;
@@ -117,11 +125,18 @@ iso_status section_picture_pair(iso_context *ctx, section_picture *p, const iso_
     return ISO_OK;
 }
 
+size_t section_picture_starts(section_picture *p, const double (**starts)[2])
+{
+    const size_t count = iso_record_rows(p->first);
+    *starts = count > 0 ? (const double(*)[2])(const void *)iso_record_const_row(p->first, 0) : NULL;
+    return count;
+}
+
 iso_status section_picture_judge(iso_context *ctx, section_picture *p, const iso_chaos *chaos)
 {
-    for (size_t i = 0; i < p->orbits; i++) {
-        const iso_chaos_orbit *orbit = i == 0 ? &chaos->own : i <= chaos->starts ? &chaos->start[i - 1] : NULL;
-        ISO_TRY(set_grey(ctx, p, i, orbit && orbit->verdict == ISO_CHAOTIC));
+    for (size_t i = 0; i < chaos->starts && i < iso_record_rows(p->who); i++) {
+        const size_t orbit = (size_t)*iso_record_const_row(p->who, i);
+        ISO_TRY(set_grey(ctx, p, orbit, chaos->start[i].verdict == ISO_CHAOTIC));
     }
     p->plot.grey_means = "chaotic";
     return ISO_OK;

@@ -19,8 +19,11 @@ iso_status section_picture_row(iso_context *ctx, section_picture *p, const doubl
 iso_status section_picture_pair(iso_context *ctx, section_picture *p, const iso_crossing *ball,
                                 const iso_crossing *point);
 
-/* Tells which orbits are chaotic, by their numbers in the rows: these are drawn in grey. Without this call, the
- * orbits on which the two models part are drawn in grey. */
+/* The first crossing (l, x) of each orbit that has one. Gives how many; valid until the next row. */
+size_t section_picture_starts(section_picture *p, const double (**starts)[2]);
+
+/* Tells which orbits are chaotic, by those that start at these crossings: they are drawn in grey. Without this call,
+ * the orbits on which the two models part are drawn in grey. */
 iso_status section_picture_judge(iso_context *ctx, section_picture *p, const iso_chaos *chaos);
 
 /* Draws the picture. Errors: ISO_BAD_INPUT if the section is an event, which has no coordinates; those of
