@@ -222,6 +222,14 @@ iso_status iso_study_ask(iso_context *ctx, const iso_study *study, const iso_stu
     return status;
 }
 
+void *iso_study_keep(iso_study_result *result, void *found, const iso_field *fields, void (*free)(void *found))
+{
+    result->found = found;
+    result->fields = fields;
+    result->free = found ? free : NULL;
+    return found;
+}
+
 void iso_study_result_free(iso_study_result *result)
 {
     for (int i = 0; i < ISO_STUDY_TABLES; i++) {
