@@ -6,24 +6,16 @@ ISO_SOURCE=${ISO_SOURCE:-$(cd "$(dirname "$0")/.." && pwd)}
 . "$ISO_SOURCE/tests/cli/lib.sh"
 programs=$(dirname "$isoroll")
 
-# impossible REASON: the end
-impossible() {
-    skip Slurm "$1"
-    checks=1 # to skip is no failure
-    finish
-    exit
-}
-
-[ "$(id -u)" -eq 0 ] || impossible "a Slurm can be started by root alone"
-[ -x "$programs/isoroll-mpi" ] || impossible "isoroll-mpi is not built"
-command -v mpirun >/dev/null || impossible "mpirun is not installed"
+[ "$(id -u)" -eq 0 ] || impossible Slurm "a Slurm can be started by root alone"
+[ -x "$programs/isoroll-mpi" ] || impossible Slurm "isoroll-mpi is not built"
+command -v mpirun >/dev/null || impossible Slurm "mpirun is not installed"
 PATH=$programs:$PATH:/usr/sbin
 export PATH OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 if ! command -v slurmctld >/dev/null || ! command -v slurmd >/dev/null || ! command -v munged >/dev/null; then
-    command -v apt-get >/dev/null || impossible "slurmctld, slurmd or munged is missing"
+    command -v apt-get >/dev/null || impossible Slurm "slurmctld, slurmd or munged is missing"
     apt-get update -qq >/dev/null 2>&1
     DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends slurm-wlm munge >/dev/null 2>&1 ||
-        impossible "slurm-wlm and munge cannot be installed"
+        impossible Slurm "slurm-wlm and munge cannot be installed"
 fi
 
 # --- a Slurm of one machine; it stops when this script ends, whichever way
@@ -98,7 +90,7 @@ no_jobs() { list=$(squeue -h 2>/dev/null) && [ -z "$list" ]; }
 waits() { list=$(squeue -h -t PENDING 2>/dev/null) && [ -n "$list" ]; }
 
 ready() { sinfo -h -o %t 2>/dev/null | grep -q idle; }
-within 30 ready || { tail -n 3 munged.out slurmctld.log slurmd.log; impossible "Slurm does not start here"; }
+within 30 ready || { tail -n 3 munged.out slurmctld.log slurmd.log; impossible Slurm "Slurm does not start here"; }
 
 # --- the scripts as they are, with their own sweep at full length
 mkdir jobs && cd jobs && cp "$ISO_SOURCE"/examples/18_chaotic_share/*.yaml "$ISO_SOURCE"/examples/18_chaotic_share/*.sbatch .

@@ -9,19 +9,11 @@ build=$ISO_SOURCE/.build/package
 set -- "$build/isoroll"
 . "$ISO_SOURCE/tests/cli/lib.sh"
 
-# impossible REASON: the end
-impossible() {
-    skip "an empty Debian" "$1"
-    checks=1 # to skip is no failure
-    finish
-    exit
-}
-
-[ "$(id -u)" -eq 0 ] || impossible "only root can have one"
+[ "$(id -u)" -eq 0 ] || impossible "an empty Debian" "only root can have one"
 for tool in dpkg-deb dpkg-shlibdeps cmake; do
-    command -v $tool >/dev/null || impossible "$tool is not installed"
+    command -v $tool >/dev/null || impossible "an empty Debian" "$tool is not installed"
 done
-[ -n "$tar" ] || command -v debootstrap >/dev/null || impossible "debootstrap is not installed"
+[ -n "$tar" ] || command -v debootstrap >/dev/null || impossible "an empty Debian" "debootstrap is not installed"
 
 # --- the packages, and what lintian says of them
 { nice cmake -S "$ISO_SOURCE" -B "$build" -DCMAKE_INSTALL_PREFIX=/usr -DBUILD_TESTING=OFF &&
@@ -37,9 +29,10 @@ fi
 root=$work/debian
 mkdir "$root"
 if [ -n "$tar" ]; then
-    tar -C "$root" -xpf "$tar" || impossible "$tar cannot be unpacked"
+    tar -C "$root" -xpf "$tar" || impossible "an empty Debian" "$tar cannot be unpacked"
 else
-    nice debootstrap --variant=minbase bookworm "$root" >log 2>&1 || impossible "debootstrap fails: $(tail -n 1 log)"
+    nice debootstrap --variant=minbase bookworm "$root" >log 2>&1 ||
+        impossible "an empty Debian" "debootstrap fails: $(tail -n 1 log)"
 fi
 cp /etc/resolv.conf "$root/etc/"
 mkdir "$root/debs" && cp "$build"/*.deb "$root/debs/"
@@ -54,7 +47,7 @@ done_inside() {
     checks=$((checks + 1))
     inside "$2" || fail "$1"
 }
-inside 'apt-get update -qq' || impossible "apt-get update fails: $(tail -n 1 err)"
+inside 'apt-get update -qq' || impossible "an empty Debian" "apt-get update fails: $(tail -n 1 err)"
 start=$(date +%s)
 done_inside "apt installs the packages" 'apt-get install -y -qq ./debs/isoroll_*.deb'
 echo "apt-get install ./isoroll_*.deb: $(($(date +%s) - start)) s"

@@ -8,17 +8,9 @@ build=$ISO_SOURCE/.build/wheel
 set -- "$build/isoroll"
 . "$ISO_SOURCE/tests/cli/lib.sh"
 
-# impossible REASON: the end
-impossible() {
-    skip "an empty Debian" "$1"
-    checks=1 # to skip is no failure
-    finish
-    exit
-}
-
-[ "$(id -u)" -eq 0 ] || impossible "only root can have one"
+[ "$(id -u)" -eq 0 ] || impossible "an empty Debian" "only root can have one"
 for tool in debootstrap cmake; do
-    command -v $tool >/dev/null || impossible "$tool is not installed"
+    command -v $tool >/dev/null || impossible "an empty Debian" "$tool is not installed"
 done
 python=/usr/bin/python3
 

@@ -146,8 +146,11 @@ static iso_status forget_end(shell *s)
 
 static int run(iso_context *ctx, const void *options_given)
 {
-    static const shell_parts parts = {
-        .study = &iso_frequencies_study, .change = forget_end, .print = print_table, .draw = draw};
+    static const shell_parts parts = {.study = &iso_frequencies_study,
+                                      .change = forget_end,
+                                      .stopped = "no frequencies",
+                                      .print = print_table,
+                                      .draw = draw};
     return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
 }
 

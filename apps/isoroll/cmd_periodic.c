@@ -296,7 +296,6 @@ const command command_periodic = {
         "section, unstable ones in grey.",
     .example = "isoroll periodic scene.yaml --period 8 --plot orbits.svg",
     .exits = "1: interrupted, or a branch could not be followed to its end\n"
-             "3: bad input: an effect that acts, other than 'level', two equal moments, a ball at rest, a range "
-             "without the "
-             "scene's value",
+             "2: wrong usage, or a range without the scene's value\n"
+             "3: bad input: an effect that acts, other than 'level', two equal moments, a ball at rest",
 };

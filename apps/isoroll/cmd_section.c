@@ -203,7 +203,8 @@ static void print_clouds(const shell *s)
 
 static int run(iso_context *ctx, const void *options_given)
 {
-    static const shell_parts clouds = {.study = &iso_section_study, .check = check_cloud, .print = print_clouds};
+    static const shell_parts clouds = {
+        .study = &iso_section_study, .check = check_cloud, .stopped = "clouds are missing", .print = print_clouds};
     const options *o = options_given;
     if (o->study.cloud == 0) return section(ctx, o);
     return shell_run(ctx, &clouds, o, &(shell_options){.file = o->shell.file});

@@ -111,7 +111,7 @@ except ImportError as error:
 # chaotic. In the plane the same neighbours stay together; their distances grow by less than 100.
 
 # %%
-w, n = scene.start[:3], scene.start[3:]
+w, n = scene.angular_velocity, scene.normal
 angle = 1e-8 * np.linspace(-1, 1, 100)[:, None]
 start = np.hstack([np.cos(angle) * w + np.sin(angle) * np.cross(n, w), np.tile(n, (100, 1))])
 times = np.arange(1, 201)
@@ -138,7 +138,8 @@ section.plot()
 # ## The chaotic share
 #
 # How large is the sea? `chaos` follows each start until its neighbours tell. Orbit 0 is the scene's own; it is chaotic.
-# So is about half of the section; the 95 % interval says how sure that is. `help(isoroll.chaos)` has all options.
+# So is about half of the section; the 95 % interval says how sure that is. Orbits that are not decided count at its
+# upper end: more turns make it narrow. `help(isoroll.chaos)` has all options.
 
 # %%
 chaos = isoroll.chaos(scene, starts=starts, turns=turns, model="point")
@@ -175,7 +176,7 @@ print(f"after t = {closed.end:.2f} it is back to {np.abs(ends.n[1] - ends.n[0]).
 #
 # The rotation about the middle axis is unstable. The curve of orbits that leave it meets its mirror curve with the
 # slopes m and -m. If m is not 0, the curves cross, and no other analytic integral exists. m is 0.1419 at k = 1/2. It
-# falls with k, and is 0 at k = 1: there it is smaller than its error. Beyond, m is negative, and smaller than 1e-3.
+# falls with k, and is 0 at k = 1: there it is smaller than its error. Beyond, m is negative, and |m| is below 1e-3.
 
 # %%
 splitting = isoroll.splitting(scene, k=ks, digits="double")
@@ -193,9 +194,9 @@ figure, axes = plt.subplots(2, 2, figsize=(178 / 25.4, 135 / 25.4), layout="cons
 section.plot(ax=axes[0])
 for at in axes[0]:
     at.collections[0].set_sizes([0.5])  # dots for a small figure
-for stable, look in ((True, "ok"), (False, "xk")):
-    rows = (periodic.stability == "stable") == stable
-    axes[0, 1].plot(periodic.l[rows], periodic.M[rows, 2], look, ms=4, mfc="white", label="stable" if stable else "unstable")
+stable = periodic.stability == "stable"
+for rows, look, word in ((stable, "ok", "stable"), (~stable, "xk", "unstable")):
+    axes[0, 1].plot(periodic.l[rows], periodic.M[rows, 2], look, ms=4, mfc="white", label=word)
 axes[0, 1].set_ylim(bottom=-9)
 axes[0, 1].legend(loc="lower center", ncols=3)
 sweep.plot(ax=axes[1, 0])

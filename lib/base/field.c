@@ -143,16 +143,19 @@ static void keep(void *data, const char *name, const iso_field *field, const iso
 {
     columns *c = data;
     (void)value;
-    if (c->count == ISO_MOST_FIELDS) return;
-    memcpy(c->name[c->count], name, strlen(name) + 1);
-    c->field[c->count++] = field;
+    if (c->count++ >= ISO_MOST_FIELDS) return;
+    memcpy(c->name[c->count - 1], name, strlen(name) + 1);
+    c->field[c->count - 1] = field;
 }
 
 iso_status iso_columns_create(iso_context *ctx, const iso_field *fields, iso_record **record)
 {
     columns c = {.count = 0};
     const char *names[ISO_MOST_FIELDS];
+    *record = NULL;
     iso_columns_visit(fields, NULL, keep, &c);
+    if (c.count > ISO_MOST_FIELDS)
+        return ISO_FAIL_ARGUMENT(ctx, "", "%zu columns are too many: at most %d", c.count, ISO_MOST_FIELDS);
     for (size_t i = 0; i < c.count; i++) names[i] = c.name[i];
     const iso_status status = iso_record_create(ctx, c.count, names, record);
     for (size_t i = 0; status == ISO_OK && i < c.count; i++) {

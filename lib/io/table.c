@@ -59,13 +59,18 @@ iso_status iso_table_check_format(iso_context *ctx, const char *path)
     return check(ctx, path, iso_table_is_hdf5(path));
 }
 
-bool iso_table_has_words(const char *name)
+bool iso_table_has_words(const char *kind, const char *name)
 {
+    static const struct {
+        const char *kind, *name;
+    } own[] = {{"check", "name"}, {"check", "of"}, {"section cloud", "carried"}, {"section cloud", "worst"}};
     static const char *const names[] = {"verdict",  "ball_verdict", "point_verdict", "stability",
                                         "symmetry", "line",         "event",         "kind",
                                         "backend",  "method",       "failure",       "reason"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(name, names[i]) == 0) return true;
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        if (strcmp(kind, own[i].kind) == 0 && strcmp(name, own[i].name) == 0) return true;
     return false;
 }
 
@@ -218,18 +223,60 @@ static iso_status look_for_words(iso_context *ctx, iso_table_writer *w, const is
     for (size_t i = 0; i < iso_record_columns(header); i++) {
         if (!iso_record_has_words(header, i)) continue;
         w->words = header;
-        if (iso_table_has_words(iso_record_name(header, i))) continue;
+        if (iso_table_has_words(w->kind, iso_record_name(header, i))) continue;
         return ISO_FAIL_ARGUMENT(ctx, "", "the column '%s' cannot have words", iso_record_name(header, i));
     }
+    return ISO_OK;
+}
+
+/* Whether reading the line back gives the same key and value. */
+static bool is_line(const char *key, const char *value)
+{
+    const size_t k = strlen(key), v = strlen(value);
+    if (k == 0 || strpbrk(key, ":\r\n") || strpbrk(value, "\r\n")) return false;
+    if (strchr(" \t", key[0]) || strchr(" \t", key[k - 1])) return false;
+    return v == 0 || (!strchr(" \t", value[0]) && !strchr(" \t", value[v - 1]));
+}
+
+/* A text of whole lines, under a key that is one word. */
+static bool is_text(const char *key, const char *value)
+{
+    const size_t length = strlen(value);
+    return *key && !strpbrk(key, " \t:|\r\n") && length > 0 && value[length - 1] == '\n';
+}
+
+static iso_status check_line(iso_context *ctx, const char *key, const char *value)
+{
+    if (is_line(key, value) || is_text(key, value)) return ISO_OK;
+    return ISO_FAIL_ARGUMENT(ctx, "",
+                             "'%s' cannot be a line '# key: value': a key has no colon, and both are one line", key);
+}
+
+/* Whether both formats give the name of a column back: for CSV no comma and no quote, for HDF5 a name of a dataset. */
+static iso_status check_column(iso_context *ctx, const char *name)
+{
+    if (*name && *name != '#' && !strpbrk(name, ",\"\r\n") && strcmp(name, ".") && strcmp(name, "..")) return ISO_OK;
+    return ISO_FAIL_ARGUMENT(ctx, name, "a table cannot have a column '%s': a file would not give the name back",
+                             name);
+}
+
+static iso_status check_names(iso_context *ctx, const iso_record *header)
+{
+    const char *key, *value;
+    for (size_t i = 0; i < iso_record_columns(header); i++) ISO_TRY(check_column(ctx, iso_record_name(header, i)));
+    for (size_t i = 0; iso_record_line(header, i, &key, &value); i++) ISO_TRY(check_line(ctx, key, value));
     return ISO_OK;
 }
 
 iso_status iso_table_write_header(iso_context *ctx, iso_table_writer *w, const iso_record *header)
 {
     if (w->header) return ISO_FAIL_ARGUMENT(ctx, "", "the header is already written");
+    if (iso_record_columns(header) == 0)
+        return ISO_FAIL_ARGUMENT(ctx, "", "a table needs columns in a file; this one, '%s', has only lines", w->kind);
     if (w->finite && iso_record_columns(header) > (size_t)iso_columns_count())
         return ISO_FAIL_ARGUMENT(ctx, "", "a trajectory has at most %d columns", iso_columns_count());
     ISO_TRY(look_for_words(ctx, w, header));
+    ISO_TRY(check_names(ctx, header));
     ISO_TRY(iso_record_create_like(ctx, header, 0, NULL, &w->header));
     return w->format->header(ctx, w, header);
 }
@@ -259,6 +306,7 @@ iso_status iso_table_write_row(iso_context *ctx, iso_table_writer *w, const doub
 
 iso_status iso_table_write_line(iso_context *ctx, iso_table_writer *w, const char *key, const char *value)
 {
+    ISO_TRY(check_line(ctx, key, value));
     return w->format->line(ctx, w, key, value);
 }
 

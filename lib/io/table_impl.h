@@ -73,8 +73,8 @@ struct iso_table_writer {
     void *data;
 };
 
-/* Whether a name is that of a column of words. */
-bool iso_table_has_words(const char *name);
+/* Whether a name is that of a column of words in tables of this kind. */
+bool iso_table_has_words(const char *kind, const char *name);
 
 /* Whether a file that is to be written is HDF5. */
 bool iso_table_is_hdf5(const char *path);

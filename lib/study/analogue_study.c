@@ -252,10 +252,8 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     char *text = NULL;
     size_t size;
     iso_scene scene;
-    iso_analogue_found *f = result->found = calloc(1, sizeof *f);
+    iso_analogue_found *f = iso_study_keep(result, calloc(1, sizeof *f), fields, free_found);
     if (!f) return iso_context_no_memory(ctx, "a ball");
-    result->fields = fields;
-    result->free = free_found;
     ISO_TRY(state(ctx, subject->scene, options, &t));
     ISO_TRY(answer(ctx, options, &t, &f->analogue, &scene));
     f->ball = f->analogue.has_body ? f->analogue.body : f->analogue.reduced;

@@ -144,9 +144,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
                                                   c->run[ISO_BY_EXACT].trajectory,
                                                   c->from_exact[ISO_BALL],
                                                   c->from_exact[ISO_POINT]};
-    result->found = c;
-    result->fields = iso_comparison_fields;
-    result->free = free_comparison;
+    iso_study_keep(result, c, iso_comparison_fields, free_comparison);
     for (int i = 0; i <= (c->runs == ISO_BACKENDS ? 5 : 2); i++) {
         result->table[i] = tables[i];
         if (tables[i]) iso_record_set_kind(tables[i], i > 0 && i < 4 ? "trajectory" : "compare");

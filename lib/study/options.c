@@ -113,7 +113,9 @@ iso_status iso_study_set(iso_context *ctx, const iso_study *study, const char *n
     const char *names[32];
     char suggested[ISO_SUGGEST_SIZE];
     size_t count = 0;
-    for (; o->name && strcmp(o->name, name) != 0; o++) names[count++] = o->name;
+    for (; o->name && strcmp(o->name, name) != 0; o++) {
+        if (count < sizeof names / sizeof *names) names[count++] = o->name;
+    }
     if (!o->name)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "%s has no option '%s'; %s", study->name, name,
                                 iso_suggest(suggested, name, count, names));
@@ -218,6 +220,14 @@ iso_status iso_study_ask(iso_context *ctx, const iso_study *study, const iso_stu
     if (status != ISO_OK && (!result->table[0] || iso_record_rows(result->table[0]) == 0))
         iso_study_result_free(result);
     return status;
+}
+
+void *iso_study_keep(iso_study_result *result, void *found, const iso_field *fields, void (*free)(void *found))
+{
+    result->found = found;
+    result->fields = fields;
+    result->free = found ? free : NULL;
+    return found;
 }
 
 void iso_study_result_free(iso_study_result *result)

@@ -117,6 +117,10 @@ iso_status iso_scene_apply(iso_context *ctx, const iso_scene_changes *change, is
         *(T *)options = __VA_ARGS__;                                                                                 \
     }
 
+/* Makes `found` the struct of the result, with what describes and frees it, and returns it; NULL, for which there was
+ * no memory, is never freed. */
+void *iso_study_keep(iso_study_result *result, void *found, const iso_field *fields, void (*free)(void *found));
+
 /* Passes a remark on, in printf's words. */
 void iso_study_note(const iso_study_result *result, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -212,6 +212,22 @@ static void test_copy(void)
              "a copy without one");
 }
 
+/* A row with more columns than a list can have would be written past its end. */
+static void test_too_many(iso_context *ctx)
+{
+    static const iso_field wide[] = {{.name = "a", .count = ISO_MOST_FIELDS, .unit = "", .doc = "just as many"},
+                                     ISO_FIELD_END};
+    static const iso_field wider[] = {{.name = "a", .count = ISO_MOST_FIELDS, .unit = "", .doc = "just as many"},
+                                      {.name = "b", .unit = "", .doc = "one more"},
+                                      ISO_FIELD_END};
+    iso_record *record;
+    gsl_test(iso_columns_create(ctx, wide, &record) != ISO_OK || iso_record_columns(record) != ISO_MOST_FIELDS,
+             "the most columns");
+    iso_record_free(record);
+    gsl_test(iso_columns_create(ctx, wider, &record) != ISO_BAD_ARGUMENT || record, "one more column is refused");
+    iso_record_free(record);
+}
+
 int main(void)
 {
     inner others[3] = {{.x = 10}, {.x = 11}, {.x = 12}};
@@ -236,6 +252,7 @@ int main(void)
     test_columns(ctx, &o);
     test_functions(ctx, &o);
     test_record(ctx, &o);
+    test_too_many(ctx);
     iso_context_free(ctx);
     return gsl_test_summary();
 }

@@ -23,6 +23,7 @@ scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml
 run 0 list tables
 cp out tables
 check "each column has a meaning" awk '/^    [^ ]/ && NF < 3 { print; bad = 1 } END { exit bad }' tables
+writes section section.csv section scene.yaml --crossings 3 -o
 writes chaos chaos.csv chaos scene.yaml --turns 20 --csv
 writes periodic periodic.csv periodic scene.yaml --period 1 -o
 writes "periodic follow" follow.csv periodic scene.yaml --period 1 --orbit 1 --follow k=0.49:0.51 -o

@@ -156,4 +156,11 @@ END
               print least }' ball.frequencies)" 1e-3
 done
 
+# --- an interruption says so
+if interruptible "Ctrl-C"; then
+    signalled INT "worked 4" frequencies "$source/examples/16_sections/scene.yaml" --turns 100000
+    check "interrupted: exit status 1" test $status -eq 1
+    check "interrupted: says so" grep -q "interrupted: no frequencies" err
+fi
+
 finish

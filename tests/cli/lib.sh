@@ -125,6 +125,14 @@ skip() {
     echo "SKIP $(basename "$0" .sh): $1: $2"
 }
 
+# impossible NAME REASON: nothing of the script can be tried here: it ends, and to skip is no failure
+impossible() {
+    skip "$1" "$2"
+    checks=1
+    finish
+    exit
+}
+
 # has TOOL NAME: the tool is installed; if it is not, NAME is skipped
 has() {
     command -v "$1" >/dev/null || { skip "$2" "$1 is not installed"; return 1; }

@@ -157,6 +157,9 @@ if interruptible "Ctrl-C"; then
     check "interrupted: exit status 1" test $status -eq 1
     check "interrupted: says so" grep -q "interrupted: [0-9]* crossings were written" err
     check "interrupted: all rows there are" grep -q "interrupted: $(rows stopped.csv | wc -l) crossings" err
+    signalled INT "worked 4" section wild.yaml --cloud 1000000
+    check "interrupted clouds: exit status 1" test $status -eq 1
+    check "interrupted clouds: says so" grep -q "interrupted: clouds are missing" err
 fi
 
 # --- clouds: the free flow and the returns keep the measure, a ball that loses energy does not

@@ -133,7 +133,7 @@ static void check_periodic(const iso_foreign_scene *scene, const iso_scene *same
     for (size_t i = 0; i < iso_record_rows(table[0]); i++)
         low = fmin(low, cell(table[0], i, "k")), high = fmax(high, cell(table[0], i, "k"));
     gsl_test(low != 0.45 || high != 0.55, "periodic: from %g to %g", low, high);
-    gsl_test(ask(scene, "periodic", "period=2\nfollow=k=5:6") != ISO_BAD_INPUT || table[0], "periodic: out of range");
+    gsl_test(ask(scene, "periodic", "period=2\nfollow=k=5:6") != ISO_BAD_ARGUMENT || table[0], "periodic: out of range");
     gsl_test(!refused(scene, NULL, "periodic", "chart=J2\nfollow=k=0.4:0.6", "chart"), "periodic: chart and follow");
     gsl_test(!refused(scene, NULL, "periodic", "steps=3", "steps"), "periodic: steps of no chart");
 }

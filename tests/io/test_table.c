@@ -56,7 +56,9 @@ static const struct {
     {"cost", "@backend,@method,tolerance,error,steps,@failure"},
     {"sweep", "point,k,state_n1,status,@reason"},
     {"sweep part", "point,k,state_n1,status,@reason"},
-    {"something new", "a,b,omega2"},
+    {"check", "@name,worst,row,@of,above_the_bound"},
+    {"section cloud", "@carried,kept,p,@worst,@failure"},
+    {"something new", "a,b,omega2,worst,name"},
     {"something new", "@method"},
 };
 
@@ -103,10 +105,10 @@ static iso_record *make(const char *kind, const char *columns, size_t rows)
             if (is_word[c])
                 iso_record_intern(ctx, r, words[(3 * i + c) % 7], &row[c]);
             else
-                row[c] = finite               ? numbers[(i + c) % 9]
-                         : (i + c) % 5 == 4   ? (double)NAN
+                row[c] = finite              ? numbers[(i + c) % 9]
+                         : (i + c) % 5 == 4  ? (double)NAN
                          : (i + c) % 11 == 3 ? -INFINITY
-                                              : numbers[(i + c) % 9];
+                                             : numbers[(i + c) % 9];
     }
     if (strncmp(kind, "sweep", 5) == 0) make_sweep(r);
     return r;
@@ -205,6 +207,42 @@ static void test_words(void)
     iso_record_set_words(r, 1, true);
     gsl_test(iso_table_write(ctx, in_folder("words.csv"), r) != ISO_BAD_ARGUMENT,
              "a column of words that a reader would not know is refused");
+    iso_record_free(r);
+}
+
+/* --- what a file would not give back ---------------------------------------------------------------------------- */
+
+/* Refused by both formats, and nothing is left of the file. */
+static void refuse_write(const char *kind, const char *columns, const char *key, const char *value)
+{
+    iso_record *r = make(kind, columns, 2);
+    if (key) iso_record_set(ctx, r, key, value);
+    for (int i = 0; i < (has_hdf5 ? 2 : 1); i++) {
+        const char *path = in_folder(i ? "table.h5" : "table.csv");
+        unlink(path);
+        gsl_test(iso_table_write(ctx, path, r) != ISO_BAD_ARGUMENT || access(path, F_OK) == 0,
+                 "%s with the columns %s, %s: %s", path, columns, key ? key : "no line", iso_context_message(ctx));
+    }
+    iso_record_free(r);
+}
+
+static void test_lost(void)
+{
+    static const char *const columns[] = {".", "..", "#k,l", "a\"b,l", "a\nb,l"};
+    static const char *const lines[][2] = {{"a:b", "x"}, {"a", " x"}, {"a", "x\r"}, {"a", "x\ny"}, {"", "x"}};
+    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) refuse_write("mine", columns[i], NULL, NULL);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) refuse_write("mine", "a,b", lines[i][0], lines[i][1]);
+    iso_record *r;
+    if (iso_record_create(ctx, 0, NULL, &r) != ISO_OK) exit(1);
+    gsl_test(iso_table_write(ctx, in_folder("table.csv"), r) != ISO_BAD_ARGUMENT, "a table without columns");
+    iso_record_free(r);
+    if (!has_hdf5) return;
+    r = make("something new", "x,k,state_n1,failure_of,why", 2);
+    iso_record_set_kind(r, "sweep");
+    iso_record_set(ctx, r, "columns", "vary/k state/n1");
+    gsl_test(iso_table_write(ctx, in_folder("table.h5"), r) != ISO_BAD_ARGUMENT ||
+                 strcmp(iso_context_about(ctx), "point") != 0,
+             "a sweep without point, status and reason: %s", iso_context_message(ctx));
     iso_record_free(r);
 }
 
@@ -350,13 +388,14 @@ int main(void)
     if (!ctx || !mkdtemp(folder)) return 1;
     test_kinds();
     test_words();
+    test_lost();
     test_fields();
     test_finite();
     test_damaged();
     test_tolerated();
     test_long_lines();
-    static const char *const files[] = {"table.csv", "table.h5", "again.csv", "first.csv",
-                                        "bad.csv",   "good.csv", "long.csv", "fields.csv", "fields.h5"};
+    static const char *const files[] = {"table.csv", "table.h5", "again.csv",  "first.csv", "bad.csv",
+                                        "good.csv",  "long.csv", "fields.csv", "fields.h5"};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) unlink(in_folder(files[i]));
     gsl_test(rmdir(folder) != 0, "nothing is left over");
     iso_context_free(ctx);

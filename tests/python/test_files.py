@@ -82,6 +82,11 @@ class Files(Case):
         done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=True)
         self.assertEqual(done.stdout, "3\n")
         self.same_files(self.path("a.csv"), self.path("b.csv"))
+        with open(self.path("c.csv"), "wb") as file:
+            file.write(b"# isoroll mine 1\nt,\xb5\n0,1\n")
+        isoroll.read(self.path("c.csv")).write(self.path("d.csv"))
+        with open(self.path("d.csv"), "rb") as file:
+            self.assertIn(b"t,\xb5\n", file.read())
 
     def test_refused(self):
         self.refuses(isoroll.FileTrouble, "No such file", isoroll.read, self.path("absent.csv"))
@@ -249,6 +254,10 @@ class Tables(Case):
         for columns, lines in (({"t\0x": [1]}, {}), ({"t\nx": [1]}, {}), ({"t": [1]}, {"note": "a\0b"})):
             self.refuses(isoroll.BadArgument, "end of a line", isoroll.write, isoroll.trajectory(columns, **lines),
                          self.path("a.csv"))
+        for columns, words in (({"n": np.ones((3, 4))}, r"'n' has shape (3, 4), it must be (rows, 3)"),
+                               ({"w": np.ones((4, 3))}, "it must be (rows,); vectors are omega, n"),
+                               ({"q": np.ones((4, 3))}, "it must be (rows, 4)")):
+            self.refuses(isoroll.BadArgument, words, isoroll.trajectory, columns)
         self.assertEqual(isoroll.trajectory({"t": [], "n": np.ones((0, 3))}).n.shape, (0, 3))
         table = isoroll.trajectory({"s": [0, 1], "M1": [1, 2]}, k=1)
         self.assertEqual((table.columns, table.lines["model"]), (("s", "M1"), "point"))

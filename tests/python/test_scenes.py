@@ -49,6 +49,24 @@ class Keywords(Case):
         point = isoroll.Scene(k=-1, J=(6, 4, 2), eps=0.5, gamma=(1, 0, 0), M=(0, 0.1, 0.2))
         self.assertEqual((point.model, point.eps), ("point", 0.5))
         self.near(point.start, [0, 0.1, 0.2, 1, 0, 0], 0)
+        self.assertEqual((point.gamma.tolist(), point.M.tolist()), ([1, 0, 0], [0, 0.1, 0.2]))
+        self.assertEqual((body.normal.tolist(), body.angular_velocity.tolist()), ([0, 0, 1], [1, 0, 0]))
+        with self.assertRaisesRegex(AttributeError, "starts from a ball: it has no gamma"):
+            body.gamma
+        with self.assertRaisesRegex(AttributeError, "starts from a point: it has no normal"):
+            point.normal
+
+    def test_words_for_slips(self):
+        for slip, meant in (("omega", "angular_velocity"), ("n", "normal"), ("tol", "tolerance"), ("t_end", "end"),
+                            ("K", "k"), ("gravety", "gravity"), ("j", "J")):
+            with self.assertRaisesRegex(TypeError, f"no keyword '{slip}': did you mean '{meant}'"):
+                isoroll.Scene(WILD, **{slip: 1})
+        self.refuses(isoroll.BadInput, "no start: give normal and angular_velocity", isoroll.Scene, k=0.5, J=(1, 2, 5))
+        scene = isoroll.Scene(WILD)
+        for name in ("k", "normal", "anything"):
+            with self.assertRaisesRegex(AttributeError, rf"cannot be changed: isoroll.Scene\(scene, {name}=...\)"):
+                setattr(scene, name, 1)
+        self.assertEqual(scene, isoroll.Scene(WILD))
 
     def test_change_a_scene(self):
         for source in (WILD, isoroll.Scene(WILD), isoroll.Scene(WILD).text, isoroll.Scene(WILD).sections):
@@ -86,8 +104,10 @@ class Keywords(Case):
         refuse(isoroll.BadInput, "unknown key 'color'", gravity={"color": 1})
         refuse(isoroll.BadArgument, "not object", k=object())
         refuse(isoroll.BadArgument, "must be in", tolerance=4)
-        self.refuses(isoroll.BadInput, "missing", isoroll.Scene, k=1, J=(1, 2, 5))
-        self.refuses(isoroll.BadInput, "missing", isoroll.Scene)
+        self.refuses(isoroll.BadInput, "no start", isoroll.Scene, k=1, J=(1, 2, 5))
+        self.refuses(isoroll.BadInput, "no start", isoroll.Scene)
+        self.refuses(isoroll.BadInput, "give either", isoroll.Scene, k=1, J=(1, 2, 5), mass=2, surface="plane")
+        self.refuses(isoroll.BadArgument, "surrogates", isoroll.Scene, "\ud800.yaml")
 
 
 class Text(Case):
@@ -135,6 +155,11 @@ class Values(Case):
         self.assertEqual(one, other)
         self.assertEqual(hash(one), hash(other))
         self.assertEqual(len({one, other, isoroll.Scene(one, end=100.0)}), 1)
+        for odd in (dict(columns="t, n1"), dict(columns=["t", "n1\n"]), dict(method=" taylor"), dict(backend="'ball'"),
+                    dict(as_="both\n"), dict(end="5 # seconds")):  # what YAML takes
+            scene = isoroll.Scene(one, **odd)
+            self.assertEqual(isoroll.Scene(scene.text), scene)
+            self.assertEqual(isoroll.Scene(scene.text).columns, scene.columns)
         for change in (dict(end=99), dict(k=0.5000000001), dict(attitude=True), dict(as_="both")):
             self.assertNotEqual(isoroll.Scene(one, **change), one)
         self.assertEqual(isoroll.Scene(one, as_="both", end=5), isoroll.Scene(one, end=5, as_="both"))

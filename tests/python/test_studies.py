@@ -55,6 +55,10 @@ class Sections(Case):
         refuse(isoroll.BadArgument, "1e9 rows", starts=2**62)
         refuse(isoroll.BadArgument, "crossings is", crossings=2**62)
         refuse(isoroll.BadArgument, "1e9 rows", crossings=10**6, starts=1000)
+        refuse(isoroll.BadArgument, "1e9 rows", crossings=np.int64(2**62), starts=None)
+        refuse(isoroll.BadArgument, "crossings is '1,2'", crossings=np.array([1, 2]))
+        refuse(isoroll.BadArgument, "starts is '1,2'", starts=[1, 2])
+        refuse(isoroll.BadArgument, "(starts, 2)", at=0.5)
         refuse(isoroll.BadArgument, "seed is '-1'", seed=-1)
         refuse(isoroll.BadArgument, "", event=("n1", np.nan))
         refuse(isoroll.BadArgument, "", tol=2)
@@ -64,6 +68,22 @@ class Sections(Case):
         refuse(isoroll.BadArgument, "expected ball, point or both", model="neither")
         refuse(isoroll.BadInput, "", at=[[0, 2]])
         self.refuses(isoroll.BadInput, "", isoroll.section, example("10_bowl"))
+
+
+class Written(Case):
+    def test_each_table_reads_back(self):
+        chaos, section = isoroll.chaos(WILD, turns=100), isoroll.section(WILD, crossings=3)
+        for table in (chaos, chaos.indicators["ball"], section, section.point, isoroll.section(WILD, cloud=512),
+                      isoroll.check(isoroll.run(BALL)), isoroll.compare(isoroll.Scene(BALL, end=2))):
+            for path in map(self.path, ("a.csv", "a.h5")):
+                with self.subTest(kind=table.kind, path=path):
+                    table.write(path)
+                    again = isoroll.read(path)
+                    self.assertEqual((again.kind, again.columns, again.lines), (table.kind, table.columns, table.lines))
+                    for name in table.columns:
+                        np.testing.assert_array_equal(again[name], table[name])
+        for table in (isoroll.explain(WILD), isoroll.frequencies(BALL, turns=20)):
+            self.refuses(isoroll.BadArgument, "has only lines", table.write, self.path("b.csv"))
 
 
 class Names(Case):

@@ -74,6 +74,10 @@ class Lines(Case):
         self.assertEqual(lines["isoroll"], isoroll.__version__)
         self.assertIsInstance(lines["k"], float)
         self.assertEqual(lines["J"].tolist(), [1, 2, 5])
+        with self.assertRaisesRegex(KeyError, "no line 'K': the table has model, k, J, h"):
+            lines["K"]
+        with self.assertRaisesRegex(AttributeError, r"no column 'h': .*it is a line: table.lines\['h'\]"):
+            isoroll.run(BALL).h
         with self.assertRaisesRegex(ValueError, "read-only"):
             lines["J"][0] = 2
         self.assertEqual(lines.get("absent", 3), 3)
@@ -93,6 +97,7 @@ class Lines(Case):
         self.assertEqual(found.angles[0]["frequency"]["t"], found.lines["angles.0.frequency.t"])
         self.assertEqual(found.rotation_number, found.lines["rotation_number"])
         self.assertIn("<pre>", found._repr_html_())
+        self.assertLess(len(repr(found)), 250)
         with self.assertRaises(AttributeError):
             found.absent
 
@@ -131,8 +136,9 @@ class Forms(Case):
         with mock.patch.dict(sys.modules, pandas=mock.Mock(DataFrame=Frame)):
             frame = table.to_pandas()
             self.assertTrue(np.shares_memory(frame.data, table.array))
-            self.assertEqual((frame.columns, frame.copy, frame.attrs), (list(table.columns), False,
-                                                                         dict(table.lines.text)))
+            self.assertEqual((frame.columns, frame.copy), (list(table.columns), False))
+            self.assertEqual((frame.attrs["k"], frame.attrs["J"], frame.attrs["model"]), (-1.0, [1, 2, 5], "ball"))
+            self.assertEqual(frame.attrs.keys(), table.lines.keys())
             self.assertEqual(isoroll.chaos(WILD, turns=3).to_pandas().data["verdict"].tolist(), ["undecided"])
             self.refuses(isoroll.BadArgument, "many orbits", isoroll.batch(WILD, [1]).to_pandas)
         try:
@@ -166,6 +172,16 @@ class Forms(Case):
         times = np.linspace(0, 5, 12)[::-2]
         times.flags.writeable = False
         self.same(isoroll.run(WILD, times).t, np.ascontiguousarray(times))
+
+
+    def test_without_columns(self):
+        for table in (isoroll.Table(np.empty((3, 0)), []), isoroll.explain(WILD)):
+            self.assertEqual(table.rows.shape, (len(table),))
+            self.assertEqual(table.columns, ())
+            self.assertTrue(str(table) and table._repr_html_())
+        for columns, kind in (([1, 2], None), (["a", None], None), (["a", "b"], 5)):
+            make = lambda: isoroll.Table(np.zeros((1, 2)), columns, kind=kind)
+            self.refuses(isoroll.BadArgument, "are texts", make)
 
 
 class OldFiles(Case):
@@ -223,9 +239,13 @@ class Pictures(Case):
         yield isoroll.section(example("21_levels"), crossings=10), 2
         yield isoroll.chaos(WILD, starts=6, turns=40), 1
         yield isoroll.periodic(WILD, period=2), 2
-        yield isoroll.periodic(WILD, period=1, follow={"k": (0.49, 0.51)}), 2
+        yield isoroll.periodic(WILD, period=1, follow=("k", (0.49, 0.51))), 2
         yield isoroll.periodic(WILD, chart="J2", steps=6), 2
         yield isoroll.splitting(WILD, k=[0.5, 0.75]), 1
+        compared = isoroll.compare(WILD, t_end=5)
+        compared.write(self.path("compared.csv"))
+        yield compared, 3
+        yield isoroll.read(self.path("compared.csv")), 1
         yield isoroll.cost(WILD, quick=True, method="taylor", t_end=1), 2
         plan = {"scene": scene, "measure": {"state": {}}, "until": {"time": 1}}
         yield isoroll.sweep({**plan, "vary": {"k": {"from": 0.5, "to": 1.2, "count": 5}}}), 1
@@ -278,8 +298,13 @@ class Pictures(Case):
             self.refuses(isoroll.BadInput, words, table.plot)
         self.refuses(isoroll.BadInput, "no column 'x'", isoroll.run(BALL).plot, columns=("t", "x"))
         self.refuses(isoroll.BadArgument, "two names", isoroll.run(BALL).plot, columns="t")
-        with self.assertRaises(TypeError):
+        with self.assertRaisesRegex(TypeError, "kind 'trajectory' takes ax, columns, title, not 'colour'"):
             isoroll.run(BALL).plot(colour="red")
+        with self.assertRaisesRegex(TypeError, "kind 'sweep' takes ax, columns, value, title, not 'x'"):
+            isoroll.Table([[0.0]], ["status"], kind="sweep").plot(x="t")
+        for ax in ("picture.svg", pyplot.figure()):
+            with self.assertRaisesRegex(TypeError, "Axes of matplotlib, not (str|Figure); isoroll.plot"):
+                isoroll.run(BALL).plot(ax)
 
 
 class Memory(Case):

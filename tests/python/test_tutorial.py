@@ -91,7 +91,7 @@ CLAIMS = {
     "is between -2 and 2. Of period 1 and 2 there are 8, and 3 of them are stable": periods,
     "The first one closes after t = 11.84, to 12 digits": closes,
     "m is 0.1419 at k = 1/2": slope_of_half,
-    "is 0 at k = 1: there it is smaller than its error. Beyond, m is negative, and smaller than 1e-3": slopes_over_k,
+    "is 0 at k = 1: there it is smaller than its error. Beyond, m is negative, and |m| is below 1e-3": slopes_over_k,
     "Two columns of a journal are 178 mm wide": lambda t: abs(t.figure.get_size_inches()[0] * 25.4 - 178) < 1e-9,
 }
 

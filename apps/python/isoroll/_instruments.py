@@ -160,10 +160,12 @@ def _guard(study: str, given: Mapping[str, Any]) -> None:
     """A slip of the hand would fill the memory."""
     if study != "section":
         return
-    at, crossings, starts = given.get("at"), given.get("crossings") or 500, given.get("starts") or 0
+    at, asked = given.get("at"), [given.get("crossings"), given.get("starts")]
+    crossings, starts = (x.item() if isinstance(x, np.number) else x for x in asked)
+    crossings, starts = 500 if crossings is None else crossings, 0 if starts is None else starts
     points = 0 if at is None or isinstance(at, str) else len(at)
-    numbers = [x for x in (crossings, starts) if isinstance(x, (int, float))]
-    if len(numbers) == 2 and (starts + points + 1) * crossings > _MOST_ROWS:
+    numbers = isinstance(crossings, (int, float)) and isinstance(starts, (int, float))
+    if numbers and (starts + points + 1) * crossings > _MOST_ROWS:
         raise _errors.BadArgument(f"crossings is {crossings}: with {starts + points + 1} orbits these are more than "
                                   "1e9 rows")
 
@@ -173,7 +175,7 @@ def _points(given: Dict[str, Any]) -> None:
     at = given.get("at")
     if at is not None and not isinstance(at, str):
         points = doubles("at", at)
-        if points.size and (points.ndim > 2 or points.shape[-1] != 2):
+        if points.size and (points.ndim not in (1, 2) or points.shape[-1] != 2):
             raise _errors.BadArgument(f"at has shape {points.shape}, it must be (starts, 2): l, x")
         given["at"] = points.reshape(-1, 2) if points.size else np.empty(0)
 

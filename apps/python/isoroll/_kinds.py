@@ -179,7 +179,7 @@ class Result(Table):
         return self.text
 
     def __repr__(self) -> str:
-        return f"<isoroll.Result: {self.kind}; {', '.join(self.lines)}>"
+        return f"<isoroll.Result: {self.kind}; {', '.join(self.tree)}>"
 
 
 for _class in (Comparison, Trajectory, Section, Chaos, Periodic, Branch, Chart, Splitting, Cost, Sweep):

@@ -336,7 +336,10 @@ def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> int:
 
 def encoded(text: Any) -> bytes:
     """A text or a path as bytes. C ends a text at a zero byte, so a zero byte is refused."""
-    code = os.fsencode(text)
+    try:
+        code = os.fsencode(text)
+    except UnicodeError as error:
+        raise _errors.BadArgument(f"{text!r:.60}: {error}") from None
     if b"\0" in code:
         raise _errors.BadArgument(f"{text!r} has a zero byte in it")
     return code

@@ -81,6 +81,8 @@ class Lines(Mapping[str, Any]):
         return _with_lists(found)  # type: ignore[no-any-return]
 
     def __getitem__(self, key: str) -> Value:
+        if key not in self.text:
+            raise KeyError(f"there is no line '{key}': the table has {', '.join(self.text) or 'none'}")
         return value_of(self.text[key])
 
     def __iter__(self) -> Iterator[str]:

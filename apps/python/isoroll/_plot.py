@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _errors
-from ._plot_orbits import draw_chaos, draw_periodic, draw_section, draw_trajectory
+from ._plot_orbits import draw_chaos, draw_comparison, draw_periodic, draw_section, draw_trajectory
 from ._plot_parts import (BLUE, DARK, FAR_BLUE, GREEN, LINE, Numbers, ORANGE, PINK, SKY, VERMILLION, axes_of, given,
                            name_of, needs, plain, pyplot, title_of)
 from ._files import as_table
@@ -199,8 +200,8 @@ def _curve(table: Table, ax: Any, x: str, y: str, title: Optional[str] = None) -
 
 _DRAW: Dict[str, Callable[..., Any]] = {
     "trajectory": draw_trajectory, "section": draw_section, "chaos": draw_chaos, "periodic": draw_periodic,
-    "periodic follow": _branches, "periodic chart": _chart, "splitting": _splitting, "cost": _cost, "sweep": _sweep,
-    "sweep part": _sweep, "batch": draw_trajectory}
+    "periodic follow": _branches, "periodic chart": _chart, "splitting": _splitting, "cost": _cost,
+    "compare": draw_comparison, "sweep": _sweep, "sweep part": _sweep, "batch": draw_trajectory}
 
 
 def draw(table: Table, ax: Any, how: Mapping[str, Any]) -> Any:
@@ -216,6 +217,11 @@ def draw(table: Table, ax: Any, how: Mapping[str, Any]) -> Any:
     if function is None:
         raise _errors.BadInput(f"no picture of a table of kind '{table.kind}': table.plot(columns=(X, Y)) draws a "
                                f"column over another; it has {', '.join(table.columns)}")
+    takes = [name for name in inspect.signature(function).parameters if name not in ("table", "ax")]
+    for name in how:
+        if name not in takes:
+            raise TypeError(f"the plot of a table of kind '{table.kind}' takes ax, columns, {', '.join(takes)}, not "
+                            f"'{name}'")
     return function(table, ax, **how)
 
 

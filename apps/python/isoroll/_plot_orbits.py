@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _errors
-from ._plot_parts import (BLUE, DARK, FAR_BLUE, GREY, LINE, Numbers, ORANGE, PI_TICKS, axes_of, axis_of, given,
-                           name_of, needs, plain, pyplot, title_of)
+from ._plot_parts import (BLUE, DARK, FAR_BLUE, GREY, LINE, Numbers, ORANGE, PI_TICKS, SKY, VERMILLION, axes_of,
+                           axis_of, given, name_of, needs, plain, pyplot, title_of)
 from ._table import Table
 
 _MOST_ROWS = 5000  # of a path
@@ -106,6 +106,27 @@ def draw_trajectory(table: Table, ax: Any, title: Optional[str] = None) -> Any:
         plain(at)
     if ax is None:
         axes[0].figure.suptitle(title_of(table, title))
+    return given(axes)
+
+
+def draw_comparison(table: Table, ax: Any, title: Optional[str] = None) -> Any:
+    """The paths of n by the ball and of gamma by the point, unless the table is of a file; then how far the two
+    computations are apart."""
+    needs(table, "omega", "n", "M", "gamma")
+    spheres = [(orbit, name, words) for orbit, name, words in (
+        (getattr(table, "ball", None), "n", "the ball: its normal n at the contact"),
+        (getattr(table, "point", None), "gamma", "the point: its place γ")) if orbit is not None]
+    axes = axes_of(ax, len(spheres) + 1, (13.5 if spheres else 9, 4.8))
+    for (orbit, name, words), at in zip(spheres, axes):
+        _sphere(at, _thin(orbit, name), words)
+    at, clock = axes[-1], table.columns[0]
+    for name, word, colour in zip(("omega", "n", "M", "gamma"), "ωnMγ", (BLUE, SKY, VERMILLION, ORANGE)):
+        at.plot(table[clock], table[name], color=colour, lw=1.2, label=word)
+    at.set(yscale="log", xlabel=name_of(table, clock), title="difference of ball and point")
+    at.legend(frameon=False, ncols=4)
+    plain(at)
+    if ax is None:
+        at.figure.suptitle(title_of(table, title))
     return given(axes)
 
 

@@ -40,9 +40,15 @@ _SECTION.update(k="", J="", D="")  # of `reduced` or of `point`
 _BALL, _POINT = ("normal", "angular_velocity"), ("gamma", "M")
 
 
+#: what others call a key: columns of a table, options of the command, letters of the theory
+_ALSO = {"omega": "angular_velocity", "w": "angular_velocity", "n": "normal", "tol": "tolerance", "t_end": "end",
+         "m": "mass", "I": "inertia"}
+
+
 def _unknown(key: str) -> TypeError:
     names = [*KEYS, *_SECTION]
-    near = difflib.get_close_matches(key, names, 1)
+    near = [_ALSO[key]] if key in _ALSO else [name for name in names if name.lower() == key.lower()]
+    near = near or difflib.get_close_matches(key, names, 1)
     meant = f"did you mean '{near[0]}'?" if near else "it takes " + ", ".join(dict.fromkeys(names))
     return TypeError(f"a scene has no keyword '{key}': {meant}")
 
@@ -67,6 +73,8 @@ class _Draft:
         old = next((self.sections[m] for m in ("reduced", "point") if m in self.sections), {})
         known = {key: old[key] for key in ("k", "J") if key in old}
         if "ball" in self.sections and model != "ball":
+            if self.base is None:
+                raise _errors.BadInput("a ball has mass, radius, inertia and surface, or k and J: give either")
             scene = self.base()
             known = {"k": scene.k, "J": scene.J.tolist()}
         others = [name for name in ("ball", "surface", "reduced", "point") if name != model]
@@ -197,6 +205,8 @@ class Scene(Owned):
             base = source if isinstance(source, Scene) else Scene(source)
             draft = _Draft(base.sections, lambda: base)
         draft.change(keys)
+        if "initial" not in draft.sections:
+            raise _errors.BadInput("the scene has no start: give normal and angular_velocity; of a point gamma and M")
         order = [*KEYS, *draft.sections]
         return dump({name: draft.sections[name] for name in dict.fromkeys(order) if name in draft.sections})
 
@@ -216,8 +226,13 @@ class Scene(Owned):
         check(lib.iso_foreign_scene_set(ctx, self.pointer, key.encode(), encoded(value)), ctx)
         if key == "as":
             self._settings.pop("columns", None)
-        self._settings[key] = value
         self._find_columns()
+        self._settings[key] = self._setting(key)  # as the library has understood it
+
+    def _setting(self, key: str) -> Any:
+        if key == "columns":
+            return list(self._columns)
+        return float(self._numbers(key)[0]) if key in ("tolerance", "end", "step") else self._word(key)
 
     def _find_columns(self) -> None:
         numbers = (c_int * _MOST_COLUMNS)()
@@ -236,7 +251,7 @@ class Scene(Owned):
                 section.pop("columns", None)
                 section.pop("as", None)
             if not (key == "as" and value == "auto"):
-                section[key] = _setting(key, value)
+                section[key] = value
         return {name: value for name, value in found.items() if value != {}}
 
     @property
@@ -257,6 +272,11 @@ class Scene(Owned):
 
     def __reduce_ex__(self, protocol: Any) -> Any:
         return _again, (self._text, self._name, self._from_text, self._settings)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            raise AttributeError(f"a scene cannot be changed: isoroll.Scene(scene, {name}=...) is another one")
+        super().__setattr__(name, value)
 
     def __copy__(self) -> Scene:
         return self
@@ -324,6 +344,31 @@ class Scene(Owned):
         """The state at time 0, shape (6,): omega [1/time], n; of a point M, gamma."""
         return self._numbers("start")
 
+    def _part(self, model: str, name: str, part: slice) -> NDArray[np.float64]:
+        if self.model != model:
+            raise AttributeError(f"this scene starts from a {self.model}: it has no {name}")
+        return self.start[part]
+
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """n at time 0, of a ball's scene, shape (3,)."""
+        return self._part("ball", "normal", slice(3, 6))
+
+    @property
+    def angular_velocity(self) -> NDArray[np.float64]:
+        """omega at time 0, of a ball's scene, shape (3,), 1/time."""
+        return self._part("ball", "angular_velocity", slice(0, 3))
+
+    @property
+    def gamma(self) -> NDArray[np.float64]:
+        """gamma at time 0, of a point's scene, shape (3,)."""
+        return self._part("point", "gamma", slice(3, 6))
+
+    @property
+    def M(self) -> NDArray[np.float64]:
+        """M at time 0, of a point's scene, shape (3,), 1/time."""
+        return self._part("point", "M", slice(0, 3))
+
     @property
     def effects(self) -> Tuple[str, ...]:
         """The names of the effects that the scene states."""
@@ -369,13 +414,6 @@ def _file(path: Union[str, "os.PathLike[str]"]) -> Tuple[bytes, str]:
         check(status, ctx)
         raise _errors.FileTrouble(f"'{name}' changes while it is read")
     return text, name
-
-
-def _setting(key: str, value: str) -> Any:
-    """A setting as a section has it."""
-    if key == "columns":
-        return value.split(",")
-    return float(value) if key in ("tolerance", "end", "step") else value
 
 
 def _canonical(value: Any) -> Any:

@@ -66,7 +66,7 @@ def text_of(name: str, value: Any) -> str:
     if isinstance(value, Mapping):
         return ",".join(f"{key}={text_of(name, item).replace(',', ':')}" for key, item in value.items())
     if isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], str):
-        return f"{value[0]}={text_of(name, value[1])}"
+        return text_of(name, {value[0]: value[1]})
     if isinstance(value, (str, bytes, bool, np.bool_)):
         return os.fsdecode(value) if isinstance(value, (str, bytes)) else str(bool(value)).lower()
     if isinstance(value, (int, np.integer)):

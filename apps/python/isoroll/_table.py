@@ -57,7 +57,7 @@ class Record(Owned):
         self._own(pointer, lib.iso_record_free)
 
     def columns(self) -> Tuple[str, ...]:
-        return tuple(lib.iso_record_name(self.pointer, c).decode()
+        return tuple(lib.iso_record_name(self.pointer, c).decode("utf-8", "surrogateescape")
                      for c in range(lib.iso_record_columns(self.pointer)))
 
     def lines(self) -> Lines:
@@ -122,6 +122,8 @@ class Table:
     def __init__(self, array: ArrayLike, columns: Sequence[str], lines: Optional[Mapping[str, Any]] = None, *,
                  kind: Optional[str] = None, record: Optional[Record] = None) -> None:
         numbers, names = doubles("array", array), tuple(columns)
+        if not all(isinstance(name, str) for name in (*names, kind or "")):
+            raise _errors.BadArgument(f"columns and kind are texts, not {names}, {kind!r}")
         if numbers.ndim == 0 or numbers.shape[-1] != len(names):
             raise _errors.BadArgument(f"array has shape {numbers.shape}, and there are {len(names)} columns: its "
                                       "last length must be their number")
@@ -198,7 +200,8 @@ class Table:
         try:
             return self[name]
         except KeyError as error:
-            raise AttributeError(error.args[0]) from None
+            of_lines = f"; it is a line: table.lines['{name}']" if name in self.lines else ""
+            raise AttributeError(error.args[0] + of_lines) from None
 
     def __setattr__(self, name: str, value: Any) -> None:
         """What would change no number of the table is refused."""
@@ -240,6 +243,8 @@ class Table:
         """The same memory as a structured array, shape (...): rows["t"], rows[5]["omega1"]. Only if the array has
         gaps, it is a copy, which cannot be written to."""
         dtype, array = np.dtype([(name, np.float64) for name in self.columns]), np.ascontiguousarray(self.array)
+        if not self.columns:
+            return np.empty(array.shape[:-1], dtype)
         if not np.may_share_memory(array, self.array):
             array.flags.writeable = False
         return array.view(dtype)[..., 0]
@@ -257,7 +262,8 @@ class Table:
             frame = pandas.DataFrame({name: np.atleast_1d(self[name]) for name in self.columns})
         else:
             frame = pandas.DataFrame(array, columns=list(self.columns), copy=False)
-        frame.attrs.update(self.lines.text)
+        frame.attrs.update({key: value.tolist() if isinstance(value, np.ndarray) else value
+                            for key, value in self.lines.items()})  # pandas compares attrs: arrays it could not
         return frame
 
     def write(self, path: PathLike, *, digits: Union[int, str] = 17) -> None:
@@ -288,8 +294,8 @@ class Table:
 
     def _cells(self) -> List[List[str]]:
         """The first and the last rows as texts, column by column; "..." stands for rows between."""
-        flat = self.array.reshape(-1, len(self.columns))
-        count = len(flat)
+        count = int(np.prod(self.array.shape[:-1]))
+        flat = self.array.reshape(count, len(self.columns))
         shown = list(range(count)) if count <= 12 else [*range(5), None, *range(count - 5, count)]
         words = {name: np.ravel(self[name]) for name in self._words}
         return [["..." if row is None else str(words[name][row]) if name in words else f"{flat[row, i]:.6g}"
@@ -310,7 +316,8 @@ class Table:
         said = ""
         for key in ("k", "J"):
             values = np.ravel(self.lines[key]).tolist() if key in self.lines and key not in self.columns else []
-            said += f", {key} = " + " ".join(f"{x:.6g}" if isinstance(x, float) else x for x in values) if values else ""
+            if values:
+                said += f", {key} = " + " ".join(f"{x:.6g}" if isinstance(x, float) else x for x in values)
         shape = f"{len(self)} rows" if self.array.ndim == 2 else f"shape {self.array.shape}"
         return f"{self.kind}, {shape}{said}"
 
@@ -417,7 +424,9 @@ def trajectory(columns: Mapping[str, ArrayLike], **lines: Union[str, ArrayLike])
         if array.ndim < 2:
             array = array.reshape(-1, 1)
         if array.ndim > 2 or array.shape[1] != len(group):
-            raise _errors.BadArgument(f"column '{name}' has shape {np.shape(values)}")
+            wanted = f"(rows, {len(group)})" if len(group) > 1 else "(rows,)"
+            vectors = "" if len(group) > 1 else "; vectors are " + ", ".join(VECTORS)
+            raise _errors.BadArgument(f"column '{name}' has shape {np.shape(values)}, it must be {wanted}{vectors}")
         if parts and len(array) != len(parts[0]):
             raise _errors.BadArgument(f"column '{name}' has {len(array)} rows, the others have {len(parts[0])}")
         names.extend(group)

@@ -14,17 +14,17 @@
 #include "base/record.h"
 
 /* LONGEST_TEXT: a line of a table of isoroll, which may have the text of a sweep. */
-enum { ISO_LONGEST_LINE = 1 << 16, ISO_LONGEST_TEXT = 1 << 25, ISO_MOST_FIELDS = 1024 };
+enum { ISO_LONGEST_LINE = 1 << 16, ISO_LONGEST_TEXT = 1 << 25, ISO_MOST_CSV_FIELDS = 1024 };
 
 /* --- csv_row.c -------------------------------------------------------------------------------------------------- */
 
 /* How a row is read. */
 typedef struct iso_csv_format {
-    char separator;                /* ',', ';', or ' ' for blanks                                       */
-    size_t fields, columns;        /* columns: the numbers of a row                                     */
-    short column[ISO_MOST_FIELDS]; /* of the row, for each field of the file; -1: passed over           */
-    locale_t plain;                /* the C locale                                                      */
-    size_t longest;                /* a line is shorter than this                                       */
+    char separator;                    /* ',', ';', or ' ' for blanks                                       */
+    size_t fields, columns;            /* columns: the numbers of a row                                     */
+    short column[ISO_MOST_CSV_FIELDS]; /* of the row, for each field of the file; -1: passed over           */
+    locale_t plain;                    /* the C locale                                                      */
+    size_t longest;                    /* a line is shorter than this                                       */
 } iso_csv_format;
 
 /* What is wrong with a row. */

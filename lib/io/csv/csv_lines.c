@@ -93,7 +93,7 @@ static block *create_block(void)
     b->task = (iso_task){.work = read_block, .data = b};
     b->room = 2 * ISO_LONGEST_LINE;
     b->text = malloc(b->room + 1);
-    b->row = malloc((ISO_LONGEST_LINE + ISO_MOST_FIELDS) * sizeof *b->row);
+    b->row = malloc((ISO_LONGEST_LINE + ISO_MOST_CSV_FIELDS) * sizeof *b->row);
     if (b->text && b->row) return b;
     free_block(b);
     return NULL;

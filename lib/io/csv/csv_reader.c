@@ -202,7 +202,7 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
     iso_status status = ISO_OK;
     for (char *rest = line; rest && status == ISO_OK; c->format.fields++) {
         const field f = next_field(separator, &rest);
-        if (c->format.fields == ISO_MOST_FIELDS) return fail(c, f.text, "more than 1024 columns");
+        if (c->format.fields == ISO_MOST_CSV_FIELDS) return fail(c, f.text, "more than 1024 columns");
         f.text[f.length] = '\0';
         c->format.column[c->format.fields] = -1;
         const int known = iso_column_find(f.text);
@@ -278,7 +278,7 @@ static iso_status read_header_of_table(csv *c)
     const iso_status status = iso_table_name_columns(c->ctx, c->r, count, names);
     if (status == ISO_BAD_ARGUMENT) return fail(c, NULL, "expected names of columns, all different");
     for (size_t i = 0; status == ISO_OK && i < count; i++)
-        if (iso_table_has_words(names[i])) iso_record_set_words(c->r->header, i, true);
+        if (iso_table_has_words(iso_record_kind(c->r->header), names[i])) iso_record_set_words(c->r->header, i, true);
     c->format.fields = count;
     return status;
 }

@@ -119,29 +119,6 @@ static FILE *stream_behind_rows(csv *c)
 
 /* --- lines ------------------------------------------------------------------------------------------------------ */
 
-/* Whether reading the line back gives the same key and value. */
-static bool is_line(const char *key, const char *value)
-{
-    const size_t k = strlen(key), v = strlen(value);
-    if (k == 0 || strpbrk(key, ":\r\n") || strpbrk(value, "\r\n")) return false;
-    if (strchr(" \t", key[0]) || strchr(" \t", key[k - 1])) return false;
-    return v == 0 || (!strchr(" \t", value[0]) && !strchr(" \t", value[v - 1]));
-}
-
-/* A text of whole lines, under a key that is one word. */
-static bool is_text(const char *key, const char *value)
-{
-    const size_t length = strlen(value);
-    return *key && !strpbrk(key, " \t:|\r\n") && length > 0 && value[length - 1] == '\n';
-}
-
-static iso_status check_line(iso_context *ctx, const char *key, const char *value)
-{
-    if (is_line(key, value) || is_text(key, value)) return ISO_OK;
-    return ISO_FAIL_ARGUMENT(ctx, "",
-                             "'%s' cannot be a line '# key: value': a key has no colon, and both are one line", key);
-}
-
 /* Each line of a text as a comment. */
 static void write_text(FILE *to, const char *key, const char *text)
 {
@@ -157,7 +134,7 @@ static void write_text(FILE *to, const char *key, const char *text)
 
 static void write_line(FILE *to, const char *key, const char *value)
 {
-    if (is_text(key, value))
+    if (strchr(value, '\n'))
         write_text(to, key, value);
     else
         fprintf(to, *value ? "# %s: %s\n" : "# %s:\n", key, value);
@@ -182,7 +159,6 @@ static iso_status csv_line(iso_context *ctx, iso_table_writer *w, const char *ke
 {
     csv *c = w->data;
     FILE *to = stream_behind_rows(c);
-    ISO_TRY(check_line(ctx, key, value));
     write_line(to, key, value);
     return iso_output_check(ctx, c->out);
 }
@@ -193,7 +169,6 @@ static iso_status csv_header(iso_context *ctx, iso_table_writer *w, const iso_re
     FILE *const to = iso_output_stream(c->out);
     const char *key, *value;
     const size_t columns = iso_record_columns(header);
-    for (size_t i = 0; iso_record_line(header, i, &key, &value); i++) ISO_TRY(check_line(ctx, key, value));
     fprintf(to, "# isoroll %s 1\n", w->kind);
     for (size_t i = 0; iso_record_line(header, i, &key, &value); i++) write_line(to, key, value);
     for (size_t i = 0; i < columns; i++) {

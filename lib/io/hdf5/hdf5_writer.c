@@ -189,6 +189,21 @@ static bool create_table(const iso_table_writer *w, const iso_record *header)
     return good;
 }
 
+/* What create_sweep and the transfer of failures count on. */
+static iso_status check_sweep(iso_context *ctx, const iso_record *header)
+{
+    static const char *const names[] = {"point", "status", "reason"};
+    const int last = (int)iso_record_columns(header) - 1, place[] = {0, last - 1, last};
+    for (int i = 0; i < 3; i++)
+        if (iso_record_find(header, names[i]) != place[i])
+            return ISO_FAIL_ARGUMENT(ctx, names[i],
+                                     "a sweep has the columns point, what varies, what is measured, status, reason; "
+                                     "'%s' is not in its place",
+                                     names[i]);
+    if (iso_record_get(header, ISO_HDF5_COLUMNS)) return ISO_OK;
+    return ISO_FAIL_ARGUMENT(ctx, ISO_HDF5_COLUMNS, "a sweep has the line '%s'", ISO_HDF5_COLUMNS);
+}
+
 static bool create(const iso_table_writer *w, const iso_record *header)
 {
     const iso_hdf5_store *s = w->data;
@@ -204,6 +219,7 @@ static iso_status hdf5_header(iso_context *ctx, iso_table_writer *w, const iso_r
     const char *key, *value;
     const bool named = !iso_hdf5_is_sweep(w->kind) && strcmp(w->kind, ISO_TRAJECTORY_KIND) != 0;
     bool good;
+    if (iso_hdf5_is_sweep(w->kind)) ISO_TRY(check_sweep(ctx, header));
     if (!iso_hdf5_store_room(s, iso_record_columns(header))) return iso_text_no_memory(ctx, "write", w->name);
     s->words = w->words;
     ISO_HDF5_QUIETLY(good = create(w, header));

@@ -51,14 +51,14 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     how.progress = result->progress;
     how.data = result->data;
     const iso_status status = iso_chaos_run(ctx, subject->scene, &how, &c);
-    result->fields = iso_chaos_fields;
-    result->found = c;
-    result->free = free_chaos;
-    if (!c) return status;
+    if (!iso_study_keep(result, c, iso_chaos_fields, free_chaos)) return status;
     result->failed = c->failure != ISO_OK;
     if (result->failed) iso_study_note(result, "an orbit was not followed to the end: %s", c->words);
     const iso_status made = put_orbits(ctx, subject->scene, c, &result->table[0]);
-    for (int m = 0; m < 2; m++) result->table[1 + m] = c->trace[m];
+    for (int m = 0; m < 2; m++) {
+        if (c->trace[m]) iso_record_set_kind(c->trace[m], "chaos indicators");
+        result->table[1 + m] = c->trace[m];
+    }
     return status == ISO_OK ? made : status;
 }
 

@@ -159,10 +159,8 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
                       iso_study_result *result)
 {
     iso_field fields[ISO_MOST_FIELDS];
-    iso_check_found *f = result->found = calloc(1, sizeof *f);
+    iso_check_found *f = iso_study_keep(result, calloc(1, sizeof *f), iso_check_fields, iso_check_found_free);
     if (!f) return iso_context_no_memory(ctx, "a check");
-    result->fields = iso_check_fields;
-    result->free = iso_check_found_free;
     ISO_TRY(find(ctx, subject, options, result, f));
     iso_fields_copy(iso_check_fields, "residuals", fields);
     iso_status status =

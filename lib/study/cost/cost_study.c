@@ -176,11 +176,9 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     const iso_cost_request *r = options;
     const iso_cost_options how = options_of(r, result);
     iso_scene scene = *subject->scene;
-    iso_cost_found *f = result->found = calloc(1, sizeof *f);
+    iso_cost_found *f = iso_study_keep(result, calloc(1, sizeof *f), found_fields, free_found);
     if (!f) return iso_context_no_memory(ctx, "a cost");
     *f = (iso_cost_found){.want = r->want};
-    result->fields = found_fields;
-    result->free = free_found;
     ISO_TRY(iso_scene_apply(ctx, &r->change, &scene));
     iso_status status = iso_cost_measure(ctx, &scene, &how, &f->cost);
     if (!f->cost || (status != ISO_OK && iso_cost_count(f->cost, iso_cost_is_measured) == 0)) return status;

@@ -253,10 +253,8 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
                       iso_study_result *result)
 {
     iso_scene scene = *subject->scene;
-    iso_explanation *e = result->found = calloc(1, sizeof *e);
+    iso_explanation *e = iso_study_keep(result, calloc(1, sizeof *e), fields, free_explanation);
     if (!e) return iso_context_no_memory(ctx, "words");
-    result->fields = fields;
-    result->free = free_explanation;
     ISO_TRY(iso_scene_apply(ctx, &((const iso_explain_request *)options)->change, &scene));
     ISO_TRY(fill(ctx, &scene, e));
     return iso_study_table(ctx, "explain", &scene, fields, e, NULL, &result->table[0]);

@@ -126,10 +126,8 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
                       iso_study_result *result)
 {
     iso_frequencies_options how = *(const iso_frequencies_options *)options;
-    iso_frequencies *f = result->found = malloc(sizeof *f);
+    iso_frequencies *f = iso_study_keep(result, malloc(sizeof *f), iso_frequencies_fields, free);
     if (!f) return iso_context_no_memory(ctx, "frequencies");
-    result->fields = iso_frequencies_fields;
-    result->free = free;
     how.progress = result->progress;
     how.data = result->data;
     ISO_TRY(iso_frequencies_find(ctx, subject->scene, &how, f));

@@ -135,11 +135,9 @@ static const iso_field found_fields[] = {
 static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
                       iso_study_result *result)
 {
-    iso_integrals_found *found = result->found = malloc(sizeof *found);
+    iso_integrals_found *found = iso_study_keep(result, malloc(sizeof *found), found_fields, free);
     if (!found) return iso_context_no_memory(ctx, "integrals");
     *found = (iso_integrals_found){.how = *(const iso_integral_search_options *)options};
-    result->fields = found_fields;
-    result->free = free;
     found->how.progress = result->progress;
     found->how.data = result->data;
     const iso_status status = iso_integral_search_run(ctx, subject->scene, &found->how, &found->search);

@@ -83,9 +83,7 @@ static iso_status list(iso_context *ctx, const iso_scene *scene, iso_periodic *f
 {
     iso_field fields[ISO_MOST_FIELDS];
     iso_record **table = &result->table[0];
-    result->found = found;
-    result->fields = iso_periodic_fields;
-    result->free = free_list;
+    iso_study_keep(result, found, iso_periodic_fields, free_list);
     iso_fields_copy(iso_periodic_fields, "orbits", fields);
     iso_status status = iso_study_table(ctx, "periodic", scene, fields, found, iso_periodic_orbit_fields, table);
     for (size_t i = 0; status == ISO_OK && i < found->count; i++)
@@ -174,9 +172,7 @@ static iso_status follow(iso_context *ctx, const iso_scene *scene, const iso_per
     if (status == ISO_OK) status = iso_continuation_run(ctx, scene, orbits, count, how, &f);
     free(orbits);
     if (!f) return status;
-    result->found = f;
-    result->fields = iso_continuation_fields;
-    result->free = free_branches;
+    iso_study_keep(result, f, iso_continuation_fields, free_branches);
     for (size_t i = 0; i < f->count; i++)
         for (size_t j = 0; j < f->branch[i].events; j++) failed += f->branch[i].event[j].kind == ISO_BRANCH_FAILURE;
     result->failed = failed > 0;
@@ -275,10 +271,8 @@ static iso_status put_chart(iso_context *ctx, const iso_scene *scene, const iso_
 static iso_status chart(iso_context *ctx, const iso_scene *scene, const iso_periodic_request *r,
                         iso_study_result *result)
 {
-    iso_chart_found *f = result->found = calloc(1, sizeof *f);
+    iso_chart_found *f = iso_study_keep(result, calloc(1, sizeof *f), iso_chart_fields, free_chart);
     if (!f) return iso_context_no_memory(ctx, "a chart");
-    result->fields = iso_chart_fields;
-    result->free = free_chart;
     ISO_TRY(read_chart(ctx, scene, r, &f->how));
     f->level = f->how.moment == ISO_CHART_LEVEL ? (double)NAN : f->how.level;
     f->how.progress = result->progress;

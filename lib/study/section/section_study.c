@@ -252,12 +252,10 @@ static iso_status carry(iso_context *ctx, const iso_scene *scene, iso_measure_op
 static iso_status find_clouds(iso_context *ctx, const iso_scene *scene, const iso_section_request *r,
                               iso_study_result *result)
 {
-    iso_clouds *found = result->found = calloc(1, sizeof *found);
+    iso_clouds *found = iso_study_keep(result, calloc(1, sizeof *found), clouds_fields, free);
     phase p = {result, 0};
     iso_measure_options m = iso_measure_defaults();
     if (!found) return iso_context_no_memory(ctx, "clouds");
-    result->fields = clouds_fields;
-    result->free = free;
     m.count = (size_t)r->cloud;
     m.seed = (unsigned long)r->how.seed + 1;
     m.axis = r->how.axis;

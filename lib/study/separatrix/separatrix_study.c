@@ -169,10 +169,7 @@ static iso_status find(iso_context *ctx, const iso_scene *scene, const iso_separ
     iso_field fields[ISO_MOST_FIELDS];
     iso_separatrix_table *s = NULL;
     const iso_status status = iso_separatrix_run(ctx, how, &s);
-    if (!s) return status;
-    result->found = s;
-    result->fields = iso_separatrix_table_fields;
-    result->free = free_table;
+    if (!iso_study_keep(result, s, iso_separatrix_table_fields, free_table)) return status;
     iso_fields_copy(iso_separatrix_table_fields, "rows", fields);
     iso_status made = iso_study_table(ctx, "splitting", scene, fields, s, iso_separatrix_fields, &result->table[0]);
     if (made == ISO_OK) made = put_rows(ctx, s, result->table[0]);
