@@ -104,7 +104,11 @@ static void print_share(const iso_chaos_fraction *s)
            (double)s->undecided / count, s->undecided);
     if (s->undecided > 0)
         printf("  undecided ones count both ways: not chaotic at the low end, chaotic at the high end\n");
-    if (s->disagree > 0) printf("  of the undecided: ball and point disagree about %zu\n", s->disagree);
+    if (s->checked > 0 && s->disagree == 0)
+        printf("  ball and point both followed %zu of them, and never disagree\n", s->checked);
+    else if (s->disagree > 0)
+        printf("  ball and point both followed %zu of them, and disagree about %zu: undecided\n", s->checked,
+               s->disagree);
 }
 
 static void print_table(const shell *s)

@@ -99,7 +99,7 @@ static void judge(iso_context *ctx, const iso_scene *scene, const iso_section_op
     iso_chaos *chaos = NULL;
     iso_chaos_options c = iso_chaos_defaults();
     c.at_count = section_picture_starts(picture, &c.at);
-    c.models = r->models == ISO_SHOW_BOTH ? ISO_SHOW_BALL : r->models;
+    c.models = r->models == ISO_SHOW_BOTH ? ISO_SHOW_POINT : r->models;
     c.axis = r->nature.axis;
     c.tolerance = how->tolerance;
     c.threads = how->threads;

@@ -110,6 +110,7 @@ static void measure(iso_context *ctx, const family *f, size_t count, long turns,
                         &scene.start),
          "a start");
     o.turns = turns;
+    o.models = ISO_SHOW_BOTH;
     o.starts = f->near ? 0 : count;
     o.at = (const double(*)[2])at;
     o.at_count = f->near ? count : 0;

@@ -174,6 +174,7 @@ static void check_shares(void)
         iso_chaos_options o = iso_chaos_defaults();
         iso_chaos *c;
         o.starts = (size_t)tests_length(40, 400);
+        o.models = ISO_SHOW_BOTH;
         must(iso_chaos_run(ctx, &scene, &o, &c), "starts");
         const iso_chaos_fraction *s = &c->share;
         gsl_test_int((int)s->count, (int)o.starts, "k = %g: starts", family[j].k);
@@ -198,6 +199,7 @@ static void check_alone(void)
     iso_chaos *all, *one;
     o.starts = 9;
     o.turns = 300;
+    o.models = ISO_SHOW_BOTH;
     must(iso_chaos_run(ctx, &scene, &o, &all), "nine starts");
     o.starts = 0;
     o.threads = 1;
@@ -216,6 +218,34 @@ static void check_alone(void)
         iso_chaos_free(one);
     }
     iso_chaos_free(all);
+}
+
+/* Unless both are asked for, the ball follows every 16th start. What it follows is the same to the bit; what it does
+ * not follow has no turns, and no numbers. The verdicts are those of both. */
+static void check_sample(void)
+{
+    const iso_scene scene = scene_of(0.5, 1, 2, 5);
+    iso_chaos_options o = iso_chaos_defaults();
+    iso_chaos *all, *some;
+    o.starts = 40;
+    must(iso_chaos_run(ctx, &scene, &o, &some), "some by the ball");
+    o.models = ISO_SHOW_BOTH;
+    must(iso_chaos_run(ctx, &scene, &o, &all), "all by the ball");
+    gsl_test_int((int)some->share.checked, 3, "checked: starts 1, 17 and 33");
+    gsl_test_int((int)all->share.checked, 40, "all are checked");
+    for (size_t i = 0; i < o.starts; i++) {
+        const iso_indication *a = &all->start[i].result[ISO_BALL], *b = &some->start[i].result[ISO_BALL],
+                             *c = &all->start[i].result[ISO_POINT], *d = &some->start[i].result[ISO_POINT];
+        const bool same = b->turns == a->turns && memcmp(b->exponent, a->exponent, sizeof a->exponent) == 0,
+                   none = b->turns == 0 && b->verdict == ISO_UNDECIDED && isnan(b->exponent[ISO_CLOCK_T]) &&
+                          isnan(b->per_turn) && isnan(b->megno) && isnan(b->gali2) && isnan(b->digits);
+        gsl_test(!(i % 16 == 0 ? same : none), "start %zu by the ball: %ld turns of %ld", i, b->turns, a->turns);
+        gsl_test(memcmp(c->exponent, d->exponent, sizeof c->exponent) != 0, "start %zu by the point: the same", i);
+        gsl_test(some->start[i].verdict != d->verdict && some->start[i].verdict != b->verdict, "its verdict");
+    }
+    gsl_test_int((int)some->share.chaotic, (int)all->share.chaotic, "as many are chaotic");
+    iso_chaos_free(all);
+    iso_chaos_free(some);
 }
 
 static bool stop_after(void *data)
@@ -350,6 +380,7 @@ int main(void)
     check_planes();
     check_shares();
     check_alone();
+    check_sample();
     check_undecided();
     check_stopped();
     check_refusals();

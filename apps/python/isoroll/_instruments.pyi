@@ -76,7 +76,8 @@ def chaos(
     starts           M more orbits of the same energy, spread evenly over the section: tells which part
                      of it is chaotic
     seed             another number spreads starts in another way (default 0)
-    model            which model is integrated (default: both, where the ball has a twin)
+    model            which model is integrated (default: both, where the ball has a twin). Of the starts
+                     the ball follows every 16th, as a check; with both, all
     axis             a turn is a return to n_A = 0, n_A increasing, which must be global; auto
                      (default): one that is: 1, 2, 3 or "auto"
     tol              largest relative error of one step, in [1e-15, 0.1]

@@ -84,6 +84,7 @@ static void choose_models(iso_chaos_walk *w)
                                                                   : ISO_SHOW_BOTH;
     w->out->with[ISO_BALL] = models != ISO_SHOW_POINT;
     w->out->with[ISO_POINT] = models != ISO_SHOW_BALL;
+    w->sampled = w->options.models == ISO_SHOW_START && models == ISO_SHOW_BOTH;
 }
 
 static iso_status open_orbit(iso_chaos_walk *w, iso_sample *start)
@@ -130,6 +131,7 @@ static void count_shares(const iso_chaos_walk *w)
         s->chaotic += o->verdict == ISO_CHAOTIC;
         s->regular += o->verdict == ISO_REGULAR;
         s->disagree += o->disagree;
+        s->checked += o->result[ISO_BALL].turns > 0 && o->result[ISO_POINT].turns > 0;
     }
     s->undecided = s->count - s->chaotic - s->regular;
     s->share = s->count > 0 ? (double)s->chaotic / (double)s->count : NAN;

@@ -22,6 +22,10 @@
  * interval it counts as not chaotic, at the high end as chaotic. Orbits that were not followed, because they failed
  * or because the call was stopped, do not count. After a stop the orbits that have made a turn count, so that an
  * early verdict has no advantage; those without a verdict are undecided.
+ *
+ * Ball and point are the same orbits, and the point is followed three times faster. So the point alone follows the
+ * spread starts, and the ball follows every 16th of them too, as a check. Both follow the scene's own orbit and the
+ * starts that are given. With `models` ISO_SHOW_BOTH both follow every orbit.
  */
 #ifndef ISO_STUDY_CHAOS_H
 #define ISO_STUDY_CHAOS_H
@@ -46,7 +50,7 @@ typedef struct iso_chaos_options {
     uint64_t seed;         /* another seed spreads them in another way                                   */
     const double (*at)[2]; /* (l, x) of further starts, |x| < 1; they are not in the share */
     size_t at_count;
-    iso_models models;   /* that are integrated; ISO_SHOW_START: both if the ball has a twin           */
+    iso_models models;   /* that are integrated; ISO_SHOW_START: both if the ball has a twin, as said above */
     int axis;            /* of the section, 0 to 2, which must be global; ISO_AXIS_AUTO: the global one */
     double tolerance;    /* NAN: the scene's                                                           */
     int threads;         /* 0: as many as there are processors to run on                               */
@@ -69,7 +73,7 @@ static inline iso_chaos_options iso_chaos_defaults(void)
 }
 
 /* One orbit. result[ISO_BALL], result[ISO_POINT]: what each model has found. A model that was not integrated, or that
- * failed, has the verdict ISO_UNDECIDED. */
+ * failed, has the verdict ISO_UNDECIDED; one that has not followed the orbit has 0 turns. */
 typedef struct iso_chaos_orbit {
     double l, x; /* where it begins on the section; NaN: the scene's own */
     /* Of both models. If one is undecided, that of the other counts. If they disagree, the orbit is undecided. */
@@ -84,6 +88,7 @@ typedef struct iso_chaos_orbit {
 typedef struct iso_chaos_fraction {
     size_t asked, count, failed; /* of `asked` starts, `count` were followed, `failed` failed         */
     size_t chaotic, regular, undecided, disagree; /* of those followed; undecided includes disagree   */
+    size_t checked;                               /* of those followed, by both models; disagree is of these */
     /* The share chaotic/count, and the confidence interval of 95 % of the chaotic part, with undecided ones counted
      * both ways; NaN: no orbit was followed. */
     double share, low, high;

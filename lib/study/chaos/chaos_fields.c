@@ -8,7 +8,7 @@
 
 const iso_field iso_indication_fields[] = {
     FIELD("verdict", verdict, "", "regular, chaotic or undecided, by this model", .word = iso_verdict_word),
-    FIELD("turns", turns, "", "turns until the verdict; undecided: all"),
+    FIELD("turns", turns, "", "turns until the verdict; undecided: all; 0: this model did not follow it"),
     FIELD("exponent_turns", exponent_turns, "", "turns that the exponent is from"),
     FIELD("megno", megno, "", "MEGNO: its limit if regular, else its mean"),
     FIELD("megno_now", megno_now, "", "MEGNO after the last turn", .how = ISO_IN_TREE),
@@ -82,6 +82,7 @@ const iso_field iso_chaos_fraction_fields[] = {
     FIELD("regular_starts", regular, "", "regular", .how = ISO_IN_TREE),
     FIELD("undecided_starts", undecided, "", "undecided", .how = ISO_IN_TREE),
     FIELD("disagree", disagree, "", "undecided because the models disagree", .how = ISO_IN_TREE),
+    FIELD("checked", checked, "", "orbits that both models followed", .how = ISO_IN_TREE),
     FIELD("failed", failed, "", "orbits that failed"),
     ISO_FIELD_END,
 };

@@ -8,14 +8,15 @@
 #include "orbit/crossings_impl.h"
 #include "study/chaos/chaos_impl.h"
 
-/* GROUP: orbits that are followed together. ROUND: the most turns of a round. Together some 25 MB of crossings. */
-enum { GROUP = 1024, ROUND = 240, TRACE_ROWS = 4000 };
+/* GROUP: orbits that are followed together. ROUND: the most turns of a round. Together some 25 MB of crossings.
+ * CHECKED: one of so many starts is followed by the ball, too, if the walk is sampled. */
+enum { GROUP = 1024, ROUND = 240, TRACE_ROWS = 4000, CHECKED = 16 };
 
 /* One model's part of a group. */
 typedef struct model_walk {
     iso_crossings *crossings;
-    size_t each; /* turns of the last round, the same for all orbits that go on */
-    bool wanted[GROUP];
+    size_t each;        /* turns of the last round, the same for all orbits that go on */
+    bool wanted[GROUP]; /* whether an orbit goes on */
     iso_indicators shown[GROUP];
     size_t done[GROUP];
     iso_status status[GROUP];
@@ -158,6 +159,14 @@ static iso_status create_trace(iso_chaos_walk *w, int model)
     return iso_record_create(w->ctx, sizeof names / sizeof *names, names, &w->out->trace[model]);
 }
 
+/* Whether this model follows orbit i at all. */
+static bool follows(const group *g, int model, size_t i)
+{
+    const size_t orbit = g->first + i;
+    if (g->each || !g->w->sampled || model == ISO_POINT) return true;
+    return orbit == 0 || orbit > g->w->options.starts || (orbit - 1) % CHECKED == 0;
+}
+
 static iso_status open_model(group *g, int model)
 {
     const iso_chaos_walk *w = g->w;
@@ -176,7 +185,7 @@ static iso_status open_model(group *g, int model)
     for (size_t i = 0; i < g->count; i++) {
         iso_indicators_begin(&r->shown[i], o->turns);
         r->shown[i].integrable = (g->each ? g->each[i]->out : w->out)->integral != NULL;
-        r->wanted[i] = true;
+        r->wanted[i] = follows(g, model, i);
         r->status[i] = ISO_OK;
     }
     return iso_crossings_create(w->ctx, g->orbit, g->count, &c, &r->crossings);
