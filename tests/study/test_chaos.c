@@ -220,8 +220,8 @@ static void check_alone(void)
     iso_chaos_free(all);
 }
 
-/* Unless both are asked for, the ball follows every 16th start. What it follows is the same to the bit; what it does
- * not follow has no turns, and no numbers. The verdicts are those of both. */
+/* Unless both are asked for, the ball follows every 16th start that has a verdict. What it follows is the same to the
+ * bit; what it does not follow has no turns, and no numbers. The verdicts are those of both. */
 static void check_sample(void)
 {
     const iso_scene scene = scene_of(0.5, 1, 2, 5);

@@ -1,5 +1,5 @@
 /* chaos_walk.c - follows the orbits of chaos.h in groups, round by round. In each round the orbits that have not
- * ended go on to the next look, first by one model, then by the other. */
+ * ended go on to the next look. The point goes first, then the ball. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -159,12 +159,26 @@ static iso_status create_trace(iso_chaos_walk *w, int model)
     return iso_record_create(w->ctx, sizeof names / sizeof *names, names, &w->out->trace[model]);
 }
 
-/* Whether this model follows orbit i at all. */
+/* Whether this model follows orbit i. The ball checks verdicts of the point: where there is none, it has nothing to
+ * check. */
 static bool follows(const group *g, int model, size_t i)
 {
     const size_t orbit = g->first + i;
     if (g->each || !g->w->sampled || model == ISO_POINT) return true;
-    return orbit == 0 || orbit > g->w->options.starts || (orbit - 1) % CHECKED == 0;
+    if (orbit == 0 || orbit > g->w->options.starts) return true;
+    return (orbit - 1) % CHECKED == 0 && iso_indicators_verdict(&g->model[ISO_POINT].shown[i]) != ISO_UNDECIDED;
+}
+
+static void begin_model(group *g, int model)
+{
+    const iso_chaos_walk *w = g->w;
+    model_walk *r = &g->model[model];
+    for (size_t i = 0; i < g->count; i++) {
+        iso_indicators_begin(&r->shown[i], w->options.turns);
+        r->shown[i].integrable = (g->each ? g->each[i]->out : w->out)->integral != NULL;
+        r->wanted[i] = false;
+        r->status[i] = ISO_OK;
+    }
 }
 
 static iso_status open_model(group *g, int model)
@@ -182,12 +196,7 @@ static iso_status open_model(group *g, int model)
     c.threads = o->threads;
     c.vectors = o->vectors;
     model_walk *r = &g->model[model];
-    for (size_t i = 0; i < g->count; i++) {
-        iso_indicators_begin(&r->shown[i], o->turns);
-        r->shown[i].integrable = (g->each ? g->each[i]->out : w->out)->integral != NULL;
-        r->wanted[i] = follows(g, model, i);
-        r->status[i] = ISO_OK;
-    }
+    for (size_t i = 0; i < g->count; i++) r->wanted[i] = follows(g, model, i);
     return iso_crossings_create(w->ctx, g->orbit, g->count, &c, &r->crossings);
 }
 
@@ -230,21 +239,18 @@ static iso_status go_on(group *g, int model, bool *any)
     return status;
 }
 
-/* An orbit with a verdict counts as done. */
-static void show_progress(const group *g)
+/* An orbit with a verdict counts as done. The point goes first. */
+static void show_progress(const group *g, int model)
 {
     const iso_chaos_walk *w = g->w;
-    double done = 0;
-    int models = 0;
+    const model_walk *r = &g->model[model];
+    const bool both = w->out->with[ISO_BALL] && w->out->with[ISO_POINT];
+    double done = both && model == ISO_BALL ? (double)g->count : 0;
     if (!w->options.progress) return;
-    for (int m = 0; m < 2; m++)
-        for (size_t i = 0; w->out->with[m] && i < g->count; i++) {
-            const model_walk *r = &g->model[m];
-            done += r->wanted[i] ? (double)r->shown[i].turns / (double)most_turns(w, &r->shown[i]) : 1;
-            models += i == 0;
-        }
+    for (size_t i = 0; i < g->count; i++)
+        done += r->wanted[i] ? (double)r->shown[i].turns / (double)most_turns(w, &r->shown[i]) : 1;
     const double all = (double)(w->options.starts + w->options.at_count) + 1;
-    w->options.progress(fmin(1, ((double)g->first + done / models) / all), w->options.data);
+    w->options.progress(fmin(1, ((double)g->first + done / (both ? 2 : 1)) / all), w->options.data);
 }
 
 /* The verdict of both models. */
@@ -260,27 +266,32 @@ static void judge(const iso_chaos *c, iso_chaos_orbit *orbit)
                                           : ISO_UNDECIDED;
 }
 
+static iso_status follow_by(group *g, int model)
+{
+    iso_status status = open_model(g, model);
+    for (bool any = true; any && status == ISO_OK;) {
+        any = false;
+        status = go_on(g, model, &any);
+        show_progress(g, model);
+    }
+    iso_crossings_free(g->model[model].crossings);
+    g->model[model].crossings = NULL;
+    return status;
+}
+
 /* Each model follows an orbit until its own end, even if the other model has decided before. */
 static iso_status follow_group(group *g)
 {
+    static const int order[] = {ISO_POINT, ISO_BALL};
     iso_chaos *c = g->w->out;
     iso_status status = ISO_OK;
     make_starts(g);
-    for (int m = 0; m < 2 && status == ISO_OK; m++)
-        if (c->with[m]) status = open_model(g, m);
-    for (bool any = true; any && status == ISO_OK;) {
-        any = false;
-        for (int m = 0; m < 2 && status == ISO_OK; m++)
-            if (c->with[m]) status = go_on(g, m, &any);
-        show_progress(g);
-    }
+    for (int m = 0; m < 2; m++) begin_model(g, m);
+    for (int i = 0; i < 2 && status == ISO_OK; i++)
+        if (c->with[order[i]]) status = follow_by(g, order[i]);
     for (int m = 0; m < 2; m++)
         if (c->with[m]) tell(g, m);
     for (size_t i = 0; i < g->count; i++) judge(c, orbit_of(g, i));
-    for (int m = 0; m < 2; m++) {
-        iso_crossings_free(g->model[m].crossings);
-        g->model[m].crossings = NULL;
-    }
     return status;
 }
 
