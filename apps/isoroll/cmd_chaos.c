@@ -94,7 +94,8 @@ static void print_share(const iso_chaos_fraction *s)
 {
     if (s->asked == 0) return;
     const double count = (double)s->count;
-    printf("\n%zu starts spread evenly over the section, by its area dL dl:\n", s->asked);
+    printf("\n%zu starts spread evenly over the section, by its area dL dl, with a tolerance of %g:\n", s->asked,
+           s->tolerance);
     print_followed(s);
     if (s->count == 0) return;
     printf("  chaotic    %8.4f   (%zu); 95 %% interval %.4f to %.4f\n"
@@ -143,6 +144,7 @@ static iso_status describe(shell *s)
                {.key = "seed", .number = (double)how->seed},
                {.key = "axis", .number = c->axis + 1},
                {.key = "tolerance", .number = isnan(how->tolerance) ? s->scene.tolerance : how->tolerance},
+               {.key = "starts_tolerance", .number = part->tolerance},
                {.key = "orbit 0", .text = "the scene's own; l and x are nan: it need not start on the section"},
                {.key = "nan elsewhere", .text = "not known; an orbit that was not followed has no row"},
                {.key = "title", .text = s->title},

@@ -199,6 +199,7 @@ static void check_alone(void)
     iso_chaos *all, *one;
     o.starts = 9;
     o.turns = 300;
+    o.tolerance = 1e-12;
     o.models = ISO_SHOW_BOTH;
     must(iso_chaos_run(ctx, &scene, &o, &all), "nine starts");
     o.starts = 0;
@@ -246,6 +247,27 @@ static void check_sample(void)
     gsl_test_int((int)some->share.chaotic, (int)all->share.chaotic, "as many are chaotic");
     iso_chaos_free(all);
     iso_chaos_free(some);
+}
+
+/* The tolerance of the spread starts is enough for their verdicts. */
+static void check_spread_tolerance(void)
+{
+    const double k[] = {-1, -0.5, 0.3, 0.5, 1};
+    for (size_t j = 0; j < sizeof k / sizeof *k; j++) {
+        const iso_scene scene = scene_of(k[j], 1.4, 2.1, 3);
+        iso_chaos_options o = iso_chaos_defaults();
+        iso_chaos *usual, *fine;
+        o.starts = (size_t)tests_length(40, 300);
+        o.models = ISO_SHOW_POINT;
+        must(iso_chaos_run(ctx, &scene, &o, &usual), "as usual");
+        o.tolerance = 1e-13;
+        must(iso_chaos_run(ctx, &scene, &o, &fine), "finer");
+        gsl_test(!(usual->share.tolerance == ISO_SPREAD_TOLERANCE && fine->share.tolerance == 1e-13), "as said");
+        for (size_t i = 0; i < o.starts; i++)
+            gsl_test_int((int)usual->start[i].verdict, (int)fine->start[i].verdict, "k = %g, start %zu", k[j], i);
+        iso_chaos_free(usual);
+        iso_chaos_free(fine);
+    }
 }
 
 static bool stop_after(void *data)
@@ -381,6 +403,7 @@ int main(void)
     check_shares();
     check_alone();
     check_sample();
+    check_spread_tolerance();
     check_undecided();
     check_stopped();
     check_refusals();

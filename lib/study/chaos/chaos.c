@@ -119,6 +119,7 @@ static void count_shares(const iso_chaos_walk *w)
     size_t count[ISO_SHIFTS] = {0}, chaotic[ISO_SHIFTS] = {0}, possible[ISO_SHIFTS] = {0};
     double unused;
     s->asked = w->options.starts;
+    s->tolerance = w->spread_tolerance;
     for (size_t i = 0; i < s->asked && i < c->starts; i++) {
         const iso_chaos_orbit *o = &c->start[i];
         const size_t copy = i % ISO_SHIFTS;
@@ -178,7 +179,9 @@ static iso_status begin(iso_context *ctx, const iso_scene *scene, const iso_chao
 {
     *w = (iso_chaos_walk){.ctx = ctx, .scene = scene, .options = iso_chaos_defaults()};
     ISO_TRY(iso_options_take(ctx, "iso_chaos_options", &w->options, sizeof w->options, options));
-    if (isnan(w->options.tolerance)) w->options.tolerance = scene->tolerance;
+    const double asked = w->options.tolerance;
+    w->options.tolerance = isnan(asked) ? scene->tolerance : asked;
+    w->spread_tolerance = isnan(asked) ? fmax(scene->tolerance, ISO_SPREAD_TOLERANCE) : asked;
     w->out = calloc(1, sizeof *w->out);
     if (!w->out) return iso_context_no_memory(ctx, "the indicators");
     w->out->own.verdict = ISO_UNDECIDED;

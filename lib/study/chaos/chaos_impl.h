@@ -14,9 +14,10 @@ typedef struct iso_chaos_walk {
     iso_context *ctx;
     const iso_scene *scene;
     iso_chaos_options options;
-    iso_effects effects; /* that act on the motion */
-    iso_orbit *orbit;    /* the scene's            */
-    bool sampled;        /* the ball follows only every CHECKED-th of the starts that are spread */
+    iso_effects effects;     /* that act on the motion */
+    iso_orbit *orbit;        /* the scene's            */
+    bool sampled;            /* the ball follows only every CHECKED-th of the starts that are spread */
+    double spread_tolerance; /* of the starts that are spread */
     iso_section_spread spread;
     iso_chaos *out;
 } iso_chaos_walk;

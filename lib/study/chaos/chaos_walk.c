@@ -159,14 +159,19 @@ static iso_status create_trace(iso_chaos_walk *w, int model)
     return iso_record_create(w->ctx, sizeof names / sizeof *names, names, &w->out->trace[model]);
 }
 
+/* Whether all orbits of the group are spread starts. Otherwise none is. */
+static bool are_spread(const group *g)
+{
+    return !g->each && g->first > 0 && g->first <= g->w->options.starts;
+}
+
 /* Whether this model follows orbit i. The ball checks verdicts of the point: where there is none, it has nothing to
  * check. */
 static bool follows(const group *g, int model, size_t i)
 {
-    const size_t orbit = g->first + i;
-    if (g->each || !g->w->sampled || model == ISO_POINT) return true;
-    if (orbit == 0 || orbit > g->w->options.starts) return true;
-    return (orbit - 1) % CHECKED == 0 && iso_indicators_verdict(&g->model[ISO_POINT].shown[i]) != ISO_UNDECIDED;
+    if (!are_spread(g) || !g->w->sampled || model == ISO_POINT) return true;
+    return (g->first + i - 1) % CHECKED == 0 &&
+           iso_indicators_verdict(&g->model[ISO_POINT].shown[i]) != ISO_UNDECIDED;
 }
 
 static void begin_model(group *g, int model)
@@ -191,7 +196,7 @@ static iso_status open_model(group *g, int model)
     c.axis = w->out->axis < 0 || g->each ? ISO_AXIS_AUTO : w->out->axis;
     c.value = w->out->turn;
     c.deviations = true;
-    c.tolerance = o->tolerance;
+    c.tolerance = are_spread(g) ? w->spread_tolerance : o->tolerance;
     c.shown = w->out->axis < 0 ? ISO_SHOW_BALL : (iso_models)model;
     c.threads = o->threads;
     c.vectors = o->vectors;
@@ -319,14 +324,15 @@ static void tell_plane(iso_chaos *c)
 static iso_status follow_all(group *g)
 {
     iso_chaos_walk *w = g->w;
-    const size_t orbits = w->options.starts + w->options.at_count + 1;
+    const size_t spread = w->options.starts, orbits = spread + w->options.at_count + 1;
     iso_status status = ISO_OK;
     for (int m = 0; m < 2 && status == ISO_OK; m++)
         if (w->out->with[m]) status = create_trace(w, m);
     if (w->out->plane >= 0) tell_plane(w->out);
     for (size_t first = w->out->plane >= 0; first < orbits && status == ISO_OK; first += g->count) {
         g->first = first;
-        g->count = first == 0 ? 1 : orbits - first < GROUP ? orbits - first : GROUP;
+        const size_t end = first == 0 ? 1 : first <= spread ? spread + 1 : orbits; /* of orbits of one kind */
+        g->count = end - first < GROUP ? end - first : GROUP;
         status = follow_group(g);
         if (first == 0 && status == ISO_OK) status = iso_chaos_check_own(w);
         w->out->starts = first + g->count - 1;
