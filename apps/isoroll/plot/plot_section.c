@@ -32,7 +32,7 @@ static int part_of(double hue, double shift)
 /* The hues of successive orbits differ by the golden section of the circle. The first is a strong blue. */
 static long colour_of(double orbit, bool grey)
 {
-    if (grey) return 0xB0B0B0;
+    if (grey) return ISO_PLOT_GREY_CODE;
     const double hue = fmod(0.6 + orbit * 0.61803398874989485, 1);
     return (long)part_of(hue, 0) << 16 | (long)part_of(hue, -1.0 / 3) << 8 | part_of(hue, -2.0 / 3);
 }
@@ -113,13 +113,13 @@ static void put_spots(FILE *f, const iso_plot_section *s, const char *block)
         fprintf(f, "$%s using 1:2:3 with points pt 7 ps %.17g lc rgb variable notitle\n", block, size);
 }
 
-static void put_heading(FILE *f, const iso_plot_section *s)
+static void put_heading(FILE *f, const iso_plot_page *page, const iso_plot_section *s)
 {
     fprintf(f,
             "set multiplot\n" ISO_PLOT_PAGE "set key at screen 0.985,0.962 right center samplen 1\n"
             "set label 1 %s at screen 0.015,0.962 left noenhanced font ',12'\nplot NaN notitle",
-            QUOTED(s->title, 95));
-    if (s->grey_means) fprintf(f, ", NaN w p pt 7 ps 1 lc rgb '#B0B0B0' title %s", QUOTED(s->grey_means, 60));
+            QUOTED(iso_plot_titled(page, s->title), 95));
+    if (s->grey_means) fprintf(f, ", NaN w p pt 7 ps 1 lc rgb " ISO_PLOT_GREY " title %s", QUOTED(s->grey_means, 60));
     fputs("\nunset label 1; unset key\n" ISO_PLOT_FRAME
           "set tmargin at screen 0.86\nset bmargin at screen 0.14\n" ISO_PLOT_ANGLES,
           f);
@@ -152,23 +152,24 @@ static void put_point(FILE *f, const iso_plot_section *s, double top, double mos
     fputs("plot ", f);
     for (int side = 1; side >= -1; side -= 2) { /* outside of the boundaries */
         fprintf(f,
-                "$boundary using 1:(%d*$2):(%.17g) with filledcurves fc rgb '#ECEFF1' notitle, $boundary using "
-                "1:(%d*$2) with lines lw 1 lc rgb '#606060' notitle, ",
+                "$boundary using 1:(%d*$2):(%.17g) with filledcurves fc rgb " ISO_PLOT_BAND
+                " notitle, $boundary using "
+                "1:(%d*$2) with lines lw 1 lc rgb " ISO_PLOT_LINE " notitle, ",
                 side, side * TOP * most, side);
     }
     put_spots(f, s, "point");
 }
 
-iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *s)
+iso_status iso_plot_sections(iso_context *ctx, const iso_plot_page *page, const iso_plot_section *s)
 {
     int column[4];
     if (!iso_record_find_all(s->rows, 4, (const char *[]){"orbit", "l", "x", "grey"}, column, NULL) ||
         iso_record_rows(s->rows) == 0 || s->axis < 0 || s->axis > 2)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                 "a picture of a section n_a = 0 needs at least one crossing, and a = 1, 2 or 3");
-    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
+    FILE *f = iso_gnuplot_open(ctx, page, WIDTH, HEIGHT);
     const double ball = put_crossings(f, s, true), point = put_crossings(f, s, false), most = put_boundary(f, s);
-    put_heading(f, s);
+    put_heading(f, page, s);
     put_ball(f, s, s->few ? fmin(1, ROOM * ball + 1e-3) : 1);
     put_point(f, s, TOP * (s->few ? fmin(most, ROOM * point + 1e-3 * most) : most), most);
     return iso_gnuplot_close(ctx, true);

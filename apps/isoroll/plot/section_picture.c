@@ -142,10 +142,10 @@ iso_status section_picture_judge(iso_context *ctx, section_picture *p, const iso
     return ISO_OK;
 }
 
-iso_status section_picture_draw(iso_context *ctx, section_picture *p, const char *path)
+iso_status section_picture_draw(iso_context *ctx, section_picture *p, const iso_plot_page *page)
 {
-    const size_t length = strlen(path);
-    const bool png = length > 4 && strcmp(path + length - 4, ".png") == 0;
+    const size_t length = strlen(page->path);
+    const bool png = length > 4 && strcmp(page->path + length - 4, ".png") == 0;
     char title[ISO_PLOT_TITLE];
     bool any = false;
     if (p->l < 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--plot: an event has no coordinates l, x");
@@ -160,5 +160,5 @@ iso_status section_picture_draw(iso_context *ctx, section_picture *p, const char
     plot.title = iso_plot_title(title, &p->params, ": %zu orbit%s", p->orbits, p->orbits == 1 ? "" : "s");
     plot.rows = p->kept;
     plot.grey_means = any ? means : NULL;
-    return iso_plot_sections(ctx, path, &plot);
+    return iso_plot_sections(ctx, page, &plot);
 }

@@ -4,6 +4,7 @@
 
 #include "isoroll.h"
 #include "orbit/crossings.h"
+#include "plot/page.h"
 #include "study/chaos/chaos.h"
 
 typedef struct section_picture section_picture;
@@ -28,6 +29,6 @@ iso_status section_picture_judge(iso_context *ctx, section_picture *p, const iso
 
 /* Draws the picture. Errors: ISO_BAD_INPUT if the section is an event, which has no coordinates; those of
  * iso_plot_sections. */
-iso_status section_picture_draw(iso_context *ctx, section_picture *p, const char *path);
+iso_status section_picture_draw(iso_context *ctx, section_picture *p, const iso_plot_page *page);
 
 #endif
