@@ -41,7 +41,8 @@ enum {
     ISO_PLOT_WHITE_CODE = 0xFFFFFF,
     ISO_PLOT_GREY_CODE = 0xB0B0B0,
     ISO_PLOT_SPHERE_CODE = 0xF4F6F8,
-    ISO_PLOT_FAINT_CODE = 0x707880
+    ISO_PLOT_FAINT_CODE = 0x707880,
+    ISO_PLOT_INK_CODE = 0x404040
 };
 
 /* Dash and colour of the i-th of several lines. After ISO_PLOT_STROKES they begin again. */

@@ -114,17 +114,26 @@ iso_status iso_plot_cost(iso_context *ctx, const iso_plot_page *page, const char
 iso_status iso_plot_splitting(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *table,
                               const iso_record *curve, double at, int axis);
 
+/* How an orbit is drawn: 0: in colours; grey, behind the others; dark. */
+typedef enum iso_plot_shade {
+    ISO_PLOT_COLOURED,
+    ISO_PLOT_CHAOTIC,
+    ISO_PLOT_UNDECIDED,
+    ISO_PLOT_SHADES
+} iso_plot_shade;
+
 /* Crossings of one section n_a = 0 by both models, as points (l, x) of the chart (map/section.h). */
 typedef struct iso_plot_section {
     const char *title; /* one line, any characters; NULL: none                                          */
     const iso_params *params;
     double eps, energy; /* coupling, > 0, and level H, if nothing acts but a level; eps 0: x is drawn, not L */
     int axis;           /* a, 0 to 2                                                                     */
-    /* Columns orbit (0, 1, ...), l, x and grey: not 0 of orbits that are drawn in grey, behind the others. The
-     * crossings of the point are the same, or in columns point_l, point_x. */
+    /* Columns orbit (0, 1, ...), l, x and grey, an iso_plot_shade. If there is a column rotation, an orbit has the
+     * colour of its rotation number; else each has its own. The crossings of the point are the same, or in columns
+     * point_l, point_x. */
     const iso_record *rows;
-    const char *grey_means; /* what the key says of grey, such as "chaotic"; NULL: there is no key */
-    bool few;               /* few crossings, as of periodic orbits: in colours and large; the axes end with them */
+    const char *grey_means, *dark_means; /* what the key says of these shades, such as "chaotic"; NULL: nothing */
+    bool few; /* few crossings, as of periodic orbits: in colours and large; the axes end with them */
 } iso_plot_section;
 
 /* Left: the section of the ball. Its axes are the angle of n in the plane n_a = 0, and omega_a/|omega|. Right: that
