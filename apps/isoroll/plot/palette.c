@@ -38,9 +38,9 @@ int iso_plot_scale(double part)
     return iso_plot_mix(viridis[piece], viridis[piece + 1], part * PIECES - piece);
 }
 
-void iso_plot_put_scale(FILE *f)
+void iso_plot_put_scale(FILE *f, double most)
 {
     fputs("set palette defined (", f);
-    for (int i = 0; i <= PIECES; i++) fprintf(f, "%s%d '#%06X'", i ? ", " : "", i, viridis[i]);
+    for (int i = 0; i <= PIECES; i++) fprintf(f, "%s%d '#%06X'", i ? ", " : "", i, iso_plot_scale(most * i / PIECES));
     fputs(")\n", f);
 }

@@ -53,7 +53,7 @@ const char *iso_plot_stroke(int i);
 int iso_plot_scale(double part);
 int iso_plot_mix(int a, int b, double part);
 
-/* The scale as gnuplot's palette. */
-void iso_plot_put_scale(FILE *script);
+/* The scale up to `most` as gnuplot's palette. */
+void iso_plot_put_scale(FILE *script, double most);
 
 #endif

@@ -293,7 +293,7 @@ static bool put_scale(FILE *f, const iso_record *rows)
     if (!(low < high)) low = isfinite(low) ? low : 0, high = low + 1;
     fprintf(f, "set cbrange [%.9g:%.9g]\n%sset colorbox user origin 0.865,0.25 size 0.015,0.5\n", low, high,
             s.sizes ? "set logscale cb; set format cb '10^{%T}'\n" : "");
-    iso_plot_put_scale(f);
+    iso_plot_put_scale(f, 1);
     put_value_label(f, "cblabel", iso_record_name(rows, 2), s.sizes);
     return s.sizes;
 }

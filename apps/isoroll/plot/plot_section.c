@@ -156,11 +156,11 @@ static void put_bar(FILE *f, const iso_plot_section *s)
 {
     double range[2];
     if (!range_of(s, range)) return;
-    iso_plot_put_scale(f);
+    iso_plot_put_scale(f, LIGHTEST);
     fprintf(f,
             "set cbrange [%.6g:%.6g]; set cblabel 'rotation number: turns from crossing to crossing' offset 0.5,0\n"
             "set colorbox user origin 0.9,0.2 size 0.014,0.6; set cbtics offset -0.5,0\n",
-            range[0], range[0] + (range[1] - range[0]) / LIGHTEST);
+            range[0], range[1]);
 }
 
 /* Where the two sections stand from left to right: with a bar there is less room. */
