@@ -157,7 +157,7 @@ static int draw(const shell *s)
     if (c->share.count > 0) return shell_draw(s, s->result.table[0]);
     if (c->plane < 0)
         return finish(s->ctx,
-                      iso_plot_indicators(s->ctx, s->told->plot, s->title, c->trace[ISO_BALL], c->trace[ISO_POINT]));
+                      iso_plot_indicators(s->ctx, &s->told->plot, s->title, c->trace[ISO_BALL], c->trace[ISO_POINT]));
     complain("no picture: a rotation in a principal plane is periodic, and was not followed");
     return EXIT_DONE;
 }
@@ -198,7 +198,7 @@ static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_chaos_option, 0, 8),
-    ROW_PLOT(options, shell.plot),
+    ROWS_OF_PLOT(options, shell.plot),
     ROW_OF_FILE("csv", "FILE", "a file", "write one row for each orbit to FILE; - is standard output", iso_set_text,
                 options, shell.table, 0, OPTION_WRITES),
     ROW_JSON(options, shell.json),

@@ -187,7 +187,7 @@ static int draw(const shell *s)
             snprintf(drawn, sizeof drawn, "drawn: the first %.2g turns of n", ISO_STRETCH_TURNS);
         tell_result(c, result, sizeof result);
         const iso_plot_twins plot = {title, drawn, result, curve, states};
-        status = iso_plot_comparison(s->ctx, s->told->plot, &plot);
+        status = iso_plot_comparison(s->ctx, &s->told->plot, &plot);
     }
     iso_record_free(curve);
     iso_record_free(states);
@@ -221,7 +221,7 @@ static const option_row rows[] = {
     ROWS_OF_STUDY(iso_compare_option, 0, 4),
     ROW("rows", "N", "a whole number from 1 on", "rows of the table to print (default 6)", iso_set_count, options,
         rows),
-    ROW_PLOT(options, shell.plot),
+    ROWS_OF_PLOT(options, shell.plot),
     ROW_JSON(options, shell.json),
     ROW_END,
 };

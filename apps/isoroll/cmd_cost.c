@@ -100,7 +100,7 @@ static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_cost_option, 0, 7),
-    ROW_PLOT(options, shell.plot),
+    ROWS_OF_PLOT(options, shell.plot),
     ROW_OF_FILE("csv", "FILE", "a file", "write the table as CSV to FILE; - is standard output", iso_set_text,
                 options, shell.table, 0, OPTION_WRITES),
     ROW_JSON(options, shell.json),

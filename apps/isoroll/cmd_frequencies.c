@@ -117,7 +117,7 @@ static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene
     progress_end();
     char words[2 * ISO_PLOT_TITLE];
     snprintf(words, sizeof words, "Spectrum of n(t)        %s", title);
-    return status == ISO_OK ? iso_plot_lines(ctx, o->shell.plot, words, &f.estimate) : status;
+    return status == ISO_OK ? iso_plot_lines(ctx, &o->shell.plot, words, &f.estimate) : status;
 }
 
 static int draw(const shell *s)
@@ -131,7 +131,7 @@ static int draw(const shell *s)
     bool mapped = f->integral && f->h > 0 && iso_momentum_make(p, f->H, &m) && strcmp(f->integral->name, m.F) == 0;
     double low, high; /* with equal moments the image has no area */
     mapped = mapped && iso_momentum_interval(&m, f->h, iso_momentum_find(&m, f->h, f->F), &low, &high);
-    return finish(s->ctx, mapped ? iso_plot_momentum(s->ctx, o->shell.plot, title, &m, (double[]){f->h, f->F})
+    return finish(s->ctx, mapped ? iso_plot_momentum(s->ctx, &o->shell.plot, title, &m, (double[]){f->h, f->F})
                                  : draw_lines(s->ctx, o, &s->scene, title, f));
 }
 
@@ -158,7 +158,7 @@ static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_frequencies_option, 0, 3),
-    ROW_PLOT(options, shell.plot),
+    ROWS_OF_PLOT(options, shell.plot),
     ROW_JSON(options, shell.json),
     ROW_END,
 };

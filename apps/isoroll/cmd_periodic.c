@@ -258,7 +258,7 @@ static const options defaults = {.shell = {.file = "-"}};
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_periodic_option, 0, 12),
     ROW_OUTPUT(options, shell.table),
-    ROW_PLOT(options, shell.plot),
+    ROWS_OF_PLOT(options, shell.plot),
     ROW_JSON(options, shell.json),
     ROW_END,
 };

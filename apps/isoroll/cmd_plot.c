@@ -6,6 +6,7 @@
 
 #include "base/nearest_impl.h"
 #include "io/table.h"
+#include "orbit/description.h"
 #include "parameters.h"
 #include "plot/plot.h"
 #include "study/check/check_impl.h"
@@ -13,7 +14,8 @@
 
 typedef struct options {
     file_options from;
-    const char *output, *value; /* value NULL: not given */
+    iso_plot_page page;
+    const char *value; /* NULL: not given */
 } options;
 
 /* What is drawn: the file, its conversion, and numbers from both. */
@@ -121,7 +123,7 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_params *par
                                  .paces = p->paces,
                                  .energies = p->energies,
                                  .space = in_space ? &space : NULL};
-    return iso_plot_trajectory(ctx, o->output, &plot);
+    return iso_plot_trajectory(ctx, &o->page, &plot);
 }
 
 /* --- two columns ------------------------------------------------------------------------------------------------ */
@@ -182,15 +184,23 @@ static bool are_components(const char *x, const char *y)
            strchr("123", x[length - 1]) && strchr("123", y[length - 1]);
 }
 
+/* k and J, if the file says them; else "": the axes have names. */
+static void what_is_drawn(iso_context *ctx, const iso_record *r, char title[static ISO_PLOT_TITLE])
+{
+    iso_params params;
+    *title = '\0';
+    if (iso_record_params(ctx, r, &params) == ISO_OK) iso_plot_title(title, &params, "%s", "");
+}
+
 static iso_status draw_two(iso_context *ctx, const options *o, char name[2][NAME])
 {
-    char title[160];
+    char title[ISO_PLOT_TITLE];
     iso_record *file = NULL;
     iso_status status = read_two(ctx, o, &file);
     for (int i = 0; status == ISO_OK && i < 2; i++) status = find_column(ctx, file, name[i]);
     if (status == ISO_OK) {
-        snprintf(title, sizeof title, "%.60s: %zu rows", name_of(o), iso_record_rows(file));
-        status = iso_plot_columns(ctx, o->output, title, file, name[0], name[1], are_components(name[0], name[1]));
+        what_is_drawn(ctx, file, title);
+        status = iso_plot_columns(ctx, &o->page, title, file, name[0], name[1], are_components(name[0], name[1]));
     }
     iso_record_free(file);
     return status;
@@ -217,7 +227,7 @@ static iso_status draw_table(iso_context *ctx, const options *o)
 {
     iso_record *table = NULL;
     iso_status status = iso_table_read(ctx, o->from.file, NULL, NULL, &table, NULL);
-    if (status == ISO_OK) status = iso_plot_table(ctx, o->output, name_of(o), table);
+    if (status == ISO_OK) status = iso_plot_table(ctx, &o->page, name_of(o), table);
     iso_record_free(table);
     return status;
 }
@@ -226,15 +236,15 @@ static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
     char name[2][NAME], kind[ISO_KIND_SIZE] = "";
-    if (strcmp(o->output, "-") == 0)
+    if (strcmp(o->page.path, "-") == 0)
         return complain("plot: -o FILE is missing: name a file that ends in .svg, .png or .pdf"), EXIT_USAGE;
-    iso_status status = iso_plot_check_format(ctx, o->output);
+    iso_status status = iso_plot_check_page(ctx, &o->page);
     progress_begin();
     if (status == ISO_OK) iso_table_kind(o->from.file, kind);
     const bool sweep = strcmp(kind, "sweep") == 0 || strcmp(kind, "sweep part") == 0;
     if (sweep && o->from.columns)
         return complain("plot: --columns is for trajectories; of a sweep give --value NAME"), EXIT_USAGE;
-    if (sweep) return finish(ctx, iso_plot_sweep(ctx, o->output, o->from.file, o->value));
+    if (sweep) return finish(ctx, iso_plot_sweep(ctx, &o->page, o->from.file, o->value));
     if (status == ISO_OK && o->value)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "plot: --value is for results of sweeps");
     if (status == ISO_OK && !o->from.columns && iso_plot_has_kind(kind)) return finish(ctx, draw_table(ctx, o));
@@ -242,11 +252,12 @@ static int run(iso_context *ctx, const void *options_given)
     return finish(ctx, name_the_file(ctx, o->from.file, status));
 }
 
-static const options defaults = {.from = FILE_OPTIONS_UNSET, .output = "-"};
+static const options defaults = {.from = FILE_OPTIONS_UNSET, .page = {.path = "-"}};
 
 static const option_row rows[] = {
-    ROW_OF_FILE("output", "FILE", "a file", "the picture: .svg, .png or .pdf", iso_set_text, options, output, 'o',
+    ROW_OF_FILE("output", "FILE", "a file", "the picture: .svg, .png or .pdf", iso_set_text, options, page.path, 'o',
                 OPTION_WRITES),
+    ROWS_OF_LOOK(options, page),
     ROW("value", "NAME", "a name", "of a sweep: which column is drawn, such as splitting_m", iso_set_text, options,
         value),
     ROWS_OF_FILE(options, from),
@@ -269,6 +280,9 @@ const command command_plot = {
         "several maps. k = 1 and k = -1 are marked.\n\nOther tables are drawn from their columns, without "
         "computing anew: sections; the starts of chaos, coloured by exponent; periodic orbits, by one "
         "crossing of each and its images; branches of --follow; charts; splittings; costs.\n\ngnuplot draws "
-        "the picture.",
+        "the picture. On the screen its letters grow with --size. --style print has letters of 8 pt; without --size "
+        "it "
+        "is 86 mm wide if it is one panel, else 178 mm. A px is a pixel of a .png, and 1/96 inch elsewhere. --script "
+        "FILE keeps the script of gnuplot with its data: gnuplot -d FILE >PICTURE draws the same.",
     .example = "isoroll plot trajectory.csv -o trajectory.svg",
 };

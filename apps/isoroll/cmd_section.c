@@ -30,7 +30,7 @@ static iso_status open_file(void *data, const iso_record *header)
 {
     target *t = data;
     t->opened = true;
-    iso_status status = t->o->shell.plot ? section_picture_create(t->ctx, header, &t->picture) : ISO_OK;
+    iso_status status = t->o->shell.plot.path ? section_picture_create(t->ctx, header, &t->picture) : ISO_OK;
     if (status == ISO_OK) status = iso_table_writer_open(t->ctx, t->o->shell.table, "section", &t->writer);
     return status == ISO_OK ? iso_table_write_header(t->ctx, t->writer, header) : status;
 }
@@ -111,7 +111,7 @@ static void judge(iso_context *ctx, const iso_scene *scene, const iso_section_op
 static int draw(target *t, const iso_scene *scene, const iso_section_options *how, const iso_section_result *r)
 {
     if (!interrupted()) judge(t->ctx, scene, how, r, t->picture);
-    return finish(t->ctx, section_picture_draw(t->ctx, t->picture, t->o->shell.plot));
+    return finish(t->ctx, section_picture_draw(t->ctx, t->picture, &t->o->shell.plot));
 }
 
 /* --- the whole -------------------------------------------------------------------------------------------------- */
@@ -142,7 +142,7 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     begin_work(ctx, o->shell.table);
     const iso_status status = iso_section_run(ctx, scene, how, &sink, &r);
     int result = t.opened ? close_file(&t, status, &r) : finish_scene(ctx, o->shell.file, scene, status);
-    if (t.opened && o->shell.plot && r.rows > 0 && result <= EXIT_SOME_FAILED) {
+    if (t.opened && o->shell.plot.path && r.rows > 0 && result <= EXIT_SOME_FAILED) {
         const int drawn = draw(&t, scene, how, &r);
         if (drawn != EXIT_DONE) result = drawn;
     }
@@ -155,8 +155,8 @@ static int section(iso_context *ctx, const options *o)
     iso_scene scene = {.places = 0};
     const iso_section_options *how = &o->study.how;
     int axis;
-    iso_status status = o->shell.plot ? iso_plot_check_format(ctx, o->shell.plot) : ISO_OK;
-    if (status == ISO_OK && o->shell.plot && how->column >= 0 &&
+    iso_status status = iso_plot_check_page(ctx, &o->shell.plot);
+    if (status == ISO_OK && o->shell.plot.path && how->column >= 0 &&
         !iso_section_is_of_axis(how->column, how->value, &axis))
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                   "--plot draws sections n_A = 0: an event has no coordinates l, x");
@@ -170,7 +170,8 @@ static int section(iso_context *ctx, const options *o)
 static iso_status check_cloud(const shell *s)
 {
     const shell_options *o = &((const options *)s->options)->shell;
-    const char *lost = strcmp(o->table, "-") != 0 ? "--output" : o->plot ? "--plot" : NULL;
+    ISO_TRY(iso_plot_check_page(s->ctx, &o->plot));
+    const char *lost = strcmp(o->table, "-") != 0 ? "--output" : o->plot.path ? "--plot" : NULL;
     if (!lost) return ISO_OK;
     return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "", "section: --cloud takes no %s: it only prints the test",
                             lost);
@@ -215,7 +216,7 @@ static const options defaults = {.shell = {.file = "-", .table = "-"}};
 static const option_row rows[] = {
     ROW_OUTPUT(options, shell.table),
     ROWS_OF_STUDY(iso_section_option, 0, 9),
-    ROW_PLOT(options, shell.plot),
+    ROWS_OF_PLOT(options, shell.plot),
     ROWS_OF_STUDY(iso_section_option, 9, 2),
     ROW("quiet", NULL, NULL, "print no summary on stderr", iso_set_flag, options, quiet),
     ROW_END,
@@ -240,8 +241,10 @@ const command command_section = {
         "Where no effect but 'level' acts, crossings are searched in pieces of the path that are too short for two "
         "zeros of n_A: none is skipped. In addition, the length in s of each return is checked against bounds. A "
         "return outside them is an error.\n\n"
-        "--plot draws the sections of both models side by side, each orbit in one colour, chaotic orbits in "
-        "grey.\n\n"
+        "--plot draws the sections of both models side by side. A regular orbit has the colour of its rotation "
+        "number, "
+        "the mean turn from one crossing to the next: about axis A, or about its centre if it stays in a part of the "
+        "circle of l. Its images by the reversors are drawn too. Chaotic orbits are grey, undecided ones dark.\n\n"
         "--cloud N makes clouds of N states that are distributed by the invariant measure (10) at the scene's "
         "energy. One cloud is carried by the flow in equal times t, one in equal times s, and one by returns to "
         "the section, where the measure is dL dl. Then each cloud is tested against the measure. Its line has p, "

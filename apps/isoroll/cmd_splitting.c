@@ -133,7 +133,7 @@ static int draw(const shell *s)
     if (interrupted()) return EXIT_DONE;
     iso_status status = iso_separatrix_curve(s->ctx, at->k, s->scene.params.J, at->level, halves_of(at), &curve);
     if (status == ISO_OK)
-        status = iso_plot_splitting(s->ctx, s->told->plot, s->title, t->rows > 1 ? s->result.table[0] : NULL, curve,
+        status = iso_plot_splitting(s->ctx, &s->told->plot, s->title, t->rows > 1 ? s->result.table[0] : NULL, curve,
                                     number_of(at, iso_separatrix_by_level(t)), at->section);
     iso_record_free(curve);
     return finish(s->ctx, status);
@@ -158,7 +158,7 @@ static const options defaults = {.shell = {.file = "-"}};
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_splitting_option, 0, 4),
     ROW_OUTPUT(options, shell.table),
-    ROW_PLOT(options, shell.plot),
+    ROWS_OF_PLOT(options, shell.plot),
     ROW_JSON(options, shell.json),
     ROW_END,
 };

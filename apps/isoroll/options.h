@@ -80,9 +80,6 @@ bool ends_with(const char *path, const char *ending);
 #define ROW_OUTPUT(type, field)                                                                                      \
     ROW_OF_FILE("output", "FILE", "a file", "write to FILE; - is standard output", iso_set_text, type, field, 'o',   \
                 OPTION_WRITES)
-#define ROW_PLOT(type, field)                                                                                        \
-    ROW_OF_FILE("plot", "FILE", "a file", "draw a picture: .svg, .png or .pdf", iso_set_text, type, field, 0,        \
-                OPTION_WRITES)
 #define ROW_THREADS ISO_OPTION_THREADS
 #define ROW_JSON(type, field)                                                                                        \
     ROW_WITH("json", NULL, NULL, "print everything as JSON", iso_set_flag, type, field, .aside = true)

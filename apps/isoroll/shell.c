@@ -35,7 +35,7 @@ static iso_status prepare(shell *s, const shell_parts *parts, iso_table_writer *
 {
     const shell_options *o = s->told;
     iso_status status = parts->check ? parts->check(s) : check_json_alone(s, parts);
-    if (status == ISO_OK && o->plot) status = iso_plot_check_format(s->ctx, o->plot);
+    if (status == ISO_OK) status = iso_plot_check_page(s->ctx, &o->plot);
     if (status == ISO_OK) status = iso_scene_read(s->ctx, o->file, &s->scene);
     if (status == ISO_OK && parts->change) status = parts->change(s);
     return status == ISO_OK && o->table ? iso_table_writer_open(s->ctx, o->table, parts->kind, writer) : status;
@@ -68,7 +68,7 @@ iso_status shell_lines(shell *s, const table_line *l)
 
 int shell_draw(const shell *s, const iso_record *table)
 {
-    return finish(s->ctx, iso_plot_table(s->ctx, s->told->plot, "", table));
+    return finish(s->ctx, iso_plot_table(s->ctx, &s->told->plot, "", table));
 }
 
 /* Prints words or JSON, unless the table goes to standard output. */
@@ -93,7 +93,7 @@ static int save(shell *s, const shell_parts *parts, iso_table_writer *writer)
     else if (writer)
         iso_table_writer_close(s->ctx, writer, false);
     const int result = finish(s->ctx, status);
-    if (!s->told->plot || !made) return result;
+    if (!s->told->plot.path || !made) return result;
     return worse(result, parts->draw ? parts->draw(s) : shell_draw(s, s->result.table[0]));
 }
 

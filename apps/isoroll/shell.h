@@ -8,8 +8,9 @@
 
 /* What every such command can be told. */
 typedef struct shell_options {
-    const char *file;         /* of the scene    */
-    const char *table, *plot; /* NULL: not given */
+    const char *file;  /* of the scene    */
+    const char *table; /* NULL: not given */
+    iso_plot_page plot;
     bool json;
 } shell_options;
 

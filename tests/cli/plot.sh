@@ -139,7 +139,7 @@ tells "late times" '"t − 1000000000"'
 
 # --- two columns
 draw bowl.csv --columns t,n3
-tells "two columns" '"n3 over t"'
+tells "two columns" '"n₃ over t"'
 block curve0 1 >a && columns_of bowl.csv t n3 >b && same "t, n3"
 draw bowl.csv --columns centre1,centre3
 tells "components of a vector" "set size ratio -1"
@@ -154,7 +154,7 @@ draw bare.csv --columns t,n3
 block curve0 1 >a && same "two columns without names"
 cp script kept
 draw - --columns t,n3 <bowl.csv
-tells "standard input" '\074stdin\076'
+tells_not "standard input" stdin
 if "$isoroll" run "$bowl" --t-end 8 --step 0.02 -o bowl.h5 2>/dev/null; then
     draw bowl.h5 --columns t,n3
     block curve0 1 >a && same "HDF5"
@@ -192,6 +192,56 @@ if has gnuplot "pictures"; then
     done
     check "words of the picture" grep -q ">seen from the side<" bowl.svg
 fi
+
+# --- how it looks: --style, --size, --title, --script
+if has gnuplot "looks"; then
+    for file in bowl.csv lane.csv; do
+        run 0 plot $file -o look.svg --script look.gp
+        check "$file: its script draws the same" sh -c 'gnuplot -d look.gp | cmp - look.svg'
+        run 0 plot $file -o look.png --script look.gp --size 600x500px --title "a 'title' of \`my\` own"
+        check "$file: its script draws the same .png" sh -c 'gnuplot -d look.gp | cmp - look.png'
+        check "its data are in it" grep -q '^\$path1 << EOD' look.gp
+        check_not "no file is named in it" grep -q "$file\|look" look.gp
+    done
+    check "a size in pixels" test "$(od -An -j16 -N8 -tu1 look.png | tr -d '\n')" = "   0   0   2  88   0   0   1 244"
+    run 0 plot bowl.csv -o look.svg --title "only this"
+    check "a title" grep -q ">only this<" look.svg
+    check_not "in place of its own" grep -q "The path of a ball" look.svg
+    for none in "" none; do
+        run 0 plot bowl.csv -o look.svg --title "$none"
+        check_not "no title: '$none'" grep -q "The path of a ball" look.svg
+    done
+    run 0 plot bowl.csv -o look.svg --style screen
+    check "the screen is the default" cmp look.svg bowl.svg
+    # print: 178 mm = 504.6 pt or 86 mm = 243.8 pt wide, letters of 8 pt, fonts inside
+    run 0 plot bowl.csv -o two.pdf --style print
+    run 0 plot bowl.csv --columns t,n3 -o one.pdf --style print
+    run 0 plot bowl.csv --columns t,n3 -o other.pdf --style print --size 100x80mm
+    if has pdfinfo "the size of pages"; then
+        for page in "two 504.6" "one 243.8" "other 283.5"; do
+            width=$(pdfinfo "${page% *}.pdf" | sed -n 's/^Page size: *\([0-9.]*\) x.*/\1/p')
+            at_most "the width of ${page% *}.pdf" "$(awk -v a="$width" -v b="${page#* }" 'BEGIN { d = a - b
+                print (d < 0 ? -d : d) }')" 1
+        done
+        check_not "every font is inside" sh -c 'pdffonts two.pdf | tail -n +3 | awk "{ print \$(NF - 4) }" | grep -v yes'
+        pdftotext -bbox one.pdf words
+        # a line of DejaVu Sans is 1.164 of its letters high
+        at_most "letters of 8 pt" "$(sed -n 's/.*yMin="\([0-9.]*\)".*yMax="\([0-9.]*\)">over<.*/\1 \2/p' words |
+            awk '{ d = ($2 - $1) / 1.164 - 8; print (d < 0 ? -d : d) }')" 0.1
+    fi
+fi
+refuses 2 "expected screen or print" plot bowl.csv -o look.svg --style paper
+for size in 86x60 86mm x 86x60cm 1x1mm 86xmm x60mm 20000x100px -86x60mm nanx60mm; do
+    refuses 2 "expected a width and a height" plot bowl.csv -o look.svg --size="$size"
+done
+for wish in --style=print --size=86x60mm --title=a --script=a.gp; do
+    option=${wish%=*}
+    refuses 2 "$option is about a picture: give --plot FILE, too" chaos "$bowl" "$wish"
+    refuses 2 "$option is about a picture" section "$bowl" "$wish"
+done
+refuses 2 "would be two files in one" plot bowl.csv -o look.svg --script look.svg
+refuses 5 "No such file" plot bowl.csv --columns t,n3 -o look.svg \
+    --script absent/look.gp
 
 # --- every table that a command writes: from its file, the picture of its kind
 scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml

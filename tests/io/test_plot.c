@@ -93,7 +93,7 @@ static iso_record *make_differences(size_t rows, double turn, double size)
 static iso_status draw(const char *path, const char *title, iso_record *r)
 {
     const iso_plot_twins plot = {.title = title, .drawn = title, .result = title, .curve = r, .states = r};
-    const iso_status status = iso_plot_comparison(ctx, path, &plot);
+    const iso_status status = iso_plot_comparison(ctx, &(iso_plot_page){.path = path}, &plot);
     iso_record_free(r);
     return status;
 }
@@ -107,7 +107,7 @@ static iso_status draw_simple(const char *path, const char *title)
 static iso_status draw_sheet(const char *path, const char *title, iso_record *r, iso_record *d)
 {
     const iso_plot_orbit plot = {.title = title, .ball = r, .point = r, .drift = d};
-    const iso_status status = iso_plot_trajectory(ctx, path, &plot);
+    const iso_status status = iso_plot_trajectory(ctx, &(iso_plot_page){.path = path}, &plot);
     iso_record_free(r);
     iso_record_free(d);
     return status;
@@ -130,7 +130,8 @@ static void test_formats(void)
     static const char *const bad[] = {"a.gif", "a", ".svg.", "svg", "a.svg/", "a.SVG", "-"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         gsl_test(draw_simple(in_folder(bad[i]), "") != ISO_BAD_ARGUMENT, "'%s' is refused", bad[i]);
-        gsl_test(iso_plot_check_format(ctx, bad[i]) != ISO_BAD_ARGUMENT, "'%s' is refused before the work", bad[i]);
+        gsl_test(iso_plot_check_page(ctx, &(iso_plot_page){.path = bad[i]}) != ISO_BAD_ARGUMENT,
+                 "'%s' is refused before the work", bad[i]);
         gsl_test(!strstr(iso_context_message(ctx), ".svg, .png or .pdf"), "what to write instead of '%s'", bad[i]);
     }
     gsl_test(files_in_folder() != 0, "nothing is left");
@@ -243,7 +244,8 @@ static void test_work(void)
     }
     put_work(r, "exact", "", 0, 1e-6);
     iso_record_set(ctx, r, "uncertainty", "1e-14");
-    gsl_test((int)iso_plot_cost(ctx, path, "a/0 'title'", r), "%s", iso_context_message(ctx));
+    gsl_test((int)iso_plot_cost(ctx, &(iso_plot_page){.path = path}, "a/0 'title'", r), "%s",
+             iso_context_message(ctx));
     gsl_test(!file_contains(path, "`touch OWNED` &lt;b"), "a name is drawn as it is");
     gsl_test(!file_contains(path, "closed solution") || file_contains(path, "other methods"),
              "what there is is named, what there is not is not");
@@ -251,13 +253,14 @@ static void test_work(void)
     unlink(path);
     r = make_work();
     put_work(r, "ball", "a", NAN, 1);
-    gsl_test(iso_plot_cost(ctx, path, "", r) != ISO_BAD_INPUT, "no points");
+    gsl_test(iso_plot_cost(ctx, &(iso_plot_page){.path = path}, "", r) != ISO_BAD_INPUT, "no points");
     put_work(r, "exact", "", 1e-15, 1e-6);
-    gsl_test((int)iso_plot_cost(ctx, path, NULL, r), "the closed solution alone: %s", iso_context_message(ctx));
+    gsl_test((int)iso_plot_cost(ctx, &(iso_plot_page){.path = path}, NULL, r), "the closed solution alone: %s",
+             iso_context_message(ctx));
     gsl_test(file_contains(path, "below what is known"), "nothing is known of it");
     static const char *const many[] = {"a", "b", "c", "d", "e", "f", "g", "h"};
     for (int i = 0; i < 8; i++) put_work(r, "point", many[i], 1e-3, 1e-5);
-    gsl_test((int)iso_plot_cost(ctx, path, NULL, r), "%s", iso_context_message(ctx));
+    gsl_test((int)iso_plot_cost(ctx, &(iso_plot_page){.path = path}, NULL, r), "%s", iso_context_message(ctx));
     gsl_test(!file_contains(path, ">f<") || file_contains(path, ">g<") || !file_contains(path, "other methods"),
              "six methods of a backend have names");
     iso_record_free(r);
@@ -279,17 +282,19 @@ static void test_sections(void)
     iso_record_create(ctx, 6, names, &r);
     iso_plot_section section = {
         .title = "it's `touch OWNED`", .params = &p, .eps = 6.5, .axis = 0, .rows = r, .grey_means = "chaotic"};
-    gsl_test(iso_plot_sections(ctx, path, &section) != ISO_BAD_ARGUMENT, "no crossing");
+    gsl_test(iso_plot_sections(ctx, &(iso_plot_page){.path = path}, &section) != ISO_BAD_ARGUMENT, "no crossing");
     for (int i = 0; i < 3; i++)
         if (iso_record_append(ctx, r, &row) == ISO_OK) memcpy(row, rows[i], sizeof rows[i]);
-    gsl_test((int)iso_plot_sections(ctx, path, &section), "%s", iso_context_message(ctx));
+    gsl_test((int)iso_plot_sections(ctx, &(iso_plot_page){.path = path}, &section), "%s", iso_context_message(ctx));
     gsl_test(!file_contains(path, ">chaotic<") || !file_contains(path, "units of the scene"), "key and axes");
     section.eps = 0;
-    gsl_test((int)iso_plot_sections(ctx, path, &section), "no free point: %s", iso_context_message(ctx));
+    gsl_test((int)iso_plot_sections(ctx, &(iso_plot_page){.path = path}, &section), "no free point: %s",
+             iso_context_message(ctx));
     gsl_test(file_contains(path, "units of the scene"), "then x is drawn");
     unlink(path);
     section.axis = 3;
-    gsl_test(iso_plot_sections(ctx, path, &section) != ISO_BAD_ARGUMENT, "an axis that is none");
+    gsl_test(iso_plot_sections(ctx, &(iso_plot_page){.path = path}, &section) != ISO_BAD_ARGUMENT,
+             "an axis that is none");
     iso_record_free(r);
     gsl_test(files_in_folder() != 0, "nothing is left");
 }

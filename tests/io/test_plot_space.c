@@ -218,7 +218,7 @@ static iso_status draw(const iso_plot_orbit *plot)
 {
     char path[300];
     path_of(path, "a.svg");
-    const iso_status status = iso_plot_trajectory(ctx, path, plot);
+    const iso_status status = iso_plot_trajectory(ctx, &(iso_plot_page){.path = path}, plot);
     unlink(path);
     return status;
 }

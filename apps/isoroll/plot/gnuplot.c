@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,25 +27,30 @@ extern char **environ;
  * SIGCHLD). */
 typedef struct format {
     const char *extension, *terminal, *unit;
-    double scale; /* of width and height */
+    double scale;         /* units of the file in a pixel of the page, on the screen          */
+    double inch, px;      /* units of the file in an inch, and in a pixel as the user says it */
+    double letter;        /* height of a letter "10" at fontscale 1, in units of the file     */
+    double lines, points; /* linewidth and pointscale on the screen; 0: there is none             */
     const char *ending;
 } format;
 
+#define LOOK "enhanced rounded background 'white'"
 static const format formats[] = {
-    {".svg", "svg enhanced rounded background 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,10' fontscale 1.3",
-     "", 1, "</svg>"},
-    {".png",
-     "pngcairo enhanced rounded background 'white' font 'DejaVu Sans,10' fontscale 2 linewidth 2 pointscale 2.1", "",
-     2, "IEND\xAE\x42\x60\x82"},
-    {".pdf",
-     "pdfcairo enhanced rounded background 'white' font 'DejaVu Sans,10' fontscale 0.72 linewidth 1.6 pointscale 1",
-     "in", 0.01, "%%EOF"},
+    {".svg", "svg " LOOK " font 'DejaVu Sans,Helvetica,Arial,sans-serif,10'", "", 1, 96, 1, 10, 1, 0, "</svg>"},
+    {".png", "pngcairo " LOOK " font 'DejaVu Sans,10'", "", 2, 300, 1, 40.0 / 3, 2, 2.1, "IEND\xAE\x42\x60\x82"},
+    {".pdf", "pdfcairo " LOOK " font 'DejaVu Sans,10'", "in", 0.01, 1, 1.0 / 96, 5.0 / 27, 1.6, 1, "%%EOF"},
 };
+#define LETTER 13.0    /* on the screen, in pixels of the page */
+#define PRINT_LETTER 8 /* in print, in pt                      */
+#define COLUMNS_MM 178 /* a page of PAGE pixels in print       */
+#define MM 25.4        /* an inch                              */
+enum { PAGE = 900, NARROW = 435, NARROW_TITLE = 38 };
 
 /* The picture that is drawn. */
 static struct {
     iso_status status;
     const format *format;
+    const char *script_name;
     FILE *script, *complaints; /* without a name */
     iso_output *output;        /* the picture    */
 } g;
@@ -59,11 +65,59 @@ static const format *find_format(const char *path)
     return NULL;
 }
 
-iso_status iso_plot_check_format(iso_context *ctx, const char *path)
+iso_status iso_gnuplot_check_format(iso_context *ctx, const char *path)
 {
     if (find_format(path)) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "'%s': the name of a picture must end in .svg, .png or .pdf",
                             path);
+}
+
+/* ---- The page ---- */
+
+bool iso_gnuplot_is_narrow(const iso_plot_page *page)
+{
+    return page->style == ISO_PLOT_IN_PRINT && page->size.width == 0;
+}
+
+/* A length that the user gives, in units of the file. */
+static double given(const format *f, const iso_plot_page *page, double length)
+{
+    return page->size.mm ? length / MM * f->inch : length * f->px;
+}
+
+/* Units of the file in a pixel of a page that is `width` wide. */
+static double scale_of(const format *f, const iso_plot_page *page, int width)
+{
+    if (page->style == ISO_PLOT_IN_PRINT) return COLUMNS_MM / MM * f->inch / PAGE;
+    return page->size.width > 0 ? given(f, page, page->size.width) / width : f->scale;
+}
+
+void iso_gnuplot_fit(const iso_plot_page *page, bool one_panel, int *width, int *height)
+{
+    const format *f = find_format(page->path);
+    if (f && page->size.width > 0) {
+        const double scale = scale_of(f, page, *width);
+        *width = (int)lround(given(f, page, page->size.width) / scale);
+        *height = (int)lround(given(f, page, page->size.height) / scale);
+    } else if (one_panel && iso_gnuplot_is_narrow(page)) {
+        *height = *height * NARROW / *width + 90;
+        *width = NARROW;
+    }
+}
+
+/* The terminal. Lines and signs are as wide as the scale says, letters in print are of one size. */
+static void put_terminal(FILE *to, const format *f, const iso_plot_page *page, int width, int height)
+{
+    const double scale = scale_of(f, page, width), finer = scale / f->scale;
+    const double letter = page->style == ISO_PLOT_IN_PRINT ? PRINT_LETTER * f->inch / 72 : LETTER * scale;
+    double size[2] = {width * scale, height * scale};
+    if (page->size.width > 0) size[0] = given(f, page, page->size.width);
+    if (page->size.width > 0) size[1] = given(f, page, page->size.height);
+    if (!*f->unit) size[0] = round(size[0]), size[1] = round(size[1]);
+    fprintf(to, "set encoding utf8\nset terminal %s fontscale %.4g linewidth %.4g size %.17g%s,%.17g%s", f->terminal,
+            letter / f->letter, f->lines * finer, size[0], f->unit, size[1], f->unit);
+    if (f->points > 0) fprintf(to, " pointscale %.4g", f->points * finer);
+    fputc('\n', to);
 }
 
 /* ---- Opening ---- */
@@ -71,7 +125,7 @@ iso_status iso_plot_check_format(iso_context *ctx, const char *path)
 static iso_status open_files(iso_context *ctx, const char *path)
 {
     struct stat old;
-    ISO_TRY(iso_plot_check_format(ctx, path));
+    ISO_TRY(iso_gnuplot_check_format(ctx, path));
     if (stat(path, &old) == 0 && !S_ISREG(old.st_mode))
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot write '%s': it is not a regular file", path);
     ISO_TRY(iso_output_open(ctx, path, &g.output));
@@ -80,15 +134,16 @@ static iso_status open_files(iso_context *ctx, const char *path)
     return g.script && g.complaints ? ISO_OK : iso_file_trouble(ctx, "open", "a temporary file");
 }
 
-FILE *iso_gnuplot_open(iso_context *ctx, const char *path, int width, int height)
+FILE *iso_gnuplot_open(iso_context *ctx, const iso_plot_page *page, int width, int height)
 {
     g.output = NULL;
     g.script = g.complaints = NULL;
-    g.format = find_format(path);
-    g.status = open_files(ctx, path);
+    g.script_name = page->script;
+    g.format = find_format(page->path);
+    g.status = open_files(ctx, page->path);
     if (!g.script) return stdin; /* takes nothing */
-    fprintf(g.script, "set encoding utf8\nset terminal %s size %.17g%s,%.17g%s\n", g.format->terminal,
-            width * g.format->scale, g.format->unit, height * g.format->scale, g.format->unit);
+    fprintf(g.script, "# Made by isoroll, for gnuplot 5.4: gnuplot -d SCRIPT >PICTURE%s\n", g.format->extension);
+    put_terminal(g.script, g.format, page, width, height);
     return g.script;
 }
 
@@ -137,6 +192,44 @@ const char *iso_gnuplot_quote(char quoted[static ISO_QUOTED_SIZE], const char *t
     }
     strcpy(to, *c ? "…\"" : "\"");
     return quoted;
+}
+
+/* The lines end at blanks. Without a blank that is near enough a line is longer. */
+const char *iso_gnuplot_quote_title(char quoted[static ISO_QUOTED_SIZE], const iso_plot_page *page, const char *own,
+                                    int longest)
+{
+    char line[ISO_QUOTED_SIZE];
+    const char *text = iso_plot_titled(page, own);
+    if (!iso_gnuplot_is_narrow(page)) return iso_gnuplot_quote(quoted, text, longest);
+    *quoted = '\0';
+    for (text = text ? text : ""; *quoted == '\0' || *text;) {
+        size_t length = strlen(text), used = strlen(quoted);
+        if (length > NARROW_TITLE)
+            for (length = NARROW_TITLE; length > 1 && text[length] != ' ';) length--;
+        if (length <= 1) length = strlen(text);
+        char part[200];
+        snprintf(part, sizeof part, "%.*s", (int)length, text);
+        snprintf(quoted + used, ISO_QUOTED_SIZE - used, "%s%s", used ? ".\"\\n\"." : "",
+                 iso_gnuplot_quote(line, part, longest));
+        for (text += length; *text == ' ';) text++;
+    }
+    return quoted;
+}
+
+/* ---- The script ---- */
+
+/* Copies what has been written into the file that --script names. */
+static iso_status keep_script(iso_context *ctx)
+{
+    char block[4096];
+    iso_output *copy;
+    if (!g.script_name) return ISO_OK;
+    ISO_TRY(iso_output_open(ctx, g.script_name, &copy));
+    for (size_t got; (got = fread(block, 1, sizeof block, g.script)) > 0;)
+        if (fwrite(block, 1, got, iso_output_stream(copy)) < got) break;
+    const iso_status status = iso_output_close(ctx, copy, true);
+    rewind(g.script);
+    return status;
 }
 
 /* ---- Drawing ---- */
@@ -203,6 +296,7 @@ static iso_status run(iso_context *ctx)
     fputs("\nunset multiplot\nunset output\n", g.script);
     if (fflush(g.script) != 0 || ferror(g.script) || fseek(g.script, 0, SEEK_SET) != 0)
         return iso_file_trouble(ctx, "write", "gnuplot's temporary script");
+    ISO_TRY(keep_script(ctx));
     /* -d: no start-up file of the user changes the picture */
     const int error =
         program_start((const char *[]){"gnuplot", "-d", "-", NULL},

@@ -1,6 +1,6 @@
 /* gnuplot.h - one run of gnuplot: a script in, a picture file out, whole or not at all.
  *
- *     FILE *script = iso_gnuplot_open(ctx, "orbit.svg", 900, 800);
+ *     FILE *script = iso_gnuplot_open(ctx, &page, 900, 800);
  *     fprintf(script, "plot %.17g\n", 1.5);                      gnuplot commands and data go in here
  *     status = iso_gnuplot_close(ctx, true);                     runs gnuplot
  */
@@ -12,12 +12,24 @@
 #include <sys/types.h>
 
 #include "base/context.h"
+#include "plot/page.h"
 
-/* Begins a picture of width x height, in pixels of a page 900 wide: the same lay-out in every format. One at a time.
- * Gives the script, never NULL; what goes wrong, closing tells. */
-FILE *iso_gnuplot_open(iso_context *ctx, const char *path, int width, int height);
+/* Whether a picture can have this name. Errors: ISO_BAD_ARGUMENT. */
+iso_status iso_gnuplot_check_format(iso_context *ctx, const char *path);
 
-/* Ends the picture. keep: draws it and gives the picture its name; else nothing is left. Errors: ISO_BAD_ARGUMENT
+/* Begins a picture that is laid out on width x height pixels (plot/page.h). One at a time. Gives the script, never
+ * NULL; what goes wrong, closing tells. */
+FILE *iso_gnuplot_open(iso_context *ctx, const iso_plot_page *page, int width, int height);
+
+/* Whether a picture of one panel is one column wide: in print, if no other size is asked for. */
+bool iso_gnuplot_is_narrow(const iso_plot_page *page);
+
+/* Width and height in pixels of the page that is asked for, from those of the picture on the screen: for pictures of
+ * one panel, and those that are laid out in pixels. */
+void iso_gnuplot_fit(const iso_plot_page *page, bool one_panel, int *width, int *height);
+
+/* Ends the picture. keep: writes the script if it is asked for, draws the picture and gives it its name; else nothing
+ * is left. Errors: ISO_BAD_ARGUMENT
  * (format); ISO_FILE_TROUBLE: no gnuplot, gnuplot's own complaint, or the picture cannot be written. */
 iso_status iso_gnuplot_close(iso_context *ctx, bool keep);
 
@@ -29,6 +41,11 @@ int program_start(const char *const arguments[], const int streams[3], pid_t *ch
  * `longest` characters, at most 160. It still needs `noenhanced`. */
 enum { ISO_QUOTED_SIZE = 1280 };
 const char *iso_gnuplot_quote(char quoted[static ISO_QUOTED_SIZE], const char *text, int longest);
+
+/* A title as gnuplot takes it, in lines that are short enough for a narrow page; one line on others. */
+const char *iso_gnuplot_quote_title(char quoted[static ISO_QUOTED_SIZE], const iso_plot_page *page, const char *own,
+                                    int longest);
+#define TITLE(page, own, longest) iso_gnuplot_quote_title((char[ISO_QUOTED_SIZE]){0}, page, own, longest)
 #define QUOTED(text, longest) iso_gnuplot_quote((char[ISO_QUOTED_SIZE]){0}, text, longest)
 
 #endif

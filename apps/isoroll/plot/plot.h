@@ -2,7 +2,7 @@
  *
  *     status = iso_plot_stretch(ctx, &scene, 30, &curve, &states);                (plot/stretch.h)
  *     iso_plot_twins plot = {"k = -1", "to t = 30", "both agree", curve, states};
- *     status = iso_plot_comparison(ctx, "orbit.svg", &plot);
+ *     status = iso_plot_comparison(ctx, &(iso_plot_page){.path = "orbit.svg"}, &plot);
  *
  * The file's name chooses the format: .svg, .png or .pdf. It is written whole, then renamed: on failure nothing has
  * changed. The user's gnuplot start-up files and the locale have no influence.
@@ -12,6 +12,7 @@
 
 #include "base/record.h"
 #include "model/params.h"
+#include "plot/page.h"
 #include "study/frequencies/frequencies.h"
 #include "study/frequencies/momentum.h"
 
@@ -26,16 +27,12 @@ typedef struct iso_plot_twins {
     const iso_record *curve, *states;   /* columns t, s, n1..3, gamma1..3 from the first on, a row or more */
 } iso_plot_twins;
 
-/* Whether a picture can have this name, one that ends in .svg, .png or .pdf: to ask before the work. Errors:
- * ISO_BAD_ARGUMENT. */
-iso_status iso_plot_check_format(iso_context *ctx, const char *path);
-
 /* Left n on the sphere of the ball, right gamma on that of the point, seen from the same side, coloured by t. The
  * states, at equal steps of t, are joined between the two clocks below; every 8th has a number, the same wherever it
  * stands.
  * Errors: ISO_BAD_ARGUMENT (name, missing columns or rows), ISO_NUMERICAL (a number that is not finite),
  * ISO_FILE_TROUBLE (no gnuplot, or what it said; the file cannot be written), ISO_NO_MEMORY. */
-iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot_twins *plot);
+iso_status iso_plot_comparison(iso_context *ctx, const iso_plot_page *page, const iso_plot_twins *plot);
 
 /* The path of a ball in space. If the columns do not tell where the support is, it is not drawn. */
 typedef struct iso_plot_space {
@@ -65,29 +62,30 @@ typedef struct iso_plot_orbit {
  * - the integrals' drift; if all drifts are rounding (below 1000 DBL_EPSILON = 2.2e-13), one line of text instead;
  * - how fast the clocks s and tau run against t.
  * Errors: as iso_plot_comparison. */
-iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plot_orbit *plot);
+iso_status iso_plot_trajectory(iso_context *ctx, const iso_plot_page *page, const iso_plot_orbit *plot);
 
 /* Column y over column x; equal: one unit is equally long on both axes. Of many rows not all are drawn: over a clock
  * the least and the largest number in each of 1000 slots, else 5000 rows. Errors: ISO_BAD_ARGUMENT (name, columns, no
  * rows), ISO_NUMERICAL (a number that is not finite), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-iso_status iso_plot_columns(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
+iso_status iso_plot_columns(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *rows,
                             const char *x, const char *y, bool equal);
 
 /* The image of the momentum map: kinds of motion over the energy h and a second integral F, with the orbit at
  * (h, F) in it. On the left F over h, on the right F/h over h, where thin parts can be told apart.
  * Errors: ISO_BAD_ARGUMENT (name), those of iso_momentum_bounds, ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-iso_status iso_plot_momentum(iso_context *ctx, const char *path, const char *title, const iso_momentum *m,
+iso_status iso_plot_momentum(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_momentum *m,
                              const double at[2]);
 
 /* The spectral lines of n(t): of the pair of components across the axis, and of the one along it. Errors: as
  * iso_plot_momentum; ISO_BAD_ARGUMENT: there is no line. */
-iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, const iso_estimate *estimate);
+iso_status iso_plot_lines(iso_context *ctx, const iso_plot_page *page, const char *title,
+                          const iso_estimate *estimate);
 
 /* The indicators of chaos against the turns. The records have the columns turn, t, growth, megno, mean and gali2, as
  * in iso_chaos. Above: ln D. Below: MEGNO and its mean on the left, GALI_2 on the right. A record that is NULL or
  * empty is left out.
  * Errors: as iso_plot_momentum. */
-iso_status iso_plot_indicators(iso_context *ctx, const char *path, const char *title, const iso_record *ball,
+iso_status iso_plot_indicators(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *ball,
                                const iso_record *point);
 
 /* --- tables of commands ----------------------------------------------------------------------------------------- */
@@ -97,23 +95,32 @@ bool iso_plot_has_kind(const char *kind);
 
 /* Draws a table by its kind. Its title is its line "title", else the name with k and J. Errors: ISO_BAD_INPUT: a
  * column or a line that the picture needs is missing, or there is no row; those of the picture. */
-iso_status iso_plot_table(iso_context *ctx, const char *path, const char *name, const iso_record *table);
+iso_status iso_plot_table(iso_context *ctx, const iso_plot_page *page, const char *name, const iso_record *table);
 
 /* Of chaos: the section, with a spot for each orbit that starts on it, coloured by its exponent. Errors: as
  * iso_plot_momentum. */
-iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, const iso_record *table);
+iso_status iso_plot_exponents(iso_context *ctx, const iso_plot_page *page, const char *title,
+                              const iso_record *table);
 
 /* Of cost: a work-precision diagram, time over error, both logarithmic, small errors on the right; a panel for each
  * backend. The first methods of each, which should be the fastest, have names. Errors: as iso_plot_momentum. */
-iso_status iso_plot_cost(iso_context *ctx, const char *path, const char *title, const iso_record *table);
+iso_status iso_plot_cost(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *table);
 
 /* Of the splitting of the separatrix. On the left |m| over k or the level, as spots with errors, blue for m > 0,
  * vermillion for m < 0, triangles where m is not distinguished from 0: they are upper bounds. On the right, if
  * there is a curve, W^u(O) and its mirror W^s(O') on the section. table NULL: only the right one. curve: columns u
  * and x, as iso_separatrix_curve has them; NULL: none. at: the k or level of the curve. axis: of its section, 0 to
  * 2. Errors: as iso_plot_momentum. */
-iso_status iso_plot_splitting(iso_context *ctx, const char *path, const char *title, const iso_record *table,
+iso_status iso_plot_splitting(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *table,
                               const iso_record *curve, double at, int axis);
+
+/* How an orbit is drawn: 0: in colours; grey, behind the others; dark. */
+typedef enum iso_plot_shade {
+    ISO_PLOT_COLOURED,
+    ISO_PLOT_CHAOTIC,
+    ISO_PLOT_UNDECIDED,
+    ISO_PLOT_SHADES
+} iso_plot_shade;
 
 /* Crossings of one section n_a = 0 by both models, as points (l, x) of the chart (map/section.h). */
 typedef struct iso_plot_section {
@@ -121,22 +128,23 @@ typedef struct iso_plot_section {
     const iso_params *params;
     double eps, energy; /* coupling, > 0, and level H, if nothing acts but a level; eps 0: x is drawn, not L */
     int axis;           /* a, 0 to 2                                                                     */
-    /* Columns orbit (0, 1, ...), l, x and grey: not 0 of orbits that are drawn in grey, behind the others. The
-     * crossings of the point are the same, or in columns point_l, point_x. */
+    /* Columns orbit (0, 1, ...), l, x and grey, an iso_plot_shade. If there is a column rotation, an orbit has the
+     * colour of its rotation number; else each has its own. The crossings of the point are the same, or in columns
+     * point_l, point_x. */
     const iso_record *rows;
-    const char *grey_means; /* what the key says of grey, such as "chaotic"; NULL: there is no key */
-    bool few;               /* few crossings, as of periodic orbits: in colours and large; the axes end with them */
+    const char *grey_means, *dark_means; /* what the key says of these shades, such as "chaotic"; NULL: nothing */
+    bool few; /* few crossings, as of periodic orbits: in colours and large; the axes end with them */
 } iso_plot_section;
 
 /* Left: the section of the ball. Its axes are the angle of n in the plane n_a = 0, and omega_a/|omega|. Right: that
  * of the point. Its axes are l and L = M_a, and its boundaries are L = +-G(l). Each orbit has one colour.
  * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *section);
+iso_status iso_plot_sections(iso_context *ctx, const iso_plot_page *page, const iso_plot_section *section);
 
 /* The result of a sweep in a file. value: which column is drawn (NULL: the first that is there of a list of usual
  * ones), over the numbers that vary: over one as a curve with the band of its error, over two as maps. Marks stand at
  * k = +-1. Values of both signs or of very different sizes are drawn as |value| on a logarithmic axis. Errors:
  * ISO_BAD_INPUT: no such column, or a sweep that no picture shows; those of iso_plot_momentum. */
-iso_status iso_plot_sweep(iso_context *ctx, const char *path, const char *file, const char *value);
+iso_status iso_plot_sweep(iso_context *ctx, const iso_plot_page *page, const char *file, const char *value);
 
 #endif

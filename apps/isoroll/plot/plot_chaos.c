@@ -13,26 +13,27 @@ enum { WIDTH = 900, HEIGHT = 640, SECTION_HEIGHT = 520 };
 /* One column of the models that have rows; the other column, if there is one, as a dashed line. */
 static void put_lines(FILE *f, const iso_record *const model[2], const char *column, const char *other)
 {
-    static const char *const name[] = {"ball", "point"}, *const colour[] = {ISO_PLOT_BLUE, ISO_PLOT_VERMILLION};
+    static const char *const name[] = {"ball", "point"}, *const colour[] = {ISO_PLOT_BLUE, ISO_PLOT_ORANGE};
+    static const char *const dash[2][2] = {{"1", "(6,3)"}, {"1", "(2,3)"}};
     const char *before = "plot";
     for (int m = 0; m < 2; m++) {
         const size_t rows = model[m] ? iso_record_rows(model[m]) : 0, step = rows / ISO_PLOT_ROWS + 1;
         for (int dashed = 0; rows > 0 && dashed < (other ? 2 : 1); dashed++, before = ",")
-            fprintf(f, "%s $%s every %zu using 1:%s with lines dt %s lw 1.8 lc rgb %s title '%s%s'", before, name[m],
-                    step, dashed ? other : column, dashed ? "(6,3)" : "1", colour[m], name[m],
+            fprintf(f, "%s $%s every %zu using 1:%s with lines dt %s lw %s lc rgb %s title '%s%s'", before, name[m],
+                    step, dashed ? other : column, dash[m][dashed], m ? "2.4" : "1.6", colour[m], name[m],
                     dashed ? ", mean" : "");
     }
     fputc('\n', f);
 }
 
-iso_status iso_plot_indicators(iso_context *ctx, const char *path, const char *title, const iso_record *ball,
+iso_status iso_plot_indicators(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *ball,
                                const iso_record *point)
 {
     static const char *const columns[] = {"turn", "growth", "megno", "mean", "gali2", NULL};
     const iso_record *const model[2] = {ball, point};
     if ((!ball || iso_record_rows(ball) == 0) && (!point || iso_record_rows(point) == 0))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture of indicators needs at least one row");
-    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
+    FILE *f = iso_gnuplot_open(ctx, page, WIDTH, HEIGHT);
     iso_plot_block(f, "ball", ball, columns);
     iso_plot_block(f, "point", point, columns);
     fprintf(f,
@@ -40,10 +41,11 @@ iso_status iso_plot_indicators(iso_context *ctx, const char *path, const char *t
             "set key left top Left reverse samplen 3 spacing 1.2\n"
             "set lmargin at screen 0.085; set rmargin at screen 0.98; set tmargin at screen 0.92\n"
             "set bmargin at screen 0.575; set xlabel 'turns' offset 0,0.4; set ylabel 'ln |d|' offset 0.5,0\n",
-            QUOTED(title, 95));
+            QUOTED(iso_plot_titled(page, title), 95));
     put_lines(f, model, "2", NULL);
     fputs("unset label 1; set tmargin at screen 0.475; set bmargin at screen 0.09; set rmargin at screen 0.48\n"
-          "set arrow 1 from graph 0, first 2 to graph 1, first 2 nohead back dt (3,3) lw 1.2 lc rgb '#707070'\n"
+          "set arrow 1 from graph 0, first 2 to graph 1, first 2 nohead back dt (3,3) lw 1.2 lc rgb " ISO_PLOT_HELP
+          "\n"
           "set ylabel 'MEGNO'\n",
           f);
     put_lines(f, model, "3", "4");
@@ -81,23 +83,27 @@ static size_t put_spots(FILE *f, const iso_record *r, size_t count[KINDS])
     return count[REGULAR] + count[CHAOTIC] + count[UNDECIDED];
 }
 
-iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, const iso_record *r)
+iso_status iso_plot_exponents(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *r)
 {
     static const char *const name[] = {"regular", "chaotic", "undecided"};
     static const char *const mark[] = {("pt 7 lc rgb " ISO_PLOT_FAR_BLUE), "pt 7 palette", "pt 2 lc rgb 'black'"};
     const int axis = iso_plot_axis_of(r);
     size_t count[KINDS] = {0};
     const char *before = "plot";
-    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, SECTION_HEIGHT);
+    int width = WIDTH, height = SECTION_HEIGHT;
+    iso_gnuplot_fit(page, true, &width, &height);
+    FILE *f = iso_gnuplot_open(ctx, page, width, height);
     const size_t all = put_spots(f, r, count);
     fprintf(
         f,
         ISO_PLOT_FRAME ISO_PLOT_ANGLES
         "set title %s noenhanced font ',12'; set yrange [-1:1]; set ytics 0.5; set cblabel 'exponent per turn'\n"
         "set xlabel 'l,  where γ_%d\u2060 = cos l, γ_%d\u2060 = −sin l'; set ylabel 'M_%d\u2060 / |M|' offset 1,0\n"
-        "set cbrange [0:*]; set palette defined (0 '#F7E3B0', 0.5 '#E69F00', 1 '#8B1A00')\n"
+        "set cbrange [0:*]; set palette defined (0 " ISO_PLOT_PALE_YELLOW ", 0.5 " ISO_PLOT_ORANGE
+        ", 1 " ISO_PLOT_DARK_RED ")\n"
         "set key outside bottom center horizontal samplen 1; %s\n",
-        QUOTED(title, 110), (axis + 1) % 3 + 1, (axis + 2) % 3 + 1, axis + 1, count[CHAOTIC] ? "" : "unset colorbox");
+        TITLE(page, title, 110), (axis + 1) % 3 + 1, (axis + 2) % 3 + 1, axis + 1,
+        count[CHAOTIC] ? "" : "unset colorbox");
     for (int kind = 0; kind < KINDS; kind++) {
         if (count[kind] == 0) continue;
         fprintf(f, "%s $spots using ($4 == %d ? $1 : NaN):2%s with points %s ps %.17g title '%s'", before, kind,

@@ -16,11 +16,19 @@ enum {
 #define FLOOR                                                                                                        \
     1e-17 /* 10^LOWEST, stands for 0 on the logarithmic axis; below any difference of doubles of order one */
 
+/* Names of clocks and vectors; a component, such as gamma1, has its number below. */
 const char *iso_plot_symbol(const char *name)
 {
-    static const char *const symbols[][2] = {{"omega", "ω"}, {"gamma", "γ"}, {"tau", "τ"}};
-    for (size_t i = 0; i < sizeof symbols / sizeof *symbols; i++)
-        if (strcmp(symbols[i][0], name) == 0) return symbols[i][1];
+    static const char *const symbols[][5] = {{"omega", "ω", "ω₁", "ω₂", "ω₃"}, {"gamma", "γ", "γ₁", "γ₂", "γ₃"},
+                                             {"n", "n", "n₁", "n₂", "n₃"},     {"M", "M", "M₁", "M₂", "M₃"},
+                                             {"tau", "τ", NULL, NULL, NULL},   {"mu", "μ", NULL, NULL, NULL}};
+    for (size_t i = 0; i < sizeof symbols / sizeof *symbols; i++) {
+        const size_t length = strlen(symbols[i][0]);
+        const char *rest = name + length;
+        if (strncmp(symbols[i][0], name, length) != 0) continue;
+        const int component = *rest >= '1' && *rest <= '3' && !rest[1] ? *rest - '0' : 0;
+        if (*rest == '\0' || (component && symbols[i][1 + component])) return symbols[i][1 + component];
+    }
     return name;
 }
 
@@ -54,8 +62,8 @@ static void put_axes(FILE *f, const iso_record *r, double top, const iso_plot_bo
                                  .label = true};
     char name[ISO_PLOT_NAME];
     fprintf(f,
-            "unset label; unset arrow; unset object; set size noratio; set border 3 lc rgb '#606060'; set "
-            "logscale y\nset grid ytics back lt 1 lw 0.8 lc rgb '#DDE1E5'; unset ylabel\n"
+            "unset label; unset arrow; unset object; set size noratio; set border 3 lc rgb " ISO_PLOT_LINE "; set "
+            "logscale y\nset grid ytics back lt 1 lw 0.8 lc rgb " ISO_PLOT_GRID "; unset ylabel\n"
             "set key left top Left reverse vertical maxrows 16 samplen 2 spacing 1.2 noenhanced title 'largest' "
             "left enhanced\nset key at screen %.17g,%.17g\nunset title; set label 1 '%s' left at graph 0,1.09\n"
             "set yrange [5e-18:1e%d]\n",
@@ -77,17 +85,6 @@ static void put_name(FILE *f, const char *name, double largest)
     fputs(QUOTED(words, 60), f);
 }
 
-static const char *line_of(int c)
-{
-    static const char *const lines[] = {
-        "dt 1 lw 1.5 lc rgb " ISO_PLOT_BLUE, "dt 1 lw 1.5 lc rgb " ISO_PLOT_VERMILLION,
-        "dt 1 lw 1.5 lc rgb '#009E73'",      "dt 1 lw 1.5 lc rgb '#CC79A7'",
-        "dt (8,4) lw 1.5 lc rgb '#56B4E9'",  "dt (8,4) lw 1.5 lc rgb '#E69F00'",
-        "dt (2,3) lw 1.5 lc rgb 'black'",
-    };
-    return lines[c % (int)(sizeof lines / sizeof *lines)];
-}
-
 void iso_plot_differences(FILE *f, const iso_record *r, const iso_plot_box *box, const char *title)
 {
     const int columns = (int)iso_record_columns(r);
@@ -98,9 +95,9 @@ void iso_plot_differences(FILE *f, const iso_record *r, const iso_plot_box *box,
     }
     put_axes(f, r, top, box, title);
     for (int c = 1; c < columns; c++) {
-        const char *name = iso_record_name(r, (size_t)c), *line = line_of(c - 1);
+        const char *name = iso_record_name(r, (size_t)c), *line = iso_plot_stroke(c - 1);
         fprintf(f, "%s $difference%d with ", c == 1 ? "plot" : ",", c);
-        fprintf(f, iso_record_rows(r) > 1 ? "lines %s title " : "points pt 7 %s title ",
+        fprintf(f, iso_record_rows(r) > 1 ? "lines lw 1.5 %s title " : "points pt 7 %s title ",
                 iso_record_rows(r) > 1 ? line : strstr(line, "lc"));
         put_name(f, name, largest[c]);
     }

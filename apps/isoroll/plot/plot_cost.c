@@ -11,16 +11,11 @@ enum { WIDTH = 900, HEIGHT = 490, KEY = 96, KEY_COLUMNS = 3, PANELS = 2, SERIES 
 enum { NAMES = 10, NAMED = 6 }; /* methods that have a name, in all, and of each backend */
 #define FLOOR 1e-17             /* stands for an error of 0 */
 
-/* In grey methods differ by their markers and dashes. */
-static const char *const strokes[NAMES] = {
-    "pt 7 dt 1 lw 2 lc rgb " ISO_PLOT_BLUE,       "pt 5 dt (8,3) lw 1.6 lc rgb " ISO_PLOT_VERMILLION,
-    "pt 9 dt 1 lw 1.4 lc rgb '#009E73'",          "pt 11 dt (2,3) lw 1.8 lc rgb 'black'",
-    "pt 13 dt (8,3,2,3) lw 1.5 lc rgb '#CC79A7'", "pt 6 dt 1 lw 1.4 lc rgb '#E69F00'",
-    "pt 4 dt (4,4) lw 1.5 lc rgb '#56B4E9'",      "pt 8 dt (2,2) lw 1.5 lc rgb '#7A5195'",
-    "pt 10 dt (8,3) lw 1.4 lc rgb '#404040'",     "pt 12 dt 1 lw 1.4 lc rgb '#8C6D1F'"};
-#define OTHER "lines dt 1 lw 0.8 lc rgb '#B4BABF'"
+/* The markers of the methods, beside iso_plot_stroke. */
+static const int markers[NAMES] = {7, 5, 9, 11, 13, 6, 4, 8, 10, 12};
+#define OTHER "lines dt 1 lw 0.8 lc rgb " ISO_PLOT_OTHERS
 #define CLOSED "points pt 3 ps 1.5 lw 2 lc rgb 'black'"
-#define BAND "'#E4E7EA'"
+#define BAND ISO_PLOT_BAND
 
 /* A line of the picture; name -1: it is one of the others. */
 typedef struct series {
@@ -127,7 +122,7 @@ static bool lay_out(FILE *f, const iso_record *r, layout *l)
     return l->count > 0 || isfinite(l->closed[0]);
 }
 
-static void put_axes(FILE *f, const char *title, const layout *l)
+static void put_axes(FILE *f, const iso_plot_page *page, const char *title, const layout *l)
 {
     fprintf(f,
             "set multiplot\n" ISO_PLOT_AXES "unset key; set logscale xy; set format x '10^{%%T}'; unset mxtics\n"
@@ -135,7 +130,8 @@ static void put_axes(FILE *f, const char *title, const layout *l)
             "set label 1 %s at screen 0.5,0.96 center noenhanced font ',12'\n"
             "set tmargin at screen 0.88; set bmargin at screen %.17g\n"
             "set xrange [%.17g:%.17g]\nset yrange [%.17g:%.17g]\n",
-            QUOTED(title, 95), (KEY + 50.0) / HEIGHT, l->error[1], l->error[0], l->seconds[0], l->seconds[1]);
+            QUOTED(iso_plot_titled(page, title), 95), (KEY + 50.0) / HEIGHT, l->error[1], l->error[0], l->seconds[0],
+            l->seconds[1]);
     if (!(l->uncertainty > l->error[0])) return;
     fprintf(f,
             "set object 1 rectangle from first %.17g, graph 0 to graph 1, graph 1 behind fs solid 1 noborder fc "
@@ -145,6 +141,15 @@ static void put_axes(FILE *f, const char *title, const layout *l)
 
 #define OF_SERIES "%s $series using ($3 == %d ? $1 : NaN):2 title '$series%d' with "
 
+/* name -1: one of the others. */
+static void put_stroke(FILE *f, int name)
+{
+    if (name < 0)
+        fputs(OTHER, f);
+    else
+        fprintf(f, "linespoints ps 0.75 pt %d lw 1.5 %s", markers[name], iso_plot_stroke(name));
+}
+
 /* Lines of one panel, the named ones last, on top. */
 static void put_lines(FILE *f, const layout *l, int panel)
 {
@@ -152,8 +157,8 @@ static void put_lines(FILE *f, const layout *l, int panel)
     for (int named = 0; named < 2; named++)
         for (int s = 0; s < l->count; s++) {
             if (l->one[s].panel != panel || (l->one[s].name >= 0) != named) continue;
-            fprintf(f, OF_SERIES "%s%s", before, s, s, named ? "linespoints ps 0.75 " : OTHER,
-                    named ? strokes[l->one[s].name] : "");
+            fprintf(f, OF_SERIES, before, s, s);
+            put_stroke(f, l->one[s].name);
             before = ",";
         }
     if (isfinite(l->closed[0]))
@@ -186,8 +191,11 @@ static void put_key(FILE *f, const layout *l)
             ISO_PLOT_PAGE "set key at screen 0.5,%.17g center top Left reverse vertical maxrows %d samplen 3.5 "
                           "spacing 1.05 width -1 noenhanced font ',9'\nplot",
             (double)KEY / HEIGHT, (entries + KEY_COLUMNS - 1) / KEY_COLUMNS);
-    for (int n = 0; n < l->names; n++)
-        fprintf(f, " NaN with linespoints ps 0.75 %s title %s,", strokes[n], QUOTED(l->name[n], 24));
+    for (int n = 0; n < l->names; n++) {
+        fputs(" NaN with ", f);
+        put_stroke(f, n);
+        fprintf(f, " title %s,", QUOTED(l->name[n], 24));
+    }
     if (l->others) fputs(" NaN with " OTHER " title 'other methods',", f);
     if (isfinite(l->closed[0])) fputs(" NaN with " CLOSED " title 'closed solution',", f);
     fputs(l->uncertainty > 0 ? " NaN with boxes fs solid 1 noborder lc rgb " BAND " title 'below what is known'\n"
@@ -195,12 +203,12 @@ static void put_key(FILE *f, const layout *l)
           f);
 }
 
-iso_status iso_plot_cost(iso_context *ctx, const char *path, const char *title, const iso_record *r)
+iso_status iso_plot_cost(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *r)
 {
     layout l;
-    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
+    FILE *f = iso_gnuplot_open(ctx, page, WIDTH, HEIGHT);
     const bool any = lay_out(f, r, &l);
-    put_axes(f, title, &l);
+    put_axes(f, page, title, &l);
     put_panels(f, &l);
     put_key(f, &l);
     const iso_status status = iso_gnuplot_close(ctx, any);

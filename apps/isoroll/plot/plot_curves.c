@@ -111,7 +111,7 @@ static void put_y_axis(FILE *f, const iso_plot_panel *p, bool right)
     iso_plot_ticks(f, &axis, name);
     if (strcmp(name, NUMBER) == 0) return;
     const bool short_name = strncmp(name, power, strlen(power)) == 0;
-    fprintf(f, "set label %d %s noenhanced tc rgb '#404040' %s at graph %d,1.0 offset %s,0.6\n", 2 + right,
+    fprintf(f, "set label %d %s noenhanced tc rgb " ISO_PLOT_INK " %s at graph %d,1.0 offset %s,0.6\n", 2 + right,
             QUOTED(short_name ? name + strlen(power) : name, ISO_PLOT_NAME), short_name == right ? "left" : "right",
             right,
             !short_name ? "0"
@@ -122,12 +122,13 @@ static void put_y_axis(FILE *f, const iso_plot_panel *p, bool right)
 void iso_plot_curves(FILE *f, const iso_plot_panel *p)
 {
     for (int c = 0; c < p->count; c++) put_data(f, p, c);
-    fprintf(f,
-            "unset label; unset arrow; unset object; unset title; unset logscale; set border 3 lc rgb '#606060'\n"
-            "set grid xtics ytics back lt 1 lw 0.8 lc rgb '#DDE1E5'; unset xlabel; unset ylabel; unset y2tics\n"
-            "set key default; set key noenhanced horizontal maxrows 1 Left reverse samplen 2 at graph 1,1.03 "
-            "right bottom\nset size %s\n",
-            p->equal ? "ratio -1" : "noratio");
+    fprintf(
+        f,
+        "unset label; unset arrow; unset object; unset title; unset logscale; set border 3 lc rgb " ISO_PLOT_LINE "\n"
+        "set grid xtics ytics back lt 1 lw 0.8 lc rgb " ISO_PLOT_GRID "; unset xlabel; unset ylabel; unset y2tics\n"
+        "set key default; set key noenhanced horizontal maxrows 1 Left reverse samplen 2 at graph 1,1.03 "
+        "right bottom\nset size %s\n",
+        p->equal ? "ratio -1" : "noratio");
     iso_plot_place(f, &p->box);
     put_x_axis(f, p);
     for (int right = 0; right < 2; right++) put_y_axis(f, p, right);
@@ -148,21 +149,22 @@ void iso_plot_curves(FILE *f, const iso_plot_panel *p)
     fputs("\nset autoscale; unset y2tics; unset y2label; unset label; unset arrow; set size noratio\n", f);
 }
 
-iso_status iso_plot_columns(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
+iso_status iso_plot_columns(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *rows,
                             const char *x, const char *y, bool equal)
 {
     iso_plot_curve curve = {0, NULL, ISO_PLOT_BLUE, false};
     iso_plot_panel panel = {.rows = rows, .count = 1, .curve = &curve, .equal = equal};
     char words[100];
-    const int width = 900, height = equal ? 900 : 560;
+    int width = 900, height = equal ? 900 : 560;
+    iso_gnuplot_fit(page, true, &width, &height);
     ISO_TRY(iso_plot_find(ctx, rows, 1, &x, &panel.over));
     ISO_TRY(iso_plot_find(ctx, rows, 1, &y, &curve.column));
     snprintf(words, sizeof words, "%s over %s", iso_plot_symbol(y), iso_plot_symbol(x));
     panel.title = words;
     panel.box = (iso_plot_box){95.0 / width, 1 - 55.0 / width, 60.0 / height, 1 - 85.0 / height};
-    FILE *f = iso_gnuplot_open(ctx, path, width, height);
+    FILE *f = iso_gnuplot_open(ctx, page, width, height);
     fputs("set multiplot\n", f);
-    iso_plot_words(f, title, 95, 1 - 22.0 / height, "font ',12'");
+    iso_plot_words(f, iso_plot_titled(page, title), 95, 1 - 22.0 / height, "font ',12'");
     iso_plot_curves(f, &panel);
     return iso_gnuplot_close(ctx, true);
 }

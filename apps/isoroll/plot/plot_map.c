@@ -9,9 +9,11 @@
 enum { WIDTH = 900, HEIGHT = 560, LINES_HEIGHT = 420, LABELLED = 3 };
 
 /* Pale fills that differ in lightness, and lines that differ in their dashes. */
-static const char *const fills[] = {"'#A9CDE2'", "'#F7E3B0'", "'#D9A9C6'", "'#8FCBB4'"};
+static const char *const fills[] = {ISO_PLOT_FAR_BLUE, ISO_PLOT_PALE_YELLOW, ISO_PLOT_PALE_PURPLE,
+                                    ISO_PLOT_PALE_GREEN};
 static const char *const strokes[] = {"dt 1 lw 1.8 lc rgb " ISO_PLOT_BLUE, "dt (8,4) lw 2.2 lc rgb 'black'",
-                                      "dt 1 lw 1.8 lc rgb " ISO_PLOT_VERMILLION, "dt (2,3) lw 2.2 lc rgb '#404040'"};
+                                      "dt (12,4) lw 1.8 lc rgb " ISO_PLOT_VERMILLION,
+                                      "dt (2,3) lw 2.2 lc rgb " ISO_PLOT_INK};
 #define ORBIT "pt 7 ps 1.2 lc rgb 'black'"
 
 /* --- the map ---------------------------------------------------------------------------------------------------- */
@@ -101,20 +103,20 @@ static void put_panel(FILE *f, const iso_momentum *m, const iso_record *bounds, 
     fprintf(f, "%s $orbit with points " ORBIT " %s\n", before, over_h ? "title 'this orbit'" : "notitle");
 }
 
-iso_status iso_plot_momentum(iso_context *ctx, const char *path, const char *title, const iso_momentum *m,
+iso_status iso_plot_momentum(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_momentum *m,
                              const double at[2])
 {
     const char *F = m->k == 1 ? "F_{plane}" : "F_{shell}";
     iso_record *bounds;
     double range[2];
     ISO_TRY(iso_momentum_bounds(ctx, m, at[0], &bounds));
-    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
+    FILE *f = iso_gnuplot_open(ctx, page, WIDTH, HEIGHT);
     fprintf(f,
             "set multiplot\n" ISO_PLOT_AXES "set tmargin at screen 0.9; set bmargin at screen 0.36\n"
             "set label 1 %s at screen 0.5,0.96 center noenhanced font ',12'\n"
             "set xlabel 'energy h'; set xrange [0:%.17g]\nset key off; set lmargin at screen 0.1; set rmargin at "
             "screen 0.48; set ylabel '%s'\nset xtics autofreq\n",
-            QUOTED(title, 95), 2 * at[0], F);
+            QUOTED(iso_plot_titled(page, title), 95), 2 * at[0], F);
     put_panel(f, m, bounds, at, false);
     fprintf(f,
             "unset label; set lmargin at screen 0.6; set rmargin at screen 0.98; set ylabel '%s\u2060 / h'\n"
@@ -163,20 +165,22 @@ static double put_signal(FILE *f, const iso_estimate *e, int signal)
     return least;
 }
 
-iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, const iso_estimate *e)
+iso_status iso_plot_lines(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_estimate *e)
 {
     const int axis = e->axis, j = (axis + 1) % 3 + 1, l = (axis + 2) % 3 + 1;
     double least[2];
     const char *warning = warning_of(e);
-    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, LINES_HEIGHT);
-    fprintf(f,
-            ISO_PLOT_AXES
-            "set label 1 %s at screen 0.5,0.95 center noenhanced font ',12'\n"
-            "set lmargin at screen 0.09; set rmargin at screen 0.97; set bmargin at screen 0.15\n"
-            "set tmargin at screen %s; set logscale y; set format y '10^{%%T}'; set key at graph 1,1.02 "
-            "right bottom horizontal\nset xlabel '%s'; set ylabel 'amplitude'\n",
-            QUOTED(title, 95), warning ? "0.78" : "0.84",
-            warning ? "frequency in t" : "frequency in t; m,n: m times frequency 1 and n times frequency 2");
+    int width = WIDTH, height = LINES_HEIGHT;
+    iso_gnuplot_fit(page, false, &width, &height);
+    FILE *f = iso_gnuplot_open(ctx, page, width, height);
+    fprintf(
+        f,
+        ISO_PLOT_AXES "set label 1 %s at screen 0.5,0.95 center noenhanced font ',12'\n"
+                      "set lmargin at screen %.17g; set rmargin at screen 0.97; set bmargin at screen %.17g\n"
+                      "set tmargin at screen %.17g; set logscale y; set format y '10^{%%T}'; set key at graph 1,1.02 "
+                      "right bottom horizontal\nset xlabel '%s'; set ylabel 'amplitude'\n",
+        QUOTED(iso_plot_titled(page, title), 95), 80.0 / width, 63.0 / height, 1 - (warning ? 92.0 : 67.0) / height,
+        warning ? "frequency in t" : "frequency in t; m,n: m times frequency 1 and n times frequency 2");
     if (warning) fprintf(f, "set label 2 '%s' at screen 0.5,0.885 center tc rgb " ISO_PLOT_VERMILLION "\n", warning);
     for (int s = 0; s < 2; s++) least[s] = put_signal(f, e, s);
     fprintf(f, "set offsets graph 0.04, graph 0.04, 0, 0\nset yrange [%.17g:4]\n",

@@ -108,7 +108,7 @@ static void put_axis(FILE *f, const char *axis, const line *l)
                 *axis == 'x' ? "set arrow from first %d, graph 0 to first %d, graph 1"
                              : "set arrow from graph 0, first %d to graph 1, first %d",
                 k, k);
-        fputs(" nohead front dt (4,3) lw 1.2 lc rgb '#404040'\n", f);
+        fputs(" nohead front dt (4,3) lw 1.2 lc rgb " ISO_PLOT_INK "\n", f);
     }
 }
 
@@ -142,12 +142,15 @@ static bool put_curve(FILE *f, const iso_record *rows, bool sizes, bool k)
     return band;
 }
 
-iso_status iso_plot_sweep_curve(iso_context *ctx, const char *path, const char *title, const iso_record *rows)
+iso_status iso_plot_sweep_curve(iso_context *ctx, const iso_plot_page *page, const char *title,
+                                const iso_record *rows)
 {
-    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, CURVE_HEIGHT);
+    int width = WIDTH, height = CURVE_HEIGHT;
+    iso_gnuplot_fit(page, true, &width, &height);
+    FILE *f = iso_gnuplot_open(ctx, page, width, height);
     const line x = line_of(rows, 0);
     const bool sizes = spread_of(rows, 1).sizes, band = put_curve(f, rows, sizes, x.k);
-    fprintf(f, "set title %s noenhanced\n" ISO_PLOT_AXES "unset key\n", QUOTED(title, LONGEST));
+    fprintf(f, "set title %s noenhanced\n" ISO_PLOT_AXES "unset key\n", TITLE(page, title, LONGEST));
     put_label(f, "xlabel", iso_record_name(rows, 0));
     put_value_label(f, "ylabel", iso_record_name(rows, 1), sizes);
     if (sizes) fputs("set logscale y; set format y '10^{%T}'\n", f);
@@ -278,7 +281,7 @@ static void put_map(FILE *f, const iso_plot_maps *m, int i, const grid *g, bool 
     if (m->key_name) snprintf(name, sizeof name, "%s = %.6g", m->key_name, m->key[i]);
     for (int there = 1; there >= 0; there--) put_points(f, m->rows, i, g, there, sizes);
     fputs("set autoscale noextend; set offsets graph 0.02, graph 0.02, graph 0.02, graph 0.02\n", f);
-    fprintf(f, "set title %s noenhanced\nplot $none%d %s lc rgb '#B0B0B0', $value%d %s lc palette\n",
+    fprintf(f, "set title %s noenhanced\nplot $none%d %s lc rgb " ISO_PLOT_GREY ", $value%d %s lc palette\n",
             QUOTED(name, 40), i, with, i, with);
 }
 
@@ -288,10 +291,9 @@ static bool put_scale(FILE *f, const iso_record *rows)
     const spread s = spread_of(rows, 2);
     double low = s.sizes ? s.least : s.low, high = s.sizes ? fmax(fabs(s.low), fabs(s.high)) : s.high;
     if (!(low < high)) low = isfinite(low) ? low : 0, high = low + 1;
-    fprintf(f,
-            "set cbrange [%.9g:%.9g]\n%sset palette defined (0 '#0B2E59', 1 '#0072B2', 2 '#A9CDE2', 3 '#F7E3B0', "
-            "4 '#E69F00', 5 '#A03A00')\nset colorbox user origin 0.865,0.25 size 0.015,0.5\n",
-            low, high, s.sizes ? "set logscale cb; set format cb '10^{%T}'\n" : "");
+    fprintf(f, "set cbrange [%.9g:%.9g]\n%sset colorbox user origin 0.865,0.25 size 0.015,0.5\n", low, high,
+            s.sizes ? "set logscale cb; set format cb '10^{%T}'\n" : "");
+    iso_plot_put_scale(f, 1);
     put_value_label(f, "cblabel", iso_record_name(rows, 2), s.sizes);
     return s.sizes;
 }
@@ -316,15 +318,16 @@ static void put_steps(FILE *f, const line *x)
     fprintf(f, "set xtics %.6g\n", power * (digit < 2 ? 1 : digit < 5 ? 2 : 5));
 }
 
-iso_status iso_plot_sweep_maps(iso_context *ctx, const char *path, const char *title, const iso_plot_maps *m)
+iso_status iso_plot_sweep_maps(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_plot_maps *m)
 {
     const int across = m->count > 3 ? 3 : m->count, down = m->count > 3 ? 2 : 1;
-    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, down * PANEL_HEIGHT + (across == 1 ? 200 : 0));
+    FILE *f = iso_gnuplot_open(ctx, page, WIDTH, down * PANEL_HEIGHT + (across == 1 ? 200 : 0));
     const grid points = grid_of(m);
     fprintf(f,
-            "set multiplot title %s noenhanced\nset border 15 lc rgb '#606060'; set tics nomirror out scale 0.6; "
+            "set multiplot title %s noenhanced\nset border 15 lc rgb " ISO_PLOT_LINE
+            "; set tics nomirror out scale 0.6; "
             "unset key\n",
-            QUOTED(title, LONGEST));
+            QUOTED(iso_plot_titled(page, title), LONGEST));
     put_label(f, "xlabel", iso_record_name(m->rows, 0));
     const bool sizes = put_scale(f, m->rows);
     put_steps(f, &points.x);

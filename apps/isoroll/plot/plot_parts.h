@@ -5,17 +5,12 @@
 #include <stdio.h>
 
 #include "base/record.h"
+#include "plot/palette.h"
 
 enum {
     ISO_PLOT_ROWS = 5000,     /* rows of a record that are drawn, at most */
     ISO_PLOT_DIFFERENCES = 16 /* lines of a chart, at most                */
 };
-
-/* Okabe & Ito's colours, for all kinds of sight, and paler twins for the far side of a sphere. */
-#define ISO_PLOT_BLUE "'#0072B2'"
-#define ISO_PLOT_VERMILLION "'#D55E00'"
-#define ISO_PLOT_FAR_BLUE "'#A9CDE2'"
-#define ISO_PLOT_FAR_VERMILLION "'#F0BE9B'"
 
 /* The signs of the first and the last row. */
 #define ISO_PLOT_START "pt 7 ps 1.1"
@@ -32,7 +27,8 @@ enum {
 
 /* Axes on the left and below, and a grid. */
 #define ISO_PLOT_AXES                                                                                                \
-    "set border 3 lc rgb '#606060'; set tics nomirror out scale 0.6; set grid back lt 1 lw 0.8 lc rgb '#DDE1E5'\n"
+    "set border 3 lc rgb " ISO_PLOT_LINE                                                                             \
+    "; set tics nomirror out scale 0.6; set grid back lt 1 lw 0.8 lc rgb " ISO_PLOT_GRID "\n"
 
 /* A plot that is the whole page, without axes: for titles and keys. */
 #define ISO_PLOT_PAGE                                                                                                \
@@ -41,7 +37,7 @@ enum {
     "set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
 
 /* Axes on all sides, and one of angles below. */
-#define ISO_PLOT_FRAME "set border 15 lw 0.8 lc rgb '#606060'; set tics out scale 0.6 nomirror; unset grid\n"
+#define ISO_PLOT_FRAME "set border 15 lw 0.8 lc rgb " ISO_PLOT_LINE "; set tics out scale 0.6 nomirror; unset grid\n"
 #define ISO_PLOT_ANGLES "set xrange [-pi:pi]; set xtics ('−π' -pi, '−π/2' -pi/2, '0' 0, 'π/2' pi/2, 'π' pi)\n"
 
 /* A number of a table by the name of its column (NaN: there is none); whether a word is this one; the axis of the
@@ -191,7 +187,8 @@ void iso_plot_view_key(const iso_plot_scenery *scenery, char text[static 512]);
 /* --- sweeps ----------------------------------------------------------------------------------------------------- */
 
 /* A curve; rows: the number that varies, by growing size, the value, low and high, which may be NaN. */
-iso_status iso_plot_sweep_curve(iso_context *ctx, const char *path, const char *title, const iso_record *rows);
+iso_status iso_plot_sweep_curve(iso_context *ctx, const iso_plot_page *page, const char *title,
+                                const iso_record *rows);
 
 /* Maps side by side, with one scale of colours; a NaN is grey. */
 enum { ISO_PLOT_MAPS = 6 };
@@ -201,6 +198,7 @@ typedef struct iso_plot_maps {
     double key[ISO_PLOT_MAPS];
     iso_record *rows; /* x, y, the value, and the map, from 0; the names of the first three are shown */
 } iso_plot_maps;
-iso_status iso_plot_sweep_maps(iso_context *ctx, const char *path, const char *title, const iso_plot_maps *maps);
+iso_status iso_plot_sweep_maps(iso_context *ctx, const iso_plot_page *page, const char *title,
+                               const iso_plot_maps *maps);
 
 #endif

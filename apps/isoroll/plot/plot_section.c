@@ -17,8 +17,9 @@
 #include "plot/plot_parts.h"
 
 enum { WIDTH = 900, HEIGHT = 470, BOUNDARY = 240 };
-#define TOP 1.05 /* of the axis of L, by the largest L               */
-#define ROOM 1.2 /* beyond the crossings, where a picture shows few  */
+#define TOP 1.05      /* of the axis of L, by the largest L               */
+#define LIGHTEST 0.92 /* of the scale: yellow dots are not seen on white */
+#define ROOM 1.2      /* beyond the crossings, where a picture shows few  */
 
 /* --- colours ---------------------------------------------------------------------------------------------------- */
 
@@ -30,11 +31,34 @@ static int part_of(double hue, double shift)
 }
 
 /* The hues of successive orbits differ by the golden section of the circle. The first is a strong blue. */
-static long colour_of(double orbit, bool grey)
+static long hue_of(double orbit)
 {
-    if (grey) return 0xB0B0B0;
     const double hue = fmod(0.6 + orbit * 0.61803398874989485, 1);
     return (long)part_of(hue, 0) << 16 | (long)part_of(hue, -1.0 / 3) << 8 | part_of(hue, -2.0 / 3);
+}
+
+/* The scale of the rotation numbers: least and largest; nothing: there are none. */
+static bool range_of(const iso_plot_section *s, double range[2])
+{
+    const int rotation = iso_record_find(s->rows, "rotation");
+    range[0] = INFINITY, range[1] = -INFINITY;
+    for (size_t i = 0; rotation >= 0 && i < iso_record_rows(s->rows); i++) {
+        const double x = iso_record_const_row(s->rows, i)[rotation];
+        if (isfinite(x)) range[0] = fmin(range[0], x), range[1] = fmax(range[1], x);
+    }
+    if (range[0] > range[1]) return false;
+    if (range[1] - range[0] < 1e-3) range[0] -= 5e-4, range[1] += 5e-4;
+    return true;
+}
+
+static long colour_of(const iso_plot_section *s, const double row[], const double range[2])
+{
+    const int rotation = iso_record_find(s->rows, "rotation");
+    const int shade = (int)row[iso_record_find(s->rows, "grey")];
+    if (shade == ISO_PLOT_CHAOTIC) return ISO_PLOT_GREY_CODE;
+    if (shade == ISO_PLOT_UNDECIDED) return ISO_PLOT_INK_CODE;
+    if (rotation < 0) return hue_of(row[iso_record_find(s->rows, "orbit")]);
+    return iso_plot_scale(LIGHTEST * (row[rotation] - range[0]) / (range[1] - range[0]));
 }
 
 /* --- data ------------------------------------------------------------------------------------------------------- */
@@ -68,18 +92,19 @@ static spot of_point(const iso_plot_section *s, const double chart[2])
  * behind the others. Gives how far up they go. */
 static double put_crossings(FILE *f, const iso_plot_section *s, bool ball)
 {
-    const int orbit = iso_record_find(s->rows, "orbit"), own = ball ? -1 : iso_record_find(s->rows, "point_l");
+    const int own = ball ? -1 : iso_record_find(s->rows, "point_l");
     const int l = own < 0 ? iso_record_find(s->rows, "l") : own, shade = iso_record_find(s->rows, "grey");
     const int x = iso_record_find(s->rows, own < 0 ? "x" : "point_x");
-    double most = 0;
+    double most = 0, range[2];
+    range_of(s, range);
     fprintf(f, "$%s << EOD\n", ball ? "ball" : "point");
-    for (int grey = 1; grey >= 0; grey--)
+    for (int behind = 1; behind >= 0; behind--)
         for (size_t i = 0; i < iso_record_rows(s->rows); i++) {
             const double *row = iso_record_const_row(s->rows, i), chart[] = {row[l], row[x]};
-            if ((row[shade] != 0) != grey) continue;
+            if ((row[shade] != 0) != behind) continue;
             const spot at = ball ? of_ball(s, chart) : of_point(s, chart);
             if (!isfinite(at.right) || !isfinite(at.up)) continue;
-            fprintf(f, "%.5f %.6g %ld %d\n", at.right, at.up, colour_of(row[orbit], grey), grey);
+            fprintf(f, "%.5f %.6g %ld %d\n", at.right, at.up, colour_of(s, row, range), (int)row[shade]);
             most = fmax(most, fabs(at.up));
         }
     fputs("EOD\n", f);
@@ -113,28 +138,49 @@ static void put_spots(FILE *f, const iso_plot_section *s, const char *block)
         fprintf(f, "$%s using 1:2:3 with points pt 7 ps %.17g lc rgb variable notitle\n", block, size);
 }
 
-static void put_heading(FILE *f, const iso_plot_section *s)
+static void put_heading(FILE *f, const iso_plot_page *page, const iso_plot_section *s)
 {
     fprintf(f,
-            "set multiplot\n" ISO_PLOT_PAGE "set key at screen 0.985,0.962 right center samplen 1\n"
+            "set multiplot\n" ISO_PLOT_PAGE "set key at screen 0.985,0.962 right center samplen 1 horizontal\n"
             "set label 1 %s at screen 0.015,0.962 left noenhanced font ',12'\nplot NaN notitle",
-            QUOTED(s->title, 95));
-    if (s->grey_means) fprintf(f, ", NaN w p pt 7 ps 1 lc rgb '#B0B0B0' title %s", QUOTED(s->grey_means, 60));
+            QUOTED(iso_plot_titled(page, s->title), 95));
+    if (s->grey_means) fprintf(f, ", NaN w p pt 7 ps 1 lc rgb " ISO_PLOT_GREY " title %s", QUOTED(s->grey_means, 60));
+    if (s->dark_means) fprintf(f, ", NaN w p pt 7 ps 1 lc rgb " ISO_PLOT_INK " title %s", QUOTED(s->dark_means, 60));
     fputs("\nunset label 1; unset key\n" ISO_PLOT_FRAME
           "set tmargin at screen 0.86\nset bmargin at screen 0.14\n" ISO_PLOT_ANGLES,
           f);
+}
+
+/* The colour bar, in the right margin. The spots have their colours already: nothing else is drawn by it. */
+static void put_bar(FILE *f, const iso_plot_section *s)
+{
+    double range[2];
+    if (!range_of(s, range)) return;
+    iso_plot_put_scale(f, LIGHTEST);
+    fprintf(f,
+            "set cbrange [%.6g:%.6g]; set cblabel 'rotation number: turns from crossing to crossing' offset 0.5,0\n"
+            "set colorbox user origin 0.9,0.2 size 0.014,0.6; set cbtics offset -0.5,0\n",
+            range[0], range[1]);
+}
+
+/* Where the two sections stand from left to right: with a bar there is less room. */
+static const double *sides_of(const iso_plot_section *s)
+{
+    static const double wide[] = {0.075, 0.485, 0.575, 0.985}, beside_bar[] = {0.07, 0.435, 0.52, 0.885};
+    double range[2];
+    return range_of(s, range) ? beside_bar : wide;
 }
 
 static void put_ball(FILE *f, const iso_plot_section *s, double top)
 {
     const int a = s->axis + 1, b = (s->axis + 1) % 3 + 1, c = (s->axis + 2) % 3 + 1;
     fprintf(f,
-            "set lmargin at screen 0.075; set rmargin at screen 0.485; set yrange [-%.17g:%.17g]\n"
+            "set lmargin at screen %.17g; set rmargin at screen %.17g; set yrange [-%.17g:%.17g]\n"
             "set ytics autofreq\n"
             "set title 'ball: n_%d\u2060 = 0, n_%d\u2060 increasing' offset 0,-0.5\n"
             "set xlabel 'ψ,  where n_%d\u2060 = cos ψ, n_%d\u2060 = −sin ψ' offset 0,0.3\n"
             "set ylabel 'ω_%d\u2060 / |ω|' offset 1,0\nplot ",
-            top, top, a, a, b, c, a);
+            sides_of(s)[0], sides_of(s)[1], top, top, a, a, b, c, a);
     put_spots(f, s, "ball");
 }
 
@@ -142,34 +188,38 @@ static void put_point(FILE *f, const iso_plot_section *s, double top, double mos
 {
     const int a = s->axis + 1, b = (s->axis + 1) % 3 + 1, c = (s->axis + 2) % 3 + 1;
     fprintf(f,
-            "set lmargin at screen 0.575; set rmargin at screen 0.985; set ytics autofreq; set yrange "
+            "set lmargin at screen %.17g; set rmargin at screen %.17g; set ytics autofreq; set yrange "
             "[%.17g:%.17g]\nset title '%s: γ_%d\u2060 = 0, γ_%d\u2060 increasing'\n"
             "set xlabel 'l,  where γ_%d\u2060 = cos l, γ_%d\u2060 = −sin l'\n",
-            -top, top, s->eps > 0 ? "point" : "directions of γ and M", a, a, b, c);
+            sides_of(s)[2], sides_of(s)[3], -top, top, s->eps > 0 ? "point" : "directions of γ and M", a, a, b, c);
     fprintf(f,
             s->eps > 0 ? "set ylabel 'L = M_%d, in the units of the scene'\n" : "set ylabel 'x = M_%d\u2060 / |M|'\n",
             a);
     fputs("plot ", f);
     for (int side = 1; side >= -1; side -= 2) { /* outside of the boundaries */
         fprintf(f,
-                "$boundary using 1:(%d*$2):(%.17g) with filledcurves fc rgb '#ECEFF1' notitle, $boundary using "
-                "1:(%d*$2) with lines lw 1 lc rgb '#606060' notitle, ",
+                "$boundary using 1:(%d*$2):(%.17g) with filledcurves fc rgb " ISO_PLOT_BAND
+                " notitle, $boundary using "
+                "1:(%d*$2) with lines lw 1 lc rgb " ISO_PLOT_LINE " notitle, ",
                 side, side * TOP * most, side);
     }
+    double range[2];
+    if (range_of(s, range)) fputs("$boundary using 1:(NaN):(0) with points lc palette notitle, ", f);
     put_spots(f, s, "point");
 }
 
-iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *s)
+iso_status iso_plot_sections(iso_context *ctx, const iso_plot_page *page, const iso_plot_section *s)
 {
     int column[4];
     if (!iso_record_find_all(s->rows, 4, (const char *[]){"orbit", "l", "x", "grey"}, column, NULL) ||
         iso_record_rows(s->rows) == 0 || s->axis < 0 || s->axis > 2)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                 "a picture of a section n_a = 0 needs at least one crossing, and a = 1, 2 or 3");
-    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
+    FILE *f = iso_gnuplot_open(ctx, page, WIDTH, HEIGHT);
     const double ball = put_crossings(f, s, true), point = put_crossings(f, s, false), most = put_boundary(f, s);
-    put_heading(f, s);
+    put_heading(f, page, s);
     put_ball(f, s, s->few ? fmin(1, ROOM * ball + 1e-3) : 1);
+    put_bar(f, s);
     put_point(f, s, TOP * (s->few ? fmin(most, ROOM * point + 1e-3 * most) : most), most);
     return iso_gnuplot_close(ctx, true);
 }

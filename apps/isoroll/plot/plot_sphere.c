@@ -109,7 +109,7 @@ static void put_path(FILE *f, const iso_record *r, int column, bool near)
 static void put_end(FILE *f, const double v[3], const char *type)
 {
     const spot s = project(v);
-    const char *colour = s.depth > 0 ? "'black'" : "'#909090'";
+    const char *colour = s.depth > 0 ? "'black'" : ISO_PLOT_BEHIND;
     fprintf(f, "set label '' at %.17g,%.17g front point %s lc rgb %s\n", s.x, s.y, type, colour);
 }
 
@@ -139,8 +139,8 @@ void iso_plot_put_axes(FILE *f, double x, double y, double radius)
         const spot s = project(v);
         const double end = 1 + 0.14 / fmax(hypot(s.x, s.y), 0.5), label = end + 0.07 / fmax(hypot(s.x, s.y), 0.5);
         fprintf(f,
-                "set arrow nohead back lw 1.2 lc rgb '#606060' from %.17g,%.17g to %.17g,%.17g\n"
-                "set label '%d' center tc rgb '#404040' at %.17g,%.17g\n",
+                "set arrow nohead back lw 1.2 lc rgb " ISO_PLOT_LINE " from %.17g,%.17g to %.17g,%.17g\n"
+                "set label '%d' center tc rgb " ISO_PLOT_INK " at %.17g,%.17g\n",
                 x + radius * s.x, y + radius * s.y, x + radius * s.x * end, y + radius * s.y * end, axis + 1,
                 x + radius * s.x * label, y + radius * s.y * label);
     }
@@ -153,10 +153,10 @@ void iso_plot_put_globe(FILE *f)
     for (int near = 0; near < 2; near++) put_graticule(f, near);
 }
 
-static const char *const setup =
-    "unset border; unset tics; unset key; unset label; unset arrow; set size ratio -1\n"
-    "set xrange [-1.2:1.2]; set yrange [-1.07:1.2]\n"
-    "set object 1 circle at 0,0 size 1 back fillcolor rgb '#F4F6F8' fillstyle solid border lc rgb '#8A939B'\n";
+static const char *const setup = "unset border; unset tics; unset key; unset label; unset arrow; set size ratio -1\n"
+                                 "set xrange [-1.2:1.2]; set yrange [-1.07:1.2]\n"
+                                 "set object 1 circle at 0,0 size 1 back fillcolor rgb " ISO_PLOT_SPHERE
+                                 " fillstyle solid border lc rgb " ISO_PLOT_OUTLINE "\n";
 
 static bool is_long(const iso_record *r, int column)
 {
@@ -181,7 +181,8 @@ void iso_plot_sphere(FILE *f, const iso_plot_box *box, const iso_record *line, i
     iso_plot_put_axes(f, 0, 0, 1);
     put_end(f, iso_plot_drawn_row(line, 0) + line_column, ISO_PLOT_START);
     put_end(f, iso_plot_drawn_row(line, iso_plot_drawn_rows(line) - 1) + line_column, ISO_PLOT_END);
-    fprintf(f, "plot $grid0 w l lw 0.6 lc rgb '#DDE1E5', $path0 w %s lc rgb " ISO_PLOT_FAR_BLUE ",", far_style);
-    fprintf(f, " $grid1 w l lw 0.8 lc rgb '#B9C0C7', $path1 w %s lc rgb " ISO_PLOT_BLUE, near_style);
+    fprintf(f, "plot $grid0 w l lw 0.6 lc rgb " ISO_PLOT_GRID ", $path0 w %s lc rgb " ISO_PLOT_FAR_BLUE ",",
+            far_style);
+    fprintf(f, " $grid1 w l lw 0.8 lc rgb " ISO_PLOT_NEAR_GRID ", $path1 w %s lc rgb " ISO_PLOT_BLUE, near_style);
     fputs("\n", f);
 }

@@ -5,7 +5,7 @@
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
 
-enum { WIDTH = 1000, HEIGHT = 470 };
+enum { WIDTH = 900, HEIGHT = 450 };
 #define TOLD 10 /* errors from which on m is drawn as a spot */
 
 /* What varies from row to row. */
@@ -35,16 +35,17 @@ static void put_rows(FILE *f, const iso_record *r, size_t count[KINDS])
 static void put_size(FILE *f, const iso_record *r)
 {
     static const char *const look[] = {":3:4 with yerrorbars pt 7 ps 0.7 lc rgb " ISO_PLOT_BLUE " title 'm > 0'",
-                                       ":3:4 with yerrorbars pt 7 ps 0.7 lc rgb " ISO_PLOT_VERMILLION
+                                       ":3:4 with yerrorbars pt 6 ps 0.8 lc rgb " ISO_PLOT_VERMILLION
                                        " title 'm < 0'",
-                                       " with points pt 11 ps 1 lc rgb '#606060' title '|m| below'"};
+                                       " with points pt 11 ps 1 lc rgb " ISO_PLOT_LINE " title '|m| below'"};
     const char *before = "plot";
     size_t count[KINDS] = {0};
     put_rows(f, r, count);
     fprintf(f,
-            ISO_PLOT_AXES "set logscale y; set format y '10^{%%T}'; set xlabel %s offset 0,0.5\n"
-                          "set ylabel 'slope |m| of the curves at π/2; 0: no splitting' offset 1,0\n"
-                          "set key outside bottom center horizontal maxrows 1 Left reverse samplen 1 width 2\n",
+            ISO_PLOT_AXES
+            "set logscale y; set format y '10^{%%T}'; set xlabel %s offset 0,0.5\n"
+            "set ylabel 'slope |m| at π/2 (0: no splitting)' offset 1,0; set xtics autofreq; set mxtics 2\n"
+            "set key outside bottom center horizontal maxrows 1 Left reverse samplen 1 width 2\n",
             QUOTED(name_of(r), 8));
     for (int kind = 0; kind < KINDS; kind++) {
         if (count[kind] == 0) continue;
@@ -65,8 +66,8 @@ static void put_curve(FILE *f, const iso_record *curve, const char *name, double
         f,
         "EOD\n" ISO_PLOT_FRAME
         "set xrange [-0.35:pi+0.35]; set xtics ('O' 0, 'π/4' pi/4, 'π/2' pi/2, '3π/4' 3*pi/4, \"O'\" pi)\n"
-        "set arrow 1 from first pi/2, graph 0 to first pi/2, graph 1 nohead back dt (3,3) lw 1.2 lc rgb "
-        "'#707070'\nset key outside bottom center horizontal Left reverse samplen 2 width 2\n"
+        "set arrow 1 from first pi/2, graph 0 to first pi/2, graph 1 nohead back dt (3,3) lw 1.2 lc "
+        "rgb " ISO_PLOT_HELP "\nset key outside bottom center horizontal Left reverse samplen 2 width 2\n"
         "set xlabel 'l − l(O) on the section γ_%d\u2060 = 0, %s = %.6g'; set ylabel 'M_%d\u2060 / |M|' offset 1,0\n"
         "plot $curve using 1:2 with lines lw 1.6 lc rgb " ISO_PLOT_VERMILLION
         " title 'unstable, from O', $curve using (pi-$1):2 with lines lw 1.6 dt (6,2) lc rgb " ISO_PLOT_BLUE
@@ -74,12 +75,15 @@ static void put_curve(FILE *f, const iso_record *curve, const char *name, double
         axis + 1, name, at, axis + 1);
 }
 
-iso_status iso_plot_splitting(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
+iso_status iso_plot_splitting(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *rows,
                               const iso_record *curve, double at, int axis)
 {
-    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
-    fprintf(f, "set multiplot layout 1,%d title %s noenhanced font ',12'\n", rows && curve ? 2 : 1,
-            QUOTED(title, 110));
+    int width = WIDTH, height = HEIGHT;
+    const bool both = rows && curve;
+    iso_gnuplot_fit(page, !both, &width, &height);
+    FILE *f = iso_gnuplot_open(ctx, page, width, height);
+    fprintf(f, "set multiplot layout 1,%d title %s noenhanced font ',12'\n", both ? 2 : 1,
+            both ? QUOTED(iso_plot_titled(page, title), 110) : TITLE(page, title, 110));
     if (rows) put_size(f, rows);
     if (curve) put_curve(f, curve, name_of(rows), at, axis);
     return iso_gnuplot_close(ctx, true);

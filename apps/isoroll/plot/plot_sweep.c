@@ -126,7 +126,7 @@ static int by_x(const void *a, const void *b)
     return (*one > *other) - (*one < *other);
 }
 
-static iso_status draw_curve(iso_context *ctx, const table *t, const char *path)
+static iso_status draw_curve(iso_context *ctx, const table *t, const iso_plot_page *page)
 {
     char title[160];
     const char *const names[] = {iso_record_name(t->rows, (size_t)t->axis[0]), t->words, "low", "high"};
@@ -142,7 +142,7 @@ static iso_status draw_curve(iso_context *ctx, const table *t, const char *path)
     if (status == ISO_OK) {
         snprintf(title, sizeof title, "%s over %s", t->words, names[0]);
         qsort(iso_record_row(rows, 0), count, 4 * sizeof(double), by_x);
-        status = iso_plot_sweep_curve(ctx, path, title, rows);
+        status = iso_plot_sweep_curve(ctx, page, title, rows);
     }
     iso_record_free(rows);
     return status;
@@ -255,21 +255,21 @@ static iso_status collect(iso_context *ctx, const table *t, layout *l)
     return status;
 }
 
-static iso_status draw_maps(iso_context *ctx, const table *t, const char *path)
+static iso_status draw_maps(iso_context *ctx, const table *t, const iso_plot_page *page)
 {
     char title[160];
     layout l = {.panel = -1};
     iso_status status = choose_layout(ctx, t, &l);
     if (status == ISO_OK) status = collect(ctx, t, &l);
     snprintf(title, sizeof title, "%s over %.31s and %.31s", t->words, l.x_name, l.y_name);
-    if (status == ISO_OK) status = iso_plot_sweep_maps(ctx, path, title, &l.maps);
+    if (status == ISO_OK) status = iso_plot_sweep_maps(ctx, page, title, &l.maps);
     iso_record_free(l.maps.rows);
     return status;
 }
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-iso_status iso_plot_sweep(iso_context *ctx, const char *path, const char *file, const char *value)
+iso_status iso_plot_sweep(iso_context *ctx, const iso_plot_page *page, const char *file, const char *value)
 {
     iso_sweep_reader *reader;
     table t = {.axes = 0};
@@ -282,7 +282,7 @@ iso_status iso_plot_sweep(iso_context *ctx, const char *path, const char *file, 
     if (status == ISO_OK) find_axes(&t);
     if (status == ISO_OK && t.axes == 0)
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "nothing varies in '%s'", file);
-    if (status == ISO_OK) status = (t.axes == 1 ? draw_curve : draw_maps)(ctx, &t, path);
+    if (status == ISO_OK) status = (t.axes == 1 ? draw_curve : draw_maps)(ctx, &t, page);
     iso_record_free(t.rows);
     iso_sweep_reader_close(reader);
     return status;

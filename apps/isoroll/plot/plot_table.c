@@ -46,12 +46,14 @@ void iso_plot_block(FILE *f, const char *name, const iso_record *r, const char *
 /* --- pictures that are a script of gnuplot ---------------------------------------------------------------------- */
 
 /* Follows the columns as the block $table, the title and the name of what varies. */
-static iso_status draw_script(iso_context *ctx, const char *path, const char *title, const iso_record *r,
+static iso_status draw_script(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *r,
                               const char *const columns[], const char *varies, int height, const char *script)
 {
-    FILE *f = iso_gnuplot_open(ctx, path, 900, height);
+    FILE *f = iso_gnuplot_open(ctx, page, 900, height);
     iso_plot_block(f, "table", r, columns);
-    fprintf(f, "set multiplot; set label 1 %s noenhanced at screen 0.5,0.97 center\n", QUOTED(title, 120));
+    fprintf(f, "set multiplot; set label 1 %s noenhanced at screen 0.5,0.97 center\n",
+            QUOTED(iso_plot_titled(page, title), 120));
+    for (int i = 0; i < ISO_PLOT_STROKES; i++) fprintf(f, "set style line %d %s\n", i + 1, iso_plot_stroke(i));
     fprintf(f, "varies = %s; set tics nomirror out scale 0.6\n%s", QUOTED(varies, 8), script);
     return iso_gnuplot_close(ctx, true);
 }
@@ -65,19 +67,21 @@ static bool has_events(const iso_record *r)
 }
 
 /* A bifurcation diagram. A row with an event repeats a point. */
-static iso_status draw_branches(iso_context *ctx, const char *path, const char *title, const iso_record *r)
+static iso_status draw_branches(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *r)
 {
     const char *varies = iso_record_name(r, 3), *const columns[] = {"branch", varies, "trace", "u", "event", NULL};
     static const char script[] =
         "unset key; set lmargin at screen 0.1; set rmargin at screen 0.97; last = int(word($table[|$table|], 1))\n"
+        "look(b) = (b - 1) %% 10 + 1\n"
         "x(event) = strcol(5) eq '' ? (event ? NaN : $2) : event && strcol(5) ne 'end' ? $2 : NaN\n"
         "set tmargin at screen 0.93; set bmargin at screen 0.54; set ylabel 'trace' offset 1,0; set yrange [-6:6]\n"
-        "set object 1 rectangle from graph 0, first -2 to graph 1, first 2 back fc rgb '#E3EEF6' fs solid noborder\n"
-        "set label 2 'stable' at graph 0.01, first 1.5 tc rgb '#505050'\n"
-        "plot for [b=1:last] $table using ($1 == b ? x(0) : NaN):3 w l lw 1.5 lc b title 'trace'%s\n"
+        "set object 1 rectangle from graph 0, first -2 to graph 1, first 2 back fc rgb " ISO_PLOT_PALE_BLUE
+        " fs solid noborder\n"
+        "set label 2 'stable' at graph 0.01, first 1.5 tc rgb " ISO_PLOT_WORDS "\n"
+        "plot for [b=1:last] $table using ($1 == b ? x(0) : NaN):3 w l ls look(b) lw 1.5 title 'trace'%s\n"
         "unset label; unset object; set yrange [0:1]; set tmargin at screen 0.48; set bmargin at screen 0.09\n"
         "set ylabel 'place on the line: 2 u/π' offset 1,0; set xlabel varies\n"
-        "plot for [b=1:last] $table using ($1 == b ? x(0) : NaN):(2 / pi * $4) w l lw 1.5 lc b title 'place', "
+        "plot for [b=1:last] $table using ($1 == b ? x(0) : NaN):(2 / pi * $4) w l ls look(b) lw 1.5 title 'place', "
         "$table using (x(1)):(2 / pi * $4) w p pt 7 ps 0.8 lc rgb 'black'";
     char whole[sizeof script + 200];
     snprintf(whole, sizeof whole, script,
@@ -85,7 +89,7 @@ static iso_status draw_branches(iso_context *ctx, const char *path, const char *
                  ? ", $table using (x(1)):3:5 w labels left offset 0.7,0.7 rotate by 15 font ',8' point pt 7 "
                    "ps 0.8 lc rgb 'black'"
                  : "");
-    return draw_script(ctx, path, title, r, columns, varies, 640, whole);
+    return draw_script(ctx, page, title, r, columns, varies, 640, whole);
 }
 
 /* The least step of a column of the grid. */
@@ -100,7 +104,7 @@ static double step_of(const iso_record *r, int column)
 }
 
 /* Where a rotation is stable, and the borders. With equal moments a trace is -2 up to rounding. */
-static iso_status draw_stability(iso_context *ctx, const char *path, const char *title, const iso_record *r)
+static iso_status draw_stability(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *r)
 {
     const int k = iso_record_find(r, "k");
     const char *varies = iso_record_name(r, 2), *const columns[] = {"k", varies, "least", "greatest", "kind", NULL};
@@ -112,26 +116,26 @@ static iso_status draw_stability(iso_context *ctx, const char *path, const char 
         "cell = 'w boxxy fs solid 1 noborder lw 0 lc rgb'; set macros\n"
         "do for [i=3:4] {\nset title 'rotation about the axis of the '.(i == 3 ? 'least' : 'greatest').' moment'\n"
         "set lmargin at screen i == 3 ? 0.08 : 0.56; set rmargin at screen i == 3 ? 0.49 : 0.97\n"
-        "plot $table u (grid(column(i)) == 0 ? $1 : NaN):2:(dx):(dy) @cell '#CFE3F2' title 'stable', "
-        "'' u (grid(column(i)) == -1 ? $1 : NaN):2:(dx):(dy) @cell '#E69F00' title 'unstable, T < −2', "
-        "'' u (grid(column(i)) == 1 ? $1 : NaN):2:(dx):(dy) @cell '#D55E00' title 'unstable, T > 2', "
+        "plot $table u (grid(column(i)) == 0 ? $1 : NaN):2:(dx):(dy) @cell " ISO_PLOT_PALE_BLUE " title 'stable', "
+        "'' u (grid(column(i)) == -1 ? $1 : NaN):2:(dx):(dy) @cell " ISO_PLOT_ORANGE " title 'unstable, T < −2', "
+        "'' u (grid(column(i)) == 1 ? $1 : NaN):2:(dx):(dy) @cell " ISO_PLOT_VERMILLION " title 'unstable, T > 2', "
         "'' u (strcol(5) eq 'border' && column(i) == column(i) ? $1 : NaN):2 w p pt 7 ps 0.25 lc rgb 'black' "
         "title 'border, T = ±2'\nunset label 1\n}";
     char whole[sizeof script + 60];
     snprintf(whole, sizeof whole, script, step_of(r, k), step_of(r, 2));
-    return draw_script(ctx, path, title, r, columns, varies, 480, whole);
+    return draw_script(ctx, page, title, r, columns, varies, 480, whole);
 }
 
 /* --- sections --------------------------------------------------------------------------------------------------- */
 
-static iso_status draw_section(iso_context *ctx, const char *path, const char *title, const iso_record *r)
+static iso_status draw_section(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *r)
 {
     section_picture *p = NULL;
     iso_status status = section_picture_create(ctx, r, &p);
     (void)title;
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(r); i++)
         status = section_picture_row(ctx, p, iso_record_const_row(r, i));
-    if (status == ISO_OK) status = section_picture_draw(ctx, p, path);
+    if (status == ISO_OK) status = section_picture_draw(ctx, p, page);
     section_picture_free(p);
     return status;
 }
@@ -150,7 +154,7 @@ static iso_status put_images(iso_context *ctx, const iso_record *r, size_t i, is
     return ISO_OK;
 }
 
-static iso_status draw_orbits(iso_context *ctx, const char *path, const char *title, const iso_record *r)
+static iso_status draw_orbits(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *r)
 {
     static const char *const names[] = {"orbit", "l", "x", "grey"};
     char words[200];
@@ -167,14 +171,14 @@ static iso_status draw_orbits(iso_context *ctx, const char *path, const char *ti
                                    .rows = images,
                                    .grey_means = "unstable (stable: in colours)",
                                    .few = true};
-    if (status == ISO_OK) status = iso_plot_sections(ctx, path, &plot);
+    if (status == ISO_OK) status = iso_plot_sections(ctx, page, &plot);
     iso_record_free(images);
     return status;
 }
 
-static iso_status draw_splitting(iso_context *ctx, const char *path, const char *title, const iso_record *r)
+static iso_status draw_splitting(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *r)
 {
-    return iso_plot_splitting(ctx, path, title, r, NULL, NAN, 0);
+    return iso_plot_splitting(ctx, page, title, r, NULL, NAN, 0);
 }
 
 /* --- the kinds -------------------------------------------------------------------------------------------------- */
@@ -183,7 +187,7 @@ static const struct kind {
     const char *name;
     const char *columns[5]; /* that the picture needs; NULL ends them */
     bool axis;              /* and the line "axis"                    */
-    iso_status (*draw)(iso_context *ctx, const char *path, const char *title, const iso_record *rows);
+    iso_status (*draw)(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *rows);
 } kinds[] = {
     {"section", {"orbit", "l", "x"}, true, draw_section},
     {"chaos", {"l", "x", "verdict"}, true, iso_plot_exponents},
@@ -218,7 +222,7 @@ static iso_status check(iso_context *ctx, const iso_record *r, const struct kind
                             "no picture: the table does not say its axis, in a line '# axis: 3'");
 }
 
-iso_status iso_plot_table(iso_context *ctx, const char *path, const char *name, const iso_record *r)
+iso_status iso_plot_table(iso_context *ctx, const iso_plot_page *page, const char *name, const iso_record *r)
 {
     char title[160];
     iso_params p;
@@ -227,5 +231,5 @@ iso_status iso_plot_table(iso_context *ctx, const char *path, const char *name, 
     ISO_TRY(iso_record_params(ctx, r, &p));
     snprintf(title, sizeof title, "%.60s: k = %.6g, J = %.6g %.6g %.6g", name, p.k, p.J[0], p.J[1], p.J[2]);
     const char *own = iso_record_get(r, "title");
-    return kind->draw(ctx, path, own ? own : title, r);
+    return kind->draw(ctx, page, own ? own : title, r);
 }

@@ -197,9 +197,9 @@ static const struct {
 } curves[CHARTS][3] = {
     [ENERGIES] = {{"h", "energy h", "'black'", false},
                   {"kinetic", "kinetic", ISO_PLOT_BLUE, false},
-                  {"potential", "potential", "'#E69F00'", false}},
-    [PRESSURE] = {{"mu", "μ needed (right)", "'#CC79A7'", true}, {"pressure", "pressure", ISO_PLOT_BLUE, false}},
-    [PACES] = {{"ds/dt", "ds/dt", ISO_PLOT_BLUE, false}, {"dtau/dt", "dτ/dt", "'#E69F00'", false}},
+                  {"potential", "potential", ISO_PLOT_ORANGE, false}},
+    [PRESSURE] = {{"mu", "μ needed (right)", ISO_PLOT_ORANGE, true}, {"pressure", "pressure", ISO_PLOT_BLUE, false}},
+    [PACES] = {{"ds/dt", "ds/dt", ISO_PLOT_BLUE, false}, {"dtau/dt", "dτ/dt", ISO_PLOT_ORANGE, false}},
 };
 
 static void put_curves(const sheet *s, chart which, const iso_plot_box *box)
@@ -244,11 +244,11 @@ static void put_noise(const sheet *s)
     for (size_t c = 1; c < iso_record_columns(r); c++) {
         const double largest = largest_of(r, c);
         if (used >= 300) continue;
-        used +=
-            snprintf(text + used, sizeof text - (size_t)used, "%s%.31s ", c > 1 ? ",  " : "", iso_record_name(r, c));
+        used += snprintf(text + used, sizeof text - (size_t)used, "%s%.31s ", c > 1 ? ",  " : "",
+                         iso_plot_symbol(iso_record_name(r, c)));
         used += snprintf(text + used, sizeof text - (size_t)used, largest > 0 ? "%.0e" : "%.0f", largest);
     }
-    iso_plot_words(s->f, text, 130, 1 - (s->y + LINE / 2.0) / s->height, "tc rgb '#404040'");
+    iso_plot_words(s->f, text, 130, 1 - (s->y + LINE / 2.0) / s->height, "tc rgb " ISO_PLOT_INK);
 }
 
 /* --- the sheet -------------------------------------------------------------------------------------------------- */
@@ -303,14 +303,14 @@ static iso_status look_at(iso_context *ctx, sheet *s)
     return ISO_OK;
 }
 
-iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plot_orbit *plot)
+iso_status iso_plot_trajectory(iso_context *ctx, const iso_plot_page *page, const iso_plot_orbit *plot)
 {
     sheet s = {.plot = plot, .ball = -1, .point = -1};
     iso_status status = look_at(ctx, &s);
     if (status == ISO_OK) {
-        s.f = iso_gnuplot_open(ctx, path, WIDTH, s.height);
+        s.f = iso_gnuplot_open(ctx, page, WIDTH, s.height);
         fputs("set multiplot\n", s.f);
-        iso_plot_words(s.f, s.plot->title, 95, 1 - 22.0 / s.height, "font ',12'");
+        iso_plot_words(s.f, iso_plot_titled(page, s.plot->title), 95, 1 - 22.0 / s.height, "font ',12'");
         put_sheet(&s);
         status = iso_gnuplot_close(ctx, true);
     }

@@ -22,27 +22,6 @@ enum {
 };
 static const int middle[2] = {190, 710};
 
-/* --- colours ---------------------------------------------------------------------------------------------------- */
-
-/* The scale viridis: it grows lighter throughout, so that it can be read in grey, too. */
-static const int viridis[] = {0x440154, 0x472C7A, 0x3B518B, 0x2C718E, 0x21908D,
-                              0x27AD81, 0x5CC863, 0xAADC32, 0xFDE725};
-enum { PIECES = sizeof viridis / sizeof *viridis - 1, SPHERE = 0xF4F6F8, FAINT = 0x707880 };
-
-static int mix(int a, int b, double part)
-{
-    int colour = 0;
-    for (int shift = 0; shift < 24; shift += 8)
-        colour |= (int)lround((1 - part) * (a >> shift & 255) + part * (b >> shift & 255)) << shift;
-    return colour;
-}
-
-static int colour_of(double phase)
-{
-    const int piece = phase < 1 ? (int)(phase * PIECES) : PIECES - 1;
-    return mix(viridis[piece], viridis[piece + 1], phase * PIECES - piece);
-}
-
 /* --- data ------------------------------------------------------------------------------------------------------- */
 
 /* Columns 1 to 8 as they are, the parts of both clocks that have passed (9, 10), the colour (11), the same behind a
@@ -56,9 +35,9 @@ static void put_states(FILE *f, const char *name, const iso_record *r)
         const double *row = iso_record_const_row(r, i);
         for (int c = 0; c < 8; c++) fprintf(f, "%.17g ", row[c]);
         const double t = last[0] == 0 ? 0 : row[0] / last[0], s = last[1] == 0 ? 0 : row[1] / last[1];
-        const int colour = colour_of(floor(fmin(fmax(t, 0), 1) * COLOURS) / COLOURS);
-        fprintf(f, "%.17g %.17g %d %d %d %d %zu\n", t, s, colour, mix(colour, SPHERE, 0.7), t < 0.6 ? 0xFFFFFF : 0,
-                FAINT, i / STEP);
+        const int colour = iso_plot_scale(floor(fmin(fmax(t, 0), 1) * COLOURS) / COLOURS);
+        fprintf(f, "%.17g %.17g %d %d %d %d %zu\n", t, s, colour, iso_plot_mix(colour, ISO_PLOT_SPHERE_CODE, 0.7),
+                t < 0.6 ? ISO_PLOT_WHITE_CODE : 0, ISO_PLOT_FAINT_CODE, i / STEP);
     }
     fputs("EOD\n", f);
 }
@@ -79,8 +58,8 @@ static void put_formula(FILE *f)
     put_word(f, x + 16, y + 17, "center font ',15'", "'J^{−1/2}n'");
     put_word(f, x + 16, y - 18, "center font ',15'", "'|J^{−1/2}n|'");
     fprintf(f, "set arrow from %.17g,%.17g to %.17g,%.17g nohead lw 1.2 lc rgb 'black'\n", x - 28, y, x + 60, y);
-    put_word(f, x, y - 64, "center tc rgb '#505050'", "'same number,'");
-    put_word(f, x, y - 82, "center tc rgb '#505050'", "'same state'");
+    put_word(f, x, y - 64, "center tc rgb " ISO_PLOT_WORDS, "'same number,'");
+    put_word(f, x, y - 82, "center tc rgb " ISO_PLOT_WORDS, "'same state'");
 }
 
 static void put_clock(FILE *f, double y, const char *words, char clock, double last)
@@ -91,24 +70,25 @@ static void put_clock(FILE *f, double y, const char *words, char clock, double l
     put_word(f, WIDTH - 60, y, "right noenhanced", QUOTED(end, 40));
 }
 
-static void put_words(FILE *f, const iso_plot_twins *plot, const double *last)
+static void put_words(FILE *f, const iso_plot_page *page, const iso_plot_twins *plot, const double *last)
 {
     const double x = WIDTH / 2.0;
-    put_word(f, x, HEIGHT - 24, "center noenhanced font ',14'", QUOTED(plot->title, 100));
+    put_word(f, x, HEIGHT - 24, "center noenhanced font ',14'", QUOTED(iso_plot_titled(page, plot->title), 100));
     put_word(f, middle[0], HEIGHT - 58, "center font ',11'", "'a rolling ball: n(t), the normal where it touches'");
     put_word(f, middle[1], HEIGHT - 58, "center font ',11'", "'a point in a potential: γ(s), its place'");
     put_formula(f);
     put_clock(f, UPPER + 27, "'the clock t of the ball, in equal steps'", 't', last[0]);
     put_clock(f, LOWER - 27, "'the clock s of the point, at the same states'", 's', last[1]);
-    put_word(f, x, 48, "center noenhanced tc rgb '#505050'", QUOTED(plot->drawn, 150));
+    put_word(f, x, 48, "center noenhanced tc rgb " ISO_PLOT_WORDS, QUOTED(plot->drawn, 150));
     put_word(f, x, 24, "center noenhanced font ',11'", QUOTED(plot->result, 150));
 }
 
 static void put_spheres(FILE *f)
 {
     for (int side = 0; side < 2; side++) {
-        fprintf(f, "set object circle at %d,%d size R back fc rgb '#%06X' fs solid border lc rgb '#8A939B'\n",
-                middle[side], CENTRE, SPHERE);
+        fprintf(f,
+                "set object circle at %d,%d size R back fc rgb '#%06X' fs solid border lc rgb " ISO_PLOT_OUTLINE "\n",
+                middle[side], CENTRE, ISO_PLOT_SPHERE_CODE);
         iso_plot_put_axes(f, middle[side], CENTRE, RADIUS);
     }
 }
@@ -126,12 +106,12 @@ static const char *const script =
     "column3(i,k) = column(3 + 3*i + k); depth(i) = D(column3(i,0), column3(i,1), column3(i,2))\n"
     "x(i) = middle(i) + R*X(column3(i,0), column3(i,1), column3(i,2))\n"
     "y(i) = centre + R*Y(column3(i,0), column3(i,1), column3(i,2)); rail(c) = 70 + 760*column(c)\n"
-    "plot for [i=0:1] $grid0 u (middle(i) + R*$1):(centre + R*$2) w l lw 0.6 lc rgb '#E4E8EC', "
+    "plot for [i=0:1] $grid0 u (middle(i) + R*$1):(centre + R*$2) w l lw 0.6 lc rgb " ISO_PLOT_GRID ", "
     "for [i=0:1] $curve u (depth(i) < 0.03 ? x(i) : NaN):(y(i)):12 w l lw 2 lc rgb variable, "
     "for [i=0:1] $states u (near(i) ? NaN : x(i)):(y(i)) every 8 @ring, "
     "for [i=0:1] $states u (near(i) ? NaN : x(i)):(y(i)):12 every 8 @disc, "
     "for [i=0:1] $states u (near(i) ? out : x(i)):(y(i)):15:14 every 8 @number, "
-    "for [i=0:1] $grid1 u (middle(i) + R*$1):(centre + R*$2) w l lw 0.7 lc rgb '#CCD2D8', "
+    "for [i=0:1] $grid1 u (middle(i) + R*$1):(centre + R*$2) w l lw 0.7 lc rgb " ISO_PLOT_NEAR_GRID ", "
     "for [i=0:1] $curve u (depth(i) > -0.03 ? x(i) : NaN):(y(i)):11 w l lw 3 lc rgb variable, "
     "for [i=0:1] $states u (near(i) ? x(i) : NaN):(y(i)) every 8 @ring, "
     "for [i=0:1] $states u (near(i) ? x(i) : NaN):(y(i)):11 every 8 @disc, "
@@ -149,20 +129,31 @@ static iso_status check(iso_context *ctx, const iso_record *r)
     return iso_plot_find(ctx, r, 8, names, &first);
 }
 
-iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot_twins *plot)
+/* Of a page of another shape the picture takes the middle: circles stay round. */
+static FILE *open_page(iso_context *ctx, const iso_plot_page *page)
+{
+    int width = WIDTH, height = HEIGHT;
+    iso_gnuplot_fit(page, false, &width, &height);
+    FILE *f = iso_gnuplot_open(ctx, page, width, height);
+    const double grow = fmax((double)WIDTH / width, (double)HEIGHT / height) / 2;
+    fprintf(f, ISO_PLOT_PAGE "unset key; set xrange [%.17g:%.17g]; set yrange [%.17g:%.17g]\n",
+            WIDTH / 2.0 - grow * width, WIDTH / 2.0 + grow * width, HEIGHT / 2.0 - grow * height,
+            HEIGHT / 2.0 + grow * height);
+    return f;
+}
+
+iso_status iso_plot_comparison(iso_context *ctx, const iso_plot_page *page, const iso_plot_twins *plot)
 {
     ISO_TRY(check(ctx, plot->curve));
     ISO_TRY(check(ctx, plot->states));
-    FILE *f = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT);
-    fprintf(f,
-            ISO_PLOT_PAGE "unset key; set xrange [0:%d]; set yrange [0:%d]\n"
-                          "R = %d; centre = %d; upper = %d; lower = %d; middle(i) = i ? %d : %d\n",
-            WIDTH, HEIGHT, RADIUS, CENTRE, UPPER, LOWER, middle[1], middle[0]);
+    FILE *f = open_page(ctx, page);
+    fprintf(f, "R = %d; centre = %d; upper = %d; lower = %d; middle(i) = i ? %d : %d\n", RADIUS, CENTRE, UPPER, LOWER,
+            middle[1], middle[0]);
     iso_plot_put_globe(f);
     put_states(f, "curve", plot->curve);
     put_states(f, "states", plot->states);
     put_spheres(f);
-    put_words(f, plot, iso_record_const_row(plot->states, iso_record_rows(plot->states) - 1));
+    put_words(f, page, plot, iso_record_const_row(plot->states, iso_record_rows(plot->states) - 1));
     fputs(script, f);
     return iso_gnuplot_close(ctx, true);
 }

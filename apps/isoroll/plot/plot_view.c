@@ -90,7 +90,7 @@ static void put_plane(FILE *f, const view *v, double range[2][2])
     project(v, iso_record_const_row(s->rows, 0) + s->contact, contact);
     project(v, iso_record_const_row(s->rows, 0) + s->centre, centre);
     const double slope = -(centre[0] - contact[0]) / (centre[1] - contact[1]);
-    fputs("set arrow 1 nohead back lw 3 lc rgb '#8A939B' from ", f);
+    fputs("set arrow 1 nohead back lw 3 lc rgb " ISO_PLOT_OUTLINE " from ", f);
     for (int end = 0; end < 2; end++) {
         fprintf(f, "%.17g,%.17g%s", range[0][end], contact[1] + slope * (range[0][end] - contact[0]),
                 end ? "\n" : " to ");
@@ -103,8 +103,8 @@ static void put_support(FILE *f, const view *v, double range[2][2])
     const double middle[2] = {0, 0};
     if (s->support > 0)
         put_circle(f, 1, middle, s->support,
-                   is_solid(s) ? "back fc rgb '#E8ECEF' fs solid border lc rgb '#8A939B' lw 1.5"
-                               : "back fs empty border lc rgb '#8A939B' lw 2.5");
+                   is_solid(s) ? "back fc rgb " ISO_PLOT_BAND " fs solid border lc rgb " ISO_PLOT_OUTLINE " lw 1.5"
+                               : "back fs empty border lc rgb " ISO_PLOT_OUTLINE " lw 2.5");
     if (s->plane && !s->level && s->ball > 0 && v->along_range == 2) put_plane(f, v, range);
 }
 
@@ -115,10 +115,10 @@ static void put_balls(FILE *f, const view *v)
     if (s->ball == 0 || v->narrow) return;
     double at[2];
     project(v, iso_record_const_row(s->rows, 0) + s->centre, at);
-    put_circle(f, 2, at, s->ball, "back fs empty border lc rgb '#606060' dt (4,3)");
+    put_circle(f, 2, at, s->ball, "back fs empty border lc rgb " ISO_PLOT_LINE " dt (4,3)");
     project(v, iso_record_const_row(s->rows, last) + s->centre, at);
     put_circle(f, 3, at, s->ball,
-               "back fc rgb " ISO_PLOT_FAR_BLUE " fs transparent solid 0.35 border lc rgb '#606060'");
+               "back fc rgb " ISO_PLOT_FAR_BLUE " fs transparent solid 0.35 border lc rgb " ISO_PLOT_LINE);
 }
 
 /* Not if contact is lost in the last row: that sign says more. */
@@ -205,8 +205,8 @@ static void put_signs(FILE *f, const view *v)
 static void put_lines(FILE *f, const char *with, bool both)
 {
     fprintf(f, "plot $way0 w %s lw 1 lc rgb " ISO_PLOT_FAR_BLUE, with);
-    if (both) fprintf(f, ", $touch0 w %s lw 1 lc rgb " ISO_PLOT_FAR_VERMILLION, with);
-    if (both) fprintf(f, ", $touch1 w %s lw 1 lc rgb " ISO_PLOT_VERMILLION, with);
+    if (both) fprintf(f, ", $touch0 w %s lw 1 dt (6,3) lc rgb " ISO_PLOT_FAR_VERMILLION, with);
+    if (both) fprintf(f, ", $touch1 w %s lw 1 dt (6,3) lc rgb " ISO_PLOT_VERMILLION, with);
     fprintf(f, ", $way1 w %s lw 1.6 lc rgb " ISO_PLOT_BLUE "\nset size noratio; unset grid\n", with);
 }
 
@@ -225,8 +225,9 @@ void iso_plot_view(FILE *f, const iso_plot_box *box, const iso_plot_scenery *s, 
         if (shows_contact(s)) put_path(f, &v, s->contact, "touch", near);
     }
     fprintf(f,
-            "unset label; unset arrow; unset object; unset key; unset logscale; set border 3 lc rgb '#606060'\n"
-            "set grid xtics ytics back lt 1 lw 0.8 lc rgb '#EEF0F2'\nset size %s\n",
+            "unset label; unset arrow; unset object; unset key; unset logscale; set border 3 lc rgb " ISO_PLOT_LINE
+            "\n"
+            "set grid xtics ytics back lt 1 lw 0.8 lc rgb " ISO_PLOT_GRID "\nset size %s\n",
             v.narrow ? "noratio" : "ratio -1");
     iso_plot_place(f, box);
     find_range(&v, range);
@@ -247,7 +248,7 @@ void iso_plot_view_key(const iso_plot_scenery *s, char text[static 512])
              ", NaN w p " ISO_PLOT_START " lc rgb 'black' title 'start'"
              "%s%s%s%s",
              s->centre >= 0 ? "centre" : "contact",
-             shows_contact(s) ? ", NaN w l lw 1.2 lc rgb " ISO_PLOT_VERMILLION " title 'contact'" : "",
+             shows_contact(s) ? ", NaN w l lw 1.2 dt (6,3) lc rgb " ISO_PLOT_VERMILLION " title 'contact'" : "",
              shows_end(s) ? ", NaN w p " ISO_PLOT_END " lc rgb 'black' title 'end'" : "",
              lost ? ", NaN w p " ISO_PLOT_LOST " title '" : "", lost ? lost : "", lost ? "'" : "");
 }

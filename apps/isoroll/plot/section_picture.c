@@ -1,6 +1,7 @@
 /* section_picture.c - collects crossings for the picture of a section (see section_picture.h). */
 #include "plot/section_picture.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,24 +14,29 @@
 /* The most points in a picture: more cannot be seen in a .png, and would make a .svg too large. */
 enum { MOST = 200000, MOST_IN_SVG = 40000 };
 
-enum { ORBIT, L, X, POINT_L, POINT_X, GREY, HASH, COLUMNS };
+/* The most crossings of an orbit by which its rotation number is found. */
+enum { MOST_OF_ORBIT = 20000 };
+
+enum { ORBIT, L, X, POINT_L, POINT_X, GREY, ROTATION, HASH, COLUMNS };
 
 struct section_picture {
     iso_plot_section plot;
     iso_params params;
-    int l, x;      /* columns of the rows; l -1: there is none  */
-    uint64_t rows; /* that came so far                          */
-    double limit;  /* rows whose hash is below it are kept      */
-    bool last_kept;
+    int l, x;               /* columns of the rows; l -1: there is none  */
+    uint64_t rows;          /* that came so far                          */
+    double limit;           /* rows whose hash is below it are kept      */
+    bool last_kept, judged; /* judged: there are verdicts */
     iso_record *kept;
     size_t orbits;
     iso_record *first, *who; /* the first crossing of each orbit that has one, (l, x), and whose it is */
-    iso_record *grey;        /* of each orbit: 1: ball and point have parted, or a verdict says that it is chaotic */
+    iso_record *grey;        /* of each orbit: its shade, as in plot.h; chaotic if ball and point have parted */
+    iso_record *now;         /* crossings (l, x) of the orbit whose rows come                              */
+    iso_record *rotation;    /* of each orbit before it; NaN: not found                                    */
 };
 
 iso_status section_picture_create(iso_context *ctx, const iso_record *header, section_picture **picture)
 {
-    static const char *const names[] = {"orbit", "l", "x", "point_l", "point_x", "grey", "hash"};
+    static const char *const names[] = {"orbit", "l", "x", "point_l", "point_x", "grey", "rotation", "hash"};
     const char *eps = iso_record_get(header, "eps"), *effects = iso_record_get(header, "effects"),
                *c = iso_record_get(header, "level.c");
     const bool level = effects && c && strcmp(effects, iso_level_name()) == 0;
@@ -46,6 +52,8 @@ iso_status section_picture_create(iso_context *ctx, const iso_record *header, se
     ISO_TRY(iso_record_create(ctx, COLUMNS, names, &p->kept));
     ISO_TRY(iso_record_create(ctx, 2, &names[L], &p->first));
     ISO_TRY(iso_record_create(ctx, 1, names, &p->who));
+    ISO_TRY(iso_record_create(ctx, 2, &names[L], &p->now));
+    ISO_TRY(iso_record_create(ctx, 1, &names[ROTATION], &p->rotation));
     return iso_record_create(ctx, 1, &names[GREY], &p->grey);
 }
 
@@ -56,6 +64,8 @@ void section_picture_free(section_picture *p)
     iso_record_free(p->first);
     iso_record_free(p->who);
     iso_record_free(p->grey);
+    iso_record_free(p->now);
+    iso_record_free(p->rotation);
     free(p);
 }
 
@@ -85,31 +95,47 @@ static iso_status thin_out(iso_context *ctx, section_picture *p, size_t most)
     return status;
 }
 
+/* All rows of the orbit have come. Orbits without a row have no number. */
+static iso_status end_orbit(iso_context *ctx, section_picture *p)
+{
+    const size_t count = iso_record_rows(p->now);
+    const double(*z)[2] = count > 0 ? (const double(*)[2])(const void *)iso_record_const_row(p->now, 0) : NULL;
+    if (p->orbits == 0) return ISO_OK;
+    while (iso_record_rows(p->rotation) + 1 < p->orbits)
+        ISO_TRY(iso_record_add(ctx, p->rotation, 1, (double[]){NAN}));
+    ISO_TRY(iso_record_add(ctx, p->rotation, 1, (double[]){iso_section_rotation(z, count)}));
+    iso_record_free(p->now);
+    return iso_record_create_like(ctx, p->first, 0, NULL, &p->now);
+}
+
 iso_status section_picture_row(iso_context *ctx, section_picture *p, const double row[])
 {
     const double hash = hash_of(p->rows++);
     if (p->l < 0) return ISO_OK;
     const bool is_first = iso_record_rows(p->who) == 0 || (size_t)row[0] >= p->orbits;
+    if (is_first) ISO_TRY(end_orbit(ctx, p));
     p->orbits = (size_t)row[0] + 1;
+    if (iso_record_rows(p->now) < MOST_OF_ORBIT)
+        ISO_TRY(iso_record_add(ctx, p->now, 1, (double[]){row[p->l], row[p->x]}));
     if (is_first) ISO_TRY(iso_record_add(ctx, p->first, 1, (double[]){row[p->l], row[p->x]}));
     if (is_first) ISO_TRY(iso_record_add(ctx, p->who, 1, row));
     ISO_TRY(thin_out(ctx, p, MOST - 1));
     p->last_kept = hash < p->limit;
     if (!p->last_kept) return ISO_OK;
     const double l = row[p->l], x = row[p->x];
-    return iso_record_add(ctx, p->kept, 1, (double[COLUMNS]){row[0], l, x, l, x, 0, hash});
+    return iso_record_add(ctx, p->kept, 1, (double[COLUMNS]){row[0], l, x, l, x, 0, NAN, hash});
 }
 
-/* Orbits that nobody has asked for are not grey. */
-static bool is_grey(const section_picture *p, size_t orbit)
+/* Orbits that nobody has asked for are taken for regular. */
+static int shade_of(const section_picture *p, size_t orbit)
 {
-    return orbit < iso_record_rows(p->grey) && *iso_record_const_row(p->grey, orbit) != 0;
+    return orbit < iso_record_rows(p->grey) ? (int)*iso_record_const_row(p->grey, orbit) : 0;
 }
 
-static iso_status set_grey(iso_context *ctx, section_picture *p, size_t orbit, bool grey)
+static iso_status set_shade(iso_context *ctx, section_picture *p, size_t orbit, int shade)
 {
     while (iso_record_rows(p->grey) <= orbit) ISO_TRY(iso_record_add(ctx, p->grey, 1, (double[]){0}));
-    *iso_record_row(p->grey, orbit) = grey;
+    *iso_record_row(p->grey, orbit) = shade;
     return ISO_OK;
 }
 
@@ -117,7 +143,8 @@ iso_status section_picture_pair(iso_context *ctx, section_picture *p, const iso_
                                 const iso_crossing *point)
 {
     if (p->l < 0) return ISO_OK;
-    if (iso_section_distance(ball, point) > ISO_SECTION_PARTED) ISO_TRY(set_grey(ctx, p, p->orbits - 1, true));
+    if (iso_section_distance(ball, point) > ISO_SECTION_PARTED)
+        ISO_TRY(set_shade(ctx, p, p->orbits - 1, ISO_PLOT_CHAOTIC));
     if (!p->last_kept) return ISO_OK;
     double *row = iso_record_row(p->kept, iso_record_rows(p->kept) - 1);
     row[POINT_L] = point->l;
@@ -135,30 +162,70 @@ size_t section_picture_starts(section_picture *p, const double (**starts)[2])
 iso_status section_picture_judge(iso_context *ctx, section_picture *p, const iso_chaos *chaos)
 {
     for (size_t i = 0; i < chaos->starts && i < iso_record_rows(p->who); i++) {
-        const size_t orbit = (size_t)*iso_record_const_row(p->who, i);
-        ISO_TRY(set_grey(ctx, p, orbit, chaos->start[i].verdict == ISO_CHAOTIC));
+        const iso_verdict verdict = chaos->start[i].verdict;
+        ISO_TRY(set_shade(ctx, p, (size_t)*iso_record_const_row(p->who, i),
+                          verdict == ISO_CHAOTIC     ? ISO_PLOT_CHAOTIC
+                          : verdict == ISO_UNDECIDED ? ISO_PLOT_UNDECIDED
+                                                     : 0));
     }
-    p->plot.grey_means = "chaotic";
+    p->judged = true;
     return ISO_OK;
 }
 
-iso_status section_picture_draw(iso_context *ctx, section_picture *p, const char *path)
+/* Of each row what is drawn. Without verdicts an orbit without a rotation number is grey. */
+static void put_shades(section_picture *p, bool any[ISO_PLOT_SHADES])
 {
-    const size_t length = strlen(path);
-    const bool png = length > 4 && strcmp(path + length - 4, ".png") == 0;
-    char title[ISO_PLOT_TITLE];
-    bool any = false;
-    if (p->l < 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--plot: an event has no coordinates l, x");
-    ISO_TRY(thin_out(ctx, p, png ? MOST : MOST_IN_SVG));
     for (size_t i = 0; i < iso_record_rows(p->kept); i++) {
         double *row = iso_record_row(p->kept, i);
-        row[GREY] = is_grey(p, (size_t)row[ORBIT]);
+        int shade = shade_of(p, (size_t)row[ORBIT]);
+        const double rotation = *iso_record_const_row(p->rotation, (size_t)row[ORBIT]);
+        if (shade == 0 && isnan(rotation)) shade = p->judged ? ISO_PLOT_UNDECIDED : ISO_PLOT_CHAOTIC;
+        row[GREY] = shade;
+        row[ROTATION] = shade == 0 ? rotation : (double)NAN;
+        any[shade] = true;
     }
-    for (size_t i = 0; i < iso_record_rows(p->grey); i++) any = any || is_grey(p, i);
-    const char *means = p->plot.grey_means ? p->plot.grey_means : "ball and point part: chaotic";
+}
+
+/* The return map of a free ball, and of one on a level, has the reversors S1: (l, -x), S2: (-l, x) and S3: (pi - l,
+ * x). They carry an orbit to an orbit with the same rotation number: so each island shows where one of its images
+ * has a start. */
+static iso_status add_images(iso_context *ctx, section_picture *p)
+{
+    static const int l[] = {L, POINT_L}, x[] = {X, POINT_X};
+    const size_t rows = iso_record_rows(p->kept);
+    for (size_t i = 0; i < rows; i++)
+        for (int n = 1; n < 8; n++) {
+            double row[COLUMNS];
+            memcpy(row, iso_record_const_row(p->kept, i), sizeof row);
+            if (row[GREY] != 0) break;
+            for (int c = 0; c < 2; c++) {
+                row[l[c]] = remainder((n & 1 ? -row[l[c]] : row[l[c]]) + (n & 2 ? M_PI : 0), 2 * M_PI);
+                row[x[c]] *= n & 4 ? -1 : 1;
+            }
+            row[HASH] = hash_of(p->rows++) * p->limit;
+            ISO_TRY(iso_record_add(ctx, p->kept, 1, row));
+        }
+    return ISO_OK;
+}
+
+iso_status section_picture_draw(iso_context *ctx, section_picture *p, const iso_plot_page *page)
+{
+    const size_t length = strlen(page->path);
+    const bool png = length > 4 && strcmp(page->path + length - 4, ".png") == 0;
+    char title[ISO_PLOT_TITLE];
+    bool any[ISO_PLOT_SHADES] = {false};
+    if (p->l < 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--plot: an event has no coordinates l, x");
+    ISO_TRY(end_orbit(ctx, p));
+    ISO_TRY(thin_out(ctx, p, MOST / 4));
+    put_shades(p, any);
+    if (p->plot.eps > 0) ISO_TRY(add_images(ctx, p));
+    ISO_TRY(thin_out(ctx, p, png ? MOST : MOST_IN_SVG));
+    const char *means = p->judged ? "chaotic" : "chaotic, or too few crossings to tell";
     iso_plot_section plot = p->plot;
-    plot.title = iso_plot_title(title, &p->params, ": %zu orbit%s", p->orbits, p->orbits == 1 ? "" : "s");
+    plot.title = iso_plot_title(title, &p->params, ": %zu orbit%s%s", p->orbits, p->orbits == 1 ? "" : "s",
+                                p->plot.eps > 0 && any[0] ? " and mirror images" : "");
     plot.rows = p->kept;
-    plot.grey_means = any ? means : NULL;
-    return iso_plot_sections(ctx, path, &plot);
+    plot.grey_means = any[ISO_PLOT_CHAOTIC] ? means : NULL;
+    plot.dark_means = any[ISO_PLOT_UNDECIDED] ? "undecided" : NULL;
+    return iso_plot_sections(ctx, page, &plot);
 }

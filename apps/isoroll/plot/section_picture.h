@@ -4,6 +4,7 @@
 
 #include "isoroll.h"
 #include "orbit/crossings.h"
+#include "plot/page.h"
 #include "study/chaos/chaos.h"
 
 typedef struct section_picture section_picture;
@@ -23,11 +24,11 @@ iso_status section_picture_pair(iso_context *ctx, section_picture *p, const iso_
 size_t section_picture_starts(section_picture *p, const double (**starts)[2]);
 
 /* Tells which orbits are chaotic, by those that start at these crossings: they are drawn in grey. Without this call,
- * the orbits on which the two models part are drawn in grey. */
+ * orbits are grey on which the two models part, or of which no rotation number is found. */
 iso_status section_picture_judge(iso_context *ctx, section_picture *p, const iso_chaos *chaos);
 
 /* Draws the picture. Errors: ISO_BAD_INPUT if the section is an event, which has no coordinates; those of
  * iso_plot_sections. */
-iso_status section_picture_draw(iso_context *ctx, section_picture *p, const char *path);
+iso_status section_picture_draw(iso_context *ctx, section_picture *p, const iso_plot_page *page);
 
 #endif

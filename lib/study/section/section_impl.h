@@ -77,6 +77,11 @@ bool iso_section_is_of_axis(int column, double value, int *axis);
 /* The distance of two crossings in the chart: the larger one of |dl|, modulo 2 pi, and |dx|. */
 double iso_section_distance(const iso_crossing *a, const iso_crossing *b);
 
+/* The rotation number of an orbit by its crossings (l, x) in their order: the mean turn from one to the next, from 0 to
+ * 1/2, about the axis; of an orbit that stays in a part of the circle of l, about its centre. NaN: there is none, as of
+ * a chaotic orbit, or there are too few crossings to tell. */
+double iso_section_rotation(const double (*z)[2], size_t count);
+
 /* What the options of the study hold. */
 typedef struct iso_section_request {
     iso_section_options how;

@@ -1,0 +1,58 @@
+/* page.h - the file of a picture, and how it is to look: what the options --style, --size, --title and --script say.
+ *
+ * A picture is laid out in pixels of a page 900 wide, the same in every format. On the screen this page grows with
+ * --size, and its letters with it. In print the letters are 8 pt high, whatever the size; a page 900 wide is 178 mm
+ * wide, two columns of a journal. Pictures of one panel then take a page 435 wide: one column, 86 mm.
+ */
+#ifndef ISOROLL_PAGE_H
+#define ISOROLL_PAGE_H
+
+#include <stdbool.h>
+
+#include "base/context.h"
+
+typedef enum iso_plot_style { ISO_PLOT_ANY_STYLE, ISO_PLOT_ON_SCREEN, ISO_PLOT_IN_PRINT } iso_plot_style;
+
+typedef struct iso_plot_size {
+    double width, height; /* 0: not given */
+    bool mm;              /* else px      */
+} iso_plot_size;
+
+typedef struct iso_plot_page {
+    const char *path;     /* of the picture, which ends in .svg, .png or .pdf; NULL: no picture is asked for */
+    const char *title;    /* in place of its own; "": none; NULL: its own                                    */
+    const char *script;   /* gets gnuplot's script with its data; NULL: it is not kept                       */
+    iso_plot_style style; /* not given: the screen's                                                         */
+    iso_plot_size size;
+} iso_plot_page;
+
+/* Whether the picture can have this name, and whether there is one if there are wishes for it: to ask before the
+ * work. Errors: ISO_BAD_ARGUMENT. */
+iso_status iso_plot_check_page(iso_context *ctx, const iso_plot_page *page);
+
+/* The title that is drawn: "" is none. */
+const char *iso_plot_titled(const iso_plot_page *page, const char *own);
+
+/* Setters of options. */
+bool iso_plot_set_style(void *at, const char *text); /* iso_plot_style: a word of iso_plot_style_word */
+bool iso_plot_set_size(void *at, const char *text);  /* WIDTHxHEIGHT and mm or px                     */
+bool iso_plot_set_title(void *at, const char *text); /* const char *; none: ""                        */
+const char *iso_plot_style_word(int i);              /* "screen", "print"                             */
+
+/* The rows of options that every command with a picture has; `field` is the page's place in the struct `type`. */
+#define ROWS_OF_PLOT(type, field)                                                                                    \
+    ROW_OF_FILE("plot", "FILE", "a file", "draw a picture: .svg, .png or .pdf", iso_set_text, type, field.path, 0,   \
+                OPTION_WRITES),                                                                                      \
+        ROWS_OF_LOOK(type, field)
+#define ROWS_OF_LOOK(type, field)                                                                                    \
+    ROW_WITH("style", "STYLE", "screen or print", "of the picture: screen (default), or print, letters of 8 pt",     \
+             iso_plot_set_style, type, field.style, .word = iso_plot_style_word, .aside = true),                     \
+        ROW_WITH("size", "WxH", "a width and a height such as 86x60mm or 1200x800px",                                \
+                 "of the picture: width and height, as 86x60mm or 1200x800px", iso_plot_set_size, type, field.size,  \
+                 .aside = true),                                                                                     \
+        ROW_WITH("title", "TEXT", "a text", "of the picture: its title; none: it has no title", iso_plot_set_title,  \
+                 type, field.title, .aside = true),                                                                  \
+        ROW_OF_FILE("script", "FILE", "a file", "of the picture: write gnuplot's script, with its data",             \
+                    iso_set_text, type, field.script, 0, OPTION_WRITES)
+
+#endif
