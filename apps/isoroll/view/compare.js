@@ -14,11 +14,11 @@ const stretch = {
   STATES: 8, // numbered 0 to 8
   FINER: 40, // pieces between two of them
 
-  // The orbit is cut into stretches in which n goes about 9 radians, each as long by the even clock.
+  // The orbit is cut into stretches in which n goes about 6 radians, each as long by the even clock.
   measure(orbit) {
     let way = 0;
     for (let i = 1; i < orbit.count; i++) way += Math.hypot(...plus(orbit.n[i], times(orbit.n[i - 1], -1)));
-    stretch.count = Math.max(1, Math.round(way / 9));
+    stretch.count = Math.max(1, Math.round(way / 6));
     stretch.key = null;
   },
   // The stretch that holds the present: its moments.
@@ -48,8 +48,9 @@ class PathPicture extends Picture {
     this.add(this.world, sphere(1, 1, { a: "ground", b: "ground", c: "ground", line: "rule" }));
     this.marks.solids.push({ thing: this.world, radius: 1 });
     this.axes("e₁ e₂ e₃".split(" "));
+    this.second = this.add(this.world, bead(0.034, "#000000"));
     this.bead = this.add(this.world, bead(0.034, colours.curve));
-    this.states = phaseColours.map((colour, i) => this.marks.add(this.world, [0, 0, 0], String(i), colour));
+    this.states = phaseColours.map((colour, i) => this.marks.add(this.world, [0, 0, 0], String(i), { colour }));
     this.recolour();
   }
 
@@ -60,6 +61,8 @@ class PathPicture extends Picture {
   show(now) {
     const { key, moments, states } = stretch.at(controls.orbit, controls.value);
     this.bead.position.copy(three(now[this.path])).multiplyScalar(1.02);
+    this.second.visible = controls.beside && this.path === "gamma";
+    if (this.second.visible) this.second.position.copy(three(growth.place(now, "gamma"))).multiplyScalar(1.02);
     if (key === this.key) return;
     this.key = key;
     for (const old of this.ribbons || []) {
@@ -108,10 +111,10 @@ const ladder = {
     const rail = (name, y) => {
       const first = moments[0][name],
         span = moments[moments.length - 1][name] - first;
-      return { name, y, x: (m) => 150 + ((m[name] - first) / span) * (width - 172) };
+      return { name, y, x: (m) => 14 + ((m[name] - first) / span) * (width - 28) };
     };
-    const t = rail("t", 20),
-      s = rail("s", height - 20);
+    const t = rail("t", 28),
+      s = rail("s", height - 28);
     const rung = (m, colour, thick) => {
       g.strokeStyle = colour;
       g.lineWidth = thick;
@@ -134,7 +137,7 @@ const ladder = {
     g.textAlign = "left";
     g.fillStyle = style.getPropertyValue(`--${name}`);
     g.font = "13px system-ui, sans-serif";
-    g.fillText(name === "t" ? "the ball’s clock t" : "the point’s clock s", 4, y);
+    g.fillText(name === "t" ? "the ball’s clock t" : "the point’s clock s", 4, name === "t" ? y - 20 : y + 20);
     g.textAlign = "center";
     g.font = "600 11px system-ui, sans-serif";
     states.forEach((m, i) => {

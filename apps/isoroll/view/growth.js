@@ -14,7 +14,7 @@ const growth = {
   },
 
   words({ verdict, exponent }) {
-    const begin = "A neighbour begins 10⁻⁶ away (black bead). ";
+    const begin = `A neighbour begins 10⁻⁶ away${page.alone ? "" : " (the black bead)"}. `;
     if (verdict === "chaotic" && exponent > 0)
       return (
         `${begin}This orbit is chaotic: the distance grows by the factor e in about t = ${digits(1 / exponent, 2)} ` +
@@ -29,8 +29,7 @@ const growth = {
     if (!this.near || !controls.beside) return;
     const { g, width, height } = sheet(this.canvas),
       style = getComputedStyle(document.body),
-      { left, right } = pace.scales(width, height),
-      { x } = pace.scales(width, height),
+      { left, right, x } = pace.scales(width, height),
       y = (log) => 8 + ((this.high - log) / (this.high - this.low)) * (height - 20);
     g.strokeStyle = style.getPropertyValue("--rule");
     g.fillStyle = style.getPropertyValue("--quiet");

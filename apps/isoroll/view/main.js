@@ -167,7 +167,7 @@ const controls = {
       for (const { canvas, marks } of list) canvas.hidden = marks.canvas.hidden = !seen;
     document.body.classList.toggle("compared", on);
     element("compare").setAttribute("aria-pressed", String(on));
-    for (const id of ["left-legend", "right-legend", "frame-label"]) element(id).hidden = on;
+    for (const id of ["left-legend", "right-legend", "trail-label", "frame-label"]) element(id).hidden = on;
     numbers.captions(on);
     pace.build(this.orbit);
     this.resize();
@@ -186,7 +186,8 @@ const controls = {
     this.beside = on;
     element("beside").setAttribute("aria-pressed", String(on));
     element("growth").hidden = element("beside-words").hidden = !on;
-    this.changed();
+    document.body.classList.toggle("with-neighbour", on);
+    this.resize();
   },
 
   // --- buttons and keys ---

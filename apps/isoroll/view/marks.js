@@ -12,9 +12,9 @@ class Marks {
     picture.canvas.parentElement.append(this.canvas);
   }
 
-  // A text at a place (three numbers) of a thing; `colour` gives it a disc.
-  add(thing, place, text, colour) {
-    const mark = { thing, place: three(place), text, colour };
+  // A text at a place (three numbers) of a thing, at most as high as `most` there; `colour` gives it a disc.
+  add(thing, place, text, { colour, most = Infinity } = {}) {
+    const mark = { thing, place: three(place), text, colour, most };
     this.list.push(mark);
     return mark;
   }
@@ -41,15 +41,17 @@ class Marks {
 
   // On any canvas, in the rectangle that the picture fills there.
   paint(g, left, top, width, height) {
-    const size = Math.max(12, Math.min(width, height) / 23);
+    const best = Math.max(12, Math.min(width, height) / 23),
+      pixels = height / (2 * Math.tan((this.picture.eye.fov * Math.PI) / 360)); // of a length 1, 1 away from the eye
     g.save();
     g.textAlign = "center";
     g.textBaseline = "middle";
-    for (const { thing, place, text, colour } of this.list) {
+    for (const { thing, place, text, colour, most } of this.list) {
       const world = thing.localToWorld(place.clone()),
         behind = this.hidden(world),
+        size = Math.min(best, (most * pixels) / world.distanceTo(this.picture.eye.position)),
         seen = world.project(this.picture.eye);
-      if ((behind && !colour) || seen.z > 1) continue;
+      if ((behind && !colour) || seen.z > 1 || size < 7) continue;
       const x = left + ((seen.x + 1) / 2) * width,
         y = top + ((1 - seen.y) / 2) * height;
       g.globalAlpha = behind ? 0.4 : 1;

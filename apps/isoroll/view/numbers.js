@@ -144,9 +144,9 @@ const numbers = {
     this.write(
       id("lead"),
       page.alone
-        ? `${ball}${falls} without slipping${twists}. File: ${page.title}`
-        : `${ball} without slipping or twisting; it touches at n. A point moves on a sphere; it is at ` +
-            `γ = J^{−1/2} n / |J^{−1/2} n|, by its own equations. Only their clocks differ. File: ${page.title}`,
+        ? `It rolls without slipping${twists}.`
+        : `${ball} without slipping or twisting. It touches at n; the point, by its own equations, is at ` +
+            "γ = J^{−1/2} n / |J^{−1/2} n|. Only their clocks differ.",
     );
     this.captions(false);
     id("left-words").textContent += lost;
@@ -158,6 +158,7 @@ const numbers = {
     }
     this.legends();
     const about = [
+      ["file", page.title],
       ["k", `${digits(k)} (${kind})`],
       ["J", body.J.map((x) => digits(x)).join(", ")],
     ];
@@ -165,7 +166,7 @@ const numbers = {
     if (kind !== "plane") about.push(["sphere radius A", digits(A)]);
     if (page.h !== null) about.push(["energy h", `${digits(page.h)} ${this.unitOf([1, 0, 2])}`]);
     if (page.eps !== null) about.push(["coupling ε", `${digits(page.eps)} ${this.unitOf([4, 0, 2])}`]);
-    const effects = Object.keys(page.effects).filter((name) => name !== "clock");
+    const effects = Object.keys(page.effects).filter((name) => !["clock", "attitude"].includes(name));
     if (effects.length) about.push(["effects", effects.join(", ")]);
     about.push(["made by", `isoroll ${page.version}`]);
     for (const [term, text] of about) {

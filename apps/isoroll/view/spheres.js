@@ -195,6 +195,7 @@ class BallPicture extends Picture {
         this.ball,
         [0, 1, 2].map((j) => (i === j ? 1.08 * B : 0)),
         String(i + 1),
+        { most: 0.24 * B },
       );
     if (kind !== "shell") this.marks.solids.push({ thing: this.ball, radius: B });
     if (kind !== "inside" && !body.flat) this.marks.solids.push({ thing: this.world, radius: body.A });
