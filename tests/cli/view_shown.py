@@ -38,10 +38,23 @@ def make_pages():
     run("view", "sea.csv", "-o", "sea.html")
 
 
+now_open = []
+
+
 def opened(browser, name, width=1440, height=900, fragment="", media=still):
+    """Opens a page, and closes the one before."""
+    while now_open:
+        now_open.pop().close()
     page = browser.open(os.path.join(work, name + ".html"), width, height, fragment, media)
+    now_open.append(page)
     page.frame()
     return page
+
+
+def resized(page, width, height):
+    page.size(width, height)
+    page.wait(f"innerWidth === {width}")
+    page.frame()
 
 
 def seen(page, name):
@@ -97,18 +110,20 @@ def inside(page, name, height):
 
 def in_sight(browser):
     for name in ("neumann", "hill", "sea"):
+        page = opened(browser, name)
         for width, height in SIZES:
-            page = opened(browser, name, width, height)
+            resized(page, width, height)
             for place in (0, 1e6):
                 page.evaluate(f"scrollTo(0, {place})")
                 check(f"{name}, {width} x {height}: Play and the time are in sight, scrolled to {place:g}",
                       inside(page, "play", height) and inside(page, "scrub", height), box(page, "play"))
+    page.evaluate("scrollTo(0, 0)")
     for width, height in ((1440, 900), (1920, 1080)):
-        page = opened(browser, "sea", width, height)
+        resized(page, width, height)
         low = box(page, "bar")[1]
         check(f"{width} x {height}: the sections are in sight with the motion",
               all(inside(page, canvas, low) for canvas in ("ball", "point", "section-ball", "section-point")))
-    page = opened(browser, "sea", 390, 844)
+    resized(page, 390, 844)
     ball, own = box(page, "ball"), box(page, "section-ball")
     check("on a phone the section follows its model", 0 < own[1] - ball[1] - ball[3] < 60, (ball, own))
 
@@ -186,8 +201,9 @@ def neighbour(browser):
 # --- the compared paths -------------------------------------------------------------------------------------------
 
 def compared(browser):
+    page = opened(browser, "chaotic", fragment="#t=33&view=compare")
     for width, height in SIZES:
-        page = opened(browser, "chaotic", width, height, "#t=33&view=compare")
+        resized(page, width, height)
         left, right = box(page, "ball-path"), box(page, "point-path")
         check(f"{width} px: the paths lie side by side", abs(left[1] - right[1]) < 3 and abs(left[2] - right[2]) < 3
               and right[0] >= left[0] + left[2] and not seen(page, "ball"), (left, right))
@@ -231,11 +247,12 @@ def address(browser):
     check("another address on the open page is followed", page.evaluate("isoroll.time()") == 3)
     page = opened(browser, "sea", fragment="#orbit=4&t=2")
     check("it sets the orbit of a section", page.evaluate("isoroll.sections().chosen") == 4)
+    page = opened(browser, "neumann", fragment="#t=abc")
     for wrong in ("#t=abc&eye=1,x&orbit=none&view=", "#%E0%A4%A", "#t=1e999&eye=0,0,0", "#s"):
-        page = opened(browser, "neumann", fragment=wrong)
+        page.evaluate(f"location.hash = '{wrong}'; address.read()")
         check(f"{wrong} changes nothing", page.evaluate("isoroll.time()") == 0
               and page.evaluate("camera.zoom") == 1, page.evaluate("isoroll.state()"))
-        quiet(page, wrong)
+    quiet(page, "wrong addresses")
     check("no cookie, nothing stored", page.evaluate("document.cookie") == "" and page.evaluate("localStorage.length") == 0)
 
 
@@ -245,7 +262,8 @@ def films(browser):
                   "[...new Uint8Array(await blob.slice(0, 4).arrayBuffer())]]; }")
     page.evaluate("document.getElementById('film').click()")
     check("a film runs the motion", page.evaluate("isoroll.state().playing"))
-    page.wait("isoroll.time() > 0.5")
+    page.evaluate("window.size = 0; film.recorder.addEventListener('dataavailable', (e) => { size += e.data.size; })")
+    page.wait("film.recorder.requestData(), window.size > 2000")
     page.evaluate("document.getElementById('film').click()")
     page.wait("window.saved")
     kind, size, ending, first = page.evaluate("window.saved")
