@@ -86,6 +86,7 @@ static iso_status make(iso_context *ctx, const options *o, view_kind kind, view_
                                              : of_scene(ctx, o, page);
     if (status == ISO_OK && page->rows) view_note_turn(page);
     if (status == ISO_OK && page->rows) status = view_numbers(ctx, page);
+    if (status == ISO_OK && page->rows) status = view_neighbour_of_rows(ctx, page);
     if (o->output && strcmp(o->output, "-") == 0) progress_end();
     if (status == ISO_OK && o->output) status = view_write(ctx, o->output, page);
     if (status == ISO_OK && o->frames.folder) status = view_write_frames(ctx, &o->frames, page);

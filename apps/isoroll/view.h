@@ -5,6 +5,7 @@
  *     view_complete.c    columns that the file lacks, computed from row to row
  *     view_section.c     a section file: its crossings, and the first part of each of its orbits
  *     view_numbers.c     integrals along the rows
+ *     view_neighbour.c   whether an orbit is chaotic, and a second one that begins beside it
  *     view_data.c        the data as JSON, columns of numbers as base64
  *     view_write.c       the page: the data and the files of view/
  *     view_frames.c      pictures of the page, drawn by Chromium
@@ -15,6 +16,7 @@
 #include <jansson.h>
 
 #include "parameters.h"
+#include "study/chaos/indicators.h"
 
 /* Bounds that keep a page below 3 MB. In base64 a number takes 10.7 bytes. */
 enum {
@@ -28,19 +30,35 @@ enum {
  * right to 1e-6 of the radius. */
 #define VIEW_TURN 0.1
 
+/* How far beside an orbit its neighbour begins, in radians. */
+#define VIEW_BESIDE 1e-6
+
+/* A number below this part of its terms is 0 within rounding. */
+#define VIEW_ROUNDING (16 * DBL_EPSILON)
+
 enum { VIEW_NOTES = 8, VIEW_WORDS = 512 };
 
 typedef struct view_integral {
     const iso_integral *integral;
     iso_model_kind model;
     double first, start, worst; /* its first value in own units; in the caller's; largest drift */
+    bool zero;                  /* its first value is 0 within rounding                         */
 } view_integral;
+
+/* What the study of chaos says of an orbit. */
+typedef struct view_fate {
+    bool known; /* false: it refuses the orbit */
+    iso_verdict verdict;
+    double exponent; /* the largest, per unit of t */
+} view_fate;
 
 typedef struct view_section {
     int axis;
     iso_record *crossings; /* columns orbit, l, x: those that are drawn         */
     size_t total, orbits;  /* crossings and orbits of the file                  */
     iso_record **orbit;    /* the orbits that can be run; rows as in view_page  */
+    iso_record **beside;   /* their neighbours; NULL: none                      */
+    view_fate *fate;       /* of each of them                                   */
     size_t *number;        /* the number that each of them has in the file      */
     size_t count;          /* of orbits that can be run                         */
 } view_section;
@@ -62,6 +80,8 @@ typedef struct view_page {
     size_t between;      /* rows put between two of the scene's                         */
     iso_record *drifts;  /* a column for each integral, rows as above; NULL: none       */
     iso_record *apart;   /* apart_n, apart_gamma: how far the two runs differ; NULL: one run */
+    iso_record *beside;  /* the neighbour (view_neighbour); NULL: none                       */
+    view_fate fate;
     view_integral integral[2 * ISO_MAX_INTEGRALS];
     int integrals;
     view_section *section; /* NULL: none */
@@ -113,6 +133,16 @@ iso_status view_orbit(iso_context *ctx, const view_page *page, const iso_start *
 
 /* The integrals that hold for page->rows, and their drifts. */
 iso_status view_numbers(iso_context *ctx, view_page *page);
+
+/* A verdict on the orbit from `start`, with `precise` also a better exponent; and its neighbour, which begins
+ * VIEW_BESIDE from it, at the times t of `rows` since the first: near1..3, where it is in the picture of the point (n,
+ * if there is no point), and near, its distance. *beside NULL: it cannot be computed. Errors: ISO_STOPPED,
+ * ISO_NO_MEMORY. */
+iso_status view_neighbour(iso_context *ctx, const view_page *page, const iso_start *start, const iso_effects *effects,
+                          const iso_record *rows, bool precise, view_fate *fate, iso_record **beside);
+
+/* page->fate and page->beside, by the first row. Errors: likewise. */
+iso_status view_neighbour_of_rows(iso_context *ctx, view_page *page);
 
 /* --- records ---------------------------------------------------------------------------------------------------- */
 

@@ -39,6 +39,15 @@ static json_t *columns_of(const iso_record *r)
     return o;
 }
 
+/* What is known of an orbit's fate, and its neighbour: into the object of its rows. */
+static void put_fate(json_t *o, const view_fate *fate, const iso_record *beside)
+{
+    if (beside) json_object_update_new(json_object_get(o, "columns"), columns_of(beside));
+    if (!fate->known) return;
+    json_put(o, "verdict", json_string(iso_verdict_name(fate->verdict)));
+    json_put(o, "exponent", json_number(fate->exponent));
+}
+
 /* --- parts of the page ------------------------------------------------------------------------------------------ */
 
 static json_t *rows_of(const view_page *page)
@@ -54,6 +63,7 @@ static json_t *rows_of(const view_page *page)
     json_put(o, "count", json_number((double)iso_record_rows(page->rows)));
     json_add(o, fields, page);
     json_put(o, "columns", columns);
+    put_fate(o, &page->fate, page->beside);
     return o;
 }
 
@@ -90,6 +100,7 @@ static json_t *section_of(const view_section *s)
         json_put(one, "number", json_number((double)s->number[i]));
         json_put(one, "count", json_number((double)iso_record_rows(s->orbit[i])));
         json_put(one, "columns", columns_of(s->orbit[i]));
+        put_fate(one, &s->fate[i], s->beside[i]);
         json_array_append_new(list, one);
     }
     json_put(o, "list", list);
@@ -118,6 +129,7 @@ static const iso_field integral_fields[] = {
     ISO_MEMBER(view_integral, "model", model, "", "ball or point", .word = iso_model_kind_name),
     ISO_FOUND("dimension", ISO_FIELD_INT, find_dimension, "", "exponents of its unit", .count = 3),
     ISO_MEMBER(view_integral, "start", start, "", "its value at the start"),
+    ISO_MEMBER(view_integral, "zero", zero, "", "whether that is 0 within rounding"),
     ISO_MEMBER(view_integral, "worst", worst, "", "its largest drift"),
     ISO_FIELD_END,
 };

@@ -1,4 +1,5 @@
 /* view_numbers.c - the integrals that hold along the rows of a page, and how far they drift (see view.h). */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -23,7 +24,7 @@ static void list_integrals(view_page *page, const iso_orbit *orbit, iso_model_ki
         iso_integrals_holding(iso_systems[model], &iso_orbit_model(orbit)->problem, list, ISO_MAX_INTEGRALS);
     for (int i = 0; i < count; i++)
         if (list[i]->known == ISO_ANY_VALUE || (model == ISO_POINT && strcmp(list[i]->name, "H") == 0))
-            page->integral[page->integrals++] = (view_integral){list[i], model, NAN, 0, 0};
+            page->integral[page->integrals++] = (view_integral){list[i], model, NAN, 0, 0, false};
 }
 
 /* How far an integral is from its first value. */
@@ -32,7 +33,8 @@ static double drift(view_integral *v, const iso_orbit *orbit, const iso_sample *
     double size;
     const double value = iso_orbit_integral(orbit, iso_systems[v->model], v->integral, sample, &size);
     if (isnan(v->first))
-        v->first = value, v->start = value * iso_unit(iso_orbit_units(orbit), v->integral->dimension);
+        v->first = value, v->start = value * iso_unit(iso_orbit_units(orbit), v->integral->dimension),
+        v->zero = fabs(value) <= VIEW_ROUNDING * size;
     const double drifted = size > 0 ? (value - v->first) / size : 0;
     v->worst = fmax(v->worst, fabs(drifted));
     return drifted;

@@ -9,9 +9,11 @@
 static void free_section(view_section *s)
 {
     if (!s) return;
-    for (size_t i = 0; i < s->count; i++) iso_record_free(s->orbit[i]);
+    for (size_t i = 0; i < s->count; i++) iso_record_free(s->orbit[i]), iso_record_free(s->beside[i]);
     iso_record_free(s->crossings);
     free(s->orbit);
+    free(s->beside);
+    free(s->fate);
     free(s->number);
     free(s);
 }
@@ -21,6 +23,7 @@ void view_page_free(view_page *page)
     iso_record_free(page->rows);
     iso_record_free(page->drifts);
     iso_record_free(page->apart);
+    iso_record_free(page->beside);
     free(page->times);
     free_section(page->section);
 }

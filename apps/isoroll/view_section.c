@@ -13,7 +13,7 @@
 #include "map/state.h"
 #include "view.h"
 
-enum { LEAST_ROWS = 60, MOST_ROWS = 1500, ORBIT_NUMBERS = 13 /* of a row: t tau s, M, gamma, q */ };
+enum { LEAST_ROWS = 60, MOST_ROWS = 1500, ORBIT_NUMBERS = 17 /* of a row: t tau s, M, gamma, q, its neighbour */ };
 /* About how far the ball, n or gamma turns from row to row, in radians. LONG: if there are many orbits, each has few
  * rows, farther apart. */
 #define ORBIT_TURN 0.15
@@ -168,8 +168,10 @@ static size_t columns_of(const view_page *page, const char *names[])
     return count;
 }
 
-static iso_status run_orbit(const builder *b, size_t row, iso_record **to)
+static iso_status run_orbit(const builder *b, size_t row, size_t i)
 {
+    view_section *s = b->page->section;
+    iso_record **to = &s->orbit[i];
     const char *names[16];
     iso_start start;
     iso_orbit *orbit = NULL;
@@ -180,6 +182,8 @@ static iso_status run_orbit(const builder *b, size_t row, iso_record **to)
     if (status == ISO_OK)
         status = follow(b, orbit, step_of(b->page, &start, b->rows < 400 ? LONG_ORBIT_TURN : ORBIT_TURN), *to);
     iso_orbit_free(orbit);
+    if (status == ISO_OK)
+        status = view_neighbour(b->ctx, b->page, &start, &effects, *to, false, &s->fate[i], &s->beside[i]);
     return status;
 }
 
@@ -191,12 +195,15 @@ static iso_status run_orbits(builder *b)
     const size_t wanted = (double)s->orbits < most ? s->orbits : (size_t)most;
     b->rows = (size_t)fmin(floor(VIEW_MOST_NUMBERS / (ORBIT_NUMBERS * (double)wanted)), MOST_ROWS);
     s->orbit = calloc(wanted, sizeof *s->orbit);
+    s->beside = calloc(wanted, sizeof *s->beside);
+    s->fate = calloc(wanted, sizeof *s->fate);
     s->number = calloc(wanted, sizeof *s->number);
-    iso_status status = s->orbit && s->number ? ISO_OK : iso_context_no_memory(b->ctx, "%zu orbits", wanted);
+    iso_status status =
+        s->orbit && s->beside && s->fate && s->number ? ISO_OK : iso_context_no_memory(b->ctx, "%zu orbits", wanted);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(b->in) && s->count < wanted; i++) {
         if (i > 0 && orbit_of(b, i) == orbit_of(b, i - 1)) continue;
         s->number[s->count] = orbit_of(b, i);
-        status = run_orbit(b, i, &s->orbit[s->count++]);
+        status = run_orbit(b, i, s->count++);
     }
     if (wanted < s->orbits)
         view_note(b->page, "The first %zu of the %zu orbits can run in this page.", wanted, s->orbits);

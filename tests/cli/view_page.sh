@@ -1,5 +1,5 @@
 #!/bin/sh
-# view_page.sh ISOROLL - pages of isoroll view in a real Chromium (view_page.py), and pictures by --frames.
+# view_page.sh ISOROLL - pages of isoroll view in a real Chromium (view_page.py, view_shown.py), and pictures by --frames.
 . "$(dirname "$0")/lib.sh"
 run 0 view --help
 browser=
@@ -12,15 +12,17 @@ elif [ -z "$browser" ]; then
     skip "pages in a browser" "chromium is not installed"
 elif has python3 "pages in a browser"; then
     if [ "${ISO_SANITIZE-0}" = 0 ]; then # the pages of isoroll with sanitizers are the same: cli/view.sh writes them
-        python3 -B "$here/view_page.py" "$isoroll" "$source" "$work" >results 2>err || fail "view_page.py ended early"
-        while read -r verdict words; do
-            case $verdict in
-            PASS) checks=$((checks + 1)) ;;
-            FAIL) checks=$((checks + 1)) && fail "$words" ;;
-            *) echo "$verdict $words" ;;
-            esac
-        done <results
-        check "view_page.py came to its end" grep -q '^PASS the end' results
+        for script in view_page.py view_shown.py; do
+            python3 -B "$here/$script" "$isoroll" "$source" "$work" >results 2>err || fail "$script ended early"
+            while read -r verdict words; do
+                case $verdict in
+                PASS) checks=$((checks + 1)) ;;
+                FAIL) checks=$((checks + 1)) && fail "$words" ;;
+                *) echo "$verdict $words" ;;
+                esac
+            done <results
+            check "$script came to its end" grep -q '^PASS the end' results
+        done
     fi
 
     # --- pictures

@@ -21,8 +21,11 @@ const digits = (x, count = 6) => {
   return text.replace(/^-/, "−");
 };
 
-// A component of a vector that moves: four decimals, or four digits where the vector is large or small.
-const steady = (x, size) => (size >= 0.1 && size < 1e4 ? x.toFixed(4).replace("-", "−") : digits(x, 4));
+// A component of a vector that moves: four decimals, or four digits where the vector is large or small. What is
+// smaller than `rounding` times the vector is 0 within rounding.
+const rounding = 16 * 2 ** -52;
+const steady = (x, size) =>
+  Math.abs(x) < rounding * size ? "0" : size >= 0.1 && size < 1e4 ? x.toFixed(4).replace("-", "−") : digits(x, 4);
 
 // For a clock that runs: a fixed number of decimals, so that digits do not jump.
 const reading = (x, span) => {

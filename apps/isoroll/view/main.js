@@ -1,4 +1,4 @@
-// main.js - the player: time, buttons, keys, pictures as files.
+// main.js - the player: time, what is shown, buttons, keys.
 
 const element = (name) => document.getElementById(name);
 
@@ -8,6 +8,8 @@ const controls = {
   speed: 1,
   drawn: 0, // frames so far
   dirty: true,
+  compared: false, // the paths lie side by side in the ball's axes
+  beside: false, // the neighbour is shown
   quality: 1, // of the resolution
   slow: 20,
   before: 0,
@@ -30,6 +32,7 @@ const controls = {
     const value = this.now[name];
     clocks.even = name;
     clocks.measure(this.orbit);
+    stretch.key = null;
     this.setRange();
     this.seek(value);
   },
@@ -48,7 +51,10 @@ const controls = {
     this.orbit = orbit;
     const moments = motion.moments(orbit, 0.08);
     clocks.build(orbit);
-    if (this.pictures) for (const picture of this.pictures) picture.setOrbit(orbit, moments);
+    stretch.measure(orbit);
+    growth.build(orbit);
+    if (!orbit.column.near && this.beside) this.showBeside(false);
+    for (const picture of [...(this.pictures || []), ...(this.paths || [])]) picture.setOrbit(orbit, moments);
     if (sections) sections.setOrbit(orbit);
     numbers.build(orbit);
     // speed 1×: the ball turns by about 1.5 radians in a second; the whole takes 8 to 240 seconds
@@ -83,17 +89,25 @@ const controls = {
         since = this.last === null ? 0 : Math.min(200, milliseconds - this.last) / 1000;
       this.last = milliseconds;
       this.seek(this.value + (since * this.speed * (to - from)) / this.seconds);
-      if (this.value >= to) this.play(false);
+      if (this.value >= to) {
+        this.play(false);
+        film.ended();
+      }
     }
     this.adapt(milliseconds);
-    if (!this.dirty) return;
+    if (!this.dirty) {
+      if (milliseconds - this.resting > 300) address.write();
+      return;
+    }
     this.dirty = false;
     this.draw();
+    film.step();
   },
   // Slow computers draw with fewer pixels while things move, and with all pixels when they stand still.
   adapt(milliseconds) {
     const since = milliseconds - this.before;
     this.before = milliseconds;
+    if (this.dirty) this.resting = milliseconds;
     if (!this.pictures) return;
     if (this.dirty) {
       this.resting = milliseconds;
@@ -104,7 +118,7 @@ const controls = {
   setQuality(quality) {
     this.quality = quality;
     this.slow = 20;
-    for (const picture of this.pictures) picture.quality = quality;
+    for (const picture of [...this.pictures, ...(this.paths || [])]) picture.quality = quality;
     this.resize();
   },
   draw() {
@@ -115,83 +129,65 @@ const controls = {
     if (button.textContent !== label) button.textContent = label;
     scrub.value = this.value;
     scrub.setAttribute("aria-valuetext", `${clockWords[clocks.even][0]} = ${digits(this.value)}`);
-    if (this.pictures)
-      for (const picture of this.pictures) {
-        picture.show(now, this.trail());
-        picture.draw();
-      }
+    element("reading").textContent = `${clockWords[clocks.even][0]} = ${reading(this.value, clocks.spans[clocks.even])}`;
+    for (const picture of this.shown()) {
+      picture.show(now, this.trail());
+      picture.draw();
+    }
     clocks.show(now);
+    growth.draw(now);
     pace.draw(now);
     if (sections) sections.draw(now);
     if (!this.playing || this.drawn % 4 === 0) numbers.show(now); // faster than this nobody can read
     this.drawn++;
   },
   resize() {
-    if (this.pictures) for (const picture of this.pictures) picture.resize();
+    for (const picture of this.shown()) picture.resize();
     this.changed();
   },
 
-  // --- pictures as files ---
+  // --- what is shown ---
 
-  // Both models side by side on one canvas of this size.
-  compose(width, height) {
-    const canvas = document.createElement("canvas"),
-      g = canvas.getContext("2d"),
-      style = getComputedStyle(document.body);
-    canvas.width = width;
-    canvas.height = height;
-    g.fillStyle = style.getPropertyValue("--page");
-    g.fillRect(0, 0, width, height);
-    const head = Math.round(height * 0.09),
-      foot = Math.round(height * 0.09),
-      half = width / 2;
-    this.pictures.forEach((picture, i) => {
-      picture.renderer.setPixelRatio(2); // smooth edges
-      picture.renderer.setSize(half, height - head - foot, false);
-      picture.shape(half / (height - head - foot));
-      picture.show(this.now, this.trail());
-      picture.draw();
-      g.drawImage(picture.canvas, i * half, head, half, height - head - foot);
-    });
-    g.fillStyle = style.getPropertyValue("--text");
-    g.textAlign = "center";
-    g.font = `600 ${Math.round(head * 0.42)}px system-ui, sans-serif`;
-    g.fillText("the ball", half / 2, head * 0.65);
-    g.fillText(page.alone ? "the contact, in the ball’s axes" : "the point", half * 1.5, head * 0.65);
-    g.font = `${Math.round(foot * 0.36)}px ui-monospace, monospace`;
-    const several = this.orbit.clocks.length > 1;
-    const words = this.orbit.clocks.map((name) => {
-      const text = `${clockWords[name][0]} = ${reading(this.now[name], clocks.spans[name])}`;
-      return several && name === clocks.even ? `${text} (even)` : text;
-    });
-    words.forEach((text, i) => {
-      g.fillStyle = style.getPropertyValue(`--${this.orbit.clocks[i]}`);
-      g.fillText(text, (width * (i + 1)) / (words.length + 1), height - foot * 0.4);
-    });
+  // The pictures that are seen: as the models move, or compared.
+  shown() {
+    return (this.compared ? this.paths : this.pictures) || [];
+  },
+  compare(on) {
+    if (page.alone || !this.pictures) return;
+    this.compared = on;
+    if (on && !this.paths)
+      this.paths = [
+        new PathPicture(this.canvasIn("ball"), "n", "the ball: n"),
+        new PathPicture(this.canvasIn("point"), "gamma", "the point: γ"),
+      ];
+    for (const [list, seen] of [
+      [this.pictures, !on],
+      [this.paths || [], on],
+    ])
+      for (const { canvas, marks } of list) canvas.hidden = marks.canvas.hidden = !seen;
+    document.body.classList.toggle("compared", on);
+    element("compare").setAttribute("aria-pressed", String(on));
+    for (const id of ["left-legend", "right-legend", "trail-label", "frame-label"]) element(id).hidden = on;
+    numbers.captions(on);
+    pace.build(this.orbit);
+    this.resize();
+  },
+  // A canvas for a compared path, in the same place as another.
+  canvasIn(name) {
+    const canvas = document.createElement("canvas");
+    canvas.id = `${name}-path`;
+    canvas.tabIndex = 0;
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", `The path of the ${name} in the ball’s axes. Arrow keys turn the view.`);
+    element(name).after(canvas);
     return canvas;
   },
-  savePicture() {
-    const canvas = this.compose(1920, 1080);
+  showBeside(on) {
+    this.beside = on;
+    element("beside").setAttribute("aria-pressed", String(on));
+    element("growth").hidden = element("beside-words").hidden = !on;
+    document.body.classList.toggle("with-neighbour", on);
     this.resize();
-    canvas.toBlob((blob) => {
-      const link = document.createElement("a");
-      link.href = URL.createObjectURL(blob);
-      link.download = `${page.title.replace(/[^\w.-]+/g, "_")}.png`;
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-    });
-  },
-  // For `isoroll view --frames`: #frames=FIRST,COUNT,ALL writes these pictures as text.
-  writeFrames(first, count, all) {
-    const [from, to] = this.range(),
-      out = document.createElement("pre");
-    out.id = "frames";
-    out.append("\n");
-    for (let i = first; i < first + count; i++) {
-      this.seek(from + (to - from) * (all > 1 ? i / (all - 1) : 0));
-      out.append(`\nframe ${i} ${this.compose(1280, 720).toDataURL("image/png")}\n`);
-    }
-    document.body.append(out);
   },
 
   // --- buttons and keys ---
@@ -214,7 +210,15 @@ const controls = {
       camera.reset();
       this.changed();
     });
-    element("picture").addEventListener("click", () => this.savePicture());
+    element("picture").addEventListener("click", () => film.savePicture());
+    element("film").addEventListener("click", () => film.record());
+    element("film").hidden = !(window.MediaRecorder && this.pictures);
+    element("compare").addEventListener("click", () => this.compare(!this.compared));
+    element("beside").addEventListener("click", () => this.showBeside(!this.beside));
+    element("screen").hidden = !document.fullscreenEnabled;
+    element("screen").addEventListener("click", () =>
+      document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen(),
+    );
     const frames = [
       ["follow", "beside the ball"],
       ["ball", "the ball itself"],
@@ -228,7 +232,7 @@ const controls = {
     });
     const strip = element("pace"),
       drag = (e) => {
-        if (e.buttons) {
+        if (e.buttons && !this.compared) {
           this.play(false);
           this.seek(pace.toValue(e.clientX - strip.getBoundingClientRect().left));
         }
@@ -241,8 +245,9 @@ const controls = {
     element("clocks").addEventListener("keydown", (e) => this.turnRadio(e));
     document.addEventListener("keydown", (e) => this.key(e));
     addEventListener("resize", () => this.resize());
+    addEventListener("hashchange", () => address.read());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
-      if (this.pictures) for (const picture of this.pictures) picture.recolour();
+      for (const picture of [...(this.pictures || []), ...(this.paths || [])]) picture.recolour();
       this.changed();
     });
   },
@@ -291,13 +296,13 @@ const controls = {
   begin() {
     this.orbit = orbitOf(page.rows || page.section.list[0]);
     if (graphics.there)
-      this.pictures = [new BallPicture(element("ball")), new PointPicture(element("point"), !page.alone)];
+      this.pictures = [new BallPicture(element("ball")), ...(page.alone ? [] : [new PointPicture(element("point"))])];
     else {
       element("trouble").hidden = false;
       element("trouble").textContent =
         "This browser has no WebGL, so the pictures in space are missing. Clocks and numbers work without it.";
       element("models").hidden = true;
-      element("picture").hidden = true;
+      element("picture").hidden = element("compare").hidden = true;
     }
     clocks.even = page.clock;
     this.steer();
@@ -306,10 +311,11 @@ const controls = {
     this.setOrbit(this.orbit);
     this.last = null;
     const frames = /^#frames=(\d+),(\d+),(\d+)$/.exec(location.hash);
-    if (frames && this.pictures) return this.writeFrames(...frames.slice(1).map(Number));
+    if (frames && this.pictures) return film.writeFrames(...frames.slice(1).map(Number));
     this.resize();
+    const told = address.read();
     this.draw();
-    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) this.play(true);
+    if (!told && !matchMedia("(prefers-reduced-motion: reduce)").matches) this.play(true);
     requestAnimationFrame((now) => this.tick(now));
   },
 };

@@ -1,13 +1,27 @@
 // numbers.js - the words and numbers of the page. Texts of files are set only by textContent.
 
 const numbers = {
-  // A unit from its dimension: J^(a + b/(2k)) / time^c, where J stands for the unit of moments of inertia.
+  // A unit from its dimension: (mass length^2)^(a + b/(2k)) / time^c. Scenes of k and J alone have numbers without
+  // units.
   unitOf([a, b, c]) {
-    const power = a + b / (2 * body.k),
-      up = (x) => (x === 1 ? "" : Number.isInteger(x) ? raised(x) : `^${+x.toPrecision(3)}`);
-    const J = Math.abs(power) < 1e-12 ? "" : `J${up(power)}`;
-    if (c === 0) return J || "1";
-    return c > 0 ? `${J || "1"}/time${up(c)}` : `${J ? J + "·" : ""}time${up(-c)}`;
+    if (body.reduced) return "";
+    const power = +(a + b / (2 * body.k)).toPrecision(12),
+      up = (x) => (x === 1 ? "" : Number.isInteger(x) ? raised(x) : `^${+x.toPrecision(3)}`),
+      part = (name, x) => (x > 0 ? [name + up(x)] : []);
+    const above = [...part("mass", power), ...part("length", 2 * power), ...part("time", -c)],
+      below = [...part("mass", -power), ...part("length", -2 * power), ...part("time", c)];
+    const under = below.length > 1 ? `(${below.join("·")})` : below[0];
+    return (above.join("·") || "1") + (below.length ? `/${under}` : "");
+  },
+
+  // Text with superscripts: "q^{2}".
+  write(parent, text) {
+    parent.textContent = "";
+    text.split(/\^\{([^}]*)\}/).forEach((part, i) => {
+      const piece = document.createElement(i % 2 ? "sup" : "span");
+      piece.textContent = part;
+      parent.append(piece);
+    });
   },
 
   row(table, cells, tag = "td") {
@@ -22,19 +36,20 @@ const numbers = {
     });
   },
 
-  small: (x) => digits(Math.abs(x), 2),
+  // A drift or difference, relative to its terms.
+  small: (x) => (Math.abs(x) <= rounding ? "0 within rounding" : digits(Math.abs(x), 2)),
 
   build(orbit) {
     const id = (name) => document.getElementById(name);
     id("conserved").hidden = page.integrals.length === 0;
     id("integrals").textContent = "";
     this.integrals = [];
-    const head = () => this.row(id("integrals"), ["", "value", "unit", "drift now", "largest"], "th");
+    const head = () => this.row(id("integrals"), ["", "value", body.reduced ? "" : "unit", "drift now", "largest"], "th");
     if (page.integrals.length) head();
     page.integrals.forEach((one, i) => {
       const cells = this.row(id("integrals"), [
         `${one.name} (${one.model})`,
-        digits(one.start, 5),
+        one.zero ? "0 within rounding" : digits(one.start, 5),
         this.unitOf(one.dimension),
         "",
         this.small(one.worst),
@@ -70,26 +85,24 @@ const numbers = {
   buildState(orbit) {
     const table = document.getElementById("state"),
       list = [
-        ["ω", "omega", "1/time"],
-        ["n", "n", "1"],
-        ["M", "M", ""],
-        ["γ", "gamma", "1"],
+        ["ω", "omega", this.unitOf([0, 0, 1])],
+        ["n", "n", ""],
+        ["M", "M", this.unitOf([2, -1, 1])],
+        ["γ", "gamma", ""],
         ["contact", "contact", body.reduced ? "radii" : "length"],
       ];
     table.textContent = "";
-    this.row(table, ["", "1", "2", "3", "unit"], "th");
+    this.row(table, ["", "1", "2", "3", body.reduced ? "" : "unit"], "th");
     this.states = [];
-    const M = this.unitOf([2, -1, 1]);
     for (const [symbol, name, of] of list)
-      if (name === "contact" || orbit[name])
-        this.states.push([this.row(table, [symbol, "", "", "", name === "M" ? M : of]), name]);
+      if (name === "contact" || orbit[name]) this.states.push([this.row(table, [symbol, "", "", "", of]), name]);
     this.extras = [];
     this.needed = orbit.column.mu; // grows without bound where contact is lost
     for (const [name, words, of] of [
-      ["pressure", "pressure", "force"],
-      ["mu", "mu needed", "1"],
-      ["friction", "friction", "force"],
-      ["lambda", "twist torque", "torque"],
+      ["pressure", "pressure", body.reduced ? "" : "force"],
+      ["mu", "mu needed", ""],
+      ["friction", "friction", body.reduced ? "" : "force"],
+      ["lambda", "twist torque", body.reduced ? "" : "torque"],
     ])
       if (orbit.column[name]) this.extras.push([this.row(table, [words, "", "", "", of])[1], orbit.column[name]]);
   },
@@ -118,38 +131,42 @@ const numbers = {
       inside: "inside a sphere",
       shell: "around a smaller sphere",
     }[kind];
-    document.title = `${page.title} – isoroll`;
-    id("title").textContent = page.title;
     const falls = page.effects.gravity ? ", under gravity," : "",
-      twists = page.effects.twist ? "" : " or twisting";
-    id("lead").textContent = page.alone
-      ? `A ball with three moments of inertia rolls ${where}${falls} without slipping${twists}.`
-      : `Left, a ball rolls ${where} without slipping or twisting. Right, a point moves on a sphere. ` +
-        "The isomorphism carries one path to the other; only the clocks differ.";
-    id("left-words").textContent = {
-      plane: "rolls on a plane",
-      outside: "rolls on the outside of a sphere",
-      inside: "rolls inside a sphere",
-      shell: "is hollow and rolls around a sphere",
-    }[kind];
-    if (page.notes.some((note) => note.startsWith("contact is lost")))
-      id("left-words").textContent += "; contact is lost at the end";
+      twists = page.effects.twist ? "" : " or twisting",
+      lost = page.notes.some((note) => note.startsWith("contact is lost")) ? "; contact is lost at the end" : "";
+    const ball = `${kind === "shell" ? "A hollow ball" : "A ball"} rolls ${where}`;
+    id("title").textContent = page.alone
+      ? `${ball}${falls.replace(/,$/, "")}`
+      : page.section
+        ? "All orbits of one energy: a rolling ball, and the point that is its twin"
+        : "One orbit in two worlds: a rolling ball, and the point that is its twin";
+    document.title = `${id("title").textContent} – ${page.title}`;
+    this.write(
+      id("lead"),
+      page.alone
+        ? `It rolls without slipping${twists}.`
+        : `${ball} without slipping or twisting. It touches at n; the point, by its own equations, is at ` +
+            "γ = J^{−1/2} n / |J^{−1/2} n|. Only their clocks differ.",
+    );
+    this.captions(false);
+    id("left-words").textContent += lost;
     if (page.alone) {
-      id("right-name").textContent = "The contact";
-      id("right-words").textContent = "on the ball, seen in the ball’s own axes";
-    } else
-      id("right-words").textContent =
-        `moves in the ${page.effects.field ? "" : k === -1 ? "Neumann " : k === 1 ? "Braden " : ""}potential V`;
+      id("left-words").textContent += `. It has no twin among the points: ${page.alone}.`;
+      id("right").hidden = true;
+      id("compare").hidden = true;
+      document.body.classList.add("single");
+    }
     this.legends();
     const about = [
+      ["file", page.title],
       ["k", `${digits(k)} (${kind})`],
       ["J", body.J.map((x) => digits(x)).join(", ")],
     ];
     about.push(["ball radius B", body.reduced ? "1 (unit of length)" : digits(B)]);
     if (kind !== "plane") about.push(["sphere radius A", digits(A)]);
-    if (page.h !== null) about.push(["energy h", `${digits(page.h)} J/time²`]);
-    if (page.eps !== null) about.push(["coupling ε", `${digits(page.eps)} J⁴/time²`]);
-    const effects = Object.keys(page.effects).filter((name) => name !== "clock");
+    if (page.h !== null) about.push(["energy h", `${digits(page.h)} ${this.unitOf([1, 0, 2])}`]);
+    if (page.eps !== null) about.push(["coupling ε", `${digits(page.eps)} ${this.unitOf([4, 0, 2])}`]);
+    const effects = Object.keys(page.effects).filter((name) => !["clock", "attitude"].includes(name));
     if (effects.length) about.push(["effects", effects.join(", ")]);
     about.push(["made by", `isoroll ${page.version}`]);
     for (const [term, text] of about) {
@@ -166,10 +183,40 @@ const numbers = {
     }
   },
 
+  // V with its formula (24).
+  potentialWords() {
+    const { k } = body,
+      named = { "-1": "Neumann’s potential ", 1: "Braden’s potential " }[k] || "the potential ",
+      power = k === -1 ? "" : k === 1 ? "^{−1}" : `^{${digits(-1 / k, 4)}}`;
+    return page.effects.field
+      ? `moves in the potential V = (U(n) − h) (det J / k^{2}) (γ, Jγ)${power}`
+      : `moves in ${named}V = −ε (γ, Jγ)${power}`;
+  },
+
+  // Of the two pictures: as they move, or compared.
+  captions(compared) {
+    const put = (side, name, words) => {
+      document.getElementById(`${side}-name`).textContent = name;
+      this.write(document.getElementById(`${side}-words`), words);
+    };
+    put(
+      "left",
+      "The ball",
+      compared
+        ? "– where it touches, n, in its own axes"
+        : {
+            plane: "rolls on a plane",
+            outside: "rolls on the outside of a sphere",
+            inside: "rolls inside a sphere",
+            shell: "is hollow and rolls around a sphere",
+          }[body.kind],
+    );
+    put("right", "The point", compared ? "– its place, γ = J^{−1/2} n / |J^{−1/2} n|" : this.potentialWords());
+  },
+
   notes(orbit) {
     const list = [...page.notes],
       { rows } = page;
-    if (page.alone) list.unshift(`There is no point: ${page.alone}.`);
     if (rows && rows.every > 1)
       list.push(`The page has 1 row of every ${rows.every}: ${orbit.count} of ${rows.total}.`);
     else if (rows && rows.between > 0)
@@ -179,9 +226,10 @@ const numbers = {
     list.push(`${page.alone ? "ω and n" : "ω, n, M and γ"} are in the ball’s axes, the contact is in axes of space.`);
     if (page.integrals.length)
       list.push("Drift: change of an integral since the first row, divided by the size of its terms.");
-    list.push("Units are those of the file. J stands for the unit of the moments of inertia (mass·length²).");
-    if (orbit.tau)
-      list.push(`Units: t: time; τ: ${this.unitOf([1, -1, -1])}; s: ${this.unitOf([-2, 1, -1])}.`);
+    if (body.reduced)
+      list.push("The scene gives k and J alone: its numbers have no units, but those of its own mass, length and time.");
+    else if (orbit.tau)
+      list.push(`Units: t: time; τ: ${this.unitOf([1, -1, -1])}; s: ${this.unitOf([-2, 1, -1])}, as in the file.`);
     return list;
   },
 
@@ -199,15 +247,14 @@ const numbers = {
       [colours.curve, "contact on the ball"],
       [colours.support, body.kind === "plane" ? "contact on the plane" : "contact on the sphere"],
     ]);
-    if (page.alone) put("right-legend", [[colours.curve, "path of the contact"]]);
-    else {
+    if (!page.alone) {
       put("right-legend", [[colours.curve, "path of the point"]]);
       if (potential.levels)
         put("right-legend", [
           [
             null,
-            `V from ${digits(potential.least, 3)} (dark: the point is fast) to ${digits(potential.most, 3)}` +
-              ` ${this.unitOf([4, -2, 2])}${potential.logarithmic ? ", logarithmic" : ""}`,
+            `V from ${digits(potential.least, 3)} (dark: the point is fast) to ` +
+              `${`${digits(potential.most, 3)} ${this.unitOf([4, -2, 2])}`.trim()}${potential.logarithmic ? ", logarithmic" : ""}`,
             "scale",
           ],
         ]);

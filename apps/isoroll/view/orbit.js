@@ -100,6 +100,8 @@ function orbitOf(packed) {
     omega: vectors("omega", 1, 3),
     gamma: vectors("gamma", 1, 3),
     M: vectors("M", 1, 3),
+    verdict: packed.verdict,
+    exponent: packed.exponent,
     contact: vectors("contact", 1, 3),
   };
   if (!o.n) o.n = o.gamma.map(physics.normal);

@@ -22,10 +22,12 @@ const pace = {
     this.most = values.reduce((a, b) => Math.max(a, b));
     this.key = null;
     const symbols = others.map((name) => clockWords[name][0]).join(" and ");
-    document.getElementById("pace-words").textContent = !this.relative
-      ? this.lines[0].words
-      : `${clockWords[clocks.even][0]} runs evenly. The curves: how fast ${symbols} ` +
-        `${others.length > 1 ? "run" : "runs"} meanwhile; ×1 is the mean pace.`;
+    document.getElementById("pace-words").textContent = controls.compared
+      ? ladder.words()
+      : !this.relative
+        ? this.lines[0].words
+        : `${clockWords[clocks.even][0]} runs evenly. The curves: how fast ${symbols} ` +
+          `${others.length > 1 ? "run" : "runs"} meanwhile; ×1 is the mean pace.`;
   },
 
   height(orbit) {
@@ -124,6 +126,7 @@ const pace = {
 
   // The curves, a line at the present, and a spot on each curve there.
   draw(now) {
+    if (controls.compared) return ladder.draw(this.canvas, now);
     const { g, width, height } = sheet(this.canvas),
       { left, right, top, bottom, x, y } = this.scales(width, height);
     const style = getComputedStyle(document.body),

@@ -53,6 +53,9 @@ const sections = !page.section
       ];
       const dots = plots.map((plot) => Array.from(column.l, (l, i) => plot.place(l, column.x[i])));
       const runnable = new Map(page.section.list.map((one, i) => [one.number, i]));
+      const sea = new Set(page.section.list.filter((one) => one.verdict === "chaotic").map((one) => one.number));
+      const SEA = "#8a929a"; // of chaotic orbits; the palette has no grey
+      const colourOf = (orbit) => (sea.has(orbit) ? SEA : palette[orbit % palette.length]);
       let chosen = page.section.list.length ? page.section.list[0].number : -1,
         hovered = -1,
         crossings = [];
@@ -123,10 +126,13 @@ const sections = !page.section
           size = Math.max(1, Math.min(2.4, 200 / Math.sqrt(dots[i].length)));
         axes(g, plot, frame, width, height);
         g.globalAlpha = 0.75;
-        dots[i].forEach(([right, up], j) => {
-          g.fillStyle = palette[column.orbit[j] % palette.length];
-          g.fillRect(frame.x(right) - size / 2, frame.y(up) - size / 2, size, size);
-        });
+        // the sea first, so that it covers no island
+        for (const chaotic of [true, false])
+          dots[i].forEach(([right, up], j) => {
+            if (sea.has(column.orbit[j]) !== chaotic) return;
+            g.fillStyle = colourOf(column.orbit[j]);
+            g.fillRect(frame.x(right) - size / 2, frame.y(up) - size / 2, size, size);
+          });
         Object.assign(plot, { key, image });
         return image;
       }
@@ -177,6 +183,7 @@ const sections = !page.section
         get chosen() {
           return chosen;
         },
+        colourOf,
         // Where a dot of an orbit is drawn, far from the dots of others; for tests.
         alone(i, number) {
           const frame = frameOf(plots[i]),
@@ -224,7 +231,8 @@ const sections = !page.section
             crossings.push({ t: now.t, l: Math.atan2(-gamma[c], gamma[b]), x: M[a] / Math.hypot(...M) });
           }
           document.getElementById("orbit-words").textContent =
-            `Rings mark where this orbit crosses while it runs here: ${crossings.length} crossings.`;
+            `${{ chaotic: "Chaotic.", regular: "Regular." }[orbit.verdict] || ""} ` +
+            `Rings mark its ${crossings.length} crossings while it runs here.`;
         },
         crossings: () => crossings,
         draw(now) {
@@ -240,6 +248,7 @@ const sections = !page.section
       };
 
       plots.forEach((plot, i) => {
+        plot.canvas.hidden = false;
         plot.canvas.addEventListener("pointermove", (e) => {
           hovered = nearest(i, e);
           controls.changed();
@@ -250,7 +259,9 @@ const sections = !page.section
         });
         plot.canvas.addEventListener("click", (e) => {
           const number = nearest(i, e);
-          if (number >= 0) api.choose(number);
+          if (number < 0) return;
+          api.choose(number);
+          controls.play(true);
         });
         plot.canvas.addEventListener("keydown", (e) => {
           const by = { ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1 }[e.key];

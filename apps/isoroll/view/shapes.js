@@ -1,4 +1,4 @@
-// shapes.js - what the pictures are made of: spheres with patterns, ribbons along paths, markers, labels.
+// shapes.js - what the pictures are made of: spheres with patterns, ribbons along paths, markers.
 
 const three = (v) => new THREE.Vector3(v[0], v[1], v[2]);
 const turn = (q) => new THREE.Quaternion(q[1], q[2], q[3], q[0]);
@@ -170,32 +170,40 @@ function plane(size, spacing) {
   return mesh;
 }
 
-// The trail: the path up to the present, a ribbon on a surface that fades with its length, in units of `scale`.
-// `at(moment)` gives its points, `normal(moment)` the surface's normal there. Only its bright part is drawn.
-function ribbon(moments, at, normal, width, colour, scale, { hidden = false } = {}) {
-  const count = moments.length,
-    points = moments.map(at),
-    length = new Float64Array(count);
-  for (let i = 1; i < count; i++)
-    length[i] = length[i - 1] + Math.hypot(...plus(points[i], times(points[i - 1], -1))) / scale;
-  const places = new Float32Array(6 * count),
-    along = new Float32Array(2 * count),
+// A band along points of a surface with these normals: two corners at each point.
+function strip(points, normals, width) {
+  const count = points.length,
+    places = new Float32Array(6 * count),
     index = new Uint32Array(6 * count - 6);
   for (let i = 0; i < count; i++) {
     const ahead = plus(points[Math.min(i + 1, count - 1)], times(points[Math.max(i - 1, 0)], -1));
-    const n = normal(moments[i]),
+    const n = normals[i],
       aside = cross(n, ahead),
       size = Math.hypot(...aside) || 1;
     const lifted = plus(points[i], times(n, width * 0.12));
     places.set(plus(lifted, times(aside, width / size)), 6 * i);
     places.set(plus(lifted, times(aside, -width / size)), 6 * i + 3);
-    along[2 * i] = along[2 * i + 1] = length[i];
     if (i > 0) index.set([2 * i - 2, 2 * i - 1, 2 * i, 2 * i, 2 * i - 1, 2 * i + 1], 6 * i - 6);
   }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
-  geometry.setAttribute("along", new THREE.BufferAttribute(along, 1));
   geometry.setIndex(new THREE.BufferAttribute(index, 1));
+  return geometry;
+}
+
+// The trail: the path up to the present, a ribbon on a surface that fades with its length, in units of `scale`.
+// `at(moment)` gives its points, `normal(moment)` the surface's normal there. Only its bright part is drawn.
+function ribbon(moments, at, normal, width, colour, scale, { hidden = false } = {}) {
+  const count = moments.length,
+    points = moments.map(at),
+    length = new Float64Array(count),
+    along = new Float32Array(2 * count);
+  for (let i = 1; i < count; i++) {
+    length[i] = length[i - 1] + Math.hypot(...plus(points[i], times(points[i - 1], -1))) / scale;
+    along[2 * i] = along[2 * i + 1] = length[i];
+  }
+  const geometry = strip(points, moments.map(normal), width);
+  geometry.setAttribute("along", new THREE.BufferAttribute(along, 1));
   const uniforms = {
     now: { value: 0 },
     tail: { value: 6 },
@@ -265,30 +273,6 @@ function bead(radius, colour) {
   add(1, { color: colour, opacity: 0.35, depthFunc: THREE.GreaterDepth });
   rim.renderOrder = 4;
   return group;
-}
-
-// Text that faces the eye.
-function label(text, size) {
-  const canvas = document.createElement("canvas");
-  canvas.width = canvas.height = 64;
-  const texture = new THREE.CanvasTexture(canvas);
-  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map: texture, transparent: true, depthWrite: false }));
-  sprite.scale.setScalar(size);
-  sprite.renderOrder = 1;
-  sprite.recolour = () => {
-    const g = canvas.getContext("2d");
-    g.clearRect(0, 0, 64, 64);
-    g.font = "600 36px system-ui, sans-serif";
-    g.textAlign = "center";
-    g.textBaseline = "middle";
-    g.lineWidth = 7;
-    g.strokeStyle = theme().paper;
-    g.strokeText(text, 32, 34);
-    g.fillStyle = theme().text;
-    g.fillText(text, 32, 34);
-    texture.needsUpdate = true;
-  };
-  return sprite;
 }
 
 // A straight line between two points.

@@ -11,6 +11,9 @@ const camera = {
   reset() {
     Object.assign(camera, camera.home);
   },
+  look(azimuth, elevation, zoom) {
+    Object.assign(camera, { azimuth, elevation, zoom });
+  },
   // Turns to a direction in body axes: there the point is seen from the front.
   face(v) {
     camera.home.azimuth = Math.hypot(v[0], v[1]) > 0.1 ? Math.atan2(v[0], -v[1]) + 0.5 : 0.7;
@@ -41,6 +44,7 @@ class Picture {
     this.distance = distance;
     this.target = new THREE.Vector3();
     this.quality = 1; // of the resolution: less where drawing is slow
+    this.marks = new Marks(this);
     this.steer();
   }
 
@@ -76,6 +80,21 @@ class Picture {
     this.eye.lookAt(this.target);
     this.eye.updateProjectionMatrix();
     this.renderer.render(this.scene, this.eye);
+    this.marks.draw();
+  }
+
+  // The axes 1, 2, 3 of a unit sphere in this.world.
+  axes(names) {
+    names.forEach((text, i) => {
+      const end = [0, 0, 0],
+        start = [0, 0, 0],
+        place = [0, 0, 0];
+      start[i] = 1;
+      end[i] = 1.1;
+      place[i] = 1.16;
+      this.add(this.world, segment(start, end));
+      this.marks.add(this.world, place, text);
+    });
   }
 
   // Drag, wheel, two fingers, and arrow keys. One finger up or down scrolls the page.
@@ -139,6 +158,7 @@ class BallPicture extends Picture {
   constructor(canvas) {
     super(canvas, 1);
     const { A, B, kind } = body;
+    this.name = "the ball";
     this.size = body.flat ? 2.3 * B : kind === "outside" ? A + 2 * B : kind === "inside" ? A : 2 * B - A;
     this.distance = 4.05 * this.size;
     this.eye.near = this.distance / 200;
@@ -170,11 +190,15 @@ class BallPicture extends Picture {
     if (kind === "shell") {
       this.add(this.ball, sphere(B, 0, names, { side: THREE.BackSide }), sphere(B, 0, names, { opacity: 0.1 }));
     } else this.add(this.ball, sphere(B, 0, names));
-    for (let i = 0; i < 3; i++) {
-      const sign = label(String(i + 1), 0.24 * B);
-      sign.position.setComponent(i, 1.08 * B);
-      this.ball.add(sign);
-    }
+    for (let i = 0; i < 3; i++)
+      this.marks.add(
+        this.ball,
+        [0, 1, 2].map((j) => (i === j ? 1.08 * B : 0)),
+        String(i + 1),
+        { most: 0.24 * B },
+      );
+    if (kind !== "shell") this.marks.solids.push({ thing: this.ball, radius: B });
+    if (kind !== "inside" && !body.flat) this.marks.solids.push({ thing: this.world, radius: body.A });
   }
 
   setOrbit(orbit, moments) {
@@ -282,28 +306,22 @@ class BallPicture extends Picture {
   }
 }
 
-// --- the point, or, where there is none, the contact in the ball's axes ---
+// --- the point ---
 
 class PointPicture extends Picture {
-  constructor(canvas, hasPoint) {
+  constructor(canvas) {
     super(canvas, 4.7);
+    this.name = "the point";
     this.world = this.add(this.scene, new THREE.Group());
     this.world.quaternion.copy(bodyUp);
-    this.hasPoint = hasPoint;
-    const { levels } = hasPoint ? potential : {};
+    const { levels } = potential;
     const names = levels
       ? { a: "deep", b: "shallow", c: "middle", line: "line" }
       : { a: "ball", b: "dark", c: "ball", line: "line" };
     this.add(this.world, sphere(1, levels ? 2 : 0, names, { levels }));
-    for (let i = 0; i < 3; i++) {
-      const end = [0, 0, 0],
-        start = [0, 0, 0],
-        sign = label(String(i + 1), 0.19);
-      end[i] = 1.1;
-      start[i] = 1;
-      sign.position.setComponent(i, 1.16);
-      this.add(this.world, segment(start, end), sign);
-    }
+    this.axes(["1", "2", "3"]);
+    this.marks.solids.push({ thing: this.world, radius: 1 });
+    this.second = this.add(this.world, bead(0.042, "#000000"));
     this.bead = this.add(this.world, bead(0.042, colours.curve));
   }
 
@@ -312,7 +330,7 @@ class PointPicture extends Picture {
       old.parent.remove(old);
       old.geometry.dispose();
     }
-    const at = (m) => (this.hasPoint ? m.gamma : m.n);
+    const at = (m) => m.gamma;
     this.ribbons = [false, true].map((hidden) => ribbon(moments, at, at, 0.016, colours.curve, 1, { hidden }));
     this.ribbons.push(whole(moments, at, 1.003));
     this.add(this.world, ...this.ribbons);
@@ -320,7 +338,9 @@ class PointPicture extends Picture {
   }
 
   show(now, trail) {
-    this.bead.position.copy(three(this.hasPoint ? now.gamma : now.n)).multiplyScalar(1.015);
+    this.bead.position.copy(three(now.gamma)).multiplyScalar(1.015);
+    this.second.visible = controls.beside;
+    if (controls.beside) this.second.position.copy(three(growth.place(now, "gamma"))).multiplyScalar(1.015);
     for (const strip of this.ribbons) strip.show(now.row, trail);
   }
 }
