@@ -13,6 +13,7 @@
 #include <yaml.h>
 
 #include "json.h"
+#include "say.h"
 
 void program_version(void)
 {
@@ -58,6 +59,7 @@ int program_run(const command *c, int argc, char **argv)
 int program_flush(int status)
 {
     errno = 0;
+    say_end();
     if (fflush(stdout) == 0 && !ferror(stdout)) return status;
     if (errno == 0) (void)!write(STDOUT_FILENO, "\n", 1); /* an earlier write failed: this one says why */
     if (errno != EPIPE && status != EXIT_FILE)
