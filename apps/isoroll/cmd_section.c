@@ -199,6 +199,7 @@ static void print_cloud(const iso_cloud *c)
 static void print_clouds(const shell *s)
 {
     const iso_clouds *f = s->result.found;
+    if (f->count == 0) return;
     say_table(1);
     say("cloud\tmeasure\tp\tworst\n");
     for (int i = 0; i < f->count; i++) print_cloud(&f->cloud[i]);

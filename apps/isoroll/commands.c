@@ -4,7 +4,7 @@
 #include "command.h"
 
 /* The groups, and the commands of each, in the order of --help. */
-#define START(X) X(run) X(compare) X(view) X(plot) X(explain) X(convert) X(check)
+#define START(X) X(run) X(compare) X(convert) X(check) X(plot) X(view) X(explain)
 #define STUDY(X) X(section) X(chaos) X(frequencies) X(periodic) X(splitting) X(integrals) X(analogue) X(cost)
 #define MANY(X) X(sweep)
 #define REFERENCE(X) X(list) X(manual)

@@ -63,10 +63,10 @@ static void say_number(double x)
         say("\t%.1e", x);
 }
 
-/* Which cell it is: method, backend, tolerance. */
+/* Which cell it is: backend, method, tolerance. */
 static void say_name(const iso_cost_cell *c, const char *between)
 {
-    say("%s%s%s", method_name(c->method), between, iso_backend_name((int)c->backend));
+    say("%s%s%s", iso_backend_name((int)c->backend), between, method_name(c->method));
     say("%s%s", between, c->method ? ISO_SHORT(c->tolerance) : "-");
 }
 
@@ -88,7 +88,7 @@ static void print_cells(const iso_cost *cost, const iso_cost_series *const *line
 {
     say("\n");
     say_table(3);
-    say("method\tof\ttol\terror\tclocks\tenergy\ttime\tspread\tsteps\trhs\tset-up\n");
+    say("backend\tmethod\ttol\terror\tclocks\tenergy\ttime\tspread\tsteps\trhs\tset-up\n");
     for (int l = 0; l < cost->lines; l++)
         for (int i = line[l]->first; i < line[l]->first + line[l]->count; i++)
             if (iso_cost_is_measured(&cost->cell[i])) print_cell(&cost->cell[i]);
@@ -142,7 +142,7 @@ static void say_time_to(const iso_cost *cost, const iso_cost_series *line, doubl
 
 static void print_line(const iso_cost *cost, const iso_cost_series *m)
 {
-    say("%s\t%s", m->method->name, iso_backend_name((int)m->backend));
+    say("%s\t%s", iso_backend_name((int)m->backend), m->method->name);
     say_time_to(cost, m, 1e-6);
     say_time_to(cost, m, 1e-9);
     say_time_to(cost, m, 1e-12);
@@ -166,7 +166,7 @@ static void print_lines(const iso_cost *cost, const iso_cost_series *const *line
     say("\nmethods, sorted by their time to an error of 1e-9: time to reach an error, factor in time for one more "
         "digit, order (measured, and of the method), least error, tolerance below which nothing is gained\n");
     say_table(2);
-    say("method\tof\tto 1e-6\tto 1e-9\tto 1e-12\ta digit\torder\tleast error\tno gain below\n");
+    say("backend\tmethod\tto 1e-6\tto 1e-9\tto 1e-12\ta digit\torder\tleast error\tno gain below\n");
     for (int l = 0; l < cost->lines; l++)
         if (line[l]->method && !isnan(line[l]->least)) print_line(cost, line[l]);
     say_table_end();

@@ -44,10 +44,10 @@ void help_command(const command *c, FILE *to)
     fputc('\n', to);
     print_lines(c->description, 0, to);
     fputs("\nexample\n", to);
-    print_lines(c->example, 1, to);
+    print_lines(c->example, 2, to);
     if (!c->exits) return;
     fputs("\nexit status\n", to);
-    print_lines(c->exits, 1, to);
+    print_lines(c->exits, 2, to);
 }
 
 static void print_command(const command *c, FILE *to)
@@ -71,5 +71,5 @@ void help_program(FILE *to)
                 "isoroll --version          the versions of isoroll and its libraries\n",
                 2, to);
     fputs("\nexit status\n", to);
-    print_lines(about_exits, 1, to);
+    print_lines(about_exits, 2, to);
 }

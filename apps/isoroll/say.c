@@ -110,7 +110,7 @@ static int read_row(const char **text, cell cells[MOST_CELLS])
 
 static bool is_number(const cell *c)
 {
-    return c->length == 0 || strchr("0123456789+-~.", c->text[0]) != NULL || strncmp(c->text, "nan", 3) == 0 ||
+    return c->length == 0 || strchr("0123456789+-~*.", c->text[0]) != NULL || strncmp(c->text, "nan", 3) == 0 ||
            strncmp(c->text, "inf", 3) == 0;
 }
 
