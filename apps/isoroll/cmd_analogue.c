@@ -3,6 +3,7 @@
 
 #include "command.h"
 #include "parameters.h"
+#include "say.h"
 #include "study/study_impl.h"
 
 typedef struct options {
@@ -23,7 +24,7 @@ static int run(iso_context *ctx, const void *options_given)
     if (status == ISO_OK)
         status = iso_analogue_study.run(ctx, &(iso_study_subject){.scene = stated ? NULL : &scene}, &o->study, &r);
     progress_end();
-    if (status == ISO_OK) fputs(((const iso_analogue_found *)r.found)->text, stdout);
+    if (status == ISO_OK) say("%s", ((const iso_analogue_found *)r.found)->text);
     iso_study_result_free(&r);
     if (!stated) status = name_the_file(ctx, o->file, iso_scene_blame(ctx, &scene, iso_text_name(o->file), status));
     return finish(ctx, status);

@@ -2,8 +2,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "say.h"
 #include "shell.h"
 #include "study/chaos/chaos_impl.h"
+#include "study/study_impl.h"
 
 /* What chaos can be told. */
 typedef struct options {
@@ -15,43 +17,47 @@ typedef struct options {
 
 static void print_head(const iso_scene *scene, const iso_chaos *c)
 {
-    const double *J = scene->params.J;
-    printf("k = %.15g, J = %.15g %.15g %.15g\n", scene->params.k, J[0], J[1], J[2]);
+    say("this orbit: %s%s\n", iso_verdict_name(c->own.verdict), c->own.disagree ? ": ball and point disagree" : "");
+    if (c->plane >= 0)
+        say("  it is the rotation about axis %d in a principal plane, which is periodic\n", c->plane + 1);
+    if (c->integral) say("  %s is an additional integral: no orbit is chaotic\n", c->integral->name);
+    say("\n");
+    iso_params_print(say_to(), &scene->params);
+    say("\n");
     if (c->axis < 0)
-        printf("a turn is a step of %.6g in t: no section n_a = 0 is known to be global here\n", c->turn);
+        say("a turn is a step of %.6g in t: no section n_a = 0 is known to be global here\n", c->turn);
     else
-        printf("a turn is a return to the section n_%d = 0, n_%d increasing\n", c->axis + 1, c->axis + 1);
-    if (c->integral) printf("%s is an additional integral: no orbit is chaotic\n", c->integral->name);
-    printf("\nthis orbit: %s", iso_verdict_name(c->own.verdict));
-    if (c->own.disagree) printf(": ball and point disagree");
-    if (c->plane >= 0) {
-        printf("\n  it is the rotation about axis %d in a principal plane, which is periodic\n", c->plane + 1);
-        return;
-    }
-    printf(
-        "\n\n%47s largest exponent per unit of\n  model  verdict      turns     MEGNO   GALI_2  %18s  %18s  %18s\n",
-        "", "t", "tau", "s");
+        say("a turn is a return to the section n_%d = 0, n_%d increasing\n", c->axis + 1, c->axis + 1);
+    if (c->plane < 0) say("\nlargest exponents per unit of t, tau and s\n");
 }
 
-/* x +- error, in 20 columns; an error that is not known is "?" */
+/* x +- error; an error that is not known is "?" */
 static void print_rate(double x, double error)
 {
     if (isnan(x))
-        printf("  %18s", "-");
+        say("\t-");
     else if (isnan(error))
-        printf("  %9.2e +- %5s", x, "?");
+        say("\t%.2e +- ?", x);
     else
-        printf("  %9.2e +- %5.0e", x, error);
+        say("\t%.2e +- %.0e", x, error);
 }
 
 static void print_model(const iso_chaos *c, int model)
 {
     const iso_indication *i = &c->own.result[model];
     if (!c->with[model]) return;
-    printf("  %-5s  %-9s  %7ld  %8.4g  %7.1e", iso_model_kind_name(model), iso_verdict_name(i->verdict), i->turns,
-           i->megno, i->gali2);
+    say("%s\t%s\t%ld\t%.4g\t%.1e", iso_model_kind_name(model), iso_verdict_name(i->verdict), i->turns, i->megno,
+        i->gali2);
     for (int clock = 0; clock < ISO_CLOCKS; clock++) print_rate(i->exponent[clock], i->error[clock]);
-    printf("\n");
+    say("\n");
+}
+
+static void print_models(const iso_chaos *c)
+{
+    say_table(1);
+    say("model\tverdict\tturns\tMEGNO\tGALI_2\tper t\tper tau\tper s\n");
+    for (int m = 0; m < 2; m++) print_model(c, m);
+    say_table_end();
 }
 
 /* lam_t by the ball and by the point */
@@ -61,7 +67,7 @@ static void print_agreement(const iso_chaos *c)
     const double apart = fabs(one->exponent[ISO_CLOCK_T] - other->exponent[ISO_CLOCK_T]),
                  error = hypot(one->error[ISO_CLOCK_T], other->error[ISO_CLOCK_T]);
     if (!c->with[ISO_BALL] || !c->with[ISO_POINT] || isnan(apart) || isnan(error)) return;
-    printf("  the exponents per t of both models are %.2g errors apart\n", apart / error);
+    say("  the exponents per t of both models are %.2g errors apart\n", apart / error);
 }
 
 /* What the exponents are worth. */
@@ -76,47 +82,47 @@ static void print_worth(const iso_chaos *c)
         if (i->exponent_turns > i->turns && i->exponent_turns > longest) longest = i->exponent_turns;
     }
     if (c->own.verdict == ISO_REGULAR)
-        printf("  the exponents of a regular orbit are 0: these estimates fall like 1/turns\n");
-    if (longest > 0) printf("  the exponents are from %ld turns\n", longest);
-    if (rough) printf("  +- ?: the orbit is too short to know this error; --exponent-turns makes it longer\n");
+        say("  the exponents of a regular orbit are 0: these estimates fall like 1/turns\n");
+    if (longest > 0) say("  the exponents are from %ld turns\n", longest);
+    if (rough) say("  +- ?: the orbit is too short to know this error; --exponent-turns makes it longer\n");
 }
 
 /* How many of the starts were followed, if not all. */
 static void print_followed(const iso_chaos_fraction *s)
 {
     if (s->count == s->asked) return;
-    printf("  %zu of them were followed", s->count);
-    if (s->failed > 0) printf("; %zu failed", s->failed);
-    printf(s->count > 0 ? ": the shares are of these\n" : ": no share is known\n");
+    say("  %zu of them were followed", s->count);
+    if (s->failed > 0) say("; %zu failed", s->failed);
+    say(s->count > 0 ? ": the shares are of these\n" : ": no share is known\n");
 }
 
 static void print_share(const iso_chaos_fraction *s)
 {
     if (s->asked == 0) return;
     const double count = (double)s->count;
-    printf("\n%zu starts spread evenly over the section, by its area dL dl, with a tolerance of %g:\n", s->asked,
-           s->tolerance);
+    say("\n%zu starts spread evenly over the section, by its area dL dl, with a tolerance of %g:\n", s->asked,
+        s->tolerance);
     print_followed(s);
     if (s->count == 0) return;
-    printf("  chaotic    %8.4f   (%zu); 95 %% interval %.4f to %.4f\n"
-           "  regular    %8.4f   (%zu)\n"
-           "  undecided  %8.4f   (%zu)\n",
-           s->share, s->chaotic, s->low, s->high, (double)s->regular / count, s->regular,
-           (double)s->undecided / count, s->undecided);
+    say("  chaotic    %8.4f   (%zu); 95 %% interval %.4f to %.4f\n"
+        "  regular    %8.4f   (%zu)\n"
+        "  undecided  %8.4f   (%zu)\n",
+        s->share, s->chaotic, s->low, s->high, (double)s->regular / count, s->regular, (double)s->undecided / count,
+        s->undecided);
     if (s->undecided > 0)
-        printf("  undecided ones count both ways: not chaotic at the low end, chaotic at the high end\n");
+        say("  undecided ones count both ways: not chaotic at the low end, chaotic at the high end\n");
     if (s->checked > 0 && s->disagree == 0)
-        printf("  ball and point both followed %zu of them, and never disagree\n", s->checked);
+        say("  ball and point both followed %zu of them, and never disagree\n", s->checked);
     else if (s->disagree > 0)
-        printf("  ball and point both followed %zu of them, and disagree about %zu: undecided\n", s->checked,
-               s->disagree);
+        say("  ball and point both followed %zu of them, and disagree about %zu: undecided\n", s->checked,
+            s->disagree);
 }
 
 static void print_table(const shell *s)
 {
     const iso_chaos *c = s->result.found;
     print_head(&s->scene, c);
-    for (int m = 0; m < 2 && c->plane < 0; m++) print_model(c, m);
+    if (c->plane < 0) print_models(c);
     if (c->plane < 0) print_worth(c);
     print_agreement(c);
     print_share(&c->share);

@@ -2,8 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number_impl.h"
 #include "json.h"
 #include "parameters.h"
+#include "say.h"
 #include "study/check/check_impl.h"
 
 typedef struct options {
@@ -14,30 +16,26 @@ typedef struct options {
 
 /* --- what is printed -------------------------------------------------------------------------------------------- */
 
-/* Names with commas between, in lines of at most WIDTH characters. */
-static void print_names(const char *title, const iso_check_found *f)
+static void print_unseen(const iso_check_found *f)
 {
-    enum { WIDTH = 100 };
-    int used = printf("%s", title);
-    for (size_t i = 0; i < f->unseen_count; i++) {
-        const char *name = f->unseen[i];
-        if (used + (int)strlen(name) + 2 > WIDTH) used = printf("\n   ") - 1;
-        used += printf(" %s%s", name, i + 1 < f->unseen_count ? "," : "");
-    }
-    printf("\n");
+    say("not looked at:");
+    for (size_t i = 0; i < f->unseen_count; i++) say(" %s%s", f->unseen[i], i + 1 < f->unseen_count ? "," : "\n");
 }
 
 static void print_table(const iso_check_found *f)
 {
-    printf("%zu rows", f->rows);
-    if (f->passed > 0) printf(", %zu of nan passed over", f->passed);
-    printf("\n%-22s %10s %9s  %s\n", "residual", "worst", "at row", "of");
+    say("%zu rows", f->rows);
+    if (f->passed > 0) say(", %zu of nan passed over", f->passed);
+    say("\n");
+    say_table(1);
+    say("residual\tworst\tat row\tof\n");
     for (int i = 0; i < f->count; i++) {
         const iso_residual *x = &f->checked[i].residual;
-        printf("%-22s %10.2e %9zu  %s%s\n", x->name, x->worst, x->row, x->what,
-               iso_checked_is_bad(&f->checked[i]) ? "  ABOVE THE BOUND" : "");
+        say("%s\t%.2e\t%zu\t%s%s\n", x->name, x->worst, x->row, x->what,
+            iso_checked_is_bad(&f->checked[i]) ? "  ABOVE THE BOUND" : "");
     }
-    if (f->unseen_count > 0) print_names("not looked at:", f);
+    say_table_end();
+    if (f->unseen_count > 0) print_unseen(f);
 }
 
 static int report(const options *o, const iso_check_found *f)
@@ -49,7 +47,7 @@ static int report(const options *o, const iso_check_found *f)
         return EXIT_NUMERICAL;
     for (int i = 0; i < f->count; i++) bad = bad || iso_checked_is_bad(&f->checked[i]);
     if (!bad) return EXIT_DONE;
-    return complain("%s: a residual is above %g", o->file, f->bound), EXIT_SOME_FAILED;
+    return complain("%s: a residual is above %s", o->file, ISO_SHORT(f->bound)), EXIT_SOME_FAILED;
 }
 
 /* --- the check -------------------------------------------------------------------------------------------------- */

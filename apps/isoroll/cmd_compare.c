@@ -1,7 +1,9 @@
 /* isoroll compare - computes one orbit by every backend and shows the differences: table, picture, JSON. */
 #include <math.h>
 
+#include "base/number_impl.h"
 #include "plot/stretch.h"
+#include "say.h"
 #include "shell.h"
 #include "study/study_impl.h"
 
@@ -21,20 +23,20 @@ static const char *backend_name(const iso_comparison *c, int run)
 
 static void print_head(const iso_scene *scene, const iso_comparison *c)
 {
-    const iso_params *p = &scene->params;
-    printf("k = %.10g (%s), J = %.10g %.10g %.10g\nh = %.10g, eps = %.10g, tolerance %g\n\n", p->k,
-           iso_surface_name((int)p->body.surface), p->J[0], p->J[1], p->J[2], c->h, c->eps, scene->tolerance);
-    iso_effects_print(stdout, &c->effects, false);
+    iso_params_print(say_to(), &scene->params);
+    say(" (%s)\nh = %s, eps = %s, tolerance %s\n\n", iso_surface_name((int)scene->params.body.surface),
+        ISO_ROUNDED(c->h, 10), ISO_ROUNDED(c->eps, 10), ISO_SHORT(scene->tolerance));
+    iso_effects_print(say_to(), &c->effects, false);
     for (int b = 0; b < ISO_INTEGRATED; b++) {
         const iso_backend_run *r = &c->run[b];
-        printf("backend %-5s  %s: %ld steps, %ld rejected, %ld right-hand sides, %.3g ms\n", backend_name(c, b),
-               r->method->name, r->statistics.steps, r->statistics.rejected, r->statistics.rhs, 1e3 * r->seconds);
+        say("backend %-5s  %s: %ld steps, %ld rejected, %ld right-hand sides, %.3g ms\n", backend_name(c, b),
+            r->method->name, r->statistics.steps, r->statistics.rejected, r->statistics.rhs, 1e3 * r->seconds);
     }
     if (c->runs == ISO_BACKENDS)
-        printf("backend exact  the closed solution: %ld states, %.3g ms\n", c->run[ISO_BY_EXACT].statistics.states,
-               1e3 * c->run[ISO_BY_EXACT].seconds);
+        say("backend exact  the closed solution: %ld states, %.3g ms\n", c->run[ISO_BY_EXACT].statistics.states,
+            1e3 * c->run[ISO_BY_EXACT].seconds);
     else
-        printf("exact: %s\n", c->no_exact);
+        say("exact: %s\n", c->no_exact);
 }
 
 /* Which of the rows is the i-th that is shown: `shown` rows, evenly spaced, with the first and the last. */
@@ -62,49 +64,79 @@ static void print_model(const iso_comparison *c, iso_model_kind model, size_t sh
     static const char *const titles[] = {"the ball", "the point"};
     const int first = model == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT;
     const int clock = model == ISO_BALL ? 0 : 2;
-    printf("\n%s\n%12s  %-7s", titles[model], iso_clock_name((iso_clock)clock), "backend");
-    for (int i = 0; i < ISO_STATE; i++) printf(" %13s", iso_column_name(first + i));
-    printf("  difference\n");
+    say("\n%s\n", titles[model]);
+    say_table(2);
+    say("%s\tbackend", iso_clock_name((iso_clock)clock));
+    for (int i = 0; i < ISO_STATE; i++) say("\t%s", iso_column_name(first + i));
+    say("\tdifference\n");
     for (size_t i = 0; i < shown; i++) {
         const size_t row = shown_row(i, shown, rows);
         for (int b = 0; b < c->runs; b++) {
             const double *x = iso_record_const_row(c->run[b].trajectory, row);
-            printf("%12.6g  %-7s", x[clock], backend_name(c, b));
-            for (int j = 0; j < ISO_STATE; j++) printf(" %13.9g", x[first + j]);
-            if (b > 0) printf("  %8.1e", row_difference(c, b, model, row));
-            printf("\n");
+            say("%.6g\t%s", x[clock], backend_name(c, b));
+            for (int j = 0; j < ISO_STATE; j++) say("\t%.9g", x[first + j]);
+            if (b > 0) say("\t%.1e", row_difference(c, b, model, row));
+            say(b > 0 ? "\n" : "\t\n");
         }
     }
+    say_table_end();
 }
 
 static void print_clocks(const iso_comparison *c, size_t shown, size_t rows)
 {
-    printf("\nclocks\n%-7s", "backend");
-    for (int k = 0; k < ISO_CLOCKS; k++) printf(" %22s", iso_clock_name((iso_clock)k));
-    printf("\n");
+    say("\nclocks\n");
+    say_table(1);
+    say("backend");
+    for (int k = 0; k < ISO_CLOCKS; k++) say("\t%s", iso_clock_name((iso_clock)k));
+    say("\n");
     for (size_t i = 0; i < shown; i++)
         for (int b = 0; b < c->runs; b++) {
             const double *x = iso_record_const_row(c->run[b].trajectory, shown_row(i, shown, rows));
-            printf("%-7s %22.16g %22.16g %22.16g\n", backend_name(c, b), x[0], x[1], x[2]);
+            say("%s\t%.15g\t%.15g\t%.15g\n", backend_name(c, b), x[0], x[1], x[2]);
         }
+    say_table_end();
 }
 
 static void print_integrals(const iso_comparison *c)
 {
-    printf("\nintegrals: value at the start, largest relative drift by each backend\n");
+    say("\nintegrals: value at the start, largest relative drift by each backend\n");
+    say_table(2);
+    say("of\tname\tstart");
+    for (int b = 0; b < c->runs; b++) say("\t%s", backend_name(c, b));
+    say("\twhat it is\n");
     for (int i = 0; i < c->run[ISO_BALL].drifts; i++) {
         const iso_drift *d = &c->run[ISO_BALL].drift[i];
-        printf("  %-5s %-10s %20.12g", d->system->name, d->integral->name, d->start);
+        say("%s\t%s\t%.9g", d->system->name, d->integral->name, d->start);
         for (int b = 0; b < c->runs; b++)
-            if (i < c->run[b].drifts) printf("  %s %8.1e", backend_name(c, b), c->run[b].drift[i].worst);
-        printf("   %s\n", d->integral->doc);
+            if (i < c->run[b].drifts)
+                say("\t%.1e", c->run[b].drift[i].worst);
+            else
+                say("\t-");
+        say("\t%s\n", d->integral->doc);
     }
+    say_table_end();
 }
 
-static void print_worst(const iso_comparison *c, const double worst[ISO_DIFFERENCES])
+static void print_worst(const char *who, const double worst[ISO_DIFFERENCES])
 {
-    for (size_t i = 1; i < ISO_DIFFERENCES; i++)
-        printf(" %s %.1e%s", iso_record_name(c->difference, i), worst[i], i + 1 < ISO_DIFFERENCES ? "," : "\n");
+    say("%s", who);
+    for (size_t i = 1; i < ISO_DIFFERENCES; i++) say("\t%.1e", worst[i]);
+    say("\n");
+}
+
+static void print_differences(const iso_comparison *c, size_t rows)
+{
+    say("\nlargest relative differences over %zu rows\n", rows);
+    say_table(1);
+    say("between");
+    for (size_t i = 1; i < ISO_DIFFERENCES; i++) say("\t%s", iso_record_name(c->difference, i));
+    say("\n");
+    print_worst("ball, point", c->worst);
+    if (c->runs == ISO_BACKENDS) {
+        print_worst("ball, exact", c->worst_from_exact[ISO_BALL]);
+        print_worst("point, exact", c->worst_from_exact[ISO_POINT]);
+    }
+    say_table_end();
 }
 
 static void print_table(const shell *s)
@@ -113,18 +145,16 @@ static void print_table(const shell *s)
     const size_t rows = iso_record_rows(c->difference),
                  wanted = (size_t)fmin(((const options *)s->options)->rows, 1e9);
     const size_t shown = wanted < rows ? wanted : rows;
+    char words[ISO_COMPARISON_WORDS];
     if (rows == 0) return;
     print_head(&s->scene, c);
     print_model(c, ISO_BALL, shown, rows);
     print_model(c, ISO_POINT, shown, rows);
     print_clocks(c, shown, rows);
     print_integrals(c);
-    printf("\nlargest relative difference of the backends over %zu rows\n ", rows);
-    print_worst(c, c->worst);
-    for (int b = 0; c->runs == ISO_BACKENDS && b < ISO_INTEGRATED; b++) {
-        printf("of %s from exact\n ", backend_name(c, b));
-        print_worst(c, c->worst_from_exact[b]);
-    }
+    print_differences(c, rows);
+    iso_comparison_words(&s->scene, c, words);
+    say("\n%s\n", words);
 }
 
 /* --- JSON ------------------------------------------------------------------------------------------------------- */

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number_impl.h"
 #include "orbit/convert_impl.h"
 #include "parameters.h"
 #include "scene_options.h"
@@ -47,9 +48,9 @@ static iso_status check_energy(const filter *f, const iso_record *header)
         ISO_TRY(status);
         if ((isnan(first) && isnan(now)) || fabs(now - first) <= digits * fabs(first)) continue;
         return iso_context_fail(f->ctx, ISO_BAD_INPUT, "",
-                                "orbit %.17g has %s = %.6g, the first one %.6g: convert orbits of different energies "
+                                "orbit %s has %s = %.6g, the first one %.6g: convert orbits of different energies "
                                 "one by one",
-                                f->orbit, keys[i], now, first);
+                                ISO_SHORT(f->orbit), keys[i], now, first);
     }
     return ISO_OK;
 }
@@ -206,7 +207,8 @@ static bool judge(const filter *f, const iso_conversion_summary *s)
     if (s->bad > 0)
         complain("%s: %zu of %zu rows could not be converted: nan stands in their place", f->name, s->bad, s->rows);
     if (s->checked && !isnan(f->o->max_defect) && !(s->defect.value <= f->o->max_defect)) {
-        complain("%s:%zu: the defect %.2g is above %g", f->name, s->defect.line, s->defect.value, f->o->max_defect);
+        complain("%s:%zu: the defect %.2g is above %s", f->name, s->defect.line, s->defect.value,
+                 ISO_SHORT(f->o->max_defect));
         good = false;
     }
     if (s->checked && isnan(f->o->max_defect) && !(s->drift.value <= largest_drift(f))) {

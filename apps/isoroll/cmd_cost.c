@@ -2,7 +2,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number_impl.h"
 #include "cost_report.h"
+#include "say.h"
 
 /* What cost can be told. */
 typedef struct options {
@@ -46,7 +48,7 @@ static void tell_choice(const iso_cost_found *f)
     char words[COST_OPTIONS], seconds[COST_SECONDS];
     const iso_cost_cell *c = f->choice;
     if (!c) {
-        complain("nothing measured reaches an error of %g: try a larger --want", f->want);
+        complain("nothing measured reaches an error of %s: try a larger --want", ISO_SHORT(f->want));
         return;
     }
     printf("%s\n", cost_options_of(c, words));

@@ -1,4 +1,5 @@
 /* isoroll explain - tells what would be simulated, and why. */
+#include "say.h"
 #include "shell.h"
 #include "study/explain/explain_impl.h"
 #include "sweep_team.h"
@@ -10,7 +11,7 @@ typedef struct options {
 
 static void print_text(const shell *s)
 {
-    fputs(((const iso_explanation *)s->result.found)->text, stdout);
+    say("%s", ((const iso_explanation *)s->result.found)->text);
 }
 
 static int run(iso_context *ctx, const void *options_given)

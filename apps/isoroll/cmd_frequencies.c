@@ -3,9 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "say.h"
 #include "shell.h"
 #include "study/frequencies/frequencies.h"
 #include "study/frequencies/momentum.h"
+#include "study/study_impl.h"
 
 /* What frequencies can be told. */
 typedef struct options {
@@ -17,89 +19,95 @@ typedef struct options {
 
 static void print_head(const iso_scene *scene, const iso_frequencies *f)
 {
-    const double *J = scene->params.J;
-    printf("k = %.15g, J = %.15g %.15g %.15g\nh = %.15g", scene->params.k, J[0], J[1], J[2], f->h);
-    if (!isnan(f->eps)) printf(", eps = %.15g", f->eps);
-    if (f->integral) printf(", %s = %.15g", f->integral->name, f->F);
-    printf("\n\n");
+    iso_params_print(say_to(), &scene->params);
+    say("\nh = %.15g", f->h);
+    if (!isnan(f->eps)) say(", eps = %.15g", f->eps);
+    if (f->integral) say(", %s = %.15g", f->integral->name, f->F);
+    say("\n\n");
     if (!f->estimated) {
-        printf("closed solution: %s\n", f->motion);
-        if (!isnan(f->c)) printf("  it separates in coordinates u and v, with the constant c = %.15g\n", f->c);
+        say("closed solution: %s\n", f->motion);
+        if (!isnan(f->c)) say("  it separates in coordinates u and v, with the constant c = %.15g\n", f->c);
         return;
     }
-    printf("ESTIMATED from an orbit: %s\n  %s: %s\n", f->motion,
-           f->unresolved ? "the closed solution was not resolved" : "no closed solution", f->why);
-    printf("  orbit: %.6g turns, to t = %.10g, %zu samples\n", f->estimate.turns, f->estimate.length,
-           f->estimate.samples);
-    printf(
-        "  a frequency differs between the halves of the orbit by %.1e, between the halves of its first quarter by "
+    say("ESTIMATED from an orbit: %s\n  %s: %s\n", f->motion,
+        f->unresolved ? "the closed solution was not resolved" : "no closed solution", f->why);
+    say("  orbit: %.6g turns, to t = %.10g, %zu samples\n", f->estimate.turns, f->estimate.length,
+        f->estimate.samples);
+    say("  a frequency differs between the halves of the orbit by %.1e, between the halves of its first quarter by "
         "%.1e\n",
         f->estimate.drift, f->estimate.drift_before);
     if (f->estimate.verdict == ISO_CHAOTIC)
-        printf("  a chaotic motion has no fixed frequencies: the numbers below hold for this orbit only\n");
+        say("  a chaotic motion has no fixed frequencies: the numbers below hold for this orbit only\n");
     if (f->estimate.unexplained > 1e-4)
-        printf("  part of the amplitudes that two frequencies do not explain: %.2g\n", f->estimate.unexplained);
+        say("  part of the amplitudes that two frequencies do not explain: %.2g\n", f->estimate.unexplained);
     if (f->angles == 2 && isnan(f->rotation) && f->estimate.verdict != ISO_CHAOTIC)
-        printf("  that is most of them: there is no rotation number\n");
+        say("  that is most of them: there is no rotation number\n");
 }
 
 static void print_separatrices(const iso_frequencies *f)
 {
-    for (int i = 0; i < f->separatrices; i++)
-        printf("  %-46s %22.15g\n", f->separatrix[i].what, f->separatrix[i].distance);
+    say("\nrelative distance from the separatrix of an unstable rotation\n");
+    for (int i = 0; i < f->separatrices; i++) say("  %s: %.15g\n", f->separatrix[i].what, f->separatrix[i].distance);
 }
 
 /* One line: a number in each clock, - where it is not known. */
 static void print_clocks(const char *what, const double x[ISO_CLOCKS])
 {
-    printf("  %-22s", what);
+    say("%s", what);
     for (int c = 0; c < ISO_CLOCKS; c++)
         if (isnan(x[c]))
-            printf(" %22s", "-");
+            say("\t-");
         else
-            printf(" %22.15g", x[c]);
-    printf("\n");
+            say("\t%.15g", x[c]);
+    say("\n");
 }
 
 static void print_angles(const iso_frequencies *f)
 {
-    printf("\n  %-22s %22s %22s %22s\n", "clock; angles in rad", "t", "tau", "s");
+    say("\n");
+    say_table(1);
+    say("angles in rad\tt\ttau\ts\n");
     for (int i = 0; i < f->angles; i++) {
         const iso_angle *a = &f->angle[i];
-        printf("angle %d: %s\n", i + 1, a->what);
+        say("angle %d: %s\n", i + 1, a->what);
         print_clocks("frequency", a->frequency);
-        if (f->estimated) print_clocks("  estimated error", a->error);
+        if (f->estimated) print_clocks("its error", a->error);
         print_clocks("period", a->period);
-        if (!isnan(a->action)) printf("  %-22s %22.15g\n", "action", a->action);
+        if (!isnan(a->action)) say("action\t%.15g\t\t\n", a->action);
     }
+    say_table_end();
 }
 
 static void print_resonances(const iso_frequencies *f)
 {
-    if (!isnan(f->rotation)) printf("\nrotation number, frequency 1 / frequency 2: %.15g\n", f->rotation);
-    if (f->resonances > 0)
-        printf("near resonances: p times frequency 1 is almost q times frequency 2\n"
-               "    p:q    relative gap  p angle 1 - q angle 2 makes one turn in\n");
+    if (!isnan(f->rotation)) say("\nrotation number, frequency 1 / frequency 2: %.15g\n", f->rotation);
+    if (f->resonances > 0) {
+        say("near resonances: p times frequency 1 is almost q times frequency 2\n");
+        say_table(1);
+        say("p:q\trelative gap\tp angle 1 - q angle 2 makes one turn in\n");
+    }
     for (int i = 0; i < f->resonances; i++) {
         const iso_resonance *r = &f->resonance[i];
-        printf("  %3d:%-3d  %14.1e  ", r->p, r->q, r->gap);
+        say("%d:%d\t%.1e\t", r->p, r->q, r->gap);
         if (r->met)
-            printf(f->estimated ? "- (the gap is within the error of the estimate)\n" : "- (resonant)\n");
+            say(f->estimated ? "- (the gap is within the error of the estimate)\n" : "- (resonant)\n");
         else
-            printf("t = %.6g\n", r->beat[ISO_CLOCK_T]);
+            say("t = %.6g\n", r->beat[ISO_CLOCK_T]);
     }
-    if (!isnan(f->closed[ISO_CLOCK_T])) {
-        printf("\nthe orbit is closed\n");
-        print_clocks("period", f->closed);
-    }
+    if (f->resonances > 0) say_table_end();
+    if (isnan(f->closed[ISO_CLOCK_T])) return;
+    say("\nthe orbit is closed\n");
+    say_table(1);
+    say("in\tt\ttau\ts\n");
+    print_clocks("period", f->closed);
+    say_table_end();
 }
 
 static void print_table(const shell *s)
 {
     const iso_frequencies *f = s->result.found;
     print_head(&s->scene, f);
-    if (f->separatrices > 0) printf("\nrelative distance from the separatrix of an unstable rotation\n");
-    print_separatrices(f);
+    if (f->separatrices > 0) print_separatrices(f);
     if (f->angles > 0) print_angles(f);
     print_resonances(f);
 }

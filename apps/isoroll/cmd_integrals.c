@@ -1,8 +1,11 @@
 /* isoroll integrals - searches for additional first integrals: polynomials in M that are constant on many orbits. */
 #include <math.h>
 
+#include "base/number_impl.h"
+#include "say.h"
 #include "shell.h"
 #include "study/integrals/integrals_impl.h"
+#include "study/study_impl.h"
 
 /* What integrals can be told. */
 typedef struct options {
@@ -14,70 +17,72 @@ typedef struct options {
 
 static void print_head(const options *o, const iso_scene *scene, const iso_integral_search *r)
 {
-    const double *J = scene->params.J;
-    printf("k = %.15g, J = %.15g %.15g %.15g", scene->params.k, J[0], J[1], J[2]);
-    if (r->level != 0) printf("; level (H/eps) J2^(1/k) = %.10g", r->level);
-    printf("\n"
-           "%zu orbits of %g turns, %d samples of each; relative error of a sample about %.0e\n"
-           "functions h^j M^a gamma^b, |a| + 2 j = degree, |b| <= %d; a value is the variation of a function along\n"
-           "orbits by its size: 0 for an integral\n\n"
-           "  degree  functions  integrals  further  doubtful   their values up to  smallest other value\n",
-           r->orbits, o->study.turns, ISO_INTEGRAL_ROWS, r->delta, r->coefficients);
+    iso_params_print(say_to(), &scene->params);
+    if (r->level != 0) say("; level (H/eps) J2^(1/k) = %.10g", r->level);
+    say("\n"
+        "%zu orbits of %s turns, %d samples of each; relative error of a sample about %.0e\n"
+        "functions h^j M^a gamma^b, |a| + 2 j = degree, |b| <= %d; a value is the variation of a function along "
+        "orbits by its size: 0 for an integral\n\n",
+        r->orbits, ISO_SHORT(o->study.turns), ISO_INTEGRAL_ROWS, r->delta, r->coefficients);
 }
 
-static void print_value(int width, double x)
+static void print_value(double x)
 {
     if (isnan(x))
-        printf("  %*s", width, "-");
+        say("\t-");
     else
-        printf("  %*.1e", width, x);
+        say("\t%.1e", x);
 }
 
 static void print_degree(const iso_integral_degree *at)
 {
-    printf("  %6d  %9zu  %9zu  %7zu  %8zu", at->degree, at->functions, at->found, at->further, at->doubtful);
-    print_value(19, at->largest);
-    print_value(20, at->smallest);
-    printf("\n");
+    say("%d\t%zu\t%zu\t%zu\t%zu", at->degree, at->functions, at->found, at->further, at->doubtful);
+    print_value(at->largest);
+    print_value(at->smallest);
+    say("\n");
 }
 
 static void print_known(const iso_integral_search *r)
 {
-    if (r->degrees >= 2) printf("  the energy, a constant on the level: found in degree 2\n");
+    if (r->degrees >= 2) say("  the energy, a constant on the level: found in degree 2\n");
     for (int i = 0; i < r->known_count; i++) {
         const iso_integral_known *known = &r->known[i];
-        printf("  %s = %s: ", known->name, known->doc);
+        say("  %s = %s: ", known->name, known->doc);
         if (known->degree > 0)
-            printf("found in degree %d, to %.1e\n", known->degree, known->residual);
+            say("found in degree %d, to %.1e\n", known->degree, known->residual);
         else
-            printf(known->constant ? "a constant on the level\n" : "not in this space\n");
+            say(known->constant ? "a constant on the level\n" : "not in this space\n");
     }
 }
 
 static void print_verdict(const options *o, const iso_integral_search *r)
 {
     if (r->verdict == ISO_INTEGRALS_FOUND)
-        printf("found: %d independent integral%s beside the energy\n", r->independent, r->independent > 1 ? "s" : "");
+        say("found: %d independent integral%s beside the energy\n", r->independent, r->independent > 1 ? "s" : "");
     else if (r->verdict == ISO_INTEGRALS_NONE)
-        printf("none beside the energy up to degree %d within %g: the smallest value is %.1e\n", r->degrees,
-               o->study.within, iso_integral_smallest(r));
+        say("none beside the energy up to degree %d within %s: the smallest value is %.1e\n", r->degrees,
+            ISO_SHORT(o->study.within), iso_integral_smallest(r));
     else if (r->degrees < o->study.degree)
-        printf("undecided: stopped after degree %d\n", r->degrees);
+        say("undecided: stopped after degree %d\n", r->degrees);
     else if (r->independent > 0)
-        printf("undecided: k and J are so near those of an integrable ball that its integral is constant here\n");
+        say("undecided: k and J are so near those of an integrable ball that its integral is constant here\n");
     else
-        printf("undecided: there are values between their error and %g\n", o->study.within);
+        say("undecided: there are values between their error and %s\n", ISO_SHORT(o->study.within));
 }
 
 static void print_table(const shell *s)
 {
     const options *o = s->options;
     const iso_integral_search *r = &((const iso_integrals_found *)s->result.found)->search;
-    print_head(o, &s->scene, r);
-    for (int d = 1; d <= r->degrees; d++) print_degree(&r->at[d]);
-    printf("\n");
-    print_known(r);
     print_verdict(o, r);
+    say("\n");
+    print_head(o, &s->scene, r);
+    say_table(1);
+    say("degree\tfunctions\tintegrals\tfurther\tdoubtful\ttheir values up to\tsmallest other value\n");
+    for (int d = 1; d <= r->degrees; d++) print_degree(&r->at[d]);
+    say_table_end();
+    say("\n");
+    print_known(r);
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */

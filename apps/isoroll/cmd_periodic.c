@@ -2,9 +2,12 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/number_impl.h"
+#include "say.h"
 #include "scene_options.h"
 #include "shell.h"
 #include "study/periodic/periodic_study_impl.h"
+#include "study/study_impl.h"
 
 /* What periodic can be told. */
 typedef struct options {
@@ -14,32 +17,38 @@ typedef struct options {
 
 /* --- the list --------------------------------------------------------------------------------------------------- */
 
+static void print_level(double level)
+{
+    if (level != 0) say("level of the point, (H/eps) J2^(1/k): %s\n", ISO_SHORT(level));
+}
+
 static void print_multipliers(const iso_multipliers *m)
 {
     if (m->krein)
-        printf("exp(+-%.9g i), Krein %+d", atan2(m->value[0][1], m->value[0][0]), m->krein);
+        say("exp(+-%.9g i), Krein %+d", atan2(m->value[0][1], m->value[0][0]), m->krein);
     else
-        printf("%.9g, %.9g", m->value[0][0], m->value[1][0]);
+        say("%.9g, %.9g", m->value[0][0], m->value[1][0]);
 }
 
 static void print_rotations(const iso_periodic *found, bool polish)
 {
-    printf("rotations about the principal axes, half a turn (Hill's equation)\n");
-    printf("  axis  %-*s  error    %-10s  multipliers\n", polish ? 33 : 20, "trace", "");
+    say("rotations about the principal axes, half a turn (Hill's equation)\n");
+    say_table(1);
+    say("axis\ttrace\terror\tstability\tmultipliers\n");
     for (int a = 0; a < 3; a++) {
         const iso_rotation *o = &found->rotation[a];
         char text[ISO_DIGITS_SIZE];
         iso_periodic_digits(o->half_turn_trace, o->tail, text);
-        printf("  %4d  ", a + 1);
         if (o->oscillates) {
-            printf("none on this level: an oscillation between two places of rest\n");
+            say("%d\tnone on this level: an oscillation between two places of rest\n", a + 1);
             continue;
         }
-        polish ? printf("%-33s", text) : printf("%-20.15g", o->half_turn_trace);
-        printf("  %.1e  %-10s  ", o->error, iso_stability_name(o->half.stability));
+        say("%d\t%s\t%.1e\t%s\t", a + 1, polish ? text : ISO_ROUNDED(o->half_turn_trace, 15), o->error,
+            iso_stability_name(o->half.stability));
         print_multipliers(&o->half);
-        putchar('\n');
+        say("\n");
     }
+    say_table_end();
 }
 
 static void print_orbit(const iso_periodic *found, bool polish, size_t i)
@@ -48,15 +57,15 @@ static void print_orbit(const iso_periodic *found, bool polish, size_t i)
     char words[ISO_DIGITS_SIZE], l[ISO_DIGITS_SIZE], x[ISO_DIGITS_SIZE], trace[ISO_DIGITS_SIZE];
     iso_symmetry_words(o->symmetry, words);
     if (!polish) {
-        printf("%4zu  %4d  %18.15f  %18.15f  %18.11g  %.0e  %-10s  %-8s  %6d  %.9g\n", i + 1, o->period, o->l, o->x,
-               o->trace, o->error, iso_stability_name(o->multipliers.stability), words, o->copies, o->clock[0]);
+        say("%zu\t%d\t%.15f\t%.15f\t%.11g\t%.0e\t%s\t%s\t%d\t%.9g\n", i + 1, o->period, o->l, o->x, o->trace,
+            o->error, iso_stability_name(o->multipliers.stability), words, o->copies, o->clock[0]);
         return;
     }
     iso_periodic_digits(o->l, o->l_tail, l);
     iso_periodic_digits(o->x, o->x_tail, x);
     iso_periodic_digits(o->trace, o->trace_tail, trace);
-    printf("%4zu  %4d  %34s  %34s  %34s  %.0e  %7.0e  %-10s  %s\n", i + 1, o->period, l, x, trace, o->error,
-           o->closure, iso_stability_name(o->multipliers.stability), words);
+    say("%zu\t%d\t%s\t%s\t%s\t%.0e\t%.0e\t%s\t%s\n", i + 1, o->period, l, x, trace, o->error, o->closure,
+        iso_stability_name(o->multipliers.stability), words);
 }
 
 static void print_list(const shell *s)
@@ -65,28 +74,29 @@ static void print_list(const shell *s)
     const iso_periodic *f = s->result.found;
     const iso_params *p = &s->scene.params;
     size_t copies = 0, tori = 0;
-    printf("k = %.15g, J = %.15g %.15g %.15g; section n_%d = 0, n_%d increasing\n", p->k, p->J[0], p->J[1], p->J[2],
-           f->axis + 1, f->axis + 1);
-    if (f->level != 0) printf("level of the point, (H/eps) J2^(1/k): %.15g\n", f->level);
-    putchar('\n');
+    iso_params_print(say_to(), p);
+    say("; section n_%d = 0, n_%d increasing\n", f->axis + 1, f->axis + 1);
+    print_level(f->level);
+    say("\n");
     print_rotations(f, how->polish);
-    printf("\n%s orbits of %d returns at most, but the rotations: %zu\n",
-           how->all ? "periodic" : "symmetric periodic", f->longest, f->count);
-    if (f->count > 0)
-        printf(how->polish ? "  no  period  %25s  %34s  %34s  error  closure  stability   symmetry\n"
-                           : "  no  period  %10s  %18s  %24s  error  stability   symmetry  copies  t\n",
-               "l", "x", "trace");
+    say("\n%s orbits of %d returns at most, but the rotations: %zu\n", how->all ? "periodic" : "symmetric periodic",
+        f->longest, f->count);
+    if (f->count > 0) {
+        say_table(2);
+        say("no\tperiod\tl\tx\ttrace\terror\t%s\n",
+            how->polish ? "closure\tstability\tsymmetry" : "stability\tsymmetry\tcopies\tt");
+    }
     for (size_t i = 0; i < f->count; i++) {
         print_orbit(f, how->polish, i);
         copies += (size_t)f->orbit[i].copies;
         tori += f->orbit[i].torus;
     }
-    if (f->count > 0) printf("with their copies by R, S1 S2 and T%s: %zu\n", how->all ? " (and S1)" : "", copies);
+    if (f->count > 0) say_table_end();
+    if (f->count > 0) say("with their copies by R, S1 S2 and T%s: %zu\n", how->all ? " (and S1)" : "", copies);
     if (tori > 0)
-        printf(
-            "k = %g: %zu of them lie on resonant tori, which are full of such orbits: the trace is 2, and they are "
+        say("k = %s: %zu of them lie on resonant tori, which are full of such orbits: the trace is 2, and they are "
             "degenerate\n",
-            p->k, tori);
+            ISO_SHORT(p->k), tori);
 }
 
 static iso_status describe_list(shell *s)
@@ -134,14 +144,17 @@ static void print_branch(const iso_continuations *f, size_t i, const char *name)
     const iso_branch *b = &f->branch[i];
     double low = INFINITY, high = -INFINITY;
     for (size_t j = 0; j < b->points; j++) low = fmin(low, b->point[j].value), high = fmax(high, b->point[j].value);
-    printf("branch %zu: period %d, on the line of %s, %s from %.12g to %.12g, %zu points", i + 1, b->period,
-           iso_symmetry_line_name(b->line), name, low, high, b->points);
-    if (b->parent >= 0) printf(", from branch %d", b->parent + 1);
-    putchar('\n');
+    say("\nbranch %zu: period %d, on the line of %s, %s from %.12g to %.12g, %zu points", i + 1, b->period,
+        iso_symmetry_line_name(b->line), name, low, high, b->points);
+    if (b->parent >= 0) say(", from branch %d", b->parent + 1);
+    say("\n");
+    if (b->events == 0) return;
+    say_table(1);
+    say("event\t%s\tl\tx\ttrace\twhat happens\n", name);
     for (size_t j = 0; j < b->events; j++)
-        printf("  %-17s  %s = %-18.13g  l = %-14.9g  x = %-14.9g  trace %-12.8g  %s\n",
-               iso_branch_kind_name(b->event[j].kind), name, b->event[j].at.value, b->event[j].at.l, b->event[j].at.x,
-               b->event[j].at.trace, b->event[j].words);
+        say("%s\t%.13g\t%.9g\t%.9g\t%.8g\t%s\n", iso_branch_kind_name(b->event[j].kind), b->event[j].at.value,
+            b->event[j].at.l, b->event[j].at.x, b->event[j].at.trace, b->event[j].words);
+    say_table_end();
 }
 
 static void print_branches(const shell *s)
@@ -187,20 +200,23 @@ static void print_chart(const shell *s)
             else
                 none[which] += fabs(iso_record_const_row(grid, i)[0]) >= ISO_LEAST_K;
         }
-    printf("k from %g to %g, %s from %g to %g; share of the grid points\n%20s  T < -2    stable    T > 2\n",
-           o->from[0], o->to[0], iso_chart_name(o->moment), o->from[1], o->to[1], "");
+    say("k from %s to %s, %s from %s to %s; share of the grid points\n", ISO_SHORT(o->from[0]), ISO_SHORT(o->to[0]),
+        iso_chart_name(o->moment), ISO_SHORT(o->from[1]), ISO_SHORT(o->to[1]));
+    say_table(1);
+    say("rotation about\tT < -2\tstable\tT > 2\n");
     for (int which = 0; which < 2; which++) {
         const double all = (double)(count[which][0] + count[which][1] + count[which][2]);
-        printf("  %-8s moment    %6.4f    %6.4f    %6.4f\n", axes[which], (double)count[which][0] / all,
-               (double)count[which][1] / all, (double)count[which][2] / all);
+        say("%s moment\t%.4f\t%.4f\t%.4f\n", axes[which], (double)count[which][0] / all,
+            (double)count[which][1] / all, (double)count[which][2] / all);
     }
-    if (o->level != 0) printf("level of the point, (H/eps) J2^(1/k): %.15g\n", o->level);
+    say_table_end();
+    print_level(o->level);
     for (int which = 0; which < 2; which++)
         if (none[which] > 0)
-            printf("left out: %zu grid points, where there is no rotation about the axis of the %s moment, but an "
-                   "oscillation between two places of rest\n",
-                   none[which], axes[which]);
-    printf("%zu points of the borders T = 2 and T = -2: see -o, --json and --plot\n", iso_record_rows(f->borders));
+            say("left out: %zu grid points, where there is no rotation about the axis of the %s moment, but an "
+                "oscillation between two places of rest\n",
+                none[which], axes[which]);
+    say("%zu points of the borders T = 2 and T = -2: see -o, --json and --plot\n", iso_record_rows(f->borders));
 }
 
 static iso_status describe_chart(shell *s)

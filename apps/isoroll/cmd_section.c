@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "plot/section_picture.h"
+#include "say.h"
 #include "scene_options.h"
 #include "shell.h"
 #include "study/section/section_impl.h"
@@ -177,29 +178,33 @@ static iso_status check_cloud(const shell *s)
                             lost);
 }
 
-/* One line about a cloud. */
+/* One row about a cloud. */
 static void print_cloud(const iso_cloud *c)
 {
     const iso_measure *m = &c->measure;
     const iso_measure_entry *worst = &m->line[m->worst];
     if (*c->why) {
-        printf("%-10s not tried: %s\n", c->what, c->why);
+        say("%s\tnot tried: %s\n", c->what, c->why);
         return;
     }
     if (m->lost > 0) {
-        printf("%-10s not kept: at least %zu of %zu orbits do not return\n", c->what, m->lost, m->count);
+        say("%s\tnot kept: at least %zu of %zu orbits do not return\n", c->what, m->lost, m->count);
         return;
     }
-    printf("%-10s %-9s p = %-8.2g  %s at %.6g is off by %.2g standard errors", c->what, m->kept ? "kept" : "not kept",
-           m->p, worst->name, worst->time, fabs(worst->deviation));
-    if (isfinite(m->resolution)) printf("; an exponent wrong by %.2g %% would be detected", 100 * m->resolution);
-    printf("\n");
+    say("%s\t%s\t%.2g\t%s at %.6g is off by %.2g standard errors", c->what, m->kept ? "kept" : "not kept", m->p,
+        worst->name, worst->time, fabs(worst->deviation));
+    if (isfinite(m->resolution)) say("; an exponent wrong by %.2g %% would be detected", 100 * m->resolution);
+    say("\n");
 }
 
 static void print_clouds(const shell *s)
 {
     const iso_clouds *f = s->result.found;
+    if (f->count == 0) return;
+    say_table(1);
+    say("cloud\tmeasure\tp\tworst\n");
     for (int i = 0; i < f->count; i++) print_cloud(&f->cloud[i]);
+    say_table_end();
 }
 
 static int run(iso_context *ctx, const void *options_given)

@@ -1,6 +1,8 @@
 /* isoroll splitting - how far the separatrix of the middle axis' rotation splits: why only k = 1 and k = -1. */
 #include <math.h>
 
+#include "base/number_impl.h"
+#include "say.h"
 #include "scene_options.h"
 #include "shell.h"
 #include "study/separatrix/separatrix_study_impl.h"
@@ -29,14 +31,19 @@ static double number_of(const iso_separatrix_splitting *s, bool by_level)
 
 static void print_head(const double J[3], const iso_separatrix_splitting *row, bool by_level)
 {
-    printf("J = %.15g %.15g %.15g\n", J[0], J[1], J[2]);
+    say("J = %s %s %s\n", ISO_ROUNDED(J[0], 15), ISO_ROUNDED(J[1], 15), ISO_ROUNDED(J[2], 15));
     if (!row) return;
-    if (by_level) printf("k = %.15g\n", row->k);
-    if (!by_level && row->level != 0) printf("level of the point, (H/eps) J2^(1/k): %.15g\n", row->level);
-    printf("The unstable manifold of the rotation about axis %d meets l = pi/2 on the section n_%d = 0 at x,\n"
-           "with the slope m. The stable one has -m: they are one curve only if m = 0.\n\n",
-           row->middle + 1, row->axis + 1);
-    printf("%16s %11s %19s %24s %7s %7s\n", by_level ? "level" : "k", "multiplier", "x", "m", "error", "digits");
+    if (by_level) say("k = %s\n", ISO_ROUNDED(row->k, 15));
+    if (!by_level && row->level != 0) say("level of the point, (H/eps) J2^(1/k): %s\n", ISO_ROUNDED(row->level, 15));
+    say("The unstable manifold of the rotation about axis %d meets l = pi/2 on the section n_%d = 0 at x, "
+        "with the slope m. The stable one has -m: they are one curve only if m = 0.\n\n",
+        row->middle + 1, row->axis + 1);
+}
+
+/* Digits behind the point of the slope, until its error. */
+static int digits_of(const iso_separatrix_splitting *s)
+{
+    return (int)fmax(1, fmin(16, ceil(log10(fabs(s->m) / s->error))));
 }
 
 static void print_row(const iso_separatrix_splitting *s, bool by_level)
@@ -44,31 +51,31 @@ static void print_row(const iso_separatrix_splitting *s, bool by_level)
     const double at = number_of(s, by_level);
     if (s->status == ISO_STOPPED) return;
     if (s->status != ISO_OK) {
-        printf("%16.15g %s\n", at, s->words);
+        say("%.15g\t%s\n", at, s->words);
         return;
     }
-    printf("%16.15g %11.8g %19.16g ", at, s->lambda, s->x);
+    say("%.15g\t%.8g\t%.16g\t", at, s->lambda, s->x);
     if (s->from_zero)
-        printf("%24.16e %7.1e %7d\n", s->m, s->error, s->digits);
+        say("%.*e\t%.1e\t%d\t\n", digits_of(s), s->m, s->error, s->digits);
     else if (fabs(s->m) > s->error)
-        printf("%24.16e %7.1e %7d   undecided: less than 100 errors from 0\n", s->m, s->error, s->digits);
+        say("%.*e\t%.1e\t%d\tundecided: less than 100 errors from 0\n", digits_of(s), s->m, s->error, s->digits);
     else /* 1.05: rounding of the bound to two digits must not make it smaller */
-        printf("%24s %7.1e %7d   not distinguishable from 0: below %.1e\n", "0", s->error, s->digits,
-               1.05 * (fabs(s->m) + s->error));
-    if (s->words[0]) printf("%16s %s\n", "", s->words);
+        say("0\t%.1e\t%d\tnot distinguishable from 0: below %.1e\n", s->error, s->digits,
+            1.05 * (fabs(s->m) + s->error));
+    if (s->words[0]) say("\t%s\n", s->words);
 }
 
 static void print_zero(const iso_separatrix_splitting *s, bool by_level)
 {
-    printf("\nm = 0 at %s = %.16g +- %.1e, where the manifolds touch at x = %.15g.\n", by_level ? "level" : "k",
-           number_of(s, by_level), by_level ? s->level_error : s->k_error, s->x);
+    say("\nm = 0 at %s = %.15g +- %.1e, where the manifolds touch at x = %.15g.\n", by_level ? "level" : "k",
+        number_of(s, by_level), by_level ? s->level_error : s->k_error, s->x);
     if (isfinite(s->next_m))
-        printf("On the section n_%d = 0 they meet next at l = %.12g, x = %.12g,\n"
-               "and there with slopes %.6e above and below their mean: %s.",
-               s->section + 1, s->next_l, s->next_x, fabs(s->next_m),
-               fabs(s->next_m) > 100 * fmax(s->error, fabs(s->m)) ? "they cross there"
-                                                                  : "too small for these digits, undecided");
-    printf("\n");
+        say("On the section n_%d = 0 they meet next at l = %.12g, x = %.12g, "
+            "and there with slopes %.6e above and below their mean: %s.",
+            s->section + 1, s->next_l, s->next_x, fabs(s->next_m),
+            fabs(s->next_m) > 100 * fmax(s->error, fabs(s->m)) ? "they cross there"
+                                                               : "too small for these digits, undecided");
+    say("\n");
 }
 
 static void print_table(const shell *s)
@@ -76,7 +83,10 @@ static void print_table(const shell *s)
     const iso_separatrix_table *t = s->result.found;
     const bool by_level = iso_separatrix_by_level(t);
     print_head(s->scene.params.J, first_good(t), by_level);
+    say_table(1);
+    say("%s\tmultiplier\tx\tm\terror\tdigits\tremark\n", by_level ? "level" : "k");
     for (size_t i = 0; i < t->rows; i++) print_row(&t->row[i], by_level);
+    say_table_end();
     for (size_t i = 0; i < t->zeros; i++) print_zero(&t->zero[i], by_level);
 }
 

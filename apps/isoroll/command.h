@@ -41,8 +41,15 @@ typedef struct command {
 const char *command_doc(const command *c);
 
 /* All commands in the order of --help; NULL after the last. Adding a command is one file and one word in
- * commands.c. */
+ * commands.c, in its group. */
 extern const command *const commands[];
+
+/* How --help arranges them: the first `count` commands, and so on; title NULL after the last. */
+typedef struct command_group {
+    const char *title;
+    int count;
+} command_group;
+extern const command_group command_groups[];
 
 /* NULL: there is none of that name. */
 const command *command_find(const char *name);

@@ -3,15 +3,27 @@
 
 #include "command.h"
 
-#define COMMANDS(X)                                                                                                  \
-    X(run)                                                                                                           \
-    X(convert) X(compare) X(cost) X(check) X(plot) X(view) X(section) X(chaos) X(periodic) X(splitting) X(integrals) \
-        X(sweep) X(explain) X(analogue) X(frequencies) X(list) X(manual)
+/* The groups, and the commands of each, in the order of --help. */
+#define START(X) X(run) X(compare) X(convert) X(check) X(plot) X(view) X(explain)
+#define STUDY(X) X(section) X(chaos) X(frequencies) X(periodic) X(splitting) X(integrals) X(analogue) X(cost)
+#define MANY(X) X(sweep)
+#define REFERENCE(X) X(list) X(manual)
+#define COMMANDS(X) START(X) STUDY(X) MANY(X) REFERENCE(X)
+
 #define DECLARE(name) extern const command command_##name;
 #define ADDRESS(name) &command_##name,
+#define ONE(name) +1
 
 COMMANDS(DECLARE)
 const command *const commands[] = {COMMANDS(ADDRESS) NULL};
+
+const command_group command_groups[] = {
+    {"start: one orbit, in both models", 0 START(ONE)},
+    {"study: what an orbit, a ball or a method is like", 0 STUDY(ONE)},
+    {"many: orbits or balls by the thousand", 0 MANY(ONE)},
+    {"reference", 0 REFERENCE(ONE)},
+    {NULL, 0},
+};
 
 const char *const about_isoroll =
     "isoroll simulates the rubber Chaplygin ball that rolls on a sphere, and its twin, a point on a sphere in a "

@@ -1,7 +1,10 @@
 /* cost_table.c - `isoroll cost` on a terminal: a table of all that was measured, and the answer in words. */
 #include <math.h>
 
+#include "base/number_impl.h"
 #include "cost_report.h"
+#include "say.h"
+#include "study/study_impl.h"
 
 /* --- words ------------------------------------------------------------------------------------------------------ */
 
@@ -9,8 +12,8 @@ const char *cost_options_of(const iso_cost_cell *cell, char words[COST_OPTIONS])
 {
     const char *backend = iso_backend_name((int)cell->backend);
     if (cell->method)
-        snprintf(words, COST_OPTIONS, "--backend %s --method %s --tol %g", backend, cell->method->name,
-                 cell->tolerance);
+        snprintf(words, COST_OPTIONS, "--backend %s --method %s --tol %s", backend, cell->method->name,
+                 ISO_SHORT(cell->tolerance));
     else
         snprintf(words, COST_OPTIONS, "--backend %s", backend);
     return words;
@@ -40,72 +43,75 @@ static const char *method_name(const iso_method *method)
 
 static void print_head(const iso_scene *scene, const iso_cost *c)
 {
-    const iso_params *p = &scene->params;
-    printf("k = %.10g (%s), J = %.10g %.10g %.10g; from 0 to %s = %.10g, about %.3g turns\n\n", p->k,
-           iso_surface_name((int)p->body.surface), p->J[0], p->J[1], p->J[2],
-           scene->start.model == ISO_BALL ? "t" : "s", c->end, c->turns);
+    iso_params_print(say_to(), &scene->params);
+    say(" (%s); from 0 to %s = %.10g, about %.3g turns\n\n", iso_surface_name((int)scene->params.body.surface),
+        scene->start.model == ISO_BALL ? "t" : "s", c->end, c->turns);
     if (iso_effects_watch_contact(&scene->effects))
-        printf("the motion is followed to the end, also where contact is lost\n\n");
-    printf("error: the largest relative error of (omega, n), against a reference\nreference: %s\n", c->reference);
+        say("the motion is followed to the end, also where contact is lost\n\n");
+    say("error: the largest relative error of (omega, n), against a reference\nreference: %s\n", c->reference);
     if (isfinite(c->uncertainty))
-        printf("  uncertain by %.1e: its distance from %s\n\n", c->uncertainty, c->second);
+        say("  uncertain by %.1e: its distance from %s\n\n", c->uncertainty, c->second);
     else
-        printf("  of unknown uncertainty: there is no second reference to compare it with\n\n");
+        say("  of unknown uncertainty: there is no second reference to compare it with\n\n");
 }
 
-static void print_number(double x)
+static void say_number(double x)
 {
     if (isnan(x))
-        printf(" %8s", "-");
+        say("\t-");
     else
-        printf(" %8.1e", x);
+        say("\t%.1e", x);
 }
 
 /* Which cell it is: backend, method, tolerance. */
-static void print_name(const iso_cost_cell *c)
+static void say_name(const iso_cost_cell *c, const char *between)
 {
-    char tolerance[16] = "-";
-    if (c->method) snprintf(tolerance, sizeof tolerance, "%g", c->tolerance);
-    printf(" %-5s  %-22s %7s ", iso_backend_name((int)c->backend), method_name(c->method), tolerance);
+    say("%s%s%s", iso_backend_name((int)c->backend), between, method_name(c->method));
+    say("%s%s", between, c->method ? ISO_SHORT(c->tolerance) : "-");
 }
 
 static void print_cell(const iso_cost_cell *c)
 {
     char median[COST_SECONDS], setup[COST_SECONDS];
-    printf("%s", c->pareto ? "*" : " ");
-    print_name(c);
-    char error[16] = "-";
-    if (!isnan(c->error)) snprintf(error, sizeof error, "%.1e", c->error);
-    printf("%s%7s", c->below ? " ~" : "  ", error);
-    print_number(c->clock_error);
-    print_number(c->energy_drift);
-    printf(" %9s %5.0f %% %9ld %9ld %9s\n", cost_seconds(c->median, median),
-           100 * (c->slowest - c->fastest) / c->median, c->statistics.steps, c->statistics.rhs,
-           cost_seconds(c->setup, setup));
+    say_name(c, "\t");
+    if (isnan(c->error))
+        say("\t-");
+    else
+        say("\t%s%s%.1e", c->pareto ? "*" : "", c->below ? "~" : "", c->error);
+    say_number(c->clock_error);
+    say_number(c->energy_drift);
+    say("\t%s\t%.0f %%\t%ld\t%ld\t%s\n", cost_seconds(c->median, median), 100 * (c->slowest - c->fastest) / c->median,
+        c->statistics.steps, c->statistics.rhs, cost_seconds(c->setup, setup));
 }
 
 static void print_cells(const iso_cost *cost, const iso_cost_series *const *line)
 {
-    printf("  %-5s  %-22s %7s %9s %8s %8s %9s %7s %9s %9s %9s\n", "", "method", "tol", "error", "clocks", "energy",
-           "time", "spread", "steps", "rhs", "set-up");
+    say("\n");
+    say_table(3);
+    say("backend\tmethod\ttol\terror\tclocks\tenergy\ttime\tspread\tsteps\trhs\tset-up\n");
     for (int l = 0; l < cost->lines; l++)
         for (int i = line[l]->first; i < line[l]->first + line[l]->count; i++)
             if (iso_cost_is_measured(&cost->cell[i])) print_cell(&cost->cell[i]);
-    printf(
-        "* nothing else is both more exact and faster   ~ less than the uncertainty of the reference\n"
-        "clocks: error of another clock along the orbit   energy: its drift   rhs: evaluations of the equations\n"
-        "time: processor time, median of repeats   spread: slowest - fastest   set-up: time before the first step\n");
+    say_table_end();
+    say("  *  nothing else is both more exact and faster\n"
+        "  ~  less than the uncertainty of the reference\n"
+        "  clocks  error of another clock along the orbit\n"
+        "  energy  its drift\n"
+        "  time    processor time, median of repeats\n"
+        "  spread  slowest - fastest\n"
+        "  rhs     evaluations of the equations\n"
+        "  set-up  time before the first step\n");
 }
 
 static void print_failed(const iso_cost *cost)
 {
-    if (iso_cost_count(cost, iso_cost_has_failed) > 0) printf("\nfailed\n");
+    if (iso_cost_count(cost, iso_cost_has_failed) > 0) say("\nfailed\n");
     for (int i = 0; i < cost->cells; i++) {
         const iso_cost_cell *c = &cost->cell[i];
         if (!iso_cost_has_failed(c)) continue;
-        printf(" ");
-        print_name(c);
-        printf(" %s\n", c->why);
+        say("  ");
+        say_name(c, " ");
+        say("  %s\n", c->why);
     }
 }
 
@@ -118,50 +124,52 @@ static void print_left_out(const iso_cost *cost)
         const iso_cost_cell *c = &cost->cell[line->first], *end = c + line->count;
         while (c < end && c->status != ISO_STOPPED) c++;
         if (c == end) continue;
-        if (lines++ == 0) printf("\nnot run, because it would take too long\n");
-        printf(" ");
-        print_name(c);
-        printf(c->method ? " and tighter\n" : "\n");
+        if (lines++ == 0) say("\nnot run, because it would take too long\n");
+        say("  ");
+        say_name(c, " ");
+        say(c->method ? " and tighter\n" : "\n");
     }
 }
 
 /* --- what the methods give for more time ------------------------------------------------------------------------ */
 
-static void print_time_to(const iso_cost *cost, const iso_cost_series *line, double want)
+static void say_time_to(const iso_cost *cost, const iso_cost_series *line, double want)
 {
     char words[COST_SECONDS];
     const iso_cost_cell *c = iso_cost_choose_steps(cost, line, want);
-    printf(" %9s", cost_seconds(c ? c->total : (double)NAN, words));
+    say("\t%s", cost_seconds(c ? c->total : (double)NAN, words));
+}
+
+static void print_line(const iso_cost *cost, const iso_cost_series *m)
+{
+    say("%s\t%s", iso_backend_name((int)m->backend), m->method->name);
+    say_time_to(cost, m, 1e-6);
+    say_time_to(cost, m, 1e-9);
+    say_time_to(cost, m, 1e-12);
+    if (isnan(m->digit))
+        say("\t-");
+    else
+        say("\t%.2f times", m->digit);
+    if (isnan(m->order) || m->method->order == 0)
+        say("\t-");
+    else
+        say("\t%.1f of %d", m->order, m->method->order);
+    say("\t%.1e", m->least);
+    if (isnan(m->stops_at))
+        say("\t-\n");
+    else
+        say("\t%s\n", ISO_SHORT(m->stops_at));
 }
 
 static void print_lines(const iso_cost *cost, const iso_cost_series *const *line)
 {
-    printf(
-        "\nmethods, sorted by their time to an error of 1e-9: time to reach an error, factor in time for one more\n"
-        "digit, order (measured, and of the method), least error\n"
-        "  %-5s  %-22s %9s %9s %9s  %10s  %8s  %s\n",
-        "", "", "to 1e-6", "to 1e-9", "to 1e-12", "a digit", "order", "least error");
-    for (int l = 0; l < cost->lines; l++) {
-        const iso_cost_series *m = line[l];
-        if (!m->method || isnan(m->least)) continue;
-        printf("  %-5s  %-22s", iso_backend_name((int)m->backend), m->method->name);
-        print_time_to(cost, m, 1e-6);
-        print_time_to(cost, m, 1e-9);
-        print_time_to(cost, m, 1e-12);
-        if (isnan(m->digit))
-            printf("  %10s", "-");
-        else
-            printf("  %4.2f times", m->digit);
-        if (isnan(m->order) || m->method->order == 0)
-            printf("  %8s", "-");
-        else
-            printf("  %4.1f of %2d", m->order, m->method->order);
-        printf("  %.1e", m->least);
-        if (isnan(m->stops_at))
-            printf("\n");
-        else
-            printf(", no gain below --tol %g\n", m->stops_at);
-    }
+    say("\nmethods, sorted by their time to an error of 1e-9: time to reach an error, factor in time for one more "
+        "digit, order (measured, and of the method), least error, tolerance below which nothing is gained\n");
+    say_table(2);
+    say("backend\tmethod\tto 1e-6\tto 1e-9\tto 1e-12\ta digit\torder\tleast error\tno gain below\n");
+    for (int l = 0; l < cost->lines; l++)
+        if (line[l]->method && !isnan(line[l]->least)) print_line(cost, line[l]);
+    say_table_end();
 }
 
 /* --- the answer ------------------------------------------------------------------------------------------------- */
@@ -174,8 +182,8 @@ static const iso_cost_cell *choose_steps(const iso_cost *cost, double want)
 static void print_choice(const iso_cost_cell *c, int digits)
 {
     char words[COST_OPTIONS], seconds[COST_SECONDS];
-    printf("  for 1e-%-2d %s: %s (error %.1e%s)\n", digits, cost_options_of(c, words),
-           cost_seconds(c->total, seconds), c->error, c->below ? ", or less: the reference is no better" : "");
+    say("  for 1e-%-2d  %s: %s (error %.1e%s)\n", digits, cost_options_of(c, words), cost_seconds(c->total, seconds),
+        c->error, c->below ? ", or less: the reference is no better" : "");
 }
 
 typedef const iso_cost_cell *chooser(const iso_cost *cost, double want);
@@ -201,13 +209,13 @@ static int print_choices(const iso_cost *cost, chooser *choose, int digits)
 /* Where the closed solution is the choice, also the best of the methods that take steps. */
 static void print_answer(const iso_cost *cost)
 {
-    printf("\nwhat to take for an error (times with set-up, on this machine; on others the ratios are similar)\n");
+    say("what to take for an error (times with set-up, on this machine; on others the ratios are similar)\n");
     const int beyond = print_choices(cost, iso_cost_choose, 1);
-    if (beyond <= MOST_DIGITS) printf("  nothing measured reaches 1e-%d\n", beyond);
+    if (beyond <= MOST_DIGITS) say("  nothing measured reaches 1e-%d\n", beyond);
     for (int digits = 1; digits < beyond; digits++) {
         if (choose_digits(cost, iso_cost_choose, digits)->method) continue;
         if (!choose_digits(cost, choose_steps, digits)) return;
-        printf("without the closed solution\n");
+        say("without the closed solution\n");
         print_choices(cost, choose_steps, digits);
         return;
     }
@@ -217,36 +225,38 @@ static void print_growth(const iso_cost_growing *g)
 {
     char words[COST_OPTIONS], seconds[COST_SECONDS];
     const iso_cost_growth *x = &g->growth;
-    printf("\ngrowth with the length of the orbit: %s\n", cost_options_of(g->cell, words));
-    if (*g->why || *x->why) printf("  ended early: %s\n", *g->why ? g->why : x->why);
+    say("\ngrowth with the length of the orbit: %s\n", cost_options_of(g->cell, words));
+    if (*g->why || *x->why) say("  ended early: %s\n", *g->why ? g->why : x->why);
     if (x->count == 0) return;
-    printf("  errors against %s\n", x->reference);
-    printf("  %14s %9s %12s %10s\n", "to", "error", "uncertainty", "time");
+    say("  errors against %s\n", x->reference);
+    say_table(1);
+    say("to\terror\tuncertainty\ttime\n");
     for (int i = 0; i < x->count; i++) {
-        printf("  %14.8g %9.1e    ", x->at[i].end, x->at[i].error);
-        print_number(x->at[i].uncertainty);
-        printf(" %10s\n", cost_seconds(x->at[i].seconds, seconds));
+        say("%.8g\t%.1e", x->at[i].end, x->at[i].error);
+        say_number(x->at[i].uncertainty);
+        say("\t%s\n", cost_seconds(x->at[i].seconds, seconds));
     }
-    printf("  ");
+    say_table_end();
+    say("  ");
     if (x->chaotic)
-        printf("the error grows e-fold in %.3g (Lyapunov time): the orbit is chaotic", x->lyapunov_time);
+        say("the error grows e-fold in %.3g (Lyapunov time): the orbit is chaotic", x->lyapunov_time);
     else if (isnan(x->power))
-        printf("too few errors are above the uncertainty to tell how the error grows");
+        say("too few errors are above the uncertainty to tell how the error grows");
     else
-        printf("the error grows like length^%.2f", x->power);
+        say("the error grows like length^%.2f", x->power);
     if (isnan(x->time_power))
-        printf("\n");
+        say("\n");
     else
-        printf(", the time like length^%.2f\n", x->time_power);
+        say(", the time like length^%.2f\n", x->time_power);
 }
 
 void cost_print(const iso_scene *scene, const iso_cost_found *f)
 {
     print_head(scene, f->cost);
+    print_answer(f->cost);
     print_cells(f->cost, f->line);
     if (f->cost->complete) print_left_out(f->cost);
     print_failed(f->cost);
     if (iso_cost_choose_steps(f->cost, NULL, INFINITY)) print_lines(f->cost, f->line);
-    print_answer(f->cost);
     for (int i = 0; i < f->growths; i++) print_growth(&f->growth[i]);
 }

@@ -108,7 +108,9 @@ void manual_program(FILE *to)
         put_lines(command_doc(commands[i]), "", to);
     }
     put_exits(NULL, to);
-    fputs(".SH ENVIRONMENT\n.TP\n.B NO_COLOR\nIf it is not empty, the progress bar has no colour.\n", to);
+    fputs(".SH ENVIRONMENT\n.TP\n.B NO_COLOR\nIf it is not empty, the progress bar has no colour.\n"
+          ".TP\n.B COLUMNS\nHow wide text for people is made where standard output is no terminal.\n",
+          to);
     put_block(".SH EXAMPLE\n", command_find("run")->example, to);
     fputs(".SH SEE ALSO\n", to);
     for (int i = 0; commands[i]; i++)

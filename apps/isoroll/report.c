@@ -6,8 +6,10 @@
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "progress.h"
+#include "say.h"
 
 static volatile sig_atomic_t stop_asked, stop_signal;
 
@@ -81,6 +83,14 @@ const char *complaint(void)
     return kept;
 }
 
+/* Folded on a terminal alone: elsewhere a message is one line. */
+static void print_message(void)
+{
+    char line[sizeof kept + 16];
+    const int length = snprintf(line, sizeof line, "isoroll: %s", kept);
+    fold_line(stderr, line, (size_t)length, isatty(STDERR_FILENO) ? terminal_width(stderr) : ANY_WIDTH);
+}
+
 /* File names may hold control characters: they become question marks. */
 void complain(const char *format, ...)
 {
@@ -92,7 +102,7 @@ void complain(const char *format, ...)
         if ((unsigned char)*c < ' ' || *c == 0x7f) *c = '?';
     if (silently) return;
     progress_pause();
-    fprintf(stderr, "isoroll: %s\n", kept);
+    print_message();
     progress_resume();
 }
 

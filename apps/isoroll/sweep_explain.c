@@ -8,6 +8,7 @@
 #include "base/seconds_impl.h"
 #include "options.h"
 #include "progress.h"
+#include "say.h"
 #include "sweep/sweep_impl.h"
 #include "sweep_team.h"
 
@@ -52,15 +53,15 @@ static iso_status measure(iso_context *ctx, const iso_sweep *sweep, iso_sweep_ro
 static void print_time(double seconds)
 {
     if (seconds < 1)
-        printf("%.*f ms", seconds < 1e-3 ? 3 : seconds < 0.1 ? 1 : 0, 1e3 * seconds);
+        say("%.*f ms", seconds < 1e-3 ? 3 : seconds < 0.1 ? 1 : 0, 1e3 * seconds);
     else if (seconds < 120)
-        printf("%.*f s", seconds < 10, seconds);
+        say("%.*f s", seconds < 10, seconds);
     else if (seconds < 7200)
-        printf("%.0f minutes", seconds / 60);
+        say("%.0f minutes", seconds / 60);
     else if (seconds < 172800)
-        printf("%.3g hours", seconds / 3600);
+        say("%.3g hours", seconds / 3600);
     else
-        printf("%.3g days", seconds / 86400);
+        say("%.3g days", seconds / 86400);
 }
 
 /* Gives by how much a point with all its starts takes longer. */
@@ -96,16 +97,16 @@ static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan,
     c.mean *= scale;
     c.most *= scale;
     if (status == ISO_OK) {
-        printf("  %-12s %s\n  %-12s ", quantity->name, quantity->doc, "");
+        say("  %-12s %s\n  %-12s ", quantity->name, quantity->doc, "");
         print_time(c.mean);
-        printf(" a point, up to ");
+        say(" a point, up to ");
         print_time(c.most);
         const iso_sweep_head *head = iso_sweep_head_of(sweep);
         const bool alone = c.places < 2 && head->count > 1;
-        printf(" (%zu points, %zu of them failed%s); columns", c.points, c.failed,
-               alone ? "; one place alone: others may take several times as long" : "");
-        for (int i = plan->family.columns; i < head->columns; i++) printf(" %s", head->column[i].name);
-        printf("\n");
+        say(" (%zu points, %zu of them failed%s); columns", c.points, c.failed,
+            alone ? "; one place alone: others may take several times as long" : "");
+        for (int i = plan->family.columns; i < head->columns; i++) say(" %s", head->column[i].name);
+        say("\n");
         *mean = c.mean;
     }
     iso_sweep_rows_free(&rows);
@@ -123,10 +124,10 @@ static iso_status explain(iso_context *ctx, const iso_sweep_file *file)
     iso_status status = iso_sweep_create(ctx, plan, &sweep);
     if (status != ISO_OK) return status;
     const iso_sweep_head head = *iso_sweep_head_of(sweep);
-    printf("sweep\n  %zu points in %zu chunks of %zu; %d columns; vectors %s\n", head.count, iso_sweep_chunks(&head),
-           head.chunk, head.columns, head.vectors);
-    for (int i = 0; iso_sweep_axis_words(file, i, words); i++) printf("  %s\n", words);
-    printf("\nmeasured\n");
+    say("sweep\n  %zu points in %zu chunks of %zu; %d columns; vectors %s\n", head.count, iso_sweep_chunks(&head),
+        head.chunk, head.columns, head.vectors);
+    for (int i = 0; iso_sweep_axis_words(file, i, words); i++) say("  %s\n", words);
+    say("\nmeasured\n");
     for (int i = 0; i < plan->requests && status == ISO_OK; i++) {
         double mean = 0;
         status = explain_quantity(ctx, plan, i, head.chunk, &mean);
@@ -134,13 +135,13 @@ static iso_status explain(iso_context *ctx, const iso_sweep_file *file)
     }
     iso_sweep_free(sweep);
     if (status != ISO_OK) return status;
-    printf("\ntime\n  about ");
+    say("\ntime\n  about ");
     print_time(total * (double)head.count);
-    printf(" of processor time; here, with %zu threads, about ", processors);
+    say(" of processor time; here, with %zu threads, about ", processors);
     print_time(total * (double)head.count / (double)processors);
-    printf("\n  a chunk takes about ");
+    say("\n  a chunk takes about ");
     print_time(total * (double)iso_sweep_chunk_points(&head, 0));
-    printf("\n  a file of about %.3g MB\n", ((double)head.columns + 0.5) * 8e-6 * (double)head.count);
+    say("\n  a file of about %.3g MB\n", ((double)head.columns + 0.5) * 8e-6 * (double)head.count);
     return ISO_OK;
 }
 

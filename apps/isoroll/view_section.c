@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number_impl.h"
 #include "map/section.h"
 #include "map/state.h"
 #include "view.h"
@@ -65,8 +66,8 @@ static iso_status check_rows(const builder *b)
         const double *row = iso_record_const_row(b->in, i), orbit = row[b->orbit];
         if (!(orbit >= 0 && orbit <= MOST_ORBIT && orbit == floor(orbit)))
             return iso_context_fail(b->ctx, ISO_BAD_INPUT, "",
-                                    "row %zu: expected a whole number of 0 or more for orbit, found %.17g", i + 1,
-                                    orbit);
+                                    "row %zu: expected a whole number of 0 or more for orbit, found %s", i + 1,
+                                    ISO_SHORT(orbit));
         for (size_t c = 0; c < iso_record_columns(b->in); c++)
             if (!isfinite(row[c]))
                 return iso_context_fail(b->ctx, ISO_BAD_INPUT, "", "row %zu: expected a finite number for %s", i + 1,

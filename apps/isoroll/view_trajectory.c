@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number_impl.h"
 #include "map/state.h"
 #include "report.h"
 #include "view.h"
@@ -46,9 +47,9 @@ static iso_status pick(iso_context *ctx, const iso_record *in, int time, size_t 
         if (row[time] == last) continue;
         if (row[time] < last)
             return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                    "row %zu: its %s = %.17g is out of order: a page plays "
+                                    "row %zu: its %s = %s is out of order: a page plays "
                                     "the rows in the order of their times",
-                                    from + 1, iso_record_name(in, (size_t)time), row[time]);
+                                    from + 1, iso_record_name(in, (size_t)time), ISO_SHORT(row[time]));
         last = row[time];
         if (i % every != 0 && i != rows - 1) continue;
         ISO_TRY(iso_record_add(ctx, out, 1, row));

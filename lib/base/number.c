@@ -2,6 +2,7 @@
 #define _GNU_SOURCE /* strtod_l, strfromd */
 #include "base/number_impl.h"
 
+#include <float.h>
 #include <limits.h>
 #include <locale.h>
 #include <math.h>
@@ -55,4 +56,23 @@ int iso_number_print(char text[ISO_NUMBER_SIZE], double value)
 {
     ISO_DEFAULT_ARITHMETIC;
     return iso_number_print_as(text, value, 17);
+}
+
+/* A decimal of 15 digits or fewer is what %.15g gives for the double that it reads as, unless that is subnormal. */
+char *iso_number_short(char text[ISO_NUMBER_SIZE], double value)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    double read = 0;
+    int digits = fabs(value) >= DBL_MIN ? 15 : 1;
+    size_t length = (size_t)iso_number_print_as(text, value, digits);
+    while (digits < 17 && iso_number_read(text, length, &read) && read != value)
+        length = (size_t)iso_number_print_as(text, value, ++digits);
+    return text;
+}
+
+char *iso_number_rounded(char text[ISO_NUMBER_SIZE], double value, int digits)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_number_print_as(text, value, digits);
+    return text;
 }

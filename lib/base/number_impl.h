@@ -20,4 +20,13 @@ int iso_number_print(char text[ISO_NUMBER_SIZE], double value);
  * caller has set it. */
 int iso_number_print_as(char text[ISO_NUMBER_SIZE], double value, int digits);
 
+/* For people: the shortest decimal that reads back as the same double, 0.1 and not 0.10000000000000001. Gives text.
+ * ISO_SHORT makes the room for it, until the end of the block. */
+char *iso_number_short(char text[ISO_NUMBER_SIZE], double value);
+#define ISO_SHORT(value) iso_number_short((char[ISO_NUMBER_SIZE]){""}, value)
+
+/* What was computed, to the digits that it is worth. */
+char *iso_number_rounded(char text[ISO_NUMBER_SIZE], double value, int digits);
+#define ISO_ROUNDED(value, digits) iso_number_rounded((char[ISO_NUMBER_SIZE]){""}, value, digits)
+
 #endif

@@ -332,7 +332,7 @@ iso_status iso_record_set_numbers(iso_context *ctx, iso_record *r, const char *k
     *text = '\0';
     for (size_t i = 0; i < count; i++) {
         if (i > 0) *end++ = ' ';
-        end += iso_number_print(end, values[i]);
+        end += strlen(iso_number_short(end, values[i]));
     }
     const iso_status status = iso_record_set(ctx, r, key, text);
     free(text);

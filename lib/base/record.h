@@ -68,7 +68,7 @@ ISO_API double iso_record_row_tolerance(const iso_record *record);
 
 /* The value of a `key: value` line, or NULL; setting an existing key replaces its value, NULL takes
  * the line away.
- * Numbers are stored as text in %.17g, vectors with one blank between. */
+ * Numbers are stored as the shortest text that reads back, vectors with one blank between. */
 ISO_API const char *iso_record_get(const iso_record *record, const char *key);
 ISO_API iso_status iso_record_set(iso_context *ctx, iso_record *record, const char *key, const char *value);
 ISO_API iso_status iso_record_set_numbers(iso_context *ctx, iso_record *record, const char *key, size_t count,

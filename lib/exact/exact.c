@@ -10,6 +10,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/finite_impl.h"
+#include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "exact/form_impl.h"
 #include "model/model_impl.h"
@@ -42,7 +43,7 @@ static iso_status check_numbers(iso_context *ctx, const iso_problem *f, const do
     const double q = dot_diag(g, f->p.J, g) / square, fall = f->eps * pow(q, -1 / f->p.k), M2 = dot(point, point);
     const bool on_level = f->energy == 0 ? M2 > 0 : fabs(M2 / 2 - fall - f->energy) <= 1e-6 * (M2 / 2 + fall);
     if (isfinite(fall) && on_level) return ISO_OK;
-    return ISO_FAIL_ARGUMENT(ctx, iso_level_name(), "this start is not on the level H = %g", f->energy);
+    return ISO_FAIL_ARGUMENT(ctx, iso_level_name(), "this start is not on the level H = %s", ISO_SHORT(f->energy));
 }
 
 static iso_status check(iso_context *ctx, const iso_problem *f, const double point[ISO_STATE])

@@ -3,6 +3,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/number_impl.h"
 #include "foreign/foreign_impl.h"
 #include "io/table_impl.h"
 #include "method/integrator_impl.h"
@@ -98,7 +99,7 @@ iso_status iso_foreign_convert(iso_context *ctx, const iso_record *in, const cha
     iso_status status = iso_foreign_word(ctx, "to", iso_model_kind_name, to, &model);
     if (status == ISO_OK && !iso_tolerance_is_good(row_tolerance))
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "row_tolerance",
-                                  "row_tolerance %g is not in " ISO_TOLERANCE_RANGE, row_tolerance);
+                                  "row_tolerance %s is not in " ISO_TOLERANCE_RANGE, ISO_SHORT(row_tolerance));
     if (status == ISO_OK) status = iso_tolerance_check(ctx, tolerance);
     if (status == ISO_OK) status = iso_record_params(ctx, in, &params);
     if (status == ISO_OK) status = iso_convert_as(ctx, &params, in, (iso_model_kind)model, &o, &summary, out);

@@ -6,6 +6,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/context_impl.h"
+#include "base/number_impl.h"
 #include "foreign/foreign_impl.h"
 #include "orbit/batch.h"
 #include "orbit/orbit_impl.h"
@@ -156,9 +157,9 @@ static iso_status fill_watched(iso_foreign_orbit *o, const double times[], size_
         const int side = times[i] < 0;
         if (r.lost[side] && fabs(times[i]) > fabs(r.lost_at[side]))
             return iso_context_fail(o->ctx, ISO_NUMERICAL, "reactions",
-                                    "contact is lost at %.17g: at %.17g the ball is not on its support; "
+                                    "contact is lost at %s: at %s the ball is not on its support; "
                                     "'reactions: {two_sided: true}' goes on",
-                                    r.lost_at[side], times[i]);
+                                    ISO_SHORT(r.lost_at[side]), ISO_SHORT(times[i]));
     }
     return ISO_OK;
 }
@@ -172,8 +173,8 @@ iso_status iso_foreign_orbit_at(iso_foreign_orbit *o, const double times[], size
     if (!times && count > 0) return no_place(o->ctx, count);
     for (size_t i = 0; i < count; i++)
         if (!isfinite(times[i]))
-            return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "times", "time %zu must be finite, not %g", i,
-                                    times[i]);
+            return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "times", "time %zu must be finite, not %s", i,
+                                    ISO_SHORT(times[i]));
     if (count > 0 && iso_effects_watch_contact(&o->scene.effects)) return fill_watched(o, times, count, table, &n);
     if (!iso_times_in_order(times, count)) return fill_sorted(o, times, count, table);
     for (size_t i = 0; status == ISO_OK && i < count; i++)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/number_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"
 #include "orbit/orbit_impl.h"
@@ -95,8 +96,8 @@ static iso_status check_time(iso_draft *d)
     const yaml_node_t *step;
     if (!find_key(d, "time", "step", NULL, &step) || fabs(d->scene.end) / d->scene.step <= ISO_MOST_ROWS)
         return ISO_OK;
-    return ISO_FAIL_AT(d, step, "a step of %g to the end %g is more than %g rows: give a larger 'step'",
-                       d->scene.step, d->scene.end, ISO_MOST_ROWS);
+    return ISO_FAIL_AT(d, step, "a step of %s to the end %s is more than %s rows: give a larger 'step'",
+                       ISO_SHORT(d->scene.step), ISO_SHORT(d->scene.end), ISO_SHORT(ISO_MOST_ROWS));
 }
 
 /* ---- Physics: the checks are the library's, the places are the file's ---- */

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/number_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"
 #include "method/methods_impl.h"
@@ -58,14 +59,16 @@ static iso_status read_step(iso_draft *d, const entry *e, const yaml_node_t *val
 {
     const iso_status status = read_number(d, e, value);
     if (status != ISO_OK || d->scene.step > 0) return status;
-    return ISO_FAIL_AT(d, value, "'step' is %g, it must be positive (backwards: negative 'end')", d->scene.step);
+    return ISO_FAIL_AT(d, value, "'step' is %s, it must be positive (backwards: negative 'end')",
+                       ISO_SHORT(d->scene.step));
 }
 
 static iso_status read_tolerance(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     const iso_status status = read_number(d, e, value);
     if (status != ISO_OK || iso_tolerance_is_good(d->scene.tolerance)) return status;
-    return ISO_FAIL_AT(d, value, "'tolerance' is %g, it must be in " ISO_TOLERANCE_RANGE, d->scene.tolerance);
+    return ISO_FAIL_AT(d, value, "'tolerance' is %s, it must be in " ISO_TOLERANCE_RANGE,
+                       ISO_SHORT(d->scene.tolerance));
 }
 
 /* Keeps the full name of the method, whichever of its spellings was used. */
@@ -115,7 +118,7 @@ static iso_status read_D(iso_draft *d, const entry *e, const yaml_node_t *value)
     const double before = d->D;
     const iso_status status = read_number(d, e, value);
     if (status != ISO_OK || isnan(before) || before == d->D) return status;
-    return ISO_FAIL_AT(d, value, "'D' is %g here and %g elsewhere", d->D, before);
+    return ISO_FAIL_AT(d, value, "'D' is %s here and %s elsewhere", ISO_SHORT(d->D), ISO_SHORT(before));
 }
 
 static iso_status read_effect_flag(iso_draft *d, const entry *e, const yaml_node_t *value, double *number)

@@ -15,6 +15,7 @@
 #include <math.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
 
@@ -155,7 +156,8 @@ iso_status iso_integrator_event(iso_integrator *it, const iso_event *event, doub
     const int direction = to > 0 ? 1 : -1;
     *found = false;
     if (!isfinite(from) || !isfinite(to) || direction * from < 0 || direction * (to - from) < 0)
-        return ISO_FAIL_ARGUMENT(it->ctx, "", "events are sought away from 0: %g to %g is not", from, to);
+        return ISO_FAIL_ARGUMENT(it->ctx, "", "events are sought away from 0: %s to %s is not", ISO_SHORT(from),
+                                 ISO_SHORT(to));
     search s = {.it = it, .event = event, .status = iso_integrator_reach(it, direction, from)};
     for (double dt; s.status == ISO_OK; s.status = iso_integrator_advance(it)) {
         const double skip = direction * fmax(1e-9 * fabs(it->h), 4 * DBL_EPSILON * fabs(from)); /* a zero at `from` */

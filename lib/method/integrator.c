@@ -6,6 +6,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/context_impl.h"
+#include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
@@ -14,7 +15,7 @@
 iso_status iso_tolerance_check(iso_context *ctx, double tolerance)
 {
     if (iso_tolerance_is_good(tolerance)) return ISO_OK;
-    return ISO_FAIL_ARGUMENT(ctx, "tolerance", "tolerance %g is not in " ISO_TOLERANCE_RANGE, tolerance);
+    return ISO_FAIL_ARGUMENT(ctx, "tolerance", "tolerance %s is not in " ISO_TOLERANCE_RANGE, ISO_SHORT(tolerance));
 }
 
 /* Whether the method serves the model, and takes the fixed steps that the options ask for. */
@@ -40,7 +41,7 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
     iso_method_options o = *options;
     if (!method) return ISO_FAIL_ARGUMENT(ctx, "method", "no such method");
     if (!(o.fixed_step >= 0 && isfinite(o.fixed_step)))
-        return ISO_FAIL_ARGUMENT(ctx, "", "a fixed step must be finite and >= 0, not %g", o.fixed_step);
+        return ISO_FAIL_ARGUMENT(ctx, "", "a fixed step must be finite and >= 0, not %s", ISO_SHORT(o.fixed_step));
     if (check_method(ctx, method, model, &o) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (o.fixed_step > 0 && o.tolerance == 0) o.tolerance = 1e-14; /* of dense output */
     if (iso_tolerance_check(ctx, o.tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;

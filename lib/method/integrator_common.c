@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/finite_impl.h"
+#include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
 #include "model/model_impl.h"
@@ -26,8 +27,8 @@ iso_status iso_integrator_stopped(iso_integrator *it, const char *reason)
     const double unit = it->options.time_unit != 0 ? it->options.time_unit : 1;
     double t, y[ISO_MAX_STATE];
     iso_integrator_last(it, &t, y);
-    return ISO_FAIL_NUMERICAL(it->ctx, "%s stopped after %ld steps: %s; last good %s = %.17g", it->method->name,
-                              it->statistics.steps, reason, iso_clock_name(it->model.clock), t * unit);
+    return ISO_FAIL_NUMERICAL(it->ctx, "%s stopped after %ld steps: %s; last good %s = %s", it->method->name,
+                              it->statistics.steps, reason, iso_clock_name(it->model.clock), ISO_SHORT(t * unit));
 }
 
 double iso_integrator_rate(iso_integrator *it, const double y[])

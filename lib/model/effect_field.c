@@ -10,6 +10,7 @@
  */
 #include <math.h>
 
+#include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
 #include "model/formula_impl.h"
@@ -95,10 +96,9 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < i; j++) {
             if (!(fabs(C[3 * i + j] - C[3 * j + i]) <= 1e-12 * most))
-                return ISO_FAIL_INPUT(
-                    ctx, "quadratic",
-                    "the matrix of a quadratic form is symmetric: C%d%d = %.17g is not C%d%d = %.17g", i + 1, j + 1,
-                    C[3 * i + j], j + 1, i + 1, C[3 * j + i]);
+                return ISO_FAIL_INPUT(ctx, "quadratic",
+                                      "the matrix of a quadratic form is symmetric: C%d%d = %s is not C%d%d = %s",
+                                      i + 1, j + 1, ISO_SHORT(C[3 * i + j]), j + 1, i + 1, ISO_SHORT(C[3 * j + i]));
             C[3 * j + i] = C[3 * i + j];
             varies = fmax(varies, fmax(fabs(C[3 * i + j]), fabs(C[4 * i] - C[4 * j])));
         }

@@ -8,6 +8,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/names_impl.h"
+#include "base/number_impl.h"
 #include "base/vec3_impl.h"
 
 const iso_dimension iso_dimension_h = {1, 0, 2}, iso_dimension_eps = {4, 0, 2};
@@ -36,13 +37,13 @@ iso_status iso_params_reduced(iso_context *ctx, double k, const double J[3], iso
     ISO_DEFAULT_ARITHMETIC;
     if (!isfinite(k) || !isnormal(k))
         return ISO_FAIL_INPUT(ctx, "k",
-                              "k = %.17g: the geometry number must be finite and not 0 (at k = 0 the normal does not "
+                              "k = %s: the geometry number must be finite and not 0 (at k = 0 the normal does not "
                               "move and the isomorphism does not exist)",
-                              k);
+                              ISO_SHORT(k));
     for (int i = 0; i < 3; i++)
         if (!is_positive(J[i]))
-            return ISO_FAIL_INPUT(ctx, "J", "J%d = %.17g: moments of inertia must be positive and finite", i + 1,
-                                  J[i]);
+            return ISO_FAIL_INPUT(ctx, "J", "J%d = %s: moments of inertia must be positive and finite", i + 1,
+                                  ISO_SHORT(J[i]));
     memset(p, 0, sizeof *p);
     p->body.surface = ISO_REDUCED;
     fill(k, J, p);
@@ -54,8 +55,8 @@ iso_status iso_params_set_D(iso_context *ctx, double D, iso_params *p)
     ISO_DEFAULT_ARITHMETIC;
     if (!(is_positive(D) && D < min3(p->J)))
         return ISO_FAIL_INPUT(
-            ctx, "D",
-            "D = %.17g: m b^2 must be positive and less than each J (J - D are the moments about the centre)", D);
+            ctx, "D", "D = %s: m b^2 must be positive and less than each J (J - D are the moments about the centre)",
+            ISO_SHORT(D));
     p->D = D;
     return ISO_OK;
 }
@@ -77,17 +78,18 @@ static iso_status check_radii(iso_context *ctx, const iso_body *b)
     if (b->surface == ISO_PLANE) return ISO_OK;
     if (!is_positive(A))
         return ISO_FAIL_INPUT(ctx, "surface_radius",
-                              "surface radius %.17g: must be positive and finite (a plane is 'kind: plane')", A);
+                              "surface radius %s: must be positive and finite (a plane is 'kind: plane')",
+                              ISO_SHORT(A));
     if (b->surface == ISO_INSIDE && !(B < A))
         return ISO_FAIL_INPUT(ctx, "surface_radius",
-                              "a ball of radius %.17g does not roll inside a sphere of radius %.17g: give a larger "
+                              "a ball of radius %s does not roll inside a sphere of radius %s: give a larger "
                               "surface radius, or 'kind: shell' for a hollow ball around a smaller sphere",
-                              B, A);
+                              ISO_SHORT(B), ISO_SHORT(A));
     if (b->surface == ISO_SHELL && !(B > A))
         return ISO_FAIL_INPUT(ctx, "surface_radius",
-                              "a shell of radius %.17g does not go around a sphere of radius %.17g: give a smaller "
+                              "a shell of radius %s does not go around a sphere of radius %s: give a smaller "
                               "surface radius, or 'kind: inside' for a ball in a larger sphere",
-                              B, A);
+                              ISO_SHORT(B), ISO_SHORT(A));
     return ISO_OK;
 }
 
@@ -95,21 +97,22 @@ iso_status iso_params_physical(iso_context *ctx, const iso_body *b, iso_params *
 {
     ISO_DEFAULT_ARITHMETIC;
     const double *I = b->inertia;
-    if (!is_positive(b->mass)) return ISO_FAIL_INPUT(ctx, "mass", "mass %.17g: must be positive and finite", b->mass);
+    if (!is_positive(b->mass))
+        return ISO_FAIL_INPUT(ctx, "mass", "mass %s: must be positive and finite", ISO_SHORT(b->mass));
     if (!is_positive(b->radius))
-        return ISO_FAIL_INPUT(ctx, "radius", "radius %.17g: must be positive and finite", b->radius);
+        return ISO_FAIL_INPUT(ctx, "radius", "radius %s: must be positive and finite", ISO_SHORT(b->radius));
     for (int i = 0; i < 3; i++)
         if (!is_positive(I[i]))
-            return ISO_FAIL_INPUT(ctx, "inertia",
-                                  "inertia %d is %.17g: principal moments must be positive and finite", i + 1, I[i]);
+            return ISO_FAIL_INPUT(ctx, "inertia", "inertia %d is %s: principal moments must be positive and finite",
+                                  i + 1, ISO_SHORT(I[i]));
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, l = (i + 2) % 3;
         /* the sum of two numbers typed in decimal may miss the third by their rounding: a flat body is allowed */
         if (I[i] > (I[j] + I[l]) * (1 + 8 * DBL_EPSILON))
             return ISO_FAIL_INPUT(ctx, "inertia",
-                                  "no solid body has these moments: I%d = %g exceeds I%d + I%d = %g (triangle "
+                                  "no solid body has these moments: I%d = %s exceeds I%d + I%d = %s (triangle "
                                   "inequality); for k and J without a body use 'reduced:'",
-                                  i + 1, I[i], j + 1, l + 1, I[j] + I[l]);
+                                  i + 1, ISO_SHORT(I[i]), j + 1, l + 1, ISO_SHORT(I[j] + I[l]));
     }
     ISO_TRY(check_radii(ctx, b));
     double J[3];
@@ -117,8 +120,8 @@ iso_status iso_params_physical(iso_context *ctx, const iso_body *b, iso_params *
     for (int i = 0; i < 3; i++) J[i] = I[i] + D;
     const double k = geometry_number(b->surface, b->surface_radius, b->radius);
     if (!isnormal(k))
-        return ISO_FAIL_INPUT(ctx, "surface_radius", "radii %g and %g give no geometry number k", b->surface_radius,
-                              b->radius);
+        return ISO_FAIL_INPUT(ctx, "surface_radius", "radii %s and %s give no geometry number k",
+                              ISO_SHORT(b->surface_radius), ISO_SHORT(b->radius));
     if (!is_positive(max3(J))) return ISO_FAIL_INPUT(ctx, "mass", "m B^2 does not fit a double: use other units");
     memset(p, 0, sizeof *p);
     p->body = *b;
@@ -173,6 +176,7 @@ bool iso_params_powers_fit(const iso_params *p)
 iso_status iso_params_check_powers(iso_context *ctx, const iso_params *p)
 {
     if (iso_params_powers_fit(p)) return ISO_OK;
-    return ISO_FAIL_INPUT(
-        ctx, "k", "k = %.15g is too near 0 for these moments: (max J/min J)^(1/|k|) does not fit a double", p->k);
+    return ISO_FAIL_INPUT(ctx, "k",
+                          "k = %s is too near 0 for these moments: (max J/min J)^(1/|k|) does not fit a double",
+                          ISO_SHORT(p->k));
 }

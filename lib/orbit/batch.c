@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/number_impl.h"
 #include "base/options_impl.h"
 #include "method/integrator_impl.h"
 #include "orbit/lane_groups_impl.h"
@@ -135,8 +136,8 @@ static iso_status finish(iso_pool_worker *w, const batch *b, const member *m)
         if (status != ISO_OK) return status;
     }
     if (job->error)
-        return ISO_FAIL_NUMERICAL(w->ctx, "taylor stopped after %ld steps: %s; last good %s = %.17g", job->steps,
-                                  job->error, iso_clock_name(m->orbit.model.clock), job->last * job->unit);
+        return ISO_FAIL_NUMERICAL(w->ctx, "taylor stopped after %ld steps: %s; last good %s = %s", job->steps,
+                                  job->error, iso_clock_name(m->orbit.model.clock), ISO_SHORT(job->last * job->unit));
     return job->done == b->rows ? ISO_OK : iso_context_stopped(w->ctx);
 }
 
@@ -213,8 +214,8 @@ static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_
         const bool back = times[rows - 1] < 0;
         if (!isfinite(times[j]) || (back ? times[j] > before || times[j] > 0 : times[j] < before))
             return ISO_FAIL_ARGUMENT(ctx, "times",
-                                     "the times of a batch go away from 0, in one direction: not %g after %g",
-                                     times[j], before);
+                                     "the times of a batch go away from 0, in one direction: not %s after %s",
+                                     ISO_SHORT(times[j]), ISO_SHORT(before));
     }
     return ISO_OK;
 }

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "model/model_impl.h"
 #include "orbit/convert_impl.h"
@@ -161,10 +162,9 @@ bool iso_conversion_stated_words(const iso_conversion_summary *s, int i, char wo
 {
     if (i >= s->stated_count) return false;
     const iso_stated *x = &s->stated[i];
-    snprintf(
-        words, ISO_STATED_SIZE,
-        "# %s: %.17g does not fit the first row (off by %.2g of the terms of its energy); %.17g fits, and is written",
-        x->key, x->stated, x->off, x->own);
+    snprintf(words, ISO_STATED_SIZE,
+             "# %s: %s does not fit the first row (off by %.2g of the terms of its energy); %s fits, and is written",
+             x->key, ISO_SHORT(x->stated), x->off, ISO_SHORT(x->own));
     return true;
 }
 

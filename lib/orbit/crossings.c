@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/number_impl.h"
 #include "base/options_impl.h"
 #include "method/integrator_impl.h"
 #include "orbit/crossings_impl.h"
@@ -25,9 +26,9 @@ static iso_status check_section(iso_context *ctx, const iso_crossings_options *o
                                      ? "a clock passes each value once: take equal steps of the clock"
                                      : "there is no such column");
     if (o->kind == ISO_SECTION_COLUMN && !isfinite(o->value))
-        return ISO_FAIL_ARGUMENT(ctx, "value", "a column cannot pass %g", o->value);
+        return ISO_FAIL_ARGUMENT(ctx, "value", "a column cannot pass %s", ISO_SHORT(o->value));
     if (o->kind == ISO_SECTION_CLOCK && !(o->value > 0 && isfinite(o->value)))
-        return ISO_FAIL_ARGUMENT(ctx, "value", "a clock cannot go on in steps of %g", o->value);
+        return ISO_FAIL_ARGUMENT(ctx, "value", "a clock cannot go on in steps of %s", ISO_SHORT(o->value));
     if (o->kind == ISO_SECTION_CLOCK && ((int)o->clock < 0 || o->clock >= ISO_CLOCKS))
         return ISO_FAIL_ARGUMENT(ctx, "value", "there is no such clock");
     if (o->kind == ISO_SECTION_COLUMN && o->deviations)

@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "base/context_impl.h"
+#include "base/number_impl.h"
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section.h"
@@ -98,8 +99,8 @@ static iso_status next_event(iso_crossings *c, iso_crossed *o, iso_sample *sampl
     if (status != ISO_OK || found) return status;
     if (o->count == 0)
         return ISO_FAIL_NUMERICAL(o->ctx, "no crossing within %d turns after the start", ISO_MOST_BETWEEN);
-    return ISO_FAIL_NUMERICAL(o->ctx, "no crossing within %d turns after crossing %zu, at %s = %.17g",
-                              ISO_MOST_BETWEEN, o->count, iso_clock_name(o->alone->options.clock), from);
+    return ISO_FAIL_NUMERICAL(o->ctx, "no crossing within %d turns after crossing %zu, at %s = %s", ISO_MOST_BETWEEN,
+                              o->count, iso_clock_name(o->alone->options.clock), ISO_SHORT(from));
 }
 
 static iso_status next_sample(iso_crossings *c, iso_crossed *o, iso_sample *sample)

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
 #include "map/state.h"
@@ -271,8 +272,8 @@ static iso_status finish(iso_pool_worker *w, const follower *f, size_t i)
         ++*done;
     }
     if (job->error)
-        return ISO_FAIL_NUMERICAL(w->ctx, "taylor stopped: %s; last good %s = %.17g", job->error,
-                                  iso_clock_name(lane->orbit.model.clock), job->last * job->unit);
+        return ISO_FAIL_NUMERICAL(w->ctx, "taylor stopped: %s; last good %s = %s", job->error,
+                                  iso_clock_name(lane->orbit.model.clock), ISO_SHORT(job->last * job->unit));
     return job->done == job->rows ? ISO_OK : iso_context_stopped(w->ctx);
 }
 

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
@@ -112,6 +113,6 @@ iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const cha
     const iso_params *p = &o->units.own;
     return iso_context_fail(
         o->ctx, ISO_NUMERICAL, "k",
-        "k = %g is too extreme for %s with max J/min J = %.3g: powers q^(1/k) leave the range of doubles; %s", p->k,
-        what, max3(p->J) / min3(p->J), way_out);
+        "k = %s is too extreme for %s with max J/min J = %.3g: powers q^(1/k) leave the range of doubles; %s",
+        ISO_SHORT(p->k), what, max3(p->J) / min3(p->J), way_out);
 }

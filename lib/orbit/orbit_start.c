@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/finite_impl.h"
+#include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state_impl.h"
 #include "model/model_impl.h"
@@ -139,8 +140,8 @@ static iso_status start_point(iso_orbit *o, const iso_params *p, const iso_start
     if (agrees) return ISO_OK;
     const double unit = iso_unit(&o->units, iso_level_dimension());
     return ISO_FAIL_INPUT(o->ctx, "c",
-                          "level: this point has the energy of c = %.17g, not of c = %.17g: leave c out, or eps",
-                          iso_effects_level(&o->effects) * unit, stated * unit);
+                          "level: this point has the energy of c = %s, not of c = %s: leave c out, or eps",
+                          ISO_SHORT(iso_effects_level(&o->effects) * unit), ISO_SHORT(stated * unit));
 }
 
 /* --- what effects allow ----------------------------------------------------------------------------------------- */

@@ -7,6 +7,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/context_impl.h"
 #include "base/names_impl.h"
+#include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
 #include "model/model_impl.h"
@@ -99,17 +100,18 @@ static iso_status check_pair(iso_context *ctx, const char *unit_name, const char
     if (most == 0) return ISO_OK;
     if (!isnormal(most))
         return ISO_FAIL_INPUT(ctx, vector_name,
-                              "%s = %g is too small for a double to hold its digits: use a longer unit of time",
-                              vector_name, most);
+                              "%s = %s is too small for a double to hold its digits: use a longer unit of time",
+                              vector_name, ISO_SHORT(most));
     if (spin == ISO_SPIN_KEEP) return ISO_OK;
     const double size = ldexp(1, ilogb(most)); /* a power of two: dividing by it rounds nothing */
     double v[3] = {vector[0] / size, vector[1] / size, vector[2] / size}; /* no overflow in the products */
     const double along = remove_along(v, unit);
     if (spin == ISO_SPIN_REFUSE && fabs(along) > 1e-9 * hypot(norm(v), along))
         return ISO_FAIL_INPUT(ctx, vector_name,
-                              "%s has a part %.6g along %s, it must be orthogonal to it (to 1e-9): write [%.17g, "
-                              "%.17g, %.17g], or 'project: true'",
-                              vector_name, along * size, unit_name, v[0] * size, v[1] * size, v[2] * size);
+                              "%s has a part %.6g along %s, it must be orthogonal to it (to 1e-9): write [%s, "
+                              "%s, %s], or 'project: true'",
+                              vector_name, along * size, unit_name, ISO_SHORT(v[0] * size), ISO_SHORT(v[1] * size),
+                              ISO_SHORT(v[2] * size));
     remove_along(v, unit);
     for (int i = 0; i < 3; i++) vector[i] = v[i] * size;
     return ISO_OK;
@@ -132,7 +134,8 @@ iso_status iso_start_point(iso_context *ctx, const double M[3], const double gam
     *start = (iso_start){.model = ISO_POINT, .eps = eps ? *eps : NAN};
     copy(M, start->y, 3);
     copy(gamma, start->y + 3, 3);
-    if (eps && !isfinite(*eps)) return ISO_FAIL_INPUT(ctx, "eps", "eps = %g: the coupling must be finite", *eps);
+    if (eps && !isfinite(*eps))
+        return ISO_FAIL_INPUT(ctx, "eps", "eps = %s: the coupling must be finite", ISO_SHORT(*eps));
     return check_pair(ctx, "gamma", "M", project ? ISO_SPIN_REMOVE : ISO_SPIN_REFUSE, start->y + 3, start->y);
 }
 
@@ -201,7 +204,7 @@ iso_status iso_scene_check_times(iso_context *ctx, const iso_scene *scene)
 {
     if (!isfinite(scene->end)) return ISO_FAIL_ARGUMENT(ctx, "end", "the last time is not finite");
     if (!(scene->step >= 0 && isfinite(scene->step)))
-        return ISO_FAIL_ARGUMENT(ctx, "step", "a step of %g is none", scene->step);
+        return ISO_FAIL_ARGUMENT(ctx, "step", "a step of %s is none", ISO_SHORT(scene->step));
     if (steps_to_end(scene) <= ISO_MOST_ROWS) return ISO_OK;
     return ISO_FAIL_ARGUMENT(ctx, "step", "more than 1e8 rows: take a longer step");
 }

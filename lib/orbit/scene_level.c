@@ -2,6 +2,7 @@
  * orbits, scene.c below them. */
 #include <math.h>
 
+#include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
 #include "model/model_impl.h"
@@ -56,7 +57,7 @@ iso_status iso_scene_on_level(iso_context *ctx, iso_scene *scene, double level)
     if (effect)
         return ISO_FAIL_INPUT(ctx, effect->name, "a level needs a motion on which nothing else acts: remove '%s'",
                               effect->name);
-    if (!isfinite(level)) return ISO_FAIL_INPUT(ctx, "level", "%g is no level", level);
+    if (!isfinite(level)) return ISO_FAIL_INPUT(ctx, "level", "%s is no level", ISO_SHORT(level));
     if (ball) iso_effects_set_level(&acting, false, 0);
     o.effects = &acting;
     ISO_TRY(iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit));

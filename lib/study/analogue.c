@@ -51,11 +51,14 @@ static int find_range(const iso_analogue_problem *p, double *lowest, double *hig
 static iso_status check_numbers(iso_context *ctx, const iso_analogue_problem *p)
 {
     iso_params params;
-    if (!isfinite(p->energy)) return ISO_FAIL_INPUT(ctx, "energy", "energy %g: it must be finite", p->energy);
+    if (!isfinite(p->energy))
+        return ISO_FAIL_INPUT(ctx, "energy", "energy %s: it must be finite", ISO_SHORT(p->energy));
     for (int i = 0; p->neumann && i < 3; i++)
-        if (!isfinite(p->c[i])) return ISO_FAIL_INPUT(ctx, "c", "c%d = %g: it must be finite", i + 1, p->c[i]);
+        if (!isfinite(p->c[i]))
+            return ISO_FAIL_INPUT(ctx, "c", "c%d = %s: it must be finite", i + 1, ISO_SHORT(p->c[i]));
     if (p->neumann) return ISO_OK;
-    if (!isfinite(p->eps)) return ISO_FAIL_INPUT(ctx, "eps", "eps = %g: the coupling must be finite", p->eps);
+    if (!isfinite(p->eps))
+        return ISO_FAIL_INPUT(ctx, "eps", "eps = %s: the coupling must be finite", ISO_SHORT(p->eps));
     return iso_params_reduced(ctx, p->k, p->J, &params);
 }
 
@@ -117,9 +120,10 @@ static iso_status make_ball(iso_context *ctx, double k, const double J[3], doubl
                       (eps == 0) == (ball->h == 0) && (level_energy == 0) == (ball->level == 0);
     if (fits) return ISO_OK;
     return ISO_FAIL_NUMERICAL(ctx,
-                              "the ball of k = %g, J = %g %g %g, eps = %g, E = %g has an h or c that does not fit a "
+                              "the ball of k = %s, J = %s %s %s, eps = %s, E = %s has an h or c that does not fit a "
                               "double: use other units",
-                              k, J[0], J[1], J[2], eps, level_energy);
+                              ISO_SHORT(k), ISO_SHORT(J[0]), ISO_SHORT(J[1]), ISO_SHORT(J[2]), ISO_SHORT(eps),
+                              ISO_SHORT(level_energy));
 }
 
 /* V is a constant: takes the stated moments if they are equal, else moments that make the ball of order one. */
@@ -155,8 +159,8 @@ static bool shift_is_free(iso_analogue *a)
     for (int i = 0; i < 3; i++) J[i] = 2 * a->problem.energy - c[i];
     if (min3(J) > 0 && min3(J) * MOST_SPREAD >= max3(J)) return true;
     snprintf(a->not_free, sizeof a->not_free,
-             "no free ball: 2 E - c = %.6g %.6g %.6g must be positive (and within a factor %g of each other)", J[0],
-             J[1], J[2], MOST_SPREAD);
+             "no free ball: 2 E - c = %.6g %.6g %.6g must be positive (and within a factor %s of each other)", J[0],
+             J[1], J[2], ISO_SHORT(MOST_SPREAD));
     return false;
 }
 

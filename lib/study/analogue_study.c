@@ -12,17 +12,9 @@
 
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
 
-/* The fewest digits, 6 or more, that read back as the same double. */
 static void print_number(FILE *to, const char *before, double x)
 {
-    char text[ISO_NUMBER_SIZE];
-    double read;
-    x += 0.0; /* no -0 */
-    for (int digits = 6, same = 0; digits <= 17 && !same; digits++) {
-        const int length = iso_number_print_as(text, x, digits);
-        same = iso_number_read(text, (size_t)length, &read) && read == x;
-    }
-    fprintf(to, "%s%s", before, text);
+    fprintf(to, "%s%s", before, ISO_SHORT(x + 0.0)); /* no -0 */
 }
 
 static void print_vector(FILE *to, const char *before, const double x[3])
@@ -74,9 +66,9 @@ static void print_reduced(FILE *to, const iso_analogue *a)
 {
     const iso_analogue_ball *b = &a->reduced;
     const double *J = b->params.J;
-    fprintf(to, "# reduced: k = %.17g, J = %.17g %.17g %.17g\n#   eps = %.17g, h = eps k^2/det J = %.17g",
-            b->params.k, J[0], J[1], J[2], b->eps, b->h);
-    if (b->level != 0) fprintf(to, ", c = %.17g", b->level);
+    fprintf(to, "# reduced: k = %s, J = %s %s %s\n#   eps = %s, h = eps k^2/det J = %s", ISO_SHORT(b->params.k),
+            ISO_SHORT(J[0]), ISO_SHORT(J[1]), ISO_SHORT(J[2]), ISO_SHORT(b->eps), ISO_SHORT(b->h));
+    if (b->level != 0) fprintf(to, ", c = %s", ISO_SHORT(b->level));
     if (b->h < 0) fprintf(to, "\n#   eps and h are negative: the ball moves by the potential of the level alone");
     fprintf(to, "\n");
 }

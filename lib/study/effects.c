@@ -1,8 +1,16 @@
-/* effects.c - the effects that act, in words. */
+/* effects.c - the ball and the effects that act, in words. */
 #include <stdio.h>
 
+#include "base/number_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/study_impl.h"
+
+void iso_params_print(FILE *to, const iso_params *p)
+{
+    const bool given = p->body.surface == ISO_REDUCED;
+    fprintf(to, "k = %s, J =", given ? ISO_SHORT(p->k) : ISO_ROUNDED(p->k, 15));
+    for (int i = 0; i < 3; i++) fprintf(to, " %s", given ? ISO_SHORT(p->J[i]) : ISO_ROUNDED(p->J[i], 15));
+}
 
 /* The numbers of an effect, on a line of their own or not; none that a scene alone states. */
 static void print_numbers(FILE *to, const iso_effects *effects, iso_effect_id id, const char *begin)
@@ -11,7 +19,7 @@ static void print_numbers(FILE *to, const iso_effects *effects, iso_effect_id id
         if (n->scene_only) continue;
         const double *x = iso_effect_values(effects, id, n);
         fprintf(to, "%s  %s =", begin, n->name);
-        for (int i = 0; i < n->count; i++) fprintf(to, " %.10g", x[i]);
+        for (int i = 0; i < n->count; i++) fprintf(to, " %s", ISO_SHORT(x[i]));
         begin = "";
     }
 }

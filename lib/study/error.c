@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/number_impl.h"
 #include "base/options_impl.h"
 #include "base/seconds_impl.h"
 #include "base/vec3_impl.h"
@@ -207,8 +208,8 @@ iso_status iso_error_finder_create(iso_context *ctx, const iso_params *params, c
     if (taken != ISO_OK) return taken;
     const double tolerance = o.tolerance;
     if (!make_finer(orbit, &o))
-        return ISO_FAIL_ARGUMENT(ctx, "method", "there is nothing finer than %s at %g for this model",
-                                 iso_orbit_method(orbit)->name, tolerance);
+        return ISO_FAIL_ARGUMENT(ctx, "method", "there is nothing finer than %s at %s for this model",
+                                 iso_orbit_method(orbit)->name, ISO_SHORT(tolerance));
     iso_error_finder *f = calloc(1, sizeof *f);
     if (!f) return iso_context_no_memory(ctx, "the error of an orbit");
     const double begin = processor_seconds();

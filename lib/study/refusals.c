@@ -1,4 +1,5 @@
 /* refusals.c - what studies refuse (study_impl.h). */
+#include "base/number_impl.h"
 #include "map/section_impl.h"
 #include "model/effects_impl.h"
 #include "orbit/crossings_impl.h"
@@ -105,12 +106,13 @@ static iso_status check_at(iso_context *ctx, const iso_orbit *orbit, int axis, c
     const double l = at[0], x = at[1];
     char where[48];
     if (fabs(x) == 1)
-        return ISO_FAIL_INPUT(ctx, "at", "l, x = %g, %g is " ISO_NEVER_CROSSES, l, x, axis + 1, axis + 1);
+        return ISO_FAIL_INPUT(ctx, "at", "l, x = %s, %s is " ISO_NEVER_CROSSES, ISO_SHORT(l), ISO_SHORT(x), axis + 1,
+                              axis + 1);
     if (!isfinite(l) || !(fabs(x) < 1))
-        return ISO_FAIL_INPUT(ctx, "at", "l, x = %g, %g is outside the chart: l is any angle, x is between -1 and 1",
-                              l, x);
+        return ISO_FAIL_INPUT(ctx, "at", "l, x = %s, %s is outside the chart: l is any angle, x is between -1 and 1",
+                              ISO_SHORT(l), ISO_SHORT(x));
     if (iso_section_is_open(iso_orbit_motion(orbit), axis, l)) return ISO_OK;
-    snprintf(where, sizeof where, "at l = %g", l);
+    snprintf(where, sizeof where, "at l = %s", ISO_SHORT(l));
     return refuse_closed(ctx, orbit, axis, "at", where);
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/context_impl.h"
+#include "base/number_impl.h"
 #include "base/options_impl.h"
 #include "base/version.h"
 #include "method/methods_impl.h"
@@ -154,7 +155,8 @@ static iso_status check_times(runner *r)
     if (o->count == 0) return ISO_FAIL_ARGUMENT(r->ctx, "times", "there are no times");
     for (size_t i = 0; i < o->count; i++) {
         if (!isfinite(o->times[i]))
-            return ISO_FAIL_ARGUMENT(r->ctx, "times", "time %zu must be finite, not %g", i + 1, o->times[i]);
+            return ISO_FAIL_ARGUMENT(r->ctx, "times", "time %zu must be finite, not %s", i + 1,
+                                     ISO_SHORT(o->times[i]));
         if (fabs(o->times[i]) > fabs(r->farthest)) r->farthest = o->times[i];
     }
     return ISO_OK;
@@ -202,8 +204,8 @@ static void say_lost(runner *r, int side, double time)
 {
     char words[128];
     r->result->lost_at[side] = time;
-    snprintf(words, sizeof words, "contact is lost at %s = %.17g: there is a row there, and none beyond",
-             iso_clock_name(r->how.clock), time);
+    snprintf(words, sizeof words, "contact is lost at %s = %s: there is a row there, and none beyond",
+             iso_clock_name(r->how.clock), ISO_SHORT(time));
     say(r, ISO_NOTE_LOST, words);
 }
 

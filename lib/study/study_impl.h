@@ -130,7 +130,18 @@ iso_status iso_error_finder_add(iso_error_finder *finder, const iso_sample *row)
 /* The errors of the rows so far; with rows = 0 nothing is known. */
 iso_error iso_error_finder_read(const iso_error_finder *finder);
 
-/* --- effects in words (effects.c) ------------------------------------------------------------------------------- */
+/* --- in words --------------------------------------------------------------------------------------------------- */
+
+enum { ISO_COMPARISON_WORDS = 512 };
+
+/* The result of a comparison in one sentence, for people: whether it is the same orbit by all backends, and to how many
+ * digits. It says so only where the difference is within what the steps were allowed; else it says what is the matter.
+ */
+void iso_comparison_words(const iso_scene *scene, const iso_comparison *c, char words[ISO_COMPARISON_WORDS]);
+
+/* "k = 1, J = 1 2 5" (effects.c). What was given reads back as the same doubles. What was computed from a body has 15
+ * digits: the others are rounding. */
+void iso_params_print(FILE *to, const iso_params *params);
 
 /* Prints those that act, with their numbers and, if wanted, what they are. Prints nothing where none acts. */
 void iso_effects_print(FILE *to, const iso_effects *effects, bool docs);

@@ -8,6 +8,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/names_impl.h"
+#include "base/number_impl.h"
 #include "base/version.h"
 #include "io/text_impl.h"
 #include "sweep/sweep_draft_impl.h"
@@ -258,7 +259,7 @@ bool iso_sweep_axis_words(const iso_sweep_file *f, int i, char words[ISO_SWEEP_W
     case ISO_FROM_LIST: snprintf(words + used, 8, count == 1 ? "value" : "values"); break;
     case ISO_FROM_RANGE:
     case ISO_FROM_DRAWING:
-        snprintf(words + used, 90, "values%s from %g to %g%s", drawn, a->from, a->to,
+        snprintf(words + used, 90, "values%s from %s to %s%s", drawn, ISO_SHORT(a->from), ISO_SHORT(a->to),
                  a->logarithmic ? ", logarithmic" : "");
         break;
     case ISO_FROM_TRIANGLE: strcpy(words + used, "values of a triangle"); break;

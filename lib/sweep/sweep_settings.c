@@ -1,6 +1,7 @@
 /* sweep_settings.c - reads the settings of a mapping in a sweep's text, as their table describes them. */
 #include <math.h>
 
+#include "base/number_impl.h"
 #include "sweep/sweep_draft_impl.h"
 #include "sweep/sweep_impl.h"
 
@@ -27,8 +28,8 @@ static iso_status read_setting(iso_yaml *y, const yaml_node_t *node, const iso_s
     if (s->flag) *value = flag;
     const bool fits = s->least == s->most || (*value >= s->least && *value <= s->most);
     if (status != ISO_OK || (fits && (!s->whole || *value == floor(*value)))) return status;
-    return iso_yaml_fail(y, node->start_mark, "'%s' is %g, it must be %sfrom %g to %g", s->name, *value,
-                         s->whole ? "a whole number " : "", s->least, s->most);
+    return iso_yaml_fail(y, node->start_mark, "'%s' is %s, it must be %sfrom %s to %s", s->name, ISO_SHORT(*value),
+                         s->whole ? "a whole number " : "", ISO_SHORT(s->least), ISO_SHORT(s->most));
 }
 
 iso_status iso_sweep_read_settings(iso_yaml *y, const yaml_node_t *mapping, const iso_sweep_setting settings[],

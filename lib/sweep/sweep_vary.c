@@ -6,6 +6,7 @@
 
 #include "base/low_discrepancy_impl.h"
 #include "base/names_impl.h"
+#include "base/number_impl.h"
 #include "method/method.h"
 #include "model/model_impl.h"
 #include "sweep/sweep_draft_impl.h"
@@ -113,10 +114,10 @@ static iso_status check_range(iso_sweep_file *f, const yaml_node_t *node, const 
 {
     const double ratio = a->to / a->from, most = fmax(fabs(a->from), fabs(a->to)) * fmax((double)a->count, 2);
     if (a->logarithmic && !(copysign(1, a->from) * a->to > 0 && a->from != 0))
-        return ISO_FAIL_AT(f, node, "a logarithmic range from %g to %g: both ends must be above 0, or both below",
-                           a->from, a->to);
+        return ISO_FAIL_AT(f, node, "a logarithmic range from %s to %s: both ends must be above 0, or both below",
+                           ISO_SHORT(a->from), ISO_SHORT(a->to));
     if (a->logarithmic ? isfinite(ratio) && ratio > 0 : isfinite(most)) return ISO_OK;
-    return ISO_FAIL_AT(f, node, "a range from %g to %g is too wide", a->from, a->to);
+    return ISO_FAIL_AT(f, node, "a range from %s to %s is too wide", ISO_SHORT(a->from), ISO_SHORT(a->to));
 }
 
 static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
@@ -257,10 +258,10 @@ static iso_status check_chart(iso_sweep_file *f, const yaml_node_t *node, const 
                            effect->name);
     for (size_t i = 0; a->list && a->chart > 0 && i < a->count; i++) {
         const double x = a->list[i * (size_t)a->width + (size_t)a->width - 1];
-        if (!(fabs(x) < 1)) return ISO_FAIL_AT(f, node, "x = %g is outside the chart: |x| < 1", x);
+        if (!(fabs(x) < 1)) return ISO_FAIL_AT(f, node, "x = %s is outside the chart: |x| < 1", ISO_SHORT(x));
     }
     if (!a->list && a->chart == 1 && !(fabs(a->from) < 1 && fabs(a->to) < 1))
-        return ISO_FAIL_AT(f, node, "x is from %g to %g: |x| < 1 in the chart", a->from, a->to);
+        return ISO_FAIL_AT(f, node, "x is from %s to %s: |x| < 1 in the chart", ISO_SHORT(a->from), ISO_SHORT(a->to));
     return ISO_OK;
 }
 

@@ -135,7 +135,7 @@ for lines in flat level field; do
                 says "off.csv: # $key: "
                 run 0 check turned.csv --max 1e-11
                 run 1 check off.csv --max 1e-11
-                check "$lines, $as: check names # $key" grep -q "^# $key .*ABOVE" out
+                check "$lines, $as: check names # $key" grep -q "^  # $key .*ABOVE" out
             done
         done
     done

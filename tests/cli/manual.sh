@@ -19,7 +19,7 @@ page() {
 
 # --- the lists of --help: commands; options of each, in `options.COMMAND`
 run 0 --help
-sed -n 's/^  \([a-z]*\)  *\[*[A-Z]*\]*  *[a-z].*/\1/p' out | grep -v '^isoroll$' | sort >commands
+sed -n 's/^  \([a-z]*\)  *\[*[A-Z][A-Z]*\]*  *[a-z].*/\1/p' out | grep -v '^isoroll$' | sort >commands
 for command in $(cat commands); do
     run 0 "$command" --help
     sed -n 's/^  --\([a-zA-Z-]*\) .*/\1/p' out | sort >"options.$command"

@@ -38,7 +38,7 @@ for package in $packages; do
 done
 check "no more packages" test "$(ls first/*.deb | wc -l)" -eq "$(echo "$packages" | wc -w)"
 check "no file is in two packages" test -z "$(cat ./*.files | sort | uniq -d)"
-"$isoroll" --help | sed -n 's/^  \([a-z]*\)  *\[*[A-Z]*\]*  *[a-z].*/\1/p' | grep -v '^isoroll$' >commands
+"$isoroll" --help | sed -n 's/^  \([a-z]*\)  *\[*[A-Z][A-Z]*\]*  *[a-z].*/\1/p' | grep -v '^isoroll$' >commands
 check "there are commands" test "$(wc -l <commands)" -ge 10
 for command in $(cat commands); do
     check "man page of $command" grep -qx "/usr/share/man/man1/isoroll-$command.1.gz" isoroll.files

@@ -89,10 +89,10 @@ for command in plot check convert; do
     # shellcheck disable=SC2086 # a list
     refuses 3 "'scene.yaml' is a scene, and no trajectory: 'isoroll run scene.yaml -o trajectory.csv' makes one" $command scene.yaml $more
     # shellcheck disable=SC2086
-    refuses 3 "'sweep.yaml' is a sweep, which is for: sweep, explain" $command sweep.yaml $more
+    refuses 3 "'sweep.yaml' is a sweep, which is for: explain, sweep" $command sweep.yaml $more
 done
 for command in run compare cost section chaos periodic splitting integrals frequencies analogue explain; do
-    [ $command = explain ] || refuses 3 "$command: 'sweep.yaml' is a sweep, which is for: sweep, explain" $command sweep.yaml
+    [ $command = explain ] || refuses 3 "$command: 'sweep.yaml' is a sweep, which is for: explain, sweep" $command sweep.yaml
     refuses 3 "$command: 'ball.csv' is a trajectory, which is for: convert, check, plot, view" $command ball.csv
     refuses 3 "$command: 'section.csv' is a section, which is for: convert, check, plot, view" $command section.csv
     refuses 3 "$command: 'result.csv' is the result of a sweep, which is for: plot, sweep" $command result.csv
@@ -121,7 +121,7 @@ for command in $commands; do
     run 0 help "$command"
     check "help $command" cmp out "help.$command"
 done
-check "no line of help is longer than 100 characters" test -z "$(cat help.* | awk 'length > 100')"
+check "no line of help is longer than 80 characters" test -z "$(cat help.* | awk 'length > 80')"
 run 0 --help
 mv out help.program
 run 0 help

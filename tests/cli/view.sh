@@ -104,7 +104,7 @@ run 0 view a.csv --k=-1 -o a.html
 head -n 12 ball.csv >a.csv
 refuses 3 "at least two rows" view a.csv -o a.html
 { head -n 14 ball.csv; sed -n 13p ball.csv; } >a.csv
-refuses 3 "row 4: its t = 0.10000000000000001 is out of order" view a.csv -o a.html
+refuses 3 "row 4: its t = 0.1 is out of order" view a.csv -o a.html
 sed 's/^0.5,[^,]*,/0.5,nan,/' ball.csv >a.csv
 refuses 3 "expected a finite number for omega1" view a.csv -o a.html
 printf 'reduced: {k: 0}\n' >a.yaml

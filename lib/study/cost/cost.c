@@ -1,5 +1,6 @@
 /* cost.c - measures error and time of every backend, method and tolerance on one scene, see cost.h. */
 #include "study/cost/cost.h"
+#include "base/number_impl.h"
 #include "method/methods_impl.h"
 #include "model/model_impl.h"
 
@@ -168,7 +169,8 @@ static void give_up(measurer *m, const iso_cost_series *line, int from)
     for (int i = from; i < line->count; i++) {
         iso_cost_cell *cell = &m->out->cell[line->first + i];
         cell->status = ISO_STOPPED;
-        snprintf(cell->why, sizeof cell->why, "not tried: it takes too long at tolerance %g", m->tolerance[from - 1]);
+        snprintf(cell->why, sizeof cell->why, "not tried: it takes too long at tolerance %s",
+                 ISO_SHORT(m->tolerance[from - 1]));
     }
 }
 

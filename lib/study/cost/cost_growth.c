@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "method/methods_impl.h"
 #include "study/chaos/chaos.h"
@@ -52,8 +53,8 @@ static iso_status choose_horizons(grower *g, int *horizons)
     const iso_status status = probe(g, c->backend, c->method, c->tolerance, &own);
     if (status != ISO_OK)
         return iso_cost_is_stopped(&g->p) ? iso_context_stopped(g->p.user)
-                                          : ISO_FAIL_NUMERICAL(g->p.user, "the run does not get to %g: %s", g->p.end,
-                                                               iso_context_message(g->p.ctx));
+                                          : ISO_FAIL_NUMERICAL(g->p.user, "the run does not get to %s: %s",
+                                                               ISO_SHORT(g->p.end), iso_context_message(g->p.ctx));
     const iso_method *const fine = iso_method_with_more_digits(ISO_DOUBLE_DIGITS); /* as for a reference */
     if (!fine || probe(g, (iso_backend)g->p.scene->start.model, fine, 1e-15, &series) != ISO_OK) series = 0;
     const double unit = (c->method ? 8 * own : 0) + 2.5 * series, most = 1 + floor(log2(fmax(1, SECONDS / unit)));
@@ -93,7 +94,7 @@ static iso_status find_errors(grower *g, int horizons)
     const iso_cost_cell *c = &g->cell;
     ISO_TRY(iso_cost_reference_find(&g->p, TIMES * horizons, g->time, REFERENCES, true, &g->reference));
     const int reached = g->reference.first.reached / TIMES;
-    if (reached == 0) return ISO_FAIL_NUMERICAL(g->p.user, "no reference gets to %g", g->p.end);
+    if (reached == 0) return ISO_FAIL_NUMERICAL(g->p.user, "no reference gets to %s", ISO_SHORT(g->p.end));
     ISO_TRY(iso_cost_track_make(&g->p, TIMES * reached, g->time, &g->track));
     if (reached < horizons) snprintf(g->out->why, sizeof g->out->why, "no reference gets farther");
     const iso_status status = iso_cost_walk(&g->p, c->backend, c->method, c->tolerance, false, ERRORS, &g->track);

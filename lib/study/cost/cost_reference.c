@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/number_impl.h"
 #include "method/methods_impl.h"
 #include "study/cost/cost_impl.h"
 
@@ -18,7 +19,8 @@ static void describe(const source *s, char what[120])
     if (s->backend == ISO_BACKEND_EXACT)
         snprintf(what, 120, "the closed solution");
     else
-        snprintf(what, 120, "%s at %g, backend %s", s->method->name, s->tolerance, iso_backend_name((int)s->backend));
+        snprintf(what, 120, "%s at %s, backend %s", s->method->name, ISO_SHORT(s->tolerance),
+                 iso_backend_name((int)s->backend));
 }
 
 static iso_status follow(cost_problem *p, const source *s, double seconds, cost_track *track)
@@ -89,8 +91,8 @@ static iso_status find_first(cost_problem *p, double seconds, bool may_fall_shor
     const int i = best_source(p, s.list, s.count, seconds, &r->first);
     if (iso_cost_is_stopped(p)) return iso_context_stopped(p->user);
     if (i < 0 || (r->first.reached < r->first.times && !may_fall_short))
-        return ISO_FAIL_NUMERICAL(p->user, "no reference gets to %s = %g in %.2g s: %s", iso_clock_name(p->clock),
-                                  p->end, seconds, iso_context_message(p->ctx));
+        return ISO_FAIL_NUMERICAL(p->user, "no reference gets to %s = %s in %.2g s: %s", iso_clock_name(p->clock),
+                                  ISO_SHORT(p->end), seconds, iso_context_message(p->ctx));
     *from = s.list[i];
     r->exact = from->backend == ISO_BACKEND_EXACT;
     describe(from, r->what);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number_impl.h"
 #include "base/seconds_impl.h"
 #include "exact/exact_impl.h"
 #include "method/methods_impl.h"
@@ -13,6 +14,8 @@
 #include "study/run.h"
 #include "study/section/section_impl.h"
 #include "study/study_impl.h"
+
+enum { WHY = 512 }; /* room for a message */
 
 /* --- the words -------------------------------------------------------------------------------------------------- */
 
@@ -26,12 +29,14 @@ static void explain_ball(FILE *to, const iso_params *p)
     const iso_body *b = &p->body;
     fprintf(to, "ball\n  %s\n", surfaces[b->surface]);
     if (b->surface != ISO_REDUCED)
-        fprintf(to, "  m = %g, B = %g, I = %g %g %g; m B^2 = %g\n", b->mass, b->radius, b->inertia[0], b->inertia[1],
-                b->inertia[2], b->mass * b->radius * b->radius);
-    if (b->surface > ISO_PLANE) fprintf(to, "  on a fixed sphere of radius A = %g\n", b->surface_radius);
-    fprintf(to, "  k = %.17g, J = %.17g %.17g %.17g\n", p->k, p->J[0], p->J[1], p->J[2]);
-    if (b->surface == ISO_REDUCED && p->D > 0) fprintf(to, "  D = m b^2 = %.17g\n", p->D);
-    fprintf(to, "\n");
+        fprintf(to, "  m = %s, B = %s, I = %s %s %s; m B^2 = %.10g\n", ISO_SHORT(b->mass), ISO_SHORT(b->radius),
+                ISO_SHORT(b->inertia[0]), ISO_SHORT(b->inertia[1]), ISO_SHORT(b->inertia[2]),
+                b->mass * b->radius * b->radius);
+    if (b->surface > ISO_PLANE) fprintf(to, "  on a fixed sphere of radius A = %s\n", ISO_SHORT(b->surface_radius));
+    fprintf(to, "  ");
+    iso_params_print(to, p);
+    if (b->surface == ISO_REDUCED && p->D > 0) fprintf(to, "\n  D = m b^2 = %s", ISO_SHORT(p->D));
+    fprintf(to, "\n\n");
 }
 
 /* The effects, with their numbers; which of them only observes from this start on: weight on a horizontal plane. */
@@ -76,8 +81,10 @@ static void explain_section(FILE *to, const iso_orbit *orbit)
     if (iso_orbit_has_twin(orbit) || iso_orbit_energy(orbit) != 0) fprintf(to, "section\n  %s\n\n", n.words);
 }
 
-/* Whether `run --backend exact` can compute these columns, and if not, why. Errors: ISO_NO_MEMORY. */
-static iso_status explain_exact(iso_context *ctx, FILE *to, const iso_scene *scene, const int columns[], int count)
+/* What the closed solution is, or in `why` why `run --backend exact` cannot compute these columns: then *kind is NULL.
+ * Errors: ISO_NO_MEMORY. */
+static iso_status find_exact(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
+                             const char **kind, char why[WHY])
 {
     static const char *const kinds[ISO_EXACT_KINDS] = {
         [ISO_EXACT_SEPARATED] = "two oscillations in sphero-conical coordinates",
@@ -90,13 +97,36 @@ static iso_status explain_exact(iso_context *ctx, FILE *to, const iso_scene *sce
     iso_scene closed = *scene;
     closed.backend = ISO_BACKEND_EXACT;
     snprintf(closed.method, sizeof closed.method, "auto");
-    fprintf(to, "closed solution (--backend exact)\n");
+    *kind = NULL;
     const iso_status status = iso_scene_orbit(ctx, &closed, columns, count, &orbit);
     if (status == ISO_NO_MEMORY) return status;
-    if (status != ISO_OK) return fprintf(to, "  %s\n\n", iso_context_message(ctx)), ISO_OK;
-    fprintf(to, "  any time at the same cost: %s\n\n", kinds[iso_exact_describe(iso_orbit_exact(orbit)).kind]);
+    if (status != ISO_OK) return snprintf(why, WHY, "%s", iso_context_message(ctx)), ISO_OK;
+    *kind = kinds[iso_exact_describe(iso_orbit_exact(orbit)).kind];
     iso_orbit_free(orbit);
     return ISO_OK;
+}
+
+static void explain_exact(FILE *to, const char *kind, const char *why)
+{
+    fprintf(to, "closed solution (--backend exact)\n  %s%s\n\n", kind ? "any time at the same cost: " : "",
+            kind ? kind : why);
+}
+
+/* What matters most: whether there is a twin, whether a closed solution, and what would compute the orbit. */
+static void explain_verdict(FILE *to, const iso_scene *scene, const iso_orbit *orbit, bool closed)
+{
+    const iso_effects effects = iso_orbit_effects(orbit);
+    const iso_effect *breaking = iso_effects_breaking(&effects);
+    if (iso_orbit_has_twin(orbit))
+        fprintf(to, "This orbit has a twin: one motion, as a ball that rolls and as a point on a sphere.\n");
+    else
+        fprintf(to, "This orbit has no twin: %s%s%s.\n", breaking ? "'" : "", breaking ? breaking->name : "",
+                breaking ? "' breaks the isomorphism" : "a ball at rest (h = 0) has none");
+    fprintf(to, closed ? "It has a closed solution.\n" : "No closed solution gives it.\n");
+    fprintf(to, "`isoroll run` computes %zu rows, to %s = %s: backend %s, %s.\n\n", iso_scene_rows(scene),
+            iso_clock_name(iso_orbit_model(orbit)->clock), ISO_SHORT(scene->end),
+            iso_backend_name((int)iso_orbit_backend(orbit)),
+            iso_orbit_exact(orbit) ? "which evaluates it" : iso_orbit_method(orbit)->name);
 }
 
 static const char *reason_of(const iso_model *m, int state)
@@ -124,14 +154,15 @@ static void explain_states(FILE *to, const iso_scene *scene, const iso_orbit *or
         fprintf(to, "  %-22s %s\n", names, reason);
     }
     if (!iso_orbit_exact(orbit))
-        fprintf(to, "  method %s (%s), tolerance %g\n", iso_orbit_method(orbit)->name, iso_orbit_method(orbit)->doc,
-                scene->tolerance);
+        fprintf(to, "  method %s (%s), tolerance %s\n", iso_orbit_method(orbit)->name, iso_orbit_method(orbit)->doc,
+                ISO_SHORT(scene->tolerance));
     fprintf(to, "  own units: moment of inertia %g, time %g\n", iso_orbit_units(orbit)->J,
             1 / iso_orbit_units(orbit)->w);
     if (iso_orbit_has_twin(orbit))
         fprintf(to, "  energy of the ball h = %.10g\n  coupling of the point eps = %.10g\n", iso_orbit_energy(orbit),
                 iso_orbit_coupling(orbit));
-    fprintf(to, "written: %zu rows to %s = %g, columns", iso_scene_rows(scene), iso_clock_name(m->clock), scene->end);
+    fprintf(to, "written: %zu rows to %s = %s, columns", iso_scene_rows(scene), iso_clock_name(m->clock),
+            ISO_SHORT(scene->end));
     for (int i = 0; i < count; i++) fprintf(to, " %s", iso_column_name(columns[i]));
     fprintf(to, "\n\n");
 }
@@ -195,11 +226,15 @@ static iso_status explain_cost(iso_context *ctx, FILE *to, const iso_model *m)
 static iso_status explain(iso_context *ctx, FILE *to, const iso_scene *scene, const iso_orbit *orbit,
                           const int columns[], int count)
 {
+    char why[WHY] = "";
+    const char *kind;
+    ISO_TRY(find_exact(ctx, scene, columns, count, &kind, why));
+    explain_verdict(to, scene, orbit, kind != NULL);
     explain_ball(to, &scene->params);
     explain_effects(to, orbit);
     explain_map(to, &scene->params, orbit);
     explain_section(to, orbit);
-    ISO_TRY(explain_exact(ctx, to, scene, columns, count));
+    explain_exact(to, kind, why);
     explain_states(to, scene, orbit, columns, count);
     explain_integrals(to, orbit);
     return iso_orbit_exact(orbit) ? ISO_OK : explain_cost(ctx, to, iso_orbit_model(orbit));

@@ -1,6 +1,7 @@
 /* integrals.c - the search for additional first integrals, see integrals.h: what is refused, and what the parts of
  * the spaces tell together. Samples are taken in integrals_orbits.c, linear algebra is in integrals_part.c. */
 #include "study/integrals/integrals.h"
+#include "base/number_impl.h"
 #include "model/model_impl.h"
 
 #include <math.h>
@@ -63,9 +64,9 @@ static iso_status check_options(iso_context *ctx, iso_integral_search_options *o
     ISO_TRY(check_degrees(ctx, o));
     ISO_TRY(choose_orbits(ctx, o));
     if (!(o->turns >= 1 && o->turns <= 1e5))
-        return ISO_FAIL_ARGUMENT(ctx, "turns", "%g turns are not in [1, 1e5]", o->turns);
+        return ISO_FAIL_ARGUMENT(ctx, "turns", "%s turns are not in [1, 1e5]", ISO_SHORT(o->turns));
     if (!(o->within > 0 && o->within < 1))
-        return ISO_FAIL_ARGUMENT(ctx, "within", "within %g is not in (0, 1)", o->within);
+        return ISO_FAIL_ARGUMENT(ctx, "within", "within %s is not in (0, 1)", ISO_SHORT(o->within));
     return ISO_OK;
 }
 

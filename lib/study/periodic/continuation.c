@@ -11,6 +11,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/context_impl.h"
 #include "base/names_impl.h"
+#include "base/number_impl.h"
 #include "base/options_impl.h"
 #include "base/pi_impl.h"
 #include "base/pool_impl.h"
@@ -204,18 +205,19 @@ static iso_status check(const iso_continuation *f, double own)
     iso_params p;
     double energy;
     if (!name || !(o->from < o->to) || !isfinite(o->to - o->from))
-        return ISO_FAIL_ARGUMENT(f->ctx, "range", "%s from %g to %g: give A:B with A < B", name ? name : "?", o->from,
-                                 o->to);
+        return ISO_FAIL_ARGUMENT(f->ctx, "range", "%s from %s to %s: give A:B with A < B", name ? name : "?",
+                                 ISO_SHORT(o->from), ISO_SHORT(o->to));
     if (o->vary == ISO_VARY_K && o->from <= 0 && o->to >= 0)
-        return ISO_FAIL_ARGUMENT(f->ctx, "range", "the range %g to %g contains k = 0, where there is no ball",
-                                 o->from, o->to);
+        return ISO_FAIL_ARGUMENT(f->ctx, "range", "the range %s to %s contains k = 0, where there is no ball",
+                                 ISO_SHORT(o->from), ISO_SHORT(o->to));
     if (!(own >= o->from && own <= o->to))
-        return ISO_FAIL_ARGUMENT(f->ctx, "range", "the scene has %s = %.12g: the range %g to %g must contain it",
-                                 name, own, o->from, o->to);
+        return ISO_FAIL_ARGUMENT(f->ctx, "range", "the scene has %s = %.12g: the range %s to %s must contain it",
+                                 name, own, ISO_SHORT(o->from), ISO_SHORT(o->to));
     if (o->vary != ISO_VARY_K &&
         (!iso_continuation_params(f, o->from, &p, &energy) || !iso_continuation_params(f, o->to, &p, &energy)))
-        return ISO_FAIL_ARGUMENT(f->ctx, "range", "%s from %g to %g leaves the range in which J%d is the %s moment",
-                                 name, o->from, o->to, f->axis + 1, f->base.k > 0 ? "largest" : "smallest");
+        return ISO_FAIL_ARGUMENT(f->ctx, "range", "%s from %s to %s leaves the range in which J%d is the %s moment",
+                                 name, ISO_SHORT(o->from), ISO_SHORT(o->to), f->axis + 1,
+                                 f->base.k > 0 ? "largest" : "smallest");
     return ISO_OK;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/names_impl.h"
+#include "base/number_impl.h"
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
@@ -38,8 +39,8 @@ static iso_status check_numbers(const iso_periodic_work *w)
 {
     const double k = w->scene->params.k, *J = w->scene->params.J, ratio = max3(J) / min3(J) / fabs(k);
     if (fabs(k) < ISO_LEAST_K)
-        return ISO_FAIL_INPUT(w->ctx, "k", "k = %.15g: periodic orbits are sought only for |k| >= %g", k,
-                              ISO_LEAST_K);
+        return ISO_FAIL_INPUT(w->ctx, "k", "k = %s: periodic orbits are sought only for |k| >= %s", ISO_SHORT(k),
+                              ISO_SHORT(ISO_LEAST_K));
     if (ratio <= 1e5) return ISO_OK;
     return ISO_FAIL_INPUT(
         w->ctx, "J", "max J/(min J |k|) is %.3g: periodic orbits are sought only where it is 1e5 at most", ratio);

@@ -119,7 +119,8 @@ static iso_status choose(iso_context *ctx, const iso_scene *scene, const iso_per
 {
     const iso_params *p = &scene->params;
     if (r->orbit > (double)found->count)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--orbit %g: the list ends at %zu", r->orbit, found->count);
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--orbit %s: the list ends at %zu", ISO_SHORT(r->orbit),
+                                found->count);
     *list_ = malloc((found->count + 1) * sizeof **list_);
     if (!*list_) return iso_context_no_memory(ctx, "the orbits");
     for (size_t i = 0; i < found->count; i++)

@@ -8,6 +8,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/context_impl.h"
 #include "base/names_impl.h"
+#include "base/number_impl.h"
 #include "base/options_impl.h"
 #include "base/pool_impl.h"
 #include "base/vec3_impl.h"
@@ -128,20 +129,22 @@ static iso_status check(const chart *c)
 {
     const iso_stability_options *o = &c->o;
     if (!(o->from[0] < o->to[0]) || !isfinite(o->to[0] - o->from[0]))
-        return ISO_FAIL_ARGUMENT(c->ctx, "k", "k from %g to %g: give A:B with A < B", o->from[0], o->to[0]);
+        return ISO_FAIL_ARGUMENT(c->ctx, "k", "k from %s to %s: give A:B with A < B", ISO_SHORT(o->from[0]),
+                                 ISO_SHORT(o->to[0]));
     if (o->from[0] > -ISO_LEAST_K && o->to[0] < ISO_LEAST_K)
-        return ISO_FAIL_ARGUMENT(c->ctx, "k", "k from %g to %g: nothing is computed for |k| < %g", o->from[0],
-                                 o->to[0], ISO_LEAST_K);
+        return ISO_FAIL_ARGUMENT(c->ctx, "k", "k from %s to %s: nothing is computed for |k| < %s",
+                                 ISO_SHORT(o->from[0]), ISO_SHORT(o->to[0]), ISO_SHORT(ISO_LEAST_K));
     const bool by_level = o->moment == ISO_CHART_LEVEL;
     if (by_level ? !(o->from[1] < o->to[1]) || !isfinite(o->to[1] - o->from[1]) : !isfinite(o->level))
-        return ISO_FAIL_ARGUMENT(c->ctx, "level", "level from %g to %g: give A:B with A < B", o->from[1], o->to[1]);
+        return ISO_FAIL_ARGUMENT(c->ctx, "level", "level from %s to %s: give A:B with A < B", ISO_SHORT(o->from[1]),
+                                 ISO_SHORT(o->to[1]));
     if (o->moment < 0 || o->moment > ISO_CHART_LEVEL ||
         (!by_level && (!(o->from[1] > 0) || !(o->from[1] < o->to[1]) || !isfinite(o->to[1]))))
-        return ISO_FAIL_ARGUMENT(c->ctx, "J", "J%d from %g to %g: give A:B with 0 < A < B", o->moment + 1, o->from[1],
-                                 o->to[1]);
+        return ISO_FAIL_ARGUMENT(c->ctx, "J", "J%d from %s to %s: give A:B with 0 < A < B", o->moment + 1,
+                                 ISO_SHORT(o->from[1]), ISO_SHORT(o->to[1]));
     for (int i = 0; i < 3; i++)
         if (i != o->moment && !(o->J[i] > 0 && isfinite(o->J[i])))
-            return ISO_FAIL_ARGUMENT(c->ctx, "J", "J%d = %g is not positive", i + 1, o->J[i]);
+            return ISO_FAIL_ARGUMENT(c->ctx, "J", "J%d = %s is not positive", i + 1, ISO_SHORT(o->J[i]));
     if (o->steps < 2 || o->steps > 2000)
         return ISO_FAIL_ARGUMENT(c->ctx, "steps", "%d steps: give 2 to 2000", o->steps);
     return ISO_OK;

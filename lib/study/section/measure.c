@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/number_impl.h"
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "model/model_impl.h"
@@ -162,9 +163,9 @@ static iso_status check_times(iso_context *ctx, const iso_measure_options *o)
 {
     if ((int)o->clock < 0 || o->clock >= ISO_CLOCKS) return ISO_FAIL_ARGUMENT(ctx, "clock", "no such clock");
     if (isnan(o->end) && !(o->turns > 0 && o->turns <= 1e6))
-        return ISO_FAIL_ARGUMENT(ctx, "turns", "%g turns are not in (0, 1e6]", o->turns);
+        return ISO_FAIL_ARGUMENT(ctx, "turns", "%s turns are not in (0, 1e6]", ISO_SHORT(o->turns));
     if (!isnan(o->end) && !(o->end > 0 && isfinite(o->end)))
-        return ISO_FAIL_ARGUMENT(ctx, "end", "the flow ends at a finite time above 0, not at %g", o->end);
+        return ISO_FAIL_ARGUMENT(ctx, "end", "the flow ends at a finite time above 0, not at %s", ISO_SHORT(o->end));
     return ISO_OK;
 }
 

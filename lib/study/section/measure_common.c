@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/low_discrepancy_impl.h"
+#include "base/number_impl.h"
 #include "base/options_impl.h"
 #include "map/state.h"
 #include "model/model_impl.h"
@@ -16,9 +17,9 @@ static iso_status check_options(iso_context *ctx, iso_measure_options *o)
     if (o->count < ISO_MEASURE_LEAST || o->count > SIZE_MAX / 2)
         return ISO_FAIL_ARGUMENT(ctx, "count", "a cloud has %d orbits or more", ISO_MEASURE_LEAST);
     if (!isfinite(o->exponent) || fabs(o->exponent) > 10)
-        return ISO_FAIL_ARGUMENT(ctx, "exponent", "exponent %g is not in [-10, 10]", o->exponent);
+        return ISO_FAIL_ARGUMENT(ctx, "exponent", "exponent %s is not in [-10, 10]", ISO_SHORT(o->exponent));
     if (!(o->significance > 0 && o->significance < 1))
-        return ISO_FAIL_ARGUMENT(ctx, "significance", "significance %g is not in (0, 1)", o->significance);
+        return ISO_FAIL_ARGUMENT(ctx, "significance", "significance %s is not in (0, 1)", ISO_SHORT(o->significance));
     const size_t clouds = ISO_MEASURE_CLOUDS;
     o->count = (o->count + clouds - 1) / clouds * clouds;
     return ISO_OK;

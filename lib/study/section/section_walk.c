@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/finite_impl.h"
+#include "base/number_impl.h"
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "base/version.h"
@@ -346,7 +347,7 @@ static iso_status set_section(const iso_section_walk *w, iso_record *r)
         snprintf(text, sizeof text, "n%d = 0, increasing; %s", o->axis + 1,
                  w->result->nature.global ? "global" : "not known to be global");
     else
-        snprintf(text, sizeof text, "%s = %.17g, increasing", iso_column_name(o->column), o->value);
+        snprintf(text, sizeof text, "%s = %s, increasing", iso_column_name(o->column), ISO_SHORT(o->value));
     const iso_status status = iso_record_set(w->ctx, r, "section", text);
     return status == ISO_OK && w->chart ? set_whole(w, r, "axis", (size_t)o->axis + 1) : status;
 }

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/number_impl.h"
 #include "base/pi_impl.h"
 #include "study/separatrix/separatrix_impl.h"
 
@@ -169,8 +170,8 @@ iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
                 ? advance(p)
                 : ISO_FAIL_NUMERICAL(
                       m->ctx,
-                      "splitting at k = %.15g: the manifold does not meet the line of symmetry within %d half turns",
-                      m->problem.p.k, MOST_HALVES);
+                      "splitting at k = %s: the manifold does not meet the line of symmetry within %d half turns",
+                      ISO_SHORT(m->problem.p.k), MOST_HALVES);
     }
     if (status == ISO_OK) *c = (iso_manifold_crossing){.halves = p->halves, .theta = guess(p, found)};
     free(p);

@@ -17,6 +17,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/number_impl.h"
 #include "method/wide_impl.h"
 #include "study/separatrix/separatrix.h"
 
@@ -84,7 +85,7 @@ iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing 
 /* Records why the splitting at this k is not found, ISO_NUMERICAL. */
 static inline iso_status iso_manifold_lost(const iso_manifold *m, const char *why)
 {
-    return ISO_FAIL_NUMERICAL(m->ctx, "splitting at k = %.15g: %s", m->problem.p.k, why);
+    return ISO_FAIL_NUMERICAL(m->ctx, "splitting at k = %s: %s", ISO_SHORT(m->problem.p.k), why);
 }
 
 /* angle, less whole turns. */

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/context_impl.h"
+#include "base/number_impl.h"
 #include "base/pi_impl.h"
 #include "map/section.h"
 #include "map/section_impl.h"
@@ -50,9 +51,9 @@ static iso_status check_trace(const iso_manifold *m, double trace)
     if (apart > 1e-4) return ISO_OK;
     const double exponent = 2 * sqrt(fmax(apart, 1e-15)); /* ln lambda^2 */
     return ISO_FAIL_INPUT(m->ctx, "J",
-                          "splitting at k = %.15g: the middle axis has the multiplier 1 + %.1e, too near 1: m is "
+                          "splitting at k = %s: the middle axis has the multiplier 1 + %.1e, too near 1: m is "
                           "about exp(-2 pi^2/ln of it) = 1e-%.0f or less, which 128 bits do not tell from 0",
-                          m->problem.p.k, expm1(exponent), 2 * ISO_PI * ISO_PI / exponent / log(10));
+                          ISO_SHORT(m->problem.p.k), expm1(exponent), 2 * ISO_PI * ISO_PI / exponent / log(10));
 }
 
 /* lambda and v from the derivative at the fixed point, whose determinant is 1. */
@@ -88,9 +89,9 @@ static iso_status check_level(const iso_manifold *m)
     const double a = p->J[m->axis], lowest = iso_level_of(p, -pow(a, -1 / p->k));
     if (m->level > lowest) return ISO_OK;
     return ISO_FAIL_INPUT(m->ctx, "level",
-                          "splitting at k = %.15g, level %.15g: the middle axis has no rotation, but an oscillation "
+                          "splitting at k = %s, level %s: the middle axis has no rotation, but an oscillation "
                           "between two places of rest: it has no separatrix. Give a level above %.12g",
-                          p->k, m->level, lowest);
+                          ISO_SHORT(p->k), ISO_SHORT(m->level), lowest);
 }
 
 iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)
@@ -106,8 +107,8 @@ iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], doub
     ISO_TRY(iso_refuse_equal_moments(ctx, J, ISO_NO_SPLITTING));
     const iso_params *p = &m->problem.p;
     if (!(fabs(k) >= 0.05 && fabs(k) <= 50))
-        return ISO_FAIL_INPUT(ctx, "k", "k = %.15g: " ISO_SPLITTING_IS " only for 0.05 <= |k| <= 50", k);
-    if (!isfinite(level)) return ISO_FAIL_INPUT(ctx, "level", "%g is no level", level);
+        return ISO_FAIL_INPUT(ctx, "k", "k = %s: " ISO_SPLITTING_IS " only for 0.05 <= |k| <= 50", ISO_SHORT(k));
+    if (!isfinite(level)) return ISO_FAIL_INPUT(ctx, "level", "%s is no level", ISO_SHORT(level));
     m->problem.eps = 1;
     m->problem.energy = iso_level_energy(p, level);
     const iso_point_motion motion = {p, 1, m->problem.energy};

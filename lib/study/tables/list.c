@@ -69,7 +69,7 @@ static void list_effects(FILE *to)
 
 static void list_methods(FILE *to)
 {
-    fprintf(to, "  %-22s %-9s %-6s %s\n", "name", "family", "order", "");
+    fprintf(to, "  %-22s %-9s order\n", "name", "family");
     for (int i = 0; iso_methods[i]; i++) {
         const iso_method *m = iso_methods[i];
         char order[16] = "varies";

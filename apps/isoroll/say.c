@@ -1,0 +1,274 @@
+/* say.c - text for people on standard output, as wide as the terminal (see say.h). */
+#include "say.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+/* --- the width -------------------------------------------------------------------------------------------------- */
+
+enum { LEAST_WIDTH = 40, MOST_WIDTH = 10000 };
+
+int terminal_width(FILE *stream)
+{
+    struct winsize size;
+    const char *columns = getenv("COLUMNS");
+    const bool is_terminal = isatty(fileno(stream));
+    const long wanted = columns ? strtol(columns, NULL, 10) : 0;
+    long width = is_terminal ? USUAL_WIDTH : ANY_WIDTH;
+    if (is_terminal && ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+        width = size.ws_col;
+    else if (wanted > 0 && wanted <= MOST_WIDTH)
+        width = wanted;
+    return width == ANY_WIDTH || width >= LEAST_WIDTH ? (int)width : LEAST_WIDTH;
+}
+
+/* Columns of text in UTF-8: bytes that begin a character. */
+static int columns_of(const char *text, size_t length)
+{
+    int columns = 0;
+    for (size_t i = 0; i < length; i++) columns += (text[i] & 0xC0) != 0x80;
+    return columns;
+}
+
+/* --- lines ------------------------------------------------------------------------------------------------------ */
+
+/* The words of text from column `column` on; further lines begin with `mark`, at column `indent`. */
+static void fold_words(FILE *to, const char *text, size_t length, int column, int indent, const char *mark, int width)
+{
+    const char *end = text + length;
+    bool first = true;
+    while (text < end) {
+        const size_t blanks = strspn(text, " ");
+        text += blanks;
+        if (text >= end) return;
+        size_t word = strcspn(text, " \n");
+        if (word > (size_t)(end - text)) word = (size_t)(end - text);
+        const int columns = columns_of(text, word);
+        if (!first && width != ANY_WIDTH && column + (int)blanks + columns > width)
+            fprintf(to, "\n%-*s", indent, mark), column = indent;
+        else
+            fprintf(to, "%*s", (int)blanks, ""), column += (int)blanks;
+        fwrite(text, 1, word, to);
+        column += columns;
+        text += word;
+        first = false;
+    }
+}
+
+/* Where further lines begin: below what follows the last two blanks, if there is room for words; else below the line
+ * if it begins on the left, or a little to the right. */
+static int indent_of(const char *text, size_t length, int width)
+{
+    enum { ROOM = 24, STEP = 2 };
+    const size_t begin = strspn(text, " ");
+    size_t at = begin > 0 ? begin + STEP : 0;
+    for (size_t i = begin + 1; i + 2 < length && (int)i + ROOM < width; i++)
+        if (text[i - 1] == ' ' && text[i] == ' ' && text[i + 1] != ' ') at = i + 1;
+    return (int)at + ROOM / 2 < width ? (int)at : STEP;
+}
+
+void fold_line(FILE *to, const char *text, size_t length, int width)
+{
+    const bool comment = *text == '#';
+    fold_words(to, text, length, 0, comment ? 4 : indent_of(text, length, width), comment ? "#" : "", width);
+    fputc('\n', to);
+}
+
+/* --- tables ----------------------------------------------------------------------------------------------------- */
+
+enum { MOST_CELLS = 24, GAP = 2, LEAST_WORDS = 24 };
+
+typedef struct cell {
+    const char *text;
+    size_t length;
+} cell;
+
+typedef struct table {
+    const char *text; /* all rows; the first is the header */
+    int columns, keys;
+    int width[MOST_CELLS];
+    bool words[MOST_CELLS]; /* not all are numbers */
+} table;
+
+/* Cuts the row at *text into cells and steps behind it. Gives how many there are. */
+static int read_row(const char **text, cell cells[MOST_CELLS])
+{
+    int count = 0;
+    for (bool more = true; more && count < MOST_CELLS; *text += more) {
+        const size_t length = strcspn(*text, "\t\n");
+        cells[count++] = (cell){*text, length};
+        *text += length;
+        more = **text == '\t';
+    }
+    *text += strcspn(*text, "\n");
+    *text += **text == '\n';
+    return count;
+}
+
+static bool is_number(const cell *c)
+{
+    return c->length == 0 || strchr("0123456789+-~*.", c->text[0]) != NULL || strncmp(c->text, "nan", 3) == 0 ||
+           strncmp(c->text, "inf", 3) == 0;
+}
+
+/* A last cell of words: of a row that is shorter than the header, or of a title. */
+static bool is_free(const table *t, int count, int i)
+{
+    return i == count - 1 && count < t->columns;
+}
+
+static void measure(table *t)
+{
+    cell cells[MOST_CELLS];
+    const char *at = t->text;
+    t->columns = read_row(&at, cells);
+    for (int row = 0, count = t->columns; count > 0; row++) {
+        for (int i = 0; i < count && i < t->columns; i++) {
+            if (is_free(t, count, i)) continue;
+            const int columns = columns_of(cells[i].text, cells[i].length);
+            if (columns > t->width[i]) t->width[i] = columns;
+            if (row > 0 && !is_number(&cells[i])) t->words[i] = true;
+        }
+        count = *at ? read_row(&at, cells) : 0;
+    }
+}
+
+static void print_cell(FILE *to, const table *t, const cell *c, int i, bool last)
+{
+    const int blanks = t->width[i] - columns_of(c->text, c->length);
+    fprintf(to, "%*s", GAP + (t->words[i] ? 0 : blanks), "");
+    fwrite(c->text, 1, c->length, to);
+    if (t->words[i] && !last) fprintf(to, "%*s", blanks, "");
+}
+
+/* One row: its keys, and the columns from `first` until `end`. What remains of the last one is folded. */
+static void print_row(FILE *to, const table *t, const cell cells[], int count, int first, int end, int width)
+{
+    int column = 0, last = count < end ? count - 1 : end - 1;
+    while (last > 0 && (cells[last].length == 0 || (last >= t->keys && last < first))) last--;
+    for (int i = 0; i <= last; i++) {
+        if (i >= t->keys && i < first) continue;
+        const bool folded = is_free(t, count, i) || (t->words[i] && i == t->columns - 1);
+        if (folded && is_free(t, count, i) && first > t->keys && count > 1) continue;
+        if (folded) {
+            const bool room = width == ANY_WIDTH || column + GAP + LEAST_WORDS <= width;
+            const int indent = room ? column + GAP : 2 * GAP;
+            fprintf(to, room ? "%*s" : "\n%*s", room ? GAP : indent, "");
+            fold_words(to, cells[i].text, cells[i].length, indent, indent, "", width);
+            continue;
+        }
+        print_cell(to, t, &cells[i], i, i == last);
+        column += GAP + t->width[i];
+    }
+    fputc('\n', to);
+}
+
+static void print_part(FILE *to, const table *t, int first, int end, int width)
+{
+    cell cells[MOST_CELLS];
+    const char *at = t->text;
+    while (*at) {
+        const int count = read_row(&at, cells);
+        print_row(to, t, cells, count, first, end, width);
+    }
+}
+
+/* The first column that has no room beside the keys and the columns from `first` on. At least one has. */
+static int part_end(const table *t, int first, int width)
+{
+    int used = 0, end = first;
+    for (int i = 0; i < t->keys; i++) used += GAP + t->width[i];
+    for (; end < t->columns; end++) {
+        const bool folds = t->words[end] && end == t->columns - 1;
+        const int needs = GAP + (folds && t->width[end] > LEAST_WORDS ? LEAST_WORDS : t->width[end]);
+        if (end > first && used + needs > width) break;
+        used += needs;
+    }
+    return end;
+}
+
+static int count_parts(const table *t, int width)
+{
+    int parts = 0;
+    for (int first = t->keys; first < t->columns; first = part_end(t, first, width)) parts++;
+    return parts;
+}
+
+/* In as few parts as the width allows, which are about as wide as each other. */
+static void print_table(FILE *to, const char *text, int keys, int width)
+{
+    table t = {.text = text, .keys = keys};
+    measure(&t);
+    int narrow = width == ANY_WIDTH ? MOST_WIDTH : width;
+    const int parts = count_parts(&t, narrow);
+    while (parts > 1 && count_parts(&t, narrow - 1) == parts) narrow--;
+    for (int first = keys, end; first < t.columns; first = end) {
+        end = part_end(&t, first, narrow);
+        if (first > keys) fputc('\n', to);
+        print_part(to, &t, first, end, width);
+    }
+}
+
+/* --- what is said ----------------------------------------------------------------------------------------------- */
+
+static struct {
+    FILE *stream; /* writes into text */
+    char *text;
+    size_t size;
+    bool in_table;
+    int keys;
+} said;
+
+FILE *say_to(void)
+{
+    if (!said.stream) said.stream = open_memstream(&said.text, &said.size);
+    return said.stream ? said.stream : stdout;
+}
+
+/* Prints what waits, and forgets it. */
+static void print_said(void)
+{
+    const int width = terminal_width(stdout);
+    if (!said.stream || fclose(said.stream) != 0) return;
+    said.stream = NULL;
+    if (said.in_table)
+        print_table(stdout, said.text, said.keys, width);
+    else
+        for (const char *at = said.text; *at; at += *at == '\n') {
+            const size_t length = strcspn(at, "\n");
+            fold_line(stdout, at, length, width);
+            at += length;
+        }
+    free(said.text);
+}
+
+void say(const char *format, ...)
+{
+    va_list args;
+    FILE *to = say_to();
+    va_start(args, format);
+    vfprintf(to, format, args);
+    va_end(args);
+    if (said.in_table || fflush(to) != 0) return;
+    if (said.stream && said.size > 0 && said.text[said.size - 1] == '\n') print_said();
+}
+
+void say_end(void)
+{
+    print_said();
+}
+
+void say_table(int keys)
+{
+    said.in_table = true;
+    said.keys = keys;
+}
+
+void say_table_end(void)
+{
+    print_said();
+    said.in_table = false;
+}
