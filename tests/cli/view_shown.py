@@ -25,6 +25,7 @@ PAGES = {
     "neumann": scene_of(REDUCED.format(-1)),
     "braden": scene_of(REDUCED.format(1)),
     "chaotic": scene_of(REDUCED.format(0.5), end=100),
+    "parted": scene_of(REDUCED.format(0.5), end=1000),
     "metres": scene_of("ball: {mass: 2, radius: 0.5, inertia: [0.1, 0.15, 0.2]}\nsurface: {kind: plane}"),
     "hill": scene_of(REDUCED.format(0.5), "effects: {gravity: {mgb: 0.1, up: [0.36, 0.48, 0.8]}}\n", end=2),
 }
@@ -224,6 +225,13 @@ def compared(browser):
     check("the key of the button leaves it", seen(page, "ball") and not seen(page, "ball-path"))
     check("and it says so", page.evaluate("document.getElementById('compare').ariaPressed") == "false")
     quiet(page, "compared")
+    page = opened(browser, "parted", fragment="#t=20&view=compare")
+    same = text(page, "pace-words")
+    page.evaluate("isoroll.seek(950)")
+    page.frame()
+    other = text(page, "pace-words")
+    check("where the two computations have parted, no state is called equal",
+          "are equal states" in same and "no longer equal states" in other, (same, other))
 
 
 # --- the address, films, full screen ------------------------------------------------------------------------------
