@@ -82,6 +82,8 @@ static iso_status open_orbit(iso_context *ctx, const view_page *page, const iso_
     return iso_orbit_create(ctx, &page->params, start, &o, orbit);
 }
 
+static const double at_rest[3] = {0, 0, 0};
+
 static double distance(const iso_sample *a, const iso_sample *b, double speed)
 {
     return hypot(view_distance(a->ball, b->ball) / speed, view_distance(a->ball + 3, b->ball + 3));
@@ -90,15 +92,14 @@ static double distance(const iso_sample *a, const iso_sample *b, double speed)
 static iso_status follow(iso_context *ctx, const view_page *page, iso_orbit *orbit, iso_orbit *other,
                          const iso_record *rows, iso_record *to)
 {
-    const double origin[3] = {0, 0, 0};
     const int t = iso_record_find(rows, "t");
-    double speed = 0;
+    double speed = NAN;
     for (size_t i = 0; i < iso_record_rows(rows); i++) {
         iso_sample here, there;
         const double since = iso_record_const_row(rows, i)[t] - iso_record_const_row(rows, 0)[t];
         ISO_TRY(iso_orbit_at(orbit, since, &here));
         ISO_TRY(iso_orbit_at(other, since, &there));
-        if (i == 0) speed = view_distance(here.ball, origin);
+        if (i == 0) speed = view_distance(here.ball, at_rest);
         const double *seen = (*page->alone ? there.ball : there.point) + 3;
         ISO_TRY(iso_record_add(ctx, to, 1, (double[]){seen[0], seen[1], seen[2], distance(&here, &there, speed)}));
     }
@@ -122,6 +123,8 @@ iso_status view_neighbour(iso_context *ctx, const view_page *page, const iso_sta
                           const iso_record *rows, iso_record **beside_it)
 {
     static const char *const names[] = {"near1", "near2", "near3", "near"};
+    *beside_it = NULL;
+    if (view_distance(start->y, at_rest) == 0) return ISO_OK; /* there is no omega to turn */
     ISO_TRY(iso_record_create(ctx, 4, names, beside_it));
     const iso_status status = run_beside(ctx, page, start, effects, rows, *beside_it);
     if (status == ISO_OK) return ISO_OK;

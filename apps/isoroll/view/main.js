@@ -183,6 +183,7 @@ const controls = {
     return canvas;
   },
   showBeside(on) {
+    on = on && Boolean(this.orbit.column.near);
     this.beside = on;
     element("beside").setAttribute("aria-pressed", String(on));
     element("growth").hidden = element("beside-words").hidden = !on;
