@@ -134,12 +134,16 @@ iso_status view_orbit(iso_context *ctx, const view_page *page, const iso_start *
 /* The integrals that hold for page->rows, and their drifts. */
 iso_status view_numbers(iso_context *ctx, view_page *page);
 
-/* A verdict on the orbit from `start`, with `precise` also a better exponent; and its neighbour, which begins
- * VIEW_BESIDE from it, at the times t of `rows` since the first: near1..3, where it is in the picture of the point (n,
- * if there is no point), and near, its distance. *beside NULL: it cannot be computed. Errors: ISO_STOPPED,
- * ISO_NO_MEMORY. */
+/* The neighbour of the orbit from `start`, which begins VIEW_BESIDE from it, at the times t of `rows` since the first:
+ * near1..3, where it is in the picture of the point (n, if there is no point), and near, its distance. *beside NULL: it
+ * cannot be computed. Errors: ISO_STOPPED, ISO_NO_MEMORY. */
 iso_status view_neighbour(iso_context *ctx, const view_page *page, const iso_start *start, const iso_effects *effects,
-                          const iso_record *rows, bool precise, view_fate *fate, iso_record **beside);
+                          const iso_record *rows, iso_record **beside);
+
+/* page->section->fate: verdicts on the orbits that begin on the section at (l, x), with the energy of `start`. Adds a
+ * note if there are none, such as for a section that is not global. Errors: likewise. */
+iso_status view_judge_section(iso_context *ctx, view_page *page, const iso_start *start, const iso_effects *effects,
+                              const double (*at)[2]);
 
 /* page->fate and page->beside, by the first row. Errors: likewise. */
 iso_status view_neighbour_of_rows(iso_context *ctx, view_page *page);

@@ -20,24 +20,40 @@ static bool is_fatal(iso_status status)
     return status == ISO_NO_MEMORY || status == ISO_STOPPED;
 }
 
+/* Runs the study of chaos for the orbit from `start`, and for the starts that `o` has on its section. */
 static iso_status judge(iso_context *ctx, const view_page *page, const iso_start *start, const iso_effects *effects,
-                        long exponent_turns, view_fate *fate)
+                        iso_chaos_options *o, iso_chaos **chaos)
 {
-    iso_chaos *chaos = NULL;
     iso_scene scene = iso_scene_default();
-    iso_chaos_options o = iso_chaos_defaults();
     scene.params = page->params;
     scene.start = *start;
     scene.effects = *effects;
     scene.effects.on[ISO_ATTITUDE] = scene.effects.on[ISO_REACTIONS] = false; /* they only observe */
     scene.end = 1;
-    o.turns = TURNS;
-    o.exponent_turns = exponent_turns;
-    o.models = ISO_SHOW_BALL;
-    o.threads = 1;
-    const iso_status status = iso_chaos_run(ctx, &scene, &o, &chaos);
+    o->turns = TURNS;
+    o->models = ISO_SHOW_BALL;
+    return iso_chaos_run(ctx, &scene, o, chaos);
+}
+
+static view_fate fate_of(const iso_chaos_orbit *orbit)
+{
+    return (view_fate){true, orbit->verdict, orbit->result[ISO_BALL].exponent[ISO_CLOCK_T]};
+}
+
+iso_status view_judge_section(iso_context *ctx, view_page *page, const iso_start *start, const iso_effects *effects,
+                              const double (*at)[2])
+{
+    view_section *s = page->section;
+    iso_chaos *chaos = NULL;
+    iso_chaos_options o = iso_chaos_defaults();
+    o.at = at;
+    o.at_count = s->count;
+    o.axis = s->axis;
+    const iso_status status = judge(ctx, page, start, effects, &o, &chaos);
     if (status == ISO_OK)
-        *fate = (view_fate){true, chaos->own.verdict, chaos->own.result[ISO_BALL].exponent[ISO_CLOCK_T]};
+        for (size_t i = 0; i < s->count && i < chaos->starts; i++) s->fate[i] = fate_of(&chaos->start[i]);
+    else if (!is_fatal(status))
+        view_note(page, "Which orbits are chaotic is not known: %s.", iso_context_message(ctx));
     iso_chaos_free(chaos);
     return is_fatal(status) ? status : ISO_OK;
 }
@@ -66,6 +82,8 @@ static iso_status open_orbit(iso_context *ctx, const view_page *page, const iso_
     return iso_orbit_create(ctx, &page->params, start, &o, orbit);
 }
 
+static const double at_rest[3] = {0, 0, 0};
+
 static double distance(const iso_sample *a, const iso_sample *b, double speed)
 {
     return hypot(view_distance(a->ball, b->ball) / speed, view_distance(a->ball + 3, b->ball + 3));
@@ -74,15 +92,14 @@ static double distance(const iso_sample *a, const iso_sample *b, double speed)
 static iso_status follow(iso_context *ctx, const view_page *page, iso_orbit *orbit, iso_orbit *other,
                          const iso_record *rows, iso_record *to)
 {
-    const double origin[3] = {0, 0, 0};
     const int t = iso_record_find(rows, "t");
-    double speed = 0;
+    double speed = NAN;
     for (size_t i = 0; i < iso_record_rows(rows); i++) {
         iso_sample here, there;
         const double since = iso_record_const_row(rows, i)[t] - iso_record_const_row(rows, 0)[t];
         ISO_TRY(iso_orbit_at(orbit, since, &here));
         ISO_TRY(iso_orbit_at(other, since, &there));
-        if (i == 0) speed = view_distance(here.ball, origin);
+        if (i == 0) speed = view_distance(here.ball, at_rest);
         const double *seen = (*page->alone ? there.ball : there.point) + 3;
         ISO_TRY(iso_record_add(ctx, to, 1, (double[]){seen[0], seen[1], seen[2], distance(&here, &there, speed)}));
     }
@@ -103,10 +120,11 @@ static iso_status run_beside(iso_context *ctx, const view_page *page, const iso_
 }
 
 iso_status view_neighbour(iso_context *ctx, const view_page *page, const iso_start *start, const iso_effects *effects,
-                          const iso_record *rows, bool precise, view_fate *fate, iso_record **beside_it)
+                          const iso_record *rows, iso_record **beside_it)
 {
     static const char *const names[] = {"near1", "near2", "near3", "near"};
-    ISO_TRY(judge(ctx, page, start, effects, precise ? TURNS : 0, fate));
+    *beside_it = NULL;
+    if (view_distance(start->y, at_rest) == 0) return ISO_OK; /* there is no omega to turn */
     ISO_TRY(iso_record_create(ctx, 4, names, beside_it));
     const iso_status status = run_beside(ctx, page, start, effects, rows, *beside_it);
     if (status == ISO_OK) return ISO_OK;
@@ -119,8 +137,15 @@ iso_status view_neighbour_of_rows(iso_context *ctx, view_page *page)
 {
     iso_start start;
     iso_effects effects = page->effects;
+    iso_chaos *chaos = NULL;
+    iso_chaos_options o = iso_chaos_defaults();
     if (page->no_orbit) return ISO_OK;
-    const iso_status status = iso_record_start(ctx, page->rows, &page->params, ISO_BALL, 0, &start, &effects);
+    iso_status status = iso_record_start(ctx, page->rows, &page->params, ISO_BALL, 0, &start, &effects);
     if (status != ISO_OK) return is_fatal(status) ? status : ISO_OK; /* at rest, ... */
-    return view_neighbour(ctx, page, &start, &effects, page->rows, true, &page->fate, &page->beside);
+    o.exponent_turns = TURNS;
+    status = judge(ctx, page, &start, &effects, &o, &chaos);
+    if (status == ISO_OK) page->fate = fate_of(&chaos->own);
+    iso_chaos_free(chaos);
+    if (is_fatal(status)) return status;
+    return view_neighbour(ctx, page, &start, &effects, page->rows, &page->beside);
 }

@@ -183,8 +183,26 @@ static iso_status run_orbit(const builder *b, size_t row, size_t i)
     if (status == ISO_OK)
         status = follow(b, orbit, step_of(b->page, &start, b->rows < 400 ? LONG_ORBIT_TURN : ORBIT_TURN), *to);
     iso_orbit_free(orbit);
-    if (status == ISO_OK)
-        status = view_neighbour(b->ctx, b->page, &start, &effects, *to, false, &s->fate[i], &s->beside[i]);
+    if (status == ISO_OK) status = view_neighbour(b->ctx, b->page, &start, &effects, *to, &s->beside[i]);
+    return status;
+}
+
+/* Whether they are chaotic, each by its first crossing. `row`: of each orbit its first one. */
+static iso_status judge(const builder *b, const size_t row[])
+{
+    const view_section *s = b->page->section;
+    iso_start start;
+    iso_effects effects = b->page->effects;
+    double(*at)[2] = malloc(s->count * sizeof *at);
+    if (!at) return iso_context_no_memory(b->ctx, "%zu orbits", s->count);
+    for (size_t i = 0; i < s->count; i++) {
+        const double *from = iso_record_const_row(b->in, row[i]);
+        at[i][0] = from[b->l];
+        at[i][1] = from[b->x];
+    }
+    iso_status status = start_of(b, row[0], &start, &effects);
+    if (status == ISO_OK) status = view_judge_section(b->ctx, b->page, &start, &effects, (const double(*)[2])at);
+    free(at);
     return status;
 }
 
@@ -199,13 +217,18 @@ static iso_status run_orbits(builder *b)
     s->beside = calloc(wanted, sizeof *s->beside);
     s->fate = calloc(wanted, sizeof *s->fate);
     s->number = calloc(wanted, sizeof *s->number);
-    iso_status status =
-        s->orbit && s->beside && s->fate && s->number ? ISO_OK : iso_context_no_memory(b->ctx, "%zu orbits", wanted);
+    size_t *row = calloc(wanted, sizeof *row); /* of each orbit its first one */
+    iso_status status = s->orbit && s->beside && s->fate && s->number && row
+                            ? ISO_OK
+                            : iso_context_no_memory(b->ctx, "%zu orbits", wanted);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(b->in) && s->count < wanted; i++) {
         if (i > 0 && orbit_of(b, i) == orbit_of(b, i - 1)) continue;
         s->number[s->count] = orbit_of(b, i);
+        row[s->count] = i;
         status = run_orbit(b, i, s->count++);
     }
+    if (status == ISO_OK) status = judge(b, row);
+    free(row);
     if (wanted < s->orbits)
         view_note(b->page, "The first %zu of the %zu orbits can run in this page.", wanted, s->orbits);
     return status;

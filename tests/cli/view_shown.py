@@ -25,7 +25,10 @@ PAGES = {
     "neumann": scene_of(REDUCED.format(-1)),
     "braden": scene_of(REDUCED.format(1)),
     "chaotic": scene_of(REDUCED.format(0.5), end=100),
+    "parted": scene_of(REDUCED.format(0.5), end=1000),
     "metres": scene_of("ball: {mass: 2, radius: 0.5, inertia: [0.1, 0.15, 0.2]}\nsurface: {kind: plane}"),
+    "rest": "point: {k: -1, J: [1.0, 1.5, 2.0], eps: 0.5}\ninitial: {gamma: [0.36, 0.48, 0.8], M: [0, 0, 0]}\n"
+            "time: {end: 10, step: 0.1}\n",
     "hill": scene_of(REDUCED.format(0.5), "effects: {gravity: {mgb: 0.1, up: [0.36, 0.48, 0.8]}}\n", end=2),
 }
 
@@ -93,6 +96,9 @@ def words(browser):
 
 
 def alone(browser):
+    page = opened(browser, "rest", fragment="#view=compare,beside")
+    check("rest: an orbit that begins at rest has no neighbour", not seen(page, "beside"))
+    quiet(page, "rest")
     page = opened(browser, "hill")
     caption = text(page, "left-words")
     check("hill: the caption says why there is no twin", "no twin" in caption and "gravity" in caption, caption)
@@ -224,6 +230,13 @@ def compared(browser):
     check("the key of the button leaves it", seen(page, "ball") and not seen(page, "ball-path"))
     check("and it says so", page.evaluate("document.getElementById('compare').ariaPressed") == "false")
     quiet(page, "compared")
+    page = opened(browser, "parted", fragment="#t=20&view=compare")
+    same = text(page, "pace-words")
+    page.evaluate("isoroll.seek(950)")
+    page.frame()
+    other = text(page, "pace-words")
+    check("where the two computations have parted, no state is called equal",
+          "are equal states" in same and "no longer equal states" in other, (same, other))
 
 
 # --- the address, films, full screen ------------------------------------------------------------------------------

@@ -33,6 +33,8 @@ const stretch = {
       motion.at(orbit, clocks.even, from + size * (i + j / pieces)),
     );
     stretch.states = stretch.moments.filter((_, j) => j % stretch.FINER === 0);
+    const apart = orbit.column.apart_gamma;
+    stretch.parted = Boolean(apart) && stretch.states.some((m) => apart[Math.round(m.row)] > 1e-3);
     return Object.assign(stretch, { key, from: from + size * i, size });
   },
 };
@@ -102,7 +104,9 @@ function coloured(points, width, hidden) {
 
 const ladder = {
   words: () =>
-    `Equal numbers are equal states. Each line joins one state on both clocks; ${clockWords[clocks.even][0]} runs evenly.`,
+    stretch.at(controls.orbit, controls.value).parted
+      ? "Here the two computations have parted, as on every chaotic orbit: equal numbers are no longer equal states."
+      : `Equal numbers are equal states. Each line joins one state on both clocks; ${clockWords[clocks.even][0]} runs evenly.`,
 
   draw(canvas, now) {
     const { g, width, height } = sheet(canvas),
@@ -129,6 +133,8 @@ const ladder = {
     states.forEach((m, i) => rung(m, phaseColours[i], 2.5));
     rung(now, style.getPropertyValue("--text"), 1.5);
     for (const one of [t, s]) ladder.rail(g, one, states, style);
+    const words = document.getElementById("pace-words");
+    if (words.textContent !== ladder.words()) words.textContent = ladder.words();
   },
 
   // The name of a clock, and the numbered states on it.

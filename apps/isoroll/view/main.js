@@ -50,9 +50,9 @@ const controls = {
   setOrbit(orbit) {
     this.orbit = orbit;
     const moments = motion.moments(orbit, 0.08);
-    clocks.build(orbit);
     stretch.measure(orbit);
     growth.build(orbit);
+    clocks.build(orbit);
     if (!orbit.column.near && this.beside) this.showBeside(false);
     for (const picture of [...(this.pictures || []), ...(this.paths || [])]) picture.setOrbit(orbit, moments);
     if (sections) sections.setOrbit(orbit);
@@ -183,6 +183,7 @@ const controls = {
     return canvas;
   },
   showBeside(on) {
+    on = on && Boolean(this.orbit.column.near);
     this.beside = on;
     element("beside").setAttribute("aria-pressed", String(on));
     element("growth").hidden = element("beside-words").hidden = !on;
@@ -301,7 +302,7 @@ const controls = {
       element("trouble").hidden = false;
       element("trouble").textContent =
         "This browser has no WebGL, so the pictures in space are missing. Clocks and numbers work without it.";
-      element("models").hidden = true;
+      for (const part of document.querySelectorAll(".stage, .legend")) part.hidden = true;
       element("picture").hidden = element("compare").hidden = true;
     }
     clocks.even = page.clock;

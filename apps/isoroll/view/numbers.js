@@ -138,9 +138,9 @@ const numbers = {
     id("title").textContent = page.alone
       ? `${ball}${falls.replace(/,$/, "")}`
       : page.section
-        ? "All orbits of one energy: a rolling ball, and the point that is its twin"
+        ? "Orbits of one energy: a rolling ball, and the point that is its twin"
         : "One orbit in two worlds: a rolling ball, and the point that is its twin";
-    document.title = `${id("title").textContent} – ${page.title}`;
+    document.title = `${page.title} – ${id("title").textContent}`;
     this.write(
       id("lead"),
       page.alone

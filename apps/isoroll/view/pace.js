@@ -45,7 +45,7 @@ const pace = {
   // From times and values to pixels.
   scales(width, height) {
     const left = 8,
-      right = width - 62,
+      right = width - 70,
       top = 8,
       bottom = height - 18,
       room = Math.max(this.most - this.low, 1e-6) * 0.06;
