@@ -5,8 +5,9 @@
 
 #define COMMANDS(X)                                                                                                  \
     X(run)                                                                                                           \
-    X(convert) X(compare) X(cost) X(check) X(plot) X(view) X(section) X(chaos) X(periodic) X(splitting) X(integrals) \
-        X(sweep) X(explain) X(analogue) X(frequencies) X(list) X(manual)
+    X(convert)                                                                                                       \
+    X(compare) X(cost) X(check) X(plot) X(view) X(section) X(chaos) X(periodic) X(splitting) X(integrals) X(sweep)   \
+        X(explain) X(analogue) X(frequencies) X(list) X(manual)
 #define DECLARE(name) extern const command command_##name;
 #define ADDRESS(name) &command_##name,
 
