@@ -191,6 +191,8 @@ if has gnuplot "--plot"; then
     check "outside of the sea all orbits are in colours" grep -q '^[1-9][0-9]* 0$' a
     run 0 section tame.yaml --starts 30 --crossings 100 -o tame.csv --plot tame.svg --quiet
     check_not "k = -1: none is chaotic" grep -q ">chaotic<" tame.svg
+    run 0 plot tame.csv -o look.svg --script whole.gp --window=-3.1416:3.1416,-1:1
+    check "a pi in few digits" grep -q "^set xrange \[-3.14159265358979[0-9]*:3.14159265358979[0-9]*\]" whole.gp
     check "its axes" grep -q "in the units of the scene" wild.svg
     run 0 section tame.yaml --starts 5 --crossings 20 --model ball -o tame.csv --plot tame.png --quiet
     check "a picture of one" test "$(head -c 4 tame.png | tail -c 3)" = PNG
@@ -213,6 +215,8 @@ if has gnuplot "--plot"; then
     run 0 plot tame.csv -o look.svg --script look.gp --window=0.2:0.9,-0.1:0.5
     check "spots in the window" test "$(spots point | wc -l)" -gt 20
     check "none outside of it" test "$(spots point | awk '$1 < 0.1999 || $1 > 0.9001' | wc -l)" -eq 0
+    run 0 plot tame.csv -o look.svg --script whole.gp --window=-3.1416:3.1416,-1:1
+    check "a pi in few digits" grep -q "^set xrange \[-3.14159265358979[0-9]*:3.14159265358979[0-9]*\]" whole.gp
     check "its axes" grep -q "^set xrange \[0.2[0-9]*:0.[89][0-9]*\]" look.gp
 
     # periodic orbits and a splitting over it

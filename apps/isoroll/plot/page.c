@@ -1,6 +1,7 @@
 /* page.c - what is asked of a picture's page (see page.h). */
 #include "plot/page.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/number_impl.h"
@@ -63,8 +64,11 @@ bool iso_plot_set_window(void *at, const char *text)
 {
     iso_plot_window *window = at;
     const size_t comma = strcspn(text, ",");
-    return text[comma] == ',' && read_range(text, comma, 3.1416, window->l) &&
-           read_range(text + comma + 1, strlen(text + comma + 1), 1, window->x);
+    if (text[comma] != ',' || !read_range(text, comma, 3.15, window->l) ||
+        !read_range(text + comma + 1, strlen(text + comma + 1), 1, window->x))
+        return false;
+    for (int i = 0; i < 2; i++) window->l[i] = fmin(fmax(window->l[i], -M_PI), M_PI); /* a pi in few digits */
+    return window->l[0] < window->l[1];
 }
 
 bool iso_plot_set_over(void *at, const char *text)

@@ -16,7 +16,7 @@ static const struct {
 } kinds[KINDS] = {{"p pt 6 ps 0.9 lw 1.6 lc rgb 'black'", "p pt 7 ps 0.9 lc rgb 'white'", "stable periodic orbit"},
                   {"p pt 2 ps 0.8 lw 1.6 lc rgb 'black'", NULL, "unstable periodic orbit"},
                   {"l lw 1.4 lc rgb " ISO_PLOT_VERMILLION, NULL, "leaves the unstable rotation"},
-                  {"l lw 1.4 dt (6,3) lc rgb " ISO_PLOT_BLUE, NULL, "enters it"}};
+                  {"l lw 1.4 dt (12,7) lc rgb " ISO_PLOT_BLUE, NULL, "enters it"}};
 
 /* --- reading ---------------------------------------------------------------------------------------------------- */
 

@@ -84,11 +84,29 @@ static iso_plot_spot of_point(const iso_plot_section *s, const double chart[2])
     return (iso_plot_spot){chart[0], chart[1] * largest_momentum(s, chart[0])};
 }
 
-/* Whether a crossing is in the window, and not so near that its spot is cut. */
-static bool is_inside(const iso_plot_window *w, const double chart[2])
+typedef iso_plot_spot place_of(const iso_plot_section *s, const double chart[2]);
+
+/* The rectangle that holds the window on one side, told by its edges. Without a window all is in it. */
+static void find_window(const iso_plot_page *page, const iso_plot_section *s, place_of *place,
+                        iso_plot_spot corner[2])
 {
-    return w->x[0] == w->x[1] ||
-           (chart[0] >= w->l[0] && chart[0] <= w->l[1] && chart[1] >= w->x[0] && chart[1] <= w->x[1]);
+    const iso_plot_window *w = &page->window;
+    const bool given = w->x[0] < w->x[1];
+    const double low = given ? INFINITY : -INFINITY;
+    corner[0] = (iso_plot_spot){low, low}, corner[1] = (iso_plot_spot){-low, -low};
+    for (int i = 0; given && i <= 2 * BOUNDARY + 1; i++) {
+        const iso_plot_spot at =
+            place(s, (double[]){w->l[0] + (w->l[1] - w->l[0]) * (i / 2) / BOUNDARY, w->x[i % 2]});
+        corner[0] = (iso_plot_spot){fmin(corner[0].right, at.right), fmin(corner[0].up, at.up)};
+        corner[1] = (iso_plot_spot){fmax(corner[1].right, at.right), fmax(corner[1].up, at.up)};
+    }
+}
+
+/* False of a spot that is not finite, too. */
+static bool is_inside(const iso_plot_spot corner[2], iso_plot_spot at)
+{
+    return isfinite(at.right) && isfinite(at.up) && at.right >= corner[0].right && at.right <= corner[1].right &&
+           at.up >= corner[0].up && at.up <= corner[1].up;
 }
 
 /* A block of crossings, of the point where it has columns of its own. The grey ones come first, so that they lie
@@ -99,14 +117,16 @@ static double put_crossings(FILE *f, const iso_plot_page *page, const iso_plot_s
     const int l = own < 0 ? iso_record_find(s->rows, "l") : own, shade = iso_record_find(s->rows, "grey");
     const int x = iso_record_find(s->rows, own < 0 ? "x" : "point_x");
     double most = 0, range[2];
+    iso_plot_spot corner[2];
+    find_window(page, s, ball ? of_ball : of_point, corner);
     range_of(s, range);
     fprintf(f, "$%s << EOD\nNaN NaN 0 0\n", ball ? "ball" : "point");
     for (int behind = 1; behind >= 0; behind--)
         for (size_t i = 0; i < iso_record_rows(s->rows); i++) {
             const double *row = iso_record_const_row(s->rows, i), chart[] = {row[l], row[x]};
-            if ((row[shade] != 0) != behind || !is_inside(&page->window, chart)) continue;
+            if ((row[shade] != 0) != behind) continue;
             const iso_plot_spot at = ball ? of_ball(s, chart) : of_point(s, chart);
-            if (!isfinite(at.right) || !isfinite(at.up)) continue;
+            if (!is_inside(corner, at)) continue;
             fprintf(f, "%.5f %.6g %ld %d\n", at.right, at.up, colour_of(s, row, range), (int)row[shade]);
             most = fmax(most, fabs(at.up));
         }
@@ -130,10 +150,13 @@ static double put_boundary(FILE *f, const iso_plot_section *s)
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-/* Spots of a section: the more, the smaller. Periodic orbits are few: those in colours are large. */
-static void put_spots(FILE *f, const iso_plot_section *s, const char *block)
+/* Spots of a section: the more in the window, the smaller. Periodic orbits are few: those in colours are large. */
+static void put_spots(FILE *f, const iso_plot_page *page, const iso_plot_section *s, const char *block)
 {
-    const double size = fmin(fmax(9 / sqrt((double)iso_record_rows(s->rows)), 0.05), 0.4);
+    const double part =
+        (page->window.x[1] - page->window.x[0]) * (page->window.l[1] - page->window.l[0]) / (4 * M_PI);
+    const double spots = (double)iso_record_rows(s->rows) * (part > 0 ? part : 1);
+    const double size = fmin(fmax(9 / sqrt(spots), 0.05), 0.4);
     if (s->few)
         fprintf(f, "$%s using 1:2:($4 > 0 ? 0.45 : 1.1):3 with points pt 7 ps variable lc rgb variable notitle",
                 block);
@@ -178,21 +201,13 @@ static const double *sides_of(const iso_plot_section *s)
     return range_of(s, range) ? beside_bar : wide;
 }
 
-/* The ranges of a window, which is bounded by lines of l and x: its edges tell them. */
-static void put_window(FILE *f, const iso_plot_page *page, const iso_plot_section *s,
-                       iso_plot_spot (*place)(const iso_plot_section *s, const double chart[2]))
+static void put_window(FILE *f, const iso_plot_page *page, const iso_plot_section *s, place_of *place)
 {
-    const iso_plot_window *w = &page->window;
-    iso_plot_spot low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
-    if (w->x[0] == w->x[1]) return;
-    for (int i = 0; i <= 2 * BOUNDARY + 1; i++) {
-        const iso_plot_spot at =
-            place(s, (double[]){w->l[0] + (w->l[1] - w->l[0]) * (i / 2) / BOUNDARY, w->x[i % 2]});
-        low = (iso_plot_spot){fmin(low.right, at.right), fmin(low.up, at.up)};
-        high = (iso_plot_spot){fmax(high.right, at.right), fmax(high.up, at.up)};
-    }
-    fprintf(f, "set xrange [%.17g:%.17g]; set xtics autofreq; set yrange [%.17g:%.17g]\n", low.right, high.right,
-            low.up, high.up);
+    iso_plot_spot corner[2];
+    if (page->window.x[0] == page->window.x[1]) return;
+    find_window(page, s, place, corner);
+    fprintf(f, "set xrange [%.17g:%.17g]; set xtics autofreq; set yrange [%.17g:%.17g]\n", corner[0].right,
+            corner[1].right, corner[0].up, corner[1].up);
 }
 
 static void put_ball(FILE *f, const iso_plot_page *page, const iso_plot_section *s, double top)
@@ -207,7 +222,7 @@ static void put_ball(FILE *f, const iso_plot_page *page, const iso_plot_section 
             sides_of(s)[0], sides_of(s)[1], top, top, a, a, b, c, a);
     put_window(f, page, s, of_ball);
     fputs("plot ", f);
-    put_spots(f, s, "ball");
+    put_spots(f, page, s, "ball");
 }
 
 static void put_point(FILE *f, const iso_plot_page *page, const iso_plot_section *s, double top, double most)
@@ -232,7 +247,7 @@ static void put_point(FILE *f, const iso_plot_page *page, const iso_plot_section
     }
     double range[2];
     if (range_of(s, range)) fputs("$boundary using 1:(NaN):(0) with points lc palette notitle, ", f);
-    put_spots(f, s, "point");
+    put_spots(f, page, s, "point");
 }
 
 iso_status iso_plot_sections(iso_context *ctx, const iso_plot_page *page, const iso_plot_section *s)
