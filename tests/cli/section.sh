@@ -200,7 +200,12 @@ if has gnuplot "--plot"; then
     check "rows are kept without the picture" test "$(rows kept.csv | wc -l)" -eq 5
 
     # the script of a picture: spots of both sides as "place height colour shade"
-    block() { awk -v head="\$$1 << EOD" '$0 == head { inside = 1; next } $0 == "EOD" { inside = 0 } inside && $1 != "NaN"' look.gp; }
+    block() {
+        awk -v head="\$$1 << EOD" '
+            $0 == head { inside = 1; next }
+            $0 == "EOD" { inside = 0 }
+            inside && $1 != "NaN"' look.gp
+    }
     spots() { block "$1" | awk 'NF == 4'; }
     run 0 plot tame.csv -o look.svg --script look.gp
     run 0 section tame.yaml --starts 20 --crossings 200 -o tame.csv --plot look.svg --script look.gp --quiet

@@ -138,7 +138,7 @@ typedef struct iso_plot_section {
 } iso_plot_section;
 
 /* Left: the section of the ball. Its axes are the angle of n in the plane n_a = 0, and omega_a/|omega|. Right: that
- * of the point. Its axes are l and L = M_a, and its boundaries are L = +-G(l). Each orbit has one colour.
+ * of the point. Its axes are l and L = M_a, and its boundaries are L = +-G(l).
  * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 iso_status iso_plot_sections(iso_context *ctx, const iso_plot_page *page, const iso_plot_section *section);
 
