@@ -34,7 +34,7 @@ seen() {
     "$isoroll" run "$@" -o "$work/$(basename "$name").csv" 2>"$work/out"
     "$isoroll" plot "$work/$(basename "$name").csv" -o "$name.svg" 2>"$work/out"
 }
-seen 01_bowling_ball/lane 01_bowling_ball/lane.yaml --t-end 70 --step 0.1 --tol 1e-14
+seen 01_bowling_ball/lane 01_bowling_ball/lane.yaml --t-end 42 --step 0.12 --tol 1e-14
 seen 09_off_the_top/off 09_off_the_top/scene.yaml --step 0.01
 seen 10_bowl/bowl 10_bowl/scene.yaml --t-end 3.2 --step 0.0125
 mv 09_off_the_top/off.svg 09_off_the_top/picture.svg
