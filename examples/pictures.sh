@@ -34,7 +34,7 @@ seen() {
     "$isoroll" run "$@" -o "$work/$(basename "$name").csv" 2>"$work/out"
     "$isoroll" plot "$work/$(basename "$name").csv" -o "$name.svg" 2>"$work/out"
 }
-seen 01_bowling_ball/lane 01_bowling_ball/lane.yaml --t-end 70 --step 0.2 --tol 1e-14
+seen 01_bowling_ball/lane 01_bowling_ball/lane.yaml --t-end 42 --step 0.12 --tol 1e-14
 seen 09_off_the_top/off 09_off_the_top/scene.yaml --step 0.01
 seen 10_bowl/bowl 10_bowl/scene.yaml --t-end 3.2 --step 0.0125
 mv 09_off_the_top/off.svg 09_off_the_top/picture.svg
@@ -54,8 +54,8 @@ sed 's/resistance: 10/resistance: 0/' "$scene" | "$isoroll" run - -o "$work/marb
 chart 11_rubber_and_marble/picture.svg <<EOF
 set datafile separator ","; set xlabel 't'; set ylabel 'n3'; set key outside top center horizontal
 plot '$work/rubber.csv' using 't':'n3' with lines lw 2 lc rgb '#0072B2' title 'rubber ball', \
-     '$work/ten.csv' using 't':'n3' with lines lw 2 lc rgb '#E69F00' title 'c = 10', \
-     '$work/marble.csv' using 't':'n3' with lines lw 2 lc rgb '#D55E00' title 'classical ball, c = 0'
+     '$work/ten.csv' using 't':'n3' with lines lw 2 dt (8,3) lc rgb '#E8AA00' title 'c = 10', \
+     '$work/marble.csv' using 't':'n3' with lines lw 2 dt (2,3) lc rgb '#D55E00' title 'classical ball, c = 0'
 EOF
 
 # sections: of both models, in a file .png, since a .svg would hold each point
@@ -64,6 +64,12 @@ section=16_sections
     2>"$work/out"
 "$isoroll" section $section/integrable.yaml --starts 40 --crossings 300 -o "$work/tame.csv" \
     --plot $section/integrable.png 2>"$work/out"
+
+# what is in its chaos: periodic orbits, and the curves of the unstable rotation
+"$isoroll" periodic $section/scene.yaml --period 4 -o "$work/orbits.csv" >"$work/out"
+"$isoroll" splitting $section/scene.yaml --k 1/2 --digits double -o "$work/curves.csv" >"$work/out"
+"$isoroll" plot "$work/wild.csv" --over "$work/orbits.csv" --over "$work/curves.csv" --window 0:3.1416,-0.5:0.5 \
+    --size 1200x690px -o $section/tangle.png
 
 # takes minutes: many values of k need 128 bits
 scene=17_why_only_one

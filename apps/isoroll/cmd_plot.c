@@ -227,7 +227,7 @@ static iso_status draw_table(iso_context *ctx, const options *o)
 {
     iso_record *table = NULL;
     iso_status status = iso_table_read(ctx, o->from.file, NULL, NULL, &table, NULL);
-    if (status == ISO_OK) status = iso_plot_table(ctx, &o->page, name_of(o), table);
+    if (status == ISO_OK) status = iso_plot_table(ctx, &o->page, table);
     iso_record_free(table);
     return status;
 }
@@ -244,6 +244,8 @@ static int run(iso_context *ctx, const void *options_given)
     const bool sweep = strcmp(kind, "sweep") == 0 || strcmp(kind, "sweep part") == 0;
     if (sweep && o->from.columns)
         return complain("plot: --columns is for trajectories; of a sweep give --value NAME"), EXIT_USAGE;
+    const char *wish = iso_plot_section_wish(&o->page);
+    if (wish && !iso_plot_has_kind(kind)) return complain("plot: --%s is for sections", wish), EXIT_USAGE;
     if (sweep) return finish(ctx, iso_plot_sweep(ctx, &o->page, o->from.file, o->value));
     if (status == ISO_OK && o->value)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "plot: --value is for results of sweeps");
@@ -258,6 +260,7 @@ static const option_row rows[] = {
     ROW_OF_FILE("output", "FILE", "a file", "the picture: .svg, .png or .pdf", iso_set_text, options, page.path, 'o',
                 OPTION_WRITES),
     ROWS_OF_LOOK(options, page),
+    ROWS_OF_SECTION(options, page),
     ROW("value", "NAME", "a name", "of a sweep: which column is drawn, such as splitting_m", iso_set_text, options,
         value),
     ROWS_OF_FILE(options, from),

@@ -222,6 +222,7 @@ static const option_row rows[] = {
     ROW_OUTPUT(options, shell.table),
     ROWS_OF_STUDY(iso_section_option, 0, 9),
     ROWS_OF_PLOT(options, shell.plot),
+    ROWS_OF_SECTION(options, shell.plot),
     ROWS_OF_STUDY(iso_section_option, 9, 2),
     ROW("quiet", NULL, NULL, "print no summary on stderr", iso_set_flag, options, quiet),
     ROW_END,
@@ -249,7 +250,12 @@ const command command_section = {
         "--plot draws the sections of both models side by side. A regular orbit has the colour of its rotation "
         "number, "
         "the mean turn from one crossing to the next: about axis A, or about its centre if it stays in a part of the "
-        "circle of l. Its images by the reversors are drawn too. Chaotic orbits are grey, undecided ones dark.\n\n"
+        "circle of l. Its images by the reversors are drawn too. Chaotic orbits are grey, undecided ones dark. "
+        "--window draws a part of it. "
+        "--over FILE draws over it what 'periodic -o' or 'splitting -o' wrote: periodic orbits, by a crossing of "
+        "each and "
+        "its images, and the curves that leave and enter the unstable rotation, if a row has the k of the "
+        "section.\n\n"
         "--cloud N makes clouds of N states that are distributed by the invariant measure (10) at the scene's "
         "energy. One cloud is carried by the flow in equal times t, one in equal times s, and one by returns to "
         "the section, where the measure is dL dl. Then each cloud is tested against the measure. Its line has p, "

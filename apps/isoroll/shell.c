@@ -68,7 +68,7 @@ iso_status shell_lines(shell *s, const table_line *l)
 
 int shell_draw(const shell *s, const iso_record *table)
 {
-    return finish(s->ctx, iso_plot_table(s->ctx, &s->told->plot, "", table));
+    return finish(s->ctx, iso_plot_table(s->ctx, &s->told->plot, table));
 }
 
 /* Prints words or JSON, unless the table goes to standard output. */

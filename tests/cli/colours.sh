@@ -6,7 +6,7 @@ has gnuplot "pictures" || { finish && exit; }
 has python3 "how colours are seen" || { finish && exit; }
 palette=$source/apps/isoroll/plot/palette.h
 check_not "colours outside of the palette" \
-    grep -n "#[0-9A-F]\{6\}\|0x[0-9A-F]\{6\}" "$source"/apps/isoroll/plot/plot_*.c "$source"/apps/isoroll/plot/plot_parts.h
+    grep -n "#[0-9A-F]\{6\}\|0x[0-9A-F]\{6\}" "$source"/apps/isoroll/plot/plot_*.[ch]
 
 # drawn NAME ARGUMENT...: a picture; its script is NAME.gp
 drawn() {

@@ -191,11 +191,67 @@ if has gnuplot "--plot"; then
     check "outside of the sea all orbits are in colours" grep -q '^[1-9][0-9]* 0$' a
     run 0 section tame.yaml --starts 30 --crossings 100 -o tame.csv --plot tame.svg --quiet
     check_not "k = -1: none is chaotic" grep -q ">chaotic<" tame.svg
+    run 0 plot tame.csv -o look.svg --script whole.gp --window=-3.1416:3.1416,-1:1
+    check "a pi in few digits" grep -q "^set xrange \[-3.14159265358979[0-9]*:3.14159265358979[0-9]*\]" whole.gp
     check "its axes" grep -q "in the units of the scene" wild.svg
     run 0 section tame.yaml --starts 5 --crossings 20 --model ball -o tame.csv --plot tame.png --quiet
     check "a picture of one" test "$(head -c 4 tame.png | tail -c 3)" = PNG
     run 5 section tame.yaml --crossings 5 -o kept.csv --plot absent/a.svg
     check "rows are kept without the picture" test "$(rows kept.csv | wc -l)" -eq 5
+
+    # the script of a picture: spots of both sides as "place height colour shade"
+    block() {
+        awk -v head="\$$1 << EOD" '
+            $0 == head { inside = 1; next }
+            $0 == "EOD" { inside = 0 }
+            inside && $1 != "NaN"' look.gp
+    }
+    spots() { block "$1" | awk 'NF == 4'; }
+    run 0 plot tame.csv -o look.svg --script look.gp
+    run 0 section tame.yaml --starts 20 --crossings 200 -o tame.csv --plot look.svg --script look.gp --quiet
+    check "a scale of rotation numbers" grep -q ">rotation number: turns from crossing to crossing<" look.svg
+    check "many colours" test "$(spots ball | awk '{ print $3 }' | sort -u | wc -l)" -gt 10
+    # mirror images: to each spot of a regular orbit one with l, x and the others' signs, in the same colour
+    spots point | awk '$4 == 0 { printf "%.3f %.2f %d\n", ($1 < 0 ? -$1 : $1), ($2 < 0 ? -$2 : $2), $3 }' |
+        sort | uniq -c | awk '{ n[$1 % 4]++ } END { print n[0] + 0, n[1] + n[2] + n[3] + 0 }' >a
+    check "four or eight spots of each" awk '{ exit !($1 > 100 && $2 * 20 < $1) }' a
+
+    # only a part
+    run 0 plot tame.csv -o look.svg --script look.gp --window=0.2:0.9,-0.1:0.5
+    check "spots in the window" test "$(spots point | wc -l)" -gt 20
+    check "none outside of it" test "$(spots point | awk '$1 < 0.1999 || $1 > 0.9001' | wc -l)" -eq 0
+    run 0 plot tame.csv -o look.svg --script whole.gp --window=-3.1416:3.1416,-1:1
+    check "a pi in few digits" grep -q "^set xrange \[-3.14159265358979[0-9]*:3.14159265358979[0-9]*\]" whole.gp
+    check "its axes" grep -q "^set xrange \[0.2[0-9]*:0.[89][0-9]*\]" look.gp
+
+    # periodic orbits and a splitting over it
+    run 0 section wild.yaml --starts 10 --crossings 60 -o wild.csv --quiet
+    run 0 periodic wild.yaml --period 2 -o orbits.csv
+    run 0 splitting wild.yaml --k 0.5,0.6 --digits double -o splitting.csv
+    run 0 plot wild.csv -o look.svg --script look.gp --over orbits.csv --over splitting.csv
+    for words in "stable periodic orbit" "unstable periodic orbit" "leaves the unstable rotation" "enters it"; do
+        check "the key: $words" grep -q ">$words<" look.svg
+    done
+    # the stable orbits of the file with their images; x times G(l) upward, with signs
+    { columns orbits.csv; rows orbits.csv; } | awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+        $at["stability"] == "stable" { n += 8 } END { print n + 0 }' >a
+    block point0 | grep -c . >b
+    check "as many as there are" sh -c 'test $(cat a) -gt 0 && test $(cat a) -eq $(cat b)'
+    for kind in 2 3; do block point$kind | awk 'NF == 2 {
+        printf "%.3f %.2f\n", ($1 < 0 ? -$1 : $1), ($2 < 0 ? -$2 : $2) }' | sort -u >curve$kind; done
+    check "both curves are mirror images" sh -c 'test -s curve2 && cmp curve2 curve3'
+    run 0 section wild.yaml --starts 5 --crossings 60 -o wild.csv --plot look.png --over orbits.csv --quiet
+    sed 's/^0\.5,/0.55,/' splitting.csv >other.csv
+    refuses 3 "no row has the k and the level of the section" plot wild.csv -o look.svg --over other.csv
+    refuses 3 "it has other k or J" plot tame.csv -o look.svg --over orbits.csv
+    refuses 3 "what 'periodic -o' or 'splitting -o' writes" plot wild.csv -o look.svg --over tame.csv
+    refuses 2 "--over is for sections" plot orbits.csv -o look.svg --over orbits.csv
+    cp orbits.csv orbits.svg
+    refuses 2 "would overwrite what is read" plot wild.csv -o orbits.svg --over orbits.svg
+    for window in 1 0:1 0:1,0:2 1:0,0:1 0:4,0:1 0:1,0:1,2 a:b,0:1; do
+        refuses 2 "expected two ranges" plot wild.csv -o look.svg --window="$window"
+    done
+    refuses 2 "--window is about a picture" section wild.yaml --window=0:1,0:1
 else
     echo "gnuplot is not installed: no pictures"
 fi

@@ -33,7 +33,7 @@ static void make_circle(double z[MOST][2], double turns, bool around_axis)
 
 static void test_circles(void)
 {
-    static const double turns[] = {0.6180339887498949, 0.123456789, 0.41421356237, -0.271828, 0.4987, 0.0123};
+    static const double turns[] = {0.6180339887498949, 0.123456789, 0.41421356237, -0.271828, 0.487, 0.0123};
     double z[MOST][2], mirror[MOST][2];
     for (size_t n = 0; n < sizeof turns / sizeof *turns; n++)
         for (int around = 0; around < 2; around++) {

@@ -85,18 +85,19 @@ static double given(const format *f, const iso_plot_page *page, double length)
     return page->size.mm ? length / MM * f->inch : length * f->px;
 }
 
-/* Units of the file in a pixel of a page that is `width` wide. */
-static double scale_of(const format *f, const iso_plot_page *page, int width)
+/* Units of the file in a pixel of a page of width x height. */
+static double scale_of(const format *f, const iso_plot_page *page, int width, int height)
 {
     if (page->style == ISO_PLOT_IN_PRINT) return COLUMNS_MM / MM * f->inch / PAGE;
-    return page->size.width > 0 ? given(f, page, page->size.width) / width : f->scale;
+    if (page->size.width == 0) return f->scale;
+    return fmin(given(f, page, page->size.width) / width, given(f, page, page->size.height) / height);
 }
 
 void iso_gnuplot_fit(const iso_plot_page *page, bool one_panel, int *width, int *height)
 {
     const format *f = find_format(page->path);
     if (f && page->size.width > 0) {
-        const double scale = scale_of(f, page, *width);
+        const double scale = scale_of(f, page, *width, *height);
         *width = (int)lround(given(f, page, page->size.width) / scale);
         *height = (int)lround(given(f, page, page->size.height) / scale);
     } else if (one_panel && iso_gnuplot_is_narrow(page)) {
@@ -108,7 +109,7 @@ void iso_gnuplot_fit(const iso_plot_page *page, bool one_panel, int *width, int 
 /* The terminal. Lines and signs are as wide as the scale says, letters in print are of one size. */
 static void put_terminal(FILE *to, const format *f, const iso_plot_page *page, int width, int height)
 {
-    const double scale = scale_of(f, page, width), finer = scale / f->scale;
+    const double scale = scale_of(f, page, width, height), finer = scale / f->scale;
     const double letter = page->style == ISO_PLOT_IN_PRINT ? PRINT_LETTER * f->inch / 72 : LETTER * scale;
     double size[2] = {width * scale, height * scale};
     if (page->size.width > 0) size[0] = given(f, page, page->size.width);

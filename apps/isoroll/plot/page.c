@@ -1,6 +1,7 @@
 /* page.c - what is asked of a picture's page (see page.h). */
 #include "plot/page.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/number_impl.h"
@@ -50,6 +51,40 @@ bool iso_plot_set_size(void *at, const char *text)
     return is_good(size.width, size.mm) && is_good(size.height, size.mm);
 }
 
+/* "A:B", A < B, both of a size up to `most`. */
+static bool read_range(const char *text, size_t length, double most, double range[2])
+{
+    const char *colon = memchr(text, ':', length);
+    return colon && iso_number_read(text, (size_t)(colon - text), &range[0]) &&
+           iso_number_read(colon + 1, (size_t)(text + length - colon - 1), &range[1]) && range[0] < range[1] &&
+           range[0] >= -most && range[1] <= most;
+}
+
+bool iso_plot_set_window(void *at, const char *text)
+{
+    iso_plot_window *window = at;
+    const size_t comma = strcspn(text, ",");
+    if (text[comma] != ',' || !read_range(text, comma, 3.15, window->l) ||
+        !read_range(text + comma + 1, strlen(text + comma + 1), 1, window->x))
+        return false;
+    for (int i = 0; i < 2; i++) window->l[i] = fmin(fmax(window->l[i], -M_PI), M_PI); /* a pi in few digits */
+    return window->l[0] < window->l[1];
+}
+
+bool iso_plot_set_over(void *at, const char *text)
+{
+    const char **over = at;
+    int i = 0;
+    while (i < ISO_PLOT_OVERS && over[i]) i++;
+    if (i < ISO_PLOT_OVERS) over[i] = text;
+    return i < ISO_PLOT_OVERS && *text;
+}
+
+const char *iso_plot_section_wish(const iso_plot_page *page)
+{
+    return page->over[0] ? "over" : page->window.x[0] < page->window.x[1] ? "window" : NULL;
+}
+
 /* --- the page --------------------------------------------------------------------------------------------------- */
 
 iso_status iso_plot_check_page(iso_context *ctx, const iso_plot_page *page)
@@ -58,7 +93,7 @@ iso_status iso_plot_check_page(iso_context *ctx, const iso_plot_page *page)
                        : page->size.width > 0 ? "size"
                        : page->title          ? "title"
                        : page->script         ? "script"
-                                              : NULL;
+                                              : iso_plot_section_wish(page);
     if (page->path) return iso_gnuplot_check_format(ctx, page->path);
     if (!wish) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, wish, "--%s is about a picture: give --plot FILE, too", wish);

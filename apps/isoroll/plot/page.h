@@ -18,17 +18,29 @@ typedef struct iso_plot_size {
     bool mm;              /* else px      */
 } iso_plot_size;
 
+/* A part of a section. */
+typedef struct iso_plot_window {
+    double l[2], x[2]; /* x[0] = x[1]: not given */
+} iso_plot_window;
+
+enum { ISO_PLOT_OVERS = 4 };
+
 typedef struct iso_plot_page {
     const char *path;     /* of the picture, which ends in .svg, .png or .pdf; NULL: no picture is asked for */
     const char *title;    /* in place of its own; "": none; NULL: its own                                    */
     const char *script;   /* gets gnuplot's script with its data; NULL: it is not kept                       */
     iso_plot_style style; /* not given: the screen's                                                         */
     iso_plot_size size;
+    iso_plot_window window;           /* of a section; not given: the whole                          */
+    const char *over[ISO_PLOT_OVERS]; /* files that are drawn over a section; NULL: no more of them  */
 } iso_plot_page;
 
 /* Whether the picture can have this name, and whether there is one if there are wishes for it: to ask before the
  * work. Errors: ISO_BAD_ARGUMENT. */
 iso_status iso_plot_check_page(iso_context *ctx, const iso_plot_page *page);
+
+/* "over" or "window", if one is given: they are for sections. NULL: none is. */
+const char *iso_plot_section_wish(const iso_plot_page *page);
 
 /* The title that is drawn: "" is none. */
 const char *iso_plot_titled(const iso_plot_page *page, const char *own);
@@ -37,7 +49,9 @@ const char *iso_plot_titled(const iso_plot_page *page, const char *own);
 bool iso_plot_set_style(void *at, const char *text); /* iso_plot_style: a word of iso_plot_style_word */
 bool iso_plot_set_size(void *at, const char *text);  /* WIDTHxHEIGHT and mm or px                     */
 bool iso_plot_set_title(void *at, const char *text); /* const char *; none: ""                        */
-const char *iso_plot_style_word(int i);              /* "screen", "print"                             */
+bool iso_plot_set_window(void *at, const char *text);
+bool iso_plot_set_over(void *at, const char *text); /* one file more */
+const char *iso_plot_style_word(int i);             /* "screen", "print"                             */
 
 /* The rows of options that every command with a picture has; `field` is the page's place in the struct `type`. */
 #define ROWS_OF_PLOT(type, field)                                                                                    \
@@ -54,5 +68,14 @@ const char *iso_plot_style_word(int i);              /* "screen", "print"       
                  type, field.title, .aside = true),                                                                  \
         ROW_OF_FILE("script", "FILE", "a file", "of the picture: write gnuplot's script, with its data",             \
                     iso_set_text, type, field.script, 0, OPTION_WRITES)
+
+/* The rows of a command that draws sections. */
+#define ROWS_OF_SECTION(type, field)                                                                                 \
+    ROW_WITH("window", "L0:L1,X0:X1", "two ranges such as 0.5:1.2,-0.3:0.3, l up to pi and x up to 1",               \
+             "of a section: draw only this part of l (in rad) and x", iso_plot_set_window, type, field.window,       \
+             .aside = true),                                                                                         \
+        ROW_WITH("over", "FILE", "a file, at most 4 times",                                                          \
+                 "of a section: draw these periodic orbits, or this splitting, over it", iso_plot_set_over, type,    \
+                 field.over, .file = OPTION_READS, .aside = true)
 
 #endif

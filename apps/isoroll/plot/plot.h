@@ -93,9 +93,9 @@ iso_status iso_plot_indicators(iso_context *ctx, const iso_plot_page *page, cons
 /* Whether there is a picture of such tables ("section", "chaos", ...); trajectories and sweeps have their own. */
 bool iso_plot_has_kind(const char *kind);
 
-/* Draws a table by its kind. Its title is its line "title", else the name with k and J. Errors: ISO_BAD_INPUT: a
+/* Draws a table by its kind. Its title is its line "title", else what it shows, with k and J. Errors: ISO_BAD_INPUT: a
  * column or a line that the picture needs is missing, or there is no row; those of the picture. */
-iso_status iso_plot_table(iso_context *ctx, const iso_plot_page *page, const char *name, const iso_record *table);
+iso_status iso_plot_table(iso_context *ctx, const iso_plot_page *page, const iso_record *table);
 
 /* Of chaos: the section, with a spot for each orbit that starts on it, coloured by its exponent. Errors: as
  * iso_plot_momentum. */
@@ -133,11 +133,12 @@ typedef struct iso_plot_section {
      * point_l, point_x. */
     const iso_record *rows;
     const char *grey_means, *dark_means; /* what the key says of these shades, such as "chaotic"; NULL: nothing */
+    const iso_record *over;              /* of iso_plot_read_over; NULL: nothing */
     bool few; /* few crossings, as of periodic orbits: in colours and large; the axes end with them */
 } iso_plot_section;
 
 /* Left: the section of the ball. Its axes are the angle of n in the plane n_a = 0, and omega_a/|omega|. Right: that
- * of the point. Its axes are l and L = M_a, and its boundaries are L = +-G(l). Each orbit has one colour.
+ * of the point. Its axes are l and L = M_a, and its boundaries are L = +-G(l).
  * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 iso_status iso_plot_sections(iso_context *ctx, const iso_plot_page *page, const iso_plot_section *section);
 

@@ -21,7 +21,8 @@ const char *iso_plot_symbol(const char *name)
 {
     static const char *const symbols[][5] = {{"omega", "ω", "ω₁", "ω₂", "ω₃"}, {"gamma", "γ", "γ₁", "γ₂", "γ₃"},
                                              {"n", "n", "n₁", "n₂", "n₃"},     {"M", "M", "M₁", "M₂", "M₃"},
-                                             {"tau", "τ", NULL, NULL, NULL},   {"mu", "μ", NULL, NULL, NULL}};
+                                             {"J", "J", "J₁", "J₂", "J₃"},     {"tau", "τ", NULL, NULL, NULL},
+                                             {"mu", "μ", NULL, NULL, NULL}};
     for (size_t i = 0; i < sizeof symbols / sizeof *symbols; i++) {
         const size_t length = strlen(symbols[i][0]);
         const char *rest = name + length;

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "base/record.h"
+#include "plot/page.h"
 #include "plot/palette.h"
 
 enum {
@@ -90,8 +91,15 @@ const char *iso_plot_symbol(const char *name);
 /* A plot of the unit sphere with a path on it: three columns of unit vectors. */
 void iso_plot_sphere(FILE *script, const iso_plot_box *box, const iso_record *line, int column);
 
-/* The principal axes, where they leave a sphere about (x, y). */
-void iso_plot_put_axes(FILE *script, double x, double y, double radius);
+/* Marks on a sphere: every step-th row, at the unit vector that begins with this column. */
+typedef struct iso_plot_marks {
+    const iso_record *rows;
+    size_t step;
+    int column;
+} iso_plot_marks;
+
+/* The principal axes, where they leave a sphere about (x, y). Their numbers keep away from the marks (NULL: none). */
+void iso_plot_put_axes(FILE *script, double x, double y, double radius, const iso_plot_marks *marks);
 
 /* For plots that project vectors themselves: X(x,y,z), Y(x,y,z) and D(x,y,z), which is > 0 on the near side; meridians
  * and parallels, $grid0 behind the unit sphere, $grid1 before it. */
@@ -183,6 +191,27 @@ double iso_plot_view_shape(const iso_plot_scenery *scenery);
 
 /* The entries of their key, into text. */
 void iso_plot_view_key(const iso_plot_scenery *scenery, char text[static 512]);
+
+/* --- over a section --------------------------------------------------------------------------------------------- */
+
+struct iso_plot_section;
+typedef struct iso_plot_spot {
+    double right, up;
+} iso_plot_spot;
+
+/* The n-th of eight images of (l, x) by the reversors S1: (l, -x), S2: (-l, x), S3: (pi - l, x); 0: itself. */
+void iso_plot_image(int n, double l, double x, double image[2]);
+
+/* Reads the files that --over names: columns l, x, and how it is drawn. NULL: there are none. The caller frees it, also
+ * after an error. Errors: ISO_BAD_INPUT: a file of another kind, or of another ball. */
+iso_status iso_plot_read_over(iso_context *ctx, const iso_plot_page *page, const struct iso_plot_section *section,
+                              iso_record **over);
+
+/* Writes its blocks of data for one side; goes on with a `plot` of this side; draws its key in the middle at y. */
+void iso_plot_put_over(FILE *script, const struct iso_plot_section *section, const char *side,
+                       iso_plot_spot (*place)(const struct iso_plot_section *section, const double chart[2]));
+void iso_plot_draw_over(FILE *script, const struct iso_plot_section *section, const char *side);
+void iso_plot_over_key(FILE *script, const struct iso_plot_section *section, double y);
 
 /* --- sweeps ----------------------------------------------------------------------------------------------------- */
 

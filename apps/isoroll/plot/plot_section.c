@@ -16,7 +16,7 @@
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
 
-enum { WIDTH = 900, HEIGHT = 470, BOUNDARY = 240 };
+enum { WIDTH = 900, HEIGHT = 470, MARGIN = 66, KEY = 46, BOUNDARY = 240 };
 #define TOP 1.05      /* of the axis of L, by the largest L               */
 #define LIGHTEST 0.92 /* of the scale: yellow dots are not seen on white */
 #define ROOM 1.2      /* beyond the crossings, where a picture shows few  */
@@ -63,18 +63,14 @@ static long colour_of(const iso_plot_section *s, const double row[], const doubl
 
 /* --- data ------------------------------------------------------------------------------------------------------- */
 
-typedef struct spot {
-    double right, up;
-} spot;
-
-static spot of_ball(const iso_plot_section *s, const double chart[2])
+static iso_plot_spot of_ball(const iso_plot_section *s, const double chart[2])
 {
     const iso_params *p = s->params;
     const int a = s->axis, b = (a + 1) % 3, c = (a + 2) % 3;
     const double l = chart[0], x = chart[1], across = sqrt((1 - x) * (1 + x)), sign = copysign(1, p->k);
     const double omega[3] = {sign * across * sin(l) / p->root_J[b], sign * across * cos(l) / p->root_J[c],
                              sign * x / p->root_J[a]};
-    return (spot){atan2(p->root_J[c] * sin(l), p->root_J[b] * cos(l)), omega[2] / norm(omega)};
+    return (iso_plot_spot){atan2(p->root_J[c] * sin(l), p->root_J[b] * cos(l)), omega[2] / norm(omega)};
 }
 
 /* G(l). If more acts than a level, 1: then x is drawn in place of L. */
@@ -83,27 +79,54 @@ static double largest_momentum(const iso_plot_section *s, double l)
     return s->eps > 0 ? iso_section_momentum((iso_point_motion){s->params, s->eps, s->energy}, s->axis, l) : 1;
 }
 
-static spot of_point(const iso_plot_section *s, const double chart[2])
+static iso_plot_spot of_point(const iso_plot_section *s, const double chart[2])
 {
-    return (spot){chart[0], chart[1] * largest_momentum(s, chart[0])};
+    return (iso_plot_spot){chart[0], chart[1] * largest_momentum(s, chart[0])};
+}
+
+typedef iso_plot_spot place_of(const iso_plot_section *s, const double chart[2]);
+
+/* The rectangle that holds the window on one side, told by its edges. Without a window all is in it. */
+static void find_window(const iso_plot_page *page, const iso_plot_section *s, place_of *place,
+                        iso_plot_spot corner[2])
+{
+    const iso_plot_window *w = &page->window;
+    const bool given = w->x[0] < w->x[1];
+    const double low = given ? INFINITY : -INFINITY;
+    corner[0] = (iso_plot_spot){low, low}, corner[1] = (iso_plot_spot){-low, -low};
+    for (int i = 0; given && i <= 2 * BOUNDARY + 1; i++) {
+        const iso_plot_spot at =
+            place(s, (double[]){w->l[0] + (w->l[1] - w->l[0]) * (i / 2) / BOUNDARY, w->x[i % 2]});
+        corner[0] = (iso_plot_spot){fmin(corner[0].right, at.right), fmin(corner[0].up, at.up)};
+        corner[1] = (iso_plot_spot){fmax(corner[1].right, at.right), fmax(corner[1].up, at.up)};
+    }
+}
+
+/* False of a spot that is not finite, too. */
+static bool is_inside(const iso_plot_spot corner[2], iso_plot_spot at)
+{
+    return isfinite(at.right) && isfinite(at.up) && at.right >= corner[0].right && at.right <= corner[1].right &&
+           at.up >= corner[0].up && at.up <= corner[1].up;
 }
 
 /* A block of crossings, of the point where it has columns of its own. The grey ones come first, so that they lie
  * behind the others. Gives how far up they go. */
-static double put_crossings(FILE *f, const iso_plot_section *s, bool ball)
+static double put_crossings(FILE *f, const iso_plot_page *page, const iso_plot_section *s, bool ball)
 {
     const int own = ball ? -1 : iso_record_find(s->rows, "point_l");
     const int l = own < 0 ? iso_record_find(s->rows, "l") : own, shade = iso_record_find(s->rows, "grey");
     const int x = iso_record_find(s->rows, own < 0 ? "x" : "point_x");
     double most = 0, range[2];
+    iso_plot_spot corner[2];
+    find_window(page, s, ball ? of_ball : of_point, corner);
     range_of(s, range);
-    fprintf(f, "$%s << EOD\n", ball ? "ball" : "point");
+    fprintf(f, "$%s << EOD\nNaN NaN 0 0\n", ball ? "ball" : "point");
     for (int behind = 1; behind >= 0; behind--)
         for (size_t i = 0; i < iso_record_rows(s->rows); i++) {
             const double *row = iso_record_const_row(s->rows, i), chart[] = {row[l], row[x]};
             if ((row[shade] != 0) != behind) continue;
-            const spot at = ball ? of_ball(s, chart) : of_point(s, chart);
-            if (!isfinite(at.right) || !isfinite(at.up)) continue;
+            const iso_plot_spot at = ball ? of_ball(s, chart) : of_point(s, chart);
+            if (!is_inside(corner, at)) continue;
             fprintf(f, "%.5f %.6g %ld %d\n", at.right, at.up, colour_of(s, row, range), (int)row[shade]);
             most = fmax(most, fabs(at.up));
         }
@@ -127,18 +150,23 @@ static double put_boundary(FILE *f, const iso_plot_section *s)
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-/* Spots of a section: the more, the smaller. Periodic orbits are few: those in colours are large. */
-static void put_spots(FILE *f, const iso_plot_section *s, const char *block)
+/* Spots of a section: the more in the window, the smaller. Periodic orbits are few: those in colours are large. */
+static void put_spots(FILE *f, const iso_plot_page *page, const iso_plot_section *s, const char *block)
 {
-    const double size = fmin(fmax(9 / sqrt((double)iso_record_rows(s->rows)), 0.05), 0.4);
+    const double part =
+        (page->window.x[1] - page->window.x[0]) * (page->window.l[1] - page->window.l[0]) / (4 * M_PI);
+    const double spots = (double)iso_record_rows(s->rows) * (part > 0 ? part : 1);
+    const double size = fmin(fmax(9 / sqrt(spots), 0.05), 0.4);
     if (s->few)
-        fprintf(f, "$%s using 1:2:($4 > 0 ? 0.45 : 1.1):3 with points pt 7 ps variable lc rgb variable notitle\n",
+        fprintf(f, "$%s using 1:2:($4 > 0 ? 0.45 : 1.1):3 with points pt 7 ps variable lc rgb variable notitle",
                 block);
     else
-        fprintf(f, "$%s using 1:2:3 with points pt 7 ps %.17g lc rgb variable notitle\n", block, size);
+        fprintf(f, "$%s using 1:2:3 with points pt 7 ps %.17g lc rgb variable notitle", block, size);
+    iso_plot_draw_over(f, s, block);
+    fputc('\n', f);
 }
 
-static void put_heading(FILE *f, const iso_plot_page *page, const iso_plot_section *s)
+static void put_heading(FILE *f, const iso_plot_page *page, const iso_plot_section *s, int height)
 {
     fprintf(f,
             "set multiplot\n" ISO_PLOT_PAGE "set key at screen 0.985,0.962 right center samplen 1 horizontal\n"
@@ -146,9 +174,11 @@ static void put_heading(FILE *f, const iso_plot_page *page, const iso_plot_secti
             QUOTED(iso_plot_titled(page, s->title), 95));
     if (s->grey_means) fprintf(f, ", NaN w p pt 7 ps 1 lc rgb " ISO_PLOT_GREY " title %s", QUOTED(s->grey_means, 60));
     if (s->dark_means) fprintf(f, ", NaN w p pt 7 ps 1 lc rgb " ISO_PLOT_INK " title %s", QUOTED(s->dark_means, 60));
-    fputs("\nunset label 1; unset key\n" ISO_PLOT_FRAME
-          "set tmargin at screen 0.86\nset bmargin at screen 0.14\n" ISO_PLOT_ANGLES,
-          f);
+    fprintf(f,
+            "\nunset label 1; unset key\n" ISO_PLOT_FRAME
+            "set tmargin at screen %.17g\nset bmargin at screen %.17g\n" //
+            ISO_PLOT_ANGLES,
+            1 - (double)MARGIN / height, (double)(MARGIN + (s->over ? KEY : 0)) / height);
 }
 
 /* The colour bar, in the right margin. The spots have their colours already: nothing else is drawn by it. */
@@ -166,12 +196,21 @@ static void put_bar(FILE *f, const iso_plot_section *s)
 /* Where the two sections stand from left to right: with a bar there is less room. */
 static const double *sides_of(const iso_plot_section *s)
 {
-    static const double wide[] = {0.075, 0.485, 0.575, 0.985}, beside_bar[] = {0.07, 0.435, 0.52, 0.885};
+    static const double wide[] = {0.085, 0.485, 0.585, 0.985}, beside_bar[] = {0.085, 0.44, 0.53, 0.885};
     double range[2];
     return range_of(s, range) ? beside_bar : wide;
 }
 
-static void put_ball(FILE *f, const iso_plot_section *s, double top)
+static void put_window(FILE *f, const iso_plot_page *page, const iso_plot_section *s, place_of *place)
+{
+    iso_plot_spot corner[2];
+    if (page->window.x[0] == page->window.x[1]) return;
+    find_window(page, s, place, corner);
+    fprintf(f, "set xrange [%.17g:%.17g]; set xtics autofreq; set yrange [%.17g:%.17g]\n", corner[0].right,
+            corner[1].right, corner[0].up, corner[1].up);
+}
+
+static void put_ball(FILE *f, const iso_plot_page *page, const iso_plot_section *s, double top)
 {
     const int a = s->axis + 1, b = (s->axis + 1) % 3 + 1, c = (s->axis + 2) % 3 + 1;
     fprintf(f,
@@ -179,12 +218,14 @@ static void put_ball(FILE *f, const iso_plot_section *s, double top)
             "set ytics autofreq\n"
             "set title 'ball: n_%d\u2060 = 0, n_%d\u2060 increasing' offset 0,-0.5\n"
             "set xlabel 'ψ,  where n_%d\u2060 = cos ψ, n_%d\u2060 = −sin ψ' offset 0,0.3\n"
-            "set ylabel 'ω_%d\u2060 / |ω|' offset 1,0\nplot ",
+            "set ylabel 'ω_%d\u2060 / |ω|' offset 1,0\n",
             sides_of(s)[0], sides_of(s)[1], top, top, a, a, b, c, a);
-    put_spots(f, s, "ball");
+    put_window(f, page, s, of_ball);
+    fputs("plot ", f);
+    put_spots(f, page, s, "ball");
 }
 
-static void put_point(FILE *f, const iso_plot_section *s, double top, double most)
+static void put_point(FILE *f, const iso_plot_page *page, const iso_plot_section *s, double top, double most)
 {
     const int a = s->axis + 1, b = (s->axis + 1) % 3 + 1, c = (s->axis + 2) % 3 + 1;
     fprintf(f,
@@ -195,6 +236,7 @@ static void put_point(FILE *f, const iso_plot_section *s, double top, double mos
     fprintf(f,
             s->eps > 0 ? "set ylabel 'L = M_%d, in the units of the scene'\n" : "set ylabel 'x = M_%d\u2060 / |M|'\n",
             a);
+    put_window(f, page, s, of_point);
     fputs("plot ", f);
     for (int side = 1; side >= -1; side -= 2) { /* outside of the boundaries */
         fprintf(f,
@@ -205,7 +247,7 @@ static void put_point(FILE *f, const iso_plot_section *s, double top, double mos
     }
     double range[2];
     if (range_of(s, range)) fputs("$boundary using 1:(NaN):(0) with points lc palette notitle, ", f);
-    put_spots(f, s, "point");
+    put_spots(f, page, s, "point");
 }
 
 iso_status iso_plot_sections(iso_context *ctx, const iso_plot_page *page, const iso_plot_section *s)
@@ -215,11 +257,16 @@ iso_status iso_plot_sections(iso_context *ctx, const iso_plot_page *page, const 
         iso_record_rows(s->rows) == 0 || s->axis < 0 || s->axis > 2)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                 "a picture of a section n_a = 0 needs at least one crossing, and a = 1, 2 or 3");
-    FILE *f = iso_gnuplot_open(ctx, page, WIDTH, HEIGHT);
-    const double ball = put_crossings(f, s, true), point = put_crossings(f, s, false), most = put_boundary(f, s);
-    put_heading(f, page, s);
-    put_ball(f, s, s->few ? fmin(1, ROOM * ball + 1e-3) : 1);
+    const int height = HEIGHT + (s->over ? KEY : 0);
+    FILE *f = iso_gnuplot_open(ctx, page, WIDTH, height);
+    iso_plot_put_over(f, s, "ball", of_ball);
+    iso_plot_put_over(f, s, "point", of_point);
+    const double ball = put_crossings(f, page, s, true), point = put_crossings(f, page, s, false),
+                 most = put_boundary(f, s);
+    put_heading(f, page, s, height);
+    put_ball(f, page, s, s->few ? fmin(1, ROOM * ball + 1e-3) : 1);
     put_bar(f, s);
-    put_point(f, s, TOP * (s->few ? fmin(most, ROOM * point + 1e-3 * most) : most), most);
+    put_point(f, page, s, TOP * (s->few ? fmin(most, ROOM * point + 1e-3 * most) : most), most);
+    if (s->over) iso_plot_over_key(f, s, 25.0 / height);
     return iso_gnuplot_close(ctx, true);
 }

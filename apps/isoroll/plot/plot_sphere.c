@@ -132,17 +132,44 @@ static void put_graticule(FILE *f, bool near)
     fputs("EOD\n", f);
 }
 
-void iso_plot_put_axes(FILE *f, double x, double y, double radius)
+/* How far the nearest of the marked rows is from (x, y), in radii of the sphere. */
+static double room_at(const iso_plot_marks *marks, double x, double y)
+{
+    double room = INFINITY;
+    for (size_t i = 0; marks && i < iso_record_rows(marks->rows); i += marks->step) {
+        const spot s = project(iso_record_const_row(marks->rows, i) + marks->column);
+        room = fmin(room, hypot(s.x - x, s.y - y));
+    }
+    return room;
+}
+
+/* Where the number of an axis stands: behind its end, or beside it where a mark would cover it. */
+static spot place_of_number(const iso_plot_marks *marks, double x, double y)
+{
+    static const double beside[] = {0, 0.13, -0.13, 0.22, -0.22};
+    const double length = fmax(hypot(x, y), 1e-9);
+    spot best = {x, y, 0};
+    for (int i = 0; i < 5; i++) {
+        const double to[] = {x - beside[i] * y / length, y + beside[i] * x / length},
+                     room = room_at(marks, to[0], to[1]);
+        if (room > best.depth + 1e-9) best = (spot){to[0], to[1], room};
+        if (best.depth > 0.14) break;
+    }
+    return best;
+}
+
+void iso_plot_put_axes(FILE *f, double x, double y, double radius, const iso_plot_marks *marks)
 {
     for (int axis = 0; axis < 3; axis++) {
         const double v[3] = {axis == 0, axis == 1, axis == 2};
         const spot s = project(v);
         const double end = 1 + 0.14 / fmax(hypot(s.x, s.y), 0.5), label = end + 0.07 / fmax(hypot(s.x, s.y), 0.5);
+        const spot number = place_of_number(marks, s.x * label, s.y * label);
         fprintf(f,
                 "set arrow nohead back lw 1.2 lc rgb " ISO_PLOT_LINE " from %.17g,%.17g to %.17g,%.17g\n"
                 "set label '%d' center tc rgb " ISO_PLOT_INK " at %.17g,%.17g\n",
                 x + radius * s.x, y + radius * s.y, x + radius * s.x * end, y + radius * s.y * end, axis + 1,
-                x + radius * s.x * label, y + radius * s.y * label);
+                x + radius * number.x, y + radius * number.y);
     }
 }
 
@@ -178,7 +205,7 @@ void iso_plot_sphere(FILE *f, const iso_plot_box *box, const iso_record *line, i
     }
     fputs(setup, f);
     iso_plot_place(f, box);
-    iso_plot_put_axes(f, 0, 0, 1);
+    iso_plot_put_axes(f, 0, 0, 1, NULL);
     put_end(f, iso_plot_drawn_row(line, 0) + line_column, ISO_PLOT_START);
     put_end(f, iso_plot_drawn_row(line, iso_plot_drawn_rows(line) - 1) + line_column, ISO_PLOT_END);
     fprintf(f, "plot $grid0 w l lw 0.6 lc rgb " ISO_PLOT_GRID ", $path0 w %s lc rgb " ISO_PLOT_FAR_BLUE ",",

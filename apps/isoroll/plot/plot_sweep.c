@@ -16,7 +16,8 @@ typedef struct table {
     iso_record *rows;
     int axis[MOST_AXES], axes; /* those that vary, and differ from row to row           */
     int value, low, high;      /* -1: there is none; low -1: high is an error +-        */
-    const char *words;         /* what the value is                                     */
+    const char *words;         /* what the value is ...                                 */
+    char own[NAME];            /* ... of a column that is not `known`                   */
 } table;
 
 static double at(const iso_record *rows, size_t row, int column)
@@ -41,6 +42,21 @@ static const struct {
              {"backends_largest", "largest difference of the computations", NULL, NULL},
              {"contact_time", "time at which contact is lost", NULL, NULL}};
 enum { KNOWN = sizeof known / sizeof *known };
+
+/* What varies, in words, where its name does not say it. */
+static const char *axis_of(const table *t, int column)
+{
+    static const char *const words[][2] = {{"level", "level H of the point, in ε J₂^(−1/k)"},
+                                           {"l", "place l of the start on the section, in rad"},
+                                           {"x", "place x of the start on the section"},
+                                           {"J1", "J₁"},
+                                           {"J2", "J₂"},
+                                           {"J3", "J₃"}};
+    const char *name = iso_record_name(t->rows, (size_t)column);
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(words[i][0], name) == 0) return words[i][1];
+    return iso_plot_symbol(name);
+}
 
 static int find(const table *t, const char *name)
 {
@@ -79,7 +95,8 @@ static iso_status choose_value(iso_context *ctx, const char *wanted, table *t)
                                 wanted);
     t->value = value;
     t->low = t->high = -1;
-    t->words = iso_record_name(t->rows, (size_t)value);
+    snprintf(t->own, sizeof t->own, "%s: %s", column[value].group, iso_plot_symbol(column[value].name));
+    t->words = t->own;
     for (size_t i = 0; i < KNOWN; i++)
         if (find(t, known[i].value) == value)
             t->words = known[i].words, t->low = find(t, known[i].low), t->high = find(t, known[i].high);
@@ -129,7 +146,7 @@ static int by_x(const void *a, const void *b)
 static iso_status draw_curve(iso_context *ctx, const table *t, const iso_plot_page *page)
 {
     char title[160];
-    const char *const names[] = {iso_record_name(t->rows, (size_t)t->axis[0]), t->words, "low", "high"};
+    const char *const names[] = {axis_of(t, t->axis[0]), t->words, "low", "high"};
     const size_t count = iso_record_rows(t->rows);
     iso_record *rows;
     iso_status status = iso_record_create(ctx, 4, names, &rows);
@@ -189,8 +206,8 @@ static bool takes_moments(const table *t, layout *l, int rest[], int *others)
         l->ratios = l->ratios && J[0] <= J[1] && J[1] <= J[2];
     }
     l->triangle = !l->ratios;
-    snprintf(l->x_name, NAME, "%s", l->ratios ? "J1/J3" : "(J2 + J3/2)/(J1 + J2 + J3)");
-    snprintf(l->y_name, NAME, "%s", l->ratios ? "J2/J3" : "(sqrt(3)/2) J3/(J1 + J2 + J3)");
+    snprintf(l->x_name, NAME, "%s", l->ratios ? "J₁/J₃" : "(J₂ + J₃/2)/(J₁ + J₂ + J₃)");
+    snprintf(l->y_name, NAME, "%s", l->ratios ? "J₂/J₃" : "(√3/2) J₃/(J₁ + J₂ + J₃)");
     return true;
 }
 
@@ -221,8 +238,8 @@ static void take_columns(const table *t, layout *l)
     if (panel >= 0) l->panel = t->axis[panel];
     l->x = rest[0];
     l->y = rest[1];
-    snprintf(l->x_name, NAME, "%s", iso_record_name(t->rows, (size_t)l->x));
-    snprintf(l->y_name, NAME, "%s", iso_record_name(t->rows, (size_t)l->y));
+    snprintf(l->x_name, NAME, "%s", axis_of(t, l->x));
+    snprintf(l->y_name, NAME, "%s", axis_of(t, l->y));
 }
 
 static iso_status choose_layout(iso_context *ctx, const table *t, layout *l)
@@ -242,7 +259,7 @@ static iso_status collect(iso_context *ctx, const table *t, layout *l)
 {
     const char *const names[] = {l->x_name, l->y_name, t->words, "panel"};
     iso_status status = iso_record_create(ctx, 4, names, &l->maps.rows);
-    if (l->panel >= 0) l->maps.key_name = iso_record_name(t->rows, (size_t)l->panel);
+    if (l->panel >= 0) l->maps.key_name = axis_of(t, l->panel);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(t->rows); i++) {
         const int map = place_in(l->maps.key, &l->maps.count, l->panel < 0 ? 0 : at(t->rows, i, l->panel));
         double row[4] = {0, 0, at(t->rows, i, t->value), map};
@@ -261,7 +278,7 @@ static iso_status draw_maps(iso_context *ctx, const table *t, const iso_plot_pag
     layout l = {.panel = -1};
     iso_status status = choose_layout(ctx, t, &l);
     if (status == ISO_OK) status = collect(ctx, t, &l);
-    snprintf(title, sizeof title, "%s over %.31s and %.31s", t->words, l.x_name, l.y_name);
+    snprintf(title, sizeof title, "%s over %.60s and %.60s", t->words, l.x_name, l.y_name);
     if (status == ISO_OK) status = iso_plot_sweep_maps(ctx, page, title, &l.maps);
     iso_record_free(l.maps.rows);
     return status;

@@ -45,17 +45,14 @@ void iso_plot_block(FILE *f, const char *name, const iso_record *r, const char *
 
 /* --- pictures that are a script of gnuplot ---------------------------------------------------------------------- */
 
-/* Follows the columns as the block $table, the title and the name of what varies. */
-static iso_status draw_script(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *r,
-                              const char *const columns[], const char *varies, int height, const char *script)
+/* Begins one: with the title, and the name of what varies. */
+static FILE *begin(iso_context *ctx, const iso_plot_page *page, const char *title, const char *varies, int height)
 {
     FILE *f = iso_gnuplot_open(ctx, page, 900, height);
-    iso_plot_block(f, "table", r, columns);
     fprintf(f, "set multiplot; set label 1 %s noenhanced at screen 0.5,0.97 center\n",
             QUOTED(iso_plot_titled(page, title), 120));
-    for (int i = 0; i < ISO_PLOT_STROKES; i++) fprintf(f, "set style line %d %s\n", i + 1, iso_plot_stroke(i));
-    fprintf(f, "varies = %s; set tics nomirror out scale 0.6\n%s", QUOTED(varies, 8), script);
-    return iso_gnuplot_close(ctx, true);
+    fprintf(f, "varies = %s; set tics nomirror out scale 0.6\n", QUOTED(iso_plot_symbol(varies), 8));
+    return f;
 }
 
 /* Whether there is a bifurcation: gnuplot 5.4 cannot draw labels of which none is there. */
@@ -89,7 +86,11 @@ static iso_status draw_branches(iso_context *ctx, const iso_plot_page *page, con
                  ? ", $table using (x(1)):3:5 w labels left offset 0.7,0.7 rotate by 15 font ',8' point pt 7 "
                    "ps 0.8 lc rgb 'black'"
                  : "");
-    return draw_script(ctx, page, title, r, columns, varies, 640, whole);
+    FILE *f = begin(ctx, page, title, varies, 640);
+    iso_plot_block(f, "table", r, columns);
+    for (int i = 0; i < ISO_PLOT_STROKES; i++) fprintf(f, "set style line %d %s\n", i + 1, iso_plot_stroke(i));
+    fputs(whole, f);
+    return iso_gnuplot_close(ctx, true);
 }
 
 /* The least step of a column of the grid. */
@@ -103,27 +104,75 @@ static double step_of(const iso_record *r, int column)
     return isfinite(step) ? step : 1;
 }
 
-/* Where a rotation is stable, and the borders. With equal moments a trace is -2 up to rounding. */
+/* -1: unstable, T < -2; 0: stable; 1: unstable, T > 2; 2: not known. With equal moments a trace is -2 up to rounding. */
+static int class_of(double trace)
+{
+    const double edge = 2 + 1e-9;
+    return isnan(trace) ? 2 : trace <= -edge ? -1 : trace > edge ? 1 : 0;
+}
+
+/* The block $cells of one rotation: neighbours of one class are one rectangle. Its middle, edges, and class. */
+static void put_cells(FILE *f, const iso_record *r, const char *column, int k)
+{
+    const int trace = iso_record_find(r, column);
+    const double half[2] = {step_of(r, k) / 2, step_of(r, 2) / 2};
+    const size_t rows = iso_record_rows(r);
+    fprintf(f, "$%s << EOD\nNaN NaN NaN NaN NaN NaN NaN\n", column);
+    for (size_t i = 0, next; i < rows; i = next) {
+        const double *first = iso_record_const_row(r, i), *last = first;
+        const int class = class_of(first[trace]);
+        next = i + 1;
+        if (!iso_plot_is(r, i, "kind", "grid") || class == 2) continue;
+        for (; next < rows && iso_plot_is(r, next, "kind", "grid"); last = iso_record_const_row(r, next++)) {
+            const double *row = iso_record_const_row(r, next);
+            if (class_of(row[trace]) != class || (row[k] != first[k] && row[2] != first[2])) break;
+        }
+        fprintf(f, "%.9g %.9g %.9g %.9g %.9g %.9g %d\n", first[k], first[2], fmin(first[k], last[k]) - half[0],
+                fmax(first[k], last[k]) + half[0], fmin(first[2], last[2]) - half[1],
+                fmax(first[2], last[2]) + half[1], class);
+    }
+    fputs("EOD\n", f);
+}
+
+/* The block $border: where T is 2 or -2. */
+static void put_borders(FILE *f, const iso_record *r, const char *column)
+{
+    fputs("$border << EOD\nNaN NaN\n", f);
+    for (size_t i = 0; i < iso_record_rows(r); i++)
+        if (iso_plot_is(r, i, "kind", "border") && isfinite(iso_plot_number(r, i, column)))
+            fprintf(f, "%.9g %.9g\n", iso_plot_number(r, i, "k"), iso_record_const_row(r, i)[2]);
+    fputs("EOD\n", f);
+}
+
+/* One panel; side: 0: the axis of the least moment, 1: of the greatest. */
+static void put_stability(FILE *f, const iso_record *r, int side)
+{
+    static const char *const column[] = {"least", "greatest"};
+    fprintf(f,
+            "set title 'rotation about the axis of the %s moment'\nset lmargin at screen %.2f; set rmargin at screen "
+            "%.2f\n",
+            column[side], side ? 0.56 : 0.08, side ? 0.97 : 0.49);
+    put_cells(f, r, column[side], iso_record_find(r, "k"));
+    put_borders(f, r, column[side]);
+    fprintf(
+        f,
+        "plot for [c=0:2] $%s using ($7 == class[c + 1] ? $1 : NaN):2:3:4:5:6 w boxxyerror fs solid 1 noborder lw 0 "
+        "lc rgb colour[c + 1] title name[c + 1], $border w p pt 7 ps 0.25 lc rgb 'black' title 'border, T = ±2'\n"
+        "unset label 1\n",
+        column[side]);
+}
+
+/* Where a rotation is stable, and the borders. */
 static iso_status draw_stability(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *r)
 {
-    const int k = iso_record_find(r, "k");
-    const char *varies = iso_record_name(r, 2), *const columns[] = {"k", varies, "least", "greatest", "kind", NULL};
-    static const char script[] =
-        "set tmargin at screen 0.86; set bmargin at screen 0.2; set xlabel 'k'; set ylabel varies offset 1,0\n"
-        "set key at screen 0.5,0.07 center horizontal samplen 1 Left reverse width 2; edge = 2 + 1e-9\n"
-        "set datafile missing; set autoscale noextend; dx = %.17g / 2; dy = %.17g / 2\n"
-        "grid(T) = strcol(5) ne 'grid' || T != T ? NaN : T <= -edge ? -1 : T > edge ? 1 : 0\n"
-        "cell = 'w boxxy fs solid 1 noborder lw 0 lc rgb'; set macros\n"
-        "do for [i=3:4] {\nset title 'rotation about the axis of the '.(i == 3 ? 'least' : 'greatest').' moment'\n"
-        "set lmargin at screen i == 3 ? 0.08 : 0.56; set rmargin at screen i == 3 ? 0.49 : 0.97\n"
-        "plot $table u (grid(column(i)) == 0 ? $1 : NaN):2:(dx):(dy) @cell " ISO_PLOT_PALE_BLUE " title 'stable', "
-        "'' u (grid(column(i)) == -1 ? $1 : NaN):2:(dx):(dy) @cell " ISO_PLOT_ORANGE " title 'unstable, T < −2', "
-        "'' u (grid(column(i)) == 1 ? $1 : NaN):2:(dx):(dy) @cell " ISO_PLOT_VERMILLION " title 'unstable, T > 2', "
-        "'' u (strcol(5) eq 'border' && column(i) == column(i) ? $1 : NaN):2 w p pt 7 ps 0.25 lc rgb 'black' "
-        "title 'border, T = ±2'\nunset label 1\n}";
-    char whole[sizeof script + 60];
-    snprintf(whole, sizeof whole, script, step_of(r, k), step_of(r, 2));
-    return draw_script(ctx, page, title, r, columns, varies, 480, whole);
+    FILE *f = begin(ctx, page, title, iso_record_name(r, 2), 480);
+    fputs("set tmargin at screen 0.86; set bmargin at screen 0.2; set xlabel 'k'; set ylabel varies offset 1,0\n"
+          "set key at screen 0.5,0.07 center horizontal samplen 1 Left reverse width 2; set autoscale noextend\n"
+          "array class[3] = [0, -1, 1]; array colour[3] = [" ISO_PLOT_PALE_BLUE ", " ISO_PLOT_ORANGE
+          ", " ISO_PLOT_VERMILLION "]\narray name[3] = ['stable', 'unstable, T < −2', 'unstable, T > 2']\n",
+          f);
+    for (int side = 0; side < 2; side++) put_stability(f, r, side);
+    return iso_gnuplot_close(ctx, true);
 }
 
 /* --- sections --------------------------------------------------------------------------------------------------- */
@@ -143,13 +192,11 @@ static iso_status draw_section(iso_context *ctx, const iso_plot_page *page, cons
 /* The images of a crossing by the reversors and by half turns. */
 static iso_status put_images(iso_context *ctx, const iso_record *r, size_t i, iso_record *images)
 {
-    const double pi = acos(-1), l = iso_plot_number(r, i, "l"), x = iso_plot_number(r, i, "x");
     const bool grey = iso_plot_is(r, i, "stability", "unstable") || iso_plot_is(r, i, "stability", "inverse");
     for (int n = 0; n < 8; n++) {
-        const double sign = n & 1 ? -1 : 1,
-                     image[] = {iso_plot_number(r, i, "orbit") - 1, remainder(sign * l + (n & 2 ? pi : 0), 2 * pi),
-                                (n & 4 ? -sign : sign) * x, grey};
-        ISO_TRY(iso_record_add(ctx, images, 1, image));
+        double row[] = {iso_plot_number(r, i, "orbit") - 1, 0, 0, grey};
+        iso_plot_image(n, iso_plot_number(r, i, "l"), iso_plot_number(r, i, "x"), &row[1]);
+        ISO_TRY(iso_record_add(ctx, images, 1, row));
     }
     return ISO_OK;
 }
@@ -184,18 +231,18 @@ static iso_status draw_splitting(iso_context *ctx, const iso_plot_page *page, co
 /* --- the kinds -------------------------------------------------------------------------------------------------- */
 
 static const struct kind {
-    const char *name;
-    const char *columns[5]; /* that the picture needs; NULL ends them */
-    bool axis;              /* and the line "axis"                    */
+    const char *name, *shows; /* shows: the title of a table that has none */
+    const char *columns[5];   /* that the picture needs; NULL ends them */
+    bool axis;                /* and the line "axis"                    */
     iso_status (*draw)(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *rows);
 } kinds[] = {
-    {"section", {"orbit", "l", "x"}, true, draw_section},
-    {"chaos", {"l", "x", "verdict"}, true, iso_plot_exponents},
-    {"periodic", {"orbit", "l", "x", "stability"}, true, draw_orbits},
-    {"periodic follow", {"branch", "u", "trace", "event"}, false, draw_branches},
-    {"periodic chart", {"kind", "k", "least", "greatest"}, false, draw_stability},
-    {"cost", {"backend", "method", "error", "total"}, false, iso_plot_cost},
-    {"splitting", {"k", "level", "m", "error"}, false, draw_splitting},
+    {"section", "Poincaré section", {"orbit", "l", "x"}, true, draw_section},
+    {"chaos", "Chaos on the section", {"l", "x", "verdict"}, true, iso_plot_exponents},
+    {"periodic", "Periodic orbits", {"orbit", "l", "x", "stability"}, true, draw_orbits},
+    {"periodic follow", "Periodic orbits followed", {"branch", "u", "trace", "event"}, false, draw_branches},
+    {"periodic chart", "Where rotations are stable", {"kind", "k", "least", "greatest"}, false, draw_stability},
+    {"cost", "Time and error of the methods", {"backend", "method", "error", "total"}, false, iso_plot_cost},
+    {"splitting", "Splitting of the separatrix", {"k", "level", "m", "error"}, false, draw_splitting},
 };
 
 static const struct kind *find_kind(const char *name)
@@ -222,14 +269,18 @@ static iso_status check(iso_context *ctx, const iso_record *r, const struct kind
                             "no picture: the table does not say its axis, in a line '# axis: 3'");
 }
 
-iso_status iso_plot_table(iso_context *ctx, const iso_plot_page *page, const char *name, const iso_record *r)
+iso_status iso_plot_table(iso_context *ctx, const iso_plot_page *page, const iso_record *r)
 {
-    char title[160];
+    char words[ISO_PLOT_TITLE], title[2 * ISO_PLOT_TITLE];
     iso_params p;
     const struct kind *kind = find_kind(iso_record_kind(r));
     ISO_TRY(check(ctx, r, kind));
     ISO_TRY(iso_record_params(ctx, r, &p));
-    snprintf(title, sizeof title, "%.60s: k = %.6g, J = %.6g %.6g %.6g", name, p.k, p.J[0], p.J[1], p.J[2]);
-    const char *own = iso_record_get(r, "title");
+    iso_plot_title(words, &p, "%s", "");
+    snprintf(title, sizeof title, "%s        %s", kind->shows, words);
+    const char *own = iso_record_get(r, "title"), *wish = iso_plot_section_wish(page);
+    if (wish && kind->draw != draw_section)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, wish, "--%s is for sections, and this is a table '%s'", wish,
+                                kind->name);
     return kind->draw(ctx, page, own ? own : title, r);
 }

@@ -83,13 +83,13 @@ static void put_words(FILE *f, const iso_plot_page *page, const iso_plot_twins *
     put_word(f, x, 24, "center noenhanced font ',11'", QUOTED(plot->result, 150));
 }
 
-static void put_spheres(FILE *f)
+static void put_spheres(FILE *f, const iso_record *states)
 {
     for (int side = 0; side < 2; side++) {
         fprintf(f,
                 "set object circle at %d,%d size R back fc rgb '#%06X' fs solid border lc rgb " ISO_PLOT_OUTLINE "\n",
                 middle[side], CENTRE, ISO_PLOT_SPHERE_CODE);
-        iso_plot_put_axes(f, middle[side], CENTRE, RADIUS);
+        iso_plot_put_axes(f, middle[side], CENTRE, RADIUS, &(iso_plot_marks){states, STEP, 2 + 3 * side});
     }
 }
 
@@ -152,7 +152,7 @@ iso_status iso_plot_comparison(iso_context *ctx, const iso_plot_page *page, cons
     iso_plot_put_globe(f);
     put_states(f, "curve", plot->curve);
     put_states(f, "states", plot->states);
-    put_spheres(f);
+    put_spheres(f, plot->states);
     put_words(f, page, plot, iso_record_const_row(plot->states, iso_record_rows(plot->states) - 1));
     fputs(script, f);
     return iso_gnuplot_close(ctx, true);

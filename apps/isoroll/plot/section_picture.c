@@ -199,8 +199,9 @@ static iso_status add_images(iso_context *ctx, section_picture *p)
             memcpy(row, iso_record_const_row(p->kept, i), sizeof row);
             if (row[GREY] != 0) break;
             for (int c = 0; c < 2; c++) {
-                row[l[c]] = remainder((n & 1 ? -row[l[c]] : row[l[c]]) + (n & 2 ? M_PI : 0), 2 * M_PI);
-                row[x[c]] *= n & 4 ? -1 : 1;
+                double image[2];
+                iso_plot_image(n, row[l[c]], row[x[c]], image);
+                row[l[c]] = image[0], row[x[c]] = image[1];
             }
             row[HASH] = hash_of(p->rows++) * p->limit;
             ISO_TRY(iso_record_add(ctx, p->kept, 1, row));
@@ -227,5 +228,10 @@ iso_status section_picture_draw(iso_context *ctx, section_picture *p, const iso_
     plot.rows = p->kept;
     plot.grey_means = any[ISO_PLOT_CHAOTIC] ? means : NULL;
     plot.dark_means = any[ISO_PLOT_UNDECIDED] ? "undecided" : NULL;
-    return iso_plot_sections(ctx, page, &plot);
+    iso_record *over;
+    iso_status status = iso_plot_read_over(ctx, page, &plot, &over);
+    plot.over = over;
+    if (status == ISO_OK) status = iso_plot_sections(ctx, page, &plot);
+    iso_record_free(over);
+    return status;
 }

@@ -7,6 +7,7 @@
 
 /* Of a scale from 0 to 1/2 a 250th part is not seen. */
 #define CLOSE 2e-3
+#define STEADY 1e-2
 enum { LEAST = 24 /* crossings */ };
 
 static int by_size(const void *a, const void *b)
@@ -77,9 +78,27 @@ static void turn_to_centre(const double (*z)[2], size_t count, double angle[])
         angle[i] = atan2((z[i][1] - x) * spread[0], (remainder(z[i][0] - centre, 2 * M_PI) - l) * spread[1]);
 }
 
+/* Of a regular orbit the weighted averages of any smooth number over both halves are almost the same. Of a chaotic one
+ * they are not, even where its angle keeps time: an orbit can go from one side of the axis to the other for long. */
+static bool is_steady(const double (*z)[2], size_t count)
+{
+    double sum[2][2] = {{0, 0}, {0, 0}}, weights = 0;
+    const size_t half = count / 2;
+    for (size_t i = 0; i < half; i++) {
+        const double part = (double)(i + 1) / (double)(half + 1), weight = exp(-1 / (part * (1 - part)));
+        weights += weight;
+        for (int h = 0; h < 2; h++) {
+            const double *at = z[i + (h ? count - half : 0)];
+            sum[h][0] += weight * cos(2 * at[0]);
+            sum[h][1] += weight * at[1];
+        }
+    }
+    return fmax(fabs(sum[0][0] - sum[1][0]), fabs(sum[0][1] - sum[1][1])) < STEADY * weights;
+}
+
 double iso_section_rotation(const double (*z)[2], size_t count)
 {
-    double *angle = count < LEAST ? NULL : malloc(2 * count * sizeof *angle), gap;
+    double *angle = count < LEAST || !is_steady(z, count) ? NULL : malloc(2 * count * sizeof *angle), gap;
     if (!angle) return NAN;
     for (size_t i = 0; i < count; i++) angle[i] = z[i][0];
     double rotation = rotation_of(angle, count, angle + count);
