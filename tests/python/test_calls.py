@@ -62,6 +62,25 @@ class Lists(Case):
                 self.assertEqual(options - keywords, set(), "options without a keyword")
                 self.assertEqual(keywords - options - OWN - OWN_OF.get(command, set()), set(), "no option")
 
+    def test_messages_name_keywords(self):
+        error = self.refuses(isoroll.BadArgument, "axis '7': expected", isoroll.section, WILD, axis=7)
+        self.assertNotIn("--", str(error))
+        error = self.refuses(isoroll.BadArgument, "chart or follow, not both", isoroll.periodic, WILD, chart="J2",
+                             follow="k=0.4:0.6")
+        self.assertNotIn("--", str(error))
+        with self.assertRaises(isoroll.BadInput) as caught:
+            isoroll.Scene(k=0.5, J=[1, 2, -5], normal=[0, 0, 1], angular_velocity=[1, 0, 0], end=1)
+        self.assertTrue(str(caught.exception).startswith("J3 = -5"), str(caught.exception))
+
+    def test_endings(self):
+        table = isoroll.run(BALL, t_end=1)
+        for name in ("a.xyz", "a.csv.gz", "a.CSV"):
+            self.refuses(isoroll.BadArgument, "is written as .csv or .h5", table.write, self.path(name))
+            self.assertFalse(os.path.exists(self.path(name)))
+        for name in ("a.csv", "a"):
+            table.write(self.path(name))
+            self.assertEqual(len(isoroll.read(self.path(name))), len(table))
+
     def test_the_stub_is_new(self):
         with open(os.path.join(SOURCE, "apps/python/isoroll/_instruments.pyi"), encoding="utf-8") as file:
             self.assertEqual(file.read(), _stub.text(), "run python3 -m isoroll._stub")
