@@ -341,10 +341,11 @@ CLASSES: Dict[str, Type[Table]] = {}
 
 @functools.lru_cache(maxsize=None)
 def columns_of(kind: str) -> Mapping[str, Tuple[str, str]]:
-    """The columns of a kind of table: name, unit and meaning. Of one that is not known: those of a trajectory."""
+    """The columns of a kind of table: name, unit and meaning; besides, those of a trajectory."""
     name, text, unit = create_string_buffer(64), (c_char_p * 2)(), c_char_p()
     found: Dict[str, Tuple[str, str]] = {}
     i = 0
+    kind = "sweep" if kind == "sweep part" else kind
     while lib.iso_foreign_column(kind.encode(), i, name, text):
         found[name.value.decode()] = (text[0] or b"").decode(), (text[1] or b"").decode()
         i += 1
