@@ -1,7 +1,7 @@
 #!/bin/sh
 # demo.sh [--view] - builds the command, with all set-up, and computes three scenes. Each orbit is computed in both
-# models, as a rolling ball and as a point on a sphere. Prints a table and draws a picture of each. With --view it also
-# makes two pages in which ball and point move: a scene, and a section of many orbits.
+# models, as a rolling ball and as a point on a sphere. Says the result of each, and where its table and its picture are.
+# With --view it also makes two pages in which ball and point move: a scene, and a section of many orbits.
 # Beside an installed isoroll (/usr/share/doc/isoroll) nothing is built: it takes `isoroll`, and writes into the
 # folder isoroll-demo, here.
 set -eu
@@ -29,18 +29,26 @@ else
 fi
 
 for name in 15_two_spheres 01_bowling_ball 02_neumann_shell; do
-    echo "== examples/$name/scene.yaml"
-    "$isoroll" compare "examples/$name/scene.yaml" --plot "$to/$name.svg"
-    echo
+    echo "examples/$name/scene.yaml"
+    "$isoroll" compare "examples/$name/scene.yaml" --plot "$to/$name.svg" >"$to/$name.txt"
+    tail -n 1 "$to/$name.txt" | sed 's/^/  /'
+    grep -q '^the same orbit: ' "$to/$name.txt" || { echo "this is not what the demo shows: see $to/$name.txt" >&2; exit 1; }
 done
 if [ -n "$view" ]; then
     page=$to/16_sections
     "$isoroll" view examples/15_two_spheres/scene.yaml -o "$to/15_two_spheres.html"
     "$isoroll" section examples/16_sections/scene.yaml --starts 80 --crossings 400 --quiet -o "$page.csv"
     "$isoroll" view "$page.csv" -o "$page.html"
-    echo "pages, for a browser:"
-    ls "$to"/*.html
 fi
-echo "pictures:"
-ls "$to"/*.svg
+cat <<END
+
+Each of three orbits was computed twice: as a ball that rolls without slip and
+twist, and as a point that moves on a sphere in a potential. The map between the
+two carries each state of one computation to that of the other, to the digits
+above. So both models have the same orbits: what is known of one holds for both.
+
+END
+echo "pictures:" && ls "$to"/*.svg
+echo "tables:" && ls "$to"/*.txt
+[ -z "$view" ] || { echo "pages, for a browser:" && ls "$to"/*.html; }
 echo "the command: $isoroll --help"

@@ -74,7 +74,7 @@ static void print_model(const iso_comparison *c, iso_model_kind model, size_t sh
         for (int b = 0; b < c->runs; b++) {
             const double *x = iso_record_const_row(c->run[b].trajectory, row);
             say("%.6g\t%s", x[clock], backend_name(c, b));
-            for (int j = 0; j < ISO_STATE; j++) say("\t%.9g", x[first + j]);
+            for (int j = 0; j < ISO_STATE; j++) say("\t%.9g", x[first + j] + 0.0);
             if (b > 0) say("\t%.1e", row_difference(c, b, model, row));
             say(b > 0 ? "\n" : "\t\n");
         }

@@ -11,7 +11,9 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { WIDTH = 40, LINE = 80 };
+#include "say.h"
+
+enum { WIDTH = 40, LINE = 80, WORDS = 32 /* the percentage, and the times */ };
 
 /* All is changed under the lock. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -58,9 +60,10 @@ static void draw(void)
     const char *no_color = getenv("NO_COLOR"); /* counts only if it is not empty */
     const bool coloured = !no_color || !*no_color;
     const double part = isnan(bar.part) ? 0 : bar.part;
+    const int room = terminal_width(stderr) - WORDS - 1, width = room < WIDTH ? room : WIDTH;
     print_times(words);
     fprintf(stderr, "\r%s", coloured ? "\033[36m" : "");
-    for (int i = 0; i < WIDTH; i++) fputc(i < (int)(part * WIDTH) ? '#' : '.', stderr);
+    for (int i = 0; i < width; i++) fputc(i < (int)(part * width) ? '#' : '.', stderr);
     fprintf(stderr, "%s %3.0f %% %-24s", coloured ? "\033[0m" : "", 100 * part, words);
     fflush(stderr);
     bar.drawn = true;
@@ -68,7 +71,8 @@ static void draw(void)
 
 static void take_away(void)
 {
-    if (bar.drawn) fprintf(stderr, "\r%*s\r", LINE - 1, "");
+    const int all = WIDTH + WORDS, width = terminal_width(stderr) - 1;
+    if (bar.drawn) fprintf(stderr, "\r%*s\r", width < all ? width : all, "");
     bar.drawn = false;
 }
 

@@ -204,7 +204,7 @@ static void print_table(FILE *to, const char *text, int keys, int width)
     measure(&t);
     int narrow = width == ANY_WIDTH ? MOST_WIDTH : width;
     const int parts = count_parts(&t, narrow);
-    while (parts > 1 && count_parts(&t, narrow - 1) == parts) narrow--;
+    while (narrow > 1 && parts > 1 && count_parts(&t, narrow - 1) == parts) narrow--;
     for (int first = keys, end; first < t.columns; first = end) {
         end = part_end(&t, first, narrow);
         if (first > keys) fputc('\n', to);

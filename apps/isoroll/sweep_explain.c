@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/context_impl.h"
 #include "base/pool_impl.h"
 #include "base/seconds_impl.h"
 #include "options.h"
@@ -50,18 +51,18 @@ static iso_status measure(iso_context *ctx, const iso_sweep *sweep, iso_sweep_ro
     return ISO_OK;
 }
 
-static void print_time(double seconds)
+static void print_time(FILE *to, double seconds)
 {
     if (seconds < 1)
-        say("%.*f ms", seconds < 1e-3 ? 3 : seconds < 0.1 ? 1 : 0, 1e3 * seconds);
+        fprintf(to, "%.*f ms", seconds < 1e-3 ? 3 : seconds < 0.1 ? 1 : 0, 1e3 * seconds);
     else if (seconds < 120)
-        say("%.*f s", seconds < 10, seconds);
+        fprintf(to, "%.*f s", seconds < 10, seconds);
     else if (seconds < 7200)
-        say("%.0f minutes", seconds / 60);
+        fprintf(to, "%.0f minutes", seconds / 60);
     else if (seconds < 172800)
-        say("%.3g hours", seconds / 3600);
+        fprintf(to, "%.3g hours", seconds / 3600);
     else
-        say("%.3g days", seconds / 86400);
+        fprintf(to, "%.3g days", seconds / 86400);
 }
 
 /* Gives by how much a point with all its starts takes longer. */
@@ -77,7 +78,7 @@ static double take_few_starts(const iso_sweep_quantity *quantity, iso_sweep_requ
 }
 
 /* One quantity by itself; *mean: seconds of a point. */
-static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan, int which, size_t chunk,
+static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan, int which, size_t chunk, FILE *to,
                                    double *mean)
 {
     iso_sweep_plan one = *plan;
@@ -97,16 +98,16 @@ static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan,
     c.mean *= scale;
     c.most *= scale;
     if (status == ISO_OK) {
-        say("  %-12s %s\n  %-12s ", quantity->name, quantity->doc, "");
-        print_time(c.mean);
-        say(" a point, up to ");
-        print_time(c.most);
+        fprintf(to, "  %-12s %s\n  %-12s ", quantity->name, quantity->doc, "");
+        print_time(to, c.mean);
+        fprintf(to, " a point, up to ");
+        print_time(to, c.most);
         const iso_sweep_head *head = iso_sweep_head_of(sweep);
         const bool alone = c.places < 2 && head->count > 1;
-        say(" (%zu points, %zu of them failed%s); columns", c.points, c.failed,
-            alone ? "; one place alone: others may take several times as long" : "");
-        for (int i = plan->family.columns; i < head->columns; i++) say(" %s", head->column[i].name);
-        say("\n");
+        fprintf(to, " (%zu points, %zu of them failed%s); columns", c.points, c.failed,
+                alone ? "; one place alone: others may take several times as long" : "");
+        for (int i = plan->family.columns; i < head->columns; i++) fprintf(to, " %s", head->column[i].name);
+        fprintf(to, "\n");
         *mean = c.mean;
     }
     iso_sweep_rows_free(&rows);
@@ -114,35 +115,56 @@ static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan,
     return status;
 }
 
+/* All quantities, in words into `to`; *mean: seconds of a point. */
+static iso_status explain_quantities(iso_context *ctx, const iso_sweep_plan *plan, size_t chunk, FILE *to,
+                                     double *mean)
+{
+    iso_status status = ISO_OK;
+    *mean = 0;
+    for (int i = 0; i < plan->requests && status == ISO_OK; i++) {
+        double one = 0;
+        status = explain_quantity(ctx, plan, i, chunk, to, &one);
+        *mean += one;
+    }
+    return status;
+}
+
+/* The time first, which is what one asks for; then how it was found. */
+static void tell(const iso_sweep_file *file, const iso_sweep_head *head, double mean, const char *measured)
+{
+    const size_t processors = iso_pool_threads(0, SIZE_MAX - 1, 1);
+    const double all = mean * (double)head->count;
+    char words[ISO_SWEEP_WORDS];
+    say("time\n  about ");
+    print_time(say_to(), all);
+    say(" of processor time; here, with %zu threads, about ", processors);
+    print_time(say_to(), all / (double)processors);
+    say("\n  a chunk takes about ");
+    print_time(say_to(), mean * (double)iso_sweep_chunk_points(head, 0));
+    say("\n  a file of about %.3g MB\n", ((double)head->columns + 0.5) * 8e-6 * (double)head->count);
+    say("\nsweep\n  %zu points in %zu chunks of %zu; %d columns; vectors %s\n", head->count, iso_sweep_chunks(head),
+        head->chunk, head->columns, head->vectors);
+    for (int i = 0; iso_sweep_axis_words(file, i, words); i++) say("  %s\n", words);
+    say("\nmeasured\n%s", measured);
+}
+
 static iso_status explain(iso_context *ctx, const iso_sweep_file *file)
 {
     const iso_sweep_plan *plan = iso_sweep_file_plan(file);
     iso_sweep *sweep;
-    const size_t processors = iso_pool_threads(0, SIZE_MAX - 1, 1);
-    char words[ISO_SWEEP_WORDS];
-    double total = 0;
-    iso_status status = iso_sweep_create(ctx, plan, &sweep);
-    if (status != ISO_OK) return status;
+    double mean = 0;
+    char *measured = NULL;
+    size_t size;
+    ISO_TRY(iso_sweep_create(ctx, plan, &sweep));
     const iso_sweep_head head = *iso_sweep_head_of(sweep);
-    say("sweep\n  %zu points in %zu chunks of %zu; %d columns; vectors %s\n", head.count, iso_sweep_chunks(&head),
-        head.chunk, head.columns, head.vectors);
-    for (int i = 0; iso_sweep_axis_words(file, i, words); i++) say("  %s\n", words);
-    say("\nmeasured\n");
-    for (int i = 0; i < plan->requests && status == ISO_OK; i++) {
-        double mean = 0;
-        status = explain_quantity(ctx, plan, i, head.chunk, &mean);
-        total += mean;
-    }
+    FILE *to = open_memstream(&measured, &size);
+    iso_status status =
+        to ? explain_quantities(ctx, plan, head.chunk, to, &mean) : iso_context_no_memory(ctx, "words");
+    if (to && fclose(to) != 0 && status == ISO_OK) status = iso_context_no_memory(ctx, "words");
+    if (status == ISO_OK) tell(file, &head, mean, measured);
+    free(measured);
     iso_sweep_free(sweep);
-    if (status != ISO_OK) return status;
-    say("\ntime\n  about ");
-    print_time(total * (double)head.count);
-    say(" of processor time; here, with %zu threads, about ", processors);
-    print_time(total * (double)head.count / (double)processors);
-    say("\n  a chunk takes about ");
-    print_time(total * (double)iso_sweep_chunk_points(&head, 0));
-    say("\n  a file of about %.3g MB\n", ((double)head.columns + 0.5) * 8e-6 * (double)head.count);
-    return ISO_OK;
+    return status;
 }
 
 int explain_sweep(iso_context *ctx, const char *path)

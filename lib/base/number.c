@@ -62,10 +62,10 @@ int iso_number_print(char text[ISO_NUMBER_SIZE], double value)
 char *iso_number_short(char text[ISO_NUMBER_SIZE], double value)
 {
     ISO_DEFAULT_ARITHMETIC;
-    double read = 0;
+    double read = NAN;
     int digits = fabs(value) >= DBL_MIN ? 15 : 1;
     size_t length = (size_t)iso_number_print_as(text, value, digits);
-    while (digits < 17 && iso_number_read(text, length, &read) && read != value)
+    while (digits < 17 && !(iso_number_read(text, length, &read) && read == value))
         length = (size_t)iso_number_print_as(text, value, ++digits);
     return text;
 }

@@ -168,8 +168,9 @@ ISO_API bool iso_foreign_option(const char *study, int i, const char *text[5]);
 /* A word that the argument of this option can be; NULL past the last, or where it is no word of a list. */
 ISO_API const char *iso_foreign_option_word(const char *study, int i, int word);
 
-/* The kind of the i-th table that studies make; NULL past the end. And its columns: the name of the i-th, its unit
- * ("": none), and what it is in one line. false: past the end. */
+/* The kind of the i-th table that studies and sweeps make; NULL past the end. And its columns: the name of the i-th,
+ * its unit ("": none), and what it is in one line. false: past the end. Of sweeps all columns that one can have, but
+ * those of what varies; of compare both t and s. */
 ISO_API const char *iso_foreign_table_kind(int i);
 ISO_API bool iso_foreign_column(const char *kind, int i, char name[64], const char *text[2]);
 

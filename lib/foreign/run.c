@@ -150,7 +150,8 @@ static iso_status fill_watched(iso_foreign_orbit *o, const double times[], size_
     how.times = times;
     how.count = count;
     const iso_status status = iso_run(o->ctx, &o->scene, &how, &sink, &r);
-    if (status == ISO_OK) memcpy(table, iso_record_row(rows, 0), r.rows * (size_t)o->count * sizeof *table);
+    if (status == ISO_OK && r.rows > 0)
+        memcpy(table, iso_record_row(rows, 0), r.rows * (size_t)o->count * sizeof *table);
     iso_record_free(rows);
     if (status != ISO_OK) return status;
     for (size_t i = 0; i < count; i++) {

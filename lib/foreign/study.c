@@ -8,6 +8,7 @@
 #include "study/study.h"
 #include "study/tables/list_impl.h"
 #include "study/tables/tables.h"
+#include "sweep/sweep_store_impl.h"
 
 /* --- asking ----------------------------------------------------------------------------------------------------- */
 
@@ -120,13 +121,15 @@ iso_status iso_foreign_list(iso_context *ctx, const char *topic, char text[], si
 
 const char *iso_foreign_table_kind(int i)
 {
-    return iso_result_table_at(i) ? iso_result_table_at(i)->kind : NULL;
+    int of_studies = 0;
+    while (iso_result_table_at(of_studies)) of_studies++;
+    return i == of_studies ? ISO_SWEEP_KIND : iso_result_table_at(i) ? iso_result_table_at(i)->kind : NULL;
 }
 
 typedef struct column {
     int wanted;
-    const iso_field *field;
-    char name[ISO_COLUMN_SIZE];
+    char *name;
+    const char **text; /* unit and doc */
 } column;
 
 static void look(void *data, const char *name, const iso_field *field, const iso_value *value)
@@ -134,19 +137,17 @@ static void look(void *data, const char *name, const iso_field *field, const iso
     column *c = data;
     (void)value;
     if (c->wanted-- != 0) return;
-    c->field = field;
+    c->text[0] = field->unit;
+    c->text[1] = field->doc;
     memcpy(c->name, name, strlen(name) + 1);
 }
 
 bool iso_foreign_column(const char *kind, int i, char name[64], const char *text[2])
 {
-    column c = {.wanted = i};
+    column c = {i, name, text};
     for (int t = 0; iso_result_table_at(t); t++)
         if (strcmp(iso_result_table_at(t)->kind, kind) == 0)
             iso_columns_visit(iso_result_table_at(t)->fields, NULL, look, &c);
-    if (!c.field) return false;
-    memcpy(name, c.name, sizeof c.name);
-    text[0] = c.field->unit;
-    text[1] = c.field->doc;
-    return true;
+    if (strcmp(kind, ISO_SWEEP_KIND) == 0) iso_sweep_columns_visit(look, &c);
+    return i >= 0 && c.wanted < 0;
 }

@@ -44,6 +44,20 @@ static const iso_field run_fields[] = {
 };
 #undef FIELD
 
+/* --- the differences, row by row -------------------------------------------------------------------------------- */
+
+/* Of t and s one is the scene's clock. */
+const iso_field iso_difference_fields[] = {
+    {.name = "t", .unit = "", .doc = "of a ball the time; of a point the difference of t by its largest value"},
+    {.name = "omega", .unit = "", .doc = "the difference of omega, by its length"},
+    {.name = "n", .unit = "", .doc = "the difference of n"},
+    {.name = "M", .unit = "", .doc = "the difference of M, by its length"},
+    {.name = "gamma", .unit = "", .doc = "the difference of gamma"},
+    {.name = "tau", .unit = "", .doc = "the difference of tau, by its largest value"},
+    {.name = "s", .unit = "", .doc = "of a point the time; of a ball the difference of s by its largest value"},
+    ISO_FIELD_END,
+};
+
 /* --- all -------------------------------------------------------------------------------------------------------- */
 
 static bool has_exact(const void *row)

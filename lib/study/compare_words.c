@@ -52,13 +52,14 @@ void iso_comparison_words(const iso_scene *scene, const iso_comparison *c, char 
     const char *who = c->runs == ISO_BACKENDS ? "both models and the closed solution" : "both models";
     const char *clock = iso_clock_name(c->clock);
     const double worst = worst_of(c, rows), half = worst_of(c, rows / 2), bound = allowed(scene, c);
+    const double same = fmin(bound, 1e-3); /* what differs by more is not called the same, whatever the tolerance */
     char part[128] = "";
     if (rows < all) snprintf(part, sizeof part, " in the %zu of %zu rows that were compared", rows, all);
-    if (worst <= bound)
+    if (worst <= same)
         snprintf(words, ISO_COMPARISON_WORDS, "the same orbit%s: %s agree to %.1e", part, who, worst);
     else if (!isfinite(worst))
         snprintf(words, ISO_COMPARISON_WORDS, "no result%s: a difference is not finite", part);
-    else if (worst > GROWTH * fmax(half, bound / GROWTH))
+    else if (worst > bound && worst > GROWTH * half)
         snprintf(words, ISO_COMPARISON_WORDS,
                  "the orbits part%s: %s agree to %.1e until %s = %s, then the difference grows to %.1e, as on a "
                  "chaotic orbit, where it multiplies with every turn; this says nothing against the isomorphism "
@@ -66,7 +67,7 @@ void iso_comparison_words(const iso_scene *scene, const iso_comparison *c, char 
                  part, who, bound, clock, ISO_ROUNDED(agree_until(c, bound), 6), worst);
     else
         snprintf(words, ISO_COMPARISON_WORDS,
-                 "not shown to be the same orbit%s: %s differ by %.1e, and the tolerance %s of a step explains "
-                 "%.1e; if a smaller --tol makes the difference smaller, it is the error of the method",
+                 "not shown to be the same orbit%s: %s differ by %.1e; steps of tolerance %s may add up to %.1e; if a "
+                 "smaller --tol makes the difference smaller, it is the error of the method",
                  part, who, worst, ISO_SHORT(scene->tolerance), bound);
 }

@@ -28,7 +28,7 @@ void iso_effects_print(FILE *to, const iso_effects *effects, bool docs)
 {
     char line[32];
     int shown = 0;
-    snprintf(line, sizeof line, "\n  %-18s", "");
+    snprintf(line, sizeof line, "\n    ");
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
         if (!effects->on[e]) continue;
         fprintf(to, "%s  %-18s", shown++ ? "" : "effects\n", iso_effect_list[e]->name);

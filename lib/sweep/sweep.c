@@ -104,14 +104,88 @@ iso_status iso_sweep_refuse_effects(iso_context *ctx, const iso_sweep_job *job)
     return iso_refuse_beyond_level(ctx, &acting, "it is known");
 }
 
-void iso_sweep_add(iso_sweep_job *job, const char *prefix, const char *names)
+void iso_sweep_add(iso_sweep_job *job, const char *names)
 {
+    const iso_sweep_computation *q = job->computation;
     for (int used = 0; job->count < ISO_SWEEP_NUMBERS && *names; names += used) {
-        iso_sweep_column *c = &job->column[job->count++];
-        snprintf(c->group, sizeof c->group, "%s", job->computation->quantity.name);
-        sscanf(names, "%24s %n", strcpy(c->name, prefix) + strlen(prefix), &used);
+        iso_sweep_column *c = &job->column[job->count];
+        snprintf(c->group, sizeof c->group, "%s", q->quantity.name);
+        sscanf(names, "%24s %n", c->name, &used);
+        job->count += !q->has || q->has(job, c->name);
     }
 }
+
+static void add_column(void *data, const char *name, const iso_field *field, const iso_value *value)
+{
+    (void)field, (void)value;
+    iso_sweep_add(data, name);
+}
+
+/* --- what the columns are --------------------------------------------------------------------------------------- */
+
+/* Also those that are not for the study's own tables. */
+static void visit_all(const iso_field fields[], const void *row, iso_column_visitor *visit, void *data)
+{
+    iso_field all[ISO_MOST_FIELDS];
+    iso_fields_copy(fields, NULL, all);
+    for (iso_field *f = all; f->name; f++) f->how &= ~(unsigned)ISO_IN_TREE;
+    iso_columns_visit(all, row, visit, data);
+}
+
+/* Whether a list of words with blanks between has this one. */
+static bool has_word(const char *words, const char *word)
+{
+    const size_t length = strlen(word);
+    for (; *words; words += strcspn(words, " "), words += strspn(words, " "))
+        if (strcspn(words, " ") == length && strncmp(words, word, length) == 0) return true;
+    return false;
+}
+
+typedef struct described {
+    const iso_sweep_computation *of;
+    iso_column_visitor *visit;
+    void *data;
+} described;
+
+static void describe(void *data, const char *name, const iso_field *field, const iso_value *value)
+{
+    const described *d = data;
+    char full[ISO_COLUMN_SIZE];
+    if (d->of && d->of->names && !has_word(d->of->names, name)) return;
+    snprintf(full, sizeof full, "%s%s%s", d->of ? d->of->quantity.name : "", d->of ? "_" : "", name);
+    iso_field told = *field;
+    if (field->type == ISO_FIELD_INT && field->word) told.doc = "0 regular, 1 chaotic, 2 undecided"; /* a verdict */
+    d->visit(d->data, full, &told, value);
+}
+
+static void describe_columns_of_trajectories(described *d)
+{
+    d->of = &iso_sweep_state;
+    for (int c = 0; c < iso_columns_count(); c++) {
+        iso_field field = {.name = iso_column_name(c)};
+        field.doc = iso_column_doc(c, &field.unit);
+        describe(d, field.name, &field, NULL);
+    }
+}
+
+void iso_sweep_columns_visit(iso_column_visitor *visit, void *data)
+{
+    static const iso_field of_row[] = {
+        {.name = "point", .unit = "", .doc = "number of the point, from 0 on"},
+        {.name = "status", .unit = "", .doc = "0, or why the point failed: a number of iso_status"},
+        {.name = "reason", .unit = "", .doc = "the same in words"},
+        ISO_FIELD_END,
+    };
+    described d = {NULL, visit, data};
+    visit_all(of_row, NULL, describe, &d);
+    describe_columns_of_trajectories(&d);
+    for (int i = 0; computations[i]; i++) {
+        d.of = computations[i];
+        for (int f = 0; d.of->fields[f]; f++) visit_all(d.of->fields[f], NULL, describe, &d);
+    }
+}
+
+/* --- what the columns hold -------------------------------------------------------------------------------------- */
 
 typedef struct filled {
     const iso_sweep_job *job;
@@ -128,10 +202,7 @@ static void fill(void *data, const char *name, const iso_field *field, const iso
 
 void iso_sweep_fill(const iso_sweep_job *job, const iso_field fields[], const void *row, double number[])
 {
-    iso_field all[ISO_MOST_FIELDS];
-    iso_fields_copy(fields, NULL, all);
-    for (iso_field *f = all; f->name; f++) f->how &= ~(unsigned)ISO_IN_TREE;
-    iso_columns_visit(all, row, fill, &(filled){job, number});
+    visit_all(fields, row, fill, &(filled){job, number});
 }
 
 /* --- columns ---------------------------------------------------------------------------------------------------- */
@@ -151,10 +222,12 @@ static iso_status make_job(iso_context *ctx, iso_sweep *s, const iso_sweep_reque
     if (status != ISO_OK)
         iso_context_fail(ctx, status, q->quantity.name, "%s: %s", q->quantity.name, iso_context_message(ctx));
     if (status != ISO_OK) return status;
-    if (q->names)
-        iso_sweep_add(job, "", q->names);
-    else
+    if (q->columns)
         q->columns(job);
+    else if (q->names)
+        iso_sweep_add(job, q->names);
+    else
+        iso_columns_visit(q->fields[0], NULL, add_column, job);
     s->head.columns += job->count;
     return ISO_OK;
 }

@@ -2,6 +2,7 @@
  * share of the section. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "orbit/orbit_impl.h"
 #include "study/chaos/chaos_impl.h"
@@ -16,15 +17,16 @@ static bool with_model(const iso_sweep_job *job, int model)
     return isnan(asked) || asked == ISO_SHOW_BOTH || asked == model;
 }
 
-static void chaos_columns(iso_sweep_job *job)
+static bool chaos_has(const iso_sweep_job *job, const char *name)
 {
-    static const char of_model[] =
-        "verdict turns megno gali2 per_turn exponent_t exponent_tau exponent_s error_t error_tau error_s";
-    iso_sweep_add(job, "", "verdict");
-    if (job->setting[STARTS] > 0) iso_sweep_add(job, "", "share share_low share_high regular undecided failed");
-    if (with_model(job, ISO_BALL)) iso_sweep_add(job, "ball_", of_model);
-    if (with_model(job, ISO_POINT)) iso_sweep_add(job, "point_", of_model);
+    if (strncmp(name, "ball_", 5) == 0) return with_model(job, ISO_BALL);
+    if (strncmp(name, "point_", 6) == 0) return with_model(job, ISO_POINT);
+    return strcmp(name, "verdict") == 0 || job->setting[STARTS] > 0;
 }
+
+#define OF_MODEL(m)                                                                                                  \
+    m "_verdict " m "_turns " m "_megno " m "_gali2 " m "_per_turn " m "_exponent_t " m "_exponent_tau " m           \
+      "_exponent_s " m "_error_t " m "_error_tau " m "_error_s"
 
 /* status: of the study. Errors: that, or why the scene's own orbit was not followed. */
 static iso_status take(iso_context *ctx, const iso_sweep_job *job, const iso_chaos *c, iso_status status,
@@ -115,7 +117,9 @@ const iso_sweep_computation iso_sweep_chaos = {
                  .doc = "verdict, exponents and indicators; with starts, the chaotic share of the section",
                  .settings = chaos_settings,
                  .turns = true},
-    .columns = chaos_columns,
+    .fields = {iso_chaos_orbit_fields, iso_chaos_fraction_fields},
+    .names = "verdict share share_low share_high regular undecided failed " OF_MODEL("ball") " " OF_MODEL("point"),
+    .has = chaos_has,
     .chunk = chaos_chunk,
     .find = chaos_find,
     .find_all = chaos_find_all,

@@ -35,9 +35,11 @@ typedef struct iso_sweep_batch {
 
 typedef struct iso_sweep_computation {
     iso_sweep_quantity quantity;
-    const char *names; /* of its columns, with blanks between; NULL: `columns` adds them */
-    void (*columns)(iso_sweep_job *job);
-    size_t points; /* of a chunk of about a second; 0: `chunk` tells */
+    const iso_field *fields[3]; /* what its columns are; NULL ends the lists */
+    const char *names;          /* of its columns, with blanks between; NULL: those of the first list */
+    bool (*has)(const iso_sweep_job *job, const char *name); /* of these names a job has those; NULL: all */
+    void (*columns)(iso_sweep_job *job); /* not NULL: adds the columns, which depend on the scene         */
+    size_t points;                       /* of a chunk of about a second; 0: `chunk` tells */
     size_t (*chunk)(const iso_sweep_job *job);
     /* Why the scenes of this sweep do not have it. NULL: all do. */
     iso_status (*refuse)(iso_context *ctx, const iso_sweep_job *job);
@@ -52,8 +54,12 @@ typedef struct iso_sweep_computation {
 #define ISO_SWEEP_DECLARE(name) extern const iso_sweep_computation iso_sweep_##name;
 ISO_SWEEP_LIST(ISO_SWEEP_DECLARE)
 
-/* Adds columns, whose names have blanks between, each behind the prefix. */
-void iso_sweep_add(iso_sweep_job *job, const char *prefix, const char *names);
+/* Adds those of these columns that the job has; their names have blanks between. */
+void iso_sweep_add(iso_sweep_job *job, const char *names);
+
+/* Calls `visit` for each column that a table of a sweep can have, besides those of what varies. There are no values.
+ * The field lives as long as the call. */
+void iso_sweep_columns_visit(iso_column_visitor *visit, void *data);
 
 /* Fills those columns that a list of fields has, also those that are not for tables. */
 void iso_sweep_fill(const iso_sweep_job *job, const iso_field fields[], const void *row, double number[]);

@@ -3,6 +3,7 @@
 #include "study/frequencies/frequencies.h"
 #include "study/periodic/periodic.h"
 #include "study/separatrix/separatrix.h"
+#include "study/study_impl.h"
 #include "sweep/sweep_impl.h"
 
 static iso_status frequencies_find(iso_context *ctx, const iso_sweep_job *job, const iso_scene *scene,
@@ -25,9 +26,22 @@ static iso_status frequencies_find(iso_context *ctx, const iso_sweep_job *job, c
     return ISO_OK;
 }
 
+static const iso_field frequencies_fields[] = {
+    {.name = "rotation", .unit = "", .doc = "frequency 1 by frequency 2"},
+    {.name = "f1", .count = 3, .word = iso_clock_word, .unit = "rad/time", .doc = "frequency 1, in this clock"},
+    {.name = "f2", .count = 3, .word = iso_clock_word, .unit = "rad/time", .doc = "frequency 2, in this clock"},
+    {.name = "f1_error", .unit = "rad/time", .doc = "error of frequency 1 in t, if estimated"},
+    {.name = "f2_error", .unit = "rad/time", .doc = "error of frequency 2 in t, if estimated"},
+    {.name = "verdict", .unit = "", .doc = "if estimated: 0 regular, 1 chaotic, 2 undecided, 3 integrable"},
+    {.name = "estimated", .unit = "", .doc = "1: estimated; 0: from the closed solution"},
+    {.name = "h", .unit = "energy", .doc = "energy of the ball"},
+    {.name = "F", .unit = "", .doc = "value of the additional integral"},
+    ISO_FIELD_END,
+};
+
 const iso_sweep_computation iso_sweep_frequencies = {
     .quantity = {.name = "frequencies", .doc = "frequencies and rotation number", .turns = true, .time = true},
-    .names = "rotation f1_t f1_tau f1_s f2_t f2_tau f2_s f1_error f2_error verdict estimated h F",
+    .fields = {frequencies_fields},
     .points = 2,
     .find = frequencies_find,
 };
@@ -60,10 +74,14 @@ static const iso_sweep_setting splitting_settings[] = {
     {.name = NULL},
 };
 
+static const iso_field axis_field[] = {{.name = "axis", .unit = "", .doc = "a of the section n_a = 0 of x and m"},
+                                       ISO_FIELD_END};
+
 const iso_sweep_computation iso_sweep_splitting = {
     .quantity = {.name = "splitting",
                  .doc = "x and m of the separatrix, and their errors",
                  .settings = splitting_settings},
+    .fields = {iso_separatrix_fields, axis_field},
     .names = "x m error x_error x_tail m_tail digits multiplier from_zero axis",
     .points = 2,
     .refuse = iso_sweep_refuse_effects,
@@ -86,9 +104,15 @@ static iso_status rotations_find(iso_context *ctx, const iso_sweep_job *job, con
     return status;
 }
 
+static const iso_field rotations_fields[] = {
+    {.name = "trace", .count = 3, .unit = "", .doc = "half-turn trace of the rotation about this axis"},
+    {.name = "error", .count = 3, .unit = "", .doc = "its error"},
+    ISO_FIELD_END,
+};
+
 const iso_sweep_computation iso_sweep_rotations = {
     .quantity = {.name = "rotations", .doc = "half-turn traces of the rotations about the three axes"},
-    .names = "trace1 trace2 trace3 error1 error2 error3",
+    .fields = {rotations_fields},
     .points = 64,
     .refuse = iso_sweep_refuse_effects,
     .find = rotations_find,

@@ -38,11 +38,11 @@ static void state_columns(iso_sweep_job *job)
     if (isnan(job->turns)) {
         count = iso_scene_columns(&s, columns);
     } else {
-        iso_sweep_add(job, "", "t tau s l x");
+        iso_sweep_add(job, "t tau s l x");
         for (int i = 0; i < ISO_STATE && as != ISO_SHOW_POINT; i++) columns[count++] = ISO_COLUMN_BALL + i;
         for (int i = 0; i < ISO_STATE && as != ISO_SHOW_BALL; i++) columns[count++] = ISO_COLUMN_POINT + i;
     }
-    for (int i = 0; i < count; i++) iso_sweep_add(job, "", iso_column_name(columns[i]));
+    for (int i = 0; i < count; i++) iso_sweep_add(job, iso_column_name(columns[i]));
 }
 
 static iso_status state_refuse(iso_context *ctx, const iso_sweep_job *job)
@@ -122,12 +122,20 @@ static const iso_sweep_setting state_settings[] = {
     {.name = NULL},
 };
 
+/* The others are columns of trajectories. */
+static const iso_field state_fields[] = {
+    {.name = "l", .unit = "rad", .doc = "angle of the crossing on the section, in (-pi, pi]"},
+    {.name = "x", .unit = "", .doc = "the other coordinate, M_a/|M| on the section n_a = 0"},
+    ISO_FIELD_END,
+};
+
 const iso_sweep_computation iso_sweep_state = {
     .quantity = {.name = "state",
                  .doc = "the state at the end (the time of `until`, or the turn)",
                  .settings = state_settings,
                  .turns = true,
                  .time = true},
+    .fields = {state_fields},
     .columns = state_columns,
     .chunk = state_chunk,
     .refuse = state_refuse,
@@ -139,8 +147,8 @@ const iso_sweep_computation iso_sweep_state = {
 /* The names of iso_comparison.difference: those of the clocks depend on the scene's own. */
 static void backends_columns(iso_sweep_job *job)
 {
-    iso_sweep_add(job, "", "omega n M gamma");
-    iso_sweep_add(job, "", job->base->start.model == ISO_BALL ? "tau s largest" : "t tau largest");
+    iso_sweep_add(job, "omega n M gamma");
+    iso_sweep_add(job, job->base->start.model == ISO_BALL ? "tau s largest" : "t tau largest");
 }
 
 static iso_status backends_refuse(iso_context *ctx, const iso_sweep_job *job)
@@ -165,10 +173,23 @@ static iso_status backends_find(iso_context *ctx, const iso_sweep_job *job, cons
     return status;
 }
 
+static const iso_field backends_fields[] = {
+    {.name = "omega", .unit = "", .doc = "the largest difference of omega, by its length"},
+    {.name = "n", .unit = "", .doc = "of n"},
+    {.name = "M", .unit = "", .doc = "of M, by its length"},
+    {.name = "gamma", .unit = "", .doc = "of gamma"},
+    {.name = "t", .unit = "", .doc = "of t, by its largest value"},
+    {.name = "tau", .unit = "", .doc = "of tau, by its largest value"},
+    {.name = "s", .unit = "", .doc = "of s, by its largest value"},
+    {.name = "largest", .unit = "", .doc = "the largest of omega, n, M and gamma"},
+    ISO_FIELD_END,
+};
+
 const iso_sweep_computation iso_sweep_backends = {
     .quantity = {.name = "backends",
                  .doc = "the largest differences of the backends over the rows of `compare`",
                  .time = true},
+    .fields = {backends_fields},
     .columns = backends_columns,
     .points = 8,
     .refuse = backends_refuse,
@@ -201,12 +222,21 @@ static const iso_sweep_setting error_settings[] = {
     {.name = NULL},
 };
 
+static const iso_field error_fields[] = {
+    {.name = "ball", .unit = "", .doc = "the largest error of omega and n, each by its length"},
+    {.name = "ball_last", .unit = "", .doc = "that of the last row"},
+    {.name = "point", .unit = "", .doc = "the largest error of M and gamma, each by its length"},
+    {.name = "point_last", .unit = "", .doc = "that of the last row"},
+    {.name = "start", .unit = "", .doc = "the part of the largest error that the start's rounding makes"},
+    ISO_FIELD_END,
+};
+
 const iso_sweep_computation iso_sweep_error = {
     .quantity = {.name = "error",
                  .doc = "the largest errors over the rows of `run`, at a tolerance",
                  .settings = error_settings,
                  .time = true},
-    .names = "ball ball_last point point_last start",
+    .fields = {error_fields},
     .points = 8,
     .find = error_find,
 };
@@ -233,9 +263,15 @@ static iso_status contact_find(iso_context *ctx, const iso_sweep_job *job, const
     return ISO_OK;
 }
 
+static const iso_field contact_fields[] = {
+    {.name = "lost", .unit = "", .doc = "1: contact is lost before the end"},
+    {.name = "time", .unit = "time", .doc = "when it is lost first"},
+    ISO_FIELD_END,
+};
+
 const iso_sweep_computation iso_sweep_contact = {
     .quantity = {.name = "contact", .doc = "whether contact is lost before the end, and when first", .time = true},
-    .names = "lost time",
+    .fields = {contact_fields},
     .chunk = state_chunk,
     .refuse = contact_refuse,
     .find = contact_find,

@@ -135,6 +135,42 @@ static void test_text(const char *locale)
     }
 }
 
+/* The shortest decimal: it reads back as the same double, and no decimal of fewer digits does. */
+static void check_short(double x)
+{
+    char text[ISO_NUMBER_SIZE], fewer[ISO_NUMBER_SIZE];
+    double read = NAN;
+    iso_number_short(text, x);
+    gsl_test(!iso_number_read(text, strlen(text), &read) || !same(read, x), "%.17g: '%s' reads back", x, text);
+    int digits = 0, seen = 0; /* significant ones, without zeros at the end of a whole number */
+    for (const char *c = text; *c && *c != 'e'; c++) {
+        seen = seen || (*c >= '1' && *c <= '9');
+        digits += seen && *c >= '0' && *c <= '9';
+    }
+    if (!strchr(text, '.') || digits < 2) return;
+    const int length = iso_number_print_as(fewer, x, digits - 1);
+    gsl_test(iso_number_read(fewer, (size_t)length, &read) && same(read, x), "'%s' is the shortest, not '%s'", text,
+             fewer);
+}
+
+static void test_short(void)
+{
+    static const double values[] = {0.1,       0.3,     1e-5,    0.1 + 0.2, 1.0 / 3,      DBL_MAX,
+                                    -DBL_MAX,  DBL_MIN, 0x1p-44, 0x1p-24,   123456.78901, 9007199254740993.0,
+                                    0x1p-1074, 3e-310,  1e22,    -2.5};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++) check_short(values[i]);
+    iso_random *random = iso_random_create(7);
+    if (!random) abort();
+    for (int i = 0; i < 2000; i++) {
+        const double x = ldexp(iso_random_uniform(random, -1, 1), (int)iso_random_uniform(random, -1000, 1000));
+        check_short(x);
+        check_short(round(1e6 * iso_random_uniform(random, -10, 10)) / 1e6);
+        check_short((double)(i - 1000) / 1000);
+    }
+    iso_random_free(random);
+    gsl_test(strcmp(ISO_SHORT(0.1), "0.1") != 0 || strcmp(ISO_SHORT(1e22), "1e+22") != 0, "0.1, and 1e+22");
+}
+
 int main(void)
 {
     /* a comma, and a mark of two bytes (U+066B): those that are installed */
@@ -142,6 +178,7 @@ int main(void)
     test_values();
     test_refusals();
     test_length();
+    test_short();
     for (size_t i = 0; i < sizeof locales / sizeof *locales; i++) {
         if (!setlocale(LC_ALL, locales[i])) continue;
         test_text(locales[i]);

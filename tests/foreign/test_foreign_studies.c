@@ -133,7 +133,8 @@ static void check_periodic(const iso_foreign_scene *scene, const iso_scene *same
     for (size_t i = 0; i < iso_record_rows(table[0]); i++)
         low = fmin(low, cell(table[0], i, "k")), high = fmax(high, cell(table[0], i, "k"));
     gsl_test(low != 0.45 || high != 0.55, "periodic: from %g to %g", low, high);
-    gsl_test(ask(scene, "periodic", "period=2\nfollow=k=5:6") != ISO_BAD_ARGUMENT || table[0], "periodic: out of range");
+    gsl_test(ask(scene, "periodic", "period=2\nfollow=k=5:6") != ISO_BAD_ARGUMENT || table[0],
+             "periodic: out of range");
     gsl_test(!refused(scene, NULL, "periodic", "chart=J2\nfollow=k=0.4:0.6", "chart"), "periodic: chart and follow");
     gsl_test(!refused(scene, NULL, "periodic", "steps=3", "steps"), "periodic: steps of no chart");
 }
@@ -288,6 +289,34 @@ static iso_status sweep(int threads, iso_record **record)
     return status;
 }
 
+#define BODY                                                                                                         \
+    "scene: {ball: {mass: 6.8, radius: 0.11, inertia: [0.027, 0.028, 0.029]}, surface: {kind: plane}, initial: "     \
+    "{normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}, time: {end: 2}, effects: "
+#define BY_TURNS                                                                                                     \
+    BODY "{}}\nvary: {mass: [6.8]}\nuntil: {turns: 2}\nmeasure: {state: {as: both}, chaos: {starts: 1}, "            \
+         "frequencies: "                                                                                             \
+         "{}, splitting: {}, rotations: {}}\n"
+#define BY_TIME                                                                                                      \
+    BODY "{attitude: {}, reactions: {}}}\nvary: {mass: [6.8]}\nuntil: {time: 2}\nmeasure: {state: {}, frequencies: " \
+         "{}, backends: {}, error: {}, contact: {}}\n"
+
+/* Each column of a sweep is one of the list, but what varies. */
+static void check_sweep_columns(const char *text)
+{
+    iso_record *all = NULL;
+    const char *column[2];
+    char name[64];
+    gsl_test(iso_foreign_sweep(ctx, "a sweep", text, strlen(text), 1, NULL, NULL, &all) != ISO_OK, "all: %s",
+             iso_context_message(ctx));
+    for (size_t c = 0; all && c < iso_record_columns(all); c++) {
+        const char *wanted = iso_record_name(all, c);
+        int i = 0;
+        while (iso_foreign_column("sweep", i, name, column) && strcmp(name, wanted) != 0) i++;
+        gsl_test(strcmp(wanted, "mass") != 0 && strcmp(name, wanted) != 0, "sweep: what is '%s'", wanted);
+    }
+    iso_record_free(all);
+}
+
 static bool stop(void *data)
 {
     return (*(int *)data)-- > 0;
@@ -381,7 +410,7 @@ static void check_lists(void)
             lacking += !*name || !column[0] || !*column[1];
         gsl_test(columns < 4 || lacking, "%s: %d columns", kind, columns);
     }
-    gsl_test(kinds < 8 || iso_foreign_column("poetry", 0, name, column), "%d kinds of tables", kinds);
+    gsl_test(kinds < 12 || iso_foreign_column("poetry", 0, name, column), "%d kinds of tables", kinds);
     gsl_test(!iso_foreign_column("splitting", 2, name, column) || strcmp(name, "m") != 0, "its third column is m");
 }
 
@@ -401,6 +430,8 @@ int main(void)
     check_check(scene);
     check_texts(scene);
     check_sweep(scene);
+    check_sweep_columns(BY_TURNS);
+    check_sweep_columns(BY_TIME);
     check_lists();
     for (int i = 0; i < ISO_STUDY_TABLES; i++) iso_record_free(table[i]);
     iso_foreign_scene_free(scene);

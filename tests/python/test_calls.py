@@ -62,6 +62,31 @@ class Lists(Case):
                 self.assertEqual(options - keywords, set(), "options without a keyword")
                 self.assertEqual(keywords - options - OWN - OWN_OF.get(command, set()), set(), "no option")
 
+    def test_messages_name_keywords(self):
+        error = self.refuses(isoroll.BadArgument, "axis '7': expected", isoroll.section, WILD, axis=7)
+        self.assertNotIn("--", str(error))
+        error = self.refuses(isoroll.BadArgument, "chart or follow, not both", isoroll.periodic, WILD, chart="J2",
+                             follow="k=0.4:0.6")
+        self.assertNotIn("--", str(error))
+        with self.assertRaises(isoroll.BadInput) as caught:
+            isoroll.Scene(k=0.5, J=[1, 2, -5], normal=[0, 0, 1], angular_velocity=[1, 0, 0], end=1)
+        self.assertTrue(str(caught.exception).startswith("J3 = -5"), str(caught.exception))
+
+    def test_endings(self):
+        table = isoroll.run(BALL, t_end=1)
+        for name in ("a.xyz", "a.csv.gz", "a.CSV"):
+            self.refuses(isoroll.BadArgument, "is written as .csv or .h5", table.write, self.path(name))
+            self.assertFalse(os.path.exists(self.path(name)))
+        for name in ("a.csv", "a"):
+            table.write(self.path(name))
+            self.assertEqual(len(isoroll.read(self.path(name))), len(table))
+    def test_arguments_of_the_command_alone(self):
+        """Functions take what their commands take, but explain: of a sweep it measures times, for the command."""
+        with open(self.path("sweep.yaml"), "w", encoding="utf-8") as file:
+            file.write(f"scene: {WILD}\nvary: {{k: [0.5]}}\nmeasure: {{rotations: {{}}}}\n")
+        self.assertIn("rotations", self.command("explain", "sweep.yaml"))
+        self.refuses(isoroll.BadInput, "unknown key 'scene'", isoroll.explain, self.path("sweep.yaml"))
+
     def test_the_stub_is_new(self):
         with open(os.path.join(SOURCE, "apps/python/isoroll/_instruments.pyi"), encoding="utf-8") as file:
             self.assertEqual(file.read(), _stub.text(), "run python3 -m isoroll._stub")
@@ -81,12 +106,17 @@ class Lists(Case):
     def test_columns_are_documented(self):
         for table in (isoroll.run(BALL, as_="both"), isoroll.section(WILD, crossings=2, as_="both"),
                       isoroll.chaos(WILD, turns=5, starts=1), isoroll.periodic(WILD, period=1),
-                      isoroll.splitting(WILD), isoroll.run(example("10_bowl"), t_end=0.1), isoroll.check(
-                          isoroll.run(BALL))):
+                      isoroll.chaos(WILD, turns=5).indicators["point"], isoroll.splitting(WILD),
+                      isoroll.run(example("10_bowl"), t_end=0.1), isoroll.check(isoroll.run(BALL)),
+                      isoroll.compare(WILD, t_end=1)):
             for column in table.columns:
                 self.assertTrue(table.doc[column], (table.kind, column))
                 self.assertIn(column, table.units)
         self.assertEqual(isoroll.run(BALL).units["omega1"], "1/time")
+        swept = isoroll.sweep({"scene": isoroll.Scene(WILD), "vary": {"k": [0.5]}, "until": {"turns": 2},
+                               "measure": {"state": {}, "chaos": {}, "frequencies": {}, "splitting": {}}})
+        self.assertEqual([column for column in swept.columns if not swept.doc[column]], ["k"])  # what varies
+        self.assertEqual((swept.units["frequencies_f1_t"], swept.units["state_l"]), ("rad/time", "rad"))
 
 
 def rows_of(path):

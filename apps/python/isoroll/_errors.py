@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from typing import Optional
+
+
+def in_python(words: str) -> str:
+    """Words of the library as they fit here: an option of the command is a keyword, and keywords have no lines."""
+    words = re.sub(r"^<keywords>:\d+:\d+: ", "", words)
+    return re.sub(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)", lambda option: option[1].replace("-", "_"), words)
 
 
 class IsorollError(Exception):
@@ -81,6 +88,6 @@ STATUS = (IsorollError, BadArgument, BadInput, NotMapped, NumericalFailure, Stop
 
 def make(status: int, message: str, about: str) -> IsorollError:
     """The exception of a status."""
-    error = STATUS[status if 0 < status < len(STATUS) else 0](message)
+    error = STATUS[status if 0 < status < len(STATUS) else 0](in_python(message))
     error.about = about
     return error

@@ -262,7 +262,9 @@ class Owned:
             self._free(self._pointer)
 
     def __reduce_ex__(self, protocol: Any) -> Any:
-        raise TypeError(f"a {type(self).__name__} of isoroll lives in the library: it cannot be copied or pickled")
+        name = type(self).__name__
+        article = "an" if name[0] in "AEIOU" else "a"
+        raise TypeError(f"{article} {name} of isoroll lives in the library: it cannot be copied or pickled")
 
 
 class New(c_void_p):
@@ -314,7 +316,7 @@ class Notes:
         if self.buffer[0] == b"\0":
             return
         for line in self.buffer.value.decode("utf-8", "replace").split("\n"):
-            warnings.warn(line, _errors.IsorollWarning, stacklevel=level)
+            warnings.warn(_errors.in_python(line), _errors.IsorollWarning, stacklevel=level)
 
 
 class _OfThread(threading.local):

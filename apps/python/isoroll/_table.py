@@ -267,13 +267,16 @@ class Table:
         return frame
 
     def write(self, path: PathLike, *, digits: Union[int, str] = 17) -> None:
-        """Writes the table: CSV, or HDF5 if the name ends in .h5. The file appears when it is whole.
+        """Writes the table: CSV, or HDF5 if the name ends in .h5; other endings are refused. The file appears when it is whole.
 
         digits  1 to 17, or "hex": C's %a. With 17 and "hex" the numbers read back exactly.
 
         In trajectories and sections a number that is not finite is refused.
         """
         ctx, record, name = context(), as_record(self), encoded(path)
+        ending = os.path.splitext(os.fsdecode(path))[1]
+        if ending not in ("", ".csv", ".h5"):
+            raise _errors.BadArgument(f"'{os.fsdecode(path)}' ends in '{ending}': a table is written as .csv or .h5")
         number = 0 if digits == "hex" else whole("digits", digits, 1, 17)
         with _hdf5.calls(name), interruptible():
             status = lib.iso_foreign_write(ctx, name, record.pointer, number, encoded(self.kind))
@@ -338,10 +341,11 @@ CLASSES: Dict[str, Type[Table]] = {}
 
 @functools.lru_cache(maxsize=None)
 def columns_of(kind: str) -> Mapping[str, Tuple[str, str]]:
-    """The columns of a kind of table: name, unit and meaning. Of one that is not known: those of a trajectory."""
+    """The columns of a kind of table: name, unit and meaning; besides, those of a trajectory."""
     name, text, unit = create_string_buffer(64), (c_char_p * 2)(), c_char_p()
     found: Dict[str, Tuple[str, str]] = {}
     i = 0
+    kind = "sweep" if kind == "sweep part" else kind
     while lib.iso_foreign_column(kind.encode(), i, name, text):
         found[name.value.decode()] = (text[0] or b"").decode(), (text[1] or b"").decode()
         i += 1

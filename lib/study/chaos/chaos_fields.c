@@ -23,6 +23,18 @@ const iso_field iso_indication_fields[] = {
 };
 #undef FIELD
 
+/* --- indicators by turns ---------------------------------------------------------------------------------------- */
+
+const iso_field iso_indicator_fields[] = {
+    {.name = "turn", .unit = "", .doc = "number of the turn"},
+    {.name = "t", .unit = "time", .doc = "the ball's time then; of a point without a ball its time s"},
+    {.name = "growth", .unit = "", .doc = "ln of how many times longer the deviation is than at the start"},
+    {.name = "megno", .unit = "", .doc = "MEGNO"},
+    {.name = "mean", .unit = "", .doc = "the mean of MEGNO"},
+    {.name = "gali2", .unit = "", .doc = "GALI_2: sine of the angle between the deviations"},
+    ISO_FIELD_END,
+};
+
 /* --- one orbit -------------------------------------------------------------------------------------------------- */
 
 #define FIELD(key, member, ...) ISO_MEMBER(iso_chaos_orbit, key, member, __VA_ARGS__)

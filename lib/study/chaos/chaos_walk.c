@@ -7,6 +7,7 @@
 
 #include "orbit/crossings_impl.h"
 #include "study/chaos/chaos_impl.h"
+#include "study/fields_impl.h"
 
 /* GROUP: orbits that are followed together. ROUND: the most turns of a round. Together some 25 MB of crossings.
  * CHECKED: one of so many starts is followed by the ball, too, if the walk is sampled. */
@@ -155,8 +156,9 @@ static iso_status take(group *g, int model, size_t i)
 
 static iso_status create_trace(iso_chaos_walk *w, int model)
 {
-    static const char *const names[] = {"turn", "t", "growth", "megno", "mean", "gali2"};
-    return iso_record_create(w->ctx, sizeof names / sizeof *names, names, &w->out->trace[model]);
+    ISO_TRY(iso_columns_create(w->ctx, iso_indicator_fields, &w->out->trace[model]));
+    iso_record_set_kind(w->out->trace[model], "chaos indicators");
+    return ISO_OK;
 }
 
 /* Whether all orbits of the group are spread starts. Otherwise none is. */

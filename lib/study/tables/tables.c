@@ -41,6 +41,8 @@ const iso_result_table *iso_result_table_at(int i)
         {"splitting", "a value of k or of the level", iso_separatrix_fields, false},
         {"cost", "a backend with a method and a tolerance", iso_cost_cell_fields, false},
         {"check", "a residual", iso_checked_fields, true},
+        {"chaos indicators", "a turn of the scene's own orbit", iso_indicator_fields, true},
+        {"compare", "a time of the scene", iso_difference_fields, true},
         {"section cloud", "a test of the invariant measure", iso_cloud_fields, true},
     };
     return i >= 0 && i < (int)(sizeof tables / sizeof *tables) ? &tables[i] : NULL;
