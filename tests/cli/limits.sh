@@ -55,7 +55,7 @@ refuses 3 "nul.csv:1:2: a NUL byte" check nul.csv
 
 # --- numbers that ask for more than there is: rows (counts of sweeps: bad_files.txt)
 sed 's/step: *[0-9.]*/step: 1e-9/' scene.yaml >rows.yaml
-refuses 3 "1e+08" run rows.yaml
+refuses 3 "100000000 rows" run rows.yaml
 
 # --- memory: a file is read row by row; 64 MiB hold 200000 rows of 27 MB and whatever comes
 awk -F, -v OFS=, '/^#/ { print; next } !seen++ { print; next } { row[++n] = $0 }
