@@ -17,7 +17,9 @@ from isoroll import _instruments, _stub
 
 #: options that are no keywords, and what stands in their place
 EVERYWHERE = {"output": "table.write", "plot": "table.plot", "csv": "table.write", "json": "the table itself",
-              "quiet": "warnings", "help": "help()"}
+              "quiet": "warnings", "help": "help()",
+              **dict.fromkeys(("style", "size", "title", "script", "window", "over"), "of gnuplot's pictures: "
+                              "Python draws by matplotlib, where the axes are the caller's")}
 ELSEWHERE = {
     "run": {"verbose": "errors=True"},
     "convert": {"digits": "table.write(digits=)", "max-defect": "a warning", "strict": "a warning"},
