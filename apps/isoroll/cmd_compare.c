@@ -153,7 +153,8 @@ static void print_table(const shell *s)
     print_clocks(c, shown, rows);
     print_integrals(c);
     print_differences(c, rows);
-    iso_comparison_words(&s->scene, c, words);
+    double worst;
+    iso_comparison_words(&s->scene, c, &worst, words);
     say("\n%s\n", words);
 }
 
@@ -182,20 +183,14 @@ static json_t *json(const shell *s)
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-static double largest(const double worst[ISO_DIFFERENCES])
+static void tell_result(const iso_scene *scene, const iso_comparison *c, char text[], size_t size)
 {
-    double most = 0;
-    for (int i = 1; i < ISO_DIFFERENCES; i++) most = fmax(most, worst[i]);
-    return most;
-}
-
-static void tell_result(const iso_comparison *c, char text[], size_t size)
-{
-    const bool exact = c->runs == ISO_BACKENDS;
-    double most = largest(c->worst);
-    for (int b = 0; exact && b < ISO_INTEGRATED; b++) most = fmax(most, largest(c->worst_from_exact[b]));
-    snprintf(text, size, "both computations%s agree to %.1e, over the whole orbit to %s = %.6g",
-             exact ? " and the closed solution" : "", most, iso_clock_name(c->clock), c->worst[0]);
+    char words[ISO_COMPARISON_WORDS];
+    double worst;
+    const bool same = iso_comparison_words(scene, c, &worst, words);
+    snprintf(text, size, "both computations%s %s %.1e, over the whole orbit to %s = %.6g",
+             c->runs == ISO_BACKENDS ? " and the closed solution" : "", same ? "agree to" : "part: they differ by",
+             worst, iso_clock_name(c->clock), c->worst[0]);
 }
 
 static int draw(const shell *s)
@@ -215,7 +210,7 @@ static int draw(const shell *s)
             snprintf(drawn, sizeof drawn, "drawn: the whole orbit");
         else
             snprintf(drawn, sizeof drawn, "drawn: the first %.2g turns of n", ISO_STRETCH_TURNS);
-        tell_result(c, result, sizeof result);
+        tell_result(&s->scene, c, result, sizeof result);
         const iso_plot_twins plot = {title, drawn, result, curve, states};
         status = iso_plot_comparison(s->ctx, &s->told->plot, &plot);
     }

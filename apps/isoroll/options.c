@@ -212,12 +212,19 @@ static bool is_read(const command *c, const char *path, const char *options)
     return found;
 }
 
+static const char *without_dot(const char *path)
+{
+    while (strncmp(path, "./", 2) == 0) path += 2 + strspn(path + 2, "/");
+    return path;
+}
+
 /* Whether a row before the n-th writes to `path`, too. */
 static bool is_written_before(const command *c, int n, const char *path, const char *options)
 {
     for (int i = 0; i < n; i++) {
         const char *other = path_of(options_row(c, i), OPTION_WRITES, options);
-        if (other && (strcmp(path, other) == 0 || same_file(path, other, "/dev/null"))) return true;
+        if (other && (strcmp(without_dot(path), without_dot(other)) == 0 || same_file(path, other, "/dev/null")))
+            return true;
     }
     return false;
 }

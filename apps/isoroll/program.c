@@ -59,6 +59,10 @@ int program_run(const command *c, int argc, char **argv)
 int program_flush(int status)
 {
     say_end();
+    if (say_failed()) {
+        complain("no memory for the text: a part of it is missing");
+        if (status == EXIT_DONE) status = EXIT_NUMERICAL;
+    }
     errno = 0;
     if (fflush(stdout) == 0 && !ferror(stdout)) return status;
     if (errno == 0) (void)!write(STDOUT_FILENO, "\n", 1); /* an earlier write failed: this one says why */

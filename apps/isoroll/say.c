@@ -218,23 +218,35 @@ static struct {
     FILE *stream; /* writes into text */
     char *text;
     size_t size;
-    bool in_table;
+    bool in_table, failed;
     int keys;
 } said;
 
 FILE *say_to(void)
 {
     if (!said.stream) said.stream = open_memstream(&said.text, &said.size);
+    if (!said.stream) said.failed = true;
     return said.stream ? said.stream : stdout;
+}
+
+/* Ends the stream. Whether all that was written into it is there: memory may have failed. */
+static bool close_said(void)
+{
+    FILE *stream = said.stream;
+    bool whole = !ferror(stream);
+    said.stream = NULL;
+    if (fclose(stream) != 0) whole = false;
+    return whole && said.text != NULL;
 }
 
 /* Prints what waits, and forgets it. */
 static void print_said(void)
 {
     const int width = terminal_width(stdout);
-    if (!said.stream || fclose(said.stream) != 0) return;
-    said.stream = NULL;
-    if (said.in_table)
+    if (!said.stream) return;
+    if (!close_said())
+        said.failed = true;
+    else if (said.in_table)
         print_table(stdout, said.text, said.keys, width);
     else
         for (const char *at = said.text; *at; at += *at == '\n') {
@@ -243,6 +255,13 @@ static void print_said(void)
             at += length;
         }
     free(said.text);
+    said.text = NULL;
+    said.size = 0;
+}
+
+bool say_failed(void)
+{
+    return said.failed;
 }
 
 void say(const char *format, ...)
@@ -250,9 +269,10 @@ void say(const char *format, ...)
     va_list args;
     FILE *to = say_to();
     va_start(args, format);
-    vfprintf(to, format, args);
+    if (vfprintf(to, format, args) < 0 && said.stream) said.failed = true;
     va_end(args);
-    if (said.in_table || fflush(to) != 0) return;
+    if (said.in_table || !said.stream) return;
+    if (fflush(to) != 0 || ferror(to)) print_said();
     if (said.stream && said.size > 0 && said.text[said.size - 1] == '\n') print_said();
 }
 

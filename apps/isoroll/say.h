@@ -31,6 +31,9 @@ void say(const char *format, ...) __attribute__((format(printf, 1, 2)));
 FILE *say_to(void);
 void say_end(void);
 
+/* Whether something could not be said, for lack of memory. */
+bool say_failed(void);
+
 /* From here on each line is a row of a table. Columns of numbers stand to the right, others to the left. A column that
  * has no room goes on below, behind the first `keys` columns again; the last one is folded, if it has words. A row with
  * fewer cells than the header ends with words that may be long, and stands in the first part alone. One without a tab

@@ -45,7 +45,8 @@ static double agree_until(const iso_comparison *c, double bound)
     return iso_record_const_row(c->difference, i)[0];
 }
 
-void iso_comparison_words(const iso_scene *scene, const iso_comparison *c, char words[ISO_COMPARISON_WORDS])
+bool iso_comparison_words(const iso_scene *scene, const iso_comparison *c, double *most,
+                          char words[ISO_COMPARISON_WORDS])
 {
     enum { GROWTH = 30 }; /* errors that grow like the cube of the time are 8 times those of the first half */
     const size_t rows = iso_record_rows(c->difference), all = iso_scene_rows(scene);
@@ -54,6 +55,7 @@ void iso_comparison_words(const iso_scene *scene, const iso_comparison *c, char 
     const double worst = worst_of(c, rows), half = worst_of(c, rows / 2), bound = allowed(scene, c);
     const double same = fmin(bound, 1e-3); /* what differs by more is not called the same, whatever the tolerance */
     char part[128] = "";
+    *most = worst;
     if (rows < all) snprintf(part, sizeof part, " in the %zu of %zu rows that were compared", rows, all);
     if (worst <= same)
         snprintf(words, ISO_COMPARISON_WORDS, "the same orbit%s: %s agree to %.1e", part, who, worst);
@@ -66,8 +68,10 @@ void iso_comparison_words(const iso_scene *scene, const iso_comparison *c, char 
                  "(see 'isoroll chaos')",
                  part, who, bound, clock, ISO_ROUNDED(agree_until(c, bound), 6), worst);
     else
-        snprintf(words, ISO_COMPARISON_WORDS,
-                 "not shown to be the same orbit%s: %s differ by %.1e; steps of tolerance %s may add up to %.1e; if a "
-                 "smaller --tol makes the difference smaller, it is the error of the method",
-                 part, who, worst, ISO_SHORT(scene->tolerance), bound);
+        snprintf(
+            words, ISO_COMPARISON_WORDS,
+            "not shown to be the same orbit%s: %s differ by %.1e; steps of tolerance %s may add up to %.1e; if a "
+            "smaller --tol makes the difference smaller, it is the error of the method",
+            part, who, worst, ISO_SHORT(scene->tolerance), bound);
+    return worst <= same;
 }

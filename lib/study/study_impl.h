@@ -135,9 +135,10 @@ iso_error iso_error_finder_read(const iso_error_finder *finder);
 enum { ISO_COMPARISON_WORDS = 512 };
 
 /* The result of a comparison in one sentence, for people: whether it is the same orbit by all backends, and to how many
- * digits. It says so only where the difference is within what the steps were allowed; else it says what is the matter.
- */
-void iso_comparison_words(const iso_scene *scene, const iso_comparison *c, char words[ISO_COMPARISON_WORDS]);
+ * digits. It says so only where the difference is within what the steps were allowed (then true is returned); else it
+ * says what is the matter. *most: the largest difference. */
+bool iso_comparison_words(const iso_scene *scene, const iso_comparison *c, double *most,
+                          char words[ISO_COMPARISON_WORDS]);
 
 /* "k = 1, J = 1 2 5" (effects.c). What was given reads back as the same doubles. What was computed from a body has 15
  * digits: the others are rounding. */

@@ -309,7 +309,7 @@ outlived() {
         { wrong=$((wrong + 1)) && fail "$1, $2: two at once: $(ls -A stop)"; }
     exec 4>&-
     wait $first
-    [ $? -eq 0 ] && "$isoroll" check --max 1e-8 "stop/$1" 2>/dev/null | grep -q '^point' ||
+    [ $? -eq 0 ] && "$isoroll" check --max 1e-8 "stop/$1" 2>/dev/null | grep -q '^  point' ||
         { wrong=$((wrong + 1)) && fail "$1, $2: the first of two"; }
     none_left "$1, $2"
 }

@@ -232,7 +232,7 @@ if has gnuplot "looks"; then
 fi
 refuses 2 "expected screen or print" plot bowl.csv -o look.svg --style paper
 for size in 86x60 86mm x 86x60cm 1x1mm 86xmm x60mm 20000x100px -86x60mm nanx60mm; do
-    refuses 2 "expected a width and a height" plot bowl.csv -o look.svg --size="$size"
+    refuses 2 "expected WIDTHxHEIGHT" plot bowl.csv -o look.svg --size="$size"
 done
 for wish in --style=print --size=86x60mm --title=a --script=a.gp; do
     option=${wish%=*}

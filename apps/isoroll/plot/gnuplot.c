@@ -7,6 +7,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
+#include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
@@ -226,11 +227,10 @@ static iso_status keep_script(iso_context *ctx)
     iso_output *copy;
     if (!g.script_name) return ISO_OK;
     ISO_TRY(iso_output_open(ctx, g.script_name, &copy));
+    rewind(g.script);
     for (size_t got; (got = fread(block, 1, sizeof block, g.script)) > 0;)
         if (fwrite(block, 1, got, iso_output_stream(copy)) < got) break;
-    const iso_status status = iso_output_close(ctx, copy, true);
-    rewind(g.script);
-    return status;
+    return iso_output_close(ctx, copy, true);
 }
 
 /* ---- Drawing ---- */
@@ -297,7 +297,6 @@ static iso_status run(iso_context *ctx)
     fputs("\nunset multiplot\nunset output\n", g.script);
     if (fflush(g.script) != 0 || ferror(g.script) || fseek(g.script, 0, SEEK_SET) != 0)
         return iso_file_trouble(ctx, "write", "gnuplot's temporary script");
-    ISO_TRY(keep_script(ctx));
     /* -d: no start-up file of the user changes the picture */
     const int error =
         program_start((const char *[]){"gnuplot", "-d", "-", NULL},
@@ -306,6 +305,8 @@ static iso_status run(iso_context *ctx)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot run gnuplot: %s; " INSTALL, strerror(error));
     do ended = waitpid(child, &result, 0);
     while (ended < 0 && errno == EINTR);
+    if (ended == child && WIFSIGNALED(result) && WTERMSIG(result) == SIGINT)
+        return iso_context_fail(ctx, ISO_STOPPED, "", "the picture was interrupted");
     if (ended == child && WIFSIGNALED(result))
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "",
                                 "gnuplot was ended by signal %d; if it cannot run here, " INSTALL, WTERMSIG(result));
@@ -322,7 +323,8 @@ static iso_status run(iso_context *ctx)
 iso_status iso_gnuplot_close(iso_context *ctx, bool keep)
 {
     const iso_status drawn = g.status == ISO_OK && keep ? run(ctx) : g.status;
-    const iso_status status = iso_output_close(ctx, g.output, keep && drawn == ISO_OK);
+    iso_status status = iso_output_close(ctx, g.output, keep && drawn == ISO_OK);
+    if (drawn == ISO_OK && status == ISO_OK && keep) status = keep_script(ctx);
     if (g.script) fclose(g.script);
     if (g.complaints) fclose(g.complaints);
     return drawn != ISO_OK ? drawn : status;

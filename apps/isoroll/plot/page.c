@@ -27,7 +27,7 @@ bool iso_plot_set_style(void *at, const char *text)
 bool iso_plot_set_title(void *at, const char *text)
 {
     *(const char **)at = strcmp(text, "none") == 0 ? "" : text;
-    return true;
+    return strlen(text) <= ISO_PLOT_MOST_TITLE;
 }
 
 /* From about the size of a stamp to that of a wall. */
@@ -94,6 +94,10 @@ iso_status iso_plot_check_page(iso_context *ctx, const iso_plot_page *page)
                        : page->title          ? "title"
                        : page->script         ? "script"
                                               : iso_plot_section_wish(page);
+    if (page->script && strcmp(page->script, "-") == 0)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "script",
+                                "--script -: standard output has no room for it: "
+                                "give the name of a file");
     if (page->path) return iso_gnuplot_check_format(ctx, page->path);
     if (!wish) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, wish, "--%s is about a picture: give --plot FILE, too", wish);

@@ -48,6 +48,7 @@ const char *iso_plot_titled(const iso_plot_page *page, const char *own);
 /* Setters of options. */
 bool iso_plot_set_style(void *at, const char *text); /* iso_plot_style: a word of iso_plot_style_word */
 bool iso_plot_set_size(void *at, const char *text);  /* WIDTHxHEIGHT and mm or px                     */
+enum { ISO_PLOT_MOST_TITLE = 95 };
 bool iso_plot_set_title(void *at, const char *text); /* const char *; none: ""                        */
 bool iso_plot_set_window(void *at, const char *text);
 bool iso_plot_set_over(void *at, const char *text); /* one file more */
@@ -61,11 +62,13 @@ const char *iso_plot_style_word(int i);             /* "screen", "print"        
 #define ROWS_OF_LOOK(type, field)                                                                                    \
     ROW_WITH("style", "STYLE", "screen or print", "of the picture: screen (default), or print, letters of 8 pt",     \
              iso_plot_set_style, type, field.style, .word = iso_plot_style_word, .aside = true),                     \
-        ROW_WITH("size", "WxH", "a width and a height such as 86x60mm or 1200x800px",                                \
+        ROW_WITH("size", "WxH",                                                                                      \
+                 "WIDTHxHEIGHT such as 86x60mm or 1200x800px, each from 20 to 2000 mm or 100 to 10000 px",           \
                  "of the picture: width and height, as 86x60mm or 1200x800px", iso_plot_set_size, type, field.size,  \
                  .aside = true),                                                                                     \
-        ROW_WITH("title", "TEXT", "a text", "of the picture: its title; none: it has no title", iso_plot_set_title,  \
-                 type, field.title, .aside = true),                                                                  \
+        ROW_WITH("title", "TEXT", "a text of at most 95 letters",                                                    \
+                 "of the picture: its title; none: it has no title", iso_plot_set_title, type, field.title,          \
+                 .aside = true),                                                                                     \
         ROW_OF_FILE("script", "FILE", "a file", "of the picture: write gnuplot's script, with its data",             \
                     iso_set_text, type, field.script, 0, OPTION_WRITES)
 

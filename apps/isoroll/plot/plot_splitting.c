@@ -70,7 +70,7 @@ static void put_curve(FILE *f, const iso_record *curve, const char *name, double
         "rgb " ISO_PLOT_HELP "\nset key outside bottom center horizontal Left reverse samplen 2 width 2\n"
         "set xlabel 'l − l(O) on the section γ_%d\u2060 = 0, %s = %.6g'; set ylabel 'M_%d\u2060 / |M|' offset 1,0\n"
         "plot $curve using 1:2 with lines lw 1.6 lc rgb " ISO_PLOT_VERMILLION
-        " title 'unstable, from O', $curve using (pi-$1):2 with lines lw 1.6 dt (6,2) lc rgb " ISO_PLOT_BLUE
+        " title 'unstable, from O', $curve using (pi-$1):2 with lines lw 1.6 dt (12,8) lc rgb " ISO_PLOT_BLUE
         " title \"stable, to O'\"\n",
         axis + 1, name, at, axis + 1);
 }
