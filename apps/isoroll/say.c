@@ -1,4 +1,5 @@
 /* say.c - text for people on standard output, as wide as the terminal (see say.h). */
+#define _GNU_SOURCE /* fopencookie */
 #include "say.h"
 
 #include <stdarg.h>
@@ -217,26 +218,33 @@ static void print_table(FILE *to, const char *text, int keys, int width)
 static struct {
     FILE *stream; /* writes into text */
     char *text;
-    size_t size;
+    size_t used, room;
     bool in_table, failed;
     int keys;
 } said;
 
-FILE *say_to(void)
+/* Keeps what is written into the stream. A stream of open_memstream would not tell that memory has failed. */
+static ssize_t keep(void *unused, const char *text, size_t size)
 {
-    if (!said.stream) said.stream = open_memstream(&said.text, &said.size);
-    if (!said.stream) said.failed = true;
-    return said.stream ? said.stream : stdout;
+    (void)unused;
+    if (said.used + size + 1 > said.room) {
+        const size_t room = 2 * said.room + size + 1;
+        char *more = realloc(said.text, room);
+        if (!more) return said.failed = true, 0;
+        said.text = more;
+        said.room = room;
+    }
+    memcpy(said.text + said.used, text, size);
+    said.used += size;
+    said.text[said.used] = '\0';
+    return (ssize_t)size;
 }
 
-/* Ends the stream. Whether all that was written into it is there: memory may have failed. */
-static bool close_said(void)
+FILE *say_to(void)
 {
-    FILE *stream = said.stream;
-    bool whole = !ferror(stream);
-    said.stream = NULL;
-    if (fclose(stream) != 0) whole = false;
-    return whole && said.text != NULL;
+    if (!said.stream) said.stream = fopencookie(NULL, "w", (cookie_io_functions_t){.write = keep});
+    if (!said.stream) said.failed = true;
+    return said.stream ? said.stream : stdout;
 }
 
 /* Prints what waits, and forgets it. */
@@ -244,11 +252,11 @@ static void print_said(void)
 {
     const int width = terminal_width(stdout);
     if (!said.stream) return;
-    if (!close_said())
-        said.failed = true;
-    else if (said.in_table)
+    fclose(said.stream);
+    said.stream = NULL;
+    if (said.used > 0 && said.in_table)
         print_table(stdout, said.text, said.keys, width);
-    else
+    else if (said.used > 0)
         for (const char *at = said.text; *at; at += *at == '\n') {
             const size_t length = strcspn(at, "\n");
             fold_line(stdout, at, length, width);
@@ -256,7 +264,7 @@ static void print_said(void)
         }
     free(said.text);
     said.text = NULL;
-    said.size = 0;
+    said.used = said.room = 0;
 }
 
 bool say_failed(void)
@@ -269,11 +277,11 @@ void say(const char *format, ...)
     va_list args;
     FILE *to = say_to();
     va_start(args, format);
-    if (vfprintf(to, format, args) < 0 && said.stream) said.failed = true;
+    vfprintf(to, format, args);
     va_end(args);
     if (said.in_table || !said.stream) return;
-    if (fflush(to) != 0 || ferror(to)) print_said();
-    if (said.stream && said.size > 0 && said.text[said.size - 1] == '\n') print_said();
+    fflush(to);
+    if (said.used > 0 && said.text[said.used - 1] == '\n') print_said();
 }
 
 void say_end(void)
