@@ -207,9 +207,9 @@ static int draw(const shell *s)
                  iso_plot_title(words, &s->scene.params, "%s", ""));
         const double last = iso_record_const_row(states, ISO_STRETCH_STATES - 1)[0];
         if (last == end)
-            snprintf(drawn, sizeof drawn, "drawn: the whole orbit");
+            snprintf(drawn, sizeof drawn, "drawn: the whole orbit; pale: the far side");
         else
-            snprintf(drawn, sizeof drawn, "drawn: the first %.2g turns of n", ISO_STRETCH_TURNS);
+            snprintf(drawn, sizeof drawn, "drawn: the first %.2g turns of n; pale: the far side", ISO_STRETCH_TURNS);
         tell_result(&s->scene, c, result, sizeof result);
         const iso_plot_twins plot = {title, drawn, result, curve, states};
         status = iso_plot_comparison(s->ctx, &s->told->plot, &plot);

@@ -6,32 +6,35 @@
  * The orbits start evenly spread over the section. All runs have tolerance 1e-12 and one thread; seconds are
  * processor time. `ratio` is to the first line of its block.
  *
- * - crossings: a loop over iso_orbit_event with the method rk8pd, then iso_crossings with each kind of vectors.
- * - with two deviations, as for the verdict of `isoroll chaos`: GSL's rk8pd on (9) and its variational equations,
- *   written by hand, 18 numbers, 100 turns; then iso_crossings with deviations.
+ * - crossings: the rival is a plain loop over the steps of GSL's rk8pd (rivals/sections.c), by the ball and by the
+ *   point. Then iso_crossings with each kind of vectors.
+ * - with two deviations, as for the verdict of `isoroll chaos`: the same loop for the point and its variational
+ *   equations, 18 numbers. Then iso_crossings with deviations.
+ * - the law: the times of the rival's first 5 crossings are ours up to 1e-9 of them, its variations there up to 1e-6.
  * - count: the library checks each return against Sturm's bounds. Here the times s of both models are compared as
  *   well: for k = 1 and -1 those of all crossings, for other k those of the first 6, before chaotic orbits part. If
  *   one model misses a crossing, their times differ by a turn.
  */
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_odeiv2.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/vec3_impl.h"
 #include "bench.h"
 #include "map/section_impl.h"
 #include "map/state.h"
 #include "orbit/crossings.h"
+#include "rivals/sections.h"
 
-enum { ORBITS = 256, TURNS = 200, SLOW_ORBITS = 8 };
+enum { ORBITS = 256, TURNS = 200, SLOW_ORBITS = 8, CHECKED = 5 };
+static const double tolerance = 1e-12;
 
 static iso_context *ctx;
 static iso_params params;
 static iso_start starts[ORBITS];
 static iso_batch_orbit orbits[ORBITS];
+static double start_at[ORBITS][2];            /* l, x */
+static iso_crossing crossing[ORBITS * TURNS]; /* of the last run of ours */
 
 static void stop(void)
 {
@@ -52,6 +55,7 @@ static void make_starts(double k, bool flat)
         iso_section_spread_point(&spread, i, &l, &x);
         if (flat && i % 2 == 0) x = copysign(1 - pow(10, -3 - (double)(i % 10)), x);
         iso_section_point(iso_free_point(&params, 1), axis, l, x, point);
+        start_at[i][0] = l, start_at[i][1] = x;
         starts[i] = (iso_start){.model = ISO_POINT, .eps = 1};
         memcpy(starts[i].y, point, sizeof point);
         orbits[i] = (iso_batch_orbit){&params, &starts[i], NULL};
@@ -67,41 +71,14 @@ static double print(const char *name, double count, double milliseconds, double 
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */
 
-static double height(const iso_sample *sample, const void *axis)
-{
-    return sample->ball[3 + *(const int *)axis];
-}
-
-static double by_events(void)
-{
-    const int axis = iso_section_axis(iso_free_point(&params, 1));
-    const double begin = bench_milliseconds();
-    for (int i = 0; i < SLOW_ORBITS; i++) {
-        iso_orbit *orbit;
-        iso_orbit_options o = iso_orbit_defaults(&starts[i]);
-        o.method = iso_method_find("rk8pd"), o.backend = ISO_BACKEND_BALL;
-        o.clock = ISO_CLOCK_T, o.shown = ISO_SHOW_BALL, o.with_clock[ISO_CLOCK_S] = true;
-        if (iso_orbit_create(ctx, &params, &starts[i], &o, &orbit) != ISO_OK) stop();
-        double from = 0;
-        for (int turn = 0; turn < TURNS; turn++) {
-            iso_sample sample;
-            bool found;
-            if (iso_orbit_event(orbit, height, &axis, 1, from, from + 1000, &found, &sample) != ISO_OK) stop();
-            from = sample.clock[ISO_CLOCK_T];
-        }
-        iso_orbit_free(orbit);
-    }
-    return bench_milliseconds() - begin;
-}
-
 static double by_lanes(const char *vectors, iso_backend backend, bool deviations)
 {
-    static iso_crossing crossing[ORBITS * TURNS];
     static size_t done[ORBITS];
     static iso_status status[ORBITS];
     iso_crossings *c;
     iso_crossings_options o = iso_crossings_defaults();
     o.threads = 1, o.vectors = vectors, o.deviations = deviations, o.backend = backend;
+    o.tolerance = tolerance;
     const double begin = bench_milliseconds();
     if (iso_crossings_create(ctx, orbits, ORBITS, &o, &c) != ISO_OK) stop();
     if (iso_crossings_go(c, NULL, TURNS, crossing, NULL, done, status) != ISO_OK) stop();
@@ -122,78 +99,106 @@ static void print_lanes(bool deviations, double first)
         }
 }
 
-/* --- deviations: (9) and its first variation -------------------------------------------------------------------- */
+/* --- GSL -------------------------------------------------------------------------------------------------------- */
 
-/* J w' = J w x w + lambda n, n' = k n x w; and the same to first order in (dw, dn). */
-static void vary(const double y[ISO_STATE], const double f[ISO_STATE], double lambda, const double d[ISO_STATE],
-                 double out[ISO_STATE])
+/* The law for a rival: its crossings are ours. Chaotic orbits part, so only the first ones are compared. */
+typedef struct check {
+    const iso_crossing *ours;
+    iso_clock clock;
+    bool deviations;
+    int crossings, variations; /* that were compared */
+    double worst, worst_variation;
+} check;
+
+static void point_at(double l, double x, double point[ISO_STATE])
 {
-    const double *w = y, *n = y + 3, *dw = d, *dn = d + 3, *J = params.J, *inv = params.inv_J;
-    double Jw[3], Jdw[3], a[3], b[3], c[3], over = 0, top = 0;
-    (void)f;
-    for (int i = 0; i < 3; i++) Jw[i] = J[i] * w[i], Jdw[i] = J[i] * dw[i];
-    cross(Jdw, w, a);
-    cross(Jw, dw, b);
-    cross(Jw, w, c);
-    for (int i = 0; i < 3; i++) {
-        a[i] += b[i];
-        over += n[i] * inv[i] * n[i];
-        top -= a[i] * inv[i] * n[i] + c[i] * inv[i] * dn[i] + 2 * lambda * n[i] * inv[i] * dn[i];
-    }
-    const double dlambda = top / over;
-    for (int i = 0; i < 3; i++) out[i] = inv[i] * (a[i] + dlambda * n[i] + lambda * dn[i]);
-    cross(dn, w, a);
-    cross(n, dw, b);
-    for (int i = 0; i < 3; i++) out[3 + i] = params.k * (a[i] + b[i]);
+    iso_section_point(iso_free_point(&params, 1), iso_section_axis(iso_free_point(&params, 1)), l, x, point);
 }
 
-static int variational(double t, const double y[], double dy[], void *data)
+/* The derivatives of the point's state by l and x on the section. */
+static void tangents(double l, double x, double by[2][ISO_STATE])
 {
-    const double *w = y, *n = y + 3;
-    double Jw[3], turn[3], over = 0, top = 0;
-    (void)t, (void)data;
-    for (int i = 0; i < 3; i++) Jw[i] = params.J[i] * w[i];
-    cross(Jw, w, turn);
-    for (int i = 0; i < 3; i++) {
-        over += n[i] * params.inv_J[i] * n[i];
-        top -= turn[i] * params.inv_J[i] * n[i];
+    const double step = 1e-5;
+    for (int v = 0; v < 2; v++) {
+        double before[ISO_STATE], after[ISO_STATE];
+        point_at(l - (v == 0 ? step : 0), x - (v == 1 ? step : 0), before);
+        point_at(l + (v == 0 ? step : 0), x + (v == 1 ? step : 0), after);
+        for (int i = 0; i < ISO_STATE; i++) by[v][i] = (after[i] - before[i]) / (2 * step);
     }
-    const double lambda = top / over;
-    for (int i = 0; i < 3; i++) dy[i] = params.inv_J[i] * (turn[i] + lambda * n[i]);
-    cross(n, w, turn);
-    for (int i = 0; i < 3; i++) dy[3 + i] = params.k * turn[i];
-    vary(y, dy, lambda, y + 6, dy + 6);
-    vary(y, dy, lambda, y + 12, dy + 12);
-    return GSL_SUCCESS;
 }
 
-/* Milliseconds for a hundred turns, sampled twenty times a turn. */
-static double by_hand(double *turns)
+/* How far the rival's variation v, moved along the flow onto the section, is from what our slopes say. */
+static double variation_error(const iso_crossing *c, int v, const double y[])
 {
-    enum { SIZE = 18, SAMPLES = 2000 };
-    gsl_odeiv2_system system = {variational, NULL, SIZE, NULL};
+    const int height = 3 + iso_section_axis(iso_free_point(&params, 1));
+    const rival_problem p = {.k = params.k, .J = {params.J[0], params.J[1], params.J[2]}};
+    const double *d = y + 6 + 6 * v;
+    double by[2][ISO_STATE], flow[ISO_STATE], off = 0, size = 0;
+    tangents(c->l, c->x, by);
+    rival_point(&p, y, flow);
+    for (int i = 0; i < ISO_STATE; i++) {
+        const double right = c->slope[0][v] * by[0][i] + c->slope[1][v] * by[1][i];
+        off = fmax(off, fabs(d[i] - flow[i] * d[height] / flow[height] - right));
+        size = fmax(size, fabs(right));
+    }
+    return off / size;
+}
+
+/* NaN counts as the largest. */
+static double larger(double worst, double off)
+{
+    return off <= worst ? worst : off;
+}
+
+static void see(void *data, int turn, double time, const double y[], const double growth[2])
+{
+    check *c = data;
+    if (turn >= CHECKED) return;
+    c->worst = larger(c->worst, fabs(time / c->ours[turn].clock[c->clock] - 1));
+    c->crossings++;
+    for (int v = 0; v < 2 && c->deviations && growth[v] == 0; v++) {
+        c->worst_variation = larger(c->worst_variation, variation_error(&c->ours[turn], v, y));
+        c->variations++;
+    }
+}
+
+static double by_gsl(bool point, bool deviations)
+{
+    const rival_problem p = {params.k, {params.J[0], params.J[1], params.J[2]}, deviations ? 2 : 0};
     const int axis = iso_section_axis(iso_free_point(&params, 1));
+    check c = {.clock = point ? ISO_CLOCK_S : ISO_CLOCK_T, .deviations = deviations};
     const double begin = bench_milliseconds();
-    *turns = 0;
     for (int i = 0; i < SLOW_ORBITS; i++) {
-        double y[SIZE] = {0}, t = 0, last = 0;
-        iso_point_to_ball(&params, starts[i].y, y);
-        const double step = 0.05 * 6.28 / (fabs(params.k) * norm(y));
-        for (int j = 0; j < 3; j++) y[6 + j] = y[15 + j] = 0.5 + 0.1 * j;
-        gsl_odeiv2_driver *d =
-            gsl_odeiv2_driver_alloc_standard_new(&system, gsl_odeiv2_step_rk8pd, step, 1e-12, 1e-12, 1, 0);
-        for (int j = 0; j < SAMPLES; j++) {
-            if (gsl_odeiv2_driver_apply(d, &t, t + step, y) != GSL_SUCCESS) exit(1);
-            *turns += last < 0 && y[3 + axis] >= 0;
-            last = y[3 + axis];
-            for (int m = 0; m < 2; m++) { /* as long as 1 */
-                const double length = hypot(norm(y + 6 + 6 * m), norm(y + 9 + 6 * m));
-                for (int v = 0; v < 6; v++) y[6 + 6 * m + v] /= length;
-            }
+        double y[RIVAL_MOST] = {0};
+        if (point)
+            memcpy(y, starts[i].y, ISO_STATE * sizeof *y);
+        else
+            iso_point_to_ball(&params, starts[i].y, y);
+        if (deviations) tangents(start_at[i][0], start_at[i][1], (double(*)[ISO_STATE])(y + ISO_STATE));
+        c.ours = &crossing[(size_t)i * TURNS];
+        if (!rival_follow(&p, point, axis, tolerance, TURNS, y, see, &c)) {
+            fprintf(stderr, "bench_crossings: GSL did not follow orbit %d\n", i);
+            exit(1);
         }
-        gsl_odeiv2_driver_free(d);
     }
-    return bench_milliseconds() - begin;
+    const double milliseconds = bench_milliseconds() - begin;
+    const bool enough = c.crossings == SLOW_ORBITS * CHECKED && (!deviations || c.variations >= 2 * SLOW_ORBITS);
+    if (!enough || !(c.worst < 1e-9) || !(c.worst_variation < 1e-6)) {
+        fprintf(stderr,
+                "bench_crossings: GSL and isoroll differ: times of %d crossings by %.1e, %d variations by %.1e\n",
+                c.crossings, c.worst, c.variations, c.worst_variation);
+        exit(1);
+    }
+    return milliseconds;
+}
+
+static double print_gsl(bool point, bool deviations, double first)
+{
+    char name[64];
+    double best = INFINITY;
+    for (int pass = 0; pass < 3; pass++) best = fmin(best, by_gsl(point, deviations));
+    snprintf(name, sizeof name, "GSL rk8pd, by the %s", point ? "point" : "ball");
+    return print(name, SLOW_ORBITS * TURNS, best, first);
 }
 
 /* --- none may be missed ----------------------------------------------------------------------------------------- */
@@ -202,7 +207,7 @@ static void count_crossings(double millions)
 {
     static const double ks[] = {-2, -1, -0.5, 0.3, 0.5, 1, 3};
     enum { EACH = 2000 };
-    static iso_crossing crossing[2][ORBITS * EACH];
+    static iso_crossing both[2][ORBITS * EACH];
     static size_t done[ORBITS];
     static iso_status status[ORBITS];
     double count = 0, failed = 0, apart = 0;
@@ -213,14 +218,14 @@ static void count_crossings(double millions)
             iso_crossings_options o = iso_crossings_defaults();
             o.backend = b == 0 ? ISO_BACKEND_BALL : ISO_BACKEND_POINT;
             if (iso_crossings_create(ctx, orbits, ORBITS, &o, &c) != ISO_OK) stop();
-            if (iso_crossings_go(c, NULL, EACH, crossing[b], NULL, done, status) != ISO_OK)
+            if (iso_crossings_go(c, NULL, EACH, both[b], NULL, done, status) != ISO_OK)
                 printf("%s\n", iso_context_message(ctx)), failed++;
             for (int i = 0; i < ORBITS; i++) count += (double)done[i];
             iso_crossings_free(c);
         }
         for (int i = 0; i < ORBITS; i++)
             for (int j = 0; j < (fabs(params.k) == 1 ? EACH : 6); j++) {
-                const double s[2] = {crossing[0][EACH * i + j].clock[2], crossing[1][EACH * i + j].clock[2]};
+                const double s[2] = {both[0][EACH * i + j].clock[2], both[1][EACH * i + j].clock[2]};
                 apart = fmax(apart, fabs(s[1] / s[0] - 1));
             }
     }
@@ -236,13 +241,14 @@ int main(int argc, char *argv[])
         return 0;
     }
     make_starts(argc > 1 ? atof(argv[1]) : -1, false);
-    double turns, first;
     printf("k = %g\ncrossings a second %30s\n", params.k, "ratio");
-    first = print("iso_orbit_event, rk8pd", SLOW_ORBITS * TURNS, by_events(), 0);
+    by_lanes(NULL, ISO_BACKEND_POINT, false);
+    double first = print_gsl(false, false, 0);
+    print_gsl(true, false, first);
     print_lanes(false, first);
     printf("turns a second with two deviations %14s\n", "ratio");
-    const double time = by_hand(&turns);
-    first = print("rk8pd by hand", turns, time, 0);
+    by_lanes(NULL, ISO_BACKEND_POINT, true);
+    first = print_gsl(true, true, 0);
     print_lanes(true, first);
     iso_context_free(ctx);
     return 0;

@@ -217,7 +217,7 @@ static void put_curves(const sheet *s, chart which, const iso_plot_box *box)
     }
     if (which == PRESSURE) p.over = clock_of(r);
     if (which == PACES) {
-        p.title = "paces (mean 1)";
+        p.title = "speed of the other clocks (mean 1)";
     } else {
         p.mark = s->lost, p.marks = s->losses;
         p.marked = iso_plot_loss_name(plot->ball, s->lost, s->losses);

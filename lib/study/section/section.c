@@ -38,7 +38,7 @@ static void name_global(const iso_orbit *orbit, iso_section_nature *n)
         snprintf(returns, sizeof returns, "a return takes %.4g %s in s", turn / W[1], longest);
     else
         snprintf(returns, sizeof returns, "k is so near 0 that s of a return need not fit a double");
-    snprintf(n->words, sizeof n->words, "n_%d = 0 is global%s: every orbit crosses it for ever, except %s; %s",
+    snprintf(n->words, sizeof n->words, "n_%d = 0 is global%s: every orbit crosses it again and again, except %s; %s",
              n->axis + 1, level, except, returns);
 }
 

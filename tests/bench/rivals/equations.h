@@ -1,0 +1,72 @@
+/* equations.h - what every rival integrates, written by hand as one who knows the problem would. C and C++.
+ *
+ * Ball (9):    J w' = J w x w + lambda n,  n' = k n x w,  y = (w, n), in its time t.
+ * Point (24):  M' = a g x J g,  g' = g x M,  a = (2/k) q^(-1-1/k),  q = (g, J g),  y = (M, g), in its time s.
+ * A variation d of the point's state obeys the equations of first order in d; y may hold some of them behind the state.
+ */
+#ifndef ISO_TESTS_RIVALS_EQUATIONS_H
+#define ISO_TESTS_RIVALS_EQUATIONS_H
+
+#include <math.h>
+
+typedef struct rival_problem {
+    double k, J[3];
+    int variations; /* of the point */
+} rival_problem;
+
+static inline void rival_cross(const double a[], const double b[], double c[])
+{
+    c[0] = a[1] * b[2] - a[2] * b[1];
+    c[1] = a[2] * b[0] - a[0] * b[2];
+    c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static inline void rival_ball(const rival_problem *p, const double y[], double dy[])
+{
+    const double *w = y, *n = y + 3, *J = p->J;
+    const double turn[3] = {(J[1] - J[2]) * w[1] * w[2], (J[2] - J[0]) * w[2] * w[0], (J[0] - J[1]) * w[0] * w[1]};
+    const double J01 = J[0] * J[1], J02 = J[0] * J[2], J12 = J[1] * J[2]; /* 1/J_i times det J */
+    const double a = n[0] * J12, b = n[1] * J02, c = n[2] * J01;
+    const double lambda = -(turn[0] * a + turn[1] * b + turn[2] * c) / (n[0] * a + n[1] * b + n[2] * c);
+    const double over = 1 / (J01 * J[2]);
+    dy[0] = (turn[0] + lambda * n[0]) * (J12 * over);
+    dy[1] = (turn[1] + lambda * n[1]) * (J02 * over);
+    dy[2] = (turn[2] + lambda * n[2]) * (J01 * over);
+    rival_cross(n, w, dy + 3);
+    for (int i = 3; i < 6; i++) dy[i] *= p->k;
+}
+
+/* q to a power. Most geometries of interest have a whole one, which needs no pow. */
+static inline double rival_power(double q, double power)
+{
+    if (power == 0) return 1;
+    if (power == 1) return q;
+    if (power == -2) return 1 / (q * q);
+    if (power == -3) return 1 / (q * q * q);
+    return pow(q, power);
+}
+
+static inline void rival_point(const rival_problem *p, const double y[], double dy[])
+{
+    const double *M = y, *g = y + 3, *J = p->J, power = -1 - 1 / p->k;
+    const double Jg[3] = {J[0] * g[0], J[1] * g[1], J[2] * g[2]};
+    const double q = g[0] * Jg[0] + g[1] * Jg[1] + g[2] * Jg[2], a = 2 / p->k * rival_power(q, power);
+    double twist[3];
+    rival_cross(g, Jg, twist);
+    for (int i = 0; i < 3; i++) dy[i] = a * twist[i];
+    rival_cross(g, M, dy + 3);
+    for (int v = 1; v <= p->variations; v++) {
+        const double *dM = y + 6 * v, *dg = dM + 3;
+        double *to = dy + 6 * v, one[3], other[3];
+        const double Jdg[3] = {J[0] * dg[0], J[1] * dg[1], J[2] * dg[2]};
+        const double da = a * power * 2 * (g[0] * Jdg[0] + g[1] * Jdg[1] + g[2] * Jdg[2]) / q;
+        rival_cross(dg, Jg, one);
+        rival_cross(g, Jdg, other);
+        for (int i = 0; i < 3; i++) to[i] = da * twist[i] + a * (one[i] + other[i]);
+        rival_cross(dg, M, one);
+        rival_cross(g, dM, other);
+        for (int i = 0; i < 3; i++) to[3 + i] = one[i] + other[i];
+    }
+}
+
+#endif
