@@ -195,7 +195,7 @@ static void tell_result(const iso_scene *scene, const iso_comparison *c, char te
 
 static int draw(const shell *s)
 {
-    char words[ISO_PLOT_TITLE], title[2 * ISO_PLOT_TITLE], drawn[100], result[200];
+    char title[ISO_PLOT_HEADING], drawn[100], result[200];
     const iso_comparison *c = s->result.found;
     const size_t rows = iso_record_rows(c->difference);
     iso_record *curve, *states;
@@ -203,8 +203,7 @@ static int draw(const shell *s)
     const double end = iso_record_const_row(c->run[ISO_BALL].trajectory, rows - 1)[ISO_CLOCK_T];
     iso_status status = iso_plot_stretch(s->ctx, &s->scene, end, &curve, &states);
     if (status == ISO_OK) {
-        snprintf(title, sizeof title, "One orbit, two worlds, two clocks        %s",
-                 iso_plot_title(words, &s->scene.params, "%s", ""));
+        iso_plot_heading(title, "One orbit, two worlds, two clocks", &s->scene.params);
         const double last = iso_record_const_row(states, ISO_STRETCH_STATES - 1)[0];
         if (last == end)
             snprintf(drawn, sizeof drawn, "drawn: the whole orbit; pale: the far side");

@@ -115,17 +115,16 @@ static void print_table(const shell *s)
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
 /* Draws the spectral lines of n(t). After a closed solution they are estimated here. */
-static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene *scene, const char *title,
-                             const iso_frequencies *found)
+static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene *scene, const iso_frequencies *found)
 {
     iso_frequencies_options how = o->study;
     how.progress = progress_told;
     iso_frequencies f = *found;
     const iso_status status = f.estimated ? ISO_OK : iso_frequencies_estimate(ctx, scene, &how, &f);
     progress_end();
-    char words[2 * ISO_PLOT_TITLE];
-    snprintf(words, sizeof words, "Spectrum of n(t)        %s", title);
-    return status == ISO_OK ? iso_plot_lines(ctx, &o->shell.plot, words, &f.estimate) : status;
+    char title[ISO_PLOT_HEADING];
+    iso_plot_heading(title, "Spectrum of n(t)", &scene->params);
+    return status == ISO_OK ? iso_plot_lines(ctx, &o->shell.plot, title, &f.estimate) : status;
 }
 
 static int draw(const shell *s)
@@ -140,7 +139,7 @@ static int draw(const shell *s)
     double low, high; /* with equal moments the image has no area */
     mapped = mapped && iso_momentum_interval(&m, f->h, iso_momentum_find(&m, f->h, f->F), &low, &high);
     return finish(s->ctx, mapped ? iso_plot_momentum(s->ctx, &o->shell.plot, title, &m, (double[]){f->h, f->F})
-                                 : draw_lines(s->ctx, o, &s->scene, title, f));
+                                 : draw_lines(s->ctx, o, &s->scene, f));
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */

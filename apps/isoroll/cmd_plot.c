@@ -97,7 +97,7 @@ static bool find_space(iso_context *ctx, const iso_params *params, const iso_rec
 
 static iso_status draw(iso_context *ctx, const options *o, const iso_params *params, parts *p)
 {
-    char words[ISO_PLOT_TITLE], title[2 * ISO_PLOT_TITLE];
+    char title[ISO_PLOT_HEADING];
     double up[3];
     iso_plot_space space;
     iso_status status = find_twin(ctx, params, p);
@@ -110,12 +110,11 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_params *par
     const bool ball = iso_record_find(p->file, "n1") >= 0, point = iso_record_find(p->file, "gamma1") >= 0;
     const bool in_space = find_space(ctx, params, p->file, up, &space);
     const bool twins = (ball || point) && (p->twin || (ball && point));
-    snprintf(title, sizeof title, "%s        %s",
-             in_space ? "The path of a ball"
-             : twins  ? "One orbit on both spheres"
-             : ball   ? "A ball without a twin"
-                      : "A point without a twin",
-             iso_plot_title(words, params, "%s", ""));
+    const char *seen = in_space ? "The path of a ball"
+                       : twins  ? "One orbit on both spheres"
+                       : ball   ? "A ball without a twin"
+                                : "A point without a twin";
+    iso_plot_heading(title, seen, params);
     const iso_plot_orbit plot = {.title = title,
                                  .ball = ball ? p->file : p->twin,
                                  .point = point ? p->file : p->twin,
@@ -283,9 +282,9 @@ const command command_plot = {
         "several maps. k = 1 and k = -1 are marked.\n\nOther tables are drawn from their columns, without "
         "computing anew: sections; the starts of chaos, coloured by exponent; periodic orbits, by one "
         "crossing of each and its images; branches of --follow; charts; splittings; costs.\n\ngnuplot draws "
-        "the picture. On the screen its letters grow with --size. --style print has letters of 8 pt; without --size "
-        "it "
-        "is 86 mm wide if it is one panel, else 178 mm. A px is a pixel of a .png, and 1/96 inch elsewhere. --script "
+        "the picture. On the screen its letters grow with --size. --style print has letters of 8 pt; without "
+        "--size it is 86 mm wide if it is one panel, else 178 mm. A px is a pixel of a .png, and 1/96 inch "
+        "elsewhere. --script "
         "FILE keeps the script of gnuplot with its data: gnuplot -d FILE >PICTURE draws the same.",
     .example = "isoroll plot trajectory.csv -o trajectory.svg",
 };

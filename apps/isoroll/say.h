@@ -1,8 +1,8 @@
 /* say.h - text for people on standard output, as wide as the terminal.
  *
- * How wide that is, one function decides, terminal_width. On a terminal text is folded between words; further lines
- * begin below what follows two blanks, or below the line, see fold_line. A pipe or a file gets each
- * line whole, so that `grep` finds what stands in it, unless the environment's COLUMNS says how wide it should be.
+ * terminal_width decides how wide that is. On a terminal text is folded between words. Further lines begin below what
+ * follows two blanks; without two blanks, below the line's beginning. A pipe or a file gets each line whole, so that
+ * `grep` finds what stands in it, unless the environment's COLUMNS says how wide it should be.
  *
  *     say("k = %s\n", ISO_SHORT(k));
  *     say_table(1);                              a table, whose first column is repeated when it must be cut

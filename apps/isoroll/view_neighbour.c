@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vec3_impl.h"
 #include "study/chaos/chaos.h"
 #include "view.h"
 
@@ -63,11 +64,9 @@ iso_status view_judge_section(iso_context *ctx, view_page *page, const iso_start
 static iso_start beside(const iso_start *start)
 {
     iso_start other = *start;
-    const double *w = start->y, *n = start->y + 3;
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        other.y[i] += VIEW_BESIDE * (n[j] * w[k] - n[k] * w[j]);
-    }
+    double turned[3];
+    cross(start->y + 3, start->y, turned);
+    for (int i = 0; i < 3; i++) other.y[i] += VIEW_BESIDE * turned[i];
     return other;
 }
 
@@ -81,8 +80,6 @@ static iso_status open_orbit(iso_context *ctx, const view_page *page, const iso_
     o.shown = *page->alone ? ISO_SHOW_BALL : ISO_SHOW_BOTH;
     return iso_orbit_create(ctx, &page->params, start, &o, orbit);
 }
-
-static const double at_rest[3] = {0, 0, 0};
 
 static double distance(const iso_sample *a, const iso_sample *b, double speed)
 {
@@ -99,7 +96,7 @@ static iso_status follow(iso_context *ctx, const view_page *page, iso_orbit *orb
         const double since = iso_record_const_row(rows, i)[t] - iso_record_const_row(rows, 0)[t];
         ISO_TRY(iso_orbit_at(orbit, since, &here));
         ISO_TRY(iso_orbit_at(other, since, &there));
-        if (i == 0) speed = view_distance(here.ball, at_rest);
+        if (i == 0) speed = view_distance(here.ball, (double[]){0, 0, 0}); /* its square need not fit a double */
         const double *seen = (*page->alone ? there.ball : there.point) + 3;
         ISO_TRY(iso_record_add(ctx, to, 1, (double[]){seen[0], seen[1], seen[2], distance(&here, &there, speed)}));
     }
@@ -124,7 +121,7 @@ iso_status view_neighbour(iso_context *ctx, const view_page *page, const iso_sta
 {
     static const char *const names[] = {"near1", "near2", "near3", "near"};
     *beside_it = NULL;
-    if (view_distance(start->y, at_rest) == 0) return ISO_OK; /* there is no omega to turn */
+    if (largest(start->y) == 0) return ISO_OK; /* there is no omega to turn */
     ISO_TRY(iso_record_create(ctx, 4, names, beside_it));
     const iso_status status = run_beside(ctx, page, start, effects, rows, *beside_it);
     if (status == ISO_OK) return ISO_OK;

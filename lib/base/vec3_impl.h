@@ -34,6 +34,14 @@ static inline double norm(const double a[3])
     return sqrt(dot(a, a));
 }
 
+/* the angle between a and b, from 0 to pi, also where it is small */
+static inline double angle_between(const double a[3], const double b[3])
+{
+    double c[3];
+    cross(a, b, c);
+    return atan2(norm(c), dot(a, b));
+}
+
 /* the largest component in size: squares of it need not fit a double */
 static inline double largest(const double a[3])
 {

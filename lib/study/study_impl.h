@@ -134,9 +134,8 @@ iso_error iso_error_finder_read(const iso_error_finder *finder);
 
 enum { ISO_COMPARISON_WORDS = 512 };
 
-/* The result of a comparison in one sentence, for people: whether it is the same orbit by all backends, and to how many
- * digits. It says so only where the difference is within what the steps were allowed (then true is returned); else it
- * says what is the matter. *most: the largest difference. */
+/* The result of a comparison in one sentence, for people. True: it is the same orbit by all backends, since the largest
+ * difference, *most, is within what the errors of the steps may add up to. False: the sentence says why not. */
 bool iso_comparison_words(const iso_scene *scene, const iso_comparison *c, double *most,
                           char words[ISO_COMPARISON_WORDS]);
 

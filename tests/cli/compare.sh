@@ -94,13 +94,7 @@ if has gnuplot "--plot"; then
 fi
 
 # --- what the picture says is true. gnuplot is replaced by a script that keeps its input.
-mkdir bin
-cat >bin/gnuplot <<END
-#!/bin/sh
-cat >"$work/script"
-echo '<svg></svg>'
-END
-chmod +x bin/gnuplot
+stand_in
 real_path=$PATH
 
 # draws ARGUMENT...: the picture of a comparison; its states are in `states`, its curves in `curve`

@@ -2,13 +2,7 @@
 # plot.sh ISOROLL - pictures of trajectories: the path in space, where contact is lost, what the file does not tell,
 # any two columns. gnuplot is replaced by a script that keeps its input; the last part takes the real one.
 . "$(dirname "$0")/lib.sh"
-mkdir bin
-cat >bin/gnuplot <<END
-#!/bin/sh
-cat >"$work/script"
-echo '<svg></svg>'
-END
-chmod +x bin/gnuplot
+stand_in
 real_path=$PATH
 PATH=$work/bin:$PATH
 

@@ -185,7 +185,7 @@ if has gnuplot "--plot"; then
     silent
     check "a picture of both: chaotic orbits" grep -q ">chaotic<" wild.svg
     # each orbit has the verdict of its own: for J = 1, 2, 5 those with |omega3| > 0.6 |omega| are regular
-    mkdir bin && printf '#!/bin/sh\ncat >"%s"/script\necho "</svg>"\n' "$PWD" >bin/gnuplot && chmod +x bin/gnuplot
+    stand_in
     PATH=$PWD/bin:$PATH "$isoroll" section wild.yaml --starts 30 --crossings 100 -o wild.csv --plot none.svg --quiet
     sed -n '/^\$ball <</,/^EOD/p' script | awk 'NF == 4 && $2 * $2 > 0.36 { n[$4]++ } END { print n[0] + 0, n[1] + 0 }' >a
     check "outside of the sea all orbits are in colours" grep -q '^[1-9][0-9]* 0$' a

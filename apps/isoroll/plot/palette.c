@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* The last three repeat colours with other dashes: without red or green cones nobody sees more than seven. */
+/* The last three repeat colours with other dashes: colour-blind readers tell no more than seven apart. */
 const char *iso_plot_stroke(int i)
 {
     static const char *const strokes[ISO_PLOT_STROKES] = {"dt 1 lc rgb " ISO_PLOT_BLUE,

@@ -1,6 +1,6 @@
 /* palette.h - all colours of the pictures. Colours of lines are near to Okabe and Ito's, for all kinds of sight;
  * the scale is viridis, which grows lighter throughout. Two lines of one plot that are alike in grey have different
- * dashes or signs. tests/cli/colours.sh looks at all this as somebody without red or green cones does, and in grey.
+ * dashes or signs. tests/cli/colours.sh checks this for colour-blind readers, and in grey.
  */
 #ifndef ISOROLL_PALETTE_H
 #define ISOROLL_PALETTE_H

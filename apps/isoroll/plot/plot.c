@@ -51,3 +51,10 @@ char *iso_plot_title(char title[static ISO_PLOT_TITLE], const iso_params *p, con
     va_end(args);
     return title;
 }
+
+char *iso_plot_heading(char heading[static ISO_PLOT_HEADING], const char *seen, const iso_params *p)
+{
+    char title[ISO_PLOT_TITLE];
+    snprintf(heading, ISO_PLOT_HEADING, "%s        %s", seen, iso_plot_title(title, p, "%s", ""));
+    return heading;
+}

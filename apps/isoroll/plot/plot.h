@@ -21,6 +21,10 @@ enum { ISO_PLOT_TITLE = 200 };
 char *iso_plot_title(char title[static ISO_PLOT_TITLE], const iso_params *p, const char *more, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* What is seen, and "k = ..., J = ...", with a gap between. Gives `heading`. */
+enum { ISO_PLOT_HEADING = 2 * ISO_PLOT_TITLE };
+char *iso_plot_heading(char heading[static ISO_PLOT_HEADING], const char *seen, const iso_params *p);
+
 /* One orbit in both models. Texts are one line, any characters; NULL: none. */
 typedef struct iso_plot_twins {
     const char *title, *drawn, *result; /* above; below: what is drawn, and what was found               */

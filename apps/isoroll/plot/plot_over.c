@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "io/table.h"
+#include "map/section_impl.h"
 #include "orbit/description.h"
 #include "plot/gnuplot.h"
 #include "plot/plot.h"
@@ -80,12 +81,12 @@ static iso_status add_curve(iso_context *ctx, const iso_record *curve, double co
     return ISO_OK;
 }
 
-/* The axis of the middle moment. */
-static int middle_of(const double J[3])
+/* l of the rotation about the middle axis. The section is about the axis of the largest moment if k > 0, else of the
+ * smallest: of the other two axes b and c the middle one is nearer to it. */
+static double corner_of(const iso_params *p, int axis)
 {
-    for (int i = 0; i < 3; i++)
-        if ((J[i] - J[(i + 1) % 3]) * (J[i] - J[(i + 2) % 3]) < 0) return i;
-    return 0;
+    const double b = p->J[(axis + 1) % 3], c = p->J[(axis + 2) % 3];
+    return (p->k > 0 ? c > b : c < b) ? 0 : M_PI / 2;
 }
 
 /* The row of the section's k and level; its curves are computed anew, which takes less than a second. */
@@ -93,9 +94,8 @@ static iso_status add_manifolds(iso_context *ctx, const char *file, const iso_re
                                 const iso_plot_section *s, iso_record *over)
 {
     const iso_params *p = s->params;
-    const int middle = middle_of(p->J), axis = iso_section_axis((iso_point_motion){p, s->eps, s->energy});
-    const double level = s->energy / s->eps * pow(p->J[middle], 1 / p->k);
-    const double corner = 3 - axis - middle == (axis + 1) % 3 ? 0 : M_PI / 2;
+    const int axis = iso_section_axis((iso_point_motion){p, s->eps, s->energy});
+    const double level = iso_level_of(p, s->energy / s->eps);
     size_t i = 0;
     ISO_TRY(check_moments(ctx, file, table, s, false));
     while (i < iso_record_rows(table) && !(is_near(iso_plot_number(table, i, "k"), p->k) &&
@@ -107,7 +107,7 @@ static iso_status add_manifolds(iso_context *ctx, const char *file, const iso_re
     const double halves = log(0.3 / fmax(m, 1e-4)) / (log(lambda) / 2);
     iso_record *curve = NULL;
     iso_status status = iso_separatrix_curve(ctx, p->k, p->J, level, (int)fmin(fmax(halves, 2) + 2, 60), &curve);
-    if (status == ISO_OK) status = add_curve(ctx, curve, corner, over);
+    if (status == ISO_OK) status = add_curve(ctx, curve, corner_of(p, axis), over);
     iso_record_free(curve);
     return status;
 }

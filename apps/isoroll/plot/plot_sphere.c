@@ -52,17 +52,10 @@ static spot project(const double v[3])
     return (spot){dot(v, frame[0]), dot(v, frame[1]), dot(v, frame[2])};
 }
 
-static double angle(const double a[3], const double b[3])
-{
-    double a_b[3];
-    cross(a, b, a_b);
-    return atan2(norm(a_b), dot(a, b));
-}
-
 /* The great circle from a to b, as far as it lies on one side; *open: whether the last piece did. */
 static void put_arc(FILE *f, const double a[3], const double b[3], bool near, bool *open)
 {
-    const int pieces = 1 + (int)(angle(a, b) / ARC);
+    const int pieces = 1 + (int)(angle_between(a, b) / ARC);
     spot from = project(a);
     for (int i = 1; i <= pieces; i++) {
         const double part = (double)i / pieces;
@@ -82,7 +75,8 @@ static void put_arc(FILE *f, const double a[3], const double b[3], bool near, bo
 bool iso_plot_is_joined(const iso_record *r, int column)
 {
     for (size_t i = 1; i < iso_plot_drawn_rows(r); i++)
-        if (angle(iso_plot_drawn_row(r, i - 1) + column, iso_plot_drawn_row(r, i) + column) > JOINED) return false;
+        if (angle_between(iso_plot_drawn_row(r, i - 1) + column, iso_plot_drawn_row(r, i) + column) > JOINED)
+            return false;
     return true;
 }
 
@@ -189,7 +183,7 @@ static bool is_long(const iso_record *r, int column)
 {
     double length = 0;
     for (size_t i = 1; i < iso_plot_drawn_rows(r); i++)
-        length += angle(iso_plot_drawn_row(r, i - 1) + column, iso_plot_drawn_row(r, i) + column);
+        length += angle_between(iso_plot_drawn_row(r, i - 1) + column, iso_plot_drawn_row(r, i) + column);
     return length > LONG;
 }
 

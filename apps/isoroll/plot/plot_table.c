@@ -271,16 +271,14 @@ static iso_status check(iso_context *ctx, const iso_record *r, const struct kind
 
 iso_status iso_plot_table(iso_context *ctx, const iso_plot_page *page, const iso_record *r)
 {
-    char words[ISO_PLOT_TITLE], title[2 * ISO_PLOT_TITLE];
+    char title[ISO_PLOT_HEADING];
     iso_params p;
     const struct kind *kind = find_kind(iso_record_kind(r));
     ISO_TRY(check(ctx, r, kind));
     ISO_TRY(iso_record_params(ctx, r, &p));
-    iso_plot_title(words, &p, "%s", "");
-    snprintf(title, sizeof title, "%s        %s", kind->shows, words);
     const char *own = iso_record_get(r, "title"), *wish = iso_plot_section_wish(page);
     if (wish && kind->draw != draw_section)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, wish, "--%s is for sections, and this is a table '%s'", wish,
                                 kind->name);
-    return kind->draw(ctx, page, own ? own : title, r);
+    return kind->draw(ctx, page, own ? own : iso_plot_heading(title, kind->shows, &p), r);
 }

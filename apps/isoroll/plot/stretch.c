@@ -1,6 +1,7 @@
 /* stretch.c - the first turns of an orbit, see stretch.h. */
 #include "plot/stretch.h"
 
+#include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "orbit/orbit_impl.h"
 
@@ -37,25 +38,18 @@ static iso_status find(const pair *p, double t, double row[COLUMNS])
     return ISO_OK;
 }
 
-static double between(const double a[3], const double b[3])
-{
-    double a_b[3];
-    cross(a, b, a_b);
-    return atan2(norm(a_b), dot(a, b));
-}
-
 /* Steps of t that follow the speed on both spheres. *end becomes the time where the turns end. */
 static iso_status follow(const pair *p, double *end, iso_record *curve)
 {
-    const double whole = *end, length = 2 * acos(-1) * ISO_STRETCH_TURNS;
+    const double whole = *end, length = 2 * ISO_PI * ISO_STRETCH_TURNS;
     double last[COLUMNS], next[COLUMNS], step = FIRST * whole, way = 0;
     ISO_TRY(find(p, 0, last));
     ISO_TRY(iso_record_add(p->ctx, curve, 1, last));
     while (fabs(last[T]) < fabs(whole) && way < length && iso_record_rows(curve) < MOST) {
         const double t = fabs(last[T] + step) < fabs(whole) ? last[T] + step : whole;
         ISO_TRY(find(p, t, next));
-        const double turned = between(last + N, next + N);
-        const double moved = fmax(turned, between(last + GAMMA, next + GAMMA));
+        const double turned = angle_between(last + N, next + N);
+        const double moved = fmax(turned, angle_between(last + GAMMA, next + GAMMA));
         step *= fmin(fmax(NEAR / moved, 0.25), 4);
         if (moved > FAR) continue;
         way += turned;

@@ -4,6 +4,7 @@
  * sqrt(2) N, 2 N and 2 sqrt(2) N grow at the same time. Those of the look at 4 N begin when the look at N ends.
  */
 #include "base/names_impl.h"
+#include "base/smooth_weight_impl.h"
 #include "study/chaos/chaos_impl.h"
 
 #include <gsl/gsl_cdf.h>
@@ -32,12 +33,6 @@ static void begin_look(iso_indicators *it, long i)
     window->first = window->last / 4;
 }
 
-/* exp(-1/(u (1 - u))), 1 at its top; 0 outside of (0, 1) */
-static double weight(double u)
-{
-    return u > 0 && u < 1 ? exp(4 - 1 / (u * (1 - u))) : 0;
-}
-
 /* step: ln(D_n/D_(n-1)). D_n^2 is cut off where it is so large that no polynomial will be fitted to it. */
 static void add_to_window(iso_window *window, long n, double growth, double step,
                           const double observable[ISO_OBSERVABLES])
@@ -47,7 +42,7 @@ static void add_to_window(iso_window *window, long n, double growth, double step
     const double u = (turn - 0.5 - (double)window->first) / (last - (double)window->first), v = turn / last;
     const double megno = (2 * turn - 1) * step, square = exp(2 * fmin(growth, MOST_GROWTH));
     const int h = u > 0.5;
-    const double w = weight(h ? 2 * u - 1 : 2 * u), all = weight(u);
+    const double w = iso_smooth_weight(h ? 2 * u - 1 : 2 * u), all = iso_smooth_weight(u);
     window->weight[h] += w;
     window->megno[h] += w * megno;
     window->growth[h] += w * growth;

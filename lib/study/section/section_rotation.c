@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/smooth_weight_impl.h"
 #include "study/section/section_impl.h"
 
 /* Of a scale from 0 to 1/2 a 250th part is not seen. */
@@ -37,7 +38,7 @@ static double average(const double angle[], size_t from, size_t to, double cut)
 {
     double sum = 0, weights = 0;
     for (size_t i = from; i + 1 < to; i++) {
-        const double part = (double)(i + 1 - from) / (double)(to - from), weight = exp(-1 / (part * (1 - part)));
+        const double weight = iso_smooth_weight((double)(i + 1 - from) / (double)(to - from));
         const double step = (angle[i + 1] - angle[i] - cut) / (2 * M_PI);
         sum += weight * (step - floor(step));
         weights += weight;
@@ -79,13 +80,13 @@ static void turn_to_centre(const double (*z)[2], size_t count, double angle[])
 }
 
 /* Of a regular orbit the weighted averages of any smooth number over both halves are almost the same. Of a chaotic one
- * they are not, even where its angle keeps time: an orbit can go from one side of the axis to the other for long. */
+ * they differ, even where its mean turn is by chance the same in both halves. */
 static bool is_steady(const double (*z)[2], size_t count)
 {
     double sum[2][2] = {{0, 0}, {0, 0}}, weights = 0;
     const size_t half = count / 2;
     for (size_t i = 0; i < half; i++) {
-        const double part = (double)(i + 1) / (double)(half + 1), weight = exp(-1 / (part * (1 - part)));
+        const double weight = iso_smooth_weight((double)(i + 1) / (double)(half + 1));
         weights += weight;
         for (int h = 0; h < 2; h++) {
             const double *at = z[i + (h ? count - half : 0)];
