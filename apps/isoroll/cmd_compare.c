@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "base/number_impl.h"
+#include "model/effects_impl.h"
 #include "plot/stretch.h"
 #include "say.h"
 #include "shell.h"
@@ -188,9 +189,11 @@ static void tell_result(const iso_scene *scene, const iso_comparison *c, char te
     char words[ISO_COMPARISON_WORDS];
     double worst;
     const bool same = iso_comparison_words(scene, c, &worst, words);
-    snprintf(text, size, "both computations%s %s %.1e, over the whole orbit to %s = %.6g",
-             c->runs == ISO_BACKENDS ? " and the closed solution" : "", same ? "agree to" : "part: they differ by",
-             worst, iso_clock_name(c->clock), c->worst[0]);
+    snprintf(text, size, "%s %s %.1e",
+             c->runs == ISO_BACKENDS
+                 ? "three computations, by the ball's equations, the point's, and the closed solution,"
+                 : "two computations, by the ball's equations and by the point's,",
+             same ? "agree to" : "differ by", worst);
 }
 
 static int draw(const shell *s)
@@ -206,11 +209,15 @@ static int draw(const shell *s)
         iso_plot_heading(title, "One orbit, two worlds, two clocks", &s->scene.params);
         const double last = iso_record_const_row(states, ISO_STRETCH_STATES - 1)[0];
         if (last == end)
-            snprintf(drawn, sizeof drawn, "drawn: the whole orbit; pale: the far side");
+            snprintf(drawn, sizeof drawn, "drawn and compared: to t = %.6g; pale: the far side", end);
         else
-            snprintf(drawn, sizeof drawn, "drawn: the first %.2g turns of n; pale: the far side", ISO_STRETCH_TURNS);
+            snprintf(drawn, sizeof drawn,
+                     "drawn: %.2g times around, to t = %.4g; compared: to t = %.6g; pale: the far side",
+                     ISO_STRETCH_TURNS, last, end);
         tell_result(&s->scene, c, result, sizeof result);
-        const iso_plot_twins plot = {title, drawn, result, curve, states};
+        const iso_effects acting = iso_scene_acting(&s->scene);
+        const iso_plot_twins plot = {title, drawn, result, &s->scene.params, iso_effects_have_image(&acting),
+                                     curve, states};
         status = iso_plot_comparison(s->ctx, &s->told->plot, &plot);
     }
     iso_record_free(curve);

@@ -105,7 +105,7 @@ tells_not "a support that pulls" "contact lost"
 # --- on a plane
 run 0 run "$source/examples/01_bowling_ball/lane.yaml" --t-end 30 -o lane.csv
 draw lane.csv
-tells "lane" "the scale across it is larger" "along the path" "the normal n at the contact" # it has a point
+tells "lane" "the scale across it is larger" "along the path" "the ball: n, the normal where it touches" # it has a point
 tells_not "lane" "seen from the side"
 at_most "the height of a ball on a level lane is its radius" "$(columns_of lane.csv centre3 | awk '
     { d = $1 - 0.108585; if (d < 0) d = -d; if (d > worst) worst = d } END { print worst + 0 }')" 1e-12

@@ -92,7 +92,10 @@ static iso_record *make_differences(size_t rows, double turn, double size)
 /* Draws a comparison, and takes its record apart again. */
 static iso_status draw(const char *path, const char *title, iso_record *r)
 {
-    const iso_plot_twins plot = {.title = title, .drawn = title, .result = title, .curve = r, .states = r};
+    iso_params params;
+    if (iso_params_reduced(ctx, 0.5, (double[]){1, 2, 5}, &params) != ISO_OK) exit(1);
+    const iso_plot_twins plot = {
+        .title = title, .drawn = title, .result = title, .params = &params, .curve = r, .states = r};
     const iso_status status = iso_plot_comparison(ctx, &(iso_plot_page){.path = path}, &plot);
     iso_record_free(r);
     return status;

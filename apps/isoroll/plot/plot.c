@@ -29,24 +29,25 @@ iso_status iso_plot_find(iso_context *ctx, const iso_record *r, int count, const
     return ISO_OK;
 }
 
-/* "1/2" of 0.5, if the number is that fraction to its last digits. */
-static int put_fraction(char *text, size_t size, double x)
+char *iso_plot_fraction(char text[static ISO_PLOT_FRACTION], double x)
 {
+    snprintf(text, ISO_PLOT_FRACTION, "%.6g", x);
     for (int below = 1; below < 13; below++) {
         const double above = nearbyint(x * below);
-        if (above != 0 && fabs(above) < 100 && fabs(above / below - x) <= 1e-15 * fabs(x))
-            return snprintf(text, size, below > 1 ? "%.0f/%d" : "%.0f", above, below);
+        if (above == 0 || fabs(above) >= 100 || fabs(above / below - x) > 1e-15 * fabs(x)) continue;
+        snprintf(text, ISO_PLOT_FRACTION, below > 1 ? "%.0f/%d" : "%.0f", above, below);
+        break;
     }
-    return snprintf(text, size, "%.6g", x);
+    return text;
 }
 
 char *iso_plot_title(char title[static ISO_PLOT_TITLE], const iso_params *p, const char *more, ...)
 {
     va_list args;
     va_start(args, more);
-    char k[32];
-    put_fraction(k, sizeof k, p->k);
-    const int used = snprintf(title, ISO_PLOT_TITLE, "k = %s, J = (%.6g, %.6g, %.6g)", k, p->J[0], p->J[1], p->J[2]);
+    char k[ISO_PLOT_FRACTION];
+    const int used = snprintf(title, ISO_PLOT_TITLE, "k = %s, J = (%.6g, %.6g, %.6g)", iso_plot_fraction(k, p->k),
+                              p->J[0], p->J[1], p->J[2]);
     vsnprintf(title + used, (size_t)(ISO_PLOT_TITLE - used), more, args);
     va_end(args);
     return title;

@@ -1,7 +1,7 @@
 /* plot.h - pictures, drawn by gnuplot (package gnuplot-nox), which is started for each.
  *
  *     status = iso_plot_stretch(ctx, &scene, 30, &curve, &states);                (plot/stretch.h)
- *     iso_plot_twins plot = {"k = -1", "to t = 30", "both agree", curve, states};
+ *     iso_plot_twins plot = {"k = -1", "to t = 30", "both agree", &params, false, curve, states};
  *     status = iso_plot_comparison(ctx, &(iso_plot_page){.path = "orbit.svg"}, &plot);
  *
  * The file's name chooses the format: .svg, .png or .pdf. It is written whole, then renamed: on failure nothing has
@@ -28,6 +28,8 @@ char *iso_plot_heading(char heading[static ISO_PLOT_HEADING], const char *seen, 
 /* One orbit in both models. Texts are one line, any characters; NULL: none. */
 typedef struct iso_plot_twins {
     const char *title, *drawn, *result; /* above; below: what is drawn, and what was found               */
+    const iso_params *params;           /* tell what rolls on what, and the potential of the point       */
+    bool field;                         /* the point's potential has a further part, U/G of the theory   */
     const iso_record *curve, *states;   /* columns t, s, n1..3, gamma1..3 from the first on, a row or more */
 } iso_plot_twins;
 

@@ -26,6 +26,14 @@ enum {
 /* In labels \u2060, which is not seen, stands before a blank that follows a subscript: some renderers of SVG drop a
  * blank at the beginning of a piece of a text. */
 
+/* What a path on a sphere is. */
+#define ISO_PLOT_OF_BALL "the ball: n, the normal where it touches"
+#define ISO_PLOT_OF_POINT "the point: γ, its place"
+
+/* "1/2" of 0.5, if the number is such a fraction to its last digits; else its first digits. Gives `text`. */
+enum { ISO_PLOT_FRACTION = 32 };
+char *iso_plot_fraction(char text[static ISO_PLOT_FRACTION], double x);
+
 /* Axes on the left and below, and a grid. */
 #define ISO_PLOT_AXES                                                                                                \
     "set border 3 lc rgb " ISO_PLOT_LINE                                                                             \

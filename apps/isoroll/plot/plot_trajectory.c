@@ -168,10 +168,10 @@ static void put_square(const sheet *s, square which, int left, int height)
     if (is_view(which))
         iso_plot_view(s->f, &view, &s->scenery, which == FROM_ABOVE);
     else if (which == ON_POINT)
-        put_sphere(s, &sphere, s->plot->point, s->point, "point: its place γ");
+        put_sphere(s, &sphere, s->plot->point, s->point, ISO_PLOT_OF_POINT);
     else
         put_sphere(s, &sphere, s->trace ? s->trace : s->plot->ball, s->ball,
-                   s->trace ? "on the ball: where it touched the support" : "ball: the normal n at the contact");
+                   s->trace ? "on the ball: where it touched the support" : ISO_PLOT_OF_BALL);
 }
 
 /* --- charts ----------------------------------------------------------------------------------------------------- */

@@ -12,13 +12,14 @@
 
 enum {
     WIDTH = 900,
-    HEIGHT = 650,
+    HEIGHT = 670,
     STEP = 8,     /* states from number to number           */
     COLOURS = 96, /* neighbours of one colour are one line  */
     RADIUS = 150,
     CENTRE = 395, /* of both spheres, and their ladder's rails */
     UPPER = 190,
-    LOWER = 110
+    LOWER = 110,
+    MARGIN = 22
 };
 static const int middle[2] = {190, 710};
 
@@ -62,6 +63,28 @@ static void put_formula(FILE *f)
     put_word(f, x, y - 82, "center tc rgb " ISO_PLOT_WORDS, "'same state'");
 }
 
+/* What rolls on what, from k alone: the radius of the fixed sphere is |k/(1-k)| times that of the ball. */
+static void put_ball(FILE *f, double k)
+{
+    char words[120] = "on a plane", number[ISO_PLOT_FRACTION];
+    const double ratio = fabs(k / (1 - k));
+    const char *where = k < 0 ? "around" : k < 1 ? "on" : "inside";
+    if (ratio == 1)
+        snprintf(words, sizeof words, "%s a sphere of its own radius", where);
+    else if (k != 1)
+        snprintf(words, sizeof words, "%s a sphere of %.3g times its radius", where, ratio);
+    fprintf(f, "set label \"k = %s: a %sball %s\" at %d,%d left noenhanced font ',11'\n",
+            iso_plot_fraction(number, k), k < 0 ? "hollow " : "", words, MARGIN, HEIGHT - 54);
+}
+
+static void put_potential(FILE *f, double k, bool field)
+{
+    char number[ISO_PLOT_FRACTION], power[40] = "";
+    if (k != -1) snprintf(power, sizeof power, "^{%s}", iso_plot_fraction(number, -1 / k));
+    fprintf(f, "set label \"a point in the potential V = −ε (γ, Jγ)%s%s\" at %d,%d right font ',11'\n", power,
+            field ? " + U/G" : "", WIDTH - MARGIN, HEIGHT - 54);
+}
+
 static void put_clock(FILE *f, double y, const char *words, char clock, double last)
 {
     char end[40];
@@ -74,13 +97,16 @@ static void put_words(FILE *f, const iso_plot_page *page, const iso_plot_twins *
 {
     const double x = WIDTH / 2.0;
     put_word(f, x, HEIGHT - 24, "center noenhanced font ',14'", QUOTED(iso_plot_titled(page, plot->title), 100));
-    put_word(f, middle[0], HEIGHT - 58, "center font ',11'", "'a rolling ball: n(t), the normal where it touches'");
-    put_word(f, middle[1], HEIGHT - 58, "center font ',11'", "'a point in a potential: γ(s), its place'");
+    put_ball(f, plot->params->k);
+    put_potential(f, plot->params->k, plot->field);
+    put_word(f, MARGIN, HEIGHT - 76, "left tc rgb " ISO_PLOT_WORDS, "'" ISO_PLOT_OF_BALL "'");
+    put_word(f, WIDTH - MARGIN, HEIGHT - 76, "right tc rgb " ISO_PLOT_WORDS, "'" ISO_PLOT_OF_POINT "'");
     put_formula(f);
-    put_clock(f, UPPER + 27, "'the clock t of the ball, in equal steps'", 't', last[0]);
-    put_clock(f, LOWER - 27, "'the clock s of the point, at the same states'", 's', last[1]);
+    put_clock(f, UPPER + 27, "'the clock t of the ball: equal steps'", 't', last[0]);
+    put_clock(f, LOWER - 27, "'the clock s of the point: the same states; each clock has its own scale'", 's',
+              last[1]);
     put_word(f, x, 48, "center noenhanced tc rgb " ISO_PLOT_WORDS, QUOTED(plot->drawn, 150));
-    put_word(f, x, 24, "center noenhanced font ',11'", QUOTED(plot->result, 150));
+    put_word(f, x, 24, "center noenhanced", QUOTED(plot->result, 150));
 }
 
 static void put_spheres(FILE *f, const iso_record *states)

@@ -82,8 +82,8 @@ def draw_trajectory(table: Table, ax: Any, title: Optional[str] = None) -> Any:
     contact from above, and the pressure."""
     if table.array.ndim == 1:
         raise _errors.BadInput("no picture: the table is of a single time")
-    spheres = [(name, words) for name, words in (("n", "ball: the normal n at the contact"),
-                                                 ("gamma", "point: its place γ")) if name in table]
+    spheres = [(name, words) for name, words in (("n", "the ball: n, the normal where it touches"),
+                                                 ("gamma", "the point: γ, its place")) if name in table]
     above, force = "contact" in table and table.array.ndim == 2, "pressure" in table and table.array.ndim == 2
     if len(table) == 0 or not (spheres or above or force):
         raise _errors.BadInput(f"no picture: the table has no rows of n or gamma; table.plot(columns=(X, Y)) draws a "
@@ -114,8 +114,8 @@ def draw_comparison(table: Table, ax: Any, title: Optional[str] = None) -> Any:
     computations are apart."""
     needs(table, "omega", "n", "M", "gamma")
     spheres = [(orbit, name, words) for orbit, name, words in (
-        (getattr(table, "ball", None), "n", "the ball: its normal n at the contact"),
-        (getattr(table, "point", None), "gamma", "the point: its place γ")) if orbit is not None]
+        (getattr(table, "ball", None), "n", "the ball: n, the normal where it touches"),
+        (getattr(table, "point", None), "gamma", "the point: γ, its place")) if orbit is not None]
     axes = axes_of(ax, len(spheres) + 1, (13.5 if spheres else 9, 4.8))
     for (orbit, name, words), at in zip(spheres, axes):
         _sphere(at, _thin(orbit, name), words)
