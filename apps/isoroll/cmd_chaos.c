@@ -138,10 +138,10 @@ static iso_status describe(shell *s)
     const iso_chaos_fraction *part = &c->share;
     if (part->count > 0)
         iso_plot_title(s->title, &s->scene.params,
-                       ": %.3g of the area is chaotic (95 %%: %.3g to %.3g), %.3g undecided", part->share, part->low,
-                       part->high, (double)part->undecided / (double)part->count);
+                       ": %.3g of the section is chaotic (95 %%: %.3g to %.3g), %.3g undecided", part->share,
+                       part->low, part->high, (double)part->undecided / (double)part->count);
     else
-        iso_plot_title(s->title, &s->scene.params, ": %s", iso_verdict_name(c->own.verdict));
+        iso_plot_title(s->title, &s->scene.params, ": this orbit is %s", iso_verdict_name(c->own.verdict));
     return shell_lines(
         s, (const table_line[]){
                {.key = "turns", .number = (double)how->turns},

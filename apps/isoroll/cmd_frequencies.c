@@ -26,7 +26,8 @@ static void print_head(const iso_scene *scene, const iso_frequencies *f)
     say("\n\n");
     if (!f->estimated) {
         say("closed solution: %s\n", f->motion);
-        if (!isnan(f->c)) say("  it separates in coordinates u and v, with the constant c = %.15g\n", f->c);
+        if (!isnan(f->c))
+            say("  it separates in sphero-conical coordinates u and v, with the constant c = %.15g\n", f->c);
         return;
     }
     say("ESTIMATED from an orbit: %s\n  %s: %s\n", f->motion,
@@ -129,12 +130,12 @@ static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene
 
 static int draw(const shell *s)
 {
-    char title[ISO_PLOT_TITLE];
+    char title[ISO_PLOT_HEADING];
     const options *o = s->options;
     const iso_frequencies *f = s->result.found;
     const iso_params *p = &s->scene.params;
     iso_momentum m;
-    iso_plot_title(title, p, "%s", "");
+    iso_plot_heading(title, "Kinds of motion, by energy h and integral F", p);
     bool mapped = f->integral && f->h > 0 && iso_momentum_make(p, f->H, &m) && strcmp(f->integral->name, m.F) == 0;
     double low, high; /* with equal moments the image has no area */
     mapped = mapped && iso_momentum_interval(&m, f->h, iso_momentum_find(&m, f->h, f->F), &low, &high);

@@ -224,7 +224,7 @@ static iso_status describe_chart(shell *s)
     const iso_stability_options *o = &((const iso_chart_found *)s->result.found)->how;
     const double *J = o->J;
     const bool by_level = o->moment == ISO_CHART_LEVEL;
-    const int a = (o->moment + 1) % 3, b = (o->moment + 2) % 3;
+    const int a = o->moment == 0 ? 1 : 0, b = o->moment == 2 ? 1 : 2; /* the other moments */
     if (by_level)
         snprintf(s->title, sizeof s->title, "stable rotations: J = (%.6g, %.6g, %.6g)", J[0], J[1], J[2]);
     else if (o->level == 0)

@@ -122,16 +122,16 @@ static int halves_of(const iso_separatrix_splitting *s)
 
 static iso_status describe(shell *s)
 {
-    const iso_separatrix_splitting *at = clearest(s->result.found);
+    const iso_separatrix_table *t = s->result.found;
+    const iso_separatrix_splitting *at = clearest(t);
     const double *J = s->scene.params.J;
-    char *title = s->title;
-    int length =
-        snprintf(title, sizeof s->title, "splitting of the separatrix, J = (%.6g, %.6g, %.6g)", J[0], J[1], J[2]);
-    if (at && iso_separatrix_by_level(s->result.found))
-        snprintf(title + length, sizeof s->title - (size_t)length, ", k = %.6g", at->k);
-    else if (at && at->level != 0)
-        snprintf(title + length, sizeof s->title - (size_t)length, ", level %.6g", at->level);
-    return shell_lines(s, (const table_line[]){{.key = "title", .text = title}, {.key = NULL}});
+    const bool by_level = iso_separatrix_by_level(t);
+    char k[ISO_PLOT_FRACTION + 8] = "", level[32] = "", number[ISO_PLOT_FRACTION];
+    if (at && (by_level || t->rows == 1)) snprintf(k, sizeof k, "k = %s, ", iso_plot_fraction(number, at->k));
+    if (at && !by_level && at->level != 0) snprintf(level, sizeof level, ", level %.6g", at->level);
+    snprintf(s->title, sizeof s->title, "Splitting of the separatrix        %sJ = (%.6g, %.6g, %.6g)%s", k, J[0],
+             J[1], J[2], level);
+    return shell_lines(s, (const table_line[]){{.key = "title", .text = s->title}, {.key = NULL}});
 }
 
 /* |m| over k or the level, where there are several rows, and both curves of one of them. */

@@ -324,7 +324,7 @@ check "explain: the way on a plane" grep -q "^  q0 q1 q2 q3 x1 x2 x3 .*on a plan
 check "explain: the energy" sh -c "sed '/^integrals that do not/q' out | grep -q 'ball  h '"
 physical outside 3 "$field" >scene.yaml
 run 0 explain scene.yaml
-check "explain: the isomorphism holds" grep -q "holds: this orbit has both models" out
+check "explain: the isomorphism holds" grep -q "holds: (18) of the theory carries the states" out
 run 0 list effects
 for effect in gravity field level twist rolling_resistance attitude reactions clock; do
     check "list effects: $effect" grep -q "^ *$effect " out

@@ -179,7 +179,7 @@ refuses 2 "expected" periodic b.yaml --period 0
 # --- pictures
 if has gnuplot "--plot"; then
     run 0 periodic b.yaml --period 3 --plot a.svg
-    check "a picture of orbits" grep -q ">unstable (stable: in colours)<" a.svg
+    check "a picture of orbits" grep -q ">unstable; each stable orbit has a colour<" a.svg
     run 0 periodic b.yaml --period 1 --follow k=0.4:0.6 --plot f.svg
     check "a picture of a branch" grep -q ">trace<" f.svg
     run 0 periodic b.yaml --chart J2 --steps 10 --plot c.svg

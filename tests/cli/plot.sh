@@ -114,7 +114,7 @@ at_most "the height of a ball on a level lane is its radius" "$(columns_of lane.
 scene -1 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 1.0e+6 1.0e+4 >free.yaml
 run 0 run free.yaml --tol 1e-9 -o free.csv
 draw free.csv
-tells "long times" '"t / 10⁶"' "'0.4' 400000" 'title "ds/dt"' '"speed of the other clocks \050mean 1\051"'
+tells "long times" '"t / 10⁶"' "'0.4' 400000" 'title "ds/dt"' '"speed \050mean 1\051"'
 tells_not "a free ball" "seen from" "energy h" "pressure" "or less than"
 scene -1 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.1 >free.yaml
 run 0 run free.yaml -o free.csv
@@ -257,7 +257,7 @@ chaos undecided
 orbits unstable
 follow >symmetry breaking<
 chart least
-splitting splitting of the separatrix, J = (1, 2, 5)
+splitting Splitting of the separatrix .*J = (1, 2, 5)
 cost processor time in seconds
 END
     run 0 section scene.yaml --crossings 20 --starts 3 -o section.h5

@@ -98,7 +98,7 @@ def pace(page, name, k, J):
         worst = max(worst, abs((after["s"] - before["s"]) / (2 * d) / rate - 1),
                     abs((after["tau"] - before["tau"]) / (2 * d) / q ** (1 - 1 / (2 * k)) - 1))
     check(f"{name}: ds/dt and dtau/dt", worst <= 1e-4, worst)  # of second order in d
-    check(f"{name}: the other clock hurries and waits", fastest > 1.1 * slowest, (slowest, fastest))
+    check(f"{name}: the other clock is faster, then slower", fastest > 1.1 * slowest, (slowest, fastest))
     # the same time in s, evenly: equal steps of s are no equal steps of t
     page.evaluate("isoroll.setClock('s')")
     to = page.evaluate("isoroll.range()[1]")

@@ -196,7 +196,22 @@ const char *iso_gnuplot_quote(char quoted[static ISO_QUOTED_SIZE], const char *t
     return quoted;
 }
 
-/* The lines end at blanks. Without a blank that is near enough a line is longer. */
+/* Where the first line of a title ends, which is too long for one: where there is a gap, else at the last blank that is
+ * near enough, outside of parentheses if there is one. Without such a blank the line is longer. */
+static size_t end_of_line(const char *text)
+{
+    size_t outside = 0, inside = 0;
+    int open = 0;
+    for (size_t i = 0; text[i] && i <= NARROW_TITLE; i++) {
+        open += (text[i] == '(') - (text[i] == ')');
+        if (text[i] != ' ' || i == 0) continue;
+        if (text[i + 1] == ' ') return i;
+        inside = i;
+        if (open == 0) outside = i;
+    }
+    return outside ? outside : inside ? inside : strlen(text);
+}
+
 const char *iso_gnuplot_quote_title(char quoted[static ISO_QUOTED_SIZE], const iso_plot_page *page, const char *own,
                                     int longest)
 {
@@ -205,10 +220,7 @@ const char *iso_gnuplot_quote_title(char quoted[static ISO_QUOTED_SIZE], const i
     if (!iso_gnuplot_is_narrow(page)) return iso_gnuplot_quote(quoted, text, longest);
     *quoted = '\0';
     for (text = text ? text : ""; *quoted == '\0' || *text;) {
-        size_t length = strlen(text), used = strlen(quoted);
-        if (length > NARROW_TITLE)
-            for (length = NARROW_TITLE; length > 1 && text[length] != ' ';) length--;
-        if (length <= 1) length = strlen(text);
+        const size_t used = strlen(quoted), length = strlen(text) > NARROW_TITLE ? end_of_line(text) : strlen(text);
         char part[200];
         snprintf(part, sizeof part, "%.*s", (int)length, text);
         snprintf(quoted + used, ISO_QUOTED_SIZE - used, "%s%s", used ? ".\"\\n\"." : "",

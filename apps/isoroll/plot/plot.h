@@ -16,6 +16,10 @@
 #include "study/frequencies/frequencies.h"
 #include "study/frequencies/momentum.h"
 
+/* "1/2" of 0.5, if the number is such a fraction to its last digits; else its first digits. Gives `text`. */
+enum { ISO_PLOT_FRACTION = 32 };
+char *iso_plot_fraction(char text[static ISO_PLOT_FRACTION], double x);
+
 /* "k = ..., J = ...", and what follows. Gives `title`. */
 enum { ISO_PLOT_TITLE = 200 };
 char *iso_plot_title(char title[static ISO_PLOT_TITLE], const iso_params *p, const char *more, ...)

@@ -40,7 +40,8 @@ iso_status iso_plot_indicators(iso_context *ctx, const iso_plot_page *page, cons
             "set multiplot\n" ISO_PLOT_AXES "set label 1 %s at screen 0.5,0.965 center noenhanced font ',12'\n"
             "set key left top Left reverse samplen 3 spacing 1.2\n"
             "set lmargin at screen 0.085; set rmargin at screen 0.98; set tmargin at screen 0.92\n"
-            "set bmargin at screen 0.575; set xlabel 'turns' offset 0,0.4; set ylabel 'ln |d|' offset 0.5,0\n",
+            "set bmargin at screen 0.575; set xlabel 'turns' offset 0,0.4; set ylabel 'ln |d|, d: a small distance' "
+            "offset 0.5,0\n",
             QUOTED(iso_plot_titled(page, title), 95));
     put_lines(f, model, "2", NULL);
     fputs("unset label 1; set tmargin at screen 0.475; set bmargin at screen 0.09; set rmargin at screen 0.48\n"

@@ -95,11 +95,22 @@ static void put_x_axis(FILE *f, const iso_plot_panel *p)
 
 #define NUMBER "number"
 
-/* The power and the shift that are taken out of the ticks stand above the axis: "10⁻⁴", or "number − 66.7". */
+/* What the numbers of an axis are: the letter of its one curve, or NUMBER. */
+static const char *name_of(const iso_plot_panel *p, bool right)
+{
+    const char *name = NULL;
+    for (int c = 0; c < p->count; c++) {
+        if (p->curve[c].right != right) continue;
+        name = name ? NUMBER : iso_plot_symbol(iso_record_name(p->rows, (size_t)p->curve[c].column));
+    }
+    return name && strlen(name) <= 2 ? name : NUMBER;
+}
+
+/* The power and the shift that are taken out of the ticks stand above the axis: "μ / 10⁻⁴", "×10⁻⁴", or
+ * "number − 66.7". */
 static void put_y_axis(FILE *f, const iso_plot_panel *p, bool right)
 {
-    static const char power[] = NUMBER " / ";
-    char name[ISO_PLOT_NAME];
+    char name[ISO_PLOT_NAME], text[ISO_PLOT_NAME + 4];
     double range[2];
     if (!range_of(p, right, range)) return;
     if (right) fputs("set border 11\n", f);
@@ -107,16 +118,18 @@ static void put_y_axis(FILE *f, const iso_plot_panel *p, bool right)
                                 .low = range[0],
                                 .high = range[1],
                                 .most = p->box.top - p->box.bottom < 0.2 ? 3 : 5,
-                                .name = NUMBER};
+                                .name = name_of(p, right)};
     iso_plot_ticks(f, &axis, name);
-    if (strcmp(name, NUMBER) == 0) return;
-    const bool short_name = strncmp(name, power, strlen(power)) == 0;
+    const size_t length = strlen(axis.name);
+    if (strcmp(name, axis.name) == 0) return;
+    const bool power = strncmp(name, axis.name, length) == 0 && strncmp(name + length, " / ", 3) == 0;
+    const bool bare = power && strcmp(axis.name, NUMBER) == 0;
+    snprintf(text, sizeof text, "%s%s", bare ? "×" : "", bare ? name + length + 3 : name);
     fprintf(f, "set label %d %s noenhanced tc rgb " ISO_PLOT_INK " %s at graph %d,1.0 offset %s,0.6\n", 2 + right,
-            QUOTED(short_name ? name + strlen(power) : name, ISO_PLOT_NAME), short_name == right ? "left" : "right",
-            right,
-            !short_name ? "0"
-            : right     ? "1"
-                        : "-1");
+            QUOTED(text, ISO_PLOT_NAME), power == right ? "left" : "right", right,
+            !power  ? "0"
+            : right ? "0.5"
+                    : "-1");
 }
 
 void iso_plot_curves(FILE *f, const iso_plot_panel *p)

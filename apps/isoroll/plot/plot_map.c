@@ -59,7 +59,7 @@ static void find_range(const iso_record *bounds, double range[2])
     range[1] = high + room;
 }
 
-/* The name of a part, up to its colon, where the part is thickest, if it is thicker than `room`. */
+/* The name of a part where the part is thickest, if it is thicker than `room`. */
 static void put_label(FILE *f, const iso_momentum *m, const iso_record *bounds, int part, double room)
 {
     const size_t rows = iso_record_rows(bounds);
@@ -73,7 +73,6 @@ static void put_label(FILE *f, const iso_momentum *m, const iso_record *bounds, 
     }
     if (!(thickest > room)) return;
     iso_momentum_name_part(m, (iso_momentum_part)part, name);
-    name[strcspn(name, ":")] = '\0';
     fprintf(f, "set label %s at %.17g,%.17g center front noenhanced\n", QUOTED(name, 60), best[0],
             (best[low] + best[high]) / 2 / best[0]);
 }
@@ -142,9 +141,35 @@ static const char *warning_of(const iso_estimate *e)
     return NULL;
 }
 
+/* The frequencies at which a combination (m, n) stands, and from the least to the largest of all. */
+typedef struct labels {
+    double at[2 * LABELLED], span;
+    int count;
+} labels;
+
+static double span_of(const iso_estimate *e)
+{
+    double range[2] = {INFINITY, -INFINITY};
+    for (int s = 0; s < 2; s++)
+        for (int i = 0; i < e->lines[s]; i++) {
+            range[0] = fmin(range[0], e->line[s][i].line.frequency);
+            range[1] = fmax(range[1], e->line[s][i].line.frequency);
+        }
+    return range[1] - range[0];
+}
+
+/* Whether there is room for a combination; then it stands there. */
+static bool take_room(labels *l, double frequency)
+{
+    for (int i = 0; i < l->count; i++)
+        if (fabs(l->at[i] - frequency) < 0.02 * l->span) return false;
+    l->at[l->count++] = frequency;
+    return true;
+}
+
 /* The lines of a signal as a block; then their combinations (m, n) at the strongest of them, which come first, if
  * the orbit is regular. Gives the least amplitude; infinite: there is no line. */
-static double put_signal(FILE *f, const iso_estimate *e, int signal)
+static double put_signal(FILE *f, const iso_estimate *e, int signal, labels *taken)
 {
     double least = INFINITY;
     fprintf(f, "$signal%d << EOD\n", signal);
@@ -159,7 +184,8 @@ static double put_signal(FILE *f, const iso_estimate *e, int signal)
         const iso_identified_line *l = &e->line[signal][i];
         if (!l->known) continue;
         put++;
-        fprintf(f, "set label '%d,%d' at %.17g,%.17g left rotate by 60 offset 0,0.5 font ',8'\n", l->m, l->n,
+        if (!take_room(taken, l->line.frequency)) continue;
+        fprintf(f, "set label '%d,%d' at %.17g,%.17g left rotate by 90 offset 0,0.5 font ',8'\n", l->m, l->n,
                 l->line.frequency, l->line.amplitude);
     }
     return least;
@@ -169,6 +195,7 @@ iso_status iso_plot_lines(iso_context *ctx, const iso_plot_page *page, const cha
 {
     const int axis = e->axis, j = (axis + 1) % 3 + 1, l = (axis + 2) % 3 + 1;
     double least[2];
+    labels taken = {.span = span_of(e)};
     const char *warning = warning_of(e);
     int width = WIDTH, height = LINES_HEIGHT;
     iso_gnuplot_fit(page, false, &width, &height);
@@ -182,7 +209,7 @@ iso_status iso_plot_lines(iso_context *ctx, const iso_plot_page *page, const cha
         QUOTED(iso_plot_titled(page, title), 95), 80.0 / width, 63.0 / height, 1 - (warning ? 92.0 : 67.0) / height,
         warning ? "frequency in t" : "frequency in t; m,n: m times frequency 1 and n times frequency 2");
     if (warning) fprintf(f, "set label 2 '%s' at screen 0.5,0.885 center tc rgb " ISO_PLOT_VERMILLION "\n", warning);
-    for (int s = 0; s < 2; s++) least[s] = put_signal(f, e, s);
+    for (int s = 0; s < 2; s++) least[s] = put_signal(f, e, s, &taken);
     fprintf(f, "set offsets graph 0.04, graph 0.04, 0, 0\nset yrange [%.17g:4]\n",
             pow(10, floor(log10(fmin(1, fmin(least[0], least[1])))) - 1));
     const bool any[2] = {isfinite(least[0]), isfinite(least[1])};

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "plot/gnuplot.h"
+#include "plot/plot.h"
 #include "plot/plot_parts.h"
 
 enum { WIDTH = 900, CURVE_HEIGHT = 480, PANEL_HEIGHT = 400, LONGEST = 110 };
@@ -98,9 +99,14 @@ static line line_of(const iso_record *rows, int column)
     return l;
 }
 
-/* k = 1 and k = -1: only there the problem is integrable. axis: "x" or "y". */
-static void put_axis(FILE *f, const char *axis, const line *l)
+#define MARK "dt (4,3) lw 1.2 lc rgb " ISO_PLOT_INK
+#define DASHED "k (dashed: ±1, integrable)"
+#define MARKED ", NaN with lines " MARK " title 'k = ±1: integrable'"
+
+/* k = 1 and k = -1: only there the problem is integrable. axis: "x" or "y". Says whether one is marked. */
+static bool put_axis(FILE *f, const char *axis, const line *l)
 {
+    bool marked = false;
     if (l->logarithmic) fprintf(f, "set logscale %s; set format %s '10^{%%T}'\n", axis, axis);
     for (int k = -1; k <= 1 && l->k && l->count > 0; k += 2) {
         if (k < l->at[0] || k > l->at[l->count - 1]) continue;
@@ -108,8 +114,10 @@ static void put_axis(FILE *f, const char *axis, const line *l)
                 *axis == 'x' ? "set arrow from first %d, graph 0 to first %d, graph 1"
                              : "set arrow from graph 0, first %d to graph 1, first %d",
                 k, k);
-        fputs(" nohead front dt (4,3) lw 1.2 lc rgb " ISO_PLOT_INK "\n", f);
+        fputs(" nohead front " MARK "\n", f);
+        marked = true;
     }
+    return marked;
 }
 
 /* --- a curve ---------------------------------------------------------------------------------------------------- */
@@ -150,15 +158,22 @@ iso_status iso_plot_sweep_curve(iso_context *ctx, const iso_plot_page *page, con
     FILE *f = iso_gnuplot_open(ctx, page, width, height);
     const line x = line_of(rows, 0);
     const bool sizes = spread_of(rows, 1).sizes, band = put_curve(f, rows, sizes, x.k);
-    fprintf(f, "set title %s noenhanced\n" ISO_PLOT_AXES "unset key\n", TITLE(page, title, LONGEST));
+    fprintf(f,
+            "set title %s noenhanced\n" ISO_PLOT_AXES
+            "set key outside bottom center horizontal Left reverse samplen 1.6 width 2 height 1 noenhanced\n",
+            TITLE(page, title, LONGEST));
     put_label(f, "xlabel", iso_record_name(rows, 0));
     put_value_label(f, "ylabel", iso_record_name(rows, 1), sizes);
     if (sizes) fputs("set logscale y; set format y '10^{%T}'\n", f);
-    put_axis(f, "x", &x);
+    const bool marked = put_axis(f, "x", &x);
     free(x.at);
     fputs("plot ", f);
-    if (band) fputs("$curve using 1:3:4 with filledcurves fc rgb " ISO_PLOT_FAR_BLUE " fs solid 0.7 noborder, ", f);
-    fputs("$curve using 1:2 with linespoints pt 7 ps 0.45 lw 1.4 lc rgb " ISO_PLOT_BLUE "\n", f);
+    if (band)
+        fprintf(f,
+                "$curve using 1:3:4 with filledcurves fc rgb " ISO_PLOT_FAR_BLUE " fs solid 0.7 noborder title %s, ",
+                QUOTED(iso_record_name(rows, 3), 60));
+    fprintf(f, "$curve using 1:2 with linespoints pt 7 ps 0.45 lw 1.4 lc rgb " ISO_PLOT_BLUE " notitle%s\n",
+            marked ? MARKED : "");
     return iso_gnuplot_close(ctx, true);
 }
 
@@ -277,8 +292,8 @@ static void put_points(FILE *f, const iso_record *rows, int map, const grid *g, 
 static void put_map(FILE *f, const iso_plot_maps *m, int i, const grid *g, bool sizes)
 {
     const char *with = "using 1:2:4:5:6:7:3 with boxxyerror fs solid 1 noborder lw 0";
-    char name[80] = "";
-    if (m->key_name) snprintf(name, sizeof name, "%s = %.6g", m->key_name, m->key[i]);
+    char name[80] = "", number[ISO_PLOT_FRACTION];
+    if (m->key_name) snprintf(name, sizeof name, "%s = %s", m->key_name, iso_plot_fraction(number, m->key[i]));
     for (int there = 1; there >= 0; there--) put_points(f, m->rows, i, g, there, sizes);
     fputs("set autoscale noextend; set offsets graph 0.02, graph 0.02, graph 0.02, graph 0.02\n", f);
     fprintf(f, "set title %s noenhanced\nplot $none%d %s lc rgb " ISO_PLOT_GREY ", $value%d %s lc palette\n",
@@ -331,10 +346,10 @@ iso_status iso_plot_sweep_maps(iso_context *ctx, const iso_plot_page *page, cons
     put_label(f, "xlabel", iso_record_name(m->rows, 0));
     const bool sizes = put_scale(f, m->rows);
     put_steps(f, &points.x);
-    put_axis(f, "x", &points.x);
-    put_axis(f, "y", &points.y);
+    if (put_axis(f, "x", &points.x)) put_label(f, "xlabel", DASHED);
+    const char *up = put_axis(f, "y", &points.y) ? DASHED : iso_record_name(m->rows, 1);
     for (int i = 0; i < m->count; i++) {
-        if (i % across == 0) put_label(f, "ylabel", iso_record_name(m->rows, 1));
+        if (i % across == 0) put_label(f, "ylabel", up);
         if (i % across == 1) fputs("unset ylabel\n", f);
         if (i == 1) fputs("unset colorbox\n", f);
         put_place(f, i, across, down);

@@ -30,10 +30,6 @@ enum {
 #define ISO_PLOT_OF_BALL "the ball: n, the normal where it touches"
 #define ISO_PLOT_OF_POINT "the point: γ, its place"
 
-/* "1/2" of 0.5, if the number is such a fraction to its last digits; else its first digits. Gives `text`. */
-enum { ISO_PLOT_FRACTION = 32 };
-char *iso_plot_fraction(char text[static ISO_PLOT_FRACTION], double x);
-
 /* Axes on the left and below, and a grid. */
 #define ISO_PLOT_AXES                                                                                                \
     "set border 3 lc rgb " ISO_PLOT_LINE                                                                             \
@@ -223,7 +219,8 @@ void iso_plot_over_key(FILE *script, const struct iso_plot_section *section, dou
 
 /* --- sweeps ----------------------------------------------------------------------------------------------------- */
 
-/* A curve; rows: the number that varies, by growing size, the value, low and high, which may be NaN. */
+/* A curve; rows: the number that varies, by growing size, the value, low and high, which may be NaN; the name of the
+ * last says what the band from low to high is. */
 iso_status iso_plot_sweep_curve(iso_context *ctx, const iso_plot_page *page, const char *title,
                                 const iso_record *rows);
 

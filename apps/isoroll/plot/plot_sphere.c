@@ -199,7 +199,7 @@ void iso_plot_sphere(FILE *f, const iso_plot_box *box, const iso_record *line, i
     }
     fputs(setup, f);
     iso_plot_place(f, box);
-    iso_plot_put_axes(f, 0, 0, 1, NULL);
+    iso_plot_put_axes(f, 0, 0, 1, &(iso_plot_marks){line, 1 + iso_record_rows(line) / 400, line_column});
     put_end(f, iso_plot_drawn_row(line, 0) + line_column, ISO_PLOT_START);
     put_end(f, iso_plot_drawn_row(line, iso_plot_drawn_rows(line) - 1) + line_column, ISO_PLOT_END);
     fprintf(f, "plot $grid0 w l lw 0.6 lc rgb " ISO_PLOT_GRID ", $path0 w %s lc rgb " ISO_PLOT_FAR_BLUE ",",

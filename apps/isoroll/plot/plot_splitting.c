@@ -5,7 +5,7 @@
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
 
-enum { WIDTH = 900, HEIGHT = 450 };
+enum { WIDTH = 900, HEIGHT = 480, ONE_HEIGHT = 600 /* of a picture of one panel */ };
 #define TOLD 10 /* errors from which on m is drawn as a spot */
 
 /* What varies from row to row. */
@@ -44,8 +44,9 @@ static void put_size(FILE *f, const iso_record *r)
     fprintf(f,
             ISO_PLOT_AXES
             "set logscale y; set format y '10^{%%T}'; set xlabel %s offset 0,0.5\n"
-            "set ylabel 'slope |m| at π/2 (0: no splitting)' offset 1,0; set xtics autofreq; set mxtics 2\n"
-            "set key outside bottom center horizontal maxrows 1 Left reverse samplen 1 width 2\n",
+            "set title 'slope m of the curves where they meet, at π/2' offset 0,-0.5\n"
+            "set ylabel '|m| (0: no splitting)' offset 1,0; set xtics autofreq; set mxtics 2\n"
+            "set key outside bottom center horizontal maxrows 1 Left reverse samplen 1 width 2 height 1\n",
             QUOTED(name_of(r), 8));
     for (int kind = 0; kind < KINDS; kind++) {
         if (count[kind] == 0) continue;
@@ -56,30 +57,32 @@ static void put_size(FILE *f, const iso_record *r)
     fputs("\nunset logscale y; set format y '%g'\n", f);
 }
 
-/* name: of the number `at`. */
+/* name: of the number `at`. O is the unstable rotation, O' the opposite one. */
 static void put_curve(FILE *f, const iso_record *curve, const char *name, double at, int axis)
 {
+    char number[ISO_PLOT_FRACTION];
     fputs("$curve << EOD\n", f);
     for (size_t i = 0; i < iso_record_rows(curve); i++)
         fprintf(f, "%.6f %.6f\n", iso_record_const_row(curve, i)[0], iso_record_const_row(curve, i)[1]);
-    fprintf(
-        f,
-        "EOD\n" ISO_PLOT_FRAME
-        "set xrange [-0.35:pi+0.35]; set xtics ('O' 0, 'π/4' pi/4, 'π/2' pi/2, '3π/4' 3*pi/4, \"O'\" pi)\n"
-        "set arrow 1 from first pi/2, graph 0 to first pi/2, graph 1 nohead back dt (3,3) lw 1.2 lc "
-        "rgb " ISO_PLOT_HELP "\nset key outside bottom center horizontal Left reverse samplen 2 width 2\n"
-        "set xlabel 'l − l(O) on the section γ_%d\u2060 = 0, %s = %.6g'; set ylabel 'M_%d\u2060 / |M|' offset 1,0\n"
-        "plot $curve using 1:2 with lines lw 1.6 lc rgb " ISO_PLOT_VERMILLION
-        " title 'unstable, from O', $curve using (pi-$1):2 with lines lw 1.6 dt (12,8) lc rgb " ISO_PLOT_BLUE
-        " title \"stable, to O'\"\n",
-        axis + 1, name, at, axis + 1);
+    fprintf(f,
+            "EOD\n" ISO_PLOT_FRAME
+            "set xrange [-0.35:pi+0.35]; set xtics ('O' 0, 'π/4' pi/4, 'π/2' pi/2, '3π/4' 3*pi/4, \"O'\" pi)\n"
+            "set arrow 1 from first pi/2, graph 0 to first pi/2, graph 1 nohead back dt (3,3) lw 1.2 lc "
+            "rgb " ISO_PLOT_HELP
+            "\nset key outside bottom center horizontal Left reverse samplen 2 width 2 height 1\n"
+            "set title 'both curves on the section γ_%d\u2060 = 0, %s = %s' offset 0,-0.5\n"
+            "set xlabel 'l − l(O)'; set ylabel 'M_%d\u2060 / |M|' offset 1,0\n"
+            "plot $curve using 1:2 with lines lw 1.6 lc rgb " ISO_PLOT_VERMILLION
+            " title 'leaves the unstable rotation O', $curve using (pi-$1):2 with lines lw 1.6 dt (12,8) lc "
+            "rgb " ISO_PLOT_BLUE " title \"enters the opposite one, O'\"\n",
+            axis + 1, name, iso_plot_fraction(number, at), axis + 1);
 }
 
 iso_status iso_plot_splitting(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *rows,
                               const iso_record *curve, double at, int axis)
 {
-    int width = WIDTH, height = HEIGHT;
     const bool both = rows && curve;
+    int width = WIDTH, height = both ? HEIGHT : ONE_HEIGHT;
     iso_gnuplot_fit(page, !both, &width, &height);
     FILE *f = iso_gnuplot_open(ctx, page, width, height);
     fprintf(f, "set multiplot layout 1,%d title %s noenhanced font ',12'\n", both ? 2 : 1,

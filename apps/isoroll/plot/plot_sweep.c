@@ -146,7 +146,8 @@ static int by_x(const void *a, const void *b)
 static iso_status draw_curve(iso_context *ctx, const table *t, const iso_plot_page *page)
 {
     char title[160];
-    const char *const names[] = {axis_of(t, t->axis[0]), t->words, "low", "high"};
+    const char *const names[] = {axis_of(t, t->axis[0]), t->words, "low",
+                                 t->low < 0 ? "± estimated error" : "95 % confidence, undecided orbits included"};
     const size_t count = iso_record_rows(t->rows);
     iso_record *rows;
     iso_status status = iso_record_create(ctx, 4, names, &rows);
@@ -157,7 +158,7 @@ static iso_status draw_curve(iso_context *ctx, const table *t, const iso_plot_pa
         status = iso_record_add(ctx, rows, 1, (double[]){at(t->rows, i, t->axis[0]), value, low, high});
     }
     if (status == ISO_OK) {
-        snprintf(title, sizeof title, "%s over %s", t->words, names[0]);
+        snprintf(title, sizeof title, "A sweep of %zu values of %s", count, names[0]);
         qsort(iso_record_row(rows, 0), count, 4 * sizeof(double), by_x);
         status = iso_plot_sweep_curve(ctx, page, title, rows);
     }
@@ -278,7 +279,7 @@ static iso_status draw_maps(iso_context *ctx, const table *t, const iso_plot_pag
     layout l = {.panel = -1};
     iso_status status = choose_layout(ctx, t, &l);
     if (status == ISO_OK) status = collect(ctx, t, &l);
-    snprintf(title, sizeof title, "%s over %.60s and %.60s", t->words, l.x_name, l.y_name);
+    snprintf(title, sizeof title, "A sweep of %zu points", iso_record_rows(t->rows));
     if (status == ISO_OK) status = iso_plot_sweep_maps(ctx, page, title, &l.maps);
     iso_record_free(l.maps.rows);
     return status;

@@ -157,7 +157,8 @@ static void put_stability(FILE *f, const iso_record *r, int side)
     fprintf(
         f,
         "plot for [c=0:2] $%s using ($7 == class[c + 1] ? $1 : NaN):2:3:4:5:6 w boxxyerror fs solid 1 noborder lw 0 "
-        "lc rgb colour[c + 1] title name[c + 1], $border w p pt 7 ps 0.25 lc rgb 'black' title 'border, T = ±2'\n"
+        "lc rgb colour[c + 1] title name[c + 1], $border w p pt 7 ps 0.25 lc rgb 'black' title 'border, T = ±2 (T: "
+        "trace)'\n"
         "unset label 1\n",
         column[side]);
 }
@@ -216,7 +217,7 @@ static iso_status draw_orbits(iso_context *ctx, const iso_plot_page *page, const
                                    .params = &params,
                                    .axis = iso_plot_axis_of(r),
                                    .rows = images,
-                                   .grey_means = "unstable (stable: in colours)",
+                                   .grey_means = "unstable; each stable orbit has a colour",
                                    .few = true};
     if (status == ISO_OK) status = iso_plot_sections(ctx, page, &plot);
     iso_record_free(images);

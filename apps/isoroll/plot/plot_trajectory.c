@@ -14,7 +14,7 @@
 #include "plot/plot_parts.h"
 
 /* In pixels. */
-enum { WIDTH = 900, TITLE = 50, SQUARE = 420, VIEW = 320, WIDE = 270, CHART = 260, LINE = 40, FOOT = 12 };
+enum { WIDTH = 900, TITLE = 50, SQUARE = 420, VIEW = 320, WIDE = 270, CHART = 260, LINE = 40, UNITS = 26, FOOT = 12 };
 
 typedef enum square { FROM_ABOVE, FROM_SIDE, ON_BALL, ON_POINT, SQUARES } square;
 typedef enum chart { ENERGIES, PRESSURE, DRIFT, PACES, CHARTS } chart;
@@ -129,7 +129,7 @@ static void choose_height(sheet *s)
     int rows = 0;
     for (int i = 0; i < s->squares; i += 2) rows += row_height(s, i);
     s->height = TITLE + (s->narrow ? WIDE : 0) + rows + (s->charts - s->beside + 1) / 2 * CHART +
-                (s->noise ? LINE : 0) + FOOT;
+                (s->noise ? LINE : 0) + (s->plot->space ? UNITS : 0) + FOOT;
 }
 
 /* --- where it stands -------------------------------------------------------------------------------------------- */
@@ -217,7 +217,7 @@ static void put_curves(const sheet *s, chart which, const iso_plot_box *box)
     }
     if (which == PRESSURE) p.over = clock_of(r);
     if (which == PACES) {
-        p.title = "speed of the other clocks (mean 1)";
+        p.title = "speed (mean 1)";
     } else {
         p.mark = s->lost, p.marks = s->losses;
         p.marked = iso_plot_loss_name(plot->ball, s->lost, s->losses);
@@ -235,19 +235,20 @@ static void put_chart(const sheet *s, chart which, int left, int right, int top,
         put_curves(s, which, &box);
 }
 
-/* "integrals hold up to rounding; largest relative drift: h 3e-16, ..." */
+/* "integrals hold up to rounding: no drift above 3e-16 of h, omega.n, |n|" */
 static void put_noise(const sheet *s)
 {
     const iso_record *r = s->plot->drift;
-    char text[400];
-    int used = snprintf(text, sizeof text, "integrals hold up to rounding; largest relative drift: ");
+    char names[200], text[300];
+    size_t used = 0;
+    double largest = 0;
     for (size_t c = 1; c < iso_record_columns(r); c++) {
-        const double largest = largest_of(r, c);
-        if (used >= 300) continue;
-        used += snprintf(text + used, sizeof text - (size_t)used, "%s%.31s ", c > 1 ? ",  " : "",
-                         iso_plot_symbol(iso_record_name(r, c)));
-        used += snprintf(text + used, sizeof text - (size_t)used, largest > 0 ? "%.0e" : "%.0f", largest);
+        largest = fmax(largest, largest_of(r, c));
+        if (used < 100)
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s%.31s", c > 1 ? ", " : "",
+                                     iso_plot_symbol(iso_record_name(r, c)));
     }
+    snprintf(text, sizeof text, "integrals hold up to rounding: no drift above %.0e of %s", largest, names);
     iso_plot_words(s->f, text, 130, 1 - (s->y + LINE / 2.0) / s->height, "tc rgb " ISO_PLOT_INK);
 }
 
@@ -286,6 +287,9 @@ static void put_sheet(sheet *s)
         if (pair) put_chart(s, s->chart[used + 1], WIDTH / 2, WIDTH, s->y, CHART);
     }
     if (s->noise) put_noise(s);
+    if (s->plot->space)
+        iso_plot_words(s->f, "lengths, times and forces are in the units of the scene", 130,
+                       (FOOT + UNITS / 2.0) / s->height, "tc rgb " ISO_PLOT_WORDS);
 }
 
 static iso_status look_at(iso_context *ctx, sheet *s)

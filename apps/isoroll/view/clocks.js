@@ -102,7 +102,7 @@ const clocks = {
       tile.own.rate.textContent =
         name === this.even
           ? "runs evenly"
-          : `${pace > 1.02 ? "hurries" : pace < 0.98 ? "waits" : "keeps pace"} ×${pace >= 0.1 && pace < 1e4 ? pace.toFixed(2) : digits(pace, 2)}`;
+          : `${pace > 1.02 ? "faster" : pace < 0.98 ? "slower" : "mean speed"} ×${pace >= 0.1 && pace < 1e4 ? pace.toFixed(2) : digits(pace, 2)}`;
       tile.own.rate.classList.toggle("even", name === this.even);
     }
   },

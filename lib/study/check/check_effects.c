@@ -51,8 +51,7 @@ static void check_columns(checker *c, iso_residuals *found, const checked *k, co
         size = fmax(size, fmax(fabs(expected), fabs(there)));
     }
     snprintf(name, sizeof name, "%s flow", k->group->checked_as);
-    if (any && size > 0)
-        iso_checker_note(found, name, "effects' columns, each row integrated to the next", error / size, c->number);
+    if (any && size > 0) iso_checker_note(found, name, "columns of effects, row to row", error / size, c->number);
 }
 
 static bool same_report(const iso_effect_column *a, const iso_effect_column *b)

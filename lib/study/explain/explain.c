@@ -65,7 +65,7 @@ static void explain_map(FILE *to, const iso_params *p, const iso_orbit *orbit)
         fprintf(to, "  point on a sphere: V = -eps (gamma,J gamma)^(%.6g)%s, %s\n", -1 / p->k, pulled ? " + U/G" : "",
                 pulled ? "in a field: see the integrals below" : kind);
     if (iso_orbit_has_twin(orbit))
-        fprintf(to, "  holds: this orbit has both models, (18) and the clocks t, tau, s%s\n",
+        fprintf(to, "  holds: (18) of the theory carries the states, the clocks t, tau, s the times%s\n",
                 iso_effects_have_level(&effects) ? "; the point is off the level H = 0, at H = c det J/k^2" : "");
     else if (breaking)
         fprintf(to, "  does not hold: '%s' breaks it: %s\n", breaking->name, iso_effect_why_broken(breaking));

@@ -120,10 +120,10 @@ iso_status iso_momentum_bounds(iso_context *ctx, const iso_momentum *m, double h
 void iso_momentum_name_part(const iso_momentum *m, iso_momentum_part part, char words[ISO_MOMENTUM_WORDS])
 {
     static const char *const names[ISO_MOMENTUM_PARTS] = {
-        [ISO_TURNS_ABOUT_1] = "turns about axis %d: u swings",
-        [ISO_TURNS_ABOUT_3] = "turns about axis %d: v swings",
-        [ISO_ON_ONE_SIDE] = "turns about axis %d, on one side: v swings",
-        [ISO_SWINGS_ABOUT_3] = "swings about axis %d: u and v swing",
+        [ISO_TURNS_ABOUT_1] = "turns about axis %d",
+        [ISO_TURNS_ABOUT_3] = "turns about axis %d",
+        [ISO_ON_ONE_SIDE] = "turns about axis %d, on one side",
+        [ISO_SWINGS_ABOUT_3] = "swings about axis %d",
     };
     snprintf(words, ISO_MOMENTUM_WORDS, names[part], m->axis[part == ISO_TURNS_ABOUT_1 ? 0 : 2] + 1);
 }
@@ -132,7 +132,7 @@ void iso_momentum_name_line(const iso_momentum *m, int i, char words[ISO_MOMENTU
 {
     const bool separatrix = m->H == 0 && (i == 1 || (i == 2 && m->k == -1 && m->b[2] > m->b[0] + m->b[1]));
     if (i == 3)
-        snprintf(words, ISO_MOMENTUM_WORDS, "v constant");
+        snprintf(words, ISO_MOMENTUM_WORDS, "stays on a cone");
     else
         snprintf(words, ISO_MOMENTUM_WORDS, "rotation about axis %d%s", m->axis[i] + 1,
                  separatrix ? ", separatrix" : "");
