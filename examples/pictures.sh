@@ -52,10 +52,12 @@ sed '/resistance: 10/d' "$scene" | "$isoroll" run - -o "$work/rubber.csv"
 "$isoroll" run "$scene" -o "$work/ten.csv"
 sed 's/resistance: 10/resistance: 0/' "$scene" | "$isoroll" run - -o "$work/marble.csv"
 chart 11_rubber_and_marble/picture.svg <<EOF
-set datafile separator ","; set xlabel 't'; set ylabel 'n3'; set key outside top center horizontal
-plot '$work/rubber.csv' using 't':'n3' with lines lw 2 lc rgb '#0072B2' title 'rubber ball', \
-     '$work/ten.csv' using 't':'n3' with lines lw 2 dt (8,3) lc rgb '#E8AA00' title 'c = 10', \
-     '$work/marble.csv' using 't':'n3' with lines lw 2 dt (2,3) lc rgb '#D55E00' title 'classical ball, c = 0'
+set datafile separator ","; set xlabel 't'; set ylabel 'n_3: the normal along axis 3 of the ball'
+set title 'one throw, three contacts        k = 3/4, J = (1.4, 2.1, 3)'
+set key outside bottom center horizontal Left reverse samplen 2
+plot '$work/rubber.csv' using 't':'n3' with lines lw 2 lc rgb '#0072B2' title 'rubber: no twist', \
+     '$work/ten.csv' using 't':'n3' with lines lw 2 dt (8,3) lc rgb '#E8AA00' title 'it resists twist: c = 10', \
+     '$work/marble.csv' using 't':'n3' with lines lw 2 dt (2,3) lc rgb '#D55E00' title 'twists freely: c = 0'
 EOF
 
 # sections: of both models, in a file .png, since a .svg would hold each point
@@ -85,7 +87,8 @@ done
 "$build/tests/example_13_chaos" | awk 'NR > 2 { if (last < 0 && $1 > 0) print ""; print $1, $2; last = $1 }' \
     >"$work/chaos.txt"
 chart 13_chaos/picture.svg <<EOF
-set xlabel 'k (−1 and 1: integrable)'; set ylabel 'chaotic orbits, of 200'; unset key; set yrange [-3:]; set xrange [-1.1:1.6]
+set title 'chaotic orbits of one energy, by k        J = (1, 2, 5)'
+set xlabel 'k (dashed: ±1, integrable; no ball has k = 0)'; set ylabel 'chaotic orbits, of 200'; unset key; set yrange [-3:]; set xrange [-1.1:1.6]
 do for [k=-1:1:2] { set arrow from k, graph 0 to k, graph 1 nohead dt (4,3) lc rgb '#404040' }
 plot '$work/chaos.txt' using 1:2 with linespoints pt 7 ps 0.8 lw 1.5 lc rgb '#0072B2'
 EOF

@@ -198,7 +198,7 @@ static void tell_result(const iso_scene *scene, const iso_comparison *c, char te
 
 static int draw(const shell *s)
 {
-    char title[ISO_PLOT_HEADING], drawn[100], result[200];
+    char title[ISO_PLOT_HEADING], drawn[160], result[200];
     const iso_comparison *c = s->result.found;
     const size_t rows = iso_record_rows(c->difference);
     iso_record *curve, *states;
@@ -211,9 +211,10 @@ static int draw(const shell *s)
         if (last == end)
             snprintf(drawn, sizeof drawn, "drawn and compared: to t = %.6g; pale: the far side", end);
         else
-            snprintf(drawn, sizeof drawn,
-                     "drawn: %.2g times around, to t = %.4g; compared: to t = %.6g; pale: the far side",
-                     ISO_STRETCH_TURNS, last, end);
+            snprintf(
+                drawn, sizeof drawn,
+                "drawn: a path as long as %.2g great circles, to t = %.4g; compared: to t = %.6g; pale: the far side",
+                ISO_STRETCH_TURNS, last, end);
         tell_result(&s->scene, c, result, sizeof result);
         const iso_effects acting = iso_scene_acting(&s->scene);
         const iso_plot_twins plot = {title, drawn, result, &s->scene.params, iso_effects_have_image(&acting),

@@ -314,14 +314,14 @@ static bool put_scale(FILE *f, const iso_record *rows)
 }
 
 /* Maps of one size, left to right, then below; the scale of colours stands on the right of all. */
-static void put_place(FILE *f, int i, int across, int down)
+static void put_place(FILE *f, int i, int across, int down, bool titled)
 {
     const double wide = 0.83 / across, high = 0.9 / down;
     const double left = 0.075 + wide * (i % across), bottom = 0.91 - high * (i / across + 1);
     fprintf(f,
             "set lmargin at screen %.4f; set rmargin at screen %.4f\n"
             "set bmargin at screen %.4f; set tmargin at screen %.4f\n",
-            left, left + wide - 0.065, bottom + 0.13, bottom + high - 0.06);
+            left, left + wide - 0.065, bottom + 0.13, bottom + high - (titled ? 0.06 : 0));
 }
 
 /* About four steps of 1, 2 or 5 times a power of ten: maps are narrow. */
@@ -352,7 +352,7 @@ iso_status iso_plot_sweep_maps(iso_context *ctx, const iso_plot_page *page, cons
         if (i % across == 0) put_label(f, "ylabel", up);
         if (i % across == 1) fputs("unset ylabel\n", f);
         if (i == 1) fputs("unset colorbox\n", f);
-        put_place(f, i, across, down);
+        put_place(f, i, across, down, m->key_name != NULL);
         put_map(f, m, i, &points, sizes);
     }
     free(points.x.at);

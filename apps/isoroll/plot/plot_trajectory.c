@@ -239,7 +239,7 @@ static void put_chart(const sheet *s, chart which, int left, int right, int top,
 static void put_noise(const sheet *s)
 {
     const iso_record *r = s->plot->drift;
-    char names[200], text[300];
+    char names[200] = "", text[300];
     size_t used = 0;
     double largest = 0;
     for (size_t c = 1; c < iso_record_columns(r); c++) {

@@ -122,10 +122,11 @@ static void put_spheres(FILE *f, const iso_record *states)
 /* --- what is drawn ---------------------------------------------------------------------------------------------- */
 
 /* On side 0 n is projected, columns 3 to 5; on side 1 gamma, columns 6 to 8. A line goes on a little behind the
- * outline, where the other half of it begins. A hidden number is off the page: gnuplot 5.4 ends by a signal where
- * all are NaN. Then the ladder: thin rungs, rungs with numbers, the numbers. */
+ * outline, where the other half of it begins; a disc there is in front. A hidden number is off the page: gnuplot 5.4
+ * ends by a signal where all are NaN. Then the ladder: thin rungs, rungs with numbers, the numbers. */
 static const char *const script =
-    "set macros; out = -1000; near(i) = depth(i) > 0; ring = 'w p pt 7 ps 2.15 lc rgb \"white\"'; disc = 'w p pt 7 "
+    "set macros; out = -1000; near(i) = depth(i) > -0.1; ring = 'w p pt 7 ps 2.15 lc rgb \"white\"'; disc = 'w p pt "
+    "7 "
     "ps 1.85 lc rgb "
     "variable'\n"
     "number = 'w labels center font \",8\" tc rgb variable'\n"
