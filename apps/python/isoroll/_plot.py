@@ -141,7 +141,8 @@ def _line(table: Table, at: Any, xname: str, x: Numbers, value: str) -> None:
     order, z, (low, high) = np.argsort(x, kind="stable"), table[value], _ERRORS.get(value, (None, None))
     if high in table:
         band = (table[low], table[high]) if low else (z - table[high], z + table[high])
-        at.fill_between(x[order], band[0][order], band[1][order], color=FAR_BLUE, alpha=0.7, lw=0)
+        at.fill_between(x[order], band[0][order], band[1][order], color=FAR_BLUE, alpha=0.7, lw=0,
+                        label="95 % confidence, undecided orbits included" if low else "± estimated error")
     at.plot(x[order], z[order], "o-", ms=3, lw=1.4, color=BLUE)
     at.set(xlabel=xname, ylabel=value)
     plain(at)
@@ -174,9 +175,11 @@ def _sweep(table: Table, ax: Any, value: Optional[str] = None, title: Optional[s
             drawn = _map(table, at, shown, places, value)
             at.set_title("" if which is None else f"{panel} = {this:.6g}")
         if "k" in places and list(places)[0] == "k":
-            for k in (-1, 1):  # only there the problem is integrable
-                if np.min(places["k"]) <= k <= np.max(places["k"]):
-                    at.axvline(k, color="#404040", lw=1.2, ls="--")
+            marked = [k for k in (-1, 1) if np.min(places["k"]) <= k <= np.max(places["k"])]
+            for k in marked:
+                at.axvline(k, color="#404040", lw=1.2, ls="--", label="k = ±1: integrable" if k == marked[0] else None)
+        if len(places) == 1 and at.get_legend_handles_labels()[0]:
+            at.legend(frameon=False)
     if len(places) == 2:
         axes[0].figure.colorbar(drawn, ax=axes, label=value)
     if ax is None:
