@@ -179,7 +179,7 @@ def _sweep(table: Table, ax: Any, value: Optional[str] = None, title: Optional[s
             for k in marked:
                 at.axvline(k, color="#404040", lw=1.2, ls="--", label="k = ±1: integrable" if k == marked[0] else None)
         if len(places) == 1 and at.get_legend_handles_labels()[0]:
-            at.legend(frameon=False)
+            at.legend(framealpha=1, edgecolor="none")
     if len(places) == 2:
         axes[0].figure.colorbar(drawn, ax=axes, label=value)
     if ax is None:
