@@ -30,8 +30,8 @@
  *   those turns. They agree to many digits on a quasi-periodic orbit (S. Das, Y. Saiki, E. Sander, J. A. Yorke,
  *   Nonlinearity 30, 2017), to one or two digits on a chaotic orbit, and to three or four on an orbit that stays near
  *   an island for long.
- *   With three digits one look is enough to call an orbit regular. With five it is regular, even if MEGNO has not
- *   settled yet, as near a resonance.
+ *   With five digits one look is enough to call an orbit regular. With six at two looks it is regular, even if MEGNO
+ *   has not settled yet, as near a resonance.
  *
  * A look is a judgement of the orbit so far. The number of turns grows by sqrt(2) from look to look, and one look is
  * at the number given to iso_indicators_begin. indicators.c has the conditions of the verdict, lib/doc/measured.md
