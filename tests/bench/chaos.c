@@ -125,7 +125,9 @@ static void measure(iso_context *ctx, const family *f, size_t count, long turns,
         for (int m = 0; m < 2; m++) {
             const double megno = one->result[m].megno;
             out->turns[m] += (double)one->result[m].turns / (double)count;
-            out->off += one->result[m].verdict == ISO_REGULAR && fabs(megno - 2) > 0.02 && fabs(megno) > 0.02;
+            const bool known = megno != one->result[m].megno_mean; /* the limit of MEGNO */
+            out->off +=
+                one->result[m].verdict == ISO_REGULAR && known && fabs(megno - 2) > 0.02 && fabs(megno) > 0.02;
         }
     }
     iso_chaos_free(c);

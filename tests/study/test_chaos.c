@@ -249,6 +249,25 @@ static void check_sample(void)
     iso_chaos_free(some);
 }
 
+/* As a check the ball follows no orbit for long: start 112 takes the point more than 750 turns. */
+static void check_long_checks(void)
+{
+    const iso_scene scene = scene_of(-0.5, 1, 2, 5);
+    iso_chaos_options o = iso_chaos_defaults();
+    iso_chaos *c;
+    size_t skipped = 0;
+    o.starts = 128;
+    must(iso_chaos_run(ctx, &scene, &o, &c), "starts");
+    for (size_t i = 0; i < o.starts; i++) {
+        const iso_indication *ball = &c->start[i].result[ISO_BALL], *point = &c->start[i].result[ISO_POINT];
+        gsl_test(ball->turns > 750, "start %zu: %ld turns by the ball", i, ball->turns);
+        if (i % 16 == 0) gsl_test_int(ball->turns > 0, point->turns <= 750, "start %zu is checked", i);
+        skipped += i % 16 == 0 && ball->turns == 0;
+    }
+    gsl_test(skipped == 0, "starts that are not checked: %zu", skipped);
+    iso_chaos_free(c);
+}
+
 /* The tolerance of the spread starts is enough for their verdicts. */
 static void check_spread_tolerance(void)
 {
@@ -403,6 +422,7 @@ int main(void)
     check_shares();
     check_alone();
     check_sample();
+    check_long_checks();
     check_spread_tolerance();
     check_undecided();
     check_stopped();

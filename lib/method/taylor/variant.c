@@ -102,6 +102,10 @@ __extension__ typedef _Float128 number_of_128_bits;
 #define PACKED
 #endif
 
+#if IS_EXTENDED
+#define APART
+#endif
+
 /* --- the code --------------------------------------------------------------------------------------------------- */
 
 #if LANES == 1 && !IS_TANGENT

@@ -48,6 +48,43 @@ static inline pair product_pair_of(const real a[], const real b[], int n)
     return s;
 }
 
+#ifdef APART
+
+/* The same of numbers that are three apart: the components of vectors. a_step: 1 or 3 */
+static inline pair component_pair_of(const real *a, int a_step, const real *b, int n)
+{
+    pair s = {zero, zero};
+    for (int j = 0; j < n; j++) {
+        const real last = b[3 * (n - j)];
+        s.now += a[a_step * j] * last;
+        s.next += a[a_step * (j + 1)] * last;
+    }
+    s.now += a[a_step * n] * b[0];
+    return s;
+}
+
+static inline vector_pair scaled_pair_of(const real a[], const vector b[], int n)
+{
+    vector_pair s;
+    for (int i = 0; i < 3; i++) {
+        const pair p = component_pair_of(a, 1, &b->at[i], n);
+        s.now.at[i] = p.now, s.next.at[i] = p.next;
+    }
+    return s;
+}
+
+static inline vector_pair components_pair_of(const vector a[], const vector b[], int n)
+{
+    vector_pair s;
+    for (int i = 0; i < 3; i++) {
+        const pair p = component_pair_of(&a->at[i], 3, &b->at[i], n);
+        s.now.at[i] = p.now, s.next.at[i] = p.next;
+    }
+    return s;
+}
+
+#else
+
 static inline vector_pair scaled_pair_of(const real a[], const vector b[], int n)
 {
     vector_pair s = {nought, nought};
@@ -71,6 +108,8 @@ static inline vector_pair components_pair_of(const vector a[], const vector b[],
     s.now = plus(s.now, by(a[n], b[0]));
     return s;
 }
+
+#endif
 
 /* Of a^2: half as many products. */
 static inline pair square_pair_of(const real a[], int n)

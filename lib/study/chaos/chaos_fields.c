@@ -10,7 +10,7 @@ const iso_field iso_indication_fields[] = {
     FIELD("verdict", verdict, "", "regular, chaotic or undecided, by this model", .word = iso_verdict_word),
     FIELD("turns", turns, "", "turns until the verdict; undecided: all; 0: this model did not follow it"),
     FIELD("exponent_turns", exponent_turns, "", "turns that the exponent is from"),
-    FIELD("megno", megno, "", "MEGNO: its limit if regular, else its mean"),
+    FIELD("megno", megno, "", "MEGNO: its limit if regular and known, else its mean"),
     FIELD("megno_now", megno_now, "", "MEGNO after the last turn", .how = ISO_IN_TREE),
     FIELD("megno_mean", megno_mean, "", "the mean of MEGNO", .how = ISO_IN_TREE),
     FIELD("gali2", gali2, "", "GALI_2: sine of the angle between the deviations"),

@@ -78,7 +78,7 @@ typedef struct iso_indicators {
     double sum[ISO_PARTS + 1][1 + ISO_CLOCKS]; /* ln D and the clocks at the ends of the parts */
     double now[1 + ISO_CLOCKS];
     double limit, megno, digits, gain, gain_before, halves[2]; /* of the last look */
-    bool looked_regular;
+    bool looked_regular, looked_smooth;
     /* Set by the caller after iso_indicators_begin: an additional integral is known, so the orbit cannot be chaotic,
      * however its deviations grow near a separatrix. */
     bool integrable;

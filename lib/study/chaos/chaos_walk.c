@@ -10,8 +10,8 @@
 #include "study/fields_impl.h"
 
 /* GROUP: orbits that are followed together. ROUND: the most turns of a round. Together some 25 MB of crossings.
- * CHECKED: one of so many starts is followed by the ball, too, if the walk is sampled. */
-enum { GROUP = 1024, ROUND = 240, TRACE_ROWS = 4000, CHECKED = 16 };
+ * CHECKED: one of so many starts is followed by the ball, too, if the walk is sampled, for at most CHECK_TURNS. */
+enum { GROUP = 1024, ROUND = 240, TRACE_ROWS = 4000, CHECKED = 16, CHECK_TURNS = 750 };
 
 /* One model's part of a group. */
 typedef struct model_walk {
@@ -120,11 +120,25 @@ static void note_failures(const group *g, int model)
             note_failure(g, model, i, iso_crossings_why(r->crossings, i));
 }
 
-/* The number of turns after which an orbit ends: the verdict regular ends it at once. */
-static long most_turns(const iso_chaos_walk *w, const iso_indicators *shown)
+/* Whether all orbits of the group are spread starts. Otherwise none is. */
+static bool are_spread(const group *g)
 {
-    const iso_verdict verdict = iso_indicators_verdict(shown);
-    return verdict == ISO_UNDECIDED ? w->options.turns : verdict == ISO_CHAOTIC ? w->options.exponent_turns : 0;
+    return !g->each && g->first > 0 && g->first <= g->w->options.starts;
+}
+
+/* Whether the ball follows orbits of this group only as a check. */
+static bool only_checks(const group *g, int model)
+{
+    return model == ISO_BALL && g->w->sampled && are_spread(g);
+}
+
+/* The number of turns after which an orbit ends: the verdict regular ends it at once. */
+static long most_turns(const group *g, int model, size_t i)
+{
+    const iso_chaos_options *o = &g->w->options;
+    const iso_verdict verdict = iso_indicators_verdict(&g->model[model].shown[i]);
+    const long most = only_checks(g, model) && o->turns > CHECK_TURNS ? CHECK_TURNS : o->turns;
+    return verdict == ISO_UNDECIDED ? most : verdict == ISO_CHAOTIC ? o->exponent_turns : 0;
 }
 
 /* Adds the new crossings of an orbit until it ends. */
@@ -135,7 +149,7 @@ static iso_status take(group *g, int model, size_t i)
     iso_indicators *shown = &r->shown[i];
     iso_status status = ISO_OK;
     for (size_t j = 0; j < r->done[i] && status == ISO_OK; j++) {
-        if (shown->turns >= most_turns(w, shown)) break;
+        if (shown->turns >= most_turns(g, model, i)) break;
         const size_t at = r->each * i + j;
         iso_turn_sample turn;
         make_turn(&g->crossing[at], g->sample ? &g->sample[at] : NULL, &turn);
@@ -148,7 +162,7 @@ static iso_status take(group *g, int model, size_t i)
         iso_indicators_add(shown, &turn);
         if (!g->each && g->first + i == 0) status = trace(w, model, shown);
     }
-    r->wanted[i] = r->status[i] == ISO_OK && shown->turns < most_turns(w, shown);
+    r->wanted[i] = r->status[i] == ISO_OK && shown->turns < most_turns(g, model, i);
     return status;
 }
 
@@ -161,19 +175,13 @@ static iso_status create_trace(iso_chaos_walk *w, int model)
     return ISO_OK;
 }
 
-/* Whether all orbits of the group are spread starts. Otherwise none is. */
-static bool are_spread(const group *g)
-{
-    return !g->each && g->first > 0 && g->first <= g->w->options.starts;
-}
-
-/* Whether this model follows orbit i. The ball checks verdicts of the point: where there is none, it has nothing to
- * check. */
+/* Whether this model follows orbit i. The ball checks verdicts of the point, of those that need no more turns. */
 static bool follows(const group *g, int model, size_t i)
 {
-    if (!are_spread(g) || !g->w->sampled || model == ISO_POINT) return true;
-    return (g->first + i - 1) % CHECKED == 0 &&
-           iso_indicators_verdict(&g->model[ISO_POINT].shown[i]) != ISO_UNDECIDED;
+    const iso_indicators *point = &g->model[ISO_POINT].shown[i];
+    if (!only_checks(g, model)) return true;
+    return (g->first + i - 1) % CHECKED == 0 && iso_indicators_verdict(point) != ISO_UNDECIDED &&
+           point->decided <= CHECK_TURNS;
 }
 
 static void begin_model(group *g, int model)
@@ -215,12 +223,13 @@ static void tell(group *g, int model)
 }
 
 /* The turns until the next look at the orbits that go on, at most ROUND; 0: none goes on. */
-static size_t turns_of_round(const group *g, const model_walk *r)
+static size_t turns_of_round(const group *g, int model)
 {
+    const model_walk *r = &g->model[model];
     for (size_t i = 0; i < g->count; i++) {
         if (!r->wanted[i]) continue;
         const long turns = r->shown[i].turns, next = iso_indicators_next(&r->shown[i]),
-                   most = most_turns(g->w, &r->shown[i]);
+                   most = most_turns(g, model, i);
         const long left = (next < most ? next : most) - turns;
         return left < ROUND ? (size_t)left : ROUND;
     }
@@ -231,7 +240,7 @@ static size_t turns_of_round(const group *g, const model_walk *r)
 static iso_status go_on(group *g, int model, bool *any)
 {
     model_walk *r = &g->model[model];
-    r->each = turns_of_round(g, r);
+    r->each = turns_of_round(g, model);
     if (r->each == 0) return ISO_OK;
     const iso_status went =
         iso_crossings_go(r->crossings, r->wanted, r->each, g->crossing, g->sample, r->done, r->status);
@@ -255,7 +264,7 @@ static void show_progress(const group *g, int model)
     double done = both && model == ISO_BALL ? (double)g->count : 0;
     if (!w->options.progress) return;
     for (size_t i = 0; i < g->count; i++)
-        done += r->wanted[i] ? (double)r->shown[i].turns / (double)most_turns(w, &r->shown[i]) : 1;
+        done += r->wanted[i] ? (double)r->shown[i].turns / (double)most_turns(g, model, i) : 1;
     const double all = (double)(w->options.starts + w->options.at_count) + 1;
     w->options.progress(fmin(1, ((double)g->first + done / (both ? 2 : 1)) / all), w->options.data);
 }

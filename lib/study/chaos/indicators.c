@@ -183,10 +183,10 @@ static double read_rate(const iso_indicators *it, int c, double *error)
 
 /* --- the verdict ------------------------------------------------------------------------------------------------ */
 
-/* Limits for the verdict. Two successive looks must agree. `gain` is the growth of ln D between the middles of the
- * two halves, at 7/16 and 13/16 of the turns: ln(13/7) = 0.62 on a regular orbit, 3/8 lam n on a chaotic one. Next to
- * the separatrix of a resonance a regular orbit looks chaotic for a while. So ln D itself must be large as well,
- * GALI_2 small, and the exponent larger than its error. */
+/* Limits for the verdict. Two successive looks must agree, unless the digits are enough (below). `gain` is the growth
+ * of ln D between the middles of the two halves, at 7/16 and 13/16 of the turns: ln(13/7) = 0.62 on a regular orbit,
+ * 3/8 lam n on a chaotic one. Next to the separatrix of a resonance a regular orbit looks chaotic for a while. So ln D
+ * itself must be large as well, GALI_2 small, and the exponent larger than its error. */
 static const double ERRORS = 1, MOST_REGULAR_GAIN = 0.8, LEAST_CHAOTIC_GAIN = 2.5, LEAST_GAIN_BEFORE = 1.25,
                     LEAST_GROWTH = 9, MOST_AREA = 1e-4;
 
@@ -196,19 +196,30 @@ static const double ERRORS = 1, MOST_REGULAR_GAIN = 0.8, LEAST_CHAOTIC_GAIN = 2.
 static const double MEGNO = 0.02, HALF = 0.4, ROUGHLY = 1.2, DIGITS = 0.5, DIGITS_FLAT = 7, LITTLE = 3.5,
                     DIGITS_LITTLE = 2.5;
 
-/* A look at fewer turns does not tell a regular orbit from one that sticks to an island. */
-static const long LEAST_REGULAR = 180;
+/* A look at fewer turns does not tell a regular orbit from one that sticks to an island. A look that may be followed by
+ * the verdict needs less. */
+static const long LEAST_REGULAR = 180, LEAST_BEFORE = 120;
+
+/* Digits that say more than MEGNO, which settles late near a resonance: with DIGITS_ONE_LOOK one look is enough. Two
+ * looks with DIGITS_ALONE need no limit of MEGNO, which is then not known. Less is not safe: with 3 and with 5 digits
+ * some orbits of the standard map at K = 0.9 are called regular that leave their islands after 10,000 turns. */
+static const double DIGITS_ONE_LOOK = 5, DIGITS_ALONE = 6;
 
 static bool is_two(double megno, double within)
 {
     return fabs(megno - 2) < within;
 }
 
+static bool may_be_regular(const iso_indicators *it, const iso_window *window, long least)
+{
+    return it->gain < MOST_REGULAR_GAIN && it->digits >= DIGITS && window->last >= least;
+}
+
 /* within HALF: whether this look says that the orbit is regular. within ROUGHLY: whether it may be regular. */
 static bool looks_regular(iso_indicators *it, const iso_window *window, double within)
 {
     const double *half = it->halves;
-    if (!(it->gain < MOST_REGULAR_GAIN && it->digits >= DIGITS && window->last >= LEAST_REGULAR)) return false;
+    if (!may_be_regular(it, window, within > HALF ? LEAST_BEFORE : LEAST_REGULAR)) return false;
     if (is_two(it->limit, ROUGHLY) && is_two(half[0], within) && is_two(half[1], within)) {
         if (!is_two(it->limit, MEGNO)) it->limit = window->megno_whole / window->whole;
         return within > HALF || is_two(it->limit, MEGNO);
@@ -230,16 +241,18 @@ static bool looks_chaotic(const iso_indicators *it)
 
 static void judge(iso_indicators *it, const iso_window *window)
 {
-    const bool before = it->looked_regular;
+    const bool before = it->looked_regular, smooth_before = it->looked_smooth;
     it->gain_before = it->gain;
     it->digits = digits_of(window);
     it->limit = limit_of_steps(window);
     it->gain = window->growth[1] / window->weight[1] - window->growth[0] / window->weight[0];
     for (int h = 0; h < 2; h++) it->halves[h] = window->megno[h] / window->weight[h];
-    const bool regular = before && looks_regular(it, window, HALF);
+    const bool regular = (before || it->digits >= DIGITS_ONE_LOOK) && looks_regular(it, window, HALF);
     it->looked_regular = regular || looks_regular(it, window, ROUGHLY);
+    it->looked_smooth = it->digits >= DIGITS_ALONE && may_be_regular(it, window, LEAST_REGULAR);
     if (it->verdict != ISO_UNDECIDED) return;
-    if (regular) it->verdict = ISO_REGULAR, it->megno = it->limit;
+    if (regular || (smooth_before && it->looked_smooth))
+        it->verdict = ISO_REGULAR, it->megno = regular ? it->limit : NAN;
     if (looks_chaotic(it)) it->verdict = ISO_CHAOTIC;
     if (it->verdict != ISO_UNDECIDED) it->decided = it->turns;
 }
@@ -317,7 +330,7 @@ void iso_indicators_read(const iso_indicators *it, iso_indication *result)
     for (int c = 0; c < ISO_CLOCKS; c++) result->exponent[c] = read_rate(it, c, &result->error[c]);
     result->megno_now = n > 0 ? 2 * it->step_sum / n : NAN;
     result->megno_mean = n > 0 ? it->mean_sum / n : NAN;
-    result->megno = result->verdict == ISO_REGULAR ? it->megno : result->megno_mean;
+    result->megno = result->verdict == ISO_REGULAR && !isnan(it->megno) ? it->megno : result->megno_mean;
     result->gali2 = n > 0 ? it->area : NAN;
     result->digits = it->digits;
 }

@@ -30,6 +30,8 @@
  *   those turns. They agree to many digits on a quasi-periodic orbit (S. Das, Y. Saiki, E. Sander, J. A. Yorke,
  *   Nonlinearity 30, 2017), to one or two digits on a chaotic orbit, and to three or four on an orbit that stays near
  *   an island for long.
+ *   With five digits one look is enough to call an orbit regular. With six at two looks it is regular, even if MEGNO
+ *   has not settled yet, as near a resonance.
  *
  * A look is a judgement of the orbit so far. The number of turns grows by sqrt(2) from look to look, and one look is
  * at the number given to iso_indicators_begin. indicators.c has the conditions of the verdict, lib/doc/measured.md
@@ -55,7 +57,7 @@ typedef struct iso_indication {
     double per_turn, per_turn_error;     /* the largest exponent, per turn ...                                      */
     double exponent[ISO_CLOCKS];         /* ... and per unit of each clock                                          */
     double error[ISO_CLOCKS];            /* its error; NaN: the orbit is too short to know it                       */
-    double megno, megno_now, megno_mean; /* the limit if regular, else megno_mean; Y_n; the mean of Y_n          */
+    double megno, megno_now, megno_mean; /* the limit if regular and known, else megno_mean; Y_n; the mean of Y_n */
     double gali2;
     double digits; /* to which the means over the two halves agree                                            */
 } iso_indication;
