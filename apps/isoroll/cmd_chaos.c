@@ -164,8 +164,9 @@ static int draw(const shell *s)
     if (c->plane < 0)
         return finish(s->ctx,
                       iso_plot_indicators(s->ctx, &s->told->plot, s->title, c->trace[ISO_BALL], c->trace[ISO_POINT]));
-    complain("no picture: a rotation in a principal plane is periodic, and was not followed");
-    return EXIT_DONE;
+    return finish(s->ctx, iso_context_fail(s->ctx, ISO_BAD_INPUT, "",
+                                           "no picture: a rotation in a principal plane is periodic, and was not "
+                                           "followed; --starts N draws the section of its energy"));
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */

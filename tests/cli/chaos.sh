@@ -115,7 +115,12 @@ if has gnuplot pictures; then
     run 0 chaos chaotic.yaml --starts 30 --turns 300 --plot section.svg
     check "exponents" grep -q 'exponent per turn' section.svg
     run 0 chaos regular.yaml --starts 5 --turns 400 --plot none.svg
+    run 0 chaos plane.yaml --starts 5 --turns 400 --plot around.svg
+    check "the section around a rotation" grep -q 'exponent per turn' around.svg
 fi
+run 3 chaos plane.yaml --plot plane.svg
+says "no picture: a rotation in a principal plane"
+check_not "and no file" test -e plane.svg
 refuses 2 "must end in .svg" chaos chaotic.yaml --plot x.gif
 
 # --- where an additional integral is known, undecided orbits are not chaotic

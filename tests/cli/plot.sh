@@ -236,6 +236,12 @@ done
 refuses 2 "would be two files in one" plot bowl.csv -o look.svg --script look.svg
 refuses 5 "No such file" plot bowl.csv --columns t,n3 -o look.svg \
     --script absent/look.gp
+# Nobody reads the pipe: it is refused, before the work begins.
+mkfifo pipe
+timeout 60 "$isoroll" plot bowl.csv --columns t,n3 -o look.svg --script pipe >out 2>err
+check "nothing waits for the reader of a pipe" test $? -eq 5
+check "a script is no pipe" grep -q "cannot write 'pipe': it is not a regular file" err
+refuses 5 "cannot write 'pipe'" chaos absent.yaml --plot look.svg --script pipe
 
 # --- every table that a command writes: from its file, the picture of its kind
 scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml

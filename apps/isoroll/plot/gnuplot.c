@@ -66,11 +66,21 @@ static const format *find_format(const char *path)
     return NULL;
 }
 
-iso_status iso_gnuplot_check_format(iso_context *ctx, const char *path)
+/* A pipe would wait for its reader. */
+static iso_status check_regular(iso_context *ctx, const char *path)
 {
-    if (find_format(path)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "'%s': the name of a picture must end in .svg, .png or .pdf",
-                            path);
+    struct stat old;
+    if (stat(path, &old) != 0 || S_ISREG(old.st_mode)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot write '%s': it is not a regular file", path);
+}
+
+iso_status iso_gnuplot_check_files(iso_context *ctx, const iso_plot_page *page)
+{
+    if (!find_format(page->path))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
+                                "'%s': the name of a picture must end in .svg, .png or .pdf", page->path);
+    ISO_TRY(check_regular(ctx, page->path));
+    return page->script ? check_regular(ctx, page->script) : ISO_OK;
 }
 
 /* ---- The page ---- */
@@ -124,13 +134,10 @@ static void put_terminal(FILE *to, const format *f, const iso_plot_page *page, i
 
 /* ---- Opening ---- */
 
-static iso_status open_files(iso_context *ctx, const char *path)
+static iso_status open_files(iso_context *ctx, const iso_plot_page *page)
 {
-    struct stat old;
-    ISO_TRY(iso_gnuplot_check_format(ctx, path));
-    if (stat(path, &old) == 0 && !S_ISREG(old.st_mode))
-        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot write '%s': it is not a regular file", path);
-    ISO_TRY(iso_output_open(ctx, path, &g.output));
+    ISO_TRY(iso_gnuplot_check_files(ctx, page));
+    ISO_TRY(iso_output_open(ctx, page->path, &g.output));
     g.script = tmpfile();
     g.complaints = tmpfile();
     return g.script && g.complaints ? ISO_OK : iso_file_trouble(ctx, "open", "a temporary file");
@@ -142,7 +149,7 @@ FILE *iso_gnuplot_open(iso_context *ctx, const iso_plot_page *page, int width, i
     g.script = g.complaints = NULL;
     g.script_name = page->script;
     g.format = find_format(page->path);
-    g.status = open_files(ctx, page->path);
+    g.status = open_files(ctx, page);
     if (!g.script) return stdin; /* takes nothing */
     fprintf(g.script, "# Made by isoroll, for gnuplot 5.4: gnuplot -d SCRIPT >PICTURE%s\n", g.format->extension);
     put_terminal(g.script, g.format, page, width, height);

@@ -14,8 +14,9 @@
 #include "base/context.h"
 #include "plot/page.h"
 
-/* Whether a picture can have this name. Errors: ISO_BAD_ARGUMENT. */
-iso_status iso_gnuplot_check_format(iso_context *ctx, const char *path);
+/* Whether the picture and its script can have these names. Errors: ISO_BAD_ARGUMENT: none of a picture;
+ * ISO_FILE_TROUBLE: what has the name is no regular file. */
+iso_status iso_gnuplot_check_files(iso_context *ctx, const iso_plot_page *page);
 
 /* Begins a picture that is laid out on width x height pixels (plot/page.h). One at a time. Gives the script, never
  * NULL; what goes wrong, closing tells. */

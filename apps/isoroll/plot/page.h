@@ -36,7 +36,7 @@ typedef struct iso_plot_page {
 } iso_plot_page;
 
 /* Whether the picture can have this name, and whether there is one if there are wishes for it: to ask before the
- * work. Errors: ISO_BAD_ARGUMENT. */
+ * work. Errors: ISO_BAD_ARGUMENT; ISO_FILE_TROUBLE: what has its name, or the script's, is no regular file. */
 iso_status iso_plot_check_page(iso_context *ctx, const iso_plot_page *page);
 
 /* "over" or "window", if one is given: they are for sections. NULL: none is. */
