@@ -1,8 +1,11 @@
 /* isoroll explain - tells what would be simulated, and why. */
+#include <math.h>
+#include <stdlib.h>
+
 #include "say.h"
 #include "shell.h"
 #include "study/explain/explain_impl.h"
-#include "sweep_team.h"
+#include "sweep/sweep_impl.h"
 
 typedef struct options {
     iso_explain_request study;
@@ -14,11 +17,35 @@ static void print_text(const shell *s)
     say("%s", ((const iso_explanation *)s->result.found)->text);
 }
 
+static bool changes(const iso_scene_changes *c)
+{
+    return c->method || (int)c->backend >= 0 || (int)c->as >= 0 || !isnan(c->tolerance) || !isnan(c->end) ||
+           !isnan(c->step);
+}
+
+static int run_sweep(iso_context *ctx, const options *o)
+{
+    iso_sweep_file *file;
+    char *text;
+    iso_status status = changes(&o->study.change) ? iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
+                                                                     "explain: options are for scenes, not for a "
+                                                                     "sweep, whose scene has its own")
+                                                  : iso_sweep_read(ctx, o->shell.file, &file);
+    if (status != ISO_OK) return finish(ctx, status);
+    progress_begin();
+    status = iso_sweep_explain(ctx, file, &text);
+    progress_end();
+    if (status == ISO_OK) say("%s", text);
+    free(text);
+    iso_sweep_file_free(file);
+    return finish(ctx, status);
+}
+
 static int run(iso_context *ctx, const void *options_given)
 {
     static const shell_parts parts = {.study = &iso_explain_study, .change = shell_change, .print = print_text};
     const options *o = options_given;
-    return file_kind(o->shell.file, (char[ISO_KIND_SIZE]){0}) == FILE_SWEEP ? explain_sweep(ctx, o->shell.file)
+    return file_kind(o->shell.file, (char[ISO_KIND_SIZE]){0}) == FILE_SWEEP ? run_sweep(ctx, o)
                                                                             : shell_run(ctx, &parts, o, &o->shell);
 }
 

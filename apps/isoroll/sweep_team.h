@@ -22,7 +22,4 @@ typedef struct sweep_team {
 /* The command sweep as a member of a team. `options` are those of command_sweep. */
 int sweep_with(iso_context *ctx, const void *options, const sweep_team *team);
 
-/* sweep_explain.c: tells what a sweep computes and how long that takes. Gives the exit status. */
-int explain_sweep(iso_context *ctx, const char *path);
-
 #endif

@@ -190,6 +190,12 @@ ISO_API iso_status iso_foreign_list(iso_context *ctx, const char *topic, char te
 ISO_API iso_status iso_foreign_sweep(iso_context *ctx, const char *path, const char *text, size_t length, int threads,
                                      void (*progress)(double part, void *data), void *data, iso_record **record);
 
+/* What `isoroll explain` says of a sweep, in the line "text" of the record; for this a few points are computed. *record
+ * is NULL if there is no sweep: a scene, or no file that can be read more than once.
+ * Errors: those of iso_sweep_read and iso_sweep_create; ISO_STOPPED. */
+ISO_API iso_status iso_foreign_sweep_explain(iso_context *ctx, const char *path, const char *text, size_t length,
+                                             iso_record **record);
+
 /* --- records and files ------------------------------------------------------------------------------------------ */
 
 /* Reads a table of any kind (io/table.h), or a trajectory of another program: CSV, or HDF5 if the

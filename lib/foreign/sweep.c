@@ -1,9 +1,13 @@
-/* sweep.c - a whole sweep, as a table. Chunks end in any order; those that come early wait as bytes. */
+/* sweep.c - a whole sweep, as a table; and what it would take, in words. Chunks end in any order; those that come early wait as bytes. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 
+#include "base/record_impl.h"
 #include "foreign/foreign_impl.h"
+#include "io/text_impl.h"
+#include "sweep/sweep_impl.h"
 #include "sweep/sweep_store_impl.h"
 
 typedef struct packed {
@@ -110,5 +114,43 @@ iso_status iso_foreign_sweep(iso_context *ctx, const char *path, const char *tex
         *record = k.table;
     else
         iso_record_free(k.table);
+    return status;
+}
+
+/* --- in words --------------------------------------------------------------------------------------------------- */
+
+static iso_status explain(iso_context *ctx, const char *path, const char *text, size_t length, iso_record **record)
+{
+    iso_sweep_file *file;
+    char *words;
+    iso_status status = iso_sweep_parse(ctx, path, text, length, &file);
+    if (status != ISO_OK) return status;
+    status = iso_sweep_explain(ctx, file, &words);
+    iso_sweep_file_free(file);
+    if (status == ISO_OK) status = iso_record_create(ctx, 0, NULL, record);
+    if (status == ISO_OK) iso_record_set_kind(*record, "explain");
+    if (status == ISO_OK) status = iso_record_set(ctx, *record, "text", words);
+    free(words);
+    return status;
+}
+
+/* The text of a regular file; NULL: there is none that can be read. Who reads it next says why. */
+static char *load(iso_context *ctx, const char *path, size_t *length)
+{
+    struct stat s;
+    char *text;
+    if (stat(path, &s) != 0 || !S_ISREG(s.st_mode)) return NULL;
+    return iso_text_load(ctx, path, ISO_LARGEST_TEXT, &text, length) == ISO_OK ? text : NULL;
+}
+
+iso_status iso_foreign_sweep_explain(iso_context *ctx, const char *path, const char *text, size_t length,
+                                     iso_record **record)
+{
+    *record = NULL;
+    char *own = text ? NULL : load(ctx, path, &length);
+    if (own) text = own;
+    const bool is_sweep = text && iso_sweep_is_one(text, length);
+    const iso_status status = is_sweep ? explain(ctx, path, text, length, record) : ISO_OK;
+    free(own);
     return status;
 }

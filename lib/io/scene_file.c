@@ -12,7 +12,6 @@
 #include "io/text_impl.h"
 #include "orbit/orbit_impl.h"
 
-enum { LARGEST_FILE = 16 << 20 };
 
 /* ---- What must hold between keys ---- */
 
@@ -252,7 +251,7 @@ iso_status iso_scene_read(iso_context *ctx, const char *path, iso_scene *scene)
 {
     char *text;
     size_t length;
-    ISO_TRY(iso_text_load(ctx, path, LARGEST_FILE, &text, &length));
+    ISO_TRY(iso_text_load(ctx, path, ISO_LARGEST_TEXT, &text, &length));
     const iso_status status = iso_scene_parse(ctx, iso_text_name(path), text, length, scene);
     free(text);
     return status;

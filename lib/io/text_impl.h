@@ -7,7 +7,7 @@
 
 #include "base/context.h"
 
-enum { ISO_QUOTE_SIZE = 64 };
+enum { ISO_QUOTE_SIZE = 64, ISO_LARGEST_TEXT = 16 << 20 /* of scenes and sweeps */ };
 
 /* How messages call the file `path`: "<stdin>" for "-". */
 const char *iso_text_name(const char *path);

@@ -113,6 +113,10 @@ size_t iso_sweep_zeros_of_k(const iso_sweep_file *file);
  * same scene, to the bit. *text is the caller's to free. Errors: ISO_NO_MEMORY, and those of the point. */
 iso_status iso_sweep_scene_text(iso_context *ctx, const iso_sweep_file *file, size_t i, char **text);
 
+/* How many points it has, and how long it takes here, in words; for this a few points are computed. *text is the
+ * caller's to free. Errors: ISO_STOPPED, ISO_NO_MEMORY, and those of iso_sweep_create. */
+iso_status iso_sweep_explain(iso_context *ctx, const iso_sweep_file *file, char **text);
+
 /* Whether a text is a sweep, with mistakes in it or not: YAML that has a key `vary` or `measure` at its top. */
 bool iso_sweep_is_one(const char *text, size_t length);
 

@@ -17,6 +17,9 @@ run 0 explain flow.yaml
 check "a sweep in braces" grep -q '^  30 points' out
 sed 's/to: 0.8/to: 0.8x/' flow.yaml >wrong.yaml
 refuses 3 "wrong.yaml:1:" explain wrong.yaml
+for option in --backend=ball --method=taylor --tol=1e-9 --as=ball --t-end=3 --step=0.5; do
+    refuses 2 "options are for scenes" explain flow.yaml "$option"
+done
 
 # --- pictures; the script of gnuplot is kept in script.gp
 has gnuplot "pictures" || { finish && exit; }

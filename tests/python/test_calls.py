@@ -82,12 +82,20 @@ class Lists(Case):
         for name in ("a.csv", "a"):
             table.write(self.path(name))
             self.assertEqual(len(isoroll.read(self.path(name))), len(table))
-    def test_arguments_of_the_command_alone(self):
-        """Functions take what their commands take, but explain: of a sweep it measures times, for the command."""
-        with open(self.path("sweep.yaml"), "w", encoding="utf-8") as file:
-            file.write(f"scene: {WILD}\nvary: {{k: [0.5]}}\nmeasure: {{rotations: {{}}}}\n")
-        self.assertIn("rotations", self.command("explain", "sweep.yaml"))
-        self.refuses(isoroll.BadInput, "unknown key 'scene'", isoroll.explain, self.path("sweep.yaml"))
+    def test_a_sweep_is_explained(self):
+        """In the words of the command: a path, a text and a dict. Times differ from call to call."""
+        path, text = self.path("sweep.yaml"), f"scene: {WILD}\nvary: {{k: [0.5]}}\nmeasure: {{rotations: {{}}}}\n"
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        wanted = self.command("explain", "sweep.yaml")
+        self.assertIn("rotations", wanted)
+        for source in (path, text, {"scene": WILD, "vary": {"k": [0.5]}, "measure": {"rotations": {}}}):
+            told = isoroll.explain(source)
+            self.assertIsInstance(told, isoroll.Result)
+            without = [re.sub(r"(about )?[0-9.]+ (ms|s|minutes)\b", "TIME", str(x)) for x in (told, wanted)]
+            self.assertEqual(*without)
+        self.refuses(isoroll.BadArgument, "method is for scenes", isoroll.explain, path, method="taylor")
+        self.refuses(isoroll.BadInput, "<text>:2:", isoroll.explain, text.replace("[0.5]", "[x]"))
 
     def test_the_stub_is_new(self):
         with open(os.path.join(SOURCE, "apps/python/isoroll/_instruments.pyi"), encoding="utf-8") as file:

@@ -19,6 +19,7 @@ from ._files import as_table
 from ._kinds import Chaos, Comparison, Section
 from ._library import lib
 from ._study import NEEDS_RECORD, NEEDS_SCENE, STUDIES, Option, ask, docs, options_of
+from ._sweep import explained
 from ._table import Table, as_record, doubles
 
 _MOST_ROWS = 1e9  # of a section: more would fill the memory
@@ -119,6 +120,7 @@ _FORMS: Dict[Any, str] = {
     ("periodic", "level"): "a number", ("splitting", "k"): 'numbers, or a text such as "0.5:3:0.25,1/3"',
     ("splitting", "level"): "likewise"}
 _WORDS: Dict[Any, str] = {
+    ("explain", "scene"): "a path, YAML text, a dict or a Scene; or a sweep: how long it takes is told, without options",
     "at": "further orbits, which start at these (l, x)",
     ("check", "max"): "marks residuals that are larger, in the column above_the_bound",
     ("cost", "want"): "the lines `choice...` name the cheapest choice with an error of at most this"}
@@ -146,7 +148,7 @@ def _doc(study: str, signature: inspect.Signature) -> str:
         elif name == "progress":
             lines.append(fold(name, "True: a bar on stderr; a function that is called with the part that is done"))
         else:
-            words = _OF_RECORD.get(name) if "table" in signature.parameters else None
+            words = _OF_RECORD.get(name) if "table" in signature.parameters else _WORDS.get((study, name))
             lines.append(fold(name, words or _SUBJECTS[name]))
     returns = _RETURNS.get(study, (_first, "", "a Table."))[2]
     end = f"Returns {returns} After a failure or Ctrl-C, the exception's `partial` is what was found before."
@@ -191,6 +193,11 @@ def _make(study: str) -> Callable[..., Any]:
         given = {key: bound[key] for key in (*keywords, *bound)}  # as they are written, for the line `command`
         scene, progress, table = given.pop("scene", None), given.pop("progress", None), given.pop("table", None)
         columns = given.pop("columns", None)
+        told = explained(scene) if study == "explain" else None
+        if told is not None and given:
+            raise _errors.BadArgument(f"{next(iter(given))} is for scenes: explain takes a sweep without options")
+        if told is not None:
+            return told
         _points(given)
         _guard(study, given)
         record = None

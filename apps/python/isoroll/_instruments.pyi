@@ -294,7 +294,8 @@ def explain(
 ) -> Result:
     """Say what would be simulated and why, without doing it: `isoroll explain`.
 
-    scene            a path, YAML text, a dict or a Scene
+    scene            a path, YAML text, a dict or a Scene; or a sweep: how long it takes is told,
+                     without options
     backend          what computes the orbit: ball, point, exact, auto
     method           the integrator, or auto
     tol              largest relative error of one step, in [1e-15, 0.1]

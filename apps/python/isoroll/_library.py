@@ -89,6 +89,7 @@ _TABLE = {
     "iso_foreign_column": (c_bool, c_char_p, c_int, c_char_p, POINTER(c_char_p)),
     "iso_foreign_list": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, POINTER(c_size_t)),
     "iso_foreign_sweep": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, c_int, c_void_p, c_void_p, _OBJECT),
+    "iso_foreign_sweep_explain": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, _OBJECT),
     "iso_foreign_read": (c_int, c_void_p, c_char_p, c_char_p, _OBJECT) + _NOTES,
     "iso_foreign_write": (c_int, c_void_p, c_char_p, c_void_p, c_int, c_char_p),
     "iso_foreign_convert": (c_int, c_void_p, c_void_p, c_char_p, c_double, c_double, c_bool, _OBJECT) + _NOTES,

@@ -4,23 +4,46 @@ from __future__ import annotations
 
 import os
 from ctypes import byref
-from typing import Any, Mapping, Union
+from typing import Any, Mapping, Optional, Tuple, Union
 
 from . import _errors
 from ._kinds import Sweep
 from ._library import check, context, encoded, interruptible, lib, whole
 from ._scene import Scene
 from ._study import Progress, ProgressLike
-from ._table import from_record, new_record
+from ._table import Table, from_record, new_record
 from ._yaml import dump
+
+SweepLike = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 
 
 def _text(source: Mapping[str, Any]) -> bytes:
     return dump({key: value.sections if isinstance(value, Scene) else value for key, value in source.items()})
 
 
-def sweep(source: Union[str, "os.PathLike[str]", Mapping[str, Any]], *, threads: int = 0,
-          progress: ProgressLike = None) -> Sweep:
+def _named(source: SweepLike) -> Tuple[str, Optional[bytes]]:
+    """What messages call a sweep, and its text; None: it stands in the file of this name."""
+    if isinstance(source, Mapping):
+        return "<dict>", _text(source)
+    if isinstance(source, str) and "\n" in source:
+        return "<text>", source.encode("utf-8", "surrogateescape")
+    if isinstance(source, (str, os.PathLike)):
+        return os.fspath(source), None
+    raise TypeError(f"a sweep is a path, a text or a dict, not {type(source).__name__}")
+
+
+def explained(source: Any) -> Optional[Table]:
+    """What `isoroll explain` says of a sweep; None: this is no sweep."""
+    if not isinstance(source, (str, os.PathLike, Mapping)):
+        return None
+    (name, text), new, ctx = _named(source), new_record(), context()
+    with interruptible():
+        status = lib.iso_foreign_sweep_explain(ctx, encoded(name), text, len(text or b""), byref(new))
+    check(status, ctx)
+    return from_record(new) if new.value else None
+
+
+def sweep(source: SweepLike, *, threads: int = 0, progress: ProgressLike = None) -> Sweep:
     """Measures many scenes on all processors: `isoroll sweep`.
 
     source    the path of a sweep file (lib/doc/formats.md, section 7); a str with a newline: its text; a dict of its
@@ -35,14 +58,7 @@ def sweep(source: Union[str, "os.PathLike[str]", Mapping[str, Any]], *, threads:
     has a status that is not 0. After Ctrl-C, the exception's `partial` has the points that are done. A sweep that
     goes on after days, on many machines, is for the command: --resume, --shard, --merge.
     """
-    if isinstance(source, Mapping):
-        name, text = "<dict>", _text(source)
-    elif isinstance(source, str) and "\n" in source:
-        name, text = "<text>", source.encode("utf-8", "surrogateescape")
-    elif isinstance(source, (str, os.PathLike)):
-        name, text = os.fspath(source), None
-    else:
-        raise TypeError(f"a sweep is a path, a text or a dict, not {type(source).__name__}")
+    name, text = _named(source)
     new, ctx, shown = new_record(), context(), Progress(progress)
     kept: list[Any] = []
 

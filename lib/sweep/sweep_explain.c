@@ -1,4 +1,4 @@
-/* sweep_explain.c - tells how many points a sweep has, and measures what they cost here (see sweep_team.h). */
+/* sweep_explain.c - tells how many points a sweep has, and measures what they cost here. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,11 +7,7 @@
 #include "base/context_impl.h"
 #include "base/pool_impl.h"
 #include "base/seconds_impl.h"
-#include "options.h"
-#include "progress.h"
-#include "say.h"
 #include "sweep/sweep_impl.h"
-#include "sweep_team.h"
 
 /* Places of the sweep at which points are computed, how many of each, and for how long at most. A chaotic share is
  * measured with STARTS orbits where it asks for many more: its time grows with them. */
@@ -92,9 +88,7 @@ static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan,
     const double scale = take_few_starts(quantity, &one.request[0]);
     ISO_TRY(iso_sweep_create(ctx, &one, &sweep));
     iso_status status = iso_sweep_rows_create(ctx, iso_sweep_head_of(sweep)->columns, chunk, &rows);
-    progress_begin();
     if (status == ISO_OK) status = measure(ctx, sweep, &rows, &c);
-    progress_end();
     c.mean *= scale;
     c.most *= scale;
     if (status == ISO_OK) {
@@ -130,25 +124,26 @@ static iso_status explain_quantities(iso_context *ctx, const iso_sweep_plan *pla
 }
 
 /* The time first, which is what one asks for; then how it was found. */
-static void tell(const iso_sweep_file *file, const iso_sweep_head *head, double mean, const char *measured)
+static void tell(FILE *to, const iso_sweep_file *file, const iso_sweep_head *head, double mean, const char *measured)
 {
     const size_t processors = iso_pool_threads(0, SIZE_MAX - 1, 1);
     const double all = mean * (double)head->count;
     char words[ISO_SWEEP_WORDS];
-    say("time\n  about ");
-    print_time(say_to(), all);
-    say(" of processor time; here, with %zu threads, about ", processors);
-    print_time(say_to(), all / (double)processors);
-    say("\n  a chunk takes about ");
-    print_time(say_to(), mean * (double)iso_sweep_chunk_points(head, 0));
-    say("\n  a file of about %.3g MB\n", ((double)head->columns + 0.5) * 8e-6 * (double)head->count);
-    say("\nsweep\n  %zu points in %zu chunks of %zu; %d columns; vectors %s\n", head->count, iso_sweep_chunks(head),
-        head->chunk, head->columns, head->vectors);
-    for (int i = 0; iso_sweep_axis_words(file, i, words); i++) say("  %s\n", words);
-    say("\nmeasured\n%s", measured);
+    fprintf(to, "time\n  about ");
+    print_time(to, all);
+    fprintf(to, " of processor time; here, with %zu threads, about ", processors);
+    print_time(to, all / (double)processors);
+    fprintf(to, "\n  a chunk takes about ");
+    print_time(to, mean * (double)iso_sweep_chunk_points(head, 0));
+    fprintf(to, "\n  a file of about %.3g MB\n", ((double)head->columns + 0.5) * 8e-6 * (double)head->count);
+    fprintf(to, "\nsweep\n  %zu points in %zu chunks of %zu; %d columns; vectors %s\n", head->count,
+            iso_sweep_chunks(head), head->chunk, head->columns, head->vectors);
+    for (int i = 0; iso_sweep_axis_words(file, i, words); i++) fprintf(to, "  %s\n", words);
+    fprintf(to, "\nmeasured\n%s", measured);
 }
 
-static iso_status explain(iso_context *ctx, const iso_sweep_file *file)
+/* All words, into `to`. */
+static iso_status explain(iso_context *ctx, const iso_sweep_file *file, FILE *to)
 {
     const iso_sweep_plan *plan = iso_sweep_file_plan(file);
     iso_sweep *sweep;
@@ -156,23 +151,27 @@ static iso_status explain(iso_context *ctx, const iso_sweep_file *file)
     char *measured = NULL;
     size_t size;
     ISO_TRY(iso_sweep_create(ctx, plan, &sweep));
-    const iso_sweep_head head = *iso_sweep_head_of(sweep);
-    FILE *to = open_memstream(&measured, &size);
+    const iso_sweep_head *head = iso_sweep_head_of(sweep);
+    FILE *parts = open_memstream(&measured, &size);
     iso_status status =
-        to ? explain_quantities(ctx, plan, head.chunk, to, &mean) : iso_context_no_memory(ctx, "words");
-    if (to && fclose(to) != 0 && status == ISO_OK) status = iso_context_no_memory(ctx, "words");
-    if (status == ISO_OK) tell(file, &head, mean, measured);
+        parts ? explain_quantities(ctx, plan, head->chunk, parts, &mean) : iso_context_no_memory(ctx, "words");
+    if (parts && fclose(parts) != 0 && status == ISO_OK) status = iso_context_no_memory(ctx, "words");
+    if (status == ISO_OK) tell(to, file, head, mean, measured);
     free(measured);
     iso_sweep_free(sweep);
     return status;
 }
 
-int explain_sweep(iso_context *ctx, const char *path)
+iso_status iso_sweep_explain(iso_context *ctx, const iso_sweep_file *file, char **text)
 {
-    iso_sweep_file *file;
-    iso_status status = iso_sweep_read(ctx, path, &file);
-    if (status != ISO_OK) return finish(ctx, status);
-    status = explain(ctx, file);
-    iso_sweep_file_free(file);
-    return finish(ctx, status);
+    size_t size;
+    *text = NULL;
+    FILE *to = open_memstream(text, &size);
+    if (!to) return iso_context_no_memory(ctx, "words");
+    iso_status status = explain(ctx, file, to);
+    if (fclose(to) != 0 && status == ISO_OK) status = iso_context_no_memory(ctx, "words");
+    if (status == ISO_OK) return ISO_OK;
+    free(*text);
+    *text = NULL;
+    return status;
 }
