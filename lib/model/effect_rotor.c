@@ -2,7 +2,7 @@
  *
  *     J w' = (J w + K) x w + lambda n:     MQ = K x w,  which does no work
  *
- * On the point it is a magnetic field normal to the sphere, for every k and J (section 10 of theory):
+ * On the point it is a magnetic field normal to the sphere, for every k and J (section 7 of lib/doc/theory.md):
  *
  *     M' = gamma x dV/dgamma + B gamma',     B = (sqrt(det J)/k^2) q^(-1 - 1/(2k)) (J^(1/2) K, gamma)
  *

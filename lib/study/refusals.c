@@ -123,7 +123,7 @@ iso_status iso_refuse_starts(iso_context *ctx, const iso_orbit *orbit, const iso
     if (effect)
         return ISO_FAIL_INPUT(ctx, effect->name,
                               "no other starts can be given here: the section has a chart only where nothing acts "
-                              "but a level and a rotor, without '%s'",
+                              "but a level or a magnetic field, without '%s'",
                               effect->name);
     for (size_t i = 0; i < count; i++)
         if (check_at(ctx, orbit, axis, at[i]) != ISO_OK) return ISO_BAD_INPUT;
