@@ -26,14 +26,13 @@
 #endif
 
 /* Every method of the library, in the order in which lists show them. */
-#define ISO_METHOD_LIST(X)                                                                                           \
-    X(adams)                                                                                                         \
-    X(bdf) /* sundials.c */                                                                                          \
-        X(heun_euler) X(bogacki_shampine) X(ark324) X(zonneveld) X(ark436) X(ark437) X(sayfy_aburub) X(cash_karp)    \
-            X(fehlberg45) X(dormand_prince) X(ark548) X(ark548b) X(verner) X(fehlberg78) /* sundials.c */            \
-        X(rk4) X(rkf45) X(rkck) X(rk8pd) X(msadams) X(msbdf) X(bsimp)                    /* gsl.c    */              \
-        X(taylor) X(taylor_extended) ISO_QUAD(X)                                         /* taylor.c */              \
-        X(strang) X(blanes_moan4) X(blanes_moan6) X(kahan_li8) X(sofroniou_spaletta10)   /* symplectic.c */
+#define ISO_METHOD_LIST(X)                                                                                         \
+    X(adams) X(bdf)                                                                           /* sundials.c */     \
+    X(heun_euler) X(bogacki_shampine) X(ark324) X(zonneveld) X(ark436) X(ark437) X(sayfy_aburub)                   \
+    X(cash_karp) X(fehlberg45) X(dormand_prince) X(ark548) X(ark548b) X(verner) X(fehlberg78) /* sundials.c */     \
+    X(rk4) X(rkf45) X(rkck) X(rk8pd) X(msadams) X(msbdf) X(bsimp)                             /* gsl.c    */       \
+    X(taylor) X(taylor_extended) ISO_QUAD(X)                                                  /* taylor.c */       \
+    X(strang) X(blanes_moan4) X(blanes_moan6) X(kahan_li8) X(sofroniou_spaletta10)        /* symplectic.c */
 
 /* From this stiffness on bdf needs less time than bsimp, which is more exact below it. */
 enum { ISO_VERY_STIFF = 1000 };

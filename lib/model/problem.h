@@ -25,11 +25,11 @@ typedef struct iso_effects {
 
 typedef struct iso_problem {
     iso_params p;
-    double eps;    /* coupling of the point's potential, (24); 0 for the ball      */
-    double energy; /* the energy of the orbit: h of the ball, H of the point       */
+    double eps;          /* coupling of the point's potential, (24); 0 for the ball      */
+    double energy;       /* the energy of the orbit: h of the ball, H of the point       */
     iso_effects effects;
-    int at[ISO_EFFECTS];        /* where in the state those of an effect begin; 0: it has none  */
-    iso_formula motion;         /* the equations of the effects on the ball ...                 */
+    int at[ISO_EFFECTS]; /* where in the state those of an effect begin; 0: it has none  */
+    iso_formula motion;  /* the equations of the effects on the ball ...                 */
     iso_formula energy_formula; /* ... and their potential; of the point, their image    */
 } iso_problem;
 
