@@ -265,16 +265,22 @@ static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *v
     return read_section(d, &with_keys, value);
 }
 
+/* The i-th name that an effect has in scenes: first those of all effects, then those for a point; NULL past the last. */
+static const char *effect_key(int i, iso_effect_id *id)
+{
+    if (i < ISO_EFFECTS) return *id = (iso_effect_id)i, iso_effect_list[i]->name;
+    i -= ISO_EFFECTS;
+    for (*id = 0; *id < ISO_EFFECTS; ++*id)
+        if (iso_effect_list[*id]->point_name && i-- == 0) return iso_effect_list[*id]->point_name;
+    return NULL;
+}
+
 static iso_status read_effects(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     entry effects[2 * ISO_EFFECTS + 1] = {{0}};
     const entry with_effects = {e->name, .section = effects};
-    int count = 0;
-    for (iso_effect_id i = 0; i < ISO_EFFECTS; i++)
-        effects[count++] = (entry){iso_effect_list[i]->name, read_effect, .effect = i};
-    for (iso_effect_id i = 0; i < ISO_EFFECTS; i++)
-        if (iso_effect_list[i]->point_name)
-            effects[count++] = (entry){iso_effect_list[i]->point_name, read_effect, .effect = i};
+    iso_effect_id id;
+    for (int i = 0; effect_key(i, &id); i++) effects[i] = (entry){effect_key(i, &id), read_effect, .effect = id};
     return read_section(d, &with_effects, value);
 }
 
@@ -341,10 +347,11 @@ iso_status iso_draft_read_keys(iso_draft *d)
 bool iso_scene_key(int i, const char **section, const char **key)
 {
     for (const entry *e = scene_keys; e->name; e++) {
-        int keys = e->section ? 0 : ISO_EFFECTS;
-        while (e->section && e->section[keys].name) keys++;
+        int keys = 0;
+        iso_effect_id id;
+        while (e->section ? e->section[keys].name : effect_key(keys, &id)) keys++;
         *section = e->name;
-        if (i < keys) return *key = e->section ? e->section[i].name : iso_effect_list[i]->name, true;
+        if (i < keys) return *key = e->section ? e->section[i].name : effect_key(i, &id), true;
         i -= keys;
     }
     return false;
