@@ -83,6 +83,12 @@ if has gnuplot "mirror images"; then
     check "more mirrors, more images" awk 'NR > 1 && $1 < 1.5 * last { exit 1 } { last = $1 }' counts
 fi
 
+sed 's/^effects.*//' scene.yaml >free.yaml
+run 0 periodic free.yaml --period 1 -o orbits.csv
+if has gnuplot "what is drawn over a section"; then
+    refuses 3 "the section must be of a free ball" plot section.csv --over orbits.csv -o over.svg
+fi
+
 # --- a sweep over K
 cat >sweep.yaml <<END
 scene: scene.yaml

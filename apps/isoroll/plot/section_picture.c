@@ -52,6 +52,7 @@ iso_status section_picture_create(iso_context *ctx, const iso_record *header, se
     const bool level = iso_effects_have_level(&f.effects);
     p->plot.eps = eps && !iso_effects_off_chart(&f.effects) ? strtod(eps, NULL) : 0; /* else L is not G(l) x */
     p->plot.energy = level ? iso_coupling(&p->params, iso_effects_level(&f.effects)) : 0;
+    p->plot.alone = p->plot.eps > 0 && iso_effects_are_free(&f.effects);
     if (p->plot.eps > 0) p->reversors = iso_section_reversors(&f, p->plot.axis);
     ISO_TRY(iso_record_create(ctx, COLUMNS, names, &p->kept));
     ISO_TRY(iso_record_create(ctx, 2, &names[L], &p->first));

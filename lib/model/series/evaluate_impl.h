@@ -143,8 +143,9 @@ static inline void result_line(const iso_formula_line *l, const nodes *t, int c,
     case ISO_R_SCALAR_RATE:
         t->scalar[l->to * t->kept + i + 1] = factor * t->inverse[n + 1] * t->scalar[l->b * t->kept + i];
         break;
-    case ISO_R_MAGNETIC: t->magnetic[i] += factor * t->scalar[l->b * t->kept + i]; break;
-    default: add_to_potential(t, factor * t->scalar[l->b * t->kept + i], i); break;
+    case ISO_R_ENERGY:
+    case ISO_R_POTENTIAL: add_to_potential(t, factor * t->scalar[l->b * t->kept + i], i); break;
+    default: t->magnetic[i] += factor * t->scalar[l->b * t->kept + i]; break; /* ISO_R_MAGNETIC */
     }
 }
 
