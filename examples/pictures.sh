@@ -1,5 +1,5 @@
 #!/bin/sh
-# pictures.sh BUILD - draws the pictures of examples/README.md: examples/NN_name/picture.svg (.png of 16 and 22), lane.svg of
+# pictures.sh BUILD - draws the pictures of examples/README.md: examples/NN_name/picture.svg (.png of 16, 20 and 22), lane.svg of
 # 01, cost.svg of 02, and orbit.svg of 16.
 #     cmake -S . -B .build/release && cmake --build .build/release -j 2 && sh examples/pictures.sh .build/release
 # BUILD is a folder that cmake has built, with the tests. Times and steps are shortened to keep the files small.
@@ -66,6 +66,9 @@ section=16_sections
     2>"$work/out"
 "$isoroll" section $section/integrable.yaml --starts 40 --crossings 300 -o "$work/tame.csv" \
     --plot $section/integrable.png 2>"$work/out"
+
+"$isoroll" section 20_rotor/scene.yaml --starts 60 --crossings 300 -o "$work/rotor.csv" --plot 20_rotor/picture.png \
+    2>"$work/out"
 
 # what is in its chaos: periodic orbits, and the curves of the unstable rotation
 "$isoroll" periodic $section/scene.yaml --period 4 -o "$work/orbits.csv" >"$work/out"

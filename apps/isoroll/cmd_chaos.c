@@ -148,7 +148,7 @@ static iso_status describe(shell *s)
                {.key = "exponent_turns", .number = (double)how->exponent_turns},
                {.key = "starts", .number = (double)how->starts},
                {.key = "seed", .number = (double)how->seed},
-               {.key = "axis", .number = c->axis + 1},
+               {.key = "axis", .number = c->chart + 1},
                {.key = "tolerance", .number = isnan(how->tolerance) ? s->scene.tolerance : how->tolerance},
                {.key = "starts_tolerance", .number = part->tolerance},
                {.key = "orbit 0", .text = "the scene's own; l and x are nan: it need not start on the section"},

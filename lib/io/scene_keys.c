@@ -11,7 +11,7 @@
 #include "orbit/orbit_impl.h"
 
 enum { MAX_KEYS = 32, MAX_METHODS = 64, EFFECT_KEYS = ISO_EFFECT_NUMBERS + 2 };
-_Static_assert((int)MAX_KEYS >= (int)ISO_EFFECTS && (int)MAX_KEYS >= (int)EFFECT_KEYS, "room for all names");
+_Static_assert((int)MAX_KEYS >= 2 * (int)ISO_EFFECTS && (int)MAX_KEYS >= (int)EFFECT_KEYS, "room for all names");
 
 /* One key that a mapping may have: what reads its value, and where in the draft the value goes. */
 typedef struct entry {
@@ -251,6 +251,12 @@ static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *v
     entry keys[EFFECT_KEYS] = {{0}};
     const entry with_keys = {e->name, .section = keys};
     int count = 0;
+    if (strcmp(e->name, effect->name) != 0 && !iso_yaml_find(&d->yaml, d->root, "point", NULL, NULL))
+        return ISO_FAIL_AT(d, d->key, "'%s' is for a point: a ball has '%s'", e->name, effect->name);
+    if (d->scene.effects.on[e->effect])
+        return ISO_FAIL_AT(d, d->key, "'%s' and '%s' are the same effect: give one of them", effect->name,
+                           effect->point_name);
+    if (strcmp(e->name, effect->name) != 0) note_place(&d->scene, effect->name, value->start_mark);
     for (const iso_effect_number *n = effect->numbers; n && n->name && count < ISO_EFFECT_NUMBERS; n++)
         keys[count++] =
             (entry){n->name, read_effect_number, .required = n->required, .effect = e->effect, .number = n};
@@ -259,12 +265,22 @@ static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *v
     return read_section(d, &with_keys, value);
 }
 
+/* The i-th name that an effect has in scenes: first those of all effects, then those for a point; NULL past the last. */
+static const char *effect_key(int i, iso_effect_id *id)
+{
+    if (i < ISO_EFFECTS) return *id = (iso_effect_id)i, iso_effect_list[i]->name;
+    i -= ISO_EFFECTS;
+    for (*id = 0; *id < ISO_EFFECTS; ++*id)
+        if (iso_effect_list[*id]->point_name && i-- == 0) return iso_effect_list[*id]->point_name;
+    return NULL;
+}
+
 static iso_status read_effects(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    entry effects[ISO_EFFECTS + 1] = {{0}};
+    entry effects[2 * ISO_EFFECTS + 1] = {{0}};
     const entry with_effects = {e->name, .section = effects};
-    for (iso_effect_id i = 0; i < ISO_EFFECTS; i++)
-        effects[i] = (entry){iso_effect_list[i]->name, read_effect, .effect = i};
+    iso_effect_id id;
+    for (int i = 0; effect_key(i, &id); i++) effects[i] = (entry){effect_key(i, &id), read_effect, .effect = id};
     return read_section(d, &with_effects, value);
 }
 
@@ -331,10 +347,11 @@ iso_status iso_draft_read_keys(iso_draft *d)
 bool iso_scene_key(int i, const char **section, const char **key)
 {
     for (const entry *e = scene_keys; e->name; e++) {
-        int keys = e->section ? 0 : ISO_EFFECTS;
-        while (e->section && e->section[keys].name) keys++;
+        int keys = 0;
+        iso_effect_id id;
+        while (e->section ? e->section[keys].name : effect_key(keys, &id)) keys++;
         *section = e->name;
-        if (i < keys) return *key = e->section ? e->section[i].name : iso_effect_list[i]->name, true;
+        if (i < keys) return *key = e->section ? e->section[i].name : effect_key(i, &id), true;
         i -= keys;
     }
     return false;
@@ -369,12 +386,15 @@ static void list_section(listing *l, const entry *section, const yaml_node_t *ma
     }
 }
 
-static void list_effect(listing *l, iso_effect_id id, const yaml_node_t *mapping)
+/* `name`: its own, or that for a point. */
+static void list_effect(listing *l, iso_effect_id id, const char *name, const yaml_node_t *effects)
 {
     const iso_effect *effect = iso_effect_list[id];
+    const yaml_node_t *mapping;
+    if (!name || !iso_yaml_find(&l->d->yaml, effects, name, NULL, &mapping)) return;
     for (const iso_effect_number *n = effect->numbers; n && n->name; n++)
         if (n->kind != ISO_NUMBER_FLAG)
-            list_one(l, effect->name, n->name, n->count, iso_effect_values(&l->d->scene.effects, id, n), mapping);
+            list_one(l, name, n->name, n->count, iso_effect_values(&l->d->scene.effects, id, n), mapping);
 }
 
 int iso_draft_numbers(iso_draft *d, int most, iso_draft_number list[])
@@ -384,8 +404,9 @@ int iso_draft_numbers(iso_draft *d, int most, iso_draft_number list[])
     for (const entry *e = scene_keys; e->name; e++)
         if (e->section && iso_yaml_find(&d->yaml, d->root, e->name, NULL, &mapping)) list_section(&l, e, mapping);
     if (iso_yaml_find(&d->yaml, d->root, "effects", NULL, &effects))
-        for (iso_effect_id i = 0; i < ISO_EFFECTS; i++)
-            if (iso_yaml_find(&d->yaml, effects, iso_effect_list[i]->name, NULL, &mapping))
-                list_effect(&l, i, mapping);
+        for (iso_effect_id i = 0; i < ISO_EFFECTS; i++) {
+            list_effect(&l, i, iso_effect_list[i]->name, effects);
+            list_effect(&l, i, iso_effect_list[i]->point_name, effects);
+        }
     return l.count;
 }

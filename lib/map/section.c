@@ -9,6 +9,7 @@
 #include "base/vec3_impl.h"
 #include "map/quarter_impl.h"
 #include "map/section_impl.h"
+#include "model/effects_impl.h"
 
 int iso_section_axis(iso_point_motion m)
 {
@@ -91,6 +92,18 @@ void iso_section_chart(int axis, const double point[ISO_STATE], double *l, doubl
     *x = M[axis] / norm(M);
 }
 
+unsigned iso_section_reversors(const iso_problem *f, int axis)
+{
+    unsigned holds = 0;
+    for (int i = 0; i < 3; i++) { /* S1 keeps gamma_b and gamma_c, S2 turns gamma_c over, S3 turns gamma_b over */
+        double sign[3] = {1, 1, 1};
+        sign[axis] = -1;
+        if (i > 0) sign[(axis + 3 - i) % 3] = -1;
+        if (iso_effects_reversible(f, sign)) holds |= 1u << i;
+    }
+    return holds;
+}
+
 /* G'/G = -(q'/(2 k q)) (2 eps q^(-1/k)/G^2), and this last factor is 1 - 2 E/G^2 */
 void iso_section_deviations(iso_point_motion m, int axis, double l, double x, double by_l[ISO_STATE],
                             double by_x[ISO_STATE])
@@ -113,24 +126,12 @@ void iso_section_deviations(iso_point_motion m, int axis, double l, double x, do
     by_x[3 + b] = by_x[3 + c] = by_l[3 + axis] = by_x[3 + axis] = 0;
 }
 
-/* (24) */
-static void flow(const iso_params *p, double eps, const double point[ISO_STATE], double rate[ISO_STATE])
-{
-    const double *M = point, *gamma = point + 3;
-    double J_gamma[3];
-    diag(p->J, gamma, J_gamma);
-    cross(gamma, J_gamma, rate);
-    scale(rate, 2 * eps / p->k * pow(dot(gamma, J_gamma), -1 - 1 / p->k));
-    cross(gamma, M, rate + 3);
-}
-
-void iso_section_slope(iso_point_motion m, int axis, const double point[ISO_STATE], const double deviation[ISO_STATE],
-                       double slope[2])
+void iso_section_slope(int axis, const double point[ISO_STATE], const double rate[ISO_STATE],
+                       const double deviation[ISO_STATE], double slope[2])
 {
     int b, c;
     sides(axis, &b, &c);
-    double rate[ISO_STATE], d[ISO_STATE];
-    flow(m.p, m.eps, point, rate);
+    double d[ISO_STATE];
     const double ahead = deviation[3 + axis] / rate[3 + axis];
     for (int i = 0; i < ISO_STATE; i++) d[i] = deviation[i] - ahead * rate[i];
     const double *M = point, *gamma = point + 3, size = norm(M), x = M[axis] / size;

@@ -24,9 +24,9 @@ void iso_section_deviations(iso_point_motion m, int axis, double l, double x, do
 
 /* slope = (dl, dx) of a deviation (dM, dgamma) of the crossing `point`. The neighbouring orbit starts at
  * point + deviation. It is followed along the flow until it crosses the section, and (l, x) is taken there, all to
- * first order. So a part of the deviation along the flow changes nothing. */
-void iso_section_slope(iso_point_motion m, int axis, const double point[ISO_STATE], const double deviation[ISO_STATE],
-                       double slope[2]);
+ * first order. So a part of the deviation along the flow changes nothing. rate: (M', gamma') at `point`, by any clock. */
+void iso_section_slope(int axis, const double point[ISO_STATE], const double rate[ISO_STATE],
+                       const double deviation[ISO_STATE], double slope[2]);
 
 /* The closest bounds W[0] <= W <= W[1] for all gamma where the point can be. If W^2 is 0 or less anywhere, W[0] is
  * 0. By Sturm's comparison two successive crossings are at least 2 pi/W[1] and at most 2 pi/W[0] apart
@@ -40,6 +40,10 @@ bool iso_section_is_global(iso_point_motion m, int axis);
 /* G(l): the largest |L| at l; 0 where the point cannot be. The derivative of the return map in (l, x) has the
  * determinant G(l)/G(l'), where l' is that of the image. */
 double iso_section_momentum(iso_point_motion m, int axis, double l);
+
+/* Which reversors the return map of a problem has, S f S = f^-1: bit 0 for S1 (l, x) -> (l, -x), bit 1 for S2 (-l, x),
+ * bit 2 for S3 (pi - l, x). Each is the motion backwards in time, in a mirror. The free ball has all of them. */
+unsigned iso_section_reversors(const iso_problem *f, int axis);
 
 /* Points spread evenly over the section by the area dL dl. For every N, the first N points leave smaller holes than N
  * random points. They do not depend on eps.

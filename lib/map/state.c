@@ -13,15 +13,6 @@ void iso_ball_to_point_t(const iso_params *p, const double ball[ISO_STATE], doub
     make_unit(y + 3);
 }
 
-void iso_point_t_to_ball(const iso_params *p, const double y[ISO_STATE], double ball[ISO_STATE])
-{
-    for (int i = 0; i < 3; i++) {
-        ball[i] = y[i] / p->root_J[i];
-        ball[3 + i] = p->root_J[i] * y[3 + i];
-    }
-    make_unit(ball + 3);
-}
-
 void iso_ball_to_point(const iso_params *p, const double ball[ISO_STATE], double point[ISO_STATE])
 {
     iso_ball_to_point_t(p, ball, point);

@@ -137,6 +137,14 @@ static bool has_room(const iso_model *model, char why[ISO_WHY_SIZE])
     return !too_large;
 }
 
+static bool splits_well(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
+{
+    if (!method->splits || !model->problem.energy_formula.magnetic) return true;
+    snprintf(why, ISO_WHY_SIZE, "splits into flows of M^2/2 and of a potential, and '%s' is a magnetic field",
+             iso_effects_magnetic(&model->problem)->name);
+    return false;
+}
+
 /* Steps of one length in s suit no potential that spans many decades. For k = -1 it is a quadratic form, and spans
  * none. */
 static bool has_even_steps(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
@@ -154,5 +162,5 @@ static bool has_even_steps(const iso_method *method, const iso_model *model, cha
 bool iso_method_serves(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
 {
     return has_system(method, model, why) && has_room(model, why) && has_formulas(method, model, why) &&
-           has_even_steps(method, model, why);
+           splits_well(method, model, why) && has_even_steps(method, model, why);
 }

@@ -73,6 +73,7 @@ typedef struct iso_method {
     bool implicit;            /* solves with the Jacobian, for stiff models: every effect must have its slopes  */
     bool own_equations;       /* has a form of its own of the equations of motion, and does not call model.rhs  */
     bool steps_in_s;          /* all its steps have one length in the clock s, whatever the model's clock is    */
+    bool splits;              /* its flows are those of M^2/2 and of a potential: no magnetic field fits in      */
     const iso_system *system; /* the only system it serves; NULL: every one                               */
     const char *system_why;   /* why only that one                                                        */
 

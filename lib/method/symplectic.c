@@ -172,9 +172,9 @@ static inline void kick(const iso_model *m, bool clocks, double h, state *z)
     double push[3] = {a * ((J[2] - J[1]) * (gamma[1] * gamma[2])), a * ((J[0] - J[2]) * (gamma[2] * gamma[0])),
                       a * ((J[1] - J[0]) * (gamma[0] * gamma[1]))};
     if (m->problem.energy_formula.lines > 0) {
-        double dV[3], T[3];
-        iso_formula_image(&m->problem.energy_formula, p, z->y, dV);
-        cross(gamma, dV, T);
+        double T[3];
+        const iso_image image = iso_formula_image(&m->problem.energy_formula, p, z->y);
+        cross(gamma, image.gradient, T);
         add_scaled(push, h, T);
     }
     add3(z->y, z->rest, push);
@@ -391,7 +391,7 @@ static void recall(iso_integrator *it, const void *from, double y[])
 }
 
 #define METHOD                                                                                                       \
-    .family = "splitting", .own_equations = true, .system = &iso_system_point,                                       \
+    .family = "splitting", .own_equations = true, .splits = true, .system = &iso_system_point,                       \
     .system_why = "only its equations split into flows that are known exactly", .steps_in_s = true, .fixed = true,   \
     .create = create, .start = start, .step = step, .dense = dense, .save = save, .recall = recall, .free = release
 #define SPLITTING(id, order_, variant_, doc_)                                                                        \

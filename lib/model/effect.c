@@ -103,6 +103,8 @@ FIRST(bool, iso_effects_need_D, next_on, effect->needs_D)
 FIRST(bool, iso_effects_need_radius, next_on, effect->needs_radius)
 FIRST(bool, iso_effects_have_image, next_acting, effect->image)
 FIRST(bool, iso_effects_pull, next_acting, effect->potential)
+FIRST(const iso_effect *, iso_effects_off_chart, next_acting,
+      !effect->is_level && (effect->potential || !effect->image))
 
 bool iso_effects_are_free(const iso_effects *effects)
 {
@@ -126,6 +128,15 @@ bool iso_effects_keep(const iso_problem *f, iso_additional integral)
     for (int e = 0; (effect = next_acting(&f->effects, &e));)
         keep = keep && effect->keeps && effect->keeps(f, integral);
     return keep;
+}
+
+bool iso_effects_reversible(const iso_problem *f, const double sign[3])
+{
+    const iso_effect *effect;
+    bool holds = true;
+    for (int e = 0; (effect = next_acting(&f->effects, &e));)
+        holds = holds && effect->reversible && effect->reversible(f, sign);
+    return holds;
 }
 
 static iso_work work_of(const iso_problem *f, const iso_effect *effect)
@@ -257,6 +268,18 @@ void iso_effects_record_image(const iso_problem *f, iso_formula *F)
     finish_formula(f, F);
 }
 
+const iso_effect *iso_effects_magnetic(const iso_problem *f)
+{
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        iso_formula F;
+        if (!iso_effect_acts(&f->effects, e) || !iso_effect_list[e]->image) continue;
+        iso_formula_begin(&F, ISO_FORMULA_IMAGE, false);
+        iso_effect_list[e]->image(&F, f);
+        if (F.magnetic) return iso_effect_list[e];
+    }
+    return NULL;
+}
+
 /* --- sums ------------------------------------------------------------------------------------------------------- */
 
 void iso_effects_torque(const iso_problem *f, const double y[], double T[3], double dy[])
@@ -290,10 +313,10 @@ double iso_effects_potential(const iso_problem *f, const double y[])
 double iso_effects_image(const iso_problem *f, const double y[])
 {
     if (iso_effects_none(&f->effects)) return 0;
-    if (f->energy_formula.kind == ISO_FORMULA_IMAGE) return iso_formula_image(&f->energy_formula, &f->p, y, NULL);
+    if (f->energy_formula.kind == ISO_FORMULA_IMAGE) return iso_formula_image(&f->energy_formula, &f->p, y).potential;
     iso_formula F;
     iso_effects_record_image(f, &F);
-    return iso_formula_image(&F, &f->p, y, NULL);
+    return iso_formula_image(&F, &f->p, y).potential;
 }
 
 /* The largest number that a function of the rows gives; 0: none has the function. */
@@ -341,15 +364,21 @@ bool iso_effects_at_rest(const iso_problem *f, const double y[])
     return largest(y) < ISO_REST && only_resisted(f);
 }
 
+const iso_integral *iso_effect_integrals(const iso_effect *effect, const iso_system *system)
+{
+    return system == &iso_system_ball    ? effect->integrals
+           : system == &iso_system_point ? effect->image_integrals
+                                         : NULL;
+}
+
 int iso_integrals_holding(const iso_system *system, const iso_problem *f, const iso_integral *list[], int most)
 {
     const iso_effect *effect;
     int count = 0;
     for (const iso_integral *i = system->integrals; i->name && count < most; i++)
         if (!i->holds || i->holds(f)) list[count++] = i;
-    if (system != &iso_system_ball) return count;
     for (int e = 0; (effect = next_on(&f->effects, &e));)
-        for (const iso_integral *i = effect->integrals; i && i->name; i++)
+        for (const iso_integral *i = iso_effect_integrals(effect, system); i && i->name; i++)
             if ((!i->holds || i->holds(f)) && count < most) list[count++] = i;
     return count;
 }

@@ -11,6 +11,7 @@
  *     level               2 c g^(-1/k - 1) n x J^-1 n           none            kept, H = c det J/k^2
  *     twist               -c (omega,n) n, contact not rigid     lambda, stiff   lost
  *     rolling_resistance  -c_r omega                            none            lost
+ *     rotor               K x omega                             none            kept, a magnetic field
  *     attitude            none                                  Q (4), x (3)    kept
  *     reactions           none                                  none            kept
  *     clock               none                                  none            kept
@@ -87,6 +88,7 @@ typedef enum iso_additional { ISO_F_PLANE, ISO_F_SHELL, ISO_F_AXIS1, ISO_F_AXIS2
 
 typedef struct iso_effect {
     const char *name, *doc;
+    const char *point_name; /* what a scene of a point calls it; NULL: the same                            */
 
     /* --- what it means --- */
     bool observes; /* it changes nothing in the motion: it only adds states or columns                   */
@@ -102,6 +104,9 @@ typedef struct iso_effect {
     iso_work (*work)(const iso_problem *f); /* NULL: unknown; for an observer: none            */
     /* Whether an additional integral holds with it. NULL: none does; an observer keeps all. */
     bool (*keeps)(const iso_problem *f, iso_additional integral);
+    /* Whether from each motion it makes another one, backwards in time: n(-t) with the signs of its components changed
+     * by `sign`. NULL: it does not, or nobody knows. */
+    bool (*reversible)(const iso_problem *f, const double sign[3]);
     const char *(*no_frequencies)(const iso_problem *f); /* why n(t) is not quasi-periodic; NULL: it may be */
 
     /* --- its numbers and columns --- */
@@ -127,7 +132,7 @@ typedef struct iso_effect {
     /* --- its equations, see formula.h --- */
     void (*motion)(iso_formula *F, const iso_problem *f);    /* torque on the ball, rates of its states        */
     void (*potential)(iso_formula *F, const iso_problem *f); /* U                                              */
-    void (*image)(iso_formula *F, const iso_problem *f);     /* V and dV/dgamma of the point                   */
+    void (*image)(iso_formula *F, const iso_problem *f);     /* on the point: V with dV/dgamma, a magnetic field B */
     /* The torque of an effect that formulas cannot state: adds MQ to T. Then only methods that need nothing but y'
      * take the effect; others refuse it by name. Rates of its states stay in `motion`. */
     void (*torque)(const iso_problem *f, const double y[], double T[3]);
@@ -152,6 +157,7 @@ typedef struct iso_effect {
     double (*time_to_rest)(const iso_problem *f);
 
     const iso_integral *integrals; /* that come with it, ended by a row without a name; NULL: none                  */
+    const iso_integral *image_integrals; /* likewise, of the point                                                  */
 } iso_effect;
 
 /* --- numbers ---------------------------------------------------------------------------------------------------- */

@@ -40,6 +40,12 @@ static double strength(const iso_problem *f, const double y[])
     return fabs(c_of(f)) * pow(dot_diag(y + 3, f->p.inv_J, y + 3), -1 / f->p.k);
 }
 
+static bool reversible(const iso_problem *f, const double sign[3])
+{
+    (void)f, (void)sign;
+    return true;
+}
+
 static bool keeps(const iso_problem *f, iso_additional integral)
 {
     (void)f, (void)integral;
@@ -68,6 +74,7 @@ const iso_effect iso_effect_level = {
     .is_level = true,
     .work = iso_no_work,
     .keeps = keeps,
+    .reversible = reversible,
     .numbers = numbers,
     .complete = complete,
     .motion = motion,

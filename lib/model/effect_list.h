@@ -16,6 +16,7 @@ ISO_C_BEGIN
     X(LEVEL, level)                           \
     X(TWIST, twist)                           \
     X(ROLLING_RESISTANCE, rolling_resistance) \
+    X(ROTOR, rotor)                           \
     X(ATTITUDE, attitude)                     \
     X(REACTIONS, reactions)                   \
     X(CLOCK, clock)

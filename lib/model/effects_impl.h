@@ -82,6 +82,10 @@ const iso_effect *iso_effects_ball_only(const iso_effects *effects);
 /* The first effect that acts, other than `level`; NULL: none. */
 const iso_effect *iso_effects_beyond_level(const iso_effects *effects);
 
+/* The first effect that takes the chart of sections away: on the point it is more than a magnetic field, so that H and
+ * gamma do not tell |M| any more, or it has no image. NULL: none. */
+const iso_effect *iso_effects_off_chart(const iso_effects *effects);
+
 /* The first effect with which n(t) has no frequencies, and why; NULL: none. */
 const iso_effect *iso_effects_without_frequencies(const iso_problem *f, const char **why);
 
@@ -101,6 +105,10 @@ double iso_effects_image(const iso_problem *f, const double y[]);
 double iso_effects_strength(const iso_problem *f, const double y[]);
 double iso_effects_range(const iso_problem *f, const double y[]);
 double iso_effects_largest(const iso_problem *f, const double y[]); /* that of `range` alone */
+
+/* Whether each motion, backwards in time and with the signs of n's components changed by `sign`, is a motion as well
+ * (likewise gamma). A free ball has this for all signs. */
+bool iso_effects_reversible(const iso_problem *f, const double sign[3]);
 
 /* Whether nothing acts but a level, which the isomorphism turns into a constant. */
 bool iso_effects_are_free(const iso_effects *effects);
@@ -159,6 +167,9 @@ const char *iso_level_name(void);
 /* Those that act, of effects that are settled; of a scene: iso_scene_acting (orbit/scene.h). */
 iso_effects iso_effects_acting(const iso_effects *effects);
 
+/* The first effect that is a magnetic field on the point; NULL: none. */
+const iso_effect *iso_effects_magnetic(const iso_problem *f);
+
 /* The first effect that is idle; NULL: none. */
 const iso_effect *iso_effects_idle(const iso_effects *effects);
 
@@ -175,6 +186,9 @@ bool iso_effects_have_image(const iso_effects *effects);
 /* The columns of all effects, in the order of the registry: column i, from 0; its effect, its group and which of the
  * group it is (each may be NULL). NULL past the last. */
 const char *iso_effect_column_name(int i, iso_effect_id *effect, const iso_effect_column **group, int *in_group);
+
+/* The integrals that come with an effect, of a system; NULL: none. */
+const iso_integral *iso_effect_integrals(const iso_effect *effect, const iso_system *system);
 
 /* The integrals of a system that hold for a problem, those of its effects last: at most `most` into list, and how
  * many there are. */

@@ -8,13 +8,13 @@
 _Static_assert(ISO_FORMULA_LINES <= 64 && ISO_FORMULA_SCALARS <= 64 && ISO_FORMULA_VECTORS <= 64 &&
                    ISO_FORMULA_CONSTANTS <= 64,
                "each has a bit in a mask of 64, or is compared with one that has");
-_Static_assert(ISO_FORMULA_CONSTANTS <= UINT8_MAX && ISO_R_GRADIENT <= UINT8_MAX, "a line holds them in uint8_t");
+_Static_assert(ISO_FORMULA_CONSTANTS <= UINT8_MAX && ISO_R_MAGNETIC <= UINT8_MAX, "a line holds them in uint8_t");
 
 void iso_formula_begin(iso_formula *F, iso_formula_kind kind, bool series)
 {
     F->kind = kind;
     F->series = series;
-    F->overrun = F->late = F->torques = false;
+    F->overrun = F->late = F->torques = F->magnetic = false;
     F->wrong = NULL;
     F->constants = F->lines = F->states = 0;
     F->scalars = ISO_GIVEN_SCALARS;
@@ -73,7 +73,8 @@ static bool takes(sets of, iso_operation operation, int a, int b)
     case ISO_V_SCALE_C:
     case ISO_R_SCALAR_RATE:
     case ISO_R_ENERGY:
-    case ISO_R_POTENTIAL: return scalar_b;
+    case ISO_R_POTENTIAL:
+    case ISO_R_MAGNETIC: return scalar_b;
     case ISO_S_DOT:
     case ISO_V_ADD:
     case ISO_V_SUB:
@@ -141,6 +142,7 @@ void iso_formula_result(iso_formula *F, iso_operation operation, int to, int a, 
 {
     const bool late = write_line(F, operation, to, a, b);
     F->torques = F->torques || operation == ISO_R_TORQUE;
+    F->magnetic = F->magnetic || operation == ISO_R_MAGNETIC;
     const bool rate = operation == ISO_R_VECTOR_RATE || operation == ISO_R_SCALAR_RATE;
     bool is_state = false;
     for (int i = 0; i < F->states; i++)

@@ -2,7 +2,7 @@
  *
  * A formula is a list of lines. Each line is one operation: it takes one or two results of earlier lines and makes
  * one new result, a number or a vector of R^3. The last lines say what the results are for: a torque, the rate of a
- * state, an energy. A function of the effect's row writes the formula once for an orbit, with the calls of
+ * state, an energy, a force on the point. A function of the effect's row writes the formula once for an orbit, with the calls of
  * formula_impl.h.
  *
  * One evaluator (series/evaluate_impl.h) then computes the lines from the first to the last. It computes
@@ -77,7 +77,8 @@ typedef enum iso_operation {
     ISO_R_SCALAR_RATE,
     ISO_R_ENERGY,
     ISO_R_POTENTIAL,
-    ISO_R_GRADIENT
+    ISO_R_GRADIENT,
+    ISO_R_MAGNETIC
 } iso_operation;
 
 /* a and b: the places of what goes in; to: the place of the result */
@@ -86,7 +87,7 @@ typedef struct iso_formula_line {
 } iso_formula_line;
 
 enum {
-    ISO_FORMULA_CONSTANTS = 48,
+    ISO_FORMULA_CONSTANTS = 64,
     ISO_FORMULA_SCALARS = 20, /* with those that are given, see below */
     ISO_FORMULA_VECTORS = 36,
     ISO_FORMULA_LINES = 64,
@@ -119,6 +120,7 @@ typedef struct iso_formula {
     const char *wrong; /* what else is wrong: then it is empty as well; NULL: nothing */
     bool late;         /* some lines are late                                        */
     bool torques;      /* there is a torque                                          */
+    bool magnetic;     /* there is a magnetic field on the point                     */
     int constants, scalars, vectors, lines, states;   /* how many there are            */
     uint64_t late_line, late_scalar, late_vector;     /* bit i: number i is late       */
     iso_formula_line constant[ISO_FORMULA_CONSTANTS]; /* how each is computed        */

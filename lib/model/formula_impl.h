@@ -285,4 +285,11 @@ static inline void add_gradient(iso_formula *F, iso_constant c, iso_vector a)
     iso_formula_result(F, ISO_R_GRADIENT, 0, c.at, a.at);
 }
 
+/* B += c a: a magnetic field normal to the sphere of the point, M' += B gamma'. Its force -B M is orthogonal to
+ * gamma', and does no work. On a sphere every force that does no work is of this kind. */
+static inline void add_magnetic(iso_formula *F, iso_constant c, iso_scalar a)
+{
+    iso_formula_result(F, ISO_R_MAGNETIC, 0, c.at, a.at);
+}
+
 #endif

@@ -33,7 +33,10 @@ void iso_formula_late_rates(const iso_formula *F, const iso_params *p, const dou
 /* Of the ball: its potential energy U. */
 double iso_formula_energy(const iso_formula *F, const iso_params *p, const double y[]);
 
-/* Of the point: V, and dV/dgamma if not NULL. */
-double iso_formula_image(const iso_formula *F, const iso_params *p, const double y[], double gradient[3]);
+/* Of the point: V, dV/dgamma and the magnetic field B, at gamma = y[3..5]. */
+typedef struct iso_image {
+    double potential, gradient[3], magnetic;
+} iso_image;
+iso_image iso_formula_image(const iso_formula *F, const iso_params *p, const double y[]);
 
 #endif

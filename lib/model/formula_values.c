@@ -16,7 +16,7 @@ typedef struct values {
     real scalar[ISO_FORMULA_SCALARS * KEPT];
     vector vector[ISO_FORMULA_VECTORS * KEPT];
     vector torque, gradient;
-    real potential;
+    real potential, magnetic;
     nodes nodes;
 } values;
 
@@ -43,7 +43,7 @@ static void set_given(values *v, const iso_formula *F, const iso_params *p, cons
         else
             v->scalar[F->state[i].node * KEPT] = y[F->state[i].at];
     v->torque = v->gradient = nought;
-    v->potential = 0;
+    v->potential = v->magnetic = 0;
     v->nodes = (nodes){.kept = KEPT,
                        .c = F->value,
                        .scalar = v->scalar,
@@ -52,7 +52,8 @@ static void set_given(values *v, const iso_formula *F, const iso_params *p, cons
                        .inverse = one,
                        .torque = &v->torque,
                        .gradient = &v->gradient,
-                       .potential = &v->potential};
+                       .potential = &v->potential,
+                       .magnetic = &v->magnetic};
 }
 
 /* Sets the rates in dy: those of late lines, or those of all others. */
@@ -99,20 +100,19 @@ double iso_formula_energy(const iso_formula *F, const iso_params *p, const doubl
     return v.potential;
 }
 
-double iso_formula_image(const iso_formula *F, const iso_params *p, const double y[], double gradient[3])
+iso_image iso_formula_image(const iso_formula *F, const iso_params *p, const double y[])
 {
     values v;
     set_given(&v, F, p, y, true);
     evaluate(F, &v.nodes, false, 0, 0);
-    for (int i = 0; gradient && i < 3; i++) gradient[i] = v.gradient.at[i];
-    return v.potential;
+    return (iso_image){v.potential, {v.gradient.at[0], v.gradient.at[1], v.gradient.at[2]}, v.magnetic};
 }
 
 void iso_formula_finish(iso_formula *F, const iso_params *p)
 {
     if (F->overrun || F->wrong) { /* some lines point at places that are not there */
         F->constants = F->lines = F->states = 0;
-        F->late = F->torques = false;
+        F->late = F->torques = F->magnetic = false;
     }
     find_constants(F, p, F->value);
 }

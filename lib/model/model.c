@@ -36,11 +36,12 @@ static void ball_rhs(const iso_model *m, const double y[], double dy[])
 
 static void point_rhs(const iso_model *m, const double y[], double dy[])
 {
-    double dV[3], gamma_dV[3];
+    double gamma_dV[3];
     m->system->rhs(&m->problem, y, dy);
-    iso_formula_image(&m->problem.energy_formula, &m->problem.p, y, dV);
-    cross(y + 3, dV, gamma_dV);
+    const iso_image image = iso_formula_image(&m->problem.energy_formula, &m->problem.p, y);
+    cross(y + 3, image.gradient, gamma_dV);
     add_scaled(dy, 1, gamma_dV);
+    add_scaled(dy, image.magnetic, dy + 3);
 }
 
 /* --- in another clock, with other clocks as states -------------------------------------------------------------- */
@@ -133,6 +134,7 @@ static void record(iso_model *m)
     f->motion.kind = f->energy_formula.kind = ISO_FORMULA_NONE;
     f->motion.lines = f->energy_formula.lines = 0;
     f->motion.late = f->motion.torques = f->motion.overrun = f->energy_formula.overrun = false;
+    f->energy_formula.magnetic = false;
     f->motion.wrong = f->energy_formula.wrong = NULL;
     if (iso_effects_none(&f->effects) || m->moving > ISO_STATE + ISO_MOST_EFFECT_STATES) return;
     if (m->system == &iso_system_ball) {

@@ -38,6 +38,9 @@ extern const iso_system iso_system_point_t;
 void iso_point_to_point_t(const iso_params *p, const double point[ISO_STATE], double y[ISO_STATE]);
 void iso_point_t_to_point(const iso_params *p, const double y[ISO_STATE], double point[ISO_STATE]);
 
+/* Its ball (18): integrals of a point may be those of its ball. The two may be one array. */
+void iso_point_t_to_ball(const iso_params *p, const double y[ISO_STATE], double ball[ISO_STATE]);
+
 /* Whether powers q^(1/k) may range over more than ten decades along an orbit: series of (24) then overflow, and its
  * steps shrink. */
 bool iso_params_steep(const iso_params *p);

@@ -43,6 +43,15 @@ void iso_point_t_to_point(const iso_params *p, const double y[ISO_STATE], double
     }
 }
 
+void iso_point_t_to_ball(const iso_params *p, const double y[ISO_STATE], double ball[ISO_STATE])
+{
+    for (int i = 0; i < 3; i++) {
+        ball[i] = y[i] / p->root_J[i];
+        ball[3 + i] = p->root_J[i] * y[3 + i];
+    }
+    make_unit(ball + 3);
+}
+
 static double point_q(const iso_params *p, const double y[ISO_STATE], double gradient[ISO_STATE])
 {
     return iso_system_point.q(p, y, gradient);

@@ -33,7 +33,9 @@ static void call_system(series *S, const iso_model *m)
         set_recurrences(S, 1, (recurrences){{point_p}});
     } else {
         S->formula = f->energy_formula.lines > 0 ? &f->energy_formula : NULL;
-        set_recurrences(S, 1, (recurrences){{point_24, S->formula ? point_24_effects : NULL}});
+        set_recurrences(S, 1,
+                        (recurrences){{point_24, S->formula ? point_24_effects : NULL,
+                                       S->formula && S->formula->magnetic ? point_24_magnetic : NULL}});
     }
 }
 

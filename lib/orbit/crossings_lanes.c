@@ -138,10 +138,13 @@ static void to_point(const iso_orbit *orbit, const double y[], const double d[],
 static void find_slopes(const iso_orbit *orbit, int axis, const double y[], double d[][ISO_MAX_STATE],
                         const double scale[], double slopes[2][ISO_DEVIATIONS])
 {
+    double flow[ISO_MAX_STATE], point[ISO_STATE], rate[ISO_STATE];
+    orbit->model.own_rhs(&orbit->model, y, flow);
+    to_point(orbit, y, flow, point, rate);
     for (int i = 0; i < ISO_DEVIATIONS; i++) {
-        double point[ISO_STATE], deviation[ISO_STATE], slope[2];
+        double deviation[ISO_STATE], slope[2];
         to_point(orbit, y, d[i], point, deviation);
-        iso_section_slope(iso_orbit_motion(orbit), axis, point, deviation, slope);
+        iso_section_slope(axis, point, rate, deviation, slope);
         for (int j = 0; j < 2; j++) slopes[j][i] = slope[j] * exp(scale[i]);
     }
 }

@@ -119,11 +119,11 @@ static iso_status check_at(iso_context *ctx, const iso_orbit *orbit, int axis, c
 iso_status iso_refuse_starts(iso_context *ctx, const iso_orbit *orbit, const iso_effects *effects, int axis,
                              const double (*at)[2], size_t count, bool spread)
 {
-    const iso_effect *effect = iso_effects_beyond_level(effects);
+    const iso_effect *effect = iso_effects_off_chart(effects);
     if (effect)
         return ISO_FAIL_INPUT(ctx, effect->name,
                               "no other starts can be given here: the section has a chart only where nothing acts "
-                              "but a level, without '%s'",
+                              "but a level or a magnetic field, without '%s'",
                               effect->name);
     for (size_t i = 0; i < count; i++)
         if (check_at(ctx, orbit, axis, at[i]) != ISO_OK) return ISO_BAD_INPUT;

@@ -250,7 +250,7 @@ static iso_status check_tolerance(iso_sweep_file *f, const yaml_node_t *node, co
 
 static iso_status check_chart(iso_sweep_file *f, const yaml_node_t *node, const iso_sweep_axis *a)
 {
-    const iso_effect *effect = iso_effects_beyond_level(&f->draft.scene.effects);
+    const iso_effect *effect = iso_effects_off_chart(&f->draft.scene.effects);
     if (a->target != ISO_TO_CHART) return ISO_OK;
     f->on_section = true;
     if (effect)

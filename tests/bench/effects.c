@@ -37,6 +37,7 @@ static iso_effects all_numbers(void)
                              [ISO_LEVEL] = {0.1},
                              [ISO_TWIST] = {10},
                              [ISO_ROLLING_RESISTANCE] = {0.01},
+                             [ISO_ROTOR] = {0.3, 0.4, 0.5},
                              [ISO_ATTITUDE] = {1, 0, 0, 0},
                              [ISO_REACTIONS] = {true},
                          }};
@@ -103,6 +104,8 @@ static int list_runs(run runs[])
     runs[count++] = (run){"free point", all_numbers(), ISO_BACKEND_POINT, 0, INFINITY, INFINITY};
     runs[count] = (run){"point in a field", all_numbers(), ISO_BACKEND_POINT, 0, INFINITY, INFINITY};
     runs[count++].effects.on[ISO_FIELD] = true;
+    runs[count] = (run){"point with a rotor", all_numbers(), ISO_BACKEND_POINT, 0, INFINITY, INFINITY};
+    runs[count++].effects.on[ISO_ROTOR] = true;
     return count;
 }
 

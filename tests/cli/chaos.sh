@@ -90,7 +90,7 @@ check_not "another seed, other starts" cmp -s starts.csv out
 { cat chaotic.yaml; echo "effects: {gravity: {mgb: 0.7, up: [0, 0.6, 0.8]}}"; } >gravity.yaml
 run 0 chaos gravity.yaml
 check "a turn is a time" grep -q '^a turn is a step of' out
-refuses 3 "but a level, without 'gravity'" chaos gravity.yaml --starts 10
+refuses 3 "but a level or a magnetic field, without 'gravity'" chaos gravity.yaml --starts 10
 { cat chaotic.yaml; echo "effects: {rolling_resistance: {coefficient: 0.01}}"; } >losing.yaml
 refuses 3 "takes energy from the ball: a motion that comes to rest is neither chaotic nor regular" chaos losing.yaml
 scene 0.5 "1, 2, 5" "0, 0, 0" "$normal" 10 0.5 >rest.yaml

@@ -9,6 +9,7 @@ field="field: {quadratic: [[1, 0.2, 0], [0.2, 2, 0.1], [0, 0.1, 0]], linear: [0.
 level="level: {c: 0.3}"
 twist="twist: {resistance: 3}"
 resistance="rolling_resistance: {coefficient: 0.1}"
+rotor="rotor: {momentum: [0.3, -0.2, 0.5]}"
 attitude="attitude: {quaternion: [0.5, 0.5, -0.5, 0.5]}"
 
 # physical KIND RADIUS EFFECT...: a ball and a surface; RADIUS - for a plane
@@ -41,7 +42,7 @@ has t,$ball
 physical outside 3 "$gravity" >scene.yaml
 has t,$ball,$e
 has t,$ball,$e --as ball
-physical outside 3 "$field" "$level" "$twist" "$resistance" >scene.yaml
+physical outside 3 "$field" "$level" "$twist" "$resistance" "$rotor" >scene.yaml
 has t,$ball
 physical outside 3 "attitude: {}" >scene.yaml
 has t,$ball,$stands
@@ -63,14 +64,14 @@ physical outside 3 "$gravity" "reactions: {}" >scene.yaml
 has t,$ball,$e,$pressed
 physical plane - "reactions: {two_sided: true}" >scene.yaml
 has t,$ball,N1,N2,N3,pressure,friction,lambda
-physical inside 3 "$field" "$level" "$attitude" "clock: {}" >scene.yaml
+physical inside 3 "$field" "$level" "$rotor" "$attitude" "clock: {}" >scene.yaml
 has t,tau,s,$ball,$point,$stands --as both
-physical inside 3 "clock: {}" "reactions: {two_sided: true}" "$attitude" "$resistance" "$twist" "$level" "$field" "$gravity" >scene.yaml
+physical inside 3 "clock: {}" "reactions: {two_sided: true}" "$attitude" "$rotor" "$resistance" "$twist" "$level" "$field" "$gravity" >scene.yaml
 has t,tau,s,$ball,$e,$stands,$pressed
 check "the lines, whatever the order in the scene" test "$(sed -n 's/^# \([a-zA-Z_.]*\): .*/\1/p' out | tr '\n' ' ')" = \
     "model k J D radius gravity.mgb gravity.up field.quadratic field.linear level.c twist.resistance \
-rolling_resistance.coefficient attitude.quaternion effects backend method tolerance isoroll "
-check "the line effects" grep -qx '# effects: gravity field level twist rolling_resistance attitude reactions' out
+rolling_resistance.coefficient rotor.momentum attitude.quaternion effects backend method tolerance isoroll "
+check "the line effects" grep -qx '# effects: gravity field level twist rolling_resistance rotor attitude reactions' out
 check "mgb has the sign of b" grep -qx '# gravity.mgb: -19.62[0-9]*' out
 check "9 rows" test "$(rows out | wc -l)" -eq 9
 cp out everything.csv
@@ -326,7 +327,7 @@ physical outside 3 "$field" >scene.yaml
 run 0 explain scene.yaml
 check "explain: the isomorphism holds" grep -q "holds: (18) of the theory carries the states" out
 run 0 list effects
-for effect in gravity field level twist rolling_resistance attitude reactions clock; do
+for effect in gravity field level twist rolling_resistance rotor attitude reactions clock; do
     check "list effects: $effect" grep -q "^ *$effect " out
 done
 

@@ -24,10 +24,18 @@ effects_of() {
     "$isoroll" explain "$1" 2>/dev/null | sed -n '/^effects/,/^$/p' | awk 'NR > 1 { print $1 }'
 }
 
+# EFFECT: its names as an expression, with that of scenes of points
+names_of() {
+    "$isoroll" list effects | awk -v name="$1" '
+        /^  [a-z]/ { here = $1 == name; if (here) print name }
+        here && /a point calls it/ { gsub("\047", "", $NF); print $NF }' | paste -s -d '|'
+}
+
 # moves SCENE EFFECT: the motion is another one without this effect
 moves() {
+    names=$(names_of "$2")
     [ "$2" != level ] || ! grep -q '^point:' "$1" || return 0
-    sed "s/^\( *\)$2:.*/\1clock: {}/; s/$2: {[^{}]*}/clock: {}/" "$1" >without.yaml
+    sed -E "s/^( *)($names):.*/\1clock: {}/; s/($names): \{[^{}]*\}/clock: {}/" "$1" >without.yaml
     sed 's/^output:.*//' "$1" >with.yaml
     sed -i 's/^output:.*//' without.yaml
     for one in with without; do

@@ -74,7 +74,7 @@ static const situation situations[] = {
      "J1 and J2 are equal: a rotation about axis 3 carries every orbit along, so *"},
     {"other starts, and an effect", field, "section starts 2,section at 0;0,chaos starts 2,chaos at 0;0",
      ISO_BAD_INPUT,
-     "no other starts can be given here: the section has a chart only where nothing acts but a level, without "
+     "no other starts can be given here: the section has a chart only where nothing acts but a level or a magnetic field, without "
      "'field'"},
     {"a start outside the chart", free_ball, "section at 0;1.5,chaos at 0;1.5", ISO_BAD_INPUT,
      "l, x = 0, 1.5 is outside the chart: l is any angle, x is between -1 and 1"},

@@ -95,7 +95,7 @@ static void slopes_at(const laws_case *c, int axis, double l, double x, laws_wor
         laws_note(worst, laws_distance(seen, d[i]), rounding * G * fmax(steep * h, 1), p, i ? "dM/dx" : "dM/dl");
         laws_note(worst, laws_distance(seen + 3, d[i] + 3), 8 * DBL_EPSILON / h, p, i ? "dgamma/dx" : "dgamma/dl");
         for (int j = 0; j < ISO_STATE; j++) d[i][j] += mixed / norm(rate + 3) * rate[j];
-        iso_section_slope(iso_free_point(p, eps), axis, point, d[i], slope);
+        iso_section_slope(axis, point, rate, d[i], slope);
         const double slack = 64 * laws_rounding(p) * (1 + fabs(mixed) * norm(rate) / (G * norm(rate + 3))) / root;
         laws_note(worst, fabs(slope[0] - (i == 0)), slack, p, i ? "dl/dx" : "dl/dl");
         laws_note(worst, fabs(slope[1] - (i == 1)), slack, p, i ? "dx/dx" : "dx/dl");

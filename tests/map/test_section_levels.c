@@ -44,7 +44,7 @@ static bool place(iso_random *r, iso_point_motion m, int axis, double *l, double
 /* H = E, n_a = 0 rising, the chart comes back; deviations against differences, and their slopes. */
 static void points(iso_random *r, iso_point_motion m, int axis, double worst[3])
 {
-    double l, x, l1, x1, point[ISO_STATE], moved[2][ISO_STATE], d[2][ISO_STATE], ball[ISO_STATE], size, slope[2];
+    double l, x, l1, x1, point[ISO_STATE], rate[ISO_STATE], moved[2][ISO_STATE], d[2][ISO_STATE], ball[ISO_STATE], size, slope[2];
     const iso_problem problem = {.p = *m.p, .eps = m.eps, .energy = m.energy};
     if (!place(r, m, axis, &l, &x)) return;
     iso_section_point(m, axis, l, x, point);
@@ -54,6 +54,7 @@ static void points(iso_random *r, iso_point_motion m, int axis, double worst[3])
     iso_point_to_ball(m.p, point, ball);
     if (ball[3 + axis] != 0) worst[0] = INFINITY;
     iso_section_deviations(m, axis, l, x, d[0], d[1]);
+    iso_system_point.rhs(&problem, point, rate);
     for (int i = 0; i < 2; i++) {
         const double h = 1e-5;
         for (int side = 0; side < 2; side++)
@@ -61,7 +62,7 @@ static void points(iso_random *r, iso_point_motion m, int axis, double worst[3])
                               moved[side]);
         for (int j = 0; j < ISO_STATE; j++)
             worst[1] = fmax(worst[1], fabs((moved[1][j] - moved[0][j]) / (2 * h) - d[i][j]) / (1 + norm(d[i])));
-        iso_section_slope(m, axis, point, d[i], slope);
+        iso_section_slope(axis, point, rate, d[i], slope);
         worst[2] = fmax(worst[2], fabs(slope[0] - (i == 0)) + fabs(slope[1] - (i == 1)));
     }
 }

@@ -31,6 +31,7 @@ static void make_bundles(double arc)
                 for (int i = 0; i < STATES; i++) {
                     b->arc = arc;
                     b->orbits[i] = orbit_sample(ctx, iso_systems[s], orbit_k[k], moments[J], 11 + (unsigned long)i);
+                    if (J % 2 == 1) orbit_add_rotor(&b->orbits[i]);
                     orbit_reference(&b->orbits[i], arc * b->orbits[i].unit, b->reference[i]);
                 }
 }
@@ -108,7 +109,8 @@ static void check_extrapolation(void)
     double least, most;
     make_bundles(6);
     const double mean = mean_order(bsimp, true, &least, &most);
-    gsl_test(bsimp->order != 0 || !(mean > 8), "bsimp: no order is claimed, that of seven columns is high: %.2f", mean);
+    gsl_test(bsimp->order != 0 || !(mean > 8), "bsimp: no order is claimed, that of seven columns is high: %.2f",
+             mean);
 }
 
 /* Compositions reach rounding before their order shows on these short ways: see test_splitting.c. */

@@ -50,13 +50,15 @@ static void forces(const effects_case *c, laws_worst *worst)
     const iso_problem *f = &c->model.problem;
     const iso_effects *e = &f->effects;
     const int torques = e->on[ISO_GRAVITY] + e->on[ISO_FIELD] + e->on[ISO_LEVEL] +
-                        (e->on[ISO_TWIST] && TWIST_RESISTANCE(e) > 0) + e->on[ISO_ROLLING_RESISTANCE];
+                        (e->on[ISO_TWIST] && TWIST_RESISTANCE(e) > 0) + e->on[ISO_ROLLING_RESISTANCE] +
+                        e->on[ISO_ROTOR];
     int written = 0;
     for (int i = 0; i < f->motion.lines; i++) written += f->motion.line[i].operation == ISO_R_TORQUE;
     if (c->system == &iso_system_ball)
         effects_note(c, worst, abs(written - torques), 0.5, "torques");
     else
-        effects_note(c, worst, abs((f->energy_formula.lines > 0) - e->on[ISO_FIELD]), 0.5, "image");
+        effects_note(c, worst, abs((f->energy_formula.lines > 0) - (e->on[ISO_FIELD] || e->on[ISO_ROTOR])), 0.5,
+                     "image");
 }
 
 /* The start: the six numbers, `up`, `quaternion`, the rest 0; sizes: 1, and of the way 1 more than it is long. */
@@ -94,7 +96,7 @@ static void plain(const effects_case *c, laws_worst *worst)
     const iso_effects *e = &c->model.problem.effects;
     const bool ball = c->system == &iso_system_ball;
     const bool acted_on = !iso_effects_are_free(e) || e->on[ISO_LEVEL];
-    if (ball ? acted_on : e->on[ISO_FIELD]) return;
+    if (ball ? acted_on : e->on[ISO_FIELD] || e->on[ISO_ROTOR]) return;
     const iso_problem bare = {.p = c->model.problem.p, .eps = c->model.problem.eps};
     const iso_model simplest = iso_model_assemble(c->system, &bare, c->system->clock, none);
     double own[ISO_STATE], dy[ISO_MAX_STATE];
@@ -250,7 +252,7 @@ static void written_out(const effects_case *c, laws_worst *worst)
     const iso_problem *f = &c->model.problem;
     const iso_effects *e = &f->effects;
     const double *w = c->y, *n = c->y + 3, *up = c->y + f->at[ISO_GRAVITY], g = dot_diag(n, f->p.inv_J, n);
-    double sum[3] = {0, 0, 0}, T[3] = {0, 0, 0}, C_n[3], e_n[3], U = 0;
+    double sum[3] = {0, 0, 0}, T[3] = {0, 0, 0}, C_n[3], e_n[3], K_w[3], U = 0;
     for (int i = 0; i < 3; i++) C_n[i] = dot(FIELD_QUADRATIC(e) + 3 * i, n);
     if (e->on[ISO_FIELD]) U += dot(n, C_n) / 2 + dot(FIELD_LINEAR(e), n);
     if (e->on[ISO_LEVEL]) U -= LEVEL_C(e) * pow(g, -1 / f->p.k);
@@ -259,6 +261,8 @@ static void written_out(const effects_case *c, laws_worst *worst)
     if (e->on[ISO_GRAVITY]) add_scaled(T, GRAVITY_MGB(e), e_n);
     if (e->on[ISO_TWIST]) add_scaled(T, -TWIST_RESISTANCE(e) * dot(w, n), n);
     if (e->on[ISO_ROLLING_RESISTANCE]) add_scaled(T, -ROLLING_COEFFICIENT(e), w);
+    cross(ROTOR_MOMENTUM(e), w, K_w);
+    if (e->on[ISO_ROTOR]) add_scaled(T, 1, K_w);
     for (iso_effect_id i = 0; i < ISO_EFFECTS; i++) {
         if (!e->on[i] || i == ISO_FIELD || i == ISO_LEVEL) continue;
         const iso_problem alone = effects_alone(c, i);
@@ -299,6 +303,7 @@ static const iso_effects sound = {.number = {
                                       [ISO_LEVEL] = {-0.3},
                                       [ISO_TWIST] = {10},
                                       [ISO_ROLLING_RESISTANCE] = {0.01},
+                                      [ISO_ROTOR] = {0.3, -0.2, 0.5},
                                       [ISO_ATTITUDE] = {0.5, 0.5, 0.5, -0.5},
                                   }};
 static const double normal[3] = {0, 0, 1};
@@ -356,6 +361,7 @@ static void refused_numbers(void)
     attempt_number(ISO_TWIST, "resistance", 0, 0, NULL); /* the classical ball */
     attempt_number(ISO_ROLLING_RESISTANCE, "coefficient", 0, 0, "coefficient");
     attempt_number(ISO_ROLLING_RESISTANCE, "coefficient", 0, -1, "coefficient");
+    attempt_number(ISO_ROTOR, "momentum", 0, 0, NULL);
     attempt_number(ISO_ATTITUDE, "quaternion", 0, 0.50001, "quaternion");
     attempt_number(ISO_ATTITUDE, "quaternion", 0, -0.5, NULL);
 }

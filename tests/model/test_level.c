@@ -75,11 +75,17 @@ static bool on_plane(const effects_case *c)
     return c->model.problem.p.k == 1;
 }
 
+/* The states of points here are on H = 0, also with `level`. */
+static bool on_plane_at_zero(const effects_case *c)
+{
+    return on_plane(c) && !(c->system == &iso_system_point && effects_on(c, ISO_LEVEL));
+}
+
 /* (Jw x n)^2 = (K x n)^2 stays on a plane however the contact twists; only a level spoils it. */
 static bool on_plane_unless_twisting(const effects_case *c)
 {
-    return on_plane(c) &&
-           (c->subset & 0xff & ~(1 << ISO_ATTITUDE | 1 << ISO_REACTIONS | 1 << ISO_CLOCK)) != 1 << ISO_TWIST;
+    return on_plane(c) && (c->subset & (EFFECTS_CLASSICAL - 1) &
+                           ~(1 << ISO_ATTITUDE | 1 << ISO_REACTIONS | 1 << ISO_CLOCK)) != 1 << ISO_TWIST;
 }
 
 static bool on_shell(const effects_case *c)
@@ -100,6 +106,11 @@ static bool has_axis2(const effects_case *c)
 static bool has_axis3(const effects_case *c)
 {
     return iso_params_symmetric(&c->model.problem.p, 2);
+}
+
+static bool is_round(const effects_case *c)
+{
+    return has_axis1(c) && has_axis2(c);
 }
 
 static bool anywhere(const effects_case *c)
@@ -126,6 +137,11 @@ static drift_of drifts[] = {
     {.name = "F_axis1", .could_hold = has_axis1},
     {.name = "F_axis2", .could_hold = has_axis2},
     {.name = "F_axis3", .could_hold = has_axis3},
+    {.name = "F_rotor", .could_hold = on_plane_at_zero},
+    {.name = "F_rotor1", .could_hold = has_axis1},
+    {.name = "F_rotor2", .could_hold = has_axis2},
+    {.name = "F_rotor3", .could_hold = has_axis3},
+    {.name = "F_round", .could_hold = is_round},
     {.name = "K.K", .could_hold = twisting},
     {.name = "K.n", .could_hold = twisting},
     {.name = "K.e", .could_hold = has_weight},
@@ -161,10 +177,9 @@ static void note_drift(const effects_case *c, const iso_integral *integral)
 static void note_drifts(const effects_case *c)
 {
     for (const iso_integral *i = c->system->integrals; i->name; i++) note_drift(c, i);
-    if (c->system != &iso_system_ball) return;
     for (int e = 0; e < ISO_EFFECTS; e++)
-        for (const iso_integral *i = iso_effect_list[e]->integrals; effects_on(c, e) && i && i->name; i++)
-            note_drift(c, i);
+        for (const iso_integral *i = iso_effect_integrals(iso_effect_list[e], c->system); i && i->name; i++)
+            if (effects_on(c, e)) note_drift(c, i);
 }
 
 /* More states: some hardly change. */
@@ -282,7 +297,16 @@ static void potentials_mapped(const effects_case *c, laws_worst *worst)
     effects_note(c, worst, fabs(H - point.problem.energy), allowed, "H");
 }
 
-/* F_plane, F_shell and F_axis are the same functions of the orbit in both pictures, on every level. */
+/* The ball's integral of this name, its own or an effect's. */
+static const iso_integral *ball_integral(const effects_case *c, const char *name)
+{
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_integral *i = iso_effect_list[e]->integrals; effects_on(c, e) && i && i->name; i++)
+            if (strcmp(i->name, name) == 0) return i;
+    return laws_integral(&iso_system_ball, name);
+}
+
+/* F_plane, F_shell, F_axis and those of the rotor are the same functions of the orbit in both pictures, on every level. */
 static void integrals_mapped(const effects_case *c, laws_worst *worst)
 {
     const iso_integral *list[ISO_MAX_INTEGRALS];
@@ -294,7 +318,7 @@ static void integrals_mapped(const effects_case *c, laws_worst *worst)
     const int count = iso_integrals_holding(&iso_system_point, &point.problem, list, ISO_MAX_INTEGRALS);
     for (int i = 0; i < count; i++) {
         if (list[i]->name[0] != 'F') continue;
-        const iso_integral *own = laws_integral(&iso_system_ball, list[i]->name);
+        const iso_integral *own = ball_integral(c, list[i]->name);
         effects_note(c, worst, !(own->holds && own->holds(&c->model.problem)), 0.5, "holds in both");
         const double F = own->value(&c->model.problem, c->y, &size);
         const double F_image = list[i]->value(&point.problem, image, &image_size);

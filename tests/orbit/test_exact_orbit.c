@@ -327,7 +327,8 @@ static void check_effects_refused(const iso_params *p, const iso_start *start)
         const char *instead;
     } effects[] = {{ISO_GRAVITY, "backend ball"},  {ISO_FIELD, "backend point"},
                    {ISO_TWIST, "backend ball"},    {ISO_ROLLING_RESISTANCE, "backend ball"},
-                   {ISO_ATTITUDE, "backend ball"}, {ISO_REACTIONS, "backend ball"}};
+                   {ISO_ATTITUDE, "backend ball"}, {ISO_REACTIONS, "backend ball"},
+                   {ISO_ROTOR, "backend point"}};
     for (size_t i = 0; i < sizeof effects / sizeof *effects; i++) {
         iso_effects e = {
             .number = {[ISO_GRAVITY] = {0.7, 0, 0.6, 0.8}, [ISO_TWIST] = {10}, [ISO_ROLLING_RESISTANCE] = {0.01}}};

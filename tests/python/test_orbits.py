@@ -118,6 +118,18 @@ class Orbits(Case):
                 for i in order[:5]:
                     self.same(orbit.at(clock[i]).array, table.array[i])
 
+    def test_a_rotor_is_a_magnetic_field(self):
+        scene = {"reduced": {"k": -1, "J": [1, 2, 5]}, "time": {"end": 5, "step": 1},
+                 "initial": {"normal": [0.36, 0.48, 0.8], "angular_velocity": [0.9, -0.3, -0.225]},
+                 "effects": {"rotor": {"momentum": [0.3, 0.4, 0.5]}}}
+        ball, point = (isoroll.run(scene, backend=backend, as_="both") for backend in ("ball", "point"))
+        self.assertLess(np.abs(ball.array - point.array).max(), 1e-11)
+        start = {name: [ball.array[0, ball.columns.index(f"{name}{i}")] for i in (1, 2, 3)] for name in ("M", "gamma")}
+        twin = isoroll.Scene(point={"k": -1, "J": [1, 2, 5]}, initial=start, end=float(ball.s[-1]),
+                             magnetic={"momentum": [0.3, 0.4, 0.5]})
+        last = isoroll.run(twin, as_="both").array[-1]
+        self.assertLess(np.abs(np.sort(last) - np.sort(ball.array[-1])).max(), 1e-10)
+
     def test_shapes(self):
         orbit = isoroll.orbit(BALL, as_="both")
         for shape in ((), (0,), (3,), (2, 3), (2, 0, 4)):

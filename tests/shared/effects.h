@@ -99,6 +99,9 @@ static inline iso_effects effects_random(iso_random *r, const iso_params *p, int
     for (int i = 0; i < 4; i++)
         QUATERNION(&e)[i] = iso_random_normal(r), square += QUATERNION(&e)[i] * QUATERNION(&e)[i];
     for (int i = 0; i < 4; i++) QUATERNION(&e)[i] /= sqrt(square);
+    const bool along = iso_random_uniform(r, -1, 1) < 0; /* an axis of symmetry, where there is one */
+    for (int i = 0; i < 3; i++)
+        ROTOR_MOMENTUM(&e)[i] = iso_random_normal(r) * (along && !iso_params_symmetric(p, i) ? 0 : energy / speed);
     return e;
 }
 
@@ -123,6 +126,7 @@ static inline effects_case effects_sample(const iso_system *system, const iso_pa
     f.effects = effects_random(r, p, subset, c.kinetic, speed, system->q(p, start, NULL));
     if (ball && subset & EFFECTS_STIFF) { /* hardly any spin is left */
         add_scaled(start, effects_random_sign(r, 0.2, 1) * c.kinetic / TWIST_RESISTANCE(&f.effects), start + 3);
+        c.kinetic = iso_ball_energy(p, start); /* about an axis of a large moment the rest can be much */
     }
     c.model = iso_model_assemble(system, &f, system->clock, none);
     iso_model_begin(&c.model, start, c.y);
@@ -223,17 +227,21 @@ static inline double effects_torque_size(const effects_case *c)
     if (e->on[ISO_TWIST])
         size += effects_lambda(c) > 0 ? fabs(c->y[effects_lambda(c)]) : TWIST_RESISTANCE(e) * norm(c->y);
     if (e->on[ISO_ROLLING_RESISTANCE]) size += ROLLING_COEFFICIENT(e) * norm(c->y);
+    if (e->on[ISO_ROTOR]) size += norm(ROTOR_MOMENTUM(e)) * norm(c->y);
     return size;
 }
 
-/* of gamma x dV/dgamma: |dq|/q <= 2 sqrt(max J/q) and |B gamma| <= |C| sqrt(max J q) */
+/* of gamma x dV/dgamma: |dq|/q <= 2 sqrt(max J/q) and |B gamma| <= |C| sqrt(max J q); of the rotor's B gamma' */
 static inline double effects_image_size(const effects_case *c)
 {
     const iso_params *p = &c->model.problem.p;
     const double q = c->system->q(p, c->y, NULL), k = fabs(p->k);
     const double free = 2 * fabs(c->model.problem.eps) / k;
     const double field = iso_coupling(p, effects_field_size(&c->model.problem.effects)) * (2 + 2 / k);
-    return (free + field) * pow(q, -1 / p->k) * sqrt(max3(p->J) / q);
+    const iso_effects *e = &c->model.problem.effects;
+    const double rotor = e->on[ISO_ROTOR] ? sqrt(p->det_J * max3(p->J)) / (k * k) * norm(ROTOR_MOMENTUM(e)) : 0;
+    return (free + field) * pow(q, -1 / p->k) * sqrt(max3(p->J) / q) +
+           rotor * pow(q, -1 - 1 / (2 * p->k)) * norm(c->y);
 }
 
 /* of each component of y' in the system's own clock */
@@ -242,7 +250,8 @@ static inline void effects_sizes(const effects_case *c, double size[ISO_MAX_STAT
     const iso_params *p = &c->model.problem.p;
     const double w = norm(c->y), twisting = effects_on(c, ISO_TWIST) ? 1 / (1 - p->D / min3(p->J)) : 1;
     const bool ball = c->system == &iso_system_ball;
-    const double turning = 2 * twisting * (max3(p->J) * w * w + effects_torque_size(c)) / min3(p->J);
+    const double normal_turns = effects_on(c, ISO_TWIST) ? p->D * fabs(p->k) * w * w : 0; /* D s n' of contact.c */
+    const double turning = 2 * twisting * (max3(p->J) * w * w + normal_turns + effects_torque_size(c)) / min3(p->J);
     for (int i = 0; i < ISO_MAX_STATE; i++)
         size[i] = i >= ISO_STATE ? w : i >= 3 ? (ball ? fabs(p->k) * w : w) : ball ? turning : effects_image_size(c);
     if (effects_lambda(c) > 0) size[effects_lambda(c)] = TWIST_RESISTANCE(&c->model.problem.effects) * turning;

@@ -28,6 +28,7 @@ static inline double *number_of(const iso_effects *effects, iso_effect_id id, co
 #define LEVEL_C(e) (*number_of((e), ISO_LEVEL, "c"))
 #define TWIST_RESISTANCE(e) (*number_of((e), ISO_TWIST, "resistance"))
 #define ROLLING_COEFFICIENT(e) (*number_of((e), ISO_ROLLING_RESISTANCE, "coefficient"))
+#define ROTOR_MOMENTUM(e) number_of((e), ISO_ROTOR, "momentum")
 #define QUATERNION(e) number_of((e), ISO_ATTITUDE, "quaternion")
 #define TWO_SIDED(e) (*number_of((e), ISO_REACTIONS, "two_sided"))
 

@@ -46,6 +46,15 @@ static inline orbit orbit_sample(iso_context *ctx, const iso_system *system, dou
     return o;
 }
 
+/* The same with a rotor in the ball, about as strong as the motion; on the point it is a magnetic field. */
+static inline void orbit_add_rotor(orbit *o)
+{
+    iso_effects *const e = &o->model.problem.effects;
+    e->on[ISO_ROTOR] = true;
+    copy((const double[]){0.5, -0.3, 0.8}, ROTOR_MOMENTUM(e), 3);
+    orbit_clocks(o, o->model.system->clock, false, false, false);
+}
+
 /* The ball turning about e3 in the plane n3 = 0: n = (cos k w t, -sin k w t, 0). */
 static inline orbit orbit_rotation(iso_context *ctx, double k, double w)
 {

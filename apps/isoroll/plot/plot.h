@@ -136,7 +136,8 @@ typedef enum iso_plot_shade {
 typedef struct iso_plot_section {
     const char *title; /* one line, any characters; NULL: none                                          */
     const iso_params *params;
-    double eps, energy; /* coupling, > 0, and level H, if nothing acts but a level; eps 0: x is drawn, not L */
+    double eps, energy; /* coupling, > 0, and level H, if the section has its chart; eps 0: x is drawn, not L */
+    bool alone;         /* ... and nothing acts but a level                                              */
     int axis;           /* a, 0 to 2                                                                     */
     /* Columns orbit (0, 1, ...), l, x and grey, an iso_plot_shade. If there is a column rotation, an orbit has the
      * colour of its rotation number; else each has its own. The crossings of the point are the same, or in columns

@@ -132,7 +132,7 @@ iso_status iso_plot_read_over(iso_context *ctx, const iso_plot_page *page, const
 {
     *over = NULL;
     if (!page->over[0]) return ISO_OK;
-    if (!(s->eps > 0)) return refuse(ctx, page->over[0], "the section must be of a free ball, or of one on a level");
+    if (!s->alone) return refuse(ctx, page->over[0], "the section must be of a free ball, or of one on a level");
     iso_status status = iso_record_create(ctx, 4, (const char *[]){"l", "x", "kind", "piece"}, over);
     for (int i = 0; status == ISO_OK && i < ISO_PLOT_OVERS && page->over[i]; i++)
         status = add_file(ctx, page->over[i], s, *over);

@@ -22,6 +22,7 @@ enum { ORBIT, L, X, POINT_L, POINT_X, GREY, ROTATION, HASH, COLUMNS };
 struct section_picture {
     iso_plot_section plot;
     iso_params params;
+    unsigned reversors;     /* that the return map has, see iso_section_reversors */
     int l, x;               /* columns of the rows; l -1: there is none  */
     uint64_t rows;          /* that came so far                          */
     double limit;           /* rows whose hash is below it are kept      */
@@ -37,18 +38,22 @@ struct section_picture {
 iso_status section_picture_create(iso_context *ctx, const iso_record *header, section_picture **picture)
 {
     static const char *const names[] = {"orbit", "l", "x", "point_l", "point_x", "grey", "rotation", "hash"};
-    const char *eps = iso_record_get(header, "eps"), *effects = iso_record_get(header, "effects"),
-               *c = iso_record_get(header, "level.c");
-    const bool level = effects && c && strcmp(effects, iso_level_name()) == 0;
+    const char *eps = iso_record_get(header, "eps");
+    iso_problem f = {.eps = 0};
     section_picture *p = *picture = calloc(1, sizeof *p);
     if (!p) return iso_context_no_memory(ctx, "a picture");
     ISO_TRY(iso_record_params(ctx, header, &p->params));
+    ISO_TRY(iso_record_effects(ctx, header, &f.effects));
+    f.p = p->params;
     p->plot = (iso_plot_section){.params = &p->params, .axis = iso_plot_axis_of(header)};
     p->l = p->plot.axis < 0 ? -1 : iso_record_find(header, "l");
     p->x = iso_record_find(header, "x");
     p->limit = 1;
-    p->plot.eps = eps && (!effects || level) ? strtod(eps, NULL) : 0; /* with other effects L is not G(l) x */
-    p->plot.energy = level ? iso_coupling(&p->params, strtod(c, NULL)) : 0;
+    const bool level = iso_effects_have_level(&f.effects);
+    p->plot.eps = eps && !iso_effects_off_chart(&f.effects) ? strtod(eps, NULL) : 0; /* else L is not G(l) x */
+    p->plot.energy = level ? iso_coupling(&p->params, iso_effects_level(&f.effects)) : 0;
+    p->plot.alone = p->plot.eps > 0 && iso_effects_are_free(&f.effects);
+    if (p->plot.eps > 0) p->reversors = iso_section_reversors(&f, p->plot.axis);
     ISO_TRY(iso_record_create(ctx, COLUMNS, names, &p->kept));
     ISO_TRY(iso_record_create(ctx, 2, &names[L], &p->first));
     ISO_TRY(iso_record_create(ctx, 1, names, &p->who));
@@ -186,16 +191,19 @@ static void put_shades(section_picture *p, bool any[ISO_PLOT_SHADES])
     }
 }
 
-/* The return map of a free ball, and of one on a level, has the reversors S1: (l, -x), S2: (-l, x) and S3: (pi - l,
- * x). They carry an orbit to an orbit with the same rotation number: so each island shows where one of its images
+/* The reversors of the return map, S1: (l, -x), S2: (-l, x) and S3: (pi - l, x). A free ball, and one on a level, has
+ * all of them. They carry an orbit to an orbit with the same rotation number: so each island shows where one of its images
  * has a start. */
 static iso_status add_images(iso_context *ctx, section_picture *p)
 {
     static const int l[] = {L, POINT_L}, x[] = {X, POINT_X};
+    /* the reversors that make image n of iso_plot_image, as bits */
+    static const unsigned makes[8] = {0, 2, 2 | 4, 4, 1, 1 | 2, 1 | 2 | 4, 1 | 4};
     const size_t rows = iso_record_rows(p->kept);
     for (size_t i = 0; i < rows; i++)
         for (int n = 1; n < 8; n++) {
             double row[COLUMNS];
+            if (makes[n] & ~p->reversors) continue;
             memcpy(row, iso_record_const_row(p->kept, i), sizeof row);
             if (row[GREY] != 0) break;
             for (int c = 0; c < 2; c++) {
@@ -219,12 +227,12 @@ iso_status section_picture_draw(iso_context *ctx, section_picture *p, const iso_
     ISO_TRY(end_orbit(ctx, p));
     ISO_TRY(thin_out(ctx, p, MOST / 4));
     put_shades(p, any);
-    if (p->plot.eps > 0) ISO_TRY(add_images(ctx, p));
+    ISO_TRY(add_images(ctx, p));
     ISO_TRY(thin_out(ctx, p, png ? MOST : MOST_IN_SVG));
     const char *means = p->judged ? "chaotic" : "chaotic, or too few crossings to tell";
     iso_plot_section plot = p->plot;
     plot.title = iso_plot_title(title, &p->params, ": %zu orbit%s%s", p->orbits, p->orbits == 1 ? "" : "s",
-                                p->plot.eps > 0 && any[0] ? " and mirror images" : "");
+                                p->reversors && any[0] ? " and mirror images" : "");
     plot.rows = p->kept;
     plot.grey_means = any[ISO_PLOT_CHAOTIC] ? means : NULL;
     plot.dark_means = any[ISO_PLOT_UNDECIDED] ? "undecided" : NULL;

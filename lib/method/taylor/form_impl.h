@@ -63,7 +63,9 @@ static void expand_as_point(form *T)
     T->is_neumann = f->p.k == -1 && !T->in_field;
     T->in_t = !T->in_field && f->energy == 0 && T->shape.clock == ISO_CLOCK_T && f->p.k != -1;
     recurrence *const motion = T->in_t ? point_t : T->is_neumann ? neumann : point_s;
-    set_recurrences(S, motion == point_s ? 1 : 2, (recurrences){{motion, T->in_field ? point_effects : NULL}});
+    set_recurrences(S, motion == point_s ? 1 : 2,
+                    (recurrences){{motion, T->in_field ? point_effects : NULL,
+                                   T->in_field && S->formula->magnetic ? magnetic : NULL}});
 }
 
 static void add_clock(form *T, iso_clock clock)

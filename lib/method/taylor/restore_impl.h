@@ -37,7 +37,7 @@ static inline real restore_length(real a[], int count, real target, mask wanted)
 static real potential_at(const form *T, const real n[3], real base, const state *s, real *size, vector *gradient)
 {
     const iso_formula *F = &T->shape.problem.energy_formula;
-    real scalar[ISO_FORMULA_SCALARS], potential = zero;
+    real scalar[ISO_FORMULA_SCALARS], potential = zero, magnetic = zero;
     vector vectors[ISO_FORMULA_VECTORS];
     const nodes t = {.kept = 1,
                      .c = T->c,
@@ -45,6 +45,7 @@ static real potential_at(const form *T, const real n[3], real base, const state 
                      .vector = vectors,
                      .gradient = gradient,
                      .potential = &potential,
+                     .magnetic = &magnetic,
                      .size = size};
     *size = zero;
     *gradient = nought;

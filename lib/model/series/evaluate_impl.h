@@ -17,9 +17,9 @@ typedef struct nodes {
     const real *count, *inverse; /* n, 1/n; not read for n = 0 */
     const real *slope;           /* n times coefficient n of the base, and 1/(its coefficient 0), likewise */
     real over_base;
-    vector *torque, *gradient; /* coefficient n is added at [n] */
-    real *potential;           /* likewise: U of the ball, V of the point */
-    real *size;                /* NULL, or: the sum of the sizes of the potential's terms, n = 0 */
+    vector *torque, *gradient;  /* coefficient n is added at [n] */
+    real *potential, *magnetic; /* likewise: U of the ball, V of the point; B of the point */
+    real *size;                 /* NULL, or: the sum of the sizes of the potential's terms, n = 0 */
 } nodes;
 
 /* The constants of one orbit, in the numbers of this compilation. */
@@ -143,7 +143,9 @@ static inline void result_line(const iso_formula_line *l, const nodes *t, int c,
     case ISO_R_SCALAR_RATE:
         t->scalar[l->to * t->kept + i + 1] = factor * t->inverse[n + 1] * t->scalar[l->b * t->kept + i];
         break;
-    default: add_to_potential(t, factor * t->scalar[l->b * t->kept + i], i); break;
+    case ISO_R_ENERGY:
+    case ISO_R_POTENTIAL: add_to_potential(t, factor * t->scalar[l->b * t->kept + i], i); break;
+    default: t->magnetic[i] += factor * t->scalar[l->b * t->kept + i]; break; /* ISO_R_MAGNETIC */
     }
 }
 

@@ -33,7 +33,7 @@ struct series {
     real slope[ROOM];                                    /* n base[n] */
     real over_base, over_gap;                            /* 1/base[0], 1/gap[0] */
     real pole[ROOM];                                     /* of a ball, terms of 1/g: for its steps */
-    real r[ROOM], lambda[ROOM], gap[ROOM], v[ROOM], v1[ROOM], V[ROOM];
+    real r[ROOM], lambda[ROOM], gap[ROOM], v[ROOM], v1[ROOM], V[ROOM], B[ROOM];
     /* the states, and what formulas are made of */
     union {
         struct {
@@ -61,7 +61,8 @@ static inline nodes nodes_of(series *S)
                    .over_base = S->over_base,
                    .torque = S->x,
                    .gradient = S->dV,
-                   .potential = S->V};
+                   .potential = S->V,
+                   .magnetic = S->B};
 }
 
 /* --- the ball (9) ----------------------------------------------------------------------------------------------- */
@@ -216,17 +217,34 @@ static inline void point_s(series *S, int c, int n)
     if (!S->formula) accelerate(S, c, n, componentwise(S->x, S->n, c, n));
 }
 
+/* The image of the effects: V, dV/dgamma and B. */
+static inline void image(series *S, int c, int n)
+{
+    const int i = place(c, n);
+    const nodes t = nodes_of(S);
+    S->V[i] = S->B[i] = zero;
+    S->dV[i] = nought;
+    evaluate(S->formula, &t, false, c, n);
+}
+
 /* Behind point_s, with effects whose image is V: - V terms of gamma'' = -M^2 gamma - dV/dgamma + (gamma,dV/dgamma)
  * gamma, where M^2 = 2 (H - V) */
 static inline void point_effects(series *S, int c, int n)
 {
     const int i = place(c, n);
-    const nodes t = nodes_of(S);
-    S->V[i] = zero;
-    S->dV[i] = nought;
-    evaluate(S->formula, &t, false, c, n);
+    image(S, c, n);
     S->r[i] = 2 * S->V[i] + dot(S->n, S->dV, c, n);
     accelerate(S, c, n, minus(plus(componentwise(S->x, S->n, c, n), scaled(S->r, S->n, c, n)), S->dV[i]));
+}
+
+/* Behind point_effects, with a magnetic field: gamma'' -= B M, M = gamma' x gamma. w = gamma', a = M. */
+static inline void magnetic(series *S, int c, int n)
+{
+    const int i = place(c, n);
+    S->w[i] = times(S->count[n + 1], S->n[i + 1]);
+    S->a[i] = cross(S->w, S->n, c, n);
+    const vector bent = scaled(S->B, S->a, c, n);
+    S->n[i + 2] = minus(S->n[i + 2], times(S->inverse[n + 1] * S->inverse[n + 2], bent));
 }
 
 /* in t, on H = 0: x_i = B ((1-k) q^2 - q J_i), of a coefficient of q and of q^2 */
@@ -291,7 +309,7 @@ static inline void point_p(series *S, int c, int n)
     S->n[i + 1] = times(S->k * S->alpha * S->inverse[n + 1], scaled(S->base, S->z, c, n));
 }
 
-/* (24) itself, w = M: M' = a q^alpha gamma x J gamma + gamma x dV/dgamma,  gamma' = gamma x M. For Jacobians: series
+/* (24) itself, w = M: M' = a q^alpha gamma x J gamma + gamma x dV/dgamma + B gamma',  gamma' = gamma x M. For Jacobians: series
  * need fewer products in the forms above. */
 static inline void point_24(series *S, int c, int n)
 {
@@ -307,11 +325,16 @@ static inline void point_24(series *S, int c, int n)
 static inline void point_24_effects(series *S, int c, int n)
 {
     const int i = place(c, n);
-    const nodes t = nodes_of(S);
-    S->V[i] = zero;
-    S->dV[i] = nought;
-    evaluate(S->formula, &t, false, c, n);
+    image(S, c, n);
     S->w[i + 1] = plus(S->w[i + 1], times(S->inverse[n + 1], cross(S->n, S->dV, c, n)));
+}
+
+/* ... + B gamma', a = gamma' */
+static inline void point_24_magnetic(series *S, int c, int n)
+{
+    const int i = place(c, n);
+    S->a[i] = times(S->count[n + 1], S->n[i + 1]);
+    S->w[i + 1] = plus(S->w[i + 1], times(S->inverse[n + 1], scaled(S->B, S->a, c, n)));
 }
 
 /* Series with the same terms and order, in turns: while one waits for a result, the processor computes another. */

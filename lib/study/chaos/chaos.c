@@ -57,6 +57,8 @@ static void choose_turn(iso_chaos_walk *w, const iso_sample *start, const iso_ef
     const iso_units *units = iso_orbit_units(w->orbit);
     const double speed = w->out->with[ISO_BALL] ? norm(start->ball) : units->w;
     c->turn = NAN;
+    const int asked = w->options.axis;
+    c->chart = asked == ISO_AXIS_AUTO ? iso_section_axis(iso_orbit_motion(w->orbit)) : asked;
     if (!effect) c->integral = iso_orbit_additional_integral(w->orbit);
     if (effect) {
         const bool pulled = iso_effects_pull(&iso_orbit_model(w->orbit)->problem.effects);
@@ -64,7 +66,7 @@ static void choose_turn(iso_chaos_walk *w, const iso_sample *start, const iso_ef
         c->turn = 2 * ISO_PI / (fabs(w->scene->params.k) * (pulled ? fmax(speed, units->w) : speed));
         return;
     }
-    c->axis = w->options.axis == ISO_AXIS_AUTO ? iso_section_axis(iso_orbit_motion(w->orbit)) : w->options.axis;
+    c->axis = c->chart;
 }
 
 /* The axis about which a free orbit rotates in the plane n_axis = 0; -1: it does not. */
@@ -157,9 +159,9 @@ static iso_status prepare(iso_chaos_walk *w)
     choose_turn(w, &start, effect);
     ISO_TRY(check_section(w));
     if (starts > 0)
-        ISO_TRY(iso_refuse_starts(w->ctx, w->orbit, &w->effects, w->out->axis, o->at, o->at_count, o->starts > 0));
+        ISO_TRY(iso_refuse_starts(w->ctx, w->orbit, &w->effects, w->out->chart, o->at, o->at_count, o->starts > 0));
     iso_section_state_level(w->orbit, &w->effects);
-    if (o->starts > 0) iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->out->axis, o->seed);
+    if (o->starts > 0) iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->out->chart, o->seed);
     w->out->plane = effect ? -1 : find_plane(w->out->with[ISO_BALL] ? start.ball : start.point);
     w->out->start = calloc(starts + 1, sizeof *w->out->start);
     if (!w->out->start) return iso_context_no_memory(w->ctx, "the starts");

@@ -118,6 +118,7 @@ typedef struct iso_chaos {
     iso_record *trace[2];
     iso_status failure; /* of the first orbit that failed (0: the scene's; i: start i - 1), with its words */
     char words[512];
+    int chart; /* of the section on which the starts are: the axis, or that of a section which is not global */
 } iso_chaos;
 
 /* Orbits that fail are counted in the result. The call fails only if no model can follow the scene's own orbit.

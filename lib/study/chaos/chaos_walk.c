@@ -62,7 +62,7 @@ static void make_starts(group *g)
         g->start[i] = w->scene->start;
         if (!g->each && g->first + i > 0) {
             chart_of_start(g->w, g->first + i - 1, &o->l, &o->x);
-            g->start[i] = iso_section_start(w->orbit, w->scene->start.model, w->out->axis, o->l, o->x);
+            g->start[i] = iso_section_start(w->orbit, w->scene->start.model, w->out->chart, o->l, o->x);
         }
         g->orbit[i] = (iso_batch_orbit){&w->scene->params, &g->start[i], &w->effects};
     }

@@ -59,11 +59,14 @@ static void explain_map(FILE *to, const iso_params *p, const iso_orbit *orbit)
                                    : "no additional integral is known";
     const iso_effects effects = iso_orbit_effects(orbit);
     const iso_effect *breaking = iso_effects_breaking(&effects);
-    const bool pulled = iso_effects_have_image(&effects);
+    const iso_effect *magnetic = iso_effects_magnetic(&iso_orbit_model(orbit)->problem);
+    const bool pulled = iso_effects_off_chart(&effects);
     fprintf(to, "isomorphism\n");
     if (!breaking)
-        fprintf(to, "  point on a sphere: V = -eps (gamma,J gamma)^(%.6g)%s, %s\n", -1 / p->k, pulled ? " + U/G" : "",
-                pulled ? "in a field: see the integrals below" : kind);
+        fprintf(to, "  point on a sphere: V = -eps (gamma,J gamma)^(%.6g)%s%s%s%s, %s\n", -1 / p->k,
+                pulled ? " + U/G" : "", magnetic ? ", in the magnetic field of '" : "",
+                magnetic ? magnetic->name : "", magnetic ? "'" : "",
+                pulled || magnetic ? "see the integrals below" : kind);
     if (iso_orbit_has_twin(orbit))
         fprintf(to, "  holds: (18) of the theory carries the states, the clocks t, tau, s the times%s\n",
                 iso_effects_have_level(&effects) ? "; the point is off the level H = 0, at H = c det J/k^2" : "");
@@ -172,6 +175,13 @@ static void explain_integral(FILE *to, const char *whose, const iso_integral *i,
     if ((!i->holds || i->holds(f)) == wanted) fprintf(to, "  %-5s %-10s %s\n", whose, i->name, i->doc);
 }
 
+static void explain_of_effects(FILE *to, const iso_system *system, const iso_problem *f, bool wanted)
+{
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_integral *i = iso_effect_integrals(iso_effect_list[e], system); i && i->name; i++)
+            if (f->effects.on[e]) explain_integral(to, system->name, i, f, wanted);
+}
+
 /* The integrals of both models. Without a twin: of the integrated model alone. */
 static void explain_integrals(FILE *to, const iso_orbit *orbit)
 {
@@ -182,9 +192,8 @@ static void explain_integrals(FILE *to, const iso_orbit *orbit)
         for (int s = 0; iso_systems[s]; s++)
             for (const iso_integral *i = iso_systems[s]->integrals; i->name; i++)
                 if (!only || iso_systems[s] == only) explain_integral(to, iso_systems[s]->name, i, f, wanted);
-        for (int e = 0; e < ISO_EFFECTS; e++)
-            for (const iso_integral *i = iso_effect_list[e]->integrals; f->effects.on[e] && i && i->name; i++)
-                explain_integral(to, "ball", i, f, wanted);
+        for (int s = 0; iso_systems[s]; s++)
+            if (!only || iso_systems[s] == only) explain_of_effects(to, iso_systems[s], f, wanted);
     }
 }
 

@@ -1,0 +1,366 @@
+/* A ball with a rotor, and the point in its magnetic field: states in quadruple precision, ball against point, integrals
+ * along orbits, the motion backwards, and the reversors of the return map. */
+#include <float.h>
+#include <gsl/gsl_test.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/pi_impl.h"
+#include "base/random_impl.h"
+#include "base/vec3_impl.h"
+#include "laws.h"
+#include "length.h"
+#include "map/section_impl.h"
+#include "model/model_impl.h"
+#include "numbers.h"
+#include "orbit/crossings_impl.h"
+#include "orbit/orbit_impl.h"
+
+static iso_context *ctx;
+
+typedef struct rotor_case {
+    iso_params p;
+    iso_start start;
+    iso_effects effects;
+} rotor_case;
+
+static iso_effects rotor_of(const double K[3])
+{
+    iso_effects e = iso_effects_default();
+    e.on[ISO_ROTOR] = true;
+    copy(K, ROTOR_MOMENTUM(&e), 3);
+    return e;
+}
+
+static void stop_if(bool failed, const char *what)
+{
+    if (!failed) return;
+    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
+    exit(gsl_test_summary());
+}
+
+static iso_orbit *open_orbit(const rotor_case *c, iso_backend backend, double tolerance)
+{
+    iso_orbit_options o = iso_orbit_defaults(&c->start);
+    iso_orbit *orbit;
+    o.backend = backend;
+    o.tolerance = tolerance;
+    o.effects = &c->effects;
+    o.shown = ISO_SHOW_BOTH;
+    o.clock = ISO_CLOCK_T;
+    o.with_clock[ISO_CLOCK_S] = true;
+    stop_if(iso_orbit_create(ctx, &c->p, &c->start, &o, &orbit) != ISO_OK, "an orbit");
+    return orbit;
+}
+
+static iso_sample state_at(const rotor_case *c, iso_backend backend, double tolerance, double t)
+{
+    iso_orbit *orbit = open_orbit(c, backend, tolerance);
+    iso_sample s;
+    stop_if(iso_orbit_at(orbit, t, &s) != ISO_OK, "a state");
+    iso_orbit_free(orbit);
+    return s;
+}
+
+static double distance(const double a[ISO_STATE], const double b[ISO_STATE])
+{
+    double d[ISO_STATE];
+    for (int i = 0; i < ISO_STATE; i++) d[i] = a[i] - b[i];
+    return laws_max(ISO_STATE, d);
+}
+
+static rotor_case ball_case(double k, const double J[3], const double K[3], const double omega[3], const double n[3])
+{
+    rotor_case c = {.p = laws_params(k, J), .effects = rotor_of(K)};
+    stop_if(iso_start_ball(ctx, omega, n, ISO_SPIN_REMOVE, &c.start) != ISO_OK, "a start");
+    return c;
+}
+
+/* k from -3 to 3, moments from 0.5 to 3, |K| up to 3 */
+static rotor_case random_case(iso_random *r)
+{
+    const double k = iso_random_uniform(r, 0.3, 3) * (iso_random_uniform(r, -1, 1) < 0 ? -1 : 1);
+    double J[3], K[3], omega[3], n[3];
+    iso_random_direction(r, K);
+    iso_random_direction(r, n);
+    scale(K, iso_random_uniform(r, 0, 3));
+    for (int i = 0; i < 3; i++) {
+        J[i] = iso_random_uniform(r, 0.5, 3);
+        omega[i] = iso_random_normal(r);
+    }
+    return ball_case(k, J, K, omega, n);
+}
+
+/* How much a small change of the start has grown by time t, at least 1: by the deviations, and evenly along the orbit,
+ * where a change of the energy goes. */
+static double growth_of(const rotor_case *c, double t)
+{
+    iso_crossings_options o = iso_crossings_defaults();
+    const iso_batch_orbit of = {&c->p, &c->start, &c->effects};
+    iso_crossings *crossings;
+    iso_crossing at;
+    size_t done;
+    iso_status status;
+    o.backend = ISO_BACKEND_BALL;
+    o.kind = ISO_SECTION_CLOCK;
+    o.value = t;
+    o.deviations = true;
+    stop_if(iso_crossings_create(ctx, &of, 1, &o, &crossings) != ISO_OK, "deviations");
+    stop_if(iso_crossings_go(crossings, NULL, 1, &at, NULL, &done, &status) != ISO_OK, "deviations");
+    iso_crossings_free(crossings);
+    return fmax(1, exp(fmax(at.growth[0], at.growth[1]))) * (1 + t);
+}
+
+/* --- states in quadruple precision ------------------------------------------------------------------------------ */
+
+enum { REFERENCES = 10, NUMBERS = 27 };
+
+/* k, J, K, w and n at the start; t, s; w, n, M, gamma there */
+static bool read_row(char *line, double x[NUMBERS])
+{
+    char *at = strchr(line, ',');
+    for (int i = 0; i < NUMBERS; i++) {
+        if (!at) return false;
+        x[i] = strtod(at + 1, NULL);
+        at = strchr(at + 1, ',');
+    }
+    return true;
+}
+
+static void check_reference(const double x[NUMBERS], laws_worst *worst, laws_worst *clock)
+{
+    const rotor_case c = ball_case(x[0], x + 1, x + 4, x + 7, x + 10);
+    const double t = x[13], bound = 1e-14 * growth_of(&c, t); /* the tolerance, grown */
+    for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
+        const iso_sample s = state_at(&c, b, 1e-14, t);
+        laws_note(worst, distance(s.ball, x + 15), bound, &c.p, iso_backend_name((int)b));
+        laws_note(worst, distance(s.point, x + 21), bound * norm(x + 21), &c.p, iso_backend_name((int)b));
+        laws_note(clock, fabs(s.clock[ISO_CLOCK_S] / x[14] - 1), bound, &c.p, iso_backend_name((int)b));
+    }
+}
+
+static void references(void)
+{
+    FILE *file = fopen(ISO_TEST_DATA "/rotor.csv", "r");
+    char line[4096];
+    double x[NUMBERS];
+    int count = 0;
+    laws_worst worst = {0}, clock = {0};
+    while (file && fgets(line, sizeof line, file)) {
+        if (strncmp(line, "rot", 3) != 0) continue;
+        stop_if(!read_row(line, x), "a row of rotor.csv");
+        check_reference(x, &worst, &clock);
+        count++;
+    }
+    if (file) fclose(file);
+    gsl_test_int(count, REFERENCES, "rows of rotor.csv");
+    laws_report(&worst, "states of rotor.csv by both backends");
+    laws_report(&clock, "their clock s");
+}
+
+/* --- ball against point ----------------------------------------------------------------------------------------- */
+
+static void ball_against_point(iso_random *r)
+{
+    laws_worst worst = {0}, other = {0};
+    const double t = 5;
+    for (int i = 0; i < tests_length(200, 1000); i++) {
+        const rotor_case c = random_case(r);
+        rotor_case without = c;
+        without.effects = iso_effects_default();
+        const iso_sample a = state_at(&c, ISO_BACKEND_BALL, 1e-14, t), b = state_at(&c, ISO_BACKEND_POINT, 1e-14, t);
+        const iso_sample free = state_at(&without, ISO_BACKEND_BALL, 1e-14, t);
+        laws_note(&worst, distance(a.ball, b.ball), 1e-10, &c.p, "ball");
+        laws_note(&worst, distance(a.point, b.point), 1e-10 * fmax(1, norm(a.point)), &c.p, "point");
+        laws_note(&other, distance(a.ball, free.ball), 1e-3, &c.p, "without the rotor");
+    }
+    laws_report(&worst, "ball against point on random orbits");
+    gsl_test(other.ratio < 1, "the rotor is seen");
+}
+
+/* --- integrals along orbits ------------------------------------------------------------------------------------- */
+
+static const iso_integral *find_integral(const iso_integral *list, const char *name)
+{
+    while (strcmp(list->name, name) != 0) list++;
+    return list;
+}
+
+/* The largest drift to t = 60, relative to its size. */
+static double drift_of(const rotor_case *c, iso_backend backend, const char *name)
+{
+    const iso_integral *of =
+        backend == ISO_BACKEND_BALL ? iso_effect_rotor.integrals : iso_effect_rotor.image_integrals;
+    const iso_system *system = backend == ISO_BACKEND_BALL ? &iso_system_ball : &iso_system_point;
+    const iso_integral *integral = find_integral(of, name);
+    iso_orbit *orbit = open_orbit(c, backend, 1e-14);
+    double first = 0, most = 0, size;
+    for (int t = 0; t <= 60; t += 2) {
+        iso_sample s;
+        stop_if(iso_orbit_at(orbit, t, &s) != ISO_OK, name);
+        const double I = iso_orbit_integral(orbit, system, integral, &s, &size);
+        if (t == 0) first = I;
+        most = fmax(most, fabs(I - first) / size);
+    }
+    iso_orbit_free(orbit);
+    return most;
+}
+
+/* Whether the table says that it holds. */
+static bool holds(const rotor_case *c, const char *name)
+{
+    const iso_problem f = {.p = c->p, .effects = c->effects};
+    return find_integral(iso_effect_rotor.integrals, name)->holds(&f);
+}
+
+static void integrals(iso_random *r)
+{
+    static const struct {
+        const char *name;
+        double k, J[3], K[3];
+        bool holds;
+    } cases[] = {
+        {"F_rotor", 1, {1, 2, 5}, {0.3, 0.4, 0.5}, true},    {"F_rotor", 1, {1.4, 2.1, 3}, {0, -2, 0}, true},
+        {"F_rotor", 0.9, {1, 2, 5}, {0.3, 0.4, 0.5}, false}, {"F_rotor", 1.001, {1, 2, 5}, {0.3, 0.4, 0.5}, false},
+        {"F_rotor", -1, {1, 2, 5}, {0.3, 0.4, 0.5}, false},  {"F_rotor3", 0.5, {2, 2, 3}, {0, 0, 0.7}, true},
+        {"F_rotor3", -1, {2, 2, 0.6}, {0, 0, -1.4}, true},   {"F_rotor3", 0.7, {2, 2, 2.0000001}, {0, 0, 1}, true},
+        {"F_rotor3", 0.7, {2, 2, 2}, {0, 0, 1}, true},       {"F_rotor1", 2, {1, 2, 2}, {0.7, 0, 0}, true},
+        {"F_rotor2", -0.4, {2, 1, 2}, {0, 0.7, 0}, true},    {"F_rotor3", 0.5, {2, 2, 3}, {0.1, 0, 0.7}, false},
+        {"F_rotor3", 0.5, {2, 2.1, 3}, {0, 0, 0.7}, false},  {"F_round", 0.6, {2, 2, 2}, {0.5, -0.3, 0.8}, true},
+        {"F_round", -1, {2, 2, 2}, {0.5, -0.3, 0.8}, true},  {"F_round", -1, {2, 2, 2.2}, {0.5, -0.3, 0.8}, false},
+    };
+    laws_worst kept = {0};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double omega[3], n[3];
+        iso_random_direction(r, omega);
+        iso_random_direction(r, n);
+        const rotor_case c = ball_case(cases[i].k, cases[i].J, cases[i].K, omega, n);
+        gsl_test(holds(&c, cases[i].name) != cases[i].holds, "%s, k = %g: the table says whether it holds",
+                 cases[i].name, cases[i].k);
+        for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
+            const double drift = drift_of(&c, b, cases[i].name);
+            if (cases[i].holds) laws_note(&kept, drift, 1e-13, &c.p, cases[i].name);
+            if (!cases[i].holds)
+                gsl_test(!(drift > 1e-5), "%s, k = %g: drifts, by %.2g", cases[i].name, cases[i].k, drift);
+        }
+    }
+    laws_report(&kept, "integrals along orbits");
+}
+
+/* --- the motion backwards --------------------------------------------------------------------------------------- */
+
+static rotor_case turned_back(const rotor_case *c, const iso_sample *there, double sign)
+{
+    rotor_case back = *c;
+    copy(there->ball, back.start.y, ISO_STATE);
+    scale(back.start.y, -1);
+    scale(ROTOR_MOMENTUM(&back.effects), sign);
+    return back;
+}
+
+/* Home again with -K; and with K not. */
+static void backwards(iso_random *r)
+{
+    laws_worst home = {0};
+    double least = INFINITY;
+    const double t = 12;
+    for (int i = 0; i < 40; i++) {
+        const rotor_case c = random_case(r);
+        const double bound = 1e-11 * growth_of(&c, t);
+        double begin[ISO_STATE];
+        copy(c.start.y, begin, ISO_STATE);
+        scale(begin, -1);
+        for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
+            const iso_sample there = state_at(&c, b, 1e-14, t);
+            const rotor_case back = turned_back(&c, &there, -1), same = turned_back(&c, &there, 1);
+            const iso_sample here = state_at(&back, b, 1e-14, t), elsewhere = state_at(&same, b, 1e-14, t);
+            laws_note(&home, distance(here.ball, begin), bound, &c.p, iso_backend_name((int)b));
+            if (norm(ROTOR_MOMENTUM(&c.effects)) > 0.3) least = fmin(least, distance(elsewhere.ball, begin));
+        }
+    }
+    laws_report(&home, "backwards with -K: home again");
+    gsl_test(!(least > 1e-3), "backwards with K: elsewhere, by %.2g at least", least);
+}
+
+/* --- reversors of the return map -------------------------------------------------------------------------------- */
+
+static void reverse(int reversor, double z[2])
+{
+    if (reversor == 0) z[1] = -z[1];
+    if (reversor == 1) z[0] = -z[0];
+    if (reversor == 2) z[0] = ISO_PI - z[0];
+}
+
+/* f of z on the section n_axis = 0, with the energy of c */
+static void return_map(const rotor_case *c, int axis, double z[2])
+{
+    iso_orbit *orbit = open_orbit(c, ISO_BACKEND_BALL, 1e-14);
+    iso_crossings_options o = iso_crossings_defaults();
+    iso_crossings *crossings;
+    iso_crossing crossing;
+    size_t done;
+    iso_status status;
+    const iso_start start = iso_section_start(orbit, ISO_BALL, axis, z[0], z[1]);
+    o.axis = axis;
+    o.backend = ISO_BACKEND_BALL;
+    o.tolerance = 1e-14;
+    const iso_batch_orbit of = {&c->p, &start, &c->effects};
+    stop_if(iso_crossings_create(ctx, &of, 1, &o, &crossings) != ISO_OK, "crossings");
+    stop_if(iso_crossings_go(crossings, NULL, 1, &crossing, NULL, &done, &status) != ISO_OK, "a crossing");
+    z[0] = crossing.l;
+    z[1] = crossing.x;
+    iso_crossings_free(crossings);
+    iso_orbit_free(orbit);
+}
+
+/* |S f S f z - z| */
+static double off(const rotor_case *c, int axis, int reversor, const double z[2])
+{
+    double at[2] = {z[0], z[1]};
+    for (int i = 0; i < 2; i++) {
+        return_map(c, axis, at);
+        reverse(reversor, at);
+    }
+    return fmax(fabs(remainder(at[0] - z[0], 2 * ISO_PI)), fabs(at[1] - z[1]));
+}
+
+/* K along each axis, and in each principal plane. S1, S2, S3 turn K_a, K_b, K_c over, so these must be 0. */
+static void reversors(void)
+{
+    laws_worst worst = {0};
+    double least = INFINITY;
+    const double z[2] = {0.7, 0.4};
+    for (int some = 0; some < 8; some++)
+        for (int axis = 0; axis < 3; axis++) {
+            const double K[3] = {some & 1 ? 0.3 : 0, some & 2 ? -0.2 : 0, some & 4 ? 0.25 : 0};
+            const rotor_case c = ball_case(0.75, (const double[]){1.4, 2.1, 3}, K, (const double[]){1, 0.2, 0},
+                                           (const double[]){0, 0, 1});
+            const iso_problem f = {.p = c.p, .effects = c.effects};
+            const unsigned held = iso_section_reversors(&f, axis);
+            for (int s = 0; s < 3; s++) {
+                const bool expected = K[(axis + s) % 3] == 0;
+                gsl_test((held >> s & 1) != expected, "S%d of n_%d = 0 with K of kind %d", s + 1, axis + 1, some);
+                const double error = off(&c, axis, s, z);
+                if (expected) laws_note(&worst, error, 1e-10, &c.p, "S f S f");
+                if (!expected) least = fmin(least, error);
+            }
+        }
+    laws_report(&worst, "reversors that hold");
+    gsl_test(!(least > 1e-4), "reversors that do not: off by %.2g at least", least);
+}
+
+int main(void)
+{
+    gsl_test_verbose(1);
+    ctx = iso_context_create();
+    iso_random *r = iso_random_create(2024);
+    references();
+    ball_against_point(r);
+    integrals(r);
+    backwards(r);
+    reversors();
+    iso_random_free(r);
+    iso_context_free(ctx);
+    exit(gsl_test_summary());
+}
