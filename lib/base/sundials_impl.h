@@ -29,7 +29,10 @@ void iso_sundials_quiet(int code, const char *module, const char *function, char
 #if SUNDIALS_VERSION_MAJOR < 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR < 1)
 #define ARKodeFree ERKStepFree
 #define ARKodeSetUserData ERKStepSetUserData
+#define ARKodeSStolerances ERKStepSStolerances
 #define ARKodeWFtolerances ERKStepWFtolerances
+#define ARKodeSetMaxNumSteps ERKStepSetMaxNumSteps
+#define ARKodeSetStopTime ERKStepSetStopTime
 #define ARKodeSetPostprocessStepFn ERKStepSetPostprocessStepFn
 #define ARKodeSetFixedStep ERKStepSetFixedStep
 #define ARKodeGetReturnFlagName ERKStepGetReturnFlagName

@@ -6,7 +6,7 @@
  * The orbits start evenly spread over the section. All runs have tolerance 1e-12 and one thread; seconds are
  * processor time. `ratio` is to the first line of its block.
  *
- * - crossings: the rival is a plain loop over the steps of GSL's rk8pd (rivals/sections.c), by the ball and by the
+ * - crossings: the rival is a plain loop over the steps of GSL's rk8pd (rivals/gsl.c), by the ball and by the
  *   point. Then iso_crossings with each kind of vectors.
  * - with two deviations, as for the verdict of `isoroll chaos`: the same loop for the point and its variational
  *   equations, 18 numbers. Then iso_crossings with deviations.
@@ -24,7 +24,7 @@
 #include "map/section_impl.h"
 #include "map/state.h"
 #include "orbit/crossings.h"
-#include "rivals/sections.h"
+#include "rivals/rivals.h"
 
 enum { ORBITS = 256, TURNS = 200, SLOW_ORBITS = 8, CHECKED = 5 };
 static const double tolerance = 1e-12;
@@ -110,6 +110,13 @@ typedef struct check {
     double worst, worst_variation;
 } check;
 
+static rival_problem problem_of(bool point, bool deviations)
+{
+    const double *J = params.J;
+    return (rival_problem){
+        .point = point, .k = params.k, .J = {J[0], J[1], J[2]}, .eps = 1, .variations = deviations ? 2 : 0};
+}
+
 static void point_at(double l, double x, double point[ISO_STATE])
 {
     iso_section_point(iso_free_point(&params, 1), iso_section_axis(iso_free_point(&params, 1)), l, x, point);
@@ -131,7 +138,7 @@ static void tangents(double l, double x, double by[2][ISO_STATE])
 static double variation_error(const iso_crossing *c, int v, const double y[])
 {
     const int height = 3 + iso_section_axis(iso_free_point(&params, 1));
-    const rival_problem p = {.k = params.k, .J = {params.J[0], params.J[1], params.J[2]}};
+    const rival_problem p = problem_of(true, false);
     const double *d = y + 6 + 6 * v;
     double by[2][ISO_STATE], flow[ISO_STATE], off = 0, size = 0;
     tangents(c->l, c->x, by);
@@ -164,7 +171,7 @@ static void see(void *data, int turn, double time, const double y[], const doubl
 
 static double by_gsl(bool point, bool deviations)
 {
-    const rival_problem p = {params.k, {params.J[0], params.J[1], params.J[2]}, deviations ? 2 : 0};
+    const rival_problem p = problem_of(point, deviations);
     const int axis = iso_section_axis(iso_free_point(&params, 1));
     check c = {.clock = point ? ISO_CLOCK_S : ISO_CLOCK_T, .deviations = deviations};
     const double begin = bench_milliseconds();
@@ -176,7 +183,7 @@ static double by_gsl(bool point, bool deviations)
             iso_point_to_ball(&params, starts[i].y, y);
         if (deviations) tangents(start_at[i][0], start_at[i][1], (double(*)[ISO_STATE])(y + ISO_STATE));
         c.ours = &crossing[(size_t)i * TURNS];
-        if (!rival_follow(&p, point, axis, tolerance, TURNS, y, see, &c)) {
+        if (!rival_follow(&p, axis, tolerance, TURNS, y, see, &c)) {
             fprintf(stderr, "bench_crossings: GSL did not follow orbit %d\n", i);
             exit(1);
         }

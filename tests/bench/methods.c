@@ -1,20 +1,27 @@
-/* bench_methods - time and error of every method on free balls.
+/* bench_methods - time and error of every method on free balls, against those of other libraries.
  *
  *     bench_methods [--long] [METHOD...]
  *
  * The ball has J = (1.4, 2.1, 3.0), n = (0.36, 0.48, 0.8), w = (0.9, -0.3, w3), and five values of k in turn.
- * - A ball, A point: the ball's state at t = 1000, by the equations of the ball, and by those of the point.
+ * - A ball, A point: the ball's state at t = 1000, by the equations of the ball, and by those of the point in t.
  * - B point: the point's state at the s of that moment.
+ *
+ * Rivals (rivals/): GSL's rk8pd, CVODE's Adams, ARKODE's table of order 8, and Boost.odeint where it is found. Each
+ * has a loop and equations of its own. All other rows are methods of isoroll; gsl, arkode and cvode among them are
+ * the same libraries with our equations, units and projections.
+ * The law: each rival comes within 1e-8 of the reference. Else the program fails and prints no speed. Speeds are
+ * compared at equal errors, not at equal tolerances.
  *
  * How to read the output. Each k has two tables.
  * - First: a row for each method and tolerance. Largest error of the final state (relative to the length of its
- *   vector), milliseconds of processor time, and their ratio to rk8pd on the ball at the same tolerance.
+ *   vector), and milliseconds of processor time.
  * - Second: a row for each method. Milliseconds for an error of 1e-6, 1e-9 and 1e-12 (interpolated between the
- *   tolerances), the ratios of these to rk8pd on the ball at the same error, and the least error. Compare these
- *   ratios: they carry over to other machines, about; milliseconds do not. "-": not reached in 300000 steps.
+ *   tolerances); how many times faster than the fastest rival this is, at the same error of the same problem (A or
+ *   B); and the least error. Compare these ratios: they carry over to other machines, about; milliseconds do not.
+ *   "-": not reached in 300000 steps.
  *
  * A time is the median of passes over all methods in turn. Errors are against Taylor series in long double.
- * --long: instead, the ball's state at t = 1e6, k = -1, against the time that rk8pd takes for t = 1e5.
+ * --long: instead, the ball's state at t = 1e6, k = -1, against the rivals that are not slow, at 1e-13.
  */
 #include <math.h>
 #include <stdbool.h>
@@ -26,8 +33,18 @@
 #include "map/state.h"
 #include "method/integrator_impl.h"
 #include "model/model_impl.h"
+#include "rivals/rivals.h"
 
-enum { GEOMETRIES = 5, LOOSEST = 6, TIGHTEST = 15, PASSES = 5, MOST_METHODS = 64, FORMS = 3 };
+enum {
+    GEOMETRIES = 5,
+    LOOSEST = 6,
+    TIGHTEST = 15,
+    PASSES = 5,
+    MOST_METHODS = 64,
+    FORMS = 3,
+    MOST_RIVALS = 8,
+    T_END = 1000
+};
 
 static const double geometries[GEOMETRIES] = {-1, 1, 0.5, 0.75, -0.4};
 static const double J[3] = {1.4, 2.1, 3.0}, start[ISO_STATE] = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8};
@@ -37,15 +54,17 @@ typedef struct problem {
     const char *name;
     iso_model model;
     double start[ISO_STATE], end;
+    rival_problem rivals; /* the same */
 } problem;
 
 typedef struct cell {
     double pass[PASSES], milliseconds, error; /* NaN: did not get there */
 } cell;
 
-/* One method on one problem, by digits of the tolerance. */
+/* One method or rival on one problem, by digits of the tolerance. */
 typedef struct table {
     const iso_method *method;
+    const rival *rival; /* or NULL */
     const problem *problem;
     cell of[TIGHTEST + 1];
 } table;
@@ -57,6 +76,11 @@ static void stop(const iso_context *ctx)
 }
 
 /* --- problems --------------------------------------------------------------------------------------------------- */
+
+static const char *name_of(const table *t)
+{
+    return t->rival ? t->rival->name : t->method->name;
+}
 
 static problem make_problem(iso_context *ctx, const char *name, double k, const iso_system *system, iso_clock clock)
 {
@@ -71,6 +95,11 @@ static problem make_problem(iso_context *ctx, const char *name, double k, const 
         iso_ball_to_point(&equations.p, start, p.start);
     }
     p.model = iso_model_assemble(system, &equations, clock, (const bool[ISO_CLOCKS]){false, false, false});
+    p.rivals = (rival_problem){.point = system == &iso_system_point,
+                               .in_t = clock == ISO_CLOCK_T,
+                               .k = k,
+                               .J = {J[0], J[1], J[2]},
+                               .eps = equations.eps};
     return p;
 }
 
@@ -78,7 +107,7 @@ static problem make_problem(iso_context *ctx, const char *name, double k, const 
 static bool run(iso_context *ctx, const iso_method *m, const problem *p, double tolerance, double end, double y[])
 {
     iso_integrator *it;
-    const iso_method_options options = {.tolerance = tolerance, .max_steps = end > 1e4 ? 0 : 300000};
+    const iso_method_options options = {.tolerance = tolerance, .max_steps = end > 1e4 ? 0 : RIVAL_STEPS};
     if (iso_integrator_create(ctx, m, &p->model, &options, &it) != ISO_OK) return false;
     const bool done = iso_integrator_start(it, p->start) == ISO_OK && iso_integrator_at(it, end, y) == ISO_OK;
     iso_integrator_free(it);
@@ -125,8 +154,10 @@ static void measure(iso_context *ctx, table *t, int digits, int pass, const doub
     if (pass == 0 && digits > LOOSEST)
         c->error = isnan(t->of[digits - 1].error) ? NAN : 0; /* tighter ones fail too */
     if (isnan(c->error)) return;
-    const double begin = bench_milliseconds();
-    const bool done = run(ctx, t->method, t->problem, pow(10, -digits), t->problem->end, y);
+    const double tolerance = pow(10, -digits), end = t->problem->end, begin = bench_milliseconds();
+    memcpy(y, t->problem->start, sizeof t->problem->start);
+    const bool done = t->rival ? t->rival->solve(&t->problem->rivals, tolerance, end, y)
+                               : run(ctx, t->method, t->problem, tolerance, end, y);
     c->pass[pass] = bench_milliseconds() - begin;
     c->error = done ? error_of(t->problem, y, reference) : NAN;
 }
@@ -150,6 +181,35 @@ static double time_for(const table *t, double error)
     return NAN;
 }
 
+static double best_error(const table *t)
+{
+    double best = INFINITY;
+    for (int d = LOOSEST; d <= TIGHTEST; d++) best = fmin(best, t->of[d].error);
+    return best;
+}
+
+/* A rival that is wrong must not be raced. */
+static void check_rivals(const table tables[], int count)
+{
+    for (int i = 0; i < count; i++) {
+        const table *t = &tables[i];
+        if (!t->rival || best_error(t) <= 1e-8) continue;
+        fprintf(stderr, "bench_methods: %s is wrong: %s, k = %g, error %.1e\n", t->rival->name, t->problem->name,
+                t->problem->rivals.k, best_error(t));
+        exit(1);
+    }
+}
+
+/* The fastest rival's time for an error on the same problem, A or B. */
+static double rival_time_for(const table tables[], int count, const problem *p, double error)
+{
+    double least = NAN;
+    for (int i = 0; i < count; i++)
+        if (tables[i].rival && tables[i].problem->name[0] == p->name[0])
+            least = fmin(least, time_for(&tables[i], error));
+    return least;
+}
+
 /* --- tables ----------------------------------------------------------------------------------------------------- */
 
 static void print_number(const char *format, double x)
@@ -159,91 +219,107 @@ static void print_number(const char *format, double x)
     printf("%9s", isnan(x) ? "-" : text);
 }
 
-static void print_first_table(const table *t, const table *rk8pd)
+static void print_first_table(const table *t)
 {
     for (int d = LOOSEST; d <= TIGHTEST; d++) {
-        printf("%-22s %-8s 1e-%02d", t->method->name, t->problem->name, d);
+        printf("%-22s %-8s 1e-%02d", name_of(t), t->problem->name, d);
         print_number("%.1e", t->of[d].error);
         print_number("%.3f", t->of[d].milliseconds);
-        print_number("%.3f", t->of[d].milliseconds / rk8pd->of[d].milliseconds);
         putchar('\n');
     }
 }
 
-static void print_second_table(const table tables[], int count, const table *rk8pd)
+static void print_second_table(const table tables[], int count)
 {
-    printf("\n%-22s %-8s%9s%9s%9s%9s%9s%9s%9s\n", "method", "problem", "1e-6", "1e-9", "1e-12", "/rk8pd", "/rk8pd",
-           "/rk8pd", "best");
+    printf("\n%-22s %-8s%9s%9s%9s%9s%9s%9s%9s\n", "method", "problem", "1e-6", "1e-9", "1e-12", "ratio", "ratio",
+           "ratio", "best");
     for (int i = 0; i < count; i++) {
-        double best = INFINITY;
-        for (int d = LOOSEST; d <= TIGHTEST; d++) best = fmin(best, tables[i].of[d].error);
-        printf("%-22s %-8s", tables[i].method->name, tables[i].problem->name);
-        for (int d = 6; d <= 12; d += 3) print_number("%.3f", time_for(&tables[i], pow(10, -d)));
+        const table *t = &tables[i];
+        printf("%-22s %-8s", name_of(t), t->problem->name);
+        for (int d = 6; d <= 12; d += 3) print_number("%.3f", time_for(t, pow(10, -d)));
         for (int d = 6; d <= 12; d += 3)
-            print_number("%.3f", time_for(&tables[i], pow(10, -d)) / time_for(rk8pd, pow(10, -d)));
-        print_number("%.1e", best);
+            print_number("%.2f", rival_time_for(tables, count, t->problem, pow(10, -d)) / time_for(t, pow(10, -d)));
+        print_number("%.1e", best_error(t));
         putchar('\n');
     }
     putchar('\n');
     fflush(stdout);
 }
 
-static void bench(iso_context *ctx, double k, const iso_method *const methods[], int count)
+static int list_tables(table tables[], const problem problems[FORMS], const iso_method *const methods[], int count)
 {
-    static table tables[1 + FORMS * MOST_METHODS];
-    double reference[ISO_STATE], s;
-    solve(ctx, k, 1000, reference, &s);
-    problem problems[FORMS] = {make_problem(ctx, "A ball", k, &iso_system_ball, ISO_CLOCK_T),
-                               make_problem(ctx, "A point", k, &iso_system_point, ISO_CLOCK_T),
-                               make_problem(ctx, "B point", k, &iso_system_point, ISO_CLOCK_S)};
-    problems[0].end = problems[1].end = 1000;
-    problems[2].end = s;
     int made = 0;
-    memset(tables, 0, sizeof tables);
-    tables[made++] = (table){.method = iso_method_find("rk8pd"), .problem = &problems[0]};
+    for (int i = 0; rivals[i].name && i < MOST_RIVALS; i++)
+        for (int form = 0; form < FORMS; form++)
+            tables[made++] = (table){.rival = &rivals[i], .problem = &problems[form]};
     for (int i = 0; i < count; i++)
         for (int form = 0; form < FORMS; form++)
             if (!methods[i]->system || methods[i]->system == problems[form].model.system)
                 tables[made++] = (table){.method = methods[i], .problem = &problems[form]};
+    return made;
+}
+
+static void bench(iso_context *ctx, double k, const iso_method *const methods[], int count)
+{
+    static table tables[FORMS * (MOST_RIVALS + MOST_METHODS)];
+    double reference[ISO_STATE], s;
+    solve(ctx, k, T_END, reference, &s);
+    problem problems[FORMS] = {make_problem(ctx, "A ball", k, &iso_system_ball, ISO_CLOCK_T),
+                               make_problem(ctx, "A point", k, &iso_system_point, ISO_CLOCK_T),
+                               make_problem(ctx, "B point", k, &iso_system_point, ISO_CLOCK_S)};
+    problems[0].end = problems[1].end = T_END;
+    problems[2].end = s;
+    const int made = list_tables(tables, problems, methods, count);
     for (int pass = 0; pass < PASSES; pass++)
         for (int d = LOOSEST; d <= TIGHTEST; d++)
             for (int i = 0; i < made; i++) measure(ctx, &tables[i], d, pass, reference);
     for (int i = 0; i < made; i++)
         for (int d = LOOSEST; d <= TIGHTEST; d++) take_median(&tables[i].of[d]);
 
-    printf("k = %g\n%-22s %-8s%5s%9s%9s%9s\n", k, "method", "problem", "tol", "error", "ms", "/rk8pd");
-    for (int i = 0; i < made; i++) print_first_table(&tables[i], &tables[0]);
-    print_second_table(tables, made, &tables[0]);
+    check_rivals(tables, made);
+    printf("k = %g\n%-22s %-8s%5s%9s%9s\n", k, "method", "problem", "tol", "error", "ms");
+    for (int i = 0; i < made; i++) print_first_table(&tables[i]);
+    print_second_table(tables, made);
 }
 
 /* --- long runs -------------------------------------------------------------------------------------------------- */
 
+static void print_long(const char *name, const problem *p, int digits, double error, double took)
+{
+    printf("%-22s %-8s 1e-%02d", name, p->name, digits);
+    print_number("%.1e", error);
+    print_number("%.0f", took);
+    putchar('\n');
+    fflush(stdout);
+}
+
 static void bench_long(iso_context *ctx, const iso_method *const methods[], int count)
 {
     double reference[ISO_STATE], y[ISO_MAX_STATE], s;
-    const problem ball = make_problem(ctx, "ball", -1, &iso_system_ball, ISO_CLOCK_T);
-    const problem point = make_problem(ctx, "point", -1, &iso_system_point, ISO_CLOCK_T);
-    solve(ctx, -1, 1e6, reference, &s);
-    double begin = bench_milliseconds();
-    run(ctx, iso_method_find("rk8pd"), &ball, 1e-13, 1e5, y);
-    const double unit = bench_milliseconds() - begin;
-    printf("%-22s %-8s%5s%9s%9s%9s   (rk8pd, t = 1e5: %.0f ms)\n", "t = 1e6", "problem", "tol", "error", "ms",
-           "/rk8pd", unit);
-    for (int i = 0; i < count; i++)
-        for (const problem *p = &ball; p; p = p == &ball ? &point : NULL) {
-            if (methods[i]->system && methods[i]->system != p->model.system) continue;
-            for (int d = 12; d <= 15; d++) {
-                begin = bench_milliseconds();
-                const bool done = run(ctx, methods[i], p, pow(10, -d), 1e6, y);
-                const double took = bench_milliseconds() - begin;
-                printf("%-22s %-8s 1e-%02d", methods[i]->name, p->name, d);
-                print_number("%.1e", done ? error_of(p, y, reference) : NAN);
-                print_number("%.0f", took);
-                print_number("%.2f", took / unit);
-                putchar('\n');
-                fflush(stdout);
-            }
+    const double end = 1e6;
+    const problem problems[] = {make_problem(ctx, "A ball", -1, &iso_system_ball, ISO_CLOCK_T),
+                                make_problem(ctx, "A point", -1, &iso_system_point, ISO_CLOCK_T)};
+    solve(ctx, -1, end, reference, &s);
+    printf("%-22s %-8s%5s%9s%9s\n", "t = 1e6", "problem", "tol", "error", "ms");
+    for (int form = 0; form < 2; form++)
+        for (int i = 0; rivals[i].name; i++) {
+            if (rivals[i].slow) continue;
+            memcpy(y, problems[form].start, sizeof problems[form].start);
+            const double begin = bench_milliseconds();
+            const bool done = rivals[i].solve(&problems[form].rivals, 1e-13, end, y);
+            print_long(rivals[i].name, &problems[form], 13, done ? error_of(&problems[form], y, reference) : NAN,
+                       bench_milliseconds() - begin);
         }
+    for (int i = 0; i < count; i++)
+        for (int form = 0; form < 2; form++)
+            for (int d = 12; d <= 15; d++) {
+                const problem *p = &problems[form];
+                if (methods[i]->system && methods[i]->system != p->model.system) continue;
+                const double begin = bench_milliseconds();
+                const bool done = run(ctx, methods[i], p, pow(10, -d), end, y);
+                print_long(methods[i]->name, p, d, done ? error_of(p, y, reference) : NAN,
+                           bench_milliseconds() - begin);
+            }
 }
 
 int main(int argc, char **argv)

@@ -1,17 +1,20 @@
 /* equations.h - what every rival integrates, written by hand as one who knows the problem would. C and C++.
  *
  * Ball (9):    J w' = J w x w + lambda n,  n' = k n x w,  y = (w, n), in its time t.
- * Point (24):  M' = a g x J g,  g' = g x M,  a = (2/k) q^(-1-1/k),  q = (g, J g),  y = (M, g), in its time s.
+ * Point (24):  M' = a g x J g,  g' = g x M,  a = (2 eps/k) q^(-1-1/k),  q = (g, J g),  y = (M, g), in its time s.
+ * In the ball's time the point's slopes are longer by ds/dt = (k^2/det J) q^(1+1/(2k)).
  * A variation d of the point's state obeys the equations of first order in d; y may hold some of them behind the state.
  */
 #ifndef ISO_TESTS_RIVALS_EQUATIONS_H
 #define ISO_TESTS_RIVALS_EQUATIONS_H
 
 #include <math.h>
+#include <stdbool.h>
 
 typedef struct rival_problem {
-    double k, J[3];
-    int variations; /* of the point */
+    bool point, in_t; /* in_t: the point, in the ball's time */
+    double k, J[3], eps;
+    int variations; /* of the point, in its own time */
 } rival_problem;
 
 static inline void rival_cross(const double a[], const double b[], double c[])
@@ -36,21 +39,34 @@ static inline void rival_ball(const rival_problem *p, const double y[], double d
     for (int i = 3; i < 6; i++) dy[i] *= p->k;
 }
 
-/* q to a power. Most geometries of interest have a whole one, which needs no pow. */
+/* q to a power. Most geometries of interest need no pow. */
 static inline double rival_power(double q, double power)
 {
     if (power == 0) return 1;
     if (power == 1) return q;
+    if (power == 0.5) return sqrt(q);
+    if (power == -0.5) return 1 / sqrt(q);
     if (power == -2) return 1 / (q * q);
     if (power == -3) return 1 / (q * q * q);
     return pow(q, power);
+}
+
+static inline void rival_point_in_t(const rival_problem *p, const double y[], double dy[])
+{
+    const double *M = y, *g = y + 3, *J = p->J, Jg[3] = {J[0] * g[0], J[1] * g[1], J[2] * g[2]};
+    const double q = g[0] * Jg[0] + g[1] * Jg[1] + g[2] * Jg[2], root = rival_power(q, 0.5 / p->k);
+    const double shared = p->k / (J[0] * J[1] * J[2]), a = 2 * p->eps * shared / root,
+                 rate = p->k * shared * q * root;
+    rival_cross(g, Jg, dy);
+    rival_cross(g, M, dy + 3);
+    for (int i = 0; i < 3; i++) dy[i] *= a, dy[3 + i] *= rate;
 }
 
 static inline void rival_point(const rival_problem *p, const double y[], double dy[])
 {
     const double *M = y, *g = y + 3, *J = p->J, power = -1 - 1 / p->k;
     const double Jg[3] = {J[0] * g[0], J[1] * g[1], J[2] * g[2]};
-    const double q = g[0] * Jg[0] + g[1] * Jg[1] + g[2] * Jg[2], a = 2 / p->k * rival_power(q, power);
+    const double q = g[0] * Jg[0] + g[1] * Jg[1] + g[2] * Jg[2], a = 2 * p->eps / p->k * rival_power(q, power);
     double twist[3];
     rival_cross(g, Jg, twist);
     for (int i = 0; i < 3; i++) dy[i] = a * twist[i];
@@ -67,6 +83,16 @@ static inline void rival_point(const rival_problem *p, const double y[], double 
         rival_cross(g, dM, other);
         for (int i = 0; i < 3; i++) to[3 + i] = one[i] + other[i];
     }
+}
+
+static inline void rival_rhs(const rival_problem *p, const double y[], double dy[])
+{
+    if (!p->point)
+        rival_ball(p, y, dy);
+    else if (p->in_t)
+        rival_point_in_t(p, y, dy);
+    else
+        rival_point(p, y, dy);
 }
 
 #endif

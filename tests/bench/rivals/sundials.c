@@ -1,0 +1,67 @@
+/* sundials.c - SUNDIALS: CVODE with Adams' formulas, and ARKODE with its explicit table of order 8. */
+#include <arkode/arkode_erkstep.h>
+#include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <string.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include "base/sundials_impl.h"
+#include "rivals.h"
+
+static int rhs(sunrealtype t, N_Vector y, N_Vector dy, void *problem)
+{
+    (void)t;
+    rival_rhs(problem, N_VGetArrayPointer(y), N_VGetArrayPointer(dy));
+    return 0;
+}
+
+bool rival_cvode_adams(const rival_problem *p, double tolerance, double end, double y[6])
+{
+    rival_problem data = *p;
+    SUNContext sun;
+    sunrealtype t;
+    if (ISO_SUN_CONTEXT_CREATE(&sun) != 0) return false;
+    ISO_SUN_CONTEXT_QUIET(sun);
+    N_Vector at = N_VMake_Serial(6, y, sun);
+    SUNNonlinearSolver iterator = SUNNonlinSol_FixedPoint(at, 0, sun);
+    void *memory = CVodeCreate(CV_ADAMS, sun);
+    ISO_SUN_QUIET(CVodeSetErrHandlerFn, memory);
+    const bool done = CVodeInit(memory, rhs, 0, at) == 0 && CVodeSetUserData(memory, &data) == 0 &&
+                      CVodeSStolerances(memory, tolerance, tolerance) == 0 &&
+                      CVodeSetNonlinearSolver(memory, iterator) == 0 &&
+                      CVodeSetMaxNumSteps(memory, RIVAL_STEPS) == 0 && CVodeSetStopTime(memory, end) == 0 &&
+                      CVode(memory, end, at, &t, CV_NORMAL) >= 0;
+    CVodeFree(&memory);
+    SUNNonlinSolFree(iterator);
+    N_VDestroy(at);
+    SUNContext_Free(&sun);
+    return done;
+}
+
+/* Without such a function version 6.4 loses the order of this table (SUNDIALS' issue 311). */
+static int nothing(sunrealtype t, N_Vector y, void *problem)
+{
+    (void)t, (void)y, (void)problem;
+    return 0;
+}
+
+bool rival_arkode_fehlberg(const rival_problem *p, double tolerance, double end, double y[6])
+{
+    rival_problem data = *p;
+    SUNContext sun;
+    sunrealtype t;
+    if (ISO_SUN_CONTEXT_CREATE(&sun) != 0) return false;
+    ISO_SUN_CONTEXT_QUIET(sun);
+    N_Vector at = N_VMake_Serial(6, y, sun);
+    void *memory = ERKStepCreate(rhs, 0, at, sun);
+    ISO_SUN_QUIET(ERKStepSetErrHandlerFn, memory);
+    const bool done =
+        ARKodeSetUserData(memory, &data) == 0 && ERKStepSetTableNum(memory, ARKODE_FEHLBERG_13_7_8) == 0 &&
+        ARKodeSetPostprocessStepFn(memory, nothing) == 0 && ARKodeSStolerances(memory, tolerance, tolerance) == 0 &&
+        ARKodeSetMaxNumSteps(memory, RIVAL_STEPS) == 0 && ARKodeSetStopTime(memory, end) == 0 &&
+        ARKodeEvolve(memory, end, at, &t, ARK_NORMAL) >= 0;
+    ARKodeFree(&memory);
+    N_VDestroy(at);
+    SUNContext_Free(&sun);
+    return done;
+}
