@@ -6,14 +6,20 @@
  * Each pass does this with the ends of steps kept (iso_orbit_options.memory) and without, one after the other. Passes
  * alternate; the table has the medians of their processor times.
  *
+ * Rival: GSL's rk8pd on the ball, at the tolerance 1e-12. It keeps the ends of all its steps, and takes a shorter step
+ * from there (rivals/gsl.c). The law: its answers are ours up to 1e-8. Else the program fails.
+ *
  * How to read the output. One row for each way to find the orbit: microseconds for a question without memory and with
- * it, and the ratio. Compare ratios: times depend on the machine. `forwards` has a ratio of 1 where keeping costs
- * nothing. Without memory only 20 of the questions backwards and at random are asked.
+ * it, and the ratio; behind it the rival's microseconds, and its time over ours with memory. Compare ratios: times
+ * depend on the machine. `forwards` has a ratio of 1 where keeping costs nothing. Without memory only 20 of the
+ * questions backwards and at random are asked.
  */
+#include <math.h>
 #include <stdio.h>
 
 #include "bench.h"
 #include "isoroll.h"
+#include "rivals/rivals.h"
 
 enum { QUESTIONS = 2000, FEW = 20, PASSES = 15, ORDERS = 3 };
 
@@ -68,6 +74,34 @@ static double measure(iso_context *ctx, const way *w, int order, bool keeps)
     return 1e3 * (end - begin) / count;
 }
 
+/* The same by the rival. */
+static double measure_rival(iso_context *ctx, int order)
+{
+    static double found[QUESTIONS][6];
+    const rival_problem p = {.k = -1, .J = {1.4, 2.1, 3.0}};
+    const way ours = {"taylor", ISO_BACKEND_BALL};
+    const double start[6] = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8};
+    rival_path *path = rival_path_create(&p, 1e-12, start);
+    iso_orbit *orbit = create(ctx, &ours, true);
+    double y[6], worst = 0;
+    bool done = path && (order == 0 || rival_path_at(path, 1000, y));
+    const double begin = bench_milliseconds();
+    for (int i = 0; i < QUESTIONS && done; i++) done = rival_path_at(path, time_of(order, i), found[i]);
+    const double end = bench_milliseconds();
+    for (int i = 0; i < QUESTIONS && done; i += 10) {
+        iso_sample sample;
+        must(ctx, iso_orbit_at(orbit, time_of(order, i), &sample));
+        for (int j = 0; j < 6; j++) worst = fmax(worst, fabs(found[i][j] - sample.ball[j]));
+    }
+    rival_path_free(path);
+    iso_orbit_free(orbit);
+    if (!done || worst > 1e-8) {
+        fprintf(stderr, "bench_anytime: GSL is wrong by %.1e\n", worst);
+        exit(1);
+    }
+    return 1e3 * (end - begin) / QUESTIONS;
+}
+
 int main(void)
 {
     static const way ways[] = {{"taylor", ISO_BACKEND_BALL},
@@ -76,10 +110,11 @@ int main(void)
                                {"rk8pd", ISO_BACKEND_BALL},
                                {"adams", ISO_BACKEND_BALL}};
     iso_context *ctx = iso_context_create();
-    printf("%-14s%-7s%-11s%12s%12s%10s\n", "method", "model", "order", "without us", "with us", "ratio");
+    printf("%-14s%-7s%-11s%12s%12s%10s%12s%10s\n", "method", "model", "order", "without us", "with us", "ratio",
+           "rival us", "ratio");
     for (size_t w = 0; w < sizeof ways / sizeof *ways; w++)
         for (int order = 0; order < ORDERS; order++) {
-            double time[2][PASSES], ratio[PASSES];
+            double time[2][PASSES], ratio[PASSES], rivals_time[PASSES], to_rival[PASSES];
             const int passes = w < 2 || order == 0 ? PASSES : 3;
             for (int pass = 0; pass < passes; pass++) {
                 for (int i = 0; i < 2; i++) {
@@ -87,12 +122,16 @@ int main(void)
                     time[keeps][pass] = measure(ctx, &ways[w], order, keeps);
                 }
                 ratio[pass] = time[0][pass] / time[1][pass];
+                rivals_time[pass] = measure_rival(ctx, order);
+                to_rival[pass] = rivals_time[pass] / time[1][pass];
             }
             for (int keeps = 0; keeps < 2; keeps++) bench_sort(time[keeps], (size_t)passes);
             bench_sort(ratio, (size_t)passes);
-            printf("%-14s%-7s%-11s%12.2f%12.2f%10.3g\n", ways[w].method,
+            bench_sort(rivals_time, (size_t)passes);
+            bench_sort(to_rival, (size_t)passes);
+            printf("%-14s%-7s%-11s%12.2f%12.2f%10.3g%12.2f%10.2f\n", ways[w].method,
                    ways[w].backend == ISO_BACKEND_BALL ? "ball" : "point", order_name[order], time[0][passes / 2],
-                   time[1][passes / 2], ratio[passes / 2]);
+                   time[1][passes / 2], ratio[passes / 2], rivals_time[passes / 2], to_rival[passes / 2]);
             fflush(stdout);
         }
     iso_context_free(ctx);

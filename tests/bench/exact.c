@@ -1,6 +1,6 @@
 /* bench_exact - what the closed solution costs: set-up, one time, grids; and what methods with steps cost instead.
  *
- *     bench_exact [--long]
+ *     bench_exact [race|--long]
  *
  * How to read the first table. It shows microseconds of processor time for ORBITS random orbits (J between 1 and 4)
  * of each kind. The columns are: set-up with the clock t alone, set-up with all three clocks, one state at random
@@ -11,9 +11,11 @@
  * inf: the orbit was refused.
  *
  * How to read the second table. It goes to t = 1e2, 1e3, ... on problem A of bench_methods, and shows milliseconds
- * and errors of the closed solution (set-up included), of `taylor` on the point and of `rk8pd` on the ball, each at
- * the tolerance where it is most exact. An error is relative to the length of the vector, against Taylor series in
- * long double, as far as these go. A time in brackets is the last run's, scaled with t. --long: ten times as far.
+ * and errors of the closed solution (set-up included), of `taylor` on the point, and of the rival, each at the
+ * tolerance where it is most exact. An error is relative to the length of the vector, against Taylor series in long
+ * double, as far as these go. A time in brackets is the last run's, scaled with t. race: this table alone. --long: ten times as far.
+ * The rival is a loop over the steps of GSL's rk8pd on the ball (rivals/gsl.c). The law: its error at t = 1000 is
+ * below 1e-9. Else the program fails.
  */
 #include <math.h>
 #include <stdio.h>
@@ -27,6 +29,7 @@
 #include "map/state.h"
 #include "method/integrator_impl.h"
 #include "model/model_impl.h"
+#include "rivals/rivals.h"
 
 enum { ORBITS = 30, ROUNDS = 5, TIMES = 50, POINTS = 300 };
 
@@ -238,6 +241,23 @@ static void run(const char *method, double tolerance, const iso_system *system, 
     iso_integrator_free(it);
 }
 
+/* From 0 to each end up to `last`, each on its own. */
+static void run_rival(double k, double last, const way *reference, way *w)
+{
+    const rival_problem ball = {.k = k, .J = {J[0], J[1], J[2]}};
+    w->last = last;
+    for (int i = 0; i < DECADES && pow(10, FIRST + i) <= 1.01 * last; i++) {
+        memcpy(w->ball[i], start, sizeof start);
+        const double begin = bench_milliseconds();
+        if (!rival_gsl_rk8pd(&ball, 1e-14, pow(10, FIRST + i), w->ball[i])) w->ball[i][0] = NAN;
+        w->milliseconds[i] = bench_milliseconds() - begin;
+    }
+    const double error = error_of(w->ball[3 - FIRST], reference->ball[3 - FIRST]);
+    if (error < 1e-9) return;
+    fprintf(stderr, "bench_exact: GSL is wrong by %.1e\n", error);
+    exit(1);
+}
+
 static double closed(const iso_problem *problem, const double point[], double end, int times, double ball[])
 {
     double least = INFINITY, y[ISO_STATE];
@@ -278,10 +298,10 @@ static void bench_long(double k, double longer)
     iso_ball_to_point(&ball.p, start, at);
     run("taylor_extended", 1e-15, &iso_system_ball, &ball, start, 1e5 * longer, true, &reference);
     run("taylor", 1e-15, &iso_system_point, &point, at, 1e6 * longer, false, &taylor);
-    run("rk8pd", 1e-14, &iso_system_ball, &ball, start, 1e5 * longer, false, &rk8pd);
+    run_rival(k, 1e5 * longer, &reference, &rk8pd);
     exact.last = pow(10, LAST);
     printf("\nk = %-6g%33s%21s%21s\n%-10s%12s%9s%12s%12s%9s%12s%9s\n", k, "closed solution", "taylor, point",
-           "rk8pd, ball", "t", "ms, 1 time", "error", "1000 times", "ms", "error", "ms", "error");
+           "GSL rk8pd, ball", "t", "ms, 1 time", "error", "1000 times", "ms", "error", "ms", "error");
     for (int i = 0; i < DECADES; i++) {
         const double end = pow(10, FIRST + i);
         exact.milliseconds[i] = closed(&point, at, end, 1, exact.ball[i]);
@@ -297,7 +317,7 @@ static void bench_long(double k, double longer)
 int main(int argc, char **argv)
 {
     ctx = iso_context_create();
-    bench_kinds();
+    if (argc < 2 || strcmp(argv[1], "race") != 0) bench_kinds();
     for (int k = -1; k <= 1; k += 2) bench_long(k, argc > 1 && strcmp(argv[1], "--long") == 0 ? 10 : 1);
     iso_context_free(ctx);
     return 0;

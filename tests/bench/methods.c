@@ -107,7 +107,7 @@ static problem make_problem(iso_context *ctx, const char *name, double k, const 
 static bool run(iso_context *ctx, const iso_method *m, const problem *p, double tolerance, double end, double y[])
 {
     iso_integrator *it;
-    const iso_method_options options = {.tolerance = tolerance, .max_steps = end > 1e4 ? 0 : RIVAL_STEPS};
+    const iso_method_options options = {.tolerance = tolerance, .max_steps = end > 1e4 ? 0 : 300000};
     if (iso_integrator_create(ctx, m, &p->model, &options, &it) != ISO_OK) return false;
     const bool done = iso_integrator_start(it, p->start) == ISO_OK && iso_integrator_at(it, end, y) == ISO_OK;
     iso_integrator_free(it);

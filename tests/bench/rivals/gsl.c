@@ -42,7 +42,7 @@ bool rival_gsl_rk8pd(const rival_problem *p, double tolerance, double end_time, 
     double t = 0, h = 0.01;
     int status = GSL_SUCCESS;
     begin(&l, p, tolerance);
-    for (int n = 0; t < end_time && n < RIVAL_STEPS && status == GSL_SUCCESS; n++)
+    for (long n = 0; t < end_time && (double)n < RIVAL_STEPS * end_time && status == GSL_SUCCESS; n++)
         status = gsl_odeiv2_evolve_apply(l.evolve, l.control, l.step, &l.system, &t, end_time, &h, y);
     end(&l);
     return t >= end_time && status == GSL_SUCCESS;

@@ -29,8 +29,8 @@ bool rival_cvode_adams(const rival_problem *p, double tolerance, double end, dou
     const bool done = CVodeInit(memory, rhs, 0, at) == 0 && CVodeSetUserData(memory, &data) == 0 &&
                       CVodeSStolerances(memory, tolerance, tolerance) == 0 &&
                       CVodeSetNonlinearSolver(memory, iterator) == 0 &&
-                      CVodeSetMaxNumSteps(memory, RIVAL_STEPS) == 0 && CVodeSetStopTime(memory, end) == 0 &&
-                      CVode(memory, end, at, &t, CV_NORMAL) >= 0;
+                      CVodeSetMaxNumSteps(memory, lround(RIVAL_STEPS * end)) == 0 &&
+                      CVodeSetStopTime(memory, end) == 0 && CVode(memory, end, at, &t, CV_NORMAL) >= 0;
     CVodeFree(&memory);
     SUNNonlinSolFree(iterator);
     N_VDestroy(at);
@@ -58,7 +58,7 @@ bool rival_arkode_fehlberg(const rival_problem *p, double tolerance, double end,
     const bool done =
         ARKodeSetUserData(memory, &data) == 0 && ERKStepSetTableNum(memory, ARKODE_FEHLBERG_13_7_8) == 0 &&
         ARKodeSetPostprocessStepFn(memory, nothing) == 0 && ARKodeSStolerances(memory, tolerance, tolerance) == 0 &&
-        ARKodeSetMaxNumSteps(memory, RIVAL_STEPS) == 0 && ARKodeSetStopTime(memory, end) == 0 &&
+        ARKodeSetMaxNumSteps(memory, lround(RIVAL_STEPS * end)) == 0 && ARKodeSetStopTime(memory, end) == 0 &&
         ARKodeEvolve(memory, end, at, &t, ARK_NORMAL) >= 0;
     ARKodeFree(&memory);
     N_VDestroy(at);
