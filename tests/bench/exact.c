@@ -13,7 +13,8 @@
  * How to read the second table. It goes to t = 1e2, 1e3, ... on problem A of bench_methods, and shows milliseconds
  * and errors of the closed solution (set-up included), of `taylor` on the point, and of the rival, each at the
  * tolerance where it is most exact. An error is relative to the length of the vector, against Taylor series in long
- * double, as far as these go. A time in brackets is the last run's, scaled with t. race: this table alone. --long: ten times as far.
+ * double, as far as these go. A time in brackets is the last run's, scaled with t. race: this table alone.
+ * --long: ten times as far.
  * The rival is a loop over the steps of GSL's rk8pd on the ball (rivals/gsl.c). The law: its error at t = 1000 is
  * below 1e-9. Else the program fails.
  */

@@ -31,7 +31,7 @@ extern const rival rivals[];
 rival_solve rival_gsl_rk8pd, rival_cvode_adams, rival_arkode_fehlberg;
 rival_solve rival_odeint_fehlberg, rival_odeint_stoer; /* Boost, where it was found */
 
-enum { RIVAL_STEPS = 1000 }; /* in a time of 1: who needs more gives up */
+enum { RIVAL_STEPS = 10000 }; /* in a time of 1: who needs more gives up */
 
 /* --- an orbit at any time: the ends of steps are kept, and one shorter step leads from there ---------------------- */
 
