@@ -86,6 +86,10 @@ for sweep in 18_chaotic_share 19_atlas 21_levels; do
     "$isoroll" plot "$work/$sweep.csv" -o $sweep/picture.svg
 done
 
+# half an hour of one core
+"$isoroll" sweep 18_chaotic_share/many.yaml -o "$work/many.h5"
+"$isoroll" plot "$work/many.h5" -o 18_chaotic_share/many.svg
+
 # there is no ball with k = 0: the curve has a gap
 "$build/tests/example_13_chaos" | awk 'NR > 2 { if (last < 0 && $1 > 0) print ""; print $1, $2; last = $1 }' \
     >"$work/chaos.txt"
