@@ -18,7 +18,7 @@ template <class Stepper> bool solve(Stepper stepper, const rival_problem *p, dou
     state at;
     std::copy(y, y + 6, at.begin());
     double t = 0, h = 0.01;
-    for (long n = 0; t < end && (double)n < RIVAL_STEPS * end; n++) {
+    for (long n = 0; t < end && (double)n < double{RIVAL_STEPS} * end; n++) {
         if (t + h > end) h = end - t;
         if (t + h == t) return false;
         stepper.try_step(equations, at, t, h);
