@@ -93,7 +93,7 @@ compared 4
 if has gnuplot "--plot"; then
     run 0 compare scene.yaml --plot picture.svg
     silent
-    check "picture: the closed solution" grep -q "and the closed solution agree to" picture.svg
+    check "picture: the closed solution" grep -q "and the closed solution, agree to" picture.svg
 fi
 
 # --- where there is none
