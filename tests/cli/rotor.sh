@@ -46,7 +46,7 @@ check "a rotor is the same" cmp p.csv q.csv
 # --- what is known of it, and what is refused by name
 run 0 explain scene.yaml
 for words in "in the magnetic field of 'rotor'" "n_1 = 0 is not known to be global: 'rotor' acts on the ball" \
-    "holds: this orbit has both models"; do
+    "holds: (18) of the theory carries the states"; do
     check "explain: $words" grep -F -q -e "$words" out
 done
 rotor 1 "0.3, 0.4, 0.5" >plane.yaml

@@ -83,7 +83,7 @@ static void check_neighbours(const effects_case *c, laws_worst *worst)
     const orbit o = orbit_of(ctx, c, variant++);
     flow f = {.o = &o, .time = 0.7 * orbit_stretch(c, &o), .code = iso_lane_code_find("quad", true)};
     go(&f, o.y0);
-    const double step = 2e-4; /* a rotor can turn neighbours about each other 20 times as fast as the orbit turns */
+    const double step = 2e-4; /* with a strong rotor 1e-3 is too large for the differences */
     double neighbour[ISO_LANE_DEVIATIONS][ISO_MAX_STATE];
     for (int d = 0; d < ISO_LANE_DEVIATIONS; d++)
         laws_slope(state_after, &f, o.model.moving, o.model.moving, o.y0, f.first[d], step, neighbour[d]);
