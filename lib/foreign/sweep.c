@@ -131,6 +131,10 @@ static iso_status explain(iso_context *ctx, const char *path, const char *text, 
     if (status == ISO_OK) iso_record_set_kind(*record, "explain");
     if (status == ISO_OK) status = iso_record_set(ctx, *record, "text", words);
     free(words);
+    if (status != ISO_OK) {
+        iso_record_free(*record);
+        *record = NULL;
+    }
     return status;
 }
 

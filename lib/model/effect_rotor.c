@@ -9,7 +9,7 @@
  * V stays, and with it the level of H, the chart of sections, the map and the clocks. On H = 0 these are integrals
  * (L = J w + K, and on the point its image):
  *
- *     k = 1                      |L x n|^2,    since (L x n)' = (L x n) x w, but for a part along n
+ *     k = 1                      |L x n|^2,    since (L x n)' = (L x n) x w
  *     J_b = J_c, K along axis a  rho^(1/k) w_a + K_a (rho^(1/k) - J_b^(-1/(2k)))/(J_a - J_b),    rho^2 = g = 1/q
  *     J = c 1                    c (K,w) - (K,n)^2/(2k)                                          Demchenko's case
  *
