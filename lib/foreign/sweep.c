@@ -1,4 +1,7 @@
-/* sweep.c - a whole sweep, as a table; and what it would take, in words. Chunks end in any order; those that come early wait as bytes. */
+/* sweep.c - a whole sweep, as a table; and what it would take, in words.
+ *
+ * Chunks end in any order; those that come early wait as bytes.
+ */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -12,7 +12,6 @@
 #include "io/text_impl.h"
 #include "orbit/orbit_impl.h"
 
-
 /* ---- What must hold between keys ---- */
 
 /* The key and value of root -> section (-> name if not NULL). */

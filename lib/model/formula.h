@@ -2,8 +2,8 @@
  *
  * A formula is a list of lines. Each line is one operation: it takes one or two results of earlier lines and makes
  * one new result, a number or a vector of R^3. The last lines say what the results are for: a torque, the rate of a
- * state, an energy, a force on the point. A function of the effect's row writes the formula once for an orbit, with the calls of
- * formula_impl.h.
+ * state, an energy, a force on the point. A function of the effect's row writes the formula once for an orbit, with
+ * the calls of formula_impl.h.
  *
  * One evaluator (series/evaluate_impl.h) then computes the lines from the first to the last. It computes
  *

@@ -309,8 +309,8 @@ static inline void point_p(series *S, int c, int n)
     S->n[i + 1] = times(S->k * S->alpha * S->inverse[n + 1], scaled(S->base, S->z, c, n));
 }
 
-/* (24) itself, w = M: M' = a q^alpha gamma x J gamma + gamma x dV/dgamma + B gamma',  gamma' = gamma x M. For Jacobians: series
- * need fewer products in the forms above. */
+/* (24) itself, w = M: M' = a q^alpha gamma x J gamma + gamma x dV/dgamma + B gamma',  gamma' = gamma x M.
+ * For Jacobians: series need fewer products in the forms above. */
 static inline void point_24(series *S, int c, int n)
 {
     const int i = place(c, n);

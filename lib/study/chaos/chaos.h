@@ -24,8 +24,8 @@
  * early verdict has no advantage; those without a verdict are undecided.
  *
  * Ball and point are the same orbits, and the point is followed three times faster. So the point alone follows the
- * spread starts. The ball checks the verdict of every 16th of them, if 750 turns are enough for it. Both follow the scene's own orbit and the
- * starts that are given. With `models` ISO_SHOW_BOTH both follow every orbit.
+ * spread starts. The ball checks the verdict of every 16th of them, if 750 turns are enough for it. Both follow the
+ * scene's own orbit and the starts that are given. With `models` ISO_SHOW_BOTH both follow every orbit.
  */
 #ifndef ISO_STUDY_CHAOS_H
 #define ISO_STUDY_CHAOS_H

@@ -15,26 +15,44 @@ static int rhs(sunrealtype t, N_Vector y, N_Vector dy, void *problem)
     return 0;
 }
 
+/* What both solvers need: the state y as a vector, and the problem, which SUNDIALS takes without const. */
+typedef struct run {
+    rival_problem problem;
+    SUNContext sun;
+    N_Vector at;
+} run;
+
+static bool begin(run *r, const rival_problem *p, double y[6])
+{
+    r->problem = *p;
+    if (ISO_SUN_CONTEXT_CREATE(&r->sun) != 0) return false;
+    ISO_SUN_CONTEXT_QUIET(r->sun);
+    r->at = N_VMake_Serial(6, y, r->sun);
+    return true;
+}
+
+static void end_run(run *r)
+{
+    N_VDestroy(r->at);
+    SUNContext_Free(&r->sun);
+}
+
 bool rival_cvode_adams(const rival_problem *p, double tolerance, double end, double y[6])
 {
-    rival_problem data = *p;
-    SUNContext sun;
+    run r;
     sunrealtype t;
-    if (ISO_SUN_CONTEXT_CREATE(&sun) != 0) return false;
-    ISO_SUN_CONTEXT_QUIET(sun);
-    N_Vector at = N_VMake_Serial(6, y, sun);
-    SUNNonlinearSolver iterator = SUNNonlinSol_FixedPoint(at, 0, sun);
-    void *memory = CVodeCreate(CV_ADAMS, sun);
+    if (!begin(&r, p, y)) return false;
+    SUNNonlinearSolver iterator = SUNNonlinSol_FixedPoint(r.at, 0, r.sun);
+    void *memory = CVodeCreate(CV_ADAMS, r.sun);
     ISO_SUN_QUIET(CVodeSetErrHandlerFn, memory);
-    const bool done = CVodeInit(memory, rhs, 0, at) == 0 && CVodeSetUserData(memory, &data) == 0 &&
+    const bool done = CVodeInit(memory, rhs, 0, r.at) == 0 && CVodeSetUserData(memory, &r.problem) == 0 &&
                       CVodeSStolerances(memory, tolerance, tolerance) == 0 &&
                       CVodeSetNonlinearSolver(memory, iterator) == 0 &&
                       CVodeSetMaxNumSteps(memory, lround(RIVAL_STEPS * end)) == 0 &&
-                      CVodeSetStopTime(memory, end) == 0 && CVode(memory, end, at, &t, CV_NORMAL) >= 0;
+                      CVodeSetStopTime(memory, end) == 0 && CVode(memory, end, r.at, &t, CV_NORMAL) >= 0;
     CVodeFree(&memory);
     SUNNonlinSolFree(iterator);
-    N_VDestroy(at);
-    SUNContext_Free(&sun);
+    end_run(&r);
     return done;
 }
 
@@ -47,21 +65,17 @@ static int nothing(sunrealtype t, N_Vector y, void *problem)
 
 bool rival_arkode_fehlberg(const rival_problem *p, double tolerance, double end, double y[6])
 {
-    rival_problem data = *p;
-    SUNContext sun;
+    run r;
     sunrealtype t;
-    if (ISO_SUN_CONTEXT_CREATE(&sun) != 0) return false;
-    ISO_SUN_CONTEXT_QUIET(sun);
-    N_Vector at = N_VMake_Serial(6, y, sun);
-    void *memory = ERKStepCreate(rhs, 0, at, sun);
+    if (!begin(&r, p, y)) return false;
+    void *memory = ERKStepCreate(rhs, 0, r.at, r.sun);
     ISO_SUN_QUIET(ERKStepSetErrHandlerFn, memory);
     const bool done =
-        ARKodeSetUserData(memory, &data) == 0 && ERKStepSetTableNum(memory, ARKODE_FEHLBERG_13_7_8) == 0 &&
+        ARKodeSetUserData(memory, &r.problem) == 0 && ERKStepSetTableNum(memory, ARKODE_FEHLBERG_13_7_8) == 0 &&
         ARKodeSetPostprocessStepFn(memory, nothing) == 0 && ARKodeSStolerances(memory, tolerance, tolerance) == 0 &&
         ARKodeSetMaxNumSteps(memory, lround(RIVAL_STEPS * end)) == 0 && ARKodeSetStopTime(memory, end) == 0 &&
-        ARKodeEvolve(memory, end, at, &t, ARK_NORMAL) >= 0;
+        ARKodeEvolve(memory, end, r.at, &t, ARK_NORMAL) >= 0;
     ARKodeFree(&memory);
-    N_VDestroy(at);
-    SUNContext_Free(&sun);
+    end_run(&r);
     return done;
 }
