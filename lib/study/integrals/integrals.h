@@ -48,7 +48,6 @@
 #include "../../base/field.h"
 #include "../../orbit/orbit.h"
 
-
 ISO_C_BEGIN
 
 enum {
