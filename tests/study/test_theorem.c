@@ -1,4 +1,4 @@
-/* The theorem of doc/why_only_one.md, first variation, by computations that do not know it. The ball's equations (9) are
+/* The theorem of doc/why_only_one.md, first variation, by computations that do not know it. The equations (9) are
  * linearised along the rotation about the middle axis and followed on random paths in complex time. Base points,
  * corners of paths, k and J are random. Neither Hill's equation, nor exponents, nor Sturm's comparison are used here.
  *
@@ -293,7 +293,7 @@ static void check_zeros(void)
 
 /* --- T < -2 ----------------------------------------------------------------------------------------------------- */
 
-/* y1 (even) and y2 (odd) at a quarter turn, in the angle phi of gamma, from gamma'' = ... of theory.md, section 6. Gives
+/* y1 (even) and y2 (odd) at a quarter turn, in the angle phi of gamma, from theory.md, section 12. Gives
  * y1 y2'/W, which is (T + 2)/4. */
 static double quarter(double k, const double J[3], int steps)
 {
