@@ -2,7 +2,7 @@
 #ifndef ISO_STUDY_PROVE_CERTIFICATE_IMPL_H
 #define ISO_STUDY_PROVE_CERTIFICATE_IMPL_H
 
-#include <arb.h>
+#include "study/prove/arb_impl.h"
 #include <stdbool.h>
 #include <stddef.h>
 

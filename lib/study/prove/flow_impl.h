@@ -21,7 +21,7 @@
 #ifndef ISO_STUDY_PROVE_FLOW_IMPL_H
 #define ISO_STUDY_PROVE_FLOW_IMPL_H
 
-#include <arb.h>
+#include "study/prove/arb_impl.h"
 #include <stdbool.h>
 
 #include "base/context_impl.h"
@@ -76,6 +76,7 @@ void prove_series_powers(prove_flow *f, const arb_t s);
 /* Makes a ball larger by 2^-part of its radius, and by some rounding errors: a checker that rounds otherwise shall
  * find its own ball inside. */
 void prove_widen(const prove_flow *f, slong part, arb_t x);
+enum { PROVE_EIGHTH = 3 };
 
 /* A half return: (l, x) of a crossing of gamma_c = 0 in one direction to the next, turned by the antipode, which is a
  * crossing of the same direction. The derivative, and the time: of the crossing, or an interval in which each orbit of

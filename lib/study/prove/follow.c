@@ -74,6 +74,16 @@ static void write_piece(const prove_flow *f, const piece *p)
     prove_certificate_line(f->certificate, "sigma", 1, p->sigma);
 }
 
+/* A thousandth each time. */
+static void widen_all(const prove_flow *f, piece *p)
+{
+    enum { PART = 10 };
+    for (int i = 0; i < 2; i++) prove_widen(f, PART, p->hull + i);
+    for (int i = 0; i < 2; i++) prove_widen(f, PART, p->left + i);
+    for (int i = 0; i < 2; i++) prove_widen(f, PART, p->right + i);
+    prove_widen(f, PART, p->sigma);
+}
+
 /* --- the beginning ---------------------------------------------------------------------------------------------- */
 
 /* The piece start (1 +- width) of the local manifold: |eta| <= slope (xi + width), |sigma| <= slope. */
@@ -96,6 +106,7 @@ static bool begin_piece(const prove_flow *f, const prove_local *o, const prove_s
     arb_add_error(p->hull, length), arb_add_error(p->hull + 1, most), arb_add_error(p->sigma, o->slope);
     arb_neg(p->left, length), arb_set(p->right, length);
     arb_set(p->left + 1, p->hull + 1), arb_set(p->right + 1, p->hull + 1);
+    widen_all(f, p);
     arb_clear(length), arb_clear(most);
     return inside;
 }
@@ -114,6 +125,7 @@ static iso_status enclose(prove_flow *f, const piece *p, prove_half *all, prove_
 {
     arb_ptr box = _arb_vec_init(2);
     apply(p->A, p->hull, p->centre, f->bits, box);
+    for (int i = 0; i < 2; i++) prove_widen(f, PROVE_EIGHTH, box + i);
     prove_certificate_words(f->certificate, "half set");
     iso_status status = prove_half_return(f, box, box + 1, true, all);
     prove_certificate_words(f->certificate, "half centre");
@@ -121,15 +133,6 @@ static iso_status enclose(prove_flow *f, const piece *p, prove_half *all, prove_
     if (status == ISO_OK) status = check_times(f, all, one);
     _arb_vec_clear(box, 2);
     return status;
-}
-
-static void widen_all(const prove_flow *f, piece *p)
-{
-    enum { PART = 10 }; /* of the radius, each time */
-    for (int i = 0; i < 2; i++) prove_widen(f, PART, p->hull + i);
-    for (int i = 0; i < 2; i++) prove_widen(f, PART, p->left + i);
-    for (int i = 0; i < 2; i++) prove_widen(f, PART, p->right + i);
-    prove_widen(f, PART, p->sigma);
 }
 
 /* False: xi does not grow along the piece. */
@@ -187,6 +190,7 @@ static bool cross(const prove_flow *f, const piece *p, prove_crossing *crossing)
     arb_add(crossing->m, crossing->m, p->A + 2, bits);
     arb_div(crossing->m, crossing->m, rate, bits);
     reached = reached && arb_is_positive(rate);
+    prove_widen(f, PROVE_EIGHTH, crossing->m), prove_widen(f, PROVE_EIGHTH, crossing->x);
     _arb_vec_clear(end, 2);
     arb_clear(line), arb_clear(rate);
     return reached;

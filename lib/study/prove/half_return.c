@@ -164,7 +164,7 @@ static bool find_zero(prove_flow *f, const arb_t h, arb_t zero, arb_t window)
 
 /* --- steps ------------------------------------------------------------------------------------------------------ */
 
-enum { HALVINGS = 12, EIGHTH = 3, SPARE_BITS = 4 };
+enum { HALVINGS = 12, SPARE_BITS = 4 };
 
 /* h is made exact, with few bits, and small enough for a bound. */
 static bool choose_step(prove_flow *f, int numbers, arb_t h)
@@ -217,7 +217,7 @@ static iso_status take_step(prove_flow *f, int numbers, arb_ptr y, prove_half *h
     if (good && !*crossed) arb_set(zero, h);
     for (int i = 0; i < numbers; i++) {
         arb_set(y + i, end + i);
-        if (good) prove_widen(f, EIGHTH, y + i);
+        if (good) prove_widen(f, PROVE_EIGHTH, y + i);
     }
     if (good) {
         prove_certificate_line(f->certificate, "step", 1, h);
@@ -241,6 +241,7 @@ iso_status prove_half_return(prove_flow *f, const arb_t l, const arb_t x, bool w
     bool crossed = false;
     iso_status status = ISO_OK;
     begin_state(f, l, x, y);
+    for (int i = 0; i < numbers; i++) prove_widen(f, PROVE_EIGHTH, y + i);
     prove_certificate_line(f->certificate, "l", 1, l);
     prove_certificate_line(f->certificate, "x", 1, x);
     prove_certificate_line(f->certificate, "state", numbers, y);
@@ -251,9 +252,9 @@ iso_status prove_half_return(prove_flow *f, const arb_t l, const arb_t x, bool w
     }
     if (status == ISO_OK) {
         end_chart(f, y, with_derivative, half);
-        for (int i = 0; i < 2; i++) prove_widen(f, EIGHTH, half->z + i);
+        for (int i = 0; i < 2; i++) prove_widen(f, PROVE_EIGHTH, half->z + i);
         prove_certificate_line(f->certificate, "to", 2, half->z);
-        for (int i = 0; with_derivative && i < 4; i++) prove_widen(f, EIGHTH, half->D + i);
+        for (int i = 0; with_derivative && i < 4; i++) prove_widen(f, PROVE_EIGHTH, half->D + i);
         if (with_derivative) prove_certificate_line(f->certificate, "derivative", 4, half->D);
     }
     _arb_vec_clear(y, PROVE_STATE);

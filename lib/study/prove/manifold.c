@@ -33,12 +33,14 @@ static bool find_multiplier(const prove_flow *f, const arb_struct D[4], prove_lo
 
 iso_status prove_local_begin(prove_flow *f, prove_local *o)
 {
+    prove_certificate *certificate = f->certificate;
     prove_half half;
     arb_t zero;
     arb_init(zero);
     prove_half_init(&half);
-    prove_certificate_words(f->certificate, "half fixed");
+    f->certificate = NULL; /* the cone condition says all that is needed of O */
     iso_status status = prove_half_return(f, zero, zero, true, &half);
+    f->certificate = certificate;
     if (status == ISO_OK && !find_multiplier(f, half.D, o))
         status = iso_context_fail(f->ctx, ISO_NUMERICAL, "", "the rotation is not hyperbolic in these digits");
     if (status == ISO_OK) { /* eigenvectors (1, +-s), s^2 = (dx'/dl)/(dl'/dx); any s near it will do */
@@ -98,6 +100,20 @@ static bool find_slope(const prove_flow *f, arb_struct E[4], arb_t alpha)
     return holds;
 }
 
+/* All points with |xi|, |eta| <= size: |l| <= 2 size, |x| <= 2 |s| size. */
+static void hold_square(const prove_flow *f, const prove_local *o, arb_t l, arb_t x)
+{
+    arb_t most;
+    arb_init(most);
+    arb_zero(l), arb_zero(x);
+    arb_mul_2exp_si(most, o->size, 1);
+    arb_add_error(l, most);
+    arb_mul(most, most, o->s, f->bits);
+    arb_add_error(x, most);
+    prove_widen(f, PROVE_EIGHTH, l), prove_widen(f, PROVE_EIGHTH, x);
+    arb_clear(most);
+}
+
 iso_status prove_local_bound(prove_flow *f, prove_local *o)
 {
     prove_half half;
@@ -105,24 +121,17 @@ iso_status prove_local_bound(prove_flow *f, prove_local *o)
     arb_ptr E = _arb_vec_init(4);
     prove_half_init(&half);
     arb_init(l), arb_init(x);
-    arb_mul_2exp_si(l, o->size, 1);
-    arb_abs(x, o->s);
-    arb_mul(x, l, x, f->bits);
-    arb_zero(l);
-    arb_add_error(l, o->size), arb_add_error(l, o->size); /* |xi + eta| <= 2 size */
-    arb_get_ubound_arf(arb_midref(x), x, f->bits);
-    mag_zero(arb_radref(x));
-    arb_t around;
-    arb_init(around);
-    arb_add_error(around, x);
+    hold_square(f, o, l, x);
+    prove_certificate_line(f->certificate, "frame-o", 1, o->s);
+    prove_certificate_line(f->certificate, "size", 1, o->size);
     prove_certificate_words(f->certificate, "half cone");
-    iso_status status = prove_half_return(f, l, around, true, &half);
+    iso_status status = prove_half_return(f, l, x, true, &half);
     if (status == ISO_OK) into_frame(f, half.D, o->s, E);
     if (status == ISO_OK && !find_slope(f, E, o->slope))
         status = iso_context_fail(f->ctx, ISO_NUMERICAL, "", "the cone condition does not hold in these digits");
     if (status == ISO_OK) prove_certificate_line(f->certificate, "cone", 1, o->slope);
     _arb_vec_clear(E, 4);
-    arb_clear(l), arb_clear(x), arb_clear(around);
+    arb_clear(l), arb_clear(x);
     prove_half_clear(&half);
     return status;
 }

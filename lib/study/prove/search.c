@@ -87,9 +87,10 @@ static iso_status find_piece(prove_flow *f, const prove_local *o, int *i, long *
 static iso_status refine_piece(const prove_flow *f, const prove_local *o, int i, long halves, arb_t xi, double *slope)
 {
     double at[2] = {i - 1, i}, value[2] = {0, 0}, weight[2] = {1, 1}, middle = i;
-    const double unit = arf_get_d(arb_midref(o->lambda), ARF_RND_NEAR);
     arb_t gap;
     arb_init(gap);
+    arb_log(gap, o->lambda, f->bits);
+    const double growth = arf_get_d(arb_midref(gap), ARF_RND_NEAR);
     iso_status status = ISO_OK;
     for (int n = 0; n < TRIES && status == ISO_OK && at[1] - at[0] > 1e-5; n++) {
         const double a = weight[0] * value[0], b = weight[1] * value[1];
@@ -102,7 +103,7 @@ static iso_status refine_piece(const prove_flow *f, const prove_local *o, int i,
         if (n >= 2) weight[!side] /= 2;
         if (fabs(found) < 1e-7) break;
     }
-    *slope = (value[1] - value[0]) / (at[1] - at[0]) * POINTS / log(unit);
+    *slope = (value[1] - value[0]) / (at[1] - at[0]) * POINTS / growth;
     arb_clear(gap);
     return status;
 }
