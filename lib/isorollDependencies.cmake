@@ -47,6 +47,23 @@ set(ISO_DEPENDENCIES SUNDIALS::cvode SUNDIALS::arkode GSL::gsl PkgConfig::isorol
 if(ISO_HDF5 AND isoroll_hdf5_FOUND AND ISO_HDF5_SONAME)
   set(ISO_HDF5_PC ${isoroll_hdf5_MODULE_NAME})
 endif()
+
+# Arb may be missing: then `isoroll prove` refuses. It is a library of its own, or a part of FLINT 3.
+option(ISO_ARB "isoroll prove, where Arb is installed" ON)
+if(ISO_ARB)
+  find_path(ISO_ARB_INCLUDE NAMES arb.h flint/arb.h DOC "where arb.h is")
+  find_library(ISO_FLINT flint DOC "FLINT")
+  find_library(ISO_FLINT_ARB NAMES flint-arb arb DOC "Arb, where it is no part of FLINT 3")
+  find_library(ISO_GMP gmp DOC "GMP, which FLINT's headers call")
+  mark_as_advanced(ISO_ARB_INCLUDE ISO_FLINT ISO_FLINT_ARB ISO_GMP)
+endif()
+if(ISO_ARB AND ISO_ARB_INCLUDE AND ISO_FLINT AND ISO_GMP AND (ISO_FLINT_ARB OR EXISTS ${ISO_ARB_INCLUDE}/flint/arb.h))
+  set(ISO_ARB_LIBS ${ISO_FLINT} ${ISO_GMP})
+  if(ISO_FLINT_ARB AND NOT EXISTS ${ISO_ARB_INCLUDE}/flint/arb.h)
+    list(PREPEND ISO_ARB_LIBS ${ISO_FLINT_ARB})
+  endif()
+  list(APPEND ISO_DEPENDENCIES ${ISO_ARB_LIBS})
+endif()
 set(ISO_SUNDIALS_LIBS "-lsundials_cvode -lsundials_arkode") # the same for isoroll.pc: SUNDIALS has no .pc file
 if(TARGET SUNDIALS::core) # 7.x
   list(PREPEND ISO_DEPENDENCIES SUNDIALS::core)

@@ -1,14 +1,14 @@
-/* manifold_impl.h - the rotation O about the middle axis and its unstable manifold, from O to the line l = pi/2. */
-#ifndef ISO_STUDY_PROVE_MANIFOLD_IMPL_H
-#define ISO_STUDY_PROVE_MANIFOLD_IMPL_H
+/* arb_manifold_impl.h - the rotation O about the middle axis and its unstable manifold, from O to the line l = pi/2. */
+#ifndef ISO_STUDY_PROVE_ARB_MANIFOLD_IMPL_H
+#define ISO_STUDY_PROVE_ARB_MANIFOLD_IMPL_H
 
-#include "study/prove/flow_impl.h"
+#include "study/prove/arb_flow_impl.h"
 
 /* Near O: (l, x) = (xi + eta, s (xi - eta)). For |xi| <= size the unstable manifold is eta = e(xi) with a slope of at
  * most `slope`. */
 typedef struct prove_local {
-    arb_t trace, lambda;    /* of the half return's derivative at O: its trace, its eigenvalue > 1 */
-    arb_t s, size;          /* exact */
+    arb_t trace, lambda; /* of the half return's derivative at O: its trace, its eigenvalue > 1 */
+    arb_t s, size;       /* exact */
     arb_t slope;
 } prove_local;
 

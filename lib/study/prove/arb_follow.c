@@ -1,16 +1,16 @@
-/* follow.c - a piece of the unstable manifold, enclosed from near O to the line l = pi/2 (manifold_impl.h).
+/* arb_follow.c - a piece of the unstable manifold, enclosed from near O to the line l = pi/2 (arb_manifold_impl.h).
  *
  * After each half return the piece lies in the set centre + A (xi, eta), (xi, eta) in `hull`, where centre and A are
  * exact. The left and the right end lie in `left` and `right` of this frame, and the piece is a curve with the tangent
  * (1, sigma), on which xi grows from left to right. With D the derivative on the whole set, and h(centre) enclosed by
- * itself, the mean value theorem gives
+ * itself, the mean value theorem gives, as the set is convex and holds its centre,
  *
  *     h(centre + A v) in h(centre) + (D A) v.
  *
  * The next centre is near h(centre), the next A near D A, and so v becomes B v + e with B = A_next^-1 D A near 1,
  * e = A_next^-1 (h(centre) - centre_next) near 0, and sigma becomes (B21 + B22 sigma)/(B11 + B12 sigma).
  */
-#include "study/prove/manifold_impl.h"
+#include "study/prove/arb_manifold_impl.h"
 
 typedef struct piece {
     arb_struct centre[2], A[4], hull[2], left[2], right[2];
@@ -34,7 +34,8 @@ static void piece_clear(piece *p)
 }
 
 /* x = M v + offset; NULL: 0 */
-static void apply(const arb_struct M[4], const arb_struct v[2], const arb_struct offset[2], slong bits, arb_struct x[2])
+static void apply(const arb_struct M[4], const arb_struct v[2], const arb_struct offset[2], slong bits,
+                  arb_struct x[2])
 {
     arb_ptr y = _arb_vec_init(2);
     for (int i = 0; i < 2; i++) arb_dot(y + i, offset ? offset + i : NULL, 0, M + 2 * i, 1, v, 1, 2, bits);
@@ -135,7 +136,7 @@ static iso_status enclose(prove_flow *f, const piece *p, prove_half *all, prove_
     return status;
 }
 
-/* False: xi does not grow along the piece. */
+/* False: xi does not grow along the piece, or the centre is not in the set. */
 static bool carry(const prove_flow *f, const prove_half *all, const prove_half *one, piece *p)
 {
     const slong bits = f->bits;
@@ -160,7 +161,7 @@ static bool carry(const prove_flow *f, const prove_half *all, const prove_half *
     arb_add(p->sigma, p->sigma, B + 2, bits);
     arb_div(p->sigma, p->sigma, below, bits);
     widen_all(f, p);
-    const bool grows = arb_is_positive(below);
+    const bool grows = arb_is_positive(below) && arb_contains_zero(p->hull) && arb_contains_zero(p->hull + 1);
     _arb_vec_clear(B, 4), _arb_vec_clear(T, 4), _arb_vec_clear(e, 2);
     arb_clear(below);
     return grows;

@@ -1,4 +1,4 @@
-/* flow_impl.h - the free ball in arc length, enclosed: Taylor series with bounds for what is left out, half returns.
+/* arb_flow_impl.h - the free ball in arc length, enclosed: Taylor series with bounds for what is left out, half returns.
  *
  * The orbit is the curve gamma(s) on the sphere, s its arc length. u = gamma', b = gamma x u, and
  *
@@ -18,20 +18,39 @@
  *
  * The set (q, ..., z) does not distinguish (gamma, u) from its images under half turns about c: l is known modulo pi.
  */
-#ifndef ISO_STUDY_PROVE_FLOW_IMPL_H
-#define ISO_STUDY_PROVE_FLOW_IMPL_H
+#ifndef ISO_STUDY_PROVE_ARB_FLOW_IMPL_H
+#define ISO_STUDY_PROVE_ARB_FLOW_IMPL_H
 
 #include "study/prove/arb_impl.h"
 #include <stdbool.h>
 
 #include "base/context_impl.h"
-#include "study/prove/certificate_impl.h"
+#include "study/prove/arb_certificate_impl.h"
 
 /* The numbers of a state; the last four are two neighbours. Then series that follow from them. */
 enum {
-    PROVE_Q, PROVE_R, PROVE_P, PROVE_F, PROVE_D, PROVE_G, PROVE_W, PROVE_Z, PROVE_POINT,
-    PROVE_Y1 = PROVE_POINT, PROVE_V1, PROVE_Y2, PROVE_V2, PROVE_STATE,
-    PROVE_KAPPA = PROVE_STATE, PROVE_TWIST, PROVE_E, PROVE_RHO, PROVE_ETA, PROVE_SQUARE, PROVE_H, PROVE_SERIES
+    PROVE_Q,
+    PROVE_R,
+    PROVE_P,
+    PROVE_F,
+    PROVE_D,
+    PROVE_G,
+    PROVE_W,
+    PROVE_Z,
+    PROVE_POINT,
+    PROVE_Y1 = PROVE_POINT,
+    PROVE_V1,
+    PROVE_Y2,
+    PROVE_V2,
+    PROVE_STATE,
+    PROVE_KAPPA = PROVE_STATE,
+    PROVE_TWIST,
+    PROVE_E,
+    PROVE_RHO,
+    PROVE_ETA,
+    PROVE_SQUARE,
+    PROVE_H,
+    PROVE_SERIES
 };
 
 /* A ball, its moments in the order of the section: J[2] belongs to the axis c of the section, J[1] is the middle one.
@@ -41,12 +60,12 @@ typedef struct prove_flow {
     slong bits;
     int order;
     arb_t k, inverse_k, J[3], trace;
-    arb_ptr series[PROVE_SERIES]; /* coefficients 0 ... order                                    */
-    mag_ptr term[PROVE_SERIES];   /* |coefficient n| h^n                                          */
-    mag_ptr sum[PROVE_SERIES];    /* their sum from n to the order                                */
-    mag_t tail[PROVE_SERIES];     /* bounds the sum of |coefficient| h^n from order + 1 on         */
-    arb_ptr power;                /* of the place at which series are evaluated                   */
-    mag_t step;                   /* h, for which sums and tails hold                             */
+    arb_ptr series[PROVE_SERIES];   /* coefficients 0 ... order                                    */
+    mag_ptr term[PROVE_SERIES];     /* |coefficient n| h^n                                          */
+    mag_ptr sum[PROVE_SERIES];      /* their sum from n to the order                                */
+    mag_t tail[PROVE_SERIES];       /* bounds the sum of |coefficient| h^n from order + 1 on         */
+    arb_ptr power;                  /* of the place at which series are evaluated                   */
+    mag_t step;                     /* h, for which sums and tails hold                             */
     prove_certificate *certificate; /* NULL: none                                                 */
     long steps;                     /* taken so far                                               */
 } prove_flow;

@@ -1,9 +1,9 @@
-/* search.c - looks for the orbit of the unstable manifold that meets l = pi/2. Nothing here is part of a proof: a
- * wrong answer makes the proof fail (follow.c), it does not make it wrong. */
+/* arb_search.c - looks for the orbit of the unstable manifold that meets l = pi/2. Nothing here is part of a proof: a
+ * wrong answer makes the proof fail (arb_follow.c), it does not make it wrong. */
 #include <math.h>
 
 #include "base/pi_impl.h"
-#include "study/prove/manifold_impl.h"
+#include "study/prove/arb_manifold_impl.h"
 
 enum { POINTS = 8, LOW_BITS = 80, FAR = -14, MOST_HALVES = 20000, TRIES = 60 };
 
@@ -29,7 +29,8 @@ static void find_gap(const prove_flow *f, const arb_t l, arb_t gap)
 }
 
 /* The gap after `halves` half returns from xi, in numbers of `bits` bits. */
-static iso_status land(const prove_flow *like, slong bits, const prove_local *o, const arb_t xi, long halves, arb_t gap)
+static iso_status land(const prove_flow *like, slong bits, const prove_local *o, const arb_t xi, long halves,
+                       arb_t gap)
 {
     prove_flow f;
     arb_ptr z = _arb_vec_init(2);

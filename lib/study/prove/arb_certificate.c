@@ -1,5 +1,5 @@
-/* certificate.c - the text of a certificate (certificate_impl.h). */
-#include "study/prove/certificate_impl.h"
+/* arb_certificate.c - the text of a certificate (arb_certificate_impl.h). */
+#include "study/prove/arb_certificate_impl.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -48,6 +48,12 @@ void prove_certificate_line(prove_certificate *c, const char *word, int count, a
         flint_free(ball);
     }
     add(c, "\n");
+}
+
+void prove_certificate_append(prove_certificate *c, const prove_certificate *more)
+{
+    c->lost = c->lost || more->lost;
+    if (more->text) add(c, more->text);
 }
 
 void prove_certificate_cut(prove_certificate *c, size_t length)

@@ -1,4 +1,4 @@
-/* series.c - Taylor series of the orbit and of its neighbours, and a bound for what is left out (flow_impl.h).
+/* arb_series.c - Taylor series of the orbit and of its neighbours, and a bound for what is left out (arb_flow_impl.h).
  *
  * The coefficients up to the order K are balls, which hold those of each orbit that begins in the given set. The rest
  * is bounded thus. Let S_N be, for each number, the sum of |coefficient n| h^n over K < n <= N. The equations give
@@ -9,7 +9,7 @@
  */
 #include <math.h>
 
-#include "study/prove/flow_impl.h"
+#include "study/prove/arb_flow_impl.h"
 
 /* --- memory ----------------------------------------------------------------------------------------------------- */
 
@@ -164,15 +164,14 @@ static void sum_up(prove_flow *f, int numbers)
 }
 
 /* x >= the sum of |coefficient n| h^n, n >= from, of the product of a and b, whose tails are t[a] and t[b]. */
-static void bound_product(const prove_flow *f, const mag_t t[], int a, int b, int from, mag_t x)
+static void bound_product(const prove_flow *f, mag_t t[], int a, int b, int from, mag_t x)
 {
     mag_t whole;
     mag_init(whole);
     mag_add(whole, f->sum[b], t[b]);
     mag_mul(x, t[a], whole);
     mag_addmul(x, f->sum[a], t[b]);
-    for (int n = 0; n <= f->order; n++)
-        mag_addmul(x, f->term[a] + n, f->sum[b] + (n < from ? from - n : 0));
+    for (int n = 0; n <= f->order; n++) mag_addmul(x, f->term[a] + n, f->sum[b] + (n < from ? from - n : 0));
     mag_clear(whole);
 }
 
@@ -196,7 +195,7 @@ static bool bound_quotient(const prove_flow *f, mag_t t[], int a, int c)
 }
 
 /* x += |factor| times what series i has from coefficient `order` on. */
-static void add_rest(const prove_flow *f, const mag_t t[], int i, ulong factor, mag_t x)
+static void add_rest(const prove_flow *f, mag_t t[], int i, ulong factor, mag_t x)
 {
     mag_t rest;
     mag_init(rest);
@@ -233,10 +232,10 @@ static bool bound_again(const prove_flow *f, mag_t t[], int numbers, mag_t next[
     static const struct {
         int product, linear[2];
         ulong factor;
-    } rates[PROVE_POINT] = {{-1, {PROVE_R, -1}, 2},     {PROVE_P, {PROVE_F, PROVE_Q}, 1},
-                            {PROVE_R, {PROVE_D, -1}, 1}, {PROVE_D, {PROVE_R, -1}, 2},
+    } rates[PROVE_POINT] = {{-1, {PROVE_R, -1}, 2},          {PROVE_P, {PROVE_F, PROVE_Q}, 1},
+                            {PROVE_R, {PROVE_D, -1}, 1},     {PROVE_D, {PROVE_R, -1}, 2},
                             {PROVE_TWIST, {PROVE_P, -1}, 1}, {-1, {PROVE_W, -1}, 1},
-                            {PROVE_Z, {PROVE_G, -1}, 1}, {PROVE_W, {-1, -1}, 1}};
+                            {PROVE_Z, {PROVE_G, -1}, 1},     {PROVE_W, {-1, -1}, 1}};
     if (!bound_rest(f, t, numbers)) return false;
     for (int i = 0; i < PROVE_POINT; i++) {
         mag_zero(next[i]);

@@ -1,4 +1,4 @@
-/* prove_ball.c - one proof, from the numbers of the ball to the enclosure of m (prove_impl.h).
+/* arb_ball.c - one proof, from the numbers of the ball to the enclosure of m (arb_ball_impl.h).
  *
  * How near to O the manifold begins, how long the piece is that is followed, and how many bits numbers have follow from
  * the digits of m that are wanted. With size r, the slope at the start is known to about r, and adds r^3 to the error
@@ -6,7 +6,7 @@
  */
 #include <math.h>
 
-#include "study/prove/prove_impl.h"
+#include "study/prove/arb_ball_impl.h"
 
 void prove_found_init(prove_found *f)
 {
@@ -144,6 +144,5 @@ iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, p
         spare += lacks + MORE / 2;
         attempt_clear(&a);
     }
-    flint_cleanup();
     return status;
 }

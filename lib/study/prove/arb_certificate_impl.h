@@ -1,6 +1,6 @@
-/* certificate_impl.h - the certificate of a proof, a text that grows line by line (lib/doc/prove.md). */
-#ifndef ISO_STUDY_PROVE_CERTIFICATE_IMPL_H
-#define ISO_STUDY_PROVE_CERTIFICATE_IMPL_H
+/* arb_certificate_impl.h - the certificate of a proof, a text that grows line by line (lib/doc/prove.md). */
+#ifndef ISO_STUDY_PROVE_ARB_CERTIFICATE_IMPL_H
+#define ISO_STUDY_PROVE_ARB_CERTIFICATE_IMPL_H
 
 #include "study/prove/arb_impl.h"
 #include <stdbool.h>
@@ -21,6 +21,9 @@ void prove_certificate_words(prove_certificate *c, const char *format, ...)
 
 /* A line: a word, then balls, exactly. */
 void prove_certificate_line(prove_certificate *c, const char *word, int count, arb_srcptr x);
+
+/* All lines of another one. */
+void prove_certificate_append(prove_certificate *c, const prove_certificate *more);
 
 /* Forgets what was written after the first `length` bytes. */
 void prove_certificate_cut(prove_certificate *c, size_t length);

@@ -1,4 +1,4 @@
-/* manifold.c - O, and its unstable manifold near it (manifold_impl.h).
+/* arb_manifold.c - O, and its unstable manifold near it (arb_manifold_impl.h).
  *
  * h is half a return followed by the antipode, h(O) = O, det Dh(O) = 1. In the frame (xi, eta) the derivative on the
  * square |xi|, |eta| <= size lies in [[a, b], [c, d]]. If there is alpha <= 1 with
@@ -9,7 +9,7 @@
  * a - |b| alpha, until it leaves the square. The unstable manifold begins in O as such a curve, since the eigenvector
  * of the eigenvalue > 1 lies in the cone |eta| <= alpha |xi|. So it is such a curve over all |xi| <= size.
  */
-#include "study/prove/manifold_impl.h"
+#include "study/prove/arb_manifold_impl.h"
 
 /* --- O ---------------------------------------------------------------------------------------------------------- */
 

@@ -1,4 +1,4 @@
-/* half_return.c - from a crossing of gamma_c = 0 to the next one in the other direction, enclosed (flow_impl.h).
+/* arb_half_return.c - from a crossing of gamma_c = 0 to the next one in the other direction, enclosed (arb_flow_impl.h).
  *
  * On the section, with J_a, J_b, J_c, t = (sin l, cos l, 0) and X = sqrt(1 - x^2):
  *
@@ -7,7 +7,7 @@
  * A change of (l, x) moves gamma by y = X dl along b, with y' = v = dx/X - kappa x dl, and the other way round
  * dl = y/X, dx = X (v + kappa x dl). The antipode turns gamma, u, y, v, p, d, kappa over and leaves b, q, r, f.
  */
-#include "study/prove/flow_impl.h"
+#include "study/prove/arb_flow_impl.h"
 
 void prove_half_init(prove_half *h)
 {
@@ -35,12 +35,12 @@ static void begin_state(const prove_flow *f, const arb_t l, const arb_t x, arb_p
     arb_sin_cos(A, y + PROVE_Q, T, bits);
     arb_sub(half, f->J[0], f->J[1], bits);
     arb_mul_2exp_si(half, half, -1);
-    arb_mul(A, A, half, bits);                       /* (J gamma, t) */
+    arb_mul(A, A, half, bits); /* (J gamma, t) */
     arb_mul(y + PROVE_Q, y + PROVE_Q, half, bits);
     arb_add(T, f->J[0], f->J[1], bits);
     arb_mul_2exp_si(half, T, -1);
     arb_add(y + PROVE_Q, y + PROVE_Q, half, bits);
-    arb_sub(T, T, y + PROVE_Q, bits);                /* (J t, t) */
+    arb_sub(T, T, y + PROVE_Q, bits); /* (J t, t) */
     arb_zero(y + PROVE_G);
     arb_neg(y + PROVE_Z, x);
     arb_mul(half, x, x, bits);
@@ -50,7 +50,7 @@ static void begin_state(const prove_flow *f, const arb_t l, const arb_t x, arb_p
     arb_mul(y + PROVE_R, y + PROVE_Z, A, bits);
     arb_mul(y + PROVE_P, y + PROVE_W, A, bits);
     arb_neg(y + PROVE_P, y + PROVE_P);
-    arb_sub(T, T, f->J[2], bits);                    /* f = J_c + x^2 (T - J_c), d = x X (T - J_c) */
+    arb_sub(T, T, f->J[2], bits); /* f = J_c + x^2 (T - J_c), d = x X (T - J_c) */
     arb_mul(y + PROVE_F, x, x, bits);
     arb_mul(y + PROVE_F, y + PROVE_F, T, bits);
     arb_add(y + PROVE_F, y + PROVE_F, f->J[2], bits);
@@ -58,7 +58,7 @@ static void begin_state(const prove_flow *f, const arb_t l, const arb_t x, arb_p
     arb_mul(y + PROVE_D, y + PROVE_D, T, bits);
     arb_set(y + PROVE_Y1, y + PROVE_W);
     arb_div(A, y + PROVE_P, y + PROVE_Q, bits);
-    arb_mul(A, A, f->inverse_k, bits);               /* -kappa */
+    arb_mul(A, A, f->inverse_k, bits); /* -kappa */
     arb_mul(y + PROVE_V1, A, x, bits);
     arb_zero(y + PROVE_Y2);
     arb_inv(y + PROVE_V2, y + PROVE_W, bits);
@@ -98,11 +98,11 @@ static void end_chart(const prove_flow *f, arb_srcptr y, bool with_derivative, p
     arb_add(c, f->J[0], f->J[1], bits);
     arb_mul_2exp_si(kappa, y + PROVE_Q, 1);
     arb_sub(c, kappa, c, bits);
-    arb_div(c, c, apart, bits);                      /* -cos 2l */
+    arb_div(c, c, apart, bits); /* -cos 2l */
     find_angle(s, c, bits, half->z);
     arb_neg(half->z + 1, y + PROVE_Z);
     arb_div(kappa, y + PROVE_P, y + PROVE_Q, bits);
-    arb_mul(kappa, kappa, f->inverse_k, bits);       /* that of the antipode */
+    arb_mul(kappa, kappa, f->inverse_k, bits); /* that of the antipode */
     for (int j = 0; with_derivative && j < 2; j++) {
         arb_div(half->D + j, y + PROVE_Y1 + 2 * j, y + PROVE_W, bits);
         arb_mul(c, kappa, half->z + 1, bits);
@@ -230,8 +230,7 @@ static iso_status take_step(prove_flow *f, int numbers, arb_ptr y, prove_half *h
     f->steps++;
     _arb_vec_clear(end, PROVE_STATE);
     arb_clear(h), arb_clear(zero), arb_clear(window);
-    return good ? ISO_OK
-                : iso_context_fail(f->ctx, ISO_NUMERICAL, "", "a step of the orbit could not be enclosed");
+    return good ? ISO_OK : iso_context_fail(f->ctx, ISO_NUMERICAL, "", "a step of the orbit could not be enclosed");
 }
 
 iso_status prove_half_return(prove_flow *f, const arb_t l, const arb_t x, bool with_derivative, prove_half *half)
