@@ -115,6 +115,7 @@ int shell_run(iso_context *ctx, const shell_parts *parts, const void *options, c
     } else {
         if (s.result.failed) result = worse(result, EXIT_SOME_FAILED);
         result = worse(result, print(&s, parts));
+        if (parts->write) result = worse(result, parts->write(&s));
         result = worse(result, save(&s, parts, writer));
     }
     iso_study_result_free(&s.result);

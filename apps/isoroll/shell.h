@@ -34,6 +34,7 @@ typedef struct shell_parts {
     void (*interrupted)(const shell *s); /* ... or who says it; table[0] may be NULL              */
     json_t *(*json)(const shell *s);     /* NULL: version, k, J and all that was found            */
     void (*print)(const shell *s);       /* words on standard output                              */
+    int (*write)(const shell *s);        /* writes what is no table; the exit status              */
     iso_status (*describe)(shell *s);    /* adds lines to the table, among them its title         */
     int (*draw)(const shell *s);         /* the exit status; NULL: the table is drawn by its kind */
 } shell_parts;

@@ -6,6 +6,7 @@
 
 #include "base/nearest_impl.h"
 #include "base/number_impl.h"
+#include "base/rational_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"
 #include "method/methods_impl.h"
@@ -43,6 +44,51 @@ static iso_status read_number(iso_draft *d, const entry *e, const yaml_node_t *v
 static iso_status read_vector(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     return iso_yaml_numbers(&d->yaml, value, e->name, 3, target(d, e));
+}
+
+/* For what is found wrong only later, when an orbit is made. */
+static void note_place(iso_scene *s, const char *key, yaml_mark_t at)
+{
+    if (s->places == ISO_MAX_PLACES) return;
+    iso_place *place = &s->place[s->places++];
+    snprintf(place->key, sizeof place->key, "%s", key);
+    place->line = (int)at.line + 1;
+    place->column = (int)at.column + 1;
+}
+
+/* A number that may be written as a fraction, and is to be known as it is written (base/rational_impl.h). If the double
+ * does not tell this, a place is noted under the key's name with " =" before it. */
+static iso_status take_ratio(iso_draft *d, const entry *e, const yaml_node_t *item, const char *what, double *x)
+{
+    iso_rational written, taken;
+    ISO_TRY(iso_yaml_ratio(&d->yaml, item, what, x));
+    const char *text = (const char *)item->data.scalar.value;
+    if (iso_rational_read(text, item->data.scalar.length, &written) && iso_rational_of(*x, &taken) &&
+        iso_rational_same(&written, &taken))
+        return ISO_OK;
+    char key[ISO_NAME_SIZE];
+    snprintf(key, sizeof key, ISO_ROUNDED_KEY "%s", e->name);
+    note_place(&d->scene, key, item->start_mark);
+    return ISO_OK;
+}
+
+static iso_status read_ratio(iso_draft *d, const entry *e, const yaml_node_t *value)
+{
+    return take_ratio(d, e, value, e->name, target(d, e));
+}
+
+static iso_status read_ratios(iso_draft *d, const entry *e, const yaml_node_t *value)
+{
+    double *x = target(d, e);
+    const yaml_node_item_t *items = value->data.sequence.items.start;
+    if (value->type != YAML_SEQUENCE_NODE || value->data.sequence.items.top - items != 3)
+        return read_vector(d, e, value);
+    for (int i = 0; i < 3; i++) {
+        char what[ISO_NAME_SIZE];
+        snprintf(what, sizeof what, "%s[%d]", e->name, i + 1);
+        ISO_TRY(take_ratio(d, e, iso_yaml_node(&d->yaml, items[i]), what, &x[i]));
+    }
+    return ISO_OK;
 }
 
 static iso_status read_flag(iso_draft *d, const entry *e, const yaml_node_t *value)
@@ -144,16 +190,6 @@ static iso_status read_effect_number(iso_draft *d, const entry *e, const yaml_no
 
 static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *value);
 
-/* For what is found wrong only later, when an orbit is made. */
-static void note_place(iso_scene *s, const char *key, yaml_mark_t at)
-{
-    if (s->places == ISO_MAX_PLACES) return;
-    iso_place *place = &s->place[s->places++];
-    snprintf(place->key, sizeof place->key, "%s", key);
-    place->line = (int)at.line + 1;
-    place->column = (int)at.column + 1;
-}
-
 static iso_status read_pair(iso_draft *d, const entry *entries, const yaml_node_t *mapping,
                             const yaml_node_pair_t *pair)
 {
@@ -218,15 +254,15 @@ static const entry surface_keys[] = {
 };
 
 static const entry reduced_keys[] = {
-    {"k", read_number, AT(k), .required = true},
-    {"J", read_vector, AT(J), .required = true},
+    {"k", read_ratio, AT(k), .required = true},
+    {"J", read_ratios, AT(J), .required = true},
     {"D", read_D, AT(D)},
     {0},
 };
 
 static const entry point_keys[] = {
-    {"k", read_number, AT(k), .required = true},
-    {"J", read_vector, AT(J), .required = true},
+    {"k", read_ratio, AT(k), .required = true},
+    {"J", read_ratios, AT(J), .required = true},
     {"eps", read_number, AT(eps)},
     {0},
 };
@@ -381,10 +417,12 @@ static void list_one(listing *l, const char *prefix, const char *name, int count
 static void list_section(listing *l, const entry *section, const yaml_node_t *mapping)
 {
     for (const entry *e = section->section; e->name; e++) {
-        const bool number = e->read == read_number || e->read == read_tolerance || e->read == read_D;
+        const bool number =
+            e->read == read_number || e->read == read_ratio || e->read == read_tolerance || e->read == read_D;
+        const bool vector = e->read == read_vector || e->read == read_ratios;
         const char *prefix = strcmp(e->name, "radius") == 0 ? section->name : ""; /* of ball, and of surface */
         if (number) list_one(l, prefix, e->name, 1, target(l->d, e), mapping);
-        if (e->read == read_vector) list_one(l, "", e->name, 3, target(l->d, e), mapping);
+        if (vector) list_one(l, "", e->name, 3, target(l->d, e), mapping);
     }
 }
 

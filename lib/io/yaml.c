@@ -7,7 +7,7 @@
 
 #include "base/context_impl.h"
 #include "base/nearest_impl.h"
-#include "base/number_impl.h"
+#include "base/rational_impl.h"
 #include "io/text_impl.h"
 
 /* Scenes need three levels and fewer than a hundred values; libyaml's time grows with the square of the depth, its
@@ -242,6 +242,14 @@ static bool number(const yaml_node_t *n, double *value)
 iso_status iso_yaml_number(const iso_yaml *y, const yaml_node_t *n, const char *what, double *value)
 {
     return number(n, value) ? ISO_OK : iso_yaml_expected(y, n, what, "a finite number");
+}
+
+iso_status iso_yaml_ratio(const iso_yaml *y, const yaml_node_t *n, const char *what, double *value)
+{
+    if (n->type == YAML_SCALAR_NODE && n->data.scalar.style == YAML_PLAIN_SCALAR_STYLE &&
+        iso_rational_read_double((const char *)n->data.scalar.value, n->data.scalar.length, value))
+        return ISO_OK;
+    return iso_yaml_expected(y, n, what, "a finite number or a fraction, such as 1/3");
 }
 
 static iso_status three_rows(iso_yaml *y, const yaml_node_t *n, const char *what, double matrix[9])

@@ -57,6 +57,7 @@ iso_status iso_yaml_word(const iso_yaml *y, const yaml_node_t *n, const char *wh
 
 /* The value of `what` as a finite number, a list of `count` numbers (9: three rows of three), true or false. */
 iso_status iso_yaml_number(const iso_yaml *y, const yaml_node_t *node, const char *what, double *value);
+iso_status iso_yaml_ratio(const iso_yaml *y, const yaml_node_t *node, const char *what, double *value); /* or 1/3 */
 iso_status iso_yaml_numbers(iso_yaml *y, const yaml_node_t *node, const char *what, int count, double values[]);
 iso_status iso_yaml_flag(const iso_yaml *y, const yaml_node_t *node, const char *what, bool *value);
 

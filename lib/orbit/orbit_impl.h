@@ -202,6 +202,13 @@ iso_effects iso_scene_acting(const iso_scene *scene);
  * becomes ISO_BAD_INPUT. Gives the status. */
 iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status);
 
+/* What the place of a number is called, before its key, if the number as it is written is not what its double stands for
+ * (base/rational_impl.h). */
+#define ISO_ROUNDED_KEY "rounded "
+
+/* Whether `k` or `J` of a scene file was rounded so. */
+bool iso_scene_is_rounded(const iso_scene *scene, const char *key);
+
 /* The value of this key no longer comes from the file: iso_scene_blame puts no place before failures about it. */
 void iso_scene_forget_place(iso_scene *scene, const char *key);
 

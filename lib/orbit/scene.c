@@ -287,6 +287,16 @@ static const iso_place *find_place(const iso_scene *scene, const char *key)
     return NULL;
 }
 
+bool iso_scene_is_rounded(const iso_scene *scene, const char *key)
+{
+    const size_t before = strlen(ISO_ROUNDED_KEY);
+    for (int i = 0; i < scene->places; i++)
+        if (strncmp(scene->place[i].key, ISO_ROUNDED_KEY, before) == 0 &&
+            strcmp(scene->place[i].key + before, key) == 0)
+            return true;
+    return false;
+}
+
 void iso_scene_forget_place(iso_scene *scene, const char *key)
 {
     int kept = 0;

@@ -8,11 +8,12 @@
 
 /* The studies and their options. Each stands in the room of its study. Their tables: of chaos the orbits and both
  * traces; of periodic the orbits, the branches or the chart; of section the crossings, and those that the point finds,
- * or the clouds; of splitting and cost their rows; of compare the differences, and those of ball and point from the
+ * or the clouds; of splitting, prove and cost their rows; of compare the differences, and those of ball and point from the
  * closed solution; of check the residuals. Those of the others have no rows. */
 #define ISO_STUDY_LIST(X)                                                                                            \
     X(section)                                                                                                       \
-    X(chaos) X(frequencies) X(periodic) X(splitting) X(integrals) X(cost) X(compare) X(check) X(explain) X(analogue)
+    X(chaos)                                                                                                         \
+    X(frequencies) X(periodic) X(splitting) X(prove) X(integrals) X(cost) X(compare) X(check) X(explain) X(analogue)
 #define ISO_STUDY_DECLARE(name)                                                                                      \
     extern const iso_study iso_##name##_study;                                                                       \
     extern const iso_option iso_##name##_option[];

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number_impl.h"
+#include "base/rational_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/fields_impl.h"
 #include "study/level.h"
@@ -19,18 +19,6 @@ static bool set_digits(void *at, const char *text)
     while (i < 3 && strcmp(text, iso_separatrix_digits_name(i)) != 0) i++;
     *(iso_separatrix_digits *)at = (iso_separatrix_digits)i;
     return i < 3;
-}
-
-/* A number, or a fraction p/q. */
-static bool read_number(const char *text, size_t length, double *x)
-{
-    const char *slash = memchr(text, '/', length);
-    double below;
-    if (!slash) return iso_number_read(text, length, x);
-    const size_t first = (size_t)(slash - text);
-    if (!iso_number_read(text, first, x) || !iso_number_read(slash + 1, length - first - 1, &below)) return false;
-    *x /= below;
-    return isfinite(*x);
 }
 
 static iso_status bad_list(iso_context *ctx, const iso_separatrix_list *list)
@@ -68,7 +56,7 @@ static iso_status read_item(iso_context *ctx, const char *item, size_t length, i
     int parts = 0;
     for (const char *c = item; c <= item + length; parts++) {
         const size_t left = (size_t)(item + length - c), part = strcspn(c, ":") < left ? strcspn(c, ":") : left;
-        if (parts == 3 || !read_number(c, part, &number[parts])) return bad_list(ctx, list);
+        if (parts == 3 || !iso_rational_read_double(c, part, &number[parts])) return bad_list(ctx, list);
         c += part + 1;
     }
     if (parts == 1) return append(ctx, list, number[0]);

@@ -1,0 +1,154 @@
+/* isoroll prove - encloses the splitting of the separatrix: a proof that there is no further integral. */
+#include <string.h>
+
+#include "io/output_impl.h"
+#include "say.h"
+#include "scene_options.h"
+#include "shell.h"
+#include "study/prove/prove_impl.h"
+
+/* What prove can be told. */
+typedef struct options {
+    iso_prove_request study;
+    shell_options shell;
+} options;
+
+/* --- words ------------------------------------------------------------------------------------------------------ */
+
+static void print_k(const iso_proof_ball *b)
+{
+    char text[2][ISO_RATIONAL_SIZE];
+    for (int i = 0; i < 2; i++) iso_rational_print(text[i], &b->k[i]);
+    if (iso_rational_same(&b->k[0], &b->k[1]))
+        say("k = %s", text[0]);
+    else
+        say("all k from %s to %s", text[0], text[1]);
+}
+
+static void print_ball(const iso_proof *p)
+{
+    char text[3][ISO_RATIONAL_SIZE];
+    for (int i = 0; i < 3; i++) iso_rational_print(text[i], &p->ball.J[i]);
+    print_k(&p->ball);
+    say(", J = %s, %s, %s\n", text[0], text[1], text[2]);
+}
+
+static void print_proof(const iso_proof *p)
+{
+    print_ball(p);
+    say("multiplier of the rotation about axis %d: %s\n", p->middle + 1, p->multiplier.text);
+    say("after %ld half returns its unstable manifold meets l = pi/2, on the section n_%d = 0:\n", p->halves,
+        p->axis + 1);
+    say("x = %s\n", p->x.text);
+    say("m = %s\n", p->m.text);
+    if (p->axis != p->section) say("on n_%d = 0, where it was enclosed: m = %s\n", p->section + 1, p->section_m.text);
+    say("%s\n", p->statement);
+}
+
+/* The pieces of an interval. */
+static void print_pieces(const iso_proofs *f)
+{
+    print_ball(&f->row[0]);
+    say_table(1);
+    say("k from\tto\tm from\tto\tdigits\t\n");
+    for (size_t i = 0; i < f->rows; i++) {
+        const iso_proof *p = &f->row[i];
+        char text[2][ISO_RATIONAL_SIZE];
+        for (int j = 0; j < 2; j++) iso_rational_print(text[j], &p->ball.k[j]);
+        say("%s\t%s\t%.6e\t%.6e\t%d\t%s\n", text[0], text[1], p->m.low, p->m.high, p->digits,
+            p->sign ? "proved" : "undecided");
+    }
+    say_table_end();
+    if (f->undecided > 0)
+        say("undecided: %.3g of the interval\n", f->undecided);
+    else
+        say("for all these k 0 is not in it: the manifolds cross; with the reversors a horseshoe; no further "
+            "real-analytic integral\n");
+}
+
+static void print(const shell *s)
+{
+    const iso_proofs *f = s->result.found;
+    const iso_proof_ball *b = &f->row[0].ball;
+    if (f->rows == 1 && iso_rational_same(&b->k[0], &b->k[1]))
+        print_proof(&f->row[0]);
+    else
+        print_pieces(f);
+}
+
+/* One k: its numbers; an interval: rows of them. */
+static json_t *json(const shell *s)
+{
+    const iso_proofs *f = s->result.found;
+    const iso_proof_ball *b = &f->row[0].ball;
+    const bool one = f->rows == 1 && iso_rational_same(&b->k[0], &b->k[1]);
+    return one ? json_of(iso_proof_fields, &f->row[0]) : json_of(iso_proofs_fields, f);
+}
+
+/* --- the command ------------------------------------------------------------------------------------------------ */
+
+/* The certificates of all rows, one after the other. */
+static int write_certificates(const shell *s)
+{
+    const iso_proofs *f = s->result.found;
+    const char *path = ((const options *)s->options)->study.certificate;
+    iso_output *out;
+    if (!path) return EXIT_DONE;
+    iso_status status = iso_output_open(s->ctx, path, &out);
+    if (status != ISO_OK) return finish(s->ctx, status);
+    for (size_t i = 0; i < f->rows; i++) fputs(f->certificate[i], iso_output_stream(out));
+    status = iso_output_check(s->ctx, out);
+    const iso_status closed = iso_output_close(s->ctx, out, status == ISO_OK);
+    return finish(s->ctx, status == ISO_OK ? closed : status);
+}
+
+static iso_status check(const shell *s)
+{
+    const char *path = ((const options *)s->options)->study.certificate;
+    if (!path || strcmp(path, "-") != 0) return ISO_OK;
+    return ISO_FAIL_ARGUMENT(s->ctx, "output", "prove: a certificate needs a file: -o FILE");
+}
+
+static int run(iso_context *ctx, const void *options_given)
+{
+    static const shell_parts parts = {.study = &iso_prove_study,
+                                      .kind = "prove",
+                                      .check = check,
+                                      .stopped = "what is proved by now is kept",
+                                      .json = json,
+                                      .print = print,
+                                      .write = write_certificates};
+    return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
+}
+
+static const options defaults = {.shell = {.file = "-"}};
+
+static const option_row rows[] = {
+    ROWS_OF_STUDY(iso_prove_option, 0, 2),
+    ROW_OF_FILE("output", "FILE", "a file", "write a certificate to FILE", iso_set_text, options, study.certificate,
+                'o', OPTION_WRITES),
+    ROW_JSON(options, shell.json),
+    ROW_END,
+};
+
+const command command_prove = {
+    COMMAND_OF_STUDY(prove, "SCENE", shell.file),
+    .takes = FILE_SCENE,
+    .description =
+        "Encloses the slope m that 'isoroll splitting' measures: numbers become intervals, and all rounding errors "
+        "stay in them. If 0 is not in the enclosure of m, it is proved that the unstable and the stable manifold of "
+        "the rotation about the middle axis cross. Then there is a horseshoe, and no real-analytic integral other "
+        "than functions of the energy. If 0 is in it, nothing is proved: 'undecided'.\n\n"
+        "k and J are taken exactly as the scene writes them: 1.4 is 14/10, and k: 1/3 is one third. A body with mass "
+        "and radius has rounded k and J and is refused, as are effects, and levels other than H = 0 of the point.\n\n"
+        "--k A:B proves it for all k of an interval at once. Where the interval is too long, it is halved. -o FILE "
+        "writes a certificate: all that is needed to check the proof by another program. lib/doc/prove.md has the "
+        "argument and the format. After Ctrl-C what is proved by then is printed.\n\n"
+        "This needs Arb (package libflint-arb-dev) when isoroll is built.",
+    .example = "isoroll prove scene.yaml\nisoroll prove scene.yaml --k 1/3 --digits 40 -o third.cert",
+    .exits = "0: proved, or undecided\n"
+             "1: interrupted\n"
+             "2: wrong usage, or this build has no Arb\n"
+             "3: bad input: an effect, a level, equal moments, a body, or numbers with more than 15 digits\n"
+             "4: nothing could be enclosed, or no memory",
+};

@@ -1,0 +1,115 @@
+/* arb_flow_impl.h - the free ball in arc length, enclosed: Taylor series with bounds for what is left out, half returns.
+ *
+ * The orbit is the curve gamma(s) on the sphere, s its arc length. u = gamma', b = gamma x u, and
+ *
+ *     gamma' = u,   u' = -gamma + kappa b,   b' = -kappa u,   kappa = -(J gamma, b)/(k q),   q = (gamma, J gamma).
+ *
+ * There are no clocks, and for every k the right side is rational. The moments are carried as they are seen from the
+ * frame (gamma, u, b), and one row of the frame, that of the section's axis c:
+ *
+ *     q = (gamma, J gamma), r = (J gamma, u), p = (J gamma, b), f = (u, J u), d = (u, J b);  g = gamma_c, w = u_c,
+ *     z = b_c.     With e = (b, J b) = tr J - q - f:
+ *     q' = 2 r,   r' = f - q + kappa p,   p' = d - kappa r,   f' = 2 (kappa d - r),   d' = kappa (e - f) - p,
+ *     g' = w,     w' = kappa z - g,       z' = -kappa w,      k q kappa = -p.
+ *
+ * A neighbouring orbit at the distance y (to first order, along b; v = y'):
+ *
+ *     y' = v,   v' = rho v - H y,   k q rho = r,   H = 1 - 1/k + (1 - 2 k) kappa^2 + e/(k q).
+ *
+ * The set (q, ..., z) does not distinguish (gamma, u) from its images under half turns about c: l is known modulo pi.
+ */
+#ifndef ISO_STUDY_PROVE_ARB_FLOW_IMPL_H
+#define ISO_STUDY_PROVE_ARB_FLOW_IMPL_H
+
+#include "study/prove/arb_impl.h"
+#include <stdbool.h>
+
+#include "base/context_impl.h"
+#include "study/prove/arb_certificate_impl.h"
+
+/* The numbers of a state; the last four are two neighbours. Then series that follow from them. */
+enum {
+    PROVE_Q,
+    PROVE_R,
+    PROVE_P,
+    PROVE_F,
+    PROVE_D,
+    PROVE_G,
+    PROVE_W,
+    PROVE_Z,
+    PROVE_POINT,
+    PROVE_Y1 = PROVE_POINT,
+    PROVE_V1,
+    PROVE_Y2,
+    PROVE_V2,
+    PROVE_STATE,
+    PROVE_KAPPA = PROVE_STATE,
+    PROVE_TWIST,
+    PROVE_E,
+    PROVE_RHO,
+    PROVE_ETA,
+    PROVE_SQUARE,
+    PROVE_H,
+    PROVE_SERIES
+};
+
+/* A ball, its moments in the order of the section: J[2] belongs to the axis c of the section, J[1] is the middle one.
+ * k may be an interval. */
+typedef struct prove_flow {
+    iso_context *ctx;
+    slong bits;
+    int order;
+    arb_t k, inverse_k, J[3], trace;
+    arb_ptr series[PROVE_SERIES];   /* coefficients 0 ... order                                    */
+    mag_ptr term[PROVE_SERIES];     /* |coefficient n| h^n                                          */
+    mag_ptr sum[PROVE_SERIES];      /* their sum from n to the order                                */
+    mag_t tail[PROVE_SERIES];       /* bounds the sum of |coefficient| h^n from order + 1 on         */
+    arb_ptr power;                  /* of the place at which series are evaluated                   */
+    mag_t step;                     /* h, for which sums and tails hold                             */
+    prove_certificate *certificate; /* NULL: none                                                 */
+    long steps;                     /* taken so far                                               */
+} prove_flow;
+
+void prove_flow_init(prove_flow *f, iso_context *ctx, slong bits);
+void prove_flow_clear(prove_flow *f);
+
+/* The same ball in numbers of other length; no certificate. */
+void prove_flow_like(prove_flow *f, const prove_flow *like, slong bits);
+
+/* The coefficients of the orbit that begins in y; numbers: PROVE_POINT or PROVE_STATE. */
+void prove_series_expand(prove_flow *f, arb_srcptr y, int numbers);
+
+/* A step for which what is left out is about a rounding error. No proof needs it to be so. */
+double prove_series_guess_step(const prove_flow *f, int numbers);
+
+/* Finds f->tail for all |s| <= h. False: this h is too large. */
+bool prove_series_bound(prove_flow *f, const arb_t h, int numbers);
+
+/* The state at s, |s| <= h. */
+void prove_series_at(prove_flow *f, const arb_t s, int numbers, arb_ptr y);
+
+/* One number of it. */
+void prove_series_value(prove_flow *f, int number, arb_t x);
+void prove_series_powers(prove_flow *f, const arb_t s);
+
+/* Makes a ball larger by 2^-part of its radius, and by some rounding errors: a checker that rounds otherwise shall
+ * find its own ball inside. */
+void prove_widen(const prove_flow *f, slong part, arb_t x);
+enum { PROVE_EIGHTH = 3 };
+
+/* A half return: (l, x) of a crossing of gamma_c = 0 in one direction to the next, turned by the antipode, which is a
+ * crossing of the same direction. The derivative, and the time: of the crossing, or an interval in which each orbit of
+ * the set has one crossing and no more. */
+typedef struct prove_half {
+    arb_struct z[2]; /* l modulo pi, x                                          */
+    arb_struct D[4]; /* d(l, x)/d(l, x) of the start: dl/dl, dl/dx, dx/dl, dx/dx */
+    arb_t time, window;
+} prove_half;
+
+void prove_half_init(prove_half *h);
+void prove_half_clear(prove_half *h);
+
+/* Errors: ISO_NUMERICAL: the set is too large; ISO_STOPPED. */
+iso_status prove_half_return(prove_flow *f, const arb_t l, const arb_t x, bool with_derivative, prove_half *half);
+
+#endif

@@ -1,0 +1,65 @@
+/* prove_impl.h - enclosures of the splitting m: what the study `prove` is asked and what it finds (lib/doc/prove.md).
+ *
+ * Only the files arb_*.c, which a build without Arb leaves out, know how. All others know this header alone.
+ */
+#ifndef ISO_STUDY_PROVE_IMPL_H
+#define ISO_STUDY_PROVE_IMPL_H
+
+#include "base/field.h"
+#include "base/rational_impl.h"
+#include "orbit/scene.h"
+#include "study/options_impl.h"
+
+enum { ISO_ENCLOSURE_TEXT = 512, ISO_PROOF_WORDS = 240 };
+
+/* A number lies between these two doubles, and in the narrower interval of the text: "0.00614708829 +/- 2.5e-12". */
+typedef struct iso_enclosure {
+    double low, high;
+    char text[ISO_ENCLOSURE_TEXT];
+} iso_enclosure;
+
+/* The free ball in exact numbers: all k from k[0] to k[1], both of one sign; J in the order of the scene, three
+ * different numbers. */
+typedef struct iso_proof_ball {
+    iso_rational k[2], J[3];
+} iso_proof_ball;
+
+/* What is known of one k, or of an interval of k. */
+typedef struct iso_proof {
+    iso_proof_ball ball;
+    int middle, axis, section;       /* axes, as in iso_separatrix_splitting: m and x belong to n_axis = 0, and */
+    iso_enclosure m, x, section_m;   /* section_m to n_section = 0                                              */
+    iso_enclosure multiplier;        /* > 1, of a whole return, of the rotation                                 */
+    int sign;                        /* of all numbers in m; 0: undecided                                       */
+    int digits;                      /* that were asked for                                                     */
+    long halves, steps;              /* half returns that were enclosed, and steps of Taylor series             */
+    char statement[ISO_PROOF_WORDS]; /* what follows                                                            */
+} iso_proof;
+
+/* Encloses m of all these k. text: NULL, or gets the certificate, to be freed by free().
+ * Errors: ISO_BAD_ARGUMENT: this build has no Arb; ISO_NUMERICAL: nothing could be enclosed; ISO_NO_MEMORY;
+ * ISO_STOPPED. */
+iso_status iso_proof_find(iso_context *ctx, const iso_proof_ball *ball, int digits, iso_proof *proof, char **text);
+
+/* Whether this build has Arb. */
+bool iso_proof_is_possible(void);
+
+/* --- the study -------------------------------------------------------------------------------------------------- */
+
+typedef struct iso_prove_request {
+    const char *k;           /* "K" or "A:B", as it is typed; NULL: the scene's       */
+    int digits;              /* 0: as many as it takes                                */
+    const char *certificate; /* NULL: none is wanted; else the command's name for it  */
+} iso_prove_request;
+
+typedef struct iso_proofs {
+    size_t rows;
+    iso_proof *row;
+    size_t certificates;
+    char **certificate; /* of each row, if they are wanted */
+    double undecided;   /* the part of an interval of k that is undecided, [0, 1] */
+} iso_proofs;
+
+extern const iso_field iso_proof_fields[], iso_proofs_fields[];
+
+#endif

@@ -1,0 +1,15 @@
+/* prove_without_arb.c - in place of the files arb_*.c where Arb is missing (prove_impl.h). */
+#include "study/prove/prove_impl.h"
+
+bool iso_proof_is_possible(void)
+{
+    return false;
+}
+
+iso_status iso_proof_find(iso_context *ctx, const iso_proof_ball *ball, int digits, iso_proof *proof, char **text)
+{
+    (void)ball, (void)digits, (void)proof, (void)text;
+    return ISO_FAIL_ARGUMENT(ctx, "",
+                             "prove: this build has no Arb, which encloses numbers: install it (package "
+                             "libflint-arb-dev) and build isoroll again");
+}
