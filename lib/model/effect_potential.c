@@ -109,12 +109,11 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
     iso_formula_finish(&M, p);
     if (F.overrun || M.overrun) return ISO_OK; /* the model is refused */
     iso_formula_rates(&M, p, y, T, dy);
-    const double U = iso_formula_energy(&F, p, y);
-    if (!isfinite(U) || !isfinite(T[0] + T[1] + T[2]))
-        return ISO_FAIL_INPUT(ctx, "U", "U is %s where the ball starts, n = (%s, %s, %s), and its slope %s: %s",
-                              ISO_SHORT(U), ISO_SHORT(n[0]), ISO_SHORT(n[1]), ISO_SHORT(n[2]),
-                              isfinite(T[0] + T[1] + T[2]) ? "is finite" : "is not finite",
-                              "both must be finite numbers");
+    const double U = iso_formula_energy(&F, p, y), slope = T[0] + T[1] + T[2];
+    if (!isfinite(U) || !isfinite(slope))
+        return ISO_FAIL_INPUT(ctx, "U", "%s is not a finite number where the ball starts, at n = (%s, %s, %s)",
+                              isfinite(U) ? "the slope of U" : "U", ISO_SHORT(n[0]), ISO_SHORT(n[1]),
+                              ISO_SHORT(n[2]));
     effects->number[ISO_POTENTIAL][ISO_WRITTEN_STRENGTH] = fmax(fabs(U), largest_potential(&F, p, &finite));
     return ISO_OK;
 }

@@ -180,12 +180,7 @@ static int name_of(reader *r, int at, const char *name)
     for (int i = 0; i < KNOWN; i++) {
         if (strcmp(known[i].name, name) != 0) continue;
         if (is_allowed(r, known[i].term)) return make(r, at, known[i].term, known[i].which, 0, 0);
-        return fail(
-            r, at,
-            known[i].term == ISO_TERM_E
-                ? "'%s', the vertical in the body, is there with 'gravity' alone (weight 0: {mgb: 0, up: ...})"
-                : "a potential depends on n alone: '%s' is for 'torque'",
-            name);
+        return fail(r, at, "a potential depends on n alone: '%s' is for 'torque'", name);
     }
     if (strcmp(name, "pi") == 0) return make(r, at, ISO_TERM_NUMBER, 0, 0, ISO_PI);
     for (int i = 0; i < FUNCTIONS; i++)

@@ -7,6 +7,7 @@
 #include "model/written_impl.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* --- quantities ------------------------------------------------------------------------------------------------- */
@@ -494,8 +495,23 @@ bool iso_written_read(const iso_effects *effects, iso_effect_id id, int which, i
 {
     const iso_written *text = &effects->written[iso_effect_list[id]->written];
     const bool torque = !iso_effect_list[id]->potential;
-    const iso_expression_names names = {torque, torque && effects->on[ISO_GRAVITY], text->parameter};
+    const iso_expression_names names = {torque, torque, text->parameter};
     return iso_expression_read(text->expression[which], &names, e);
+}
+
+bool iso_written_decided(iso_expression *e, const iso_effects *effects, double k, const double J[3],
+                         const double parameter[])
+{
+    for (int i = 0; i < e->nodes && e->reads[ISO_TERM_E] && !effects->on[ISO_GRAVITY]; i++) {
+        if (e->node[i].term != ISO_TERM_E) continue;
+        e->at = e->node[i].at;
+        snprintf(e->wrong, sizeof e->wrong,
+                 "e%d is the vertical in the body, which is there with 'gravity' alone (without weight: gravity: "
+                 "{mgb: 0, up: [...]}, or g: 0 for a ball with mass)",
+                 e->node[i].a + 1);
+        return false;
+    }
+    return iso_expression_constants(e, k, J, parameter);
 }
 
 static iso_status refuse(iso_context *ctx, iso_effect_id id, int which, const iso_expression *e)
@@ -507,9 +523,12 @@ static iso_status refuse(iso_context *ctx, iso_effect_id id, int which, const is
 iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id id,
                              int which, iso_expression *e)
 {
+    const char *name = iso_effect_list[id]->expressions[which];
     if (!iso_written_read(effects, id, which, e)) return refuse(ctx, id, which, e);
     const double *number = effects->number[id], U = number[ISO_WRITTEN_J];
     const double J[3] = {U * p->J[0], U * p->J[1], U * p->J[2]};
-    if (!iso_expression_constants(e, p->k, J, number)) return refuse(ctx, id, which, e);
-    return ISO_OK;
+    if (U == 0 || number[ISO_WRITTEN_W] == 0)
+        return ISO_FAIL_INPUT(ctx, name, "%s: the effects have no units, they begin with iso_effects_default()",
+                              name);
+    return iso_written_decided(e, effects, p->k, J, number) ? ISO_OK : refuse(ctx, id, which, e);
 }

@@ -26,7 +26,11 @@ extern const double iso_written_one;
 /* Reads expression `which` of an effect. False: it is none, see e->wrong. */
 bool iso_written_read(const iso_effects *effects, iso_effect_id id, int which, iso_expression *e);
 
-/* Reads it and computes its constants. Errors: ISO_BAD_INPUT about the name of the expression. */
+/* Whether its constants are finite, in the caller's units, and e is there if it reads e. False: see e->wrong. */
+bool iso_written_decided(iso_expression *e, const iso_effects *effects, double k, const double J[3],
+                         const double parameter[]);
+
+/* Reads it and asks both. Errors: ISO_BAD_INPUT about the name of the expression. */
 iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id id,
                              int which, iso_expression *e);
 
