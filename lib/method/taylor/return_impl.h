@@ -147,31 +147,47 @@ static int tail_from(const form *T)
     return from < T->S.order ? from : T->S.order;
 }
 
-/* Whether coefficient n fits doubles, with digits to spare. */
+/* Whether coefficients n and n + 1 fit doubles, with digits to spare. One of them may be 0 by symmetry. */
 static bool in_range(const series *S, int n)
 {
     for (int c = 0; c < CHANNELS; c++) {
-        const real size = largest(S->n[place(c, n)]);
+        const real size = larger(largest(S->n[place(c, n)]), largest(S->n[place(c, n + 1)]));
         if (!(size > (NUMBER)1e-250 && size < (NUMBER)1e250)) return false;
     }
     return true;
 }
 
-/* As expand, but the higher coefficients come from doubles if these can hold them. */
-static void expand_with_tail(series *S, tail *t)
+/* As expand, but the higher coefficients come from doubles. False: these cannot hold them. */
+static bool expand_with_tail(series *S, tail *t)
 {
     const int order = S->order;
     S->order = t->from;
     expand(S);
     S->order = order;
-    if (in_range(S, t->from)) {
-        give_rows(S, 3, 5, 0, t->from - 1, &t->rows);
-        give_rows(S, 1, 0, t->from, t->from + 1, &t->rows);
-        t->code->expand(t->data, t->from, &t->rows);
-        take_rows(S, 1, 0, t->from + 2, order + 1, &t->rows);
-        take_rows(S, 0, 1, t->from, order, &t->rows);
-    }
-    if (!in_range(S, order)) expand(S);
+    if (!in_range(S, t->from)) return false;
+    give_rows(S, 3, 5, 0, t->from - 1, &t->rows);
+    give_rows(S, 1, 0, t->from, t->from + 1, &t->rows);
+    t->code->expand(t->data, t->from, &t->rows);
+    take_rows(S, 1, 0, t->from + 2, order + 1, &t->rows);
+    take_rows(S, 0, 1, t->from, order, &t->rows);
+    return in_range(S, order);
+}
+
+/* Whether the terms of doubles are so small in a step that their rounding errors are below the tolerance. Around a
+ * rotation in a principal plane the orbit's own terms fall fast, but those of deviations may not. One term or two may
+ * be 0 by chance or by symmetry. */
+static bool tail_is_small(const form *T, const tail *t, NUMBER length)
+{
+    const series *S = &T->S;
+    const NUMBER h = magnitude(length);
+    NUMBER most = (NUMBER)(3e-2 * 1e16 * T->tolerance);
+    for (int n = 0; n < t->from; n++) most /= h;
+    for (int n = t->from; n < t->from + 4 && n <= S->order; n++, most /= h)
+        for (int c = 0; c < CHANNELS; c++) {
+            const NUMBER size = largest(S->n[place(c, 0)]) + h * largest(S->n[place(c, 1)]);
+            if (!(largest(S->n[place(c, n)]) <= most * size)) return false;
+        }
+    return true;
 }
 
 static bool go_round(form *T, tail *t, int axis, NUMBER zeros, bool on_section, iso_return *r)
@@ -182,8 +198,9 @@ static bool go_round(form *T, tail *t, int axis, NUMBER zeros, bool on_section, 
         state after;
         NUMBER gained[ISO_CLOCKS], x;
         begin(T);
-        expand_with_tail(&T->S, t);
+        if (!expand_with_tail(&T->S, t)) expand(&T->S);
         const NUMBER length = choose_step(T, 1, gained);
+        if (!tail_is_small(T, t, length)) expand(&T->S);
         find_state(T, length, gained, &after);
         if (!(after.n[0] - after.n[0] == 0)) return false;
         if (cross_step(T, axis, length, zeros, steps == 0 && on_section ? 0 : T->now.n[axis], after.n[axis], &x))

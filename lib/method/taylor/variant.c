@@ -38,6 +38,8 @@
 #define IS_TANGENT (ISO_TAYLOR_VARIANT >= VARIANT_TANGENT_PLAIN)
 
 #define _GNU_SOURCE /* functions of _Float128 */
+#include <float.h>
+
 #include "base/finite_impl.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
@@ -65,6 +67,9 @@
 #define FINER 1e-4 /* the tolerance is that of doubles: terms are kept to what is beyond them */
 #define FINEST_ORDER 34
 #define NODES 12
+#if LDBL_MANT_DIG == 64
+#define SPLIT (0x1p32L + 1) /* see lost_in */
+#endif
 #elif IS_QUAD
 __extension__ typedef _Float128 number_of_128_bits;
 #define NUMBER number_of_128_bits
