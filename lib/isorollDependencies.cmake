@@ -63,6 +63,8 @@ if(ISO_ARB AND ISO_ARB_INCLUDE AND ISO_FLINT AND ISO_GMP AND (ISO_FLINT_ARB OR E
     list(PREPEND ISO_ARB_LIBS ${ISO_FLINT_ARB})
   endif()
   list(APPEND ISO_DEPENDENCIES ${ISO_ARB_LIBS})
+  list(TRANSFORM ISO_ARB_LIBS REPLACE ".*/lib([^/]*)[.](so|a|dylib)[^/]*$" "-l\\1" OUTPUT_VARIABLE ISO_ARB_PC)
+  list(JOIN ISO_ARB_PC " " ISO_ARB_PC)
 endif()
 set(ISO_SUNDIALS_LIBS "-lsundials_cvode -lsundials_arkode") # the same for isoroll.pc: SUNDIALS has no .pc file
 if(TARGET SUNDIALS::core) # 7.x
