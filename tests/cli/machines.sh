@@ -29,7 +29,7 @@ if [ "$(length short full)" = full ] && has musl-gcc "musl"; then
     for header in gsl sundials cvode arkode nvector sunmatrix sunlinsol sunnonlinsol yaml.h; do
         [ ! -e /usr/include/$header ] || ln -s /usr/include/$header musl/
     done
-    find "$source/lib" -name '*.c' ! -name 'hdf5*' ! -name variant.c >files
+    find "$source/lib" -name '*.c' ! -name 'hdf5*' ! -name 'arb_*' ! -name variant.c >files
     check "there are files" test "$(wc -l <files)" -ge 100
     while read -r file; do
         checks=$((checks + 1))
@@ -38,11 +38,11 @@ if [ "$(length short full)" = full ] && has musl-gcc "musl"; then
     done <files
 fi
 
-# --- without HDF5, MPI and three.js: the library and the command are built, and say what they lack
+# --- without HDF5, Arb, MPI and three.js: the library and the command are built, and say what they lack
 if [ "$(length short full)" = full ]; then
-    { cmake -S "$source" -B bare -DCMAKE_C_COMPILER="$cc" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0 -DISO_HDF5=OFF -DISO_MPI=OFF \
+    { cmake -S "$source" -B bare -DCMAKE_C_COMPILER="$cc" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0 -DISO_HDF5=OFF -DISO_ARB=OFF -DISO_MPI=OFF \
         -DISO_THREE_JS= -DBUILD_TESTING=OFF && cmake --build bare -j 2 --target isoroll_command; } >log 2>&1 ||
-        { cp log err; fail "a build without HDF5, MPI and three.js"; }
+        { cp log err; fail "a build without HDF5, Arb, MPI and three.js"; }
     run 0 run scene.yaml --method rk8pd -o exact.csv
     isoroll=$work/bare/isoroll
     run 0 run scene.yaml --method rk8pd -o bare.csv
@@ -50,6 +50,7 @@ if [ "$(length short full)" = full ]; then
     run 0 run scene.yaml -o bare.csv # here without fused multiply-adds, which a compiler that optimises makes
     at_most "the same rows by Taylor series" "$(difference ball.csv bare.csv)" 1e-13
     refuses 2 "this build has no HDF5" run scene.yaml -o bare.h5
+    refuses 2 "this build has no Arb" prove scene.yaml
     refuses 2 "built without three.js" view scene.yaml -o page.html
 fi
 finish

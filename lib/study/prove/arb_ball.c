@@ -25,12 +25,14 @@ typedef struct attempt {
     prove_local local;
     prove_start start;
     prove_crossing crossing;
-    arb_t width; /* of the piece, by its start */
+    arb_t width; /* of the piece, by its start                                  */
+    bool thin;   /* one k; an interval is halved (prove.c), not tried again     */
 } attempt;
 
 static void attempt_init(attempt *a, iso_context *ctx, const prove_ball *ball, int digits)
 {
     prove_flow *f = &a->flow;
+    a->thin = fmpq_equal(ball->k[0], ball->k[1]);
     prove_flow_init(f, ctx, (slong)(3.33 * digits) + 40);
     arb_t high;
     arb_init(high);
@@ -74,14 +76,29 @@ static iso_status search(const attempt *a, prove_start *start)
     return status;
 }
 
+/* x = at least 16 times what the start changes by with k, in all half returns. */
+static void spread(const attempt *a, arb_t x)
+{
+    arb_t part;
+    arb_init(part);
+    arb_get_rad_arb(part, a->flow.k);
+    arb_mul_si(part, part, 16 * a->start.halves, MAG_BITS);
+    arb_div(part, part, a->flow.k, MAG_BITS);
+    arb_abs(part, part);
+    arb_get_mid_arb(part, part);
+    if (arb_gt(part, x)) arb_set(x, part);
+    arb_clear(part);
+}
+
 /* *reached: m is enclosed. If not, the piece was too short for its noise: a longer one is tried. */
 static iso_status follow(attempt *a, bool *reached)
 {
-    enum { TRIES = 4, LONGER = 100 };
+    enum { TRIES = 3, LONGER = 30 };
     const size_t length = a->flow.certificate ? a->flow.certificate->length : 0;
     iso_status status = ISO_OK;
     *reached = false;
-    for (int i = 0; i < TRIES && !*reached && status == ISO_OK; i++) {
+    spread(a, a->width);
+    for (int i = 0; i < (a->thin ? TRIES : 1) && !*reached && status == ISO_OK; i++) {
         if (i > 0) arb_mul_ui(a->width, a->width, LONGER, a->flow.bits);
         arb_get_mid_arb(a->width, a->width);
         prove_certificate_cut(a->flow.certificate, length);
@@ -126,10 +143,11 @@ iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, p
                          prove_found *found)
 {
     enum { TRIES = 5, SPARE = 11, MORE = 6 };
-    const bool thin = fmpq_equal(ball->k[0], ball->k[1]);
     int spare = SPARE;
     iso_status status = ISO_NUMERICAL;
-    for (int i = 0; i < TRIES && status != ISO_OK && status != ISO_STOPPED; i++) {
+    for (int i = 0;
+         (i == 0 || fmpq_equal(ball->k[0], ball->k[1])) && i < TRIES && status != ISO_OK && status != ISO_STOPPED;
+         i++) {
         attempt a;
         bool reached = false;
         attempt_init(&a, ctx, ball, digits + spare);
@@ -137,7 +155,7 @@ iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, p
         prove_certificate_cut(certificate, 0);
         status = run(&a, digits + spare, &reached);
         const int lacks = reached ? missing(a.crossing.m, digits) : MORE;
-        if (status == ISO_OK && (reached && (lacks == 0 || !thin)))
+        if (status == ISO_OK && (reached && (lacks == 0 || !a.thin)))
             keep(&a, found);
         else if (status == ISO_OK)
             status = iso_context_fail(ctx, ISO_NUMERICAL, "", "m could not be enclosed to %d digits", digits);

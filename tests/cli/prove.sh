@@ -1,0 +1,90 @@
+#!/bin/sh
+# prove.sh ISOROLL - `isoroll prove`: words, JSON, exit statuses, numbers as they are written, certificates, refusals.
+. "$(dirname "$0")/lib.sh"
+
+scene 0.5 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >half.yaml
+"$isoroll" prove half.yaml --digits 4 >/dev/null 2>err
+if grep -q 'this build has no Arb' err; then
+    refuses 2 "libflint-arb-dev" prove half.yaml
+    skip "proofs" "this build has no Arb"
+    finish
+    exit
+fi
+
+# within LOW HIGH X: X is between them
+within() {
+    awk -v low="$1" -v high="$2" -v x="$3" 'BEGIN { exit !(low != "" && low <= x && x <= high) }'
+}
+# number KEY: the first one of this name in out
+number() {
+    sed -n "s/.*\"$1\": \"\{0,1\}\([^\",]*\).*/\1/p" out | head -n 1
+}
+
+# --- words
+run 0 prove half.yaml --digits 10
+silent
+check "what is proved" grep -q '^k = 1/2, J = 7/5, 21/10, 3$' out
+check "the section" grep -q 'on the section n_3 = 0:' out
+check "m" grep -q '^m = 0.00614708829.* +/- ' out
+check "what follows" grep -q 'the manifolds cross; .* a horseshoe; no further real-analytic integral' out
+
+# --- k = 1 is integrable: nothing can be proved. More digits enclose 0 in less
+run 0 prove half.yaml --digits 6 --k 1
+check "undecided" grep -q '^undecided at 6 digits: 0 is in it' out
+
+# --- JSON, and k as it is written: 1/3 is one third
+sed 's/k: 0.5/k: 1\/3/' half.yaml >third.yaml
+check "a scene with a fraction" grep -q 'k: 1/3' third.yaml
+run 0 prove third.yaml --digits 10 --json
+silent
+check "statement" grep -q '"statement": "0 is not in it' out
+check "k is exact" test "$(number exact)" = 1/3
+check "section" test "$(number section)" = 3
+check "digits" test "$(number digits)" = 10
+grep -A 2 '"m": {' out | head -n 3 >m
+low=$(sed -n 's/.*"low": \([^,]*\).*/\1/p' m) high=$(sed -n 's/.*"high": \([^,]*\).*/\1/p' m)
+check "m at k = 1/3, by the splitting" within "$low" "$high" 0.070584434
+check "it is narrow" within 0 1e-9 "$(awk -v a="$low" -v b="$high" 'BEGIN { printf "%.3e", b - a }')"
+run 0 splitting third.yaml --digits double
+check "other commands round it" grep -q '0.333333333333333' out
+run 0 prove half.yaml --digits 10 --k 1/3 --json
+check "--k has the same" test "$(number exact)" = 1/3
+
+# --- an interval
+run 0 prove half.yaml --digits 8 --k 0.5:0.50000000001
+check "all k of an interval" grep -q '^for all these k 0 is not in it' out
+
+# --- a certificate (lib/doc/prove.md)
+run 0 prove half.yaml --digits 6 -o half.cert
+check "it begins" test "$(head -n 1 half.cert)" = "isoroll certificate 1"
+check "it ends" test "$(tail -n 1 half.cert)" = end
+check "its ball" grep -q '^moments 7/5 21/10 3$' half.cert
+check "its claim" grep -q '^sign positive$' half.cert
+check "a half return of a set and of its centre each time" test "$(grep -c '^half set' half.cert)" -eq \
+    "$(grep -c '^half centre' half.cert)"
+check "a frame more" test "$(grep -c '^frame ' half.cert)" -eq "$(($(grep -c '^half set' half.cert) + 1))"
+run 0 prove half.yaml --digits 6 -o again.cert
+check "the same bytes again" cmp -s half.cert again.cert
+
+# --- refusals
+refuses 2 "prove: a certificate needs a file" prove half.yaml -o -
+refuses 2 "a whole number from 1 to 400" prove half.yaml --digits 0
+refuses 2 "a whole number from 1 to 400" prove half.yaml --digits 401
+refuses 2 "expected a number or an interval A:B" prove half.yaml --k 0
+refuses 2 "A < B" prove half.yaml --k 0.6:0.5
+refuses 2 "does not hold 0" prove half.yaml --k=-1:1
+sed 's/k: 0.5/k: 0.33333333333333333/' half.yaml >long.yaml
+refuses 3 "long.yaml:.*write a number with at most 15 digits, or a fraction" prove long.yaml
+cat >body.yaml <<'END'
+ball: {mass: 2, radius: 1, inertia: [2, 3, 4]}
+surface: {kind: plane}
+initial: {normal: [0.6, 0, 0.8], angular_velocity: [0, 1, 0]}
+time: {end: 10, step: 0.1}
+END
+refuses 3 "give them in 'reduced'" prove body.yaml
+cp half.yaml field.yaml
+echo 'effects: {field: {linear: [1, 0, 0]}}' >>field.yaml
+refuses 3 "remove 'field'" prove field.yaml
+sed 's/2.1, 3.0/3.0, 3.0/' half.yaml >equal.yaml
+refuses 3 "are equal" prove equal.yaml
+finish
