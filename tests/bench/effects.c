@@ -56,8 +56,7 @@ static iso_effects all_numbers(void)
     iso_effects e = iso_effects_default();
     iso_written *torque = &e.written[iso_effect_list[ISO_TORQUE]->written];
     for (int id = 0; id < ISO_EFFECTS; id++)
-        for (int i = 0; i < ISO_EFFECT_NUMBERS; i++)
-            if (number[id][i] != 0) e.number[id][i] = number[id][i];
+        if (number[id][0] != 0) memcpy(e.number[id], number[id], sizeof number[id]);
     write_potential(&e, false);
     for (int i = 0; i < 3; i++) snprintf(torque->expression[i], ISO_EXPRESSION_SIZE, "-0.01*omega%d", i + 1);
     return e;
