@@ -75,7 +75,7 @@ refuses 2 "expected a number or an interval A:B" prove half.yaml --k 0
 refuses 2 "A < B" prove half.yaml --k 0.6:0.5
 refuses 2 "does not hold 0" prove half.yaml --k=-1:1
 sed 's/k: 0.5/k: 0.33333333333333333/' half.yaml >long.yaml
-refuses 3 "long.yaml:.*write a number with at most 15 digits, or a fraction" prove long.yaml
+refuses 3 "long.yaml:1:14: prove takes k exactly: write a number with at most 15 digits" prove long.yaml
 cat >body.yaml <<'END'
 ball: {mass: 2, radius: 1, inertia: [2, 3, 4]}
 surface: {kind: plane}

@@ -37,7 +37,7 @@ static iso_status take(iso_context *ctx, const iso_scene *scene, const char *key
 
 static iso_status bad_k(iso_context *ctx, const char *text)
 {
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k",
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                             "--k '%s': expected a number or an interval A:B that does not hold 0, A < B, such as 1/3 "
                             "or 0.5:0.500001",
                             text);
