@@ -56,18 +56,16 @@ static void note_place(iso_scene *s, const char *key, yaml_mark_t at)
 }
 
 /* A number that may be written as a fraction, and is to be known as it is written (base/rational_impl.h). If the double
- * does not tell this, a place is noted under the key's name with " =" before it. */
+ * does not tell this, a place is noted. */
 static iso_status take_ratio(iso_draft *d, const entry *e, const yaml_node_t *item, const char *what, double *x)
 {
     iso_rational written, taken;
-    ISO_TRY(iso_yaml_ratio(&d->yaml, item, what, x));
-    const char *text = (const char *)item->data.scalar.value;
-    if (iso_rational_read(text, item->data.scalar.length, &written) && iso_rational_of(*x, &taken) &&
-        iso_rational_same(&written, &taken))
-        return ISO_OK;
     char key[ISO_NAME_SIZE];
+    ISO_TRY(iso_yaml_ratio(&d->yaml, item, what, x));
+    const bool same = iso_rational_read((const char *)item->data.scalar.value, item->data.scalar.length, &written) &&
+                      iso_rational_of(*x, &taken) && iso_rational_same(&written, &taken);
     snprintf(key, sizeof key, ISO_ROUNDED_KEY "%s", e->name);
-    note_place(&d->scene, key, item->start_mark);
+    if (!same) note_place(&d->scene, key, item->start_mark);
     return ISO_OK;
 }
 
