@@ -3,7 +3,7 @@
 . "$(dirname "$0")/lib.sh"
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml
 "$isoroll" run scene.yaml >ball.csv
-commands="run convert compare cost check plot view section chaos periodic splitting integrals sweep explain analogue frequencies list manual"
+commands="run convert compare cost check plot view section chaos periodic splitting prove integrals sweep explain analogue frequencies list manual"
 
 # --- exit statuses
 run 0 run scene.yaml

@@ -11,7 +11,7 @@ Every instrument of the command `isoroll` is a function of the same name; its op
 700 is exponent_turns=700, --as both is as_="both". Files, scenes and tables are those of the command.
 
     Scene run orbit batch trajectory              what moves, and its rows
-    section chaos periodic splitting              all orbits of one energy
+    section chaos periodic splitting prove        all orbits of one energy
     frequencies integrals compare check explain   one orbit
     cost sweep analogue                           methods, families, balls for a point's problem
     read convert plot view list_                  files and pictures
@@ -26,8 +26,8 @@ from ._command import Page, view
 from ._errors import (BadArgument, BadInput, ClosedPipe, FileTrouble, IsorollError, IsorollWarning, LibraryError,
                       NoMemory, NotMapped, NumericalFailure, Stopped)
 from ._files import convert, read, write
-from ._instruments import (analogue, chaos, check, compare, cost, explain, frequencies, integrals, periodic, section,
-                           splitting)
+from ._instruments import (analogue, chaos, check, compare, cost, explain, frequencies, integrals, periodic, prove,
+                           section, splitting)
 from ._kinds import (Branch, Chaos, Chart, Comparison, Cost, Periodic, Result, Section, Share, Splitting, Sweep,
                      Trajectory)
 from ._library import lib as _lib
@@ -48,4 +48,4 @@ __all__ = ["BadArgument", "BadInput", "Batch", "Branch", "Chaos", "Chart", "Clos
            "NumericalFailure", "Orbit", "Page", "Periodic", "Result", "Scene", "Section", "Share", "Splitting",
            "Stopped", "Sweep", "Table", "Trajectory", "analogue", "batch", "chaos", "check", "compare", "convert",
            "cost", "explain", "frequencies", "integrals", "library_version", "list_", "orbit", "periodic", "plot",
-           "read", "run", "section", "splitting", "study", "sweep", "trajectory", "view", "write"]
+           "prove", "read", "run", "section", "splitting", "study", "sweep", "trajectory", "view", "write"]

@@ -58,6 +58,8 @@ _RETURNS: Dict[str, Tuple[Callable[..., Any], str, str]] = {
     "periodic": (_first, "Union[Periodic, Branch, Chart]",
                  "a Periodic: a row for each orbit; with follow a Branch, with chart a Chart."),
     "splitting": (_first, "Splitting", "a Splitting: a row for each k or level."),
+    "prove": (_first, "Table", "a Table: a row for k, or for each piece of an interval of k; m is between m_low and "
+              "m_high. For one k its lines have all digits, as the command's --json does."),
     "integrals": (_first, "Result", "a Result: what is found, by the names of the command's --json."),
     "cost": (_first, "Cost", "a Cost: a row for each backend, method and tolerance."),
     "compare": (_compare, "Comparison", "a Comparison: differences of ball and point over the time; the orbits "
@@ -118,7 +120,7 @@ _FORMS: Dict[Any, str] = {
     "follow": '{"k": (0.4, 0.6)}', "chart": '"J2", {"J2": (1, 4)} or {"level": (-1, 1)}', "J": "three numbers",
     "neumann": "three numbers", "horizons": "a whole number", ("periodic", "k"): "(-3, 3)",
     ("periodic", "level"): "a number", ("splitting", "k"): 'numbers, or a text such as "0.5:3:0.25,1/3"',
-    ("splitting", "level"): "likewise"}
+    ("splitting", "level"): "likewise", ("prove", "k"): 'a number, or a text such as "1/3" or "0.5:0.50000000001"'}
 _WORDS: Dict[Any, str] = {
     ("explain", "scene"): "a path, YAML text, a dict or a Scene; or a sweep: how long it takes is told, without options",
     "at": "further orbits, which start at these (l, x)",

@@ -170,6 +170,26 @@ def splitting(
     Returns a Splitting: a row for each k or level. After a failure or Ctrl-C, the exception's `partial`
     is what was found before."""
 
+def prove(
+    scene: SceneLike,
+    *,
+    k: Union[None, str, float, ArrayLike, Mapping[str, Any], Tuple[str, float]] = None,
+    digits: Optional[int] = None,
+    progress: ProgressLike = None,
+) -> Table:
+    """Enclose the splitting of the separatrix: a proof that there is no further integral: `isoroll prove`.
+
+    scene            a path, YAML text, a dict or a Scene
+    k                another k than the scene's, such as 1/3, or an interval: all k from A to B; it is
+                     halved where it must be: a number, or a text such as "1/3" or "0.5:0.50000000001"
+    digits           enclose m to 1e-D (default: 18, then 36, then 72, until 0 is not in it; for an
+                     interval 18)
+    progress         True: a bar on stderr; a function that is called with the part that is done
+
+    Returns a Table: a row for k, or for each piece of an interval of k; m is between m_low and m_high.
+    For one k its lines have all digits, as the command's --json does. After a failure or Ctrl-C, the
+    exception's `partial` is what was found before."""
+
 def integrals(
     scene: SceneLike,
     *,

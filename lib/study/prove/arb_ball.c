@@ -25,14 +25,12 @@ typedef struct attempt {
     prove_local local;
     prove_start start;
     prove_crossing crossing;
-    arb_t width; /* of the piece, by its start                                  */
-    bool thin;   /* one k; an interval is halved (prove.c), not tried again     */
+    arb_t width; /* of the piece, by its start */
 } attempt;
 
 static void attempt_init(attempt *a, iso_context *ctx, const prove_ball *ball, int digits)
 {
     prove_flow *f = &a->flow;
-    a->thin = fmpq_equal(ball->k[0], ball->k[1]);
     prove_flow_init(f, ctx, (slong)(3.33 * digits) + 40);
     arb_t high;
     arb_init(high);
@@ -98,7 +96,7 @@ static iso_status follow(attempt *a, bool *reached)
     iso_status status = ISO_OK;
     *reached = false;
     spread(a, a->width);
-    for (int i = 0; i < (a->thin ? TRIES : 1) && !*reached && status == ISO_OK; i++) {
+    for (int i = 0; i < TRIES && !*reached && status == ISO_OK; i++) {
         if (i > 0) arb_mul_ui(a->width, a->width, LONGER, a->flow.bits);
         arb_get_mid_arb(a->width, a->width);
         prove_certificate_cut(a->flow.certificate, length);
@@ -142,12 +140,12 @@ static int missing(const arb_t m, int digits)
 iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, prove_certificate *certificate,
                          prove_found *found)
 {
-    enum { TRIES = 5, SPARE = 11, MORE = 6 };
+    enum { TRIES = 5, FEWER = 2, SPARE = 11, MORE = 6 };
+    const bool thin = fmpq_equal(ball->k[0], ball->k[1]);
+    const int tries = thin ? TRIES : FEWER; /* an interval is halved (prove.c) */
     int spare = SPARE;
     iso_status status = ISO_NUMERICAL;
-    for (int i = 0;
-         (i == 0 || fmpq_equal(ball->k[0], ball->k[1])) && i < TRIES && status != ISO_OK && status != ISO_STOPPED;
-         i++) {
+    for (int i = 0; i < tries && status != ISO_OK && status != ISO_STOPPED; i++) {
         attempt a;
         bool reached = false;
         attempt_init(&a, ctx, ball, digits + spare);
@@ -155,7 +153,7 @@ iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, p
         prove_certificate_cut(certificate, 0);
         status = run(&a, digits + spare, &reached);
         const int lacks = reached ? missing(a.crossing.m, digits) : MORE;
-        if (status == ISO_OK && (reached && (lacks == 0 || !a.thin)))
+        if (status == ISO_OK && (reached && (lacks == 0 || !thin)))
             keep(&a, found);
         else if (status == ISO_OK)
             status = iso_context_fail(ctx, ISO_NUMERICAL, "", "m could not be enclosed to %d digits", digits);

@@ -126,7 +126,7 @@ static void find_limit(const prove_local *o, slong bits, arb_t limit)
     if (arb_lt(limit, o->size)) arb_set(limit, o->size);
 }
 
-/* The secant method for ln xi. Numbers have as many bits as will be known, and the orbit begins so near to O as
+/* The secant method for ln xi, until what is left is about a rounding error: an error e becomes e^1.6. Numbers have as many bits as will be known, and the orbit begins so near to O as
  * these ask for. */
 static iso_status refine(const prove_flow *f, const prove_local *o, double slope, prove_start *start)
 {
@@ -150,7 +150,7 @@ static iso_status refine(const prove_flow *f, const prove_local *o, double slope
         arb_mul(start->xi, start->xi, gap, f->bits);
         arb_get_mid_arb(start->xi, start->xi);
         arb_get_mid_arb(change, change);
-        done = bits == f->bits && arf_cmpabs_2exp_si(arb_midref(change), SPARE / 2 - bits / 2) < 0;
+        done = bits == f->bits && arf_cmpabs_2exp_si(arb_midref(change), -bits * 62 / 100) < 0;
         known *= 1.6;
     }
     arb_clear(gap), arb_clear(last), arb_clear(change), arb_clear(steep);

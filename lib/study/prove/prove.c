@@ -16,10 +16,12 @@ enum { PIECES = 100000, HALVINGS = 40, MOST_DIGITS = 400 };
 
 /* --- what is asked ---------------------------------------------------------------------------------------------- */
 
-static bool set_digits(void *at, const char *text)
+static iso_status prepare(iso_context *ctx, void *options)
 {
-    int *digits = at;
-    return iso_set_count_int(at, text) && *digits <= MOST_DIGITS;
+    const iso_prove_request *r = options;
+    if (r->digits <= MOST_DIGITS) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--digits %d: expected a whole number from 1 to %d", r->digits,
+                            MOST_DIGITS);
 }
 
 /* One double of the scene as the number that was written. */
@@ -37,7 +39,7 @@ static iso_status take(iso_context *ctx, const iso_scene *scene, const char *key
 
 static iso_status bad_k(iso_context *ctx, const char *text)
 {
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k",
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                             "--k '%s': expected a number or an interval A:B that does not hold 0, A < B, such as 1/3 "
                             "or 0.5:0.500001",
                             text);
@@ -191,12 +193,15 @@ static void free_proofs(void *found)
     free(f);
 }
 
+/* In the lines of the table: all of one k, or the sum of the pieces. */
 static iso_status fill(iso_context *ctx, const iso_scene *scene, iso_study_result *result)
 {
     iso_field fields[ISO_MOST_FIELDS];
     const iso_proofs *f = result->found;
-    iso_fields_copy(iso_proofs_fields, "rows", fields);
-    ISO_TRY(iso_study_table(ctx, "prove", scene, fields, f, iso_proof_fields, &result->table[0]));
+    const bool one = iso_rational_same(&f->row[0].ball.k[0], &f->row[0].ball.k[1]);
+    iso_fields_copy(one ? iso_proof_fields : iso_proofs_fields, "rows", fields);
+    const void *lines = one ? (const void *)&f->row[0] : f;
+    ISO_TRY(iso_study_table(ctx, "prove", scene, fields, lines, iso_proof_fields, &result->table[0]));
     for (size_t i = 0; i < f->rows; i++)
         ISO_TRY(iso_columns_append(ctx, iso_proof_fields, &f->row[i], result->table[0]));
     return ISO_OK;
@@ -227,8 +232,8 @@ const iso_option iso_prove_option[] = {
         "another k than the scene's, such as 1/3, or an interval: all k from A to B; it is halved where it must be",
         iso_set_text, k),
     ROW("digits", "D", "a whole number from 1 to 400",
-        "enclose m to 1e-D (default: 18, then 36, then 72, until 0 is not in it; for an interval 18)", set_digits,
-        digits),
+        "enclose m to 1e-D (default: 18, then 36, then 72, until 0 is not in it; for an interval 18)",
+        iso_set_count_int, digits),
     ISO_OPTION_END,
 };
 
@@ -238,5 +243,6 @@ const iso_study iso_prove_study = {
     iso_prove_option,
     sizeof(iso_prove_request),
     begin,
+    .prepare = prepare,
     .run = run,
     .of = ISO_STUDY_OF_SCENE};
