@@ -72,6 +72,32 @@ done
 run 0 integrals level.yaml --degree 1
 check "a level" grep -q '^theory: open: the theorem is about the level H = 0' out
 
+# --- with a rotor, which is on the point a magnetic field
+# rotor SCENE K: with this momentum
+rotor() { cat "$1" && echo "effects: {rotor: {momentum: [$2]}}"; }
+rotor plane.yaml "0.3, 0.4, 0.5" >rotor.yaml
+run 0 integrals rotor.yaml
+silent
+check "k = 1: F_rotor" grep -q "^  F_rotor = .*: found in degree 2, to " out
+check "k = 1: one" grep -q '^found: 1 independent integral beside the energy$' out
+check "k = 1: the energy" grep -q 'the energy, .*: found in degree 1$' out
+check "k = 1: its space" grep -qF 'functions v^c M^a gamma^b, v = q^(-1/(2k)), |a| + c <= degree' out
+run 0 integrals rotor.yaml --degree 1 --json
+check "degree 1: the energy" test "$(value energy)" = true
+rotor shell.yaml "0.3, 0.4, 0.5" >rotor.yaml
+run 0 integrals rotor.yaml --degree 3 --json
+check "k = -1: none" test "$(value verdict)" = none
+above "k = -1: the smallest value" "$(value smallest)" 1e-3
+rotor symmetric.yaml "0, 0, 0.7" >rotor.yaml
+run 0 integrals rotor.yaml --degree 1
+check "a symmetric body" grep -q '^  F_rotor3 = .*: found in degree 1, to ' out
+rotor symmetric.yaml "0.01, 0, 0.7" >rotor.yaml
+run 0 integrals rotor.yaml --degree 1
+check "K beside the axis" grep -q '^none beside the energy up to degree 1 ' out
+rotor shell.yaml "0, 0, 0" >rotor.yaml
+run 0 integrals rotor.yaml
+check "K = 0: what the shell has" grep -q '^found: 1 independent integral beside the energy$' out
+
 # --- orbits, seeds, threads
 run 0 integrals other.yaml --json -j 1
 cp out first
@@ -101,7 +127,7 @@ scene 0.001 "1.4, 2.1, 3" "$spin" "$normal" 10 0.5 >extreme.yaml
 # --- refusals
 refuses 3 "k = 0.001 is too near 0 for these moments" integrals extreme.yaml
 { cat other.yaml; echo "effects: {gravity: {mgb: 0.7, up: [0, 0.6, 0.8]}}"; } >gravity.yaml
-refuses 3 "integrals are sought only of the free ball and of the point, on every level of its energy: remove 'gravity'" integrals gravity.yaml
+refuses 3 "integrals are sought only of the free ball and of the point, on every level of its energy and in a magnetic field: remove 'gravity'" integrals gravity.yaml
 refuses 2 "--degree '0'" integrals other.yaml --degree 0
 refuses 2 "--degree '-1'" integrals other.yaml --degree=-1
 refuses 2 "--within '-1'" integrals other.yaml --within -1

@@ -24,7 +24,8 @@ static const char *theory_word(int kind)
 static const iso_field value_fields[] = {
     ISO_MEMBER(iso_integral_value, "value", value, "", "variation along orbits by size"),
     ISO_MEMBER(iso_integral_value, "error", error, "", "its error"),
-    ISO_FOUND("parity", ISO_FIELD_INT, find_parity, "", "under gamma_i -> -gamma_i: 1 is odd", .count = 3),
+    ISO_FOUND("parity", ISO_FIELD_INT, find_parity, "",
+              "under gamma_i -> -gamma_i, at the first K_i of a rotor gamma -> -gamma: 1 is odd", .count = 3),
     ISO_FIELD_END,
 };
 
@@ -87,10 +88,17 @@ static double smallest_of(const void *row)
     return iso_integral_smallest(row);
 }
 
+/* The energy is found in V_2, with a rotor in V_1. What is found in these and is not further, is the energy. */
+int iso_integral_energy_degree(const iso_integral_search *r)
+{
+    for (int d = 1; d <= 2 && d <= r->degrees; d++)
+        if (r->at[d].found > r->at[d].further) return d;
+    return 0;
+}
+
 static bool has_energy(const void *row)
 {
-    const iso_integral_search *r = row;
-    return r->degrees >= 2 && r->at[2].found > 0;
+    return iso_integral_energy_degree(row) > 0;
 }
 
 static double samples_of(const void *row)
