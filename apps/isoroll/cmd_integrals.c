@@ -77,9 +77,10 @@ static void print_verdict(const options *o, const iso_integral_search *r)
 static void print_table(const shell *s)
 {
     const options *o = s->options;
-    const iso_integral_search *r = &((const iso_integrals_found *)s->result.found)->search;
+    const iso_integrals_found *found = s->result.found;
+    const iso_integral_search *r = &found->search;
     print_verdict(o, r);
-    say("\n");
+    say("theory: %s: %s\n\n", iso_integrability_name(found->theory.kind), found->theory.why);
     print_head(o, &s->scene, r);
     say_table(1);
     say("degree\tfunctions\tintegrals\tfurther\tdoubtful\ttheir values up to\tsmallest other value\n");
@@ -123,7 +124,9 @@ const command command_integrals = {
         "it is the one integral of degree 2, with a rotor of degree 1, that every ball has.\n\n"
         "Integrals that are known for this k and J are named where they are found. 'undecided': a value lies "
         "between its own error and --within, or k and J are almost those of an integrable ball, or the search was "
-        "stopped.",
+        "stopped.\n\n"
+        "The line 'theory' does not depend on the search. It says 'integrable' (a second integral is known), 'no "
+        "meromorphic integral' (a theorem of ours, not reviewed) or 'open', and why.",
     .example = "isoroll integrals scene.yaml --degree 4",
     .exits = "1: interrupted\n"
              "3: bad input: an effect that acts, other than 'level' and 'rotor', or k too near 0\n"

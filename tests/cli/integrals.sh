@@ -23,6 +23,7 @@ for case in plane:F_plane shell:F_shell; do
     run 0 integrals "${case%:*}.yaml"
     silent
     check "$case" grep -q "^  ${case#*:} = .*: found in degree 2, to " out
+    check "$case: theory" grep -q '^theory: integrable: a second integral is known$' out
     check "$case: one" grep -q '^found: 1 independent integral beside the energy$' out
     check "$case: the energy" grep -q 'the energy, .*: found in degree 2' out
     check "$case: both in degree 2" grep -q '^  *2  *50  *2  *1  *0 ' out
@@ -44,8 +45,10 @@ for k in 0.5 0.75 -0.5; do
     run 0 integrals other.yaml --degree 4
     silent
     check "k = $k: none" grep -q '^none beside the energy up to degree 4 within 1e-10: the smallest value is ' out
+    check "k = $k: theory" grep -q '^theory: no meromorphic integral: .*1/k no odd integer: a theorem of ours' out
     run 0 integrals other.yaml --degree 4 --json
     check "k = $k: verdict" test "$(value verdict)" = none
+    check "k = $k: theory in JSON" grep -q '"theory": "no meromorphic integral"' out
     above "k = $k: the smallest value" "$(value smallest)" 1e-5
 done
 run 0 integrals plane.yaml --coefficients 1
@@ -57,6 +60,17 @@ check "and a rough bound" grep -q '^found: ' out
 scene 0.5 "1, 1.0000001, 1.0000002" "$spin" "$normal" 10 0.5 >near.yaml
 run 0 integrals near.yaml
 check "nearly equal moments" grep -q '^undecided: k and J are so near' out
+
+# --- the line of theory: 1/k odd, and where it is not known
+for case in "1/3:no meromorphic integral: .*third variation" "1/21:no meromorphic integral" "1/23:open: .*see .isoroll prove"; do
+    k=$(awk "BEGIN { printf \"%.17g\", ${case%%:*} }")
+    scene "$k" "1.4, 2.1, 3" "$spin" "$normal" 10 0.5 >odd.yaml
+    run 0 integrals odd.yaml --degree 1
+    check "k = ${case%%:*}" grep -q "^theory: ${case#*:}" out
+done
+{ scene 0.5 "1.4, 2.1, 3" "$spin" "$normal" 10 0.5; echo "effects: {level: {c: 0.1}}"; } >level.yaml
+run 0 integrals level.yaml --degree 1
+check "a level" grep -q '^theory: open: the theorem is about the level H = 0' out
 
 # --- with a rotor, which is on the point a magnetic field
 # rotor SCENE K: with this momentum

@@ -2,6 +2,7 @@
 #ifndef ISO_STUDY_INTEGRALS_IMPL_H
 #define ISO_STUDY_INTEGRALS_IMPL_H
 
+#include "exact/integrability_impl.h"
 #include "map/section_impl.h"
 #include "study/integrals/integrals.h"
 
@@ -86,6 +87,7 @@ const char *iso_integral_verdict_name(iso_integral_verdict verdict);
 typedef struct iso_integrals_found {
     iso_integral_search_options how;
     iso_integral_search search;
+    iso_integrability theory;
 } iso_integrals_found;
 
 /* The degree in which the energy was found; 0: in none. */

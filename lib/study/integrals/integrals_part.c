@@ -127,12 +127,12 @@ double iso_integral_slope(const integral_function *f, const iso_problem *problem
 
 /* --- linear algebra --------------------------------------------------------------------------------------------- */
 
-/* The room of one part. Column order[i] of A is the sum of Q's columns 0 to i with the factors R[order[i]]. */
+/* The room of one part. Column order[i] of A is the sum of Q's columns 0 to i with the factors R[order[i]]. What Q has
+ * not of another column is taken for rounding, but can also be a function that is small on the surface. */
 typedef struct algebra {
     const integral_samples *samples;
     size_t terms, functions; /* columns of A; those that are independent: of Q                          */
-    double dropped;          /* the largest part of another column that Q has not: it is taken for rounding, but
-                              * can also be a function that is small on the surface                      */
+    double dropped;          /* the largest part of another column that Q has not                        */
     integral_term *term;
     double *length; /* of the columns of A, before they were made unit vectors                 */
     double *column; /* what is left of those of A without their parts along Q; the first become Q */
