@@ -32,6 +32,14 @@ bool iso_draft_initial_key(int i, const char **name, iso_models *model);
  * are no more. */
 bool iso_scene_key(int i, const char **section, const char **key);
 
+/* Of an effect that the scene writes: expression `which`, the list of all of them, its parameters. */
+iso_status iso_draft_expression(iso_draft *d, iso_effect_id id, int which, const yaml_node_t *value);
+iso_status iso_draft_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *value);
+iso_status iso_draft_parameters(iso_draft *d, iso_effect_id id, const yaml_node_t *value);
+
+/* Whether its expressions are some, and their constants finite, when the whole scene is known. effects: the section. */
+iso_status iso_draft_check_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *effects);
+
 /* Reads every key under d->root into the draft: types, ranges, unknown, duplicate and missing keys.
  * What must hold between sections is left to the caller. Errors: ISO_BAD_INPUT. */
 iso_status iso_draft_read_keys(iso_draft *d);

@@ -11,7 +11,7 @@
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
 
-enum { MAX_KEYS = 32, EFFECT_KEYS = ISO_EFFECT_NUMBERS + 2 };
+enum { MAX_KEYS = 32, EFFECT_KEYS = ISO_EFFECT_NUMBERS + ISO_EXPRESSIONS + 3 };
 _Static_assert((int)MAX_KEYS >= 2 * (int)ISO_EFFECTS && (int)MAX_KEYS >= (int)EFFECT_KEYS, "room for all names");
 
 /* One key that a mapping may have: what reads its value, and where in the draft the value goes. */
@@ -25,7 +25,8 @@ typedef struct entry {
     unsigned words;                  /* ... and which of them (1 << value)  */
     iso_models model;                /* of `initial`: whose start this is   */
     iso_effect_id effect;            /* read_effect, read_effect_number: which effect ... */
-    const iso_effect_number *number; /* ... and which number of it */
+    const iso_effect_number *number; /* ... and which number of it ... */
+    int which;                       /* read_expression: which of its expressions */
 } entry;
 
 /* ---- Values ---- */
@@ -131,13 +132,38 @@ static iso_status read_effect_flag(iso_draft *d, const entry *e, const yaml_node
     return status;
 }
 
-/* A number of an effect: true or false, one number, a matrix or a list. */
+static iso_status read_effect_word(iso_draft *d, const entry *e, const yaml_node_t *value, double *number)
+{
+    int word = 0;
+    const iso_status status = iso_yaml_word(&d->yaml, value, e->name, e->number->word, ~0u, &word);
+    *number = word;
+    return status;
+}
+
+/* A number of an effect: true or false, a word, one number, a matrix or a list. */
 static iso_status read_effect_number(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     double *x = iso_effect_values(&d->scene.effects, e->effect, e->number);
+    if (e->number->kind == ISO_NUMBER_WORD) return read_effect_word(d, e, value, x);
     if (e->number->kind == ISO_NUMBER_FLAG) return read_effect_flag(d, e, value, x);
     if (e->number->count == 1) return iso_yaml_number(&d->yaml, value, e->name, x);
     return iso_yaml_numbers(&d->yaml, value, e->name, e->number->count, x);
+}
+
+/* Of an effect that the scene writes. */
+static iso_status read_expression(iso_draft *d, const entry *e, const yaml_node_t *value)
+{
+    return iso_draft_expression(d, e->effect, e->which, value);
+}
+
+static iso_status read_expressions(iso_draft *d, const entry *e, const yaml_node_t *value)
+{
+    return iso_draft_expressions(d, e->effect, value);
+}
+
+static iso_status read_parameters(iso_draft *d, const entry *e, const yaml_node_t *value)
+{
+    return iso_draft_parameters(d, e->effect, value);
 }
 
 /* ---- Sections ---- */
@@ -246,22 +272,37 @@ static const entry time_keys[] = {
     {0},
 };
 
-/* The keys of an effect: its numbers, and D where it is needed. */
+/* The keys of the text of an effect; how many there are. */
+static int text_keys(iso_effect_id id, entry keys[])
+{
+    const iso_effect *effect = iso_effect_list[id];
+    int count = 0;
+    if (!effect->expressions) return 0;
+    if (effect->expressions_key)
+        keys[count++] = (entry){effect->expressions_key, read_expressions, .required = true, .effect = id};
+    for (int i = 0; !effect->expressions_key && effect->expressions[i]; i++)
+        keys[count++] = (entry){effect->expressions[i], read_expression, .required = true, .effect = id, .which = i};
+    keys[count++] = (entry){"parameters", read_parameters, .effect = id};
+    return count;
+}
+
+/* The keys of an effect: its text, its numbers, and D where it is needed. */
 static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     const iso_effect *effect = iso_effect_list[e->effect];
     entry keys[EFFECT_KEYS] = {{0}};
     const entry with_keys = {e->name, .section = keys};
-    int count = 0;
+    int count = text_keys(e->effect, keys);
     if (strcmp(e->name, effect->name) != 0 && !iso_yaml_find(&d->yaml, d->root, "point", NULL, NULL))
         return ISO_FAIL_AT(d, d->key, "'%s' is for a point: a ball has '%s'", e->name, effect->name);
     if (d->scene.effects.on[e->effect])
         return ISO_FAIL_AT(d, d->key, "'%s' and '%s' are the same effect: give one of them", effect->name,
                            effect->point_name);
     if (strcmp(e->name, effect->name) != 0) note_place(&d->scene, effect->name, value->start_mark);
-    for (const iso_effect_number *n = effect->numbers; n && n->name && count < ISO_EFFECT_NUMBERS; n++)
-        keys[count++] =
-            (entry){n->name, read_effect_number, .required = n->required, .effect = e->effect, .number = n};
+    for (const iso_effect_number *n = effect->numbers; n && n->name && count < EFFECT_KEYS - 2; n++)
+        if (!n->hidden)
+            keys[count++] =
+                (entry){n->name, read_effect_number, .required = n->required, .effect = e->effect, .number = n};
     if (effect->needs_D) keys[count] = (entry){"D", read_D, AT(D)};
     d->scene.effects.on[e->effect] = true;
     return read_section(d, &with_keys, value);
@@ -391,12 +432,14 @@ static void list_section(listing *l, const entry *section, const yaml_node_t *ma
 /* `name`: its own, or that for a point. */
 static void list_effect(listing *l, iso_effect_id id, const char *name, const yaml_node_t *effects)
 {
-    const iso_effect *effect = iso_effect_list[id];
-    const yaml_node_t *mapping;
+    const yaml_node_t *mapping, *parameters = NULL;
+    iso_effect_number n;
     if (!name || !iso_yaml_find(&l->d->yaml, effects, name, NULL, &mapping)) return;
-    for (const iso_effect_number *n = effect->numbers; n && n->name; n++)
-        if (n->kind != ISO_NUMBER_FLAG)
-            list_one(l, name, n->name, n->count, iso_effect_values(&l->d->scene.effects, id, n), mapping);
+    if (iso_effect_list[id]->expressions) iso_yaml_find(&l->d->yaml, mapping, "parameters", NULL, &parameters);
+    for (int i = 0; iso_effect_number_at(&l->d->scene.effects, id, i, &n); i++)
+        if (n.kind != ISO_NUMBER_FLAG && n.kind != ISO_NUMBER_WORD)
+            list_one(l, name, n.name, n.count, iso_effect_values(&l->d->scene.effects, id, &n),
+                     parameters ? parameters : mapping);
 }
 
 int iso_draft_numbers(iso_draft *d, int most, iso_draft_number list[])

@@ -17,6 +17,8 @@ ISO_C_BEGIN
     X(TWIST, twist)                           \
     X(ROLLING_RESISTANCE, rolling_resistance) \
     X(ROTOR, rotor)                           \
+    X(POTENTIAL, potential)                   \
+    X(TORQUE, torque)                         \
     X(ATTITUDE, attitude)                     \
     X(REACTIONS, reactions)                   \
     X(CLOCK, clock)

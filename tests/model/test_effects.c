@@ -44,6 +44,11 @@ static void states(const effects_case *c, laws_worst *worst)
     }
 }
 
+static bool has_image(const iso_effects *e)
+{
+    return e->on[ISO_FIELD] || e->on[ISO_ROTOR] || e->on[ISO_POTENTIAL];
+}
+
 /* What is added up at each call: the ball's torques, none from a contact that twists freely; the point's field. */
 static void forces(const effects_case *c, laws_worst *worst)
 {
@@ -51,14 +56,13 @@ static void forces(const effects_case *c, laws_worst *worst)
     const iso_effects *e = &f->effects;
     const int torques = e->on[ISO_GRAVITY] + e->on[ISO_FIELD] + e->on[ISO_LEVEL] +
                         (e->on[ISO_TWIST] && TWIST_RESISTANCE(e) > 0) + e->on[ISO_ROLLING_RESISTANCE] +
-                        e->on[ISO_ROTOR];
+                        e->on[ISO_ROTOR] + e->on[ISO_POTENTIAL] + 3 * e->on[ISO_TORQUE];
     int written = 0;
     for (int i = 0; i < f->motion.lines; i++) written += f->motion.line[i].operation == ISO_R_TORQUE;
     if (c->system == &iso_system_ball)
         effects_note(c, worst, abs(written - torques), 0.5, "torques");
     else
-        effects_note(c, worst, abs((f->energy_formula.lines > 0) - (e->on[ISO_FIELD] || e->on[ISO_ROTOR])), 0.5,
-                     "image");
+        effects_note(c, worst, abs((f->energy_formula.lines > 0) - has_image(e)), 0.5, "image");
 }
 
 /* The start: the six numbers, `up`, `quaternion`, the rest 0; sizes: 1, and of the way 1 more than it is long. */
@@ -96,7 +100,7 @@ static void plain(const effects_case *c, laws_worst *worst)
     const iso_effects *e = &c->model.problem.effects;
     const bool ball = c->system == &iso_system_ball;
     const bool acted_on = !iso_effects_are_free(e) || e->on[ISO_LEVEL];
-    if (ball ? acted_on : e->on[ISO_FIELD] || e->on[ISO_ROTOR]) return;
+    if (ball ? acted_on : has_image(e)) return;
     const iso_problem bare = {.p = c->model.problem.p, .eps = c->model.problem.eps};
     const iso_model simplest = iso_model_assemble(c->system, &bare, c->system->clock, none);
     double own[ISO_STATE], dy[ISO_MAX_STATE];
@@ -252,7 +256,7 @@ static void written_out(const effects_case *c, laws_worst *worst)
     const iso_problem *f = &c->model.problem;
     const iso_effects *e = &f->effects;
     const double *w = c->y, *n = c->y + 3, *up = c->y + f->at[ISO_GRAVITY], g = dot_diag(n, f->p.inv_J, n);
-    double sum[3] = {0, 0, 0}, T[3] = {0, 0, 0}, C_n[3], e_n[3], K_w[3], U = 0;
+    double sum[3] = {0, 0, 0}, T[3] = {0, 0, 0}, C_n[3], e_n[3], K_w[3], own[3], U = 0;
     for (int i = 0; i < 3; i++) C_n[i] = dot(FIELD_QUADRATIC(e) + 3 * i, n);
     if (e->on[ISO_FIELD]) U += dot(n, C_n) / 2 + dot(FIELD_LINEAR(e), n);
     if (e->on[ISO_LEVEL]) U -= LEVEL_C(e) * pow(g, -1 / f->p.k);
@@ -263,10 +267,13 @@ static void written_out(const effects_case *c, laws_worst *worst)
     if (e->on[ISO_ROLLING_RESISTANCE]) add_scaled(T, -ROLLING_COEFFICIENT(e), w);
     cross(ROTOR_MOMENTUM(e), w, K_w);
     if (e->on[ISO_ROTOR]) add_scaled(T, 1, K_w);
+    if (e->on[ISO_POTENTIAL]) U += effects_potential_of(e, &f->p, n);
+    effects_torque_of(e, w, n, up, own);
+    if (e->on[ISO_TORQUE]) add_scaled(T, 1, own);
     for (iso_effect_id i = 0; i < ISO_EFFECTS; i++) {
-        if (!e->on[i] || i == ISO_FIELD || i == ISO_LEVEL) continue;
+        if (!e->on[i] || i == ISO_FIELD || i == ISO_LEVEL || i == ISO_POTENTIAL) continue;
         const iso_problem alone = effects_alone(c, i);
-        double own[3], dy[ISO_MAX_STATE];
+        double dy[ISO_MAX_STATE];
         iso_effects_torque(&alone, c->y, own, dy);
         add_scaled(sum, 1, own);
     }
@@ -289,7 +296,7 @@ static void accepted(const effects_case *c, laws_worst *worst)
     effects_note(c, worst, status != ISO_OK, 0.5, "refused");
     for (iso_effect_id i = 0; i < ISO_EFFECTS; i++)
         for (const iso_effect_number *n = iso_effect_list[i]->numbers; n && n->name; n++)
-            for (int j = 0; j < n->count; j++) {
+            for (int j = 0; !n->hidden && n->kind != ISO_NUMBER_WORD && j < n->count; j++) {
                 const double *old = iso_effect_values(&c->model.problem.effects, i, n);
                 const double *new = iso_effect_values(&e, i, n);
                 effects_note(c, worst, fabs(new[j] - old[j]), 4 * DBL_EPSILON * fabs(old[j]), n->name);
@@ -297,15 +304,27 @@ static void accepted(const effects_case *c, laws_worst *worst)
 }
 
 /* Effects that are fine with k = 0.5 and with a tilted plane. */
-static const iso_effects sound = {.number = {
-                                      [ISO_GRAVITY] = {0.7, 0, 0.6, 0.8},
-                                      [ISO_FIELD] = {1, 2, 3, 2, 4, 5, 3, 5, 6, 1, 0, 0},
-                                      [ISO_LEVEL] = {-0.3},
-                                      [ISO_TWIST] = {10},
-                                      [ISO_ROLLING_RESISTANCE] = {0.01},
-                                      [ISO_ROTOR] = {0.3, -0.2, 0.5},
-                                      [ISO_ATTITUDE] = {0.5, 0.5, 0.5, -0.5},
-                                  }};
+static iso_effects sound;
+
+static void make_sound(void)
+{
+    static const double number[ISO_EFFECTS][ISO_EFFECT_NUMBERS] = {
+        [ISO_GRAVITY] = {0.7, 0, 0.6, 0.8},
+        [ISO_FIELD] = {1, 2, 3, 2, 4, 5, 3, 5, 6, 1, 0, 0},
+        [ISO_LEVEL] = {-0.3},
+        [ISO_TWIST] = {10},
+        [ISO_ROLLING_RESISTANCE] = {0.01},
+        [ISO_ROTOR] = {0.3, -0.2, 0.5},
+        [ISO_POTENTIAL] = {0.3, 0.1},
+        [ISO_TORQUE] = {0.1, 0.2},
+        [ISO_ATTITUDE] = {0.5, 0.5, 0.5, -0.5},
+    };
+    sound = effects_text(false);
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        for (int i = 0; i < ISO_EFFECT_NUMBERS; i++)
+            if (number[e][i] != 0) sound.number[e][i] = number[e][i];
+}
+
 static const double normal[3] = {0, 0, 1};
 
 /* Tries effects with the one in question on: refused about `field`, or accepted (NULL). */
@@ -326,8 +345,9 @@ static void attempt(const char *what, double k, double D, iso_effect_id id, iso_
 static void attempt_number(iso_effect_id id, const char *number, int index, double value, const char *field)
 {
     iso_effects e = sound;
-    for (const iso_effect_number *n = iso_effect_list[id]->numbers; n->name; n++)
-        if (strcmp(n->name, number) == 0) iso_effect_values(&e, id, n)[index] = value;
+    iso_effect_number n;
+    for (int i = 0; iso_effect_number_at(&sound, id, i, &n); i++)
+        if (strcmp(n.name, number) == 0) iso_effect_values(&e, id, &n)[index] = value;
     char what[64];
     snprintf(what, sizeof what, "%s %s[%d] = %g", iso_effect_list[id]->name, number, index, value);
     attempt(what, 0.5, 0.3, id, e, field);
@@ -340,11 +360,12 @@ static void refused_numbers(void)
 {
     for (iso_effect_id id = 0; id < ISO_EFFECTS; id++) {
         attempt(iso_effect_list[id]->name, 0.5, 0.3, id, sound, NULL);
-        for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++)
-            for (int i = 0; i < n->count; i++) {
-                attempt_number(id, n->name, i, NAN, n->name);
-                attempt_number(id, n->name, i, INFINITY, n->name);
-                attempt_number(id, n->name, i, -INFINITY, n->name);
+        iso_effect_number n;
+        for (int j = 0; iso_effect_number_at(&sound, id, j, &n); j++)
+            for (int i = 0; i < n.count; i++) {
+                attempt_number(id, n.name, i, NAN, n.name);
+                attempt_number(id, n.name, i, INFINITY, n.name);
+                attempt_number(id, n.name, i, -INFINITY, n.name);
             }
     }
     attempt_number(ISO_GRAVITY, "mgb", 0, 0, "gravity");
@@ -408,13 +429,14 @@ static void made_exact(void)
     gsl_test(FIELD_QUADRATIC(&e)[1] != FIELD_QUADRATIC(&e)[3], "C made symmetric");
 }
 
-/* The isomorphism is lost with gravity, twist and rolling resistance, and with nothing else. */
+/* The isomorphism is lost with gravity, twist, rolling resistance and a written torque, and with nothing else. */
 static void breaking(const effects_case *c, laws_worst *worst)
 {
     const iso_effects *e = &c->model.problem.effects;
     const char *expected = e->on[ISO_GRAVITY]              ? "gravity"
                            : e->on[ISO_TWIST]              ? "twist"
                            : e->on[ISO_ROLLING_RESISTANCE] ? "rolling_resistance"
+                           : e->on[ISO_TORQUE]             ? "torque"
                                                            : "";
     const iso_effect *first = iso_effects_breaking(e);
     effects_note(c, worst, strcmp(first ? first->name : "", expected), 0.5, "breaking");
@@ -424,6 +446,7 @@ int main(void)
 {
     gsl_test_verbose(1);
     ctx = iso_context_create();
+    make_sound();
     effects_hold("states of every subset", NULL, 1, states);
     effects_hold("forces of every subset", NULL, 1, forces);
     effects_hold("starts and sizes of the states", NULL, 1, beginnings);

@@ -51,6 +51,8 @@
 #define POW powl
 #define FMA fmal
 #define ABS fabsl
+#define EXP expl
+#define LOG logl
 #define SIN sinl
 #define COS cosl
 #define ATAN2 atan2l
@@ -65,6 +67,8 @@ __extension__ typedef _Float128 number_of_128_bits;
 #define POW powf128
 #define FMA fmaf128
 #define ABS fabsf128
+#define EXP expf128
+#define LOG logf128
 #define SIN sinf128
 #define COS cosf128
 #define ATAN2 atan2f128
@@ -78,6 +82,10 @@ __extension__ typedef _Float128 number_of_128_bits;
 #define POW pow
 #define FMA fma
 #define ABS fabs
+#define EXP exp
+#define LOG log
+#define SIN sin
+#define COS cos
 #define EPSILON DBL_EPSILON
 #define FINER 1
 #define FINEST_ORDER 28

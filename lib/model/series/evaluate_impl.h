@@ -36,6 +36,11 @@ static inline void find_constants(const iso_formula *F, const iso_params *p, NUM
         case ISO_C_MUL: c[i] = c[l->a] * c[l->b]; break;
         case ISO_C_DIV: c[i] = c[l->a] / c[l->b]; break;
         case ISO_C_ROOT: c[i] = ROOT(c[l->a]); break;
+        case ISO_C_POWER: c[i] = POW(c[l->a], c[l->b]); break;
+        case ISO_C_EXP: c[i] = EXP(c[l->a]); break;
+        case ISO_C_LOG: c[i] = LOG(c[l->a]); break;
+        case ISO_C_SIN: c[i] = SIN(c[l->a]); break;
+        case ISO_C_COS: c[i] = COS(c[l->a]); break;
         default: c[i] = F->value[i]; break;
         }
     }
@@ -89,6 +94,53 @@ static inline real power_of_series(const nodes *t, const real a[], real p, const
     return (sum_of_power(t, a, p, dv, n) + of_da) * (t->inverse[n] / a[0]);
 }
 
+/* The functions of a[0] that a series begins with, lane by lane. */
+static inline real function_of(iso_operation operation, real a)
+{
+    for (int i = 0; i < LANES; i++) {
+        const NUMBER x = LANE(a, i);
+        LANE(a, i) = operation == ISO_S_EXP   ? EXP(x)
+                     : operation == ISO_S_LOG ? LOG(x)
+                     : operation == ISO_S_SIN ? SIN(x)
+                                              : COS(x);
+    }
+    return a;
+}
+
+/* sum_(j>0) j a_j b_(n-j), over n: coefficient n of the integral of a' b */
+static inline real integral_of(const nodes *t, const real a[], const real b[], int n)
+{
+    real sum = zero;
+    for (int j = n; j > 0; j--) sum += t->count[j] * a[j] * b[n - j];
+    return t->inverse[n] * sum;
+}
+
+/* v = exp a:  v' = a' v,  dv = v da */
+static inline real exp_of_series(const nodes *t, const real a[], const real v[], int c, int n)
+{
+    if (is_deviation(c)) return product_of(v, a + place(c, 0), n);
+    return n == 0 ? function_of(ISO_S_EXP, a[0]) : integral_of(t, a, v, n);
+}
+
+/* v = log a:  a v' = a',  a dv = da */
+static inline real log_of_series(const nodes *t, const real a[], const real v[], int c, int n)
+{
+    if (is_deviation(c)) return (a[place(c, n)] - known_part(a, v + place(c, 0), n)) / a[0];
+    if (n == 0) return function_of(ISO_S_LOG, a[0]);
+    real sum = zero;
+    for (int j = n - 1; j > 0; j--) sum += t->count[j] * v[j] * a[n - j];
+    return (a[n] - t->inverse[n] * sum) / a[0];
+}
+
+/* v = sin a or cos a, w the other one:  v' = a' w or -a' w,  dv = w da or -w da */
+static inline real circle_of_series(const nodes *t, iso_operation operation, const real a[], const real w[], int c,
+                                    int n)
+{
+    if (n == 0 && !is_deviation(c)) return function_of(operation, a[0]);
+    const real slope = is_deviation(c) ? product_of(w, a + place(c, 0), n) : integral_of(t, a, w, n);
+    return operation == ISO_S_SIN ? slope : -slope;
+}
+
 static inline real scalar_line(const iso_formula_line *l, const nodes *t, int c, int n)
 {
     const int i = place(c, n);
@@ -102,6 +154,10 @@ static inline real scalar_line(const iso_formula_line *l, const nodes *t, int c,
     case ISO_S_TIMES: return t->c[l->a] * with[i];
     case ISO_S_PLUS: return i == 0 ? t->c[l->a] + with[0] : with[i];
     case ISO_S_POWER: return power_of_series(t, a, t->c[l->b], own, c, n);
+    case ISO_S_EXP: return exp_of_series(t, a, own, c, n);
+    case ISO_S_LOG: return log_of_series(t, a, own, c, n);
+    case ISO_S_SIN:
+    case ISO_S_COS: return circle_of_series(t, (iso_operation)l->operation, a, b, c, n);
     case ISO_S_DOT: return dot(t->vector + l->a * t->kept, t->vector + l->b * t->kept, c, n);
     default: return total(by(three(t->c + l->a), t->vector[l->b * t->kept + i])); /* ISO_S_DOT_C */
     }
@@ -155,7 +211,7 @@ static inline void evaluate(const iso_formula *F, const nodes *t, bool late, int
     const int i = place(c, n);
     for (int j = 0; j < F->lines; j++) {
         const iso_formula_line *l = &F->line[j];
-        if ((F->late_line >> j & 1) != late) continue;
+        if (F->late_line[j] != late) continue;
         if (l->operation < ISO_V_ADD)
             t->scalar[l->to * t->kept + i] = scalar_line(l, t, c, n);
         else if (l->operation < ISO_R_TORQUE)
