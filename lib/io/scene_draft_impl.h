@@ -32,10 +32,10 @@ bool iso_draft_initial_key(int i, const char **name, iso_models *model);
  * are no more. */
 bool iso_scene_key(int i, const char **section, const char **key);
 
-/* Of an effect that the scene writes: expression `which`, the list of all of them, its parameters. */
-iso_status iso_draft_expression(iso_draft *d, iso_effect_id id, int which, const yaml_node_t *value);
-iso_status iso_draft_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *value);
-iso_status iso_draft_parameters(iso_draft *d, iso_effect_id id, const yaml_node_t *value);
+/* Of an effect that the scene writes: its i-th key of text, the first one required; NULL past the last. And what
+ * reads the value of it: an expression, a list of them, the parameters. */
+const char *iso_draft_text_key(iso_effect_id id, int i);
+iso_status iso_draft_text(iso_draft *d, iso_effect_id id, int i, const yaml_node_t *value);
 
 /* Whether its expressions are some, and their constants finite, when the whole scene is known. effects: the section. */
 iso_status iso_draft_check_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *effects);

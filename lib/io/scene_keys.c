@@ -26,7 +26,7 @@ typedef struct entry {
     iso_models model;                /* of `initial`: whose start this is   */
     iso_effect_id effect;            /* read_effect, read_effect_number: which effect ... */
     const iso_effect_number *number; /* ... and which number of it ... */
-    int which;                       /* read_expression: which of its expressions */
+    int which;                       /* read_text: which key of its text */
 } entry;
 
 /* ---- Values ---- */
@@ -151,19 +151,9 @@ static iso_status read_effect_number(iso_draft *d, const entry *e, const yaml_no
 }
 
 /* Of an effect that the scene writes. */
-static iso_status read_expression(iso_draft *d, const entry *e, const yaml_node_t *value)
+static iso_status read_text(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    return iso_draft_expression(d, e->effect, e->which, value);
-}
-
-static iso_status read_expressions(iso_draft *d, const entry *e, const yaml_node_t *value)
-{
-    return iso_draft_expressions(d, e->effect, value);
-}
-
-static iso_status read_parameters(iso_draft *d, const entry *e, const yaml_node_t *value)
-{
-    return iso_draft_parameters(d, e->effect, value);
+    return iso_draft_text(d, e->effect, e->which, value);
 }
 
 /* ---- Sections ---- */
@@ -272,27 +262,15 @@ static const entry time_keys[] = {
     {0},
 };
 
-/* The keys of the text of an effect; how many there are. */
-static int text_keys(iso_effect_id id, entry keys[])
-{
-    const iso_effect *effect = iso_effect_list[id];
-    int count = 0;
-    if (!effect->expressions) return 0;
-    if (effect->expressions_key)
-        keys[count++] = (entry){effect->expressions_key, read_expressions, .required = true, .effect = id};
-    for (int i = 0; !effect->expressions_key && effect->expressions[i]; i++)
-        keys[count++] = (entry){effect->expressions[i], read_expression, .required = true, .effect = id, .which = i};
-    keys[count++] = (entry){"parameters", read_parameters, .effect = id};
-    return count;
-}
-
 /* The keys of an effect: its text, its numbers, and D where it is needed. */
 static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     const iso_effect *effect = iso_effect_list[e->effect];
     entry keys[EFFECT_KEYS] = {{0}};
     const entry with_keys = {e->name, .section = keys};
-    int count = text_keys(e->effect, keys);
+    int count = 0;
+    for (const char *name; (name = iso_draft_text_key(e->effect, count)); count++)
+        keys[count] = (entry){name, read_text, .required = count == 0, .effect = e->effect, .which = count};
     if (strcmp(e->name, effect->name) != 0 && !iso_yaml_find(&d->yaml, d->root, "point", NULL, NULL))
         return ISO_FAIL_AT(d, d->key, "'%s' is for a point: a ball has '%s'", e->name, effect->name);
     if (d->scene.effects.on[e->effect])

@@ -7,7 +7,7 @@
 #include "io/text_impl.h"
 #include "model/written_impl.h"
 
-iso_status iso_draft_expression(iso_draft *d, iso_effect_id id, int which, const yaml_node_t *value)
+static iso_status read_expression(iso_draft *d, iso_effect_id id, int which, const yaml_node_t *value)
 {
     const iso_effect *effect = iso_effect_list[id];
     const char *name = effect->expressions[which];
@@ -19,7 +19,7 @@ iso_status iso_draft_expression(iso_draft *d, iso_effect_id id, int which, const
     return status == ISO_OK ? status : ISO_FAIL_AT(d, value, "%s", iso_context_message(d->yaml.ctx));
 }
 
-iso_status iso_draft_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *value)
+static iso_status read_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *value)
 {
     const iso_effect *effect = iso_effect_list[id];
     const bool list = value->type == YAML_SEQUENCE_NODE;
@@ -30,7 +30,7 @@ iso_status iso_draft_expressions(iso_draft *d, iso_effect_id id, const yaml_node
     if (found != count)
         return iso_yaml_expected(&d->yaml, value, effect->expressions_key,
                                  "a list of 3 expressions in quotes, [\"...\", \"...\", \"...\"]");
-    for (int i = 0; i < count; i++) ISO_TRY(iso_draft_expression(d, id, i, iso_yaml_node(&d->yaml, items[i])));
+    for (int i = 0; i < count; i++) ISO_TRY(read_expression(d, id, i, iso_yaml_node(&d->yaml, items[i])));
     return ISO_OK;
 }
 
@@ -53,7 +53,7 @@ static iso_status read_parameter(iso_draft *d, iso_effect_id id, const yaml_node
     return status == ISO_OK ? status : ISO_FAIL_AT(d, key, "%s", iso_context_message(d->yaml.ctx));
 }
 
-iso_status iso_draft_parameters(iso_draft *d, iso_effect_id id, const yaml_node_t *value)
+static iso_status read_parameters(iso_draft *d, iso_effect_id id, const yaml_node_t *value)
 {
     if (value->type != YAML_MAPPING_NODE)
         return iso_yaml_expected(&d->yaml, value, "parameters", "a mapping {NAME: NUMBER, ...}");
@@ -61,6 +61,23 @@ iso_status iso_draft_parameters(iso_draft *d, iso_effect_id id, const yaml_node_
     for (const yaml_node_pair_t *p = value->data.mapping.pairs.start; p < end; p++)
         ISO_TRY(read_parameter(d, id, value, iso_yaml_node(&d->yaml, p->key), iso_yaml_node(&d->yaml, p->value)));
     return ISO_OK;
+}
+
+const char *iso_draft_text_key(iso_effect_id id, int i)
+{
+    const iso_effect *effect = iso_effect_list[id];
+    int count = 0;
+    if (!effect->expressions) return NULL;
+    if (effect->expressions_key && i == 0) return effect->expressions_key;
+    while (!effect->expressions_key && effect->expressions[count]) count++;
+    if (effect->expressions_key) count = 1;
+    return i < count ? effect->expressions[i] : i == count ? "parameters" : NULL;
+}
+
+iso_status iso_draft_text(iso_draft *d, iso_effect_id id, int i, const yaml_node_t *value)
+{
+    if (strcmp(iso_draft_text_key(id, i), "parameters") == 0) return read_parameters(d, id, value);
+    return iso_effect_list[id]->expressions_key ? read_expressions(d, id, value) : read_expression(d, id, i, value);
 }
 
 /* The place of character `at` of a text. In a text of several lines, or with escapes, it is not known: then only that

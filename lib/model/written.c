@@ -1,98 +1,13 @@
-/* written.c - writes an expression (expression_impl.h) down as lines of a formula: its value, and its slope in n.
+/* written.c - writes an expression (expression_impl.h) down as lines of a formula.
  *
  * A part that is a polynomial c + (l,n) + (n,Cn)/2 in n is written with vectors: its slope l + C n then costs no
- * product of series. What is made of such parts has its slope by the chain rule, from the whole to its parts: `slope`
- * of a node is dU/d(node), and each part that is a polynomial adds its own slope times this.
+ * product of series.
  */
 #include "model/written_impl.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-/* --- quantities ------------------------------------------------------------------------------------------------- */
-
-static const iso_quantity nothing = {ISO_IS_ZERO, 0}, one = {ISO_IS_ONE, 0};
-
-static iso_quantity of_constant(iso_constant c)
-{
-    return (iso_quantity){ISO_IS_CONSTANT, c.at};
-}
-
-static iso_quantity of_scalar(iso_scalar s)
-{
-    return (iso_quantity){ISO_IS_SCALAR, s.at};
-}
-
-static bool is_fixed(iso_quantity a)
-{
-    return a.kind != ISO_IS_SCALAR;
-}
-
-static iso_constant constant_of(iso_formula *F, iso_quantity a)
-{
-    return a.kind == ISO_IS_CONSTANT ? (iso_constant){a.at} : constant(F, a.kind == ISO_IS_ONE);
-}
-
-iso_scalar iso_quantity_scalar(iso_formula *F, iso_quantity a)
-{
-    if (a.kind == ISO_IS_SCALAR) return (iso_scalar){a.at};
-    const iso_scalar base = {ISO_GIVEN_BASE}; /* of ball and point */
-    return plus_c(F, constant_of(F, a), sub(F, base, base));
-}
-
-iso_quantity iso_quantity_add(iso_formula *F, iso_quantity a, iso_quantity b)
-{
-    if (a.kind == ISO_IS_ZERO) return b;
-    if (b.kind == ISO_IS_ZERO) return a;
-    if (is_fixed(a) && is_fixed(b)) return of_constant(add_c(F, constant_of(F, a), constant_of(F, b)));
-    if (is_fixed(a)) return of_scalar(plus_c(F, constant_of(F, a), (iso_scalar){b.at}));
-    if (is_fixed(b)) return of_scalar(plus_c(F, constant_of(F, b), (iso_scalar){a.at}));
-    return of_scalar(add(F, (iso_scalar){a.at}, (iso_scalar){b.at}));
-}
-
-iso_quantity iso_quantity_mul(iso_formula *F, iso_quantity a, iso_quantity b)
-{
-    if (a.kind == ISO_IS_ZERO || b.kind == ISO_IS_ONE) return a;
-    if (b.kind == ISO_IS_ZERO || a.kind == ISO_IS_ONE) return b;
-    if (is_fixed(a) && is_fixed(b)) return of_constant(mul_c(F, (iso_constant){a.at}, (iso_constant){b.at}));
-    if (is_fixed(a)) return of_scalar(times_c(F, (iso_constant){a.at}, (iso_scalar){b.at}));
-    if (is_fixed(b)) return of_scalar(times_c(F, (iso_constant){b.at}, (iso_scalar){a.at}));
-    return of_scalar(mul(F, (iso_scalar){a.at}, (iso_scalar){b.at}));
-}
-
-static iso_quantity negative(iso_formula *F, iso_quantity a)
-{
-    return iso_quantity_mul(F, of_constant(constant(F, -1)), a);
-}
-
-static iso_quantity subtract(iso_formula *F, iso_quantity a, iso_quantity b)
-{
-    if (!is_fixed(a) && !is_fixed(b)) return of_scalar(sub(F, (iso_scalar){a.at}, (iso_scalar){b.at}));
-    if (is_fixed(a) && is_fixed(b)) return of_constant(sub_c(F, constant_of(F, a), constant_of(F, b)));
-    return iso_quantity_add(F, a, negative(F, b));
-}
-
-static iso_quantity divide(iso_formula *F, iso_quantity a, iso_quantity b)
-{
-    if (is_fixed(b)) {
-        if (is_fixed(a)) return of_constant(div_c(F, constant_of(F, a), constant_of(F, b)));
-        return iso_quantity_mul(F, of_constant(div_c(F, constant(F, 1), constant_of(F, b))), a);
-    }
-    if (!is_fixed(a)) return of_scalar(quotient_of(F, (iso_scalar){a.at}, (iso_scalar){b.at}));
-    return iso_quantity_mul(F, a, of_scalar(power_of(F, (iso_scalar){b.at}, constant(F, -1))));
-}
-
-/* a^n, n from 1 on: products alone, which hold for every a */
-static iso_quantity whole_power(iso_formula *F, iso_quantity a, int n)
-{
-    iso_quantity power = one;
-    for (; n > 0; n /= 2) {
-        if (n % 2 == 1) power = iso_quantity_mul(F, power, a);
-        if (n > 1) a = iso_quantity_mul(F, a, a);
-    }
-    return power;
-}
 
 /* --- values ----------------------------------------------------------------------------------------------------- */
 
@@ -131,11 +46,9 @@ static iso_constant moment(iso_writer *w, int which)
     return (iso_constant){w->J.at + which};
 }
 
-static iso_quantity value_of(iso_writer *w, int node);
-
 static iso_constant fixed_of(iso_writer *w, int node)
 {
-    return constant_of(w->F, value_of(w, node));
+    return fixed_q(w->F, iso_writer_value_of(w, node));
 }
 
 /* A function of a constant. */
@@ -147,18 +60,18 @@ static iso_quantity fixed_function(iso_writer *w, const iso_expression_node *nod
                                                [ISO_TERM_SIN] = ISO_C_SIN,
                                                [ISO_TERM_COS] = ISO_C_COS};
     const iso_constant a = fixed_of(w, node->a);
-    return of_constant(function_c(w->F, operations[node->term], a, a));
+    return constant_q(function_c(w->F, operations[node->term], a, a));
 }
 
 /* One of the three numbers of a vector, times a factor. */
 static iso_quantity part_of(iso_writer *w, iso_vector v, int which, double factor)
 {
     const double along[3] = {which == 0 ? factor : 0, which == 1 ? factor : 0, which == 2 ? factor : 0};
-    return of_scalar(dot_c(w->F, constants(w->F, 3, along), v));
+    return variable_q(dot_c(w->F, constants(w->F, 3, along), v));
 }
 
 /* The exponent of a power, where the text itself says which whole number it is, from 1 to 64; else 0. */
-static int whole_exponent(const iso_expression *e, const iso_expression_node *power)
+int iso_writer_exponent(const iso_expression *e, const iso_expression_node *power)
 {
     const iso_expression_node *p = &e->node[power->b];
     return p->term == ISO_TERM_NUMBER && p->value >= 1 && p->value <= 64 && p->value == floor(p->value)
@@ -169,52 +82,51 @@ static int whole_exponent(const iso_expression *e, const iso_expression_node *po
 static iso_quantity power_value(iso_writer *w, const iso_expression_node *node)
 {
     iso_formula *F = w->F;
-    const iso_quantity a = value_of(w, node->a);
-    const int whole = whole_exponent(w->e, node);
-    if (whole > 0) return whole_power(F, a, whole);
-    const iso_quantity b = value_of(w, node->b);
-    if (is_fixed(a) && is_fixed(b))
-        return of_constant(function_c(F, ISO_C_POWER, constant_of(F, a), constant_of(F, b)));
-    if (is_fixed(b)) return of_scalar(power_of(F, (iso_scalar){a.at}, constant_of(F, b)));
-    const iso_constant base = constant_of(F, a);
+    const iso_quantity a = iso_writer_value_of(w, node->a);
+    const int whole = iso_writer_exponent(w->e, node);
+    if (whole > 0) return power_q(F, a, whole);
+    const iso_quantity b = iso_writer_value_of(w, node->b);
+    if (is_fixed_q(a) && is_fixed_q(b)) return constant_q(function_c(F, ISO_C_POWER, fixed_q(F, a), fixed_q(F, b)));
+    if (is_fixed_q(b)) return variable_q(power_of(F, (iso_scalar){a.at}, fixed_q(F, b)));
+    const iso_constant base = fixed_q(F, a);
     const iso_quantity log_a =
-        is_fixed(a) ? of_constant(function_c(F, ISO_C_LOG, base, base)) : of_scalar(log_of(F, (iso_scalar){a.at}));
-    return of_scalar(exp_of(F, iso_quantity_scalar(F, iso_quantity_mul(F, b, log_a))));
+        is_fixed_q(a) ? constant_q(function_c(F, ISO_C_LOG, base, base)) : variable_q(log_of(F, (iso_scalar){a.at}));
+    return variable_q(exp_of(F, scalar_q(F, mul_q(F, b, log_a))));
 }
 
 /* sin or cos; the formula has both of them, and the other one is kept as well, if the text has it. */
 static iso_quantity circle_value(iso_writer *w, const iso_expression_node *node)
 {
     iso_scalar cosine;
-    const iso_scalar sine = sin_of(w->F, iso_quantity_scalar(w->F, value_of(w, node->a)), &cosine);
+    const iso_scalar sine = sin_of(w->F, scalar_q(w->F, iso_writer_value_of(w, node->a)), &cosine);
     for (int i = 0; i < w->e->nodes; i++) {
         const iso_expression_node *other = &w->e->node[i];
         if ((other->term != ISO_TERM_SIN && other->term != ISO_TERM_COS) || other->a != node->a) continue;
-        w->value[i] = of_scalar(other->term == ISO_TERM_SIN ? sine : cosine);
+        w->value[i] = variable_q(other->term == ISO_TERM_SIN ? sine : cosine);
         w->has_value[i] = true;
     }
-    return of_scalar(node->term == ISO_TERM_SIN ? sine : cosine);
+    return variable_q(node->term == ISO_TERM_SIN ? sine : cosine);
 }
 
 static iso_quantity function_value(iso_writer *w, const iso_expression_node *node)
 {
     if (node->term == ISO_TERM_SIN || node->term == ISO_TERM_COS) return circle_value(w, node);
-    const iso_scalar a = iso_quantity_scalar(w->F, value_of(w, node->a));
-    if (node->term == ISO_TERM_EXP) return of_scalar(exp_of(w->F, a));
-    if (node->term == ISO_TERM_LOG) return of_scalar(log_of(w->F, a));
-    return of_scalar(power_of(w->F, a, constant(w->F, 0.5)));
+    const iso_scalar a = scalar_q(w->F, iso_writer_value_of(w, node->a));
+    if (node->term == ISO_TERM_EXP) return variable_q(exp_of(w->F, a));
+    if (node->term == ISO_TERM_LOG) return variable_q(log_of(w->F, a));
+    return variable_q(power_of(w->F, a, constant(w->F, 0.5)));
 }
 
 static iso_quantity operation_value(iso_writer *w, const iso_expression_node *node)
 {
     iso_formula *F = w->F;
     switch (node->term) {
-    case ISO_TERM_ADD: return iso_quantity_add(F, value_of(w, node->a), value_of(w, node->b));
-    case ISO_TERM_SUB: return subtract(F, value_of(w, node->a), value_of(w, node->b));
-    case ISO_TERM_MUL: return iso_quantity_mul(F, value_of(w, node->a), value_of(w, node->b));
-    case ISO_TERM_DIV: return divide(F, value_of(w, node->a), value_of(w, node->b));
+    case ISO_TERM_ADD: return add_q(F, iso_writer_value_of(w, node->a), iso_writer_value_of(w, node->b));
+    case ISO_TERM_SUB: return sub_q(F, iso_writer_value_of(w, node->a), iso_writer_value_of(w, node->b));
+    case ISO_TERM_MUL: return mul_q(F, iso_writer_value_of(w, node->a), iso_writer_value_of(w, node->b));
+    case ISO_TERM_DIV: return div_q(F, iso_writer_value_of(w, node->a), iso_writer_value_of(w, node->b));
     case ISO_TERM_POWER: return power_value(w, node);
-    case ISO_TERM_NEGATIVE: return negative(F, value_of(w, node->a));
+    case ISO_TERM_NEGATIVE: return negative_q(F, iso_writer_value_of(w, node->a));
     default: return node->degree == ISO_CONSTANT ? fixed_function(w, node) : function_value(w, node);
     }
 }
@@ -223,10 +135,10 @@ static iso_quantity name_value(iso_writer *w, const iso_expression_node *node)
 {
     iso_formula *F = w->F;
     switch (node->term) {
-    case ISO_TERM_NUMBER: return of_constant(constant(F, node->value));
-    case ISO_TERM_PARAMETER: return of_constant(constant(F, w->number[node->a]));
-    case ISO_TERM_K: return of_constant(constant_k(F));
-    case ISO_TERM_J: return of_constant(moment(w, node->a));
+    case ISO_TERM_NUMBER: return constant_q(constant(F, node->value));
+    case ISO_TERM_PARAMETER: return constant_q(constant(F, w->number[node->a]));
+    case ISO_TERM_K: return constant_q(constant_k(F));
+    case ISO_TERM_J: return constant_q(moment(w, node->a));
     case ISO_TERM_N: return part_of(w, w->n, node->a, 1);
     case ISO_TERM_OMEGA: return part_of(w, w->omega, node->a, w->number[ISO_WRITTEN_W]);
     default: return part_of(w, w->vertical, node->a, 1); /* ISO_TERM_E */
@@ -239,7 +151,7 @@ typedef struct form {
     iso_quantity c, l[3], C[3][3];
 } form;
 
-static bool is_form(const iso_writer *w, int node)
+bool iso_writer_is_form(const iso_writer *w, int node)
 {
     const int degree = w->e->node[node].degree;
     return degree != ISO_CONSTANT && degree <= w->most;
@@ -254,15 +166,15 @@ static void collect_product(iso_writer *w, int a, int b, iso_quantity factor, fo
     iso_formula *F = w->F;
     form of_a = {0}, of_b = {0};
     collect(w, a, factor, &of_a);
-    collect(w, b, one, &of_b);
-    f->c = iso_quantity_add(F, f->c, iso_quantity_mul(F, of_a.c, of_b.c));
+    collect(w, b, one_q, &of_b);
+    f->c = add_q(F, f->c, mul_q(F, of_a.c, of_b.c));
     for (int i = 0; i < 3; i++) {
-        f->l[i] = iso_quantity_add(F, f->l[i], iso_quantity_mul(F, of_a.c, of_b.l[i]));
-        f->l[i] = iso_quantity_add(F, f->l[i], iso_quantity_mul(F, of_a.l[i], of_b.c));
+        f->l[i] = add_q(F, f->l[i], mul_q(F, of_a.c, of_b.l[i]));
+        f->l[i] = add_q(F, f->l[i], mul_q(F, of_a.l[i], of_b.c));
         for (int j = 0; j < 3; j++) {
-            const iso_quantity product = iso_quantity_mul(F, of_a.l[i], of_b.l[j]);
-            f->C[i][j] = iso_quantity_add(F, f->C[i][j], product);
-            f->C[j][i] = iso_quantity_add(F, f->C[j][i], product);
+            const iso_quantity product = mul_q(F, of_a.l[i], of_b.l[j]);
+            f->C[i][j] = add_q(F, f->C[i][j], product);
+            f->C[j][i] = add_q(F, f->C[j][i], product);
         }
     }
 }
@@ -272,39 +184,26 @@ static void collect(iso_writer *w, int node, iso_quantity factor, form *f)
     iso_formula *F = w->F;
     const iso_expression_node *x = &w->e->node[node];
     if (x->degree == ISO_CONSTANT) {
-        f->c = iso_quantity_add(F, f->c, iso_quantity_mul(F, factor, value_of(w, node)));
+        f->c = add_q(F, f->c, mul_q(F, factor, iso_writer_value_of(w, node)));
         return;
     }
     switch (x->term) {
-    case ISO_TERM_N: f->l[x->a] = iso_quantity_add(F, f->l[x->a], factor); return;
-    case ISO_TERM_NEGATIVE: collect(w, x->a, negative(F, factor), f); return;
-    case ISO_TERM_DIV: collect(w, x->a, divide(F, factor, value_of(w, x->b)), f); return;
+    case ISO_TERM_N: f->l[x->a] = add_q(F, f->l[x->a], factor); return;
+    case ISO_TERM_NEGATIVE: collect(w, x->a, negative_q(F, factor), f); return;
+    case ISO_TERM_DIV: collect(w, x->a, div_q(F, factor, iso_writer_value_of(w, x->b)), f); return;
     case ISO_TERM_POWER: collect_product(w, x->a, x->a, factor, f); return; /* a square */
     case ISO_TERM_MUL:
         if (w->e->node[x->a].degree == ISO_CONSTANT)
-            collect(w, x->b, iso_quantity_mul(F, factor, value_of(w, x->a)), f);
+            collect(w, x->b, mul_q(F, factor, iso_writer_value_of(w, x->a)), f);
         else if (w->e->node[x->b].degree == ISO_CONSTANT)
-            collect(w, x->a, iso_quantity_mul(F, factor, value_of(w, x->b)), f);
+            collect(w, x->a, mul_q(F, factor, iso_writer_value_of(w, x->b)), f);
         else
             collect_product(w, x->a, x->b, factor, f);
         return;
     default: /* a sum or a difference */
         collect(w, x->a, factor, f);
-        collect(w, x->b, x->term == ISO_TERM_SUB ? negative(F, factor) : factor, f);
+        collect(w, x->b, x->term == ISO_TERM_SUB ? negative_q(F, factor) : factor, f);
     }
-}
-
-/* Constants one after the other. */
-static iso_constant in_a_row(iso_formula *F, int count, const iso_quantity x[])
-{
-    const iso_constant once = constant(F, 1);
-    iso_constant first = {0};
-    for (int i = 0; i < count; i++) {
-        const iso_constant c = x[i].kind == ISO_IS_CONSTANT ? mul_c(F, once, (iso_constant){x[i].at})
-                                                            : constant(F, x[i].kind == ISO_IS_ONE);
-        if (i == 0) first = c;
-    }
-    return first;
 }
 
 static bool has_any(int count, const iso_quantity x[])
@@ -319,172 +218,82 @@ static iso_vector matrix_n(iso_writer *w, const form *f)
 {
     const iso_quantity *C = &f->C[0][0], diagonal[3] = {C[0], C[4], C[8]};
     const iso_quantity others[] = {C[1], C[2], C[5]};
-    if (!has_any(3, others)) return by_c(w->F, in_a_row(w->F, 3, diagonal), w->n);
-    return matrix_c(w->F, in_a_row(w->F, 9, C), w->n);
+    if (!has_any(3, others)) return by_c(w->F, row_q(w->F, 3, diagonal), w->n);
+    return matrix_c(w->F, row_q(w->F, 9, C), w->n);
+}
+
+/* Notes the parts n_i^2/J_i of a sum; false: it has others, or one of them twice. */
+static bool note_moments(const iso_expression *e, int node, bool seen[3])
+{
+    const iso_expression_node *x = &e->node[node];
+    if (x->term == ISO_TERM_ADD) return note_moments(e, x->a, seen) && note_moments(e, x->b, seen);
+    if (x->term != ISO_TERM_DIV || e->node[x->b].term != ISO_TERM_J) return false;
+    const iso_expression_node *square = &e->node[x->a], *n = &e->node[square->a];
+    const int i = e->node[x->b].a;
+    const bool is_square =
+        square->degree == ISO_QUADRATIC &&
+        (square->term == ISO_TERM_POWER || (square->term == ISO_TERM_MUL && square->a == square->b));
+    if (!is_square || n->term != ISO_TERM_N || n->a != i || seen[i]) return false;
+    return seen[i] = true;
+}
+
+/* Whether it is (n, J^-1 n), which the ball has at hand as g, together with u = J^-1 n. */
+static bool is_g(const iso_writer *w, int node)
+{
+    bool seen[3] = {false};
+    return w->F->kind != ISO_FORMULA_IMAGE && note_moments(w->e, node, seen) && seen[0] && seen[1] && seen[2];
+}
+
+static iso_quantity g_value(iso_writer *w, int node)
+{
+    iso_formula *F = w->F;
+    const iso_constant over_J = div_c(F, constant(F, 1), unit(w, ISO_WRITTEN_J)), two = constant(F, 2);
+    const iso_quantity g = variable_q(times_c(F, over_J, formula_g(F)));
+    w->form[node].has_l = false;
+    w->form[node].has_C = true;
+    w->form[node].C_n = times_v(F, mul_c(F, two, over_J), formula_u(F));
+    w->form[node].along = mul_q(F, constant_q(two), g);
+    return g;
 }
 
 static iso_quantity form_value(iso_writer *w, int node)
 {
     iso_formula *F = w->F;
     form f = {0};
-    collect(w, node, one, &f);
-    iso_quantity value = f.c, along = nothing;
+    if (is_g(w, node)) return g_value(w, node);
+    collect(w, node, one_q, &f);
+    iso_quantity value = f.c, along = zero_q;
     w->form[node].has_l = has_any(3, f.l);
     w->form[node].has_C = has_any(9, &f.C[0][0]);
     if (w->form[node].has_C) {
         w->form[node].C_n = matrix_n(w, &f);
-        along = of_scalar(dot_of(F, w->n, w->form[node].C_n));
-        value = iso_quantity_add(F, value, iso_quantity_mul(F, of_constant(constant(F, 0.5)), along));
+        along = variable_q(dot_of(F, w->n, w->form[node].C_n));
+        value = add_q(F, value, mul_q(F, constant_q(constant(F, 0.5)), along));
     }
     if (w->form[node].has_l) {
-        w->form[node].l = in_a_row(F, 3, f.l);
-        const iso_quantity linear = of_scalar(dot_c(F, w->form[node].l, w->n));
-        value = iso_quantity_add(F, value, linear);
-        along = iso_quantity_add(F, along, linear);
+        w->form[node].l = row_q(F, 3, f.l);
+        const iso_quantity linear = variable_q(dot_c(F, w->form[node].l, w->n));
+        value = add_q(F, value, linear);
+        along = add_q(F, along, linear);
     }
     w->form[node].along = along;
     return value;
 }
 
-static iso_quantity value_of(iso_writer *w, int node)
+iso_quantity iso_writer_value_of(iso_writer *w, int node)
 {
     const iso_expression_node *x = &w->e->node[node];
     if (w->has_value[node]) return w->value[node];
-    const iso_quantity value = is_form(w, node)          ? form_value(w, node)
-                               : x->term >= ISO_TERM_ADD ? operation_value(w, x)
-                                                         : name_value(w, x);
+    const iso_quantity value = iso_writer_is_form(w, node) ? form_value(w, node)
+                               : x->term >= ISO_TERM_ADD   ? operation_value(w, x)
+                                                           : name_value(w, x);
     w->has_value[node] = true;
     return w->value[node] = value;
 }
 
 iso_scalar iso_writer_value(iso_writer *w)
 {
-    return iso_quantity_scalar(w->F, value_of(w, w->e->root));
-}
-
-/* --- slopes ----------------------------------------------------------------------------------------------------- */
-
-typedef struct slopes {
-    iso_quantity of[ISO_EXPRESSION_NODES], along;
-    bool has_sum;
-    iso_vector sum; /* dU/dn so far */
-} slopes;
-
-/* slope of a node += x */
-static void give(iso_writer *w, slopes *s, int node, iso_quantity x)
-{
-    if (w->e->node[node].degree != ISO_CONSTANT) s->of[node] = iso_quantity_add(w->F, s->of[node], x);
-}
-
-static void give_power(iso_writer *w, slopes *s, const iso_expression_node *x, iso_quantity own, iso_quantity value)
-{
-    iso_formula *F = w->F;
-    const int whole = whole_exponent(w->e, x);
-    const iso_quantity a = value_of(w, x->a), b = value_of(w, x->b);
-    const iso_quantity lower = whole > 0 ? whole_power(F, a, whole - 1) : divide(F, value, a);
-    give(w, s, x->a, iso_quantity_mul(F, own, iso_quantity_mul(F, b, lower)));
-    if (is_fixed(b)) return;
-    const iso_constant base = constant_of(F, a);
-    const iso_quantity log_a =
-        is_fixed(a) ? of_constant(function_c(F, ISO_C_LOG, base, base)) : of_scalar(log_of(F, (iso_scalar){a.at}));
-    give(w, s, x->b, iso_quantity_mul(F, own, iso_quantity_mul(F, value, log_a)));
-}
-
-static void give_quotient(iso_writer *w, slopes *s, const iso_expression_node *x, iso_quantity own,
-                          iso_quantity value)
-{
-    iso_formula *F = w->F;
-    const iso_quantity b = value_of(w, x->b);
-    if (w->e->node[x->a].degree == ISO_CONSTANT) {
-        give(w, s, x->b, negative(F, divide(F, iso_quantity_mul(F, own, value), b)));
-        return;
-    }
-    const iso_quantity over = divide(F, own, b);
-    give(w, s, x->a, over);
-    give(w, s, x->b, negative(F, iso_quantity_mul(F, over, value)));
-}
-
-/* The cosine of a sine, the sine of a cosine. */
-static iso_quantity other_of_circle(iso_writer *w, const iso_expression_node *x, iso_quantity value)
-{
-    const bool sine = x->term == ISO_TERM_SIN; /* the formula has the cosine behind the sine */
-    return (iso_quantity){ISO_IS_SCALAR, w->F->overrun ? value.at : sine ? value.at + 1 : value.at - 1};
-}
-
-/* Hands the slope of an operation on to what it is made of. */
-static void hand_on(iso_writer *w, slopes *s, int node)
-{
-    iso_formula *F = w->F;
-    const iso_expression_node *x = &w->e->node[node];
-    const iso_quantity own = s->of[node], value = value_of(w, node);
-    switch (x->term) {
-    case ISO_TERM_ADD: give(w, s, x->a, own), give(w, s, x->b, own); break;
-    case ISO_TERM_SUB: give(w, s, x->a, own), give(w, s, x->b, negative(F, own)); break;
-    case ISO_TERM_NEGATIVE: give(w, s, x->a, negative(F, own)); break;
-    case ISO_TERM_MUL:
-        give(w, s, x->a, iso_quantity_mul(F, own, value_of(w, x->b)));
-        give(w, s, x->b, iso_quantity_mul(F, own, value_of(w, x->a)));
-        break;
-    case ISO_TERM_DIV: give_quotient(w, s, x, own, value); break;
-    case ISO_TERM_POWER: give_power(w, s, x, own, value); break;
-    case ISO_TERM_SQRT:
-        give(w, s, x->a, divide(F, iso_quantity_mul(F, of_constant(constant(F, 0.5)), own), value));
-        break;
-    case ISO_TERM_EXP: give(w, s, x->a, iso_quantity_mul(F, own, value)); break;
-    case ISO_TERM_LOG: give(w, s, x->a, divide(F, own, value_of(w, x->a))); break;
-    case ISO_TERM_SIN: give(w, s, x->a, iso_quantity_mul(F, own, other_of_circle(w, x, value))); break;
-    default: give(w, s, x->a, negative(F, iso_quantity_mul(F, own, other_of_circle(w, x, value)))); break; /* cos */
-    }
-}
-
-static void add_to_sum(iso_writer *w, slopes *s, iso_vector v)
-{
-    s->sum = s->has_sum ? add_v(w->F, s->sum, v) : v;
-    s->has_sum = true;
-}
-
-/* A constant vector times the slope, which may be a constant or 1. */
-static void add_fixed(iso_writer *w, slopes *s, iso_quantity own, iso_constant l)
-{
-    iso_formula *F = w->F;
-    iso_quantity scaled[3];
-    if (!is_fixed(own)) {
-        add_to_sum(w, s, scale_c(F, (iso_scalar){own.at}, l));
-        return;
-    }
-    for (int i = 0; i < 3; i++) scaled[i] = iso_quantity_mul(F, own, of_constant((iso_constant){l.at + i}));
-    const iso_constant whole = own.kind == ISO_IS_ONE ? l : in_a_row(F, 3, scaled);
-    s->sum = plus_v(F, whole, s->has_sum ? s->sum : sub_v(F, w->n, w->n));
-    s->has_sum = true;
-}
-
-/* slope * (l + C n) of a polynomial */
-static void add_form(iso_writer *w, slopes *s, int node)
-{
-    const iso_quantity own = s->of[node];
-    const iso_vector C_n = w->form[node].C_n;
-    value_of(w, node);
-    if (w->form[node].has_C)
-        add_to_sum(w, s,
-                   own.kind == ISO_IS_ONE        ? C_n
-                   : own.kind == ISO_IS_CONSTANT ? times_v(w->F, (iso_constant){own.at}, C_n)
-                                                 : scale_v(w->F, (iso_scalar){own.at}, C_n));
-    if (w->form[node].has_l) add_fixed(w, s, own, w->form[node].l);
-    s->along = iso_quantity_add(w->F, s->along, iso_quantity_mul(w->F, own, w->form[node].along));
-}
-
-void iso_writer_slope(iso_writer *w, iso_scalar *U, iso_vector *dU, iso_scalar *along)
-{
-    slopes s = {.along = nothing};
-    *U = iso_writer_value(w);
-    for (int i = 0; i < w->e->nodes; i++) s.of[i] = nothing;
-    s.of[w->e->root] = one;
-    for (int i = w->e->root; i >= 0; i--) {
-        if (s.of[i].kind == ISO_IS_ZERO || w->e->node[i].degree == ISO_CONSTANT) continue;
-        is_form(w, i) ? add_form(w, &s, i) : hand_on(w, &s, i);
-    }
-    *dU = s.has_sum ? s.sum : sub_v(w->F, w->n, w->n);
-    *along = iso_quantity_scalar(w->F, s.along);
+    return scalar_q(w->F, iso_writer_value_of(w, w->e->root));
 }
 
 /* --- of an effect ----------------------------------------------------------------------------------------------- */

@@ -5,7 +5,7 @@
 
 #include "model/effects_impl.h"
 #include "model/expression_impl.h"
-#include "model/formula_impl.h"
+#include "model/quantity_impl.h"
 
 /* Where the numbers of such an effect are: its parameters, then these. One unit of J and one of angular velocity, in
  * the caller's units, turn the numbers of an expression into them: in the caller's own units they are 1. */
@@ -33,12 +33,6 @@ bool iso_written_decided(iso_expression *e, const iso_effects *effects, double k
 /* Reads it and asks both. Errors: ISO_BAD_INPUT about the name of the expression. */
 iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id id,
                              int which, iso_expression *e);
-
-/* What a part of an expression is worth: nothing, exactly 1, or a result of the formula. */
-typedef struct iso_quantity {
-    enum { ISO_IS_ZERO, ISO_IS_ONE, ISO_IS_CONSTANT, ISO_IS_SCALAR } kind;
-    int at;
-} iso_quantity;
 
 /* One expression that is being written down. n: as what the formula has it. */
 typedef struct iso_writer {
@@ -72,9 +66,10 @@ void iso_writer_slope(iso_writer *w, iso_scalar *U, iso_vector *dU, iso_scalar *
 /* One unit of energy or torque in own units, over one in the caller's. */
 iso_constant iso_writer_over_energy(iso_writer *w);
 
-/* Products and sums of quantities, for the rows. */
-iso_quantity iso_quantity_add(iso_formula *F, iso_quantity a, iso_quantity b);
-iso_quantity iso_quantity_mul(iso_formula *F, iso_quantity a, iso_quantity b);
-iso_scalar iso_quantity_scalar(iso_formula *F, iso_quantity a);
+/* For the two files that write: the value of a node; whether it is written with vectors; the exponent of a power, where
+ * the text itself says which whole number it is, from 1 to 64, else 0. */
+iso_quantity iso_writer_value_of(iso_writer *w, int node);
+bool iso_writer_is_form(const iso_writer *w, int node);
+int iso_writer_exponent(const iso_expression *e, const iso_expression_node *power);
 
 #endif
