@@ -93,6 +93,10 @@ for sweep in 18_chaotic_share 19_atlas 21_levels; do
     "$isoroll" plot "$work/$sweep.csv" -o $sweep/picture.svg
 done
 
+# six minutes of one core
+"$isoroll" sweep 20_rotor/many.yaml -o "$work/rotors.csv"
+"$isoroll" plot "$work/rotors.csv" --title "A rotor along axis 2" -o 20_rotor/many.svg
+
 # half an hour of one core
 "$isoroll" sweep 18_chaotic_share/many.yaml -o "$work/many.h5"
 "$isoroll" plot "$work/many.h5" -o 18_chaotic_share/many.svg
