@@ -169,8 +169,18 @@ static int fail_name(reader *r, int at, const char *name, bool function)
     for (int i = 0; !function && i < KNOWN; i++)
         if (is_allowed(r, known[i].term)) names[count++] = known[i].name;
     for (int i = 0; function && i < FUNCTIONS; i++) names[count++] = functions[i].name;
-    return fail(r, at, "unknown %s '%s'; %s%s", function ? "function" : "name", name,
-                iso_suggest(suggested, name, count, names), function ? "" : ". Other names are for 'parameters'");
+    iso_suggest(suggested, name, count, names);
+    if (function) return fail(r, at, "unknown function '%s'; %s", name, suggested);
+    return fail(r, at, "unknown name '%s'; %s%s names of your own stand in 'parameters'", name, suggested,
+                suggested[strlen(suggested) - 1] == '?' ? "" : ";");
+}
+
+static bool is_name(const reader *r, const char *name)
+{
+    bool is = strcmp(name, "pi") == 0;
+    for (int i = 0; i < KNOWN; i++) is = is || strcmp(known[i].name, name) == 0;
+    for (int i = 0; i < ISO_PARAMETERS; i++) is = is || strcmp(r->names->parameter[i], name) == 0;
+    return is;
 }
 
 static int name_of(reader *r, int at, const char *name)
@@ -265,7 +275,7 @@ static int word(reader *r)
     snprintf(name, sizeof name, "%.*s", r->at - begin, r->text + begin);
     if (r->at - begin >= (int)sizeof name) return fail_name(r, begin, name, false);
     skip_blanks(r);
-    return take(r, '(') ? call(r, begin, name) : name_of(r, begin, name);
+    return !is_name(r, name) && take(r, '(') ? call(r, begin, name) : name_of(r, begin, name);
 }
 
 static int atom(reader *r)

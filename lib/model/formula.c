@@ -57,38 +57,49 @@ typedef struct sets {
     const bool *scalars, *vectors;
 } sets;
 
-/* Whether the operation takes a scalar or a vector of the sets. The operation tells what a and b are: places of
- * scalars, of vectors or of constants, which are in no set. */
-static bool takes(sets of, iso_operation operation, int a, int b)
+/* The scalars and the vectors that go into a line; -1: none. The operation tells what a and b are. */
+typedef struct operands {
+    int scalar[2], vector[2];
+} operands;
+
+static operands operands_of(iso_operation operation, int a, int b)
 {
-    const bool scalar_a = a < ISO_FORMULA_SCALARS && of.scalars[a],
-               vector_a = a < ISO_FORMULA_VECTORS && of.vectors[a];
-    const bool scalar_b = b < ISO_FORMULA_SCALARS && of.scalars[b],
-               vector_b = b < ISO_FORMULA_VECTORS && of.vectors[b];
     switch (operation) {
     case ISO_S_ADD:
     case ISO_S_SUB:
     case ISO_S_MUL:
-    case ISO_S_DIV: return scalar_a || scalar_b;
+    case ISO_S_DIV:
+    case ISO_S_SIN:
+    case ISO_S_COS: return (operands){{a, b}, {-1, -1}};
     case ISO_S_POWER:
     case ISO_S_EXP:
-    case ISO_S_LOG:
-    case ISO_S_SIN:
-    case ISO_S_COS: return scalar_a;
+    case ISO_S_LOG: return (operands){{a, -1}, {-1, -1}};
     case ISO_S_TIMES:
     case ISO_S_PLUS:
     case ISO_V_SCALE_C:
     case ISO_R_SCALAR_RATE:
     case ISO_R_ENERGY:
     case ISO_R_POTENTIAL:
-    case ISO_R_MAGNETIC: return scalar_b;
+    case ISO_R_MAGNETIC: return (operands){{b, -1}, {-1, -1}};
     case ISO_S_DOT:
     case ISO_V_ADD:
     case ISO_V_SUB:
-    case ISO_V_CROSS: return vector_a || vector_b;
-    case ISO_V_SCALE: return scalar_a || vector_b;
-    default: return vector_b; /* a constant and a vector */
+    case ISO_V_CROSS: return (operands){{-1, -1}, {a, b}};
+    case ISO_V_SCALE: return (operands){{a, -1}, {b, -1}};
+    default: return (operands){{-1, -1}, {b, -1}}; /* a constant and a vector */
     }
+}
+
+/* Whether the operation takes a scalar or a vector of the sets. */
+static bool takes(sets of, iso_operation operation, int a, int b)
+{
+    const operands x = operands_of(operation, a, b);
+    bool any = false;
+    for (int i = 0; i < 2; i++) {
+        any = any || (x.scalar[i] >= 0 && of.scalars[x.scalar[i]]);
+        any = any || (x.vector[i] >= 0 && of.vectors[x.vector[i]]);
+    }
+    return any;
 }
 
 /* What is not given to a formula of this kind: energies depend on n and on states, images on gamma alone. */
@@ -182,6 +193,31 @@ int iso_formula_state(iso_formula *F, bool is_vector, int at)
     F->state[i].at = (uint8_t)at;
     F->state[i].kind = 0;
     return node;
+}
+
+/* Takes out the lines that no result needs. From the last to the first: what a line takes is needed if it is. A sine
+ * and its cosine need each other. */
+void iso_formula_shorten(iso_formula *F)
+{
+    bool scalars[ISO_FORMULA_SCALARS] = {false}, vectors[ISO_FORMULA_VECTORS] = {false};
+    bool needed[ISO_FORMULA_LINES];
+    for (int i = F->lines - 1; i >= 0; i--) {
+        const iso_formula_line *l = &F->line[i];
+        const bool scalar = l->operation < ISO_V_ADD, circle = l->operation == ISO_S_COS && scalars[l->b];
+        needed[i] = l->operation >= ISO_R_TORQUE || (scalar ? scalars[l->to] || circle : vectors[l->to]);
+        const operands x = operands_of((iso_operation)l->operation, l->a, l->b);
+        for (int j = 0; needed[i] && j < 2; j++) {
+            if (x.scalar[j] >= 0) scalars[x.scalar[j]] = true;
+            if (x.vector[j] >= 0) vectors[x.vector[j]] = true;
+        }
+    }
+    int kept = 0;
+    for (int i = 0; i < F->lines; i++) {
+        if (!needed[i]) continue;
+        F->late_line[kept] = F->late_line[i];
+        F->line[kept++] = F->line[i];
+    }
+    F->lines = kept;
 }
 
 bool iso_formula_alike(const iso_formula *F, const iso_formula *G)

@@ -118,5 +118,6 @@ void iso_formula_finish(iso_formula *F, const iso_params *p)
         F->constants = F->lines = F->states = 0;
         F->late = F->torques = F->magnetic = false;
     }
+    iso_formula_shorten(F);
     find_constants(F, p, F->value);
 }

@@ -222,10 +222,45 @@ static iso_vector matrix_n(iso_writer *w, const form *f)
     return matrix_c(w->F, row_q(w->F, 9, C), w->n);
 }
 
+/* Notes the parts n_i^2/J_i of a sum; false: it has others, or one of them twice. */
+static bool note_moments(const iso_expression *e, int node, bool seen[3])
+{
+    const iso_expression_node *x = &e->node[node];
+    if (x->term == ISO_TERM_ADD) return note_moments(e, x->a, seen) && note_moments(e, x->b, seen);
+    if (x->term != ISO_TERM_DIV || e->node[x->b].term != ISO_TERM_J) return false;
+    const iso_expression_node *square = &e->node[x->a], *n = &e->node[square->a];
+    const int i = e->node[x->b].a;
+    const bool is_square =
+        square->degree == ISO_QUADRATIC &&
+        (square->term == ISO_TERM_POWER || (square->term == ISO_TERM_MUL && square->a == square->b));
+    if (!is_square || n->term != ISO_TERM_N || n->a != i || seen[i]) return false;
+    return seen[i] = true;
+}
+
+/* Whether it is (n, J^-1 n), which the ball has at hand as g, together with u = J^-1 n. */
+static bool is_g(const iso_writer *w, int node)
+{
+    bool seen[3] = {false};
+    return w->F->kind != ISO_FORMULA_IMAGE && note_moments(w->e, node, seen) && seen[0] && seen[1] && seen[2];
+}
+
+static iso_quantity g_value(iso_writer *w, int node)
+{
+    iso_formula *F = w->F;
+    const iso_constant over_J = div_c(F, constant(F, 1), unit(w, ISO_WRITTEN_J)), two = constant(F, 2);
+    const iso_quantity g = variable_q(times_c(F, over_J, formula_g(F)));
+    w->form[node].has_l = false;
+    w->form[node].has_C = true;
+    w->form[node].C_n = times_v(F, mul_c(F, two, over_J), formula_u(F));
+    w->form[node].along = mul_q(F, constant_q(two), g);
+    return g;
+}
+
 static iso_quantity form_value(iso_writer *w, int node)
 {
     iso_formula *F = w->F;
     form f = {0};
+    if (is_g(w, node)) return g_value(w, node);
     collect(w, node, one_q, &f);
     iso_quantity value = f.c, along = zero_q;
     w->form[node].has_l = has_any(3, f.l);

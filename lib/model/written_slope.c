@@ -17,13 +17,20 @@ static void give(iso_writer *w, slopes *s, int node, iso_quantity x)
     if (w->e->node[node].degree != ISO_CONSTANT) s->of[node] = add_q(w->F, s->of[node], x);
 }
 
+/* a^(b-1) of value = a^b. A torque needs no value: there it is a power of its own, and nothing is divided. */
+static iso_quantity lower_power(iso_writer *w, iso_quantity a, iso_quantity b, iso_quantity value)
+{
+    iso_formula *F = w->F;
+    if (F->kind != ISO_FORMULA_MOTION || !is_fixed_q(b) || is_fixed_q(a)) return div_q(F, value, a);
+    return variable_q(power_of(F, (iso_scalar){a.at}, sub_c(F, fixed_q(F, b), constant(F, 1))));
+}
+
 static void give_power(iso_writer *w, slopes *s, const iso_expression_node *x, iso_quantity own, iso_quantity value)
 {
     iso_formula *F = w->F;
     const int whole = iso_writer_exponent(w->e, x);
     const iso_quantity a = iso_writer_value_of(w, x->a), b = iso_writer_value_of(w, x->b);
-    const iso_quantity lower = whole > 0 ? power_q(F, a, whole - 1) : div_q(F, value, a);
-    give(w, s, x->a, mul_q(F, own, mul_q(F, b, lower)));
+    give(w, s, x->a, mul_q(F, mul_q(F, own, b), whole > 0 ? power_q(F, a, whole - 1) : lower_power(w, a, b, value)));
     if (is_fixed_q(b)) return;
     const iso_constant base = fixed_q(F, a);
     const iso_quantity log_a =

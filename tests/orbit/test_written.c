@@ -3,6 +3,7 @@
  * Steps are fixed and long, and no energy is restored: the errors of methods of low order are large, and the same. So the orders are. */
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -208,9 +209,65 @@ static void works(void)
     }
 }
 
+/* How far the state at t = 10 is from omega, n and e in x. */
+static double off_reference(const pair *c, const char *method, const double x[9])
+{
+    iso_orbit_options o = iso_orbit_defaults(&c->start);
+    iso_orbit *orbit;
+    iso_sample s;
+    double off = 0;
+    o.method = iso_method_find(method);
+    o.tolerance = 1e-14;
+    o.effects = &c->written;
+    stop_if(iso_orbit_create(ctx, &c->p, &c->start, &o, &orbit) != ISO_OK, c->name);
+    stop_if(iso_orbit_at(orbit, 10, &s) != ISO_OK, c->name);
+    for (int j = 0; j < ISO_STATE; j++) off = fmax(off, fabs(s.ball[j] - x[j]));
+    for (int j = 0; j < 3; j++) off = fmax(off, fabs(sample_of(&s, "e")[j] - x[ISO_STATE + j]));
+    iso_orbit_free(orbit);
+    return off;
+}
+
+/* The states of written.csv, by three methods. */
+static void references(void)
+{
+    static const struct {
+        const char *name, *M[3];
+    } torques[] = {
+        {"friction", {"-c*n3^2*omega1", "-c*n3^2*omega2", "-c*n3^2*omega3"}},
+        {"space", {"0.2*e1", "0.2*e2", "0.2*e3"}},
+        {"both", {"e1/5 - c*n3^2*omega1", "e2/5 - c*n3^2*omega2 + sin(n1)/4", "e3/5 - c*n3^2*omega3"}},
+    };
+    static const char *const methods[] = {"taylor", "taylor_quad", "rk8pd"};
+    FILE *file = fopen(ISO_TEST_DATA "/written.csv", "r");
+    char line[512], name[16];
+    double k, x[9];
+    int rows = 0;
+    while (file && fgets(line, sizeof line, file)) {
+        if (sscanf(line, "%15[a-z],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", name, &k, x, x + 1, x + 2, x + 3, x + 4,
+                   x + 5, x + 6, x + 7, x + 8) < 11)
+            continue;
+        int which = 0;
+        while (strcmp(torques[which].name, name) != 0) which++;
+        pair c = ball(name, false, k);
+        const double friction = 0.3, none = 0, up[3] = {0, 0.6, 0.8};
+        set(&c.written, "gravity", "mgb", 1, &none);
+        set(&c.written, "gravity", "up", 3, up);
+        set(&c.written, "torque", "c", 1, &friction);
+        write_torque(&c.written, torques[which].M[0], torques[which].M[1], torques[which].M[2]);
+        rows++;
+        for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+            const double off = off_reference(&c, methods[i], x);
+            gsl_test(!(off <= 1e-12), "%s, k = %g, by %s: off by %.2g", name, k, methods[i], off);
+        }
+    }
+    gsl_test_int(rows, 6, "rows of written.csv");
+    if (file) fclose(file);
+}
+
 int main(void)
 {
     ctx = iso_context_create();
+    references();
     for (int physical = 0; physical < 2; physical++) {
         pair (*const pairs[])(bool, double) = {field, level, weight, friction, rotor};
         for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {

@@ -69,19 +69,22 @@ static inline vector matrix_times(const real M[9], vector a)
     return v;
 }
 
-/* sum_(j>0) ((p+1) j - n) a_j v_(n-j) */
+/* sum_(j>0) ((p+1) j - n) a_j v_(n-j), in two parts, which the processor adds side by side */
 static inline real sum_of_power(const nodes *t, const real a[], real p, const real v[], int n)
 {
-    real slopes = zero, plain = zero;
-    for (int j = n; j > 0; j--) {
-        slopes += t->count[j] * a[j] * v[n - j];
-        plain += a[j] * v[n - j];
+    real slopes = zero, plain = zero, other_slopes = zero, other_plain = zero;
+    int j = n;
+    for (; j > 1; j -= 2) {
+        const real one = a[j] * v[n - j], two = a[j - 1] * v[n - j + 1];
+        slopes += t->count[j] * one, plain += one;
+        other_slopes += t->count[j - 1] * two, other_plain += two;
     }
-    return (p + 1) * slopes - t->count[n] * plain;
+    if (j == 1) slopes += a[1] * v[n - 1], plain += a[1] * v[n - 1];
+    return (p + 1) * (slopes + other_slopes) - t->count[n] * (plain + other_plain);
 }
 
 /* (a^p)_n. `power` of products_impl.h is the same recurrence for the base of the ball and of the point. It is faster:
- * its caller gives n b_n and 1/b_0, and it adds in two sums. So the two round differently. */
+ * its caller gives n b_n and 1/b_0. So the two round differently. */
 static inline real power_of_series(const nodes *t, const real a[], real p, const real v[], int c, int n)
 {
     if (n == 0 && !is_deviation(c)) return raised(a[0], p);
@@ -110,9 +113,14 @@ static inline real function_of(iso_operation operation, real a)
 /* sum_(j>0) j a_j b_(n-j), over n: coefficient n of the integral of a' b */
 static inline real integral_of(const nodes *t, const real a[], const real b[], int n)
 {
-    real sum = zero;
-    for (int j = n; j > 0; j--) sum += t->count[j] * a[j] * b[n - j];
-    return t->inverse[n] * sum;
+    real even = zero, odd = zero;
+    int j = n;
+    for (; j > 1; j -= 2) {
+        even += t->count[j] * a[j] * b[n - j];
+        odd += t->count[j - 1] * a[j - 1] * b[n - j + 1];
+    }
+    if (j == 1) even += a[1] * b[n - 1];
+    return t->inverse[n] * (even + odd);
 }
 
 /* v = exp a:  v' = a' v,  dv = v da */
