@@ -205,6 +205,7 @@ lab = {
   orbits: new Helper(),
   sections: new Helper(),
   pending: 0, // of changes: only the last one is shown
+  clicked: 0, // likewise of clicks in the section
 
   scene() {
     const { k, J, n, omega } = this.state,
@@ -229,6 +230,8 @@ lab = {
     chart.clear();
     this.say("Computing …");
     try {
+      await this.prepared;
+      if (number !== this.pending) return;
       const found = await this.orbits.ask("run", this.scene());
       if (number !== this.pending) return;
       this.take(found, seek);
@@ -320,8 +323,9 @@ lab = {
 
   // The orbit through a point of the section: it starts at its first crossing.
   async startAt(l, x) {
-    this.orbits.stop();
+    const number = ++this.clicked;
     try {
+      await this.prepared;
       const { columns } = await this.orbits.ask("section", this.scene(), {
         at: `${l},${x}`,
         crossings: 1,
@@ -330,6 +334,7 @@ lab = {
       });
       const i = columns.orbit.indexOf(1),
         vector = (name) => [1, 2, 3].map((j) => columns[name + j][i]);
+      if (number !== this.clicked) return;
       if (i < 0) throw new Error("this orbit does not come back to the section");
       await this.change({ n: vector("n"), omega: vector("omega") });
     } catch (error) {
@@ -436,14 +441,17 @@ lab = {
     this.show();
     chart.draw();
     this.say("The library is being unpacked …");
-    if (typeof DecompressionStream !== "function" || typeof WebAssembly !== "object")
-      return this.say("This browser cannot run the library: it has no WebAssembly, or no DecompressionStream.");
-    await Helper.prepare();
-    this.ready = true;
+    this.prepared = Helper.prepare();
+    try {
+      await this.prepared;
+    } catch (error) {
+      element("lab").querySelectorAll("input, button").forEach((part) => (part.disabled = true));
+      return this.say(`This browser cannot run the library: ${error.message}`);
+    }
     element("lab-throw").hidden = !controls.pictures;
     this.tolerance = "This orbit comes from the page’s file.";
     this.say();
-    if (!this.read()) await this.fill(this.pending);
+    if (this.pending === 0 && !this.read()) await this.fill(0);
   },
 };
 window.isoroll.lab = lab;
