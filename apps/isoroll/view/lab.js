@@ -442,6 +442,7 @@ lab = {
     chart.draw();
     this.say("The library is being unpacked …");
     this.prepared = Helper.prepare();
+    this.read(); // before the player writes its own address
     try {
       await this.prepared;
     } catch (error) {
@@ -449,9 +450,10 @@ lab = {
       return this.say(`This browser cannot run the library: ${error.message}`);
     }
     element("lab-throw").hidden = !controls.pictures;
+    if (this.pending > 0) return; // the address has a state, or the user was fast
     this.tolerance = "This orbit comes from the page’s file.";
     this.say();
-    if (this.pending === 0 && !this.read()) await this.fill(0);
+    await this.fill(0);
   },
 };
 window.isoroll.lab = lab;
