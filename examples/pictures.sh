@@ -72,9 +72,9 @@ section=16_sections
 
 # one orbit in a potential that separates, and with another coefficient
 for c in 1:curve 1.05:sea; do
-    sed "s/{c: 1}/{c: ${c%:*}}/" 23_separable/scene.yaml >"$work/separable.yaml"
+    sed "s/{c: 1}/{c: ${c%:*}}/" 24_separable/scene.yaml >"$work/separable.yaml"
     "$isoroll" section "$work/separable.yaml" --axis 3 --crossings 1500 -o "$work/separable.csv" \
-        --plot "23_separable/${c#*:}.png" 2>"$work/out"
+        --plot "24_separable/${c#*:}.png" 2>"$work/out"
 done
 
 # what is in its chaos: periodic orbits, and the curves of the unstable rotation

@@ -6,7 +6,6 @@
 
 #include "base/nearest_impl.h"
 #include "base/number_impl.h"
-#include "base/rational_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"
 #include "method/methods_impl.h"
@@ -47,49 +46,14 @@ static iso_status read_vector(iso_draft *d, const entry *e, const yaml_node_t *v
     return iso_yaml_numbers(&d->yaml, value, e->name, 3, target(d, e));
 }
 
-/* For what is found wrong only later, when an orbit is made. */
-static void note_place(iso_scene *s, const char *key, yaml_mark_t at)
-{
-    if (s->places == ISO_MAX_PLACES) return;
-    iso_place *place = &s->place[s->places++];
-    snprintf(place->key, sizeof place->key, "%s", key);
-    place->line = (int)at.line + 1;
-    place->column = (int)at.column + 1;
-}
-
-/* A number that may be written as a fraction, and is to be known as it is written (base/rational_impl.h). If the double
- * does not tell this, a place is noted under the key's name with " =" before it. */
-static iso_status take_ratio(iso_draft *d, const entry *e, const yaml_node_t *item, const char *what, double *x)
-{
-    iso_rational written, taken;
-    ISO_TRY(iso_yaml_ratio(&d->yaml, item, what, x));
-    const char *text = (const char *)item->data.scalar.value;
-    if (iso_rational_read(text, item->data.scalar.length, &written) && iso_rational_of(*x, &taken) &&
-        iso_rational_same(&written, &taken))
-        return ISO_OK;
-    char key[ISO_NAME_SIZE];
-    snprintf(key, sizeof key, ISO_ROUNDED_KEY "%s", e->name);
-    note_place(&d->scene, key, item->start_mark);
-    return ISO_OK;
-}
-
 static iso_status read_ratio(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    return take_ratio(d, e, value, e->name, target(d, e));
+    return iso_draft_ratio(d, value, e->name, e->name, target(d, e));
 }
 
 static iso_status read_ratios(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    double *x = target(d, e);
-    const yaml_node_item_t *items = value->data.sequence.items.start;
-    if (value->type != YAML_SEQUENCE_NODE || value->data.sequence.items.top - items != 3)
-        return read_vector(d, e, value);
-    for (int i = 0; i < 3; i++) {
-        char what[ISO_NAME_SIZE];
-        snprintf(what, sizeof what, "%s[%d]", e->name, i + 1);
-        ISO_TRY(take_ratio(d, e, iso_yaml_node(&d->yaml, items[i]), what, &x[i]));
-    }
-    return ISO_OK;
+    return iso_draft_ratios(d, value, e->name, target(d, e));
 }
 
 static iso_status read_flag(iso_draft *d, const entry *e, const yaml_node_t *value)
@@ -215,7 +179,7 @@ static iso_status read_pair(iso_draft *d, const entry *entries, const yaml_node_
     for (; entries[count].name && count < MAX_KEYS; count++) names[count] = entries[count].name;
     ISO_TRY(iso_yaml_key(&d->yaml, mapping, key, what, count, names, &i));
     const entry *e = &entries[i];
-    note_place(&d->scene, e->name, value->start_mark);
+    iso_scene_note_place(&d->scene, e->name, value->start_mark);
     d->key = key;
     return e->read(d, e, value);
 }
@@ -312,7 +276,7 @@ static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *v
     if (d->scene.effects.on[e->effect])
         return ISO_FAIL_AT(d, d->key, "'%s' and '%s' are the same effect: give one of them", effect->name,
                            effect->point_name);
-    if (strcmp(e->name, effect->name) != 0) note_place(&d->scene, effect->name, value->start_mark);
+    if (strcmp(e->name, effect->name) != 0) iso_scene_note_place(&d->scene, effect->name, value->start_mark);
     for (const iso_effect_number *n = effect->numbers; n && n->name && count < EFFECT_KEYS - 2; n++)
         if (!n->hidden)
             keys[count++] =

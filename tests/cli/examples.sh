@@ -29,7 +29,7 @@ run 0 section "$folder/integrable.yaml" --starts 30 --crossings 100 -o tame.csv
 check_not "others do not" grep -q "orbits part" err
 
 # potentials that separate: with another coefficient the same start is chaotic
-folder=$source/examples/23_separable
+folder=$source/examples/24_separable
 for scene in scene rosochatius quartic; do
     run 0 chaos "$folder/$scene.yaml" --model ball --turns 1500
     check "$scene is integrable" grep -qx "this orbit: regular" out
