@@ -82,7 +82,7 @@ surface: {kind: plane}
 initial: {normal: [0.6, 0, 0.8], angular_velocity: [0, 1, 0]}
 time: {end: 10, step: 0.1}
 END
-refuses 3 "give them in 'reduced'" prove body.yaml
+refuses 3 "body.yaml:1:37: prove takes k and J exactly" prove body.yaml
 cp half.yaml field.yaml
 echo 'effects: {field: {linear: [1, 0, 0]}}' >>field.yaml
 refuses 3 "remove 'field'" prove field.yaml
