@@ -13,6 +13,7 @@ cheaply() {
     chaos) echo --turns 5 --starts 1 ;;
     periodic) echo --period 1 ;;
     splitting) echo --k 0.5 --digits double ;;
+    prove) echo --digits 4 ;;
     integrals) echo --turns 2 ;;
     frequencies) echo --turns 20 ;;
     view | plot) echo -o page.out ;;
@@ -66,6 +67,9 @@ true_reason() {
     splitting:*"has no separatrix. Give a level above"*)
         awk '{ low = $(NF); split($0, part, "level "); split(part[2], here, ":")
                exit !(here[1] < low) }' err || fail "$1 $2: the level is above what is asked for" ;;
+    prove:*"those of a body"*) check "it has a body" grep -q '^ball:' "$2" ;;
+    prove:*"on the level H = 0"*) check "it is a point" grep -q '^point:' "$2" ;;
+    prove:*"takes k exactly"*) check "k has many digits" grep -Eq 'k: -?[0-9.]{17}' "$2" ;;
     *) fail "$1 $2: a reason that nobody has looked at" ;;
     esac
 }

@@ -67,6 +67,20 @@ check "a frame more" test "$(grep -c '^frame ' half.cert)" -eq "$(($(grep -c '^h
 run 0 prove half.yaml --digits 6 -o again.cert
 check "the same bytes again" cmp -s half.cert again.cert
 
+# --- orbits found another way lie inside each step; those of a ball with another J, by 1e-30, do not
+python=$(command -v /usr/bin/python3 || command -v python3 || echo none)
+if "$python" -c 'import mpmath' 2>/dev/null; then
+    halves=$(length 3 100)
+    run 0 prove half.yaml --digits 20 -o fine.cert
+    "$python" "$source/tests/cli/prove_orbits.py" fine.cert "$halves" 0 >out 2>err || fail "prove_orbits.py"
+    check "numbers were compared" test "$(cut -d ' ' -f 1 out)" -ge $((halves * 50))
+    check "all lie inside" test "$(cut -d ' ' -f 2 out)" -eq 0
+    "$python" "$source/tests/cli/prove_orbits.py" fine.cert "$halves" 1e-30 >out 2>err || fail "prove_orbits.py"
+    check "those of another ball do not" test "$(cut -d ' ' -f 2 out)" -ge 20
+else
+    skip "orbits inside enclosures" "mpmath is not installed"
+fi
+
 # --- refusals
 refuses 2 "prove: a certificate needs a file" prove half.yaml -o -
 refuses 2 "a whole number from 1 to 400" prove half.yaml --digits 0
@@ -82,7 +96,7 @@ surface: {kind: plane}
 initial: {normal: [0.6, 0, 0.8], angular_velocity: [0, 1, 0]}
 time: {end: 10, step: 0.1}
 END
-refuses 3 "give them in 'reduced'" prove body.yaml
+refuses 3 "body.yaml:1:37: prove takes k and J exactly" prove body.yaml
 cp half.yaml field.yaml
 echo 'effects: {field: {linear: [1, 0, 0]}}' >>field.yaml
 refuses 3 "remove 'field'" prove field.yaml

@@ -122,7 +122,7 @@ static void tell(const prove_ball *b, const prove_found *found, int digits, iso_
 static char *write_certificate(const iso_proof *p, const prove_ball *b, const prove_found *found,
                                prove_certificate *body)
 {
-    prove_certificate all = {NULL};
+    prove_certificate all = {.text = NULL};
     char text[5][ISO_RATIONAL_SIZE];
     const int a = 3 - b->middle - b->section, order[3] = {a, b->middle, b->section};
     for (int i = 0; i < 2; i++) iso_rational_print(text[i], &p->ball.k[i]);
@@ -145,7 +145,7 @@ iso_status iso_proof_find(iso_context *ctx, const iso_proof_ball *ball, int digi
 {
     prove_ball b;
     prove_found found;
-    prove_certificate body = {NULL};
+    prove_certificate body = {.text = NULL};
     memset(proof, 0, sizeof *proof);
     proof->ball = *ball;
     take_ball(ball, &b);

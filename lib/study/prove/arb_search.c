@@ -126,8 +126,8 @@ static void find_limit(const prove_local *o, slong bits, arb_t limit)
     if (arb_lt(limit, o->size)) arb_set(limit, o->size);
 }
 
-/* The secant method for ln xi, until what is left is about a rounding error: an error e becomes e^1.6. Numbers have as many bits as will be known, and the orbit begins so near to O as
- * these ask for. */
+/* The secant method for ln xi, until what is left is about a rounding error: an error e becomes e^1.6. Numbers have as
+ * many bits as will be known, and the orbit begins so near to O as these ask for. */
 static iso_status refine(const prove_flow *f, const prove_local *o, double slope, prove_start *start)
 {
     enum { KNOWN = 44, SPARE = 36 };

@@ -29,7 +29,7 @@ static iso_status take(iso_context *ctx, const iso_scene *scene, const char *key
 {
     if (scene->params.body.surface != ISO_REDUCED)
         return ISO_FAIL_INPUT(
-            ctx, key,
+            ctx, "inertia",
             "prove takes k and J exactly as they are written, and those of a body are computed: give "
             "them in 'reduced'");
     if (!iso_scene_is_rounded(scene, key) && iso_rational_of(x, r)) return ISO_OK;
