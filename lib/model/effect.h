@@ -176,7 +176,7 @@ typedef struct iso_effect {
 
 /* The i-th number of an effect: those of its row, but hidden ones, then the parameters that the scene names. False:
  * past the last. n->name is good as long as effects are. */
-ISO_API bool iso_effect_number_at(const iso_effects *effects, int effect, int i, iso_effect_number *n);
+ISO_API bool iso_effect_number_at(const iso_effects *effects, iso_effect_id effect, int i, iso_effect_number *n);
 
 /* No effects; every number as it is where a scene does not state it. */
 ISO_API iso_effects iso_effects_default(void);

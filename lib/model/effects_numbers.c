@@ -24,7 +24,7 @@ const char *iso_effect_name(int i)
     return i < ISO_EFFECTS ? iso_effect_list[i]->name : NULL;
 }
 
-bool iso_effect_number_at(const iso_effects *effects, int effect, int i, iso_effect_number *n)
+bool iso_effect_number_at(const iso_effects *effects, iso_effect_id effect, int i, iso_effect_number *n)
 {
     const iso_effect *e = iso_effect_list[effect];
     for (const iso_effect_number *own = e->numbers; own && own->name; own++)

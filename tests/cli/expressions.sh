@@ -1,6 +1,6 @@
 #!/bin/sh
 # expressions.sh ISOROLL - potentials and torques that a scene writes, through the commands. Laws of the motion are in
-# orbit/test_written.c and model/test_effects.c, mistakes in bad_effects.txt.
+# orbit/test_written.c and model/test_effects.c, mistakes in bad_expressions.txt.
 . "$(dirname "$0")/lib.sh"
 
 # scene EFFECT...: a ball on which these act
