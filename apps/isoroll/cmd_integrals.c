@@ -21,9 +21,12 @@ static void print_head(const options *o, const iso_scene *scene, const iso_integ
     if (r->level != 0) say("; level (H/eps) J2^(1/k) = %.10g", r->level);
     say("\n"
         "%zu orbits of %s turns, %d samples of each; relative error of a sample about %.0e\n"
-        "functions h^j M^a gamma^b, |a| + 2 j = degree, |b| <= %d; a value is the variation of a function along "
-        "orbits by its size: 0 for an integral\n\n",
-        r->orbits, ISO_SHORT(o->study.turns), ISO_INTEGRAL_ROWS, r->delta, r->coefficients);
+        "functions %s, |b| <= %d; a value is the variation of a function along orbits by its size: 0 for an "
+        "integral\n\n",
+        r->orbits, ISO_SHORT(o->study.turns), ISO_INTEGRAL_ROWS, r->delta,
+        iso_integral_energy_degree(r) == 1 ? "v^c M^a gamma^b, v = q^(-1/(2k)), |a| + c <= degree, c <= 1"
+                                           : "h^j M^a gamma^b, |a| + 2 j = degree",
+        r->coefficients);
 }
 
 static void print_value(double x)
@@ -44,7 +47,8 @@ static void print_degree(const iso_integral_degree *at)
 
 static void print_known(const iso_integral_search *r)
 {
-    if (r->degrees >= 2) say("  the energy, a constant on the level: found in degree 2\n");
+    const int energy = iso_integral_energy_degree(r);
+    if (energy > 0) say("  the energy, a constant on the level: found in degree %d\n", energy);
     for (int i = 0; i < r->known_count; i++) {
         const iso_integral_known *known = &r->known[i];
         say("  %s = %s: ", known->name, known->doc);
@@ -73,9 +77,10 @@ static void print_verdict(const options *o, const iso_integral_search *r)
 static void print_table(const shell *s)
 {
     const options *o = s->options;
-    const iso_integral_search *r = &((const iso_integrals_found *)s->result.found)->search;
+    const iso_integrals_found *found = s->result.found;
+    const iso_integral_search *r = &found->search;
     print_verdict(o, r);
-    say("\n");
+    say("theory: %s: %s\n\n", iso_integrability_name(found->theory.kind), found->theory.why);
     print_head(o, &s->scene, r);
     say_table(1);
     say("degree\tfunctions\tintegrals\tfurther\tdoubtful\ttheir values up to\tsmallest other value\n");
@@ -108,18 +113,22 @@ const command command_integrals = {
     .description =
         "Looks for functions of the point's state that are constant along orbits: polynomials in M of degree D or "
         "less, with coefficients that are polynomials in gamma of degree E or less. Of the scene it reads k, J and "
-        "the level of the energy: that of a point, or of a ball with the effect 'level'. Orbits start spread "
-        "evenly over a section and are sampled at many times. The singular values of the samples tell how little a "
-        "function of this space can vary along orbits, relative to its own size.\n\n"
+        "the level of the energy: that of a point, or of a ball with the effect 'level'. With the effect 'rotor' it "
+        "also reads the energy and the rotor's momentum; functions then have the factor q^(-1/(2k)) as well, and "
+        "degree 4 takes 10 seconds and more. Orbits start spread evenly over a section and are sampled at many "
+        "times. The singular values of the samples tell how little a function of this space can vary along orbits, "
+        "relative to its own size.\n\n"
         "The table has a line for each degree: how many independent functions there are, how many of them are "
-        "integrals, how many are new (not the energy, and not found two degrees lower; products of integrals are "
-        "counted as new), and the smallest value of the others. On each level the energy is constant; it is the "
-        "one integral of degree 2 that every ball has.\n\n"
+        "integrals, how many are new (not the energy, and not found two degrees lower, with a rotor one; products of "
+        "integrals are counted as new), and the smallest value of the others. On each level the energy is constant; "
+        "it is the one integral of degree 2, with a rotor of degree 1, that every ball has.\n\n"
         "Integrals that are known for this k and J are named where they are found. 'undecided': a value lies "
         "between its own error and --within, or k and J are almost those of an integrable ball, or the search was "
-        "stopped.",
+        "stopped.\n\n"
+        "The line 'theory' does not depend on the search. It says 'integrable' (a second integral is known), 'no "
+        "meromorphic integral' (a theorem of ours, not reviewed) or 'open', and why.",
     .example = "isoroll integrals scene.yaml --degree 4",
     .exits = "1: interrupted\n"
-             "3: bad input: an effect that acts, other than 'level', or k too near 0\n"
+             "3: bad input: an effect that acts, other than 'level' and 'rotor', or k too near 0\n"
              "4: the computation failed, or no memory",
 };

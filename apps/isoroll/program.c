@@ -8,7 +8,9 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef ISO_SUNDIALS
 #include <sundials/sundials_version.h>
+#endif
 #include <unistd.h>
 #include <yaml.h>
 
@@ -17,12 +19,15 @@
 
 void program_version(void)
 {
-    char sundials[32] = "?";
     int major, minor, patch;
     yaml_get_version(&major, &minor, &patch);
+    printf("isoroll %s\n", iso_version());
+#ifdef ISO_SUNDIALS
+    char sundials[32] = "?";
     SUNDIALSGetVersion(sundials, sizeof sundials);
-    printf("isoroll %s\nSUNDIALS %s\nGSL %s\nlibyaml %d.%d.%d\njansson %s\n", iso_version(), sundials, gsl_version,
-           major, minor, patch, JANSSON_VERSION);
+    printf("SUNDIALS %s\n", sundials);
+#endif
+    printf("GSL %s\nlibyaml %d.%d.%d\njansson %s\n", gsl_version, major, minor, patch, JANSSON_VERSION);
 }
 
 static int run_with(iso_context *ctx, void *options, const command *c, int argc, char **argv)

@@ -1,5 +1,5 @@
-/* context.c - the context: the message of the last failure, the monitor, the SUNDIALS context (context.h); and what
- * every call begins with: options of a known size, default arithmetic. */
+/* context.c - the context: the message of the last failure, the monitor (context.h); and what every call begins
+ * with: options of a known size, default arithmetic. */
 #include "base/context_impl.h"
 
 #include <stdarg.h>
@@ -10,11 +10,11 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/room_impl.h"
-#include "base/sundials_impl.h"
 #include "base/version.h"
 
 struct iso_context {
-    SUNContext sun; /* made when the first SUNDIALS method asks for it */
+    void *attached; /* see iso_context_attach */
+    void (*release)(void *attached);
     iso_monitor monitor;
     char message[1024];
     char about[32];
@@ -40,7 +40,7 @@ iso_context *iso_context_create(void)
 void iso_context_free(iso_context *ctx)
 {
     if (!ctx) return;
-    if (ctx->sun) SUNContext_Free(&ctx->sun);
+    if (ctx->attached) ctx->release(ctx->attached);
     free(ctx);
 }
 
@@ -116,20 +116,16 @@ bool iso_room(void)
     return room != NULL;
 }
 
-SUNContext iso_context_sundials(iso_context *ctx)
+void *iso_context_attached(const iso_context *ctx)
 {
-    if (!iso_room()) return NULL;
-    if (!ctx->sun && ISO_SUN_CONTEXT_CREATE(&ctx->sun) != 0) ctx->sun = NULL;
-    if (ctx->sun) ISO_SUN_CONTEXT_QUIET(ctx->sun);
-    return ctx->sun;
+    return ctx->attached;
 }
 
-#if SUNDIALS_VERSION_MAJOR < 7
-void iso_sundials_quiet(int code, const char *module, const char *function, char *message, void *user)
+void iso_context_attach(iso_context *ctx, void *thing, void (*release)(void *thing))
 {
-    (void)code, (void)module, (void)function, (void)message, (void)user;
+    ctx->attached = thing;
+    ctx->release = release;
 }
-#endif
 
 /* --- options ---------------------------------------------------------------------------------------------------- */
 

@@ -1,4 +1,4 @@
-/* context.h - one per thread: carries the words of the last failure and the SUNDIALS context.
+/* context.h - one per thread: carries the words of the last failure, and who monitors long work.
  *
  *     iso_context *ctx = iso_context_create();
  *     if (iso_params_reduced(ctx, k, J, &p) != ISO_OK) puts(iso_context_message(ctx));

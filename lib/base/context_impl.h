@@ -25,4 +25,8 @@ bool iso_context_goes_on(const iso_context *ctx);
  * true until the next failure. Gives the status, for `return iso_context_placed(ctx, iso_context_fail(...))`. */
 iso_status iso_context_placed(iso_context *ctx, iso_status status);
 
+/* One thing that the context keeps for a library below it, until its end: SUNDIALS' own context. NULL: nothing yet. */
+void *iso_context_attached(const iso_context *ctx);
+void iso_context_attach(iso_context *ctx, void *thing, void (*release)(void *thing));
+
 #endif

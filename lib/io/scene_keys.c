@@ -4,13 +4,14 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/nearest_impl.h"
 #include "base/number_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
 
-enum { MAX_KEYS = 32, MAX_METHODS = 64, EFFECT_KEYS = ISO_EFFECT_NUMBERS + ISO_EXPRESSIONS + 3 };
+enum { MAX_KEYS = 32, EFFECT_KEYS = ISO_EFFECT_NUMBERS + ISO_EXPRESSIONS + 3 };
 _Static_assert((int)MAX_KEYS >= 2 * (int)ISO_EFFECTS && (int)MAX_KEYS >= (int)EFFECT_KEYS, "room for all names");
 
 /* One key that a mapping may have: what reads its value, and where in the draft the value goes. */
@@ -75,17 +76,18 @@ static iso_status read_tolerance(iso_draft *d, const entry *e, const yaml_node_t
 /* Keeps the full name of the method, whichever of its spellings was used. */
 static iso_status read_method(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    const char *names[MAX_METHODS] = {"auto"}, *text = (const char *)value->data.scalar.value;
-    size_t count = 1;
+    const char *text = (const char *)value->data.scalar.value;
+    char quoted[ISO_QUOTE_SIZE], suggested[ISO_SUGGEST_SIZE];
     if (value->type != YAML_SCALAR_NODE || !iso_yaml_is(value, text) || *text == '\0')
         return iso_yaml_expected(&d->yaml, value, e->name, "the name of a method");
     const iso_method *method = iso_method_find(text);
-    if (method || strcmp(text, names[0]) == 0) {
-        snprintf(target(d, e), ISO_NAME_SIZE, "%s", method ? method->name : names[0]);
+    if (method || strcmp(text, "auto") == 0) {
+        snprintf(target(d, e), ISO_NAME_SIZE, "%s", method ? method->name : "auto");
         return ISO_OK;
     }
-    for (int i = 0; iso_methods[i] && count < MAX_METHODS; i++) names[count++] = iso_methods[i]->name;
-    return iso_yaml_unknown(&d->yaml, value, e->name, count, names);
+    iso_text_quote(quoted, text, value->data.scalar.length);
+    return ISO_FAIL_AT(d, value, "unknown method '%s'" ISO_WITHOUT_SUNDIALS "; %s", quoted,
+                       iso_suggest_word(suggested, quoted, iso_method_word));
 }
 
 static iso_status read_column(iso_draft *d, const yaml_node_t *item)

@@ -64,7 +64,7 @@ iso_status iso_method_check(iso_context *ctx, const char *name)
 {
     char suggested[ISO_SUGGEST_SIZE];
     if (strcmp(name, "auto") == 0 || iso_method_find(name)) return ISO_OK;
-    return ISO_FAIL_ARGUMENT(ctx, "method", "there is no method '%s'; %s", name,
+    return ISO_FAIL_ARGUMENT(ctx, "method", "there is no method '%s'" ISO_WITHOUT_SUNDIALS "; %s", name,
                              iso_suggest_word(suggested, name, iso_method_word));
 }
 
@@ -96,11 +96,22 @@ const iso_method *iso_method_with_more_digits(int digits)
     return next;
 }
 
+/* The one with the least place above this one. */
+static const iso_method *next_witness(int above)
+{
+    const iso_method *next = NULL;
+    for (int i = 0; iso_methods[i]; i++) {
+        const int here = iso_methods[i]->witness;
+        if (here > above && (!next || here < next->witness)) next = iso_methods[i];
+    }
+    return next;
+}
+
 const iso_method *iso_method_witness(int place)
 {
-    for (int i = 0; iso_methods[i]; i++)
-        if (place > 0 && iso_methods[i]->witness == place) return iso_methods[i];
-    return NULL;
+    const iso_method *found = NULL;
+    for (int i = 0; i < place && (i == 0 || found); i++) found = next_witness(found ? found->witness : 0);
+    return found;
 }
 
 /* --- whether a method can simulate a model ---------------------------------------------------------------------- */

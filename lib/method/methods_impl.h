@@ -25,14 +25,27 @@
 #define ISO_QUAD(X)
 #endif
 
+/* clang-format off */
+/* Those of SUNDIALS, and what messages about a method's name add where they are left out (ISO_SUNDIALS=OFF). */
+#ifdef ISO_SUNDIALS
+#define ISO_WITHOUT_SUNDIALS ""
+#define ISO_SUNDIALS_LIST(X)                                                                                       \
+    X(adams) X(bdf)                                                                                                \
+    X(heun_euler_2_1_2) X(bogacki_shampine_4_2_3) X(ark324l2sa_erk_4_2_3) X(zonneveld_5_3_4)                       \
+    X(ark436l2sa_erk_6_3_4) X(ark437l2sa_erk_7_3_4) X(sayfy_aburub_6_3_4) X(cash_karp_6_4_5) X(fehlberg_6_4_5)     \
+    X(dormand_prince_7_4_5) X(ark548l2sa_erk_8_4_5) X(ark548l2sab_erk_8_4_5) X(verner_8_5_6) X(fehlberg_13_7_8)
+#else
+#define ISO_WITHOUT_SUNDIALS " (isoroll was built without SUNDIALS: no cvode, no arkode)"
+#define ISO_SUNDIALS_LIST(X)
+#endif
+
 /* Every method of the library, in the order in which lists show them. */
 #define ISO_METHOD_LIST(X)                                                                                         \
-    X(adams) X(bdf)                                                                           /* sundials.c */     \
-    X(heun_euler) X(bogacki_shampine) X(ark324) X(zonneveld) X(ark436) X(ark437) X(sayfy_aburub)                   \
-    X(cash_karp) X(fehlberg45) X(dormand_prince) X(ark548) X(ark548b) X(verner) X(fehlberg78) /* sundials.c */     \
+    ISO_SUNDIALS_LIST(X)                                                                      /* sundials.c */     \
     X(rk4) X(rkf45) X(rkck) X(rk8pd) X(msadams) X(msbdf) X(bsimp)                             /* gsl.c    */       \
     X(taylor) X(taylor_extended) ISO_QUAD(X)                                                  /* taylor.c */       \
     X(strang) X(blanes_moan4) X(blanes_moan6) X(kahan_li8) X(sofroniou_spaletta10)        /* symplectic.c */
+/* clang-format on */
 
 /* From this stiffness on bdf needs less time than bsimp, which is more exact below it. */
 enum { ISO_VERY_STIFF = 1000 };
@@ -57,7 +70,7 @@ bool iso_method_serves(const iso_method *method, const iso_model *model, char wh
 const iso_method *iso_method_auto(const iso_model *model);
 
 /* For references: the method with the least digits above `digits`; and the method asked as `place`-th whether another
- * code confirms a result (iso_method.witness). NULL: there is none. */
+ * code confirms a result (the order is that of iso_method.witness). NULL: there is none. */
 const iso_method *iso_method_with_more_digits(int digits);
 const iso_method *iso_method_witness(int place);
 

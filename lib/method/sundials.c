@@ -266,22 +266,22 @@ static iso_status arkode_step(iso_integrator *it, double y[], double *h)
 #define ARKODE                                                                                                       \
     .family = "arkode", .projects = true, .fixed = true, .create = arkode_create, .start = arkode_start,             \
     .step = arkode_step, .free = arkode_release
-#define ERK(id, name_, order_, table, ...)                                                                           \
+#define ERK(id, order_, table, ...)                                                                                  \
     const iso_method iso_method_##id = {                                                                             \
-        .name = name_, .order = order_, .variant = ARKODE_##table, ARKODE, .doc = __VA_ARGS__};
+        .name = #id, .order = order_, .variant = ARKODE_##table, ARKODE, .doc = __VA_ARGS__};
 
-/*  identifier        name               order, SUNDIALS table                                                   */
-ERK(heun_euler, "heun_euler_2_1_2", 2, HEUN_EULER_2_1_2, "ERKStep, Heun-Euler 2(1)")
-ERK(bogacki_shampine, "bogacki_shampine_4_2_3", 3, BOGACKI_SHAMPINE_4_2_3, "ERKStep, Bogacki-Shampine 3(2)")
-ERK(ark324, "ark324l2sa_erk_4_2_3", 3, ARK324L2SA_ERK_4_2_3, "ERKStep, explicit part of ARK3(2)4L[2]SA")
-ERK(zonneveld, "zonneveld_5_3_4", 4, ZONNEVELD_5_3_4, "ERKStep, Zonneveld 4(3)")
-ERK(ark436, "ark436l2sa_erk_6_3_4", 4, ARK436L2SA_ERK_6_3_4, "ERKStep, explicit part of ARK4(3)6L[2]SA")
-ERK(ark437, "ark437l2sa_erk_7_3_4", 4, ARK437L2SA_ERK_7_3_4, "ERKStep, explicit part of ARK4(3)7L[2]SA")
-ERK(sayfy_aburub, "sayfy_aburub_6_3_4", 4, SAYFY_ABURUB_6_3_4, "ERKStep, Sayfy-Aburub 4(3)")
-ERK(cash_karp, "cash_karp_6_4_5", 5, CASH_KARP_6_4_5, "ERKStep, Cash-Karp 5(4)")
-ERK(fehlberg45, "fehlberg_6_4_5", 5, FEHLBERG_6_4_5, "ERKStep, Fehlberg 5(4)")
-ERK(dormand_prince, "dormand_prince_7_4_5", 5, DORMAND_PRINCE_7_4_5, "ERKStep, Dormand-Prince 5(4)")
-ERK(ark548, "ark548l2sa_erk_8_4_5", 5, ARK548L2SA_ERK_8_4_5, "ERKStep, explicit part of ARK5(4)8L[2]SA")
-ERK(ark548b, "ark548l2sab_erk_8_4_5", 5, ARK548L2SAb_ERK_8_4_5, "ERKStep, explicit part of ARK5(4)8L[2]SAb")
-ERK(verner, "verner_8_5_6", 6, VERNER_8_5_6, "ERKStep, Verner 6(5)")
-ERK(fehlberg78, "fehlberg_13_7_8", 8, FEHLBERG_13_7_8, "ERKStep, Fehlberg 8(7)", .witness = 2)
+/* name, order, SUNDIALS table */
+ERK(heun_euler_2_1_2, 2, HEUN_EULER_2_1_2, "ERKStep, Heun-Euler 2(1)")
+ERK(bogacki_shampine_4_2_3, 3, BOGACKI_SHAMPINE_4_2_3, "ERKStep, Bogacki-Shampine 3(2)")
+ERK(ark324l2sa_erk_4_2_3, 3, ARK324L2SA_ERK_4_2_3, "ERKStep, explicit part of ARK3(2)4L[2]SA")
+ERK(zonneveld_5_3_4, 4, ZONNEVELD_5_3_4, "ERKStep, Zonneveld 4(3)")
+ERK(ark436l2sa_erk_6_3_4, 4, ARK436L2SA_ERK_6_3_4, "ERKStep, explicit part of ARK4(3)6L[2]SA")
+ERK(ark437l2sa_erk_7_3_4, 4, ARK437L2SA_ERK_7_3_4, "ERKStep, explicit part of ARK4(3)7L[2]SA")
+ERK(sayfy_aburub_6_3_4, 4, SAYFY_ABURUB_6_3_4, "ERKStep, Sayfy-Aburub 4(3)")
+ERK(cash_karp_6_4_5, 5, CASH_KARP_6_4_5, "ERKStep, Cash-Karp 5(4)")
+ERK(fehlberg_6_4_5, 5, FEHLBERG_6_4_5, "ERKStep, Fehlberg 5(4)")
+ERK(dormand_prince_7_4_5, 5, DORMAND_PRINCE_7_4_5, "ERKStep, Dormand-Prince 5(4)")
+ERK(ark548l2sa_erk_8_4_5, 5, ARK548L2SA_ERK_8_4_5, "ERKStep, explicit part of ARK5(4)8L[2]SA")
+ERK(ark548l2sab_erk_8_4_5, 5, ARK548L2SAb_ERK_8_4_5, "ERKStep, explicit part of ARK5(4)8L[2]SAb")
+ERK(verner_8_5_6, 6, VERNER_8_5_6, "ERKStep, Verner 6(5)")
+ERK(fehlberg_13_7_8, 8, FEHLBERG_13_7_8, "ERKStep, Fehlberg 8(7)", .witness = 2)

@@ -3,7 +3,8 @@
  *     K = J w - D (w,n) n,     K' = K x w - c (w,n) n + MQ,     D = m b^2
  *
  * The spin (w,n) is free. c -> infinity is the rubber ball, c = 0 the classical Chaplygin ball with the further
- * integral (K,K). The energy is (K,w)/2. The equations are solved for w' in contact.c.
+ * integral (K,K), and at k = -1 also (A K,n), A = tr J - 2 J. The energy is (K,w)/2. The equations are solved for w'
+ * in contact.c.
  *
  * A stiff contact (large c) takes the spin out in a time of order 1/c, until a part of order 1/c is left. Then -c
  * (w,n) is a large number times a small one, which is nearly lost in the rounding of w. Also, the direction in which
@@ -122,6 +123,17 @@ static double momentum_up(const iso_problem *f, const double y[], double *value_
     return dot(K, iso_vertical(f, y));
 }
 
+/* A = tr J - 2 J = diag(J2 + J3 - J1, J3 + J1 - J2, J1 + J2 - J3), which is positive for a solid body */
+static double momentum_turned(const iso_problem *f, const double y[], double *value_size)
+{
+    const double trace = f->p.J[0] + f->p.J[1] + f->p.J[2], *n = y + 3;
+    double K[3], A[3];
+    const double size = momentum(f, y, K);
+    for (int i = 0; i < 3; i++) A[i] = trace - 2 * f->p.J[i];
+    *value_size = size * largest(A);
+    return dot_diag(K, A, n);
+}
+
 /* No torque acts, or only the weight's. */
 static bool is_classical(const iso_problem *f)
 {
@@ -147,6 +159,13 @@ static bool keeps_normal(const iso_problem *f)
     return f->p.k == 1 && c_of(f) == 0 && orthogonal;
 }
 
+/* At k = -1, n' = w x n. (A K,n)' = (A (K x w),n) + (A K,w x n) = (n,K,(tr A - A) w) = 2 (n,K,J w) = 2 (n,K,K) = 0:
+ * J w is K and a part along n. */
+static bool keeps_turned(const iso_problem *f)
+{
+    return f->p.k == -1 && keeps_square(f);
+}
+
 static bool keeps_up(const iso_problem *f)
 {
     return is_classical(f) && f->effects.on[ISO_GRAVITY];
@@ -157,6 +176,8 @@ static const iso_integral integrals[] = {
                  .doc = "(K,K), K = J w - D (w,n) n, momentum about the contact; c = 0 and no torque"),
     ISO_INTEGRAL("K.n", 1, 0, 1, momentum_normal, .holds = keeps_normal,
                  .doc = "(K,n), k = 1, c = 0 and no rolling resistance"),
+    ISO_INTEGRAL("AK.n", 2, 0, 1, momentum_turned, .holds = keeps_turned,
+                 .doc = "(A K,n), A = J1 + J2 + J3 - 2 J, k = -1, c = 0 and no torque"),
     ISO_INTEGRAL("K.e", 1, 0, 1, momentum_up, .holds = keeps_up,
                  .doc = "(K,e), c = 0 and no torque but the weight's"),
     {0},

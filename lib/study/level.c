@@ -5,33 +5,33 @@
 #include "orbit/orbit_impl.h"
 #include "study/study_impl.h"
 
-/* The orbit of a scene on which nothing acts but a level. */
-static iso_status open_orbit(iso_context *ctx, const iso_scene *scene, const char *what, iso_orbit **orbit)
+/* The orbit of a scene; its effects are settled, and allowed. */
+static iso_status open_orbit(iso_context *ctx, const iso_scene *scene, const iso_effects *effects, iso_orbit **orbit)
 {
-    const iso_effects effects = iso_scene_acting(scene);
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
-    const iso_status status = iso_refuse_beyond_level(ctx, &effects, what);
-    o.effects = &effects;
+    o.effects = effects;
     o.gamma_alone = true; /* M need not fit a double */
-    return status == ISO_OK ? iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit) : status;
+    return iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
 }
 
-iso_status iso_level_motion(iso_context *ctx, const iso_scene *scene, const char *what, iso_params *own,
-                            iso_point_motion *motion)
+iso_status iso_level_problem(iso_context *ctx, const iso_scene *scene, const char *what, iso_problem *problem)
 {
+    const iso_effects effects = iso_scene_acting(scene);
     iso_orbit *orbit;
-    ISO_TRY(open_orbit(ctx, scene, what, &orbit));
-    *own = iso_orbit_units(orbit)->own;
-    *motion = iso_orbit_motion(orbit);
-    motion->p = own;
+    ISO_TRY(iso_refuse_off_chart(ctx, &effects, what));
+    ISO_TRY(open_orbit(ctx, scene, &effects, &orbit));
+    const iso_point_motion m = iso_orbit_motion(orbit);
+    *problem = (iso_problem){*m.p, m.eps, m.energy, .effects = iso_orbit_model(orbit)->problem.effects};
     iso_orbit_free(orbit);
     return ISO_OK;
 }
 
 iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *what, iso_on_level *on)
 {
+    const iso_effects effects = iso_scene_acting(scene);
     iso_orbit *orbit;
-    ISO_TRY(open_orbit(ctx, scene, what, &orbit));
+    ISO_TRY(iso_refuse_beyond_level(ctx, &effects, what));
+    ISO_TRY(open_orbit(ctx, scene, &effects, &orbit));
     const iso_effects acting = iso_orbit_effects(orbit);
     const iso_point_motion m = iso_orbit_motion(orbit);
     iso_status status = iso_refuse_coupling(ctx, orbit, what);

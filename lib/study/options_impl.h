@@ -93,8 +93,8 @@ typedef struct iso_scene_changes {
                      "what computes the orbit: ball, point, exact, auto", iso_set_backend, type, change.backend,     \
                      iso_backend_word)
 #define ISO_OPTION_METHOD(type, change)                                                                              \
-    ISO_OPTION_WORDS("method", "NAME", "a method of 'isoroll list methods', or auto", "the integrator, or auto",     \
-                     iso_set_method, type, change.method, iso_method_word)
+    ISO_OPTION_WORDS("method", "NAME", "a method of 'isoroll list methods'" ISO_WITHOUT_SUNDIALS ", or auto",        \
+                     "the integrator, or auto", iso_set_method, type, change.method, iso_method_word)
 #define ISO_OPTION_T_END(type, change)                                                                               \
     ISO_OPTION("t-end", "T", "a number", "last time, in place of the scene's", iso_set_number, type, change.end)
 #define ISO_OPTION_STEP(type, change)                                                                                \

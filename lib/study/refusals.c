@@ -25,6 +25,16 @@ iso_status iso_refuse_beyond_level(iso_context *ctx, const iso_effects *effects,
                           what, effect->name);
 }
 
+iso_status iso_refuse_off_chart(iso_context *ctx, const iso_effects *effects, const char *what)
+{
+    const iso_effect *effect = iso_effects_off_chart(effects);
+    if (!effect) return ISO_OK;
+    return ISO_FAIL_INPUT(ctx, effect->name,
+                          "%s only of the free ball and of the point, on every level of its energy and in a magnetic "
+                          "field: remove '%s'",
+                          what, effect->name);
+}
+
 iso_status iso_refuse_coupling(iso_context *ctx, const iso_orbit *orbit, const char *what)
 {
     const iso_point_motion m = iso_orbit_motion(orbit);

@@ -32,6 +32,9 @@ static inline const char *iso_verdict_word(int verdict)
 /* About an effect that acts, other than a level. what: as in "periodic orbits are sought". */
 iso_status iso_refuse_beyond_level(iso_context *ctx, const iso_effects *effects, const char *what);
 
+/* About an effect that acts, other than a level or a magnetic field of the point. what: as above. */
+iso_status iso_refuse_off_chart(iso_context *ctx, const iso_effects *effects, const char *what);
+
 /* About "level", where the coupling eps is not above 0: a ball in the potential of a level can have so little energy
  * that its point is driven off, not held. what: as above. */
 iso_status iso_refuse_coupling(iso_context *ctx, const iso_orbit *orbit, const char *what);
@@ -69,13 +72,11 @@ typedef struct iso_on_level {
     double H;      /* the same level in the scene's units   */
 } iso_on_level;
 
-/* The motion of a scene's point: its params in own units (into *own), eps of any sign, and H. eps is 0 for a ball at
- * rest. what: as in "periodic orbits are sought". Errors: those of iso_refuse_beyond_level and
- * iso_orbit_create. */
-iso_status iso_level_motion(iso_context *ctx, const iso_scene *scene, const char *what, iso_params *own,
-                            iso_point_motion *motion);
+/* The problem of a scene's point in own units: params, eps of any sign, H, effects. eps is 0 for a ball at rest. what:
+ * as in "integrals are sought". Errors: those of iso_refuse_off_chart and iso_orbit_create. */
+iso_status iso_level_problem(iso_context *ctx, const iso_scene *scene, const char *what, iso_problem *problem);
 
-/* Errors: the same, and those of iso_refuse_coupling. */
+/* Errors: those of iso_refuse_beyond_level, iso_refuse_coupling and iso_orbit_create. */
 iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *what, iso_on_level *on);
 
 /* --- which backend `auto` means for the questions of a run (backend.c) ------------------------------------------ */

@@ -143,7 +143,7 @@ refuses 3 "--k K" check bare.csv
 # --- explain
 run 0 explain scene.yaml
 silent
-for words in "k = -1, J = 1.4 " "Neumann's problem" "backend point, 6 states, in the clock t" \
+for words in "k = -1, J = 1.4 " ": Neumann's problem" "  integrable: a second integral is known" "backend point, 6 states, in the clock t" \
     "  M1 M2 M3               momentum" "as exact" \
     "method taylor" "energy of the ball h = 0.7374375" "11 rows to t = 10, columns t omega1" "integrals that hold" "F_shell" \
     "integrals that do not hold" "cost of a right-hand side: "; do

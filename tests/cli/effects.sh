@@ -159,6 +159,12 @@ physical shell 0.6 "twist: {resistance: 0}" >scene.yaml
 run 0 run scene.yaml -o classical.csv
 conserved K.K classical.csv
 conserved h classical.csv
+check_not "classical.csv: no AK.n but at k = -1" grep -qF "ball AK.n " out
+physical shell 0.5 "twist: {resistance: 0}" >scene.yaml
+run 0 run scene.yaml -o marble.csv
+conserved AK.n marble.csv
+run 0 explain scene.yaml
+check "AK.n is explained" sh -c "sed '/^integrals that do not/q' out | grep -q AK.n"
 physical shell 0.6 "$resistance" >scene.yaml
 run 0 run scene.yaml -o slower.csv
 run 0 check slower.csv

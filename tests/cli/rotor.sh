@@ -56,7 +56,7 @@ refuses 3 "4:18: the closed solution is for" run scene.yaml --backend exact
 for method in strang kahan_li8; do
     refuses 2 "'rotor' is a magnetic field; take taylor" run scene.yaml --method $method
 done
-for command in periodic splitting integrals; do
+for command in periodic splitting; do
     refuses 3 "scene.yaml:4:18: " $command scene.yaml
     says "remove 'rotor'"
 done

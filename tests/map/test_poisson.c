@@ -160,6 +160,56 @@ static void ball_in_tau(const laws_case *c, laws_worst *worst)
     laws_note(worst, laws_distance(carried + 3, expected + 3), laws_rounding(p) / h, p, "gamma");
 }
 
+/* --- a product G(gamma) F(M), (22)-(23) ------------------------------------------------------------------------- */
+
+/* F = (M, S M)/2 + (M,M)^2/4 + (v, M), G = exp (a, gamma): its values, and slopes in M and in gamma. */
+typedef struct product_of {
+    double S[3], v[3], a[3];
+} product_of;
+
+static double factor_F(const product_of *of, const double y[N], double slope[N])
+{
+    for (int i = 0; i < 3; i++) slope[i] = of->S[i] * y[i] + dot(y, y) * y[i] + of->v[i], slope[3 + i] = 0;
+    return dot_diag(y, of->S, y) / 2 + dot(y, y) * dot(y, y) / 4 + dot(of->v, y);
+}
+
+static double factor_G(const product_of *of, const double y[N], double slope[N])
+{
+    const double G = exp(dot(of->a, y + 3));
+    for (int i = 0; i < 3; i++) slope[i] = 0, slope[3 + i] = G * of->a[i];
+    return G;
+}
+
+static void flow(const double B[N * N], const double dH[N], double dy[N])
+{
+    for (int i = 0; i < N; i++) {
+        dy[i] = 0;
+        for (int j = 0; j < N; j++) dy[i] += B[N * i + j] * dH[j];
+    }
+}
+
+/* The flow of G F is G times that of F - h/G, h = G F, anywhere on e(3): d(F - h/G) = dF + (h/G^2) dG. */
+static void product(const laws_case *c, laws_worst *worst)
+{
+    double y[N], B[N * N], dF[N], dG[N], dH[N], of_product[N], of_point[N];
+    product_of of;
+    anywhere(c, y);
+    poisson_matrix(y, B);
+    for (int i = 0; i < 3; i++) {
+        of.S[i] = iso_random_normal(c->random);
+        of.v[i] = iso_random_normal(c->random);
+        of.a[i] = iso_random_normal(c->random);
+    }
+    const double F = factor_F(&of, y, dF), G = factor_G(&of, y, dG), h = G * F;
+    for (int i = 0; i < N; i++) dH[i] = G * dF[i] + F * dG[i];
+    flow(B, dH, of_product);
+    for (int i = 0; i < N; i++) dH[i] = dF[i] + h / (G * G) * dG[i];
+    flow(B, dH, of_point);
+    const double size = laws_max(N, y) * (laws_max(N, dF) + fabs(F) * laws_max(3, of.a));
+    for (int i = 0; i < N; i++)
+        laws_note(worst, fabs(of_product[i] / G - of_point[i]), 64 * DBL_EPSILON * size, &c->problem.p, "");
+}
+
 int main(void)
 {
     gsl_test_verbose(1);
@@ -170,5 +220,6 @@ int main(void)
     laws_hold("gradient of H (21)", &iso_system_point, gradient_of_h);
     laws_hold("equations in tau", &iso_system_point, equations);
     laws_hold("(9) carried over is (21) in tau", &iso_system_ball, ball_in_tau);
+    laws_hold("a product G F, on its level, is F - h/G in another time", &iso_system_point, product);
     exit(gsl_test_summary());
 }

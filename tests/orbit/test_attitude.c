@@ -6,7 +6,7 @@
 static iso_context *ctx;
 
 static laws_worst unit, vertical, frame, upright, kept_axes, turning, normal, centre, slip, place, lengths, tangents,
-    bending, twisting;
+    bending, twisting, veselova;
 
 enum { TIMES = 12 };
 
@@ -91,6 +91,23 @@ static void note_moment(const rolling *ball, const iso_effects *e, const stencil
     }
     note_velocities(ball, st);
     note_place(ball, s, start);
+}
+
+/* Veselova's body on a plane: without torques the contact's is along R n alone, which stands still in space. So the
+ * part of R J w across it stays, and w has no part along it. */
+static void note_veselova(const rolling *ball, const iso_sample *s, const iso_sample *start)
+{
+    double Jw[3], momentum[3], first[3], n[3], w[3];
+    normal_in_space(ball, start, n);
+    diag(ball->p.J, omega_of(start), Jw);
+    to_space(start, Jw, first);
+    diag(ball->p.J, omega_of(s), Jw);
+    to_space(s, Jw, momentum);
+    to_space(s, omega_of(s), w);
+    for (int i = 0; i < 3; i++) momentum[i] -= first[i];
+    remove_along(momentum, n);
+    laws_note(&veselova, norm(momentum) / norm(first), 1e-11, &ball->p, "momentum");
+    laws_note(&veselova, fabs(dot(w, n)), 1e-11, &ball->p, "(w,n)");
 }
 
 /* --- the two curves --------------------------------------------------------------------------------------------- */
@@ -180,6 +197,7 @@ static void check_ball(const rolling *ball, int load, iso_random *random)
         if (load == 3 && i < 0) continue; /* friction backwards is a run-away */
         const stencil st = stencil_around(ctx, orbit, ball, 1.3 * i + 0.2);
         note_moment(ball, &e, &st, &begin);
+        if (load == 0 && on_plane(ball)) note_veselova(ball, middle(&st), &begin);
         note_curvature(ball, &st, load == 3 ? &twisting : &bending);
     }
     note_lengths(ball, orbit);
@@ -241,6 +259,7 @@ int main(void)
     laws_report(&vertical, "R e: the vertical stands still in space");
     laws_report(&turning, "(R v)' = R (w x v) for v fixed in the body");
     laws_report(&normal, "(R n)' = (1-k) R (w x n)");
+    laws_report(&veselova, "on a plane: Veselova's body");
     laws_report(&centre, "centre' = R (b w x n)");
     laws_report(&slip, "no slip: the point of the ball that touches is at rest");
     laws_report(&place, "contact, trace and centre belong together");

@@ -98,6 +98,45 @@ static void check_circle(void)
     laws_report(&circle, "equal moments: a great circle");
 }
 
+/* k -> 0: n stands still in the body, which is then Suslov's: J w' = J w x w + lambda n, (w,n) = 0. With u = n x J n,
+ * (J w,u) = S tanh(r t + const), S^2 = 2 h (u,J u), r = S/(g det J): w goes from -u to u. */
+static double suslov(const iso_params *p, const double y[ISO_STATE], double t)
+{
+    double Jw[3], Jn[3], u[3];
+    diag(p->J, y, Jw);
+    diag(p->J, y + 3, Jn);
+    cross(y + 3, Jn, u);
+    const double S = sqrt(dot(y, Jw) * dot_diag(u, p->J, u));
+    const double rate = S / (dot_diag(y + 3, p->inv_J, y + 3) * p->det_J);
+    return tanh(rate * t + atanh(dot(Jw, u) / S));
+}
+
+/* The distance from Suslov's motion falls like k. */
+static void check_small_k(void)
+{
+    static const double J[3] = {1.4, 2.1, 3.0};
+    const iso_start start = {.model = ISO_BALL, .y = {0.8, 0.5, -0.6, 0.6, 0, 0.8}};
+    for (int side = -1; side <= 1; side += 2)
+        for (double k = 1e-3, last = 0; k > 1e-6; k /= 10) {
+            const iso_params p = laws_params(side * k, J);
+            iso_orbit_options o = iso_orbit_defaults(&start);
+            o.backend = ISO_BACKEND_BALL;
+            o.tolerance = 1e-14;
+            iso_orbit *orbit = create(&p, &start, &o);
+            double most = 0;
+            for (int t = -4; t <= 4; t++) {
+                iso_sample s = scene_at(ctx, orbit, t);
+                copy(start.y + 3, s.ball + 3, 3); /* w against the body's n of the start */
+                most = fmax(most, fabs(suslov(&p, s.ball, 0) - suslov(&p, start.y, t)));
+            }
+            gsl_test(!(most < 20 * k), "k = %g: Suslov's body to %.2g", side * k, most);
+            if (last > 0)
+                gsl_test(!(fabs(most / last - 0.1) < 0.05), "k = %g: %.3g of ten times k", side * k, most / last);
+            last = most;
+            iso_orbit_free(orbit);
+        }
+}
+
 /* --- events ---------------------------------------------------------------------------------------------------- */
 
 static double n3(const iso_sample *s, const void *data)
@@ -287,6 +326,7 @@ int main(void)
     ctx = iso_context_create();
     check_turns();
     check_circle();
+    check_small_k();
     for (iso_clock c = ISO_CLOCK_T; c < ISO_CLOCKS; c++)
         for (int direction = -1; direction <= 1; direction++) {
             check_events(1, 1, c, direction, &events);

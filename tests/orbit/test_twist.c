@@ -138,6 +138,55 @@ static void check_classical(const rolling *ball, double spin, iso_random *random
     iso_orbit_free(orbit);
 }
 
+/* --- the shell of twice the radius ------------------------------------------------------------------------------ */
+
+/* Moments of a body, and D, in random axes of size. */
+static rolling random_shell(iso_random *random, double k)
+{
+    double part[3], J[3];
+    rolling ball = {.m = iso_random_uniform(random, 0.05, 1), .b = -1, .side = -1, .a = k / (k - 1)};
+    for (int i = 0; i < 3; i++) part[i] = exp(iso_random_uniform(random, -1.5, 1));
+    for (int i = 0; i < 3; i++) J[i] = part[(i + 1) % 3] + part[(i + 2) % 3] + ball.m;
+    snprintf(ball.name, sizeof ball.name, "k = %g", k);
+    ball.p = laws_params(k, J);
+    if (iso_params_set_D(ctx, ball.m, &ball.p) != ISO_OK) scene_stops("a ball is refused", ctx);
+    return ball;
+}
+
+/* The largest change of (A K,n) up to t = 10, by the size of A K; A = diag(J2 + J3 - J1, ...) is written out here. */
+static double turned_drift(const rolling *ball, iso_random *random)
+{
+    const double *J = ball->p.J, A[3] = {J[1] + J[2] - J[0], J[2] + J[0] - J[1], J[0] + J[1] - J[2]};
+    iso_effects e = {0};
+    iso_start start = scene_start(ball, random);
+    double K[3], AK[3], first = 0, size = 0, most = 0;
+    add_scaled(start.y, iso_random_uniform(random, -1, 1), start.y + 3);
+    add_twist(0, &e);
+    iso_orbit *orbit = scene_orbit(ctx, ball, &start, &e, NULL);
+    for (int t = 0; t <= 10; t++) {
+        const iso_sample s = scene_at(ctx, orbit, t);
+        momentum(ball, &s, K);
+        diag(A, K, AK);
+        if (t == 0) first = dot(AK, normal_of(&s)), size = norm(AK);
+        most = fmax(most, fabs(dot(AK, normal_of(&s)) - first) / size);
+    }
+    iso_orbit_free(orbit);
+    return most;
+}
+
+/* Borisov and Fedorov's case: (A K,n) is constant at k = -1, and not beside it. */
+static void check_turned(iso_random *random)
+{
+    double most = 0, least = INFINITY;
+    for (int i = 0; i < 100; i++) {
+        const rolling ball = random_shell(random, -1), other = random_shell(random, -0.9);
+        most = fmax(most, turned_drift(&ball, random));
+        least = fmin(least, turned_drift(&other, random));
+    }
+    gsl_test(!(most < 1e-13), "c = 0, k = -1: (A K,n) is conserved, to %.2g", most);
+    gsl_test(!(least > 1e-4), "c = 0, k = -0.9: it is not: it changes by %.2g at least", least);
+}
+
 /* --- what twisting costs ---------------------------------------------------------------------------------------- */
 
 static laws_worst dissipation, decay;
@@ -200,6 +249,7 @@ int main(void)
         check_loss(&ball, 4, random);
         check_blow(&ball, random);
     }
+    check_turned(random);
     laws_report(&classical, "c = 0: (K,K) and (K,w)/2 are conserved");
     laws_report(&in_space, "c = 0: K stands still in space");
     gsl_test(!(least_difference > 0.1), "c = 0 is no rubber ball: %.2g away at least", least_difference);

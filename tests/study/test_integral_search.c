@@ -8,54 +8,10 @@
 
 #include "base/random_impl.h"
 #include "io/scene_file.h"
-#include "laws.h"
 #include "length.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-#include "study/integrals/integrals.h"
-
-static iso_context *ctx;
-static const double ours[3] = {1.4, 2.1, 3};
-
-static iso_scene scene_of(double k, const double J[3])
-{
-    iso_scene scene = iso_scene_default();
-    scene.params = laws_params(k, J);
-    scene.start = (iso_start){.model = ISO_BALL, .y = {0.8, 0.3, -0.6, 0.6, 0, 0.8}, .eps = NAN};
-    return scene;
-}
-
-static iso_integral_search_options options(int degree)
-{
-    iso_integral_search_options o = iso_integral_search_defaults();
-    o.degree = degree;
-    return o;
-}
-
-static iso_integral_search search(const iso_scene *scene, const iso_integral_search_options *o)
-{
-    iso_integral_search r;
-    if (iso_integral_search_run(ctx, scene, o, &r) == ISO_OK) return r;
-    gsl_test(1, "a search is refused: %s", iso_context_message(ctx));
-    exit(gsl_test_summary());
-}
-
-static iso_integral_search look(double k, const double J[3], int degree)
-{
-    const iso_scene scene = scene_of(k, J);
-    const iso_integral_search_options o = options(degree);
-    return search(&scene, &o);
-}
-
-/* Three moments that differ by a tenth or more, in any order. */
-static void draw(iso_random *random, double J[3])
-{
-    for (bool close = true; close;) {
-        for (int i = 0; i < 3; i++) J[i] = exp(iso_random_uniform(random, -1.2, 1.2));
-        close = false;
-        for (int i = 0; i < 3; i++) close = close || fabs(J[i] / J[(i + 1) % 3] - 1) < 0.1;
-    }
-}
+#include "searches.h"
 
 /* The energy in every even degree and in no odd one, to rounding. */
 static void energy(const iso_integral_search *r, const char *what)
@@ -125,7 +81,7 @@ static void linear(void)
 
 static void none(double k, int degree)
 {
-    const iso_integral_search r = look(k, ours, degree);
+    const iso_integral_search r = look(k, searched_J, degree);
     double smallest = INFINITY;
     char what[32];
     snprintf(what, sizeof what, "k = %g", k);
@@ -155,7 +111,7 @@ static void none_at_random(void)
 /* F needs coefficients of degree 2 in gamma. */
 static void too_small_a_space(void)
 {
-    const iso_scene scene = scene_of(1, ours);
+    const iso_scene scene = scene_of(1, searched_J);
     iso_integral_search_options o = options(2);
     o.coefficients = 1;
     const iso_integral_search r = search(&scene, &o);
@@ -167,7 +123,7 @@ static void too_small_a_space(void)
  * E + 1 or less and their rotations by a right angle of degree E or less: 2 E^2 + 6 E + 3. */
 static void dimension(void)
 {
-    const iso_scene scene = scene_of(0.5, ours);
+    const iso_scene scene = scene_of(0.5, searched_J);
     iso_integral_search_options o = options(1);
     for (int E = 0; E <= ISO_INTEGRAL_DEGREE; E++) {
         o.coefficients = E;
@@ -180,10 +136,10 @@ static void dimension(void)
 
 static void doubtful(void)
 {
-    iso_integral_search r = look(1 + 1e-8, ours, 2);
+    iso_integral_search r = look(1 + 1e-8, searched_J, 2);
     gsl_test_int((int)r.verdict, ISO_INTEGRALS_UNDECIDED, "k = 1 + 1e-8: constant within 1e-10 is not constant");
     gsl_test_int((int)r.at[2].doubtful, 1, "one value is doubtful");
-    r = look(1 + 1e-13, ours, 2);
+    r = look(1 + 1e-13, searched_J, 2);
     gsl_test(r.verdict != ISO_INTEGRALS_UNDECIDED || !r.near, "k = 1 + 1e-13: the neighbour's F");
     r = look(0.5, (double[]){1, 1.0000001, 1.0000002}, 2);
     gsl_test(r.verdict != ISO_INTEGRALS_UNDECIDED || !r.near, "moments 1e-7 apart");
@@ -194,7 +150,7 @@ static void doubtful(void)
     gsl_test_int((int)r.verdict, ISO_INTEGRALS_FOUND, "moments 1e-3 apart, k = 1: F is there");
     r = look(1, (double[]){1, 1.0000001, 1.0000002}, 2);
     gsl_test_int((int)r.verdict, ISO_INTEGRALS_FOUND, "moments 1e-7 apart, k = 1: F is there");
-    const iso_scene scene = scene_of(1, ours);
+    const iso_scene scene = scene_of(1, searched_J);
     iso_integral_search_options o = options(2);
     o.tolerance = 1e-6;
     r = search(&scene, &o);
@@ -223,21 +179,12 @@ static void errors(void)
 
 /* --- what it depends on ----------------------------------------------------------------------------------------- */
 
-static double apart(const iso_integral_search *a, const iso_integral_search *b)
-{
-    double most = 0;
-    for (int d = 1; d <= a->degrees; d++)
-        for (size_t i = 0; i < a->at[d].values; i++)
-            most = fmax(most, fabs(a->at[d].value[i].value - b->at[d].value[i].value));
-    return most;
-}
-
 static void dependence(void)
 {
-    const iso_scene scene = scene_of(-0.5, ours);
+    const iso_scene scene = scene_of(-0.5, searched_J);
     iso_integral_search_options o = options(3);
     const iso_integral_search first = search(&scene, &o);
-    iso_scene other = scene_of(-0.5, ours);
+    iso_scene other = scene_of(-0.5, searched_J);
     other.start.y[0] *= 3;
     other.start.y[1] = -2;
     other.start.y[2] *= 3;
@@ -325,7 +272,7 @@ static bool never(void *unused)
 
 static void refusals(void)
 {
-    iso_scene scene = scene_of(0.5, ours);
+    iso_scene scene = scene_of(0.5, searched_J);
     for (int i = 0; i < 7; i++) {
         static const char *const about[] = {"degree", "degree", "coefficients", "orbits",
                                             "turns",  "within", "tolerance"};
@@ -341,15 +288,19 @@ static void refusals(void)
     const iso_integral_search_options o = options(1);
     iso_effects_set(ctx, &scene.effects, "rolling_resistance", "coefficient", 1, (double[]){0.1});
     refuse(&scene, &o, ISO_BAD_INPUT, "rolling_resistance");
-    scene = scene_of(0.5, ours);
+    scene = scene_of(0.5, searched_J);
     iso_effects_set(ctx, &scene.effects, "field", "linear", 3, (double[]){0.1, 0, 0.2});
     refuse(&scene, &o, ISO_BAD_INPUT, "field");
     iso_context_set_monitor(ctx, never, NULL);
-    scene = scene_of(0.5, ours);
+    scene = scene_of(0.5, searched_J);
     iso_integral_search r;
     gsl_test_int((int)iso_integral_search_run(ctx, &scene, &o, &r), ISO_STOPPED, "stopped");
     gsl_test_int((int)r.verdict, ISO_INTEGRALS_UNDECIDED, "stopped: undecided");
     iso_context_set_monitor(ctx, NULL, NULL);
+    iso_scene turning = scene;
+    set_rotor(&turning, (double[]){0, 0, 1});
+    turning.start.y[0] = turning.start.y[1] = turning.start.y[2] = 0;
+    refuse(&turning, &o, ISO_BAD_INPUT, "M");
     scene.start.y[0] = scene.start.y[1] = scene.start.y[2] = 0;
     r = search(&scene, &o);
     gsl_test_int((int)r.verdict, ISO_INTEGRALS_NONE, "a ball at rest: the energy does not matter");

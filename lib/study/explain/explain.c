@@ -7,6 +7,7 @@
 #include "base/number_impl.h"
 #include "base/seconds_impl.h"
 #include "exact/exact_impl.h"
+#include "exact/integrability_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/explain/explain_impl.h"
@@ -52,21 +53,16 @@ static void explain_effects(FILE *to, const iso_orbit *orbit)
 /* Whether the ball has a twin, and in which potential that point moves. */
 static void explain_map(FILE *to, const iso_params *p, const iso_orbit *orbit)
 {
-    const bool symmetric = iso_params_symmetric(p, 0) || iso_params_symmetric(p, 1) || iso_params_symmetric(p, 2);
-    const char *kind = p->k == -1  ? "Neumann's problem: integrable"
-                       : p->k == 1 ? "Braden's problem: integrable"
-                       : symmetric ? "integrable, since two moments are equal"
-                                   : "no additional integral is known";
+    const char *name = p->k == -1 ? ": Neumann's problem" : p->k == 1 ? ": Braden's problem" : "";
     const iso_effects effects = iso_orbit_effects(orbit);
     const iso_effect *breaking = iso_effects_breaking(&effects);
     const iso_effect *magnetic = iso_effects_magnetic(&iso_orbit_model(orbit)->problem);
     const bool pulled = iso_effects_off_chart(&effects);
     fprintf(to, "isomorphism\n");
     if (!breaking)
-        fprintf(to, "  point on a sphere: V = -eps (gamma,J gamma)^(%.6g)%s%s%s%s, %s\n", -1 / p->k,
+        fprintf(to, "  point on a sphere: V = -eps (gamma,J gamma)^(%.6g)%s%s%s%s%s\n", -1 / p->k,
                 pulled ? " + U/G" : "", magnetic ? ", in the magnetic field of '" : "",
-                magnetic ? magnetic->name : "", magnetic ? "'" : "",
-                pulled || magnetic ? "see the integrals below" : kind);
+                magnetic ? magnetic->name : "", magnetic ? "'" : "", pulled || magnetic ? "" : name);
     if (iso_orbit_has_twin(orbit))
         fprintf(to, "  holds: (18) of the theory carries the states, the clocks t, tau, s the times%s\n",
                 iso_effects_have_level(&effects) ? "; the point is off the level H = 0, at H = c det J/k^2" : "");
@@ -75,6 +71,18 @@ static void explain_map(FILE *to, const iso_params *p, const iso_orbit *orbit)
     else
         fprintf(to, "  does not hold: a ball at rest (h = 0) has no twin\n");
     fprintf(to, "\n");
+}
+
+/* Whether there is a second integral, of all motions of this ball. */
+static iso_integrability integrability_of(const iso_scene *scene, const iso_orbit *orbit)
+{
+    const iso_effects effects = iso_orbit_effects(orbit);
+    return iso_integrability_of(&scene->params, &effects, false); /* the level is an effect here */
+}
+
+static void explain_integrability(FILE *to, iso_integrability i)
+{
+    fprintf(to, "integrability\n  %s: %s\n\n", iso_integrability_name(i.kind), i.why);
 }
 
 /* Says which Poincare section (`isoroll section`) is global for this orbit. */
@@ -242,6 +250,7 @@ static iso_status explain(iso_context *ctx, FILE *to, const iso_scene *scene, co
     explain_ball(to, &scene->params);
     explain_effects(to, orbit);
     explain_map(to, &scene->params, orbit);
+    explain_integrability(to, integrability_of(scene, orbit));
     explain_section(to, orbit);
     explain_exact(to, kind, why);
     explain_states(to, scene, orbit, columns, count);
@@ -258,6 +267,8 @@ static const iso_field fields[] = {
     ISO_MEMBER(iso_explanation, "backend", backend, "", "that would compute the orbit"),
     ISO_MEMBER(iso_explanation, "method", method, "", "of integration; none: the closed solution"),
     ISO_MEMBER(iso_explanation, "twin", twin, "", "whether the orbit has both models"),
+    ISO_MEMBER(iso_explanation, "integrability", integrability, "",
+               "integrable, no meromorphic integral (a theorem of ours), or open"),
     ISO_MEMBER(iso_explanation, "rows", rows, "", "that would be written"),
     {.name = "text",
      .type = ISO_FIELD_NAME,
@@ -284,6 +295,7 @@ static iso_status fill(iso_context *ctx, const iso_scene *scene, iso_explanation
     *e = (iso_explanation){.backend = iso_backend_name((int)iso_orbit_backend(orbit)),
                            .method = iso_orbit_exact(orbit) ? NULL : iso_orbit_method(orbit)->name,
                            .twin = iso_orbit_has_twin(orbit),
+                           .integrability = iso_integrability_name(integrability_of(scene, orbit).kind),
                            .rows = iso_scene_rows(scene)};
     FILE *to = open_memstream(&text, &size);
     iso_status status = to ? explain(ctx, to, scene, orbit, columns, count) : ISO_OK;

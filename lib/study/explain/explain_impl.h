@@ -11,6 +11,7 @@ typedef struct iso_explain_request {
 typedef struct iso_explanation {
     const char *backend, *method; /* method NULL: the closed solution */
     bool twin;
+    const char *integrability;
     size_t rows;
     const char *text; /* all, in words; it is freed with the rest */
 } iso_explanation;

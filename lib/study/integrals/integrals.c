@@ -12,6 +12,7 @@
 #include "base/names_impl.h"
 #include "base/options_impl.h"
 #include "map/section_impl.h"
+#include "model/effects_impl.h"
 #include "study/integrals/integrals_impl.h"
 #include "study/study_impl.h"
 
@@ -21,9 +22,9 @@ typedef struct search {
     iso_context *ctx;
     iso_integral_search_options options;
     iso_integral_search *out;
+    integral_space space;
     integral_samples samples;
     size_t done, all;              /* parts searched, of how many                        */
-    size_t found[2];               /* in V_(d-1), V_d: how many before, by parity of d   */
     double gradient[PROBES][2][2]; /* sums of grad f grad f^T over functions f, in the chart of the section */
     const iso_integral *known[ISO_INTEGRAL_KNOWN];
 } search;
@@ -44,12 +45,12 @@ static iso_status check_degrees(iso_context *ctx, iso_integral_search_options *o
 }
 
 /* Twice as many conditions as there are terms. */
-static iso_status choose_orbits(iso_context *ctx, iso_integral_search_options *o)
+static iso_status choose_orbits(iso_context *ctx, const integral_space *space, iso_integral_search_options *o)
 {
     size_t most = 0;
     for (int d = o->degree; d >= o->degree - 1; d--)
         for (unsigned parity = 0; parity < INTEGRAL_PARITIES; parity++) {
-            const size_t terms = iso_integral_terms(d, o->coefficients, parity, NULL);
+            const size_t terms = iso_integral_terms(space, d, parity, NULL);
             if (terms > most) most = terms;
         }
     const size_t least = 4 + 2 * most / (ISO_INTEGRAL_ROWS - 1);
@@ -62,7 +63,6 @@ static iso_status choose_orbits(iso_context *ctx, iso_integral_search_options *o
 static iso_status check_options(iso_context *ctx, iso_integral_search_options *o)
 {
     ISO_TRY(check_degrees(ctx, o));
-    ISO_TRY(choose_orbits(ctx, o));
     if (!(o->turns >= 1 && o->turns <= 1e5))
         return ISO_FAIL_ARGUMENT(ctx, "turns", "%s turns are not in [1, 1e5]", ISO_SHORT(o->turns));
     if (!(o->within > 0 && o->within < 1))
@@ -75,10 +75,12 @@ static iso_status check_options(iso_context *ctx, iso_integral_search_options *o
 static void list_known(search *s)
 {
     iso_integral_search *out = s->out;
-    for (const iso_integral *i = iso_system_point.integrals; i->name; i++) {
-        if (!i->holds || !i->holds(&s->samples.problem) || out->known_count == ISO_INTEGRAL_KNOWN) continue;
-        s->known[out->known_count] = i;
-        out->known[out->known_count++] = (iso_integral_known){i->name, i->doc, false, 0, INFINITY};
+    const iso_integral *list[ISO_MAX_INTEGRALS];
+    const int count = iso_integrals_holding(&iso_system_point, &s->samples.problem, list, ISO_MAX_INTEGRALS);
+    for (int i = 0; i < count && out->known_count < ISO_INTEGRAL_KNOWN; i++) {
+        if (!list[i]->holds) continue; /* the energy, and the constraints */
+        s->known[out->known_count] = list[i];
+        out->known[out->known_count++] = (iso_integral_known){list[i]->name, list[i]->doc, false, 0, INFINITY};
     }
 }
 
@@ -141,7 +143,8 @@ static void add_gradients(search *s, const integral_part *part)
         iso_section_deviations(iso_integral_motion(&s->samples), s->samples.axis, l, x, by[0], by[1]);
         for (size_t f = 0; f < part->found; f++) {
             for (int c = 0; c < 2; c++)
-                slope[c] = iso_integral_slope(&part->function[f], y, by[c]) * (c == 1 ? sqrt(1 - x * x) : 1);
+                slope[c] = iso_integral_slope(&part->function[f], &s->samples.problem, y, by[c]) *
+                           (c == 1 ? sqrt(1 - x * x) : 1);
             for (int a = 0; a < 2; a++)
                 for (int b = 0; b < 2; b++) s->gradient[i][a][b] += slope[a] * slope[b];
         }
@@ -199,8 +202,8 @@ static iso_status search_part(search *s, int degree, unsigned parity)
     integral_part part;
     if (!iso_context_goes_on(s->ctx))
         return iso_context_fail(s->ctx, ISO_STOPPED, "", "stopped in degree %d", degree);
-    iso_status status = iso_integral_search_part(s->ctx, &s->samples, degree, s->options.coefficients, parity,
-                                                 s->out->delta, s->options.within, &part);
+    iso_status status = iso_integral_search_part(s->ctx, &s->samples, &s->space, degree, parity, s->out->delta,
+                                                 s->options.within, &part);
     if (status == ISO_OK) {
         note_part(s, &part, &s->out->at[degree]);
         add_gradients(s, &part);
@@ -216,24 +219,37 @@ static iso_status search_degree(search *s, int degree)
     iso_integral_degree *at = &s->out->at[degree];
     *at = (iso_integral_degree){.degree = degree, .largest = NAN, .smallest = NAN};
     for (unsigned parity = 0; parity < INTEGRAL_PARITIES; parity++) ISO_TRY(search_part(s, degree, parity));
-    const size_t known = degree <= 2 ? (size_t)(degree == 2) : s->found[degree % 2]; /* V_2: the energy */
+    const int step = s->space.magnetic ? 1 : 2; /* V_d has V_(d - step); constants, so the energy, are in V_step */
+    const size_t known = degree <= step ? (size_t)(degree == step) : s->out->at[degree - step].found;
     at->further = at->found > known ? at->found - known : 0;
-    s->found[degree % 2] = at->found;
     s->out->degrees = degree;
     return ISO_OK;
 }
 
-/* Integrals of a neighbour are constant here within rounding: they change by the square of such a difference of
- * moments, and by 1/100 of such a difference of k. */
-static bool has_neighbour(const iso_params *p)
+/* A number of an effect is nearly 0. The effects are in units of the motion. */
+static bool has_weak_effect(const iso_effects *effects)
 {
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; effects->on[e] && n && n->name; n++)
+            for (int i = 0; i < n->count; i++) {
+                const double x = fabs(iso_effect_values(effects, e, n)[i]);
+                if (x > 0 && x < 1e-9) return true;
+            }
+    return false;
+}
+
+/* Integrals of a neighbour are constant here within rounding: they change by the square of such a difference of
+ * moments, by 1/100 of such a difference of k, and by about such a field. */
+static bool has_neighbour(const iso_problem *f)
+{
+    const iso_params *p = &f->p;
     const double k = fabs(fabs(p->k) - 1);
     if (k > 0 && k < 1e-9) return true;
     for (int i = 0; i < 3; i++) {
         const double one = p->J[i], other = p->J[(i + 1) % 3];
         if (one != other && fabs(one - other) < 1e-6 * fmax(one, other)) return true;
     }
-    return false;
+    return has_weak_effect(&f->effects);
 }
 
 /* Lower degrees than that of the first integral come close to one as well. */
@@ -253,7 +269,7 @@ static void judge(search *s)
     for (int d = 1; d <= out->degrees; d++) doubtful += out->at[d].doubtful;
     for (int i = 0; i < out->known_count; i++) known = known || out->known[i].degree > 0;
     out->independent = independent(s);
-    out->near = has_neighbour(&s->samples.problem.p) || comes_closer(out);
+    out->near = has_neighbour(&s->samples.problem) || comes_closer(out);
     out->verdict = ISO_INTEGRALS_NONE;
     if (out->independent > 0 && (known || !out->near))
         out->verdict = ISO_INTEGRALS_FOUND;
@@ -263,11 +279,12 @@ static void judge(search *s)
 
 static iso_status run(search *s, const iso_scene *scene)
 {
-    iso_params own;
-    iso_point_motion motion;
+    iso_problem of_scene;
     ISO_TRY(check_options(s->ctx, &s->options));
-    ISO_TRY(iso_level_motion(s->ctx, scene, "integrals are sought", &own, &motion));
-    ISO_TRY(iso_integral_prepare(s->ctx, motion, s->options.seed, s->options.orbits, &s->samples));
+    ISO_TRY(iso_level_problem(s->ctx, scene, "integrals are sought", &of_scene));
+    s->space = iso_integral_space_of(&of_scene, s->options.coefficients);
+    ISO_TRY(choose_orbits(s->ctx, &s->space, &s->options));
+    ISO_TRY(iso_integral_prepare(s->ctx, &of_scene, s->options.seed, s->options.orbits, &s->samples));
     const iso_problem *f = &s->samples.problem;
     s->out->level = f->energy == 0 ? 0 : iso_level_of(&f->p, f->energy / f->eps);
     s->out->coefficients = s->options.coefficients;

@@ -19,6 +19,14 @@
  * q^(-1/k) is M^2/2 - E, and the same functions are looked at. What is constant on one level need not be constant on
  * others.
  *
+ * With a rotor (on the point a magnetic field, model/effect_rotor.c) the field turns over with M: an integral for all K
+ * is a sum of ones that are homogeneous in M, sqrt(h) and K. At one K the numbers h and K count for nothing. v =
+ * q^(-1/(2k)) stands beside K in the integrals that are known. So
+ *
+ *     V_d:  sums of v^c M^a gamma^b,    |a| + c <= d,    c <= 1,    |b| <= E         (v^2 is M^2, up to numbers)
+ *
+ * which has V_(d-1) in it, and the constant 1 from V_1 on.
+ *
  * The search. Orbits start spread evenly over a global section (map/section.h), with one value of eps. Each is
  * sampled at many times. The functions are columns, the samples rows. Relations that hold on the surface (|gamma| =
  * 1, (M, gamma) = 0, the level) make columns dependent. Gram and Schmidt's way, the largest column first, keeps an
@@ -28,10 +36,12 @@
  * along orbits, if the root mean square of the function itself is 1.
  *
  * Reflections gamma_i -> -gamma_i split V_d into eight parts, by the parity of a_i + b_i for i = 1, 2, 3. Integrals
- * can be chosen in one part each; the parts are searched one by one.
+ * can be chosen in one part each; the parts are searched one by one. With a rotor that has K_i there are fewer parts:
+ * by gamma_i -> -gamma_i where K_i = 0, and by gamma -> -gamma.
  *
  * Errors. A unit function has coefficients c in columns of unit length; samples have the relative error delta (of
- * the integration and of rounding), so its value has an error of about delta sum |c|. A value below its error, where
+ * the integration and of rounding), so its value has an error of about delta sum |c|; added to delta is what columns
+ * of terms have beside V_d, up to 1e-13, because they were taken for dependent. A value below its error, where
  * the error is below `within`, is an integral. A value above `within` and above its error is none. Others are
  * doubtful: so small a variation can be that of an integral of a neighbouring problem.
  *
@@ -47,7 +57,6 @@
 #include "../../base/api.h"
 #include "../../base/field.h"
 #include "../../orbit/orbit.h"
-
 
 ISO_C_BEGIN
 
@@ -94,16 +103,16 @@ typedef enum iso_integral_verdict {
 /* One singular value. */
 typedef struct iso_integral_value {
     double value, error;
-    unsigned parity; /* bit i: a_i + b_i is odd */
+    unsigned parity; /* bit i: a_i + b_i is odd; with a rotor, of the first i with K_i: |b| is odd */
 } iso_integral_value;
 
 /* The space V_d. */
 typedef struct iso_integral_degree {
     int degree;
-    size_t terms;     /* h^j M^a gamma^b looked at; multiples of |gamma|^2 and of M3 gamma3 are others already */
+    size_t terms;     /* that are looked at; multiples of |gamma|^2 and of M3 gamma3 are others already */
     size_t functions; /* dimension of V_d on the surface                                                      */
     size_t found;     /* integrals, among them the energy and products of integrals                           */
-    size_t further;   /* of them those that are not the energy, nor in V_(d-2)                                */
+    size_t further;   /* of them those that are not the energy, nor in V_(d-2), with a rotor V_(d-1)           */
     size_t doubtful;
     double largest;  /* value of those found; NaN: none                                                       */
     double smallest; /* value of the others; NaN: none. smallest/largest is the gap                           */
@@ -122,9 +131,9 @@ typedef struct iso_integral_known {
 typedef struct iso_integral_search {
     iso_integral_verdict verdict;
     int independent; /* integrals that do not depend on each other, nor on the energy: 0, 1 or 2 */
-    /* A neighbour is integrable: two moments differ by less than 1e-6 of them, or |k| and 1 by less than 1e-9, or
-     * lower degrees than that of the first integral have others below 1e-3. What is found and not known can then be
-     * the neighbour's: `undecided`. */
+    /* A neighbour is integrable: two moments differ by less than 1e-6 of them, or |k| and 1 by less than 1e-9, or a
+     * component of K is below 1e-9 in units of the motion, or lower degrees than that of the first integral have others
+     * below 1e-3. What is found and not known can then be the neighbour's: `undecided`. */
     bool near;
     int coefficients;
     size_t orbits;
@@ -137,10 +146,11 @@ typedef struct iso_integral_search {
     iso_integral_known known[ISO_INTEGRAL_KNOWN];
 } iso_integral_search;
 
-/* Only k, J and the effects of the scene are read, and the level H of its start.
+/* Only k, J and the effects of the scene are read, and the level H of its start; with a rotor, its energy.
  * Errors: ISO_BAD_ARGUMENT about "degree", "coefficients", "orbits" (too few for the functions, or more than 10000),
  * "turns", "within", "tolerance", "threads"; ISO_BAD_INPUT about "k" where powers of q do not fit a double, about an
- * effect that acts, other than `level`, about "M" where the point can only rest on its level; those of iso_batch_run;
+ * effect that acts, other than `level` and `rotor`, about "M" where the point can only rest on its level; those of
+ * iso_batch_run;
  * ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: the degrees done are valid. */
 ISO_API iso_status iso_integral_search_run(iso_context *ctx, const iso_scene *scene,
                                            const iso_integral_search_options *options, iso_integral_search *result);

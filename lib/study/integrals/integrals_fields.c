@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "orbit/orbit_impl.h"
 #include "study/integrals/integrals_impl.h"
 #include "study/options_impl.h"
 
@@ -15,10 +16,16 @@ static void find_parity(const void *row, int i, iso_value *v)
     v->number = ((const iso_integral_value *)row)->parity >> i & 1;
 }
 
+static const char *theory_word(int kind)
+{
+    return iso_integrability_name((iso_integrability_kind)kind);
+}
+
 static const iso_field value_fields[] = {
     ISO_MEMBER(iso_integral_value, "value", value, "", "variation along orbits by size"),
     ISO_MEMBER(iso_integral_value, "error", error, "", "its error"),
-    ISO_FOUND("parity", ISO_FIELD_INT, find_parity, "", "under gamma_i -> -gamma_i: 1 is odd", .count = 3),
+    ISO_FOUND("parity", ISO_FIELD_INT, find_parity, "",
+              "under gamma_i -> -gamma_i, at the first K_i of a rotor gamma -> -gamma: 1 is odd", .count = 3),
     ISO_FIELD_END,
 };
 
@@ -81,10 +88,17 @@ static double smallest_of(const void *row)
     return iso_integral_smallest(row);
 }
 
+/* The energy is found in V_2, with a rotor in V_1. What is found in these and is not further, is the energy. */
+int iso_integral_energy_degree(const iso_integral_search *r)
+{
+    for (int d = 1; d <= 2 && d <= r->degrees; d++)
+        if (r->at[d].found > r->at[d].further) return d;
+    return 0;
+}
+
 static bool has_energy(const void *row)
 {
-    const iso_integral_search *r = row;
-    return r->degrees >= 2 && r->at[2].found > 0;
+    return iso_integral_energy_degree(row) > 0;
 }
 
 static double samples_of(const void *row)
@@ -128,6 +142,9 @@ static const iso_field found_fields[] = {
     ASKED("degree", degree, "", "the largest, in M"),
     ASKED("turns", turns, "", "of each orbit"),
     ASKED("within", within, "", "which varies more is no integral"),
+    ISO_MEMBER(iso_integrals_found, "theory", theory.kind, "", "integrable, no meromorphic integral, or open",
+               .word = theory_word),
+    ISO_MEMBER(iso_integrals_found, "theory_why", theory.why, "", "why"),
     ISO_STRUCT(iso_integrals_found, "", search, iso_integral_search_fields, "what was found"),
     ISO_FIELD_END,
 };
@@ -142,6 +159,8 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     found->how.data = result->data;
     const iso_status status = iso_integral_search_run(ctx, subject->scene, &found->how, &found->search);
     if (status != ISO_OK && status != ISO_STOPPED) return status;
+    const iso_effects acting = iso_scene_acting(subject->scene);
+    found->theory = iso_integrability_of(&subject->scene->params, &acting, found->search.level != 0);
     const iso_status made =
         iso_study_table(ctx, "integrals", subject->scene, found_fields, found, NULL, &result->table[0]);
     return status == ISO_OK ? made : status;

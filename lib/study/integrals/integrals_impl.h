@@ -2,15 +2,24 @@
 #ifndef ISO_STUDY_INTEGRALS_IMPL_H
 #define ISO_STUDY_INTEGRALS_IMPL_H
 
+#include "exact/integrability_impl.h"
 #include "map/section_impl.h"
 #include "study/integrals/integrals.h"
 
-enum { INTEGRAL_POWERS = ISO_INTEGRAL_DEGREE + 1, INTEGRAL_PARITIES = 8 };
+/* What functions are made of: M, gamma, and with a rotor v = q^(-1/(2k)). */
+enum { INTEGRAL_V = ISO_STATE, INTEGRAL_NUMBERS, INTEGRAL_POWERS = ISO_INTEGRAL_DEGREE + 1, INTEGRAL_PARITIES = 8 };
 
-/* M^a gamma^b */
+/* M^a gamma^b v^c */
 typedef struct integral_term {
-    unsigned char exponent[ISO_STATE];
+    unsigned char exponent[INTEGRAL_NUMBERS];
 } integral_term;
+
+/* The spaces V_d, but for d. */
+typedef struct integral_space {
+    int coefficients; /* E                                                                                        */
+    bool mirror[3];   /* whether gamma_i -> -gamma_i, with time backwards, carries motions to motions             */
+    bool magnetic;    /* not all of them do: V_d has M of all degrees to d, and v                                 */
+} integral_space;
 
 /* The states at which functions are looked at: ISO_INTEGRAL_ROWS rows for each orbit. */
 typedef struct integral_samples {
@@ -18,7 +27,7 @@ typedef struct integral_samples {
     int axis;            /* of the section on which orbits start                       */
     iso_section_spread spread;
     size_t orbits, rows;
-    double (*state)[ISO_STATE]; /* M, gamma */
+    double (*state)[INTEGRAL_NUMBERS];
 } integral_samples;
 
 /* A function: a sum of terms. */
@@ -36,8 +45,11 @@ typedef struct integral_part {
     double *basis;
 } integral_part;
 
-/* Everything but the states. */
-iso_status iso_integral_prepare(iso_context *ctx, iso_point_motion motion, uint64_t seed, size_t orbits,
+/* The space of a problem. */
+integral_space iso_integral_space_of(const iso_problem *f, int coefficients);
+
+/* Everything but the states, of a problem in any units. */
+iso_status iso_integral_prepare(iso_context *ctx, const iso_problem *scene, uint64_t seed, size_t orbits,
                                 integral_samples *s);
 iso_point_motion iso_integral_motion(const integral_samples *s);
 
@@ -46,16 +58,20 @@ iso_point_motion iso_integral_motion(const integral_samples *s);
 iso_status iso_integral_follow(iso_context *ctx, const iso_integral_search_options *options, integral_samples *s,
                                double *energy);
 
-/* The terms of V_d of one parity. term: room for them, or NULL: they are only counted. */
-size_t iso_integral_terms(int degree, int coefficients, unsigned parity, integral_term term[]);
+/* The terms of V_d of one parity: bit i is that of a_i + b_i for a mirror i; with a rotor, that of the first i which is
+ * no mirror is the parity of |b|. term: room for them, or NULL: they are only counted. */
+size_t iso_integral_terms(const integral_space *space, int degree, unsigned parity, integral_term term[]);
 
-/* The derivative of a function along a deviation of the state. */
-double iso_integral_slope(const integral_function *f, const double state[ISO_STATE],
+/* The derivative of a function along a deviation of (M, gamma), at a state of the problem. */
+double iso_integral_slope(const integral_function *f, const iso_problem *problem, const double state[ISO_STATE],
                           const double deviation[ISO_STATE]);
 
+/* v of a state (M, gamma). */
+double iso_integral_v(const iso_problem *f, const double state[ISO_STATE]);
+
 /* The singular values of one parity of V_d on the samples, see integrals.h. Errors: ISO_NO_MEMORY, ISO_NUMERICAL. */
-iso_status iso_integral_search_part(iso_context *ctx, const integral_samples *samples, int degree, int coefficients,
-                                    unsigned parity, double delta, double within, integral_part *part);
+iso_status iso_integral_search_part(iso_context *ctx, const integral_samples *samples, const integral_space *space,
+                                    int degree, unsigned parity, double delta, double within, integral_part *part);
 void iso_integral_free_part(integral_part *part);
 
 /* A value is that of an integral: below its error, which is small enough. */
@@ -71,7 +87,11 @@ const char *iso_integral_verdict_name(iso_integral_verdict verdict);
 typedef struct iso_integrals_found {
     iso_integral_search_options how;
     iso_integral_search search;
+    iso_integrability theory;
 } iso_integrals_found;
+
+/* The degree in which the energy was found; 0: in none. */
+int iso_integral_energy_degree(const iso_integral_search *found);
 
 /* The smallest value that is no integral's, over all degrees; NaN: there is none. */
 double iso_integral_smallest(const iso_integral_search *found);

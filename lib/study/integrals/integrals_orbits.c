@@ -6,6 +6,7 @@
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
+#include "model/effects_impl.h"
 #include "model/model_impl.h"
 #include "orbit/batch.h"
 #include "study/integrals/integrals_impl.h"
@@ -18,17 +19,31 @@ static iso_status choose_unit(iso_context *ctx, const iso_params *p, iso_params 
     return iso_params_reduced(ctx, p->k, (double[]){p->J[0] / *unit, p->J[1] / *unit, p->J[2] / *unit}, own);
 }
 
-/* A time unit with which |M| <= 1, so that no power of it overflows: M^2/2 = H + eps q^(-1/k) has its largest value
- * at the smallest or at the largest q. On H = 0 then eps = 1/2, whatever the scene's is. */
-static iso_status choose_level(iso_context *ctx, iso_point_motion m, double unit, iso_problem *f)
+/* The scene's effects in the unit of J and this unit of omega. */
+static void carry_effects(const iso_problem *scene, double J, double omega, iso_problem *f)
 {
-    const double eps = m.energy == 0 ? 1 : m.eps * pow(unit, -1 / m.p->k), k = m.p->k;
-    const double least = m.energy + eps * pow(min3(f->p.J), -1 / k),
-                 most = m.energy + eps * pow(max3(f->p.J), -1 / k);
-    const double size = 2 * fmax(least, most);
+    f->effects = scene->effects;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; f->effects.on[e] && n && n->name; n++) {
+            const iso_dimension d = n->dimension;
+            const double unit = pow(J, d.J + d.J_2k / (2 * f->p.k)) * pow(omega, d.w);
+            double *x = iso_effect_values(&f->effects, e, n);
+            for (int i = 0; i < n->count; i++) x[i] /= unit;
+        }
+}
+
+/* A time unit with which |M| <= 1, so that no power of it overflows: M^2/2 = H + eps q^(-1/k) has its largest value
+ * at the smallest or at the largest q. On H = 0 then eps = 1/2: a free ball's does not matter, and can be 0. */
+static iso_status choose_level(iso_context *ctx, const iso_problem *scene, double unit, iso_problem *f)
+{
+    const double k = f->p.k, *J = f->p.J, H = scene->energy;
+    const bool free = H == 0 && iso_effects_are_free(&scene->effects);
+    const double eps = free ? 1 : scene->eps * pow(unit, -1 / k);
+    const double size = 2 * fmax(H + eps * pow(min3(J), -1 / k), H + eps * pow(max3(J), -1 / k));
     if (!(size > 0 && isfinite(size))) return ISO_FAIL_INPUT(ctx, "M", "on this level the point can only be at rest");
     f->eps = eps / size;
-    f->energy = m.energy / size;
+    f->energy = H / size;
+    if (!free) carry_effects(scene, unit, sqrt(size) * pow(unit, 1 / (2 * k) - 2), f);
     return ISO_OK;
 }
 
@@ -37,13 +52,13 @@ iso_point_motion iso_integral_motion(const integral_samples *s)
     return (iso_point_motion){&s->problem.p, s->problem.eps, s->problem.energy};
 }
 
-iso_status iso_integral_prepare(iso_context *ctx, iso_point_motion motion, uint64_t seed, size_t orbits,
+iso_status iso_integral_prepare(iso_context *ctx, const iso_problem *scene, uint64_t seed, size_t orbits,
                                 integral_samples *s)
 {
     double unit;
     *s = (integral_samples){.orbits = orbits, .rows = orbits * ISO_INTEGRAL_ROWS};
-    ISO_TRY(choose_unit(ctx, motion.p, &s->problem.p, &unit));
-    ISO_TRY(choose_level(ctx, motion, unit, &s->problem));
+    ISO_TRY(choose_unit(ctx, &scene->p, &s->problem.p, &unit));
+    ISO_TRY(choose_level(ctx, scene, unit, &s->problem));
     s->axis = iso_section_axis(iso_integral_motion(s));
     iso_section_spread_prepare(&s->spread, iso_integral_motion(s), s->axis, seed);
     return ISO_OK;
@@ -111,6 +126,7 @@ static double keep_samples(integral_samples *s, const iso_sample sample[])
     for (size_t i = 0; i < s->rows; i++) {
         copy(sample[i].point, s->state[i], ISO_STATE);
         const double error = put_on_surface(&s->problem, s->state[i]);
+        s->state[i][INTEGRAL_V] = iso_integral_v(&s->problem, s->state[i]);
         sum += error * error;
     }
     return sqrt(sum / (double)s->rows);
@@ -136,7 +152,7 @@ static iso_status follow(iso_context *ctx, const iso_integral_search_options *op
         iso_section_spread_point(&s->spread, i, &l, &x);
         r->start[i] = (iso_start){.model = ISO_POINT, .eps = s->problem.energy == 0 ? NAN : s->problem.eps};
         iso_section_point(iso_integral_motion(s), s->axis, l, x, r->start[i].y);
-        r->orbit[i] = (iso_batch_orbit){&s->problem.p, &r->start[i], NULL};
+        r->orbit[i] = (iso_batch_orbit){&s->problem.p, &r->start[i], &s->problem.effects};
     }
     ISO_TRY(choose_times(ctx, options, s, times));
     return iso_batch_run(ctx, r->orbit, s->orbits, &o, times, ISO_INTEGRAL_ROWS, r->sample, NULL);

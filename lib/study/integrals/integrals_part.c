@@ -5,6 +5,8 @@
 #include <stdlib.h>
 
 #include "base/finite_impl.h"
+#include "base/vec3_impl.h"
+#include "model/effects_impl.h"
 #include "study/integrals/integrals_impl.h"
 
 /* A function that is smaller than this part of its terms is zero on the surface: what is left of it is rounding. */
@@ -12,14 +14,35 @@ static const double least = 1e-13;
 
 /* --- terms ------------------------------------------------------------------------------------------------------ */
 
+integral_space iso_integral_space_of(const iso_problem *f, int coefficients)
+{
+    integral_space space = {.coefficients = coefficients};
+    for (int i = 0; i < 3; i++) {
+        double sign[3] = {1, 1, 1};
+        sign[i] = -1;
+        space.mirror[i] = iso_effects_reversible(f, sign);
+        space.magnetic = space.magnetic || !space.mirror[i];
+    }
+    return space;
+}
+
+static unsigned parity_of(const integral_space *space, const unsigned char e[INTEGRAL_NUMBERS])
+{
+    unsigned parity = 0;
+    bool all = false;
+    for (unsigned i = 0; i < 3; i++) {
+        const unsigned one = (unsigned)e[i] + e[3 + i], of_gamma = (unsigned)e[3] + e[4] + e[5];
+        if (space->mirror[i] || !all) parity |= (space->mirror[i] ? one : of_gamma) % 2 << i;
+        all = all || !space->mirror[i];
+    }
+    return parity;
+}
+
 /* |gamma| = 1 makes gamma3^2 the sum of other terms, (M, gamma) = 0 makes M3 gamma3 one. */
-static bool is_wanted(const integral_term *t, unsigned parity)
+static bool is_wanted(const integral_space *space, const integral_term *t, unsigned parity)
 {
     const unsigned char *e = t->exponent;
-    if (e[5] > 1 || (e[2] > 0 && e[5] > 0)) return false;
-    for (unsigned i = 0; i < 3; i++)
-        if (((unsigned)e[i] + e[3 + i]) % 2 != (parity >> i & 1)) return false;
-    return true;
+    return e[5] <= 1 && !(e[2] > 0 && e[5] > 0) && parity_of(space, e) == parity;
 }
 
 /* The next exponents of three numbers with a sum of `most` or less. False: these were the last. */
@@ -32,46 +55,55 @@ static bool next_exponents(unsigned char e[3], int most)
     return false;
 }
 
-size_t iso_integral_terms(int degree, int coefficients, unsigned parity, integral_term term[])
+size_t iso_integral_terms(const integral_space *space, int degree, unsigned parity, integral_term term[])
 {
     integral_term t = {{0}};
     size_t count = 0;
     do {
-        const int of_M = t.exponent[0] + t.exponent[1] + t.exponent[2];
-        if ((degree - of_M) % 2 != 0) continue;
-        do {
-            if (!is_wanted(&t, parity)) continue;
-            if (term) term[count] = t;
-            count++;
-        } while (next_exponents(t.exponent + 3, coefficients));
+        const int left = degree - t.exponent[0] - t.exponent[1] - t.exponent[2];
+        if (!space->magnetic && left % 2 != 0) continue;
+        for (int v = 0; v <= (space->magnetic && left > 0); v++) {
+            t.exponent[INTEGRAL_V] = (unsigned char)v;
+            do {
+                if (!is_wanted(space, &t, parity)) continue;
+                if (term) term[count] = t;
+                count++;
+            } while (next_exponents(t.exponent + 3, space->coefficients));
+        }
     } while (next_exponents(t.exponent, degree));
     return count;
 }
 
 /* --- values ----------------------------------------------------------------------------------------------------- */
 
-static void take_powers(const double state[ISO_STATE], double power[ISO_STATE][INTEGRAL_POWERS])
+/* q^(-1/(2k)) */
+double iso_integral_v(const iso_problem *f, const double state[ISO_STATE])
 {
-    for (int i = 0; i < ISO_STATE; i++) {
+    return pow(dot_diag(state + 3, f->p.J, state + 3), -1 / (2 * f->p.k));
+}
+
+static void take_powers(const double state[INTEGRAL_NUMBERS], double power[INTEGRAL_NUMBERS][INTEGRAL_POWERS])
+{
+    for (int i = 0; i < INTEGRAL_NUMBERS; i++) {
         power[i][0] = 1;
         for (int p = 1; p < INTEGRAL_POWERS; p++) power[i][p] = power[i][p - 1] * state[i];
     }
 }
 
-static double value_of(const integral_term *t, double power[ISO_STATE][INTEGRAL_POWERS])
+static double value_of(const integral_term *t, double power[INTEGRAL_NUMBERS][INTEGRAL_POWERS])
 {
     double product = 1;
-    for (int i = 0; i < ISO_STATE; i++) product *= power[i][t->exponent[i]];
+    for (int i = 0; i < INTEGRAL_NUMBERS; i++) product *= power[i][t->exponent[i]];
     return product;
 }
 
-double iso_integral_slope(const integral_function *f, const double state[ISO_STATE],
-                          const double deviation[ISO_STATE])
+static double slope_of(const integral_function *f, const double state[INTEGRAL_NUMBERS],
+                       const double deviation[INTEGRAL_NUMBERS])
 {
-    double power[ISO_STATE][INTEGRAL_POWERS], sum = 0;
+    double power[INTEGRAL_NUMBERS][INTEGRAL_POWERS], sum = 0;
     take_powers(state, power);
     for (size_t i = 0; i < f->terms; i++)
-        for (int j = 0; j < ISO_STATE; j++) {
+        for (int j = 0; j < INTEGRAL_NUMBERS; j++) {
             integral_term t = f->term[i];
             const int exponent = t.exponent[j];
             if (exponent == 0) continue;
@@ -81,12 +113,26 @@ double iso_integral_slope(const integral_function *f, const double state[ISO_STA
     return sum;
 }
 
+double iso_integral_slope(const integral_function *f, const iso_problem *problem, const double state[ISO_STATE],
+                          const double deviation[ISO_STATE])
+{
+    const double *J = problem->p.J, *gamma = state + 3;
+    double y[INTEGRAL_NUMBERS], dy[INTEGRAL_NUMBERS];
+    copy(state, y, ISO_STATE);
+    copy(deviation, dy, ISO_STATE);
+    y[INTEGRAL_V] = iso_integral_v(problem, state);
+    dy[INTEGRAL_V] = -y[INTEGRAL_V] / problem->p.k * dot_diag(gamma, J, dy + 3) / dot_diag(gamma, J, gamma);
+    return slope_of(f, y, dy);
+}
+
 /* --- linear algebra --------------------------------------------------------------------------------------------- */
 
-/* The room of one part. Column order[i] of A is the sum of Q's columns 0 to i with the factors R[order[i]]. */
+/* The room of one part. Column order[i] of A is the sum of Q's columns 0 to i with the factors R[order[i]]. What Q has
+ * not of another column is taken for rounding, but can also be a function that is small on the surface. */
 typedef struct algebra {
     const integral_samples *samples;
     size_t terms, functions; /* columns of A; those that are independent: of Q                          */
+    double dropped;          /* the largest part of another column that Q has not                        */
     integral_term *term;
     double *length; /* of the columns of A, before they were made unit vectors                 */
     double *column; /* what is left of those of A without their parts along Q; the first become Q */
@@ -156,7 +202,7 @@ static bool fill(algebra *a)
 {
     const size_t rows = a->samples->rows;
     for (size_t row = 0; row < rows; row++) {
-        double power[ISO_STATE][INTEGRAL_POWERS];
+        double power[INTEGRAL_NUMBERS][INTEGRAL_POWERS];
         take_powers(a->samples->state[row], power);
         for (size_t j = 0; j < a->terms; j++) a->column[j * rows + row] = value_of(&a->term[j], power);
     }
@@ -194,6 +240,7 @@ static bool take_next(algebra *a, double left[])
     for (size_t i = 0; i < n; i++) project(a, i, n);
     double *q = column_of(a, n);
     const double size = sqrt(product(q, q, rows));
+    left[chosen] = size;
     if (!(size > least)) return false;
     for (size_t row = 0; row < rows; row++) q[row] /= size;
     a->R[chosen * a->terms + n] = size;
@@ -215,6 +262,7 @@ static bool make_basis(algebra *a)
             left[a->order[j]] = sqrt(product(column_of(a, j), column_of(a, j), rows));
         }
     }
+    for (size_t j = a->functions; j < a->terms; j++) a->dropped = fmax(a->dropped, left[a->order[j]]);
     free(left);
     return true;
 }
@@ -280,7 +328,7 @@ static bool keep(algebra *a, unsigned parity, double delta, double within, integ
         const size_t column = n - 1 - i;
         iso_integral_value *v = &part->value[i];
         *v = (iso_integral_value){.value = gsl_vector_get(a->S, column), .parity = parity};
-        v->error = delta * coefficients_of(a, column, a->work);
+        v->error = (delta + a->dropped) * coefficients_of(a, column, a->work);
         if (!integral_is_found(v, within)) continue;
         double *basis = realloc(part->basis, (part->found + 1) * rows * sizeof *basis);
         if (!basis) return false;
@@ -291,9 +339,8 @@ static bool keep(algebra *a, unsigned parity, double delta, double within, integ
     return true;
 }
 
-static iso_status solve(iso_context *ctx, algebra *a, int degree, int coefficients, unsigned parity)
+static iso_status solve(iso_context *ctx, algebra *a)
 {
-    iso_integral_terms(degree, coefficients, parity, a->term);
     if (!fill(a)) return ISO_FAIL_NUMERICAL(ctx, "powers of M do not fit a double for this k and J");
     if (!make_basis(a) || (a->functions > 0 && !begin_basis(a)))
         return iso_context_no_memory(ctx, "%zu functions", a->functions);
@@ -303,15 +350,18 @@ static iso_status solve(iso_context *ctx, algebra *a, int degree, int coefficien
     return ISO_OK;
 }
 
-iso_status iso_integral_search_part(iso_context *ctx, const integral_samples *samples, int degree, int coefficients,
-                                    unsigned parity, double delta, double within, integral_part *part)
+iso_status iso_integral_search_part(iso_context *ctx, const integral_samples *samples, const integral_space *space,
+                                    int degree, unsigned parity, double delta, double within, integral_part *part)
 {
     algebra a = {0};
-    *part = (integral_part){.terms = iso_integral_terms(degree, coefficients, parity, NULL)};
+    *part = (integral_part){.terms = iso_integral_terms(space, degree, parity, NULL)};
     if (part->terms == 0) return ISO_OK;
     iso_status status = ISO_OK;
-    if (!begin(&a, samples, part->terms)) status = iso_context_no_memory(ctx, "%zu terms", part->terms);
-    if (status == ISO_OK) status = solve(ctx, &a, degree, coefficients, parity);
+    if (begin(&a, samples, part->terms))
+        iso_integral_terms(space, degree, parity, a.term);
+    else
+        status = iso_context_no_memory(ctx, "%zu terms", part->terms);
+    if (status == ISO_OK) status = solve(ctx, &a);
     if (status == ISO_OK && a.functions > 0 && !keep(&a, parity, delta, within, part))
         status = iso_context_no_memory(ctx, "%zu functions", a.functions);
     end(&a);
