@@ -9,6 +9,9 @@
 
 static const int64_t most = 1000000000000000;
 
+/* Of a text that iso_number_read takes: more than it has digits. */
+static const long largest_exponent = 1000;
+
 static bool reduce(int64_t top, int64_t below, iso_rational *r)
 {
     int64_t a = top < 0 ? -top : top, b = below < 0 ? -below : below;
@@ -46,8 +49,9 @@ static bool read_decimal(const char *text, size_t length, iso_rational *r)
         top = 10 * top + (text[i] - '0');
         power -= point;
     }
-    if (i < length) power += strtol(text + i + 1, NULL, 10);
-    for (; power < 0 && top % 10 == 0 && top != 0; power++) top /= 10;
+    const long exponent = i < length ? strtol(text + i + 1, NULL, 10) : 0;
+    if (top == 0 || exponent > largest_exponent || exponent < -largest_exponent) return false;
+    for (power += exponent; power < 0 && top % 10 == 0; power++) top /= 10;
     if (!scale(&top, power > 0 ? power : 0) || !scale(&below, power < 0 ? -power : 0)) return false;
     return reduce(minus ? -top : top, below, r);
 }

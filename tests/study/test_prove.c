@@ -48,8 +48,18 @@ static void test_numbers(void)
         int64_t top, below;
     } good[] = {{"1.4", 7, 5},      {"-2.10", -21, 10}, {"1/3", 1, 3},
                 {"-3e-2", -3, 100}, {"0.5/1.5", 1, 3},  {"25e1", 250, 1}};
-    static const char *const bad[] = {"",  "0", "1/0", "1/", "/3", "1/2/3", "nan", "1e-20", "0.12345678901234567",
-                                      "1 "};
+    static const char *const bad[] = {"",
+                                      "0",
+                                      "1/0",
+                                      "1/",
+                                      "/3",
+                                      "1/2/3",
+                                      "nan",
+                                      "1e-20",
+                                      "0.12345678901234567",
+                                      "1 ",
+                                      "0e99999999999999999999",
+                                      "1.5e-99999999999999999999"};
     iso_rational r, of;
     for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
         const bool read = iso_rational_read(good[i].text, strlen(good[i].text), &r);
