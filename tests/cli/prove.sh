@@ -50,6 +50,8 @@ m=$(awk '/^ *0.333/ { print $4 }' out)
 check "the splitting measures this m" within "$low" "$high" "$m"
 run 0 prove half.yaml --digits 10 --k 1/3 --json
 check "--k has the same" test "$(number exact)" = 1/3
+run 0 prove half.yaml --digits 4 --k 0.999999999999999 --json
+check "k of 15 digits is whole" test "$(number exact)" = 999999999999999/1000000000000000
 
 # --- an interval
 run 0 prove half.yaml --digits 8 --k 0.5:0.50000000001

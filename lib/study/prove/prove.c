@@ -1,5 +1,6 @@
 /* prove.c - the study `prove`: which balls are enclosed, and how an interval of k is cut into pieces (prove_impl.h). */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -75,6 +76,15 @@ static iso_status take_ball(iso_context *ctx, const iso_scene *scene, const iso_
 
 /* --- one k, or one piece ---------------------------------------------------------------------------------------- */
 
+static void print_exact(iso_proof *p)
+{
+    const iso_rational *k = p->ball.k;
+    char text[2][ISO_RATIONAL_SIZE];
+    const bool one = iso_rational_same(&k[0], &k[1]);
+    for (int i = 0; i < 2; i++) iso_rational_print(text[i], &k[i]);
+    snprintf(p->exact, sizeof p->exact, "%s%s%s", text[0], one ? "" : ":", one ? "" : text[1]);
+}
+
 /* With the digits that are asked for, or with more and more until 0 is not in it. What is known stays known if more
  * digits fail. *proof is empty before, and with digits = 0 still after. */
 static iso_status find(iso_context *ctx, const iso_proof_ball *ball, const iso_prove_request *r, int tries,
@@ -88,6 +98,7 @@ static iso_status find(iso_context *ctx, const iso_proof_ball *ball, const iso_p
         status = iso_proof_find(ctx, ball, digits, &next, r->certificate ? &next_text : NULL);
         if (status != ISO_OK) continue;
         *proof = next;
+        print_exact(proof);
         free(*text);
         *text = next_text;
     }

@@ -1,6 +1,4 @@
 /* prove_fields.c - what a proof holds: its numbers with their meaning (prove_impl.h). */
-#include <stdio.h>
-
 #include "study/prove/prove_impl.h"
 
 static double low_k(const void *row)
@@ -11,17 +9,6 @@ static double low_k(const void *row)
 static double high_k(const void *row)
 {
     return iso_rational_double(&((const iso_proof *)row)->ball.k[1]);
-}
-
-static void text_k(const void *row, int i, iso_value *value)
-{
-    const iso_proof *p = row;
-    char text[2][ISO_RATIONAL_SIZE];
-    (void)i;
-    const bool one = iso_rational_same(&p->ball.k[0], &p->ball.k[1]);
-    for (int j = 0; j < 2; j++) iso_rational_print(text[j], &p->ball.k[j]);
-    snprintf(value->room, sizeof value->room, "%.30s%s%.30s", text[0], one ? "" : ":", one ? "" : text[1]);
-    value->text = value->room;
 }
 
 static const iso_field enclosure_fields[] = {
@@ -37,7 +24,7 @@ static const iso_field enclosure_fields[] = {
 const iso_field iso_proof_fields[] = {
     ISO_NUMBER("k", low_k, "", "geometry number, rounded; of an interval the lower end"),
     ISO_NUMBER("k_to", high_k, "", "the upper end; k if it is no interval"),
-    ISO_FOUND("exact", ISO_FIELD_TEXT, text_k, "", "k as a fraction, or A:B", .how = ISO_IN_TREE),
+    FIELD("exact", exact, "k as a fraction, or A:B", .how = ISO_IN_TREE),
     FIELD("statement", statement, "what follows", .how = ISO_IN_TREE),
     ENCLOSED("m", m, "the slope dx/dl of the unstable manifold where it meets l = pi/2; the stable one has -m"),
     FIELD("sign", sign, "of m: 1 or -1, proved; 0: undecided"),

@@ -27,13 +27,14 @@ typedef struct iso_proof_ball {
 /* What is known of one k, or of an interval of k. */
 typedef struct iso_proof {
     iso_proof_ball ball;
-    int middle, axis, section;       /* axes, as in iso_separatrix_splitting: m and x belong to n_axis = 0, and */
-    iso_enclosure m, x, section_m;   /* section_m to n_section = 0                                              */
-    iso_enclosure multiplier;        /* > 1, of a whole return, of the rotation                                 */
-    int sign;                        /* of all numbers in m; 0: undecided                                       */
-    int digits;                      /* that were asked for                                                     */
-    long halves, steps;              /* half returns that were enclosed, and steps of Taylor series             */
-    char statement[ISO_PROOF_WORDS]; /* what follows                                                            */
+    char exact[2 * ISO_RATIONAL_SIZE]; /* k as a fraction, or A:B                                                 */
+    int middle, axis, section;         /* axes, as in iso_separatrix_splitting: m and x belong to n_axis = 0, and */
+    iso_enclosure m, x, section_m;     /* section_m to n_section = 0                                              */
+    iso_enclosure multiplier;          /* > 1, of a whole return, of the rotation                                 */
+    int sign;                          /* of all numbers in m; 0: undecided                                       */
+    int digits;                        /* that were asked for                                                     */
+    long halves, steps;                /* half returns that were enclosed, and steps of Taylor series             */
+    char statement[ISO_PROOF_WORDS];   /* what follows                                                            */
 } iso_proof;
 
 /* Encloses m of all these k. text: NULL, or gets the certificate, to be freed by free().
