@@ -157,6 +157,12 @@ extern const iso_effect *const iso_effect_list[ISO_EFFECTS];
 /* Where an effect's number stands: number->count doubles, as const as `effects` is. */
 double *iso_effect_values(const iso_effects *effects, iso_effect_id id, const iso_effect_number *number);
 
+/* Whether the effect has an expression, or its row a number that is not hidden, of this name. */
+bool iso_effect_is_key(const iso_effect *effect, const char *name);
+
+/* Why `name` cannot be the name of a parameter of the effect; NULL: it can. */
+const char *iso_effect_bad_parameter(const iso_effect *effect, const char *name);
+
 /* The energy level of the point that an effect states, c of U = -c (n,J^-1 n)^(-1/k), and whether there is one. */
 bool iso_effects_have_level(const iso_effects *effects);
 double iso_effects_level(const iso_effects *effects);

@@ -18,7 +18,6 @@ double *iso_effect_values(const iso_effects *effects, iso_effect_id id, const is
     return (double *)effects->number[id] + number->at;
 }
 
-/* Whether its place is within the numbers of an effect. */
 const char *iso_effect_name(int i)
 {
     return i < ISO_EFFECTS ? iso_effect_list[i]->name : NULL;
@@ -34,6 +33,7 @@ bool iso_effect_number_at(const iso_effects *effects, iso_effect_id effect, int 
     return true;
 }
 
+/* Whether its place is within the numbers of an effect. */
 static bool has_room(const iso_effect_number *n)
 {
     return n->at >= 0 && n->count > 0 && n->at + n->count <= ISO_EFFECT_NUMBERS;
@@ -55,10 +55,26 @@ static iso_status no_effect(iso_context *ctx, const char *effect)
                              iso_suggest_word(suggested, effect, iso_effect_name));
 }
 
+bool iso_effect_is_key(const iso_effect *effect, const char *name)
+{
+    bool is = false;
+    for (int i = 0; effect->expressions && effect->expressions[i]; i++)
+        is = is || strcmp(effect->expressions[i], name) == 0;
+    for (const iso_effect_number *n = effect->numbers; n && n->name; n++)
+        is = is || (!n->hidden && strcmp(n->name, name) == 0);
+    return is;
+}
+
+const char *iso_effect_bad_parameter(const iso_effect *effect, const char *name)
+{
+    const char *bad = iso_expression_bad_name(name);
+    return bad ? bad : iso_effect_is_key(effect, name) ? "this name has a meaning of its own" : NULL;
+}
+
 /* A parameter with a new name. */
 static iso_status add_parameter(iso_context *ctx, iso_effects *effects, iso_effect_id e, const char *name, double x)
 {
-    const char *bad = iso_expression_bad_name(name);
+    const char *bad = iso_effect_bad_parameter(iso_effect_list[e], name);
     char(*own)[ISO_PARAMETER_SIZE] = effects->written[iso_effect_list[e]->written].parameter;
     int i = 0;
     if (bad) return ISO_FAIL_ARGUMENT(ctx, name, "'%s' cannot be a parameter: %s", name, bad);

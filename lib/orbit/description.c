@@ -149,23 +149,6 @@ static const char *name_of_line(const iso_effect *effect, const char *key)
     return strncmp(key, effect->name, length) == 0 && key[length] == '.' ? key + length + 1 : NULL;
 }
 
-/* Whether the effect has an expression, or its row a number, of that name. */
-static bool is_expression(const iso_effect *effect, const char *name)
-{
-    bool is = false;
-    for (int i = 0; effect->expressions && effect->expressions[i]; i++)
-        is = is || strcmp(effect->expressions[i], name) == 0;
-    return is;
-}
-
-static bool is_line_of(const iso_effect *effect, const char *name)
-{
-    bool is = is_expression(effect, name);
-    for (const iso_effect_number *n = effect->numbers; n && n->name; n++)
-        is = is || (!n->hidden && strcmp(n->name, name) == 0);
-    return is;
-}
-
 /* Numbers of an effect that the line `effects` does not name, or columns of one that acts: the line is lost or
  * damaged. */
 static iso_status check_unnamed(iso_context *ctx, const iso_record *r, const iso_effect *effect)
@@ -173,7 +156,7 @@ static iso_status check_unnamed(iso_context *ctx, const iso_record *r, const iso
     const char *column = effect->observes || !effect->columns ? NULL : effect->columns->column[0];
     const char *key, *value, *name;
     for (size_t i = 0; iso_record_line(r, i, &key, &value); i++)
-        if ((name = name_of_line(effect, key)) && is_line_of(effect, name))
+        if ((name = name_of_line(effect, key)) && iso_effect_is_key(effect, name))
             return ISO_FAIL_INPUT(ctx, "effects", "there is a line '# %s', but no line '# effects' that names '%s'",
                                   key, effect->name);
     if (!column || iso_record_find(r, column) < 0) return ISO_OK;
@@ -208,7 +191,7 @@ static iso_status read_text(iso_context *ctx, const iso_record *r, iso_effect_id
         if (status != ISO_OK) return ISO_FAIL_INPUT(ctx, line, "%s", iso_context_message(ctx));
     }
     for (size_t i = 0; iso_record_line(r, i, &key, &value); i++) {
-        if (!(name = name_of_line(effect, key)) || is_line_of(effect, name)) continue;
+        if (!(name = name_of_line(effect, key)) || iso_effect_is_key(effect, name)) continue;
         if (!iso_record_get_numbers(ctx, r, key, 1, &x, &status)) return status;
         status = iso_effects_set(ctx, effects, effect->name, name, 1, &x);
         if (status != ISO_OK) return ISO_FAIL_INPUT(ctx, key, "%s", iso_context_message(ctx));
