@@ -59,7 +59,7 @@ static void print_pieces(const iso_proofs *f)
             p->sign ? "proved" : "undecided");
     }
     say_table_end();
-    if (f->undecided > 0)
+    if (!f->all)
         say("undecided: %.3g of the interval\n", f->undecided);
     else
         say("for all these k 0 is not in it: the manifolds cross; with the reversors a horseshoe; no further "

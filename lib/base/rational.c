@@ -101,20 +101,6 @@ char *iso_rational_print(char text[ISO_RATIONAL_SIZE], const iso_rational *r)
     return text;
 }
 
-/* By their whole parts, then by the reciprocals of what is left, as products do not fit. */
-int iso_rational_compare(const iso_rational *a, const iso_rational *b)
-{
-    iso_rational x = *a, y = *b;
-    for (int way = 1;; way = -way) {
-        int64_t whole[2] = {x.top / x.below, y.top / y.below};
-        whole[0] -= x.top % x.below < 0, whole[1] -= y.top % y.below < 0;
-        if (whole[0] != whole[1]) return whole[0] < whole[1] ? -way : way;
-        x.top -= whole[0] * x.below, y.top -= whole[1] * y.below;
-        if (x.top == 0 || y.top == 0) return way * ((x.top != 0) - (y.top != 0));
-        x = (iso_rational){x.below, x.top}, y = (iso_rational){y.below, y.top};
-    }
-}
-
 bool iso_rational_middle(const iso_rational *a, const iso_rational *b, iso_rational *middle)
 {
     iso_rational ratio;

@@ -29,9 +29,6 @@ static inline bool iso_rational_same(const iso_rational *a, const iso_rational *
     return a->top == b->top && a->below == b->below;
 }
 
-/* < 0, 0, > 0, as a is below, equal to, above b. */
-int iso_rational_compare(const iso_rational *a, const iso_rational *b);
-
 /* (a + b)/2. False: it does not fit. */
 bool iso_rational_middle(const iso_rational *a, const iso_rational *b, iso_rational *middle);
 

@@ -90,6 +90,10 @@ refuses 2 "a whole number from 1 to 400" prove half.yaml --digits 401
 refuses 2 "expected a number or an interval A:B" prove half.yaml --k 0
 refuses 2 "A < B" prove half.yaml --k 0.6:0.5
 refuses 2 "does not hold 0" prove half.yaml --k=-1:1
+refuses 2 "A < B also as doubles" prove half.yaml \
+    --k 999999999999998/999999999999999:999999999999999/1000000000000000
+sed 's/1.4, 2.1, 3.0/1, 1.00000000000001, 3/' half.yaml >equal.yaml
+refuses 4 "no part of this interval" prove equal.yaml --digits 1 --k 0.999999999999998:0.999999999999999
 sed 's/k: 0.5/k: 0.33333333333333333/' half.yaml >long.yaml
 refuses 3 "long.yaml:1:14: prove takes k exactly: write a number with at most 15 digits" prove long.yaml
 cat >body.yaml <<'END'

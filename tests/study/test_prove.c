@@ -70,10 +70,7 @@ static void test_numbers(void)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         gsl_test(iso_rational_read(bad[i], strlen(bad[i]), &r), "'%s' is refused", bad[i]);
     gsl_test(iso_rational_of(0.1234567890123456789, &r), "a double with 17 digits is no such number");
-    const iso_rational a = {1, 3}, b = {1, 2}, c = {-1, 3};
-    gsl_test(!(iso_rational_compare(&a, &b) < 0 && iso_rational_compare(&b, &a) > 0 &&
-               iso_rational_compare(&a, &a) == 0 && iso_rational_compare(&c, &a) < 0),
-             "order");
+    const iso_rational a = {1, 3}, b = {1, 2};
     gsl_test(!(iso_rational_middle(&a, &b, &r) && r.top == 5 && r.below == 12), "middle");
 }
 

@@ -41,8 +41,8 @@ static iso_status take(iso_context *ctx, const iso_scene *scene, const char *key
 static iso_status bad_k(iso_context *ctx, const char *text)
 {
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                            "--k '%s': expected a number or an interval A:B that does not hold 0, A < B, such as 1/3 "
-                            "or 0.5:0.500001",
+                            "--k '%s': expected a number or an interval A:B that does not hold 0, A < B also as "
+                            "doubles, such as 1/3 or 0.5:0.500001",
                             text);
 }
 
@@ -52,7 +52,7 @@ static iso_status read_k(iso_context *ctx, const char *text, iso_rational k[2])
     const char *colon = strchr(text, ':'), *second = colon ? colon + 1 : text;
     const size_t first = colon ? (size_t)(colon - text) : strlen(text);
     if (!iso_rational_read(text, first, &k[0]) || !iso_rational_read(second, strlen(second), &k[1]) ||
-        (k[0].top < 0) != (k[1].top < 0) || (colon && iso_rational_compare(&k[0], &k[1]) >= 0))
+        (k[0].top < 0) != (k[1].top < 0) || (colon && !(iso_rational_double(&k[0]) < iso_rational_double(&k[1]))))
         return bad_k(ctx, text);
     return ISO_OK;
 }
@@ -112,7 +112,7 @@ typedef struct work {
     const iso_prove_request *request;
     const iso_study_result *result;
     iso_proofs *found;
-    double from, length, done; /* of the interval */
+    double length, done; /* of the interval */
 } work;
 
 static iso_status add(work *w, const iso_proof *proof, char *text)
@@ -134,8 +134,6 @@ static double length_of(const iso_proof_ball *ball)
     return iso_rational_double(&ball->k[1]) - iso_rational_double(&ball->k[0]);
 }
 
-static iso_status divide(work *w, const iso_proof_ball *ball, int depth);
-
 /* Both halves. False: the middle has too many digits. */
 static bool halve(const iso_proof_ball *ball, iso_proof_ball half[2])
 {
@@ -148,6 +146,7 @@ static bool halve(const iso_proof_ball *ball, iso_proof_ball half[2])
 /* A piece that stays undecided, at the end of all halvings. */
 static iso_status give_up(work *w, const iso_proof_ball *ball, const iso_proof *proof, char *text)
 {
+    w->found->all = false;
     w->found->undecided += length_of(ball) / w->length;
     w->done += length_of(ball);
     return proof->digits > 0 ? add(w, proof, text) : ISO_OK;
@@ -179,9 +178,11 @@ static iso_status find_all(iso_context *ctx, const iso_proof_ball *ball, const i
 {
     iso_proof proof = {.digits = 0};
     char *text = NULL;
-    work w = {ctx, r, result, found, iso_rational_double(&ball->k[0]), length_of(ball), 0};
+    work w = {ctx, r, result, found, length_of(ball), 0};
     if (!iso_rational_same(&ball->k[0], &ball->k[1])) {
+        found->all = true;
         const iso_status status = divide(&w, ball, HALVINGS);
+        found->all = found->all && status == ISO_OK;
         found->undecided += fmax(0, 1 - w.done / w.length);
         return status;
     }
@@ -228,6 +229,8 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     iso_proofs *f = iso_study_keep(result, calloc(1, sizeof *f), iso_proofs_fields, free_proofs);
     if (!f) return iso_context_no_memory(ctx, "a proof");
     const iso_status status = find_all(ctx, &ball, options, result, f);
+    if (f->rows == 0 && status == ISO_OK)
+        return iso_context_fail(ctx, ISO_NUMERICAL, "", "no part of this interval of k could be enclosed");
     if (f->rows == 0) return status;
     const iso_status made = fill(ctx, subject->scene, result);
     return status == ISO_OK ? made : status;

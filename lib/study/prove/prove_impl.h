@@ -58,7 +58,8 @@ typedef struct iso_proofs {
     iso_proof *row;
     size_t certificates;
     char **certificate; /* of each row, if they are wanted */
-    double undecided;   /* the part of an interval of k that is undecided, [0, 1] */
+    bool all;           /* 0 is in no enclosure of an interval of k, and these leave nothing out; no double says so */
+    double undecided;   /* the part of an interval of k that is undecided, [0, 1], rounded */
 } iso_proofs;
 
 extern const iso_field iso_proof_fields[], iso_proofs_fields[];
