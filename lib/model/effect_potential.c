@@ -75,16 +75,15 @@ static double strength(const iso_problem *f, const double y[])
     return numbers_of(f)[ISO_WRITTEN_STRENGTH];
 }
 
-/* U at random directions: the largest size, and of how many it is finite. */
-static double largest_potential(const iso_formula *F, const iso_params *p, int *finite)
+/* The largest finite size of U at random directions. */
+static double largest_potential(const iso_formula *F, const iso_params *p)
 {
     iso_random *r = iso_random_create(1);
     double y[ISO_STATE] = {0}, most = 0;
-    *finite = 0;
     for (int i = 0; r && i < 64; i++) {
         iso_random_direction(r, y + 3);
         const double U = fabs(iso_formula_energy(F, p, y));
-        if (isfinite(U)) most = fmax(most, U), ++*finite;
+        if (isfinite(U)) most = fmax(most, U);
     }
     iso_random_free(r);
     return most;
@@ -97,7 +96,6 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
     double T[3] = {0}, dy[ISO_STATE];
     iso_expression e;
     iso_formula F, M;
-    int finite;
     ISO_TRY(iso_written_check(ctx, p, effects, ISO_POTENTIAL, 0, &e));
     if (e.node[e.root].degree == ISO_CONSTANT)
         return ISO_FAIL_INPUT(ctx, "U", "U does not depend on n, and changes nothing: take the effect out");
@@ -114,7 +112,7 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
         return ISO_FAIL_INPUT(ctx, "U", "%s is not a finite number where the ball starts, at n = (%s, %s, %s)",
                               isfinite(U) ? "the slope of U" : "U", ISO_SHORT(n[0]), ISO_SHORT(n[1]),
                               ISO_SHORT(n[2]));
-    effects->number[ISO_POTENTIAL][ISO_WRITTEN_STRENGTH] = fmax(fabs(U), largest_potential(&F, p, &finite));
+    effects->number[ISO_POTENTIAL][ISO_WRITTEN_STRENGTH] = fmax(fabs(U), largest_potential(&F, p));
     return ISO_OK;
 }
 

@@ -12,7 +12,7 @@
 #include "model/model_impl.h"
 #include "model/written_impl.h"
 
-enum { COMPONENTS = 3, SAMPLES = 200 };
+enum { COMPONENTS = 3, SAMPLES = 200, MEASURE = -1 };
 
 static const double *numbers_of(const iso_problem *f)
 {
@@ -46,13 +46,10 @@ static double strength(const iso_problem *f, const double y[])
 
 /* --- work ------------------------------------------------------------------------------------------------------- */
 
-/* In the order of iso_work; the last one, which is not written, is what a scene means that says nothing. */
+/* In the order of iso_work. A scene that says nothing means MEASURE. */
 static ISO_NAMES(work_name, int, "any", "none", "lost")
 
-    enum {
-        MEASURE = -1
-    };
-static const double to_be_measured = MEASURE;
+    static const double to_be_measured = MEASURE;
 
 static iso_work work(const iso_problem *f)
 {
@@ -60,7 +57,8 @@ static iso_work work(const iso_problem *f)
     return stated < 0 ? ISO_WORK_UNKNOWN : (iso_work)stated;
 }
 
-/* What is found at random states: the most that the torque gives and takes, over the sizes of its terms. */
+/* What is found at random states: the most power that the torque gives and takes, over |MQ| |omega|; its largest size at
+ * rest. */
 typedef struct found {
     double gives, takes, strength;
     double y[ISO_STATE]; /* where it gives or takes most */

@@ -70,7 +70,6 @@ static iso_quantity part_of(iso_writer *w, iso_vector v, int which, double facto
     return variable_q(dot_c(w->F, constants(w->F, 3, along), v));
 }
 
-/* The exponent of a power, where the text itself says which whole number it is, from 1 to 64; else 0. */
 int iso_writer_exponent(const iso_expression *e, const iso_expression_node *power)
 {
     const iso_expression_node *p = &e->node[power->b];

@@ -104,12 +104,11 @@ static void add_fixed(iso_writer *w, slopes *s, iso_quantity own, iso_constant l
     s->has_sum = true;
 }
 
-/* slope * (l + C n) of a polynomial */
+/* slope * (l + C n) of a polynomial, which has been written: the value of the whole needs it */
 static void add_form(iso_writer *w, slopes *s, int node)
 {
     const iso_quantity own = s->of[node];
     const iso_vector C_n = w->form[node].C_n;
-    iso_writer_value_of(w, node);
     if (w->form[node].has_C)
         add_to_sum(w, s,
                    own.kind == ISO_IS_ONE        ? C_n
