@@ -1,7 +1,8 @@
 /* effect_torque.c - a torque MQ(omega, n, e) on the ball as the scene writes it, in axes of the body.
  *
  * e is the vertical of gravity. Whether the torque does work the scene may say; if it does not, the power (MQ,omega)
- * is computed at random states. An expression that is 0 in all of them is 0: it is analytic.
+ * is computed at random states. A power that is 0 in all of them is 0: it is analytic. Nothing follows where the torque
+ * itself is 0: it may be below the range of doubles there.
  */
 #include <math.h>
 
@@ -61,6 +62,7 @@ static iso_work work(const iso_problem *f)
  * rest. */
 typedef struct found {
     double gives, takes, strength;
+    int acts, rests;     /* at how many states there is a torque; it is 0 */
     double y[ISO_STATE]; /* where it gives or takes most */
 } found;
 
@@ -85,7 +87,11 @@ static void measure(const iso_problem *f, const iso_formula *F, found *w)
         copy((const double[]){0, 0, 0}, T, 3);
         iso_formula_rates(F, &f->p, y, T, dy);
         const double size = norm(T) * norm(y), power = size > 0 ? dot(T, y) / size : 0;
-        if (!isfinite(power)) continue;
+        if (!isfinite(size)) continue;
+        if (size > 0)
+            w->acts++;
+        else
+            w->rests++;
         if (fabs(power) > fmax(w->gives, w->takes)) copy(y, w->y, ISO_STATE);
         w->gives = fmax(w->gives, power);
         w->takes = fmax(w->takes, -power);
@@ -101,7 +107,8 @@ static iso_status check_work(iso_context *ctx, const found *w, double *stated)
 {
     const double rounding = 1e-12;
     const bool gives = w->gives > rounding, takes = w->takes > rounding;
-    if (*stated == MEASURE) *stated = gives || takes ? ISO_WORK_UNKNOWN : ISO_WORK_NONE;
+    const bool known = w->acts > 0 && w->rests == 0;
+    if (*stated == MEASURE) *stated = gives || takes || !known ? ISO_WORK_UNKNOWN : ISO_WORK_NONE;
     if (*stated == ISO_WORK_UNKNOWN || (!gives && (!takes || *stated == ISO_WORK_LOST))) return ISO_OK;
     return ISO_FAIL_INPUT(ctx, "work",
                           "'work' is %s, but this torque %s energy, for example with omega = (%s, %s, %s) and n = "

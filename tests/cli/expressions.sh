@@ -86,6 +86,12 @@ run 0 run weight.yaml -o a.csv
 run 0 run torque.yaml -o b.csv
 at_most "the weight" "$(difference a.csv b.csv)" 1e-11
 check "its work is not said" grep -qx '# torque.work: any' b.csv
+scene 'torque: {M: ["exp(-1e12*(1 - n3)^2)*omega1", "0", "0"]}' >narrow.yaml
+run 0 explain narrow.yaml
+check "where it underflows, nothing is known of its work" grep -q 'work = any' out
+scene 'torque: {M: ["omega2*n3 - omega3*n2", "omega3*n1 - omega1*n3", "omega1*n2 - omega2*n1"]}' >gyro.yaml
+run 0 explain gyro.yaml
+check "a torque without work" grep -q 'work = none' out
 run 0 check --max 1e-11 b.csv
 scene 'torque: {M: ["-c*n3^2*omega1", "-c*n3^2*omega2", "-c*n3^2*omega3"], parameters: {c: 0.3}, work: lost}' >friction.yaml
 run 0 run friction.yaml -o c.csv
