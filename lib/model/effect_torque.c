@@ -1,8 +1,8 @@
 /* effect_torque.c - a torque MQ(omega, n, e) on the ball as the scene writes it, in axes of the body.
  *
  * e is the vertical of gravity. Whether the torque does work the scene may say; if it does not, the power (MQ,omega)
- * is computed at random states. A power that is 0 in all of them is 0: it is analytic. Nothing follows where the torque
- * itself is 0: it may be below the range of doubles there.
+ * is computed at random states. A power that is 0 in all of them is 0: it is analytic. Nothing follows where the
+ * torque itself is 0: it may be below the range of doubles there.
  */
 #include <math.h>
 
@@ -58,8 +58,8 @@ static iso_work work(const iso_problem *f)
     return stated < 0 ? ISO_WORK_UNKNOWN : (iso_work)stated;
 }
 
-/* What is found at random states: the most power that the torque gives and takes, over |MQ| |omega|; its largest size at
- * rest. */
+/* What is found at random states: the most power that the torque gives and takes, over |MQ| |omega|; its largest size
+ * at rest. */
 typedef struct found {
     double gives, takes, strength;
     int acts, rests;     /* at how many states there is a torque; it is 0 */
