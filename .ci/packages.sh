@@ -1,9 +1,14 @@
 #!/bin/sh
-# packages.sh [tests] - installs what .packages lists and is missing; without `tests` only what stands above "# tests".
+# packages.sh [tests | all] - installs what .packages lists and is missing: what stands above "# tests"; with `tests` what
+# stands above "# all"; or all of it.
 # Where it cannot install, it says what is needed and goes on if the tools are there.
 set -eu
 list=$(dirname "$0")/../.packages
-[ "${1-}" = tests ] && last='$' || last='/^# tests/'
+case ${1-} in
+all) last='$' ;;
+tests) last='/^# all/' ;;
+*) last='/^# tests/' ;;
+esac
 wanted=$(sed -n "1,${last}p" "$list" | sed 's/#.*//')
 
 missing=

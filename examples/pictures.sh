@@ -70,6 +70,13 @@ section=16_sections
 "$isoroll" section 20_rotor/scene.yaml --starts 60 --crossings 300 -o "$work/rotor.csv" --plot 20_rotor/picture.png \
     2>"$work/out"
 
+# one orbit in a potential that separates, and with another coefficient
+for c in 1:curve 1.05:sea; do
+    sed "s/{c: 1}/{c: ${c%:*}}/" 24_separable/scene.yaml >"$work/separable.yaml"
+    "$isoroll" section "$work/separable.yaml" --axis 3 --crossings 1500 -o "$work/separable.csv" \
+        --plot "24_separable/${c#*:}.png" 2>"$work/out"
+done
+
 # what is in its chaos: periodic orbits, and the curves of the unstable rotation
 "$isoroll" periodic $section/scene.yaml --period 4 -o "$work/orbits.csv" >"$work/out"
 "$isoroll" splitting $section/scene.yaml --k 1/2 --digits double -o "$work/curves.csv" >"$work/out"
@@ -85,6 +92,10 @@ for sweep in 18_chaotic_share 19_atlas 21_levels; do
     "$isoroll" sweep $sweep/sweep.yaml -o "$work/$sweep.csv"
     "$isoroll" plot "$work/$sweep.csv" -o $sweep/picture.svg
 done
+
+# six minutes of one core
+"$isoroll" sweep 20_rotor/many.yaml -o "$work/rotors.csv"
+"$isoroll" plot "$work/rotors.csv" --title "A rotor along axis 2" -o 20_rotor/many.svg
 
 # half an hour of one core
 "$isoroll" sweep 18_chaotic_share/many.yaml -o "$work/many.h5"

@@ -26,10 +26,12 @@ if(ISO_SUNDIALS)
     string(APPEND ISO_SUNDIALS_LIBS " -lsundials_core")
   endif()
 endif()
-find_package(GSL REQUIRED)
 find_package(Threads REQUIRED)
-find_package(PkgConfig REQUIRED)
-pkg_check_modules(isoroll_yaml REQUIRED IMPORTED_TARGET yaml-0.1)
+if(NOT EMSCRIPTEN) # apps/live has compiled its own
+  find_package(GSL REQUIRED)
+  find_package(PkgConfig REQUIRED)
+  pkg_check_modules(isoroll_yaml REQUIRED IMPORTED_TARGET yaml-0.1)
+endif()
 
 # HDF5 may be missing, or be the flavour that needs MPI: then there is none.
 option(ISO_HDF5 "Trajectories in HDF5 (.h5), where its serial library is installed" ON)

@@ -112,9 +112,9 @@ static void print_share(const iso_chaos_fraction *s)
     if (s->undecided > 0)
         say("  undecided ones count both ways: not chaotic at the low end, chaotic at the high end\n");
     if (s->checked > 0 && s->disagree == 0)
-        say("  ball and point both followed %zu of them, and never disagree\n", s->checked);
+        say("  ball and point both decided %zu of them, and never disagree\n", s->checked);
     else if (s->disagree > 0)
-        say("  ball and point both followed %zu of them, and disagree about %zu: undecided\n", s->checked,
+        say("  ball and point both decided %zu of them, and disagree about %zu: undecided\n", s->checked,
             s->disagree);
 }
 

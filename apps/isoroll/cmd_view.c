@@ -12,6 +12,7 @@ typedef struct options {
     file_options from;
     const char *output; /* NULL: not given */
     view_frames frames; /* folder NULL: not given */
+    bool live;
 } options;
 
 /* --- which kind of file ----------------------------------------------------------------------------------------- */
@@ -70,12 +71,36 @@ static iso_status blame_pipe(iso_context *ctx, const char *path, iso_status stat
     return iso_context_fail(ctx, status, "", "%s (a pipe is read as a scene: give a pipe of rows as -)", words);
 }
 
+/* What --live begins with where no scene is given: a ball on a sphere with twice its curvature, chaotic. */
+static const char own_scene[] = "reduced: {k: 0.5, J: [1, 2, 5]}\n"
+                                "initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}\n"
+                                "time: {end: 60, step: 0.05}\n";
+
+static bool has_own_scene(const options *o)
+{
+    return o->live && strcmp(o->from.file, "-") == 0;
+}
+
+/* The laboratory has a ball and its point alone. */
+static iso_status check_live(iso_context *ctx, const view_page *page)
+{
+    for (int i = 0; page->live && i < ISO_EFFECTS; i++)
+        if (page->effects.on[i] && i != ISO_ATTITUDE)
+            return ISO_FAIL_INPUT(ctx, iso_effect_at(i)->name,
+                                  "--live computes without effects, and the scene has '%s': take it out, or leave "
+                                  "out --live",
+                                  iso_effect_at(i)->name);
+    return ISO_OK;
+}
+
 static iso_status of_scene(iso_context *ctx, const options *o, view_page *page)
 {
     iso_scene scene = {.places = 0};
-    iso_status status = iso_scene_read(ctx, o->from.file, &scene);
+    iso_status status = has_own_scene(o) ? iso_scene_parse(ctx, page->title, own_scene, sizeof own_scene - 1, &scene)
+                                         : iso_scene_read(ctx, o->from.file, &scene);
     if (status == ISO_OK) status = iso_scene_check_times(ctx, &scene);
     if (status == ISO_OK) status = view_of_scene(ctx, &scene, page);
+    if (status == ISO_OK) status = check_live(ctx, page);
     return blame_pipe(ctx, o->from.file, iso_scene_blame(ctx, &scene, iso_text_name(o->from.file), status));
 }
 
@@ -100,12 +125,17 @@ static int run(iso_context *ctx, const void *options_given)
     if (!o->output && !o->frames.folder)
         return complain("view: -o FILE is missing: name the page, such as page.html; - is standard output"),
                EXIT_USAGE;
-    const bool standard = strcmp(o->from.file, "-") == 0;
-    iso_status status = view_check_build(ctx);
+    const bool standard = strcmp(o->from.file, "-") == 0 && !o->live;
+    iso_status status = view_check_build(ctx, o->live);
     if (status == ISO_OK && standard) status = make_seekable(ctx);
     if (status != ISO_OK) return finish(ctx, status);
-    const view_kind kind = kind_of(&o->from);
-    view_page page = {.title = standard ? "<stdin>" : short_name(o->from.file),
+    const view_kind kind = has_own_scene(o) ? SCENE : kind_of(&o->from);
+    if (o->live && kind != SCENE)
+        return complain("view: --live computes from a scene: '%s' is none", o->from.file), EXIT_USAGE;
+    view_page page = {.title = has_own_scene(o) ? "laboratory"
+                               : standard       ? "<stdin>"
+                                                : short_name(o->from.file),
+                      .live = o->live,
                       .kind = names[kind],
                       .eps = NAN,
                       .h = NAN,
@@ -124,6 +154,8 @@ static const options defaults = {.from = FILE_OPTIONS_UNSET, .frames = {.fps = 2
 static const option_row rows[] = {
     ROW_OF_FILE("output", "FILE", "a file", "the page; - is standard output", iso_set_text, options, output, 'o',
                 OPTION_WRITES),
+    ROW("live", NULL, NULL, "with the library inside: change k, J and the start in the page", iso_set_flag, options,
+        live),
     ROW("frames", "DIR", "a folder", "draw the motion as DIR/frame0001.png, ... (needs Chromium)", iso_set_text,
         options, frames.folder),
     ROW("fps", "N", "a positive number", "pictures in each second (default 25)", iso_set_positive, options,
@@ -135,7 +167,7 @@ static const option_row rows[] = {
 };
 
 const command command_view = {
-    COMMAND("view", "FILE", "make a page in which ball and point move side by side", from.file),
+    COMMAND("view", "[FILE]", "make a page in which ball and point move side by side", from.file),
     .takes = FILE_SCENE | FILE_ROWS,
     .description =
         "FILE is a scene, a trajectory, a section or periodic orbits (CSV or HDF5). The page is one file. It opens "
@@ -154,7 +186,11 @@ const command command_view = {
         "them is.\n\n"
         "If the rows of a trajectory are no orbit of the stated equations, there is a page, a message and exit "
         "status 1.\n\n"
+        "With --live the page has the library inside (WebAssembly): turn k and J, throw the ball, click the section "
+        "to start there, and the library computes anew in the page. It needs a scene without effects, or no FILE at "
+        "all: then it begins with a scene of its own.\n\n"
         "--frames draws pictures of 1280 x 720 pixels with Chromium, without a window; -o is then not needed.",
     .exits = "1: interrupted, or the rows of a trajectory are no orbit (the page is there)",
-    .example = "isoroll view scene.yaml -o page.html\nisoroll view section.csv -o section.html",
+    .example = "isoroll view scene.yaml -o page.html\nisoroll view section.csv -o section.html\n"
+               "isoroll view --live -o laboratory.html",
 };

@@ -53,17 +53,28 @@ json_t *json_columns(const iso_record *r)
     return o;
 }
 
+static void add_expressions(json_t *to, const iso_effects *effects, iso_effect_id id)
+{
+    const iso_effect *e = iso_effect_list[id];
+    for (int i = 0; e->expressions && e->expressions[i]; i++)
+        json_object_set_new(to, e->expressions[i], text_of(effects->written[e->written].expression[i]));
+}
+
 json_t *json_effects(const iso_effects *effects, bool all)
 {
     json_t *o = json_object();
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
         if (!effects->on[e]) continue;
         json_t *numbers = json_object();
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
+        add_expressions(numbers, effects, e);
+        iso_effect_number n;
+        for (int j = 0; iso_effect_number_at(effects, e, j, &n); j++) {
             json_t *list = json_array();
-            const double *x = iso_effect_values(effects, e, n);
-            for (int i = 0; i < n->count; i++) json_array_append_new(list, json_number(x[i]));
-            if (all || !n->scene_only) json_object_set(numbers, n->name, list);
+            const double *x = iso_effect_values(effects, e, &n);
+            const bool word = n.kind == ISO_NUMBER_WORD;
+            for (int i = 0; i < n.count; i++)
+                json_array_append_new(list, word ? text_of(n.word((int)x[i])) : json_number(x[i]));
+            if (all || !n.scene_only) json_object_set(numbers, n.name, list);
             json_decref(list);
         }
         json_object_set_new(o, iso_effect_list[e]->name, numbers);

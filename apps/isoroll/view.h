@@ -85,6 +85,7 @@ typedef struct view_page {
     view_integral integral[2 * ISO_MAX_INTEGRALS];
     int integrals;
     view_section *section; /* NULL: none */
+    bool live;             /* the library is in the page                                             */
     bool no_orbit;         /* rows of a trajectory do not follow the equations: a note says so */
 } view_page;
 
@@ -187,7 +188,7 @@ extern const view_file view_files[];
 const view_file *view_file_find(const char *name);
 
 /* Whether this build has what a page needs. Errors: ISO_BAD_ARGUMENT: it was built without three.js. */
-iso_status view_check_build(iso_context *ctx);
+iso_status view_check_build(iso_context *ctx, bool live);
 
 /* Errors: ISO_FILE_TROUBLE, ISO_CLOSED_PIPE, ISO_NO_MEMORY. */
 iso_status view_write(iso_context *ctx, const char *path, const view_page *page);

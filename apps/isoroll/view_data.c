@@ -141,6 +141,7 @@ static const iso_field note_fields[] = {{.name = "", .type = ISO_FIELD_TEXT}, IS
 static const iso_field page_fields[] = {
     FIELD("title", title, "", "the name of the file"),
     FIELD("kind", kind, "", "scene, trajectory or section"),
+    FIELD("live", live, "", "whether the library is in the page"),
     FIELD("k", params.k, "", "geometry number"),
     FIELD("J", params.J, "moment of inertia", "about the contact"),
     FIELD("radius", params.body.radius, "length", "of the ball"),

@@ -1,6 +1,7 @@
 /* view_write.c - writes the page: page.html with its style, three.js, the data and our code in their places.
  *
- * page.html has lines "@name@". Each is replaced by a file of view/ or by the data. In the data the characters <, >
+ * page.html has lines "@name@". Each is replaced by a file of view/, which may have such lines itself, or by the data.
+ * What only --live needs is left out without it: those of is_of_live(). In the data the characters <, >
  * and & are escaped, so no text of a file can end the script that holds it, or begin another.
  */
 #include <string.h>
@@ -9,8 +10,13 @@
 #include "json.h"
 #include "view.h"
 
-iso_status view_check_build(iso_context *ctx)
+iso_status view_check_build(iso_context *ctx, bool live)
 {
+    if (live && !view_file_find("library")->name)
+        return iso_context_fail(
+            ctx, ISO_BAD_ARGUMENT, "",
+            "this isoroll was built without the library as WebAssembly, which --live needs: install "
+            "emscripten and node-acorn, get sources with apps/live/sources.sh, and build again");
     if (view_file_find("three")->length > 0) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                             "this isoroll was built without three.js, which a page needs: install it (package "
@@ -38,11 +44,19 @@ static bool is_marker(const char *at, size_t length, char name[16])
     return true;
 }
 
-/* False: there is no memory for it. Errors of writing are found at the end, by iso_output_check. */
-static bool put_page(FILE *to, const json_t *data)
+static bool is_of_live(const char *name)
 {
-    const view_file *page = view_file_find("page");
-    const char *at = (const char *)page->bytes, *end = at + page->length;
+    static const char *const names[] = {"policy", "live", "panel", "lab"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(name, names[i]) == 0) return true;
+    return false;
+}
+
+/* Writes a file of view/ with what its lines "@name@" stand for. False: there is no memory for it. Errors of writing
+ * are found at the end, by iso_output_check. */
+static bool put_file(FILE *to, const view_file *file, const json_t *data, bool live)
+{
+    const char *at = (const char *)file->bytes, *end = at + file->length;
     char name[16];
     while (at < end) {
         const char *stop = memchr(at, '\n', (size_t)(end - at));
@@ -52,9 +66,8 @@ static bool put_page(FILE *to, const json_t *data)
         } else if (strcmp(name, "data") == 0) {
             if (json_dump_callback(data, put_escaped, to, JSON_COMPACT | JSON_REAL_PRECISION(17)) != 0 && !ferror(to))
                 return false;
-        } else {
-            const view_file *file = view_file_find(name);
-            fwrite(file->bytes, 1, file->length, to);
+        } else if ((live || !is_of_live(name)) && !put_file(to, view_file_find(name), data, live)) {
+            return false;
         }
         fputc('\n', to);
         at += length + 1;
@@ -69,8 +82,9 @@ iso_status view_write(iso_context *ctx, const char *path, const view_page *page)
     json_t *data = view_data(page);
     iso_status status = json_whole(data) ? iso_output_open(ctx, path, &out) : iso_context_no_memory(ctx, "the page");
     if (status == ISO_OK) {
-        status = put_page(iso_output_stream(out), data) ? iso_output_check(ctx, out)
-                                                        : iso_context_no_memory(ctx, "the page");
+        status = put_file(iso_output_stream(out), view_file_find("page"), data, page->live)
+                     ? iso_output_check(ctx, out)
+                     : iso_context_no_memory(ctx, "the page");
         const iso_status closed = iso_output_close(ctx, out, status == ISO_OK);
         if (status == ISO_OK) status = closed;
     }

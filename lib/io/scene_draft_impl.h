@@ -32,6 +32,22 @@ bool iso_draft_initial_key(int i, const char **name, iso_models *model);
  * are no more. */
 bool iso_scene_key(int i, const char **section, const char **key);
 
+/* Notes where a key stands, for what is found wrong only later, when an orbit is made. */
+void iso_scene_note_place(iso_scene *s, const char *key, yaml_mark_t at);
+
+/* Reads a number that may be written as a fraction; `what` names it in messages. If the double does not tell what is
+ * written (base/rational_impl.h), the place is noted under the key's name with ISO_ROUNDED_KEY before it. */
+iso_status iso_draft_ratio(iso_draft *d, const yaml_node_t *value, const char *what, const char *key, double *x);
+iso_status iso_draft_ratios(iso_draft *d, const yaml_node_t *value, const char *key, double x[3]); /* a list of 3 */
+
+/* Of an effect that the scene writes: its i-th key of text, the first one required; NULL past the last. And what
+ * reads the value of it: an expression, a list of them, the parameters. */
+const char *iso_draft_text_key(iso_effect_id id, int i);
+iso_status iso_draft_text(iso_draft *d, iso_effect_id id, int i, const yaml_node_t *value);
+
+/* Whether its expressions are some, and their constants finite, when the whole scene is known. effects: the section. */
+iso_status iso_draft_check_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *effects);
+
 /* Reads every key under d->root into the draft: types, ranges, unknown, duplicate and missing keys.
  * What must hold between sections is left to the caller. Errors: ISO_BAD_INPUT. */
 iso_status iso_draft_read_keys(iso_draft *d);

@@ -170,8 +170,11 @@ static iso_status make_effects(iso_draft *d, iso_model_kind model)
 {
     const yaml_node_t *effects;
     if (!find_key(d, "effects", NULL, NULL, &effects)) return ISO_OK;
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        if (d->scene.effects.on[e] && iso_effect_list[e]->complete) ISO_TRY(complete_effect(d, model, effects, e));
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        if (!d->scene.effects.on[e]) continue;
+        if (iso_effect_list[e]->complete) ISO_TRY(complete_effect(d, model, effects, e));
+        if (iso_effect_list[e]->expressions) ISO_TRY(iso_draft_check_expressions(d, e, effects));
+    }
     return ISO_OK;
 }
 

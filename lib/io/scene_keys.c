@@ -5,13 +5,13 @@
 #include <string.h>
 
 #include "base/nearest_impl.h"
-#include "base/rational_impl.h"
+#include "base/number_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
 
-enum { MAX_KEYS = 32, EFFECT_KEYS = ISO_EFFECT_NUMBERS + 2 };
+enum { MAX_KEYS = 32, EFFECT_KEYS = ISO_EFFECT_NUMBERS + ISO_EXPRESSIONS + 3 };
 _Static_assert((int)MAX_KEYS >= 2 * (int)ISO_EFFECTS && (int)MAX_KEYS >= (int)EFFECT_KEYS, "room for all names");
 
 /* One key that a mapping may have: what reads its value, and where in the draft the value goes. */
@@ -25,7 +25,8 @@ typedef struct entry {
     unsigned words;                  /* ... and which of them (1 << value)  */
     iso_models model;                /* of `initial`: whose start this is   */
     iso_effect_id effect;            /* read_effect, read_effect_number: which effect ... */
-    const iso_effect_number *number; /* ... and which number of it */
+    const iso_effect_number *number; /* ... and which number of it ... */
+    int which;                       /* read_text: which key of its text */
 } entry;
 
 /* ---- Values ---- */
@@ -45,47 +46,14 @@ static iso_status read_vector(iso_draft *d, const entry *e, const yaml_node_t *v
     return iso_yaml_numbers(&d->yaml, value, e->name, 3, target(d, e));
 }
 
-/* For what is found wrong only later, when an orbit is made. */
-static void note_place(iso_scene *s, const char *key, yaml_mark_t at)
-{
-    if (s->places == ISO_MAX_PLACES) return;
-    iso_place *place = &s->place[s->places++];
-    snprintf(place->key, sizeof place->key, "%s", key);
-    place->line = (int)at.line + 1;
-    place->column = (int)at.column + 1;
-}
-
-/* A number that may be written as a fraction, and is to be known as it is written (base/rational_impl.h). If the double
- * does not tell this, a place is noted. */
-static iso_status take_ratio(iso_draft *d, const entry *e, const yaml_node_t *item, const char *what, double *x)
-{
-    iso_rational written, taken;
-    char key[ISO_NAME_SIZE];
-    ISO_TRY(iso_yaml_ratio(&d->yaml, item, what, x));
-    const bool same = iso_rational_read((const char *)item->data.scalar.value, item->data.scalar.length, &written) &&
-                      iso_rational_of(*x, &taken) && iso_rational_same(&written, &taken);
-    snprintf(key, sizeof key, ISO_ROUNDED_KEY "%s", e->name);
-    if (!same) note_place(&d->scene, key, item->start_mark);
-    return ISO_OK;
-}
-
 static iso_status read_ratio(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    return take_ratio(d, e, value, e->name, target(d, e));
+    return iso_draft_ratio(d, value, e->name, e->name, target(d, e));
 }
 
 static iso_status read_ratios(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    double *x = target(d, e);
-    const yaml_node_item_t *items = value->data.sequence.items.start;
-    if (value->type != YAML_SEQUENCE_NODE || value->data.sequence.items.top - items != 3)
-        return read_vector(d, e, value);
-    for (int i = 0; i < 3; i++) {
-        char what[ISO_NAME_SIZE];
-        snprintf(what, sizeof what, "%s[%d]", e->name, i + 1);
-        ISO_TRY(take_ratio(d, e, iso_yaml_node(&d->yaml, items[i]), what, &x[i]));
-    }
-    return ISO_OK;
+    return iso_draft_ratios(d, value, e->name, target(d, e));
 }
 
 static iso_status read_flag(iso_draft *d, const entry *e, const yaml_node_t *value)
@@ -174,13 +142,28 @@ static iso_status read_effect_flag(iso_draft *d, const entry *e, const yaml_node
     return status;
 }
 
-/* A number of an effect: true or false, one number, a matrix or a list. */
+static iso_status read_effect_word(iso_draft *d, const entry *e, const yaml_node_t *value, double *number)
+{
+    int word = 0;
+    const iso_status status = iso_yaml_word(&d->yaml, value, e->name, e->number->word, ~0u, &word);
+    *number = word;
+    return status;
+}
+
+/* A number of an effect: true or false, a word, one number, a matrix or a list. */
 static iso_status read_effect_number(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     double *x = iso_effect_values(&d->scene.effects, e->effect, e->number);
+    if (e->number->kind == ISO_NUMBER_WORD) return read_effect_word(d, e, value, x);
     if (e->number->kind == ISO_NUMBER_FLAG) return read_effect_flag(d, e, value, x);
     if (e->number->count == 1) return iso_yaml_number(&d->yaml, value, e->name, x);
     return iso_yaml_numbers(&d->yaml, value, e->name, e->number->count, x);
+}
+
+/* Of an effect that the scene writes. */
+static iso_status read_text(iso_draft *d, const entry *e, const yaml_node_t *value)
+{
+    return iso_draft_text(d, e->effect, e->which, value);
 }
 
 /* ---- Sections ---- */
@@ -196,7 +179,7 @@ static iso_status read_pair(iso_draft *d, const entry *entries, const yaml_node_
     for (; entries[count].name && count < MAX_KEYS; count++) names[count] = entries[count].name;
     ISO_TRY(iso_yaml_key(&d->yaml, mapping, key, what, count, names, &i));
     const entry *e = &entries[i];
-    note_place(&d->scene, e->name, value->start_mark);
+    iso_scene_note_place(&d->scene, e->name, value->start_mark);
     d->key = key;
     return e->read(d, e, value);
 }
@@ -279,22 +262,25 @@ static const entry time_keys[] = {
     {0},
 };
 
-/* The keys of an effect: its numbers, and D where it is needed. */
+/* The keys of an effect: its text, its numbers, and D where it is needed. */
 static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     const iso_effect *effect = iso_effect_list[e->effect];
     entry keys[EFFECT_KEYS] = {{0}};
     const entry with_keys = {e->name, .section = keys};
     int count = 0;
+    for (const char *name; (name = iso_draft_text_key(e->effect, count)); count++)
+        keys[count] = (entry){name, read_text, .required = count == 0, .effect = e->effect, .which = count};
     if (strcmp(e->name, effect->name) != 0 && !iso_yaml_find(&d->yaml, d->root, "point", NULL, NULL))
         return ISO_FAIL_AT(d, d->key, "'%s' is for a point: a ball has '%s'", e->name, effect->name);
     if (d->scene.effects.on[e->effect])
         return ISO_FAIL_AT(d, d->key, "'%s' and '%s' are the same effect: give one of them", effect->name,
                            effect->point_name);
-    if (strcmp(e->name, effect->name) != 0) note_place(&d->scene, effect->name, value->start_mark);
-    for (const iso_effect_number *n = effect->numbers; n && n->name && count < ISO_EFFECT_NUMBERS; n++)
-        keys[count++] =
-            (entry){n->name, read_effect_number, .required = n->required, .effect = e->effect, .number = n};
+    if (strcmp(e->name, effect->name) != 0) iso_scene_note_place(&d->scene, effect->name, value->start_mark);
+    for (const iso_effect_number *n = effect->numbers; n && n->name && count < EFFECT_KEYS - 2; n++)
+        if (!n->hidden)
+            keys[count++] =
+                (entry){n->name, read_effect_number, .required = n->required, .effect = e->effect, .number = n};
     if (effect->needs_D) keys[count] = (entry){"D", read_D, AT(D)};
     d->scene.effects.on[e->effect] = true;
     return read_section(d, &with_keys, value);
@@ -426,12 +412,14 @@ static void list_section(listing *l, const entry *section, const yaml_node_t *ma
 /* `name`: its own, or that for a point. */
 static void list_effect(listing *l, iso_effect_id id, const char *name, const yaml_node_t *effects)
 {
-    const iso_effect *effect = iso_effect_list[id];
-    const yaml_node_t *mapping;
+    const yaml_node_t *mapping, *parameters = NULL;
+    iso_effect_number n;
     if (!name || !iso_yaml_find(&l->d->yaml, effects, name, NULL, &mapping)) return;
-    for (const iso_effect_number *n = effect->numbers; n && n->name; n++)
-        if (n->kind != ISO_NUMBER_FLAG)
-            list_one(l, name, n->name, n->count, iso_effect_values(&l->d->scene.effects, id, n), mapping);
+    if (iso_effect_list[id]->expressions) iso_yaml_find(&l->d->yaml, mapping, "parameters", NULL, &parameters);
+    for (int i = 0; iso_effect_number_at(&l->d->scene.effects, id, i, &n); i++)
+        if (n.kind != ISO_NUMBER_FLAG && n.kind != ISO_NUMBER_WORD)
+            list_one(l, name, n.name, n.count, iso_effect_values(&l->d->scene.effects, id, &n),
+                     parameters ? parameters : mapping);
 }
 
 int iso_draft_numbers(iso_draft *d, int most, iso_draft_number list[])

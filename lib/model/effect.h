@@ -12,6 +12,8 @@
  *     twist               -c (omega,n) n, contact not rigid     lambda, stiff   lost
  *     rolling_resistance  -c_r omega                            none            lost
  *     rotor               K x omega                             none            kept, a magnetic field
+ *     potential           k n x dU/dn, U as the scene writes it none            kept, V + U/G
+ *     torque              as the scene writes it                none            lost
  *     attitude            none                                  Q (4), x (3)    kept
  *     reactions           none                                  none            kept
  *     clock               none                                  none            kept
@@ -38,14 +40,17 @@ typedef struct iso_effect_number {
         ISO_NUMBER_NOT_NEGATIVE, /* a resistance >= 0                                                               */
         ISO_NUMBER_NOT_ZERO,     /* 0 would change nothing                                                          */
         ISO_NUMBER_UNIT,         /* a unit vector, to 1e-6                                                          */
-        ISO_NUMBER_FLAG          /* 0 or 1; true or false in a scene                                                */
+        ISO_NUMBER_FLAG,         /* 0 or 1; true or false in a scene                                                */
+        ISO_NUMBER_WORD          /* which of `word`, from 0; the word itself in scenes and files                    */
     } kind;
     bool required;           /* a scene must have the key                                                           */
     bool scene_only;         /* not a line of trajectory files: the row's `complete` uses it, or only a run does    */
+    bool hidden;             /* the row finds it by itself: in no scene, no file and no list                        */
     const double *initially; /* count numbers, where a scene has no such key; NULL: zeros                           */
     /* The group of columns with these numbers at later times: a row of a file starts with them (`begin`); NULL: they
      * are fixed. */
     const char *turns_with;
+    const char *(*word)(int i); /* of ISO_NUMBER_WORD; NULL past the last */
 } iso_effect_number;
 
 /* Columns that an effect adds to a trajectory: one group is one number or vector, one dataset of HDF5 files. */
@@ -109,6 +114,13 @@ typedef struct iso_effect {
     bool (*reversible)(const iso_problem *f, const double sign[3]);
     const char *(*no_frequencies)(const iso_problem *f); /* why n(t) is not quasi-periodic; NULL: it may be */
 
+    /* --- what a scene writes of it: iso_effects.written --- */
+    /* The names of its expressions, ended by NULL; NULL: none. Then its first ISO_PARAMETERS numbers are parameters,
+     * which the scene names; those of `numbers` stand behind them. */
+    const char *const *expressions;
+    const char *expressions_key; /* the key of a scene that lists them all; NULL: each is a key    */
+    int written;                 /* where its text is in iso_effects.written                       */
+
     /* --- its numbers and columns --- */
     const iso_effect_number *numbers; /* ended by a row without a name; NULL: none                                  */
     const iso_effect_column *columns; /* likewise                                                                   */
@@ -162,6 +174,10 @@ typedef struct iso_effect {
 
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
 
+/* The i-th number of an effect: those of its row, but hidden ones, then the parameters that the scene names. False:
+ * past the last. n->name is good as long as effects are. */
+ISO_API bool iso_effect_number_at(const iso_effects *effects, iso_effect_id effect, int i, iso_effect_number *n);
+
 /* No effects; every number as it is where a scene does not state it. */
 ISO_API iso_effects iso_effects_default(void);
 
@@ -169,6 +185,13 @@ ISO_API iso_effects iso_effects_default(void);
  * Errors: ISO_BAD_ARGUMENT about the name: no such effect, no such number, not so many numbers. */
 ISO_API iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *effect, const char *name,
                                    int count, const double values[]);
+
+/* Switches an effect on that is written in the scene, and sets one of its expressions: "potential", "U", "c*n1^2".
+ * Parameters are numbers: iso_effects_set gives a new name a place. What is wrong with an expression is found when
+ * an orbit is made. Errors: ISO_BAD_ARGUMENT about the name: no such effect, no such expression; the text is longer
+ * than ISO_EXPRESSION_SIZE - 1. */
+ISO_API iso_status iso_effects_write(iso_context *ctx, iso_effects *effects, const char *effect, const char *name,
+                                     const char *text);
 
 /* --- what they do to the motion --------------------------------------------------------------------------------- */
 

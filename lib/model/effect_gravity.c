@@ -135,6 +135,7 @@ static bool idle(const iso_params *p, const double n[3], const iso_effects *e)
 static iso_status check(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *e)
 {
     (void)p, (void)n;
+    if (e->on[ISO_TORQUE]) return ISO_OK; /* which may read the vertical */
     if (e->number[ISO_GRAVITY][MGB] == 0)
         return ISO_FAIL_INPUT(ctx, "gravity", "gravity of 0 changes nothing: take it out");
     if (e->on[ISO_REACTIONS] || !e->idle[ISO_GRAVITY]) return ISO_OK;

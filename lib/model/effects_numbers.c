@@ -8,6 +8,7 @@
 #include "base/nearest_impl.h"
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
+#include "model/expression_impl.h"
 #include "model/model_impl.h"
 
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
@@ -21,6 +22,16 @@ double *iso_effect_values(const iso_effects *effects, iso_effect_id id, const is
 const char *iso_effect_name(int i)
 {
     return i < ISO_EFFECTS ? iso_effect_list[i]->name : NULL;
+}
+
+bool iso_effect_number_at(const iso_effects *effects, iso_effect_id effect, int i, iso_effect_number *n)
+{
+    const iso_effect *e = iso_effect_list[effect];
+    for (const iso_effect_number *own = e->numbers; own && own->name; own++)
+        if (!own->hidden && i-- == 0) return *n = *own, true;
+    if (!e->expressions || i >= ISO_PARAMETERS || !effects->written[e->written].parameter[i][0]) return false;
+    *n = (iso_effect_number){.name = effects->written[e->written].parameter[i], .at = i, .count = 1};
+    return true;
 }
 
 static bool has_room(const iso_effect_number *n)
@@ -37,32 +48,76 @@ iso_effects iso_effects_default(void)
     return effects;
 }
 
+static iso_status no_effect(iso_context *ctx, const char *effect)
+{
+    char suggested[ISO_SUGGEST_SIZE];
+    return ISO_FAIL_ARGUMENT(ctx, effect, "there is no effect '%s'; %s", effect,
+                             iso_suggest_word(suggested, effect, iso_effect_name));
+}
+
+/* A parameter with a new name. */
+static iso_status add_parameter(iso_context *ctx, iso_effects *effects, iso_effect_id e, const char *name, double x)
+{
+    const char *bad = iso_expression_bad_name(name);
+    char(*own)[ISO_PARAMETER_SIZE] = effects->written[iso_effect_list[e]->written].parameter;
+    int i = 0;
+    if (bad) return ISO_FAIL_ARGUMENT(ctx, name, "'%s' cannot be a parameter: %s", name, bad);
+    while (i < ISO_PARAMETERS && own[i][0]) i++;
+    if (i == ISO_PARAMETERS)
+        return ISO_FAIL_ARGUMENT(ctx, name, "'%s' has no room for more than %d parameters", iso_effect_list[e]->name,
+                                 ISO_PARAMETERS);
+    strcpy(own[i], name);
+    effects->number[e][i] = x;
+    return ISO_OK;
+}
+
 iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *effect, const char *name, int count,
                            const double values[])
 {
     const iso_effect_id e = iso_effect_find(effect);
     char suggested[ISO_SUGGEST_SIZE];
-    if (e == ISO_EFFECTS)
-        return ISO_FAIL_ARGUMENT(ctx, effect, "there is no effect '%s'; %s", effect,
-                                 iso_suggest_word(suggested, effect, iso_effect_name));
+    iso_effect_number n;
+    if (e == ISO_EFFECTS) return no_effect(ctx, effect);
     effects->on[e] = true;
     if (!name) return ISO_OK;
-    for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
-        if (strcmp(n->name, name) != 0) continue;
-        if (n->scene_only && n->kind != ISO_NUMBER_FLAG)
+    for (int i = 0; iso_effect_number_at(effects, e, i, &n); i++) {
+        if (strcmp(n.name, name) != 0) continue;
+        if (n.scene_only && n.kind != ISO_NUMBER_FLAG)
             return ISO_FAIL_ARGUMENT(
                 ctx, name, "'%s' of '%s' is for scenes alone: set the number that is computed from it", name, effect);
-        if (n->count != count || !has_room(n))
-            return ISO_FAIL_ARGUMENT(ctx, name, "'%s' of '%s' has %d numbers, not %d", name, effect, n->count, count);
-        copy(values, iso_effect_values(effects, e, n), count);
+        if (n.count != count || !has_room(&n))
+            return ISO_FAIL_ARGUMENT(ctx, name, "'%s' of '%s' has %d numbers, not %d", name, effect, n.count, count);
+        copy(values, iso_effect_values(effects, e, &n), count);
         return ISO_OK;
     }
+    if (iso_effect_list[e]->expressions && count == 1) return add_parameter(ctx, effects, e, name, values[0]);
     const char *names[ISO_EFFECT_NUMBERS];
     size_t known = 0;
-    for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name && known < ISO_EFFECT_NUMBERS; n++)
-        names[known++] = n->name;
+    for (int i = 0; known < ISO_EFFECT_NUMBERS && iso_effect_number_at(effects, e, i, &n); i++)
+        names[known++] = n.name;
     return ISO_FAIL_ARGUMENT(ctx, name, "the effect '%s' has no number '%s'%s%s", effect, name, known > 0 ? "; " : "",
                              known > 0 ? iso_suggest(suggested, name, known, names) : "");
+}
+
+iso_status iso_effects_write(iso_context *ctx, iso_effects *effects, const char *effect, const char *name,
+                             const char *text)
+{
+    const iso_effect_id e = iso_effect_find(effect);
+    if (e == ISO_EFFECTS) return no_effect(ctx, effect);
+    const char *const *names = iso_effect_list[e]->expressions;
+    int which = 0;
+    while (names && names[which] && strcmp(names[which], name) != 0) which++;
+    if (!names || !names[which])
+        return ISO_FAIL_ARGUMENT(ctx, name, "the effect '%s' has no expression '%s'", effect, name);
+    if (strlen(text) >= ISO_EXPRESSION_SIZE)
+        return ISO_FAIL_ARGUMENT(ctx, name, "%s has %zu characters: there is room for %d", name, strlen(text),
+                                 ISO_EXPRESSION_SIZE - 1);
+    effects->on[e] = true;
+    char *own = effects->written[iso_effect_list[e]->written].expression[which];
+    strcpy(own, text);
+    for (; *own; own++)
+        if (*own == '\n' || *own == '\t') *own = ' '; /* it is one line of a file */
+    return ISO_OK;
 }
 
 iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power)
@@ -261,8 +316,9 @@ iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double
         if (!effects->on[e]) continue;
         status = check_row(ctx, effect);
         if (status == ISO_OK && effect->fill) effect->fill(effects);
-        for (const iso_effect_number *n = effect->numbers; status == ISO_OK && n && n->name; n++)
-            status = check_number(ctx, effect->name, n, iso_effect_values(effects, e, n));
+        iso_effect_number n;
+        for (int i = 0; status == ISO_OK && iso_effect_number_at(effects, e, i, &n); i++)
+            status = check_number(ctx, effect->name, &n, iso_effect_values(effects, e, &n));
         if (status == ISO_OK && effect->check) status = effect->check(ctx, p, normal, effects);
         if (status == ISO_OK && effect->needs_D) status = check_D(ctx, p, effect->name);
         if (status == ISO_OK) status = check_equations(ctx, p, effects, e);

@@ -51,7 +51,13 @@ typedef enum iso_operation {
     ISO_C_MUL,
     ISO_C_DIV,
     ISO_C_ROOT,
-    /* scalars; TIMES: constant times scalar, PLUS: constant plus scalar, DOT_C: constant vector and vector */
+    ISO_C_POWER,
+    ISO_C_EXP,
+    ISO_C_LOG,
+    ISO_C_SIN,
+    ISO_C_COS,
+    /* scalars; TIMES: constant times scalar, PLUS: constant plus scalar, DOT_C: constant vector and vector; SIN and
+     * COS stand one after the other, and each needs the other one */
     ISO_S_ADD,
     ISO_S_SUB,
     ISO_S_MUL,
@@ -59,6 +65,10 @@ typedef enum iso_operation {
     ISO_S_TIMES,
     ISO_S_PLUS,
     ISO_S_POWER,
+    ISO_S_EXP,
+    ISO_S_LOG,
+    ISO_S_SIN,
+    ISO_S_COS,
     ISO_S_DOT,
     ISO_S_DOT_C,
     /* vectors; see formula_impl.h for each */
@@ -87,10 +97,10 @@ typedef struct iso_formula_line {
 } iso_formula_line;
 
 enum {
-    ISO_FORMULA_CONSTANTS = 64,
-    ISO_FORMULA_SCALARS = 20, /* with those that are given, see below */
-    ISO_FORMULA_VECTORS = 36,
-    ISO_FORMULA_LINES = 64,
+    ISO_FORMULA_CONSTANTS = 240,
+    ISO_FORMULA_SCALARS = 128, /* with those that are given, see below */
+    ISO_FORMULA_VECTORS = 64,
+    ISO_FORMULA_LINES = 240,
     ISO_FORMULA_STATES = 6
 };
 
@@ -121,8 +131,8 @@ typedef struct iso_formula {
     bool late;         /* some lines are late                                        */
     bool torques;      /* there is a torque                                          */
     bool magnetic;     /* there is a magnetic field on the point                     */
-    int constants, scalars, vectors, lines, states;   /* how many there are            */
-    uint64_t late_line, late_scalar, late_vector;     /* bit i: number i is late       */
+    int constants, scalars, vectors, lines, states; /* how many there are            */
+    bool late_line[ISO_FORMULA_LINES], late_scalar[ISO_FORMULA_SCALARS], late_vector[ISO_FORMULA_VECTORS];
     iso_formula_line constant[ISO_FORMULA_CONSTANTS]; /* how each is computed        */
     double value[ISO_FORMULA_CONSTANTS];              /* each in doubles             */
     iso_formula_line line[ISO_FORMULA_LINES];

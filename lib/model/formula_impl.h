@@ -83,6 +83,12 @@ static inline iso_constant div_c(iso_formula *F, iso_constant a, iso_constant b)
     return (iso_constant){iso_formula_constant(F, ISO_C_DIV, a.at, b.at)};
 }
 
+/* a^b for a > 0, exp a, log a, sin a, cos a: one of ISO_C_POWER to ISO_C_COS */
+static inline iso_constant function_c(iso_formula *F, iso_operation operation, iso_constant a, iso_constant b)
+{
+    return (iso_constant){iso_formula_constant(F, operation, a.at, b.at)};
+}
+
 /* --- what is given ---------------------------------------------------------------------------------------------- */
 
 static inline iso_vector formula_omega(iso_formula *F)
@@ -186,6 +192,24 @@ static inline iso_scalar plus_c(iso_formula *F, iso_constant c, iso_scalar a)
 static inline iso_scalar power_of(iso_formula *F, iso_scalar a, iso_constant p)
 {
     return (iso_scalar){iso_formula_scalar(F, ISO_S_POWER, a.at, p.at)};
+}
+
+static inline iso_scalar exp_of(iso_formula *F, iso_scalar a)
+{
+    return (iso_scalar){iso_formula_scalar(F, ISO_S_EXP, a.at, 0)};
+}
+
+static inline iso_scalar log_of(iso_formula *F, iso_scalar a)
+{
+    return (iso_scalar){iso_formula_scalar(F, ISO_S_LOG, a.at, 0)};
+}
+
+/* sin a, and cos a, which comes with it */
+static inline iso_scalar sin_of(iso_formula *F, iso_scalar a, iso_scalar *cosine)
+{
+    const int sine = iso_formula_sine(F, a.at);
+    cosine->at = F->overrun ? sine : sine + 1;
+    return (iso_scalar){sine};
 }
 
 static inline iso_scalar dot_of(iso_formula *F, iso_vector a, iso_vector b)

@@ -16,9 +16,13 @@ void iso_formula_finish(iso_formula *F, const iso_params *p);
 int iso_formula_value(iso_formula *F, double x);
 int iso_formula_constant(iso_formula *F, iso_operation operation, int a, int b);
 int iso_formula_scalar(iso_formula *F, iso_operation operation, int a, int b);
+int iso_formula_sine(iso_formula *F, int a); /* of the sine; the cosine is next */
 int iso_formula_vector(iso_formula *F, iso_operation operation, int a, int b);
 void iso_formula_result(iso_formula *F, iso_operation operation, int to, int a, int b);
 int iso_formula_state(iso_formula *F, bool is_vector, int at);
+
+/* Takes out the lines that no result needs; iso_formula_finish does it. */
+void iso_formula_shorten(iso_formula *F);
 
 /* Whether two formulas have the same lines: then they differ in the values of their constants alone. */
 bool iso_formula_alike(const iso_formula *F, const iso_formula *G);

@@ -4,6 +4,10 @@
 #define POW pow
 #define FMA fma
 #define ABS fabs
+#define EXP exp
+#define LOG log
+#define SIN sin
+#define COS cos
 #define LANES 1
 #define ROUND_POWERS_ONCE /* splittings add up a rounding error of each kick, without end */
 
@@ -61,7 +65,7 @@ static void get_rates(const values *v, const iso_formula *F, bool late, double d
 {
     for (int i = 0; i < F->lines; i++) {
         const iso_formula_line *l = &F->line[i];
-        if ((F->late_line >> i & 1) != late) continue;
+        if (F->late_line[i] != late) continue;
         if (l->operation != ISO_R_VECTOR_RATE && l->operation != ISO_R_SCALAR_RATE) continue;
         for (int s = 0; s < F->states; s++) {
             const bool is_vector = l->operation == ISO_R_VECTOR_RATE;
@@ -114,5 +118,6 @@ void iso_formula_finish(iso_formula *F, const iso_params *p)
         F->constants = F->lines = F->states = 0;
         F->late = F->torques = F->magnetic = false;
     }
+    iso_formula_shorten(F);
     find_constants(F, p, F->value);
 }

@@ -10,6 +10,10 @@
 #define POW pow
 #define FMA fma
 #define ABS fabs
+#define EXP exp
+#define LOG log
+#define SIN sin
+#define COS cos
 #define LANES 4
 
 enum { KEPT = 4 }; /* two more than the highest order, 1, and 0 */

@@ -128,7 +128,7 @@ static void mend_level(iso_conversion *c, const account *a)
     const double unit = iso_unit(&c->first->units, iso_level_dimension());
     const double stated = iso_effects_level(&c->effects), own = stated + (a->row - a->h) / a->slope * unit;
     const iso_effect *level = iso_effect_list[iso_effect_find(iso_level_name())];
-    iso_effect_line(key, level, level->numbers);
+    iso_effect_line(key, level, level->numbers->name);
     note(c, key, stated, own, fabs(a->h - a->row) / a->size);
     iso_effects_set_level(&c->effects, true, own);
     c->replaces = true;

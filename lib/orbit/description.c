@@ -12,9 +12,9 @@
 #include "model/effects_impl.h"
 #include "model/model_impl.h"
 
-void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const iso_effect_number *n)
+void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const char *name)
 {
-    snprintf(key, ISO_NAME_SIZE, "%s.%s", effect->name, n->name);
+    snprintf(key, ISO_NAME_SIZE, "%s.%s", effect->name, name);
 }
 
 int iso_effect_group(iso_effect_id id, const char *name, const iso_effect_column **group)
@@ -45,6 +45,18 @@ bool iso_columns_have_beginning(const int columns[ISO_TRAJECTORY_COLUMNS], const
     return has;
 }
 
+/* The text of an effect that the scene writes. */
+static iso_status describe_expressions(iso_context *ctx, iso_record *r, const iso_effects *effects, iso_effect_id id)
+{
+    const iso_effect *effect = iso_effect_list[id];
+    char key[ISO_NAME_SIZE];
+    for (int i = 0; effect->expressions && effect->expressions[i]; i++) {
+        iso_effect_line(key, effect, effect->expressions[i]);
+        ISO_TRY(iso_record_set(ctx, r, key, effects->written[effect->written].expression[i]));
+    }
+    return ISO_OK;
+}
+
 iso_status iso_record_describe_effects(iso_context *ctx, iso_record *r, const iso_effects *effects)
 {
     ISO_DEFAULT_ARITHMETIC;
@@ -54,10 +66,14 @@ iso_status iso_record_describe_effects(iso_context *ctx, iso_record *r, const is
         if (!effects->on[e] || iso_effect_list[e]->clocks) continue;
         const size_t used = strlen(names);
         snprintf(names + used, sizeof names - used, "%s%s", used ? " " : "", iso_effect_list[e]->name);
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; status == ISO_OK && n && n->name; n++) {
-            if (n->scene_only) continue;
-            iso_effect_line(key, iso_effect_list[e], n);
-            status = iso_record_set_numbers(ctx, r, key, (size_t)n->count, iso_effect_values(effects, e, n));
+        status = describe_expressions(ctx, r, effects, e);
+        iso_effect_number n;
+        for (int i = 0; status == ISO_OK && iso_effect_number_at(effects, e, i, &n); i++) {
+            const double *x = iso_effect_values(effects, e, &n);
+            if (n.scene_only) continue;
+            iso_effect_line(key, iso_effect_list[e], n.name);
+            status = n.kind == ISO_NUMBER_WORD ? iso_record_set(ctx, r, key, n.word((int)x[0]))
+                                               : iso_record_set_numbers(ctx, r, key, (size_t)n.count, x);
         }
     }
     return status == ISO_OK && *names ? iso_record_set(ctx, r, "effects", names) : status;
@@ -126,18 +142,40 @@ bool iso_record_coupling(iso_context *ctx, const iso_record *r, const iso_params
     return h == 0 || isnormal(*eps);
 }
 
+/* NAME of "effect.NAME"; NULL: the line is not the effect's. */
+static const char *name_of_line(const iso_effect *effect, const char *key)
+{
+    const size_t length = strlen(effect->name);
+    return strncmp(key, effect->name, length) == 0 && key[length] == '.' ? key + length + 1 : NULL;
+}
+
+/* Whether the effect has an expression, or its row a number, of that name. */
+static bool is_expression(const iso_effect *effect, const char *name)
+{
+    bool is = false;
+    for (int i = 0; effect->expressions && effect->expressions[i]; i++)
+        is = is || strcmp(effect->expressions[i], name) == 0;
+    return is;
+}
+
+static bool is_line_of(const iso_effect *effect, const char *name)
+{
+    bool is = is_expression(effect, name);
+    for (const iso_effect_number *n = effect->numbers; n && n->name; n++)
+        is = is || (!n->hidden && strcmp(n->name, name) == 0);
+    return is;
+}
+
 /* Numbers of an effect that the line `effects` does not name, or columns of one that acts: the line is lost or
  * damaged. */
 static iso_status check_unnamed(iso_context *ctx, const iso_record *r, const iso_effect *effect)
 {
-    char key[ISO_NAME_SIZE];
     const char *column = effect->observes || !effect->columns ? NULL : effect->columns->column[0];
-    for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
-        iso_effect_line(key, effect, n);
-        if (iso_record_get(r, key))
+    const char *key, *value, *name;
+    for (size_t i = 0; iso_record_line(r, i, &key, &value); i++)
+        if ((name = name_of_line(effect, key)) && is_line_of(effect, name))
             return ISO_FAIL_INPUT(ctx, "effects", "there is a line '# %s', but no line '# effects' that names '%s'",
                                   key, effect->name);
-    }
     if (!column || iso_record_find(r, column) < 0) return ISO_OK;
     return ISO_FAIL_INPUT(ctx, "effects", "there is a column '%s', but no line '# effects' that names '%s'", column,
                           effect->name);
@@ -150,18 +188,61 @@ static iso_status check_named(iso_context *ctx, const iso_record *r, const iso_e
     return ISO_OK;
 }
 
+static iso_status missing_line(iso_context *ctx, const iso_effect *effect, const char *key)
+{
+    return ISO_FAIL_INPUT(ctx, "effects", "effect '%s' needs a line '# %s: ...'", effect->name, key);
+}
+
+/* The text of an effect, and its parameters: all other lines that begin with its name. */
+static iso_status read_text(iso_context *ctx, const iso_record *r, iso_effect_id e, iso_effects *effects)
+{
+    const iso_effect *effect = iso_effect_list[e];
+    const char *key, *value, *name;
+    char line[ISO_NAME_SIZE];
+    iso_status status = ISO_OK;
+    double x;
+    for (int i = 0; effect->expressions[i]; i++) {
+        iso_effect_line(line, effect, effect->expressions[i]);
+        if (!iso_record_get(r, line)) return missing_line(ctx, effect, line);
+        status = iso_effects_write(ctx, effects, effect->name, effect->expressions[i], iso_record_get(r, line));
+        if (status != ISO_OK) return ISO_FAIL_INPUT(ctx, line, "%s", iso_context_message(ctx));
+    }
+    for (size_t i = 0; iso_record_line(r, i, &key, &value); i++) {
+        if (!(name = name_of_line(effect, key)) || is_line_of(effect, name)) continue;
+        if (!iso_record_get_numbers(ctx, r, key, 1, &x, &status)) return status;
+        status = iso_effects_set(ctx, effects, effect->name, name, 1, &x);
+        if (status != ISO_OK) return ISO_FAIL_INPUT(ctx, key, "%s", iso_context_message(ctx));
+    }
+    return ISO_OK;
+}
+
+/* A number, or a word. */
+static bool read_line(iso_context *ctx, const iso_record *r, const char *key, const iso_effect_number *n, double x[],
+                      iso_status *status)
+{
+    const char *text = iso_record_get(r, key), *word;
+    *status = ISO_OK;
+    if (n->kind != ISO_NUMBER_WORD) return iso_record_get_numbers(ctx, r, key, (size_t)n->count, x, status);
+    if (!text) return false;
+    char suggested[ISO_SUGGEST_SIZE];
+    for (int i = 0; (word = n->word(i)); i++)
+        if (strcmp(text, word) == 0) return *x = i, true;
+    *status = ISO_FAIL_INPUT(ctx, key, "'%s' is '%s'; %s", key, text, iso_suggest_word(suggested, text, n->word));
+    return false;
+}
+
 static iso_status read_effect(iso_context *ctx, const iso_record *r, iso_effect_id e, iso_effects *effects)
 {
+    const iso_effect *effect = iso_effect_list[e];
     char key[ISO_NAME_SIZE];
     iso_status status;
     effects->on[e] = true;
-    for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
-        if (n->scene_only) continue;
-        iso_effect_line(key, iso_effect_list[e], n);
-        if (iso_record_get_numbers(ctx, r, key, (size_t)n->count, iso_effect_values(effects, e, n), &status))
-            continue;
-        if (status != ISO_OK) return status;
-        return ISO_FAIL_INPUT(ctx, "effects", "effect '%s' needs a line '# %s: ...'", iso_effect_list[e]->name, key);
+    if (effect->expressions) ISO_TRY(read_text(ctx, r, e, effects));
+    for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
+        if (n->scene_only || n->hidden) continue;
+        iso_effect_line(key, effect, n->name);
+        if (read_line(ctx, r, key, n, iso_effect_values(effects, e, n), &status)) continue;
+        return status != ISO_OK ? status : missing_line(ctx, effect, key);
     }
     return ISO_OK;
 }

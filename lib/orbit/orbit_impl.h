@@ -139,8 +139,8 @@ void iso_sample_of_row(const int columns[ISO_TRAJECTORY_COLUMNS], const double r
 bool iso_columns_have_group(const int columns[ISO_TRAJECTORY_COLUMNS], iso_effect_id id, const char *name);
 bool iso_columns_have_beginning(const int columns[ISO_TRAJECTORY_COLUMNS], const iso_params *p, iso_effect_id id);
 
-/* The key of the line that states a number of an effect: "effect.number". */
-void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const iso_effect_number *number);
+/* The key of the line that states a number or an expression of an effect: "effect.name". */
+void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const char *name);
 
 /* Writes the start of an orbit as a scene states it: `initial.normal` and `initial.angular_velocity` of a ball,
  * `initial.gamma` and `initial.M` of a point. */

@@ -12,14 +12,21 @@ void iso_params_print(FILE *to, const iso_params *p)
     for (int i = 0; i < 3; i++) fprintf(to, " %s", given ? ISO_SHORT(p->J[i]) : ISO_ROUNDED(p->J[i], 15));
 }
 
-/* The numbers of an effect, on a line of their own or not; none that a scene alone states. */
+/* The text and the numbers of an effect, on lines of their own or not; none that a scene alone states. */
 static void print_numbers(FILE *to, const iso_effects *effects, iso_effect_id id, const char *begin)
 {
-    for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++) {
-        if (n->scene_only) continue;
-        const double *x = iso_effect_values(effects, id, n);
-        fprintf(to, "%s  %s =", begin, n->name);
-        for (int i = 0; i < n->count; i++) fprintf(to, " %s", ISO_SHORT(x[i]));
+    const iso_effect *effect = iso_effect_list[id];
+    iso_effect_number n;
+    for (int i = 0; effect->expressions && effect->expressions[i]; i++) {
+        fprintf(to, "%s  %s = %s", begin, effect->expressions[i], effects->written[effect->written].expression[i]);
+        if (*begin != '\n') begin = "";
+    }
+    for (int i = 0; iso_effect_number_at(effects, id, i, &n); i++) {
+        if (n.scene_only) continue;
+        const double *x = iso_effect_values(effects, id, &n);
+        fprintf(to, "%s  %s =", begin, n.name);
+        if (n.kind == ISO_NUMBER_WORD) fprintf(to, " %s", x[0] < 0 ? "measured" : n.word((int)x[0]));
+        for (int j = 0; n.kind != ISO_NUMBER_WORD && j < n.count; j++) fprintf(to, " %s", ISO_SHORT(x[j]));
         begin = "";
     }
 }

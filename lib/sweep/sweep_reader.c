@@ -87,7 +87,7 @@ static bool take_head(iso_sweep_reader *r)
 static bool makes_sense(const iso_sweep_reader *r)
 {
     const iso_sweep_head *h = &r->head;
-    return h->count > 0 && h->count <= (size_t)1 << 53 && h->chunk > 0 && h->chunk <= MOST_CHUNK &&
+    return h->count > 0 && h->count <= (uint64_t)1 << 53 && h->chunk > 0 && h->chunk <= MOST_CHUNK &&
            r->share.count <= ISO_SWEEP_MOST_SHARES && r->share.index < r->share.count;
 }
 

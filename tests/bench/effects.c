@@ -12,12 +12,13 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "bench.h"
 #include "isoroll.h"
 #include "orbit/orbit_impl.h"
 
-enum { CALLS = 20000, ROUNDS = 15, MOST = 16 };
+enum { CALLS = 20000, ROUNDS = 15, MOST = 24 };
 
 typedef struct run {
     const char *name;
@@ -29,18 +30,36 @@ typedef struct run {
 
 static const double J[3] = {1.4, 2.1, 3.0};
 
+/* The field, or the level, as a scene writes it. */
+static void write_potential(iso_effects *e, bool level)
+{
+    iso_written *text = &e->written[iso_effect_list[ISO_POTENTIAL]->written];
+    strcpy(text->parameter[0], "c");
+    e->number[ISO_POTENTIAL][0] = 0.1;
+    strcpy(text->expression[0], level
+                                    ? "-c*(n1^2/J1 + n2^2/J2 + n3^2/J3)^(-1/k)"
+                                    : "0.15*n1^2 - c*n2^2 + n3^2/20 + c*n1*n2 + 0.05*n2*n3 + c*n1 - 0.2*n2 + 0.3*n3");
+}
+
 static iso_effects all_numbers(void)
 {
-    return (iso_effects){.number = {
-                             [ISO_GRAVITY] = {0.7, 0, 0.6, 0.8},
-                             [ISO_FIELD] = {0.3, 0.1, 0, 0.1, -0.2, 0.05, 0, 0.05, 0.1, 0.1, -0.2, 0.3},
-                             [ISO_LEVEL] = {0.1},
-                             [ISO_TWIST] = {10},
-                             [ISO_ROLLING_RESISTANCE] = {0.01},
-                             [ISO_ROTOR] = {0.3, 0.4, 0.5},
-                             [ISO_ATTITUDE] = {1, 0, 0, 0},
-                             [ISO_REACTIONS] = {true},
-                         }};
+    static const double number[ISO_EFFECTS][ISO_EFFECT_NUMBERS] = {
+        [ISO_GRAVITY] = {0.7, 0, 0.6, 0.8},
+        [ISO_FIELD] = {0.3, 0.1, 0, 0.1, -0.2, 0.05, 0, 0.05, 0.1, 0.1, -0.2, 0.3},
+        [ISO_LEVEL] = {0.1},
+        [ISO_TWIST] = {10},
+        [ISO_ROLLING_RESISTANCE] = {0.01},
+        [ISO_ROTOR] = {0.3, 0.4, 0.5},
+        [ISO_ATTITUDE] = {1, 0, 0, 0},
+        [ISO_REACTIONS] = {true},
+    };
+    iso_effects e = iso_effects_default();
+    iso_written *torque = &e.written[iso_effect_list[ISO_TORQUE]->written];
+    for (int id = 0; id < ISO_EFFECTS; id++)
+        if (number[id][0] != 0) memcpy(e.number[id], number[id], sizeof number[id]);
+    write_potential(&e, false);
+    for (int i = 0; i < 3; i++) snprintf(torque->expression[i], ISO_EXPRESSION_SIZE, "-0.01*omega%d", i + 1);
+    return e;
 }
 
 static void must(iso_context *ctx, iso_status status)
@@ -104,6 +123,11 @@ static int list_runs(run runs[])
     runs[count++] = (run){"free point", all_numbers(), ISO_BACKEND_POINT, 0, INFINITY, INFINITY};
     runs[count] = (run){"point in a field", all_numbers(), ISO_BACKEND_POINT, 0, INFINITY, INFINITY};
     runs[count++].effects.on[ISO_FIELD] = true;
+    runs[count] = (run){"point in it, written", all_numbers(), ISO_BACKEND_POINT, 0, INFINITY, INFINITY};
+    runs[count++].effects.on[ISO_POTENTIAL] = true;
+    runs[count] = (run){"level, written", all_numbers(), ISO_BACKEND_BALL, 0, INFINITY, INFINITY};
+    write_potential(&runs[count].effects, true);
+    runs[count++].effects.on[ISO_POTENTIAL] = true;
     runs[count] = (run){"point with a rotor", all_numbers(), ISO_BACKEND_POINT, 0, INFINITY, INFINITY};
     runs[count++].effects.on[ISO_ROTOR] = true;
     return count;

@@ -1,5 +1,5 @@
 #!/bin/sh
-# bad_files.sh ISOROLL - every scene and sweep of bad_files.txt and bad_effects.txt, and every scene in bad/, whose
+# bad_files.sh ISOROLL - every scene and sweep of the tables bad_*.txt, and every scene in bad/, whose
 # bytes no table can have, is refused with status 3 and nothing on standard output. The first line of a file is
 # `# expect LINE:COLUMN WORDS`: the place of the mistake, and a part of the message.
 # bad_files.sh --write FOLDER only makes the files, for test_scene and test_hard_input.
@@ -36,7 +36,7 @@ write() {
         $1 ~ /-$/ { delete line[at]; next }
         $1 ~ /\+$/ { after[at] = after[at] text "\n"; next }
         { line[at] = text }
-        END { put() }' "$here/bad_files.txt" "$here/bad_effects.txt"
+        END { put() }' "$here/bad_files.txt" "$here"/bad_e*.txt
 }
 
 if [ "$1" = --write ]; then

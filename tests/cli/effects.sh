@@ -333,7 +333,7 @@ physical outside 3 "$field" >scene.yaml
 run 0 explain scene.yaml
 check "explain: the isomorphism holds" grep -q "holds: (18) of the theory carries the states" out
 run 0 list effects
-for effect in gravity field level twist rolling_resistance rotor attitude reactions clock; do
+for effect in gravity field level twist rolling_resistance rotor potential torque attitude reactions clock; do
     check "list effects: $effect" grep -q "^ *$effect " out
 done
 

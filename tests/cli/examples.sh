@@ -28,6 +28,16 @@ check "chaotic orbits part" grep -q "orbits part" err
 run 0 section "$folder/integrable.yaml" --starts 30 --crossings 100 -o tame.csv
 check_not "others do not" grep -q "orbits part" err
 
+# potentials that separate: with another coefficient the same start is chaotic
+folder=$source/examples/24_separable
+for scene in scene rosochatius quartic; do
+    run 0 chaos "$folder/$scene.yaml" --model ball --turns 1500
+    check "$scene is integrable" grep -qx "this orbit: regular" out
+done
+sed 's/{c: 1}/{c: 1.05}/' "$folder/scene.yaml" >sea.yaml
+run 0 chaos sea.yaml --model ball
+check "c = 1.05 is not" grep -qx "this orbit: chaotic" out
+
 # trajectories from elsewhere
 folder=$source/examples/14_from_python
 run 0 convert --to point --scene "$folder/scene.yaml" "$folder/orbit.txt" -o point.csv

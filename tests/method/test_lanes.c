@@ -36,7 +36,8 @@ static void collect(const effects_case *c, laws_worst *worst)
     (void)worst;
     if (c->subset & (1 << ISO_REACTIONS | 1 << ISO_CLOCK) || iso_effects_stiffness(&c->model.problem) > ISO_STIFF)
         return;
-    if (c->system == &iso_system_point && c->subset & ~(1 << ISO_FIELD | 1 << ISO_LEVEL | 1 << ISO_ROTOR))
+    if (c->system == &iso_system_point &&
+        c->subset & ~(1 << ISO_FIELD | 1 << ISO_LEVEL | 1 << ISO_ROTOR | 1 << ISO_POTENTIAL))
         return; /* the others have no image */
     if (pow(laws_spread(&c->model.problem.p), 1 / fabs(c->model.problem.p.k)) > 1e50) return; /* s has no scale */
     member *m = &members[count++];

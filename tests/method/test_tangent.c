@@ -78,7 +78,9 @@ static void check_neighbours(const effects_case *c, laws_worst *worst)
 {
     static int variant, number;
     if (c->subset & 1 << ISO_CLOCK || iso_effects_stiffness(&c->model.problem) > ISO_STIFF) return;
-    if (c->system == &iso_system_point && c->subset & ~(1 << ISO_FIELD | 1 << ISO_LEVEL | 1 << ISO_ROTOR)) return;
+    if (c->system == &iso_system_point &&
+        c->subset & ~(1 << ISO_FIELD | 1 << ISO_LEVEL | 1 << ISO_ROTOR | 1 << ISO_POTENTIAL))
+        return;
     if (pow(laws_spread(&c->model.problem.p), 1 / fabs(c->model.problem.p.k)) > 1e4 || number++ % each != 0) return;
     const orbit o = orbit_of(ctx, c, variant++);
     flow f = {.o = &o, .time = 0.7 * orbit_stretch(c, &o), .code = iso_lane_code_find("quad", true)};

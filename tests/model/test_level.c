@@ -45,15 +45,17 @@ static void integrals_hold(const effects_case *c, laws_worst *worst)
     }
 }
 
-/* dh/dt = -c_r (w,w) - c (w,n)^2, and on a plane whose height nobody knows + (w, mgb e x n) */
+/* dh/dt = -c_r (w,w) - c (w,n)^2 + (w,M), and on a plane whose height nobody knows + (w, mgb e x n) */
 static void energy_lost(const effects_case *c, laws_worst *worst)
 {
     const iso_problem *f = &c->model.problem;
     const iso_effects *e = &f->effects;
     const double *w = c->y, *n = c->y + 3;
-    double unit, power = 0, e_n[3];
+    double unit, power = 0, e_n[3], T[3];
     if (e->on[ISO_ROLLING_RESISTANCE]) power -= ROLLING_COEFFICIENT(e) * dot(w, w);
     if (e->on[ISO_TWIST]) power -= TWIST_RESISTANCE(e) * dot(w, n) * dot(w, n);
+    effects_torque_of(e, w, n, c->y + f->at[ISO_GRAVITY], T);
+    if (e->on[ISO_TORQUE]) power += dot(w, T);
     cross(c->y + f->at[ISO_GRAVITY], n, e_n);
     if (e->on[ISO_GRAVITY] && f->p.k == 1 && !e->on[ISO_ATTITUDE]) power += GRAVITY_MGB(e) * dot(w, e_n);
     const double slope = change(c, laws_integral(c->system, "h"), &unit);
@@ -281,7 +283,7 @@ static void breakers(void)
     }
 }
 
-/* V of the field is U/G; H is that of the level, else 0. */
+/* V of the field and of a written potential is U/G; H is that of the level, else 0. */
 static void potentials_mapped(const effects_case *c, laws_worst *worst)
 {
     const iso_problem *f = &c->model.problem;
@@ -291,7 +293,7 @@ static void potentials_mapped(const effects_case *c, laws_worst *worst)
     double image[ISO_STATE], size;
     iso_ball_to_point(p, c->y, image);
     const double q = point.system->q(p, image, NULL), G = p->k * p->k / p->det_J * pow(q, 1 / p->k);
-    const double U = effects_potential(c, ISO_FIELD);
+    const double U = effects_potential(c, ISO_FIELD) + effects_potential(c, ISO_POTENTIAL);
     const double allowed = 2 * laws_rounding(p) * effects_energy_size(c) / G;
     effects_note(c, worst, fabs(iso_effects_image(&point.problem, image) - U / G), allowed, "U/G");
     const double H = point.system->energy(&point.problem, image, &size);

@@ -1,8 +1,9 @@
 """third_variation.py N... - the residue rho of the third variation for odd 1/k, exactly.
 
 See lib/doc/why_only_one.md, step 8. For each odd N given, and for -N, it is shown that rho is not 0, whatever the
-three different moments: with J3 = a, J2 = a + b, J1 = a + b + c, rho is b c times a polynomial in a, b, c whose coefficients
-all have one sign, over powers of J2 and of J1 - J3. (J1 and J3 can change places.) Only whole fractions are used.
+three different moments: with J3 = a, J2 = a + b, J1 = a + b + c, rho is b c times a polynomial in a, b, c whose
+coefficients all have one sign, over powers of J2 and of J1 - J3. (J1 and J3 can change places.) Only whole fractions
+are used.
 
 Polynomials in m and J, the numbers (J1 + J3)/2 and J2 by (J1 - J3)/4, are dicts {(power of m, power of J): fraction}.
 A series is a pair (s, c): x^s (c[0] + c[1] x + ...).
@@ -82,7 +83,7 @@ def inverse(f):
 
 
 def residues(n):
-    """(what z^3 adds to z, p z^2 to p) in units of 4 pi i, for n < 0 times J. p^3 adds nothing to p, nor p^2 z to z."""
+    """What z^3 adds to z, and p z^2 to p, in units of 4 pi i, for n < 0 times J. p^3 and p^2 z add nothing."""
     length, sign = abs(n) + 2, 1 if n > 0 else -1
 
     def series(*c):

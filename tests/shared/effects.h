@@ -23,7 +23,8 @@ enum {
     EFFECTS_CLASSICAL =
         1 << ISO_EFFECTS,             /* beside the bits 1 << e of the effects: the resistance of `twist` is 0 ... */
     EFFECTS_STIFF = 2 << ISO_EFFECTS, /* ... or so large that its torque lambda is a state */
-    EFFECTS_SUBSETS = 3 << ISO_EFFECTS
+    EFFECTS_SUBSETS = 3 << ISO_EFFECTS,
+    EFFECTS_WRITTEN = 1 << ISO_POTENTIAL | 1 << ISO_TORQUE
 };
 
 typedef struct effects_case {
@@ -76,12 +77,52 @@ static inline double effects_random_sign(iso_random *r, double low, double high)
     return iso_random_uniform(r, -1, 1) < 0 ? -size : size;
 }
 
+/* Texts that use all that expressions have, e with gravity alone. Those of a scene are effects_potential_of and
+ * effects_torque_of below. */
+static inline iso_effects effects_text(bool gravity)
+{
+    iso_effects e = iso_effects_default();
+    iso_written *potential = &e.written[iso_effect_list[ISO_POTENTIAL]->written];
+    iso_written *torque = &e.written[iso_effect_list[ISO_TORQUE]->written];
+    strcpy(potential->parameter[0], "a"), strcpy(potential->parameter[1], "b");
+    strcpy(torque->parameter[0], "a"), strcpy(torque->parameter[1], "c");
+    strcpy(potential->expression[0],
+           "a*(n1*n2 - n3/2 + J1/J3) + b*(sin(n3)*exp(0.3*n1)/(2.5 - n2) + sqrt(2 + n1)*log(3 + n3^3) - "
+           "cos(k/(1 + k^2) + n1)*(1.5 + n2*n3)^1.2/2)");
+    strcpy(torque->expression[0], "-c*omega1 + a*n2^2");
+    strcpy(torque->expression[1], gravity ? "a*e2*sin(n1)/3" : "a*sin(n1)/3");
+    strcpy(torque->expression[2], "-c*n3*omega3*omega2/sqrt(omega1^2 + omega2^2 + omega3^2)");
+    return e;
+}
+
+static inline double effects_potential_of(const iso_effects *e, const iso_params *p, const double n[3])
+{
+    const double a = e->number[ISO_POTENTIAL][0], b = e->number[ISO_POTENTIAL][1], k = p->k;
+    return a * (n[0] * n[1] - n[2] / 2 + p->J[0] / p->J[2]) +
+           b * (sin(n[2]) * exp(0.3 * n[0]) / (2.5 - n[1]) + sqrt(2 + n[0]) * log(3 + n[2] * n[2] * n[2]) -
+                cos(k / (1 + k * k) + n[0]) * pow(1.5 + n[1] * n[2], 1.2) / 2);
+}
+
+static inline void effects_torque_of(const iso_effects *e, const double w[3], const double n[3], const double up[3],
+                                     double T[3])
+{
+    const double a = e->number[ISO_TORQUE][0], c = e->number[ISO_TORQUE][1];
+    T[0] = -c * w[0] + a * n[1] * n[1];
+    T[1] = a * (e->on[ISO_GRAVITY] ? up[1] : 1) * sin(n[0]) / 3;
+    T[2] = -c * n[2] * w[2] * w[1] / norm(w);
+}
+
 /* Valid numbers for all effects, `energy` and 1/`speed` being the units of energy and time. */
 static inline iso_effects effects_random(iso_random *r, const iso_params *p, int subset, double energy, double speed,
                                          double q)
 {
-    iso_effects e = {.number[ISO_REACTIONS] = {iso_random_uniform(r, -1, 1) < 0}};
+    iso_effects e = effects_text(subset & 1 << ISO_GRAVITY);
     double square = 0;
+    *e.number[ISO_REACTIONS] = iso_random_uniform(r, -1, 1) < 0;
+    for (int i = 0; i < 2; i++) {
+        e.number[ISO_POTENTIAL][i] = effects_random_sign(r, 0.3, 1) * energy;
+        e.number[ISO_TORQUE][i] = effects_random_sign(r, 0.3, 1) * energy / (i == 0 ? 1 : speed);
+    }
     for (int i = 0; i < ISO_EFFECTS; i++) e.on[i] = subset & 1 << i;
     GRAVITY_MGB(&e) = effects_random_sign(r, 0.3, 1) * energy;
     iso_random_direction(r, GRAVITY_UP(&e));
@@ -148,6 +189,13 @@ static inline iso_params effects_params(double k, const double J[3], iso_random 
     exit(gsl_test_summary());
 }
 
+/* Of the subsets with effects that a scene writes these: small ones, and one in 24 of the others. */
+static inline bool effects_taken(int subset)
+{
+    const int others = subset & ~EFFECTS_WRITTEN;
+    return others == subset || (others & (others - 1)) == 0 || ((unsigned)subset * 2654435761u >> 16) % 24 == 0;
+}
+
 /* One case for every k, J and subset; J_step > 1: not every J. */
 static inline void effects_each(const iso_system *system, int J_step, effects_law *law, laws_worst *worst)
 {
@@ -156,6 +204,7 @@ static inline void effects_each(const iso_system *system, int J_step, effects_la
         for (int j = 0; j < LAWS_J; j += J_step)
             for (int subset = 0; subset < EFFECTS_SUBSETS; subset++) {
                 if (subset >= EFFECTS_CLASSICAL && !(subset & 1 << ISO_TWIST)) continue;
+                if (!effects_taken(subset)) continue;
                 const iso_params p = effects_params(laws_k[i], laws_J[j], r);
                 const effects_case c = effects_sample(system, &p, subset, r);
                 law(&c, worst);
@@ -186,6 +235,13 @@ static inline double effects_field_size(const iso_effects *e)
     return e->on[ISO_FIELD] ? sqrt(square) : 0;
 }
 
+/* of the written U and of its slopes: J1/J3, and the terms of b */
+static inline double effects_written_size(const iso_effects *e, const iso_params *p)
+{
+    const double a = fabs(e->number[ISO_POTENTIAL][0]), b = fabs(e->number[ISO_POTENTIAL][1]);
+    return e->on[ISO_POTENTIAL] ? a * (2 + p->J[0] / p->J[2]) + 12 * b : 0;
+}
+
 /* The field with one of its effects alone, whose states stay where they are: its own torque and potential. */
 static inline iso_problem effects_alone(const effects_case *c, iso_effect_id id)
 {
@@ -209,6 +265,7 @@ static inline double effects_energy_size(const effects_case *c)
     const iso_problem *f = &c->model.problem;
     double size = c->kinetic + effects_field_size(&f->effects);
     if (effects_on(c, ISO_LEVEL)) size += fabs(effects_potential(c, ISO_LEVEL));
+    size += effects_written_size(&f->effects, &f->p);
     if (effects_on(c, ISO_GRAVITY) && f->p.k != 1) size += fabs(GRAVITY_MGB(&f->effects) / (1 - f->p.k));
     if (effects_on(c, ISO_GRAVITY) && f->p.k == 1 && effects_on(c, ISO_ATTITUDE))
         size += fabs(GRAVITY_MGB(&f->effects)) * norm(c->y + f->at[ISO_ATTITUDE] + 4);
@@ -220,7 +277,7 @@ static inline double effects_torque_size(const effects_case *c)
 {
     const iso_effects *e = &c->model.problem.effects;
     const iso_params *p = &c->model.problem.p;
-    double size = fabs(p->k) * effects_field_size(e), u[3];
+    double size = fabs(p->k) * (effects_field_size(e) + effects_written_size(e, p)), u[3];
     diag(p->inv_J, c->y + 3, u);
     if (e->on[ISO_GRAVITY]) size += fabs(GRAVITY_MGB(e));
     if (e->on[ISO_LEVEL]) size += 2 * fabs(LEVEL_C(e)) * pow(dot(c->y + 3, u), -1 / p->k - 1) * norm(u);
@@ -228,6 +285,8 @@ static inline double effects_torque_size(const effects_case *c)
         size += effects_lambda(c) > 0 ? fabs(c->y[effects_lambda(c)]) : TWIST_RESISTANCE(e) * norm(c->y);
     if (e->on[ISO_ROLLING_RESISTANCE]) size += ROLLING_COEFFICIENT(e) * norm(c->y);
     if (e->on[ISO_ROTOR]) size += norm(ROTOR_MOMENTUM(e)) * norm(c->y);
+    if (e->on[ISO_TORQUE])
+        size += 2 * fabs(e->number[ISO_TORQUE][0]) + 2 * fabs(e->number[ISO_TORQUE][1]) * norm(c->y);
     return size;
 }
 
@@ -237,8 +296,8 @@ static inline double effects_image_size(const effects_case *c)
     const iso_params *p = &c->model.problem.p;
     const double q = c->system->q(p, c->y, NULL), k = fabs(p->k);
     const double free = 2 * fabs(c->model.problem.eps) / k;
-    const double field = iso_coupling(p, effects_field_size(&c->model.problem.effects)) * (2 + 2 / k);
     const iso_effects *e = &c->model.problem.effects;
+    const double field = iso_coupling(p, effects_field_size(e) + effects_written_size(e, p)) * (2 + 2 / k);
     const double rotor = e->on[ISO_ROTOR] ? sqrt(p->det_J * max3(p->J)) / (k * k) * norm(ROTOR_MOMENTUM(e)) : 0;
     return (free + field) * pow(q, -1 / p->k) * sqrt(max3(p->J) / q) +
            rotor * pow(q, -1 - 1 / (2 * p->k)) * norm(c->y);

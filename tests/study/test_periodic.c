@@ -160,6 +160,27 @@ static void check_orbit(const iso_scene *scene, int axis, const iso_periodic_orb
     if (fabs(o->trace) < 1e4) check_by_crossings(scene, axis, o);
 }
 
+/* The derivative over the whole orbit, by the mirror image of its first half, against both halves followed. */
+static void check_mirror(const iso_scene *scene, const iso_periodic_orbit *o)
+{
+    iso_periodic_map map;
+    iso_periodic_shot shot;
+    iso_periodic_fine whole;
+    iso_wide slope[2][2];
+    iso_periodic_map_prepare(ctx, &scene->params, 0, 1, &map);
+    const iso_return_code *code = iso_return_code_of(false);
+    gsl_test(!iso_periodic_shoot(&map, code, o->line, o->u, o->period, &shot), "the first half");
+    gsl_test(!iso_periodic_far(&map, code, shot.z, 2 * o->period, NULL, &whole), "both halves");
+    iso_wide_multiply((const iso_wide(*)[2])shot.back, (const iso_wide(*)[2])shot.way.slope, slope);
+    double size = 1, apart = 0;
+    for (int i = 0; i < 4; i++) {
+        size = fmax(size, fabs((double)whole.slope[i / 2][i % 2]));
+        apart = fmax(apart, fabs((double)(slope[i / 2][i % 2] - whole.slope[i / 2][i % 2])));
+    }
+    gsl_test(!(apart < 1e-13 * size * size), "line %s, period %d: mirrored derivative off by %g of %g",
+             iso_symmetry_line_name(o->line), o->period, apart, size);
+}
+
 static void check_orbits(void)
 {
     static const double J[2][3] = {{1.4, 2.1, 3}, {1, 2, 5}}, k[] = {0.5, -0.6, 0.75, 2};
@@ -171,7 +192,10 @@ static void check_orbits(void)
         iso_periodic *f = orbits_of(k[i], moments, &o);
         gsl_test(i < 3 && f->count == 0, "k = %g: there are orbits", k[i]);
         gsl_test(f->lost > 0 || f->unresolved > 0, "k = %g: none is lost", k[i]);
-        for (size_t j = 0; j < f->count; j++) check_orbit(&scene, f->axis, &f->orbit[j]);
+        for (size_t j = 0; j < f->count; j++) {
+            check_orbit(&scene, f->axis, &f->orbit[j]);
+            if (fabs(f->orbit[j].trace) < 1e4) check_mirror(&scene, &f->orbit[j]);
+        }
         iso_periodic_free(f);
     }
 }

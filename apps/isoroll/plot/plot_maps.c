@@ -100,10 +100,10 @@ static line line_of(const iso_record *rows, int column)
 }
 
 #define MARK "dt (4,3) lw 1.2 lc rgb " ISO_PLOT_INK
-#define DASHED "k (dashed: ±1, integrable)"
-#define MARKED ", NaN with lines " MARK " title 'k = ±1: integrable'"
+#define DASHED "k (dashed: ±1, where the free ball is integrable)"
+#define MARKED ", NaN with lines " MARK " title 'k = ±1: the free ball is integrable'"
 
-/* k = 1 and k = -1: only there the problem is integrable. axis: "x" or "y". Says whether one is marked. */
+/* k = 1 and k = -1: only there the free ball is integrable. axis: "x" or "y". Says whether one is marked. */
 static bool put_axis(FILE *f, const char *axis, const line *l)
 {
     bool marked = false;

@@ -1,6 +1,8 @@
 // address.js - what is shown, in the address of the page: #t=12.5&view=compare,beside&orbit=3&eye=0.7,0.42,1. The name
 // of the even clock stands before its time. Such an address opens the page at the same moment, seen from the same side.
 
+let lab = null; // the laboratory (lab.js), with --live
+
 const address = {
   written: "",
   text() {
@@ -9,6 +11,7 @@ const address = {
     const parts = [`${clocks.even}=${+controls.value.toPrecision(10)}`];
     if (views.length) parts.push(`view=${views}`);
     if (sections) parts.push(`orbit=${sections.chosen}`);
+    if (lab) parts.push(...lab.address());
     return `#${parts.join("&")}&eye=${eye}`;
   },
   write() {
@@ -20,6 +23,7 @@ const address = {
   // What is not there, or is no number, changes nothing.
   read() {
     if (location.hash === address.written) return;
+    if (lab && lab.read()) return; // which reads the rest when its orbit is there
     const given = new URLSearchParams(location.hash.slice(1)),
       views = (given.get("view") || "").split(","),
       eye = (given.get("eye") || "").split(",").map(Number);

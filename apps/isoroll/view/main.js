@@ -220,13 +220,7 @@ const controls = {
     element("screen").addEventListener("click", () =>
       document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen(),
     );
-    const frames = [
-      ["follow", "beside the ball"],
-      ["ball", "the ball itself"],
-    ];
-    if (body.large && !body.flat) frames.push(["room", "the room"]);
-    else if (!body.flat) frames.unshift(["room", "the room"]);
-    for (const [value, words] of frames) element("frame").append(new Option(words, value));
+    this.offerFrames();
     element("frame").addEventListener("change", (e) => {
       if (this.pictures) this.pictures[0].from = e.target.value;
       this.changed();
@@ -251,6 +245,16 @@ const controls = {
       for (const picture of [...(this.pictures || []), ...(this.paths || [])]) picture.recolour();
       this.changed();
     });
+  },
+  // From where the ball can be watched.
+  offerFrames() {
+    const frames = [
+      ["follow", "beside the ball"],
+      ["ball", "the ball itself"],
+    ];
+    if (body.large && !body.flat) frames.push(["room", "the room"]);
+    else if (!body.flat) frames.unshift(["room", "the room"]);
+    element("frame").replaceChildren(...frames.map(([value, words]) => new Option(words, value)));
   },
   turnRadio(e) {
     const by = { ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1 }[e.key],

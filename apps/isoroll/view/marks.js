@@ -12,6 +12,11 @@ class Marks {
     picture.canvas.parentElement.append(this.canvas);
   }
 
+  clear() {
+    this.list = [];
+    this.solids = [];
+  }
+
   // A text at a place (three numbers) of a thing, at most as high as `most` there; `colour` gives it a disc.
   add(thing, place, text, { colour, most = Infinity } = {}) {
     const mark = { thing, place: three(place), text, colour, most };

@@ -123,7 +123,8 @@ const numbers = {
   // --- what does not change ---
 
   describe(orbit) {
-    const id = (name) => document.getElementById(name),
+    for (const name of ["about", "notes", "left-legend", "right-legend"]) element(name).textContent = "";
+    const id = element,
       { kind, A, B, k } = body;
     const where = {
       plane: "on a plane",

@@ -17,7 +17,9 @@ function turned(q, v) {
 
 const inverse = (q) => [q[0], -q[1], -q[2], -q[3]];
 
+// A column from base64; one that the library has just computed (lab.js) is a column already.
 function decoded(text) {
+  if (typeof text !== "string") return text;
   const bytes = atob(text),
     count = bytes.length / 8,
     column = new Float64Array(count);
@@ -31,8 +33,9 @@ function decoded(text) {
 
 const page = JSON.parse(document.getElementById("data").textContent);
 
-// The ball and its support, in the file's units. b < 0 where the ball is inside, or around, the fixed sphere.
-const body = (() => {
+// The ball and its support, in the file's units. b < 0 where the ball is inside, or around, the fixed sphere. In the
+// laboratory (lab.js) k and J change.
+const bodyOf = () => {
   const { k, J } = page,
     B = page.radius > 0 ? page.radius : 1;
   const kind = k === 1 ? "plane" : k < 0 ? "shell" : k < 1 ? "outside" : "inside";
@@ -50,7 +53,8 @@ const body = (() => {
     detJ: J[0] * J[1] * J[2],
     reduced: !(page.radius > 0),
   };
-})();
+};
+let body = bodyOf();
 
 // q = (gamma, J gamma) = 1/(n, n/J); rates of the clocks by t; the potential (24) and what a field adds to it.
 const physics = {

@@ -48,6 +48,18 @@ class Picture {
     this.steer();
   }
 
+  // Takes everything out, before it is built anew.
+  clear() {
+    this.scene.traverse((thing) => {
+      if (thing.geometry) thing.geometry.dispose();
+      if (thing.material) thing.material.dispose();
+    });
+    this.scene.remove(...this.scene.children);
+    this.marks.clear();
+    this.ribbons = [];
+    this.world = this.add(this.scene, new THREE.Group()); // space axes, as they are drawn
+  }
+
   add(parent, ...things) {
     for (const thing of things) parent.add(thing);
     return things[0];
@@ -157,13 +169,17 @@ class Picture {
 class BallPicture extends Picture {
   constructor(canvas) {
     super(canvas, 1);
-    const { A, B, kind } = body;
     this.name = "the ball";
+    this.build();
+  }
+
+  build() {
+    const { A, B, kind } = body;
+    this.clear();
     this.size = body.flat ? 2.3 * B : kind === "outside" ? A + 2 * B : kind === "inside" ? A : 2 * B - A;
     this.distance = 4.05 * this.size;
     this.eye.near = this.distance / 200;
     this.eye.far = this.distance * 30;
-    this.world = this.add(this.scene, new THREE.Group()); // space axes, as they are drawn
     this.ball = this.add(this.world, new THREE.Group());
     this.buildSupport();
     this.buildBall();
@@ -312,7 +328,11 @@ class PointPicture extends Picture {
   constructor(canvas) {
     super(canvas, 4.7);
     this.name = "the point";
-    this.world = this.add(this.scene, new THREE.Group());
+    this.build();
+  }
+
+  build() {
+    this.clear();
     this.world.quaternion.copy(bodyUp);
     const { levels } = potential;
     const names = levels
@@ -362,7 +382,7 @@ function levelsOf(least, most, logarithmic) {
 }
 
 // The potential on the sphere, as heights from 0 (deepest) to 1; by its logarithm if V < 0 and its ratio is above 4.
-const potential = (() => {
+const potentialOf = () => {
   if (page.alone || !(page.eps !== null) || page.eps === 0) return {};
   let least = Infinity,
     most = -Infinity;
@@ -383,4 +403,5 @@ const potential = (() => {
   if (!(most - least > 1e-9 * Math.abs(least))) return {}; // equal moments: V is constant
   const logarithmic = most < 0 && least / most > 4;
   return { levels: levelsOf(least, most, logarithmic), least, most, logarithmic };
-})();
+};
+let potential = potentialOf();

@@ -172,7 +172,7 @@ static real pace(const form *T, const real gamma[])
 }
 
 /* T->now from y, in one lane. A point's M becomes gamma' = gamma x M in s. */
-static void load(form *T, int lane, const double y[])
+static inline void load(form *T, int lane, const double y[])
 {
     const iso_model *m = &T->shape;
     state *s = &T->now;
@@ -214,7 +214,7 @@ static void begin_channel(form *T, int c, const state *s)
 }
 
 /* Coefficients 0 from T->now, and of the deviations. */
-static void begin(form *T)
+static inline void begin(form *T)
 {
     begin_channel(T, 0, &T->now);
     for (int c = 1; c < CHANNELS; c++) begin_channel(T, c, &T->deviation[c]);

@@ -1,10 +1,11 @@
-/* lanes.c - the list of compilations for batches: which of them this processor can run, and which models can stand
- * side by side in the lanes of one vector. */
+/* lanes.c - the list of compilations for batches and tails: which of them this processor can run, and which models can
+ * stand side by side in the lanes of one vector. */
 #include "method/taylor/lanes_impl.h"
 
 #include <string.h>
 
 #include "method/methods_impl.h"
+#include "method/taylor/tail_impl.h"
 #include "model/formula_lines_impl.h"
 #include "model/model_impl.h"
 
@@ -31,6 +32,14 @@ const iso_lane_code *iso_lane_code_find(const char *name, bool deviations)
     for (const iso_lane_code *const *code = deviations ? tangent_codes : iso_lane_codes; *code; code++)
         if ((!name || strcmp(name, (*code)->name) == 0) && (*code)->runs_here()) return *code;
     return NULL;
+}
+
+const iso_tail_code *iso_tail_code_find(void)
+{
+#ifdef ISO_TAYLOR_X86
+    if (iso_tail_avx2.runs_here()) return &iso_tail_avx2;
+#endif
+    return &iso_tail_plain;
 }
 
 iso_clock iso_lane_clock(const iso_model *m)

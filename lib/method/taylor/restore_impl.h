@@ -11,7 +11,7 @@ static inline real defect_of(const real a[], const real b[], int count, real tar
 {
     real sum = -target, lost = zero;
     for (int i = 0; i < count; i++) {
-        const real p = a[i] * b[i], p_lost = fused(a[i], b[i], -p);
+        const real p = a[i] * b[i], p_lost = lost_in(a[i], b[i], p);
         const real next = sum + p, part = next - sum;
         lost += ((sum - (next - part)) + (p - part)) + p_lost;
         sum = next;
@@ -122,7 +122,7 @@ static inline void cross_product_exactly(const real a[], const real b[], real c[
 {
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, l = (i + 2) % 3;
-        const real back = a[l] * b[j], lost = fused(-a[l], b[j], back);
+        const real back = a[l] * b[j], lost = -lost_in(a[l], b[j], back);
         c[i] = fused(a[j], b[l], -back) + lost;
     }
 }

@@ -5,6 +5,7 @@
  * bits. Included behind crossing_impl.h.
  */
 #include "method/taylor/return_map_impl.h"
+#include "method/taylor/tail_rows_impl.h"
 
 static inline NUMBER number_of(iso_fine x)
 {
@@ -129,7 +130,67 @@ static bool cross_step(const form *T, int axis, NUMBER length, NUMBER zeros, NUM
     return false;
 }
 
-static bool go_round(form *T, int axis, NUMBER zeros, bool on_section, iso_return *r)
+/* The higher coefficients of a series, in doubles. */
+typedef struct tail {
+    const iso_tail_code *code;
+    void *data;
+    int from; /* even: the first coefficient of q that they give */
+    iso_tail_rows rows;
+} tail;
+
+/* Coefficient n of a term that is tolerance^(n/order) of the state needs 16 digits, and three to spare, where that is
+ * 1e-19 of what the tolerance allows. */
+static int tail_from(const form *T)
+{
+    const double digits = -log10(T->tolerance);
+    const int from = (int)(T->S.order * fmax(digits - 13, 0) / digits) / 2 * 2 + 2;
+    return from < T->S.order ? from : T->S.order;
+}
+
+/* Whether coefficients n and n + 1 fit doubles, with digits to spare. One of them may be 0 by symmetry. */
+static bool in_range(const series *S, int n)
+{
+    for (int c = 0; c < CHANNELS; c++) {
+        const real size = larger(largest(S->n[place(c, n)]), largest(S->n[place(c, n + 1)]));
+        if (!(size > (NUMBER)1e-250 && size < (NUMBER)1e250)) return false;
+    }
+    return true;
+}
+
+/* As expand, but the higher coefficients come from doubles. False: these cannot hold them. */
+static bool expand_with_tail(series *S, tail *t)
+{
+    const int order = S->order;
+    S->order = t->from;
+    expand(S);
+    S->order = order;
+    if (!in_range(S, t->from)) return false;
+    give_rows(S, 3, 5, 0, t->from - 1, &t->rows);
+    give_rows(S, 1, 0, t->from, t->from + 1, &t->rows);
+    t->code->expand(t->data, t->from, &t->rows);
+    take_rows(S, 1, 0, t->from + 2, order + 1, &t->rows);
+    take_rows(S, 0, 1, t->from, order, &t->rows);
+    return in_range(S, order);
+}
+
+/* Whether the terms of doubles are so small in a step that their rounding errors are below the tolerance. Around a
+ * rotation in a principal plane the orbit's own terms fall fast, but those of deviations may not. One term or two may
+ * be 0 by chance or by symmetry. */
+static bool tail_is_small(const form *T, const tail *t, NUMBER length)
+{
+    const series *S = &T->S;
+    const NUMBER h = magnitude(length);
+    NUMBER most = (NUMBER)(3e-2 * 1e16 * T->tolerance);
+    for (int n = 0; n < t->from; n++) most /= h;
+    for (int n = t->from; n < t->from + 4 && n <= S->order; n++, most /= h)
+        for (int c = 0; c < CHANNELS; c++) {
+            const NUMBER size = largest(S->n[place(c, 0)]) + h * largest(S->n[place(c, 1)]);
+            if (!(largest(S->n[place(c, n)]) <= most * size)) return false;
+        }
+    return true;
+}
+
+static bool go_round(form *T, tail *t, int axis, NUMBER zeros, bool on_section, iso_return *r)
 {
     enum { MOST_STEPS = 100000 };
     NUMBER passed = 0;
@@ -137,8 +198,9 @@ static bool go_round(form *T, int axis, NUMBER zeros, bool on_section, iso_retur
         state after;
         NUMBER gained[ISO_CLOCKS], x;
         begin(T);
-        expand(&T->S);
+        if (!expand_with_tail(&T->S, t)) expand(&T->S);
         const NUMBER length = choose_step(T, 1, gained);
+        if (!tail_is_small(T, t, length)) expand(&T->S);
         find_state(T, length, gained, &after);
         if (!(after.n[0] - after.n[0] == 0)) return false;
         if (cross_step(T, axis, length, zeros, steps == 0 && on_section ? 0 : T->now.n[axis], after.n[axis], &x))
@@ -157,8 +219,9 @@ static bool go_round(form *T, int axis, NUMBER zeros, bool on_section, iso_retur
 static bool go(const iso_model *model, int axis, double zeros, double tolerance, iso_return *r)
 {
     form *T = aligned_alloc(64, (sizeof *T + 63) / 64 * 64);
+    tail *t = malloc(sizeof *t);
     double y[ISO_MAX_STATE] = {0};
-    if (!T) return false;
+    if (!T || !t) return free(T), free(t), false;
     y[3 + (axis + 1) % 3] = y[axis] = 1;
     set_shape(T, model, tolerance);
     start_orbit(T, 0, model, y);
@@ -170,7 +233,12 @@ static bool go(const iso_model *model, int axis, double zeros, double tolerance,
     if (r->start == ISO_FROM_BELOW) turn_over(T);
     T->scale[1] = T->scale[2] = 0;
     T->second_of = NONE; /* the start is exact: nothing to restore it to */
-    const bool there = go_round(T, axis, zeros, on_section, r);
+    t->from = tail_from(T);
+    t->code = iso_tail_code_find();
+    t->data = t->code->create(model, T->S.order);
+    const bool there = t->data && go_round(T, t, axis, zeros, on_section, r);
+    free(t->data);
+    free(t);
     free(T);
     return there;
 }

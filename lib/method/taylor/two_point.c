@@ -10,6 +10,10 @@
 #define POW pow
 #define FMA fma
 #define ABS fabs
+#define EXP exp
+#define LOG log
+#define SIN sin
+#define COS cos
 #define EPSILON DBL_EPSILON
 #define FINER 1
 #define FINEST_ORDER 28

@@ -14,6 +14,7 @@
  *     lanes_avx2    double                   4        x86 with AVX2 and FMA
  *     lanes_avx512  double                   8        x86 with AVX-512
  *     tangent_...   as the three lanes_..., and extended and quad with one orbit, all with deviations
+ *     tail_...      plain and avx2 with deviations, for the higher coefficients of extended and quad (tail_impl.h)
  */
 #define VARIANT_PLAIN 1
 #define VARIANT_AVX2 2
@@ -27,18 +28,24 @@
 #define VARIANT_TANGENT_AVX512 10
 #define VARIANT_TANGENT_EXTENDED 11
 #define VARIANT_TANGENT_QUAD 12
+#define VARIANT_TAIL_PLAIN 13
+#define VARIANT_TAIL_AVX2 14
 
 #define IS(name) (ISO_TAYLOR_VARIANT == VARIANT_##name)
 #define IS_QUAD (IS(QUAD) || IS(TANGENT_QUAD))
 #define IS_EXTENDED (IS(EXTENDED) || IS(TANGENT_EXTENDED))
+#define IS_TAIL (IS(TAIL_PLAIN) || IS(TAIL_AVX2))
 #define IS_TANGENT (ISO_TAYLOR_VARIANT >= VARIANT_TANGENT_PLAIN)
 
 #define _GNU_SOURCE /* functions of _Float128 */
+#include <float.h>
+
 #include "base/finite_impl.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
 #include "method/taylor/code_impl.h"
 #include "method/taylor/lanes_impl.h"
+#include "method/taylor/tail_impl.h"
 #include "model/model_impl.h"
 
 #if !IS_QUAD || defined ISO_TAYLOR_HAS_QUAD
@@ -51,6 +58,8 @@
 #define POW powl
 #define FMA fmal
 #define ABS fabsl
+#define EXP expl
+#define LOG logl
 #define SIN sinl
 #define COS cosl
 #define ATAN2 atan2l
@@ -58,6 +67,9 @@
 #define FINER 1e-4 /* the tolerance is that of doubles: terms are kept to what is beyond them */
 #define FINEST_ORDER 34
 #define NODES 12
+#if LDBL_MANT_DIG == 64
+#define SPLIT (0x1p32L + 1) /* see lost_in */
+#endif
 #elif IS_QUAD
 __extension__ typedef _Float128 number_of_128_bits;
 #define NUMBER number_of_128_bits
@@ -65,6 +77,8 @@ __extension__ typedef _Float128 number_of_128_bits;
 #define POW powf128
 #define FMA fmaf128
 #define ABS fabsf128
+#define EXP expf128
+#define LOG logf128
 #define SIN sinf128
 #define COS cosf128
 #define ATAN2 atan2f128
@@ -78,9 +92,17 @@ __extension__ typedef _Float128 number_of_128_bits;
 #define POW pow
 #define FMA fma
 #define ABS fabs
+#define EXP exp
+#define LOG log
+#define SIN sin
+#define COS cos
 #define EPSILON DBL_EPSILON
 #define FINER 1
+#if IS_TAIL
+#define FINEST_ORDER ISO_TAIL_ORDER
+#else
 #define FINEST_ORDER 28
+#endif
 #define NODES 8
 #endif
 
@@ -98,7 +120,7 @@ __extension__ typedef _Float128 number_of_128_bits;
 #define CHANNELS 3
 #endif
 
-#if IS(PLAIN) || IS(AVX2)
+#if IS(PLAIN) || IS(AVX2) || IS_TAIL
 #define PACKED
 #endif
 
@@ -108,7 +130,9 @@ __extension__ typedef _Float128 number_of_128_bits;
 
 /* --- the code --------------------------------------------------------------------------------------------------- */
 
-#if LANES == 1 && !IS_TANGENT
+#if IS_TAIL
+#include "method/taylor/tail_code_impl.h"
+#elif LANES == 1 && !IS_TANGENT
 #include "method/taylor/single_impl.h"
 #else
 #include "method/taylor/crew_impl.h"
@@ -161,6 +185,15 @@ const iso_lane_code iso_tangent_avx512 = LANE_CODE("avx512");
 #elif IS(TANGENT_EXTENDED)
 const iso_return_code iso_return_extended = {"extended", LDBL_EPSILON, go};
 const iso_lane_code iso_tangent_extended = LANE_CODE("extended");
+#elif IS(TAIL_PLAIN)
+static bool runs_everywhere(void)
+{
+    return true;
+}
+
+const iso_tail_code iso_tail_plain = {runs_everywhere, create_tail, expand_tail};
+#elif IS(TAIL_AVX2)
+const iso_tail_code iso_tail_avx2 = {iso_taylor_has_avx2, create_tail, expand_tail};
 #else
 const iso_return_code iso_return_quad = {"quad", 0x1p-106, go};
 const iso_lane_code iso_tangent_quad = LANE_CODE("quad");

@@ -36,6 +36,11 @@ static inline void find_constants(const iso_formula *F, const iso_params *p, NUM
         case ISO_C_MUL: c[i] = c[l->a] * c[l->b]; break;
         case ISO_C_DIV: c[i] = c[l->a] / c[l->b]; break;
         case ISO_C_ROOT: c[i] = ROOT(c[l->a]); break;
+        case ISO_C_POWER: c[i] = POW(c[l->a], c[l->b]); break;
+        case ISO_C_EXP: c[i] = EXP(c[l->a]); break;
+        case ISO_C_LOG: c[i] = LOG(c[l->a]); break;
+        case ISO_C_SIN: c[i] = SIN(c[l->a]); break;
+        case ISO_C_COS: c[i] = COS(c[l->a]); break;
         default: c[i] = F->value[i]; break;
         }
     }
@@ -64,19 +69,22 @@ static inline vector matrix_times(const real M[9], vector a)
     return v;
 }
 
-/* sum_(j>0) ((p+1) j - n) a_j v_(n-j) */
+/* sum_(j>0) ((p+1) j - n) a_j v_(n-j), in two parts, which the processor adds side by side */
 static inline real sum_of_power(const nodes *t, const real a[], real p, const real v[], int n)
 {
-    real slopes = zero, plain = zero;
-    for (int j = n; j > 0; j--) {
-        slopes += t->count[j] * a[j] * v[n - j];
-        plain += a[j] * v[n - j];
+    real slopes = zero, plain = zero, other_slopes = zero, other_plain = zero;
+    int j = n;
+    for (; j > 1; j -= 2) {
+        const real one = a[j] * v[n - j], two = a[j - 1] * v[n - j + 1];
+        slopes += t->count[j] * one, plain += one;
+        other_slopes += t->count[j - 1] * two, other_plain += two;
     }
-    return (p + 1) * slopes - t->count[n] * plain;
+    if (j == 1) slopes += a[1] * v[n - 1], plain += a[1] * v[n - 1];
+    return (p + 1) * (slopes + other_slopes) - t->count[n] * (plain + other_plain);
 }
 
 /* (a^p)_n. `power` of products_impl.h is the same recurrence for the base of the ball and of the point. It is faster:
- * its caller gives n b_n and 1/b_0, and it adds in two sums. So the two round differently. */
+ * its caller gives n b_n and 1/b_0. So the two round differently. */
 static inline real power_of_series(const nodes *t, const real a[], real p, const real v[], int c, int n)
 {
     if (n == 0 && !is_deviation(c)) return raised(a[0], p);
@@ -87,6 +95,58 @@ static inline real power_of_series(const nodes *t, const real a[], real p, const
     if (!is_deviation(c)) return sum_of_power(t, a, p, v, n) * (t->inverse[n] / a[0]);
     const real of_da = sum_of_power(t, da, p, v, n) - t->count[n] * da[0] * v[n];
     return (sum_of_power(t, a, p, dv, n) + of_da) * (t->inverse[n] / a[0]);
+}
+
+/* The functions of a[0] that a series begins with, lane by lane. */
+static inline real function_of(iso_operation operation, real a)
+{
+    for (int i = 0; i < LANES; i++) {
+        const NUMBER x = LANE(a, i);
+        LANE(a, i) = operation == ISO_S_EXP   ? EXP(x)
+                     : operation == ISO_S_LOG ? LOG(x)
+                     : operation == ISO_S_SIN ? SIN(x)
+                                              : COS(x);
+    }
+    return a;
+}
+
+/* sum_(j>0) j a_j b_(n-j), over n: coefficient n of the integral of a' b */
+static inline real integral_of(const nodes *t, const real a[], const real b[], int n)
+{
+    real even = zero, odd = zero;
+    int j = n;
+    for (; j > 1; j -= 2) {
+        even += t->count[j] * a[j] * b[n - j];
+        odd += t->count[j - 1] * a[j - 1] * b[n - j + 1];
+    }
+    if (j == 1) even += a[1] * b[n - 1];
+    return t->inverse[n] * (even + odd);
+}
+
+/* v = exp a:  v' = a' v,  dv = v da */
+static inline real exp_of_series(const nodes *t, const real a[], const real v[], int c, int n)
+{
+    if (is_deviation(c)) return product_of(v, a + place(c, 0), n);
+    return n == 0 ? function_of(ISO_S_EXP, a[0]) : integral_of(t, a, v, n);
+}
+
+/* v = log a:  a v' = a',  a dv = da */
+static inline real log_of_series(const nodes *t, const real a[], const real v[], int c, int n)
+{
+    if (is_deviation(c)) return (a[place(c, n)] - known_part(a, v + place(c, 0), n)) / a[0];
+    if (n == 0) return function_of(ISO_S_LOG, a[0]);
+    real sum = zero;
+    for (int j = n - 1; j > 0; j--) sum += t->count[j] * v[j] * a[n - j];
+    return (a[n] - t->inverse[n] * sum) / a[0];
+}
+
+/* v = sin a or cos a, w the other one:  v' = a' w or -a' w,  dv = w da or -w da */
+static inline real circle_of_series(const nodes *t, iso_operation operation, const real a[], const real w[], int c,
+                                    int n)
+{
+    if (n == 0 && !is_deviation(c)) return function_of(operation, a[0]);
+    const real slope = is_deviation(c) ? product_of(w, a + place(c, 0), n) : integral_of(t, a, w, n);
+    return operation == ISO_S_SIN ? slope : -slope;
 }
 
 static inline real scalar_line(const iso_formula_line *l, const nodes *t, int c, int n)
@@ -102,6 +162,10 @@ static inline real scalar_line(const iso_formula_line *l, const nodes *t, int c,
     case ISO_S_TIMES: return t->c[l->a] * with[i];
     case ISO_S_PLUS: return i == 0 ? t->c[l->a] + with[0] : with[i];
     case ISO_S_POWER: return power_of_series(t, a, t->c[l->b], own, c, n);
+    case ISO_S_EXP: return exp_of_series(t, a, own, c, n);
+    case ISO_S_LOG: return log_of_series(t, a, own, c, n);
+    case ISO_S_SIN:
+    case ISO_S_COS: return circle_of_series(t, (iso_operation)l->operation, a, b, c, n);
     case ISO_S_DOT: return dot(t->vector + l->a * t->kept, t->vector + l->b * t->kept, c, n);
     default: return total(by(three(t->c + l->a), t->vector[l->b * t->kept + i])); /* ISO_S_DOT_C */
     }
@@ -155,7 +219,7 @@ static inline void evaluate(const iso_formula *F, const nodes *t, bool late, int
     const int i = place(c, n);
     for (int j = 0; j < F->lines; j++) {
         const iso_formula_line *l = &F->line[j];
-        if ((F->late_line >> j & 1) != late) continue;
+        if (F->late_line[j] != late) continue;
         if (l->operation < ISO_V_ADD)
             t->scalar[l->to * t->kept + i] = scalar_line(l, t, c, n);
         else if (l->operation < ISO_R_TORQUE)

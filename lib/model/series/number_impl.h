@@ -116,6 +116,19 @@ static inline real fused(real a, real b, real c)
     return c;
 }
 
+/* a b - p, where p is a b rounded: exact. By Dekker's product where NUMBER has an even number of bits and FMA is slow:
+ * the C library's fmal asks for the rounding mode. */
+static inline real lost_in(real a, real b, real p)
+{
+#ifdef SPLIT
+    const real of_a = SPLIT * a, of_b = SPLIT * b, a1 = of_a - (of_a - a), b1 = of_b - (of_b - b);
+    const real a2 = a - a1, b2 = b - b1;
+    return ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2;
+#else
+    return fused(a, b, -p);
+#endif
+}
+
 /* a^(twice/2) for a > 0 */
 static inline real half_power(real a, int twice)
 {

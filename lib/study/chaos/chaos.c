@@ -134,7 +134,7 @@ static void count_shares(const iso_chaos_walk *w)
         s->chaotic += o->verdict == ISO_CHAOTIC;
         s->regular += o->verdict == ISO_REGULAR;
         s->disagree += o->disagree;
-        s->checked += o->result[ISO_BALL].turns > 0 && o->result[ISO_POINT].turns > 0;
+        s->checked += o->result[ISO_BALL].verdict != ISO_UNDECIDED && o->result[ISO_POINT].verdict != ISO_UNDECIDED;
     }
     s->undecided = s->count - s->chaotic - s->regular;
     s->share = s->count > 0 ? (double)s->chaotic / (double)s->count : NAN;

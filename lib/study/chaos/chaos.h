@@ -92,8 +92,8 @@ typedef struct iso_chaos_orbit {
 typedef struct iso_chaos_fraction {
     size_t asked, count, failed; /* of `asked` starts, `count` were followed, `failed` failed         */
     size_t chaotic, regular, undecided, disagree; /* of those followed; undecided includes disagree   */
-    size_t checked;                               /* of those followed, by both models; disagree is of these */
-    double tolerance;                             /* of the steps of these starts */
+    size_t checked;   /* of those followed, the orbits that both models decided; disagree is of these   */
+    double tolerance; /* of the steps of these starts */
     /* The share chaotic/count, and the confidence interval of 95 % of the chaotic part, with undecided ones counted
      * both ways; NaN: no orbit was followed. */
     double share, low, high;

@@ -94,7 +94,7 @@ const iso_field iso_chaos_fraction_fields[] = {
     FIELD("regular_starts", regular, "", "regular", .how = ISO_IN_TREE),
     FIELD("undecided_starts", undecided, "", "undecided", .how = ISO_IN_TREE),
     FIELD("disagree", disagree, "", "undecided because the models disagree", .how = ISO_IN_TREE),
-    FIELD("checked", checked, "", "orbits that both models followed", .how = ISO_IN_TREE),
+    FIELD("checked", checked, "", "orbits that both models decided", .how = ISO_IN_TREE),
     FIELD("failed", failed, "", "orbits that failed"),
     FIELD("tolerance", tolerance, "", "largest relative error of one step of these starts", .how = ISO_IN_TREE),
     ISO_FIELD_END,

@@ -173,7 +173,7 @@ iso_status iso_checker_energy(checker *c, checked_model *m, const double first[]
     char key[ISO_NAME_SIZE];
     const iso_effect *of_level = level ? iso_effect_list[iso_effect_find(iso_level_name())] : NULL;
     if (!level || isinf(least)) return ISO_OK;
-    iso_effect_line(key, of_level, of_level->numbers);
+    iso_effect_line(key, of_level, of_level->numbers->name);
     note_line(c, m, key, "this line, against the first row and h or eps", least);
     return ISO_OK;
 }
@@ -191,7 +191,7 @@ static void compare_beginning(checker *c, checked_model *ball, iso_effect_id id,
         error = fmax(error, fabs(there - stated));
         size = fmax(size, fmax(fabs(there), fabs(stated)));
     }
-    iso_effect_line(key, iso_effect_list[id], n);
+    iso_effect_line(key, iso_effect_list[id], n->name);
     note_line(c, ball, key, "this line, against the row at time 0", size > 0 ? error / size : 0);
 }
 

@@ -95,9 +95,10 @@ typedef struct iso_periodic_orbit {
     double l_tail, x_tail;    /* l + l_tail: more digits                                                         */
     double trace, trace_tail; /* of the derivative of f^period                                                   */
     double error;             /* of the trace                                                                    */
-    double determinant;       /* of the same derivative, minus 1                                                 */
+    double determinant;       /* of the same derivative, minus 1; likewise                                       */
     /* |f^period z - z| in (l, x), with all digits of z, by the largest number of the derivative of f^period if that
-     * is above 1. */
+     * is above 1. The second half of a symmetric orbit is the mirror image of the first: how far the middle is from
+     * the line is measured, and carried on by the derivative. */
     double closure;
     iso_multipliers multipliers;
     bool torus;   /* k = 1 or -1: on a torus that is full of such orbits                             */

@@ -130,7 +130,8 @@ typedef struct iso_periodic_shot {
     iso_wide trace;   /* of the whole orbit, if miss is 0 */
     double terms;     /* the trace is a sum of terms of this size: so large are its rounding errors */
     iso_wide clock[ISO_CLOCKS];
-    iso_periodic_fine way;             /* g^period of z */
+    iso_periodic_fine way; /* g^period of z */
+    iso_wide back[2][2];   /* the derivative of g^period there, along the mirror image, which leads back to z */
     double path[ISO_PERIODIC_MOST][2]; /* g z ... g^period z */
 } iso_periodic_shot;
 bool iso_periodic_shoot(const iso_periodic_map *map, const iso_return_code *code, int line, iso_wide u, int period,

@@ -150,6 +150,24 @@ static void find_trace(const arrival *a, const double S[2], iso_periodic_shot *s
     s->terms = 2 + terms[smaller];
 }
 
+static void invert(const iso_wide A[2][2], iso_wide inverse[2][2])
+{
+    const iso_wide det = A[0][0] * A[1][1] - A[0][1] * A[1][0];
+    inverse[0][0] = A[1][1] / det, inverse[0][1] = -A[0][1] / det;
+    inverse[1][0] = -A[1][0] / det, inverse[1][1] = A[0][0] / det;
+}
+
+/* s->back = R first^-1 E, E the derivative of the line's reversor S. From the section the way back is S g^-p S: R = E,
+ * first = D g^p. Half way z = g S z, so that g^p at S g^(p-1) z is g S g^(1-p) S: R = D(g S), first = D g^(p-1). */
+static void find_back(int line, const iso_wide R[2][2], const iso_wide first[2][2], iso_periodic_shot *s)
+{
+    const int over = iso_symmetry_line_reversor(line) == 0 ? 1 : 0;
+    iso_wide inverse[2][2];
+    invert(first, inverse);
+    iso_wide_multiply(R, (const iso_wide(*)[2])inverse, s->back);
+    for (int i = 0; i < 2; i++) s->back[i][over] = -s->back[i][over];
+}
+
 static void arrive(int line, const arrival *a, iso_periodic_shot *s)
 {
     const int reversor = iso_symmetry_line_reversor(line),
@@ -183,6 +201,8 @@ static bool shoot_from_section(const iso_periodic_map *map, const iso_return_cod
         A[i][1] = s->way.slope[i][flat ? 1 : 0];
     }
     arrive(line, &(arrival){s->way.to, s->way.to, A, A, flat ? law : -law * stretch}, s);
+    const iso_wide E[2][2] = {{flat ? 1 : -1, 0}, {0, flat ? -1 : 1}};
+    find_back(line, E, (const iso_wide(*)[2])s->way.slope, s);
     memcpy(s->clock, s->way.clock, sizeof s->clock);
     return true;
 }
@@ -196,6 +216,12 @@ static void arrive_half_way(int line, const iso_periodic_fine *in, const iso_per
     iso_wide_multiply(last->slope, (const iso_wide(*)[2])A, B);
     arrive(line, &(arrival){before->to, last->to, A, B, before->determinant * in->determinant}, s);
     iso_periodic_join(before, last, &s->way);
+    /* D(g S) at z turns over c, and leaves u as it is */
+    iso_wide from_u[2][2], R[2][2];
+    const iso_wide turned[2][2] = {{in->slope[0][0], -in->slope[0][1]}, {in->slope[1][0], -in->slope[1][1]}};
+    invert(in->slope, from_u);
+    iso_wide_multiply(turned, (const iso_wide(*)[2])from_u, R);
+    find_back(line, (const iso_wide(*)[2])R, before->slope, s);
     for (int c = 0; c < ISO_CLOCKS; c++) s->clock[c] = in->clock[c] + before->clock[c] + last->clock[c] / 2;
 }
 

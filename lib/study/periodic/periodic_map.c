@@ -110,26 +110,53 @@ static iso_status go(const iso_periodic_map *map, const walk *w, double toleranc
     return status == ISO_NO_MEMORY || status == ISO_STOPPED ? status : ISO_OK; /* some starts may fail */
 }
 
+/* One part of a walk: from each z[i] half a return, or `each` whole ones. part[each i + n]: n + 1 returns later. */
+static iso_status walk_on(const iso_periodic_map *map, size_t count, const double (*z)[2], bool half, size_t each,
+                          double tolerance, iso_periodic_point *part)
+{
+    walk w = {0};
+    const bool memory = make_walk(count, each, &w);
+    iso_status status = memory ? ISO_OK : iso_context_no_memory(map->ctx, "orbits");
+    for (size_t i = 0; i < count && status == ISO_OK; i++) set_start(map, &w, i, z[i], half);
+    if (status == ISO_OK) status = go(map, &w, tolerance);
+    for (size_t i = 0; i < count && status == ISO_OK; i++)
+        for (size_t n = 0; n < each; n++) set_point(&w, i, n, &part[each * i + n]);
+    free_walk(&w);
+    return status;
+}
+
+/* *to: the way to *first, and then *next, which begins there. */
+static void join_points(const iso_periodic_point *first, const iso_periodic_point *next, iso_periodic_point *to)
+{
+    to->l = next->l, to->x = next->x;
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++)
+            to->slope[i][j] = next->slope[i][0] * first->slope[0][j] + next->slope[i][1] * first->slope[1][j];
+}
+
 iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const double (*from)[2], int halves,
                              bool whole, double tolerance, iso_periodic_point *to)
 {
-    walk w = {0};
-    const size_t kinds = whole ? 1 : 2, each = whole ? (size_t)halves : (size_t)(halves + 1) / 2;
+    const size_t each = (size_t)halves;
     if (count == 0) return ISO_OK;
-    const bool memory = make_walk(kinds * count, each, &w);
-    iso_status status = memory ? ISO_OK : iso_context_no_memory(map->ctx, "orbits");
-    for (size_t i = 0; i < w.orbits && status == ISO_OK; i++)
-        set_start(map, &w, i, from[i % count], !whole && i < count);
-    if (status == ISO_OK) status = go(map, &w, tolerance);
-    for (size_t i = 0; i < count && status == ISO_OK; i++)
-        for (int n = 0; n < halves; n++) {
-            iso_periodic_point *at = &to[(size_t)halves * i + (size_t)n];
-            if (whole)
-                set_point(&w, i, (size_t)n, at);
+    if (whole) return walk_on(map, count, from, false, each, tolerance, to);
+    double(*z)[2] = malloc(count * sizeof *z);
+    iso_periodic_point *part = malloc(count * sizeof *part);
+    iso_status status = z && part ? ISO_OK : iso_context_no_memory(map->ctx, "orbits");
+    if (status == ISO_OK) memcpy(z, from, count * sizeof *z);
+    for (size_t n = 0; n < each && status == ISO_OK; n++) {
+        status = walk_on(map, count, (const double(*)[2])z, true, 1, tolerance, part);
+        for (size_t i = 0; i < count && status == ISO_OK; i++) {
+            iso_periodic_point *at = &to[each * i + n];
+            if (n == 0)
+                *at = part[i];
             else
-                set_point(&w, n % 2 == 0 ? i : count + i, (size_t)n / 2, at);
+                join_points(at - 1, &part[i], at);
+            z[i][0] = at->l, z[i][1] = at->x;
         }
-    free_walk(&w);
+    }
+    free(z);
+    free(part);
     return status;
 }
 

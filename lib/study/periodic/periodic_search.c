@@ -62,8 +62,8 @@ static iso_status grow(iso_context *ctx, void **list, size_t *room, size_t count
 
 /* F_1 to F_halves of the line at u[i], and their slopes, are off[halves i], ... */
 typedef struct misses {
-    double (*z)[2];   /* the first point on the section */
-    double (*end)[2]; /* g^halves of it                 */
+    double (*z)[2], (*z_by_u)[2];     /* the first point on the section, and its derivative */
+    double (*end)[2], (*end_by_u)[2]; /* g^halves of it                                     */
     double *off, *slope;
     bool *there;
 } misses;
@@ -71,7 +71,9 @@ typedef struct misses {
 static void free_misses(misses *m)
 {
     free(m->z);
+    free(m->z_by_u);
     free(m->end);
+    free(m->end_by_u);
     free(m->off);
     free(m->slope);
     free(m->there);
@@ -80,11 +82,13 @@ static void free_misses(misses *m)
 static iso_status make_misses(const search *s, size_t count, size_t halves, misses *m)
 {
     m->z = malloc((count + 1) * sizeof *m->z);
+    m->z_by_u = malloc((count + 1) * sizeof *m->z_by_u);
     m->end = malloc((count + 1) * sizeof *m->end);
+    m->end_by_u = malloc((count + 1) * sizeof *m->end_by_u);
     m->off = malloc((count * halves + 1) * sizeof *m->off);
     m->slope = malloc((count * halves + 1) * sizeof *m->slope);
     m->there = malloc((count * halves + 1) * sizeof *m->there);
-    if (m->z && m->end && m->off && m->slope && m->there) return ISO_OK;
+    if (m->z && m->z_by_u && m->end && m->end_by_u && m->off && m->slope && m->there) return ISO_OK;
     free_misses(m);
     return iso_context_no_memory(s->w->ctx, "the search");
 }
@@ -92,21 +96,21 @@ static iso_status make_misses(const search *s, size_t count, size_t halves, miss
 static iso_status evaluate(const search *s, size_t count, const double u[], int halves, double tolerance, misses *m)
 {
     const size_t each = (size_t)halves;
-    double(*by_u)[2] = malloc((count + 1) * sizeof *by_u);
     iso_periodic_point *at = malloc((count * each + 1) * sizeof *at);
-    iso_status status = by_u && at ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
-    if (status == ISO_OK) status = iso_periodic_place(&s->w->map, s->line, count, u, m->z, by_u);
+    iso_status status = at ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
+    if (status == ISO_OK) status = iso_periodic_place(&s->w->map, s->line, count, u, m->z, m->z_by_u);
     if (status == ISO_OK)
         status = iso_periodic_walk(&s->w->map, count, (const double(*)[2])m->z, halves, false, tolerance, at);
     for (size_t i = 0; i < count && status == ISO_OK; i++) {
         iso_periodic_point before = {m->z[i][0], m->z[i][1], {{1, 0}, {0, 1}}};
         for (size_t n = each * i; n < each * (i + 1); n++) {
-            m->off[n] = iso_periodic_miss(s->line, &before, &at[n], by_u[i], &m->slope[n], &m->there[n]);
+            m->off[n] = iso_periodic_miss(s->line, &before, &at[n], m->z_by_u[i], &m->slope[n], &m->there[n]);
             before = at[n];
         }
         m->end[i][0] = before.l, m->end[i][1] = before.x;
+        for (int j = 0; j < 2; j++)
+            m->end_by_u[i][j] = before.slope[j][0] * m->z_by_u[i][0] + before.slope[j][1] * m->z_by_u[i][1];
     }
-    free(by_u);
     free(at);
     return status;
 }
@@ -212,7 +216,8 @@ static iso_status sample_line(search *s)
 
 /* --- roots ------------------------------------------------------------------------------------------------------ */
 
-/* Newton's method, kept inside the bracket. */
+/* Newton's method, kept inside the bracket. Behind a step of 1e-9, and so near the line, a step is one of rounding
+ * errors. */
 static void next_guess(bracket *b, double off, double slope)
 {
     if (!isfinite(off)) {
@@ -224,8 +229,9 @@ static void next_guess(bracket *b, double off, double slope)
     else
         b->high = b->u;
     double next = b->u - off / slope;
-    if (!(next > b->low && next < b->high)) next = (b->low + b->high) / 2;
-    b->done = fabs(next - b->u) < 1e-12 || off == 0;
+    const bool inside = next > b->low && next < b->high;
+    if (!inside) next = (b->low + b->high) / 2;
+    b->done = fabs(next - b->u) < (inside && fabs(off) < 1e-6 ? 1e-9 : 1e-12) || off == 0;
     b->u = next;
 }
 
@@ -240,10 +246,12 @@ static iso_status step_roots(search *s, int n, double u[], size_t of[], misses *
     for (size_t i = 0; i < count && status == ISO_OK; i++) {
         const size_t end = (size_t)n * (i + 1) - 1;
         bracket *b = &s->bracket[of[i]];
-        memcpy(b->z, m->z[i], sizeof b->z);
-        memcpy(b->end, m->end[i], sizeof b->end);
         b->there = m->there[end];
         next_guess(b, m->off[end], m->slope[end]);
+        for (int j = 0; j < 2; j++) {
+            b->z[j] = m->z[i][j] + (b->u - u[i]) * m->z_by_u[i][j];
+            b->end[j] = m->end[i][j] + (b->u - u[i]) * m->end_by_u[i][j];
+        }
         *left += !b->done;
     }
     return status;

@@ -133,43 +133,42 @@ static double by_other_steps(const solver *s)
     return fabs((double)(other.trace - s->trace)) + s->slope_of_trace * fabs((double)other.step);
 }
 
-/* The whole orbit: of a symmetric one the second half is followed as well. What rounding made of the trace there:
- * *error, and in *doubt by how much the two halves make rounding errors grow. */
-static bool close_up(const solver *s, iso_periodic_fine *all, double *error, double *doubt)
+/* The whole orbit. *doubt: how much rounding errors grow on the way. The second half of a symmetric one is the mirror
+ * image of the first. Where it ends follows from how far the middle is from the line. */
+static void close_up(const solver *s, iso_periodic_orbit *o, iso_wide slope[2][2], double *doubt)
 {
-    *all = s->line >= 0 ? s->shot.way : s->whole;
-    *error = 0;
-    *doubt = largest4((const iso_wide(*)[2])all->slope);
-    if (s->line < 0) return true;
-    *doubt = s->shot.terms;
-    const iso_periodic_fine half = *all;
-    iso_periodic_fine rest;
-    if (!iso_periodic_far(&s->map, s->code, half.to, s->period, NULL, &rest)) return false;
-    iso_periodic_join(&half, &rest, all);
-    *error = fabs((double)(all->slope[0][0] + all->slope[1][1] - s->trace)) / 16;
-    return true;
+    const iso_periodic_shot *shot = &s->shot;
+    const iso_wide(*back)[2] = (const iso_wide(*)[2])shot->back, *miss = shot->miss;
+    iso_wide gap[2] = {iso_wide_wrap(s->whole.to[0] - s->z[0], 2 * WIDE_PI), s->whole.to[1] - s->z[1]};
+    iso_wide determinant = s->whole.determinant;
+    memcpy(slope, s->whole.slope, sizeof s->whole.slope);
+    if (s->line >= 0) {
+        const iso_wide half = shot->way.determinant / iso_periodic_determinant(&s->map, s->z[0], shot->way.to[0]);
+        iso_wide_multiply(back, (const iso_wide(*)[2])shot->way.slope, slope);
+        for (int i = 0; i < 2; i++) gap[i] = back[i][0] * miss[0] + back[i][1] * miss[1];
+        determinant = half * half;
+    }
+    const double size = largest4((const iso_wide(*)[2])slope);
+    *doubt = s->line >= 0 ? shot->terms : size;
+    o->determinant = (double)(determinant - 1);
+    o->closure = hypot((double)gap[0], (double)gap[1]) / fmax(1, size);
 }
 
-static bool judge(const solver *s, iso_periodic_orbit *o)
+static void judge(const solver *s, iso_periodic_orbit *o)
 {
-    iso_periodic_fine all;
-    double error, doubt;
+    iso_wide slope[2][2];
+    double doubt;
     const double digits = s->code->error;
-    if (!close_up(s, &all, &error, &doubt)) return false;
+    close_up(s, o, slope, &doubt);
     const iso_fine t = iso_fine_of(s->trace);
     o->trace = t.head;
     o->trace_tail = t.tail;
-    o->determinant = (double)(all.determinant - 1);
-    o->closure = hypot((double)iso_wide_wrap(all.to[0] - s->z[0], 2 * WIDE_PI), (double)(all.to[1] - s->z[1])) /
-                 fmax(1, largest4((const iso_wide(*)[2])all.slope));
     const double moved = s->slope_of_trace * (fabs((double)s->step) + digits + 4 * o->closure);
-    o->error = error + 256 * digits * s->period * doubt + 4 * moved + fabs(o->determinant) * (1 + fabs(o->trace));
+    o->error = 256 * digits * s->period * doubt + 4 * moved + fabs(o->determinant) * (1 + fabs(o->trace));
     o->error += 100 * by_other_steps(s); /* it has been seen to be 70 times too small */
     if (digits > 1e-25) o->error += 0x1p-52 * fabs(o->trace);
     o->torus = fabs(s->map.p.k) == 1 && fabs(o->trace - 2) <= fmax(1000 * o->error, 1e-9);
-    o->multipliers =
-        iso_multipliers_of(o->trace, fmax(4 * o->error, o->torus ? 1e-9 : 1e-15), (double)all.slope[1][0]);
-    return true;
+    o->multipliers = iso_multipliers_of(o->trace, fmax(4 * o->error, o->torus ? 1e-9 : 1e-15), (double)slope[1][0]);
 }
 
 /* The points of a symmetric orbit's second half are mirror images: S g^n z = g^(2p - n) z, or g^(2p - 1 - n) z if z
@@ -199,7 +198,7 @@ iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_re
     memset(o, 0, sizeof *o);
     if (!solve(&s) || !(WIDE_ABS(s.z[1]) < 1)) return ISO_PERIODIC_LOST;
     if (!is_orbit(&s)) return ISO_PERIODIC_NONE;
-    if (!judge(&s, o)) return ISO_PERIODIC_LOST;
+    judge(&s, o);
     const iso_fine z[2] = {iso_fine_of(iso_wide_wrap(s.z[0], 2 * WIDE_PI)), iso_fine_of(s.z[1])};
     o->line = s.line;
     o->period = s.period;

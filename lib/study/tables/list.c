@@ -44,7 +44,10 @@ static void list_integrals(FILE *to)
 static void list_numbers(FILE *to, const iso_effect *effect)
 {
     if (effect->numbers) fprintf(to, "  %-22s numbers:", "");
+    if (effect->expressions)
+        fprintf(to, " %s [parameters]", effect->expressions_key ? effect->expressions_key : effect->expressions[0]);
     for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
+        if (n->hidden) continue;
         fprintf(to, n->required ? " %s" : " [%s", n->name);
         if (n->count == 9)
             fprintf(to, "(3x3)");

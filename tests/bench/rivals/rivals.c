@@ -1,4 +1,4 @@
-/* rivals.c - the list of rivals. */
+/* rivals.c - the lists of rivals. */
 #include "rivals.h"
 
 const rival rivals[] = {
@@ -10,4 +10,18 @@ const rival rivals[] = {
     {"ARKODE fehlberg_13_7_8", rival_arkode_fehlberg, true},
     {"CVODE adams", rival_cvode_adams, true},
     {NULL, NULL, false},
+};
+
+#define ORDERS(vectors, solve)                                                                                       \
+    {vectors, 12, solve}, {vectors, 14, solve}, {vectors, 16, solve}, {vectors, 18, solve},                          \
+    {                                                                                                                \
+        vectors, 20, solve                                                                                           \
+    }
+
+const yardstick yardsticks[] = {
+#ifdef YARDSTICKS
+    ORDERS("avx512", yardstick_avx512),
+    ORDERS("avx2", yardstick_avx2),
+#endif
+    {NULL, 0, NULL},
 };

@@ -1,0 +1,111 @@
+// worker.js - runs in a Worker behind the loader of emscripten (isoroll.js): calls the library by its interface for other
+// languages (lib/foreign/foreign.h). All physics of the laboratory is computed here.
+//
+// In: {module}, the compiled library, first; then {id, job, scene, options}. Out: {id, result} or {id, error}.
+
+let library = null; // a promise of it
+const jobs = {};
+
+onmessage = async ({ data }) => {
+  if (data.module) {
+    library = isoroll({
+      instantiateWasm: (imports, done) => {
+        WebAssembly.instantiate(data.module, imports).then((instance) => done(instance));
+        return {};
+      },
+    });
+    return;
+  }
+  const calls = callsOf(await library);
+  try {
+    const result = jobs[data.job](calls, data.scene, data.options),
+      columns = Object.values(result.columns || {});
+    postMessage({ id: data.id, result }, columns.map((column) => column.buffer));
+  } catch (error) {
+    postMessage({ id: data.id, error: error.message });
+  }
+  calls.end();
+};
+
+// What the jobs need of the library; end() frees what they have used.
+function callsOf(M) {
+  const ctx = M._iso_context_create(),
+    ends = [() => M._iso_context_free(ctx)],
+    pointer = (at) => M.HEAPU32[at >> 2];
+  const room = (bytes) => {
+    const at = M._malloc(bytes);
+    ends.push(() => M._free(at));
+    return at;
+  };
+  const text = (words) => {
+    const bytes = M.lengthBytesUTF8(words) + 1,
+      at = room(bytes);
+    M.stringToUTF8(words, at, bytes);
+    return at;
+  };
+  const ok = (status) => {
+    if (status !== 0) throw new Error(M.UTF8ToString(M._iso_context_message(ctx)).replace(/^page:\d+:\d+: /, ""));
+  };
+  const sceneOf = (scene) => {
+    const words = JSON.stringify(scene), // YAML as well
+      at = room(4);
+    ok(M._iso_foreign_scene_parse(ctx, text("page"), text(words), M.lengthBytesUTF8(words), at));
+    const made = pointer(at);
+    ends.push(() => M._iso_foreign_scene_free(made));
+    return made;
+  };
+  // The lines of a record, and its columns by their names; words where a column has words.
+  const taken = (record) => {
+    ends.push(() => M._iso_record_free(record));
+    const rows = M._iso_record_rows(record),
+      count = M._iso_record_columns(record),
+      first = rows ? M._iso_record_row(record, 0) >> 3 : 0,
+      lines = {},
+      columns = {},
+      key = room(8);
+    for (let i = 0; M._iso_record_line(record, i, key, key + 4); i++)
+      lines[M.UTF8ToString(pointer(key))] = M.UTF8ToString(pointer(key + 4));
+    for (let j = 0; j < count; j++)
+      columns[M.UTF8ToString(M._iso_record_name(record, j))] = Float64Array.from(
+        { length: rows },
+        (_, i) => M.HEAPF64[first + i * count + j],
+      );
+    return { rows, lines, columns };
+  };
+  const notes = room(4096);
+  return {
+    run(scene) {
+      const at = room(4);
+      ok(M._iso_foreign_run(ctx, sceneOf(scene), 0, 0, 0, at, notes, 4096));
+      return { ...taken(pointer(at)), notes: M.UTF8ToString(notes) };
+    },
+    study(name, scene, options) {
+      const at = room(24),
+        lines = Object.entries(options).map(([key, value]) => `${key}=${value}`);
+      ok(M._iso_foreign_study(ctx, sceneOf(scene), 0, text(name), text(lines.join("\n")), 0, 0, at, notes, 4096));
+      for (let i = 1; i < 6; i++) if (pointer(at + 4 * i)) M._iso_record_free(pointer(at + 4 * i));
+      return taken(pointer(at));
+    },
+    end: () => ends.reverse().forEach((end) => end()),
+  };
+}
+
+// Each model by its own equations, at the same times; and how far they are apart.
+jobs.run = (calls, scene) => {
+  const ball = calls.run({ ...scene, solver: { backend: "ball" } }),
+    point = calls.run({ ...scene, effects: {}, solver: { backend: "point" } }); // it has no attitude
+  const distance = (name) =>
+    ball.columns[name + 1].map((_, i) =>
+      Math.hypot(...[1, 2, 3].map((j) => ball.columns[name + j][i] - point.columns[name + j][i])),
+    );
+  const columns = { ...ball.columns, apart_n: distance("n"), apart_gamma: distance("gamma") };
+  for (const name of ["M", "gamma"]) for (const j of [1, 2, 3]) columns[name + j] = point.columns[name + j];
+  return { ...ball, columns };
+};
+
+jobs.section = (calls, scene, options) => calls.study("section", scene, options);
+
+jobs.chaos = (calls, scene, options) => {
+  const { lines } = calls.study("chaos", scene, options);
+  return { lines };
+};

@@ -1,0 +1,118 @@
+/* scene_written.c - the effects that a scene writes: reads their expressions and parameters, and finds the place in the
+ * file of what is wrong with an expression. */
+#include <stdio.h>
+#include <string.h>
+
+#include "io/scene_draft_impl.h"
+#include "io/text_impl.h"
+#include "model/written_impl.h"
+
+static iso_status read_expression(iso_draft *d, iso_effect_id id, int which, const yaml_node_t *value)
+{
+    const iso_effect *effect = iso_effect_list[id];
+    const char *name = effect->expressions[which];
+    if (value->type != YAML_SCALAR_NODE || value->data.scalar.length == 0)
+        return iso_yaml_expected(&d->yaml, value, name, "an expression in quotes");
+    const char *text = (const char *)value->data.scalar.value;
+    if (strlen(text) != value->data.scalar.length) return ISO_FAIL_AT(d, value, "%s has a zero byte in it", name);
+    const iso_status status = iso_effects_write(d->yaml.ctx, &d->scene.effects, effect->name, name, text);
+    return status == ISO_OK ? status : ISO_FAIL_AT(d, value, "%s", iso_context_message(d->yaml.ctx));
+}
+
+static iso_status read_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *value)
+{
+    const iso_effect *effect = iso_effect_list[id];
+    const bool list = value->type == YAML_SEQUENCE_NODE;
+    const yaml_node_item_t *items = list ? value->data.sequence.items.start : NULL;
+    const long found = list ? (long)(value->data.sequence.items.top - items) : 0;
+    int count = 0;
+    while (effect->expressions[count]) count++;
+    if (found != count)
+        return iso_yaml_expected(&d->yaml, value, effect->expressions_key,
+                                 "a list of 3 expressions in quotes, [\"...\", \"...\", \"...\"]");
+    for (int i = 0; i < count; i++) ISO_TRY(read_expression(d, id, i, iso_yaml_node(&d->yaml, items[i])));
+    return ISO_OK;
+}
+
+static iso_status read_parameter(iso_draft *d, iso_effect_id id, const yaml_node_t *mapping, const yaml_node_t *key,
+                                 const yaml_node_t *value)
+{
+    const yaml_node_t *first;
+    double x;
+    if (key->type != YAML_SCALAR_NODE) return ISO_FAIL_AT(d, key, "a parameter should be NAME: NUMBER");
+    const char *name = (const char *)key->data.scalar.value, *bad = iso_expression_bad_name(name);
+    char quoted[ISO_QUOTE_SIZE];
+    if (bad)
+        return ISO_FAIL_AT(d, key, "'%s' cannot be a parameter: %s",
+                           iso_text_quote(quoted, name, key->data.scalar.length), bad);
+    iso_yaml_find(&d->yaml, mapping, name, &first, NULL);
+    if (first != key)
+        return ISO_FAIL_AT(d, key, "duplicate key '%s', first written in line %zu", name, first->start_mark.line + 1);
+    ISO_TRY(iso_yaml_number(&d->yaml, value, name, &x));
+    const iso_status status = iso_effects_set(d->yaml.ctx, &d->scene.effects, iso_effect_list[id]->name, name, 1, &x);
+    return status == ISO_OK ? status : ISO_FAIL_AT(d, key, "%s", iso_context_message(d->yaml.ctx));
+}
+
+static iso_status read_parameters(iso_draft *d, iso_effect_id id, const yaml_node_t *value)
+{
+    if (value->type != YAML_MAPPING_NODE)
+        return iso_yaml_expected(&d->yaml, value, "parameters", "a mapping {NAME: NUMBER, ...}");
+    const yaml_node_pair_t *end = value->data.mapping.pairs.top;
+    for (const yaml_node_pair_t *p = value->data.mapping.pairs.start; p < end; p++)
+        ISO_TRY(read_parameter(d, id, value, iso_yaml_node(&d->yaml, p->key), iso_yaml_node(&d->yaml, p->value)));
+    return ISO_OK;
+}
+
+const char *iso_draft_text_key(iso_effect_id id, int i)
+{
+    const iso_effect *effect = iso_effect_list[id];
+    int count = 0;
+    if (!effect->expressions) return NULL;
+    if (effect->expressions_key && i == 0) return effect->expressions_key;
+    while (!effect->expressions_key && effect->expressions[count]) count++;
+    if (effect->expressions_key) count = 1;
+    return i < count ? effect->expressions[i] : i == count ? "parameters" : NULL;
+}
+
+iso_status iso_draft_text(iso_draft *d, iso_effect_id id, int i, const yaml_node_t *value)
+{
+    if (strcmp(iso_draft_text_key(id, i), "parameters") == 0) return read_parameters(d, id, value);
+    return iso_effect_list[id]->expressions_key ? read_expressions(d, id, value) : read_expression(d, id, i, value);
+}
+
+/* The place of character `at` of a text. In a text of several lines, or with escapes, it is not known: then only that
+ * of the text is, and the words say which character. */
+static iso_status fail_in_text(iso_draft *d, const yaml_node_t *node, const char *name, const iso_expression *e)
+{
+    yaml_mark_t mark = node->start_mark;
+    const size_t quotes = node->data.scalar.style == YAML_PLAIN_SCALAR_STYLE ? 0 : 2;
+    const bool plain =
+        node->end_mark.line == mark.line && node->end_mark.column == mark.column + node->data.scalar.length + quotes;
+    if (!plain) return ISO_FAIL_AT(d, node, "%s, character %d: %s", name, e->at + 1, e->wrong);
+    mark.column += quotes / 2 + (size_t)e->at;
+    return iso_yaml_fail(&d->yaml, mark, "%s: %s", name, e->wrong);
+}
+
+/* Where expression `which` stands in the section of its effect. */
+static const yaml_node_t *find_expression(iso_draft *d, const iso_effect *effect, const yaml_node_t *section,
+                                          int which)
+{
+    const yaml_node_t *node;
+    const char *key = effect->expressions_key ? effect->expressions_key : effect->expressions[which];
+    if (!iso_yaml_find(&d->yaml, section, key, NULL, &node)) return section;
+    return effect->expressions_key ? iso_yaml_node(&d->yaml, node->data.sequence.items.start[which]) : node;
+}
+
+iso_status iso_draft_check_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *effects)
+{
+    const iso_effect *effect = iso_effect_list[id];
+    const iso_effects *all = &d->scene.effects;
+    const iso_params *p = &d->scene.params;
+    const yaml_node_t *section;
+    iso_expression e;
+    if (!iso_yaml_find(&d->yaml, effects, effect->name, NULL, &section)) return ISO_OK;
+    for (int i = 0; effect->expressions[i]; i++)
+        if (!iso_written_read(all, id, i, &e) || !iso_written_decided(&e, all, p->k, p->J, all->number[id]))
+            return fail_in_text(d, find_expression(d, effect, section, i), effect->expressions[i], &e);
+    return ISO_OK;
+}

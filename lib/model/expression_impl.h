@@ -1,0 +1,76 @@
+/* expression_impl.h - an expression written as text, such as "0.3*n1^2 + c/(1.2 - n3)", and the tree that it is read
+ * as.
+ *
+ *     sum      product { (+|-) product }
+ *     product  factor { (*|/) factor }
+ *     factor   (+|-) factor | power
+ *     power    atom [ ^ factor ]                       -x^2 = -(x^2), x^y^z = x^(y^z), 2^-1
+ *     atom     number | name | function ( sum ) | ( sum )
+ *
+ * Equal parts of a text are one node: the tree is a list in which each node stands behind those that it is made of.
+ */
+#ifndef ISO_MODEL_EXPRESSION_IMPL_H
+#define ISO_MODEL_EXPRESSION_IMPL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "model/problem.h"
+
+enum { ISO_EXPRESSION_NODES = 256, ISO_EXPRESSION_DEPTH = 32 };
+
+typedef enum iso_term {
+    ISO_TERM_NUMBER, /* value                                              */
+    ISO_TERM_K,      /* k of the ball                                      */
+    ISO_TERM_J,      /* J(a+1); likewise the four that follow              */
+    ISO_TERM_PARAMETER,
+    ISO_TERM_N,
+    ISO_TERM_OMEGA,
+    ISO_TERM_E,
+    ISO_TERM_ADD, /* of nodes a and b; of a alone from NEGATIVE on      */
+    ISO_TERM_SUB,
+    ISO_TERM_MUL,
+    ISO_TERM_DIV,
+    ISO_TERM_POWER,
+    ISO_TERM_NEGATIVE,
+    ISO_TERM_SQRT,
+    ISO_TERM_EXP,
+    ISO_TERM_LOG,
+    ISO_TERM_SIN,
+    ISO_TERM_COS
+} iso_term;
+
+/* How a node depends on n: not at all, and on nothing else that moves; as a polynomial of degree 1 or 2; otherwise. */
+enum { ISO_CONSTANT, ISO_LINEAR, ISO_QUADRATIC, ISO_GENERAL };
+
+typedef struct iso_expression_node {
+    uint8_t term, degree;
+    int16_t a, b;
+    int16_t at; /* where in the text it begins; of an operation: the operator */
+    double value;
+} iso_expression_node;
+
+typedef struct iso_expression {
+    int nodes, root;
+    bool reads[ISO_TERM_E + 1]; /* whether there is a node of the kind */
+    iso_expression_node node[ISO_EXPRESSION_NODES];
+    int at;          /* where in the text a mistake is, from 0 */
+    char wrong[448]; /* what it is, in words; "": the text is an expression */
+} iso_expression;
+
+/* What an expression may read, beside numbers, k, J and the parameters. */
+typedef struct iso_expression_names {
+    bool omega, e;
+    const char (*parameter)[ISO_PARAMETER_SIZE]; /* ISO_PARAMETERS names; "": there are no more */
+} iso_expression_names;
+
+/* Reads a text; false: it is none, e->wrong says why and e->at where. */
+bool iso_expression_read(const char *text, const iso_expression_names *names, iso_expression *e);
+
+/* Why `name` cannot be the name of a parameter; NULL: it can. */
+const char *iso_expression_bad_name(const char *name);
+
+/* Computes the nodes that are constant. False: one is not finite; e->wrong says why and e->at where. */
+bool iso_expression_constants(iso_expression *e, double k, const double J[3], const double parameter[]);
+
+#endif

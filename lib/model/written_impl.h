@@ -1,0 +1,75 @@
+/* written_impl.h - expressions as lines of formulas: what the rows of the effects that a scene writes have in common.
+ */
+#ifndef ISO_MODEL_WRITTEN_IMPL_H
+#define ISO_MODEL_WRITTEN_IMPL_H
+
+#include "model/effects_impl.h"
+#include "model/expression_impl.h"
+#include "model/quantity_impl.h"
+
+/* Where the numbers of such an effect are: its parameters, then these. One unit of J and one of angular velocity, in
+ * the caller's units, turn the numbers of an expression into them: in the caller's own units they are 1. */
+enum { ISO_WRITTEN_J = ISO_PARAMETERS, ISO_WRITTEN_W, ISO_WRITTEN_STRENGTH, ISO_WRITTEN_WORK };
+
+extern const double iso_written_one;
+
+/* The rows of these numbers; how large its energy or torque is, the effect itself finds. */
+#define ISO_WRITTEN_NUMBER(title, place, ...)                                                                        \
+    {                                                                                                                \
+        .name = (title), .at = (place), .count = 1, .dimension = {__VA_ARGS__}, .hidden = true,                      \
+        .initially = &iso_written_one                                                                                \
+    }
+#define ISO_WRITTEN_NUMBERS                                                                                          \
+    ISO_WRITTEN_NUMBER("(J)", ISO_WRITTEN_J, -1, 0, 0), ISO_WRITTEN_NUMBER("(w)", ISO_WRITTEN_W, 0, 0, -1),          \
+        ISO_WRITTEN_NUMBER("(strength)", ISO_WRITTEN_STRENGTH, 1, 0, 2)
+
+/* Reads expression `which` of an effect. False: it is none, see e->wrong. */
+bool iso_written_read(const iso_effects *effects, iso_effect_id id, int which, iso_expression *e);
+
+/* Whether its constants are finite, in the caller's units, and e is there if it reads e. False: see e->wrong. */
+bool iso_written_decided(iso_expression *e, const iso_effects *effects, double k, const double J[3],
+                         const double parameter[]);
+
+/* Reads it and asks both. Errors: ISO_BAD_INPUT about the name of the expression. */
+iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id id,
+                             int which, iso_expression *e);
+
+/* One expression that is being written down. n: as what the formula has it. */
+typedef struct iso_writer {
+    iso_formula *F;
+    const iso_expression *e;
+    const double *number; /* of the effect */
+    iso_vector n, omega, vertical;
+    int most;       /* polynomials in n up to this degree are written with vectors */
+    iso_constant J; /* J1, J2, J3 in the caller's units ... */
+    bool has_J;     /* ... if they are there            */
+    iso_quantity value[ISO_EXPRESSION_NODES];
+    bool has_value[ISO_EXPRESSION_NODES];
+    /* of a polynomial in n, c + (l,n) + (n,Cn)/2: l, C n and (n, dU/dn) = (l,n) + (n,Cn) */
+    struct {
+        bool has_l, has_C;
+        iso_constant l;
+        iso_vector C_n;
+        iso_quantity along;
+    } form[ISO_EXPRESSION_NODES];
+} iso_writer;
+
+/* Begins; the effect's numbers are in own units, and the expression is one of the caller's units. */
+void iso_writer_begin(iso_writer *w, iso_formula *F, const iso_expression *e, const double number[], iso_vector n);
+
+/* The value of the expression, in the caller's units, as a scalar of the formula. */
+iso_scalar iso_writer_value(iso_writer *w);
+
+/* Of an expression in n alone: U, dU/dn and (n, dU/dn). */
+void iso_writer_slope(iso_writer *w, iso_scalar *U, iso_vector *dU, iso_scalar *along);
+
+/* One unit of energy or torque in own units, over one in the caller's. */
+iso_constant iso_writer_over_energy(iso_writer *w);
+
+/* For the two files that write: the value of a node; whether it is written with vectors; the exponent of a power, where
+ * the text itself says which whole number it is, from 1 to 64, else 0. */
+iso_quantity iso_writer_value_of(iso_writer *w, int node);
+bool iso_writer_is_form(const iso_writer *w, int node);
+int iso_writer_exponent(const iso_expression *e, const iso_expression_node *power);
+
+#endif

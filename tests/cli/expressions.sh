@@ -1,0 +1,125 @@
+#!/bin/sh
+# expressions.sh ISOROLL - potentials and torques that a scene writes, through the commands. Laws of the motion are in
+# orbit/test_written.c and model/test_effects.c, mistakes in bad_expressions.txt.
+. "$(dirname "$0")/lib.sh"
+
+# scene EFFECT...: a ball on which these act
+scene() {
+    cat <<END
+reduced: {k: ${k:--1}, J: [1.4, 2.1, 3]}
+initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}
+time: {end: 10, step: 1}
+effects:
+END
+    for effect; do echo "  $effect"; done
+}
+
+# --- the field and the level, written
+scene "field: {quadratic: [[0.6, 0.1, 0], [0.1, -0.2, 0], [0, 0, 0]], linear: [0, 0, 0.3]}" >field.yaml
+scene 'potential: {U: "c*n1^2 + 0.1*n1*n2 - n2^2/10 + 0.3*n3", parameters: {c: 0.3}}' >same.yaml
+scene "level: {c: 0.3}" >level.yaml
+scene 'potential: {U: "-c*(n1^2/J1 + n2^2/J2 + n3^2/J3)^(-1/k)", parameters: {c: 0.3}}' >same_level.yaml
+for pair in field:same level:same_level; do
+    for backend in ball point; do
+        run 0 run "${pair%:*}.yaml" --as both --backend $backend -o a.csv
+        run 0 run "${pair#*:}.yaml" --as both --backend $backend -o b.csv
+        silent
+        run 0 check --max 1e-11 b.csv
+        # of a level the point's h and eps differ: its potential is not part of them
+        at_most "$pair by $backend" "$(difference a.csv b.csv)" 1e-13
+    done
+done
+run 0 compare same.yaml
+sed -n '/^# effects/,$!p' b.csv >lines
+check "the line of U" grep -qxF '# potential.U: -c*(n1^2/J1 + n2^2/J2 + n3^2/J3)^(-1/k)' lines
+check "the line of c" grep -qx '# potential.c: 0.3' lines
+
+# --- its files: converted, checked, damaged
+run 0 run same.yaml -o ball.csv
+run 0 convert --to point ball.csv -o point.csv
+run 0 check --max 1e-9 point.csv
+run 0 convert --to ball point.csv -o back.csv
+at_most "there and back" "$(difference ball.csv back.csv)" 1e-9
+sed 's/^# potential.c: 0.3/&1/' ball.csv >damaged.csv
+run 1 check --max 1e-6 damaged.csv
+check "another c is another motion" grep -q "ABOVE THE BOUND" out
+sed 's/^# potential.U: .*/# potential.U: c*n4/' ball.csv >damaged.csv
+refuses 3 "U, column 3 of the text: unknown name 'n4'" check damaged.csv
+sed '/^# potential.U/d' ball.csv >damaged.csv
+refuses 3 "effect 'potential' needs a line '# potential.U: ...'" check damaged.csv
+sed '/^# potential.c/d' ball.csv >damaged.csv
+refuses 3 "U, column 1 of the text: unknown name 'c'" check damaged.csv
+sed '/^# effects/d' ball.csv >damaged.csv
+refuses 3 "there is a line '# potential.U'" check damaged.csv
+sed 's/^# potential.c: 0.3/# potential.n1: 0.3/' ball.csv >damaged.csv
+refuses 3 "'n1' cannot be a parameter: this name has a meaning of its own" check damaged.csv
+for i in 1 2 3 4 5 6 7 8; do sed "s/^# potential.c: 0.3/&\n# potential.c$i: $i/" ball.csv >damaged.csv && mv damaged.csv ball.csv; done
+refuses 3 "no room for more than 8 parameters" check ball.csv
+
+# --- what is known of it, and what is refused by name
+run 0 explain same.yaml
+for words in "U = c*n1^2 + 0.1*n1*n2 - n2^2/10 + 0.3*n3" "c = 0.3" "holds: (18) of the theory carries the states" \
+    "n_1 = 0 is not known to be global: 'potential' acts on the ball" "ball  h  "; do
+    check "explain: $words" grep -F -q -e "$words" out
+done
+run 0 list effects
+check "list: potential" grep -q '^ *numbers: U \[parameters\]$' out
+check "list: torque" grep -q '^ *numbers: M \[parameters\] \[work\]$' out
+refuses 3 "same.yaml:5:14: the closed solution is for" run same.yaml --backend exact
+for command in periodic splitting integrals; do
+    refuses 3 "same.yaml:5:14: " $command same.yaml
+    says "remove 'potential'"
+done
+run 0 section same.yaml --crossings 20 -o section.csv
+check "not global" grep -q '^# section: n1 = 0, increasing; not known to be global' section.csv
+refuses 3 "no other starts can be given here" section same.yaml --starts 3
+run 0 chaos same.yaml
+run 0 frequencies same.yaml
+run 0 run same.yaml --method strang --as point -o strang.csv
+
+# --- a torque: the weight without its effect, and what it says of the energy
+k=0.5
+scene "gravity: {mgb: 0.7, up: [0, 0.6, 0.8]}" >weight.yaml
+scene 'torque: {M: ["m*(e2*n3 - e3*n2)", "m*(e3*n1 - e1*n3)", "m*(e1*n2 - e2*n1)"], parameters: {m: 0.7}}' \
+    "gravity: {mgb: 0, up: [0, 0.6, 0.8]}" >torque.yaml
+run 0 run weight.yaml -o a.csv
+run 0 run torque.yaml -o b.csv
+at_most "the weight" "$(difference a.csv b.csv)" 1e-11
+check "its work is not said" grep -qx '# torque.work: any' b.csv
+run 0 check --max 1e-11 b.csv
+scene 'torque: {M: ["-c*n3^2*omega1", "-c*n3^2*omega2", "-c*n3^2*omega3"], parameters: {c: 0.3}, work: lost}' >friction.yaml
+run 0 run friction.yaml -o c.csv
+run 0 check --max 1e-11 c.csv
+check "its work is lost" grep -qx '# torque.work: lost' c.csv
+sed 's/^# torque.work: .*/# torque.work: much/' c.csv >damaged.csv
+refuses 3 "valid are any, none, lost" check damaged.csv
+refuses 3 "'torque' breaks the isomorphism" compare friction.yaml
+refuses 3 "friction.yaml:5:11: " section friction.yaml
+run 0 explain friction.yaml
+check "explain: no energy" sh -c "sed '/^integrals that do not/q' out | grep -q 'ball  h ' && exit 1 || exit 0"
+
+# --- where an expression is not defined: what was computed is written
+scene 'potential: {U: "0.1*sqrt(n1 + 0.1)"}' >root.yaml
+run 4 run root.yaml -o root.csv
+check "the last good time" grep -q "last good t = 6.1" err
+check "the rows before it" test "$(rows root.csv | wc -l)" -eq 7
+
+# --- a point's scene, a sweep over a parameter
+{
+    echo "point: {k: -1, J: [1.4, 2.1, 3]}"
+    awk -F, '!/^#/ && $1 == 0 { printf "initial: {gamma: [%s, %s, %s], M: [%s, %s, %s]}\n", $5, $6, $7, $2, $3, $4 }' point.csv
+    echo "time: {end: 2, step: 0.5}"
+    tail -n 2 same.yaml
+} >from_point.yaml
+run 0 run from_point.yaml --as both -o p.csv
+run 0 check --max 1e-11 p.csv
+cat >sweep.yaml <<END
+scene: same.yaml
+vary: {potential.c: [0.1, 0.2, 0.3]}
+measure: {state: {}}
+END
+run 0 sweep sweep.yaml -o sweep.csv
+check "three points" test "$(rows sweep.csv | wc -l)" -eq 3
+sed 's/potential.c/potential.d/' sweep.yaml >wrong.yaml
+refuses 3 "did you mean 'potential.c'" sweep wrong.yaml
+finish

@@ -1,0 +1,228 @@
+"""view_live.py ISOROLL SOURCE WORK - the laboratory of `isoroll view --live` in a Chromium.
+
+Prints a line "PASS words" or "FAIL words" for each check. Bounds were set before the first look: what the page computes
+is the C library without AVX2, so a regular orbit agrees with the command to rounding that has grown for its time."""
+import json
+import os
+import random
+import subprocess
+import time
+
+import chromium
+from view_tools import box, check, run, still, table, text, work, write
+
+STATE = 1e-12  # of states until t = 100, regular orbits
+CROSSING = 1e-10  # of l and x, ten crossings
+
+# k, J, n, omega of regular orbits: a shell, a plane, the outside, the inside
+ORBITS = [(-1, [1, 2, 5], [0.36, 0.48, 0.8], [0.9, -0.3, -0.225]),
+          (1, [1, 1.5, 2], [0.6, 0, 0.8], [0.8, 0.1, -0.6]),
+          (0.5, [1, 1.1, 1.2], [0.36, 0.48, 0.8], [0.9, -0.3, -0.225]),
+          (2, [2, 3, 4], [0.6, 0, 0.8], [0.8, 0.1, -0.6])]
+
+
+def quiet(page, words):
+    check(words + ": no message of the console", not page.messages(), str(page.messages())[:600])
+    others = [url for url in page.requests() if not url.startswith(("file://", "blob:")) and url != "data:,"]
+    check(words + ": no request but the page's", not others, str(others)[:300])
+
+
+def scene(orbit, more=""):
+    k, J, n, omega = orbit
+    return (f"reduced: {{k: {k}, J: {J}}}\ninitial: {{normal: {n}, angular_velocity: {omega}}}\n"
+            f"time: {{end: 100, step: 5}}\n{more}")
+
+
+def settled(page):
+    """Waits until orbit, section and verdict of the last change are there."""
+    page.wait("lab.filled === lab.pending")
+    page.frame()
+
+
+def ask(page, job, given, options):
+    """The library in the page, asked by a Worker as the page asks it; columns as lists."""
+    return page.evaluate(f"""(async () => {{ const helper = new Helper();
+        const found = await helper.ask('{job}', {json.dumps(given)}, {json.dumps(options)});
+        for (const name in found.columns) found.columns[name] = [...found.columns[name]];
+        helper.worker.terminate(); return found; }})()""")
+
+
+def state(page):
+    return page.evaluate("lab.state")
+
+
+# --- the same numbers as the command ------------------------------------------------------------------------------
+
+def same_numbers(page):
+    worst, farthest = 0, 0
+    for orbit in ORBITS:
+        k, J, n, omega = orbit
+        given = {"reduced": {"k": k, "J": J}, "initial": {"normal": n, "angular_velocity": omega},
+                 "time": {"end": 100, "step": 5}, "output": {"as": "both"}}
+        write("orbit.yaml", scene(orbit, "output: {as: both}\n"))
+        for backend, names in (("ball", ("t", "tau", "s", "omega", "n")), ("point", ("M", "gamma"))):
+            run("run", "orbit.yaml", "--backend", backend, "-o", "orbit.csv", stderr=subprocess.DEVNULL)
+            rows, found = table("orbit.csv"), ask(page, "run", {**given, "effects": {"attitude": {}}}, {})["columns"]
+            for i, row in enumerate(rows):
+                for name in names:
+                    columns = [name] if name in row else [name + j for j in "123"]
+                    size = max(1, max(abs(row[c]) for c in columns))
+                    worst = max(worst, max(abs(row[c] - found[c][i]) for c in columns) / size)
+            check(f"{backend}, k = {k}: all rows", len(rows) == len(found["t"]) == 21)
+        run("section", "orbit.yaml", "--model", "point", "--crossings", "10", "-o", "section.csv", stderr=subprocess.DEVNULL)
+        rows = table("section.csv")
+        found = ask(page, "section", given, {"crossings": 10, "model": "point"})["columns"]
+        check(f"k = {k}: ten crossings", len(rows) == len(found["l"]) == 10)
+        farthest = max([farthest] + [abs(row[c] - found[c][i]) for i, row in enumerate(rows) for c in "lx"])
+    check(f"states until t = 100 are the command's: {worst:.1e}", worst < STATE)
+    check(f"ten crossings are the command's: {farthest:.1e}", farthest < CROSSING)
+
+
+# --- every control ------------------------------------------------------------------------------------------------
+
+def slide(page, k):
+    page.evaluate(f"(() => {{ const s = document.getElementById('lab-k'); s.value = {k}; "
+                  "s.dispatchEvent(new Event('input')); })()")
+
+
+def controls(page):
+    settled(page)
+    check("a scene of its own: chaotic", text(page, "lab-words").startswith("Verdict: chaotic"), text(page, "lab-words"))
+    for given, k, words in ((-1.02, -1, "rolls around a sphere"), (0.49, 0.5, "outside of a sphere"),
+                            (1.01, 1, "rolls on a plane"), (2, 2, "inside a sphere"), (-0.02, -0.1, "around"),
+                            (0.03, 0.1, "outside")):
+        slide(page, k if k == 2 else given)
+        settled(page)
+        check(f"k = {given} becomes {k}", state(page)["k"] == k, str(state(page)))
+        check(f"k = {k}: the page says so", words in text(page, "left-words"), text(page, "left-words"))
+        check(f"k = {k}: the section is filled", page.evaluate("chart.dots.length") > 8000)
+        if k in (-1, 1):
+            check(f"k = {k}: regular", "regular" in text(page, "lab-words"), text(page, "lab-words"))
+    slide(page, 0.5)
+    settled(page)
+
+    x, y, width, height = box(page, "lab-section")
+    before, count = state(page), page.evaluate("lab.pending")
+    page.click(x + 0.6 * width, y + 0.3 * height)
+    page.wait("lab.pending > " + str(count))
+    settled(page)
+    after = state(page)
+    check("a click in the section starts there, on the section",
+          min(abs(v) for v in after["n"]) < 1e-12 and after["omega"] != before["omega"], str(after))
+    own = page.evaluate("chart.dots.filter((dot) => dot.orbit === 0).length")
+    check("its own crossings are shown", own == 200, str(own))
+
+    x, y, width, height = box(page, "lab-J")
+    page.click(x + 0.5 * width, y + 0.6 * height)
+    settled(page)
+    J = state(page)["J"]
+    check("J keeps its sum", abs(sum(J) - 8) < 4e-3 and J != [1, 2, 5] and J[0] == J[1], str(J))
+    page.evaluate("document.getElementById('lab-J').focus()")
+    page.key("ArrowRight")
+    settled(page)
+    check("an arrow key moves J", state(page)["J"] != J)
+
+    before = state(page)
+    page.evaluate("document.getElementById('lab-throw').click()")
+    x, y, width, height = box(page, "ball")
+    page.drag(x + 0.4 * width, y + 0.5 * height, 120, -20)
+    settled(page)
+    after = state(page)
+    check("a thrown ball has another spin, and no twist", after["omega"] != before["omega"] and
+          abs(sum(a * b for a, b in zip(after["omega"], after["n"]))) < 1e-9, str(after))
+    page.evaluate("document.getElementById('ball').focus()")
+    page.key("ArrowUp")
+    settled(page)
+    check("an arrow key throws it", state(page)["omega"] != after["omega"])
+    page.evaluate("isoroll.play(false)")
+    page.wait("location.hash.includes('w=')")
+    address, shown = page.evaluate("location.hash"), state(page)
+    page.evaluate("document.getElementById('lab-begin').click()")
+    settled(page)
+    check("Begin anew: the first state", state(page)["k"] == 0.5 and state(page)["J"] == [1, 2, 5], str(state(page)))
+    return address, shown
+
+
+def address_opens(browser, address, shown):
+    page = browser.open(os.path.join(work, "lab.html"), fragment=address, media=still)
+    page.wait("lab.pending === 1 && lab.filled === 1")
+    found = state(page)
+    check("the address opens the same state", found["k"] == shown["k"] and all(
+        abs(a - b) < 1e-11 for name in ("J", "n", "omega") for a, b in zip(found[name], shown[name])),
+        f"{found} {shown}")
+    quiet(page, "from the address")
+    page.close()
+
+
+# --- it refuses, goes on, and stays quick ---------------------------------------------------------------------------
+
+def refusals(page):
+    page.evaluate("lab.change({k: 0})")
+    settled(page)
+    check("what cannot be is refused in the library's words", "The library refuses: k = 0: " in text(page, "lab-words"),
+          text(page, "lab-words"))
+    page.evaluate("lab.change({k: 0.5, J: [2, 2, 2]})")
+    settled(page)
+    check("equal moments: an orbit", page.evaluate("controls.orbit.count") == 1201)
+    page.evaluate("lab.change({J: [1, 2, 5]})")
+    settled(page)
+    check("and it goes on", "Verdict" in text(page, "lab-words"), text(page, "lab-words"))
+
+
+def play(page):
+    """Random actions, none of which waits for what the last one asked for."""
+    random.seed(36)
+    for _ in range(1000 if os.environ.get("ISO_TEST_LENGTH") == "full" else 100):
+        kind = random.randrange(6)
+        if kind == 0:
+            slide(page, random.uniform(-3, 3))
+        elif kind == 1:
+            page.evaluate(f"triangle.move(triangle.parts([{random.uniform(0, 300)}, {random.uniform(0, 110)}]))")
+        elif kind == 2:
+            page.evaluate(f"void lab.throwBall({random.uniform(-200, 200)}, {random.uniform(-200, 200)})")
+        elif kind == 3:
+            page.evaluate(f"void lab.startAt({random.uniform(-3, 3)}, {random.uniform(-0.9, 0.9)})")
+        elif kind == 4:
+            page.key(random.choice([" ", "1", "2", "3", "End", "Home", "ArrowRight"]))
+        else:
+            time.sleep(random.uniform(0, 0.2))
+    begun = time.monotonic()
+    page.frame()
+    check("the page is not frozen", time.monotonic() - begun < 10)
+    settled(page)
+    bad = page.evaluate("Object.values(controls.now).flat().filter((v) => !Number.isFinite(v)).length")
+    check("after random play every number is finite", bad == 0, str(bad))
+    quiet(page, "random play")
+
+
+def small(browser):
+    page = browser.open(os.path.join(work, "lab.html"), 390, 844, media=still + (("prefers-color-scheme", "dark"),))
+    settled(page)
+    check("390 pixels: nothing sticks out", page.evaluate("document.documentElement.scrollWidth") <= 390)
+    check("390 pixels: the section is seen", box(page, "lab-section")[2] > 300)
+    quiet(page, "390 pixels, dark")
+    page.close()
+
+
+run("view", "--live", "-o", "lab.html")
+check("the page is below 2.5 MB", os.path.getsize(os.path.join(work, "lab.html")) < 2.5e6)
+with chromium.Browser() as browser:
+    page = browser.open(os.path.join(work, "lab.html"), height=1400, media=still)
+    settled(page)
+    same_numbers(page)
+    address, shown = controls(page)
+    refusals(page)
+    play(page)
+    page.close()
+    address_opens(browser, address, shown)
+    small(browser)
+with chromium.Browser("--disable-3d-apis") as browser:
+    page = browser.open(os.path.join(work, "lab.html"), media=still)
+    settled(page)
+    check("without WebGL: words, and the section", page.evaluate("chart.dots.length") > 8000 and
+          "no WebGL" in text(page, "trouble"), text(page, "trouble"))
+    slide(page, 2)
+    settled(page)
+    check("without WebGL k can be turned", state(page)["k"] == 2)
+    quiet(page, "without WebGL")
+print("PASS the end")

@@ -1,0 +1,37 @@
+# view_live.sh ISOROLL - `isoroll view --live`: what it refuses, and the laboratory in a real Chromium (view_live.py).
+. "$(dirname "$0")/lib.sh"
+scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.1 >scene.yaml
+last="view --live -o lab.html"
+if ! "$isoroll" view --live -o lab.html 2>err; then
+    says "this isoroll was built without the library as WebAssembly"
+    check "no page" test ! -e lab.html
+    impossible "a laboratory" "isoroll was built without emscripten or the sources of GSL"
+fi
+silent
+run 0 view scene.yaml --live -o scene.html
+run 0 view scene.yaml -o plain.html
+check "the page of a scene has no library" test "$(grep -c -i webassembly plain.html)" = 0
+tr -d '\n' <scene.html >line.html
+check "a policy that allows no request" grep -q \
+    "content=\"default-src 'none'; [^\"]*script-src 'unsafe-inline' *'wasm-unsafe-eval'; worker-src blob: *\"" line.html
+check "that of --live has it" grep -q "id=\"library\"" scene.html
+{ cat scene.yaml && echo 'effects: {level: {c: 0.3}}'; } >level.yaml
+refuses 3 "level.yaml:4:18: --live computes without effects, and the scene has 'level'" view level.yaml --live -o no.html
+run 0 run scene.yaml -o run.csv
+refuses 2 "view: --live computes from a scene: 'run.csv' is none" view run.csv --live -o no.html
+check "no page" test ! -e no.html
+
+if ! has chromium "a laboratory in a browser" || ! has python3 "a laboratory in a browser"; then
+    finish
+    exit
+fi
+python3 -B "$here/view_live.py" "$isoroll" "$source" "$work" >results 2>err || fail "view_live.py ended early"
+while read -r verdict words; do
+    case $verdict in
+    PASS) checks=$((checks + 1)) ;;
+    FAIL) checks=$((checks + 1)) && fail "$words" ;;
+    *) echo "$verdict $words" ;;
+    esac
+done <results
+check "view_live.py came to its end" grep -q '^PASS the end' results
+finish
