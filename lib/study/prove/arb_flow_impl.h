@@ -98,8 +98,8 @@ void prove_widen(const prove_flow *f, slong part, arb_t x);
 enum { PROVE_EIGHTH = 3 };
 
 /* A half return: from (l, x) of a crossing of gamma_c = 0 to (l, x) of the antipode of the next one, which is a
- * crossing in the same direction. Its derivative; the time of the crossing; the window, in which each orbit of the set has one
- * crossing and no more. */
+ * crossing in the same direction. Its derivative; the time of the crossing; the window, in which each orbit of the set
+ * has one crossing and no more. */
 typedef struct prove_half {
     arb_struct z[2]; /* l modulo pi, x                                          */
     arb_struct D[4]; /* d(l, x)/d(l, x) of the start: dl/dl, dl/dx, dx/dl, dx/dx */
