@@ -21,8 +21,8 @@ static void print_head(const options *o, const iso_scene *scene, const iso_integ
     if (r->level != 0) say("; level (H/eps) J2^(1/k) = %.10g", r->level);
     say("\n"
         "%zu orbits of %s turns, %d samples of each; relative error of a sample about %.0e\n"
-        "functions %s, |b| <= %d; a value is the variation of a function along orbits by its size: 0 for an "
-        "integral\n\n",
+        "functions %s, |b| <= %d; a value is the variation of a function along orbits, divided by its size: 0 "
+        "for an integral\n\n",
         r->orbits, ISO_SHORT(o->study.turns), ISO_INTEGRAL_ROWS, r->delta,
         iso_integral_energy_degree(r) == 1 ? "v^c M^a gamma^b, v = q^(-1/(2k)), |a| + c <= degree, c <= 1"
                                            : "h^j M^a gamma^b, |a| + 2 j = degree",

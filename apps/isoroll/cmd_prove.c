@@ -60,10 +60,10 @@ static void print_pieces(const iso_proofs *f)
     }
     say_table_end();
     if (!f->all)
-        say("undecided: %.3g of the interval\n", f->undecided);
+        say("undecided: a share of %.3g of the interval\n", f->undecided);
     else
-        say("for all these k 0 is not in it: the manifolds cross; with the reversors a horseshoe; no further "
-            "real-analytic integral\n");
+        say("proved for all these k: m is not 0, so the manifolds cross, and there is no further real-analytic "
+            "integral\n");
 }
 
 static void print(const shell *s)
@@ -114,7 +114,7 @@ static int run(iso_context *ctx, const void *options_given)
     static const shell_parts parts = {.study = &iso_prove_study,
                                       .kind = "prove",
                                       .check = check,
-                                      .stopped = "what is proved by now is kept",
+                                      .stopped = "what was proved so far is kept",
                                       .json = json,
                                       .print = print,
                                       .write = write_certificates};
@@ -138,12 +138,12 @@ const command command_prove = {
         "Encloses the slope m that 'isoroll splitting' measures: numbers become intervals, and all rounding errors "
         "stay in them. If 0 is not in the enclosure of m, it is proved that the unstable and the stable manifold of "
         "the rotation about the middle axis cross. Then there is a horseshoe, and no real-analytic integral other "
-        "than functions of the energy. If 0 is in it, nothing is proved: 'undecided'.\n\n"
+        "than functions of the energy. If 0 is in the enclosure, nothing is proved: 'undecided'.\n\n"
         "k and J are taken exactly as the scene writes them: 1.4 is 14/10, and k: 1/3 is one third. A body with mass "
         "and radius has rounded k and J and is refused, as are effects, and levels other than H = 0 of the point.\n\n"
         "--k A:B proves it for all k of an interval at once. Where the interval is too long, it is halved. -o FILE "
-        "writes a certificate: all that is needed to check the proof by another program. lib/doc/prove.md has the "
-        "argument and the format. After Ctrl-C what is proved by then is printed.\n\n"
+        "writes a certificate: another program can check the proof from it alone. lib/doc/prove.md has the "
+        "argument and the format. After Ctrl-C it prints what was proved so far.\n\n"
         "This needs Arb (package libflint-arb-dev) when isoroll is built.",
     .example = "isoroll prove scene.yaml\nisoroll prove scene.yaml --k 1/3 --digits 40 -o third.cert",
     .exits = "0: proved, or undecided\n"

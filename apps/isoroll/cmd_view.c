@@ -186,8 +186,8 @@ const command command_view = {
         "them is.\n\n"
         "If the rows of a trajectory are no orbit of the stated equations, there is a page, a message and exit "
         "status 1.\n\n"
-        "With --live the page has the library inside (WebAssembly): turn k and J, throw the ball, click the section "
-        "to start there, and the library computes anew in the page. It needs a scene without effects, or no FILE at "
+        "With --live the page has the library inside (WebAssembly): change k and J, throw the ball, or click the "
+        "section to start there: the page computes anew. It needs a scene without effects, or no FILE at "
         "all: then it begins with a scene of its own.\n\n"
         "--frames draws pictures of 1280 x 720 pixels with Chromium, without a window; -o is then not needed.",
     .exits = "1: interrupted, or the rows of a trajectory are no orbit (the page is there)",

@@ -33,11 +33,11 @@ static iso_integrability of_k(double k)
     const double odd = fabs(odd_of(k));
     if (odd == 1)
         return (iso_integrability){ISO_INTEGRABILITY_OPEN,
-                                   "k is next to 1 or -1: the difference may be rounding, and nothing is said"};
+                                   "k is so near to 1 or -1 that the difference may be rounding"};
     if (odd > ISO_ODD_DONE)
         return (iso_integrability){ISO_INTEGRABILITY_OPEN,
-                                   "1/k is an odd integer above 21 or below -21, where the theorem's residue "
-                                   "was not computed; see `isoroll prove`"};
+                                   "1/k is an odd integer above 21 or below -21, which the theorem does not "
+                                   "cover; see `isoroll prove`"};
     if (odd > 0)
         return (iso_integrability){ISO_NO_INTEGRAL, "three different moments, 1/k an odd integer, not 1 or -1: a "
                                                     "theorem of ours, by the third variation, not reviewed"};
@@ -54,6 +54,6 @@ iso_integrability iso_integrability_of(const iso_params *p, const iso_effects *e
         return (iso_integrability){ISO_INTEGRABILITY_OPEN, "the theorem is about the free ball: here an effect acts"};
     if (off_level || iso_effects_have_level(&f.effects))
         return (iso_integrability){ISO_INTEGRABILITY_OPEN,
-                                   "the theorem is about the level H = 0; `isoroll splitting` measures"};
+                                   "the theorem is about the level H = 0; `isoroll splitting` measures other levels"};
     return of_k(p->k);
 }

@@ -1,8 +1,8 @@
 /* effect_torque.c - a torque MQ(omega, n, e) on the ball as the scene writes it, in axes of the body.
  *
- * e is the vertical of gravity. Whether the torque does work the scene may say; if it does not, the power (MQ,omega)
- * is computed at random states. A power that is 0 in all of them is 0: it is analytic. Nothing follows where the
- * torque itself is 0: it may be below the range of doubles there.
+ * e is the vertical of gravity. The scene may say whether the torque does work. If it does not say, the power
+ * (MQ,omega) is computed at random states. It is analytic: if it is 0 at all of them, it is taken for 0 everywhere.
+ * Nothing follows where the torque itself is 0: it may be below the range of doubles there.
  */
 #include <math.h>
 
@@ -47,7 +47,7 @@ static double strength(const iso_problem *f, const double y[])
 
 /* --- work ------------------------------------------------------------------------------------------------------- */
 
-/* In the order of iso_work. A scene that says nothing means MEASURE. */
+/* In the order of iso_work. MEASURE: the scene does not say. */
 static ISO_NAMES(work_name, int, "any", "none", "lost")
 
     static const double to_be_measured = MEASURE;
@@ -159,7 +159,7 @@ static const iso_effect_number numbers[] = {
 const iso_effect iso_effect_torque = {
     .name = "torque",
     .doc = "a torque MQ(omega, n, e) as the scene writes it, in axes of the body",
-    .breaks = "a torque that is written has no potential in n",
+    .breaks = "a torque that the scene writes has no potential in n",
     .work = work,
     .expressions = expressions,
     .expressions_key = "M",

@@ -395,9 +395,9 @@ static void refuse_constant(iso_expression *e, const iso_expression_node *node, 
     if (node->term == ISO_TERM_DIV && b == 0)
         snprintf(e->wrong, sizeof e->wrong, "a division by 0");
     else if (node->term == ISO_TERM_LOG && a <= 0)
-        snprintf(e->wrong, sizeof e->wrong, "log of %s: it has logarithms of numbers above 0", ISO_SHORT(a));
+        snprintf(e->wrong, sizeof e->wrong, "log of %s: log needs a number above 0", ISO_SHORT(a));
     else if (node->term == ISO_TERM_SQRT && a < 0)
-        snprintf(e->wrong, sizeof e->wrong, "sqrt of %s: it has roots of numbers from 0 on", ISO_SHORT(a));
+        snprintf(e->wrong, sizeof e->wrong, "sqrt of %s: sqrt needs 0 or a number above 0", ISO_SHORT(a));
     else if (node->term == ISO_TERM_POWER)
         snprintf(e->wrong, sizeof e->wrong, "%s to the power %s is not a finite number", ISO_SHORT(a), ISO_SHORT(b));
     else

@@ -314,7 +314,7 @@ bool iso_written_decided(iso_expression *e, const iso_effects *effects, double k
         if (e->node[i].term != ISO_TERM_E) continue;
         e->at = e->node[i].at;
         snprintf(e->wrong, sizeof e->wrong,
-                 "e%d is the vertical in the body, which is there with 'gravity' alone (without weight: gravity: "
+                 "e%d is the vertical in the body's axes: it needs the effect 'gravity' (without weight: gravity: "
                  "{mgb: 0, up: [...]}, or g: 0 for a ball with mass)",
                  e->node[i].a + 1);
         return false;
@@ -336,7 +336,7 @@ iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_ef
     const double *number = effects->number[id], U = number[ISO_WRITTEN_J];
     const double J[3] = {U * p->J[0], U * p->J[1], U * p->J[2]};
     if (U == 0 || number[ISO_WRITTEN_W] == 0)
-        return ISO_FAIL_INPUT(ctx, name, "%s: the effects have no units, they begin with iso_effects_default()",
+        return ISO_FAIL_INPUT(ctx, name, "%s: begin the effects with iso_effects_default(): they have no units",
                               name);
     return iso_written_decided(e, effects, p->k, J, number) ? ISO_OK : refuse(ctx, id, which, e);
 }

@@ -7,8 +7,9 @@
 #include "model/expression_impl.h"
 #include "model/quantity_impl.h"
 
-/* Where the numbers of such an effect are: its parameters, then these. One unit of J and one of angular velocity, in
- * the caller's units, turn the numbers of an expression into them: in the caller's own units they are 1. */
+/* Where the numbers of such an effect are: its parameters, then these. J and W: one own unit of J and of angular
+ * velocity, in the caller's units. They carry J, omega and the result of an expression from own units to the caller's
+ * and back. In the caller's units both are 1. */
 enum { ISO_WRITTEN_J = ISO_PARAMETERS, ISO_WRITTEN_W, ISO_WRITTEN_STRENGTH, ISO_WRITTEN_WORK };
 
 extern const double iso_written_one;
@@ -23,10 +24,11 @@ extern const double iso_written_one;
     ISO_WRITTEN_NUMBER("(J)", ISO_WRITTEN_J, -1, 0, 0), ISO_WRITTEN_NUMBER("(w)", ISO_WRITTEN_W, 0, 0, -1),          \
         ISO_WRITTEN_NUMBER("(strength)", ISO_WRITTEN_STRENGTH, 1, 0, 2)
 
-/* Reads expression `which` of an effect. False: it is none, see e->wrong. */
+/* Reads expression `which` of an effect. False: the text is no expression, see e->wrong. */
 bool iso_written_read(const iso_effects *effects, iso_effect_id id, int which, iso_expression *e);
 
-/* Whether its constants are finite, in the caller's units, and e is there if it reads e. False: see e->wrong. */
+/* Whether its constants are finite, in the caller's units, and the vertical e is there if it reads e. False: see
+ * e->wrong. */
 bool iso_written_decided(iso_expression *e, const iso_effects *effects, double k, const double J[3],
                          const double parameter[]);
 

@@ -123,7 +123,7 @@ static void refused(void)
     is_wrong(ISO_POTENTIAL, "sinh(n1)", 1, "unknown function 'sinh'; did you mean 'sin'?");
     is_wrong(ISO_POTENTIAL, "n1 + omega1", 6, "a potential depends on n alone: 'omega1' is for 'torque'");
     is_wrong(ISO_POTENTIAL, "n1 + e1", 6, "is for 'torque'");
-    is_wrong(ISO_TORQUE, "n1 + e1", 6, "which is there with 'gravity' alone");
+    is_wrong(ISO_TORQUE, "n1 + e1", 6, "it needs the effect 'gravity'");
     is_wrong(ISO_POTENTIAL, "n1 + 1e999", 6, "is no number of double precision");
     is_wrong(ISO_POTENTIAL, "1.2.3*n1", 1, "is no number of double precision");
     is_wrong(ISO_POTENTIAL, "n1 + \xc3\xa9", 6, "byte 0xC3");

@@ -1,7 +1,7 @@
-/* Is a ball with a rotor along its middle axis integrable (doc/why_only_one.md, "Wider")? To third order, along loops
- * in complex time. An integral meromorphic near the rotation begins with a power of X Y, coordinates in which the
- * full turn M is diagonal. So there is f = X Y + f4 + ..., f4 of fourth degree, which M leaves as it is, and the loop
- * B round g = 0 up to a factor. M gives f4, up to (X Y)^2. B tells whether it can be.
+/* Is a ball with a rotor along its middle axis integrable (doc/why_only_one.md, "Other levels, and rotors")? To third
+ * order, along loops in complex time. An integral meromorphic near the rotation begins with a power of X Y, coordinates
+ * in which the full turn M is diagonal. So there is f = X Y + f4 + ..., f4 of fourth degree, which M leaves as it is,
+ * and the loop B round g = 0 up to a factor. M gives f4, up to (X Y)^2. B tells whether it can be.
  *
  *     n = (r cos theta, n2, r sin theta), p = (-sin theta, 0, cos theta), v = (w, p): a state is (n2, v).
  */

@@ -92,14 +92,14 @@ void prove_series_at(prove_flow *f, const arb_t s, int numbers, arb_ptr y);
 void prove_series_value(prove_flow *f, int number, arb_t x);
 void prove_series_powers(prove_flow *f, const arb_t s);
 
-/* Makes a ball larger by 2^-part of its radius, and by some rounding errors: a checker that rounds otherwise shall
- * find its own ball inside. */
+/* Makes a ball larger by 2^-part of its radius, and by some rounding errors: so a checker that rounds in another way
+ * finds its own ball inside. */
 void prove_widen(const prove_flow *f, slong part, arb_t x);
 enum { PROVE_EIGHTH = 3 };
 
-/* A half return: (l, x) of a crossing of gamma_c = 0 in one direction to the next, turned by the antipode, which is a
- * crossing of the same direction. The derivative, and the time: of the crossing, or an interval in which each orbit of
- * the set has one crossing and no more. */
+/* A half return: from (l, x) of a crossing of gamma_c = 0 to (l, x) of the antipode of the next one, which is a
+ * crossing in the same direction. Its derivative; the time of the crossing; the window, in which each orbit of the set
+ * has one crossing and no more. */
 typedef struct prove_half {
     arb_struct z[2]; /* l modulo pi, x                                          */
     arb_struct D[4]; /* d(l, x)/d(l, x) of the start: dl/dl, dl/dx, dx/dl, dx/dx */

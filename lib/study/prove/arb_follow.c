@@ -2,13 +2,13 @@
  *
  * After each half return the piece lies in the set centre + A (xi, eta), (xi, eta) in `hull`, where centre and A are
  * exact. The left and the right end lie in `left` and `right` of this frame, and the piece is a curve with the tangent
- * (1, sigma), on which xi grows from left to right. With D the derivative on the whole set, and h(centre) enclosed by
- * itself, the mean value theorem gives, as the set is convex and holds its centre,
+ * (1, sigma), on which xi grows from left to right. With D the derivative on the whole set, and P(centre) enclosed by
+ * itself (P: half a return, then the antipode), the mean value theorem gives, as the set is convex and holds its centre,
  *
- *     h(centre + A v) in h(centre) + (D A) v.
+ *     P(centre + A v) in P(centre) + (D A) v.
  *
- * The next centre is near h(centre), the next A near D A, and so v becomes B v + e with B = A_next^-1 D A near 1,
- * e = A_next^-1 (h(centre) - centre_next) near 0, and sigma becomes (B21 + B22 sigma)/(B11 + B12 sigma).
+ * The next centre is near P(centre), the next A near D A, and so v becomes B v + e with B = A_next^-1 D A near 1,
+ * e = A_next^-1 (P(centre) - centre_next) near 0, and sigma becomes (B21 + B22 sigma)/(B11 + B12 sigma).
  */
 #include "study/prove/arb_manifold_impl.h"
 
@@ -121,7 +121,7 @@ static iso_status check_times(const prove_flow *f, const prove_half *all, const 
     return iso_context_fail(f->ctx, ISO_NUMERICAL, "", "the centre of a set was followed to another crossing");
 }
 
-/* D on the whole set, then h(centre). */
+/* D on the whole set, then P(centre). */
 static iso_status enclose(prove_flow *f, const piece *p, prove_half *all, prove_half *one)
 {
     arb_ptr box = _arb_vec_init(2);

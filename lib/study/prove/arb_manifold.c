@@ -1,11 +1,11 @@
 /* arb_manifold.c - O, and its unstable manifold near it (arb_manifold_impl.h).
  *
- * h is half a return followed by the antipode, h(O) = O, det Dh(O) = 1. In the frame (xi, eta) the derivative on the
+ * P is half a return followed by the antipode, P(O) = O, det DP(O) = 1. In the frame (xi, eta) the derivative on the
  * square |xi|, |eta| <= size lies in [[a, b], [c, d]]. If there is alpha <= 1 with
  *
  *     a - |b| alpha > 1,     |c| + |d| alpha < alpha (a - |b| alpha),
  *
- * then h maps each curve eta(xi) of slope at most alpha through O to such a curve, which is longer by a factor
+ * then P maps each curve eta(xi) of slope at most alpha through O to such a curve, which is longer by a factor
  * a - |b| alpha, until it leaves the square. The unstable manifold begins in O as such a curve, since the eigenvector
  * of the eigenvalue > 1 lies in the cone |eta| <= alpha |xi|. So it is such a curve over all |xi| <= size.
  */

@@ -109,10 +109,9 @@ static void tell(const prove_ball *b, const prove_found *found, int digits, iso_
     p->halves = found->halves, p->steps = found->steps;
     if (p->sign != 0)
         snprintf(p->statement, sizeof p->statement,
-                 "0 is not in it: the manifolds cross; with the reversors a horseshoe; no further real-analytic "
-                 "integral");
+                 "proved: m is not 0, so the manifolds cross, and there is no further real-analytic integral");
     else
-        snprintf(p->statement, sizeof p->statement, "undecided at %d digits: 0 is in it", digits);
+        snprintf(p->statement, sizeof p->statement, "undecided at %d digits: 0 is in the enclosure of m", digits);
     arb_clear(x), arb_clear(m);
 }
 

@@ -85,7 +85,7 @@ static void print_exact(iso_proof *p)
     snprintf(p->exact, sizeof p->exact, "%s%s%s", text[0], one ? "" : ":", one ? "" : text[1]);
 }
 
-/* With the digits that are asked for, or with more and more until 0 is not in it. What is known stays known if more
+/* With the digits that are asked for, or with more and more until 0 is excluded. What is known stays known if more
  * digits fail. *proof is empty before, and with digits = 0 still after. */
 static iso_status find(iso_context *ctx, const iso_proof_ball *ball, const iso_prove_request *r, int tries,
                        iso_proof *proof, char **text)
@@ -246,7 +246,7 @@ const iso_option iso_prove_option[] = {
         "another k than the scene's, such as 1/3, or an interval: all k from A to B; it is halved where it must be",
         iso_set_text, k),
     ROW("digits", "D", "a whole number from 1 to 400",
-        "enclose m to 1e-D (default: 18, then 36, then 72, until 0 is not in it; for an interval 18)",
+        "enclose m to 1e-D (default: 18, then 36, then 72, until 0 is excluded; for an interval 18)",
         iso_set_count_int, digits),
     ISO_OPTION_END,
 };

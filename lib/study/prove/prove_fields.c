@@ -12,8 +12,8 @@ static double high_k(const void *row)
 }
 
 static const iso_field enclosure_fields[] = {
-    ISO_MEMBER(iso_enclosure, "low", low, "", "not above it"),
-    ISO_MEMBER(iso_enclosure, "high", high, "", "not below it"),
+    ISO_MEMBER(iso_enclosure, "low", low, "", "lower bound"),
+    ISO_MEMBER(iso_enclosure, "high", high, "", "upper bound"),
     ISO_MEMBER(iso_enclosure, "text", text, "", "middle and radius, with all digits", .how = ISO_IN_TREE),
     ISO_FIELD_END,
 };

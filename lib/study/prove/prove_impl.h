@@ -1,6 +1,6 @@
 /* prove_impl.h - enclosures of the splitting m: what the study `prove` is asked and what it finds (lib/doc/prove.md).
  *
- * Only the files arb_*.c, which a build without Arb leaves out, know how. All others know this header alone.
+ * Only the files arb_*.c use Arb; a build without Arb leaves them out. All other files include this header alone.
  */
 #ifndef ISO_STUDY_PROVE_IMPL_H
 #define ISO_STUDY_PROVE_IMPL_H
