@@ -40,7 +40,7 @@ static iso_status read_parameter(iso_draft *d, iso_effect_id id, const yaml_node
     const yaml_node_t *first;
     double x;
     if (key->type != YAML_SCALAR_NODE) return ISO_FAIL_AT(d, key, "a parameter should be NAME: NUMBER");
-    const char *name = (const char *)key->data.scalar.value, *bad = iso_expression_bad_name(name);
+    const char *name = (const char *)key->data.scalar.value, *bad = iso_effect_bad_parameter(id, name);
     char quoted[ISO_QUOTE_SIZE];
     if (bad)
         return ISO_FAIL_AT(d, key, "'%s' cannot be a parameter: %s",

@@ -157,6 +157,10 @@ extern const iso_effect *const iso_effect_list[ISO_EFFECTS];
 /* Where an effect's number stands: number->count doubles, as const as `effects` is. */
 double *iso_effect_values(const iso_effects *effects, iso_effect_id id, const iso_effect_number *number);
 
+/* Why a parameter of an effect with expressions cannot have this name; NULL: it can. A file could not tell a parameter
+ * 'U' from the expression. */
+const char *iso_effect_bad_parameter(iso_effect_id id, const char *name);
+
 /* The energy level of the point that an effect states, c of U = -c (n,J^-1 n)^(-1/k), and whether there is one. */
 bool iso_effects_have_level(const iso_effects *effects);
 double iso_effects_level(const iso_effects *effects);

@@ -55,10 +55,20 @@ static iso_status no_effect(iso_context *ctx, const char *effect)
                              iso_suggest_word(suggested, effect, iso_effect_name));
 }
 
+const char *iso_effect_bad_parameter(iso_effect_id id, const char *name)
+{
+    const iso_effect *e = iso_effect_list[id];
+    const char *bad = iso_expression_bad_name(name), *const *text = e->expressions;
+    const iso_effect_number *n = e->numbers;
+    while (*text && strcmp(*text, name) != 0) text++;
+    while (n && n->name && strcmp(n->name, name) != 0) n++;
+    return bad ? bad : *text || (n && n->name) ? "this is a key of the effect" : NULL;
+}
+
 /* A parameter with a new name. */
 static iso_status add_parameter(iso_context *ctx, iso_effects *effects, iso_effect_id e, const char *name, double x)
 {
-    const char *bad = iso_expression_bad_name(name);
+    const char *bad = iso_effect_bad_parameter(e, name);
     char(*own)[ISO_PARAMETER_SIZE] = effects->written[iso_effect_list[e]->written].parameter;
     int i = 0;
     if (bad) return ISO_FAIL_ARGUMENT(ctx, name, "'%s' cannot be a parameter: %s", name, bad);
