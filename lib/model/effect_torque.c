@@ -1,8 +1,9 @@
 /* effect_torque.c - a torque MQ(omega, n, e) on the ball as the scene writes it, in axes of the body.
  *
  * e is the vertical of gravity. The scene may say whether the torque does work. If it does not say, the power
- * (MQ,omega) is computed at random states. It is analytic: if it is 0 at all of them, it is taken for 0 everywhere.
- * Nothing follows where the torque itself is 0: it may be below the range of doubles there.
+ * (MQ,omega) is computed at random states, some of them at the n of the start: a torque may be large there alone. It is
+ * analytic: if it is 0 at all of them, it is taken for 0 everywhere. Nothing follows where the torque itself is 0, which
+ * may be below the range of doubles there, or where it is hardly anywhere a number.
  */
 #include <math.h>
 
@@ -13,7 +14,7 @@
 #include "model/model_impl.h"
 #include "model/written_impl.h"
 
-enum { COMPONENTS = 3, SAMPLES = 200, MEASURE = -1 };
+enum { COMPONENTS = 3, SAMPLES = 200, AT_START = 20, ENOUGH = 10, MEASURE = -1 };
 
 static const double *numbers_of(const iso_problem *f)
 {
@@ -66,24 +67,26 @@ typedef struct found {
     double y[ISO_STATE]; /* where it gives or takes most */
 } found;
 
-/* Where it stands in space does not matter: e is any direction, but n on a plane that has no other. */
-static void random_state(iso_random *r, const iso_problem *f, double y[])
+/* Where it stands in space does not matter: e is any direction, but n on a plane that has no other. n: NULL for a
+ * random one. */
+static void random_state(iso_random *r, const iso_problem *f, const double n[3], double y[])
 {
     const double speed = pow(10, iso_random_uniform(r, -2, 2));
     iso_random_direction(r, y + 3);
+    if (n) copy(n, y + 3, 3);
     iso_random_direction(r, y);
     for (int pass = 0; pass < 2 && !iso_effects_twist(&f->effects); pass++) remove_along(y, y + 3);
     scale(y, speed / norm(y));
     if (f->at[ISO_GRAVITY] > 0) iso_random_direction(r, y + f->at[ISO_GRAVITY]);
 }
 
-static void measure(const iso_problem *f, const iso_formula *F, found *w)
+static void measure(const iso_problem *f, const iso_formula *F, const double n[3], found *w)
 {
     iso_random *r = iso_random_create(1);
     double y[ISO_MAX_STATE] = {0}, T[3], dy[ISO_MAX_STATE];
     *w = (found){0};
-    for (int i = 0; r && i < SAMPLES; i++) {
-        random_state(r, f, y);
+    for (int i = 0; r && i < SAMPLES + AT_START; i++) {
+        random_state(r, f, i < SAMPLES ? NULL : n, y);
         copy((const double[]){0, 0, 0}, T, 3);
         iso_formula_rates(F, &f->p, y, T, dy);
         const double size = norm(T) * norm(y), power = size > 0 ? dot(T, y) / size : 0;
@@ -107,7 +110,7 @@ static iso_status check_work(iso_context *ctx, const found *w, double *stated)
 {
     const double rounding = 1e-12;
     const bool gives = w->gives > rounding, takes = w->takes > rounding;
-    const bool known = w->acts > 0 && w->rests == 0;
+    const bool known = w->acts >= ENOUGH && w->rests == 0;
     if (*stated == MEASURE) *stated = gives || takes || !known ? ISO_WORK_UNKNOWN : ISO_WORK_NONE;
     if (*stated == ISO_WORK_UNKNOWN || (!gives && (!takes || *stated == ISO_WORK_LOST))) return ISO_OK;
     return ISO_FAIL_INPUT(ctx, "work",
@@ -127,7 +130,6 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
     iso_formula F;
     found w;
     int zeros = 0;
-    (void)n;
     for (int i = 0; i < COMPONENTS; i++) {
         ISO_TRY(iso_written_check(ctx, p, effects, ISO_TORQUE, i, &e));
         zeros += e.node[e.root].term == ISO_TERM_NUMBER && e.node[e.root].value == 0;
@@ -138,7 +140,7 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
     motion(&F, &f);
     iso_formula_finish(&F, p);
     if (F.overrun) return ISO_OK; /* the model is refused */
-    measure(&f, &F, &w);
+    measure(&f, &F, n, &w);
     effects->number[ISO_TORQUE][ISO_WRITTEN_STRENGTH] = w.strength;
     return check_work(ctx, &w, &effects->number[ISO_TORQUE][ISO_WRITTEN_WORK]);
 }

@@ -58,7 +58,7 @@ check_not "none at k = 1" grep -q 'm = 0 at' out
 # --- the table of lib/doc/why_only_one.md: "K M", where 64 bits are enough; or those with a star
 table() {
     awk -F'|' -v star="$1" '
-        $2 !~ /^ [0-9]+(\/[0-9]+)? $/ || $2 == " 1 " { next }
+        NF != 5 || $2 !~ /^ [0-9]+(\/[0-9]+)? $/ || $2 == " 1 " { next }
         { for (i = 3; i <= 4; i++) if (($i ~ /\*/) == star) { m = $i; gsub(/[ *]/, "", m); k = $2; gsub(/ /, "", k)
                                                             print (i == 3 ? "" : "-") k, m } }
     ' "$source/lib/doc/why_only_one.md"

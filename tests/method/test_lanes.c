@@ -25,7 +25,7 @@ typedef struct member {
     bool taken; /* into a group */
 } member;
 
-static member *members;
+static member **members;
 static int count;
 
 /* Not what lanes are not made for, nor what acts on neither the motion nor a state of it. */
@@ -40,8 +40,10 @@ static void collect(const effects_case *c, laws_worst *worst)
         c->subset & ~(1 << ISO_FIELD | 1 << ISO_LEVEL | 1 << ISO_ROTOR | 1 << ISO_POTENTIAL))
         return; /* the others have no image */
     if (pow(laws_spread(&c->model.problem.p), 1 / fabs(c->model.problem.p.k)) > 1e50) return; /* s has no scale */
-    member *m = &members[count++];
-    memset(m, 0, sizeof *m);
+    member *m = calloc(1, sizeof *m);
+    members = realloc(members, (size_t)(count + 1) * sizeof *members);
+    if (!m || !members) exit(1);
+    members[count++] = m;
     m->c = *c;
     m->o = orbit_of(ctx, c, variant);
     const double length = orbit_stretch(c, &m->o) * (variant++ % 5 < 3 ? 1 : -1);
@@ -57,8 +59,6 @@ static void collect_all(void)
 {
     enum { J_STEP = 2 };
     laws_worst unused = {0};
-    members = malloc(2 * LAWS_K * LAWS_J * EFFECTS_SUBSETS * sizeof *members / J_STEP);
-    if (!members) exit(1);
     for (int i = 0; iso_systems[i]; i++) effects_each(iso_systems[i], J_STEP, collect, &unused);
 }
 
@@ -154,10 +154,10 @@ static void solve_groups(void)
     member *group[MOST];
     for (int i = 0; i < count; i++) {
         int size = 0;
-        if (members[i].taken) continue;
+        if (members[i]->taken) continue;
         for (int j = i; j < count && size < MOST; j++)
-            if (!members[j].taken && iso_lanes_alike(&members[i].o.model, &members[j].o.model))
-                members[j].taken = true, group[size++] = &members[j];
+            if (!members[j]->taken && iso_lanes_alike(&members[i]->o.model, &members[j]->o.model))
+                members[j]->taken = true, group[size++] = members[j];
         for (int code = 0; iso_lane_codes[code]; code++)
             if (iso_lane_codes[code]->runs_here()) solve_group(group, size, code);
         groups++;
@@ -178,6 +178,7 @@ int main(void)
         if (!iso_lane_codes[code]->runs_here()) printf("no %s here: not tested\n", iso_lane_codes[code]->name);
     collect_all();
     solve_groups();
+    for (int i = 0; i < count; i++) free(members[i]);
     free(members);
     iso_random_free(dice);
     iso_context_free(ctx);

@@ -189,6 +189,8 @@ static void works(void)
         {{"omega3*n2", "0", "-omega1*n2"}, NULL, NULL, ISO_WORK_NONE},
         {{"n1*exp(n2)", "n2*exp(n2)", "n3*exp(n2)"}, NULL, NULL, ISO_WORK_NONE},
         {{"-omega1", "-omega2", "-omega3"}, NULL, NULL, ISO_WORK_UNKNOWN},
+        {{"-omega1*sqrt(n3-2)", "0", "0"}, NULL, NULL, ISO_WORK_UNKNOWN},            /* nowhere defined */
+        {{"-omega1*exp(-1e6*(n1-0.36)^2)", "0", "0"}, NULL, NULL, ISO_WORK_UNKNOWN}, /* at the start alone */
         {{"-omega1*n1^2", "-omega2*n1^2", "-omega3*n1^2"}, "lost", NULL, ISO_WORK_LOST},
         {{"-omega1", "-omega2", "-omega3"}, "none", "'work' is none, but this torque takes energy", 0},
         {{"omega1*n1", "omega2*n1", "omega3*n1"}, "lost", "'work' is lost, but this torque gives energy", 0},
