@@ -52,9 +52,12 @@ static const situation situations[] = {
      "'rolling_resistance' takes energy from the ball: a motion that comes to rest *"},
     {"friction of the twist", twisting, "section,chaos,frequencies", ISO_BAD_INPUT,
      "'twist' takes energy from the ball: a motion that comes to rest *"},
-    {"an effect", field, "periodic,splitting,integrals", ISO_BAD_INPUT,
+    {"an effect", field, "periodic,splitting", ISO_BAD_INPUT,
      "* only of the free ball and of the point, on every level of its energy: remove 'field'"},
-    {"weight", tilted, "periodic,splitting,integrals", ISO_BAD_INPUT,
+    {"an effect", field, "integrals", ISO_BAD_INPUT,
+     "* only of the free ball and of the point, on every level of its energy and in a magnetic field: remove "
+     "'field'"},
+    {"weight", tilted, "periodic,splitting", ISO_BAD_INPUT,
      "* only of the free ball and of the point, on every level of its energy: remove 'gravity'"},
     {"a tilted plane", tilted, "chaos,frequencies", ISO_BAD_INPUT,
      "on a tilted plane the ball rolls away ever faster: its motion *"},
@@ -74,7 +77,8 @@ static const situation situations[] = {
      "J1 and J2 are equal: a rotation about axis 3 carries every orbit along, so *"},
     {"other starts, and an effect", field, "section starts 2,section at 0;0,chaos starts 2,chaos at 0;0",
      ISO_BAD_INPUT,
-     "no other starts can be given here: the section has a chart only where nothing acts but a level or a magnetic field, without "
+     "no other starts can be given here: the section has a chart only where nothing acts but a level or a magnetic "
+     "field, without "
      "'field'"},
     {"a start outside the chart", free_ball, "section at 0;1.5,chaos at 0;1.5", ISO_BAD_INPUT,
      "l, x = 0, 1.5 is outside the chart: l is any angle, x is between -1 and 1"},

@@ -136,6 +136,23 @@ static size_t numbers_of(const char *text, double x[16])
     return count;
 }
 
+/* The texts of effects that the scene writes; `work` says what they do, and is tried when the file is read. */
+static bool is_expression(const char *key)
+{
+    return strncmp(key, "potential.", 10) == 0 || strncmp(key, "torque.", 7) == 0;
+}
+
+static void expect_expression(iso_record *record, const char *file, const char *key, const char *kept)
+{
+    char text[600];
+    if (strcmp(key, "torque.work") == 0) return;
+    snprintf(text, sizeof text, "1.01*(%s)", kept);
+    must(iso_record_set(ctx, record, key, text), "a line");
+    const answer a = check_of(record, false);
+    gsl_test(a.status == ISO_OK && !(a.worst > BOUND), "%s: %s off by 1 %% is noticed: %.2g", file, key, a.worst);
+    must(iso_record_set(ctx, record, key, kept), "a line");
+}
+
 static void change_lines(iso_record *record, const answer *before, const char *file)
 {
     const char *key, *value;
@@ -153,7 +170,9 @@ static void change_lines(iso_record *record, const answer *before, const char *f
             expect(record, before, file, name, part, number);
             x[j] = number;
         }
-        if (count == 0 && strcmp(key, "effects") != 0)
+        if (count == 0 && is_expression(key))
+            expect_expression(record, file, key, kept);
+        else if (count == 0 && strcmp(key, "effects") != 0)
             gsl_test(!tells(before, name), "%s: the words of %s are looked at by nobody", file, name);
         must(iso_record_set(ctx, record, key, kept), "a line");
     }
