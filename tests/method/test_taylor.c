@@ -50,6 +50,7 @@ static void differences(const effects_case *c, const iso_method *m, laws_worst *
         state_at(&data, &t, y);
         o.model.rhs(&o.model, y, f);
         iso_model_size(&o.model, y, size);
+        if (stiff) size[effects_lambda(c)] += TWIST_RESISTANCE(&c->model.problem.effects) * norm(y) / rate;
         laws_slope(state_at, &data, o.model.dim, 1, &t, &forward, unit / 64, slope);
         for (int j = 0; j < o.model.dim; j++) {
             char name[64];
