@@ -39,6 +39,7 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
     ISO_DEFAULT_ARITHMETIC;
     *integrator = NULL;
     iso_method_options o = *options;
+    if (iso_model_too_large(model)) return ISO_FAIL_INPUT(ctx, "effects", "%s", iso_model_too_large(model));
     if (!method) return ISO_FAIL_ARGUMENT(ctx, "method", "no such method");
     if (!(o.fixed_step >= 0 && isfinite(o.fixed_step)))
         return ISO_FAIL_ARGUMENT(ctx, "", "a fixed step must be finite and >= 0, not %s", ISO_SHORT(o.fixed_step));

@@ -299,9 +299,14 @@ static iso_status check_equations(iso_context *ctx, const iso_params *p, const i
     if (at > ISO_MAX_STATE) return ISO_OK; /* the model is refused */
     for (iso_effect_id i = 0; i < ISO_EFFECTS; i++) f.effects.on[i] = i == e;
     iso_effects_record_motion(&f, false, &F);
-    if (!F.wrong) iso_effects_record_motion(&f, true, &F);
-    if (!F.wrong) iso_effects_record_energy(&f, &F);
-    if (!F.wrong) iso_effects_record_image(&f, &F);
+    if (!F.wrong && !F.overrun) iso_effects_record_motion(&f, true, &F);
+    if (!F.wrong && !F.overrun) iso_effects_record_energy(&f, &F);
+    if (F.overrun)
+        return ISO_FAIL_INPUT(ctx, iso_effect_list[e]->name,
+                              "the equations of '%s' have more lines than there is room for: make it shorter",
+                              iso_effect_list[e]->name);
+    if (!F.wrong) iso_effects_record_image(&f, &F); /* without room for it there is a ball, and no point */
+    if (F.overrun) return ISO_OK;
     if (!F.wrong) return ISO_OK;
     return ISO_FAIL_INPUT(ctx, iso_effect_list[e]->name, "the equations of '%s' cannot be computed: %s",
                           iso_effect_list[e]->name, F.wrong);

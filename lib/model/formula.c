@@ -137,7 +137,7 @@ static bool write_line(iso_formula *F, iso_operation operation, int to, int a, i
     F->line[at] = line_of(operation, to, a, b);
     F->late_line[at] = late;
     F->late = F->late || late;
-    if (constants_read(operation) > 0 && a + constants_read(operation) > F->constants)
+    if (!F->overrun && constants_read(operation) > 0 && a + constants_read(operation) > F->constants)
         F->wrong = "a constant is used as a vector or a matrix, and is none";
     if (takes(not_given(F->kind), operation, a, b))
         F->wrong = "an energy depends on what moves, or an image on more than gamma";

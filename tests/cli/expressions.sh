@@ -104,6 +104,16 @@ refuses 3 "friction.yaml:5:11: " section friction.yaml
 run 0 explain friction.yaml
 check "explain: no energy" sh -c "sed '/^integrals that do not/q' out | grep -q 'ball  h ' && exit 1 || exit 0"
 
+# --- an expression that is too long for the formulas; so are two effects together
+scene "potential: {U: \"$(printf 'exp(n1)*exp(n2)*%.0s' $(seq 30))n2\"}" >long.yaml
+refuses 3 "'potential' have more lines than there is room for" run long.yaml
+refuses 3 "'potential' have more lines than there is room for" run long.yaml --method rk8pd
+scene "potential: {U: \"$(printf 'n1+%.0s' $(seq 120))n2\"}" >long.yaml
+refuses 3 "'potential' have more lines than there is room for" run long.yaml
+product=$(printf 'exp(n1)*exp(n2)*%.0s' $(seq 14))n2
+scene "potential: {U: \"$product\"}" "torque: {M: [\"$product\", \"${product}^2\", \"$product*n1\"]}" >two.yaml
+refuses 3 "more lines than there is room for" run two.yaml
+
 # --- where an expression is not defined: what was computed is written
 scene 'potential: {U: "0.1*sqrt(n1 + 0.1)"}' >root.yaml
 run 4 run root.yaml -o root.csv
