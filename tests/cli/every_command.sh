@@ -68,7 +68,7 @@ true_reason() {
         awk '{ low = $(NF); split($0, part, "level "); split(part[2], here, ":")
                exit !(here[1] < low) }' err || fail "$1 $2: the level is above what is asked for" ;;
     prove:*"those of a body"*) check "it has a body" grep -q '^ball:' "$2" ;;
-    prove:*"on the level H = 0"*) check "it is a point" grep -q '^point:' "$2" ;;
+    prove:*"on the level H = 0"*) check "it is on another level" grep -Eq '^point:|level:' "$2" ;;
     prove:*"takes k exactly"*) check "k has many digits" grep -Eq 'k: -?[0-9.]{17}' "$2" ;;
     *) fail "$1 $2: a reason that nobody has looked at" ;;
     esac
@@ -137,6 +137,8 @@ value_of() {
     *\(3x3\)*) echo '[[0.1, 0, 0], [0, 0.2, 0], [0, 0, -0.1]]' ;;
     *\(3\)*) echo "$2" ;;
     *\(4\)*) echo '[1, 0, 0, 0]' ;;
+    U) echo '"n1^2 + n2/2"' ;;
+    M) echo '["0.1*n1", "0", "-0.2*omega3"]' ;;
     *) echo 0.1 ;;
     esac
 }

@@ -26,6 +26,7 @@ ELSEWHERE = {
     "compare": {"rows": "of the text that is printed"},
     "sweep": {"resume": "for the command: a file", "shard": "for the command: many machines",
               "merge": "for the command: files", "point": "for the command: prints a scene"},
+    "view": {"live": "for the command: a page that computes"},
     "plot": {"k": "the table says it", "J": "the table says it", "eps": "the table says it", "h": "the table says it",
              "scene": "the table says it", "row-tolerance": "nothing is computed"},
 }
