@@ -184,7 +184,7 @@ static void works(void)
 {
     static const struct {
         const char *M[3], *said, *words; /* NULL: it is accepted */
-        double found;
+        iso_work found;
     } cases[] = {
         {{"omega3*n2", "0", "-omega1*n2"}, NULL, NULL, ISO_WORK_NONE},
         {{"n1*exp(n2)", "n2*exp(n2)", "n3*exp(n2)"}, NULL, NULL, ISO_WORK_NONE},
