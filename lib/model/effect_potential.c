@@ -15,29 +15,20 @@
 #include "base/vec3_impl.h"
 #include "model/written_impl.h"
 
-static const double *numbers_of(const iso_problem *f)
-{
-    return f->effects.number[ISO_POTENTIAL];
-}
-
 static void motion(iso_formula *F, const iso_problem *f)
 {
-    iso_expression e;
     iso_writer w;
     iso_scalar U, along;
     iso_vector g;
-    if (!iso_written_read(&f->effects, ISO_POTENTIAL, 0, &e)) return;
-    iso_writer_begin(&w, F, &e, numbers_of(f), formula_n(F));
+    if (!iso_writer_begin(&w, F, f, ISO_POTENTIAL, 0, formula_n(F))) return;
     iso_writer_slope(&w, &U, &g, &along);
     add_torque(F, mul_c(F, constant_k(F), iso_writer_over_energy(&w)), cross_of(F, formula_n(F), g));
 }
 
 static void potential(iso_formula *F, const iso_problem *f)
 {
-    iso_expression e;
     iso_writer w;
-    if (!iso_written_read(&f->effects, ISO_POTENTIAL, 0, &e)) return;
-    iso_writer_begin(&w, F, &e, numbers_of(f), formula_n(F));
+    if (!iso_writer_begin(&w, F, f, ISO_POTENTIAL, 0, formula_n(F))) return;
     const iso_scalar U = iso_writer_value(&w);
     add_energy(F, iso_writer_over_energy(&w), U);
 }
@@ -51,15 +42,14 @@ static iso_constant over_G(iso_formula *F, iso_writer *w, iso_constant J, iso_co
 
 static void image(iso_formula *F, const iso_problem *f)
 {
-    iso_expression e;
     iso_writer w;
     iso_scalar U, along;
     iso_vector g;
-    if (!iso_written_read(&f->effects, ISO_POTENTIAL, 0, &e)) return;
     const iso_constant J = constant_J(F), root_J = constant_root_J(F), k = constant_k(F);
     const iso_scalar q = formula_q(F), over_root = power_of(F, q, constant(F, -0.5)),
                      power = power_of(F, q, div_c(F, constant(F, -1), k));
-    iso_writer_begin(&w, F, &e, numbers_of(f), scale_v(F, over_root, by_c(F, root_J, formula_gamma(F))));
+    const iso_vector n = scale_v(F, over_root, by_c(F, root_J, formula_gamma(F)));
+    if (!iso_writer_begin(&w, F, f, ISO_POTENTIAL, 0, n)) return;
     iso_writer_slope(&w, &U, &g, &along);
     const iso_constant scale = over_G(F, &w, J, k);
     const iso_scalar falling = add(F, along, times_c(F, div_c(F, constant(F, 2), k), U));
@@ -72,7 +62,7 @@ static void image(iso_formula *F, const iso_problem *f)
 static double strength(const iso_problem *f, const double y[])
 {
     (void)y;
-    return numbers_of(f)[ISO_WRITTEN_STRENGTH];
+    return f->effects.number[ISO_POTENTIAL][ISO_WRITTEN_STRENGTH];
 }
 
 /* The largest finite size of U at random directions. */

@@ -24,11 +24,8 @@ static const double *numbers_of(const iso_problem *f)
 static void motion_of(iso_formula *F, const iso_problem *f, int i)
 {
     const double axis[3] = {i == 0, i == 1, i == 2};
-    iso_expression e;
     iso_writer w;
-    if (!iso_written_read(&f->effects, ISO_TORQUE, i, &e)) return;
-    if (e.node[e.root].term == ISO_TERM_NUMBER && e.node[e.root].value == 0) return;
-    iso_writer_begin(&w, F, &e, numbers_of(f), formula_n(F));
+    if (!iso_writer_begin(&w, F, f, ISO_TORQUE, i, formula_n(F)) || iso_expression_is_zero(&w.e)) return;
     w.most = ISO_LINEAR;                                                          /* no slopes are asked for */
     if (f->at[ISO_GRAVITY] > 0) w.vertical = vector_state(F, f->at[ISO_GRAVITY]); /* else e = n, on a plane */
     const iso_scalar M = iso_writer_value(&w);
@@ -48,10 +45,11 @@ static double strength(const iso_problem *f, const double y[])
 
 /* --- work ------------------------------------------------------------------------------------------------------- */
 
-/* In the order of iso_work. MEASURE: the scene does not say. */
-static ISO_NAMES(work_name, int, "any", "none", "lost")
+/* What `work` is until it is measured, if the scene does not say it. */
+static const double to_be_measured = MEASURE;
 
-    static const double to_be_measured = MEASURE;
+/* In the order of iso_work. */
+static ISO_NAMES(work_name, int, "any", "none", "lost")
 
 static iso_work work(const iso_problem *f)
 {
@@ -132,7 +130,7 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
     int zeros = 0;
     for (int i = 0; i < COMPONENTS; i++) {
         ISO_TRY(iso_written_check(ctx, p, effects, ISO_TORQUE, i, &e));
-        zeros += e.node[e.root].term == ISO_TERM_NUMBER && e.node[e.root].value == 0;
+        zeros += iso_expression_is_zero(&e);
     }
     if (zeros == COMPONENTS) return ISO_FAIL_INPUT(ctx, "M", "a torque of 0 changes nothing: take the effect out");
     f.at[ISO_GRAVITY] = effects->on[ISO_GRAVITY] && !effects->idle[ISO_GRAVITY] ? ISO_STATE : 0;

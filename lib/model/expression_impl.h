@@ -67,6 +67,12 @@ typedef struct iso_expression_names {
 /* Reads a text; false: it is none, e->wrong says why and e->at where. */
 bool iso_expression_read(const char *text, const iso_expression_names *names, iso_expression *e);
 
+/* Whether it is the number 0. */
+static inline bool iso_expression_is_zero(const iso_expression *e)
+{
+    return e->node[e->root].term == ISO_TERM_NUMBER && e->node[e->root].value == 0;
+}
+
 /* Why `name` cannot be the name of a parameter; NULL: it can. */
 const char *iso_expression_bad_name(const char *name);
 

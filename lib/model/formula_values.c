@@ -1,13 +1,6 @@
 /* formula_values.c - computes the values of a formula at one state, in doubles: torques, rates, energies. */
-#define NUMBER double
-#define ROOT sqrt
-#define POW pow
-#define FMA fma
-#define ABS fabs
-#define EXP exp
-#define LOG log
-#define SIN sin
-#define COS cos
+#include "model/series/double_impl.h"
+
 #define LANES 1
 #define ROUND_POWERS_ONCE /* splittings add up a rounding error of each kick, without end */
 

@@ -84,6 +84,13 @@ static inline iso_quantity div_q(iso_formula *F, iso_quantity a, iso_quantity b)
     return mul_q(F, a, variable_q(power_of(F, (iso_scalar){b.at}, constant(F, -1))));
 }
 
+static inline iso_quantity log_q(iso_formula *F, iso_quantity a)
+{
+    if (!is_fixed_q(a)) return variable_q(log_of(F, (iso_scalar){a.at}));
+    const iso_constant fixed = fixed_q(F, a);
+    return constant_q(function_c(F, ISO_C_LOG, fixed, fixed));
+}
+
 /* a^n, n from 1 on: products alone, which hold for every a */
 static inline iso_quantity power_q(iso_formula *F, iso_quantity a, int n)
 {

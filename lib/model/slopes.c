@@ -5,15 +5,8 @@
  * coefficient n of f, in the place of coefficient n + 1 of the states, divided by n + 1. Here all of these divisors
  * are set to 1, so that place 2 holds the column itself. LANES columns are computed side by side.
  */
-#define NUMBER double
-#define ROOT sqrt
-#define POW pow
-#define FMA fma
-#define ABS fabs
-#define EXP exp
-#define LOG log
-#define SIN sin
-#define COS cos
+#include "model/series/double_impl.h"
+
 #define LANES 4
 
 enum { KEPT = 4 }; /* two more than the highest order, 1, and 0 */

@@ -11,16 +11,17 @@
 
 /* --- values ----------------------------------------------------------------------------------------------------- */
 
-void iso_writer_begin(iso_writer *w, iso_formula *F, const iso_expression *e, const double number[], iso_vector n)
+bool iso_writer_begin(iso_writer *w, iso_formula *F, const iso_problem *f, iso_effect_id id, int which, iso_vector n)
 {
+    if (!iso_written_read(&f->effects, id, which, &w->e)) return false;
     w->F = F;
-    w->e = e;
-    w->number = number;
+    w->number = f->effects.number[id];
     w->n = w->vertical = n;
     w->omega = formula_omega(F);
     w->most = ISO_QUADRATIC;
     w->has_J = false;
     memset(w->has_value, 0, sizeof w->has_value);
+    return true;
 }
 
 static iso_constant unit(iso_writer *w, int which)
@@ -82,15 +83,12 @@ static iso_quantity power_value(iso_writer *w, const iso_expression_node *node)
 {
     iso_formula *F = w->F;
     const iso_quantity a = iso_writer_value_of(w, node->a);
-    const int whole = iso_writer_exponent(w->e, node);
+    const int whole = iso_writer_exponent(&w->e, node);
     if (whole > 0) return power_q(F, a, whole);
     const iso_quantity b = iso_writer_value_of(w, node->b);
     if (is_fixed_q(a) && is_fixed_q(b)) return constant_q(function_c(F, ISO_C_POWER, fixed_q(F, a), fixed_q(F, b)));
     if (is_fixed_q(b)) return variable_q(power_of(F, (iso_scalar){a.at}, fixed_q(F, b)));
-    const iso_constant base = fixed_q(F, a);
-    const iso_quantity log_a =
-        is_fixed_q(a) ? constant_q(function_c(F, ISO_C_LOG, base, base)) : variable_q(log_of(F, (iso_scalar){a.at}));
-    return variable_q(exp_of(F, scalar_q(F, mul_q(F, b, log_a))));
+    return variable_q(exp_of(F, scalar_q(F, mul_q(F, b, log_q(F, a)))));
 }
 
 /* sin or cos; the formula has both of them, and the other one is kept as well, if the text has it. */
@@ -98,8 +96,8 @@ static iso_quantity circle_value(iso_writer *w, const iso_expression_node *node)
 {
     iso_scalar cosine;
     const iso_scalar sine = sin_of(w->F, scalar_q(w->F, iso_writer_value_of(w, node->a)), &cosine);
-    for (int i = 0; i < w->e->nodes; i++) {
-        const iso_expression_node *other = &w->e->node[i];
+    for (int i = 0; i < w->e.nodes; i++) {
+        const iso_expression_node *other = &w->e.node[i];
         if ((other->term != ISO_TERM_SIN && other->term != ISO_TERM_COS) || other->a != node->a) continue;
         w->value[i] = variable_q(other->term == ISO_TERM_SIN ? sine : cosine);
         w->has_value[i] = true;
@@ -152,7 +150,7 @@ typedef struct form {
 
 bool iso_writer_is_form(const iso_writer *w, int node)
 {
-    const int degree = w->e->node[node].degree;
+    const int degree = w->e.node[node].degree;
     return degree != ISO_CONSTANT && degree <= w->most;
 }
 
@@ -181,7 +179,7 @@ static void collect_product(iso_writer *w, int a, int b, iso_quantity factor, fo
 static void collect(iso_writer *w, int node, iso_quantity factor, form *f)
 {
     iso_formula *F = w->F;
-    const iso_expression_node *x = &w->e->node[node];
+    const iso_expression_node *x = &w->e.node[node];
     if (x->degree == ISO_CONSTANT) {
         f->c = add_q(F, f->c, mul_q(F, factor, iso_writer_value_of(w, node)));
         return;
@@ -192,9 +190,9 @@ static void collect(iso_writer *w, int node, iso_quantity factor, form *f)
     case ISO_TERM_DIV: collect(w, x->a, div_q(F, factor, iso_writer_value_of(w, x->b)), f); return;
     case ISO_TERM_POWER: collect_product(w, x->a, x->a, factor, f); return; /* a square */
     case ISO_TERM_MUL:
-        if (w->e->node[x->a].degree == ISO_CONSTANT)
+        if (w->e.node[x->a].degree == ISO_CONSTANT)
             collect(w, x->b, mul_q(F, factor, iso_writer_value_of(w, x->a)), f);
-        else if (w->e->node[x->b].degree == ISO_CONSTANT)
+        else if (w->e.node[x->b].degree == ISO_CONSTANT)
             collect(w, x->a, mul_q(F, factor, iso_writer_value_of(w, x->b)), f);
         else
             collect_product(w, x->a, x->b, factor, f);
@@ -240,7 +238,7 @@ static bool note_moments(const iso_expression *e, int node, bool seen[3])
 static bool is_g(const iso_writer *w, int node)
 {
     bool seen[3] = {false};
-    return w->F->kind != ISO_FORMULA_IMAGE && note_moments(w->e, node, seen) && seen[0] && seen[1] && seen[2];
+    return w->F->kind != ISO_FORMULA_IMAGE && note_moments(&w->e, node, seen) && seen[0] && seen[1] && seen[2];
 }
 
 static iso_quantity g_value(iso_writer *w, int node)
@@ -281,7 +279,7 @@ static iso_quantity form_value(iso_writer *w, int node)
 
 iso_quantity iso_writer_value_of(iso_writer *w, int node)
 {
-    const iso_expression_node *x = &w->e->node[node];
+    const iso_expression_node *x = &w->e.node[node];
     if (w->has_value[node]) return w->value[node];
     const iso_quantity value = iso_writer_is_form(w, node) ? form_value(w, node)
                                : x->term >= ISO_TERM_ADD   ? operation_value(w, x)
@@ -292,7 +290,7 @@ iso_quantity iso_writer_value_of(iso_writer *w, int node)
 
 iso_scalar iso_writer_value(iso_writer *w)
 {
-    return scalar_q(w->F, iso_writer_value_of(w, w->e->root));
+    return scalar_q(w->F, iso_writer_value_of(w, w->e.root));
 }
 
 /* --- of an effect ----------------------------------------------------------------------------------------------- */

@@ -39,7 +39,7 @@ iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_ef
 /* One expression that is being written down. n: as what the formula has it. */
 typedef struct iso_writer {
     iso_formula *F;
-    const iso_expression *e;
+    iso_expression e;
     const double *number; /* of the effect */
     iso_vector n, omega, vertical;
     int most;       /* polynomials in n up to this degree are written with vectors */
@@ -56,8 +56,9 @@ typedef struct iso_writer {
     } form[ISO_EXPRESSION_NODES];
 } iso_writer;
 
-/* Begins; the effect's numbers are in own units, and the expression is one of the caller's units. */
-void iso_writer_begin(iso_writer *w, iso_formula *F, const iso_expression *e, const double number[], iso_vector n);
+/* Reads expression `which` of an effect and begins. Its numbers are in own units, the expression is one of the caller's
+ * units. False: the text is no expression. */
+bool iso_writer_begin(iso_writer *w, iso_formula *F, const iso_problem *f, iso_effect_id id, int which, iso_vector n);
 
 /* The value of the expression, in the caller's units, as a scalar of the formula. */
 iso_scalar iso_writer_value(iso_writer *w);

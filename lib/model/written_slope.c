@@ -14,7 +14,7 @@ typedef struct slopes {
 /* slope of a node += x */
 static void give(iso_writer *w, slopes *s, int node, iso_quantity x)
 {
-    if (w->e->node[node].degree != ISO_CONSTANT) s->of[node] = add_q(w->F, s->of[node], x);
+    if (w->e.node[node].degree != ISO_CONSTANT) s->of[node] = add_q(w->F, s->of[node], x);
 }
 
 /* a^(b-1) of value = a^b. A torque needs no value: there it is a power of its own, and nothing is divided. */
@@ -28,14 +28,11 @@ static iso_quantity lower_power(iso_writer *w, iso_quantity a, iso_quantity b, i
 static void give_power(iso_writer *w, slopes *s, const iso_expression_node *x, iso_quantity own, iso_quantity value)
 {
     iso_formula *F = w->F;
-    const int whole = iso_writer_exponent(w->e, x);
+    const int whole = iso_writer_exponent(&w->e, x);
     const iso_quantity a = iso_writer_value_of(w, x->a), b = iso_writer_value_of(w, x->b);
     give(w, s, x->a, mul_q(F, mul_q(F, own, b), whole > 0 ? power_q(F, a, whole - 1) : lower_power(w, a, b, value)));
     if (is_fixed_q(b)) return;
-    const iso_constant base = fixed_q(F, a);
-    const iso_quantity log_a =
-        is_fixed_q(a) ? constant_q(function_c(F, ISO_C_LOG, base, base)) : variable_q(log_of(F, (iso_scalar){a.at}));
-    give(w, s, x->b, mul_q(F, own, mul_q(F, value, log_a)));
+    give(w, s, x->b, mul_q(F, own, mul_q(F, value, log_q(F, a))));
 }
 
 static void give_quotient(iso_writer *w, slopes *s, const iso_expression_node *x, iso_quantity own,
@@ -43,7 +40,7 @@ static void give_quotient(iso_writer *w, slopes *s, const iso_expression_node *x
 {
     iso_formula *F = w->F;
     const iso_quantity b = iso_writer_value_of(w, x->b);
-    if (w->e->node[x->a].degree == ISO_CONSTANT) {
+    if (w->e.node[x->a].degree == ISO_CONSTANT) {
         give(w, s, x->b, negative_q(F, div_q(F, mul_q(F, own, value), b)));
         return;
     }
@@ -63,7 +60,7 @@ static iso_quantity other_of_circle(iso_writer *w, const iso_expression_node *x,
 static void hand_on(iso_writer *w, slopes *s, int node)
 {
     iso_formula *F = w->F;
-    const iso_expression_node *x = &w->e->node[node];
+    const iso_expression_node *x = &w->e.node[node];
     const iso_quantity own = s->of[node], value = iso_writer_value_of(w, node);
     switch (x->term) {
     case ISO_TERM_ADD: give(w, s, x->a, own), give(w, s, x->b, own); break;
@@ -122,10 +119,10 @@ void iso_writer_slope(iso_writer *w, iso_scalar *U, iso_vector *dU, iso_scalar *
 {
     slopes s = {.along = zero_q};
     *U = iso_writer_value(w);
-    for (int i = 0; i < w->e->nodes; i++) s.of[i] = zero_q;
-    s.of[w->e->root] = one_q;
-    for (int i = w->e->root; i >= 0; i--) {
-        if (s.of[i].kind == ISO_IS_ZERO || w->e->node[i].degree == ISO_CONSTANT) continue;
+    for (int i = 0; i < w->e.nodes; i++) s.of[i] = zero_q;
+    s.of[w->e.root] = one_q;
+    for (int i = w->e.root; i >= 0; i--) {
+        if (s.of[i].kind == ISO_IS_ZERO || w->e.node[i].degree == ISO_CONSTANT) continue;
         iso_writer_is_form(w, i) ? add_form(w, &s, i) : hand_on(w, &s, i);
     }
     *dU = s.has_sum ? s.sum : sub_v(w->F, w->n, w->n);

@@ -8,15 +8,8 @@
 
 #include "base/random_impl.h"
 
-#define NUMBER double
-#define ROOT sqrt
-#define POW pow
-#define FMA fma
-#define ABS fabs
-#define EXP exp
-#define LOG log
-#define SIN sin
-#define COS cos
+#include "model/series/double_impl.h"
+
 #define LANES 2
 #define CHANNELS 2
 enum { KEPT = 24 };

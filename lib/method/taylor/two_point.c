@@ -5,15 +5,7 @@
 #include "model/model_impl.h"
 
 /* The macros that the series are made with. They end with this file. */
-#define NUMBER double
-#define ROOT sqrt
-#define POW pow
-#define FMA fma
-#define ABS fabs
-#define EXP exp
-#define LOG log
-#define SIN sin
-#define COS cos
+#include "model/series/double_impl.h"
 #define EPSILON DBL_EPSILON
 #define FINER 1
 #define FINEST_ORDER 28

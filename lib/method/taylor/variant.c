@@ -87,15 +87,7 @@ __extension__ typedef _Float128 number_of_128_bits;
 #define FINEST_ORDER 52
 #define NODES 20
 #else
-#define NUMBER double
-#define ROOT sqrt
-#define POW pow
-#define FMA fma
-#define ABS fabs
-#define EXP exp
-#define LOG log
-#define SIN sin
-#define COS cos
+#include "model/series/double_impl.h"
 #define EPSILON DBL_EPSILON
 #define FINER 1
 #if IS_TAIL
