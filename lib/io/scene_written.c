@@ -37,7 +37,6 @@ static iso_status read_expressions(iso_draft *d, iso_effect_id id, const yaml_no
 static iso_status read_parameter(iso_draft *d, iso_effect_id id, const yaml_node_t *mapping, const yaml_node_t *key,
                                  const yaml_node_t *value)
 {
-    const yaml_node_t *first;
     double x;
     if (key->type != YAML_SCALAR_NODE) return ISO_FAIL_AT(d, key, "a parameter should be NAME: NUMBER");
     const char *name = (const char *)key->data.scalar.value,
@@ -46,9 +45,7 @@ static iso_status read_parameter(iso_draft *d, iso_effect_id id, const yaml_node
     if (bad)
         return ISO_FAIL_AT(d, key, "'%s' cannot be a parameter: %s",
                            iso_text_quote(quoted, name, key->data.scalar.length), bad);
-    iso_yaml_find(&d->yaml, mapping, name, &first, NULL);
-    if (first != key)
-        return ISO_FAIL_AT(d, key, "duplicate key '%s', first written in line %zu", name, first->start_mark.line + 1);
+    ISO_TRY(iso_yaml_once(&d->yaml, mapping, key, name));
     ISO_TRY(iso_yaml_number(&d->yaml, value, name, &x));
     const iso_status status = iso_effects_set(d->yaml.ctx, &d->scene.effects, iso_effect_list[id]->name, name, 1, &x);
     return status == ISO_OK ? status : ISO_FAIL_AT(d, key, "%s", iso_context_message(d->yaml.ctx));
@@ -67,12 +64,11 @@ static iso_status read_parameters(iso_draft *d, iso_effect_id id, const yaml_nod
 const char *iso_draft_text_key(iso_effect_id id, int i)
 {
     const iso_effect *effect = iso_effect_list[id];
-    int count = 0;
+    int keys = 1;
     if (!effect->expressions) return NULL;
-    if (effect->expressions_key && i == 0) return effect->expressions_key;
-    while (!effect->expressions_key && effect->expressions[count]) count++;
-    if (effect->expressions_key) count = 1;
-    return i < count ? effect->expressions[i] : i == count ? "parameters" : NULL;
+    while (!effect->expressions_key && effect->expressions[keys]) keys++;
+    if (i >= keys) return i == keys ? "parameters" : NULL;
+    return effect->expressions_key ? effect->expressions_key : effect->expressions[i];
 }
 
 iso_status iso_draft_text(iso_draft *d, iso_effect_id id, int i, const yaml_node_t *value)

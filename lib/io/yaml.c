@@ -202,10 +202,18 @@ iso_status iso_yaml_unknown(const iso_yaml *y, const yaml_node_t *n, const char 
                          iso_suggest(suggested, quoted, count, names));
 }
 
+iso_status iso_yaml_once(iso_yaml *y, const yaml_node_t *mapping, const yaml_node_t *key, const char *name)
+{
+    const yaml_node_t *first = key;
+    iso_yaml_find(y, mapping, name, &first, NULL);
+    if (first == key) return ISO_OK;
+    return iso_yaml_fail(y, key->start_mark, "duplicate key '%s', first written in line %zu", name,
+                         first->start_mark.line + 1);
+}
+
 iso_status iso_yaml_key(iso_yaml *y, const yaml_node_t *mapping, const yaml_node_t *key, const char *unknown,
                         size_t count, const char *const names[], size_t *i)
 {
-    const yaml_node_t *first;
     if (key->type != YAML_SCALAR_NODE)
         return iso_yaml_fail(y, key->start_mark, "a key should be a name, not a list or a mapping");
     for (*i = 0; *i < count && !iso_yaml_is(key, names[*i]);) ++*i;
@@ -213,10 +221,7 @@ iso_status iso_yaml_key(iso_yaml *y, const yaml_node_t *mapping, const yaml_node
         return iso_yaml_fail(y, key->start_mark, "'%s': this has no settings: write {}",
                              (const char *)key->data.scalar.value);
     if (*i == count) return iso_yaml_unknown(y, key, unknown, count, names);
-    iso_yaml_find(y, mapping, names[*i], &first, NULL);
-    if (first == key) return ISO_OK;
-    return iso_yaml_fail(y, key->start_mark, "duplicate key '%s', first written in line %zu", names[*i],
-                         first->start_mark.line + 1);
+    return iso_yaml_once(y, mapping, key, names[*i]);
 }
 
 iso_status iso_yaml_word(const iso_yaml *y, const yaml_node_t *n, const char *what, const char *(*word)(int),

@@ -46,6 +46,9 @@ iso_status iso_yaml_expected(const iso_yaml *y, const yaml_node_t *node, const c
 iso_status iso_yaml_unknown(const iso_yaml *y, const yaml_node_t *node, const char *what, size_t count,
                             const char *const names[]);
 
+/* Whether `key`, which is `name`, is the first of this name in its mapping. Errors: ISO_BAD_INPUT. */
+iso_status iso_yaml_once(iso_yaml *y, const yaml_node_t *mapping, const yaml_node_t *key, const char *name);
+
 /* Which of the names a key of the mapping is, in *i; unknown: what messages call it ("key"). Errors: ISO_BAD_INPUT,
  * also for a key that is there twice. */
 iso_status iso_yaml_key(iso_yaml *y, const yaml_node_t *mapping, const yaml_node_t *key, const char *unknown,
