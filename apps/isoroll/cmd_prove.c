@@ -15,27 +15,17 @@ typedef struct options {
 
 /* --- words ------------------------------------------------------------------------------------------------------ */
 
-static void print_k(const iso_proof_ball *b)
-{
-    char text[2][ISO_RATIONAL_SIZE];
-    for (int i = 0; i < 2; i++) iso_rational_print(text[i], &b->k[i]);
-    if (iso_rational_same(&b->k[0], &b->k[1]))
-        say("k = %s", text[0]);
-    else
-        say("all k from %s to %s", text[0], text[1]);
-}
-
-static void print_ball(const iso_proof *p)
+static void print_moments(const iso_proof_ball *b)
 {
     char text[3][ISO_RATIONAL_SIZE];
-    for (int i = 0; i < 3; i++) iso_rational_print(text[i], &p->ball.J[i]);
-    print_k(&p->ball);
+    for (int i = 0; i < 3; i++) iso_rational_print(text[i], &b->J[i]);
     say(", J = %s, %s, %s\n", text[0], text[1], text[2]);
 }
 
 static void print_proof(const iso_proof *p)
 {
-    print_ball(p);
+    say("k = %s", p->exact);
+    print_moments(&p->ball);
     say("multiplier of the rotation about axis %d: %s\n", p->middle + 1, p->multiplier.text);
     say("after %ld half returns its unstable manifold meets l = pi/2, on the section n_%d = 0:\n", p->halves,
         p->axis + 1);
@@ -45,10 +35,14 @@ static void print_proof(const iso_proof *p)
     say("%s\n", p->statement);
 }
 
-/* The pieces of an interval. */
+/* The pieces of an interval, from the first to the last that was enclosed. */
 static void print_pieces(const iso_proofs *f)
 {
-    print_ball(&f->row[0]);
+    char from[ISO_RATIONAL_SIZE], to[ISO_RATIONAL_SIZE];
+    iso_rational_print(from, &f->row[0].ball.k[0]);
+    iso_rational_print(to, &f->row[f->rows - 1].ball.k[1]);
+    say("k from %s to %s", from, to);
+    print_moments(&f->row[0].ball);
     say_table(1);
     say("k from\tto\tm from\tto\tdigits\t\n");
     for (size_t i = 0; i < f->rows; i++) {
@@ -69,8 +63,7 @@ static void print_pieces(const iso_proofs *f)
 static void print(const shell *s)
 {
     const iso_proofs *f = s->result.found;
-    const iso_proof_ball *b = &f->row[0].ball;
-    if (f->rows == 1 && iso_rational_same(&b->k[0], &b->k[1]))
+    if (iso_proof_is_thin(&f->row[0].ball))
         print_proof(&f->row[0]);
     else
         print_pieces(f);
@@ -80,9 +73,7 @@ static void print(const shell *s)
 static json_t *json(const shell *s)
 {
     const iso_proofs *f = s->result.found;
-    const iso_proof_ball *b = &f->row[0].ball;
-    const bool one = f->rows == 1 && iso_rational_same(&b->k[0], &b->k[1]);
-    return one ? json_of(iso_proof_fields, &f->row[0]) : json_of(iso_proofs_fields, f);
+    return iso_proof_is_thin(&f->row[0].ball) ? json_of(iso_proof_fields, &f->row[0]) : json_of(iso_proofs_fields, f);
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */

@@ -21,8 +21,7 @@ static iso_status prepare(iso_context *ctx, void *options)
 {
     const iso_prove_request *r = options;
     if (r->digits <= MOST_DIGITS) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--digits %d: expected a whole number from 1 to %d", r->digits,
-                            MOST_DIGITS);
+    return ISO_FAIL_ARGUMENT(ctx, "", "--digits %d: expected a whole number from 1 to %d", r->digits, MOST_DIGITS);
 }
 
 /* One double of the scene as the number that was written. */
@@ -40,10 +39,10 @@ static iso_status take(iso_context *ctx, const iso_scene *scene, const char *key
 
 static iso_status bad_k(iso_context *ctx, const char *text)
 {
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                            "--k '%s': expected a number or an interval A:B that does not hold 0, A < B also as "
-                            "doubles, such as 1/3 or 0.5:0.500001",
-                            text);
+    return ISO_FAIL_ARGUMENT(ctx, "",
+                             "--k '%s': expected a number or an interval A:B that does not hold 0, A < B also as "
+                             "doubles, such as 1/3 or 0.5:0.500001",
+                             text);
 }
 
 /* "K" or "A:B" */
@@ -80,7 +79,7 @@ static void print_exact(iso_proof *p)
 {
     const iso_rational *k = p->ball.k;
     char text[2][ISO_RATIONAL_SIZE];
-    const bool one = iso_rational_same(&k[0], &k[1]);
+    const bool one = iso_proof_is_thin(&p->ball);
     for (int i = 0; i < 2; i++) iso_rational_print(text[i], &k[i]);
     snprintf(p->exact, sizeof p->exact, "%s%s%s", text[0], one ? "" : ":", one ? "" : text[1]);
 }
@@ -125,7 +124,6 @@ static iso_status add(work *w, const iso_proof *proof, char *text)
     if (!row || !texts) return free(text), iso_context_no_memory(w->ctx, "%zu pieces", f->rows + 1);
     f->certificate[f->rows] = text;
     f->row[f->rows++] = *proof;
-    f->certificates = f->rows;
     return ISO_OK;
 }
 
@@ -179,7 +177,7 @@ static iso_status find_all(iso_context *ctx, const iso_proof_ball *ball, const i
     iso_proof proof = {.digits = 0};
     char *text = NULL;
     work w = {ctx, r, result, found, length_of(ball), 0};
-    if (!iso_rational_same(&ball->k[0], &ball->k[1])) {
+    if (!iso_proof_is_thin(ball)) {
         found->all = true;
         const iso_status status = divide(&w, ball, HALVINGS);
         found->all = found->all && status == ISO_OK;
@@ -199,7 +197,7 @@ static iso_status find_all(iso_context *ctx, const iso_proof_ball *ball, const i
 static void free_proofs(void *found)
 {
     iso_proofs *f = found;
-    for (size_t i = 0; i < f->certificates; i++) free(f->certificate[i]);
+    for (size_t i = 0; i < f->rows; i++) free(f->certificate[i]);
     free(f->certificate);
     free(f->row);
     free(f);
@@ -210,7 +208,7 @@ static iso_status fill(iso_context *ctx, const iso_scene *scene, iso_study_resul
 {
     iso_field fields[ISO_MOST_FIELDS];
     const iso_proofs *f = result->found;
-    const bool one = iso_rational_same(&f->row[0].ball.k[0], &f->row[0].ball.k[1]);
+    const bool one = iso_proof_is_thin(&f->row[0].ball);
     iso_fields_copy(one ? iso_proof_fields : iso_proofs_fields, "rows", fields);
     const void *lines = one ? (const void *)&f->row[0] : f;
     ISO_TRY(iso_study_table(ctx, "prove", scene, fields, lines, iso_proof_fields, &result->table[0]));

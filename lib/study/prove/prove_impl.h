@@ -24,6 +24,12 @@ typedef struct iso_proof_ball {
     iso_rational k[2], J[3];
 } iso_proof_ball;
 
+/* Whether it is one k, and no interval. */
+static inline bool iso_proof_is_thin(const iso_proof_ball *ball)
+{
+    return iso_rational_same(&ball->k[0], &ball->k[1]);
+}
+
 /* What is known of one k, or of an interval of k. */
 typedef struct iso_proof {
     iso_proof_ball ball;
@@ -56,8 +62,7 @@ typedef struct iso_prove_request {
 typedef struct iso_proofs {
     size_t rows;
     iso_proof *row;
-    size_t certificates;
-    char **certificate; /* of each row, if they are wanted */
+    char **certificate; /* of each row; NULL: it was not wanted */
     bool all;           /* 0 is in no enclosure of an interval of k, and these leave nothing out; no double says so */
     double undecided;   /* the part of an interval of k that is undecided, [0, 1], rounded */
 } iso_proofs;
