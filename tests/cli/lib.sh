@@ -154,6 +154,19 @@ check() {
     "$@" >/dev/null 2>&1 || fail "$name: $*"
 }
 
+# in_browser SCRIPT: a script of Python here that drives Chromium; it prints "PASS WORDS" or "FAIL WORDS" for each check
+in_browser() {
+    python3 -B "$here/$1" "$isoroll" "$source" "$work" >results 2>err || fail "$1 ended early"
+    while read -r verdict words; do
+        case $verdict in
+        PASS) checks=$((checks + 1)) ;;
+        FAIL) checks=$((checks + 1)) && fail "$words" ;;
+        *) echo "$verdict $words" ;;
+        esac
+    done <results
+    check "$1 came to its end" grep -q '^PASS the end' results
+}
+
 # check_not NAME COMMAND...: the command fails
 check_not() {
     name=$1

@@ -13,15 +13,7 @@ elif [ -z "$browser" ]; then
 elif has python3 "pages in a browser"; then
     if [ "${ISO_SANITIZE-0}" = 0 ]; then # the pages of isoroll with sanitizers are the same: cli/view.sh writes them
         for script in view_page.py view_shown.py; do
-            python3 -B "$here/$script" "$isoroll" "$source" "$work" >results 2>err || fail "$script ended early"
-            while read -r verdict words; do
-                case $verdict in
-                PASS) checks=$((checks + 1)) ;;
-                FAIL) checks=$((checks + 1)) && fail "$words" ;;
-                *) echo "$verdict $words" ;;
-                esac
-            done <results
-            check "$script came to its end" grep -q '^PASS the end' results
+            in_browser "$script"
         done
     fi
 

@@ -45,7 +45,6 @@ const chart = {
   canvas: element("lab-section"),
   dots: [], // {orbit, l, x}, by orbit; the scene's own is 0
   cursor: null, // of the keyboard
-  palette: ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#999933", "#7d6b9e"],
 
   clear() {
     this.dots = [];
@@ -92,7 +91,7 @@ const chart = {
     for (const own of [false, true]) {
       for (const dot of this.dots) {
         if ((dot.orbit === 0) !== own) continue;
-        g.fillStyle = own ? colours.curve : this.palette[dot.orbit % this.palette.length];
+        g.fillStyle = own ? colours.curve : palette[dot.orbit % palette.length];
         const radius = own ? 1.6 * size : size;
         g.fillRect(x(dot.l) - radius / 2, y(dot.x) - radius / 2, radius, radius);
       }
@@ -136,6 +135,12 @@ const triangle = {
     const corners = this.corners();
     return [0, 1].map((c) => corners.reduce((sum, corner, i) => sum + corner[c] * parts[i], 0));
   },
+  // The place of J.
+  here() {
+    const { J } = lab.state,
+      sum = J[0] + J[1] + J[2];
+    return this.place(J.map((x) => x / sum));
+  },
   // The parts of the sum at a place; none is below 1/50.
   parts([px, py]) {
     const [a, b, c] = this.corners(),
@@ -161,11 +166,9 @@ const triangle = {
     g.fillStyle = theme().text;
     g.textAlign = "center";
     this.corners().forEach(([x, y], i) => g.fillText(`J${"₁₂₃"[i]}`, x, i < 2 ? y + 14 : y - 5));
-    const { J } = lab.state,
-      sum = J[0] + J[1] + J[2];
     g.fillStyle = colours.curve;
     g.beginPath();
-    g.arc(...this.place(J.map((x) => x / sum)), 6, 0, 7);
+    g.arc(...this.here(), 6, 0, 7);
     g.fill();
   },
   move(parts) {
@@ -186,9 +189,7 @@ const triangle = {
     this.canvas.addEventListener("keydown", (e) => {
       const by = { ArrowLeft: [-4, 0], ArrowRight: [4, 0], ArrowUp: [0, -4], ArrowDown: [0, 4] }[e.key];
       if (!by) return;
-      const { J } = lab.state,
-        sum = J[0] + J[1] + J[2];
-      this.move(this.parts(plus(this.place(J.map((x) => x / sum)), by)));
+      this.move(this.parts(plus(this.here(), by)));
       e.preventDefault();
       e.stopPropagation();
     });

@@ -16,7 +16,6 @@ const sections = !page.section
         x: decoded(page.section.crossings.x),
       };
       const free = page.eps > 0 && !Object.keys(page.effects).some((name) => name !== "level" && name !== "clock");
-      const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#999933", "#7d6b9e"];
       const G = (l) =>
         free ? Math.sqrt(2 * page.eps) * (J[b] * Math.cos(l) ** 2 + J[c] * Math.sin(l) ** 2) ** (-1 / (2 * k)) : 1;
       const ofBall = (l, x) => {
@@ -54,7 +53,7 @@ const sections = !page.section
       const dots = plots.map((plot) => Array.from(column.l, (l, i) => plot.place(l, column.x[i])));
       const runnable = new Map(page.section.list.map((one, i) => [one.number, i]));
       const sea = new Set(page.section.list.filter((one) => one.verdict === "chaotic").map((one) => one.number));
-      const SEA = "#8a929a"; // of chaotic orbits; the palette has no grey
+      const SEA = "#8a929a"; // of chaotic orbits
       const colourOf = (orbit) => (sea.has(orbit) ? SEA : palette[orbit % palette.length]);
       let chosen = page.section.list.length ? page.section.list[0].number : -1,
         hovered = -1,

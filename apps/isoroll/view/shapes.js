@@ -37,6 +37,8 @@ const colours = {
     future: "#9aa7b3",
   },
 };
+// of orbits, by their numbers; it has no grey
+const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#999933", "#7d6b9e"];
 const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
 const theme = () => (isDark() ? colours.dark : colours.light);
 
