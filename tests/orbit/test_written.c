@@ -1,6 +1,7 @@
 /* Effects that a scene writes against the same effects compiled: field and level as a potential; gravity, rolling
  * resistance and rotor as a torque. By every method that takes them, on both models, in reduced and in physical units.
- * Steps are fixed and long, and no energy is restored: the errors of methods of low order are large, and the same. So the orders are. */
+ * Steps are fixed and long, and no energy is restored. So methods of low order have large errors, and both ways of
+ * writing an effect must have the same ones: then their orders are the same too. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>

@@ -6,7 +6,6 @@
  *     g = (n, J^-1 n) with Im theta > 0; M from theta to theta + pi below this zero. M = A B.
  */
 #define _GNU_SOURCE /* functions of _Float128 */
-#include <complex.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdbool.h>
@@ -15,11 +14,11 @@
 
 #include "base/pi_impl.h"
 #include "base/random_impl.h"
+#include "complex_paths.h"
 #include "laws.h"
 #include "length.h"
 #include "study/periodic/periodic_impl.h"
 
-typedef double complex complex_number;
 typedef complex_number matrix[2][2];
 
 typedef struct rotation {
@@ -30,15 +29,11 @@ typedef struct rotation {
 
 /* --- the linearised equations (9) ------------------------------------------------------------------------------- */
 
-static void cross3(const complex_number a[3], const complex_number b[3], complex_number c[3])
-{
-    for (int i = 0; i < 3; i++) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
 /* d/dtheta of (delta w, delta n): J dw' = J dw x w + J w x dw + dlambda n, dn' = k (dn x w + n x dw). On the rotation
  * lambda is 0, whatever n. */
-static void slope(const rotation *r, complex_number theta, const complex_number y[6], complex_number dy[6])
+static void slope(const void *rotating, complex_number theta, const complex_number y[], complex_number dy[])
 {
+    const rotation *r = rotating;
     const complex_number n[3] = {ccos(theta), 0, csin(theta)}, w[3] = {0, 1, 0}, Jw[3] = {0, r->J[1], 0};
     complex_number Jdw[3], a[3], b[3], c[3], d[3], along = 0, g = 0;
     for (int i = 0; i < 3; i++) Jdw[i] = r->J[i] * y[i];
@@ -51,29 +46,6 @@ static void slope(const rotation *r, complex_number theta, const complex_number 
         dy[i] = (a[i] + b[i] - r->torque * along / g * n[i]) / (r->J[i] * r->k);
         dy[i + 3] = c[i] + d[i];
     }
-}
-
-static void runge_kutta(const rotation *r, complex_number theta, complex_number h, complex_number y[6])
-{
-    static const double at[4] = {0, 0.5, 0.5, 1}, weight[4] = {1 / 6., 1 / 3., 1 / 3., 1 / 6.};
-    complex_number stage[6], dy[6] = {0}, sum[6] = {0};
-    for (int s = 0; s < 4; s++) {
-        for (int i = 0; i < 6; i++) stage[i] = y[i] + at[s] * h * dy[i];
-        slope(r, theta + at[s] * h, stage, dy);
-        for (int i = 0; i < 6; i++) sum[i] += weight[s] * dy[i];
-    }
-    for (int i = 0; i < 6; i++) y[i] += h * sum[i];
-}
-
-/* Order 5: one step and two halves. */
-static void step(const rotation *r, complex_number theta, complex_number h, complex_number y[6])
-{
-    complex_number one[6];
-    memcpy(one, y, sizeof one);
-    runge_kutta(r, theta, h, one);
-    runge_kutta(r, theta, h / 2, y);
-    runge_kutta(r, theta + h / 2, h / 2, y);
-    for (int i = 0; i < 6; i++) y[i] += (y[i] - one[i]) / 15;
 }
 
 static double distance_to_pole(const rotation *r, complex_number theta)
@@ -97,7 +69,7 @@ static void along(const rotation *r, const complex_number corner[], int corners,
                 const complex_number theta = corner[i] + done * side;
                 const double length = 0.02 * fmin(distance_to_pole(r, theta), fmin(1, 3 * fabs(r->k)));
                 const double part = fmin(length / cabs(side), 1 - done);
-                step(r, theta, part * side, y);
+                path_step(slope, r, 6, theta, part * side, y);
                 done += part;
             }
         }

@@ -2,7 +2,6 @@
  * phi, for 1/k = N a whole number, eps = 1. 1/k even: a loop whose matrix has one eigenvalue and is not diagonal. 1/k
  * odd: loops round zeros of phi'^2, whose square is 1; antidiagonal at k = 1 and -1 alone.
  */
-#include <complex.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdbool.h>
@@ -10,9 +9,9 @@
 
 #include "base/pi_impl.h"
 #include "base/random_impl.h"
+#include "complex_paths.h"
 #include "length.h"
 
-typedef double complex complex_number;
 typedef complex_number matrix[2][2];
 
 typedef struct problem {
@@ -34,8 +33,9 @@ static complex_number whole_power(complex_number q, int n)
 }
 
 /* (q + u) y'' = q' N/2 y' - (N (J2 - (1 - 1/N) q) + u) y, u = E q^(1 + N) */
-static void slope(const problem *f, complex_number phi, const complex_number y[4], complex_number dy[4])
+static void slope(const void *data, complex_number phi, const complex_number y[], complex_number dy[])
 {
+    const problem *f = data;
     const complex_number q = q_of(f, phi), u = f->energy * whole_power(q, 1 + f->N);
     const complex_number turn = (f->J[2] - f->J[0]) * csin(2 * phi) * f->N / 2;
     const complex_number pull = f->N * (f->J[1] - q) + q + u;
@@ -45,25 +45,13 @@ static void slope(const problem *f, complex_number phi, const complex_number y[4
     }
 }
 
-static void runge_kutta(const problem *f, complex_number phi, complex_number h, complex_number y[4])
-{
-    static const double at[4] = {0, 0.5, 0.5, 1}, weight[4] = {1 / 6., 1 / 3., 1 / 3., 1 / 6.};
-    complex_number stage[4], dy[4] = {0}, sum[4] = {0};
-    for (int s = 0; s < 4; s++) {
-        for (int i = 0; i < 4; i++) stage[i] = y[i] + at[s] * h * dy[i];
-        slope(f, phi + at[s] * h, stage, dy);
-        for (int i = 0; i < 4; i++) sum[i] += weight[s] * dy[i];
-    }
-    for (int i = 0; i < 4; i++) y[i] += h * sum[i];
-}
-
 /* m is carried along a straight line, in steps that are a small part of the way. */
 static void along(const problem *f, complex_number from, complex_number to, matrix m)
 {
     enum { STEPS = 6000 };
     const complex_number h = (to - from) / STEPS;
     complex_number y[4] = {m[0][0], m[1][0], m[0][1], m[1][1]};
-    for (int i = 0; i < STEPS; i++) runge_kutta(f, from + i * h, h, y);
+    for (int i = 0; i < STEPS; i++) path_runge_kutta(slope, f, 4, from + i * h, h, y);
     m[0][0] = y[0], m[1][0] = y[1], m[0][1] = y[2], m[1][1] = y[3];
 }
 

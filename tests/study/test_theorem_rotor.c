@@ -5,16 +5,14 @@
  *
  *     n = (r cos theta, n2, r sin theta), p = (-sin theta, 0, cos theta), v = (w, p): a state is (n2, v).
  */
-#include <complex.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdbool.h>
 
 #include "base/pi_impl.h"
 #include "base/random_impl.h"
+#include "complex_paths.h"
 #include "length.h"
-
-typedef double complex complex_number;
 
 typedef struct problem {
     double k, J[3], K; /* the rotor's momentum is (0, K, 0); the rotation is w = (0, 1, 0) */
@@ -24,11 +22,6 @@ typedef struct problem {
 typedef struct jet {
     complex_number linear[2][2], cubic[2][4];
 } jet;
-
-static void cross3(const complex_number a[3], const complex_number b[3], complex_number c[3])
-{
-    for (int i = 0; i < 3; i++) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
 
 static complex_number form(const double J[3], const complex_number a[3], const complex_number b[3])
 {
@@ -51,8 +44,9 @@ static void axis_of(const problem *f, const complex_number n[3], const complex_n
 }
 
 /* By theta: J w' = (J w + K) x w + lambda n, n' = k n x w. */
-static void slope(const problem *f, complex_number theta, const complex_number y[2], complex_number dy[2])
+static void slope(const void *data, complex_number theta, const complex_number y[], complex_number dy[])
 {
+    const problem *f = data;
     const complex_number r = csqrt(1 - y[0] * y[0]), c = ccos(theta), s = csin(theta);
     const complex_number n[3] = {r * c, y[0], r * s}, p[3] = {-s, 0, c}, turn[3] = {-c, 0, -s};
     complex_number w[3], Jw[3], torque[3], dw[3], dn[3], lambda = 0, g = 0;
@@ -67,32 +61,13 @@ static void slope(const problem *f, complex_number theta, const complex_number y
     dy[1] = form(one, dw, p) / rate + form(one, w, turn);
 }
 
-static void runge_kutta(const problem *f, complex_number theta, complex_number h, complex_number y[2])
-{
-    static const double at[4] = {0, 0.5, 0.5, 1}, weight[4] = {1 / 6., 1 / 3., 1 / 3., 1 / 6.};
-    complex_number stage[2], dy[2] = {0}, sum[2] = {0};
-    for (int s = 0; s < 4; s++) {
-        for (int i = 0; i < 2; i++) stage[i] = y[i] + at[s] * h * dy[i];
-        slope(f, theta + at[s] * h, stage, dy);
-        for (int i = 0; i < 2; i++) sum[i] += weight[s] * dy[i];
-    }
-    for (int i = 0; i < 2; i++) y[i] += h * sum[i];
-}
-
 /* Along straight lines, with order 5. */
 static void along(const problem *f, const complex_number corner[], int corners, complex_number y[2])
 {
     for (int i = 0; i + 1 < corners; i++) {
         const int steps = 20 + (int)(400 * cabs(corner[i + 1] - corner[i]));
         const complex_number h = (corner[i + 1] - corner[i]) / steps;
-        for (int j = 0; j < steps; j++) {
-            const complex_number theta = corner[i] + j * h;
-            complex_number rough[2] = {y[0], y[1]};
-            runge_kutta(f, theta, h, rough);
-            runge_kutta(f, theta, h / 2, y);
-            runge_kutta(f, theta + h / 2, h / 2, y);
-            for (int c = 0; c < 2; c++) y[c] += (y[c] - rough[c]) / 15;
-        }
+        for (int j = 0; j < steps; j++) path_step(slope, f, 2, corner[i] + j * h, h, y);
     }
 }
 

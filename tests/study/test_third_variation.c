@@ -6,17 +6,15 @@
  *     The rotation is Y = 0; the singular point is x = 0. Y is p y_p + z y_z, y_p = 1 + ..., y_z = x^(1 - |1/k|/2) (1
  *     + ...). Two rounds add 4 pi i rho (-3 p z^2, z^3) to (p, z), and more of fifth order.
  */
-#include <complex.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdbool.h>
 
 #include "base/pi_impl.h"
 #include "base/random_impl.h"
+#include "complex_paths.h"
 #include "laws.h"
 #include "length.h"
-
-typedef double complex complex_number;
 
 typedef struct problem {
     int n; /* 1/k */
@@ -24,11 +22,6 @@ typedef struct problem {
 } problem;
 
 /* --- orbits ----------------------------------------------------------------------------------------------------- */
-
-static void cross3(const complex_number a[3], const complex_number b[3], complex_number c[3])
-{
-    for (int i = 0; i < 3; i++) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
 
 static complex_number form(const complex_number a[3], const double J[3], int power, const complex_number b[3])
 {
@@ -75,16 +68,11 @@ static complex_number slope(const problem *f, const complex_number y[6], complex
     return dY / dx;
 }
 
-static void runge_kutta(const problem *f, complex_number h, complex_number y[6])
+/* The same for path_step: the equations do not depend on x. */
+static void rates(const void *f, complex_number x, const complex_number y[], complex_number dy[])
 {
-    static const double at[4] = {0, 0.5, 0.5, 1}, weight[4] = {1 / 6., 1 / 3., 1 / 3., 1 / 6.};
-    complex_number stage[6], dy[6] = {0}, sum[6] = {0};
-    for (int s = 0; s < 4; s++) {
-        for (int i = 0; i < 6; i++) stage[i] = y[i] + at[s] * h * dy[i];
-        slope(f, stage, dy);
-        for (int i = 0; i < 6; i++) sum[i] += weight[s] * dy[i];
-    }
-    for (int i = 0; i < 6; i++) y[i] += h * sum[i];
+    (void)x;
+    slope(f, y, dy);
 }
 
 /* The orbit that passes (x, Y) with the slope dY: c, and its direction (k > 0) or the axis about which n turns. */
@@ -107,16 +95,12 @@ static void begin(const problem *f, complex_number x, const complex_number Y[2],
 static void two_rounds(const problem *f, complex_number x, const complex_number Y[2], complex_number out[2])
 {
     enum { STEPS = 6000 };
-    complex_number y[6], one[6], dy[6];
+    complex_number y[6], dy[6];
     begin(f, x, Y, y);
     for (int i = 0; i < STEPS; i++) {
         const complex_number from = x * cexp(4 * I * ISO_PI * i / STEPS);
         const complex_number h = from * (cexp(4 * I * ISO_PI / STEPS) - 1);
-        for (int j = 0; j < 6; j++) one[j] = y[j];
-        runge_kutta(f, h, one);
-        runge_kutta(f, h / 2, y);
-        runge_kutta(f, h / 2, y);
-        for (int j = 0; j < 6; j++) y[j] += (y[j] - one[j]) / 15;
+        path_step(rates, f, 6, from, h, y);
     }
     out[1] = slope(f, y, dy);
     out[0] = y[1] / (y[0] - I * y[2]);
