@@ -57,7 +57,8 @@ static void add_expressions(json_t *to, const iso_effects *effects, iso_effect_i
 {
     const iso_effect *e = iso_effect_list[id];
     for (int i = 0; e->expressions && e->expressions[i]; i++)
-        json_object_set_new(to, e->expressions[i], text_of(effects->written[e->written].expression[i]));
+        if (iso_written_has(effects, id, i))
+            json_object_set_new(to, e->expressions[i], text_of(effects->written[e->written].expression[i]));
 }
 
 json_t *json_effects(const iso_effects *effects, bool all)

@@ -16,7 +16,7 @@ static bool has_second(const iso_problem *f)
     const iso_integral *row[MOST];
     const int count = iso_integrals_holding(&iso_system_point, f, row, MOST);
     bool found = false;
-    for (int i = 0; i < count; i++) found = found || row[i]->holds;
+    for (int i = 0; i < count; i++) found = found || (row[i]->holds && !row[i]->claimed);
     return found && !iso_effects_breaking(&f->effects);
 }
 

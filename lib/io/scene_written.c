@@ -109,7 +109,8 @@ iso_status iso_draft_check_expressions(iso_draft *d, iso_effect_id id, const yam
     iso_expression e;
     if (!iso_yaml_find(&d->yaml, effects, effect->name, NULL, &section)) return ISO_OK;
     for (int i = 0; effect->expressions[i]; i++)
-        if (!iso_written_read(all, id, i, &e) || !iso_written_decided(&e, all, p->k, p->J, all->number[id]))
+        if (iso_written_has(all, id, i) &&
+            (!iso_written_read(all, id, i, &e) || !iso_written_decided(&e, all, p->k, p->J, all->number[id])))
             return fail_in_text(d, find_expression(d, effect, section, i), effect->expressions[i], &e);
     return ISO_OK;
 }

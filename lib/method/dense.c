@@ -17,7 +17,8 @@ struct iso_dense {
 
 iso_status iso_dense_create(iso_integrator *it)
 {
-    const bool implicit = iso_method_auto(&it->model)->implicit;
+    const iso_method *best = iso_method_auto(&it->model);
+    const bool implicit = best && best->implicit;
     iso_dense *dense = calloc(1, sizeof *dense);
     if (!dense) return iso_context_no_memory(it->ctx, "an integrator");
     const iso_status status = iso_gsl_open(it, implicit ? gsl_odeiv2_step_bsimp : gsl_odeiv2_step_rk8pd, &dense->gsl);

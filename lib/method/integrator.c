@@ -23,8 +23,11 @@ static iso_status check_method(iso_context *ctx, const iso_method *method, const
                                const iso_method_options *options)
 {
     char why[ISO_WHY_SIZE];
-    if (!iso_method_serves(method, model, why))
-        return ISO_FAIL_ARGUMENT(ctx, "method", "%s %s; take %s", method->name, why, iso_method_auto(model)->name);
+    if (!iso_method_serves(method, model, why)) {
+        const iso_method *other = iso_method_auto(model);
+        return ISO_FAIL_ARGUMENT(ctx, "method", "%s %s%s%s", method->name, why, other ? "; take " : "",
+                                 other ? other->name : "");
+    }
     if (!(options->fixed_step > 0)) return ISO_OK;
     if (!method->fixed)
         return ISO_FAIL_ARGUMENT(ctx, "", "%s takes no fixed steps: it chooses its own", method->name);
@@ -72,6 +75,7 @@ void iso_integrator_free(iso_integrator *it)
 static iso_status set_out(iso_integrator *it, int direction)
 {
     it->direction = direction;
+    it->fast = iso_model_fast(&it->model, direction, it->y0);
     it->stopped = false;
     it->resting = false;
     it->left = (iso_instant){0, 0};
@@ -115,7 +119,7 @@ static iso_status take_step(iso_integrator *it, double y[], double *h)
 static const char *find_end(const iso_integrator *it, const double y[])
 {
     const bool projects = it->method->projects && !it->options.no_projection;
-    const char *why = it->direction < 0 ? iso_model_speeds_up(&it->model, it->y0, y) : NULL;
+    const char *why = norm(y) > it->fast ? iso_model_speeds_up(&it->model, it->direction, it->y0, y) : NULL;
     if (!why && !projects) why = iso_model_lost(&it->model, y, it->options.tolerance);
     return why;
 }

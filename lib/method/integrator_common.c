@@ -26,9 +26,12 @@ iso_status iso_integrator_stopped(iso_integrator *it, const char *reason)
 {
     const double unit = it->options.time_unit != 0 ? it->options.time_unit : 1;
     double t, y[ISO_MAX_STATE];
+    char blame[ISO_BLAME_SIZE];
     iso_integrator_last(it, &t, y);
-    return ISO_FAIL_NUMERICAL(it->ctx, "%s stopped after %ld steps: %s; last good %s = %s", it->method->name,
-                              it->statistics.steps, reason, iso_clock_name(it->model.clock), ISO_SHORT(t * unit));
+    iso_model_blame(&it->model, y, blame);
+    return ISO_FAIL_NUMERICAL(it->ctx, "%s stopped after %ld steps: %s; last good %s = %s%s", it->method->name,
+                              it->statistics.steps, reason, iso_clock_name(it->model.clock), ISO_SHORT(t * unit),
+                              blame);
 }
 
 double iso_integrator_rate(iso_integrator *it, const double y[])

@@ -51,6 +51,7 @@ struct iso_integrator {
 
     double y0[ISO_MAX_STATE]; /* the state at time 0                                                  */
     int direction;            /* of the steps: 1, -1, or 0 before the first                           */
+    double fast;              /* |omega| above which iso_model_speeds_up is asked                      */
     bool stopped;             /* by a failure: no further steps before the next start from 0           */
     bool resting;             /* the current step is one of a model at rest                            */
     bool called;              /* a call of the library has begun since the method last cleared this    */

@@ -72,7 +72,8 @@ bool iso_effect_acts(const iso_effects *effects, iso_effect_id id)
 iso_effects iso_effects_acting(const iso_effects *effects)
 {
     iso_effects acting = *effects;
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) acting.on[e] = iso_effect_acts(effects, e);
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        acting.on[e] = iso_effect_acts(effects, e) || (effects->on[e] && iso_effect_list[e]->watches);
     return acting;
 }
 
@@ -364,7 +365,7 @@ bool iso_effects_at_rest(const iso_problem *f, const double y[])
     return largest(y) < ISO_REST && only_resisted(f);
 }
 
-const iso_integral *iso_effect_integrals(const iso_effect *effect, const iso_system *system)
+const iso_integral *iso_effect_integrals_of(const iso_effect *effect, const iso_system *system)
 {
     return system == &iso_system_ball    ? effect->integrals
            : system == &iso_system_point ? effect->image_integrals
@@ -378,7 +379,7 @@ int iso_integrals_holding(const iso_system *system, const iso_problem *f, const 
     for (const iso_integral *i = system->integrals; i->name && count < most; i++)
         if (!i->holds || i->holds(f)) list[count++] = i;
     for (int e = 0; (effect = next_on(&f->effects, &e));)
-        for (const iso_integral *i = iso_effect_integrals(effect, system); i && i->name; i++)
+        for (const iso_integral *i = iso_effect_integrals_of(effect, system); i && i->name; i++)
             if ((!i->holds || i->holds(f)) && count < most) list[count++] = i;
     return count;
 }

@@ -14,6 +14,7 @@
  *     rotor               K x omega                             none            kept, a magnetic field
  *     potential           k n x dU/dn, U as the scene writes it none            kept, V + U/G
  *     torque              as the scene writes it                none            lost
+ *     integrals           none                                  none            kept
  *     attitude            none                                  Q (4), x (3)    kept
  *     reactions           none                                  none            kept
  *     clock               none                                  none            kept
@@ -99,6 +100,7 @@ typedef struct iso_effect {
     bool observes; /* it changes nothing in the motion: it only adds states or columns                   */
     /* Whether it has no torque from a start with the normal n on: then it observes as well. NULL: never. */
     bool (*idle)(const iso_params *p, const double n[3], const iso_effects *effects);
+    bool watches;       /* an observer that has integrals and nothing else: those of a motion on which it is put  */
     bool ball_only;     /* an observer whose states or columns only backend ball has                          */
     const char *breaks; /* why no isomorphism survives it; NULL: it has an image, or it observes              */
     bool needs_D;       /* it needs D = m b^2                                                                 */
@@ -107,6 +109,8 @@ typedef struct iso_effect {
     bool clocks;        /* it asks for the clocks as columns, and for nothing else                            */
     bool is_level;      /* its potential is the energy level of the point: no force on the point              */
     iso_work (*work)(const iso_problem *f); /* NULL: unknown; for an observer: none            */
+    /* What a run says that ends because it turns the ball ever faster; NULL: it does not do that. */
+    const char *drives;
     /* Whether an additional integral holds with it. NULL: none does; an observer keeps all. */
     bool (*keeps)(const iso_problem *f, iso_additional integral);
     /* Whether from each motion it makes another one, backwards in time: n(-t) with the signs of its components changed
@@ -118,8 +122,9 @@ typedef struct iso_effect {
     /* The names of its expressions, ended by NULL; NULL: none. Then its first ISO_PARAMETERS numbers are parameters,
      * which the scene names; those of `numbers` stand behind them. */
     const char *const *expressions;
-    const char *expressions_key; /* the key of a scene that lists them all; NULL: each is a key    */
-    int written;                 /* where its text is in iso_effects.written                       */
+    /* The key of a scene that lists them all; NULL: each is a key, and only the first one must be there. */
+    const char *expressions_key;
+    int written; /* where its text is in iso_effects.written */
 
     /* --- its numbers and columns --- */
     const iso_effect_number *numbers; /* ended by a row without a name; NULL: none                                  */

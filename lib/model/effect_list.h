@@ -10,17 +10,18 @@
 
 ISO_C_BEGIN
 
-#define ISO_EFFECT_LIST(X)                    \
-    X(GRAVITY, gravity)                       \
-    X(FIELD, field)                           \
-    X(LEVEL, level)                           \
-    X(TWIST, twist)                           \
-    X(ROLLING_RESISTANCE, rolling_resistance) \
-    X(ROTOR, rotor)                           \
-    X(POTENTIAL, potential)                   \
-    X(TORQUE, torque)                         \
-    X(ATTITUDE, attitude)                     \
-    X(REACTIONS, reactions)                   \
+#define ISO_EFFECT_LIST(X)                                                                                           \
+    X(GRAVITY, gravity)                                                                                              \
+    X(FIELD, field)                                                                                                  \
+    X(LEVEL, level)                                                                                                  \
+    X(TWIST, twist)                                                                                                  \
+    X(ROLLING_RESISTANCE, rolling_resistance)                                                                        \
+    X(ROTOR, rotor)                                                                                                  \
+    X(POTENTIAL, potential)                                                                                          \
+    X(TORQUE, torque)                                                                                                \
+    X(INTEGRALS, integrals)                                                                                          \
+    X(ATTITUDE, attitude)                                                                                            \
+    X(REACTIONS, reactions)                                                                                          \
     X(CLOCK, clock)
 
 /* The identifiers ISO_GRAVITY, ISO_FIELD, ..., and how many there are. */

@@ -51,7 +51,7 @@ static const double to_be_measured = MEASURE;
 /* In the order of iso_work. */
 static ISO_NAMES(work_name, int, "any", "none", "lost")
 
-static iso_work work(const iso_problem *f)
+    static iso_work work(const iso_problem *f)
 {
     const double stated = numbers_of(f)[ISO_WRITTEN_WORK];
     return stated < 0 ? ISO_WORK_UNKNOWN : (iso_work)stated;
@@ -130,6 +130,7 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
     int zeros = 0;
     for (int i = 0; i < COMPONENTS; i++) {
         ISO_TRY(iso_written_check(ctx, p, effects, ISO_TORQUE, i, &e));
+        ISO_TRY(iso_written_smooth(ctx, p, effects, ISO_TORQUE, i, n, &e));
         zeros += iso_expression_is_zero(&e);
     }
     if (zeros == COMPONENTS) return ISO_FAIL_INPUT(ctx, "M", "a torque of 0 changes nothing: take the effect out");
@@ -161,6 +162,7 @@ const iso_effect iso_effect_torque = {
     .doc = "a torque MQ(omega, n, e) as the scene writes it, in axes of the body",
     .breaks = "a torque that the scene writes has no potential in n",
     .work = work,
+    .drives = "'torque' drives the ball, without end: it turns more than 10000 times as fast as at the start",
     .expressions = expressions,
     .expressions_key = "M",
     .written = 1,

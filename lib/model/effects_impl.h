@@ -157,6 +157,9 @@ extern const iso_effect *const iso_effect_list[ISO_EFFECTS];
 /* Where an effect's number stands: number->count doubles, as const as `effects` is. */
 double *iso_effect_values(const iso_effects *effects, iso_effect_id id, const iso_effect_number *number);
 
+/* Whether the scene writes expression `which` of an effect: only the first one must be there, if each has a key. */
+bool iso_written_has(const iso_effects *effects, iso_effect_id id, int which);
+
 /* Whether the effect has an expression, or its row a number that is not hidden, of this name. */
 bool iso_effect_is_key(const iso_effect *effect, const char *name);
 
@@ -170,7 +173,7 @@ double iso_effects_level(const iso_effects *effects);
 /* The name of the effect that states it. */
 const char *iso_level_name(void);
 
-/* Those that act, of effects that are settled; of a scene: iso_scene_acting (orbit/scene.h). */
+/* Those that act, and the integrals that are watched, of effects that are settled; of a scene: iso_scene_acting (orbit/scene.h). */
 iso_effects iso_effects_acting(const iso_effects *effects);
 
 /* The first effect that is a magnetic field on the point; NULL: none. */
@@ -194,7 +197,7 @@ bool iso_effects_have_image(const iso_effects *effects);
 const char *iso_effect_column_name(int i, iso_effect_id *effect, const iso_effect_column **group, int *in_group);
 
 /* The integrals that come with an effect, of a system; NULL: none. */
-const iso_integral *iso_effect_integrals(const iso_effect *effect, const iso_system *system);
+const iso_integral *iso_effect_integrals_of(const iso_effect *effect, const iso_system *system);
 
 /* The integrals of a system that hold for a problem, those of its effects last: at most `most` into list, and how
  * many there are. */

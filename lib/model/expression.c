@@ -57,16 +57,6 @@ static int degree_of(iso_term term, int a, int b)
     }
 }
 
-static bool is_operation(iso_term term)
-{
-    return term >= ISO_TERM_ADD;
-}
-
-static bool has_two(iso_term term)
-{
-    return term >= ISO_TERM_ADD && term < ISO_TERM_NEGATIVE;
-}
-
 /* Two factors of degree 1 that are one power: n1^2. */
 static bool is_square(const iso_expression *e, iso_term term, int a, int b)
 {
@@ -360,65 +350,4 @@ bool iso_expression_read(const char *text, const iso_expression_names *names, is
                  : "expected an operator (+ - * / ^) or the end, not %s",
              what_stands(&r, there));
     return e->wrong[0] == '\0';
-}
-
-/* --- constants -------------------------------------------------------------------------------------------------- */
-
-/* The constant node, those before it being known. */
-static double constant_of(const iso_expression_node *node, const double x[], double k, const double J[3],
-                          const double parameter[])
-{
-    const double a = is_operation(node->term) ? x[node->a] : 0, b = has_two(node->term) ? x[node->b] : 0;
-    switch (node->term) {
-    case ISO_TERM_K: return k;
-    case ISO_TERM_J: return J[node->a];
-    case ISO_TERM_PARAMETER: return parameter[node->a];
-    case ISO_TERM_ADD: return a + b;
-    case ISO_TERM_SUB: return a - b;
-    case ISO_TERM_MUL: return a * b;
-    case ISO_TERM_DIV: return a / b;
-    case ISO_TERM_POWER: return pow(a, b);
-    case ISO_TERM_NEGATIVE: return -a;
-    case ISO_TERM_SQRT: return sqrt(a);
-    case ISO_TERM_EXP: return exp(a);
-    case ISO_TERM_LOG: return log(a);
-    case ISO_TERM_SIN: return sin(a);
-    case ISO_TERM_COS: return cos(a);
-    default: return node->value; /* ISO_TERM_NUMBER */
-    }
-}
-
-static void refuse_constant(iso_expression *e, const iso_expression_node *node, const double x[])
-{
-    e->at = node->at;
-    const double a = is_operation(node->term) ? x[node->a] : 0, b = has_two(node->term) ? x[node->b] : 0;
-    if (node->term == ISO_TERM_DIV && b == 0)
-        snprintf(e->wrong, sizeof e->wrong, "a division by 0");
-    else if (node->term == ISO_TERM_LOG && a <= 0)
-        snprintf(e->wrong, sizeof e->wrong, "log of %s: log needs a number above 0", ISO_SHORT(a));
-    else if (node->term == ISO_TERM_SQRT && a < 0)
-        snprintf(e->wrong, sizeof e->wrong, "sqrt of %s: sqrt needs 0 or a number above 0", ISO_SHORT(a));
-    else if (node->term == ISO_TERM_POWER)
-        snprintf(e->wrong, sizeof e->wrong, "%s to the power %s is not a finite number", ISO_SHORT(a), ISO_SHORT(b));
-    else
-        snprintf(e->wrong, sizeof e->wrong, "this is not a finite number");
-}
-
-bool iso_expression_constants(iso_expression *e, double k, const double J[3], const double parameter[])
-{
-    double x[ISO_EXPRESSION_NODES];
-    for (int i = 0; i < e->nodes; i++) {
-        const iso_expression_node *node = &e->node[i];
-        if (node->degree != ISO_CONSTANT) {
-            if (node->term != ISO_TERM_DIV || e->node[node->b].degree != ISO_CONSTANT || x[node->b] != 0) continue;
-            e->at = node->at;
-            snprintf(e->wrong, sizeof e->wrong, "a division by 0");
-            return false;
-        }
-        x[i] = constant_of(node, x, k, J, parameter);
-        if (isfinite(x[i])) continue;
-        refuse_constant(e, node, x);
-        return false;
-    }
-    return true;
 }

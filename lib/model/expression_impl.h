@@ -67,6 +67,17 @@ typedef struct iso_expression_names {
 /* Reads a text; false: it is none, e->wrong says why and e->at where. */
 bool iso_expression_read(const char *text, const iso_expression_names *names, iso_expression *e);
 
+/* Whether a node is made of others: of a, and of b as well. */
+static inline bool is_operation(int term)
+{
+    return term >= ISO_TERM_ADD;
+}
+
+static inline bool has_two(int term)
+{
+    return term >= ISO_TERM_ADD && term < ISO_TERM_NEGATIVE;
+}
+
 /* Whether it is the number 0. */
 static inline bool iso_expression_is_zero(const iso_expression *e)
 {
@@ -78,5 +89,27 @@ const char *iso_expression_bad_name(const char *name);
 
 /* Computes the nodes that are constant. False: one is not finite; e->wrong says why and e->at where. */
 bool iso_expression_constants(iso_expression *e, double k, const double J[3], const double parameter[]);
+
+/* What an expression reads, all in the same units. */
+typedef struct iso_expression_state {
+    double k, J[3], n[3], omega[3], e[3];
+    const double *parameter;
+} iso_expression_state;
+
+/* Its value. *size: how much it changes, to first order, if n, omega and e are changed by their own lengths, and not less
+ * than the value. A relative error d of the state makes an error of order d times this. */
+double iso_expression_value(const iso_expression *e, const iso_expression_state *s, double *size);
+
+/* The values of all its nodes. */
+void iso_expression_values(const iso_expression *e, const iso_expression_state *s, double x[ISO_EXPRESSION_NODES]);
+
+/* Whether it has a corner that is hidden in a root, as far as it is found; then e->wrong says so, and e->at where in the
+ * text. s: the state at the start, of which n and the length of omega are read. */
+bool iso_expression_corner(iso_expression *e, const iso_expression_state *s);
+
+/* How far it is from where it is not defined: the least of the numbers that it divides by, or takes the root, the power
+ * or the logarithm of, each by its size; 0 where it has no value. e->at: where in the text; e->wrong: what stands there,
+ * in words. Infinite: there is no such number. */
+double iso_expression_margin(iso_expression *e, const iso_expression_state *s);
 
 #endif

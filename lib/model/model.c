@@ -162,6 +162,9 @@ const char *iso_model_too_large(const iso_model *m)
 {
     const iso_problem *f = &m->problem;
     if (m->moving > ISO_STATE + ISO_MOST_EFFECT_STATES) return "the effects have more states than there is room for";
+    if (m->system == &iso_system_point && f->energy_formula.overrun)
+        return "the images of the effects on the point have more lines than there is room for (formula.h): take the "
+               "backend ball";
     if (f->motion.overrun || f->energy_formula.overrun)
         return "the equations of the effects have more lines than there is room for (formula.h)";
     return f->motion.wrong ? f->motion.wrong : f->energy_formula.wrong;

@@ -18,7 +18,7 @@ ISO_C_BEGIN
 enum { ISO_EFFECT_NUMBERS = 12 }; /* the most numbers of one effect */
 
 enum {
-    ISO_WRITTEN = 2,           /* effects that are written in the scene               */
+    ISO_WRITTEN = 3,           /* effects that are written in the scene               */
     ISO_EXPRESSIONS = 3,       /* the most expressions of one of them                 */
     ISO_EXPRESSION_SIZE = 512, /* of one, with its end mark                           */
     ISO_PARAMETERS = 8,        /* the most parameters of one effect: its first numbers */

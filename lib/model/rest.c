@@ -1,5 +1,5 @@
-/* rest.c - where a motion ends: the ball at rest, the ball that resistance drives backwards in time, and the
- * constraint that is lost while the motion dies away. See model_impl.h.
+/* rest.c - where a motion ends: the ball at rest, the ball that resistance drives backwards in time, or a torque
+ * forwards, and the constraint that is lost while the motion dies away. See model_impl.h.
  *
  * Resistance takes motion out at the rate iso_effects_stiffness() > 0. Only the ball has resistance: it breaks the
  * isomorphism, so that no point has any.
@@ -36,13 +36,46 @@ void iso_model_rest(const iso_model *m, double dt, double y[])
 /* A ball that turns this many times as fast as at the start soon needs more steps than can ever be taken. */
 enum { MOST_GROWTH = 10000 };
 
-const char *iso_model_speeds_up(const iso_model *m, const double y0[], const double y[])
+/* The first effect that may give the ball energy without end; NULL: none. */
+static const iso_effect *driving(const iso_model *m, int direction)
 {
-    if (!is_resisted(m)) return NULL;
-    const double before = m->system->speed(&m->problem, y0), now = m->system->speed(&m->problem, y);
-    if (now <= MOST_GROWTH * before) return NULL;
-    return "backwards in time resistance drives the ball, without end: it turns more than 10000 times as fast as at "
-           "the start";
+    const iso_problem *f = &m->problem;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS && m->system == &iso_system_ball; e++) {
+        const iso_effect *effect = iso_effect_list[e];
+        if (!iso_effect_acts(&f->effects, e) || !effect->drives) continue;
+        const iso_work work = effect->work(f);
+        if (work == ISO_WORK_UNKNOWN || (work == ISO_WORK_LOST && direction < 0)) return effect;
+    }
+    return NULL;
+}
+
+/* Whether the torques drive the ball in y, and would do so if it turned faster: nothing is in sight that ends it. */
+static bool is_driven(const iso_model *m, int direction, const double y[])
+{
+    double faster[ISO_MAX_STATE], T[3], dy[ISO_MAX_STATE];
+    copy(y, faster, m->dim);
+    for (int i = 0; i <= 6; i++) {
+        iso_effects_torque(&m->problem, faster, T, dy);
+        if (direction * dot(T, faster) <= 0) return false;
+        scale(faster, 10);
+    }
+    return true;
+}
+
+double iso_model_fast(const iso_model *m, int direction, const double y0[])
+{
+    const bool resisted = direction < 0 && is_resisted(m);
+    if (iso_effects_none(&m->problem.effects) || (!resisted && !driving(m, direction))) return INFINITY;
+    return MOST_GROWTH * m->system->speed(&m->problem, y0);
+}
+
+const char *iso_model_speeds_up(const iso_model *m, int direction, const double y0[], const double y[])
+{
+    if (!(m->system->speed(&m->problem, y) > iso_model_fast(m, direction, y0))) return NULL;
+    if (direction < 0 && is_resisted(m))
+        return "backwards in time resistance drives the ball, without end: it turns more than 10000 times as fast as "
+               "at the start";
+    return is_driven(m, direction, y) ? driving(m, direction)->drives : NULL;
 }
 
 /* By how much the constraint of the contact is broken, in units of omega:

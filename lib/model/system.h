@@ -36,6 +36,7 @@ typedef struct iso_integral {
     enum { ISO_ANY_VALUE, ISO_ZERO, ISO_ONE } known; /* constraints have a known value     */
     bool (*holds)(const iso_problem *f);             /* for which k, J and effects; NULL: always */
     double (*value)(const iso_problem *f, const double y[], double *size);
+    bool claimed; /* by the scene: nobody has proved it, so nothing may follow from it */
 } iso_integral;
 
 typedef struct iso_system {

@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/vec3_impl.h"
+
 /* --- values ----------------------------------------------------------------------------------------------------- */
 
 bool iso_writer_begin(iso_writer *w, iso_formula *F, const iso_problem *f, iso_effect_id id, int which, iso_vector n)
@@ -297,6 +299,25 @@ iso_scalar iso_writer_value(iso_writer *w)
 
 const double iso_written_one = 1;
 
+bool iso_written_has(const iso_effects *effects, iso_effect_id id, int which)
+{
+    const iso_effect *effect = iso_effect_list[id];
+    return which == 0 || effect->expressions_key || effects->written[effect->written].expression[which][0];
+}
+
+iso_expression_state iso_written_state(const iso_problem *f, iso_effect_id id, const double y[])
+{
+    const double *number = f->effects.number[id];
+    iso_expression_state s = {.k = f->p.k, .parameter = number};
+    copy(y + 3, s.n, 3);
+    copy(f->at[ISO_GRAVITY] > 0 ? y + f->at[ISO_GRAVITY] : y + 3, s.e, 3);
+    for (int i = 0; i < 3; i++) {
+        s.J[i] = number[ISO_WRITTEN_J] * f->p.J[i];
+        s.omega[i] = number[ISO_WRITTEN_W] * y[i];
+    }
+    return s;
+}
+
 bool iso_written_read(const iso_effects *effects, iso_effect_id id, int which, iso_expression *e)
 {
     const iso_written *text = &effects->written[iso_effect_list[id]->written];
@@ -322,8 +343,9 @@ bool iso_written_decided(iso_expression *e, const iso_effects *effects, double k
 
 static iso_status refuse(iso_context *ctx, iso_effect_id id, int which, const iso_expression *e)
 {
-    const char *name = iso_effect_list[id]->expressions[which];
-    return ISO_FAIL_INPUT(ctx, name, "%s, column %d of the text: %s", name, e->at + 1, e->wrong);
+    const iso_effect *effect = iso_effect_list[id];
+    const char *name = effect->expressions[which], *key = effect->expressions_key ? effect->expressions_key : name;
+    return ISO_FAIL_INPUT(ctx, key, "%s, column %d of the text: %s", name, e->at + 1, e->wrong);
 }
 
 iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id id,
@@ -337,4 +359,13 @@ iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_ef
         return ISO_FAIL_INPUT(ctx, name, "%s: begin the effects with iso_effects_default(): they have no units",
                               name);
     return iso_written_decided(e, effects, p->k, J, number) ? ISO_OK : refuse(ctx, id, which, e);
+}
+
+iso_status iso_written_smooth(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id id,
+                              int which, const double n[3], iso_expression *e)
+{
+    const iso_problem f = {.p = *p, .effects = *effects};
+    const double speed = 1 / effects->number[id][ISO_WRITTEN_W], y[ISO_STATE] = {speed, 0, 0, n[0], n[1], n[2]};
+    const iso_expression_state s = iso_written_state(&f, id, y);
+    return iso_expression_corner(e, &s) ? refuse(ctx, id, which, e) : ISO_OK;
 }

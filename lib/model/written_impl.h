@@ -20,9 +20,12 @@ extern const double iso_written_one;
         .name = (title), .at = (place), .count = 1, .dimension = {__VA_ARGS__}, .hidden = true,                      \
         .initially = &iso_written_one                                                                                \
     }
-#define ISO_WRITTEN_NUMBERS                                                                                          \
-    ISO_WRITTEN_NUMBER("(J)", ISO_WRITTEN_J, -1, 0, 0), ISO_WRITTEN_NUMBER("(w)", ISO_WRITTEN_W, 0, 0, -1),          \
-        ISO_WRITTEN_NUMBER("(strength)", ISO_WRITTEN_STRENGTH, 1, 0, 2)
+#define ISO_WRITTEN_UNITS                                                                                            \
+    ISO_WRITTEN_NUMBER("(J)", ISO_WRITTEN_J, -1, 0, 0), ISO_WRITTEN_NUMBER("(w)", ISO_WRITTEN_W, 0, 0, -1)
+#define ISO_WRITTEN_NUMBERS ISO_WRITTEN_UNITS, ISO_WRITTEN_NUMBER("(strength)", ISO_WRITTEN_STRENGTH, 1, 0, 2)
+
+/* What the expressions of an effect read where the ball's state is y, in the caller's units. */
+iso_expression_state iso_written_state(const iso_problem *f, iso_effect_id id, const double y[]);
 
 /* Reads expression `which` of an effect. False: the text is no expression, see e->wrong. */
 bool iso_written_read(const iso_effects *effects, iso_effect_id id, int which, iso_expression *e);
@@ -31,6 +34,10 @@ bool iso_written_read(const iso_effects *effects, iso_effect_id id, int which, i
  * e->wrong. */
 bool iso_written_decided(iso_expression *e, const iso_effects *effects, double k, const double J[3],
                          const double parameter[]);
+
+/* Whether a checked expression has no corner. n: the normal at the start. Errors: ISO_BAD_INPUT about its name. */
+iso_status iso_written_smooth(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id id,
+                              int which, const double n[3], iso_expression *e);
 
 /* Reads it and asks both. Errors: ISO_BAD_INPUT about the name of the expression. */
 iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id id,

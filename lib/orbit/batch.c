@@ -135,9 +135,7 @@ static iso_status finish(iso_pool_worker *w, const batch *b, const member *m)
         for (; status != ISO_OK && j < job->done; j++) iso_sample_blank(&m->sample[j]);
         if (status != ISO_OK) return status;
     }
-    if (job->error)
-        return ISO_FAIL_NUMERICAL(w->ctx, "taylor stopped after %ld steps: %s; last good %s = %s", job->steps,
-                                  job->error, iso_clock_name(m->orbit.model.clock), ISO_SHORT(job->last * job->unit));
+    if (job->error) return iso_lanes_failed(w->ctx, job, true);
     return job->done == b->rows ? ISO_OK : iso_context_stopped(w->ctx);
 }
 

@@ -274,9 +274,7 @@ static iso_status finish(iso_pool_worker *w, const follower *f, size_t i)
         if (status != ISO_OK) return status;
         ++*done;
     }
-    if (job->error)
-        return ISO_FAIL_NUMERICAL(w->ctx, "taylor stopped: %s; last good %s = %s", job->error,
-                                  iso_clock_name(lane->orbit.model.clock), ISO_SHORT(job->last * job->unit));
+    if (job->error) return iso_lanes_failed(w->ctx, job, false);
     return job->done == job->rows ? ISO_OK : iso_context_stopped(w->ctx);
 }
 

@@ -51,6 +51,7 @@ static iso_status describe_expressions(iso_context *ctx, iso_record *r, const is
     const iso_effect *effect = iso_effect_list[id];
     char key[ISO_NAME_SIZE];
     for (int i = 0; effect->expressions && effect->expressions[i]; i++) {
+        if (!iso_written_has(effects, id, i)) continue;
         iso_effect_line(key, effect, effect->expressions[i]);
         ISO_TRY(iso_record_set(ctx, r, key, effects->written[effect->written].expression[i]));
     }
@@ -186,6 +187,7 @@ static iso_status read_text(iso_context *ctx, const iso_record *r, iso_effect_id
     double x;
     for (int i = 0; effect->expressions[i]; i++) {
         iso_effect_line(line, effect, effect->expressions[i]);
+        if (!iso_record_get(r, line) && !iso_written_has(effects, e, i)) continue;
         if (!iso_record_get(r, line)) return missing_line(ctx, effect, line);
         status = iso_effects_write(ctx, effects, effect->name, effect->expressions[i], iso_record_get(r, line));
         if (status != ISO_OK) return ISO_FAIL_INPUT(ctx, line, "%s", iso_context_message(ctx));

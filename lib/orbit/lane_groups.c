@@ -1,17 +1,29 @@
 /* lane_groups.c - which orbits the lanes of vectors can follow, and which of them together (lane_groups_impl.h). */
 #include "orbit/lane_groups_impl.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
 
 bool iso_lanes_suit(const iso_orbit *orbit)
 {
     char why[ISO_WHY_SIZE];
-    return !orbit->rests && iso_effects_stiffness(&orbit->model.problem) <= ISO_STIFF &&
+    return !orbit->rests && !iso_model_too_large(&orbit->model) &&
+           iso_effects_stiffness(&orbit->model.problem) <= ISO_STIFF &&
            iso_method_serves(&iso_method_taylor, &orbit->model, why);
+}
+
+iso_status iso_lanes_failed(iso_context *ctx, const iso_lane_job *job, bool steps)
+{
+    char after[40] = "", blame[ISO_BLAME_SIZE];
+    if (steps) snprintf(after, sizeof after, " after %ld steps", job->steps);
+    iso_model_blame(job->model, job->last_y, blame);
+    return ISO_FAIL_NUMERICAL(ctx, "taylor stopped%s: %s; last good %s = %s%s", after, job->error,
+                              iso_clock_name(job->model->clock), ISO_SHORT(job->last * job->unit), blame);
 }
 
 iso_status iso_lanes_check(iso_context *ctx, int threads, const char *vectors, bool found)

@@ -15,7 +15,10 @@ bool iso_lanes_in_groups(iso_pool_worker *w, const iso_lane_code *code, double t
                          iso_lane_job *jobs[], size_t count);
 
 /* Whether lanes can follow an orbit. Lanes compute Taylor series, so the ball must move, must not be stiff, and must
- * have equations for series. */
+ * have equations for series, within their room. */
 bool iso_lanes_suit(const iso_orbit *orbit);
+
+/* Records ISO_NUMERICAL for a job that has an error, in words; steps: it says after how many. */
+iso_status iso_lanes_failed(iso_context *ctx, const iso_lane_job *job, bool steps);
 
 #endif

@@ -18,6 +18,7 @@ static void print_numbers(FILE *to, const iso_effects *effects, iso_effect_id id
     const iso_effect *effect = iso_effect_list[id];
     iso_effect_number n;
     for (int i = 0; effect->expressions && effect->expressions[i]; i++) {
+        if (!iso_written_has(effects, id, i)) continue;
         fprintf(to, "%s  %s = %s", begin, effect->expressions[i], effects->written[effect->written].expression[i]);
         if (*begin != '\n') begin = "";
     }

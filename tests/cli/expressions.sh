@@ -117,8 +117,96 @@ refuses 3 "more lines than there is room for" run two.yaml
 # --- where an expression is not defined: what was computed is written
 scene 'potential: {U: "0.1*sqrt(n1 + 0.1)"}' >root.yaml
 run 4 run root.yaml -o root.csv
-check "the last good time" grep -q "last good t = 6.1" err
+check "the last good time" grep -q "last good t = 6.1.*; there U of 'potential' has, in column 5 of the text, sqrt of " err
 check "the rows before it" test "$(rows root.csv | wc -l)" -eq 7
+
+run 4 chaos root.yaml
+says "; there U of 'potential' has, in column 5 of the text, sqrt of "
+scene 'torque: {M: ["0", "0.1*log(n1)", "0"]}' >log.yaml
+for method in taylor rk8pd; do
+    run 4 run log.yaml --method $method -o log.csv
+    check "$method: where" grep -q "; there M2 of 'torque' has, in column 5 of the text, log of " err
+done
+
+# --- a torque that drives the ball without end, forwards or backwards; one that feeds it up to a speed does not
+scene 'torque: {M: ["-omega1", "5*omega2", "omega3"]}' >driven.yaml
+for command in "run --t-end 1000 -o d.csv" "run --t-end -1000 --method rk8pd -o d.csv" chaos frequencies; do
+    # shellcheck disable=SC2086
+    run 4 $command driven.yaml
+    words="'torque' drives the ball, without end: it turns more than 10000 times as fast as at the start; last good t = "
+    check "$command: why" grep -q "$words" err
+done
+run 4 run friction.yaml --t-end -1000 -o c.csv
+check "friction backwards" grep -q "'torque' drives the ball" err
+fed="(1 - omega1^2 - omega2^2 - omega3^2)"
+scene "torque: {M: [\"omega1*$fed\", \"omega2*$fed\", \"omega3*$fed\"]}" | sed 's/angular_velocity.*/angular_velocity: [9e-6, -3e-6, -2.25e-6]}/' >fed.yaml
+run 0 run fed.yaml --t-end 60 -o fed.csv
+check "it turned 100000 times as slowly" awk -F, '/^60,/ { exit !($2 * $2 + $3 * $3 + $4 * $4 > 0.99) }' fed.csv
+scene 'torque: {M: ["exp(60)*omega1", "0", "0"]}' >strong.yaml
+for command in "run --method rk8pd -o d.csv" chaos frequencies; do
+    # shellcheck disable=SC2086
+    run 4 $command strong.yaml
+    check "$command: which effect" grep -q "'torque'" err
+done
+
+# --- a torque of 0 by its numbers is taken, and gravity of 0 beside it
+scene 'torque: {M: ["0*n1", "0", "0"]}' "gravity: {mgb: 0, up: [0, 0.6, 0.8]}" >nothing.yaml
+run 0 run nothing.yaml -o a.csv
+scene 'torque: {M: ["0", "0", "0"]}' >nothing.yaml
+refuses 3 "a torque of 0 changes nothing" run nothing.yaml
+
+# --- corners that are hidden in a root
+for U in "sqrt(n1^2)" "(n1^4)^0.25" "n2*sqrt((n1 - n2)^2)" "sqrt(1 - n2^2 - n3^2)" "n1*(n1^2)^(-0.5)"; do
+    scene "potential: {U: \"$U\"}" >corner.yaml
+    refuses 3 "of the text: this has a corner, for example at n = (" run corner.yaml
+done
+scene 'torque: {M: ["0", "0", "sqrt(omega1^2)"]}' >corner.yaml
+refuses 3 "corner.yaml:5:15: M3, column 1 of the text: this has a corner" run corner.yaml
+for U in "sqrt(n1^4)" "sqrt(n1^2 + n2^2)" "sqrt(n1^2 + 1e-6)" "(n1^2 + 1)^1.5" "sqrt(1 + n1)" "sqrt(1.5 - n1*n2)"; do
+    scene "potential: {U: \"$U\"}" >smooth.yaml
+    run 0 run smooth.yaml --t-end 1 -o smooth.csv
+done
+
+# --- integrals that the scene claims: the energy of the valley, and what is none
+k=-1
+energy="(J1*omega1^2 + J2*omega2^2 + J3*omega3^2)/2 + c*n1^2"
+claims="integrals: {F: \"$energy\", F3: \"omega1^2\", parameters: {c: 0.3}}"
+scene 'potential: {U: "c*n1^2", parameters: {c: 0.3}}' "$claims" >claims.yaml
+run 0 run claims.yaml --as both -o both.csv
+run 1 check --max 1e-9 both.csv
+for model in ball point; do
+    check "$model F" awk -v m=$model '$1 == m && $2 == "F" { found = $3 < 1e-13 } END { exit !found }' out
+    check "$model F3" awk -v m=$model '$1 == m && $2 == "F3" { found = $3 > 1e-3 } END { exit !found }' out
+done
+run 0 run claims.yaml -o ball.csv
+run 0 convert --to point ball.csv -o point.csv
+run 0 convert --to ball point.csv -o back.csv
+for file in ball point back; do
+    check "$file: the line of F" grep -qxF "# integrals.F: $energy" $file.csv
+    check "$file: not of F2" sh -c "! grep -q 'integrals.F2' $file.csv"
+    run 1 check --max 1e-9 $file.csv
+    check "$file: F" awk '$2 == "F" { found = $3 < 1e-13 } END { exit !found }' out
+done
+run 0 compare claims.yaml
+check "compare: F" awk '$1 == "point" && $2 == "F" { found = $4 < 1e-13 && $5 < 1e-13 } END { exit !found }' out
+run 0 explain claims.yaml
+check "explain: claims" grep -qx "integrals that the scene claims" out
+check "explain: none holds" sh -c "sed -n '/^integrals that hold/,/^integrals that do not/p' out | grep -q 'F3' && exit 1 || exit 0"
+run 0 view ball.csv -o v.html
+# the same rows with and without them
+scene 'potential: {U: "c*n1^2", parameters: {c: 0.3}}' >free.yaml
+run 0 run free.yaml -o a.csv
+at_most "the rows" "$(difference a.csv ball.csv)" 0
+sed 's/F: "[^"]*"/F: "n4"/' claims.yaml >wrong.yaml
+refuses 3 "wrong.yaml:6:19: F: unknown name 'n4'" run wrong.yaml
+sed 's/F: "[^"]*"/F: "3*c"/' claims.yaml >wrong.yaml
+refuses 3 "wrong.yaml:6:18: F is the same number at every state" run wrong.yaml
+sed 's/F: "[^"]*"/F4: "n1"/' claims.yaml >wrong.yaml
+refuses 3 "wrong.yaml:6:15: unknown key 'F4'" run wrong.yaml
+sed 's/F: "[^"]*"/F: "log(-1 - n1)"/' claims.yaml >never.yaml
+run 0 run never.yaml -o never.csv
+run 1 check --max 1e-9 never.csv
+check "it is defined nowhere" awk '$2 == "F" { found = $3 == "inf" } END { exit !found }' out
 
 # --- a point's scene, a sweep over a parameter
 {

@@ -135,6 +135,61 @@ static void refused(void)
     is_wrong(ISO_POTENTIAL, "n1 + (-2)^0.5", 10, "-2 to the power 0.5");
     is_wrong(ISO_POTENTIAL, deep, 33, "nested more than 32 deep");
     is_wrong(ISO_POTENTIAL, many, 493, "at most 256");
+    is_wrong(ISO_POTENTIAL, "1 + sqrt(n1^2)", 5, "this has a corner, for example at n = (");
+    is_wrong(ISO_POTENTIAL, "(n1^2 - n1*n2 + n2^2/4)^1.5", 24, "this has a corner");
+    is_wrong(ISO_TORQUE, "sqrt((omega1 + 2*omega3)^2)*n1", 1, "and omega = (");
+}
+
+/* --- a value with the size of its error, and how near it is to its end ------------------------------------------ */
+
+static iso_expression_state at_state(void)
+{
+    static const double parameter[ISO_PARAMETERS] = {0.7, -1.3};
+    return (iso_expression_state){k, {J[0], J[1], J[2]}, {n[0], n[1], n[2]}, {3, 0, -4}, {0, 0.6, 0.8}, parameter};
+}
+
+static iso_expression expression_of(const char *text)
+{
+    const iso_effects e = with(ISO_TORQUE, 0, text);
+    iso_expression x;
+    gsl_test(!iso_written_read(&e, ISO_TORQUE, 0, &x), "%s is read", text);
+    return x;
+}
+
+static void has_size(const char *text, double wanted, double wanted_size)
+{
+    const iso_expression x = expression_of(text);
+    const iso_expression_state s = at_state();
+    double size;
+    const double value = iso_expression_value(&x, &s, &size);
+    gsl_test(!(fabs(value - wanted) <= 1e-15 * wanted_size), "%s: %.17g, not %.17g", text, value, wanted);
+    gsl_test(!(fabs(size - wanted_size) <= 1e-15 * wanted_size), "%s: size %.17g, not %.17g", text, size,
+             wanted_size);
+}
+
+static void has_margin(const char *text, double wanted, const char *words)
+{
+    iso_expression x = expression_of(text);
+    const iso_expression_state s = at_state();
+    const double margin = iso_expression_margin(&x, &s);
+    const bool same = margin == wanted || fabs(margin - wanted) <= 1e-11 * wanted;
+    gsl_test(!same || (words && strcmp(x.wrong, words) != 0), "%s: %g, not %g: %s", text, margin, wanted, x.wrong);
+}
+
+/* To first order: n and e change by 1, omega by 5. */
+static void sizes(void)
+{
+    has_size("n1", 0.36, 1);
+    has_size("omega2 + 0", 0, 5);
+    has_size("omega1 - omega3", 7, 10);
+    has_size("a*omega1*n2", 0.7 * 3 * 0.48, 0.7 * (5 * 0.48 + 3));
+    has_size("omega3^2 + e3", 16.8, 2 * 4 * 5 + 1);
+    has_size("J1*k/n1", 0.7 / 0.36, 0.7 / (0.36 * 0.36));
+    has_size("sqrt(n2) + log(n3)", sqrt(0.48) + log(0.8), 0.5 / sqrt(0.48) + 1 / 0.8);
+    has_margin("n1*omega2^3 + exp(n2)", INFINITY, NULL);
+    has_margin("1/omega1 + log(n1 - 0.3599)", 1e-4, "log of 0.0001");
+    has_margin("2/(omega3 + 4)", 0, "a division by 0");
+    has_margin("sqrt(0.35 - n1)", 0, NULL);
 }
 
 int main(void)
@@ -142,6 +197,7 @@ int main(void)
     ctx = iso_context_create();
     values();
     refused();
+    sizes();
     iso_context_free(ctx);
     exit(gsl_test_summary());
 }

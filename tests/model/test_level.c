@@ -181,7 +181,7 @@ static void note_drifts(const effects_case *c)
 {
     for (const iso_integral *i = c->system->integrals; i->name; i++) note_drift(c, i);
     for (int e = 0; e < ISO_EFFECTS; e++)
-        for (const iso_integral *i = iso_effect_integrals(iso_effect_list[e], c->system); i && i->name; i++)
+        for (const iso_integral *i = iso_effect_integrals_of(iso_effect_list[e], c->system); i && i->name; i++)
             if (effects_on(c, e)) note_drift(c, i);
 }
 

@@ -73,9 +73,9 @@ static void check_speeding(const orbit *o, int kind)
     const bool resisted = kind & (RESIST | TWIST | STIFF);
     make_state(o, &m, 1, y0);
     make_state(o, &m, 9e3, y);
-    gsl_test(iso_model_speeds_up(&m, y0, y) != NULL, "effects %d: 9000 times as fast", kind);
+    gsl_test(iso_model_speeds_up(&m, -1, y0, y) != NULL, "effects %d: 9000 times as fast", kind);
     make_state(o, &m, 1.1e4, y);
-    gsl_test((iso_model_speeds_up(&m, y0, y) != NULL) != resisted, "effects %d: 11000 times as fast", kind);
+    gsl_test((iso_model_speeds_up(&m, -1, y0, y) != NULL) != resisted, "effects %d: 11000 times as fast", kind);
 }
 
 /* The constraint is there unless the ball twists freely; of a stiff contact it is that of lambda. */
@@ -113,7 +113,7 @@ int main(void)
     const orbit point = orbit_sample(ctx, &iso_system_point, 1, orbit_J, 3);
     double still[ISO_MAX_STATE] = {0};
     gsl_test(iso_model_at_rest(&point.model, still) || iso_model_lost(&point.model, still, 1e-9) ||
-                 iso_model_speeds_up(&point.model, still, point.y0),
+                 iso_model_speeds_up(&point.model, -1, still, point.y0),
              "a point has no resistance");
     iso_context_free(ctx);
     exit(gsl_test_summary());

@@ -3,37 +3,13 @@
 #include "base/finite_impl.h"
 #include "method/integrator_impl.h"
 #include "method/taylor/crossing_impl.h"
+#include "method/taylor/doubles_impl.h"
 #include "method/taylor/lanes_impl.h"
 
 enum {
     CREWS = CHANNELS > 1 ? 1 : 2, /* the coefficients of two with deviations do not fit the fast memory */
     MOST_PARTS = 4096             /* of a step, in the search for crossings */
 };
-
-/* Times are doubles, whatever the numbers of the series. */
-typedef double doubles __attribute__((vector_size(LANES * sizeof(double))));
-typedef __typeof__((doubles){0} < (doubles){0}) double_mask;
-
-static inline doubles doubles_of(real a)
-{
-#if LANES == 1
-    return (doubles){(double)a};
-#else
-    return __builtin_convertvector(a, doubles);
-#endif
-}
-
-static inline doubles size_of(doubles a)
-{
-    return (doubles)((double_mask)a & ~(double_mask)(-0.0 - (doubles){0}));
-}
-
-static inline bool holds_somewhere(double_mask m)
-{
-    int64_t found = 0;
-    for (int i = 0; i < LANES; i++) found |= m[i];
-    return found != 0;
-}
 
 /* The jobs that no lane has taken yet. */
 typedef struct queue {
@@ -49,9 +25,10 @@ typedef struct crew {
     /* Distance of the variable since the last crossing, and the largest possible one; infinite where rows are asked
      * for. */
     doubles since, longest;
-    bool fresh[LANES]; /* its first deviations are not set yet                                      */
-    long seen[LANES];  /* crossings in this step ...                                                */
-    long known[LANES]; /* ... of these, the number that an earlier call has stored                  */
+    doubles speed, fast; /* |omega|^2; that above which iso_model_speeds_up is asked                      */
+    bool fresh[LANES];   /* its first deviations are not set yet                                      */
+    long seen[LANES];    /* crossings in this step ...                                                */
+    long known[LANES];   /* ... of these, the number that an earlier call has stored                  */
     real direction, zeros;
     bool ended;     /* a lane has stored its last row, or has an error */
     bool crossings; /* jobs ask for crossings, of `axis` */
@@ -130,6 +107,8 @@ static void start_next(crew *c, int lane)
         c->since[lane] = 0, c->known[lane] = 0, c->longest[lane] = c->crossings ? 2 * job->longest : INFINITY;
         LANE(c->direction, lane) = job->time && job->time[job->rows - 1] < 0 ? -1 : 1;
         LANE(c->zeros, lane) = job->zeros;
+        const double fast = iso_model_fast(job->model, (int)LANE(c->direction, lane), job->start);
+        c->fast[lane] = fast * fast;
         start_orbit(&c->T, lane, job->model, job->start);
         c->fresh[lane] = !recall(c, lane);
     }
@@ -140,6 +119,7 @@ static void end_job(crew *c, int lane, const char *error)
 {
     iso_lane_job *job = c->job[lane];
     job->error = error;
+    if (error) store(&c->T, lane, &c->T.now, job->last_y);
     job->steps = (long)c->steps[lane];
     c->ended = true;
 }
@@ -301,6 +281,15 @@ static real check(const form *T, const state *s)
     return sum - sum;
 }
 
+/* Why the lane's ball turns ever faster from here on; NULL: it does not. */
+static const char *find_growth(crew *c, int lane)
+{
+    double y[ISO_MAX_STATE];
+    if (!(c->speed[lane] > c->fast[lane])) return NULL;
+    store(&c->T, lane, &c->after, y);
+    return iso_model_speeds_up(c->job[lane]->model, (int)LANE(c->direction, lane), c->job[lane]->start, y);
+}
+
 /* Ends the job of a lane that could not take its step of dt in the model's clock and of x in the variable of the
  * series. before: the time at its beginning. */
 static void judge(crew *c, int lane, double before, double dt, double x)
@@ -318,6 +307,8 @@ static void judge(crew *c, int lane, double before, double dt, double x)
         error = "the orbit lies in the section and does not cross it";
     else if (c->crossings && fabs(x) * job->zeros > MOST_PARTS)
         error = "crossings can lie too close together to be told apart";
+    else
+        error = find_growth(c, lane);
     job->last = isfinite(dt) ? c->head[lane] : before;
     if (error) end_job(c, lane, error);
 }
@@ -333,10 +324,11 @@ static void move_on(crew *c, real dt, real x)
     c->head = sum + tail;
     c->tail = tail - (c->head - sum);
     c->since += way;
+    c->speed = doubles_of(inner3(c->after.w, c->after.w));
     c->steps += 1;
     for (int i = 0; i < LANES; i++) c->known[i] = 0;
     const double_mask good = (size_of(step) < INFINITY) & (size_of(step) > 64 * DBL_EPSILON * size_of(before)) &
-                             (c->steps < most) & (c->since <= c->longest) &
+                             (c->steps < most) & (c->since <= c->longest) & (c->speed <= c->fast) &
                              (size_of(way * doubles_of(c->zeros)) <= MOST_PARTS);
     for (int i = 0; holds_somewhere(~good) && i < LANES; i++) judge(c, i, before[i], step[i], way[i]);
 }

@@ -40,12 +40,13 @@ typedef struct iso_lane_job {
     double unit;    /* time[i]/unit is in the model's units                                      */
     double *states; /* NULL, or: model->dim numbers at states[row stride]                        */
     size_t stride;
-    iso_lane_event *event; /* NULL, or: one for each row                                                */
-    bool on_section;       /* the start lies on the section: it is no crossing, whatever the sign of n_axis */
-    double *passed;        /* the times of the crossings, in the model's units                          */
-    void *saved;           /* NULL, or: iso_lane_code.saved bytes, which begin with 0                   */
-    size_t done;           /* how many of the rows have been reached                                    */
-    double last;           /* the last good time, in the model's units                                  */
+    iso_lane_event *event;        /* NULL, or: one for each row                                                */
+    bool on_section;              /* the start lies on the section: it is no crossing, whatever the sign of n_axis */
+    double *passed;               /* the times of the crossings, in the model's units                          */
+    void *saved;                  /* NULL, or: iso_lane_code.saved bytes, which begin with 0                   */
+    size_t done;                  /* how many of the rows have been reached                                    */
+    double last;                  /* the last good time, in the model's units ...                              */
+    double last_y[ISO_MAX_STATE]; /* ... and the state there, where it ended before the last row             */
     long steps;
     const char *error; /* NULL, or why it ended before the last row                                 */
     double first[ISO_LANE_DEVIATIONS][ISO_MAX_STATE]; /* the deviations at the start                    */

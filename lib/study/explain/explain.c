@@ -180,14 +180,26 @@ static void explain_states(FILE *to, const iso_scene *scene, const iso_orbit *or
 
 static void explain_integral(FILE *to, const char *whose, const iso_integral *i, const iso_problem *f, bool wanted)
 {
-    if ((!i->holds || i->holds(f)) == wanted) fprintf(to, "  %-5s %-10s %s\n", whose, i->name, i->doc);
+    if (!i->claimed && (!i->holds || i->holds(f)) == wanted) fprintf(to, "  %-5s %-10s %s\n", whose, i->name, i->doc);
 }
 
 static void explain_of_effects(FILE *to, const iso_system *system, const iso_problem *f, bool wanted)
 {
     for (int e = 0; e < ISO_EFFECTS; e++)
-        for (const iso_integral *i = iso_effect_integrals(iso_effect_list[e], system); i && i->name; i++)
+        for (const iso_integral *i = iso_effect_integrals_of(iso_effect_list[e], system); i && i->name; i++)
             if (f->effects.on[e]) explain_integral(to, system->name, i, f, wanted);
+}
+
+/* Those that the scene itself claims. */
+static void explain_claims(FILE *to, const iso_problem *f)
+{
+    const iso_integral *list[ISO_MAX_INTEGRALS];
+    const int count = iso_integrals_holding(&iso_system_ball, f, list, ISO_MAX_INTEGRALS);
+    int claims = 0;
+    for (int i = 0; i < count; i++)
+        if (list[i]->claimed)
+            fprintf(to, "%s %s", claims++ ? "" : "integrals that the scene claims\n ", list[i]->name);
+    if (claims > 0) fprintf(to, "   watched by check, compare, plot and view; nobody has proved them\n");
 }
 
 /* The integrals of both models. Without a twin: of the integrated model alone. */
@@ -203,6 +215,7 @@ static void explain_integrals(FILE *to, const iso_orbit *orbit)
         for (int s = 0; iso_systems[s]; s++)
             if (!only || iso_systems[s] == only) explain_of_effects(to, iso_systems[s], f, wanted);
     }
+    explain_claims(to, f);
 }
 
 /* Seconds for one right-hand side: the least of several rounds. */

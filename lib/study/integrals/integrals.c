@@ -78,7 +78,7 @@ static void list_known(search *s)
     const iso_integral *list[ISO_MAX_INTEGRALS];
     const int count = iso_integrals_holding(&iso_system_point, &s->samples.problem, list, ISO_MAX_INTEGRALS);
     for (int i = 0; i < count && out->known_count < ISO_INTEGRAL_KNOWN; i++) {
-        if (!list[i]->holds) continue; /* the energy, and the constraints */
+        if (!list[i]->holds || list[i]->claimed) continue; /* the energy, and the constraints */
         s->known[out->known_count] = list[i];
         out->known[out->known_count++] = (iso_integral_known){list[i]->name, list[i]->doc, false, 0, INFINITY};
     }
