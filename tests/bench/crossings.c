@@ -178,7 +178,7 @@ static double variation_error(const iso_crossing *c, bool point, int v, const do
     const double *d = y + 6 + 6 * v;
     double by[2][ISO_STATE], flow[ISO_STATE], off = 0, size = 0;
     tangents(point, c->l, c->x, by);
-    rival_slopes(&p, y, flow);
+    rival_rhs(&p, y, flow);
     for (int i = 0; i < ISO_STATE; i++) {
         const double ours = c->slope[0][v] * by[0][i] + c->slope[1][v] * by[1][i];
         off = fmax(off, fabs(d[i] - flow[i] * d[height] / flow[height] - ours));

@@ -71,10 +71,21 @@ static inline void rival_point(const rival_problem *p, const double y[], double 
     rival_cross(g, Jg, twist);
     for (int i = 0; i < 3; i++) dy[i] = a * twist[i];
     rival_cross(g, M, dy + 3);
+    for (int v = 1; v <= p->variations; v++) {
+        const double *dM = y + 6 * v, *dg = dM + 3;
+        double *to = dy + 6 * v, one[3], other[3];
+        const double Jdg[3] = {J[0] * dg[0], J[1] * dg[1], J[2] * dg[2]};
+        const double da = a * power * 2 * (g[0] * Jdg[0] + g[1] * Jdg[1] + g[2] * Jdg[2]) / q;
+        rival_cross(dg, Jg, one);
+        rival_cross(g, Jdg, other);
+        for (int i = 0; i < 3; i++) to[i] = da * twist[i] + a * (one[i] + other[i]);
+        rival_cross(dg, M, one);
+        rival_cross(g, dM, other);
+        for (int i = 0; i < 3; i++) to[3 + i] = one[i] + other[i];
+    }
 }
 
-/* The slopes of the state alone. */
-static inline void rival_slopes(const rival_problem *p, const double y[], double dy[])
+static inline void rival_rhs(const rival_problem *p, const double y[], double dy[])
 {
     if (!p->point)
         rival_ball(p, y, dy);
@@ -107,35 +118,11 @@ static inline void rival_vary_ball(const rival_problem *p, const double y[], dou
     }
 }
 
-static inline void rival_vary_point(const rival_problem *p, const double y[], double dy[])
-{
-    const double *M = y, *g = y + 3, *J = p->J, power = -1 - 1 / p->k;
-    const double Jg[3] = {J[0] * g[0], J[1] * g[1], J[2] * g[2]};
-    const double q = g[0] * Jg[0] + g[1] * Jg[1] + g[2] * Jg[2], a = 2 * p->eps / p->k * rival_power(q, power);
-    double twist[3];
-    rival_cross(g, Jg, twist);
-    for (int v = 1; v <= p->variations; v++) {
-        const double *dM = y + 6 * v, *dg = dM + 3;
-        double *to = dy + 6 * v, one[3], other[3];
-        const double Jdg[3] = {J[0] * dg[0], J[1] * dg[1], J[2] * dg[2]};
-        const double da = a * power * 2 * (g[0] * Jdg[0] + g[1] * Jdg[1] + g[2] * Jdg[2]) / q;
-        rival_cross(dg, Jg, one);
-        rival_cross(g, Jdg, other);
-        for (int i = 0; i < 3; i++) to[i] = da * twist[i] + a * (one[i] + other[i]);
-        rival_cross(dg, M, one);
-        rival_cross(g, dM, other);
-        for (int i = 0; i < 3; i++) to[3 + i] = one[i] + other[i];
-    }
-}
-
-/* With the slopes of the variations. */
+/* With the slopes of the variations, of the ball too. */
 static inline void rival_varied(const rival_problem *p, const double y[], double dy[])
 {
-    rival_slopes(p, y, dy);
-    if (p->point)
-        rival_vary_point(p, y, dy);
-    else
-        rival_vary_ball(p, y, dy);
+    rival_rhs(p, y, dy);
+    if (!p->point) rival_vary_ball(p, y, dy);
 }
 
 #endif

@@ -10,7 +10,7 @@
 static int slopes(double t, const double y[], double dy[], void *problem)
 {
     (void)t;
-    rival_slopes(problem, y, dy);
+    rival_rhs(problem, y, dy);
     return GSL_SUCCESS;
 }
 
@@ -84,7 +84,7 @@ rival_path *rival_path_create(const rival_problem *p, double tolerance, const do
     path->kept[0].t = 0;
     memcpy(path->kept[0].y, y, sizeof path->kept[0].y);
     path->problem.variations = 0;
-    rival_slopes(&path->problem, y, path->kept[0].slope);
+    rival_rhs(&path->problem, y, path->kept[0].slope);
     return path;
 }
 

@@ -16,7 +16,7 @@ using state = std::array<double, 6>;
 
 template <class Stepper> bool solve(Stepper stepper, const rival_problem *p, double end, double y[6])
 {
-    const auto equations = [p](const state &at, state &slope, double) { rival_slopes(p, at.data(), slope.data()); };
+    const auto equations = [p](const state &at, state &slope, double) { rival_rhs(p, at.data(), slope.data()); };
     state at;
     std::copy(y, y + 6, at.begin());
     double t = 0, h = 0.01;
@@ -118,9 +118,9 @@ template <std::size_t N, class Steps>
 bool follow(Steps steps, const rival_problem *p, int axis, int turns, const double start[], rival_seen *seen,
             void *data)
 {
-    const auto equations = [p](const many<N> &at, many<N> &slope, double) __attribute__((noinline)) {
+    const auto equations = [p](const many<N> &at, many<N> &slope, double) {
         if constexpr (N == 6)
-            rival_slopes(p, at.data(), slope.data());
+            rival_rhs(p, at.data(), slope.data());
         else
             rival_varied(p, at.data(), slope.data());
     };

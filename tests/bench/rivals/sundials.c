@@ -11,7 +11,7 @@
 static int rhs(sunrealtype t, N_Vector y, N_Vector dy, void *problem)
 {
     (void)t;
-    rival_slopes(problem, N_VGetArrayPointer(y), N_VGetArrayPointer(dy));
+    rival_rhs(problem, N_VGetArrayPointer(y), N_VGetArrayPointer(dy));
     return 0;
 }
 
