@@ -3,13 +3,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "io/output_impl.h"
+#include "io/scene_literals_impl.h"
 #include "scene_options.h"
+#include "study/certify/certify_impl.h"
 
 typedef struct options {
     iso_scene_changes change;
     const char *file, *output;
     const char *times; /* NULL: not given */
-    bool verbose;
+    bool verbose, certify;
+    int digits, work_digits; /* 0: not given */
 } options;
 
 /* Where the rows go. */
@@ -133,6 +137,68 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     return result;
 }
 
+/* --- certified rows --------------------------------------------------------------------------------------------- */
+
+typedef struct certified {
+    iso_context *ctx;
+    const options *o;
+    iso_output *out; /* NULL: nothing is wrong with the scene, but there is no line yet */
+} certified;
+
+static iso_status write_line(void *data, const char *text)
+{
+    certified *c = data;
+    if (!c->out) {
+        stop_gently();
+        progress_begin_rows(c->o->output);
+        ISO_TRY(iso_output_open(c->ctx, c->o->output, &c->out));
+    }
+    fputs(text, iso_output_stream(c->out));
+    return iso_output_check(c->ctx, c->out);
+}
+
+static int close_certified(const certified *c, iso_status status, const iso_certify_result *r)
+{
+    const bool keep = status == ISO_OK || status == ISO_STOPPED || status == ISO_NUMERICAL;
+    const int result = finish(c->ctx, status);
+    const iso_status closed = iso_output_close(c->ctx, c->out, keep);
+    if (closed != ISO_OK) return result == EXIT_DONE ? finish(c->ctx, closed) : result;
+    if (c->o->verbose)
+        complain("%zu rows; backend %s: %ld steps with numbers of %d digits, attempt %d", r->rows,
+                 iso_backend_name((int)r->backend), r->steps, r->work_digits, r->attempts);
+    if (keep && status != ISO_OK)
+        complain("%s%zu of %zu rows were written", status == ISO_STOPPED ? "interrupted: " : "", r->rows, r->asked);
+    return result;
+}
+
+static int certify(iso_context *ctx, const options *o, const iso_scene *scene, const iso_literals *literals)
+{
+    enum { DIGITS = 30 };
+    certified c = {ctx, o, NULL};
+    const iso_certify_sink sink = {write_line, show_progress, &c};
+    const iso_certify_options how = {o->digits ? o->digits : DIGITS, o->work_digits};
+    iso_certify_result r;
+    iso_context_set_monitor(ctx, go_on, NULL);
+    const iso_status status = iso_certify(ctx, scene, literals, &how, &sink, &r);
+    return c.out ? close_certified(&c, status, &r) : finish_scene(ctx, o->file, scene, status);
+}
+
+/* --- the command ------------------------------------------------------------------------------------------------ */
+
+/* Which options belong together. */
+static iso_status check_certify(iso_context *ctx, const options *o)
+{
+    const char *other = o->times ? "times" : o->change.method ? "method" : !isnan(o->change.tolerance) ? "tol" : NULL;
+    if (!o->certify && (o->digits || o->work_digits))
+        return ISO_FAIL_ARGUMENT(ctx, "", "--%s is for --certify", o->digits ? "digits" : "work-digits");
+    if (o->certify && other)
+        return ISO_FAIL_ARGUMENT(
+            ctx, other, "--certify takes no --%s: rows are at the scene's times, by Taylor series in balls", other);
+    if (o->certify && iso_table_is_hdf5(o->output))
+        return ISO_FAIL_ARGUMENT(ctx, "output", "--certify: HDF5 holds doubles: write CSV, a name in .csv");
+    return ISO_OK;
+}
+
 static iso_status check_files(iso_context *ctx, const options *o)
 {
     if (o->times && strcmp(o->times, "-") == 0 && strcmp(o->file, "-") == 0)
@@ -144,14 +210,18 @@ static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
     iso_scene scene = {.places = 0};
+    iso_literals literals = {.count = 0};
     iso_record *times = NULL;
     iso_status status = check_files(ctx, o);
-    if (status == ISO_OK) status = iso_scene_read(ctx, o->file, &scene);
+    if (status == ISO_OK) status = check_certify(ctx, o);
+    if (status == ISO_OK) status = iso_scene_read_literals(ctx, o->file, &scene, &literals);
     if (status == ISO_OK) status = iso_scene_apply(ctx, &o->change, &scene);
     if (status == ISO_OK && o->times) status = times_read(ctx, o->times, &times);
-    const int result =
-        status == ISO_OK ? run_scene(ctx, o, &scene, times) : finish_scene(ctx, o->file, &scene, status);
+    const int result = status != ISO_OK ? finish_scene(ctx, o->file, &scene, status)
+                       : o->certify     ? certify(ctx, o, &scene, &literals)
+                                        : run_scene(ctx, o, &scene, times);
     iso_record_free(times);
+    iso_literals_clear(&literals);
     return result;
 }
 
@@ -164,6 +234,13 @@ static const option_row rows[] = {
                 options, times, 0, OPTION_READS),
     ROW("verbose", NULL, NULL, "tell on stderr how the run went, and the error of the rows", iso_set_flag, options,
         verbose),
+    ROW("certify", NULL, NULL, "write enclosures, a midpoint and a radius for each number: nothing is rounded away",
+        iso_set_flag, options, certify),
+    ROW("digits", "D", "a whole number from 1 to 1000", "digits that certified rows hold (default: 30)",
+        iso_set_count_int, options, digits),
+    ROW("work-digits", "N", "a whole number, at least D",
+        "digits that certified rows are computed with (default: as many as it takes)", iso_set_count_int, options,
+        work_digits),
     ROW_END,
 };
 

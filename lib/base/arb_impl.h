@@ -5,8 +5,10 @@
 #include <flint/fmpq.h>
 #if __FLINT_RELEASE >= 30000
 #include <flint/arb.h>
+#include <flint/arb_mat.h>
 #else
 #include <arb.h>
+#include <arb_mat.h>
 #endif
 
 #endif
