@@ -3,10 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/output_impl.h"
+#include "certified.h"
 #include "io/scene_literals_impl.h"
 #include "scene_options.h"
-#include "study/certify/certify_impl.h"
 
 typedef struct options {
     iso_scene_changes change;
@@ -139,48 +138,28 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
 
 /* --- certified rows --------------------------------------------------------------------------------------------- */
 
-typedef struct certified {
-    iso_context *ctx;
-    const options *o;
-    iso_output *out; /* NULL: nothing is wrong with the scene, but there is no line yet */
-} certified;
-
-static iso_status write_line(void *data, const char *text)
+static void report_certified(const iso_certify_result *r)
 {
-    certified *c = data;
-    if (!c->out) {
-        stop_gently();
-        progress_begin_rows(c->o->output);
-        ISO_TRY(iso_output_open(c->ctx, c->o->output, &c->out));
-    }
-    fputs(text, iso_output_stream(c->out));
-    return iso_output_check(c->ctx, c->out);
-}
-
-static int close_certified(const certified *c, iso_status status, const iso_certify_result *r)
-{
-    const bool keep = status == ISO_OK || status == ISO_STOPPED || status == ISO_NUMERICAL;
-    const int result = finish(c->ctx, status);
-    const iso_status closed = iso_output_close(c->ctx, c->out, keep);
-    if (closed != ISO_OK) return result == EXIT_DONE ? finish(c->ctx, closed) : result;
-    if (c->o->verbose)
-        complain("%zu rows; backend %s: %ld steps with numbers of %d digits, attempt %d", r->rows,
-                 iso_backend_name((int)r->backend), r->steps, r->work_digits, r->attempts);
-    if (keep && status != ISO_OK)
-        complain("%s%zu of %zu rows were written", status == ISO_STOPPED ? "interrupted: " : "", r->rows, r->asked);
-    return result;
+    complain("%zu rows; backend %s: %ld steps with numbers of %d digits, attempt %d", r->rows,
+             iso_backend_name((int)r->backend), r->steps, r->work_digits, r->attempts);
 }
 
 static int certify(iso_context *ctx, const options *o, const iso_scene *scene, const iso_literals *literals)
 {
     enum { DIGITS = 30 };
-    certified c = {ctx, o, NULL};
-    const iso_certify_sink sink = {write_line, show_progress, &c};
+    certified_file file = {ctx, o->output, NULL};
+    const iso_certify_sink sink = {certified_line, certified_progress, &file};
     const iso_certify_options how = {o->digits ? o->digits : DIGITS, o->work_digits};
     iso_certify_result r;
     iso_context_set_monitor(ctx, go_on, NULL);
     const iso_status status = iso_certify(ctx, scene, literals, &how, &sink, &r);
-    return c.out ? close_certified(&c, status, &r) : finish_scene(ctx, o->file, scene, status);
+    const bool ended = status == ISO_STOPPED || status == ISO_NUMERICAL; /* before the last row */
+    if (!file.out) return finish_scene(ctx, o->file, scene, status);
+    const int result = certified_close(&file, status, status == ISO_OK || ended);
+    if (o->verbose && result != EXIT_FILE) report_certified(&r);
+    if (ended)
+        complain("%s%zu of %zu rows were written", status == ISO_STOPPED ? "interrupted: " : "", r.rows, r.asked);
+    return result;
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
@@ -188,15 +167,16 @@ static int certify(iso_context *ctx, const options *o, const iso_scene *scene, c
 /* Which options belong together. */
 static iso_status check_certify(iso_context *ctx, const options *o)
 {
-    const char *other = o->times ? "times" : o->change.method ? "method" : !isnan(o->change.tolerance) ? "tol" : NULL;
-    if (!o->certify && (o->digits || o->work_digits))
-        return ISO_FAIL_ARGUMENT(ctx, "", "--%s is for --certify", o->digits ? "digits" : "work-digits");
-    if (o->certify && other)
-        return ISO_FAIL_ARGUMENT(
-            ctx, other, "--certify takes no --%s: rows are at the scene's times, by Taylor series in balls", other);
-    if (o->certify && iso_table_is_hdf5(o->output))
-        return ISO_FAIL_ARGUMENT(ctx, "output", "--certify: HDF5 holds doubles: write CSV, a name in .csv");
-    return ISO_OK;
+    const certified_option others[] = {{o->times != NULL, "times"},
+                                       {o->change.method != NULL, "method"},
+                                       {!isnan(o->change.tolerance), "tol"},
+                                       {iso_table_is_hdf5(o->output), "output"},
+                                       {false, NULL}};
+    const certified_option own[] = {{o->digits > 0, "digits"}, {o->work_digits > 0, "work-digits"}, {false, NULL}};
+    if (!o->certify) return certified_refuse(ctx, own, "this is for --certify");
+    return certified_refuse(ctx, others,
+                            "--certify has no use for it: rows at the scene's times, by Taylor series in "
+                            "balls, into a text file");
 }
 
 static iso_status check_files(iso_context *ctx, const options *o)

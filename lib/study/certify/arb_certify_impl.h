@@ -45,7 +45,7 @@ typedef struct certify_ball {
 
 void certify_ball_init(certify_ball *b, slong bits);
 void certify_ball_clear(certify_ball *b);
-void certify_ball_set(certify_ball *b, const fmpq_t k, const fmpq_t J[3]); /* no rotor, no level */
+void certify_ball_set(certify_ball *b, const certify_exact *e); /* k and J alone */
 
 /* Sets b, its energies among it, and gives the start of `model`, vector first, then the unit vector: n is made a unit
  * vector, and omega loses its part along it. */

@@ -157,12 +157,12 @@ void certify_ball_clear(certify_ball *b)
         arb_clear(b->J + i), arb_clear(b->root_J + i), arb_clear(b->inverse_J + i), arb_clear(b->K + i);
 }
 
-void certify_ball_set(certify_ball *b, const fmpq_t k, const fmpq_t J[3])
+void certify_ball_set(certify_ball *b, const certify_exact *e)
 {
-    arb_set_fmpq(b->k, k, b->bits);
+    arb_set_fmpq(b->k, e->k, b->bits);
     arb_one(b->det);
     for (int i = 0; i < 3; i++) {
-        arb_set_fmpq(b->J + i, J[i], b->bits);
+        arb_set_fmpq(b->J + i, e->J[i], b->bits);
         arb_sqrt(b->root_J + i, b->J + i, b->bits);
         arb_inv(b->inverse_J + i, b->J + i, b->bits);
         arb_mul(b->det, b->det, b->J + i, b->bits);
@@ -236,7 +236,7 @@ static void energies_of_point(const certify_exact *e, certify_ball *b, arb_srcpt
 
 void certify_start(const certify_exact *e, iso_model_kind model, certify_ball *b, arb_ptr y)
 {
-    certify_ball_set(b, e->k, e->J);
+    certify_ball_set(b, e);
     b->rotor = e->rotor, b->level = e->level;
     for (int i = 0; i < 3; i++) arb_set_fmpq(b->K + i, e->K[i], b->bits);
     arb_set_fmpq(b->c, e->c, b->bits);
