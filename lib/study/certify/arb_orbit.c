@@ -153,12 +153,13 @@ static void time_of(const work *w, size_t i, fmpq_t t)
 {
     fmpq_t step;
     fmpq_set_si(t, w->p->end.top, (ulong)w->p->end.below);
+    if (w->p->end_text) certify_rational_read(w->p->end_text, t);
     if (i + 1 == w->result->asked) return;
     fmpq_init(step);
     fmpq_set_si(step, w->p->step.top, (ulong)w->p->step.below);
     fmpq_set_si(t, (slong)i, 1);
     fmpq_mul(t, t, step);
-    if (w->p->end.top < 0) fmpq_neg(t, t);
+    if (w->p->scene->end < 0) fmpq_neg(t, t);
     fmpq_clear(step);
 }
 
@@ -215,11 +216,11 @@ static iso_status follow(work *w, double end, double *reached)
 
 static iso_status attempt(work *w, int work_digits, double *reached, double *lost)
 {
-    const double end = fabs(iso_rational_double(&w->p->end));
+    const double end = fabs(w->p->scene->end);
     certify_ball_init(&w->ball, (slong)(DIGIT_BITS * work_digits) + 8);
     arb_ptr start = _arb_vec_init(CERTIFY_STATE);
     certify_start(&w->exact, w->p->backend, &w->ball, start);
-    certify_set_init(&w->set, &w->ball, w->p->backend, w->clock, start, w->p->end.top < 0 ? -1 : 1);
+    certify_set_init(&w->set, &w->ball, w->p->backend, w->clock, start, w->p->scene->end < 0 ? -1 : 1);
     w->result->work_digits = work_digits;
     w->result->steps = 0;
     iso_status status = w->result->attempts++ == 0 ? write_head(w) : ISO_OK;
@@ -234,17 +235,16 @@ static iso_status attempt(work *w, int work_digits, double *reached, double *los
 
 static iso_status too_wide(const work *w, double reached)
 {
-    return iso_context_fail(w->ctx, ISO_NUMERICAL, "",
-                            "the enclosures hold %d digits until %s = %.6g: computed with %d digits",
-                            w->p->options.digits, iso_clock_name(w->clock), copysign(reached, (double)w->p->end.top),
-                            w->result->work_digits);
+    return iso_context_fail(
+        w->ctx, ISO_NUMERICAL, "", "the enclosures hold %d digits until %s = %.6g: computed with %d digits",
+        w->p->options.digits, iso_clock_name(w->clock), copysign(reached, w->p->scene->end), w->result->work_digits);
 }
 
 iso_status iso_certify_orbit(iso_context *ctx, const iso_certify_problem *p, const iso_certify_sink *sink,
                              iso_certify_result *result)
 {
     enum { SPARE = 14, MORE = 200 };
-    const double end = fabs(iso_rational_double(&p->end));
+    const double end = fabs(p->scene->end);
     work w = {.ctx = ctx, .p = p, .sink = sink, .result = result, .clock = clock_of(p->scene->start.model)};
     double reached = 0, lost = 0;
     certify_exact_init(&w.exact);

@@ -1,7 +1,9 @@
 /* certify.c - what a scene must be to be enclosed, and its times (certify_impl.h). */
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/number_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/certify/certify_impl.h"
 
@@ -23,11 +25,21 @@ static iso_status take_time(iso_context *ctx, const char *key, double x, iso_rat
     return ISO_FAIL_INPUT(ctx, key, "--certify takes times exactly: write '%s' with at most 15 digits", key);
 }
 
+/* The text of the last time, unless an option has changed it. */
+static const char *written_end(const iso_certify_problem *p)
+{
+    double x;
+    const iso_literal *end = iso_literal_find(p->literals, "end");
+    return end && iso_number_read(end->text[0], strlen(end->text[0]), &x) && x == p->scene->end ? end->text[0] : NULL;
+}
+
 static iso_status take_times(iso_context *ctx, iso_certify_problem *p)
 {
     const iso_scene *scene = p->scene;
     ISO_TRY(iso_scene_check_times(ctx, scene));
-    ISO_TRY(take_time(ctx, "end", scene->end, &p->end));
+    p->end_text = written_end(p);
+    p->end = (iso_rational){0, 1};
+    if (!p->end_text || scene->step == 0) ISO_TRY(take_time(ctx, "end", scene->end, &p->end));
     if (scene->step > 0) return take_time(ctx, "step", scene->step, &p->step);
     p->step = (iso_rational){llabs(p->end.top), 100 * p->end.below}; /* as iso_scene_time */
     return ISO_OK;

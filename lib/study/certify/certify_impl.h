@@ -37,8 +37,8 @@ typedef struct iso_certify_result {
     iso_backend backend;
 } iso_certify_result;
 
-/* Encloses the orbit of a scene at its times. The numbers of ball, start and effects are those of `literals`
- * (io/scene_literals_impl.h), the times are decimal numbers of at most 15 digits or small fractions. After an error the
+/* Encloses the orbit of a scene at its times. The numbers of ball, start and effects, and the last time, are those of
+ * `literals` (io/scene_literals_impl.h). Another last time, and the step, are decimal numbers of at most 15 digits. After an error the
  * rows before it have been given away. result is always filled.
  * Errors: ISO_BAD_INPUT, ISO_BAD_ARGUMENT: the scene has what is not enclosed, or this build has no Arb; ISO_NUMERICAL:
  * the enclosures do not hold their digits to the end; ISO_STOPPED; what the sink answers. */
@@ -52,11 +52,12 @@ iso_status iso_certify_convert(iso_context *ctx, FILE *file, const char *name, i
 
 /* --- certify.c asks arb_orbit.c ---------------------------------------------------------------------------------- */
 
-/* A time or a number of a scene; 0 is 0/1. */
+/* Times: 0 is 0/1. */
 typedef struct iso_certify_problem {
     const iso_scene *scene;
     const iso_literals *literals;
     iso_certify_options options;
+    const char *end_text;   /* as the scene writes the last time; NULL: it is `end` */
     iso_rational end, step; /* step > 0 */
     iso_model_kind backend;
 } iso_certify_problem;
