@@ -237,7 +237,15 @@ const command command_run = {
         "This "
         "covers the error of the method and the rounding of the start. It does not cover the rounding of k, of the "
         "effects' numbers and of the times.\n\n"
+        "--certify writes enclosures: each number has a midpoint and a radius, and the number of the true orbit lies "
+        "between, whatever was rounded. It is for the free ball, rotors and levels. The scene's numbers are taken "
+        "exactly as they are written. It takes no method and no tolerance (those of the scene are not used); backend "
+        "ball or point says whose equations are enclosed. lib/doc/certify.md explains it. It needs Arb (package "
+        "libflint-arb-dev) when isoroll is built.\n\n"
         "After Ctrl-C, the rows computed so far are kept.",
-    .example = "isoroll run scene.yaml -o trajectory.csv",
-    .exits = "1: interrupted\n4: the computation failed; the rows before the failure are kept",
+    .example =
+        "isoroll run scene.yaml -o trajectory.csv\nisoroll run scene.yaml --certify --digits 100 -o certified.csv",
+    .exits =
+        "1: interrupted\n4: the computation failed, or the enclosures no longer hold their digits; the rows before "
+        "are kept",
 };

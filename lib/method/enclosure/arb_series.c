@@ -251,15 +251,29 @@ bool iso_series_bound(iso_series *s, const arb_t h)
 
 /* --- values ------------------------------------------------------------------------------------------------------ */
 
+/* x <- (|t|/h)^(K + 1): what is left out is at most so much of what is left out at h. */
+static void shrink(const iso_series *s, const arb_t t, mag_t x)
+{
+    arb_get_mag(x, t);
+    mag_div(x, x, s->step);
+    mag_pow_ui(x, x, (ulong)s->order + 1);
+    if (mag_cmp_2exp_si(x, 0) > 0) mag_one(x); /* rounding, at |t| = h */
+}
+
 void iso_series_at(iso_series *s, const arb_t t, int first, int count, arb_ptr to)
 {
+    mag_t part, rest;
+    mag_init(part), mag_init(rest);
+    shrink(s, t, part);
     arb_one(s->power);
     for (int n = 1; n <= s->order; n++) arb_mul(s->power + n, s->power + n - 1, t, s->bits + 10);
     for (int i = 0; i < count; i++) {
         const int x = s->f->state[first + i];
         arb_dot(to + i, NULL, 0, s->series[x], 1, s->power, 1, s->order + 1, s->bits);
-        arb_add_error_mag(to + i, s->tail + x);
+        mag_mul(rest, s->tail + x, part);
+        arb_add_error_mag(to + i, rest);
     }
+    mag_clear(part), mag_clear(rest);
 }
 
 double iso_series_size(const iso_series *s, int state, int n)
