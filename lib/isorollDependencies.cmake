@@ -64,8 +64,8 @@ if(ISO_HDF5 AND isoroll_hdf5_FOUND AND ISO_HDF5_SONAME)
   set(ISO_HDF5_PC ${isoroll_hdf5_MODULE_NAME})
 endif()
 
-# Arb may be missing: then `isoroll prove` refuses. It is a library of its own, or a part of FLINT 3.
-option(ISO_ARB "isoroll prove, where Arb is installed" ON)
+# Arb may be missing: then `isoroll prove` and `run --certify` refuse. It is a library of its own, or a part of FLINT 3.
+option(ISO_ARB "isoroll prove and run --certify, where Arb is installed" ON)
 if(ISO_ARB)
   find_path(ISO_ARB_INCLUDE NAMES arb.h flint/arb.h DOC "where arb.h is")
   find_library(ISO_FLINT flint DOC "FLINT")

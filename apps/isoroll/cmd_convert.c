@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "base/number_impl.h"
+#include "certified.h"
+#include "file_kind.h"
 #include "orbit/convert_impl.h"
 #include "parameters.h"
 #include "scene_options.h"
@@ -33,7 +35,7 @@ typedef struct filter {
     size_t named;
 } filter;
 
-enum { NAMED = 20 };
+enum { NAMED = 20, ALL_DIGITS = 17 };
 
 /* One file states one energy, by lines of these names: later orbits must have that of the first. */
 static iso_status check_energy(const filter *f, const iso_record *header)
@@ -256,11 +258,62 @@ static iso_status open_filter(filter *f)
     return status;
 }
 
+/* --- certified orbits ------------------------------------------------------------------------------------------- */
+
+static bool is_certified(const char *path)
+{
+    char table[ISO_KIND_SIZE];
+    return file_kind(path, table) == FILE_CERTIFIED;
+}
+
+static iso_status check_certified(iso_context *ctx, const options *o)
+{
+    const iso_added *added = &o->from.added;
+    const certified_option others[] = {{o->digits != ALL_DIGITS, "digits"},
+                                       {!isnan(o->tolerance), "tol"},
+                                       {!isnan(added->k), "k"},
+                                       {!isnan(added->J[0]), "J"},
+                                       {!isnan(added->eps), "eps"},
+                                       {!isnan(added->h), "h"},
+                                       {o->from.scene != NULL, "scene"},
+                                       {o->from.columns != NULL, "columns"},
+                                       {added->row_tolerance != ISO_ROW_TOLERANCE, "row-tolerance"},
+                                       {!isnan(o->max_defect), "max-defect"},
+                                       {o->shift_J, "shift-J"},
+                                       {iso_table_is_hdf5(o->output), "output"},
+                                       {false, NULL}};
+    return certified_refuse(
+        ctx, others, "a certified orbit has all numbers in its file, and becomes a text file with as many digits");
+}
+
+static int convert_certified(iso_context *ctx, const options *o)
+{
+    certified_file to = {ctx, o->output, NULL};
+    const iso_certify_sink sink = {certified_line, NULL, &to};
+    iso_status status = check_certified(ctx, o);
+    size_t rows = 0;
+    FILE *file = status == ISO_OK ? fopen(o->from.file, "re") : NULL;
+    if (status == ISO_OK && !file)
+        status = iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "'%s': cannot be read", o->from.file);
+    if (file) {
+        begin_work(ctx, o->output);
+        status = iso_certify_convert(ctx, file, o->from.file, o->to, &sink, &rows);
+        fclose(file);
+    }
+    const int result = certified_close(&to, status, status == ISO_OK || status == ISO_STOPPED);
+    if (status == ISO_STOPPED) complain("interrupted: %zu rows were converted", rows);
+    if (result == EXIT_DONE && !o->quiet) complain("%s: %zu rows, all enclosed", o->from.file, rows);
+    return result;
+}
+
+/* --- the command ------------------------------------------------------------------------------------------------ */
+
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
     filter f = {.ctx = ctx, .o = o, .name = iso_text_name(o->from.file)};
     if ((int)o->to < 0) return complain("convert: --to ball or --to point is missing"), EXIT_USAGE;
+    if (is_certified(o->from.file)) return convert_certified(ctx, o);
     const iso_status status = open_filter(&f);
     const int result =
         status == ISO_OK ? finish_filter(&f, filter_rows(&f)) : finish(ctx, name_the_file(ctx, o->from.file, status));
@@ -275,7 +328,7 @@ static const options defaults = {.from = FILE_OPTIONS_UNSET,
                                  .to = (iso_model_kind)-1,
                                  .tolerance = NAN,
                                  .max_defect = NAN,
-                                 .digits = 17};
+                                 .digits = ALL_DIGITS};
 
 static const option_row rows[] = {
     ROW_OF_WORDS("to", "MODEL", "ball or point", "the model to convert to: ball, point", set_target, options, to,
@@ -297,7 +350,7 @@ static const option_row rows[] = {
 
 const command command_convert = {
     COMMAND("convert", "[FILE]", "convert a trajectory of one model into one of the other", from.file),
-    .takes = FILE_ROWS,
+    .takes = FILE_ROWS | FILE_CERTIFIED,
     .description =
         "A filter: row by row, in constant memory. It reads files of other programs, too. k, J and h or eps come "
         "from the # lines of the file, from --scene, or from --k and --J.\n\n"
@@ -311,7 +364,9 @@ const command command_convert = {
         "If the # line h, eps or level.c does not fit the first row, beyond rounding, a message names it, and the "
         "row's own number is written.\n\n"
         "A point off the level H = 0 becomes a ball in the potential of the effect 'level'; with --shift-J it "
-        "becomes a free ball.",
+        "becomes a free ball.\n\n"
+        "Rows of 'run --certify' become enclosures of the other model, all clocks with them; they are read from a "
+        "file, by its name.",
     .example = "isoroll convert --to point ball.csv -o point.csv",
     .exits = "1: a row was bad, or the rows do not lie on one orbit",
 };

@@ -3,13 +3,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "certified.h"
+#include "io/scene_literals_impl.h"
 #include "scene_options.h"
 
 typedef struct options {
     iso_scene_changes change;
     const char *file, *output;
     const char *times; /* NULL: not given */
-    bool verbose;
+    bool verbose, certify;
+    int digits, work_digits; /* 0: not given */
 } options;
 
 /* Where the rows go. */
@@ -133,6 +136,49 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     return result;
 }
 
+/* --- certified rows --------------------------------------------------------------------------------------------- */
+
+static void report_certified(const iso_certify_result *r)
+{
+    complain("%zu rows; backend %s: %ld steps with numbers of %d digits, attempt %d", r->rows,
+             iso_backend_name((int)r->backend), r->steps, r->work_digits, r->attempts);
+}
+
+static int certify(iso_context *ctx, const options *o, const iso_scene *scene, const iso_literals *literals)
+{
+    enum { DIGITS = 30 };
+    certified_file file = {ctx, o->output, NULL};
+    const iso_certify_sink sink = {certified_line, certified_progress, &file};
+    const iso_certify_options how = {o->digits ? o->digits : DIGITS, o->work_digits};
+    iso_certify_result r;
+    iso_context_set_monitor(ctx, go_on, NULL);
+    const iso_status status = iso_certify(ctx, scene, literals, &how, &sink, &r);
+    const bool ended = status == ISO_STOPPED || status == ISO_NUMERICAL; /* before the last row */
+    if (!file.out) return finish_scene(ctx, o->file, scene, status);
+    const int result = certified_close(&file, status, status == ISO_OK || ended);
+    if (o->verbose && result != EXIT_FILE) report_certified(&r);
+    if (ended)
+        complain("%s%zu of %zu rows were written", status == ISO_STOPPED ? "interrupted: " : "", r.rows, r.asked);
+    return result;
+}
+
+/* --- the command ------------------------------------------------------------------------------------------------ */
+
+/* Which options belong together. */
+static iso_status check_certify(iso_context *ctx, const options *o)
+{
+    const certified_option others[] = {{o->times != NULL, "times"},
+                                       {o->change.method != NULL, "method"},
+                                       {!isnan(o->change.tolerance), "tol"},
+                                       {iso_table_is_hdf5(o->output), "output"},
+                                       {false, NULL}};
+    const certified_option own[] = {{o->digits > 0, "digits"}, {o->work_digits > 0, "work-digits"}, {false, NULL}};
+    if (!o->certify) return certified_refuse(ctx, own, "this is for --certify");
+    return certified_refuse(ctx, others,
+                            "--certify has no use for it: rows at the scene's times, by Taylor series in "
+                            "balls, into a text file");
+}
+
 static iso_status check_files(iso_context *ctx, const options *o)
 {
     if (o->times && strcmp(o->times, "-") == 0 && strcmp(o->file, "-") == 0)
@@ -144,14 +190,18 @@ static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
     iso_scene scene = {.places = 0};
+    iso_literals literals = {.count = 0};
     iso_record *times = NULL;
     iso_status status = check_files(ctx, o);
-    if (status == ISO_OK) status = iso_scene_read(ctx, o->file, &scene);
+    if (status == ISO_OK) status = check_certify(ctx, o);
+    if (status == ISO_OK) status = iso_scene_read_literals(ctx, o->file, &scene, &literals);
     if (status == ISO_OK) status = iso_scene_apply(ctx, &o->change, &scene);
     if (status == ISO_OK && o->times) status = times_read(ctx, o->times, &times);
-    const int result =
-        status == ISO_OK ? run_scene(ctx, o, &scene, times) : finish_scene(ctx, o->file, &scene, status);
+    const int result = status != ISO_OK ? finish_scene(ctx, o->file, &scene, status)
+                       : o->certify     ? certify(ctx, o, &scene, &literals)
+                                        : run_scene(ctx, o, &scene, times);
     iso_record_free(times);
+    iso_literals_clear(&literals);
     return result;
 }
 
@@ -164,6 +214,13 @@ static const option_row rows[] = {
                 options, times, 0, OPTION_READS),
     ROW("verbose", NULL, NULL, "tell on stderr how the run went, and the error of the rows", iso_set_flag, options,
         verbose),
+    ROW("certify", NULL, NULL, "write enclosures, a midpoint and a radius for each number: nothing is rounded away",
+        iso_set_flag, options, certify),
+    ROW("digits", "D", "a whole number from 1 to 1000", "digits that certified rows hold (default: 30)",
+        iso_set_count_int, options, digits),
+    ROW("work-digits", "N", "a whole number, at least D",
+        "digits that certified rows are computed with (default: as many as it takes)", iso_set_count_int, options,
+        work_digits),
     ROW_END,
 };
 
@@ -180,7 +237,15 @@ const command command_run = {
         "This "
         "covers the error of the method and the rounding of the start. It does not cover the rounding of k, of the "
         "effects' numbers and of the times.\n\n"
+        "--certify writes enclosures: each number has a midpoint and a radius, and the number of the true orbit lies "
+        "between, whatever was rounded. It is for the free ball, rotors and levels. The scene's numbers are taken "
+        "exactly as they are written. It takes no method and no tolerance (those of the scene are not used); backend "
+        "ball or point says whose equations are enclosed. lib/doc/certify.md explains it. It needs Arb (package "
+        "libflint-arb-dev) when isoroll is built.\n\n"
         "After Ctrl-C, the rows computed so far are kept.",
-    .example = "isoroll run scene.yaml -o trajectory.csv",
-    .exits = "1: interrupted\n4: the computation failed; the rows before the failure are kept",
+    .example =
+        "isoroll run scene.yaml -o trajectory.csv\nisoroll run scene.yaml --certify --digits 100 -o certified.csv",
+    .exits =
+        "1: interrupted\n4: the computation failed, or the enclosures no longer hold their digits; the rows before "
+        "are kept",
 };

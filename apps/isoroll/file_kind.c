@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "io/table_impl.h"
+#include "study/certify/certify_impl.h"
 #include "sweep/sweep_impl.h"
 
 /* --- the kind --------------------------------------------------------------------------------------------------- */
@@ -20,6 +21,7 @@ static const struct {
              {"section", FILE_SECTION, "a section"},
              {"sweep", FILE_RESULT, "the result of a sweep"},
              {"sweep part", FILE_RESULT, "the result of a sweep"},
+             {ISO_CERTIFIED_KIND, FILE_CERTIFIED, "a certified orbit"},
              {ISO_ORBITS_KIND, FILE_SECTION, "a table of periodic orbits"},
              {NULL, FILE_SCENE, "a scene"},
              {NULL, FILE_SWEEP, "a sweep"},

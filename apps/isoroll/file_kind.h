@@ -15,10 +15,11 @@ enum {
     FILE_SCENE = 1,
     FILE_SWEEP = 2, /* the YAML of a sweep */
     FILE_TRAJECTORY = 4,
-    FILE_SECTION = 8, /* or periodic orbits: a row is a place on the section, and can have the state there */
-    FILE_RESULT = 16, /* of a sweep */
-    FILE_TABLE = 32,  /* of other commands: its rows are no states of one scene */
-    FILE_HDF5 = 64,   /* its beginning does not tell what is in it */
+    FILE_SECTION = 8,     /* or periodic orbits: a row is a place on the section, and can have the state there */
+    FILE_RESULT = 16,     /* of a sweep */
+    FILE_TABLE = 32,      /* of other commands: its rows are no states of one scene */
+    FILE_CERTIFIED = 128, /* rows of 'run --certify' */
+    FILE_HDF5 = 64,       /* its beginning does not tell what is in it */
     FILE_ROWS = FILE_TRAJECTORY | FILE_SECTION | FILE_HDF5
 };
 

@@ -4,7 +4,8 @@
 #     cmake --build BUILD --target sdist    BUILD/wheel/isoroll-VERSION.tar.gz, the sources, from which pip makes it
 #
 # The wheel has the package of apps/python, the library and the command. Both have GSL, SUNDIALS and the others linked
-# in, from static libraries, so they need glibc alone: 2.N or later. Arb is left out: `prove` refuses. ../python/pack.py packs, and computes N.
+# in, from static libraries, so they need glibc alone: 2.N or later. Arb is left out: `prove` and `run --certify`
+# refuse. ../python/pack.py packs, and computes N.
 find_program(ISO_PYTHON python3 DOC "Python 3 that packs wheels")
 set(wheel ${PROJECT_BINARY_DIR}/wheel)
 set(pack ${ISO_PYTHON} ${PROJECT_SOURCE_DIR}/apps/python/pack.py)

@@ -3,6 +3,7 @@
 #ifndef ISO_IO_SCENE_DRAFT_IMPL_H
 #define ISO_IO_SCENE_DRAFT_IMPL_H
 
+#include "base/literal_impl.h"
 #include "io/yaml_impl.h"
 #include "orbit/scene.h"
 
@@ -70,5 +71,8 @@ typedef struct iso_draft_number {
 /* Lists the numbers that the text states, at most `most`, and gives how many. A number that two sections can have, or
  * that belongs to an effect, is called SECTION.KEY. */
 int iso_draft_numbers(iso_draft *d, int most, iso_draft_number list[]);
+
+/* Their texts, of all that are one number or three (scene_literals_impl.h). Errors: ISO_NO_MEMORY. */
+iso_status iso_draft_literals(iso_draft *d, iso_literals *literals);
 
 #endif

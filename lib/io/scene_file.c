@@ -9,6 +9,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/number_impl.h"
 #include "io/scene_draft_impl.h"
+#include "io/scene_literals_impl.h"
 #include "io/text_impl.h"
 #include "orbit/orbit_impl.h"
 
@@ -217,7 +218,9 @@ iso_draft iso_draft_empty(iso_context *ctx, const char *name)
     return d;
 }
 
-iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene *scene)
+/* literals: NULL, or gets the numbers as they are written. */
+static iso_status parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene *scene,
+                        iso_literals *literals)
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_draft d = iso_draft_empty(ctx, name);
@@ -225,9 +228,15 @@ iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text,
     d.root = yaml_document_get_root_node(&d.yaml.document);
     iso_status status = iso_draft_read_keys(&d);
     if (status == ISO_OK) status = iso_draft_make(&d);
+    if (status == ISO_OK && literals) status = iso_draft_literals(&d, literals);
     iso_yaml_free(&d.yaml);
     if (status == ISO_OK) *scene = d.scene;
     return status;
+}
+
+iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene *scene)
+{
+    return parse(ctx, name, text, length, scene, NULL);
 }
 
 iso_status iso_scene_change(iso_context *ctx, const char *text, iso_scene *scene)
@@ -249,12 +258,17 @@ iso_status iso_scene_change(iso_context *ctx, const char *text, iso_scene *scene
     return status;
 }
 
-iso_status iso_scene_read(iso_context *ctx, const char *path, iso_scene *scene)
+iso_status iso_scene_read_literals(iso_context *ctx, const char *path, iso_scene *scene, iso_literals *literals)
 {
     char *text;
     size_t length;
     ISO_TRY(iso_text_load(ctx, path, ISO_LARGEST_TEXT, &text, &length));
-    const iso_status status = iso_scene_parse(ctx, iso_text_name(path), text, length, scene);
+    const iso_status status = parse(ctx, iso_text_name(path), text, length, scene, literals);
     free(text);
     return status;
+}
+
+iso_status iso_scene_read(iso_context *ctx, const char *path, iso_scene *scene)
+{
+    return iso_scene_read_literals(ctx, path, scene, NULL);
 }

@@ -127,11 +127,17 @@ static iso_status read_kind(csv *c)
     return ISO_OK;
 }
 
+#define CERTIFIED "# isoroll certified "
+
 /* A line of #. Files of other programs have lines of any text. */
 static iso_status read_comment(csv *c)
 {
     if (c->r->trajectory) {
         const bool magic = strncmp(c->line, ISO_TRAJECTORY_MAGIC, strlen(ISO_TRAJECTORY_MAGIC)) == 0;
+        if (c->number == 1 && strncmp(c->line, CERTIFIED, strlen(CERTIFIED)) == 0)
+            return fail(c, NULL,
+                        "these rows are enclosures, of 'run --certify': convert takes them from a file, by its "
+                        "name; others do not take them");
         if (magic && c->format.fields > 0) return ISO_OK;
         c->ours = c->ours || (magic && c->number == 1);
         return magic && c->number == 1 ? read_kind(c) : read_key_line(c);

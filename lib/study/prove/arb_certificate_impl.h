@@ -2,9 +2,10 @@
 #ifndef ISO_STUDY_PROVE_ARB_CERTIFICATE_IMPL_H
 #define ISO_STUDY_PROVE_ARB_CERTIFICATE_IMPL_H
 
-#include "study/prove/arb_impl.h"
 #include <stdbool.h>
 #include <stddef.h>
+
+#include "base/arb_impl.h"
 
 typedef struct prove_certificate {
     char *text;

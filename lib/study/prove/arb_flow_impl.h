@@ -21,9 +21,9 @@
 #ifndef ISO_STUDY_PROVE_ARB_FLOW_IMPL_H
 #define ISO_STUDY_PROVE_ARB_FLOW_IMPL_H
 
-#include "study/prove/arb_impl.h"
 #include <stdbool.h>
 
+#include "base/arb_impl.h"
 #include "base/context_impl.h"
 #include "study/prove/arb_certificate_impl.h"
 

@@ -1,0 +1,287 @@
+/* arb_series.c - Taylor series of the solutions of a tape, and a bound for what is left out (arb_tape_impl.h).
+ *
+ * The coefficients up to the order K are balls, which hold those of each solution that begins in the given set. The
+ * rest is bounded thus. Let S_N be, for each node, the sum of |coefficient n| h^n over K < n <= N. The recurrences give
+ * S_(N+1) <= Phi(S_N), where Phi is made of sums and products of numbers >= 0 and so is increasing. If Phi(T) <= T for
+ * some T, then S_K = 0 <= T, and by induction S_N <= T for all N. So the series converge for |t| <= h, where they are
+ * the solutions, and the rest is at most T. Nothing need be known of the solutions before.
+ *
+ * With A, A_1 the sums of the known |a_n| h^n from n = 0 and from n = 1 on, and a sum over K + 1 <= n of products of
+ * known terms alone in [A B]:
+ *
+ *     c = a b                T_c >= [A B] + T_a (B + T_b) + A T_b
+ *     c = a/b                b_0 c_n = a_n - sum_(i>0) b_i c_(n-i)
+ *                            (|b_0| - B_1 - T_b) T_c >= T_a + [B_1 C] + T_b C
+ *     c = a^p                n a_0 c_n = sum_(i>0) (p i - (n - i)) a_i c_(n-i),    |p i - (n - i)| <= n max(1, |p|)
+ *                            (|a_0| - m (A_1 + T_a)) T_c >= m ([A_1 C] + T_a C),   m = max(1, |p|)
+ *     state x' = r           x_(n+1) = r_n/(n + 1):    T_x >= h/(K + 1) (|r_K| h^K + T_r)
+ */
+#include <math.h>
+
+#include "method/enclosure/arb_tape_impl.h"
+
+/* --- memory ------------------------------------------------------------------------------------------------------ */
+
+void iso_series_init(iso_series *s, const iso_tape *f, slong bits, int order)
+{
+    const size_t nodes = (size_t)f->nodes;
+    *s = (iso_series){.f = f, .bits = bits, .order = order};
+    s->series = flint_malloc(nodes * sizeof *s->series);
+    s->term = flint_malloc(nodes * sizeof *s->term);
+    s->sum = flint_malloc(nodes * sizeof *s->sum);
+    for (int i = 0; i < f->nodes; i++) {
+        s->series[i] = _arb_vec_init(order + 1);
+        s->term[i] = _mag_vec_init(order + 1);
+        s->sum[i] = _mag_vec_init(order + 2);
+    }
+    s->tail = _mag_vec_init(f->nodes);
+    s->next = _mag_vec_init(f->nodes);
+    s->power = _arb_vec_init(order + 1);
+    s->weight = _arb_vec_init(order + 1);
+    mag_init(s->step);
+}
+
+void iso_series_clear(iso_series *s)
+{
+    for (int i = 0; i < s->f->nodes; i++) {
+        _arb_vec_clear(s->series[i], s->order + 1);
+        _mag_vec_clear(s->term[i], s->order + 1);
+        _mag_vec_clear(s->sum[i], s->order + 2);
+    }
+    flint_free(s->series), flint_free(s->term), flint_free(s->sum);
+    _mag_vec_clear(s->tail, s->f->nodes);
+    _mag_vec_clear(s->next, s->f->nodes);
+    _arb_vec_clear(s->power, s->order + 1);
+    _arb_vec_clear(s->weight, s->order + 1);
+    mag_clear(s->step);
+}
+
+/* --- coefficients ------------------------------------------------------------------------------------------------ */
+
+/* Coefficient n of a/b = c: (a_n - sum_(i > 0) b_i c_(n - i))/b_0. */
+static void expand_quotient(iso_series *s, const iso_tape_node *node, int n, arb_ptr c)
+{
+    arb_srcptr a = s->series[node->a], b = s->series[node->b];
+    if (n > 0)
+        arb_dot(c + n, a + n, 1, b + 1, 1, c + n - 1, -1, n, s->bits);
+    else
+        arb_set(c, a);
+    arb_div(c + n, c + n, b, s->bits);
+}
+
+/* Coefficient n of c = a^p: sum_(i > 0) ((p + 1) i - n) a_i c_(n - i)/(n a_0). weight: i a_i. */
+static void expand_power(iso_series *s, const iso_tape_node *node, int n, arb_ptr c)
+{
+    arb_srcptr a = s->series[node->a];
+    arb_t first, second;
+    if (n == 0) {
+        arb_pow(c, a, node->number, s->bits);
+        return;
+    }
+    arb_init(first), arb_init(second);
+    for (int i = 1; i <= n; i++) arb_mul_ui(s->weight + i, a + i, (ulong)i, s->bits);
+    arb_dot(first, NULL, 0, s->weight + 1, 1, c + n - 1, -1, n, s->bits);
+    arb_dot(second, NULL, 0, a + 1, 1, c + n - 1, -1, n, s->bits);
+    arb_div_ui(first, first, (ulong)n, s->bits);
+    arb_sub(second, first, second, s->bits);
+    arb_addmul(second, first, node->number, s->bits);
+    arb_div(c + n, second, a, s->bits);
+    arb_clear(first), arb_clear(second);
+}
+
+static void expand_node(iso_series *s, int i, int n)
+{
+    const iso_tape_node *node = &s->f->node[i];
+    arb_ptr c = s->series[i];
+    switch (node->kind) {
+    case ISO_TAPE_STATE: break;
+    case ISO_TAPE_CONSTANT:
+        if (n == 0) arb_set(c, node->number);
+        if (n > 0) arb_zero(c + n);
+        break;
+    case ISO_TAPE_SUM: arb_add(c + n, s->series[node->a] + n, s->series[node->b] + n, s->bits); break;
+    case ISO_TAPE_LESS: arb_sub(c + n, s->series[node->a] + n, s->series[node->b] + n, s->bits); break;
+    case ISO_TAPE_SCALED: arb_mul(c + n, s->series[node->a] + n, node->number, s->bits); break;
+    case ISO_TAPE_PRODUCT:
+        arb_dot(c + n, NULL, 0, s->series[node->a], 1, s->series[node->b] + n, -1, n + 1, s->bits);
+        break;
+    case ISO_TAPE_QUOTIENT: expand_quotient(s, node, n, c); break;
+    case ISO_TAPE_POWER: expand_power(s, node, n, c); break;
+    }
+}
+
+void iso_series_expand(iso_series *s, arb_srcptr at)
+{
+    const iso_tape *f = s->f;
+    for (int i = 0; i < f->states; i++) arb_set(s->series[f->state[i]], at + i);
+    for (int n = 0; n <= s->order; n++) {
+        for (int i = 0; i < f->nodes; i++) expand_node(s, i, n);
+        for (int i = 0; i < f->states && n < s->order; i++) {
+            const int x = f->state[i];
+            arb_div_ui(s->series[x] + n + 1, s->series[f->node[x].rate] + n, (ulong)n + 1, s->bits);
+        }
+    }
+}
+
+/* --- the rest ---------------------------------------------------------------------------------------------------- */
+
+/* term[n] and sum[n] of all nodes. */
+static void sum_up(iso_series *s)
+{
+    mag_ptr power = _mag_vec_init(s->order + 1);
+    for (int n = 0; n <= s->order; n++) mag_pow_ui(power + n, s->step, (ulong)n);
+    for (int i = 0; i < s->f->nodes; i++) {
+        mag_zero(s->sum[i] + s->order + 1);
+        for (int n = s->order; n >= 0; n--) {
+            arb_get_mag(s->term[i] + n, s->series[i] + n);
+            mag_mul(s->term[i] + n, s->term[i] + n, power + n);
+            mag_add(s->sum[i] + n, s->sum[i] + n + 1, s->term[i] + n);
+        }
+    }
+    _mag_vec_clear(power, s->order + 1);
+}
+
+/* x += [A B], without a_0 b_n: no such n is known. */
+static void add_known(const iso_series *s, int a, int b, mag_t x)
+{
+    for (int i = 1; i <= s->order; i++) mag_addmul(x, s->term[a] + i, s->sum[b] + s->order + 1 - i);
+}
+
+static void bound_product(const iso_series *s, int a, int b, mag_t x)
+{
+    mag_t whole;
+    mag_init(whole);
+    mag_add(whole, s->sum[b], s->tail + b);
+    mag_mul(x, s->tail + a, whole);
+    mag_addmul(x, s->sum[a], s->tail + b);
+    add_known(s, a, b, x);
+    mag_clear(whole);
+}
+
+/* The tail of c from (|b_0| - factor (B_1 + T_b)) T_c = factor ([B_1 C] + T_b C) + T_a; a < 0: T_a is 0. False: b may be
+ * 0. */
+static bool bound_divided(const iso_series *s, int a, int b, const mag_t factor, int c)
+{
+    mag_t top, below, moving;
+    mag_init(top), mag_init(below), mag_init(moving);
+    mag_mul(top, s->tail + b, s->sum[c]);
+    add_known(s, b, c, top);
+    mag_mul(top, top, factor);
+    if (a >= 0) mag_add(top, top, s->tail + a);
+    mag_add(moving, s->sum[b] + 1, s->tail + b);
+    mag_mul(moving, moving, factor);
+    arb_get_mag_lower(below, s->series[b]);
+    mag_sub_lower(below, below, moving);
+    const bool apart = !mag_is_zero(below);
+    if (apart) mag_div(s->tail + c, top, below);
+    mag_clear(top), mag_clear(below), mag_clear(moving);
+    return apart;
+}
+
+static bool bound_power(const iso_series *s, const iso_tape_node *node, int c)
+{
+    mag_t factor, one;
+    mag_init(factor), mag_init(one);
+    mag_one(one);
+    arb_get_mag(factor, node->number);
+    mag_max(factor, factor, one);
+    const bool apart = arb_is_positive(s->series[node->a]) && bound_divided(s, -1, node->a, factor, c);
+    mag_clear(factor), mag_clear(one);
+    return apart;
+}
+
+static bool bound_node(const iso_series *s, int i)
+{
+    const iso_tape_node *node = &s->f->node[i];
+    mag_t size;
+    bool apart = true;
+    mag_init(size);
+    switch (node->kind) {
+    case ISO_TAPE_STATE: break;
+    case ISO_TAPE_CONSTANT: mag_zero(s->tail + i); break;
+    case ISO_TAPE_SUM:
+    case ISO_TAPE_LESS: mag_add(s->tail + i, s->tail + node->a, s->tail + node->b); break;
+    case ISO_TAPE_SCALED:
+        arb_get_mag(size, node->number);
+        mag_mul(s->tail + i, s->tail + node->a, size);
+        break;
+    case ISO_TAPE_PRODUCT: bound_product(s, node->a, node->b, s->tail + i); break;
+    case ISO_TAPE_QUOTIENT:
+        mag_one(size);
+        apart = bound_divided(s, node->a, node->b, size, i);
+        break;
+    case ISO_TAPE_POWER: apart = bound_power(s, node, i); break;
+    }
+    mag_clear(size);
+    return apart;
+}
+
+/* next = Phi(tail) of the states; the tails of other nodes are made of those of the states on the way. */
+static bool bound_again(const iso_series *s)
+{
+    const iso_tape *f = s->f;
+    for (int i = 0; i < f->nodes; i++)
+        if (!bound_node(s, i)) return false;
+    for (int i = 0; i < f->states; i++) {
+        const int rate = f->node[f->state[i]].rate;
+        mag_add(s->next + i, s->term[rate] + s->order, s->tail + rate);
+        mag_mul(s->next + i, s->next + i, s->step);
+        mag_div_ui(s->next + i, s->next + i, (ulong)s->order + 1);
+    }
+    return true;
+}
+
+bool iso_series_bound(iso_series *s, const arb_t h)
+{
+    enum { TRIES = 6 };
+    const iso_tape *f = s->f;
+    bool closed = false;
+    arb_get_mag(s->step, h);
+    sum_up(s);
+    for (int i = 0; i < f->nodes; i++) mag_zero(s->tail + i);
+    for (int i = 0; i < TRIES && !closed; i++) {
+        if (!bound_again(s)) return false;
+        closed = i > 0;
+        for (int j = 0; j < f->states; j++) closed = closed && mag_cmp(s->next + j, s->tail + f->state[j]) <= 0;
+        for (int j = 0; j < f->states; j++) mag_mul_2exp_si(s->tail + f->state[j], s->next + j, closed ? 0 : 1);
+    }
+    for (int i = 0; i < f->states && closed; i++) closed = mag_is_finite(s->tail + f->state[i]);
+    return closed;
+}
+
+/* --- values ------------------------------------------------------------------------------------------------------ */
+
+/* x <- (|t|/h)^(K + 1): what is left out is at most so much of what is left out at h. */
+static void shrink(const iso_series *s, const arb_t t, mag_t x)
+{
+    arb_get_mag(x, t);
+    mag_div(x, x, s->step);
+    mag_pow_ui(x, x, (ulong)s->order + 1);
+    if (mag_cmp_2exp_si(x, 0) > 0) mag_one(x); /* rounding, at |t| = h */
+}
+
+void iso_series_at(iso_series *s, const arb_t t, int first, int count, arb_ptr to)
+{
+    mag_t part, rest;
+    mag_init(part), mag_init(rest);
+    shrink(s, t, part);
+    arb_one(s->power);
+    for (int n = 1; n <= s->order; n++) arb_mul(s->power + n, s->power + n - 1, t, s->bits + 10);
+    for (int i = 0; i < count; i++) {
+        const int x = s->f->state[first + i];
+        arb_dot(to + i, NULL, 0, s->series[x], 1, s->power, 1, s->order + 1, s->bits);
+        mag_mul(rest, s->tail + x, part);
+        arb_add_error_mag(to + i, rest);
+    }
+    mag_clear(part), mag_clear(rest);
+}
+
+double iso_series_size(const iso_series *s, int state, int n)
+{
+    mag_t size;
+    mag_init(size);
+    arf_get_mag(size, arb_midref(s->series[s->f->state[state]] + n));
+    const double log2_size = mag_is_zero(size) ? -INFINITY : mag_get_d_log2_approx(size);
+    mag_clear(size);
+    return log2_size;
+}

@@ -1,0 +1,266 @@
+/* arb_orbit.c - the rows of a certified orbit (certify_impl.h).
+ *
+ * The set is carried with numbers of more digits than the rows are to hold. If it grows too wide before the last row,
+ * all is done again with more; rows that were given away stay as they are.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/context_impl.h"
+#include "base/version.h"
+#include "study/certify/arb_certify_impl.h"
+
+#define DIGIT_BITS 3.3219280948873623
+
+iso_status iso_certify_is_possible(iso_context *ctx)
+{
+    (void)ctx;
+    return ISO_OK;
+}
+
+typedef struct work {
+    iso_context *ctx;
+    const iso_certify_problem *p;
+    const iso_certify_sink *sink;
+    iso_certify_result *result;
+    certify_exact exact;
+    iso_clock clock; /* of the times */
+    certify_ball ball;
+    certify_set set;
+} work;
+
+static iso_clock clock_of(iso_model_kind model)
+{
+    return model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
+}
+
+static iso_models shown(const work *w)
+{
+    const iso_scene *scene = w->p->scene;
+    return scene->as == ISO_SHOW_START ? (iso_models)scene->start.model : scene->as;
+}
+
+/* Gives a text away and frees it. */
+static iso_status give(const work *w, FILE *to, char **text)
+{
+    if (fclose(to) != 0 || !*text) return free(*text), iso_context_no_memory(w->ctx, "a row");
+    const iso_status status = w->sink->line(w->sink->data, *text);
+    free(*text);
+    return status;
+}
+
+/* --- the head ---------------------------------------------------------------------------------------------------- */
+
+static void print_fraction(FILE *to, const char *key, int count, fmpq_t x[])
+{
+    fprintf(to, "# %s:", key);
+    for (int i = 0; i < count; i++) {
+        char *text = fmpq_get_str(NULL, 10, x[i]);
+        fprintf(to, " %s", text);
+        flint_free(text);
+    }
+    fputc('\n', to);
+}
+
+/* # key: midpoint radius */
+static void print_energy(FILE *to, const char *key, const arb_t x, int digits)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *pair = open_memstream(&text, &length);
+    if (!pair) return;
+    certify_print(pair, x, certify_magnitude(x, 1) - digits - 2);
+    fclose(pair);
+    if (text && strchr(text, ',')) *strchr(text, ',') = ' ';
+    if (text) fprintf(to, "# %s: %s\n", key, text);
+    free(text);
+}
+
+void certify_print_columns(FILE *to, iso_models as)
+{
+    static const iso_models models[] = {ISO_SHOW_BALL, ISO_SHOW_POINT};
+    for (int c = 0; c < ISO_CLOCKS; c++)
+        fprintf(to, "%s%s,%s_radius", c > 0 ? "," : "", iso_column_name(c), iso_column_name(c));
+    for (int m = 0; m < 2; m++)
+        for (int i = 0; i < ISO_STATE && (as == models[m] || as == ISO_SHOW_BOTH); i++) {
+            const char *name = iso_column_name((m == 0 ? ISO_COLUMN_BALL : ISO_COLUMN_POINT) + i);
+            fprintf(to, ",%s,%s_radius", name, name);
+        }
+    fputc('\n', to);
+}
+
+static iso_status write_head(work *w)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *to = open_memstream(&text, &length);
+    if (!to) return iso_context_no_memory(w->ctx, "a head");
+    fprintf(to, "# isoroll %s 1\n# model: %s\n", ISO_CERTIFIED_KIND, iso_shown_name((int)shown(w)));
+    fprintf(to, "# start: %s\n", iso_model_kind_name((int)w->exact.model));
+    print_fraction(to, "k", 1, &w->exact.k);
+    print_fraction(to, "J", 3, w->exact.J);
+    print_energy(to, "h", w->ball.h, w->p->options.digits);
+    print_energy(to, "eps", w->ball.eps, w->p->options.digits);
+    if (w->exact.rotor) print_fraction(to, "rotor.momentum", 3, w->exact.K);
+    if (w->exact.level) print_energy(to, "level.c", w->ball.c, w->p->options.digits);
+    fprintf(to, "# backend: %s\n# digits: %d\n", iso_model_kind_name((int)w->p->backend), w->p->options.digits);
+    fprintf(to, "# isoroll: %s\n", ISO_VERSION);
+    certify_print_columns(to, shown(w));
+    return give(w, to, &text);
+}
+
+/* --- rows -------------------------------------------------------------------------------------------------------- */
+
+/* A group of numbers, with as many digits as are asked for, and two more. False: it does not hold them. */
+static bool print_group(FILE *to, arb_srcptr x, int count, int digits)
+{
+    const slong e = certify_magnitude(x, count);
+    for (int i = 0; i < count; i++) {
+        fputc(',', to);
+        certify_print(to, x + i, e - digits - 2);
+    }
+    return certify_holds(x, count, e - digits);
+}
+
+void certify_write_row(const certify_ball *b, arb_srcptr clock, iso_model_kind model, arb_srcptr y, iso_models as,
+                       int digits, FILE *to, bool *holds)
+{
+    arb_ptr other = _arb_vec_init(CERTIFY_STATE);
+    char *text = NULL;
+    size_t length = 0;
+    FILE *row = open_memstream(&text, &length);
+    *holds = row != NULL;
+    if (!row) return;
+    for (int c = 0; c < ISO_CLOCKS; c++) *holds = print_group(row, clock + c, 1, digits) && *holds;
+    for (int m = ISO_BALL; m <= ISO_POINT; m++) {
+        if (as != ISO_SHOW_BOTH && (int)as != m) continue;
+        if (m == (int)model)
+            _arb_vec_set(other, y, CERTIFY_STATE);
+        else
+            certify_map(b, model, y, other);
+        *holds = print_group(row, other, 3, digits) && *holds;
+        *holds = print_group(row, other + 3, 3, digits) && *holds;
+    }
+    fclose(row);
+    if (text) fprintf(to, "%s\n", text + 1);
+    free(text);
+    _arb_vec_clear(other, CERTIFY_STATE);
+}
+
+/* Row i of the scene's grid. */
+static void time_of(const work *w, size_t i, fmpq_t t)
+{
+    fmpq_t step;
+    fmpq_set_si(t, w->p->end.top, (ulong)w->p->end.below);
+    if (w->p->end_text) certify_rational_read(w->p->end_text, t);
+    if (i + 1 == w->result->asked) return;
+    fmpq_init(step);
+    fmpq_set_si(step, w->p->step.top, (ulong)w->p->step.below);
+    fmpq_set_si(t, (slong)i, 1);
+    fmpq_mul(t, t, step);
+    if (w->p->scene->end < 0) fmpq_neg(t, t);
+    fmpq_clear(step);
+}
+
+/* The next row, if its time is in this step. *status: ISO_NUMERICAL if it holds too few digits. */
+static bool next_row(work *w, iso_status *status)
+{
+    bool inside = false, holds = true;
+    fmpq_t t;
+    if (w->result->rows == w->result->asked) return false;
+    arb_ptr y = _arb_vec_init(CERTIFY_ALL), clock = _arb_vec_init(ISO_CLOCKS);
+    fmpq_init(t);
+    time_of(w, w->result->rows, t);
+    arb_set_fmpq(clock + w->clock, t, w->ball.bits);
+    inside = certify_set_at(&w->set, clock + w->clock, y);
+    for (int c = 0, i = CERTIFY_STATE; c < ISO_CLOCKS; c++)
+        if (c != (int)w->clock) arb_set(clock + c, y + i++);
+    if (inside) {
+        char *text = NULL;
+        size_t length = 0;
+        FILE *to = open_memstream(&text, &length);
+        if (to) certify_write_row(&w->ball, clock, w->p->backend, y, shown(w), w->p->options.digits, to, &holds);
+        *status = to ? ISO_OK : iso_context_no_memory(w->ctx, "a row");
+        if (to && !holds) fclose(to), free(text), *status = ISO_NUMERICAL;
+        if (to && holds) *status = give(w, to, &text);
+        w->result->rows += *status == ISO_OK;
+    }
+    fmpq_clear(t);
+    _arb_vec_clear(y, CERTIFY_ALL), _arb_vec_clear(clock, ISO_CLOCKS);
+    return inside && *status == ISO_OK;
+}
+
+/* --- an attempt -------------------------------------------------------------------------------------------------- */
+
+static double time_now(const work *w)
+{
+    return fabs(arf_get_d(arb_midref(w->set.time), ARF_RND_NEAR));
+}
+
+/* Steps until all rows are there. *reached: the time to which it came. */
+static iso_status follow(work *w, double end, double *reached)
+{
+    iso_status status = ISO_OK;
+    while (status == ISO_OK && w->result->rows < w->result->asked) {
+        *reached = time_now(w);
+        if (!iso_context_goes_on(w->ctx)) return iso_context_stopped(w->ctx);
+        if (!certify_set_expand(&w->set, fmax(1.1 * (end - *reached), 1e-3 * end + 1e-300))) return ISO_NUMERICAL;
+        while (next_row(w, &status)) continue;
+        certify_set_move(&w->set);
+        w->result->steps++;
+        if (w->sink->progress) w->sink->progress(w->sink->data, end > 0 ? *reached / end : 1);
+    }
+    return status;
+}
+
+static iso_status attempt(work *w, int work_digits, double *reached, double *lost)
+{
+    const double end = fabs(w->p->scene->end);
+    certify_ball_init(&w->ball, (slong)(DIGIT_BITS * work_digits) + 8);
+    arb_ptr start = _arb_vec_init(CERTIFY_STATE);
+    certify_start(&w->exact, w->p->backend, &w->ball, start);
+    certify_set_init(&w->set, &w->ball, w->p->backend, w->clock, start, w->p->scene->end < 0 ? -1 : 1);
+    w->result->work_digits = work_digits;
+    w->result->steps = 0;
+    iso_status status = w->result->attempts++ == 0 ? write_head(w) : ISO_OK;
+    *reached = 0;
+    if (status == ISO_OK) status = follow(w, end, reached);
+    *lost = certify_set_lost(&w->set);
+    certify_set_clear(&w->set);
+    certify_ball_clear(&w->ball);
+    _arb_vec_clear(start, CERTIFY_STATE);
+    return status;
+}
+
+static iso_status too_wide(const work *w, double reached)
+{
+    return iso_context_fail(
+        w->ctx, ISO_NUMERICAL, "", "the enclosures hold %d digits until %s = %.6g: computed with %d digits",
+        w->p->options.digits, iso_clock_name(w->clock), copysign(reached, w->p->scene->end), w->result->work_digits);
+}
+
+iso_status iso_certify_orbit(iso_context *ctx, const iso_certify_problem *p, const iso_certify_sink *sink,
+                             iso_certify_result *result)
+{
+    enum { SPARE = 14, MORE = 200 };
+    const double end = fabs(p->scene->end);
+    work w = {.ctx = ctx, .p = p, .sink = sink, .result = result, .clock = clock_of(p->scene->start.model)};
+    double reached = 0, lost = 0;
+    certify_exact_init(&w.exact);
+    iso_status status = certify_exact_read(ctx, p->scene, p->literals, &w.exact);
+    int digits = p->options.work_digits ? p->options.work_digits : p->options.digits + SPARE;
+    bool again = status == ISO_OK;
+    while (again) {
+        status = attempt(&w, digits, &reached, &lost);
+        again = status == ISO_NUMERICAL && !p->options.work_digits && digits < ISO_MOST_WORK_DIGITS;
+        /* digits are lost about evenly */
+        const double needed = 1.1 * (lost + 2) * (reached > 0 ? end / reached : 1) + SPARE;
+        const double spare = digits - p->options.digits;
+        const double next = p->options.digits + fmin(fmax(needed, spare + SPARE), 3 * spare + MORE);
+        digits = (int)fmin(next, ISO_MOST_WORK_DIGITS);
+    }
+    if (status == ISO_NUMERICAL) status = too_wide(&w, reached);
+    certify_exact_clear(&w.exact);
+    return status;
+}
