@@ -55,73 +55,84 @@ void prove_flow_like(prove_flow *f, const prove_flow *like, slong bits)
 
 /* --- coefficients ----------------------------------------------------------------------------------------------- */
 
+/* The bits of coefficient n: at the end of a step it counts about 2^-(bits n/order) of the first. */
+static slong bits_of(const prove_flow *f, int n)
+{
+    enum { SPARE = 24 };
+    const slong fewer = f->bits * n / f->order - SPARE;
+    return f->bits - (fewer > 0 ? fewer : 0);
+}
+
 /* x = coefficient n of the product of series a and b. */
 static void multiply(const prove_flow *f, int a, int b, int n, arb_t x)
 {
-    arb_dot(x, NULL, 0, f->series[a], 1, f->series[b] + n, -1, n + 1, f->bits);
+    arb_dot(x, NULL, 0, f->series[a], 1, f->series[b] + n, -1, n + 1, bits_of(f, n));
 }
 
 /* Coefficient n of c, where k q c = +-a: (+-a_n/k - sum_(i > 0) q_i c_(n - i))/q_0. */
 static void divide(prove_flow *f, int a, bool negative, int n, int c)
 {
+    const slong bits = bits_of(f, n);
     arb_ptr x = f->series[c] + n;
     arb_t top;
     arb_init(top);
-    arb_mul(top, f->series[a] + n, f->inverse_k, f->bits);
+    arb_mul(top, f->series[a] + n, f->inverse_k, bits);
     if (negative) arb_neg(top, top);
-    if (n > 0) arb_dot(top, top, 1, f->series[PROVE_Q] + 1, 1, f->series[c] + n - 1, -1, n, f->bits);
-    arb_div(x, top, f->series[PROVE_Q], f->bits);
+    if (n > 0) arb_dot(top, top, 1, f->series[PROVE_Q] + 1, 1, f->series[c] + n - 1, -1, n, bits);
+    arb_div(x, top, f->series[PROVE_Q], bits);
     arb_clear(top);
 }
 
 /* The series that are no state of their own, coefficient n. */
 static void expand_rest(prove_flow *f, int n, int numbers)
 {
+    const slong bits = bits_of(f, n);
     arb_ptr e = f->series[PROVE_E] + n, twist = f->series[PROVE_TWIST] + n, H = f->series[PROVE_H] + n;
-    arb_add(e, f->series[PROVE_Q] + n, f->series[PROVE_F] + n, f->bits);
+    arb_add(e, f->series[PROVE_Q] + n, f->series[PROVE_F] + n, bits);
     arb_neg(e, e);
-    if (n == 0) arb_add(e, e, f->trace, f->bits);
-    arb_sub(twist, e, f->series[PROVE_F] + n, f->bits);
+    if (n == 0) arb_add(e, e, f->trace, bits);
+    arb_sub(twist, e, f->series[PROVE_F] + n, bits);
     divide(f, PROVE_P, true, n, PROVE_KAPPA);
     if (numbers == PROVE_POINT) return;
     divide(f, PROVE_R, false, n, PROVE_RHO);
     divide(f, PROVE_E, false, n, PROVE_ETA);
     multiply(f, PROVE_KAPPA, PROVE_KAPPA, n, f->series[PROVE_SQUARE] + n);
-    arb_mul(H, f->series[PROVE_SQUARE] + n, f->k, f->bits);
+    arb_mul(H, f->series[PROVE_SQUARE] + n, f->k, bits);
     arb_mul_2exp_si(H, H, 1);
-    arb_sub(H, f->series[PROVE_SQUARE] + n, H, f->bits);
-    arb_add(H, H, f->series[PROVE_ETA] + n, f->bits);
+    arb_sub(H, f->series[PROVE_SQUARE] + n, H, bits);
+    arb_add(H, H, f->series[PROVE_ETA] + n, bits);
     if (n > 0) return;
-    arb_add_ui(H, H, 1, f->bits);
-    arb_sub(H, H, f->inverse_k, f->bits);
+    arb_add_ui(H, H, 1, bits);
+    arb_sub(H, H, f->inverse_k, bits);
 }
 
 /* rate[i]: coefficient n of the derivative of number i. */
 static void expand_rates(const prove_flow *f, int n, int numbers, arb_ptr rate)
 {
+    const slong bits = bits_of(f, n);
     const arb_srcptr q = f->series[PROVE_Q] + n, r = f->series[PROVE_R] + n, p = f->series[PROVE_P] + n,
                      ff = f->series[PROVE_F] + n, d = f->series[PROVE_D] + n;
     arb_mul_2exp_si(rate + PROVE_Q, r, 1);
     multiply(f, PROVE_KAPPA, PROVE_P, n, rate + PROVE_R);
-    arb_add(rate + PROVE_R, rate + PROVE_R, ff, f->bits);
-    arb_sub(rate + PROVE_R, rate + PROVE_R, q, f->bits);
+    arb_add(rate + PROVE_R, rate + PROVE_R, ff, bits);
+    arb_sub(rate + PROVE_R, rate + PROVE_R, q, bits);
     multiply(f, PROVE_KAPPA, PROVE_R, n, rate + PROVE_P);
-    arb_sub(rate + PROVE_P, d, rate + PROVE_P, f->bits);
+    arb_sub(rate + PROVE_P, d, rate + PROVE_P, bits);
     multiply(f, PROVE_KAPPA, PROVE_D, n, rate + PROVE_F);
-    arb_sub(rate + PROVE_F, rate + PROVE_F, r, f->bits);
+    arb_sub(rate + PROVE_F, rate + PROVE_F, r, bits);
     arb_mul_2exp_si(rate + PROVE_F, rate + PROVE_F, 1);
     multiply(f, PROVE_KAPPA, PROVE_TWIST, n, rate + PROVE_D);
-    arb_sub(rate + PROVE_D, rate + PROVE_D, p, f->bits);
+    arb_sub(rate + PROVE_D, rate + PROVE_D, p, bits);
     arb_set(rate + PROVE_G, f->series[PROVE_W] + n);
     multiply(f, PROVE_KAPPA, PROVE_Z, n, rate + PROVE_W);
-    arb_sub(rate + PROVE_W, rate + PROVE_W, f->series[PROVE_G] + n, f->bits);
+    arb_sub(rate + PROVE_W, rate + PROVE_W, f->series[PROVE_G] + n, bits);
     multiply(f, PROVE_KAPPA, PROVE_W, n, rate + PROVE_Z);
     arb_neg(rate + PROVE_Z, rate + PROVE_Z);
     for (int y = PROVE_Y1; y < numbers; y += 2) {
         arb_set(rate + y, f->series[y + 1] + n);
         multiply(f, PROVE_H, y, n, rate + y + 1);
         arb_neg(rate + y + 1, rate + y + 1);
-        arb_dot(rate + y + 1, rate + y + 1, 0, f->series[PROVE_RHO], 1, f->series[y + 1] + n, -1, n + 1, f->bits);
+        arb_dot(rate + y + 1, rate + y + 1, 0, f->series[PROVE_RHO], 1, f->series[y + 1] + n, -1, n + 1, bits);
     }
 }
 
@@ -132,7 +143,7 @@ void prove_series_expand(prove_flow *f, arb_srcptr y, int numbers)
     for (int n = 0; n < f->order; n++) {
         expand_rest(f, n, numbers);
         expand_rates(f, n, numbers, rate);
-        for (int i = 0; i < numbers; i++) arb_div_ui(f->series[i] + n + 1, rate + i, (ulong)n + 1, f->bits);
+        for (int i = 0; i < numbers; i++) arb_div_ui(f->series[i] + n + 1, rate + i, (ulong)n + 1, bits_of(f, n));
     }
     expand_rest(f, f->order, numbers);
     _arb_vec_clear(rate, PROVE_STATE);
