@@ -141,14 +141,23 @@ static void test_measured(void)
     }
 }
 
-/* All k of a short interval at once: their enclosure holds that of each end. */
+/* All k of an interval at once: their enclosure holds that of each k. */
 static void test_interval(void)
 {
-    iso_proof_ball b = ball_of("0.5", "1.4", "2.1", "3");
-    const iso_proof one = prove(&b, 12);
-    iso_rational_read("0.5000000001", 12, &b.k[1]);
-    const iso_proof all = prove(&b, 12);
-    gsl_test(!(all.m.low <= one.m.low && one.m.high <= all.m.high && all.sign == 1), "an interval of k is proved");
+    static const char *const ends[][2] = {{"0.5", "0.50001"}, {"-0.5", "-0.49999"}};
+    const int count = tests_length(1, 2);
+    for (int i = 0; i < count; i++) {
+        iso_proof_ball b = ball_of(ends[i][0], "1.4", "2.1", "3");
+        const iso_proof low = prove(&b, 12);
+        iso_rational_read(ends[i][1], strlen(ends[i][1]), &b.k[1]);
+        const iso_proof all = prove(&b, 8);
+        b.k[0] = b.k[1];
+        const iso_proof high = prove(&b, 12);
+        gsl_test(!(all.m.low <= low.m.low && low.m.high <= all.m.high), "%s to %s: m of the first", ends[i][0],
+                 ends[i][1]);
+        gsl_test(!(all.m.low <= high.m.low && high.m.high <= all.m.high), "m of the last");
+        gsl_test(!(all.sign == 1 && all.m.high < 2 * high.m.low), "all are proved");
+    }
 }
 
 /* --- what is asked ---------------------------------------------------------------------------------------------- */

@@ -18,6 +18,7 @@ void prove_flow_init(prove_flow *f, iso_context *ctx, slong bits)
     f->ctx = ctx;
     f->bits = bits;
     f->order = (int)(0.33 * (double)bits) + 4;
+    f->parts = 1;
     f->certificate = NULL;
     f->steps = 0;
     arb_init(f->k), arb_init(f->inverse_k), arb_init(f->trace);
@@ -95,15 +96,14 @@ static void expand_rest(prove_flow *f, int n, int numbers)
     divide(f, PROVE_P, true, n, PROVE_KAPPA);
     if (numbers == PROVE_POINT) return;
     divide(f, PROVE_R, false, n, PROVE_RHO);
-    divide(f, PROVE_E, false, n, PROVE_ETA);
+    arb_sub(f->series[PROVE_EXCESS] + n, e, f->series[PROVE_Q] + n, bits);
+    divide(f, PROVE_EXCESS, false, n, PROVE_ETA);
     multiply(f, PROVE_KAPPA, PROVE_KAPPA, n, f->series[PROVE_SQUARE] + n);
     arb_mul(H, f->series[PROVE_SQUARE] + n, f->k, bits);
     arb_mul_2exp_si(H, H, 1);
     arb_sub(H, f->series[PROVE_SQUARE] + n, H, bits);
     arb_add(H, H, f->series[PROVE_ETA] + n, bits);
-    if (n > 0) return;
-    arb_add_ui(H, H, 1, bits);
-    arb_sub(H, H, f->inverse_k, bits);
+    if (n == 0) arb_add_ui(H, H, 1, bits);
 }
 
 /* rate[i]: coefficient n of the derivative of number i. */
@@ -133,6 +133,7 @@ static void expand_rates(const prove_flow *f, int n, int numbers, arb_ptr rate)
         multiply(f, PROVE_H, y, n, rate + y + 1);
         arb_neg(rate + y + 1, rate + y + 1);
         arb_dot(rate + y + 1, rate + y + 1, 0, f->series[PROVE_RHO], 1, f->series[y + 1] + n, -1, n + 1, bits);
+        if (y == PROVE_Y3) arb_submul(rate + y + 1, f->series[PROVE_KAPPA] + n, f->inverse_k, bits);
     }
 }
 
@@ -154,7 +155,8 @@ void prove_series_expand(prove_flow *f, arb_srcptr y, int numbers)
 /* Which series there are. */
 static bool is_used(int i, int numbers)
 {
-    return numbers == PROVE_STATE || i < PROVE_POINT || i == PROVE_KAPPA || i == PROVE_TWIST || i == PROVE_E;
+    if (i < PROVE_STATE) return i < numbers;
+    return numbers > PROVE_POINT || i == PROVE_KAPPA || i == PROVE_TWIST || i == PROVE_E;
 }
 
 /* term[n] and sum[n] of all series. */
@@ -223,7 +225,8 @@ static bool bound_rest(const prove_flow *f, mag_t t[], int numbers)
     mag_add(t[PROVE_TWIST], t[PROVE_E], t[PROVE_F]);
     if (!bound_quotient(f, t, PROVE_P, PROVE_KAPPA)) return false;
     if (numbers == PROVE_POINT) return true;
-    if (!bound_quotient(f, t, PROVE_R, PROVE_RHO) || !bound_quotient(f, t, PROVE_E, PROVE_ETA)) return false;
+    mag_add(t[PROVE_EXCESS], t[PROVE_E], t[PROVE_Q]);
+    if (!bound_quotient(f, t, PROVE_R, PROVE_RHO) || !bound_quotient(f, t, PROVE_EXCESS, PROVE_ETA)) return false;
     mag_t factor;
     arb_t one_minus_2k;
     mag_init(factor), arb_init(one_minus_2k);
@@ -256,14 +259,18 @@ static bool bound_again(const prove_flow *f, mag_t t[], int numbers, mag_t next[
             if (rates[i].linear[j] >= 0) add_rest(f, t, rates[i].linear[j], rates[i].factor, next[i]);
     }
     for (int y = PROVE_Y1; y < numbers; y += 2) {
-        mag_t other;
-        mag_init(other);
+        mag_t other, inverse_k;
+        mag_init(other), mag_init(inverse_k);
         mag_zero(next[y]);
         add_rest(f, t, y + 1, 1, next[y]);
         bound_product(f, t, PROVE_RHO, y + 1, f->order, next[y + 1]);
         bound_product(f, t, PROVE_H, y, f->order, other);
         mag_add(next[y + 1], next[y + 1], other);
-        mag_clear(other);
+        mag_zero(other);
+        if (y == PROVE_Y3) add_rest(f, t, PROVE_KAPPA, 1, other);
+        arb_get_mag(inverse_k, f->inverse_k);
+        mag_addmul(next[y + 1], other, inverse_k);
+        mag_clear(other), mag_clear(inverse_k);
     }
     for (int i = 0; i < numbers; i++) {
         mag_mul(next[i], next[i], f->step);
