@@ -3,9 +3,9 @@
     python3 pack.py wheel FOLDER   a wheel of the library and the command that CMake put into FOLDER
     python3 pack.py sdist FOLDER   the sources
 
-CMake calls it so (../packaging/wheel.cmake). Pip calls build_wheel and build_sdist (PEP 517). It needs Python's
-standard library, and objdump. The same files give the same bytes: everything has one date, SOURCE_DATE_EPOCH or that of
-../packaging/date.cmake.
+CMake calls it so (../packaging/wheel.cmake). Pip calls build_wheel and build_sdist (PEP 517); CMAKE_ARGS in the
+environment has further options for CMake. It needs Python's standard library, and objdump. The same files give the same
+bytes: everything has one date, SOURCE_DATE_EPOCH or that of ../packaging/date.cmake.
 """
 
 import base64
@@ -15,6 +15,7 @@ import io
 import os
 import platform
 import re
+import shlex
 import subprocess
 import sys
 import tarfile
@@ -153,7 +154,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     if not (SOURCE / "CMakeLists.txt").is_file():
         sys.exit(f"the sources of isoroll are not at {SOURCE}: a wheel cannot be made of apps/python alone")
     with tempfile.TemporaryDirectory() as build:
-        options = ["-DBUILD_TESTING=OFF", "-DISO_MPI=OFF", f"-DISO_PYTHON={sys.executable}"]
+        options = ["-DBUILD_TESTING=OFF", "-DISO_MPI=OFF", f"-DISO_PYTHON={sys.executable}",
+                   *shlex.split(os.environ.get("CMAKE_ARGS", ""))]
         subprocess.run(["cmake", "-S", str(SOURCE), "-B", build, *options], check=True)
         subprocess.run(["cmake", "--build", build, "--target", "wheel", "--parallel", str(os.cpu_count() or 1)],
                        check=True)

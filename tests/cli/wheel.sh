@@ -144,6 +144,8 @@ check "the same bytes" cmp "first/isoroll-$version.tar.gz" "second/isoroll-$vers
 check "they configure" cmake -S "unpacked/isoroll-$version" -B build -DBUILD_TESTING=OFF
 if [ "$(length short full)" = full ]; then
     checks=$((checks + 1))
+    CMAKE_ARGS=$(sed -n 's/^ISO_LIVE_SOURCES:PATH=/-DISO_LIVE_SOURCES=/p' "$ISO_BUILD/CMakeCache.txt")
+    export CMAKE_ARGS
     "$python" -m pip --disable-pip-version-check wheel --quiet --no-build-isolation --no-index --no-deps \
         "first/isoroll-$version.tar.gz" -w third >out 2>err || fail "pip wheel"
     check "pip makes the same wheel of them" cmp "$wheel" "third/$(basename "$wheel")"
