@@ -54,8 +54,10 @@ run 0 prove half.yaml --digits 4 --k 0.999999999999999 --json
 check "k of 15 digits is whole" test "$(number exact)" = 999999999999999/1000000000000000
 
 # --- an interval
-run 0 prove half.yaml --digits 8 --k 0.5:0.50000000001
+run 0 prove half.yaml --k 0.5:0.50001 -o interval.cert
 check "all k of an interval" grep -q '^proved for all these k: m is not 0' out
+check "its parts" grep -q '^parts 8$' interval.cert
+check "its middle" grep -q '^middle ' interval.cert
 
 # --- a certificate (lib/doc/prove.md)
 run 0 prove half.yaml --digits 6 -o half.cert
@@ -83,6 +85,14 @@ else
     skip "orbits inside enclosures" "mpmath is not installed"
 fi
 
+# --- another program verifies the certificate of an interval, and refuses false ones (certificate.sh has more)
+if "$python" -c 'import mpmath' 2>/dev/null; then
+    "$python" -B "$source/tests/prove/changes.py" interval.cert "$(length 8 100)" >out 2>err || fail "changes.py"
+    check "false copies are refused" grep -q ', 0 not refused$' out
+else
+    skip "the certificate of an interval" "mpmath is not installed"
+fi
+
 # --- refusals
 refuses 2 "prove: a certificate needs a file" prove half.yaml -o -
 refuses 2 "a whole number from 1 to 400" prove half.yaml --digits 0
@@ -93,6 +103,7 @@ refuses 2 "does not hold 0" prove half.yaml --k=-1:1
 refuses 2 "A < B also as doubles" prove half.yaml \
     --k 999999999999998/999999999999999:999999999999999/1000000000000000
 sed 's/1.4, 2.1, 3.0/1, 1.00000000000001, 3/' half.yaml >equal.yaml
+refuses 4 "undecided at 1 digits: " prove equal.yaml --digits 1 --k 0.5
 refuses 4 "no part of this interval" prove equal.yaml --digits 1 --k 0.999999999999998:0.999999999999999
 sed 's/k: 0.5/k: 0.33333333333333333/' half.yaml >long.yaml
 refuses 3 "long.yaml:1:14: prove takes k exactly: write a number with at most 15 digits" prove long.yaml

@@ -36,7 +36,7 @@ def apart(words, i):
 
 def turn(lines, choose):
     """A number with the other sign."""
-    kinds = BOXES + ("m", "x", "step", "centre", "frame", "frame-o", "cone", "size", "window")
+    kinds = BOXES + ("m", "x", "step", "centre", "drift", "middle", "frame", "frame-o", "cone", "size", "window")
     found = []
     for at, line in enumerate(lines):
         words = line.split()
@@ -55,11 +55,12 @@ def omit(lines, choose):
 
 
 def ball(lines, choose):
-    """Another ball: k or a moment a little off."""
+    """Another ball: a moment a little off, or k; an interval of k by its length, as small parts hide in its boxes."""
     at = choose([i for i, line in enumerate(lines) if line.split()[0] in ("k", "moments")])
     words = lines[at].split()
     places = (1, 2) if words[0] == "k" else (choose((1, 2, 3)),)
-    off = Fraction(choose((1, -1)), 10**12)
+    length = Fraction(words[2]) - Fraction(words[1]) if words[0] == "k" else 0
+    off = choose((1, -1)) * max(Fraction(1, 10**12), length)
     for i in places:
         words[i] = str(Fraction(words[i]) + off)
     return at, " ".join(words), "another ball"

@@ -75,7 +75,7 @@ class Flow:
     def expand(self, state, h, small):
         """Series of the state's numbers and of what follows from them, till terms are below `small`."""
         self.h = h = self.fixed(interval(h))
-        names = "q r p f d g w z".split() + ("y1 v1 y2 v2".split() if len(state) == 12 else [])
+        names = "q r p f d g w z y1 v1 y2 v2 y3 v3".split()[: len(state)]
         s = self.series = {name: Series() for name in names + "kappa e twist rho eta square H".split()}
         self.names = names
         for name, x in zip(names, state):
@@ -108,14 +108,14 @@ class Flow:
         s["kappa"].push(*self.quotient((-m, r), q, s["kappa"], n))
         if len(self.names) == 8:
             return
-        for name, top in (("rho", s["r"]), ("eta", s["e"])):
-            s[name].push(*self.quotient(self.times((top.m[n], top.r[n]), self.inverse_k), q, s[name], n))
+        for name, top in (("rho", (s["r"].m[n], s["r"].r[n])), ("eta", (s["e"].m[n] - q.m[n], s["e"].r[n] + q.r[n]))):
+            s[name].push(*self.quotient(self.times(top, self.inverse_k), q, s[name], n))
         square = self.product(s["kappa"], s["kappa"], n)
         s["square"].push(*square)
-        part = self.times(square, self.k)  # H = 1 - 1/k + (1 - 2 k) kappa^2 + e/(k q)
+        part = self.times(square, self.k)  # H = 1 + (1 - 2 k) kappa^2 + (e - q)/(k q)
         m, r = square[0] - 2 * part[0] + s["eta"].m[n], square[1] + 2 * part[1] + s["eta"].r[n]
         if n == 0:
-            m, r = m + self.one - self.inverse_k[0], r + self.inverse_k[1]
+            m += self.one
         s["H"].push(m, r)
 
     def rates(self, n):
@@ -139,11 +139,15 @@ class Flow:
             "w": total((1, by["z"]), (-1, at["g"])),
             "z": total((-1, by["w"])),
         }
-        for y, v in (("y1", "v1"), ("y2", "v2")) if len(self.names) == 12 else ():
+        for y, v in self.neighbours():
             rate[y] = at[v]
             pull, push = self.product(s["H"], s[y], n), self.product(s["rho"], s[v], n)
-            rate[v] = total((1, push), (-1, pull))
+            other = self.times((kappa.m[n], kappa.r[n]), self.inverse_k) if y == "y3" else (0, 0)
+            rate[v] = total((1, push), (-1, pull), (-1, other))
         return rate
+
+    def neighbours(self):
+        return list(zip(self.names[8::2], self.names[9::2]))
 
     # What is left out. Let t be numbers >= 0, one for each series, and T_N the sums of |coefficients n|, K < n <= N.
     # By the recurrences T_N+1 <= Phi(T_N), Phi growing. If Phi(t) <= t, then T_N <= t for all N: the series converge
@@ -165,11 +169,11 @@ class Flow:
             return (total >> self.bits) + 1
 
         pairs = [("kappa", x) for x in ("p", "r", "d", "twist", "z", "w")]
-        if len(self.names) == 12:
-            pairs += [("H", "y1"), ("H", "y2"), ("rho", "v1"), ("rho", "v2")]
+        for y, v in self.neighbours():
+            pairs += [("H", y), ("rho", v)]
         known = {pair: beyond(*pair, K) for pair in pairs}
-        squared = beyond("kappa", "kappa", K + 1) if len(self.names) == 12 else 0
-        divided = {c: beyond("q", c, K + 1) for c in ("kappa", "rho", "eta")[: 3 if len(self.names) == 12 else 1]}
+        squared = beyond("kappa", "kappa", K + 1) if len(self.names) > 8 else 0
+        divided = {c: beyond("q", c, K + 1) for c in ("kappa", "rho", "eta")[: 3 if len(self.names) > 8 else 1]}
         lowest = s["q"].m[0] - s["q"].r[0]
         rest_q = sums["q"] - s["q"].u[0]
 
@@ -183,12 +187,12 @@ class Flow:
             new = {}
             new["e"] = t["q"] + t["f"]
             new["twist"] = new["e"] + t["f"]
-            for c, top in (("kappa", "p"), ("rho", "r"), ("eta", "e")):
+            for c, top in (("kappa", t["p"]), ("rho", t["r"]), ("eta", new["e"] + t["q"])):
                 if c not in divided:
                     continue
                 free = lowest - rest_q - t["q"]
                 need(free > 0, "a step is too long")
-                above = times(t[top], self.size_inverse_k) + divided[c] + times(t["q"], sums[c])
+                above = times(top, self.size_inverse_k) + divided[c] + times(t["q"], sums[c])
                 new[c] = (above << self.bits) // free + 1
             if "rho" in divided:
                 new["square"] = squared + 2 * times(t["kappa"], sums["kappa"]) + times(t["kappa"], t["kappa"])
@@ -204,9 +208,10 @@ class Flow:
                 "w": after("kappa", "z", t) + u["g"],
                 "z": after("kappa", "w", t),
             }
-            for y, v in (("y1", "v1"), ("y2", "v2")) if "rho" in divided else ():
+            for y, v in self.neighbours():
                 rate[y] = u[v]
                 rate[v] = after("H", y, t) + after("rho", v, t)
+                rate[v] += times(u["kappa"], self.size_inverse_k) if y == "y3" else 0
             step = abs(self.h[0]) + self.h[1]
             for name, x in rate.items():
                 new[name] = times(x, step) // (K + 1) + 1

@@ -10,18 +10,20 @@
 
 void prove_found_init(prove_found *f)
 {
-    arb_init(f->x), arb_init(f->m), arb_init(f->multiplier);
+    arb_init(f->x), arb_init(f->m), arb_init(f->multiplier), arb_init(f->middle);
 }
 
 void prove_found_clear(prove_found *f)
 {
-    arb_clear(f->x), arb_clear(f->m), arb_clear(f->multiplier);
+    arb_clear(f->x), arb_clear(f->m), arb_clear(f->multiplier), arb_clear(f->middle);
 }
+
+enum { PARTS = 8 }; /* of half a return, for an interval of k */
 
 /* --- one attempt ------------------------------------------------------------------------------------------------ */
 
 typedef struct attempt {
-    prove_flow flow;
+    prove_flow flow, thin; /* thin: of one k, in the middle */
     prove_local local;
     prove_start start;
     prove_crossing crossing;
@@ -41,17 +43,25 @@ static void attempt_init(attempt *a, iso_context *ctx, const prove_ball *ball, i
     for (int i = 0; i < 3; i++) arb_set_fmpq(f->J[i], ball->J[i], f->bits);
     arb_add(f->trace, f->J[0], f->J[1], f->bits);
     arb_add(f->trace, f->trace, f->J[2], f->bits);
+    prove_flow_like(&a->thin, f, f->bits);
+    if (!fmpq_equal(ball->k[0], ball->k[1])) {
+        f->parts = PARTS;
+        arb_get_mid_arb(a->thin.k, f->k);
+        arb_inv(a->thin.inverse_k, a->thin.k, f->bits);
+    }
     arb_init(a->local.trace), arb_init(a->local.lambda), arb_init(a->local.s), arb_init(a->local.size);
-    arb_init(a->local.slope), arb_init(a->start.xi), arb_init(a->crossing.x), arb_init(a->crossing.m);
+    arb_init(a->local.slope), arb_init(a->start.xi), arb_init(a->start.drift), arb_init(a->crossing.x),
+        arb_init(a->crossing.m);
     arb_init(a->width);
     arb_clear(high);
 }
 
 static void attempt_clear(attempt *a)
 {
-    prove_flow_clear(&a->flow);
+    prove_flow_clear(&a->flow), prove_flow_clear(&a->thin);
     arb_clear(a->local.trace), arb_clear(a->local.lambda), arb_clear(a->local.s), arb_clear(a->local.size);
-    arb_clear(a->local.slope), arb_clear(a->start.xi), arb_clear(a->crossing.x), arb_clear(a->crossing.m);
+    arb_clear(a->local.slope), arb_clear(a->start.xi), arb_clear(a->start.drift), arb_clear(a->crossing.x),
+        arb_clear(a->crossing.m);
     arb_clear(a->width);
 }
 
@@ -62,27 +72,15 @@ static void set_power(arb_t x, double power)
     arf_set_si_2exp_si(arb_midref(x), 1, arf_get_si(arb_midref(x), ARF_RND_NEAR));
 }
 
-/* The orbit is looked for at the middle of an interval of k. */
-static iso_status search(const attempt *a, prove_start *start)
-{
-    prove_flow thin;
-    prove_flow_like(&thin, &a->flow, a->flow.bits);
-    arb_get_mid_arb(thin.k, thin.k);
-    arb_inv(thin.inverse_k, thin.k, thin.bits);
-    const iso_status status = prove_search(&thin, &a->local, start);
-    prove_flow_clear(&thin);
-    return status;
-}
-
-/* x = at least 16 times what the start changes by with k, in all half returns. */
+/* x = at least what is left of the change of the start with k, in all half returns, beside its drift: of second order. */
 static void spread(const attempt *a, arb_t x)
 {
     arb_t part;
     arb_init(part);
     arb_get_rad_arb(part, a->flow.k);
-    arb_mul_si(part, part, 16 * a->start.halves, MAG_BITS);
+    arb_mul_si(part, part, 4 * a->start.halves, MAG_BITS);
     arb_div(part, part, a->flow.k, MAG_BITS);
-    arb_abs(part, part);
+    arb_mul(part, part, part, MAG_BITS);
     arb_get_mid_arb(part, part);
     if (arb_gt(part, x)) arb_set(x, part);
     arb_clear(part);
@@ -100,7 +98,7 @@ static iso_status follow(attempt *a, bool *reached)
         if (i > 0) arb_mul_ui(a->width, a->width, LONGER, a->flow.bits);
         arb_get_mid_arb(a->width, a->width);
         prove_certificate_cut(a->flow.certificate, length);
-        status = prove_follow(&a->flow, &a->local, &a->start, a->width, &a->crossing, reached);
+        status = prove_follow(&a->flow, &a->thin, &a->local, &a->start, a->width, &a->crossing, reached);
     }
     return status;
 }
@@ -111,7 +109,7 @@ static iso_status run(attempt *a, int digits, bool *reached)
     set_power(a->width, -(digits - 4));
     iso_status status = prove_local_begin(&a->flow, &a->local);
     if (status == ISO_OK) status = prove_local_bound(&a->flow, &a->local);
-    if (status == ISO_OK) status = search(a, &a->start);
+    if (status == ISO_OK) status = prove_search(&a->thin, &a->local, a->flow.parts > 1, &a->start);
     if (status == ISO_OK) status = follow(a, reached);
     return status;
 }
@@ -122,8 +120,10 @@ static void keep(const attempt *a, prove_found *found)
 {
     arb_set(found->x, a->crossing.x), arb_set(found->m, a->crossing.m);
     arb_mul(found->multiplier, a->local.lambda, a->local.lambda, a->flow.bits);
+    arb_set(found->middle, a->thin.k);
+    found->parts = a->flow.parts;
     found->halves = a->start.halves;
-    found->steps = a->flow.steps;
+    found->steps = a->flow.steps + a->thin.steps;
     found->bits = a->flow.bits;
 }
 
@@ -140,7 +140,7 @@ static int missing(const arb_t m, int digits)
 iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, prove_certificate *certificate,
                          prove_found *found)
 {
-    enum { TRIES = 5, FEWER = 2, SPARE = 11, MORE = 6 };
+    enum { TRIES = 5, FEWER = 1, SPARE = 11, MORE = 6 };
     const bool thin = fmpq_equal(ball->k[0], ball->k[1]);
     const int tries = thin ? TRIES : FEWER; /* an interval is halved (prove.c) */
     int spare = SPARE;
@@ -149,7 +149,7 @@ iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, p
         attempt a;
         bool reached = false;
         attempt_init(&a, ctx, ball, digits + spare);
-        a.flow.certificate = certificate;
+        a.flow.certificate = a.thin.certificate = certificate;
         prove_certificate_cut(certificate, 0);
         status = run(&a, digits + spare, &reached);
         const int lacks = reached ? missing(a.crossing.m, digits) : MORE;

@@ -13,6 +13,8 @@ typedef struct prove_ball {
 
 typedef struct prove_found {
     arb_t x, m, multiplier; /* of the section; of a whole return */
+    arb_t middle;           /* of an interval of k: the k of the centres, exact */
+    int parts;              /* of half a return */
     long halves, steps;
     slong bits;
 } prove_found;

@@ -14,7 +14,9 @@
  *
  * A neighbouring orbit at the distance y (to first order, along b; v = y'):
  *
- *     y' = v,   v' = rho v - H y,   k q rho = r,   H = 1 - 1/k + (1 - 2 k) kappa^2 + e/(k q).
+ *     y' = v,   v' = rho v - H y,   k q rho = r,   H = 1 + (1 - 2 k) kappa^2 + (e - q)/(k q).
+ *
+ * For the orbit of k + dk, v' = rho v - H y - (kappa/k) dk.
  *
  * The set (q, ..., z) does not distinguish (gamma, u) from its images under half turns about c: l is known modulo pi.
  */
@@ -27,7 +29,8 @@
 #include "base/context_impl.h"
 #include "study/prove/arb_certificate_impl.h"
 
-/* The numbers of a state; the last four are two neighbours. Then series that follow from them. */
+/* The numbers of a state; the last six are neighbours: two of the same k, one of another k. Then series that follow from
+ * them. */
 enum {
     PROVE_Q,
     PROVE_R,
@@ -42,10 +45,14 @@ enum {
     PROVE_V1,
     PROVE_Y2,
     PROVE_V2,
+    PROVE_PAIR,
+    PROVE_Y3 = PROVE_PAIR,
+    PROVE_V3,
     PROVE_STATE,
     PROVE_KAPPA = PROVE_STATE,
     PROVE_TWIST,
     PROVE_E,
+    PROVE_EXCESS,
     PROVE_RHO,
     PROVE_ETA,
     PROVE_SQUARE,
@@ -54,11 +61,12 @@ enum {
 };
 
 /* A ball, its moments in the order of the section: J[2] belongs to the axis c of the section, J[1] is the middle one.
- * k may be an interval. */
+ * k may be an interval. Then half a return is followed in parts, after each of which there is a new set. */
 typedef struct prove_flow {
     iso_context *ctx;
     slong bits;
     int order;
+    int parts; /* of half a return; the derivative is enclosed in each      */
     arb_t k, inverse_k, J[3], trace;
     arb_ptr series[PROVE_SERIES];   /* coefficients 0 ... order                                    */
     mag_ptr term[PROVE_SERIES];     /* |coefficient n| h^n                                          */
@@ -76,7 +84,7 @@ void prove_flow_clear(prove_flow *f);
 /* The same ball in numbers of other length; no certificate. */
 void prove_flow_like(prove_flow *f, const prove_flow *like, slong bits);
 
-/* The coefficients of the orbit that begins in y; numbers: PROVE_POINT or PROVE_STATE. */
+/* The coefficients of the orbit that begins in y; numbers: PROVE_POINT, PROVE_PAIR or PROVE_STATE. */
 void prove_series_expand(prove_flow *f, arb_srcptr y, int numbers);
 
 /* A step for which what is left out is about a rounding error. No proof needs it to be so. */
@@ -97,19 +105,27 @@ void prove_series_powers(prove_flow *f, const arb_t s);
 void prove_widen(const prove_flow *f, slong part, arb_t x);
 enum { PROVE_EIGHTH = 3 };
 
-/* A half return: from (l, x) of a crossing of gamma_c = 0 to (l, x) of the antipode of the next one, which is a
- * crossing in the same direction. Its derivative; the time of the crossing; the window, in which each orbit of the set
- * has one crossing and no more. */
+/* The angle psi of a state: (gamma_c, u_c) = X (sin psi, cos psi), X > 0. It grows by pi in half a return. The great
+ * circle through gamma along u begins, at psi = 0, at a point (l, x) of gamma_c = 0: so (l, x, psi) is a chart of all
+ * states. The antipode is (l, x, psi - pi). */
+typedef struct prove_part {
+    int number, parts; /* from psi = number pi/parts to the next one; {0, 1}: half a return */
+} prove_part;
+
+/* From (l, x) at one angle to (l, x) at the next one; its derivative; the time of the crossing; the window, in which
+ * each orbit of the set has one crossing and no more. */
 typedef struct prove_half {
-    arb_struct z[2]; /* l modulo pi, x                                          */
-    arb_struct D[4]; /* d(l, x)/d(l, x) of the start: dl/dl, dl/dx, dx/dl, dx/dx */
+    arb_struct z[2]; /* l modulo pi, x                                                            */
+    arb_struct D[6]; /* its derivatives by l, x and k: dl/dl, dl/dx, dx/dl, dx/dx; dl/dk, dx/dk    */
     arb_t time, window;
 } prove_half;
 
 void prove_half_init(prove_half *h);
 void prove_half_clear(prove_half *h);
 
-/* Errors: ISO_NUMERICAL: the set is too large; ISO_STOPPED. */
-iso_status prove_half_return(prove_flow *f, const arb_t l, const arb_t x, bool with_derivative, prove_half *half);
+/* numbers: PROVE_POINT: no derivative; PROVE_PAIR: none by k. Errors: ISO_NUMERICAL: the set is too large;
+ * ISO_STOPPED. */
+iso_status prove_half_return(prove_flow *f, prove_part part, const arb_t l, const arb_t x, int numbers,
+                             prove_half *half);
 
 #endif

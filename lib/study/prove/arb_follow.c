@@ -1,56 +1,40 @@
 /* arb_follow.c - a piece of the unstable manifold, enclosed from near O to the line l = pi/2 (arb_manifold_impl.h).
  *
- * After each half return the piece lies in the set centre + A (xi, eta), (xi, eta) in `hull`, where centre and A are
- * exact. The left and the right end lie in `left` and `right` of this frame, and the piece is a curve with the tangent
- * (1, sigma), on which xi grows from left to right. With D the derivative on the whole set, and P(centre) enclosed by
- * itself (P: half a return, then the antipode), the mean value theorem gives, as the set is convex and holds its centre,
+ * After each half return, or part of one, the piece lies in the set centre + dk C + A (xi, eta), (xi, eta) in `hull`,
+ * where centre, C (`drift`) and A are exact; dk = k - k_0, and k_0 is a number of the interval of k. The left and the right
+ * end lie in `left` and `right` of this frame, and for each k the piece is a curve with the tangent (1, sigma), on which
+ * xi grows from left to right. With D the derivative on the whole set, E that by k, and P(centre) enclosed by itself for
+ * k_0 (P: the half return, or its part), the mean value theorem gives, as the set is convex and holds its centre,
  *
- *     P(centre + A v) in P(centre) + (D A) v.
+ *     P(centre + dk C + A v) in P(centre) + dk (D C + E) + (D A) v.
  *
- * The next centre is near P(centre), the next A near D A, and so v becomes B v + e with B = A_next^-1 D A near 1,
- * e = A_next^-1 (P(centre) - centre_next) near 0, and sigma becomes (B21 + B22 sigma)/(B11 + B12 sigma).
+ * The next centre is near P(centre), the next C near D C + E, the next A near D A. So v becomes B v + e, where
+ * B = A_next^-1 D A is near 1, and e = A_next^-1 (P(centre) - centre_next + dk (D C + E - C_next)) near 0. sigma becomes
+ * (B21 + B22 sigma)/(B11 + B12 sigma). If there is one k only, dk = 0, and there is no C.
  */
 #include "study/prove/arb_manifold_impl.h"
 
 typedef struct piece {
-    arb_struct centre[2], A[4], hull[2], left[2], right[2];
-    arb_t sigma;
+    arb_struct centre[2], drift[2], A[4], hull[2], left[2], right[2];
+    arb_t sigma, dk;
 } piece;
 
 static void piece_init(piece *p)
 {
     for (int i = 0; i < 2; i++)
-        arb_init(p->centre + i), arb_init(p->hull + i), arb_init(p->left + i), arb_init(p->right + i);
+        arb_init(p->centre + i), arb_init(p->drift + i), arb_init(p->hull + i), arb_init(p->left + i),
+            arb_init(p->right + i);
     for (int i = 0; i < 4; i++) arb_init(p->A + i);
-    arb_init(p->sigma);
+    arb_init(p->sigma), arb_init(p->dk);
 }
 
 static void piece_clear(piece *p)
 {
     for (int i = 0; i < 2; i++)
-        arb_clear(p->centre + i), arb_clear(p->hull + i), arb_clear(p->left + i), arb_clear(p->right + i);
+        arb_clear(p->centre + i), arb_clear(p->drift + i), arb_clear(p->hull + i), arb_clear(p->left + i),
+            arb_clear(p->right + i);
     for (int i = 0; i < 4; i++) arb_clear(p->A + i);
-    arb_clear(p->sigma);
-}
-
-/* x = M v + offset; NULL: 0 */
-static void apply(const arb_struct M[4], const arb_struct v[2], const arb_struct offset[2], slong bits,
-                  arb_struct x[2])
-{
-    arb_ptr y = _arb_vec_init(2);
-    for (int i = 0; i < 2; i++) arb_dot(y + i, offset ? offset + i : NULL, 0, M + 2 * i, 1, v, 1, 2, bits);
-    _arb_vec_set(x, y, 2);
-    _arb_vec_clear(y, 2);
-}
-
-/* X = M N; X may be M or N. */
-static void multiply(const arb_struct M[4], const arb_struct N[4], slong bits, arb_struct X[4])
-{
-    arb_ptr Y = _arb_vec_init(4);
-    for (int i = 0; i < 2; i++)
-        for (int j = 0; j < 2; j++) arb_dot(Y + 2 * i + j, NULL, 0, M + 2 * i, 1, N + j, 2, 2, bits);
-    _arb_vec_set(X, Y, 4);
-    _arb_vec_clear(Y, 4);
+    arb_clear(p->sigma), arb_clear(p->dk);
 }
 
 static void invert(const arb_struct M[4], slong bits, arb_struct X[4])
@@ -65,9 +49,45 @@ static void invert(const arb_struct M[4], slong bits, arb_struct X[4])
     arb_clear(determinant);
 }
 
+static bool has_drift(const prove_flow *f)
+{
+    return f->parts > 1;
+}
+
+/* x = centre + dk C + A v */
+static void place(const prove_flow *f, const piece *p, const arb_struct v[2], arb_struct x[2])
+{
+    prove_apply(p->A, v, p->centre, f->bits, x);
+    for (int i = 0; i < 2; i++) arb_addmul(x + i, p->drift + i, p->dk, f->bits);
+}
+
+/* The tangent that M makes of (1, sigma): (M21 + M22 sigma)/(M11 + M12 sigma), monotone in sigma. *below: the
+ * denominator. */
+static void carry_tangent(const arb_struct M[4], const arb_t sigma, slong bits, arb_t below, arb_t x)
+{
+    arb_t end, top, both[2];
+    arb_init(end), arb_init(top), arb_init(both[0]), arb_init(both[1]);
+    for (int i = 0; i < 2; i++) {
+        if (i == 0)
+            arb_get_lbound_arf(arb_midref(end), sigma, bits);
+        else
+            arb_get_ubound_arf(arb_midref(end), sigma, bits);
+        arb_mul(below, M + 1, end, bits);
+        arb_add(below, below, M, bits);
+        arb_mul(top, M + 3, end, bits);
+        arb_add(top, top, M + 2, bits);
+        arb_div(both[i], top, below, bits);
+    }
+    arb_mul(below, M + 1, sigma, bits);
+    arb_add(below, below, M, bits);
+    arb_union(x, both[0], both[1], bits);
+    arb_clear(end), arb_clear(top), arb_clear(both[0]), arb_clear(both[1]);
+}
+
 static void write_piece(const prove_flow *f, const piece *p)
 {
     prove_certificate_line(f->certificate, "centre", 2, p->centre);
+    if (has_drift(f)) prove_certificate_line(f->certificate, "drift", 2, p->drift);
     prove_certificate_line(f->certificate, "frame", 4, p->A);
     prove_certificate_line(f->certificate, "hull", 2, p->hull);
     prove_certificate_line(f->certificate, "left", 2, p->left);
@@ -87,12 +107,12 @@ static void widen_all(const prove_flow *f, piece *p)
 
 /* --- the beginning ---------------------------------------------------------------------------------------------- */
 
-/* The piece start (1 +- width) of the local manifold: |eta| <= slope (xi + width), |sigma| <= slope. */
+/* The piece start (1 +- width) + dk drift of the local manifold: |eta| <= slope |xi|, |sigma| <= slope. */
 static bool begin_piece(const prove_flow *f, const prove_local *o, const prove_start *start, const arb_t width,
                         piece *p)
 {
-    arb_t length, most;
-    arb_init(length), arb_init(most);
+    arb_t length, most, part;
+    arb_init(length), arb_init(most), arb_init(part);
     arb_mul(length, start->xi, width, f->bits);
     arb_get_ubound_arf(arb_midref(length), length, MAG_BITS);
     mag_zero(arb_radref(length));
@@ -100,15 +120,24 @@ static bool begin_piece(const prove_flow *f, const prove_local *o, const prove_s
     arb_mul(p->centre + 1, start->xi, o->s, ARF_PREC_EXACT);
     arb_one(p->A), arb_one(p->A + 1);
     arb_set(p->A + 2, o->s), arb_neg(p->A + 3, o->s);
-    arb_add(most, start->xi, length, f->bits);
-    const bool inside = arb_le(most, o->size);
+    if (has_drift(f)) {
+        arb_set_round(p->drift, start->drift, MAG_BITS);
+        arb_get_mid_arb(p->drift, p->drift);
+        arb_mul(p->drift + 1, p->drift, o->s, ARF_PREC_EXACT);
+    }
+    arb_mul(part, p->drift, p->dk, f->bits);
+    arb_get_abs_ubound_arf(arb_midref(most), part, f->bits);
+    arb_add(most, most, length, f->bits);
+    const bool positive = arb_lt(most, start->xi);
+    arb_add(most, most, start->xi, f->bits);
+    const bool inside = positive && arb_le(most, o->size);
     arb_mul(most, most, o->slope, f->bits);
     arb_zero(p->hull), arb_zero(p->hull + 1), arb_zero(p->sigma);
     arb_add_error(p->hull, length), arb_add_error(p->hull + 1, most), arb_add_error(p->sigma, o->slope);
     arb_neg(p->left, length), arb_set(p->right, length);
     arb_set(p->left + 1, p->hull + 1), arb_set(p->right + 1, p->hull + 1);
     widen_all(f, p);
-    arb_clear(length), arb_clear(most);
+    arb_clear(length), arb_clear(most), arb_clear(part);
     return inside;
 }
 
@@ -122,18 +151,59 @@ static iso_status check_times(const prove_flow *f, const prove_half *all, const 
 }
 
 /* D on the whole set, then P(centre). */
-static iso_status enclose(prove_flow *f, const piece *p, prove_half *all, prove_half *one)
+static iso_status enclose(prove_flow *f, prove_flow *thin, prove_part part, const piece *p, prove_half *all,
+                          prove_half *one)
 {
     arb_ptr box = _arb_vec_init(2);
-    apply(p->A, p->hull, p->centre, f->bits, box);
+    place(f, p, p->hull, box);
     for (int i = 0; i < 2; i++) prove_widen(f, PROVE_EIGHTH, box + i);
     prove_certificate_words(f->certificate, "half set");
-    iso_status status = prove_half_return(f, box, box + 1, true, all);
+    iso_status status = prove_half_return(f, part, box, box + 1, has_drift(f) ? PROVE_STATE : PROVE_PAIR, all);
     prove_certificate_words(f->certificate, "half centre");
-    if (status == ISO_OK) status = prove_half_return(f, p->centre, p->centre + 1, false, one);
+    if (status == ISO_OK) status = prove_half_return(thin, part, p->centre, p->centre + 1, PROVE_POINT, one);
     if (status == ISO_OK) status = check_times(f, all, one);
     _arb_vec_clear(box, 2);
     return status;
+}
+
+/* Where both columns of A are nearly parallel, the second is made orthogonal to the first; the determinant stays. */
+static void spread_frame(arb_struct A[4], slong bits)
+{
+    arb_t determinant, size, other;
+    arb_init(determinant), arb_init(size), arb_init(other);
+    arb_mul(determinant, A, A + 3, bits);
+    arb_submul(determinant, A + 1, A + 2, bits);
+    arb_mul(size, A, A, bits), arb_addmul(size, A + 2, A + 2, bits);
+    arb_mul(other, A + 1, A + 1, bits), arb_addmul(other, A + 3, A + 3, bits);
+    arb_mul(other, other, size, bits);
+    arb_mul_2exp_si(other, other, -4);
+    arb_div(size, determinant, size, bits);
+    arb_mul(determinant, determinant, determinant, bits);
+    if (arb_lt(determinant, other)) {
+        arb_mul(A + 1, A + 2, size, bits), arb_neg(A + 1, A + 1);
+        arb_mul(A + 3, A, size, bits);
+        arb_get_mid_arb(A + 1, A + 1), arb_get_mid_arb(A + 3, A + 3);
+    }
+    arb_clear(determinant), arb_clear(size), arb_clear(other);
+}
+
+/* The next centre, C and A; e = what P(centre) + dk (D C + E) is beyond them. */
+static void carry_frame(const prove_flow *f, const prove_half *all, const prove_half *one, piece *p, arb_struct T[4],
+                        arb_struct e[2])
+{
+    arb_ptr E = _arb_vec_init(2);
+    prove_multiply(all->D, p->A, f->bits, T);
+    for (int i = 0; i < 4; i++) arb_get_mid_arb(p->A + i, T + i);
+    spread_frame(p->A, f->bits);
+    if (has_drift(f)) prove_apply(all->D, p->drift, all->D + 4, f->bits, E);
+    for (int i = 0; i < 2; i++) {
+        arb_get_mid_arb(p->centre + i, one->z + i);
+        arb_get_mid_arb(p->drift + i, E + i);
+        arb_sub(e + i, one->z + i, p->centre + i, f->bits);
+        arb_sub(E + i, E + i, p->drift + i, f->bits);
+        arb_addmul(e + i, E + i, p->dk, f->bits);
+    }
+    _arb_vec_clear(E, 2);
 }
 
 /* False: xi does not grow along the piece, or the centre is not in the set. */
@@ -143,23 +213,14 @@ static bool carry(const prove_flow *f, const prove_half *all, const prove_half *
     arb_ptr B = _arb_vec_init(4), T = _arb_vec_init(4), e = _arb_vec_init(2);
     arb_t below;
     arb_init(below);
-    multiply(all->D, p->A, bits, T);
-    for (int i = 0; i < 4; i++) arb_get_mid_arb(p->A + i, T + i);
-    for (int i = 0; i < 2; i++) {
-        arb_get_mid_arb(p->centre + i, one->z + i);
-        arb_sub(e + i, one->z + i, p->centre + i, bits);
-    }
+    carry_frame(f, all, one, p, T, e);
     invert(p->A, bits, B);
-    apply(B, e, NULL, bits, e);
-    multiply(B, T, bits, B);
-    apply(B, p->hull, e, bits, p->hull);
-    apply(B, p->left, e, bits, p->left);
-    apply(B, p->right, e, bits, p->right);
-    arb_mul(below, B + 1, p->sigma, bits);
-    arb_add(below, below, B, bits);
-    arb_mul(p->sigma, B + 3, p->sigma, bits);
-    arb_add(p->sigma, p->sigma, B + 2, bits);
-    arb_div(p->sigma, p->sigma, below, bits);
+    prove_apply(B, e, NULL, bits, e);
+    prove_multiply(B, T, bits, B);
+    prove_apply(B, p->hull, e, bits, p->hull);
+    prove_apply(B, p->left, e, bits, p->left);
+    prove_apply(B, p->right, e, bits, p->right);
+    carry_tangent(B, p->sigma, bits, below, p->sigma);
     widen_all(f, p);
     const bool grows = arb_is_positive(below) && arb_contains_zero(p->hull) && arb_contains_zero(p->hull + 1);
     _arb_vec_clear(B, 4), _arb_vec_clear(T, 4), _arb_vec_clear(e, 2);
@@ -179,17 +240,13 @@ static bool cross(const prove_flow *f, const piece *p, prove_crossing *crossing)
     arb_init(line), arb_init(rate);
     arb_const_pi(line, bits);
     arb_mul_2exp_si(line, line, -1);
-    apply(p->A, p->left, p->centre, bits, end);
+    place(f, p, p->left, end);
     bool reached = arb_lt(end, line);
-    apply(p->A, p->right, p->centre, bits, end);
+    place(f, p, p->right, end);
     reached = reached && arb_gt(end, line);
-    apply(p->A, p->hull, p->centre, bits, end);
+    place(f, p, p->hull, end);
     arb_set(crossing->x, end + 1);
-    arb_mul(rate, p->A + 1, p->sigma, bits);
-    arb_add(rate, rate, p->A, bits);
-    arb_mul(crossing->m, p->A + 3, p->sigma, bits);
-    arb_add(crossing->m, crossing->m, p->A + 2, bits);
-    arb_div(crossing->m, crossing->m, rate, bits);
+    carry_tangent(p->A, p->sigma, bits, rate, crossing->m);
     reached = reached && arb_is_positive(rate);
     prove_widen(f, PROVE_EIGHTH, crossing->m), prove_widen(f, PROVE_EIGHTH, crossing->x);
     _arb_vec_clear(end, 2);
@@ -197,23 +254,24 @@ static bool cross(const prove_flow *f, const piece *p, prove_crossing *crossing)
     return reached;
 }
 
-iso_status prove_follow(prove_flow *f, const prove_local *o, const prove_start *start, const arb_t width,
-                        prove_crossing *crossing, bool *reached)
+iso_status prove_follow(prove_flow *f, prove_flow *one, const prove_local *o, const prove_start *start,
+                        const arb_t width, prove_crossing *crossing, bool *reached)
 {
     piece p;
-    prove_half all, one;
+    prove_half all, centre;
     piece_init(&p);
-    prove_half_init(&all), prove_half_init(&one);
+    prove_half_init(&all), prove_half_init(&centre);
+    if (has_drift(f)) arb_sub(p.dk, f->k, one->k, f->bits);
     *reached = begin_piece(f, o, start, width, &p);
     iso_status status = ISO_OK;
     write_piece(f, &p);
-    for (long i = 0; i < start->halves && *reached && status == ISO_OK; i++) {
-        status = enclose(f, &p, &all, &one);
-        if (status == ISO_OK) *reached = carry(f, &all, &one, &p);
+    for (long i = 0; i < start->halves * f->parts && *reached && status == ISO_OK; i++) {
+        status = enclose(f, one, (prove_part){(int)(i % f->parts), f->parts}, &p, &all, &centre);
+        if (status == ISO_OK) *reached = carry(f, &all, &centre, &p);
         write_piece(f, &p);
     }
     if (status == ISO_OK && *reached) *reached = cross(f, &p, crossing);
     piece_clear(&p);
-    prove_half_clear(&all), prove_half_clear(&one);
+    prove_half_clear(&all), prove_half_clear(&centre);
     return status;
 }

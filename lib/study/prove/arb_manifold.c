@@ -11,6 +11,25 @@
  */
 #include "study/prove/arb_manifold_impl.h"
 
+/* --- matrices --------------------------------------------------------------------------------------------------- */
+
+void prove_apply(const arb_struct M[4], const arb_struct v[2], const arb_struct *offset, slong bits, arb_struct x[2])
+{
+    arb_ptr y = _arb_vec_init(2);
+    for (int i = 0; i < 2; i++) arb_dot(y + i, offset ? offset + i : NULL, 0, M + 2 * i, 1, v, 1, 2, bits);
+    _arb_vec_set(x, y, 2);
+    _arb_vec_clear(y, 2);
+}
+
+void prove_multiply(const arb_struct M[4], const arb_struct N[4], slong bits, arb_struct X[4])
+{
+    arb_ptr Y = _arb_vec_init(4);
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++) arb_dot(Y + 2 * i + j, NULL, 0, M + 2 * i, 1, N + j, 2, 2, bits);
+    _arb_vec_set(X, Y, 4);
+    _arb_vec_clear(Y, 4);
+}
+
 /* --- O ---------------------------------------------------------------------------------------------------------- */
 
 /* lambda + 1/lambda = trace, as the determinant is 1. */
@@ -31,26 +50,41 @@ static bool find_multiplier(const prove_flow *f, const arb_struct D[4], prove_lo
     return hyperbolic;
 }
 
+/* D on a set about O, by its parts: each part carries O to O, so the next set is D times the last one. */
+static iso_status enclose(prove_flow *f, arb_struct z[2], arb_struct D[4])
+{
+    prove_half half;
+    iso_status status = ISO_OK;
+    prove_half_init(&half);
+    arb_one(D), arb_zero(D + 1), arb_zero(D + 2), arb_one(D + 3);
+    for (int i = 0; i < f->parts && status == ISO_OK; i++) {
+        prove_certificate_words(f->certificate, "half cone");
+        status = prove_half_return(f, (prove_part){i, f->parts}, z, z + 1, PROVE_PAIR, &half);
+        prove_apply(half.D, z, NULL, f->bits, z);
+        prove_multiply(half.D, D, f->bits, D);
+        for (int j = 0; j < 2; j++) prove_widen(f, PROVE_EIGHTH, z + j);
+    }
+    prove_half_clear(&half);
+    return status;
+}
+
 iso_status prove_local_begin(prove_flow *f, prove_local *o)
 {
     prove_certificate *certificate = f->certificate;
-    prove_half half;
-    arb_t zero;
-    arb_init(zero);
-    prove_half_init(&half);
+    arb_ptr z = _arb_vec_init(2), D = _arb_vec_init(4);
     f->certificate = NULL; /* the cone condition says all that is needed of O */
-    iso_status status = prove_half_return(f, zero, zero, true, &half);
+    iso_status status = enclose(f, z, D);
     f->certificate = certificate;
-    if (status == ISO_OK && !find_multiplier(f, half.D, o))
+    if (status == ISO_OK && !find_multiplier(f, D, o))
         status = iso_context_fail(f->ctx, ISO_NUMERICAL, "", "the rotation is not hyperbolic in these digits");
     if (status == ISO_OK) { /* eigenvectors (1, +-s), s^2 = (dx'/dl)/(dl'/dx); any s near it will do */
-        arb_div(o->s, half.D + 2, half.D + 1, f->bits);
+        arb_div(o->s, D + 2, D + 1, f->bits);
+        arb_get_mid_arb(o->s, o->s);
         arb_sqrt(o->s, o->s, f->bits);
         arb_get_mid_arb(o->s, o->s);
-        if (arb_is_negative(half.D + 1)) arb_neg(o->s, o->s);
+        if (arb_is_negative(D + 1)) arb_neg(o->s, o->s);
     }
-    prove_half_clear(&half);
-    arb_clear(zero);
+    _arb_vec_clear(z, 2), _arb_vec_clear(D, 4);
     return status;
 }
 
@@ -116,22 +150,15 @@ static void hold_square(const prove_flow *f, const prove_local *o, arb_t l, arb_
 
 iso_status prove_local_bound(prove_flow *f, prove_local *o)
 {
-    prove_half half;
-    arb_t l, x;
-    arb_ptr E = _arb_vec_init(4);
-    prove_half_init(&half);
-    arb_init(l), arb_init(x);
-    hold_square(f, o, l, x);
+    arb_ptr z = _arb_vec_init(2), D = _arb_vec_init(4), E = _arb_vec_init(4);
+    hold_square(f, o, z, z + 1);
     prove_certificate_line(f->certificate, "frame-o", 1, o->s);
     prove_certificate_line(f->certificate, "size", 1, o->size);
-    prove_certificate_words(f->certificate, "half cone");
-    iso_status status = prove_half_return(f, l, x, true, &half);
-    if (status == ISO_OK) into_frame(f, half.D, o->s, E);
+    iso_status status = enclose(f, z, D);
+    if (status == ISO_OK) into_frame(f, D, o->s, E);
     if (status == ISO_OK && !find_slope(f, E, o->slope))
         status = iso_context_fail(f->ctx, ISO_NUMERICAL, "", "the cone condition does not hold in these digits");
     if (status == ISO_OK) prove_certificate_line(f->certificate, "cone", 1, o->slope);
-    _arb_vec_clear(E, 4);
-    arb_clear(l), arb_clear(x);
-    prove_half_clear(&half);
+    _arb_vec_clear(z, 2), _arb_vec_clear(D, 4), _arb_vec_clear(E, 4);
     return status;
 }

@@ -12,9 +12,10 @@ typedef struct prove_local {
     arb_t slope;
 } prove_local;
 
-/* Where the manifold meets l = pi/2: start xi (exact), and the number of half returns from there. */
+/* Where the manifold meets l = pi/2: start xi (exact), and the number of half returns from there. For another k the start
+ * is xi + drift dk, about. */
 typedef struct prove_start {
-    arb_t xi;
+    arb_t xi, drift;
     long halves;
 } prove_start;
 
@@ -23,6 +24,10 @@ typedef struct prove_crossing {
     arb_t x, m; /* of the section n_c = 0 */
 } prove_crossing;
 
+/* x = M v + offset; NULL: 0. X = M N. The result may be one of the others. */
+void prove_apply(const arb_struct M[4], const arb_struct v[2], const arb_struct *offset, slong bits, arb_struct x[2]);
+void prove_multiply(const arb_struct M[4], const arb_struct N[4], slong bits, arb_struct X[4]);
+
 /* O and its frame. Errors: those of prove_half_return; ISO_NUMERICAL: O is not hyperbolic in these digits. */
 iso_status prove_local_begin(prove_flow *f, prove_local *o);
 
@@ -30,10 +35,11 @@ iso_status prove_local_begin(prove_flow *f, prove_local *o);
 iso_status prove_local_bound(prove_flow *f, prove_local *o);
 
 /* Looks for the start, 0 < xi < o->size, without a proof. */
-iso_status prove_search(const prove_flow *f, const prove_local *o, prove_start *start);
+iso_status prove_search(const prove_flow *f, const prove_local *o, bool with_drift, prove_start *start);
 
-/* Follows the piece |xi/start - 1| <= width. *reached: it crosses l = pi/2. */
-iso_status prove_follow(prove_flow *f, const prove_local *o, const prove_start *start, const arb_t width,
-                        prove_crossing *crossing, bool *reached);
+/* Follows the piece |xi/start - 1| <= width. one: the flow of one k of the interval of f, or f itself. *reached: it
+ * crosses l = pi/2. */
+iso_status prove_follow(prove_flow *f, prove_flow *one, const prove_local *o, const prove_start *start,
+                        const arb_t width, prove_crossing *crossing, bool *reached);
 
 #endif

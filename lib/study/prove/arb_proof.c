@@ -128,6 +128,10 @@ static char *write_certificate(const iso_proof *p, const prove_ball *b, const pr
     for (int i = 0; i < 3; i++) iso_rational_print(text[2 + i], &p->ball.J[order[i]]);
     prove_certificate_words(&all, "isoroll certificate 1");
     prove_certificate_words(&all, "k %s %s", text[0], text[1]);
+    if (found->parts > 1) {
+        prove_certificate_line(&all, "middle", 1, found->middle);
+        prove_certificate_words(&all, "parts %d", found->parts);
+    }
     prove_certificate_words(&all, "moments %s %s %s", text[2], text[3], text[4]);
     prove_certificate_words(&all, "section %d", b->section + 1);
     prove_certificate_words(&all, "digits %d", p->digits);

@@ -5,7 +5,7 @@
 #include "base/pi_impl.h"
 #include "study/prove/arb_manifold_impl.h"
 
-enum { POINTS = 8, LOW_BITS = 80, FAR = -14, MOST_HALVES = 20000, TRIES = 60 };
+enum { POINTS = 8, LOW_BITS = 80, FAR = -14, MOST_HALVES = 2000, TRIES = 60 };
 
 /* --- orbits of points ------------------------------------------------------------------------------------------- */
 
@@ -13,7 +13,7 @@ static iso_status advance(prove_flow *f, arb_struct z[2])
 {
     prove_half half;
     prove_half_init(&half);
-    const iso_status status = prove_half_return(f, z, z + 1, false, &half);
+    const iso_status status = prove_half_return(f, (prove_part){0, 1}, z, z + 1, PROVE_POINT, &half);
     for (int i = 0; i < 2; i++) arb_get_mid_arb(z + i, half.z + i);
     prove_half_clear(&half);
     return status;
@@ -60,6 +60,23 @@ static void place(const prove_local *o, double i, arb_t xi)
     arb_clear(power);
 }
 
+static iso_status too_far(const prove_flow *f)
+{
+    return iso_context_fail(f->ctx, ISO_NUMERICAL, "",
+                            "the unstable manifold needs more than %d half returns to l = pi/2", MOST_HALVES);
+}
+
+/* Whether few half returns lead from the end of the local manifold to l = 1, about. */
+static bool is_near(const prove_flow *f, const prove_local *o)
+{
+    arb_t size, growth;
+    arb_init(size), arb_init(growth);
+    arb_log(size, o->size, f->bits), arb_log(growth, o->lambda, f->bits);
+    const double halves = -arf_get_d(arb_midref(size), ARF_RND_NEAR) / arf_get_d(arb_midref(growth), ARF_RND_NEAR);
+    arb_clear(size), arb_clear(growth);
+    return halves < MOST_HALVES;
+}
+
 /* The manifold in pieces, from O on: after *halves half returns the line lies between the places *i - 1 and *i. */
 static iso_status find_piece(prove_flow *f, const prove_local *o, int *i, long *halves)
 {
@@ -81,7 +98,7 @@ static iso_status find_piece(prove_flow *f, const prove_local *o, int *i, long *
     _arb_vec_clear(z, 2 * POINTS);
     arb_clear(gap);
     if (status != ISO_OK || found) return status;
-    return iso_context_fail(f->ctx, ISO_NUMERICAL, "", "the unstable manifold was not seen to meet l = pi/2");
+    return too_far(f);
 }
 
 /* Regula falsi (Illinois) for the place; *slope: of the gap by ln xi. */
@@ -114,7 +131,8 @@ static iso_status refine_piece(const prove_flow *f, const prove_local *o, int i,
 /* Back towards O, until xi < limit. */
 static void go_back(const prove_flow *f, const prove_local *o, const arb_t limit, prove_start *start)
 {
-    for (; !arb_lt(start->xi, limit); start->halves++) arb_div(start->xi, start->xi, o->lambda, f->bits);
+    for (; !arb_lt(start->xi, limit) && start->halves <= MOST_HALVES; start->halves++)
+        arb_div(start->xi, start->xi, o->lambda, f->bits);
     arb_get_mid_arb(start->xi, start->xi);
 }
 
@@ -141,7 +159,8 @@ static iso_status refine(const prove_flow *f, const prove_local *o, double slope
         const slong bits = (slong)fmin((double)f->bits, known + SPARE);
         find_limit(o, bits == f->bits ? 4 * bits : (slong)known, gap);
         go_back(f, o, gap, start);
-        status = land(f, bits, o, start->xi, start->halves, gap);
+        if (start->halves > MOST_HALVES) status = too_far(f);
+        if (status == ISO_OK) status = land(f, bits, o, start->xi, start->halves, gap);
         if (i > 0) arb_sub(last, last, gap, f->bits), arb_div(steep, last, change, f->bits);
         arb_set(last, gap);
         arb_div(change, gap, steep, f->bits);
@@ -157,14 +176,44 @@ static iso_status refine(const prove_flow *f, const prove_local *o, double slope
     return status;
 }
 
-iso_status prove_search(const prove_flow *f, const prove_local *o, prove_start *start)
+/* What xi changes by with k, so that the line is met: with T the tangent and C what the orbit changes by with k, both
+ * of the start, C_l + T_l drift = 0 at the end. */
+static iso_status find_drift(prove_flow *f, const prove_local *o, prove_start *start)
+{
+    prove_half half;
+    arb_ptr z = _arb_vec_init(2), T = _arb_vec_init(2), C = _arb_vec_init(2);
+    iso_status status = ISO_OK;
+    prove_half_init(&half);
+    arb_set(z, start->xi), arb_mul(z + 1, z, o->s, f->bits);
+    arb_one(T), arb_set(T + 1, o->s);
+    for (long i = 0; i < start->halves && status == ISO_OK; i++) {
+        status = prove_half_return(f, (prove_part){0, 1}, z, z + 1, PROVE_STATE, &half);
+        prove_apply(half.D, T, NULL, f->bits, T);
+        prove_apply(half.D, C, half.D + 4, f->bits, C);
+        for (int j = 0; j < 2; j++) {
+            arb_get_mid_arb(z + j, half.z + j);
+            arb_get_mid_arb(T + j, T + j), arb_get_mid_arb(C + j, C + j);
+        }
+    }
+    arb_div(start->drift, C, T, f->bits);
+    arb_neg(start->drift, start->drift);
+    arb_get_mid_arb(start->drift, start->drift);
+    _arb_vec_clear(z, 2), _arb_vec_clear(T, 2), _arb_vec_clear(C, 2);
+    prove_half_clear(&half);
+    return status;
+}
+
+iso_status prove_search(const prove_flow *f, const prove_local *o, bool with_drift, prove_start *start)
 {
     prove_flow low;
     int i = 0;
     double slope = 0;
+    if (!is_near(f, o)) return too_far(f);
     prove_flow_like(&low, f, LOW_BITS);
     iso_status status = find_piece(&low, o, &i, &start->halves);
     if (status == ISO_OK) status = refine_piece(&low, o, i, start->halves, start->xi, &slope);
+    if (status == ISO_OK) status = refine(f, o, slope, start);
+    if (status == ISO_OK && with_drift) status = find_drift(&low, o, start);
     prove_flow_clear(&low);
-    return status == ISO_OK ? refine(f, o, slope, start) : status;
+    return status;
 }

@@ -18,6 +18,7 @@ void prove_flow_init(prove_flow *f, iso_context *ctx, slong bits)
     f->ctx = ctx;
     f->bits = bits;
     f->order = (int)(0.33 * (double)bits) + 4;
+    f->parts = 1;
     f->certificate = NULL;
     f->steps = 0;
     arb_init(f->k), arb_init(f->inverse_k), arb_init(f->trace);
@@ -55,73 +56,84 @@ void prove_flow_like(prove_flow *f, const prove_flow *like, slong bits)
 
 /* --- coefficients ----------------------------------------------------------------------------------------------- */
 
+/* The bits of coefficient n: at the end of a step it counts about 2^-(bits n/order) of the first. */
+static slong bits_of(const prove_flow *f, int n)
+{
+    enum { SPARE = 24 };
+    const slong fewer = f->bits * n / f->order - SPARE;
+    return f->bits - (fewer > 0 ? fewer : 0);
+}
+
 /* x = coefficient n of the product of series a and b. */
 static void multiply(const prove_flow *f, int a, int b, int n, arb_t x)
 {
-    arb_dot(x, NULL, 0, f->series[a], 1, f->series[b] + n, -1, n + 1, f->bits);
+    arb_dot(x, NULL, 0, f->series[a], 1, f->series[b] + n, -1, n + 1, bits_of(f, n));
 }
 
 /* Coefficient n of c, where k q c = +-a: (+-a_n/k - sum_(i > 0) q_i c_(n - i))/q_0. */
 static void divide(prove_flow *f, int a, bool negative, int n, int c)
 {
+    const slong bits = bits_of(f, n);
     arb_ptr x = f->series[c] + n;
     arb_t top;
     arb_init(top);
-    arb_mul(top, f->series[a] + n, f->inverse_k, f->bits);
+    arb_mul(top, f->series[a] + n, f->inverse_k, bits);
     if (negative) arb_neg(top, top);
-    if (n > 0) arb_dot(top, top, 1, f->series[PROVE_Q] + 1, 1, f->series[c] + n - 1, -1, n, f->bits);
-    arb_div(x, top, f->series[PROVE_Q], f->bits);
+    if (n > 0) arb_dot(top, top, 1, f->series[PROVE_Q] + 1, 1, f->series[c] + n - 1, -1, n, bits);
+    arb_div(x, top, f->series[PROVE_Q], bits);
     arb_clear(top);
 }
 
 /* The series that are no state of their own, coefficient n. */
 static void expand_rest(prove_flow *f, int n, int numbers)
 {
+    const slong bits = bits_of(f, n);
     arb_ptr e = f->series[PROVE_E] + n, twist = f->series[PROVE_TWIST] + n, H = f->series[PROVE_H] + n;
-    arb_add(e, f->series[PROVE_Q] + n, f->series[PROVE_F] + n, f->bits);
+    arb_add(e, f->series[PROVE_Q] + n, f->series[PROVE_F] + n, bits);
     arb_neg(e, e);
-    if (n == 0) arb_add(e, e, f->trace, f->bits);
-    arb_sub(twist, e, f->series[PROVE_F] + n, f->bits);
+    if (n == 0) arb_add(e, e, f->trace, bits);
+    arb_sub(twist, e, f->series[PROVE_F] + n, bits);
     divide(f, PROVE_P, true, n, PROVE_KAPPA);
     if (numbers == PROVE_POINT) return;
     divide(f, PROVE_R, false, n, PROVE_RHO);
-    divide(f, PROVE_E, false, n, PROVE_ETA);
+    arb_sub(f->series[PROVE_EXCESS] + n, e, f->series[PROVE_Q] + n, bits);
+    divide(f, PROVE_EXCESS, false, n, PROVE_ETA);
     multiply(f, PROVE_KAPPA, PROVE_KAPPA, n, f->series[PROVE_SQUARE] + n);
-    arb_mul(H, f->series[PROVE_SQUARE] + n, f->k, f->bits);
+    arb_mul(H, f->series[PROVE_SQUARE] + n, f->k, bits);
     arb_mul_2exp_si(H, H, 1);
-    arb_sub(H, f->series[PROVE_SQUARE] + n, H, f->bits);
-    arb_add(H, H, f->series[PROVE_ETA] + n, f->bits);
-    if (n > 0) return;
-    arb_add_ui(H, H, 1, f->bits);
-    arb_sub(H, H, f->inverse_k, f->bits);
+    arb_sub(H, f->series[PROVE_SQUARE] + n, H, bits);
+    arb_add(H, H, f->series[PROVE_ETA] + n, bits);
+    if (n == 0) arb_add_ui(H, H, 1, bits);
 }
 
 /* rate[i]: coefficient n of the derivative of number i. */
 static void expand_rates(const prove_flow *f, int n, int numbers, arb_ptr rate)
 {
+    const slong bits = bits_of(f, n);
     const arb_srcptr q = f->series[PROVE_Q] + n, r = f->series[PROVE_R] + n, p = f->series[PROVE_P] + n,
                      ff = f->series[PROVE_F] + n, d = f->series[PROVE_D] + n;
     arb_mul_2exp_si(rate + PROVE_Q, r, 1);
     multiply(f, PROVE_KAPPA, PROVE_P, n, rate + PROVE_R);
-    arb_add(rate + PROVE_R, rate + PROVE_R, ff, f->bits);
-    arb_sub(rate + PROVE_R, rate + PROVE_R, q, f->bits);
+    arb_add(rate + PROVE_R, rate + PROVE_R, ff, bits);
+    arb_sub(rate + PROVE_R, rate + PROVE_R, q, bits);
     multiply(f, PROVE_KAPPA, PROVE_R, n, rate + PROVE_P);
-    arb_sub(rate + PROVE_P, d, rate + PROVE_P, f->bits);
+    arb_sub(rate + PROVE_P, d, rate + PROVE_P, bits);
     multiply(f, PROVE_KAPPA, PROVE_D, n, rate + PROVE_F);
-    arb_sub(rate + PROVE_F, rate + PROVE_F, r, f->bits);
+    arb_sub(rate + PROVE_F, rate + PROVE_F, r, bits);
     arb_mul_2exp_si(rate + PROVE_F, rate + PROVE_F, 1);
     multiply(f, PROVE_KAPPA, PROVE_TWIST, n, rate + PROVE_D);
-    arb_sub(rate + PROVE_D, rate + PROVE_D, p, f->bits);
+    arb_sub(rate + PROVE_D, rate + PROVE_D, p, bits);
     arb_set(rate + PROVE_G, f->series[PROVE_W] + n);
     multiply(f, PROVE_KAPPA, PROVE_Z, n, rate + PROVE_W);
-    arb_sub(rate + PROVE_W, rate + PROVE_W, f->series[PROVE_G] + n, f->bits);
+    arb_sub(rate + PROVE_W, rate + PROVE_W, f->series[PROVE_G] + n, bits);
     multiply(f, PROVE_KAPPA, PROVE_W, n, rate + PROVE_Z);
     arb_neg(rate + PROVE_Z, rate + PROVE_Z);
     for (int y = PROVE_Y1; y < numbers; y += 2) {
         arb_set(rate + y, f->series[y + 1] + n);
         multiply(f, PROVE_H, y, n, rate + y + 1);
         arb_neg(rate + y + 1, rate + y + 1);
-        arb_dot(rate + y + 1, rate + y + 1, 0, f->series[PROVE_RHO], 1, f->series[y + 1] + n, -1, n + 1, f->bits);
+        arb_dot(rate + y + 1, rate + y + 1, 0, f->series[PROVE_RHO], 1, f->series[y + 1] + n, -1, n + 1, bits);
+        if (y == PROVE_Y3) arb_submul(rate + y + 1, f->series[PROVE_KAPPA] + n, f->inverse_k, bits);
     }
 }
 
@@ -132,7 +144,7 @@ void prove_series_expand(prove_flow *f, arb_srcptr y, int numbers)
     for (int n = 0; n < f->order; n++) {
         expand_rest(f, n, numbers);
         expand_rates(f, n, numbers, rate);
-        for (int i = 0; i < numbers; i++) arb_div_ui(f->series[i] + n + 1, rate + i, (ulong)n + 1, f->bits);
+        for (int i = 0; i < numbers; i++) arb_div_ui(f->series[i] + n + 1, rate + i, (ulong)n + 1, bits_of(f, n));
     }
     expand_rest(f, f->order, numbers);
     _arb_vec_clear(rate, PROVE_STATE);
@@ -143,7 +155,8 @@ void prove_series_expand(prove_flow *f, arb_srcptr y, int numbers)
 /* Which series there are. */
 static bool is_used(int i, int numbers)
 {
-    return numbers == PROVE_STATE || i < PROVE_POINT || i == PROVE_KAPPA || i == PROVE_TWIST || i == PROVE_E;
+    if (i < PROVE_STATE) return i < numbers;
+    return numbers > PROVE_POINT || i == PROVE_KAPPA || i == PROVE_TWIST || i == PROVE_E;
 }
 
 /* term[n] and sum[n] of all series. */
@@ -212,7 +225,8 @@ static bool bound_rest(const prove_flow *f, mag_t t[], int numbers)
     mag_add(t[PROVE_TWIST], t[PROVE_E], t[PROVE_F]);
     if (!bound_quotient(f, t, PROVE_P, PROVE_KAPPA)) return false;
     if (numbers == PROVE_POINT) return true;
-    if (!bound_quotient(f, t, PROVE_R, PROVE_RHO) || !bound_quotient(f, t, PROVE_E, PROVE_ETA)) return false;
+    mag_add(t[PROVE_EXCESS], t[PROVE_E], t[PROVE_Q]);
+    if (!bound_quotient(f, t, PROVE_R, PROVE_RHO) || !bound_quotient(f, t, PROVE_EXCESS, PROVE_ETA)) return false;
     mag_t factor;
     arb_t one_minus_2k;
     mag_init(factor), arb_init(one_minus_2k);
@@ -245,14 +259,18 @@ static bool bound_again(const prove_flow *f, mag_t t[], int numbers, mag_t next[
             if (rates[i].linear[j] >= 0) add_rest(f, t, rates[i].linear[j], rates[i].factor, next[i]);
     }
     for (int y = PROVE_Y1; y < numbers; y += 2) {
-        mag_t other;
-        mag_init(other);
+        mag_t other, inverse_k;
+        mag_init(other), mag_init(inverse_k);
         mag_zero(next[y]);
         add_rest(f, t, y + 1, 1, next[y]);
         bound_product(f, t, PROVE_RHO, y + 1, f->order, next[y + 1]);
         bound_product(f, t, PROVE_H, y, f->order, other);
         mag_add(next[y + 1], next[y + 1], other);
-        mag_clear(other);
+        mag_zero(other);
+        if (y == PROVE_Y3) add_rest(f, t, PROVE_KAPPA, 1, other);
+        arb_get_mag(inverse_k, f->inverse_k);
+        mag_addmul(next[y + 1], other, inverse_k);
+        mag_clear(other), mag_clear(inverse_k);
     }
     for (int i = 0; i < numbers; i++) {
         mag_mul(next[i], next[i], f->step);

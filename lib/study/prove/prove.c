@@ -9,9 +9,9 @@
 #include "study/prove/prove_impl.h"
 #include "study/study_impl.h"
 
-/* Digits that are tried, if none are asked for; pieces of an interval of k, and how often it is halved. */
+/* Digits that are tried, if none are asked for; how many intervals are tried, and how often one is halved. */
 static const int digits_tried[] = {18, 36, 72};
-enum { PIECES = 100000, HALVINGS = 40, MOST_DIGITS = 400 };
+enum { INTERVALS = 20000, HALVINGS = 40, MOST_DIGITS = 400 };
 
 #define WHAT "an enclosure of m is computed"
 
@@ -84,6 +84,19 @@ static void print_exact(iso_proof *p)
     snprintf(p->exact, sizeof p->exact, "%s%s%s", text[0], one ? "" : ":", one ? "" : text[1]);
 }
 
+static double length_of(const iso_proof_ball *ball)
+{
+    return iso_rational_double(&ball->k[1]) - iso_rational_double(&ball->k[0]);
+}
+
+/* As m can change by as much as k does, an interval asks for some more digits than its length has. */
+static int digits_of(const iso_proof_ball *ball, const iso_prove_request *r, int attempt)
+{
+    if (r->digits) return r->digits;
+    if (iso_proof_is_thin(ball)) return digits_tried[attempt];
+    return (int)fmax(6, ceil(4 - log10(length_of(ball) / fabs(iso_rational_double(&ball->k[0])))));
+}
+
 /* With the digits that are asked for, or with more and more until 0 is excluded. What is known stays known if more
  * digits fail. *proof is empty before, and with digits = 0 still after. */
 static iso_status find(iso_context *ctx, const iso_proof_ball *ball, const iso_prove_request *r, int tries,
@@ -93,7 +106,7 @@ static iso_status find(iso_context *ctx, const iso_proof_ball *ball, const iso_p
     for (int i = 0; i < tries && status == ISO_OK && proof->sign == 0; i++) {
         iso_proof next;
         char *next_text = NULL;
-        const int digits = r->digits ? r->digits : digits_tried[i];
+        const int digits = digits_of(ball, r, i);
         status = iso_proof_find(ctx, ball, digits, &next, r->certificate ? &next_text : NULL);
         if (status != ISO_OK) continue;
         *proof = next;
@@ -104,6 +117,14 @@ static iso_status find(iso_context *ctx, const iso_proof_ball *ball, const iso_p
     return proof->digits > 0 && status == ISO_NUMERICAL ? ISO_OK : status;
 }
 
+/* Why nothing was enclosed at these digits. */
+static iso_status tell_undecided(iso_context *ctx, int digits)
+{
+    char why[ISO_PROOF_WORDS];
+    snprintf(why, sizeof why, "%s", iso_context_message(ctx));
+    return iso_context_fail(ctx, ISO_NUMERICAL, "", "undecided at %d digits: %s", digits, why);
+}
+
 /* --- an interval ------------------------------------------------------------------------------------------------ */
 
 typedef struct work {
@@ -112,6 +133,7 @@ typedef struct work {
     const iso_study_result *result;
     iso_proofs *found;
     double length, done; /* of the interval */
+    long tried;          /* intervals */
 } work;
 
 static iso_status add(work *w, const iso_proof *proof, char *text)
@@ -125,11 +147,6 @@ static iso_status add(work *w, const iso_proof *proof, char *text)
     f->certificate[f->rows] = text;
     f->row[f->rows++] = *proof;
     return ISO_OK;
-}
-
-static double length_of(const iso_proof_ball *ball)
-{
-    return iso_rational_double(&ball->k[1]) - iso_rational_double(&ball->k[0]);
 }
 
 /* Both halves. False: the middle has too many digits. */
@@ -155,12 +172,13 @@ static iso_status divide(work *w, const iso_proof_ball *ball, int depth)
     iso_proof proof = {.digits = 0};
     iso_proof_ball half[2];
     char *text = NULL;
-    iso_status status = find(w->ctx, ball, w->request, 1, &proof, &text);
+    iso_status status = w->tried < INTERVALS ? find(w->ctx, ball, w->request, 1, &proof, &text) : ISO_NUMERICAL;
+    w->tried++;
     if (status != ISO_OK && status != ISO_NUMERICAL) return status;
     if (status == ISO_OK && proof.sign != 0) {
         status = add(w, &proof, text);
         w->done += length_of(ball);
-    } else if (depth == 0 || w->found->rows >= PIECES || !halve(ball, half)) {
+    } else if (depth == 0 || w->tried >= INTERVALS || !halve(ball, half)) {
         status = give_up(w, ball, &proof, text);
     } else {
         free(text);
@@ -176,7 +194,7 @@ static iso_status find_all(iso_context *ctx, const iso_proof_ball *ball, const i
 {
     iso_proof proof = {.digits = 0};
     char *text = NULL;
-    work w = {ctx, r, result, found, length_of(ball), 0};
+    work w = {ctx, r, result, found, length_of(ball), 0, 0};
     if (!iso_proof_is_thin(ball)) {
         found->all = true;
         const iso_status status = divide(&w, ball, HALVINGS);
@@ -187,7 +205,7 @@ static iso_status find_all(iso_context *ctx, const iso_proof_ball *ball, const i
     const int tries = r->digits ? 1 : (int)(sizeof digits_tried / sizeof *digits_tried);
     const iso_status status = find(ctx, ball, r, tries, &proof, &text);
     found->undecided = proof.sign == 0;
-    if (proof.digits == 0) return status;
+    if (proof.digits == 0) return status == ISO_NUMERICAL ? tell_undecided(ctx, digits_of(ball, r, 0)) : status;
     const iso_status added = add(&w, &proof, text);
     return status == ISO_OK ? added : status;
 }
@@ -244,7 +262,8 @@ const iso_option iso_prove_option[] = {
         "another k than the scene's, such as 1/3, or an interval: all k from A to B; it is halved where it must be",
         iso_set_text, k),
     ROW("digits", "D", "a whole number from 1 to 400",
-        "enclose m to 1e-D (default: 18, then 36, then 72, until 0 is excluded; for an interval 18)",
+        "enclose m to 1e-D (default: 18, then 36, then 72, until 0 is excluded; for an interval as its length asks "
+        "for)",
         iso_set_count_int, digits),
     ISO_OPTION_END,
 };
