@@ -1,0 +1,5 @@
+// What only `view --live` has.
+@helper@
+@chart@
+@triangle@
+@lab@
