@@ -1,13 +1,12 @@
-// lab.js - the laboratory: k, J and the start are changed in the page, and the library (worker.js) computes anew. There is
-// no physics here. One Worker computes the orbit, another one the section and the verdict; a Worker that is busy with
-// something old is ended.
+// lab.js - the laboratory: k, J, what acts and the start are changed in the page, and the library (worker.js) computes
+// anew. There is no physics here. One Worker computes the orbit, one the section, one what is known of the orbit
+// (judge.js); a Worker that is busy with something old is ended.
 
 lab = {
   ROWS: 1200,
-  state: { k: page.k, J: page.J, n: null, omega: null }, // what is computed
+  state: { k: page.k, J: page.J, n: null, omega: null, ...forces.none() }, // what is computed
   first: null,
   throwing: false,
-  verdict: "",
   tolerance: "",
   orbits: new Helper(),
   sections: new Helper(),
@@ -16,24 +15,26 @@ lab = {
 
   scene() {
     const { k, J, n, omega } = this.state,
-      speed = Math.hypot(...omega) * Math.sqrt(Math.max(...J) / Math.min(...J)) * Math.max(1, Math.abs(k)),
-      step = Number((0.1 / speed).toPrecision(3)); // between rows the motion is drawn by cubic curves
+      turns = Math.hypot(...omega) * Math.sqrt(Math.max(...J) / Math.min(...J)) * Math.max(1, Math.abs(k)),
+      step = Number((0.1 / (turns * forces.hurry(this.state))).toPrecision(3)); // between rows: cubic curves
     return {
       reduced: { k, J },
       initial: { normal: n, angular_velocity: omega, project: true },
       time: { end: Number((step * this.ROWS).toPrecision(12)), step },
-      effects: { attitude: {} },
+      effects: { ...forces.effects(this.state), attitude: {} },
       output: { as: "both" },
     };
   },
 
   // Computes with other numbers. `seek`: {clock, value} to go to.
   async change(numbers, seek) {
+    const upright = forces.sign(this.state.k);
     Object.assign(this.state, numbers);
+    if (forces.sign(this.state.k) !== upright && !numbers.up) this.state.up = null; // it lies elsewhere on its support
     this.show();
     const number = ++this.pending;
-    this.orbits.stop();
-    this.sections.stop();
+    for (const helper of [this.orbits, this.sections]) helper.stop();
+    judge.stop();
     chart.clear();
     this.say("Computing …");
     try {
@@ -45,7 +46,7 @@ lab = {
     } catch (error) {
       if (number !== this.pending) return;
       this.say(`The library refuses: ${error.message}`);
-      this.filled = number;
+      this.filled = this.shared = number;
       return;
     }
     await this.fill(number);
@@ -54,15 +55,22 @@ lab = {
   // A new orbit: everything is drawn anew.
   take(found, seek) {
     const { k, J } = this.state,
-      playing = controls.playing;
-    Object.assign(page, { k, J, radius: null, eps: Number(found.lines.eps), h: Number(found.lines.h), integrals: [] });
+      playing = controls.playing,
+      line = (name) => (name in found.lines ? Number(found.lines[name]) : null);
+    if (found.alone && controls.compared) controls.compare(false);
+    Object.assign(page, { k, J, radius: null, eps: line("eps"), h: line("h"), integrals: [], alone: found.alone });
+    page.effects = { ...forces.effects(this.state), attitude: {} };
     page.notes = found.notes ? found.notes.split("\n") : [];
     page.rows = { count: found.rows, total: found.rows, every: 1, between: 0 };
+    free = isFree();
     body = bodyOf();
     potential = potentialOf();
+    if (controls.pictures) controls.pictures = found.alone ? this.pictures.slice(0, 1) : this.pictures;
     for (const picture of controls.pictures || []) picture.build();
     const orbit = orbitOf({ count: found.rows, columns: found.columns });
-    this.tolerance = `Computed in this page: ${found.lines.method}, tolerance ${found.lines.tolerance} for each step.`;
+    this.tolerance =
+      `Computed in this page by the library, ${found.lines.method}, with 64-bit numbers and a tolerance of ` +
+      `${found.lines.tolerance} for each step.`;
     controls.offerFrames();
     numbers.describe(orbit);
     controls.setOrbit(orbit);
@@ -75,57 +83,62 @@ lab = {
     this.say();
   },
 
-  // The section: the orbit's own crossings, the verdict, then more and more orbits of the same energy.
+  // The section and the judgement, at the same time.
   async fill(number) {
+    await Promise.all([this.fillSection(number), judge.begin(number, this.scene())]);
+    if (number !== this.pending) return;
+    this.filled = number;
+    await judge.share(number, this.scene());
+  },
+
+  // The orbit's own crossings, then those of more and more orbits of the same energy.
+  async fillSection(number) {
     const scene = this.scene(),
-      sign = "₁₂₃";
-    const ask = async (job, options) => {
-      const found = await this.sections.ask(job, scene, options);
+      words = element("lab-section-words"),
+      model = page.alone ? "ball" : "point";
+    const ask = async (options) => {
+      const found = await this.sections.ask("section", scene, { model, ...options });
       return number === this.pending ? found : new Promise(() => {});
     };
     try {
-      this.verdict = "";
-      const own = await ask("section", { crossings: 200, model: "point" }),
+      const own = await ask({ crossings: 200 }),
         axis = Number(own.lines.axis);
-      element("lab-section-words").textContent =
-        `Dots: crossings of n${sign[axis - 1]} = 0, the same for ball and point; large ones: this orbit’s. ` +
-        "Click to start there.";
+      words.textContent = page.alone
+        ? `Dots: crossings of n${"₁₂₃"[axis - 1]} = 0 by this orbit. The section has no other orbits under gravity.`
+        : `Dots: crossings of n${"₁₂₃"[axis - 1]} = 0, the same for ball and point; large ones: this orbit’s. ` +
+          "Click to start there.";
       chart.canvas.setAttribute("aria-label", `The section n${axis} = 0. Arrow keys choose a start, Enter starts there.`);
       chart.add(own.columns, { from: 0, number: 0 });
-      const { lines } = await ask("chaos", {});
-      this.verdict = this.words(lines);
-      this.say();
-      for (let seed = 0; seed < 10; seed++) {
-        const more = await ask("section", { starts: 6, crossings: 150, model: "point", seed });
+      for (let seed = 0; seed < 10 && !page.alone; seed++) {
+        const more = await ask({ starts: 6, crossings: 150, seed });
         chart.add(more.columns, { from: 1, number: 6 * seed });
       }
-      this.filled = number;
     } catch (error) {
-      if (number !== this.pending) return;
-      element("lab-section-words").textContent = `No section: ${error.message}`;
-      this.filled = number;
+      if (number === this.pending) words.textContent = `No section: ${error.message}`;
     }
   },
 
-  words({ verdict, turns, "ball.exponent.t": exponent }) {
-    if (verdict === "chaotic")
-      return `Verdict: chaotic (after ${turns} turns; exponent about ${digits(Number(exponent), 2)} per unit of t).`;
-    return `Verdict: ${verdict} (after ${turns} turns).`;
-  },
-
   say(words) {
-    const { state } = this;
-    element("lab-words").textContent = words || `${this.verdict || "Verdict: being computed."} ${this.tolerance}`;
-    for (const [name, text] of [
-      ["lab-k-words", digits(state.k, 4)],
-      ["lab-J-words", state.J.map((x) => digits(x, 4)).join(", ")],
-    ])
-      element(name).textContent = text;
-    triangle.canvas.setAttribute("aria-valuetext", element("lab-J-words").textContent);
+    element("lab-words").textContent = words || judge.words();
+    element("lab-tolerance").textContent = this.tolerance;
   },
   show() {
-    element("lab-k").value = this.state.k;
+    const { state } = this;
+    element("lab-k").value = state.k;
+    element("lab-k-words").textContent = digits(state.k, 4);
+    element("lab-k").setAttribute("aria-valuetext", digits(state.k, 4));
+    element("lab-J-words").textContent = state.J.map((x) => digits(x, 4)).join(", ");
+    element("lab-support").textContent = this.support(state.k);
+    triangle.canvas.setAttribute("aria-valuetext", element("lab-J-words").textContent);
     triangle.draw();
+    forces.show(state);
+  },
+  // In words, from the equation A = B |k/(1 - k)| of the two radii.
+  support(k) {
+    if (k === 1) return "On a plane.";
+    const size = digits(Math.abs(k / (1 - k)), 3),
+      radius = size === "1" ? "of its own radius" : `with ${size} times its radius`;
+    return `${k < 0 ? "A shell around" : k < 1 ? "On the outside of" : "Inside"} a sphere ${radius}.`;
   },
 
   // The orbit through a point of the section: it starts at its first crossing.
@@ -158,7 +171,9 @@ lab = {
       space = way.applyQuaternion(picture.world.quaternion.clone().inverse());
     const omega = times(cross(now.normal, [space.x, space.y, space.z]), 1 / (150 * body.b)); // no slip: v = omega x b n
     if (Math.hypot(...omega) < 0.02) return;
-    this.change({ n: now.n, omega: turned(inverse(now.q), omega) });
+    const { gravity } = page.effects,
+      vertical = gravity ? turned(inverse(now.q), turned(controls.orbit.q[0], gravity.up)) : null;
+    this.change({ n: now.n, omega: turned(inverse(now.q), omega), up: vertical });
   },
   setThrowing(on) {
     this.throwing = on && Boolean(controls.pictures);
@@ -168,10 +183,14 @@ lab = {
 
   // --- the address ---
 
+  NAMES: { k: "k", J: "J", n: "n", omega: "w", level: "level", rotor: "K", weight: "weight", up: "up" },
+  rounded: (v) => (Array.isArray(v) ? v.map((x) => +x.toPrecision(12)) : +v.toPrecision(12)),
   address() {
-    const { k, J, n, omega } = this.state,
-      list = (v) => v.map((x) => +x.toPrecision(12)).join();
-    return this.changed() ? [`k=${k}`, `J=${list(J)}`, `n=${list(n)}`, `w=${list(omega)}`] : [];
+    if (!this.changed()) return [];
+    const none = forces.none();
+    return Object.entries(this.NAMES)
+      .filter(([key]) => String(this.state[key] ?? "") !== String(none[key] ?? ""))
+      .map(([key, name]) => `${name}=${this.rounded(this.state[key])}`);
   },
   changed() {
     return JSON.stringify(this.state) !== this.first;
@@ -179,13 +198,19 @@ lab = {
   // Whether the address has another state; if so, it is computed.
   read() {
     const given = new URLSearchParams(location.hash.slice(1)),
-      list = (name) => (given.get(name) || "").split(",").map(Number),
-      [k, J, n, omega] = [Number(given.get("k")), list("J"), list("n"), list("w")];
-    if (!k || ![J, n, omega].every((v) => v.length === 3 && v.every(Number.isFinite))) return false;
-    if (this.state.n && this.address().join() === [`k=${k}`, ...["J", "n", "w"].map((x) => `${x}=${given.get(x)}`)].join())
-      return false;
+      state = { k: 0, J: [], n: [], omega: [], ...forces.none() };
+    for (const [key, name] of Object.entries(this.NAMES)) {
+      if (!given.has(name)) continue;
+      const list = given.get(name).split(",").map(Number),
+        size = ["k", "level", "weight"].includes(key) ? 1 : 3;
+      if (list.length !== size || !list.every(Number.isFinite)) return false;
+      state[key] = size === 1 ? list[0] : list;
+    }
+    if (!state.k || [state.J, state.n, state.omega].some((v) => v.length !== 3)) return false;
+    const same = (key) => String(state[key]) === String(this.state[key] && this.rounded(this.state[key]));
+    if (this.state.n && Object.keys(this.NAMES).every(same)) return false;
     const clock = ["t", "tau", "s"].find((name) => Number.isFinite(Number(given.get(name) || NaN)));
-    this.change({ k, J, n, omega }, clock && { clock, value: Number(given.get(clock)) });
+    this.change(state, clock && { clock, value: Number(given.get(clock)) });
     return true;
   },
 
@@ -202,8 +227,7 @@ lab = {
     });
     element("lab-throw").addEventListener("click", () => this.setThrowing(!this.throwing));
     element("lab-begin").addEventListener("click", () => this.change(JSON.parse(this.first)));
-    chart.steer();
-    triangle.steer();
+    for (const part of [chart, triangle, forces]) part.steer();
     let from = null;
     const take = (name, act) =>
       stage.addEventListener(
@@ -241,6 +265,8 @@ lab = {
   async begin() {
     const { orbit } = controls;
     Object.assign(this.state, { n: [...orbit.n[0]], omega: [...orbit.omega[0]] });
+    forces.read(page.effects, this.state);
+    this.pictures = controls.pictures;
     this.first = JSON.stringify(this.state);
     document.body.classList.add("with-lab");
     controls.resize();

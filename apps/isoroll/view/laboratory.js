@@ -2,4 +2,6 @@
 @helper@
 @chart@
 @triangle@
+@forces@
+@judge@
 @lab@
