@@ -232,6 +232,53 @@ def twin_and_judge(page):
           max(page.evaluate("[...controls.orbit.column.near]")) < 1e-3, text(page, "lab-words"))
 
 
+def tale(page):
+    """The story: each step drives the controls, and it can be left."""
+    page.evaluate("document.getElementById('story-begin').click()")
+    for step, (k, J, compared, clock) in enumerate([(1, 1.2, False, "t"), (1, 1.2, True, "t"), (1, 2, True, "t"),
+                                                    (1, 2, False, "s"), (0.5, 2, False, "t")]):
+        settled(page)
+        page.wait(f"controls.compared === {str(compared).lower()} && isoroll.clock() === '{clock}'")
+        found = state(page)
+        check(f"step {step + 1} of the story", found["k"] == k and found["J"][1] == J and
+              text(page, "story-words").startswith(f"{step + 1} of 5. "), f"{found} {text(page, 'story-words')}")
+        if step < 4:
+            page.evaluate("document.getElementById('story-next').click()")
+    check("it goes on by itself", page.evaluate("story.timers.length") == 2)
+    page.evaluate("document.getElementById('story-leave').click()")
+    check("it can be left", text(page, "story-words") == "" and box(page, "story-next")[2] == 0 and
+          page.evaluate("story.timers.length") == 0 and state(page)["k"] == 0.5)
+
+
+def taken(page):
+    """What the page gives away works in the command."""
+    page.evaluate("void lab.change({k: 0.5, J: [1, 1.1, 1.2], level: 0.4, rotor: [0, 0.3, 0]})")
+    settled(page)
+    folder = os.path.join(work, "taken")
+    page.call("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
+    page.evaluate("document.getElementById('lab-scene').click()")
+    path, patience = os.path.join(folder, "scene.yaml"), time.monotonic() + 60
+    while not os.path.exists(path) and time.monotonic() < patience:
+        time.sleep(0.05)
+    check("scene.yaml is saved", os.path.exists(path))
+    write("scene.yaml", open(path).read())
+    page.evaluate("document.getElementById('lab-command').click()")
+    lines = text(page, "lab-commands").splitlines()
+    run(*lines[0].split()[1:], stderr=subprocess.DEVNULL)
+    rows = table("orbit.csv")
+    gap = max(abs(row[c] - page.evaluate(f"controls.orbit.column.{c}[{i}]")) for i, row in ((0, rows[0]), (300, rows[300]))
+              for c in ("omega1", "n2", "M3"))
+    check(f"the command for the orbit gives its rows: {gap:.1e}", len(rows) == 1201 and gap < 1e-10)
+    words = [line.split()[1:] for line in lines[1:]]
+    for command in words:  # fewer orbits, for a short test
+        at = command.index("--starts") + 1
+        command[at] = "2"
+        run(*command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    check("and those for section and share work", [w[0] for w in words] == ["section", "chaos"])
+    page.evaluate("document.getElementById('lab-link').click()")
+    page.wait("document.getElementById('lab-taken').textContent.includes('Link')")
+
+
 # --- it refuses, goes on, and stays quick ---------------------------------------------------------------------------
 
 def refusals(page):
@@ -294,6 +341,8 @@ with chromium.Browser() as browser:
     address, shown = controls(page)
     forces(page)
     twin_and_judge(page)
+    tale(page)
+    taken(page)
     refusals(page)
     play(page)
     page.close()

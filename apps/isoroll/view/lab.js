@@ -26,8 +26,12 @@ lab = {
     };
   },
 
-  // Computes with other numbers. `seek`: {clock, value} to go to.
+  // Computes with other numbers, and then all that belongs to the orbit. `seek`: {clock, value} to go to.
   async change(numbers, seek) {
+    if (await this.compute(numbers, seek)) await this.fill(this.pending);
+  },
+  // The orbit alone. False: it is not shown; the library refuses it, or there is a newer change.
+  async compute(numbers, seek) {
     const upright = forces.sign(this.state.k);
     Object.assign(this.state, numbers);
     if (forces.sign(this.state.k) !== upright && !numbers.up) this.state.up = null; // it lies elsewhere on its support
@@ -39,17 +43,17 @@ lab = {
     this.say("Computing …");
     try {
       await this.prepared;
-      if (number !== this.pending) return;
+      if (number !== this.pending) return false;
       const found = await this.orbits.ask("run", this.scene());
-      if (number !== this.pending) return;
+      if (number !== this.pending) return false;
       this.take(found, seek);
+      return true;
     } catch (error) {
-      if (number !== this.pending) return;
+      if (number !== this.pending) return false;
       this.say(`The library refuses: ${error.message}`);
       this.filled = this.shared = number;
-      return;
+      return false;
     }
-    await this.fill(number);
   },
 
   // A new orbit: everything is drawn anew.
@@ -227,7 +231,7 @@ lab = {
     });
     element("lab-throw").addEventListener("click", () => this.setThrowing(!this.throwing));
     element("lab-begin").addEventListener("click", () => this.change(JSON.parse(this.first)));
-    for (const part of [chart, triangle, forces]) part.steer();
+    for (const part of [chart, triangle, forces, taken, story]) part.steer();
     let from = null;
     const take = (name, act) =>
       stage.addEventListener(

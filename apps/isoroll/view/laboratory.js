@@ -4,4 +4,6 @@
 @triangle@
 @forces@
 @judge@
+@taken@
+@story@
 @lab@
