@@ -323,6 +323,17 @@ def play(page):
     quiet(page, "random play")
 
 
+def drawn(page, name):
+    """The part of a picture that has any colour."""
+    return page.evaluate(f"""(() => {{ const c = document.getElementById('{name}');
+        const all = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+        return all.filter((v, i) => i % 4 === 3 && v > 0).length / (c.width * c.height); }})()""")
+
+
+def image(page, name):
+    return page.evaluate(f"document.getElementById('{name}').toDataURL()")
+
+
 def small(browser):
     page = browser.open(os.path.join(work, "lab.html"), 390, 844, media=still + (("prefers-color-scheme", "dark"),))
     settled(page)
@@ -353,6 +364,11 @@ with chromium.Browser("--disable-3d-apis") as browser:
     settled(page)
     check("without WebGL: words, and the section", page.evaluate("chart.dots.length") > 8000 and
           "no WebGL" in text(page, "trouble"), text(page, "trouble"))
+    check("without WebGL: flat pictures", all(drawn(page, name) > 0.03 for name in ("ball", "point")))
+    before = image(page, "ball")
+    page.evaluate("isoroll.seek(3)")
+    page.frame()
+    check("they move", image(page, "ball") != before)
     slide(page, 2)
     settled(page)
     check("without WebGL k can be turned", state(page)["k"] == 2)

@@ -69,8 +69,8 @@ lab = {
     free = isFree();
     body = bodyOf();
     potential = potentialOf();
-    if (controls.pictures) controls.pictures = found.alone ? this.pictures.slice(0, 1) : this.pictures;
-    for (const picture of controls.pictures || []) picture.build();
+    controls.pictures = found.alone ? this.pictures.slice(0, 1) : this.pictures;
+    for (const picture of controls.pictures) picture.build();
     const orbit = orbitOf({ count: found.rows, columns: found.columns });
     this.tolerance =
       `Computed in this page by the library, ${found.lines.method}, with 64-bit numbers and a tolerance of ` +
@@ -180,7 +180,7 @@ lab = {
     this.change({ n: now.n, omega: turned(inverse(now.q), omega), up: vertical });
   },
   setThrowing(on) {
-    this.throwing = on && Boolean(controls.pictures);
+    this.throwing = on;
     element("lab-throw").setAttribute("aria-pressed", String(this.throwing));
     element("ball").parentElement.classList.toggle("throwing", this.throwing);
   },
@@ -286,7 +286,6 @@ lab = {
       element("lab").querySelectorAll("input, button").forEach((part) => (part.disabled = true));
       return this.say(`This browser cannot run the library: ${error.message}`);
     }
-    element("lab-throw").hidden = !controls.pictures;
     if (this.pending > 0) return; // the address has a state, or the user was fast
     this.tolerance = "This orbit comes from the page’s file.";
     this.say();
