@@ -277,6 +277,11 @@ def taken(page):
     check("and those for section and share work", [w[0] for w in words] == ["section", "chaos"])
     page.evaluate("document.getElementById('lab-link').click()")
     page.wait("document.getElementById('lab-taken').textContent.includes('Link')")
+    page.evaluate("document.getElementById('lab-film').click()")
+    page.frame()
+    check("a film is recorded", page.evaluate("Boolean(film.recorder) && controls.playing"))
+    page.evaluate("film.ended()")  # before its ten seconds are over
+    page.wait("document.getElementById('lab-taken').textContent === 'The film is saved.'")
 
 
 # --- it refuses, goes on, and stays quick ---------------------------------------------------------------------------

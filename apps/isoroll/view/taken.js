@@ -34,17 +34,17 @@ const taken = {
   film() {
     if (film.recorder) return;
     film.record();
+    const { recorder } = film;
     this.say("Ten seconds are being recorded …");
-    setTimeout(() => {
-      film.ended();
-      this.say("The film is saved.");
-    }, 10000);
+    recorder.addEventListener("stop", () => this.say("The film is saved."));
+    setTimeout(() => recorder === film.recorder && film.ended(), 10000);
   },
   steer() {
     element("lab-link").addEventListener("click", () => {
       address.write();
       this.copy(location.href, "Link");
     });
+    element("lab-film").hidden = !window.MediaRecorder;
     element("lab-film").addEventListener("click", () => this.film());
     element("lab-scene").addEventListener("click", () => film.save(new Blob([this.yaml()]), "yaml", "scene"));
     element("lab-command").addEventListener("click", () => {
