@@ -291,7 +291,7 @@ def refusals(page):
     settled(page)
     check("what cannot be is refused in the library's words", "The library refuses: k = 0: " in text(page, "lab-words"),
           text(page, "lab-words"))
-    page.evaluate("lab.change({k: 0.5, J: [2, 2, 2]})")
+    page.evaluate("lab.change({k: 0.5, J: [2, 2, 2], level: 0, rotor: [0, 0, 0]})")
     settled(page)
     check("equal moments: an orbit", page.evaluate("controls.orbit.count") == 1201)
     page.evaluate("lab.change({J: [1, 2, 5]})")
