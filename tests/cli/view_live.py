@@ -183,6 +183,7 @@ def forces(page):
     M, gamma = (page.evaluate(f"controls.orbit.{name}[0]") for name in ("M", "gamma"))
     check("it is this part of the point's energy", abs(0.4 * sum(v * v for v in M) / 2 - H) < 1e-12 * H)
     put(page, "lab-K2", 0.3)
+    check("the rotor has this momentum", page.evaluate("lab.scene().effects.rotor.momentum") == [0, 0.3, 0])
     names = [name + j for name in ("n", "omega") for j in "123"]
     gap = worst_of(page, ["level", "rotor"], names + ["M1", "gamma2"])
     check(f"level and rotor: the rows of the command: {gap:.1e}", gap < 1e-10)
