@@ -14,36 +14,52 @@
 enum { PLACES = 8, POINTS = 64, STARTS = 48 };
 static const double patience = 10; /* seconds for each quantity */
 
-/* Seconds of one point: the mean, and the largest mean of a place. */
+/* Seconds of one point: the mean of the places, and the slowest place. */
 typedef struct cost {
     double mean, most;
     size_t points, failed, places;
 } cost;
 
+static iso_status seconds_of(iso_context *ctx, const iso_sweep *sweep, size_t first, size_t count,
+                             iso_sweep_rows *rows, double *seconds)
+{
+    const double before = processor_seconds();
+    const iso_status status = iso_sweep_compute_points(ctx, sweep, first, count, rows);
+    *seconds = processor_seconds() - before;
+    return status;
+}
+
+/* Every place stands for as many points of the sweep, so it counts the same, however many points were computed there.
+ * A point by itself comes first: it tells whether many can be computed, and warms up. */
 static iso_status measure(iso_context *ctx, const iso_sweep *sweep, iso_sweep_rows *rows, cost *c)
 {
-    const iso_sweep_head *head = iso_sweep_head_of(sweep);
-    double total = 0;
-    *c = (cost){.mean = 0};
     static const int order[PLACES] = {4, 1, 6, 3, 7, 0, 5, 2}; /* if time is short, places far from each other */
+    const iso_sweep_head *head = iso_sweep_head_of(sweep);
+    double total = 0, slowest = 0;
+    *c = (cost){.mean = 0};
     for (size_t p = 0; p < PLACES && total < patience; p++) {
         const size_t first = (size_t)((order[p] + 0.5) / PLACES * (double)head->count);
         if (head->count < PLACES && p >= head->count) break;
-        size_t count = rows->most < POINTS ? rows->most : POINTS;
+        size_t count = head->count < PLACES ? 1 : rows->most < POINTS ? rows->most : POINTS;
         if (count > head->count - first) count = head->count - first;
-        if (c->points > 0 && total / (double)c->points * (double)count > patience) count = 1; /* they are slow */
-        if (p == 0 || head->count < PLACES) count = 1;
-        const double before = processor_seconds();
-        const iso_status status = iso_sweep_compute_points(ctx, sweep, first, count, rows);
-        const double time = processor_seconds() - before;
-        if (status != ISO_OK) return status;
+        double time = 0;
+        if (p == 0) ISO_TRY(seconds_of(ctx, sweep, first, 1, rows, &time));
+        slowest = fmax(slowest, time);
         total += time;
+        if (slowest * (double)count > patience) count = 1; /* they are slow */
+        if (p > 0 || count > 1) {
+            ISO_TRY(seconds_of(ctx, sweep, first, count, rows, &time));
+            total += time;
+        }
+        const double each = time / (double)count;
+        slowest = fmax(slowest, each);
         c->points += count;
-        c->most = fmax(c->most, time / (double)count);
+        c->mean += each;
+        c->most = fmax(c->most, each);
         for (size_t i = 0; i < count; i++) c->failed += rows->status[i] != ISO_OK;
         c->places++;
     }
-    c->mean = total / (double)c->points;
+    c->mean /= (double)c->places;
     return ISO_OK;
 }
 

@@ -1,16 +1,18 @@
 /* bench_crossings - how many crossings of the section a second can be computed, alone and with deviations.
  *
- *     bench_crossings [K]            speed, J = (1, 2, 5)
+ *     bench_crossings [K [T]]        speed, J = (1, 2, 5); T: tolerance of ours, default 1e-12
  *     bench_crossings count N        N million crossings of random and of nearly flat orbits: none may be missed
  *
- * The orbits start evenly spread over the section. All runs have tolerance 1e-12 and one thread; seconds are
- * processor time. `ratio` is to the faster rival; of the rivals to the first.
+ * The orbits start evenly spread over the section. All runs have tolerance 1e-12, and ours T; one thread; seconds are
+ * processor time. `ratio` is to the fastest rival; of the rivals to the first.
  *
- * - crossings: the rival is a plain loop over the steps of GSL's rk8pd (rivals/gsl.c), by the ball and by the
- *   point. Then iso_crossings with each kind of vectors.
- * - with two deviations, as for the verdict of `isoroll chaos`: the same loop for the point and its variational
- *   equations, 18 numbers. Then iso_crossings with deviations.
- * - the law: the times of the rival's first 5 crossings are ours up to 1e-9 of them, its variations there up to 1e-6.
+ * - crossings: the rivals are plain loops over the steps of GSL's rk8pd (rivals/gsl.c), and of Boost.odeint's
+ *   fehlberg78 and bulirsch_stoer_dense_out where it is found (rivals/odeint.cpp), by the ball and by the point.
+ *   Then iso_crossings with each kind of vectors.
+ * - with two deviations, as for the verdict of `isoroll chaos`: the same loops with the variational equations, 18
+ *   numbers. Then iso_crossings with deviations.
+ * - `off`: the largest relative error of the times of the first 5 crossings, against ours at 1e-15 by the same model.
+ *   The law: a rival's `off` is below 1e-9, and its variations there are ours up to 1e-6.
  * - count: the library checks each return against Sturm's bounds. Here the times s of both models are compared as
  *   well: for k = 1 and -1 those of all crossings, for other k those of the first 6, before chaotic orbits part. If
  *   one model misses a crossing, their times differ by a turn.
@@ -27,14 +29,16 @@
 #include "rivals/rivals.h"
 
 enum { ORBITS = 256, TURNS = 200, SLOW_ORBITS = 8, CHECKED = 5 };
-static const double tolerance = 1e-12;
+static const double tolerance = 1e-12; /* of the rivals */
+static double our_tolerance = 1e-12;
 
 static iso_context *ctx;
 static iso_params params;
 static iso_start starts[ORBITS];
 static iso_batch_orbit orbits[ORBITS];
-static double start_at[ORBITS][2];            /* l, x */
-static iso_crossing crossing[ORBITS * TURNS]; /* of the last run of ours */
+static double start_at[ORBITS][2];                  /* l, x */
+static iso_crossing crossing[ORBITS * TURNS];       /* of the last run of ours */
+static iso_crossing right[2][SLOW_ORBITS][CHECKED]; /* by each model at 1e-15 */
 
 static void stop(void)
 {
@@ -62,28 +66,54 @@ static void make_starts(double k, bool flat)
     }
 }
 
-static double print(const char *name, double count, double milliseconds, double first)
+static double print(const char *name, double count, double milliseconds, double first, double off)
 {
     const double rate = 1e3 * count / milliseconds;
-    printf("  %-28s %12.0f  %8.1f\n", name, rate, first > 0 ? rate / first : 1);
+    printf("  %-32s %8.0f  %8.1f  %8.1e\n", name, rate, first > 0 ? rate / first : 1, off);
     return rate;
+}
+
+/* NaN counts as the largest. */
+static double larger(double worst, double off)
+{
+    return off <= worst ? worst : off;
 }
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */
 
-static double by_lanes(const char *vectors, iso_backend backend, bool deviations)
+static double by_lanes(const char *vectors, iso_backend backend, bool deviations, double accuracy)
 {
     static size_t done[ORBITS];
     static iso_status status[ORBITS];
     iso_crossings *c;
     iso_crossings_options o = iso_crossings_defaults();
     o.threads = 1, o.vectors = vectors, o.deviations = deviations, o.backend = backend;
-    o.tolerance = tolerance;
+    o.tolerance = accuracy;
     const double begin = bench_milliseconds();
     if (iso_crossings_create(ctx, orbits, ORBITS, &o, &c) != ISO_OK) stop();
     if (iso_crossings_go(c, NULL, TURNS, crossing, NULL, done, status) != ISO_OK) stop();
     iso_crossings_free(c);
     return bench_milliseconds() - begin;
+}
+
+static const iso_clock clock_of[] = {ISO_CLOCK_T, ISO_CLOCK_S}; /* of the ball, of the point */
+
+static void find_right(iso_backend backend, bool deviations)
+{
+    by_lanes(NULL, backend, deviations, 1e-15);
+    for (size_t i = 0; i < SLOW_ORBITS; i++)
+        memcpy(right[backend][i], crossing + i * TURNS, sizeof right[backend][i]);
+}
+
+static double lanes_off(iso_backend backend)
+{
+    double off = 0;
+    for (size_t i = 0; i < SLOW_ORBITS; i++)
+        for (size_t turn = 0; turn < CHECKED; turn++)
+            off = larger(off, fabs(crossing[i * TURNS + turn].clock[clock_of[backend]] /
+                                       right[backend][i][turn].clock[clock_of[backend]] -
+                                   1));
+    return off;
 }
 
 static void print_lanes(bool deviations, double first)
@@ -93,19 +123,19 @@ static void print_lanes(bool deviations, double first)
         for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
             char name[64];
             double best = INFINITY;
-            for (int pass = 0; pass < 3; pass++) best = fmin(best, by_lanes(vectors, backend, deviations));
+            for (int pass = 0; pass < 3; pass++)
+                best = fmin(best, by_lanes(vectors, backend, deviations, our_tolerance));
             snprintf(name, sizeof name, "%s, by the %s", vectors, backend == ISO_BACKEND_BALL ? "ball" : "point");
-            print(name, (double)ORBITS * TURNS, best, first);
+            print(name, (double)ORBITS * TURNS, best, first, lanes_off(backend));
         }
 }
 
-/* --- GSL -------------------------------------------------------------------------------------------------------- */
+/* --- rivals ----------------------------------------------------------------------------------------------------- */
 
 /* The law for a rival: its crossings are ours. Chaotic orbits part, so only the first ones are compared. */
 typedef struct check {
     const iso_crossing *ours;
-    iso_clock clock;
-    bool deviations;
+    bool point, deviations;
     int crossings, variations; /* that were compared */
     double worst, worst_variation;
 } check;
@@ -117,74 +147,72 @@ static rival_problem problem_of(bool point, bool deviations)
         .point = point, .k = params.k, .J = {J[0], J[1], J[2]}, .eps = 1, .variations = deviations ? 2 : 0};
 }
 
-static void point_at(double l, double x, double point[ISO_STATE])
+/* The state of the ball or of the point at (l, x) of the section. */
+static void state_at(bool point, double l, double x, double y[ISO_STATE])
 {
-    iso_section_point(iso_free_point(&params, 1), iso_section_axis(iso_free_point(&params, 1)), l, x, point);
+    double at[ISO_STATE];
+    iso_section_point(iso_free_point(&params, 1), iso_section_axis(iso_free_point(&params, 1)), l, x, at);
+    if (point)
+        memcpy(y, at, sizeof at);
+    else
+        iso_point_to_ball(&params, at, y);
 }
 
-/* The derivatives of the point's state by l and x on the section. */
-static void tangents(double l, double x, double by[2][ISO_STATE])
+/* Its derivatives by l and x. */
+static void tangents(bool point, double l, double x, double by[2][ISO_STATE])
 {
     const double step = 1e-5;
     for (int v = 0; v < 2; v++) {
         double before[ISO_STATE], after[ISO_STATE];
-        point_at(l - (v == 0 ? step : 0), x - (v == 1 ? step : 0), before);
-        point_at(l + (v == 0 ? step : 0), x + (v == 1 ? step : 0), after);
+        state_at(point, l - (v == 0 ? step : 0), x - (v == 1 ? step : 0), before);
+        state_at(point, l + (v == 0 ? step : 0), x + (v == 1 ? step : 0), after);
         for (int i = 0; i < ISO_STATE; i++) by[v][i] = (after[i] - before[i]) / (2 * step);
     }
 }
 
 /* How far the rival's variation v, moved along the flow onto the section, is from what our slopes say. */
-static double variation_error(const iso_crossing *c, int v, const double y[])
+static double variation_error(const iso_crossing *c, bool point, int v, const double y[])
 {
     const int height = 3 + iso_section_axis(iso_free_point(&params, 1));
-    const rival_problem p = problem_of(true, false);
+    const rival_problem p = problem_of(point, false);
     const double *d = y + 6 + 6 * v;
     double by[2][ISO_STATE], flow[ISO_STATE], off = 0, size = 0;
-    tangents(c->l, c->x, by);
-    rival_point(&p, y, flow);
+    tangents(point, c->l, c->x, by);
+    rival_rhs(&p, y, flow);
     for (int i = 0; i < ISO_STATE; i++) {
-        const double right = c->slope[0][v] * by[0][i] + c->slope[1][v] * by[1][i];
-        off = fmax(off, fabs(d[i] - flow[i] * d[height] / flow[height] - right));
-        size = fmax(size, fabs(right));
+        const double ours = c->slope[0][v] * by[0][i] + c->slope[1][v] * by[1][i];
+        off = fmax(off, fabs(d[i] - flow[i] * d[height] / flow[height] - ours));
+        size = fmax(size, fabs(ours));
     }
     return off / size;
-}
-
-/* NaN counts as the largest. */
-static double larger(double worst, double off)
-{
-    return off <= worst ? worst : off;
 }
 
 static void see(void *data, int turn, double time, const double y[], const double growth[2])
 {
     check *c = data;
     if (turn >= CHECKED) return;
-    c->worst = larger(c->worst, fabs(time / c->ours[turn].clock[c->clock] - 1));
+    c->worst = larger(c->worst, fabs(time / c->ours[turn].clock[clock_of[c->point]] - 1));
     c->crossings++;
     for (int v = 0; v < 2 && c->deviations && growth[v] == 0; v++) {
-        c->worst_variation = larger(c->worst_variation, variation_error(&c->ours[turn], v, y));
+        c->worst_variation = larger(c->worst_variation, variation_error(&c->ours[turn], c->point, v, y));
         c->variations++;
     }
 }
 
-static double by_gsl(bool point, bool deviations)
+static double by_rival(const rival_walker *walker, bool point, bool deviations, double *off)
 {
     const rival_problem p = problem_of(point, deviations);
     const int axis = iso_section_axis(iso_free_point(&params, 1));
-    check c = {.clock = point ? ISO_CLOCK_S : ISO_CLOCK_T, .deviations = deviations};
+    check c = {.point = point, .deviations = deviations};
     const double begin = bench_milliseconds();
     for (int i = 0; i < SLOW_ORBITS; i++) {
         double y[RIVAL_MOST] = {0};
-        if (point)
-            memcpy(y, starts[i].y, ISO_STATE * sizeof *y);
-        else
-            iso_point_to_ball(&params, starts[i].y, y);
-        if (deviations) tangents(start_at[i][0], start_at[i][1], (double(*)[ISO_STATE])(y + ISO_STATE));
-        c.ours = &crossing[(size_t)i * TURNS];
-        if (!rival_follow(&p, axis, tolerance, TURNS, y, see, &c)) {
-            fprintf(stderr, "bench_crossings: GSL did not follow orbit %d\n", i);
+        const double l = start_at[i][0], x = start_at[i][1];
+        state_at(point, l, x, y);
+        if (deviations) tangents(point, l, x, (double(*)[ISO_STATE])(y + ISO_STATE));
+        c.ours = right[point][i];
+        if (!walker->follow(&p, axis, tolerance, TURNS, y, see, &c)) {
+            fprintf(stderr, "bench_crossings: %s did not follow orbit %d\n", walker->name, i);
             exit(1);
         }
     }
@@ -192,20 +220,29 @@ static double by_gsl(bool point, bool deviations)
     const bool enough = c.crossings == SLOW_ORBITS * CHECKED && (!deviations || c.variations >= 2 * SLOW_ORBITS);
     if (!enough || !(c.worst < 1e-9) || !(c.worst_variation < 1e-6)) {
         fprintf(stderr,
-                "bench_crossings: GSL and isoroll differ: times of %d crossings by %.1e, %d variations by %.1e\n",
-                c.crossings, c.worst, c.variations, c.worst_variation);
+                "bench_crossings: %s and isoroll differ: times of %d crossings by %.1e, %d variations by %.1e\n",
+                walker->name, c.crossings, c.worst, c.variations, c.worst_variation);
         exit(1);
     }
+    *off = c.worst;
     return milliseconds;
 }
 
-static double print_gsl(bool point, bool deviations, double first)
+/* Gives the rate of the fastest. */
+static double print_rivals(bool deviations)
 {
-    char name[64];
-    double best = INFINITY;
-    for (int pass = 0; pass < 3; pass++) best = fmin(best, by_gsl(point, deviations));
-    snprintf(name, sizeof name, "GSL rk8pd, by the %s", point ? "point" : "ball");
-    return print(name, SLOW_ORBITS * TURNS, best, first);
+    double first = 0, fastest = 0;
+    for (const rival_walker *walker = rival_walkers; walker->name; walker++)
+        for (int point = 0; point <= 1; point++) {
+            char name[64];
+            double best = INFINITY, off = NAN;
+            for (int pass = 0; pass < 3; pass++) best = fmin(best, by_rival(walker, point, deviations, &off));
+            snprintf(name, sizeof name, "%s, by the %s", walker->name, point ? "point" : "ball");
+            const double rate = print(name, SLOW_ORBITS * TURNS, best, first, off);
+            if (first == 0) first = rate;
+            fastest = fmax(fastest, rate);
+        }
+    return fastest;
 }
 
 /* --- none may be missed ----------------------------------------------------------------------------------------- */
@@ -247,14 +284,15 @@ int main(int argc, char *argv[])
         count_crossings(atof(argv[2]));
         return 0;
     }
+    if (argc > 2) our_tolerance = atof(argv[2]);
     make_starts(argc > 1 ? atof(argv[1]) : -1, false);
-    printf("k = %g\ncrossings a second %30s\n", params.k, "ratio");
-    by_lanes(NULL, ISO_BACKEND_POINT, false);
-    const double by_ball = print_gsl(false, false, 0), by_point = print_gsl(true, false, by_ball);
-    print_lanes(false, fmax(by_ball, by_point));
-    printf("turns a second with two deviations %14s\n", "ratio");
-    by_lanes(NULL, ISO_BACKEND_POINT, true);
-    print_lanes(true, print_gsl(true, true, 0));
+    printf("k = %g\n", params.k);
+    for (int deviations = 0; deviations <= 1; deviations++) {
+        printf("%-34s %8s  %8s  %8s\n", deviations ? "turns with two deviations" : "crossings", "a second", "ratio",
+               "off");
+        for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) find_right(b, deviations);
+        print_lanes(deviations, print_rivals(deviations));
+    }
     iso_context_free(ctx);
     return 0;
 }

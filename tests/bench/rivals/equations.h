@@ -3,7 +3,7 @@
  * Ball (9):    J w' = J w x w + lambda n,  n' = k n x w,  y = (w, n), in its time t.
  * Point (24):  M' = a g x J g,  g' = g x M,  a = (2 eps/k) q^(-1-1/k),  q = (g, J g),  y = (M, g), in its time s.
  * In the ball's time the point's slopes are longer by ds/dt = (k^2/det J) q^(1+1/(2k)).
- * A variation d of the point's state obeys the equations of first order in d; y may hold some of them behind the state.
+ * A variation d of the state obeys the equations of first order in d; y may hold some of them behind the state.
  */
 #ifndef ISO_TESTS_RIVALS_EQUATIONS_H
 #define ISO_TESTS_RIVALS_EQUATIONS_H
@@ -14,7 +14,7 @@
 typedef struct rival_problem {
     bool point, in_t; /* in_t: the point, in the ball's time */
     double k, J[3], eps;
-    int variations; /* of the point, in its own time */
+    int variations; /* of the point only in its own time */
 } rival_problem;
 
 static inline void rival_cross(const double a[], const double b[], double c[])
@@ -93,6 +93,36 @@ static inline void rival_rhs(const rival_problem *p, const double y[], double dy
         rival_point_in_t(p, y, dy);
     else
         rival_point(p, y, dy);
+}
+
+static inline void rival_vary_ball(const rival_problem *p, const double y[], double dy[])
+{
+    const double *w = y, *n = y + 3, *J = p->J, over = 1 / (J[0] * J[1] * J[2]);
+    const double inverse[3] = {J[1] * J[2] * over, J[0] * J[2] * over, J[0] * J[1] * over};
+    const double apart[3] = {J[1] - J[2], J[2] - J[0], J[0] - J[1]};
+    const double turn[3] = {apart[0] * w[1] * w[2], apart[1] * w[2] * w[0], apart[2] * w[0] * w[1]};
+    const double a[3] = {n[0] * inverse[0], n[1] * inverse[1], n[2] * inverse[2]};
+    const double below = -1 / (n[0] * a[0] + n[1] * a[1] + n[2] * a[2]);
+    const double lambda = (turn[0] * a[0] + turn[1] * a[1] + turn[2] * a[2]) * below;
+    for (int v = 1; v <= p->variations; v++) {
+        const double *dw = y + 6 * v, *dn = dw + 3;
+        double *to = dy + 6 * v, one[3], other[3], dlambda = 0;
+        const double dturn[3] = {apart[0] * (dw[1] * w[2] + w[1] * dw[2]), apart[1] * (dw[2] * w[0] + w[2] * dw[0]),
+                                 apart[2] * (dw[0] * w[1] + w[0] * dw[1])};
+        for (int i = 0; i < 3; i++) dlambda += dturn[i] * a[i] + (turn[i] * inverse[i] + 2 * lambda * a[i]) * dn[i];
+        dlambda *= below;
+        rival_cross(dn, w, one);
+        rival_cross(n, dw, other);
+        for (int i = 0; i < 3; i++) to[i] = (dturn[i] + lambda * dn[i]) * inverse[i] + dlambda * a[i];
+        for (int i = 0; i < 3; i++) to[3 + i] = p->k * (one[i] + other[i]);
+    }
+}
+
+/* With the slopes of the variations, of the ball too. */
+static inline void rival_varied(const rival_problem *p, const double y[], double dy[])
+{
+    rival_rhs(p, y, dy);
+    if (!p->point) rival_vary_ball(p, y, dy);
 }
 
 #endif

@@ -4,12 +4,20 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "crossing.h"
 #include "rivals.h"
 
-static int rhs(double t, const double y[], double dy[], void *problem)
+static int slopes(double t, const double y[], double dy[], void *problem)
 {
     (void)t;
     rival_rhs(problem, y, dy);
+    return GSL_SUCCESS;
+}
+
+static int varied(double t, const double y[], double dy[], void *problem)
+{
+    (void)t;
+    rival_varied(problem, y, dy);
     return GSL_SUCCESS;
 }
 
@@ -23,7 +31,8 @@ typedef struct loop {
 static void begin(loop *l, const rival_problem *p, double tolerance)
 {
     const size_t size = 6 + 6 * (size_t)p->variations;
-    l->system = (gsl_odeiv2_system){rhs, NULL, size, (rival_problem *)p}; /* GSL's data is not const */
+    l->system = (gsl_odeiv2_system){p->variations > 0 ? varied : slopes, NULL, size,
+                                    (rival_problem *)p}; /* GSL's data is not const */
     l->step = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size);
     l->control = gsl_odeiv2_control_standard_new(tolerance, tolerance, 1, 0);
     l->evolve = gsl_odeiv2_evolve_alloc(size);
@@ -124,30 +133,13 @@ void rival_path_free(rival_path *path)
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */
 
-/* The x in [0, h] where the cubic that has the two values and slopes is 0. */
-static double cubic_root(double before, double slope, double after, double slope_after, double h)
-{
-    double low = 0, high = 1, x = before / (before - after);
-    const double a = h * slope, b = h * slope_after;
-    for (int i = 0; i < 60 && high - low > 1e-15; i++) {
-        const double y = 1 - x;
-        const double value = y * y * ((1 + 2 * x) * before + x * a) + x * x * ((3 - 2 * x) * after - y * b);
-        const double rate = 6 * x * y * (after - before) + y * (1 - 3 * x) * a + x * (3 * x - 2) * b;
-        *(value < 0 ? &low : &high) = x;
-        const double next = x - value / rate;
-        if (fabs(next - x) < 1e-14) break;
-        x = next > low && next < high ? next : (low + high) / 2;
-    }
-    return h * x;
-}
-
 /* The crossing within the last step, of length h from `old`, where the slope was `slope`: a step to the zero of the
  * cubic, and from there along the tangent. Gives its time after the old one; y is its state. */
 static double refine(loop *l, int i, const double old[], const double slope[], double h, const double y_end[],
                      double y[])
 {
     double error[RIVAL_MOST], out[RIVAL_MOST];
-    double x = cubic_root(old[i], slope[i], y_end[i], l->evolve->dydt_out[i], h), more;
+    double x = rival_cubic_root(old[i], slope[i], y_end[i], l->evolve->dydt_out[i], h), more;
     for (int n = 0;; n++) {
         memcpy(y, old, l->system.dimension * sizeof *y);
         gsl_odeiv2_step_apply(l->step, 0, x, y, error, slope, out, &l->system);
@@ -159,23 +151,8 @@ static double refine(loop *l, int i, const double old[], const double slope[], d
     return x;
 }
 
-/* Makes long variations as long as 1, and forgets the slopes of the old ones. */
-static void shorten(loop *l, double y[], double growth[2])
-{
-    bool changed = false;
-    for (size_t v = 1; 6 * v < l->system.dimension; v++) {
-        double square = 0;
-        for (size_t i = 6 * v; i < 6 * v + 6; i++) square += y[i] * y[i];
-        if (square < 1e8) continue;
-        for (size_t i = 6 * v; i < 6 * v + 6; i++) y[i] /= sqrt(square);
-        growth[v - 1] += log(square) / 2;
-        changed = true;
-    }
-    if (changed) gsl_odeiv2_evolve_reset(l->evolve), gsl_odeiv2_step_reset(l->step);
-}
-
-bool rival_follow(const rival_problem *p, int axis, double tolerance, int turns, const double start[],
-                  rival_seen *seen, void *data)
+bool rival_follow_gsl(const rival_problem *p, int axis, double tolerance, int turns, const double start[],
+                      rival_seen *seen, void *data)
 {
     loop l;
     double y[RIVAL_MOST], old[RIVAL_MOST], slope[RIVAL_MOST], crossing[RIVAL_MOST], growth[2] = {0, 0};
@@ -193,7 +170,8 @@ bool rival_follow(const rival_problem *p, int axis, double tolerance, int turns,
             memcpy(slope, l.evolve->dydt_in, l.system.dimension * sizeof *slope);
             const double x = refine(&l, height, old, slope, t - t_old, y, crossing);
             seen(data, found++, t_old + x, crossing, growth);
-            shorten(&l, y, growth);
+            if (rival_shorten(y, l.system.dimension, growth))
+                gsl_odeiv2_evolve_reset(l.evolve), gsl_odeiv2_step_reset(l.step);
         }
     }
     end(&l);

@@ -12,6 +12,15 @@ const rival rivals[] = {
     {NULL, NULL, false},
 };
 
+const rival_walker rival_walkers[] = {
+    {"GSL rk8pd", rival_follow_gsl},
+#ifdef RIVAL_ODEINT
+    {"odeint fehlberg78", rival_follow_fehlberg},
+    {"odeint bulirsch_stoer", rival_follow_stoer},
+#endif
+    {NULL, NULL},
+};
+
 #define ORDERS(vectors, solve)                                                                                       \
     {vectors, 12, solve}, {vectors, 14, solve}, {vectors, 16, solve}, {vectors, 18, solve},                          \
     {                                                                                                                \

@@ -67,8 +67,19 @@ enum { RIVAL_MOST = 18 };
 typedef void rival_seen(void *data, int turn, double time, const double y[], const double growth[2]);
 
 /* Follows y to its next `turns` crossings of y[3 + axis] = 0 upwards. */
-bool rival_follow(const rival_problem *p, int axis, double tolerance, int turns, const double y[], rival_seen *seen,
-                  void *data);
+typedef bool rival_follow(const rival_problem *p, int axis, double tolerance, int turns, const double y[],
+                          rival_seen *seen, void *data);
+
+typedef struct rival_walker {
+    const char *name;
+    rival_follow *follow;
+} rival_walker;
+
+/* The list ends with the name NULL. */
+extern const rival_walker rival_walkers[];
+
+rival_follow rival_follow_gsl;
+rival_follow rival_follow_fehlberg, rival_follow_stoer; /* Boost, where it was found */
 
 #ifdef __cplusplus
 }
