@@ -81,14 +81,19 @@ static bool has_own_scene(const options *o)
     return o->live && strcmp(o->from.file, "-") == 0;
 }
 
-/* The laboratory has a ball and its point alone. */
+/* The laboratory has these effects alone (view/forces.js). */
+static bool is_in_laboratory(int effect)
+{
+    return effect == ISO_ATTITUDE || effect == ISO_LEVEL || effect == ISO_ROTOR || effect == ISO_GRAVITY;
+}
+
 static iso_status check_live(iso_context *ctx, const view_page *page)
 {
     for (int i = 0; page->live && i < ISO_EFFECTS; i++)
-        if (page->effects.on[i] && i != ISO_ATTITUDE)
+        if (page->effects.on[i] && !is_in_laboratory(i))
             return ISO_FAIL_INPUT(ctx, iso_effect_at(i)->name,
-                                  "--live computes without effects, and the scene has '%s': take it out, or leave "
-                                  "out --live",
+                                  "--live computes with level, rotor and gravity, and the scene has '%s': take it "
+                                  "out, or leave out --live",
                                   iso_effect_at(i)->name);
     return ISO_OK;
 }
@@ -187,8 +192,8 @@ const command command_view = {
         "If the rows of a trajectory are no orbit of the stated equations, there is a page, a message and exit "
         "status 1.\n\n"
         "With --live the page has the library inside (WebAssembly): change k and J, throw the ball, or click the "
-        "section to start there: the page computes anew. It needs a scene without effects, or no FILE at "
-        "all: then it begins with a scene of its own.\n\n"
+        "section to start there: the page computes anew. Of effects its scene can have level, rotor and gravity. "
+        "Without FILE it begins with a scene of its own.\n\n"
         "--frames draws pictures of 1280 x 720 pixels with Chromium, without a window; -o is then not needed.",
     .exits = "1: interrupted, or the rows of a trajectory are no orbit (the page is there)",
     .example = "isoroll view scene.yaml -o page.html\nisoroll view section.csv -o section.html\n"

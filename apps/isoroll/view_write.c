@@ -46,7 +46,7 @@ static bool is_marker(const char *at, size_t length, char name[16])
 
 static bool is_of_live(const char *name)
 {
-    static const char *const names[] = {"policy", "live", "panel", "lab"};
+    static const char *const names[] = {"policy", "live", "steps", "panel", "laboratory"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(name, names[i]) == 0) return true;
     return false;

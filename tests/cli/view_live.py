@@ -3,6 +3,7 @@
 Prints a line "PASS words" or "FAIL words" for each check. Bounds were set before the first look: what the page computes
 is the C library without AVX2, so a regular orbit agrees with the command to rounding that has grown for its time."""
 import json
+import math
 import os
 import random
 import subprocess
@@ -154,6 +155,136 @@ def address_opens(browser, address, shown):
     page.close()
 
 
+def put(page, name, value):
+    page.evaluate(f"(() => {{ const s = document.getElementById('{name}'); s.value = {value}; "
+                  "s.dispatchEvent(new Event('input')); })()")
+    settled(page)
+
+
+def worst_of(page, effects, columns):
+    """The orbit of the page against `isoroll run` of the same scene."""
+    shown = page.evaluate("lab.scene()")
+    write("forces.yaml", json.dumps({**shown, "output": {"as": "both" if "M1" in columns else "ball"}}))
+    run("run", "forces.yaml", "--backend", "ball", "-o", "forces.csv", stderr=subprocess.DEVNULL)
+    rows = table("forces.csv")
+    check(f"{effects}: they are in the scene", set(shown["effects"]) == {"attitude", *effects}, str(shown["effects"]))
+    found = page.evaluate("({t: [...controls.orbit.t], " + ", ".join(
+        f"{c}: [...controls.orbit.column.{c}]" for c in columns) + "})")
+    check(f"{effects}: all rows", len(rows) == len(found["t"]))
+    return max(abs(row[c] - found[c][i]) / max(1, abs(row[c])) for i, row in enumerate(rows[:400]) for c in columns)
+
+
+def forces(page):
+    page.evaluate("lab.change({k: 0.5, J: [1, 1.1, 1.2], n: [0.36, 0.48, 0.8], omega: [0.9, -0.3, -0.225]})")
+    put(page, "lab-level", 0.4)
+    c = page.evaluate("lab.scene().effects.level.c")
+    H = c * 1 * 1.1 * 1.2 / 0.25
+    check("the level H is shown", abs(float(text(page, "lab-level-words")) - H) < 1e-3 * H, text(page, "lab-level-words"))
+    M, gamma = (page.evaluate(f"controls.orbit.{name}[0]") for name in ("M", "gamma"))
+    check("it is this part of the point's energy", abs(0.4 * sum(v * v for v in M) / 2 - H) < 1e-12 * H)
+    put(page, "lab-K2", 0.3)
+    check("the rotor has this momentum", page.evaluate("lab.scene().effects.rotor.momentum") == [0, 0.3, 0])
+    names = [name + j for name in ("n", "omega") for j in "123"]
+    gap = worst_of(page, ["level", "rotor"], names + ["M1", "gamma2"])
+    check(f"level and rotor: the rows of the command: {gap:.1e}", gap < 1e-10)
+    check("the section is filled", page.evaluate("chart.dots.length") > 5000)
+    put(page, "lab-level", 0.02)
+    put(page, "lab-K2", 0.01)
+    check("small remainders are none", page.evaluate("lab.state.level === 0 && lab.state.rotor[1] === 0"))
+    page.evaluate("lab.change({k: 2})")
+    put(page, "lab-weight", 1)
+    gap = worst_of(page, ["gravity"], names)
+    check(f"weight: the rows of the command: {gap:.1e}", gap < 1e-10)
+    check("no point under gravity: the page says so, and shows the ball alone",
+          "breaks the isomorphism" in text(page, "left-words") and box(page, "right")[2] == 0, text(page, "left-words"))
+    check("its own crossings alone", page.evaluate("chart.dots.length") == 200)
+    address = page.evaluate("'#' + lab.address().join('&')")
+    check("the address has the weight", "weight=1" in address, address)
+    put(page, "lab-weight", 0)
+    check("the point is there again", box(page, "right")[2] > 100 and page.evaluate("controls.pictures.length") == 2)
+
+
+def twin_and_judge(page):
+    """The twin begins 1e-6 away, also after a change, and does what the exponent says."""
+    page.evaluate("lab.change({k: 0.5, J: [1, 2, 5], n: [0.36, 0.48, 0.8], omega: [0.9, -0.3, -0.225]})")
+    settled(page)
+    near = page.evaluate("[...controls.orbit.column.near]")
+    check("the twin begins 1e-6 away", abs(near[0] - 1e-6) < 1e-12, str(near[0]))
+    page.evaluate("void (controls.beside || document.getElementById('beside').click())")
+    page.frame()
+    check("its distance is drawn", box(page, "growth")[3] > 80 and "factor e" in text(page, "beside-words"),
+          text(page, "beside-words"))
+    page.wait("lab.shared === lab.pending")
+    told, words = page.evaluate("judge.told"), text(page, "lab-words")
+    write("judged.yaml", scene((0.5, [1, 2, 5], [0.36, 0.48, 0.8], [0.9, -0.3, -0.225])))
+    run("chaos", "judged.yaml", "--starts", "216", "--turns", "1000", "--model", "point", "--json",
+        stdout=open(os.path.join(work, "judged.json"), "w"))
+    share = json.load(open(os.path.join(work, "judged.json")))["share"]
+    low, high = (float(told["share"]["share." + name]) for name in ("low", "high"))
+    check("the chaotic share is the command's", max(low, share["low"]) < min(high, share["high"]) and
+          float(told["share"]["share.followed"]) == 216, f"{low} {high} {share}")
+    check("exponent and share are told", "Exponent: 0.0" in words and "95 % confidence (216 orbits)" in words, words)
+    growth = math.log(max(near) / near[0]) / (told["exponent"] * page.evaluate("controls.range()[1]"))
+    check("the twin leaves as the exponent says", 0.5 < growth < 2, str(growth))
+    check("the exponent has its error", 0.05 < told["exponent"] < 0.09 and told["error"] > 0, str(told["exponent"]))
+    slide(page, -1)
+    page.wait("lab.shared === lab.pending")
+    check("a regular orbit has a rotation number", "Rotation number: 1.2342377" in text(page, "lab-words") and
+          max(page.evaluate("[...controls.orbit.column.near]")) < 1e-3, text(page, "lab-words"))
+
+
+def tale(page):
+    """The story: each step drives the controls, and it can be left."""
+    page.evaluate("document.getElementById('story-begin').click()")
+    for step, (k, J, compared, clock) in enumerate([(1, 1.2, False, "t"), (1, 1.2, True, "t"), (1, 2, True, "t"),
+                                                    (1, 2, False, "s"), (0.5, 2, False, "t")]):
+        settled(page)
+        page.wait(f"controls.compared === {str(compared).lower()} && isoroll.clock() === '{clock}'")
+        found = state(page)
+        check(f"step {step + 1} of the story", found["k"] == k and found["J"][1] == J and
+              text(page, "story-words").startswith(f"{step + 1} of 5. "), f"{found} {text(page, 'story-words')}")
+        if step < 4:
+            page.evaluate("document.getElementById('story-next').click()")
+    check("it goes on by itself", page.evaluate("story.timers.length") == 2)
+    page.evaluate("document.getElementById('story-leave').click()")
+    check("it can be left", text(page, "story-words") == "" and box(page, "story-next")[2] == 0 and
+          page.evaluate("story.timers.length") == 0 and state(page)["k"] == 0.5)
+
+
+def taken(page):
+    """What the page gives away works in the command."""
+    page.evaluate("void lab.change({k: 0.5, J: [1, 1.1, 1.2], level: 0.4, rotor: [0, 0.3, 0]})")
+    settled(page)
+    folder = os.path.join(work, "taken")
+    page.call("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
+    page.evaluate("document.getElementById('lab-scene').click()")
+    path, patience = os.path.join(folder, "scene.yaml"), time.monotonic() + 60
+    while not os.path.exists(path) and time.monotonic() < patience:
+        time.sleep(0.05)
+    check("scene.yaml is saved", os.path.exists(path))
+    write("scene.yaml", open(path).read())
+    page.evaluate("document.getElementById('lab-command').click()")
+    lines = text(page, "lab-commands").splitlines()
+    run(*lines[0].split()[1:], stderr=subprocess.DEVNULL)
+    rows = table("orbit.csv")
+    gap = max(abs(row[c] - page.evaluate(f"controls.orbit.column.{c}[{i}]")) for i, row in ((0, rows[0]), (300, rows[300]))
+              for c in ("omega1", "n2", "M3"))
+    check(f"the command for the orbit gives its rows: {gap:.1e}", len(rows) == 1201 and gap < 1e-10)
+    words = [line.split()[1:] for line in lines[1:]]
+    for command in words:  # fewer orbits, for a short test
+        at = command.index("--starts") + 1
+        command[at] = "2"
+        run(*command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    check("and those for section and share work", [w[0] for w in words] == ["section", "chaos"])
+    page.evaluate("document.getElementById('lab-link').click()")
+    page.wait("document.getElementById('lab-taken').textContent.includes('Link')")
+    page.evaluate("document.getElementById('lab-film').click()")
+    page.frame()
+    check("a film is recorded", page.evaluate("Boolean(film.recorder) && controls.playing"))
+    page.evaluate("film.ended()")  # before its ten seconds are over
+    page.wait("document.getElementById('lab-taken').textContent === 'The film is saved.'")
+
+
 # --- it refuses, goes on, and stays quick ---------------------------------------------------------------------------
 
 def refusals(page):
@@ -161,7 +292,7 @@ def refusals(page):
     settled(page)
     check("what cannot be is refused in the library's words", "The library refuses: k = 0: " in text(page, "lab-words"),
           text(page, "lab-words"))
-    page.evaluate("lab.change({k: 0.5, J: [2, 2, 2]})")
+    page.evaluate("lab.change({k: 0.5, J: [2, 2, 2], level: 0, rotor: [0, 0, 0]})")
     settled(page)
     check("equal moments: an orbit", page.evaluate("controls.orbit.count") == 1201)
     page.evaluate("lab.change({J: [1, 2, 5]})")
@@ -173,7 +304,7 @@ def play(page):
     """Random actions, none of which waits for what the last one asked for."""
     random.seed(36)
     for _ in range(100):
-        kind = random.randrange(6)
+        kind = random.randrange(7)
         if kind == 0:
             slide(page, random.uniform(-3, 3))
         elif kind == 1:
@@ -183,6 +314,9 @@ def play(page):
         elif kind == 3:
             page.evaluate(f"void lab.startAt({random.uniform(-3, 3)}, {random.uniform(-0.9, 0.9)})")
         elif kind == 4:
+            page.evaluate(f"void lab.change({{level: {random.uniform(-1, 1)}, rotor: [0, {random.uniform(-2, 2)}, 1], "
+                          f"weight: {random.choice((0, 0, 1))}}})")
+        elif kind == 5:
             page.key(random.choice([" ", "1", "2", "3", "End", "Home", "ArrowRight"]))
         else:
             time.sleep(random.uniform(0, 0.2))
@@ -193,6 +327,17 @@ def play(page):
     bad = page.evaluate("Object.values(controls.now).flat().filter((v) => !Number.isFinite(v)).length")
     check("after random play every number is finite", bad == 0, str(bad))
     quiet(page, "random play")
+
+
+def drawn(page, name):
+    """The part of a picture that has any colour."""
+    return page.evaluate(f"""(() => {{ const c = document.getElementById('{name}');
+        const all = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+        return all.filter((v, i) => i % 4 === 3 && v > 0).length / (c.width * c.height); }})()""")
+
+
+def image(page, name):
+    return page.evaluate(f"document.getElementById('{name}').toDataURL()")
 
 
 def small(browser):
@@ -211,6 +356,10 @@ with chromium.Browser() as browser:
     settled(page)
     same_numbers(page)
     address, shown = controls(page)
+    forces(page)
+    twin_and_judge(page)
+    tale(page)
+    taken(page)
     refusals(page)
     play(page)
     page.close()
@@ -221,6 +370,11 @@ with chromium.Browser("--disable-3d-apis") as browser:
     settled(page)
     check("without WebGL: words, and the section", page.evaluate("chart.dots.length") > 8000 and
           "no WebGL" in text(page, "trouble"), text(page, "trouble"))
+    check("without WebGL: flat pictures", all(drawn(page, name) > 0.03 for name in ("ball", "point")))
+    before = image(page, "ball")
+    page.evaluate("isoroll.seek(3)")
+    page.frame()
+    check("they move", image(page, "ball") != before)
     slide(page, 2)
     settled(page)
     check("without WebGL k can be turned", state(page)["k"] == 2)

@@ -15,8 +15,9 @@ tr -d '\n' <scene.html >line.html
 check "a policy that allows no request" grep -q \
     "content=\"default-src 'none'; [^\"]*script-src 'unsafe-inline' *'wasm-unsafe-eval'; worker-src blob: *\"" line.html
 check "that of --live has it" grep -q "id=\"library\"" scene.html
-{ cat scene.yaml && echo 'effects: {level: {c: 0.3}}'; } >level.yaml
-refuses 3 "level.yaml:4:18: --live computes without effects, and the scene has 'level'" view level.yaml --live -o no.html
+{ cat scene.yaml && echo 'effects: {field: {linear: [0, 0, 0.1]}}'; } >field.yaml
+refuses 3 "field.yaml:4:18: --live computes with level, rotor and gravity, and the scene has 'field'" \
+    view field.yaml --live -o no.html
 run 0 run scene.yaml -o run.csv
 refuses 2 "view: --live computes from a scene: 'run.csv' is none" view run.csv --live -o no.html
 check "no page" test ! -e no.html

@@ -26,7 +26,6 @@ ELSEWHERE = {
     "compare": {"rows": "of the text that is printed"},
     "sweep": {"resume": "for the command: a file", "shard": "for the command: many machines",
               "merge": "for the command: files", "point": "for the command: prints a scene"},
-    "view": {"live": "for the command: a page that computes"},
     "plot": {"k": "the table says it", "J": "the table says it", "eps": "the table says it", "h": "the table says it",
              "scene": "the table says it", "row-tolerance": "nothing is computed"},
 }
@@ -278,10 +277,22 @@ class Numbers(Case):
         page = isoroll.view(isoroll.run(BALL))
         self.assertIn("<script", page)
         self.assertIn("<iframe", page._repr_html_())
+        self.refuses(isoroll.BadArgument, "live=True", isoroll.view)
         self.refuses(isoroll.FileTrouble, "absent.yaml", isoroll.view, "absent.yaml")
         os.environ["ISOROLL_COMMAND"] = "/absent/isoroll"
         self.refuses(isoroll.FileTrouble, "/absent/isoroll", isoroll.view, BALL)
         os.environ["ISOROLL_COMMAND"] = os.environ["ISO_COMMAND"]
+
+
+    def test_view_live(self):
+        os.environ["ISOROLL_COMMAND"] = os.environ["ISO_COMMAND"]
+        try:
+            isoroll.view(BALL, self.path("python.html"), live=True)
+        except isoroll.BadArgument as error:
+            return self.assertIn("WebAssembly", str(error))  # of a build without emscripten
+        self.command("view", BALL, "--live", "-o", "command.html")
+        self.same_files(self.path("command.html"), self.path("python.html"))
+        self.assertIn('id="library"', isoroll.view(live=True))
 
 
 class Newcomers(Case):

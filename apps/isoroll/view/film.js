@@ -65,10 +65,10 @@ const film = {
     return canvas;
   },
 
-  save(blob, ending) {
+  save(blob, ending, name = page.title) {
     const link = document.createElement("a");
     link.href = URL.createObjectURL(blob);
-    link.download = `${page.title.replace(/[^\w.-]+/g, "_")}.${ending}`;
+    link.download = `${name.replace(/[^\w.-]+/g, "_")}.${ending}`;
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 10000);
   },

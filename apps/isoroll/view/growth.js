@@ -13,7 +13,7 @@ const growth = {
     document.getElementById("beside-words").textContent = this.words(orbit);
   },
 
-  words({ verdict, exponent }) {
+  words({ verdict, exponent, turns }) {
     const begin = `A neighbour begins 10⁻⁶ away${page.alone ? "" : " (the black bead)"}. `;
     if (verdict === "chaotic" && exponent > 0)
       return (
@@ -21,7 +21,7 @@ const growth = {
         `(exponent ${digits(exponent, 2)}; the broken line).`
       );
     if (verdict === "regular") return `${begin}This orbit is regular: the distance does not grow exponentially.`;
-    if (verdict) return `${begin}Whether this orbit is chaotic is not decided after 1000 turns.`;
+    if (verdict) return `${begin}Whether this orbit is chaotic is not decided after ${turns || 1000} turns.`;
     return `${begin}The curve: its distance.`;
   },
 

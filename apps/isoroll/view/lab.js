@@ -1,207 +1,12 @@
-// lab.js - the laboratory: k, J and the start are changed in the page, and the library (worker.js) computes anew. There is
-// no physics here. One Worker computes the orbit, another one the section and the verdict; a Worker that is busy with
-// something old is ended.
-
-// A Worker with the library. ask() gives a promise; after stop() what was asked is never answered.
-class Helper {
-  constructor() {
-    this.asked = new Map();
-    this.count = 0;
-  }
-
-  static async prepare() {
-    const packed = Uint8Array.from(atob(element("library").textContent.trim()), (c) => c.charCodeAt(0)),
-      stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-    Helper.module = await WebAssembly.compile(await new Response(stream).arrayBuffer());
-    Helper.code = URL.createObjectURL(new Blob([element("loader").textContent], { type: "text/javascript" }));
-  }
-
-  ask(job, scene, options) {
-    if (!this.worker) {
-      this.worker = new Worker(Helper.code);
-      this.worker.postMessage({ module: Helper.module });
-      this.worker.onmessage = ({ data }) => {
-        const { resolve, reject } = this.asked.get(data.id);
-        this.asked.delete(data.id);
-        if (data.error === undefined) resolve(data.result);
-        else reject(new Error(data.error));
-      };
-    }
-    const id = this.count++;
-    this.worker.postMessage({ id, job, scene, options });
-    return new Promise((resolve, reject) => this.asked.set(id, { resolve, reject }));
-  }
-
-  // Ends the Worker if it still computes.
-  stop() {
-    if (!this.asked.size) return;
-    this.worker.terminate();
-    this.worker = null;
-    this.asked.clear();
-  }
-}
-
-const chart = {
-  canvas: element("lab-section"),
-  dots: [], // {orbit, l, x}, by orbit; the scene's own is 0
-  cursor: null, // of the keyboard
-
-  clear() {
-    this.dots = [];
-    this.draw();
-  },
-  add(columns, first) {
-    columns.orbit.forEach((orbit, i) => {
-      if (orbit >= first.from) this.dots.push({ orbit: orbit && orbit + first.number, l: columns.l[i], x: columns.x[i] });
-    });
-    this.draw();
-  },
-  frame() {
-    const box = this.canvas.getBoundingClientRect(),
-      wide = box.width - 46,
-      high = box.height - 34;
-    return {
-      x: (l) => 38 + ((l + Math.PI) / (2 * Math.PI)) * wide,
-      y: (x) => 8 + ((1 - x) / 2) * high,
-      place: (e) => [
-        ((e.clientX - box.left - 38) / wide) * 2 * Math.PI - Math.PI,
-        1 - ((e.clientY - box.top - 8) / high) * 2,
-      ],
-    };
-  },
-  draw() {
-    const { g, height } = sheet(this.canvas),
-      { x, y } = this.frame(),
-      style = getComputedStyle(document.body);
-    g.strokeStyle = style.getPropertyValue("--rule");
-    g.fillStyle = style.getPropertyValue("--quiet");
-    g.strokeRect(x(-Math.PI), y(1), x(Math.PI) - x(-Math.PI), y(-1) - y(1));
-    g.textAlign = "center";
-    for (const [l, words] of [
-      [-Math.PI, "−π"],
-      [0, "0"],
-      [Math.PI, "π"],
-    ])
-      g.fillText(words, x(l), height - 10);
-    g.fillText("l", x(Math.PI / 2), height - 10);
-    g.textAlign = "right";
-    for (const v of [-1, 0, 1]) g.fillText(String(v).replace("-", "−"), x(-Math.PI) - 6, y(v) + 4);
-    g.fillText("x", x(-Math.PI) - 6, y(0.5) + 4);
-    const size = this.dots.length > 4000 ? 1.4 : 2;
-    for (const own of [false, true]) {
-      for (const dot of this.dots) {
-        if ((dot.orbit === 0) !== own) continue;
-        g.fillStyle = own ? colours.curve : palette[dot.orbit % palette.length];
-        const radius = own ? 1.6 * size : size;
-        g.fillRect(x(dot.l) - radius / 2, y(dot.x) - radius / 2, radius, radius);
-      }
-    }
-    if (!this.cursor) return;
-    g.strokeStyle = theme().text;
-    g.beginPath();
-    g.arc(x(this.cursor[0]), y(this.cursor[1]), 6, 0, 7);
-    g.stroke();
-  },
-  steer() {
-    const inside = (l, x) => [Math.min(3.1, Math.max(-3.1, l)), Math.min(0.98, Math.max(-0.98, x))];
-    this.canvas.addEventListener("click", (e) => lab.startAt(...inside(...this.frame().place(e))));
-    this.canvas.addEventListener("keydown", (e) => {
-      const by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[e.key],
-        at = this.cursor || [0, 0];
-      if (by) this.cursor = inside(at[0] + by[0] * 0.1, at[1] + by[1] * 0.05);
-      else if (e.key === "Enter" && this.cursor) lab.startAt(...this.cursor);
-      else return;
-      this.draw();
-      e.preventDefault();
-      e.stopPropagation();
-    });
-  },
-};
-
-// All J of one sum, as a triangle. In its middle one, each is smaller than the sum of the other two.
-const triangle = {
-  canvas: element("lab-J"),
-  corners() {
-    const { width, height } = this.canvas.getBoundingClientRect(),
-      side = Math.min(width - 40, (height - 30) / 0.866),
-      left = (width - side) / 2;
-    return [
-      [left, height - 16],
-      [left + side, height - 16],
-      [left + side / 2, height - 16 - 0.866 * side],
-    ];
-  },
-  place(parts) {
-    const corners = this.corners();
-    return [0, 1].map((c) => corners.reduce((sum, corner, i) => sum + corner[c] * parts[i], 0));
-  },
-  // The place of J.
-  here() {
-    const { J } = lab.state,
-      sum = J[0] + J[1] + J[2];
-    return this.place(J.map((x) => x / sum));
-  },
-  // The parts of the sum at a place; none is below 1/50.
-  parts([px, py]) {
-    const [a, b, c] = this.corners(),
-      third = (py - a[1]) / (c[1] - a[1]),
-      second = (px - a[0] - third * (c[0] - a[0])) / (b[0] - a[0]),
-      parts = [1 - second - third, second, third].map((x) => Math.max(0.02, x)),
-      sum = parts[0] + parts[1] + parts[2];
-    return parts.map((x) => x / sum);
-  },
-  draw() {
-    const { g } = sheet(this.canvas),
-      line = (points) => {
-        g.beginPath();
-        for (const p of points) g.lineTo(...p);
-        g.closePath();
-      };
-    g.strokeStyle = theme().rule;
-    g.fillStyle = theme().ground;
-    line([this.place([0, 0.5, 0.5]), this.place([0.5, 0, 0.5]), this.place([0.5, 0.5, 0])]);
-    g.fill();
-    line(this.corners());
-    g.stroke();
-    g.fillStyle = theme().text;
-    g.textAlign = "center";
-    this.corners().forEach(([x, y], i) => g.fillText(`J${"₁₂₃"[i]}`, x, i < 2 ? y + 14 : y - 5));
-    g.fillStyle = colours.curve;
-    g.beginPath();
-    g.arc(...this.here(), 6, 0, 7);
-    g.fill();
-  },
-  move(parts) {
-    const { J } = lab.state,
-      sum = J[0] + J[1] + J[2];
-    lab.change({ J: parts.map((x) => +(x * sum).toPrecision(4)) });
-  },
-  steer() {
-    const drag = (e) => {
-      const box = this.canvas.getBoundingClientRect();
-      if (e.buttons) this.move(this.parts([e.clientX - box.left, e.clientY - box.top]));
-    };
-    this.canvas.addEventListener("pointerdown", (e) => {
-      this.canvas.setPointerCapture(e.pointerId);
-      drag(e);
-    });
-    this.canvas.addEventListener("pointermove", drag);
-    this.canvas.addEventListener("keydown", (e) => {
-      const by = { ArrowLeft: [-4, 0], ArrowRight: [4, 0], ArrowUp: [0, -4], ArrowDown: [0, 4] }[e.key];
-      if (!by) return;
-      this.move(this.parts(plus(this.here(), by)));
-      e.preventDefault();
-      e.stopPropagation();
-    });
-  },
-};
+// lab.js - the laboratory: k, J, what acts and the start are changed in the page, and the library (worker.js) computes
+// anew. There is no physics here. One Worker computes the orbit, one the section, one what is known of the orbit
+// (judge.js); a Worker that is busy with something old is ended.
 
 lab = {
   ROWS: 1200,
-  state: { k: page.k, J: page.J, n: null, omega: null }, // what is computed
+  state: { k: page.k, J: page.J, n: null, omega: null, ...forces.none() }, // what is computed
   first: null,
   throwing: false,
-  verdict: "",
   tolerance: "",
   orbits: new Helper(),
   sections: new Helper(),
@@ -210,53 +15,66 @@ lab = {
 
   scene() {
     const { k, J, n, omega } = this.state,
-      speed = Math.hypot(...omega) * Math.sqrt(Math.max(...J) / Math.min(...J)) * Math.max(1, Math.abs(k)),
-      step = Number((0.1 / speed).toPrecision(3)); // between rows the motion is drawn by cubic curves
+      turns = Math.hypot(...omega) * Math.sqrt(Math.max(...J) / Math.min(...J)) * Math.max(1, Math.abs(k)),
+      step = Number((0.1 / (turns * forces.hurry(this.state))).toPrecision(3)); // between rows: cubic curves
     return {
       reduced: { k, J },
       initial: { normal: n, angular_velocity: omega, project: true },
       time: { end: Number((step * this.ROWS).toPrecision(12)), step },
-      effects: { attitude: {} },
+      effects: { ...forces.effects(this.state), attitude: {} },
       output: { as: "both" },
     };
   },
 
-  // Computes with other numbers. `seek`: {clock, value} to go to.
+  // Computes with other numbers, and then all that belongs to the orbit. `seek`: {clock, value} to go to.
   async change(numbers, seek) {
+    if (await this.compute(numbers, seek)) await this.fill(this.pending);
+  },
+  // The orbit alone. False: it is not shown; the library refuses it, or there is a newer change.
+  async compute(numbers, seek) {
+    const upright = forces.sign(this.state.k);
     Object.assign(this.state, numbers);
+    if (forces.sign(this.state.k) !== upright && !numbers.up) this.state.up = null; // it lies elsewhere on its support
     this.show();
     const number = ++this.pending;
-    this.orbits.stop();
-    this.sections.stop();
+    for (const helper of [this.orbits, this.sections]) helper.stop();
+    judge.stop();
     chart.clear();
     this.say("Computing …");
     try {
       await this.prepared;
-      if (number !== this.pending) return;
+      if (number !== this.pending) return false;
       const found = await this.orbits.ask("run", this.scene());
-      if (number !== this.pending) return;
+      if (number !== this.pending) return false;
       this.take(found, seek);
+      return true;
     } catch (error) {
-      if (number !== this.pending) return;
+      if (number !== this.pending) return false;
       this.say(`The library refuses: ${error.message}`);
-      this.filled = number;
-      return;
+      this.filled = this.shared = number;
+      return false;
     }
-    await this.fill(number);
   },
 
   // A new orbit: everything is drawn anew.
   take(found, seek) {
     const { k, J } = this.state,
-      playing = controls.playing;
-    Object.assign(page, { k, J, radius: null, eps: Number(found.lines.eps), h: Number(found.lines.h), integrals: [] });
+      playing = controls.playing,
+      line = (name) => (name in found.lines ? Number(found.lines[name]) : null);
+    if (found.alone && controls.compared) controls.compare(false);
+    Object.assign(page, { k, J, radius: null, eps: line("eps"), h: line("h"), integrals: [], alone: found.alone });
+    page.effects = { ...forces.effects(this.state), attitude: {} };
     page.notes = found.notes ? found.notes.split("\n") : [];
     page.rows = { count: found.rows, total: found.rows, every: 1, between: 0 };
+    free = isFree();
     body = bodyOf();
     potential = potentialOf();
-    for (const picture of controls.pictures || []) picture.build();
+    controls.pictures = found.alone ? this.pictures.slice(0, 1) : this.pictures;
+    for (const picture of controls.pictures) picture.build();
     const orbit = orbitOf({ count: found.rows, columns: found.columns });
-    this.tolerance = `Computed in this page: ${found.lines.method}, tolerance ${found.lines.tolerance} for each step.`;
+    this.tolerance =
+      `Computed in this page by the library, ${found.lines.method}, with 64-bit numbers and a tolerance of ` +
+      `${found.lines.tolerance} for each step.`;
     controls.offerFrames();
     numbers.describe(orbit);
     controls.setOrbit(orbit);
@@ -269,57 +87,62 @@ lab = {
     this.say();
   },
 
-  // The section: the orbit's own crossings, the verdict, then more and more orbits of the same energy.
+  // The section and the judgement, at the same time.
   async fill(number) {
+    await Promise.all([this.fillSection(number), judge.begin(number, this.scene())]);
+    if (number !== this.pending) return;
+    this.filled = number;
+    await judge.share(number, this.scene());
+  },
+
+  // The orbit's own crossings, then those of more and more orbits of the same energy.
+  async fillSection(number) {
     const scene = this.scene(),
-      sign = "₁₂₃";
-    const ask = async (job, options) => {
-      const found = await this.sections.ask(job, scene, options);
+      words = element("lab-section-words"),
+      model = page.alone ? "ball" : "point";
+    const ask = async (options) => {
+      const found = await this.sections.ask("section", scene, { model, ...options });
       return number === this.pending ? found : new Promise(() => {});
     };
     try {
-      this.verdict = "";
-      const own = await ask("section", { crossings: 200, model: "point" }),
+      const own = await ask({ crossings: 200 }),
         axis = Number(own.lines.axis);
-      element("lab-section-words").textContent =
-        `Dots: crossings of n${sign[axis - 1]} = 0, the same for ball and point; large ones: this orbit’s. ` +
-        "Click to start there.";
+      words.textContent = page.alone
+        ? `Dots: crossings of n${"₁₂₃"[axis - 1]} = 0 by this orbit. The section has no other orbits under gravity.`
+        : `Dots: crossings of n${"₁₂₃"[axis - 1]} = 0, the same for ball and point; large ones: this orbit’s. ` +
+          "Click to start there.";
       chart.canvas.setAttribute("aria-label", `The section n${axis} = 0. Arrow keys choose a start, Enter starts there.`);
       chart.add(own.columns, { from: 0, number: 0 });
-      const { lines } = await ask("chaos", {});
-      this.verdict = this.words(lines);
-      this.say();
-      for (let seed = 0; seed < 10; seed++) {
-        const more = await ask("section", { starts: 6, crossings: 150, model: "point", seed });
+      for (let seed = 0; seed < 10 && !page.alone; seed++) {
+        const more = await ask({ starts: 6, crossings: 150, seed });
         chart.add(more.columns, { from: 1, number: 6 * seed });
       }
-      this.filled = number;
     } catch (error) {
-      if (number !== this.pending) return;
-      element("lab-section-words").textContent = `No section: ${error.message}`;
-      this.filled = number;
+      if (number === this.pending) words.textContent = `No section: ${error.message}`;
     }
   },
 
-  words({ verdict, turns, "ball.exponent.t": exponent }) {
-    if (verdict === "chaotic")
-      return `Verdict: chaotic (after ${turns} turns; exponent about ${digits(Number(exponent), 2)} per unit of t).`;
-    return `Verdict: ${verdict} (after ${turns} turns).`;
-  },
-
   say(words) {
-    const { state } = this;
-    element("lab-words").textContent = words || `${this.verdict || "Verdict: being computed."} ${this.tolerance}`;
-    for (const [name, text] of [
-      ["lab-k-words", digits(state.k, 4)],
-      ["lab-J-words", state.J.map((x) => digits(x, 4)).join(", ")],
-    ])
-      element(name).textContent = text;
-    triangle.canvas.setAttribute("aria-valuetext", element("lab-J-words").textContent);
+    element("lab-words").textContent = words || judge.words();
+    element("lab-tolerance").textContent = this.tolerance;
   },
   show() {
-    element("lab-k").value = this.state.k;
+    const { state } = this;
+    element("lab-k").value = state.k;
+    element("lab-k-words").textContent = digits(state.k, 4);
+    element("lab-k").setAttribute("aria-valuetext", digits(state.k, 4));
+    element("lab-J-words").textContent = state.J.map((x) => digits(x, 4)).join(", ");
+    element("lab-support").textContent = this.support(state.k);
+    triangle.canvas.setAttribute("aria-valuetext", element("lab-J-words").textContent);
     triangle.draw();
+    forces.show(state);
+  },
+  // In words, from the equation A = B |k/(1 - k)| of the two radii.
+  support(k) {
+    if (k === 1) return "On a plane.";
+    const size = digits(Math.abs(k / (1 - k)), 3),
+      radius = size === "1" ? "of its own radius" : `with ${size} times its radius`;
+    return `${k < 0 ? "A shell around" : k < 1 ? "On the outside of" : "Inside"} a sphere ${radius}.`;
   },
 
   // The orbit through a point of the section: it starts at its first crossing.
@@ -352,20 +175,26 @@ lab = {
       space = way.applyQuaternion(picture.world.quaternion.clone().inverse());
     const omega = times(cross(now.normal, [space.x, space.y, space.z]), 1 / (150 * body.b)); // no slip: v = omega x b n
     if (Math.hypot(...omega) < 0.02) return;
-    this.change({ n: now.n, omega: turned(inverse(now.q), omega) });
+    const { gravity } = page.effects,
+      vertical = gravity ? turned(inverse(now.q), turned(controls.orbit.q[0], gravity.up)) : null;
+    this.change({ n: now.n, omega: turned(inverse(now.q), omega), up: vertical });
   },
   setThrowing(on) {
-    this.throwing = on && Boolean(controls.pictures);
+    this.throwing = on;
     element("lab-throw").setAttribute("aria-pressed", String(this.throwing));
     element("ball").parentElement.classList.toggle("throwing", this.throwing);
   },
 
   // --- the address ---
 
+  NAMES: { k: "k", J: "J", n: "n", omega: "w", level: "level", rotor: "K", weight: "weight", up: "up" },
+  rounded: (v) => (Array.isArray(v) ? v.map((x) => +x.toPrecision(12)) : +v.toPrecision(12)),
   address() {
-    const { k, J, n, omega } = this.state,
-      list = (v) => v.map((x) => +x.toPrecision(12)).join();
-    return this.changed() ? [`k=${k}`, `J=${list(J)}`, `n=${list(n)}`, `w=${list(omega)}`] : [];
+    if (!this.changed()) return [];
+    const none = forces.none();
+    return Object.entries(this.NAMES)
+      .filter(([key]) => String(this.state[key] ?? "") !== String(none[key] ?? ""))
+      .map(([key, name]) => `${name}=${this.rounded(this.state[key])}`);
   },
   changed() {
     return JSON.stringify(this.state) !== this.first;
@@ -373,13 +202,19 @@ lab = {
   // Whether the address has another state; if so, it is computed.
   read() {
     const given = new URLSearchParams(location.hash.slice(1)),
-      list = (name) => (given.get(name) || "").split(",").map(Number),
-      [k, J, n, omega] = [Number(given.get("k")), list("J"), list("n"), list("w")];
-    if (!k || ![J, n, omega].every((v) => v.length === 3 && v.every(Number.isFinite))) return false;
-    if (this.state.n && this.address().join() === [`k=${k}`, ...["J", "n", "w"].map((x) => `${x}=${given.get(x)}`)].join())
-      return false;
+      state = { k: 0, J: [], n: [], omega: [], ...forces.none() };
+    for (const [key, name] of Object.entries(this.NAMES)) {
+      if (!given.has(name)) continue;
+      const list = given.get(name).split(",").map(Number),
+        size = ["k", "level", "weight"].includes(key) ? 1 : 3;
+      if (list.length !== size || !list.every(Number.isFinite)) return false;
+      state[key] = size === 1 ? list[0] : list;
+    }
+    if (!state.k || [state.J, state.n, state.omega].some((v) => v.length !== 3)) return false;
+    const same = (key) => String(state[key]) === String(this.state[key] && this.rounded(this.state[key]));
+    if (this.state.n && Object.keys(this.NAMES).every(same)) return false;
     const clock = ["t", "tau", "s"].find((name) => Number.isFinite(Number(given.get(name) || NaN)));
-    this.change({ k, J, n, omega }, clock && { clock, value: Number(given.get(clock)) });
+    this.change(state, clock && { clock, value: Number(given.get(clock)) });
     return true;
   },
 
@@ -396,8 +231,7 @@ lab = {
     });
     element("lab-throw").addEventListener("click", () => this.setThrowing(!this.throwing));
     element("lab-begin").addEventListener("click", () => this.change(JSON.parse(this.first)));
-    chart.steer();
-    triangle.steer();
+    for (const part of [chart, triangle, forces, taken, story]) part.steer();
     let from = null;
     const take = (name, act) =>
       stage.addEventListener(
@@ -435,6 +269,8 @@ lab = {
   async begin() {
     const { orbit } = controls;
     Object.assign(this.state, { n: [...orbit.n[0]], omega: [...orbit.omega[0]] });
+    forces.read(page.effects, this.state);
+    this.pictures = controls.pictures;
     this.first = JSON.stringify(this.state);
     document.body.classList.add("with-lab");
     controls.resize();
@@ -450,7 +286,6 @@ lab = {
       element("lab").querySelectorAll("input, button").forEach((part) => (part.disabled = true));
       return this.say(`This browser cannot run the library: ${error.message}`);
     }
-    element("lab-throw").hidden = !controls.pictures;
     if (this.pending > 0) return; // the address has a state, or the user was fast
     this.tolerance = "This orbit comes from the page’s file.";
     this.say();

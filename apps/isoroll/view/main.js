@@ -54,7 +54,7 @@ const controls = {
     growth.build(orbit);
     clocks.build(orbit);
     if (!orbit.column.near && this.beside) this.showBeside(false);
-    for (const picture of [...(this.pictures || []), ...(this.paths || [])]) picture.setOrbit(orbit, moments);
+    for (const picture of [...this.pictures, ...(this.paths || [])]) picture.setOrbit(orbit, moments);
     if (sections) sections.setOrbit(orbit);
     numbers.build(orbit);
     // speed 1×: the ball turns by about 1.5 radians in a second; the whole takes 8 to 240 seconds
@@ -108,7 +108,6 @@ const controls = {
     const since = milliseconds - this.before;
     this.before = milliseconds;
     if (this.dirty) this.resting = milliseconds;
-    if (!this.pictures) return;
     if (this.dirty) {
       this.resting = milliseconds;
       this.slow = since < 1000 ? 0.8 * this.slow + 0.2 * since : this.slow;
@@ -150,10 +149,10 @@ const controls = {
 
   // The pictures that are seen: as the models move, or compared.
   shown() {
-    return (this.compared ? this.paths : this.pictures) || [];
+    return this.compared ? this.paths : this.pictures;
   },
   compare(on) {
-    if (page.alone || !this.pictures) return;
+    if (page.alone) return;
     this.compared = on;
     if (on && !this.paths)
       this.paths = [
@@ -213,7 +212,7 @@ const controls = {
     });
     element("picture").addEventListener("click", () => film.savePicture());
     element("film").addEventListener("click", () => film.record());
-    element("film").hidden = !(window.MediaRecorder && this.pictures);
+    element("film").hidden = !window.MediaRecorder;
     element("compare").addEventListener("click", () => this.compare(!this.compared));
     element("beside").addEventListener("click", () => this.showBeside(!this.beside));
     element("screen").hidden = !document.fullscreenEnabled;
@@ -222,7 +221,7 @@ const controls = {
     );
     this.offerFrames();
     element("frame").addEventListener("change", (e) => {
-      if (this.pictures) this.pictures[0].from = e.target.value;
+      this.pictures[0].from = e.target.value;
       this.changed();
     });
     const strip = element("pace"),
@@ -242,7 +241,7 @@ const controls = {
     addEventListener("resize", () => this.resize());
     addEventListener("hashchange", () => address.read());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
-      for (const picture of [...(this.pictures || []), ...(this.paths || [])]) picture.recolour();
+      for (const picture of [...this.pictures, ...(this.paths || [])]) picture.recolour();
       this.changed();
     });
   },
@@ -300,15 +299,9 @@ const controls = {
 
   begin() {
     this.orbit = orbitOf(page.rows || page.section.list[0]);
-    if (graphics.there)
-      this.pictures = [new BallPicture(element("ball")), ...(page.alone ? [] : [new PointPicture(element("point"))])];
-    else {
-      element("trouble").hidden = false;
-      element("trouble").textContent =
-        "This browser has no WebGL, so the pictures in space are missing. Clocks and numbers work without it.";
-      for (const part of document.querySelectorAll(".stage, .legend")) part.hidden = true;
-      element("picture").hidden = element("compare").hidden = true;
-    }
+    this.pictures = [new BallPicture(element("ball")), ...(page.alone ? [] : [new PointPicture(element("point"))])];
+    element("trouble").hidden = graphics.there;
+    if (!graphics.there) element("trouble").textContent = "This browser has no WebGL: the pictures are line drawings.";
     clocks.even = page.clock;
     this.steer();
     numbers.describe(this.orbit);
@@ -316,7 +309,7 @@ const controls = {
     this.setOrbit(this.orbit);
     this.last = null;
     const frames = /^#frames=(\d+),(\d+),(\d+)$/.exec(location.hash);
-    if (frames && this.pictures) return film.writeFrames(...frames.slice(1).map(Number));
+    if (frames) return film.writeFrames(...frames.slice(1).map(Number));
     this.resize();
     const told = address.read();
     this.draw();

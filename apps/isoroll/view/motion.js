@@ -16,7 +16,8 @@ function spin(q, w) {
 }
 
 // omega' of a free ball (9), M' of the point (24) by s.
-const free = !Object.keys(page.effects).some((name) => !["attitude", "reactions", "clock"].includes(name));
+const isFree = () => !Object.keys(page.effects).some((name) => !["attitude", "reactions", "clock"].includes(name));
+let free = isFree(); // in the laboratory (lab.js) it changes
 function omegaRate(n, w) {
   const x = cross(
       w.map((v, i) => v * body.J[i]),

@@ -151,12 +151,9 @@ const numbers = {
     );
     this.captions(false);
     id("left-words").textContent += lost;
-    if (page.alone) {
-      id("left-words").textContent += `. It has no twin among the points: ${page.alone}.`;
-      id("right").hidden = true;
-      id("compare").hidden = true;
-      document.body.classList.add("single");
-    }
+    if (page.alone) id("left-words").textContent += `. It has no twin among the points: ${page.alone}.`;
+    id("right").hidden = id("compare").hidden = Boolean(page.alone);
+    document.body.classList.toggle("single", Boolean(page.alone));
     this.legends();
     const about = [
       ["file", page.title],

@@ -130,6 +130,7 @@ function sphere(radius, pattern, names, { side = THREE.FrontSide, opacity = 1, l
     polygonOffsetUnits: 1,
   });
   const mesh = new THREE.Mesh(geometry, material);
+  flat.sphere(mesh, radius, names, { clear: opacity < 1 || side === THREE.BackSide, levels: pattern === 2 });
   mesh.recolour = () => {
     for (const key in names) uniforms[key].value = new THREE.Color(theme()[names[key]]);
   };
@@ -165,6 +166,7 @@ function plane(size, spacing) {
       gl_FragColor = vec4(mix(a, line, 0.35 * rule(ruled) + 0.3 * rule(ruled / 5.0)), fade * 0.9); }`,
   });
   const mesh = new THREE.Mesh(new THREE.PlaneBufferGeometry(2 * size, 2 * size), material);
+  flat.plane(mesh, uniforms);
   mesh.recolour = () => {
     uniforms.a.value = new THREE.Color(theme().ground);
     uniforms.line.value = new THREE.Color(theme().rule);
@@ -227,6 +229,7 @@ function ribbon(moments, at, normal, width, colour, scale, { hidden = false } = 
   const mesh = new THREE.Mesh(geometry, material);
   mesh.frustumCulled = false;
   mesh.renderOrder = hidden ? 3 : 2;
+  if (!hidden) flat.ribbon(mesh, points, colour);
   const rows = moments.map((m) => m.row);
   mesh.show = (row, trail) => {
     const i = interval(rows, row),
@@ -234,6 +237,7 @@ function ribbon(moments, at, normal, width, colour, scale, { hidden = false } = 
     const now = length[i] + (length[i + 1] - length[i]) * Math.min(Math.max(part, 0), 1);
     const first = interval(length, now - 1.6 * trail.length);
     geometry.setDrawRange(6 * first, 6 * (i + 1 - first));
+    Object.assign(mesh, { flatFrom: first, flatTo: i });
     uniforms.now.value = now;
     uniforms.tail.value = trail.length;
   };
@@ -274,6 +278,7 @@ function bead(radius, colour) {
   add(1, { color: colour });
   add(1, { color: colour, opacity: 0.35, depthFunc: THREE.GreaterDepth });
   rim.renderOrder = 4;
+  flat.bead(group, radius, colour);
   return group;
 }
 
@@ -282,5 +287,6 @@ function segment(from, to) {
   const geometry = new THREE.BufferGeometry().setFromPoints([three(from), three(to)]);
   const line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ transparent: true, opacity: 0.6 }));
   line.recolour = () => line.material.color.set(theme().rule);
+  flat.segment(line, [three(from), three(to)]);
   return line;
 }

@@ -26,7 +26,7 @@ const camera = {
 const graphics = (() => {
   const canvas = document.createElement("canvas"),
     gl = canvas.getContext("webgl") || canvas.getContext("experimental-webgl");
-  if (!gl) return { there: false };
+  if (!gl) return { there: false, best: 1 };
   const masked = gl.getParameter(gl.RENDERER) === "WebKit WebGL" && gl.getExtension("WEBGL_debug_renderer_info");
   const name = gl.getParameter(masked ? masked.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
   const byProcessor = /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name),
@@ -38,7 +38,9 @@ const graphics = (() => {
 class Picture {
   constructor(canvas, distance) {
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !graphics.byProcessor, alpha: true });
+    this.renderer = graphics.there
+      ? new THREE.WebGLRenderer({ canvas, antialias: !graphics.byProcessor, alpha: true })
+      : new FlatRenderer(this);
     this.scene = new THREE.Scene();
     this.eye = new THREE.PerspectiveCamera(30, 1, distance / 100, distance * 20);
     this.distance = distance;

@@ -90,22 +90,52 @@ function callsOf(M) {
   };
 }
 
-// Each model by its own equations, at the same times; and how far they are apart.
+// Each model by its own equations, at the same times; and how far they are apart. A ball without a point runs alone, and
+// the result says why.
 jobs.run = (calls, scene) => {
-  const ball = calls.run({ ...scene, solver: { backend: "ball" } }),
-    point = calls.run({ ...scene, effects: {}, solver: { backend: "point" } }); // it has no attitude
+  let ball,
+    alone = "";
+  try {
+    ball = calls.run({ ...scene, solver: { backend: "ball" } });
+  } catch (error) {
+    ball = calls.run({ ...scene, solver: { backend: "ball" }, output: { as: "ball" } }); // or it is refused as well
+    alone = error.message;
+  }
+  const twin = twinOf(calls, scene, ball, alone);
+  if (alone) return { ...ball, columns: { ...ball.columns, ...twin }, alone };
+  const { attitude, ...effects } = scene.effects, // the point has none
+    point = calls.run({ ...scene, effects, solver: { backend: "point" } });
   const distance = (name) =>
     ball.columns[name + 1].map((_, i) =>
       Math.hypot(...[1, 2, 3].map((j) => ball.columns[name + j][i] - point.columns[name + j][i])),
     );
-  const columns = { ...ball.columns, apart_n: distance("n"), apart_gamma: distance("gamma") };
+  const columns = { ...ball.columns, ...twin, apart_n: distance("n"), apart_gamma: distance("gamma") };
   for (const name of ["M", "gamma"]) for (const j of [1, 2, 3]) columns[name + j] = point.columns[name + j];
-  return { ...ball, columns };
+  return { ...ball, columns, alone };
 };
+
+// The twin, as in view_neighbour.c: omega is turned about n by 1e-6 radians. Its place in the picture of the point (n, if
+// there is none), and its distance.
+function twinOf(calls, scene, ball, alone) {
+  const vector = (columns, name, i) => [1, 2, 3].map((j) => columns[name + j][i]),
+    [a, b, c] = vector(ball.columns, "n", 0),
+    [x, y, z] = vector(ball.columns, "omega", 0),
+    speed = Math.hypot(x, y, z);
+  if (!(speed > 0)) return {};
+  const omega = [x + 1e-6 * (b * z - c * y), y + 1e-6 * (c * x - a * z), z + 1e-6 * (a * y - b * x)],
+    twin = calls.run({
+      ...scene,
+      initial: { normal: [a, b, c], angular_velocity: omega, project: true },
+      solver: { backend: "ball" },
+      output: { as: alone ? "ball" : "both" },
+    }).columns;
+  const apart = (name, i) => Math.hypot(...vector(ball.columns, name, i).map((v, j) => v - twin[name + (j + 1)][i])),
+    near = twin.t.map((_, i) => Math.hypot(apart("omega", i) / speed, apart("n", i))),
+    seen = alone ? "n" : "gamma";
+  return { near1: twin[seen + 1], near2: twin[seen + 2], near3: twin[seen + 3], near };
+}
 
 jobs.section = (calls, scene, options) => calls.study("section", scene, options);
 
-jobs.chaos = (calls, scene, options) => {
-  const { lines } = calls.study("chaos", scene, options);
-  return { lines };
-};
+for (const name of ["chaos", "frequencies"])
+  jobs[name] = (calls, scene, options) => ({ lines: calls.study(name, scene, options).lines });

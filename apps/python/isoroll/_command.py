@@ -57,15 +57,16 @@ def _options(given: Mapping[str, Any]) -> List[str]:
     return [f"--{key.replace('_', '-')}={text_of(key, value)}" for key, value in given.items() if value is not None]
 
 
-def view(source: Union[SceneLike, Table], output: Optional[PathLike] = None, *, frames: Optional[PathLike] = None,
-         fps: Optional[float] = None, seconds: Optional[float] = None, k: Optional[float] = None,
-         J: Optional[ArrayLike] = None, eps: Optional[float] = None, h: Optional[float] = None,
-         scene: Optional[SceneLike] = None, columns: Union[None, str, Sequence[str]] = None,
-         row_tolerance: Optional[float] = None) -> Optional[Page]:
+def view(source: Union[None, SceneLike, Table] = None, output: Optional[PathLike] = None, *, live: bool = False,
+         frames: Optional[PathLike] = None, fps: Optional[float] = None, seconds: Optional[float] = None,
+         k: Optional[float] = None, J: Optional[ArrayLike] = None, eps: Optional[float] = None,
+         h: Optional[float] = None, scene: Optional[SceneLike] = None,
+         columns: Union[None, str, Sequence[str]] = None, row_tolerance: Optional[float] = None) -> Optional[Page]:
     """A page in which ball and point move side by side: `isoroll view`, which must be installed.
 
-    source         a scene, a trajectory or a section; or the path of a file of one of these
+    source         a scene, a trajectory or a section; or the path of a file of one of these; None: only if live
     output         the file of the page; None: the page is returned, and a notebook shows it
+    live           with the library inside: change k, J, what acts and the start in the page; for a scene, or None
     frames         draw the motion as pictures in this folder instead: frame0001.png, ... (needs Chromium)
     fps, seconds   pictures in each second (default 25), seconds that the motion takes (default 10), of frames
     k, J, eps, h   if the table does not say them
@@ -81,7 +82,11 @@ def view(source: Union[SceneLike, Table], output: Optional[PathLike] = None, *, 
                              "row_tolerance": row_tolerance}
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "page.html") if output is None else os.path.abspath(os.fsdecode(output))
-        if isinstance(source, Table):
+        if source is None:
+            if not live:
+                raise _errors.BadArgument("view needs a scene or a table; without one only live=True makes a page")
+            file = "-"
+        elif isinstance(source, Table):
             file = os.path.join(folder, "table.csv")
             source.write(file)
         else:
@@ -93,6 +98,7 @@ def view(source: Union[SceneLike, Table], output: Optional[PathLike] = None, *, 
         if frames is not None:
             given["frames"] = os.path.abspath(os.fsdecode(frames))
         wanted = [] if frames is not None and output is None else ["-o", path]
+        wanted += ["--live"] if live else []
         run_command(["view", *_options(given), *wanted, "--", file])
         if output is not None or frames is not None:
             return None

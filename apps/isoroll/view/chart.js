@@ -1,0 +1,78 @@
+// chart.js - the section of the laboratory: its dots, and the start that is chosen in it.
+
+const chart = {
+  canvas: element("lab-section"),
+  dots: [], // {orbit, l, x}, by orbit; the scene's own is 0
+  cursor: null, // of the keyboard
+
+  clear() {
+    this.dots = [];
+    this.draw();
+  },
+  add(columns, first) {
+    columns.orbit.forEach((orbit, i) => {
+      if (orbit >= first.from) this.dots.push({ orbit: orbit && orbit + first.number, l: columns.l[i], x: columns.x[i] });
+    });
+    this.draw();
+  },
+  frame() {
+    const box = this.canvas.getBoundingClientRect(),
+      wide = box.width - 46,
+      high = box.height - 34;
+    return {
+      x: (l) => 38 + ((l + Math.PI) / (2 * Math.PI)) * wide,
+      y: (x) => 8 + ((1 - x) / 2) * high,
+      place: (e) => [
+        ((e.clientX - box.left - 38) / wide) * 2 * Math.PI - Math.PI,
+        1 - ((e.clientY - box.top - 8) / high) * 2,
+      ],
+    };
+  },
+  draw() {
+    const { g, height } = sheet(this.canvas),
+      { x, y } = this.frame(),
+      style = getComputedStyle(document.body);
+    g.strokeStyle = style.getPropertyValue("--rule");
+    g.fillStyle = style.getPropertyValue("--quiet");
+    g.strokeRect(x(-Math.PI), y(1), x(Math.PI) - x(-Math.PI), y(-1) - y(1));
+    g.textAlign = "center";
+    for (const [l, words] of [
+      [-Math.PI, "−π"],
+      [0, "0"],
+      [Math.PI, "π"],
+    ])
+      g.fillText(words, x(l), height - 10);
+    g.fillText("l", x(Math.PI / 2), height - 10);
+    g.textAlign = "right";
+    for (const v of [-1, 0, 1]) g.fillText(String(v).replace("-", "−"), x(-Math.PI) - 6, y(v) + 4);
+    g.fillText("x", x(-Math.PI) - 6, y(0.5) + 4);
+    const size = this.dots.length > 4000 ? 1.4 : 2;
+    for (const own of [false, true]) {
+      for (const dot of this.dots) {
+        if ((dot.orbit === 0) !== own) continue;
+        g.fillStyle = own ? colours.curve : palette[dot.orbit % palette.length];
+        const radius = own ? 1.6 * size : size;
+        g.fillRect(x(dot.l) - radius / 2, y(dot.x) - radius / 2, radius, radius);
+      }
+    }
+    if (!this.cursor) return;
+    g.strokeStyle = theme().text;
+    g.beginPath();
+    g.arc(x(this.cursor[0]), y(this.cursor[1]), 6, 0, 7);
+    g.stroke();
+  },
+  steer() {
+    const inside = (l, x) => [Math.min(3.1, Math.max(-3.1, l)), Math.min(0.98, Math.max(-0.98, x))];
+    this.canvas.addEventListener("click", (e) => lab.startAt(...inside(...this.frame().place(e))));
+    this.canvas.addEventListener("keydown", (e) => {
+      const by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[e.key],
+        at = this.cursor || [0, 0];
+      if (by) this.cursor = inside(at[0] + by[0] * 0.1, at[1] + by[1] * 0.05);
+      else if (e.key === "Enter" && this.cursor) lab.startAt(...this.cursor);
+      else return;
+      this.draw();
+      e.preventDefault();
+      e.stopPropagation();
+    });
+  },
+};
