@@ -71,7 +71,7 @@ void iso_effects_settle(const iso_params *params, const double normal[3], iso_ef
 const double *iso_effects_up(const iso_effects *effects);
 
 /* The effects carried from the caller's units to own ones (power -1), or back (power 1). */
-iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power);
+void iso_effects_scale(iso_effects *effects, const iso_units *units, int power);
 
 /* Whether an effect that is on changes the motion: it is no observer, and not idle. */
 bool iso_effect_acts(const iso_effects *effects, iso_effect_id id);

@@ -65,7 +65,9 @@ bool iso_orbit_has_twin(const iso_orbit *o)
 /* Converts the effects back to the caller's units. */
 iso_effects iso_orbit_effects(const iso_orbit *o)
 {
-    return iso_effects_scaled(&o->effects, &o->units, 1);
+    iso_effects effects = o->effects;
+    iso_effects_scale(&effects, &o->units, 1);
+    return effects;
 }
 
 double iso_orbit_energy(const iso_orbit *o)
