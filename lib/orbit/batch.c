@@ -99,7 +99,7 @@ static iso_status prepare(iso_pool_worker *w, const batch *b, size_t i, member *
     const iso_backend asked = b->options.backend;
     iso_way way = iso_way_first(m->given.params, asked, asked, false);
     do {
-        memset(&m->orbit, 0, sizeof m->orbit);
+        iso_orbit_clear(&m->orbit);
         m->orbit.ctx = w->ctx;
         m->orbit.options = options_of(b, m, way.backend);
         status = iso_orbit_prepare(&m->orbit, m->given.params, m->given.start, m->job.start);

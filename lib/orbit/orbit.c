@@ -56,7 +56,8 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
                                  "backend exact does not integrate: leave the method out, or take backend point");
     ISO_TRY(iso_orbit_find_start(o, p, start, six));
     iso_problem *problem = &o->model.problem;
-    problem->p = o->units.own, problem->eps = o->eps, problem->energy = o->level, problem->effects = o->effects;
+    problem->p = o->units.own, problem->eps = o->eps, problem->energy = o->level;
+    iso_effects_copy(&o->effects, &problem->effects);
     iso_model_complete(&o->model, o->system, opt->clock, opt->with_clock);
     iso_model_begin(&o->model, six, y);
     if (ball) problem->energy = iso_system_ball.energy(problem, y, &size);

@@ -81,7 +81,7 @@ static double stated_level(const iso_params *p, const iso_effects *effects)
 static iso_problem *own_problem(iso_orbit *o)
 {
     o->model.problem.p = o->units.own;
-    o->model.problem.effects = o->effects;
+    iso_effects_copy(&o->effects, &o->model.problem.effects);
     return &o->model.problem;
 }
 
@@ -252,7 +252,7 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
         return ISO_FAIL_ARGUMENT(o->ctx, "", "the start is not finite");
     o->length = p->body.radius > 0 ? p->body.radius : 1;
     ISO_TRY(check_effects(o, p, start));
-    set_units(o, p, 0);
+    iso_units_choose(p, 0, &o->units);
     if (need.powers) ISO_TRY(check_powers(o, start));
     if (start->model == ISO_BALL)
         start_ball(o, p, start, y);
