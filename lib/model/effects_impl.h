@@ -3,6 +3,7 @@
 #ifndef ISO_MODEL_EFFECTS_IMPL_H
 #define ISO_MODEL_EFFECTS_IMPL_H
 
+#include <stddef.h>
 #include <string.h>
 
 #include "model/effect.h"
@@ -16,6 +17,12 @@ static inline bool iso_effects_none(const iso_effects *effects)
 {
     static const bool off[ISO_EFFECTS] = {false};
     return memcmp(effects->on, off, sizeof off) == 0;
+}
+
+/* *to = *from. Without the texts if nothing is on: nobody reads them then. */
+static inline void iso_effects_copy(const iso_effects *from, iso_effects *to)
+{
+    memcpy(to, from, iso_effects_none(from) ? offsetof(iso_effects, written) : sizeof *to);
 }
 
 /* How many states an effect has here. */
@@ -71,7 +78,7 @@ void iso_effects_settle(const iso_params *params, const double normal[3], iso_ef
 const double *iso_effects_up(const iso_effects *effects);
 
 /* The effects carried from the caller's units to own ones (power -1), or back (power 1). */
-iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power);
+void iso_effects_scale(iso_effects *effects, const iso_units *units, int power);
 
 /* Whether an effect that is on changes the motion: it is no observer, and not idle. */
 bool iso_effect_acts(const iso_effects *effects, iso_effect_id id);

@@ -136,17 +136,15 @@ iso_status iso_effects_write(iso_context *ctx, iso_effects *effects, const char 
     return ISO_OK;
 }
 
-iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power)
+void iso_effects_scale(iso_effects *effects, const iso_units *units, int power)
 {
-    iso_effects scaled = *effects;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; scaled.on[e] && n && n->name && has_room(n);
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; effects->on[e] && n && n->name && has_room(n);
              n++) {
-            double *x = iso_effect_values(&scaled, e, n);
+            double *x = iso_effect_values(effects, e, n);
             const double unit = iso_unit(units, n->dimension);
             for (int i = 0; i < n->count; i++) x[i] = x[i] == 0 ? 0 : power > 0 ? x[i] * unit : x[i] / unit;
         }
-    return scaled;
 }
 
 /* --- the level: an effect that is the energy of the point ------------------------------------------------------- */

@@ -170,21 +170,30 @@ const char *iso_model_too_large(const iso_model *m)
     return f->motion.wrong ? f->motion.wrong : f->energy_formula.wrong;
 }
 
+void iso_model_complete(iso_model *m, const iso_system *system, iso_clock clock, const bool with_clock[ISO_CLOCKS])
+{
+    m->system = system;
+    m->clock = clock;
+    m->moving = ISO_STATE;
+    m->followers = m->clocks = 0;
+    add_states(m);
+    record(m);
+    m->without_formula = find_without_formula(m);
+    m->contact = iso_contact_of(&m->problem);
+    choose_equations(m);
+    for (iso_clock c = 0; c < ISO_CLOCKS; c++)
+        if (with_clock[c] && c != clock) m->clock_of[m->clocks++] = c;
+    m->dim = m->moving + m->clocks;
+    const bool plain = clock == system->clock && m->clocks == 0;
+    m->rhs = plain ? m->own_rhs : rhs_clocks;
+    m->jacobian = plain ? own_jacobian : jacobian_clocks;
+}
+
 iso_model iso_model_assemble(const iso_system *system, const iso_problem *problem, iso_clock clock,
                              const bool with_clock[ISO_CLOCKS])
 {
-    iso_model m = {.system = system, .problem = *problem, .clock = clock, .moving = ISO_STATE};
-    add_states(&m);
-    record(&m);
-    m.without_formula = find_without_formula(&m);
-    m.contact = iso_contact_of(&m.problem);
-    choose_equations(&m);
-    for (iso_clock c = 0; c < ISO_CLOCKS; c++)
-        if (with_clock[c] && c != clock) m.clock_of[m.clocks++] = c;
-    m.dim = m.moving + m.clocks;
-    const bool plain = clock == system->clock && m.clocks == 0;
-    m.rhs = plain ? m.own_rhs : rhs_clocks;
-    m.jacobian = plain ? own_jacobian : jacobian_clocks;
+    iso_model m = {.problem = *problem};
+    iso_model_complete(&m, system, clock, with_clock);
     return m;
 }
 

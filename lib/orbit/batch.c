@@ -99,7 +99,7 @@ static iso_status prepare(iso_pool_worker *w, const batch *b, size_t i, member *
     const iso_backend asked = b->options.backend;
     iso_way way = iso_way_first(m->given.params, asked, asked, false);
     do {
-        memset(&m->orbit, 0, sizeof m->orbit);
+        iso_orbit_clear(&m->orbit);
         m->orbit.ctx = w->ctx;
         m->orbit.options = options_of(b, m, way.backend);
         status = iso_orbit_prepare(&m->orbit, m->given.params, m->given.start, m->job.start);
@@ -184,11 +184,14 @@ static void take_columns(const batch *b, const iso_sample sample[], size_t first
 static bool solve_chunk(iso_pool_worker *w, void *data, size_t first, size_t count)
 {
     const batch *b = data;
-    member *members = calloc(count, sizeof *members);
+    member *members = malloc(count * sizeof *members);
     if (b->table && !w->room) w->room = malloc(w->all->chunk * b->rows * sizeof(iso_sample) + 1);
     iso_sample *samples = b->table ? w->room : b->samples + first * b->rows;
     bool memory = members && (samples || !b->table);
-    for (size_t i = 0; memory && i < count; i++) members[i].sample = samples + i * b->rows;
+    for (size_t i = 0; memory && i < count; i++) {
+        members[i].sample = samples + i * b->rows;
+        members[i].job = (iso_lane_job){.unit = 0};
+    }
     for (size_t i = 0; memory && i < count * b->rows; i++) iso_sample_blank(&samples[i]);
     memory = memory && solve_members(w, b, members, first, count);
     if (memory && b->table) take_columns(b, samples, first, count);

@@ -59,7 +59,7 @@ static iso_status prepare(iso_pool_worker *w, const iso_crossings *c, size_t i, 
     iso_way way = iso_crossings_way(c, i);
     iso_status status;
     do {
-        memset(orbit, 0, sizeof *orbit);
+        iso_orbit_clear(orbit);
         orbit->ctx = w->ctx;
         orbit->options = iso_crossings_orbit_options(c, i, way);
         if (c->options.kind == ISO_SECTION_AXIS) orbit->options.clock = ISO_CLOCK_T; /* its series are the shortest */

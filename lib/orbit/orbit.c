@@ -55,10 +55,12 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
         return ISO_FAIL_ARGUMENT(o->ctx, "method",
                                  "backend exact does not integrate: leave the method out, or take backend point");
     ISO_TRY(iso_orbit_find_start(o, p, start, six));
-    const iso_problem problem = {.p = o->units.own, .eps = o->eps, .energy = o->level, .effects = o->effects};
-    o->model = iso_model_assemble(o->system, &problem, opt->clock, opt->with_clock);
+    iso_problem *problem = &o->model.problem;
+    problem->p = o->units.own, problem->eps = o->eps, problem->energy = o->level;
+    iso_effects_copy(&o->effects, &problem->effects);
+    iso_model_complete(&o->model, o->system, opt->clock, opt->with_clock);
     iso_model_begin(&o->model, six, y);
-    if (ball) o->model.problem.energy = iso_system_ball.energy(&o->model.problem, y, &size);
+    if (ball) problem->energy = iso_system_ball.energy(problem, y, &size);
     if (!opt->method) opt->method = exact ? &iso_method_exact : iso_method_auto(&o->model);
     find_rest(o, y);
     return ISO_OK;

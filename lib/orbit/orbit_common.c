@@ -1,5 +1,6 @@
 /* orbit_common.c - what every other file of an orbit needs: the numbers of a sample, and what an orbit is made of. */
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "base/number_impl.h"
@@ -65,7 +66,9 @@ bool iso_orbit_has_twin(const iso_orbit *o)
 /* Converts the effects back to the caller's units. */
 iso_effects iso_orbit_effects(const iso_orbit *o)
 {
-    return iso_effects_scaled(&o->effects, &o->units, 1);
+    iso_effects effects = o->effects;
+    iso_effects_scale(&effects, &o->units, 1);
+    return effects;
 }
 
 double iso_orbit_energy(const iso_orbit *o)
@@ -84,6 +87,18 @@ iso_point_motion iso_orbit_motion(const iso_orbit *o)
 }
 
 /* --- how it is prepared ----------------------------------------------------------------------------------------- */
+
+void iso_orbit_clear(iso_orbit *o)
+{
+    iso_problem *f = &o->model.problem;
+    char *const behind_effects = (char *)(&o->effects + 1), *const behind = (char *)(f + 1);
+    memset(o, 0, offsetof(iso_orbit, effects) + offsetof(iso_effects, written));
+    memset(behind_effects, 0, (size_t)((char *)&f->effects - behind_effects));
+    memset(f->at, 0, sizeof f->at);
+    memset(&f->motion, 0, offsetof(iso_formula, late_line));
+    memset(&f->energy_formula, 0, offsetof(iso_formula, late_line));
+    memset(behind, 0, (size_t)((char *)(o + 1) - behind));
+}
 
 bool iso_point_is_better(const iso_params *p)
 {

@@ -28,6 +28,10 @@ iso_status iso_orbit_no_point(iso_context *ctx, const iso_effect *breaking);
  * iso_orbit_create. */
 iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE]);
 
+/* Makes an orbit empty, to be prepared: but not the texts of effects, and of formulas only what says how long they are.
+ * The rest is 16 kB, which take time where many orbits are prepared. */
+void iso_orbit_clear(iso_orbit *o);
+
 /* All of an orbit but the integrator: o->ctx and o->options say what is asked for; gives the start of its model.
  * Errors: those of iso_orbit_create. */
 iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_MAX_STATE]);

@@ -54,6 +54,7 @@ static iso_status check_powers(const iso_orbit *o, const iso_start *start)
 /* The speed that the potentials can give the ball, in the caller's units. */
 static double falling_speed(const iso_orbit *o, const iso_params *p, const double n[3])
 {
+    if (iso_effects_none(&o->effects)) return 0;
     const iso_problem problem = {.p = *p, .effects = o->effects};
     const double y[ISO_STATE] = {0, 0, 0, n[0], n[1], n[2]};
     const double speed = sqrt(2 * iso_effects_strength(&problem, y) / max3(p->J));
@@ -76,17 +77,25 @@ static double stated_level(const iso_params *p, const iso_effects *effects)
     return iso_effects_have_level(effects) ? iso_coupling(p, iso_effects_level(effects)) : 0;
 }
 
+/* The problem in own units, as far as it is known yet: in its place, since it is too large to copy for each orbit. */
+static iso_problem *own_problem(iso_orbit *o)
+{
+    o->model.problem.p = o->units.own;
+    iso_effects_copy(&o->effects, &o->model.problem.effects);
+    return &o->model.problem;
+}
+
 /* A ball's start in y; every ball that moves or is moved has a point, at the energy that `level` says. */
 static void start_ball(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE])
 {
     double size;
     set_units(o, p, fmax(largest(start->y), falling_speed(o, p, start->y + 3)));
-    o->effects = iso_effects_scaled(&o->effects, &o->units, -1);
+    iso_effects_scale(&o->effects, &o->units, -1);
     copy(start->y, y, ISO_STATE);
     for (int i = 0; i < 3; i++) y[i] /= o->units.w;
-    iso_problem problem = {.p = o->units.own, .effects = o->effects};
-    leave_out_broken(&problem.effects);
-    o->h = iso_system_ball.energy(&problem, y, &size);
+    iso_problem *problem = own_problem(o);
+    leave_out_broken(&problem->effects);
+    o->h = iso_system_ball.energy(problem, y, &size);
     o->eps = iso_coupling(&o->units.own, o->h);
     o->level = stated_level(&o->units.own, &o->effects);
 }
@@ -128,15 +137,15 @@ static bool find_level(iso_orbit *o, const iso_start *start, iso_problem *proble
 static iso_status start_point(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE])
 {
     set_units(o, p, fmax(point_speed(p, start), falling_speed(o, p, start->y + 3)));
-    o->effects = iso_effects_scaled(&o->effects, &o->units, -1);
+    iso_effects_scale(&o->effects, &o->units, -1);
     copy(start->y, y, ISO_STATE);
     for (int i = 0; i < 3; i++) y[i] /= o->unit_M;
-    iso_problem problem = {.p = o->units.own, .effects = o->effects};
+    iso_problem *problem = own_problem(o);
     const double stated = iso_effects_level(&o->effects);
-    const bool agrees = find_level(o, start, &problem, y);
-    o->eps = problem.eps;
-    o->h = iso_energy(&problem.p, problem.eps);
-    iso_effects_set_level(&o->effects, o->level != 0, iso_energy(&problem.p, o->level));
+    const bool agrees = find_level(o, start, problem, y);
+    o->eps = problem->eps;
+    o->h = iso_energy(&problem->p, problem->eps);
+    iso_effects_set_level(&o->effects, o->level != 0, iso_energy(&problem->p, o->level));
     if (agrees) return ISO_OK;
     const double unit = iso_unit(&o->units, iso_level_dimension());
     return ISO_FAIL_INPUT(o->ctx, "c",
@@ -227,6 +236,13 @@ static void to_system(const iso_orbit *o, iso_model_kind model, double y[ISO_STA
     if (o->system == &iso_system_point_t) (ball ? iso_ball_to_point_t : iso_point_to_point_t)(own, y, y);
 }
 
+/* Whether c of a level is a double in the caller's units. */
+static bool level_fits(const iso_orbit *o)
+{
+    const iso_effects in_users_units = iso_orbit_effects(o);
+    return isnormal(iso_effects_level(&in_users_units));
+}
+
 iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE])
 {
     const needs need = what_is_needed(&o->options, start);
@@ -236,7 +252,7 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
         return ISO_FAIL_ARGUMENT(o->ctx, "", "the start is not finite");
     o->length = p->body.radius > 0 ? p->body.radius : 1;
     ISO_TRY(check_effects(o, p, start));
-    set_units(o, p, 0);
+    iso_units_choose(p, 0, &o->units);
     if (need.powers) ISO_TRY(check_powers(o, start));
     if (start->model == ISO_BALL)
         start_ball(o, p, start, y);
@@ -258,8 +274,7 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
     ISO_TRY(check_form(o));
     to_system(o, start->model, y);
     const bool level = need.ball || start->model == ISO_BALL; /* the ball's is asked for, and may not fit a double */
-    const iso_effects in_users_units = iso_orbit_effects(o);
-    if (level && iso_effects_have_level(&o->effects) && !isnormal(iso_effects_level(&in_users_units)))
+    if (level && iso_effects_have_level(&o->effects) && !level_fits(o))
         return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
                                 "level: c of the ball is out of the range of doubles in these units: use other "
                                 "units, or ask for the point in its time s alone");

@@ -340,7 +340,9 @@ static void scaled_and_back(const effects_case *c, laws_worst *worst)
     const double k = c->model.problem.p.k, J_unit[] = {1, 0x1p-100, 0x1p60};
     for (int u = 0; u < 3; u++) {
         iso_units_choose(&c->model.problem.p, norm(c->y) * J_unit[u], &units);
-        const iso_effects there = iso_effects_scaled(e, &units, -1), back = iso_effects_scaled(&there, &units, 1);
+        iso_effects back = *e;
+        iso_effects_scale(&back, &units, -1);
+        iso_effects_scale(&back, &units, 1);
         for (iso_effect_id i = 0; i < ISO_EFFECTS; i++)
             for (const iso_effect_number *n = iso_effect_list[i]->numbers; n && n->name; n++)
                 for (int j = 0; j < n->count; j++) {
@@ -358,8 +360,8 @@ static void same_in_own_units(const effects_case *c, laws_worst *worst)
     iso_units units;
     double y[ISO_MAX_STATE], f[ISO_MAX_STATE], dy[ISO_MAX_STATE], size[ISO_MAX_STATE];
     iso_units_choose(&c->model.problem.p, 8 * norm(c->y), &units);
-    const iso_problem problem = {.p = units.own,
-                                 .effects = iso_effects_scaled(&c->model.problem.effects, &units, -1)};
+    iso_problem problem = {.p = units.own, .effects = c->model.problem.effects};
+    iso_effects_scale(&problem.effects, &units, -1);
     const iso_model own = iso_model_assemble(c->system, &problem, ISO_CLOCK_T, (const bool[]){false, false, false});
     if (own.dim != c->model.dim || effects_lambda(c) > 0) return; /* stiffness is a matter of units */
     copy(c->y, y, c->model.dim);
