@@ -138,6 +138,7 @@ value_of() {
     *\(3\)*) echo "$2" ;;
     *\(4\)*) echo '[1, 0, 0, 0]' ;;
     U) echo '"n1^2 + n2/2"' ;;
+    F) echo '"n1 + omega2"' ;;
     M) echo '["0.1*n1", "0", "-0.2*omega3"]' ;;
     *) echo 0.1 ;;
     esac

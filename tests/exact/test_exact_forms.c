@@ -239,7 +239,7 @@ static void check_refusals(void)
     refused(&other, "eps", "eps NaN");
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
         other = o, other.model.problem.effects.on[e] = true;
-        if (e != ISO_CLOCK && e != ISO_LEVEL) refused(&other, iso_effect_list[e]->name, "an effect");
+        if (e != ISO_CLOCK && e != ISO_LEVEL && e != ISO_INTEGRALS) refused(&other, iso_effect_list[e]->name, "an effect");
     }
 }
 

@@ -123,7 +123,8 @@ static void check_failures(void)
     o.shown = ISO_SHOW_POINT;
     check_failure(&o, &(iso_batch_orbit){&p, &rest, NULL}, 4, ISO_NOT_MAPPED, "at rest", 0);
     o.shown = ISO_SHOW_BALL;
-    o.max_steps = 2000;
+    check_failure(&o, &(iso_batch_orbit){&p, &start, &brake}, -40, ISO_NUMERICAL, "resistance drives the ball", 2);
+    o.max_steps = 1000;
     check_failure(&o, &(iso_batch_orbit){&p, &start, &brake}, -40, ISO_NUMERICAL, "more steps than allowed", 2);
     o.max_steps = 0;
     o.backend = ISO_BACKEND_POINT;
