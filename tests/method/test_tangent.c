@@ -111,9 +111,9 @@ int main(void)
     }
     gsl_test_verbose(1);
     ctx = iso_context_create();
-    each = tests_length(1009, 113);
+    each = tests_length(1009, 337);
     effects_hold("deviations are those of neighbours", &iso_system_ball, 2, check_neighbours);
-    each = tests_length(23, 5);
+    each = tests_length(23, 11);
     effects_hold("deviations are those of neighbours", &iso_system_point, 2, check_neighbours);
     iso_context_free(ctx);
     exit(gsl_test_summary());

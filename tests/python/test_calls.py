@@ -21,7 +21,8 @@ EVERYWHERE = {"output": "table.write", "plot": "table.plot", "csv": "table.write
               **dict.fromkeys(("style", "size", "title", "script", "window", "over"), "of gnuplot's pictures: "
                               "Python draws by matplotlib, where the axes are the caller's")}
 ELSEWHERE = {
-    "run": {"verbose": "errors=True"},
+    "run": {"verbose": "errors=True",
+            **dict.fromkeys(("certify", "digits", "work-digits"), "for the command: enclosures, which are no doubles")},
     "convert": {"digits": "table.write(digits=)", "max-defect": "a warning", "strict": "a warning"},
     "compare": {"rows": "of the text that is printed"},
     "sweep": {"resume": "for the command: a file", "shard": "for the command: many machines",

@@ -183,7 +183,7 @@ def prove(
     k                another k than the scene's, such as 1/3, or an interval: all k from A to B; it is
                      halved where it must be: a number, or a text such as "1/3" or "0.5:0.50000000001"
     digits           enclose m to 1e-D (default: 18, then 36, then 72, until 0 is excluded; for an
-                     interval 18)
+                     interval as its length asks for)
     progress         True: a bar on stderr; a function that is called with the part that is done
 
     Returns a Table: a row for k, or for each piece of an interval of k; m is between m_low and m_high.
