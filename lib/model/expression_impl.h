@@ -68,12 +68,12 @@ typedef struct iso_expression_names {
 bool iso_expression_read(const char *text, const iso_expression_names *names, iso_expression *e);
 
 /* Whether a node is made of others: of a, and of b as well. */
-static inline bool is_operation(int term)
+static inline bool is_operation(unsigned term)
 {
     return term >= ISO_TERM_ADD;
 }
 
-static inline bool has_two(int term)
+static inline bool has_two(unsigned term)
 {
     return term >= ISO_TERM_ADD && term < ISO_TERM_NEGATIVE;
 }
