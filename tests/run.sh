@@ -4,7 +4,7 @@
 #
 #     sh tests/run.sh         gcc: every test, at short length
 #     sh tests/run.sh --all   gcc: every test, at full length; then, at short length, clang: the unit tests; and
-#                             AddressSanitizer and UndefinedBehaviorSanitizer (gcc): every test
+#                             AddressSanitizer and UndefinedBehaviorSanitizer (gcc): all but scripts that repeat units
 #     sh tests/run.sh --threads    ThreadSanitizer (gcc): the tests of what runs in threads, at short length
 #     sh tests/run.sh --valgrind   valgrind: quick unit tests of every floor, at short length
 #

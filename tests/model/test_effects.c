@@ -1,5 +1,6 @@
 /* The effects as the table has them: states, Jacobians, torques and their potentials, integrals, what is refused. */
 #include "effects.h"
+#include "length.h"
 #include "model/model_impl.h"
 
 #include <float.h>
@@ -320,17 +321,18 @@ int main(void)
 {
     gsl_test_verbose(1);
     ctx = iso_context_create();
-    effects_hold("states of every subset", NULL, 1, states);
+    const int few = tests_length(4, 1), fewer = tests_length(11, 4); /* of the J */
+    effects_hold("states of every subset", NULL, few, states);
     effects_hold("forces of every subset", NULL, 1, forces);
     effects_hold("starts and sizes of the states", NULL, 1, beginnings);
     effects_hold("what nothing acts on is free, bit for bit", NULL, 1, plain);
     effects_hold("rhs against the recurrences", NULL, 1, statements_agree);
-    effects_hold("Jacobian against differences", NULL, 1, jacobian_own_clock);
-    effects_hold("Jacobian in every clock, with carried clocks", NULL, 4, jacobian_clocks);
-    effects_hold("right-hand side in every clock", NULL, 1, rhs_clocks);
+    effects_hold("Jacobian against differences", NULL, few, jacobian_own_clock);
+    effects_hold("Jacobian in every clock, with carried clocks", NULL, fewer, jacobian_clocks);
+    effects_hold("right-hand side in every clock", NULL, few, rhs_clocks);
     effects_hold("torques from potentials", &iso_system_ball, 1, torques_from_potentials);
     effects_hold("torques and potentials written out", &iso_system_ball, 1, written_out);
-    effects_hold("every subset is accepted", &iso_system_ball, 1, accepted);
+    effects_hold("every subset is accepted", &iso_system_ball, few, accepted);
     effects_hold("what breaks the isomorphism", &iso_system_ball, 1, breaking);
     iso_context_free(ctx);
     exit(gsl_test_summary());
