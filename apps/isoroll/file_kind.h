@@ -18,8 +18,8 @@ enum {
     FILE_SECTION = 8,     /* or periodic orbits: a row is a place on the section, and can have the state there */
     FILE_RESULT = 16,     /* of a sweep */
     FILE_TABLE = 32,      /* of other commands: its rows are no states of one scene */
-    FILE_CERTIFIED = 128, /* rows of 'run --certify' */
     FILE_HDF5 = 64,       /* its beginning does not tell what is in it */
+    FILE_CERTIFIED = 128, /* rows of 'run --certify' */
     FILE_ROWS = FILE_TRAJECTORY | FILE_SECTION | FILE_HDF5
 };
 

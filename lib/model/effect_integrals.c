@@ -19,27 +19,12 @@ static double value_of(const iso_problem *f, const double ball[], int which, dou
     return iso_expression_value(&e, &s, size);
 }
 
-static double value_on_point(const iso_problem *f, const double y[], int which, double *size)
-{
-    double ball[ISO_STATE];
-    iso_point_to_point_t(&f->p, y, ball);
-    iso_point_t_to_ball(&f->p, ball, ball);
-    return value_of(f, ball, which, size);
-}
-
 #define WRITTEN(i)                                                                                                   \
     static bool is_written##i(const iso_problem *f)                                                                  \
     {                                                                                                                \
         return iso_written_has(&f->effects, ISO_INTEGRALS, i);                                                       \
     }                                                                                                                \
-    static double of_ball##i(const iso_problem *f, const double y[], double *size)                                   \
-    {                                                                                                                \
-        return value_of(f, y, i, size);                                                                              \
-    }                                                                                                                \
-    static double of_point##i(const iso_problem *f, const double y[], double *size)                                  \
-    {                                                                                                                \
-        return value_on_point(f, y, i, size);                                                                        \
-    }
+    ISO_OF_BALL_AND_POINT(F##i, value_of(f, ball, i, size))
 
 WRITTEN(0)
 WRITTEN(1)
@@ -47,7 +32,7 @@ WRITTEN(2)
 
 /* The value is in the units of the scene. */
 #define ROW(i, name_, of)                                                                                            \
-    ISO_INTEGRAL(name_, 0, 0, 0, of##i, .holds = is_written##i, .claimed = true,                                     \
+    ISO_INTEGRAL(name_, 0, 0, 0, F##i##of, .holds = is_written##i, .claimed = true,                                  \
                  .doc = "claimed by the scene, proved by nobody")
 #define ROWS(of)                                                                                                     \
     {                                                                                                                \
@@ -56,7 +41,7 @@ WRITTEN(2)
             0                                                                                                        \
         }                                                                                                            \
     }
-static const iso_integral integrals[] = ROWS(of_ball), image_integrals[] = ROWS(of_point);
+static const iso_integral integrals[] = ROWS(), image_integrals[] = ROWS(_of_point);
 
 static iso_status check_one(iso_context *ctx, const iso_params *p, const iso_effects *effects, int which)
 {

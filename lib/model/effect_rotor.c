@@ -123,28 +123,15 @@ static double of_round(const iso_problem *f, const double ball[], double *size)
     return moving - along * along / (2 * f->p.k);
 }
 
-/* An integral of the ball, and the same of its point, by the map (18). */
-#define OF_BALL_AND_POINT(name, call)                                                                                \
-    static double name(const iso_problem *f, const double ball[], double *size)                                      \
-    {                                                                                                                \
-        return call;                                                                                                 \
-    }                                                                                                                \
-    static double name##_of_point(const iso_problem *f, const double y[], double *size)                              \
-    {                                                                                                                \
-        double ball[ISO_STATE];                                                                                      \
-        iso_point_to_point_t(&f->p, y, ball);                                                                        \
-        iso_point_t_to_ball(&f->p, ball, ball);                                                                      \
-        return call;                                                                                                 \
-    }
 #define ABOUT_AXIS(i)                                                                                                \
     static bool holds_about##i(const iso_problem *f)                                                                 \
     {                                                                                                                \
         return holds_about(f, i - 1);                                                                                \
     }                                                                                                                \
-    OF_BALL_AND_POINT(axis##i, of_axis(f, ball, i - 1, size))
+    ISO_OF_BALL_AND_POINT(axis##i, of_axis(f, ball, i - 1, size))
 
-OF_BALL_AND_POINT(plane, of_plane(f, ball, size))
-OF_BALL_AND_POINT(all_round, of_round(f, ball, size))
+ISO_OF_BALL_AND_POINT(plane, of_plane(f, ball, size))
+ISO_OF_BALL_AND_POINT(all_round, of_round(f, ball, size))
 ABOUT_AXIS(1)
 ABOUT_AXIS(2)
 ABOUT_AXIS(3)

@@ -180,7 +180,8 @@ double iso_effects_level(const iso_effects *effects);
 /* The name of the effect that states it. */
 const char *iso_level_name(void);
 
-/* Those that act, and the integrals that are watched, of effects that are settled; of a scene: iso_scene_acting (orbit/scene.h). */
+/* Those that act, and the integrals that are watched, of effects that are settled. Of a scene: iso_scene_acting
+ * (orbit/scene.h). */
 iso_effects iso_effects_acting(const iso_effects *effects);
 
 /* The first effect that is a magnetic field on the point; NULL: none. */

@@ -32,6 +32,20 @@ static inline bool holds_axis(const iso_problem *f, int axis)
         return f_axis(f, y, i - 1, size);                                                                            \
     }
 
+/* An integral `name` of the ball, and the same of its point, by the map (18); call: its value, from f, ball, size. */
+#define ISO_OF_BALL_AND_POINT(name, call)                                                                            \
+    static double name(const iso_problem *f, const double ball[], double *size)                                      \
+    {                                                                                                                \
+        return call;                                                                                                 \
+    }                                                                                                                \
+    static double name##_of_point(const iso_problem *f, const double y[], double *size)                              \
+    {                                                                                                                \
+        double ball[ISO_STATE];                                                                                      \
+        iso_point_to_point_t(&f->p, y, ball);                                                                        \
+        iso_point_t_to_ball(&f->p, ball, ball);                                                                      \
+        return call;                                                                                                 \
+    }
+
 /* A row: name, dimension, value, further members; and that of F_axis i. */
 #define ISO_INTEGRAL(name_, a, b, c, value_, ...)                                                                    \
     {                                                                                                                \

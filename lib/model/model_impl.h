@@ -109,15 +109,15 @@ bool iso_model_at_rest(const iso_model *m, const double y[]);
 /* y becomes the state a time dt after y, for a model at rest. One evaluation of m->rhs. */
 void iso_model_rest(const iso_model *m, double dt, double y[]);
 
-/* Whether the model, going in the direction (1 or -1) of time from y0, has come to a y from which it goes on ever faster.
- * Returns what happens, in words; NULL: it does not. */
+/* Whether the model, which goes from y0 forwards (direction 1) or backwards (-1) in time, has come to a y from which it
+ * turns ever faster. Returns what happens, in words; NULL: it does not. */
 const char *iso_model_speeds_up(const iso_model *m, int direction, const double y0[], const double y[]);
 
-/* The speed above which it makes sense to ask that; infinite: never. */
+/* Below this speed the answer is NULL, so nobody has to ask; infinite: at every speed. */
 double iso_model_fast(const iso_model *m, int direction, const double y0[]);
 
-/* Where a motion has ended, in y: what the effects that the scene writes have to do with it, in words that continue the
- * message; "": nothing. */
+/* A motion has ended in y: says whether an effect that the scene writes is the reason, in words that continue the
+ * message; "": it is not. */
 enum { ISO_BLAME_SIZE = 640 };
 void iso_model_blame(const iso_model *m, const double y[], char text[ISO_BLAME_SIZE]);
 

@@ -7,8 +7,8 @@
 #include "model/model_impl.h"
 #include "model/written_impl.h"
 
-/* Nearer than this to where it is not defined, an expression is said to be the reason; and so is a torque that changes
- * omega this many times as fast as the ball turns. */
+/* The reason is an expression that is nearer than NEAR to where it is not defined, or a torque that changes omega more
+ * than STRONG times as fast as the ball turns. */
 #define NEAR 1e-3
 #define STRONG 1e6
 

@@ -98,10 +98,10 @@ double certify_set_lost(const certify_set *s);
 /* The line of the names of the columns: three clocks, then the states of these models. */
 void certify_print_columns(FILE *to, iso_models as);
 
-/* A row of a state of `model` at the clocks t, tau, s. *holds: all its numbers have so many digits, counted from the
+/* A row of a state of `model` at the clocks t, tau, s. Whether all its numbers have so many digits, counted from the
  * largest number of each vector. */
-void certify_write_row(const certify_ball *b, arb_srcptr clock, iso_model_kind model, arb_srcptr y, iso_models as,
-                       int digits, FILE *to, bool *holds);
+bool certify_write_row(const certify_ball *b, arb_srcptr clock, iso_model_kind model, arb_srcptr y, iso_models as,
+                       int digits, FILE *to);
 
 /* --- arb_text.c -------------------------------------------------------------------------------------------------- */
 
@@ -111,7 +111,7 @@ slong certify_magnitude(arb_srcptr x, int count);
 /* Whether all radii are at most 10^place/2. */
 bool certify_holds(arb_srcptr x, int count, slong place);
 
-/* "midpoint,radius": the midpoint as a multiple of 10^place, the radius rounded up. */
-void certify_print(FILE *to, const arb_t x, slong place);
+/* Midpoint and radius, `between` them: the midpoint as a multiple of 10^place, the radius rounded up. */
+void certify_print(FILE *to, const arb_t x, slong place, char between);
 
 #endif

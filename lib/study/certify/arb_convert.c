@@ -186,7 +186,6 @@ static iso_status convert_row(reader *r, arb_ptr x)
 {
     char *text = NULL;
     size_t length = 0;
-    bool holds = true;
     ISO_TRY(read_row(r, x));
     if (!is_state(r, x + ISO_CLOCKS))
         return fail(r, NULL, "this is no state: no unit vector, or the other vector is not orthogonal to it");
@@ -194,9 +193,9 @@ static iso_status convert_row(reader *r, arb_ptr x)
     for (int i = 0; i < CERTIFY_STATE; i++)
         if (!arb_is_finite(x + ISO_CLOCKS + i)) return fail(r, NULL, "the enclosures of this row are too wide");
     FILE *to = open_memstream(&text, &length);
-    if (to) certify_write_row(&r->ball, x, r->to, x + ISO_CLOCKS, (iso_models)r->to, r->digits, to, &holds);
-    if (!to || fclose(to) != 0) return iso_context_no_memory(r->ctx, "a row");
-    const iso_status status = r->sink->line(r->sink->data, text);
+    if (to) certify_write_row(&r->ball, x, r->to, x + ISO_CLOCKS, (iso_models)r->to, r->digits, to);
+    const bool written = to && fclose(to) == 0 && text;
+    const iso_status status = written ? r->sink->line(r->sink->data, text) : iso_context_no_memory(r->ctx, "a row");
     free(text);
     return status;
 }

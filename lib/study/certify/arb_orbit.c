@@ -66,15 +66,9 @@ static void print_fraction(FILE *to, const char *key, int count, fmpq_t x[])
 /* # key: midpoint radius */
 static void print_energy(FILE *to, const char *key, const arb_t x, int digits)
 {
-    char *text = NULL;
-    size_t length = 0;
-    FILE *pair = open_memstream(&text, &length);
-    if (!pair) return;
-    certify_print(pair, x, certify_magnitude(x, 1) - digits - 2);
-    fclose(pair);
-    if (text && strchr(text, ',')) *strchr(text, ',') = ' ';
-    if (text) fprintf(to, "# %s: %s\n", key, text);
-    free(text);
+    fprintf(to, "# %s: ", key);
+    certify_print(to, x, certify_magnitude(x, 1) - digits - 2, ' ');
+    fputc('\n', to);
 }
 
 void certify_print_columns(FILE *to, iso_models as)
@@ -117,35 +111,35 @@ static bool print_group(FILE *to, arb_srcptr x, int count, int digits)
 {
     const slong e = certify_magnitude(x, count);
     for (int i = 0; i < count; i++) {
-        fputc(',', to);
-        certify_print(to, x + i, e - digits - 2);
+        if (i > 0) fputc(',', to);
+        certify_print(to, x + i, e - digits - 2, ',');
     }
     return certify_holds(x, count, e - digits);
 }
 
-void certify_write_row(const certify_ball *b, arb_srcptr clock, iso_model_kind model, arb_srcptr y, iso_models as,
-                       int digits, FILE *to, bool *holds)
+bool certify_write_row(const certify_ball *b, arb_srcptr clock, iso_model_kind model, arb_srcptr y, iso_models as,
+                       int digits, FILE *to)
 {
     arb_ptr other = _arb_vec_init(CERTIFY_STATE);
-    char *text = NULL;
-    size_t length = 0;
-    FILE *row = open_memstream(&text, &length);
-    *holds = row != NULL;
-    if (!row) return;
-    for (int c = 0; c < ISO_CLOCKS; c++) *holds = print_group(row, clock + c, 1, digits) && *holds;
+    bool holds = true;
+    for (int c = 0; c < ISO_CLOCKS; c++) {
+        if (c > 0) fputc(',', to);
+        holds = print_group(to, clock + c, 1, digits) && holds;
+    }
     for (int m = ISO_BALL; m <= ISO_POINT; m++) {
         if (as != ISO_SHOW_BOTH && (int)as != m) continue;
         if (m == (int)model)
             _arb_vec_set(other, y, CERTIFY_STATE);
         else
             certify_map(b, model, y, other);
-        *holds = print_group(row, other, 3, digits) && *holds;
-        *holds = print_group(row, other + 3, 3, digits) && *holds;
+        for (int vector = 0; vector < CERTIFY_STATE; vector += 3) {
+            fputc(',', to);
+            holds = print_group(to, other + vector, 3, digits) && holds;
+        }
     }
-    fclose(row);
-    if (text) fprintf(to, "%s\n", text + 1);
-    free(text);
+    fputc('\n', to);
     _arb_vec_clear(other, CERTIFY_STATE);
+    return holds;
 }
 
 /* Row i of the scene's grid. */
@@ -180,7 +174,7 @@ static bool next_row(work *w, iso_status *status)
         char *text = NULL;
         size_t length = 0;
         FILE *to = open_memstream(&text, &length);
-        if (to) certify_write_row(&w->ball, clock, w->p->backend, y, shown(w), w->p->options.digits, to, &holds);
+        if (to) holds = certify_write_row(&w->ball, clock, w->p->backend, y, shown(w), w->p->options.digits, to);
         *status = to ? ISO_OK : iso_context_no_memory(w->ctx, "a row");
         if (to && !holds) fclose(to), free(text), *status = ISO_NUMERICAL;
         if (to && holds) *status = give(w, to, &text);

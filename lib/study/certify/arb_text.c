@@ -96,7 +96,7 @@ static void print_radius(FILE *to, const arb_t radius)
     arb_clear(scaled), arf_clear(high), fmpz_clear(digits);
 }
 
-void certify_print(FILE *to, const arb_t x, slong place)
+void certify_print(FILE *to, const arb_t x, slong place, char between)
 {
     const slong size =
         arf_is_zero(arb_midref(x)) ? 0 : arf_abs_bound_lt_2exp_si(arb_midref(x)) - 3 * place - place / 3;
@@ -115,7 +115,7 @@ void certify_print(FILE *to, const arb_t x, slong place)
     arb_get_ubound_arf(high, rest, 64);
     arb_set_arf(rest, high);
     print_decimal(to, m, place);
-    fputc(',', to);
+    fputc(between, to);
     print_radius(to, rest);
     arf_clear(high);
     arb_clear(scaled), arb_clear(power), arb_clear(rest), fmpz_clear(m);
