@@ -21,6 +21,12 @@ for document in $documents; do
     for link in $links; do check "$document: there is $link" test -e "$folder/$link"; done
 done
 
+# --- what archives read states the version of the command
+for file in CITATION.cff examples/paper/codemeta.json; do
+    stated=$(sed -n 's/^ *"\{0,1\}version"\{0,1\}: *"\{0,1\}\([0-9.]*\).*/\1/p' "$source/$file")
+    check "$file: version $stated" test "isoroll $stated" = "$("$isoroll" --version | head -n 1)"
+done
+
 # --- the gallery shows every example, each picture is at most 150 kB
 for folder in "$source"/examples/[0-9]*/; do
     example=$(basename "$folder")
