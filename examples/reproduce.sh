@@ -2,7 +2,8 @@
 # reproduce.sh [--list | --short | --all] [ISOROLL [NAME...]] - makes the figures and tables of the documents again, and
 # compares the numbers that it makes with those that the documents print. --short (default) takes some minutes, --all
 # hours, --list makes nothing. ISOROLL is the command, in the folder where cmake has built it (with the tests, for some
-# rows); .build/release/isoroll if absent. NAME: only these rows of the list. Results go to the folder `reproduced`, here.
+# rows); .build/release/isoroll if absent. NAME: only these rows of the list. Results go to the folder `reproduced` there,
+# or here if nobody may write there.
 #
 # A row of the list is a figure that pictures.sh draws, or a table: the first one below HEADING in DOCUMENT.
 #   figure   is drawn without an error
@@ -55,14 +56,19 @@ case ${1-} in
 --list | --short | --all) length=${1#--} && shift ;;
 -*) echo "usage: reproduce.sh [--list | --short | --all] [ISOROLL [NAME...]]" >&2 && exit 2 ;;
 esac
-[ "$length" != list ] || { list | column -t -s '|' 2>/dev/null || list; exit; }
+if [ "$length" = list ]; then
+    list | awk -F '|' '{ printf "%-9s  %-6s  %7s  %-10s  %-23s  %-24s  %s\n", $1, $2, $3, $4, $5, $6, $7 }'
+    exit
+fi
 given=${1-.build/release/isoroll}
 [ $# -eq 0 ] || shift
 [ -x "$given" ] || { echo "reproduce.sh: there is no command $given" >&2 && exit 2; }
 build=$(cd "$(dirname "$given")" && pwd)
 isoroll=$build/$(basename "$given")
 source=$(cd "$(dirname "$0")/.." && pwd)
+[ ! -w "$build" ] || cd "$build"
 mkdir -p reproduced && cd reproduced
+results=$PWD
 rm -rf examples && cp -r "$source/examples" . # where pictures are drawn
 mkdir -p apps && rm -rf apps/python && cp -r "$source/apps/python" apps
 
@@ -234,11 +240,11 @@ while IFS='|' read -r name long minutes agrees document heading command <&3; do
     beside)
         # shellcheck disable=SC2086 # a command and its arguments
         { echo "The document:" && cells && echo "Made:" && "$build/tests/"$command; } >"$name.txt" 2>&1 &&
-            echo "    both tables are in reproduced/$name.txt" ;;
+            echo "    both tables are in $results/$name.txt" ;;
     *)
         cells >"$name.cells"
         "made_$name" <"$name.cells" >"$name.txt" && compared "$name.txt" "$name.cells" ;;
-    esac || { echo "    failed; see reproduced/$name.txt" && failed="$failed $name"; }
+    esac || { echo "    failed; see $results/$name.txt" && failed="$failed $name"; }
 done 3<rows.txt
 echo "Not made here: what only tests measure (lib/doc/measured.md names them), and races on other machines."
 [ -z "$failed" ] || { echo "reproduce.sh: not as the documents say:$failed" >&2 && exit 1; }
