@@ -62,6 +62,9 @@ if [ "$length" = list ]; then
 fi
 given=${1-.build/release/isoroll}
 [ $# -eq 0 ] || shift
+for name; do
+    list | grep -q "^$name|" || { echo "reproduce.sh: the list has no row $name" >&2 && exit 2; }
+done
 [ -x "$given" ] || { echo "reproduce.sh: there is no command $given" >&2 && exit 2; }
 build=$(cd "$(dirname "$given")" && pwd)
 isoroll=$build/$(basename "$given")

@@ -21,6 +21,7 @@ check "the list has every picture that is drawn" cmp drawn listed
 check "--list" sh "$script" --list
 check_not "an option that it does not have" sh "$script" --nothing
 check_not "no command" sh "$script" absent
+check_not "a row that the list does not have" sh "$script" "$isoroll" nothing
 
 # a copy of what the script reads, where a document may be changed
 : >err
