@@ -72,7 +72,7 @@ source=$(cd "$(dirname "$0")/.." && pwd)
 [ ! -w "$build" ] || cd "$build"
 mkdir -p reproduced && cd reproduced
 results=$PWD
-rm -rf examples && cp -r "$source/examples" . # where pictures are drawn
+rm -rf examples chaos.*.csv far.* && cp -r "$source/examples" . # where pictures are drawn
 mkdir -p apps && rm -rf apps/python && cp -r "$source/apps/python" apps
 
 # cells: the table of the document, a line "ROW|COLUMN|LABEL|TEXT" for each cell; LABEL is the first cell of the row
@@ -190,7 +190,7 @@ made_certified() {
 chaos_of() {
     verdicts=chaos.$1.$(echo "$2" | tr -d ' ' | tr , _).csv
     scene_rotor "$1" "$2"
-    [ -e "$verdicts" ] || "$isoroll" chaos scene.yaml --starts 32 --csv "$verdicts" >/dev/null </dev/null
+    [ -s "$verdicts" ] || "$isoroll" chaos scene.yaml --starts 32 --csv "$verdicts" >/dev/null </dev/null
 }
 
 # along K DIRECTION: a momentum of the size K
