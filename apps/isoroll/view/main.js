@@ -107,7 +107,6 @@ const controls = {
   adapt(milliseconds) {
     const since = milliseconds - this.before;
     this.before = milliseconds;
-    if (this.dirty) this.resting = milliseconds;
     if (this.dirty) {
       this.resting = milliseconds;
       this.slow = since < 1000 ? 0.8 * this.slow + 0.2 * since : this.slow;
