@@ -34,7 +34,7 @@ done
 # --- the README's tasks, one after the other; `cost` takes a minute and has tests of its own
 mkdir examples && cp -r "$source/examples/15_two_spheres" examples
 sed -n '/^## Tasks/,/^## A scene/p' "$source/README.md" | sed -n 's/ *#.*//; s/^    \(isoroll\|cp\) /\1 /p' |
-    sed 's| /usr/share/doc/isoroll/| |' | grep -v cost >tasks
+    sed 's| ~/iso/share/doc/isoroll/| |' | grep -v cost >tasks
 check "the README has tasks" test "$(wc -l <tasks)" -ge 6
 if "$isoroll" view absent -o - 2>&1 | grep -q "built without three.js"; then
     sed -i "/^isoroll view/d" tasks
