@@ -1,6 +1,6 @@
 #!/bin/sh
-# documents.sh ISOROLL - the documents: how long they are, whether their links lead somewhere, whether the commands of
-# the README work, and whether the gallery shows every example.
+# documents.sh ISOROLL - the documents: how long they are, whether their links lead somewhere, whether they cite what the
+# bibliography has, whether the commands of the README work, and whether the gallery shows every example.
 . "$(dirname "$0")/lib.sh"
 documents=$(cd "$source" && find . -name '*.md' ! -path './.build/*' ! -path './.git/*' | sort)
 check "there are documents" test "$(echo "$documents" | wc -l)" -ge 5
@@ -20,6 +20,15 @@ for document in $documents; do
         sed -n 's/^](\([^)#]*\)[^)]*).*/\1/p; s/^src="\([^"]*\)".*/\1/p' | grep -v '^[a-z]*:')
     for link in $links; do check "$document: there is $link" test -e "$folder/$link"; done
 done
+
+# --- every work that is cited is in the bibliography, and no other; no formula has an escape that Markdown takes away
+bibliography=$source/lib/doc/references.bib
+sed -n 's/^@[a-z]*{\([^,]*\),$/\1/p' "$bibliography" | sort >works
+for document in $documents; do sed 's/`[^`]*`//g; /^    /d' "$source/$document"; done >text
+grep -o '\[@[^]]*\]' text | tr -d '[]@ ' | tr ';' '\n' | sort -u >cited
+check "there are works" test -s works
+check "lib/doc/references.bib has the works that documents cite: $(diff works cited | sed -n 's/^[<>].*/&;/p')" cmp -s works cited
+check "formulas: no \\{ \\} \\, \\; \\! in a document" awk '/\\[{},;!]/ { exit 1 }' text
 
 # --- the gallery shows every example, each picture is at most 150 kB
 for folder in "$source"/examples/[0-9]*/; do
