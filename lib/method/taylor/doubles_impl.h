@@ -21,7 +21,9 @@ static inline doubles size_of(doubles a)
 
 static inline bool holds_somewhere(double_mask m)
 {
-    int64_t found = 0;
-    for (int i = 0; i < LANES; i++) found |= m[i];
-    return found != 0;
+#if LANES == 1
+    return m[0] != 0;
+#else
+    return any(m);
+#endif
 }

@@ -13,10 +13,18 @@ static inline void value(const vector a[], int order, real x, real out[3])
 static inline void value_and_rate(const vector a[], const real count[], int order, real x, real out[3], real rate[3])
 {
     vector p = nought, dp = nought;
+#if LANES > 1 /* Horner's scheme for both: no factors n, other roundings */
+    (void)count;
+    for (int n = order; n >= 1; n--) {
+        p = plus(times(x, p), a[n]);
+        dp = plus(times(x, dp), p);
+    }
+#else
     for (int n = order; n >= 1; n--) {
         p = plus(times(x, p), a[n]);
         dp = plus(times(x, dp), times(count[n], a[n]));
     }
+#endif
     p = plus(times(x, p), a[0]);
     for (int i = 0; i < 3; i++) out[i] = AT(p, i), rate[i] = AT(dp, i);
 }

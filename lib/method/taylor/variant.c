@@ -120,6 +120,10 @@ __extension__ typedef _Float128 number_of_128_bits;
 #define APART
 #endif
 
+#if LANES > 2 && !IS_TANGENT
+#define WRITTEN
+#endif
+
 /* --- the code --------------------------------------------------------------------------------------------------- */
 
 #if IS_TAIL

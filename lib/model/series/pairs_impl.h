@@ -35,39 +35,31 @@ static inline vector held_vector(vector a)
 
 /* --- of one channel --------------------------------------------------------------------------------------------- */
 
-/* n = -1: both sums are 0 */
-static inline pair product_pair_of(const real a[], const real b[], int n)
+/* Numbers of a stand a_step apart, those of b b_step: 1, or 3 for a component of vectors. n = -1: both sums are 0 */
+static inline pair spaced_pair_of(const real *a, int a_step, const real *b, int b_step, int n)
 {
     pair s = {zero, zero};
     for (int j = 0; j < n; j++) {
-        const real last = held(b[n - j]);
-        s.now += a[j] * last;
-        s.next += a[j + 1] * last;
-    }
-    if (n >= 0) s.now += a[n] * b[0];
-    return s;
-}
-
-#ifdef APART
-
-/* The same of numbers that are three apart: the components of vectors. a_step: 1 or 3 */
-static inline pair component_pair_of(const real *a, int a_step, const real *b, int n)
-{
-    pair s = {zero, zero};
-    for (int j = 0; j < n; j++) {
-        const real last = b[3 * (n - j)];
+        const real last = held(b[b_step * (n - j)]);
         s.now += a[a_step * j] * last;
         s.next += a[a_step * (j + 1)] * last;
     }
-    s.now += a[a_step * n] * b[0];
+    if (n >= 0) s.now += a[a_step * n] * b[0];
     return s;
 }
+
+static inline pair product_pair_of(const real a[], const real b[], int n)
+{
+    return spaced_pair_of(a, 1, b, 1, n);
+}
+
+#ifdef APART
 
 static inline vector_pair scaled_pair_of(const real a[], const vector b[], int n)
 {
     vector_pair s;
     for (int i = 0; i < 3; i++) {
-        const pair p = component_pair_of(a, 1, &b->at[i], n);
+        const pair p = spaced_pair_of(a, 1, &b->at[i], 3, n);
         s.now.at[i] = p.now, s.next.at[i] = p.next;
     }
     return s;
@@ -77,7 +69,7 @@ static inline vector_pair components_pair_of(const vector a[], const vector b[],
 {
     vector_pair s;
     for (int i = 0; i < 3; i++) {
-        const pair p = component_pair_of(&a->at[i], 3, &b->at[i], n);
+        const pair p = spaced_pair_of(&a->at[i], 3, &b->at[i], 3, n);
         s.now.at[i] = p.now, s.next.at[i] = p.next;
     }
     return s;

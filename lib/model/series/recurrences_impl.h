@@ -17,10 +17,12 @@ enum { TERMS = 8, ROOM = CHANNELS * KEPT };
 
 typedef struct series series;
 typedef void recurrence(series *S, int c, int n); /* coefficient n in channel c */
+typedef void written_recurrence(series *S);       /* all terms for one n, which is a constant of the compilation */
 
 struct series {
     int order, terms, together; /* together: how many coefficients a call of the terms gives, 1 or 2 */
     recurrence *term[TERMS];
+    written_recurrence *const *written; /* [n] does what the terms do; NULL: they are called one by one */
     const iso_formula *formula; /* of the effects: of the ball's motion, or of the point's image; NULL: none */
     /* what distinguishes one orbit's equations from another's */
     real c[ISO_FORMULA_CONSTANTS];
@@ -168,13 +170,18 @@ static inline void set_q(series *S, int c, int n, vector squared)
 {
     const int i = place(c, n);
     S->base[i] = total(by(S->J, squared));
-    S->slope[i] = S->count[n] * S->base[i];
     if (i == 0) S->over_base = 1 / S->base[0];
+}
+
+static inline void set_slope(series *S, int c, int n)
+{
+    S->slope[place(c, n)] = S->count[n] * S->base[place(c, n)];
 }
 
 static inline void point_q(series *S, int c, int n)
 {
     set_q(S, c, n, squares(S->n, c, n));
+    set_slope(S, c, n);
 }
 
 /* b^p of the base */
@@ -261,6 +268,7 @@ static inline void set_r(series *S, int c, int n, real divided)
 {
     const int i = place(c, n);
     if (is_deviation(c)) divided += S->base[place(c, 0)] * S->r[n];
+    set_slope(S, c, n + 1);
     S->r[i] = (S->slope[i + 1] - divided) * S->over_base;
 }
 
@@ -341,9 +349,12 @@ static inline void point_24_magnetic(series *S, int c, int n)
 static inline void expand_together(series *const S[], int count)
 {
     for (int n = 0; n < S[0]->order; n += S[0]->together)
-        for (int i = 0; i < S[0]->terms; i++)
-            for (int j = 0; j < count; j++)
-                for (int c = 0; c < CHANNELS; c++) S[j]->term[i](S[j], c, n);
+        if (S[0]->written)
+            for (int j = 0; j < count; j++) S[0]->written[n](S[j]);
+        else
+            for (int i = 0; i < S[0]->terms; i++)
+                for (int j = 0; j < count; j++)
+                    for (int c = 0; c < CHANNELS; c++) S[j]->term[i](S[j], c, n);
 }
 
 static inline void expand(series *S)
@@ -361,7 +372,7 @@ typedef struct recurrences {
 
 static inline void set_recurrences(series *S, int together, recurrences list)
 {
-    S->terms = 0, S->together = together;
+    S->terms = 0, S->together = together, S->written = NULL;
     for (int i = 0; i < TERMS; i++)
         if (list.term[i]) S->term[S->terms++] = list.term[i];
 }
