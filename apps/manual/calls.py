@@ -1,0 +1,129 @@
+"""The calls of C and of Python as blocks: from the comments of the public headers, and from docstrings."""
+
+import ast
+import re
+
+from tree import attributes, code, code_block, header, link, node, prose
+
+# --- C -----------------------------------------------------------------------------------------------------------
+
+NOT_INSTALLED = re.compile(r"_impl\.h$|/(taylor|series)/")
+NOT_SHOWN = re.compile(r"#ifndef \w+_H\n#define \w+_H\n(\n+(#include .*\n)+)*|ISO_C_(BEGIN|END)\n|#endif\n$|"
+                       r"/\* clang-format \w+ \*/\n")
+DECLARED = re.compile(r"^#define (ISO_\w+)|\} (iso_\w+);|^typedef struct \w+ (iso_\w+);|^typedef \w+ \*?(iso_\w+)\(|"
+                      r"^(?!typedef)\w[\w *]*?\b(iso_\w+)\(|(?:[{,] |^    )(ISO_\w+) = ", re.M)
+
+
+def headers(lib):
+    """The public headers by floors: of each floor, its name and the paths of its headers."""
+    yield "isoroll.h", [lib / "isoroll.h"]
+    for floor in re.findall(r"^\| \d \| `(\w+)` \|", (lib / "README.md").read_text("utf-8"), re.M):
+        found = [path for path in sorted((lib / floor).glob("**/*.h")) if not NOT_INSTALLED.search(path.as_posix())]
+        yield floor, found
+
+
+def parts_of(text):
+    """A header as (comment, declarations) for each part; the first is the comment about the header. Empty lines
+    stand between parts."""
+    parts = []
+    for part in re.split(r"\n\n+(?![^{}]*\n\})", NOT_SHOWN.sub("", text)):
+        comment, declared = re.match(r"\s*(?:/\*(.*?)\*/)?\n*(.*)", part, re.S).groups()
+        comment = re.sub(r"^ \*?( |$)", "", comment or "", flags=re.M).strip()
+        declared = re.sub(r"static inline ([^{;]*?)\n\{\n.*?^\}", r"\1;", declared.strip(), flags=re.S | re.M)
+        declared = re.sub(r" +\*/", " */", declared.replace("ISO_API ", ""))
+        parts.append((comment, declared))
+    return parts
+
+
+def names_of(declared):
+    """What is declared."""
+    return list(dict.fromkeys(name for found in DECLARED.findall(declared) for name in found if name))
+
+
+def floor_of_c(page, lib, paths, known):
+    """The blocks of a page with the headers of a floor. known: the identifiers of all names, by name."""
+    def words(text):
+        parts = re.split(r"(`[^`]+`|\b(?:iso|ISO)_\w+)", text)
+        return [node("Str", part) if i % 2 == 0 else
+                link([code(part)], "#" + known[part]) if part in known else code(part.strip("`"))
+                for i, part in enumerate(parts)]
+
+    for path in paths:
+        file = path.relative_to(lib).as_posix()
+        (about, _), *parts = parts_of(path.read_text("utf-8"))
+        yield header(2, f"{page}.{file}", [node("Str", file)])
+        about = about.partition(" - ")[2]
+        yield from prose(about[:1].upper() + about[1:], words)
+        for comment, declared in parts:
+            names = names_of(declared)
+            if names:
+                first, *others = names
+                marks = [node("Span", attributes(f"{page}.{name}"), [code(name)]) for name in others]
+                yield header(3, f"{page}.{first}", [code(first), *(x for mark in marks for x in (node("Str", ", "), mark))])
+            if declared:
+                yield code_block(declared, "c")
+            yield from prose(re.sub(r"^--- (.*?) -+$", r"\1", comment), words) if comment else ()
+
+
+def pages_of_c(lib):
+    """(name, title, blocks) for each floor of the library."""
+    floors = [("c-" + floor.partition(".")[0], floor, paths) for floor, paths in headers(lib)]
+    known = {name: f"{page}.{name}" for page, _, paths in floors for path in paths
+             for _, declared in parts_of(path.read_text("utf-8")) for name in names_of(declared)}
+    for page, floor, paths in floors:
+        yield page, "C: " + floor, list(floor_of_c(page, lib, paths, known))
+
+
+# --- Python ------------------------------------------------------------------------------------------------------
+
+def plain(text):
+    return [node("Str", text)]
+
+
+def signature(function):
+    """A function as it is called; on several lines if it is long."""
+    result = f" -> {ast.unparse(function.returns)}" if function.returns else ""
+    name, arguments = function.name, ast.unparse(function.args)
+    line = f"{name}({arguments}){result}"
+    if len(line) <= 80:
+        return line
+    return f"{name}(\n    " + re.sub(r", (?=\*?\*?\w+(:|=|,|$))", ",\n    ", arguments) + f"\n){result}"
+
+
+def members(of):
+    """What a class offers: (code, docstring) for each method and property."""
+    for item in of.body:
+        if isinstance(item, ast.FunctionDef) and not item.name.startswith("_") and ast.get_docstring(item):
+            property_ = any(ast.unparse(d) == "property" for d in item.decorator_list)
+            item.args.args = item.args.args[1:]
+            yield item.name if property_ else signature(item), ast.get_docstring(item)
+
+
+def page_of_python(page, package):
+    """(name, title, blocks) of all that `import isoroll` gives."""
+    sources = [ast.parse(path.read_text("utf-8")) for path in sorted(package.glob("*.py*"))]
+    defined = {item.name: item for source in sources for item in source.body
+               if isinstance(item, (ast.FunctionDef, ast.ClassDef))}
+    stub = ast.parse((package / "_instruments.pyi").read_text("utf-8"))
+    defined.update((item.name, item) for item in stub.body if isinstance(item, ast.FunctionDef))
+    start = ast.parse((package / "__init__.py").read_text("utf-8"))
+    offered = next(ast.literal_eval(item.value) for item in start.body
+                   if isinstance(item, ast.Assign) and item.targets[0].id == "__all__")
+    blocks = prose(ast.get_docstring(start), plain)
+    for name in sorted(offered, key=str.lower):
+        item = defined.get(name)
+        if not item:
+            continue
+        blocks.append(header(2, f"{page}.{name}", [code(name)]))
+        if isinstance(item, ast.FunctionDef):
+            blocks.append(code_block(signature(item), "python"))
+        else:
+            begin = next((x for x in item.body if isinstance(x, ast.FunctionDef) and x.name == "__init__"), None)
+            bases = ", ".join(map(ast.unparse, item.bases))
+            blocks.append(code_block(f"class {name}({bases})", "python"))
+        blocks += prose(ast.get_docstring(item) or "", plain)
+        if isinstance(item, ast.ClassDef):
+            for call, doc in members(item):
+                blocks.append(code_block(call, "python"))
+                blocks += prose(doc, plain)
+    return page, "Python: all calls", blocks
