@@ -15,9 +15,9 @@ import sys
 from html import escape
 from pathlib import Path
 
-from index import index_of
+from index import index_of, terms_of
 from pdf import print_pdf
-from sources import BIBLIOGRAPHY, chapters
+from sources import BIBLIOGRAPHY, Section, chapters
 from tree import attributes, change, header, node, pandoc, read, text_of
 
 HERE = Path(__file__).resolve().parent
@@ -48,6 +48,16 @@ def follow(target, page, by_source, source, output):
     return copied(path, source, output) if (source / path).is_file() else None
 
 
+def numbered(formula):
+    """A formula with its number \\tag{24} beside it, as MathML has no numbers. Of several numbers each stands in its line."""
+    kind, text = formula["c"]
+    tags = re.findall(r"\\tag\{(.*?)\}", text)
+    if len(tags) != 1:
+        return node("Math", kind, re.sub(r"\\tag\{(.*?)\}", r"\\qquad (\1)", text))
+    bare = node("Math", kind, re.sub(r"\s*\\tag\{.*?\}", "", text))
+    return node("Span", attributes("", "numbered"), [bare, node("Span", attributes(), [node("Str", f"({tags[0]})")])])
+
+
 def finish(page, to):
     """Gives a page its title, identifiers of its own, and links as to(target) has them. Notes its sections."""
     def finished(tree):
@@ -57,6 +67,8 @@ def finish(page, to):
             return tree if content[2][0] else node("Span", attributes(), content[1])
         if kind in ("RawInline", "RawBlock"):
             content[1] = re.sub(r'(?<=src=")[^"]*', lambda found: to(found[0]), content[1])
+        if kind == "Math":
+            return numbered(tree)
         if kind == "Header":
             content[0] = max(content[0], 2)
             name = content[1][0] or re.sub(r"\W+", "-", text_of(content[2]).lower())
@@ -67,12 +79,19 @@ def finish(page, to):
     for block in page.blocks:
         if block["t"] == "Header":
             level, (name, _, _), inlines = block["c"]
-            page.sections.append([level, name, text_of(inlines), ""])
+            page.sections.append(Section(level, name, text_of(inlines)))
         else:
-            page.sections[-1][3] += text_of(block)
+            page.sections[-1].text += text_of(block)
+        page.sections[-1].terms += terms_of(block)
 
 
 # --- pages -----------------------------------------------------------------------------------------------------------
+
+def wide_table(found):
+    """A table that can be wider than the page. Its code can break after . _ and /"""
+    return '<div class="wide">' + re.sub(r"<code>.*?</code>", lambda code: re.sub(
+        r"(?<=\w)[._/](?=\w)", r"\g<0><wbr>", code[0]), found[0]) + "</div>"
+
 
 def bodies(pages, source):
     """The HTML of each page, by its name."""
@@ -82,7 +101,7 @@ def bodies(pages, source):
     text = pandoc(json.dumps(tree), "-f", "json", "-t", "html5", "--mathml", "--section-divs", "--no-highlight",
                   *(cite if bibliography.exists() else []))
     text = re.sub(r'<math display="block".*?</math>', r'<span class="wide">\g<0></span>', text, flags=re.S)
-    text = re.sub(r"<table.*?</table>", r'<div class="wide">\g<0></div>', text, flags=re.S)
+    text = re.sub(r"<table.*?</table>", wide_table, text, flags=re.S)
     parts = re.split(r'^(?=<section id="[^"]*" class="level1)', text, flags=re.M)[1:]
     return dict(zip((page.name for page in pages), parts, strict=True))
 
@@ -93,7 +112,7 @@ def contents(parts, deep):
         return f'<li><a href="#{name}">{escape(title)}</a>{more}</li>\n'
 
     def inside(page):
-        sections = [item(name, title) for level, name, title, _ in page.sections if level == 2]
+        sections = [item(section.name, section.title) for section in page.sections if section.level == 2]
         return f"<ul>{''.join(sections)}</ul>" if deep and sections else ""
 
     return "".join(f"<h2>{chapter}</h2>\n<ul>{''.join(item(page.name, page.title, inside(page)) for page in pages)}</ul>"
@@ -109,11 +128,13 @@ def build(source, man, isoroll, version, output, chromium):
     body = bodies(pages, source)
     home = {name: page for page, text in body.items() for name in re.findall(r' id="([^"]*)"', text)}
 
-    def address(found):
-        name = found[1]
+    def place(name):
         if name not in home:
             sys.exit(f"the manual has no section '{name}'")
-        return f'href="{home[name]}.html' + ('"' if home[name] == name else f'#{name}"')
+        return home[name] + ".html" + ("" if home[name] == name else "#" + name)
+
+    def placed(text):
+        return re.sub(r'(?<=href=")#([^"]*)', lambda found: place(found[1]), text)
 
     def write(file, title, text, template="page.html", **more):
         frame = string.Template((HERE / template).read_text("utf-8"))
@@ -121,8 +142,7 @@ def build(source, man, isoroll, version, output, chromium):
         (output / file).write_text(text, "utf-8")
 
     def write_page(file, title, text):
-        write(file, title, re.sub(r'href="#([^"]*)"', address, text), nav=re.sub(
-            r'href="#([^"]*)"', address, contents(parts, deep=False)))
+        write(file, title, placed(text), nav=placed(contents(parts, deep=False)))
 
     for page in pages:
         write_page(page.name + ".html", page.title, body[page.name])
@@ -131,8 +151,8 @@ def build(source, man, isoroll, version, output, chromium):
     whole = re.sub(r'<a\s+href="files/[^"]*">(.*?)</a>', r"\1", "".join(body.values()), flags=re.S)
     write("whole.html", "isoroll", whole, "whole.html", contents=contents(parts, deep=True))
 
-    entries = [[re.sub('href="|"', "", address([None, name])), page.title if name == page.name else page.title + ": " + title,
-                " ".join(text.split())] for page in pages for _, name, title, text in page.sections]
+    entries = [[place(section.name), page.title, section.title, " ".join(section.text.split()), section.terms]
+               for page in pages for section in page.sections]
     lines = ",\n".join(json.dumps(entry, ensure_ascii=False) for entry in entries)
     (output / "entries.js").write_text(f"const entries = [\n{lines}\n];\n", "utf-8")
     for file in ("style.css", "search.js"):

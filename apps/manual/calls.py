@@ -2,8 +2,9 @@
 
 import ast
 import re
+import textwrap
 
-from tree import attributes, code, code_block, header, link, node, prose
+from tree import attributes, code, code_block, header, node, prose
 
 # --- C -----------------------------------------------------------------------------------------------------------
 
@@ -42,18 +43,12 @@ def names_of(declared):
 
 def floor_of_c(page, lib, paths, known):
     """The blocks of a page with the headers of a floor. known: the identifiers of all names, by name."""
-    def words(text):
-        parts = re.split(r"(`[^`]+`|\b(?:iso|ISO)_\w+)", text)
-        return [node("Str", part) if i % 2 == 0 else
-                link([code(part)], "#" + known[part]) if part in known else code(part.strip("`"))
-                for i, part in enumerate(parts)]
-
     for path in paths:
         file = path.relative_to(lib).as_posix()
         (about, _), *parts = parts_of(path.read_text("utf-8"))
         yield header(2, f"{page}.{file}", [node("Str", file)])
         about = about.partition(" - ")[2]
-        yield from prose(about[:1].upper() + about[1:], words)
+        yield from prose(about[:1].upper() + about[1:], known)
         for comment, declared in parts:
             names = names_of(declared)
             if names:
@@ -62,7 +57,7 @@ def floor_of_c(page, lib, paths, known):
                 yield header(3, f"{page}.{first}", [code(first), *(x for mark in marks for x in (node("Str", ", "), mark))])
             if declared:
                 yield code_block(declared, "c")
-            yield from prose(re.sub(r"^--- (.*?) -+$", r"\1", comment), words) if comment else ()
+            yield from prose(re.sub(r"^--- (.*?) -+$", r"\1", comment), known) if comment else ()
 
 
 def pages_of_c(lib):
@@ -76,18 +71,16 @@ def pages_of_c(lib):
 
 # --- Python ------------------------------------------------------------------------------------------------------
 
-def plain(text):
-    return [node("Str", text)]
-
-
 def signature(function):
-    """A function as it is called; on several lines if it is long."""
-    result = f" -> {ast.unparse(function.returns)}" if function.returns else ""
-    name, arguments = function.name, ast.unparse(function.args)
-    line = f"{name}({arguments}){result}"
-    if len(line) <= 80:
-        return line
-    return f"{name}(\n    " + re.sub(r", (?=\*?\*?\w+(:|=|,|$))", ",\n    ", arguments) + f"\n){result}"
+    """A function as it is called, without types; on several lines if it is long."""
+    for argument in ast.walk(function.args):
+        if isinstance(argument, ast.arg):
+            argument.annotation = None
+    result = f"\N{NO-BREAK SPACE}->\N{NO-BREAK SPACE}{ast.unparse(function.returns)}" if function.returns else ""
+    line = f"{function.name}({ast.unparse(function.args)}){result}"
+    lines = textwrap.wrap(line, 80, subsequent_indent=" " * (len(function.name) + 1), break_long_words=False,
+                          break_on_hyphens=False)
+    return "\n".join(lines).replace("\N{NO-BREAK SPACE}", " ")
 
 
 def members(of):
@@ -109,7 +102,7 @@ def page_of_python(page, package):
     start = ast.parse((package / "__init__.py").read_text("utf-8"))
     offered = next(ast.literal_eval(item.value) for item in start.body
                    if isinstance(item, ast.Assign) and item.targets[0].id == "__all__")
-    blocks = prose(ast.get_docstring(start), plain)
+    blocks = prose(ast.get_docstring(start))
     for name in sorted(offered, key=str.lower):
         item = defined.get(name)
         if not item:
@@ -121,9 +114,9 @@ def page_of_python(page, package):
             begin = next((x for x in item.body if isinstance(x, ast.FunctionDef) and x.name == "__init__"), None)
             bases = ", ".join(map(ast.unparse, item.bases))
             blocks.append(code_block(f"class {name}({bases})", "python"))
-        blocks += prose(ast.get_docstring(item) or "", plain)
+        blocks += prose(ast.get_docstring(item) or "")
         if isinstance(item, ast.ClassDef):
             for call, doc in members(item):
                 blocks.append(code_block(call, "python"))
-                blocks += prose(doc, plain)
+                blocks += prose(doc)
     return page, "Python: all calls", blocks

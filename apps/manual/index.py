@@ -1,5 +1,6 @@
 """The index: all names that the manual explains, by the alphabet."""
 
+import re
 from html import escape
 
 from tree import change, text_of
@@ -22,19 +23,16 @@ def terms_of(block):
         return tree
 
     change(block, look)
-    return [term.strip() for term in found]
+    return [term.strip() for term in found if re.match(r"[-/.]*[A-Za-z]", term)]
 
 
 def index_of(pages):
     """The page."""
     places = {}
     for page in pages:
-        section = page.name
-        for block in page.blocks:
-            if block["t"] == "Header":
-                section = block["c"][1][0] or section
-            for term in terms_of(block):
-                places.setdefault(term, {}).setdefault(page.title, section)
+        for section in page.sections:
+            for term in section.terms:
+                places.setdefault(term, {}).setdefault(page.title, section.name)
     lines, letter = [], ""
     for term in sorted(places, key=lambda term: (term.lstrip("-_.`").lower(), term)):
         first = term.lstrip("-_.`")[:1].upper()

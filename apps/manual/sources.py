@@ -23,12 +23,21 @@ CHAPTERS = {
 
 
 @dataclass
+class Section:
+    level: int
+    name: str   # its identifier
+    title: str
+    text: str = ""
+    terms: list = field(default_factory=list)  # names that it explains, see index.py
+
+
+@dataclass
 class Page:
     name: str    # of its file, and of its identifiers: name.section
     title: str
     blocks: list
     source: str = ""  # the path of its Markdown
-    sections: list = field(default_factory=list)  # (level, identifier, title, text), see pages.py
+    sections: list = field(default_factory=list)
 
 
 def markdown(source, document):
@@ -59,8 +68,8 @@ def lists(isoroll):
     blocks = []
     text = subprocess.run([isoroll, "list"], env={}, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
     for topic in text.strip().split("\n\n"):
-        name, about, lines = re.match(r"(.*?): (.*)\n(.*)", topic, re.S).groups()
-        blocks += [header(2, "", [node("Str", name)]), node("Para", [node("Str", about)]), code_block(lines, "text")]
+        name, about, lines = re.match(r"(.*?): (.*?)\n(.*)", topic, re.S).groups()
+        blocks += [header(2, "", [node("Str", name)]), node("Para", [node("Str", about[:1].upper() + about[1:])]), code_block(lines, "text")]
     return Page("lists", "What isoroll list prints", blocks)
 
 
@@ -71,7 +80,7 @@ def references():
 def chapters(source, man, isoroll):
     """The pages of each chapter."""
     taken = {document for documents in CHAPTERS.values() for document in documents}
-    manuals = sorted(man.glob("**/*.1"))
+    manuals = sorted(man.glob("**/*.1"), key=lambda path: path.stem)
     made = {
         "man": lambda: [man_page(path, {path.stem for path in manuals}) for path in manuals],
         "list": lambda: [lists(isoroll)],

@@ -49,6 +49,14 @@ def link(inlines, target):
     return node("Link", attributes(), inlines, [target, ""])
 
 
+def inlines(text, known=()):
+    """The words of a comment: `names` in quotes and known names are code, known ones lead to the place that
+    known[name] identifies."""
+    parts = re.split(r"(`[^`]+`|\b(?:iso|ISO)_\w+)", text)
+    return [node("Str", part) if i % 2 == 0 else link([code(part)], "#" + known[part]) if part in known else
+            code(part.strip("`")) for i, part in enumerate(parts)]
+
+
 def text_of(tree):
     """The words of a tree."""
     if isinstance(tree, list):
@@ -60,8 +68,17 @@ def text_of(tree):
         return content[1] + (" " if kind == "CodeBlock" else "")
     if kind.startswith("Raw"):
         return ""
+    if kind == "Table":
+        return rows_of(content)
     inside = "".join(text_of(child) for child in inner(content))
-    return inside if kind in ("Emph", "Strong", "Link", "Span", "Cite") else inside + " "
+    return inside if kind in ("Emph", "Strong", "Link", "Span", "Cite") else f" {inside} "
+
+
+def rows_of(table):
+    """The words of a table. Those of the head stand before each cell, for searches such as "exit status 4"."""
+    head = [text_of(cell[4]).strip() for row in table[3][1] for cell in row[1]]
+    rows = [row for body in table[4] for row in body[3]]
+    return "".join(" ".join(f"{name} {text_of(cell[4])}" for name, cell in zip(head, row[1])) + "; " for row in rows)
 
 
 def inner(content):
@@ -83,20 +100,19 @@ def change(tree, how):
     return how(tree) if "t" in tree else tree
 
 
-def prose(text, words):
-    """The blocks of a comment or a docstring: paragraphs, lists, indented code, and columns NAME  MEANING.
-    words(text) gives inlines."""
+def prose(text, known=()):
+    """The blocks of a comment or a docstring: paragraphs, lists, indented code, and columns NAME  MEANING."""
     blocks = []
     for part in re.split(r"\n[ ]*\n", text.strip("\n")):
         lines = part.split("\n")
         if all(line.startswith("    ") for line in lines):
             blocks.append(code_block(textwrap.dedent(part), "text"))
         elif re.match(r"\w+  +\S", part):
-            named = [re.split("  +", item, 1) for item in re.split(r"\n(?=\w)", part)]
-            blocks.append(node("DefinitionList", [[[code(item[0])], [[node("Plain", words(" ".join(
-                item[1:])))]]] for item in named]))
+            named = [re.split("  +", item, 1) for item in re.split(r"\n(?=\w+  +\S)", part)]
+            blocks.append(node("DefinitionList", [[[code(name)], [[node("Plain", inlines(meaning, known))]]]
+                                                  for name, meaning in named]))
         else:
             lead, *items = re.split(r"(?:^|\n)[ ]*- ", part)
-            blocks += [node("Para", words(lead))] if lead else []
-            blocks += [node("BulletList", [[node("Plain", words(item))] for item in items])] if items else []
+            blocks += [node("Para", inlines(lead, known))] if lead else []
+            blocks += [node("BulletList", [[node("Plain", inlines(item, known))] for item in items])] if items else []
     return blocks
