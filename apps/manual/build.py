@@ -22,13 +22,14 @@ from tree import attributes, change, header, node, pandoc, read, text_of
 
 HERE = Path(__file__).resolve().parent
 PICTURES = (".svg", ".png")
+NUMBER = re.compile(r"\s*(?:\\tag\{([^{}]*)\}|\\qquad\s*\((\d+\w*)\))\s*$")  # of a formula
 ADDRESS = re.compile(r"[a-z]+:")  # not of a file of the project
 
 
 # --- links, identifiers, sections ------------------------------------------------------------------------------------
 
 def copied(path, source, output):
-    """The address of a file of the project, which is copied into the manual. NAME.txt is shown by every browser."""
+    """The address of a file of the project, which is copied into the manual: as NAME.txt, which browsers show."""
     place = Path("files", path if path.endswith(PICTURES) else path.lstrip(".") + ".txt")
     (output / place).parent.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(source / path, output / place)
@@ -48,14 +49,19 @@ def follow(target, page, by_source, source, output):
     return copied(path, source, output) if (source / path).is_file() else None
 
 
-def numbered(formula):
-    """A formula with its number \\tag{24} beside it, as MathML has no numbers. Of several numbers each stands in its line."""
-    kind, text = formula["c"]
-    tags = re.findall(r"\\tag\{(.*?)\}", text)
-    if len(tags) != 1:
-        return node("Math", kind, re.sub(r"\\tag\{(.*?)\}", r"\\qquad (\1)", text))
-    bare = node("Math", kind, re.sub(r"\s*\\tag\{.*?\}", "", text))
-    return node("Span", attributes("", "numbered"), [bare, node("Span", attributes(), [node("Str", f"({tags[0]})")])])
+def arranged(formula):
+    """A formula of its own, in parts that can stand below each other where the page is narrow: they end at \\qquad.
+    Its number, \\tag{24} or \\qquad (24) at its end, stands beside it. MathML has neither."""
+    text, number = formula["c"][1].strip(), NUMBER.search(formula["c"][1])
+    if number:
+        text = NUMBER.sub("", text)
+    text = re.sub(r"\\tag\{(.*?)\}", r"\\qquad (\1)", text)  # of a line within
+    parts = re.split(r"\s*\\qquad\s*", text)
+    if any(part.count("{") != part.count("}") or r"\begin" in part or not part for part in parts):
+        parts = [text]
+    inside = node("Span", attributes("", "parts"), [node("Math", {"t": "DisplayMath"}, part) for part in parts])
+    return node("Span", attributes("", "formula"), [inside, *(
+        [node("Span", attributes(), [node("Str", f"({number[1] or number[2]})")])] if number else [])])
 
 
 def finish(page, to):
@@ -67,8 +73,8 @@ def finish(page, to):
             return tree if content[2][0] else node("Span", attributes(), content[1])
         if kind in ("RawInline", "RawBlock"):
             content[1] = re.sub(r'(?<=src=")[^"]*', lambda found: to(found[0]), content[1])
-        if kind == "Math":
-            return numbered(tree)
+        if kind == "Math" and content[0]["t"] == "DisplayMath":
+            return arranged(tree)
         if kind == "Header":
             content[0] = max(content[0], 2)
             name = content[1][0] or re.sub(r"\W+", "-", text_of(content[2]).lower())
@@ -115,11 +121,14 @@ def contents(parts, deep):
         sections = [item(section.name, section.title) for section in page.sections if section.level == 2]
         return f"<ul>{''.join(sections)}</ul>" if deep and sections else ""
 
-    return "".join(f"<h2>{chapter}</h2>\n<ul>{''.join(item(page.name, page.title, inside(page)) for page in pages)}</ul>"
-                   for chapter, pages in parts.items())
+    def items(pages):
+        return "".join(item(page.name, page.title, inside(page)) for page in pages)
+
+    return "".join(f"<h2>{chapter}</h2>\n<ul>{items(pages)}</ul>\n" for chapter, pages in parts.items())
 
 
 def build(source, man, isoroll, version, output, chromium):
+    output.mkdir(parents=True, exist_ok=True)
     parts = chapters(source, man, isoroll)
     pages = [page for chapter in parts.values() for page in chapter]
     by_source = {page.source: page.name for page in pages if page.source}
@@ -146,7 +155,11 @@ def build(source, man, isoroll, version, output, chromium):
 
     for page in pages:
         write_page(page.name + ".html", page.title, body[page.name])
-    write_page("index.html", "The manual of isoroll", "<h1>The manual of isoroll</h1>\n" + contents(parts, deep=True))
+    paper = ' and <a href="isoroll.pdf">as a PDF</a>' if chromium else ""
+    title = "The manual of isoroll"
+    write_page("index.html", title, f'<div class="home">\n<h1>{title}</h1>\n'
+               "<p>The search finds words in all pages; the key / leads to it. The manual is also "
+               f'<a href="whole.html">on one page</a>{paper}.</p>\n{contents(parts, deep=True)}</div>')
     write_page("names.html", "Index", index_of(pages))
     whole = re.sub(r'<a\s+href="files/[^"]*">(.*?)</a>', r"\1", "".join(body.values()), flags=re.S)
     write("whole.html", "isoroll", whole, "whole.html", contents=contents(parts, deep=True))

@@ -8,7 +8,7 @@ from tree import attributes, code, code_block, header, node, prose
 
 # --- C -----------------------------------------------------------------------------------------------------------
 
-NOT_INSTALLED = re.compile(r"_impl\.h$|/(taylor|series)/")
+NOT_INSTALLED = re.compile(r"_impl\.h$|/(taylor|series)/")  # of a path in lib
 NOT_SHOWN = re.compile(r"#ifndef \w+_H\n#define \w+_H\n(\n+(#include .*\n)+)*|ISO_C_(BEGIN|END)\n|#endif\n$|"
                        r"/\* clang-format \w+ \*/\n")
 DECLARED = re.compile(r"^#define (ISO_\w+)|\} (iso_\w+);|^typedef struct \w+ (iso_\w+);|^typedef \w+ \*?(iso_\w+)\(|"
@@ -19,8 +19,8 @@ def headers(lib):
     """The public headers by floors: of each floor, its name and the paths of its headers."""
     yield "isoroll.h", [lib / "isoroll.h"]
     for floor in re.findall(r"^\| \d \| `(\w+)` \|", (lib / "README.md").read_text("utf-8"), re.M):
-        found = [path for path in sorted((lib / floor).glob("**/*.h")) if not NOT_INSTALLED.search(path.as_posix())]
-        yield floor, found
+        found = sorted((lib / floor).glob("**/*.h"))
+        yield floor, [path for path in found if not NOT_INSTALLED.search(path.relative_to(lib).as_posix())]
 
 
 def parts_of(text):
@@ -52,9 +52,9 @@ def floor_of_c(page, lib, paths, known):
         for comment, declared in parts:
             names = names_of(declared)
             if names:
-                first, *others = names
-                marks = [node("Span", attributes(f"{page}.{name}"), [code(name)]) for name in others]
-                yield header(3, f"{page}.{first}", [code(first), *(x for mark in marks for x in (node("Str", ", "), mark))])
+                others = [node("Span", attributes(f"{page}.{name}"), [node("Str", ", "), code(name)])
+                          for name in names[1:]]
+                yield header(3, f"{page}.{names[0]}", [code(names[0]), *others])
             if declared:
                 yield code_block(declared, "c")
             yield from prose(re.sub(r"^--- (.*?) -+$", r"\1", comment), known) if comment else ()

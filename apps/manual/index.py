@@ -7,7 +7,7 @@ from tree import change, text_of
 
 
 def terms_of(block):
-    """The names in code that stand at the left of a table, in a list of definitions, or in a heading."""
+    """The names that stand as code at the left of a table, in a list of definitions, or in a heading."""
     found = []
 
     def look(tree):
@@ -17,7 +17,8 @@ def terms_of(block):
             found.extend(text_of(inline) for cell in firsts for part in cell for inline in part["c"]
                          if inline["t"] == "Code")
         if tree["t"] == "DefinitionList":
-            found.extend(text_of(inline) for term, _ in content for inline in term if inline["t"] in ("Code", "Strong"))
+            found.extend(text_of(inline) for term, _ in content for inline in term
+                         if inline["t"] in ("Code", "Strong"))
         if block["t"] == "Header" and tree["t"] == "Code":
             found.append(content[1])
         return tree
@@ -34,10 +35,9 @@ def index_of(pages):
             for term in section.terms:
                 places.setdefault(term, {}).setdefault(page.title, section.name)
     lines, letter = [], ""
-    for term in sorted(places, key=lambda term: (term.lstrip("-_.`").lower(), term)):
-        first = term.lstrip("-_.`")[:1].upper()
-        if first.isalpha() and first != letter:
-            letter = first
+    for term in sorted(places, key=lambda term: (term.lstrip("-/.").lower(), term)):
+        if term.lstrip("-/.")[0].upper() != letter:
+            letter = term.lstrip("-/.")[0].upper()
             lines.append(f"</ul>\n<h2>{letter}</h2>\n<ul>")
         links = ", ".join(f'<a href="#{section}">{escape(title)}</a>' for title, section in places[term].items())
         lines.append(f"<li><code>{escape(term)}</code> {links}</li>")

@@ -2,8 +2,8 @@
  * Nothing is loaded from a network. */
 "use strict";
 
-const filler = new Set(("a an and are by can defined definition do does for from how i in is it mean means of on or " +
-  "the to what which with").split(" "));
+const filler = new Set(("a an and are by can defined definition do does for from how i in is it mean means of on " +
+  "or the to what which with").split(" "));
 
 /* The words of a text without fillers; "level.c" and "exponent-turns" are one word each. */
 function words(text) {
@@ -15,7 +15,8 @@ function words(text) {
 /* Finds the forms of a word: "effects" finds "effect". A short word is found whole. */
 function pattern(word) {
   const stem = word.length > 4 ? word.replace(/(s|ed|ing)$/, "") : word;
-  return new RegExp("(?<![\\p{L}\\p{N}])" + stem.replace(".", "\\.") + (stem.length < 3 ? "(?![\\p{L}\\p{N}])" : ""), "giu");
+  const end = stem.length < 3 ? "(?![\\p{L}\\p{N}])" : "";
+  return new RegExp("(?<![\\p{L}\\p{N}])" + stem.replaceAll(".", "\\.") + end, "giu");
 }
 
 const count = (text, word) => (text.match(word) || []).length;

@@ -9,9 +9,10 @@ from tree import MARKDOWN, attributes, change, code_block, header, node, read, t
 
 BIBLIOGRAPHY = "lib/doc/references.bib"
 
-# Markdown by its path in the sources, and pages that are made. A pattern takes what stands nowhere else.
+# Markdown by its path in the sources, and pages that are made. A pattern takes what stands nowhere else and begins with
+# a title.
 CHAPTERS = {
-    "Start": ["README.md", "examples/README.md", "examples/*.md"],
+    "Start": ["README.md", "examples/README.md", "examples/*.md", "examples/*/*.md"],
     "The command": ["apps/README.md", "lib/doc/formats.md", "list", "man"],
     "Mathematics": ["lib/doc/theory.md", "lib/doc/rotor.md", "lib/doc/why_only_one.md", "lib/doc/prove.md",
                     "lib/doc/certify.md"],
@@ -69,7 +70,8 @@ def lists(isoroll):
     text = subprocess.run([isoroll, "list"], env={}, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
     for topic in text.strip().split("\n\n"):
         name, about, lines = re.match(r"(.*?): (.*?)\n(.*)", topic, re.S).groups()
-        blocks += [header(2, "", [node("Str", name)]), node("Para", [node("Str", about[:1].upper() + about[1:])]), code_block(lines, "text")]
+        about = node("Para", [node("Str", about[:1].upper() + about[1:])])
+        blocks += [header(2, "", [node("Str", name)]), about, code_block(lines, "text")]
     return Page("lists", "What isoroll list prints", blocks)
 
 
@@ -93,7 +95,9 @@ def chapters(source, man, isoroll):
         if document in made:
             return made[document]()
         found = sorted(path.relative_to(source).as_posix() for path in source.glob(document))
-        return [markdown(source, path) for path in found if "*" not in document or path not in taken]
+        if "*" in document:
+            found = [path for path in found if path not in taken and (source / path).read_text("utf-8").startswith("# ")]
+        return [markdown(source, path) for path in found]
 
     return {chapter: [page for document in documents for page in pages_of(document)]
             for chapter, documents in CHAPTERS.items()}

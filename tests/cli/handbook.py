@@ -1,5 +1,5 @@
-"""handbook.py MANUAL SOURCES - reads the pages of the manual: links, identifiers, formulas, names; in Chromium, if it
-is there, how wide pages are. Prints "PASS WORDS" or "FAIL WORDS" for each check."""
+"""handbook.py ISOROLL SOURCE WORK - reads the pages of the manual WORK/one, made of WORK/sources: links, identifiers,
+formulas, names; in Chromium, if it is there, how wide pages are. handbook.sh runs it."""
 import ast
 import re
 import sys
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import chromium
 
-manual, sources = map(Path, sys.argv[1:])
+manual, sources = Path(sys.argv[3]) / "one", Path(sys.argv[3]) / "sources"
 
 
 def check(words, good, detail=""):
@@ -55,15 +55,15 @@ for name, page in pages.items():
     check(f"{name}: nothing is loaded from elsewhere", not [x for x in page.loaded if ":" in x or x.startswith("//")])
     left = [part for part in re.findall(r".{0,20}\$.{0,20}", page.text) if "costs $5" not in part]
     check(f"{name}: no formula is left as text", not left, left[:3])
-check("formulas are MathML", pages["extra.html"].formulas == 5, pages["extra.html"].formulas)
+check("formulas are MathML", pages["extra.html"].formulas == 6, pages["extra.html"].formulas)
 check("formulas are MathML on the whole page", pages["whole.html"].formulas == sum(
     page.formulas for name, page in pages.items() if name != "whole.html"))
 check("a citation leads to the references", "references.html#ref-tested" in pages["extra.html"].links)
 check("a link to a section of another document", "theory.html#theory.3-the-map" in pages["extra.html"].links)
 
 # --- all documents, commands and calls
-documents = [*sources.glob("lib/doc/*.md"), *(sources / name / "README.md" for name in ("", "lib", "apps", "apps/python",
-                                                                                         "examples", "tests"))]
+folders = ("", "lib", "apps", "apps/python", "examples", "tests")
+documents = [*sources.glob("lib/doc/*.md"), *(sources / folder / "README.md" for folder in folders)]
 for path in documents:
     title = path.read_text("utf-8").split("\n")[0].lstrip("# ").replace("`", "")
     check(f"a page has the title '{title}'", any(title in re.sub(r"\s+", " ", page.text) for page in pages.values()))
@@ -83,7 +83,8 @@ check("all calls of Python", not offered - named, sorted(offered - named))
 # --- in a browser: no page is wider than a telephone; the search works without a network
 if chromium.find():
     with chromium.Browser() as browser:
-        for name in ("index", "start", "extra", "theory", "formats", "apps", "lists", "isoroll-chaos", "c-study", "python-calls", "names"):
+        for name in ("index", "start", "extra", "theory", "formats", "apps", "lists", "isoroll-chaos", "c-study",
+                     "python-calls", "names"):
             page = browser.open(str(manual / f"{name}.html"), width=390, height=800)
             width = page.evaluate("document.documentElement.scrollWidth")
             check(f"{name}: fits 390 pixels", width <= 390, width)
