@@ -89,6 +89,8 @@ def slide(page, k):
 def controls(page):
     settled(page)
     check("a scene of its own: chaotic", text(page, "lab-words").startswith("Verdict: chaotic"), text(page, "lab-words"))
+    check("the section is filled", page.evaluate("chart.dots.length") > 8000)
+    page.evaluate("void (lab.DRAWS = 1, judge.SHARES = [24])")  # enough for what follows
     for given, k, words in ((-1.02, -1, "rolls around a sphere"), (0.49, 0.5, "outside of a sphere"),
                             (1.01, 1, "rolls on a plane"), (2, 2, "inside a sphere"), (-0.02, -0.1, "around"),
                             (0.03, 0.1, "outside")):
@@ -96,7 +98,7 @@ def controls(page):
         settled(page)
         check(f"k = {given} becomes {k}", state(page)["k"] == k, str(state(page)))
         check(f"k = {k}: the page says so", words in text(page, "left-words"), text(page, "left-words"))
-        check(f"k = {k}: the section is filled", page.evaluate("chart.dots.length") > 8000)
+        check(f"k = {k}: the section is filled", page.evaluate("chart.dots.length") > 900)
         if k in (-1, 1):
             check(f"k = {k}: regular", "regular" in text(page, "lab-words"), text(page, "lab-words"))
     slide(page, 0.5)
@@ -187,7 +189,7 @@ def forces(page):
     names = [name + j for name in ("n", "omega") for j in "123"]
     gap = worst_of(page, ["level", "rotor"], names + ["M1", "gamma2"])
     check(f"level and rotor: the rows of the command: {gap:.1e}", gap < 1e-10)
-    check("the section is filled", page.evaluate("chart.dots.length") > 5000)
+    check("the section is filled", page.evaluate("chart.dots.length") > 700)
     put(page, "lab-level", 0.02)
     put(page, "lab-K2", 0.01)
     check("small remainders are none", page.evaluate("lab.state.level === 0 && lab.state.rotor[1] === 0"))
@@ -206,6 +208,7 @@ def forces(page):
 
 def twin_and_judge(page):
     """The twin begins 1e-6 away, also after a change, and does what the exponent says."""
+    page.evaluate("void (judge.SHARES = [216])")
     page.evaluate("lab.change({k: 0.5, J: [1, 2, 5], n: [0.36, 0.48, 0.8], omega: [0.9, -0.3, -0.225]})")
     settled(page)
     near = page.evaluate("[...controls.orbit.column.near]")
@@ -227,6 +230,7 @@ def twin_and_judge(page):
     growth = math.log(max(near) / near[0]) / (told["exponent"] * page.evaluate("controls.range()[1]"))
     check("the twin leaves as the exponent says", 0.5 < growth < 2, str(growth))
     check("the exponent has its error", 0.05 < told["exponent"] < 0.09 and told["error"] > 0, str(told["exponent"]))
+    page.evaluate("void (judge.SHARES = [24])")
     slide(page, -1)
     page.wait("lab.shared === lab.pending")
     check("a regular orbit has a rotation number", "Rotation number: 1.2342377" in text(page, "lab-words") and
@@ -243,12 +247,17 @@ def tale(page):
         found = state(page)
         check(f"step {step + 1} of the story", found["k"] == k and found["J"][1] == J and
               text(page, "story-words").startswith(f"{step + 1} of 5. "), f"{found} {text(page, 'story-words')}")
+        if step == 3:  # what follows later is called here, not by a clock: this machine may be busy
+            page.evaluate("void (story.later = (seconds, act) => story.timers.push(act))")
         if step < 4:
             page.evaluate("document.getElementById('story-next').click()")
-    check("it goes on by itself", page.evaluate("story.timers.length") == 2)
+    for i, k in enumerate((1, -1)):
+        page.evaluate(f"void story.timers[{i}]()")
+        settled(page)
+        check(f"it goes on by itself to k = {k}", state(page)["k"] == k and page.evaluate("story.timers.length") == 2)
     page.evaluate("document.getElementById('story-leave').click()")
     check("it can be left", text(page, "story-words") == "" and box(page, "story-next")[2] == 0 and
-          page.evaluate("story.timers.length") == 0 and state(page)["k"] == 0.5)
+          page.evaluate("story.timers.length") == 0 and state(page)["k"] == -1)
 
 
 def taken(page):

@@ -4,6 +4,7 @@
 
 lab = {
   ROWS: 1200,
+  DRAWS: 10, // of six orbits, for the section
   state: { k: page.k, J: page.J, n: null, omega: null, ...forces.none() }, // what is computed
   first: null,
   throwing: false,
@@ -113,7 +114,7 @@ lab = {
           "Click to start there.";
       chart.canvas.setAttribute("aria-label", `The section n${axis} = 0. Arrow keys choose a start, Enter starts there.`);
       chart.add(own.columns, { from: 0, number: 0 });
-      for (let seed = 0; seed < 10 && !page.alone; seed++) {
+      for (let seed = 0; seed < this.DRAWS && !page.alone; seed++) {
         const more = await ask({ starts: 6, crossings: 150, seed });
         chart.add(more.columns, { from: 1, number: 6 * seed });
       }
