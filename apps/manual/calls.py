@@ -83,9 +83,20 @@ def signature(function):
     return "\n".join(lines).replace("\N{NO-BREAK SPACE}", " ")
 
 
+def head_of(item):
+    """How a function or a class is called."""
+    if isinstance(item, ast.FunctionDef):
+        return signature(item)
+    for begin in item.body:
+        if isinstance(begin, ast.FunctionDef) and begin.name == "__init__":
+            begin.name, begin.args.args, begin.returns = item.name, begin.args.args[1:], None
+            return signature(begin)
+    return f"class {item.name}({', '.join(map(ast.unparse, item.bases))})"
+
+
 def members(of):
     """What a class offers: (code, docstring) for each method and property."""
-    for item in of.body:
+    for item in of.body if isinstance(of, ast.ClassDef) else ():
         if isinstance(item, ast.FunctionDef) and not item.name.startswith("_") and ast.get_docstring(item):
             property_ = any(ast.unparse(d) == "property" for d in item.decorator_list)
             item.args.args = item.args.args[1:]
@@ -100,23 +111,13 @@ def page_of_python(page, package):
     stub = ast.parse((package / "_instruments.pyi").read_text("utf-8"))
     defined.update((item.name, item) for item in stub.body if isinstance(item, ast.FunctionDef))
     start = ast.parse((package / "__init__.py").read_text("utf-8"))
-    offered = next(ast.literal_eval(item.value) for item in start.body
+    offered = next(set(ast.literal_eval(item.value)) for item in start.body
                    if isinstance(item, ast.Assign) and item.targets[0].id == "__all__")
     blocks = prose(ast.get_docstring(start))
-    for name in sorted(offered, key=str.lower):
-        item = defined.get(name)
-        if not item:
-            continue
-        blocks.append(header(2, f"{page}.{name}", [code(name)]))
-        if isinstance(item, ast.FunctionDef):
-            blocks.append(code_block(signature(item), "python"))
-        else:
-            begin = next((x for x in item.body if isinstance(x, ast.FunctionDef) and x.name == "__init__"), None)
-            bases = ", ".join(map(ast.unparse, item.bases))
-            blocks.append(code_block(f"class {name}({bases})", "python"))
+    for name in sorted(sorted(offered & defined.keys()), key=str.lower):
+        item = defined[name]
+        blocks += [header(2, f"{page}.{name}", [code(name)]), code_block(head_of(item), "python")]
         blocks += prose(ast.get_docstring(item) or "")
-        if isinstance(item, ast.ClassDef):
-            for call, doc in members(item):
-                blocks.append(code_block(call, "python"))
-                blocks += prose(doc)
+        for call, doc in members(item):
+            blocks += [code_block(call, "python"), *prose(doc)]
     return page, "Python: all calls", blocks

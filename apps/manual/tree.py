@@ -101,11 +101,11 @@ def change(tree, how):
 
 
 def prose(text, known=()):
-    """The blocks of a comment or a docstring: paragraphs, lists, indented code, and columns NAME  MEANING."""
+    """The blocks of a comment or a docstring: paragraphs, lists, code, and columns NAME  MEANING."""
     blocks = []
     for part in re.split(r"\n[ ]*\n", text.strip("\n")):
         lines = part.split("\n")
-        if all(line.startswith("    ") for line in lines):
+        if part.startswith(">>> ") or all(line.startswith("    ") for line in lines):
             blocks.append(code_block(textwrap.dedent(part), "text"))
         elif re.match(r"\w+  +\S", part):
             named = [re.split("  +", item, 1) for item in re.split(r"\n(?=\w+  +\S)", part)]
