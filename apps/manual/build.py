@@ -108,8 +108,8 @@ def bodies(pages, source):
                   *(cite if bibliography.exists() else []))
     text = re.sub(r'<math display="block".*?</math>', r'<span class="wide">\g<0></span>', text, flags=re.S)
     text = re.sub(r"<table.*?</table>", wide_table, text, flags=re.S)
-    parts = re.split(r'^(?=<section id="[^"]*" class="level1)', text, flags=re.M)[1:]
-    return dict(zip((page.name for page in pages), parts, strict=True))
+    parts = re.split(r'^<section id="([^"]*)" class="level1', text, flags=re.M)
+    return {name: f'<section id="{name}" class="level1{part}' for name, part in zip(parts[1::2], parts[2::2])}
 
 
 def contents(parts, deep):
