@@ -94,8 +94,8 @@ if chromium.find():
                 page.evaluate("document.getElementById('query').focus()")
                 for key in "level.c":
                     page.key(key)
-                first = page.evaluate("document.querySelector('#found a').textContent")
-                check("the search shows where level.c is", "Effects" in page.evaluate(
-                    "document.getElementById('found').textContent"), first)
+                page.wait("document.getElementById('query').value === 'level.c'")
+                found = page.evaluate("[...document.querySelectorAll('#found a')].map(a => a.getAttribute('href'))")
+                check("the search shows where level.c is", "formats.html#formats.effects" in found, found)
             page.close()
 check("the end", True)
