@@ -23,6 +23,7 @@ from tree import attributes, change, header, node, pandoc, read, text_of
 HERE = Path(__file__).resolve().parent
 PICTURES = (".svg", ".png")
 NUMBER = re.compile(r"\s*(?:\\tag\{([^{}]*)\}|\\qquad\s*\((\d+\w*)\))\s*$")  # of a formula
+DOTS = {"\u0307": "\u02d9", "\u0308": "\u00a8"}  # over letters; browsers draw the combining ones beside them
 ADDRESS = re.compile(r"[a-z]+:")  # not of a file of the project
 
 
@@ -106,6 +107,8 @@ def bodies(pages, source):
     cite = ["--citeproc", "-M", f"bibliography={bibliography}", "-M", "link-citations=true"]
     text = pandoc(json.dumps(tree), "-f", "json", "-t", "html5", "--mathml", "--section-divs", "--no-highlight",
                   *(cite if bibliography.exists() else []))
+    for combining, alone in DOTS.items():
+        text = text.replace(f'<mo accent="true">{combining}</mo>', f'<mo accent="true">{alone}</mo>')
     text = re.sub(r'<math display="block".*?</math>', r'<span class="wide">\g<0></span>', text, flags=re.S)
     text = re.sub(r"<table.*?</table>", wide_table, text, flags=re.S)
     parts = re.split(r'^<section id="([^"]*)" class="level1', text, flags=re.M)
