@@ -1,6 +1,6 @@
 #!/bin/sh
 # reproducible.sh - two builds of the same sources, in folders with other names, at other times, in another order of
-# files: the same bytes. Compares the programs, both libraries, the manual, and the Debian packages if dpkg is there.
+# files: the same bytes. Compares the programs, both libraries, man pages, and the Debian packages if dpkg is there.
 # It compiles everything twice (without tests), so it is run by hand. Options of CMake may follow.
 set -eu
 source=$(cd "$(dirname "$0")/.." && pwd)
@@ -21,7 +21,7 @@ build() {
 build one "$@"
 build another/much/longer.name "$@"
 different=0 same=0
-for file in isoroll isoroll-mpi libisoroll.so.0.2.0 libisoroll.a isoroll.pc $(cd "$work/one/out" && ls ./*.deb manual/man1/* manual/*soroll 2>/dev/null); do
+for file in isoroll isoroll-mpi libisoroll.so.0.2.0 libisoroll.a isoroll.pc $(cd "$work/one/out" && ls ./*.deb man/man1/* man/*soroll 2>/dev/null); do
     [ -e "$work/one/out/$file" ] || continue
     if cmp "$work/one/out/$file" "$work/another/much/longer.name/out/$file"; then
         same=$((same + 1))

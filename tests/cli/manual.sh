@@ -136,18 +136,18 @@ while read -r line; do
 done <lines
 
 # --- what the build made
-if [ -d "${ISO_BUILD:-absent}/manual" ]; then
+if [ -d "${ISO_BUILD:-absent}/man" ]; then
     for of in isoroll $(cat commands); do
         page "$of"
         file=isoroll-$of.1
         [ "$of" != isoroll ] || file=isoroll.1
-        check "the build made $file" cmp page "$ISO_BUILD/manual/man1/$file"
+        check "the build made $file" cmp page "$ISO_BUILD/man/man1/$file"
     done
-    check "one file for each page" test "$(ls "$ISO_BUILD/manual/man1" | wc -l)" -eq $(($(wc -l <commands) + 1))
+    check "one file for each page" test "$(ls "$ISO_BUILD/man/man1" | wc -l)" -eq $(($(wc -l <commands) + 1))
     page bash
-    check "the build made the completion of bash" cmp page "$ISO_BUILD/manual/isoroll"
+    check "the build made the completion of bash" cmp page "$ISO_BUILD/man/isoroll"
     page zsh
-    check "the build made the completion of zsh" cmp page "$ISO_BUILD/manual/_isoroll"
+    check "the build made the completion of zsh" cmp page "$ISO_BUILD/man/_isoroll"
     check "installation" cmake --install "$ISO_BUILD" --component manual --prefix "$work/there"
     for file in man/man1/isoroll.1 man/man1/isoroll-run.1 bash-completion/completions/isoroll zsh/site-functions/_isoroll; do
         check "share/$file is installed" test -s "there/share/$file"
