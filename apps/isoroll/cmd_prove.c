@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "io/output_impl.h"
+#include "io/replacement_impl.h"
 #include "say.h"
 #include "scene_options.h"
 #include "shell.h"
@@ -78,6 +79,15 @@ static json_t *json(const shell *s)
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
+static iso_status copy(iso_context *ctx, FILE *from, FILE *to)
+{
+    char block[1 << 14];
+    size_t length;
+    rewind(from);
+    while ((length = fread(block, 1, sizeof block, from)) > 0) fwrite(block, 1, length, to);
+    return ferror(from) ? iso_file_trouble(ctx, "read", "a temporary file") : ISO_OK;
+}
+
 /* The certificates of all rows, one after the other. */
 static int write_certificates(const shell *s)
 {
@@ -87,8 +97,8 @@ static int write_certificates(const shell *s)
     if (!path) return EXIT_DONE;
     iso_status status = iso_output_open(s->ctx, path, &out);
     if (status != ISO_OK) return finish(s->ctx, status);
-    for (size_t i = 0; i < f->rows; i++) fputs(f->certificate[i], iso_output_stream(out));
-    status = iso_output_check(s->ctx, out);
+    status = copy(s->ctx, f->certificates, iso_output_stream(out));
+    if (status == ISO_OK) status = iso_output_check(s->ctx, out);
     const iso_status closed = iso_output_close(s->ctx, out, status == ISO_OK);
     return finish(s->ctx, status == ISO_OK ? closed : status);
 }
@@ -115,7 +125,7 @@ static int run(iso_context *ctx, const void *options_given)
 static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
-    ROWS_OF_STUDY(iso_prove_option, 0, 2),
+    ROWS_OF_STUDY(iso_prove_option, 0, 4),
     ROW_OF_FILE("output", "FILE", "a file", "write a certificate to FILE", iso_set_text, options, study.certificate,
                 'o', OPTION_WRITES),
     ROW_JSON(options, shell.json),
@@ -135,11 +145,15 @@ const command command_prove = {
         "--k A:B proves it for all k of an interval at once. Where the interval is too long, it is halved. -o FILE "
         "writes a certificate: another program can check the proof from it alone. lib/doc/prove.md has the "
         "argument and the format. After Ctrl-C it prints what was proved so far.\n\n"
+        "Where the multiplier of the rotation is near 1 (nearly equal moments, or large |k|), m is tiny and far "
+        "away. "
+        "So there is a limit, --half-returns: a proof ends there as undecided, or before it begins if it would take "
+        "more.\n\n"
         "This needs Arb (package libflint-arb-dev) when isoroll is built.",
     .example = "isoroll prove scene.yaml\nisoroll prove scene.yaml --k 1/3 --digits 40 -o third.cert",
-    .exits = "0: proved, or undecided\n"
+    .exits = "0: proved, or undecided: 0 is in the enclosure\n"
              "1: interrupted\n"
              "2: wrong usage, or this build has no Arb\n"
              "3: bad input: an effect, a level, equal moments, a body, or numbers with more than 15 digits\n"
-             "4: nothing could be enclosed, or no memory",
+             "4: nothing could be enclosed, or not with so many half returns; or no memory",
 };

@@ -59,6 +59,24 @@ check "all k of an interval" grep -q '^proved for all these k: m is not 0' out
 check "its parts" grep -q '^parts 8$' interval.cert
 check "its middle" grep -q '^middle ' interval.cert
 
+run 0 prove half.yaml --k 0.5:0.5003 --pieces 4
+check "no more pieces than it may try" grep -q 'it stopped after 4 pieces: --pieces allows more' err
+check "what is left is undecided" grep -q '^undecided: a share of 0\.[0-9]* of the interval' out
+
+# --- nearly equal moments: the manifolds of O are nearly parallel in (l, x), and are followed all the same
+sed 's/1.4, 2.1, 3.0/1, 1.01, 3/' half.yaml >near.yaml
+run 0 prove near.yaml --digits 6 --half-returns 1000
+check "m of nearly equal moments" grep -q '^after 40 half returns ' out
+
+# --- it ends: after so many half returns, or before they begin
+refuses 4 "undecided at 18 digits: it takes more than the 200 half returns of --half-returns" prove half.yaml \
+    --half-returns 200
+sed 's/1.4, 2.1, 3.0/1, 2, 5/' half.yaml >wide.yaml
+refuses 4 "half returns, more than the 1000 of --half-returns; |m| should be about 1e-" prove wide.yaml --k 10 \
+    --half-returns 1000
+refuses 2 "a whole number from 1 on" prove half.yaml --half-returns 0
+refuses 2 "a whole number from 1 on" prove half.yaml --pieces 0
+
 # --- a certificate (lib/doc/prove.md)
 run 0 prove half.yaml --digits 6 -o half.cert
 check "it begins" test "$(head -n 1 half.cert)" = "isoroll certificate 1"

@@ -13,6 +13,7 @@
 #include "study/separatrix/separatrix.h"
 
 static iso_context *ctx;
+static iso_proof_work work = {.most = 1000000};
 
 static iso_proof_ball ball_of(const char *k, const char *J1, const char *J2, const char *J3)
 {
@@ -28,7 +29,7 @@ static iso_proof_ball ball_of(const char *k, const char *J1, const char *J2, con
 static iso_proof prove(const iso_proof_ball *b, int digits)
 {
     iso_proof p = {.sign = 9};
-    const iso_status status = iso_proof_find(ctx, b, digits, &p, NULL);
+    const iso_status status = iso_proof_find(ctx, b, digits, &work, &p, NULL);
     gsl_test(status != ISO_OK, "k = %g, %d digits: enclosed %s", iso_rational_double(&b->k[0]), digits,
              status == ISO_OK ? "" : iso_context_message(ctx));
     return p;
@@ -203,7 +204,7 @@ static void test_stop(void)
     iso_proof p;
     int left = 30;
     iso_context_set_monitor(ctx, stop, &left);
-    gsl_test(iso_proof_find(ctx, &b, 12, &p, NULL) != ISO_STOPPED, "it stops on request");
+    gsl_test(iso_proof_find(ctx, &b, 12, &work, &p, NULL) != ISO_STOPPED, "it stops on request");
     iso_context_set_monitor(ctx, NULL, NULL);
 }
 

@@ -175,6 +175,8 @@ def prove(
     *,
     k: Union[None, str, float, ArrayLike, Mapping[str, Any], Tuple[str, float]] = None,
     digits: Optional[int] = None,
+    half_returns: Optional[int] = None,
+    pieces: Optional[int] = None,
     progress: ProgressLike = None,
 ) -> Table:
     """Enclose the splitting of the separatrix: a proof that there is no further integral: `isoroll prove`.
@@ -184,6 +186,9 @@ def prove(
                      halved where it must be: a number, or a text such as "1/3" or "0.5:0.50000000001"
     digits           enclose m to 1e-D (default: 18, then 36, then 72, until 0 is excluded; for an
                      interval as its length asks for)
+    half_returns     give up on a k, or on a piece of an interval, after N half returns in all attempts
+                     (default 20000)
+    pieces           try at most N pieces of an interval of k (default 20000)
     progress         True: a bar on stderr; a function that is called with the part that is done
 
     Returns a Table: a row for k, or for each piece of an interval of k; m is between m_low and m_high.

@@ -6,6 +6,7 @@
  */
 #include <math.h>
 
+#include "base/pi_impl.h"
 #include "study/prove/arb_ball_impl.h"
 
 void prove_found_init(prove_found *f)
@@ -30,10 +31,10 @@ typedef struct attempt {
     arb_t width; /* of the piece, by its start */
 } attempt;
 
-static void attempt_init(attempt *a, iso_context *ctx, const prove_ball *ball, int digits)
+static void attempt_init(attempt *a, iso_context *ctx, const prove_ball *ball, int digits, iso_proof_work *work)
 {
     prove_flow *f = &a->flow;
-    prove_flow_init(f, ctx, (slong)(3.33 * digits) + 40);
+    prove_flow_init(f, ctx, (slong)(3.33 * digits) + 40, work);
     arb_t high;
     arb_init(high);
     arb_set_fmpq(f->k, ball->k[0], f->bits);
@@ -86,16 +87,18 @@ static void spread(const attempt *a, arb_t x)
     arb_clear(part);
 }
 
-/* *reached: m is enclosed. If not, the piece was too short for its noise: a longer one is tried. */
+/* *reached: m is enclosed. If not, but the piece came to the line, it was too short for its noise: a longer one is
+ * tried. */
 static iso_status follow(attempt *a, bool *reached)
 {
-    enum { TRIES = 3, LONGER = 30 };
+    enum { TRIES = 3 };
     const size_t length = a->flow.certificate ? a->flow.certificate->length : 0;
     iso_status status = ISO_OK;
     *reached = false;
     spread(a, a->width);
-    for (int i = 0; i < TRIES && !*reached && status == ISO_OK; i++) {
-        if (i > 0) arb_mul_ui(a->width, a->width, LONGER, a->flow.bits);
+    a->crossing.longer = 0;
+    for (int i = 0; i < TRIES && !*reached && (i == 0 || a->crossing.longer > 0) && status == ISO_OK; i++) {
+        arb_mul_2exp_si(a->width, a->width, a->crossing.longer);
         arb_get_mid_arb(a->width, a->width);
         prove_certificate_cut(a->flow.certificate, length);
         status = prove_follow(&a->flow, &a->thin, &a->local, &a->start, a->width, &a->crossing, reached);
@@ -108,6 +111,7 @@ static iso_status run(attempt *a, int digits, bool *reached)
     set_power(a->local.size, -(digits - 1) / 3.0);
     set_power(a->width, -(digits - 4));
     iso_status status = prove_local_begin(&a->flow, &a->local);
+    if (status == ISO_OK) status = prove_local_foresee(&a->flow, &a->local);
     if (status == ISO_OK) status = prove_local_bound(&a->flow, &a->local);
     if (status == ISO_OK) status = prove_search(&a->thin, &a->local, a->flow.parts > 1, &a->start);
     if (status == ISO_OK) status = follow(a, reached);
@@ -137,8 +141,8 @@ static int missing(const arb_t m, int digits)
     return (int)fmin(200, fmax(0, ceil(log2_radius * 0.3010299956639812 + digits)));
 }
 
-iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, prove_certificate *certificate,
-                         prove_found *found)
+iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, iso_proof_work *work,
+                         prove_certificate *certificate, prove_found *found)
 {
     enum { TRIES = 5, FEWER = 1, SPARE = 11, MORE = 6 };
     const bool thin = fmpq_equal(ball->k[0], ball->k[1]);
@@ -148,7 +152,7 @@ iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, p
     for (int i = 0; i < tries && status != ISO_OK && status != ISO_STOPPED; i++) {
         attempt a;
         bool reached = false;
-        attempt_init(&a, ctx, ball, digits + spare);
+        attempt_init(&a, ctx, ball, digits + spare, work);
         a.flow.certificate = a.thin.certificate = certificate;
         prove_certificate_cut(certificate, 0);
         status = run(&a, digits + spare, &reached);
@@ -160,5 +164,19 @@ iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, p
         spare += lacks + MORE / 2;
         attempt_clear(&a);
     }
+    return status;
+}
+
+iso_status prove_ball_expect(iso_context *ctx, const prove_ball *ball, iso_proof_work *work, double *decades)
+{
+    enum { DIGITS = 60 };
+    attempt a;
+    attempt_init(&a, ctx, ball, DIGITS, work);
+    const iso_status status = prove_local_begin(&a.thin, &a.local);
+    if (status == ISO_OK) { /* |m| is about exp(-pi^2/ln lambda) */
+        arb_log(a.width, a.local.lambda, a.thin.bits);
+        *decades = ISO_PI * ISO_PI / (arf_get_d(arb_midref(a.width), ARF_RND_NEAR) * log(10));
+    }
+    attempt_clear(&a);
     return status;
 }

@@ -24,7 +24,10 @@ void prove_found_clear(prove_found *f);
 
 /* Encloses m to 10^-digits, or less well where an interval of k allows no more. certificate: NULL, or an empty one.
  * Errors: ISO_NUMERICAL: nothing could be enclosed; ISO_STOPPED. */
-iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, prove_certificate *certificate,
-                         prove_found *found);
+iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, iso_proof_work *work,
+                         prove_certificate *certificate, prove_found *found);
+
+/* iso_proof_expect */
+iso_status prove_ball_expect(iso_context *ctx, const prove_ball *ball, iso_proof_work *work, double *decades);
 
 #endif

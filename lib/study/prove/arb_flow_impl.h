@@ -28,6 +28,7 @@
 #include "base/arb_impl.h"
 #include "base/context_impl.h"
 #include "study/prove/arb_certificate_impl.h"
+#include "study/prove/prove_impl.h"
 
 /* The numbers of a state; the last six are neighbours: two of the same k, one of another k. Then series that follow from
  * them. */
@@ -76,9 +77,10 @@ typedef struct prove_flow {
     mag_t step;                     /* h, for which sums and tails hold                             */
     prove_certificate *certificate; /* NULL: none                                                 */
     long steps;                     /* taken so far                                               */
+    iso_proof_work *work;           /* shared by all flows of a proof                               */
 } prove_flow;
 
-void prove_flow_init(prove_flow *f, iso_context *ctx, slong bits);
+void prove_flow_init(prove_flow *f, iso_context *ctx, slong bits, iso_proof_work *work);
 void prove_flow_clear(prove_flow *f);
 
 /* The same ball in numbers of other length; no certificate. */
@@ -124,7 +126,7 @@ void prove_half_init(prove_half *h);
 void prove_half_clear(prove_half *h);
 
 /* numbers: PROVE_POINT: no derivative; PROVE_PAIR: none by k. Errors: ISO_NUMERICAL: the set is too large;
- * ISO_STOPPED. */
+ * it is one more than f->work allows; ISO_STOPPED. */
 iso_status prove_half_return(prove_flow *f, prove_part part, const arb_t l, const arb_t x, int numbers,
                              prove_half *half);
 

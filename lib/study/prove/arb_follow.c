@@ -12,11 +12,13 @@
  * B = A_next^-1 D A is near 1, and e = A_next^-1 (P(centre) - centre_next + dk (D C + E - C_next)) near 0. sigma becomes
  * (B21 + B22 sigma)/(B11 + B12 sigma). If there is one k only, dk = 0, and there is no C.
  */
+#include <math.h>
+
 #include "study/prove/arb_manifold_impl.h"
 
 typedef struct piece {
     arb_struct centre[2], drift[2], A[4], hull[2], left[2], right[2];
-    arb_t sigma, dk;
+    arb_t sigma, dk, scale;
 } piece;
 
 static void piece_init(piece *p)
@@ -25,7 +27,7 @@ static void piece_init(piece *p)
         arb_init(p->centre + i), arb_init(p->drift + i), arb_init(p->hull + i), arb_init(p->left + i),
             arb_init(p->right + i);
     for (int i = 0; i < 4; i++) arb_init(p->A + i);
-    arb_init(p->sigma), arb_init(p->dk);
+    arb_init(p->sigma), arb_init(p->dk), arb_init(p->scale);
 }
 
 static void piece_clear(piece *p)
@@ -34,7 +36,7 @@ static void piece_clear(piece *p)
         arb_clear(p->centre + i), arb_clear(p->drift + i), arb_clear(p->hull + i), arb_clear(p->left + i),
             arb_clear(p->right + i);
     for (int i = 0; i < 4; i++) arb_clear(p->A + i);
-    arb_clear(p->sigma), arb_clear(p->dk);
+    arb_clear(p->sigma), arb_clear(p->dk), arb_clear(p->scale);
 }
 
 static void invert(const arb_struct M[4], slong bits, arb_struct X[4])
@@ -166,11 +168,13 @@ static iso_status enclose(prove_flow *f, prove_flow *thin, prove_part part, cons
     return status;
 }
 
-/* Where both columns of A are nearly parallel, the second is made orthogonal to the first; the determinant stays. */
-static void spread_frame(arb_struct A[4], slong bits)
+/* Where both columns of A are nearly parallel, the second is made orthogonal to the first; the determinant stays. Angles
+ * are those of (l, x/scale): near O the manifolds have the slopes +-scale, which may be small. */
+static void spread_frame(arb_struct A[4], const arb_t scale, slong bits)
 {
     arb_t determinant, size, other;
     arb_init(determinant), arb_init(size), arb_init(other);
+    for (int i = 2; i < 4; i++) arb_div(A + i, A + i, scale, bits);
     arb_mul(determinant, A, A + 3, bits);
     arb_submul(determinant, A + 1, A + 2, bits);
     arb_mul(size, A, A, bits), arb_addmul(size, A + 2, A + 2, bits);
@@ -182,8 +186,9 @@ static void spread_frame(arb_struct A[4], slong bits)
     if (arb_lt(determinant, other)) {
         arb_mul(A + 1, A + 2, size, bits), arb_neg(A + 1, A + 1);
         arb_mul(A + 3, A, size, bits);
-        arb_get_mid_arb(A + 1, A + 1), arb_get_mid_arb(A + 3, A + 3);
     }
+    for (int i = 2; i < 4; i++) arb_mul(A + i, A + i, scale, bits);
+    for (int i = 0; i < 4; i++) arb_get_mid_arb(A + i, A + i);
     arb_clear(determinant), arb_clear(size), arb_clear(other);
 }
 
@@ -194,7 +199,7 @@ static void carry_frame(const prove_flow *f, const prove_half *all, const prove_
     arb_ptr E = _arb_vec_init(2);
     prove_multiply(all->D, p->A, f->bits, T);
     for (int i = 0; i < 4; i++) arb_get_mid_arb(p->A + i, T + i);
-    spread_frame(p->A, f->bits);
+    spread_frame(p->A, p->scale, f->bits);
     if (has_drift(f)) prove_apply(all->D, p->drift, all->D + 4, f->bits, E);
     for (int i = 0; i < 2; i++) {
         arb_get_mid_arb(p->centre + i, one->z + i);
@@ -230,10 +235,25 @@ static bool carry(const prove_flow *f, const prove_half *all, const prove_half *
 
 /* --- the end ---------------------------------------------------------------------------------------------------- */
 
+/* log2 of the part of the radius by the distance of an end from the line. */
+static double noise_of(const arb_t end, const arb_t line, slong bits)
+{
+    arb_t apart;
+    mag_t size;
+    arb_init(apart), mag_init(size);
+    arb_sub(apart, line, end, bits);
+    arf_get_mag(size, arb_midref(apart));
+    mag_div(size, arb_radref(apart), size);
+    const double noise = mag_get_d_log2_approx(size);
+    arb_clear(apart), mag_clear(size);
+    return noise;
+}
+
 /* Below l = pi/2 at the left end, above at the right end, and l grows on the way: one crossing, with the slope
  * m = (A21 + A22 sigma)/(A11 + A12 sigma). */
 static bool cross(const prove_flow *f, const piece *p, prove_crossing *crossing)
 {
+    enum { LEAST = 2, MOST = 60 }; /* of longer */
     const slong bits = f->bits;
     arb_ptr end = _arb_vec_init(2);
     arb_t line, rate;
@@ -242,8 +262,11 @@ static bool cross(const prove_flow *f, const piece *p, prove_crossing *crossing)
     arb_mul_2exp_si(line, line, -1);
     place(f, p, p->left, end);
     bool reached = arb_lt(end, line);
+    double noise = noise_of(end, line, bits);
     place(f, p, p->right, end);
     reached = reached && arb_gt(end, line);
+    noise = fmax(noise, noise_of(end, line, bits));
+    crossing->longer = (slong)fmin(fmax(LEAST, ceil(noise) + 1), MOST);
     place(f, p, p->hull, end);
     arb_set(crossing->x, end + 1);
     carry_tangent(p->A, p->sigma, bits, rate, crossing->m);
@@ -262,6 +285,8 @@ iso_status prove_follow(prove_flow *f, prove_flow *one, const prove_local *o, co
     piece_init(&p);
     prove_half_init(&all), prove_half_init(&centre);
     if (has_drift(f)) arb_sub(p.dk, f->k, one->k, f->bits);
+    arb_set(p.scale, o->s);
+    crossing->longer = 0;
     *reached = begin_piece(f, o, start, width, &p);
     iso_status status = ISO_OK;
     write_piece(f, &p);

@@ -388,13 +388,21 @@ static bool finish(prove_flow *f, const angle *to, arb_srcptr y, int numbers, pr
     return right;
 }
 
+/* The first part counts for all of a half return. */
+static iso_status begin_work(const prove_flow *f, prove_part part)
+{
+    if (part.number > 0) return ISO_OK;
+    if (f->work->begun++ < f->work->most) return ISO_OK;
+    return ISO_FAIL_NUMERICAL(f->ctx, "it takes more than the %ld half returns of --half-returns", f->work->most);
+}
+
 iso_status prove_half_return(prove_flow *f, prove_part part, const arb_t l, const arb_t x, int numbers,
                              prove_half *half)
 {
     arb_ptr y = _arb_vec_init(PROVE_STATE);
     angle from, to;
     bool crossed = false;
-    iso_status status = ISO_OK;
+    iso_status status = begin_work(f, part);
     angle_init(f, part.number, part.parts, &from), angle_init(f, part.number + 1, part.parts, &to);
     begin_state(f, &from, l, x, y);
     for (int i = 0; i < numbers; i++) prove_widen(f, PROVE_EIGHTH, y + i);

@@ -21,7 +21,8 @@ typedef struct prove_start {
 
 /* What is enclosed at the end. */
 typedef struct prove_crossing {
-    arb_t x, m; /* of the section n_c = 0 */
+    arb_t x, m;   /* of the section n_c = 0                                                      */
+    slong longer; /* if it is not enclosed: a piece 2^longer times as long may do; 0: none would */
 } prove_crossing;
 
 /* x = M v + offset; NULL: 0. X = M N. The result may be one of the others. */
@@ -30,6 +31,9 @@ void prove_multiply(const arb_struct M[4], const arb_struct N[4], slong bits, ar
 
 /* O and its frame. Errors: those of prove_half_return; ISO_NUMERICAL: O is not hyperbolic in these digits. */
 iso_status prove_local_begin(prove_flow *f, prove_local *o);
+
+/* Refuses a way that f->work does not allow, before it is gone: from |xi| = size to l = 1, about. */
+iso_status prove_local_foresee(const prove_flow *f, const prove_local *o);
 
 /* The cone condition on |xi|, |eta| <= size. */
 iso_status prove_local_bound(prove_flow *f, prove_local *o);

@@ -144,7 +144,8 @@ static char *write_certificate(const iso_proof *p, const prove_ball *b, const pr
     return all.text;
 }
 
-iso_status iso_proof_find(iso_context *ctx, const iso_proof_ball *ball, int digits, iso_proof *proof, char **text)
+iso_status iso_proof_find(iso_context *ctx, const iso_proof_ball *ball, int digits, iso_proof_work *work,
+                          iso_proof *proof, char **text)
 {
     prove_ball b;
     prove_found found;
@@ -153,12 +154,22 @@ iso_status iso_proof_find(iso_context *ctx, const iso_proof_ball *ball, int digi
     proof->ball = *ball;
     take_ball(ball, &b);
     prove_found_init(&found);
-    iso_status status = prove_ball_at(ctx, &b, digits, text ? &body : NULL, &found);
+    iso_status status = prove_ball_at(ctx, &b, digits, work, text ? &body : NULL, &found);
     if (status == ISO_OK) tell(&b, &found, digits, proof);
     if (status == ISO_OK && text) *text = write_certificate(proof, &b, &found, &body);
     if (status == ISO_OK && text && !*text) status = iso_context_no_memory(ctx, "a certificate");
     free(body.text);
     prove_found_clear(&found);
+    clear_ball(&b);
+    flint_cleanup();
+    return status;
+}
+
+iso_status iso_proof_expect(iso_context *ctx, const iso_proof_ball *ball, iso_proof_work *work, double *decades)
+{
+    prove_ball b;
+    take_ball(ball, &b);
+    const iso_status status = prove_ball_expect(ctx, &b, work, decades);
     clear_ball(&b);
     flint_cleanup();
     return status;

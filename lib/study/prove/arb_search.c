@@ -5,7 +5,7 @@
 #include "base/pi_impl.h"
 #include "study/prove/arb_manifold_impl.h"
 
-enum { POINTS = 8, LOW_BITS = 80, FAR = -14, MOST_HALVES = 2000, TRIES = 60 };
+enum { POINTS = 8, LOW_BITS = 80, FAR = -14, TRIES = 60 };
 
 /* --- orbits of points ------------------------------------------------------------------------------------------- */
 
@@ -60,23 +60,6 @@ static void place(const prove_local *o, double i, arb_t xi)
     arb_clear(power);
 }
 
-static iso_status too_far(const prove_flow *f)
-{
-    return iso_context_fail(f->ctx, ISO_NUMERICAL, "",
-                            "the unstable manifold needs more than %d half returns to l = pi/2", MOST_HALVES);
-}
-
-/* Whether few half returns lead from the end of the local manifold to l = 1, about. */
-static bool is_near(const prove_flow *f, const prove_local *o)
-{
-    arb_t size, growth;
-    arb_init(size), arb_init(growth);
-    arb_log(size, o->size, f->bits), arb_log(growth, o->lambda, f->bits);
-    const double halves = -arf_get_d(arb_midref(size), ARF_RND_NEAR) / arf_get_d(arb_midref(growth), ARF_RND_NEAR);
-    arb_clear(size), arb_clear(growth);
-    return halves < MOST_HALVES;
-}
-
 /* The manifold in pieces, from O on: after *halves half returns the line lies between the places *i - 1 and *i. */
 static iso_status find_piece(prove_flow *f, const prove_local *o, int *i, long *halves)
 {
@@ -89,7 +72,7 @@ static iso_status find_piece(prove_flow *f, const prove_local *o, int *i, long *
         place(o, j, z + 2 * j);
         arb_mul(z + 2 * j + 1, z + 2 * j, o->s, f->bits);
     }
-    for (*halves = 1; status == ISO_OK && !found && *halves < MOST_HALVES; *halves += !found)
+    for (*halves = 1; status == ISO_OK && !found; *halves += !found)
         for (*i = 0; status == ISO_OK && !found && *i < POINTS; *i += !found) {
             status = advance(f, z + 2 * *i);
             find_gap(f, z + 2 * *i, gap);
@@ -97,8 +80,7 @@ static iso_status find_piece(prove_flow *f, const prove_local *o, int *i, long *
         }
     _arb_vec_clear(z, 2 * POINTS);
     arb_clear(gap);
-    if (status != ISO_OK || found) return status;
-    return too_far(f);
+    return status;
 }
 
 /* Regula falsi (Illinois) for the place; *slope: of the gap by ln xi. */
@@ -131,8 +113,7 @@ static iso_status refine_piece(const prove_flow *f, const prove_local *o, int i,
 /* Back towards O, until xi < limit. */
 static void go_back(const prove_flow *f, const prove_local *o, const arb_t limit, prove_start *start)
 {
-    for (; !arb_lt(start->xi, limit) && start->halves <= MOST_HALVES; start->halves++)
-        arb_div(start->xi, start->xi, o->lambda, f->bits);
+    for (; !arb_lt(start->xi, limit); start->halves++) arb_div(start->xi, start->xi, o->lambda, f->bits);
     arb_get_mid_arb(start->xi, start->xi);
 }
 
@@ -159,8 +140,7 @@ static iso_status refine(const prove_flow *f, const prove_local *o, double slope
         const slong bits = (slong)fmin((double)f->bits, known + SPARE);
         find_limit(o, bits == f->bits ? 4 * bits : (slong)known, gap);
         go_back(f, o, gap, start);
-        if (start->halves > MOST_HALVES) status = too_far(f);
-        if (status == ISO_OK) status = land(f, bits, o, start->xi, start->halves, gap);
+        status = land(f, bits, o, start->xi, start->halves, gap);
         if (i > 0) arb_sub(last, last, gap, f->bits), arb_div(steep, last, change, f->bits);
         arb_set(last, gap);
         arb_div(change, gap, steep, f->bits);
@@ -208,7 +188,6 @@ iso_status prove_search(const prove_flow *f, const prove_local *o, bool with_dri
     prove_flow low;
     int i = 0;
     double slope = 0;
-    if (!is_near(f, o)) return too_far(f);
     prove_flow_like(&low, f, LOW_BITS);
     iso_status status = find_piece(&low, o, &i, &start->halves);
     if (status == ISO_OK) status = refine_piece(&low, o, i, start->halves, start->xi, &slope);

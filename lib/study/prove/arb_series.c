@@ -13,7 +13,7 @@
 
 /* --- memory ----------------------------------------------------------------------------------------------------- */
 
-void prove_flow_init(prove_flow *f, iso_context *ctx, slong bits)
+void prove_flow_init(prove_flow *f, iso_context *ctx, slong bits, iso_proof_work *work)
 {
     f->ctx = ctx;
     f->bits = bits;
@@ -21,6 +21,7 @@ void prove_flow_init(prove_flow *f, iso_context *ctx, slong bits)
     f->parts = 1;
     f->certificate = NULL;
     f->steps = 0;
+    f->work = work;
     arb_init(f->k), arb_init(f->inverse_k), arb_init(f->trace);
     for (int i = 0; i < 3; i++) arb_init(f->J[i]);
     for (int i = 0; i < PROVE_SERIES; i++) {
@@ -49,7 +50,7 @@ void prove_flow_clear(prove_flow *f)
 
 void prove_flow_like(prove_flow *f, const prove_flow *like, slong bits)
 {
-    prove_flow_init(f, like->ctx, bits);
+    prove_flow_init(f, like->ctx, bits, like->work);
     arb_set(f->k, like->k), arb_set(f->inverse_k, like->inverse_k), arb_set(f->trace, like->trace);
     for (int i = 0; i < 3; i++) arb_set(f->J[i], like->J[i]);
 }

@@ -1,4 +1,5 @@
 /* prove.c - the study `prove`: which balls are enclosed, and how an interval of k is cut into pieces (prove_impl.h). */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,9 +10,8 @@
 #include "study/prove/prove_impl.h"
 #include "study/study_impl.h"
 
-/* Digits that are tried, if none are asked for; how many intervals are tried, and how often one is halved. */
-static const int digits_tried[] = {18, 36, 72};
-enum { INTERVALS = 20000, HALVINGS = 40, MOST_DIGITS = 400 };
+/* Digits that are tried, if none are asked for; how often an interval is halved. */
+enum { ATTEMPTS = 3, FIRST_DIGITS = 18, MOST_DIGITS = 400, HALVINGS = 40, UNDECIDED_WORDS = 3 * ISO_PROOF_WORDS };
 
 #define WHAT "an enclosure of m is computed"
 
@@ -89,25 +89,48 @@ static double length_of(const iso_proof_ball *ball)
     return iso_rational_double(&ball->k[1]) - iso_rational_double(&ball->k[0]);
 }
 
+/* What is tried for one k: digits, one after the other, with so much work in all. */
+typedef struct plan {
+    int digits[ATTEMPTS], attempts;
+    double decades; /* -log10 |m|, roughly; 0: not asked */
+    iso_proof_work work;
+} plan;
+
 /* As m can change by as much as k does, an interval asks for some more digits than its length has. */
-static int digits_of(const iso_proof_ball *ball, const iso_prove_request *r, int attempt)
+static int digits_of_interval(const iso_proof_ball *ball)
 {
-    if (r->digits) return r->digits;
-    if (iso_proof_is_thin(ball)) return digits_tried[attempt];
     return (int)fmax(6, ceil(4 - log10(length_of(ball) / fabs(iso_rational_double(&ball->k[0])))));
 }
 
-/* With the digits that are asked for, or with more and more until 0 is excluded. What is known stays known if more
- * digits fail. *proof is empty before, and with digits = 0 still after. */
-static iso_status find(iso_context *ctx, const iso_proof_ball *ball, const iso_prove_request *r, int tries,
-                       iso_proof *proof, char **text)
+/* The digits that are asked for; or 18, 36, 72, without those that are too few for an m of the expected size; or, if it
+ * is smaller than all of these show, enough for it. */
+static iso_status make_plan(iso_context *ctx, const iso_proof_ball *ball, const iso_prove_request *r, plan *p)
+{
+    enum { LARGER = 6, SPARE = 12 };
+    *p = (plan){.work.most = r->half_returns};
+    if (r->digits || !iso_proof_is_thin(ball)) {
+        p->digits[p->attempts++] = r->digits ? r->digits : digits_of_interval(ball);
+        return ISO_OK;
+    }
+    ISO_TRY(iso_proof_expect(ctx, ball, &p->work, &p->decades));
+    for (int i = 0, digits = FIRST_DIGITS; i < ATTEMPTS; i++, digits *= 2)
+        if (digits > p->decades - LARGER) p->digits[p->attempts++] = digits;
+    if (p->attempts == 0) p->digits[p->attempts++] = (int)fmin(MOST_DIGITS, ceil(p->decades) + SPARE);
+    return ISO_OK;
+}
+
+/* *failed: the digits with which nothing was enclosed, 0: all were enclosed. What is known stays known if more digits
+ * fail. *proof is empty before, and with digits = 0 still after. */
+static iso_status find(iso_context *ctx, const iso_proof_ball *ball, const iso_prove_request *r, plan *p,
+                       iso_proof *proof, char **text, int *failed)
 {
     iso_status status = ISO_OK;
-    for (int i = 0; i < tries && status == ISO_OK && proof->sign == 0; i++) {
+    *failed = 0;
+    for (int i = 0; i < p->attempts && status == ISO_OK && proof->sign == 0; i++) {
         iso_proof next;
         char *next_text = NULL;
-        const int digits = digits_of(ball, r, i);
-        status = iso_proof_find(ctx, ball, digits, &next, r->certificate ? &next_text : NULL);
+        status = iso_proof_find(ctx, ball, p->digits[i], &p->work, &next, r->certificate ? &next_text : NULL);
+        if (status != ISO_OK) *failed = p->digits[i];
         if (status != ISO_OK) continue;
         *proof = next;
         print_exact(proof);
@@ -118,11 +141,12 @@ static iso_status find(iso_context *ctx, const iso_proof_ball *ball, const iso_p
 }
 
 /* Why nothing was enclosed at these digits. */
-static iso_status tell_undecided(iso_context *ctx, int digits)
+static void tell_undecided(const iso_context *ctx, const plan *p, int digits, char words[UNDECIDED_WORDS])
 {
-    char why[ISO_PROOF_WORDS];
-    snprintf(why, sizeof why, "%s", iso_context_message(ctx));
-    return iso_context_fail(ctx, ISO_NUMERICAL, "", "undecided at %d digits: %s", digits, why);
+    char expected[ISO_PROOF_WORDS] = "";
+    if (p->decades > 2 * FIRST_DIGITS)
+        snprintf(expected, sizeof expected, "; |m| should be about 1e-%.0f", p->decades);
+    snprintf(words, UNDECIDED_WORDS, "undecided at %d digits: %s%s", digits, iso_context_message(ctx), expected);
 }
 
 /* --- an interval ------------------------------------------------------------------------------------------------ */
@@ -136,15 +160,24 @@ typedef struct work {
     long tried;          /* intervals */
 } work;
 
+/* An interval may have more certificates than the memory holds. */
+static iso_status keep_text(const work *w, const char *text)
+{
+    iso_proofs *f = w->found;
+    if (!f->certificates) f->certificates = tmpfile();
+    if (f->certificates && fputs(text, f->certificates) != EOF) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_FILE_TROUBLE, "", "cannot write a temporary file: %s", strerror(errno));
+}
+
 static iso_status add(work *w, const iso_proof *proof, char *text)
 {
     iso_proofs *f = w->found;
+    const iso_status status = text ? keep_text(w, text) : ISO_OK;
+    free(text);
+    if (status != ISO_OK) return status;
     iso_proof *row = realloc(f->row, (f->rows + 1) * sizeof *row);
-    if (row) f->row = row;
-    char **texts = realloc(f->certificate, (f->rows + 1) * sizeof *texts);
-    if (texts) f->certificate = texts;
-    if (!row || !texts) return free(text), iso_context_no_memory(w->ctx, "%zu pieces", f->rows + 1);
-    f->certificate[f->rows] = text;
+    if (!row) return iso_context_no_memory(w->ctx, "%zu pieces", f->rows + 1);
+    f->row = row;
     f->row[f->rows++] = *proof;
     return ISO_OK;
 }
@@ -169,16 +202,21 @@ static iso_status give_up(work *w, const iso_proof_ball *ball, const iso_proof *
 
 static iso_status divide(work *w, const iso_proof_ball *ball, int depth)
 {
+    const long most = w->request->pieces;
     iso_proof proof = {.digits = 0};
     iso_proof_ball half[2];
+    plan p;
+    int failed;
     char *text = NULL;
-    iso_status status = w->tried < INTERVALS ? find(w->ctx, ball, w->request, 1, &proof, &text) : ISO_NUMERICAL;
+    iso_status status = make_plan(w->ctx, ball, w->request, &p);
+    if (status == ISO_OK)
+        status = w->tried < most ? find(w->ctx, ball, w->request, &p, &proof, &text, &failed) : ISO_NUMERICAL;
     w->tried++;
     if (status != ISO_OK && status != ISO_NUMERICAL) return status;
     if (status == ISO_OK && proof.sign != 0) {
         status = add(w, &proof, text);
         w->done += length_of(ball);
-    } else if (depth == 0 || w->tried >= INTERVALS || !halve(ball, half)) {
+    } else if (depth == 0 || w->tried >= most || !halve(ball, half)) {
         status = give_up(w, ball, &proof, text);
     } else {
         free(text);
@@ -189,25 +227,38 @@ static iso_status divide(work *w, const iso_proof_ball *ball, int depth)
     return status;
 }
 
+static iso_status find_interval(work *w, const iso_proof_ball *ball)
+{
+    w->found->all = true;
+    const iso_status status = divide(w, ball, HALVINGS);
+    w->found->all = w->found->all && status == ISO_OK;
+    w->found->undecided += fmax(0, 1 - w->done / w->length);
+    if (w->tried >= w->request->pieces && !w->found->all)
+        iso_study_note(w->result, "it stopped after %ld pieces: --pieces allows more", w->request->pieces);
+    return status;
+}
+
+static iso_status find_one(work *w, const iso_proof_ball *ball)
+{
+    iso_proof proof = {.digits = 0};
+    char *text = NULL, why[UNDECIDED_WORDS];
+    plan p;
+    int failed;
+    ISO_TRY(make_plan(w->ctx, ball, w->request, &p));
+    const iso_status status = find(w->ctx, ball, w->request, &p, &proof, &text, &failed);
+    w->found->undecided = proof.sign == 0;
+    if (failed) tell_undecided(w->ctx, &p, failed, why);
+    if (proof.digits == 0) return status == ISO_NUMERICAL ? ISO_FAIL_NUMERICAL(w->ctx, "%s", why) : status;
+    if (failed && status == ISO_OK) iso_study_note(w->result, "%s", why);
+    const iso_status added = add(w, &proof, text);
+    return status == ISO_OK ? added : status;
+}
+
 static iso_status find_all(iso_context *ctx, const iso_proof_ball *ball, const iso_prove_request *r,
                            const iso_study_result *result, iso_proofs *found)
 {
-    iso_proof proof = {.digits = 0};
-    char *text = NULL;
     work w = {ctx, r, result, found, length_of(ball), 0, 0};
-    if (!iso_proof_is_thin(ball)) {
-        found->all = true;
-        const iso_status status = divide(&w, ball, HALVINGS);
-        found->all = found->all && status == ISO_OK;
-        found->undecided += fmax(0, 1 - w.done / w.length);
-        return status;
-    }
-    const int tries = r->digits ? 1 : (int)(sizeof digits_tried / sizeof *digits_tried);
-    const iso_status status = find(ctx, ball, r, tries, &proof, &text);
-    found->undecided = proof.sign == 0;
-    if (proof.digits == 0) return status == ISO_NUMERICAL ? tell_undecided(ctx, digits_of(ball, r, 0)) : status;
-    const iso_status added = add(&w, &proof, text);
-    return status == ISO_OK ? added : status;
+    return iso_proof_is_thin(ball) ? find_one(&w, ball) : find_interval(&w, ball);
 }
 
 /* --- the study -------------------------------------------------------------------------------------------------- */
@@ -215,8 +266,7 @@ static iso_status find_all(iso_context *ctx, const iso_proof_ball *ball, const i
 static void free_proofs(void *found)
 {
     iso_proofs *f = found;
-    for (size_t i = 0; i < f->rows; i++) free(f->certificate[i]);
-    free(f->certificate);
+    if (f->certificates) fclose(f->certificates);
     free(f->row);
     free(f);
 }
@@ -240,7 +290,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_proof_ball ball;
-    if (!iso_proof_is_possible()) return iso_proof_find(ctx, NULL, 0, NULL, NULL);
+    if (!iso_proof_is_possible()) return iso_proof_find(ctx, NULL, 0, NULL, NULL, NULL);
     ISO_TRY(take_ball(ctx, subject->scene, options, &ball));
     iso_proofs *f = iso_study_keep(result, calloc(1, sizeof *f), iso_proofs_fields, free_proofs);
     if (!f) return iso_context_no_memory(ctx, "a proof");
@@ -252,7 +302,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     return status == ISO_OK ? made : status;
 }
 
-ISO_STUDY_BEGIN(iso_prove_request, (iso_prove_request){.digits = 0})
+ISO_STUDY_BEGIN(iso_prove_request, (iso_prove_request){.half_returns = 20000, .pieces = 20000})
 
 #define ROW(name, argument, expected, doc, set, member)                                                              \
     ISO_OPTION(name, argument, expected, doc, set, iso_prove_request, member)
@@ -265,6 +315,11 @@ const iso_option iso_prove_option[] = {
         "enclose m to 1e-D (default: 18, then 36, then 72, until 0 is excluded; for an interval as its length asks "
         "for)",
         iso_set_count_int, digits),
+    ROW("half-returns", "N", "a whole number from 1 on",
+        "give up on a k, or on a piece of an interval, after N half returns in all attempts (default 20000)",
+        iso_set_count_long, half_returns),
+    ROW("pieces", "N", "a whole number from 1 on", "try at most N pieces of an interval of k (default 20000)",
+        iso_set_count_long, pieces),
     ISO_OPTION_END,
 };
 

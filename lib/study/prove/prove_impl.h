@@ -5,6 +5,8 @@
 #ifndef ISO_STUDY_PROVE_IMPL_H
 #define ISO_STUDY_PROVE_IMPL_H
 
+#include <stdio.h>
+
 #include "base/field.h"
 #include "base/rational_impl.h"
 #include "orbit/scene.h"
@@ -43,10 +45,19 @@ typedef struct iso_proof {
     char statement[ISO_PROOF_WORDS];   /* what follows                                                            */
 } iso_proof;
 
+/* Half returns that orbits take in all attempts, those of the search among them: how many may begin, how many did. */
+typedef struct iso_proof_work {
+    long most, begun;
+} iso_proof_work;
+
 /* Encloses m of all these k. text: NULL, or gets the certificate, to be freed by free().
- * Errors: ISO_BAD_ARGUMENT: this build has no Arb; ISO_NUMERICAL: nothing could be enclosed; ISO_NO_MEMORY;
- * ISO_STOPPED. */
-iso_status iso_proof_find(iso_context *ctx, const iso_proof_ball *ball, int digits, iso_proof *proof, char **text);
+ * Errors: ISO_BAD_ARGUMENT: this build has no Arb; ISO_NUMERICAL: nothing could be enclosed, or not with so much work;
+ * ISO_NO_MEMORY; ISO_STOPPED. */
+iso_status iso_proof_find(iso_context *ctx, const iso_proof_ball *ball, int digits, iso_proof_work *work,
+                          iso_proof *proof, char **text);
+
+/* -log10 |m|, roughly, from the multiplier alone: no proof needs it. Errors: those of iso_proof_find. */
+iso_status iso_proof_expect(iso_context *ctx, const iso_proof_ball *ball, iso_proof_work *work, double *decades);
 
 /* Whether this build has Arb. */
 bool iso_proof_is_possible(void);
@@ -56,13 +67,15 @@ bool iso_proof_is_possible(void);
 typedef struct iso_prove_request {
     const char *k;           /* "K" or "A:B", as it is typed; NULL: the scene's       */
     int digits;              /* 0: as many as it takes                                */
+    long half_returns;       /* for one k, or for one piece: no more                  */
+    long pieces;             /* of an interval of k: try no more                      */
     const char *certificate; /* NULL: none is wanted; else the command's name for it  */
 } iso_prove_request;
 
 typedef struct iso_proofs {
     size_t rows;
     iso_proof *row;
-    char **certificate; /* of each row; NULL: it was not wanted */
+    FILE *certificates; /* of all rows, one after the other, in a temporary file; NULL: not wanted */
     bool all;           /* 0 is in no enclosure of an interval of k, and these leave nothing out; no double says so */
     double undecided;   /* the part of an interval of k that is undecided, [0, 1], rounded */
 } iso_proofs;
