@@ -212,7 +212,8 @@ void iso_latitude_range(latitude *r)
     r->rest_a = rest_of(r, r->a);
     r->sense = iso_latitude_Mx(r, r->a) > 0 ? 1 : -1;
     r->Mx_a = r->field == 0 ? fabsl(r->Mx) : sqrtl(r->rest_a * iso_latitude_m(r, r->a));
-    const real P0 = P_at(r, 0), terms = r->dx0 * r->dx0 + r->y0 * fabsl(P_slope(r, 0, r->y0));
+    const real P0 = P_at(r, 0), field = fabsl(square_slope(r, 0, r->y0));
+    const real terms = r->dx0 * r->dx0 + r->y0 * (fabsl(P_slope(r, 0, r->y0)) + field);
     r->homoclinic = terms > 0 && r->has_b && fabsl(P0) <= 8 * LDBL_EPSILON * terms;
     if (r->homoclinic) r->b = -ISO_OFF_SEPARATRIX * r->a;
     r->side = r->has_b && r->b > 0;

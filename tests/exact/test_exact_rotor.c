@@ -192,6 +192,28 @@ static void check_actions(iso_random *random)
     laws_report(&worst, "a frequency is dH/dI");
 }
 
+/* J = 1, k = 1/2 and K = 1: M about K grows by 2 gamma3^2. From the pole, with M = 2 there, it is -2 at the equator:
+ * all of M. The equator is an unstable rotation, which the orbit leaves and comes back to. */
+static void check_separatrix(void)
+{
+    orbit o = {.ctx = ctx, .model.system = &iso_system_point};
+    double y[ISO_MAX_STATE], expected[ISO_MAX_STATE], clocks[ISO_CLOCKS];
+    exact_start(&o, 0.5, (const double[3]){1, 1, 1}, (const double[3]){0, 0, 1}, (const double[3]){1, 0, 0}, 1);
+    set_rotor(&o, (const double[3]){0, 0, 1});
+    iso_exact *exact = exact_create(&o);
+    gsl_test(iso_exact_describe(exact).kind != ISO_EXACT_SEPARATRIX, "a separatrix");
+    orbit_clocks(&o, ISO_CLOCK_S, false, false, false);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        orbit_solve(&o, iso_method_find("taylor_extended"), &(iso_method_options){.tolerance = 1e-15}, 3 * sign,
+                    expected);
+        iso_exact_at(ctx, exact, ISO_CLOCK_S, 3 * sign, y, clocks);
+        gsl_test(!(orbit_error(&o, y, expected) < 1e-11), "next to the start: %.1e", orbit_error(&o, y, expected));
+        iso_exact_at(ctx, exact, ISO_CLOCK_S, 60 * sign, y, clocks);
+        gsl_test(!(fabs(y[5]) < 1e-14 && fabs(y[2] + 2) < 1e-13), "at the equator in the end: %g %g", y[5], y[2] + 2);
+    }
+    iso_exact_free(exact);
+}
+
 static void refused(const double J[3], const double K[3], const char *words)
 {
     orbit o = {.ctx = ctx, .model.system = &iso_system_point};
@@ -212,6 +234,7 @@ int main(void)
     check_limit(random);
     check_angles(random);
     check_actions(random);
+    check_separatrix();
     refused((const double[3]){1.4, 2.1, 3}, (const double[3]){0, 0, 0.5}, "closed solution only where");
     refused((const double[3]){2, 2, 3}, (const double[3]){0.1, 0, 0.5}, "K is along the third axis");
     iso_random_free(random);
