@@ -1,6 +1,6 @@
 #!/bin/sh
-# documents.sh ISOROLL - the documents: how long they are, whether their links lead somewhere, whether the commands of
-# the README work, and whether the gallery shows every example.
+# documents.sh ISOROLL - the documents: how long they are, whether their links lead somewhere, whether they cite what the
+# bibliography has, whether the commands of the README work, and whether the gallery shows every example.
 . "$(dirname "$0")/lib.sh"
 documents=$(cd "$source" && find . -name '*.md' ! -path './.build/*' ! -path './.git/*' | sort)
 check "there are documents" test "$(echo "$documents" | wc -l)" -ge 5
@@ -21,6 +21,15 @@ for document in $documents; do
     for link in $links; do check "$document: there is $link" test -e "$folder/$link"; done
 done
 
+# --- every work that is cited is in the bibliography, and no other; no formula has an escape that Markdown takes away
+bibliography=$source/lib/doc/references.bib
+sed -n 's/^@[a-z]*{\([^,]*\),$/\1/p' "$bibliography" | sort >works
+for document in $documents; do sed 's/`[^`]*`//g; /^    /d' "$source/$document"; done >text
+grep -o '\[@[^]]*\]' text | tr -d '[]@ ' | tr ';' '\n' | sort -u >cited
+check "there are works" test -s works
+check "lib/doc/references.bib has the works that documents cite: $(diff works cited | sed -n 's/^[<>].*/&;/p')" cmp -s works cited
+check "formulas: no \\{ \\} \\, \\; \\! in a document" awk '/\\[{},;!]/ { exit 1 }' text
+
 # --- the gallery shows every example, each picture is at most 150 kB
 for folder in "$source"/examples/[0-9]*/; do
     example=$(basename "$folder")
@@ -34,7 +43,7 @@ done
 # --- the README's tasks, one after the other; `cost` takes a minute and has tests of its own
 mkdir examples && cp -r "$source/examples/15_two_spheres" examples
 sed -n '/^## Tasks/,/^## A scene/p' "$source/README.md" | sed -n 's/ *#.*//; s/^    \(isoroll\|cp\) /\1 /p' |
-    sed 's| /usr/share/doc/isoroll/| |' | grep -v cost >tasks
+    sed 's| ~/iso/share/doc/isoroll/| |' | grep -v cost >tasks
 check "the README has tasks" test "$(wc -l <tasks)" -ge 6
 if "$isoroll" view absent -o - 2>&1 | grep -q "built without three.js"; then
     sed -i "/^isoroll view/d" tasks

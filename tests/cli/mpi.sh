@@ -152,7 +152,7 @@ if has ps "signals and kills"; then
     fi
 
     # --- kill -9 of a rank, or of everything, when some chunks more are there; then another number of ranks
-    tries=0 kills=$(length 3 6) # 6: each way twice; 1 to 4 ranks
+    tries=0 kills=3 # each way; 1 to 3 ranks
     while [ $tries -lt "$kills" ]; do
         start $((tries % 4 + 1)) killed.h5 $((tries % 5))
         list=$(pids $pid)

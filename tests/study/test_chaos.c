@@ -40,8 +40,8 @@ static void check_indication(const iso_indication *i, const char *what)
 /* --- one orbit -------------------------------------------------------------------------------------------------- */
 
 /* The sea of k = 0.5, J = 1 2 5. Per turn: the mean of 196 orbits over 40000 turns, by Jacobi's scalar equation
- * y'' + K y = 0 on the sphere with the metric -2 V ds^2 of theory.md 5, with Taylor series of its own. Per t: an orbit
- * until t = 200000, by the one who asked for these errors. */
+ * y'' + K y = 0 on the sphere with the metric -2 V |dgamma|^2 (lib/doc/theory.md, section 10), with Taylor series of
+ * its own. Per t: an orbit until t = 200000, by the one who asked for these errors. */
 static const double sea_per_turn = 0.798, sea_per_t = 0.0660;
 
 /* Both models call it chaotic, and their exponents are the same within the stated errors. */

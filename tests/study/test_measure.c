@@ -229,7 +229,7 @@ static void seeds(test_of *test)
 static void calibration(test_of *test)
 {
     const iso_scene scene = scene_of(-0.5, 1, 2, 5);
-    const int runs = tests_length(20, 100), most = tests_length(3, 6);
+    const int runs = tests_length(20, 60), most = tests_length(3, 6);
     int low = 0;
     for (int i = 0; i < runs; i++) {
         iso_measure_options o = options_of(1024);

@@ -103,7 +103,7 @@ static int hill_slope(double phi, const double y[], double dy[], void *data)
 static void check_by_gsl(void)
 {
     iso_random *random = iso_random_create(17);
-    for (int i = 0; i < tests_length(20, 200); i++) {
+    for (int i = 0; i < tests_length(20, 100); i++) {
         const double k = (i % 2 ? 1 : -1) * iso_random_uniform(random, 0.3, 3);
         const double J[3] = {iso_random_uniform(random, 1, 2), iso_random_uniform(random, 1, 3),
                              iso_random_uniform(random, 1, 4)};

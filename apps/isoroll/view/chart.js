@@ -4,6 +4,7 @@ const chart = {
   canvas: element("lab-section"),
   dots: [], // {orbit, l, x}, by orbit; the scene's own is 0
   cursor: null, // of the keyboard
+  axis: 3, // that the crossings pass
 
   clear() {
     this.dots = [];
@@ -42,10 +43,15 @@ const chart = {
       [Math.PI, "π"],
     ])
       g.fillText(words, x(l), height - 10);
-    g.fillText("l", x(Math.PI / 2), height - 10);
+    g.fillText("l, angle of γ", x(Math.PI / 2), height - 10);
     g.textAlign = "right";
     for (const v of [-1, 0, 1]) g.fillText(String(v).replace("-", "−"), x(-Math.PI) - 6, y(v) + 4);
-    g.fillText("x", x(-Math.PI) - 6, y(0.5) + 4);
+    g.save();
+    g.translate(x(-Math.PI) - 8, y(0.5));
+    g.rotate(-Math.PI / 2);
+    g.textAlign = "center";
+    g.fillText(`x = M${"₁₂₃"[this.axis - 1]}/|M|`, 0, 0);
+    g.restore();
     const size = this.dots.length > 4000 ? 1.4 : 2;
     for (const own of [false, true]) {
       for (const dot of this.dots) {

@@ -35,11 +35,10 @@ const forces = {
 
   inputs: ["lab-K1", "lab-K2", "lab-K3"].map(element),
   steer() {
-    const near = (x, size) => (Math.abs(x) < size ? 0 : x); // no small remainder where nothing is meant
-    element("lab-level").addEventListener("input", (e) => lab.change({ level: near(Number(e.target.value), 0.03) }));
+    element("lab-level").addEventListener("input", (e) => lab.change({ level: Number(e.target.value) }));
     element("lab-weight").addEventListener("input", (e) => lab.change({ weight: Number(e.target.value) }));
     for (const input of this.inputs)
-      input.addEventListener("input", () => lab.change({ rotor: this.inputs.map((x) => near(Number(x.value), 0.06)) }));
+      input.addEventListener("input", () => lab.change({ rotor: this.inputs.map((x) => Number(x.value)) }));
   },
   show(state) {
     const { k, J, level, rotor, weight } = state;
@@ -48,7 +47,10 @@ const forces = {
     this.inputs.forEach((input, i) => (input.value = rotor[i]));
     element("lab-rotor-words").textContent = rotor.map((x) => digits(x, 3)).join(", ");
     element("lab-weight-words").textContent = digits(weight, 3);
-    element("lab-level-words").textContent = digits((level * this.unitOfLevel(state) * J[0] * J[1] * J[2]) / k ** 2, 4);
+    const H = (level * this.unitOfLevel(state) * J[0] * J[1] * J[2]) / k ** 2;
+    element("lab-level").disabled = weight > 0;
+    element("lab-level-words").textContent =
+      weight > 0 ? "none, there is no point" : digits(H, 4) + (level ? "" : " (nothing acts on the ball)");
   },
   // How many times faster than a free ball the ball can become.
   hurry(state) {

@@ -17,8 +17,8 @@ const growth = {
     const begin = `A neighbour begins 10⁻⁶ away${page.alone ? "" : " (the black bead)"}. `;
     if (verdict === "chaotic" && exponent > 0)
       return (
-        `${begin}This orbit is chaotic: the distance grows by the factor e in about t = ${digits(1 / exponent, 2)} ` +
-        `(exponent ${digits(exponent, 2)}; the broken line).`
+        `${begin}This orbit is chaotic: in the mean over a long time the distance grows by the factor e in ` +
+        `t = ${digits(1 / exponent, 2)} (exponent ${digits(exponent, 2)}; the broken line).`
       );
     if (verdict === "regular") return `${begin}This orbit is regular: the distance does not grow exponentially.`;
     if (verdict) return `${begin}Whether this orbit is chaotic is not decided after ${turns || 1000} turns.`;

@@ -4,6 +4,7 @@
 
 lab = {
   ROWS: 1200,
+  DRAWS: 10, // of six orbits, for the section
   state: { k: page.k, J: page.J, n: null, omega: null, ...forces.none() }, // what is computed
   first: null,
   throwing: false,
@@ -107,13 +108,14 @@ lab = {
     try {
       const own = await ask({ crossings: 200 }),
         axis = Number(own.lines.axis);
+      chart.axis = axis;
       words.textContent = page.alone
         ? `Dots: crossings of n${"₁₂₃"[axis - 1]} = 0 by this orbit. The section has no other orbits under gravity.`
-        : `Dots: crossings of n${"₁₂₃"[axis - 1]} = 0, the same for ball and point; large ones: this orbit’s. ` +
+        : `Dots: crossings of n${"₁₂₃"[axis - 1]} = 0 upwards, the same for ball and point; large ones: this orbit’s. ` +
           "Click to start there.";
       chart.canvas.setAttribute("aria-label", `The section n${axis} = 0. Arrow keys choose a start, Enter starts there.`);
       chart.add(own.columns, { from: 0, number: 0 });
-      for (let seed = 0; seed < 10 && !page.alone; seed++) {
+      for (let seed = 0; seed < this.DRAWS && !page.alone; seed++) {
         const more = await ask({ starts: 6, crossings: 150, seed });
         chart.add(more.columns, { from: 1, number: 6 * seed });
       }
@@ -131,7 +133,9 @@ lab = {
     element("lab-k").value = state.k;
     element("lab-k-words").textContent = digits(state.k, 4);
     element("lab-k").setAttribute("aria-valuetext", digits(state.k, 4));
-    element("lab-J-words").textContent = state.J.map((x) => digits(x, 4)).join(", ");
+    const most = Math.max(...state.J);
+    element("lab-J-words").textContent =
+      state.J.map((x) => digits(x, 4)).join(", ") + (2 * most < dot(state.J, [1, 1, 1]) ? "" : " (no solid ball has them)");
     element("lab-support").textContent = this.support(state.k);
     triangle.canvas.setAttribute("aria-valuetext", element("lab-J-words").textContent);
     triangle.draw();
@@ -139,10 +143,12 @@ lab = {
   },
   // In words, from the equation A = B |k/(1 - k)| of the two radii.
   support(k) {
-    if (k === 1) return "On a plane.";
+    if (k === 1) return "On a plane: k = 1.";
     const size = digits(Math.abs(k / (1 - k)), 3),
       radius = size === "1" ? "of its own radius" : `with ${size} times its radius`;
-    return `${k < 0 ? "A shell around" : k < 1 ? "On the outside of" : "Inside"} a sphere ${radius}.`;
+    const [where, formula] =
+      k < 0 ? ["A shell around", "−A/(B − A)"] : k < 1 ? ["On the outside of", "A/(A + B)"] : ["Inside", "A/(A − B)"];
+    return `${where} a sphere ${radius}: k = ${formula}, with A of the sphere and B of the ball.`;
   },
 
   // The orbit through a point of the section: it starts at its first crossing.
@@ -182,6 +188,7 @@ lab = {
   setThrowing(on) {
     this.throwing = on;
     element("lab-throw").setAttribute("aria-pressed", String(this.throwing));
+    element("lab-throw").textContent = this.throwing ? "Now drag the ball" : "Throw the ball";
     element("ball").parentElement.classList.toggle("throwing", this.throwing);
   },
 
@@ -223,6 +230,13 @@ lab = {
   steer() {
     const slider = element("lab-k"),
       stage = element("ball").parentElement;
+    slider.addEventListener("keydown", (e) => {
+      const by = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[e.key];
+      if (!by) return;
+      e.preventDefault(); // steps that leave the special values, and step over 0
+      const k = Math.min(3, Math.max(-3, Math.round(20 * this.state.k + by) / 20));
+      this.change({ k: Math.abs(k) < 0.1 ? 0.1 * by : k });
+    });
     slider.addEventListener("input", () => {
       let k = Number(slider.value);
       for (const special of [-1, 0.5, 1]) if (Math.abs(k - special) < 0.035) k = special;
@@ -230,7 +244,10 @@ lab = {
       this.change({ k });
     });
     element("lab-throw").addEventListener("click", () => this.setThrowing(!this.throwing));
-    element("lab-begin").addEventListener("click", () => this.change(JSON.parse(this.first)));
+    element("lab-begin").addEventListener("click", () => {
+      this.setThrowing(false);
+      this.change(JSON.parse(this.first));
+    });
     for (const part of [chart, triangle, forces, taken, story]) part.steer();
     let from = null;
     const take = (name, act) =>

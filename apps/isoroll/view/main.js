@@ -107,7 +107,6 @@ const controls = {
   adapt(milliseconds) {
     const since = milliseconds - this.before;
     this.before = milliseconds;
-    if (this.dirty) this.resting = milliseconds;
     if (this.dirty) {
       this.resting = milliseconds;
       this.slow = since < 1000 ? 0.8 * this.slow + 0.2 * since : this.slow;
@@ -271,6 +270,7 @@ const controls = {
       [from, to] = this.range(),
       step = (to - from) / (e.shiftKey ? 1000 : 100);
     if (tag === "SELECT" || (tag === "BUTTON" && (e.key === " " || e.key === "Enter"))) return;
+    if (tag === "INPUT" && e.target.id !== "scrub" && /^(Arrow|Home|End|Page)/.test(e.key)) return; // a slider of its own
     const jump = (value) => {
       this.play(false);
       this.seek(value);

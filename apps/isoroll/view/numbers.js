@@ -19,7 +19,7 @@ const numbers = {
     parent.textContent = "";
     text.split(/\^\{([^}]*)\}/).forEach((part, i) => {
       const piece = document.createElement(i % 2 ? "sup" : "span");
-      piece.textContent = part;
+      piece.textContent = i % 2 ? `\u2060${part}` : part; // no line ends before a superscript
       parent.append(piece);
     });
   },
@@ -186,9 +186,10 @@ const numbers = {
     const { k } = body,
       named = { "-1": "Neumann’s potential ", 1: "Braden’s potential " }[k] || "the potential ",
       power = k === -1 ? "" : k === 1 ? "^{−1}" : `^{${digits(-1 / k, 4)}}`;
+    const magnetic = page.effects.rotor ? ", and in a magnetic field, that of the rotor" : "";
     return page.effects.field
-      ? `moves in the potential V = (U(n) − h) (det J / k^{2}) (γ, Jγ)${power}`
-      : `moves in ${named}V = −ε (γ, Jγ)${power}`;
+      ? `moves in the potential V = (U(n) − h) (det J / k^{2}) (γ, Jγ)${power}${magnetic}`
+      : `moves in ${named}V = −ε (γ, Jγ)${power}${magnetic}`;
   },
 
   // Of the two pictures: as they move, or compared.

@@ -1,7 +1,7 @@
 // sections.js - both Poincare sections as plots, from the chart (l, x) that they share.
 //
 // For axis a, with b and c after it: gamma = (cos l, -sin l) in the axes b, c. The ball's coordinates are the angle
-// of n in them and omega_a/|omega|; the point's are l and L = G(l) x, G^2 = 2 eps q^(-1/k).
+// of n in them and omega_a/|omega|; the point's are l and L = G(l) x, where G^2 = |M|^2 = 2 (H + eps q^(-1/k)).
 
 const sections = !page.section
   ? null
@@ -15,9 +15,12 @@ const sections = !page.section
         l: decoded(page.section.crossings.l),
         x: decoded(page.section.crossings.x),
       };
-      const free = page.eps > 0 && !Object.keys(page.effects).some((name) => name !== "level" && name !== "clock");
-      const G = (l) =>
-        free ? Math.sqrt(2 * page.eps) * (J[b] * Math.cos(l) ** 2 + J[c] * Math.sin(l) ** 2) ** (-1 / (2 * k)) : 1;
+      const free = Boolean(page.eps) && !Object.keys(page.effects).some((name) => name !== "level" && name !== "clock");
+      const H = page.effects.level ? (page.effects.level.c[0] * body.detJ) / k ** 2 : 0;
+      const G = (l) => {
+        const q = J[b] * Math.cos(l) ** 2 + J[c] * Math.sin(l) ** 2;
+        return free ? Math.sqrt(2 * Math.max(0, H + page.eps * q ** (-1 / k))) : 1;
+      };
       const ofBall = (l, x) => {
         const across = Math.sqrt((1 - x) * (1 + x)),
           omega = [
@@ -234,6 +237,7 @@ const sections = !page.section
             `Rings mark its ${crossings.length} crossings while it runs here.`;
         },
         crossings: () => crossings,
+        place: (plot, l, x) => plots[plot].place(l, x),
         draw(now) {
           plots.forEach((plot, i) => {
             const { g, width, height } = sheet(plot.canvas),

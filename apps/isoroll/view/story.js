@@ -9,22 +9,32 @@ const story = {
   steps: [
     ["Roll it: the ball neither slips nor twists.", (tell) => tell.lab({ k: 1, J: [1, 1.2, 1.5] })],
     [
-      "Watch the contact: the path of n on the ball (left) has the same states as the path of a point in a potential (right).",
+      "Watch the contact: each place n on the ball (left) belongs to one place γ of the point (right); equal numbers are equal states.",
       (tell) => tell.lab({ k: 1, J: [1, 1.2, 1.5] }).then(() => controls.compare(true)),
     ],
     [
-      "Stretch the sphere: with other moments J, γ = J^{−1/2} n / |J^{−1/2} n| is stretched more.",
+      "Stretch the sphere: with other moments J, the map from n to γ = J^{−1/2} n / |J^{−1/2} n| is stretched more.",
       (tell) => tell.lab({ k: 1, J: [1, 2, 5] }).then(() => controls.compare(true)),
     ],
     [
       "Change the clock: now s runs evenly, the point moves by Newton’s law, and the ball is faster and slower.",
-      (tell) => tell.lab({ k: 1, J: [1, 2, 5] }).then(() => controls.setClock("s")),
+      (tell) => {
+        tell.bring("time");
+        tell.lab({ k: 1, J: [1, 2, 5] }).then(() => controls.setClock("s"));
+      },
     ],
     [
       "See the section: chaos at k = ½, but only curves at k = 1 and at k = −1.",
       (tell) => {
+        tell.bring("lab-figure");
         tell.lab({ k: 0.5, J: [1, 2, 5] });
-        [1, -1].forEach((k, i) => tell.later(8 * (i + 1), () => lab.change({ k })));
+        tell.add("Now: k = ½.");
+        [1, -1].forEach((k, i) =>
+          tell.later(8 * (i + 1), () => {
+            tell.add(`Now: k = ${digits(k)}.`);
+            lab.change({ k });
+          }),
+        );
       },
     ],
   ],
@@ -44,6 +54,13 @@ const story = {
     if (!shown || at !== this.at) return new Promise(() => {});
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches) controls.play(true);
   },
+  // What the step speaks of is seen.
+  bring(name) {
+    element(name).scrollIntoView({ block: "nearest" });
+  },
+  add(words) {
+    numbers.write(element("story-words"), `${this.at + 1} of ${this.steps.length}. ${this.steps[this.at][0]} ${words}`);
+  },
   later(seconds, act) {
     this.timers.push(setTimeout(act, 1000 * seconds));
   },
@@ -53,8 +70,9 @@ const story = {
     const on = this.at >= 0;
     for (const name of ["back", "next", "leave"]) element(`story-${name}`).hidden = !on;
     element("story-begin").hidden = on;
-    numbers.write(element("story-words"), on ? `${step + 1} of ${this.steps.length}. ${this.steps[step][0]}` : "");
+    element("story-words").textContent = "";
     if (!on) return element("story-begin").focus();
+    this.add("");
     element("story-back").disabled = step === 0;
     element("story-next").textContent = step + 1 < this.steps.length ? "Next" : "The end";
     if (step === 0) element("story-next").focus();
