@@ -1,6 +1,6 @@
 """Which part of random starts of one energy is chaotic, with another text in the potential of a scene:
 
-    python3 share.py scene.yaml "c: 1" "c: 1.05"
+    python3 share.py scene.yaml "c: 1" "c: 1.05" [TURNS]
 
 n is even on the part of the sphere where U < h, omega has a random direction across n. Needs the package isoroll."""
 import re
