@@ -26,11 +26,34 @@ typedef struct homoclinic_end {
 struct iso_exact {
     const iso_form *form;
     void *data;
+    double frame[9]; /* its rows are the axes in which the form works, in the caller's ... */
+    bool turned;     /* ... if they are others                                            */
     iso_params params;
     bool has[ISO_CLOCKS];
     double moment[ISO_CLOCKS]; /* a short time in each clock, see find_moments */
     homoclinic_end past, future;
 };
+
+/* M and gamma along the axes of the form, and back. */
+static void to_form(const iso_exact *x, const double from[ISO_STATE], double to[ISO_STATE])
+{
+    double y[ISO_STATE];
+    copy(from, y, ISO_STATE);
+    for (int i = 0; i < ISO_STATE; i++) to[i] = x->turned ? dot(x->frame + 3 * (i % 3), y + i / 3 * 3) : y[i];
+}
+
+static void from_form(const iso_exact *x, const double from[ISO_STATE], double to[ISO_STATE])
+{
+    double y[ISO_STATE];
+    copy(from, y, ISO_STATE);
+    if (x->turned)
+        for (int i = 0; i < ISO_STATE; i++) {
+            const double *of = y + i / 3 * 3, *e = x->frame + i % 3;
+            to[i] = of[0] * e[0] + of[1] * e[3] + of[2] * e[6];
+        }
+    else
+        copy(y, to, ISO_STATE);
+}
 
 /* Errors: numbers that are not finite or out of range, and a state that is not on the level. */
 static iso_status check_numbers(iso_context *ctx, const iso_problem *f, const double point[ISO_STATE])
@@ -48,10 +71,11 @@ static iso_status check_numbers(iso_context *ctx, const iso_problem *f, const do
 
 static iso_status check(iso_context *ctx, const iso_problem *f, const double point[ISO_STATE])
 {
-    const iso_effect *effect = iso_effects_beyond_level(&f->effects);
+    const iso_effect *effect = iso_effects_beyond_rotor(&f->effects);
     if (!effect) effect = iso_effects_ball_only(&f->effects);
     if (!effect) return check_numbers(ctx, f, point);
-    return ISO_FAIL_ARGUMENT(ctx, effect->name, "the closed solution is for a free motion, not one with '%s'",
+    return ISO_FAIL_ARGUMENT(ctx, effect->name,
+                             "the closed solution is for a free motion or one with a rotor, not with '%s'",
                              effect->name);
 }
 
@@ -60,6 +84,22 @@ static const iso_form *form_for(const iso_problem *f, const double point[ISO_STA
     for (int i = 0; forms[i]; i++)
         if (forms[i]->serves(f, point)) return forms[i];
     return NULL;
+}
+
+/* Three equal moments are equal about all axes: the third axis of the form is turned into K. */
+static void turn_axes(iso_exact *x, iso_problem *f, double point[ISO_STATE])
+{
+    const double *K = iso_effects_rotor(&f->effects), size = norm(K);
+    const int zeros = (K[0] == 0) + (K[1] == 0) + (K[2] == 0), least = fabs(K[0]) < fabs(K[1]) ? 0 : 1;
+    double *const e1 = x->frame, *const e2 = e1 + 3, *const e3 = e2 + 3, own[3] = {0, 0, size};
+    x->turned = zeros < 2 && iso_params_symmetric(&f->p, 0) && iso_params_symmetric(&f->p, 1);
+    if (!x->turned) return;
+    for (int i = 0; i < 3; i++) e3[i] = K[i] / size, e1[i] = i == least;
+    remove_along(e1, e3), remove_along(e1, e3);
+    make_unit(e1);
+    cross(e3, e1, e2);
+    to_form(x, point, point);
+    iso_effects_set_rotor(&f->effects, own);
 }
 
 /* The form for a start. Where only a start in a principal plane has a form, components that are zero but for rounding
@@ -73,6 +113,13 @@ static iso_status find_form(iso_context *ctx, const iso_problem *f, double point
     for (int i = 0; i < ISO_STATE; i++) snapped[i] = fabs(point[i]) <= 4 * DBL_EPSILON * size[i / 3] ? 0 : point[i];
     *form = form_for(f, snapped);
     if (*form) return copy(snapped, point, ISO_STATE), ISO_OK;
+    const iso_effect *rotor = iso_effects_beyond_level(&f->effects);
+    if (rotor)
+        return ISO_FAIL_ARGUMENT(
+            ctx, rotor->name,
+            "with '%s' there is a closed solution only where three moments of inertia are equal, "
+            "where two are equal and K is along the third axis, or in a principal plane across K",
+            rotor->name);
     if (f->p.k == 1)
         return ISO_FAIL_ARGUMENT(ctx, iso_level_name(), "k = 1 has a closed solution on the level H = 0 alone");
     return ISO_FAIL_ARGUMENT(ctx, "k",
@@ -201,25 +248,28 @@ static iso_status make(iso_context *ctx, const iso_problem *problem, const doubl
     return status == ISO_OK ? find_end(ctx, problem, x, axis, 1, &x->future) : status;
 }
 
+static iso_status create(iso_context *ctx, iso_problem *f, double start[ISO_STATE], const bool clocks[ISO_CLOCKS],
+                         iso_exact *x)
+{
+    ISO_TRY(check(ctx, f, start));
+    turn_axes(x, f, start);
+    ISO_TRY(find_form(ctx, f, start, &x->form));
+    for (int c = 0; c < ISO_CLOCKS; c++) x->has[c] = clocks[c];
+    return make(ctx, f, start, x);
+}
+
 iso_status iso_exact_create(iso_context *ctx, const iso_problem *problem, const double point[ISO_STATE],
                             const bool clocks[ISO_CLOCKS], iso_exact **exact)
 {
     ISO_DEFAULT_ARITHMETIC;
-    const iso_form *form = NULL;
+    iso_problem own = *problem;
     double start[ISO_STATE];
-    *exact = NULL;
-    copy(point, start, ISO_STATE);
-    iso_status status = check(ctx, problem, start);
-    if (status == ISO_OK) status = find_form(ctx, problem, start, &form);
-    if (status != ISO_OK) return status;
-    iso_exact *x = calloc(1, sizeof *x);
+    iso_exact *x = *exact = calloc(1, sizeof *x);
     if (!x) return iso_context_no_memory(ctx, "a closed solution");
-    x->form = form;
-    for (int c = 0; c < ISO_CLOCKS; c++) x->has[c] = clocks[c];
-    status = make(ctx, problem, start, x);
-    if (status != ISO_OK) return iso_exact_free(x), status;
-    *exact = x;
-    return ISO_OK;
+    copy(point, start, ISO_STATE);
+    const iso_status status = create(ctx, &own, start, clocks, x);
+    if (status != ISO_OK) iso_exact_free(x), *exact = NULL;
+    return status;
 }
 
 void iso_exact_free(iso_exact *x)
@@ -227,7 +277,7 @@ void iso_exact_free(iso_exact *x)
     if (!x) return;
     iso_exact_free(x->past.rotation);
     iso_exact_free(x->future.rotation);
-    x->form->free(x->data);
+    if (x->form) x->form->free(x->data);
     free(x);
 }
 
@@ -249,7 +299,7 @@ static iso_status check_place(iso_context *ctx, const iso_exact *x, const form_p
 
 static void hand_over(const iso_exact *x, const form_place *p, double point[ISO_STATE], double clocks[ISO_CLOCKS])
 {
-    copy(p->point, point, ISO_STATE);
+    from_form(x, p->point, point);
     for (int c = 0; clocks && c < ISO_CLOCKS; c++) clocks[c] = x->has[c] ? (double)p->clock[c] : NAN;
 }
 
@@ -312,8 +362,10 @@ static iso_status check_angles(iso_context *ctx, const iso_exact *x)
 iso_status iso_exact_angles(iso_context *ctx, const iso_exact *x, const double point[ISO_STATE], double angle[2])
 {
     ISO_DEFAULT_ARITHMETIC;
+    double own[ISO_STATE];
     ISO_TRY(check_angles(ctx, x));
-    if (!all_finite(point, ISO_STATE) || !x->form->angles(x->data, point, angle))
+    to_form(x, point, own);
+    if (!all_finite(point, ISO_STATE) || !x->form->angles(x->data, own, angle))
         return ISO_FAIL_ARGUMENT(ctx, "", "this state is not on the torus of this motion");
     for (int i = 0; i < 2; i++) angle[i] -= 2 * ISO_PI * floor(angle[i] / (2 * ISO_PI));
     return ISO_OK;
@@ -324,6 +376,7 @@ iso_status iso_exact_point(iso_context *ctx, const iso_exact *x, const double an
     ISO_DEFAULT_ARITHMETIC;
     ISO_TRY(check_angles(ctx, x));
     x->form->point(x->data, angle, point);
+    from_form(x, point, point);
     if (all_finite(point, ISO_STATE)) return ISO_OK;
     return ISO_FAIL_ARGUMENT(ctx, "", "an angle is not finite");
 }

@@ -18,7 +18,7 @@ typedef struct iso_exact_torus {
      * 2 pi. */
     double frequency[ISO_CLOCKS][2];
     /* (1/2 pi) times the integral of (momentum) d(coordinate) round the loop of each angle, >= 0; about an axis:
-     * M along it, with its sign. */
+     * M along it, with its sign; with a rotor, M along it at the equator. */
     double action[2];
     double c; /* separated: the constant of 2 A(z) p_z^2 = R(z) + c */
     /* 0 on the separatrix of the rotation about the middle axis, or in the equator: (R(b2) + c)/|R(b2) - H b2|, > 0

@@ -4,19 +4,55 @@
 #include <float.h>
 #include <math.h>
 
-/* --- divided differences of m(y) = 2 (H + eps q^power) ---------------------------------------------------------- */
+/* --- divided differences of q^p, of m(y) = 2 (H + eps q^power), and of M_x -------------------------------------- */
 
 real iso_latitude_q(const latitude *r, real y)
 {
     return r->Je + (r->Ja - r->Je) * y;
 }
 
-/* m[y,z] = (m(z) - m(y))/(z - y): with x = (q(z) - q(y))/q(y) it is m' at y times ((1 + x)^power - 1)/(power x). */
-static real slope(const latitude *r, real y, real z)
+/* f[y,z] of f = q^p/(p (J_a - J_e)), whose slope is q^(p - 1): with x = (q(z) - q(y))/q(y) it is that at y times
+ * ((1 + x)^p - 1)/(p x). */
+static real power_slope(const latitude *r, real p, real y, real z)
 {
     const real q = iso_latitude_q(r, y), x = (r->Ja - r->Je) * (z - y) / q;
-    const real part = x == 0 ? r->power : expm1l(r->power * log1pl(x)) / x;
-    return 2 * r->eps * (r->Ja - r->Je) * powl(q, r->power - 1) * part;
+    return powl(q, p - 1) * (x == 0 ? 1 : expm1l(p * log1pl(x)) / (p * x));
+}
+
+/* f[x,y,z]: where the three are close, sum_n (p - 1) ... (p - n - 1)/(n + 2)! h_n(t) in the complete symmetric
+ * polynomials h_n of their distances t from the middle; else from the two that are farthest apart. */
+static real power_bend(const latitude *r, real power, real x, real y, real z)
+{
+    const real low = fminl(x, fminl(y, z)), high = fmaxl(x, fmaxl(y, z)), other = x + y + z - low - high;
+    const real q = iso_latitude_q(r, (low + high) / 2), scale = (r->Ja - r->Je) / q, half = (high - low) / 2;
+    if (fabsl(scale) * half * fmaxl(1, fabsl(power)) > 0.1L)
+        return (power_slope(r, power, other, high) - power_slope(r, power, other, low)) / (high - low);
+    const real t[3] = {scale * half, -scale * half, scale * (other - (low + high) / 2)};
+    real p[3] = {1, 1, 1}, factor = (power - 1) / 2, sum = 0; /* p[i]: h_n of the first i + 1 */
+    for (int n = 0; n < 40; n++) {
+        sum += factor * p[2];
+        factor *= (power - n - 2) / (n + 3);
+        p[0] *= t[0];
+        p[1] = p[0] + t[1] * p[1];
+        p[2] = p[1] + t[2] * p[2];
+    }
+    return scale * powl(q, power - 1) * sum;
+}
+
+/* What m is times q^power/(power (J_a - J_e)) */
+static real steepness(const latitude *r)
+{
+    return 2 * r->eps * (r->Ja - r->Je) * r->power;
+}
+
+static real slope(const latitude *r, real y, real z)
+{
+    return steepness(r) * power_slope(r, r->power, y, z);
+}
+
+static real bend(const latitude *r, real x, real y, real z)
+{
+    return steepness(r) * power_bend(r, r->power, x, y, z);
 }
 
 /* m(y). Off the level H = 0 it is M^2 of the start plus a difference: M^2 may be small beside its two terms. */
@@ -26,35 +62,39 @@ real iso_latitude_m(const latitude *r, real y)
     return r->M2 + (y - r->y0) * slope(r, y, r->y0);
 }
 
-/* m[x,y,z]: where the three are close, sum_n binomial(power, n+2) h_n(t) in the complete symmetric polynomials h_n of
- * their distances t from the middle; else from the two that are farthest apart. */
-static real bend(const latitude *r, real x, real y, real z)
+real iso_latitude_Mx_slope(const latitude *r, real y, real z)
 {
-    const real low = fminl(x, fminl(y, z)), high = fmaxl(x, fmaxl(y, z)), other = x + y + z - low - high;
-    const real q = iso_latitude_q(r, (low + high) / 2), scale = (r->Ja - r->Je) / q, half = (high - low) / 2;
-    if (fabsl(scale) * half * fmaxl(1, fabsl(r->power)) > 0.1L)
-        return (slope(r, other, high) - slope(r, other, low)) / (high - low);
-    const real t[3] = {scale * half, -scale * half, scale * (other - (low + high) / 2)};
-    real p[3] = {1, 1, 1}, binomial = r->power * (r->power - 1) / 2, sum = 0; /* p[i]: h_n of the first i + 1 */
-    for (int n = 0; n < 40; n++) {
-        sum += binomial * p[2];
-        binomial *= (r->power - n - 2) / (n + 3);
-        p[0] *= t[0];
-        p[1] = p[0] + t[1] * p[1];
-        p[2] = p[1] + t[2] * p[2];
-    }
-    return 2 * r->eps * scale * scale * powl(q, r->power) * sum;
+    return r->field == 0 ? 0 : r->field * power_slope(r, r->power / 2, y, z);
+}
+
+real iso_latitude_Mx(const latitude *r, real y)
+{
+    return r->Mx + (y - r->y0) * iso_latitude_Mx_slope(r, y, r->y0);
+}
+
+/* M_x^2[y,z] and M_x^2[x,y,z] */
+static real square_slope(const latitude *r, real y, real z)
+{
+    return r->field == 0 ? 0 : iso_latitude_Mx_slope(r, y, z) * (iso_latitude_Mx(r, y) + iso_latitude_Mx(r, z));
+}
+
+static real square_bend(const latitude *r, real x, real y, real z)
+{
+    if (r->field == 0) return 0;
+    return r->field * power_bend(r, r->power / 2, x, y, z) * (iso_latitude_Mx(r, x) + iso_latitude_Mx(r, y)) +
+           iso_latitude_Mx_slope(r, x, z) * iso_latitude_Mx_slope(r, y, z);
 }
 
 /* P[y,z]; and P(y) as (dx/ds)^2 of the start plus a difference */
 static real P_slope(const latitude *r, real y, real z)
 {
-    return (1 - y) * slope(r, y, z) - iso_latitude_m(r, z);
+    return (1 - y) * slope(r, y, z) - iso_latitude_m(r, z) - square_slope(r, y, z);
 }
 
 static real P_at(const latitude *r, real y)
 {
-    return y == 1 ? -r->Mx * r->Mx : r->dx0 * r->dx0 + (y - r->y0) * P_slope(r, y, r->y0);
+    const real Mx = iso_latitude_Mx(r, y);
+    return y == 1 ? -Mx * Mx : r->dx0 * r->dx0 + (y - r->y0) * P_slope(r, y, r->y0);
 }
 
 /* --- the range of y --------------------------------------------------------------------------------------------- */
@@ -64,6 +104,12 @@ typedef real function(const latitude *r, real y);
 static real P_rate(const latitude *r, real y)
 {
     return P_slope(r, y, y);
+}
+
+/* P''/2 */
+static real P_bend(const latitude *r, real y)
+{
+    return (1 - y) * bend(r, y, y, y) - slope(r, y, y) - square_bend(r, y, y, y);
 }
 
 /* The zero between low and high, which f passes upwards (rising) or downwards; it may be one of them. */
@@ -89,27 +135,43 @@ static real root_of_P(const latitude *r, bool rising, real low, real high)
     return y;
 }
 
-/* Places between which P is monotonic. P'' = 0 at one y at most, so by Rolle P' = 0 at two at most. The first place
- * is negative, the last is 1. */
-static int monotonic_parts(const latitude *r, real place[5])
+enum { MOST_PARTS = 9 };
+
+/* Adds to places between which the rate of f keeps its sign those where f is zero. */
+static int split(const latitude *r, function *f, int count, real place[MOST_PARTS])
+{
+    real all[MOST_PARTS];
+    int parts = 0;
+    for (int i = 0; i < count; i++) {
+        const bool above = f(r, place[i]) > 0, ends = i + 1 == count, then = ends ? above : f(r, place[i + 1]) > 0;
+        all[parts++] = place[i];
+        if (above != then) all[parts++] = bisect(r, f, then, place[i], place[i + 1]);
+    }
+    for (int i = 0; i < parts; i++) place[i] = all[i];
+    return parts;
+}
+
+/* Places between which P is monotonic. q^(2 - power) P'' is A + B q + C q^(-power/2): its rate is zero at one y at most,
+ * so by Rolle P'' is at two and P' at three at most. The first place is negative, the last is 1. */
+static int monotonic_parts(const latitude *r, real place[MOST_PARTS])
 {
     const real d = r->Ja - r->Je, p = r->power, low = d > 0 ? fmaxl(-1, -r->Je / (2 * d)) : -1;
-    const real turn = ((p - 1) * d - 2 * r->Je) / (d * (p + 1));
-    real part[3] = {low, turn > low && turn < 1 ? turn : 1, 1};
+    const real q0 = iso_latitude_q(r, r->y0), far = r->Mx - 2 * r->field * powl(q0, p / 2) / (p * d);
+    const real q = powl((p / 2 - 1) * far * r->field / (2 * r->eps * (p + 1)), 1 / (p / 2 + 1)),
+               turn = (q - r->Je) / d;
     int count = 0;
     place[count++] = low;
-    for (int i = 0; i < 2; i++)
-        if (part[i] < part[i + 1] && (P_rate(r, part[i]) > 0) != (P_rate(r, part[i + 1]) > 0))
-            place[count++] = bisect(r, P_rate, P_rate(r, part[i + 1]) > 0, part[i], part[i + 1]);
+    if (turn > low && turn < 1) place[count++] = turn;
     place[count++] = 1;
-    return count;
+    count = split(r, P_bend, count, place);
+    return split(r, P_rate, count, place);
 }
 
 /* 1 - y at a root y of P. Near the pole the difference has no digits; there it is M_x^2/m, because
  * P = (1 - y) m - M_x^2 = 0. */
 static real rest_of(const latitude *r, real y)
 {
-    const real m = iso_latitude_m(r, y), rest = r->Mx * r->Mx / m;
+    const real m = iso_latitude_m(r, y), Mx = iso_latitude_Mx(r, y), rest = Mx * Mx / m;
     return m > 0 && fabsl(rest - (1 - y)) < 1e-14L ? rest : 1 - y;
 }
 
@@ -118,7 +180,7 @@ static real rest_of(const latitude *r, real y)
 real iso_latitude_distance(const latitude *r, real root)
 {
     const real m = iso_latitude_m(r, r->y0), direct = fabsl(root - r->y0);
-    const real steep = fabsl(rest_of(r, root) * slope(r, root, r->y0) - m);
+    const real steep = fabsl(rest_of(r, root) * slope(r, root, r->y0) - m - square_slope(r, root, r->y0));
     return direct * m >= steep ? direct : r->dx0 * r->dx0 / steep;
 }
 
@@ -126,7 +188,7 @@ real iso_latitude_distance(const latitude *r, real root)
  * start, one of them is y0. */
 void iso_latitude_range(latitude *r)
 {
-    real place[5], from = r->y0;
+    real place[MOST_PARTS], from = r->y0;
     const int count = monotonic_parts(r, place);
     for (int i = 0; i < count; i++) {
         if (place[i] <= r->y0) continue;
@@ -135,7 +197,8 @@ void iso_latitude_range(latitude *r)
             from = place[i];
             continue;
         }
-        r->a = place[i] == 1 && r->Mx == 0 && P_at(r, from) > 0 ? 1 : root_of_P(r, false, from, place[i]);
+        r->a = place[i] == 1 && iso_latitude_Mx(r, 1) == 0 && P_at(r, from) > 0 ? 1
+                                                                                : root_of_P(r, false, from, place[i]);
         break;
     }
     if (r->y0 >= 1) r->a = 1;
@@ -147,7 +210,10 @@ void iso_latitude_range(latitude *r)
         from = place[i];
     }
     r->rest_a = rest_of(r, r->a);
-    const real P0 = P_at(r, 0), terms = r->dx0 * r->dx0 + r->y0 * fabsl(P_slope(r, 0, r->y0));
+    r->sense = iso_latitude_Mx(r, r->a) > 0 ? 1 : -1;
+    r->Mx_a = r->field == 0 ? fabsl(r->Mx) : sqrtl(r->rest_a * iso_latitude_m(r, r->a));
+    const real P0 = P_at(r, 0), field = fabsl(square_slope(r, 0, r->y0));
+    const real terms = r->dx0 * r->dx0 + r->y0 * (fabsl(P_slope(r, 0, r->y0)) + field);
     r->homoclinic = terms > 0 && r->has_b && fabsl(P0) <= 8 * LDBL_EPSILON * terms;
     if (r->homoclinic) r->b = -ISO_OFF_SEPARATRIX * r->a;
     r->side = r->has_b && r->b > 0;
@@ -159,22 +225,36 @@ void iso_latitude_range(latitude *r)
 /* --- along the way ---------------------------------------------------------------------------------------------- */
 
 /* Leibniz's rule gives Q = -P[y,a,b], P = (1 - y) m - M_x^2, in three ways, one for each of the factors 1 - y, 1 - a
- * and 1 - b. The smallest of the three is 1 - a, and with it the two terms cancel least:
+ * and 1 - b. The smallest of the three is 1 - a, and with it the two terms of m cancel least:
  *
- *     Q = m[y,b] - (1 - a) m[y,a,b],        without b:  Q = m(y) - (1 - a) m[y,a].
+ *     Q = m[y,b] - (1 - a) m[y,a,b] + M_x^2[y,a,b],        without b:  Q = m(y) - (1 - a) m[y,a] + M_x^2[y,a].
  *
  * (With 1 - y they cancel to 1e-8 of their size where q^(-1/k) is steep and the orbit passes the pole.) */
-real iso_latitude_rate(const latitude *r, real y, real dn, real *psi)
+static real rate_squared(const latitude *r, real y, real curved)
 {
     const real reach = !r->has_b ? 1 : r->side ? r->a : r->a - r->b;
-    const real curved = r->has_b ? bend(r, y, r->a, r->b) : 0;
-    const real Q =
-        r->has_b ? slope(r, y, r->b) - r->rest_a * curved : iso_latitude_m(r, y) - r->rest_a * slope(r, y, r->a);
-    const real rate = sqrtl(reach * Q);
-    if (!psi) return rate;
-    const real S = sqrtl(r->rest_a * r->rest_b);
-    const real more = r->side ? r->rest_b * (slope(r, r->a, r->b) + y * curved) : slope(r, y, r->a);
-    const real sum = fabsl(r->Mx) / rate + S * dn;
-    *psi = sum > 0 ? r->rest_a * more / (reach * Q) / sum : 0;
+    if (!r->has_b) return iso_latitude_m(r, y) - r->rest_a * slope(r, y, r->a) + square_slope(r, y, r->a);
+    return reach * (slope(r, y, r->b) - r->rest_a * curved + square_bend(r, y, r->a, r->b));
+}
+
+/* With D = M_x[y,a] and A = M_x(a) + (1 - a) D, M_x = A - (1 - y) D. So psi = -D/(dx/ds) + (A/(dx/ds) - S dn)/(1 - y),
+ * where the roots P(a) = P(b) = 0 give
+ *
+ *     A^2 - (S dn dx/ds)^2 = (1 - a) (1 - y) ((1 - b) (m[a,b] + y m[y,a,b]) + D^2 - b M_x^2[y,a,b]),   across the
+ *     equator                (1 - a) (1 - y) (m[y,a] + D^2) */
+static real psi_of(const latitude *r, real y, real dn, real rate, real curved)
+{
+    const real D = r->sense * iso_latitude_Mx_slope(r, y, r->a), A = r->Mx_a + r->rest_a * D;
+    const real S = sqrtl(r->rest_a * r->rest_b), sum = A / rate + S * dn;
+    if (A < 0) return -D / rate + (A / rate - S * dn) / (1 - y);
+    const real more = r->side ? r->rest_b * (slope(r, r->a, r->b) + y * curved) - r->b * square_bend(r, y, r->a, r->b)
+                              : slope(r, y, r->a);
+    return -D / rate + (sum > 0 ? r->rest_a * (more + D * D) / (rate * rate) / sum : 0);
+}
+
+real iso_latitude_rate(const latitude *r, real y, real dn, real *psi)
+{
+    const real curved = r->has_b ? bend(r, y, r->a, r->b) : 0, rate = sqrtl(rate_squared(r, y, curved));
+    if (psi) *psi = psi_of(r, y, dn, rate, curved);
     return rate;
 }

@@ -1,12 +1,13 @@
 /* revolution.c - the form of one angle: two equal moments of inertia, and motion in a principal plane, for every k.
  *
  * The component x of gamma along the axis swings as latitude_impl.h says, as an elliptic function of an angle xi; the
- * rest is a quadrature, as d phi/ds = M_x/(1 - x^2). What lies across the axis is an elementary factor, which turns
+ * rest is a quadrature, as d phi/ds = M_x/(1 - x^2), also with a rotor whose K is along the axis. What lies across the axis is an elementary factor, which turns
  * past the pole as fast as need be, times a smooth one:
  *
  *     gamma_1 + i gamma_2 = (sqrt(1 - a) cn + i sqrt(1 - b') sn) exp(i psi),    b' = max(b, 0)
  *
- * A principal plane is the same with M_x = 0: J_a and J_e are the moments of the two axes in it.
+ * A principal plane is the same with M_x = 0: J_a and J_e are the moments of the two axes in it. A rotor across it has
+ * no field in it.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -37,7 +38,7 @@ typedef struct revolution {
     double spin; /* ... and this is sqrt(J) omega = M/NN across the plane                 */
     iso_params params;
     latitude x;
-    real det, force; /* det J/k^2; mean of M^2 ds/dxi                                         */
+    real det, force; /* det J/k^2; mean of (M^2 + M_x M_x[y,1]) ds/dxi                        */
     elliptic f;
     real start; /* xi at time 0, plus half a period of sn where half is -1               */
     int half;
@@ -65,15 +66,6 @@ static real rates_at(const revolution *r, real xi, real rate[SERIES])
     rate[ISO_CLOCK_TAU] = r->det * powl(q, r->x.power) * ds;
     rate[ISO_CLOCK_T] = r->det * powl(q, r->x.power / 2 - 1) * ds;
     return y;
-}
-
-/* The largest size; NaN if one of the numbers is NaN */
-static double largest_of(const double a[], int from, int to)
-{
-    double most = 0;
-    for (int n = from; n <= to; n++)
-        if (!(fabs(a[n]) <= most)) most = fabs(a[n]);
-    return most;
 }
 
 /* The series of f from samples of f' in `a`. False: too few samples, or no memory. */
@@ -109,7 +101,8 @@ static bool make_series(revolution *r, int N, double *samples, double work[])
     r->force = 0;
     for (int j = 0; j <= N; j++) {
         const real weight = (j % N == 0 ? 0.5L : 1) / N, y = rates_at(r, ISO_PI_LONG * j / N, rate);
-        r->force += weight * rate[ISO_CLOCK_S] * iso_latitude_m(&r->x, y);
+        const real more = iso_latitude_Mx(&r->x, y) * iso_latitude_Mx_slope(&r->x, y, 1);
+        r->force += weight * rate[ISO_CLOCK_S] * (iso_latitude_m(&r->x, y) + more);
         for (int i = 0; i < SERIES; i++) {
             samples[i * (N + 1) + j] = (double)rate[i];
             r->of[i].mean += weight * rate[i];
@@ -151,9 +144,9 @@ static real growing_at(const revolution *r, int i, real along, real *slope)
 
 /* --- the state -------------------------------------------------------------------------------------------------- */
 
-/* x, the elementary factor h of gamma_1 + i gamma_2, and their rates in s */
+/* x, the elementary factor h of gamma_1 + i gamma_2, their rates in s, and M_x */
 typedef struct swinging {
-    double x, dx, h[2], dh[2];
+    double x, dx, h[2], dh[2], Mx;
 } swinging;
 
 /* At xi, or (half = -1) half a period of sn later. The rates only if they are asked for. They come from dx/ds itself
@@ -163,13 +156,15 @@ static swinging swing_at(const revolution *r, double xi, int half, bool rates)
     real sn_l, cn_l, dn_l;
     iso_elliptic_at(&r->f, xi, &sn_l, &cn_l, &dn_l);
     const double sn = half * (double)sn_l, cn = half * (double)cn_l, dn = (double)dn_l;
-    const double W = rates ? (double)iso_latitude_rate(&r->x, square_at(r, cn_l, dn_l), dn_l, NULL) : 0;
+    const real y = square_at(r, cn_l, dn_l);
+    const double W = rates ? (double)iso_latitude_rate(&r->x, y, dn_l, NULL) : 0;
     const double root_a = sqrt((double)r->x.a), up = r->x.x0 < 0 ? -1 : 1, wide = sqrt((double)r->x.rest_b);
     return (swinging){
         .x = r->x.side ? up * root_a * dn : root_a * cn,
         .dx = r->x.side ? -up * (double)r->x.a_b / root_a * sn * cn * W : -root_a * sn * dn * W,
         .h = {sqrt((double)r->x.rest_a) * cn, r->sense * wide * sn},
         .dh = {0, r->sense * wide * cn * dn * W}, /* at the pole, the only place that asks: there sn = 0 */
+        .Mx = (double)iso_latitude_Mx(&r->x, y),
     };
 }
 
@@ -188,7 +183,7 @@ static void put(const revolution *r, const swinging *at, double point[ISO_STATE]
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, l = (i + 2) % 3;
         const bool out = r->plane && r->axis[i] == r->across, in = r->plane && !out;
-        point[r->axis[i]] = i == 0 ? (double)r->x.Mx : in ? 0 : d[j] * g[l] - d[l] * g[j];
+        point[r->axis[i]] = i == 0 ? at->Mx : in ? 0 : d[j] * g[l] - d[l] * g[j];
         point[3 + r->axis[i]] = out ? 0 : g[i];
     }
 }
@@ -204,7 +199,7 @@ static void state_at(const revolution *r, real along, double point[ISO_STATE])
     swinging at = swing_at(r, xi, turns % 2 == 0 ? r->half : -r->half, !r->even);
     turn(by, at.h), turn(r->turned, at.h);
     turn(by, at.dh), turn(r->turned, at.dh);
-    const double rest = at.h[0] * at.h[0] + at.h[1] * at.h[1], u = -at.x * at.dx, w = -(double)r->x.Mx;
+    const double rest = at.h[0] * at.h[0] + at.h[1] * at.h[1], u = -at.x * at.dx, w = -at.Mx;
     if (rest > 0) {
         at.dh[0] = (u * at.h[0] - w * at.h[1]) / rest;
         at.dh[1] = (w * at.h[0] + u * at.h[1]) / rest;
@@ -217,29 +212,37 @@ static void state_at(const revolution *r, real along, double point[ISO_STATE])
 
 /* --- from a state ----------------------------------------------------------------------------------------------- */
 
-/* The axis across a principal plane in which the point is and stays; -1: none. */
-static int across_plane(const double point[ISO_STATE])
+/* Whether v is along the axis. */
+static bool is_along(const double v[3], int axis)
 {
+    return v[(axis + 1) % 3] == 0 && v[(axis + 2) % 3] == 0;
+}
+
+/* The axis across a principal plane in which the point is and stays; -1: none. */
+static int across_plane(const iso_problem *f, const double point[ISO_STATE])
+{
+    const double *K = iso_effects_rotor(&f->effects);
     for (int i = 0; i < 3; i++)
-        if (point[3 + i] == 0 && point[(i + 1) % 3] == 0 && point[(i + 2) % 3] == 0) return i;
+        if (point[3 + i] == 0 && is_along(point, i) && is_along(K, i)) return i;
     return -1;
 }
 
 /* The axis of revolution; -1: none. */
-static int symmetry_axis(const iso_params *p)
+static int symmetry_axis(const iso_problem *f)
 {
+    const double *K = iso_effects_rotor(&f->effects);
     for (int i = 0; i < 3; i++)
-        if (iso_params_symmetric(p, i)) return i;
+        if (iso_params_symmetric(&f->p, i) && is_along(K, i)) return i;
     return -1;
 }
 
 static bool serves(const iso_problem *f, const double point[ISO_STATE])
 {
-    return across_plane(point) >= 0 || symmetry_axis(&f->p) >= 0;
+    return across_plane(f, point) >= 0 || symmetry_axis(f) >= 0;
 }
 
-/* gamma, gamma' = gamma x M on |gamma| = 1, (M,gamma) = 0 and the level H = 0; gives M_x. */
-static real read_state(revolution *r, const double point[ISO_STATE], real g[3], real d[3])
+/* gamma, gamma' = gamma x M on |gamma| = 1, (M,gamma) = 0 and the level H = 0. */
+static void read_state(revolution *r, const double point[ISO_STATE], real g[3], real d[3])
 {
     real M[3], length = 0, along = 0, M2 = 0;
     for (int i = 0; i < 3; i++) g[i] = point[3 + r->axis[i]], M[i] = point[r->axis[i]], length += g[i] * g[i];
@@ -252,16 +255,15 @@ static real read_state(revolution *r, const double point[ISO_STATE], real g[3], 
     }
     r->x.M2 = M2;
     for (int i = 0; i < 3; i++) d[i] = g[(i + 1) % 3] * M[(i + 2) % 3] - g[(i + 2) % 3] * M[(i + 1) % 3];
-    r->x.x0 = g[0], r->x.dx0 = d[0];
-    return r->plane ? 0 : M[0];
+    r->x.x0 = g[0], r->x.dx0 = d[0], r->x.Mx = r->plane ? 0 : M[0];
 }
 
 static void read_body(revolution *r, const iso_problem *f, const double point[ISO_STATE])
 {
-    const int plane = across_plane(point), next = (plane + 1) % 3, last = (plane + 2) % 3;
+    const int plane = across_plane(f, point), next = (plane + 1) % 3, last = (plane + 2) % 3;
     const int nearer =
         fabs(point[3 + next]) < fabs(point[3 + last]) ? next : last; /* to the equator: y has digits there */
-    const int first = plane >= 0 ? nearer : symmetry_axis(&f->p);
+    const int first = plane >= 0 ? nearer : symmetry_axis(f);
     r->plane = plane >= 0;
     r->across = plane;
     for (int i = 0; i < 3; i++) r->axis[i] = (first + i) % 3;
@@ -270,6 +272,8 @@ static void read_body(revolution *r, const iso_problem *f, const double point[IS
     r->x.Je = plane < 0 ? (J[(first + 1) % 3] + J[(first + 2) % 3]) / 2 : J[first == next ? last : next];
     r->x.eps = f->eps, r->x.H = f->energy, r->x.power = -1 / (real)f->p.k;
     r->det = J[0] * J[1] * J[2] / ((real)f->p.k * f->p.k);
+    if (!r->plane)
+        r->x.field = r->det / sqrtl(J[0] * J[1] * J[2]) * sqrtl(r->x.Ja) * iso_effects_rotor(&f->effects)[first] / 2;
 }
 
 /* In a plane on H = 0 the moving ball's energy J omega^2/2 = h is all of it: omega is a constant, and M goes like
@@ -320,9 +324,9 @@ static iso_status make(const iso_problem *f, const double point[ISO_STATE], cons
     if (!r) return ISO_NO_MEMORY;
     read_body(r, f, point);
     read_spin(r, f, point);
-    r->x.Mx = read_state(r, point, g, d);
-    r->sense = r->x.Mx > 0 ? -1 : 1;
+    read_state(r, point, g, d);
     iso_latitude_range(&r->x);
+    r->sense = -(double)r->x.sense;
     const latitude *x = &r->x;
     iso_elliptic_set(&r->f, !x->has_b ? 1 : x->side ? x->b / x->a : x->b / (x->b - x->a));
     find_start(r);
@@ -384,8 +388,9 @@ static bool angles_of(const void *data, const double point[ISO_STATE], double an
     revolution other = *r;
     real g[3], d[3], unused;
     double own[ISO_STATE];
-    const real Mx = read_state(&other, point, g, d);
+    read_state(&other, point, g, d);
     find_start(&other);
+    const real Mx = iso_latitude_Mx(&r->x, other.x.y0);
     const real along = other.start - r->start + (other.half == r->half ? 0 : 2 * ISO_PI_LONG);
     const real s = growing_at(r, ISO_CLOCK_S, along, &unused) / r->of[ISO_CLOCK_S].mean;
     state_at(r, along, own);
@@ -393,7 +398,7 @@ static bool angles_of(const void *data, const double point[ISO_STATE], double an
     const double by = atan2((double)g[2], (double)g[1]) - atan2(y[r->axis[2]], y[r->axis[1]]);
     angle[0] = (double)(swing_of(r) * s);
     angle[1] = r->plane ? NAN : (double)(turning_of(r) * s) + r->sense * by;
-    return (Mx > 0) == (r->x.Mx > 0) && (!r->x.side || (other.x.x0 > 0) == (r->x.x0 > 0));
+    return fabsl(other.x.Mx - Mx) <= fabsl(other.x.Mx + Mx) && (!r->x.side || (other.x.x0 > 0) == (r->x.x0 > 0));
 }
 
 static void point_of(const void *data, const double angle[2], double point[ISO_STATE])
@@ -418,8 +423,8 @@ static void describe(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_
     const real swing = swing_of(r), turning = turning_of(r);
     to->kind = r->plane ? ISO_EXACT_PLANE : ISO_EXACT_SYMMETRIC;
     to->angles = r->plane ? 1 : 2;
-    to->action[0] = (double)((r->force - fabsl(r->x.Mx) * turning) / swing);
-    if (!r->plane) to->action[1] = (double)r->x.Mx, to->distance = (double)r->x.distance;
+    to->action[0] = (double)((r->force - r->x.sense * iso_latitude_Mx(&r->x, 1) * turning) / swing);
+    if (!r->plane) to->action[1] = (double)iso_latitude_Mx(&r->x, 0), to->distance = (double)r->x.distance;
     for (int c = 0; c < ISO_CLOCKS; c++) {
         if (!clocks[c]) continue;
         to->frequency[c][0] = (double)(swing / r->of[c].mean);

@@ -11,6 +11,15 @@
  * x[j stride]. `work` has room for 2 N numbers. */
 void iso_cosine_series(double x[], int N, int stride, double work[]);
 
+/* The largest size of a[from] ... a[to]; NaN if one of them is NaN */
+static inline double largest_of(const double a[], int from, int to)
+{
+    double most = 0;
+    for (int n = from; n <= to; n++)
+        if (!(fabs(a[n]) <= most)) most = fabs(a[n]);
+    return most;
+}
+
 enum { ABREAST = 4 }; /* so many steps of a recurrence are taken side by side: they do not wait for each other */
 
 /* cos (first + n step) and sin (first + n step) for n < last, and up to ABREAST more. */

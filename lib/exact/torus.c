@@ -17,9 +17,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/vec3_impl.h"
 #include "exact/form_impl.h"
 #include "exact/separation_impl.h"
 #include "exact/series_impl.h"
+#include "model/model_impl.h"
 
 /* A clock (3): mean = d_00, at_sine[m][n] = P + Q, at_cosine[m][n] = P - Q. The tables have a row for each m. ABREAST
  * rows make a block; the rows of a block have the same length. */
@@ -337,7 +339,7 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
 static bool serves(const iso_problem *f, const double point[ISO_STATE])
 {
     (void)point;
-    return f->p.k == -1 || (f->p.k == 1 && f->energy == 0);
+    return norm(iso_effects_rotor(&f->effects)) == 0 && (f->p.k == -1 || (f->p.k == 1 && f->energy == 0));
 }
 
 static void release(void *data)

@@ -49,6 +49,10 @@ iso_status iso_draft_text(iso_draft *d, iso_effect_id id, int i, const yaml_node
 /* Whether its expressions are some, and their constants finite, when the whole scene is known. effects: the section. */
 iso_status iso_draft_check_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *effects);
 
+/* Whether expressions that act have no corner: asked once, where a text is read, as it takes time. Needs the scene that
+ * iso_draft_make makes. */
+iso_status iso_draft_check_corners(iso_draft *d);
+
 /* Reads every key under d->root into the draft: types, ranges, unknown, duplicate and missing keys.
  * What must hold between sections is left to the caller. Errors: ISO_BAD_INPUT. */
 iso_status iso_draft_read_keys(iso_draft *d);

@@ -6,6 +6,7 @@
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"
 #include "model/written_impl.h"
+#include "orbit/orbit_impl.h"
 
 static iso_status read_expression(iso_draft *d, iso_effect_id id, int which, const yaml_node_t *value)
 {
@@ -100,17 +101,45 @@ static const yaml_node_t *find_expression(iso_draft *d, const iso_effect *effect
     return effect->expressions_key ? iso_yaml_node(&d->yaml, node->data.sequence.items.start[which]) : node;
 }
 
-iso_status iso_draft_check_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *effects)
+typedef bool is_wrong(const iso_draft *d, iso_effect_id id, iso_expression *e);
+
+static bool undecided(const iso_draft *d, iso_effect_id id, iso_expression *e)
+{
+    const iso_effects *all = &d->scene.effects;
+    return !iso_written_decided(e, all, d->scene.params.k, d->scene.params.J, all->number[id]);
+}
+
+static bool has_corner(const iso_draft *d, iso_effect_id id, iso_expression *e)
+{
+    double n[3];
+    iso_start_normal(&d->scene.params, &d->scene.start, n);
+    return !undecided(d, id, e) && iso_written_has_corner(&d->scene.params, &d->scene.effects, id, n, e);
+}
+
+/* Refuses the first expression of an effect that is none, or is wrong. */
+static iso_status check_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *effects, is_wrong *wrong)
 {
     const iso_effect *effect = iso_effect_list[id];
     const iso_effects *all = &d->scene.effects;
-    const iso_params *p = &d->scene.params;
     const yaml_node_t *section;
     iso_expression e;
     if (!iso_yaml_find(&d->yaml, effects, effect->name, NULL, &section)) return ISO_OK;
     for (int i = 0; effect->expressions[i]; i++)
-        if (iso_written_has(all, id, i) &&
-            (!iso_written_read(all, id, i, &e) || !iso_written_decided(&e, all, p->k, p->J, all->number[id])))
+        if (iso_written_has(all, id, i) && (!iso_written_read(all, id, i, &e) || wrong(d, id, &e)))
             return fail_in_text(d, find_expression(d, effect, section, i), effect->expressions[i], &e);
+    return ISO_OK;
+}
+
+iso_status iso_draft_check_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *effects)
+{
+    return check_expressions(d, id, effects, undecided);
+}
+
+iso_status iso_draft_check_corners(iso_draft *d)
+{
+    const yaml_node_t *effects;
+    if (!iso_yaml_find(&d->yaml, d->root, "effects", NULL, &effects)) return ISO_OK;
+    for (iso_effect_id id = 0; id < ISO_EFFECTS; id++)
+        if (iso_written_drives(&d->scene.effects, id)) ISO_TRY(check_expressions(d, id, effects, has_corner));
     return ISO_OK;
 }

@@ -97,6 +97,7 @@ const char *iso_effect_why_broken(const iso_effect *effect)
 
 FIRST(const iso_effect *, iso_effects_breaking, next_acting, iso_effect_why_broken(effect))
 FIRST(const iso_effect *, iso_effects_beyond_level, next_acting, !effect->is_level)
+FIRST(const iso_effect *, iso_effects_beyond_rotor, next_acting, !effect->is_level && !effect->is_rotor)
 FIRST(const iso_effect *, iso_effects_ball_only, next_on, effect->ball_only)
 FIRST(bool, iso_effects_twist, next_on, effect->twists)
 FIRST(bool, iso_effects_clocks, next_on, effect->clocks)
@@ -106,6 +107,24 @@ FIRST(bool, iso_effects_have_image, next_acting, effect->image)
 FIRST(bool, iso_effects_pull, next_acting, effect->potential)
 FIRST(const iso_effect *, iso_effects_off_chart, next_acting,
       !effect->is_level && (effect->potential || !effect->image))
+
+static iso_effect_id rotor_id(const iso_effects *effects)
+{
+    int e = 0;
+    while (e < ISO_EFFECTS && !(iso_effect_list[e]->is_rotor && effects->on[e])) e++;
+    return (iso_effect_id)e;
+}
+
+const double *iso_effects_rotor(const iso_effects *effects)
+{
+    static const double none[3] = {0};
+    return rotor_id(effects) < ISO_EFFECTS ? effects->number[rotor_id(effects)] : none;
+}
+
+void iso_effects_set_rotor(iso_effects *effects, const double K[3])
+{
+    for (int i = 0; rotor_id(effects) < ISO_EFFECTS && i < 3; i++) effects->number[rotor_id(effects)][i] = K[i];
+}
 
 bool iso_effects_are_free(const iso_effects *effects)
 {

@@ -108,6 +108,7 @@ typedef struct iso_effect {
     bool twists;        /* the contact is not rigid: (omega,n) is free                                        */
     bool clocks;        /* it asks for the clocks as columns, and for nothing else                            */
     bool is_level;      /* its potential is the energy level of the point: no force on the point              */
+    bool is_rotor;      /* all that it does is the torque K x omega, K its first three numbers                */
     iso_work (*work)(const iso_problem *f); /* NULL: unknown; for an observer: none            */
     /* What a run says that ends because it turns the ball ever faster; NULL: it does not do that. */
     const char *drives;

@@ -87,7 +87,6 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
     iso_expression e;
     iso_formula F, M;
     ISO_TRY(iso_written_check(ctx, p, effects, ISO_POTENTIAL, 0, &e));
-    ISO_TRY(iso_written_smooth(ctx, p, effects, ISO_POTENTIAL, 0, n, &e));
     if (e.node[e.root].degree == ISO_CONSTANT)
         return ISO_FAIL_INPUT(ctx, "U", "U does not depend on n, and changes nothing: take the effect out");
     iso_formula_begin(&F, ISO_FORMULA_ENERGY, false);

@@ -161,6 +161,7 @@ const iso_effect iso_effect_rotor = {
     .name = "rotor",
     .point_name = "magnetic",
     .doc = "a rotor of constant momentum K in the ball: torque K x omega; on the point a magnetic field",
+    .is_rotor = true,
     .work = iso_no_work,
     .numbers = numbers,
     .motion = motion,

@@ -130,7 +130,6 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
     int zeros = 0;
     for (int i = 0; i < COMPONENTS; i++) {
         ISO_TRY(iso_written_check(ctx, p, effects, ISO_TORQUE, i, &e));
-        ISO_TRY(iso_written_smooth(ctx, p, effects, ISO_TORQUE, i, n, &e));
         zeros += iso_expression_is_zero(&e);
     }
     if (zeros == COMPONENTS) return ISO_FAIL_INPUT(ctx, "M", "a torque of 0 changes nothing: take the effect out");

@@ -70,6 +70,14 @@ iso_dimension iso_level_dimension(void);
 iso_status iso_effects_check(iso_context *ctx, const iso_params *params, const double normal[3],
                              iso_effects *effects);
 
+/* Looks for corners in the expressions of U and M, once for all orbits in them: corners are not among what
+ * iso_effects_check asks for. Errors: ISO_BAD_INPUT about the name of the expression. */
+iso_status iso_effects_check_corners(iso_context *ctx, const iso_params *params, const double normal[3],
+                                     const iso_effects *effects);
+
+/* Whether an effect that is on acts by expressions of the scene; those of an observer may have corners. */
+bool iso_written_drives(const iso_effects *effects, iso_effect_id id);
+
 /* Finds the effects that have no torque from a start with this normal on, up to rounding, and notes them in `idle`:
  * the weight on a horizontal plane only presses the ball down. Orbits settle their effects themselves. */
 void iso_effects_settle(const iso_params *params, const double normal[3], iso_effects *effects);
@@ -88,6 +96,13 @@ const iso_effect *iso_effects_ball_only(const iso_effects *effects);
 
 /* The first effect that acts, other than `level`; NULL: none. */
 const iso_effect *iso_effects_beyond_level(const iso_effects *effects);
+
+/* The first effect that acts, other than `level` and a rotor; NULL: none. And K of the rotor, 3 numbers; zeros: none. */
+const iso_effect *iso_effects_beyond_rotor(const iso_effects *effects);
+const double *iso_effects_rotor(const iso_effects *effects);
+
+/* Sets K of the rotor that acts. */
+void iso_effects_set_rotor(iso_effects *effects, const double K[3]);
 
 /* The first effect that takes the chart of sections away: on the point it is more than a magnetic field, so that H and
  * gamma do not tell |M| any more, or it has no image. NULL: none. */

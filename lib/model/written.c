@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 
 /* --- values ----------------------------------------------------------------------------------------------------- */
@@ -305,6 +306,11 @@ bool iso_written_has(const iso_effects *effects, iso_effect_id id, int which)
     return which == 0 || effect->expressions_key || effects->written[effect->written].expression[which][0];
 }
 
+bool iso_written_drives(const iso_effects *effects, iso_effect_id id)
+{
+    return effects->on[id] && iso_effect_list[id]->expressions && !iso_effect_list[id]->observes;
+}
+
 iso_expression_state iso_written_state(const iso_problem *f, iso_effect_id id, const double y[])
 {
     const double *number = f->effects.number[id];
@@ -348,24 +354,47 @@ static iso_status refuse(iso_context *ctx, iso_effect_id id, int which, const is
     return ISO_FAIL_INPUT(ctx, key, "%s, column %d of the text: %s", name, e->at + 1, e->wrong);
 }
 
+static bool has_units(const iso_effects *effects, iso_effect_id id)
+{
+    return effects->number[id][ISO_WRITTEN_J] != 0 && effects->number[id][ISO_WRITTEN_W] != 0;
+}
+
+static bool decide(const iso_params *p, const iso_effects *effects, iso_effect_id id, iso_expression *e)
+{
+    const double *number = effects->number[id], U = number[ISO_WRITTEN_J];
+    const double J[3] = {U * p->J[0], U * p->J[1], U * p->J[2]};
+    return has_units(effects, id) && iso_written_decided(e, effects, p->k, J, number);
+}
+
 iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id id,
                              int which, iso_expression *e)
 {
     const char *name = iso_effect_list[id]->expressions[which];
     if (!iso_written_read(effects, id, which, e)) return refuse(ctx, id, which, e);
-    const double *number = effects->number[id], U = number[ISO_WRITTEN_J];
-    const double J[3] = {U * p->J[0], U * p->J[1], U * p->J[2]};
-    if (U == 0 || number[ISO_WRITTEN_W] == 0)
+    if (!has_units(effects, id))
         return ISO_FAIL_INPUT(ctx, name, "%s: begin the effects with iso_effects_default(): they have no units",
                               name);
-    return iso_written_decided(e, effects, p->k, J, number) ? ISO_OK : refuse(ctx, id, which, e);
+    return decide(p, effects, id, e) ? ISO_OK : refuse(ctx, id, which, e);
 }
 
-iso_status iso_written_smooth(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id id,
-                              int which, const double n[3], iso_expression *e)
+bool iso_written_has_corner(const iso_params *p, const iso_effects *effects, iso_effect_id id, const double n[3],
+                            iso_expression *e)
 {
     const iso_problem f = {.p = *p, .effects = *effects};
     const double speed = 1 / effects->number[id][ISO_WRITTEN_W], y[ISO_STATE] = {speed, 0, 0, n[0], n[1], n[2]};
     const iso_expression_state s = iso_written_state(&f, id, y);
-    return iso_expression_corner(e, &s) ? refuse(ctx, id, which, e) : ISO_OK;
+    return iso_expression_corner(e, &s);
+}
+
+iso_status iso_effects_check_corners(iso_context *ctx, const iso_params *p, const double n[3],
+                                     const iso_effects *effects)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_expression e;
+    for (iso_effect_id id = 0; id < ISO_EFFECTS; id++)
+        for (int i = 0; iso_written_drives(effects, id) && iso_effect_list[id]->expressions[i]; i++)
+            if (iso_written_read(effects, id, i, &e) && decide(p, effects, id, &e) &&
+                iso_written_has_corner(p, effects, id, n, &e))
+                return refuse(ctx, id, i, &e);
+    return ISO_OK;
 }

@@ -35,11 +35,12 @@ bool iso_written_read(const iso_effects *effects, iso_effect_id id, int which, i
 bool iso_written_decided(iso_expression *e, const iso_effects *effects, double k, const double J[3],
                          const double parameter[]);
 
-/* Whether a checked expression has no corner. n: the normal at the start. Errors: ISO_BAD_INPUT about its name. */
-iso_status iso_written_smooth(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id id,
-                              int which, const double n[3], iso_expression *e);
+/* Whether a decided expression has a corner, which is looked for in 0.1 ms; then see e->wrong. n: the normal at the
+ * start. */
+bool iso_written_has_corner(const iso_params *p, const iso_effects *effects, iso_effect_id id, const double n[3],
+                            iso_expression *e);
 
-/* Reads it and asks both. Errors: ISO_BAD_INPUT about the name of the expression. */
+/* Reads it and asks the first two. Errors: ISO_BAD_INPUT about the name of the expression. */
 iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id id,
                              int which, iso_expression *e);
 

@@ -112,7 +112,7 @@ static iso_status solve_alone(iso_pool_worker *w, const batch *b, const member *
 {
     const iso_orbit_options options = options_of(b, m, b->options.backend);
     iso_orbit *orbit;
-    iso_status status = iso_orbit_create(w->ctx, m->given.params, m->given.start, &options, &orbit);
+    iso_status status = iso_orbit_create_among(w->ctx, m->given.params, m->given.start, &options, &orbit);
     for (size_t j = 0; j < b->rows && status == ISO_OK; j++) {
         status = iso_orbit_at(orbit, b->times[j], &m->sample[j]);
         if (status != ISO_OK) iso_sample_blank(&m->sample[j]);
@@ -221,6 +221,14 @@ static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_
     return ISO_OK;
 }
 
+iso_status iso_batch_check_corners(iso_context *ctx, const iso_batch_orbit orbits[], size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (i == 0 || orbits[i].effects != orbits[i - 1].effects)
+            ISO_TRY(iso_start_check_corners(ctx, orbits[i].params, orbits[i].start, orbits[i].effects));
+    return ISO_OK;
+}
+
 /* An orbit that no thread has taken has no rows, and the status of the call. */
 static void leave(const batch *b, size_t i, iso_status answer)
 {
@@ -240,6 +248,7 @@ static iso_status run(iso_context *ctx, batch *b, const iso_batch_options *optio
     if (answer != ISO_OK) return answer;
     b->code = iso_lane_code_find(b->options.vectors, false);
     answer = check(ctx, &b->options, b->code, b->times, b->rows);
+    if (answer == ISO_OK && b->orbits) answer = iso_batch_check_corners(ctx, b->orbits, b->count);
     if (answer != ISO_OK) return answer;
     const size_t fits = ROOM / ((b->rows + 1) * sizeof(iso_sample));
     const size_t chunk = !b->table || fits > CHUNK ? CHUNK : fits < LEAST ? LEAST : fits;

@@ -54,7 +54,8 @@ static inline iso_batch_options iso_batch_defaults(void)
  * growing, or all <= 0 and falling. status[i] (may be NULL) says how orbit i went; the rows that it has not reached
  * are NaN in every column. Gives ISO_OK, or the status of the first orbit that failed, with its number and reason in
  * the message (numbers from 0); the others go on. Errors of one orbit: those of iso_orbit_create and iso_orbit_at.
- * Errors of all: ISO_BAD_ARGUMENT (backend, tolerance, times, threads, vectors), ISO_NO_MEMORY, ISO_STOPPED by the
+ * Errors of all: ISO_BAD_ARGUMENT (backend, tolerance, times, threads, vectors), ISO_BAD_INPUT (a corner in a written
+ * effect), ISO_NO_MEMORY, ISO_STOPPED by the
  * context's monitor (asked by the calling thread alone): status and rows of what is done by then are valid. */
 ISO_API iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
                                  const iso_batch_options *options, const double times[], size_t rows,

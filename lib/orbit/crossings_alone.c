@@ -23,7 +23,7 @@ static iso_status create(const iso_crossings *c, size_t i, iso_orbit **orbit)
     iso_status status;
     do {
         const iso_orbit_options how = iso_crossings_orbit_options(c, i, way);
-        status = iso_orbit_create(c->orbit[i].ctx, of->params, of->start, &how, orbit);
+        status = iso_orbit_create_among(c->orbit[i].ctx, of->params, of->start, &how, orbit);
     } while (iso_way_next(&way, status));
     return status;
 }

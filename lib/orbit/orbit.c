@@ -79,8 +79,8 @@ static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *sta
     return iso_integrator_start(o->integrator, y);
 }
 
-iso_status iso_orbit_create(iso_context *ctx, const iso_params *p, const iso_start *start,
-                            const iso_orbit_options *options, iso_orbit **orbit)
+iso_status iso_orbit_create_among(iso_context *ctx, const iso_params *p, const iso_start *start,
+                                  const iso_orbit_options *options, iso_orbit **orbit)
 {
     ISO_DEFAULT_ARITHMETIC;
     *orbit = NULL;
@@ -93,6 +93,24 @@ iso_status iso_orbit_create(iso_context *ctx, const iso_params *p, const iso_sta
     if (status != ISO_OK) return iso_orbit_free(o), status;
     *orbit = o;
     return ISO_OK;
+}
+
+iso_status iso_start_check_corners(iso_context *ctx, const iso_params *p, const iso_start *start,
+                                   const iso_effects *effects)
+{
+    double n[3];
+    if (!effects) return ISO_OK;
+    iso_start_normal(p, start, n);
+    return iso_effects_check_corners(ctx, p, n, effects);
+}
+
+iso_status iso_orbit_create(iso_context *ctx, const iso_params *p, const iso_start *start,
+                            const iso_orbit_options *options, iso_orbit **orbit)
+{
+    iso_status status = iso_orbit_create_among(ctx, p, start, options, orbit);
+    if (status == ISO_OK) status = iso_start_check_corners(ctx, p, start, (*orbit)->options.effects);
+    if (status != ISO_OK) iso_orbit_free(*orbit), *orbit = NULL;
+    return status;
 }
 
 void iso_orbit_free(iso_orbit *o)

@@ -155,14 +155,15 @@ static iso_status start_point(iso_orbit *o, const iso_params *p, const iso_start
 
 /* --- what effects allow ----------------------------------------------------------------------------------------- */
 
-/* The closed solution knows what `level` does to the point, and nothing else that acts. */
+/* The closed solution knows what `level` and a rotor do to the point, and nothing else that acts. */
 static iso_status check_closed(iso_context *ctx, const iso_effects *effects)
 {
-    const iso_effect *effect = iso_effects_beyond_level(effects);
+    const iso_effect *effect = iso_effects_beyond_rotor(effects);
     if (!effect) return ISO_OK;
     return ISO_FAIL_ARGUMENT(
         ctx, effect->name,
-        "the closed solution is for a ball on which nothing acts but '%s', not for one with '%s': take backend %s",
+        "the closed solution is for a ball on which nothing acts but '%s' and a rotor, not for one with '%s': take "
+        "backend %s",
         iso_level_name(), effect->name, iso_effect_why_broken(effect) ? "ball" : "point");
 }
 

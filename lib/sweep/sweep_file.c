@@ -53,6 +53,7 @@ static iso_status read_scene(iso_context *ctx, iso_sweep_file *f, const yaml_nod
     if (status != ISO_OK) return status;
     iso_draft whole = f->draft; /* the draft itself keeps its numbers as they were read */
     status = iso_draft_make(&whole);
+    if (status == ISO_OK) status = iso_draft_check_corners(&whole);
     f->base = whole.scene;
     return status;
 }

@@ -158,10 +158,20 @@ refuses 3 "a torque of 0 changes nothing" run nothing.yaml
 # --- corners that are hidden in a root
 for U in "sqrt(n1^2)" "(n1^4)^0.25" "n2*sqrt((n1 - n2)^2)" "sqrt(1 - n2^2 - n3^2)" "n1*(n1^2)^(-0.5)"; do
     scene "potential: {U: \"$U\"}" >corner.yaml
-    refuses 3 "of the text: this has a corner, for example at n = (" run corner.yaml
+    refuses 3 ": U: this has a corner, for example at n = (" run corner.yaml
 done
+{
+    printf 'scene:\n'
+    sed 's/^/  /' corner.yaml
+    printf 'vary: {k: [0.5, 0.6]}\nmeasure: {state: {}}\n'
+} >sweep.yaml
+refuses 3 "sweep.yaml:6:30: U: this has a corner" sweep sweep.yaml
+scene 'potential: {U: "sqrt(n1^2 + 0.01)"}' >smooth.yaml
+run 0 run smooth.yaml --t-end 1 -o smooth.csv
+sed 's/ + 0.01)/)/' smooth.csv >corner.csv
+refuses 3 "column 1 of the text: this has a corner" check corner.csv
 scene 'torque: {M: ["0", "0", "sqrt(omega1^2)"]}' >corner.yaml
-refuses 3 "corner.yaml:5:15: M3, column 1 of the text: this has a corner" run corner.yaml
+refuses 3 "corner.yaml:5:27: M3: this has a corner" run corner.yaml
 for U in "sqrt(n1^4)" "sqrt(n1^2 + n2^2)" "sqrt(n1^2 + 1e-6)" "(n1^2 + 1)^1.5" "sqrt(1 + n1)" "sqrt(1.5 - n1*n2)"; do
     scene "potential: {U: \"$U\"}" >smooth.yaml
     run 0 run smooth.yaml --t-end 1 -o smooth.csv

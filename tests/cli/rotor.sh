@@ -52,7 +52,17 @@ done
 rotor 1 "0.3, 0.4, 0.5" >plane.yaml
 run 0 explain plane.yaml
 check "an integral on a plane" sh -c "sed '/^integrals that do not/q' out | grep -c F_rotor | grep -qx 2"
-refuses 3 "4:18: the closed solution is for" run scene.yaml --backend exact
+refuses 3 "4:18: with 'rotor' there is a closed solution only where" run scene.yaml --backend exact
+
+# --- three equal moments: the closed solution, for every k
+for k in -1 1 0.3; do
+    rotor $k "0.3, 0.4, 0.5" | sed 's/1, 2, 5/2, 2, 2/' >round.yaml
+    run 0 run round.yaml --as both -o round.csv
+    run 0 run round.yaml --as both --backend exact -o exact.csv
+    at_most "k = $k, the closed solution" "$(difference round.csv exact.csv)" 1e-12
+done
+run 0 explain round.yaml
+check "explain knows it" grep -q "any time at the same cost" out
 for method in strang kahan_li8; do
     refuses 2 "'rotor' is a magnetic field; take taylor" run scene.yaml --method $method
 done

@@ -239,7 +239,9 @@ static void check_refusals(void)
     refused(&other, "eps", "eps NaN");
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
         other = o, other.model.problem.effects.on[e] = true;
-        if (e != ISO_CLOCK && e != ISO_LEVEL && e != ISO_INTEGRALS) refused(&other, iso_effect_list[e]->name, "an effect");
+        /* the rotor here has K = 0 */
+        if (e != ISO_CLOCK && e != ISO_LEVEL && e != ISO_INTEGRALS && e != ISO_ROTOR)
+            refused(&other, iso_effect_list[e]->name, "an effect");
     }
 }
 

@@ -59,7 +59,8 @@ static void try_as(iso_context *ctx, const iso_params *p, const char *effect, co
     }
     const bool read = iso_written_read(&e, torque ? ISO_TORQUE : ISO_POTENTIAL, 0, &x);
     FUZZ_REQUIRE(read == (x.wrong[0] == '\0') && x.at >= 0 && x.at <= (int)strlen(text), "%d: %s\n", x.at, x.wrong);
-    const iso_status status = iso_effects_check(ctx, p, n, &e);
+    iso_status status = iso_effects_check(ctx, p, n, &e);
+    if (status == ISO_OK) status = iso_effects_check_corners(ctx, p, n, &e);
     FUZZ_REQUIRE(read || status == ISO_BAD_INPUT, "status %d\n", (int)status);
     if (status != ISO_OK) fuzz_failed(ctx, status);
     if (read) compute(ctx, p, &e);

@@ -99,7 +99,8 @@ static void is_wrong(iso_effect_id id, const char *text, int column, const char 
     iso_effects e = with(id, 0, text);
     char place[32];
     snprintf(place, sizeof place, "column %d of the text: ", column);
-    const iso_status status = iso_effects_check(ctx, &p, n, &e);
+    iso_status status = iso_effects_check(ctx, &p, n, &e);
+    if (status == ISO_OK) status = iso_effects_check_corners(ctx, &p, n, &e);
     const char *message = iso_context_message(ctx);
     gsl_test(status != ISO_BAD_INPUT || !strstr(message, place) || !strstr(message, words), "'%.40s': %s", text,
              status == ISO_OK ? "accepted" : message);

@@ -13,6 +13,7 @@
 #include "method/methods_impl.h"
 #include "model/model_impl.h"
 #include "numbers.h"
+#include "orbit/crossings.h"
 #include "orbit/orbit_impl.h"
 
 static iso_context *ctx;
@@ -267,6 +268,37 @@ static void references(void)
     if (file) fclose(file);
 }
 
+/* A corner is looked for when one orbit is made, and once for many with the same effects: then all are refused. */
+static void corners(void)
+{
+    enum { MANY = 3 };
+    pair c = ball("corner", false, 0.6), smooth = c;
+    write(&c.written, "potential", "U", "n2 + sqrt(n1^2)");
+    write(&smooth.written, "potential", "U", "n2 + sqrt(n1^2 + 0.01)");
+    for (int wrong = 0; wrong < MANY;
+         wrong++) { /* the one with the corner; effects of a batch need not be the same */
+        iso_batch_orbit orbits[MANY];
+        iso_orbit_options o = iso_orbit_defaults(&c.start);
+        iso_crossings_options how = iso_crossings_defaults();
+        iso_sample samples[MANY];
+        iso_status status[MANY];
+        iso_orbit *orbit;
+        iso_crossings *crossings;
+        const double t = 0.5;
+        for (int i = 0; i < MANY; i++)
+            orbits[i] = (iso_batch_orbit){&c.p, &c.start, i == wrong ? &c.written : &smooth.written};
+        o.effects = &c.written;
+        gsl_test(iso_orbit_create(ctx, &c.p, &c.start, &o, &orbit) != ISO_BAD_INPUT || orbit, "one orbit, a corner");
+        gsl_test(iso_batch_run(ctx, orbits, MANY, NULL, &t, 1, samples, status) != ISO_BAD_INPUT ||
+                     !strstr(iso_context_message(ctx), "this has a corner"),
+                 "a batch, a corner in orbit %d", wrong);
+        gsl_test(iso_crossings_create(ctx, orbits, MANY, &how, &crossings) != ISO_BAD_INPUT, "crossings, a corner");
+        orbits[wrong].effects = &smooth.written;
+        gsl_test(iso_batch_run(ctx, orbits, MANY, NULL, &t, 1, samples, status) != ISO_OK, "a batch without one: %s",
+                 iso_context_message(ctx));
+    }
+}
+
 int main(void)
 {
     ctx = iso_context_create();
@@ -280,6 +312,7 @@ int main(void)
         }
     }
     works();
+    corners();
     iso_context_free(ctx);
     exit(gsl_test_summary());
 }

@@ -62,7 +62,7 @@ class Written(Case):
             self.assertGreater(worst[f"{model} F2"], 1e-3)
 
     def test_what_is_wrong_is_told(self):
-        for U, words in (("n1 +", "not the end"), ("sqrt(n1^2)", "column 1 of the text: this has a corner")):
+        for U, words in (("n1 +", "not the end"), ("sqrt(n1^2)", "U: this has a corner")):
             with self.assertRaisesRegex(isoroll.BadInput, words):
                 isoroll.run(isoroll.Scene(**START, end=1, potential={"U": U}))
 

@@ -39,10 +39,10 @@ iso_status iso_checker_open(const checker *c, const checked_model *m, const doub
     iso_effects effects = iso_checker_effects(c, m->kind);
     ISO_TRY(iso_record_start_at(c->ctx, c->record, c->params, m->kind, row, &start, &effects));
     iso_orbit_options o = options_of(c, m, &start, &effects);
-    iso_status status = iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
+    iso_status status = iso_orbit_create_among(c->ctx, c->params, &start, &o, orbit);
     if (status != ISO_NOT_MAPPED) return status;
     for (int k = 0; k < ISO_CLOCKS; k++) o.with_clock[k] = false;
-    return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
+    return iso_orbit_create_among(c->ctx, c->params, &start, &o, orbit);
 }
 
 /* Integrates a row by so much of its clock. */

@@ -154,7 +154,12 @@ static iso_status find_exact(iso_context *ctx, const iso_scene *scene, iso_frequ
     double point[ISO_STATE];
     iso_frequencies_blank(f);
     iso_status status = iso_frequencies_open(ctx, scene, &effects, &orbit, &start);
-    if (status == ISO_OK && !iso_effects_breaking(&effects)) {
+    if (status == ISO_OK && iso_effects_beyond_level(&effects) && !iso_effects_breaking(&effects)) {
+        f->estimated = true;
+        snprintf(f->why, sizeof f->why,
+                 "the frequencies of the closed solution are for a free motion, not one with '%s'",
+                 iso_effects_beyond_level(&effects)->name);
+    } else if (status == ISO_OK && !iso_effects_breaking(&effects)) {
         status = solve(ctx, orbit, &start, point, &exact);
         if (status != ISO_OK) {
             f->unresolved = status == ISO_NUMERICAL;
