@@ -75,7 +75,7 @@ def words(browser):
         formula = text(page, "right-words")
         check(f"{name}: the formula of V", "V = −ε (γ, Jγ)" in formula, formula)
         power = page.evaluate("(document.querySelector('#right-words sup') || {textContent: '1'}).textContent")
-        power = float(power.replace("−", "-"))
+        power = float(power.strip("\u2060").replace("−", "-"))
         check(f"{name}: its exponent is -1/k", abs(power + 1 / k) < 1e-3, power)
         V = page.evaluate("physics.V([0.6, 0, 0.8])")
         own = -page.evaluate("page.eps") * (0.36 * J[0] + 0.64 * J[2]) ** power

@@ -330,8 +330,10 @@ static void check_effects_refused(const iso_params *p, const iso_start *start)
                    {ISO_ATTITUDE, "backend ball"}, {ISO_REACTIONS, "backend ball"},
                    {ISO_ROTOR, "backend point"}};
     for (size_t i = 0; i < sizeof effects / sizeof *effects; i++) {
-        iso_effects e = {
-            .number = {[ISO_GRAVITY] = {0.7, 0, 0.6, 0.8}, [ISO_TWIST] = {10}, [ISO_ROLLING_RESISTANCE] = {0.01}}};
+        iso_effects e = {.number = {[ISO_GRAVITY] = {0.7, 0, 0.6, 0.8},
+                                    [ISO_TWIST] = {10},
+                                    [ISO_ROLLING_RESISTANCE] = {0.01},
+                                    [ISO_ROTOR] = {0.1, 0.2, 0.3}}};
         iso_orbit_options o = all_of(start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
         QUATERNION(&e)[0] = 1;
         e.on[effects[i].effect] = true;

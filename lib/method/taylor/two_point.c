@@ -89,6 +89,7 @@ static void compute_coefficients(iso_two_point *b, sample *s, int p)
             s->slope[j][3 + i] = AT(S->n[j + 1], i) * (j + 1);
         }
     for (int i = 0; i < 3; i++) s->value[i] = AT(fast[0], i), s->value[3 + i] = AT(S->n[0], i);
+    for (int j = 0; j <= p; j++) set_slope(S, 0, j); /* which motions without powers of q leave out */
     for (int c = 0; c < T->clocks; c++) {
         const iso_clock clock = T->clock_of[c];
         for (int j = 0; j <= p; j++) s->rate[clock][j] = power_of_base(S, T->power[clock], s->rate[clock], 0, j);

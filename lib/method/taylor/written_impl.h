@@ -8,6 +8,8 @@
 
 #ifdef WRITTEN
 
+_Static_assert(MOST == 28, "one function for each even n below the highest order");
+
 /* clang-format off */
 #define FOR_EVEN(X, term) \
     X(term, 0) X(term, 2) X(term, 4) X(term, 6) X(term, 8) X(term, 10) X(term, 12) \
