@@ -83,7 +83,8 @@ static iso_status copy(iso_context *ctx, FILE *from, FILE *to)
 {
     char block[1 << 14];
     size_t length;
-    rewind(from);
+    if (fflush(from) == EOF || fseek(from, 0, SEEK_SET) != 0)
+        return iso_file_trouble(ctx, "write", "a temporary file");
     while ((length = fread(block, 1, sizeof block, from)) > 0) fwrite(block, 1, length, to);
     return ferror(from) ? iso_file_trouble(ctx, "read", "a temporary file") : ISO_OK;
 }

@@ -27,13 +27,13 @@ names.update((p.split(":")[0].strip(), float(p.split(":")[1])) for p in paramete
 
 
 def U(n):
-    return eval(U_code, dict(names, n1=n[0], n2=n[1], n3=n[2]))
+    return eval(U_code, dict(names, __builtins__={}, n1=n[0], n2=n[1], n3=n[2]))
 
 
 w = numbers("angular_velocity")
 h = J @ w**2 / 2 + U(numbers("normal"))
 random, verdicts = np.random.default_rng(1), Counter()
-while verdicts.total() < starts:
+while sum(verdicts.values()) < starts:
     n = random.normal(size=3)
     n /= np.linalg.norm(n)
     if U(n) >= h:

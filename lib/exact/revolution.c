@@ -1,8 +1,8 @@
 /* revolution.c - the form of one angle: two equal moments of inertia, and motion in a principal plane, for every k.
  *
  * The component x of gamma along the axis swings as latitude_impl.h says, as an elliptic function of an angle xi; the
- * rest is a quadrature, as d phi/ds = M_x/(1 - x^2), also with a rotor whose K is along the axis. What lies across the axis is an elementary factor, which turns
- * past the pole as fast as need be, times a smooth one:
+ * rest is a quadrature, as d phi/ds = M_x/(1 - x^2), also with a rotor whose K is along the axis. What lies across the
+ * axis is an elementary factor, which turns past the pole as fast as need be, times a smooth one:
  *
  *     gamma_1 + i gamma_2 = (sqrt(1 - a) cn + i sqrt(1 - b') sn) exp(i psi),    b' = max(b, 0)
  *

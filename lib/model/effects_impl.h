@@ -97,7 +97,8 @@ const iso_effect *iso_effects_ball_only(const iso_effects *effects);
 /* The first effect that acts, other than `level`; NULL: none. */
 const iso_effect *iso_effects_beyond_level(const iso_effects *effects);
 
-/* The first effect that acts, other than `level` and a rotor; NULL: none. And K of the rotor, 3 numbers; zeros: none. */
+/* The first effect that acts, other than `level` and a rotor; NULL: none. And K of the rotor, 3 numbers; zeros: none.
+ */
 const iso_effect *iso_effects_beyond_rotor(const iso_effects *effects);
 const double *iso_effects_rotor(const iso_effects *effects);
 

@@ -35,8 +35,8 @@ bool iso_written_read(const iso_effects *effects, iso_effect_id id, int which, i
 bool iso_written_decided(iso_expression *e, const iso_effects *effects, double k, const double J[3],
                          const double parameter[]);
 
-/* Whether a decided expression has a corner, which is looked for in 0.1 ms; then see e->wrong. n: the normal at the
- * start. */
+/* Whether a decided expression has a corner; then see e->wrong. The search takes as long as many right-hand sides. n: the
+ * normal at the start. */
 bool iso_written_has_corner(const iso_params *p, const iso_effects *effects, iso_effect_id id, const double n[3],
                             iso_expression *e);
 

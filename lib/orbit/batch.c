@@ -95,6 +95,8 @@ static iso_orbit_options options_of(const batch *b, const member *m, iso_backend
 static iso_status prepare(iso_pool_worker *w, const batch *b, size_t i, member *m)
 {
     iso_status status = choose(w->ctx, b, i, m);
+    if (status == ISO_OK && (b->k || b->J)) /* which expressions may contain */
+        status = iso_start_check_corners(w->ctx, m->given.params, m->given.start, m->given.effects);
     if (status != ISO_OK) return status;
     const iso_backend asked = b->options.backend;
     iso_way way = iso_way_first(m->given.params, asked, asked, false);
@@ -224,7 +226,7 @@ static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_
 iso_status iso_batch_check_corners(iso_context *ctx, const iso_batch_orbit orbits[], size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        if (i == 0 || orbits[i].effects != orbits[i - 1].effects)
+        if (i == 0 || orbits[i].effects != orbits[i - 1].effects || orbits[i].params != orbits[i - 1].params)
             ISO_TRY(iso_start_check_corners(ctx, orbits[i].params, orbits[i].start, orbits[i].effects));
     return ISO_OK;
 }
@@ -297,7 +299,8 @@ static iso_status check_scene(iso_context *ctx, const batch *b, size_t i)
                                  "scene %zu: a batch does not see where contact is lost: write 'reactions: "
                                  "{two_sided: true}', or run it by itself",
                                  i);
-    return iso_scene_check_columns(ctx, scene);
+    ISO_TRY(iso_scene_check_columns(ctx, scene));
+    return iso_start_check_corners(ctx, &scene->params, &scene->start, &scene->effects);
 }
 
 /* Options that all orbits share, from the first scene and its columns. */

@@ -83,8 +83,8 @@ typedef struct iso_crossing {
 typedef struct iso_crossings iso_crossings;
 
 /* Errors: ISO_BAD_ARGUMENT about "backend", "axis", "column", "value", "tolerance", "threads", "vectors", or about
- * "deviations" with ISO_SECTION_COLUMN; ISO_BAD_INPUT about a corner in a written effect; ISO_NO_MEMORY. Errors of single orbits come from iso_crossings_go. Orbits,
- * parameters, starts and effects must live as long as the object. */
+ * "deviations" with ISO_SECTION_COLUMN; ISO_BAD_INPUT about a corner in a written effect; ISO_NO_MEMORY. Errors of
+ * single orbits come from iso_crossings_go. Orbits, parameters, starts and effects must live as long as the object. */
 ISO_API iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
                                         const iso_crossings_options *options, iso_crossings **crossings);
 ISO_API void iso_crossings_free(iso_crossings *c);

@@ -93,7 +93,7 @@ printf '# Theory\n\n## 3. The map\n' >few/lib/doc/theory.md
 cp elsewhere/sources/lib/isoroll.h few/lib
 cp elsewhere/sources/lib/doc/extra.md elsewhere/sources/lib/doc/references.bib few/lib/doc
 cp -r elsewhere/sources/apps/python/isoroll few/apps/python
-cp -r elsewhere/sources/examples few && rm few/examples/README.md
+cp -r elsewhere/sources/examples few && rm -r few/examples/README.md few/examples/tutorials few/examples/paper
 if [ -n "$browser" ]; then
     manual few none three "$browser" || fail "few documents"
     sleep 1

@@ -17,6 +17,9 @@ complain() {
 public=$(find lib -mindepth 2 -name '*.h' ! -name '*_impl.h' | sort)
 [ -n "$public" ] || { echo "FAIL no headers in $PWD/lib"; exit 1; }
 
+# What git leaves where a merge was not finished.
+grep -rnE '^(<<<<<<<|>>>>>>>) ' README.md lib apps examples tests | complain "marks of an unfinished merge"
+
 # Floors: a file of lib includes its own folder and lower floors only, an example only the public headers; the programs
 # of apps are part of the house and may include private ones. Sources and private headers write "floor/name.h"; public
 # ones "../floor/name.h" or "name.h", so that they work where installed.

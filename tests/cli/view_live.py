@@ -140,7 +140,7 @@ def controls(page):
     settled(page)
     check("an arrow key throws it", state(page)["omega"] != after["omega"])
     page.evaluate("isoroll.play(false)")
-    page.wait("location.hash.includes('w=')")
+    page.evaluate("address.write()")  # what it does by itself when nothing has moved for a while
     address, shown = page.evaluate("location.hash"), state(page)
     page.evaluate("document.getElementById('lab-begin').click()")
     settled(page)

@@ -184,8 +184,8 @@ def prove(
     scene            a path, YAML text, a dict or a Scene
     k                another k than the scene's, such as 1/3, or an interval: all k from A to B; it is
                      halved where it must be: a number, or a text such as "1/3" or "0.5:0.50000000001"
-    digits           enclose m to 1e-D (default: 18, then 36, then 72, until 0 is excluded; for an
-                     interval as its length asks for)
+    digits           enclose m to 1e-D (default: 18, 36, 72, until 0 is excluded, without those too few
+                     for m, or more where m is tiny; for an interval as its length asks for)
     half_returns     give up on a k, or on a piece of an interval, after N half returns in all attempts
                      (default 20000)
     pieces           try at most N pieces of an interval of k (default 20000)

@@ -1,6 +1,6 @@
-/* written_impl.h - the recurrences of the free point, written out: one function for each even n, which gives coefficients
- * n and n + 1. n is a constant in it, so the compiler knows the ends of all loops. The source of all of them is
- * model/series/recurrences_impl.h.
+/* written_impl.h - the recurrences of the free point, written out: one function for each even n, which gives
+ * coefficients n and n + 1. n is a constant in it, so the compiler knows the ends of all loops. The source of all of
+ * them is model/series/recurrences_impl.h.
  *
  * Only in lanes without deviations (WRITTEN): elsewhere the code is larger and not faster.
  */

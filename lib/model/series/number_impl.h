@@ -171,8 +171,8 @@ static inline real lost_in(real a, real b, real p)
 #endif
 }
 
-/* a^(-1/2) for a > 0. With AVX-512 to about two roundings: an estimate of 14 bits, and Newton's method twice. A root and
- * a division take three times as long. */
+/* a^(-1/2) for a > 0. With AVX-512 to about two roundings: an estimate of 14 bits, and Newton's method twice. A root
+ * and a division take three times as long. */
 static inline real over_root(real a)
 {
 #if defined __AVX512DQ__ && LANES == 8

@@ -173,7 +173,7 @@ iso_status prove_ball_expect(iso_context *ctx, const prove_ball *ball, iso_proof
     attempt a;
     attempt_init(&a, ctx, ball, DIGITS, work);
     const iso_status status = prove_local_begin(&a.thin, &a.local);
-    if (status == ISO_OK) { /* |m| is about exp(-pi^2/ln lambda) */
+    if (status == ISO_OK) { /* |m| is about exp(-pi^2/ln lambda), lambda of a half return */
         arb_log(a.width, a.local.lambda, a.thin.bits);
         *decades = ISO_PI * ISO_PI / (arf_get_d(arb_midref(a.width), ARF_RND_NEAR) * log(10));
     }

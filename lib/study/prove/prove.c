@@ -312,8 +312,8 @@ const iso_option iso_prove_option[] = {
         "another k than the scene's, such as 1/3, or an interval: all k from A to B; it is halved where it must be",
         iso_set_text, k),
     ROW("digits", "D", "a whole number from 1 to 400",
-        "enclose m to 1e-D (default: 18, then 36, then 72, until 0 is excluded; for an interval as its length asks "
-        "for)",
+        "enclose m to 1e-D (default: 18, 36, 72, until 0 is excluded, without those too few for m, or more where m "
+        "is tiny; for an interval as its length asks for)",
         iso_set_count_int, digits),
     ROW("half-returns", "N", "a whole number from 1 on",
         "give up on a k, or on a piece of an interval, after N half returns in all attempts (default 20000)",
