@@ -118,7 +118,8 @@ static iso_status find_form(iso_context *ctx, const iso_problem *f, double point
         return ISO_FAIL_ARGUMENT(
             ctx, rotor->name,
             "with '%s' there is a closed solution only where three moments of inertia are equal, "
-            "where two are equal and K is along the third axis, or where the motion stays in a principal plane at right "
+            "where two are equal and K is along the third axis, or where the motion stays in a principal plane at "
+            "right "
             "angles to K",
             rotor->name);
     if (f->p.k == 1)
