@@ -147,9 +147,8 @@ const command command_prove = {
         "writes a certificate: another program can check the proof from it alone. lib/doc/prove.md has the "
         "argument and the format. After Ctrl-C it prints what was proved so far.\n\n"
         "Where the multiplier of the rotation is near 1 (nearly equal moments, or large |k|), m is tiny and far "
-        "away. "
-        "So there is a limit, --half-returns: a proof ends there as undecided, or before it begins if it would take "
-        "more.\n\n"
+        "away. So there is a limit, --half-returns: a proof ends there as undecided, or before it begins if it would "
+        "take more.\n\n"
         "This needs Arb (package libflint-arb-dev) when isoroll is built.",
     .example = "isoroll prove scene.yaml\nisoroll prove scene.yaml --k 1/3 --digits 40 -o third.cert",
     .exits = "0: proved, or undecided: 0 is in the enclosure\n"
