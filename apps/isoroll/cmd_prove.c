@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "io/output_impl.h"
-#include "io/replacement_impl.h"
 #include "say.h"
 #include "scene_options.h"
 #include "shell.h"
@@ -79,16 +78,6 @@ static json_t *json(const shell *s)
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-static iso_status copy(iso_context *ctx, FILE *from, FILE *to)
-{
-    char block[1 << 14];
-    size_t length;
-    if (fflush(from) == EOF || fseek(from, 0, SEEK_SET) != 0)
-        return iso_file_trouble(ctx, "write", "a temporary file");
-    while ((length = fread(block, 1, sizeof block, from)) > 0) fwrite(block, 1, length, to);
-    return ferror(from) ? iso_file_trouble(ctx, "read", "a temporary file") : ISO_OK;
-}
-
 /* The certificates of all rows, one after the other. */
 static int write_certificates(const shell *s)
 {
@@ -98,8 +87,7 @@ static int write_certificates(const shell *s)
     if (!path) return EXIT_DONE;
     iso_status status = iso_output_open(s->ctx, path, &out);
     if (status != ISO_OK) return finish(s->ctx, status);
-    status = copy(s->ctx, f->certificates, iso_output_stream(out));
-    if (status == ISO_OK) status = iso_output_check(s->ctx, out);
+    status = iso_output_copy(s->ctx, out, f->certificates);
     const iso_status closed = iso_output_close(s->ctx, out, status == ISO_OK);
     return finish(s->ctx, status == ISO_OK ? closed : status);
 }

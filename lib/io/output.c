@@ -88,6 +88,16 @@ FILE *iso_output_stream(iso_output *out)
     return out->file;
 }
 
+iso_status iso_output_copy(iso_context *ctx, iso_output *out, FILE *from)
+{
+    char block[1 << 14];
+    if (fflush(from) == EOF || fseek(from, 0, SEEK_SET) != 0)
+        return iso_file_trouble(ctx, "write", "a temporary file");
+    for (size_t length; (length = fread(block, 1, sizeof block, from)) > 0;)
+        if (fwrite(block, 1, length, out->file) < length) break;
+    return ferror(from) ? iso_file_trouble(ctx, "read", "a temporary file") : iso_output_check(ctx, out);
+}
+
 const char *iso_output_name(const iso_output *out)
 {
     return out->name;

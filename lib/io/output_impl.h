@@ -33,6 +33,10 @@ void iso_output_keep_others(iso_output *out);
  * reader of a pipe has gone (the program must ignore SIGPIPE to see it). */
 iso_status iso_output_check(iso_context *ctx, iso_output *out);
 
+/* Writes all of a temporary file that is open for reading and writing. Errors: ISO_FILE_TROUBLE, also about it, and
+ * those of iso_output_check. */
+iso_status iso_output_copy(iso_context *ctx, iso_output *out, FILE *from);
+
 /* What messages call it. */
 const char *iso_output_name(const iso_output *out);
 

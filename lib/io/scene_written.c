@@ -105,15 +105,14 @@ typedef bool is_wrong(const iso_draft *d, iso_effect_id id, iso_expression *e);
 
 static bool undecided(const iso_draft *d, iso_effect_id id, iso_expression *e)
 {
-    const iso_effects *all = &d->scene.effects;
-    return !iso_written_decided(e, all, d->scene.params.k, d->scene.params.J, all->number[id]);
+    return !iso_written_decided(&d->scene.params, &d->scene.effects, id, e);
 }
 
 static bool has_corner(const iso_draft *d, iso_effect_id id, iso_expression *e)
 {
     double n[3];
     iso_start_normal(&d->scene.params, &d->scene.start, n);
-    return !undecided(d, id, e) && iso_written_has_corner(&d->scene.params, &d->scene.effects, id, n, e);
+    return iso_written_has_corner(&d->scene.params, &d->scene.effects, id, n, e);
 }
 
 /* Refuses the first expression of an effect that is none, or is wrong. */

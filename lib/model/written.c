@@ -332,9 +332,16 @@ bool iso_written_read(const iso_effects *effects, iso_effect_id id, int which, i
     return iso_expression_read(text->expression[which], &names, e);
 }
 
-bool iso_written_decided(iso_expression *e, const iso_effects *effects, double k, const double J[3],
-                         const double parameter[])
+static bool has_units(const iso_effects *effects, iso_effect_id id)
 {
+    return effects->number[id][ISO_WRITTEN_J] != 0 && effects->number[id][ISO_WRITTEN_W] != 0;
+}
+
+bool iso_written_decided(const iso_params *p, const iso_effects *effects, iso_effect_id id, iso_expression *e)
+{
+    const double *number = effects->number[id], U = number[ISO_WRITTEN_J];
+    const double J[3] = {U * p->J[0], U * p->J[1], U * p->J[2]};
+    if (!has_units(effects, id)) return false;
     for (int i = 0; i < e->nodes && e->reads[ISO_TERM_E] && !effects->on[ISO_GRAVITY]; i++) {
         if (e->node[i].term != ISO_TERM_E) continue;
         e->at = e->node[i].at;
@@ -344,7 +351,7 @@ bool iso_written_decided(iso_expression *e, const iso_effects *effects, double k
                  e->node[i].a + 1);
         return false;
     }
-    return iso_expression_constants(e, k, J, parameter);
+    return iso_expression_constants(e, p->k, J, number);
 }
 
 static iso_status refuse(iso_context *ctx, iso_effect_id id, int which, const iso_expression *e)
@@ -352,18 +359,6 @@ static iso_status refuse(iso_context *ctx, iso_effect_id id, int which, const is
     const iso_effect *effect = iso_effect_list[id];
     const char *name = effect->expressions[which], *key = effect->expressions_key ? effect->expressions_key : name;
     return ISO_FAIL_INPUT(ctx, key, "%s, column %d of the text: %s", name, e->at + 1, e->wrong);
-}
-
-static bool has_units(const iso_effects *effects, iso_effect_id id)
-{
-    return effects->number[id][ISO_WRITTEN_J] != 0 && effects->number[id][ISO_WRITTEN_W] != 0;
-}
-
-static bool decide(const iso_params *p, const iso_effects *effects, iso_effect_id id, iso_expression *e)
-{
-    const double *number = effects->number[id], U = number[ISO_WRITTEN_J];
-    const double J[3] = {U * p->J[0], U * p->J[1], U * p->J[2]};
-    return has_units(effects, id) && iso_written_decided(e, effects, p->k, J, number);
 }
 
 iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id id,
@@ -374,12 +369,13 @@ iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_ef
     if (!has_units(effects, id))
         return ISO_FAIL_INPUT(ctx, name, "%s: begin the effects with iso_effects_default(): they have no units",
                               name);
-    return decide(p, effects, id, e) ? ISO_OK : refuse(ctx, id, which, e);
+    return iso_written_decided(p, effects, id, e) ? ISO_OK : refuse(ctx, id, which, e);
 }
 
 bool iso_written_has_corner(const iso_params *p, const iso_effects *effects, iso_effect_id id, const double n[3],
                             iso_expression *e)
 {
+    if (!iso_written_decided(p, effects, id, e)) return false;
     const iso_problem f = {.p = *p, .effects = *effects};
     const double speed = 1 / effects->number[id][ISO_WRITTEN_W], y[ISO_STATE] = {speed, 0, 0, n[0], n[1], n[2]};
     const iso_expression_state s = iso_written_state(&f, id, y);
@@ -393,8 +389,7 @@ iso_status iso_effects_check_corners(iso_context *ctx, const iso_params *p, cons
     iso_expression e;
     for (iso_effect_id id = 0; id < ISO_EFFECTS; id++)
         for (int i = 0; iso_written_drives(effects, id) && iso_effect_list[id]->expressions[i]; i++)
-            if (iso_written_read(effects, id, i, &e) && decide(p, effects, id, &e) &&
-                iso_written_has_corner(p, effects, id, n, &e))
+            if (iso_written_read(effects, id, i, &e) && iso_written_has_corner(p, effects, id, n, &e))
                 return refuse(ctx, id, i, &e);
     return ISO_OK;
 }

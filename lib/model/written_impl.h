@@ -31,11 +31,10 @@ iso_expression_state iso_written_state(const iso_problem *f, iso_effect_id id, c
 bool iso_written_read(const iso_effects *effects, iso_effect_id id, int which, iso_expression *e);
 
 /* Whether its constants are finite, in the caller's units, and the vertical e is there if it reads e. False: see
- * e->wrong. */
-bool iso_written_decided(iso_expression *e, const iso_effects *effects, double k, const double J[3],
-                         const double parameter[]);
+ * e->wrong. Effects that iso_effects_default() has not begun have no units: false. */
+bool iso_written_decided(const iso_params *p, const iso_effects *effects, iso_effect_id id, iso_expression *e);
 
-/* Whether a decided expression has a corner; then see e->wrong. The search takes as long as many right-hand sides. n: the
+/* Whether it is decided and has a corner; then see e->wrong. The search takes as long as many right-hand sides. n: the
  * normal at the start. */
 bool iso_written_has_corner(const iso_params *p, const iso_effects *effects, iso_effect_id id, const double n[3],
                             iso_expression *e);

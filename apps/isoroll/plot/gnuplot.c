@@ -242,14 +242,12 @@ const char *iso_gnuplot_quote_title(char quoted[static ISO_QUOTED_SIZE], const i
 /* Copies what has been written into the file that --script names. */
 static iso_status keep_script(iso_context *ctx)
 {
-    char block[4096];
     iso_output *copy;
     if (!g.script_name) return ISO_OK;
     ISO_TRY(iso_output_open(ctx, g.script_name, &copy));
-    rewind(g.script);
-    for (size_t got; (got = fread(block, 1, sizeof block, g.script)) > 0;)
-        if (fwrite(block, 1, got, iso_output_stream(copy)) < got) break;
-    return iso_output_close(ctx, copy, true);
+    const iso_status status = iso_output_copy(ctx, copy, g.script);
+    const iso_status closed = iso_output_close(ctx, copy, status == ISO_OK);
+    return status == ISO_OK ? closed : status;
 }
 
 /* ---- Drawing ---- */

@@ -148,17 +148,17 @@ static iso_status solve(iso_context *ctx, const iso_orbit *orbit, const iso_samp
 static iso_status find_exact(iso_context *ctx, const iso_scene *scene, iso_frequencies *f)
 {
     const iso_effects effects = iso_scene_acting(scene);
+    const iso_effect *more = iso_effects_beyond_level(&effects);
     iso_orbit *orbit;
     iso_sample start;
     iso_exact *exact = NULL;
     double point[ISO_STATE];
     iso_frequencies_blank(f);
     iso_status status = iso_frequencies_open(ctx, scene, &effects, &orbit, &start);
-    if (status == ISO_OK && iso_effects_beyond_level(&effects) && !iso_effects_breaking(&effects)) {
+    if (status == ISO_OK && more && !iso_effects_breaking(&effects)) {
         f->estimated = true;
         snprintf(f->why, sizeof f->why,
-                 "the frequencies of the closed solution are for a free motion, not one with '%s'",
-                 iso_effects_beyond_level(&effects)->name);
+                 "the frequencies of the closed solution are for a free motion, not one with '%s'", more->name);
     } else if (status == ISO_OK && !iso_effects_breaking(&effects)) {
         status = solve(ctx, orbit, &start, point, &exact);
         if (status != ISO_OK) {
