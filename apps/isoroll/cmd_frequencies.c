@@ -176,9 +176,8 @@ const command command_frequencies = {
     .takes = FILE_SCENE,
     .description =
         "Where there is a closed solution (k = 1, k = -1, equal moments, principal planes; no rotor) the numbers are "
-        "exact. "
-        "Elsewhere they are estimated from an orbit in the ball's time t, by Laskar's frequency analysis. --turns, "
-        "--t-end and --samples are about this orbit; the scene's own times are not read.\n\n"
+        "exact. Elsewhere they are estimated from an orbit in the ball's time t, by Laskar's frequency analysis. "
+        "--turns, --t-end and --samples are about this orbit; the scene's own times are not read.\n\n"
         "--plot draws the image of the momentum map (h, F) with the orbit in it. Where there is no such map, it "
         "draws the spectral lines of n(t).",
     .example = "isoroll frequencies scene.yaml --plot map.svg",

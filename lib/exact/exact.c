@@ -46,13 +46,10 @@ static void from_form(const iso_exact *x, const double from[ISO_STATE], double t
 {
     double y[ISO_STATE];
     copy(from, y, ISO_STATE);
-    if (x->turned)
-        for (int i = 0; i < ISO_STATE; i++) {
-            const double *of = y + i / 3 * 3, *e = x->frame + i % 3;
-            to[i] = of[0] * e[0] + of[1] * e[3] + of[2] * e[6];
-        }
-    else
-        copy(y, to, ISO_STATE);
+    for (int i = 0; i < ISO_STATE; i++) {
+        const double *of = y + i / 3 * 3, *e = x->frame + i % 3;
+        to[i] = x->turned ? of[0] * e[0] + of[1] * e[3] + of[2] * e[6] : y[i];
+    }
 }
 
 /* Errors: numbers that are not finite or out of range, and a state that is not on the level. */
@@ -117,10 +114,8 @@ static iso_status find_form(iso_context *ctx, const iso_problem *f, double point
     if (rotor)
         return ISO_FAIL_ARGUMENT(
             ctx, rotor->name,
-            "with '%s' there is a closed solution only where three moments of inertia are equal, "
-            "where two are equal and K is along the third axis, or where the motion stays in a principal plane at "
-            "right "
-            "angles to K",
+            "with '%s' there is a closed solution only where three moments of inertia are equal, where two are equal "
+            "and K is along the third axis, or where the motion stays in a principal plane at right angles to K",
             rotor->name);
     if (f->p.k == 1)
         return ISO_FAIL_ARGUMENT(ctx, iso_level_name(), "k = 1 has a closed solution on the level H = 0 alone");

@@ -8,9 +8,9 @@
  * - two moments of inertia equal to 4 units in the last place, every k: gamma along the axis swings, the angle about
  *   the axis follows;
  * - a start in a principal plane, every k: gamma never leaves it.
- * The last two hold on every level, and with a rotor: K along the axis (three equal moments: any K), or across the
- * plane. An orbit on a separatrix leaves an unstable rotation and comes back to it. Where it is that rotation to all
- * digits, the rotation is what is computed.
+ * The last two hold on every level, and with a rotor: K along the axis (three equal moments: any K), or at right
+ * angles to the plane. An orbit on a separatrix leaves an unstable rotation and comes back to it. Where it is that
+ * rotation to all digits, the rotation is what is computed.
  *
  * Elliptic functions and Fourier series turn each oscillation into an angle. Each clock is a linear term and a
  * Fourier series of the angles. Newton's method finds the place at which a clock shows the time asked for. Numbers

@@ -6,8 +6,8 @@
  *
  *     gamma_1 + i gamma_2 = (sqrt(1 - a) cn + i sqrt(1 - b') sn) exp(i psi),    b' = max(b, 0)
  *
- * A principal plane is the same with M_x = 0: J_a and J_e are the moments of the two axes in it. A rotor across it has
- * no field in it.
+ * A principal plane is the same with M_x = 0: J_a and J_e are the moments of the two axes in it. A rotor at right
+ * angles to it has no field in it.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -41,7 +41,7 @@ iso_status iso_orbit_create_among(iso_context *ctx, const iso_params *p, const i
 iso_status iso_start_check_corners(iso_context *ctx, const iso_params *p, const iso_start *start,
                                    const iso_effects *effects);
 
-/* That of all orbits; once where several in a row share their effects. */
+/* That of all orbits; once where several in a row share their effects and parameters. */
 iso_status iso_batch_check_corners(iso_context *ctx, const iso_batch_orbit orbits[], size_t count);
 
 /* All of an orbit but the integrator: o->ctx and o->options say what is asked for; gives the start of its model.
