@@ -1,6 +1,6 @@
 #!/bin/sh
 # packages.sh [tests | all] - installs what .packages lists and is missing: what stands above "# tests"; with `tests` what
-# stands above "# all"; or all of it.
+# stands above "# all"; or all of it. Of "A | B" it takes the first that is installed or that apt knows.
 # Where it cannot install, it says what is needed and goes on if the tools are there.
 set -eu
 list=$(dirname "$0")/../.packages
@@ -9,13 +9,20 @@ all) last='$' ;;
 tests) last='/^# all/' ;;
 *) last='/^# tests/' ;;
 esac
-wanted=$(sed -n "1,${last}p" "$list" | sed 's/#.*//')
-
-missing=
-for package in $wanted; do
-    state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) || true
-    [ "$state" = installed ] || missing="$missing $package"
-done
+# find_missing: sets $missing, in one line
+find_missing() {
+    missing=$(sed -n "1,${last}p" "$list" | sed 's/#.*//; s/|//g' | while read -r line; do
+        [ -n "$line" ] || continue
+        for package in $line "${line%% *}"; do # at the end the first: apt knows none
+            state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) || true
+            [ "$state" != installed ] || break
+            [ "$package" = "$line" ] || [ -n "$(apt-cache show "$package" 2>/dev/null)" ] || continue
+            break
+        done
+        [ "$state" = installed ] || printf ' %s' "$package"
+    done)
+}
+find_missing
 [ -n "$missing" ] || exit 0
 
 root=
@@ -23,8 +30,9 @@ if [ "$(id -u)" -ne 0 ]; then
     sudo -n true 2>/dev/null && root='sudo -n' || root=none
 fi
 if [ "$root" != none ] && command -v apt-get >/dev/null; then
-    echo "installing$missing"
     $root apt-get update -qq
+    find_missing # of what apt knows now
+    echo "installing$missing"
     # shellcheck disable=SC2086 # $missing is a list
     $root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null
     exit

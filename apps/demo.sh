@@ -28,7 +28,8 @@ else
     mkdir -p "$to"
 fi
 
-for name in 15_two_spheres 01_bowling_ball 02_neumann_shell; do
+names="15_two_spheres 01_bowling_ball 02_neumann_shell"
+for name in $names; do
     echo "examples/$name/scene.yaml"
     "$isoroll" compare "examples/$name/scene.yaml" --plot "$to/$name.svg" >"$to/$name.txt"
     tail -n 1 "$to/$name.txt" | sed 's/^/  /'
@@ -48,7 +49,7 @@ two carries each state of one computation to that of the other, to the digits
 above. So both models have the same orbits: what is known of one holds for both.
 
 END
-echo "pictures:" && ls "$to"/*.svg
-echo "tables:" && ls "$to"/*.txt
-[ -z "$view" ] || { echo "pages, for a browser:" && ls "$to"/*.html; }
+echo "pictures:" && for name in $names; do echo "$to/$name.svg"; done
+echo "tables:" && for name in $names; do echo "$to/$name.txt"; done
+[ -z "$view" ] || printf 'pages, for a browser:\n%s\n%s\n' "$to/15_two_spheres.html" "$page.html"
 echo "the command: $isoroll --help"

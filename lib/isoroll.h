@@ -16,7 +16,8 @@
  * - Inputs are read, not kept: they may go after the call. Headers name the exceptions, such as
  *   the header of a conversion. An object must not outlive its context.
  *
- * NULL is allowed only where a header says so, and for option structs, where it means the defaults.
+ * NULL is allowed only where a header says so, and for option structs, where it means the defaults. Strings that a call
+ *   takes (names, texts, paths, keys) end with a zero byte and are not NULL: the library does not test it.
  *
  * Option structs come from their *_defaults function; then members are set. Its member `size` is the size of the
  *   struct in the headers that the program was compiled with, so the struct can grow. 0 means: as in

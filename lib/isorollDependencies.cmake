@@ -46,22 +46,18 @@ if(ISO_HDF5)
   endforeach()
 endif()
 
-# HDF5 is not linked: it is loaded when the first .h5 file is opened (io/hdf5/hdf5_impl.h). Here is its name.
-if(ISO_HDF5 AND isoroll_hdf5_FOUND)
-  list(FILTER isoroll_hdf5_LINK_LIBRARIES INCLUDE REGEX "libhdf5[^/]*$")
-  set(ISO_HDF5_FILE NOTFOUND ${isoroll_hdf5_LINK_LIBRARIES})
-  list(GET ISO_HDF5_FILE -1 ISO_HDF5_FILE)
-  execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${ISO_HDF5_FILE} OUTPUT_VARIABLE ISO_HDF5_SONAME ERROR_QUIET)
-  string(REGEX MATCH "SONAME +[^\n ]+" ISO_HDF5_SONAME "${ISO_HDF5_SONAME}")
-  string(REGEX REPLACE "SONAME +" "" ISO_HDF5_SONAME "${ISO_HDF5_SONAME}")
-  if(NOT ISO_HDF5_SONAME)
-    message(WARNING "HDF5 is left out: objdump does not tell the name of its library")
-  endif()
+# The C++ library, for digits of numbers: who links with a C compiler must name it.
+set(ISO_CXX_LIBS stdc++)
+if(APPLE)
+  set(ISO_CXX_LIBS c++)
+elseif(EMSCRIPTEN) # there isoroll calls none of it
+  set(ISO_CXX_LIBS)
 endif()
-
-set(ISO_DEPENDENCIES ${ISO_SUNDIALS_TARGETS} GSL::gsl PkgConfig::isoroll_yaml Threads::Threads m ${CMAKE_DL_LIBS})
-if(ISO_HDF5 AND isoroll_hdf5_FOUND AND ISO_HDF5_SONAME)
+list(TRANSFORM ISO_CXX_LIBS PREPEND -l OUTPUT_VARIABLE ISO_CXX_PC)
+set(ISO_DEPENDENCIES ${ISO_SUNDIALS_TARGETS} GSL::gsl PkgConfig::isoroll_yaml Threads::Threads m ${ISO_CXX_LIBS})
+if(ISO_HDF5 AND isoroll_hdf5_FOUND)
   set(ISO_HDF5_PC ${isoroll_hdf5_MODULE_NAME})
+  list(APPEND ISO_DEPENDENCIES PkgConfig::isoroll_hdf5)
 endif()
 
 # Arb may be missing: then `isoroll prove` and `run --certify` refuse. It is a library of its own, or a part of FLINT 3.

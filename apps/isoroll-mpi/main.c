@@ -45,7 +45,7 @@ int main(int argc, char **argv)
 {
     int threads;
     program_begin();
-    stop_before_limit(); /* before MPI: a signal that comes early counts as well */
+    stop_gently(); /* before MPI: a signal that comes early counts as well */
     MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &threads);
     ranks_begin(&all);
     if (all.rank > 0) {

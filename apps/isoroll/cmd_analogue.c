@@ -33,7 +33,7 @@ static int run(iso_context *ctx, const void *options_given)
 static const options defaults = {.file = "-"};
 
 static const option_row rows[] = {
-    ROWS_OF_STUDY(iso_analogue_option, 0, 8),
+    ROWS_OF_STUDY(iso_analogue_option),
     ROW_END,
 };
 

@@ -96,8 +96,9 @@ static void print_followed(const iso_chaos_fraction *s)
     say(s->count > 0 ? ": the shares are of these\n" : ": no share is known\n");
 }
 
-static void print_share(const iso_chaos_fraction *s)
+static void print_share(const iso_chaos *c)
 {
+    const iso_chaos_fraction *s = &c->share;
     if (s->asked == 0) return;
     const double count = (double)s->count;
     say("\n%zu starts spread evenly over the section, by its area dL dl, with a tolerance of %g:\n", s->asked,
@@ -109,8 +110,12 @@ static void print_share(const iso_chaos_fraction *s)
         "  undecided  %8.4f   (%zu)\n",
         s->share, s->chaotic, s->low, s->high, (double)s->regular / count, s->regular, (double)s->undecided / count,
         s->undecided);
-    if (s->undecided > 0)
-        say("  undecided ones count both ways: not chaotic at the low end, chaotic at the high end\n");
+    if (s->undecided > 0 && c->integral)
+        say("  undecided ones are not chaotic: the integral excludes it\n");
+    else if (s->undecided > 0)
+        say("  undecided ones count as not chaotic in the share and at the low end of the interval, as chaotic at\n"
+            "  its high end; the middle of what is possible is %.4f\n",
+            ((double)s->chaotic + (double)s->undecided / 2) / count);
     if (s->checked > 0 && s->disagree == 0)
         say("  ball and point both decided %zu of them, and never disagree\n", s->checked);
     else if (s->disagree > 0)
@@ -125,7 +130,7 @@ static void print_table(const shell *s)
     if (c->plane < 0) print_models(c);
     if (c->plane < 0) print_worth(c);
     print_agreement(c);
-    print_share(&c->share);
+    print_share(c);
 }
 
 /* --- files ------------------------------------------------------------------------------------------------------ */
@@ -138,8 +143,8 @@ static iso_status describe(shell *s)
     const iso_chaos_fraction *part = &c->share;
     if (part->count > 0)
         iso_plot_title(s->title, &s->scene.params,
-                       ": %.3g of the section is chaotic (95 %%: %.3g to %.3g), %.3g undecided", part->share,
-                       part->low, part->high, (double)part->undecided / (double)part->count);
+                       ": %.3g of the section is chaotic (95 %%: %.3g to %.3g), %.3g beside it undecided",
+                       part->share, part->low, part->high, (double)part->undecided / (double)part->count);
     else
         iso_plot_title(s->title, &s->scene.params, ": this orbit is %s", iso_verdict_name(c->own.verdict));
     return shell_lines(
@@ -204,10 +209,10 @@ static int run(iso_context *ctx, const void *options_given)
 static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
-    ROWS_OF_STUDY(iso_chaos_option, 0, 8),
+    ROWS_OF_STUDY(iso_chaos_option),
     ROWS_OF_PLOT(options, shell.plot),
-    ROW_OF_FILE("csv", "FILE", "a file", "write one row for each orbit to FILE; - is standard output", iso_set_text,
-                options, shell.table, 0, OPTION_WRITES),
+    ROW_OF_FILE("output", "FILE", "a file", "write one row for each orbit to FILE; - is standard output",
+                iso_set_text, options, shell.table, 'o', OPTION_WRITES),
     ROW_JSON(options, shell.json),
     ROW_END,
 };

@@ -94,8 +94,11 @@ static int run(iso_context *ctx, const void *options_given)
 static const options defaults = {.file = "-"};
 
 static const option_row rows[] = {
-    ROWS_OF_STUDY(iso_check_option, 0, 5), ROW_OF_ITS_SCENE(options, scene), ROW_COLUMNS(options, columns),
-    ROWS_OF_STUDY(iso_check_option, 5, 2), ROW_JSON(options, json),          ROW_END,
+    ROWS_OF_STUDY(iso_check_option),
+    ROW_OF_ITS_SCENE(options, scene),
+    ROW_COLUMNS(options, columns),
+    ROW_JSON(options, json),
+    ROW_END,
 };
 
 const command command_check = {

@@ -10,7 +10,7 @@
 
 /* What compare can be told. */
 typedef struct options {
-    iso_compare_request study;
+    iso_scene_request study;
     shell_options shell;
     double rows;
 } options;
@@ -250,7 +250,7 @@ static int run(iso_context *ctx, const void *options_given)
 static const options defaults = {.shell = {.file = "-"}, .rows = 6};
 
 static const option_row rows[] = {
-    ROWS_OF_STUDY(iso_compare_option, 0, 4),
+    ROWS_OF_STUDY(iso_compare_option),
     ROW("rows", "N", "a whole number from 1 on", "rows of the table to print (default 6)", iso_set_count, options,
         rows),
     ROWS_OF_PLOT(options, shell.plot),

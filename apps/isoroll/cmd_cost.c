@@ -21,21 +21,15 @@ static iso_status check(const shell *s)
 {
     const bool table = s->told->table && strcmp(s->told->table, "-") == 0, want = !isnan(wanted(s));
     if (table && (s->told->json || want))
-        return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "csv",
-                                "cost: standard output has room for one: choose --csv -, --json or --want");
-    if (((const options *)s->options)->study.horizons > 0 && !s->told->json && (want || table))
-        return iso_context_fail(
-            s->ctx, ISO_BAD_ARGUMENT, "horizons",
-            "cost: --want and --csv - leave no room for what --horizons tells: leave one of them out");
+        return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "output",
+                                "cost: standard output has room for one: choose -o -, --json or --want");
     return ISO_OK;
 }
 
 static void complain_interrupted(const shell *s)
 {
     const iso_cost_found *f = s->result.found;
-    if (f->cost && f->cost->complete)
-        complain("interrupted: longer orbits are missing");
-    else if (f->cost)
+    if (f->cost)
         complain("interrupted: %d of %d cells were measured", iso_cost_count(f->cost, iso_cost_is_measured),
                  f->cost->cells);
     else
@@ -101,10 +95,10 @@ static int run(iso_context *ctx, const void *options_given)
 static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
-    ROWS_OF_STUDY(iso_cost_option, 0, 7),
+    ROWS_OF_STUDY(iso_cost_option),
     ROWS_OF_PLOT(options, shell.plot),
-    ROW_OF_FILE("csv", "FILE", "a file", "write the table as CSV to FILE; - is standard output", iso_set_text,
-                options, shell.table, 0, OPTION_WRITES),
+    ROW_OF_FILE("output", "FILE", "a file", "write the table to FILE; - is standard output", iso_set_text, options,
+                shell.table, 'o', OPTION_WRITES),
     ROW_JSON(options, shell.json),
     ROW_END,
 };
@@ -118,9 +112,8 @@ const command command_cost = {
         "An error is the largest relative error of (omega, n) at 20 times from the start to the end. The reference "
         "is "
         "none of the measured runs. A time is processor time, the median of several runs; set-up is shown apart.\n\n"
-        "--want X prints the cheapest choice as options of 'isoroll run'. --horizons repeats the best choice of each "
-        "backend over orbits 2, 4, ... times as long, and tells how error and time grow. After Ctrl-C, what has been "
-        "measured is printed.",
+        "--want X prints the cheapest choice as options of 'isoroll run'. After Ctrl-C, what has "
+        "been measured is printed.",
     .example = "isoroll cost scene.yaml --quick --plot cost.svg\n"
                "isoroll run scene.yaml $(isoroll cost scene.yaml --want 1e-9)",
     .exits = "1: a run failed, or nothing reaches the error that --want asks for",

@@ -8,7 +8,7 @@
 #include "sweep/sweep_impl.h"
 
 typedef struct options {
-    iso_explain_request study;
+    iso_scene_request study;
     shell_options shell;
 } options;
 
@@ -52,7 +52,7 @@ static int run(iso_context *ctx, const void *options_given)
 static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
-    ROWS_OF_STUDY(iso_explain_option, 0, 6),
+    ROWS_OF_STUDY(iso_scene_change_option),
     ROW_END,
 };
 

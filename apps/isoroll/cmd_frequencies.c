@@ -165,7 +165,7 @@ static int run(iso_context *ctx, const void *options_given)
 static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
-    ROWS_OF_STUDY(iso_frequencies_option, 0, 3),
+    ROWS_OF_STUDY(iso_frequencies_option),
     ROWS_OF_PLOT(options, shell.plot),
     ROW_JSON(options, shell.json),
     ROW_END,

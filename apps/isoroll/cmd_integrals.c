@@ -102,7 +102,7 @@ static int run(iso_context *ctx, const void *options_given)
 static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
-    ROWS_OF_STUDY(iso_integrals_option, 0, 8),
+    ROWS_OF_STUDY(iso_integrals_option),
     ROW_JSON(options, shell.json),
     ROW_END,
 };

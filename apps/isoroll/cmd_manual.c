@@ -9,23 +9,20 @@ typedef struct options {
     const char *page, *output;
 } options;
 
-static const struct {
-    const char *name;
-    void (*print)(FILE *to);
-} pages[] = {{"isoroll", manual_program}, {"bash", complete_bash}, {"zsh", complete_zsh}};
-enum { PAGES = sizeof pages / sizeof *pages };
-
 static const char *page_word(int i)
 {
-    if (i < PAGES) return pages[i].name;
-    return commands[i - PAGES] ? commands[i - PAGES]->name : NULL;
+    static const char *const first[] = {"isoroll", "bash", "zsh"};
+    return i < 3 ? first[i] : command_word(i - 3);
 }
 
 static void print_page(const char *name, FILE *to)
 {
-    for (int i = 0; i < PAGES; i++)
-        if (strcmp(name, pages[i].name) == 0) pages[i].print(to);
-    if (command_find(name)) manual_command(command_find(name), to);
+    if (strcmp(name, "isoroll") == 0)
+        manual_program(to);
+    else if (command_find(name))
+        manual_command(command_find(name), to);
+    else
+        fputs(strcmp(name, "bash") == 0 ? complete_bash : complete_zsh, to);
 }
 
 static int run(iso_context *ctx, const void *options_given)

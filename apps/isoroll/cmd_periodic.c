@@ -272,7 +272,7 @@ static int run(iso_context *ctx, const void *options_given)
 static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
-    ROWS_OF_STUDY(iso_periodic_option, 0, 12),
+    ROWS_OF_STUDY(iso_periodic_option),
     ROW_OUTPUT(options, shell.table),
     ROWS_OF_PLOT(options, shell.plot),
     ROW_JSON(options, shell.json),

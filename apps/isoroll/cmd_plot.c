@@ -245,6 +245,8 @@ static int run(iso_context *ctx, const void *options_given)
         return complain("plot: --columns is for trajectories; of a sweep give --value NAME"), EXIT_USAGE;
     const char *wish = iso_plot_section_wish(&o->page);
     if (wish && !iso_plot_has_kind(kind)) return complain("plot: --%s is for sections", wish), EXIT_USAGE;
+    if (*kind && !sweep && strcmp(kind, "trajectory") != 0 && !iso_plot_has_kind(kind))
+        return complain("plot: there is no picture of a table '%s'", kind), EXIT_USAGE;
     if (sweep) return finish(ctx, iso_plot_sweep(ctx, &o->page, o->from.file, o->value));
     if (status == ISO_OK && o->value)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "plot: --value is for results of sweeps");

@@ -114,7 +114,7 @@ static int run(iso_context *ctx, const void *options_given)
 static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
-    ROWS_OF_STUDY(iso_prove_option, 0, 4),
+    ROWS_OF_STUDY(iso_prove_option),
     ROW_OF_FILE("output", "FILE", "a file", "write a certificate to FILE", iso_set_text, options, study.certificate,
                 'o', OPTION_WRITES),
     ROW_JSON(options, shell.json),
@@ -137,7 +137,7 @@ const command command_prove = {
         "Where the multiplier of the rotation is near 1 (nearly equal moments, or large |k|), m is tiny and far "
         "away. So there is a limit, --half-returns: a proof ends there as undecided, or before it begins if it would "
         "take more.\n\n"
-        "This needs Arb (package libflint-arb-dev) when isoroll is built.",
+        "This needs Arb (package libflint-arb-dev; Debian 13: libflint-dev) when isoroll is built.",
     .example = "isoroll prove scene.yaml\nisoroll prove scene.yaml --k 1/3 --digits 40 -o third.cert",
     .exits = "0: proved, or undecided: 0 is in the enclosure\n"
              "1: interrupted\n"

@@ -209,7 +209,7 @@ static const options defaults = {.change = ISO_SCENE_AS_IT_IS, .output = "-"};
 
 static const option_row rows[] = {
     ROW_OUTPUT(options, output),
-    ROWS_OF_STUDY(iso_explain_option, 0, 6),
+    ROWS_OF_STUDY(iso_scene_change_option),
     ROW_OF_FILE("times", "FILE", "a file", "output times from FILE, in any order; # begins a comment", iso_set_text,
                 options, times, 0, OPTION_READS),
     ROW("verbose", NULL, NULL, "tell on stderr how the run went, and the error of the rows", iso_set_flag, options,
@@ -241,7 +241,9 @@ const command command_run = {
         "between, whatever was rounded. It is for the free ball, rotors and levels. The scene's numbers are taken "
         "exactly as they are written. It takes no method and no tolerance (those of the scene are not used); backend "
         "ball or point says whose equations are enclosed. lib/doc/certify.md explains it. It needs Arb (package "
-        "libflint-arb-dev) when isoroll is built.\n\n"
+        "libflint-arb-dev; Debian 13: libflint-dev) when isoroll is built. The run stops, and says what to "
+        "change, if at this pace it would take more than about ten hours, or if more digits do not help. The rows "
+        "before are kept.\n\n"
         "After Ctrl-C, the rows computed so far are kept.",
     .example =
         "isoroll run scene.yaml -o trajectory.csv\nisoroll run scene.yaml --certify --digits 100 -o certified.csv",

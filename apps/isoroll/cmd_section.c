@@ -16,6 +16,12 @@ typedef struct options {
     bool quiet;
 } options;
 
+/* The file of the crossings, which go to standard output if none is named. */
+static const char *table_of(const options *o)
+{
+    return o->shell.table ? o->shell.table : "-";
+}
+
 /* Where the rows go. */
 typedef struct target {
     iso_context *ctx;
@@ -32,7 +38,7 @@ static iso_status open_file(void *data, const iso_record *header)
     target *t = data;
     t->opened = true;
     iso_status status = t->o->shell.plot.path ? section_picture_create(t->ctx, header, &t->picture) : ISO_OK;
-    if (status == ISO_OK) status = iso_table_writer_open(t->ctx, t->o->shell.table, "section", &t->writer);
+    if (status == ISO_OK) status = iso_table_writer_open(t->ctx, table_of(t->o), "section", &t->writer);
     return status == ISO_OK ? iso_table_write_header(t->ctx, t->writer, header) : status;
 }
 
@@ -140,7 +146,7 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     target t = {.ctx = ctx, .o = o};
     const iso_section_sink sink = {open_file, write_row, keep_pair, tell_note, show_progress, &t, NULL};
     iso_section_result r;
-    begin_work(ctx, o->shell.table);
+    begin_work(ctx, table_of(o));
     const iso_status status = iso_section_run(ctx, scene, how, &sink, &r);
     int result = t.opened ? close_file(&t, status, &r) : finish_scene(ctx, o->shell.file, scene, status);
     if (t.opened && o->shell.plot.path && r.rows > 0 && result <= EXIT_SOME_FAILED) {
@@ -165,65 +171,66 @@ static int section(iso_context *ctx, const options *o)
     return status == ISO_OK ? run_scene(ctx, o, &scene, how) : finish(ctx, status);
 }
 
-/* --- clouds in place of crossings ------------------------------------------------------------------------------- */
+/* --- areas in place of crossings -------------------------------------------------------------------------------- */
 
-/* They write no rows and draw no picture. */
-static iso_status check_cloud(const shell *s)
+static iso_status check_area(const shell *s)
 {
     const shell_options *o = &((const options *)s->options)->shell;
-    ISO_TRY(iso_plot_check_page(s->ctx, &o->plot));
-    const char *lost = strcmp(o->table, "-") != 0 ? "--output" : o->plot.path ? "--plot" : NULL;
-    if (!lost) return ISO_OK;
-    return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "", "section: --cloud takes no %s: it only prints the test",
-                            lost);
+    if (!o->plot.path) return ISO_OK;
+    return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "", "section: --area draws no picture: leave out --plot");
 }
 
-/* One row about a cloud. */
-static void print_cloud(const iso_cloud *c)
+/* Of each model the orbits by their verdicts, and the orbit that is worst. */
+static void print_areas(const shell *s)
 {
-    const iso_measure *m = &c->measure;
-    const iso_measure_entry *worst = &m->line[m->worst];
-    if (*c->why) {
-        say("%s\tnot tried: %s\n", c->what, c->why);
-        return;
+    const iso_section_areas *f = s->result.found;
+    say("det D - 1 of %s: 0 where %s is kept\n",
+        f->returns ? "the map from the start to each return" : "the flow over steps of about a turn",
+        f->returns ? "the area dL dl" : "the measure (10)");
+    for (int model = ISO_BALL; model <= ISO_POINT; model++) {
+        const iso_section_area *worst = NULL;
+        size_t count = 0, kept = 0, not_kept = 0;
+        for (size_t i = 0; i < f->count; i++) {
+            const iso_section_area *a = &f->orbit[i];
+            if ((int)a->model != model) continue;
+            count++;
+            kept += strcmp(a->kept, "kept") == 0;
+            not_kept += strcmp(a->kept, "not kept") == 0;
+            if (a->turns > 0 && (!worst || a->worst * worst->bound > worst->worst * a->bound)) worst = a;
+        }
+        if (count == 0) continue;
+        say("%s: the area is %s", iso_model_kind_name(model),
+            not_kept > 0    ? "not kept"
+            : kept == count ? "kept"
+                            : "undecided");
+        say(": %zu of %zu orbits keep it", kept, count);
+        if (worst)
+            say("; farthest is orbit %zu, by %.2g, of which errors explain %.2g", worst->orbit, worst->worst,
+                worst->bound);
+        say("\n");
     }
-    if (m->lost > 0) {
-        say("%s\tnot kept: at least %zu of %zu orbits do not return\n", c->what, m->lost, m->count);
-        return;
-    }
-    say("%s\t%s\t%.2g\t%s at %.6g is off by %.2g standard errors", c->what, m->kept ? "kept" : "not kept", m->p,
-        worst->name, worst->time, fabs(worst->deviation));
-    if (isfinite(m->resolution)) say("; an exponent wrong by %.2g %% would be detected", 100 * m->resolution);
-    say("\n");
-}
-
-static void print_clouds(const shell *s)
-{
-    const iso_clouds *f = s->result.found;
-    if (f->count == 0) return;
-    say_table(1);
-    say("cloud\tmeasure\tp\tworst\n");
-    for (int i = 0; i < f->count; i++) print_cloud(&f->cloud[i]);
-    say_table_end();
+    if (*f->words) complain("%s", f->words);
 }
 
 static int run(iso_context *ctx, const void *options_given)
 {
-    static const shell_parts clouds = {
-        .study = &iso_section_study, .check = check_cloud, .stopped = "clouds are missing", .print = print_clouds};
+    static const shell_parts areas = {.study = &iso_section_study,
+                                      .kind = "section area",
+                                      .check = check_area,
+                                      .stopped = "orbits are missing",
+                                      .print = print_areas};
     const options *o = options_given;
-    if (o->study.cloud == 0) return section(ctx, o);
-    return shell_run(ctx, &clouds, o, &(shell_options){.file = o->shell.file});
+    if (!o->study.area) return section(ctx, o);
+    return shell_run(ctx, &areas, o, &o->shell);
 }
 
-static const options defaults = {.shell = {.file = "-", .table = "-"}};
+static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
     ROW_OUTPUT(options, shell.table),
-    ROWS_OF_STUDY(iso_section_option, 0, 9),
+    ROWS_OF_STUDY(iso_section_option),
     ROWS_OF_PLOT(options, shell.plot),
     ROWS_OF_SECTION(options, shell.plot),
-    ROWS_OF_STUDY(iso_section_option, 9, 2),
     ROW("quiet", NULL, NULL, "print no summary on stderr", iso_set_flag, options, quiet),
     ROW_END,
 };
@@ -247,6 +254,9 @@ const command command_section = {
         "Where no effect but 'level' acts, crossings are searched in pieces of the path that are too short for two "
         "zeros of n_A: none is skipped. In addition, the length in s of each return is checked against bounds. A "
         "return outside them is an error.\n\n"
+        "An orbit that does not come to the section within 10000 turns ends. The message tells between which "
+        "values it stays, and names a section that it crosses, or an event. If the first model finds this before a "
+        "crossing, the second is not asked.\n\n"
         "--plot draws the sections of both models side by side. A regular orbit has the colour of its "
         "rotation number, the mean turn from one crossing to the next: about axis A, or about its centre if it stays "
         "in a part of the "
@@ -258,13 +268,15 @@ const command command_section = {
         "of each and its images, and the curves that leave and enter the unstable rotation, if a row has the k of "
         "the "
         "section.\n\n"
-        "--cloud N makes clouds of N states that are distributed by the invariant measure (10) at the scene's "
-        "energy. One cloud is carried by the flow in equal times t, one in equal times s, and one by returns to "
-        "the section, where the measure is dL dl. Then each cloud is tested against the measure. Its line has p, "
-        "the probability that a measure that is kept deviates by chance as much as this, and the error of the "
-        "exponent in (10) that this test would detect.\n\n"
+        "--area writes no crossings. It tells of each orbit, by each model, whether the return map keeps the area: "
+        "|det D - 1|, where D is the derivative of the map from the start to a return, and what errors of the "
+        "integration explain of it. The area is kept, not kept, or undecided. With effects beyond a level, D is "
+        "that of the flow over steps of about a turn, between planes across it, by the invariant measure (10). A "
+        "chaotic orbit is told only for its first returns. -o writes a row for each orbit.\n\n"
         "After Ctrl-C, the rows computed so far are kept.",
     .example = "isoroll section scene.yaml --starts 100 -o section.csv --plot section.png",
-    .exits = "1: interrupted, some orbits did not get to the end, or a cloud does not keep the measure\n"
+    .exits = "1: interrupted, some orbits did not get to the end, or --area finds an orbit that does not keep\n"
+             "   the area, or cannot tell\n"
+             "3: also: no orbit comes to the section\n"
              "4: the computation failed before the first crossing",
 };

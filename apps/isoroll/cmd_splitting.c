@@ -166,7 +166,7 @@ static int run(iso_context *ctx, const void *options_given)
 static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
-    ROWS_OF_STUDY(iso_splitting_option, 0, 4),
+    ROWS_OF_STUDY(iso_splitting_option),
     ROW_OUTPUT(options, shell.table),
     ROWS_OF_PLOT(options, shell.plot),
     ROW_JSON(options, shell.json),

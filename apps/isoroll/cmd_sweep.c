@@ -37,21 +37,21 @@ static bool from_environment(const char *name, double usual, double *x)
 }
 
 /* "slurm/N": task I of Slurm computes shard I of N, from 1 on, also if only some tasks are submitted again. */
-static iso_status share_of_task(iso_context *ctx, const char *shares, iso_sweep_shard *share)
+static iso_status shard_of_task(iso_context *ctx, const char *shards, iso_sweep_shard *shard)
 {
     double id, count;
-    if (read_whole(shares, strlen(shares), &count) && from_environment("SLURM_ARRAY_TASK_ID", NAN, &id) && id >= 1 &&
+    if (read_whole(shards, strlen(shards), &count) && from_environment("SLURM_ARRAY_TASK_ID", NAN, &id) && id >= 1 &&
         id <= count) {
-        *share = (iso_sweep_shard){(size_t)id - 1, (size_t)count};
+        *shard = (iso_sweep_shard){(size_t)id - 1, (size_t)count};
         return ISO_OK;
     }
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
-                            "--shard slurm/%s: SLURM_ARRAY_TASK_ID must be a number from 1 to %s", shares, shares);
+                            "--shard slurm/%s: SLURM_ARRAY_TASK_ID must be a number from 1 to %s", shards, shards);
 }
 
 /* The number of a task of a Slurm array begins at any number, and can go in steps. Some tasks that are submitted
  * again are an array of their own: its numbers do not tell their shards. */
-static iso_status share_of_slurm(iso_context *ctx, iso_sweep_shard *share)
+static iso_status shard_of_slurm(iso_context *ctx, iso_sweep_shard *shard)
 {
     double id, count, least, step, most;
     if (!from_environment("SLURM_ARRAY_TASK_ID", NAN, &id) ||
@@ -71,23 +71,23 @@ static iso_status share_of_slurm(iso_context *ctx, iso_sweep_shard *share)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
                                 "--shard slurm: this array has one task or gaps, so it does not tell N: give "
                                 "--shard slurm/N, N the number of all shards");
-    *share = (iso_sweep_shard){(size_t)index, (size_t)count};
+    *shard = (iso_sweep_shard){(size_t)index, (size_t)count};
     return ISO_OK;
 }
 
-static iso_status read_share(iso_context *ctx, const char *text, iso_sweep_shard *share)
+static iso_status read_shard(iso_context *ctx, const char *text, iso_sweep_shard *shard)
 {
     double i, n;
-    *share = (iso_sweep_shard){0, 1};
+    *shard = (iso_sweep_shard){0, 1};
     if (!text) return ISO_OK;
-    if (strcmp(text, "slurm") == 0) return share_of_slurm(ctx, share);
-    if (strncmp(text, "slurm/", 6) == 0) return share_of_task(ctx, text + 6, share);
+    if (strcmp(text, "slurm") == 0) return shard_of_slurm(ctx, shard);
+    if (strncmp(text, "slurm/", 6) == 0) return shard_of_task(ctx, text + 6, shard);
     const char *slash = strchr(text, '/');
     if (!slash || !read_whole(text, (size_t)(slash - text), &i) || !read_whole(slash + 1, strlen(slash + 1), &n) ||
         i < 1 || i > n)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
                                 "--shard '%s': expected i/n with 1 <= i <= n, slurm or slurm/n", text);
-    *share = (iso_sweep_shard){(size_t)i - 1, (size_t)n};
+    *shard = (iso_sweep_shard){(size_t)i - 1, (size_t)n};
     return ISO_OK;
 }
 
@@ -127,7 +127,7 @@ static int tell_interrupted(const options *o, const work *w)
         complain("interrupted: nothing was written");
         return limit_is_near() && done == 0 ? EXIT_DONE : EXIT_SOME_FAILED;
     }
-    complain("%s: %zu of %zu chunks are in '%s.part'; go on with: isoroll sweep %s -o %s%s%s --resume",
+    complain("%s: %zu of %zu chunks are in '%s.journal'; go on with: isoroll sweep %s -o %s%s%s --resume",
              limit_is_near() ? "stopped by SIGTERM or SIGUSR1" : "interrupted", done, all, o->output, o->file,
              o->output, o->shard ? " --shard " : "", o->shard ? o->shard : "");
     return limit_is_near() ? EXIT_DONE : EXIT_SOME_FAILED;
@@ -161,7 +161,7 @@ static int compute(iso_context *ctx, const options *o, const sweep_team *team, c
     char of[32];
     work w = {.journal = journal, .chunks = iso_sweep_chunks(head)};
     const iso_sweep_source source = {next_chunk, take_chunk, &w};
-    stop_before_limit();
+    stop_gently();
     progress_begin();
     show(&w);
     iso_status status = team->run(team->data, ctx, sweep, threads_of(o), &source);
@@ -169,7 +169,7 @@ static int compute(iso_context *ctx, const options *o, const sweep_team *team, c
     if (status != ISO_OK) return finish(ctx, status);
     if (journal->done < journal->wanted) return tell_interrupted(o, &w);
     status = iso_sweep_journal_finish(ctx, journal);
-    snprintf(of, sizeof of, "of %zu ", iso_sweep_shard_points(head, journal->share));
+    snprintf(of, sizeof of, "of %zu ", iso_sweep_shard_points(head, journal->shard));
     return status == ISO_OK ? tell_failures(&journal->failures, of) : finish(ctx, status);
 }
 
@@ -187,12 +187,12 @@ static int refused(iso_context *ctx, const options *o, const iso_sweep_plan *pla
 
 /* Every member has read the sweep. The one that writes opens the journal. */
 static int run_sweep(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep_file *file,
-                     const iso_sweep *sweep, iso_sweep_shard share)
+                     const iso_sweep *sweep, iso_sweep_shard shard)
 {
     iso_sweep_journal *journal = NULL;
     iso_status status = ISO_OK;
     if (team->writes)
-        status = iso_sweep_journal_open(ctx, o->output, iso_sweep_head_of(sweep), share, o->resume, &journal);
+        status = iso_sweep_journal_open(ctx, o->output, iso_sweep_head_of(sweep), shard, o->resume, &journal);
     int result = team->agree(team->data, finish(ctx, status));
     if (journal) warn_of_zeros(file, journal);
     if (result == EXIT_DONE && team->writes)
@@ -206,12 +206,12 @@ static int run_sweep(iso_context *ctx, const options *o, const sweep_team *team,
 static int run_file(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep_file *file)
 {
     const iso_sweep_plan *plan = iso_sweep_file_plan(file);
-    iso_sweep_shard share;
+    iso_sweep_shard shard;
     iso_sweep *sweep = NULL;
-    iso_status status = read_share(ctx, o->shard, &share);
+    iso_status status = read_shard(ctx, o->shard, &shard);
     if (status == ISO_OK) status = iso_sweep_create(ctx, plan, &sweep);
     int result = team->agree(team->data, refused(ctx, o, plan, status));
-    if (result == EXIT_DONE) result = run_sweep(ctx, o, team, file, sweep, share);
+    if (result == EXIT_DONE) result = run_sweep(ctx, o, team, file, sweep, shard);
     iso_sweep_free(sweep);
     return result;
 }
@@ -304,7 +304,8 @@ static const option_row rows[] = {
     ROW_OF_FILE("output", "FILE", "a file", "write to FILE: HDF5 if it ends in .h5, else CSV; - is standard output",
                 iso_set_text, options, output, 'o', OPTION_WRITES),
     ROW_THREADS(options, threads),
-    ROW("resume", NULL, NULL, "go on with what FILE.part has; begin if there is none", iso_set_flag, options, resume),
+    ROW("resume", NULL, NULL, "go on with what FILE.journal has; begin if there is none", iso_set_flag, options,
+        resume),
     ROW("shard", "I/N", "i/n, slurm or slurm/n",
         "compute every N-th chunk, from the I-th on; slurm/N: I is the number of the task of a Slurm array; slurm: "
         "I and N come from the array, which must be whole",
@@ -323,11 +324,10 @@ const command command_sweep = {
     .description =
         "A sweep is a file in YAML: a scene, the numbers in it that vary, and what is measured at each point "
         "(lib/doc/formats.md). 'isoroll explain SWEEP' tells how many points it has, and how long it takes here.\n\n"
-        "Finished chunks of points are kept in FILE.part until all are there; then FILE is written. Ctrl-C lets the "
-        "chunks that are being computed end. So do SIGTERM and SIGUSR1, after which the exit status is 0. Even "
+        "Finished chunks of points are kept in FILE.journal until all are there; then FILE is written. Ctrl-C lets "
+        "the chunks that are being computed end. So do SIGTERM and SIGUSR1, after which the exit status is 0. Even "
         "kill -9 loses only the chunks that are being computed. --resume goes on, with any number of threads. The "
-        "bytes "
-        "of FILE do not depend on threads, shards or interruptions.\n\n"
+        "bytes of FILE do not depend on threads, shards or interruptions.\n\n"
         "A point that fails is a row with its reason. A file that is there is not overwritten.",
     .example = "isoroll sweep sweep.yaml -o out.h5\n"
                "isoroll sweep sweep.yaml -o out.h5 --resume\n"

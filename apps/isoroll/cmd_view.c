@@ -11,7 +11,6 @@
 typedef struct options {
     file_options from;
     const char *output; /* NULL: not given */
-    view_frames frames; /* folder NULL: not given */
     bool live;
 } options;
 
@@ -117,9 +116,8 @@ static iso_status make(iso_context *ctx, const options *o, view_kind kind, view_
     if (status == ISO_OK && page->rows) view_note_turn(page);
     if (status == ISO_OK && page->rows) status = view_numbers(ctx, page);
     if (status == ISO_OK && page->rows) status = view_neighbour_of_rows(ctx, page);
-    if (o->output && strcmp(o->output, "-") == 0) progress_end();
-    if (status == ISO_OK && o->output) status = view_write(ctx, o->output, page);
-    if (status == ISO_OK && o->frames.folder) status = view_write_frames(ctx, &o->frames, page);
+    if (strcmp(o->output, "-") == 0) progress_end();
+    if (status == ISO_OK) status = view_write(ctx, o->output, page);
     return status;
 }
 
@@ -127,7 +125,7 @@ static int run(iso_context *ctx, const void *options_given)
 {
     static const char *const names[] = {"scene", "trajectory", "section"};
     const options *o = options_given;
-    if (!o->output && !o->frames.folder)
+    if (!o->output)
         return complain("view: -o FILE is missing: name the page, such as page.html; - is standard output"),
                EXIT_USAGE;
     const bool standard = strcmp(o->from.file, "-") == 0 && !o->live;
@@ -154,19 +152,13 @@ static int run(iso_context *ctx, const void *options_given)
     return result == EXIT_DONE && no_orbit ? EXIT_SOME_FAILED : result;
 }
 
-static const options defaults = {.from = FILE_OPTIONS_UNSET, .frames = {.fps = 25, .seconds = 10}};
+static const options defaults = {.from = FILE_OPTIONS_UNSET};
 
 static const option_row rows[] = {
     ROW_OF_FILE("output", "FILE", "a file", "the page; - is standard output", iso_set_text, options, output, 'o',
                 OPTION_WRITES),
     ROW("live", NULL, NULL, "with the library inside: change k, J and the start in the page", iso_set_flag, options,
         live),
-    ROW("frames", "DIR", "a folder", "draw the motion as DIR/frame0001.png, ... (needs Chromium)", iso_set_text,
-        options, frames.folder),
-    ROW("fps", "N", "a positive number", "pictures in each second (default 25)", iso_set_positive, options,
-        frames.fps),
-    ROW("seconds", "N", "a positive number", "seconds that the whole motion takes (default 10)", iso_set_positive,
-        options, frames.seconds),
     ROWS_OF_FILE(options, from),
     ROW_END,
 };
@@ -193,8 +185,7 @@ const command command_view = {
         "status 1.\n\n"
         "With --live the page has the library inside (WebAssembly): change k and J, throw the ball, or click the "
         "section to start there: the page computes anew. Of effects its scene can have level, rotor and gravity. "
-        "Without FILE it begins with a scene of its own.\n\n"
-        "--frames draws pictures of 1280 x 720 pixels with Chromium, without a window; -o is then not needed.",
+        "Without FILE it begins with a scene of its own.",
     .exits = "1: interrupted, or the rows of a trajectory are no orbit (the page is there)",
     .example = "isoroll view scene.yaml -o page.html\nisoroll view section.csv -o section.html\n"
                "isoroll view --live -o laboratory.html",

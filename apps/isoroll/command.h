@@ -65,11 +65,16 @@ extern const char *const about_exits;
 void help_command(const command *c, FILE *to);
 void help_program(FILE *to);
 
-/* The man pages isoroll(1) and isoroll-NAME(1), in the format man(7); scripts that complete the command line. */
+/* The man pages isoroll(1) and isoroll-NAME(1), in the format man(7). */
 void manual_program(FILE *to);
 void manual_command(const command *c, FILE *to);
-void complete_bash(FILE *to);
-void complete_zsh(FILE *to);
+
+/* Scripts that complete the command line. They ask `isoroll --complete WORD...`: */
+extern const char complete_bash[], complete_zsh[];
+
+/* Prints the words that may stand in the place of the last of word[0..count), which follow "isoroll": one a line, then
+ * a tab and what it is for. None: a name of a file, or no command. */
+void complete_line(int count, char *word[]);
 
 /* --- program.c: how a program of isoroll begins, runs a command, and ends -------------------------------------- */
 

@@ -84,13 +84,13 @@ static void print_cell(const iso_cost_cell *c)
         c->statistics.steps, c->statistics.rhs, cost_seconds(c->setup, setup));
 }
 
-static void print_cells(const iso_cost *cost, const iso_cost_series *const *line)
+static void print_cells(const iso_cost *cost, const iso_cost_series *const *series)
 {
     say("\n");
     say_table(3);
     say("backend\tmethod\ttol\terror\tclocks\tenergy\ttime\tspread\tsteps\trhs\tset-up\n");
-    for (int l = 0; l < cost->lines; l++)
-        for (int i = line[l]->first; i < line[l]->first + line[l]->count; i++)
+    for (int l = 0; l < cost->series_count; l++)
+        for (int i = series[l]->first; i < series[l]->first + series[l]->count; i++)
             if (iso_cost_is_measured(&cost->cell[i])) print_cell(&cost->cell[i]);
     say_table_end();
     say("  *  nothing else is both more exact and faster\n"
@@ -115,13 +115,13 @@ static void print_failed(const iso_cost *cost)
     }
 }
 
-/* Cells that were not run to the end for want of time: of each line the loosest tolerance of those. */
+/* Cells that were not run to the end for want of time: of each series the loosest tolerance of those. */
 static void print_left_out(const iso_cost *cost)
 {
     int lines = 0;
-    for (int l = 0; l < cost->lines; l++) {
-        const iso_cost_series *line = &cost->line[l];
-        const iso_cost_cell *c = &cost->cell[line->first], *end = c + line->count;
+    for (int l = 0; l < cost->series_count; l++) {
+        const iso_cost_series *series = &cost->series[l];
+        const iso_cost_cell *c = &cost->cell[series->first], *end = c + series->count;
         while (c < end && c->status != ISO_STOPPED) c++;
         if (c == end) continue;
         if (lines++ == 0) say("\nnot run, because it would take too long\n");
@@ -133,10 +133,10 @@ static void print_left_out(const iso_cost *cost)
 
 /* --- what the methods give for more time ------------------------------------------------------------------------ */
 
-static void say_time_to(const iso_cost *cost, const iso_cost_series *line, double want)
+static void say_time_to(const iso_cost *cost, const iso_cost_series *series, double want)
 {
     char words[COST_SECONDS];
-    const iso_cost_cell *c = iso_cost_choose_steps(cost, line, want);
+    const iso_cost_cell *c = iso_cost_choose_steps(cost, series, want);
     say("\t%s", cost_seconds(c ? c->total : (double)NAN, words));
 }
 
@@ -161,14 +161,14 @@ static void print_line(const iso_cost *cost, const iso_cost_series *m)
         say("\t%s\n", ISO_SHORT(m->stops_at));
 }
 
-static void print_lines(const iso_cost *cost, const iso_cost_series *const *line)
+static void print_lines(const iso_cost *cost, const iso_cost_series *const *series)
 {
     say("\nmethods, sorted by their time to an error of 1e-9: time to reach an error, factor in time for one more "
         "digit, order (measured, and of the method), least error, tolerance below which nothing is gained\n");
     say_table(2);
     say("backend\tmethod\tto 1e-6\tto 1e-9\tto 1e-12\ta digit\torder\tleast error\tno gain below\n");
-    for (int l = 0; l < cost->lines; l++)
-        if (line[l]->method && !isnan(line[l]->least)) print_line(cost, line[l]);
+    for (int l = 0; l < cost->series_count; l++)
+        if (series[l]->method && !isnan(series[l]->least)) print_line(cost, series[l]);
     say_table_end();
 }
 
@@ -221,42 +221,12 @@ static void print_answer(const iso_cost *cost)
     }
 }
 
-static void print_growth(const iso_cost_growing *g)
-{
-    char words[COST_OPTIONS], seconds[COST_SECONDS];
-    const iso_cost_growth *x = &g->growth;
-    say("\ngrowth with the length of the orbit: %s\n", cost_options_of(g->cell, words));
-    if (*g->why || *x->why) say("  ended early: %s\n", *g->why ? g->why : x->why);
-    if (x->count == 0) return;
-    say("  errors against %s\n", x->reference);
-    say_table(1);
-    say("to\terror\tuncertainty\ttime\n");
-    for (int i = 0; i < x->count; i++) {
-        say("%.8g\t%.1e", x->at[i].end, x->at[i].error);
-        say_number(x->at[i].uncertainty);
-        say("\t%s\n", cost_seconds(x->at[i].seconds, seconds));
-    }
-    say_table_end();
-    say("  ");
-    if (x->chaotic)
-        say("the error grows e-fold in %.3g (Lyapunov time): the orbit is chaotic", x->lyapunov_time);
-    else if (isnan(x->power))
-        say("too few errors are above the uncertainty to tell how the error grows");
-    else
-        say("the error grows like length^%.2f", x->power);
-    if (isnan(x->time_power))
-        say("\n");
-    else
-        say(", the time like length^%.2f\n", x->time_power);
-}
-
 void cost_print(const iso_scene *scene, const iso_cost_found *f)
 {
     print_head(scene, f->cost);
     print_answer(f->cost);
-    print_cells(f->cost, f->line);
+    print_cells(f->cost, f->series);
     if (f->cost->complete) print_left_out(f->cost);
     print_failed(f->cost);
-    if (iso_cost_choose_steps(f->cost, NULL, INFINITY)) print_lines(f->cost, f->line);
-    for (int i = 0; i < f->growths; i++) print_growth(&f->growth[i]);
+    if (iso_cost_choose_steps(f->cost, NULL, INFINITY)) print_lines(f->cost, f->series);
 }

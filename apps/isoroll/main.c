@@ -25,6 +25,7 @@ int main(int argc, char **argv)
     if (help || strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
         return help_program(stdout), program_flush(EXIT_DONE);
     if (strcmp(name, "--version") == 0) return program_version(), program_flush(EXIT_DONE);
+    if (strcmp(name, "--complete") == 0) return complete_line(argc - 2, argv + 2), program_flush(EXIT_DONE);
     const command *c = command_find(name);
     if (c) return program_flush(program_run(c, argc - 1, argv + 1));
     if (argc > 1) return unknown(name);

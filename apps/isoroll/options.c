@@ -3,12 +3,14 @@
 
 #include <getopt.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include "base/nearest_impl.h"
 #include "base/number_impl.h"
 #include "command.h"
+#include "io/replacement_impl.h"
 
 /* --- setters ---------------------------------------------------------------------------------------------------- */
 
@@ -77,10 +79,12 @@ static const option_row help_row = {.name = "help", .doc = "print this text", .l
 
 const option_row *options_row(const command *c, int i)
 {
-    const option_row *r = c->rows;
-    for (; r->name && i >= (r->more ? r->count : 1); r++) i -= r->more ? r->count : 1;
-    if (!r->name) return i == 0 ? &help_row : NULL;
-    return r->more ? &r->more[i] : r;
+    for (const option_row *r = c->rows; r->name; r++) {
+        if (!r->rows && i-- == 0) return r;
+        for (const option_row *of = r->rows; of && of->name; of++)
+            if (i-- == 0) return of;
+    }
+    return i == 0 ? &help_row : NULL;
 }
 
 static bool set_option(const command *c, const option_row *r, const char *text, char *options)
@@ -123,7 +127,8 @@ static options_result wrong_long(const command *c, const char *text)
     if (fit == 1) return complain("%s: %s: the option %s takes no argument", c->name, text, list), OPTIONS_WRONG;
     for (int i = 0; options_row(c, i) && count < MOST_ROWS; i++) names[count++] = options_row(c, i)->name;
     snprintf(bare, sizeof bare, "%.*s", (int)(length < sizeof bare ? length : 0), name);
-    const char *near = iso_nearest(bare, count, names);
+    const char *gone = iso_option_gone(c->name, bare), *near = iso_nearest(bare, count, names);
+    if (gone) return complain("%s: there is no option --%s any more: %s", c->name, bare, gone), OPTIONS_WRONG;
     if (!near) return wrong(c, "unknown option ", text);
     return complain("%s: unknown option %s; did you mean '--%s'?", c->name, text, near), OPTIONS_WRONG;
 }
@@ -149,13 +154,15 @@ static int argument_of(const option_row *r)
     return !r->argument ? no_argument : r->argument[0] == '[' ? optional_argument : required_argument;
 }
 
-/* What getopt_long needs to know: the long names, and the letters after the colon that makes it silent. */
-static void make_known(const command *c, struct option known[MOST_ROWS + 1], char letters[2 * MOST_ROWS])
+/* What getopt_long needs to know: the long names, and the letters after the colon that makes it silent. --csv is a
+ * second name of --output. */
+static void make_known(const command *c, struct option known[MOST_ROWS + 2], char letters[2 * MOST_ROWS])
 {
     *letters++ = ':';
     for (int i = 0; i < MOST_ROWS && options_row(c, i); i++) {
         const option_row *r = options_row(c, i);
-        known[i] = (struct option){r->name, argument_of(r), NULL, LONG + i};
+        *known++ = (struct option){r->name, argument_of(r), NULL, LONG + i};
+        if (strcmp(r->name, "output") == 0) *known++ = (struct option){"csv", required_argument, NULL, LONG + i};
         if (r->letter) *letters++ = r->letter;
         if (r->letter && r->argument) *letters++ = ':';
     }
@@ -229,14 +236,16 @@ static bool is_written_before(const command *c, int n, const char *path, const c
     return false;
 }
 
-/* No file is written in the place of one that is read, and no two in one place. */
+/* No file is written in the place of one that is read, also not before it gets its name; and no two in one place. */
 static options_result keep_files_apart(const command *c, const char *options)
 {
     for (int i = 0; options_row(c, i); i++) {
         const char *path = path_of(options_row(c, i), OPTION_WRITES, options);
         if (!path || strcmp(path, "-") == 0) continue;
-        if (is_read(c, path, options))
-            return complain("%s: '%s' would overwrite what is read", c->name, path), OPTIONS_WRONG;
+        char *part = iso_replacement_name(path);
+        const bool read = is_read(c, path, options) || (part && is_read(c, part, options));
+        free(part);
+        if (read) return complain("%s: '%s' would overwrite what is read", c->name, path), OPTIONS_WRONG;
         if (is_written_before(c, i, path, options))
             return complain("%s: '%s' would be two files in one", c->name, path), OPTIONS_WRONG;
     }
@@ -245,7 +254,7 @@ static options_result keep_files_apart(const command *c, const char *options)
 
 options_result options_read(const command *c, int argc, char **argv, void *options)
 {
-    struct option known[MOST_ROWS + 1] = {{0}};
+    struct option known[MOST_ROWS + 2] = {{0}};
     char letters[2 * MOST_ROWS] = "";
     bool help = false;
     make_known(c, known, letters);

@@ -60,10 +60,10 @@ bool ends_with(const char *path, const char *ending);
     }
 #define ROW ISO_OPTION
 
-/* `count` rows of a study, from `first` on. Its struct of options must be the first member of the command's. */
-#define ROWS_OF_STUDY(rows, first, count_)                                                                           \
+/* All rows of a study. Its struct of options must be the first member of the command's. */
+#define ROWS_OF_STUDY(rows_)                                                                                         \
     {                                                                                                                \
-        .name = "", .more = &(rows)[first], .count = count_                                                          \
+        .name = "", .rows = rows_                                                                                    \
     }
 
 /* The row of a file, with its short form (0: none) and what the file is for. */

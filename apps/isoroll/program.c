@@ -89,6 +89,7 @@ void program_begin(void)
     fill_closed_streams();
     signal(SIGPIPE, SIG_IGN); /* a failed write says so: to a closed pipe, and to a file that would be too large */
     signal(SIGXFSZ, SIG_IGN);
+    end_tidily();
     gsl_set_error_handler_off();
     json_begin();
 }

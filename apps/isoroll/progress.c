@@ -20,6 +20,7 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static pthread_cond_t woken;
 static struct {
     bool works, drawn;
+    bool picture;       /* gnuplot draws, which tells nothing */
     double begun;       /* when                                            */
     double first, part; /* told first, and last; NAN: nothing has been told */
     pthread_t drawer;
@@ -43,12 +44,14 @@ static int print_time(char *to, size_t room, double seconds)
     return snprintf(to, room, "%.0f:%02.0f:%02d", hours, minutes, rest);
 }
 
-/* The time since the beginning, and what is left if all goes on as fast. */
-static void print_times(char words[LINE])
+/* The part that is done, the time since the beginning, and what is left if all goes on as fast. */
+static void print_words(char words[LINE])
 {
     const double elapsed = wall_seconds() - bar.begun, done = bar.part - bar.first;
-    int used = print_time(words, LINE, elapsed);
-    if (!(done > 0)) return;
+    int used = bar.picture ? snprintf(words, LINE, "drawing, ")
+                           : snprintf(words, LINE, "%3.0f %% ", 100 * (isnan(bar.part) ? 0 : bar.part));
+    used += print_time(words + used, (size_t)(LINE - used), elapsed);
+    if (bar.picture || !(done > 0)) return;
     used += snprintf(words + used, (size_t)(LINE - used), ", ");
     used += print_time(words + used, (size_t)(LINE - used), elapsed * (1 - bar.part) / done);
     snprintf(words + used, (size_t)(LINE - used), " left");
@@ -61,10 +64,10 @@ static void draw(void)
     const bool coloured = !no_color || !*no_color;
     const double part = isnan(bar.part) ? 0 : bar.part;
     const int room = terminal_width(stderr) - WORDS - 1, width = room < WIDTH ? room : WIDTH;
-    print_times(words);
+    print_words(words);
     fprintf(stderr, "\r%s", coloured ? "\033[36m" : "");
     for (int i = 0; i < width; i++) fputc(i < (int)(part * width) ? '#' : '.', stderr);
-    fprintf(stderr, "%s %3.0f %% %-24s", coloured ? "\033[0m" : "", 100 * part, words);
+    fprintf(stderr, "%s %-*s", coloured ? "\033[0m" : "", WORDS - 2, words);
     fflush(stderr);
     bar.drawn = true;
 }
@@ -116,6 +119,7 @@ void progress_begin(void)
     if (!bar.works) {
         bar.begun = wall_seconds();
         bar.first = bar.part = NAN;
+        bar.picture = false;
         bar.works = true;
         bar.works = start_drawer();
     }
@@ -139,6 +143,14 @@ void progress_told(double part, void *unused)
 {
     (void)unused;
     progress_show(part);
+}
+
+void progress_drawing(void)
+{
+    progress_begin();
+    pthread_mutex_lock(&lock);
+    bar.picture = true;
+    pthread_mutex_unlock(&lock);
 }
 
 void progress_end(void)

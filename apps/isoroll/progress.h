@@ -1,4 +1,5 @@
-/* progress.h - a bar on stderr while a command works: how much is done, the time since the beginning, the time left.
+/* progress.h - a bar on stderr while a command works: how much is done, the time since the beginning, the time left;
+ * "drawing" while gnuplot works.
  *
  *     progress_begin();
  *     status = long_work(ctx, ..., progress_told, ...);      calls progress_show(part) now and then, or never
@@ -20,6 +21,9 @@ void progress_show(double part);
 
 /* The same, for options of the library that take such a function. */
 void progress_told(double part, void *unused);
+
+/* gnuplot draws from now on until progress_end: how much of it is done is not known. */
+void progress_drawing(void);
 
 /* The work has ended: takes the bar away. */
 void progress_end(void);

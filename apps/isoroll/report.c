@@ -8,10 +8,18 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "io/replacement_impl.h"
 #include "progress.h"
 #include "say.h"
 
 static volatile sig_atomic_t stop_asked, stop_signal;
+
+static void end(int signal_number)
+{
+    iso_replacement_unlink_all();
+    signal(signal_number, SIG_DFL);
+    raise(signal_number);
+}
 
 static void ask_to_stop(int signal_number)
 {
@@ -21,30 +29,30 @@ static void ask_to_stop(int signal_number)
         stop_signal = signal_number;
     }
     stop_asked = 1;
-    if (time(NULL) - first < 2) return; /* timeout(1) sends two signals at once */
-    signal(signal_number, SIG_DFL);
-    raise(signal_number);
+    if (time(NULL) - first >= 2) end(signal_number); /* timeout(1) sends two signals at once */
 }
 
 /* A signal that nohup or a background start ignores stays ignored. */
-static void stop_at(int signal_number)
+static void at_signal(int signal_number, void (*handler)(int))
 {
-    const struct sigaction ask = {.sa_handler = ask_to_stop};
+    const struct sigaction act = {.sa_handler = handler};
     struct sigaction old;
-    if (sigaction(signal_number, NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(signal_number, &ask, NULL);
+    if (sigaction(signal_number, NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(signal_number, &act, NULL);
+}
+
+void end_tidily(void)
+{
+    at_signal(SIGINT, end);
+    at_signal(SIGTERM, end);
+    at_signal(SIGHUP, end);
 }
 
 void stop_gently(void)
 {
-    stop_at(SIGINT);
-    stop_at(SIGTERM);
-    stop_at(SIGHUP);
-}
-
-void stop_before_limit(void)
-{
-    stop_gently();
-    stop_at(SIGUSR1);
+    at_signal(SIGINT, ask_to_stop);
+    at_signal(SIGTERM, ask_to_stop);
+    at_signal(SIGHUP, ask_to_stop);
+    at_signal(SIGUSR1, ask_to_stop);
 }
 
 bool limit_is_near(void)

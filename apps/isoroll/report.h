@@ -31,11 +31,12 @@ int finish(iso_context *ctx, iso_status status);
 /* The worse of two exit statuses. */
 int worse(int a, int b);
 
-/* From now on SIGINT, SIGTERM and SIGHUP only ask to stop. A signal that comes two seconds later ends the program. */
-void stop_gently(void);
+/* SIGINT, SIGTERM and SIGHUP take away the files that are being written, then end the program. */
+void end_tidily(void);
 
-/* The same, and SIGUSR1 as well: schedulers send it before a time limit. */
-void stop_before_limit(void);
+/* From now on SIGINT, SIGTERM, SIGHUP, and SIGUSR1, which schedulers send before a time limit, only ask to stop. A
+ * signal that comes two seconds later ends the program. */
+void stop_gently(void);
 
 /* True if the first signal that asked to stop was SIGTERM or SIGUSR1: a time limit, not the user. */
 bool limit_is_near(void);

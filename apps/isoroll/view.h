@@ -8,7 +8,6 @@
  *     view_neighbour.c   whether an orbit is chaotic, and a second one that begins beside it
  *     view_data.c        the data as JSON, columns of numbers as base64
  *     view_write.c       the page: the data and the files of view/
- *     view_frames.c      pictures of the page, drawn by Chromium
  */
 #ifndef ISOROLL_VIEW_H
 #define ISOROLL_VIEW_H
@@ -86,6 +85,7 @@ typedef struct view_page {
     int integrals;
     view_section *section; /* NULL: none */
     bool live;             /* the library is in the page                                             */
+    bool attitude;         /* the scene or the file states one; every page has one to draw the ball    */
     bool no_orbit;         /* rows of a trajectory do not follow the equations: a note says so */
 } view_page;
 
@@ -192,14 +192,5 @@ iso_status view_check_build(iso_context *ctx, bool live);
 
 /* Errors: ISO_FILE_TROUBLE, ISO_CLOSED_PIPE, ISO_NO_MEMORY. */
 iso_status view_write(iso_context *ctx, const char *path, const view_page *page);
-
-/* Frames as PNG. */
-typedef struct view_frames {
-    const char *folder;
-    double fps, seconds; /* frames in each second; seconds that the whole motion takes */
-} view_frames;
-
-/* Makes the folder if it is not there. Errors: ISO_FILE_TROUBLE, ISO_BAD_ARGUMENT (too many frames), ISO_STOPPED. */
-iso_status view_write_frames(iso_context *ctx, const view_frames *frames, const view_page *page);
 
 #endif

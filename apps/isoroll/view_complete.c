@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "map/state.h"
+#include "orbit/convert_impl.h"
 #include "view.h"
 
 /* An orbit misses a row if it is farther from it. */
@@ -114,15 +115,10 @@ static double missed_by(const completion *c, size_t i, const iso_sample *sample)
     return fmax(off, view_distance(n, sample->ball + 3));
 }
 
-/* The bound: MISSED, or more where the file says so: a hundred times the tolerance with which it was made, ten
- * times the tolerance of its rows. */
+/* The bound: MISSED, or the drift that the rows of a file may have, if that is larger. */
 static void find_bound(completion *c)
 {
-    double tolerance = 0;
-    iso_status unused = ISO_OK;
-    iso_record_get_numbers(c->ctx, c->in, "tolerance", 1, &tolerance, &unused);
-    const double row = iso_record_row_tolerance(c->in);
-    c->bound = fmax(MISSED, fmax(100 * tolerance, row > ISO_ROW_TOLERANCE ? 10 * row : 0));
+    c->bound = fmax(MISSED, iso_conversion_largest_drift(c->ctx, c->in, iso_record_row_tolerance(c->in)));
     for (size_t i = 0; i < iso_record_rows(c->out); i++) {
         const double *w = view_vector(c->out, i, "omega1");
         c->speed = fmax(c->speed, hypot(hypot(w[0], w[1]), w[2]));

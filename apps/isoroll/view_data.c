@@ -142,6 +142,7 @@ static const iso_field page_fields[] = {
     FIELD("title", title, "", "the name of the file"),
     FIELD("kind", kind, "", "scene, trajectory or section"),
     FIELD("live", live, "", "whether the library is in the page"),
+    FIELD("attitude", attitude, "", "whether the scene or the file states one"),
     FIELD("k", params.k, "", "geometry number"),
     FIELD("J", params.J, "moment of inertia", "about the contact"),
     FIELD("radius", params.body.radius, "length", "of the ball"),

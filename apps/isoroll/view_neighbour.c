@@ -29,7 +29,7 @@ static iso_status judge(iso_context *ctx, const view_page *page, const iso_start
     scene.params = page->params;
     scene.start = *start;
     scene.effects = *effects;
-    scene.effects.on[ISO_ATTITUDE] = scene.effects.on[ISO_REACTIONS] = false; /* they only observe */
+    scene.effects = iso_scene_acting(&scene);
     scene.end = 1;
     o->turns = TURNS;
     o->models = ISO_SHOW_BALL;

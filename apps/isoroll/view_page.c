@@ -53,6 +53,7 @@ iso_status view_read_lines(iso_context *ctx, const file_options *from, iso_recor
 {
     iso_status status = parameters_of_file(ctx, from, r, &page->params);
     if (status == ISO_OK) status = view_read_effects(ctx, r, page);
+    page->attitude = page->effects.on[ISO_ATTITUDE];
     if (status == ISO_OK && !iso_record_get_numbers(ctx, r, "h", 1, &page->h, &status)) page->h = NAN;
     if (status == ISO_OK && !iso_record_coupling(ctx, r, &page->params, &page->eps, &status)) page->eps = NAN;
     return status;

@@ -168,6 +168,7 @@ static iso_status run_point(iso_context *ctx, const iso_scene *asked, view_page 
 iso_status view_of_scene(iso_context *ctx, const iso_scene *scene, view_page *page)
 {
     page->params = scene->params;
+    page->attitude = scene->effects.on[ISO_ATTITUDE];
     page->clock = scene->start.model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
     iso_status status = run_ball(ctx, scene, page);
     if (status == ISO_OK) status = view_read_effects(ctx, page->rows, page);

@@ -1,8 +1,10 @@
 """The calls of C and of Python as blocks: from the comments of the public headers, and from docstrings."""
 
 import ast
+import os
 import re
 import textwrap
+from pathlib import Path
 
 from tree import attributes, code, code_block, header, node, prose
 
@@ -105,10 +107,10 @@ def members(of):
 
 def page_of_python(page, package):
     """(name, title, blocks) of all that `import isoroll` gives."""
-    sources = [ast.parse(path.read_text("utf-8")) for path in sorted(package.glob("*.py*"))]
+    sources = [ast.parse(path.read_text("utf-8")) for path in sorted(package.glob("*.py"))]
     defined = {item.name: item for source in sources for item in source.body
                if isinstance(item, (ast.FunctionDef, ast.ClassDef))}
-    stub = ast.parse((package / "_instruments.pyi").read_text("utf-8"))
+    stub = ast.parse(Path(os.environ["ISO_STUB"]).read_text("utf-8"))
     defined.update((item.name, item) for item in stub.body if isinstance(item, ast.FunctionDef))
     start = ast.parse((package / "__init__.py").read_text("utf-8"))
     offered = next(set(ast.literal_eval(item.value)) for item in start.body

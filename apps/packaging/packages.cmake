@@ -46,7 +46,7 @@ package(libisoroll-dev libdevel "rubber ball rolling on a sphere - development" 
 package(python3-isoroll python "rubber ball rolling on a sphere - Python 3" "${words}\n\
  This package has isoroll for Python and NumPy.")
 install(DIRECTORY apps/python/isoroll DESTINATION lib/python3/dist-packages COMPONENT python3-isoroll EXCLUDE_FROM_ALL
-        FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+        FILES_MATCHING PATTERN *.py PATTERN py.typed PATTERN __pycache__ EXCLUDE)
 if(MPI_C_FOUND)
   package(isoroll-mpi science "rubber ball rolling on a sphere - sweeps by MPI" "${words}\n\
  This package has isoroll-mpi, for sweeps on many machines.")

@@ -6,7 +6,6 @@
 # The wheel has the package of apps/python, the library and the command. Both have GSL, SUNDIALS and the others linked
 # in, from static libraries, so they need glibc alone: 2.N or later. Arb is left out: `prove` and `run --certify`
 # refuse. ../python/pack.py packs, and computes N.
-find_program(ISO_PYTHON python3 DOC "Python 3 that packs wheels")
 set(wheel ${PROJECT_BINARY_DIR}/wheel)
 set(pack ${ISO_PYTHON} ${PROJECT_SOURCE_DIR}/apps/python/pack.py)
 
@@ -16,8 +15,11 @@ set(names sundials_cvode sundials_arkode gsl gslcblas yaml)
 if(TARGET SUNDIALS::core) # 7.x
   list(INSERT names 2 sundials_core)
 endif()
+if(ISO_HDF5_PC)
+  list(APPEND names hdf5 sz aec z)
+endif()
 foreach(name IN LISTS names ITEMS jansson)
-  find_library(ISO_ARCHIVE_${name} lib${name}.a DOC "static library, for wheels")
+  find_library(ISO_ARCHIVE_${name} lib${name}.a HINTS ${isoroll_hdf5_LIBRARY_DIRS} DOC "static library, for wheels")
   mark_as_advanced(ISO_ARCHIVE_${name})
   if(NOT ISO_ARCHIVE_${name})
     list(APPEND missing lib${name}.a)
@@ -28,8 +30,8 @@ endforeach()
 if(NOT ISO_SUNDIALS) # a wheel has all methods
   list(APPEND missing "ISO_SUNDIALS=ON")
 endif()
-if(NOT ISO_PYTHON)
-  list(APPEND missing python3)
+if(NOT ISO_STUB)
+  list(APPEND missing "python3 with NumPy")
 endif()
 if(NOT CMAKE_SYSTEM_NAME STREQUAL Linux OR ISO_SANITIZE)
   list(APPEND missing "Linux without sanitizers")
@@ -51,15 +53,17 @@ else()
   foreach(target isoroll_wheel isoroll_wheel_command)
     set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${wheel} RUNTIME_OUTPUT_DIRECTORY ${wheel})
     target_link_libraries(${target} PRIVATE ${archives} Threads::Threads m ${CMAKE_DL_LIBS})
-    target_link_options(${target} PRIVATE -s -static-libgcc -Wl,--exclude-libs,ALL -Wl,-z,defs -Wl,--wrap=hypot)
+    target_link_options(${target} PRIVATE -s -static-libgcc -static-libstdc++ -Wl,--exclude-libs,ALL -Wl,-z,defs
+      -Wl,--wrap=hypot -Wl,--wrap=stderr,--wrap=stdout)
   endforeach()
 
   configure_file(apps/packaging/notices.in ${wheel}/NOTICES @ONLY)
-  file(GLOB modules CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/python/isoroll/*.py*)
+  file(GLOB modules CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/python/isoroll/*.py)
   add_custom_command(OUTPUT ${wheel}/packed VERBATIM
+    COMMAND ${CMAKE_COMMAND} -E copy ${ISO_STUB} ${wheel}
     COMMAND ${pack} wheel ${wheel}
     COMMAND ${CMAKE_COMMAND} -E touch ${wheel}/packed
-    DEPENDS isoroll_wheel isoroll_wheel_command ${modules} ${wheel}/NOTICES apps/packaging/date.cmake
+    DEPENDS isoroll_wheel isoroll_wheel_command ${modules} ${ISO_STUB} ${wheel}/NOTICES apps/packaging/date.cmake
       apps/python/pack.py apps/python/README.md LICENSE)
   add_custom_target(wheel DEPENDS ${wheel}/packed)
 endif()

@@ -1,6 +1,6 @@
 """Packs isoroll for pip.
 
-    python3 pack.py wheel FOLDER   a wheel of the library and the command that CMake put into FOLDER
+    python3 pack.py wheel FOLDER   a wheel of what CMake put into FOLDER: library, command, _instruments.pyi
     python3 pack.py sdist FOLDER   the sources
 
 CMake calls it so (../packaging/wheel.cmake). Pip calls build_wheel and build_sdist (PEP 517); CMAKE_ARGS in the
@@ -41,8 +41,6 @@ License-File: LICENSE
 License-File: NOTICES
 Requires-Python: >=3.9
 Requires-Dist: numpy>=1.21
-Provides-Extra: hdf5
-Requires-Dist: h5py; extra == "hdf5"
 Description-Content-Type: text/markdown
 
 """
@@ -79,9 +77,10 @@ def glibc(path):
 
 def wheel_files(folder, tag):
     """Names in the wheel and their bytes."""
-    modules = sorted((HERE / "isoroll").glob("*.py*")) + [HERE / "isoroll/py.typed"]
+    modules = sorted((HERE / "isoroll").glob("*.py")) + [HERE / "isoroll/py.typed"]
     about, data = f"isoroll-{version()}.dist-info", f"isoroll-{version()}.data"
     files = {f"isoroll/{path.name}": path.read_bytes() for path in modules}
+    files["isoroll/_instruments.pyi"] = (folder / "_instruments.pyi").read_bytes()
     files[f"isoroll/{LIBRARY}"] = (folder / LIBRARY).read_bytes()
     files[f"{data}/scripts/{COMMAND}"] = (folder / COMMAND).read_bytes()
     files[f"{about}/METADATA"] = metadata()

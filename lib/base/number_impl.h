@@ -13,11 +13,14 @@
  * What underflows becomes the nearest double, subnormal or zero. */
 bool iso_number_read(const char *text, size_t length, double *value);
 
+/* Reads a finite number at the beginning of [from, to): decimal, with a sign or without, or hexadecimal as %a prints it.
+ * Returns its end; NULL: there is none, or it is too large. What is too small becomes the nearest double. */
+const char *iso_number_scan(const char *from, const char *to, double *value);
+
 /* Writes value in %.17g (reads back as the same double) with a decimal point, and gives the length. */
 int iso_number_print(char text[ISO_NUMBER_SIZE], double value);
 
-/* The same with 1 to 17 significant digits; 0: C's hexadecimal %a, which reads back exactly, too. Rounds as the
- * caller has set it. */
+/* The same with 1 to 17 significant digits; 0: hexadecimal, as %a, which reads back exactly, too. */
 int iso_number_print_as(char text[ISO_NUMBER_SIZE], double value, int digits);
 
 /* For people: the shortest decimal that reads back as the same double, 0.1 and not 0.10000000000000001. Gives text.

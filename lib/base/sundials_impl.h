@@ -38,6 +38,7 @@ void iso_sundials_quiet(int code, const char *module, const char *function, char
 #define ARKodeGetReturnFlagName ERKStepGetReturnFlagName
 #define ARKodeGetNumErrTestFails ERKStepGetNumErrTestFails
 #define ARKodeEvolve ERKStepEvolve
+#define ARKodeGetCurrentTime ERKStepGetCurrentTime
 #define ARKodeGetLastStep ERKStepGetLastStep
 #endif
 

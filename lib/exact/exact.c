@@ -125,14 +125,20 @@ static iso_status find_form(iso_context *ctx, const iso_problem *f, double point
                              fabs(fabs(f->p.k) - 1) < 1e-14 ? 17 : 15, f->p.k); /* 1 + 1e-15 must not read as 1 */
 }
 
-/* A time so short that gamma turns by a tenth of a radian at most, and the clocks' rates change
- * by a tenth at most. */
+/* A time so short that gamma and M turn by a tenth of a radian at most, and the clocks' rates change by a tenth at most.
+ * M' is the force and B gamma', with the field B = (b,gamma) of a rotor (model/effect_rotor.c): M turns at the rate B,
+ * which grows at the rates (b,gamma') and (b,gamma''). */
 static void find_moments(const iso_problem *f, const double point[ISO_STATE], double moment[ISO_CLOCKS])
 {
     const iso_params *p = &f->p;
-    double force[ISO_STATE];
-    iso_system_point.rhs(f, point, force);
-    const double turning = norm(point) + sqrt(norm(force)), q = dot_diag(point + 3, p->J, point + 3);
+    const double q = dot_diag(point + 3, p->J, point + 3), root_det = p->root_J[0] * p->root_J[1] * p->root_J[2];
+    double rate[ISO_STATE], b[3], pushed[3]; /* gamma'' is gamma x M', and what B and M make of it */
+    iso_system_point.rhs(f, point, rate);
+    cross(point + 3, rate, pushed);
+    diag(p->root_J, iso_effects_rotor(&f->effects), b);
+    scale(b, root_det / (p->k * p->k) * pow(q, -1 - 1 / (2 * p->k)));
+    const double field = fabs(dot(b, point + 3)) + sqrt(fabs(dot(b, rate + 3))) + cbrt(fabs(dot(b, pushed)));
+    const double turning = norm(point) + sqrt(norm(rate)) + field;
     const double change = turning * (1 + 1 / fabs(p->k)) * sqrt(max3(p->J) / min3(p->J));
     const double s = 0.1 / change / iso_clock_rate(p, ISO_CLOCK_S, q, NULL);
     for (iso_clock c = 0; c < ISO_CLOCKS; c++) moment[c] = change > 0 ? s * iso_clock_rate(p, c, q, NULL) : 0;
@@ -209,15 +215,18 @@ static iso_status find_end(iso_context *ctx, const iso_problem *f, const iso_exa
 
 /* --- the front -------------------------------------------------------------------------------------------------- */
 
-/* Whether the solution gives the start at time 0, and a finite state a little later. */
-static bool begins(const iso_exact *x, const double point[ISO_STATE])
+/* Whether the solution gives the start at time 0, and a finite state on the level a little later. A small k makes the
+ * rounding of q that of a power. */
+static bool begins(const iso_exact *x, const iso_problem *f, const double point[ISO_STATE])
 {
-    const double *g = point + 3, length = norm(g);
+    const double *g = point + 3, length = norm(g), near = fmax(1e-6, 16 * DBL_EPSILON / fabs(f->p.k));
+    double size;
     for (int c = 0; c < ISO_CLOCKS; c++) {
         form_place p = {.along = NAN};
         if (!x->has[c]) continue;
         x->form->find(x->data, (iso_clock)c, x->form->rate(x->data, (iso_clock)c), &p);
         if (!all_finite(p.point, ISO_STATE)) return false;
+        if (!(fabs(iso_system_point.energy(f, p.point, &size) - f->energy) <= near * size)) return false;
         p.along = NAN;
         x->form->find(x->data, (iso_clock)c, 0, &p);
         for (int i = 0; i < 3; i++)
@@ -234,7 +243,7 @@ static iso_status make(iso_context *ctx, const iso_problem *problem, const doubl
         return iso_context_fail(ctx, status, "",
                                 "the closed solution would need too many terms: a body too extreme, or an orbit too "
                                 "close to a separatrix");
-    if (!begins(x, point))
+    if (!begins(x, problem, point))
         return ISO_FAIL_NUMERICAL(
             ctx, "the closed solution has too few digits: a body too extreme, or an orbit that comes to rest");
     x->params = problem->p;

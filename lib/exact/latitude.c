@@ -175,13 +175,14 @@ static real rest_of(const latitude *r, real y)
     return m > 0 && fabsl(rest - (1 - y)) < 1e-14L ? rest : 1 - y;
 }
 
-/* |y0 - root| for a root of P: the difference or, where that has no digits, what P(y0) = (y0 - root) P[root,y0]
- * gives. */
+/* |y0 - root| for a root of P: the difference or, where that has fewer digits, what P(y0) = (y0 - root) P[root,y0]
+ * gives. The slope P[root,y0] is Q times the distance of the other root: where that root is the nearer one the slope
+ * has fewer digits. Q is about m, and about (dM_x/dy)^2 in a strong field. */
 real iso_latitude_distance(const latitude *r, real root)
 {
-    const real m = iso_latitude_m(r, r->y0), direct = fabsl(root - r->y0);
+    const real m = iso_latitude_m(r, r->y0), D = iso_latitude_Mx_slope(r, root, r->y0), direct = fabsl(root - r->y0);
     const real steep = fabsl(rest_of(r, root) * slope(r, root, r->y0) - m - square_slope(r, root, r->y0));
-    return direct * m >= steep ? direct : r->dx0 * r->dx0 / steep;
+    return direct * (m + D * D) >= steep ? direct : r->dx0 * r->dx0 / steep;
 }
 
 /* a and b: the first places above and below y0 where P falls to zero. If the motion turns at the

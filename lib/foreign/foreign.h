@@ -142,7 +142,7 @@ ISO_API iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *
  * table[]: room for six, of which those not made are NULL. The lines of table[0] are the scene's, and the result by
  *   the names of the command's --json, but what the rows have. The caller frees each (iso_record_free).
  *   section: what its file holds; if both models are integrated, the crossings as the point finds them, in the
- *     columns orbit, crossing, t, tau, s, l, x; with cloud: a row for each test of the measure.
+ *     columns orbit, crossing, t, tau, s, l, x; with area: a row for each orbit and model.
  *   chaos: a row for each orbit, row 0 the scene's own, in the columns of the file of `isoroll chaos`; the indicators
  *     of the scene's own orbit by the turns, of the ball and of the point.
  *   periodic: what its file holds, also with follow and chart. splitting, cost: what their files hold.

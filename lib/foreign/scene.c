@@ -117,7 +117,7 @@ const char *iso_foreign_scene_word(const iso_foreign_scene *scene, const char *k
     if (strcmp(key, "model") == 0) return iso_model_kind_name((int)s->start.model);
     if (strcmp(key, "backend") == 0) return iso_backend_name((int)s->backend);
     if (strcmp(key, "method") == 0) return s->method;
-    if (strcmp(key, "as") == 0) return iso_shown_name((int)s->as);
+    if (strcmp(key, "as") == 0) return iso_models_name((int)s->as);
     return strcmp(key, "name") == 0 ? scene->name : NULL;
 }
 

@@ -5,9 +5,8 @@
  *     fprintf(iso_output_stream(out), "a,b\n");
  *     status = iso_output_close(ctx, out, true);
  *
- * Until it is closed, a regular file has no name (where the file system has no unnamed files: a hidden one in the
- * same folder). "-" is standard output; that and what is no regular file (/dev/stdout, a fifo) are written as the
- * text comes.
+ * Until it is closed, a regular file is FILE.part (replacement_impl.h). "-" is standard output; that and what is no
+ * regular file (/dev/stdout, a fifo) are written as the text comes.
  */
 #ifndef ISO_IO_OUTPUT_IMPL_H
 #define ISO_IO_OUTPUT_IMPL_H

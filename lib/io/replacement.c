@@ -1,30 +1,16 @@
-/* replacement.c - writes a file that has no name, or one beside the file it replaces, and names it when it is
- * complete.
- *
- * A file without a name is gone when its program is, killed or not. A file needs a name beside its target where the
- * file system has no unnamed files, for HDF5, and for the moment of replacing an older file. Such names are few for
- * each target and machine, and who writes a file holds its lock. So the next program that writes the same target
- * meets what a killed one has left, and knows by the lock that nobody writes it any more. Where files cannot be
- * locked, nothing is removed.
- */
-#define _GNU_SOURCE /* asprintf, O_TMPFILE, F_OFD_SETLK, renameat2 */
+/* replacement.c - writes FILE.part beside FILE, which takes its place when it is complete. */
 #include "io/replacement_impl.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <inttypes.h>
+#include <limits.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include "base/low_discrepancy_impl.h"
-
-enum {
-    MOST_NAMES = 1000, /* for programs that write one target at once */
-    OLD_NAMES = 8      /* those at which leftovers are looked for    */
-};
 
 iso_status iso_file_trouble(iso_context *ctx, const char *what, const char *path)
 {
@@ -35,6 +21,95 @@ iso_status iso_file_trouble(iso_context *ctx, const char *what, const char *path
                             strerror(errno));
 }
 
+/* --- names ------------------------------------------------------------------------------------------------------ */
+
+/* The first characters of `a`, then `b`. NULL with errno set: no memory. */
+static char *join(const char *a, size_t length, const char *b)
+{
+    char *text = malloc(length + strlen(b) + 1);
+    if (text) strcpy((char *)memcpy(text, a, length) + length, b);
+    return text;
+}
+
+static size_t folder_length(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? (size_t)(slash + 1 - path) : 0;
+}
+
+char *iso_file_follow(const char *path)
+{
+    enum { MOST_LINKS = 40 }; /* as Linux follows */
+    char *at = join(path, strlen(path), ""), end[PATH_MAX + 1];
+    for (int links = 0; at && !iso_file_is_stream(at); links++) {
+        const ssize_t length = readlink(at, end, PATH_MAX);
+        if (length < 0 && (errno == EINVAL || errno == ENOENT)) return at; /* no link */
+        const int error = length < 0 ? errno : length == PATH_MAX ? ENAMETOOLONG : links == MOST_LINKS ? ELOOP : 0;
+        end[length < 0 ? 0 : length] = '\0';
+        char *next = error ? NULL : join(at, *end == '/' ? 0 : folder_length(at), end); /* seen from its folder */
+        free(at);
+        if (error) errno = error;
+        at = next;
+    }
+    return at;
+}
+
+bool iso_file_is_stream(const char *path)
+{
+    return strncmp(path, "/dev/std", 8) == 0 || strncmp(path, "/dev/fd/", 8) == 0 || strncmp(path, "/proc/", 6) == 0;
+}
+
+/* FILE.part. Where that would be too long a name, FILE loses its end. */
+static char *part_of(const char *target)
+{
+    enum { MOST = NAME_MAX - 5 };
+    const size_t folder = folder_length(target), own = strlen(target) - folder;
+    return join(target, folder + (own < MOST ? own : MOST), ".part");
+}
+
+char *iso_replacement_name(const char *path)
+{
+    char *target = iso_file_follow(path), *name = target ? part_of(target) : NULL;
+    free(target);
+    return name;
+}
+
+/* --- what a signal unlinks -------------------------------------------------------------------------------------- */
+
+static _Atomic(const char *) parts[64];
+
+static void exchange(const char *from, const char *to)
+{
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        if (atomic_compare_exchange_strong(&parts[i], &(const char *){from}, to)) return;
+}
+
+void iso_replacement_unlink_all(void)
+{
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        const char *name = atomic_exchange(&parts[i], NULL);
+        if (name) unlink(name);
+    }
+}
+
+/* --- the file --------------------------------------------------------------------------------------------------- */
+
+/* Who had the lock may have renamed or removed its file in between: then the name is opened again. */
+int iso_file_open_locked(const char *name)
+{
+    for (;;) {
+        struct stat file, named;
+        const int fd = open(name, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+        if (fd < 0) return -1;
+        const bool held = flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; /* no locks here: goes on */
+        if (!held && fstat(fd, &file) == 0 && stat(name, &named) == 0 && file.st_dev == named.st_dev &&
+            file.st_ino == named.st_ino)
+            return fd;
+        close(fd);
+        if (held) return errno = EWOULDBLOCK, -1;
+    }
+}
+
 static void release(iso_replacement *r)
 {
     free(r->target);
@@ -42,208 +117,64 @@ static void release(iso_replacement *r)
     *r = (iso_replacement){0};
 }
 
-/* --- names beside the target ------------------------------------------------------------------------------------ */
-
-/* Where the last part of a path begins. */
-static const char *last_part(const char *path)
+/* Empty, with the permissions of the old file. -1: errno says why. */
+static int create(const iso_replacement *r, const struct stat *old)
 {
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
-static uint64_t sum_of(const char *text, uint64_t salt)
-{
-    for (; *text; text++) salt = iso_scatter(salt ^ (unsigned char)*text);
-    return salt;
-}
-
-/* Name number i. Other machines have other names: their locks may not be seen here. NULL: no memory. */
-static char *name_beside(const char *target, int i)
-{
-    char machine[256] = "", *name;
-    const char *own = last_part(target);
-    (void)!gethostname(machine, sizeof machine - 1);
-    const uint64_t sum = sum_of(own, sum_of(machine, 0));
-    if (asprintf(&name, "%.*s.isoroll-%016" PRIx64 "-%d.tmp", (int)(own - target), target, sum, i) >= 0) return name;
-    errno = ENOMEM;
-    return NULL;
-}
-
-bool iso_file_has_name(int descriptor, const char *name)
-{
-    struct stat file, named;
-    return fstat(descriptor, &file) == 0 && stat(name, &named) == 0 && file.st_dev == named.st_dev &&
-           file.st_ino == named.st_ino;
-}
-
-/* The lock ends with the program. HDF5 has locks of another kind, which do not count here. */
-static bool lock(int descriptor)
-{
-    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    return fcntl(descriptor, F_OFD_SETLK, &whole) == 0;
-}
-
-/* Who has the lock of a file with such a name may remove it. */
-static void remove_dead(const char *name)
-{
-    struct stat s;
-    const int fd = open(name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (fd < 0) return;
-    if (fstat(fd, &s) == 0 && S_ISREG(s.st_mode) && lock(fd) && iso_file_has_name(fd, name)) unlink(name);
-    close(fd);
-}
-
-static void remove_leftovers(const char *target)
-{
-    for (int i = 0; i < OLD_NAMES; i++) {
-        char *name = name_beside(target, i);
-        if (name) remove_dead(name);
-        free(name);
+    struct stat s = {.st_mode = S_IFREG};
+    if (old && access(r->target, W_OK) != 0) return -1;
+    const int fd = iso_file_open_locked(r->temporary);
+    if (fd >= 0 && fstat(fd, &s) == 0 && S_ISREG(s.st_mode) && ftruncate(fd, 0) == 0) {
+        if (old) (void)!fchmod(fd, old->st_mode & 07777);
+        return exchange(NULL, r->temporary), fd;
     }
-}
-
-/* A new file, locked. Before it is locked another program may take it for dead: then the name counts as taken. */
-static int create_locked(const char *name)
-{
-    const int fd = open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd < 0) return -1;
-    const bool held = !lock(fd) && (errno == EAGAIN || errno == EACCES);
-    if (!held && iso_file_has_name(fd, name)) return fd;
-    close(fd);
-    errno = EEXIST;
+    const int error = fd >= 0 && !S_ISREG(s.st_mode) ? EEXIST : errno;
+    if (fd >= 0) close(fd), errno = error;
     return -1;
 }
 
-/* Finds a free name for the file that `unnamed` leads to, or for a new one if it is NULL. Returns the descriptor of a
- * new file; -1 with errno set. */
-static int take_name(const char *target, const char *unnamed, char **name)
-{
-    for (int i = 0; i < MOST_NAMES; i++) {
-        *name = name_beside(target, i);
-        if (!*name) return -1;
-        const int got =
-            unnamed ? linkat(AT_FDCWD, unnamed, AT_FDCWD, *name, AT_SYMLINK_FOLLOW) : create_locked(*name);
-        if (got >= 0) return got;
-        const int error = errno;
-        free(*name);
-        *name = NULL;
-        errno = error;
-        if (error != EEXIST) return -1;
-    }
-    return -1;
-}
-
-/* --- opening ---------------------------------------------------------------------------------------------------- */
-
-static char *folder_of(const char *path)
-{
-    const char *own = last_part(path);
-    return own > path ? strndup(path, (size_t)(own - path)) : strdup(".");
-}
-
-/* A file without a name in the folder of `target`, and a path by which it can get one; -1: there is none. */
-static int create_unnamed(const char *target, char **path)
-{
-    char *folder = folder_of(target);
-    const int fd = folder ? open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666) : -1;
-    free(folder);
-    if (fd < 0) return -1;
-    if (asprintf(path, "/proc/self/fd/%d", fd) < 0)
-        *path = NULL;
-    else if (access(*path, F_OK) == 0)
-        return fd;
-    free(*path);
-    *path = NULL;
-    close(fd);
-    return -1;
-}
-
-static int create(iso_replacement *r, bool named)
-{
-    remove_leftovers(r->target);
-    const int fd = named ? -1 : create_unnamed(r->target, &r->temporary);
-    r->named = fd < 0;
-    return r->named ? take_name(r->target, NULL, &r->temporary) : fd;
-}
-
-iso_status iso_replacement_open(iso_context *ctx, const char *path, bool named, iso_replacement *r, int *descriptor)
+iso_status iso_replacement_open(iso_context *ctx, const char *path, iso_replacement *r, int *descriptor)
 {
     struct stat old;
     const bool exists = stat(path, &old) == 0;
-    *r = (iso_replacement){.target = exists ? realpath(path, NULL) : strdup(path)};
     *descriptor = -1;
-    if (r->target && (!exists || access(r->target, W_OK) == 0)) *descriptor = create(r, named);
-    if (*descriptor >= 0) {
-        if (exists) (void)!fchmod(*descriptor, old.st_mode & 07777);
-        return ISO_OK;
-    }
-    const iso_status status = iso_file_trouble(ctx, "write", path);
+    *r = (iso_replacement){.target = NULL};
+    if (exists && !S_ISREG(old.st_mode))
+        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot write '%s': it is not a regular file", path);
+    r->target = iso_file_follow(path);
+    r->temporary = r->target ? part_of(r->target) : NULL;
+    if (r->temporary) *descriptor = create(r, exists ? &old : NULL);
+    if (*descriptor >= 0) return ISO_OK;
+    const int error = errno;
+    const char *name = !r->temporary ? path : lstat(r->temporary, &old) == 0 ? r->temporary : r->target;
+    errno = error;
+    const iso_status status = error == EWOULDBLOCK
+                                  ? iso_context_fail(ctx, ISO_FILE_TROUBLE, "",
+                                                     "'%s' is in use: another program writes '%s'", name, r->target)
+                                  : iso_file_trouble(ctx, "write", name);
     release(r);
     return status;
 }
 
-/* --- closing ---------------------------------------------------------------------------------------------------- */
-
-/* The name is on the disk only when the folder is; folders that cannot be opened or synchronised are left be. */
-static void sync_folder(const char *path)
-{
-    char *folder = folder_of(path);
-    const int fd = folder ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
-    if (fd >= 0) {
-        (void)!fsync(fd);
-        close(fd);
-    }
-    free(folder);
-}
-
-/* Gives the file its name, unless it is taken. In one step where the file system can do that, or by a second name. */
-static int name_fresh(const char *temporary, const char *target)
+static iso_status give_name(iso_context *ctx, const iso_replacement *r, int descriptor)
 {
     struct stat s;
-#ifdef RENAME_NOREPLACE
-    if (renameat2(AT_FDCWD, temporary, AT_FDCWD, target, RENAME_NOREPLACE) == 0) return 0;
-    if (errno == EEXIST) return -1;
-#endif
-    if (link(temporary, target) == 0) return unlink(temporary), 0;
-    if (errno == EEXIST) return -1;
-    if (lstat(target, &s) == 0) return errno = EEXIST, -1;
-    return rename(temporary, target);
-}
-
-/* A file without a name can get a free name, but not take another's place: for that it needs one of its own first. */
-static int name_unnamed(iso_replacement *r, int descriptor)
-{
-    char *name;
-    if (linkat(AT_FDCWD, r->temporary, AT_FDCWD, r->target, AT_SYMLINK_FOLLOW) == 0) return 0;
-    if (errno != EEXIST || r->fresh) return -1;
-    (void)!lock(descriptor);
-    if (take_name(r->target, r->temporary, &name) < 0) return -1;
-    free(r->temporary);
-    r->temporary = name;
-    r->named = true;
-    return rename(name, r->target);
-}
-
-static iso_status give_name(iso_context *ctx, iso_replacement *r, int descriptor)
-{
-    const int done = !r->named  ? name_unnamed(r, descriptor)
-                     : r->fresh ? name_fresh(r->temporary, r->target)
-                                : rename(r->temporary, r->target);
-    if (done == 0) return ISO_OK;
-    if (r->fresh && errno == EEXIST)
+    if (fsync(descriptor) != 0) return iso_file_trouble(ctx, "write", r->target);
+    if (r->fresh && lstat(r->target, &s) == 0)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "'%s' has appeared: it is not overwritten", r->target);
-    return iso_file_trouble(ctx, "rename", r->target);
+    if (rename(r->temporary, r->target) != 0) return iso_file_trouble(ctx, "rename", r->target);
+    r->target[folder_length(r->target)] = '\0'; /* the name is on the disk only when its folder is */
+    const int folder = open(*r->target ? r->target : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return ISO_OK;
+    (void)!fsync(folder);
+    close(folder);
+    return ISO_OK;
 }
 
 iso_status iso_replacement_close(iso_context *ctx, iso_replacement *r, int descriptor, bool keep)
 {
-    iso_status status = ISO_OK;
-    if (keep && fsync(descriptor) != 0) status = iso_file_trouble(ctx, "write", r->target);
-    if (keep && status == ISO_OK) status = give_name(ctx, r, descriptor);
-    if (keep && status == ISO_OK)
-        sync_folder(r->target);
-    else if (r->named)
-        unlink(r->temporary);
+    exchange(r->temporary, NULL); /* from the renaming on, the name may be another program's */
+    const iso_status status = keep ? give_name(ctx, r, descriptor) : ISO_OK;
+    if (!keep || status != ISO_OK) unlink(r->temporary);
     release(r);
     return status;
 }

@@ -46,12 +46,9 @@ iso_status iso_draft_ratios(iso_draft *d, const yaml_node_t *value, const char *
 const char *iso_draft_text_key(iso_effect_id id, int i);
 iso_status iso_draft_text(iso_draft *d, iso_effect_id id, int i, const yaml_node_t *value);
 
-/* Whether its expressions are some, and their constants finite, when the whole scene is known. effects: the section. */
+/* Whether its expressions are some, their constants finite, and none that acts has a corner by its form, when the whole
+ * scene is known. effects: the section. */
 iso_status iso_draft_check_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *effects);
-
-/* Whether expressions that act have no corner: asked once, where a text is read, as it takes time. Needs the scene that
- * iso_draft_make makes. */
-iso_status iso_draft_check_corners(iso_draft *d);
 
 /* Reads every key under d->root into the draft: types, ranges, unknown, duplicate and missing keys.
  * What must hold between sections is left to the caller. Errors: ISO_BAD_INPUT. */

@@ -228,7 +228,6 @@ static iso_status parse(iso_context *ctx, const char *name, const char *text, si
     d.root = yaml_document_get_root_node(&d.yaml.document);
     iso_status status = iso_draft_read_keys(&d);
     if (status == ISO_OK) status = iso_draft_make(&d);
-    if (status == ISO_OK) status = iso_draft_check_corners(&d);
     if (status == ISO_OK && literals) status = iso_draft_literals(&d, literals);
     iso_yaml_free(&d.yaml);
     if (status == ISO_OK) *scene = d.scene;

@@ -313,7 +313,7 @@ static const entry solver_keys[] = {
 };
 
 static const entry output_keys[] = {
-    {"as", read_word, AT(as), .word = iso_shown_name, .words = ~BIT(ISO_SHOW_START)},
+    {"as", read_word, AT(as), .word = iso_models_name, .words = ~BIT(ISO_SHOW_START)},
     {"columns", .read = read_columns},
     {0},
 };
@@ -338,7 +338,7 @@ static const entry change_keys[] = {
     {"tolerance", read_tolerance, AT(scene.tolerance)},
     {"end", read_number, AT(scene.end)},
     {"step", read_step, AT(scene.step)},
-    {"as", read_word, AT(as), .word = iso_shown_name, .words = ~0u},
+    {"as", read_word, AT(as), .word = iso_models_name, .words = ~0u},
     {"columns", .read = read_columns},
     {0},
 };

@@ -101,44 +101,17 @@ static const yaml_node_t *find_expression(iso_draft *d, const iso_effect *effect
     return effect->expressions_key ? iso_yaml_node(&d->yaml, node->data.sequence.items.start[which]) : node;
 }
 
-typedef bool is_wrong(const iso_draft *d, iso_effect_id id, iso_expression *e);
-
-static bool undecided(const iso_draft *d, iso_effect_id id, iso_expression *e)
-{
-    return !iso_written_decided(&d->scene.params, &d->scene.effects, id, e);
-}
-
-static bool has_corner(const iso_draft *d, iso_effect_id id, iso_expression *e)
-{
-    double n[3];
-    iso_start_normal(&d->scene.params, &d->scene.start, n);
-    return iso_written_has_corner(&d->scene.params, &d->scene.effects, id, n, e);
-}
-
-/* Refuses the first expression of an effect that is none, or is wrong. */
-static iso_status check_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *effects, is_wrong *wrong)
+iso_status iso_draft_check_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *effects)
 {
     const iso_effect *effect = iso_effect_list[id];
-    const iso_effects *all = &d->scene.effects;
+    const iso_scene *scene = &d->scene;
     const yaml_node_t *section;
     iso_expression e;
     if (!iso_yaml_find(&d->yaml, effects, effect->name, NULL, &section)) return ISO_OK;
     for (int i = 0; effect->expressions[i]; i++)
-        if (iso_written_has(all, id, i) && (!iso_written_read(all, id, i, &e) || wrong(d, id, &e)))
+        if (iso_written_has(&scene->effects, id, i) &&
+            (!iso_written_read(&scene->effects, id, i, &e) ||
+             !iso_written_decided(&scene->params, &scene->effects, id, &e)))
             return fail_in_text(d, find_expression(d, effect, section, i), effect->expressions[i], &e);
-    return ISO_OK;
-}
-
-iso_status iso_draft_check_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *effects)
-{
-    return check_expressions(d, id, effects, undecided);
-}
-
-iso_status iso_draft_check_corners(iso_draft *d)
-{
-    const yaml_node_t *effects;
-    if (!iso_yaml_find(&d->yaml, d->root, "effects", NULL, &effects)) return ISO_OK;
-    for (iso_effect_id id = 0; id < ISO_EFFECTS; id++)
-        if (iso_written_drives(&d->scene.effects, id)) ISO_TRY(check_expressions(d, id, effects, has_corner));
     return ISO_OK;
 }

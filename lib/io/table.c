@@ -13,7 +13,7 @@
 #include "io/text_impl.h"
 #include "orbit/scene.h"
 
-/* Of a record. Unwritten rows take no room in a file: a small file can promise more than memory holds. */
+/* Of a record, unless its file is as large: packed numbers in a small file can need more memory than there is. */
 #define MOST_NUMBERS 1e8
 
 /* --- formats ---------------------------------------------------------------------------------------------------- */
@@ -63,7 +63,7 @@ bool iso_table_has_words(const char *kind, const char *name)
 {
     static const struct {
         const char *kind, *name;
-    } own[] = {{"check", "name"}, {"check", "of"}, {"section cloud", "carried"}, {"section cloud", "worst"}};
+    } own[] = {{"check", "name"}, {"check", "of"}, {"section area", "model"}, {"section area", "area"}};
     static const char *const names[] = {"verdict",  "ball_verdict", "point_verdict", "stability",
                                         "symmetry", "line",         "event",         "kind",
                                         "backend",  "method",       "failure",       "reason"};
@@ -76,13 +76,14 @@ bool iso_table_has_words(const char *kind, const char *name)
 
 /* --- reading ---------------------------------------------------------------------------------------------------- */
 
-iso_status iso_table_reader_open(iso_context *ctx, const char *path, const char *kind, const char *columns,
-                                 iso_table_reader **reader)
+/* A reader that fails to open is still there, and knows what it has read so far. */
+static iso_status open_reader(iso_context *ctx, const char *path, const char *kind, const char *columns,
+                              iso_table_reader **reader)
 {
     *reader = NULL;
     const bool hdf5 = begins_as_hdf5(path);
     ISO_TRY(check(ctx, path, hdf5));
-    iso_table_reader *r = calloc(1, sizeof *r);
+    iso_table_reader *r = *reader = calloc(1, sizeof *r);
     if (!r) return iso_text_no_memory(ctx, "read", path);
     r->format = hdf5 ? HDF5(iso_hdf5_reading) : &iso_csv_reading;
     r->path = path;
@@ -91,8 +92,14 @@ iso_status iso_table_reader_open(iso_context *ctx, const char *path, const char 
     r->trajectory = kind && strcmp(kind, ISO_TRAJECTORY_KIND) == 0;
     const iso_status status = r->format->open(ctx, r, columns);
     if (*r->ignored) r->at.ignored = r->ignored;
-    if (status != ISO_OK) iso_table_reader_close(r), r = NULL;
-    *reader = r;
+    return status;
+}
+
+iso_status iso_table_reader_open(iso_context *ctx, const char *path, const char *kind, const char *columns,
+                                 iso_table_reader **reader)
+{
+    const iso_status status = open_reader(ctx, path, kind, columns, reader);
+    if (status != ISO_OK) iso_table_reader_close(*reader), *reader = NULL;
     return status;
 }
 
@@ -135,7 +142,7 @@ iso_status iso_table_read_all(iso_context *ctx, iso_table_reader *r, iso_record 
     const size_t columns = iso_record_columns(r->header);
     const double numbers = (double)r->rows * (double)columns;
     *record = NULL;
-    if (!r->trajectory && numbers > MOST_NUMBERS)
+    if (numbers > MOST_NUMBERS && numbers * sizeof(double) > r->stored)
         return ISO_FAIL_INPUT(ctx, "", "%s: %zu rows of %zu columns are more than %g numbers", r->name, r->rows,
                               columns, MOST_NUMBERS);
     double *row = malloc((columns + 1) * sizeof *row), *to;
@@ -172,8 +179,8 @@ void iso_table_kind(const char *path, char kind[ISO_KIND_SIZE])
     struct stat s;
     const bool regular = stat(path, &s) == 0 && S_ISREG(s.st_mode);
     *kind = '\0';
-    if (ctx && regular && iso_table_reader_open(ctx, path, NULL, NULL, &r) == ISO_OK)
-        snprintf(kind, ISO_KIND_SIZE, "%s", iso_record_kind(r->header));
+    if (ctx && regular) open_reader(ctx, path, NULL, NULL, &r);
+    if (r && r->header) snprintf(kind, ISO_KIND_SIZE, "%s", iso_record_kind(r->header));
     iso_table_reader_close(r);
     iso_context_free(ctx);
 }

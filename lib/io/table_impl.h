@@ -39,6 +39,7 @@ struct iso_table_reader {
     iso_record *header;
     iso_table_place at;
     size_t rows;       /* of an HDF5 file; 0: not known */
+    double stored;     /* bytes of an HDF5 file */
     bool forgets;      /* set it to forget words of rows that were read before */
     char ignored[512]; /* "": nothing */
     bool passes;       /* over rows of nan, which are counted */
@@ -84,7 +85,7 @@ bool iso_table_is_hdf5(const char *path);
 /* Whether the build can read and write the file: ISO_BAD_ARGUMENT if not. */
 iso_status iso_table_check_format(iso_context *ctx, const char *path);
 
-/* What kind of table of isoroll a file is, "" if none that can be read. "-" is never looked at. */
+/* What kind of table of isoroll a file is, also one that will be refused; "": none. "-" is never looked at. */
 enum { ISO_KIND_SIZE = 32 };
 void iso_table_kind(const char *path, char kind[ISO_KIND_SIZE]);
 

@@ -49,7 +49,7 @@ static iso_status step(iso_integrator *it, double y[], double *h)
     if (it->options.fixed_step > 0)
         status = iso_gsl_fixed_step(it, g, y, h);
     else
-        status = iso_gsl_step(it, g, it->direction * 1e300, y, h);
+        status = iso_gsl_step(it, g, g->t + it->direction * fmin(it->longest, 1e300), y, h);
     if (status != ISO_OK || !it->method->projects || it->options.no_projection) return status;
     iso_integrator_project(it, y);
     return iso_gsl_renew_slope(it, g, y);

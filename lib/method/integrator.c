@@ -55,7 +55,8 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
     it->method = method;
     it->model = *model;
     it->options = o;
-    iso_status status = method->create(it);
+    const bool room = iso_inside_create(&it->model.problem, &it->inside);
+    iso_status status = room ? method->create(it) : iso_context_no_memory(ctx, "an integrator");
     if (status == ISO_OK && !method->dense) status = iso_dense_create(it);
     if (status != ISO_OK) return iso_integrator_free(it), status;
     *integrator = it;
@@ -65,7 +66,8 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
 void iso_integrator_free(iso_integrator *it)
 {
     if (!it) return;
-    it->method->free(it);
+    if (it->data) it->method->free(it);
+    iso_inside_free(it->inside);
     iso_past_forget(it);
     iso_dense_free(it->dense);
     free(it);
@@ -78,6 +80,7 @@ static iso_status set_out(iso_integrator *it, int direction)
     it->fast = iso_model_fast(&it->model, direction, it->y0);
     it->stopped = false;
     it->resting = false;
+    it->end = NULL;
     it->left = (iso_instant){0, 0};
     it->h = 0;
     it->number = it->method_number = 0;
@@ -94,6 +97,7 @@ iso_status iso_integrator_start(iso_integrator *it, const double y0[])
     it->statistics = (iso_statistics){0};
     copy(y0, it->y0, it->model.dim);
     iso_past_forget(it);
+    it->claims = iso_model_has_claim(&it->model);
     set_out(it, 0);
     if (!iso_integrator_rhs(it, y0, f))
         return ISO_FAIL_ARGUMENT(it->ctx, "", "the equations of motion are not finite at the start");
@@ -106,22 +110,55 @@ static void rest(iso_integrator *it, double dt, double y[])
     iso_model_rest(&it->model, dt, y);
 }
 
+/* Series look inside their steps themselves. The others see an effect that the scene writes at their stages alone.
+ * Steps of fixed length, as splittings have, stay as they are. */
+static void find_longest(iso_integrator *it, const double y[])
+{
+    const bool any = !it->inside || it->method->own_equations || it->options.fixed_step > 0;
+    it->longest =
+        any ? INFINITY : iso_inside_longest(it->inside, &it->model, it->direction, y, it->options.tolerance / 10);
+}
+
 static iso_status take_step(iso_integrator *it, double y[], double *h)
 {
     it->resting = it->direction > 0 && iso_model_at_rest(&it->model, y);
-    if (!it->resting) return it->method->step(it, y, h);
+    if (!it->resting) {
+        find_longest(it, y);
+        return it->method->step(it, y, h);
+    }
     *h = fmax(1e18, 1e3 * it->left.head); /* longer than any time that is asked, as a rule */
     rest(it, *h, y);
     return ISO_OK;
 }
 
-/* Why no further step makes sense after one that led to y; NULL: it does. */
-static const char *find_end(const iso_integrator *it, const double y[])
+/* Why no further step makes sense after one that led to y and was moved so far by projection; NULL: it does. */
+static const char *find_end(const iso_integrator *it, const double y[], double moved)
 {
+    if (it->options.fixed_step == 0 && moved > ISO_FALSE_CORRECTION(it->options.tolerance)) return ISO_MOVED_TOO_FAR;
     const bool projects = it->method->projects && !it->options.no_projection;
     const char *why = norm(y) > it->fast ? iso_model_speeds_up(&it->model, it->direction, it->y0, y) : NULL;
     if (!why && !projects) why = iso_model_lost(&it->model, y, it->options.tolerance);
     return why;
+}
+
+/* Looks into the current step for a place where the scene's claim about a torque fails. The step then ends there, and is
+ * the last one. Where the method has no `dense`, such a place costs much to compute, and steps are shorter. */
+static iso_status test_claim(iso_integrator *it)
+{
+    const int places = it->method->dense ? ISO_CLAIM_PLACES : 2;
+    const double h = it->h;
+    char where[ISO_BLAME_SIZE];
+    double y[ISO_MAX_STATE];
+    it->end = NULL;
+    for (int i = 0; i <= places && !it->end; i++) {
+        const double dt = i < places ? h * i / places : h;
+        ISO_TRY(iso_integrator_within(it, dt, y));
+        it->end = iso_model_false_claim(&it->model, y, where);
+        if (!it->end) continue;
+        it->h = dt;
+        copy(y, it->at_right, it->model.dim);
+    }
+    return it->h == 0 ? iso_integrator_stopped(it, it->end) : ISO_OK;
 }
 
 /* The current step becomes the next one, which the method takes. */
@@ -131,24 +168,33 @@ static iso_status take_next_step(iso_integrator *it)
     iso_past *past = iso_past_of(it, it->direction);
     const bool is_new = it->number == past->steps;
     if (!iso_context_goes_on(it->ctx)) return iso_context_stopped(it->ctx);
+    if (it->end && it->number > past->steps) return iso_integrator_stopped(it, it->end);
     if (it->stopped) return iso_integrator_stopped(it, "it has failed before");
     it->stopped = true; /* until the step has succeeded: a method that has failed cannot go on from where it stands */
     if (is_new && it->options.max_steps > 0 && it->statistics.steps >= it->options.max_steps)
         return iso_integrator_stopped(it, "more steps than allowed");
     copy(it->at_right, y, it->model.dim);
-    ISO_TRY(take_step(it, y, &h));
-    const char *end = find_end(it, y);
+    const double before = it->statistics.correction;
+    it->statistics.correction = 0;
+    const iso_status status = take_step(it, y, &h);
+    const double moved = it->statistics.correction;
+    it->statistics.correction = fmax(before, moved);
+    if (status != ISO_OK) return status;
+    const char *end = find_end(it, y, moved);
     if (end) return iso_integrator_stopped(it, end);
     /* some methods never end before a place that they cannot pass: their steps hardly move the clock */
-    if (fabs(h) <= 64 * DBL_EPSILON * fabs(it->left.head))
+    const bool lost = it->inside && it->options.fixed_step == 0 &&
+                      iso_inside_is_lost(&it->model, y, it->method->own_equations ? h : it->longest);
+    if (lost || fabs(h) <= 64 * DBL_EPSILON * fabs(it->left.head))
         return iso_integrator_stopped(it, "steps shrink to nothing");
-    it->stopped = false;
     it->left = iso_instant_later(it->left, it->h);
     it->h = h;
     copy(it->at_right, it->at_left, it->model.dim);
     copy(y, it->at_right, it->model.dim);
+    if (it->claims && !it->resting) ISO_TRY(test_claim(it));
+    it->stopped = false;
     it->method_number = ++it->number;
-    if (!is_new) return ISO_OK;
+    if (!is_new || it->end) return ISO_OK; /* the method's own state is later than the end: it cannot go on from it */
     it->statistics.steps++;
     past->steps++;
     iso_past_keep(it);

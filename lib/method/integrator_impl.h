@@ -11,6 +11,7 @@
 
 #include "base/sum_impl.h"
 #include "method/methods_impl.h"
+#include "model/model_impl.h"
 
 typedef struct iso_dense iso_dense;
 
@@ -52,6 +53,8 @@ struct iso_integrator {
     double y0[ISO_MAX_STATE]; /* the state at time 0                                                  */
     int direction;            /* of the steps: 1, -1, or 0 before the first                           */
     double fast;              /* |omega| above which iso_model_speeds_up is asked                      */
+    bool claims;              /* iso_model_has_claim: steps are looked into                            */
+    const char *end;          /* why the current step is the last one; NULL: it is not                 */
     bool stopped;             /* by a failure: no further steps before the next start from 0           */
     bool resting;             /* the current step is one of a model at rest                            */
     bool called;              /* a call of the library has begun since the method last cleared this    */
@@ -65,6 +68,8 @@ struct iso_integrator {
     long method_number;   /* right end of this step in this direction                   */
     size_t saved;         /* bytes of method.save, set by method.create                 */
 
+    iso_inside *inside; /* expressions that the scene writes; NULL: none act                        */
+    double longest;     /* of the next step, for methods that choose their steps; infinite: any     */
     void *data;       /* the method's own                                                           */
     iso_dense *dense; /* reaches times within a step; NULL where the method does                    */
 };

@@ -114,6 +114,13 @@ const iso_method *iso_method_witness(int place)
     return found;
 }
 
+const iso_method *iso_method_of_other_kind(const iso_model *model)
+{
+    return iso_effects_written(&model->problem.effects) && iso_method_auto(model)->own_equations
+               ? iso_method_witness(1)
+               : NULL;
+}
+
 /* --- whether a method can simulate a model ---------------------------------------------------------------------- */
 
 /* --- one check for each need --------------------------------------------------------------------------------- */

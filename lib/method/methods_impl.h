@@ -50,6 +50,15 @@
 /* From this stiffness on bdf needs less time than bsimp, which is more exact below it. */
 enum { ISO_VERY_STIFF = 1000 };
 
+/* How far a step is moved, relative to its size, back to its constraints and integrals. A sound step is moved by at most
+ * 30 tolerances, of series by 0.2, and by some roundings (lib/doc/measured.md). Farther than the first bound, series take
+ * a shorter step. Farther than the second, the step is no answer: roundings alone are 1e-10 at most. */
+#define ISO_FAR_CORRECTION(tolerance) fmax(100 * (tolerance), 1e-13)
+#define ISO_FALSE_CORRECTION(tolerance) fmax(1e5 * (tolerance), 1e-8)
+#define ISO_MOVED_TOO_FAR                                                                                            \
+    "a step has left the constraints and the energy by far more than its tolerance: it does not see how fast the "   \
+    "forces change; take a smaller tolerance, another method or the other backend"
+
 #define ISO_METHOD_DECLARE(name) extern const iso_method iso_method_##name;
 ISO_METHOD_LIST(ISO_METHOD_DECLARE)
 #undef ISO_METHOD_DECLARE
@@ -73,6 +82,13 @@ const iso_method *iso_method_auto(const iso_model *model);
  * code confirms a result (the order is that of iso_method.witness). NULL: there is none. */
 const iso_method *iso_method_with_more_digits(int digits);
 const iso_method *iso_method_witness(int place);
+
+/* A claim of the scene about a torque is tested at this many places of a step, and at its end. */
+enum { ISO_CLAIM_PLACES = 8 };
+
+/* For a model whose effects the scene writes, and that series integrate: a method that looks at other places than they
+ * do. NULL: the model needs none. */
+const iso_method *iso_method_of_other_kind(const iso_model *model);
 
 /* The registry, ended by NULL. */
 extern const iso_method *const iso_methods[];

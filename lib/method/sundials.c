@@ -152,6 +152,8 @@ static iso_status cvode_step(iso_integrator *it, double y[], double *h)
     long before = 0, after = 0, unsolved_before = 0, unsolved_after = 0;
     CVodeGetNumErrTestFails(c->memory, &before);
     CVodeGetNumNonlinSolvConvFails(c->memory, &unsolved_before);
+    CVodeGetCurrentTime(c->memory, &t);
+    if (it->longest < INFINITY) CVodeSetStopTime(c->memory, t + it->direction * it->longest);
     const int flag = CVode(c->memory, it->direction, c->y, &t, CV_ONE_STEP); /* the time only tells the direction */
     CVodeGetNumErrTestFails(c->memory, &after);
     CVodeGetNumNonlinSolvConvFails(c->memory, &unsolved_after);
@@ -166,9 +168,10 @@ static iso_status cvode_step(iso_integrator *it, double y[], double *h)
 static iso_status dense(iso_integrator *it, double dt, double y[])
 {
     cvode *c = it->data;
-    sunrealtype t;
+    sunrealtype t, last; /* not it->h, which a claim that fails makes shorter */
     CVodeGetCurrentTime(c->memory, &t);
-    const int failed = CVodeGetDky(c->memory, t - (it->h - dt), 0, c->between);
+    CVodeGetLastStep(c->memory, &last);
+    const int failed = CVodeGetDky(c->memory, t - (last - dt), 0, c->between);
     if (failed) return stopped(it, CVodeGetReturnFlagName(failed));
     copy(N_VGetArrayPointer(c->between), y, it->model.dim);
     iso_integrator_project(it, y);
@@ -253,6 +256,8 @@ static iso_status arkode_step(iso_integrator *it, double y[], double *h)
     sunrealtype t;
     long before = 0, after = 0;
     ARKodeGetNumErrTestFails(a->memory, &before);
+    ARKodeGetCurrentTime(a->memory, &t);
+    if (it->longest < INFINITY) ARKodeSetStopTime(a->memory, t + it->direction * it->longest);
     const int flag =
         ARKodeEvolve(a->memory, it->direction, a->y, &t, ARK_ONE_STEP); /* the time only tells the direction */
     ARKodeGetNumErrTestFails(a->memory, &after);

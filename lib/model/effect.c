@@ -172,12 +172,22 @@ bool iso_effects_keep_energy(const iso_problem *f)
     return keep;
 }
 
-const iso_effect *iso_effects_taking_energy(const iso_problem *f)
+static const iso_effect *first_with(const iso_problem *f, iso_work work)
 {
     int e = 0;
     const iso_effect *effect;
-    while ((effect = next_acting(&f->effects, &e)) && work_of(f, effect) != ISO_WORK_LOST) continue;
+    while ((effect = next_acting(&f->effects, &e)) && work_of(f, effect) != work) continue;
     return effect;
+}
+
+const iso_effect *iso_effects_taking_energy(const iso_problem *f)
+{
+    return first_with(f, ISO_WORK_LOST);
+}
+
+const iso_effect *iso_effects_changing_energy(const iso_problem *f)
+{
+    return first_with(f, ISO_WORK_UNKNOWN);
 }
 
 /* --- writing their equations down ------------------------------------------------------------------------------- */

@@ -10,7 +10,6 @@
  */
 #include <math.h>
 
-#include "base/number_impl.h"
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "model/written_impl.h"
@@ -65,15 +64,16 @@ static double strength(const iso_problem *f, const double y[])
     return f->effects.number[ISO_POTENTIAL][ISO_WRITTEN_STRENGTH];
 }
 
-/* The largest finite size of U at random directions. */
-static double largest_potential(const iso_formula *F, const iso_params *p)
+/* The largest finite change of U from that at y to one in a random direction. A constant in U moves nothing. */
+static double largest_change(const iso_formula *F, const iso_params *p, const double start[])
 {
+    const double first = iso_formula_energy(F, p, start);
     iso_random *r = iso_random_create(1);
     double y[ISO_STATE] = {0}, most = 0;
     for (int i = 0; r && i < 64; i++) {
         iso_random_direction(r, y + 3);
-        const double U = fabs(iso_formula_energy(F, p, y));
-        if (isfinite(U)) most = fmax(most, U);
+        const double change = fabs(iso_formula_energy(F, p, y) - first);
+        if (isfinite(change)) most = fmax(most, change);
     }
     iso_random_free(r);
     return most;
@@ -83,26 +83,16 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
 {
     const iso_problem f = {.p = *p, .effects = *effects};
     const double y[ISO_STATE] = {0, 0, 0, n[0], n[1], n[2]};
-    double T[3] = {0}, dy[ISO_STATE];
     iso_expression e;
-    iso_formula F, M;
+    iso_formula F;
     ISO_TRY(iso_written_check(ctx, p, effects, ISO_POTENTIAL, 0, &e));
     if (e.node[e.root].degree == ISO_CONSTANT)
         return ISO_FAIL_INPUT(ctx, "U", "U does not depend on n, and changes nothing: take the effect out");
     iso_formula_begin(&F, ISO_FORMULA_ENERGY, false);
     potential(&F, &f);
     iso_formula_finish(&F, p);
-    iso_formula_begin(&M, ISO_FORMULA_MOTION, false);
-    motion(&M, &f);
-    iso_formula_finish(&M, p);
-    if (F.overrun || M.overrun) return ISO_OK; /* the model is refused */
-    iso_formula_rates(&M, p, y, T, dy);
-    const double U = iso_formula_energy(&F, p, y), slope = T[0] + T[1] + T[2];
-    if (!isfinite(U) || !isfinite(slope))
-        return ISO_FAIL_INPUT(ctx, "U", "%s is not a finite number where the ball starts, at n = (%s, %s, %s)",
-                              isfinite(U) ? "the slope of U" : "U", ISO_SHORT(n[0]), ISO_SHORT(n[1]),
-                              ISO_SHORT(n[2]));
-    effects->number[ISO_POTENTIAL][ISO_WRITTEN_STRENGTH] = fmax(fabs(U), largest_potential(&F, p));
+    if (F.overrun) return ISO_OK; /* the model is refused */
+    effects->number[ISO_POTENTIAL][ISO_WRITTEN_STRENGTH] = largest_change(&F, p, y);
     return ISO_OK;
 }
 

@@ -1,9 +1,9 @@
 /* effect_torque.c - a torque MQ(omega, n, e) on the ball as the scene writes it, in axes of the body.
  *
- * e is the vertical of gravity. The scene may say whether the torque does work. If it does not say, the power
- * (MQ,omega) is computed at random states, some of them at the n of the start: a torque may be large there alone. It is
- * analytic: if it is 0 at all of them, it is taken for 0 everywhere. Nothing follows where the torque itself is 0, which
- * may be below the range of doubles there, or where it is hardly anywhere a number.
+ * e is the vertical of gravity. The scene may say whether the torque does work. If it does not say, only the form of
+ * the power (MQ,omega) tells (written_work.c). What the scene says is refused here if random states show that it is
+ * false, some of them at the n of the start: a torque may be large there alone. They cannot show that it is true: where
+ * the form does not show it, each step of an orbit tests it.
  */
 #include <math.h>
 
@@ -14,7 +14,7 @@
 #include "model/model_impl.h"
 #include "model/written_impl.h"
 
-enum { COMPONENTS = 3, SAMPLES = 200, AT_START = 20, ENOUGH = 10, MEASURE = -1 };
+enum { COMPONENTS = 3, SAMPLES = 200, AT_START = 20, BY_FORM = -1 };
 
 static const double *numbers_of(const iso_problem *f)
 {
@@ -45,8 +45,8 @@ static double strength(const iso_problem *f, const double y[])
 
 /* --- work ------------------------------------------------------------------------------------------------------- */
 
-/* What `work` is until it is measured, if the scene does not say it. */
-static const double to_be_measured = MEASURE;
+/* What `work` is until its form is looked at, if the scene does not say it. */
+static const double by_form = BY_FORM;
 
 /* In the order of iso_work. */
 static ISO_NAMES(work_name, int, "any", "none", "lost")
@@ -57,12 +57,11 @@ static ISO_NAMES(work_name, int, "any", "none", "lost")
     return stated < 0 ? ISO_WORK_UNKNOWN : (iso_work)stated;
 }
 
-/* What is found at random states: the most power that the torque gives and takes, over |MQ| |omega|; its largest size
- * at rest. */
+/* What is found at random states: whether it gives and takes energy; the states where it does. Its largest size at
+ * rest. */
 typedef struct found {
-    double gives, takes, strength;
-    int acts, rests;     /* at how many states there is a torque; it is 0 */
-    double y[ISO_STATE]; /* where it gives or takes most */
+    bool gives, takes;
+    double at_gives[ISO_STATE], at_takes[ISO_STATE], strength;
 } found;
 
 /* Where it stands in space does not matter: e is any direction, but n on a plane that has no other. n: NULL for a
@@ -78,45 +77,46 @@ static void random_state(iso_random *r, const iso_problem *f, const double n[3],
     if (f->at[ISO_GRAVITY] > 0) iso_random_direction(r, y + f->at[ISO_GRAVITY]);
 }
 
-static void measure(const iso_problem *f, const iso_formula *F, const double n[3], found *w)
+static double size_of(const iso_expression e[], const iso_expression_state *s)
+{
+    double M[COMPONENTS], x[ISO_EXPRESSION_NODES];
+    for (int i = 0; i < COMPONENTS; i++) {
+        iso_expression_values(&e[i], s, x);
+        M[i] = x[e[i].root];
+    }
+    return norm(M);
+}
+
+/* claimed: what gives and takes energy is asked for as well. */
+static void measure(const iso_problem *f, const iso_expression e[], const double n[3], bool claimed, found *w)
 {
     iso_random *r = iso_random_create(1);
-    double y[ISO_MAX_STATE] = {0}, T[3], dy[ISO_MAX_STATE];
+    const double J = numbers_of(f)[ISO_WRITTEN_J], W = numbers_of(f)[ISO_WRITTEN_W];
+    double y[ISO_MAX_STATE] = {0};
     *w = (found){0};
     for (int i = 0; r && i < SAMPLES + AT_START; i++) {
         random_state(r, f, i < SAMPLES ? NULL : n, y);
-        copy((const double[]){0, 0, 0}, T, 3);
-        iso_formula_rates(F, &f->p, y, T, dy);
-        const double size = norm(T) * norm(y), power = size > 0 ? dot(T, y) / size : 0;
-        if (!isfinite(size)) continue;
-        if (size > 0)
-            w->acts++;
-        else
-            w->rests++;
-        if (fabs(power) > fmax(w->gives, w->takes)) copy(y, w->y, ISO_STATE);
-        w->gives = fmax(w->gives, power);
-        w->takes = fmax(w->takes, -power);
-        copy((const double[]){0, 0, 0}, y, 3);
-        copy(y, T, 3);
-        iso_formula_rates(F, &f->p, y, T, dy);
-        if (isfinite(norm(T))) w->strength = fmax(w->strength, norm(T));
+        iso_expression_state s = iso_written_state(f, ISO_TORQUE, y);
+        const int works = claimed ? iso_written_works(e, &s) : 0;
+        if (works > 0) w->gives = true, copy(y, w->at_gives, ISO_STATE);
+        if (works < 0) w->takes = true, copy(y, w->at_takes, ISO_STATE);
+        copy((const double[]){0, 0, 0}, s.omega, 3);
+        const double size = size_of(e, &s) / (J * W * W);
+        if (isfinite(size)) w->strength = fmax(w->strength, size);
     }
     iso_random_free(r);
 }
 
-static iso_status check_work(iso_context *ctx, const found *w, double *stated)
+static iso_status check_claim(iso_context *ctx, const found *w, iso_work stated)
 {
-    const double rounding = 1e-12;
-    const bool gives = w->gives > rounding, takes = w->takes > rounding;
-    const bool known = w->acts >= ENOUGH && w->rests == 0;
-    if (*stated == MEASURE) *stated = gives || takes || !known ? ISO_WORK_UNKNOWN : ISO_WORK_NONE;
-    if (*stated == ISO_WORK_UNKNOWN || (!gives && (!takes || *stated == ISO_WORK_LOST))) return ISO_OK;
+    if (!w->gives && (!w->takes || stated == ISO_WORK_LOST)) return ISO_OK;
+    const double *y = w->gives ? w->at_gives : w->at_takes;
     return ISO_FAIL_INPUT(ctx, "work",
                           "'work' is %s, but this torque %s energy, for example with omega = (%s, %s, %s) and n = "
                           "(%s, %s, %s)",
-                          work_name((int)*stated), gives ? "gives" : "takes", ISO_ROUNDED(w->y[0], 3),
-                          ISO_ROUNDED(w->y[1], 3), ISO_ROUNDED(w->y[2], 3), ISO_ROUNDED(w->y[3], 3),
-                          ISO_ROUNDED(w->y[4], 3), ISO_ROUNDED(w->y[5], 3));
+                          work_name((int)stated), w->gives ? "gives" : "takes", ISO_ROUNDED(y[0], 3),
+                          ISO_ROUNDED(y[1], 3), ISO_ROUNDED(y[2], 3), ISO_ROUNDED(y[3], 3), ISO_ROUNDED(y[4], 3),
+                          ISO_ROUNDED(y[5], 3));
 }
 
 /* --- what must hold --------------------------------------------------------------------------------------------- */
@@ -124,23 +124,22 @@ static iso_status check_work(iso_context *ctx, const found *w, double *stated)
 static iso_status check(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *effects)
 {
     iso_problem f = {.p = *p, .effects = *effects};
-    iso_expression e;
-    iso_formula F;
+    iso_expression e[COMPONENTS];
     found w;
     int zeros = 0;
     for (int i = 0; i < COMPONENTS; i++) {
-        ISO_TRY(iso_written_check(ctx, p, effects, ISO_TORQUE, i, &e));
-        zeros += iso_expression_is_zero(&e);
+        ISO_TRY(iso_written_check(ctx, p, effects, ISO_TORQUE, i, &e[i]));
+        zeros += iso_expression_is_zero(&e[i]);
     }
     if (zeros == COMPONENTS) return ISO_FAIL_INPUT(ctx, "M", "a torque of 0 changes nothing: take the effect out");
     f.at[ISO_GRAVITY] = effects->on[ISO_GRAVITY] && !effects->idle[ISO_GRAVITY] ? ISO_STATE : 0;
-    iso_formula_begin(&F, ISO_FORMULA_MOTION, false);
-    motion(&F, &f);
-    iso_formula_finish(&F, p);
-    if (F.overrun) return ISO_OK; /* the model is refused */
-    measure(&f, &F, n, &w);
+    double *stated = &effects->number[ISO_TORQUE][ISO_WRITTEN_WORK];
+    const iso_work shown = iso_written_work(&f);
+    if (*stated == BY_FORM) *stated = shown;
+    const bool claimed = (int)*stated != (int)shown && (int)*stated != ISO_WORK_UNKNOWN;
+    measure(&f, e, n, claimed, &w);
     effects->number[ISO_TORQUE][ISO_WRITTEN_STRENGTH] = w.strength;
-    return check_work(ctx, &w, &effects->number[ISO_TORQUE][ISO_WRITTEN_WORK]);
+    return claimed ? check_claim(ctx, &w, (iso_work)*stated) : ISO_OK;
 }
 
 static const char *const expressions[] = {"M1", "M2", "M3", NULL};
@@ -151,7 +150,7 @@ static const iso_effect_number numbers[] = {
      .at = ISO_WRITTEN_WORK,
      .count = 1,
      .kind = ISO_NUMBER_WORD,
-     .initially = &to_be_measured,
+     .initially = &by_form,
      .word = work_name},
     {0},
 };

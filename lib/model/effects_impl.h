@@ -64,19 +64,18 @@ void iso_effects_set_level(iso_effects *effects, bool there, double c);
 iso_dimension iso_level_dimension(void);
 
 /* What is wrong with numbers or combinations, as the physics sees it: an effect that cannot matter here (gravity on a
- * horizontal plane, a constant field), numbers that are none. `normal` is n at the start. Makes unit vectors of those
- * that are (to 1e-6), and fills in numbers that follow from others: the attitude, where it was not given. Errors:
- * ISO_BAD_INPUT about the effect's name or its number's. */
-iso_status iso_effects_check(iso_context *ctx, const iso_params *params, const double normal[3],
+ * horizontal plane, a constant field), numbers that are none, a torque or a potential of the scene's own that is no
+ * finite number at the start. `start` is omega, n there. Makes unit vectors of those that are (to 1e-6), and fills in
+ * numbers that follow from others: the attitude, where it was not given. Errors: ISO_BAD_INPUT about the effect's name,
+ * its number's or its expression's. */
+iso_status iso_effects_check(iso_context *ctx, const iso_params *params, const double start[ISO_STATE],
                              iso_effects *effects);
-
-/* Looks for corners in the expressions of U and M, once for all orbits in them: corners are not among what
- * iso_effects_check asks for. Errors: ISO_BAD_INPUT about the name of the expression. */
-iso_status iso_effects_check_corners(iso_context *ctx, const iso_params *params, const double normal[3],
-                                     const iso_effects *effects);
 
 /* Whether an effect that is on acts by expressions of the scene; those of an observer may have corners. */
 bool iso_written_drives(const iso_effects *effects, iso_effect_id id);
+
+/* Whether one of them acts. */
+bool iso_effects_written(const iso_effects *effects);
 
 /* Finds the effects that have no torque from a start with this normal on, up to rounding, and notes them in `idle`:
  * the weight on a horizontal plane only presses the ball down. Orbits settle their effects themselves. */
@@ -153,6 +152,9 @@ double iso_effects_twist_torque(const iso_problem *f, const double y[]);
 
 /* The first effect that takes energy away; NULL: none. */
 const iso_effect *iso_effects_taking_energy(const iso_problem *f);
+
+/* The first effect that may change the energy in any way (ISO_WORK_UNKNOWN); NULL: none. */
+const iso_effect *iso_effects_changing_energy(const iso_problem *f);
 
 /* How many times faster than the ball turns, in its own units, the effects make motion die away: the largest of them.
  * Above ISO_STIFF explicit methods are held up; the torque of a contact that alone is as stiff is a state, lambda. */

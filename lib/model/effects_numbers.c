@@ -5,11 +5,13 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/finite_impl.h"
 #include "base/nearest_impl.h"
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
 #include "model/expression_impl.h"
 #include "model/model_impl.h"
+#include "model/written_impl.h"
 
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
 
@@ -283,11 +285,24 @@ static iso_status check_row(iso_context *ctx, const iso_effect *effect)
     return ISO_FAIL_INPUT(ctx, effect->name, "the row of '%s' is not complete: %s", effect->name, wrong);
 }
 
-/* The equations of each effect alone, with its own states in place: they must be equations that all can compute. */
-static iso_status check_equations(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id e)
+/* Whether the torque, or the energy, that a formula computes is a number at a state of the ball. */
+static bool is_finite_at(const iso_formula *F, const iso_params *p, const double y[])
+{
+    double T[3] = {0}, dy[ISO_MAX_STATE];
+    if (F->kind == ISO_FORMULA_ENERGY) return isfinite(iso_formula_energy(F, p, y));
+    iso_formula_rates(F, p, y, T, dy);
+    return all_finite(T, 3);
+}
+
+/* The equations of each effect alone, with its own states in place: they must be equations that all can compute, and
+ * what the scene writes must be a number at the start. */
+static iso_status check_equations(iso_context *ctx, const iso_params *p, const double start[ISO_STATE],
+                                  const iso_effects *effects, iso_effect_id e)
 {
     iso_problem f = {.p = *p, .effects = *effects};
     iso_formula F;
+    double y[ISO_MAX_STATE] = {0};
+    bool finite = true;
     int at = ISO_STATE;
     for (iso_effect_id i = 0; i < ISO_EFFECTS; i++) {
         const int states = effects->on[i] ? iso_effect_states(iso_effect_list[i], &f) : 0;
@@ -296,14 +311,20 @@ static iso_status check_equations(iso_context *ctx, const iso_params *p, const i
     }
     if (at > ISO_MAX_STATE) return ISO_OK; /* the model is refused */
     for (iso_effect_id i = 0; i < ISO_EFFECTS; i++) f.effects.on[i] = i == e;
+    copy(start, y, ISO_STATE);
+    if (f.at[ISO_GRAVITY] > 0) copy(iso_effects_up(effects), y + f.at[ISO_GRAVITY], 3);
+    const bool drives = iso_written_drives(effects, e);
     iso_effects_record_motion(&f, false, &F);
+    if (drives && !F.wrong && !F.overrun) finite = is_finite_at(&F, p, y);
     if (!F.wrong && !F.overrun) iso_effects_record_motion(&f, true, &F);
     if (!F.wrong && !F.overrun) iso_effects_record_energy(&f, &F);
+    if (drives && !F.wrong && !F.overrun) finite = finite && is_finite_at(&F, p, y);
     if (F.overrun)
         return ISO_FAIL_INPUT(ctx, iso_effect_list[e]->name,
                               "the equations of '%s' have more lines than there is room for: make it shorter",
                               iso_effect_list[e]->name);
     if (!F.wrong) iso_effects_record_image(&f, &F); /* without room for it there is a ball, and no point */
+    if (!finite) return iso_written_refuse_start(ctx, &f, e, y);
     if (F.overrun) return ISO_OK;
     if (!F.wrong) return ISO_OK;
     return ISO_FAIL_INPUT(ctx, iso_effect_list[e]->name, "the equations of '%s' cannot be computed: %s",
@@ -325,9 +346,11 @@ const iso_effect *iso_effects_idle(const iso_effects *effects)
     return e < ISO_EFFECTS ? iso_effect_list[e] : NULL;
 }
 
-iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double normal[3], iso_effects *effects)
+iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double start[ISO_STATE],
+                             iso_effects *effects)
 {
     ISO_DEFAULT_ARITHMETIC;
+    const double *normal = start + 3;
     iso_status status = ISO_OK;
     iso_effects_settle(p, normal, effects);
     for (iso_effect_id e = 0; status == ISO_OK && e < ISO_EFFECTS; e++) {
@@ -340,7 +363,7 @@ iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double
             status = check_number(ctx, effect->name, &n, iso_effect_values(effects, e, &n));
         if (status == ISO_OK && effect->check) status = effect->check(ctx, p, normal, effects);
         if (status == ISO_OK && effect->needs_D) status = check_D(ctx, p, effect->name);
-        if (status == ISO_OK) status = check_equations(ctx, p, effects, e);
+        if (status == ISO_OK) status = check_equations(ctx, p, start, effects, e);
     }
     return status;
 }

@@ -283,7 +283,11 @@ static int power(reader *r)
 {
     const int base = atom(r), at = r->at;
     if (base == FAILED || !take(r, '^')) return base;
-    return make(r, at, ISO_TERM_POWER, base, factor(r), 0);
+    const int exponent = factor(r);
+    const iso_expression_node *number = exponent == FAILED ? NULL : &r->e->node[exponent];
+    if (number && number->term == ISO_TERM_NUMBER && number->value == 0) /* 1, also of a base of 0 */
+        return make(r, at, ISO_TERM_NUMBER, 0, 0, 1);
+    return make(r, at, ISO_TERM_POWER, base, exponent, 0);
 }
 
 static int factor(reader *r)

@@ -103,9 +103,23 @@ double iso_expression_value(const iso_expression *e, const iso_expression_state 
 /* The values of all its nodes. */
 void iso_expression_values(const iso_expression *e, const iso_expression_state *s, double x[ISO_EXPRESSION_NODES]);
 
-/* Whether it has a corner that is hidden in a root, as far as it is found; then e->wrong says so, and e->at where in the
- * text. s: the state at the start, of which n and the length of omega are read. */
-bool iso_expression_corner(iso_expression *e, const iso_expression_state *s);
+/* A box of states: each component of n, omega and e lies at most so far from the middle. */
+typedef struct iso_expression_box {
+    iso_expression_state middle;
+    double n, omega, e;
+} iso_expression_box;
+
+/* How much it varies over a box, in radians and factors of e, see expression_range.c. At most 1: it has no narrow feature
+ * there. 0: it changes by less than `least`. Infinite: it may have a pole or a corner. */
+double iso_expression_variation(const iso_expression *e, const iso_expression_box *box, double least);
+
+/* Its degree as a polynomial in n, omega and e and in the functions that it calls. */
+int iso_expression_degree(const iso_expression *e);
+
+/* Whether its form shows a corner: a root of a square, as sqrt(n1^2) = |n1|, or of another even power. Then e->wrong
+ * says so, and e->at where in the text. Other forms of |x|, as sqrt(1 - n2^2 - n3^2), are noticed by the error of a step
+ * (method/taylor/inside_impl.h). */
+bool iso_expression_has_corner(iso_expression *e, double k, const double J[3], const double parameter[]);
 
 /* How far it is from where it is not defined: the least of the numbers that it divides by, or takes the root, the power
  * or the logarithm of, each by its size; 0 where it has no value. e->at: where in the text; e->wrong: what stands there,

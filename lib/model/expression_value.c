@@ -68,6 +68,66 @@ bool iso_expression_constants(iso_expression *e, double k, const double J[3], co
     return true;
 }
 
+/* Whether node i is 0 or more by its form. x: the constants. */
+static bool is_never_negative(const iso_expression *e, int i, const double x[])
+{
+    const iso_expression_node *node = &e->node[i];
+    if (node->degree == ISO_CONSTANT) return x[i] >= 0;
+    switch (node->term) {
+    case ISO_TERM_SQRT: return true;
+    case ISO_TERM_POWER: return e->node[node->b].degree == ISO_CONSTANT && fmod(x[node->b], 2) == 0;
+    case ISO_TERM_MUL:
+        if (node->a == node->b) return true; /* equal parts of a text are one node */
+        /* fallthrough */
+    case ISO_TERM_DIV:
+    case ISO_TERM_ADD: return is_never_negative(e, node->a, x) && is_never_negative(e, node->b, x);
+    default: return false;
+    }
+}
+
+/* Whether the power p of node i has a factor |x|^m with m odd, from an even power of x: such a corner has no series,
+ * and the series of one side goes on smoothly into the other one with the wrong sign. Other powers are smooth, or stop
+ * a series by themselves. x: the constants. */
+static bool is_root_of_even(const iso_expression *e, int i, double p, const double x[])
+{
+    const iso_expression_node *node = &e->node[i];
+    const int a = node->a, b = node->b;
+    if (node->degree == ISO_CONSTANT) return false;
+    switch (node->term) {
+    case ISO_TERM_MUL:
+        if (a == b && fabs(fmod(2 * p, 2)) == 1 && !is_never_negative(e, a, x)) return true;
+        if (a == b) return is_root_of_even(e, a, 2 * p, x);
+        return is_root_of_even(e, a, p, x) || is_root_of_even(e, b, p, x);
+    case ISO_TERM_POWER:
+        if (e->node[b].degree != ISO_CONSTANT) return false;
+        if (fmod(x[b], 2) == 0 && fabs(fmod(x[b] * p, 2)) == 1 && !is_never_negative(e, a, x)) return true;
+        return is_root_of_even(e, a, p * x[b], x);
+    case ISO_TERM_DIV: return is_root_of_even(e, a, p, x) || is_root_of_even(e, b, -p, x);
+    case ISO_TERM_NEGATIVE: return is_root_of_even(e, a, p, x);
+    case ISO_TERM_SQRT: return is_root_of_even(e, a, p / 2, x);
+    default: return false;
+    }
+}
+
+bool iso_expression_has_corner(iso_expression *e, double k, const double J[3], const double parameter[])
+{
+    double x[ISO_EXPRESSION_NODES];
+    const iso_expression_state s = {.k = k, .J = {J[0], J[1], J[2]}, .parameter = parameter};
+    for (int i = 0; i < e->nodes; i++) {
+        const iso_expression_node *node = &e->node[i];
+        if (node->degree == ISO_CONSTANT) x[i] = value_of(node, x, &s);
+        if (node->term != ISO_TERM_SQRT && node->term != ISO_TERM_POWER) continue;
+        if (!is_root_of_even(e, i, 1, x)) continue;
+        e->at = node->at;
+        snprintf(
+            e->wrong, sizeof e->wrong,
+            "this is the root of an even power, which can have a corner where the power is 0, as sqrt(x^2) = |x|. A "
+            "corner has no series: write x if it keeps its sign, or sqrt(x^2 + a^2) with a small a");
+        return true;
+    }
+    return false;
+}
+
 /* --- at a state ------------------------------------------------------------------------------------------------- */
 
 /* |d value/d a| and |d value/d b| of an operation. */

@@ -94,6 +94,36 @@ extern const iso_system *const iso_systems[];
  */
 bool iso_params_symmetric(const iso_params *p, int axis);
 
+/* --- what a scene writes, inside steps (written_inside.c) --------------------------------------------------------- */
+
+/* The expressions of the effects that act; NULL: there are none, and nothing has to be looked at. False: no memory. */
+typedef struct iso_inside iso_inside;
+bool iso_inside_create(const iso_problem *f, iso_inside **inside);
+void iso_inside_free(iso_inside *inside);
+
+/* Whether they are polynomials of low degree in n, omega, e and the functions that they call. */
+bool iso_inside_flat(iso_inside *inside, const iso_problem *f);
+
+/* A part of a step: y lies in its middle; n (of a point: gamma), omega and e go at most so far away from there. time: how
+ * long the whole step is. In own units. */
+typedef struct iso_stretch {
+    const double *y;
+    double n, omega, e, time;
+} iso_stretch;
+
+/* The largest variation of the expressions there (iso_expression_variation): at most 1, they have no narrow feature in
+ * it; 0, what they change is less than `least` of the state. */
+double iso_inside_variation(iso_inside *inside, const iso_model *m, const iso_stretch *stretch, double least);
+
+/* The longest step from y, in the model's clock, forwards or backwards (direction 1 or -1), in which the variation is at
+ * most 1: for methods that look at a few places of a step alone. */
+double iso_inside_longest(iso_inside *inside, const iso_model *m, int direction, const double y[], double least);
+
+/* Whether a step of length h from y, in the model's clock, is so short that it leads nowhere: less than 1e-8 of the time
+ * in which the state changes by about a radian. Towards a corner or a pole of what a scene writes, steps shrink without
+ * an end. */
+bool iso_inside_is_lost(const iso_model *m, const double y[], double h);
+
 /* --- where a motion ends: what an integrator asks (rest.c) ------------------------------------------------------ */
 
 /* A ball that only loses motion comes to rest, and rests from then on. Three things follow, which no step of a method
@@ -120,6 +150,12 @@ double iso_model_fast(const iso_model *m, int direction, const double y0[]);
  * message; "": it is not. */
 enum { ISO_BLAME_SIZE = 640 };
 void iso_model_blame(const iso_model *m, const double y[], char text[ISO_BLAME_SIZE]);
+
+/* Whether the scene claims of a torque what its form does not show: such a claim is tested at each step. */
+bool iso_model_has_claim(const iso_model *m);
+
+/* Returns what is wrong if the claim is false at y, else NULL; `text` then says where. */
+const char *iso_model_false_claim(const iso_model *m, const double y[], char text[ISO_BLAME_SIZE]);
 
 /* Whether a state y, found by a method that does not restore constraints, has lost one so far that y is no answer any
  * more. `tolerance` is that of the steps. Returns what is lost, in words; NULL: nothing. */

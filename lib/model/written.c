@@ -351,7 +351,8 @@ bool iso_written_decided(const iso_params *p, const iso_effects *effects, iso_ef
                  e->node[i].a + 1);
         return false;
     }
-    return iso_expression_constants(e, p->k, J, number);
+    return iso_expression_constants(e, p->k, J, number) &&
+           !(iso_written_drives(effects, id) && iso_expression_has_corner(e, p->k, J, number));
 }
 
 static iso_status refuse(iso_context *ctx, iso_effect_id id, int which, const iso_expression *e)
@@ -370,26 +371,4 @@ iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_ef
         return ISO_FAIL_INPUT(ctx, name, "%s: begin the effects with iso_effects_default(): they have no units",
                               name);
     return iso_written_decided(p, effects, id, e) ? ISO_OK : refuse(ctx, id, which, e);
-}
-
-bool iso_written_has_corner(const iso_params *p, const iso_effects *effects, iso_effect_id id, const double n[3],
-                            iso_expression *e)
-{
-    if (!iso_written_decided(p, effects, id, e)) return false;
-    const iso_problem f = {.p = *p, .effects = *effects};
-    const double speed = 1 / effects->number[id][ISO_WRITTEN_W], y[ISO_STATE] = {speed, 0, 0, n[0], n[1], n[2]};
-    const iso_expression_state s = iso_written_state(&f, id, y);
-    return iso_expression_corner(e, &s);
-}
-
-iso_status iso_effects_check_corners(iso_context *ctx, const iso_params *p, const double n[3],
-                                     const iso_effects *effects)
-{
-    ISO_DEFAULT_ARITHMETIC;
-    iso_expression e;
-    for (iso_effect_id id = 0; id < ISO_EFFECTS; id++)
-        for (int i = 0; iso_written_drives(effects, id) && iso_effect_list[id]->expressions[i]; i++)
-            if (iso_written_read(effects, id, i, &e) && iso_written_has_corner(p, effects, id, n, &e))
-                return refuse(ctx, id, i, &e);
-    return ISO_OK;
 }

@@ -30,18 +30,25 @@ iso_expression_state iso_written_state(const iso_problem *f, iso_effect_id id, c
 /* Reads expression `which` of an effect. False: the text is no expression, see e->wrong. */
 bool iso_written_read(const iso_effects *effects, iso_effect_id id, int which, iso_expression *e);
 
-/* Whether its constants are finite, in the caller's units, and the vertical e is there if it reads e. False: see
- * e->wrong. Effects that iso_effects_default() has not begun have no units: false. */
+/* Whether its constants are finite, in the caller's units, the vertical e is there if it reads e, and an effect that
+ * acts has no corner by its form. False: see e->wrong. Effects that iso_effects_default() has not begun have no units:
+ * false. */
 bool iso_written_decided(const iso_params *p, const iso_effects *effects, iso_effect_id id, iso_expression *e);
-
-/* Whether it is decided and has a corner; then see e->wrong. The search takes as long as many right-hand sides. n: the
- * normal at the start. */
-bool iso_written_has_corner(const iso_params *p, const iso_effects *effects, iso_effect_id id, const double n[3],
-                            iso_expression *e);
 
 /* Reads it and asks the first two. Errors: ISO_BAD_INPUT about the name of the expression. */
 iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id id,
                              int which, iso_expression *e);
+
+/* What the torque does to the energy, as far as the form of its power shows it. Its constants must be finite. */
+iso_work iso_written_work(const iso_problem *f);
+
+/* Whether the torque of the three expressions gives energy (1) or takes it (-1) in the state; 0: neither, but for
+ * rounding. */
+int iso_written_works(const iso_expression e[3], const iso_expression_state *s);
+
+/* Refuses a start (omega, n; e where its state is) at which the torque or the potential of an effect is not finite.
+ * Returns ISO_BAD_INPUT about the key of the expression, which it names with the reason. */
+iso_status iso_written_refuse_start(iso_context *ctx, const iso_problem *f, iso_effect_id id, const double ball[]);
 
 /* One expression that is being written down. n: as what the formula has it. */
 typedef struct iso_writer {

@@ -95,8 +95,6 @@ static iso_orbit_options options_of(const batch *b, const member *m, iso_backend
 static iso_status prepare(iso_pool_worker *w, const batch *b, size_t i, member *m)
 {
     iso_status status = choose(w->ctx, b, i, m);
-    if (status == ISO_OK && (b->k || b->J)) /* which expressions may contain */
-        status = iso_start_check_corners(w->ctx, m->given.params, m->given.start, m->given.effects);
     if (status != ISO_OK) return status;
     const iso_backend asked = b->options.backend;
     iso_way way = iso_way_first(m->given.params, asked, asked, false);
@@ -114,7 +112,7 @@ static iso_status solve_alone(iso_pool_worker *w, const batch *b, const member *
 {
     const iso_orbit_options options = options_of(b, m, b->options.backend);
     iso_orbit *orbit;
-    iso_status status = iso_orbit_create_among(w->ctx, m->given.params, m->given.start, &options, &orbit);
+    iso_status status = iso_orbit_create(w->ctx, m->given.params, m->given.start, &options, &orbit);
     for (size_t j = 0; j < b->rows && status == ISO_OK; j++) {
         status = iso_orbit_at(orbit, b->times[j], &m->sample[j]);
         if (status != ISO_OK) iso_sample_blank(&m->sample[j]);
@@ -223,14 +221,6 @@ static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_
     return ISO_OK;
 }
 
-iso_status iso_batch_check_corners(iso_context *ctx, const iso_batch_orbit orbits[], size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        if (i == 0 || orbits[i].effects != orbits[i - 1].effects || orbits[i].params != orbits[i - 1].params)
-            ISO_TRY(iso_start_check_corners(ctx, orbits[i].params, orbits[i].start, orbits[i].effects));
-    return ISO_OK;
-}
-
 /* An orbit that no thread has taken has no rows, and the status of the call. */
 static void leave(const batch *b, size_t i, iso_status answer)
 {
@@ -250,7 +240,6 @@ static iso_status run(iso_context *ctx, batch *b, const iso_batch_options *optio
     if (answer != ISO_OK) return answer;
     b->code = iso_lane_code_find(b->options.vectors, false);
     answer = check(ctx, &b->options, b->code, b->times, b->rows);
-    if (answer == ISO_OK && b->orbits) answer = iso_batch_check_corners(ctx, b->orbits, b->count);
     if (answer != ISO_OK) return answer;
     const size_t fits = ROOM / ((b->rows + 1) * sizeof(iso_sample));
     const size_t chunk = !b->table || fits > CHUNK ? CHUNK : fits < LEAST ? LEAST : fits;
@@ -299,8 +288,7 @@ static iso_status check_scene(iso_context *ctx, const batch *b, size_t i)
                                  "scene %zu: a batch does not see where contact is lost: write 'reactions: "
                                  "{two_sided: true}', or run it by itself",
                                  i);
-    ISO_TRY(iso_scene_check_columns(ctx, scene));
-    return iso_start_check_corners(ctx, &scene->params, &scene->start, &scene->effects);
+    return iso_scene_check_columns(ctx, scene);
 }
 
 /* Options that all orbits share, from the first scene and its columns. */

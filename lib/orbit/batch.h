@@ -54,8 +54,7 @@ static inline iso_batch_options iso_batch_defaults(void)
  * growing, or all <= 0 and falling. status[i] (may be NULL) says how orbit i went; the rows that it has not reached
  * are NaN in every column. Gives ISO_OK, or the status of the first orbit that failed, with its number and reason in
  * the message (numbers from 0); the others go on. Errors of one orbit: those of iso_orbit_create and iso_orbit_at.
- * Errors of all: ISO_BAD_ARGUMENT (backend, tolerance, times, threads, vectors), ISO_BAD_INPUT (a corner in a written
- * effect): status[] and samples[] are as they were; ISO_NO_MEMORY, ISO_STOPPED by the context's monitor (asked by the
+ * Errors of all: ISO_BAD_ARGUMENT (backend, tolerance, times, threads, vectors): status[] and samples[] are as they were; ISO_NO_MEMORY, ISO_STOPPED by the context's monitor (asked by the
  * calling thread alone): status and rows of what is done by then are valid. */
 ISO_API iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
                                  const iso_batch_options *options, const double times[], size_t rows,
@@ -66,7 +65,7 @@ ISO_API iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[
  * scene[]: `scenes` of them, 1 for all orbits or `count`. They agree in columns, backend, tolerance and the model of
  *   the start. The method is `taylor`, in lanes: scenes with another one are refused.
  * k, J, start: NULL, or numbers in place of the scenes': 1, 3 and 6 for each orbit (see iso_scene_replace). If they
- *   make no sense, or an effect that the scene writes has a corner there, that orbit alone fails.
+ *   make no sense, that orbit alone fails.
  * times: t for a ball's scene, s for a point's.
  * Units, in any consistent system: k, n and gamma have none; J mass length^2; omega 1/time; t time;
  *   s (unit of J)^(1/(2k) - 2) time; M 1/(unit of s); eps (unit of J)^4/time^2.

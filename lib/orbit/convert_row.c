@@ -28,7 +28,7 @@ iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *row, b
     o.tolerance = c->tolerance;
     o.with_clock[c->other] = clock;
     o.max_steps = ISO_MAX_ROW_STEPS;
-    return iso_orbit_create_among(c->ctx, c->params, &start, &o, orbit);
+    return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
 }
 
 /* H of a point, in own units, minus the value of its level, relative. */
@@ -103,7 +103,6 @@ static iso_status create_first(iso_conversion *c, const iso_start *start, bool c
     iso_orbit_free(c->first);
     c->first = NULL;
     iso_status status = iso_conversion_orbit(c, start, clock, &c->first);
-    if (status == ISO_OK) status = iso_start_check_corners(c->ctx, c->params, start, &c->effects);
     if (status == ISO_OK) c->units = *iso_orbit_units(c->first);
     return status;
 }

@@ -57,7 +57,6 @@ iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[]
     *crossings = NULL;
     ISO_TRY(iso_options_take(ctx, "iso_crossings_options", &own, sizeof own, options));
     ISO_TRY(check(ctx, &own));
-    ISO_TRY(iso_batch_check_corners(ctx, orbits, count));
     iso_crossings *c = calloc(1, sizeof *c);
     iso_crossed *each = calloc(count + 1, sizeof *each);
     if (!c || !each) {

@@ -75,6 +75,11 @@ typedef struct iso_crossing {
     double l, x;
     double growth[ISO_DEVIATIONS]; /* ln of the length of d1 and d2; 0 at the start                              */
     double area; /* sine of the angle between d1 and d2, in [0, 1]: GALI_2                          */
+    /* det D, where D carries deviations across the flow from the start to here: the area of (d1, d2), by the measure that
+     * a free motion keeps on its level of the energy, divided by that at the start. Between two crossings of a section
+     * it is the determinant of the return map in the chart (L, l). NaN for a twist, or where the ball or the point
+     * rests. */
+    double determinant;
     /* ISO_SECTION_AXIS, if the start lies on the section: the derivative of (l, x) at this crossing (rows) by (l, x)
      * at the start (columns). */
     double slope[2][2];
@@ -83,8 +88,8 @@ typedef struct iso_crossing {
 typedef struct iso_crossings iso_crossings;
 
 /* Errors: ISO_BAD_ARGUMENT about "backend", "axis", "column", "value", "tolerance", "threads", "vectors", or about
- * "deviations" with ISO_SECTION_COLUMN; ISO_BAD_INPUT about a corner in a written effect; ISO_NO_MEMORY. Errors of
- * single orbits come from iso_crossings_go. Orbits, parameters, starts and effects must live as long as the object. */
+ * "deviations" with ISO_SECTION_COLUMN; ISO_NO_MEMORY. Errors of single orbits come from iso_crossings_go. Orbits,
+ * parameters, starts and effects must live as long as the object. */
 ISO_API iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
                                         const iso_crossings_options *options, iso_crossings **crossings);
 ISO_API void iso_crossings_free(iso_crossings *c);
@@ -95,9 +100,10 @@ ISO_API void iso_crossings_free(iso_crossings *c);
  * go on.
  * A start on the section (n_a = 0 up to 1e-8 of its oscillation, and not falling) is no crossing.
  * Errors of one orbit: those of iso_orbit_create and iso_orbit_at; ISO_NUMERICAL if two crossings of a global section
- * are outside the bounds of their distance in s (map/section.h), if the ball rests, or if no further crossing is
- * found within ISO_MOST_BETWEEN turns; ISO_BAD_INPUT about "axis" for an orbit in the plane n_a = 0 itself, the
- * boundary of the chart, and about "deviations" for an orbit that has none. If s does not fit a double (extreme k),
+ * are outside the bounds of their distance in s (map/section.h), or if the ball rests; ISO_BAD_INPUT about "axis" or
+ * "value" if no further crossing is found within ISO_MOST_BETWEEN turns (the message names what the orbit crosses),
+ * about "axis" for an orbit in the plane n_a = 0 itself, the boundary of the chart, and about "deviations" for an orbit
+ * that has none. If s does not fit a double (extreme k),
  * distances are not checked. The call returns the error of the first orbit that failed; the message has its number
  * and the reason. Errors of the call: ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: then done[] and the
  * crossings that it counts are valid, and the next call goes on from there. */

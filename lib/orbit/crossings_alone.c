@@ -5,6 +5,7 @@
  * So the results do not depend on how many crossings are asked at a time.
  */
 #include <math.h>
+#include <stdio.h>
 
 #include "base/context_impl.h"
 #include "base/number_impl.h"
@@ -23,7 +24,7 @@ static iso_status create(const iso_crossings *c, size_t i, iso_orbit **orbit)
     iso_status status;
     do {
         const iso_orbit_options how = iso_crossings_orbit_options(c, i, way);
-        status = iso_orbit_create_among(c->orbit[i].ctx, of->params, of->start, &how, orbit);
+        status = iso_orbit_create(c->orbit[i].ctx, of->params, of->start, &how, orbit);
     } while (iso_way_next(&way, status));
     return status;
 }
@@ -65,16 +66,26 @@ static iso_status begin(iso_crossings *c, size_t i)
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */
 
-static double unit_vector(const iso_sample *sample, const void *data)
-{
-    const iso_crossed *o = data;
-    return state_of(o->alone, sample)[3 + o->axis];
-}
+/* What an event looks at, and what it has seen since the last crossing: the least and the largest n_1, n_2, n_3 (of
+ * the point: gamma), or those of the column */
+typedef struct watch {
+    const iso_crossings *c;
+    const iso_crossed *o;
+    double (*seen)[2];
+} watch;
 
-static double beyond_value(const iso_sample *sample, const void *data)
+/* n_a, or the column less its value */
+static double beyond(const iso_sample *sample, const void *data)
 {
-    const iso_crossings_options *o = data;
-    return iso_sample_column(sample, o->column) - o->value;
+    const watch *w = data;
+    const bool axis = w->c->options.kind == ISO_SECTION_AXIS;
+    const double column = axis ? 0 : iso_sample_column(sample, w->c->options.column);
+    const double *const value = axis ? state_of(w->o->alone, sample) + 3 : &column;
+    for (int i = 0; i < (axis ? 3 : 1); i++) {
+        w->seen[i][0] = fmin(w->seen[i][0], value[i]);
+        w->seen[i][1] = fmax(w->seen[i][1], value[i]);
+    }
+    return axis ? value[w->o->axis] : column - w->c->options.value;
 }
 
 /* The longest time of a turn, in the orbit's clock and the caller's units. */
@@ -88,19 +99,43 @@ static double turn_of(const iso_orbit *orbit)
     return 2 * ISO_PI * rate * orbit->unit_clock[clock];
 }
 
-static iso_status next_event(iso_crossings *c, iso_crossed *o, iso_sample *sample)
+/* The orbit does not come to the section: nothing has failed, another section is wanted. The message names one. */
+static iso_status refuse_section(const iso_crossings *c, const iso_crossed *o, double (*seen)[2])
 {
     const bool axis = c->options.kind == ISO_SECTION_AXIS;
-    const double from = o->time, to = from + ISO_MOST_BETWEEN * turn_of(o->alone);
+    const int at = axis ? o->axis : 0;
+    char since[64] = "the start", where[32], advice[128] = "give a value in between";
+    if (o->count > 0)
+        snprintf(since, sizeof since, "crossing %zu, at %s = %s", o->count, iso_clock_name(o->alone->options.clock),
+                 ISO_SHORT(o->time));
+    if (axis) {
+        const char *unit_vector = iso_crossings_model(o->alone) == ISO_POINT ? "gamma" : "n";
+        snprintf(where, sizeof where, "%s_%d", unit_vector, at + 1);
+        snprintf(advice, sizeof advice,
+                 "it crosses no other n_a = 0 either: use an event instead of an axis, for example %s%d=%.2g",
+                 unit_vector, at + 1, (seen[at][0] + seen[at][1]) / 2);
+        for (int i = 2; i >= 0; i--)
+            if (i != at && seen[i][0] < 0 && seen[i][1] > 0)
+                snprintf(advice, sizeof advice, "it crosses n_%d = 0: take axis %d", i + 1, i + 1);
+    } else {
+        snprintf(where, sizeof where, "%s", iso_column_name(c->options.column));
+    }
+    return ISO_FAIL_INPUT(
+        o->ctx, axis ? "axis" : "value",
+        "this orbit does not pass %s = %s upwards within %d turns after %s: there %s is between %.4g "
+        "and %.4g; %s",
+        where, ISO_SHORT(axis ? 0 : c->options.value), ISO_MOST_BETWEEN, since, where, seen[at][0], seen[at][1],
+        advice);
+}
+
+static iso_status next_event(iso_crossings *c, iso_crossed *o, iso_sample *sample)
+{
+    double seen[3][2] = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
+    const watch w = {c, o, seen};
     bool found;
-    const iso_status status = axis
-                                  ? iso_orbit_event(o->alone, unit_vector, o, 1, from, to, &found, sample)
-                                  : iso_orbit_event(o->alone, beyond_value, &c->options, 1, from, to, &found, sample);
-    if (status != ISO_OK || found) return status;
-    if (o->count == 0)
-        return ISO_FAIL_NUMERICAL(o->ctx, "no crossing within %d turns after the start", ISO_MOST_BETWEEN);
-    return ISO_FAIL_NUMERICAL(o->ctx, "no crossing within %d turns after crossing %zu, at %s = %s", ISO_MOST_BETWEEN,
-                              o->count, iso_clock_name(o->alone->options.clock), ISO_SHORT(from));
+    const iso_status status = iso_orbit_event(o->alone, beyond, &w, 1, o->time,
+                                              o->time + ISO_MOST_BETWEEN * turn_of(o->alone), &found, sample);
+    return status != ISO_OK || found ? status : refuse_section(c, o, seen);
 }
 
 static iso_status next_sample(iso_crossings *c, iso_crossed *o, iso_sample *sample)

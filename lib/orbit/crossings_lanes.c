@@ -159,17 +159,42 @@ static void divide(double A[2][2], double B[2][2], double quotient[2][2])
     }
 }
 
+/* The area of two deviations across the flow, at the state y. Liouville's volume of (M, gamma) is dgamma_u dgamma_v dM_u
+ * dM_v, u = M/|M|, v = gamma x u. A free motion keeps it in the time s, and so does a magnetic field. (M, 0) changes H
+ * by |M|^2, so on a level of H the volume of three vectors is the determinant of their parts (dgamma_u, dgamma_v, dM_v),
+ * divided by |M|. One of the three is the flow, with dgamma_v = |M| in s. A potential of n changes H by a function of
+ * gamma alone, so this holds for it as well. */
+static double area_across(const iso_orbit *orbit, const double y[], double d[][ISO_MAX_STATE])
+{
+    double flow[ISO_MAX_STATE], point[ISO_STATE], part[3][3], v[3], along[ISO_STATE];
+    orbit->model.own_rhs(&orbit->model, y, flow);
+    for (int i = 0; i < 3; i++) {
+        to_point(orbit, y, i == 0 ? flow : d[i - 1], point, along);
+        cross(point + 3, point, v);
+        const double size = norm(v);
+        part[i][0] = dot(along + 3, point) / size;
+        part[i][1] = dot(along + 3, v) / size;
+        part[i][2] = dot(along, v) / size;
+    }
+    double of_12[3];
+    cross(part[1], part[2], of_12);
+    return dot(part[0], of_12) / part[0][1];
+}
+
 static void tell_deviations(struct iso_crossings_lane *lane, const iso_crossed *o, iso_lane_event *e,
                             iso_crossing *to)
 {
+    const iso_orbit *orbit = &lane->orbit;
     double slopes[2][ISO_DEVIATIONS];
     for (int i = 0; i < ISO_DEVIATIONS; i++) to->growth[i] = e->growth[i];
     to->area = e->sine;
+    if (!iso_effects_twist(&orbit->effects))
+        to->determinant = area_across(orbit, e->y, e->deviation) /
+                          area_across(orbit, lane->job.start, lane->job.first) * exp(e->scale[0] + e->scale[1]);
     if (o->axis < 0 || !o->begins_on_it) return;
-    if (!lane->has_begin)
-        find_slopes(&lane->orbit, o->axis, lane->job.start, lane->job.first, (double[2]){0}, lane->begin);
+    if (!lane->has_begin) find_slopes(orbit, o->axis, lane->job.start, lane->job.first, (double[2]){0}, lane->begin);
     lane->has_begin = true;
-    find_slopes(&lane->orbit, o->axis, e->y, e->deviation, e->scale, slopes);
+    find_slopes(orbit, o->axis, e->y, e->deviation, e->scale, slopes);
     divide(slopes, lane->begin, to->slope);
 }
 

@@ -46,6 +46,7 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
     double six[ISO_STATE], size;
     if (opt->effects) o->effects = *opt->effects;
     iso_start_settle(p, start, &o->effects);
+    const bool chosen = opt->backend == ISO_BACKEND_AUTO && !opt->method;
     opt->backend = choose_backend(opt, &o->effects, start);
     const bool ball = opt->backend == ISO_BACKEND_BALL, exact = opt->backend == ISO_BACKEND_EXACT;
     if ((!ball && !exact && opt->backend != ISO_BACKEND_POINT) || (int)opt->shown < 0 || opt->shown > ISO_SHOW_BOTH)
@@ -54,7 +55,12 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
     if (exact && opt->method && opt->method != &iso_method_exact)
         return ISO_FAIL_ARGUMENT(o->ctx, "method",
                                  "backend exact does not integrate: leave the method out, or take backend point");
-    ISO_TRY(iso_orbit_find_start(o, p, start, six));
+    iso_status status = iso_orbit_find_start(o, p, start, six);
+    if (status == ISO_NUMERICAL && chosen && opt->backend == ISO_BACKEND_POINT) {
+        opt->backend = ISO_BACKEND_BALL;
+        return iso_orbit_prepare(o, p, start, y);
+    }
+    if (status != ISO_OK) return status;
     iso_problem *problem = &o->model.problem;
     problem->p = o->units.own, problem->eps = o->eps, problem->energy = o->level;
     iso_effects_copy(&o->effects, &problem->effects);
@@ -79,8 +85,8 @@ static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *sta
     return iso_integrator_start(o->integrator, y);
 }
 
-iso_status iso_orbit_create_among(iso_context *ctx, const iso_params *p, const iso_start *start,
-                                  const iso_orbit_options *options, iso_orbit **orbit)
+iso_status iso_orbit_create(iso_context *ctx, const iso_params *p, const iso_start *start,
+                            const iso_orbit_options *options, iso_orbit **orbit)
 {
     ISO_DEFAULT_ARITHMETIC;
     *orbit = NULL;
@@ -93,24 +99,6 @@ iso_status iso_orbit_create_among(iso_context *ctx, const iso_params *p, const i
     if (status != ISO_OK) return iso_orbit_free(o), status;
     *orbit = o;
     return ISO_OK;
-}
-
-iso_status iso_start_check_corners(iso_context *ctx, const iso_params *p, const iso_start *start,
-                                   const iso_effects *effects)
-{
-    double n[3];
-    if (!effects) return ISO_OK;
-    iso_start_normal(p, start, n);
-    return iso_effects_check_corners(ctx, p, n, effects);
-}
-
-iso_status iso_orbit_create(iso_context *ctx, const iso_params *p, const iso_start *start,
-                            const iso_orbit_options *options, iso_orbit **orbit)
-{
-    iso_status status = iso_orbit_create_among(ctx, p, start, options, orbit);
-    if (status == ISO_OK) status = iso_start_check_corners(ctx, p, start, (*orbit)->options.effects);
-    if (status != ISO_OK) iso_orbit_free(*orbit), *orbit = NULL;
-    return status;
 }
 
 void iso_orbit_free(iso_orbit *o)

@@ -33,17 +33,6 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
  * The rest is 16 kB, which take time where many orbits are prepared. */
 void iso_orbit_clear(iso_orbit *o);
 
-/* As iso_orbit_create, for one of many orbits: corners of the effects have been looked for already. */
-iso_status iso_orbit_create_among(iso_context *ctx, const iso_params *p, const iso_start *start,
-                                  const iso_orbit_options *options, iso_orbit **orbit);
-
-/* iso_effects_check_corners of a start; effects may be NULL. */
-iso_status iso_start_check_corners(iso_context *ctx, const iso_params *p, const iso_start *start,
-                                   const iso_effects *effects);
-
-/* That of all orbits; once where several in a row share their effects and parameters. */
-iso_status iso_batch_check_corners(iso_context *ctx, const iso_batch_orbit orbits[], size_t count);
-
 /* All of an orbit but the integrator: o->ctx and o->options say what is asked for; gives the start of its model.
  * Errors: those of iso_orbit_create. */
 iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_MAX_STATE]);

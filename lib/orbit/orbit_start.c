@@ -1,5 +1,6 @@
 /* orbit_start.c - where an orbit starts: in the ball's own units, in the model that is integrated; or why it
  * cannot. */
+#include <float.h>
 #include <math.h>
 
 #include "base/finite_impl.h"
@@ -176,7 +177,7 @@ iso_status iso_orbit_no_point(iso_context *ctx, const iso_effect *breaking)
 
 static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_start *start)
 {
-    double n[3];
+    double ball[ISO_STATE] = {0}; /* no effect that a point can have asks for its omega */
     iso_effects *e = &o->effects;
     const iso_effect *breaking = iso_effects_breaking(e), *only_ball = iso_effects_ball_only(e);
     const bool by_point = o->options.backend != ISO_BACKEND_BALL;
@@ -187,8 +188,30 @@ static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_sta
     if (breaking && point) return iso_orbit_no_point(o->ctx, breaking);
     if (only_ball && by_point)
         return ISO_FAIL_ARGUMENT(o->ctx, only_ball->name, "'%s' is the ball's: take backend ball", only_ball->name);
-    iso_start_normal(p, start, n);
-    return iso_effects_check(o->ctx, p, n, e);
+    if (start->model == ISO_BALL) copy(start->y, ball, 3);
+    iso_start_normal(p, start, ball + 3);
+    return iso_effects_check(o->ctx, p, ball, e);
+}
+
+/* The potential of the point is that of the ball and of its energy, over powers of q: a constant in both is lost in the
+ * difference, with as many of its last digits. y: the start in own units, as the model of `start` has it. */
+static iso_status check_constant(const iso_orbit *o, const iso_start *start, const double y[ISO_STATE])
+{
+    const iso_problem *problem = &o->model.problem;
+    double ball[ISO_MAX_STATE] = {0};
+    if (o->options.backend == ISO_BACKEND_BALL || !iso_effects_pull(&o->effects)) return ISO_OK;
+    copy(y, ball, ISO_STATE);
+    if (start->model == ISO_POINT) iso_point_to_ball(&problem->p, ball, ball);
+    const double U = iso_effects_potential(problem, ball);
+    const double changes = iso_ball_energy(&problem->p, ball) + iso_effects_strength(problem, ball);
+    const iso_method *method = o->options.method;
+    const double rounding = method && method->digits > ISO_DOUBLE_DIGITS ? pow(10, -method->digits) : DBL_EPSILON;
+    if (!(rounding * fabs(U) > 10 * fmax(o->options.tolerance, 64 * rounding) * changes)) return ISO_OK;
+    return ISO_FAIL_NUMERICAL(
+        o->ctx,
+        "the potential at the start is %.2g times what can change of the energy: the point loses "
+        "so many digits of it; take backend ball, or leave a constant out of the potential",
+        fabs(U) / changes);
 }
 
 /* (24), or on H = 0 the form without powers of q where they are steep: no method for (24) alone has a use for it. */
@@ -268,6 +291,7 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
         return iso_context_fail(o->ctx, ISO_NOT_MAPPED, "angular_velocity",
                                 "a ball at rest (h = 0) has no twin: the point's potential would vanish");
     ISO_TRY(check_units(o, start));
+    ISO_TRY(check_constant(o, start, y));
     if (start->model == ISO_BALL && iso_effects_have_level(&o->effects) && iso_effects_level(&o->effects) == 0)
         return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
                                 "level: c is out of the range of doubles in the ball's own units");

@@ -79,7 +79,7 @@ iso_effect_id iso_column_effect(int column)
 
 ISO_NAMES(iso_model_kind_name, int, "ball", "point")
 ISO_NAMES(iso_backend_name, int, "ball", "point", "auto", "exact")
-ISO_NAMES(iso_shown_name, int, "ball", "point", "both", "auto")
+ISO_NAMES(iso_models_name, int, "ball", "point", "both", "auto")
 
 /* A unit vector and a vector orthogonal to it, from numbers typed by hand. */
 static iso_status check_pair(iso_context *ctx, const char *unit_name, const char *vector_name, iso_spin spin,

@@ -37,7 +37,7 @@ typedef enum iso_models {
 /* "ball", "point"; "ball", "point", "auto", "exact"; "ball", "point", "both", "auto". NULL past the end. */
 ISO_API const char *iso_model_kind_name(int kind);
 ISO_API const char *iso_backend_name(int backend);
-ISO_API const char *iso_shown_name(int shown);
+ISO_API const char *iso_models_name(int shown);
 
 /* Where an orbit starts (its clock at 0), in one of the models. */
 typedef struct iso_start {

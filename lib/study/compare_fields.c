@@ -113,7 +113,7 @@ static iso_status put_worst(iso_context *ctx, const iso_comparison *c, const cha
 
 /* --- the study -------------------------------------------------------------------------------------------------- */
 
-ISO_STUDY_BEGIN(iso_compare_request, (iso_compare_request){.change = ISO_SCENE_AS_IT_IS})
+ISO_STUDY_BEGIN(iso_scene_request, (iso_scene_request){.change = ISO_SCENE_AS_IT_IS})
 
 /* The records that are tables of the result. */
 static void free_comparison(void *found)
@@ -149,7 +149,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
 {
     iso_scene scene = *subject->scene;
     iso_comparison *c = NULL;
-    ISO_TRY(iso_scene_apply(ctx, &((const iso_compare_request *)options)->change, &scene));
+    ISO_TRY(iso_scene_apply(ctx, &((const iso_scene_request *)options)->change, &scene));
     const iso_status status = iso_compare(ctx, &scene, show, result, &c);
     if (!c) return status;
     iso_record *const tables[ISO_STUDY_TABLES] = {c->difference,
@@ -171,17 +171,17 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
 }
 
 const iso_option iso_compare_option[] = {
-    ISO_OPTION_METHOD(iso_compare_request, change),
-    ISO_OPTION_TOLERANCE(ISO_TOLERANCE_OF_STEPS, iso_compare_request, change.tolerance),
-    ISO_OPTION_T_END(iso_compare_request, change),
-    ISO_OPTION_STEP(iso_compare_request, change),
+    ISO_OPTION_METHOD(iso_scene_request, change),
+    ISO_OPTION_TOLERANCE(ISO_TOLERANCE_OF_STEPS, iso_scene_request, change.tolerance),
+    ISO_OPTION_T_END(iso_scene_request, change),
+    ISO_OPTION_STEP(iso_scene_request, change),
     ISO_OPTION_END,
 };
 
 const iso_study iso_compare_study = {"compare",
                                      "compute an orbit by every backend and show the differences",
                                      iso_compare_option,
-                                     sizeof(iso_compare_request),
+                                     sizeof(iso_scene_request),
                                      begin,
                                      .run = run,
                                      .of = ISO_STUDY_OF_SCENE};

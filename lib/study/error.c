@@ -32,8 +32,12 @@ static const double directions[MOVED][3][3] = {
  * error. */
 static const double SHARE = 0.1;
 
-/* The finer orbit may take this many steps for each step of the orbit, and SPARE_STEPS more. */
-enum { STEPS_FOR_ONE = 20, SPARE_STEPS = 2000 };
+/* Below this tolerance methods other than series only collect rounding errors. */
+static const double FINEST_OF_OTHERS = 1e-14;
+
+/* The finer orbit may take this many steps for each step of the orbit, and SPARE_STEPS more. Steps of other methods are
+ * shorter than those of series. */
+enum { STEPS_FOR_ONE = 20, OTHERS_FOR_ONE = 400, SPARE_STEPS = 2000 };
 
 /* It may take this many where the orbit has no steps (backend exact): some five seconds. */
 enum { MOST_STEPS = 200000 };
@@ -56,7 +60,13 @@ static bool make_finer(const iso_orbit *orbit, iso_orbit_options *o)
 {
     const iso_method *own = iso_orbit_method(orbit);
     const bool exact = iso_orbit_exact(orbit) != NULL;
+    const iso_method *other = iso_method_of_other_kind(iso_orbit_model(orbit));
     o->backend = iso_orbit_model(orbit)->system == &iso_system_ball ? ISO_BACKEND_BALL : ISO_BACKEND_POINT;
+    if (other && own->own_equations && !own->splits) { /* two methods of one kind may miss the same */
+        o->method = other;
+        o->tolerance = FINEST_OF_OTHERS;
+        return !own->reference;
+    }
     if (iso_method_auto(iso_orbit_model(orbit))->own_equations) {
         o->method = iso_method_with_more_digits(own->digits > 0 ? own->digits : ISO_DOUBLE_DIGITS);
         o->tolerance = ISO_LEAST_TOLERANCE;
@@ -102,7 +112,10 @@ static iso_status move_start(iso_context *ctx, const iso_orbit_options *o, const
 static void allow_steps(iso_error_finder *f)
 {
     const bool exact = iso_orbit_exact(f->orbit) != NULL;
-    const long most = exact ? MOST_STEPS : STEPS_FOR_ONE * iso_orbit_statistics(f->orbit).steps + SPARE_STEPS;
+    const bool alike = iso_orbit_method(f->finer)->own_equations == iso_orbit_method(f->orbit)->own_equations;
+    const long most =
+        exact ? MOST_STEPS
+              : (alike ? STEPS_FOR_ONE : OTHERS_FOR_ONE) * iso_orbit_statistics(f->orbit).steps + SPARE_STEPS;
     iso_orbit_allow_steps(f->finer, most);
     for (int m = 0; m < MOVED; m++) iso_orbit_allow_steps(f->moved[m], most);
 }
@@ -112,7 +125,7 @@ static iso_status open_orbits(iso_error_finder *f, const iso_params *params, con
 {
     iso_orbit_options moved = *o;
     iso_status status = iso_orbit_create(f->ctx, params, start, o, &f->finer);
-    if (o->method->own_equations) /* auto is exact enough, and faster */
+    if (iso_method_auto(iso_orbit_model(f->orbit))->own_equations) /* it is exact enough, and faster */
         moved.method = iso_method_auto(iso_orbit_model(f->orbit));
     for (int m = 0; status == ISO_OK && m < MOVED; m++) {
         iso_params p = *params;

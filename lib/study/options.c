@@ -97,7 +97,7 @@ bool iso_set_method(void *at, const char *text)
 
 const char *iso_models_word(int i)
 {
-    return i < ISO_SHOW_START ? iso_shown_name(i) : NULL;
+    return i < ISO_SHOW_START ? iso_models_name(i) : NULL;
 }
 
 bool iso_set_models(void *at, const char *text)
@@ -105,6 +105,22 @@ bool iso_set_models(void *at, const char *text)
     for (int i = 0; iso_models_word(i); i++)
         if (strcmp(text, iso_models_word(i)) == 0) return *(iso_models *)at = (iso_models)i, true;
     return false;
+}
+
+const char *iso_option_gone(const char *command, const char *name)
+{
+    static const struct {
+        const char *command, *name, *instead;
+    } gone[] = {
+        {"cost", "horizons", "compare two runs of cost with different --t-end"},
+        {"section", "cloud", "section --area tells of each orbit whether the area is kept"},
+        {"view", "frames", "the page records a video"},
+        {"view", "fps", "the page records a video"},
+        {"view", "seconds", "the page records a video"},
+    };
+    for (size_t i = 0; i < sizeof gone / sizeof *gone; i++)
+        if (strcmp(command, gone[i].command) == 0 && strcmp(name, gone[i].name) == 0) return gone[i].instead;
+    return NULL;
 }
 
 iso_status iso_study_set(iso_context *ctx, const iso_study *study, const char *name, const char *text, void *options)
@@ -116,6 +132,10 @@ iso_status iso_study_set(iso_context *ctx, const iso_study *study, const char *n
     for (; o->name && strcmp(o->name, name) != 0; o++) {
         if (count < sizeof names / sizeof *names) names[count++] = o->name;
     }
+    const char *gone = o->name ? NULL : iso_option_gone(study->name, name);
+    if (gone)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "%s has no option '%s' any more: %s", study->name, name,
+                                gone);
     if (!o->name)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "%s has no option '%s'; %s", study->name, name,
                                 iso_suggest(suggested, name, count, names));
@@ -142,6 +162,16 @@ const char *iso_option_type(const iso_option *o)
 }
 
 /* --- scenes ----------------------------------------------------------------------------------------------------- */
+
+const iso_option iso_scene_change_option[] = {
+    ISO_OPTION_BACKEND(iso_scene_request, change),
+    ISO_OPTION_METHOD(iso_scene_request, change),
+    ISO_OPTION_TOLERANCE(ISO_TOLERANCE_OF_STEPS, iso_scene_request, change.tolerance),
+    ISO_OPTION_MODELS("as", "WHAT", "which model is written: ball, point, both", iso_scene_request, change.as),
+    ISO_OPTION_T_END(iso_scene_request, change),
+    ISO_OPTION_STEP(iso_scene_request, change),
+    ISO_OPTION_END,
+};
 
 /* What an option says does not stand in the file. Of end and step, a wrong one may be due to the other. */
 static void forget_places(const iso_scene_changes *c, iso_scene *scene)

@@ -8,7 +8,7 @@
 
 /* The studies and their options. Each stands in the room of its study. Their tables: of chaos the orbits and both
  * traces; of periodic the orbits, the branches or the chart; of section the crossings, and those that the point finds,
- * or the clouds; of splitting, prove and cost their rows; of compare the differences, and those of ball and point from the
+ * or the areas; of splitting, prove and cost their rows; of compare the differences, and those of ball and point from the
  * closed solution; of check the residuals. Those of the others have no rows. */
 #define ISO_STUDY_LIST(X)                                                                                            \
     X(section)                                                                                                       \
@@ -43,6 +43,9 @@ bool iso_set_vector(void *at, const char *text);  /* double[3], three numbers an
 bool iso_set_method(void *at, const char *text);  /* const char *, a method or auto         */
 bool iso_set_backend(void *at, const char *text); /* iso_backend: a word of iso_backend_word */
 const char *iso_backend_word(int i);              /* "ball", "point", "exact", "auto"       */
+
+/* What to use in place of an option that this study or command had before; NULL: it had none of this name. */
+const char *iso_option_gone(const char *command, const char *name);
 
 #define ISO_AT_EXPECTED "l,x, at most 64 times"
 #define ISO_SEED_SPREADS "another number spreads --starts in another way (default 0)"
@@ -102,9 +105,11 @@ typedef struct iso_scene_changes {
     ISO_OPTION("step", "DT", "a positive number", "time between rows, in place of the scene's", iso_set_positive,    \
                type, change.step)
 
-typedef struct iso_compare_request {
+/* Options that only change the scene, and all their rows. */
+typedef struct iso_scene_request {
     iso_scene_changes change;
-} iso_compare_request;
+} iso_scene_request;
+extern const iso_option iso_scene_change_option[];
 
 /* Puts the changes into the scene. Errors: those of iso_scene_check_times. */
 iso_status iso_scene_apply(iso_context *ctx, const iso_scene_changes *change, iso_scene *scene);

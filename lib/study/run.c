@@ -104,7 +104,7 @@ static iso_status describe(const runner *r, iso_record **header)
     const iso_models as = scene->as == ISO_SHOW_START ? (iso_models)scene->start.model : scene->as;
     for (int i = 0; i < r->count; i++) names[i] = iso_column_name(r->columns[i]);
     ISO_TRY(iso_record_create(r->ctx, (size_t)r->count, names, header));
-    ISO_TRY(iso_record_describe(r->ctx, *header, iso_shown_name((int)as), &scene->params, r->orbit));
+    ISO_TRY(iso_record_describe(r->ctx, *header, iso_models_name((int)as), &scene->params, r->orbit));
     ISO_TRY(iso_record_set(r->ctx, *header, "backend", iso_backend_name((int)iso_orbit_backend(r->orbit))));
     ISO_TRY(iso_record_set(r->ctx, *header, "method", iso_orbit_method(r->orbit)->name));
     if (!iso_orbit_exact(r->orbit))

@@ -34,8 +34,7 @@ typedef struct iso_option {
     int file;                                /* for the command: what the named file is for; 0: it names no file */
     const char *(*word)(int i); /* the i-th word that the argument can be, NULL after the last; NULL: no such list */
     bool aside;                 /* changes no number of a table, as names of output files do not */
-    const struct iso_option *more; /* not NULL: in place of this row, `count` rows from here on */
-    int count;
+    const struct iso_option *rows; /* not NULL: in place of this row, all of these */
 } iso_option;
 
 /* A row: name, argument, expected and doc as above, its setter, and its member in the struct `type`. */

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/low_discrepancy_impl.h"
 #include "base/pool_impl.h"
 #include "orbit/batch.h"
 #include "orbit/lane_groups_impl.h"
@@ -64,16 +63,6 @@ size_t iso_sweep_chunk_points(const iso_sweep_head *head, size_t c)
 
 /* --- what the quantities share ---------------------------------------------------------------------------------- */
 
-/* Each byte goes through splitmix64, once for each half. */
-void iso_sweep_hash(uint64_t hash[2], const void *bytes, size_t length)
-{
-    const unsigned char *byte = bytes;
-    for (size_t i = 0; i < length; i++) {
-        hash[0] = iso_scatter(hash[0] ^ byte[i]);
-        hash[1] = iso_scatter(hash[1] + hash[0]);
-    }
-}
-
 iso_status iso_sweep_note(iso_context *ctx, const iso_sweep_job *job, iso_sweep_batch *batch, size_t i,
                           iso_status status)
 {
@@ -95,7 +84,7 @@ double *iso_sweep_numbers(const iso_sweep_job *job, const iso_sweep_batch *batch
 
 const char *iso_sweep_models(int i)
 {
-    return i <= ISO_SHOW_BOTH ? iso_shown_name(i) : NULL;
+    return i <= ISO_SHOW_BOTH ? iso_models_name(i) : NULL;
 }
 
 iso_status iso_sweep_refuse_effects(iso_context *ctx, const iso_sweep_job *job)
@@ -269,25 +258,15 @@ static const char *find_vectors(const char *asked)
     return kind;
 }
 
-/* Everything that the rows depend on. */
 static void make_head(iso_sweep *s)
 {
     iso_sweep_head *h = &s->head;
-    /* An orbit that is alone takes these vectors, if they are there. */
-    const unsigned char alone = find_vectors("avx2") != NULL;
     h->count = s->plan->family.count;
     h->chunk = s->plan->chunk > 0 ? s->plan->chunk : chunk_of(s);
     h->text = s->plan->text ? s->plan->text : "";
     h->scene = s->plan->scene;
     memcpy(h->hash, s->plan->hash, sizeof h->hash);
-    iso_sweep_hash(h->hash, &h->count, sizeof h->count);
-    iso_sweep_hash(h->hash, &h->chunk, sizeof h->chunk);
-    iso_sweep_hash(h->hash, h->vectors, strlen(h->vectors));
-    iso_sweep_hash(h->hash, &alone, 1);
-    for (int i = 0; i < h->columns; i++) {
-        iso_sweep_hash(h->hash, h->column[i].group, strlen(h->column[i].group));
-        iso_sweep_hash(h->hash, h->column[i].name, strlen(h->column[i].name));
-    }
+    iso_sweep_hash_head(h->hash, h, find_vectors("avx2") != NULL, false); /* an orbit that is alone takes these */
 }
 
 iso_status iso_sweep_create(iso_context *ctx, const iso_sweep_plan *plan, iso_sweep **sweep)

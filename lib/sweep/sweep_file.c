@@ -53,7 +53,6 @@ static iso_status read_scene(iso_context *ctx, iso_sweep_file *f, const yaml_nod
     if (status != ISO_OK) return status;
     iso_draft whole = f->draft; /* the draft itself keeps its numbers as they were read */
     status = iso_draft_make(&whole);
-    if (status == ISO_OK) status = iso_draft_check_corners(&whole);
     f->base = whole.scene;
     return status;
 }
@@ -164,9 +163,7 @@ static void finish_plan(iso_sweep_file *f, const yaml_node_t *scene)
 {
     iso_sweep_plan *p = &f->plan;
     f->draft.yaml.name = f->inside ? "<sweep>" : (const char *)scene->data.scalar.value;
-    iso_sweep_hash(p->hash, ISO_VERSION, sizeof ISO_VERSION);
-    iso_sweep_hash(p->hash, f->text, f->length + 1);
-    if (f->scene_text) iso_sweep_hash(p->hash, f->scene_text, f->scene_length);
+    iso_sweep_hash_texts(p->hash, ISO_VERSION, f->text, f->scene_text);
     p->text = f->text;
     p->scene = f->scene_text;
     p->family.name = (const char(*)[ISO_NAME_SIZE])f->column;

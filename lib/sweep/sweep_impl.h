@@ -81,6 +81,18 @@ const char *iso_sweep_models(int i);
 /* Adds bytes to a hash of 128 bits, which begins as {0, 0}. It is for telling sweeps apart, not for secrets. */
 void iso_sweep_hash(uint64_t hash[2], const void *bytes, size_t length);
 
+/* Adds the version of isoroll and the texts of a sweep and of its scene's own file (NULL: it has none). Ends of lines
+ * do not count: a result as CSV keeps the lines alone. */
+void iso_sweep_hash_texts(uint64_t hash[2], const char *version, const char *text, const char *scene);
+
+/* Adds all else that the rows depend on. alone: the vectors of an orbit that is alone are there. swapped: as a machine
+ * with the other order of bytes has it. */
+void iso_sweep_hash_head(uint64_t hash[2], const iso_sweep_head *head, bool alone, bool swapped);
+
+/* Whether the hash of a head is that of what it says, by this version on some machine: with or without AVX2, of
+ * either order of bytes. */
+bool iso_sweep_head_fits(const iso_sweep_head *head, const char *version);
+
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
 /* Errors: ISO_NO_MEMORY. */

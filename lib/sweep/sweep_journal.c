@@ -1,7 +1,7 @@
 /* sweep_journal.c - the journal of a sweep: a head, and one record for each finished chunk. Numbers stand as they are
  * in memory; the head tells other machines apart.
  *
- *     head     mark, hash, points, chunk, columns, share, checksum
+ *     head     mark, hash, points, chunk, columns, shard, checksum
  *     record   chunk, length of what follows, checksum; then numbers, statuses, and for each status that is not 0 the
  *              length of a reason and the reason
  */
@@ -41,8 +41,8 @@ static journal_head head_of(const iso_sweep_journal *j)
     h.points = j->head->count;
     h.chunk = j->head->chunk;
     h.columns = (uint64_t)j->head->columns;
-    h.index = j->share.index;
-    h.count = j->share.count;
+    h.index = j->shard.index;
+    h.count = j->shard.count;
     h.checksum = iso_sweep_checksum(&h, offsetof(journal_head, checksum), 1);
     return h;
 }
@@ -140,7 +140,7 @@ static iso_status scan(iso_context *ctx, iso_sweep_journal *j, off_t size)
     ISO_TRY(iso_sweep_rows_create(ctx, j->head->columns, j->head->chunk, &rows));
     j->ours = true;
     while (j->end < size && read_record(j, j->end, &r, &rows)) {
-        if (r.chunk % j->share.count == j->share.index && j->at[r.chunk] == 0) {
+        if (r.chunk % j->shard.count == j->shard.index && j->at[r.chunk] == 0) {
             j->at[r.chunk] = j->end;
             j->done++;
             iso_sweep_failures_add(&j->failures, &rows);
@@ -152,13 +152,23 @@ static iso_status scan(iso_context *ctx, iso_sweep_journal *j, off_t size)
     return status;
 }
 
+/* The name of the journal of a sweep into `path`, links followed, to be freed by the caller. NULL with errno set. */
+static char *name_of_journal(const char *path)
+{
+    char *name, *end;
+    if (asprintf(&name, "%s.journal", path) < 0) return errno = ENOMEM, NULL;
+    end = iso_file_follow(name);
+    free(name);
+    return end;
+}
+
 /* A program killed just before its end leaves a complete result, and the journal beside it. */
 static void remove_old(const iso_sweep_journal *j)
 {
     const journal_head mine = head_of(j);
     journal_head there;
-    char *name;
-    if (asprintf(&name, "%s.part", j->path) < 0) return;
+    char *name = name_of_journal(j->path);
+    if (!name) return;
     const int fd = open(name, O_RDONLY | O_CLOEXEC);
     const bool ours = fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) == 0 &&
                       read(fd, &there, sizeof there) == sizeof there && memcmp(&there, &mine, sizeof mine) == 0;
@@ -175,7 +185,7 @@ static iso_status look_at_result(iso_context *ctx, iso_sweep_journal *j, bool re
     if (status == ISO_NO_MEMORY) return status;
     if (status != ISO_OK) return refuse(ctx, j->path, "is there, and is no result of a sweep: it is not overwritten");
     const bool same = memcmp(reader->head.hash, j->head->hash, sizeof j->head->hash) == 0 &&
-                      reader->share.index == j->share.index && reader->share.count == j->share.count;
+                      reader->shard.index == j->shard.index && reader->shard.count == j->shard.count;
     if (same && resume) status = iso_sweep_reader_failures(ctx, reader, &j->failures);
     iso_sweep_reader_close(reader);
     if (status != ISO_OK) return status;
@@ -215,30 +225,15 @@ static iso_status take_old(iso_context *ctx, iso_sweep_journal *j, off_t size, b
     return scan(ctx, j, size);
 }
 
-/* Opens and locks the journal's file. The program that had it may have finished and removed it in between: then the
- * file that is locked has no name any more, and the name is opened again. Where files cannot be locked, it goes on
- * without. */
-static iso_status open_locked(iso_context *ctx, iso_sweep_journal *j, struct stat *s)
-{
-    for (;;) {
-        j->descriptor = open(j->name, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-        if (j->descriptor < 0) return trouble(ctx, j, "write");
-        if (flock(j->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-            return refuse(ctx, j->name, "is in use: another isoroll works on this sweep");
-        if (fstat(j->descriptor, s) != 0) return trouble(ctx, j, "read");
-        if (iso_file_has_name(j->descriptor, j->name)) return ISO_OK;
-        close(j->descriptor);
-    }
-}
-
 static iso_status open_named(iso_context *ctx, iso_sweep_journal *j, bool resume)
 {
     struct stat s;
-    if (asprintf(&j->name, "%s.part", j->path) < 0) {
-        j->name = NULL;
-        return iso_context_no_memory(ctx, "a sweep");
-    }
-    ISO_TRY(open_locked(ctx, j, &s));
+    j->name = name_of_journal(j->path);
+    if (!j->name) return iso_file_trouble(ctx, "write the journal of", j->path);
+    j->descriptor = iso_file_open_locked(j->name);
+    if (j->descriptor < 0 && errno == EWOULDBLOCK)
+        return refuse(ctx, j->name, "is in use: another isoroll works on this sweep");
+    if (j->descriptor < 0 || fstat(j->descriptor, &s) != 0) return trouble(ctx, j, "write");
     if (!S_ISREG(s.st_mode)) return refuse(ctx, j->name, "is no regular file");
     return take_old(ctx, j, s.st_size, resume);
 }
@@ -255,27 +250,32 @@ static iso_status open_unnamed(iso_context *ctx, iso_sweep_journal *j)
 static iso_status open_journal(iso_context *ctx, iso_sweep_journal *j, bool resume)
 {
     struct stat s;
-    if (j->share.count > ISO_SWEEP_MOST_SHARES)
-        return ISO_FAIL_ARGUMENT(ctx, "", "--shard: n is %zu, it must be at most %d", j->share.count,
-                                 ISO_SWEEP_MOST_SHARES);
+    if (j->shard.count > ISO_SWEEP_MOST_SHARDS)
+        return ISO_FAIL_ARGUMENT(ctx, "", "--shard: n is %zu, it must be at most %d", j->shard.count,
+                                 ISO_SWEEP_MOST_SHARDS);
     ISO_TRY(iso_table_check_format(ctx, j->path));
     if (strcmp(j->path, "-") == 0) return open_unnamed(ctx, j);
     if (stat(j->path, &s) != 0) return open_named(ctx, j, resume);
+    if (S_ISDIR(s.st_mode)) return errno = EISDIR, iso_file_trouble(ctx, "write", j->path);
     return S_ISREG(s.st_mode) ? look_at_result(ctx, j, resume) : open_unnamed(ctx, j);
 }
 
 iso_status iso_sweep_journal_open(iso_context *ctx, const char *path, const iso_sweep_head *head,
-                                  iso_sweep_shard share, bool resume, iso_sweep_journal **journal)
+                                  iso_sweep_shard shard, bool resume, iso_sweep_journal **journal)
 {
     *journal = NULL;
     iso_sweep_journal *j = calloc(1, sizeof *j);
     if (!j) return iso_context_no_memory(ctx, "a sweep");
     const size_t chunks = iso_sweep_chunks(head);
     j->descriptor = -1;
-    j->path = strdup(path);
+    j->path = iso_file_follow(path); /* the journal stands beside the result, not beside a link to it */
+    if (!j->path && errno != ENOMEM) {
+        free(j);
+        return iso_file_trouble(ctx, "write", path);
+    }
     j->head = head;
-    j->share = share;
-    j->wanted = chunks > share.index ? (chunks - share.index - 1) / share.count + 1 : 0;
+    j->shard = shard;
+    j->wanted = chunks > shard.index ? (chunks - shard.index - 1) / shard.count + 1 : 0;
     j->at = calloc(chunks + 1, sizeof *j->at);
     j->room =
         sizeof(iso_sweep_record) + iso_sweep_rows_bytes(&(iso_sweep_rows){.columns = head->columns}, head->chunk);
@@ -306,7 +306,7 @@ void iso_sweep_journal_close(iso_sweep_journal *j)
 
 bool iso_sweep_journal_has(const iso_sweep_journal *j, size_t c)
 {
-    return j->complete || c % j->share.count != j->share.index || j->at[c] != 0;
+    return j->complete || c % j->shard.count != j->shard.index || j->at[c] != 0;
 }
 
 /* --- adding and finishing --------------------------------------------------------------------------------------- */
@@ -348,7 +348,7 @@ static iso_status next_rows(iso_context *ctx, void *journal, size_t c, iso_sweep
 iso_status iso_sweep_journal_finish(iso_context *ctx, iso_sweep_journal *j)
 {
     if (j->complete) return ISO_OK;
-    const iso_status status = iso_sweep_write(ctx, j->path, j->head, j->share, next_rows, j);
+    const iso_status status = iso_sweep_write(ctx, j->path, j->head, j->shard, next_rows, j);
     if (status == ISO_OK && j->name) unlink(j->name);
     return status;
 }

@@ -171,7 +171,7 @@ static iso_status on_section(iso_context *ctx, const iso_sweep_file *f, size_t i
     iso_orbit *orbit;
     double lx[1][2];
     o.effects = &effects;
-    iso_status status = iso_orbit_create_among(ctx, &scene->params, &scene->start, &o, &orbit);
+    iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
     if (status != ISO_OK) return status;
     const int axis = iso_section_axis(iso_orbit_motion(orbit));
     chart_of(f, i, orbit, axis, numbers, *lx);

@@ -23,17 +23,17 @@ static bool take_size(const iso_record *r, const char *key, size_t *size)
     return text && sscanf(text, "%zu", size) == 1;
 }
 
-/* "1 of 3", in HDF5 "1 3" */
-static bool take_part(const iso_record *r, iso_sweep_shard *share)
+/* "1 of 3"; in HDF5 of older ones "1 3" */
+static bool take_part(const iso_record *r, iso_sweep_shard *shard)
 {
     const char *text = iso_record_get(r, "part");
-    *share = (iso_sweep_shard){0, 1};
+    *shard = (iso_sweep_shard){0, 1};
     if (strcmp(iso_record_kind(r), ISO_SWEEP_KIND) == 0) return !text;
     if (!text || strcmp(iso_record_kind(r), ISO_SWEEP_PART_KIND) != 0) return false;
-    if (sscanf(text, "%zu of %zu", &share->index, &share->count) != 2 &&
-        sscanf(text, "%zu %zu", &share->index, &share->count) != 2)
+    if (sscanf(text, "%zu of %zu", &shard->index, &shard->count) != 2 &&
+        sscanf(text, "%zu %zu", &shard->index, &shard->count) != 2)
         return false;
-    return share->index-- > 0 && share->count > 1;
+    return shard->index-- > 0 && shard->count > 1;
 }
 
 /* "vary/k chaos/verdict": all columns. NULL: no memory, or no such text. */
@@ -54,11 +54,11 @@ static iso_sweep_column *scan_columns(const char *text, int *count)
     return columns;
 }
 
-/* The columns are those that the line "columns" says. */
+/* The columns are those that the line "names" says, of older ones "columns". */
 static bool take_columns(const iso_record *r, iso_sweep_head *h)
 {
     char name[ISO_SWEEP_NAME];
-    const char *text = iso_record_get(r, "columns");
+    const char *text = iso_record_get(r, iso_record_get(r, "names") ? "names" : "columns");
     const iso_sweep_column *column = h->column = text ? scan_columns(text, &h->columns) : NULL;
     const size_t columns = column ? (size_t)h->columns : 0;
     bool good = columns > 0 && iso_record_columns(r) == columns + 3 && strcmp(iso_record_name(r, 0), "point") == 0 &&
@@ -76,7 +76,7 @@ static bool take_head(iso_sweep_reader *r)
                *text = iso_record_get(lines, ISO_TABLE_TEXT);
     h->text = text ? text : "";
     h->scene = iso_record_get(lines, "scene");
-    return take_part(lines, &r->share) && hash && strlen(hash) == 32 &&
+    return take_part(lines, &r->shard) && hash && strlen(hash) == 32 &&
            sscanf(hash, "%16" SCNx64 "%16" SCNx64, &h->hash[0], &h->hash[1]) == 2 && vectors &&
            snprintf(h->vectors, sizeof h->vectors, "%s", vectors) < ISO_NAME_SIZE &&
            take_size(lines, "points", &h->count) && take_size(lines, "chunk", &h->chunk) && take_columns(lines, h);
@@ -88,7 +88,7 @@ static bool makes_sense(const iso_sweep_reader *r)
 {
     const iso_sweep_head *h = &r->head;
     return h->count > 0 && h->count <= (uint64_t)1 << 53 && h->chunk > 0 && h->chunk <= MOST_CHUNK &&
-           r->share.count <= ISO_SWEEP_MOST_SHARES && r->share.index < r->share.count;
+           r->shard.count <= ISO_SWEEP_MOST_SHARDS && r->shard.index < r->shard.count;
 }
 
 /* --- the sum ---------------------------------------------------------------------------------------------------- */
@@ -120,18 +120,25 @@ static iso_status check_sum(iso_context *ctx, const iso_sweep_reader *r)
 
 static iso_status open_table(iso_context *ctx, iso_sweep_reader *r)
 {
-    const char *last;
+    const char *last, *version;
     if (access(r->path, R_OK) != 0) return iso_file_trouble(ctx, "open", r->path);
     const iso_status status = iso_table_reader_open(ctx, r->path, NULL, NULL, &r->table);
     if (status == ISO_NO_MEMORY) return status;
     if (status == ISO_BAD_ARGUMENT) return damaged(ctx, r->path, "this build has no HDF5");
-    if (status != ISO_OK || !take_head(r)) return damaged(ctx, r->path, "it is no result of a sweep");
+    if (status != ISO_OK)
+        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot read '%s': it is no result of a sweep: %s",
+                                r->path, iso_context_message(ctx));
+    if (!take_head(r)) return damaged(ctx, r->path, "it is no result of a sweep");
     if (!makes_sense(r)) return damaged(ctx, r->path, "its head is damaged");
+    version = iso_record_get(iso_table_header(r->table), "isoroll");
+    if (!version || !iso_sweep_head_fits(&r->head, version))
+        return damaged(ctx, r->path,
+                       "its texts or its head do not fit its hash: they were changed, or another version wrote them");
     r->table->forgets = true;
     r->row = calloc((size_t)r->head.columns + 3, sizeof *r->row);
     if (!r->row) return iso_context_no_memory(ctx, "'%s'", r->path);
     r->lines = count_lines(r, &last);
-    r->points = iso_sweep_shard_points(&r->head, r->share);
+    r->points = iso_sweep_shard_points(&r->head, r->shard);
     return r->points > 0 ? ISO_OK : check_sum(ctx, r);
 }
 
@@ -180,7 +187,7 @@ iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *r, size_t c
 {
     iso_status status = ISO_OK;
     if (r->points - r->next < count) return damaged(ctx, r->path, "it has no more rows");
-    rows->first = iso_sweep_shard_point(&r->head, r->share, r->next);
+    rows->first = iso_sweep_shard_point(&r->head, r->shard, r->next);
     rows->count = count;
     r->next += count;
     for (size_t i = 0; i < count; i++)

@@ -6,18 +6,18 @@
 #include "sweep/sweep_impl.h"
 #include "sweep/sweep_store_impl.h"
 
-size_t iso_sweep_shard_points(const iso_sweep_head *head, iso_sweep_shard share)
+size_t iso_sweep_shard_points(const iso_sweep_head *head, iso_sweep_shard shard)
 {
     const size_t chunks = iso_sweep_chunks(head);
-    if (share.index >= chunks) return 0;
-    const size_t mine = (chunks - share.index - 1) / share.count + 1, last = share.index + (mine - 1) * share.count;
+    if (shard.index >= chunks) return 0;
+    const size_t mine = (chunks - shard.index - 1) / shard.count + 1, last = shard.index + (mine - 1) * shard.count;
     return (mine - 1) * head->chunk + iso_sweep_chunk_points(head, last);
 }
 
 /* All its chunks are full, but perhaps the last one. */
-size_t iso_sweep_shard_point(const iso_sweep_head *head, iso_sweep_shard share, size_t i)
+size_t iso_sweep_shard_point(const iso_sweep_head *head, iso_sweep_shard shard, size_t i)
 {
-    return (share.index + i / head->chunk * share.count) * head->chunk + i % head->chunk;
+    return (shard.index + i / head->chunk * shard.count) * head->chunk + i % head->chunk;
 }
 
 const char *iso_sweep_column_name(const iso_sweep_column *c, char name[ISO_SWEEP_NAME])

@@ -19,24 +19,24 @@ typedef struct merger {
 static iso_status check_part(iso_context *ctx, merger *m, const iso_sweep_reader *r)
 {
     const iso_sweep_head *a = &m->first->head, *b = &r->head;
-    const iso_sweep_shard share = r->share;
+    const iso_sweep_shard shard = r->shard;
     if (memcmp(a->hash, b->hash, sizeof a->hash) != 0 || a->count != b->count || a->chunk != b->chunk ||
         a->columns != b->columns)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "'%s' is a part of another sweep than '%s'", r->path,
                                 m->first->path);
-    if (share.count == 1)
+    if (shard.count == 1)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "'%s' is a whole sweep, not a part", r->path);
-    if (share.count < m->given)
+    if (shard.count < m->given)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "'%s' is part %zu of %zu, but %zu files are given",
-                                r->path, share.index + 1, share.count, m->given);
-    if (!m->part) m->part = calloc(m->count = share.count, sizeof *m->part);
+                                r->path, shard.index + 1, shard.count, m->given);
+    if (!m->part) m->part = calloc(m->count = shard.count, sizeof *m->part);
     if (!m->part) return iso_context_no_memory(ctx, "the parts");
-    if (share.count != m->count)
+    if (shard.count != m->count)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "'%s' is part %zu of %zu, others are parts of %zu",
-                                r->path, share.index + 1, share.count, m->count);
-    if (!m->part[share.index]) return ISO_OK;
+                                r->path, shard.index + 1, shard.count, m->count);
+    if (!m->part[shard.index]) return ISO_OK;
     return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "part %zu of %zu is there twice: '%s' and '%s'",
-                            share.index + 1, share.count, m->part[share.index]->path, r->path);
+                            shard.index + 1, shard.count, m->part[shard.index]->path, r->path);
 }
 
 static iso_status add_part(iso_context *ctx, merger *m, const char *path)
@@ -46,7 +46,7 @@ static iso_status add_part(iso_context *ctx, merger *m, const char *path)
     if (!m->part) m->first = r;
     iso_status status = check_part(ctx, m, r);
     if (status == ISO_OK)
-        m->part[r->share.index] = r;
+        m->part[r->shard.index] = r;
     else
         iso_sweep_reader_close(r);
     return status;

@@ -4,10 +4,10 @@
  *     status = iso_sweep_journal_open(ctx, "out.h5", head, whole, true, &j);     whole: (iso_sweep_shard){0, 1}
  *     for each chunk c with !iso_sweep_journal_has(j, c):
  *         status = iso_sweep_journal_add(ctx, j, c, &rows);
- *     status = iso_sweep_journal_finish(ctx, j);                               writes out.h5, removes out.h5.part
+ *     status = iso_sweep_journal_finish(ctx, j);                               writes out.h5, removes out.h5.journal
  *     iso_sweep_journal_close(j);
  *
- * The journal is out.h5.part. It begins with what the sweep is. Each finished chunk is one record with a checksum,
+ * The journal is out.h5.journal. It begins with what the sweep is. Each finished chunk is one record with a checksum,
  * added at the end by one write. So a program that is killed loses only chunks that were being computed; a record
  * that was cut short is taken away by the next program. A journal is for one program at a time.
  *
@@ -31,15 +31,15 @@
 
 /* --- shards, failures, sums (sweep_record.c) -------------------------------------------------------------------- */
 
-/* Chunks index, index + count, ...; {0, 1}: all. count is at most ISO_SWEEP_MOST_SHARES. */
-enum { ISO_SWEEP_MOST_SHARES = 1000000 };
+/* Chunks index, index + count, ...; {0, 1}: all. count is at most ISO_SWEEP_MOST_SHARDS. */
+enum { ISO_SWEEP_MOST_SHARDS = 1000000 };
 typedef struct iso_sweep_shard {
     size_t index, count;
 } iso_sweep_shard;
 
 /* Its points, and the number in the sweep of its i-th point. */
-size_t iso_sweep_shard_points(const iso_sweep_head *head, iso_sweep_shard share);
-size_t iso_sweep_shard_point(const iso_sweep_head *head, iso_sweep_shard share, size_t i);
+size_t iso_sweep_shard_points(const iso_sweep_head *head, iso_sweep_shard shard);
+size_t iso_sweep_shard_point(const iso_sweep_head *head, iso_sweep_shard shard, size_t i);
 
 /* Points that have failed: how many, and the number and the reason of the first. */
 typedef struct iso_sweep_failures {
@@ -82,8 +82,8 @@ bool iso_sweep_record_inside(const iso_sweep_head *head, const unsigned char byt
 typedef struct iso_sweep_journal {
     char *path, *name; /* of the result, of the journal; name NULL: nobody can go on with it */
     const iso_sweep_head *head;
-    iso_sweep_shard share;
-    size_t wanted, done; /* chunks of the share, and how many of them are there */
+    iso_sweep_shard shard;
+    size_t wanted, done; /* chunks of the shard, and how many of them are there */
     iso_sweep_failures failures;
     bool complete; /* the result is there already */
     bool ours;     /* the journal's file was not refused */
@@ -101,17 +101,17 @@ typedef struct iso_sweep_journal {
  * Errors: ISO_FILE_TROUBLE: a journal of another sweep, a damaged one, one that another program works on, one that is
  * there without resume; a file `path` that is there, unless it is the result of this sweep and resume is given: then
  * all chunks are done, and finishing writes nothing. Nothing is changed then. ISO_BAD_ARGUMENT: this build has no
- * HDF5; too many shares. ISO_NO_MEMORY. */
+ * HDF5; too many shards. ISO_NO_MEMORY. */
 iso_status iso_sweep_journal_open(iso_context *ctx, const char *path, const iso_sweep_head *head,
-                                  iso_sweep_shard share, bool resume, iso_sweep_journal **journal);
+                                  iso_sweep_shard shard, bool resume, iso_sweep_journal **journal);
 
-/* Whether chunk c is there or belongs to another share. */
+/* Whether chunk c is there or belongs to another shard. */
 bool iso_sweep_journal_has(const iso_sweep_journal *j, size_t c);
 
 /* Adds a chunk. Errors: ISO_FILE_TROUBLE: the journal is then as it was before. */
 iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t c, const iso_sweep_rows *rows);
 
-/* Writes the result; all chunks of the share must be there. Errors: ISO_FILE_TROUBLE, also if a file of this name
+/* Writes the result; all chunks of the shard must be there. Errors: ISO_FILE_TROUBLE, also if a file of this name
  * has appeared: then that file and the journal both stay; ISO_NO_MEMORY. */
 iso_status iso_sweep_journal_finish(iso_context *ctx, iso_sweep_journal *j);
 
@@ -123,7 +123,7 @@ void iso_sweep_journal_close(iso_sweep_journal *j);
 typedef struct iso_sweep_reader {
     iso_table_reader *table;
     iso_sweep_head head; /* its texts are lines of the table */
-    iso_sweep_shard share;
+    iso_sweep_shard shard;
     size_t lines, next, points; /* lines before the rows; the row that is read next; rows in the file */
     uint64_t sum;               /* of the rows that were read */
     double *row;
@@ -144,7 +144,7 @@ iso_status iso_sweep_reader_failures(iso_context *ctx, iso_sweep_reader *reader,
 /* Writes a result: `next` gives the rows of chunk c, by growing number. If a file of this name exists at the end, it
  * is kept. The sum of all rows stands in the file: a result that was changed or damaged later is found out. Errors:
  * ISO_FILE_TROUBLE, ISO_NO_MEMORY, those of `next`: then there is no new file. */
-iso_status iso_sweep_write(iso_context *ctx, const char *path, const iso_sweep_head *head, iso_sweep_shard share,
+iso_status iso_sweep_write(iso_context *ctx, const char *path, const iso_sweep_head *head, iso_sweep_shard shard,
                            iso_status (*next)(iso_context *ctx, void *data, size_t c, iso_sweep_rows *rows),
                            void *data);
 

@@ -1,7 +1,7 @@
 /* sweep_writer.c - results of sweeps are tables (io/table.h): what stands in their lines, columns and rows.
  *
  *     # isoroll sweep 1                                of a part: "sweep part"
- *     # hash: ...                                      and points, chunk, vectors, columns; of a part: part
+ *     # hash: ...                                      and points, chunk, vectors, names; of a part: part
  *     # | text of the sweep                            and "# scene | text of its scene"
  *     point,k,state_n1,...,status,reason
  *     # sum: ...
@@ -26,11 +26,11 @@ static iso_status set_size(iso_context *ctx, iso_record *r, const char *key, siz
     return iso_record_set(ctx, r, key, text);
 }
 
-/* A text as its file has it; lines of CSV have an end each. */
-static iso_status set_text(iso_context *ctx, iso_record *r, const char *key, const char *text, bool hdf5)
+/* A text of whole lines: the last one gets an end if its file has none. */
+static iso_status set_text(iso_context *ctx, iso_record *r, const char *key, const char *text)
 {
     const size_t length = strlen(text);
-    if (hdf5 || length == 0 || text[length - 1] == '\n') return iso_record_set(ctx, r, key, length ? text : NULL);
+    if (length == 0 || text[length - 1] == '\n') return iso_record_set(ctx, r, key, length ? text : NULL);
     char *ended = malloc(length + 2);
     if (!ended) return iso_context_no_memory(ctx, "a sweep");
     memcpy(ended, text, length);
@@ -40,11 +40,11 @@ static iso_status set_text(iso_context *ctx, iso_record *r, const char *key, con
     return status;
 }
 
-static iso_status set_part(iso_context *ctx, iso_record *r, iso_sweep_shard share, bool hdf5)
+static iso_status set_part(iso_context *ctx, iso_record *r, iso_sweep_shard shard)
 {
     char text[64];
-    if (share.count == 1) return ISO_OK;
-    snprintf(text, sizeof text, hdf5 ? "%zu %zu" : "%zu of %zu", share.index + 1, share.count);
+    if (shard.count == 1) return ISO_OK;
+    snprintf(text, sizeof text, "%zu of %zu", shard.index + 1, shard.count);
     return iso_record_set(ctx, r, "part", text);
 }
 
@@ -59,8 +59,7 @@ static char *print_columns(const iso_sweep_head *head)
     return text;
 }
 
-static iso_status set_lines(iso_context *ctx, iso_record *r, const iso_sweep_head *head, iso_sweep_shard share,
-                            bool hdf5)
+static iso_status set_lines(iso_context *ctx, iso_record *r, const iso_sweep_head *head, iso_sweep_shard shard)
 {
     char hash[33], *columns = print_columns(head);
     if (!columns) return iso_context_no_memory(ctx, "a sweep");
@@ -70,10 +69,10 @@ static iso_status set_lines(iso_context *ctx, iso_record *r, const iso_sweep_hea
     if (status == ISO_OK) status = set_size(ctx, r, "points", head->count);
     if (status == ISO_OK) status = set_size(ctx, r, "chunk", head->chunk);
     if (status == ISO_OK) status = iso_record_set(ctx, r, "vectors", head->vectors);
-    if (status == ISO_OK) status = set_part(ctx, r, share, hdf5);
-    if (status == ISO_OK) status = iso_record_set(ctx, r, "columns", columns);
-    if (status == ISO_OK) status = set_text(ctx, r, ISO_TABLE_TEXT, head->text, hdf5);
-    if (status == ISO_OK && head->scene) status = set_text(ctx, r, "scene", head->scene, hdf5);
+    if (status == ISO_OK) status = set_part(ctx, r, shard);
+    if (status == ISO_OK) status = iso_record_set(ctx, r, "names", columns);
+    if (status == ISO_OK) status = set_text(ctx, r, ISO_TABLE_TEXT, head->text);
+    if (status == ISO_OK && head->scene) status = set_text(ctx, r, "scene", head->scene);
     free(columns);
     return status;
 }
@@ -122,7 +121,7 @@ iso_status iso_sweep_table(iso_context *ctx, const iso_sweep_head *head, iso_rec
 {
     ISO_TRY(make_header(ctx, head, table));
     iso_record_set_kind(*table, ISO_SWEEP_KIND);
-    return set_lines(ctx, *table, head, (iso_sweep_shard){0, 1}, false);
+    return set_lines(ctx, *table, head, (iso_sweep_shard){0, 1});
 }
 
 iso_status iso_sweep_table_add(iso_context *ctx, iso_record *table, const iso_sweep_rows *rows)
@@ -138,7 +137,7 @@ iso_status iso_sweep_table_add(iso_context *ctx, iso_record *table, const iso_sw
 
 /* All chunks and their sum. */
 static iso_status write_chunks(iso_context *ctx, iso_table_writer *table, iso_record *header,
-                               const iso_sweep_head *head, iso_sweep_shard share, source next, void *data)
+                               const iso_sweep_head *head, iso_sweep_shard shard, source next, void *data)
 {
     iso_sweep_rows rows;
     uint64_t sum = 0;
@@ -146,7 +145,7 @@ static iso_status write_chunks(iso_context *ctx, iso_table_writer *table, iso_re
     double *row = calloc((size_t)head->columns + 3, sizeof *row);
     iso_status status = iso_sweep_rows_create(ctx, head->columns, head->chunk, &rows);
     if (!row) status = iso_context_no_memory(ctx, "a sweep");
-    for (size_t c = share.index; c < iso_sweep_chunks(head) && status == ISO_OK; c += share.count) {
+    for (size_t c = shard.index; c < iso_sweep_chunks(head) && status == ISO_OK; c += shard.count) {
         status = next(ctx, data, c, &rows);
         if (status == ISO_OK) status = write_rows(ctx, table, header, &rows, row);
         sum = iso_sweep_sum(sum, &rows);
@@ -157,20 +156,20 @@ static iso_status write_chunks(iso_context *ctx, iso_table_writer *table, iso_re
     return status == ISO_OK ? iso_table_write_line(ctx, table, "sum", text) : status;
 }
 
-iso_status iso_sweep_write(iso_context *ctx, const char *path, const iso_sweep_head *head, iso_sweep_shard share,
+iso_status iso_sweep_write(iso_context *ctx, const char *path, const iso_sweep_head *head, iso_sweep_shard shard,
                            source next, void *data)
 {
     iso_table_writer *table = NULL;
     iso_record *header = NULL;
     iso_status status = make_header(ctx, head, &header);
-    if (status == ISO_OK) status = set_lines(ctx, header, head, share, iso_table_is_hdf5(path));
+    if (status == ISO_OK) status = set_lines(ctx, header, head, shard);
     if (status == ISO_OK)
-        status = iso_table_writer_open(ctx, path, share.count == 1 ? ISO_SWEEP_KIND : ISO_SWEEP_PART_KIND, &table);
+        status = iso_table_writer_open(ctx, path, shard.count == 1 ? ISO_SWEEP_KIND : ISO_SWEEP_PART_KIND, &table);
     if (status == ISO_OK) {
         table->fresh = true;
-        table->expected = iso_sweep_shard_points(head, share);
+        table->expected = iso_sweep_shard_points(head, shard);
         status = iso_table_write_header(ctx, table, header);
-        if (status == ISO_OK) status = write_chunks(ctx, table, header, head, share, next, data);
+        if (status == ISO_OK) status = write_chunks(ctx, table, header, head, shard, next, data);
         const iso_status closed = iso_table_writer_close(ctx, table, status == ISO_OK);
         if (status == ISO_OK) status = closed;
     }

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -82,9 +83,46 @@ static void test_length(void)
     memset(zeros, '0', sizeof zeros);
     zeros[0] = '1';
     zeros[1] = '.';
-    gsl_test(!read_exactly(zeros, 511, &value) || value != 1, "511 characters are read");
-    gsl_test(read_exactly(zeros, 512, &value), "512 are refused");
-    gsl_test(read_exactly(zeros, sizeof zeros, &value), "600 are refused");
+    zeros[599] = '1';
+    gsl_test(!read_exactly(zeros, sizeof zeros, &value) || value != 1, "600 characters are read");
+    zeros[0] = '0';
+    gsl_test(!read_exactly(zeros, sizeof zeros, &value) || value != 0, "10^-598 is 0");
+    memset(zeros, '9', sizeof zeros);
+    gsl_test(read_exactly(zeros, sizeof zeros, &value), "10^600 is refused");
+    memcpy(zeros + 595, "e-400", 5);
+    gsl_test(!read_exactly(zeros, sizeof zeros, &value) || !same(value, 1e195),
+             "595 digits of 9 and e-400 are 1e195");
+}
+
+/* The C library is the other eye: printf for 1 to 17 digits and %a, strtod for decimals of any length. */
+static void test_c_library(void)
+{
+    iso_random *random = iso_random_create(11);
+    int printed = 0, read = 0;
+    if (!random) abort();
+    for (int i = 0; i < 20000; i++) {
+        char text[ISO_NUMBER_SIZE], wanted[64], *end = wanted;
+        const int digits = i % 18;
+        const double x = ldexp(iso_random_uniform(random, -1, 1), (int)iso_random_uniform(random, -1073, 1025));
+        iso_number_print_as(text, x, digits);
+        digits > 0 ? snprintf(wanted, sizeof wanted, "%.*g", digits, x) : snprintf(wanted, sizeof wanted, "%a", x);
+        /* libraries write subnormal numbers in %a in two ways */
+        const bool same_number = digits == 0 && fabs(x) < DBL_MIN && strtod(text, NULL) == x;
+        printed += strcmp(text, wanted) != 0 && !same_number;
+        const int length = (int)iso_random_uniform(random, 1, 30), point = (int)iso_random_uniform(random, 0, 30);
+        for (int j = 0; j < length; j++) {
+            *end++ = (char)('0' + (int)iso_random_uniform(random, 0, 10));
+            if (j == point) *end++ = '.';
+        }
+        sprintf(end, "e%d", (int)iso_random_uniform(random, -360, 320));
+        double value = NAN;
+        const bool finite = isfinite(strtod(wanted, NULL));
+        read +=
+            read_exactly(wanted, strlen(wanted), &value) != finite || (finite && !same(value, strtod(wanted, NULL)));
+    }
+    gsl_test(printed, "%d of 20000 doubles are printed as printf does not", printed);
+    gsl_test(read, "%d of 20000 decimals are read as strtod does not", read);
+    iso_random_free(random);
 }
 
 /* Whether value, printed, is plain, has the length told, and reads back as the same double. */
@@ -178,6 +216,7 @@ int main(void)
     test_values();
     test_refusals();
     test_length();
+    test_c_library();
     test_short();
     for (size_t i = 0; i < sizeof locales / sizeof *locales; i++) {
         if (!setlocale(LC_ALL, locales[i])) continue;

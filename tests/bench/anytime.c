@@ -14,9 +14,6 @@
  * depend on the machine. `forwards` has a ratio of 1 where keeping costs nothing. Without memory only 20 of the
  * questions backwards and at random are asked.
  */
-#include <math.h>
-#include <stdio.h>
-
 #include "bench.h"
 #include "isoroll.h"
 #include "rivals/rivals.h"
@@ -25,13 +22,6 @@ enum { QUESTIONS = 2000, FEW = 20, PASSES = 15, ORDERS = 3 };
 
 static const char *const order_name[ORDERS] = {"forwards", "backwards", "at random"};
 
-static void must(iso_context *ctx, iso_status status)
-{
-    if (status == ISO_OK) return;
-    fprintf(stderr, "bench_anytime: %s\n", iso_context_message(ctx));
-    exit(1);
-}
-
 typedef struct way {
     const char *method;
     iso_backend backend;
@@ -39,17 +29,14 @@ typedef struct way {
 
 static iso_orbit *create(iso_context *ctx, const way *w, bool keeps)
 {
-    iso_params p;
-    iso_start start;
+    const iso_params p = bench_params(ctx, -1, bench_J);
+    const iso_start start = bench_start(ctx);
     iso_orbit *orbit;
-    must(ctx, iso_params_reduced(ctx, -1, (double[]){1.4, 2.1, 3.0}, &p));
-    must(ctx,
-         iso_start_ball(ctx, (double[]){0.9, -0.3, -0.225}, (double[]){0.36, 0.48, 0.8}, ISO_SPIN_REFUSE, &start));
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.method = iso_method_find(w->method);
     o.backend = w->backend;
     if (!keeps) o.memory = 0;
-    must(ctx, iso_orbit_create(ctx, &p, &start, &o, &orbit));
+    bench_must(ctx, iso_orbit_create(ctx, &p, &start, &o, &orbit));
     return orbit;
 }
 
@@ -66,9 +53,9 @@ static double measure(iso_context *ctx, const way *w, int order, bool keeps)
     const int count = keeps || order == 0 ? QUESTIONS : FEW;
     iso_orbit *orbit = create(ctx, w, keeps);
     iso_sample sample;
-    if (order > 0) must(ctx, iso_orbit_at(orbit, 1000, &sample));
+    if (order > 0) bench_must(ctx, iso_orbit_at(orbit, 1000, &sample));
     const double begin = bench_milliseconds();
-    for (int i = 0; i < count; i++) must(ctx, iso_orbit_at(orbit, time_of(order, i), &sample));
+    for (int i = 0; i < count; i++) bench_must(ctx, iso_orbit_at(orbit, time_of(order, i), &sample));
     const double end = bench_milliseconds();
     iso_orbit_free(orbit);
     return 1e3 * (end - begin) / count;
@@ -80,8 +67,7 @@ static double measure_rival(iso_context *ctx, int order)
     static double found[QUESTIONS][6];
     const rival_problem p = {.k = -1, .J = {1.4, 2.1, 3.0}};
     const way ours = {"taylor", ISO_BACKEND_BALL};
-    const double start[6] = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8};
-    rival_path *path = rival_path_create(&p, 1e-12, start);
+    rival_path *path = rival_path_create(&p, 1e-12, bench_state);
     iso_orbit *orbit = create(ctx, &ours, true);
     double y[6], worst = 0;
     bool done = path && (order == 0 || rival_path_at(path, 1000, y));
@@ -90,15 +76,12 @@ static double measure_rival(iso_context *ctx, int order)
     const double end = bench_milliseconds();
     for (int i = 0; i < QUESTIONS && done; i += 10) {
         iso_sample sample;
-        must(ctx, iso_orbit_at(orbit, time_of(order, i), &sample));
-        for (int j = 0; j < 6; j++) worst = fmax(worst, fabs(found[i][j] - sample.ball[j]));
+        bench_must(ctx, iso_orbit_at(orbit, time_of(order, i), &sample));
+        worst = fmax(worst, bench_error(found[i], sample.ball));
     }
     rival_path_free(path);
     iso_orbit_free(orbit);
-    if (!done || worst > 1e-8) {
-        fprintf(stderr, "bench_anytime: GSL is wrong by %.1e\n", worst);
-        exit(1);
-    }
+    bench_check_rival("GSL", done ? worst : NAN, 1e-8);
     return 1e3 * (end - begin) / QUESTIONS;
 }
 
@@ -125,13 +108,11 @@ int main(void)
                 rivals_time[pass] = measure_rival(ctx, order);
                 to_rival[pass] = rivals_time[pass] / time[1][pass];
             }
-            for (int keeps = 0; keeps < 2; keeps++) bench_sort(time[keeps], (size_t)passes);
-            bench_sort(ratio, (size_t)passes);
-            bench_sort(rivals_time, (size_t)passes);
-            bench_sort(to_rival, (size_t)passes);
+            const size_t n = (size_t)passes;
             printf("%-14s%-7s%-11s%12.2f%12.2f%10.3g%12.2f%10.2f\n", ways[w].method,
-                   ways[w].backend == ISO_BACKEND_BALL ? "ball" : "point", order_name[order], time[0][passes / 2],
-                   time[1][passes / 2], ratio[passes / 2], rivals_time[passes / 2], to_rival[passes / 2]);
+                   ways[w].backend == ISO_BACKEND_BALL ? "ball" : "point", order_name[order],
+                   bench_median(time[0], n), bench_median(time[1], n), bench_median(ratio, n),
+                   bench_median(rivals_time, n), bench_median(to_rival, n));
             fflush(stdout);
         }
     iso_context_free(ctx);

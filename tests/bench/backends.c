@@ -10,22 +10,12 @@
  * the largest error of (omega, n) at t = 1000 in units of their size: the medians by the ball and by the point, and
  * the median and the largest of the ratios point/ball, at tolerances 1e-12 and 1e-15.
  */
-#include <math.h>
-#include <stdio.h>
-
 #include "base/random_impl.h"
 #include "bench.h"
 #include "isoroll.h"
 
 enum { STARTS = 18, PASSES = 5, END = 1000, QUESTIONS = 4 };
 static const int rows_asked[QUESTIONS] = {1, 1000, 2000, 10000};
-
-static void must(iso_context *ctx, iso_status status)
-{
-    if (status == ISO_OK) return;
-    fprintf(stderr, "bench_backends: %s\n", iso_context_message(ctx));
-    exit(1);
-}
 
 typedef struct ball {
     iso_params p;
@@ -44,8 +34,8 @@ static ball sample(iso_context *ctx, double k, int i)
     for (int j = 0; j < 3; j++) w[j] -= along * n[j];
     length = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * fabs(k); /* n turns at rate 1 */
     for (int j = 0; j < 3; j++) w[j] /= length;
-    must(ctx, iso_params_reduced(ctx, k, J, &b.p));
-    must(ctx, iso_start_ball(ctx, w, n, ISO_SPIN_REMOVE, &b.start));
+    b.p = bench_params(ctx, k, J);
+    bench_must(ctx, iso_start_ball(ctx, w, n, ISO_SPIN_REMOVE, &b.start));
     iso_random_free(random);
     return b;
 }
@@ -67,14 +57,6 @@ static double follow(iso_context *ctx, const ball *b, iso_backend backend, const
     return status == ISO_OK ? end - begin : -1;
 }
 
-static double error_of(const double y[ISO_STATE], const double truth[ISO_STATE])
-{
-    double most = 0;
-    const double w = sqrt(truth[0] * truth[0] + truth[1] * truth[1] + truth[2] * truth[2]);
-    for (int i = 0; i < ISO_STATE; i++) most = fmax(most, fabs(y[i] - truth[i]) / (i < 3 ? w : 1));
-    return most;
-}
-
 /* ball/point, the median of PASSES */
 static double time_ratio(iso_context *ctx, const ball *b, int rows)
 {
@@ -86,14 +68,7 @@ static double time_ratio(iso_context *ctx, const ball *b, int rows)
         }
         ratio[pass] = time[ISO_BACKEND_BALL] / time[ISO_BACKEND_POINT];
     }
-    bench_sort(ratio, PASSES);
-    return ratio[PASSES / 2];
-}
-
-static double median(double x[])
-{
-    bench_sort(x, STARTS);
-    return x[STARTS / 2];
+    return bench_median(ratio, PASSES);
 }
 
 static void row(iso_context *ctx, double k)
@@ -107,16 +82,16 @@ static void row(iso_context *ctx, double k)
         for (int t = 0; t < 2; t++) {
             for (int backend = 0; backend < 2; backend++) {
                 follow(ctx, &b, (iso_backend)backend, "taylor", tolerances[t], 1, y);
-                error[t][backend][i] = error_of(y, truth);
+                error[t][backend][i] = bench_error(y, truth);
             }
             ratio[t][i] = error[t][ISO_BACKEND_POINT][i] / error[t][ISO_BACKEND_BALL][i];
         }
     }
     printf("%8g ", k);
-    for (int q = 0; q < QUESTIONS; q++) printf(" %5.2f", median(time[q]));
+    for (int q = 0; q < QUESTIONS; q++) printf(" %5.2f", bench_median(time[q], STARTS));
     for (int t = 0; t < 2; t++) {
-        printf("  %8.1e %8.1e", median(error[t][ISO_BACKEND_BALL]), median(error[t][ISO_BACKEND_POINT]));
-        printf(" %5.2f", median(ratio[t]));
+        for (int backend = 0; backend < 2; backend++) printf("  %8.1e", bench_median(error[t][backend], STARTS));
+        printf(" %5.2f", bench_median(ratio[t], STARTS));
         printf(" %6.2f", ratio[t][STARTS - 1]);
     }
     printf("\n");

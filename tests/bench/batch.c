@@ -1,11 +1,10 @@
 /* bench_batch - how many orbits a second can be computed: one by one, and many side by side (iso_batch_run).
  *
- *     bench_batch [K] [REPETITIONS] [all|lanes|yardstick]
+ *     bench_batch [K] [REPETITIONS] [all|yardstick]
  *
  * The orbits are 1000 balls with J = (1.4, 2.1, 3.0) and random starts of the energy h = 0.81, to t = 100. K is the
- * geometry number (default -1). All ways take turns, and the fastest of REPETITIONS runs (3) of each counts. `lanes`:
- * only many side by side, on one thread. tests/bench/lanes.sh compares two builds by it. `yardstick`: these and the
- * yardstick.
+ * geometry number (default -1). All ways take turns, and the fastest of REPETITIONS runs (3) of each counts.
+ * `yardstick`: only many side by side, on one thread, and the yardstick.
  *
  * Rivals (rivals/): GSL's rk8pd, and Boost.odeint where it is found, each by the ball and by the point in the ball's
  * time, one orbit after the other. The law: their median error comes within 1e-8. Else the program fails and prints
@@ -25,9 +24,6 @@
  *   separatrix have errors a hundred times the median.
  * - Seconds are processor time; on all threads they are time on the wall.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "bench.h"
@@ -42,16 +38,9 @@ static iso_params params;
 static iso_start starts[ORBITS];
 static iso_sample truth[ORBITS], found[ORBITS];
 
-static void stop(const iso_context *ctx)
-{
-    fprintf(stderr, "bench_batch: %s\n", iso_context_message(ctx));
-    exit(1);
-}
-
 static void make_starts(iso_context *ctx, double k)
 {
-    static const double J[3] = {1.4, 2.1, 3.0};
-    if (iso_params_reduced(ctx, k, J, &params) != ISO_OK) stop(ctx);
+    params = bench_params(ctx, k, bench_J);
     iso_problem problem = {.p = params};
     iso_random *random = iso_random_create(1);
     for (int i = 0; i < ORBITS; i++) {
@@ -70,8 +59,8 @@ static void one_by_one(iso_context *ctx, const char *method, double tolerance, i
         iso_orbit *orbit;
         iso_orbit_options o = iso_orbit_defaults(&starts[i]);
         o.method = iso_method_find(method), o.tolerance = tolerance, o.backend = backend;
-        if (iso_orbit_create(ctx, &params, &starts[i], &o, &orbit) != ISO_OK) stop(ctx);
-        if (iso_orbit_at(orbit, 100, &samples[i]) != ISO_OK) stop(ctx);
+        bench_must(ctx, iso_orbit_create(ctx, &params, &starts[i], &o, &orbit));
+        bench_must(ctx, iso_orbit_at(orbit, 100, &samples[i]));
         iso_orbit_free(orbit);
     }
 }
@@ -102,7 +91,7 @@ static void together(iso_context *ctx, double tolerance, int threads, const char
     iso_batch_options o = iso_batch_defaults();
     o.tolerance = tolerance, o.threads = threads, o.vectors = vectors;
     for (int i = 0; i < ORBITS; i++) orbits[i] = (iso_batch_orbit){&params, &starts[i], NULL};
-    if (iso_batch_run(ctx, orbits, ORBITS, &o, &end, 1, samples, NULL) != ISO_OK) stop(ctx);
+    bench_must(ctx, iso_batch_run(ctx, orbits, ORBITS, &o, &end, 1, samples, NULL));
 }
 
 /* All orbits have the same energy, so one problem is that of all. */
@@ -117,13 +106,7 @@ static void by_yardstick(const yardstick *own, double tolerance, iso_sample samp
 
 static void errors(double sorted[ORBITS])
 {
-    for (int i = 0; i < ORBITS; i++) {
-        const double *w = truth[i].ball;
-        const double speed = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
-        sorted[i] = 0;
-        for (int j = 0; j < ISO_STATE; j++)
-            sorted[i] = fmax(sorted[i], fabs(found[i].ball[j] - w[j]) / (j < 3 ? speed : 1));
-    }
+    for (int i = 0; i < ORBITS; i++) sorted[i] = bench_error(found[i].ball, truth[i].ball);
     bench_sort(sorted, ORBITS);
 }
 
@@ -169,14 +152,11 @@ static void measure(iso_context *ctx, const way *w, result of[TIGHTEST + 1])
     }
 }
 
-/* A rival that is wrong must not be raced. */
 static void check_rival(const way *w, const result of[TIGHTEST + 1])
 {
     double best = INFINITY;
     for (int digits = LOOSEST; digits <= TIGHTEST; digits++) best = fmin(best, of[digits].median);
-    if (best <= 1e-8) return;
-    fprintf(stderr, "bench_batch: %s is wrong: median error %.1e\n", w->name, best);
-    exit(1);
+    bench_check_rival(w->name, best, 1e-8);
 }
 
 /* Orbits per second at a 95th percentile of 1e-9, between the tolerances on logarithmic scales. */

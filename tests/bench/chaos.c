@@ -8,14 +8,11 @@
  * -0.5 whose deviations grow by exp(60) within five times as many turns. This is found by a separate run of the
  * point, without the indicators.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/pi_impl.h"
 #include "base/random_impl.h"
-#include "map/section.h"
+#include "bench.h"
 #include "study/chaos/chaos.h"
 
 typedef struct family {
@@ -31,13 +28,6 @@ static const family families[] = {
     {0.5, {1, 2, 5}, false, false},      {0.3, {1.4, 2.1, 3}, false, false}, {0.3, {1, 2, 5}, false, false},
     {-0.5, {1.4, 2.1, 3}, false, false}, {-0.5, {1, 2, 5}, false, false},
 };
-
-static void must(const iso_context *ctx, iso_status status, const char *what)
-{
-    if (status == ISO_OK) return;
-    fprintf(stderr, "%s: %s\n", what, iso_context_message(ctx));
-    exit(1);
-}
 
 typedef struct counts {
     size_t verdict[2][3]; /* of truly regular, truly chaotic orbits */
@@ -64,7 +54,7 @@ static void find_truth(iso_context *ctx, const family *f, const iso_chaos *c, lo
 {
     enum { EACH = 500 };
     const size_t n = c->starts;
-    iso_params p;
+    const iso_params p = bench_params(ctx, f->k, f->J);
     iso_crossings_options o = iso_crossings_defaults();
     iso_crossings *crossings;
     iso_start *start = calloc(n, sizeof *start);
@@ -73,19 +63,17 @@ static void find_truth(iso_context *ctx, const family *f, const iso_chaos *c, lo
     size_t *done = calloc(n, sizeof *done);
     iso_status *status = calloc(n, sizeof *status);
     bool *wanted = calloc(n, sizeof *wanted);
-    must(ctx, iso_params_reduced(ctx, f->k, f->J, &p), "parameters");
     for (size_t i = 0; i < n; i++) {
-        start[i] = (iso_start){.model = ISO_POINT, .eps = 1};
-        iso_section_point(iso_free_point(&p, 1), c->axis, c->start[i].l, c->start[i].x, start[i].y);
+        start[i] = bench_section_start(&p, c->start[i].l, c->start[i].x);
         orbit[i] = (iso_batch_orbit){&p, &start[i], NULL};
         wanted[i] = !(chaotic[i] = false);
     }
     o.backend = ISO_BACKEND_POINT;
     o.deviations = true;
     o.axis = c->axis;
-    must(ctx, iso_crossings_create(ctx, orbit, n, &o, &crossings), "crossings");
+    bench_must(ctx, iso_crossings_create(ctx, orbit, n, &o, &crossings));
     for (long turn = 0; turn < turns; turn += EACH) {
-        must(ctx, iso_crossings_go(crossings, wanted, EACH, found, NULL, done, status), "a long run");
+        bench_must(ctx, iso_crossings_go(crossings, wanted, EACH, found, NULL, done, status));
         for (size_t i = 0; i < n; i++) {
             if (!wanted[i]) continue;
             const double *growth = found[EACH * i + EACH - 1].growth;
@@ -104,18 +92,15 @@ static void measure(iso_context *ctx, const family *f, size_t count, long turns,
     iso_chaos *c;
     double(*at)[2] = calloc(count, sizeof *at);
     bool *chaotic = calloc(count, sizeof *chaotic);
-    must(ctx, iso_params_reduced(ctx, f->k, f->J, &scene.params), "parameters");
-    must(ctx,
-         iso_start_ball(ctx, (double[]){0.9, -0.3, -0.225}, (double[]){0.36, 0.48, 0.8}, ISO_SPIN_REMOVE,
-                        &scene.start),
-         "a start");
+    scene.params = bench_params(ctx, f->k, f->J);
+    scene.start = bench_start(ctx);
     o.turns = turns;
     o.models = ISO_SHOW_BOTH;
     o.starts = f->near ? 0 : count;
     o.at = (const double(*)[2])at;
     o.at_count = f->near ? count : 0;
     if (f->near) place(&scene.params, count, at, r);
-    must(ctx, iso_chaos_run(ctx, &scene, &o, &c), "verdicts");
+    bench_must(ctx, iso_chaos_run(ctx, &scene, &o, &c));
     if (!f->integrable) find_truth(ctx, f, c, 5 * turns, chaotic);
     for (size_t i = 0; i < c->starts; i++) {
         const iso_chaos_orbit *one = &c->start[i];

@@ -17,9 +17,6 @@
  *   well: for k = 1 and -1 those of all crossings, for other k those of the first 6, before chaotic orbits part. If
  *   one model misses a crossing, their times differ by a turn.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "bench.h"
@@ -40,28 +37,19 @@ static double start_at[ORBITS][2];                  /* l, x */
 static iso_crossing crossing[ORBITS * TURNS];       /* of the last run of ours */
 static iso_crossing right[2][SLOW_ORBITS][CHECKED]; /* by each model at 1e-15 */
 
-static void stop(void)
-{
-    fprintf(stderr, "bench_crossings: %s\n", iso_context_message(ctx));
-    exit(1);
-}
-
 /* With `flat`, every other start is next to the boundary: 1 - |x| = 1e-12 ... 1e-3. */
 static void make_starts(double k, bool flat)
 {
-    static const double J[3] = {1, 2, 5};
-    if (iso_params_reduced(ctx, k, J, &params) != ISO_OK) stop();
+    params = bench_params(ctx, k, (double[]){1, 2, 5});
     const int axis = iso_section_axis(iso_free_point(&params, 1));
     iso_section_spread spread;
     iso_section_spread_prepare(&spread, iso_free_point(&params, 1), axis, 1);
     for (uint64_t i = 0; i < ORBITS; i++) {
-        double l, x, point[ISO_STATE];
+        double l, x;
         iso_section_spread_point(&spread, i, &l, &x);
         if (flat && i % 2 == 0) x = copysign(1 - pow(10, -3 - (double)(i % 10)), x);
-        iso_section_point(iso_free_point(&params, 1), axis, l, x, point);
         start_at[i][0] = l, start_at[i][1] = x;
-        starts[i] = (iso_start){.model = ISO_POINT, .eps = 1};
-        memcpy(starts[i].y, point, sizeof point);
+        starts[i] = bench_section_start(&params, l, x);
         orbits[i] = (iso_batch_orbit){&params, &starts[i], NULL};
     }
 }
@@ -90,8 +78,8 @@ static double by_lanes(const char *vectors, iso_backend backend, bool deviations
     o.threads = 1, o.vectors = vectors, o.deviations = deviations, o.backend = backend;
     o.tolerance = accuracy;
     const double begin = bench_milliseconds();
-    if (iso_crossings_create(ctx, orbits, ORBITS, &o, &c) != ISO_OK) stop();
-    if (iso_crossings_go(c, NULL, TURNS, crossing, NULL, done, status) != ISO_OK) stop();
+    bench_must(ctx, iso_crossings_create(ctx, orbits, ORBITS, &o, &c));
+    bench_must(ctx, iso_crossings_go(c, NULL, TURNS, crossing, NULL, done, status));
     iso_crossings_free(c);
     return bench_milliseconds() - begin;
 }
@@ -150,12 +138,11 @@ static rival_problem problem_of(bool point, bool deviations)
 /* The state of the ball or of the point at (l, x) of the section. */
 static void state_at(bool point, double l, double x, double y[ISO_STATE])
 {
-    double at[ISO_STATE];
-    iso_section_point(iso_free_point(&params, 1), iso_section_axis(iso_free_point(&params, 1)), l, x, at);
+    const iso_start at = bench_section_start(&params, l, x);
     if (point)
-        memcpy(y, at, sizeof at);
+        memcpy(y, at.y, sizeof at.y);
     else
-        iso_point_to_ball(&params, at, y);
+        iso_point_to_ball(&params, at.y, y);
 }
 
 /* Its derivatives by l and x. */
@@ -204,6 +191,7 @@ static double by_rival(const rival_walker *walker, bool point, bool deviations, 
     const rival_problem p = problem_of(point, deviations);
     const int axis = iso_section_axis(iso_free_point(&params, 1));
     check c = {.point = point, .deviations = deviations};
+    bool followed = true;
     const double begin = bench_milliseconds();
     for (int i = 0; i < SLOW_ORBITS; i++) {
         double y[RIVAL_MOST] = {0};
@@ -211,19 +199,13 @@ static double by_rival(const rival_walker *walker, bool point, bool deviations, 
         state_at(point, l, x, y);
         if (deviations) tangents(point, l, x, (double(*)[ISO_STATE])(y + ISO_STATE));
         c.ours = right[point][i];
-        if (!walker->follow(&p, axis, tolerance, TURNS, y, see, &c)) {
-            fprintf(stderr, "bench_crossings: %s did not follow orbit %d\n", walker->name, i);
-            exit(1);
-        }
+        followed = walker->follow(&p, axis, tolerance, TURNS, y, see, &c) && followed;
     }
     const double milliseconds = bench_milliseconds() - begin;
-    const bool enough = c.crossings == SLOW_ORBITS * CHECKED && (!deviations || c.variations >= 2 * SLOW_ORBITS);
-    if (!enough || !(c.worst < 1e-9) || !(c.worst_variation < 1e-6)) {
-        fprintf(stderr,
-                "bench_crossings: %s and isoroll differ: times of %d crossings by %.1e, %d variations by %.1e\n",
-                walker->name, c.crossings, c.worst, c.variations, c.worst_variation);
-        exit(1);
-    }
+    const bool enough =
+        followed && c.crossings == SLOW_ORBITS * CHECKED && (!deviations || c.variations >= 2 * SLOW_ORBITS);
+    bench_check_rival(walker->name, enough ? c.worst : NAN, 1e-9);
+    bench_check_rival(walker->name, c.worst_variation, 1e-6);
     *off = c.worst;
     return milliseconds;
 }
@@ -261,7 +243,7 @@ static void count_crossings(double millions)
             iso_crossings *c;
             iso_crossings_options o = iso_crossings_defaults();
             o.backend = b == 0 ? ISO_BACKEND_BALL : ISO_BACKEND_POINT;
-            if (iso_crossings_create(ctx, orbits, ORBITS, &o, &c) != ISO_OK) stop();
+            bench_must(ctx, iso_crossings_create(ctx, orbits, ORBITS, &o, &c));
             if (iso_crossings_go(c, NULL, EACH, both[b], NULL, done, status) != ISO_OK)
                 printf("%s\n", iso_context_message(ctx)), failed++;
             for (int i = 0; i < ORBITS; i++) count += (double)done[i];

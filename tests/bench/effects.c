@@ -9,9 +9,6 @@
  * the free ball's, the time of the whole orbit, and its ratio. Compare the ratios: times depend on the machine. Each
  * time is the least of several rounds, and each round goes over all effects, so that ratios hold on a noisy machine.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "bench.h"
@@ -27,8 +24,6 @@ typedef struct run {
     int states;
     double rhs, orbit; /* least milliseconds so far */
 } run;
-
-static const double J[3] = {1.4, 2.1, 3.0};
 
 /* The field, or the level, as a scene writes it. */
 static void write_potential(iso_effects *e, bool level)
@@ -59,22 +54,15 @@ static iso_effects all_numbers(void)
         if (number[id][0] != 0) memcpy(e.number[id], number[id], sizeof number[id]);
     write_potential(&e, false);
     for (int i = 0; i < 3; i++) snprintf(torque->expression[i], ISO_EXPRESSION_SIZE, "-0.01*omega%d", i + 1);
+    strcpy(e.written[iso_effect_list[ISO_INTEGRALS]->written].expression[0], "n1^2 + n2^2 + n3^2");
     return e;
-}
-
-static void must(iso_context *ctx, iso_status status)
-{
-    if (status == ISO_OK) return;
-    fprintf(stderr, "bench_effects: %s\n", iso_context_message(ctx));
-    exit(1);
 }
 
 static void time_rhs(const iso_orbit *orbit, run *r)
 {
     const iso_model *m = iso_orbit_model(orbit);
     double y[ISO_MAX_STATE], dy[ISO_MAX_STATE];
-    const double six[ISO_STATE] = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8};
-    iso_model_begin(m, six, y);
+    iso_model_begin(m, bench_state, y);
     const double begin = bench_milliseconds();
     for (int i = 0; i < CALLS; i++) {
         m->rhs(m, y, dy);
@@ -86,61 +74,58 @@ static void time_rhs(const iso_orbit *orbit, run *r)
 
 static void measure(iso_context *ctx, const iso_params *p, run *r)
 {
-    iso_start start;
+    const iso_start start = bench_start(ctx);
     iso_orbit *orbit;
     iso_sample sample;
-    must(ctx,
-         iso_start_ball(ctx, (double[]){0.9, -0.3, -0.225}, (double[]){0.36, 0.48, 0.8}, ISO_SPIN_REFUSE, &start));
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &r->effects;
     o.backend = r->backend;
     o.with_clock[ISO_CLOCK_TAU] = o.with_clock[ISO_CLOCK_S] = r->effects.on[ISO_CLOCK];
-    must(ctx, iso_orbit_create(ctx, p, &start, &o, &orbit));
+    bench_must(ctx, iso_orbit_create(ctx, p, &start, &o, &orbit));
     time_rhs(orbit, r);
     const double begin = bench_milliseconds();
-    must(ctx, iso_orbit_at(orbit, 100, &sample));
+    bench_must(ctx, iso_orbit_at(orbit, 100, &sample));
     r->orbit = fmin(r->orbit, bench_milliseconds() - begin);
     iso_orbit_free(orbit);
+}
+
+enum { NOTHING = -1 };
+
+static run run_with(const char *name, iso_backend backend, int effect)
+{
+    run r = {name, all_numbers(), backend, 0, INFINITY, INFINITY};
+    if (effect != NOTHING) r.effects.on[effect] = true;
+    return r;
 }
 
 static int list_runs(run runs[])
 {
     int count = 0;
-    runs[count++] = (run){"free ball", all_numbers(), ISO_BACKEND_BALL, 0, INFINITY, INFINITY};
-    for (int e = 0; e < ISO_EFFECTS; e++) {
-        runs[count] = (run){iso_effect_list[e]->name, all_numbers(), ISO_BACKEND_BALL, 0, INFINITY, INFINITY};
-        runs[count++].effects.on[e] = true;
-    }
+    runs[count++] = run_with("free ball", ISO_BACKEND_BALL, NOTHING);
+    for (int e = 0; e < ISO_EFFECTS; e++) runs[count++] = run_with(iso_effect_list[e]->name, ISO_BACKEND_BALL, e);
     for (int stiff = 0; stiff < 2; stiff++) { /* the contact's torque is a state */
-        runs[count] = (run){
-            stiff ? "twist, c = 1e8" : "twist, c = 1e2", all_numbers(), ISO_BACKEND_BALL, 0, INFINITY, INFINITY};
-        runs[count].effects.number[ISO_TWIST][0] = stiff ? 1e8 : 1e2;
-        runs[count++].effects.on[ISO_TWIST] = true;
+        runs[count] = run_with(stiff ? "twist, c = 1e8" : "twist, c = 1e2", ISO_BACKEND_BALL, ISO_TWIST);
+        runs[count++].effects.number[ISO_TWIST][0] = stiff ? 1e8 : 1e2;
     }
-    runs[count] = (run){"all together", all_numbers(), ISO_BACKEND_BALL, 0, INFINITY, INFINITY};
+    runs[count] = run_with("all together", ISO_BACKEND_BALL, NOTHING);
     for (int e = 0; e < ISO_EFFECTS; e++) runs[count].effects.on[e] = true;
     count++;
-    runs[count++] = (run){"free point", all_numbers(), ISO_BACKEND_POINT, 0, INFINITY, INFINITY};
-    runs[count] = (run){"point in a field", all_numbers(), ISO_BACKEND_POINT, 0, INFINITY, INFINITY};
-    runs[count++].effects.on[ISO_FIELD] = true;
-    runs[count] = (run){"point in it, written", all_numbers(), ISO_BACKEND_POINT, 0, INFINITY, INFINITY};
-    runs[count++].effects.on[ISO_POTENTIAL] = true;
-    runs[count] = (run){"level, written", all_numbers(), ISO_BACKEND_BALL, 0, INFINITY, INFINITY};
-    write_potential(&runs[count].effects, true);
-    runs[count++].effects.on[ISO_POTENTIAL] = true;
-    runs[count] = (run){"point with a rotor", all_numbers(), ISO_BACKEND_POINT, 0, INFINITY, INFINITY};
-    runs[count++].effects.on[ISO_ROTOR] = true;
+    runs[count++] = run_with("free point", ISO_BACKEND_POINT, NOTHING);
+    runs[count++] = run_with("point in a field", ISO_BACKEND_POINT, ISO_FIELD);
+    runs[count++] = run_with("point in it, written", ISO_BACKEND_POINT, ISO_POTENTIAL);
+    runs[count] = run_with("level, written", ISO_BACKEND_BALL, ISO_POTENTIAL);
+    write_potential(&runs[count++].effects, true);
+    runs[count++] = run_with("point with a rotor", ISO_BACKEND_POINT, ISO_ROTOR);
     return count;
 }
 
 int main(void)
 {
     iso_context *ctx = iso_context_create();
-    iso_params p;
+    iso_params p = bench_params(ctx, -1, bench_J);
     run runs[MOST];
     const int count = list_runs(runs);
-    must(ctx, iso_params_reduced(ctx, -1, J, &p));
-    must(ctx, iso_params_set_D(ctx, 0.5, &p));
+    bench_must(ctx, iso_params_set_D(ctx, 0.5, &p));
     for (int round = 0; round < ROUNDS; round++)
         for (int i = 0; i < count; i++) measure(ctx, &p, &runs[i]);
     printf("%-20s %6s %20s %20s\n", "", "states", "right-hand side", "orbit to t = 100");

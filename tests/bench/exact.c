@@ -18,13 +18,9 @@
  * The rival is a loop over the steps of GSL's rk8pd on the ball (rivals/gsl.c). The law: its error at t = 1000 is
  * below 1e-9. Else the program fails.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "bench.h"
 #include "exact/exact_impl.h"
 #include "map/state.h"
@@ -38,9 +34,7 @@ static iso_context *ctx;
 
 static void must(iso_status status)
 {
-    if (status == ISO_OK) return;
-    fprintf(stderr, "bench_exact: %s\n", iso_context_message(ctx));
-    exit(1);
+    bench_must(ctx, status);
 }
 
 /* --- orbits ----------------------------------------------------------------------------------------------------- */
@@ -52,8 +46,7 @@ typedef struct orbit {
 
 static orbit sample(double k, const double J[3], iso_random *random)
 {
-    orbit o = {0};
-    must(iso_params_reduced(ctx, k, J, &o.problem.p));
+    orbit o = {.problem.p = bench_params(ctx, k, J)};
     iso_system_point.sample(&o.problem, random, o.point);
     return o;
 }
@@ -181,14 +174,6 @@ static void bench_kinds(void)
         {"revolution, k = 1/2", 0.5, 0, REVOLUTION},
         {"plane, k = 1", 1, 0, PLANE},
         {"plane, k = 1/2", 0.5, 0, PLANE},
-        {"separatrix 1e-3, k = -1", -1, 1e-3, NEAR},
-        {"separatrix 1e-3, k = 1", 1, 1e-3, NEAR},
-        {"separatrix 1e-6, k = -1", -1, 1e-6, NEAR},
-        {"separatrix 1e-6, k = 1", 1, 1e-6, NEAR},
-        {"separatrix 1e-9, k = -1", -1, 1e-9, NEAR},
-        {"separatrix 1e-9, k = 1", 1, 1e-9, NEAR},
-        {"separatrix 1e-12, k = -1", -1, 1e-12, NEAR},
-        {"separatrix 1e-12, k = 1", 1, 1e-12, NEAR},
     };
     printf("%-31s%16s%24s%32s\n%-31s", "microseconds", "set-up", "one time, up to", "grid, steps in turns", "");
     printf("%8s%8s", "t", "t,tau,s");
@@ -196,25 +181,22 @@ static void bench_kinds(void)
     for (int i = 0; i < STEPS; i++) printf("%8g", step[i]);
     putchar('\n');
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) bench(&kinds[i]);
+    for (int digits = 3; digits <= 12; digits += 3)
+        for (int k = -1; k <= 1; k += 2) {
+            char name[32];
+            snprintf(name, sizeof name, "separatrix 1e-%d, k = %d", digits, k);
+            bench(&(kind){name, k, pow(10, -digits), NEAR});
+        }
 }
 
 /* --- against stepping ------------------------------------------------------------------------------------------- */
 
 enum { FIRST = 2, LAST = 9, DECADES = LAST - FIRST + 1 };
-static const double J[3] = {1.4, 2.1, 3.0}, start[ISO_STATE] = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8};
 
 /* How a row of times was found: the ball at the ends 10^2, 10^3 ..., milliseconds, and how far it went. */
 typedef struct way {
     double ball[DECADES][ISO_STATE], milliseconds[DECADES], last;
 } way;
-
-static double error_of(const double ball[], const double reference[])
-{
-    double worst = 0;
-    for (int i = 0; i < ISO_STATE; i++)
-        worst = fmax(worst, fabs(ball[i] - reference[i]) / (i < 3 ? norm(reference) : 1));
-    return worst;
-}
 
 /* From 0 to each end up to `last`, each on its own, or (together) the later ones onwards. */
 static void run(const char *method, double tolerance, const iso_system *system, const iso_problem *problem,
@@ -245,18 +227,15 @@ static void run(const char *method, double tolerance, const iso_system *system, 
 /* From 0 to each end up to `last`, each on its own. */
 static void run_rival(double k, double last, const way *reference, way *w)
 {
-    const rival_problem ball = {.k = k, .J = {J[0], J[1], J[2]}};
+    const rival_problem ball = {.k = k, .J = {bench_J[0], bench_J[1], bench_J[2]}};
     w->last = last;
     for (int i = 0; i < DECADES && pow(10, FIRST + i) <= 1.01 * last; i++) {
-        memcpy(w->ball[i], start, sizeof start);
+        memcpy(w->ball[i], bench_state, sizeof bench_state);
         const double begin = bench_milliseconds();
         if (!rival_gsl_rk8pd(&ball, 1e-14, pow(10, FIRST + i), w->ball[i])) w->ball[i][0] = NAN;
         w->milliseconds[i] = bench_milliseconds() - begin;
     }
-    const double error = error_of(w->ball[3 - FIRST], reference->ball[3 - FIRST]);
-    if (error < 1e-9) return;
-    fprintf(stderr, "bench_exact: GSL is wrong by %.1e\n", error);
-    exit(1);
+    bench_check_rival("GSL", bench_error(w->ball[3 - FIRST], reference->ball[3 - FIRST]), 1e-9);
 }
 
 static double closed(const iso_problem *problem, const double point[], double end, int times, double ball[])
@@ -283,21 +262,19 @@ static void print_way(const way *w, const way *reference, int i)
     else
         snprintf(took, sizeof took, "(%.2g)", w->milliseconds[(int)(log10(w->last) + 0.5) - FIRST] * t / w->last);
     if (t <= 1.01 * fmin(w->last, reference->last))
-        snprintf(error, sizeof error, "%.1e", error_of(w->ball[i], reference->ball[i]));
+        snprintf(error, sizeof error, "%.1e", bench_error(w->ball[i], reference->ball[i]));
     printf("%12s%9s", took, error);
 }
 
 static void bench_long(double k, double longer)
 {
     static way reference, taylor, rk8pd, exact;
-    iso_problem ball = {0}, point;
+    iso_problem ball = {.p = bench_params(ctx, k, bench_J)}, point = ball;
     double at[ISO_STATE], unused[ISO_STATE];
-    must(iso_params_reduced(ctx, k, J, &ball.p));
-    point = ball;
-    ball.energy = iso_ball_energy(&ball.p, start);
+    ball.energy = iso_ball_energy(&ball.p, bench_state);
     point.eps = iso_coupling(&ball.p, ball.energy);
-    iso_ball_to_point(&ball.p, start, at);
-    run("taylor_extended", 1e-15, &iso_system_ball, &ball, start, 1e5 * longer, true, &reference);
+    iso_ball_to_point(&ball.p, bench_state, at);
+    run("taylor_extended", 1e-15, &iso_system_ball, &ball, bench_state, 1e5 * longer, true, &reference);
     run("taylor", 1e-15, &iso_system_point, &point, at, 1e6 * longer, false, &taylor);
     run_rival(k, 1e5 * longer, &reference, &rk8pd);
     exact.last = pow(10, LAST);

@@ -9,11 +9,7 @@
  * about that of the sea, the mean error that is stated, and how many of the orbits are off by more than two and three
  * errors, in turns and in t; how many state no error.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "map/section_impl.h"
+#include "bench.h"
 #include "study/chaos/chaos.h"
 #include "study/chaos/chaos_impl.h"
 
@@ -40,13 +36,6 @@ typedef struct work {
     iso_indication *result; /* [length][orbit] */
 } work;
 
-static void must(const iso_context *ctx, iso_status status, const char *what)
-{
-    if (status == ISO_OK) return;
-    fprintf(stderr, "%s: %s\n", what, iso_context_message(ctx));
-    exit(1);
-}
-
 static void add(work *w, size_t i, const iso_crossing *c)
 {
     iso_indicators *shown = &w->shown[i];
@@ -62,27 +51,25 @@ static void add(work *w, size_t i, const iso_crossing *c)
 /* Orbits that are not chaotic after 4000 turns end. */
 static void follow(iso_context *ctx, const sea *s, uint64_t seed, work *w)
 {
-    iso_params p;
+    const iso_params p = bench_params(ctx, s->k, s->J);
     iso_crossings_options o = iso_crossings_defaults();
     iso_crossings *crossings;
     iso_section_spread spread;
-    must(ctx, iso_params_reduced(ctx, s->k, s->J, &p), "parameters");
     const int axis = iso_section_axis(iso_free_point(&p, 1));
     iso_section_spread_prepare(&spread, iso_free_point(&p, 1), axis, seed);
     for (size_t i = 0; i < w->count; i++) {
         double l, x;
         iso_section_spread_point(&spread, i, &l, &x);
-        w->start[i] = (iso_start){.model = ISO_POINT, .eps = 1};
-        iso_section_point(iso_free_point(&p, 1), axis, l, x, w->start[i].y);
+        w->start[i] = bench_section_start(&p, l, x);
         w->orbit[i] = (iso_batch_orbit){&p, &w->start[i], NULL};
         iso_indicators_begin(&w->shown[i], 3000);
         w->wanted[i] = true;
     }
     o.backend = ISO_BACKEND_POINT;
     o.deviations = true;
-    must(ctx, iso_crossings_create(ctx, w->orbit, w->count, &o, &crossings), "crossings");
+    bench_must(ctx, iso_crossings_create(ctx, w->orbit, w->count, &o, &crossings));
     for (long turn = 0; turn < w->turns; turn += EACH) {
-        must(ctx, iso_crossings_go(crossings, w->wanted, EACH, w->found, NULL, w->done, w->status), "orbits");
+        bench_must(ctx, iso_crossings_go(crossings, w->wanted, EACH, w->found, NULL, w->done, w->status));
         for (size_t i = 0; i < w->count; i++) {
             if (!w->wanted[i]) continue;
             for (size_t j = 0; j < EACH; j++) add(w, i, &w->found[EACH * i + j]);
@@ -90,12 +77,6 @@ static void follow(iso_context *ctx, const sea *s, uint64_t seed, work *w)
         }
     }
     iso_crossings_free(crossings);
-}
-
-static int by_size(const void *a, const void *b)
-{
-    const double *one = a, *other = b;
-    return (*one > *other) - (*one < *other);
 }
 
 /* Of the second half of orbit i: its exponent per turn, or per t. */
@@ -114,8 +95,7 @@ static double find_sea(work *w, bool t, double *error)
     size_t n = 0;
     for (size_t i = 0; i < w->count; i++)
         if (w->wanted[i]) rate[n++] = late_rate(w, i, t);
-    qsort(rate, n, sizeof *rate, by_size);
-    const double median = n > 0 ? rate[n / 2] : NAN;
+    const double median = n > 0 ? bench_median(rate, n) : NAN;
     free(rate);
     n = 0;
     for (size_t i = 0; i < w->count; i++) {

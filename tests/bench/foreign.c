@@ -7,13 +7,8 @@
  * threads), and orbits a second. tests/python/rate.py prints the same lines for isoroll.batch: compare these. Samples
  * and tables are allocated in each run, as Python does.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
-
 #include "foreign/foreign.h"
+#include "bench.h"
 #include "io/scene_file.h"
 #include "orbit/batch.h"
 
@@ -31,19 +26,9 @@ static const struct {
 
 static iso_context *ctx;
 
-static void check(iso_status status)
-{
-    if (status == ISO_OK) return;
-    fprintf(stderr, "bench_foreign: %s\n", iso_context_message(ctx));
-    exit(1);
-}
-
-/* Of all threads, unlike bench_milliseconds. */
 static double seconds(void)
 {
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+    return 1e-3 * bench_busy_milliseconds();
 }
 
 static double by_structs(const iso_scene *scene, const double *y, size_t count, const double *times, size_t rows)
@@ -55,10 +40,10 @@ static double by_structs(const iso_scene *scene, const double *y, size_t count, 
     iso_batch_options o = iso_batch_defaults();
     if (!start || !orbit || !sample) exit(1);
     for (size_t i = 0; i < count; i++) {
-        check(iso_start_ball(ctx, y + 6 * i, y + 6 * i + 3, ISO_SPIN_REFUSE, &start[i]));
+        bench_must(ctx, iso_start_ball(ctx, y + 6 * i, y + 6 * i + 3, ISO_SPIN_REFUSE, &start[i]));
         orbit[i] = (iso_batch_orbit){&scene->params, &start[i], &scene->effects};
     }
-    check(iso_batch_run(ctx, orbit, count, &o, times, rows, sample, NULL));
+    bench_must(ctx, iso_batch_run(ctx, orbit, count, &o, times, rows, sample, NULL));
     free(start);
     free(orbit);
     free(sample);
@@ -71,7 +56,7 @@ static double by_arrays(const iso_foreign_scene *scene, const double *y, size_t 
     const double before = seconds();
     double *table = malloc(count * rows * WIDTH * sizeof *table);
     if (!table) exit(1);
-    check(iso_foreign_batch(ctx, &scene, 1, count, NULL, NULL, y, times, rows, 0, NULL, table, NULL));
+    bench_must(ctx, iso_foreign_batch(ctx, &scene, 1, count, NULL, NULL, y, times, rows, 0, NULL, table, NULL));
     free(table);
     return seconds() - before;
 }
@@ -107,10 +92,10 @@ int main(int argc, char **argv)
     iso_foreign_scene *foreign;
     ctx = iso_context_create();
     if (!ctx) return 1;
-    check(argc > 1 ? iso_scene_read(ctx, argv[1], &scene)
-                   : iso_scene_parse(ctx, "usual", usual, sizeof usual - 1, &scene));
-    check(argc > 1 ? iso_foreign_scene_read(ctx, argv[1], &foreign)
-                   : iso_foreign_scene_parse(ctx, "usual", usual, sizeof usual - 1, &foreign));
+    bench_must(ctx, argc > 1 ? iso_scene_read(ctx, argv[1], &scene)
+                             : iso_scene_parse(ctx, "usual", usual, sizeof usual - 1, &scene));
+    bench_must(ctx, argc > 1 ? iso_foreign_scene_read(ctx, argv[1], &foreign)
+                             : iso_foreign_scene_parse(ctx, "usual", usual, sizeof usual - 1, &foreign));
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
         measure(&scene, foreign, sizes[i].orbits, sizes[i].end, sizes[i].rows);
     iso_foreign_scene_free(foreign);

@@ -23,10 +23,6 @@
  * A time is the median of passes over all methods in turn. Errors are against Taylor series in long double.
  * --long: instead, the ball's state at t = 1e6, k = -1, against the rivals that are not slow, at 1e-13.
  */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "bench.h"
@@ -47,7 +43,6 @@ enum {
 };
 
 static const double geometries[GEOMETRIES] = {-1, 1, 0.5, 0.75, -0.4};
-static const double J[3] = {1.4, 2.1, 3.0}, start[ISO_STATE] = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8};
 
 /* What is integrated, and to where. */
 typedef struct problem {
@@ -69,12 +64,6 @@ typedef struct table {
     cell of[TIGHTEST + 1];
 } table;
 
-static void stop(const iso_context *ctx)
-{
-    fprintf(stderr, "bench_methods: %s\n", iso_context_message(ctx));
-    exit(1);
-}
-
 /* --- problems --------------------------------------------------------------------------------------------------- */
 
 static const char *name_of(const table *t)
@@ -85,20 +74,19 @@ static const char *name_of(const table *t)
 static problem make_problem(iso_context *ctx, const char *name, double k, const iso_system *system, iso_clock clock)
 {
     problem p = {.name = name};
-    iso_problem equations = {0};
-    if (iso_params_reduced(ctx, k, J, &equations.p) != ISO_OK) stop(ctx);
-    memcpy(p.start, start, sizeof p.start);
-    equations.energy = iso_ball_energy(&equations.p, start);
+    iso_problem equations = {.p = bench_params(ctx, k, bench_J)};
+    memcpy(p.start, bench_state, sizeof p.start);
+    equations.energy = iso_ball_energy(&equations.p, bench_state);
     if (system == &iso_system_point) {
         equations.eps = iso_coupling(&equations.p, equations.energy);
         equations.energy = 0;
-        iso_ball_to_point(&equations.p, start, p.start);
+        iso_ball_to_point(&equations.p, bench_state, p.start);
     }
     p.model = iso_model_assemble(system, &equations, clock, (const bool[ISO_CLOCKS]){false, false, false});
     p.rivals = (rival_problem){.point = system == &iso_system_point,
                                .in_t = clock == ISO_CLOCK_T,
                                .k = k,
-                               .J = {J[0], J[1], J[2]},
+                               .J = {bench_J[0], bench_J[1], bench_J[2]},
                                .eps = equations.eps};
     return p;
 }
@@ -125,9 +113,9 @@ static void solve(iso_context *ctx, double k, double end, double ball[], double 
     iso_model_begin(&p.model, p.start, with_clock);
     iso_integrator *it;
     const iso_method_options options = {.tolerance = 1e-15};
-    if (iso_integrator_create(ctx, iso_method_find("taylor_extended"), &p.model, &options, &it) != ISO_OK ||
-        iso_integrator_start(it, with_clock) != ISO_OK || iso_integrator_at(it, end, y) != ISO_OK)
-        stop(ctx);
+    bench_must(ctx, iso_integrator_create(ctx, iso_method_find("taylor_extended"), &p.model, &options, &it));
+    bench_must(ctx, iso_integrator_start(it, with_clock));
+    bench_must(ctx, iso_integrator_at(it, end, y));
     memcpy(ball, y, ISO_STATE * sizeof *ball);
     *s = y[ISO_STATE];
     iso_integrator_free(it);
@@ -136,13 +124,10 @@ static void solve(iso_context *ctx, double k, double end, double ball[], double 
 /* Largest error of the ball's state that y means, in units of the sizes of its vectors. */
 static double error_of(const problem *p, const double y[], const double reference[])
 {
-    double ball[ISO_STATE], worst = 0;
+    double ball[ISO_STATE];
     memcpy(ball, y, sizeof ball);
     if (p->model.system == &iso_system_point) iso_point_to_ball(&p->model.problem.p, y, ball);
-    const double speed =
-        sqrt(reference[0] * reference[0] + reference[1] * reference[1] + reference[2] * reference[2]);
-    for (int i = 0; i < ISO_STATE; i++) worst = fmax(worst, fabs(ball[i] - reference[i]) / (i < 3 ? speed : 1));
-    return worst;
+    return bench_error(ball, reference);
 }
 
 /* --- measuring -------------------------------------------------------------------------------------------------- */
@@ -160,12 +145,6 @@ static void measure(iso_context *ctx, table *t, int digits, int pass, const doub
                                : run(ctx, t->method, t->problem, tolerance, end, y);
     c->pass[pass] = bench_milliseconds() - begin;
     c->error = done ? error_of(t->problem, y, reference) : NAN;
-}
-
-static void take_median(cell *c)
-{
-    bench_sort(c->pass, PASSES);
-    c->milliseconds = isnan(c->error) ? NAN : c->pass[PASSES / 2];
 }
 
 /* Time for an error, between the two tolerances whose errors lie about it; NaN when there are none. */
@@ -186,18 +165,6 @@ static double best_error(const table *t)
     double best = INFINITY;
     for (int d = LOOSEST; d <= TIGHTEST; d++) best = fmin(best, t->of[d].error);
     return best;
-}
-
-/* A rival that is wrong must not be raced. */
-static void check_rivals(const table tables[], int count)
-{
-    for (int i = 0; i < count; i++) {
-        const table *t = &tables[i];
-        if (!t->rival || best_error(t) <= 1e-8) continue;
-        fprintf(stderr, "bench_methods: %s is wrong: %s, k = %g, error %.1e\n", t->rival->name, t->problem->name,
-                t->problem->rivals.k, best_error(t));
-        exit(1);
-    }
 }
 
 /* The fastest rival's time for an error on the same problem, A or B. */
@@ -274,9 +241,11 @@ static void bench(iso_context *ctx, double k, const iso_method *const methods[],
         for (int d = LOOSEST; d <= TIGHTEST; d++)
             for (int i = 0; i < made; i++) measure(ctx, &tables[i], d, pass, reference);
     for (int i = 0; i < made; i++)
-        for (int d = LOOSEST; d <= TIGHTEST; d++) take_median(&tables[i].of[d]);
+        for (cell *c = tables[i].of + LOOSEST; c <= tables[i].of + TIGHTEST; c++)
+            c->milliseconds = isnan(c->error) ? NAN : bench_median(c->pass, PASSES);
 
-    check_rivals(tables, made);
+    for (int i = 0; i < made; i++)
+        if (tables[i].rival) bench_check_rival(tables[i].rival->name, best_error(&tables[i]), 1e-8);
     printf("k = %g\n%-22s %-8s%5s%9s%9s\n", k, "method", "problem", "tol", "error", "ms");
     for (int i = 0; i < made; i++) print_first_table(&tables[i]);
     print_second_table(tables, made);

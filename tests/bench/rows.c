@@ -18,9 +18,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <sched.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -92,12 +89,6 @@ static void measure_all(const char *const build[2], row rows[], int count, int p
             }
 }
 
-static double median(double x[], int count)
-{
-    bench_sort(x, (size_t)count);
-    return x[count / 2];
-}
-
 static void print(row rows[], int count, int passes, double unit, const char *what)
 {
     printf("%-28s %26s %26s %26s\n%-28s", what, "processor, one", "processor, all", "wall, all", "");
@@ -107,7 +98,8 @@ static void print(row rows[], int count, int passes, double unit, const char *wh
         double(*const of[3])[STARTS] = {r->one, r->all, r->wall};
         printf("\n%-28s", r->name);
         for (int k = 0; k < 3; k++) {
-            const double before = median(of[k][0], passes) / unit, after = median(of[k][1], passes) / unit;
+            const double before = bench_median(of[k][0], (size_t)passes) / unit,
+                         after = bench_median(of[k][1], (size_t)passes) / unit;
             printf(" %9.3f %9.3f %6.2f", before, after, before / after);
         }
     }

@@ -8,10 +8,7 @@
  * the orbits that are called chaotic, for their share; and the one that is printed, with the undecided counted both
  * ways, which is wider.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
+#include "bench.h"
 #include "study/chaos/chaos.h"
 #include "study/chaos/chaos_impl.h"
 
@@ -32,19 +29,13 @@ static answer ask(iso_context *ctx, const motion *m, size_t starts, long turns, 
     iso_chaos_options o = iso_chaos_defaults();
     iso_chaos *c;
     size_t count[ISO_SHIFTS] = {0}, chaotic[ISO_SHIFTS] = {0};
-    iso_status status = iso_params_reduced(ctx, m->k, m->J, &scene.params);
-    if (status == ISO_OK)
-        status = iso_start_ball(ctx, (double[]){0.9, -0.3, -0.225}, (double[]){0.36, 0.48, 0.8}, ISO_SPIN_REMOVE,
-                                &scene.start);
+    scene.params = bench_params(ctx, m->k, m->J);
+    scene.start = bench_start(ctx);
     o.starts = starts;
     o.turns = turns;
     o.seed = seed;
     o.models = ISO_SHOW_POINT;
-    if (status == ISO_OK) status = iso_chaos_run(ctx, &scene, &o, &c);
-    if (status != ISO_OK) {
-        fprintf(stderr, "%s\n", iso_context_message(ctx));
-        exit(1);
-    }
+    bench_must(ctx, iso_chaos_run(ctx, &scene, &o, &c));
     const iso_chaos_fraction *s = &c->share;
     answer a = {s->share, (double)s->undecided / (double)s->count, 0, 0, {s->low, s->high}};
     for (size_t i = 0; i < c->starts; i++) {

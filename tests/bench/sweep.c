@@ -9,9 +9,6 @@
  *    Behind the rate on the wall stands that of a second of processor time, which other programs disturb less.
  * 3. Memory: the largest resident set after each.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -24,17 +21,7 @@ static iso_context *ctx;
 
 static void must(iso_status status)
 {
-    if (status == ISO_OK) return;
-    fprintf(stderr, "%s\n", iso_context_message(ctx));
-    exit(1);
-}
-
-/* Of all threads, in milliseconds. */
-static double busy_time(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+    bench_must(ctx, status);
 }
 
 static double memory(void)
@@ -115,7 +102,7 @@ static void dispatch(size_t chunk)
     }
     const double time = 1e3 * (bench_wall_milliseconds() - before) / CHUNKS;
     iso_sweep_journal_close(w.journal);
-    strcat(path, ".part");
+    strcat(path, ".journal");
     unlink(path);
     const size_t length = chunk * (8 * (size_t)head->columns + 4);
     printf("dispatch: %7.2f us a chunk of %zu points; to write its %zu bytes alone: %.2f us\n", time, chunk, length,
@@ -134,10 +121,10 @@ static double by_starts(size_t orbits, long turns, double *processor)
     o.turns = turns;
     o.models = ISO_SHOW_POINT;
     o.threads = 1;
-    const double before = bench_wall_milliseconds(), busy = busy_time();
+    const double before = bench_wall_milliseconds(), busy = bench_busy_milliseconds();
     must(iso_chaos_run(ctx, iso_sweep_file_plan(file)->family.base, &o, &c));
     const double time = bench_wall_milliseconds() - before;
-    *processor = (double)orbits / (busy_time() - busy) * 1e3;
+    *processor = (double)orbits / (bench_busy_milliseconds() - busy) * 1e3;
     iso_chaos_free(c);
     iso_sweep_file_free(file);
     return (double)orbits / time * 1e3;
@@ -153,11 +140,11 @@ static double by_sweep(size_t orbits, long turns, int threads, double *processor
     w.chunks = iso_sweep_chunks(head);
     must(iso_sweep_journal_open(ctx, "/dev/null", head, (iso_sweep_shard){0, 1}, false, &w.journal));
     const iso_sweep_source source = {next_chunk, take_chunk, &w};
-    const double before = bench_wall_milliseconds(), busy = busy_time();
+    const double before = bench_wall_milliseconds(), busy = bench_busy_milliseconds();
     must(iso_sweep_run(ctx, sweep, threads, &source));
     must(iso_sweep_journal_finish(ctx, w.journal));
     const double time = bench_wall_milliseconds() - before;
-    *processor = (double)orbits / (busy_time() - busy) * 1e3;
+    *processor = (double)orbits / (bench_busy_milliseconds() - busy) * 1e3;
     iso_sweep_journal_close(w.journal);
     iso_sweep_free(sweep);
     iso_sweep_file_free(file);

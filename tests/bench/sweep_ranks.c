@@ -13,8 +13,6 @@
  * chunks; the time until the first rank finds no chunk gives the rate, what follows is the tail. A day's work is a
  * day at this rate, the tail, and the writing of the result.
  */
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -28,9 +26,7 @@ static iso_context *ctx;
 
 static void must(iso_status status)
 {
-    if (status == ISO_OK) return;
-    fprintf(stderr, "%s\n", iso_context_message(ctx));
-    exit(1);
+    bench_must(ctx, status);
 }
 
 /* --- measuring -------------------------------------------------------------------------------------------------- */

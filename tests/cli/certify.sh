@@ -6,7 +6,7 @@
 scene 0.5 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 2 0.5 >half.yaml
 "$isoroll" run half.yaml --certify >/dev/null 2>err
 if grep -q 'this build has no Arb' err; then
-    refuses 2 "libflint-arb-dev" run half.yaml --certify
+    refuses 2 "libflint-arb-dev; Debian 13: libflint-dev" run half.yaml --certify
     skip "certified orbits" "this build has no Arb"
     finish
     exit
@@ -93,10 +93,38 @@ interruptible "rows are kept" && {
     check "and has a file" grep -q '^# isoroll certified 1$' far.csv
 }
 
+# --- a step can take hours, and have 1e8 rows: it is stopped within. What follows needs at most a few seconds each.
+ulimit -S -t 30 # of processor time
+interruptible "a step ends" && {
+    signalled TERM "worked 100" run half.yaml --certify --digits 1000 --work-digits 6000 -o step.csv
+    check "within a step" grep -q '^isoroll: interrupted: 0 of 5 rows were written$' err
+    check "its status" test "$status" = 1
+    check "and a file" grep -q '^# digits: 1000$' step.csv
+    signalled TERM "worked 100" run half.yaml --certify --t-end 0.1 --step 1e-9 --digits 5 -o dense.csv
+    check "between the rows of a step" grep -q '^isoroll: interrupted: [1-9][0-9]* of 100000001 rows were written$' err
+    check "their status" test "$status" = 1
+}
+
+# --- work without an end is refused by itself. hopeless WORDS K J OPTION...
+hopeless() {
+    words=$1
+    scene "$2" "$3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 2 0.5 >hopeless.yaml
+    shift 3
+    run 4 run hopeless.yaml --certify -o hopeless.csv "$@"
+    check "$last: $words" grep -qF "$words" err
+    check "$last: the rows before" grep -Eq '^isoroll: [01] of 5 rows were written$' err
+    check "$last: a file" grep -q '^t,t_radius' hopeless.csv
+}
+hopeless "too much work: 0 steps came to t = 0; t = 2 needs steps that are too short for a double: take an earlier end" \
+    0.5 "1e-300, 2.1, 3e200"
+hopeless "t = 2 needs about" 0.5 "1e-10, 2.1, 3e10" --digits 100
+hopeless "no step from t = 0 can be enclosed, with 44 digits or with" 0.5 "1e-300, 2.1, 3"
+hopeless "more digits do not help; take an earlier end, moments that differ less, or k further from 0" 0.5 "1e-100, 1, 1"
+hopeless "more digits do not help" 1e-20 "1, 2, 3"
+ulimit -S -t "$(ulimit -H -t)"
+
 # --- laws, the states of the reference, an integrator that shares nothing
-for candidate in ${ISO_PYTHON-} python3 /usr/bin/python3; do
-    "$candidate" -c 'import mpmath' 2>/dev/null && python=$candidate && break
-done
+find_python mpmath
 # python SCRIPT ARGUMENT...: a script in tests/prove; its last line says how much it has looked at
 judged() {
     script=$1
@@ -104,7 +132,7 @@ judged() {
     checks=$((checks + 1))
     "$python" -B "$source/tests/prove/$script" "$@" >out 2>err || fail "$script $*: $(tail -n 3 out)"
 }
-if [ -z "${python-}" ]; then
+if [ -z "$python" ]; then
     skip "laws, references, other orbits" "python3-mpmath is not installed"
 else
     judged enclosures.py laws half.csv ./*.ball.csv ./*.point.csv ./*.back.csv

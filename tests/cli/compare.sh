@@ -13,11 +13,6 @@ numbers() {
         $1 == key ":" { sub(/.*: /, ""); sub(/,$/, ""); print }' out
 }
 
-# is_json: braces and brackets of `out` close
-is_json() {
-    tr -cd '{}[]' <out | awk '{ n = gsub(/{/, "") - gsub(/}/, ""); m = gsub(/\[/, "") - gsub(/]/, ""); exit n || m }'
-}
-
 # compares NAME SCENE: everything that must hold of a comparison
 compares() {
     scenes=$((scenes + 1))
@@ -63,34 +58,17 @@ run 0 compare scene.yaml --rows 1
 check "--rows 1" test "$(grep -cE '^ +10 +(ball|point) ' out)" -eq 2
 run 0 compare scene.yaml --rows 1000000
 check "all rows" test "$(grep -cE '^ +[-0-9.e+]+ +(ball|point) ' out)" -eq 84
-for rows in 0 -1 2.5 x; do refuses 2 "expected a whole number" compare scene.yaml --rows "$rows"; done
-run 0 compare scene.yaml --t-end 0
+refuses 2 "expected a whole number" compare scene.yaml --rows 2.5
 run 0 compare scene.yaml --t-end -3 --step 1 --method adams --tol 1e-10
 check "--method" grep -q '^backend ball   adams: ' out
-"$isoroll" compare - <scene.yaml >out
-check "a scene from standard input" test $? -eq 0
 
 # --- pictures
-# is_picture FORMAT: the file `picture.FORMAT` is one
-is_picture() {
-    case $1 in
-    svg) head -c 400 picture.svg | grep -q '<svg' && tail -n 2 picture.svg | grep -q '</svg>' ;;
-    png) [ "$(head -c 8 picture.png | od -An -tx1 | tr -d ' ')" = 89504e470d0a1a0a ] ;;
-    pdf) [ "$(head -c 5 picture.pdf)" = %PDF- ] ;;
-    esac
-}
 if has gnuplot "--plot"; then
-    for format in svg png pdf; do
-        run 0 compare scene.yaml --plot picture.$format
-        silent
-        check "a picture in .$format" is_picture $format
-    done
+    run 0 compare scene.yaml --plot picture.svg
+    silent
     steady picture.svg
-    mkdir folder
-    run 5 compare scene.yaml --plot folder/absent/a.svg
+    run 5 compare scene.yaml --plot absent/a.svg
     says "absent"
-    run 0 compare scene.yaml --plot folder/a.svg
-    check "no temporary files" test "$(ls -A folder)" = a.svg
 fi
 
 # --- what the picture says is true. gnuplot is replaced by a script that keeps its input.
@@ -135,8 +113,6 @@ draws scene.yaml
 true_picture "a ball" 1.4 2.1 3.0
 check "a result in words" grep -q 'the closed solution, agree to [0-9.]*e-1' script
 check_not "no word of the inside" grep -qi -e backend -e scene.yaml script
-draws scene.yaml --step 10
-true_picture "whatever the rows are" 1.4 2.1 3.0
 draws scene.yaml --t-end 0.5
 true_picture "a short orbit" 1.4 2.1 3.0
 check "a short orbit is drawn whole" grep -q 'drawn and compared: to t \\075 0.5' script
@@ -149,12 +125,10 @@ draws "$source/examples/16_sections/scene.yaml"
 true_picture "chaos" 1 2 5
 check "two computations" grep -q 'two computations, .* agree to' script
 run 0 compare scene.yaml --t-end 0 --plot drawn.svg
-for name in a.jpg a '' svg; do refuses 2 "" compare scene.yaml --plot "$name"; done
 # refused before the work, which would take days
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 1e12 1e11 >endless.yaml
 refuses 2 "" compare endless.yaml --plot a.jpg
 
-refuses 3 "<stdin>:1:1" compare - </dev/null
 scene 1 "1, 2, 3" "0, 0, 0" "0, 0, 1" 1 0.1 >rest.yaml
 refuses 3 "at rest" compare rest.yaml
 echo "$scenes scenes: worst difference $worst_difference, worst drift $worst_drift"

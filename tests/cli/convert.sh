@@ -20,7 +20,7 @@ round_trip() {
     "$isoroll" convert --quiet --to "$other" <a.csv | "$isoroll" convert --quiet --to "$4" - >piped.csv
     check "$1: files and pipes" cmp c.csv piped.csv
     check "$1: the same columns and clock" test "$(columns a.csv)" = "$(columns c.csv)"
-    check "$1: the same lines" test "$(grep '^# [kJhe]' a.csv)" = "$(grep '^# [kJhe]' c.csv)"
+    check "$1: the same lines" test "$(grep '^# [kJhefl]' a.csv)" = "$(grep '^# [kJhefl]' c.csv)"
     states a.csv >a
     states c.csv >c
     bound=$(awk -v k="$2" 'BEGIN { k = k < 0 ? -k : k; x = 1 / (2 * k); print 4 * (x > 1 ? x : 1) }')
@@ -32,19 +32,20 @@ round_trip() {
     worst_clock=$(larger "$worst_clock" "$error")
 }
 
-for k in 1 -1 0.5 -0.4 0.05 -0.05 50 -50; do
+# (each k and kind of times: test_convert; units of any size: test_hard_units)
+for k in 0.5 -0.4; do
     scene "$k" "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "$normal" 5 0.25 >scene.yaml
     round_trip "k = $k" "$k" scene.yaml ball
     round_trip "k = $k from the point" "$k" scene.yaml point
+    echo "effects: {field: {quadratic: [[1, 0.2, 0], [0.2, 2, 0], [0, 0, 0]]}, level: {c: 0.3}}" >>scene.yaml
+    round_trip "k = $k, a field on a level" "$k" scene.yaml ball
+    round_trip "k = $k, a field on a level, from the point" "$k" scene.yaml point
 done
-for k in 1 -1 0.6; do
-    scene "$k" "1e-3, 1, 1e3" "0.9, -0.3, -0.225" "$normal" 5 0.25 >scene.yaml
-    round_trip "J to 1e6, k = $k" "$k" scene.yaml ball 1e-8 # an ulp of s is 1e-10 of t where ds/dt is small, and s has some
-done
-for power in -150 -75 75 150; do
+scene 0.6 "1e-3, 1, 1e3" "0.9, -0.3, -0.225" "$normal" 5 0.25 >scene.yaml
+round_trip "J to 1e6" 0.6 scene.yaml ball 1e-8 # an ulp of s is 1e-10 of t where ds/dt is small, and s has some
+for power in -150 150; do
     scene -0.7 "1.4, 2.1, 3.0" "0.9e$power, -0.3e$power, -0.225e$power" "$normal" "5e$((-power))" "1e$((-power))" >scene.yaml
     round_trip "omega in 1e$power" -0.7 scene.yaml ball
-    round_trip "omega in 1e$power from the point" -0.7 scene.yaml point
 done
 
 # what `run` says of the other model is what `convert` makes of this one
@@ -57,22 +58,11 @@ check "the line model: point" grep -qx '# model: point' point.csv
 at_most "converted and integrated" "$(difference point.csv both.csv)" 1e-11
 run 0 convert --to point both.csv
 at_most "from a file with both" "$(difference out both.csv)" 1e-11
-run 0 run scene.yaml --t-end -5 -o back.csv
-run 0 convert --to point back.csv
-cp out back_point.csv
-run 0 convert --to ball back_point.csv
-at_most "backwards" "$(difference back.csv out)" 1e-11
 cp ball.csv place.csv
 refuses 2 "would overwrite what is read" convert --to point place.csv -o place.csv
 check "what is read is as it was" cmp place.csv ball.csv
 
-# a piece that does not begin at 0 keeps its times
-awk '!/^[0-9]/ || ++n > 8' ball.csv >late.csv
-run 0 convert --to point late.csv -o late_point.csv
-run 0 convert --to ball late_point.csv
-at_most "a piece that does not begin at 0" "$(difference late.csv out)" 1e-11
-
-# without lines; CRLF; a byte order mark; blank lines
+# without lines (other kinds of files: test_trajectory)
 grep -v '^#' ball.csv >bare.csv
 run 0 convert --to point bare.csv --k -1 --J 1.4,2.1,3
 at_most "a bare file" "$(difference point.csv out)" 1e-15
@@ -82,9 +72,6 @@ at_most "a bare point" "$(difference ball.csv out)" 1e-11
 run 0 convert --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --eps 6.50419875
 run 0 convert --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --h 0.7374375
 run 0 convert --to point ball.csv --k -1 # says what the file says
-{ printf '\357\273\277' && sed 's/$/\r/' ball.csv && printf '\r\n\n'; } >crlf.csv
-run 0 convert --to point crlf.csv
-check "CRLF" cmp out point.csv
 awk -F, -v OFS=, '/^#/ { print; next } { print $2, $3, $4, $5, $6, $7 }' ball.csv >timeless.csv
 run 0 convert --to point timeless.csv
 check "no clock, no clock" test "$(columns out)" = M1,M2,M3,gamma1,gamma2,gamma3
@@ -104,7 +91,6 @@ refuses 3 "--J contradicts" convert --to point --J 1,2,3 ball.csv
 refuses 3 "k" convert --to point bare.csv
 refuses 3 "--J" convert --to point bare.csv --k 1
 refuses 3 "k = 0" convert --to point bare.csv --k 0 --J 1,2,3
-refuses 3 "J1 = -1" convert --to point bare.csv --k 1 --J=-1,2,3
 refuses 3 "already" convert --to ball ball.csv
 refuses 3 "already" convert --to point point.csv
 # a ball's h and eps are not needed, so wrong ones do no harm and do not travel on
@@ -129,7 +115,7 @@ for lines in flat level field; do
         run 0 check turned.csv --max 1e-11
         for key in h eps level.c; do
             grep -q "^# $key" good.csv || continue
-            for factor in 1.0000000001 0.999999 1.0001 1.5; do
+            for factor in 1.0000000001 1.5; do
                 off $key $factor good.csv
                 run 0 convert --quiet --to $to off.csv -o turned.csv
                 says "off.csv: # $key: "
@@ -172,6 +158,7 @@ refuses 5 "cannot read" convert --to ball .
 sed 's/^[0-9].*/0,0,0,0,0.6,0,0.8/' ball.csv | awk '!/^0/ || !n++' >rest.csv
 refuses 3 "at rest" convert --strict --to point rest.csv
 run 3 convert --to point rest.csv
+# (more kinds of damage: convert_foreign.sh)
 # bad WORDS: damaged.csv is refused under --strict; else one row is marked, the others are converted, and the exit
 # status is 1
 bad() {
@@ -189,22 +176,7 @@ damage 3 5 0.5 ball.csv
 bad "14: |n| = " 3
 damage 4 1 0.1 ball.csv
 bad "15: t turns back" 4
-damage 4 1 1000 ball.csv
-bad "15: this row is damaged" 4
 damage 4 3 1 ball.csv
 bad "15: omega has a part" 4
-damage 4 3 nan ball.csv
-bad "15:26: expected a finite number for omega2" 4
-damage 4 3 1,2 ball.csv
-bad "15:" 4
-damage 21 3 x ball.csv
-bad "32:" 21
-awk -F, -v OFS=, '/^[0-9]/ && ++row == 4 { $2 = -$2; $3 = -$3; $4 = -$4 } { print }' ball.csv >damaged.csv
-bad "15: this row is damaged" 4
-grep '^#' ball.csv >empty.csv
-refuses 3 "empty.csv:10:1" convert --to point empty.csv
-columns ball.csv >>empty.csv
-refuses 3 "no rows" convert --to point empty.csv
-refuses 3 "<stdin>:1:1" convert --to point - </dev/null
 echo "worst state, in parts of 4 max(1, 1/|2k|) ulp: $worst_state; with the clock: $worst_clock"
 finish

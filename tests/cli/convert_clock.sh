@@ -26,7 +26,7 @@ from_samples() {
 }
 
 # the states of the reference up to t = 100, where the file has its 26 free balls; 1000 samples of the short ones
-for samples in 10 33 100 1000; do
+for samples in $(length "10 33" "10 33 100 1000"); do
     grep '^[a-z]*[0-9]*,' "$reference" | awk -F, '$1 != "id" && $12 + 0 <= 100' |
         while IFS=, read -r _ k J1 J2 J3 n1 n2 n3 w1 w2 w3 t _ _ _ _ _ _ s _; do
             echo "$k|$J1, $J2, $J3|$n1, $n2, $n3|$w1, $w2, $w3|$t|$s"

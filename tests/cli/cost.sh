@@ -5,11 +5,6 @@
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >scene.yaml
 scene 0.7 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >open.yaml
 
-# is_json: braces and brackets of `out` close
-is_json() {
-    tr -cd '{}[]' <out | awk '{ n = gsub(/{/, "") - gsub(/}/, ""); m = gsub(/\[/, "") - gsub(/]/, ""); exit n || m }'
-}
-
 # fields FILE: those of a CSV without its comments, the last, quoted one apart, separated by blanks; - for empty ones
 fields() {
     grep -v '^#' "$1" | sed 's/,"\(.*\)"$/,/' | awk -F, '{ for (i = 1; i < NF; i++) printf "%s ", $i == "" ? "-" : $i; print "" }'
@@ -44,20 +39,6 @@ check "CSV: a table's numbers" awk 'NR > 1 && $4 != "-" { if (!($4 >= 0 && $9 <=
     END { exit bad || n < 70 }' rows
 check "CSV: the other columns" test "$(head -n 1 rows | tr ' ' '\n' | tail -n 4 | tr '\n' ' ')" = "states below pareto  "
 
-# --- errors are those of `run`
-awk 'BEGIN { for (i = 1; i <= 20; i++) print 0.5 * i }' >times
-run 0 run scene.yaml --backend exact --times times
-cp out exact.csv
-for cell in "ball rk8pd 1e-09" "point taylor 1e-06" "point blanes_moan6 1e-09" "ball adams 1e-12"; do
-    echo "$cell" >cell
-    read -r backend method tolerance <cell
-    run 0 run scene.yaml --backend "$backend" --method "$method" --tol "$tolerance" --times times
-    error=$(difference exact.csv out)
-    told=$(sed -n "s/^  $backend  *$method  *$tolerance *[*~]*\([0-9.e-]*\) .*/\1/p" table)
-    at_most "$cell: told" "$told" "$(awk -v e="$error" 'BEGIN { print 2 * e }')"
-    at_most "$cell: found" "$error" "$(awk -v e="$told" 'BEGIN { print 2 * e }')"
-done
-
 # --- JSON, and the one choice
 run 0 cost open.yaml --quick --want 1e-8 --json
 silent
@@ -74,7 +55,7 @@ check "it reaches what is wanted" awk '/expected: error/ { found = 1; bad = !($4
 check "options, and nothing else" grep -qxE -e '--backend (ball|point) --method taylor --tol 1e-[0-9]{2}' out # the cheapest, as timed
 check "one line" test "$(wc -l <out)" -eq 1
 # shellcheck disable=SC2046 # options
-run 0 run open.yaml $(cat out) --times times
+run 0 run open.yaml $(cat out)
 run 1 cost open.yaml --method rk4 --want 1e-15
 says "nothing measured reaches an error of 1e-15"
 check "no options" test ! -s out
@@ -84,16 +65,6 @@ run 0 cost open.yaml --backend ball --method rk8pd --tol 1e-9
 check "one cell" test "$(cells out)" -eq 1
 run 0 cost scene.yaml --backend exact --csv -
 check "the closed solution alone, as CSV on standard output" test "$(fields /dev/stdin <out | wc -l)" -eq 2
-run 0 cost open.yaml --method taylor --quick --horizons=3
-check "three lengths of each backend" test "$(grep -cE '^ +(10|20|40) ' out)" -eq 6
-check "growth in words" grep -qE '^  the error grows |^  too few' out
-run 0 cost open.yaml --method taylor --backend point --quick --horizons=2 --json
-check "JSON of growth" is_json
-check "two lengths" test "$(grep -c '"uncertainty"' out)" -eq 3
-
-run 0 cost scene.yaml --backend exact --horizons=2
-check "the closed solution's error does not come from itself" grep -q '^  errors against taylor_' out
-
 # --- a ball at rest: no error is the least
 scene 0.7 "1.4, 2.1, 3.0" "0, 0, 0" "0.36, 0.48, 0.8" 10 0.5 >rest.yaml
 run 0 cost rest.yaml --quick
@@ -105,9 +76,8 @@ says "expected: error 0.0e+00, time "
 
 # --- a ball that hardly turns has no other clock
 scene 1e-12 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >slow.yaml
-run 0 cost slow.yaml --method taylor --horizons=2
+run 0 cost slow.yaml --method taylor
 check "its reference is borne out by another code" grep -qE '^  uncertain by .*: its distance from [a-z0-9_]+ at ' out
-check "its growth is told" test "$(grep -cE '^ +(10|20) ' out)" -eq 4
 
 # --- what fails is told, and the rest goes on
 scene -0.61 "1e-6, 1, 1" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 100 10 >thin.yaml
@@ -119,20 +89,11 @@ says "no picture: nothing has been measured"
 check "why, in CSV" grep -qE '^point,adams,.*,".*lost the energy.*"$' thin.csv
 
 # --- refusals
-for bad in x 0 -1 nan ''; do refuses 2 "--want '$bad': expected a positive number" cost scene.yaml --want "$bad"; done
-for bad in x 0 2.5 25; do refuses 2 "--horizons '$bad': expected a whole number" cost scene.yaml --horizons=$bad; done
+refuses 2 "--want '0': expected a positive number" cost scene.yaml --want 0
 refuses 2 "expected a method" cost scene.yaml --method rk
 refuses 2 ".svg, .png or .pdf" cost scene.yaml --plot a.gif
 refuses 2 "standard output has room for one" cost scene.yaml --csv - --json
 refuses 2 "standard output has room for one" cost scene.yaml --csv - --want 1e-9
-refuses 2 "no room for what --horizons tells" cost scene.yaml --want 1e-9 --horizons=2
-refuses 2 "would be two files in one" cost scene.yaml --csv a.svg --plot a.svg
-cp scene.yaml scene.svg
-refuses 2 "would overwrite what is read" cost scene.yaml --csv ./scene.yaml
-refuses 2 "would overwrite what is read" cost scene.svg --plot scene.svg
-check "the scene is as it was" cmp scene.yaml scene.svg
-refuses 2 "strang is for the point" cost scene.yaml --backend ball --method strang
-refuses 2 "the scene ends where it begins" cost scene.yaml --t-end 0
 refuses 3 "open.yaml:1:" cost open.yaml --backend exact
 refuses 3 "<stdin>:1:1" cost - </dev/null
 refuses 5 "absent" cost scene.yaml --csv absent/a.csv
@@ -141,26 +102,14 @@ check "refused before the work" test $? -eq 5
 
 # --- pictures
 if has gnuplot "--plot"; then
-    for format in svg png pdf; do
-        run 0 cost scene.yaml --method rk8pd --plot picture.$format
-        silent
-    done
+    run 0 cost scene.yaml --method rk8pd --plot picture.svg
+    silent
     check "SVG" grep -q 'processor time' picture.svg
     check "its method" grep -q '>rk8pd<' picture.svg
-    check "PNG" test "$(head -c 8 picture.png | od -An -tx1 | tr -d ' ')" = 89504e470d0a1a0a
-    check "PDF" test "$(head -c 5 picture.pdf)" = %PDF-
     run 5 cost scene.yaml --method rk8pd --plot absent/a.svg
 fi
 
-# --- closed pipes, full disks, interruptions
-first=$("$isoroll" cost open.yaml --method taylor --quick 2>err | head -n 1)
-check "cost | head -1: a line" test -n "$first"
-check "cost | head -1: quiet" test ! -s err
-if [ -c /dev/full ]; then
-    "$isoroll" cost open.yaml --method taylor --quick >/dev/full 2>err
-    check "a full disk" test $? -eq 5
-    run 5 cost open.yaml --method taylor --want 1e-6 --csv /dev/full
-fi
+# --- interruptions (closed pipes and full disks: hard_faults.sh)
 if interruptible "SIGINT"; then
     mkdir stop
     some_cells() { [ "$(cells out)" -ge 5 ]; }

@@ -1,24 +1,12 @@
 #!/bin/sh
-# examples.sh ISOROLL - every scene in examples/ does what the commands promise.
+# examples.sh ISOROLL - every scene in examples/ runs to its end, and its rows solve their model (each command:
+# every_command.sh; each table: written.sh; both models: compare.sh). What the examples with more files show.
 . "$(dirname "$0")/lib.sh"
 for file in "$source"/examples/*/scene.yaml; do
     [ -f "$file" ] || continue
-    run 0 explain "$file"
-    silent
-    mapped=$(grep -c '^  holds: ' out)
     run 0 run "$file" -o trajectory.csv
     check "$file: rows" test "$(rows trajectory.csv | wc -l)" -ge 2
     head -n 40 trajectory.csv | grep -q '^t.*n3\|^s.*gamma3' && run 0 check --max 1e-9 trajectory.csv
-    if [ "$mapped" = 0 ]; then
-        run 3 compare "$file"
-        says 'breaks the isomorphism'
-        continue
-    fi
-    run 0 run "$file" --as both -o both.csv
-    silent
-    run 0 check --max 1e-9 both.csv
-    run 0 compare "$file"
-    silent
 done
 
 # sections: chaos and order
@@ -45,10 +33,7 @@ run 0 check --max 1e-9 point.csv
 run 0 check --max 1e-9 --scene "$folder/scene.yaml" "$folder/orbit.txt"
 run 0 convert --to ball --max-defect 1e-4 --k=-1 --J 6,4,2 --eps 0.5 --columns -,s,gamma1,gamma2,gamma3,M1,M2,M3 "$folder/leapfrog.csv" -o ball.csv
 run 0 check --max 1e-3 ball.csv
-if has gnuplot "a picture"; then
-    run 0 plot --scene "$folder/scene.yaml" "$folder/orbit.txt" -o orbit.svg
-    check "a picture" grep -q '</svg>' orbit.svg
-fi
+if has gnuplot "a picture"; then run 0 plot --scene "$folder/scene.yaml" "$folder/orbit.txt" -o orbit.svg; fi
 refuses 2 "-o FILE is missing" plot "$folder/orbit.txt"
 refuses 2 ".svg, .png or .pdf" plot "$folder/orbit.txt" -o orbit.bmp
 finish

@@ -17,8 +17,8 @@ states() {
 }
 
 for k in 1 -1 0.4; do
-    trips=100
-    [ $k != 0.4 ] || trips=$(length 300 1000)
+    trips=$(length 30 100)
+    [ $k != 0.4 ] || trips=$(length 100 1000)
     hard_case "$trips round trips, k = $k" "(omega, n), in units in the last place" \
         "rounding of n -> gamma changes the factor of omega: taken from n one way and gamma back, omega drifts by it each time"
     scene $k "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 1 0.5 >scene.yaml

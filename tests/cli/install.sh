@@ -49,6 +49,8 @@ if grep -i jansson "$pc"; then echo "FAIL jansson is the command's, not the libr
     # everything static, down to libc; so it stands on its own
     if pkg-config --static --libs isoroll | grep -q -- '-lflint' && [ "$("$CC" -print-file-name=libflint.a)" = libflint.a ]; then
         echo "SKIP a fully static program: there is no static library of FLINT, which Arb needs"
+    elif pkg-config --static --libs isoroll | grep -q -- '-lhdf5'; then
+        echo "SKIP a fully static program: HDF5 does not say which static libraries it needs"
     else
         "$CC" -std=c11 -static "$here/outside.c" -o static $(pkg-config --static --cflags --libs isoroll)
         runs_right "pkg-config --static" ./static

@@ -44,17 +44,17 @@ computed() {
     sed 's/.*) //' "/proc/$2/stat" 2>/dev/null | awk -v least="$1" 'END { exit !NR || $12 + $13 < least }'
 }
 
-# worked N PID: the same, and it catches SIGTERM
+# worked N PID: the same, and it catches SIGUSR1
 worked() {
-    case $(sed -n 's/^SigCgt:.*\(.\)...$/\1/p' "/proc/$2/status" 2>/dev/null) in
-    [4567cdef]) computed "$1" "$2" ;;
+    case $(sed -n 's/^SigCgt:.*\(.\)..$/\1/p' "/proc/$2/status" 2>/dev/null) in
+    [2367abef]) computed "$1" "$2" ;;
     *) false ;;
     esac
 }
 
 # in_journal FILE BYTES PID: the sweep's journal is there, and has more bytes
 in_journal() {
-    [ "$(cat "$1.part" 2>/dev/null | wc -c)" -gt "$2" ]
+    [ "$(cat "$1.journal" 2>/dev/null | wc -c)" -gt "$2" ]
 }
 
 # await CONDITION... PID: waits until it is so, or the program has ended
@@ -146,6 +146,14 @@ interruptible() {
     esac
 }
 
+# find_python MODULE: $python is one that has this module, $ISO_PYTHON first; else it is empty
+find_python() {
+    python=
+    for candidate in ${ISO_PYTHON-} python3 /usr/bin/python3; do
+        [ -n "$python" ] || ! "$candidate" -c "import $1" 2>/dev/null || python=$candidate
+    done
+}
+
 # check NAME COMMAND...: the command succeeds
 check() {
     name=$1
@@ -205,6 +213,15 @@ refuses() {
     run "$wanted" "$@"
     says "$words"
     check "isoroll $last: nothing on stdout" test ! -s out
+}
+
+# refuses_changed FILE SCRIPT WORDS ARGUMENT...: isoroll refuses bad.csv, its last argument: FILE changed by sed
+refuses_changed() {
+    sed "$2" "$1" >bad.csv
+    message=$3
+    check_not "sed $2 changes $1" cmp -s "$1" bad.csv
+    shift 3
+    refuses 3 "$message" "$@" bad.csv
 }
 
 # silent: the last run printed no message
@@ -360,6 +377,21 @@ hard_naive() {
     checks=$((checks + 1))
     awk -v x="$2" -v bound="$3" 'BEGIN { exit !(x !~ /^[-+0-9.eE]+$/ || x + 0 > bound + 0) }' ||
         fail "$case: naive ($1) holds: $2 is not above $3"
+}
+
+# is_json: the brackets in `out` close
+is_json() {
+    tr -cd '{}[]' <out | awk '{ n = gsub(/{/, "") - gsub(/}/, ""); m = gsub(/\[/, "") - gsub(/]/, ""); exit n || m }'
+}
+
+# value KEY [N]: the N-th (default: first) number or word of that name in the JSON in `out`
+value() {
+    sed -n "s/.*\"$1\": \"\{0,1\}\([^][\",{}]\{1,\}\).*/\1/p" out | sed -n "${2-1}p"
+}
+
+# between X LOW HIGH
+between() {
+    awk -v x="$1" -v low="$2" -v high="$3" 'BEGIN { exit !(x != "" && x + 0 >= low && x + 0 <= high) }'
 }
 
 # finish: the counts, and the exit status

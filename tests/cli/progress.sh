@@ -46,9 +46,12 @@ names=
 begin run run scene.yaml -o run.csv
 begin chaos chaos scene.yaml --turns 100000 --starts 100000 -j 1
 begin section section scene.yaml --crossings 1000000000 -o section.csv
-begin cloud section scene.yaml --cloud 100000000
+begin area section scene.yaml --area --crossings 100000000 --starts 100
 begin sweep sweep sweep.yaml -o sweep.csv -j 1
 begin integrals integrals scene.yaml --degree 8 --turns 100000 -j 1
+if "$isoroll" run rows.yaml --certify --t-end 0 >/dev/null 2>&1; then # Arb is there
+    begin certify run rows.yaml --certify --digits 1000 --work-digits 3000 -o certified.csv
+fi
 for name in $names; do end "$name"; done
 names=
 begin splitting splitting scene.yaml --k 1.7:1.9:0.001 --digits quad -j 1
@@ -90,6 +93,29 @@ until grep -q ' [0-9]*:[0-9][0-9] left' left/terminal 2>/dev/null || [ $patience
 done
 [ $patience -gt 0 ] || fail "no time left"
 end left
+
+# A picture: gnuplot tells nothing, so that the line says what is done, not how much. This gnuplot does not end.
+mkdir bin
+printf '#!/bin/sh\n: >"%s/bin/pid.$$"\nexec sleep 100\n' "$work" >bin/gnuplot
+chmod +x bin/gnuplot
+"$isoroll" run rows.yaml --step 1000 -o few.csv
+variable="NO_COLOR=1 PATH='$work/bin:$PATH'" names=
+begin plot plot few.csv -o few.svg
+begin picture section scene.yaml --crossings 30 --plot section.svg -o section.csv
+begin traces chaos scene.yaml --turns 50 --plot chaos.svg
+for picture in $names; do
+    checks=$((checks + 1))
+    patience=600
+    until grep -q '[.#] drawing, [0-9]*:[0-9][0-9]' "$picture/terminal" 2>/dev/null || [ $patience -eq 0 ]; do
+        patience=$((patience - 1))
+        sleep 0.1
+    done
+    [ $patience -gt 0 ] || fail "$picture: nothing says that it draws: $(tr '\r' '\n' <"$picture/terminal" | tail -n 2)"
+    check_not "$picture: no time left" sh -c "tr '\\r' '\\n' <$picture/terminal | sed -n '/drawing/,\$p' | grep -q left"
+    kill -KILL "$(cat "$picture/pid")"
+done
+for pid in bin/pid.*; do kill "${pid#bin/pid.}" 2>/dev/null; done
+variable=NO_COLOR=1
 
 # Rows on the same terminal are progress enough, and stderr that is no terminal gets no bar.
 begin rows run scene.yaml

@@ -93,8 +93,9 @@ END
 for file in gravity finite_twist attitude; do
     grep '^open' "$source/tests/reference/$file.csv" >lines
     check "4 rows of $file" test "$(wc -l <lines)" -eq 4
-    each_method orbits $file lines 1e-13 <<END
-auto 1e-12
+    sed "$(length '2,3d' '')" lines >some
+    echo "auto 1e-12" | each_method orbits $file lines 1e-13
+    each_method orbits $file some 1e-13 <<END
 taylor 1e-12
 taylor_extended 1e-14
 rk8pd 1e-12

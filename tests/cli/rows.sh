@@ -1,20 +1,13 @@
 #!/bin/sh
-# rows.sh ISOROLL - long trajectories: rows are read and printed in blocks, on several threads. What comes out does not
-# depend on the blocks; mistakes keep their places. `check` finds one wrong number among rows that are near each
-# other; it and `plot` pass over rows of nan.
+# rows.sh ISOROLL - long trajectories: what comes out does not depend on the pieces in which they arrive; mistakes keep
+# their places. `check` finds one wrong number among rows that are near each other; it and `plot` pass over rows of nan.
 . "$(dirname "$0")/lib.sh"
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" "$(length 60 1000)" 0.01 >scene.yaml
 for as in ball point both; do run 0 run scene.yaml --as "$as" -o "$as.csv"; done
 count=$(rows ball.csv | wc -l)
 
-# --- one thread or several, a file or a pipe, in pieces of any size
+# --- a file or a pipe, in pieces of any size
 run 0 convert --quiet --to point ball.csv -o wanted.csv
-if has taskset "one processor"; then
-    taskset -c 0 "$isoroll" convert --quiet --to point ball.csv -o alone.csv
-    check "one processor: the same bytes" cmp alone.csv wanted.csv
-    taskset -c 0 "$isoroll" run scene.yaml --as ball -o alone.csv
-    check "one processor: the same bytes of run" cmp alone.csv ball.csv
-fi
 for size in 1 7 4096; do
     head -n 300 ball.csv | dd bs=$size 2>/dev/null | "$isoroll" convert --quiet --to point >piped.csv
     head -n 300 ball.csv | "$isoroll" convert --quiet --to point >whole.csv
@@ -53,7 +46,7 @@ for k in -1 1; do
     at_most "k = $k: even steps" "$(difference even.csv alone.csv)" 1e-13
 done
 
-# --- mistakes far behind the first block
+# --- mistakes far behind the first rows
 line=$(($(grep -n '^t,' ball.csv | cut -d: -f1) + count - 100))
 # spoil SED: that line is changed
 spoil() {

@@ -30,7 +30,6 @@ header columns.yaml s,n3,t,gamma1,omega2
 cp out columns.csv
 header columns.yaml "$point" --as point
 at_most "chosen columns are those of both" "$(difference both.csv columns.csv)" 1e-11
-at_most "ball of both" "$(difference ball.csv both.csv)" 1e-11
 check "first line" test "$(head -n 1 ball.csv)" = "# isoroll trajectory 1"
 check "comment lines" test "$(sed -n 's/^# \([a-zA-Z]*\): .*/\1/p' ball.csv | tr '\n' ' ')" = \
     "model k J h eps backend method tolerance isoroll "
@@ -54,10 +53,8 @@ check "101 rows without a step" test "$(rows out | wc -l)" -eq 101
 header point.yaml "$ball" --as ball
 run 0 run scene.yaml --backend point --as both
 check "the line backend: point" grep -qx '# backend: point' out
-at_most "backends" "$(difference both.csv out)" 1e-11
 run 0 run scene.yaml --method kahan_li8 --as both
 check "a method for the point chooses it" grep -qx '# backend: point' out
-at_most "splitting" "$(difference both.csv out)" 1e-9
 refuses 2 'kahan_li8 is for the point' run scene.yaml --method kahan_li8 --backend ball
 
 # --- times
@@ -65,11 +62,10 @@ printf '5 1,5\t-3 0 # 99\n\n2,,7 \r\n# 4\n10' >asked # unsorted, repeated, both 
 run 0 run scene.yaml --times asked
 check "rows in the order asked" test "$(rows out | cut -d, -f1 | tr '\n' ' ')" = "5 1 5 -3 0 2 7 10 "
 cp out asked.csv
-for t in 0 1 2 5 7 10; do
-    rows asked.csv | grep "^$t," | sort -u >a
-    rows ball.csv | grep "^$t," >b
-    check "the row t = $t has the same bits whatever else is asked" cmp a b
-done
+rows asked.csv | sort -gu >a
+rows ball.csv | grep -E "^(0|1|2|5|7|10)," >b
+# (at each time and by each method: test_past)
+check "rows have the same bits whatever else is asked" sh -c 'grep -v ^-3, a | cmp - b'
 run 0 run scene.yaml --backend point -o by_point.csv # `auto` takes the point for few rows, the ball for many
 rows by_point.csv | grep "^7," >b
 rows ball.csv | grep "^7," >a
@@ -83,18 +79,8 @@ run 0 run scene.yaml --t-end 1e5 --step 1e4
 check "auto takes the closed solution for few and far rows" grep -qx "# backend: exact" out
 run 0 explain scene.yaml --t-end 1e5 --step 1e4
 check "explain says why" grep -q "few and far" out
-run 0 run scene.yaml --step 0.01 --t-end 300 --backend point
-rows out | grep "^7," >a
-check "the row t = 7 has the same bits in a longer, finer run" cmp a b
 echo 7 | "$isoroll" run scene.yaml --times - | rows /dev/stdin >a
 check "times from standard input" cmp a b
-for end in 3000 -3000; do # far rows are approached in pieces
-    run 0 run scene.yaml --t-end $end --step 3000
-    rows out | tail -n 1 >a
-    run 0 run scene.yaml --t-end $end --step 7
-    rows out | tail -n 1 >b
-    check "the row t = $end has the same bits in one go" cmp a b
-done
 
 # bad_times TEXT PLACE WORDS
 bad_times() {
@@ -103,22 +89,17 @@ bad_times() {
 }
 bad_times '1 2\n3,x\n' 2:3 "'x' is not a time"
 bad_times '1\n\n  nan' 3:3 "'nan'"
-bad_times '1e400' 1:1 "'1e400'"
 bad_times '0x10' 1:1 "'0x10'"
 bad_times '1\n 5\0006\n' 2:2 "'5' is not a time" # a NUL byte
-bad_times '\303\251 # \303\251' 1:1 "'é' is not a time"
 bad_times '# \303\251\n1 #\303\251\n 2 x' 3:4 "'x' is not a time"
-bad_times '# nothing\n' 1:1 "no times"
 bad_times '' 1:1 "no times"
 refuses 5 "cannot open 'absent'" run scene.yaml --times absent
-refuses 5 "cannot read '.'" run scene.yaml --times .
 refuses 3 "/dev/zero:1:1" run scene.yaml --times /dev/zero
 refuses 2 "not both" run - --times -
 
 # --- --t-end and --step
 run 0 run scene.yaml --t-end -4
 check "backwards" test "$(rows out | cut -d, -f1 | tr '\n' ' ')" = "0 -1 -2 -3 -4 "
-cp out backwards.csv
 run 0 run scene.yaml --t-end 2.5 --step 0.5
 check "--t-end and --step" test "$(rows out | cut -d, -f1 | tr '\n' ' ')" = "0 0.5 1 1.5 2 2.5 "
 run 0 run scene.yaml --t-end 2.25
@@ -127,14 +108,6 @@ run 0 run scene.yaml --step 100
 check "a step beyond the end" test "$(rows out | cut -d, -f1 | tr '\n' ' ')" = "0 10 "
 run 0 run scene.yaml --t-end 0
 check "end: 0 is one row" test "$(rows out | cut -d, -f1)" = 0
-# back from where the run backwards ended
-rows backwards.csv | tail -n 1 | tr , ' ' >last
-read -r _ w1 w2 w3 n1 n2 n3 <last
-scene -1 "$J" "$w1, $w2, $w3" "$n1, $n2, $n3" 4 1 >return.yaml
-run 0 run return.yaml
-{ columns out; rows out | tail -n 1 | sed 's/^4,/0,/'; } >a
-{ columns ball.csv; rows ball.csv | head -n 1; } >b
-at_most "there and back" "$(difference b a)" 1e-11
 
 # --- where it is written
 "$isoroll" run - <scene.yaml >a
@@ -157,7 +130,7 @@ run 0 run scene.yaml -o "$long"
 check "a name that is not UTF-8" cmp "$long" ball.csv
 check "no temporary file" test "$(ls -A folder | wc -l)" -eq 2
 
-# --- methods: every one runs, and twice the same
+# --- methods: every one runs, and its file names it (what each promises: test_method, test_order)
 "$isoroll" list methods | awk 'NR > 2 { print $1 }' >methods
 check "20 methods or more" test "$(wc -l <methods)" -ge 20
 while read -r method; do
@@ -165,11 +138,7 @@ while read -r method; do
     case $method in heun_euler* | rk4 | *_2_3) tolerance=1e-7 ;; esac # of low order: many steps
     run 0 run scene.yaml --as both --method "$method" --tol "$tolerance"
     check "the line method: $method" grep -qx "# method: $method" out
-    at_most "$method" "$(difference both.csv out)" 2e-5
-    [ "$tolerance" = 1e-7 ] || at_most "$method" "$(difference both.csv out)" 2e-7
-    cp out a
-    run 0 run scene.yaml --as both --method "$method" --tol "$tolerance"
-    check "$method twice" cmp out a
+    at_most "$method" "$(difference both.csv out)" "$([ $tolerance = 1e-7 ] && echo 2e-5 || echo 2e-7)"
 done <methods
 run 0 run scene.yaml --method dormand
 check "a beginning is enough" grep -qx '# method: dormand_prince_7_4_5' out
@@ -182,45 +151,13 @@ estimate() {
     sed -n "s/^isoroll: error of $1 at most \([^,]*\), .*/\1/p" err
 }
 
-# lengths FILE FILE: the largest difference of (omega, n) in two files of a ball, each vector relative to the shorter one
-lengths() {
-    rows "$1" >a
-    rows "$2" | paste -d, a - | awk -F, '{
-        for (v = 2; v <= 5; v += 3) {
-            a = b = d = 0
-            for (i = v; i < v + 3; i++) { a += $i ^ 2; b += $(i + 7) ^ 2; d += ($i - $(i + 7)) ^ 2 }
-            d = sqrt(d / (a < b ? a : b)); if (d > worst) worst = d
-        } } END { print NR ? worst : 1 }'
-}
 at_most "estimate at 1e-12" "$(estimate '(omega, n)')" 1e-11
 check "how it was found" grep -q "^isoroll: errors are relative, in 11 rows: from the same orbit by taylor_extended" err
-run 0 run scene.yaml --method taylor_extended --tol 1e-15 --as both
-cp out exact.csv
-for tolerance in 1e-3 1e-6 1e-9 1e-12; do
-    run 0 run scene.yaml --tol $tolerance --as both --verbose
-    bound=0
-    for what in "(omega, n)" "(M, gamma)" tau s; do
-        check "an estimate at $tolerance: $what" test -n "$(estimate "$what")"
-        bound=$(larger "$bound" "$(estimate "$what")")
-    done
-    error=$(difference exact.csv out)
-    bound=$(awk -v b="$bound" 'BEGIN { print 1.8 * b }') # difference is relative to the largest component, not to the length
-    at_most "the estimate covers the error at $tolerance" "$error" "$bound"
-    at_most "and is not much larger" "$bound" "$(awk -v e="$error" 'BEGIN { print 10 * e + 1e-12 }')"
+run 0 run scene.yaml --tol 1e-3 --as both --verbose
+for what in "(omega, n)" "(M, gamma)" tau s; do
+    check "an estimate of $what (how good it is: test_error)" test -n "$(estimate "$what")"
 done
-at_most "the estimate at 1e-3 is large" 1e-6 "$("$isoroll" run scene.yaml --tol 1e-3 --verbose 2>err >out; estimate '(omega, n)')"
-# "at most" holds for every row: here the error is large for moments, between rows that are far apart
-cat >turns.yaml <<END
-reduced: {k: 1, J: [400, 71, 1]}
-initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}
-time: {end: 50, step: 0.01}
-effects: {field: {linear: [0.3, -0.5, 0.2]}}
-END
-run 0 run turns.yaml --method taylor_extended --tol 1e-15
-cp out exact.csv
-run 0 run turns.yaml --tol 1e-9 --verbose
-check "all rows are looked at" grep -q "^isoroll: errors are relative, in 5001 rows: " err
-at_most "the estimate covers the error of every row" "$(lengths exact.csv out)" "$(estimate '(omega, n)')"
+at_most "the estimate at 1e-3 is large" 1e-6 "$(estimate '(omega, n)')"
 sed 's/k: -1,/k: -1, D: 0.5,/' scene.yaml >stiff.yaml
 echo "effects: {twist: {resistance: 100}}" >>stiff.yaml
 run 0 run stiff.yaml --verbose --tol 1e-9
@@ -228,28 +165,7 @@ check "an estimate for a stiff model" grep -q "from the same orbit by bsimp at t
 run 0 run stiff.yaml --verbose --tol 1e-14
 check "nothing finer is said" grep -q "^isoroll: error not known: there is nothing finer than bsimp at 1e-14" err
 
-# --- a ball one can hold, and the same by its k and J
-cat >physical.yaml <<END
-ball: {mass: 2, radius: 0.5, inertia: [0.5, 0.75, 1]}
-surface: {kind: shell, radius: 0.25}
-initial: {normal: [0.6, 0, 0.8], angular_velocity: [0.8, 1.5, -0.6]}
-time: {end: 20, step: 2}
-END
-scene -1 "1, 1.25, 1.5" "0.8, 1.5, -0.6" "0.6, 0, 0.8" 20 2 >reduced.yaml
-run 0 run physical.yaml --as both
-cp out a
-run 0 run reduced.yaml --as both
-check "physical and reduced scene" cmp a out
-
-# --- extreme units: J in 1e-30, angular velocity in 1e150 of an order-one problem
-scene -1 "1.4e-30, 2.1e-30, 3.0e-30" "0.9e150, -0.3e150, -0.225e150" "$normal" 1e-149 1e-150 >extreme.yaml
-run 0 run extreme.yaml
-{ columns out; rows out | awk -F, -v OFS=, '{ print $1 * 1e150, u($2), u($3), u($4), $5, $6, $7 }
-    function u(x) { return sprintf("%.17g", x * 1e-75 * 1e-75) }'; } >a
-at_most "extreme units" "$(difference ball.csv a)" 1e-11
-
 # --- refusals that need the scene
-refuses 3 "<stdin>:1:1" run - </dev/null
 refuses 2 "1e8 rows" run scene.yaml --step 1e-9
 refuses 5 "cannot open" run folder/absent.yaml
 # methods that cannot be projected say when they have lost the energy, which they do on a very long body's point

@@ -1,7 +1,8 @@
 #!/bin/sh
 # tables.sh ISOROLL - every table says where it comes from: the scene, the version and the command are in its lines,
 # and what is made again from these lines alone has the same rows, to the byte. Each kind of table, as CSV and as HDF5:
-# `plot` draws it, and `check`, `convert` and `view` take it if its rows are states.
+# it has the columns that `list tables` tells, `plot` draws it, and `check`, `convert` and `view` take it if its rows
+# are states.
 . "$(dirname "$0")/lib.sh"
 
 # say FILE KEY: the value of a line "# KEY: VALUE"
@@ -145,9 +146,32 @@ make() {
     esac
 }
 
+# listed KIND: its columns as `list tables` tells them, as in the head of a table
+listed() {
+    awk -v kind="$1" '/^  [^ ]/ { own = substr($0, 3, 22); sub(/ *$/, "", own) }
+                      /^    [^ ]/ && own == kind { printf "%s%s", comma, $1; comma = "," }' tables
+}
+
+# words_of KIND: what stands in its picture
+words_of() {
+    case $1 in
+    section) echo "3 orbits" ;;
+    chaos) echo "undecided" ;;
+    periodic) echo "unstable" ;;
+    "periodic follow") echo ">trace<" ;;
+    "periodic chart") echo "least" ;;
+    splitting) echo "Splitting of the separatrix .*J = (1, 2, 5)" ;;
+    cost) echo "processor time in seconds" ;;
+    esac
+}
+
 # take KIND FILE: what the commands do with it. Pictures and converted rows go to FILE.svg and FILE.rows
 take() {
-    [ -z "$draws" ] || run 0 plot "$2" -o "$2.svg"
+    if [ -n "$draws" ]; then
+        run 0 plot "$2" -o "$2.svg"
+        check "the picture of $1" grep -q "$(words_of "$1")" "$2.svg"
+        steady "$2.svg"
+    fi
     case $1 in
     trajectory | section | periodic)
         run 0 check "$2" --max 1e-9
@@ -170,12 +194,20 @@ if has gnuplot "pictures of tables"; then draws=yes; fi
 if "$isoroll" view ball.yaml -o page.html 2>/dev/null; then views=yes; else skip "pages of tables" "this build has no three.js"; fi
 if "$isoroll" run ball.yaml -o probe.h5 2>/dev/null; then endings="csv h5"; else skip "HDF5" "this build has none"; fi
 run 0 list tables
-{ printf '%s\n' trajectory section sweep && sed -n 's/^  \([a-z ]*[a-z]\)  *a row is .*/\1/p' out; } >kinds
+cp out tables
+check "each column has a meaning" awk '/^    [^ ]/ && NF < 3 { print; bad = 1 } END { exit bad }' tables
+{ printf '%s\n' trajectory sweep && sed -n 's/^  \([a-z ]*[a-z]\)  *a row is .*/\1/p' out; } >kinds
 check "tables of studies are listed" test "$(wc -l <kinds)" -ge 9
 while read -r kind; do
     for ending in $endings; do
         make "$kind" table.$ending
         take "$kind" table.$ending
+        case $ending$kind in h5* | csvtrajectory | csvsweep) continue ;; esac
+        checks=$((checks + 1))
+        case $(columns table.csv), in # those of a section may have the states behind them
+        "$(listed "$kind")",*) ;;
+        *) fail "$kind: columns $(columns table.csv), not $(listed "$kind")" ;;
+        esac
     done
     [ "$endings" != csv ] && [ "$kind" != cost ] || continue # the times of cost are never the same twice
     check "$kind: HDF5 and CSV are converted to the same rows" test ! -e table.csv.rows -o \

@@ -28,10 +28,10 @@ says_words() {
     "$isoroll" periodic open.yaml --chart J2 --steps 3 >chart.out
     "$isoroll" splitting open.yaml --digits double --k 0.5,1 >splitting.out
     "$isoroll" integrals open.yaml --degree 2 >integrals.out
-    "$isoroll" cost open.yaml --quick --method taylor --horizons=2 >cost.out
+    "$isoroll" cost open.yaml --quick --method taylor >cost.out
 }
 
-for width in 44 80 120; do
+for width in 44 $(length "" 80) 120; do
     mkdir -p "at_$width"
     for file in scene.yaml open.yaml sweep.yaml both.csv; do cp $file "at_$width/"; done
     (cd "at_$width" && COLUMNS=$width && export COLUMNS && says_words 2>/dev/null)
@@ -59,7 +59,7 @@ done
 # --- a pipe gets whole lines; help is for people there, too
 unset COLUMNS
 "$isoroll" explain open.yaml | sed '/^cost of/d' >whole
-check "a line of a pipe is whole" test "$(wc -l <whole)" -lt "$(wc -l <at_80/explain_16_sections.out)"
+check "a line of a pipe is whole" test "$(wc -l <whole)" -lt "$(wc -l <at_44/explain_16_sections.out)"
 check "so is a message" test "$("$isoroll" run absent.yaml 2>&1 | wc -l)" -eq 1
 for width in 44 80 120; do
     rm -f shown

@@ -23,8 +23,8 @@ sed 's/attitude: {}/attitude: {quaternion: [1, 0, 0, 0]}/' effects.yaml >before.
 sed '1a # radius: 0.03' 2_effects.csv >radius && mv radius 2_effects.csv
 sed '1a # radius: 0.5' 2_plane.csv >radius && mv radius 2_plane.csv
 
-files=$(ls [1-9]_*.csv)
-[ -z "$hdf5" ] || files="$files $(ls [1-9]_*.h5)"
+files=$(ls [1-5]_*.csv)
+[ -z "$hdf5" ] || files="$files $(ls [1-5]_*.h5)"
 for file in $files; do
     # one step from row to row has a relative error of 1e-12 at most; ten rows, and the two models' scales
     run 0 check "$file" --max 1e-10
@@ -49,12 +49,9 @@ for file in $files; do
 done
 # the rows of HDF5 files, through Python
 export ISOROLL_LIBRARY="${ISO_BUILD-}/libisoroll.so.0" PYTHONPATH="$source/apps/python" PYTHONDONTWRITEBYTECODE=1
-python=
-for candidate in python3 /usr/bin/python3; do
-    [ -n "$python" ] || ! "$candidate" -c "import isoroll" 2>/dev/null || python=$candidate
-done
+find_python isoroll
 if [ -n "$hdf5" ] && [ -n "$python" ]; then
-    for file in [3-9]_*.h5; do
+    for file in [3-5]_*.h5; do
         now=${file#*_} now=${now%.*}
         case $file in [2-4]_effects*) now=before ;; esac
         "$python" -c "import isoroll; isoroll.write(isoroll.read('$file'), 'old.csv')" 2>err || fail "$file in Python"
@@ -81,6 +78,21 @@ if [ -n "$hdf5" ]; then
     check "the same defects" cmp big/checked little/checked
     ! command -v gnuplot >/dev/null || check "the same picture of a sweep" cmp big/sweep.svg little/sweep.svg
 fi
+
+# --- sweeps, with a point that failed: their own layout of HDF5, and the line "columns" of CSV
+numbers_of() { grep -v '^#' "$1"; }
+if [ -n "$hdf5" ]; then
+    run 1 sweep --merge 6_sweep_1.h5 6_sweep_2.h5 -o merged.csv
+    says "1 points failed; the first is point 1: <sweep>:1:22: k = 0"
+    numbers_of 6_sweep.csv >wanted
+    numbers_of merged.csv >merged
+    check "the parts of a sweep" cmp wanted merged
+    run 1 sweep --merge 6_sweep_1.h5 6_sweep_2.h5 -o merged.h5
+fi
+for file in 6_sweep.csv ${hdf5:+6_sweep.h5 merged.h5}; do
+    ! command -v gnuplot >/dev/null || { run 0 plot $file --value state_n1 -o "$file.svg"
+        check "$file: the picture" cmp "$file.svg" 6_sweep.csv.svg; }
+done
 
 # --- a section that does not tell the order of its columns
 if [ -n "$hdf5" ]; then

@@ -60,6 +60,16 @@ run 0 view many.csv -o many.html
 check "rows are thinned out, and the page says so" grep -q '"total":30001,"every":7,' many.html
 at_most "a page of many rows" "$(bytes many.html)" 3000000
 
+# --- an attitude is listed if the scene or the file states one; each page computes one to draw the ball
+for stated in false true; do
+    { cat scene.yaml && { [ $stated = false ] || echo 'effects: {attitude: {}}'; }; } >stated.yaml
+    "$isoroll" run stated.yaml -o stated.csv
+    for file in stated.yaml stated.csv; do
+        run 0 view $file -o stated.html
+        check "$file: stated, $stated" grep -q "\"attitude\":$stated,\"k\":" stated.html
+    done
+done
+
 # --- nothing is loaded
 policy="default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; script-src 'unsafe-inline' *"
 tr -d '\n' <page.html >line.html
@@ -108,10 +118,6 @@ refuses 3 "at least two rows" view a.csv -o a.html
 refuses 3 "row 4: its t = 0.1 is out of order" view a.csv -o a.html
 sed 's/^0.5,[^,]*,/0.5,nan,/' ball.csv >a.csv
 refuses 3 "expected a finite number for omega1" view a.csv -o a.html
-printf 'reduced: {k: 0}\n' >a.yaml
-refuses 3 "a.yaml:1:" view a.yaml -o a.html
-refuses 5 "cannot open 'absent.yaml'" view absent.yaml -o a.html
-refuses 5 "cannot open 'absent.csv'" view absent.csv -o a.html
 refuses 5 "absent/page.html" view scene.yaml -o absent/page.html
 check_not "no page is left" test -e a.htm
 sed 's/,l,x$/,l,y/' section.csv >b.csv
@@ -120,33 +126,22 @@ sed '/^# eps/d; /^# h:/d' section.csv >b.csv
 refuses 3 "'isoroll section --as ball'" view b.csv -o b.html
 sed '20s/,.*/,x/' section.csv >b.csv
 refuses 3 "b.csv:20:" view b.csv -o b.html
-for number in 3.5 -3 1e+30; do
-    sed "20s/^[0-9]*/$number/" section.csv >b.csv
-    refuses 3 "b.csv: row 3: expected a whole number of 0 or more for orbit, found $number" view b.csv -o b.html
-done
+sed "20s/^[0-9]*/3.5/" section.csv >b.csv
+refuses 3 "b.csv: row 3: expected a whole number of 0 or more for orbit, found 3.5" view b.csv -o b.html
 check_not "no page of bad input" test -e b.html
 
 if "$isoroll" section scene.yaml --starts 30 --crossings 300 --quiet -o section.h5 2>/dev/null; then
     run 0 view section.h5 -o section5.html
     check "a section in HDF5 gives the same page" test "$(sed 's/section.h5/section.csv/' section5.html | cksum)" = "$(cksum <section.html)"
-    printf 'x' >broken.h5
-    refuses 3 "broken.h5: this is not an HDF5 file" view broken.h5 -o b.html
-    if has python3 "HDF5 of too many rows and columns"; then
-        rows=$(grep -c '^[0-9]' section.csv)
-        python3 -c "import struct, sys
-at, to = (struct.pack('<Q', int(rows)) for rows in ($rows, 1e12))
-sys.stdout.buffer.write(open('section.h5', 'rb').read().replace(at, to))" >sparse.h5
-        refuses 3 "sparse.h5: 1000000000000 rows of 7 columns are more than 1e+08 numbers" view sparse.h5 -o b.html
-        if python3 -c "import h5py" 2>/dev/null; then
-            python3 -c "import h5py
+    if python3 -c "import h5py" 2>/dev/null; then
+        python3 -c "import h5py
 with h5py.File('wide.h5', 'w') as f:
     f.attrs['format'] = 'isoroll section 1'
     for i in range(64):
         f['section/z%02d' % i] = [[1e99] * 4] * 2048"
-            refuses 3 "wide.h5: more than 64 columns" view wide.h5 -o b.html
-        else
-            skip "HDF5 of too many columns" "python3-h5py is not installed"
-        fi
+        refuses 3 "wide.h5: more than 64 columns" view wide.h5 -o b.html
+    else
+        skip "HDF5 of too many columns" "python3-h5py is not installed"
     fi
 fi
 refuses 3 "the last time is 0" view - -o b.html <<END
@@ -175,9 +170,6 @@ time: {end: 3, step: 0.1}
 effects: {gravity: {mgb: -0.7, up: [0, 0.6, 0.8]}}
 END
 run 0 view bowl.yaml -o bowl.html
-sed 's/step: 0.1/step: 0.0005/' bowl.yaml >many.yaml # more rows than a page has
-run 0 view many.yaml -o many.html
-check "of 6001 rows, too" grep -q '"alone":"[^"]*gravity.*"total":6001,"every":2,' many.html
 check "the page says why there is no point" grep -q '"alone":"[^"]*gravity' bowl.html
 "$isoroll" run bowl.yaml -o bowl.csv
 run 0 view bowl.csv -o bowl2.html

@@ -22,7 +22,7 @@ def scene_of(head, effects="", start=START, end=20):
 
 REDUCED = "reduced: {{k: {}, J: [1, 2, 5]}}"
 PAGES = {
-    "neumann": scene_of(REDUCED.format(-1)),
+    "neumann": scene_of(REDUCED.format(-1), "effects: {attitude: {}}\n"),
     "braden": scene_of(REDUCED.format(1)),
     "chaotic": scene_of(REDUCED.format(0.5), end=100),
     "parted": scene_of(REDUCED.format(0.5), end=1000),
@@ -72,6 +72,7 @@ def words(browser):
         title, about = text(page, "title"), text(page, "about")
         check(f"{name}: the title says what it is", "ball" in title and "point" in title and ".yaml" not in title, title)
         check(f"{name}: the file is named below", name + ".yaml" in about, about)
+        check(f"{name}: an attitude is listed where it is stated", ("attitude" in about) == (name == "neumann"), about)
         formula = text(page, "right-words")
         check(f"{name}: the formula of V", "V = −ε (γ, Jγ)" in formula, formula)
         power = page.evaluate("(document.querySelector('#right-words sup') || {textContent: '1'}).textContent")

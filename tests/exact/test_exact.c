@@ -193,45 +193,6 @@ static void check_small_oscillations(void)
     gsl_test(!(worst < 1e-13), "small oscillations of 1e-5 ... 1e-12, to their own size: %.1e", worst);
 }
 
-static void check_refusals(void)
-{
-    iso_exact *exact;
-    orbit o = orbit_sample(ctx, &iso_system_point, 0.5, orbit_J, 1);
-    gsl_test(iso_exact_create(ctx, &o.model.problem, o.y0, all_clocks, &exact) != ISO_BAD_ARGUMENT || exact,
-             "k = 0.5: %s", iso_context_message(ctx));
-    o = orbit_sample(ctx, &iso_system_point, 1, orbit_J, 1);
-    double y[ISO_STATE], clocks[ISO_CLOCKS];
-    gsl_test(iso_exact_create(ctx, &o.model.problem, o.y0, all_clocks, &exact) != ISO_OK, "k = 1 is solved");
-    gsl_test(iso_exact_at(ctx, exact, ISO_CLOCK_T, INFINITY, y, clocks) != ISO_BAD_ARGUMENT,
-             "a time that is infinite: %s", iso_context_message(ctx));
-    iso_exact_free(exact);
-    o.model.problem.effects.on[ISO_FIELD] = true;
-    gsl_test(iso_exact_create(ctx, &o.model.problem, o.y0, all_clocks, &exact) != ISO_BAD_ARGUMENT || exact,
-             "with a field: %s", iso_context_message(ctx));
-}
-
-/* Clocks that were not asked for are NaN in every form. */
-static void check_clocks(void)
-{
-    static const bool only_s[ISO_CLOCKS] = {[ISO_CLOCK_S] = true};
-    static const double bodies[][3] = {{1.4, 2.1, 3}, {2, 2, 3}, {2, 2.0000000000000004, 2.000000000000001}};
-    for (int i = 0; i < 3; i++) {
-        iso_exact *exact;
-        double y[ISO_STATE], clocks[ISO_CLOCKS], all[ISO_CLOCKS];
-        orbit o = orbit_sample(ctx, &iso_system_point, -1, bodies[i], 1);
-        double *const at[2] = {clocks, all};
-        for (int every = 0; every < 2; every++) {
-            if (iso_exact_create(ctx, &o.model.problem, o.y0, every ? all_clocks : only_s, &exact) != ISO_OK) return;
-            iso_exact_at(ctx, exact, ISO_CLOCK_S, 3, y, at[every]);
-            iso_exact_free(exact);
-        }
-        gsl_test(!(clocks[ISO_CLOCK_S] == 3 && isnan(clocks[ISO_CLOCK_T]) && isnan(clocks[ISO_CLOCK_TAU])),
-                 "J = %g %g %g: a clock that was not asked for is NaN", bodies[i][0], bodies[i][1], bodies[i][2]);
-        gsl_test(!(all[ISO_CLOCK_S] == 3 && all[ISO_CLOCK_T] > 0 && all[ISO_CLOCK_TAU] > 0),
-                 "and the others are not");
-    }
-}
-
 static void check_nearly_round(void)
 {
     enum { ORBITS = 24 };
@@ -265,8 +226,6 @@ int main(void)
     check_reference();
     check_angles();
     check_homoclinic();
-    check_refusals();
-    check_clocks();
     check_small_oscillations();
     check_nearly_round();
     iso_random_free(random);

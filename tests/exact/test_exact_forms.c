@@ -270,10 +270,10 @@ static void check_not_finite(void)
 static void check_times(void)
 {
     static const bool only_t[ISO_CLOCKS] = {true, false, false};
-    static const exact_family list[3] = {EXACT_ANY, EXACT_AXIS, EXACT_IN_PLANE};
+    static const exact_family list[4] = {EXACT_ANY, EXACT_AXIS, EXACT_IN_PLANE, EXACT_NEAR_EQUAL};
     iso_random *random = iso_random_create(43);
-    for (int i = 0; i < 3; i++) {
-        const orbit o = exact_orbit(ctx, list[i], 0, 0, random);
+    for (int i = 0; i < 4; i++) {
+        const orbit o = exact_orbit(ctx, list[i], 0, 1e-15, random); /* the last one: three equal moments, nearly */
         iso_exact *exact;
         double y[ISO_STATE], c[ISO_CLOCKS];
         if (iso_exact_create(ctx, &o.model.problem, o.y0, only_t, &exact) != ISO_OK) exit(1);

@@ -20,8 +20,8 @@ static void set_rotor(orbit *o, const double K[3])
     orbit_clocks(o, ISO_CLOCK_S, true, true, false);
 }
 
-/* The i-th orbit: k = 1, -1, or of either sign from 1/5 to 5; |K| from 1e-3 to 3 times what moves; every third one is
- * off the level H = 0. */
+/* The i-th orbit: k = 1, -1, or of either sign from 1/5 to 5; |K| from 1e-3 to 3 times k^2 |M| and a moment; every third
+ * one is off the level H = 0. */
 static orbit random_orbit(family kind, int i, iso_random *random)
 {
     orbit o = {.ctx = ctx, .model.system = &iso_system_point};
@@ -89,6 +89,46 @@ static void note(int i, const orbit *point, laws_worst *worst, laws_worst *clock
     iso_integrator_free(it);
     iso_exact_free(exact);
     iso_exact_free(moved);
+}
+
+/* |K| from 1e-2 to 1e8 times k^2 |M| max J, and times that are short beside a turn in the field, about one, and many
+ * turns, against taylor_quad: each clock within 64 roundings of a power 1/k, whatever K is. M turns with the field: it
+ * has 1e-15 for each unit of |K|, for that is what a rounding of gamma changes it by. */
+static void check_strong(void)
+{
+    static const double turns[4] = {0.01, 0.3, 2, -7};
+    const iso_method *quad = iso_method_find("taylor_quad");
+    laws_worst worst = {0}, clock_worst = {0};
+    if (!quad) return; /* a compiler without its numbers */
+    iso_random *random = iso_random_create(36);
+    for (int i = 0; i < tests_length(40, 400); i++) {
+        const double ratio = pow(10, iso_random_uniform(random, -2, 8));
+        orbit o = random_orbit((family)(i % FAMILIES), i / FAMILIES, random);
+        double *K = ROTOR_MOMENTUM(&o.model.problem.effects);
+        const double k = o.model.problem.p.k, allowed = 64 * DBL_EPSILON * (1 + 1 / fabs(k));
+        scale(K, k * k * norm(o.y0) * max3(o.model.problem.p.J) * ratio / norm(K));
+        set_rotor(&o, K);
+        iso_exact *exact = exact_create(&o);
+        exact_in_clock(&o, (iso_clock)(i % ISO_CLOCKS));
+        iso_integrator *it = orbit_start(&o, quad, &(iso_method_options){.tolerance = 1e-15});
+        for (int j = 0; j < 4; j++) {
+            const double time = turns[j] * o.unit / fmax(1, ratio);
+            double expected[ISO_MAX_STATE], y[ISO_MAX_STATE], clocks[ISO_CLOCKS];
+            if (iso_exact_at(ctx, exact, o.model.clock, time, y, clocks) != ISO_OK) y[0] = NAN;
+            if (iso_integrator_at(it, time, expected) != ISO_OK) expected[0] = NAN;
+            for (int c = 0; c < o.model.clocks; c++)
+                laws_note(&clock_worst, fabs(clocks[o.model.clock_of[c]] / expected[ISO_STATE + c] - 1), allowed,
+                          &o.model.problem.p, family_names[i % FAMILIES]);
+            copy(expected + ISO_STATE, y + ISO_STATE, o.model.clocks);
+            laws_note(&worst, orbit_error(&o, y, expected), 1e-12 + 1e-15 * ratio, &o.model.problem.p,
+                      family_names[i % FAMILIES]);
+        }
+        iso_integrator_free(it);
+        iso_exact_free(exact);
+    }
+    laws_report(&worst, "strong rotors");
+    laws_report(&clock_worst, "their clocks");
+    iso_random_free(random);
 }
 
 static void check_random(void)
@@ -233,6 +273,7 @@ int main(void)
     ctx = iso_context_create();
     iso_random *random = iso_random_create(35);
     check_random();
+    check_strong();
     check_limit(random);
     check_angles(random);
     check_actions(random);

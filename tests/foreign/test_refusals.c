@@ -1,5 +1,6 @@
-/* One situation has one status and one sentence, whoever is asked: each study is given a scene that does not suit it,
- * and arguments that are wrong. A row of the table is a situation; a * in its sentence is the study's own part. */
+/* One situation has one status, one field and one sentence, whoever is asked: each study is given a scene that does
+ * not suit it, and arguments that are wrong. A row of the table is a situation; a * in its sentence is the study's own
+ * part. */
 #include <fnmatch.h>
 #include <gsl/gsl_test.h>
 #include <stdio.h>
@@ -9,8 +10,8 @@
 #include "io/scene_file.h"
 #include "orbit/crossings.h"
 #include "study/chaos/chaos.h"
-#include "study/section/measure.h"
 #include "study/section/section.h"
+#include "study/section/section_impl.h"
 #include "study/study.h"
 #include "study/tables/tables.h"
 
@@ -44,59 +45,62 @@ typedef struct situation {
     const char *what, *scene;
     const char *asked; /* "study" or "study option value", with commas between */
     iso_status status;
+    const char *about;    /* iso_context_about() */
     const char *sentence; /* a pattern of fnmatch() */
 } situation;
 
 static const situation situations[] = {
-    {"rolling resistance", rolling, "section,chaos,frequencies", ISO_BAD_INPUT,
+    {"rolling resistance", rolling, "section,chaos,frequencies", ISO_BAD_INPUT, "rolling_resistance",
      "'rolling_resistance' takes energy from the ball: a motion that comes to rest *"},
-    {"friction of the twist", twisting, "section,chaos,frequencies", ISO_BAD_INPUT,
+    {"friction of the twist", twisting, "section,chaos,frequencies", ISO_BAD_INPUT, "twist",
      "'twist' takes energy from the ball: a motion that comes to rest *"},
-    {"an effect", field, "periodic,splitting", ISO_BAD_INPUT,
+    {"an effect", field, "periodic,splitting", ISO_BAD_INPUT, "field",
      "* only of the free ball and of the point, on every level of its energy: remove 'field'"},
-    {"an effect", field, "integrals", ISO_BAD_INPUT,
+    {"an effect", field, "integrals", ISO_BAD_INPUT, "field",
      "* only of the free ball and of the point, on every level of its energy and in a magnetic field: remove "
      "'field'"},
-    {"weight", tilted, "periodic,splitting", ISO_BAD_INPUT,
+    {"weight", tilted, "periodic,splitting", ISO_BAD_INPUT, "gravity",
      "* only of the free ball and of the point, on every level of its energy: remove 'gravity'"},
-    {"a tilted plane", tilted, "chaos,frequencies", ISO_BAD_INPUT,
+    {"a tilted plane", tilted, "chaos,frequencies", ISO_BAD_INPUT, "gravity",
      "on a tilted plane the ball rolls away ever faster: its motion *"},
-    {"no point", heavy, "section model point,chaos model both,section as both,compare", ISO_NOT_MAPPED,
+    {"no point", heavy, "section model point,chaos model both,section as both,compare", ISO_NOT_MAPPED, "gravity",
      "'gravity' breaks the isomorphism: *. There is no such point; the ball alone can be had"},
-    {"a level that drives the point off", level, "periodic,splitting", ISO_BAD_INPUT,
+    {"a level that drives the point off", level, "periodic,splitting", ISO_BAD_INPUT, "level",
      "* only where the point's coupling eps is above 0; here it is *"},
-    {"eps below 0", repelled, "periodic,splitting", ISO_BAD_INPUT,
+    {"eps below 0", repelled, "periodic,splitting", ISO_BAD_INPUT, "level",
      "* only where the point's coupling eps is above 0; here it is -1*"},
-    {"a ball at rest", resting, "section,chaos,frequencies,periodic,cloud", ISO_BAD_INPUT, "a ball at rest *"},
-    {"a point at rest", resting_point, "section,chaos,frequencies,periodic", ISO_BAD_INPUT, "a point at rest *"},
-    {"a ball that starts at rest", resting_in_field, "chaos,cloud", ISO_BAD_INPUT,
+    {"a ball at rest", resting, "section,chaos,frequencies,periodic,area", ISO_BAD_INPUT, "angular_velocity",
+     "a ball at rest *"},
+    {"a ball at rest", resting, "compare", ISO_NOT_MAPPED, "angular_velocity", "a ball at rest *"},
+    {"a point at rest", resting_point, "section,chaos,frequencies,periodic", ISO_BAD_INPUT, "M", "a point at rest *"},
+    {"a ball that starts at rest", resting_in_field, "chaos,area", ISO_BAD_INPUT, "angular_velocity",
      "the ball starts at rest, where *: start it a little later"},
-    {"a point that starts at rest", pulled, "chaos", ISO_BAD_INPUT,
+    {"a point that starts at rest", pulled, "chaos", ISO_BAD_INPUT, "M",
      "the point starts at rest, where *: start it a little later"},
-    {"equal moments", equal, "periodic,splitting", ISO_BAD_INPUT,
+    {"equal moments", equal, "periodic,splitting", ISO_BAD_INPUT, "J",
      "J1 and J2 are equal: a rotation about axis 3 carries every orbit along, so *"},
     {"other starts, and an effect", field, "section starts 2,section at 0;0,chaos starts 2,chaos at 0;0",
-     ISO_BAD_INPUT,
+     ISO_BAD_INPUT, "field",
      "no other starts can be given here: the section has a chart only where nothing acts but a level or a magnetic "
      "field, without "
      "'field'"},
-    {"a start outside the chart", free_ball, "section at 0;1.5,chaos at 0;1.5", ISO_BAD_INPUT,
+    {"a start outside the chart", free_ball, "section at 0;1.5,chaos at 0;1.5", ISO_BAD_INPUT, "at",
      "l, x = 0, 1.5 is outside the chart: l is any angle, x is between -1 and 1"},
-    {"a start on the boundary", free_ball, "section at 0;-1,chaos at 0;-1", ISO_BAD_INPUT,
+    {"a start on the boundary", free_ball, "section at 0;-1,chaos at 0;-1", ISO_BAD_INPUT, "at",
      "l, x = 0, -1 is the rotation about axis 3, in the plane n_3 = 0 itself: it is the boundary of the section, and "
      "never crosses it"},
-    {"a start where the level closes the chart", pulled, "section axis 2 at 0;0.5", ISO_BAD_INPUT,
+    {"a start where the level closes the chart", pulled, "section axis 2 at 0;0.5", ISO_BAD_INPUT, "at",
      "n_2 = 0 is closed at l = 0 on the level H = *: the potential there is not below H"},
-    {"no axis", free_ball, "section axis 4,chaos axis 0,section axis 12", ISO_BAD_ARGUMENT,
+    {"no axis", free_ball, "section axis 4,chaos axis 0,section axis 12", ISO_BAD_ARGUMENT, "",
      "--axis '*': expected auto, 1, 2 or 3"},
     {"no axis of a program", free_ball,
-     "iso_section_run axis,iso_chaos_run axis,iso_crossings_create axis,iso_measure_returns axis", ISO_BAD_ARGUMENT,
-     "axis 4 is not 1, 2 or 3"},
-    {"no tolerance", free_ball, "section tol 2,chaos tol 1e-16,integrals tol 0.2", ISO_BAD_ARGUMENT,
+     "iso_section_run axis,iso_chaos_run axis,iso_crossings_create axis,iso_section_areas_find axis",
+     ISO_BAD_ARGUMENT, "axis", "axis 4 is not 1, 2 or 3"},
+    {"no tolerance", free_ball, "section tol 2,chaos tol 1e-16,integrals tol 0.2", ISO_BAD_ARGUMENT, "tol",
      "tol is '*': expected a number in [[]1e-15, 0.1]"},
     {"no tolerance of a program", free_ball,
      "iso_section_run tolerance,iso_chaos_run tolerance,iso_crossings_create tolerance", ISO_BAD_ARGUMENT,
-     "tolerance 2 is not in [[]1e-15, 0.1]"},
+     "tolerance", "tolerance 2 is not in [[]1e-15, 0.1]"},
 };
 
 /* --- who is asked ----------------------------------------------------------------------------------------------- */
@@ -123,10 +127,8 @@ static iso_status section_run(const iso_scene *scene, bool axis)
     iso_section_options o = iso_section_defaults();
     iso_section_sink sink = {0};
     iso_section_result result;
-    if (axis)
-        o.axis = 3;
-    else
-        o.tolerance = 2;
+    if (axis) o.axis = 3;
+    if (!axis) o.tolerance = 2;
     return iso_section_run(ctx, scene, &o, &sink, &result);
 }
 
@@ -134,10 +136,8 @@ static iso_status chaos_run(const iso_scene *scene, bool axis)
 {
     iso_chaos_options o = iso_chaos_defaults();
     iso_chaos *c = NULL;
-    if (axis)
-        o.axis = 3;
-    else
-        o.tolerance = 2;
+    if (axis) o.axis = 3;
+    if (!axis) o.tolerance = 2;
     const iso_status status = iso_chaos_run(ctx, scene, &o, &c);
     iso_chaos_free(c);
     return status;
@@ -148,22 +148,21 @@ static iso_status crossings_create(const iso_scene *scene, bool axis)
     const iso_batch_orbit orbit = {.params = &scene->params, .start = &scene->start};
     iso_crossings_options o = iso_crossings_defaults();
     iso_crossings *c = NULL;
-    if (axis)
-        o.axis = 3;
-    else
-        o.tolerance = 2;
+    if (axis) o.axis = 3;
+    if (!axis) o.tolerance = 2;
     const iso_status status = iso_crossings_create(ctx, &orbit, 1, &o, &c);
     iso_crossings_free(c);
     return status;
 }
 
-static iso_status cloud(const iso_scene *scene, bool axis)
+static iso_status area(const iso_scene *scene, bool axis)
 {
-    iso_measure_options o = iso_measure_defaults();
-    iso_measure found;
-    if (!axis) return iso_measure_flow(ctx, scene, &o, &found);
-    o.axis = 3;
-    return iso_measure_returns(ctx, scene, &o, &found);
+    iso_section_areas found;
+    iso_section_options o = iso_section_defaults();
+    if (axis) o.axis = 3;
+    const iso_status status = iso_section_areas_find(ctx, scene, &o, NULL, NULL, &found);
+    iso_section_areas_free(&found);
+    return status;
 }
 
 static iso_status ask(const iso_scene *scene, const char *name, char *options)
@@ -172,8 +171,8 @@ static iso_status ask(const iso_scene *scene, const char *name, char *options)
         const char *name;
         iso_status (*call)(const iso_scene *scene, bool flag);
         const char *flag; /* the word that sets it */
-    } calls[] = {{"cloud", cloud, ""},
-                 {"iso_measure_returns", cloud, "axis"},
+    } calls[] = {{"area", area, ""},
+                 {"iso_section_areas_find", area, "axis"},
                  {"iso_section_run", section_run, "axis"},
                  {"iso_chaos_run", chaos_run, "axis"},
                  {"iso_crossings_create", crossings_create, "axis"}};
@@ -205,6 +204,8 @@ static void hold(const situation *s)
         const char *words = status == ISO_OK ? "it is done" : iso_context_message(ctx);
         gsl_test(status != s->status || fnmatch(s->sentence, words, 0) != 0, "%s: %s: %s: %s", s->what, one,
                  iso_status_text(status), words);
+        gsl_test(strcmp(iso_context_about(ctx), s->about) != 0, "%s: %s: about '%s'", s->what, one,
+                 iso_context_about(ctx));
     }
 }
 

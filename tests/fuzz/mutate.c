@@ -20,40 +20,13 @@ static size_t number_at(const uint8_t *data, size_t size, size_t at)
 
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed)
 {
-    static const char *const numbers[] = {"0",
-                                          "-0",
-                                          "1",
-                                          "-1",
-                                          "0.5",
-                                          "-0.4",
-                                          "2",
-                                          "3.5",
-                                          "10",
-                                          "1e3",
-                                          "1e-3",
-                                          "1e-9",
-                                          "1e-15",
-                                          "1e15",
-                                          "1e-60",
-                                          "1e60",
-                                          "1e-300",
-                                          "1e300",
-                                          "5e-324",
-                                          "1.7e308",
-                                          "1e-6",
-                                          "0.999",
-                                          "1.0000000000000002",
-                                          "-1e9",
-                                          "0.6",
-                                          "0.8",
-                                          "100",
-                                          "7",
-                                          "1e-150",
-                                          "1e150",
-                                          "-0.25"};
-    enum { NUMBERS = sizeof numbers / sizeof *numbers };
-    const char *text = numbers[seed / 2 % NUMBERS];
-    const size_t start = size ? seed / 64 % size : 0, length = strlen(text);
+    static const char numbers[] =
+        "0 -0 1 -1 0.5 -0.4 2 3.5 10 1e3 1e-3 1e-9 1e-15 1e15 1e-60 1e60 1e-300 1e300 5e-324 "
+        "1.7e308 1e-6 0.999 1.0000000000000002 -1e9 0.6 0.8 100 7 1e-150 1e150 -0.25 ";
+    enum { NUMBERS = 31 };
+    const char *text = numbers;
+    for (unsigned i = seed / 2 % NUMBERS; i > 0; i--) text = strchr(text, ' ') + 1;
+    const size_t start = size ? seed / 64 % size : 0, length = strcspn(text, " ");
     for (size_t i = 0; seed % 2 && i < size; i++) {
         const size_t at = (start + i) % size, old = number_at(data, size, at);
         if (old == 0 || size - old + length > max_size) continue;

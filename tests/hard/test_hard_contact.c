@@ -20,21 +20,26 @@ static iso_params body(double k, const double J[3], double D)
     return p;
 }
 
-/* The first loss of contact up to `end`, and the steps; NAN: none. */
-static double loss(const hard_road *way, const iso_params *p, const iso_start *start, const iso_effects *e,
-                   double end, double *steps, bool *answered)
+typedef struct loss {
+    bool answered;
+    double time, steps; /* NAN: none */
+} loss;
+
+/* The first loss of contact up to `end`. */
+static loss find_loss(const hard_road *way, const iso_params *p, const iso_start *start, const iso_effects *e,
+                      double end)
 {
     iso_sample s;
     bool lost = false;
     iso_orbit *orbit = he_orbit(ctx, way, p, start, e);
-    *answered = orbit && iso_orbit_lost_contact(orbit, 0, end, &lost, &s) == ISO_OK;
-    *steps = orbit ? (double)iso_orbit_statistics(orbit).steps : 0;
+    const bool answered = orbit && iso_orbit_lost_contact(orbit, 0, end, &lost, &s) == ISO_OK;
+    const loss l = {answered, lost ? s.clock[ISO_CLOCK_T] : NAN,
+                    orbit ? (double)iso_orbit_statistics(orbit).steps : 0};
     iso_orbit_free(orbit);
-    return lost ? s.clock[ISO_CLOCK_T] : NAN;
+    return l;
 }
 
-/* --- a loop inside a sphere
- * ----------------------------------------------------------------------------------------- */
+/* --- a loop inside a sphere ------------------------------------------------------------------------------------- */
 
 /* In the plane of e and n, w = w3: with k = 2, J3 = 1, D = 1/2, mgb = -3/2 and (e,n) = -1, w3^2 = 9 + d at the lowest
  * place: w3^2 = 6 + d - 3 (e,n), and the pressure is 3 + d/2 - 3 (e,n). At the top it touches 0 for d = 0, and
@@ -72,6 +77,11 @@ static loop loop_with(double d)
     return l;
 }
 
+static loss loss_in_loop(const hard_road *way, const loop *l)
+{
+    return find_loss(way, &l->p, &l->start, &l->e, 2);
+}
+
 /* By d as small as the energy is known: 100 errors of steps; 1e-12 for taylor. Whether contact is lost is exact;
  * the time of a loss is off by the error of the pressure over its slope there, 3 w sin(angle) = about 3 sqrt(-d). */
 static void grazing(void)
@@ -80,43 +90,34 @@ static void grazing(void)
     hard_case("passing by",
               "wrong answers, and the time of a loss, by d = +-1e-12 (or 100 errors) past a double zero",
               "the pressure touches 0 from above at the top of a loop");
-    for (int i = 0; i < hard_ways; i++) {
-        const hard_road *way = &hard_way[i];
-        if (!he_is_ball(i)) continue;
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
         const loop touch = loop_with(0);
-        double steps, unused;
-        bool answered, above_answered;
-        loss(way, &touch.p, &touch.start, &touch.e, 2, &steps, &answered);
-        const double error = he_bound(way, steps), d = fmax(1e-12, 100 * error);
+        const double error = he_bound(way, loss_in_loop(way, &touch).steps), d = fmax(1e-12, 100 * error);
         const loop below = loop_with(-d), above = loop_with(d);
-        const double t = loss(way, &below.p, &below.start, &below.e, 2, &steps, &answered);
-        const double none = loss(way, &above.p, &above.start, &above.e, 2, &unused, &above_answered);
-        hard_hold(way, answered && above_answered ? (double)(isnan(t) + !isnan(none)) : NAN, 0);
-        hard_hold(way, fabs(t - below.lost), error + error / sqrt(d));
+        const loss some = loss_in_loop(way, &below), none = loss_in_loop(way, &above);
+        hard_hold(way, some.answered && none.answered ? (double)(isnan(some.time) + !isnan(none.time)) : NAN, 0);
+        hard_hold(way, fabs(some.time - below.lost), error + error / sqrt(d));
         for (int row = 0; row <= 20; row++) missed += fabs(row / 10.0 - below.top) < below.top - below.lost;
     }
     hard_naive("losses missed by looking at rows of 0.1", hard_ways - missed, 0);
 }
 
-/* d = 0: a touch is no loss where rounding is all the error; the pressure at the top is 0 to the error of each way.
- * */
+/* d = 0: a touch is no loss where rounding is all the error; the pressure at the top is 0 to each way's error. */
 static void touching(void)
 {
     const loop l = loop_with(0);
     hard_case("touching", "pressure at the top of the loop, and losses of contact in rounding",
               "a double zero of the pressure");
     double raw = 0;
-    for (int i = 0; i < hard_ways; i++) {
-        const hard_road *way = &hard_way[i];
-        double steps;
-        bool answered;
-        if (!he_is_ball(i)) continue;
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
         const he_answer a = he_solve(ctx, way, &l.p, &l.start, &l.e, l.top);
         /* pressure's terms are of size 3, their errors those of the state's largest, w = 3 */
         hard_hold(way, a.status == ISO_OK ? fabs(iso_sample_get(&a.at, "pressure")) : NAN,
                   9 * he_bound(way, a.steps));
-        if (way->method == iso_method_find("taylor"))
-            hard_hold(way, isnan(loss(way, &l.p, &l.start, &l.e, 2, &steps, &answered)) && answered ? 0 : 1, 0);
+        if (way->method == iso_method_find("taylor")) {
+            const loss none = loss_in_loop(way, &l);
+            hard_hold(way, isnan(none.time) && none.answered ? 0 : 1, 0);
+        }
         if (way->method != iso_method_find("rk8pd")) continue;
         for (int j = -50; j <= 50; j++) { /* -D (1-k) w^2 + mgb (e,n) as it comes */
             const he_answer near = he_solve(ctx, way, &l.p, &l.start, &l.e, l.top + j * 1e-9);
@@ -140,11 +141,9 @@ static void again(void)
     hard_case("separating, touching again", "sum of the two times, twice that of the top",
               "two zeros 0.02 apart in one step");
     double late = 0;
-    for (int i = 0; i < hard_ways; i++) {
-        const hard_road *way = &hard_way[i];
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
         iso_sample down, up;
         bool lost = false, found = false;
-        if (!he_is_ball(i)) continue;
         iso_orbit *orbit = he_orbit(ctx, way, &l.p, &l.start, &l.e);
         iso_status status = iso_orbit_event(orbit, pressure_of, NULL, -1, 0, 2, &lost, &down);
         if (status == ISO_OK) status = iso_orbit_event(orbit, pressure_of, NULL, 1, 0, 2, &found, &up);
@@ -157,8 +156,7 @@ static void again(void)
     hard_naive("both at the top", late, 1e-3);
 }
 
-/* --- surfaces
- * ------------------------------------------------------------------------------------------------------------ */
+/* --- surfaces --------------------------------------------------------------------------------------------------- */
 
 /* A start that has pressure and loses it later, with spin out of the plane of e and n; where: by halving on
  * taylor_quad. */
@@ -198,17 +196,13 @@ static void on_surface(const char *name, double k, double mgb, double side, cons
     const double expected = halved(&p, &start, &e, end, &slope);
     hard_case(name, "time of the loss against halving on taylor_quad; none if the end is 1e-6 before",
               "the time is the quotient of two errors");
-    for (int i = 0; i < hard_ways; i++) {
-        const hard_road *way = &hard_way[i];
-        double steps, unused;
-        bool answered, early;
-        if (!he_is_ball(i)) continue;
-        const double t = loss(way, &p, &start, &e, end, &steps, &answered);
-        const double error = he_bound(way, steps) * (1 + 9 / fabs(slope));
-        hard_hold(way, answered ? fabs(t - expected) : NAN, error);
-        const double none = loss(way, &p, &start, &e, expected - error - 1e-6, &unused, &early);
-        const double just = loss(way, &p, &start, &e, expected + error + 1e-6, &unused, &answered);
-        hard_hold(way, answered && early ? (double)(!isnan(none) + isnan(just)) : NAN, 0);
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
+        const loss l = find_loss(way, &p, &start, &e, end);
+        const double error = he_bound(way, l.steps) * (1 + 9 / fabs(slope));
+        hard_hold(way, l.answered ? fabs(l.time - expected) : NAN, error);
+        const loss none = find_loss(way, &p, &start, &e, expected - error - 1e-6),
+                   just = find_loss(way, &p, &start, &e, expected + error + 1e-6);
+        hard_hold(way, just.answered && none.answered ? (double)(!isnan(none.time) + isnan(just.time)) : NAN, 0);
     }
     he_refusals(ctx, &p, &start, &e, end);
     hard_naive("the row before, rows of 0.1", expected - floor(10 * expected) / 10, 1e-3);
@@ -223,16 +217,11 @@ static void wall(void)
     double pulled = 0;
     hard_case("an upright plane", "losses of contact up to t = 50, and the pressure at t = 0",
               "pressure mgb (e,n) is 0 but for rounding");
-    for (int i = 0; i < hard_ways; i++) {
-        const hard_road *way = &hard_way[i];
-        double steps;
-        bool answered;
-        if (!he_is_ball(i)) continue;
-        const double t = loss(way, &p, &start, &e, 50, &steps, &answered);
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
+        const loss l = find_loss(way, &p, &start, &e, 50);
         const he_answer begin = he_solve(ctx, way, &p, &start, &e, 0);
-        hard_hold(way,
-                  answered && isnan(t) && begin.status == ISO_OK ? fabs(iso_sample_get(&begin.at, "pressure")) : NAN,
-                  0);
+        const bool presses = l.answered && isnan(l.time) && begin.status == ISO_OK;
+        hard_hold(way, presses ? fabs(iso_sample_get(&begin.at, "pressure")) : NAN, 0);
         const he_answer later = he_solve(ctx, way, &p, &start, &e, 50);
         pulled += dot(sample_of(&later.at, "e"), later.at.ball + 3) < 0;
     }

@@ -13,8 +13,7 @@ static iso_context *ctx;
 enum { K = 5 };
 static const double ks[K] = {1, -1, 0.5, 0.75, -0.4};
 
-/* --- scenes
- * ------------------------------------------------------------------------------------------------------- */
+/* --- scenes ----------------------------------------------------------------------------------------------------- */
 
 typedef struct scene {
     iso_params p;
@@ -74,8 +73,7 @@ static iso_params reduced(double k, const double J[3])
     return p;
 }
 
-/* --- errors by every way
- * ------------------------------------------------------------------------------------------ */
+/* --- errors by every way ---------------------------------------------------------------------------------------- */
 
 typedef struct worst {
     double error;
@@ -132,8 +130,7 @@ static void hold_all(double rounding, double ratio)
     count = 0;
 }
 
-/* --- nearly equal
- * ------------------------------------------------------------------------------------------------- */
+/* --- nearly equal ----------------------------------------------------------------------------------------------- */
 
 static double ulps(double x, int n)
 {
@@ -150,25 +147,12 @@ static void nearly_equal(int pair, int apart, double J[3])
     for (int i = 0; i < 3; i++) J[(pair + 1 + i) % 3] = middle[i];
 }
 
-/* n3^2 by (13) from the roots lam <= mu of sum_i n_i^2 (J_j - z)(J_l - z) = 0 */
-static double naive_coordinates(const double J[3])
-{
-    const double n2[3] = {0.1296, 0.2304, 0.64};
-    double b = 0, c = 0;
-    for (int i = 0; i < 3; i++) {
-        b += n2[i] * (J[(i + 1) % 3] + J[(i + 2) % 3]);
-        c += n2[i] * J[(i + 1) % 3] * J[(i + 2) % 3];
-    }
-    const double root = sqrt(b * b - 4 * c), mu = (b + root) / 2, lam = c / mu;
-    return fabs((J[2] - lam) * (J[2] - mu) / ((J[2] - J[0]) * (J[2] - J[1])) - n2[2]);
-}
-
 static void test_nearly_equal(void)
 {
     static const int apart[] = {0, 1, 4};
     for (int a = 0; a < 3; a++) {
         char name[64];
-        double J[3];
+        double J[3], square[3];
         snprintf(name, sizeof name, "two or all J equal to %d ulp", apart[a]);
         hard_case(name, "(omega, n) after 3 turns, by t and by s; five k",
                   "sphero-conical coordinates have no place for equal moments; what is equal to 4 ulp is served as "
@@ -180,16 +164,18 @@ static void test_nearly_equal(void)
                 add_scene(&p, false, 3, pair < 2);
             }
         hold_all(1e-12, 1); /* 20 radians, a condition of 100 (k = -0.4), and the 8 ulp that the moments differ by */
-        hard_naive("n3^2 from lam and mu by (13)", naive_coordinates(J), 1e-13);
+        hard_naive_squares(J, (const double[3]){0.36, 0.48, 0.8}, square);
+        hard_naive("n3^2 from lam and mu by (13)", fabs(square[2] - 0.64), 1e-13);
     }
 }
 
-/* --- very different
- * ----------------------------------------------------------------------------------------------- */
+/* --- very different --------------------------------------------------------------------------------------------- */
 
 /* (9) with its lambda, the spin taken out along n, classical Runge-Kutta steps. */
-static void naive_rates(const iso_params *p, const double y[6], double dy[6])
+static void naive_rates(const void *body, double t, const double y[], double dy[])
 {
+    const iso_params *p = body;
+    (void)t;
     double Jw[3], u[3], x[3], turn[3];
     diag(p->J, y, Jw);
     diag(p->inv_J, y + 3, u);
@@ -201,19 +187,10 @@ static void naive_rates(const iso_params *p, const double y[6], double dy[6])
 
 static double naive_ball(const scene *s, int steps)
 {
-    static const double at[4] = {0, 0.5, 0.5, 1}, weight[4] = {1, 2, 2, 1};
-    const double h = s->time / steps;
-    double y[6], dy[6] = {0};
+    double y[6];
     copy(s->start.y, y, 6);
     for (int i = 0; i < steps; i++) {
-        double sum[6] = {0};
-        for (int j = 0; j < 4; j++) {
-            double z[6];
-            for (int c = 0; c < 6; c++) z[c] = y[c] + at[j] * h * dy[c];
-            naive_rates(&s->p, z, dy);
-            for (int c = 0; c < 6; c++) sum[c] += weight[j] / 6 * h * dy[c];
-        }
-        for (int c = 0; c < 6; c++) y[c] += sum[c];
+        hard_runge_kutta(naive_rates, &s->p, 6, 0, s->time / steps, y);
         make_unit(y + 3);
         remove_along(y, y + 3);
     }
@@ -246,8 +223,7 @@ static void test_very_different(double ratio, const char *name)
         hard_naive("(9) with lambda, the spin taken out along n", naive, rounding);
 }
 
-/* --- flat and needle-like bodies
- * ---------------------------------------------------------------------------------- */
+/* --- flat and needle-like bodies -------------------------------------------------------------------------------- */
 
 static iso_params body(iso_surface surface, double mass, const double inertia[3])
 {

@@ -7,8 +7,7 @@
  *     methods that follow their tolerance:       N tolerance, N up to 1000, of which multistep methods lose 3:
  *     FOLLOWING
  *     taylor and rk8pd at their least tolerance: a few roundings a step and a radian:      ROUNDING
- *     the closed solution:                       the same
- *      */
+ *     the closed solution:                       the same */
 #include "hard.h"
 
 #include <float.h>
@@ -30,8 +29,7 @@ enum { BODIES = 3 };
 
 static const double FOLLOWING = 3000, ROUNDING = 256 * DBL_EPSILON;
 
-/* --- one orbit, by one way
- * ----------------------------------------------------------------------------------------- */
+/* --- one orbit, by one way -------------------------------------------------------------------------------------- */
 
 /* What is asked: of the point gamma alone, or all and the clocks. */
 typedef struct question {
@@ -111,8 +109,7 @@ static double condition(const question *q, const iso_sample *truth)
     return worst;
 }
 
-/* --- all ways over many orbits
- * -------------------------------------------------------------------------------------- */
+/* --- all ways over many orbits ---------------------------------------------------------------------------------- */
 
 /* The least tolerance where a method reaches the rounding level, and the bound that goes with it. */
 static hard_road finest(const hard_road *way, double *bound)
@@ -196,11 +193,9 @@ static void close_book(void)
     }
 }
 
-/* --- naive formulations
- * ----------------------------------------------------------------------------------------------- */
+/* --- naive formulations ----------------------------------------------------------------------------------------- */
 
-/* (24) as it stands in t, by rk8pd; or the ball, by one step of rk4 of a given length: how far off omega and n are.
- * */
+/* (24) as it stands in t, by rk8pd; or the ball by a step of rk4 of a given length: how far off omega and n are. */
 static double naive(const question *q, const iso_system *system, double step)
 {
     const bool none[ISO_CLOCKS] = {false};
@@ -223,8 +218,7 @@ static double naive(const question *q, const iso_system *system, double step)
     return hard_error(y, truth.ball);
 }
 
-/* --- the cases
- * ---------------------------------------------------------------------------------------------------------- */
+/* --- the cases -------------------------------------------------------------------------------------------------- */
 
 static void small(void)
 {

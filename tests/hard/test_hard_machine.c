@@ -1,6 +1,5 @@
 /* The machine under the numbers: threads, and what a host program may have set for itself, its rounding, its
- * subnormal numbers, its traps and its locale. None of it may change a bit of an answer, lib/base/arithmetic_impl.h.
- * */
+ * subnormal numbers, its traps and its locale. None of it may change a bit of an answer, base/arithmetic_impl.h. */
 #define _GNU_SOURCE /* memmem, feenableexcept */
 #include <fenv.h>
 #include <locale.h>
@@ -16,8 +15,7 @@
 
 #include "machine.h"
 
-/* --- what they are measured by: the answers in a plain program ---------------------------------------------------
- * */
+/* --- what they are measured by: the answers in a plain program -------------------------------------------------- */
 
 static answer orbit_answer[HARD_WAYS], study_answer[STUDIES];
 
@@ -32,8 +30,7 @@ static void find_answers(void)
     }
 }
 
-/* --- runs and threads --------------------------------------------------------------------------------------------
- * */
+/* --- runs and threads ------------------------------------------------------------------------------------------- */
 
 typedef struct walk {
     bool backwards;
@@ -97,26 +94,43 @@ static void check_threads(void)
                fabs(sum_of_batch(false) - sum_of_batch(true)), 0);
 }
 
-/* --- what a host program has set
- * ---------------------------------------------------------------------------------- */
+/* --- what a host program has set -------------------------------------------------------------------------------- */
+
+enum { FLUSH = 0x8040 }; /* of MXCSR: flush-to-zero, denormals-are-zero */
 
 typedef struct host {
     const char *name;
-    void (*set)(void);
-    bool (*stands)(void); /* whether it still is so */
+    int round; /* as fesetround takes it, or FLUSH */
 } host;
+
+static void set(int round)
+{
+#ifdef __SSE2__
+    if (round == FLUSH) _mm_setcsr(_mm_getcsr() | FLUSH);
+#endif
+    if (round != FLUSH) fesetround(round);
+}
+
+/* Whether it still is so. */
+static bool stands(int round)
+{
+#ifdef __SSE2__
+    if (round == FLUSH) return (_mm_getcsr() & FLUSH) == FLUSH;
+#endif
+    return fegetround() == round;
+}
 
 /* Bytes that differ from a plain program's, and one if the host does not find again what it has set. */
 static double under(const host *h, const answer *plain, const hard_road *way, const struct study *study)
 {
-    h->set();
+    set(h->round);
     answer a = way ? orbit_by(ctx, way) : study_by(study);
-    const bool stands = h->stands();
+    const bool kept = stands(h->round);
     fesetenv(FE_DFL_ENV);
-    const double count = differing(plain, &a) + !stands;
+    const double count = differing(plain, &a) + !kept;
     gsl_test(count > 0, "%s: %s %s: %g bytes differ%s", h->name,
              way ? iso_backend_name((int)way->backend) : study->name, way && way->method ? way->method->name : "",
-             count, stands ? "" : ", and what the host had set is gone");
+             count, kept ? "" : ", and what the host had set is gone");
     free(a.bytes);
     return count;
 }
@@ -132,88 +146,48 @@ static void check_hosts(const host hosts[], int count)
         for (int h = 0; h < count; h++) hard_hold(NULL, under(&hosts[h], &study_answer[i], NULL, &studies[i]), 0);
 }
 
-static void upward(void)
+static void slopes(const void *model, double t, const double y[], double dy[])
 {
-    fesetround(FE_UPWARD);
-}
-static void downward(void)
-{
-    fesetround(FE_DOWNWARD);
-}
-static void to_zero(void)
-{
-    fesetround(FE_TOWARDZERO);
-}
-static bool is_upward(void)
-{
-    return fegetround() == FE_UPWARD;
-}
-static bool is_downward(void)
-{
-    return fegetround() == FE_DOWNWARD;
-}
-static bool is_to_zero(void)
-{
-    return fegetround() == FE_TOWARDZERO;
+    (void)t;
+    ((const iso_model *)model)->rhs(model, y, dy);
 }
 
-/* The ball of the orbits stepped by the classical Runge-Kutta method in the host's own arithmetic; one number of
- * it. */
+/* The ball of the orbits stepped by the classical Runge-Kutta method in the host's own arithmetic; a number of it. */
 static double runge_kutta(void)
 {
     const orbit o = orbit_sample(ctx, &iso_system_ball, -1, orbit_J, 1);
-    double y[ISO_STATE], k[4][ISO_STATE], at[ISO_STATE];
+    double y[ISO_STATE];
     copy(batch_usual.y, y, ISO_STATE);
-    static const double part[4] = {0, 0.5, 0.5, 1}, weight[4] = {1, 2, 2, 1};
-    for (int step = 0; step < 1000; step++) {
-        for (int s = 0; s < 4; s++) {
-            for (int i = 0; i < ISO_STATE; i++) at[i] = y[i] + (s > 0 ? 0.01 * part[s] * k[s - 1][i] : 0);
-            o.model.rhs(&o.model, at, k[s]);
-        }
-        for (int i = 0; i < ISO_STATE; i++)
-            for (int s = 0; s < 4; s++) y[i] += 0.01 / 6 * weight[s] * k[s][i];
-    }
+    for (int step = 0; step < 1000; step++) hard_runge_kutta(slopes, &o.model, ISO_STATE, 0, 0.01, y);
     return y[0];
 }
 
 static void check_rounding(void)
 {
-    static const host hosts[] = {{"FE_UPWARD", upward, is_upward},
-                                 {"FE_DOWNWARD", downward, is_downward},
-                                 {"FE_TOWARDZERO", to_zero, is_to_zero}};
+    static const host hosts[] = {
+        {"FE_UPWARD", FE_UPWARD}, {"FE_DOWNWARD", FE_DOWNWARD}, {"FE_TOWARDZERO", FE_TOWARDZERO}};
     hard_case(
         "rounding", "bytes that differ where the host rounds up, down or to zero, which it does afterwards, too",
         "rounding one way makes errors that add up; sums of two numbers are exact only to nearest; decimals are "
         "read and written by the same rule");
     check_hosts(hosts, 3);
     const double nearest = runge_kutta();
-    upward();
+    set(FE_UPWARD);
     const double up = runge_kutta();
     fesetenv(FE_DFL_ENV);
     hard_naive("a Runge-Kutta method in the host's own rounding, upward", fabs(up - nearest), 0);
 }
 
 #ifdef __SSE2__
-enum { FLUSH = 0x8040 }; /* of MXCSR: flush-to-zero, denormals-are-zero */
-
-static void flush(void)
-{
-    _mm_setcsr(_mm_getcsr() | FLUSH);
-}
-static bool is_flush(void)
-{
-    return (_mm_getcsr() & FLUSH) == FLUSH;
-}
-
 static void check_subnormal(void)
 {
-    static const host hosts[] = {{"flush-to-zero", flush, is_flush}};
+    static const host hosts[] = {{"flush-to-zero", FLUSH}};
     volatile double J = 1.4e-310;
     hard_case("subnormal numbers",
               "bytes that differ where the host makes subnormal numbers 0, which it does afterwards",
               "a host linked with -ffast-math starts so; a body of 1e-310 is none then");
     check_hosts(hosts, 1);
-    flush();
+    set(FLUSH);
     volatile const double made = J * 0x1p100 / 0x1p100; /* here, not later */
     fesetenv(FE_DFL_ENV);
     hard_naive("a moment of inertia scaled up and down in the host's own arithmetic: relative error",
@@ -227,8 +201,7 @@ static void check_subnormal(void)
 }
 #endif
 
-/* --- traps
- * -------------------------------------------------------------------------------------------------------- */
+/* --- traps ------------------------------------------------------------------------------------------------------ */
 
 enum { TRAPS = FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW };
 
@@ -274,8 +247,7 @@ static void check_traps(void)
     hard_naive("the same studies, had the host's traps stood: how many raise one", raising, 0);
 }
 
-/* --- a comma for a point
- * ------------------------------------------------------------------------------------------ */
+/* --- a comma for a point ---------------------------------------------------------------------------------------- */
 
 /* A locale made here, since a fresh machine has none with a comma, also for gnuplot; else one that is there. */
 static bool take_comma(void)

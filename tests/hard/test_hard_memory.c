@@ -29,8 +29,7 @@ static iso_params shell, ellipsoid; /* made while there is memory */
     "[0.9, -0.3, -0.225]}\ntime: {end: 10, step: 2.5}\n"
 static const char closed[] = "reduced: {k: -1" REST, chaotic[] = "reduced: {k: 0.5" REST;
 
-/* --- a malloc that fails -----------------------------------------------------------------------------------------
- * */
+/* --- a malloc that fails ---------------------------------------------------------------------------------------- */
 
 enum { PLACES = 1 << 16 };
 static struct {
@@ -108,8 +107,7 @@ void __wrap_free(void *block)
     __real_free(block);
 }
 
-/* --- what is called: to the end, and all of it freed
- * ---------------------------------------------------------------- */
+/* --- what is called: to the end, and all of it freed ------------------------------------------------------------ */
 
 static double digits; /* of the answer, to tell whether it is whole */
 
@@ -208,8 +206,8 @@ static iso_status call_foreign(const hard_road *way)
         status = iso_foreign_study(ctx, scene, NULL, "section", "crossings=2\nat=0.5,0.2\nthreads=1", NULL, NULL,
                                    section, notes, 80);
     if (status == ISO_OK)
-        status = iso_foreign_study(ctx, scene, NULL, "chaos", "turns=4\nstarts=1\nthreads=1", NULL, NULL, chaos, notes,
-                                   80);
+        status = iso_foreign_study(ctx, scene, NULL, "chaos", "turns=4\nstarts=1\nthreads=1", NULL, NULL, chaos,
+                                   notes, 80);
     digits = status == ISO_OK ? digits + table[27] + iso_record_row(section[1], 3)[6] : 0;
     iso_record_free(ball);
     iso_record_free(point);

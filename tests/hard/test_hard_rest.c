@@ -19,8 +19,7 @@ static bool keeps_spin(const hard_road *way)
 
 static const char *const lost_spin = "does not keep (omega,n) = 0";
 
-/* --- w as small as doubles are
- * --------------------------------------------------------------------------------------- */
+/* --- w as small as doubles are ---------------------------------------------------------------------------------- */
 
 /* hard_error of numbers whose squares are none. */
 static double error_of_small(const double a[ISO_STATE], const double b[ISO_STATE])
@@ -42,9 +41,7 @@ static void fading(void)
     const iso_effects e = resisting(1);
     const iso_sample expected = he_reference(ctx, &ball, &start, &e, 1000);
     hard_case("c_r = 1, t = 1000", "(w,n), |w| = 8e-170, against taylor_quad", "the squares of w are no doubles");
-    for (int i = 0; i < hard_ways; i++) {
-        const hard_road *way = &hard_way[i];
-        if (!he_is_ball(i)) continue;
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
         const he_answer a = he_solve(ctx, way, &ball, &start, &e, 1000);
         if (keeps_spin(way))
             hard_hold(way, a.status == ISO_OK ? error_of_small(a.at.ball, expected.ball) : NAN,
@@ -57,8 +54,7 @@ static void fading(void)
     hard_naive("|w| from the energy", fabs(sqrt(2 * h) / largest(expected.ball) - 1), 1e-3);
 }
 
-/* --- at rest
- * ----------------------------------------------------------------------------------------------------------- */
+/* --- at rest ---------------------------------------------------------------------------------------------------- */
 
 /* What is wrong: w is not 0, or n no unit vector, or another one than where the ball stopped. */
 static double unrest(const iso_sample *late, const iso_sample *stopped)
@@ -73,9 +69,8 @@ static void resting(const char *name, const char *why, const iso_effects *e)
     const iso_params ball = he_ball(ctx, -1);
     const iso_start start = he_start();
     hard_case(name, "at t = 1e4 and 1e14: w is 0, n a unit vector, no step more", why);
-    for (int i = 0; i < hard_ways; i++) {
-        const hard_road *way = &hard_way[i];
-        if (!he_is_ball(i) || (e->on[ISO_TWIST] && !way->method->implicit)) continue;
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
+        if (e->on[ISO_TWIST] && !way->method->implicit) continue;
         const he_answer stopped = he_solve(ctx, way, &ball, &start, e, 1e4);
         if (!keeps_spin(way)) {
             he_refuses(ctx, way, stopped.status, lost_spin);
@@ -98,9 +93,8 @@ static void monotone(void)
     double naive = 0;
     hard_case("every 20 units to t = 2000", "rows on which |w|_J does not fall, or that are not finite",
               "below its tolerance w would jitter");
-    for (int i = 0; i < hard_ways; i++) {
-        const hard_road *way = &hard_way[i];
-        if (!he_is_ball(i) || !keeps_spin(way)) continue;
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
+        if (!keeps_spin(way)) continue;
         iso_orbit *orbit = he_orbit(ctx, way, &ball, &start, &e);
         double before = INFINITY, wrong = orbit ? 0 : NAN;
         for (int t = 0; orbit && t <= 2000; t += 20) {
@@ -134,9 +128,8 @@ static void subnormal(void)
               "what is left of w loses its digits");
     const double t = 660; /* |w| = 1e-112 of what it was: 1e-312 */
     const iso_sample expected = he_reference(ctx, &ball, &usual, &e_usual, t);
-    for (int i = 0; i < hard_ways; i++) {
-        const hard_road *way = &hard_way[i];
-        if (!he_is_ball(i) || !keeps_spin(way)) continue;
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
+        if (!keeps_spin(way)) continue;
         const he_answer a = he_solve(ctx, way, &ball, &start, &e, t / unit);
         double off = 0, size = largest(expected.ball) * unit / 5e-324;
         for (int j = 0; j < 3; j++) off = fmax(off, fabs(a.at.ball[j] - expected.ball[j] * unit) / 5e-324);
@@ -160,9 +153,8 @@ static void at_once(void)
     copy(start.y + 3, n, 3);
     add_scaled(n, ball.k / c_r, moved);
     hard_case("c_r = 1e8, t = 10", "n against n + k n x W at rest", "the ball stops in 1e-8 of a turn");
-    for (int i = 0; i < hard_ways; i++) {
-        const hard_road *way = &hard_way[i];
-        if (!he_is_ball(i) || !keeps_spin(way)) continue;
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
+        if (!keeps_spin(way)) continue;
         const he_answer a = he_solve(ctx, way, &ball, &start, &e, 10);
         const double off = fmax(largest(a.at.ball) > 0 ? INFINITY : 0, laws_distance(a.at.ball + 3, n));
         hard_hold(way, a.status == ISO_OK ? off : NAN, 1e-15 + he_bound(way, fmin(a.steps, 1e4)));
@@ -170,12 +162,10 @@ static void at_once(void)
     hard_naive("no motion at all", laws_distance(start.y + 3, n), 1e-9);
 }
 
-/* --- with weight
- * ------------------------------------------------------------------------------------------------------- */
+/* --- with weight ------------------------------------------------------------------------------------------------ */
 
 /* In a bowl, and hanging on the outside of a sphere: e and n against each other where the potential mgb (e,n)/(1-k)
- * is least, (e,n) = -+1; its angle and w are of the size of the tolerance (1e3 of them, for the steps that keep on).
- * */
+ * is least, (e,n) = -+1; its angle and w are of the size of the tolerance (1e3 of them, for steps that keep on). */
 static void lowest(const char *name, double k, double mgb)
 {
     const iso_params ball = he_ball(ctx, k);
@@ -188,9 +178,7 @@ static void lowest(const char *name, double k, double mgb)
     double naive = 0;
     hard_case(name, "angle from the lowest place, and |w|, at t = 2000",
               "rest is where two torques end, not a state of 0");
-    for (int i = 0; i < hard_ways; i++) {
-        const hard_road *way = &hard_way[i];
-        if (!he_is_ball(i)) continue;
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
         const he_answer a = he_solve(ctx, way, &ball, &start, &e, 2000);
         double away[3];
         for (int j = 0; j < 3; j++) away[j] = sample_of(&a.at, "e")[j] - least * a.at.ball[3 + j];
@@ -206,10 +194,9 @@ static void backwards(void)
     const iso_start start = he_start();
     const iso_effects e = resisting(100);
     hard_case("c_r = 100, t = -100", "a clear end", "backwards in time w grows like e^(c_r |t|/J)");
-    for (int i = 0; i < hard_ways; i++) {
-        if (!he_is_ball(i)) continue;
-        const he_answer a = he_solve(ctx, &hard_way[i], &ball, &start, &e, -100);
-        he_refuses(ctx, &hard_way[i], a.status, "backwards in time resistance drives the ball");
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
+        const he_answer a = he_solve(ctx, way, &ball, &start, &e, -100);
+        he_refuses(ctx, way, a.status, "backwards in time resistance drives the ball");
     }
     hard_naive("turns on the way", exp(fmin(700, 1e4 / max3(ball.J))), 1e6);
 }

@@ -162,35 +162,40 @@ static double zeta_exponent(const double J[3])
                 E * gsl_sf_ellint_F(alpha, modulus, GSL_PREC_DOUBLE));
 }
 
-/* The ball's own variational equation: a disturbance carried along the rotation by the Jacobian of (9). */
+typedef struct variation {
+    const rotation *r;
+    iso_model ball;
+    double W; /* with its sign */
+} variation;
+
+/* A disturbance x carried along the rotation by the Jacobian of (9). */
+static void carry(const void *data, double t, const double x[], double dx[])
+{
+    const variation *v = data;
+    const double angle = v->r->k * t * v->W;
+    double y[ISO_STATE] = {0}, jac[ISO_STATE * ISO_STATE];
+    y[v->r->axis] = v->W;
+    y[3 + v->r->in[0]] = cos(angle), y[3 + v->r->in[1]] = -sin(angle);
+    v->ball.jacobian(&v->ball, y, jac);
+    for (int j = 0; j < ISO_STATE; j++) dx[j] = 0;
+    for (int j = 0; j < ISO_STATE * ISO_STATE; j++) dx[j / ISO_STATE] += jac[j] * x[j % ISO_STATE];
+}
+
+/* By the ball's own variational equation. */
 static double variational_exponent(const rotation *r)
 {
     enum { STEPS = 2000, TURNS = 12 };
-    static const double part[4] = {0, 0.5, 0.5, 1}, weight[4] = {1 / 6.0, 1 / 3.0, 1 / 3.0, 1 / 6.0};
     const iso_problem problem = {.p = r->p};
-    const iso_model ball =
-        iso_model_assemble(&iso_system_ball, &problem, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false});
     const iso_start tiny = beside(r, 1e-30); /* in the plane but for the disturbance */
+    const variation v = {r,
+                         iso_model_assemble(&iso_system_ball, &problem, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false}),
+                         tiny.y[r->axis]};
     double x[ISO_STATE] = {0}, before = 0, h = r->turn / STEPS;
     for (int i = 0; i < ISO_STATE; i++)
         if ((i < 3) != (i % 3 == r->axis)) x[i] = tiny.y[i] / 1e-30;
     for (int i = 0; i < STEPS * TURNS; i++) {
         if (i == STEPS * (TURNS - 1)) before = x[3 + r->axis];
-        double sum[ISO_STATE] = {0}, f[ISO_STATE] = {0};
-        for (int s = 0; s < 4; s++) {
-            const double angle = r->k * (i + part[s]) * h * copysign(W, tiny.y[r->axis]);
-            double y[ISO_STATE] = {0}, jac[ISO_STATE * ISO_STATE], z[ISO_STATE];
-            y[r->axis] = tiny.y[r->axis];
-            y[3 + r->in[0]] = cos(angle), y[3 + r->in[1]] = -sin(angle);
-            ball.jacobian(&ball, y, jac);
-            for (int j = 0; j < ISO_STATE; j++) z[j] = x[j] + part[s] * h * f[j];
-            for (int j = 0; j < ISO_STATE; j++) {
-                f[j] = 0;
-                for (int l = 0; l < ISO_STATE; l++) f[j] += jac[ISO_STATE * j + l] * z[l];
-                sum[j] += weight[s] * f[j];
-            }
-        }
-        for (int j = 0; j < ISO_STATE; j++) x[j] += h * sum[j];
+        hard_runge_kutta(carry, &v, ISO_STATE, i * h, h, x);
     }
     return log(fabs(x[3 + r->axis] / before));
 }
@@ -234,15 +239,6 @@ static double off_plane(const rotation *r, const iso_sample *s)
     return most;
 }
 
-/* n2 of n = (cos angle, 0, sin angle) from the coordinates z1, z2 of (12), as numbers */
-static double naive_middle(double angle)
-{
-    const double *J = J_three, c = cos(angle) * cos(angle), s = sin(angle) * sin(angle);
-    const double sum = c * (J[1] + J[2]) + s * (J[0] + J[1]), product = c * J[1] * J[2] + s * J[0] * J[1];
-    const double root = sqrt(sum * sum - 4 * product), z[2] = {(sum - root) / 2, (sum + root) / 2};
-    return sqrt(fabs((J[1] - z[0]) * (J[1] - z[1]) / ((J[1] - J[0]) * (J[1] - J[2]))));
-}
-
 static const double some_k[] = {-1, 0.5, 1};
 
 static void check_plane(void)
@@ -266,8 +262,11 @@ static void check_plane(void)
         hard_hold(&hard_way[i], most, 0);
         hard_hold(&hard_way[i], phase, hard_loss(&hard_way[i]) * radians * radians);
     }
-    double most = 0; /* leaves at the time when 1e-8 has grown to order one */
-    for (double angle = 0.1; angle < 1.5; angle += 0.1) most = fmax(most, naive_middle(angle));
+    double most = 0, square[3]; /* leaves at the time when 1e-8 has grown to order one */
+    for (double angle = 0.1; angle < 1.5; angle += 0.1) {
+        hard_naive_squares(J_three, (const double[3]){cos(angle), 0, sin(angle)}, square);
+        most = fmax(most, sqrt(fabs(square[1])));
+    }
     hard_naive("n from z1, z2 by (13)", most, 1e-12);
 }
 

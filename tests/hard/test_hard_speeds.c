@@ -9,8 +9,6 @@
 #include "laws.h"
 #include "map/state.h"
 #include "orbit/orbit_impl.h"
-#include "study/compare.h"
-#include "study/frequencies/frequencies.h"
 
 static iso_context *ctx;
 static iso_params params;
@@ -75,32 +73,6 @@ static void check_resting(const hard_road *way, const iso_start *start, const is
     iso_orbit_free(orbit);
 }
 
-/* What a ball without motion is to the rest of the library. */
-static void check_studies(const iso_start *start)
-{
-    iso_scene scene = iso_scene_default();
-    iso_frequencies f;
-    iso_comparison *c;
-    iso_sample sample;
-    iso_record *in, *out;
-    double *row;
-    const iso_frequencies_options few = iso_frequencies_defaults();
-    static const char *const names[] = {"t", "omega1", "omega2", "omega3", "n1", "n2", "n3"};
-    scene.params = params, scene.start = *start, scene.end = 1;
-    iso_status status = iso_frequencies_find(ctx, &scene, &few, &f);
-    gsl_test(status != ISO_BAD_INPUT, "frequencies of a ball at rest: %s", iso_context_message(ctx));
-    status = iso_compare(ctx, &scene, NULL, NULL, &c);
-    gsl_test(status != ISO_NOT_MAPPED || c, "a ball at rest compared: %s", iso_context_message(ctx));
-    const iso_batch_options o = iso_batch_defaults();
-    status = iso_batch_run(ctx, &(iso_batch_orbit){&params, start, NULL}, 1, &o, (double[]){1e15}, 1, &sample, NULL);
-    gsl_test(status != ISO_OK || !is_start(&sample, start), "a batch of it: %s", iso_context_message(ctx));
-    if (iso_record_create(ctx, 7, names, &in) != ISO_OK || iso_record_append(ctx, in, &row) != ISO_OK) return;
-    memcpy(row + 1, start->y, sizeof start->y);
-    status = iso_convert(ctx, &params, in, ISO_POINT, 1e-12, &out);
-    gsl_test(status != ISO_NOT_MAPPED, "a record of it converted: %s", iso_context_message(ctx));
-    iso_record_free(in);
-}
-
 static void check_rest(void)
 {
     iso_start start = start_at(0);
@@ -108,7 +80,11 @@ static void check_rest(void)
               "h = 0: what is divided by it is none");
     for (int w = 0; w < hard_ways; w++) check_resting(&hard_way[w], &start, NULL);
     hard_naive("omega times the root of h over its energy", sqrt(0.0 / iso_ball_energy(&params, start.y)), 0);
-    check_studies(&start);
+    iso_sample sample;
+    const iso_batch_options o = iso_batch_defaults();
+    const iso_status status =
+        iso_batch_run(ctx, &(iso_batch_orbit){&params, &start, NULL}, 1, &o, (double[]){1e15}, 1, &sample, NULL);
+    gsl_test(status != ISO_OK || !is_start(&sample, &start), "a batch of it: %s", iso_context_message(ctx));
     iso_effects gravity = {.on = {[ISO_GRAVITY] = true}, .number[ISO_GRAVITY] = {0.7, 0, 0, 1}};
     start = (iso_start){.model = ISO_BALL, .y = {0, 0, 0, 0, 0, -1}};
     hard_case("balance", "the same of a ball that gravity holds where it is", "it turns for ever, but not at all");

@@ -159,28 +159,19 @@ static iso_status compare(iso_context *ctx, const void *data, const double v[], 
     return status;
 }
 
-/* and turns, end and samples of the estimate */
+/* and turns, end and samples of the estimate; data: what finds them */
 static iso_status frequencies(iso_context *ctx, const void *data, const double v[], sweep_answer *a)
 {
+    const bool found = *(const bool *)data;
     iso_scene scene;
     iso_frequencies f;
     const double *of = v + AFTER_SCENE;
     const iso_frequencies_options o = {.turns = of[0], .end = of[1], .samples = of[2]};
-    iso_status status = make_scene(ctx, *(const iso_model_kind *)data, v, &scene);
-    if (status == ISO_OK) status = iso_frequencies_find(ctx, &scene, &o, &f);
-    for (int i = 0; status == ISO_OK && i < f.angles; i++) sweep_give(a, f.angle[i].frequency, ISO_CLOCKS);
-    return status;
-}
-
-static iso_status estimate(iso_context *ctx, const void *data, const double v[], sweep_answer *a)
-{
-    iso_scene scene;
-    iso_frequencies f;
-    const double *of = v + AFTER_SCENE;
-    const iso_frequencies_options o = {.turns = of[0], .end = of[1], .samples = of[2]};
-    iso_status status = make_scene(ctx, *(const iso_model_kind *)data, v, &scene);
-    if (status == ISO_OK) status = iso_frequencies_estimate(ctx, &scene, &o, &f);
-    for (int i = 0; status == ISO_OK && i < f.angles; i++) sweep_give(a, f.angle[i].frequency, 1);
+    iso_status status = make_scene(ctx, ISO_BALL, v, &scene);
+    if (status == ISO_OK)
+        status = found ? iso_frequencies_find(ctx, &scene, &o, &f) : iso_frequencies_estimate(ctx, &scene, &o, &f);
+    for (int i = 0; status == ISO_OK && i < f.angles; i++)
+        sweep_give(a, f.angle[i].frequency, found ? ISO_CLOCKS : 1);
     return status;
 }
 
@@ -271,7 +262,7 @@ enum { NO_BODY = 1 << 9 | 1 << 10 }; /* without a mass or a radius there is no b
 
 static const iso_model_kind ball = ISO_BALL, point = ISO_POINT;
 static const carried ball_row = {false, 1}, point_row = {true, 1}, first_row = {false, 0}, first_point = {true, 0};
-static const bool neumann = true, braden = false;
+static const bool neumann = true, braden = false, yes = true, no = false;
 
 static const sweep_call calls[] = {
     {"a ball's row", convert, &ball_row, ROW + 1, {BALL_ROW, 1e-9}, 0},
@@ -294,13 +285,13 @@ static const sweep_call calls[] = {
      EPS_BIT},
     {"frequencies",
      frequencies,
-     &ball,
+     &yes,
      AFTER_SCENE + 3,
      {-1, SCENE, 1, 0.5, 1e-9, 50, 1e3, 1024},
      EPS_BIT | ESTIMATE_BITS | UNREAD | 1 << SCENE_TOLERANCE},
     {"frequencies estimated",
-     estimate,
-     &ball,
+     frequencies,
+     &no,
      AFTER_SCENE + 3,
      {0.7, SCENE, 1, 0.5, 1e-9, 50, 300, 1024},
      EPS_BIT | ESTIMATE_BITS | UNREAD | 1 << SCENE_TOLERANCE},

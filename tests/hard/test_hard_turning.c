@@ -264,19 +264,12 @@ static void check_umbilic(void)
     hold_all(b, 3);
 }
 
-/* The numbers z1, z2 as roots of a quadratic, and x from them by (13): largest error of a component's size */
+/* z1, z2 as roots of a quadratic, and x from them by (13): largest error of a component's size */
 static double naive_round_trip(const double J[3], const double x[3])
 {
-    double sum = 0, product = 0, worst = 0;
-    for (int i = 0; i < 3; i++) {
-        const double b = J[(i + 1) % 3], c = J[(i + 2) % 3];
-        sum += x[i] * x[i] * (b + c), product += x[i] * x[i] * b * c;
-    }
-    const double root = sqrt(fmax(0, sum * sum - 4 * product)), z[2] = {(sum - root) / 2, (sum + root) / 2};
-    for (int i = 0; i < 3; i++) {
-        const double square = (J[i] - z[0]) * (J[i] - z[1]) / ((J[i] - J[(i + 1) % 3]) * (J[i] - J[(i + 2) % 3]));
-        worst = fmax(worst, fabs(sqrt(fmax(0, square)) - fabs(x[i])));
-    }
+    double square[3], worst = 0;
+    hard_naive_squares(J, x, square);
+    for (int i = 0; i < 3; i++) worst = fmax(worst, fabs(sqrt(fmax(0, square[i])) - fabs(x[i])));
     return worst;
 }
 

@@ -19,8 +19,7 @@ static iso_start spinning(void)
     return start;
 }
 
-/* --- c = 0 and small
- * ------------------------------------------------------------------------------------------------- */
+/* --- c = 0 and small -------------------------------------------------------------------------------------------- */
 
 static void integrals(const double y[ISO_STATE], double value[2])
 {
@@ -54,11 +53,9 @@ static void classical(void)
     const iso_effects e = twist(0);
     double naive = 0;
     hard_case("c = 0", "(K,K) and (K,w)/2 at t = 20", "no constraint and no torque: nothing is projected");
-    for (int i = 0; i < hard_ways; i++) {
-        if (!he_is_ball(i)) continue;
-        const he_answer a = he_solve(ctx, &hard_way[i], &ball, &start, &e, 20);
-        hard_hold(&hard_way[i], a.status == ISO_OK ? integrals_off(a.at.ball, start.y) : NAN,
-                  he_bound(&hard_way[i], a.steps));
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
+        const he_answer a = he_solve(ctx, way, &ball, &start, &e, 20);
+        hard_hold(way, a.status == ISO_OK ? integrals_off(a.at.ball, start.y) : NAN, he_bound(way, a.steps));
         naive = fmax(naive, naive_classical(a.at.ball, start.y));
     }
     he_refusals(ctx, &ball, &start, &e, 20);
@@ -72,15 +69,13 @@ static void against_quad(const char *name, const char *why, double c, double tim
     const iso_effects e = twist(c);
     const iso_sample expected = he_reference(ctx, &ball, &start, &e, time);
     hard_case(name, "(w,n) against taylor_quad", why);
-    for (int i = 0; i < hard_ways; i++) {
-        if (!he_is_ball(i)) continue;
-        const he_answer a = he_solve(ctx, &hard_way[i], &ball, &start, &e, time);
-        he_hold(&hard_way[i], &a, &expected);
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
+        const he_answer a = he_solve(ctx, way, &ball, &start, &e, time);
+        he_hold(way, &a, &expected);
     }
 }
 
-/* --- c large
- * ---------------------------------------------------------------------------------------------------------- */
+/* --- c large ---------------------------------------------------------------------------------------------------- */
 
 /* Implicit methods reach the rubber ball; the distance is about 1/c (theory), and lambda that of (9), but for 1e4
  * steps' errors: in a fast variable they are of lower order (order reduction), and do not add up. Explicit ones say
@@ -93,9 +88,7 @@ static void large(const char *name, double c)
     const iso_sample expected = he_reference(ctx, &ball, &start, &rubber, 5);
     hard_case(name, "(w,n) and lambda at t = 5 against the rubber ball",
               "the spin dies away in 1/c, lambda = -c 1/c");
-    for (int i = 0; i < hard_ways; i++) {
-        const hard_road *way = &hard_way[i];
-        if (!he_is_ball(i)) continue;
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
         const he_answer a = he_solve(ctx, way, &ball, &start, &e, 5);
         if (!way->method->implicit) {
             he_refuses(ctx, way, a.status, "this model is stiff");
@@ -132,8 +125,7 @@ static void falls(void)
     hard_naive("the ball that stands still", rigid, 1e-3);
 }
 
-/* --- backwards
- * -------------------------------------------------------------------------------------------------------- */
+/* --- backwards -------------------------------------------------------------------------------------------------- */
 
 /* Spin grows like exp(c g/(1 - D g) |t|), g = (n,J^-1 n) of 1/3 at least: at c = 10, t = -5 by e^17, and more than a
  * million turns lie on the way. */
@@ -142,10 +134,9 @@ static void backwards(const char *name, double c)
     const iso_start start = spinning();
     const iso_effects e = twist(c);
     hard_case(name, "a clear end", "resistance drives a ball backwards in time: growth without bound");
-    for (int i = 0; i < hard_ways; i++) {
-        if (!he_is_ball(i)) continue;
-        const he_answer a = he_solve(ctx, &hard_way[i], &ball, &start, &e, -5);
-        he_refuses(ctx, &hard_way[i], a.status, "backwards in time resistance drives the ball");
+    for (const hard_road *way = hard_way; he_is_ball(way); way++) {
+        const he_answer a = he_solve(ctx, way, &ball, &start, &e, -5);
+        he_refuses(ctx, way, a.status, "backwards in time resistance drives the ball");
     }
     const double g = 1 / max3(ball.J);
     hard_naive("steps of a run without end, one a radian", exp(fmin(700, 5 * c * g / (1 - ball.D * g))), 1e6);

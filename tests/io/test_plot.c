@@ -1,61 +1,24 @@
 /* test_plot.c - pictures: the three formats, hostile titles and names, odd records, and a gnuplot that is not there,
  * complains, dies or stops half-way. A target is either a whole picture or untouched. */
-#include <dirent.h>
 #include <gsl/gsl_math.h>
-#include <gsl/gsl_test.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
+#include "folder.h"
 #include "plot/plot.h"
 
 static iso_context *ctx;
-static char folder[] = "/tmp/isoroll-test-XXXXXX";
-
-/* A path in the test's folder; four can be in use at once. */
-static const char *in_folder(const char *name)
-{
-    static char paths[4][256];
-    static int next;
-    char *path = paths[next++ % 4];
-    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
-    return path;
-}
-
-static int files_in_folder(void)
-{
-    DIR *d = opendir(folder);
-    int count = -2; /* . and .. */
-    while (d && readdir(d)) count++;
-    if (d) closedir(d);
-    return count;
-}
 
 static bool starts_with(const char *path, const char *magic)
 {
-    char head[16] = "";
-    FILE *file = fopen(path, "rb");
-    if (!file) return false;
-    (void)!fread(head, 1, sizeof head - 1, file);
-    fclose(file);
-    return strncmp(head, magic, strlen(magic)) == 0;
+    return strncmp(file_text(path), magic, strlen(magic)) == 0;
 }
 
 static bool file_contains(const char *path, const char *text)
 {
-    static char content[1 << 22];
-    FILE *file = fopen(path, "rb");
-    if (!file) return false;
-    content[fread(content, 1, sizeof content - 1, file)] = '\0';
-    fclose(file);
-    return strstr(content, text);
+    return strstr(file_text(path), text);
 }
 
-/* --- records
- * ------------------------------------------------------------------------------------------------------ */
+/* --- records ---------------------------------------------------------------------------------------------------- */
 
 /* n and gamma on curves, `turn` radians between rows. */
 static iso_record *make_path(size_t rows, double turn)
@@ -116,8 +79,7 @@ static iso_status draw_sheet(const char *path, const char *title, iso_record *r,
     return status;
 }
 
-/* --- tests
- * -------------------------------------------------------------------------------------------------------- */
+/* --- tests ------------------------------------------------------------------------------------------------------ */
 
 static void test_formats(void)
 {
@@ -321,16 +283,6 @@ static void test_targets(void)
     unlink(path);
 }
 
-/* gnuplot replaced by a script of ours: `body` is what it does. */
-static void fake_gnuplot(const char *body)
-{
-    FILE *file = fopen(in_folder("bin/gnuplot"), "w");
-    if (!file) exit(1);
-    fprintf(file, "#!/bin/sh\n%s\n", body);
-    fclose(file);
-    chmod(in_folder("bin/gnuplot"), 0755);
-}
-
 static void test_no_gnuplot(void)
 {
     static const struct {
@@ -346,8 +298,8 @@ static void test_no_gnuplot(void)
     char path[256], saved[8192];
     snprintf(path, sizeof path, "%s", in_folder("g.svg"));
     snprintf(saved, sizeof saved, "%s", getenv("PATH") ? getenv("PATH") : "");
-    FILE *old = fopen(path, "w");
-    if (!old || fputs("old", old) < 0 || fclose(old) != 0 || mkdir(in_folder("bin"), 0777) != 0) exit(1);
+    put_file(path, "old", 3);
+    if (mkdir(in_folder("bin"), 0777) != 0) exit(1);
     char fake_path[9000];
     setenv("PATH", in_folder("bin"), 1);
     gsl_test(draw_simple(path, "") != ISO_FILE_TROUBLE, "no gnuplot: %s", iso_context_message(ctx));
@@ -355,7 +307,7 @@ static void test_no_gnuplot(void)
     snprintf(fake_path, sizeof fake_path, "%s:%s", in_folder("bin"), saved);
     setenv("PATH", fake_path, 1);
     for (size_t i = 0; i < sizeof fakes / sizeof *fakes; i++) {
-        fake_gnuplot(fakes[i].body);
+        put_gnuplot(in_folder("bin/gnuplot"), fakes[i].body);
         gsl_test(draw_simple(path, "") != ISO_FILE_TROUBLE, "%s: %s", fakes[i].body, iso_context_message(ctx));
         gsl_test(!strstr(iso_context_message(ctx), fakes[i].said), "its words: %s", iso_context_message(ctx));
         gsl_test((strstr(iso_context_message(ctx), "gnuplot-nox") != NULL) != fakes[i].cannot_run,

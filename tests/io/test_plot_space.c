@@ -1,49 +1,29 @@
 /* test_plot_space.c - pictures of a path in space: the frame of the views, what is marked, what is not assumed;
  * ticks. Private functions of the library are tested. gnuplot is replaced by a script that keeps its input. */
-#include <gsl/gsl_test.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
+#include "folder.h"
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
 
 static iso_context *ctx;
-static char folder[] = "/tmp/isoroll-test-XXXXXX", script[1 << 22];
-
-static void path_of(char path[300], const char *name)
-{
-    snprintf(path, 300, "%s/%s", folder, name);
-}
+static const char *script = ""; /* what the false gnuplot was given */
 
 /* Puts the false gnuplot in front of the true one. read_script() reads what it was given. */
 static void replace_gnuplot(void)
 {
-    char path[300], search[9000];
-    path_of(path, "gnuplot");
-    FILE *file = fopen(path, "w");
-    if (!file) exit(1);
-    fprintf(file, "#!/bin/sh\ncat >%s/script\necho '<svg></svg>'\n", folder);
-    fclose(file);
-    chmod(path, 0755);
+    char search[9000], body[400];
+    snprintf(body, sizeof body, "cat >%s/script\necho '<svg></svg>'", folder);
+    put_gnuplot(in_folder("gnuplot"), body);
     snprintf(search, sizeof search, "%s:%s", folder, getenv("PATH") ? getenv("PATH") : "");
     setenv("PATH", search, 1);
 }
 
 static const char *read_script(void)
 {
-    char path[300];
-    path_of(path, "script");
-    FILE *file = fopen(path, "r");
-    if (!file) return strcpy(script, "");
-    script[fread(script, 1, sizeof script - 1, file)] = '\0';
-    fclose(file);
-    return script;
+    return script = file_text(in_folder("script"));
 }
 
 /* --- records ---------------------------------------------------------------------------------------------------- */
@@ -216,8 +196,7 @@ static int read_block(const char *name, int n, double xy[][2], int most)
 
 static iso_status draw(const iso_plot_orbit *plot)
 {
-    char path[300];
-    path_of(path, "a.svg");
+    const char *path = in_folder("a.svg");
     const iso_status status = iso_plot_trajectory(ctx, &(iso_plot_page){.path = path}, plot);
     unlink(path);
     return status;
@@ -366,7 +345,6 @@ static void test_ticks(void)
 
 int main(void)
 {
-    char path[300];
     ctx = iso_context_create();
     if (!ctx || !mkdtemp(folder)) return 1;
     test_frames();
@@ -378,8 +356,8 @@ int main(void)
     test_views();
     test_marks();
     test_noise();
-    static const char *const left[] = {"gnuplot", "script"};
-    for (int i = 0; i < 2; i++) path_of(path, left[i]), unlink(path);
+    unlink(in_folder("gnuplot"));
+    unlink(in_folder("script"));
     gsl_test(rmdir(folder) != 0, "an empty folder remains");
     iso_context_free(ctx);
     return gsl_test_summary();

@@ -2,62 +2,17 @@
  * target is either whole or untouched. */
 #include <float.h>
 #include <gsl/gsl_math.h>
-#include <gsl/gsl_test.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
+#include "folder.h"
 #include "io/table_impl.h"
 
 static iso_context *ctx;
-static char folder[] = "/tmp/isoroll-test-XXXXXX";
 
 /* For gsl_test, which wants 0 for a test passed. */
 static int failed(iso_status status)
 {
     return status != ISO_OK;
-}
-
-/* A path in the test's folder; four can be in use at once. */
-static const char *in_folder(const char *name)
-{
-    static char paths[4][128];
-    static int next;
-    char *path = paths[next++ % 4];
-    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
-    return path;
-}
-
-static void put(const char *path, const char *text, size_t length)
-{
-    FILE *file = fopen(path, "wb");
-    gsl_test(!file || fwrite(text, 1, length, file) != length, "cannot write %s", path);
-    if (file) fclose(file);
-}
-
-static bool holds(const char *path, const char *text)
-{
-    char found[4096];
-    FILE *file = fopen(path, "rb");
-    if (!file) return false;
-    found[fread(found, 1, sizeof found - 1, file)] = '\0';
-    fclose(file);
-    return strcmp(found, text) == 0;
-}
-
-static int files_in_folder(void)
-{
-    char command[128];
-    int count = -1;
-    snprintf(command, sizeof command, "ls -A %s | wc -l", folder);
-    FILE *pipe = popen(command, "r");
-    if (!pipe) return -1;
-    if (fscanf(pipe, "%d", &count) != 1) count = -1;
-    pclose(pipe);
-    return count;
 }
 
 static iso_record *make_record(void)
@@ -127,8 +82,9 @@ static void test_rows(void)
     iso_table_reader *r;
     double row[2];
     bool more;
-    put(path, text, sizeof text - 1);
-    gsl_test(failed(iso_table_reader_open(ctx, path, "trajectory", NULL, &r)), "opened: %s", iso_context_message(ctx));
+    put_file(path, text, sizeof text - 1);
+    gsl_test(failed(iso_table_reader_open(ctx, path, "trajectory", NULL, &r)), "opened: %s",
+             iso_context_message(ctx));
     gsl_test(iso_table_next(ctx, r, row, &more) != ISO_OK || !more || row[1] != 2, "a row");
     gsl_test(iso_table_next(ctx, r, row, &more) != ISO_BAD_INPUT, "a bad one");
     gsl_test(iso_table_at(r)->line != 5 || !strstr(iso_context_message(ctx), ":5:3: "), "and its line");
@@ -138,14 +94,15 @@ static void test_rows(void)
     gsl_test(strcmp(iso_record_get(iso_table_header(r), "k"), "2") != 0, "a line behind the rows");
     gsl_test(iso_table_at(r)->ignored != NULL, "nothing is passed over");
     iso_table_reader_close(r);
-    put(path, ignored, strlen(ignored));
-    gsl_test(failed(iso_table_reader_open(ctx, path, "trajectory", NULL, &r)), "opened: %s", iso_context_message(ctx));
+    put_file(path, ignored, strlen(ignored));
+    gsl_test(failed(iso_table_reader_open(ctx, path, "trajectory", NULL, &r)), "opened: %s",
+             iso_context_message(ctx));
     gsl_test(!iso_table_at(r)->ignored || !strstr(iso_table_at(r)->ignored, "'x'"), "x is passed over");
     gsl_test(iso_table_next(ctx, r, row, &more) != ISO_OK || row[0] != 2 || row[1] != 3, "the others are read");
     iso_table_reader_close(r);
-    gsl_test(failed(iso_table_reader_open(ctx, path, "trajectory", "n1,-,-,t", &r)), "named: %s", iso_context_message(ctx));
-    gsl_test(iso_table_next(ctx, r, row, &more) != ISO_OK || row[0] != 1 || row[1] != 4,
-             "by the caller's names");
+    gsl_test(failed(iso_table_reader_open(ctx, path, "trajectory", "n1,-,-,t", &r)), "named: %s",
+             iso_context_message(ctx));
+    gsl_test(iso_table_next(ctx, r, row, &more) != ISO_OK || row[0] != 1 || row[1] != 4, "by the caller's names");
     iso_table_reader_close(r);
     gsl_test(iso_table_reader_open(ctx, path, "trajectory", "n1,t,t", &r) != ISO_BAD_ARGUMENT || r, "a name twice");
     unlink(path);
@@ -172,8 +129,9 @@ static void test_accepted(void)
     const char *path = in_folder("a.csv");
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         iso_record *record;
-        put(path, texts[i], strlen(texts[i]));
-        gsl_test(failed(iso_table_read(ctx, path, "trajectory", NULL, &record, NULL)), "text %zu: %s", i, iso_context_message(ctx));
+        put_file(path, texts[i], strlen(texts[i]));
+        gsl_test(failed(iso_table_read(ctx, path, "trajectory", NULL, &record, NULL)), "text %zu: %s", i,
+                 iso_context_message(ctx));
         if (!record) continue;
         gsl_test(iso_record_rows(record) != 2 || iso_record_row(record, 1)[1] != 4, "numbers of text %zu", i);
         const char *k = iso_record_get(record, "k"), *interrupted = iso_record_get(record, "interrupted");
@@ -220,15 +178,16 @@ static void test_mistakes(void)
         const struct mistake *m = &mistakes[i];
         iso_record *record;
         char place[192];
-        put(path, m->text, strlen(m->text));
+        put_file(path, m->text, strlen(m->text));
         snprintf(place, sizeof place, "%s:%d:%d: ", path, m->line, m->column);
-        gsl_test(iso_table_read(ctx, path, "trajectory", NULL, &record, NULL) != ISO_BAD_INPUT || record, "mistake %zu", i);
+        gsl_test(iso_table_read(ctx, path, "trajectory", NULL, &record, NULL) != ISO_BAD_INPUT || record,
+                 "mistake %zu", i);
         const char *message = iso_context_message(ctx);
         gsl_test(strncmp(message, place, strlen(place)) != 0, "mistake %zu at %sis said: %s", i, place, message);
         gsl_test(!strstr(message, m->says), "mistake %zu, \"%s\": %s", i, m->says, message);
     }
     iso_record *record;
-    put(path, "t,n1\n0,\0001\n", 10);
+    put_file(path, "t,n1\n0,\0001\n", 10);
     gsl_test(iso_table_read(ctx, path, "trajectory", NULL, &record, NULL) != ISO_BAD_INPUT, "a NUL byte");
     gsl_test(!strstr(iso_context_message(ctx), ":2:3: a NUL byte"), "%s", iso_context_message(ctx));
     unlink(path);
@@ -237,7 +196,8 @@ static void test_mistakes(void)
 static void test_troubles(void)
 {
     iso_record *record, *r = make_record();
-    gsl_test(iso_table_read(ctx, "/nowhere/a.csv", "trajectory", NULL, &record, NULL) != ISO_FILE_TROUBLE, "no file to read");
+    gsl_test(iso_table_read(ctx, "/nowhere/a.csv", "trajectory", NULL, &record, NULL) != ISO_FILE_TROUBLE,
+             "no file to read");
     gsl_test(iso_table_read(ctx, folder, "trajectory", NULL, &record, NULL) != ISO_FILE_TROUBLE, "a folder to read");
     gsl_test(iso_table_write(ctx, "/nowhere/a.csv", r) != ISO_FILE_TROUBLE, "no folder to write in");
     gsl_test(iso_table_write(ctx, folder, r) != ISO_FILE_TROUBLE, "a folder to write");
@@ -260,7 +220,7 @@ static void test_replacing(void)
     iso_record *r = make_record();
     double row[3] = {1, 2, GSL_NAN};
     struct stat s;
-    put(path, "old", 3);
+    put_file(path, "old", 3);
     chmod(path, 0640);
     gsl_test(symlink(path, link_path), "symlink");
     gsl_test(failed(iso_table_writer_open(ctx, link_path, "trajectory", &w)), "open: %s", iso_context_message(ctx));
@@ -270,11 +230,12 @@ static void test_replacing(void)
     gsl_test(iso_table_write_row(ctx, w, row) != ISO_NUMERICAL, "a row that is not finite");
     gsl_test(strcmp(iso_context_about(ctx), "n1") != 0, "its column");
     gsl_test(failed(iso_table_writer_close(ctx, w, false)), "close");
-    gsl_test(!holds(path, "old"), "the old file stays");
+    gsl_test(strcmp(file_text(path), "old") != 0, "the old file stays");
     gsl_test(files_in_folder() != 2, "the new one goes");
     gsl_test(failed(iso_table_write(ctx, link_path, r)), "write: %s", iso_context_message(ctx));
     gsl_test(lstat(link_path, &s) || !S_ISLNK(s.st_mode), "the link stays a link");
-    gsl_test(stat(path, &s) || (s.st_mode & 0777) != 0640 || holds(path, "old"), "the file behind it is replaced");
+    gsl_test(stat(path, &s) || (s.st_mode & 0777) != 0640 || strcmp(file_text(path), "old") == 0,
+             "the file behind it is replaced");
     gsl_test(files_in_folder() != 2, "no temporary file is left");
     gsl_test(failed(iso_table_writer_close(ctx, NULL, true)), "closing nothing");
     iso_record_free(r);

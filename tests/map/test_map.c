@@ -80,7 +80,6 @@ static void energies(const laws_case *c, laws_worst *worst)
     laws_note(worst, fabs(iso_coupling(p, h) / eps - 1), 4 * DBL_EPSILON, p, "eps");
     laws_note(worst, fabs(iso_energy(p, eps) / h - 1), 4 * DBL_EPSILON, p, "h of eps");
     laws_note(worst, fabs(iso_energy(p, iso_coupling(p, h)) / h - 1), 4 * DBL_EPSILON, p, "h back");
-    laws_note(worst, fabs(poisson_hamiltonian(p, point, NULL) / h - 1), 2 * laws_rounding(p), p, "h of the point");
     laws_note(worst, fabs(poisson_hamiltonian(p, point, NULL) / h - 1), 2 * laws_rounding(p), p, "H (21)");
 }
 

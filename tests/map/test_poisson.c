@@ -7,7 +7,6 @@
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "map/state.h"
 #include "model/model_impl.h"
 #include "poisson.h"
 
@@ -42,15 +41,6 @@ static void brackets(const laws_case *c, laws_worst *worst)
             laws_note(worst, fabs(B[N * (3 + i) + j] - Mgamma), DBL_MIN, &c->problem.p, "{gamma,M}");
             laws_note(worst, fabs(B[N * (3 + i) + 3 + j]), DBL_MIN, &c->problem.p, "{gamma,gamma}");
         }
-}
-
-static void antisymmetric(const laws_case *c, laws_worst *worst)
-{
-    double y[N], B[N * N];
-    anywhere(c, y);
-    poisson_matrix(y, B);
-    for (int i = 0; i < N; i++)
-        for (int j = 0; j < N; j++) laws_note(worst, fabs(B[N * i + j] + B[N * j + i]), DBL_MIN, &c->problem.p, "");
 }
 
 /* B d(M,gamma) = 0 and B d(gamma,gamma) = 0 */
@@ -139,27 +129,6 @@ static void equations(const laws_case *c, laws_worst *worst)
               8 * DBL_EPSILON * (norm(dH) * fast + norm(dH + 3) * slow), p, "dH/dtau");
 }
 
-/* The ball's flow, carried over by (18), is this flow times dtau/dt = N (16). */
-static void map_to_point(const void *data, const double y[], double point[])
-{
-    iso_ball_to_point(data, y, point);
-}
-
-static void ball_in_tau(const laws_case *c, laws_worst *worst)
-{
-    const iso_params *p = &c->problem.p;
-    double dy[N], point[N], carried[N], expected[N];
-    iso_ball_to_point(p, c->y, point);
-    c->system->rhs(&c->problem, c->y, dy);
-    const double h = laws_step(c, dy);
-    laws_slope(map_to_point, p, N, N, c->y, dy, h, carried);
-    poisson_hamiltonian_rhs(p, point, expected);
-    const double multiplier = pow(iso_system_point.q(p, point, NULL), 1 - 1 / (2 * p->k));
-    for (int i = 0; i < N; i++) expected[i] *= multiplier;
-    laws_note(worst, laws_distance(carried, expected), laws_rounding(p) * norm(point) / h, p, "M");
-    laws_note(worst, laws_distance(carried + 3, expected + 3), laws_rounding(p) / h, p, "gamma");
-}
-
 /* --- a product G(gamma) F(M), (22)-(23) ------------------------------------------------------------------------- */
 
 /* F = (M, S M)/2 + (M,M)^2/4 + (v, M), G = exp (a, gamma): its values, and slopes in M and in gamma. */
@@ -214,12 +183,10 @@ int main(void)
 {
     gsl_test_verbose(1);
     laws_hold("brackets (20)", &iso_system_point, brackets);
-    laws_hold("bracket antisymmetric", &iso_system_point, antisymmetric);
     laws_hold("Casimirs", &iso_system_point, casimirs);
     laws_hold("Jacobi identity", &iso_system_point, jacobi);
     laws_hold("gradient of H (21)", &iso_system_point, gradient_of_h);
     laws_hold("equations in tau", &iso_system_point, equations);
-    laws_hold("(9) carried over is (21) in tau", &iso_system_ball, ball_in_tau);
     laws_hold("a product G F, on its level, is F - h/G in another time", &iso_system_point, product);
     exit(gsl_test_summary());
 }

@@ -148,15 +148,6 @@ static void no_force_at_one(const laws_case *c, laws_worst *worst)
     if (c->problem.p.k == 1) note_motion(c, 0, 0.1, worst);
 }
 
-static void no_force_at_half(const laws_case *c, laws_worst *worst)
-{
-    if (c->problem.p.k != 0.5) return;
-    iso_conical at;
-    reduction_coordinates(&c->problem.p, c->y, &at);
-    if (laws_regular(c)) laws_note(worst, fabs(reduction_force(&c->problem.p, &at)), DBL_MIN, &c->problem.p, "S");
-    note_motion(c, 0, 1024 / laws_reach(&c->problem.p) * laws_conditioning(&c->problem.p), worst);
-}
-
 static void momenta_of(const void *data, const double y[], double momenta[])
 {
     iso_conical at;
@@ -239,7 +230,6 @@ int main(void)
     laws_hold("rates of lam and mu", &iso_system_ball, rates);
     laws_hold("equations of motion (15)", &iso_system_ball, equations_of_motion);
     laws_fail("(15) without S at k = 1", &iso_system_ball, no_force_at_one);
-    laws_hold("(15) without S at k = 1/2, where S = 0", &iso_system_ball, no_force_at_half);
     laws_hold("canonical equations (17) in tau", &iso_system_ball, canonical);
     laws_hold("second form of (21)", &iso_system_ball, second_form);
     exit(gsl_test_summary());

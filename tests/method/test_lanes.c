@@ -57,9 +57,8 @@ static void collect(const effects_case *c, laws_worst *worst)
 
 static void collect_all(void)
 {
-    enum { J_STEP = 2 };
     laws_worst unused = {0};
-    for (int i = 0; iso_systems[i]; i++) effects_each(iso_systems[i], J_STEP, collect, &unused);
+    for (int i = 0; iso_systems[i]; i++) effects_each(iso_systems[i], tests_length(4, 2), collect, &unused);
 }
 
 /* --- groups of orbits that are alike ---------------------------------------------------------------------------- */

@@ -80,15 +80,6 @@ static void agreement(const orbit *o, const iso_method *m, laws_worst *worst)
     }
 }
 
-static void there_and_back(const orbit *o, const iso_method *m, laws_worst *worst)
-{
-    orbit end = *o;
-    double back[ISO_MAX_STATE];
-    solve(o, m, TURN * o->unit, end.y0);
-    solve(&end, m, -TURN * o->unit, back);
-    note(worst, o, m, orbit_error(o, back, o->y0), 2 * allowed(m));
-}
-
 /* (w, n, t) -> (-w, n, -t) maps every orbit to one, and every step of a method to a step, bit by bit. */
 static void reversal(const orbit *o, const iso_method *m, laws_worst *worst)
 {
@@ -99,33 +90,6 @@ static void reversal(const orbit *o, const iso_method *m, laws_worst *worst)
     solve(&mirror, m, TURN * o->unit, future);
     scale(future, -1);
     note_same(worst, o, m, past, future);
-}
-
-static void asking_changes_nothing(const orbit *o, const iso_method *m, laws_worst *worst)
-{
-    enum { TIMES = 50 };
-    iso_integrator *it = start(o, m);
-    double y[ISO_MAX_STATE], alone[ISO_MAX_STATE];
-    for (int i = 1; i <= TIMES; i++)
-        note_true(worst, o, m, iso_integrator_at(it, TURN * o->unit * i / TIMES, y) == ISO_OK);
-    iso_integrator_free(it);
-    solve(o, m, TURN * o->unit, alone);
-    note_same(worst, o, m, y, alone);
-}
-
-/* Turning back sets out anew, and must leave nothing of the way before. */
-static void any_order_of_times(const orbit *o, const iso_method *m, laws_worst *worst)
-{
-    static const double times[] = {1.7, -0.4, 1.7, 0.3, 0.3, 0, -2.1, -2.2, 2.5, 1e-9, -1e-9, 0, 2.5};
-    iso_integrator *it = start(o, m);
-    for (size_t i = 0; i < sizeof times / sizeof *times; i++) {
-        double y[ISO_MAX_STATE], alone[ISO_MAX_STATE];
-        note_true(worst, o, m, iso_integrator_at(it, times[i] * o->unit, y) == ISO_OK);
-        solve(o, m, times[i] * o->unit, alone);
-        note_same(worst, o, m, y, alone);
-        if (times[i] == 0) note_same(worst, o, m, y, o->y0);
-    }
-    iso_integrator_free(it);
 }
 
 static void starting_again(const orbit *o, const iso_method *m, laws_worst *worst)
@@ -244,25 +208,6 @@ static void carried_clocks(const orbit *plain, const iso_method *m, laws_worst *
     note_true(worst, &o, m, o.model.clocks == 2);
 }
 
-/* The same state when the orbit runs in another clock and is asked at what that clock showed. */
-static void other_clocks(const orbit *plain, const iso_method *m, laws_worst *worst)
-{
-    orbit o = *plain;
-    double y[ISO_MAX_STATE];
-    orbit_clocks(&o, o.model.clock, true, true, true);
-    solve(&o, m, TURN * o.unit, y);
-    for (int c = 0; c < o.model.clocks; c++) {
-        orbit other = *plain;
-        double same[ISO_MAX_STATE];
-        orbit_clocks(&other, o.model.clock_of[c], true, true, true);
-        solve(&other, m, y[ISO_STATE + c], same);
-        note(worst, &o, m, orbit_error(plain, same, y), 6 * allowed(m));
-        for (int i = 0; i < other.model.clocks; i++)
-            if (other.model.clock_of[i] == o.model.clock)
-                note(worst, &o, m, fabs(same[ISO_STATE + i] / (TURN * o.unit) - 1), 4 * allowed(m));
-    }
-}
-
 /* --- special orbits --------------------------------------------------------------------------------------------- */
 
 static void rest(const orbit *moving, const iso_method *m, laws_worst *worst)
@@ -307,16 +252,12 @@ int main(void)
     gsl_test_verbose(1);
     ctx = iso_context_create();
     hold("forwards and backwards as the reference", agreement);
-    hold("there and back", there_and_back);
     hold("mirrored in time, bit for bit", reversal);
-    hold("times asked on the way change nothing", asking_changes_nothing);
-    hold("times in any order", any_order_of_times);
     hold("starting again", starting_again);
     hold("statistics and the last step", statistics);
     hold("projection restores energy, spin and length", projection);
     hold("without projection they drift", no_projection);
     hold("carried clocks against quadrature", carried_clocks);
-    hold("running in other clocks", other_clocks);
     hold("rest", rest);
     clock_is_compensated();
     iso_context_free(ctx);

@@ -69,11 +69,14 @@ static void check_needs(void)
                 const iso_method *m = iso_methods[j];
                 const bool serves = iso_method_serves(m, &o.model, why);
                 const bool wanted = orbit_served(m, iso_systems[s]) && !(m->steps_in_s && fabs(k[i]) < 0.04);
-                iso_integrator *it;
+                iso_integrator *it = (iso_integrator *)&ctx; /* must become NULL */
                 const iso_status status =
                     iso_integrator_create(ctx, m, &o.model, &(iso_method_options){.tolerance = 1e-9}, &it);
                 gsl_test(serves != wanted || (status == ISO_OK) != serves, "%s serves the %s with k = %g: %d",
                          m->name, iso_systems[s]->name, k[i], serves);
+                gsl_test(!serves &&
+                             (status != ISO_BAD_ARGUMENT || it || strcmp(iso_context_about(ctx), "method") != 0),
+                         "%s, refused for the %s: %s", m->name, iso_systems[s]->name, iso_context_message(ctx));
                 iso_integrator_free(it);
             }
         }

@@ -96,6 +96,7 @@ static void for_every_method(void (*check)(const orbit *, const iso_method *, la
     for (int i = 0; iso_methods[i]; i++)
         for (int s = 0; iso_systems[s]; s++)
             for (int k = 0; k < ORBIT_K; k++) {
+                if (tests_length(1, 0) && (i + s + k / 2) % 2) continue; /* half of the k */
                 orbit o = orbit_sample(ctx, iso_systems[s], orbit_k[k], orbit_J, 5 + (unsigned long)k);
                 if (k % 2) orbit_clocks(&o, (iso_clock)(k % 3), k % 3 != 0, k % 3 != 1, k % 3 != 2);
                 if (orbit_served(iso_methods[i], iso_systems[s])) check(&o, iso_methods[i], &worst);
@@ -119,7 +120,7 @@ static void effects_in_any_order(const effects_case *c, laws_worst *worst)
     static int variant;
     static const char *const names[] = {"taylor", "rk8pd", "adams", "bsimp"};
     const int number = variant++;
-    if (number % tests_length(311, 31) || iso_effects_stiffness(&c->model.problem) > ISO_STIFF) return;
+    if (number % tests_length(101, 31) || iso_effects_stiffness(&c->model.problem) > ISO_STIFF) return;
     orbit o = orbit_of(ctx, c, number);
     o.unit = orbit_stretch(c, &o) / 2;
     if (iso_params_steep(&c->model.problem.p)) return; /* no time suits all parts of such an orbit */

@@ -177,21 +177,6 @@ static void refused(const char *what, const iso_method *m, const iso_method_opti
     gsl_test(status != ISO_BAD_ARGUMENT || it, "%s is refused: %s", what, iso_context_message(ctx));
 }
 
-/* A method for one system says so about the other. */
-static void check_systems(void)
-{
-    for (int i = 0; iso_methods[i]; i++)
-        for (int s = 0; iso_systems[s]; s++) {
-            if (orbit_served(iso_methods[i], iso_systems[s])) continue;
-            const orbit o = orbit_sample(ctx, iso_systems[s], 1, orbit_J, 3);
-            iso_integrator *it = (iso_integrator *)&beyond; /* must become NULL */
-            const iso_status status =
-                iso_integrator_create(ctx, iso_methods[i], &o.model, &(iso_method_options){.tolerance = 1e-9}, &it);
-            gsl_test(status != ISO_BAD_ARGUMENT || it || strcmp(iso_context_about(ctx), "method") != 0,
-                     "refused for the %s: %s", iso_systems[s]->name, iso_context_message(ctx));
-        }
-}
-
 /* References: methods with more digits than a double, one after the other, and witnesses by their places. */
 static void check_references(void)
 {
@@ -385,7 +370,6 @@ int main(void)
         if (meets_walls(iso_methods[i])) check_breaking_off(iso_methods[i]);
         check_max_steps(iso_methods[i]);
     }
-    check_systems();
     check_references();
     check_options();
     check_times();

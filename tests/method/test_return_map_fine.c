@@ -15,6 +15,7 @@
 #include "method/taylor/return_map_impl.h"
 #include "orbit/crossings.h"
 #include "orbit/crossings_impl.h"
+#include "reference.h"
 
 #ifdef ISO_TAYLOR_HAS_QUAD
 static const iso_return_code *const codes[] = {&iso_return_extended, &iso_return_quad};
@@ -184,12 +185,8 @@ enum { K, J1, LEVEL = 11, AXIS, CROSSING, S, T, M_1, G_1 = 19 };
 static bool read_row(FILE *file, double v[NUMBERS])
 {
     char line[2048];
-    while (fgets(line, sizeof line, file)) {
-        char *at = strchr(line, ',');
-        if (strncmp(line, "lev", 3) != 0 || !at) continue;
-        for (int i = 0; i < NUMBERS; i++) v[i] = strtod(at + 1, &at);
-        return true;
-    }
+    while (fgets(line, sizeof line, file))
+        if (strncmp(line, "lev", 3) == 0 && reference_numbers(line, NUMBERS, v)) return true;
     return false;
 }
 

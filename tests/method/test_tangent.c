@@ -110,10 +110,10 @@ int main(void)
     }
     gsl_test_verbose(1);
     ctx = iso_context_create();
-    each = 1009;
-    effects_hold("deviations are those of neighbours", &iso_system_ball, 2, check_neighbours);
-    each = 23;
-    effects_hold("deviations are those of neighbours", &iso_system_point, 2, check_neighbours);
+    each = tests_length(499, 1009);
+    effects_hold("deviations are those of neighbours", &iso_system_ball, tests_length(0, 2), check_neighbours);
+    each = tests_length(11, 23);
+    effects_hold("deviations are those of neighbours", &iso_system_point, tests_length(0, 2), check_neighbours);
     iso_context_free(ctx);
     exit(gsl_test_summary());
 }

@@ -1,4 +1,4 @@
-/* The Taylor series of lib/method/taylor/: recurrences, orders, processors, the way back, long runs. */
+/* The Taylor series of lib/method/taylor/: recurrences, orders, processors, the way back, long runs, rest. */
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -231,47 +231,6 @@ static void check_long(double k, iso_backend backend, double bound)
     iso_orbit_free(truth), iso_orbit_free(other), iso_orbit_free(forth), iso_orbit_free(back);
 }
 
-static double third(const iso_sample *s, const void *data)
-{
-    (void)data;
-    return s->ball[5];
-}
-
-static void check_events(double k, iso_backend backend)
-{
-    iso_orbit *orbits[2] = {orbit_by(taylor, k, &beginning, backend, 1e-15),
-                            orbit_by(iso_method_find("rk8pd"), k, &beginning, backend, 1e-15)};
-    double worst = 0, from = 0;
-    int count = 0;
-    for (bool found = true; count < 6 && found; count += found) {
-        iso_sample s[2];
-        for (int i = 0; i < 2 && found; i++)
-            if (iso_orbit_event(orbits[i], third, NULL, 0, from, 200, &found, &s[i]) != ISO_OK) found = false;
-        if (!found) break;
-        worst = fmax(worst, fmax(fabs(s[0].clock[ISO_CLOCK_T] - s[1].clock[ISO_CLOCK_T]), apart(&s[0], s[1].ball)));
-        worst = fmax(worst, fabs(s[0].ball[5]));
-        from = s[0].clock[ISO_CLOCK_T] + 1e-3;
-    }
-    gsl_test(!(count == 6 && worst < 1e-11), "k = %g: %d zeros of n3 as by rk8pd, %.1e", k, count, worst);
-    iso_orbit_free(orbits[0]), iso_orbit_free(orbits[1]);
-}
-
-/* What is asked, and in which order, does not matter by a bit. */
-static void check_asking(double k, iso_backend backend)
-{
-    static const double times[] = {3, -7.25, 11.5, 0.01, 40, 39.5, -2};
-    iso_orbit *busy = orbit_by(taylor, k, &beginning, backend, 1e-15);
-    int different = 0;
-    for (size_t i = 0; i < sizeof times / sizeof *times; i++) {
-        iso_orbit *fresh = orbit_by(taylor, k, &beginning, backend, 1e-15);
-        const iso_sample a = sample_at(busy, times[i]), b = sample_at(fresh, times[i]);
-        different += memcmp(a.ball, b.ball, sizeof a.ball) != 0 || !isfinite(a.ball[0]);
-        iso_orbit_free(fresh);
-    }
-    gsl_test(different, "k = %g: a state does not depend on the times asked before", k);
-    iso_orbit_free(busy);
-}
-
 /* Constraints after each of the steps to t = 10000, and the energy. */
 static void check_drift(const iso_system *system, double k)
 {
@@ -318,10 +277,9 @@ static void check_second(const iso_system *system, double k, iso_clock clock, do
         if (i > RADIANS - TENTH) square[1] += off * off / TENTH;
     }
     const double first = sqrt(square[0]), last = sqrt(square[1]);
-    const bool holds = F->holds(&o.model.problem);
-    gsl_test(holds ? !(worst < 1e-14 && last < 1.5 * first + 1e-16) : !(worst > 1e-2),
-             "%s, k = %g, %s, H = %.2g: %s %s to %.1e, rms %.1e at first, %.1e at last", system->name, k,
-             iso_clock_name(clock), o.model.problem.energy, name, holds ? "keeps" : "drifts", worst, first, last);
+    gsl_test(!(worst < 1e-14 && last < 1.5 * first + 1e-16),
+             "%s, k = %g, %s, H = %.2g: %s keeps to %.1e, rms %.1e at first, %.1e at last", system->name, k,
+             iso_clock_name(clock), o.model.problem.energy, name, worst, first, last);
     iso_integrator_free(it);
 }
 
@@ -349,46 +307,6 @@ static void check_rest(const iso_method *m)
     }
 }
 
-/* (w, t) -> (c w, t/c) is the same curve. */
-static void check_units(iso_backend backend)
-{
-    static const double cs[] = {1e-150, 3e-77, 7e-4, 1e9, 1e150};
-    iso_orbit *path = orbit_by(taylor, 0.75, &beginning, backend, 1e-15);
-    const iso_sample truth = sample_at(path, 30);
-    double worst = 0;
-    for (size_t i = 0; i < sizeof cs / sizeof *cs; i++) {
-        iso_start start = beginning;
-        scale(start.y, cs[i]);
-        iso_orbit *scaled = orbit_by(taylor, 0.75, &start, backend, 1e-15);
-        iso_sample s = sample_at(scaled, 30 / cs[i]);
-        scale(s.ball, 1 / cs[i]);
-        worst = apart(&s, truth.ball) <= worst ? worst : apart(&s, truth.ball);
-        iso_orbit_free(scaled);
-    }
-    gsl_test(!(worst < 1e-13), "units from 1e-150 to 1e150: %.1e", worst);
-    iso_orbit_free(path);
-}
-
-/* Backwards, a resistance makes the ball faster without end: a failure in words, and a last good state before it. */
-static void check_failure(const iso_method *m)
-{
-    iso_problem f = {.p = laws_params(0.5, orbit_J)};
-    f.effects.on[ISO_ROLLING_RESISTANCE] = true, ROLLING_COEFFICIENT(&f.effects) = 1e9;
-    orbit o = {.ctx = ctx, .model = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[3]){0})};
-    copy(beginning.y, o.y0, ISO_STATE);
-    iso_integrator *it = orbit_start(&o, m, &finest);
-    it->options.max_steps = 100000;
-    double t, y[ISO_MAX_STATE] = {NAN}, good[ISO_MAX_STATE];
-    const iso_status status = iso_integrator_at(it, -1, y);
-    gsl_test(status != ISO_NUMERICAL || !isnan(y[0]) || !strstr(iso_context_message(ctx), "backwards"), "%s",
-             iso_context_message(ctx));
-    iso_integrator_last(it, &t, good);
-    gsl_test(!(t < -1e-8 && isfinite(laws_max(ISO_STATE, good)) && fabs(norm(good + 3) - 1) < 1e-15),
-             "last good t = %g", t);
-    gsl_test(iso_integrator_at(it, -1e-9, y) != ISO_OK || !isfinite(y[0]), "times before the failure can be asked");
-    iso_integrator_free(it);
-}
-
 int main(void)
 {
     gsl_test_verbose(1);
@@ -411,28 +329,20 @@ int main(void)
     check_processors();
     check_quad();
     for (int i = 0; i < GEOMETRIES; i++)
-        for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
+        for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++)
             check_long(geometries[i], backend, backend == ISO_BACKEND_BALL ? 2e-12 : 1e-12);
-            check_events(geometries[i], backend);
-            check_asking(geometries[i], backend);
-        }
     for (int i = 0; i < 6; i++) check_drift(iso_systems[i % 2], orbit_k[i / 2]);
-    for (int i = 0; i < 3; i++) {
-        const double k = (const double[]){1, -1, 0.5}[i];
+    for (int k = -1; k <= 1; k += 2) {
         const char *name = k == -1 ? "F_shell" : "F_plane";
         check_second(&iso_system_ball, k, ISO_CLOCK_T, 1, name, 3);
         check_second(&iso_system_point, k, ISO_CLOCK_T, 1, name, 3);
         check_second(&iso_system_point, k, ISO_CLOCK_S, 1, name, 3);
-        if (k != 0.5) check_second(&iso_system_point, k, ISO_CLOCK_S, 1.1, name, 3);
+        check_second(&iso_system_point, k, ISO_CLOCK_S, 1.1, name, 3);
     }
-    check_second(&iso_system_ball, 0.5, ISO_CLOCK_T, 1, "F_shell", 3);
     for (unsigned long seed = 7; seed <= 8; seed++) /* near a principal axis, where w hardly changes F */
         check_second(&iso_system_ball, -1, ISO_CLOCK_T, 1, "F_shell", seed);
     check_rest(taylor);
     check_rest(extended);
-    check_units(ISO_BACKEND_BALL);
-    check_units(ISO_BACKEND_POINT);
-    check_failure(taylor);
     iso_context_free(ctx);
     exit(gsl_test_summary());
 }

@@ -123,35 +123,6 @@ static void twisting_to_rigid(const effects_case *c, laws_worst *worst)
     effects_note(c, worst, near, 0.015 * far + 4e6 * DBL_EPSILON * forces, "c = 1e6");
 }
 
-/* The same for whole orbits: at ten times c a tenth of the distance, with the explicit contact and the stiff one. */
-static void orbits_to_rigid(void)
-{
-    static const double resistance[] = {30, 300, 3000, 30000};
-    iso_context *ctx = iso_context_create();
-    const iso_method *method = iso_method_find("bsimp");
-    for (int i = 0; i < ORBIT_K; i++) {
-        orbit o = orbit_sample(ctx, &iso_system_ball, orbit_k[i], orbit_J, 7);
-        double rigid[ISO_MAX_STATE], y[ISO_MAX_STATE], distance[4], start[ISO_MAX_STATE];
-        copy(o.y0, start, ISO_STATE);
-        const double time = 2 * o.unit;
-        orbit_reference(&o, time, rigid);
-        iso_params_set_D(ctx, 0.7, &o.model.problem.p);
-        o.model.problem.effects.on[ISO_TWIST] = true;
-        for (int j = 0; j < 4; j++) {
-            TWIST_RESISTANCE(&o.model.problem.effects) = resistance[j];
-            orbit_clocks(&o, ISO_CLOCK_T, false, false, false);
-            iso_model_begin(&o.model, start, o.y0);
-            orbit_solve(&o, method, &(iso_method_options){.tolerance = 1e-12}, time, y);
-            distance[j] = laws_distance(y + 3, rigid + 3);
-        }
-        gsl_test(!(distance[0] < 0.2), "k = %g: near the rubber ball at c = 30: %.2g", orbit_k[i], distance[0]);
-        for (int j = 1; j < 4; j++)
-            gsl_test(!(fabs(distance[j] / distance[j - 1] - 0.1) < 0.04), "k = %g: c = %g is %.3g of c = %g away",
-                     orbit_k[i], resistance[j], distance[j] / distance[j - 1], resistance[j - 1]);
-    }
-    iso_context_free(ctx);
-}
-
 /* The rates at which the contact takes spin out, and rolling resistance motion about the axis of the least moment. */
 static void stiffness(const effects_case *c, laws_worst *worst)
 {
@@ -288,7 +259,6 @@ int main(void)
     effects_hold("rigid contact: J w' = J w x w + T + lambda n", &iso_system_ball, 1, rigid_equation);
     effects_hold("twisting contact: K' = K x w + T", &iso_system_ball, 1, twisting_equation);
     effects_hold("twisting contact tends to the rigid one", &iso_system_ball, 1, twisting_to_rigid);
-    orbits_to_rigid();
     effects_hold("stiffness", &iso_system_ball, 1, stiffness);
     bounds_of_D();
     effects_hold("projection restores, and touches nothing else", &iso_system_ball, 1, projection);

@@ -96,11 +96,11 @@ static iso_context *ctx;
 static void is_wrong(iso_effect_id id, const char *text, int column, const char *words)
 {
     const iso_params p = laws_params(k, J);
+    const double start[ISO_STATE] = {0.9, -0.3, -0.225, n[0], n[1], n[2]};
     iso_effects e = with(id, 0, text);
-    char place[32];
+    char place[48];
     snprintf(place, sizeof place, "column %d of the text: ", column);
-    iso_status status = iso_effects_check(ctx, &p, n, &e);
-    if (status == ISO_OK) status = iso_effects_check_corners(ctx, &p, n, &e);
+    const iso_status status = iso_effects_check(ctx, &p, start, &e);
     const char *message = iso_context_message(ctx);
     gsl_test(status != ISO_BAD_INPUT || !strstr(message, place) || !strstr(message, words), "'%.40s': %s", text,
              status == ISO_OK ? "accepted" : message);
@@ -136,9 +136,21 @@ static void refused(void)
     is_wrong(ISO_POTENTIAL, "n1 + (-2)^0.5", 10, "-2 to the power 0.5");
     is_wrong(ISO_POTENTIAL, deep, 33, "nested more than 32 deep");
     is_wrong(ISO_POTENTIAL, many, 493, "at most 256");
-    is_wrong(ISO_POTENTIAL, "1 + sqrt(n1^2)", 5, "this has a corner, for example at n = (");
-    is_wrong(ISO_POTENTIAL, "(n1^2 - n1*n2 + n2^2/4)^1.5", 24, "this has a corner");
-    is_wrong(ISO_TORQUE, "sqrt((omega1 + 2*omega3)^2)*n1", 1, "and omega = (");
+    static const char *const corners[] = {
+        "(sqrt(n1^2))",       "(sqrt((n1+2*n2)^2))", "((n1*n1)^1.5)",    "((n1*n1)^-0.5)",
+        "((n1^6)^0.5)",       "(sqrt(3*n1^2/n2))",   "(sqrt(n1*n1*n3))", "((n1^k)^0.5*0+(n2^4)^-1.25)",
+        "(sqrt((2+n3)/n1^2))"};
+    for (size_t i = 0; i < sizeof corners / sizeof *corners; i++)
+        is_wrong(ISO_TORQUE, corners[i], corners[i][1] == 's' ? 2 : (int)(strrchr(corners[i], '^') - corners[i]) + 1,
+                 "the root of an even power");
+    static const char *const smooth[] = {"sqrt((n1^2)^2)", "sqrt(n1^2*n1^2)", "sqrt((n1^2+n2^4)^2)",
+                                         "(n1*n1*n2^2)^2", "sqrt(1+n1^2)",    "sqrt(sqrt(1+n1^2)^2)"};
+    for (size_t i = 0; i < sizeof smooth / sizeof *smooth; i++) {
+        const iso_params p = laws_params(k, J);
+        const double start[ISO_STATE] = {0.9, -0.3, -0.225, n[0], n[1], n[2]};
+        iso_effects e = with(ISO_TORQUE, 0, smooth[i]);
+        gsl_test(iso_effects_check(ctx, &p, start, &e) != ISO_OK, "'%s' has no corner", smooth[i]);
+    }
 }
 
 /* --- a value with the size of its error, and how near it is to its end ------------------------------------------ */

@@ -21,6 +21,9 @@ enum { NUMBERS = CHANNELS * KEPT };
 
 static real scalar[ISO_FORMULA_SCALARS * NUMBERS], no_constants[ISO_FORMULA_CONSTANTS];
 static vector no_vectors[ISO_FORMULA_VECTORS * NUMBERS];
+/* n b_n of the base b, which only its powers read. The formula below has none, but gcc 14 cannot know that: where this
+ * was NULL, it warned of reading it. */
+static real no_slopes[NUMBERS];
 
 static const double tiny = 1e-30;
 
@@ -91,6 +94,7 @@ int main(void)
                      .c = no_constants,
                      .scalar = scalar,
                      .vector = no_vectors,
+                     .slope = no_slopes,
                      .count = count,
                      .inverse = inverse};
     for (int turn = 0; turn < 50; turn++) {

@@ -185,10 +185,14 @@ static void note_drifts(const effects_case *c)
             if (effects_on(c, e)) note_drift(c, i);
 }
 
-/* More states: some hardly change. */
+/* More states: some hardly change. At short length k = 1 and -1, and 0.5 with moments as different as those of bodies,
+ * or equal. */
 static void collect_drifts(const effects_case *c, laws_worst *worst)
 {
+    const double k = c->model.problem.p.k, spread = laws_spread(&c->model.problem.p);
+    const bool usual = fabs(k) == 1 || (k == 0.5 && spread < 3 && (spread == 1 || spread > 1.1));
     (void)worst;
+    if (tests_length(1, 0) && !usual) return;
     for (int i = 0; i < LAWS_STATES; i++) {
         const effects_case another = effects_sample(c->system, &c->model.problem.p, c->subset, c->random);
         note_drifts(&another);
@@ -262,25 +266,24 @@ static void vector_field_mapped(const effects_case *c, laws_worst *worst)
 }
 
 /* Each of the effects that break the isomorphism does so visibly. */
-static iso_effect_id broken_by;
+enum { BREAKERS = 3 };
+static const iso_effect_id breaker[BREAKERS] = {ISO_GRAVITY, ISO_TWIST, ISO_ROLLING_RESISTANCE};
 
-static void vector_field_lost(const effects_case *c, laws_worst *worst)
+static void vector_field_lost(const effects_case *c, laws_worst worst[BREAKERS])
 {
     double rounding;
-    if ((c->subset & (1 << ISO_GRAVITY | 1 << ISO_TWIST | 1 << ISO_ROLLING_RESISTANCE)) != 1 << broken_by) return;
-    effects_note(c, worst, image_error(c, &rounding), 0.01, "image");
+    for (int i = 0; i < BREAKERS; i++)
+        if ((c->subset & (1 << ISO_GRAVITY | 1 << ISO_TWIST | 1 << ISO_ROLLING_RESISTANCE)) == 1 << breaker[i])
+            effects_note(c, &worst[i], image_error(c, &rounding), 0.01, "image");
 }
 
 static void breakers(void)
 {
-    static const iso_effect_id breaker[] = {ISO_GRAVITY, ISO_TWIST, ISO_ROLLING_RESISTANCE};
-    for (int i = 0; i < 3; i++) {
-        laws_worst worst = {0};
-        broken_by = breaker[i];
-        effects_each(&iso_system_ball, 1, vector_field_lost, &worst);
-        gsl_test(!(worst.cases > 0 && worst.ratio >= 1), "%s breaks the isomorphism visibly: %.2g (%s)",
-                 iso_effect_list[broken_by]->name, worst.error, worst.where);
-    }
+    laws_worst worst[BREAKERS] = {{0}};
+    effects_each(&iso_system_ball, tests_length(0, 1), vector_field_lost, worst);
+    for (int i = 0; i < BREAKERS; i++)
+        gsl_test(!(worst[i].cases > 0 && worst[i].ratio >= 1), "%s breaks the isomorphism visibly: %.2g (%s)",
+                 iso_effect_list[breaker[i]]->name, worst[i].error, worst[i].where);
 }
 
 /* V of the field and of a written potential is U/G; H is that of the level, else 0. */

@@ -1,4 +1,5 @@
-/* The equations of both systems: Jacobians, clocks, constraints, projection, measure, symmetries, closed forms. */
+/* The equations of both systems: constraints, measure, symmetries, closed forms. Their Jacobians and clocks, with
+ * effects and without: test_effects.c. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -19,86 +20,6 @@ static void sizes(const laws_case *c, double size[2])
     const bool ball = c->system == &iso_system_ball;
     size[0] = speed * speed * (ball ? spread : sqrt(spread) / k);
     size[1] = speed * (ball ? k : 1);
-}
-
-static void model_rhs(const void *data, const double y[], double dy[])
-{
-    const iso_model *m = data;
-    m->rhs(m, y, dy);
-}
-
-/* Every column of the Jacobian against differences of the right-hand side. */
-static void check_jacobian(const laws_case *c, const iso_model *m, laws_worst *worst)
-{
-    enum { DIM = ISO_MAX_STATE };
-    double y[DIM] = {0}, f[DIM], jac[DIM * DIM], column[DIM], size[DIM], own[2];
-    copy(c->y, y, ISO_STATE);
-    m->rhs(m, y, f);
-    m->jacobian(m, y, jac);
-    sizes(c, own);
-    const double rate = iso_clock_rate(&c->problem.p, m->clock, c->system->q(&c->problem.p, y, NULL), NULL) /
-                        iso_clock_rate(&c->problem.p, c->system->clock, c->system->q(&c->problem.p, y, NULL), NULL);
-    for (int i = 0; i < m->dim; i++) size[i] = i < ISO_STATE ? own[i / 3] / rate : f[i];
-    for (int j = 0; j < m->dim; j++) {
-        double direction[DIM] = {0};
-        direction[j] = 1;
-        const double h = laws_step(c, direction);
-        laws_slope(model_rhs, m, m->dim, m->dim, y, direction, h, column);
-        for (int i = 0; i < m->dim; i++)
-            laws_note(worst, fabs(jac[m->dim * i + j] - column[i]), 4 * laws_rounding(&c->problem.p) * size[i] / h,
-                      &c->problem.p, j < 3 ? "d/dfast" : "d/dunit");
-    }
-}
-
-static void jacobian_own_clock(const laws_case *c, laws_worst *worst)
-{
-    const iso_model m =
-        iso_model_assemble(c->system, &c->problem, c->system->clock, (const bool[ISO_CLOCKS]){false, false, false});
-    check_jacobian(c, &m, worst);
-}
-
-static void jacobian_clocks(const laws_case *c, laws_worst *worst)
-{
-    for (iso_clock clock = 0; clock < ISO_CLOCKS; clock++)
-        for (int asked = 0; asked < 1 << ISO_CLOCKS; asked++) {
-            const bool with_clock[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
-            const iso_model m = iso_model_assemble(c->system, &c->problem, clock, with_clock);
-            check_jacobian(c, &m, worst);
-        }
-}
-
-/* rates of t, tau, s per unit of t (16), (24) */
-static double written_rate(const iso_params *p, iso_clock clock, double q)
-{
-    const double tau = pow(q, 1 - 1 / (2 * p->k)), G = p->k * p->k / p->det_J * pow(q, 1 / p->k);
-    return clock == ISO_CLOCK_T ? 1 : clock == ISO_CLOCK_TAU ? tau : G * tau;
-}
-
-static void rhs_clocks(const laws_case *c, laws_worst *worst)
-{
-    const iso_params *p = &c->problem.p;
-    const double q = c->system->q(p, c->y, NULL);
-    double own[ISO_STATE], dy[ISO_MAX_STATE];
-    c->system->rhs(&c->problem, c->y, own);
-    for (iso_clock clock = 0; clock < ISO_CLOCKS; clock++)
-        for (int asked = 0; asked < 1 << ISO_CLOCKS; asked++) {
-            const bool with_clock[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
-            const iso_model m = iso_model_assemble(c->system, &c->problem, clock, with_clock);
-            const double rate = written_rate(p, c->system->clock, q) / written_rate(p, clock, q);
-            double y[ISO_MAX_STATE] = {0};
-            int dim = ISO_STATE;
-            copy(c->y, y, ISO_STATE);
-            m.rhs(&m, y, dy);
-            for (int i = 0; i < ISO_STATE; i++)
-                laws_note(worst, fabs(dy[i] - rate * own[i]), 4 * laws_rounding(p) * fabs(rate * own[i]) + DBL_MIN, p,
-                          "state");
-            for (iso_clock other = 0; other < ISO_CLOCKS; other++) {
-                if (!with_clock[other] || other == clock) continue;
-                const double expected = written_rate(p, other, q) / written_rate(p, clock, q);
-                laws_note(worst, fabs(dy[dim++] - expected), 4 * laws_rounding(p) * expected, p, "clock");
-            }
-            laws_note(worst, abs(m.dim - dim), 0.5, p, "dim");
-        }
 }
 
 static void value_of_q(const void *data, const double y[], double q[])
@@ -231,9 +152,6 @@ static void component_size(const laws_case *c, laws_worst *worst)
 int main(void)
 {
     gsl_test_verbose(1);
-    laws_hold("Jacobian against differences", NULL, jacobian_own_clock);
-    laws_hold("Jacobian in every clock, with carried clocks", NULL, jacobian_clocks);
-    laws_hold("right-hand side in every clock", NULL, rhs_clocks);
     laws_hold("gradient of q", NULL, gradient_of_q);
     laws_hold("flow tangent to the constraints", NULL, constraints_tangent);
     laws_hold("invariant measure (10)", NULL, invariant_measure);

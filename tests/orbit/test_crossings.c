@@ -8,11 +8,11 @@
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "length.h"
 #include "map/section_impl.h"
 #include "numbers.h"
 #include "orbit/crossings.h"
 #include "orbit/crossings_impl.h"
+#include "reference.h"
 
 static iso_context *ctx;
 
@@ -29,16 +29,11 @@ typedef struct section_row {
     double t, s, l, x;
 } section_row;
 
-static bool read_row(char *line, section_row *r)
+static bool read_row(const char *line, section_row *r)
 {
     double v[SECTION_NUMBERS];
-    char *at = strchr(line, ',');
     snprintf(r->name, sizeof r->name, "%.*s", (int)strcspn(line, ","), line);
-    for (int i = 0; i < SECTION_NUMBERS; i++) {
-        if (!at) return false;
-        v[i] = strtod(at + 1, NULL);
-        at = strchr(at + 1, ',');
-    }
+    if (!reference_numbers(line, SECTION_NUMBERS, v)) return false;
     r->p = laws_params(v[0], v + 1);
     r->axis = (int)v[10] - 1;
     r->crossing = (int)v[11];
@@ -168,48 +163,6 @@ static void check_all_parts(void)
 }
 
 /* --- laws ------------------------------------------------------------------------------------------------------- */
-
-/* A start (l, x) of the section; it is no crossing itself. The first crossing back under time reversal, S1: the orbit
- * that starts at the image with -x comes back to (l, -x). */
-static void check_reversor(void)
-{
-    laws_worst back = {0}, counts = {0};
-    for (int n = 0; n < tests_length(12, 120); n++) {
-        static const double ks[] = {-2, -1, -0.5, 0.3, 0.5, 1, 2};
-        static const double Js[][3] = {{1, 2, 5}, {3, 1.4, 2.1}, {2, 5, 1}};
-        const iso_params p = laws_params(ks[n % 7], Js[n % 3]);
-        iso_section_spread spread;
-        double l, x;
-        const int axis = iso_section_axis(iso_free_point(&p, 1));
-        iso_section_spread_prepare(&spread, iso_free_point(&p, 1), axis, 3);
-        iso_section_spread_point(&spread, (uint64_t)n, &l, &x);
-        iso_crossing there, home;
-        size_t done;
-        iso_status status;
-        iso_start start = {.model = ISO_POINT, .eps = 1};
-        iso_batch_orbit orbit = {&p, &start, NULL};
-        iso_section_point(iso_free_point(&p, 1), axis, l, x, start.y);
-        for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
-            iso_crossings_options o = iso_crossings_defaults();
-            o.backend = backend;
-            iso_crossings *c = follow(&orbit, 1, &o);
-            gsl_test(iso_crossings_go(c, NULL, 1, &there, NULL, &done, &status) != ISO_OK, "there: %s",
-                     iso_context_message(ctx));
-            iso_crossings_free(c);
-            iso_start mirrored = {.model = ISO_POINT, .eps = 1};
-            const iso_batch_orbit return_orbit = {&p, &mirrored, NULL};
-            iso_section_point(iso_free_point(&p, 1), axis, there.l, -there.x, mirrored.y);
-            c = follow(&return_orbit, 1, &o);
-            gsl_test(iso_crossings_go(c, NULL, 1, &home, NULL, &done, &status) != ISO_OK, "home: %s",
-                     iso_context_message(ctx));
-            iso_crossings_free(c);
-            laws_note(&back, fmax(angle_apart(home.l, l), fabs(home.x + x)), 1e-9, &p, "S1 f S1 f");
-            laws_note(&counts, fabs(home.clock[ISO_CLOCK_S] / there.clock[ISO_CLOCK_S] - 1), 1e-9, &p, "time");
-        }
-    }
-    laws_report(&back, "the reversor S1: f S1 f = S1");
-    laws_report(&counts, "return times there and back");
-}
 
 /* Starts with n_a = 0 up to rounding, on either side: none of them is a crossing. */
 static void check_start_on_section(void)
@@ -395,48 +348,11 @@ static void check_sturm(void)
     gsl_test(!iso_crossings_apart((double[]){NAN, NAN}, true, 100, 10, 1e-12), "without bounds all is allowed");
 }
 
-/* --- a stop on request ------------------------------------------------------------------------------------------ */
-
-static int questions, patience;
-
-static bool patient(void *unused)
-{
-    (void)unused;
-    return questions++ < patience;
-}
-
-/* What a stopped call and the next one give together is what one call gives. */
-static void check_stop(void)
-{
-    enum { ALL = 40 };
-    const iso_params p = laws_params(0.5, (const double[]){1, 2, 3});
-    const iso_start start = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
-    const iso_batch_orbit orbit = {&p, &start, NULL};
-    iso_crossing whole[ALL], part[ALL];
-    size_t done, more;
-    iso_status status;
-    iso_crossings *c = follow(&orbit, 1, NULL);
-    iso_crossings_go(c, NULL, ALL, whole, NULL, &done, &status);
-    iso_crossings_free(c);
-    c = follow(&orbit, 1, NULL);
-    questions = 0, patience = 40;
-    iso_context_set_monitor(ctx, patient, NULL);
-    gsl_test_int((int)iso_crossings_go(c, NULL, ALL, part, NULL, &done, &status), ISO_STOPPED, "stopped");
-    gsl_test_int((int)status, ISO_STOPPED, "its status");
-    gsl_test(done == 0 || done >= ALL, "some crossings are there: %d", (int)done);
-    gsl_test_int(differ(part, whole, done * sizeof *part), 0, "the right ones");
-    iso_context_set_monitor(ctx, NULL, NULL);
-    gsl_test_int((int)iso_crossings_go(c, NULL, ALL - done, part, NULL, &more, &status), ISO_OK, "goes on");
-    gsl_test_int(differ(part, whole + done, (ALL - done) * sizeof *part), 0, "from there");
-    iso_crossings_free(c);
-}
-
 int main(void)
 {
     ctx = iso_context_create();
     check_reference();
     check_all_parts();
-    check_reversor();
     check_start_on_section();
     check_falling_start();
     check_units();
@@ -444,7 +360,6 @@ int main(void)
     check_refusals();
     check_failures();
     check_sturm();
-    check_stop();
     iso_context_free(ctx);
     return gsl_test_summary();
 }

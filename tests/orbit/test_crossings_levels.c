@@ -1,5 +1,6 @@
 /* Crossings on levels H = E: reference/levels.csv by both models; and, over random motions, that the return map keeps
- * dL dl, that Sturm's bounds hold, that the reversors S1, S2, S3 turn orbits back, and that rows keep their energy. */
+ * dL dl, that Sturm's bounds hold, that the reversors S1, S2, S3 turn orbits back in the same time, and that rows keep
+ * their energy. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -15,6 +16,7 @@
 #include "map/state.h"
 #include "model/model_impl.h"
 #include "orbit/crossings.h"
+#include "reference.h"
 
 static iso_context *ctx;
 
@@ -96,11 +98,9 @@ static void check_reference(iso_backend backend, iso_model_kind model)
     char line[2048], name[64];
     while (file && fgets(line, sizeof line, file)) {
         double v[NUMBERS];
-        int count = 0;
         snprintf(name, sizeof name, "%.*s", (int)strcspn(line, ","), line);
-        for (char *at = strchr(line, ','); at && count < NUMBERS; at = strchr(at + 1, ','))
-            v[count++] = strtod(at + 1, NULL);
-        if (strncmp(line, "lev", 3) == 0 && count == NUMBERS) reference_row(name, v, backend, model, &chart, &clocks);
+        if (strncmp(line, "lev", 3) == 0 && reference_numbers(line, NUMBERS, v))
+            reference_row(name, v, backend, model, &chart, &clocks);
     }
     if (file) fclose(file);
     snprintf(name, sizeof name, "%s of a %s: l and x of levels.csv", iso_backend_name((int)backend),
@@ -137,6 +137,7 @@ static void hold(iso_point_motion m, int axis, double l, const iso_crossing *c, 
     const double expected = iso_section_momentum(m, axis, l) / iso_section_momentum(m, axis, c->l);
     iso_section_bounds(m, axis, W);
     laws_note(&worst[0], fabs(det - expected), 1e-9 * (terms + expected), m.p, what);
+    laws_note(&worst[0], fabs(c->determinant - det / expected), 1e-9 * (1 + terms / expected), m.p, what);
     const double H = iso_system_point.energy(&problem, sample->point, &size);
     laws_note(&worst[1], fabs(H - m.energy), 1e-12 * size, m.p, what);
     const double turn = 2 * ISO_PI / c->clock[ISO_CLOCK_S];
@@ -166,6 +167,8 @@ static void turn_back(iso_point_motion m, int axis, const double z[2], const iso
         if (!follow(&back, o, 1, &home, NULL, what)) return;
         const double off = fmax(fabs(remainder(home.l - l0, 2 * ISO_PI)), fabs(home.x - x0));
         laws_note(worst, off, 1e-10 * grown * grown, m.p, what);
+        const double time = home.clock[ISO_CLOCK_S] / there->clock[ISO_CLOCK_S] - 1;
+        laws_note(worst, fabs(time), 1e-10 * grown * grown, m.p, what);
     }
 }
 

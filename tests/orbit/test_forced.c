@@ -1,5 +1,4 @@
-/* Balls under forces: energy along the orbit, both backends in potentials fixed in the body, points at any energy,
- * and motion run backwards. */
+/* Balls under forces: energy along the orbit, and motion run backwards; Neumann's problem as a free ball's. */
 #include "base/random_impl.h"
 #include "orbit/orbit_impl.h"
 #include "scenes.h"
@@ -83,68 +82,11 @@ static void check_energies(iso_random *random)
     laws_report(&lost_with_twist, "and with twist: dh/dt = -c_r (w,w) - c (w,n)^2");
 }
 
-/* --- both backends ---------------------------------------------------------------------------------------------- */
-
-/* Everything shown and carried. */
-static iso_orbit *both_shown(const iso_params *p, const iso_start *start, const iso_effects *e, iso_backend backend,
-                             iso_clock clock)
-{
-    iso_orbit *orbit;
-    iso_orbit_options o = iso_orbit_defaults(start);
-    o.effects = e;
-    o.backend = backend;
-    o.tolerance = 1e-14;
-    o.clock = clock;
-    o.shown = ISO_SHOW_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
-    if (iso_orbit_create(ctx, p, start, &o, &orbit) != ISO_OK) scene_stops("an orbit is refused", ctx);
-    return orbit;
-}
-
-/* Of states, in units of the largest w and M of order one, and of clocks relative. */
-static double apart(const iso_sample *a, const iso_sample *b)
-{
-    double d[4 + ISO_CLOCKS] = {
-        laws_distance(a->ball, b->ball) / fmax(1, laws_norm(b->ball)), laws_distance(a->ball + 3, b->ball + 3),
-        laws_distance(a->point, b->point) / fmax(1, laws_norm(b->point)), laws_distance(a->point + 3, b->point + 3)};
-    for (int c = 0; c < ISO_CLOCKS; c++) d[4 + c] = fabs(a->clock[c] - b->clock[c]) / fmax(1, fabs(b->clock[c]));
-    return laws_max(4 + ISO_CLOCKS, d);
-}
+/* --- Neumann's problem another way ------------------------------------------------------------------------------ */
 
 enum { TIMES = 5 };
 static const double times[TIMES] = {1, 17, 60, 100, -100};
-
-static void compare(const iso_params *p, iso_orbit *a, iso_orbit *b, const char *what, laws_worst *worst)
-{
-    for (int i = 0; i < TIMES; i++) {
-        const iso_sample x = scene_at(ctx, a, times[i]), y = scene_at(ctx, b, times[i]);
-        laws_note(worst, apart(&x, &y), 1e-9, p, what);
-    }
-}
-
-static laws_worst backends, chaotic;
-
-/* Where a start 1e-10 off has parted by more than 1e5 times that, in chaos, backends may part like it. */
-static void compare_backends(const iso_params *p, const iso_start *start, const iso_effects *e, const char *what)
-{
-    iso_start off = *start;
-    scale(off.y, 1 + 1e-10);
-    iso_orbit *by_ball = both_shown(p, start, e, ISO_BACKEND_BALL, ISO_CLOCK_T);
-    iso_orbit *by_point = both_shown(p, start, e, ISO_BACKEND_POINT, ISO_CLOCK_T);
-    iso_orbit *beside = both_shown(p, &off, e, ISO_BACKEND_BALL, ISO_CLOCK_T);
-    for (int i = 0; i < TIMES; i++) {
-        const iso_sample a = scene_at(ctx, by_ball, times[i]), b = scene_at(ctx, by_point, times[i]);
-        const iso_sample c = scene_at(ctx, beside, times[i]);
-        const double growth = apart(&c, &a) / 1e-10;
-        if (growth < 1e5)
-            laws_note(&backends, apart(&b, &a), 1e-9, p, what);
-        else
-            laws_note(&chaotic, apart(&b, &a), 1e-13 * growth, p, what);
-    }
-    iso_orbit_free(by_ball);
-    iso_orbit_free(by_point);
-    iso_orbit_free(beside);
-}
+static const double eps = 0.8;
 
 /* c of a size with which the level matters */
 static double level_of(const iso_params *p, double share)
@@ -152,39 +94,14 @@ static double level_of(const iso_params *p, double share)
     return share * pow((p->J[0] + p->J[1] + p->J[2]) / 3, -1 / p->k);
 }
 
-static void check_backends(iso_random *random)
-{
-    for (int which = 0; which < ROLLINGS; which++) {
-        const rolling ball = rolling_ball(ctx, which);
-        for (int kind = 1; kind < 4; kind++) {
-            iso_effects e = {0};
-            const iso_start start = scene_start(&ball, random);
-            if (kind & 1) add_field(&e);
-            if (kind & 2) e.on[ISO_LEVEL] = true, LEVEL_C(&e) = level_of(&ball.p, kind == 2 ? 0.4 : -0.3);
-            compare_backends(&ball.p, &start, &e, kind == 1 ? "field" : kind == 2 ? "level" : "both");
-        }
-    }
-    laws_report(&backends, "field and level: backends ball and point agree to t = 100");
-    laws_report(&chaotic, "and in chaos as well as can be");
-    gsl_test(10 * chaotic.cases > backends.cases, "of %ld comparisons %ld are in chaos",
-             backends.cases + chaotic.cases, chaotic.cases);
-}
-
-/* --- points at any energy --------------------------------------------------------------------------------------- */
-
-static laws_worst to_ball, from_ball, coupling, turning;
-static int turned, gone_round;
-
-/* A point with M of `size` times that of the level H = 0, in a plane or not. */
-static iso_start point_off_level(const iso_params *p, double eps, double size, bool plane, iso_random *random)
+/* A point with M of `size` times that of the level H = 0. */
+static iso_start point_off_level(const iso_params *p, double size, iso_random *random)
 {
     iso_start start = {.model = ISO_POINT, .eps = eps};
-    iso_random_direction(random, start.y + 3);
-    if (plane) start.y[5] = 0, make_unit(start.y + 3);
-    const double q = dot_diag(start.y + 3, p->J, start.y + 3);
     double direction[3];
+    iso_random_direction(random, start.y + 3);
+    const double q = dot_diag(start.y + 3, p->J, start.y + 3);
     iso_random_direction(random, direction);
-    if (plane) direction[0] = direction[1] = 0;
     remove_along(direction, start.y + 3);
     make_unit(direction);
     for (int i = 0; i < 3; i++) start.y[i] = size * sqrt(2 * eps * pow(q, -1 / p->k)) * direction[i];
@@ -192,63 +109,10 @@ static iso_start point_off_level(const iso_params *p, double eps, double size, b
 }
 
 /* H = M^2/2 - eps q^(-1/k) */
-static double level(const iso_params *p, double eps, const double y[ISO_STATE])
+static double level(const iso_params *p, const double y[ISO_STATE])
 {
     return dot(y, y) / 2 - eps * pow(dot_diag(y + 3, p->J, y + 3), -1 / p->k);
 }
-
-/* The point's own orbit, its ball's by either backend, and a ball that starts where its ball does, in U = -c
- * g^(-1/k) with c = H k^2/det J. */
-static void check_point(const iso_params *p, double size, bool plane, iso_random *random)
-{
-    const double eps = 0.8;
-    const iso_start start = point_off_level(p, eps, size, plane, random);
-    iso_orbit *point = both_shown(p, &start, NULL, ISO_BACKEND_POINT, ISO_CLOCK_S);
-    iso_orbit *ball = both_shown(p, &start, NULL, ISO_BACKEND_BALL, ISO_CLOCK_S);
-    compare(p, ball, point, plane ? "plane" : "space", &to_ball);
-    iso_effects e = {.on[ISO_LEVEL] = true, .number[ISO_LEVEL] = {level(p, eps, start.y) * p->k * p->k / p->det_J}};
-    const iso_sample begin = scene_at(ctx, point, 0);
-    iso_start as_ball = {.model = ISO_BALL};
-    copy(begin.ball, as_ball.y, ISO_STATE);
-    for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
-        iso_orbit *back = both_shown(p, &as_ball, &e, backend, ISO_CLOCK_S);
-        compare(p, back, point, iso_backend_name((int)backend), &from_ball);
-        laws_note(&coupling, fabs(iso_orbit_coupling(back) / eps - 1), 1e-13, p, iso_backend_name((int)backend));
-        iso_orbit_free(back);
-    }
-    double least = INFINITY, most = 0;
-    bool backwards = false;
-    for (int i = 0; i <= 500; i++) {
-        const iso_sample s = scene_at(ctx, point, 0.1 * i);
-        least = fmin(least, laws_norm(s.point));
-        most = fmax(most, laws_norm(s.point));
-        backwards = backwards || dot(s.point, start.y) < 0;
-        laws_note(&turning, fabs(level(p, eps, s.point) - level(p, eps, start.y)), 1e-12 * (most * most + eps), p,
-                  "H along the way");
-    }
-    if (plane) *(backwards && least < 0.1 * most ? &turned : &gone_round) += 1;
-    iso_orbit_free(point);
-    iso_orbit_free(ball);
-}
-
-static void check_points(iso_random *random)
-{
-    static const double sizes[] = {0.15, 0.6, 1.4};
-    for (int which = 0; which < ROLLINGS; which++)
-        for (int i = 0; i < 3; i++) {
-            const rolling ball = rolling_ball(ctx, which);
-            check_point(&ball.p, sizes[i], false, random);
-            check_point(&ball.p, sizes[i], true, random);
-        }
-    laws_report(&to_ball, "points off the level H = 0: backends point and ball agree");
-    laws_report(&from_ball, "their balls in the potential of the level are theirs");
-    laws_report(&coupling, "and have their eps");
-    laws_report(&turning, "H is what it was");
-    gsl_test(turned < 4 || gone_round < 4, "of the points in a plane %d turn back (M through 0) and %d go round",
-             turned, gone_round);
-}
-
-/* --- Neumann's problem another way ------------------------------------------------------------------------------ */
 
 static laws_worst shifted;
 
@@ -257,16 +121,15 @@ static laws_worst shifted;
 static int check_shift(double size, iso_random *random)
 {
     static const double J[3] = {1.4, 2.1, 3.0};
-    const double eps = 0.8;
     const iso_params p = laws_params(-1, J);
-    iso_start start = point_off_level(&p, eps, size, false, random);
-    const double shift = level(&p, eps, start.y) / eps;
+    iso_start start = point_off_level(&p, size, random);
+    const double shift = level(&p, start.y) / eps;
     const double J_shifted[3] = {J[0] + shift, J[1] + shift, J[2] + shift};
     if (!(min3(J_shifted) > 0.1)) return 0;
     const iso_params free_p = laws_params(-1, J_shifted);
-    iso_orbit *point = both_shown(&p, &start, NULL, ISO_BACKEND_POINT, ISO_CLOCK_S);
+    iso_orbit *point = scene_whole(ctx, &p, &start, ISO_BACKEND_POINT, ISO_CLOCK_S);
     start.eps = NAN;
-    iso_orbit *ball = both_shown(&free_p, &start, NULL, ISO_BACKEND_BALL, ISO_CLOCK_S);
+    iso_orbit *ball = scene_whole(ctx, &free_p, &start, ISO_BACKEND_BALL, ISO_CLOCK_S);
     const iso_effects none = iso_orbit_effects(ball);
     laws_note(&shifted, none.on[ISO_LEVEL] ? 1 : 0, 0.5, &free_p, "free");
     laws_note(&shifted, fabs(iso_orbit_coupling(ball) / eps - 1), 1e-13, &free_p, "eps");
@@ -352,8 +215,6 @@ int main(void)
     ctx = iso_context_create();
     iso_random *random = iso_random_create(74);
     check_energies(random);
-    check_backends(random);
-    check_points(random);
     check_shifts(random);
     check_reversals(random);
     iso_random_free(random);

@@ -24,20 +24,6 @@ static iso_start point_start(const double M[3], const double gamma[3], const dou
     return start;
 }
 
-/* Everything shown and carried. */
-static iso_orbit *create(const iso_params *p, const iso_start *start, iso_backend backend, iso_clock clock)
-{
-    iso_orbit *orbit;
-    iso_orbit_options o = iso_orbit_defaults(start);
-    o.backend = backend;
-    o.clock = clock;
-    o.tolerance = 1e-14;
-    o.shown = ISO_SHOW_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
-    if (iso_orbit_create(ctx, p, start, &o, &orbit) != ISO_OK) scene_stops("an orbit is refused", ctx);
-    return orbit;
-}
-
 /* --- one orbit -------------------------------------------------------------------------------------------------- */
 
 enum { TIMES = 5 };
@@ -75,7 +61,7 @@ static off_level make(double k, double eps, double part, iso_random *random)
     o.start = point_start(M, gamma, &o.eps);
     o.H = energy_of_start(&o);
     o.c = o.H * k * k / o.p.det_J;
-    iso_orbit *orbit = create(&o.p, &o.start, ISO_BACKEND_POINT, ISO_CLOCK_S);
+    iso_orbit *orbit = scene_whole(ctx, &o.p, &o.start, ISO_BACKEND_POINT, ISO_CLOCK_S);
     for (int i = 0; i < TIMES; i++) {
         o.truth[i] = scene_at(ctx, orbit, 0.9 * i - 0.6); /* before and after the start */
         o.w = fmax(o.w, laws_norm(o.truth[i].ball));
@@ -94,14 +80,23 @@ static double allowed(const iso_params *p)
     return 1e-13 * (4 + 4 / fabs(p->k) + fabs(p->k));
 }
 
-/* The level that was added has c = H k^2/det J. */
+/* The level that was added has c = H k^2/det J; a ball that starts where this one does, on this level, has the eps. */
 static void check_added(const off_level *o)
 {
-    iso_orbit *orbit = create(&o->p, &o->start, ISO_BACKEND_AUTO, ISO_CLOCK_S);
+    iso_orbit *orbit = scene_whole(ctx, &o->p, &o->start, ISO_BACKEND_AUTO, ISO_CLOCK_S);
     const iso_effects effects = iso_orbit_effects(orbit);
-    const double size = (fabs(o->H) + dot(o->start.y, o->start.y)) * fabs(o->c / o->H);
+    const iso_sample begin = scene_at(ctx, orbit, 0);
+    const double terms = fabs(o->H) + dot(o->start.y, o->start.y), size = terms * fabs(o->c / o->H);
     laws_note(&levels, effects.on[ISO_LEVEL] ? fabs(LEVEL_C(&effects) - o->c) : 1, 1e-14 * size, &o->p, "c");
     laws_note(&levels, iso_orbit_has_twin(orbit) ? 0 : 1, 0.5, &o->p, "twin");
+    iso_orbit_free(orbit);
+    iso_start ball = {.model = ISO_BALL};
+    copy(begin.ball, ball.y, ISO_STATE);
+    iso_orbit_options options = scene_all(&ball, ISO_BACKEND_AUTO, ISO_CLOCK_S);
+    options.effects = &effects;
+    orbit = scene_by(ctx, &o->p, &ball, &options);
+    const double unit = pow(dot_diag(begin.point + 3, o->p.J, begin.point + 3), 1 / o->p.k);
+    laws_note(&levels, fabs(iso_orbit_coupling(orbit) - o->eps), 1e-13 * terms * unit, &o->p, "eps");
     iso_orbit_free(orbit);
 }
 
@@ -110,7 +105,7 @@ static void check_backends(const off_level *o)
 {
     for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++)
         for (iso_clock c = ISO_CLOCK_T; c < ISO_CLOCKS; c++) {
-            iso_orbit *orbit = create(&o->p, &o->start, b, c);
+            iso_orbit *orbit = scene_whole(ctx, &o->p, &o->start, b, c);
             for (int i = 0; i < TIMES; i++) {
                 const iso_sample *truth = &o->truth[i], s = scene_at(ctx, orbit, truth->clock[c]);
                 const double bound = allowed(&o->p);
@@ -151,7 +146,7 @@ static void check_newton(const off_level *o)
 {
     const iso_params *p = &o->p;
     const double k = p->k, h = 4e-3 / (fmax(1, fabs(k)) * o->w);
-    iso_orbit *orbit = create(p, &o->start, ISO_BACKEND_POINT, ISO_CLOCK_T);
+    iso_orbit *orbit = scene_whole(ctx, p, &o->start, ISO_BACKEND_POINT, ISO_CLOCK_T);
     for (int i = 0; i < TIMES; i++) {
         const slopes d = slopes_at(orbit, o->truth[i].clock[ISO_CLOCK_T], h);
         const double *w = d.here.ball, *n = d.here.ball + 3;

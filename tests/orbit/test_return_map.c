@@ -223,7 +223,8 @@ static int go_with_stops(const iso_crossings_options *o, int count, int each, is
             const size_t left = (size_t)each - got[0], wanted = left < PART ? left : PART;
             size_t now;
             iso_context_set_monitor(ctx, goes_on, &s);
-            stops += iso_crossings_go(c, NULL, wanted, part, NULL, &now, status) == ISO_STOPPED;
+            const iso_status done_with = iso_crossings_go(c, NULL, wanted, part, NULL, &now, status);
+            stops += done_with == ISO_STOPPED && status[0] == ISO_STOPPED;
             iso_context_set_monitor(ctx, NULL, NULL);
             memcpy(&crossing[i * each + (int)got[0]], part, now * sizeof *part);
             got[0] += now;

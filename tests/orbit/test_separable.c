@@ -74,13 +74,6 @@ static const struct {
 
 /* --- orbits ----------------------------------------------------------------------------------------------------- */
 
-static void stop_if(bool failed, const char *what)
-{
-    if (!failed) return;
-    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
-    exit(gsl_test_summary());
-}
-
 /* F at a state of the ball, and the size of its terms. */
 static double F_of(const iso_params *ball, bool shell, int family, const double y[ISO_STATE], double *size)
 {
@@ -106,17 +99,18 @@ static double drift_of(const iso_params *ball, bool shell, int family, iso_rando
     double omega[3], n[3], most = 0, first = 0, size;
     iso_random_direction(random, n);
     for (int i = 0; i < 3; i++) omega[i] = iso_random_normal(random);
-    stop_if(iso_start_ball(ctx, omega, n, ISO_SPIN_REMOVE, &start) != ISO_OK, "a start");
-    stop_if(iso_effects_write(ctx, &effects, "potential", "U",
-                              shell ? families[family].shell : families[family].plane) != ISO_OK,
-            families[family].name);
+    laws_stop_if(ctx, iso_start_ball(ctx, omega, n, ISO_SPIN_REMOVE, &start) != ISO_OK, "a start");
+    laws_stop_if(ctx,
+                 iso_effects_write(ctx, &effects, "potential", "U",
+                                   shell ? families[family].shell : families[family].plane) != ISO_OK,
+                 families[family].name);
     o = iso_orbit_defaults(&start);
     o.tolerance = 1e-14;
     o.effects = &effects;
-    stop_if(iso_orbit_create(ctx, ball, &start, &o, &orbit) != ISO_OK, families[family].name);
+    laws_stop_if(ctx, iso_orbit_create(ctx, ball, &start, &o, &orbit) != ISO_OK, families[family].name);
     for (int t = 0; t <= 20; t++) {
         iso_sample s;
-        stop_if(iso_orbit_at(orbit, t, &s) != ISO_OK, families[family].name);
+        laws_stop_if(ctx, iso_orbit_at(orbit, t, &s) != ISO_OK, families[family].name);
         const double F = F_of(ball, shell, family, s.ball, &size);
         if (t == 0) first = F;
         most = fmax(most, fabs(F - first) / size);

@@ -31,9 +31,9 @@ class Flow:
     def __init__(self, k, moments, bits):
         self.bits, self.one = bits, 1 << bits
         inverse_k = 1 / k
-        self.inverse_k, self.k = self.fixed(inverse_k), self.fixed(k)
+        self.inverse_k, self.factor = self.fixed(inverse_k), self.fixed(1 - k * 2)
         self.trace = self.fixed(interval(sum(moments)))
-        self.size_k, self.size_inverse_k = self.up(k.size()), self.up(inverse_k.size())
+        self.size_factor, self.size_inverse_k = self.up((1 - k * 2).size()), self.up(inverse_k.size())
 
     def fixed(self, x):
         low = (x.lo.numerator << self.bits) // x.lo.denominator
@@ -112,8 +112,8 @@ class Flow:
             s[name].push(*self.quotient(self.times(top, self.inverse_k), q, s[name], n))
         square = self.product(s["kappa"], s["kappa"], n)
         s["square"].push(*square)
-        part = self.times(square, self.k)  # H = 1 + (1 - 2 k) kappa^2 + (e - q)/(k q)
-        m, r = square[0] - 2 * part[0] + s["eta"].m[n], square[1] + 2 * part[1] + s["eta"].r[n]
+        part = self.times(square, self.factor)  # H = 1 + (1 - 2 k) kappa^2 + (e - q)/(k q)
+        m, r = part[0] + s["eta"].m[n], part[1] + s["eta"].r[n]
         if n == 0:
             m += self.one
         s["H"].push(m, r)
@@ -196,7 +196,7 @@ class Flow:
                 new[c] = (above << self.bits) // free + 1
             if "rho" in divided:
                 new["square"] = squared + 2 * times(t["kappa"], sums["kappa"]) + times(t["kappa"], t["kappa"])
-                new["H"] = new["square"] + 2 * times(new["square"], self.size_k) + t["eta"]
+                new["H"] = times(new["square"], self.size_factor) + t["eta"]
             u = {name: s[name].u[K] + t[name] for name in s if s[name].u}
             rate = {
                 "q": 2 * u["r"],

@@ -1,8 +1,10 @@
 """What the tests of the Python package share: scenes, the command, rows of files."""
 
 import os
+import signal
 import subprocess
 import tempfile
+import threading
 import unittest
 import warnings
 
@@ -65,6 +67,21 @@ class Case(unittest.TestCase):
         if about is not None:
             self.assertEqual(error.about, about)
         return error
+
+    def press(self, call, rows=None):
+        """What the call had found when Ctrl-C ended it; later and later, until it has more than so many rows."""
+        delay = 0.2
+        while True:
+            timer = threading.Timer(delay, os.kill, (os.getpid(), signal.SIGINT))
+            with self.assertRaises(KeyboardInterrupt) as caught:
+                timer.start()
+                call()
+            timer.join()
+            self.assertEqual(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+            found = getattr(caught.exception, "partial", None)
+            if rows is None or (found is not None and len(found) > rows):
+                return found
+            delay *= 2
 
 
 def starts(count):

@@ -116,6 +116,10 @@ class Text(Case):
         many += [isoroll.Scene(BALL, k=1 / 3, J=(0.1, 0.2, 0.25), end=3.1, step=0.7, as_="both", tolerance=1e-9),
                  isoroll.Scene(example("01_bowling_ball"), end=0.3, columns=["t", "n1", "q0"], attitude=True),
                  isoroll.Scene(**WHOLE, backend="ball", method="rk8pd", field={"linear": (0, 0.1, 1 / 7)})]
+        many += [isoroll.Scene(BALL, **how) for how in ({"backend": "exact"}, {"backend": "point"},
+                                                        {"method": "adams", "tolerance": 1e-8})]
+        many += [isoroll.Scene(example(name), as_="both") for name in ("07_neumann_point", "12_neumann_off_level",
+                                                                       "05_equal_radii")]
         for scene in many:
             scene = isoroll.Scene(scene, end=scene.end / 20 if scene.end > 3.2 else scene.end)
             with self.subTest(scene.name, text=scene.text):
@@ -156,7 +160,7 @@ class Values(Case):
         self.assertEqual(hash(one), hash(other))
         self.assertEqual(len({one, other, isoroll.Scene(one, end=100.0)}), 1)
         for odd in (dict(columns="t, n1"), dict(columns=["t", "n1\n"]), dict(method=" taylor"), dict(backend="'ball'"),
-                    dict(as_="both\n"), dict(end="5 # seconds")):  # what YAML takes
+                    dict(as_="both\n")):  # what YAML takes
             scene = isoroll.Scene(one, **odd)
             self.assertEqual(isoroll.Scene(scene.text), scene)
             self.assertEqual(isoroll.Scene(scene.text).columns, scene.columns)

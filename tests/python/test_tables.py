@@ -1,8 +1,6 @@
-"""Tables: words, lines, units, other forms, old files, pictures, memory."""
+"""Tables: words, lines, units, other forms, refusals, pictures, memory."""
 
 import builtins
-import glob
-import gzip
 import os
 import pickle
 import subprocess
@@ -11,7 +9,7 @@ import unittest
 from unittest import mock
 
 import numpy as np
-from shared import BALL, SOURCE, WILD, Case, example
+from shared import BALL, WILD, Case, example
 
 import isoroll
 
@@ -181,37 +179,10 @@ class Forms(Case):
             self.assertTrue(str(table) and table._repr_html_())
         for columns, kind in (([1, 2], None), (["a", None], None), (["a", "b"], 5)):
             make = lambda: isoroll.Table(np.zeros((1, 2)), columns, kind=kind)
-            self.refuses(isoroll.BadArgument, "are texts", make)
+            self.refuses(isoroll.BadType, "text", make)
 
 
-class OldFiles(Case):
-    def test_are_read(self):
-        """Those that older versions wrote: the numbers that NumPy reads in CSV, and the same in HDF5."""
-        kinds = set()
-        for path in sorted(glob.glob(os.path.join(SOURCE, "tests/upgrade/*.csv")) +
-                           glob.glob(os.path.join(SOURCE, "tests/upgrade/*.gz"))):
-            if path.endswith(".gz"):
-                with gzip.open(path) as packed:
-                    path = self.path(os.path.basename(path)[:-3])
-                    with open(path, "wb") as file:
-                        file.write(packed.read())
-            with self.subTest(path):
-                table = isoroll.read(path)
-                kinds.add(type(table).__name__)
-                self.assertGreater(len(table), 2)
-                if table.kind == "trajectory":
-                    self.assertIsInstance(table.k, float)
-                    if path.endswith(".csv"):
-                        with open(path, encoding="utf-8") as file:
-                            lines = [line for line in file if line[0] != "#"]
-                        self.same(np.loadtxt(lines, delimiter=",", skiprows=1), table.array)
-                    other = os.path.join(SOURCE, "tests/upgrade", os.path.basename(path).replace(".h5", ".csv"))
-                    if path.endswith(".h5") and os.path.exists(other):
-                        self.same(isoroll.read(other).array, table.array)
-                    table.write(self.path("again.csv"))
-                    self.same(isoroll.read(self.path("again.csv")).array, table.array)
-        self.assertEqual(kinds, {"Trajectory", "Section", "Sweep"})
-
+class Refusals(Case):
     def test_refused(self):
         for name, text, words in (("a.csv", "# isoroll section 9\nl\n1\n", "expected version 1"),
                                   ("b.h5", "no HDF5", ""), ("c.csv", "", "")):

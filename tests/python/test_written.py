@@ -1,55 +1,28 @@
-"""Effects that a scene writes, from a dict: their orbits against SciPy, and the integrals that are watched."""
+"""Effects that a scene writes, from a dict: as a file says them, and the integrals that are watched."""
 
 import unittest
 
-import numpy as np
 from shared import Case
 
 import isoroll
 
-J = np.array([1.4, 2.1, 3.0])
-START = dict(k=0.5, J=tuple(J), normal=(0.36, 0.48, 0.8), angular_velocity=(0.9, -0.3, -0.225))
-#: friction that grows with latitude, and a push that is fixed in space
-TORQUE = {"M": [f"-r*n3^2*omega{i} + p*e{i}" for i in (1, 2, 3)], "parameters": {"r": 0.1, "p": 0.2}}
+START = dict(k=0.5, J=(1.4, 2.1, 3.0), normal=(0.36, 0.48, 0.8), angular_velocity=(0.9, -0.3, -0.225))
 VALLEY = {"U": "c*n1^2 + 0.1/(1.2 - n3)", "parameters": {"c": 0.3}}
 
 
-def orbit(torque, y, times, k=0.5):
-    """The ball (9) with a torque(omega, n, e), by SciPy; y has omega, n, e."""
-    from scipy.integrate import solve_ivp
-
-    def slope(_, y):
-        w, n, e = y[:3], y[3:6], y[6:]
-        push = np.cross(J * w, w) + torque(w, n, e)
-        turn = -k * np.dot(w, np.cross(n, w)) - np.dot(n, push / J)  # (w,n)' = 0
-        return np.concatenate([(push + turn / np.dot(n, n / J) * n) / J, k * np.cross(n, w), np.cross(e, w)])
-
-    found = solve_ivp(slope, (0, times[-1]), y, "DOP853", times, rtol=3e-14, atol=1e-16)
-    return found.y.T
-
-
 class Written(Case):
-    def compare(self, scene, torque):
-        try:
-            import scipy  # noqa: F401
-        except ImportError:
-            self.skipTest("scipy is not installed")
-        table = isoroll.run(scene)
-        start = np.concatenate([START["angular_velocity"], START["normal"], (0, 0.6, 0.8)])
-        others = orbit(torque, start, table.t)
-        self.assertLess(np.abs(table.omega - others[:, :3]).max(), 1e-12)
-        self.assertLess(np.abs(table.n - others[:, 3:6]).max(), 1e-12)
-
-    def test_a_torque(self):
-        weightless = {"mgb": 0, "up": (0, 0.6, 0.8)}
-        scene = isoroll.Scene(**START, end=3, tolerance=1e-14, gravity=weightless, torque=TORQUE)
-        self.compare(scene, lambda w, n, e: -0.1 * n[2] ** 2 * w + 0.2 * e)
-
-    def test_a_potential(self):
-        def torque(w, n, e):
-            return 0.5 * np.cross(n, (0.6 * n[0], 0, 0.1 / (1.2 - n[2]) ** 2))
-
-        self.compare(isoroll.Scene(**START, end=3, tolerance=1e-14, potential=VALLEY), torque)
+    def test_a_dict_is_what_a_file_says(self):
+        """Friction that grows with latitude, and a push that is fixed in space."""
+        torque = {"M": [f"-r*n3^2*omega{i} + p*e{i}" for i in (1, 2, 3)], "parameters": {"r": 0.1, "p": 0.2}}
+        scene = isoroll.Scene(**START, end=3, gravity={"mgb": 0, "up": (0, 0.6, 0.8)}, torque=torque, potential=VALLEY)
+        text = isoroll.Scene(**START, end=3).text + """effects:
+  gravity: {mgb: 0, up: [0, 0.6, 0.8]}
+  torque:
+    M: ["-r*n3^2*omega1 + p*e1", "-r*n3^2*omega2 + p*e2", "-r*n3^2*omega3 + p*e3"]
+    parameters: {r: 0.1, p: 0.2}
+  potential: {U: "c*n1^2 + 0.1/(1.2 - n3)", parameters: {c: 0.3}}
+"""
+        self.same(isoroll.run(scene).array, isoroll.run(text).array)
 
     def test_integrals_are_watched(self):
         energy = "(J1*omega1^2 + J2*omega2^2 + J3*omega3^2)/2 + c*n1^2 + 0.1/(1.2 - n3)"
@@ -61,10 +34,15 @@ class Written(Case):
             self.assertLess(worst[f"{model} F"], 1e-13)
             self.assertGreater(worst[f"{model} F2"], 1e-3)
 
-    def test_what_is_wrong_is_told(self):
-        for U, words in (("n1 +", "not the end"), ("sqrt(n1^2)", "U: this has a corner")):
-            with self.assertRaisesRegex(isoroll.BadInput, words):
-                isoroll.run(isoroll.Scene(**START, end=1, potential={"U": U}))
+    def test_what_is_not_finite_at_the_start_is_bad_input(self):
+        """By every road: keywords have no file, so what is left is the expression, the state and the reason."""
+        for effect, words in (({"potential": {"U": "1/(n1 - 0.36)"}}, "U is not a finite number where"),
+                              ({"torque": {"M": ["0", "log(n1 - 0.36)", "0"]}}, "M2 is not a finite number")):
+            scene = isoroll.Scene(**START, end=1, **effect)
+            for call in (isoroll.run, isoroll.orbit, isoroll.section, isoroll.chaos,
+                         lambda scene: isoroll.batch(scene, [1, 2])):
+                error = self.refuses(isoroll.BadInput, words, call, scene)
+                self.assertRegex(str(error), r"n = \(0.36, 0.48, 0.8\): in column \d of the text, (log of|a division)")
 
 
 if __name__ == "__main__":

@@ -1,10 +1,12 @@
-/* complex_paths.h - orbits along paths in complex time, by the method of Runge and Kutta. */
+/* complex_paths.h - orbits along paths in complex time, by the method of Runge and Kutta, and matrices of loops. */
 #ifndef ISO_TESTS_COMPLEX_PATHS_H
 #define ISO_TESTS_COMPLEX_PATHS_H
 
 #include <complex.h>
+#include <math.h>
 
 typedef double complex complex_number;
+typedef complex_number matrix[2][2];
 
 enum { PATH_MOST = 6 }; /* numbers of a state */
 
@@ -40,6 +42,34 @@ static inline void path_step(path_slope *slope, const void *f, int count, comple
     path_runge_kutta(slope, f, count, t, h / 2, y);
     path_runge_kutta(slope, f, count, t + h / 2, h / 2, y);
     for (int i = 0; i < count; i++) y[i] += (y[i] - rough[i]) / 15;
+}
+
+/* --- matrices of loops ------------------------------------------------------------------------------------------ */
+
+static inline complex_number det(matrix m)
+{
+    return m[0][0] * m[1][1] - m[0][1] * m[1][0];
+}
+
+/* m in the basis of the eigenvectors of M, by the root of its determinant. Gives the norm of the work. */
+static inline double in_eigenbasis(matrix M, matrix m, matrix out)
+{
+    const complex_number half = (M[0][0] + M[1][1]) / 2, root = csqrt(half * half - 1);
+    matrix V = {{M[0][1], M[0][1]}, {half + root - M[0][0], half - root - M[0][0]}};
+    const complex_number d = det(V), scale = csqrt(det(m));
+    double size = 0;
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++) {
+            out[i][j] = 0;
+            for (int a = 0; a < 2; a++)
+                for (int b = 0; b < 2; b++) {
+                    const complex_number inverse = (i == a ? V[1 - i][1 - i] : -V[i][a]) / d;
+                    const complex_number term = inverse * m[a][b] * V[b][j] / scale;
+                    out[i][j] += term;
+                    size = fmax(size, cabs(term));
+                }
+        }
+    return 1 + size;
 }
 
 #endif

@@ -14,6 +14,7 @@
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
+#include "length.h"
 #include "map/state.h"
 #include "model/model_impl.h"
 #include "numbers.h"
@@ -200,15 +201,17 @@ static inline bool effects_taken(int subset)
     return others == subset || (others & (others - 1)) == 0 || (number * 2654435761u >> 16) % 24 == 0;
 }
 
-/* One case for every k, J and subset; J_step > 1: not every J. */
+/* One case for every k, J and subset. J_step > 1: not every J; 0: of the J one in turn for each k and subset, and every
+ * J where there are no effects. */
 static inline void effects_each(const iso_system *system, int J_step, effects_law *law, laws_worst *worst)
 {
     iso_random *r = iso_random_create(2007);
     for (int i = 0; i < LAWS_K; i++)
-        for (int j = 0; j < LAWS_J; j += J_step)
-            for (int subset = 0; subset < EFFECTS_SUBSETS; subset++) {
+        for (int j = 0; j<LAWS_J; j += J_step> 0 ? J_step : 1)
+            for (int subset = 0, turn = i; subset < EFFECTS_SUBSETS; subset++) {
                 if (subset >= EFFECTS_CLASSICAL && !(subset & 1 << ISO_TWIST)) continue;
                 if (!effects_taken(subset)) continue;
+                if (J_step == 0 && subset > 0 && turn++ % LAWS_J != j) continue;
                 const iso_params p = effects_params(laws_k[i], laws_J[j], r);
                 const effects_case c = effects_sample(system, &p, subset, r);
                 law(&c, worst);
@@ -216,14 +219,14 @@ static inline void effects_each(const iso_system *system, int J_step, effects_la
     iso_random_free(r);
 }
 
-/* Reports one line for each system (NULL: both). */
+/* Reports one line for each system (NULL: both). J_step 1: every J at full length, at short length one in turn. */
 static inline void effects_hold(const char *name, const iso_system *system, int J_step, effects_law *law)
 {
     for (int i = 0; iso_systems[i]; i++) {
         if (system && system != iso_systems[i]) continue;
         char title[128];
         laws_worst worst = {0};
-        effects_each(iso_systems[i], J_step, law, &worst);
+        effects_each(iso_systems[i], J_step == 1 ? tests_length(0, 1) : J_step, law, &worst);
         snprintf(title, sizeof title, "%s: %s", iso_systems[i]->name, name);
         laws_report(&worst, title);
     }

@@ -128,3 +128,27 @@ double hard_error(const double a[ISO_STATE], const double b[ISO_STATE])
     }
     return worst;
 }
+
+void hard_runge_kutta(hard_slopes *f, const void *data, int n, double t, double h, double y[])
+{
+    static const double at[4] = {0, 0.5, 0.5, 1}, weight[4] = {1, 2, 2, 1};
+    double dy[ISO_STATE] = {0}, sum[ISO_STATE] = {0}, z[ISO_STATE];
+    for (int s = 0; s < 4; s++) {
+        for (int i = 0; i < n; i++) z[i] = y[i] + at[s] * h * dy[i];
+        f(data, t + at[s] * h, z, dy);
+        for (int i = 0; i < n; i++) sum[i] += weight[s] / 6 * h * dy[i];
+    }
+    for (int i = 0; i < n; i++) y[i] += sum[i];
+}
+
+void hard_naive_squares(const double J[3], const double x[3], double square[3])
+{
+    double sum = 0, product = 0;
+    for (int i = 0; i < 3; i++) {
+        const double b = J[(i + 1) % 3], c = J[(i + 2) % 3];
+        sum += x[i] * x[i] * (b + c), product += x[i] * x[i] * b * c;
+    }
+    const double root = sqrt(fmax(0, sum * sum - 4 * product)), z[2] = {(sum - root) / 2, (sum + root) / 2};
+    for (int i = 0; i < 3; i++)
+        square[i] = (J[i] - z[0]) * (J[i] - z[1]) / ((J[i] - J[(i + 1) % 3]) * (J[i] - J[(i + 2) % 3]));
+}

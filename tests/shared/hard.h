@@ -54,4 +54,14 @@ iso_status hard_solve(iso_context *ctx, const hard_road *way, const iso_params *
 /* Largest error of the six numbers, relative to each vector's length. */
 double hard_error(const double a[ISO_STATE], const double b[ISO_STATE]);
 
+/* --- for naive formulations, and equations of the tests' own ---------------------------------------------------- */
+
+typedef void hard_slopes(const void *data, double t, const double y[], double dy[]);
+
+/* A step h of the classical method of Runge and Kutta; n numbers, 6 at most. */
+void hard_runge_kutta(hard_slopes *f, const void *data, int n, double t, double h, double y[]);
+
+/* The squares of x by (13), from the roots z1 <= z2 of sum_i x_i^2 (J_j - z)(J_l - z) = 0 as numbers. */
+void hard_naive_squares(const double J[3], const double x[3], double square[3]);
+
 #endif

@@ -29,10 +29,12 @@ static inline iso_start he_start(void)
     return start;
 }
 
-/* The ways of the ball; the others refuse effects that break the isomorphism (see he_refusals). */
-static inline bool he_is_ball(int way)
+/* The ways of the ball are the first; the others refuse effects that break the isomorphism (see he_refusals).
+ *
+ *     for (const hard_road *way = hard_way; he_is_ball(way); way++) ... */
+static inline bool he_is_ball(const hard_road *way)
 {
-    return hard_way[way].backend == ISO_BACKEND_BALL;
+    return way->backend == ISO_BACKEND_BALL;
 }
 
 /* taylor and rk8pd at their least tolerance, where only rounding is left; the others as users run them. */
@@ -104,13 +106,12 @@ static inline void he_refuses(iso_context *ctx, const hard_road *way, iso_status
 static inline void he_refusals(iso_context *ctx, const iso_params *p, const iso_start *start,
                                const iso_effects *effects, double time)
 {
-    for (int i = 0; i < hard_ways; i++) {
-        if (he_is_ball(i)) continue;
-        const he_answer a = he_solve(ctx, &hard_way[i], p, start, effects, time);
-        he_refuses(ctx, &hard_way[i], a.status,
-                   hard_way[i].backend == ISO_BACKEND_EXACT
-                       ? "the closed solution is for a ball on which nothing acts"
-                       : "breaks the isomorphism");
+    for (const hard_road *way = hard_way; way < hard_way + hard_ways; way++) {
+        if (he_is_ball(way)) continue;
+        const he_answer a = he_solve(ctx, way, p, start, effects, time);
+        he_refuses(ctx, way, a.status,
+                   way->backend == ISO_BACKEND_EXACT ? "the closed solution is for a ball on which nothing acts"
+                                                     : "breaks the isomorphism");
     }
 }
 

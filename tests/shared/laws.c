@@ -17,6 +17,13 @@ const double laws_J[LAWS_J][3] = {
     {3, 2, 2},       {2, 2, 2},       {1, 1.0001, 1.0002}, {1, 30, 1000},   {1000, 1, 30},
 };
 
+void laws_stop_if(const iso_context *ctx, bool failed, const char *what)
+{
+    if (!failed) return;
+    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
+    exit(gsl_test_summary());
+}
+
 iso_params laws_params(double k, const double J[3])
 {
     iso_params p;

@@ -21,6 +21,9 @@ extern const double laws_J[LAWS_J][3];
 
 enum { LAWS_STATES = 6 }; /* random states for each system, k and J */
 
+/* Ends the test if `failed`, with the words of the context. */
+void laws_stop_if(const iso_context *ctx, bool failed, const char *what);
+
 /* Parameters that are known to be valid; ends the test when they are refused. */
 iso_params laws_params(double k, const double J[3]);
 

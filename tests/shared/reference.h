@@ -1,4 +1,4 @@
-/* reference.h - the rows of reference/free_ball.csv, quadruple-precision states of the free ball. */
+/* reference.h - the rows of reference/free_ball.csv, quadruple-precision states of the free ball; rows of other files. */
 #ifndef ISO_TESTS_REFERENCE_H
 #define ISO_TESTS_REFERENCE_H
 
@@ -19,15 +19,21 @@ typedef struct reference {
     double t, ball[ISO_STATE], s;
 } reference;
 
-static inline bool reference_read_row(iso_context *ctx, char *line, reference *r)
+/* The numbers of a row behind its name, in any file of reference/. False: there are fewer. */
+static inline bool reference_numbers(const char *line, int count, double x[])
+{
+    for (int i = 0; i < count; i++) {
+        line = strchr(line, ',');
+        if (!line) return false;
+        x[i] = strtod(++line, NULL);
+    }
+    return true;
+}
+
+static inline bool reference_read_row(iso_context *ctx, const char *line, reference *r)
 {
     double x[REFERENCE_NUMBERS];
-    char *at = strchr(line, ',');
-    for (int i = 0; i < REFERENCE_NUMBERS; i++) {
-        if (!at) return false;
-        x[i] = strtod(at + 1, NULL);
-        at = strchr(at + 1, ',');
-    }
+    if (!reference_numbers(line, REFERENCE_NUMBERS, x)) return false;
     r->p = laws_params(x[0], x + 1);
     for (int i = 0; i < 3; i++) {
         r->ball[i] = x[11 + i];

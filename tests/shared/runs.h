@@ -11,9 +11,8 @@
 #include "io/scene_file.h"
 #include "orbit/orbit_impl.h"
 #include "scenes.h"
+#include "studies.h"
 #include "study/run.h"
-
-static iso_context *ctx;
 
 #define HEAVY "ball: {mass: 2, radius: 1, inertia: [0.7, 0.8, 0.9]}\n"
 #define OUTSIDE HEAVY "surface: {kind: outside, radius: 3}\n"

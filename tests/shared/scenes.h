@@ -132,6 +132,33 @@ static inline iso_orbit *scene_orbit(iso_context *ctx, const rolling *ball, cons
     return orbit;
 }
 
+/* Everything shown and carried. */
+static inline iso_orbit_options scene_all(const iso_start *start, iso_backend backend, iso_clock clock)
+{
+    iso_orbit_options o = iso_orbit_defaults(start);
+    o.backend = backend;
+    o.clock = clock;
+    o.tolerance = 1e-14;
+    o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
+    return o;
+}
+
+static inline iso_orbit *scene_by(iso_context *ctx, const iso_params *p, const iso_start *start,
+                                  const iso_orbit_options *o)
+{
+    iso_orbit *orbit;
+    if (iso_orbit_create(ctx, p, start, o, &orbit) != ISO_OK) scene_stops("an orbit is refused", ctx);
+    return orbit;
+}
+
+static inline iso_orbit *scene_whole(iso_context *ctx, const iso_params *p, const iso_start *start,
+                                     iso_backend backend, iso_clock clock)
+{
+    const iso_orbit_options o = scene_all(start, backend, clock);
+    return scene_by(ctx, p, start, &o);
+}
+
 static inline iso_sample scene_at(iso_context *ctx, iso_orbit *orbit, double time)
 {
     iso_sample s;

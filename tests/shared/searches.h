@@ -2,15 +2,9 @@
 #ifndef ISO_TESTS_SEARCHES_H
 #define ISO_TESTS_SEARCHES_H
 
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/random_impl.h"
-#include "laws.h"
+#include "studies.h"
 #include "study/integrals/integrals.h"
 
-static iso_context *ctx; /* the test's */
 static const double searched_J[3] = {1.4, 2.1, 3};
 
 static inline iso_scene scene_of(double k, const double J[3])
@@ -41,16 +35,6 @@ static inline iso_integral_search look(double k, const double J[3], int degree)
     const iso_scene scene = scene_of(k, J);
     const iso_integral_search_options o = options(degree);
     return search(&scene, &o);
-}
-
-/* Three moments that differ by a tenth or more, in any order. */
-static inline void draw(iso_random *random, double J[3])
-{
-    for (bool close = true; close;) {
-        for (int i = 0; i < 3; i++) J[i] = exp(iso_random_uniform(random, -1.2, 1.2));
-        close = false;
-        for (int i = 0; i < 3; i++) close = close || fabs(J[i] / J[(i + 1) % 3] - 1) < 0.1;
-    }
 }
 
 /* The largest difference of two values. */

@@ -37,14 +37,6 @@ static inline void sweep_give(sweep_answer *a, const double x[], int count)
     for (int i = 0; i < count && a->count < SWEEP_ANSWERS; i++) a->value[a->count++] = x[i];
 }
 
-/* The columns of a sample that are shown. */
-static inline void sweep_give_sample(sweep_answer *a, const iso_sample *sample, iso_models shown)
-{
-    sweep_give(a, sample->clock, 1);
-    if (shown != ISO_SHOW_POINT) sweep_give(a, sample->ball, ISO_STATE);
-    if (shown != ISO_SHOW_BALL) sweep_give(a, sample->point, ISO_STATE);
-}
-
 /* Stops long work: no call here should take more than a moment. */
 static clock_t sweep_began;
 static inline bool sweep_goes_on(void *data)

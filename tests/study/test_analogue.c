@@ -11,19 +11,11 @@
 
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
-#include "laws.h"
 #include "numbers.h"
+#include "studies.h"
 #include "study/analogue.h"
 
-static iso_context *ctx;
 static iso_random *rng;
-
-static void must(iso_status status, const char *what)
-{
-    if (status == ISO_OK) return;
-    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
-    exit(gsl_test_summary());
-}
 
 /* --- the problem, as stated ---------------------------------------------------------------------------------- */
 

@@ -5,9 +5,8 @@
 
 #include "costs.h"
 #include "numbers.h"
+#include "studies.h"
 #include "study/cost/cost_impl.h"
-
-static iso_context *ctx;
 
 /* --- refusals and ends ------------------------------------------------------------------------------------------ */
 
@@ -23,7 +22,6 @@ static void check_refusals(void)
 {
     const iso_cost_options all = iso_cost_defaults();
     iso_cost_options o = all;
-    iso_cost_growth growth;
     iso_scene s = cost_scene(ctx, 0.7, (const double[]){1, 2, 4}, 0);
     refuse(&s, &all, ISO_BAD_ARGUMENT, "end");
     s.end = INFINITY;
@@ -46,9 +44,6 @@ static void check_refusals(void)
     refuse(&s, &o, ISO_NOT_MAPPED, "gravity");
     GRAVITY_MGB(&s.effects) = NAN;
     refuse(&s, &all, ISO_BAD_INPUT, "mgb");
-    gsl_test(iso_cost_grow(ctx, &s, &(iso_cost_cell){0}, 0, &growth) != ISO_BAD_ARGUMENT ||
-                 strcmp(iso_context_about(ctx), "horizons") != 0,
-             "no horizons are refused");
 }
 
 /* A method that cannot get there in time does not hold up the others. */
@@ -67,29 +62,19 @@ static void check_hopeless(void)
     iso_cost_free(c);
 }
 
-static bool count_down(void *data)
-{
-    int *left = data;
-    return --*left > 0;
-}
-
 static void check_stops(void)
 {
     const iso_scene s = cost_plane(ctx);
     iso_cost_options o = iso_cost_defaults();
     iso_cost *c = NULL;
-    iso_cost_growth growth;
     int left = 0;
     o.quick = true;
-    iso_context_set_monitor(ctx, count_down, &left);
+    iso_context_set_monitor(ctx, some_times, &left);
     gsl_test(iso_cost_measure(ctx, &s, &o, &c) != ISO_STOPPED || c, "stopped at once, nothing is told");
     left = 2000;
     gsl_test(iso_cost_measure(ctx, &s, &o, &c) != ISO_STOPPED || !c || c->complete || c->cells == 0,
              "stopped later, there is what was measured");
     iso_cost_free(c);
-    left = 3;
-    const iso_cost_cell cell = {.backend = ISO_BACKEND_BALL, .method = iso_method_find("rk8pd"), .tolerance = 1e-9};
-    gsl_test(iso_cost_grow(ctx, &s, &cell, 4, &growth) != ISO_STOPPED, "growth is stopped");
     iso_context_set_monitor(ctx, NULL, NULL);
 }
 

@@ -12,29 +12,11 @@
 #define ROLLS "initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [4, -3, 0]}\ntime: {end: 1, step: 0.02}\n"
 #define WEIGHT "gravity: {g: 9.81, up: [-0.48, 0.6, -0.64]}"
 
-static iso_status copy_header(void *data, const iso_record *header)
-{
-    const char *names[64], *key, *value;
-    iso_record **r = data;
-    for (size_t i = 0; i < iso_record_columns(header); i++) names[i] = iso_record_name(header, i);
-    if (iso_record_create(ctx, iso_record_columns(header), names, r) != ISO_OK) exit(1);
-    for (size_t i = 0; iso_record_line(header, i, &key, &value); i++) iso_record_set(ctx, *r, key, value);
-    return ISO_OK;
-}
-
-static iso_status copy_row(void *data, const double row[], size_t count)
-{
-    double *to;
-    if (iso_record_append(ctx, *(iso_record **)data, &to) != ISO_OK) exit(1);
-    memcpy(to, row, count * sizeof *row);
-    return ISO_OK;
-}
-
 static iso_record *record_of(const char *text)
 {
     const iso_scene scene = parse(text);
     iso_record *r = NULL;
-    const iso_run_sink sink = {.data = &r, .header = copy_header, .row = copy_row};
+    const iso_run_sink sink = {.record = &r};
     if (iso_run(ctx, &scene, NULL, &sink, NULL) != ISO_OK) fprintf(stderr, "%s\n", iso_context_message(ctx)), exit(1);
     return r;
 }

@@ -7,6 +7,7 @@
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "laws.h"
+#include "length.h"
 #include "numbers.h"
 #include "reference.h"
 #include "scenes.h"
@@ -222,20 +223,22 @@ static void check_no_rows(void)
 
 int main(void)
 {
+    const double longest = tests_length(100, 1000);
     gsl_test_verbose(1);
     ctx = iso_context_create();
     for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
         check_references("taylor", 1e-6, backend, 100);
-        check_references("taylor", 1e-12, backend, 1000);
-        check_references("taylor", 1e-15, backend, 1000);
-        if (iso_method_find("taylor_quad")) check_references("taylor_extended", 1e-15, backend, 100); /* by gcc */
-        check_references("rk8pd", 1e-12, backend, 1000);
+        check_references("taylor", 1e-12, backend, longest);
+        check_references("taylor", 1e-15, backend, longest);
+        if (iso_method_find("taylor_quad"))
+            check_references("taylor_extended", 1e-15, backend, tests_length(10, 100)); /* by gcc */
+        check_references("rk8pd", 1e-12, backend, longest);
         check_references("adams", 1e-9, backend, 100);
     }
     check_references("blanes_moan6", 1e-8, ISO_BACKEND_POINT, 100);
     check_stiff(1e2);
     check_stiff(1e5);
-    check_every_row(6);
+    check_every_row(tests_length(2, 6));
     check_no_rows();
     check_others();
     iso_context_free(ctx);

@@ -1,36 +1,8 @@
 /* Following periodic orbits (lib/study/periodic/continuation.h): points of a branch are periodic orbits, events are where
  * their law says, branches that meet agree; refusals. */
 #define _GNU_SOURCE /* functions of _Float128 */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "laws.h"
+#include "periodics.h"
 #include "study/periodic/continuation.h"
-#include "study/periodic/periodic_impl.h"
-#include "study/periodic/stability_chart.h"
-
-static iso_context *ctx;
-
-static iso_scene scene_of(double k, const double J[3])
-{
-    static const double omega[3] = {0.9, -0.3, -0.225}, normal[3] = {0.36, 0.48, 0.8};
-    iso_scene scene = iso_scene_default();
-    scene.params = laws_params(k, J);
-    if (iso_start_ball(ctx, omega, normal, ISO_SPIN_REMOVE, &scene.start) != ISO_OK) exit(1);
-    return scene;
-}
-
-static iso_periodic *orbits_of(const iso_scene *scene, int period)
-{
-    iso_periodic_options o = iso_periodic_defaults();
-    iso_periodic *found = NULL;
-    o.period = period;
-    gsl_test(iso_periodic_run(ctx, scene, &o, &found) != ISO_OK, "%s", iso_context_message(ctx));
-    if (!found) exit(gsl_test_summary());
-    return found;
-}
 
 static const iso_branch_event *event_of(const iso_branch *b, iso_branch_kind kind)
 {
@@ -53,8 +25,8 @@ static void check_sides(const iso_branch *b, const iso_branch_event *e, bool tou
 /* A point of a branch is found again by the search along lines, at its value of k. */
 static void check_point(const iso_branch *b, const iso_branch_point *p, const double J[3])
 {
-    const iso_scene scene = scene_of(p->value, J);
-    iso_periodic *f = orbits_of(&scene, b->period);
+    const iso_scene scene = ball_scene(p->value, J);
+    iso_periodic *f = orbits_to(&scene, b->period);
     double best = INFINITY;
     for (size_t i = 0; i < f->count; i++)
         if (f->orbit[i].period == b->period) best = fmin(best, fabs(f->orbit[i].trace - p->trace));
@@ -68,8 +40,8 @@ static void check_point(const iso_branch *b, const iso_branch_point *p, const do
 static void check_branch(void)
 {
     static const double J[3] = {1, 2, 5};
-    const iso_scene scene = scene_of(0.5, J);
-    iso_periodic *f = orbits_of(&scene, 1);
+    const iso_scene scene = ball_scene(0.5, J);
+    iso_periodic *f = orbits_to(&scene, 1);
     iso_continuation_options o = iso_continuation_defaults();
     iso_continuations *follow;
     o.from = 0.3, o.to = 0.8, o.branches = true, o.longest = 0.08;
@@ -104,10 +76,10 @@ static void check_branch(void)
 static void check_touch(void)
 {
     static const double J[3] = {1.4, 2.1, 3};
-    iso_scene scene = scene_of(0.38, J);
+    iso_scene scene = ball_scene(0.38, J);
     iso_continuation_options o = iso_continuation_defaults();
     iso_continuations *follow;
-    iso_periodic *f = orbits_of(&scene, 1);
+    iso_periodic *f = orbits_to(&scene, 1);
     o.from = 0.37, o.to = 0.39;
     gsl_test_int((int)iso_continuation_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_OK, "followed");
     const iso_branch_event *e = event_of(&follow->branch[0], ISO_BRANCH_TOUCH);
@@ -117,7 +89,7 @@ static void check_touch(void)
     iso_periodic_free(f);
     scene.params = laws_params(0.5, J);
     scene.start = (iso_start){.model = ISO_POINT, .y = {0, 0.5, 0, 0.6, 0, 0.8}, .eps = 1};
-    f = orbits_of(&scene, 2);
+    f = orbits_to(&scene, 2);
     o.vary = ISO_VARY_LEVEL, o.from = -0.25, o.to = -0.19;
     gsl_test_int((int)iso_continuation_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_OK, "followed");
     size_t doublings = 0;
@@ -137,8 +109,8 @@ static void check_touch(void)
 static void check_torus(void)
 {
     static const double J[3] = {1.4, 2.1, 3};
-    const iso_scene scene = scene_of(0.97, J);
-    iso_periodic *f = orbits_of(&scene, 5);
+    const iso_scene scene = ball_scene(0.97, J);
+    iso_periodic *f = orbits_to(&scene, 5);
     iso_continuation_options o = iso_continuation_defaults();
     iso_continuations *follow;
     o.from = 0.96, o.to = 1.02, o.longest = 0.1;
@@ -165,8 +137,8 @@ static void check_refusals(void)
         double from, to;
     } wrong[] = {{ISO_VARY_K, 0.6, 0.4}, {ISO_VARY_K, -1, 1},  {ISO_VARY_K, 0.6, 0.8},
                  {ISO_VARY_J2, 2, 4},    {ISO_VARY_J2, -1, 3}, {ISO_VARY_K, NAN, 1}};
-    const iso_scene scene = scene_of(0.5, J);
-    iso_periodic *f = orbits_of(&scene, 4);
+    const iso_scene scene = ball_scene(0.5, J);
+    iso_periodic *f = orbits_to(&scene, 4);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         iso_continuation_options o = iso_continuation_defaults();
         iso_continuations *follow;
@@ -179,26 +151,6 @@ static void check_refusals(void)
     iso_periodic_free(f);
 }
 
-/* Borders of the chart: the trace is 2 or -2 there. */
-static void check_chart(void)
-{
-    iso_stability_options o = iso_stability_defaults();
-    iso_record *grid, *borders;
-    o.J[0] = 1, o.J[2] = 5, o.from[1] = 1.5, o.to[1] = 4.5, o.steps = 24;
-    gsl_test_int((int)iso_stability_chart(ctx, &o, &grid, &borders), ISO_OK, "a chart");
-    gsl_test_int((int)iso_record_rows(grid), 25 * 25, "its grid");
-    gsl_test(iso_record_rows(borders) < 20, "its borders");
-    for (size_t i = 0; i < iso_record_rows(borders); i++) {
-        const double *row = iso_record_const_row(borders, i), J[3] = {1, row[3], 5};
-        gsl_test_abs(iso_hill_trace(row[2], J, 0, row[0] > 0 ? 2 : 0, NULL), row[1], 1e-8,
-                     "border at k = %g, J2 = %g", row[2], row[3]);
-    }
-    iso_record_free(grid);
-    iso_record_free(borders);
-    o.steps = 1;
-    gsl_test_int((int)iso_stability_chart(ctx, &o, &grid, &borders), ISO_BAD_ARGUMENT, "steps");
-}
-
 int main(void)
 {
     ctx = iso_context_create();
@@ -206,7 +158,6 @@ int main(void)
     check_touch();
     check_torus();
     check_refusals();
-    check_chart();
     iso_context_free(ctx);
     return gsl_test_summary();
 }

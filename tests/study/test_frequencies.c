@@ -9,20 +9,12 @@
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "exact/coordinates_impl.h"
-#include "laws.h"
+#include "length.h"
 #include "map/state.h"
 #include "numbers.h"
+#include "studies.h"
 #include "study/frequencies/frequencies.h"
 #include "study/frequencies/frequencies_impl.h"
-
-static iso_context *ctx;
-
-static void must(iso_status status, const char *what)
-{
-    if (status == ISO_OK) return;
-    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
-    exit(gsl_test_summary());
-}
 
 /* --- scenes ----------------------------------------------------------------------------------------------------- */
 
@@ -177,13 +169,13 @@ static double section(const iso_scene *scene, int axis, double expected, double 
 
 static void check_closed(void)
 {
-    enum { SCENES = 12 };
+    const int scenes = tests_length(8, 12);
     laws_worst estimates = {0}, actions = {0}, euler = {0}, sections = {0};
     iso_random *random = iso_random_create(5);
     const iso_frequencies_options o = {.turns = 1000, .end = NAN, .samples = NAN};
     static iso_frequencies f, g;
     int one_sided = 0, regular = 0, compared = 0;
-    for (int i = 0; i < SCENES; i++) {
+    for (int i = 0; i < scenes; i++) {
         const iso_scene scene = random_scene(i, random);
         iso_momentum m;
         must(iso_frequencies_find(ctx, &scene, &o, &f), "frequencies");
@@ -204,7 +196,7 @@ static void check_closed(void)
         laws_note(&sections, fabs(measured - expected), 1e-8, &scene.params, f.motion);
     }
     iso_random_free(random);
-    gsl_test(compared < SCENES * 2 / 3, "%d of %d random balls have a closed solution", compared, SCENES);
+    gsl_test(compared < scenes * 2 / 3, "%d of %d random balls have a closed solution", compared, scenes);
     gsl_test(one_sided == 0 || one_sided == compared, "%d of them stay on one side of a plane", one_sided);
     gsl_test(regular < compared * 3 / 4 || sections.cases < 3, "%d of them are found regular", regular);
     laws_report(&estimates, "estimated frequencies are those of the closed solution");
@@ -276,22 +268,12 @@ static void refuses(const iso_scene *scene, const iso_frequencies_options *o, is
              iso_context_message(ctx));
 }
 
+/* What others refuse as well: foreign/test_refusals.c. */
 static void check_refusals(void)
 {
     iso_frequencies_options o = iso_frequencies_defaults();
-    const double J[3] = {1, 2, 3}, w[3] = {1, 0, 0}, n[3] = {0, 0.6, 0.8};
-    iso_scene scene = scene_from(0.5, J, w, n);
-    scene.effects.on[ISO_ROLLING_RESISTANCE] = true;
-    ROLLING_COEFFICIENT(&scene.effects) = 0.1;
-    refuses(&scene, &o, ISO_BAD_INPUT, "rolling_resistance");
-    scene = scene_from(1, J, w, n);
-    scene.effects.on[ISO_GRAVITY] = true;
-    GRAVITY_MGB(&scene.effects) = 1;
-    GRAVITY_UP(&scene.effects)[0] = 1;
-    refuses(&scene, &o, ISO_BAD_INPUT, "gravity");
-    scene = scene_from(0.5, J, (double[]){0, 0, 0}, n);
-    refuses(&scene, &o, ISO_BAD_INPUT, "angular_velocity");
-    scene = scene_from(0.5, J, w, n);
+    const double J[3] = {1, 2, 3}, w[3] = {1, 0, 0};
+    iso_scene scene = scene_from(0.5, J, w, (double[]){0, 0.6, 0.8});
     o.samples = -1;
     refuses(&scene, &o, ISO_BAD_ARGUMENT, "");
     scene = scene_from(0.5, J, w, (double[]){0.3, 0.6, 0.7});
@@ -303,13 +285,19 @@ static void check_refusals(void)
     refuses(&scene, &o, ISO_BAD_ARGUMENT, "end");
 }
 
-static bool never(void *unused)
+/* The number that a refusal about `field` advises is accepted: the monitor stops it at once. */
+static void take_advice(const iso_scene *scene, iso_frequencies_options *o, const char *field, double *number)
 {
-    (void)unused;
-    return false;
+    iso_frequencies f;
+    refuses(scene, o, ISO_BAD_ARGUMENT, field);
+    const char *advice = strstr(iso_context_message(ctx), "take ");
+    gsl_test(!advice || sscanf(advice, "take %lf", number) != 1, "k = %g: %s are advised", scene->params.k, field);
+    iso_context_set_monitor(ctx, never, NULL);
+    gsl_test_int((int)iso_frequencies_find(ctx, scene, o, &f), ISO_STOPPED, "k = %g: %g %s are accepted",
+                 scene->params.k, *number, field);
+    iso_context_set_monitor(ctx, NULL, NULL);
 }
 
-/* A length that a refusal advises is accepted: the monitor stops it at once. */
 static void check_advice(void)
 {
     static const double k[] = {0.5, 3, -0.02};
@@ -317,23 +305,10 @@ static void check_advice(void)
     for (int i = 0; i < 3; i++) {
         const iso_scene scene = scene_from(k[i], (const double[]){1.4, 2.1, 3}, w, n);
         iso_frequencies_options o = iso_frequencies_defaults();
-        iso_frequencies f;
         o.turns = 1e6;
-        refuses(&scene, &o, ISO_BAD_ARGUMENT, "turns");
-        const char *advice = strstr(iso_context_message(ctx), "take ");
-        gsl_test(!advice || sscanf(advice, "take %lf turns", &o.turns) != 1, "k = %g: turns are advised", k[i]);
-        iso_context_set_monitor(ctx, never, NULL);
-        gsl_test_int((int)iso_frequencies_find(ctx, &scene, &o, &f), ISO_STOPPED, "k = %g: %g turns are accepted",
-                     k[i], o.turns);
-        iso_context_set_monitor(ctx, NULL, NULL);
+        take_advice(&scene, &o, "turns", &o.turns);
         o.samples = 512;
-        refuses(&scene, &o, ISO_BAD_ARGUMENT, "samples");
-        advice = strstr(iso_context_message(ctx), "take ");
-        gsl_test(!advice || sscanf(advice, "take %lf or more", &o.samples) != 1, "k = %g: samples are advised", k[i]);
-        iso_context_set_monitor(ctx, never, NULL);
-        gsl_test_int((int)iso_frequencies_find(ctx, &scene, &o, &f), ISO_STOPPED, "k = %g: %g samples are accepted",
-                     k[i], o.samples);
-        iso_context_set_monitor(ctx, NULL, NULL);
+        take_advice(&scene, &o, "samples", &o.samples);
     }
 }
 

@@ -95,18 +95,21 @@ static iso_turn_sample turn_of(const orbit *o)
     return b;
 }
 
+static void go_on(const map *m, orbit *o, iso_indicators *it)
+{
+    m->step(o, m->parameter);
+    o->turns++;
+    const iso_turn_sample b = turn_of(o);
+    iso_indicators_add(it, &b);
+}
+
 /* Until it is decided, or `most` turns. */
 static iso_indication follow(const map *m, orbit *o, long most)
 {
     iso_indicators it;
     iso_indication result;
     iso_indicators_begin(&it, most);
-    while (o->turns < most && iso_indicators_verdict(&it) == ISO_UNDECIDED) {
-        m->step(o, m->parameter);
-        o->turns++;
-        const iso_turn_sample b = turn_of(o);
-        iso_indicators_add(&it, &b);
-    }
+    while (o->turns < most && iso_indicators_verdict(&it) == ISO_UNDECIDED) go_on(m, o, &it);
     iso_indicators_read(&it, &result);
     return result;
 }
@@ -158,12 +161,7 @@ static void check_rotation(void)
 static iso_indication go_to(const map *m, orbit *o, iso_indicators *it, long turns)
 {
     iso_indication result;
-    while (o->turns < turns) {
-        m->step(o, m->parameter);
-        o->turns++;
-        const iso_turn_sample b = turn_of(o);
-        iso_indicators_add(it, &b);
-    }
+    while (o->turns < turns) go_on(m, o, it);
     iso_indicators_read(it, &result);
     return result;
 }
@@ -202,7 +200,7 @@ static void check_error(iso_random *r, double K)
     const map m = {"standard", standard, K};
     static iso_indication result[MOST][LENGTHS];
     double late[MOST], sea = 0, among = 0;
-    const int count = tests_length(MOST / 2, MOST);
+    const int count = tests_length(MOST * 3 / 10, MOST);
     for (int i = 0; i < count; i++) {
         orbit o = start(iso_random_uniform(r, -ISO_PI, ISO_PI), iso_random_uniform(r, -ISO_PI, ISO_PI));
         iso_indicators it;
@@ -288,7 +286,7 @@ static void check_digits(iso_random *r)
 /* The chaotic sea, with the orbits that stick to islands for long. What is chaotic, a long run tells. */
 static void check_sea(iso_random *r, double K, double most_undecided)
 {
-    const int count = tests_length(150, 2500);
+    const int count = tests_length(80, 2500);
     const map m = {"standard", standard, K};
     int sea[3] = {0}, rest[3] = {0}, all = 0;
     for (int i = 0; i < count; i++) {
@@ -322,11 +320,7 @@ static void check_edges(void)
     const iso_indication first = follow(&m, &o, 50);
     gsl_test_int((int)first.verdict, ISO_UNDECIDED, "verdict at 50 turns");
     iso_indicators_begin(&it, 50); /* it may go on */
-    for (o = start(3, 0.2); o.turns < 1000; o.turns++) {
-        const iso_turn_sample b = turn_of(&o);
-        if (o.turns > 0) iso_indicators_add(&it, &b);
-        m.step(&o, m.parameter);
-    }
+    for (o = start(3, 0.2); o.turns < 1000;) go_on(&m, &o, &it);
     gsl_test_int((int)iso_indicators_verdict(&it), ISO_CHAOTIC, "verdict of one that goes on");
 }
 

@@ -1,124 +1,39 @@
-/* Periodic orbits (lib/study/periodic/periodic.h): the rotations' traces against a table and the section, orbits against their
- * laws, the search along lines against Newton's method from a grid, k = 1 and -1. */
+/* Periodic orbits (lib/study/periodic/periodic.h): the rotations' traces against Hill's equation and the section,
+ * orbits against their laws, the search along lines against Newton's method from a grid, k = 1 and -1. */
 #define _GNU_SOURCE /* functions of _Float128 */
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_odeiv2.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/random_impl.h"
-#include "laws.h"
 #include "length.h"
 #include "map/section.h"
 #include "method/methods_impl.h"
 #include "orbit/crossings.h"
-#include "study/periodic/periodic_impl.h"
-
-static iso_context *ctx;
-
-static iso_scene scene_of(double k, const double J[3])
-{
-    static const double omega[3] = {0.9, -0.3, -0.225}, normal[3] = {0.36, 0.48, 0.8};
-    iso_scene scene = iso_scene_default();
-    scene.params = laws_params(k, J);
-    if (iso_start_ball(ctx, omega, normal, ISO_SPIN_REMOVE, &scene.start) != ISO_OK) exit(1);
-    return scene;
-}
-
-static iso_periodic *orbits_of(double k, const double J[3], const iso_periodic_options *o)
-{
-    const iso_scene scene = scene_of(k, J);
-    iso_periodic *found = NULL;
-    const iso_status status = iso_periodic_run(ctx, &scene, o, &found);
-    gsl_test(status != ISO_OK, "k = %g, J = %g %g %g: %s", k, J[0], J[1], J[2], iso_context_message(ctx));
-    if (!found) exit(gsl_test_summary());
-    return found;
-}
+#include "periodics.h"
 
 /* --- rotations -------------------------------------------------------------------------------------------------- */
 
-/* SciPy's DOP853 with a tolerance of 1e-13. */
-static const struct row {
-    double k, J[3], trace[3];
-} table[] = {
-    {-2, {1.4, 2.1, 3}, {-1.90296522, -2.08844277, -1.64204496}},
-    {-1, {1.4, 2.1, 3}, {-1.65403520, -2.35263343, -0.29106773}},
-    {-0.5, {1.4, 2.1, 3}, {-0.90274035, -3.42625824, 7.66156228}},
-    {0.5, {1.4, 2.1, 3}, {0.73482572, -3.56858865, 0.25320105}},
-    {1, {1.4, 2.1, 3}, {-1.45392350, -2.36990950, -1.17309135}},
-    {2, {1.4, 2.1, 3}, {-1.87809342, -2.09058642, -1.75094206}},
-    {-2, {1, 2, 5}, {-1.80648488, -2.28865596, 4.46092545}},
-    {-1, {1, 2, 5}, {-1.35831099, -3.08144739, 42.73314819}},
-    {-0.5, {1, 2, 5}, {-0.21511903, -6.10571740, 489.475321}},
-    {0.5, {1, 2, 5}, {6.27038962, -11.14417488, 0.61065405}},
-    {1, {1, 2, 5}, {-0.61506031, -3.62894679, 1.76285884}},
-    {2, {1, 2, 5}, {-1.71561231, -2.35469722, -0.09928153}},
-};
-
-static void check_rotation(const struct row *t, const iso_rotation *r)
+static void check_rotation(double k, const double J[3], const iso_rotation *r)
 {
-    const int a = r->axis;
-    const double trace = r->half_turn_trace;
-    gsl_test_abs(trace, t->trace[a], 1.01e-8 * fmax(1, fabs(trace) / 10), "k = %g, J3 = %g, axis %d", t->k, t->J[2],
-                 a + 1);
-    gsl_test(!(r->error < 1e-12 * fmax(1, fabs(trace))), "error %g", r->error);
-    gsl_test_rel(r->by_section, trace, 1e-12, "axis %d by the section", a + 1);
+    const double trace = r->half_turn_trace, size = fmax(1, fabs(trace));
+    gsl_test_rel(trace, iso_hill_trace(k, J, 0, r->axis, NULL), 1e-11, "k = %g, J3 = %g, axis %d", k, J[2],
+                 r->axis + 1);
+    gsl_test(!(r->error < 1e-12 * size), "error %g", r->error);
+    gsl_test_rel(r->by_section, trace, 1e-12, "axis %d by the section", r->axis + 1);
     gsl_test((r->half.stability == ISO_STABLE) != (fabs(trace) < 2), "stability");
     gsl_test((r->half.krein != 0) != (fabs(trace) < 2), "Krein's sign");
     const double(*m)[2] = r->half.value;
-    gsl_test_abs(m[0][0] + m[1][0], trace, 1e-13 * fmax(1, fabs(trace)), "sum of the multipliers");
-    gsl_test_abs(m[0][0] * m[1][0] - m[0][1] * m[1][1], 1, 1e-13 * fmax(1, fabs(trace)), "their product");
+    gsl_test_abs(m[0][0] + m[1][0], trace, 1e-13 * size, "sum of the multipliers");
+    gsl_test_abs(m[0][0] * m[1][0] - m[0][1] * m[1][1], 1, 1e-13 * size, "their product");
 }
 
+/* test_periodic_levels.c has Hill's equation itself. */
 static void check_rotations(void)
 {
-    iso_periodic_options o = iso_periodic_defaults();
-    o.period = 1;
-    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
-        iso_periodic *f = orbits_of(table[i].k, table[i].J, &o);
-        for (int a = 0; a < 3; a++) check_rotation(&table[i], &f->rotation[a]);
+    static const double J[2][3] = {{1.4, 2.1, 3}, {1, 2, 5}}, k[] = {-2, -1, -0.5, 0.5, 1, 2};
+    for (int i = 0; i < 12; i++) {
+        const iso_scene scene = ball_scene(k[i / 2], J[i % 2]);
+        iso_periodic *f = orbits_to(&scene, 0);
+        for (int a = 0; a < 3; a++) check_rotation(k[i / 2], J[i % 2], &f->rotation[a]);
         iso_periodic_free(f);
     }
-}
-
-/* Hill's equation once more, in the time s and by GSL: y'' = (2 eps/k) q^(-1-1/k) ((1-k) q - J_i) y. */
-typedef struct hill {
-    double k, Ji, Ja, Jb;
-} hill;
-
-static int hill_slope(double phi, const double y[], double dy[], void *data)
-{
-    const hill *p = data;
-    const double C = cos(phi), S = sin(phi), q = p->Ja * C * C + p->Jb * S * S;
-    const double pace = sqrt(2) * pow(q, -1 / (2 * p->k)); /* dphi/ds */
-    for (int i = 0; i < 2; i++) {
-        dy[2 * i] = y[2 * i + 1] / pace;
-        dy[2 * i + 1] = 2 / p->k * pow(q, -1 - 1 / p->k) * ((1 - p->k) * q - p->Ji) * y[2 * i] / pace;
-    }
-    return GSL_SUCCESS;
-}
-
-static void check_by_gsl(void)
-{
-    iso_random *random = iso_random_create(17);
-    for (int i = 0; i < tests_length(20, 100); i++) {
-        const double k = (i % 2 ? 1 : -1) * iso_random_uniform(random, 0.3, 3);
-        const double J[3] = {iso_random_uniform(random, 1, 2), iso_random_uniform(random, 1, 3),
-                             iso_random_uniform(random, 1, 4)};
-        const int a = i % 3;
-        hill p = {k, J[a], J[(a + 1) % 3], J[(a + 2) % 3]};
-        gsl_odeiv2_system system = {hill_slope, NULL, 4, &p};
-        gsl_odeiv2_driver *d = gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-3, 1e-14, 1e-14);
-        double y[4] = {1, 0, 0, 1}, phi = 0, error;
-        gsl_odeiv2_driver_apply(d, &phi, acos(-1), y);
-        const double trace = iso_hill_trace(k, J, 0, a, &error), size = fabs(y[0]) + fabs(y[3]) + 1;
-        gsl_test_abs(trace, y[0] + y[3], 1e-11 * size, "k = %g, axis %d: trace by GSL", k, a + 1);
-        gsl_test(!(error < 1e-12 * size), "its error %g", error);
-        gsl_odeiv2_driver_free(d);
-    }
-    iso_random_free(random);
 }
 
 /* --- orbits ----------------------------------------------------------------------------------------------------- */
@@ -184,12 +99,9 @@ static void check_mirror(const iso_scene *scene, const iso_periodic_orbit *o)
 static void check_orbits(void)
 {
     static const double J[2][3] = {{1.4, 2.1, 3}, {1, 2, 5}}, k[] = {0.5, -0.6, 0.75, 2};
-    iso_periodic_options o = iso_periodic_defaults();
     for (int i = 0; i < 4; i++) {
-        o.period = tests_length(3, 5) - (i == 0);
-        const double *moments = J[i == 0];
-        const iso_scene scene = scene_of(k[i], moments);
-        iso_periodic *f = orbits_of(k[i], moments, &o);
+        const iso_scene scene = ball_scene(k[i], J[i == 0]);
+        iso_periodic *f = orbits_to(&scene, tests_length(3, 5) - (i == 0));
         gsl_test(i < 3 && f->count == 0, "k = %g: there are orbits", k[i]);
         gsl_test(f->lost > 0 || f->unresolved > 0, "k = %g: none is lost", k[i]);
         for (size_t j = 0; j < f->count; j++) {
@@ -235,14 +147,14 @@ static int missing(const iso_periodic *of, const iso_periodic *in, bool easy, co
 }
 
 /* The list of the search from a grid alone. */
-static iso_periodic *grid_of(double k, const double J[3], int period, long grid)
+static iso_periodic *grid_of(const iso_scene *scene, int period, long grid)
 {
     iso_periodic_options o = iso_periodic_defaults();
     o.period = period;
     o.all = true;
     o.no_lines = true;
     o.grid = grid;
-    return orbits_of(k, J, &o);
+    return orbits_of(scene, &o);
 }
 
 /* The search from a grid, without lines, against the search along lines: every symmetric orbit that the grid finds,
@@ -257,13 +169,12 @@ static void check_both_searches(void)
         const double J[3] = {iso_random_uniform(random, 1, 1.3), iso_random_uniform(random, 1.5, 2),
                              iso_random_uniform(random, 2.2, 3)};
         const int period = tests_length(3, 4);
-        iso_periodic_options o = iso_periodic_defaults();
-        o.period = period;
-        iso_periodic *lines = orbits_of(k, J, &o), *grid = grid_of(k, J, period, 1000);
+        const iso_scene scene = ball_scene(k, J);
+        iso_periodic *lines = orbits_to(&scene, period), *grid = grid_of(&scene, period, 1000);
         lost[0] += missing(grid, lines, false, "lines have", k, J);
         if (missing(lines, grid, true, "a grid of 1000 points has", k, J) > 0) {
             iso_periodic_free(grid);
-            grid = grid_of(k, J, period, 30000);
+            grid = grid_of(&scene, period, 30000);
             lost[1] += missing(lines, grid, true, "a grid of 30000 points has", k, J);
         }
         seen += lines->count;
@@ -279,13 +190,13 @@ static void check_both_searches(void)
 static void check_tori(void)
 {
     iso_random *random = iso_random_create(1);
-    iso_periodic_options o = iso_periodic_defaults();
     size_t tori = 0;
     for (int i = 0; i < tests_length(6, 16); i++) {
         const double k = i % 2 ? 1 : -1,
                      J[3] = {iso_random_uniform(random, 1, 1.5), iso_random_uniform(random, 1.6, 2),
                              iso_random_uniform(random, 2.2, 2.6)};
-        iso_periodic *f = orbits_of(k, J, &o);
+        const iso_scene scene = ball_scene(k, J);
+        iso_periodic *f = orbits_of(&scene, NULL);
         for (size_t j = 0; j < f->count; j++) {
             const iso_periodic_orbit *p = &f->orbit[j];
             gsl_test(!p->torus || p->multipliers.stability != ISO_DEGENERATE, "period %d is on a torus", p->period);
@@ -325,12 +236,12 @@ static void compare_digits(iso_random *random, int period, size_t *seen, size_t 
         (iso_random_uniform(random, 0, 1) < 0.5 ? 1 : -1) * exp(iso_random_uniform(random, log(0.35), log(2.5)));
     const double J[3] = {iso_random_uniform(random, 1, 1.5), iso_random_uniform(random, 1.6, 2.5),
                          iso_random_uniform(random, 2.6, 4)};
-    const iso_scene scene = scene_of(k, J);
+    const iso_scene scene = ball_scene(k, J);
     iso_periodic_options o = iso_periodic_defaults();
     o.period = period;
-    iso_periodic *rough = orbits_of(k, J, &o), *fine = NULL;
+    iso_periodic *rough = orbits_of(&scene, &o);
     o.polish = true;
-    gsl_test(iso_periodic_run(ctx, &scene, &o, &fine) != ISO_OK, "%s", iso_context_message(ctx));
+    iso_periodic *fine = orbits_of(&scene, &o);
     gsl_test(fine->count != rough->count, "k = %.17g: 64 and 128 bits have the same orbits", k);
     for (size_t i = 0; i < rough->count; i++) {
         const iso_periodic_orbit *a = &rough->orbit[i], *b = twin_of(a, fine);
@@ -369,7 +280,7 @@ static void check_polish(void)
 static void check_polish(void)
 {
     iso_periodic_options o = iso_periodic_defaults();
-    const iso_scene scene = scene_of(0.45, (const double[3]){1.2, 2, 3.1});
+    const iso_scene scene = ball_scene(0.45, (const double[3]){1.2, 2, 3.1});
     o.polish = true;
     refuse(&scene, &o, ISO_BAD_ARGUMENT, "polish");
 }
@@ -377,10 +288,10 @@ static void check_polish(void)
 
 /* --- refusals --------------------------------------------------------------------------------------------------- */
 
+/* What others refuse as well: foreign/test_refusals.c. */
 static void check_refusals(void)
 {
-    static const double J[3] = {1.4, 2.1, 3}, round[3] = {1.4, 1.4, 3};
-    iso_scene scene = scene_of(0.5, J);
+    const iso_scene scene = ball_scene(0.5, (const double[]){1.4, 2.1, 3});
     iso_periodic_options o = iso_periodic_defaults();
     o.period = 0;
     refuse(&scene, &o, ISO_BAD_ARGUMENT, "period");
@@ -389,18 +300,12 @@ static void check_refusals(void)
     o = iso_periodic_defaults();
     o.grid = 0;
     refuse(&scene, &o, ISO_BAD_ARGUMENT, "grid");
-    scene = scene_of(0.5, round);
-    refuse(&scene, NULL, ISO_BAD_INPUT, "J");
-    scene = scene_of(0.5, J);
-    for (int i = 0; i < 3; i++) scene.start.y[i] = 0;
-    refuse(&scene, NULL, ISO_BAD_INPUT, "angular_velocity");
 }
 
 int main(void)
 {
     ctx = iso_context_create();
     check_rotations();
-    check_by_gsl();
     check_orbits();
     check_both_searches();
     check_tori();

@@ -1,18 +1,12 @@
 /* Enclosures of the splitting, lib/study/prove/prove_impl.h: laws at k = 1 and -1, known values, the same number as
  * the splitting that is measured, refusals. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/random_impl.h"
 #include "io/scene_file.h"
 #include "length.h"
+#include "studies.h"
 #include "study/prove/prove_impl.h"
 #include "study/separatrix/separatrix.h"
 
-static iso_context *ctx;
 static iso_proof_work work = {.most = 1000000};
 
 static iso_proof_ball ball_of(const char *k, const char *J1, const char *J2, const char *J3)
@@ -192,18 +186,12 @@ static void test_refusals(void)
     refuses("ball: {mass: 2, radius: 1, inertia: [2, 3, 4]}\nsurface: {kind: plane}" START, NULL, "'reduced'");
 }
 
-static bool stop(void *data)
-{
-    int *left = data;
-    return (*left)-- > 0;
-}
-
 static void test_stop(void)
 {
     const iso_proof_ball b = ball_of("1/2", "1.4", "2.1", "3");
     iso_proof p;
     int left = 30;
-    iso_context_set_monitor(ctx, stop, &left);
+    iso_context_set_monitor(ctx, some_times, &left);
     gsl_test(iso_proof_find(ctx, &b, 12, &work, &p, NULL) != ISO_STOPPED, "it stops on request");
     iso_context_set_monitor(ctx, NULL, NULL);
 }

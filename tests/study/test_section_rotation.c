@@ -1,15 +1,8 @@
 /* iso_section_rotation: circles whose number is known, mirror images, the frequencies of the closed solution; chaos, and
  * too few crossings, have none. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "io/scene_file.h"
+#include "studies.h"
 #include "study/frequencies/frequencies.h"
 #include "study/section/section_impl.h"
-
-static iso_context *ctx;
 
 enum { MOST = 400 };
 
@@ -51,59 +44,33 @@ static void test_circles(void)
     gsl_test(!isnan(iso_section_rotation(ALL(z), MOST)), "dice have no number");
 }
 
-typedef struct kept {
-    size_t count, first; /* first: the column l */
-    double z[MOST][2];
-} kept;
-
-static iso_status keep_header(void *data, const iso_record *header)
-{
-    ((kept *)data)->first = (size_t)iso_record_find(header, "l");
-    return ISO_OK;
-}
-
-static iso_status keep_row(void *data, const double row[], size_t count)
-{
-    kept *k = data;
-    (void)count;
-    if (k->count < MOST) memcpy(k->z[k->count++], row + k->first, sizeof *k->z);
-    return ISO_OK;
-}
-
-static iso_scene scene_of(double k)
-{
-    char text[300];
-    iso_scene scene = iso_scene_default();
-    snprintf(text, sizeof text,
-             "reduced: {k: %g, J: [1, 2, 5]}\ninitial: {normal: [0.36, 0.48, 0.8], angular_velocity: "
-             "[0.9, -0.3, -0.225]}\ntime: {end: 1, step: 1}\n",
-             k);
-    gsl_test((int)iso_scene_parse(ctx, "test", text, strlen(text), &scene), "a scene");
-    return scene;
-}
-
 static double rotation_of(const iso_scene *scene)
 {
-    kept k = {.count = 0};
+    static double z[MOST][2];
+    iso_record *record = NULL;
     iso_section_options o = iso_section_defaults();
     iso_section_result result;
-    const iso_section_sink sink = {.header = keep_header, .row = keep_row, .data = &k};
     o.crossings = MOST;
-    gsl_test((int)iso_section_run(ctx, scene, &o, &sink, &result), "%s", iso_context_message(ctx));
-    return iso_section_rotation(ALL(k.z), k.count);
+    must(iso_section_run(ctx, scene, &o, &(iso_section_sink){.record = &record}, &result), "a section");
+    for (size_t i = 0; i < iso_record_rows(record); i++)
+        memcpy(z[i], iso_record_const_row(record, i) + iso_record_find(record, "l"), sizeof z[i]);
+    const double rotation = iso_section_rotation(ALL(z), iso_record_rows(record));
+    iso_record_free(record);
+    return rotation;
 }
 
 /* While the ball swings once along the axis of the section, it turns about it by frequency 2 : frequency 1. */
 static void test_frequencies(void)
 {
-    iso_scene scene = scene_of(-1);
+    const double J[3] = {1, 2, 5};
+    iso_scene scene = ball_scene(-1, J);
     iso_frequencies_options o = iso_frequencies_defaults();
     iso_frequencies f;
-    gsl_test((int)iso_frequencies_find(ctx, &scene, &o, &f), "%s", iso_context_message(ctx));
+    must(iso_frequencies_find(ctx, &scene, &o, &f), "frequencies");
     const double found = rotation_of(&scene);
     gsl_test(!(fabs(found - fold(1 / f.rotation)) < 1e-6), "the closed solution: %.10g, by crossings %.10g",
              fold(1 / f.rotation), found);
-    scene = scene_of(0.5);
+    scene = ball_scene(0.5, J);
     gsl_test(!isnan(rotation_of(&scene)), "a chaotic orbit has none");
 }
 

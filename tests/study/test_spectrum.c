@@ -1,38 +1,20 @@
 /* Lines of made signals, lib/study/frequencies/spectrum.h. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-
+#include "studies.h"
 #include "study/frequencies/frequencies_impl.h"
 
-static iso_context *ctx;
-
-static void must(iso_status status, const char *what)
-{
-    if (status == ISO_OK) return;
-    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
-    exit(gsl_test_summary());
-}
-
-static bool goes_on(void *data)
-{
-    int *const left = data;
-    return --*left >= 0;
-}
-
 /* It asks before each line that it looks for, and before each that it refines, and once it is told no asks no more.
- * */
+ */
 static void check_stop(const double x[], size_t count, double step)
 {
     iso_spectral_line found[ISO_MAX_LINES];
     int lines, asked = 1000;
-    iso_context_set_monitor(ctx, goes_on, &asked);
+    iso_context_set_monitor(ctx, some_times, &asked);
     must(iso_spectrum_find(ctx, x, count, step, ISO_MAX_LINES, found, &lines), "a spectrum that may be stopped");
     asked = 1000 - asked;
     gsl_test(asked < 2 * lines, "asked %d times whether to go on, for %d lines", asked, lines);
     for (int calls = 0; calls < asked; calls++) {
         int left = calls;
-        iso_context_set_monitor(ctx, goes_on, &left);
+        iso_context_set_monitor(ctx, some_times, &left);
         const iso_status status = iso_spectrum_find(ctx, x, count, step, ISO_MAX_LINES, found, &lines);
         gsl_test(status != ISO_STOPPED || lines != 0 || left != -1, "stopped when asked %d times", calls + 1);
     }

@@ -1,12 +1,7 @@
 /* The splitting (lib/study/separatrix/separatrix.h) where the problem is integrable, k = 1 and k = -1: m is 0 there for all J
  * and on all levels, so it is below its error, with 64 bits and with 128. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/random_impl.h"
 #include "length.h"
+#include "studies.h"
 #include "study/separatrix/separatrix.h"
 
 enum { MOST = 20 };
@@ -15,18 +10,8 @@ typedef struct worst {
     double of_error, size; /* |m| by its error; the error */
 } worst;
 
-/* Three moments that differ by a twentieth or more, in any order. */
-static void draw(iso_random *random, double J[3])
-{
-    for (bool close = true; close;) {
-        close = false;
-        for (int i = 0; i < 3; i++) J[i] = exp(iso_random_uniform(random, -1.2, 1.2));
-        for (int i = 0; i < 3; i++) close = close || fabs(J[i] / J[(i + 1) % 3] - 1) < 0.05;
-    }
-}
-
 /* part: of the way from level 0 down to that on which the rotation ends; above 0 the level itself. */
-static void look(iso_context *ctx, double k, const double J[3], double part, iso_separatrix_digits digits, worst *w)
+static void look(double k, const double J[3], double part, iso_separatrix_digits digits, worst *w)
 {
     iso_separatrix_splitting s;
     const double least = fmin(J[0], fmin(J[1], J[2])), most = fmax(J[0], fmax(J[1], J[2])),
@@ -40,18 +25,17 @@ static void look(iso_context *ctx, double k, const double J[3], double part, iso
 }
 
 /* The first `count` of these J; both signs of k, or the sign that its place in the row gives. */
-static void check(iso_context *ctx, iso_separatrix_digits digits, int count, bool both, double bound,
-                  const char *name)
+static void check(iso_separatrix_digits digits, int count, bool both, double bound, const char *name)
 {
     iso_random *random = iso_random_create(17);
     worst w = {0, 0};
     for (int i = 0; i < count; i++) {
         double J[3];
-        draw(random, J);
+        draw_moments(random, 1.2, 0.05, J);
         const bool off = i % 2 == (digits == ISO_SEPARATRIX_QUAD ? 0 : 1); /* every other one on another level */
         const double part = off ? iso_random_uniform(random, -0.9, 1) : 0;
         for (int k = -1; k <= 1; k += 2)
-            if (both || k == (i % 2 ? 1 : -1)) look(ctx, k, J, part, digits, &w);
+            if (both || k == (i % 2 ? 1 : -1)) look(k, J, part, digits, &w);
     }
     gsl_test(!(w.of_error < 1), "%s, %d J: |m| is at most %.2g of its error", name, count, w.of_error);
     gsl_test(!(w.size < bound), "%s, %d J: the largest error is %.1e", name, count, w.size);
@@ -60,12 +44,12 @@ static void check(iso_context *ctx, iso_separatrix_digits digits, int count, boo
 
 int main(void)
 {
-    iso_context *ctx = iso_context_create();
     const bool full = tests_length(0, 1);
     iso_separatrix_splitting s;
-    check(ctx, ISO_SEPARATRIX_DOUBLE, tests_length(10, MOST), full, 1e-14, "64 bits");
+    ctx = iso_context_create();
+    check(ISO_SEPARATRIX_DOUBLE, tests_length(10, MOST), full, 1e-14, "64 bits");
     if (iso_separatrix_at(ctx, NAN, (double[3]){1, 2, 3}, 0, ISO_SEPARATRIX_QUAD, &s) != ISO_BAD_ARGUMENT)
-        check(ctx, ISO_SEPARATRIX_QUAD, tests_length(1, MOST / 4), false, 1e-26, "128 bits");
+        check(ISO_SEPARATRIX_QUAD, tests_length(1, MOST / 4), false, 1e-26, "128 bits");
     iso_context_free(ctx);
     return gsl_test_summary();
 }

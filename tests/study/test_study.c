@@ -6,20 +6,11 @@
 #include <string.h>
 
 #include "base/vec3_impl.h"
-#include "laws.h"
 #include "orbit/convert.h"
 #include "orbit/orbit_impl.h"
+#include "studies.h"
 #include "study/check/check.h"
 #include "study/compare.h"
-
-static iso_context *ctx;
-
-static void must(iso_status status, const char *what)
-{
-    if (status == ISO_OK) return;
-    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
-    exit(gsl_test_summary());
-}
 
 /* --- compare --------------------------------------------------------------------------------------------------- */
 
@@ -106,11 +97,6 @@ static void check_drift(void)
 static bool stop_at(double part, void *data)
 {
     return part < *(double *)data - 1e-9;
-}
-
-static bool some_times(void *data)
-{
-    return (*(int *)data)-- > 0;
 }
 
 /* Interrupted while any of the backends looks for a row: there is no row that only some of them have. */
@@ -228,13 +214,6 @@ static iso_record *record_of(const iso_params *p, const iso_start *start, int fi
     return record;
 }
 
-static double residual(const iso_residuals *r, const char *name)
-{
-    for (int i = 0; i < r->count; i++)
-        if (strcmp(r->residual[i].name, name) == 0) return r->residual[i].worst;
-    return NAN;
-}
-
 /* Whether the residuals above `bound` are exactly those whose names are in the list, " a, b, ". */
 static void expect(const iso_params *p, const iso_record *record, double bound, const char *list, const char *what)
 {
@@ -309,20 +288,6 @@ static void check_damages(void)
     check_damage(0.75, "t", 1, 0, " clock t, clock tau, clock s, ball flow,");
 }
 
-static void check_wrong_k(void)
-{
-    static const double J[3] = {1.4, 2.1, 3.0};
-    const iso_params p = laws_params(0.5, J), wrong = laws_params(0.501, J);
-    const iso_start start = {.model = ISO_BALL, .y = {0.8, 0.5, -0.6, 0.6, 0, 0.8}};
-    iso_record *ball = record_of(&p, &start, 3, 8, "t"), *both = record_of(&p, &start, 3, 14, "t");
-    expect(&wrong, ball, 1e-6, " ball flow,", "a wrong k");
-    iso_residuals r;
-    must(iso_check(ctx, &wrong, both, 1e-13, &r), "a wrong k");
-    gsl_test(!(residual(&r, "map") > 1e-4), "a wrong k: the map is off by %.2g", residual(&r, "map"));
-    iso_record_free(ball);
-    iso_record_free(both);
-}
-
 static void check_off_level(void)
 {
     static const double J[3] = {1.4, 2.1, 3.0};
@@ -366,7 +331,6 @@ int main(void)
     check_compare();
     check_good();
     check_damages();
-    check_wrong_k();
     check_off_level();
     check_bad_records();
     iso_context_free(ctx);

@@ -19,8 +19,6 @@
 #include "length.h"
 #include "study/periodic/periodic_impl.h"
 
-typedef complex_number matrix[2][2];
-
 typedef struct rotation {
     double k, J[3];
     double torque;       /* of the constraint, by the right one: 1 */
@@ -119,32 +117,6 @@ static rotation rotation_of(double k, const double J[3])
     const double height = atanh(sqrt(fmin(J[0], J[2]) / fmax(J[0], J[2])));
     r.zero = (J[0] < J[2] ? ISO_PI / 2 : 0) + I * height;
     return r;
-}
-
-static complex_number det(matrix m)
-{
-    return m[0][0] * m[1][1] - m[0][1] * m[1][0];
-}
-
-/* m in the basis of the eigenvectors of M, by the root of its determinant. Gives the norm of the work. */
-static double in_eigenbasis(matrix M, matrix m, matrix out)
-{
-    const complex_number half = (M[0][0] + M[1][1]) / 2, root = csqrt(half * half - 1);
-    matrix V = {{M[0][1], M[0][1]}, {half + root - M[0][0], half - root - M[0][0]}};
-    const complex_number d = det(V), scale = csqrt(det(m));
-    double size = 0;
-    for (int i = 0; i < 2; i++)
-        for (int j = 0; j < 2; j++) {
-            out[i][j] = 0;
-            for (int a = 0; a < 2; a++)
-                for (int b = 0; b < 2; b++) {
-                    const complex_number inverse = (i == a ? V[1 - i][1 - i] : -V[i][a]) / d;
-                    const complex_number term = inverse * m[a][b] * V[b][j] / scale;
-                    out[i][j] += term;
-                    size = fmax(size, cabs(term));
-                }
-        }
-    return 1 + size;
 }
 
 /* --- what the theorem says of them ------------------------------------------------------------------------------ */

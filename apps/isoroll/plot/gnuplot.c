@@ -18,6 +18,7 @@
 #include "io/output_impl.h"
 #include "io/replacement_impl.h"
 #include "plot/plot.h"
+#include "progress.h"
 
 #define INSTALL "install gnuplot (package gnuplot-nox)"
 
@@ -320,8 +321,10 @@ static iso_status run(iso_context *ctx)
                       (int[]){fileno(g.script), fileno(iso_output_stream(g.output)), fileno(g.complaints)}, &child);
     if (error != 0)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot run gnuplot: %s; " INSTALL, strerror(error));
+    progress_drawing();
     do ended = waitpid(child, &result, 0);
     while (ended < 0 && errno == EINTR);
+    progress_end();
     if (ended == child && WIFSIGNALED(result) && WTERMSIG(result) == SIGINT)
         return iso_context_fail(ctx, ISO_STOPPED, "", "the picture was interrupted");
     if (ended == child && WIFSIGNALED(result))

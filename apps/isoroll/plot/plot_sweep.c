@@ -293,7 +293,7 @@ iso_status iso_plot_sweep(iso_context *ctx, const iso_plot_page *page, const cha
     table t = {.axes = 0};
     ISO_TRY(iso_sweep_reader_open(ctx, file, &reader));
     iso_status status = create_rows(ctx, reader, &t);
-    if (reader->share.count > 1)
+    if (reader->shard.count > 1)
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "'%s' is a part of a sweep: merge the parts first", file);
     if (status == ISO_OK) status = choose_value(ctx, value, &t);
     if (status == ISO_OK) status = read_rows(ctx, reader, &t);

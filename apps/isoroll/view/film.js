@@ -78,19 +78,6 @@ const film = {
     canvas.toBlob((blob) => film.save(blob, "png"));
   },
 
-  // For `isoroll view --frames`: #frames=FIRST,COUNT,ALL writes these pictures as text.
-  writeFrames(first, count, all) {
-    const [from, to] = controls.range(),
-      out = document.createElement("pre");
-    out.id = "frames";
-    out.append("\n");
-    for (let i = first; i < first + count; i++) {
-      controls.seek(from + (to - from) * (all > 1 ? i / (all - 1) : 0));
-      out.append(`\nframe ${i} ${film.compose(1280, 720).toDataURL("image/png")}\n`);
-    }
-    document.body.append(out);
-  },
-
   // A film of what is seen, from now until the button is pressed again or the orbit ends.
   record() {
     if (film.recorder) return film.recorder.stop();

@@ -64,6 +64,7 @@ lab = {
       line = (name) => (name in found.lines ? Number(found.lines[name]) : null);
     if (found.alone && controls.compared) controls.compare(false);
     Object.assign(page, { k, J, radius: null, eps: line("eps"), h: line("h"), integrals: [], alone: found.alone });
+    page.attitude = false;
     page.effects = { ...forces.effects(this.state), attitude: {} };
     page.notes = found.notes ? found.notes.split("\n") : [];
     page.rows = { count: found.rows, total: found.rows, every: 1, between: 0 };

@@ -308,8 +308,6 @@ const controls = {
     camera.face((this.orbit.gamma || this.orbit.n)[0]);
     this.setOrbit(this.orbit);
     this.last = null;
-    const frames = /^#frames=(\d+),(\d+),(\d+)$/.exec(location.hash);
-    if (frames) return film.writeFrames(...frames.slice(1).map(Number));
     this.resize();
     const told = address.read();
     this.draw();

@@ -164,7 +164,8 @@ const numbers = {
     if (kind !== "plane") about.push(["sphere radius A", digits(A)]);
     if (page.h !== null) about.push(["energy h", `${digits(page.h)} ${this.unitOf([1, 0, 2])}`]);
     if (page.eps !== null) about.push(["coupling ε", `${digits(page.eps)} ${this.unitOf([4, 0, 2])}`]);
-    const effects = Object.keys(page.effects).filter((name) => !["clock", "attitude"].includes(name));
+    const own = page.attitude ? ["clock"] : ["clock", "attitude"], // what the page itself needs
+      effects = Object.keys(page.effects).filter((name) => !own.includes(name));
     if (effects.length) about.push(["effects", effects.join(", ")]);
     about.push(["made by", `isoroll ${page.version}`]);
     for (const [term, text] of about) {

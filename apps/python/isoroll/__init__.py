@@ -23,8 +23,8 @@ be called by several threads at the same time; they compute side by side.
 """
 
 from ._command import Page, view
-from ._errors import (BadArgument, BadInput, ClosedPipe, FileTrouble, IsorollError, IsorollWarning, LibraryError,
-                      NoMemory, NotMapped, NumericalFailure, Stopped)
+from ._errors import (BadArgument, BadInput, BadType, ClosedPipe, FileTrouble, IsorollError, IsorollWarning,
+                      LibraryError, NoMemory, NotMapped, NumericalFailure, Stopped)
 from ._files import convert, read, write
 from ._instruments import (analogue, chaos, check, compare, cost, explain, frequencies, integrals, periodic, prove,
                            section, splitting)
@@ -43,7 +43,8 @@ from ._version import __version__ as __version__
 #: the version of the library that runs
 library_version: str = _lib.iso_version().decode()
 
-__all__ = ["BadArgument", "BadInput", "Batch", "Branch", "Chaos", "Chart", "ClosedPipe", "Comparison", "Cost",
+__all__ = ["BadArgument", "BadInput", "BadType", "Batch", "Branch", "Chaos", "Chart", "ClosedPipe", "Comparison",
+           "Cost",
            "FileTrouble", "IsorollError", "IsorollWarning", "LibraryError", "Lines", "NoMemory", "NotMapped",
            "NumericalFailure", "Orbit", "Page", "Periodic", "Result", "Scene", "Section", "Share", "Splitting",
            "Stopped", "Sweep", "Table", "Trajectory", "analogue", "batch", "chaos", "check", "compare", "convert",

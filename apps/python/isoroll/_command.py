@@ -8,12 +8,12 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import warnings
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
 
 from numpy.typing import ArrayLike
 
 from . import _errors
+from ._library import doubles, encoded, listed, number
 from ._scene import Scene, SceneLike
 from ._study import text_of
 from ._table import PathLike, Table
@@ -40,7 +40,7 @@ def run_command(arguments: Sequence[str], folder: Optional[str] = None) -> str:
         raise _errors.FileTrouble(f"the command '{path}' cannot be run: {error}") from None
     said = done.stderr.decode("utf-8", "replace").strip().replace("isoroll: ", "")
     if done.returncode == 1:
-        warnings.warn(said, _errors.IsorollWarning, stacklevel=4)
+        _errors.warn(said)
     elif done.returncode != 0:
         raise _STATUS.get(done.returncode, _errors.IsorollError)(said or f"'{path}' ended with {done.returncode}")
     return done.stdout.decode("utf-8", "replace")
@@ -53,12 +53,15 @@ class Page(str):
         return f'<iframe srcdoc="{html.escape(self)}" width="100%" height="640" frameborder="0"></iframe>'
 
 
+def _path(path: PathLike) -> str:
+    return os.path.abspath(os.fsdecode(encoded(path)))
+
+
 def _options(given: Mapping[str, Any]) -> List[str]:
     return [f"--{key.replace('_', '-')}={text_of(key, value)}" for key, value in given.items() if value is not None]
 
 
 def view(source: Union[None, SceneLike, Table] = None, output: Optional[PathLike] = None, *, live: bool = False,
-         frames: Optional[PathLike] = None, fps: Optional[float] = None, seconds: Optional[float] = None,
          k: Optional[float] = None, J: Optional[ArrayLike] = None, eps: Optional[float] = None,
          h: Optional[float] = None, scene: Optional[SceneLike] = None,
          columns: Union[None, str, Sequence[str]] = None, row_tolerance: Optional[float] = None) -> Optional[Page]:
@@ -67,8 +70,6 @@ def view(source: Union[None, SceneLike, Table] = None, output: Optional[PathLike
     source         a scene, a trajectory or a section; or the path of a file of one of these; None: only if live
     output         the file of the page; None: the page is returned, and a notebook shows it
     live           with the library inside: change k, J, what acts and the start in the page; for a scene, or None
-    frames         draw the motion as pictures in this folder instead: frame0001.png, ... (needs Chromium)
-    fps, seconds   pictures in each second (default 25), seconds that the motion takes (default 10), of frames
     k, J, eps, h   if the table does not say them
     scene          take k, J and the effects from this scene
     columns        of a file without names: those of its columns from left to right
@@ -78,10 +79,11 @@ def view(source: Union[None, SceneLike, Table] = None, output: Optional[PathLike
     a second copy here could differ. So this function runs the command that ISOROLL_COMMAND names, or that stands
     beside this Python, or that the shell finds.
     """
-    given: Dict[str, Any] = {"fps": fps, "seconds": seconds, "k": k, "J": J, "eps": eps, "h": h,
-                             "row_tolerance": row_tolerance}
+    asked = {"k": k, "eps": eps, "h": h, "row_tolerance": row_tolerance}
+    given: Dict[str, Any] = {key: number(key, value) for key, value in asked.items() if value is not None}
+    given["J"] = None if J is None else doubles("J", J)
     with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "page.html") if output is None else os.path.abspath(os.fsdecode(output))
+        path = os.path.join(folder, "page.html") if output is None else _path(output)
         if source is None:
             if not live:
                 raise _errors.BadArgument("view needs a scene or a table; without one only live=True makes a page")
@@ -94,13 +96,9 @@ def view(source: Union[None, SceneLike, Table] = None, output: Optional[PathLike
         if scene is not None:
             given["scene"] = _file_of(scene, os.path.join(folder, "of.yaml"))
         if columns is not None:
-            given["columns"] = columns if isinstance(columns, str) else ",".join(columns)
-        if frames is not None:
-            given["frames"] = os.path.abspath(os.fsdecode(frames))
-        wanted = [] if frames is not None and output is None else ["-o", path]
-        wanted += ["--live"] if live else []
-        run_command(["view", *_options(given), *wanted, "--", file])
-        if output is not None or frames is not None:
+            given["columns"] = listed("columns", columns)
+        run_command(["view", *_options(given), "-o", path, *(["--live"] if live else []), "--", file])
+        if output is not None:
             return None
         with open(path, encoding="utf-8") as page:
             return Page(page.read())

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import sys
+import warnings
 from typing import Optional
 
 
@@ -29,6 +31,10 @@ class BadArgument(IsorollError, ValueError):
     """A call with numbers or names that it does not take."""
 
     status = "ISO_BAD_ARGUMENT"
+
+
+class BadType(BadArgument, TypeError):
+    """An object of a class that a call does not take: None in place of a table, a text in place of a number."""
 
 
 class BadInput(IsorollError, ValueError):
@@ -91,3 +97,11 @@ def make(status: int, message: str, about: str) -> IsorollError:
     error = STATUS[status if 0 < status < len(STATUS) else 0](in_python(message))
     error.about = about
     return error
+
+
+def warn(words: str) -> None:
+    """Warns where the caller's own code stands: at the first frame outside of this package."""
+    level, frame = 1, sys._getframe()
+    while frame.f_back is not None and str(frame.f_globals.get("__name__", "")).partition(".")[0] == __package__:
+        level, frame = level + 1, frame.f_back
+    warnings.warn(in_python(words), IsorollWarning, stacklevel=level)

@@ -9,7 +9,7 @@ from typing import Any, Dict, Mapping, Optional, Sequence, Union
 from numpy.typing import ArrayLike
 
 from . import _errors, _hdf5
-from ._library import Notes, check, context, encoded, interruptible, lib
+from ._library import Notes, check, context, doubles, encoded, interruptible, lib, listed, real
 from ._kinds import Trajectory
 from ._orbit import run
 from ._scene import SceneLike
@@ -24,12 +24,10 @@ def read(path: PathLike, columns: Optional[Union[str, Sequence[str]]] = None) ->
     Returns a table of the class of its kind: Trajectory, Section, Chaos, Periodic, Branch, Chart, Splitting, Cost,
     Sweep.
     """
-    if columns is not None and not isinstance(columns, str):
-        columns = ",".join(columns)
+    named = None if columns is None else encoded(listed("columns", columns))
     ctx, new, notes, name = context(), new_record(), Notes(), encoded(path)
     with _hdf5.calls(name), interruptible():
-        status = lib.iso_foreign_read(ctx, name, None if columns is None else encoded(columns),
-                                      byref(new), *notes.arguments)
+        status = lib.iso_foreign_read(ctx, name, named, byref(new), *notes.arguments)
     check(status, ctx)
     notes.tell()
     return from_record(new)
@@ -38,7 +36,7 @@ def read(path: PathLike, columns: Optional[Union[str, Sequence[str]]] = None) ->
 def write(table: Table, path: PathLike, *, digits: Union[int, str] = 17) -> None:
     """Writes a table: see table.write."""
     if not isinstance(table, Table):
-        raise TypeError(f"a Table is needed, not {type(table).__name__}: see isoroll.trajectory")
+        raise _errors.BadType(f"a Table is needed, not {type(table).__name__}: see isoroll.trajectory")
     table.write(path, digits=digits)
 
 
@@ -47,8 +45,8 @@ def as_table(source: Union[Table, PathLike], columns: Optional[Union[str, Sequen
     if isinstance(source, Table):
         return source
     if not isinstance(source, (str, bytes, os.PathLike)):
-        raise TypeError(f"a Table is needed, or the path of its file, not {type(source).__name__}: see "
-                        "isoroll.trajectory")
+        raise _errors.BadType(f"a Table is needed, or the path of its file, not {type(source).__name__}: see "
+                              "isoroll.trajectory")
     return read(source, columns)
 
 
@@ -82,15 +80,18 @@ def convert(table: Union[Table, PathLike], to: str, *, tol: float = 1e-14, k: Op
     Returns a table with a row for each row: the clock, then omega, n or M, gamma. A warning says if the rows do not
     solve the equations that their lines state.
     """
-    table = _with_lines(as_table(table, columns), scene, {"k": k, "J": J, "eps": eps, "h": h})
+    asked = {"k": k, "eps": eps, "h": h}
+    given: Dict[str, Any] = {key: real(key, value) for key, value in asked.items() if value is not None}
+    given["J"] = None if J is None else doubles("J", J)
+    table = _with_lines(as_table(table, columns), scene, given)
     for key in ("k", "J"):
         if key not in table.lines:
             raise _errors.BadInput(f"the table has no line '{key}': give {key}=...; its lines are "
                                    f"{', '.join(table.lines) or 'none'}")
     ctx, record, new, notes = context(), as_record(table), new_record(), Notes()
     with interruptible():
-        status = lib.iso_foreign_convert(ctx, record.pointer, encoded(to), float(tol), float(row_tolerance),
-                                         bool(shift_J), byref(new), *notes.arguments)
+        status = lib.iso_foreign_convert(ctx, record.pointer, encoded(to), real("tol", tol),
+                                         real("row_tolerance", row_tolerance), bool(shift_J), byref(new), *notes.arguments)
     check(status, ctx)
     notes.tell()
     found = from_record(new)

@@ -1,7 +1,7 @@
 """The instruments: a function for each study of the library, with the name and the options of its command.
 
 Signatures and documentation are made from the library's own tables, so they cannot differ from those of the command.
-What an editor shows is in _instruments.pyi, which `python3 -m isoroll._stub` makes.
+What an editor shows is in _instruments.pyi, which ../stub.py makes for the wheel.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def _compare(table: Comparison, *others: Any) -> Comparison:
 #: how the tables of a study become what its function returns, and what that is
 _RETURNS: Dict[str, Tuple[Callable[..., Any], str, str]] = {
     "section": (_section, "Union[Section, Table]",
-                "a Section: a row for each crossing. With cloud a Table: a row for each test of the measure."),
+                "a Section: a row for each crossing. With area a Table: a row for each orbit and model."),
     "chaos": (_chaos, "Chaos",
               "a Chaos: a row for each orbit, the scene's own first; its `share`, its `indicators`."),
     "frequencies": (_first, "Result",
@@ -118,7 +118,7 @@ def _signature(study: str) -> inspect.Signature:
 _FORMS: Dict[Any, str] = {
     "at": "an array of shape (starts, 2)", "axis": '1, 2, 3 or "auto"', "event": '("omega1", 0.1)',
     "follow": '{"k": (0.4, 0.6)}', "chart": '"J2", {"J2": (1, 4)} or {"level": (-1, 1)}', "J": "three numbers",
-    "neumann": "three numbers", "horizons": "a whole number", ("periodic", "k"): "(-3, 3)",
+    "neumann": "three numbers", ("periodic", "k"): "(-3, 3)",
     ("periodic", "level"): "a number", ("splitting", "k"): 'numbers, or a text such as "0.5:3:0.25,1/3"',
     ("splitting", "level"): "likewise", ("prove", "k"): 'a number, or a text such as "1/3" or "0.5:0.50000000001"'}
 _WORDS: Dict[Any, str] = {
@@ -205,7 +205,7 @@ def _make(study: str) -> Callable[..., Any]:
         record = None
         if table is not None:
             record = as_record(as_table(table, columns))
-        return ask(study, scene, record, given, make, progress, 5)
+        return ask(study, scene, record, given, make, progress)
 
     instrument.__name__ = instrument.__qualname__ = study
     instrument.__module__ = "isoroll"

@@ -37,8 +37,9 @@ class Share(NamedTuple):
     """The orbits spread over the section.
 
     orbits     those that were followed; `asked` were to be, `failed` failed
-    share      the chaotic fraction of them; NaN if none was followed
-    low, high  its 95 % confidence interval; undecided orbits are not chaotic at the low end, chaotic at the high end
+    share      chaotic / orbits, in which undecided orbits count as not chaotic; NaN if none was followed
+    low, high  its 95 % confidence interval; undecided orbits are not chaotic at the low end, chaotic at the high end.
+               Where many are undecided, `share` stands near `low`
     """
 
     orbits: int

@@ -10,9 +10,11 @@ import os
 import signal
 import sys
 import threading
-import warnings
 from ctypes import POINTER, c_bool, c_char_p, c_double, c_int, c_size_t, c_void_p
 from typing import Any, Callable, Iterator, List, Optional, Tuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from . import _errors
 from ._version import __version__
@@ -313,11 +315,11 @@ class Notes:
         self.buffer = _thread.notes
         self.arguments = (self.buffer, self._ROOM)
 
-    def tell(self, level: int = 3) -> None:
+    def tell(self) -> None:
         if self.buffer[0] == b"\0":
             return
         for line in self.buffer.value.decode("utf-8", "replace").split("\n"):
-            warnings.warn(_errors.in_python(line), _errors.IsorollWarning, stacklevel=level)
+            _errors.warn(line)
 
 
 class _OfThread(threading.local):
@@ -326,21 +328,71 @@ class _OfThread(threading.local):
         self.notes = ctypes.create_string_buffer(Notes._ROOM)
 
 
+def number(name: str, value: Any) -> Any:
+    """A number as it is: of Python or of NumPy. Others that float() would take are none: bool, "1e3", b"1", a time."""
+    if isinstance(value, np.ndarray) and value.ndim == 0 and not np.ma.is_masked(value):
+        value = value[()]
+    if isinstance(value, (bool, np.bool_, np.timedelta64)) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise _errors.BadType(f"{name} is {value!r:.60}, it must be a number")
+    return value
+
+
+def real(name: str, value: Any) -> float:
+    """A number as a double."""
+    try:
+        return float(number(name, value))
+    except OverflowError:
+        raise _errors.BadArgument(f"{name} is out of the range of doubles") from None
+
+
 def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> int:
     """A whole number that fits the C type. ctypes would cut a larger one without a message."""
-    try:
-        number = int(value)
-    except (TypeError, ValueError, OverflowError):
-        number = least - 1
-    if number != value or not least <= number <= most:
+    value = number(name, value)
+    if not least <= value <= most or value != int(value):
         raise _errors.BadArgument(f"{name} is {value}, it must be a whole number from {least} to {most}")
-    return number
+    return int(value)
+
+
+def doubles(what: str, values: Any) -> NDArray[np.float64]:
+    """Numbers as float64. Those that have no such form are refused: bool, complex ones, words, bytes, masked ones."""
+    if type(values) is np.ndarray and values.dtype == np.float64:
+        return values
+    try:
+        array = np.asarray(values)
+    except (ValueError, TypeError) as error:
+        raise _errors.BadArgument(f"{what}: {error}") from None
+    if isinstance(values, (bytes, bytearray, memoryview)):
+        raise _errors.BadType(f"{what} must be real numbers, not {type(values).__name__}")
+    if np.ma.is_masked(values):
+        raise _errors.BadArgument(f"{what} has masked numbers: fill them first")
+    if array.dtype != np.float64 and array.dtype.kind not in "iuf":
+        raise _errors.BadType(f"{what} must be real numbers, not {array.dtype}")
+    return np.asarray(array, dtype=np.float64)
+
+
+def items(what: str, values: Any, kind: Any = object) -> List[Any]:
+    """The parts of something that has parts, all of a kind."""
+    try:
+        found = list(values)
+    except TypeError:
+        found = None
+    if found is None or not all(isinstance(value, kind) for value in found):
+        of_texts = " of texts" if kind is str else ""
+        raise _errors.BadType(f"{what} is {values!r:.60}, it must be a list{of_texts}")
+    return found
+
+
+def listed(what: str, names: Any) -> str:
+    """Names as C takes them: a text as it is, others with commas between."""
+    return names if isinstance(names, str) else ",".join(items(what, names, str))
 
 
 def encoded(text: Any) -> bytes:
     """A text or a path as bytes. C ends a text at a zero byte, so a zero byte is refused."""
     try:
         code = os.fsencode(text)
+    except TypeError:
+        raise _errors.BadType(f"a text or a path is needed, not {type(text).__name__}") from None
     except UnicodeError as error:
         raise _errors.BadArgument(f"{text!r:.60}: {error}") from None
     if b"\0" in code:

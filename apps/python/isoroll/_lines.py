@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _errors
+from ._library import doubles
 
 #: what a line can say
 Value = Union[float, str, "NDArray[np.float64]"]
@@ -33,13 +34,7 @@ def text_of(value: Any) -> str:
     """A number or numbers as a line has them, with 17 digits; a text as it is."""
     if isinstance(value, (str, bool)):
         return value if isinstance(value, str) else str(value).lower()
-    try:
-        numbers = np.ravel(np.asarray(value, dtype=np.float64))
-    except (TypeError, ValueError):
-        raise _errors.BadArgument(f"a line has a text or numbers, not {value!r:.60}") from None
-    if np.ma.is_masked(value):
-        raise _errors.BadArgument("a line has masked numbers: fill them first")
-    return " ".join("%.17g" % x for x in numbers)
+    return " ".join("%.17g" % x for x in np.ravel(doubles("the value of a line", value)))
 
 
 def _with_lists(found: Any) -> Any:
@@ -61,6 +56,8 @@ class Lines(Mapping[str, Any]):
     text: Mapping[str, str]
 
     def __init__(self, lines: Mapping[str, Any]) -> None:
+        if not isinstance(lines, Mapping):
+            raise _errors.BadType(f"lines are a dict, not {type(lines).__name__}")
         if isinstance(lines, Lines):
             lines = lines.text
         if not isinstance(lines, MappingProxyType):  # else they are texts already

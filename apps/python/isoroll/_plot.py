@@ -14,6 +14,7 @@ from ._plot_orbits import draw_chaos, draw_comparison, draw_periodic, draw_secti
 from ._plot_parts import (BLUE, DARK, FAR_BLUE, GREEN, LINE, Numbers, ORANGE, PINK, SKY, VERMILLION, axes_of, given,
                            name_of, needs, plain, pyplot, title_of)
 from ._files import as_table
+from ._library import encoded, listed
 from ._table import VECTORS, PathLike, Table
 
 
@@ -118,7 +119,7 @@ _ERRORS = {"chaos_share": ("chaos_share_low", "chaos_share_high"), "splitting_m"
 def _measured(table: Table, value: Optional[str]) -> Tuple[List[str], str]:
     """The columns that vary from row to row, and the one that is drawn."""
     own = [name for name in table.columns if name not in ("point", "status", "reason")]
-    groups = [name.partition("/") for name in str(table.lines.text.get("columns", "")).split()]
+    groups = [name.partition("/") for name in str(table.lines.text.get("names", table.lines.text.get("columns", ""))).split()]
     varying = [name for group, _, name in groups if group == "vary"]
     measured = [name for name in own if name not in varying and name not in table._words]
     if value is None:
@@ -211,7 +212,7 @@ def draw(table: Table, ax: Any, how: Mapping[str, Any]) -> Any:
     """Draws a table by its kind, or the column y over x."""
     pyplot()
     if how.get("columns") is not None:
-        names = how["columns"].split(",") if isinstance(how["columns"], str) else list(how["columns"])
+        names = listed("columns", how["columns"]).split(",")
         if len(names) != 2:
             raise _errors.BadArgument(f"columns is {how['columns']!r:.60}: it must be two names, such as ('t', 'n3')")
         return _curve(table, ax, names[0], names[1], how.get("title"))
@@ -245,5 +246,5 @@ def plot(table: Union[Table, PathLike], output: Optional[PathLike] = None, *, ax
     """
     found = draw(as_table(table), ax, {"value": value, "columns": columns, "title": title})
     if output is not None:
-        np.ravel(np.asarray(found, dtype=object))[0].figure.savefig(os.fsdecode(output))
+        np.ravel(np.asarray(found, dtype=object))[0].figure.savefig(os.fsdecode(encoded(output)))
     return found

@@ -39,8 +39,9 @@ def axes_of(ax: Any, count: int, size: Tuple[float, float], rows: int = 1) -> Li
         return made[:count]
     given = list(np.ravel(np.asarray(ax, dtype=object)))
     if not all(hasattr(each, "scatter") for each in given):
-        raise TypeError(f"ax must be Axes of matplotlib, not {type(given[0]).__name__}; isoroll.plot(table, 'a.svg') "
-                        "writes a picture")
+        raise _errors.BadType("ax must be Axes of matplotlib, not "
+                              f"{', '.join(type(each).__name__ for each in given[:1])}; isoroll.plot(table, 'a.svg') "
+                              "writes a picture")
     if len(given) != count:
         raise _errors.BadArgument(f"ax has {len(given)} Axes, this picture has {count} parts")
     return given

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors
-from ._library import Owned, check, context, encoded, lib
+from ._library import Owned, check, context, encoded, items, lib, listed, real
 from ._yaml import dump, load, plain
 
 SceneLike = Union["Scene", str, "os.PathLike[str]", Mapping[str, Any]]
@@ -21,6 +21,7 @@ SceneLike = Union["Scene", str, "os.PathLike[str]", Mapping[str, Any]]
 _MOST_COLUMNS = 64  # ISO_MAX_COLUMNS
 _MOST_BYTES = 16 << 20  # of a file
 _SET = ("backend", "method", "tolerance", "end", "step", "as", "columns")  # what iso_foreign_scene_set can change
+_NUMBERS = ("tolerance", "end", "step")  # those of them that are numbers
 
 
 def _keys() -> Dict[str, Dict[str, None]]:
@@ -193,7 +194,7 @@ class Scene(Owned):
         elif isinstance(source, (str, os.PathLike)):
             self._parse(*_file(source))
         else:
-            raise TypeError(f"a scene is a path, a text, a dict or a Scene, not {type(source).__name__}")
+            raise _errors.BadType(f"a scene is a path, a text, a dict or a Scene, not {type(source).__name__}")
 
     @staticmethod
     def _changed(source: Optional[SceneLike], keys: Mapping[str, Any]) -> bytes:
@@ -211,17 +212,16 @@ class Scene(Owned):
         return dump({name: draft.sections[name] for name in dict.fromkeys(order) if name in draft.sections})
 
     def _set(self, key: str, value: Any) -> None:
-        if key == "columns" and not isinstance(value, str):
-            value = ",".join(value)
+        if key == "columns":
+            value = listed(key, value)
+        elif key in _NUMBERS:
+            value = repr(real(key, value))
+        elif not isinstance(value, str):
+            raise _errors.BadType(f"{key} is {value!r:.60}, it must be a text")
         if key == "columns" and not value:
             error = _errors.BadArgument("columns is empty: name at least one, such as t")
             error.about = key
             raise error
-        if not isinstance(value, str):
-            try:
-                value = repr(float(value))
-            except (TypeError, ValueError, OverflowError) as wrong:
-                raise _errors.BadArgument(f"{key} is {value!r:.60}: {wrong}") from None
         ctx = context()
         check(lib.iso_foreign_scene_set(ctx, self.pointer, key.encode(), encoded(value)), ctx)
         if key == "as":
@@ -232,7 +232,7 @@ class Scene(Owned):
     def _setting(self, key: str) -> Any:
         if key == "columns":
             return list(self._columns)
-        return float(self._numbers(key)[0]) if key in ("tolerance", "end", "step") else self._word(key)
+        return float(self._numbers(key)[0]) if key in _NUMBERS else self._word(key)
 
     def _find_columns(self) -> None:
         numbers = (c_int * _MOST_COLUMNS)()
@@ -447,4 +447,4 @@ def as_scenes(source: Union[SceneLike, Iterable[SceneLike]], changes: Mapping[st
     """One scene, or several."""
     if isinstance(source, (Scene, str, os.PathLike, Mapping)):
         return [as_scene(source, changes)]
-    return [as_scene(scene, changes) for scene in source]
+    return [as_scene(scene, changes) for scene in items("scenes", source)]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import shlex
 import sys
 import threading
@@ -12,9 +11,9 @@ from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Tup
 import numpy as np
 
 from . import _errors
-from ._library import Notes, _raised, check, context, encoded, interruptible, lib
+from ._library import Notes, _raised, check, context, doubles, encoded, interruptible, lib, number
 from ._scene import Scene, SceneLike, as_scene
-from ._table import Record, Table, doubles, from_record, new_record
+from ._table import Record, Table, from_record, new_record
 
 TABLES = 6  # ISO_STUDY_TABLES
 
@@ -37,7 +36,7 @@ class Option(NamedTuple):
 def options_of(study: str) -> List[Option]:
     """The options of a study, in the order of the command's help."""
     found: List[Option] = []
-    text, name = (c_char_p * 5)(), study.encode()
+    text, name = (c_char_p * 5)(), encoded(study)
     while lib.iso_foreign_option(name, len(found), text):
         words: List[str] = []
         while word := lib.iso_foreign_option_word(name, len(found), len(words)):
@@ -67,9 +66,9 @@ def text_of(name: str, value: Any) -> str:
         return ",".join(f"{key}={text_of(name, item).replace(',', ':')}" for key, item in value.items())
     if isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], str):
         return text_of(name, {value[0]: value[1]})
-    if isinstance(value, (str, bytes, bool, np.bool_)):
-        return os.fsdecode(value) if isinstance(value, (str, bytes)) else str(bool(value)).lower()
-    if isinstance(value, (int, np.integer)):
+    if isinstance(value, str):
+        return value
+    if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
         return str(int(value))
     numbers = doubles(name, value)
     if numbers.ndim == 0:
@@ -82,9 +81,19 @@ def text_of(name: str, value: Any) -> str:
 
 def _given(study: str, options: Mapping[str, Any]) -> Dict[str, str]:
     """Options by the names of the command, as text."""
+    types = {option.name: option.type for option in options_of(study)}
     ranges = {option.name for option in options_of(study) if option.argument == "A:B"}
     given = {key.rstrip("_").replace("_", "-"): value for key, value in options.items()
              if value is not None and value is not False and not (key == "at" and np.size(value) == 0)}
+    for key, value in given.items():
+        if types.get(key) in ("whole", "number"):
+            number(key, value)
+        elif types.get(key) == "numbers":
+            doubles(key, value)
+        elif types.get(key) == "flag":
+            if not isinstance(value, (bool, np.bool_)):
+                raise _errors.BadType(f"{key} is {value!r:.60}, it must be True or False")
+            given[key] = str(bool(value)).lower()
     texts = {key: text_of(key, {key: value} if key in ranges and not isinstance(value, str) else value)
              for key, value in given.items()}
     texts.update((key, texts[key].partition("=")[2]) for key in ranges & texts.keys() if "=" in texts[key])
@@ -127,6 +136,8 @@ class Progress:
     raises ends the call."""
 
     def __init__(self, progress: ProgressLike) -> None:
+        if not (progress is None or isinstance(progress, bool) or callable(progress)):
+            raise _errors.BadType(f"progress is {progress!r:.60}, it must be True or a function")
         self.show = _bar if progress is True else progress or None
         self.bar, self.raised, self.shown = progress is True, None, 0.0
         self.lock, self.thread = threading.Lock(), threading.get_ident()
@@ -160,7 +171,7 @@ class Progress:
 
 
 def ask(name: str, scene: Optional[SceneLike], record: Optional[Record], options: Mapping[str, Any],
-        make: Callable[..., _Made], progress: ProgressLike = None, level: int = 4) -> _Made:
+        make: Callable[..., _Made], progress: ProgressLike = None) -> _Made:
     """What `make` makes of the tables of a study; so also an exception's `partial`."""
     chosen: Optional[Scene] = None if scene is None else as_scene(scene, {})
     ctx, notes, made, shown = context(), Notes(), (c_void_p * TABLES)(), Progress(progress)
@@ -190,7 +201,7 @@ def ask(name: str, scene: Optional[SceneLike], record: Optional[Record], options
     except BaseException as error:
         error.partial = result  # type: ignore[attr-defined]
         raise
-    notes.tell(level)
+    notes.tell()
     return result  # type: ignore[return-value]
 
 

@@ -29,7 +29,7 @@ def _named(source: SweepLike) -> Tuple[str, Optional[bytes]]:
         return "<text>", source.encode("utf-8", "surrogateescape")
     if isinstance(source, (str, os.PathLike)):
         return os.fspath(source), None
-    raise TypeError(f"a sweep is a path, a text or a dict, not {type(source).__name__}")
+    raise _errors.BadType(f"a sweep is a path, a text or a dict, not {type(source).__name__}")
 
 
 def explained(source: Any) -> Optional[Table]:

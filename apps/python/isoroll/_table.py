@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors, _hdf5
-from ._library import New, Owned, check, context, encoded, interruptible, lib, whole
+from ._library import New, Owned, check, context, doubles, encoded, interruptible, items, lib, real, whole
 from ._lines import Lines, text_of
 
 PathLike = Union[str, bytes, "os.PathLike[str]"]
@@ -33,21 +33,6 @@ _Made = TypeVar("_Made", bound="Table")
 
 def _decoded(text: c_char_p) -> str:
     return (text.value or b"").decode("utf-8", "surrogateescape")
-
-
-def doubles(what: str, values: Any) -> NDArray[np.float64]:
-    """Numbers as float64. Those that have no such form are refused: complex ones, words, masked ones."""
-    if type(values) is np.ndarray and values.dtype == np.float64:
-        return values
-    try:
-        array = np.asarray(values)
-    except (ValueError, TypeError) as error:
-        raise _errors.BadArgument(f"{what}: {error}") from None
-    if np.ma.is_masked(values):
-        raise _errors.BadArgument(f"{what} has masked numbers: fill them first")
-    if array.dtype != np.float64 and array.dtype.kind not in "biuf":
-        raise _errors.BadArgument(f"{what} must be real numbers, not {array.dtype}")
-    return np.asarray(array, dtype=np.float64)
 
 
 class Record(Owned):
@@ -121,15 +106,16 @@ class Table:
 
     def __init__(self, array: ArrayLike, columns: Sequence[str], lines: Optional[Mapping[str, Any]] = None, *,
                  kind: Optional[str] = None, record: Optional[Record] = None) -> None:
-        numbers, names = doubles("array", array), tuple(columns)
-        if not all(isinstance(name, str) for name in (*names, kind or "")):
-            raise _errors.BadArgument(f"columns and kind are texts, not {names}, {kind!r}")
+        numbers, names = doubles("array", array), tuple(items("columns", columns, str))
+        if not isinstance(kind, (str, type(None))):
+            raise _errors.BadType(f"kind is {kind!r:.60}, it must be a text")
         if numbers.ndim == 0 or numbers.shape[-1] != len(names):
             raise _errors.BadArgument(f"array has shape {numbers.shape}, and there are {len(names)} columns: its "
                                       "last length must be their number")
         words = {} if record is None else {names[i]: record.words(i, numbers[..., i]) for i in record.with_words()}
         self.__dict__.update(_array=numbers, _columns=names, kind=kind or self._kind, _record=record,
-                             _words=words, _lines=lines if isinstance(lines, Lines) else Lines(lines or {}))
+                             _words=words,
+                             _lines=lines if isinstance(lines, Lines) else Lines({} if lines is None else lines))
 
     @property
     def array(self) -> NDArray[np.float64]:
@@ -274,10 +260,10 @@ class Table:
         In trajectories and sections a number that is not finite is refused.
         """
         ctx, record, name = context(), as_record(self), encoded(path)
-        ending = os.path.splitext(os.fsdecode(path))[1]
+        ending = os.path.splitext(os.fsdecode(name))[1]
         if ending not in ("", ".csv", ".h5"):
             raise _errors.BadArgument(f"'{os.fsdecode(path)}' ends in '{ending}': a table is written as .csv or .h5")
-        number = 0 if digits == "hex" else whole("digits", digits, 1, 17)
+        number = 0 if isinstance(digits, str) and digits == "hex" else whole("digits", digits, 1, 17)
         with _hdf5.calls(name), interruptible():
             status = lib.iso_foreign_write(ctx, name, record.pointer, number, encoded(self.kind))
         check(status, ctx)
@@ -393,7 +379,7 @@ def _with_words(ctx: int, record: Record, table: Table, array: NDArray[np.float6
 def as_record(table: Table) -> Record:
     """The record of a table: its own, or a new one with copies of its rows."""
     if not isinstance(table, Table):
-        raise TypeError(f"a Table is needed, not {type(table).__name__}: see isoroll.trajectory")
+        raise _errors.BadType(f"a Table is needed, not {type(table).__name__}: see isoroll.trajectory")
     if table._record is not None:
         return table._record
     if table.array.ndim > 2:
@@ -420,6 +406,8 @@ def trajectory(columns: Mapping[str, ArrayLike], **lines: Union[str, ArrayLike])
 
     >>> isoroll.convert(isoroll.trajectory({"t": t, "omega": w, "n": n}, k=1, J=[1, 2, 5]), "point")
     """
+    if not isinstance(columns, Mapping):
+        raise _errors.BadType(f"a trajectory is made of a dict of columns, not of {type(columns).__name__}")
     names: List[str] = []
     parts: List[NDArray[np.float64]] = []
     for name, values in columns.items():
@@ -437,6 +425,11 @@ def trajectory(columns: Mapping[str, ArrayLike], **lines: Union[str, ArrayLike])
         parts.append(array)
     if not parts:
         raise _errors.BadArgument("a trajectory needs columns")
+    for key in {"k", "eps", "h"} & set(lines):
+        real(key, lines[key])
+    if "J" in lines and (np.shape(lines["J"]) != (3,) or
+                         not all(np.isfinite(real("J", x)) for x in np.asarray(lines["J"], dtype=object))):
+        raise _errors.BadArgument("J must be three finite numbers")
     said = {key.replace("_", "."): text_of(value) for key, value in lines.items()}
     if "model" not in said:
         ball, point = "omega1" in names, "M1" in names

@@ -1,13 +1,12 @@
 /* csv_impl.h - what reading a table from text is made of.
  *
  *     csv_reader.c   lines of #, the names of the columns of trajectories
- *     csv_lines.c    the lines of the file, in blocks; rows are read ahead by other threads
+ *     csv_lines.c    the lines of the file
  *     csv_row.c      the numbers of one line; the cells of other tables: numbers, nan among them, and words
  */
 #ifndef ISO_IO_CSV_IMPL_H
 #define ISO_IO_CSV_IMPL_H
 
-#include <locale.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -20,11 +19,9 @@ enum { ISO_LONGEST_LINE = 1 << 16, ISO_LONGEST_TEXT = 1 << 25, ISO_MOST_CSV_FIEL
 
 /* How a row is read. */
 typedef struct iso_csv_format {
-    char separator;                    /* ',', ';', or ' ' for blanks                                       */
-    size_t fields, columns;            /* columns: the numbers of a row                                     */
+    char separator; /* ',', ';', or ' ' for blanks                                       */
+    size_t fields;
     short column[ISO_MOST_CSV_FIELDS]; /* of the row, for each field of the file; -1: passed over           */
-    locale_t plain;                    /* the C locale                                                      */
-    size_t longest;                    /* a line is shorter than this                                       */
 } iso_csv_format;
 
 /* What is wrong with a row. */
@@ -35,11 +32,13 @@ typedef struct iso_csv_mistake {
     size_t found; /* the number of the field, which is that of good ones */
 } iso_csv_mistake;
 
-/* Reads the numbers of a line, which ends with '\0'. It writes e in the place of d in exponents. */
-iso_csv_wrong iso_csv_read_row(const iso_csv_format *format, char *line, double row[], iso_csv_mistake *mistake);
+/* Reads the numbers of a line, which ends with '\0'. */
+iso_csv_wrong iso_csv_read_row(const iso_csv_format *format, char *line, size_t length, double row[],
+                               iso_csv_mistake *mistake);
 
-/* Reads a finite number at *at and moves *at behind it. False: there is none. */
-bool iso_csv_read_number(locale_t plain, char **at, double *value);
+/* Reads a finite number at *at, before `end`, and moves *at behind it. An exponent may have the letter D. False: there
+ * is none. */
+bool iso_csv_read_number(char **at, const char *end, double *value);
 
 static inline bool iso_is_blank(char x)
 {
@@ -51,7 +50,7 @@ static inline bool iso_is_blank(char x)
 char *iso_csv_next_cell(char **rest);
 
 /* Reads a cell as a number: finite, nan, inf, or empty, which is nan. */
-bool iso_csv_read_cell(locale_t plain, char *cell, double *value);
+bool iso_csv_read_cell(char *cell, double *value);
 
 enum { ISO_TEXT_KEY = 32 };
 /* The text in "# KEY | TEXT", and its key; NULL: the line is another one. */
@@ -62,20 +61,18 @@ const char *iso_csv_text_line(const char *line, char key[ISO_TEXT_KEY]);
 typedef struct iso_csv_lines iso_csv_lines;
 
 typedef struct iso_csv_line {
-    char *text;        /* without its end                                                                  */
-    size_t length;     /* of the text, which may hold '\0' and has one behind it; not set with a row       */
-    const double *row; /* its numbers; NULL: the line is no row, has a mistake, or was not read ahead      */
-    bool too_long;     /* longer than a line may be: the text is a part of it                              */
+    char *text;    /* without its end                                                                      */
+    size_t length; /* of the text, which may hold '\0' and has one behind it                               */
+    bool too_long; /* the text is a part of a line that is longer than it may be                           */
 } iso_csv_line;
 
-/* name: what messages call the file. format: as soon as it has columns, lines that are not yet in memory are read as
- * rows, ahead. Both must outlive the lines. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-iso_status iso_csv_lines_open(iso_context *ctx, const char *path, const char *name, const iso_csv_format *format,
-                              iso_csv_lines **lines);
+/* name: what messages call the file; it must outlive the lines. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+iso_status iso_csv_lines_open(iso_context *ctx, const char *path, const char *name, iso_csv_lines **lines);
 void iso_csv_lines_close(iso_csv_lines *lines);
 
-/* The next line; it is valid until the next call. *more false: there is none. Errors: ISO_FILE_TROUBLE; ISO_STOPPED,
- * if a signal comes while a pipe is waited for and the monitor of ctx says so. */
-iso_status iso_csv_lines_next(iso_context *ctx, iso_csv_lines *lines, iso_csv_line *line, bool *more);
+/* The next line, which is shorter than `longest`; it is valid until the next call. *more false: there is none. Errors:
+ * ISO_FILE_TROUBLE; ISO_NO_MEMORY; ISO_STOPPED, if a signal comes while a pipe is waited for and the monitor of ctx
+ * says so. */
+iso_status iso_csv_lines_next(iso_context *ctx, iso_csv_lines *lines, size_t longest, iso_csv_line *line, bool *more);
 
 #endif

@@ -1,8 +1,6 @@
 /* csv_reader.c - reads tables from text: files of isoroll, and trajectories of other programs. This file knows the
  * header and the messages, csv_lines.c reads lines, csv_row.c what is in them. */
-#define _GNU_SOURCE /* strtod_l */
 #include <ctype.h>
-#include <locale.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,7 +27,7 @@ typedef struct csv {
     bool callers;                   /* `line` is the caller's names of columns, no line of the file  */
     char *line;                     /* without its end                                               */
     size_t length, number;          /* number: of the line, from 1                                   */
-    const double *row;              /* the line's numbers, if it was read ahead                      */
+    size_t longest;                 /* a line is shorter than this                                   */
     char comment[ISO_LONGEST_LINE]; /* the last line of # that is no key: perhaps names              */
 } csv;
 
@@ -65,13 +63,11 @@ static iso_status next_line(csv *c, bool *more)
     iso_csv_line line;
     *more = true;
     if (c->again) return c->again = false, ISO_OK;
-    const iso_status status = iso_csv_lines_next(c->ctx, c->lines, &line, more);
+    const iso_status status = iso_csv_lines_next(c->ctx, c->lines, c->longest, &line, more);
     if (status != ISO_OK || !*more) return status;
     c->line = line.text;
     c->length = line.length;
-    c->row = line.row;
     c->number++;
-    if (c->row) return ISO_OK;
     if (line.too_long) return fail(c, c->line, "this line is longer than 64 KiB: is this a trajectory file?");
     if (c->number == 1 && strncmp(c->line, "\xEF\xBB\xBF", 3) == 0) c->line += 3, c->length -= 3; /* byte order */
     const char *nul = memchr(c->line, '\0', c->length);
@@ -123,7 +119,7 @@ static iso_status read_kind(csv *c)
         return fail(c, at, "expected a table of the kind '%.32s', not %s", c->r->kind,
                     iso_text_quote(quoted, at, strlen(at)));
     iso_record_set_kind(c->r->header, kind);
-    if (!c->ours) c->format.longest = ISO_LONGEST_TEXT;
+    if (!c->ours) c->longest = ISO_LONGEST_TEXT;
     return ISO_OK;
 }
 
@@ -154,7 +150,7 @@ static iso_status next_data(csv *c, bool *more)
 {
     iso_status status;
     while ((status = next_line(c, more)) == ISO_OK && *more) {
-        if (c->row || (*c->line != '#' && trim(c->line, c->length).length > 0)) return ISO_OK;
+        if (*c->line != '#' && trim(c->line, c->length).length > 0) return ISO_OK;
         if (*c->line == '#' && (status = read_comment(c)) != ISO_OK) return status;
     }
     return status;
@@ -236,13 +232,13 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
 
 static bool begins_with_number(csv *c)
 {
-    char *rest = c->line, *end;
+    char *rest = c->line, copy[16];
+    double value;
     const field f = next_field(separator_of(c->line), &rest);
-    char copy[64] = "";
-    if (f.length == 0 || f.length >= sizeof copy) return false;
-    memcpy(copy, f.text, f.length);
-    strtod_l(copy, &end, c->format.plain);
-    return end > copy && (*end == '\0' || !isalpha((unsigned char)*copy)); /* "nan" is one, "info" none */
+    snprintf(copy, sizeof copy, "%.*s", (int)f.length, f.text);
+    const char *word = copy + (*copy == '-' || *copy == '+');
+    return iso_number_scan(f.text, f.text + f.length, &value) || strcasecmp(word, "nan") == 0 ||
+           strcasecmp(word, "inf") == 0 || strcasecmp(word, "infinity") == 0;
 }
 
 /* Names of columns: the caller's, else those of the first line of data, else those of the line of # before it. */
@@ -310,7 +306,7 @@ static iso_status fail_number(const csv *c, char *start, size_t i)
 static iso_status read_row(const csv *c, double row[])
 {
     iso_csv_mistake m;
-    switch (iso_csv_read_row(&c->format, c->line, row, &m)) {
+    switch (iso_csv_read_row(&c->format, c->line, c->length, row, &m)) {
     case ISO_CSV_GOOD: break;
     case ISO_CSV_FEW: return fail_count(c, NULL, m.found);
     case ISO_CSV_MANY: return fail_count(c, m.at, m.found);
@@ -330,7 +326,7 @@ static iso_status read_row_of_table(csv *c, double row[])
         if (!cell) return fail(c, at, "expected a closing quote");
         const bool words = iso_record_has_words(r, i);
         ISO_TRY(words ? iso_record_intern(c->ctx, r, cell, &row[i]) : ISO_OK);
-        if (!words && !iso_csv_read_cell(c->format.plain, cell, &row[i]))
+        if (!words && !iso_csv_read_cell(cell, &row[i]))
             return fail(c, at, "expected a number for %s, not %s", iso_record_name(r, i),
                         iso_text_quote(quoted, cell, strlen(cell)));
     }
@@ -352,21 +348,15 @@ static bool is_nan_row(const csv *c)
 static iso_status csv_next(iso_context *ctx, iso_table_reader *r, double row[], bool *more)
 {
     csv *c = r->data;
-    double own[ISO_TRAJECTORY_COLUMNS + 1];
-    const double *numbers = own;
+    double numbers[ISO_TRAJECTORY_COLUMNS + 1];
     c->ctx = ctx;
     iso_status status = next_data(c, more);
-    for (; status == ISO_OK && *more && !c->row && r->passes && is_nan_row(c); r->at.passed++)
-        status = next_data(c, more);
+    for (; status == ISO_OK && *more && r->passes && is_nan_row(c); r->at.passed++) status = next_data(c, more);
     r->at.line = c->number;
     if (status != ISO_OK || !*more) return status;
     if (r->forgets) iso_record_forget_words(r->header);
     if (!r->trajectory) return read_row_of_table(c, row);
-    if (c->row)
-        numbers = c->row;
-    else
-        status = read_row(c, own);
-    if (status != ISO_OK) return status;
+    ISO_TRY(read_row(c, numbers));
     const size_t columns = iso_record_columns(r->header);
     memcpy(row, numbers, columns * sizeof *row);
     r->at.orbit = c->orbit > 0 ? numbers[columns] : 0;
@@ -380,7 +370,6 @@ static void csv_close(iso_table_reader *r)
     csv *c = r->data;
     if (!c) return;
     iso_csv_lines_close(c->lines);
-    if (c->format.plain) freelocale(c->format.plain);
     free(c);
 }
 
@@ -391,16 +380,14 @@ static iso_status csv_open(iso_context *ctx, iso_table_reader *r, const char *co
         c->ctx = ctx;
         c->r = r;
         c->line = c->comment; /* "" */
-        c->format.longest = ISO_LONGEST_LINE;
-        c->format.plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
+        c->longest = ISO_LONGEST_LINE;
     }
-    if (!c || !c->format.plain) return iso_text_no_memory(ctx, "read", r->name);
-    iso_status status = iso_csv_lines_open(ctx, r->path, r->name, &c->format, &c->lines);
+    if (!c) return iso_text_no_memory(ctx, "read", r->name);
+    iso_status status = iso_csv_lines_open(ctx, r->path, r->name, &c->lines);
     if (status == ISO_OK) status = iso_record_create(ctx, 0, NULL, &r->header);
     if (status == ISO_OK) status = r->trajectory ? read_header(c, columns) : read_header_of_table(c);
     if (status != ISO_OK || !r->trajectory) return status;
-    c->format.columns = iso_record_columns(r->header);
-    if (c->orbit > 0) c->format.column[c->orbit - 1] = (short)c->format.columns++;
+    if (c->orbit > 0) c->format.column[c->orbit - 1] = (short)iso_record_columns(r->header);
     return ISO_OK;
 }
 

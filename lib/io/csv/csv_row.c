@@ -1,32 +1,33 @@
-/* csv_row.c - reads the numbers or the cells of one line of text. It has no memory of other lines: several threads
- * read rows at the same time. */
-#define _GNU_SOURCE /* strtod_l */
+/* csv_row.c - reads the numbers or the cells of one line of text. */
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number_impl.h"
 #include "io/csv/csv_impl.h"
 #include "io/table_impl.h"
 
-enum { DECIMAL = 1, HEXADECIMAL = 2 };
-static const unsigned char digit[256] = {
-    ['0'] = 3, ['1'] = 3, ['2'] = 3, ['3'] = 3, ['4'] = 3, ['5'] = 3, ['6'] = 3, ['7'] = 3, ['8'] = 3, ['9'] = 3,
-    ['+'] = 3, ['-'] = 3, ['.'] = 3, ['e'] = 3, ['E'] = 3, ['d'] = 3, ['D'] = 3, ['a'] = 2, ['b'] = 2, ['c'] = 2,
-    ['f'] = 2, ['A'] = 2, ['B'] = 2, ['C'] = 2, ['F'] = 2, ['x'] = 2, ['X'] = 2, ['p'] = 2, ['P'] = 2};
-
-/* An exponent may have the letter D, as Fortran writes it. strtod would also take "nan" and "infinity"; their letters
- * are not in the table above. */
-bool iso_csv_read_number(locale_t plain, char **at, double *value)
+/* Reads a decimal number whose exponent has the letter D, as Fortran writes it. */
+static const char *read_fortran(char *at, const char *end, double *value)
 {
-    char *const start = *at, *end = start, *seen;
-    const char *first = start + (*start == '-' || *start == '+');
-    const unsigned char kind = first[0] == '0' && (first[1] == 'x' || first[1] == 'X') ? HEXADECIMAL : DECIMAL;
-    for (; digit[(unsigned char)*end] & kind; end++)
-        if (kind == DECIMAL && (*end | 0x20) == 'd') *end = 'e';
-    *at = end;
-    *value = strtod_l(start, &seen, plain);
-    return end > start && seen == end && isfinite(*value);
+    const size_t length = strspn(at, "+-.0123456789");
+    const char letter = at[length];
+    if ((letter | 0x20) != 'd') return NULL;
+    at[length] = 'e';
+    const char *after = iso_number_scan(at, end, value);
+    at[length] = letter; /* messages show the file's text */
+    return after;
+}
+
+bool iso_csv_read_number(char **at, const char *end, double *value)
+{
+    const char *after = iso_number_scan(*at, end, value);
+    if (after && (*after | 0x20) == 'd') after = read_fortran(*at, end, value);
+    if (!after || isalnum((unsigned char)*after) || *after == '.') return false;
+    *at += after - *at;
+    return true;
 }
 
 /* The quote that a field begins with, and ends. */
@@ -41,9 +42,10 @@ static iso_csv_wrong mistake(iso_csv_wrong wrong, char *at, size_t found, iso_cs
     return wrong;
 }
 
-iso_csv_wrong iso_csv_read_row(const iso_csv_format *c, char *line, double row[], iso_csv_mistake *m)
+iso_csv_wrong iso_csv_read_row(const iso_csv_format *c, char *line, size_t length, double row[], iso_csv_mistake *m)
 {
     char *at = line;
+    const char *const end = line + length;
     const char separator = c->separator;
     for (size_t i = 0;; i++) {
         while (iso_is_blank(*at)) at++;
@@ -55,7 +57,7 @@ iso_csv_wrong iso_csv_read_row(const iso_csv_format *c, char *line, double row[]
         if (c->column[i] < 0) {
             if (quote) at = strchr(at, quote);
             at += strcspn(at, separator == ' ' ? " \t" : (char[]){separator, '\0'});
-        } else if (!iso_csv_read_number(c->plain, &at, &row[c->column[i]]) || (quote && *at++ != quote)) {
+        } else if (!iso_csv_read_number(&at, end, &row[c->column[i]]) || (quote && *at++ != quote)) {
             return mistake(ISO_CSV_NO_NUMBER, start, i, m);
         }
         const char *number_end = at;
@@ -95,12 +97,13 @@ char *iso_csv_next_cell(char **rest)
     return text;
 }
 
-bool iso_csv_read_cell(locale_t plain, char *cell, double *value)
+bool iso_csv_read_cell(char *cell, double *value)
 {
     const bool minus = *cell == '-';
     char *end = cell;
     *value = !*cell || strcmp(cell + minus, "nan") == 0 ? (double)NAN : minus ? -INFINITY : INFINITY;
-    return isnan(*value) || strcmp(cell + minus, "inf") == 0 || (iso_csv_read_number(plain, &end, value) && !*end);
+    return isnan(*value) || strcmp(cell + minus, "inf") == 0 ||
+           (iso_csv_read_number(&end, cell + strlen(cell), value) && !*end);
 }
 
 /* --- texts ------------------------------------------------------------------------------------------------------ */

@@ -1,7 +1,4 @@
-/* csv_writer.c - writes tables as text: into a temporary file, which is renamed when it is complete.
- *
- * Rows are collected in blocks. A few threads print them, and the caller writes the text of one block after the
- * other. */
+/* csv_writer.c - writes tables as text. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,110 +8,23 @@
 #include "base/number_impl.h"
 #include "io/output_impl.h"
 #include "io/table_impl.h"
-#include "io/tasks_impl.h"
 #include "io/text_impl.h"
-
-/* Rows of a block. A block holds LEAST rows at first, later a quarter of the rows before it, at most MOST. */
-enum { BLOCKS = 8, LEAST = 32, MOST = 512 };
 
 #define PATIENCE 0.1 /* seconds: rows that come slowly are not held back longer, so that a reader sees them */
 
-typedef struct block {
-    iso_task task;
-    size_t columns, rows;
-    int digits;
-    double *row;
-    char *text;
-    size_t length;
-} block;
-
 typedef struct csv {
     iso_output *out;
-    iso_tasks *tasks;
-    bool seen;   /* the file is a terminal: each row is shown at once */
-    bool styled; /* some column has words, or a format of its own */
-    block block[BLOCKS];
-    int first, count; /* blocks that are printed, or wait for it; the one behind them is being filled */
-    size_t rows;      /* given to blocks so far */
-    double shown;     /* when all rows were last written, in seconds */
+    bool seen;    /* the file is a terminal: each row is shown at once     */
+    bool styled;  /* some column has words, or a format of its own         */
+    char *text;   /* room for a row                                        */
+    double shown; /* when all rows were last written, in seconds           */
 } csv;
-
-/* --- blocks ----------------------------------------------------------------------------------------------------- */
-
-static void print_block(void *data)
-{
-    block *b = data;
-    char *end = b->text;
-    for (size_t i = 0; i < b->rows * b->columns; i++) {
-        if (isnan(b->row[i]))
-            memcpy(end, "nan", 3), end += 3;
-        else
-            end += iso_number_print_as(end, b->row[i], b->digits);
-        *end++ = (i + 1) % b->columns > 0 ? ',' : '\n';
-    }
-    b->length = (size_t)(end - b->text);
-}
-
-/* Room for the rows of the block that is being filled. */
-static bool has_room(block *b, size_t columns)
-{
-    if (b->row && b->text) return true;
-    b->task = (iso_task){.work = print_block, .data = b};
-    b->columns = columns;
-    if (!b->row) b->row = malloc(MOST * columns * sizeof *b->row);
-    if (!b->text) b->text = malloc(MOST * columns * ISO_NUMBER_SIZE);
-    return b->row && b->text;
-}
-
-/* Writes the first block. */
-static void write_block(csv *c)
-{
-    block *b = &c->block[c->first];
-    iso_tasks_finish(c->tasks, &b->task);
-    fwrite(b->text, 1, b->length, iso_output_stream(c->out));
-    b->rows = 0;
-    c->first = (c->first + 1) % BLOCKS;
-    c->count--;
-}
-
-/* Writes what is printed; with `all`, all rows. */
-static void write_blocks(csv *c, bool all)
-{
-    block *filled = &c->block[(c->first + c->count) % BLOCKS];
-    const int most = all ? 0 : iso_tasks_size(c->tasks) > 0 ? 2 * iso_tasks_size(c->tasks) : 0;
-    if (filled->rows > 0) iso_tasks_give(c->tasks, &filled->task), c->count++;
-    while (c->count > most || (c->count > 0 && iso_tasks_is_done(c->tasks, &c->block[c->first].task))) write_block(c);
-}
-
-/* Whether the block is full. */
-static bool is_full(const csv *c, const block *b)
-{
-    const size_t quarter = (c->rows - b->rows) / 4;
-    return c->seen || b->rows >= (quarter < LEAST ? LEAST : quarter > MOST ? MOST : quarter);
-}
 
 static double now(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-/* Writes all rows, if the last time is long ago. */
-static void show_soon(csv *c)
-{
-    const double time = now();
-    if (time - c->shown < PATIENCE) return;
-    write_blocks(c, true);
-    fflush(iso_output_stream(c->out));
-    c->shown = time;
-}
-
-/* Rows must stand before what is written next. */
-static FILE *stream_behind_rows(csv *c)
-{
-    write_blocks(c, true);
-    return iso_output_stream(c->out);
 }
 
 /* --- lines ------------------------------------------------------------------------------------------------------ */
@@ -145,10 +55,9 @@ static void write_line(FILE *to, const char *key, const char *value)
 static iso_status csv_open(iso_context *ctx, iso_table_writer *w, const char *path)
 {
     csv *c = w->data = calloc(1, sizeof *c);
-    if (c) c->tasks = iso_tasks_create();
-    if (!c || !c->tasks) return free(c), iso_text_no_memory(ctx, "write", path);
+    if (!c) return iso_text_no_memory(ctx, "write", path);
     const iso_status status = iso_output_open(ctx, path, &c->out);
-    if (status != ISO_OK) return iso_tasks_free(c->tasks), free(c), status;
+    if (status != ISO_OK) return free(c), status;
     w->name = iso_output_name(c->out);
     c->shown = now();
     c->seen = isatty(fileno(iso_output_stream(c->out))) == 1;
@@ -158,8 +67,7 @@ static iso_status csv_open(iso_context *ctx, iso_table_writer *w, const char *pa
 static iso_status csv_line(iso_context *ctx, iso_table_writer *w, const char *key, const char *value)
 {
     csv *c = w->data;
-    FILE *to = stream_behind_rows(c);
-    write_line(to, key, value);
+    write_line(iso_output_stream(c->out), key, value);
     return iso_output_check(ctx, c->out);
 }
 
@@ -176,7 +84,8 @@ static iso_status csv_header(iso_context *ctx, iso_table_writer *w, const iso_re
         c->styled = c->styled || iso_record_has_words(header, i) || format->digits || format->empty;
         fprintf(to, "%s%c", iso_record_name(header, i), i + 1 < columns ? ',' : '\n');
     }
-    return iso_output_check(ctx, c->out);
+    c->text = malloc(columns * ISO_NUMBER_SIZE);
+    return c->text ? iso_output_check(ctx, c->out) : iso_context_no_memory(ctx, "rows of '%s'", w->name);
 }
 
 /* In quotes where it would not read back without. */
@@ -211,32 +120,39 @@ static void write_styled(const iso_table_writer *w, FILE *to, const double row[]
     }
 }
 
+static void write_plain(const iso_table_writer *w, char *text, FILE *to, const double row[])
+{
+    const size_t columns = iso_record_columns(w->header);
+    char *end = text;
+    for (size_t i = 0; i < columns; i++) {
+        if (isnan(row[i]))
+            memcpy(end, "nan", 3), end += 3;
+        else
+            end += iso_number_print_as(end, row[i], w->digits);
+        *end++ = i + 1 < columns ? ',' : '\n';
+    }
+    fwrite(text, 1, (size_t)(end - text), to);
+}
+
 static iso_status csv_row(iso_context *ctx, iso_table_writer *w, const double row[])
 {
     csv *c = w->data;
-    if (c->styled) {
-        write_styled(w, iso_output_stream(c->out), row);
-        return iso_output_check(ctx, c->out);
-    }
-    block *b = &c->block[(c->first + c->count) % BLOCKS];
-    const size_t columns = iso_record_columns(w->header);
-    if (!has_room(b, columns)) return iso_context_no_memory(ctx, "rows of '%s'", w->name);
-    b->digits = w->digits;
-    memcpy(b->row + b->rows++ * columns, row, columns * sizeof *row);
-    c->rows++;
-    if (is_full(c, b)) write_blocks(c, c->seen);
-    show_soon(c);
+    FILE *const to = iso_output_stream(c->out);
+    if (c->styled)
+        write_styled(w, to, row);
+    else
+        write_plain(w, c->text, to, row);
+    const double time = now();
+    if (c->seen || time - c->shown > PATIENCE) fflush(to), c->shown = time;
     return iso_output_check(ctx, c->out);
 }
 
 static iso_status csv_close(iso_context *ctx, iso_table_writer *w, bool keep)
 {
     csv *c = w->data;
-    stream_behind_rows(c);
     if (w->fresh) iso_output_keep_others(c->out);
     const iso_status status = iso_output_close(ctx, c->out, keep);
-    iso_tasks_free(c->tasks);
-    for (int i = 0; i < BLOCKS; i++) free(c->block[i].row), free(c->block[i].text);
+    free(c->text);
     free(c);
     return status;
 }

@@ -18,15 +18,15 @@ static iso_status bad_file(iso_context *ctx, const iso_table_reader *r, const ch
 static char *read_text(hid_t a, hid_t type)
 {
     char *text = NULL, *variable = NULL;
-    if (h5.Tis_variable_str(type) > 0) {
-        const hid_t memory = h5.Tcopy(H5T_C_S1);
-        h5.Tset_size(memory, H5T_VARIABLE);
-        h5.Tset_cset(memory, h5.Tget_cset(type));
-        if (h5.Aread(a, memory, &variable) >= 0 && variable) text = strdup(variable);
-        if (variable) h5.free_memory(variable);
-        h5.Tclose(memory);
-    } else if ((text = calloc(1, h5.Tget_size(type) + 1))) {
-        h5.Aread(a, type, text);
+    if (H5Tis_variable_str(type) > 0) {
+        const hid_t memory = H5Tcopy(H5T_C_S1);
+        H5Tset_size(memory, H5T_VARIABLE);
+        H5Tset_cset(memory, H5Tget_cset(type));
+        if (H5Aread(a, memory, &variable) >= 0 && variable) text = strdup(variable);
+        if (variable) H5free_memory(variable);
+        H5Tclose(memory);
+    } else if ((text = calloc(1, H5Tget_size(type) + 1))) {
+        H5Aread(a, type, text);
     }
     return text;
 }
@@ -56,20 +56,27 @@ static iso_status read_attribute(iso_context *ctx, iso_table_reader *r, hid_t fi
     double numbers[ISO_HDF5_NUMBERS];
     char *text = NULL;
     iso_status status = ISO_OK;
-    const hid_t a = h5.Aopen(file, key, H5P_DEFAULT), type = h5.Aget_type(a), space = h5.Aget_space(a);
-    const hssize_t count = h5.Sget_simple_extent_npoints(space);
-    const H5T_class_t class = h5.Tget_class(type);
+    const hid_t a = H5Aopen(file, key, H5P_DEFAULT), type = H5Aget_type(a), space = H5Aget_space(a);
+    const hssize_t count = H5Sget_simple_extent_npoints(space);
+    const H5T_class_t class = H5Tget_class(type);
     if ((class == H5T_FLOAT || class == H5T_INTEGER) && count >= 1 && count <= ISO_HDF5_NUMBERS) {
-        if (h5.Aread(a, H5T_NATIVE_DOUBLE, numbers) >= 0)
+        if (H5Aread(a, H5T_NATIVE_DOUBLE, numbers) >= 0)
             status = iso_record_set_numbers(ctx, r->header, key, (size_t)count, numbers);
+    } else if (class == H5T_STRING && H5Tget_size(type) > ISO_LARGEST_TEXT) {
+        status = bad_file(ctx, r, "more than 16 MiB for the attribute ", key);
     } else if (class == H5T_STRING && count == 1 && (text = read_text(a, type))) {
-        if (r->trajectory) text[strcspn(text, "\r\n")] = '\0';
-        status = strcmp(key, "format") == 0 ? read_format(ctx, r, text) : iso_record_set(ctx, r->header, key, text);
+        size_t length = strlen(text);
+        while (r->trajectory && length > 0 && strchr("\r\n", text[length - 1])) text[--length] = '\0';
+        if (r->trajectory && text[strcspn(text, "\r\n")])
+            status = bad_file(ctx, r, "expected one line in the attribute ", key);
+        else
+            status =
+                strcmp(key, "format") == 0 ? read_format(ctx, r, text) : iso_record_set(ctx, r->header, key, text);
     }
     free(text);
-    h5.Sclose(space);
-    h5.Tclose(type);
-    h5.Aclose(a);
+    H5Sclose(space);
+    H5Tclose(type);
+    H5Aclose(a);
     return status;
 }
 
@@ -78,33 +85,15 @@ static iso_status read_attributes(iso_context *ctx, iso_table_reader *r, hid_t f
     char key[256];
     iso_status status = ISO_OK;
     H5O_info1_t info;
-    if (h5.Oget_info2(file, &info, H5O_INFO_NUM_ATTRS) < 0) return iso_hdf5_trouble(ctx, "read", r->name);
+    if (H5Oget_info2(file, &info, H5O_INFO_NUM_ATTRS) < 0) return iso_hdf5_trouble(ctx, "read", r->name);
     for (hsize_t i = 0; status == ISO_OK && i < info.num_attrs; i++) {
         const ssize_t length =
-            h5.Aget_name_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, i, key, sizeof key, H5P_DEFAULT);
+            H5Aget_name_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, i, key, sizeof key, H5P_DEFAULT);
         if (length > 0 && (size_t)length < sizeof key) status = read_attribute(ctx, r, file, key);
     }
     if (status == ISO_OK && !r->trajectory && !*iso_record_kind(r->header))
         status = bad_file(ctx, r, "expected the attribute 'format', 'isoroll KIND 1'", "");
     return status;
-}
-
-/* Whether there is /group/name, which *path then is. */
-static bool is_in_group(hid_t file, const char *group, const char *name, char path[ISO_HDF5_TEXT])
-{
-    snprintf(path, ISO_HDF5_TEXT, "/%s/%s", group, name);
-    return *group && h5.Lexists(file, group, H5P_DEFAULT) > 0 && h5.Lexists(file, path, H5P_DEFAULT) > 0;
-}
-
-/* Opens /group/name, or /name. */
-static hid_t open_set(hid_t file, const char *group, const char *name)
-{
-    char path[ISO_HDF5_TEXT];
-    const bool grouped = is_in_group(file, group, name, path);
-    if (!grouped && h5.Lexists(file, name, H5P_DEFAULT) <= 0) return -1;
-    const hid_t access = iso_hdf5_access(), id = h5.Dopen2(file, grouped ? path : name, access);
-    h5.Pclose(access);
-    return id;
 }
 
 /* --- columns ---------------------------------------------------------------------------------------------------- */
@@ -117,18 +106,57 @@ typedef struct finding {
     const char *name[ISO_MOST_COLUMNS + ISO_TRAJECTORY_COLUMNS];
 } finding;
 
+/* Whether there is a link to an object, or /group/name, which *path then is. */
+static bool is_there(finding *c, const char *name)
+{
+    iso_hdf5_store *s = c->r->data;
+    const hid_t access = iso_hdf5_access_of_strangers(&s->elsewhere);
+    const bool there = H5Lexists(s->file, name, access) > 0;
+    H5Pclose(access);
+    return there;
+}
+
+static bool is_in_group(finding *c, const char *group, const char *name, char path[ISO_HDF5_TEXT])
+{
+    snprintf(path, ISO_HDF5_TEXT, "/%s/%s", group, name);
+    return *group && is_there(c, group) && is_there(c, path);
+}
+
+/* Opens /group/name, or /name; *id -1: there is none. */
+static iso_status open_set(finding *c, const char *group, const char *name, hid_t *id)
+{
+    char path[ISO_HDF5_TEXT];
+    iso_hdf5_store *s = c->r->data;
+    const bool grouped = is_in_group(c, group, name, path);
+    const char *full = grouped ? path : name;
+    *id = -1;
+    if (!s->elsewhere && !grouped && !is_there(c, name) && !s->elsewhere) return ISO_OK;
+    const hid_t access = iso_hdf5_access_of_strangers(&s->elsewhere);
+    *id = s->elsewhere ? -1 : H5Dopen2(s->file, full, access);
+    H5Pclose(access);
+    const bool twice = grouped && is_there(c, name);
+    const char *trouble = twice          ? "it stands in a group and outside of it: "
+                          : s->elsewhere ? "an external link, which leads to another file: "
+                          : *id < 0      ? "this is no dataset, or it is damaged, or its link leads nowhere: "
+                                         : iso_hdf5_trouble_of_set(s, *id);
+    if (!trouble) return ISO_OK;
+    if (*id >= 0) H5Dclose(*id);
+    *id = -1;
+    return bad_file(c->ctx, c->r, trouble, full);
+}
+
 /* Adds a dataset of `count` columns (id < 0: there is none). It must have as many rows as the others. */
 static iso_status add_set(finding *c, hid_t id, const char *name, int count)
 {
     iso_hdf5_store *s = c->r->data;
     hsize_t size[2] = {0, 1};
     if (id < 0) return ISO_OK;
-    const hid_t space = h5.Dget_space(id), type = h5.Dget_type(id);
-    const int rank = h5.Sget_simple_extent_ndims(space);
-    const bool words = h5.Tget_class(type) == H5T_STRING, first = s->sets == 0;
-    if (rank == 1 || rank == 2) h5.Sget_simple_extent_dims(space, size, NULL);
-    h5.Tclose(type);
-    h5.Sclose(space);
+    const hid_t space = H5Dget_space(id), type = H5Dget_type(id);
+    const int rank = H5Sget_simple_extent_ndims(space);
+    const bool words = H5Tget_class(type) == H5T_STRING, first = s->sets == 0;
+    if (rank == 1 || rank == 2) H5Sget_simple_extent_dims(space, size, NULL);
+    H5Tclose(type);
+    H5Sclose(space);
     if (!iso_hdf5_store_add(s, (iso_hdf5_set){.id = id, .first = (int)c->count, .count = count, .words = words}))
         return iso_text_no_memory(c->ctx, "read", c->r->name);
     if (rank != (count > 1 ? 2 : 1) || size[1] != (hsize_t)count || (words && (count > 1 || c->r->trajectory)))
@@ -143,18 +171,34 @@ static iso_status add_set(finding *c, hid_t id, const char *name, int count)
 /* Adds the datasets of these columns, in their order. A column without one is passed over. */
 static iso_status find_columns(finding *c, const char *group, const char *const names[], size_t count)
 {
-    const iso_hdf5_store *s = c->r->data;
     iso_status status = ISO_OK;
     for (size_t i = 0; status == ISO_OK && i < count;) {
         const char *in = group, *name = names[i];
         int taken = iso_hdf5_part(names + i, count - i, &in, &name);
-        hid_t id = open_set(s->file, in, name);
-        if (id < 0 && taken > 1) taken = 1, id = open_set(s->file, in, name = names[i]);
+        hid_t id;
+        status = open_set(c, in, name, &id);
+        if (status == ISO_OK && id < 0 && taken > 1) taken = 1, status = open_set(c, in, name = names[i], &id);
         memcpy(c->name + c->count, names + i, (size_t)taken * sizeof *names);
-        status = add_set(c, id, name, taken);
+        if (status == ISO_OK) status = add_set(c, id, name, taken);
         i += (size_t)taken;
     }
     return status;
+}
+
+/* Datasets may be packed, and links may give one many names: the numbers can take more room than the file. */
+static iso_status check_size(finding *c)
+{
+    iso_table_reader *r = c->r;
+    const iso_hdf5_store *s = r->data;
+    hsize_t stored = 0;
+    if (H5Fget_filesize(s->file, &stored) < 0) return iso_hdf5_trouble(c->ctx, "read", r->name);
+    r->stored = (double)stored;
+    const double bytes = (double)s->rows * (double)c->count * sizeof(double);
+    if (bytes <= ISO_HDF5_EXPANSION * r->stored) return ISO_OK;
+    return iso_context_placed(c->ctx, ISO_FAIL_INPUT(c->ctx, "",
+                                                     "%s: %zu rows of %zu columns take more than %d times the room "
+                                                     "of the file",
+                                                     r->name, (size_t)s->rows, c->count, ISO_HDF5_EXPANSION));
 }
 
 /* Columns and lines into the header. */
@@ -162,7 +206,8 @@ static iso_status name_columns(finding *c, size_t count)
 {
     iso_table_reader *r = c->r;
     iso_hdf5_store *s = r->data;
-    iso_status status = iso_table_name_columns(c->ctx, r, count, c->name);
+    iso_status status = check_size(c);
+    if (status == ISO_OK) status = iso_table_name_columns(c->ctx, r, count, c->name);
     for (int i = 0; status == ISO_OK && i < s->sets; i++)
         if (s->set[i].words) iso_record_set_words(r->header, (size_t)s->set[i].first, true);
     if (status == ISO_OK && !iso_hdf5_store_room(s, c->count)) status = iso_text_no_memory(c->ctx, "read", r->name);
@@ -178,13 +223,12 @@ enum { SECTION = sizeof section / sizeof *section };
 /* Says which columns of the group are passed over: those of a list with commas that are none of a trajectory. */
 static void pass_over(finding *c, const char *group, const char *list)
 {
-    const iso_hdf5_store *s = c->r->data;
     char name[ISO_HDF5_TEXT], path[ISO_HDF5_TEXT], *ignored = c->r->ignored;
     for (const char *at = list; *at; at += strcspn(at, ","), at += *at == ',') {
         const size_t used = strlen(ignored), room = sizeof c->r->ignored - used;
         snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
-        if (iso_column_find(name) < 0 && strcmp(name, ISO_ORBIT_COLUMN) != 0 &&
-            is_in_group(s->file, group, name, path) && strlen(name) + 5 < room)
+        if (iso_column_find(name) < 0 && strcmp(name, ISO_ORBIT_COLUMN) != 0 && is_in_group(c, group, name, path) &&
+            strlen(name) + 5 < room)
             snprintf(ignored + used, room, "%s'%s'", *ignored ? ", " : "", name);
     }
 }
@@ -197,7 +241,6 @@ static iso_status find_trajectory(finding *c)
     const char *names[ISO_TRAJECTORY_COLUMNS], *kind = iso_record_kind(header);
     const char *named = iso_record_get(header, ISO_HDF5_COLUMNS);
     char path[ISO_HDF5_TEXT];
-    const iso_hdf5_store *s = c->r->data;
     const bool orbits = strcmp(kind, ISO_ORBITS_KIND) == 0;
     const char *group = orbits ? kind : "section";
     iso_status status = find_columns(c, "", names, (size_t)iso_column_names(names));
@@ -206,7 +249,7 @@ static iso_status find_trajectory(finding *c)
     const size_t count = c->count;
     pass_over(c, group, orbits && named ? named : "crossing,l,x");
     if (strcmp(kind, ISO_TRAJECTORY_KIND) != 0) iso_record_set(c->ctx, header, ISO_HDF5_COLUMNS, NULL);
-    if (is_in_group(s->file, ISO_TRAJECTORY_KIND, ISO_ORBIT_COLUMN, path)) group = ISO_TRAJECTORY_KIND;
+    if (is_in_group(c, ISO_TRAJECTORY_KIND, ISO_ORBIT_COLUMN, path)) group = ISO_TRAJECTORY_KIND;
     if (status == ISO_OK) status = find_columns(c, group, section, 1);
     c->r->at.orbits = c->count > count;
     return status == ISO_OK ? name_columns(c, count) : status;
@@ -235,32 +278,36 @@ static iso_status find_table(finding *c)
     return status;
 }
 
-/* The columns of a sweep (hdf5_impl.h). Those that "columns" calls vary/NAME are NAME, others GROUP_NAME. */
+/* Adds a dataset of one column that must be there. */
+static iso_status add_needed(finding *c, const char *path)
+{
+    hid_t id;
+    ISO_TRY(open_set(c, "", path, &id));
+    return id < 0 ? bad_file(c->ctx, c->r, "there is no dataset for the column ", path) : add_set(c, id, path, 1);
+}
+
+/* The columns of an older sweep (hdf5_impl.h). Those that "columns" calls vary/NAME are NAME, others GROUP_NAME. */
 static iso_status find_sweep(finding *c)
 {
     iso_hdf5_store *s = c->r->data;
-    const char *text = iso_record_get(c->r->header, ISO_HDF5_COLUMNS);
-    char *list = text ? strdup(text) : NULL, *rest = list, *path;
-    iso_status status =
-        list ? ISO_OK : bad_file(c->ctx, c->r, "the result of a sweep without the line 'columns'", "");
+    char *list = strdup(iso_record_get(c->r->header, ISO_HDF5_COLUMNS)), *rest = list, *path;
+    iso_status status = list ? ISO_OK : iso_text_no_memory(c->ctx, "read", c->r->name);
     s->counts = strcmp(iso_record_kind(c->r->header), "sweep") == 0;
     c->name[c->count] = "point";
     if (s->counts)
         c->count++;
     else if (status == ISO_OK)
-        status = add_set(c, open_set(s->file, "", "point"), "point", 1);
+        status = add_needed(c, "point");
     while (status == ISO_OK && (path = strsep(&rest, " "))) {
-        const hid_t id = open_set(s->file, "", path);
         char *const slash = strchr(path, '/');
+        c->name[c->count] = strncmp(path, "vary/", 5) == 0 ? path + 5 : path;
+        status = add_needed(c, path);
         if (slash) *slash = '_';
-        c->name[c->count] = strncmp(path, "vary_", 5) == 0 ? path + 5 : path;
-        status =
-            id < 0 ? bad_file(c->ctx, c->r, "there is no dataset for the column ", path) : add_set(c, id, path, 1);
     }
     c->name[c->count] = "status";
-    if (status == ISO_OK) status = add_set(c, open_set(s->file, "", "status"), "status", 1);
-    s->failed = (iso_hdf5_failures){.point = -1, .status_column = (int)c->count - 1, .reason_column = (int)c->count};
-    s->failed.reason = open_set(s->file, "failed", "reason");
+    if (status == ISO_OK) status = add_needed(c, "status");
+    s->failed = (iso_hdf5_failures){.reason = -1, .status_column = (int)c->count - 1, .reason_column = (int)c->count};
+    if (status == ISO_OK) status = open_set(c, "failed", "reason", &s->failed.reason);
     if (status == ISO_OK && s->failed.reason < 0)
         status = bad_file(c->ctx, c->r, "there is no dataset for reasons", "");
     c->name[c->count++] = "reason";
@@ -276,7 +323,9 @@ static iso_status find_sets(iso_context *ctx, iso_table_reader *r)
     if (!c) return iso_text_no_memory(ctx, "read", r->name);
     c->ctx = ctx;
     c->r = r;
-    const bool sweep = !r->trajectory && iso_hdf5_is_sweep(iso_record_kind(r->header));
+    const char *kind = iso_record_kind(r->header), *named = iso_record_get(r->header, ISO_HDF5_COLUMNS);
+    const bool sweep = named && strncmp(named, "point,", 6) != 0 && !r->trajectory &&
+                       (strcmp(kind, "sweep") == 0 || strcmp(kind, "sweep part") == 0);
     const iso_status status = r->trajectory ? find_trajectory(c) : sweep ? find_sweep(c) : find_table(c);
     free(c);
     return status;
@@ -285,7 +334,7 @@ static iso_status find_sets(iso_context *ctx, iso_table_reader *r)
 static iso_status read_header(iso_context *ctx, iso_table_reader *r)
 {
     iso_hdf5_store *s = r->data;
-    s->file = h5.Fopen(r->path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    s->file = H5Fopen(r->path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (s->file < 0) return bad_file(ctx, r, "this is not an HDF5 file, or it is damaged", "");
     ISO_TRY(read_attributes(ctx, r, s->file));
     return find_sets(ctx, r);
@@ -294,7 +343,6 @@ static iso_status read_header(iso_context *ctx, iso_table_reader *r)
 static iso_status hdf5_open(iso_context *ctx, iso_table_reader *r, const char *columns)
 {
     iso_status status;
-    ISO_TRY(iso_hdf5_load(ctx));
     iso_hdf5_store *s = r->data = iso_hdf5_store_create();
     if (!s) return iso_text_no_memory(ctx, "read", r->name);
     if (columns) return ISO_FAIL_ARGUMENT(ctx, "columns", "--columns is for text: in HDF5 the datasets have names");
@@ -315,6 +363,7 @@ static iso_status read_block(iso_context *ctx, iso_table_reader *r)
     s->next = 0;
     ISO_HDF5_QUIETLY(good = iso_hdf5_transfer(s, s->begun, false));
     s->begun += s->filled;
+    if (s->wordy) return bad_file(ctx, r, "the words of 4096 rows take more than 64 MiB", "");
     return good ? ISO_OK : iso_hdf5_trouble(ctx, "read", r->name);
 }
 

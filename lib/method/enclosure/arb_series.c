@@ -34,10 +34,16 @@ void iso_series_init(iso_series *s, const iso_tape *f, slong bits, int order)
         s->term[i] = _mag_vec_init(order + 1);
         s->sum[i] = _mag_vec_init(order + 2);
     }
+    s->known_part = _mag_vec_init(f->nodes);
     s->tail = _mag_vec_init(f->nodes);
     s->next = _mag_vec_init(f->nodes);
     s->power = _arb_vec_init(order + 1);
     s->weight = _arb_vec_init(order + 1);
+    s->inverse = _arb_vec_init(order + 1);
+    for (int n = 1; n <= order; n++) {
+        arb_set_si(s->inverse + n, n);
+        arb_inv(s->inverse + n, s->inverse + n, bits + 10);
+    }
     mag_init(s->step);
 }
 
@@ -49,47 +55,57 @@ void iso_series_clear(iso_series *s)
         _mag_vec_clear(s->sum[i], s->order + 2);
     }
     flint_free(s->series), flint_free(s->term), flint_free(s->sum);
+    _mag_vec_clear(s->known_part, s->f->nodes);
     _mag_vec_clear(s->tail, s->f->nodes);
     _mag_vec_clear(s->next, s->f->nodes);
     _arb_vec_clear(s->power, s->order + 1);
     _arb_vec_clear(s->weight, s->order + 1);
+    _arb_vec_clear(s->inverse, s->order + 1);
     mag_clear(s->step);
 }
 
 /* --- coefficients ------------------------------------------------------------------------------------------------ */
 
+/* The bits of coefficient n: at the end of a step it counts about 2^-(bits n/order) of the first. */
+static slong bits_of(const iso_series *s, int n)
+{
+    enum { SPARE = 24 };
+    const slong fewer = s->bits * n / s->order - SPARE;
+    return s->bits - (fewer > 0 ? fewer : 0);
+}
+
 /* Coefficient n of a/b = c: (a_n - sum_(i > 0) b_i c_(n - i))/b_0. */
-static void expand_quotient(iso_series *s, const iso_tape_node *node, int n, arb_ptr c)
+static void expand_quotient(iso_series *s, const iso_tape_node *node, int n, slong bits, arb_ptr c)
 {
     arb_srcptr a = s->series[node->a], b = s->series[node->b];
     if (n > 0)
-        arb_dot(c + n, a + n, 1, b + 1, 1, c + n - 1, -1, n, s->bits);
+        arb_dot(c + n, a + n, 1, b + 1, 1, c + n - 1, -1, n, bits);
     else
         arb_set(c, a);
-    arb_div(c + n, c + n, b, s->bits);
+    arb_div(c + n, c + n, b, bits);
 }
 
 /* Coefficient n of c = a^p: sum_(i > 0) ((p + 1) i - n) a_i c_(n - i)/(n a_0). weight: i a_i. */
-static void expand_power(iso_series *s, const iso_tape_node *node, int n, arb_ptr c)
+static void expand_power(iso_series *s, const iso_tape_node *node, int n, slong bits, arb_ptr c)
 {
     arb_srcptr a = s->series[node->a];
     arb_t first, second;
     if (n == 0) {
-        arb_pow(c, a, node->number, s->bits);
+        arb_pow(c, a, node->number, bits);
         return;
     }
     arb_init(first), arb_init(second);
-    for (int i = 1; i <= n; i++) arb_mul_ui(s->weight + i, a + i, (ulong)i, s->bits);
-    arb_dot(first, NULL, 0, s->weight + 1, 1, c + n - 1, -1, n, s->bits);
-    arb_dot(second, NULL, 0, a + 1, 1, c + n - 1, -1, n, s->bits);
-    arb_div_ui(first, first, (ulong)n, s->bits);
-    arb_sub(second, first, second, s->bits);
-    arb_addmul(second, first, node->number, s->bits);
-    arb_div(c + n, second, a, s->bits);
+    for (int i = 1; i <= n; i++) arb_mul_ui(s->weight + i, a + i, (ulong)i, bits);
+    arb_dot(first, NULL, 0, s->weight + 1, 1, c + n - 1, -1, n, bits);
+    arb_dot(second, NULL, 0, a + 1, 1, c + n - 1, -1, n, bits);
+    arb_div_ui(first, first, (ulong)n, bits);
+    arb_sub(second, first, second, bits);
+    arb_addmul(second, first, node->number, bits);
+    arb_div(c + n, second, a, bits);
     arb_clear(first), arb_clear(second);
 }
 
-static void expand_node(iso_series *s, int i, int n)
+static void expand_node(iso_series *s, int i, int n, slong bits)
 {
     const iso_tape_node *node = &s->f->node[i];
     arb_ptr c = s->series[i];
@@ -99,62 +115,77 @@ static void expand_node(iso_series *s, int i, int n)
         if (n == 0) arb_set(c, node->number);
         if (n > 0) arb_zero(c + n);
         break;
-    case ISO_TAPE_SUM: arb_add(c + n, s->series[node->a] + n, s->series[node->b] + n, s->bits); break;
-    case ISO_TAPE_LESS: arb_sub(c + n, s->series[node->a] + n, s->series[node->b] + n, s->bits); break;
-    case ISO_TAPE_SCALED: arb_mul(c + n, s->series[node->a] + n, node->number, s->bits); break;
+    case ISO_TAPE_SUM: arb_add(c + n, s->series[node->a] + n, s->series[node->b] + n, bits); break;
+    case ISO_TAPE_LESS: arb_sub(c + n, s->series[node->a] + n, s->series[node->b] + n, bits); break;
+    case ISO_TAPE_SCALED: arb_mul(c + n, s->series[node->a] + n, node->number, bits); break;
     case ISO_TAPE_PRODUCT:
-        arb_dot(c + n, NULL, 0, s->series[node->a], 1, s->series[node->b] + n, -1, n + 1, s->bits);
+        arb_dot(c + n, NULL, 0, s->series[node->a], 1, s->series[node->b] + n, -1, n + 1, bits);
         break;
-    case ISO_TAPE_QUOTIENT: expand_quotient(s, node, n, c); break;
-    case ISO_TAPE_POWER: expand_power(s, node, n, c); break;
+    case ISO_TAPE_QUOTIENT: expand_quotient(s, node, n, bits, c); break;
+    case ISO_TAPE_POWER: expand_power(s, node, n, bits, c); break;
     }
 }
 
-void iso_series_expand(iso_series *s, arb_srcptr at)
+bool iso_series_expand(iso_series *s, arb_srcptr at)
 {
     const iso_tape *f = s->f;
+    s->known = 0;
     for (int i = 0; i < f->states; i++) arb_set(s->series[f->state[i]], at + i);
     for (int n = 0; n <= s->order; n++) {
-        for (int i = 0; i < f->nodes; i++) expand_node(s, i, n);
+        const slong bits = bits_of(s, n);
+        for (int i = 0; i < f->nodes; i++) {
+            if (!iso_monitor_goes_on(&s->monitor)) return false;
+            expand_node(s, i, n, bits);
+        }
         for (int i = 0; i < f->states && n < s->order; i++) {
             const int x = f->state[i];
-            arb_div_ui(s->series[x] + n + 1, s->series[f->node[x].rate] + n, (ulong)n + 1, s->bits);
+            arb_mul(s->series[x] + n + 1, s->series[f->node[x].rate] + n, s->inverse + n + 1, bits);
         }
+        s->known = n + 1;
     }
+    return true;
 }
 
 /* --- the rest ---------------------------------------------------------------------------------------------------- */
 
-/* term[n] and sum[n] of all nodes. */
+/* [A B]; without a_0 b_n: no such n is known. */
+static void sum_product(const iso_series *s, int a, int b, mag_t x)
+{
+    mag_zero(x);
+    for (int i = 1; i <= s->order; i++) mag_addmul(x, s->term[a] + i, s->sum[b] + s->order + 1 - i);
+}
+
+/* term[n] and sum[n] of factors; of other nodes the last term alone, which is wanted of rates. */
 static void sum_up(iso_series *s)
 {
     mag_ptr power = _mag_vec_init(s->order + 1);
     for (int n = 0; n <= s->order; n++) mag_pow_ui(power + n, s->step, (ulong)n);
     for (int i = 0; i < s->f->nodes; i++) {
         mag_zero(s->sum[i] + s->order + 1);
-        for (int n = s->order; n >= 0; n--) {
+        for (int n = s->order; n >= (s->f->node[i].factor ? 0 : s->order); n--) {
             arb_get_mag(s->term[i] + n, s->series[i] + n);
             mag_mul(s->term[i] + n, s->term[i] + n, power + n);
             mag_add(s->sum[i] + n, s->sum[i] + n + 1, s->term[i] + n);
         }
     }
+    for (int i = 0; i < s->f->nodes; i++) {
+        const iso_tape_node *node = &s->f->node[i];
+        if (node->kind == ISO_TAPE_PRODUCT) sum_product(s, node->a, node->b, s->known_part + i);
+        if (node->kind == ISO_TAPE_QUOTIENT) sum_product(s, node->b, i, s->known_part + i);
+        if (node->kind == ISO_TAPE_POWER) sum_product(s, node->a, i, s->known_part + i);
+    }
     _mag_vec_clear(power, s->order + 1);
 }
 
-/* x += [A B], without a_0 b_n: no such n is known. */
-static void add_known(const iso_series *s, int a, int b, mag_t x)
+static void bound_product(const iso_series *s, int a, int b, int c)
 {
-    for (int i = 1; i <= s->order; i++) mag_addmul(x, s->term[a] + i, s->sum[b] + s->order + 1 - i);
-}
-
-static void bound_product(const iso_series *s, int a, int b, mag_t x)
-{
+    mag_ptr x = s->tail + c;
     mag_t whole;
     mag_init(whole);
     mag_add(whole, s->sum[b], s->tail + b);
     mag_mul(x, s->tail + a, whole);
     mag_addmul(x, s->sum[a], s->tail + b);
-    add_known(s, a, b, x);
+    mag_add(x, x, s->known_part + c);
     mag_clear(whole);
 }
 
@@ -165,7 +196,7 @@ static bool bound_divided(const iso_series *s, int a, int b, const mag_t factor,
     mag_t top, below, moving;
     mag_init(top), mag_init(below), mag_init(moving);
     mag_mul(top, s->tail + b, s->sum[c]);
-    add_known(s, b, c, top);
+    mag_add(top, top, s->known_part + c);
     mag_mul(top, top, factor);
     if (a >= 0) mag_add(top, top, s->tail + a);
     mag_add(moving, s->sum[b] + 1, s->tail + b);
@@ -205,7 +236,7 @@ static bool bound_node(const iso_series *s, int i)
         arb_get_mag(size, node->number);
         mag_mul(s->tail + i, s->tail + node->a, size);
         break;
-    case ISO_TAPE_PRODUCT: bound_product(s, node->a, node->b, s->tail + i); break;
+    case ISO_TAPE_PRODUCT: bound_product(s, node->a, node->b, i); break;
     case ISO_TAPE_QUOTIENT:
         mag_one(size);
         apart = bound_divided(s, node->a, node->b, size, i);
@@ -266,8 +297,9 @@ void iso_series_at(iso_series *s, const arb_t t, int first, int count, arb_ptr t
     mag_init(part), mag_init(rest);
     shrink(s, t, part);
     arb_one(s->power);
-    for (int n = 1; n <= s->order; n++) arb_mul(s->power + n, s->power + n - 1, t, s->bits + 10);
-    for (int i = 0; i < count; i++) {
+    for (int n = 1; n <= s->order && iso_monitor_goes_on(&s->monitor); n++)
+        arb_mul(s->power + n, s->power + n - 1, t, s->bits + 10);
+    for (int i = 0; i < count && iso_monitor_goes_on(&s->monitor); i++) {
         const int x = s->f->state[first + i];
         arb_dot(to + i, NULL, 0, s->series[x], 1, s->power, 1, s->order + 1, s->bits);
         mag_mul(rest, s->tail + x, part);

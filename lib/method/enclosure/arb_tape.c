@@ -26,6 +26,9 @@ static int add(iso_tape *f, iso_tape_kind kind, int a, int b)
     iso_tape_node *n = &f->node[f->nodes];
     n->kind = kind;
     n->a = a, n->b = b, n->rate = -1;
+    n->factor = kind == ISO_TAPE_QUOTIENT || kind == ISO_TAPE_POWER;
+    if (kind == ISO_TAPE_PRODUCT || kind == ISO_TAPE_POWER) f->node[a].factor = true;
+    if (kind == ISO_TAPE_PRODUCT || kind == ISO_TAPE_QUOTIENT) f->node[b].factor = true;
     arb_init(n->number);
     return f->nodes++;
 }

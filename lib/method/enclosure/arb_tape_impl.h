@@ -21,6 +21,7 @@
 #include <stdbool.h>
 
 #include "base/arb_impl.h"
+#include "base/context_impl.h"
 
 typedef enum iso_tape_kind {
     ISO_TAPE_STATE,
@@ -35,7 +36,8 @@ typedef enum iso_tape_kind {
 
 typedef struct iso_tape_node {
     iso_tape_kind kind;
-    int a, b, rate; /* rate: of a state */
+    int a, b, rate; /* rate: of a state                                                                */
+    bool factor;    /* of a product, a quotient or a power, or one of the last two: its sums are used */
     arb_t number;
 } iso_tape_node;
 
@@ -74,25 +76,29 @@ void iso_tape_differentiate(iso_tape *f, int count);
 typedef struct iso_series {
     const iso_tape *f;
     slong bits;
-    int order;
+    int order, known;      /* known: the coefficients so far                                      */
+    iso_monitor monitor;   /* asked at each coefficient of each node; see iso_series_expand       */
     arb_ptr *series;       /* of each node: coefficients 0 ... order                              */
     mag_ptr *term, *sum;   /* |coefficient n| h^n; their sum from n to the order                  */
+    mag_ptr known_part;    /* of products, quotients and powers: [A B], see arb_series.c          */
     mag_ptr tail, next;    /* of each node: bounds the sum of |coefficient n| h^n from order + 1   */
     arb_ptr power, weight; /* scratch                                                             */
+    arb_ptr inverse;       /* 1/n: a product is faster than a quotient                            */
     mag_t step;            /* h                                                                   */
 } iso_series;
 
 void iso_series_init(iso_series *s, const iso_tape *f, slong bits, int order);
 void iso_series_clear(iso_series *s);
 
-/* The coefficients of all solutions that begin in this set, one ball for each state. */
-void iso_series_expand(iso_series *s, arb_srcptr at);
+/* The coefficients of all solutions that begin in this set, one ball for each state. False: the monitor has stopped
+ * it, and nothing is known. */
+bool iso_series_expand(iso_series *s, arb_srcptr at);
 
 /* Bounds what is left out, for all |t| <= h, and so proves that the solutions are there for these t. False: this h is
  * too large. */
 bool iso_series_bound(iso_series *s, const arb_t h);
 
-/* States `first` to first + count - 1 at t, |t| <= h. */
+/* States `first` to first + count - 1 at t, |t| <= h. If the monitor stops it, they are not set. */
 void iso_series_at(iso_series *s, const arb_t t, int first, int count, arb_ptr to);
 
 /* log2 |coefficient n| of a state; -INFINITY: it is 0. */

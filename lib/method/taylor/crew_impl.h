@@ -2,7 +2,7 @@
  * takes the next one. The crews go step by step together: their series are computed in turns (expand_together). */
 #include "base/finite_impl.h"
 #include "method/integrator_impl.h"
-#include "method/taylor/crossing_impl.h"
+#include "method/taylor/claim_impl.h"
 #include "method/taylor/doubles_impl.h"
 #include "method/taylor/lanes_impl.h"
 
@@ -31,6 +31,7 @@ typedef struct crew {
     long known[LANES];   /* ... of these, the number that an earlier call has stored                  */
     real direction, zeros;
     bool ended;     /* a lane has stored its last row, or has an error */
+    bool claims;    /* of one job: iso_model_has_claim                 */
     bool crossings; /* jobs ask for crossings, of `axis` */
     int axis;
     queue *jobs;
@@ -102,6 +103,7 @@ static void start_next(crew *c, int lane)
         if (job->rows > 0) c->job[lane] = job;
     }
     const iso_lane_job *job = c->job[lane];
+    c->T.idle[lane] = !job;
     if (job) {
         c->head[lane] = c->tail[lane] = c->steps[lane] = 0;
         c->since[lane] = 0, c->known[lane] = 0, c->longest[lane] = c->crossings ? 2 * job->longest : INFINITY;
@@ -111,6 +113,7 @@ static void start_next(crew *c, int lane)
         c->fast[lane] = fast * fast;
         start_orbit(&c->T, lane, job->model, job->start);
         c->fresh[lane] = !recall(c, lane);
+        c->claims = c->claims || iso_model_has_claim(job->model);
     }
     next_row(c, lane);
 }
@@ -125,17 +128,6 @@ static void end_job(crew *c, int lane, const char *error)
 }
 
 /* --- what is stored --------------------------------------------------------------------------------------------- */
-
-/* Stores the deviations, their lengths and their angle. */
-static void store_look(const form *T, int lane, const state *s, const look *l, iso_lane_event *e)
-{
-    for (int i = 0; i < ISO_LANE_DEVIATIONS; i++) {
-        store_deviation(T, lane, s, &l->deviation[i + 1], e->deviation[i]);
-        e->scale[i] = (double)LANE(T->scale[i + 1], lane);
-        e->growth[i] = e->scale[i] + 0.5 * log((double)LANE(l->square[i + 1], lane));
-    }
-    e->sine = (double)LANE(l->sine, lane);
-}
 
 /* Stores what the lane's job asks for, where the state is s. l: the deviations there, if they are computed. */
 static void store_event(crew *c, int lane, const state *s, const look *l)
@@ -205,7 +197,8 @@ static void find_rows(crew *c, real length, real dt)
     bool due[LANES];
     real target = zero;
     while (rows_are_due(c, dt, due, &target)) {
-        store_events(c, solve_for_time(&c->T, target, length * (target / dt)), NULL, due);
+        const real guess = choose(dt == zero, zero, length * (target / dt)); /* dt 0: it ended where it begins */
+        store_events(c, solve_for_time(&c->T, target, guess), NULL, due);
         for (int i = 0; i < LANES; i++)
             if (due[i]) next_row(c, i);
     }
@@ -271,16 +264,6 @@ static void find_crossings(crew *c, real length)
 
 /* --- steps ------------------------------------------------------------------------------------------------------ */
 
-/* 0 in a lane whose state is finite, else NaN. */
-static real check(const form *T, const state *s)
-{
-    real sum = zero;
-    for (int i = 0; i < 3; i++) sum += s->n[i] + s->w[i];
-    for (int i = 0; i < T->shape.moving - ISO_STATE; i++) sum += s->own[i];
-    for (int i = 0; i < T->shape.clocks; i++) sum += s->clock[T->shape.clock_of[i]];
-    return sum - sum;
-}
-
 /* Why the lane's ball turns ever faster from here on; NULL: it does not. */
 static const char *find_growth(crew *c, int lane)
 {
@@ -299,7 +282,7 @@ static void judge(crew *c, int lane, double before, double dt, double x)
     const char *error = NULL;
     if (!isfinite(dt))
         error = "the series diverges";
-    else if (fabs(dt) <= 64 * DBL_EPSILON * fabs(before))
+    else if (fabs(dt) <= 64 * DBL_EPSILON * fabs(before) || is_lost(&c->T, lane, dt))
         error = "steps shrink to nothing";
     else if (c->options->max_steps > 0 && c->steps[lane] >= (double)c->options->max_steps)
         error = "more steps than allowed";
@@ -331,6 +314,34 @@ static void move_on(crew *c, real dt, real x)
                              (c->steps < most) & (c->since <= c->longest) & (c->speed <= c->fast) &
                              (size_of(way * doubles_of(c->zeros)) <= MOST_PARTS);
     for (int i = 0; holds_somewhere(~good) && i < LANES; i++) judge(c, i, before[i], step[i], way[i]);
+}
+
+/* The step ends where it is no answer any more, and why[lane] says why: at its beginning if it was moved too far, or
+ * where the scene's claim about a torque fails. The first step may start a little off its constraints. */
+static void shorten(crew *c, real moved, real *length, real gained[], const char *why[LANES])
+{
+    const iso_model *model[LANES];
+    const double most = ISO_FALSE_CORRECTION(c->options->tolerance);
+    for (int i = 0; i < LANES; i++) {
+        model[i] = c->job[i] ? c->job[i]->model : NULL;
+        if (!c->job[i] || c->head[i] == 0 || !((double)LANE(moved, i) > most)) continue;
+        why[i] = ISO_MOVED_TOO_FAR;
+        LANE(*length, i) = 0;
+    }
+    if (c->claims) find_false_claims(&c->T, model, length, why);
+    integrate_clocks(&c->T, *length, gained);
+    find_state(&c->T, *length, gained, &c->after);
+}
+
+static void end_shortened(crew *c, real dt, const char *const why[LANES])
+{
+    for (int i = 0; i < LANES; i++) {
+        iso_lane_job *job = c->job[i];
+        if (!job || !why[i] || job->error || job->done == job->rows) continue;
+        end_job(c, i, why[i]);
+        store(&c->T, i, &c->after, job->last_y);
+        job->last = c->head[i] + (c->tail[i] + (double)LANE(dt, i));
+    }
 }
 
 static bool busy(const crew *c)
@@ -365,14 +376,16 @@ static void replace_ended(crew *c)
 static void take_step(crew *c)
 {
     form *T = &c->T;
-    real gained[ISO_CLOCKS];
-    const real length = choose_step(T, c->direction, gained), dt = gained[T->shape.clock];
-    if (!c->crossings) find_rows(c, length, dt);
-    find_state(T, length, gained, &c->after);
-    if (c->crossings) find_crossings(c, length);
+    real gained[ISO_CLOCKS], moved, length = choose_near(T, c->direction, gained, &c->after, &moved);
+    const char *why[LANES] = {NULL};
+    const bool too_far = any(moved > broadcast((NUMBER)ISO_FALSE_CORRECTION(c->options->tolerance)));
+    if (c->claims || too_far) shorten(c, moved, &length, gained, why);
+    const real dt = gained[T->shape.clock];
+    c->crossings ? find_crossings(c, length) : find_rows(c, length, dt);
+    if (c->claims || too_far) end_shortened(c, dt, why);
     for (int i = 0; c->ended && i < LANES; i++) /* the next part of an orbit begins with this step */
         if (c->job[i] && c->job[i]->done == c->job[i]->rows) save(c, i);
-    move_on(c, dt + check(T, &c->after), length);
+    move_on(c, dt + zero_if_finite(T, &c->after), length);
     if (CHANNELS > 1) end_deviations(T, length, &c->after);
     copy_state(T, &T->now, &c->after);
     if (c->ended) replace_ended(c);
@@ -395,17 +408,16 @@ static int step_together(crew *const crews[CREWS])
     return count;
 }
 
-static void start_crew(crew *c, queue *jobs, const iso_lane_job *first, const iso_lane_options *options)
+static void start_crew(crew *c, queue *jobs, const iso_lane_job *first, iso_inside *inside,
+                       const iso_lane_options *options)
 {
     memset(c, 0, offsetof(crew, T));
-    set_shape(&c->T, first->model, options->tolerance);
+    set_shape(&c->T, first->model, inside, options->tolerance);
     for (int i = 0; i < LANES; i++)
         start_orbit(&c->T, i, first->model, first->start); /* a lane without a job needs numbers, too */
     c->direction = broadcast(1);
-    c->options = options;
-    c->crossings = !first->time;
-    c->axis = first->axis;
-    c->jobs = jobs;
+    c->options = options, c->jobs = jobs;
+    c->crossings = !first->time, c->axis = first->axis;
     for (int i = 0; i < LANES; i++) start_next(c, i);
 }
 
@@ -419,17 +431,20 @@ static void save_all(crew *c)
 static bool solve(iso_lane_job *const jobs[], size_t count, const iso_lane_options *options)
 {
     const size_t size = (sizeof(crew) + 63) / 64 * 64;
+    iso_inside *inside; /* for all lanes: where their texts differ, they are read again */
+    if (!iso_inside_create(&jobs[0]->model->problem, &inside)) return false;
     char *room = aligned_alloc(64, CREWS * size);
-    if (!room) return false;
+    if (!room) return iso_inside_free(inside), false;
     queue waiting = {jobs, count};
     crew *crews[CREWS];
     for (int i = 0; i < CREWS; i++) {
         crews[i] = (crew *)(room + (size_t)i * size);
-        start_crew(crews[i], &waiting, jobs[0], options);
+        start_crew(crews[i], &waiting, jobs[0], inside, options);
     }
     bool going_on = true;
     while (going_on && step_together(crews) > 0) going_on = !options->go_on || options->go_on(options->data);
     for (int i = 0; i < CREWS; i++) save_all(crews[i]);
     free(room);
+    iso_inside_free(inside);
     return going_on;
 }

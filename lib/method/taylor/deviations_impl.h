@@ -202,7 +202,7 @@ static double change_of_energy(const form *T, int lane, const state *d)
         const double sign = i % 2 ? 1 : -1;
         add_state(T, &moved, broadcast((NUMBER)(sign * (i / 2 + 1) * step)), d);
         store(T, lane, &moved, y);
-        sum += sign * weight[i / 2] * iso_system_ball.energy(T->problem[lane], y, &size);
+        sum += sign * weight[i / 2] * iso_system_ball.energy(&T->model[lane]->problem, y, &size);
     }
     return sum / step;
 }
@@ -212,7 +212,7 @@ static double change_of_energy(const form *T, int lane, const state *d)
 static void start_on_level(const form *T, state *d)
 {
     for (int lane = 0; lane < LANES; lane++) {
-        const iso_problem *f = T->problem[lane];
+        const iso_problem *f = &T->model[lane]->problem;
         double along = 0;
         if (!(LANE(T->keeps_energy, lane) > 0)) continue;
         for (int i = 0; i < 3; i++) along += (double)(LANE(T->now.w[i], lane) * LANE(T->now.w[i], lane)) * f->p.J[i];
@@ -332,4 +332,15 @@ static void store_deviation(const form *T, int lane, const state *s, const state
         const real dM = speed * (before[i] + after[i] + faster * M[i]);
         y[i] = (double)LANE(dM, lane);
     }
+}
+
+/* Stores the deviations, their lengths and their angle. */
+static inline void store_look(const form *T, int lane, const state *s, const look *l, iso_lane_event *e)
+{
+    for (int i = 0; i < ISO_LANE_DEVIATIONS; i++) {
+        store_deviation(T, lane, s, &l->deviation[i + 1], e->deviation[i]);
+        e->scale[i] = (double)LANE(T->scale[i + 1], lane);
+        e->growth[i] = e->scale[i] + 0.5 * log((double)LANE(l->square[i + 1], lane));
+    }
+    e->sine = (double)LANE(l->sine, lane);
 }

@@ -17,8 +17,11 @@ typedef struct state {
  * has. `own` is the variable of the series. If the model has another clock, that clock is a series in `own`. */
 typedef struct form {
     iso_model shape;
-    const iso_problem *problem[LANES]; /* each orbit's own, with its numbers            */
-    iso_formula motion;                /* the equations of the ball's effects           */
+    const iso_model *model[LANES]; /* each orbit's own, with its numbers            */
+    iso_inside *inside;            /* expressions that the scene writes, or NULL    */
+    bool flat;                     /* these are of low degree: in all lanes, as their formulas are alike */
+    bool idle[LANES];              /* nobody asks for the lane's orbit              */
+    iso_formula motion;            /* the equations of the ball's effects           */
     iso_clock own;
     bool is_point, is_point_t, in_t, in_field, is_neumann, twists, has_derived, unprojected;
     bool loaded;                                              /* a ball with torques, or free to twist         */
@@ -86,11 +89,13 @@ static int order_for(const form *T)
     return order < 6 ? 6 : order > MOST ? MOST : order;
 }
 
-static void set_shape(form *T, const iso_model *m, double tolerance)
+static void set_shape(form *T, const iso_model *m, iso_inside *inside, double tolerance)
 {
     series *S = &T->S;
     memset(T, 0, offsetof(form, S) + offsetof(series, K));
     T->shape = *m;
+    T->inside = inside;
+    T->flat = inside && iso_inside_flat(inside, &m->problem);
     T->tolerance = tolerance * FINER;
     T->is_point_t = m->system == &iso_system_point_t;
     T->at_poles = pow(T->tolerance, 0.75);

@@ -326,7 +326,7 @@ static void set_integrals(form *T, int lane, const iso_model *m)
 /* A new orbit in a lane, at y. The model must live as long as the orbit is followed. */
 static void start_orbit(form *T, int lane, const iso_model *m, const double y[])
 {
-    T->problem[lane] = &m->problem;
+    T->model[lane] = m;
     set_numbers(T, lane, m);
     load(T, lane, y);
     if (T->second_of || T->loaded) set_integrals(T, lane, m);
@@ -339,4 +339,28 @@ static real find_state(const form *T, real x, const real gained[], state *s)
     if (s != &T->now) copy_state(T, s, &T->now);
     state_at(T, x, gained, s);
     return restore(T, s);
+}
+
+/* The step of choose_step, halved while its state is far from its constraints and integrals and a half of it is much
+ * nearer; the state is then in *after, the correction in *moved. Off its constraints a point's equations are unstable: a
+ * step that is right for its smooth orbit may be so long that rounding errors at its left end grow to 1e5 times. */
+static real choose_near(const form *T, real direction, real gained[], state *after, real *moved)
+{
+    const real far = broadcast((NUMBER)ISO_FAR_CORRECTION(T->tolerance / FINER));
+    real length = choose_step(T, direction, gained);
+    *moved = find_state(T, length, gained, after);
+    mask halved = *moved > far;
+    for (int i = 0; i < 8 && any(halved); i++) {
+        const real before = *moved, whole = length;
+        length = choose(halved, length / 2, length);
+        integrate_clocks(T, length, gained);
+        *moved = find_state(T, length, gained, after);
+        const mask worse = both(halved, *moved > before / 4);
+        halved = both(both(halved, *moved > far), other(worse));
+        if (!any(worse)) continue;
+        length = choose(worse, whole, length); /* such corrections are roundings of the state itself */
+        integrate_clocks(T, length, gained);
+        *moved = find_state(T, length, gained, after);
+    }
+    return length;
 }

@@ -223,7 +223,7 @@ static bool go(const iso_model *model, int axis, double zeros, double tolerance,
     double y[ISO_MAX_STATE] = {0};
     if (!T || !t) return free(T), free(t), false;
     y[3 + (axis + 1) % 3] = y[axis] = 1;
-    set_shape(T, model, tolerance);
+    set_shape(T, model, NULL, tolerance);
     start_orbit(T, 0, model, y);
     const bool on_section = r->start <= ISO_FROM_BELOW;
     if (on_section)

@@ -78,7 +78,7 @@ static inline real integrate_clocks(const form *T, real x, real gained[ISO_CLOCK
 static void find_derived(const form *T, state *s)
 {
     for (int lane = 0; lane < LANES; lane++) {
-        const iso_problem *f = T->problem[lane];
+        const iso_problem *f = &T->model[lane]->problem;
         double y[ISO_MAX_STATE] = {0};
         for (int i = 0; i < 3; i++) y[i] = (double)LANE(s->w[i], lane), y[3 + i] = (double)LANE(s->n[i], lane);
         for (int e = 0; e < ISO_EFFECTS; e++) {
@@ -191,6 +191,8 @@ static real for_poles(const form *T, int n)
         T->at_poles * magnitude(T->S.pole[0]) / larger(magnitude(T->S.pole[n]), broadcast((NUMBER)1e-290)), n);
 }
 
+#include "method/taylor/inside_impl.h"
+
 /* The step for which the last three terms are as small as the tolerance, and at most the longest step. It is
  * shortened where the clocks need it. Two terms would not do: coefficients next to a pair of conjugate poles go like
  * a cosine of n, and two of them may be small by chance. */
@@ -205,6 +207,7 @@ static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
         const real near = for_poles(T, n - 1);
         h = choose(near < h, near, h);
     }
+    if (T->inside) h = look_inside(T, direction, h);
     for (int i = 0;; i++) {
         const real doubt =
             integrate_clocks(T, direction * h, gained); /* NaN where the polynomial is no rate any more */

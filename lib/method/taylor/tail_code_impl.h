@@ -6,7 +6,7 @@ static void *create_tail(const iso_model *model, int order)
 {
     form *T = aligned_alloc(64, (sizeof *T + 63) / 64 * 64);
     if (!T) return NULL;
-    set_shape(T, model, 1e-16);
+    set_shape(T, model, NULL, 1e-16);
     set_numbers(T, 0, model);
     T->S.order = order;
     memset(T->S.n, 0, sizeof T->S.n); /* a register of four has a number that nobody sets */

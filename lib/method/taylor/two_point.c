@@ -13,6 +13,7 @@
 #define LANES 1
 
 #include "method/taylor/form_impl.h"
+#include "method/taylor/plain_impl.h"
 
 enum { LEAST = 2, HIGHEST = 14 }; /* p; where more is needed, steps are cheaper */
 
@@ -21,6 +22,8 @@ typedef struct sample {
     double y[ISO_STATE];
     double value[ISO_STATE]; /* omega and n, or gamma' and gamma */
     int known;               /* coefficients 0 to known; -1: none */
+    bool plain;              /* what the scene writes hides nothing in a gap of this length, as seen from here */
+    double gap;
     real slope[HIGHEST + 1][ISO_STATE], rate[ISO_CLOCKS][HIGHEST + 1];
 } sample;
 
@@ -29,7 +32,8 @@ struct iso_two_point {
     sample at[2], *left, *right;
     double tolerance;
     double weight[HIGHEST + 1][HIGHEST + 1], change[HIGHEST + 1][HIGHEST + 1]; /* c_j at [p][j], less that at [p-1] */
-    int p, easy;   /* easy: how many measurements in a row would have been good with a lower p */
+    int p, easy; /* easy: how many measurements in a row would have been good with a lower p */
+    iso_inside *inside;
     bool declines; /* the system is neither the ball nor the point: it is followed in steps    */
 };
 
@@ -46,9 +50,11 @@ static void set_weights(iso_two_point *b)
 
 iso_status iso_two_point_create(iso_context *ctx, const iso_model *model, double tolerance, iso_two_point **two_point)
 {
-    iso_two_point *b = *two_point = calloc(1, sizeof *b);
-    if (!b) return iso_context_no_memory(ctx, "the quadrature between two samples");
-    set_shape(&b->T, model, tolerance);
+    iso_inside *inside = NULL;
+    iso_two_point *b = *two_point = iso_inside_create(&model->problem, &inside) ? calloc(1, sizeof *b) : NULL;
+    if (!b) return iso_inside_free(inside), iso_context_no_memory(ctx, "the quadrature between two samples");
+    b->inside = inside;
+    set_shape(&b->T, model, b->inside, tolerance);
     set_numbers(&b->T, 0, model);
     set_weights(b);
     b->tolerance = tolerance;
@@ -60,6 +66,7 @@ iso_status iso_two_point_create(iso_context *ctx, const iso_model *model, double
 
 void iso_two_point_free(iso_two_point *b)
 {
+    if (b) iso_inside_free(b->inside);
     free(b);
 }
 
@@ -71,17 +78,19 @@ void iso_two_point_add(iso_two_point *b, const double y[ISO_STATE])
     b->right->known = -1;
 }
 
-/* The coefficients at a sample, up to p. */
-static void compute_coefficients(iso_two_point *b, sample *s, int p)
+/* The coefficients at a sample, up to p, for a gap of h. */
+static void compute_coefficients(iso_two_point *b, sample *s, int p, double h)
 {
     form *T = &b->T;
     series *S = &T->S;
-    if (s->known >= p) return;
+    if (s->known >= p && (!b->inside || fabs(h) <= 1.05 * s->gap)) return; /* rows are even but for rounding */
     load(T, 0, s->y);
     begin(T);
     S->order = p + 1;
     expand(S);
     s->known = p;
+    s->plain = !b->inside || is_plain(T, fabs(h));
+    s->gap = fabs(h);
     const vector *fast = T->is_point ? S->n + 1 : S->w;
     for (int j = 0; j <= p; j++)
         for (int i = 0; i < 3; i++) {
@@ -149,8 +158,9 @@ bool iso_two_point_measure(iso_two_point *b, double h, double noise, iso_gap *ga
     double left;
     if (b->declines) return false;
     for (;; b->p++, b->easy = 0) {
-        compute_coefficients(b, b->left, b->p);
-        compute_coefficients(b, b->right, b->p);
+        compute_coefficients(b, b->left, b->p, h);
+        compute_coefficients(b, b->right, b->p, h);
+        if (!b->left->plain || !b->right->plain) return false;
         measure(b, h, noise, gap, &left);
         if (left <= 1) break;
         if (b->p == HIGHEST || !(left < 1e100)) return false;

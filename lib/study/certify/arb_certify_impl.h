@@ -77,12 +77,23 @@ typedef struct certify_set {
     int direction; /* 1, -1 */
 } certify_set;
 
+/* The monitor is asked many times in a step. After it has stopped the work, nothing of the set is valid. */
 void certify_set_init(certify_set *s, const certify_ball *b, iso_model_kind model, iso_clock clock, arb_srcptr start,
-                      int direction);
+                      int direction, iso_monitor monitor);
 void certify_set_clear(certify_set *s);
 
-/* Finds a step h <= most, or so, from here: all solutions of the set are there. False: the set is too large. */
-bool certify_set_expand(certify_set *s, double most);
+typedef enum certify_step {
+    CERTIFY_STEP,
+    CERTIFY_TOO_WIDE,  /* the set is too large               */
+    CERTIFY_TOO_SHORT, /* the step does not fit a double     */
+    CERTIFY_STOPPED    /* by the monitor                     */
+} certify_step;
+
+/* Finds a step h <= most, or so, from here: all solutions of the set are there. */
+certify_step certify_set_expand(certify_set *s, double most);
+
+/* The part of the work of the step that is done. */
+double certify_set_done(const certify_set *s);
 
 /* The set at a time within this step: state, then clocks. False: the time is beyond it. */
 bool certify_set_at(certify_set *s, const arb_t time, arb_ptr y);

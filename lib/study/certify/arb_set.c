@@ -14,6 +14,7 @@
  * Q is exact, whatever rounding made of it, and Q^-1 is a ball: nothing depends on Q being orthogonal.
  * The clocks do not act on the state: their errors add up.
  */
+#include <float.h>
 #include <math.h>
 
 #include "study/certify/arb_certify_impl.h"
@@ -45,7 +46,7 @@ static void take_radii(const certify_set *s, arb_ptr y, mag_ptr r)
 }
 
 void certify_set_init(certify_set *s, const certify_ball *b, iso_model_kind model, iso_clock clock, arb_srcptr start,
-                      int direction)
+                      int direction, iso_monitor monitor)
 {
     const int order = (int)(0.35 * (double)b->bits) + 6;
     certify_equations(b, model, clock, &s->thin_tape);
@@ -53,6 +54,7 @@ void certify_set_init(certify_set *s, const certify_ball *b, iso_model_kind mode
     iso_tape_differentiate(&s->wide_tape, CERTIFY_STATE);
     iso_series_init(&s->thin, &s->thin_tape, b->bits, order);
     iso_series_init(&s->wide, &s->wide_tape, WIDE_BITS, WIDE_ORDER);
+    s->thin.monitor = s->wide.monitor = monitor;
     s->centre = _arb_vec_init(CERTIFY_ALL);
     arb_mat_init(s->A, CERTIFY_STATE, CERTIFY_STATE);
     arb_mat_one(s->A);
@@ -78,8 +80,8 @@ void certify_set_clear(certify_set *s)
 
 /* --- a step ------------------------------------------------------------------------------------------------------ */
 
-/* The set as a box, with the derivative 1. */
-static void expand_wide(certify_set *s)
+/* The set as a box, with the derivative 1. False: stopped. */
+static bool expand_wide(certify_set *s)
 {
     arb_ptr x = _arb_vec_init(s->wide_tape.states);
     mag_t size, part;
@@ -95,12 +97,13 @@ static void expand_wide(certify_set *s)
         arb_add_error_mag(x + i, size);
         arb_one(x + CERTIFY_ALL + CERTIFY_STATE * i + i);
     }
-    iso_series_expand(&s->wide, x);
+    const bool expanded = iso_series_expand(&s->wide, x);
     mag_clear(size), mag_clear(part);
     _arb_vec_clear(x, s->wide_tape.states);
+    return expanded;
 }
 
-/* A step for which what is left out is about a rounding error. No enclosure needs it to be so. */
+/* log2 of a step for which what is left out is about a rounding error. No enclosure needs it to be so. */
 static double guess_step(const certify_set *s)
 {
     const int order = s->thin.order;
@@ -114,22 +117,30 @@ static double guess_step(const certify_set *s)
             steepest = fmax(steepest, (iso_series_size(&s->thin, i, n) - rate + bits) / (n - 1));
         }
     }
-    return exp2(-steepest);
+    return -steepest;
 }
 
-bool certify_set_expand(certify_set *s, double most)
+certify_step certify_set_expand(certify_set *s, double most)
 {
     enum { TRIES = 30 };
-    iso_series_expand(&s->thin, s->centre);
-    expand_wide(s);
-    double h = fmin(guess_step(s), most);
+    if (!iso_series_expand(&s->thin, s->centre) || !expand_wide(s)) return CERTIFY_STOPPED;
+    const double guess = guess_step(s);
+    double h = fmin(exp2(guess), most);
     bool bounded = false;
-    if (!(h > 0 && isfinite(h))) return false;
+    if (isfinite(guess) && h < DBL_MIN) return CERTIFY_TOO_SHORT;
+    if (!(h > 0 && isfinite(h))) return CERTIFY_TOO_WIDE;
     for (int i = 0; i < TRIES && !bounded; i++, h *= 0.7) {
+        if (!iso_monitor_goes_on(&s->thin.monitor)) return CERTIFY_STOPPED;
         arb_set_d(s->h, h);
         bounded = iso_series_bound(&s->thin, s->h) && iso_series_bound(&s->wide, s->h);
     }
-    return bounded;
+    return bounded ? CERTIFY_STEP : CERTIFY_TOO_WIDE;
+}
+
+double certify_set_done(const certify_set *s)
+{
+    const double part = (double)s->thin.known / (s->thin.order + 1);
+    return part * part;
 }
 
 /* M = S^-1 D S A at t, and in the rows behind, D S A of the clocks. */

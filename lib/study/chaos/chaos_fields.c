@@ -82,10 +82,12 @@ static double undecided_share(const void *row)
 #define FIELD(key, member, ...) ISO_MEMBER(iso_chaos_fraction, key, member, __VA_ARGS__)
 
 const iso_field iso_chaos_fraction_fields[] = {
-    FIELD("chaotic", share, "", "the chaotic share of the section, by its area", .column = "share"),
-    ISO_NUMBER("error", half_interval, "", "half the interval of 95 %", .how = ISO_IN_TREE),
-    FIELD("low", low, "", "the low end of the interval", .column = "share_low"),
-    FIELD("high", high, "", "the high end", .column = "share_high"),
+    FIELD("chaotic", share, "",
+          "the chaotic share of the section, by its area; undecided orbits count as not chaotic", .column = "share"),
+    ISO_NUMBER("error", half_interval, "", "half the interval of 95 %, in which undecided orbits count both ways",
+               .how = ISO_IN_TREE),
+    FIELD("low", low, "", "the low end of the interval: undecided orbits are not chaotic", .column = "share_low"),
+    FIELD("high", high, "", "the high end: undecided orbits are chaotic", .column = "share_high"),
     ISO_NUMBER("regular", regular_share, "", "the regular share"),
     ISO_NUMBER("undecided", undecided_share, "", "the share that is undecided"),
     FIELD("starts", asked, "", "orbits that were asked for", .how = ISO_IN_TREE),

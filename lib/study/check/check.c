@@ -147,7 +147,6 @@ iso_status iso_checking_put(iso_checking *c, const double row[])
     for (int k = 0; k < 2; k++)
         if (c->model[k].there) ISO_TRY(check_model(c, &c->model[k], row));
     if (c->model[0].there && c->model[1].there) check_map(c, row);
-    if (c->rows <= 2) memcpy(c->rows == 1 ? c->first : c->second, row, c->width * sizeof *row);
     memcpy(c->last, row, c->width * sizeof *row);
     c->begins = false;
     return ISO_OK;
@@ -215,8 +214,7 @@ iso_status iso_checking_create(iso_context *ctx, const iso_params *params, const
     checker *c = *checking = calloc(1, sizeof *c);
     if (!c) return iso_context_no_memory(ctx, "a check");
     *c = (checker){.ctx = ctx, .params = params, .record = header, .tolerance = tolerance, .begins = true};
-    c->last = calloc(3 * width + 1, sizeof *c->last);
-    if (c->last) c->first = c->last + width, c->second = c->first + width;
+    c->last = calloc(width + 1, sizeof *c->last);
     iso_units_choose(params, 0, &c->units);
     const iso_status status = c->last ? begin(c) : iso_context_no_memory(ctx, "a check");
     if (status == ISO_OK) return ISO_OK;

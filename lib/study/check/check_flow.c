@@ -9,6 +9,7 @@
 #include <stdio.h>
 
 #include "base/vec3_impl.h"
+#include "method/methods_impl.h"
 #include "orbit/convert.h"
 #include "orbit/orbit_impl.h"
 #include "study/check/check_impl.h"
@@ -27,6 +28,7 @@ static iso_orbit_options options_of(const checker *c, const checked_model *m, co
     iso_orbit_options o = iso_orbit_defaults(start);
     o.effects = effects;
     o.tolerance = c->tolerance;
+    o.method = m->method;
     if (m->clock >= 0) o.clock = (iso_clock)m->clock;
     o.max_steps = ISO_MAX_ROW_STEPS;
     for (int k = 0; k < ISO_CLOCKS; k++) o.with_clock[k] = k != m->clock && c->columns[k] >= 0;
@@ -39,10 +41,10 @@ iso_status iso_checker_open(const checker *c, const checked_model *m, const doub
     iso_effects effects = iso_checker_effects(c, m->kind);
     ISO_TRY(iso_record_start_at(c->ctx, c->record, c->params, m->kind, row, &start, &effects));
     iso_orbit_options o = options_of(c, m, &start, &effects);
-    iso_status status = iso_orbit_create_among(c->ctx, c->params, &start, &o, orbit);
+    iso_status status = iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
     if (status != ISO_NOT_MAPPED) return status;
     for (int k = 0; k < ISO_CLOCKS; k++) o.with_clock[k] = false;
-    return iso_orbit_create_among(c->ctx, c->params, &start, &o, orbit);
+    return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
 }
 
 /* Integrates a row by so much of its clock. */
@@ -153,6 +155,7 @@ iso_status iso_checker_flow_begin(checker *c, checked_model *m, const double fir
     iso_status status = check_alone(c, m, first);
     if (m->clock < 0 || status != ISO_OK) return status;
     status = iso_checker_open(c, m, first, &m->way);
+    m->method = status == ISO_OK ? iso_method_of_other_kind(iso_orbit_model(m->way)) : NULL;
     if (status == ISO_OK && suits(c, m))
         status = iso_two_point_create(c->ctx, iso_orbit_model(m->way), c->tolerance, &m->quadrature);
     if (m->quadrature) add_sample(c, m, first);

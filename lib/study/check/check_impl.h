@@ -2,7 +2,7 @@
  * check.c. Of the others, check_flow.c calls check_effects.c. All call check_common.c.
  *
  *     check_study.c       what is typed, rows, and the table
- *     check_unseen.c      which numbers no residual depends on
+ *     check_unseen.c      which columns and lines no residual depends on
  *     check.c             rows come in, residuals go out
  *     check_flow.c        from each row to the next: state and clocks
  *     check_effects.c     the same for the columns of effects; what lines state, against a row
@@ -47,12 +47,10 @@ void iso_checking_pass(iso_checking *checking);
 /* After the last row. Errors: ISO_BAD_INPUT, if there was none. */
 iso_status iso_checking_end(iso_checking *checking, iso_residuals *residuals);
 
-/* What the check does not look at: columns that nothing was compared with, and lines in which each number can be
- * another by a millionth, or the words others, without any residual to show it. This is tried, number by number, at
- * the first row and a little later. Calls `tell` for each: "mu", "# tolerance", "# J, number 2"; and "the flow from
- * row to row" where no orbit has two rows, or no clock. Call it after iso_checking_end. Errors: ISO_NO_MEMORY,
- * ISO_STOPPED. */
-iso_status iso_checking_unseen(iso_checking *checking, void (*tell)(void *data, const char *name), void *data);
+/* What the check does not look at: columns that nothing was compared with, and lines that are neither compared with rows
+ * nor part of the equations that were followed. Calls `tell` for each: "mu", "# tolerance"; and "the flow from row to
+ * row" where no orbit has two rows, or no clock. Call it after iso_checking_end. */
+void iso_checking_unseen(iso_checking *checking, void (*tell)(void *data, const char *name), void *data);
 
 /* The drifts of the integrals that hold, row by row, as a new record. The first column is the model's first clock, or
  * "row", the row's number. The others ("h", "F_shell", ...) are |I(row) - I(first row)| / size; for a constraint its
@@ -87,6 +85,7 @@ typedef struct checked_model {
     expectations expect;
     /* quadrature from row to row; NULL: each row is integrated */
     iso_orbit *way;
+    const iso_method *method; /* that integrates; NULL: auto */
     iso_two_point *quadrature;
     double seen, seen_clock[ISO_CLOCKS]; /* the largest it found, of the intervals that were integrated */
     bool followed;                       /* an interval was integrated: the first one always is          */
@@ -106,7 +105,6 @@ struct iso_checking {
     size_t number, before;               /* of the row in hand, and of the last                           */
     bool begins;                         /* the row in hand is the first of its orbit */
     double *last;                        /* the last row                           */
-    double *first, *second;              /* the first two                          */
     double span[ISO_CLOCKS];             /* largest |clock| so far                 */
     iso_units units;                     /* for the map                            */
     checked_model model[2];

@@ -57,8 +57,8 @@ static void report_progress(measurer *m, const char *what)
 static iso_cost_series *add_line(measurer *m, iso_backend backend, const iso_method *method, int count)
 {
     iso_cost *c = m->out;
-    iso_cost_series *line = &c->line[c->lines++];
-    *line = (iso_cost_series){backend, method, c->cells, count, NAN, NAN, NAN, NAN};
+    iso_cost_series *series = &c->series[c->series_count++];
+    *series = (iso_cost_series){backend, method, c->cells, count, NAN, NAN, NAN, NAN};
     for (int i = 0; i < count; i++) {
         iso_cost_cell *cell = &c->cell[c->cells++];
         *cell = (iso_cost_cell){.backend = backend, .method = method, .status = ISO_STOPPED, .why = "not reached"};
@@ -66,7 +66,7 @@ static iso_cost_series *add_line(measurer *m, iso_backend backend, const iso_met
         cell->error = cell->clock_error = cell->energy_drift = cell->constraint_drift = cell->setup = NAN;
         cell->fastest = cell->median = cell->slowest = cell->total = NAN;
     }
-    return line;
+    return series;
 }
 
 /* Whether this backend and method can compute the scene at all. */
@@ -86,7 +86,7 @@ static void list_lines(measurer *m)
     for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
         if ((o->backend != ISO_BACKEND_AUTO && o->backend != backend) || !serves(m, backend, NULL)) continue;
         if (o->method && serves(m, backend, o->method)) add_line(m, backend, o->method, m->tolerances);
-        for (int i = 0; !o->method && iso_methods[i] && m->out->lines < MOST_LINES - 1; i++)
+        for (int i = 0; !o->method && iso_methods[i] && m->out->series_count < MOST_LINES - 1; i++)
             if (!iso_methods[i]->reference && serves(m, backend, iso_methods[i]))
                 add_line(m, backend, iso_methods[i], m->tolerances);
     }
@@ -101,10 +101,10 @@ static iso_status choose_cells(measurer *m)
     m->tolerance = one ? &m->options->tolerance : quick ? quick_tolerances : all_tolerances;
     m->tolerances = one ? 1 : (int)((quick ? sizeof quick_tolerances : sizeof all_tolerances) / sizeof(double));
     const size_t most = (size_t)MOST_LINES * MOST_TOLERANCES;
-    m->out->line = calloc(MOST_LINES, sizeof *m->out->line);
+    m->out->series = calloc(MOST_LINES, sizeof *m->out->series);
     m->out->cell = calloc(most, sizeof *m->out->cell);
     m->times = calloc(most, sizeof *m->times);
-    if (!m->out->line || !m->out->cell || !m->times) return iso_context_no_memory(m->p.user, "the cells");
+    if (!m->out->series || !m->out->cell || !m->times) return iso_context_no_memory(m->p.user, "the cells");
     list_lines(m);
     return ISO_OK;
 }
@@ -163,11 +163,11 @@ static void check_cell(measurer *m, iso_cost_cell *cell, double seconds, double 
     iso_cost_track_free(&track);
 }
 
-/* Leaves out the tighter tolerances of a line that takes too long. */
-static void give_up(measurer *m, const iso_cost_series *line, int from)
+/* Leaves out the tighter tolerances of a series that takes too long. */
+static void give_up(measurer *m, const iso_cost_series *series, int from)
 {
-    for (int i = from; i < line->count; i++) {
-        iso_cost_cell *cell = &m->out->cell[line->first + i];
+    for (int i = from; i < series->count; i++) {
+        iso_cost_cell *cell = &m->out->cell[series->first + i];
         cell->status = ISO_STOPPED;
         snprintf(cell->why, sizeof cell->why, "not tried: it takes too long at tolerance %s",
                  ISO_SHORT(m->tolerance[from - 1]));
@@ -187,24 +187,24 @@ static double share_of(const measurer *m, int left)
     return rest / RUNS * fmin(1, GENEROUS / left);
 }
 
-/* All lines at the loosest tolerance, then all at the next: when the time is over every line has some cells. */
+/* All series at the loosest tolerance, then all at the next: when the time is over every series has some cells. */
 static void check_cells(measurer *m, double about[])
 {
     int left = m->out->cells;
     bool alive[MOST_LINES];
-    for (int l = 0; l < m->out->lines; l++) alive[l] = true;
+    for (int l = 0; l < m->out->series_count; l++) alive[l] = true;
     for (int i = 0; i < m->tolerances || i == 0; i++)
-        for (int l = 0; l < m->out->lines && !iso_cost_is_stopped(&m->p); l++) {
-            const iso_cost_series *line = &m->out->line[l];
-            if (i >= line->count || !alive[l]) continue;
-            iso_cost_cell *cell = &m->out->cell[line->first + i];
-            check_cell(m, cell, share_of(m, left--), &about[line->first + i]);
-            if (cell->status == ISO_OK) m->promised += repeats_of(about[line->first + i]);
+        for (int l = 0; l < m->out->series_count && !iso_cost_is_stopped(&m->p); l++) {
+            const iso_cost_series *series = &m->out->series[l];
+            if (i >= series->count || !alive[l]) continue;
+            iso_cost_cell *cell = &m->out->cell[series->first + i];
+            check_cell(m, cell, share_of(m, left--), &about[series->first + i]);
+            if (cell->status == ISO_OK) m->promised += repeats_of(about[series->first + i]);
             report_progress(m, cell->method ? cell->method->name : "exact");
             if (cell->status != ISO_STOPPED || iso_cost_is_stopped(&m->p)) continue;
             alive[l] = false;
-            give_up(m, line, i + 1);
-            left -= line->count - i - 1;
+            give_up(m, series, i + 1);
+            left -= series->count - i - 1;
         }
 }
 
@@ -273,7 +273,7 @@ static iso_status find_reference(measurer *m)
     if (!m->time) return iso_context_no_memory(m->p.user, "%d times", times);
     for (int i = 0; i < times; i++) m->time[i] = i + 1 == times ? m->p.end : m->p.end * ((i + 1.0) / times);
     report_progress(m, "reference");
-    ISO_TRY(iso_cost_reference_find(&m->p, times, m->time, REFERENCES * m->seconds, false, &m->reference));
+    ISO_TRY(iso_cost_reference_find(&m->p, times, m->time, REFERENCES * m->seconds, &m->reference));
     snprintf(m->out->reference, sizeof m->out->reference, "%s", m->reference.what);
     snprintf(m->out->second, sizeof m->out->second, "%s", m->reference.second_what);
     m->out->uncertainty = m->reference.uncertainty;
@@ -332,6 +332,6 @@ void iso_cost_free(iso_cost *cost)
 {
     if (!cost) return;
     free(cost->cell);
-    free(cost->line);
+    free(cost->series);
     free(cost);
 }

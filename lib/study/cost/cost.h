@@ -16,7 +16,7 @@
  * - Its time is processor time of runs straight to the end of the scene, without set-up (the creation of the orbit).
  *   Runs are repeated in rounds over all cells, so that a disturbance of the machine does not fall on one cell, until
  *   minimum and median are known to about 5 %.
- * - A cell that would take more than its share of the time is given up, and the tighter tolerances of its line are
+ * - A cell that would take more than its share of the time is given up, and the tighter tolerances of its series are
  *   not tried.
  */
 #ifndef ISO_STUDY_COST_H
@@ -83,9 +83,9 @@ typedef struct iso_cost {
     double uncertainty; /* infinite: there is no second reference                                       */
     double seconds;     /* that it took                                                                 */
     bool complete;      /* false: stopped on request; cells not reached have repeats = 0                */
-    int cells, lines;
+    int cells, series_count;
     iso_cost_cell *cell;
-    iso_cost_series *line;
+    iso_cost_series *series;
 } iso_cost;
 
 /* Failing cells are no failure. Errors: those of the scene itself, or of a backend and a method asked for (as
@@ -95,26 +95,6 @@ typedef struct iso_cost {
 ISO_API iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_cost_options *options,
                                     iso_cost **cost);
 ISO_API void iso_cost_free(iso_cost *cost);
-
-enum { ISO_COST_HORIZONS = 24 };
-
-typedef struct iso_cost_horizon {
-    double end, error, seconds; /* seconds: median, of stepping */
-    double uncertainty;         /* of the closed solution's error, which has no other measure: NaN */
-} iso_cost_horizon;
-
-/* How error and time grow with the length of an orbit, for one cell: over end, 2 end, 4 end, ... . */
-typedef struct iso_cost_growth {
-    int count; /* horizons reached                                                            */
-    iso_cost_horizon at[ISO_COST_HORIZONS];
-    double power, time_power; /* error ~ end^power and seconds ~ end^time_power, fitted; NaN: too few        */
-    /* The indicators of chaos.h call the orbit chaotic; or, if they do not decide, the error grows exponentially
-     * rather than by a power ... */
-    bool chaotic;
-    double lyapunov_time; /* ... e-fold in this time, in the scene's unit; NaN */
-    char reference[120], second[120];
-    char why[160]; /* it ends before `horizons`; "": it does not                                  */
-} iso_cost_growth;
 
 ISO_C_END
 

@@ -64,29 +64,7 @@ const iso_field iso_cost_fields[] = {
     FIELD("seconds", seconds, "s", "that all took"),
     FIELD("complete", complete, "", "whether all was measured"),
     ISO_LIST_AT(iso_cost, "cells", cell, cells, iso_cost_cell_fields, "the measurements"),
-    ISO_LIST_AT(iso_cost, "lines", line, lines, series_fields, "of a backend and a method"),
+    ISO_LIST_AT(iso_cost, "lines", series, series_count, series_fields, "of a backend and a method"),
     ISO_FIELD_END,
 };
 #undef FIELD
-
-#define FIELD(key, member, ...) ISO_MEMBER(iso_cost_horizon, key, member, __VA_ARGS__)
-
-static const iso_field horizon_fields[] = {
-    FIELD("end", end, "time", "length of the orbit"),
-    FIELD("error", error, "", "error at its end"),
-    FIELD("uncertainty", uncertainty, "", "of the reference there"),
-    FIELD("seconds", seconds, "s", "median time for all steps"),
-    ISO_FIELD_END,
-};
-#undef FIELD
-
-#define FIELD(key, member, ...) ISO_MEMBER(iso_cost_growth, key, member, __VA_ARGS__)
-
-const iso_field iso_cost_growth_fields[] = {
-    ISO_LIST(iso_cost_growth, "horizons", at, count, horizon_fields, "each twice as long as the one before"),
-    FIELD("chaotic", chaotic, "", "whether the orbit is chaotic"),
-    FIELD("power", power, "", "error ~ end^power"),
-    FIELD("time_power", time_power, "", "seconds ~ end^time_power"),
-    FIELD("lyapunov_time", lyapunov_time, "time", "in which the error grows e-fold"),
-    ISO_FIELD_END,
-};

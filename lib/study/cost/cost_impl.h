@@ -73,10 +73,10 @@ typedef struct cost_reference {
     double uncertainty;
 } cost_reference;
 
-/* A reference at the given times, in about so many seconds. may_fall_short: it need not reach the last of them.
+/* A reference at the given times, in about so many seconds.
  * Errors: ISO_NUMERICAL, ISO_STOPPED, ISO_NO_MEMORY, in the caller's context. */
 iso_status iso_cost_reference_find(cost_problem *p, int times, const double time[], double seconds,
-                                   bool may_fall_short, cost_reference *reference);
+                                   cost_reference *reference);
 void iso_cost_reference_free(cost_reference *reference);
 
 /* The seconds in which one orbit is set up, and steps straight to `end`; the mean of several when they are short.
@@ -98,7 +98,7 @@ void iso_cost_times_read(const cost_times *times, iso_cost_cell *cell);
 /* The median of all slopes of y over x between points that are at least `apart` from each other in x; NaN: none. */
 double iso_cost_slope(int count, const double x[], const double y[], double apart);
 
-/* Fits the lines, and finds the cells that are pareto. */
+/* Fits the series, and finds the cells that are pareto. */
 void iso_cost_judge(iso_cost *cost);
 
 /* Whether a cell has a result. */
@@ -110,39 +110,22 @@ bool iso_cost_reaches(const iso_cost *cost, const iso_cost_cell *cell, double wa
 /* The cell with the least `total` of those that reach `want`; NULL: none does. */
 const iso_cost_cell *iso_cost_choose(const iso_cost *cost, double want);
 
-/* `horizons` lengths, from 1 to ISO_COST_HORIZONS: the scene's end and its doublings. Those beyond about 40 s of
- * processor time are left out. Errors: as iso_cost_measure; ISO_BAD_ARGUMENT about "horizons". */
-iso_status iso_cost_grow(iso_context *ctx, const iso_scene *scene, const iso_cost_cell *cell, int horizons,
-                         iso_cost_growth *growth);
-
 /* --- the study (cost_study.c) ----------------------------------------------------------------------------------- */
 
 typedef struct iso_cost_request {
     iso_scene_changes change;
-    double want;     /* NAN: not given */
-    double horizons; /* 0: not given   */
+    double want; /* NAN: not given */
     bool quick;
 } iso_cost_request;
-
-/* How error and time of one cell grow with the length of the orbit. */
-typedef struct iso_cost_growing {
-    const iso_cost_cell *cell;
-    char why[160]; /* why it failed; "" if it did not */
-    iso_cost_growth growth;
-} iso_cost_growing;
-
-enum { ISO_COST_GROWTHS = 3 };
 
 /* What the study finds. */
 typedef struct iso_cost_found {
     iso_cost *cost;
-    /* All lines: the closed solution first, then the methods, the fastest to an error of 1e-9 first. Methods that do
+    /* All series: the closed solution first, then the methods, the fastest to an error of 1e-9 first. Methods that do
      * not reach it are sorted by 1e-6, then by 1e-3. */
-    const iso_cost_series **line;
+    const iso_cost_series **series;
     double want;                 /* NAN: nothing is wanted          */
     const iso_cost_cell *choice; /* for `want`; NULL: there is none */
-    int growths;
-    iso_cost_growing growth[ISO_COST_GROWTHS];
 } iso_cost_found;
 
 /* Whether a cell failed. Cells that were left out for lack of time did not. */
@@ -151,7 +134,7 @@ bool iso_cost_has_failed(const iso_cost_cell *cell);
 /* How many cells there are for which `is` is true. */
 int iso_cost_count(const iso_cost *cost, bool (*is)(const iso_cost_cell *cell));
 
-/* As iso_cost_choose, but only among the methods that take steps, and in one line (NULL: in all). */
-const iso_cost_cell *iso_cost_choose_steps(const iso_cost *cost, const iso_cost_series *line, double want);
+/* As iso_cost_choose, but only among the methods that take steps, and in one series (NULL: in all). */
+const iso_cost_cell *iso_cost_choose_steps(const iso_cost *cost, const iso_cost_series *series, double want);
 
 #endif

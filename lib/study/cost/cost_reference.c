@@ -81,7 +81,7 @@ static void add_implicit(sources *s, iso_backend backend)
 
 /* --- the reference, and what bears it out ----------------------------------------------------------------------- */
 
-static iso_status find_first(cost_problem *p, double seconds, bool may_fall_short, cost_reference *r, source *from)
+static iso_status find_first(cost_problem *p, double seconds, cost_reference *r, source *from)
 {
     sources s = {0};
     add(&s, ISO_BACKEND_EXACT, NULL, 0);
@@ -90,7 +90,7 @@ static iso_status find_first(cost_problem *p, double seconds, bool may_fall_shor
     add_implicit(&s, ISO_BACKEND_BALL);
     const int i = best_source(p, s.list, s.count, seconds, &r->first);
     if (iso_cost_is_stopped(p)) return iso_context_stopped(p->user);
-    if (i < 0 || (r->first.reached < r->first.times && !may_fall_short))
+    if (i < 0 || r->first.reached < r->first.times)
         return ISO_FAIL_NUMERICAL(p->user, "no reference gets to %s = %s in %.2g s: %s", iso_clock_name(p->clock),
                                   ISO_SHORT(p->end), seconds, iso_context_message(p->ctx));
     *from = s.list[i];
@@ -136,14 +136,13 @@ static bool find_by_others(cost_problem *p, const source *first, double seconds,
     return true;
 }
 
-iso_status iso_cost_reference_find(cost_problem *p, int times, const double time[], double seconds,
-                                   bool may_fall_short, cost_reference *r)
+iso_status iso_cost_reference_find(cost_problem *p, int times, const double time[], double seconds, cost_reference *r)
 {
     source from;
     *r = (cost_reference){.uncertainty = INFINITY};
     ISO_TRY(iso_cost_track_make(p, times, time, &r->first));
     ISO_TRY(iso_cost_track_make(p, times, time, &r->second));
-    ISO_TRY(find_first(p, seconds / 3, may_fall_short, r, &from));
+    ISO_TRY(find_first(p, seconds / 3, r, &from));
     snprintf(r->second_what, sizeof r->second_what, "none");
     r->doubted = find_by_series(p, &from, seconds / 3, r);
     if (!r->doubted) r->doubted = find_by_others(p, &from, seconds / 24, r);

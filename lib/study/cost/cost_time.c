@@ -91,7 +91,7 @@ double iso_cost_slope(int count, const double x[], const double y[], double apar
 
 /* --- what is worth its time ------------------------------------------------------------------------------------- */
 
-/* A cell is faster if another takes FASTER times as long; an error above LOST is no result; a line has stopped
+/* A cell is faster if another takes FASTER times as long; an error above LOST is no result; a series has stopped
  * gaining at AT_FLOOR times its least error. */
 static const double FASTER = 1.05, LOST = 0.1, AT_FLOOR = 2;
 
@@ -135,51 +135,51 @@ static bool is_pareto(const iso_cost *cost, const iso_cost_cell *cell)
     return true;
 }
 
-/* --- lines ------------------------------------------------------------------------------------------------------ */
+/* --- series ------------------------------------------------------------------------------------------------------ */
 
-static void find_floor(const iso_cost_cell cell[], iso_cost_series *line)
+static void find_floor(const iso_cost_cell cell[], iso_cost_series *series)
 {
     int last = -1;
-    for (int i = 0; i < line->count; i++) {
+    for (int i = 0; i < series->count; i++) {
         if (!iso_cost_is_measured(&cell[i])) continue;
         last = i;
-        if (!(cell[i].error >= line->least)) line->least = cell[i].error;
+        if (!(cell[i].error >= series->least)) series->least = cell[i].error;
     }
     for (int i = 0; i < last; i++) { /* the last cell may still gain */
-        if (!iso_cost_is_measured(&cell[i]) || cell[i].error > AT_FLOOR * line->least || cell[i].below) continue;
-        line->stops_at = cell[i].tolerance;
+        if (!iso_cost_is_measured(&cell[i]) || cell[i].error > AT_FLOOR * series->least || cell[i].below) continue;
+        series->stops_at = cell[i].tolerance;
         return;
     }
 }
 
 /* Whether a tighter tolerance still makes this cell's error smaller. */
-static bool gains(const iso_cost_cell *cell, const iso_cost_series *line)
+static bool gains(const iso_cost_cell *cell, const iso_cost_series *series)
 {
-    const bool above = isnan(line->stops_at) || cell->error > AT_FLOOR * line->least;
+    const bool above = isnan(series->stops_at) || cell->error > AT_FLOOR * series->least;
     return iso_cost_is_measured(cell) && !cell->below && cell->error < LOST && cell->error > 0 && above;
 }
 
-static void fit(const iso_cost_cell cell[], iso_cost_series *line)
+static void fit(const iso_cost_cell cell[], iso_cost_series *series)
 {
     double error[64], time[64], steps[64];
     int count = 0;
-    for (int i = 0; i < line->count && count < 64; i++) {
-        if (!gains(&cell[i], line)) continue;
+    for (int i = 0; i < series->count && count < 64; i++) {
+        if (!gains(&cell[i], series)) continue;
         error[count] = log10(cell[i].error);
         time[count] = log10(cell[i].median);
         steps[count++] = log10((double)cell[i].statistics.steps);
     }
-    line->digit = pow(10, -iso_cost_slope(count, error, time, APART));
+    series->digit = pow(10, -iso_cost_slope(count, error, time, APART));
     const double order = -1 / iso_cost_slope(count, error, steps, APART);
-    line->order = isfinite(order) && line->method && line->method->order > 0 ? order : NAN;
+    series->order = isfinite(order) && series->method && series->method->order > 0 ? order : NAN;
 }
 
 void iso_cost_judge(iso_cost *cost)
 {
-    for (int l = 0; l < cost->lines; l++) {
-        iso_cost_series *line = &cost->line[l];
-        find_floor(&cost->cell[line->first], line);
-        fit(&cost->cell[line->first], line);
+    for (int l = 0; l < cost->series_count; l++) {
+        iso_cost_series *series = &cost->series[l];
+        find_floor(&cost->cell[series->first], series);
+        fit(&cost->cell[series->first], series);
     }
     for (int i = 0; i < cost->cells; i++) cost->cell[i].pareto = is_pareto(cost, &cost->cell[i]);
 }

@@ -273,7 +273,7 @@ static iso_status explain(iso_context *ctx, FILE *to, const iso_scene *scene, co
 
 /* --- the study -------------------------------------------------------------------------------------------------- */
 
-ISO_STUDY_BEGIN(iso_explain_request, (iso_explain_request){.change = ISO_SCENE_AS_IT_IS})
+ISO_STUDY_BEGIN(iso_scene_request, (iso_scene_request){.change = ISO_SCENE_AS_IT_IS})
 
 /* What is said in words, and what of it other programs ask for. */
 static const iso_field fields[] = {
@@ -324,25 +324,15 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     iso_scene scene = *subject->scene;
     iso_explanation *e = iso_study_keep(result, calloc(1, sizeof *e), fields, free_explanation);
     if (!e) return iso_context_no_memory(ctx, "words");
-    ISO_TRY(iso_scene_apply(ctx, &((const iso_explain_request *)options)->change, &scene));
+    ISO_TRY(iso_scene_apply(ctx, &((const iso_scene_request *)options)->change, &scene));
     ISO_TRY(fill(ctx, &scene, e));
     return iso_study_table(ctx, "explain", &scene, fields, e, NULL, &result->table[0]);
 }
 
-const iso_option iso_explain_option[] = {
-    ISO_OPTION_BACKEND(iso_explain_request, change),
-    ISO_OPTION_METHOD(iso_explain_request, change),
-    ISO_OPTION_TOLERANCE(ISO_TOLERANCE_OF_STEPS, iso_explain_request, change.tolerance),
-    ISO_OPTION_MODELS("as", "WHAT", "which model is written: ball, point, both", iso_explain_request, change.as),
-    ISO_OPTION_T_END(iso_explain_request, change),
-    ISO_OPTION_STEP(iso_explain_request, change),
-    ISO_OPTION_END,
-};
-
 const iso_study iso_explain_study = {"explain",
                                      "say what would be simulated and why, without doing it",
-                                     iso_explain_option,
-                                     sizeof(iso_explain_request),
+                                     iso_scene_change_option,
+                                     sizeof(iso_scene_request),
                                      begin,
                                      .run = run,
                                      .of = ISO_STUDY_OF_SCENE};

@@ -4,10 +4,6 @@
 
 #include "study/options_impl.h"
 
-typedef struct iso_explain_request {
-    iso_scene_changes change;
-} iso_explain_request;
-
 typedef struct iso_explanation {
     const char *backend, *method; /* method NULL: the closed solution */
     bool twin;

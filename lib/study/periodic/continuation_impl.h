@@ -4,8 +4,8 @@
  *     continuation_curve.c    the curve F(u, value) = 0: one evaluation, the corrector, one step
  *     continuation_events.c   what happens between two points of the curve, and exactly where; what branches off
  */
-#ifndef ISO_STUDY_FOLLOW_IMPL_H
-#define ISO_STUDY_FOLLOW_IMPL_H
+#ifndef ISO_STUDY_CONTINUATION_IMPL_H
+#define ISO_STUDY_CONTINUATION_IMPL_H
 
 #include "study/periodic/continuation.h"
 #include "study/periodic/periodic_impl.h"

@@ -27,11 +27,11 @@
 
 #include "base/arb_impl.h"
 #include "base/context_impl.h"
+#include "method/enclosure/arb_tape_impl.h"
 #include "study/prove/arb_certificate_impl.h"
 #include "study/prove/prove_impl.h"
 
-/* The numbers of a state; the last six are neighbours: two of the same k, one of another k. Then series that follow from
- * them. */
+/* The numbers of a state; the last six are neighbours: two of the same k, one of another k. */
 enum {
     PROVE_Q,
     PROVE_R,
@@ -49,16 +49,7 @@ enum {
     PROVE_PAIR,
     PROVE_Y3 = PROVE_PAIR,
     PROVE_V3,
-    PROVE_STATE,
-    PROVE_KAPPA = PROVE_STATE,
-    PROVE_TWIST,
-    PROVE_E,
-    PROVE_EXCESS,
-    PROVE_RHO,
-    PROVE_ETA,
-    PROVE_SQUARE,
-    PROVE_H,
-    PROVE_SERIES
+    PROVE_STATE
 };
 
 /* A ball, its moments in the order of the section: J[2] belongs to the axis c of the section, J[1] is the middle one.
@@ -66,41 +57,28 @@ enum {
 typedef struct prove_flow {
     iso_context *ctx;
     slong bits;
-    int order;
     int parts; /* of half a return; the derivative is enclosed in each      */
     arb_t k, inverse_k, J[3], trace;
-    arb_ptr series[PROVE_SERIES];   /* coefficients 0 ... order                                    */
-    mag_ptr term[PROVE_SERIES];     /* |coefficient n| h^n                                          */
-    mag_ptr sum[PROVE_SERIES];      /* their sum from n to the order                                */
-    mag_t tail[PROVE_SERIES];       /* bounds the sum of |coefficient| h^n from order + 1 on         */
-    arb_ptr power;                  /* of the place at which series are evaluated                   */
-    mag_t step;                     /* h, for which sums and tails hold                             */
+    int numbers;       /* of the states in the tape: PROVE_POINT, PROVE_PAIR, PROVE_STATE; 0: no tape yet */
+    iso_tape tape;     /* the equations                                                                   */
+    iso_series series; /* from the last state on                                                          */
     prove_certificate *certificate; /* NULL: none                                                 */
     long steps;                     /* taken so far                                               */
     iso_proof_work *work;           /* shared by all flows of a proof                               */
 } prove_flow;
 
+/* The ball is set behind prove_flow_init, before the first step. */
 void prove_flow_init(prove_flow *f, iso_context *ctx, slong bits, iso_proof_work *work);
 void prove_flow_clear(prove_flow *f);
 
 /* The same ball in numbers of other length; no certificate. */
 void prove_flow_like(prove_flow *f, const prove_flow *like, slong bits);
 
-/* The coefficients of the orbit that begins in y; numbers: PROVE_POINT, PROVE_PAIR or PROVE_STATE. */
-void prove_series_expand(prove_flow *f, arb_srcptr y, int numbers);
+/* f->series of the orbit that begins in y. */
+void prove_flow_expand(prove_flow *f, arb_srcptr y, int numbers);
 
 /* A step for which what is left out is about a rounding error. No proof needs it to be so. */
-double prove_series_guess_step(const prove_flow *f, int numbers);
-
-/* Finds f->tail for all |s| <= h. False: this h is too large. */
-bool prove_series_bound(prove_flow *f, const arb_t h, int numbers);
-
-/* The state at s, |s| <= h. */
-void prove_series_at(prove_flow *f, const arb_t s, int numbers, arb_ptr y);
-
-/* One number of it. */
-void prove_series_value(prove_flow *f, int number, arb_t x);
-void prove_series_powers(prove_flow *f, const arb_t s);
+double prove_flow_guess_step(const prove_flow *f);
 
 /* Makes a ball larger by 2^-part of its radius, and by some rounding errors: so a checker that rounds in another way
  * finds its own ball inside. */

@@ -232,18 +232,17 @@ static void find_ahead(const angle *end, arb_srcptr y, slong bits, arb_t x)
 /* It and its derivative at s; y: room for a state. w' = kappa z - g. */
 static void find_both(prove_flow *f, const angle *end, const arb_t s, arb_ptr y, arb_t ahead, arb_t slope)
 {
-    prove_series_powers(f, s);
-    prove_series_value(f, PROVE_G, y + PROVE_G);
-    prove_series_value(f, PROVE_W, y + PROVE_W);
+    iso_series_at(&f->series, s, PROVE_G, arb_is_zero(end->s) ? 2 : 3, y + PROVE_G); /* g, w, z */
     find_ahead(end, y, f->bits, ahead);
     arb_mul(slope, y + PROVE_W, end->c, f->bits);
     arb_neg(slope, slope);
     if (arb_is_zero(end->s)) return;
-    prove_series_value(f, PROVE_Z, y + PROVE_Z);
-    prove_series_value(f, PROVE_KAPPA, y + PROVE_P);
+    iso_series_at(&f->series, s, PROVE_Q, PROVE_P + 1, y); /* q, r, p */
+    arb_div(y + PROVE_P, y + PROVE_P, y + PROVE_Q, f->bits);
+    arb_mul(y + PROVE_P, y + PROVE_P, f->inverse_k, f->bits); /* -kappa */
     arb_mul(y + PROVE_P, y + PROVE_P, y + PROVE_Z, f->bits);
-    arb_sub(y + PROVE_P, y + PROVE_P, y + PROVE_G, f->bits);
-    arb_addmul(slope, y + PROVE_P, end->s, f->bits);
+    arb_add(y + PROVE_P, y + PROVE_P, y + PROVE_G, f->bits);
+    arb_submul(slope, y + PROVE_P, end->s, f->bits);
 }
 
 /* A point near the end; no proof needs it to be one. */
@@ -294,16 +293,16 @@ static bool find_zero(prove_flow *f, const angle *end, const arb_t h, arb_t zero
 enum { HALVINGS = 12, SPARE_BITS = 4 };
 
 /* h is made exact, with few bits, and small enough for a bound. */
-static bool choose_step(prove_flow *f, int numbers, arb_t h)
+static bool choose_step(prove_flow *f, arb_t h)
 {
     arf_t length;
     arf_init(length);
-    arf_set_d(length, prove_series_guess_step(f, numbers));
+    arf_set_d(length, prove_flow_guess_step(f));
     arf_set_round(length, length, 8, ARF_RND_DOWN);
     bool good = false;
     for (int i = 0; i < HALVINGS && !good; i++) {
         arb_set_arf(h, length);
-        good = prove_series_bound(f, h, numbers);
+        good = iso_series_bound(&f->series, h);
         arf_mul_2exp_si(length, length, -1);
     }
     arf_clear(length);
@@ -327,17 +326,17 @@ void prove_widen(const prove_flow *f, slong part, arb_t x)
 static bool go(prove_flow *f, const angle *to, int numbers, arb_t h, arb_ptr end, bool *crossed)
 {
     arb_t ahead;
-    bool good = choose_step(f, numbers, h), open = true;
+    bool good = choose_step(f, h), open = true;
     *crossed = false;
     arb_init(ahead);
     for (int i = 0; good && open; i++) {
-        prove_series_at(f, h, numbers, end);
+        iso_series_at(&f->series, h, 0, numbers, end);
         find_ahead(to, end, f->bits, ahead);
         open = arb_contains_zero(ahead);
         *crossed = arb_is_negative(ahead);
         if (!open) break;
         arb_mul_2exp_si(h, h, -1);
-        good = i + 1 < HALVINGS && prove_series_bound(f, h, numbers);
+        good = i + 1 < HALVINGS && iso_series_bound(&f->series, h);
     }
     arb_clear(ahead);
     return good;
@@ -349,10 +348,10 @@ static iso_status take_step(prove_flow *f, const angle *to, int numbers, arb_ptr
     arb_t h, zero, window;
     arb_ptr end = _arb_vec_init(PROVE_STATE);
     arb_init(h), arb_init(zero), arb_init(window);
-    prove_series_expand(f, y, numbers);
+    prove_flow_expand(f, y, numbers);
     bool good = go(f, to, numbers, h, end, crossed);
     if (*crossed && good) good = find_zero(f, to, h, zero, window);
-    if (*crossed && good) prove_series_at(f, zero, numbers, end);
+    if (*crossed && good) iso_series_at(&f->series, zero, 0, numbers, end);
     if (good && !*crossed) arb_set(zero, h);
     for (int i = 0; i < numbers; i++) {
         arb_set(y + i, end + i);

@@ -18,5 +18,5 @@ iso_status iso_proof_find(iso_context *ctx, const iso_proof_ball *ball, int digi
     (void)ball, (void)digits, (void)work, (void)proof, (void)text;
     return ISO_FAIL_ARGUMENT(ctx, "",
                              "prove: this build has no Arb, which encloses numbers: install it (package "
-                             "libflint-arb-dev) and build isoroll again");
+                             "libflint-arb-dev; Debian 13: libflint-dev) and build isoroll again");
 }

@@ -186,7 +186,7 @@ static iso_status set_up(iso_section_walk *w)
 {
     ISO_TRY(check(w));
     ISO_TRY(open_orbit(w));
-    ISO_TRY(iso_refuse_losses(w->ctx, w->orbit, ISO_NO_RETURN));
+    if (!w->areas) ISO_TRY(iso_refuse_losses(w->ctx, w->orbit, ISO_NO_RETURN));
     if (w->options.axis == ISO_AXIS_AUTO) w->options.axis = iso_section_axis(iso_orbit_motion(w->orbit));
     ISO_TRY(check_starts(w));
     choose_columns(w);
@@ -210,20 +210,40 @@ static iso_status walk(iso_section_walk *w)
     return status;
 }
 
+bool iso_section_has_returns(const iso_section_walk *w)
+{
+    const iso_effects effects = iso_orbit_effects(w->orbit);
+    return iso_effects_are_free(&effects) && w->clocks &&
+           iso_section_is_global(iso_orbit_motion(w->orbit), w->options.axis);
+}
+
+iso_status iso_section_begin(iso_section_walk *w, iso_context *ctx, const iso_scene *scene,
+                             const iso_section_options *options)
+{
+    w->ctx = ctx;
+    w->scene = scene;
+    w->options = iso_section_defaults();
+    *w->result = (iso_section_result){.nature = {.axis = -1}};
+    ISO_TRY(iso_options_take(ctx, "iso_section_options", &w->options, sizeof w->options, options));
+    return set_up(w);
+}
+
+void iso_section_end(iso_section_walk *w)
+{
+    iso_section_free_room(w);
+    iso_orbit_free(w->orbit);
+}
+
 iso_status iso_section_run(iso_context *ctx, const iso_scene *scene, const iso_section_options *options,
                            const iso_section_sink *sink, iso_section_result *result)
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_section_result unused;
-    iso_section_walk w = {.ctx = ctx, .scene = scene, .sink = sink, .result = result ? result : &unused};
-    w.options = iso_section_defaults();
-    *w.result = (iso_section_result){.nature = {.axis = -1}};
-    iso_status status = iso_options_take(ctx, "iso_section_options", &w.options, sizeof w.options, options);
-    if (status == ISO_OK) status = set_up(&w);
+    iso_section_walk w = {.sink = sink, .result = result ? result : &unused};
+    iso_status status = iso_section_begin(&w, ctx, scene, options);
     if (status == ISO_OK) tell_nature(&w);
     if (status == ISO_OK) status = walk(&w);
-    iso_section_free_room(&w);
-    iso_orbit_free(w.orbit);
+    iso_section_end(&w);
     if (status == ISO_OK && w.result->rows == 0 && w.result->failed > 0)
         return iso_context_fail(ctx, w.result->failure, "", "%s", w.result->words);
     return status;

@@ -2,13 +2,13 @@
  *
  *     section.c           checks, the groups of orbits
  *     section_walk.c      one group: its starts, its crossings by one model or two, its rows; the header
+ *     section_area.c      in place of rows: whether the return map keeps the area
  */
 #ifndef ISO_STUDY_SECTION_IMPL_H
 #define ISO_STUDY_SECTION_IMPL_H
 
 #include "map/section_impl.h"
 #include "study/options_impl.h"
-#include "study/section/measure.h"
 #include "study/section/section.h"
 
 /* What is known of one orbit of the group. */
@@ -32,6 +32,7 @@ typedef struct iso_section_walk {
     iso_effects effects; /* of the scene; observers only if a column needs them   */
     iso_orbit *orbit;    /* the scene's own: its units, its energy                */
     iso_section_spread spread;
+    bool areas;                          /* det D is asked for, with losses as well; no rows      */
     bool clocks, chart;                  /* rows have tau and s; l and x                          */
     int columns[ISO_MAX_COLUMNS], count; /* of the samples, behind those                   */
     int models;                          /* 1 or 2 ... */
@@ -43,12 +44,23 @@ typedef struct iso_section_walk {
     iso_start *start;
     iso_batch_orbit *batch;
     iso_section_member *member;
+    bool *wanted; /* of the model that is followed */
     iso_crossings *crossings[2];
     iso_crossing *crossing[2]; /* [slice][orbit][crossing]                              */
     iso_sample *sample;        /* likewise, of the first model; NULL: no column needs it */
     size_t *done[2];           /* [slice][orbit]                                        */
     iso_status *status[2];
 } iso_section_walk;
+
+/* Checks the options, opens the scene's own orbit and the first group. To be ended by iso_section_end, also after an
+ * error. Errors: those of iso_section_run before the header. */
+iso_status iso_section_begin(iso_section_walk *w, iso_context *ctx, const iso_scene *scene,
+                             const iso_section_options *options);
+void iso_section_end(iso_section_walk *w);
+
+/* Whether deviations can be carried from return to return: on a global section of a motion on which nothing acts but a
+ * level. */
+bool iso_section_has_returns(const iso_section_walk *w);
 
 /* Gives the header to the sink. This is done just before the first row: a scene without crossings opens no file. */
 iso_status iso_section_give_header(iso_section_walk *w);
@@ -87,21 +99,35 @@ typedef struct iso_section_request {
     iso_section_options how;
     iso_section_words words;
     const char *event; /* COLUMN=VALUE */
-    double cloud;      /* 0: not given */
+    bool area;
 } iso_section_request;
 
-/* A test of the invariant measure, and those that the study finds: by the flow in t, by the flow in s if the ball has
- * a twin, and by returns to the section. */
-typedef struct iso_cloud {
-    const char *what;
-    iso_measure measure;
-    char why[256]; /* why it was not tried; "": it was */
-} iso_cloud;
+/* --- whether the return map keeps the area dL dl (section_area.c) --------------------------------------------- */
 
-enum { ISO_CLOUDS = 3 };
-typedef struct iso_clouds {
-    int count;
-    iso_cloud cloud[ISO_CLOUDS];
-} iso_clouds;
+/* One orbit by one model. */
+typedef struct iso_section_area {
+    size_t orbit;
+    iso_model_kind model;
+    long turns;       /* that were computed                                                                       */
+    double worst;     /* |det D - 1|, where it is largest against its bound: what ...                             */
+    double bound;     /* ... errors of the integration explain there                                              */
+    const char *kept; /* "kept", "not kept" or "undecided"                                                        */
+    const char *why;  /* it ended early; NULL: it did not                                                         */
+} iso_section_area;
+
+typedef struct iso_section_areas {
+    bool returns; /* det D is told at the returns; else at equal steps of a clock, about a turn each */
+    size_t count;
+    iso_section_area *orbit;
+    char words[512]; /* of the first orbit that failed */
+} iso_section_areas;
+
+/* The orbits of the section, each by all models that are asked for. Without the section's chart (an effect beyond the
+ * level), by equal steps of a clock: det D is that of the flow between planes across it. Errors: those of
+ * iso_section_run, but effects that take energy are welcome; ISO_BAD_INPUT about an effect with states of its own, or
+ * a twist. iso_section_areas_free also after an error. */
+iso_status iso_section_areas_find(iso_context *ctx, const iso_scene *scene, const iso_section_options *options,
+                                  void (*progress)(void *data, double part), void *data, iso_section_areas *areas);
+void iso_section_areas_free(iso_section_areas *areas);
 
 #endif

@@ -1,5 +1,4 @@
-/* section_study.c - the section by its name: its options, as words first, and its tables; and the clouds that test the
- * invariant measure, in place of crossings (study/study.h). */
+/* section_study.c - the section by its name: its options, as words first, and its tables (study/study.h). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -81,20 +80,6 @@ static iso_status read_event(iso_context *ctx, const char *text, iso_section_opt
                              iso_suggest_word(suggested, name, iso_column_name));
 }
 
-/* A test writes no crossings. Refuses options that ask for them. */
-static iso_status check_cloud(iso_context *ctx, const iso_section_request *r)
-{
-    const iso_section_options *how = &r->how;
-    const char *lost = r->event                        ? "--event"
-                       : r->words.at[0]                ? "--at"
-                       : how->starts > 0               ? "--starts"
-                       : how->models != ISO_SHOW_START ? "--model"
-                       : how->shown != ISO_SHOW_START  ? "--as"
-                                                       : NULL;
-    if (r->cloud == 0 || !lost) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --cloud takes no %s: it only prints the test", lost);
-}
-
 static iso_status prepare(iso_context *ctx, void *options)
 {
     iso_section_request *r = options;
@@ -102,7 +87,11 @@ static iso_status prepare(iso_context *ctx, void *options)
     if (status == ISO_OK) status = read_event(ctx, r->event, &r->how);
     if (status == ISO_OK && r->words.axis && r->event)
         return ISO_FAIL_ARGUMENT(ctx, "", "section: --axis or --event, not both");
-    return status == ISO_OK ? check_cloud(ctx, r) : status;
+    if (status == ISO_OK && r->area && r->event)
+        return ISO_FAIL_ARGUMENT(ctx, "", "section: --area or --event, not both: an event has no chart");
+    if (status == ISO_OK && r->area && r->how.shown != ISO_SHOW_START)
+        return ISO_FAIL_ARGUMENT(ctx, "", "section: --area or --as, not both: its rows have no states");
+    return status;
 }
 
 /* --- tables ----------------------------------------------------------------------------------------------------- */
@@ -169,110 +158,46 @@ static iso_status find_crossings(iso_context *ctx, const iso_scene *scene, const
     return status;
 }
 
-/* --- clouds ----------------------------------------------------------------------------------------------------- */
+/* --- areas ------------------------------------------------------------------------------------------------------ */
 
-static const iso_measure_entry *worst_of(const void *cloud)
-{
-    const iso_measure *m = &((const iso_cloud *)cloud)->measure;
-    return m->lines > 0 ? &m->line[m->worst] : NULL;
-}
+#define FIELD(key, member, ...) ISO_MEMBER(iso_section_area, key, member, __VA_ARGS__)
 
-static bool is_tried(const void *cloud)
-{
-    return !*((const iso_cloud *)cloud)->why;
-}
-
-static bool has_worst(const void *cloud)
-{
-    return is_tried(cloud) && worst_of(cloud);
-}
-
-static void find_name(const void *cloud, int i, iso_value *v)
-{
-    (void)i;
-    v->text = worst_of(cloud)->name;
-}
-
-static double time_of(const void *cloud)
-{
-    return worst_of(cloud)->time;
-}
-
-static double deviation_of(const void *cloud)
-{
-    return worst_of(cloud)->deviation;
-}
-
-#define FIELD(key, member, ...) ISO_MEMBER(iso_cloud, key, member, __VA_ARGS__)
-#define TRIED(key, member, ...) FIELD(key, measure.member, __VA_ARGS__, .there = is_tried)
-
-const iso_field iso_cloud_fields[] = {
-    FIELD("carried", what, "", "by the flow in equal times t or s, or by returns to the section"),
-    TRIED("kept", kept, "", "whether the cloud is still distributed by the measure"),
-    TRIED("p", p, "", "probability that a measure that is kept deviates as much"),
-    TRIED("count", count, "", "states"),
-    TRIED("lost", lost, "", "orbits that do not return, among the first few thousand"),
-    ISO_FOUND("worst", ISO_FIELD_NAME, find_name, "", "the function that deviates most", .there = has_worst),
-    ISO_NUMBER("at", time_of, "", "when it does: a time of the clock, or a number of returns", .there = has_worst),
-    ISO_NUMBER("deviation", deviation_of, "", "by how many standard errors", .there = has_worst),
-    TRIED("resolution", resolution, "", "least relative error of the exponent that would be detected"),
-    FIELD("failure", why, "", "why the test was not tried"),
+const iso_field iso_section_area_fields[] = {
+    FIELD("orbit", orbit, "", "number of the orbit; 0 is the scene's own"),
+    FIELD("model", model, "", "that was integrated", .word = iso_model_kind_name),
+    FIELD("turns", turns, "", "returns, or steps of about a turn, that could be told"),
+    FIELD("worst", worst, "", "|det D - 1|, at the return where it is largest against its bound"),
+    FIELD("bound", bound, "", "what errors of the integration explain there"),
+    FIELD("area", kept, "", "kept, not kept or undecided"),
+    FIELD("failure", why, "", "why it ended early", .how = ISO_QUOTED),
     ISO_FIELD_END,
 };
 #undef FIELD
 
-static const iso_field clouds_fields[] = {ISO_LIST(iso_clouds, "clouds", cloud, count, iso_cloud_fields, "tests"),
-                                          ISO_FIELD_END};
+static const iso_field areas_fields[] = {
+    ISO_MEMBER(iso_section_areas, "returns", returns, "", "whether det D is told at returns"),
+    ISO_LIST_AT(iso_section_areas, "areas", orbit, count, iso_section_area_fields, "of the orbits"), ISO_FIELD_END};
 
-/* The tests follow each other. */
-typedef struct phase {
-    const iso_study_result *result;
-    int number;
-} phase;
-
-static void show_phase(double share, void *data)
+static void free_areas(void *found)
 {
-    const phase *p = data;
-    iso_study_progress(p->result, (p->number + share) / ISO_CLOUDS);
+    iso_section_areas_free(found);
+    free(found);
 }
 
-static iso_status carry(iso_context *ctx, const iso_scene *scene, iso_measure_options *m, int which, iso_cloud *cloud)
+static iso_status find_areas(iso_context *ctx, const iso_scene *scene, const iso_section_request *r,
+                             iso_study_result *result)
 {
-    static const char *const names[] = {"flow in t", "flow in s", "returns"};
-    const bool returns = which == 2;
-    cloud->what = names[which];
-    m->clock = which == 1 ? ISO_CLOCK_S : ISO_CLOCK_T;
-    const iso_status status = returns ? iso_measure_returns(ctx, scene, m, &cloud->measure)
-                                      : iso_measure_flow(ctx, scene, m, &cloud->measure);
-    const bool lacks = which > 0 && (status == ISO_NOT_MAPPED || (returns && status == ISO_BAD_INPUT));
-    if (lacks) snprintf(cloud->why, sizeof cloud->why, "%s", iso_context_message(ctx));
-    return lacks ? ISO_OK : status;
-}
-
-static iso_status find_clouds(iso_context *ctx, const iso_scene *scene, const iso_section_request *r,
-                              iso_study_result *result)
-{
-    iso_clouds *found = iso_study_keep(result, calloc(1, sizeof *found), clouds_fields, free);
-    phase p = {result, 0};
-    iso_measure_options m = iso_measure_defaults();
-    if (!found) return iso_context_no_memory(ctx, "clouds");
-    m.count = (size_t)r->cloud;
-    m.seed = (unsigned long)r->how.seed + 1;
-    m.axis = r->how.axis;
-    m.threads = r->how.threads;
-    if (!isnan(r->how.tolerance)) m.tolerance = r->how.tolerance;
-    m.progress = show_phase;
-    m.data = &p;
-    iso_status status = ISO_OK;
-    for (; status == ISO_OK && found->count < ISO_CLOUDS; p.number++) {
-        status = carry(ctx, scene, &m, p.number, &found->cloud[found->count]);
-        const iso_cloud *cloud = &found->cloud[found->count];
-        found->count += status == ISO_OK;
-        result->failed = result->failed || (status == ISO_OK && !*cloud->why && !cloud->measure.kept);
+    collector k = {.ctx = ctx, .result = result};
+    iso_section_areas *found = iso_study_keep(result, calloc(1, sizeof *found), areas_fields, free_areas);
+    if (!found) return iso_context_no_memory(ctx, "areas");
+    const iso_status status = iso_section_areas_find(ctx, scene, &r->how, show, &k, found);
+    if (found->count == 0) return status;
+    iso_status made =
+        iso_study_table(ctx, "section area", scene, NULL, NULL, iso_section_area_fields, &result->table[0]);
+    for (size_t i = 0; made == ISO_OK && i < found->count; i++) {
+        made = iso_columns_append(ctx, iso_section_area_fields, &found->orbit[i], result->table[0]);
+        result->failed = result->failed || strcmp(found->orbit[i].kept, "kept") != 0;
     }
-    iso_status made = iso_study_table(ctx, "section cloud", scene, NULL, NULL, iso_cloud_fields, &result->table[0]);
-    for (int i = 0; made == ISO_OK && i < found->count; i++)
-        made = iso_columns_append(ctx, iso_cloud_fields, &found->cloud[i], result->table[0]);
     return status == ISO_OK ? made : status;
 }
 
@@ -280,8 +205,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
                       iso_study_result *result)
 {
     const iso_section_request *r = options;
-    return r->cloud > 0 ? find_clouds(ctx, subject->scene, r, result)
-                        : find_crossings(ctx, subject->scene, r, result);
+    return r->area ? find_areas(ctx, subject->scene, r, result) : find_crossings(ctx, subject->scene, r, result);
 }
 
 #define ROW(name, argument, expected, doc, set, member)                                                              \
@@ -299,9 +223,8 @@ const iso_option iso_section_option[] = {
     ISO_OPTION_SEED(ISO_SEED_SPREADS, iso_section_request, how.seed),
     ROW("at", "L,X", ISO_AT_EXPECTED, "one more orbit, which starts at (l, x); for several: L,X;L,X or --at again",
         iso_set_at, words.at),
-    ROW("cloud", "N", "a whole number from 1 on",
-        "write no crossings: test with N states, 512 or more, whether the flow keeps the invariant measure",
-        iso_set_count, cloud),
+    ROW("area", NULL, NULL, "write no crossings: for each orbit, whether the return map keeps the area dL dl",
+        iso_set_flag, area),
     ISO_OPTION_MODELS("model", "M", ISO_MODELS_INTEGRATED, iso_section_request, how.models),
     ISO_OPTION_MODELS("as", "WHAT", "add the states of a model to each row: ball, point, both", iso_section_request,
                       how.shown),

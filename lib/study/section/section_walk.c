@@ -42,6 +42,7 @@ iso_status iso_section_make_room(iso_section_walk *w)
     w->start = calloc(w->group, sizeof *w->start);
     w->batch = calloc(w->group, sizeof *w->batch);
     w->member = calloc(w->group, sizeof *w->member);
+    w->wanted = calloc(w->group, sizeof *w->wanted);
     w->sample = w->count > 0 ? malloc(cells * sizeof *w->sample) : NULL;
     for (int m = 0; m < w->models; m++) {
         w->crossing[m] = malloc(cells * sizeof *w->crossing[m]);
@@ -49,7 +50,7 @@ iso_status iso_section_make_room(iso_section_walk *w)
         w->status[m] = calloc(w->group, sizeof *w->status[m]);
         room = room && w->crossing[m] && w->done[m] && w->status[m];
     }
-    if (room && w->start && w->batch && w->member && (w->sample || w->count == 0)) return ISO_OK;
+    if (room && w->start && w->batch && w->member && w->wanted && (w->sample || w->count == 0)) return ISO_OK;
     return iso_context_no_memory(w->ctx, "the crossings of %zu orbits", w->group);
 }
 
@@ -59,6 +60,7 @@ void iso_section_free_room(iso_section_walk *w)
     free(w->start);
     free(w->batch);
     free(w->member);
+    free(w->wanted);
     free(w->sample);
     for (int m = 0; m < w->models; m++) {
         free(w->crossing[m]);
@@ -97,6 +99,18 @@ static iso_start start_of(const iso_section_walk *w, size_t orbit)
     return iso_section_start(w->orbit, w->scene->start.model, o->axis, l, x);
 }
 
+/* About the time in which n or gamma turns once, in the clock of the model. */
+static double turn_of(const iso_section_walk *w, int model)
+{
+    iso_sample start;
+    const iso_units *units = iso_orbit_units(w->orbit);
+    const bool point = w->model[model] == ISO_POINT, pulled = iso_effects_pull(&w->effects);
+    if (iso_orbit_at(w->orbit, 0, &start) != ISO_OK) return NAN;
+    const double unit = point ? iso_unit(units, iso_system_point.fast_dimension) : units->w;
+    const double speed = norm(point ? start.point : start.ball);
+    return 2 * ISO_PI / (fmax(speed, pulled ? unit : 0) * (point ? 1 : fabs(w->scene->params.k)));
+}
+
 static iso_crossings_options options_of(const iso_section_walk *w, int model)
 {
     const iso_section_options *o = &w->options;
@@ -110,6 +124,11 @@ static iso_crossings_options options_of(const iso_section_walk *w, int model)
     c.shown = o->shown == ISO_SHOW_START ? (iso_models)w->model[model] : o->shown;
     c.threads = o->threads;
     c.vectors = o->vectors;
+    c.deviations = w->areas;
+    if (!w->areas || iso_section_has_returns(w)) return c;
+    c.kind = ISO_SECTION_CLOCK;
+    c.clock = w->model[model] == ISO_POINT ? ISO_CLOCK_S : ISO_CLOCK_T;
+    c.value = turn_of(w, model);
     return c;
 }
 
@@ -259,6 +278,13 @@ static iso_status give_rows(iso_section_walk *w, size_t slices)
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */
 
+/* An orbit that the first model has found to stay away from the section. The second model would wait as long, and would
+ * give nothing to compare. */
+static bool stays_away(const iso_section_walk *w, size_t cell, size_t i)
+{
+    return w->status[0][i] == ISO_BAD_INPUT && w->done[0][cell + i] == 0;
+}
+
 /* Finds the next `each` crossings of all members. iso_crossings_go stores them `each` apart; rows want them w->slice
  * apart. */
 static iso_status find_slice(iso_section_walk *w, size_t kept, size_t each)
@@ -269,7 +295,9 @@ static iso_status find_slice(iso_section_walk *w, size_t kept, size_t each)
         const size_t cell = kept * w->group;
         iso_sample *sample = m == 0 && w->sample ? w->sample + cell * w->slice : NULL;
         iso_crossing *crossing = w->crossing[m] + cell * w->slice;
-        status = iso_crossings_go(w->crossings[m], NULL, each, crossing, sample, w->done[m] + cell, w->status[m]);
+        for (size_t i = 0; i < w->members; i++) w->wanted[i] = m == 0 || !stays_away(w, cell, i);
+        status =
+            iso_crossings_go(w->crossings[m], w->wanted, each, crossing, sample, w->done[m] + cell, w->status[m]);
         for (size_t i = w->members; i-- > 0 && each < w->slice;) { /* the last slice may be shorter */
             memmove(crossing + i * w->slice, crossing + i * each, each * sizeof *crossing);
             if (sample) memmove(sample + i * w->slice, sample + i * each, each * sizeof *sample);
@@ -328,7 +356,7 @@ static iso_status create_header(const iso_section_walk *w, iso_record **header)
     if (w->chart) names[n++] = "x";
     for (int c = 0; c < w->count; c++) names[n++] = iso_column_name(w->columns[c]);
     ISO_TRY(iso_record_create(w->ctx, n, names, header));
-    return iso_record_describe(w->ctx, *header, iso_shown_name((int)w->result->models), &w->scene->params, w->orbit);
+    return iso_record_describe(w->ctx, *header, iso_models_name((int)w->result->models), &w->scene->params, w->orbit);
 }
 
 /* Numbers that are whole, as text. */

@@ -43,7 +43,7 @@ const iso_result_table *iso_result_table_at(int i)
         {"check", "a residual", iso_checked_fields, true},
         {"chaos indicators", "a turn of the scene's own orbit", iso_indicator_fields, true},
         {"compare", "a time of the scene", iso_difference_fields, true},
-        {"section cloud", "a test of the invariant measure", iso_cloud_fields, true},
+        {"section area", "an orbit by one model", iso_section_area_fields, true},
     };
     return i >= 0 && i < (int)(sizeof tables / sizeof *tables) ? &tables[i] : NULL;
 }

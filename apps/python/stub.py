@@ -1,12 +1,14 @@
-"""Writes _instruments.pyi, which shows editors what _instruments.py makes: python3 -m isoroll._stub"""
+"""python3 stub.py FILE: writes _instruments.pyi, which shows editors what _instruments.py makes of the library.
 
-from __future__ import annotations
+The build calls it. ISOROLL_LIBRARY names the library. It needs NumPy, as the package does.
+"""
 
-import os
+import sys
+from pathlib import Path
 
-from . import _instruments
+from isoroll import _instruments
 
-_HEAD = '''"""Made by `python3 -m isoroll._stub` from the library's tables; tests/python compares it."""
+HEAD = '''"""Made by stub.py from the library's tables."""
 
 from typing import Any, Callable, Dict, Literal, Mapping, Optional, Sequence, Tuple, Union
 
@@ -26,7 +28,7 @@ def python_name(option: str) -> str: ...
 
 def text() -> str:
     """The stub."""
-    parts = [_HEAD]
+    parts = [HEAD]
     for name, function in _instruments.INSTRUMENTS.items():
         arguments = []
         signature = function.__signature__  # type: ignore[attr-defined]
@@ -44,5 +46,4 @@ def text() -> str:
 
 
 if __name__ == "__main__":
-    with open(os.path.join(os.path.dirname(__file__), "_instruments.pyi"), "w", encoding="utf-8") as file:
-        file.write(text())
+    Path(sys.argv[1]).write_text(text(), encoding="utf-8")

@@ -1,0 +1,69 @@
+/* sweep_hash.c - the hash of a sweep: of its texts, and of all else that its rows depend on. A result that is read is
+ * hashed again: texts that were changed later are found out. */
+#include <string.h>
+
+#include "base/low_discrepancy_impl.h"
+#include "sweep/sweep_impl.h"
+
+/* Each byte goes through splitmix64, once for each half. */
+void iso_sweep_hash(uint64_t hash[2], const void *bytes, size_t length)
+{
+    const unsigned char *byte = bytes;
+    for (size_t i = 0; i < length; i++) {
+        hash[0] = iso_scatter(hash[0] ^ byte[i]);
+        hash[1] = iso_scatter(hash[1] + hash[0]);
+    }
+}
+
+/* A text by its lines, each with an end "\n": CSV keeps no others. */
+static void hash_text(uint64_t hash[2], const char *text)
+{
+    while (*text) {
+        const size_t length = strcspn(text, "\r\n");
+        iso_sweep_hash(hash, text, length);
+        iso_sweep_hash(hash, "\n", 1);
+        text += length;
+        text += text[0] == '\r' && text[1] == '\n' ? 2 : *text != '\0';
+    }
+}
+
+void iso_sweep_hash_texts(uint64_t hash[2], const char *version, const char *text, const char *scene)
+{
+    iso_sweep_hash(hash, version, strlen(version) + 1);
+    hash_text(hash, text);
+    iso_sweep_hash(hash, "", 1);
+    if (scene) hash_text(hash, scene);
+}
+
+/* A number as the bytes of a machine's memory. */
+static void hash_size(uint64_t hash[2], uint64_t size, bool swapped)
+{
+    unsigned char bytes[sizeof size], turned[sizeof size];
+    memcpy(bytes, &size, sizeof size);
+    for (size_t i = 0; i < sizeof size; i++) turned[i] = bytes[sizeof size - 1 - i];
+    iso_sweep_hash(hash, swapped ? turned : bytes, sizeof size);
+}
+
+void iso_sweep_hash_head(uint64_t hash[2], const iso_sweep_head *h, bool alone, bool swapped)
+{
+    hash_size(hash, h->count, swapped);
+    hash_size(hash, h->chunk, swapped);
+    iso_sweep_hash(hash, h->vectors, strlen(h->vectors));
+    iso_sweep_hash(hash, &(unsigned char){alone}, 1);
+    for (int i = 0; i < h->columns; i++) {
+        iso_sweep_hash(hash, h->column[i].group, strlen(h->column[i].group));
+        iso_sweep_hash(hash, h->column[i].name, strlen(h->column[i].name));
+    }
+}
+
+bool iso_sweep_head_fits(const iso_sweep_head *h, const char *version)
+{
+    uint64_t texts[2] = {0, 0};
+    iso_sweep_hash_texts(texts, version, h->text, h->scene);
+    for (int machine = 0; machine < 4; machine++) {
+        uint64_t hash[2] = {texts[0], texts[1]};
+        iso_sweep_hash_head(hash, h, machine & 1, machine & 2);
+        if (memcmp(hash, h->hash, sizeof hash) == 0) return true;
+    }
+    return false;
+}
