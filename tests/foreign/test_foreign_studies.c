@@ -20,7 +20,7 @@ static iso_record *table[ISO_STUDY_TABLES];
 static iso_foreign_scene *made(const char *text)
 {
     iso_foreign_scene *scene;
-    if (iso_foreign_scene_parse(ctx, "scene", text, strlen(text), &scene) != ISO_OK) scene_stops(text, ctx);
+    laws_stop_if(ctx, iso_foreign_scene_parse(ctx, "scene", text, strlen(text), &scene) != ISO_OK, text);
     return scene;
 }
 

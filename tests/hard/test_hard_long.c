@@ -22,7 +22,7 @@ static long_scene scene_of(double k)
 {
     long_scene scene = {.p = laws_params(k, (double[]){1.4, 2.1, 3.0})};
     const double omega[3] = {0.9, -0.3, -0.225}, normal[3] = {0.36, 0.48, 0.8};
-    if (iso_start_ball(ctx, omega, normal, ISO_SPIN_REFUSE, &scene.start) != ISO_OK) scene_stops("a start", ctx);
+    laws_stop_if(ctx, iso_start_ball(ctx, omega, normal, ISO_SPIN_REFUSE, &scene.start) != ISO_OK, "a start");
     scene.spin = 1 / norm(scene.start.y);
     return scene;
 }
@@ -162,7 +162,7 @@ static void no_integral(void)
               "a drift of what holds must be seen, and what does not hold must drift");
     iso_orbit *orbit;
     iso_sample first, s;
-    if (long_create(ctx, &scene, &way, &orbit) != ISO_OK) scene_stops("taylor", ctx);
+    laws_stop_if(ctx, long_create(ctx, &scene, &way, &orbit) != ISO_OK, "taylor");
     first = scene_at(ctx, orbit, 0);
     const char *const names[] = {"h", "F_plane", "F_shell"};
     for (int j = 0; j < 3; j++) {
@@ -192,7 +192,7 @@ static double sensitivity(const long_scene *scene, double spins, double state[IS
         iso_orbit *orbit;
         double *const omega = near.start.y;
         if (i >= 0) omega[i] += off * norm(omega), remove_along(omega, omega + 3);
-        if (long_create(ctx, &near, &by_exact, &orbit) != ISO_OK) scene_stops("exact", ctx);
+        laws_stop_if(ctx, long_create(ctx, &near, &by_exact, &orbit) != ISO_OK, "exact");
         const iso_sample s = scene_at(ctx, orbit, spins * scene->spin);
         if (i < 0) copy(s.ball, state, ISO_STATE);
         if (i >= 0) worst = fmax(worst, hard_error(s.ball, state) / off);
@@ -212,12 +212,14 @@ static double plainly_projected(const long_scene *scene, double spins, const dou
     iso_integrator *it;
     copy(scene->start.y, y, ISO_STATE);
     model.problem.energy = dot_diag(y, J, y) / 2;
-    if (iso_integrator_create(ctx, iso_method_find("taylor"), &model,
-                              &(iso_method_options){.tolerance = 1e-15, .no_projection = true}, &it) != ISO_OK)
-        scene_stops("taylor", ctx);
+    laws_stop_if(ctx,
+                 iso_integrator_create(ctx, iso_method_find("taylor"), &model,
+                                       &(iso_method_options){.tolerance = 1e-15, .no_projection = true},
+                                       &it) != ISO_OK,
+                 "taylor");
     for (long i = 0; i < lrint(spins * PARTS); i++) {
         iso_integrator_start(it, y);
-        if (iso_integrator_at(it, scene->spin / PARTS, y) != ISO_OK) scene_stops("taylor", ctx);
+        laws_stop_if(ctx, iso_integrator_at(it, scene->spin / PARTS, y) != ISO_OK, "taylor");
         make_unit(y + 3);
         remove_along(y, y + 3);
         scale(y, sqrt(2 * model.problem.energy / dot_diag(y, J, y)));
@@ -240,7 +242,7 @@ static void finest_phase(double k)
         if (!way.method || strcmp(way.method->name, "taylor") != 0) continue;
         iso_orbit *orbit;
         way.tolerance = 1e-15;
-        if (long_create(ctx, &scene, &way, &orbit) != ISO_OK) scene_stops("taylor", ctx);
+        laws_stop_if(ctx, long_create(ctx, &scene, &way, &orbit) != ISO_OK, "taylor");
         const iso_sample s = scene_at(ctx, orbit, SPINS * scene.spin);
         hard_hold(&hard_way[i], hard_error(s.ball, right), rounded);
         iso_orbit_free(orbit);
@@ -267,8 +269,10 @@ static iso_integrator *started(const iso_method *method, const iso_model *model,
                                const double y[ISO_STATE])
 {
     iso_integrator *it;
-    if (iso_integrator_create(ctx, method, model, options, &it) != ISO_OK || iso_integrator_start(it, y) != ISO_OK)
-        scene_stops(method->name, ctx);
+    laws_stop_if(ctx,
+                 iso_integrator_create(ctx, method, model, options, &it) != ISO_OK ||
+                     iso_integrator_start(it, y) != ISO_OK,
+                 method->name);
     return it;
 }
 

@@ -36,9 +36,11 @@ static long_scene scene_of(const forced *f)
     iso_effects *const e = &scene.effects;
     const bool twists = !isnan(f->twist);
     const double omega[3] = {0.9, -0.3, twists ? -0.125 : -0.225}, normal[3] = {0.36, 0.48, 0.8};
-    if (iso_params_set_D(ctx, 0.4, &scene.p) != ISO_OK ||
-        iso_start_ball(ctx, omega, normal, twists ? ISO_SPIN_KEEP : ISO_SPIN_REFUSE, &scene.start) != ISO_OK)
-        scene_stops(f->name, ctx);
+    laws_stop_if(ctx,
+                 iso_params_set_D(ctx, 0.4, &scene.p) != ISO_OK ||
+                     iso_start_ball(ctx, omega, normal, twists ? ISO_SPIN_KEEP : ISO_SPIN_REFUSE, &scene.start) !=
+                         ISO_OK,
+                 f->name);
     if (f->gravity != 0) {
         e->on[ISO_GRAVITY] = true;
         GRAVITY_MGB(e) = f->gravity;
@@ -121,7 +123,7 @@ enum { SHORT = 30 };
 static iso_sample state_by(const long_scene *scene, const hard_road *way, double spins, long *steps)
 {
     iso_orbit *orbit;
-    if (long_create(ctx, scene, way, &orbit) != ISO_OK) scene_stops("an orbit is refused", ctx);
+    laws_stop_if(ctx, long_create(ctx, scene, way, &orbit) != ISO_OK, "an orbit is refused");
     const iso_sample s = scene_at(ctx, orbit, spins * scene->spin);
     if (steps) *steps = iso_orbit_statistics(orbit).steps;
     iso_orbit_free(orbit);
@@ -179,7 +181,7 @@ static void hold_fall(const forced *f, const long_scene *scene)
         iso_orbit *orbit;
         double worst = 0, size, unused;
         if (runs[i].refused) continue;
-        if (long_create(ctx, scene, way, &orbit) != ISO_OK) scene_stops("friction", ctx);
+        laws_stop_if(ctx, long_create(ctx, scene, way, &orbit) != ISO_OK, "friction");
         double before = energy_at(orbit, 0, &size);
         const double begun = before;
         for (int j = 1; j <= 100; j++) {

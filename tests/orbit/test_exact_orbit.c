@@ -136,8 +136,8 @@ static double third_of_n(const iso_sample *sample, const void *data)
 static bool next_event(iso_orbit *orbit, int direction, double from, double to, iso_sample *sample)
 {
     bool found;
-    if (iso_orbit_event(orbit, third_of_n, NULL, direction, from, to, &found, sample) != ISO_OK)
-        scene_stops("an event", ctx);
+    laws_stop_if(ctx, iso_orbit_event(orbit, third_of_n, NULL, direction, from, to, &found, sample) != ISO_OK,
+                 "an event");
     return found;
 }
 

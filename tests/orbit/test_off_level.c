@@ -20,7 +20,7 @@ static iso_context *ctx;
 static iso_start point_start(const double M[3], const double gamma[3], const double *eps)
 {
     iso_start start;
-    if (iso_start_point(ctx, M, gamma, eps, true, &start) != ISO_OK) scene_stops("a point's start", ctx);
+    laws_stop_if(ctx, iso_start_point(ctx, M, gamma, eps, true, &start) != ISO_OK, "a point's start");
     return start;
 }
 
@@ -236,7 +236,7 @@ static void check_swing(void)
     const iso_start start = point_start(M, gamma, &eps);
     const iso_orbit_options o = iso_orbit_defaults(&start);
     iso_orbit *orbit;
-    if (iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_OK) scene_stops("a swinging point", ctx);
+    laws_stop_if(ctx, iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_OK, "a swinging point");
     double worst = 0, size, least = INFINITY, most = 0;
     const iso_sample begin = scene_at(ctx, orbit, 0);
     for (int i = 1; i <= 100; i++) {

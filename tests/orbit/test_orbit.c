@@ -142,9 +142,10 @@ static void check_point_start(const iso_params *p, const iso_start *ball)
     for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++)
         for (int i = 0; i < 2; i++) {
             iso_start start;
-            if (iso_start_point(ctx, begin.point, begin.point + 3, isnan(eps[i]) ? NULL : &eps[i], false, &start) !=
-                ISO_OK)
-                scene_stops("a point's start", ctx);
+            laws_stop_if(ctx,
+                         iso_start_point(ctx, begin.point, begin.point + 3, isnan(eps[i]) ? NULL : &eps[i], false,
+                                         &start) != ISO_OK,
+                         "a point's start");
             orbit = scene_whole(ctx, p, &start, b, ISO_CLOCK_S);
             const iso_sample s = scene_at(ctx, orbit, truth.clock[ISO_CLOCK_S]);
             laws_note(&from_point, state_difference(&s, &truth), 10 * allowed(p), p, "state");
@@ -189,7 +190,7 @@ static void check_rest(void)
     iso_orbit_options o = iso_orbit_defaults(&start);
     iso_orbit *orbit;
     o.with_clock[ISO_CLOCK_S] = o.with_clock[ISO_CLOCK_TAU] = true;
-    if (iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_OK) scene_stops("a ball at rest", ctx);
+    laws_stop_if(ctx, iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_OK, "a ball at rest");
     const iso_sample s = scene_at(ctx, orbit, 100);
     const double q = 1 / dot_diag(start.y + 3, p.inv_J, start.y + 3);
     gsl_test(laws_norm(s.ball) != 0 || laws_distance(s.ball + 3, start.y + 3) > 1e-15, "at rest nothing moves");

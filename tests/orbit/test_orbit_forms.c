@@ -136,7 +136,7 @@ static void check_events(double k, double w, iso_clock clock, int direction, law
         for (int b = 0; b < 2; b++) {
             bool found = false;
             const iso_status status = iso_orbit_event(orbit[b], n3, NULL, direction, from[b], end, &found, &s[b]);
-            if (status != ISO_OK || !found) scene_stops("an event is not found", ctx);
+            laws_stop_if(ctx, status != ISO_OK || !found, "an event is not found");
             const iso_sample there = scene_at(ctx, orbit[b], s[b].clock[clock]);
             laws_note(worst, fabs(s[b].ball[5]), 1e-13, &p, "n3");
             laws_note(worst, laws_distance(there.ball + 3, s[b].ball + 3), 1e-12, &p, "at");
@@ -225,7 +225,7 @@ static void check_failure(iso_backend backend)
     const char *said = strstr(iso_context_message(ctx), "last good t = ");
     const double said_t = said ? strtod(said + strlen("last good t = "), NULL) : NAN;
     const double t = nextafter(iso_orbit_reached(orbit), 0); /* the moment itself, in own time, may round up */
-    if (iso_orbit_at(orbit, t, &s) != ISO_OK) scene_stops("the last good moment", ctx);
+    laws_stop_if(ctx, iso_orbit_at(orbit, t, &s) != ISO_OK, "the last good moment");
     gsl_test(!(t > 1 && t < 1000) || said_t != iso_orbit_reached(orbit), "the last good time is %g", t);
     const iso_sample truth = scene_at(ctx, whole, t), before = scene_at(ctx, orbit, 0.999 * t),
                      truth_before = scene_at(ctx, whole, 0.999 * t);

@@ -140,7 +140,7 @@ static void note_textbook(iso_surface surface, double A, double B, double kappa,
     const double gR = g * fabs(ball.a + ball.b);
     bool found;
     iso_sample s;
-    if (iso_orbit_lost_contact(orbit, 0, way * 50, &found, &s) != ISO_OK) scene_stops("a loss of contact", ctx);
+    laws_stop_if(ctx, iso_orbit_lost_contact(orbit, 0, way * 50, &found, &s) != ISO_OK, "a loss of contact");
     const double cosine = side * dot(normal_of(&s), sample_of(&s, "e"));
     const double expected = textbook_cosine(kappa, v0 * v0 / gR, cos(theta0));
     laws_note(&textbook, found ? fabs(cosine - expected) : NAN, 1e-9, &ball.p, ball.name);

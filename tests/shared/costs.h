@@ -13,7 +13,7 @@ static inline iso_scene cost_scene(iso_context *ctx, double k, const double J[3]
     iso_scene s = iso_scene_default();
     s.params = laws_params(k, J);
     s.end = end;
-    if (iso_start_ball(ctx, omega, normal, ISO_SPIN_REFUSE, &s.start) != ISO_OK) scene_stops("a start", ctx);
+    laws_stop_if(ctx, iso_start_ball(ctx, omega, normal, ISO_SPIN_REFUSE, &s.start) != ISO_OK, "a start");
     return s;
 }
 
@@ -29,7 +29,7 @@ static inline iso_cost *cost_of(iso_context *ctx, const iso_scene *scene, const 
     iso_cost_options longer = *o;
     iso_cost *c;
     while (iso_cost_measure(ctx, scene, &longer, &c) != ISO_OK) {
-        if (!strstr(iso_context_message(ctx), "too long") || longer.seconds > 100) scene_stops("a measurement", ctx);
+        laws_stop_if(ctx, !strstr(iso_context_message(ctx), "too long") || longer.seconds > 100, "a measurement");
         longer.seconds *= 4;
     }
     return c;

@@ -26,7 +26,7 @@
 static inline iso_scene parse(const char *text)
 {
     iso_scene scene;
-    if (iso_scene_parse(ctx, "scene", text, strlen(text), &scene) != ISO_OK) scene_stops(text, ctx);
+    laws_stop_if(ctx, iso_scene_parse(ctx, "scene", text, strlen(text), &scene) != ISO_OK, text);
     return scene;
 }
 
@@ -57,7 +57,7 @@ static inline iso_status keep_header(void *data, const iso_record *header)
 static inline iso_status keep_row(void *data, const double row[], size_t count)
 {
     kept *k = data;
-    if (k->rows == MOST || count != k->columns) scene_stops("a row of another kind", ctx);
+    laws_stop_if(ctx, k->rows == MOST || count != k->columns, "a row of another kind");
     if (k->rows + 1 == k->stop_at) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "no more rows, please");
     memcpy(k->row[k->rows++], row, count * sizeof *row);
     return ISO_OK;
@@ -85,7 +85,7 @@ static inline kept *run_like(const kept *like, const iso_scene *scene, const dou
                              bool errors)
 {
     kept *k = malloc(sizeof *k);
-    if (!k) scene_stops("no memory", ctx);
+    laws_stop_if(ctx, !k, "no memory");
     *k = *like;
     const iso_run_sink sink = {keep_header, keep_row, keep_note, keep_progress, k, NULL};
     const iso_run_options o = {.times = times, .count = count, .errors = errors};
@@ -110,8 +110,10 @@ static inline int different(const iso_scene *scene, const kept *k, size_t at, do
     const int count = iso_scene_columns(scene, columns);
     iso_orbit *orbit;
     iso_sample sample;
-    if (iso_scene_orbit(ctx, scene, columns, count, &orbit) != ISO_OK || iso_orbit_at(orbit, time, &sample) != ISO_OK)
-        scene_stops("an orbit", ctx);
+    laws_stop_if(ctx,
+                 iso_scene_orbit(ctx, scene, columns, count, &orbit) != ISO_OK ||
+                     iso_orbit_at(orbit, time, &sample) != ISO_OK,
+                 "an orbit");
     for (int c = 0; c < count; c++) wrong += !(k->row[at][c] == iso_sample_column(&sample, columns[c]));
     iso_orbit_free(orbit);
     return wrong + ((size_t)count != k->columns);

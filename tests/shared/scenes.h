@@ -29,12 +29,6 @@ typedef struct rolling {
     double side;    /* of the contact as seen from the support: 1, and -1 where it is inside the ball   */
 } rolling;
 
-static inline void scene_stops(const char *what, const iso_context *ctx)
-{
-    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
-    exit(gsl_test_summary());
-}
-
 static inline rolling rolling_body(iso_context *ctx, const iso_body *body)
 {
     rolling ball = {.m = body->mass, .side = body->surface == ISO_SHELL ? -1 : 1};
@@ -44,7 +38,7 @@ static inline rolling rolling_body(iso_context *ctx, const iso_body *body)
     ball.b = outside ? B : -B;
     copy(body->inertia, ball.I, 3);
     snprintf(ball.name, sizeof ball.name, "%s", iso_surface_name((int)body->surface));
-    if (iso_params_physical(ctx, body, &ball.p) != ISO_OK) scene_stops("a ball is refused", ctx);
+    laws_stop_if(ctx, iso_params_physical(ctx, body, &ball.p) != ISO_OK, "a ball is refused");
     return ball;
 }
 
@@ -56,7 +50,7 @@ static inline rolling rolling_reduced(iso_context *ctx, double k)
     ball.a = k == 1 ? INFINITY : ball.b * k / (1 - k);
     for (int i = 0; i < 3; i++) ball.I[i] = J[i] - D;
     snprintf(ball.name, sizeof ball.name, "k = %g", k);
-    if (iso_params_set_D(ctx, D, &ball.p) != ISO_OK) scene_stops("a ball is refused", ctx);
+    laws_stop_if(ctx, iso_params_set_D(ctx, D, &ball.p) != ISO_OK, "a ball is refused");
     return ball;
 }
 
@@ -127,8 +121,9 @@ static inline iso_orbit *scene_orbit(iso_context *ctx, const rolling *ball, cons
     iso_orbit *orbit;
     iso_orbit_options o = options ? *options : iso_orbit_defaults(start);
     o.effects = effects;
-    if (!options) o.tolerance = 1e-14;
-    if (iso_orbit_create(ctx, &ball->p, start, &o, &orbit) != ISO_OK) scene_stops(ball->name, ctx);
+    laws_stop_if(ctx, !options) o.tolerance = 1e-14;
+    if (iso_orbit_create(ctx, &ball->p, start, &o, &orbit) != ISO_OK, ball->name)
+        ;
     return orbit;
 }
 
@@ -148,7 +143,7 @@ static inline iso_orbit *scene_by(iso_context *ctx, const iso_params *p, const i
                                   const iso_orbit_options *o)
 {
     iso_orbit *orbit;
-    if (iso_orbit_create(ctx, p, start, o, &orbit) != ISO_OK) scene_stops("an orbit is refused", ctx);
+    laws_stop_if(ctx, iso_orbit_create(ctx, p, start, o, &orbit) != ISO_OK, "an orbit is refused");
     return orbit;
 }
 
@@ -162,7 +157,7 @@ static inline iso_orbit *scene_whole(iso_context *ctx, const iso_params *p, cons
 static inline iso_sample scene_at(iso_context *ctx, iso_orbit *orbit, double time)
 {
     iso_sample s;
-    if (iso_orbit_at(orbit, time, &s) != ISO_OK) scene_stops("an orbit stops", ctx);
+    laws_stop_if(ctx, iso_orbit_at(orbit, time, &s) != ISO_OK, "an orbit stops");
     return s;
 }
 

@@ -214,7 +214,7 @@ int main(void)
 {
     ctx = iso_context_create();
     iso_random *random = iso_random_create(29);
-    if (!random) scene_stops("no memory", ctx);
+    laws_stop_if(ctx, !random, "no memory");
     for (int which = 0; which < ROLLINGS; which++) {
         const rolling ball = rolling_ball(ctx, which);
         for (int acting = 0; acting <= ISO_EFFECTS; acting++) hold_effect(&ball, which, acting, random);

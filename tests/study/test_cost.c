@@ -32,8 +32,9 @@ static double true_error(const reference *r, const iso_cost_cell *cell)
     o.backend = cell->backend;
     o.method = cell->method;
     o.tolerance = cell->tolerance;
-    if (iso_orbit_create(ctx, &r->p, &r->start, &o, &orbit) != ISO_OK || iso_orbit_at(orbit, r->t, &s) != ISO_OK)
-        scene_stops("an orbit", ctx);
+    laws_stop_if(
+        ctx, iso_orbit_create(ctx, &r->p, &r->start, &o, &orbit) != ISO_OK || iso_orbit_at(orbit, r->t, &s) != ISO_OK,
+        "an orbit");
     iso_orbit_free(orbit);
     return fmax(relative_difference(r->ball, s.ball), relative_difference(r->ball + 3, s.ball + 3));
 }
@@ -108,9 +109,10 @@ static void check_broken(void)
     o.method = &broken;
     iso_cost *bad = cost_of(ctx, &s, &o);
     gsl_test(!(fabs(good->series[0].order - 8) < 1.5), "rk8pd has order %.2f", good->series[0].order);
-    gsl_test(!(bad->series[0].order > 0 && bad->series[0].order < 2), "broken, it has order %.2f", bad->series[0].order);
-    gsl_test(!(bad->series[0].least > 1e-6 && good->series[0].least < 1e-12), "broken, it reaches %.1e, otherwise %.1e",
-             bad->series[0].least, good->series[0].least);
+    gsl_test(!(bad->series[0].order > 0 && bad->series[0].order < 2), "broken, it has order %.2f",
+             bad->series[0].order);
+    gsl_test(!(bad->series[0].least > 1e-6 && good->series[0].least < 1e-12),
+             "broken, it reaches %.1e, otherwise %.1e", bad->series[0].least, good->series[0].least);
     iso_cost_free(good);
     iso_cost_free(bad);
 }
@@ -148,7 +150,8 @@ static void check_cells(const iso_cost *c, const char *scene)
         strange += x->backend != ISO_BACKEND_EXACT && x->statistics.steps == 0;
     }
     gsl_test(strange > 0 || measured == 0, "%s: %d cells make sense, %d do not", scene, measured, strange);
-    gsl_test(!c->complete || !(c->turns > 0) || c->series_count == 0, "%s: %d lines, %.1f turns", scene, c->series_count, c->turns);
+    gsl_test(!c->complete || !(c->turns > 0) || c->series_count == 0, "%s: %d lines, %.1f turns", scene,
+             c->series_count, c->turns);
 }
 
 /* As exact as can be told, and faster by more than 5 %. */
@@ -226,7 +229,8 @@ static void check_scene(const iso_scene *s, const char *name, bool point, bool e
     for (int i = 0; i < c->series_count; i++) {
         has_point = has_point || c->series[i].backend == ISO_BACKEND_POINT;
         has_exact = has_exact || c->series[i].backend == ISO_BACKEND_EXACT;
-        gsl_test(c->series[i].method && c->series[i].method->reference, "%s: no slow reference among the lines", name);
+        gsl_test(c->series[i].method && c->series[i].method->reference, "%s: no slow reference among the lines",
+                 name);
     }
     gsl_test(has_point != point || has_exact != exact, "%s: the backends that it has", name);
     gsl_test(!(c->uncertainty < uncertainty), "%s: known to %.1e by %s and %s", name, c->uncertainty, c->reference,
@@ -247,11 +251,11 @@ static void check_scenes(void)
     GRAVITY_UP(&s.effects)[2] = 1;
     check_scene(&s, "gravity, backwards", false, false, 1e-11);
     s = cost_scene(ctx, 0.7, J, 5);
-    if (iso_params_set_D(ctx, 0.4, &s.params) != ISO_OK) scene_stops("D", ctx);
+    laws_stop_if(ctx, iso_params_set_D(ctx, 0.4, &s.params) != ISO_OK, "D");
     add_twist(300, &s.effects);
     check_scene(&s, "stiff twist", false, false, 1e-6);
     s = cost_scene(ctx, -1, J, 20);
-    if (iso_start_point(ctx, M, gamma, &eps, false, &s.start) != ISO_OK) scene_stops("a point", ctx);
+    laws_stop_if(ctx, iso_start_point(ctx, M, gamma, &eps, false, &s.start) != ISO_OK, "a point");
     check_scene(&s, "a point", true, true, 1e-13);
 }
 

@@ -27,11 +27,12 @@ static trial *try(const iso_params *p, const iso_start *start, const iso_orbit_o
 {
     trial *r = calloc(1, sizeof *r);
     iso_error_finder *finder;
-    if (!r || iso_orbit_create(ctx, p, start, o, &r->orbit) != ISO_OK) scene_stops("an orbit", ctx);
+    laws_stop_if(ctx, !r || iso_orbit_create(ctx, p, start, o, &r->orbit) != ISO_OK, "an orbit");
     r->found = iso_error_finder_create(ctx, p, start, o, r->orbit, &finder);
     for (size_t i = 0; i < rows; i++) {
-        if (iso_orbit_at(r->orbit, i + 1 == rows ? t : t * (double)i / (double)(rows - 1), &r->last) != ISO_OK)
-            scene_stops("an orbit stops", ctx);
+        laws_stop_if(
+            ctx, iso_orbit_at(r->orbit, i + 1 == rows ? t : t * (double)i / (double)(rows - 1), &r->last) != ISO_OK,
+            "an orbit stops");
         if (r->found == ISO_OK) r->found = iso_error_finder_add(finder, &r->last);
     }
     if (r->found == ISO_OK) r->error = iso_error_finder_read(finder);
@@ -98,7 +99,7 @@ static void check_stiff(double c)
     const iso_start start = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
     iso_effects effects = {.on[ISO_TWIST] = true, .number[ISO_TWIST] = {c}};
     iso_orbit_options o = iso_orbit_defaults(&start);
-    if (iso_params_set_D(ctx, 0.4, &p) != ISO_OK) scene_stops("D", ctx);
+    laws_stop_if(ctx, iso_params_set_D(ctx, 0.4, &p) != ISO_OK, "D");
     o.effects = &effects;
     for (double tolerance = 1e-6; tolerance > 1e-12; tolerance *= 1e-2) {
         laws_worst covered = {0}, tight = {0};
@@ -134,7 +135,7 @@ static void random_scene(iso_random *random, iso_params *p, iso_effects *effects
         omega[i] = iso_random_normal(random);
     }
     iso_random_direction(random, n);
-    if (iso_start_ball(ctx, omega, n, ISO_SPIN_REMOVE, start) != ISO_OK) scene_stops("a start", ctx);
+    laws_stop_if(ctx, iso_start_ball(ctx, omega, n, ISO_SPIN_REMOVE, start) != ISO_OK, "a start");
 }
 
 /* The largest true error of the rows of r; the truth is by the finest method there is. */
@@ -147,11 +148,11 @@ static double true_error(const trial *r, const iso_params *p, const iso_start *s
     double worst = 0;
     o.method = iso_method_find(iso_method_find("taylor_quad") ? "taylor_quad" : "taylor_extended");
     o.tolerance = 1e-15;
-    if (iso_orbit_create(ctx, p, start, &o, &truth) != ISO_OK) scene_stops("the truth", ctx);
+    laws_stop_if(ctx, iso_orbit_create(ctx, p, start, &o, &truth) != ISO_OK, "the truth");
     for (size_t i = 0; i < rows; i++) {
         const double time = i + 1 == rows ? t : t * (double)i / (double)(rows - 1);
-        if (iso_orbit_at(r->orbit, time, &a) != ISO_OK || iso_orbit_at(truth, time, &b) != ISO_OK)
-            scene_stops("the truth stops", ctx);
+        laws_stop_if(ctx, iso_orbit_at(r->orbit, time, &a) != ISO_OK || iso_orbit_at(truth, time, &b) != ISO_OK,
+                     "the truth stops");
         worst = fmax(worst, distance(a.ball, b.ball));
     }
     iso_orbit_free(truth);
@@ -165,7 +166,7 @@ static void check_every_row(int scenes)
     const double t = 20;
     iso_random *random = iso_random_create(15);
     laws_worst covered = {0}, tight = {0};
-    if (!random) scene_stops("no memory", ctx);
+    laws_stop_if(ctx, !random, "no memory");
     for (int i = 0; i < scenes; i++) {
         iso_params p;
         iso_effects effects;

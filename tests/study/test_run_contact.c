@@ -7,7 +7,7 @@ static int place_of(const iso_scene *scene, const char *name)
     const int count = iso_scene_columns(scene, columns);
     for (int c = 0; c < count; c++)
         if (strcmp(iso_column_name(columns[c]), name) == 0) return c;
-    scene_stops("a column is missing", ctx);
+    laws_stop_if(ctx, true, "a column is missing");
     return -1;
 }
 
