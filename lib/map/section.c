@@ -236,6 +236,7 @@ void iso_section_spread_prepare(iso_section_spread *s, iso_point_motion m, int a
     iso_quarter_tabulate(density, s, part);
     s->shift[0] = iso_scatter(seed);
     s->shift[1] = iso_scatter(s->shift[0]);
+    s->copies = 0;
 }
 
 /* 2^64/r and 2^64/r^2, r^3 = r + 1, to the nearest integer */
@@ -244,11 +245,17 @@ static const uint64_t r2[2] = {0xc13fa9a902a6328f, 0x91e10da5c79e7b1d};
 void iso_section_spread_point(const iso_section_spread *s, uint64_t i, double *l, double *x)
 {
     const iso_quarter quarter = {density, s, {s->part, s->part}, 0};
-    *l = iso_quarter_angle(&quarter, iso_recurrence(s->shift[0], r2[0], i));
+    uint64_t shift[2] = {s->shift[0], s->shift[1]};
+    if (s->copies > 0) {
+        shift[0] = iso_scatter(s->shift[0] + i % s->copies);
+        shift[1] = iso_scatter(shift[0]);
+        i /= s->copies;
+    }
+    *l = iso_quarter_angle(&quarter, iso_recurrence(shift[0], r2[0], i));
     if (s->reach < 1) {
         const double sine = sqrt(s->reach) * sin(*l);
         *l = atan2(sine, copysign(sqrt((1 - sine) * (1 + sine)), cos(*l)));
     }
     if (s->middle != 0) *l = remainder(*l + s->middle, 2 * ISO_PI);
-    *x = 2 * iso_recurrence(s->shift[1], r2[1], i) - 1;
+    *x = 2 * iso_recurrence(shift[1], r2[1], i) - 1;
 }

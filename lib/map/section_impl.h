@@ -64,6 +64,9 @@ typedef struct iso_section_spread {
     double middle;                     /* l of the middle: 0 or pi/2                         */
     double part[ISO_SPREAD_STEPS + 1]; /* of the integral of G over half of an arc           */
     uint64_t shift[2];                 /* in units of 2^-64                                  */
+    /* Above 0: point i is the next point of copy i modulo `copies`, which has a random shift of its own. The caller sets
+     * it after iso_section_spread_prepare. */
+    unsigned copies;
 } iso_section_spread;
 void iso_section_spread_prepare(iso_section_spread *spread, iso_point_motion m, int axis, uint64_t seed);
 void iso_section_spread_point(const iso_section_spread *spread, uint64_t i, double *l, double *x);

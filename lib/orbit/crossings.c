@@ -37,7 +37,7 @@ static iso_status check_section(iso_context *ctx, const iso_crossings_options *o
     return ISO_OK;
 }
 
-static iso_status check(iso_context *ctx, const iso_crossings_options *o)
+iso_status iso_crossings_check(iso_context *ctx, const iso_crossings_options *o)
 {
     if (o->backend == ISO_BACKEND_EXACT)
         return ISO_FAIL_ARGUMENT(ctx, "backend", "crossings are found by integration: take backend ball or point");
@@ -56,7 +56,7 @@ iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[]
     iso_crossings_options own = iso_crossings_defaults();
     *crossings = NULL;
     ISO_TRY(iso_options_take(ctx, "iso_crossings_options", &own, sizeof own, options));
-    ISO_TRY(check(ctx, &own));
+    ISO_TRY(iso_crossings_check(ctx, &own));
     iso_crossings *c = calloc(1, sizeof *c);
     iso_crossed *each = calloc(count + 1, sizeof *each);
     if (!c || !each) {
@@ -90,8 +90,8 @@ static void blank(const iso_crossings *c, const iso_crossings_task *t)
         t->done[i] = 0;
         t->status[i] = c->orbit[i].status;
         for (size_t j = 0; j < t->each; j++) {
-            iso_crossing_blank(&t->crossing[t->each * i + j]);
-            if (t->sample) iso_sample_blank(&t->sample[t->each * i + j]);
+            iso_crossing_blank(&t->crossing[t->stride * i + j]);
+            if (t->sample) iso_sample_blank(&t->sample[t->stride * i + j]);
         }
     }
 }
@@ -107,7 +107,7 @@ static void follow_alone(iso_pool_worker *w, const loners *l, size_t i)
     const iso_crossings_task *t = l->task;
     iso_crossings *c = l->c;
     iso_crossed *o = &c->orbit[i];
-    iso_sample *sample = t->sample ? t->sample + t->each * i : NULL;
+    iso_sample *sample = t->sample ? t->sample + t->stride * i : NULL;
     if (!o->ctx) o->ctx = iso_context_create();
     if (!o->ctx) {
         t->status[i] = iso_context_no_memory(w->ctx, "an orbit");
@@ -115,7 +115,7 @@ static void follow_alone(iso_pool_worker *w, const loners *l, size_t i)
         return;
     }
     iso_context_set_monitor(o->ctx, iso_pool_goes_on, w);
-    t->status[i] = iso_crossings_go_alone(c, i, t->each, t->crossing + t->each * i, sample, &t->done[i]);
+    t->status[i] = iso_crossings_go_alone(c, i, t->each, t->crossing + t->stride * i, sample, &t->done[i]);
     iso_context_set_monitor(o->ctx, NULL, NULL);
     iso_crossings_keep(c, o->ctx, i, t->status[i]);
 }
@@ -160,18 +160,23 @@ static iso_status tell_first(const iso_crossings *c, const iso_crossings_task *t
     return ISO_OK;
 }
 
+iso_status iso_crossings_go_apart(iso_crossings *c, const iso_crossings_task *t)
+{
+    bool *taken = calloc(c->count + 1, sizeof *taken);
+    blank(c, t);
+    if (!taken) return iso_context_no_memory(c->ctx, "crossings");
+    iso_status answer = iso_crossings_in_lanes(c, t, taken);
+    if (answer == ISO_OK) answer = one_by_one(c, t, taken);
+    free(taken);
+    for (size_t i = 0; answer == ISO_STOPPED && i < c->count; i++) /* those that nobody has taken up */
+        if (t->status[i] == ISO_OK && t->done[i] < t->each && (!t->wanted || t->wanted[i]))
+            t->status[i] = ISO_STOPPED;
+    return answer == ISO_OK ? tell_first(c, t) : answer;
+}
+
 iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, iso_crossing crossing[],
                             iso_sample sample[], size_t done[], iso_status status[])
 {
     ISO_DEFAULT_ARITHMETIC;
-    const iso_crossings_task task = {wanted, each, crossing, sample, done, status};
-    bool *taken = calloc(c->count + 1, sizeof *taken);
-    blank(c, &task);
-    if (!taken) return iso_context_no_memory(c->ctx, "crossings");
-    iso_status answer = iso_crossings_in_lanes(c, &task, taken);
-    if (answer == ISO_OK) answer = one_by_one(c, &task, taken);
-    free(taken);
-    for (size_t i = 0; answer == ISO_STOPPED && i < c->count; i++) /* those that nobody has taken up */
-        if (status[i] == ISO_OK && done[i] < each && (!wanted || wanted[i])) status[i] = ISO_STOPPED;
-    return answer == ISO_OK ? tell_first(c, &task) : answer;
+    return iso_crossings_go_apart(c, &(iso_crossings_task){wanted, each, each, crossing, sample, done, status});
 }

@@ -41,11 +41,18 @@ struct iso_crossings {
 typedef struct iso_crossings_task {
     const bool *wanted; /* NULL: every one */
     size_t each;
+    size_t stride; /* from the first crossing of an orbit to that of the next one: `each` or more */
     iso_crossing *crossing;
     iso_sample *sample; /* NULL: none */
     size_t *done;
     iso_status *status;
 } iso_crossings_task;
+
+/* iso_crossings_go with crossing[stride i + j]. */
+iso_status iso_crossings_go_apart(iso_crossings *c, const iso_crossings_task *task);
+
+/* Refuses options: the errors of iso_crossings_create but ISO_NO_MEMORY. */
+iso_status iso_crossings_check(iso_context *ctx, const iso_crossings_options *options);
 
 /* Follows the wanted orbits that lanes can hold. For each of them taken[i] becomes true, and done[i], status[i], the
  * crossings and samples are filled in. Errors: ISO_NO_MEMORY, ISO_STOPPED; failures of orbits are in status[i]. */

@@ -291,7 +291,7 @@ static iso_status finish(iso_pool_worker *w, const follower *f, size_t i)
     const iso_lane_job *job = &lane->job;
     size_t *done = &t->done[i];
     for (size_t j = 0; j < job->done; j++) {
-        const size_t to = t->each * i + *done;
+        const size_t to = t->stride * i + *done;
         const double *y = job->event ? job->event[j].y : job->states + j * job->stride;
         const double time = job->time ? job->time[j] / job->unit : job->passed[j];
         const iso_status status = tell(w, f->c, i, y, time, job->event ? &job->event[j] : NULL, &t->crossing[to],

@@ -14,6 +14,7 @@
 #include "method/taylor/lanes_impl.h"
 #include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
+#include "orbit/walk_impl.h"
 #include "study/periodic/periodic_impl.h"
 
 void iso_periodic_map_turn(int axis, iso_periodic_map *map)
@@ -36,93 +37,68 @@ void iso_periodic_map_prepare(iso_context *ctx, const iso_params *own, double en
 
 /* --- many points ------------------------------------------------------------------------------------------------ */
 
-typedef struct walk {
-    bool deviations;
-    size_t orbits, each;
-    iso_start *start;
-    iso_batch_orbit *orbit;
-    iso_crossing *crossing;
-    size_t *done;
-    iso_status *status;
-} walk;
+/* Starts: crossings z, turned over by T or not; or, where z is NULL, half way at u. */
+typedef struct points {
+    const iso_periodic_map *map;
+    const double (*z)[2];
+    bool over;
+    iso_return_start from;
+    const double *u;
+    size_t each;
+    iso_periodic_point *to;
+} points;
 
-static void free_walk(walk *w)
+/* The start half way at u (iso_return_start): M = G gamma'/|gamma'| x gamma. */
+static void half_way(const iso_periodic_map *map, iso_return_start from, double u, double y[ISO_STATE])
 {
-    free(w->start);
-    free(w->orbit);
-    free(w->crossing);
-    free(w->done);
-    free(w->status);
-}
-
-static bool make_walk(size_t orbits, size_t each, walk *w)
-{
-    w->deviations = true;
-    w->orbits = orbits;
-    w->each = each;
-    w->start = calloc(orbits, sizeof *w->start);
-    w->orbit = calloc(orbits, sizeof *w->orbit);
-    w->crossing = malloc(orbits * each * sizeof *w->crossing);
-    w->done = calloc(orbits, sizeof *w->done);
-    w->status = calloc(orbits, sizeof *w->status);
-    return w->start && w->orbit && w->crossing && w->done && w->status;
-}
-
-static void set_state(const iso_periodic_map *map, walk *w, size_t i, const double y[ISO_STATE])
-{
-    w->start[i] = (iso_start){.model = ISO_POINT, .eps = 1};
-    memcpy(w->start[i].y, y, sizeof w->start[i].y);
-    w->orbit[i] = (iso_batch_orbit){&map->p, &w->start[i], map->energy != 0 ? &map->effects : NULL};
-}
-
-/* The crossing at z, of a half turned over by T. */
-static void set_start(const iso_periodic_map *map, walk *w, size_t i, const double z[2], bool over)
-{
-    double y[ISO_STATE];
-    iso_section_point(iso_periodic_motion(map), map->axis, z[0], z[1], y);
-    for (int j = 3; j < ISO_STATE && over; j++) y[j] = -y[j];
-    set_state(map, w, i, y);
-}
-
-static void set_point(const walk *w, size_t orbit, size_t crossing, iso_periodic_point *to)
-{
-    const iso_crossing *c = &w->crossing[w->each * orbit + crossing];
-    if (crossing >= w->done[orbit]) {
-        *to = (iso_periodic_point){NAN, NAN, {{NAN, NAN}, {NAN, NAN}}};
-        return;
+    const int a = map->axis, b = (a + 1) % 3, c = (a + 2) % 3;
+    double *M = y, *gamma = y + 3, along[3] = {0};
+    if (from == ISO_FROM_POLE) {
+        gamma[a] = -1, along[b] = cos(u), along[c] = sin(u);
+    } else {
+        gamma[a] = -sin(u), gamma[from == ISO_FROM_PLANE_B ? c : b] = cos(u);
+        along[from == ISO_FROM_PLANE_B ? b : c] = 1;
     }
+    const double k = map->p.k, q = dot_diag(gamma, map->p.J, gamma);
+    cross(along, gamma, M);
+    scale(M, sqrt(2) * pow(q, -1 / (2 * k)) * sqrt(1 + map->energy * pow(q, 1 / k)));
+}
+
+static void begin(void *user, size_t i, iso_start *start, iso_batch_orbit *orbit)
+{
+    const points *p = user;
+    const iso_periodic_map *map = p->map;
+    *start = (iso_start){.model = ISO_POINT, .eps = 1};
+    *orbit = (iso_batch_orbit){&map->p, start, map->energy != 0 ? &map->effects : NULL};
+    if (!p->z) half_way(map, p->from, p->u[i], start->y);
+    if (p->z) iso_section_point(iso_periodic_motion(map), map->axis, p->z[i][0], p->z[i][1], start->y);
+    for (int j = 3; j < ISO_STATE && p->over; j++) start->y[j] = -start->y[j];
+}
+
+static iso_status keep(void *user, size_t i, const iso_walk_stop *stop)
+{
+    const points *p = user;
+    const iso_crossing *c = stop->crossing[0];
+    iso_periodic_point *to = &p->to[p->each * i + stop->number - 1];
     to->l = c->l;
     to->x = c->x;
     memcpy(to->slope, c->slope, sizeof to->slope);
+    return ISO_OK;
 }
 
-static iso_status go(const iso_periodic_map *map, const walk *w, double tolerance)
+/* p->to[each i + n]: crossing n + 1 of start i. */
+static iso_status go(points *p, size_t count, double tolerance)
 {
-    iso_crossings_options o = iso_crossings_defaults();
-    iso_crossings *c;
-    o.axis = map->axis;
-    o.deviations = w->deviations;
-    o.tolerance = tolerance;
-    o.threads = map->threads;
-    ISO_TRY(iso_crossings_create(map->ctx, w->orbit, w->orbits, &o, &c));
-    iso_status status = iso_crossings_go(c, NULL, w->each, w->crossing, NULL, w->done, w->status);
-    iso_crossings_free(c);
-    return status == ISO_NO_MEMORY || status == ISO_STOPPED ? status : ISO_OK; /* some starts may fail */
-}
-
-/* One part of a walk: from each z[i] half a return, or `each` whole ones. part[each i + n]: n + 1 returns later. */
-static iso_status walk_on(const iso_periodic_map *map, size_t count, const double (*z)[2], bool half, size_t each,
-                          double tolerance, iso_periodic_point *part)
-{
-    walk w = {0};
-    const bool memory = make_walk(count, each, &w);
-    iso_status status = memory ? ISO_OK : iso_context_no_memory(map->ctx, "orbits");
-    for (size_t i = 0; i < count && status == ISO_OK; i++) set_start(map, &w, i, z[i], half);
-    if (status == ISO_OK) status = go(map, &w, tolerance);
-    for (size_t i = 0; i < count && status == ISO_OK; i++)
-        for (size_t n = 0; n < each; n++) set_point(&w, i, n, &part[each * i + n]);
-    free_walk(&w);
-    return status;
+    const iso_periodic_map *map = p->map;
+    iso_walk w = {.ctx = map->ctx, .count = count, .most = p->each, .models = 1};
+    w.user = p, w.begin = begin, w.visit = keep;
+    w.options[0] = iso_crossings_defaults();
+    w.options[0].axis = map->axis;
+    w.options[0].deviations = p->z != NULL;
+    w.options[0].tolerance = tolerance;
+    w.options[0].threads = map->threads;
+    for (size_t n = 0; n < count * p->each; n++) p->to[n] = (iso_periodic_point){NAN, NAN, {{NAN, NAN}, {NAN, NAN}}};
+    return iso_walk_go(&w);
 }
 
 /* *to: the way to *first, and then *next, which begins there. */
@@ -139,13 +115,15 @@ iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const do
 {
     const size_t each = (size_t)halves;
     if (count == 0) return ISO_OK;
-    if (whole) return walk_on(map, count, from, false, each, tolerance, to);
+    points p = {.map = map, .z = from, .each = each, .to = to};
+    if (whole) return go(&p, count, tolerance);
     double(*z)[2] = malloc(count * sizeof *z);
     iso_periodic_point *part = malloc(count * sizeof *part);
     iso_status status = z && part ? ISO_OK : iso_context_no_memory(map->ctx, "orbits");
     if (status == ISO_OK) memcpy(z, from, count * sizeof *z);
+    p = (points){.map = map, .z = (const double(*)[2])z, .over = true, .each = 1, .to = part};
     for (size_t n = 0; n < each && status == ISO_OK; n++) {
-        status = walk_on(map, count, (const double(*)[2])z, true, 1, tolerance, part);
+        status = go(&p, count, tolerance);
         for (size_t i = 0; i < count && status == ISO_OK; i++) {
             iso_periodic_point *at = &to[each * i + n];
             if (n == 0)
@@ -160,38 +138,16 @@ iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const do
     return status;
 }
 
-/* The start half way at u (iso_return_start): M = G gamma'/|gamma'| x gamma. */
-static void set_half_way(const iso_periodic_map *map, walk *w, size_t i, iso_return_start from, double u)
-{
-    const int a = map->axis, b = (a + 1) % 3, c = (a + 2) % 3;
-    double y[ISO_STATE] = {0}, *M = y, *gamma = y + 3, along[3] = {0};
-    if (from == ISO_FROM_POLE) {
-        gamma[a] = -1, along[b] = cos(u), along[c] = sin(u);
-    } else {
-        gamma[a] = -sin(u), gamma[from == ISO_FROM_PLANE_B ? c : b] = cos(u);
-        along[from == ISO_FROM_PLANE_B ? b : c] = 1;
-    }
-    const double k = map->p.k, q = dot_diag(gamma, map->p.J, gamma);
-    cross(along, gamma, M);
-    scale(M, sqrt(2) * pow(q, -1 / (2 * k)) * sqrt(1 + map->energy * pow(q, 1 / k)));
-    set_state(map, w, i, y);
-}
-
 iso_status iso_periodic_enter_many(const iso_periodic_map *map, iso_return_start start, size_t count,
                                    const double u[], double (*to)[2])
 {
-    walk w = {0};
     if (count == 0) return ISO_OK;
-    const bool memory = make_walk(count, 1, &w);
-    iso_status status = memory ? ISO_OK : iso_context_no_memory(map->ctx, "orbits");
-    for (size_t i = 0; i < count && memory; i++) set_half_way(map, &w, i, start, u[i]);
-    w.deviations = false;
-    if (status == ISO_OK) status = go(map, &w, 1e-13);
-    for (size_t i = 0; i < count && status == ISO_OK; i++) {
-        to[i][0] = w.done[i] ? w.crossing[i].l : NAN;
-        to[i][1] = w.done[i] ? w.crossing[i].x : NAN;
-    }
-    free_walk(&w);
+    iso_periodic_point *first = malloc(count * sizeof *first);
+    if (!first) return iso_context_no_memory(map->ctx, "orbits");
+    points p = {.map = map, .from = start, .u = u, .each = 1, .to = first};
+    const iso_status status = go(&p, count, 1e-13);
+    for (size_t i = 0; i < count; i++) to[i][0] = first[i].l, to[i][1] = first[i].x;
+    free(first);
     return status;
 }
 
