@@ -98,13 +98,14 @@ static void check_coverage(int repetitions)
     int within[SETS][NUMBERS] = {{0}};
     double share[SETS], width[SETS][NUMBERS] = {{0}};
     iso_section_spread spread;
-    iso_section_spread_prepare(&spread, iso_free_point(&p, 1), 2, 0);
     for (int s = 0; s < SETS; s++) share[s] = true_share(&sets[s]);
     for (int seed = 0; seed < repetitions; seed++) {
         size_t count[ISO_SHIFTS] = {0}, found[SETS][ISO_SHIFTS] = {{0}};
+        iso_section_spread_prepare(&spread, iso_free_point(&p, 1), 2, (uint64_t)seed);
+        spread.copies = ISO_SHIFTS;
         for (size_t i = 0, n = 0; i < MOST; i++) {
             double l, x, low, high;
-            iso_share_start(&spread, (uint64_t)seed, i, &l, &x);
+            iso_section_spread_point(&spread, i, &l, &x);
             count[i % ISO_SHIFTS]++;
             for (int s = 0; s < SETS; s++)
                 found[s][i % ISO_SHIFTS] += sets[s].holds((l + ISO_PI) / (2 * ISO_PI), (1 + x) / 2);
@@ -161,13 +162,15 @@ static void check_edges(void)
 static void check_starts(void)
 {
     const iso_params p = laws_params(0.5, (double[]){1, 2, 5});
-    iso_section_spread spread;
+    iso_section_spread spread[2];
     double l[2], x[2], again[2];
-    iso_section_spread_prepare(&spread, iso_free_point(&p, 1), 2, 0);
+    for (int seed = 0; seed < 2; seed++) {
+        iso_section_spread_prepare(&spread[seed], iso_free_point(&p, 1), 2, (uint64_t)seed);
+        spread[seed].copies = ISO_SHIFTS;
+    }
     for (size_t i = 0; i < 40; i++) {
-        iso_share_start(&spread, 1, i, &l[0], &x[0]);
-        iso_share_start(&spread, 2, i, &l[1], &x[1]);
-        iso_share_start(&spread, 1, i, &again[0], &again[1]);
+        for (int seed = 0; seed < 2; seed++) iso_section_spread_point(&spread[seed], i, &l[seed], &x[seed]);
+        iso_section_spread_point(&spread[0], i, &again[0], &again[1]);
         gsl_test(l[0] != again[0] || x[0] != again[1], "start %zu is always the same", i);
         gsl_test(l[0] == l[1] || x[0] == x[1], "start %zu of two seeds", i);
     }

@@ -7,7 +7,6 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
-#include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
 #include "orbit/crossings_impl.h"
@@ -51,22 +50,14 @@ static iso_status check_section(const iso_chaos_walk *w)
 
 /* A turn: a return to the section; under an effect beyond the level, the time in which n turns once at the rate
  * |k omega|. */
-static void choose_turn(iso_chaos_walk *w, const iso_sample *start, const iso_effect *effect)
+static void choose_turn(iso_chaos_walk *w, const iso_effect *effect)
 {
     iso_chaos *c = w->out;
-    const iso_units *units = iso_orbit_units(w->orbit);
-    const double speed = w->out->with[ISO_BALL] ? norm(start->ball) : units->w;
-    c->turn = NAN;
     const int asked = w->options.axis;
     c->chart = asked == ISO_AXIS_AUTO ? iso_section_axis(iso_orbit_motion(w->orbit)) : asked;
+    c->axis = effect ? -1 : c->chart;
+    c->turn = effect ? iso_walk_turn(w->orbit, ISO_CLOCK_T) : (double)NAN;
     if (!effect) c->integral = iso_orbit_additional_integral(w->orbit);
-    if (effect) {
-        const bool pulled = iso_effects_pull(&iso_orbit_model(w->orbit)->problem.effects);
-        c->axis = -1;
-        c->turn = 2 * ISO_PI / (fabs(w->scene->params.k) * (pulled ? fmax(speed, units->w) : speed));
-        return;
-    }
-    c->axis = c->chart;
 }
 
 /* The axis about which a free orbit rotates in the plane n_axis = 0; -1: it does not. */
@@ -156,12 +147,19 @@ static iso_status prepare(iso_chaos_walk *w)
     const iso_effects effects = iso_orbit_effects(w->orbit);
     const iso_effect *effect = iso_effects_beyond_level(&effects);
     ISO_TRY(check_motion(w, &start));
-    choose_turn(w, &start, effect);
+    choose_turn(w, effect);
     ISO_TRY(check_section(w));
     if (starts > 0)
         ISO_TRY(iso_refuse_starts(w->ctx, w->orbit, &w->effects, w->out->chart, o->at, o->at_count, o->starts > 0));
-    iso_section_state_level(w->orbit, &w->effects);
-    if (o->starts > 0) iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->out->chart, o->seed);
+    w->starts = (iso_starts){.scene = w->scene,
+                             .orbit = w->orbit,
+                             .effects = &w->effects,
+                             .axis = w->out->chart,
+                             .spread = o->starts,
+                             .seed = o->seed,
+                             .copies = ISO_SHIFTS,
+                             .at = o->at};
+    iso_starts_prepare(&w->starts);
     w->out->plane = effect ? -1 : find_plane(w->out->with[ISO_BALL] ? start.ball : start.point);
     w->out->start = calloc(starts + 1, sizeof *w->out->start);
     if (!w->out->start) return iso_context_no_memory(w->ctx, "the starts");

@@ -6,7 +6,7 @@
 #ifndef ISO_STUDY_CHAOS_IMPL_H
 #define ISO_STUDY_CHAOS_IMPL_H
 
-#include "map/section_impl.h"
+#include "orbit/walk_impl.h"
 #include "study/chaos/chaos.h"
 #include "study/options_impl.h"
 
@@ -18,7 +18,7 @@ typedef struct iso_chaos_walk {
     iso_orbit *orbit;        /* the scene's            */
     bool sampled;            /* the ball follows only every CHECKED-th of the starts that are spread */
     double spread_tolerance; /* of the starts that are spread */
-    iso_section_spread spread;
+    iso_starts starts;
     iso_chaos *out;
 } iso_chaos_walk;
 
@@ -103,9 +103,6 @@ void iso_indicators_read(const iso_indicators *it, iso_indication *result);
 /* --- which share of the area do orbits of some kind have? (share.c) --------------------------------------------- */
 
 enum { ISO_SHIFTS = 16 };
-
-/* Start i. Of `spread`, which iso_section_spread_prepare has made, only the shift is changed. */
-void iso_share_start(iso_section_spread *spread, uint64_t seed, size_t i, double *l, double *x);
 
 /* found[r] of count[r] starts of copy r are in the set. Without a start: NaN. */
 void iso_share_interval(const size_t count[ISO_SHIFTS], const size_t found[ISO_SHIFTS], double *low, double *high);

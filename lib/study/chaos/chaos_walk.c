@@ -1,5 +1,5 @@
-/* chaos_walk.c - follows the orbits of chaos.h in groups, round by round. In each round the orbits that have not
- * ended go on to the next look. The point goes first, then the ball. */
+/* chaos_walk.c - follows the orbits of chaos.h (orbit/walk_impl.h). In each round the orbits that have not ended go on to
+ * the next look. The point goes first, then the ball. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,63 +9,42 @@
 #include "study/chaos/chaos_impl.h"
 #include "study/fields_impl.h"
 
-/* GROUP: orbits that are followed together. ROUND: the most turns of a round. Together some 25 MB of crossings.
- * CHECKED: one of so many starts is followed by the ball, too, if the walk is sampled, for at most CHECK_TURNS. */
-enum { GROUP = 1024, ROUND = 240, TRACE_ROWS = 4000, CHECKED = 16, CHECK_TURNS = 750 };
-
-/* One model's part of a group. */
-typedef struct model_walk {
-    iso_crossings *crossings;
-    size_t each;        /* turns of the last round, the same for all orbits that go on */
-    bool wanted[GROUP]; /* whether an orbit goes on */
-    iso_indicators shown[GROUP];
-    size_t done[GROUP];
-    iso_status status[GROUP];
-} model_walk;
+/* GROUP: orbits that are followed by the point, then by the ball. CHECKED: one of so many starts is followed by the
+ * ball, too, if the walk is sampled, for at most CHECK_TURNS. */
+enum { GROUP = 1024, TRACE_ROWS = 4000, CHECKED = 16, CHECK_TURNS = 750 };
 
 typedef struct group {
     iso_chaos_walk *w;
     iso_chaos_walk *const *each; /* the scene of each orbit, which is its own orbit; NULL: all have one scene */
     size_t first, count;         /* orbits; orbit 0 is the scene's own, orbit i is start i - 1 */
-    iso_start start[GROUP];
-    iso_batch_orbit orbit[GROUP];
-    model_walk model[2];
-    iso_crossing *crossing;
-    iso_sample *sample; /* NULL: not needed */
+    int model;                   /* that follows them now */
+    iso_indicators shown[2][GROUP];
+    bool still[GROUP]; /* an orbit stands still */
 } group;
 
-/* --- starts ----------------------------------------------------------------------------------------------------- */
+static iso_chaos_walk *walk_of(const group *g, size_t i)
+{
+    return g->each ? g->each[i] : g->w;
+}
 
 static iso_chaos_orbit *orbit_of(const group *g, size_t i)
 {
-    iso_chaos *c = g->w->out;
-    if (g->each) return &g->each[i]->out->own;
-    return g->first + i == 0 ? &c->own : &c->start[g->first + i - 1];
+    iso_chaos *c = walk_of(g, i)->out;
+    return g->each || i == 0 ? &c->own : &c->start[i - 1];
 }
 
-/* The first starts are spread, then come the given ones. */
-static void chart_of_start(iso_chaos_walk *w, size_t i, double *l, double *x)
+static iso_indicators *shown_of(group *g, int model, size_t i)
 {
-    const iso_chaos_options *how = &w->options;
-    if (i < how->starts)
-        iso_share_start(&w->spread, how->seed, i, l, x);
-    else
-        *l = how->at[i - how->starts][0], *x = how->at[i - how->starts][1];
+    return &g->shown[model][i - g->first];
 }
 
-static void make_starts(group *g)
+static void begin(void *user, size_t i, iso_start *start, iso_batch_orbit *orbit)
 {
-    for (size_t i = 0; i < g->count; i++) {
-        const iso_chaos_walk *w = g->each ? g->each[i] : g->w;
-        iso_chaos_orbit *o = orbit_of(g, i);
-        *o = (iso_chaos_orbit){.l = NAN, .x = NAN, .verdict = ISO_UNDECIDED, .number = g->each ? 0 : g->first + i};
-        g->start[i] = w->scene->start;
-        if (!g->each && g->first + i > 0) {
-            chart_of_start(g->w, g->first + i - 1, &o->l, &o->x);
-            g->start[i] = iso_section_start(w->orbit, w->scene->start.model, w->out->chart, o->l, o->x);
-        }
-        g->orbit[i] = (iso_batch_orbit){&w->scene->params, &g->start[i], &w->effects};
-    }
+    group *g = user;
+    const iso_chaos_walk *w = walk_of(g, i);
+    iso_chaos_orbit *o = orbit_of(g, i);
+    iso_starts_orbit(&w->starts, g->each ? 0 : i, &o->l, &o->x, start, orbit);
+    g->still[i - g->first] = false;
 }
 
 /* --- turns ------------------------------------------------------------------------------------------------------ */
@@ -101,23 +80,13 @@ static iso_status trace(const iso_chaos_walk *w, int model, const iso_indicators
     return ISO_OK;
 }
 
-/* Keeps the words of the first failure. */
-static void note_failure(const group *g, int model, size_t i, const char *words)
+static void note_failure(void *user, size_t i, int first, iso_status status, const char *why)
 {
-    iso_chaos *c = g->each ? g->each[i]->out : g->w->out;
-    const iso_status status = g->model[model].status[i];
-    orbit_of(g, i)->status[model] = status;
-    if (c->failure != ISO_OK) return;
-    c->failure = status;
-    snprintf(c->words, sizeof c->words, "orbit %zu: %s", g->each ? 0 : g->first + i, words);
-}
-
-static void note_failures(const group *g, int model)
-{
-    const model_walk *r = &g->model[model];
-    for (size_t i = 0; i < g->count; i++)
-        if (r->status[i] != ISO_OK && r->status[i] != ISO_STOPPED)
-            note_failure(g, model, i, iso_crossings_why(r->crossings, i));
+    const group *g = user;
+    iso_chaos *c = walk_of(g, i)->out;
+    (void)first;
+    orbit_of(g, i)->status[g->model] = status;
+    iso_walk_keep(&c->failure, c->words, g->each ? 0 : i, status, why);
 }
 
 /* Whether all orbits of the group are spread starts. Otherwise none is. */
@@ -132,41 +101,52 @@ static bool only_checks(const group *g, int model)
     return model == ISO_BALL && g->w->sampled && are_spread(g);
 }
 
+/* Whether the model follows orbit i. The ball checks verdicts of the point, of those that need no more turns. */
+static bool follows(group *g, size_t i)
+{
+    const iso_indicators *point = shown_of(g, ISO_POINT, i);
+    if (!only_checks(g, g->model)) return true;
+    return (i - 1) % CHECKED == 0 && iso_indicators_verdict(point) != ISO_UNDECIDED && point->decided <= CHECK_TURNS;
+}
+
 /* The number of turns after which an orbit ends: the verdict regular ends it at once. */
-static long most_turns(const group *g, int model, size_t i)
+static long most_turns(group *g, size_t i)
 {
     const iso_chaos_options *o = &g->w->options;
-    const iso_verdict verdict = iso_indicators_verdict(&g->model[model].shown[i]);
-    const long most = only_checks(g, model) && o->turns > CHECK_TURNS ? CHECK_TURNS : o->turns;
+    const iso_verdict verdict = iso_indicators_verdict(shown_of(g, g->model, i));
+    const long most = only_checks(g, g->model) && o->turns > CHECK_TURNS ? CHECK_TURNS : o->turns;
     return verdict == ISO_UNDECIDED ? most : verdict == ISO_CHAOTIC ? o->exponent_turns : 0;
 }
 
-/* Adds the new crossings of an orbit until it ends. */
-static iso_status take(group *g, int model, size_t i)
+/* The turns until the next look at orbit i. */
+static size_t wanted(void *user, size_t i)
 {
-    const iso_chaos_walk *w = g->w;
-    model_walk *r = &g->model[model];
-    iso_indicators *shown = &r->shown[i];
-    iso_status status = ISO_OK;
-    for (size_t j = 0; j < r->done[i] && status == ISO_OK; j++) {
-        if (shown->turns >= most_turns(g, model, i)) break;
-        const size_t at = r->each * i + j;
-        iso_turn_sample turn;
-        make_turn(&g->crossing[at], g->sample ? &g->sample[at] : NULL, &turn);
-        if (isnan(turn.growth[0] + turn.growth[1])) {
-            static const char *const words = "it stands still: its deviations have no length";
-            r->status[i] = ISO_FAIL_NUMERICAL(w->ctx, "%s", words);
-            note_failure(g, model, i, words);
-            break;
-        }
-        iso_indicators_add(shown, &turn);
-        if (!g->each && g->first + i == 0) status = trace(w, model, shown);
-    }
-    r->wanted[i] = r->status[i] == ISO_OK && shown->turns < most_turns(g, model, i);
-    return status;
+    group *g = user;
+    const iso_indicators *shown = shown_of(g, g->model, i);
+    const long most = most_turns(g, i), next = iso_indicators_next(shown), to = next < most ? next : most;
+    if (orbit_of(g, i)->status[g->model] != ISO_OK || !follows(g, i)) return 0;
+    return to > shown->turns ? (size_t)(to - shown->turns) : 0;
 }
 
-/* --- rounds ----------------------------------------------------------------------------------------------------- */
+static iso_status take(void *user, size_t i, const iso_walk_stop *stop)
+{
+    group *g = user;
+    const iso_chaos_walk *w = g->w;
+    iso_indicators *shown = shown_of(g, g->model, i);
+    iso_turn_sample turn;
+    if (g->still[i - g->first]) return ISO_OK;
+    make_turn(stop->crossing[0], stop->sample, &turn);
+    if (isnan(turn.growth[0] + turn.growth[1])) {
+        static const char words[] = "it stands still: its deviations have no length";
+        g->still[i - g->first] = true;
+        note_failure(g, i, 0, ISO_FAIL_NUMERICAL(w->ctx, "%s", words), words);
+        return ISO_OK;
+    }
+    iso_indicators_add(shown, &turn);
+    return !g->each && i == 0 ? trace(w, g->model, shown) : ISO_OK;
+}
+
+/* --- groups ----------------------------------------------------------------------------------------------------- */
 
 static iso_status create_trace(iso_chaos_walk *w, int model)
 {
@@ -175,96 +155,17 @@ static iso_status create_trace(iso_chaos_walk *w, int model)
     return ISO_OK;
 }
 
-/* Whether this model follows orbit i. The ball checks verdicts of the point, of those that need no more turns. */
-static bool follows(const group *g, int model, size_t i)
-{
-    const iso_indicators *point = &g->model[ISO_POINT].shown[i];
-    if (!only_checks(g, model)) return true;
-    return (g->first + i - 1) % CHECKED == 0 && iso_indicators_verdict(point) != ISO_UNDECIDED &&
-           point->decided <= CHECK_TURNS;
-}
-
-static void begin_model(group *g, int model)
-{
-    const iso_chaos_walk *w = g->w;
-    model_walk *r = &g->model[model];
-    for (size_t i = 0; i < g->count; i++) {
-        iso_indicators_begin(&r->shown[i], w->options.turns);
-        r->shown[i].integrable = (g->each ? g->each[i]->out : w->out)->integral != NULL;
-        r->wanted[i] = false;
-        r->status[i] = ISO_OK;
-    }
-}
-
-static iso_status open_model(group *g, int model)
-{
-    const iso_chaos_walk *w = g->w;
-    const iso_chaos_options *o = &w->options;
-    iso_crossings_options c = iso_crossings_defaults();
-    c.backend = (iso_backend)model;
-    c.kind = w->out->axis < 0 ? ISO_SECTION_CLOCK : ISO_SECTION_AXIS;
-    c.axis = w->out->axis < 0 || g->each ? ISO_AXIS_AUTO : w->out->axis;
-    c.value = w->out->turn;
-    c.deviations = true;
-    c.tolerance = are_spread(g) ? w->spread_tolerance : o->tolerance;
-    c.shown = w->out->axis < 0 ? ISO_SHOW_BALL : (iso_models)model;
-    c.threads = o->threads;
-    c.vectors = o->vectors;
-    model_walk *r = &g->model[model];
-    for (size_t i = 0; i < g->count; i++) r->wanted[i] = follows(g, model, i);
-    return iso_crossings_create(w->ctx, g->orbit, g->count, &c, &r->crossings);
-}
-
-/* Sets the indications by one model. */
-static void tell(group *g, int model)
-{
-    for (size_t i = 0; i < g->count; i++)
-        iso_indicators_read(&g->model[model].shown[i], &orbit_of(g, i)->result[model]);
-}
-
-/* The turns until the next look at the orbits that go on, at most ROUND; 0: none goes on. */
-static size_t turns_of_round(const group *g, int model)
-{
-    const model_walk *r = &g->model[model];
-    for (size_t i = 0; i < g->count; i++) {
-        if (!r->wanted[i]) continue;
-        const long turns = r->shown[i].turns, next = iso_indicators_next(&r->shown[i]),
-                   most = most_turns(g, model, i);
-        const long left = (next < most ? next : most) - turns;
-        return left < ROUND ? (size_t)left : ROUND;
-    }
-    return 0;
-}
-
-/* One round of one model. Errors: ISO_STOPPED, ISO_NO_MEMORY. */
-static iso_status go_on(group *g, int model, bool *any)
-{
-    model_walk *r = &g->model[model];
-    r->each = turns_of_round(g, model);
-    if (r->each == 0) return ISO_OK;
-    const iso_status went =
-        iso_crossings_go(r->crossings, r->wanted, r->each, g->crossing, g->sample, r->done, r->status);
-    iso_status status = went == ISO_STOPPED || went == ISO_NO_MEMORY ? went : ISO_OK;
-    if (went != ISO_OK && status == ISO_OK) note_failures(g, model);
-    for (size_t i = 0; i < g->count; i++) {
-        if (!r->wanted[i]) continue;
-        const iso_status taken = take(g, model, i);
-        if (taken != ISO_OK) status = taken;
-        *any = *any || r->wanted[i];
-    }
-    return status;
-}
-
 /* An orbit with a verdict counts as done. The point goes first. */
-static void show_progress(const group *g, int model)
+static void show_progress(void *user, double part)
 {
+    group *g = user;
     const iso_chaos_walk *w = g->w;
-    const model_walk *r = &g->model[model];
     const bool both = w->out->with[ISO_BALL] && w->out->with[ISO_POINT];
-    double done = both && model == ISO_BALL ? (double)g->count : 0;
+    double done = both && g->model == ISO_BALL ? (double)g->count : 0;
+    (void)part;
     if (!w->options.progress) return;
-    for (size_t i = 0; i < g->count; i++)
-        done += r->wanted[i] ? (double)r->shown[i].turns / (double)most_turns(g, model, i) : 1;
+    for (size_t i = g->first; i < g->first + g->count; i++)
+        done += wanted(g, i) > 0 ? (double)shown_of(g, g->model, i)->turns / (double)most_turns(g, i) : 1;
     const double all = (double)(w->options.starts + w->options.at_count) + 1;
     w->options.progress(fmin(1, ((double)g->first + done / (both ? 2 : 1)) / all), w->options.data);
 }
@@ -284,30 +185,49 @@ static void judge(const iso_chaos *c, iso_chaos_orbit *orbit)
 
 static iso_status follow_by(group *g, int model)
 {
-    iso_status status = open_model(g, model);
-    for (bool any = true; any && status == ISO_OK;) {
-        any = false;
-        status = go_on(g, model, &any);
-        show_progress(g, model);
-    }
-    iso_crossings_free(g->model[model].crossings);
-    g->model[model].crossings = NULL;
-    return status;
+    const iso_chaos_walk *w = g->w;
+    const iso_chaos_options *o = &w->options;
+    const long most = o->turns > o->exponent_turns ? o->turns : o->exponent_turns;
+    iso_walk walk = {.ctx = w->ctx, .first = g->first, .count = g->count, .most = (size_t)most, .models = 1};
+    iso_crossings_options *c = &walk.options[0];
+    *c = iso_crossings_defaults();
+    c->backend = (iso_backend)model;
+    c->kind = w->out->axis < 0 ? ISO_SECTION_CLOCK : ISO_SECTION_AXIS;
+    c->axis = w->out->axis < 0 || g->each ? ISO_AXIS_AUTO : w->out->axis;
+    c->value = w->out->turn;
+    c->deviations = true;
+    c->tolerance = are_spread(g) ? w->spread_tolerance : o->tolerance;
+    c->shown = w->out->axis < 0 ? ISO_SHOW_BALL : (iso_models)model;
+    c->threads = o->threads;
+    c->vectors = o->vectors;
+    walk.samples = w->out->axis < 0;
+    walk.user = g, walk.begin = begin, walk.wanted = wanted, walk.visit = take;
+    walk.failed_by = note_failure, walk.progress = show_progress;
+    g->model = model;
+    return iso_walk_go(&walk);
 }
 
 /* Each model follows an orbit until its own end, even if the other model has decided before. */
 static iso_status follow_group(group *g)
 {
     static const int order[] = {ISO_POINT, ISO_BALL};
-    iso_chaos *c = g->w->out;
+    const iso_chaos *c = g->w->out;
+    const size_t end = g->first + g->count;
     iso_status status = ISO_OK;
-    make_starts(g);
-    for (int m = 0; m < 2; m++) begin_model(g, m);
+    for (size_t i = g->first; i < end; i++) {
+        *orbit_of(g, i) = (iso_chaos_orbit){.l = NAN, .x = NAN, .verdict = ISO_UNDECIDED, .number = g->each ? 0 : i};
+        for (int m = 0; m < 2; m++) {
+            iso_indicators_begin(shown_of(g, m, i), g->w->options.turns);
+            shown_of(g, m, i)->integrable = walk_of(g, i)->out->integral != NULL;
+        }
+    }
     for (int i = 0; i < 2 && status == ISO_OK; i++)
         if (c->with[order[i]]) status = follow_by(g, order[i]);
-    for (int m = 0; m < 2; m++)
-        if (c->with[m]) tell(g, m);
-    for (size_t i = 0; i < g->count; i++) judge(c, orbit_of(g, i));
+    for (size_t i = g->first; i < end; i++) {
+        for (int m = 0; m < 2; m++)
+            if (c->with[m]) iso_indicators_read(shown_of(g, m, i), &orbit_of(g, i)->result[m]);
+        judge(c, orbit_of(g, i));
+    }
     return status;
 }
 
@@ -352,44 +272,33 @@ static iso_status follow_all(group *g)
 }
 
 /* The own orbits of many scenes. */
-static iso_status follow_each(group *g, size_t count, iso_chaos_walk *const each[])
+static iso_status follow_each(group *g, size_t count)
 {
     iso_status status = ISO_OK;
-    for (size_t first = 0; first < count && status == ISO_OK; first += g->count) {
-        g->each = each + first;
-        g->count = count - first < GROUP ? count - first : GROUP;
+    for (g->first = 0; g->first < count && status == ISO_OK; g->first += g->count) {
+        g->count = count - g->first < GROUP ? count - g->first : GROUP;
         status = follow_group(g);
     }
     return status;
 }
 
-/* Makes room for a group of orbits of the scene w, and follows all orbits. */
-static iso_status with_group(iso_chaos_walk *w, size_t most, size_t count, iso_chaos_walk *const each[])
+static iso_status with_group(iso_chaos_walk *w, size_t count, iso_chaos_walk *const each[])
 {
     group *g = calloc(1, sizeof *g);
-    const size_t cells = ROUND * most;
-    iso_status status = ISO_OK;
-    if (g) {
-        g->w = w;
-        g->crossing = malloc(cells * sizeof *g->crossing);
-        g->sample = w->out->axis < 0 ? malloc(cells * sizeof *g->sample) : NULL;
-    }
-    if (!g || !g->crossing || (w->out->axis < 0 && !g->sample)) status = iso_context_no_memory(w->ctx, "the orbits");
-    if (status == ISO_OK) status = each ? follow_each(g, count, each) : follow_all(g);
-    if (g) {
-        free(g->crossing);
-        free(g->sample);
-    }
+    if (!g) return iso_context_no_memory(w->ctx, "the orbits");
+    g->w = w;
+    g->each = each;
+    const iso_status status = each ? follow_each(g, count) : follow_all(g);
     free(g);
     return status;
 }
 
 iso_status iso_chaos_follow(iso_chaos_walk *w)
 {
-    return with_group(w, w->options.starts + w->options.at_count > 0 ? GROUP : 1, 0, NULL);
+    return with_group(w, 0, NULL);
 }
 
 iso_status iso_chaos_follow_each(size_t count, iso_chaos_walk *const walk[])
 {
-    return with_group(walk[0], count < GROUP ? count : GROUP, count, walk);
+    return with_group(walk[0], count, walk);
 }

@@ -20,15 +20,7 @@
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
-#include "base/low_discrepancy_impl.h"
 #include "study/chaos/chaos_impl.h"
-
-void iso_share_start(iso_section_spread *spread, uint64_t seed, size_t i, double *l, double *x)
-{
-    spread->shift[0] = iso_scatter(iso_scatter(seed) + i % ISO_SHIFTS);
-    spread->shift[1] = iso_scatter(spread->shift[0]);
-    iso_section_spread_point(spread, i / ISO_SHIFTS, l, x);
-}
 
 /* v n^2; 0 if all copies agree. *copies: those with a start. */
 static double scatter(const size_t count[], const size_t found[], double share, int *copies)
