@@ -1,5 +1,5 @@
-/* section.c - the Poincare section of a scene, see section.h: what kind of section it is, what is refused,
- * and the orbits group by group. */
+/* section.c - the Poincare section of a scene, see section.h: what kind of section it is, and what is
+ * refused. */
 #include "study/section/section.h"
 
 #include <math.h>
@@ -190,24 +190,19 @@ static iso_status set_up(iso_section_walk *w)
     if (w->options.axis == ISO_AXIS_AUTO) w->options.axis = iso_section_axis(iso_orbit_motion(w->orbit));
     ISO_TRY(check_starts(w));
     choose_columns(w);
-    iso_section_state_level(w->orbit, &w->effects);
-    if (w->options.starts > 0)
-        iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->options.axis, w->options.seed);
-    ISO_TRY(iso_section_make_room(w));
-    return iso_section_open_group(w);
-}
-
-static iso_status walk(iso_section_walk *w)
-{
-    iso_status status = ISO_OK;
-    while (status == ISO_OK) {
-        status = iso_section_walk_group(w);
-        iso_section_close_group(w);
-        w->first += w->members;
-        if (status != ISO_OK || w->first >= w->result->orbits) break;
-        status = iso_section_open_group(w);
+    w->starts = (iso_starts){.scene = w->scene,
+                             .orbit = w->orbit,
+                             .effects = &w->effects,
+                             .axis = w->options.axis,
+                             .spread = w->options.starts,
+                             .seed = w->options.seed,
+                             .at = w->options.at};
+    iso_starts_prepare(&w->starts);
+    for (int m = 0; m < w->models; m++) {
+        const iso_walk walk = iso_section_plan(w, m);
+        ISO_TRY(iso_crossings_check(w->ctx, &walk.options[0]));
     }
-    return status;
+    return ISO_OK;
 }
 
 bool iso_section_has_returns(const iso_section_walk *w)
@@ -228,12 +223,6 @@ iso_status iso_section_begin(iso_section_walk *w, iso_context *ctx, const iso_sc
     return set_up(w);
 }
 
-void iso_section_end(iso_section_walk *w)
-{
-    iso_section_free_room(w);
-    iso_orbit_free(w->orbit);
-}
-
 iso_status iso_section_run(iso_context *ctx, const iso_scene *scene, const iso_section_options *options,
                            const iso_section_sink *sink, iso_section_result *result)
 {
@@ -242,8 +231,8 @@ iso_status iso_section_run(iso_context *ctx, const iso_scene *scene, const iso_s
     iso_section_walk w = {.sink = sink, .result = result ? result : &unused};
     iso_status status = iso_section_begin(&w, ctx, scene, options);
     if (status == ISO_OK) tell_nature(&w);
-    if (status == ISO_OK) status = walk(&w);
-    iso_section_end(&w);
+    if (status == ISO_OK) status = iso_section_walk_all(&w);
+    iso_orbit_free(w.orbit);
     if (status == ISO_OK && w.result->rows == 0 && w.result->failed > 0)
         return iso_context_fail(ctx, w.result->failure, "", "%s", w.result->words);
     return status;

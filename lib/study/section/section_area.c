@@ -7,8 +7,8 @@
  * first returns of a chaotic orbit are used.
  */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
@@ -68,36 +68,33 @@ static iso_status check_effects(const iso_section_walk *w)
                           effect ? effect->name : "an effect");
 }
 
-/* All returns of one group by one model. */
-static iso_status follow(iso_section_walk *w, int m, void (*progress)(void *data, double part), void *data,
-                         iso_section_areas *areas)
+/* The walk by one model. */
+typedef struct area_walk {
+    iso_section_walk w;
+    int model;
+    void (*progress)(void *data, double part);
+    void *data;
+    iso_section_area *orbit; /* of this model */
+} area_walk;
+
+static iso_status visit(void *user, size_t i, const iso_walk_stop *stop)
 {
-    iso_section_area *a = &areas->orbit[areas->count];
-    const size_t most = w->options.crossings;
-    iso_status status = ISO_OK;
-    for (size_t i = 0; i < w->members; i++) a[i] = (iso_section_area){.orbit = w->first + i, .model = w->model[m]};
-    for (size_t found = 0, each; found < most && status == ISO_OK; found += each) {
-        each = most - found < w->slice ? most - found : w->slice;
-        status = iso_crossings_go(w->crossings[m], NULL, each, w->crossing[m], NULL, w->done[m], w->status[m]);
-        for (size_t i = 0; i < w->members && status != ISO_NO_MEMORY; i++)
-            for (size_t j = 0; j < w->done[m][i]; j++)
-                add_return(&a[i], &w->crossing[m][each * i + j], w->options.tolerance);
-        const double part = ((double)m + (double)(found + each) / (double)most) / w->models;
-        if (progress) progress(data, ((double)w->first + part * (double)w->members) / (double)w->result->orbits);
-        if (status == ISO_STOPPED || status == ISO_NO_MEMORY) break;
-        status = ISO_OK; /* an orbit that ends has its words; the others go on */
-    }
-    const bool lost = iso_effects_taking_energy(&iso_orbit_model(w->orbit)->problem) != NULL;
-    for (size_t i = 0; i < w->members; i++) {
-        a[i].kept = verdict_of(&a[i], lost);
-        if (w->status[m][i] == ISO_OK || w->status[m][i] == ISO_STOPPED) continue;
-        a[i].why = "it did not get to the end";
-        if (!*areas->words)
-            snprintf(areas->words, sizeof areas->words, "orbit %zu: %s", a[i].orbit,
-                     iso_crossings_why(w->crossings[m], i));
-    }
-    areas->count += w->members;
-    return status;
+    const area_walk *a = user;
+    add_return(&a->orbit[i], stop->crossing[0], a->w.options.tolerance);
+    return ISO_OK;
+}
+
+static void note_failure(void *user, size_t i, int model, iso_status status, const char *why)
+{
+    const area_walk *a = user;
+    (void)model, (void)status, (void)why;
+    a->orbit[i].why = "it did not get to the end";
+}
+
+static void show_progress(void *user, double part)
+{
+    const area_walk *a = user;
+    if (a->progress) a->progress(a->data, (a->model + part) / a->w.models);
 }
 
 iso_status iso_section_areas_find(iso_context *ctx, const iso_scene *scene, const iso_section_options *options,
@@ -105,21 +102,26 @@ iso_status iso_section_areas_find(iso_context *ctx, const iso_scene *scene, cons
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_section_result result;
-    iso_section_walk w = {.result = &result, .areas = true};
+    area_walk a = {.w = {.result = &result, .areas = true}, .progress = progress, .data = data};
     *areas = (iso_section_areas){.count = 0};
-    iso_status status = iso_section_begin(&w, ctx, scene, options);
-    if (status == ISO_OK) status = check_effects(&w);
-    if (status == ISO_OK && !(areas->orbit = calloc(result.orbits * (size_t)w.models, sizeof *areas->orbit)))
+    iso_status status = iso_section_begin(&a.w, ctx, scene, options);
+    if (status == ISO_OK) status = check_effects(&a.w);
+    if (status == ISO_OK && !(areas->orbit = calloc(result.orbits * (size_t)a.w.models, sizeof *areas->orbit)))
         status = iso_context_no_memory(ctx, "areas");
-    areas->returns = status == ISO_OK && iso_section_has_returns(&w);
-    while (status == ISO_OK) {
-        for (int m = 0; m < w.models && status == ISO_OK; m++) status = follow(&w, m, progress, data, areas);
-        iso_section_close_group(&w);
-        w.first += w.members;
-        if (status != ISO_OK || w.first >= result.orbits) break;
-        status = iso_section_open_group(&w);
+    areas->returns = status == ISO_OK && iso_section_has_returns(&a.w);
+    for (; a.model < a.w.models && status == ISO_OK; a.model++) {
+        iso_walk walk = iso_section_plan(&a.w, a.model);
+        a.orbit = areas->orbit + areas->count;
+        for (size_t i = 0; i < result.orbits; i++)
+            a.orbit[i] = (iso_section_area){.orbit = i, .model = a.w.model[a.model]};
+        walk.user = &a, walk.visit = visit, walk.failed_by = note_failure, walk.progress = show_progress;
+        status = iso_walk_go(&walk);
+        areas->count += walk.begun;
+        if (!*areas->words) memcpy(areas->words, walk.text, sizeof areas->words);
     }
-    iso_section_end(&w);
+    const bool lost = areas->count > 0 && iso_effects_taking_energy(&iso_orbit_model(a.w.orbit)->problem);
+    for (size_t i = 0; i < areas->count; i++) areas->orbit[i].kept = verdict_of(&areas->orbit[i], lost);
+    iso_orbit_free(a.w.orbit);
     return status;
 }
 

@@ -1,21 +1,21 @@
 /* section_impl.h - what the files of iso_section_run share.
  *
- *     section.c           checks, the groups of orbits
- *     section_walk.c      one group: its starts, its crossings by one model or two, its rows; the header
+ *     section.c           what kind of section it is, what is refused
+ *     section_walk.c      the orbits: the header, rows, the comparison of both models
  *     section_area.c      in place of rows: whether the return map keeps the area
  */
 #ifndef ISO_STUDY_SECTION_IMPL_H
 #define ISO_STUDY_SECTION_IMPL_H
 
-#include "map/section_impl.h"
+#include "orbit/walk_impl.h"
 #include "study/options_impl.h"
 #include "study/section/section.h"
 
-/* What is known of one orbit of the group. */
+/* What is known of the orbit whose rows are given. */
 typedef struct iso_section_member {
-    size_t found[2]; /* crossings, by the first model and by the second       */
-    bool failed, parted;
-    double distance; /* the largest so far between the models; its crossing   */
+    size_t orbit;
+    bool unequal, parted; /* one model has a crossing that the other one lacks  */
+    double distance;      /* the largest so far between the models; its crossing */
     size_t crossing;
 } iso_section_member;
 
@@ -31,54 +31,31 @@ typedef struct iso_section_walk {
     iso_section_options options;
     iso_effects effects; /* of the scene; observers only if a column needs them   */
     iso_orbit *orbit;    /* the scene's own: its units, its energy                */
-    iso_section_spread spread;
+    iso_starts starts;
     bool areas;                          /* det D is asked for, with losses as well; no rows      */
     bool clocks, chart;                  /* rows have tau and s; l and x                          */
     int columns[ISO_MAX_COLUMNS], count; /* of the samples, behind those                   */
     int models;                          /* 1 or 2 ... */
     iso_model_kind model[2];             /* ... that are integrated; rows are the first one's     */
     bool begun;                          /* the sink has the header */
-    /* the group */
-    size_t group, slice, slices; /* orbits in it; crossings asked for at a time; slices kept in memory */
-    size_t first, members;
-    iso_start *start;
-    iso_batch_orbit *batch;
-    iso_section_member *member;
-    bool *wanted; /* of the model that is followed */
-    iso_crossings *crossings[2];
-    iso_crossing *crossing[2]; /* [slice][orbit][crossing]                              */
-    iso_sample *sample;        /* likewise, of the first model; NULL: no column needs it */
-    size_t *done[2];           /* [slice][orbit]                                        */
-    iso_status *status[2];
+    iso_walk walk;
+    iso_section_member member;
 } iso_section_walk;
 
-/* Checks the options, opens the scene's own orbit and the first group. To be ended by iso_section_end, also after an
- * error. Errors: those of iso_section_run before the header. */
+/* Checks the options, and opens the scene's own orbit, which the caller frees, also after an error. Errors: those of
+ * iso_section_run before the header. */
 iso_status iso_section_begin(iso_section_walk *w, iso_context *ctx, const iso_scene *scene,
                              const iso_section_options *options);
-void iso_section_end(iso_section_walk *w);
 
 /* Whether deviations can be carried from return to return: on a global section of a motion on which nothing acts but a
  * level. */
 bool iso_section_has_returns(const iso_section_walk *w);
 
-/* Gives the header to the sink. This is done just before the first row: a scene without crossings opens no file. */
-iso_status iso_section_give_header(iso_section_walk *w);
+/* The walk of all orbits by one model (0: the first). Its visitor is to be set. */
+iso_walk iso_section_plan(iso_section_walk *w, int model);
 
-/* Room for a group. Errors: ISO_NO_MEMORY. */
-iso_status iso_section_make_room(iso_section_walk *w);
-void iso_section_free_room(iso_section_walk *w);
-
-/* Begins the group whose first orbit is w->first. Errors: those of iso_crossings_create. */
-iso_status iso_section_open_group(iso_section_walk *w);
-void iso_section_close_group(iso_section_walk *w);
-
-/* Finds the crossings of the group and gives the rows to the sink. Errors: of the sink, ISO_STOPPED,
- * ISO_NO_MEMORY. */
-iso_status iso_section_walk_group(iso_section_walk *w);
-
-/* States the level of the orbit among the effects: then every start is on it, not near it. */
-void iso_section_state_level(const iso_orbit *orbit, iso_effects *effects);
+/* Finds all crossings and gives the rows to the sink. Errors: of the sink, ISO_STOPPED, ISO_NO_MEMORY. */
+iso_status iso_section_walk_all(iso_section_walk *w);
 
 /* The nature of n_a = 0 for this orbit (axis: 0 to 2, or ISO_AXIS_AUTO). */
 iso_section_nature iso_section_of(const iso_orbit *orbit, int axis);

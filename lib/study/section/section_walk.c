@@ -1,4 +1,4 @@
-/* section_walk.c - one group of orbits of a section: starts, crossings by one model or two, rows, the header. */
+/* section_walk.c - the orbits of a section: what is walked, the header, rows, the comparison of both models. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -16,100 +16,7 @@
 #include "study/fields_impl.h"
 #include "study/section/section_impl.h"
 
-/* Crossings that are kept in memory: about 50 MB for each model, and as much for samples. */
-enum { ROOM = 1 << 19, ROOM_WITH_SAMPLES = 1 << 17, MOST_IN_GROUP = 4096, SLICES = 32 };
-
-/* --- room ------------------------------------------------------------------------------------------------------- */
-
-static void plan(iso_section_walk *w)
-{
-    const size_t room = w->count > 0 ? ROOM_WITH_SAMPLES : ROOM, most = w->options.crossings;
-    const size_t fit = room / most, orbits = w->result->orbits;
-    w->group = fit < 1 ? 1 : fit > MOST_IN_GROUP ? MOST_IN_GROUP : fit;
-    if (w->group > orbits) w->group = orbits;
-    const size_t slice = (most + SLICES - 1) / SLICES, largest_slice = room / SLICES;
-    w->slice = slice > largest_slice ? largest_slice : slice;
-    w->slices = w->group == 1
-                    ? 1
-                    : (most + w->slice - 1) / w->slice; /* a single orbit's rows go to the sink slice by slice */
-}
-
-iso_status iso_section_make_room(iso_section_walk *w)
-{
-    plan(w);
-    const size_t cells = w->group * w->slice * w->slices;
-    bool room = true;
-    w->start = calloc(w->group, sizeof *w->start);
-    w->batch = calloc(w->group, sizeof *w->batch);
-    w->member = calloc(w->group, sizeof *w->member);
-    w->wanted = calloc(w->group, sizeof *w->wanted);
-    w->sample = w->count > 0 ? malloc(cells * sizeof *w->sample) : NULL;
-    for (int m = 0; m < w->models; m++) {
-        w->crossing[m] = malloc(cells * sizeof *w->crossing[m]);
-        w->done[m] = calloc(w->group * w->slices, sizeof *w->done[m]);
-        w->status[m] = calloc(w->group, sizeof *w->status[m]);
-        room = room && w->crossing[m] && w->done[m] && w->status[m];
-    }
-    if (room && w->start && w->batch && w->member && w->wanted && (w->sample || w->count == 0)) return ISO_OK;
-    return iso_context_no_memory(w->ctx, "the crossings of %zu orbits", w->group);
-}
-
-void iso_section_free_room(iso_section_walk *w)
-{
-    iso_section_close_group(w);
-    free(w->start);
-    free(w->batch);
-    free(w->member);
-    free(w->wanted);
-    free(w->sample);
-    for (int m = 0; m < w->models; m++) {
-        free(w->crossing[m]);
-        free(w->done[m]);
-        free(w->status[m]);
-    }
-}
-
-/* --- starts ----------------------------------------------------------------------------------------------------- */
-
-void iso_section_state_level(const iso_orbit *orbit, iso_effects *effects)
-{
-    const iso_effects found = iso_orbit_effects(orbit);
-    const double c = iso_effects_level(&found);
-    if (iso_effects_have_level(&found) && isnormal(c)) iso_effects_set_level(effects, true, c);
-}
-
-/* The chart of start i, counted from 0: the first `starts` are spread, then come the given ones. */
-static void chart_of_start(const iso_section_spread *spread, size_t starts, const double (*at)[2], size_t i,
-                           double *l, double *x)
-{
-    if (i < starts) {
-        iso_section_spread_point(spread, i, l, x);
-    } else {
-        *l = at[i - starts][0];
-        *x = at[i - starts][1];
-    }
-}
-
-static iso_start start_of(const iso_section_walk *w, size_t orbit)
-{
-    const iso_section_options *o = &w->options;
-    double l, x;
-    if (orbit == 0) return w->scene->start;
-    chart_of_start(&w->spread, o->starts, o->at, orbit - 1, &l, &x);
-    return iso_section_start(w->orbit, w->scene->start.model, o->axis, l, x);
-}
-
-/* About the time in which n or gamma turns once, in the clock of the model. */
-static double turn_of(const iso_section_walk *w, int model)
-{
-    iso_sample start;
-    const iso_units *units = iso_orbit_units(w->orbit);
-    const bool point = w->model[model] == ISO_POINT, pulled = iso_effects_pull(&w->effects);
-    if (iso_orbit_at(w->orbit, 0, &start) != ISO_OK) return NAN;
-    const double unit = point ? iso_unit(units, iso_system_point.fast_dimension) : units->w;
-    const double speed = norm(point ? start.point : start.ball);
-    return 2 * ISO_PI / (fmax(speed, pulled ? unit : 0) * (point ? 1 : fabs(w->scene->params.k)));
-}
+/* --- what is walked --------------------------------------------------------------------------------------------- */
 
 static iso_crossings_options options_of(const iso_section_walk *w, int model)
 {
@@ -128,209 +35,16 @@ static iso_crossings_options options_of(const iso_section_walk *w, int model)
     if (!w->areas || iso_section_has_returns(w)) return c;
     c.kind = ISO_SECTION_CLOCK;
     c.clock = w->model[model] == ISO_POINT ? ISO_CLOCK_S : ISO_CLOCK_T;
-    c.value = turn_of(w, model);
+    c.value = iso_walk_turn(w->orbit, c.clock);
     return c;
 }
 
-iso_status iso_section_open_group(iso_section_walk *w)
+iso_walk iso_section_plan(iso_section_walk *w, int model)
 {
-    const size_t left = w->result->orbits - w->first;
-    iso_status status = ISO_OK;
-    w->members = left < w->group ? left : w->group;
-    for (size_t i = 0; i < w->members; i++) {
-        w->start[i] = start_of(w, w->first + i);
-        w->batch[i] = (iso_batch_orbit){&w->scene->params, &w->start[i], &w->effects};
-        w->member[i] = (iso_section_member){.failed = false};
-    }
-    for (int m = 0; m < w->models && status == ISO_OK; m++) {
-        const iso_crossings_options o = options_of(w, m);
-        status = iso_crossings_create(w->ctx, w->batch, w->members, &o, &w->crossings[m]);
-    }
-    return status;
-}
-
-void iso_section_close_group(iso_section_walk *w)
-{
-    for (int m = 0; m < w->models; m++) {
-        iso_crossings_free(w->crossings[m]);
-        w->crossings[m] = NULL;
-    }
-}
-
-/* --- failures --------------------------------------------------------------------------------------------------- */
-
-/* Counts an orbit that has failed, once. Keeps the words of the first. */
-static void note_failure(iso_section_walk *w, size_t i, iso_status status, const char *words)
-{
-    iso_section_result *r = w->result;
-    if (w->member[i].failed) return;
-    w->member[i].failed = true;
-    if (r->failed++ > 0) return;
-    r->failure = status;
-    snprintf(r->words, sizeof r->words, "orbit %zu: %s", w->first + i, words);
-}
-
-static void note_failures(iso_section_walk *w, int model)
-{
-    const iso_status *status = w->status[model];
-    for (size_t i = 0; i < w->members; i++)
-        if (status[i] != ISO_OK) note_failure(w, i, status[i], iso_crossings_why(w->crossings[model], i));
-}
-
-/* --- rows ------------------------------------------------------------------------------------------------------- */
-
-double iso_section_distance(const iso_crossing *a, const iso_crossing *b)
-{
-    return fmax(fabs(remainder(a->l - b->l, 2 * ISO_PI)), fabs(a->x - b->x));
-}
-
-/* The distance of the two models. An event has no chart: there it is |dt|, divided by the mean time between
- * crossings. */
-static double distance_of(const iso_section_walk *w, const iso_crossing *a, const iso_crossing *b, size_t crossing)
-{
-    if (w->chart) return iso_section_distance(a, b);
-    const double t = a->clock[ISO_CLOCK_T];
-    return fabs(t - b->clock[ISO_CLOCK_T]) / (fabs(t) / (double)crossing);
-}
-
-/* Compares a crossing by both models, unless they have parted before. */
-static void compare(iso_section_walk *w, size_t i, const iso_crossing *a, const iso_crossing *b, size_t crossing)
-{
-    iso_section_member *member = &w->member[i];
-    iso_section_result *r = w->result;
-    const double distance = distance_of(w, a, b, crossing);
-    if (member->parted) return;
-    if (distance > member->distance) {
-        member->distance = distance;
-        member->crossing = crossing;
-    }
-    member->parted = distance > ISO_SECTION_PARTED;
-    if (!member->parted) return;
-    if (r->parted++ > 0 && crossing >= r->parted_crossing) return;
-    r->parted_orbit = w->first + i;
-    r->parted_crossing = crossing;
-}
-
-/* Adds a finished group to the result. */
-static void conclude(iso_section_walk *w)
-{
-    iso_section_result *r = w->result;
-    for (size_t i = 0; i < w->members && w->models == 2; i++) {
-        const iso_section_member *member = &w->member[i];
-        r->unequal += member->found[0] != member->found[1];
-        if (member->parted || !(member->distance > r->distance)) continue;
-        r->distance = member->distance;
-        r->distance_orbit = w->first + i;
-        r->distance_crossing = member->crossing;
-    }
-}
-
-static iso_status give_row(iso_section_walk *w, size_t i, const iso_crossing *at, const iso_sample *sample)
-{
-    double row[ISO_MAX_COLUMNS];
-    size_t n = 0;
-    row[n++] = (double)(w->first + i);
-    row[n++] = (double)(w->member[i].found[0] + 1);
-    for (int c = 0; c < (w->clocks ? ISO_CLOCKS : 1); c++) row[n++] = at->clock[c];
-    if (w->chart) row[n++] = at->l;
-    if (w->chart) row[n++] = at->x;
-    for (int c = 0; c < w->count; c++) row[n++] = iso_sample_column(sample, w->columns[c]);
-    if (!all_finite(row, (int)n)) {
-        note_failure(w, i, ISO_NUMERICAL, "a number of a crossing does not fit a double");
-        return ISO_OK;
-    }
-    iso_status status = w->begun ? ISO_OK : iso_section_give_header(w);
-    if (status == ISO_OK && w->sink->record) status = iso_record_add(w->ctx, *w->sink->record, 1, row);
-    if (status == ISO_OK && w->sink->row) status = w->sink->row(w->sink->data, row, n);
-    w->result->rows += status == ISO_OK;
-    return status;
-}
-
-/* The rows of one orbit in one slice that is kept. */
-static iso_status give_cell(iso_section_walk *w, size_t slice, size_t i)
-{
-    const size_t cell = slice * w->group + i,
-                 *done[2] = {&w->done[0][cell], w->models == 2 ? &w->done[1][cell] : NULL};
-    iso_section_member *member = &w->member[i];
-    iso_status status = ISO_OK;
-    for (size_t j = 0; status == ISO_OK && (j < *done[0] || (done[1] && j < *done[1])); j++) {
-        const size_t at = cell * w->slice + j;
-        const bool both = done[1] && j < *done[0] && j < *done[1];
-        if (j < *done[0]) status = give_row(w, i, &w->crossing[0][at], w->sample ? &w->sample[at] : NULL);
-        if (status == ISO_OK && both && w->sink->pair)
-            status = w->sink->pair(w->sink->data, w->first + i, &w->crossing[0][at], &w->crossing[1][at]);
-        if (both) compare(w, i, &w->crossing[0][at], &w->crossing[1][at], member->found[0] + 1);
-        for (int m = 0; m < w->models; m++) {
-            member->found[m] += j < *done[m];
-            w->result->crossings[w->model[m]] += j < *done[m];
-        }
-    }
-    return status;
-}
-
-static iso_status give_rows(iso_section_walk *w, size_t slices)
-{
-    iso_status status = ISO_OK;
-    for (size_t i = 0; i < w->members; i++)
-        for (size_t k = 0; status == ISO_OK && k < slices; k++) status = give_cell(w, k, i);
-    return status;
-}
-
-/* --- crossings -------------------------------------------------------------------------------------------------- */
-
-/* An orbit that the first model has found to stay away from the section. The second model would wait as long, and would
- * give nothing to compare. */
-static bool stays_away(const iso_section_walk *w, size_t cell, size_t i)
-{
-    return w->status[0][i] == ISO_BAD_INPUT && w->done[0][cell + i] == 0;
-}
-
-/* Finds the next `each` crossings of all members. iso_crossings_go stores them `each` apart; rows want them w->slice
- * apart. */
-static iso_status find_slice(iso_section_walk *w, size_t kept, size_t each)
-{
-    iso_status status = ISO_OK;
-    for (int m = 0; m < w->models; m++) memset(w->done[m] + kept * w->group, 0, w->group * sizeof *w->done[m]);
-    for (int m = 0; m < w->models && status == ISO_OK; m++) {
-        const size_t cell = kept * w->group;
-        iso_sample *sample = m == 0 && w->sample ? w->sample + cell * w->slice : NULL;
-        iso_crossing *crossing = w->crossing[m] + cell * w->slice;
-        for (size_t i = 0; i < w->members; i++) w->wanted[i] = m == 0 || !stays_away(w, cell, i);
-        status =
-            iso_crossings_go(w->crossings[m], w->wanted, each, crossing, sample, w->done[m] + cell, w->status[m]);
-        for (size_t i = w->members; i-- > 0 && each < w->slice;) { /* the last slice may be shorter */
-            memmove(crossing + i * w->slice, crossing + i * each, each * sizeof *crossing);
-            if (sample) memmove(sample + i * w->slice, sample + i * each, each * sizeof *sample);
-        }
-        if (status == ISO_STOPPED || status == ISO_NO_MEMORY) break;
-        if (status != ISO_OK) note_failures(w, m);
-        status = ISO_OK;
-    }
-    return status;
-}
-
-static void show_progress(const iso_section_walk *w, size_t found)
-{
-    const double all = (double)w->result->orbits;
-    const double part = (double)found / (double)w->options.crossings;
-    if (w->sink->progress) w->sink->progress(w->sink->data, ((double)w->first + part * (double)w->members) / all);
-}
-
-iso_status iso_section_walk_group(iso_section_walk *w)
-{
-    const size_t most = w->options.crossings;
-    iso_status status = ISO_OK, given = ISO_OK;
-    for (size_t found = 0, kept = 0; status == ISO_OK && given == ISO_OK && found < most;) {
-        const size_t each = most - found < w->slice ? most - found : w->slice;
-        status = find_slice(w, kept++, each);
-        found += each;
-        show_progress(w, found);
-        if (status == ISO_OK && found < most && w->slices > 1) continue; /* kept until all are there */
-        if (status == ISO_OK || status == ISO_STOPPED) given = give_rows(w, kept);
-        kept = 0;
-    }
-    if (status == ISO_OK && given == ISO_OK) conclude(w);
-    return given == ISO_OK ? status : given;
+    iso_walk walk = {.ctx = w->ctx, .count = w->result->orbits, .most = w->options.crossings, .models = 1, .user = w};
+    walk.starts = &w->starts;
+    walk.options[0] = options_of(w, model);
+    return walk;
 }
 
 /* --- the header ------------------------------------------------------------------------------------------------- */
@@ -405,7 +119,8 @@ static iso_status describe(const iso_section_walk *w, iso_record *r)
     return iso_record_set(w->ctx, r, "isoroll", ISO_VERSION);
 }
 
-iso_status iso_section_give_header(iso_section_walk *w)
+/* Just before the first row: a scene without crossings opens no file. */
+static iso_status give_header(iso_section_walk *w)
 {
     iso_record *header = NULL;
     iso_status status = create_header(w, &header);
@@ -416,5 +131,114 @@ iso_status iso_section_give_header(iso_section_walk *w)
     else
         iso_record_free(header);
     w->begun = true;
+    return status;
+}
+
+/* --- rows ------------------------------------------------------------------------------------------------------- */
+
+double iso_section_distance(const iso_crossing *a, const iso_crossing *b)
+{
+    return fmax(fabs(remainder(a->l - b->l, 2 * ISO_PI)), fabs(a->x - b->x));
+}
+
+/* The distance of the two models. An event has no chart: there it is |dt|, divided by the mean time between
+ * crossings. */
+static double distance_of(const iso_section_walk *w, const iso_crossing *a, const iso_crossing *b, size_t crossing)
+{
+    if (w->chart) return iso_section_distance(a, b);
+    const double t = a->clock[ISO_CLOCK_T];
+    return fabs(t - b->clock[ISO_CLOCK_T]) / (fabs(t) / (double)crossing);
+}
+
+/* Compares a crossing by both models, unless they have parted before. */
+static void compare(iso_section_walk *w, const iso_walk_stop *stop)
+{
+    iso_section_member *member = &w->member;
+    iso_section_result *r = w->result;
+    const double distance = distance_of(w, stop->crossing[0], stop->crossing[1], stop->number);
+    if (member->parted) return;
+    if (distance > member->distance) {
+        member->distance = distance;
+        member->crossing = stop->number;
+    }
+    member->parted = distance > ISO_SECTION_PARTED;
+    if (!member->parted) return;
+    if (r->parted++ > 0 && stop->number >= r->parted_crossing) return;
+    r->parted_orbit = member->orbit;
+    r->parted_crossing = stop->number;
+}
+
+/* Adds a finished orbit to the result. */
+static void conclude(iso_section_walk *w)
+{
+    const iso_section_member *member = &w->member;
+    iso_section_result *r = w->result;
+    r->unequal += member->unequal && !w->walk.stopped;
+    if (member->parted || !(member->distance > r->distance)) return;
+    r->distance = member->distance;
+    r->distance_orbit = member->orbit;
+    r->distance_crossing = member->crossing;
+}
+
+static iso_status give_row(iso_section_walk *w, size_t i, const iso_walk_stop *stop)
+{
+    const iso_crossing *at = stop->crossing[0];
+    double row[ISO_MAX_COLUMNS];
+    size_t n = 0;
+    row[n++] = (double)i;
+    row[n++] = (double)stop->number;
+    for (int c = 0; c < (w->clocks ? ISO_CLOCKS : 1); c++) row[n++] = at->clock[c];
+    if (w->chart) row[n++] = at->l;
+    if (w->chart) row[n++] = at->x;
+    for (int c = 0; c < w->count; c++) row[n++] = iso_sample_column(stop->sample, w->columns[c]);
+    if (!all_finite(row, (int)n)) {
+        iso_walk_fail(&w->walk, i, ISO_NUMERICAL, "a number of a crossing does not fit a double");
+        return ISO_OK;
+    }
+    iso_status status = w->begun ? ISO_OK : give_header(w);
+    if (status == ISO_OK && w->sink->record) status = iso_record_add(w->ctx, *w->sink->record, 1, row);
+    if (status == ISO_OK && w->sink->row) status = w->sink->row(w->sink->data, row, n);
+    w->result->rows += status == ISO_OK;
+    return status;
+}
+
+static iso_status visit(void *user, size_t i, const iso_walk_stop *stop)
+{
+    iso_section_walk *w = user;
+    const iso_crossing *const *by = stop->crossing;
+    const bool both = by[0] && by[1];
+    if (stop->number == 1) {
+        conclude(w);
+        w->member = (iso_section_member){.orbit = i};
+    }
+    if (by[0]) ISO_TRY(give_row(w, i, stop));
+    if (both && w->sink->pair) ISO_TRY(w->sink->pair(w->sink->data, i, by[0], by[1]));
+    if (both) compare(w, stop);
+    w->member.unequal = w->member.unequal || (w->models == 2 && !both);
+    for (int m = 0; m < w->models; m++) w->result->crossings[w->model[m]] += by[m] != NULL;
+    return ISO_OK;
+}
+
+static void show_progress(void *user, double part)
+{
+    const iso_section_walk *w = user;
+    if (w->sink->progress) w->sink->progress(w->sink->data, part);
+}
+
+iso_status iso_section_walk_all(iso_section_walk *w)
+{
+    iso_section_result *r = w->result;
+    w->walk = iso_section_plan(w, 0);
+    w->walk.in_order = true;
+    w->walk.samples = w->count > 0;
+    w->walk.models = w->models;
+    w->walk.options[1] = options_of(w, 1);
+    w->walk.visit = visit;
+    w->walk.progress = show_progress;
+    const iso_status status = iso_walk_go(&w->walk);
+    conclude(w);
+    r->failed = w->walk.failed;
+    r->failure = w->walk.failure;
+    memcpy(r->words, w->walk.text, sizeof r->words);
     return status;
 }
