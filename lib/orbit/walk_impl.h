@@ -77,7 +77,7 @@ double iso_walk_turn(iso_orbit *orbit, iso_clock clock);
  * those at given points (l, x) of it. All have the scene's energy. */
 typedef struct iso_starts {
     const iso_scene *scene;
-    const iso_orbit *orbit; /* the scene's own */
+    iso_orbit *orbit;       /* the scene's own */
     iso_effects *effects;   /* that act */
     int axis;               /* of the section */
     size_t spread;
