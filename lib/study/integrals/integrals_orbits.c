@@ -132,45 +132,34 @@ static double keep_samples(integral_samples *s, const iso_sample sample[])
     return sqrt(sum / (double)s->rows);
 }
 
-/* The room of the orbits while they are followed. */
-typedef struct room {
-    iso_start *start;
-    iso_batch_orbit *orbit;
-    iso_sample *sample;
-} room;
-
-static iso_status follow(iso_context *ctx, const iso_integral_search_options *options, integral_samples *s, room *r)
+iso_status iso_integral_follow(iso_context *ctx, const iso_integral_search_options *options, integral_samples *s,
+                               double *energy)
 {
     double times[ISO_INTEGRAL_ROWS];
+    iso_start *start = calloc(s->orbits, sizeof *start);
+    iso_batch_orbit *orbit = calloc(s->orbits, sizeof *orbit);
+    iso_sample *sample = calloc(s->rows, sizeof *sample);
     iso_batch_options o = iso_batch_defaults();
     o.tolerance = options->tolerance;
     o.threads = options->threads;
     o.shown = ISO_SHOW_POINT;
     if (s->problem.energy != 0) o.backend = ISO_BACKEND_POINT, o.clock = ISO_CLOCK_S;
-    for (size_t i = 0; i < s->orbits; i++) {
+    s->state = calloc(s->rows, sizeof *s->state);
+    const bool room = start && orbit && sample && s->state;
+    for (size_t i = 0; room && i < s->orbits; i++) {
         double l, x;
         iso_section_spread_point(&s->spread, i, &l, &x);
-        r->start[i] = (iso_start){.model = ISO_POINT, .eps = s->problem.energy == 0 ? NAN : s->problem.eps};
-        iso_section_point(iso_integral_motion(s), s->axis, l, x, r->start[i].y);
-        r->orbit[i] = (iso_batch_orbit){&s->problem.p, &r->start[i], &s->problem.effects};
+        start[i] = (iso_start){.model = ISO_POINT, .eps = s->problem.energy == 0 ? NAN : s->problem.eps};
+        iso_section_point(iso_integral_motion(s), s->axis, l, x, start[i].y);
+        orbit[i] = (iso_batch_orbit){&s->problem.p, &start[i], &s->problem.effects};
     }
-    ISO_TRY(choose_times(ctx, options, s, times));
-    return iso_batch_run(ctx, r->orbit, s->orbits, &o, times, ISO_INTEGRAL_ROWS, r->sample, NULL);
-}
-
-iso_status iso_integral_follow(iso_context *ctx, const iso_integral_search_options *options, integral_samples *s,
-                               double *energy)
-{
-    room r = {calloc(s->orbits, sizeof *r.start), calloc(s->orbits, sizeof *r.orbit),
-              calloc(s->rows, sizeof *r.sample)};
-    s->state = calloc(s->rows, sizeof *s->state);
-    iso_status status = ISO_OK;
-    if (!r.start || !r.orbit || !r.sample || !s->state) status = iso_context_no_memory(ctx, "%zu orbits", s->orbits);
-    if (status == ISO_OK) status = follow(ctx, options, s, &r);
-    if (status == ISO_OK) *energy = keep_samples(s, r.sample);
-    free(r.start);
-    free(r.orbit);
-    free(r.sample);
+    iso_status status =
+        room ? choose_times(ctx, options, s, times) : iso_context_no_memory(ctx, "%zu orbits", s->orbits);
+    if (status == ISO_OK) status = iso_batch_run(ctx, orbit, s->orbits, &o, times, ISO_INTEGRAL_ROWS, sample, NULL);
+    if (status == ISO_OK) *energy = keep_samples(s, sample);
+    free(start);
+    free(orbit);
+    free(sample);
     if (status != ISO_OK || isfinite(*energy)) return status;
     return ISO_FAIL_NUMERICAL(ctx, "powers of q do not fit a double for this k and J");
 }
