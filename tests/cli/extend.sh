@@ -1,5 +1,5 @@
 # extend.sh - the recipes of tests/extend, followed in a copy of the source: an effect, a method, an integral, a column of a
-# result; and the system of lib/README.md. Every backend and method either simulates the new effect, and all agree, or
+# result, a study of many orbits; and the system of lib/README.md. Every backend and method either simulates the new effect, and all agree, or
 # refuses it by name.
 . "$(dirname "$0")/lib.sh"
 copy=$work/copy
@@ -22,6 +22,9 @@ awk -v functions="$recipes/integral_round.c" '
     { print }' "$source/lib/model/ball.c" >"$copy/lib/model/ball.c"
 cp "$recipes/effect_drag.c" "$copy/lib/model/"
 cp "$recipes/kutta38.c" "$copy/lib/method/"
+sed -i 's/^    X(chaos) /    X(chaos) X(passes) /' "$copy/lib/study/options_impl.h"
+cp "$recipes/study_passes.c" "$copy/lib/study/"
+check "study_passes.c has at most 60 lines" test "$(wc -l <"$recipes/study_passes.c")" -le 60
 
 # The line of lib/README.md that makes a column stands behind another one.
 column=$(sed -n 's/^    FIELD("u", /&/p' "$source/lib/README.md")
@@ -50,7 +53,7 @@ check "lib/README.md has the system circle" grep -q 'iso_system_circle = {' "$wo
 check "the system of lib/README.md compiles" "${CC:-cc}" -std=c11 -Wall -Wextra -Werror -fsyntax-only \
     -I"$source/lib" "$work/circle.c"
 
-for recipe in effect_drag effect_drag_plain kutta38; do # also with the warnings that only an optimising compiler has
+for recipe in effect_drag effect_drag_plain kutta38 study_passes; do # also with the warnings that only an optimising compiler has
     check "$recipe.c has no warnings" "${CC:-cc}" -std=c11 -D_DEFAULT_SOURCE -O2 -Wall -Wextra -Wpedantic -Wshadow \
         -Wconversion -Werror -I"$copy/lib" -c "$recipes/$recipe.c" -o recipe.o
 done
@@ -64,10 +67,11 @@ check "its columns" test "$(columns turns.csv)" = number,angle
 check "its rows" test "$(tail -n 1 turns.csv)" = 3,0.16666666666666666
 ./turns turns.h5 || skip "a table of turns in HDF5" "this build has none"
 
+# build WHAT [TARGET]: the copy's command, and TARGET
 build() {
     checks=$((checks + 1))
     if ! { cmake -S "$copy" -B "$work/build" -DCMAKE_C_COMPILER="${CC:-cc}" -DISO_WERROR=ON -DBUILD_TESTING=OFF \
-        -DISO_MPI=OFF -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0 && cmake --build "$work/build" --target isoroll_command -j 2; } >"$work/build.log" 2>&1; then
+        -DISO_MPI=OFF -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0 && cmake --build "$work/build" --target isoroll_command ${2:-} -j 2; } >"$work/build.log" 2>&1; then
         fail "$1 does not compile"
         grep -E 'error|warning' "$work/build.log" | head -n 5 >&2
         finish
@@ -80,7 +84,7 @@ holds() {
     sed '/^integrals that do not hold/,$d' out | grep -q "^  ball  $1 "
 }
 
-build "the recipes"
+build "the recipes" isoroll
 run 0 list effects
 grep -q '^  drag ' out || fail "list effects has no drag"
 run 0 list methods
@@ -97,6 +101,32 @@ run 0 periodic free_ball.yaml --period 1 -o periodic.csv
 columns periodic.csv | grep -q ',closure,u,omega1,' || fail "the table has no column u"
 run 0 periodic free_ball.yaml --period 1 --json
 grep -q '^   "u": [0-9.]*,$' out || fail "JSON has no u"
+
+# The study of many orbits, by its name: a round ball turns at the rate |k omega| = 5, so n3 = 0 is passed 79 times until
+# t = 100, from every start.
+cat >round.yaml <<'EOF'
+reduced: {k: 1, J: [2, 2, 2]}
+initial: {normal: [0, 0, 1], angular_velocity: [3, 4, 0]}
+time:    {end: 100, step: 10}
+EOF
+cat >passes.c <<'EOF'
+#include "foreign/foreign.h"
+#include "io/table.h"
+int main(void)
+{
+    char notes[200];
+    iso_context *ctx = iso_context_create();
+    iso_foreign_scene *scene;
+    iso_record *table[6];
+    iso_foreign_scene_read(ctx, "round.yaml", &scene);
+    return iso_foreign_study(ctx, scene, NULL, "passes", "starts=3", NULL, NULL, table, notes, sizeof notes) ||
+           iso_table_write(ctx, "passes.csv", table[0]);
+}
+EOF
+check "a program that asks for passes" "${CC:-cc}" -std=c11 -Wall -Wextra -Wpedantic -Werror -I"$copy/lib" passes.c -o passes \
+    -L"$work/build" -lisoroll -Wl,-rpath,"$work/build"
+check "the study of many orbits" ./passes
+grep -v '^#' passes.csv | tr '\n' ' ' | grep -qx 'orbit,count 0,79 1,79 2,79 3,79 ' || fail "orbits do not pass n3 = 0 79 times"
 
 cat >drag.yaml <<'EOF'
 reduced: {k: 0.5, J: [1.4, 2.1, 3.0]}
