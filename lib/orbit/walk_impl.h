@@ -48,12 +48,12 @@ typedef struct iso_walk {
     void (*failed_by)(void *user, size_t i, int model, iso_status status, const char *why); /* may be NULL */
     void (*progress)(void *user, double part); /* of the `most` stops of all orbits; may be NULL  */
     /* Set by iso_walk_go. */
-    size_t begun;       /* orbits */
+    size_t begun;       /* orbits that it has taken up */
     size_t failed;      /* orbits that failed by at least one model */
     iso_status failure; /* of the first of them, with its text */
     char text[512];
-    struct iso_walk_group *group;
-    bool stopped; /* the monitor has ended the walk: the stops found by then are visited */
+    struct iso_walk_group *group; /* that is in memory, for iso_walk_fail */
+    bool stopped;                 /* the monitor has ended the walk: the stops found by then are visited */
 } iso_walk;
 
 /* Orbits that fail are counted; the others go on. By two models each goes to its own end, but an orbit that stays away
@@ -77,9 +77,9 @@ double iso_walk_turn(iso_orbit *orbit, iso_clock clock);
  * those at given points (l, x) of it. All have the scene's energy. */
 typedef struct iso_starts {
     const iso_scene *scene;
-    iso_orbit *orbit;       /* the scene's own */
-    iso_effects *effects;   /* that act */
-    int axis;               /* of the section */
+    iso_orbit *orbit;     /* the scene's own */
+    iso_effects *effects; /* that act */
+    int axis;             /* of the section */
     size_t spread;
     uint64_t seed;
     unsigned copies; /* see map/section_impl.h */

@@ -2,16 +2,12 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/finite_impl.h"
 #include "base/number_impl.h"
 #include "base/pi_impl.h"
-#include "base/vec3_impl.h"
 #include "base/version.h"
-#include "map/section_impl.h"
-#include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/fields_impl.h"
 #include "study/section/section_impl.h"
