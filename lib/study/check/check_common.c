@@ -44,17 +44,6 @@ iso_effects iso_checker_effects(const checker *c, iso_model_kind kind)
     return effects;
 }
 
-double iso_checker_distance(const double a[ISO_STATE], const double b[ISO_STATE])
-{
-    double d[ISO_STATE];
-    const double size = fmax(largest(a), largest(b));
-    for (int i = 0; i < 3; i++) {
-        d[i] = size > 0 ? a[i] / size - b[i] / size : 0;
-        d[3 + i] = a[3 + i] - b[3 + i];
-    }
-    return fmax(norm(d), norm(d + 3));
-}
-
 /* --- integrals -------------------------------------------------------------------------------------------------- */
 
 void iso_checker_own(const checker *c, const expectations *e, const double row[], double own[ISO_MAX_STATE])
