@@ -121,7 +121,7 @@ iso_status view_of_section(iso_context *ctx, const file_options *from, view_page
  * and alone. *worst: the row that the orbit through the row before it misses most. */
 typedef struct view_miss {
     size_t row; /* from 0                                                                         */
-    double by;  /* |difference| of n, or of omega against the largest |omega|; 0: none is missed  */
+    double by;  /* iso_row_gap.miss; 0: none is missed                                            */
 } view_miss;
 iso_status view_complete(iso_context *ctx, const view_page *page, iso_record *rows, iso_record **complete,
                          view_miss *worst);
