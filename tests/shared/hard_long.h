@@ -117,14 +117,12 @@ static inline long_run long_follow(iso_context *ctx, const long_scene *scene, co
     looks = (long_looks){.count = 0};
     run.refused = long_create(ctx, scene, way, &orbit) != ISO_OK;
     snprintf(run.words, sizeof run.words, "%s", run.refused ? iso_context_message(ctx) : "");
-    laws_stop_if(ctx, run.refused) return run;
-    if (against && long_create(ctx, scene, against, &truth) != ISO_OK, "no reference")
-        ;
+    if (run.refused) return run;
+    laws_stop_if(ctx, against && long_create(ctx, scene, against, &truth) != ISO_OK, "no reference");
     long_look(orbit, (iso_orbit_at(orbit, 0, &s), &s), true, &looks, &run);
     for (int i = 0; i < LONG_LOOKS && !run.stopped; i++) {
         const double time = (i + 1) * spins / LONG_LOOKS * scene->spin;
-        laws_stop_if(ctx, iso_orbit_at(orbit, time, &s) != ISO_OK)
-        {
+        if (iso_orbit_at(orbit, time, &s) != ISO_OK) {
             snprintf(run.words, sizeof run.words, "%s", iso_context_message(ctx));
             run.error = run.drift[LONG_ENERGY] = NAN;
             break;
@@ -135,8 +133,7 @@ static inline long_run long_follow(iso_context *ctx, const long_scene *scene, co
         run.spins = (i + 1) * spins / LONG_LOOKS;
         run.stopped = limit > 0 && (double)(clock() - begun) / CLOCKS_PER_SEC > limit;
         if (!truth) continue;
-        if (iso_orbit_at(truth, time, &right) != ISO_OK, "the reference stops")
-            ;
+        laws_stop_if(ctx, iso_orbit_at(truth, time, &right) != ISO_OK, "the reference stops");
         const double error = hard_error(s.ball, right.ball);
         if (!(error <= run.error)) run.error = error;
         if (i < LONG_LOOKS / 100 || run.error == 0) continue;

@@ -121,9 +121,8 @@ static inline iso_orbit *scene_orbit(iso_context *ctx, const rolling *ball, cons
     iso_orbit *orbit;
     iso_orbit_options o = options ? *options : iso_orbit_defaults(start);
     o.effects = effects;
-    laws_stop_if(ctx, !options) o.tolerance = 1e-14;
-    if (iso_orbit_create(ctx, &ball->p, start, &o, &orbit) != ISO_OK, ball->name)
-        ;
+    if (!options) o.tolerance = 1e-14;
+    laws_stop_if(ctx, iso_orbit_create(ctx, &ball->p, start, &o, &orbit) != ISO_OK, ball->name);
     return orbit;
 }
 
