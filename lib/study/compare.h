@@ -19,14 +19,6 @@ ISO_C_BEGIN
 /* The index of each run: [ISO_BALL] and [ISO_POINT] are integrated, [ISO_BY_EXACT] is the closed solution. */
 enum { ISO_INTEGRATED = 2, ISO_BY_EXACT = ISO_INTEGRATED, ISO_BACKENDS };
 
-/* One integral along one backend's orbit, in the model of `system`. */
-typedef struct iso_drift {
-    const iso_system *system;
-    const iso_integral *integral;
-    double start; /* its value at the start, in the caller's units (infinite if that overflows)          */
-    double worst; /* largest |I - I(start)| / size over the rows, see iso_integral                       */
-} iso_drift;
-
 /* One backend's part. */
 typedef struct iso_backend_run {
     iso_backend backend;
