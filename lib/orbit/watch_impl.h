@@ -1,5 +1,5 @@
 /* watch_impl.h - what is watched along an orbit: how far its integrals drift, and how far it is from another orbit of
- * the same motion. lib/doc/methods.md defines both numbers. */
+ * the same motion. lib/doc/methods.md, section 3, defines both numbers. */
 #ifndef ISO_ORBIT_WATCH_IMPL_H
 #define ISO_ORBIT_WATCH_IMPL_H
 
@@ -21,8 +21,8 @@ int iso_watch_begin(const iso_orbit *orbit, const iso_system *system, double ene
 /* Sets `now` and `worst` of all that are listed. */
 void iso_watch_follow(const iso_orbit *orbit, const iso_sample *sample, iso_drift list[], int count);
 
-/* The distance of two states of one motion, balls or points: the larger of both vectors, each relative to the longer of
- * the two (relative_difference). NaN where one of them is not known. */
+/* The distance of two states of one motion, balls or points: that of the vector which differs more, relative to the
+ * longer one (relative_difference). NaN where one is not known. */
 double iso_distance(const double a[ISO_STATE], const double b[ISO_STATE]);
 
 #endif

@@ -30,9 +30,8 @@ typedef struct iso_backend_run {
     iso_drift drift[ISO_MAX_INTEGRALS];
 } iso_backend_run;
 
-/* The columns of the differences: a clock, then |difference| of the two backends for omega, n, M, gamma and the two
- * other clocks. That of omega and M is relative to the size of the vector, that of a clock to its largest value in
- * the record; n and gamma are unit vectors. */
+/* The columns of the differences: a clock, then the distance of the two backends in omega, n, M, gamma and the two
+ * other clocks, as lib/doc/methods.md, section 3, defines it. */
 enum { ISO_DIFFERENCES = 7 };
 
 typedef struct iso_comparison {
