@@ -9,6 +9,7 @@
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
 #include "model/model_impl.h"
+#include "orbit/watch_impl.h"
 
 static void state_of(const iso_rows *r, const double row[], double y[ISO_STATE])
 {
@@ -96,16 +97,6 @@ bool iso_rows_measure(iso_rows *r, double noise, iso_row_gap *gap)
     return true;
 }
 
-double iso_rows_distance(const double a[ISO_STATE], const double b[ISO_STATE], double off[ISO_STATE])
-{
-    const double size = fmax(largest(a), largest(b));
-    for (int i = 0; i < 3; i++) {
-        off[i] = size > 0 ? a[i] / size - b[i] / size : 0;
-        off[3 + i] = a[3 + i] - b[3 + i];
-    }
-    return fmax(norm(off), norm(off + 3));
-}
-
 iso_status iso_rows_integrate(iso_rows *r, iso_row_gap *gap)
 {
     double here[ISO_STATE];
@@ -121,7 +112,12 @@ iso_status iso_rows_integrate(iso_rows *r, iso_row_gap *gap)
         gap->error[k] = fmax(tolerance, 4 * DBL_EPSILON) * fabs(gap->gained[k]);
     }
     state_of(r, r->now, here);
-    gap->miss = iso_rows_distance(here, r->model == ISO_BALL ? gap->reached.ball : gap->reached.point, gap->off);
+    const double *there = r->model == ISO_BALL ? gap->reached.ball : gap->reached.point;
+    gap->miss = iso_distance(here, there);
+    for (int v = 0; v < ISO_STATE; v += 3) {
+        const double size = fmax(norm(here + v), norm(there + v));
+        for (int i = v; i < v + 3; i++) gap->off[i] = size > 0 ? (here[i] - there[i]) / size : 0;
+    }
     return ISO_OK;
 }
 

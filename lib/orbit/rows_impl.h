@@ -24,8 +24,8 @@
 typedef struct iso_row_gap {
     double step;                                  /* of the clock of the rows                                    */
     double gained[ISO_CLOCKS], error[ISO_CLOCKS]; /* by the other clocks of the orbit; NaN: it does not have them */
-    double off[ISO_STATE];                        /* the row less the orbit, relative to the size of each vector */
-    double miss;                                  /* the larger of the lengths of both parts of `off`            */
+    double off[ISO_STATE];                        /* the row less the orbit, relative to the longer vectors      */
+    double miss;                                  /* the distance of the row from the orbit (watch_impl.h)       */
     iso_sample reached;                           /* where the orbit is now; of an integration only              */
 } iso_row_gap;
 
@@ -64,10 +64,6 @@ iso_status iso_rows_integrate(iso_rows *rows, iso_row_gap *gap);
 
 /* The next gap begins at the row in hand. */
 void iso_rows_keep(iso_rows *rows);
-
-/* Row a less row b, relative to the larger size of both omega or M, and to 1 for n or gamma; returns the larger length
- * of the two vectors. */
-double iso_rows_distance(const double a[ISO_STATE], const double b[ISO_STATE], double off[ISO_STATE]);
 
 /* A row is missed by the orbit through the row before if it is farther from it than the largest of
  * - 1e-5, what six digits make of it; rows of other equations, a thousandth beside the stated ones, are missed by more;

@@ -121,13 +121,13 @@ static iso_status check_model(checker *c, checked_model *m, const double row[])
 
 static void check_map(checker *c, const double row[])
 {
-    double ball[ISO_STATE], point[ISO_STATE], off[ISO_STATE];
+    double ball[ISO_STATE], point[ISO_STATE];
     iso_checker_state(c, &c->model[ISO_BALL], row, ball);
     iso_checker_state(c, &c->model[ISO_POINT], row, point);
     iso_ball_to_point(&c->units.own, ball, ball);
     scale(ball, iso_unit(&c->units, iso_system_point.fast_dimension));
-    iso_checker_note(&c->map, "map", "the ball's point (18) against the record's",
-                     iso_rows_distance(ball, point, off), c->number);
+    iso_checker_note(&c->map, "map", "the ball's point (18) against the record's", iso_distance(ball, point),
+                     c->number);
 }
 
 iso_status iso_checking_put(iso_checking *c, const double row[])
@@ -235,20 +235,22 @@ iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_recor
 
 /* --- drifts over time ------------------------------------------------------------------------------------------- */
 
-static iso_status record_drifts(checker *c, const checked_model *m, const iso_record *rows, iso_record **drifts)
+static iso_status record_drifts(checker *c, checked_model *m, const iso_record *rows, iso_record **drifts)
 {
-    const expectations *e = &m->expect;
+    expectations *e = &m->expect;
+    iso_sample sample;
     const char *names[1 + ISO_MAX_INTEGRALS] = {m->clock < 0 ? "row" : iso_clock_name((iso_clock)m->clock)};
-    double own[ISO_MAX_STATE], *to;
-    for (int i = 0; i < e->count; i++) names[1 + i] = e->integral[i]->name;
+    double *to;
+    for (int i = 0; i < e->count; i++) names[1 + i] = e->integral[i].integral->name;
     iso_status status = iso_record_create(c->ctx, (size_t)(1 + e->count), names, drifts);
     for (size_t row = 0; status == ISO_OK && row < iso_record_rows(rows); row++) {
         const double *x = iso_record_const_row(rows, row);
         status = iso_record_append(c->ctx, *drifts, &to);
         if (status != ISO_OK) break;
         to[0] = m->clock < 0 ? (double)row + 1 : iso_checker_at(c, x, m->clock);
-        iso_checker_own(c, e, x, own);
-        for (int i = 0; i < e->count; i++) to[1 + i] = fabs(iso_checker_drift(e, i, own));
+        iso_sample_of_row(c->columns, x, &sample);
+        iso_watch_follow(m->orbit, &sample, e->integral, e->count);
+        for (int i = 0; i < e->count; i++) to[1 + i] = fabs(e->integral[i].now);
     }
     return status;
 }

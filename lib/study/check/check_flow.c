@@ -95,10 +95,10 @@ static iso_status check_step(checker *c, checked_model *m, const double row[])
 /* The state moves little from the last row to this one. */
 static bool is_near(const checker *c, const checked_model *m, const double row[])
 {
-    double a[ISO_STATE], b[ISO_STATE], off[ISO_STATE];
+    double a[ISO_STATE], b[ISO_STATE];
     iso_checker_state(c, m, m->rows.last, a);
     iso_checker_state(c, m, row, b);
-    return iso_rows_distance(a, b, off) <= NEAR;
+    return iso_distance(a, b) <= NEAR;
 }
 
 /* How far the clock's step in the rows is from that of the quadrature. */

@@ -12,8 +12,8 @@
 #define ISO_STUDY_CHECK_IMPL_H
 
 #include "orbit/description.h"
-#include "orbit/orbit_impl.h"
 #include "orbit/rows_impl.h"
+#include "orbit/watch_impl.h"
 #include "study/added_impl.h"
 #include "study/check/check.h"
 
@@ -66,10 +66,10 @@ typedef struct expectations {
     const iso_orbit *first;
     iso_problem problem; /* with which integrals are computed */
     int count;
-    const iso_integral *integral[ISO_MAX_INTEGRALS];
-    double value[ISO_MAX_INTEGRALS];
+    iso_drift integral[ISO_MAX_INTEGRALS];
     bool on_level; /* a point: its H is known, and is ... */
     double level;
+    double energy; /* of all orbits of the file; NaN: that of its first row */
 } expectations;
 
 /* One of the two models, as the rows have it. */
@@ -129,13 +129,12 @@ void iso_checker_state(const checker *c, const checked_model *m, const double ro
  * each row if eps is known. */
 iso_effects iso_checker_effects(const checker *c, iso_model_kind kind);
 
-/* The first row of an orbit gives the values. */
+/* The first row of an orbit gives the values, but all orbits of a file have the energy of its first row. */
 void iso_checker_expect(const checker *c, checked_model *m, const double first[]);
 
 void iso_checker_integrals(const checker *c, checked_model *m, const double row[]);
 
-/* The integral less its expected value, relative to the size of its terms, at a state of iso_checker_own. */
-double iso_checker_drift(const expectations *e, int i, const double own[]);
+/* The state in a row, own units. */
 void iso_checker_own(const checker *c, const expectations *e, const double row[], double own[ISO_MAX_STATE]);
 
 /* --- check_flow.c ----------------------------------------------------------------------------------------------- */
