@@ -79,6 +79,10 @@ static iso_status csv_header(iso_context *ctx, iso_table_writer *w, const iso_re
     const size_t columns = iso_record_columns(header);
     fprintf(to, "# isoroll %s 1\n", w->kind);
     for (size_t i = 0; iso_record_line(header, i, &key, &value); i++) write_line(to, key, value);
+    if (w->words) fputs("# " ISO_WORDS_KEY ":", to);
+    for (size_t i = 0; w->words && i < columns; i++)
+        if (iso_record_has_words(header, i)) fprintf(to, " %s", iso_record_name(header, i));
+    if (w->words) putc('\n', to);
     for (size_t i = 0; i < columns; i++) {
         const iso_column_format *format = iso_record_format(header, i);
         c->styled = c->styled || iso_record_has_words(header, i) || format->digits || format->empty;
