@@ -177,7 +177,7 @@ static void test_words(void)
     iso_record_free(r);
 }
 
-/* Tables of earlier states have no line of words: words are what is no number, empty cells are what the others are. */
+/* Tables of earlier states have no line of words: words are what is no number, empty cells what the others are. */
 static void test_older(void)
 {
     iso_record *r;
