@@ -112,12 +112,19 @@ static iso_status put_bad(void *data, size_t line, iso_status why, const char *w
     return ISO_OK;
 }
 
+static iso_status put_missed(void *data, size_t line, const char *words)
+{
+    return put_bad(data, line, ISO_BAD_INPUT, words);
+}
+
 static iso_status begin_orbit(filter *f)
 {
-    const iso_conversion_target target = {put_header, put_row, put_bad, f};
+    const iso_conversion_target target = {put_header, put_row, put_bad, put_missed, f};
     iso_conversion_options how = iso_conversion_defaults();
     if (!isnan(f->o->tolerance)) how.tolerance = f->o->tolerance;
     how.shift_J = f->o->shift_J;
+    how.max_defect = f->o->max_defect;
+    how.row_tolerance = f->o->from.added.row_tolerance;
     return iso_conversion_create(f->ctx, &f->params, iso_table_header(f->in), f->o->to, &how, &target,
                                  &f->conversion);
 }
@@ -197,31 +204,17 @@ static void warn_of_lines(const filter *f, const iso_conversion_summary *s)
     for (int i = 0; iso_conversion_stated_words(s, i, words); i++) complain("%s: %s", f->name, words);
 }
 
-static double largest_drift(const filter *f)
+/* Says what is wrong with the rows; true: nothing. */
+static bool report_verdict(const filter *f, const iso_conversion_summary *s)
 {
-    return iso_conversion_largest_drift(f->ctx, iso_table_header(f->in), f->o->from.added.row_tolerance);
-}
-
-/* Whether all rows could be converted, and follow the equations that the file states. Says why not. */
-static bool judge(const filter *f, const iso_conversion_summary *s)
-{
-    bool good = s->bad == 0;
+    char text[ISO_VERDICT_SIZE];
+    size_t line;
     if (s->bad > 0)
         complain("%s: %zu of %zu rows could not be converted: nan stands in their place", f->name, s->bad, s->rows);
-    if (s->checked && !isnan(f->o->max_defect) && !(s->defect.value <= f->o->max_defect)) {
-        complain("%s:%zu: the defect %.2g is above %s", f->name, s->defect.line, s->defect.value,
-                 ISO_SHORT(f->o->max_defect));
-        good = false;
-    }
-    if (s->checked && isnan(f->o->max_defect) && !(s->drift.value <= largest_drift(f))) {
-        complain(
-            "%s:%zu: these rows do not solve the equations that the file or the options state (k, J, eps, clocks), "
-            "or have too few digits: they drift off by %.2g in half a radian or one interval, whichever is longer "
-            "(--row-tolerance X is for few digits, --max-defect X sets another bound)",
-            f->name, s->drift.line, s->drift.value);
-        good = false;
-    }
-    return good;
+    if (!iso_conversion_verdict(s, text, &line)) return s->bad == 0;
+    complain("%s:%zu: %s (--row-tolerance X is for few digits, --max-defect X sets another bound)", f->name, line,
+             text);
+    return false;
 }
 
 static int finish_filter(filter *f, iso_status status)
@@ -240,7 +233,7 @@ static int finish_filter(filter *f, iso_status status)
     if (status != ISO_OK) return result;
     warn_of_lines(f, s);
     if (!f->o->quiet) report_summary(f, s);
-    return judge(f, s) ? EXIT_DONE : EXIT_SOME_FAILED;
+    return report_verdict(f, s) ? EXIT_DONE : EXIT_SOME_FAILED;
 }
 
 static iso_status open_filter(filter *f)
@@ -340,10 +333,10 @@ static const option_row rows[] = {
         iso_set_tolerance, options, tolerance),
     ROWS_OF_FILE(options, from),
     ROW("max-defect", "X", "a number from 0 on",
-        "exit with status 1 if a row is farther than X from the orbit before it", iso_set_bound, options, max_defect),
+        "name rows farther than X from the orbit of the row before; status 1", iso_set_bound, options, max_defect),
     ROW("shift-J", NULL, NULL, "k = -1: a point off H = 0 becomes a free ball with moments J + E/eps", iso_set_flag,
         options, shift_J),
-    ROW("strict", NULL, NULL, "stop at the first bad row", iso_set_flag, options, strict),
+    ROW("strict", NULL, NULL, "stop at the first row that is named", iso_set_flag, options, strict),
     ROW("quiet", NULL, NULL, "print no summary on stderr", iso_set_flag, options, quiet),
     ROW_END,
 };
@@ -359,8 +352,9 @@ const command command_convert = {
         "It is 0 at the first row.\n\n"
         "A file may have several orbits of one energy, told apart by a column `orbit`, such as a section with "
         "states. They are converted one after the other. Each begins with the other clock at 0.\n\n"
-        "A row that cannot be converted becomes a row of nan. The first 20 are named, the others are counted. Rows "
-        "with few digits need a --row-tolerance.\n\n"
+        "A row that cannot be converted becomes a row of nan. A row that is not on the orbit of the row before is "
+        "converted as it stands: one of the two is damaged, and `isoroll check` shows more. The first 20 of both are "
+        "named. Rows with few digits need a --row-tolerance.\n\n"
         "If the # line h, eps or level.c does not fit the first row, beyond rounding, a message names it, and the "
         "row's own number is written.\n\n"
         "A point off the level H = 0 becomes a ball in the potential of the effect 'level'; with --shift-J it "

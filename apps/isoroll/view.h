@@ -32,17 +32,7 @@ enum {
 /* How far beside an orbit its neighbour begins, in radians. */
 #define VIEW_BESIDE 1e-6
 
-/* A number below this part of its terms is 0 within rounding. */
-#define VIEW_ROUNDING (16 * DBL_EPSILON)
-
 enum { VIEW_NOTES = 8, VIEW_WORDS = 512 };
-
-typedef struct view_integral {
-    const iso_integral *integral;
-    iso_model_kind model;
-    double first, start, worst; /* its first value in own units; in the caller's; largest drift */
-    bool zero;                  /* its first value is 0 within rounding                         */
-} view_integral;
 
 /* What the study of chaos says of an orbit. */
 typedef struct view_fate {
@@ -81,7 +71,7 @@ typedef struct view_page {
     iso_record *apart;   /* apart_n, apart_gamma: how far the two runs differ; NULL: one run */
     iso_record *beside;  /* the neighbour (view_neighbour); NULL: none                       */
     view_fate fate;
-    view_integral integral[2 * ISO_MAX_INTEGRALS];
+    iso_drift integral[2 * ISO_MAX_INTEGRALS];
     int integrals;
     view_section *section; /* NULL: none */
     bool live;             /* the library is in the page                                             */
@@ -121,7 +111,7 @@ iso_status view_of_section(iso_context *ctx, const file_options *from, view_page
  * and alone. *worst: the row that the orbit through the row before it misses most. */
 typedef struct view_miss {
     size_t row; /* from 0                                                                         */
-    double by;  /* |difference| of n, or of omega against the largest |omega|; 0: none is missed  */
+    double by;  /* iso_row_gap.miss; 0: none is missed                                            */
 } view_miss;
 iso_status view_complete(iso_context *ctx, const view_page *page, iso_record *rows, iso_record **complete,
                          view_miss *worst);

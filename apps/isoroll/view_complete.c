@@ -1,22 +1,12 @@
 /* view_complete.c - gives rows of a file the columns that a page needs (see view.h). The other model comes from the
- * map (18); the clocks and the attitude come from short orbits.
- *
- * A short orbit begins at a row and gives the clocks, q, contact and centre at the next SEGMENT rows. There the next
- * one begins. So these columns stay close to the file's own rows, also on chaotic orbits. Where a short orbit misses
- * a row of the file by more than MISSED, the next one begins at the row before. If that one misses it too, the rows
- * are no orbit.
- */
+ * map (18). The clocks, the attitude, contact and centre come from each row to the next (orbit/rows_impl.h), so that
+ * they stay close to the file's own rows, also on chaotic orbits. */
 #include <math.h>
 #include <string.h>
 
 #include "map/state.h"
-#include "orbit/convert_impl.h"
+#include "orbit/rows_impl.h"
 #include "view.h"
-
-/* An orbit misses a row if it is farther from it. */
-#define MISSED 1e-3
-
-enum { SEGMENT = 16 };
 
 typedef struct completion {
     iso_context *ctx;
@@ -28,10 +18,10 @@ typedef struct completion {
     int q, contact, centre;             /* places in iso_sample.effect                  */
     iso_model_kind model;               /* whose states the rows have                   */
     iso_clock clock;                    /* that gives the times of the rows             */
-    double begun[ISO_CLOCKS];           /* clocks where this short orbit began          */
+    double begun[ISO_CLOCKS];           /* clocks at the row before                     */
     double shift[3];                    /* on a plane: the contact there                */
     double attitude[4];                 /* there                                        */
-    double bound, speed;                /* a row is missed by more; largest |omega|     */
+    bool turned;                        /* it is known                                  */
     view_miss *worst;
 } completion;
 
@@ -78,95 +68,81 @@ static iso_status copy_row(completion *c, size_t i)
     return ISO_OK;
 }
 
-/* The short orbit that begins at a row, with the attitude that the last one has reached; at row 0 with that of the
+/* The orbit that begins at a row, with the attitude that the last one has reached; at the first row with that of the
  * file, or with the default one. */
-static iso_status begin(completion *c, size_t row, iso_orbit **orbit)
+static iso_status open_at(void *data, const double row[], iso_orbit **orbit)
 {
+    completion *c = data;
     iso_start start;
     iso_effects effects = c->page->effects;
-    ISO_TRY(iso_record_start(c->ctx, c->in, &c->page->params, c->model, row, &start, &effects));
-    if (row > 0 && !has(c->in, "q0"))
+    ISO_TRY(iso_record_start_at(c->ctx, c->in, &c->page->params, c->model, row, &start, &effects));
+    if (c->turned && !has(c->in, "q0"))
         ISO_TRY(iso_effects_set(c->ctx, &effects, "attitude", "quaternion", 4, c->attitude));
     return view_orbit(c->ctx, c->page, &start, &effects, c->clock, orbit);
 }
 
-/* Puts into row `i` the clocks and the attitude that the short orbit gives at its time. */
-static iso_status fill(completion *c, iso_orbit *orbit, size_t first, size_t i, iso_sample *sample)
+/* Puts into row `i` the clocks and the columns of effects, `now` on the orbit that began at the row before; goes on
+ * from there. */
+static void fill(completion *c, size_t i, const iso_sample *now)
 {
-    const int time = iso_record_find(c->in, iso_clock_name(c->clock));
-    const double since = iso_record_const_row(c->in, i)[time] - iso_record_const_row(c->in, first)[time];
-    ISO_TRY(iso_orbit_at(orbit, since, sample));
-    sample->clock[c->clock] = since;
-    iso_sample whole = *sample;
-    for (int j = 0; j < ISO_CLOCKS; j++) whole.clock[j] += c->begun[j];
-    for (int a = 0; a < 3; a++)
-        whole.effect[c->contact + a] += c->shift[a], whole.effect[c->centre + a] += c->shift[a];
+    iso_sample whole = *now;
+    for (int j = 0; j < ISO_CLOCKS; j++) whole.clock[j] = c->begun[j] += now->clock[j];
+    for (int a = 0; a < 3; a++) {
+        whole.effect[c->centre + a] += c->shift[a];
+        whole.effect[c->contact + a] += c->shift[a];
+        if (c->page->params.k == 1) c->shift[a] = whole.effect[c->contact + a];
+    }
+    memcpy(c->attitude, now->effect + c->q, sizeof c->attitude);
+    c->turned = true;
     for (size_t j = 0; j < iso_record_columns(c->out); j++)
         if (!c->given[j] && (c->column[j] < ISO_COLUMN_BALL || c->column[j] >= ISO_COLUMN_EFFECTS))
             iso_record_row(c->out, i)[j] = iso_sample_column(&whole, c->column[j]);
+}
+
+static iso_status first_row(completion *c, iso_rows *rows)
+{
+    const double *first = iso_record_const_row(c->in, 0);
+    iso_sample sample;
+    iso_orbit *orbit = NULL;
+    iso_status status = open_at(c, first, &orbit);
+    if (status == ISO_OK) status = iso_orbit_at(orbit, 0, &sample);
+    iso_orbit_free(orbit);
+    if (status == ISO_OK) fill(c, 0, &sample);
+    return status == ISO_OK ? iso_rows_begin(rows, NULL, first, 0) : status;
+}
+
+static iso_status next_row(completion *c, iso_rows *rows, size_t i)
+{
+    const double bound = iso_rows_largest_miss(c->ctx, c->in, iso_record_row_tolerance(c->in));
+    iso_row_gap gap;
+    iso_rows_take(rows, iso_record_const_row(c->in, i));
+    ISO_TRY(iso_rows_integrate(rows, &gap));
+    iso_rows_keep(rows);
+    gap.reached.clock[c->clock] = gap.step;
+    fill(c, i, &gap.reached);
+    if (!(gap.miss <= bound) && !(gap.miss <= c->worst->by)) *c->worst = (view_miss){i, gap.miss};
     return ISO_OK;
-}
-
-/* How far the short orbit is from row `i` of the file: |difference| of n, and of omega against the largest. */
-static double missed_by(const completion *c, size_t i, const iso_sample *sample)
-{
-    const double *omega = view_vector(c->out, i, "omega1"), *n = view_vector(c->out, i, "n1");
-    const double off = c->speed > 0 ? view_distance(omega, sample->ball) / c->speed : 0;
-    return fmax(off, view_distance(n, sample->ball + 3));
-}
-
-/* The bound: MISSED, or the drift that the rows of a file may have, if that is larger. */
-static void find_bound(completion *c)
-{
-    c->bound = fmax(MISSED, iso_conversion_largest_drift(c->ctx, c->in, iso_record_row_tolerance(c->in)));
-    for (size_t i = 0; i < iso_record_rows(c->out); i++) {
-        const double *w = view_vector(c->out, i, "omega1");
-        c->speed = fmax(c->speed, hypot(hypot(w[0], w[1]), w[2]));
-    }
-}
-
-/* The next orbit begins where this one is now. */
-static void go_on(completion *c, const iso_sample *now)
-{
-    for (int j = 0; j < ISO_CLOCKS; j++) c->begun[j] += now->clock[j];
-    memcpy(c->attitude, now->effect + c->q, sizeof c->attitude);
-    for (int a = 0; a < 3 && c->page->params.k == 1; a++) c->shift[a] += now->effect[c->contact + a];
-}
-
-/* The rows after `first` by the orbit that begins there; *last: the row where the next one begins. */
-static iso_status follow(completion *c, iso_orbit *orbit, size_t first, size_t *last)
-{
-    const size_t rows = iso_record_rows(c->in);
-    iso_sample now, before;
-    iso_status status = fill(c, orbit, first, first, &before);
-    for (size_t i = first + 1; status == ISO_OK && i <= first + SEGMENT && i < rows; i++) {
-        status = fill(c, orbit, first, i, &now);
-        if (status != ISO_OK) return status;
-        const double miss = missed_by(c, i, &now);
-        if (!(miss <= c->bound) && i > first + 1) break;
-        if (!(miss <= c->bound) && !(miss <= c->worst->by)) *c->worst = (view_miss){i, miss};
-        before = now;
-        *last = i;
-        if (!(miss <= c->bound)) break;
-    }
-    if (status == ISO_OK) go_on(c, &before);
-    return status;
 }
 
 static iso_status complete(completion *c)
 {
-    const size_t rows = iso_record_rows(c->in);
+    int columns[ISO_TRAJECTORY_COLUMNS];
+    const size_t count = iso_record_rows(c->in);
+    iso_rows rows = {.ctx = c->ctx,
+                     .model = c->model,
+                     .clock = c->clock,
+                     .columns = columns,
+                     .width = iso_record_columns(c->in),
+                     .open = open_at,
+                     .data = c};
+    iso_record_find_columns(c->in, columns);
     iso_status status = create(c);
-    for (size_t i = 0; status == ISO_OK && i < rows; i++) status = copy_row(c, i);
-    if (status == ISO_OK) find_bound(c);
-    for (size_t first = 0, last; status == ISO_OK && first + 1 < rows; first = last) {
-        iso_orbit *orbit;
-        last = first + 1;
-        status = begin(c, first, &orbit);
-        if (status != ISO_OK) break;
-        status = follow(c, orbit, first, &last);
-        iso_orbit_free(orbit);
+    for (size_t i = 0; status == ISO_OK && i < count; i++) {
+        status = copy_row(c, i);
+        if (status == ISO_OK) status = i == 0 ? first_row(c, &rows) : next_row(c, &rows, i);
+        if (status != ISO_OK) iso_context_fail(c->ctx, status, "", "row %zu: %s", i + 1, iso_context_message(c->ctx));
     }
+    iso_rows_free(&rows);
     return status;
 }
 

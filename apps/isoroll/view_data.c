@@ -117,20 +117,21 @@ static const char *clock_word(int clock)
 /* Exponents of the units of an integral. */
 static void find_dimension(const void *row, int i, iso_value *v)
 {
-    const iso_dimension d = ((const view_integral *)row)->integral->dimension;
+    const iso_dimension d = ((const iso_drift *)row)->integral->dimension;
     v->number = i == 0 ? d.J : i == 1 ? d.J_2k : d.w;
 }
 
 static const iso_field name_fields[] = {ISO_MEMBER(iso_integral, "name", name, "", "of the integral"),
                                         ISO_MEMBER(iso_integral, "doc", doc, "", "what it is"), ISO_FIELD_END};
 
+static const iso_field model_fields[] = {ISO_MEMBER(iso_system, "model", name, "", "ball or point"), ISO_FIELD_END};
+
 static const iso_field integral_fields[] = {
-    ISO_STRUCT(view_integral, "", integral, name_fields, "which", .pointer = true),
-    ISO_MEMBER(view_integral, "model", model, "", "ball or point", .word = iso_model_kind_name),
+    ISO_STRUCT(iso_drift, "", integral, name_fields, "which", .pointer = true),
+    ISO_STRUCT(iso_drift, "", system, model_fields, "of which model", .pointer = true),
     ISO_FOUND("dimension", ISO_FIELD_INT, find_dimension, "", "exponents of its unit", .count = 3),
-    ISO_MEMBER(view_integral, "start", start, "", "its value at the start"),
-    ISO_MEMBER(view_integral, "zero", zero, "", "whether that is 0 within rounding"),
-    ISO_MEMBER(view_integral, "worst", worst, "", "its largest drift"),
+    ISO_MEMBER(iso_drift, "start", start, "", "its value at the start; 0 within rounding"),
+    ISO_MEMBER(iso_drift, "worst", worst, "", "its largest drift"),
     ISO_FIELD_END,
 };
 

@@ -1,8 +1,7 @@
 /* view_numbers.c - the integrals that hold along the rows of a page, and how far they drift (see view.h). */
-#include <float.h>
 #include <math.h>
-#include <string.h>
 
+#include "orbit/watch_impl.h"
 #include "view.h"
 
 /* The orbit through the first row; it tells which integrals hold. */
@@ -16,28 +15,14 @@ static iso_status orbit_of(iso_context *ctx, const view_page *page, iso_orbit **
     return iso_orbit_create(ctx, &page->params, &start, &o, orbit);
 }
 
-/* Lists the integrals of one model that hold. Those with a known value, such as |n| = 1, are left out, but not H. */
-static void list_integrals(view_page *page, const iso_orbit *orbit, iso_model_kind model)
+/* Lists the integrals of one model that hold, without the constraints. */
+static void list_integrals(view_page *page, const iso_orbit *orbit, iso_model_kind model, const iso_sample *first)
 {
-    const iso_integral *list[ISO_MAX_INTEGRALS];
-    const int count =
-        iso_integrals_holding(iso_systems[model], &iso_orbit_model(orbit)->problem, list, ISO_MAX_INTEGRALS);
+    iso_drift list[ISO_MAX_INTEGRALS];
+    const double level = model == ISO_POINT ? orbit->level : (double)NAN;
+    const int count = iso_watch_begin(orbit, iso_systems[model], level, first, list, ISO_MAX_INTEGRALS);
     for (int i = 0; i < count; i++)
-        if (list[i]->known == ISO_ANY_VALUE || (model == ISO_POINT && strcmp(list[i]->name, "H") == 0))
-            page->integral[page->integrals++] = (view_integral){list[i], model, NAN, 0, 0, false};
-}
-
-/* How far an integral is from its first value. */
-static double drift(view_integral *v, const iso_orbit *orbit, const iso_sample *sample)
-{
-    double size;
-    const double value = iso_orbit_integral(orbit, iso_systems[v->model], v->integral, sample, &size);
-    if (isnan(v->first))
-        v->first = value, v->start = value * iso_unit(iso_orbit_units(orbit), v->integral->dimension),
-        v->zero = fabs(value) <= VIEW_ROUNDING * size;
-    const double drifted = size > 0 ? (value - v->first) / size : 0;
-    v->worst = fmax(v->worst, fabs(drifted));
-    return drifted;
+        if (list[i].integral->known == ISO_ANY_VALUE) page->integral[page->integrals++] = list[i];
 }
 
 iso_status view_numbers(iso_context *ctx, view_page *page)
@@ -50,15 +35,16 @@ iso_status view_numbers(iso_context *ctx, view_page *page)
     iso_status status = orbit_of(ctx, page, &orbit);
     if (status == ISO_NOT_MAPPED) return ISO_OK; /* a point at rest, ... : no integrals are shown */
     if (status != ISO_OK) return status;
-    list_integrals(page, orbit, ISO_BALL);
-    if (!*page->alone) list_integrals(page, orbit, ISO_POINT);
+    iso_record_sample(page->rows, 0, &sample);
+    list_integrals(page, orbit, ISO_BALL, &sample);
+    if (!*page->alone) list_integrals(page, orbit, ISO_POINT, &sample);
     for (int i = 0; i < page->integrals; i++) snprintf(name[i], sizeof name[i], "drift%d", i), names[i] = name[i];
     if (page->integrals > 0) status = iso_record_create(ctx, (size_t)page->integrals, names, &page->drifts);
     for (size_t i = 0; page->drifts && status == ISO_OK && i < iso_record_rows(page->rows); i++) {
         iso_record_sample(page->rows, i, &sample);
+        iso_watch_follow(orbit, &sample, page->integral, page->integrals);
         status = iso_record_append(ctx, page->drifts, &row);
-        for (int j = 0; status == ISO_OK && j < page->integrals; j++)
-            row[j] = drift(&page->integral[j], orbit, &sample);
+        for (int j = 0; status == ISO_OK && j < page->integrals; j++) row[j] = page->integral[j].now;
     }
     iso_orbit_free(orbit);
     return status;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vec3_impl.h"
 #include "scene_options.h"
 #include "view.h"
 
@@ -127,8 +128,8 @@ static iso_status compare(iso_context *ctx, view_page *page, const iso_record *o
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(page->rows); i++) {
         double *row = iso_record_row(page->rows, i);
         double *gamma = row + iso_record_find(page->rows, "gamma1"), *M = row + iso_record_find(page->rows, "M1");
-        const double to[] = {view_distance(view_vector(page->rows, i, "n1"), view_vector(own, i, "n1")),
-                             view_distance(gamma, view_vector(own, i, "gamma1"))};
+        const double to[] = {relative_difference(view_vector(page->rows, i, "n1"), view_vector(own, i, "n1")),
+                             relative_difference(gamma, view_vector(own, i, "gamma1"))};
         status = iso_record_add(ctx, page->apart, 1, to);
         memcpy(gamma, view_vector(own, i, "gamma1"), 3 * sizeof *gamma);
         memcpy(M, view_vector(own, i, "M1"), 3 * sizeof *M);

@@ -84,17 +84,20 @@ static inline void copy(const double *from, double *to, int count)
     for (int i = 0; i < count; i++) to[i] = from[i];
 }
 
-/* |a - b| / |a|, 0 for a = 0; squares of components may overflow */
+/* |a - b| / max(|a|, |b|), 0 for a = b = 0; squares of components may overflow. Powers of two round nothing. */
 static inline double relative_difference(const double a[3], const double b[3])
 {
-    const double size = largest(a);
-    if (!(size > 0)) return 0;
-    double d[3], u[3];
+    const double size = fmax(largest(a), largest(b));
+    if (size == 0) return 0;
+    int power = 0;
+    double d[3], u[3], v[3];
+    frexp(size, &power);
     for (int i = 0; i < 3; i++) {
-        d[i] = a[i] / size - b[i] / size;
-        u[i] = a[i] / size;
+        u[i] = ldexp(a[i], -power);
+        v[i] = ldexp(b[i], -power);
+        d[i] = u[i] - v[i];
     }
-    return norm(d) / norm(u);
+    return norm(d) / fmax(norm(u), norm(v));
 }
 
 /* Makes a a unit vector and gives its old length. */

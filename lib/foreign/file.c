@@ -69,18 +69,15 @@ static iso_status put_clock(iso_context *ctx, const iso_conversion_summary *s, i
     return status == ISO_OK ? iso_record_set(ctx, out, key[1], text[1]) : status;
 }
 
-static void judge(iso_context *ctx, const iso_record *in, const iso_conversion_summary *s, double row_tolerance,
-                  notes *n)
+/* Lines that the first row does not confirm, and what is wrong with the rows. */
+static void note_verdict(const iso_conversion_summary *s, notes *n)
 {
-    char words[256];
-    char stated[ISO_STATED_SIZE];
+    char stated[ISO_STATED_SIZE], verdict[ISO_VERDICT_SIZE], text[ISO_VERDICT_SIZE + 32];
+    size_t row;
     for (int i = 0; iso_conversion_stated_words(s, i, stated); i++) iso_notes_add(n, stated);
-    if (!s->checked || s->drift.value <= iso_conversion_largest_drift(ctx, in, row_tolerance)) return;
-    snprintf(words, sizeof words,
-             "row %zu: these rows do not solve the equations that their lines state (k, J, eps, clocks), or have too "
-             "few digits: they drift off by %.2g",
-             s->drift.line, s->drift.value);
-    iso_notes_add(n, words);
+    if (!iso_conversion_verdict(s, verdict, &row)) return;
+    snprintf(text, sizeof text, "row %zu: %s", row, verdict);
+    iso_notes_add(n, text);
 }
 
 iso_status iso_foreign_convert(iso_context *ctx, const iso_record *in, const char *to, double tolerance,
@@ -104,7 +101,7 @@ iso_status iso_foreign_convert(iso_context *ctx, const iso_record *in, const cha
     if (status == ISO_OK) status = iso_record_params(ctx, in, &params);
     if (status == ISO_OK) status = iso_convert_as(ctx, &params, in, (iso_model_kind)model, &o, &summary, out);
     if (status == ISO_OK) status = put_clock(ctx, &summary, *out);
-    if (status == ISO_OK) judge(ctx, in, &summary, row_tolerance, &n);
+    if (status == ISO_OK) note_verdict(&summary, &n);
     if (status != ISO_OK) iso_record_free(*out), *out = NULL;
     return status;
 }

@@ -54,24 +54,14 @@ static iso_status check(iso_context *ctx, const char *path, bool hdf5)
     return ISO_FAIL_ARGUMENT(ctx, "", "'%s': this build has no HDF5 (.h5), use CSV, a name in .csv", path);
 }
 
+bool iso_table_is_finite(const char *kind)
+{
+    return strcmp(kind, ISO_TRAJECTORY_KIND) == 0 || strcmp(kind, "section") == 0;
+}
+
 iso_status iso_table_check_format(iso_context *ctx, const char *path)
 {
     return check(ctx, path, iso_table_is_hdf5(path));
-}
-
-bool iso_table_has_words(const char *kind, const char *name)
-{
-    static const struct {
-        const char *kind, *name;
-    } own[] = {{"check", "name"}, {"check", "of"}, {"section area", "model"}, {"section area", "area"}};
-    static const char *const names[] = {"verdict",  "ball_verdict", "point_verdict", "stability",
-                                        "symmetry", "line",         "event",         "kind",
-                                        "backend",  "method",       "failure",       "reason"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strcmp(name, names[i]) == 0) return true;
-    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
-        if (strcmp(kind, own[i].kind) == 0 && strcmp(name, own[i].name) == 0) return true;
-    return false;
 }
 
 /* --- reading ---------------------------------------------------------------------------------------------------- */
@@ -211,7 +201,7 @@ iso_status iso_table_writer_open(iso_context *ctx, const char *path, const char 
     w->format = iso_table_is_hdf5(path) ? HDF5(iso_hdf5_writing) : &iso_csv_writing;
     w->digits = 17;
     w->kind = kind;
-    w->finite = strcmp(kind, ISO_TRAJECTORY_KIND) == 0 || strcmp(kind, "section") == 0;
+    w->finite = iso_table_is_finite(kind);
     w->expected = SIZE_MAX;
     const iso_status status = w->format->open(ctx, w, path);
     if (status != ISO_OK) release(w), w = NULL;
@@ -222,18 +212,6 @@ iso_status iso_table_writer_open(iso_context *ctx, const char *path, const char 
 void iso_table_set_digits(iso_table_writer *w, int digits)
 {
     w->digits = digits;
-}
-
-/* Readers of CSV know columns of words by their names. */
-static iso_status look_for_words(iso_context *ctx, iso_table_writer *w, const iso_record *header)
-{
-    for (size_t i = 0; i < iso_record_columns(header); i++) {
-        if (!iso_record_has_words(header, i)) continue;
-        w->words = header;
-        if (iso_table_has_words(w->kind, iso_record_name(header, i))) continue;
-        return ISO_FAIL_ARGUMENT(ctx, "", "the column '%s' cannot have words", iso_record_name(header, i));
-    }
-    return ISO_OK;
 }
 
 /* Whether reading the line back gives the same key and value. */
@@ -254,23 +232,35 @@ static bool is_text(const char *key, const char *value)
 
 static iso_status check_line(iso_context *ctx, const char *key, const char *value)
 {
+    if (strcmp(key, ISO_WORDS_KEY) == 0)
+        return ISO_FAIL_ARGUMENT(ctx, "", "the line '%s' is made of the columns that have words", key);
     if (is_line(key, value) || is_text(key, value)) return ISO_OK;
     return ISO_FAIL_ARGUMENT(ctx, "",
                              "'%s' cannot be a line '# key: value': a key has no colon, and both are one line", key);
 }
 
-/* Whether both formats give the name of a column back: for CSV no comma and no quote, for HDF5 a name of a dataset. */
-static iso_status check_column(iso_context *ctx, const char *name)
+/* Whether both formats give the name of a column back: for CSV no comma and no quote, of a column of words no blank;
+ * for HDF5 a name of a dataset. */
+static iso_status check_column(iso_context *ctx, const iso_table_writer *w, const iso_record *header, size_t column)
 {
-    if (*name && *name != '#' && !strpbrk(name, ",\"\r\n") && strcmp(name, ".") && strcmp(name, "..")) return ISO_OK;
+    const char *name = iso_record_name(header, column);
+    const bool words = iso_record_has_words(header, column);
+    if (words && w->finite)
+        return ISO_FAIL_ARGUMENT(ctx, name, "a %s has numbers only: '%s' cannot have words", w->kind, name);
+    if (*name && *name != '#' && !strpbrk(name, words ? ", \t\"\r\n" : ",\"\r\n") && strcmp(name, ".") &&
+        strcmp(name, ".."))
+        return ISO_OK;
     return ISO_FAIL_ARGUMENT(ctx, name, "a table cannot have a column '%s': a file would not give the name back",
                              name);
 }
 
-static iso_status check_names(iso_context *ctx, const iso_record *header)
+static iso_status check_header(iso_context *ctx, iso_table_writer *w, const iso_record *header)
 {
     const char *key, *value;
-    for (size_t i = 0; i < iso_record_columns(header); i++) ISO_TRY(check_column(ctx, iso_record_name(header, i)));
+    for (size_t i = 0; i < iso_record_columns(header); i++) {
+        ISO_TRY(check_column(ctx, w, header, i));
+        if (iso_record_has_words(header, i)) w->words = header;
+    }
     for (size_t i = 0; iso_record_line(header, i, &key, &value); i++) ISO_TRY(check_line(ctx, key, value));
     return ISO_OK;
 }
@@ -282,8 +272,7 @@ iso_status iso_table_write_header(iso_context *ctx, iso_table_writer *w, const i
         return ISO_FAIL_ARGUMENT(ctx, "", "a table needs columns in a file; this one, '%s', has only lines", w->kind);
     if (w->finite && iso_record_columns(header) > (size_t)iso_columns_count())
         return ISO_FAIL_ARGUMENT(ctx, "", "a trajectory has at most %d columns", iso_columns_count());
-    ISO_TRY(look_for_words(ctx, w, header));
-    ISO_TRY(check_names(ctx, header));
+    ISO_TRY(check_header(ctx, w, header));
     ISO_TRY(iso_record_create_like(ctx, header, 0, NULL, &w->header));
     return w->format->header(ctx, w, header);
 }

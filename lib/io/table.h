@@ -2,6 +2,7 @@
  *
  *     # isoroll chaos 1                      the kind: trajectory, section, chaos, periodic, splitting, sweep, ...
  *     # k: -1                                the record's lines
+ *     # words: verdict                       which columns have words
  *     orbit,l,x,verdict                      its columns
  *     0,nan,nan,chaotic                      numbers, nan among them, and words
  *
@@ -98,8 +99,8 @@ enum { ISO_HEXADECIMAL = 0 };
 ISO_API void iso_table_set_digits(iso_table_writer *writer, int digits);
 
 /* The first line, the key: value lines and the column names of `header`, whose rows are not looked at. A header with
- * columns of words must live until the last row is written. Errors: ISO_BAD_ARGUMENT (a key or value that does not
- * read back, a column whose name is not known as one of words), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+ * columns of words must live until the last row is written. Errors: ISO_BAD_ARGUMENT (a key, a value or a column that
+ * does not read back, words in a trajectory or a section), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 ISO_API iso_status iso_table_write_header(iso_context *ctx, iso_table_writer *writer, const iso_record *header);
 
 /* One row of as many numbers as the header has columns; NULL, in a trajectory: in the place of a row that could not

@@ -25,7 +25,7 @@ typedef struct iso_table_writing {
     iso_status (*header)(iso_context *ctx, iso_table_writer *w, const iso_record *header);
     iso_status (*row)(iso_context *ctx, iso_table_writer *w, const double row[]);
     iso_status (*line)(iso_context *ctx, iso_table_writer *w, const char *key, const char *value);
-    iso_status (*close)(iso_context *ctx, iso_table_writer *w, bool keep); /* also after a failing open */
+    iso_status (*close)(iso_context *ctx, iso_table_writer *w, bool keep); /* not after a failing open */
 } iso_table_writing;
 
 extern const iso_table_reading iso_csv_reading, iso_hdf5_reading;
@@ -74,11 +74,13 @@ struct iso_table_writer {
     void *data;
 };
 
-/* Whether a name is that of a column of words in tables of this kind. */
-bool iso_table_has_words(const char *kind, const char *name);
-
 /* Whether a file that is to be written is HDF5. */
 bool iso_table_is_hdf5(const char *path);
+
+/* Whether tables of this kind have finite numbers only, in which nan marks a whole row. */
+bool iso_table_is_finite(const char *kind);
+
+#define ISO_WORDS_KEY "words" /* In CSV the line "# words: NAME NAME" names the columns of words. */
 
 #define ISO_TABLE_TEXT "sweep" /* In CSV a value of whole lines is lines "# KEY | ...", with this key "# | ...". */
 

@@ -12,18 +12,25 @@
 #include "orbit/orbit_impl.h"
 
 /* The header, and the marks of rows before the first good one. */
-static iso_status begin(iso_conversion *c, const conversion_row *r)
+static iso_status begin(iso_conversion *c, const double row[], const conversion_row *r)
 {
     iso_record *header;
     iso_status status = ISO_OK;
-    if (c->own_column >= 0)
-        status = iso_two_point_create(c->ctx, iso_orbit_model(c->first), c->tolerance, &c->quadrature);
+    c->rows = (iso_rows){.ctx = c->ctx,
+                         .model = c->from,
+                         .clock = c->own,
+                         .columns = c->columns,
+                         .width = iso_record_columns(c->in),
+                         .open = iso_conversion_open,
+                         .data = c};
+    if (c->own_column >= 0) status = iso_rows_begin(&c->rows, c->first, row, c->tolerance);
     if (status == ISO_OK) status = iso_conversion_describe(c, r->time, &header);
     if (status != ISO_OK) return status;
     status = c->target.header(c->target.data, header);
     iso_record_free(header);
     c->begun = true;
-    return status == ISO_OK ? iso_conversion_write_marks(c, &c->marks) : status;
+    for (; status == ISO_OK && c->marks > 0; c->marks--) status = c->target.row(c->target.data, NULL);
+    return status;
 }
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
@@ -59,9 +66,9 @@ iso_status iso_conversion_put(iso_conversion *c, const double row[], size_t line
     iso_status status = iso_conversion_read_row(c, row, &r);
     if (status != ISO_OK) return is_eps_wrong(c, &r) ? status : iso_conversion_bad(c, line, status);
     c->good++;
-    if (!c->begun) status = begin(c, &r);
+    if (!c->begun) status = begin(c, row, &r);
     if (status != ISO_OK) return status;
-    return c->quadrature ? iso_conversion_follow(c, &r) : iso_conversion_emit(c, &r);
+    return c->own_column >= 0 ? iso_conversion_follow(c, row, &r) : c->target.row(c->target.data, r.out);
 }
 
 iso_status iso_conversion_skip(iso_conversion *c)
@@ -74,11 +81,11 @@ iso_status iso_conversion_skip(iso_conversion *c)
 iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *summary)
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_status status = c->quadrature ? iso_conversion_settle(c) : ISO_OK;
-    c->summary.checked = c->quadrature != NULL;
+    c->summary.checked = c->begun && c->own_column >= 0;
+    if (c->summary.checked) iso_conversion_settle(c);
     c->summary.clock = c->other;
     if (summary) *summary = c->summary;
-    if (status != ISO_OK || c->begun) return status;
+    if (c->begun) return ISO_OK;
     if (c->first_words) return iso_context_fail(c->ctx, c->first_failure, "", "%s", c->first_words);
     return ISO_FAIL_INPUT(c->ctx, "", c->summary.rows ? "no row could be read" : "the trajectory has no rows");
 }
@@ -95,6 +102,7 @@ void iso_conversion_summary_add(iso_conversion_summary *all, const iso_conversio
     if (before.rows == 0) return;
     all->rows += before.rows;
     all->bad += before.bad;
+    all->missed += before.missed;
     add_worst(&all->constraint, &before.constraint);
     add_worst(&all->energy, &before.energy);
     add_worst(&all->defect, &before.defect);
@@ -112,16 +120,17 @@ void iso_conversion_summary_add(iso_conversion_summary *all, const iso_conversio
 
 static iso_status find_columns(iso_conversion *c)
 {
-    int columns[ISO_STATE];
+    int state[ISO_STATE];
     const iso_model_kind to = c->from == ISO_BALL ? ISO_POINT : ISO_BALL;
-    const iso_status status = iso_record_find_state(c->ctx, c->in, c->from, c->state);
-    if (status != ISO_OK && iso_record_find_state(c->ctx, c->in, to, columns) == ISO_OK)
+    const iso_status status = iso_record_find_state(c->ctx, c->in, c->from, state);
+    if (status != ISO_OK && iso_record_find_state(c->ctx, c->in, to, state) == ISO_OK)
         return ISO_FAIL_INPUT(c->ctx, "columns", "this is a %s's trajectory already", iso_model_kind_name((int)to));
-    if (status != ISO_OK) return iso_record_find_state(c->ctx, c->in, c->from, c->state);
+    if (status != ISO_OK) return iso_record_find_state(c->ctx, c->in, c->from, state);
+    iso_record_find_columns(c->in, c->columns);
     c->own = c->from == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
     c->other = c->from == ISO_BALL ? ISO_CLOCK_S : ISO_CLOCK_T;
-    c->own_column = iso_record_find(c->in, iso_clock_name(c->own));
-    c->other_column = iso_record_find(c->in, iso_clock_name(c->other));
+    c->own_column = c->columns[c->own];
+    c->other_column = c->columns[c->other];
     c->summary.computed = c->own_column >= 0 && c->other_column < 0;
     return ISO_OK;
 }
@@ -153,6 +162,9 @@ iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, con
     c->tolerance = own.tolerance;
     c->row_tolerance = own.row_tolerance > 0 ? own.row_tolerance : iso_record_row_tolerance(header);
     c->shift_J = own.shift_J;
+    const double miss = iso_rows_largest_miss(ctx, header, c->row_tolerance);
+    c->summary.max_defect = isnan(own.max_defect) ? miss : own.max_defect;
+    c->summary.max_drift = isnan(own.max_defect) ? miss : INFINITY;
     if (status == ISO_OK) status = find_columns(c);
     if (status == ISO_OK && c->shift_J && (c->from != ISO_POINT || params->k != -1))
         status = ISO_FAIL_ARGUMENT(ctx, "shift-J", "energy can shift J for a point with k = -1 alone");
@@ -166,7 +178,7 @@ iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, con
 void iso_conversion_free(iso_conversion *c)
 {
     if (!c) return;
-    iso_two_point_free(c->quadrature);
+    iso_rows_free(&c->rows);
     iso_orbit_free(c->first);
     free(c->first_words);
     free(c);
@@ -196,6 +208,13 @@ static iso_status stop_at(void *data, size_t line, iso_status why, const char *w
     return iso_context_fail(((whole *)data)->ctx, why, "", "row %zu: %s", line, words);
 }
 
+/* It is counted. */
+static iso_status go_on(void *data, size_t line, const char *words)
+{
+    (void)data, (void)line, (void)words;
+    return ISO_OK;
+}
+
 iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
                        double tolerance, iso_record **out)
 {
@@ -209,7 +228,7 @@ iso_status iso_convert_as(iso_context *ctx, const iso_params *params, const iso_
 {
     ISO_DEFAULT_ARITHMETIC;
     whole w = {.ctx = ctx};
-    const iso_conversion_target target = {keep_header, keep_row, stop_at, &w};
+    const iso_conversion_target target = {keep_header, keep_row, stop_at, go_on, &w};
     iso_conversion *c;
     *out = NULL;
     iso_status status = iso_conversion_create(ctx, params, in, to, options, &target, &c);

@@ -7,6 +7,8 @@
 #ifndef ISO_ORBIT_CONVERT_H
 #define ISO_ORBIT_CONVERT_H
 
+#include <math.h>
+
 #include "../base/api.h"
 #include "description.h"
 
@@ -23,9 +25,8 @@ enum { ISO_MAX_ROW_STEPS = 10000000 };
  *     iso_conversion_free(c);
  *
  * Two-point Taylor quadrature gives the gain of the other clock between two rows. It also shows
- * whether the two rows lie on one orbit. Where they are too far apart for it, the orbit is integrated. If a row does
- * not lie on the orbit of the row before it, it is held until the next row shows which of the two is damaged. Sums of
- * times are compensated. */
+ * whether the two rows lie on one orbit. Where they are too far apart for it, the orbit is integrated. A row that is not
+ * on the orbit of the row before is named, and converted as it stands. Sums of times are compensated. */
 
 /* Where results go, in the order of the rows. Each function returns ISO_OK to go on. Any other status ends the call
  * that is under way, which returns it. */
@@ -33,6 +34,8 @@ typedef struct iso_conversion_target {
     iso_status (*header)(void *data, const iso_record *header); /* columns and lines: once, before all rows */
     iso_status (*row)(void *data, const double row[]);          /* NULL: a mark in the place of a bad row   */
     iso_status (*bad)(void *data, size_t line, iso_status why, const char *words);
+    iso_status (*missed)(void *data, size_t line,
+                         const char *words); /* the row is not on the orbit of the row before */
     void *data;
 } iso_conversion_target;
 
@@ -51,6 +54,7 @@ typedef struct iso_stated {
 
 typedef struct iso_conversion_summary {
     size_t rows, bad;     /* all rows, and those that could not be converted                                */
+    size_t missed;        /* rows farther than max_defect from the orbit of the row before, or before it in time */
     iso_worst constraint; /* ball: | |n| - 1 | and (omega,n)/|omega|; point: likewise                       */
     /* Ball: h against that of the first row; point: H against its level; relative to the size of the terms. */
     iso_worst energy;
@@ -58,12 +62,13 @@ typedef struct iso_conversion_summary {
      * record has the other clock: also how far the unit vector moves in the time by which that clock is wrong. */
     iso_worst defect;
     /* The defects added up while the unit vector moves by half a radian. It grows if the rows follow other equations,
-     * and averages out if they are only rounded. */
+     * and averages out if they are only rounded. Rows that are missed are left out. */
     iso_worst drift;
-    bool checked;               /* the record has a clock, so defect and drift are known                          */
-    size_t between, integrated; /* intervals by quadrature, and by integration                               */
-    bool computed;              /* the other clock was computed                                                   */
-    iso_clock clock;            /* the other clock                                                                */
+    double max_defect, max_drift; /* that they may have; of the drift infinite where options set that of defects */
+    bool checked;                 /* the record has a clock, so defect and drift are known                          */
+    size_t between, integrated;   /* intervals by quadrature, and by integration                               */
+    bool computed;                /* the other clock was computed                                                   */
+    iso_clock clock;              /* the other clock                                                                */
     /* Its last value, and an estimate of its error: from the quadratures, the defects and the rounding of the sums. A
      * wrong k or J is not part of this estimate; it shows as drift. */
     double end, error;
@@ -81,6 +86,7 @@ typedef struct iso_conversion_options {
      * of the effect `level`. */
     bool shift_J;
     double row_tolerance; /* 0: that of the header                                                            */
+    double max_defect;    /* NAN: by the tolerances and digits of the rows, 1e-5 or more                      */
     size_t first_row;     /* its number in messages about a whole record, and in its summary                  */
 } iso_conversion_options;
 
@@ -90,15 +96,17 @@ static inline iso_conversion_options iso_conversion_defaults(void)
     iso_conversion_options o = ISO_ALL_ZERO;
     o.size = sizeof o;
     o.tolerance = 1e-14;
+    o.max_defect = NAN;
     o.first_row = 1;
     return o;
 }
 
 /* --- whole ------------------------------------------------------------------------------------------------------ */
 
-/* Converts `in` to the model `to`. *out has the clock, then the six columns, and one row for each row of `in`.
+/* Converts `in` to the model `to`. *out has the clock, then the six columns, and one row for each row of `in`; a row that
+ * is not on the orbit of the row before, or before it in time, as it stands (iso_convert_as counts them).
  * Errors; messages give the number of the row:
- * - ISO_BAD_INPUT: a row is no state, or the times do not run one way;
+ * - ISO_BAD_INPUT: a row is no state;
  * - ISO_NOT_MAPPED: a row is at rest; the M of a point does not fit eps or h of the record and the energy of the
  *   first row; or an effect breaks the isomorphism;
  * - ISO_NUMERICAL, ISO_NO_MEMORY. */

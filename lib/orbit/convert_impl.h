@@ -3,8 +3,8 @@
 #ifndef ISO_ORBIT_CONVERT_IMPL_H
 #define ISO_ORBIT_CONVERT_IMPL_H
 
-#include "method/two_point_impl.h"
 #include "orbit/convert.h"
+#include "orbit/rows_impl.h"
 
 /* A good row. */
 typedef struct conversion_row {
@@ -24,33 +24,28 @@ struct iso_conversion {
     iso_model_kind from;
     double tolerance, row_tolerance;
     bool shift_J;
-    iso_params shifted;           /* what params then points to                                          */
-    int state[ISO_STATE];         /* columns of the model converted from                                 */
-    iso_clock own, other;         /* the clocks of the two models                                        */
-    int own_column, other_column; /* their columns in `in`, -1: not there                                */
-    double stated_eps;            /* by the lines, or the first row's own; NAN: not                      */
-    bool replaces;                /* the result states the first row's own h and eps                     */
-    iso_effects effects;          /* of the lines, and the level of a point off H = 0; the caller's units */
+    iso_params shifted;                  /* what params then points to                                          */
+    int columns[ISO_TRAJECTORY_COLUMNS]; /* of `in`; -1: not there                                      */
+    iso_clock own, other;                /* the clocks of the two models                                        */
+    int own_column, other_column;        /* their columns in `in`, -1: not there                                */
+    double stated_eps;                   /* by the lines, or the first row's own; NAN: not                      */
+    bool replaces;                       /* the result states the first row's own h and eps                     */
+    iso_effects effects;                 /* of the lines, and the level of a point off H = 0; the caller's units */
 
     bool settled; /* which of them act is known: from the first row on that is a start   */
 
     /* from the first good row on, which has begun the result */
     bool begun;
-    iso_status trouble; /* no memory, or stopped, in the middle of a decision */
-    size_t good;        /* rows so far                                        */
-    int strangers;      /* behind the first, and before the next, of another energy */
+    size_t good;   /* rows so far                                        */
+    int strangers; /* behind the first, and before the next, of another energy */
     iso_orbit *first;
     iso_units units;
-    double unit_from, unit_to;   /* of the fast vectors   */
-    double unit_own, unit_other; /* of the clocks         */
-    double energy;               /* of the first row      */
-    iso_two_point *quadrature;   /* NULL without own clock */
-    conversion_row last, held;   /* the last accepted; one that breaks off from it */
-    bool has_last, is_held;
-    bool unwritten;                       /* the last is the first, and not written: it may be damaged      */
-    size_t first_marks;                   /* bad rows behind it                                                 */
-    int doubted;                          /* rows taken for damaged, one after the other                     */
-    size_t marks;                         /* bad rows behind the held one, or before the first good one */
+    double unit_from, unit_to;            /* of the fast vectors   */
+    double unit_own, unit_other;          /* of the clocks         */
+    double energy;                        /* of the first row      */
+    iso_rows rows;                        /* not used without own clock */
+    conversion_row last;                  /* the row before             */
+    size_t marks;                         /* bad rows before the first good one                              */
     double direction, typical;            /* of time; size of defects                                   */
     double drift[ISO_STATE], late, moved; /* see iso_conversion_summary.drift                            */
     double gained;                        /* by the other clock meanwhile                                */
@@ -62,14 +57,8 @@ struct iso_conversion {
 
 /* --- convert_row.c: what leaves --- */
 
-/* Writes a good row. */
-iso_status iso_conversion_emit(iso_conversion *c, const conversion_row *row);
-
-/* Marks the place of a bad row: at once, or later where rows before it are not yet decided. */
+/* Marks the place of a bad row; those before the first good row are written with the header. */
 iso_status iso_conversion_mark(iso_conversion *c);
-
-/* Writes so many marks, and counts them down. */
-iso_status iso_conversion_write_marks(iso_conversion *c, size_t *marks);
 
 /* A row cannot be converted; the context's message says why. */
 iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why);
@@ -93,22 +82,19 @@ double iso_conversion_digits(const iso_conversion *c);
 /* Everything of a row but its place among the others: r->line is given. */
 iso_status iso_conversion_read_row(iso_conversion *c, const double row[], conversion_row *r);
 
-/* A row as a start of c->from. */
-iso_status iso_conversion_start(const iso_conversion *c, const double y[ISO_STATE], iso_start *start);
-
-/* An orbit of the record's own model from a row on, with the other clock. */
-iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *start, bool clock, iso_orbit **orbit);
+/* An orbit of the record's own model from a row on, with the other clock: iso_rows.open. */
+iso_status iso_conversion_open(void *conversion, const double row[], iso_orbit **orbit);
 
 /* The columns and lines of the result. */
 iso_status iso_conversion_describe(iso_conversion *c, double begin, iso_record **header);
 
 /* --- convert_clock.c: rows one after the other; calls convert_row.c --- */
 
-/* Adds a row: accepts it, with its clock and its defect, or holds it. */
-iso_status iso_conversion_follow(iso_conversion *c, const conversion_row *row);
+/* Adds a good row: finds its clock and its defect, and writes it. */
+iso_status iso_conversion_follow(iso_conversion *c, const double row[], conversion_row *r);
 
-/* No row comes behind the held one. */
-iso_status iso_conversion_settle(iso_conversion *c);
+/* After the last row: the other clock's end and error. */
+void iso_conversion_settle(iso_conversion *c);
 
 /* header: columns, lines and row tolerance of what is converted. It and params must outlive the conversion; lines
  * may be added to it meanwhile. It must have the six columns of one model. The clock of the result is
@@ -125,9 +111,10 @@ void iso_conversion_free(iso_conversion *conversion);
 /* The next row. The first good one is held against the lines: where h, eps or c of a level does not fit it beyond
  * rounding, the result states the row's own number, and the summary tells. The wrong one of the three is the one
  * that the other two and the row contradict. A point off the level H = 0 becomes a ball in the potential of the effect `level`,
- * which the lines of the result then name. A bad row goes to target->bad: it is no state, it is at rest, its time
- * turns back, or its energy is not that of the rows before. Errors: the status of the target; ISO_NO_MEMORY,
- * ISO_STOPPED. */
+ * which the lines of the result then name. A bad row goes to target->bad: it is no state, it is at rest, its energy is
+ * not that of the rows before, or the orbit of the row before does not reach it. A row that this orbit misses, or
+ * whose time turns back, goes to target->missed, and is converted as it stands. Errors: the status of the target;
+ * ISO_NO_MEMORY, ISO_STOPPED. */
 iso_status iso_conversion_put(iso_conversion *conversion, const double row[], size_t line);
 
 /* Call this in the place of a row that could not even be read. */
@@ -140,11 +127,9 @@ iso_status iso_conversion_end(iso_conversion *conversion, iso_conversion_summary
 /* Adds the summary of one more orbit of a file to those before it: sums, and the worst of all. */
 void iso_conversion_summary_add(iso_conversion_summary *all, const iso_conversion_summary *one);
 
-/* The drift that the rows of an orbit may have is the largest of
- * - 1e-5, what six digits make of it; rows of other equations, a thousandth beside the stated ones, drift by more;
- * - a hundred times the tolerance with which the header says they were made;
- * - ten times the row tolerance, where that is wider than ISO_ROW_TOLERANCE: the rows then have few digits. */
-double iso_conversion_largest_drift(iso_context *ctx, const iso_record *header, double row_tolerance);
+/* What is wrong with the rows as a whole, most at line *at; false: nothing. */
+enum { ISO_VERDICT_SIZE = 400 };
+bool iso_conversion_verdict(const iso_conversion_summary *summary, char text[ISO_VERDICT_SIZE], size_t *at);
 
 /* The two lines that say how the other clock was computed, and its error. False: it was not computed. */
 bool iso_conversion_clock_lines(const iso_conversion_summary *summary, char key[2][ISO_NAME_SIZE],

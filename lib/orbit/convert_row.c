@@ -1,6 +1,5 @@
 /* convert_row.c - one row of the file: whether it is a state of the model and has the energy of the others, and its
- * state in the other model. The first good row also gives the units and the level. And what leaves: good rows, marks
- * in the place of bad ones, and the words about these. */
+ * state in the other model. The first good row also gives the units and the level. And marks in the place of bad rows. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -13,15 +12,20 @@
 
 /* --- states ----------------------------------------------------------------------------------------------------- */
 
-iso_status iso_conversion_start(const iso_conversion *c, const double y[ISO_STATE], iso_start *start)
+static void state_of(const iso_conversion *c, const double row[], double y[ISO_STATE])
+{
+    const int first = c->from == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT;
+    for (int i = 0; i < ISO_STATE; i++) y[i] = row[c->columns[first + i]];
+}
+
+static iso_status start_of(const iso_conversion *c, const double y[ISO_STATE], iso_start *start)
 {
     return iso_start_from_row(c->ctx, c->from, y, isnan(c->stated_eps) ? NULL : &c->stated_eps, false,
                               c->row_tolerance, start);
 }
 
-iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *row, bool clock, iso_orbit **orbit)
+static iso_status open_orbit(const iso_conversion *c, iso_start start, bool clock, iso_orbit **orbit)
 {
-    iso_start start = *row;
     if (c->from == ISO_POINT && c->first) start.eps = NAN; /* the level gives it; check_energy has seen the row's */
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &c->effects;
@@ -29,6 +33,16 @@ iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *row, b
     o.with_clock[c->other] = clock;
     o.max_steps = ISO_MAX_ROW_STEPS;
     return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
+}
+
+iso_status iso_conversion_open(void *data, const double row[], iso_orbit **orbit)
+{
+    const iso_conversion *c = data;
+    iso_start start;
+    double y[ISO_STATE];
+    state_of(c, row, y);
+    ISO_TRY(start_of(c, y, &start));
+    return open_orbit(c, start, true, orbit);
 }
 
 /* H of a point, in own units, minus the value of its level, relative. */
@@ -102,7 +116,7 @@ static iso_status create_first(iso_conversion *c, const iso_start *start, bool c
 {
     iso_orbit_free(c->first);
     c->first = NULL;
-    iso_status status = iso_conversion_orbit(c, start, clock, &c->first);
+    iso_status status = open_orbit(c, *start, clock, &c->first);
     if (status == ISO_OK) c->units = *iso_orbit_units(c->first);
     return status;
 }
@@ -114,7 +128,7 @@ static iso_status open_first(iso_conversion *c, const conversion_row *r)
 {
     iso_start start;
     const bool clock = c->own_column >= 0, level = iso_effects_have_level(&c->effects);
-    ISO_TRY(iso_conversion_start(c, r->y, &start));
+    ISO_TRY(start_of(c, r->y, &start));
     const double eps = start.eps;
     if (level) start.eps = NAN;
     ISO_TRY(create_first(c, &start, clock));
@@ -170,10 +184,10 @@ static iso_status check_finite(const iso_conversion *c, const double row[])
 iso_status iso_conversion_read_row(iso_conversion *c, const double row[], conversion_row *r)
 {
     iso_start start;
-    for (int i = 0; i < ISO_STATE; i++) r->y[i] = row[c->state[i]];
+    state_of(c, row, r->y);
     r->time = c->own_column >= 0 ? row[c->own_column] : 0;
     ISO_TRY(check_finite(c, row));
-    ISO_TRY(iso_conversion_start(c, r->y, &start));
+    ISO_TRY(start_of(c, r->y, &start));
     if (!c->begun) ISO_TRY(open_units(c, r));
     copy(r->y, r->own, ISO_STATE);
     for (int i = 0; i < 3; i++) r->own[i] /= c->unit_from;
@@ -205,10 +219,9 @@ static iso_status give_up(const iso_conversion *c)
 
 iso_status iso_conversion_mark(iso_conversion *c)
 {
-    if (!c->begun && c->summary.bad == HOPELESS) return give_up(c);
-    if (c->begun && !c->is_held && !c->unwritten) return c->target.row(c->target.data, NULL);
-    ++*(c->unwritten && !c->is_held ? &c->first_marks : &c->marks);
-    return ISO_OK;
+    if (c->begun) return c->target.row(c->target.data, NULL);
+    c->marks++;
+    return c->summary.bad == HOPELESS ? give_up(c) : ISO_OK;
 }
 
 iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why)
@@ -223,15 +236,4 @@ iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why)
     c->summary.bad++;
     ISO_TRY(c->target.bad(c->target.data, line, why, iso_context_message(c->ctx)));
     return iso_conversion_mark(c);
-}
-
-iso_status iso_conversion_emit(iso_conversion *c, const conversion_row *row)
-{
-    return c->target.row(c->target.data, row->out);
-}
-
-iso_status iso_conversion_write_marks(iso_conversion *c, size_t *marks)
-{
-    for (; *marks > 0; --*marks) ISO_TRY(c->target.row(c->target.data, NULL));
-    return ISO_OK;
 }

@@ -168,6 +168,28 @@ bool iso_conversion_stated_words(const iso_conversion_summary *s, int i, char wo
     return true;
 }
 
+bool iso_conversion_verdict(const iso_conversion_summary *s, char text[ISO_VERDICT_SIZE], size_t *at)
+{
+    const iso_worst *worst = s->drift.value > s->defect.value ? &s->drift : &s->defect;
+    const bool most = isfinite(s->max_drift) && s->missed > (s->between + s->integrated) / 10;
+    *at = worst->line;
+    if (!s->checked) return false;
+    if (most || !(s->drift.value <= s->max_drift))
+        snprintf(
+            text, ISO_VERDICT_SIZE,
+            "these rows do not solve the equations that are stated for them (k, J, eps, clocks), or have too few "
+            "digits: they drift off by %.2g in half a radian or one interval, whichever is longer",
+            worst->value);
+    else if (s->missed > 0)
+        snprintf(text, ISO_VERDICT_SIZE,
+                 "rows away from the orbit through the row before: %zu, the farthest by %.2g; they were converted as "
+                 "they stand",
+                 s->missed, s->defect.value);
+    else
+        return false;
+    return true;
+}
+
 /* --- the header of the result ----------------------------------------------------------------------------------- */
 
 /* Lines for the first value of a clock that the result has no column for. */
@@ -233,15 +255,6 @@ iso_status iso_conversion_describe(iso_conversion *c, double begin, iso_record *
     iso_record_free(*header);
     *header = NULL;
     return status;
-}
-
-double iso_conversion_largest_drift(iso_context *ctx, const iso_record *header, double row_tolerance)
-{
-    double tolerance = 0;
-    iso_status unused;
-    iso_record_get_numbers(ctx, header, "tolerance", 1, &tolerance, &unused);
-    const double row = row_tolerance > ISO_ROW_TOLERANCE ? 10 * row_tolerance : 0;
-    return fmax(fmax(1e-5, row), 100 * tolerance);
 }
 
 bool iso_conversion_clock_lines(const iso_conversion_summary *s, char key[2][ISO_NAME_SIZE], char value[2][160])

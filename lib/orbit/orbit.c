@@ -324,10 +324,8 @@ double iso_orbit_integral(const iso_orbit *o, const iso_system *system, const is
                           const iso_sample *sample, double *size)
 {
     double y[ISO_MAX_STATE];
-    iso_problem problem = o->model.problem;
-    problem.eps = o->eps;
     iso_orbit_state_of(o, system, sample, y);
-    return integral->value(&problem, y, size);
+    return integral->value(&o->model.problem, y, size);
 }
 
 const iso_integral *iso_orbit_additional_integral(const iso_orbit *o)

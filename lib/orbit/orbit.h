@@ -128,6 +128,16 @@ ISO_API double iso_orbit_coupling(const iso_orbit *orbit);
 ISO_API double iso_orbit_integral(const iso_orbit *orbit, const iso_system *system, const iso_integral *integral,
                                   const iso_sample *sample, double *size);
 
+/* One integral along an orbit, in the model of `system`. What it should be: a constraint its exact value; H of a point
+ * on a known level the level's value; every other integral its value at the start. */
+typedef struct iso_drift {
+    const iso_system *system;
+    const iso_integral *integral;
+    double start;    /* its value at the start, in the caller's units: 0 within rounding, infinite if it overflows */
+    double expected; /* what it should be, in own units                                                    */
+    double now, worst; /* (I - expected) / size at the last sample, see iso_integral; largest size of that so far */
+} iso_drift;
+
 ISO_C_END
 
 #endif

@@ -10,7 +10,7 @@
 #include "base/seconds_impl.h"
 #include "base/vec3_impl.h"
 #include "method/methods_impl.h"
-#include "orbit/orbit_impl.h"
+#include "orbit/watch_impl.h"
 
 typedef struct comparer {
     iso_context *ctx;
@@ -18,48 +18,7 @@ typedef struct comparer {
     iso_effects effects; /* those that act */
     iso_comparison *out;
     iso_orbit *orbit[ISO_BACKENDS];
-    double at_start[ISO_BACKENDS][ISO_MAX_INTEGRALS]; /* the integrals, in own units */
 } comparer;
-
-/* The larger of `largest` and |x|; a NaN counts as infinite. */
-static double larger(double largest, double x)
-{
-    return fabs(x) <= largest ? largest : isnan(x) ? INFINITY : fabs(x);
-}
-
-/* --- integrals along an orbit ----------------------------------------------------------------------------------- */
-
-/* Lists the integrals that hold, with their values at the start. */
-static void list_drifts(comparer *r, int which, const iso_sample *start)
-{
-    const iso_orbit *orbit = r->orbit[which];
-    const iso_units *units = iso_orbit_units(orbit);
-    iso_backend_run *run = &r->out->run[which];
-    for (int s = 0; iso_systems[s]; s++) {
-        const iso_integral *list[ISO_MAX_INTEGRALS];
-        const int count = iso_integrals_holding(iso_systems[s], &iso_orbit_model(orbit)->problem, list,
-                                                ISO_MAX_INTEGRALS - run->drifts);
-        for (int i = 0; i < count; i++) {
-            double size;
-            const double own = iso_orbit_integral(orbit, iso_systems[s], list[i], start, &size);
-            const double users = own == 0 ? 0 : own * iso_unit(units, list[i]->dimension);
-            r->at_start[which][run->drifts] = own;
-            run->drift[run->drifts++] = (iso_drift){iso_systems[s], list[i], users, 0};
-        }
-    }
-}
-
-static void follow_drifts(const comparer *r, int which, const iso_sample *sample)
-{
-    iso_backend_run *run = &r->out->run[which];
-    for (int i = 0; i < run->drifts; i++) {
-        iso_drift *d = &run->drift[i];
-        double size;
-        const double value = iso_orbit_integral(r->orbit[which], d->system, d->integral, sample, &size);
-        const double change = value - r->at_start[which][i];
-        d->worst = larger(d->worst, change == 0 ? 0 : change / size);
-    }
-}
 
 /* --- one backend ------------------------------------------------------------------------------------------------ */
 
@@ -120,10 +79,14 @@ static iso_status find_sample(comparer *r, int which, size_t i, iso_sample *samp
 static iso_status keep(comparer *r, int which, size_t i, const iso_sample *sample)
 {
     double *row;
-    ISO_TRY(iso_record_append(r->ctx, r->out->run[which].trajectory, &row));
+    iso_backend_run *run = &r->out->run[which];
+    const iso_orbit *orbit = r->orbit[which];
+    ISO_TRY(iso_record_append(r->ctx, run->trajectory, &row));
     for (int c = 0; c < ISO_COLUMN_EFFECTS; c++) row[c] = iso_sample_column(sample, c);
-    if (i == 0) list_drifts(r, which, sample);
-    follow_drifts(r, which, sample);
+    for (int s = 0; i == 0 && iso_systems[s]; s++)
+        run->drifts += iso_watch_begin(orbit, iso_systems[s], s == ISO_POINT ? orbit->level : (double)NAN, sample,
+                                       run->drift + run->drifts, ISO_MAX_INTEGRALS - run->drifts);
+    iso_watch_follow(orbit, sample, run->drift, run->drifts);
     return ISO_OK;
 }
 
@@ -177,7 +140,7 @@ static iso_status compare_rows(iso_context *ctx, const iso_comparison *c, int ru
         d[5] = scale[0] > 0 ? fabs(x[first] - y[first]) / scale[0] : 0;
         d[6] = scale[1] > 0 ? fabs(x[second] - y[second]) / scale[1] : 0;
         worst[0] = d[0];
-        for (int j = 1; j < ISO_DIFFERENCES; j++) worst[j] = larger(worst[j], d[j]);
+        for (int j = 1; j < ISO_DIFFERENCES; j++) worst[j] = iso_larger(worst[j], d[j]);
     }
     return status;
 }

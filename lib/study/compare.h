@@ -19,14 +19,6 @@ ISO_C_BEGIN
 /* The index of each run: [ISO_BALL] and [ISO_POINT] are integrated, [ISO_BY_EXACT] is the closed solution. */
 enum { ISO_INTEGRATED = 2, ISO_BY_EXACT = ISO_INTEGRATED, ISO_BACKENDS };
 
-/* One integral along one backend's orbit, in the model of `system`. */
-typedef struct iso_drift {
-    const iso_system *system;
-    const iso_integral *integral;
-    double start; /* its value at the start, in the caller's units (infinite if that overflows)          */
-    double worst; /* largest |I - I(start)| / size over the rows, see iso_integral                       */
-} iso_drift;
-
 /* One backend's part. */
 typedef struct iso_backend_run {
     iso_backend backend;
@@ -38,9 +30,8 @@ typedef struct iso_backend_run {
     iso_drift drift[ISO_MAX_INTEGRALS];
 } iso_backend_run;
 
-/* The columns of the differences: a clock, then |difference| of the two backends for omega, n, M, gamma and the two
- * other clocks. That of omega and M is relative to the size of the vector, that of a clock to its largest value in
- * the record; n and gamma are unit vectors. */
+/* The columns of the differences: a clock, then the distance of the two backends in omega, n, M, gamma and the two
+ * other clocks, as lib/doc/methods.md, section 3, defines it. */
 enum { ISO_DIFFERENCES = 7 };
 
 typedef struct iso_comparison {

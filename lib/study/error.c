@@ -12,7 +12,7 @@
 #include "base/vec3_impl.h"
 #include "method/methods_impl.h"
 #include "model/model_impl.h"
-#include "orbit/orbit_impl.h"
+#include "orbit/watch_impl.h"
 
 /* How far from the start the moved orbits begin, relative: far above the error of their method, but small enough that
  * their distance grows in proportion. */
@@ -138,16 +138,6 @@ static iso_status open_orbits(iso_error_finder *f, const iso_params *params, con
 
 /* --- one row ---------------------------------------------------------------------------------------------------- */
 
-/* The two vectors of a against those of b: the larger distance, relative to the shorter vector; NaN: not shown. */
-static double state_distance(const double a[ISO_STATE], const double b[ISO_STATE])
-{
-    double most = 0;
-    if (isnan(a[0])) return NAN;
-    for (int v = 0; v < ISO_STATE; v += 3)
-        most = fmax(most, fmax(relative_difference(a + v, b + v), relative_difference(b + v, a + v)));
-    return most;
-}
-
 static void note(iso_error_of *e, double error, double time)
 {
     if (!(error <= e->worst)) e->worst = error, e->worst_time = time;
@@ -169,9 +159,9 @@ static void compare_states(iso_error_finder *f, const iso_sample *row, const iso
 {
     const double least = ISO_ERROR_ULPS * DBL_EPSILON, ulps = least / AWAY;
     for (int model = ISO_BALL; model <= ISO_POINT; model++) {
-        const double off = state_distance(six(row, model), six(fine, model)), before = worst_state(&f->found);
+        const double off = iso_distance(six(row, model), six(fine, model)), before = worst_state(&f->found);
         double start = least;
-        for (int m = 0; m < MOVED; m++) start += ulps * state_distance(six(fine, model), six(&moved[m], model));
+        for (int m = 0; m < MOVED; m++) start += ulps * iso_distance(six(fine, model), six(&moved[m], model));
         note(&f->found.state[model], f->factor * off + start, row->clock[f->clock]);
         if (!(worst_state(&f->found) <= before)) f->found.start = start;
     }

@@ -174,9 +174,16 @@ bad() {
 }
 damage 3 5 0.5 ball.csv
 bad "14: |n| = " 3
-damage 4 1 0.1 ball.csv
-bad "15: t turns back" 4
 damage 4 3 1 ball.csv
 bad "15: omega has a part" 4
+# a row that the orbit of the row before misses is converted as it stands; so is the next one, which its orbit misses
+damage 4 1 0.1 ball.csv
+refuses 3 "damaged.csv:15: t turns back" convert --strict --to point damaged.csv -o none.csv
+check_not "a time that turns back, --strict: no file" test -e none.csv
+run 1 convert --to point damaged.csv -o damaged_point.csv
+for words in "damaged.csv:15: t turns back" "damaged.csv:16: this row is" "the row before: 2, the farthest by"; do
+    check "$words" grep -q "$words" err
+done
+check "the states of all rows" test "$(rows damaged_point.csv | cut -d, -f2-)" = "$(rows point.csv | cut -d, -f2-)"
 echo "worst state, in parts of 4 max(1, 1/|2k|) ulp: $worst_state; with the clock: $worst_clock"
 finish

@@ -30,6 +30,7 @@ static const struct {
     {"section area", "orbit,@model,turns,worst,bound,@area,@failure"},
     {"something new", "a,b,omega2,worst,name"},
     {"something new", "@method"},
+    {"something new", "omega1,@b,c,@of"},
 };
 
 /* What rows of a sweep are bound to: points by growing number, and reasons for those that have failed. */
@@ -154,7 +155,7 @@ static void test_kinds(void)
 static void test_words(void)
 {
     enum { MANY = 3000 };
-    static const char *const names[] = {"verdict", "new"};
+    static const char *const names[] = {"number", "new"};
     iso_record *r;
     double number[MANY], again;
     char word[32];
@@ -173,10 +174,30 @@ static void test_words(void)
     gsl_test(iso_record_intern(ctx, r, "", &again) != ISO_OK || again != 0 || *iso_record_word(r, 0) ||
                  *iso_record_word(r, -1) || *iso_record_word(r, MANY + 1) || *iso_record_word(r, NAN),
              "numbers of no word are the empty word");
-    iso_record_set_kind(r, "test");
-    iso_record_set_words(r, 1, true);
-    gsl_test(iso_table_write(ctx, in_folder("words.csv"), r) != ISO_BAD_ARGUMENT,
-             "a column of words that a reader would not know is refused");
+    iso_record_free(r);
+}
+
+/* Tables of earlier states have no line of words: words are what is no number, empty cells what the others are. */
+static void test_older(void)
+{
+    iso_record *r;
+    const char *path = in_folder("good.csv");
+    const char *const made = "# isoroll periodic follow 1\nbranch,x,event,line,none\n0,,,S1,\n1,nan,,S2,\n"
+                             "2,0.5,\"it folds, 2\",,\n3,,,R,\n";
+    put_file(path, made, strlen(made));
+    gsl_test(iso_table_read(ctx, path, NULL, NULL, &r, NULL) != ISO_OK, "%s", iso_context_message(ctx));
+    if (!r) return;
+    static const bool words[] = {false, false, true, true, true};
+    static const char *const cells[][3] = {{"", "S1", ""}, {"", "S2", ""}, {"it folds, 2", "", ""}, {"", "R", ""}};
+    for (size_t c = 0; c < 5; c++)
+        gsl_test(iso_record_has_words(r, c) != words[c], "%s: words or numbers", iso_record_name(r, c));
+    for (size_t i = 0; i < 4; i++) {
+        const double *row = iso_record_const_row(r, i);
+        gsl_test(i == 2 ? row[1] != 0.5 : !isnan(row[1]), "an empty cell among numbers is nan");
+        for (size_t c = 2; c < 5; c++)
+            gsl_test(!isfinite(row[c]) || strcmp(iso_record_word(r, row[c]), cells[i][c - 2]) != 0, "row %zu, %s", i,
+                     iso_record_name(r, c));
+    }
     iso_record_free(r);
 }
 
@@ -201,6 +222,9 @@ static void test_lost(void)
     static const char *const columns[] = {".", "..", "#k,l", "a\"b,l", "a\nb,l"};
     static const char *const lines[][2] = {{"a:b", "x"}, {"a", " x"}, {"a", "x\r"}, {"a", "x\ny"}, {"", "x"}};
     for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) refuse_write("mine", columns[i], NULL, NULL);
+    refuse_write("mine", "a,@two words", NULL, NULL);
+    refuse_write("section", "t,@n1", NULL, NULL);
+    refuse_write("mine", "a,@b", "words", "b");
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) refuse_write("mine", "a,b", lines[i][0], lines[i][1]);
     iso_record *r;
     if (iso_record_create(ctx, 0, NULL, &r) != ISO_OK) exit(1);
@@ -235,7 +259,7 @@ static void test_fields(void)
     if (status == ISO_OK) status = iso_table_write(ctx, in_folder("fields.csv"), r);
     gsl_test(status != ISO_OK, "fields: %s", iso_context_message(ctx));
     const char *text = file_text(in_folder("fields.csv"));
-    gsl_test(strcmp(text, "# isoroll things 1\nwhole,error,if,number,kind,reason\n"
+    gsl_test(strcmp(text, "# isoroll things 1\n# words: kind reason\nwhole,error,if,number,kind,reason\n"
                           "0.10000000000000001,0.333,0.33333333333333331,5,\"one, two\",\"x y\"\n"
                           "nan,inf,,,,y\n1,0.25,0.25,1,it is so,\n"),
              "rows made of fields: %s", text);
@@ -289,6 +313,7 @@ static void refuse(const char *text, const char *words)
 static void test_damaged(void)
 {
 #define HEAD "# isoroll chaos 1\n# k: 1\norbit,l,verdict\n"
+#define TYPED "# isoroll chaos 1\n# words: verdict\norbit,l,verdict\n"
     refuse("", ":1:1: expected a line of column names");
     refuse("orbit,l,verdict\n0,1,x\n", ":1:1: expected '# isoroll KIND 1'");
     refuse("# isoroll\norbit\n", ":1:1: expected '# isoroll KIND 1'");
@@ -304,8 +329,18 @@ static void test_damaged(void)
     refuse(HEAD "0,1.5,\"regular\n", ":4:7: expected a closing quote");
     refuse(HEAD "0,infinity,regular\n", ":4:3: expected a number for l, not infinity");
     refuse(HEAD "0,0x,regular\n", ":4:3: expected a number for l");
+    refuse(HEAD "0,abc,regular\n1,0.5,regular\n",
+           ":5:3: expected a word for l, as in the rows before, not the number");
+    refuse(HEAD "0,0.5,regular\n1,abc,regular\n", ":5:3: expected a number for l, not abc");
+    refuse("# isoroll periodic 1\nperiod,n1\n1,abc\n", ":3:3: expected a number for n1, not abc");
+    refuse("# isoroll section 1\norbit,x\n0,abc\n", ":3:3: expected a number for x, not abc");
+    refuse(TYPED "0,abc,regular\n", ":4:3: expected a number for l, not abc");
+    refuse("# isoroll chaos 1\n# words: verdict l\norbit,verdict\n",
+           ":3:1: the line '# words: ...' names the column 'l'");
+    refuse(TYPED "0,0.5,regular\n# words: l\n", ":5:3: expected the line of words before the names");
     if (has_hdf5) refuse("\211HDF\r\n\032\n and nothing else", "this is not an HDF5 file, or it is damaged");
 #undef HEAD
+#undef TYPED
 }
 
 /* What isoroll wrote is read with the ends of lines of other systems, empty lines, and lines behind the rows. */
@@ -351,6 +386,7 @@ int main(void)
     if (!ctx || !mkdtemp(folder)) return 1;
     test_kinds();
     test_words();
+    test_older();
     test_lost();
     test_fields();
     test_finite();

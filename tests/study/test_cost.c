@@ -11,6 +11,7 @@
 #include "length.h"
 #include "method/integrator_impl.h"
 #include "numbers.h"
+#include "orbit/watch_impl.h"
 #include "reference.h"
 #include "study/cost/cost_impl.h"
 
@@ -36,7 +37,7 @@ static double true_error(const reference *r, const iso_cost_cell *cell)
         ctx, iso_orbit_create(ctx, &r->p, &r->start, &o, &orbit) != ISO_OK || iso_orbit_at(orbit, r->t, &s) != ISO_OK,
         "an orbit");
     iso_orbit_free(orbit);
-    return fmax(relative_difference(r->ball, s.ball), relative_difference(r->ball + 3, s.ball + 3));
+    return iso_distance(r->ball, s.ball);
 }
 
 /* The numbers of the file are no doubles: a start that is rounded is that of a neighbour. */

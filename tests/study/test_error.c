@@ -9,6 +9,7 @@
 #include "laws.h"
 #include "length.h"
 #include "numbers.h"
+#include "orbit/watch_impl.h"
 #include "reference.h"
 #include "scenes.h"
 #include "study/study_impl.h"
@@ -46,11 +47,6 @@ static void end(trial *r)
     free(r);
 }
 
-static double distance(const double a[ISO_STATE], const double b[ISO_STATE])
-{
-    return fmax(relative_difference(a, b), relative_difference(a + 3, b + 3));
-}
-
 /* How a true error compares with its estimate: to be covered, by at most 50 times and what rounding may be. */
 static void compare(laws_worst *covered, laws_worst *tight, double true_error, double estimate, const iso_params *p,
                     const char *where)
@@ -77,7 +73,7 @@ static void check_references(const char *method, double tolerance, iso_backend b
         snprintf(where, sizeof where, "t = %g", r->t);
         snprintf(title, sizeof title, "%s at %g, backend %s", method, tolerance, iso_backend_name((int)backend));
         gsl_test(run->found != ISO_OK, "%s, row %d: an estimate", title, i);
-        compare(&state, &state_tight, distance(run->last.ball, r->ball), run->error.state[ISO_BALL].last, &r->p,
+        compare(&state, &state_tight, iso_distance(run->last.ball, r->ball), run->error.state[ISO_BALL].last, &r->p,
                 where);
         compare(&clock, &clock_tight, fabs(run->last.clock[ISO_CLOCK_S] / r->s - 1),
                 run->error.clock[ISO_CLOCK_S].last, &r->p, where);
@@ -111,7 +107,7 @@ static void check_stiff(double c)
         o.method = iso_method_find("bsimp");
         o.tolerance = 1e-14;
         trial *truth = try(&p, &start, &o, 10, 5);
-        compare(&covered, &tight, distance(run->last.ball, truth->last.ball), run->error.state[ISO_BALL].last, &p,
+        compare(&covered, &tight, iso_distance(run->last.ball, truth->last.ball), run->error.state[ISO_BALL].last, &p,
                 "t = 10");
         printf("c = %g, tolerance %g:\n", c, tolerance);
         laws_report(&covered, "the error is covered");
@@ -153,7 +149,7 @@ static double true_error(const trial *r, const iso_params *p, const iso_start *s
         const double time = i + 1 == rows ? t : t * (double)i / (double)(rows - 1);
         laws_stop_if(ctx, iso_orbit_at(r->orbit, time, &a) != ISO_OK || iso_orbit_at(truth, time, &b) != ISO_OK,
                      "the truth stops");
-        worst = fmax(worst, distance(a.ball, b.ball));
+        worst = fmax(worst, iso_distance(a.ball, b.ball));
     }
     iso_orbit_free(truth);
     return worst;

@@ -49,7 +49,7 @@ const numbers = {
     page.integrals.forEach((one, i) => {
       const cells = this.row(id("integrals"), [
         `${one.name} (${one.model})`,
-        one.zero ? "0 within rounding" : digits(one.start, 5),
+        one.start === 0 ? "0 within rounding" : digits(one.start, 5),
         this.unitOf(one.dimension),
         "",
         this.small(one.worst),

@@ -2,7 +2,7 @@
  *
  *     csv_reader.c   lines of #, the names of the columns of trajectories
  *     csv_lines.c    the lines of the file
- *     csv_row.c      the numbers of one line; the cells of other tables: numbers, nan among them, and words
+ *     csv_row.c      the fields of one line, its numbers; the cells of other tables: numbers, nan among them, words
  */
 #ifndef ISO_IO_CSV_IMPL_H
 #define ISO_IO_CSV_IMPL_H
@@ -16,6 +16,21 @@
 enum { ISO_LONGEST_LINE = 1 << 16, ISO_LONGEST_TEXT = 1 << 25, ISO_MOST_CSV_FIELDS = 1024 };
 
 /* --- csv_row.c -------------------------------------------------------------------------------------------------- */
+
+/* A part of a line without the blanks around it, and the quotes. */
+typedef struct iso_csv_field {
+    char *text;
+    size_t length;
+} iso_csv_field;
+
+/* Takes the blanks off. */
+iso_csv_field iso_csv_trim(char *text, size_t length);
+
+/* The next field of *rest, which then begins behind it (NULL after the last). */
+iso_csv_field iso_csv_next_field(char separator, char **rest);
+
+/* Whether a field is a number, perhaps a damaged one, or what somebody writes for one that is not finite. */
+bool iso_csv_begins_as_number(iso_csv_field f);
 
 /* How a row is read. */
 typedef struct iso_csv_format {

@@ -1,6 +1,6 @@
 /* csv_reader.c - reads tables from text: files of isoroll, and trajectories of other programs. This file knows the
  * header and the messages, csv_lines.c reads lines, csv_row.c what is in them. */
-#include <ctype.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,17 +25,13 @@ typedef struct csv {
     bool ours, again;               /* a trajectory with our first line; the line is to be read once more */
     size_t orbit;                   /* the field of that name, from 1; 0: there is none              */
     bool callers;                   /* `line` is the caller's names of columns, no line of the file  */
+    bool guesses;                   /* an older table: nothing says which columns have words         */
+    bool typed[ISO_MOST_COLUMNS];   /* whether it is known that a column has words, or numbers       */
     char *line;                     /* without its end                                               */
     size_t length, number;          /* number: of the line, from 1                                   */
     size_t longest;                 /* a line is shorter than this                                   */
     char comment[ISO_LONGEST_LINE]; /* the last line of # that is no key: perhaps names              */
 } csv;
-
-/* A part of a line without the blanks around it, and the quotes. */
-typedef struct field {
-    char *text;
-    size_t length;
-} field;
 
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
@@ -76,13 +72,6 @@ static iso_status next_line(csv *c, bool *more)
     return ISO_OK;
 }
 
-static field trim(char *text, size_t length)
-{
-    while (length > 0 && iso_is_blank(*text)) text++, length--;
-    while (length > 0 && iso_is_blank(text[length - 1])) length--;
-    return (field){text, length};
-}
-
 /* "# key: value"; without a colon it may be a line of names. Behind rows a key may be said again. */
 static iso_status read_key_line(csv *c)
 {
@@ -90,9 +79,13 @@ static iso_status read_key_line(csv *c)
     const char *last_key, *last_value;
     if (!colon) snprintf(c->comment, sizeof c->comment, "%s", c->line + 1);
     if (!colon) return ISO_OK;
-    const field key = trim(c->line + 1, (size_t)(colon - c->line - 1)), value = trim(colon + 1, strlen(colon + 1));
+    const iso_csv_field key = iso_csv_trim(c->line + 1, (size_t)(colon - c->line - 1)),
+                        value = iso_csv_trim(colon + 1, strlen(colon + 1));
     if (key.length == 0 || (colon[1] && !iso_is_blank(colon[1]))) return ISO_OK;
     key.text[key.length] = value.text[value.length] = '\0';
+    if (strcmp(key.text, ISO_WORDS_KEY) == 0 && c->r->trajectory) return ISO_OK; /* its columns are known */
+    if (strcmp(key.text, ISO_WORDS_KEY) == 0 && c->format.fields > 0)
+        return fail(c, key.text, "expected the line of words before the names of the columns");
     if (iso_record_get(c->r->header, key.text) && c->format.fields == 0)
         return fail(c, key.text, "duplicate key %s", iso_text_quote(quoted, key.text, key.length));
     if (iso_record_line(c->r->header, MOST_KEYS - 1, &last_key, &last_value))
@@ -150,7 +143,7 @@ static iso_status next_data(csv *c, bool *more)
 {
     iso_status status;
     while ((status = next_line(c, more)) == ISO_OK && *more) {
-        if (*c->line != '#' && trim(c->line, c->length).length > 0) return ISO_OK;
+        if (*c->line != '#' && iso_csv_trim(c->line, c->length).length > 0) return ISO_OK;
         if (*c->line == '#' && (status = read_comment(c)) != ISO_OK) return status;
     }
     return status;
@@ -163,22 +156,8 @@ static char separator_of(const char *line)
     return strchr(line, ';') ? ';' : strchr(line, ',') ? ',' : ' ';
 }
 
-/* The next field of *rest, which then begins behind it (NULL after the last). */
-static field next_field(char separator, char **rest)
-{
-    char *start = *rest;
-    if (separator == ' ') start += strspn(start, " \t");
-    const size_t length = strcspn(start, separator == ' ' ? " \t" : (char[]){separator, '\0'});
-    char *next = start + length;
-    if (separator == ' ') next += strspn(next, " \t");
-    *rest = *next ? next + (separator != ' ') : NULL;
-    field f = trim(start, length);
-    if (f.length > 1 && strchr("\"'", f.text[0]) && f.text[f.length - 1] == f.text[0]) f.text++, f.length -= 2;
-    return f;
-}
-
 /* A column with an unknown name. In a file of isoroll it is a mistake; in other files it is ignored. */
-static iso_status skip_column(csv *c, const field *f, bool named)
+static iso_status skip_column(csv *c, const iso_csv_field *f, bool named)
 {
     char quoted[ISO_QUOTE_SIZE], suggested[ISO_SUGGEST_SIZE];
     iso_text_quote(quoted, f->text, f->length);
@@ -203,7 +182,7 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
     double number;
     iso_status status = ISO_OK;
     for (char *rest = line; rest && status == ISO_OK; c->format.fields++) {
-        const field f = next_field(separator, &rest);
+        const iso_csv_field f = iso_csv_next_field(separator, &rest);
         if (c->format.fields == ISO_MOST_CSV_FIELDS) return fail(c, f.text, "more than 1024 columns");
         f.text[f.length] = '\0';
         c->format.column[c->format.fields] = -1;
@@ -225,20 +204,9 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
         names[count++] = iso_column_name(known);
     }
     char *first = line;
-    const field f = next_field(separator, &first);
+    const iso_csv_field f = iso_csv_next_field(separator, &first);
     if (status == ISO_OK && count == 0) status = skip_column(c, &f, true);
     return status == ISO_OK ? iso_table_name_columns(c->ctx, c->r, count, names) : status;
-}
-
-static bool begins_with_number(csv *c)
-{
-    char *rest = c->line, copy[16];
-    double value;
-    const field f = next_field(separator_of(c->line), &rest);
-    snprintf(copy, sizeof copy, "%.*s", (int)f.length, f.text);
-    const char *word = copy + (*copy == '-' || *copy == '+');
-    return iso_number_scan(f.text, f.text + f.length, &value) || strcasecmp(word, "nan") == 0 ||
-           strcasecmp(word, "inf") == 0 || strcasecmp(word, "infinity") == 0;
 }
 
 /* Names of columns: the caller's, else those of the first line of data, else those of the line of # before it. */
@@ -249,9 +217,9 @@ static iso_status read_header(csv *c, const char *columns)
     if (!more)
         return fail(c, NULL,
                     "expected a line of column names such as t,omega1,omega2,..., found the end of the file");
-    char *const line = c->line, *names = columns ? strdup(columns) : NULL;
-    const bool numbers = c->again = begins_with_number(c);
+    char *const line = c->line, *rest = line, *names = columns ? strdup(columns) : NULL;
     c->format.separator = separator_of(line);
+    const bool numbers = c->again = iso_csv_begins_as_number(iso_csv_next_field(c->format.separator, &rest));
     if (columns && !names) return iso_context_no_memory(c->ctx, "column names");
     const bool above = !columns && numbers && !c->ours && *c->comment;
     if (columns || above) c->line = columns ? names : c->comment;
@@ -261,6 +229,29 @@ static iso_status read_header(csv *c, const char *columns)
     free(names);
     c->line = line;
     return status;
+}
+
+/* Which columns have words: those that the line "# words: NAME NAME" names. Older tables lack the line, as tables
+ * without words do: there a column that is none of a state has words until a cell is a number (guess_words). */
+static iso_status set_words(csv *c)
+{
+    iso_record *const r = c->r->header;
+    const char *line = iso_record_get(r, ISO_WORDS_KEY);
+    char name[128], quoted[ISO_QUOTE_SIZE];
+    c->guesses = !line && !iso_table_is_finite(iso_record_kind(r));
+    for (size_t i = 0; i < c->format.fields; i++) {
+        c->typed[i] = !c->guesses || iso_column_find(iso_record_name(r, i)) >= 0;
+        iso_record_set_words(r, i, !c->typed[i]);
+    }
+    for (const char *at = line ? line : ""; *at; at += strcspn(at, " "), at += strspn(at, " ")) {
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, " "), at);
+        const int column = iso_record_find(r, name);
+        if (column < 0)
+            return fail(c, NULL, "the line '# " ISO_WORDS_KEY ": ...' names the column '%s', which is not here",
+                        iso_text_quote(quoted, name, strlen(name)));
+        iso_record_set_words(r, (size_t)column, true);
+    }
+    return iso_record_set(c->ctx, r, ISO_WORDS_KEY, NULL);
 }
 
 /* Names of columns of a table of isoroll. */
@@ -279,10 +270,8 @@ static iso_status read_header_of_table(csv *c)
     }
     const iso_status status = iso_table_name_columns(c->ctx, c->r, count, names);
     if (status == ISO_BAD_ARGUMENT) return fail(c, NULL, "expected names of columns, all different");
-    for (size_t i = 0; status == ISO_OK && i < count; i++)
-        if (iso_table_has_words(iso_record_kind(c->r->header), names[i])) iso_record_set_words(c->r->header, i, true);
     c->format.fields = count;
-    return status;
+    return status == ISO_OK ? set_words(c) : status;
 }
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
@@ -296,7 +285,7 @@ static iso_status fail_count(const csv *c, const char *at, size_t found)
 static iso_status fail_number(const csv *c, char *start, size_t i)
 {
     char quoted[ISO_QUOTE_SIZE], *rest = start;
-    const field f = next_field(c->format.separator, &rest);
+    const iso_csv_field f = iso_csv_next_field(c->format.separator, &rest);
     const bool comma = c->format.separator != ',' && memchr(f.text, ',', f.length);
     return fail(c, f.text, "expected a finite number for %s%s, not '%s'",
                 i + 1 == c->orbit ? ISO_ORBIT_COLUMN : iso_record_name(c->r->header, (size_t)c->format.column[i]),
@@ -315,6 +304,34 @@ static iso_status read_row(const csv *c, double row[])
     return ISO_OK;
 }
 
+/* A cell of an older table. The first one that is not empty says whether its column has words. A damaged number there
+ * is taken for a word only if it does not begin as a number, and is found out by the next number. */
+static iso_status guess_words(csv *c, size_t column, char *cell, char *at)
+{
+    iso_record *const r = c->r->header;
+    const iso_csv_field f = {cell, strlen(cell)};
+    char quoted[ISO_QUOTE_SIZE];
+    double number;
+    if (f.length == 0) return ISO_OK;
+    if (!c->typed[column]) iso_record_set_words(r, column, !iso_csv_begins_as_number(f));
+    c->typed[column] = true;
+    if (!iso_record_has_words(r, column) || !iso_csv_read_cell(cell, &number)) return ISO_OK;
+    return fail(c, at, "expected a word for %s, as in the rows before, not the number %s", iso_record_name(r, column),
+                iso_text_quote(quoted, cell, f.length));
+}
+
+/* At the end of an older table, columns of nothing but empty cells have words; without a row there are none. An empty
+ * cell was nan as long as its column was not known to have words. */
+static void settle_words(const csv *c)
+{
+    iso_record *const r = c->r->header;
+    for (size_t i = 0; i < c->format.fields; i++) {
+        if (!c->r->any) iso_record_set_words(r, i, false);
+        for (size_t row = 0; iso_record_has_words(r, i) && row < iso_record_rows(r); row++)
+            if (isnan(iso_record_row(r, row)[i])) iso_record_row(r, row)[i] = 0;
+    }
+}
+
 static iso_status read_row_of_table(csv *c, double row[])
 {
     iso_record *const r = c->r->header;
@@ -324,7 +341,8 @@ static iso_status read_row_of_table(csv *c, double row[])
         if (!rest) return fail(c, at, "expected more cells, one for each column");
         char *const cell = iso_csv_next_cell(&rest);
         if (!cell) return fail(c, at, "expected a closing quote");
-        const bool words = iso_record_has_words(r, i);
+        if (c->guesses) ISO_TRY(guess_words(c, i, cell, at));
+        const bool words = iso_record_has_words(r, i) && c->typed[i];
         ISO_TRY(words ? iso_record_intern(c->ctx, r, cell, &row[i]) : ISO_OK);
         if (!words && !iso_csv_read_cell(cell, &row[i]))
             return fail(c, at, "expected a number for %s, not %s", iso_record_name(r, i),
@@ -339,7 +357,7 @@ static bool is_nan_row(const csv *c)
     char *rest = c->line;
     size_t fields = 0;
     for (; rest && *rest; fields++) {
-        const field f = next_field(c->format.separator, &rest);
+        const iso_csv_field f = iso_csv_next_field(c->format.separator, &rest);
         if (f.length != 3 || strncasecmp(f.text, "nan", 3) != 0) return false;
     }
     return fields == c->format.fields;
@@ -353,6 +371,7 @@ static iso_status csv_next(iso_context *ctx, iso_table_reader *r, double row[], 
     iso_status status = next_data(c, more);
     for (; status == ISO_OK && *more && r->passes && is_nan_row(c); r->at.passed++) status = next_data(c, more);
     r->at.line = c->number;
+    if (status == ISO_OK && !*more && c->guesses) settle_words(c);
     if (status != ISO_OK || !*more) return status;
     if (r->forgets) iso_record_forget_words(r->header);
     if (!r->trajectory) return read_row_of_table(c, row);

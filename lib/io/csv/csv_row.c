@@ -1,13 +1,48 @@
-/* csv_row.c - reads the numbers or the cells of one line of text. */
+/* csv_row.c - reads the fields, the numbers or the cells of one line of text. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/number_impl.h"
 #include "io/csv/csv_impl.h"
 #include "io/table_impl.h"
+
+/* --- fields ----------------------------------------------------------------------------------------------------- */
+
+iso_csv_field iso_csv_trim(char *text, size_t length)
+{
+    while (length > 0 && iso_is_blank(*text)) text++, length--;
+    while (length > 0 && iso_is_blank(text[length - 1])) length--;
+    return (iso_csv_field){text, length};
+}
+
+iso_csv_field iso_csv_next_field(char separator, char **rest)
+{
+    char *start = *rest;
+    if (separator == ' ') start += strspn(start, " \t");
+    const size_t length = strcspn(start, separator == ' ' ? " \t" : (char[]){separator, '\0'});
+    char *next = start + length;
+    if (separator == ' ') next += strspn(next, " \t");
+    *rest = *next ? next + (separator != ' ') : NULL;
+    iso_csv_field f = iso_csv_trim(start, length);
+    if (f.length > 1 && strchr("\"'", f.text[0]) && f.text[f.length - 1] == f.text[0]) f.text++, f.length -= 2;
+    return f;
+}
+
+bool iso_csv_begins_as_number(iso_csv_field f)
+{
+    char copy[16];
+    double value;
+    snprintf(copy, sizeof copy, "%.*s", (int)f.length, f.text);
+    const char *word = copy + (*copy == '-' || *copy == '+');
+    return iso_number_scan(f.text, f.text + f.length, &value) || strcasecmp(word, "nan") == 0 ||
+           strcasecmp(word, "inf") == 0 || strcasecmp(word, "infinity") == 0;
+}
+
+/* --- rows of trajectories --------------------------------------------------------------------------------------- */
 
 /* Reads a decimal number whose exponent has the letter D, as Fortran writes it. */
 static const char *read_fortran(char *at, const char *end, double *value)

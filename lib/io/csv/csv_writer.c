@@ -15,7 +15,6 @@
 typedef struct csv {
     iso_output *out;
     bool seen;    /* the file is a terminal: each row is shown at once     */
-    bool styled;  /* some column has words, or a format of its own         */
     char *text;   /* room for a row                                        */
     double shown; /* when all rows were last written, in seconds           */
 } csv;
@@ -79,11 +78,12 @@ static iso_status csv_header(iso_context *ctx, iso_table_writer *w, const iso_re
     const size_t columns = iso_record_columns(header);
     fprintf(to, "# isoroll %s 1\n", w->kind);
     for (size_t i = 0; iso_record_line(header, i, &key, &value); i++) write_line(to, key, value);
-    for (size_t i = 0; i < columns; i++) {
-        const iso_column_format *format = iso_record_format(header, i);
-        c->styled = c->styled || iso_record_has_words(header, i) || format->digits || format->empty;
+    if (w->words) fputs("# " ISO_WORDS_KEY ":", to);
+    for (size_t i = 0; w->words && i < columns; i++)
+        if (iso_record_has_words(header, i)) fprintf(to, " %s", iso_record_name(header, i));
+    if (w->words) putc('\n', to);
+    for (size_t i = 0; i < columns; i++)
         fprintf(to, "%s%c", iso_record_name(header, i), i + 1 < columns ? ',' : '\n');
-    }
     c->text = malloc(columns * ISO_NUMBER_SIZE);
     return c->text ? iso_output_check(ctx, c->out) : iso_context_no_memory(ctx, "rows of '%s'", w->name);
 }
@@ -97,38 +97,24 @@ static void print_word(FILE *to, const char *word, bool plain, bool alone)
     if (quoted) putc('"', to);
 }
 
-static void print_cell(FILE *to, const iso_record *r, size_t column, double value, int digits)
+/* Numbers are gathered in the text of the row, which goes ahead of a word. */
+static void write_row(const iso_table_writer *w, FILE *to, const double row[])
 {
-    char text[ISO_NUMBER_SIZE] = "nan";
-    const iso_column_format *format = iso_record_format(r, column);
-    if (iso_record_has_words(r, column)) {
-        print_word(to, iso_record_word(r, value), format->plain, iso_record_columns(r) == 1);
-        return;
-    }
-    if (!isfinite(value) && format->empty) return;
-    if (!isnan(value)) iso_number_print_as(text, value, format->digits ? format->digits : digits);
-    fputs(text, to);
-}
-
-/* Rows with words, or with formats, are written as they come. */
-static void write_styled(const iso_table_writer *w, FILE *to, const double row[])
-{
-    const size_t columns = iso_record_columns(w->header);
+    const iso_record *r = w->words ? w->words : w->header;
+    const size_t columns = iso_record_columns(r);
+    char *const text = ((csv *)w->data)->text, *end = text;
     for (size_t i = 0; i < columns; i++) {
-        print_cell(to, w->words ? w->words : w->header, i, row[i], w->digits);
-        putc(i + 1 < columns ? ',' : '\n', to);
-    }
-}
-
-static void write_plain(const iso_table_writer *w, char *text, FILE *to, const double row[])
-{
-    const size_t columns = iso_record_columns(w->header);
-    char *end = text;
-    for (size_t i = 0; i < columns; i++) {
-        if (isnan(row[i]))
-            memcpy(end, "nan", 3), end += 3;
-        else
-            end += iso_number_print_as(end, row[i], w->digits);
+        const iso_column_format *format = iso_record_format(r, i);
+        if (iso_record_has_words(r, i)) {
+            fwrite(text, 1, (size_t)(end - text), to);
+            end = text;
+            print_word(to, iso_record_word(r, row[i]), format->plain, columns == 1);
+        } else if (isfinite(row[i]) || !format->empty) {
+            if (isnan(row[i]))
+                memcpy(end, "nan", 3), end += 3;
+            else
+                end += iso_number_print_as(end, row[i], format->digits ? format->digits : w->digits);
+        }
         *end++ = i + 1 < columns ? ',' : '\n';
     }
     fwrite(text, 1, (size_t)(end - text), to);
@@ -138,10 +124,7 @@ static iso_status csv_row(iso_context *ctx, iso_table_writer *w, const double ro
 {
     csv *c = w->data;
     FILE *const to = iso_output_stream(c->out);
-    if (c->styled)
-        write_styled(w, to, row);
-    else
-        write_plain(w, c->text, to, row);
+    write_row(w, to, row);
     const double time = now();
     if (c->seen || time - c->shown > PATIENCE) fflush(to), c->shown = time;
     return iso_output_check(ctx, c->out);

@@ -9,27 +9,21 @@
 #include "io/text_impl.h"
 #include "orbit/orbit_impl.h"
 
+/* What is being opened: the columns found so far. The names of those that may come next stand behind them. */
+typedef struct finding {
+    iso_context *ctx;
+    iso_table_reader *r;
+    iso_status status; /* of the attributes */
+    size_t count;
+    const char *name[ISO_MOST_COLUMNS + ISO_TRAJECTORY_COLUMNS];
+} finding;
+
 static iso_status bad_file(iso_context *ctx, const iso_table_reader *r, const char *what, const char *name)
 {
     return iso_context_placed(ctx, ISO_FAIL_INPUT(ctx, "", "%s: %s%s", r->name, what, name));
 }
 
-/* The text of an attribute, to be freed by the caller; NULL: there is none. */
-static char *read_text(hid_t a, hid_t type)
-{
-    char *text = NULL, *variable = NULL;
-    if (H5Tis_variable_str(type) > 0) {
-        const hid_t memory = H5Tcopy(H5T_C_S1);
-        H5Tset_size(memory, H5T_VARIABLE);
-        H5Tset_cset(memory, H5Tget_cset(type));
-        if (H5Aread(a, memory, &variable) >= 0 && variable) text = strdup(variable);
-        if (variable) H5free_memory(variable);
-        H5Tclose(memory);
-    } else if ((text = calloc(1, H5Tget_size(type) + 1))) {
-        H5Aread(a, type, text);
-    }
-    return text;
-}
+/* --- attributes ------------------------------------------------------------------------------------------------- */
 
 /* "isoroll KIND 1" */
 static iso_status read_format(iso_context *ctx, const iso_table_reader *r, const char *text)
@@ -39,9 +33,7 @@ static iso_status read_format(iso_context *ctx, const iso_table_reader *r, const
     const size_t length = strlen(kind);
     if (one && length > 1) kind[length - 1] = '\0'; /* the blank before the version */
     iso_text_quote(quoted, text, strlen(text));
-    const bool states =
-        strcmp(kind, ISO_TRAJECTORY_KIND) == 0 || strcmp(kind, "section") == 0 || strcmp(kind, ISO_ORBITS_KIND) == 0;
-    if (r->trajectory && !(one && states))
+    if (r->trajectory && !(one && (iso_table_is_finite(kind) || strcmp(kind, ISO_ORBITS_KIND) == 0)))
         return bad_file(ctx, r, "expected the format 'isoroll trajectory 1' or 'isoroll section 1', not ", quoted);
     if (!one) return bad_file(ctx, r, "expected the format 'isoroll KIND 1', not ", quoted);
     if (!r->trajectory && r->kind && strcmp(kind, r->kind) != 0)
@@ -50,120 +42,98 @@ static iso_status read_format(iso_context *ctx, const iso_table_reader *r, const
     return ISO_OK;
 }
 
-/* Makes one attribute a line of the header. */
-static iso_status read_attribute(iso_context *ctx, iso_table_reader *r, hid_t file, const char *key)
+/* A text is a line of the header, or, of a table, many; the format says the kind. NULL: it cannot be read. */
+static iso_status take_text(iso_context *ctx, iso_table_reader *r, const char *key, char *text)
 {
+    size_t length = text ? strlen(text) : 0;
+    if (!text) return ISO_OK;
+    while (r->trajectory && length > 0 && strchr("\r\n", text[length - 1])) text[--length] = '\0';
+    if (r->trajectory && text[strcspn(text, "\r\n")])
+        return bad_file(ctx, r, "expected one line in the attribute ", key);
+    return strcmp(key, "format") == 0 ? read_format(ctx, r, text) : iso_record_set(ctx, r->header, key, text);
+}
+
+/* Makes one attribute a line of the header. HDF5 calls it for each; -1: no more are wanted. */
+static herr_t read_attribute(hid_t file, const char *key, const H5A_info_t *info, void *data)
+{
+    finding *c = data;
     double numbers[ISO_HDF5_NUMBERS];
     char *text = NULL;
-    iso_status status = ISO_OK;
     const hid_t a = H5Aopen(file, key, H5P_DEFAULT), type = H5Aget_type(a), space = H5Aget_space(a);
     const hssize_t count = H5Sget_simple_extent_npoints(space);
     const H5T_class_t class = H5Tget_class(type);
+    (void)info;
     if ((class == H5T_FLOAT || class == H5T_INTEGER) && count >= 1 && count <= ISO_HDF5_NUMBERS) {
         if (H5Aread(a, H5T_NATIVE_DOUBLE, numbers) >= 0)
-            status = iso_record_set_numbers(ctx, r->header, key, (size_t)count, numbers);
+            c->status = iso_record_set_numbers(c->ctx, c->r->header, key, (size_t)count, numbers);
     } else if (class == H5T_STRING && H5Tget_size(type) > ISO_LARGEST_TEXT) {
-        status = bad_file(ctx, r, "more than 16 MiB for the attribute ", key);
-    } else if (class == H5T_STRING && count == 1 && (text = read_text(a, type))) {
-        size_t length = strlen(text);
-        while (r->trajectory && length > 0 && strchr("\r\n", text[length - 1])) text[--length] = '\0';
-        if (r->trajectory && text[strcspn(text, "\r\n")])
-            status = bad_file(ctx, r, "expected one line in the attribute ", key);
-        else
-            status =
-                strcmp(key, "format") == 0 ? read_format(ctx, r, text) : iso_record_set(ctx, r->header, key, text);
+        c->status = bad_file(c->ctx, c->r, "more than 16 MiB for the attribute ", key);
+    } else if (class == H5T_STRING && count == 1 && H5Tis_variable_str(type) > 0) {
+        const hid_t memory = H5Tcopy(H5T_C_S1);
+        H5Tset_size(memory, H5T_VARIABLE);
+        H5Tset_cset(memory, H5Tget_cset(type));
+        if (H5Aread(a, memory, &text) >= 0) c->status = take_text(c->ctx, c->r, key, text);
+        H5free_memory(text);
+        H5Tclose(memory);
+    } else if (class == H5T_STRING && count == 1) {
+        text = calloc(1, H5Tget_size(type) + 1);
+        if (text) H5Aread(a, type, text);
+        c->status = take_text(c->ctx, c->r, key, text);
+        free(text);
     }
-    free(text);
     H5Sclose(space);
     H5Tclose(type);
     H5Aclose(a);
-    return status;
-}
-
-static iso_status read_attributes(iso_context *ctx, iso_table_reader *r, hid_t file)
-{
-    char key[256];
-    iso_status status = ISO_OK;
-    H5O_info1_t info;
-    if (H5Oget_info2(file, &info, H5O_INFO_NUM_ATTRS) < 0) return iso_hdf5_trouble(ctx, "read", r->name);
-    for (hsize_t i = 0; status == ISO_OK && i < info.num_attrs; i++) {
-        const ssize_t length =
-            H5Aget_name_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, i, key, sizeof key, H5P_DEFAULT);
-        if (length > 0 && (size_t)length < sizeof key) status = read_attribute(ctx, r, file, key);
-    }
-    if (status == ISO_OK && !r->trajectory && !*iso_record_kind(r->header))
-        status = bad_file(ctx, r, "expected the attribute 'format', 'isoroll KIND 1'", "");
-    return status;
+    return c->status == ISO_OK ? 0 : -1;
 }
 
 /* --- columns ---------------------------------------------------------------------------------------------------- */
 
-/* The columns found so far; the names of those that may come next stand behind them. */
-typedef struct finding {
-    iso_context *ctx;
-    iso_table_reader *r;
-    size_t count;
-    const char *name[ISO_MOST_COLUMNS + ISO_TRAJECTORY_COLUMNS];
-} finding;
+/* Whether there is a link to an object, or, with a group that is not "", to /group/name, which *path then is. */
+static bool is_there(const finding *c, const char *group, const char *name, char path[ISO_HDF5_TEXT])
+{
+    const iso_hdf5_store *s = c->r->data;
+    if (*group) snprintf(path, ISO_HDF5_TEXT, "/%s/%s", group, name);
+    return (!*group || H5Lexists(s->file, group, s->access) > 0) &&
+           H5Lexists(s->file, *group ? path : name, s->access) > 0;
+}
 
-/* Whether there is a link to an object, or /group/name, which *path then is. */
-static bool is_there(finding *c, const char *name)
+/* Adds the dataset /group/name, or /name, of `count` columns, which has as many rows as the others; *found false:
+ * there is none. failed: see iso_hdf5_set. */
+static iso_status add_set(finding *c, const char *group, const char *name, int count, int failed, bool *found)
 {
     iso_hdf5_store *s = c->r->data;
-    const hid_t access = iso_hdf5_access_of_strangers(&s->elsewhere);
-    const bool there = H5Lexists(s->file, name, access) > 0;
-    H5Pclose(access);
-    return there;
-}
-
-static bool is_in_group(finding *c, const char *group, const char *name, char path[ISO_HDF5_TEXT])
-{
-    snprintf(path, ISO_HDF5_TEXT, "/%s/%s", group, name);
-    return *group && is_there(c, group) && is_there(c, path);
-}
-
-/* Opens /group/name, or /name; *id -1: there is none. */
-static iso_status open_set(finding *c, const char *group, const char *name, hid_t *id)
-{
     char path[ISO_HDF5_TEXT];
-    iso_hdf5_store *s = c->r->data;
-    const bool grouped = is_in_group(c, group, name, path);
-    const char *full = grouped ? path : name;
-    *id = -1;
-    if (!s->elsewhere && !grouped && !is_there(c, name) && !s->elsewhere) return ISO_OK;
-    const hid_t access = iso_hdf5_access_of_strangers(&s->elsewhere);
-    *id = s->elsewhere ? -1 : H5Dopen2(s->file, full, access);
-    H5Pclose(access);
-    const bool twice = grouped && is_there(c, name);
-    const char *trouble = twice          ? "it stands in a group and outside of it: "
-                          : s->elsewhere ? "an external link, which leads to another file: "
-                          : *id < 0      ? "this is no dataset, or it is damaged, or its link leads nowhere: "
-                                         : iso_hdf5_trouble_of_set(s, *id);
-    if (!trouble) return ISO_OK;
-    if (*id >= 0) H5Dclose(*id);
-    *id = -1;
-    return bad_file(c->ctx, c->r, trouble, full);
-}
-
-/* Adds a dataset of `count` columns (id < 0: there is none). It must have as many rows as the others. */
-static iso_status add_set(finding *c, hid_t id, const char *name, int count)
-{
-    iso_hdf5_store *s = c->r->data;
+    const bool grouped = *group && is_there(c, group, name, path), plain = is_there(c, "", name, NULL);
+    const char *full = grouped ? path : name, *trouble = NULL;
     hsize_t size[2] = {0, 1};
-    if (id < 0) return ISO_OK;
+    *found = grouped || plain || s->elsewhere;
+    if (!*found) return ISO_OK;
+    const hid_t id = s->elsewhere ? -1 : H5Dopen2(s->file, full, s->access);
     const hid_t space = H5Dget_space(id), type = H5Dget_type(id);
     const int rank = H5Sget_simple_extent_ndims(space);
     const bool words = H5Tget_class(type) == H5T_STRING, first = s->sets == 0;
     if (rank == 1 || rank == 2) H5Sget_simple_extent_dims(space, size, NULL);
+    if (grouped && plain)
+        trouble = "it stands in a group and outside of it: ";
+    else if (s->elsewhere)
+        trouble = "an external link, which leads to another file: ";
+    else if (id < 0)
+        trouble = "this is no dataset, or it is damaged, or its link leads nowhere: ";
+    else
+        trouble = iso_hdf5_trouble_of_set(s, id, type, size);
     H5Tclose(type);
     H5Sclose(space);
-    if (!iso_hdf5_store_add(s, (iso_hdf5_set){.id = id, .first = (int)c->count, .count = count, .words = words}))
+    if (!trouble &&
+        (rank != (count > 1 ? 2 : 1) || size[1] != (hsize_t)count || (words && (count > 1 || c->r->trajectory))))
+        trouble = "expected a dataset of rows x components: ";
+    if (!trouble && !first && !failed && size[0] != s->rows)
+        trouble = "this dataset has another number of rows than the others: ";
+    if (!trouble && !iso_hdf5_store_add(s, (iso_hdf5_set){id, (int)c->count, count, words, failed, 0}))
         return iso_text_no_memory(c->ctx, "read", c->r->name);
-    if (rank != (count > 1 ? 2 : 1) || size[1] != (hsize_t)count || (words && (count > 1 || c->r->trajectory)))
-        return bad_file(c->ctx, c->r, "expected a dataset of rows x components: ", name);
-    if (!first && size[0] != s->rows)
-        return bad_file(c->ctx, c->r, "this dataset has another number of rows than the others: ", name);
-    s->rows = size[0];
+    if (trouble && id >= 0) H5Dclose(id);
+    if (trouble) return bad_file(c->ctx, c->r, trouble, full);
+    if (!failed) s->rows = size[0];
     c->count += (size_t)count;
     return c->count <= ISO_MOST_COLUMNS ? ISO_OK : bad_file(c->ctx, c->r, "more than 5000 columns", "");
 }
@@ -174,46 +144,38 @@ static iso_status find_columns(finding *c, const char *group, const char *const 
     iso_status status = ISO_OK;
     for (size_t i = 0; status == ISO_OK && i < count;) {
         const char *in = group, *name = names[i];
+        bool found;
         int taken = iso_hdf5_part(names + i, count - i, &in, &name);
-        hid_t id;
-        status = open_set(c, in, name, &id);
-        if (status == ISO_OK && id < 0 && taken > 1) taken = 1, status = open_set(c, in, name = names[i], &id);
         memcpy(c->name + c->count, names + i, (size_t)taken * sizeof *names);
-        if (status == ISO_OK) status = add_set(c, id, name, taken);
+        status = add_set(c, in, name, taken, 0, &found);
+        if (!found && taken > 1) taken = 1, status = add_set(c, in, names[i], taken, 0, &found);
         i += (size_t)taken;
     }
     return status;
 }
 
-/* Datasets may be packed, and links may give one many names: the numbers can take more room than the file. */
-static iso_status check_size(finding *c)
-{
-    iso_table_reader *r = c->r;
-    const iso_hdf5_store *s = r->data;
-    hsize_t stored = 0;
-    if (H5Fget_filesize(s->file, &stored) < 0) return iso_hdf5_trouble(c->ctx, "read", r->name);
-    r->stored = (double)stored;
-    const double bytes = (double)s->rows * (double)c->count * sizeof(double);
-    if (bytes <= ISO_HDF5_EXPANSION * r->stored) return ISO_OK;
-    return iso_context_placed(c->ctx, ISO_FAIL_INPUT(c->ctx, "",
-                                                     "%s: %zu rows of %zu columns take more than %d times the room "
-                                                     "of the file",
-                                                     r->name, (size_t)s->rows, c->count, ISO_HDF5_EXPANSION));
-}
-
-/* Columns and lines into the header. */
+/* The first `count` columns into the header, and room for all. Datasets may be packed, and links may give one many
+ * names: the numbers can take more room than the file. */
 static iso_status name_columns(finding *c, size_t count)
 {
     iso_table_reader *r = c->r;
     iso_hdf5_store *s = r->data;
-    iso_status status = check_size(c);
-    if (status == ISO_OK) status = iso_table_name_columns(c->ctx, r, count, c->name);
-    for (int i = 0; status == ISO_OK && i < s->sets; i++)
-        if (s->set[i].words) iso_record_set_words(r->header, (size_t)s->set[i].first, true);
-    if (status == ISO_OK && !iso_hdf5_store_room(s, c->count)) status = iso_text_no_memory(c->ctx, "read", r->name);
-    s->interned = r->header;
+    const double bytes = (double)s->rows * (double)c->count * sizeof(double);
+    hsize_t stored = 0;
+    if (H5Fget_filesize(s->file, &stored) < 0) return iso_hdf5_trouble(c->ctx, "read", r->name);
+    r->stored = (double)stored;
     r->rows = (size_t)s->rows;
-    return status;
+    if (bytes > ISO_HDF5_EXPANSION * r->stored)
+        return iso_context_placed(
+            c->ctx,
+            ISO_FAIL_INPUT(c->ctx, "", "%s: %zu rows of %zu columns take more than %d times the room of the file",
+                           r->name, r->rows, c->count, ISO_HDF5_EXPANSION));
+    ISO_TRY(iso_table_name_columns(c->ctx, r, count, c->name));
+    for (int i = 0; i < s->sets; i++)
+        if (s->set[i].words) iso_record_set_words(r->header, (size_t)s->set[i].first, true);
+    s->header = r->header;
+    s->block = malloc(ISO_HDF5_BLOCK * c->count * sizeof *s->block);
+    return s->block ? ISO_OK : iso_text_no_memory(c->ctx, "read", r->name);
 }
 
 /* The columns that only sections have. */
@@ -227,7 +189,7 @@ static void pass_over(finding *c, const char *group, const char *list)
     for (const char *at = list; *at; at += strcspn(at, ","), at += *at == ',') {
         const size_t used = strlen(ignored), room = sizeof c->r->ignored - used;
         snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
-        if (iso_column_find(name) < 0 && strcmp(name, ISO_ORBIT_COLUMN) != 0 && is_in_group(c, group, name, path) &&
+        if (iso_column_find(name) < 0 && strcmp(name, ISO_ORBIT_COLUMN) != 0 && is_there(c, group, name, path) &&
             strlen(name) + 5 < room)
             snprintf(ignored + used, room, "%s'%s'", *ignored ? ", " : "", name);
     }
@@ -249,7 +211,7 @@ static iso_status find_trajectory(finding *c)
     const size_t count = c->count;
     pass_over(c, group, orbits && named ? named : "crossing,l,x");
     if (strcmp(kind, ISO_TRAJECTORY_KIND) != 0) iso_record_set(c->ctx, header, ISO_HDF5_COLUMNS, NULL);
-    if (is_in_group(c, ISO_TRAJECTORY_KIND, ISO_ORBIT_COLUMN, path)) group = ISO_TRAJECTORY_KIND;
+    if (is_there(c, ISO_TRAJECTORY_KIND, ISO_ORBIT_COLUMN, path)) group = ISO_TRAJECTORY_KIND;
     if (status == ISO_OK) status = find_columns(c, group, section, 1);
     c->r->at.orbits = c->count > count;
     return status == ISO_OK ? name_columns(c, count) : status;
@@ -278,12 +240,13 @@ static iso_status find_table(finding *c)
     return status;
 }
 
-/* Adds a dataset of one column that must be there. */
-static iso_status add_needed(finding *c, const char *path)
+/* Adds the dataset of one column that must be there, and names the column. */
+static iso_status add_needed(finding *c, const char *path, const char *name)
 {
-    hid_t id;
-    ISO_TRY(open_set(c, "", path, &id));
-    return id < 0 ? bad_file(c->ctx, c->r, "there is no dataset for the column ", path) : add_set(c, id, path, 1);
+    bool found;
+    c->name[c->count] = name;
+    ISO_TRY(add_set(c, "", path, 1, 0, &found));
+    return found ? ISO_OK : bad_file(c->ctx, c->r, "there is no dataset for the column ", path);
 }
 
 /* The columns of an older sweep (hdf5_impl.h). Those that "columns" calls vary/NAME are NAME, others GROUP_NAME. */
@@ -292,52 +255,37 @@ static iso_status find_sweep(finding *c)
     iso_hdf5_store *s = c->r->data;
     char *list = strdup(iso_record_get(c->r->header, ISO_HDF5_COLUMNS)), *rest = list, *path;
     iso_status status = list ? ISO_OK : iso_text_no_memory(c->ctx, "read", c->r->name);
+    bool found;
     s->counts = strcmp(iso_record_kind(c->r->header), "sweep") == 0;
-    c->name[c->count] = "point";
-    if (s->counts)
-        c->count++;
-    else if (status == ISO_OK)
-        status = add_needed(c, "point");
+    if (s->counts) c->name[c->count++] = "point";
+    if (status == ISO_OK && !s->counts) status = add_needed(c, "point", "point");
     while (status == ISO_OK && (path = strsep(&rest, " "))) {
         char *const slash = strchr(path, '/');
-        c->name[c->count] = strncmp(path, "vary/", 5) == 0 ? path + 5 : path;
-        status = add_needed(c, path);
+        status = add_needed(c, path, strncmp(path, "vary/", 5) == 0 ? path + 5 : path);
         if (slash) *slash = '_';
     }
-    c->name[c->count] = "status";
-    if (status == ISO_OK) status = add_needed(c, "status");
-    s->failed = (iso_hdf5_failures){.reason = -1, .status_column = (int)c->count - 1, .reason_column = (int)c->count};
-    if (status == ISO_OK) status = open_set(c, "failed", "reason", &s->failed.reason);
-    if (status == ISO_OK && s->failed.reason < 0)
-        status = bad_file(c->ctx, c->r, "there is no dataset for reasons", "");
-    c->name[c->count++] = "reason";
+    if (status == ISO_OK) status = add_needed(c, "status", "status");
+    c->name[c->count] = "reason";
+    if (status == ISO_OK) status = add_set(c, "failed", "reason", 1, (int)c->count - 1, &found);
+    if (status == ISO_OK && !found) status = bad_file(c->ctx, c->r, "there is no dataset for reasons", "");
     if (status == ISO_OK) status = name_columns(c, c->count);
-    if (status == ISO_OK) iso_record_set_words(c->r->header, c->count - 1, true);
     free(list);
-    return status;
-}
-
-static iso_status find_sets(iso_context *ctx, iso_table_reader *r)
-{
-    finding *c = calloc(1, sizeof *c);
-    if (!c) return iso_text_no_memory(ctx, "read", r->name);
-    c->ctx = ctx;
-    c->r = r;
-    const char *kind = iso_record_kind(r->header), *named = iso_record_get(r->header, ISO_HDF5_COLUMNS);
-    const bool sweep = named && strncmp(named, "point,", 6) != 0 && !r->trajectory &&
-                       (strcmp(kind, "sweep") == 0 || strcmp(kind, "sweep part") == 0);
-    const iso_status status = r->trajectory ? find_trajectory(c) : sweep ? find_sweep(c) : find_table(c);
-    free(c);
     return status;
 }
 
 static iso_status read_header(iso_context *ctx, iso_table_reader *r)
 {
     iso_hdf5_store *s = r->data;
+    finding c = {.ctx = ctx, .r = r};
     s->file = H5Fopen(r->path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (s->file < 0) return bad_file(ctx, r, "this is not an HDF5 file, or it is damaged", "");
-    ISO_TRY(read_attributes(ctx, r, s->file));
-    return find_sets(ctx, r);
+    const bool read = H5Aiterate2(s->file, H5_INDEX_NAME, H5_ITER_INC, NULL, read_attribute, &c) >= 0;
+    if (c.status != ISO_OK || !read) return c.status != ISO_OK ? c.status : iso_hdf5_trouble(ctx, "read", r->name);
+    if (r->trajectory) return find_trajectory(&c);
+    const char *kind = iso_record_kind(r->header), *named = iso_record_get(r->header, ISO_HDF5_COLUMNS);
+    if (!*kind) return bad_file(ctx, r, "expected the attribute 'format', 'isoroll KIND 1'", "");
+    const bool sweep = strcmp(kind, "sweep") == 0 || strcmp(kind, "sweep part") == 0;
+    return sweep && named && strncmp(named, "point,", 6) != 0 ? find_sweep(&c) : find_table(&c);
 }
 
 static iso_status hdf5_open(iso_context *ctx, iso_table_reader *r, const char *columns)
@@ -363,7 +311,7 @@ static iso_status read_block(iso_context *ctx, iso_table_reader *r)
     s->next = 0;
     ISO_HDF5_QUIETLY(good = iso_hdf5_transfer(s, s->begun, false));
     s->begun += s->filled;
-    if (s->wordy) return bad_file(ctx, r, "the words of 4096 rows take more than 64 MiB", "");
+    if (s->word_room == 0) return bad_file(ctx, r, "the words of 4096 rows take more than 64 MiB", "");
     return good ? ISO_OK : iso_hdf5_trouble(ctx, "read", r->name);
 }
 
@@ -375,9 +323,16 @@ static iso_status take_row(iso_context *ctx, iso_table_reader *r, double row[], 
     const size_t columns = iso_record_columns(r->header);
     *more = status == ISO_OK && s->next < s->filled;
     if (!*more) return status;
-    const double *numbers = s->block + s->next++ * s->columns;
-    memcpy(row, numbers, columns * sizeof *row);
-    r->at.orbit = s->columns > columns ? numbers[columns] : 0;
+    for (int i = 0; i < s->sets; i++) {
+        const iso_hdf5_set *d = &s->set[i];
+        const double *cells = iso_hdf5_cells(s, d, s->next);
+        if ((size_t)d->first < columns)
+            memcpy(row + d->first, cells, (size_t)d->count * sizeof *row);
+        else
+            r->at.orbit = *cells;
+    }
+    if (s->counts) row[0] = (double)r->at.line;
+    s->next++;
     r->at.line++;
     return ISO_OK;
 }

@@ -1,14 +1,14 @@
 /* hdf5_refuse.c - what is refused of a file of HDF5 before its rows are read: it may come from people nobody knows.
  *
- * HDF5 can take the rows of a dataset from other files: by external links, external storage, virtual datasets. So a file
- * could name any file that its reader may read, and show it. HDF5 loads unknown filters from folders of plugins. A file of
- * a few bytes can promise rows that nobody wrote, and chunks of any size. None of these is needed for a table.
+ * HDF5 can take the rows of a dataset from other files: by external links, external storage, virtual datasets. So a
+ * file could name any file that its reader may read, and show it. HDF5 loads unknown filters from folders of plugins. A
+ * file of a few bytes can promise rows that nobody wrote, and chunks of any size. None of these is needed for a table.
  */
 #include <stdlib.h>
 
 #include "io/hdf5/hdf5_impl.h"
 
-/* --- where the rows stand --------------------------------------------------------------------------------------- */
+/* --- what is asked while HDF5 reads ----------------------------------------------------------------------------- */
 
 /* HDF5 calls this before it opens the other file of an external link. */
 static herr_t refuse_link(const char *from, const char *group, const char *to, const char *object, unsigned *flags,
@@ -19,12 +19,32 @@ static herr_t refuse_link(const char *from, const char *group, const char *to, c
     return -1;
 }
 
-hid_t iso_hdf5_access_of_strangers(bool *elsewhere)
+/* Memory for a word of a block; NULL: the words are too long, or there is none. */
+static void *give_word(size_t size, void *left)
 {
-    const hid_t plan = iso_hdf5_access();
-    H5Pset_elink_cb(plan, refuse_link, elsewhere);
-    return plan;
+    size_t *room = left;
+    if (size > *room) return *room = 0, NULL;
+    *room -= size;
+    return malloc(size);
 }
+
+static void take_word(void *word, void *left)
+{
+    (void)left;
+    free(word);
+}
+
+void iso_hdf5_guard(iso_hdf5_store *s)
+{
+    s->access = H5Pcreate(H5P_DATASET_ACCESS);
+    H5Pset_chunk_cache(s->access, 1, ISO_HDF5_MOST_CHUNKS, 1);
+    H5Pset_elink_cb(s->access, refuse_link, &s->elsewhere);
+    s->transfer = H5Pcreate(H5P_DATASET_XFER);
+    s->word_room = ISO_HDF5_WORDS;
+    H5Pset_vlen_mem_manager(s->transfer, give_word, &s->word_room, take_word, NULL);
+}
+
+/* --- what a dataset is ------------------------------------------------------------------------------------------ */
 
 /* Of those that HDF5 has itself, and that lose nothing; each once, so that no chunk is packed by more than deflate
  * can. */
@@ -43,8 +63,6 @@ static const char *trouble_of_filters(hid_t plan)
     }
     return count < 0 ? "unknown filters of " : NULL;
 }
-
-/* --- how many rows are there ------------------------------------------------------------------------------------ */
 
 /* Rows that were promised, but never written. A chunk is written as a whole. */
 static const char *trouble_of_room(iso_hdf5_store *s, hid_t id, hid_t plan, const hsize_t size[2], double bytes)
@@ -66,10 +84,10 @@ static const char *trouble_of_room(iso_hdf5_store *s, hid_t id, hid_t plan, cons
     return stored > 1.1 * room * (double)there + ISO_HDF5_BLOCK ? "more is stored than the rows of " : NULL;
 }
 
-const char *iso_hdf5_trouble_of_set(iso_hdf5_store *s, hid_t id)
+const char *iso_hdf5_trouble_of_set(iso_hdf5_store *s, hid_t id, hid_t type, const hsize_t size[2])
 {
     enum { MOST_BYTES = 16, WORD_STORED = 16 }; /* of a number; of a word of any length: where it stands */
-    const hid_t plan = H5Dget_create_plist(id), type = H5Dget_type(id);
+    const hid_t plan = H5Dget_create_plist(id);
     const H5T_class_t class = H5Tget_class(type);
     const size_t bytes = H5Tget_size(type);
     const char *trouble = NULL;
@@ -85,41 +103,8 @@ const char *iso_hdf5_trouble_of_set(iso_hdf5_store *s, hid_t id)
         trouble = "expected numbers or words for ";
     else
         trouble = trouble_of_filters(plan);
-    if (!trouble) {
-        hsize_t size[2] = {1, 1};
-        const hid_t space = H5Dget_space(id);
-        const int rank = H5Sget_simple_extent_ndims(space);
-        if (rank == 1 || rank == 2) H5Sget_simple_extent_dims(space, size, NULL);
-        H5Sclose(space);
-        if ((rank == 1 || rank == 2) && size[0] > 0 && size[1] > 0)
-            trouble = trouble_of_room(s, id, plan, size, H5Tis_variable_str(type) > 0 ? WORD_STORED : (double)bytes);
-    }
-    H5Tclose(type);
+    if (!trouble && size[0] > 0 && size[1] > 0)
+        trouble = trouble_of_room(s, id, plan, size, H5Tis_variable_str(type) > 0 ? WORD_STORED : (double)bytes);
     H5Pclose(plan);
     return trouble;
-}
-
-/* --- words of any length ---------------------------------------------------------------------------------------- */
-
-/* Memory for a word of a block; NULL: the words are too long, or there is none. */
-static void *give_word(size_t size, void *left)
-{
-    size_t *room = left;
-    if (size > *room) return *room = 0, NULL;
-    *room -= size;
-    return malloc(size);
-}
-
-static void take_word(void *word, void *left)
-{
-    (void)left;
-    free(word);
-}
-
-hid_t iso_hdf5_words(size_t *left)
-{
-    const hid_t plan = H5Pcreate(H5P_DATASET_XFER);
-    *left = ISO_HDF5_WORDS;
-    H5Pset_vlen_mem_manager(plan, give_word, left, take_word, left);
-    return plan;
 }

@@ -38,16 +38,7 @@ static iso_status hdf5_create(iso_context *ctx, iso_table_writer *w, const char 
 
 /* --- attributes ------------------------------------------------------------------------------------------------- */
 
-/* The type of texts of any length. The caller closes it. */
-static hid_t text_type(void)
-{
-    const hid_t type = H5Tcopy(H5T_C_S1);
-    H5Tset_size(type, H5T_VARIABLE);
-    H5Tset_cset(type, H5T_CSET_UTF8);
-    return type;
-}
-
-/* False: it fails. */
+/* False: it fails. A text has a variable length, since Python reads that as text and not as bytes. */
 static bool write_attribute(hid_t at, const char *key, hid_t type, hsize_t count, const void *value)
 {
     const hid_t space = count < 2 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, NULL);
@@ -55,15 +46,6 @@ static bool write_attribute(hid_t at, const char *key, hid_t type, hsize_t count
     const bool written = attribute >= 0 && H5Awrite(attribute, type, value) >= 0;
     if (attribute >= 0) H5Aclose(attribute);
     H5Sclose(space);
-    return written;
-}
-
-/* Text of variable length, since Python reads that as text and not as bytes. */
-static bool write_text(hid_t at, const char *key, const char *value)
-{
-    const hid_t type = text_type();
-    const bool written = write_attribute(at, key, type, 1, &value);
-    H5Tclose(type);
     return written;
 }
 
@@ -89,80 +71,59 @@ static iso_status hdf5_line(iso_context *ctx, iso_table_writer *w, const char *k
     const int count = numbers_of(key, value, numbers);
     bool written;
     ISO_HDF5_QUIETLY(written = count > 0 ? write_attribute(s->file, key, H5T_NATIVE_DOUBLE, (hsize_t)count, numbers)
-                                         : write_text(s->file, key, value));
+                                         : write_attribute(s->file, key, s->text, 1, &value));
     return written ? ISO_OK : iso_hdf5_trouble(ctx, "write", w->name);
 }
 
 /* --- datasets --------------------------------------------------------------------------------------------------- */
 
-/* A dataset of `count` columns. rows: all that come, which get their room now; SIZE_MAX: it grows in chunks. */
-static hid_t create_set(hid_t file, const char *path, hid_t type, int count, size_t rows)
+/* Adds /group/name, which has `count` columns from `first` on. If all rows are known, they get their room now; else
+ * it grows in chunks. */
+static bool add_set(iso_hdf5_store *s, const char *group, const char *name, bool words, int first, int count,
+                    size_t rows)
 {
-    const bool grows = rows == SIZE_MAX, numbers = H5Tget_class(type) != H5T_STRING;
-    const hsize_t wide = (hsize_t)count, size[2] = {grows ? 0 : rows, wide}, ever[2] = {H5S_UNLIMITED, wide};
+    const hsize_t wide = (hsize_t)count, size[2] = {s->grows ? 0 : rows, wide}, ever[2] = {H5S_UNLIMITED, wide};
     const int rank = count > 1 ? 2 : 1;
-    const hid_t space = H5Screate_simple(rank, size, grows ? ever : NULL), access = iso_hdf5_access();
+    const hid_t space = H5Screate_simple(rank, size, s->grows ? ever : NULL);
     const hid_t link = H5Pcreate(H5P_LINK_CREATE), plan = H5Pcreate(H5P_DATASET_CREATE);
+    char path[ISO_HDF5_TEXT];
+    snprintf(path, sizeof path, "/%s/%s", group, name);
     H5Pset_create_intermediate_group(link, 1);
     H5Pset_obj_track_times(plan, 0);
-    H5Pset_fill_time(plan, numbers ? H5D_FILL_TIME_NEVER : H5D_FILL_TIME_ALLOC);
-    if (grows)
+    H5Pset_fill_time(plan, words ? H5D_FILL_TIME_ALLOC : H5D_FILL_TIME_NEVER);
+    if (s->grows)
         H5Pset_chunk(plan, rank, (hsize_t[]){ISO_HDF5_BLOCK, wide});
     else
         H5Pset_alloc_time(plan, H5D_ALLOC_TIME_EARLY);
-    const hid_t id = H5Dcreate2(file, path, type, space, link, plan, access);
-    H5Pclose(access);
+    const hid_t id = H5Dcreate2(s->file, path, words ? s->text : H5T_NATIVE_DOUBLE, space, link, plan, s->access);
     H5Pclose(link);
     H5Pclose(plan);
     H5Sclose(space);
-    return id;
+    return iso_hdf5_store_add(s, (iso_hdf5_set){id, first, count, words, 0, 0});
 }
 
-static bool add_set(const iso_table_writer *w, const char *group, const char *name, hid_t type, int first, int count)
+/* The format, the datasets, those of a trajectory in its parts, and the names of the columns in their order. */
+static bool create(const iso_table_writer *w, const iso_record *header, bool named)
 {
     iso_hdf5_store *s = w->data;
-    char path[ISO_HDF5_TEXT];
-    snprintf(path, sizeof path, "/%s/%s", group, name);
-    const hid_t id = create_set(s->file, path, type, count, w->expected);
-    return iso_hdf5_store_add(s, (iso_hdf5_set){.id = id,
-                                                .first = first,
-                                                .count = count,
-                                                .words = H5Tget_class(type) == H5T_STRING,
-                                                .grows = w->expected == SIZE_MAX});
-}
-
-/* The datasets, those of a trajectory in its parts, and the names of the columns in their order. */
-static bool create_table(const iso_table_writer *w, const iso_record *header)
-{
-    const iso_hdf5_store *s = w->data;
     const size_t columns = iso_record_columns(header);
     const char **names = malloc((columns + 1) * sizeof *names);
-    char *list = malloc(columns * ISO_COLUMN_SIZE + 1), *end = list;
-    bool good = names && list;
+    char format[64], *list = malloc(columns * ISO_COLUMN_SIZE + 1), *end = list;
+    snprintf(format, sizeof format, "isoroll %s 1", w->kind);
+    bool good = names && list && write_attribute(s->file, "format", s->text, 1, &(const char *){format});
     for (size_t c = 0; good && c < columns; c++) {
         names[c] = iso_record_name(header, c);
         end += sprintf(end, c ? ",%s" : "%s", names[c]);
     }
-    const hid_t text = text_type();
     for (size_t c = 0, taken; good && c < columns; c += taken) {
         const char *group = w->kind, *name = names[c];
         taken = (size_t)iso_hdf5_part(names + c, columns - c, &group, &name);
-        const hid_t type = iso_record_has_words(header, c) ? text : H5T_NATIVE_DOUBLE;
-        good = add_set(w, group, name, type, (int)c, (int)taken);
+        good = add_set(s, group, name, iso_record_has_words(header, c), (int)c, (int)taken, w->expected);
     }
-    H5Tclose(text);
-    if (strcmp(w->kind, ISO_TRAJECTORY_KIND) != 0) good = good && write_text(s->file, ISO_HDF5_COLUMNS, list);
+    if (named) good = good && write_attribute(s->file, ISO_HDF5_COLUMNS, s->text, 1, &list);
     free(names);
     free(list);
     return good;
-}
-
-static bool create(const iso_table_writer *w, const iso_record *header)
-{
-    const iso_hdf5_store *s = w->data;
-    char format[64];
-    snprintf(format, sizeof format, "isoroll %s 1", w->kind);
-    return write_text(s->file, "format", format) && create_table(w, header);
 }
 
 static iso_status hdf5_header(iso_context *ctx, iso_table_writer *w, const iso_record *header)
@@ -171,9 +132,11 @@ static iso_status hdf5_header(iso_context *ctx, iso_table_writer *w, const iso_r
     const char *key, *value;
     const bool named = strcmp(w->kind, ISO_TRAJECTORY_KIND) != 0;
     bool good;
-    if (!iso_hdf5_store_room(s, iso_record_columns(header))) return iso_text_no_memory(ctx, "write", w->name);
+    s->block = malloc(ISO_HDF5_BLOCK * iso_record_columns(header) * sizeof *s->block);
+    if (!s->block) return iso_text_no_memory(ctx, "write", w->name);
     s->words = w->words;
-    ISO_HDF5_QUIETLY(good = create(w, header));
+    s->grows = w->expected == SIZE_MAX;
+    ISO_HDF5_QUIETLY(good = create(w, header, named));
     iso_status status = good ? ISO_OK : iso_hdf5_trouble(ctx, "write", w->name);
     for (size_t i = 0; status == ISO_OK && iso_record_line(header, i, &key, &value); i++)
         if (strcmp(key, "format") != 0 && (!named || strcmp(key, ISO_HDF5_COLUMNS) != 0))
@@ -194,7 +157,10 @@ static iso_status flush_block(iso_context *ctx, iso_table_writer *w)
 static iso_status hdf5_row(iso_context *ctx, iso_table_writer *w, const double row[])
 {
     iso_hdf5_store *s = w->data;
-    memcpy(s->block + s->filled * s->columns, row, s->columns * sizeof *row);
+    for (int i = 0; i < s->sets; i++) {
+        const iso_hdf5_set *d = &s->set[i];
+        memcpy(iso_hdf5_cells(s, d, s->filled), row + d->first, (size_t)d->count * sizeof *row);
+    }
     w->waits = ++s->filled < ISO_HDF5_BLOCK;
     return w->waits ? ISO_OK : flush_block(ctx, w);
 }

@@ -36,6 +36,7 @@ static iso_status find_model(checker *c, iso_model_kind kind)
 {
     checked_model *m = &c->model[kind];
     iso_status status = ISO_OK;
+    m->checker = c;
     m->kind = kind;
     m->system = kind == ISO_BALL ? &iso_system_ball : &iso_system_point;
     m->first = kind == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT;
@@ -80,7 +81,7 @@ static iso_status find_start(const checker *c, const checked_model *m, const dou
 {
     double y[ISO_STATE];
     iso_checker_state(c, m, row, y);
-    const iso_status status = m->quadrature
+    const iso_status status = m->rows.quadrature
                                   ? iso_start_from_row(c->ctx, m->kind, y, m->has_eps ? &m->eps : NULL, false,
                                                        iso_record_row_tolerance(c->record), start)
                                   : iso_record_start_at(c->ctx, c->record, c->params, m->kind, row, start, effects);
@@ -99,19 +100,10 @@ static iso_status open_first(checker *c, checked_model *m, const double row[])
     return iso_orbit_create(c->ctx, c->params, &start, &o, &m->orbit);
 }
 
-static void forget_flow(checked_model *m)
-{
-    iso_two_point_free(m->quadrature);
-    iso_orbit_free(m->way);
-    m->quadrature = NULL;
-    m->way = NULL;
-}
-
 /* What only the first row of an orbit is asked. */
 static iso_status begin_model(checker *c, checked_model *m, const double row[])
 {
     for (int i = 0; i < ISO_STATE; i++) c->looked[m->first + i] = true;
-    forget_flow(m);
     ISO_TRY(iso_checker_energy(c, m, row));
     return iso_checker_flow_begin(c, m, row);
 }
@@ -134,7 +126,7 @@ static void check_map(checker *c, const double row[])
     iso_checker_state(c, &c->model[ISO_POINT], row, point);
     iso_ball_to_point(&c->units.own, ball, ball);
     scale(ball, iso_unit(&c->units, iso_system_point.fast_dimension));
-    iso_checker_note(&c->map, "map", "the ball's point (18) against the record's", iso_checker_distance(ball, point),
+    iso_checker_note(&c->map, "map", "the ball's point (18) against the record's", iso_distance(ball, point),
                      c->number);
 }
 
@@ -147,7 +139,6 @@ iso_status iso_checking_put(iso_checking *c, const double row[])
     for (int k = 0; k < 2; k++)
         if (c->model[k].there) ISO_TRY(check_model(c, &c->model[k], row));
     if (c->model[0].there && c->model[1].there) check_map(c, row);
-    memcpy(c->last, row, c->width * sizeof *row);
     c->begins = false;
     return ISO_OK;
 }
@@ -199,10 +190,9 @@ void iso_checking_free(iso_checking *c)
 {
     if (!c) return;
     for (int k = 0; k < 2; k++) {
-        forget_flow(&c->model[k]);
+        iso_rows_free(&c->model[k].rows);
         iso_orbit_free(c->model[k].orbit);
     }
-    free(c->last);
     free(c);
 }
 
@@ -210,13 +200,11 @@ iso_status iso_checking_create(iso_context *ctx, const iso_params *params, const
                                iso_checking **checking)
 {
     ISO_DEFAULT_ARITHMETIC;
-    const size_t width = iso_record_columns(header);
     checker *c = *checking = calloc(1, sizeof *c);
     if (!c) return iso_context_no_memory(ctx, "a check");
     *c = (checker){.ctx = ctx, .params = params, .record = header, .tolerance = tolerance, .begins = true};
-    c->last = calloc(width + 1, sizeof *c->last);
     iso_units_choose(params, 0, &c->units);
-    const iso_status status = c->last ? begin(c) : iso_context_no_memory(ctx, "a check");
+    const iso_status status = begin(c);
     if (status == ISO_OK) return ISO_OK;
     iso_checking_free(c);
     *checking = NULL;
@@ -247,20 +235,22 @@ iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_recor
 
 /* --- drifts over time ------------------------------------------------------------------------------------------- */
 
-static iso_status record_drifts(checker *c, const checked_model *m, const iso_record *rows, iso_record **drifts)
+static iso_status record_drifts(checker *c, checked_model *m, const iso_record *rows, iso_record **drifts)
 {
-    const expectations *e = &m->expect;
+    expectations *e = &m->expect;
+    iso_sample sample;
     const char *names[1 + ISO_MAX_INTEGRALS] = {m->clock < 0 ? "row" : iso_clock_name((iso_clock)m->clock)};
-    double own[ISO_MAX_STATE], *to;
-    for (int i = 0; i < e->count; i++) names[1 + i] = e->integral[i]->name;
+    double *to;
+    for (int i = 0; i < e->count; i++) names[1 + i] = e->integral[i].integral->name;
     iso_status status = iso_record_create(c->ctx, (size_t)(1 + e->count), names, drifts);
     for (size_t row = 0; status == ISO_OK && row < iso_record_rows(rows); row++) {
         const double *x = iso_record_const_row(rows, row);
         status = iso_record_append(c->ctx, *drifts, &to);
         if (status != ISO_OK) break;
         to[0] = m->clock < 0 ? (double)row + 1 : iso_checker_at(c, x, m->clock);
-        iso_checker_own(c, e, x, own);
-        for (int i = 0; i < e->count; i++) to[1 + i] = fabs(iso_checker_drift(e, i, own));
+        iso_sample_of_row(c->columns, x, &sample);
+        iso_watch_follow(m->orbit, &sample, e->integral, e->count);
+        for (int i = 0; i < e->count; i++) to[1 + i] = fabs(e->integral[i].now);
     }
     return status;
 }

@@ -6,7 +6,6 @@
 
 #include "base/vec3_impl.h"
 #include "model/model_impl.h"
-#include "orbit/orbit_impl.h"
 #include "study/check/check_impl.h"
 
 iso_residual *iso_checker_residual(iso_residuals *r, const char *name, const char *what)
@@ -44,17 +43,6 @@ iso_effects iso_checker_effects(const checker *c, iso_model_kind kind)
     return effects;
 }
 
-double iso_checker_distance(const double a[ISO_STATE], const double b[ISO_STATE])
-{
-    double d[ISO_STATE];
-    const double size = fmax(largest(a), largest(b));
-    for (int i = 0; i < 3; i++) {
-        d[i] = size > 0 ? a[i] / size - b[i] / size : 0;
-        d[3 + i] = a[3 + i] - b[3 + i];
-    }
-    return fmax(norm(d), norm(d + 3));
-}
-
 /* --- integrals -------------------------------------------------------------------------------------------------- */
 
 void iso_checker_own(const checker *c, const expectations *e, const double row[], double own[ISO_MAX_STATE])
@@ -64,14 +52,9 @@ void iso_checker_own(const checker *c, const expectations *e, const double row[]
     iso_orbit_state_of(e->first, e->system, &sample, own);
 }
 
-double iso_checker_drift(const expectations *e, int i, const double own[])
-{
-    double size;
-    const double value = e->integral[i]->value(&e->problem, own, &size);
-    return value == e->value[i] ? 0 : (value - e->value[i]) / size;
-}
-
-static void find_integrals(const checker *c, checked_model *m)
+/* The orbit of the first row, and the level that H of a point should have: the one that the lines state, or 0 where the
+ * record has a ball's columns or clocks; else any. */
+static void find_level(const checker *c, checked_model *m)
 {
     expectations *e = &m->expect;
     const iso_units *units = iso_orbit_units(m->orbit);
@@ -82,38 +65,30 @@ static void find_integrals(const checker *c, checked_model *m)
     e->system = m->system;
     e->first = m->orbit;
     e->problem = iso_orbit_model(m->orbit)->problem;
-    e->problem.eps = m->orbit->eps;
-    e->count = iso_integrals_holding(e->system, &iso_orbit_model(m->orbit)->problem, e->integral, ISO_MAX_INTEGRALS);
+    e->energy = e->on_level && m->kind == ISO_POINT ? e->level : (double)NAN;
 }
 
-/* An integral should keep the value of the first row of its orbit. There are three exceptions: a constraint has its
- * own exact value; all orbits of a file have the energy of its first row; and H of the point must be the level that
- * the lines state, or 0 where the record has a ball's columns or clocks. */
 void iso_checker_expect(const checker *c, checked_model *m, const double first[])
 {
     expectations *e = &m->expect;
-    const bool again = e->first != NULL;
-    double own[ISO_MAX_STATE], size;
-    if (!again) find_integrals(c, m);
-    iso_checker_own(c, e, first, own);
-    for (int i = 0; i < e->count; i++) {
-        const iso_integral *integral = e->integral[i];
-        const bool energy = integral->value == e->system->energy, free = integral->known == ISO_ANY_VALUE;
-        if (again && (energy || !free)) continue;
-        e->value[i] = integral->known == ISO_ONE ? 1 : energy ? e->level : 0;
-        if (free && !(energy && e->on_level && m->kind == ISO_POINT))
-            e->value[i] = integral->value(&e->problem, own, &size);
-    }
+    iso_sample sample;
+    if (!e->first) find_level(c, m);
+    iso_sample_of_row(c->columns, first, &sample);
+    e->count = iso_watch_begin(m->orbit, m->system, e->energy, &sample, e->integral, ISO_MAX_INTEGRALS);
+    for (int i = 0; i < e->count; i++)
+        if (e->integral[i].integral->value == m->system->energy) e->energy = e->integral[i].expected;
 }
 
 void iso_checker_integrals(const checker *c, checked_model *m, const double row[])
 {
     char name[sizeof m->found.residual[0].name];
-    double own[ISO_MAX_STATE];
-    const expectations *e = &m->expect;
-    iso_checker_own(c, e, row, own);
+    iso_sample sample;
+    expectations *e = &m->expect;
+    iso_sample_of_row(c->columns, row, &sample);
+    iso_watch_follow(m->orbit, &sample, e->integral, e->count);
     for (int i = 0; i < e->count; i++) {
-        snprintf(name, sizeof name, "%s %s", e->system->name, e->integral[i]->name);
-        iso_checker_note(&m->found, name, e->integral[i]->doc, iso_checker_drift(e, i, own), c->number);
+        const iso_drift *d = &e->integral[i];
+        snprintf(name, sizeof name, "%s %s", d->system->name, d->integral->name);
+        iso_checker_note(&m->found, name, d->integral->doc, d->now, c->number);
     }
 }

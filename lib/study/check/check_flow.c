@@ -8,7 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "base/vec3_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/convert.h"
 #include "orbit/orbit_impl.h"
@@ -47,14 +46,9 @@ iso_status iso_checker_open(const checker *c, const checked_model *m, const doub
     return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
 }
 
-/* Integrates a row by so much of its clock. */
-static iso_status integrate(const checker *c, const checked_model *m, const double row[], size_t number, double time,
-                            iso_sample *sample)
+/* Names the row whose numbers are refused. */
+static iso_status name_row(const checker *c, iso_status status, size_t number)
 {
-    iso_orbit *orbit = NULL;
-    iso_status status = iso_checker_open(c, m, row, &orbit);
-    if (status == ISO_OK) status = iso_orbit_at(orbit, time, sample);
-    iso_orbit_free(orbit);
     if (status == ISO_OK) return ISO_OK;
     if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT; /* the number that is refused stands in the file */
     return iso_context_fail(c->ctx, status, "", "row %zu: %s", number, iso_context_message(c->ctx));
@@ -64,8 +58,12 @@ static iso_status integrate(const checker *c, const checked_model *m, const doub
 static iso_status check_alone(checker *c, checked_model *m, const double row[])
 {
     iso_sample sample;
+    iso_orbit *orbit = NULL;
     if (m->kind != ISO_BALL || !iso_checker_has_effects(c)) return ISO_OK;
-    ISO_TRY(integrate(c, m, row, c->number, 0, &sample));
+    iso_status status = iso_checker_open(c, m, row, &orbit);
+    if (status == ISO_OK) status = iso_orbit_at(orbit, 0, &sample);
+    iso_orbit_free(orbit);
+    ISO_TRY(name_row(c, status, c->number));
     iso_checker_go_on(c, row, &sample);
     iso_checker_effects_flow(c, &m->found, &sample, row);
     return ISO_OK;
@@ -73,24 +71,20 @@ static iso_status check_alone(checker *c, checked_model *m, const double row[])
 
 static iso_status check_step(checker *c, checked_model *m, const double row[])
 {
-    iso_sample sample;
-    double here[ISO_STATE];
+    iso_row_gap gap;
     char name[sizeof m->found.residual[0].name];
-    const double time = iso_checker_at(c, row, m->clock) - iso_checker_at(c, c->last, m->clock);
-    ISO_TRY(integrate(c, m, c->last, c->before, time, &sample));
+    ISO_TRY(name_row(c, iso_rows_integrate(&m->rows, &gap), c->before));
     m->followed = c->looked[m->clock] = true;
-    iso_checker_go_on(c, c->last, &sample);
-    iso_checker_state(c, m, row, here);
     snprintf(name, sizeof name, "%s flow", iso_model_kind_name((int)m->kind));
-    iso_checker_note(&m->found, name, "each row integrated to the next",
-                     iso_checker_distance(m->kind == ISO_BALL ? sample.ball : sample.point, here), c->number);
-    iso_checker_effects_flow(c, &m->found, &sample, row);
+    iso_checker_note(&m->found, name, "each row integrated to the next", gap.miss, c->number);
+    iso_checker_go_on(c, m->rows.last, &gap.reached);
+    iso_checker_effects_flow(c, &m->found, &gap.reached, row);
     for (int k = 0; k < ISO_CLOCKS; k++) {
-        if (k == m->clock || c->columns[k] < 0 || isnan(sample.clock[k])) continue;
+        if (k == m->clock || c->columns[k] < 0 || isnan(gap.gained[k])) continue;
         c->looked[k] = true;
         snprintf(name, sizeof name, "clock %s", iso_clock_name((iso_clock)k));
-        const double step = iso_checker_at(c, row, k) - iso_checker_at(c, c->last, k);
-        iso_checker_note(&m->found, name, "its steps, from the equations of motion", step - sample.clock[k],
+        const double step = iso_checker_at(c, row, k) - iso_checker_at(c, m->rows.last, k);
+        iso_checker_note(&m->found, name, "its steps, from the equations of motion", step - gap.gained[k],
                          c->number); /* divided by the clock's span at the end */
     }
     return ISO_OK;
@@ -98,72 +92,68 @@ static iso_status check_step(checker *c, checked_model *m, const double row[])
 
 /* --- by quadrature ---------------------------------------------------------------------------------------------- */
 
-static void add_sample(const checker *c, checked_model *m, const double row[])
-{
-    double own[ISO_STATE];
-    iso_checker_state(c, m, row, own);
-    for (int i = 0; i < 3; i++) own[i] /= m->kind == ISO_BALL ? m->way->units.w : m->way->unit_M;
-    iso_two_point_add(m->quadrature, own);
-}
-
-/* Whether nothing but the six numbers of the model goes on from row to row, by equations that have a series. */
-static bool suits(const checker *c, const checked_model *m)
-{
-    const iso_model *model = iso_orbit_model(m->way);
-    const iso_effects effects = iso_orbit_effects(m->way);
-    return model->system == m->system && (int)model->clock == m->clock && m->clock == (int)m->system->clock &&
-           model->moving == ISO_STATE && !m->way->rests && !iso_checker_has_effects(c) &&
-           !iso_effects_breaking(&effects);
-}
-
 /* The state moves little from the last row to this one. */
 static bool is_near(const checker *c, const checked_model *m, const double row[])
 {
     double a[ISO_STATE], b[ISO_STATE];
-    iso_checker_state(c, m, c->last, a);
+    iso_checker_state(c, m, m->rows.last, a);
     iso_checker_state(c, m, row, b);
-    return iso_checker_distance(a, b) <= NEAR;
+    return iso_distance(a, b) <= NEAR;
 }
 
 /* How far the clock's step in the rows is from that of the quadrature. */
-static double clock_defect(const checker *c, const checked_model *m, const iso_gap *gap, int k, const double row[])
+static double clock_defect(const checker *c, const checked_model *m, const iso_row_gap *gap, int k,
+                           const double row[])
 {
-    if (k == m->clock || c->columns[k] < 0 || !m->way->options.with_clock[k]) return 0;
-    return fabs(iso_checker_at(c, row, k) - iso_checker_at(c, c->last, k) - gap->gained[k] * m->way->unit_clock[k]);
+    if (k == m->clock || c->columns[k] < 0 || isnan(gap->gained[k])) return 0;
+    return fabs(iso_checker_at(c, row, k) - iso_checker_at(c, m->rows.last, k) - gap->gained[k]);
 }
 
 /* Whether the row is so near to the orbit of the last one that it needs no integration. */
 static bool passes(checker *c, checked_model *m, const double row[])
 {
-    iso_gap gap;
-    if (!m->quadrature) return false;
-    add_sample(c, m, row);
-    if (!m->followed) return false;
-    const double h =
-        (iso_checker_at(c, row, m->clock) - iso_checker_at(c, c->last, m->clock)) / m->way->unit_clock[m->clock];
-    if (!is_near(c, m, row) || !iso_two_point_measure(m->quadrature, h, 0, &gap)) return false;
-    bool good = gap.defect <= SIEVE * m->seen;
+    iso_row_gap gap;
+    if (!m->followed || !is_near(c, m, row) || !iso_rows_measure(&m->rows, 0, &gap)) return false;
+    bool good = gap.miss <= SIEVE * m->seen;
     for (int k = 0; k < ISO_CLOCKS; k++) good = good && clock_defect(c, m, &gap, k, row) <= SIEVE * m->seen_clock[k];
     if (good) return true;
-    m->seen = fmax(m->seen, gap.defect);
+    m->seen = fmax(m->seen, gap.miss);
     for (int k = 0; k < ISO_CLOCKS; k++) m->seen_clock[k] = fmax(m->seen_clock[k], clock_defect(c, m, &gap, k, row));
     return false;
 }
 
+static iso_status open_at(void *data, const double row[], iso_orbit **orbit)
+{
+    const checked_model *m = data;
+    return iso_checker_open(m->checker, m, row, orbit);
+}
+
 iso_status iso_checker_flow_begin(checker *c, checked_model *m, const double first[])
 {
+    iso_orbit *orbit = NULL;
     iso_status status = check_alone(c, m, first);
     if (m->clock < 0 || status != ISO_OK) return status;
-    status = iso_checker_open(c, m, first, &m->way);
-    m->method = status == ISO_OK ? iso_method_of_other_kind(iso_orbit_model(m->way)) : NULL;
-    if (status == ISO_OK && suits(c, m))
-        status = iso_two_point_create(c->ctx, iso_orbit_model(m->way), c->tolerance, &m->quadrature);
-    if (m->quadrature) add_sample(c, m, first);
-    return status == ISO_NO_MEMORY ? status : ISO_OK; /* what else is wrong is told when the row is integrated */
+    m->rows = (iso_rows){.ctx = c->ctx,
+                         .model = m->kind,
+                         .clock = (iso_clock)m->clock,
+                         .columns = c->columns,
+                         .width = c->width,
+                         .alone = iso_checker_has_effects(c),
+                         .open = open_at,
+                         .data = m};
+    status = iso_checker_open(c, m, first, &orbit);
+    if (status == ISO_NO_MEMORY) return status; /* what else is wrong is said when the row is integrated */
+    m->method = orbit ? iso_method_of_other_kind(iso_orbit_model(orbit)) : NULL;
+    status = iso_rows_begin(&m->rows, orbit, first, c->tolerance);
+    iso_orbit_free(orbit);
+    return status;
 }
 
 iso_status iso_checker_flow(checker *c, checked_model *m, const double row[])
 {
     if (m->clock < 0) return check_alone(c, m, row);
-    return passes(c, m, row) ? ISO_OK : check_step(c, m, row);
+    iso_rows_take(&m->rows, row);
+    const iso_status status = passes(c, m, row) ? ISO_OK : check_step(c, m, row);
+    iso_rows_keep(&m->rows);
+    return status;
 }

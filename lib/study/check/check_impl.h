@@ -11,9 +11,9 @@
 #ifndef ISO_STUDY_CHECK_IMPL_H
 #define ISO_STUDY_CHECK_IMPL_H
 
-#include "method/two_point_impl.h"
 #include "orbit/description.h"
-#include "orbit/orbit_impl.h"
+#include "orbit/rows_impl.h"
+#include "orbit/watch_impl.h"
 #include "study/added_impl.h"
 #include "study/check/check.h"
 
@@ -66,10 +66,10 @@ typedef struct expectations {
     const iso_orbit *first;
     iso_problem problem; /* with which integrals are computed */
     int count;
-    const iso_integral *integral[ISO_MAX_INTEGRALS];
-    double value[ISO_MAX_INTEGRALS];
+    iso_drift integral[ISO_MAX_INTEGRALS];
     bool on_level; /* a point: its H is known, and is ... */
     double level;
+    double energy; /* of all orbits of the file; NaN: that of its first row */
 } expectations;
 
 /* One of the two models, as the rows have it. */
@@ -83,10 +83,9 @@ typedef struct checked_model {
     double eps;
     iso_orbit *orbit; /* of the first row */
     expectations expect;
-    /* quadrature from row to row; NULL: each row is integrated */
-    iso_orbit *way;
-    const iso_method *method; /* that integrates; NULL: auto */
-    iso_two_point *quadrature;
+    iso_rows rows;
+    const iso_method *method; /* that integrates from row to row; NULL: auto */
+    struct iso_checking *checker;
     double seen, seen_clock[ISO_CLOCKS]; /* the largest it found, of the intervals that were integrated */
     bool followed;                       /* an interval was integrated: the first one always is          */
     iso_residuals found;
@@ -104,7 +103,6 @@ struct iso_checking {
     size_t rows, passed;                 /* so far; passed over                                           */
     size_t number, before;               /* of the row in hand, and of the last                           */
     bool begins;                         /* the row in hand is the first of its orbit */
-    double *last;                        /* the last row                           */
     double span[ISO_CLOCKS];             /* largest |clock| so far                 */
     iso_units units;                     /* for the map                            */
     checked_model model[2];
@@ -131,15 +129,12 @@ void iso_checker_state(const checker *c, const checked_model *m, const double ro
  * each row if eps is known. */
 iso_effects iso_checker_effects(const checker *c, iso_model_kind kind);
 
-double iso_checker_distance(const double a[ISO_STATE], const double b[ISO_STATE]);
-
-/* The first row of an orbit gives the values. */
+/* The first row of an orbit gives the values, but all orbits of a file have the energy of its first row. */
 void iso_checker_expect(const checker *c, checked_model *m, const double first[]);
 
 void iso_checker_integrals(const checker *c, checked_model *m, const double row[]);
 
-/* The integral less its expected value, relative to the size of its terms, at a state of iso_checker_own. */
-double iso_checker_drift(const expectations *e, int i, const double own[]);
+/* The state in a row, own units. */
 void iso_checker_own(const checker *c, const expectations *e, const double row[], double own[ISO_MAX_STATE]);
 
 /* --- check_flow.c ----------------------------------------------------------------------------------------------- */

@@ -61,7 +61,7 @@ typedef struct iso_cost_cell {
     iso_statistics statistics;
     double error;       /* largest over the output times ...                                              */
     double clock_error; /* ... of clock s (of a point's start: t), relative to its largest value; NaN     */
-    double energy_drift, constraint_drift; /* ... |I - I(start)|/size of the ball's; NaN: none holds            */
+    double energy_drift, constraint_drift; /* ... the largest of the ball's (iso_drift); NaN: none holds         */
     bool below;  /* the reference is not exact enough to tell: error < 3 uncertainties             */
     bool pareto; /* no other cell is as exact and faster (1.05 times)                              */
 } iso_cost_cell;

@@ -59,9 +59,8 @@ void iso_cost_track_free(cost_track *track);
 iso_status iso_cost_walk(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance,
                          bool with_clock, double seconds, cost_track *track);
 
-/* Distances of two tracks: in row i; the largest over the rows that both reached; of the clock, relative to its
+/* Distances of two tracks: the largest iso_distance over the rows that both reached; that of the clock, relative to its
  * largest value. */
-double iso_cost_distance_at(const cost_track *a, const cost_track *b, int i);
 double iso_cost_distance(const cost_track *a, const cost_track *b);
 double iso_cost_clock_distance(const cost_track *a, const cost_track *b);
 

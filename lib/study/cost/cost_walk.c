@@ -4,7 +4,7 @@
 
 #include "base/context_impl.h"
 #include "base/vec3_impl.h"
-#include "orbit/orbit_impl.h"
+#include "orbit/watch_impl.h"
 #include "study/cost/cost_impl.h"
 
 /* --- the scene, and its monitor --------------------------------------------------------------------------------- */
@@ -99,43 +99,6 @@ void iso_cost_track_free(cost_track *track)
     track->row = NULL;
 }
 
-/* The ball's energy, where it is kept, and its constraints. */
-typedef struct drift_watch {
-    const iso_integral *list[ISO_MAX_INTEGRALS];
-    int count;
-    double energy;
-} drift_watch;
-
-static drift_watch find_integrals(const iso_orbit *orbit, const iso_sample *start, cost_track *track)
-{
-    drift_watch k;
-    double size;
-    k.count = iso_integrals_holding(&iso_system_ball, &iso_orbit_model(orbit)->problem, k.list, ISO_MAX_INTEGRALS);
-    track->energy_drift = track->constraint_drift = NAN;
-    for (int i = 0; i < k.count; i++) {
-        if (k.list[i]->known != ISO_ANY_VALUE) track->constraint_drift = 0;
-        if (k.list[i]->value != iso_system_ball.energy) continue;
-        track->energy_drift = 0;
-        k.energy = iso_orbit_integral(orbit, &iso_system_ball, k.list[i], start, &size);
-    }
-    return k;
-}
-
-static void follow_integrals(const drift_watch *k, const iso_orbit *orbit, const iso_sample *sample,
-                             cost_track *track)
-{
-    for (int i = 0; i < k->count; i++) {
-        const iso_integral *integral = k->list[i];
-        const bool energy = integral->value == iso_system_ball.energy;
-        double size;
-        if (!energy && integral->known == ISO_ANY_VALUE) continue;
-        const double value = iso_orbit_integral(orbit, &iso_system_ball, integral, sample, &size);
-        const double change = fabs(value - (energy ? k->energy : integral->known == ISO_ONE ? 1 : 0));
-        double *most = energy ? &track->energy_drift : &track->constraint_drift;
-        *most = fmax(*most, change == 0 ? 0 : change / size);
-    }
-}
-
 /* Whether the whole track will take longer, judged by the time that the part so far took. */
 static bool looks_longer(const cost_track *track, double took, double seconds)
 {
@@ -146,21 +109,28 @@ static bool looks_longer(const cost_track *track, double took, double seconds)
 static iso_status walk(cost_problem *p, iso_orbit *orbit, double seconds, cost_track *track)
 {
     iso_sample sample;
+    iso_drift integral[ISO_MAX_INTEGRALS];
     const double begin = processor_seconds();
     iso_status status = iso_orbit_at(orbit, 0, &sample);
     if (status != ISO_OK) return status;
-    const drift_watch k = find_integrals(orbit, &sample, track);
-    for (int i = 0; i < track->times; i++) {
+    const int integrals = iso_watch_begin(orbit, &iso_system_ball, NAN, &sample, integral, ISO_MAX_INTEGRALS);
+    for (int i = 0; status == ISO_OK && i < track->times; i++) {
         status = iso_orbit_at(orbit, track->time[i], &sample);
         track->seconds = processor_seconds() - begin;
-        if (status != ISO_OK) return status;
+        if (status != ISO_OK) break;
         copy(sample.ball, track->row[i].ball, ISO_STATE);
         track->row[i].clock = sample.clock[p->other];
         track->reached++;
-        follow_integrals(&k, orbit, &sample, track);
-        if (i + 1 < track->times && looks_longer(track, track->seconds, seconds)) return ISO_STOPPED;
+        iso_watch_follow(orbit, &sample, integral, integrals);
+        if (i + 1 < track->times && looks_longer(track, track->seconds, seconds)) status = ISO_STOPPED;
     }
-    return ISO_OK;
+    track->energy_drift = track->constraint_drift = NAN;
+    for (int i = 0; i < integrals; i++) {
+        const bool energy = integral[i].integral->value == iso_system_ball.energy;
+        double *most = energy ? &track->energy_drift : &track->constraint_drift;
+        if (energy || integral[i].integral->known != ISO_ANY_VALUE) *most = fmax(*most, integral[i].worst);
+    }
+    return status;
 }
 
 iso_status iso_cost_walk(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance,
@@ -183,12 +153,6 @@ iso_status iso_cost_walk(cost_problem *p, iso_backend backend, const iso_method 
 
 /* --- distances -------------------------------------------------------------------------------------------------- */
 
-double iso_cost_distance_at(const cost_track *a, const cost_track *b, int i)
-{
-    const double *const x = a->row[i].ball, *const y = b->row[i].ball;
-    return fmax(relative_difference(x, y), relative_difference(x + 3, y + 3));
-}
-
 static int both_reached(const cost_track *a, const cost_track *b)
 {
     return a->reached < b->reached ? a->reached : b->reached;
@@ -197,7 +161,7 @@ static int both_reached(const cost_track *a, const cost_track *b)
 double iso_cost_distance(const cost_track *a, const cost_track *b)
 {
     double most = 0;
-    for (int i = 0; i < both_reached(a, b); i++) most = fmax(most, iso_cost_distance_at(a, b, i));
+    for (int i = 0; i < both_reached(a, b); i++) most = fmax(most, iso_distance(a->row[i].ball, b->row[i].ball));
     return most;
 }
 
