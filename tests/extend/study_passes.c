@@ -36,10 +36,10 @@ static iso_status run(iso_context *ctx, const iso_study_subject *of, const void 
     passes *found = walk.user = calloc(count, sizeof *found);
     walk.options[0] = iso_crossings_defaults();
     walk.options[0].axis = starts.axis, walk.wanted = wanted, walk.visit = visit, o.effects = &effects;
-    iso_status status = iso_orbit_create(ctx, &of->scene->params, &of->scene->start, &o, &starts.orbit);
-    if (status == ISO_OK) iso_starts_prepare(&starts);
-    for (size_t i = 0; i < count; i++) found[i] = (passes){.orbit = (double)i, .end = of->scene->end};
-    if (status == ISO_OK) status = iso_walk_go(&walk);
+    iso_status status = found ? ISO_OK : iso_context_no_memory(ctx, "passes");
+    if (found) status = iso_orbit_create(ctx, &of->scene->params, &of->scene->start, &o, &starts.orbit);
+    for (size_t i = 0; found && i < count; i++) found[i] = (passes){.orbit = (double)i, .end = of->scene->end};
+    if (status == ISO_OK) iso_starts_prepare(&starts), status = iso_walk_go(&walk);
     if (walk.failed > 0) iso_study_note(result, "%zu orbits failed; %s", walk.failed, walk.text);
     if (status == ISO_OK) status = iso_columns_create(ctx, fields, &result->table[0]);
     for (size_t i = 0; status == ISO_OK && i < count; i++)
