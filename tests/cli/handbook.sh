@@ -6,6 +6,7 @@
 for tool in pandoc python3; do
     command -v $tool >/dev/null || impossible "the manual in HTML and PDF" "$tool is not installed"
 done
+[ -s "$ISO_BUILD/python/_instruments.pyi" ] || impossible "the manual in HTML and PDF" "Python has no NumPy"
 browser=
 for name in chromium chromium-browser google-chrome chrome; do
     [ -n "$browser" ] || browser=$(command -v "$name")
@@ -15,7 +16,7 @@ done
 manual() {
     from=$1 pages=$2
     shift 2
-    python3 -B "$here/../../apps/manual/build.py" "$from" "$pages" "$isoroll" 9.9.9 "$@" >out 2>err
+    ISO_STUB=$ISO_BUILD/python/_instruments.pyi python3 -B "$here/../../apps/manual/build.py" "$from" "$pages" "$isoroll" 9.9.9 "$@" >out 2>err
 }
 
 # --- the sources, and a document with formulas and a citation
