@@ -224,7 +224,7 @@ static int finish_filter(filter *f, iso_status status)
         const iso_status written = f->header ? write_clock(f, s) : ISO_OK;
         if (status == ISO_OK) status = written;
     }
-    if (f->unnamed > 0) complain("%s: %zu more bad rows are not named", f->name, f->unnamed);
+    if (f->unnamed > 0) complain("%s: %zu more rows are not named", f->name, f->unnamed);
     const bool keep = f->header && (status == ISO_OK || status == ISO_STOPPED);
     const int result = finish(f->ctx, name_the_file(f->ctx, f->o->from.file, status));
     const iso_status closed = iso_table_writer_close(f->ctx, f->out, keep);

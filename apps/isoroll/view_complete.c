@@ -22,6 +22,7 @@ typedef struct completion {
     double shift[3];                    /* on a plane: the contact there                */
     double attitude[4];                 /* there                                        */
     bool turned;                        /* it is known                                  */
+    double bound;                       /* a row is missed by more                      */
     view_miss *worst;
 } completion;
 
@@ -113,14 +114,13 @@ static iso_status first_row(completion *c, iso_rows *rows)
 
 static iso_status next_row(completion *c, iso_rows *rows, size_t i)
 {
-    const double bound = iso_rows_largest_miss(c->ctx, c->in, iso_record_row_tolerance(c->in));
     iso_row_gap gap;
     iso_rows_take(rows, iso_record_const_row(c->in, i));
     ISO_TRY(iso_rows_integrate(rows, &gap));
     iso_rows_keep(rows);
     gap.reached.clock[c->clock] = gap.step;
     fill(c, i, &gap.reached);
-    if (!(gap.miss <= bound) && !(gap.miss <= c->worst->by)) *c->worst = (view_miss){i, gap.miss};
+    if (!(gap.miss <= c->bound) && !(gap.miss <= c->worst->by)) *c->worst = (view_miss){i, gap.miss};
     return ISO_OK;
 }
 
@@ -136,6 +136,7 @@ static iso_status complete(completion *c)
                      .open = open_at,
                      .data = c};
     iso_record_find_columns(c->in, columns);
+    c->bound = iso_rows_largest_miss(c->ctx, c->in, iso_record_row_tolerance(c->in));
     iso_status status = create(c);
     for (size_t i = 0; status == ISO_OK && i < count; i++) {
         status = copy_row(c, i);

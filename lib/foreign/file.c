@@ -76,7 +76,7 @@ static void note_verdict(const iso_conversion_summary *s, notes *n)
     size_t row;
     for (int i = 0; iso_conversion_stated_words(s, i, stated); i++) iso_notes_add(n, stated);
     if (!iso_conversion_verdict(s, verdict, &row)) return;
-    snprintf(text, sizeof text, "row %zu: %s", row, verdict);
+    snprintf(text, sizeof text, "row %zu: %s", row - 1, verdict);
     iso_notes_add(n, text);
 }
 

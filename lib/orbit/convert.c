@@ -103,6 +103,7 @@ void iso_conversion_summary_add(iso_conversion_summary *all, const iso_conversio
     all->rows += before.rows;
     all->bad += before.bad;
     all->missed += before.missed;
+    if (before.missed > 0) all->missed_line = before.missed_line;
     add_worst(&all->constraint, &before.constraint);
     add_worst(&all->energy, &before.energy);
     add_worst(&all->defect, &before.defect);
@@ -189,6 +190,7 @@ void iso_conversion_free(iso_conversion *c)
 typedef struct whole {
     iso_context *ctx;
     iso_record *out;
+    size_t first_row;
 } whole;
 
 static iso_status keep_header(void *data, const iso_record *header)
@@ -205,7 +207,8 @@ static iso_status keep_row(void *data, const double row[])
 
 static iso_status stop_at(void *data, size_t line, iso_status why, const char *words)
 {
-    return iso_context_fail(((whole *)data)->ctx, why, "", "row %zu: %s", line, words);
+    const whole *w = data;
+    return iso_context_fail(w->ctx, why, "", "row %zu: %s", line - 1 + w->first_row, words);
 }
 
 /* It is counted. */
@@ -227,14 +230,14 @@ iso_status iso_convert_as(iso_context *ctx, const iso_params *params, const iso_
                           const iso_conversion_options *options, iso_conversion_summary *summary, iso_record **out)
 {
     ISO_DEFAULT_ARITHMETIC;
-    whole w = {.ctx = ctx};
+    whole w = {.ctx = ctx, .first_row = options->first_row};
     const iso_conversion_target target = {keep_header, keep_row, stop_at, go_on, &w};
     iso_conversion *c;
     *out = NULL;
     iso_status status = iso_conversion_create(ctx, params, in, to, options, &target, &c);
     if (status != ISO_OK) return status;
     for (size_t row = 0; status == ISO_OK && row < iso_record_rows(in); row++)
-        status = iso_conversion_put(c, iso_record_const_row(in, row), row + options->first_row);
+        status = iso_conversion_put(c, iso_record_const_row(in, row), row + 1);
     if (status == ISO_OK) status = iso_conversion_end(c, summary);
     iso_conversion_free(c);
     if (status != ISO_OK) iso_record_free(w.out), w.out = NULL;

@@ -55,6 +55,7 @@ typedef struct iso_stated {
 typedef struct iso_conversion_summary {
     size_t rows, bad;     /* all rows, and those that could not be converted                                */
     size_t missed;        /* rows farther than max_defect from the orbit of the row before, or before it in time */
+    size_t missed_line;   /* of the first of them                                                           */
     iso_worst constraint; /* ball: | |n| - 1 | and (omega,n)/|omega|; point: likewise                       */
     /* Ball: h against that of the first row; point: H against its level; relative to the size of the terms. */
     iso_worst energy;
@@ -87,7 +88,7 @@ typedef struct iso_conversion_options {
     bool shift_J;
     double row_tolerance; /* 0: that of the header                                                            */
     double max_defect;    /* NAN: by the tolerances and digits of the rows, 1e-5 or more                      */
-    size_t first_row;     /* its number in messages about a whole record, and in its summary                  */
+    size_t first_row;     /* its number in messages about a whole record; in its summary rows count from 1     */
 } iso_conversion_options;
 
 /* Tolerance 1e-14, J as it is. */

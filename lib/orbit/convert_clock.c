@@ -8,6 +8,7 @@
 #include "base/vec3_impl.h"
 #include "model/model_impl.h"
 #include "orbit/convert_impl.h"
+#include "orbit/watch_impl.h"
 
 /* How far n moves in the time by which the file's other clock, if it has one, is wrong since the last row. */
 static double late(const iso_conversion *c, const conversion_row *r, double gained)
@@ -47,18 +48,12 @@ static void add_drift(iso_conversion *c, const conversion_row *r, const iso_row_
     if (c->moved >= 0.5) close_drift(c);
 }
 
-/* Names a row whose time turns back, or that is not on the orbit of the row before it. It is not known which of the two
- * is damaged. What rows drift is counted anew behind it. */
-static iso_status name_missed(iso_conversion *c, const conversion_row *r, double step, double defect)
+/* Names a row that is converted as it stands. It is not known whether it or the row before is damaged. What rows drift is
+ * counted anew behind it. */
+static iso_status name_missed(iso_conversion *c, const conversion_row *r, const char *text)
 {
-    char text[160];
-    const bool back = step * c->direction < 0;
-    if (!back && defect <= c->summary.max_defect) return ISO_OK;
-    if (back)
-        snprintf(text, sizeof text, "%s turns back: sort the rows by time", iso_clock_name(c->own));
-    else
-        snprintf(text, sizeof text, "this row is %.2g away from the orbit through the row before", defect);
-    c->summary.missed++;
+    iso_conversion_summary *s = &c->summary;
+    if (s->missed++ == 0) s->missed_line = r->line;
     close_drift(c);
     return c->target.missed(c->target.data, r->line, text);
 }
@@ -74,28 +69,65 @@ static iso_status keep(iso_conversion *c, conversion_row *r)
     return iso_conversion_bad(c, r->line, ISO_NUMERICAL);
 }
 
+/* The orbit of the row before does not get to this one. If that happens to two rows one after the other, the row before
+ * is the damaged one: the next gap begins behind it, and how long the other clock took is not known. */
+static iso_status cannot_reach(iso_conversion *c, conversion_row *r, iso_status why)
+{
+    char text[160];
+    const bool ends = why == ISO_NO_MEMORY || why == ISO_STOPPED;
+    if (ends || !c->unreached) return c->unreached = true, iso_conversion_bad(c, r->line, why);
+    c->unreached = false;
+    c->summary.error = INFINITY;
+    snprintf(text, sizeof text,
+             "the orbit through the row before cannot be followed to this one: %s goes on without the time between",
+             iso_clock_name(c->other));
+    ISO_TRY(name_missed(c, r, text));
+    return keep(c, r);
+}
+
+/* A damaged row may be very fast, or have a time that is far away: steps are bound by the angle by which the slower of
+ * both rows turns meanwhile, ten for each radian, and by LONG times the longest angle so far. Returns the angle. */
+static double bound_steps(iso_conversion *c, const conversion_row *r)
+{
+    const double LONG = 1e4, FEW = 1e4;
+    const double angle = fabs(r->time - c->last.time) / c->unit_own * fmin(largest(r->own), largest(c->last.own));
+    c->max_steps =
+        (long)fmin(ISO_MAX_ROW_STEPS, FEW + 10 * (c->longest > 0 ? fmin(angle, LONG * c->longest) : angle));
+    return angle;
+}
+
 iso_status iso_conversion_follow(iso_conversion *c, const double row[], conversion_row *r)
 {
     iso_row_gap gap;
     double lost;
+    char text[160];
     iso_conversion_summary *s = &c->summary;
     iso_rows_take(&c->rows, row);
     if (c->good == 1) return keep(c, r);
+    const double angle = bound_steps(c, r);
     const bool by_steps = !iso_rows_measure(&c->rows, c->typical, &gap);
     const iso_status reached = by_steps ? iso_rows_integrate(&c->rows, &gap) : ISO_OK;
-    if (reached != ISO_OK) return iso_conversion_bad(c, r->line, reached); /* the next gap begins at the row before */
-    const double gained = gap.gained[c->other], defect = fmax(gap.miss, fabs(late(c, r, gained)));
+    if (reached != ISO_OK) return cannot_reach(c, r, reached);
+    c->unreached = false;
+    c->longest = fmax(c->longest, angle);
+    const double gained = gap.gained[c->other], off = late(c, r, gained);
+    const double defect = iso_larger(iso_larger(0, gap.miss), off);
+    const bool back = gap.step * c->direction < 0, missed = back || !(defect <= s->max_defect);
     by_steps ? s->integrated++ : s->between++;
     iso_worst_note(&s->defect, defect, r->line);
-    const size_t missed = s->missed;
-    ISO_TRY(name_missed(c, r, gap.step, defect));
-    if (s->missed == missed) add_drift(c, r, &gap);
+    if (back)
+        snprintf(text, sizeof text, "%s turns back: sort the rows by time", iso_clock_name(c->own));
+    else
+        snprintf(text, sizeof text, "this row is %.2g away from the orbit through the row before", defect);
+    if (missed) ISO_TRY(name_missed(c, r, text));
+    if (!missed) add_drift(c, r, &gap);
+    if (!missed && c->direction == 0 && gap.step != 0) c->direction = gap.step > 0 ? 1 : -1;
     /* what rows miss as a rule; a large defect must not hide the next */
     c->typical = 0.9 * c->typical + 0.1 * fmin(defect, fmax(1e-9, 100 * c->typical));
-    if (c->direction == 0 && gap.step != 0) c->direction = gap.step > 0 ? 1 : -1;
     c->sum = iso_two_sum(c->sum, gained, &lost);
     c->lost += lost;
     s->error += gap.error[c->other] + sensitivity(c) * defect * fabs(gained);
+    if (!(defect <= s->max_defect)) s->error += fabs(gained); /* nothing is known of it */
     return keep(c, r);
 }
 

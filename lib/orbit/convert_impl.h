@@ -41,10 +41,13 @@ struct iso_conversion {
     iso_orbit *first;
     iso_units units;
     double unit_from, unit_to;            /* of the fast vectors   */
-    double unit_own, unit_other;          /* of the clocks         */
+    double unit_own;                      /* of its own clock */
     double energy;                        /* of the first row      */
     iso_rows rows;                        /* not used without own clock */
     conversion_row last;                  /* the row before             */
+    long max_steps;                       /* from it to the row in hand          */
+    double longest;                       /* angle from a row to the next so far */
+    bool unreached;                       /* its orbit did not get to the row behind it */
     size_t marks;                         /* bad rows before the first good one                              */
     double direction, typical;            /* of time; size of defects                                   */
     double drift[ISO_STATE], late, moved; /* see iso_conversion_summary.drift                            */

@@ -31,7 +31,7 @@ static iso_status open_orbit(const iso_conversion *c, iso_start start, bool cloc
     o.effects = &c->effects;
     o.tolerance = c->tolerance;
     o.with_clock[c->other] = clock;
-    o.max_steps = ISO_MAX_ROW_STEPS;
+    o.max_steps = c->max_steps;
     return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
 }
 
@@ -64,7 +64,7 @@ static iso_status check_energy(iso_conversion *c, conversion_row *r)
     double size;
     if (c->from == ISO_BALL) {
         const double h = iso_system_ball.energy(&iso_orbit_model(c->first)->problem, r->own, &size);
-        if (c->summary.energy.line == 0) c->energy = h;
+        if (c->good == 0) c->energy = h;
         iso_worst_note(&c->summary.energy, h == c->energy ? 0 : (h - c->energy) / size, r->line);
         return ISO_OK;
     }
@@ -170,7 +170,6 @@ static iso_status open_units(iso_conversion *c, const conversion_row *r)
     c->unit_from = c->from == ISO_BALL ? c->units.w : unit_M;
     c->unit_to = c->from == ISO_BALL ? unit_M : c->units.w;
     c->unit_own = iso_unit(&c->units, iso_clock_dimension(c->own));
-    c->unit_other = iso_unit(&c->units, iso_clock_dimension(c->other));
     return ISO_OK;
 }
 

@@ -170,24 +170,25 @@ bool iso_conversion_stated_words(const iso_conversion_summary *s, int i, char wo
 
 bool iso_conversion_verdict(const iso_conversion_summary *s, char text[ISO_VERDICT_SIZE], size_t *at)
 {
-    const iso_worst *worst = s->drift.value > s->defect.value ? &s->drift : &s->defect;
-    const bool most = isfinite(s->max_drift) && s->missed > (s->between + s->integrated) / 10;
-    *at = worst->line;
+    static const char *const equations = "these rows do not solve the equations that are stated for them (k, J, eps, "
+                                         "clocks), or have too few digits";
+    enum { FEW = 4 }; /* damaged rows of a short file */
+    const bool most = isfinite(s->max_drift) && s->missed > FEW && s->missed > (s->between + s->integrated) / 10;
     if (!s->checked) return false;
-    if (most || !(s->drift.value <= s->max_drift))
-        snprintf(
-            text, ISO_VERDICT_SIZE,
-            "these rows do not solve the equations that are stated for them (k, J, eps, clocks), or have too few "
-            "digits: they drift off by %.2g in half a radian or one interval, whichever is longer",
-            worst->value);
-    else if (s->missed > 0)
+    if (!(s->drift.value <= s->max_drift)) {
+        *at = s->drift.line;
         snprintf(text, ISO_VERDICT_SIZE,
-                 "rows away from the orbit through the row before: %zu, the farthest by %.2g; they were converted as "
-                 "they stand",
-                 s->missed, s->defect.value);
-    else
-        return false;
-    return true;
+                 "%s: they drift off by %.2g in half a radian or one interval, whichever is longer", equations,
+                 s->drift.value);
+        return true;
+    }
+    *at = s->missed_line;
+    if (s->missed > 0)
+        snprintf(text, ISO_VERDICT_SIZE,
+                 "%s%srows away from the orbit through the row before, or before it in time: %zu, the farthest by "
+                 "%.2g; they were converted as they stand",
+                 most ? equations : "", most ? ": " : "", s->missed, s->defect.value);
+    return s->missed > 0;
 }
 
 /* --- the header of the result ----------------------------------------------------------------------------------- */

@@ -212,6 +212,7 @@ iso_status iso_walk_go(iso_walk *w)
         status = walk_group(&g);
     }
     free_room(&g);
+    w->group = NULL;
     return status;
 }
 

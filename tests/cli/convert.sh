@@ -181,7 +181,7 @@ damage 4 1 0.1 ball.csv
 refuses 3 "damaged.csv:15: t turns back" convert --strict --to point damaged.csv -o none.csv
 check_not "a time that turns back, --strict: no file" test -e none.csv
 run 1 convert --to point damaged.csv -o damaged_point.csv
-for words in "damaged.csv:15: t turns back" "damaged.csv:16: this row is" "the row before: 2, the farthest by"; do
+for words in "damaged.csv:15: t turns back" "damaged.csv:16: this row is" "or before it in time: 2, the farthest by"; do
     check "$words" grep -q "$words" err
 done
 check "the states of all rows" test "$(rows damaged_point.csv | cut -d, -f2-)" = "$(rows point.csv | cut -d, -f2-)"

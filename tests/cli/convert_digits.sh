@@ -83,7 +83,7 @@ for count in 20 21 400; do
     check "all are counted" grep -q "^isoroll: bad.csv: $count of 401 rows could not be converted" err
     case $count in
     20) check_not "none is unnamed" grep -q "are not named" err ;;
-    *) check "the others are counted" grep -q "^isoroll: bad.csv: $((count - 20)) more bad rows are not named$" err ;;
+    *) check "the others are counted" grep -q "^isoroll: bad.csv: $((count - 20)) more rows are not named$" err ;;
     esac
     check "no more lines" test "$(wc -l <err)" -le 22
 done

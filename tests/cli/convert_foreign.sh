@@ -94,6 +94,13 @@ awk -F, -v OFS=, -v OFMT=%.17g -v CONVFMT=%.17g "NR == 100 || NR == 101 || NR ==
 run 1 convert --quiet --to point pair.csv -o /dev/null
 check "a damaged pair" test "$(sed -n 's/^isoroll: pair.csv:\([0-9]*\): this.*/\1/p' err | tr '\n' ' ')" = "100 101 102 110 111 "
 
+# --- behind a row so fast that its orbit is not followed, the clock goes on without the time between, and says so
+awk -F, -v OFS=, -v OFMT=%.17g -v CONVFMT=%.17g 'NR == 100 { for (i = 2; i <= 4; i++) $i *= 1e12 } { print }' ball.csv >fast.csv
+run 1 convert --to point fast.csv -o fast_point.csv
+check "a fast row" test "$(sed -n 's/^isoroll: fast.csv:\(1[0-9]*\): .*/\1/p' err | head -n 3 | tr '\n' ' ')" = "100 101 102 "
+check "the row behind it is nan" test "$(rows fast_point.csv | grep -c '^nan')" -eq 1
+check "the error of s is not known" grep -q '^# s.error: inf' fast_point.csv
+
 # --- the other clock, where the file has it, is that of the rows
 run 0 run scene.yaml --as both -o both.csv
 run 0 convert --quiet --to point both.csv

@@ -278,6 +278,9 @@ static void check_refusals(void)
         for (int c = 0; c < 3; c++)
             refused(damaged(ISO_BALL, columns[c], 2, 0, bad[i]), ISO_POINT, ISO_BAD_INPUT, row3[c], columns[c]);
     refused(damaged(ISO_BALL, "t", 5, 1, 1e300), ISO_POINT, ISO_BAD_INPUT, "row 6", "a time that no one can reach");
+    r = damaged(ISO_BALL, "t", 0, 1, 0);
+    for (int i = 0; i < 3; i++) iso_record_row(r, 2)[1 + i] *= 1e12;
+    refused(r, ISO_POINT, ISO_NUMERICAL, "row 4", "a row so fast that its orbit is not followed to the next");
     const char *const names[] = {"t", "omega1", "omega2", "omega3", "n1", "n2", "n3"};
     laws_stop_if(ctx, iso_record_create(ctx, 7, names, &r), "a record");
     refused(r, ISO_POINT, ISO_BAD_INPUT, "no rows", "no rows");
@@ -296,11 +299,8 @@ static void check_missed(void)
         const char *column;
         size_t row, missed;
         double factor, term;
-    } cases[] = {{"t", 4, 2, 0, 2.5},
-                 {"t", 3, 2, 0, 3.5},
-                 {"t", 5, 1, 1, 0.25},
-                 {"t", 3, 2, 0, 2},
-                 {"omega1", 0, 0, 1, 0}};
+    } cases[] = {{"t", 4, 2, 0, 2.5}, {"t", 3, 2, 0, 3.5},  {"t", 5, 1, 1, 0.25},
+                 {"t", 3, 2, 0, 2},   {"t", 0, 1, 0, 1000}, {"omega1", 0, 0, 1, 0}};
     const iso_params p = laws_params(-0.3, J_three);
     const iso_conversion_options o = iso_conversion_defaults();
     iso_record *good = damaged(ISO_BALL, "t", 0, 1, 0), *right = convert(good, ISO_POINT);

@@ -9,8 +9,8 @@
 #include "study/chaos/chaos_impl.h"
 #include "study/fields_impl.h"
 
-/* GROUP: orbits that are followed by the point, then by the ball. CHECKED: one of so many starts is followed by the
- * ball, too, if the walk is sampled, for at most CHECK_TURNS. */
+/* GROUP: orbits that are followed by the point, then by the ball; as many as a walk has in memory. CHECKED: one of so
+ * many starts is followed by the ball, too, if the walk is sampled, for at most CHECK_TURNS. */
 enum { GROUP = 1024, TRACE_ROWS = 4000, CHECKED = 16, CHECK_TURNS = 750 };
 
 typedef struct group {

@@ -133,6 +133,7 @@ iso_status iso_checker_flow_begin(checker *c, checked_model *m, const double fir
     iso_orbit *orbit = NULL;
     iso_status status = check_alone(c, m, first);
     if (m->clock < 0 || status != ISO_OK) return status;
+    iso_rows_free(&m->rows);
     m->rows = (iso_rows){.ctx = c->ctx,
                          .model = m->kind,
                          .clock = (iso_clock)m->clock,

@@ -24,10 +24,12 @@ static bool is_of_equations(const checker *c, const char *key)
 {
     char line[ISO_NAME_SIZE];
     if (strcmp(key, "k") == 0 || strcmp(key, "J") == 0 || strcmp(key, "effects") == 0) return true;
-    if (strcmp(key, "radius") == 0 || strcmp(key, "D") == 0) return iso_checker_has_effects(c);
+    const bool radius = strcmp(key, "radius") == 0, D = strcmp(key, "D") == 0;
+    if ((radius || D) && iso_checker_has_effects(c)) return true;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
         const iso_effect *effect = iso_effect_list[e];
         const size_t length = strlen(effect->name);
+        if (D && effect->needs_D && c->effects.on[e] && !c->effects.idle[e]) return true;
         if (!c->effects.on[e] || strncmp(key, effect->name, length) != 0 || key[length] != '.') continue;
         for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
             iso_effect_line(line, effect, n->name);
