@@ -66,5 +66,6 @@ else()
     DEPENDS isoroll_wheel isoroll_wheel_command ${modules} ${ISO_STUB} ${wheel}/NOTICES apps/packaging/date.cmake
       apps/python/pack.py apps/python/README.md LICENSE)
   add_custom_target(wheel DEPENDS ${wheel}/packed)
+  add_dependencies(wheel python_stub)
 endif()
 add_custom_target(sdist COMMAND ${pack} sdist ${wheel} VERBATIM)
