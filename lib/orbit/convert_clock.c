@@ -48,8 +48,8 @@ static void add_drift(iso_conversion *c, const conversion_row *r, const iso_row_
     if (c->moved >= 0.5) close_drift(c);
 }
 
-/* Names a row that is converted as it stands. It is not known whether it or the row before is damaged. What rows drift is
- * counted anew behind it. */
+/* Names a row that is converted as it stands. It is not known whether it or the row before is damaged. What rows drift
+ * is counted anew behind it. */
 static iso_status name_missed(iso_conversion *c, const conversion_row *r, const char *text)
 {
     iso_conversion_summary *s = &c->summary;
@@ -115,13 +115,16 @@ iso_status iso_conversion_follow(iso_conversion *c, const double row[], conversi
     const bool back = gap.step * c->direction < 0, missed = back || !(defect <= s->max_defect);
     by_steps ? s->integrated++ : s->between++;
     iso_worst_note(&s->defect, defect, r->line);
-    if (back)
+    if (!missed) {
+        add_drift(c, r, &gap);
+        if (c->direction == 0 && gap.step != 0) c->direction = gap.step > 0 ? 1 : -1;
+    } else if (back) {
         snprintf(text, sizeof text, "%s turns back: sort the rows by time", iso_clock_name(c->own));
-    else
+        ISO_TRY(name_missed(c, r, text));
+    } else {
         snprintf(text, sizeof text, "this row is %.2g away from the orbit through the row before", defect);
-    if (missed) ISO_TRY(name_missed(c, r, text));
-    if (!missed) add_drift(c, r, &gap);
-    if (!missed && c->direction == 0 && gap.step != 0) c->direction = gap.step > 0 ? 1 : -1;
+        ISO_TRY(name_missed(c, r, text));
+    }
     /* what rows miss as a rule; a large defect must not hide the next */
     c->typical = 0.9 * c->typical + 0.1 * fmin(defect, fmax(1e-9, 100 * c->typical));
     c->sum = iso_two_sum(c->sum, gained, &lost);
