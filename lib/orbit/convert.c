@@ -211,7 +211,7 @@ static iso_status stop_at(void *data, size_t line, iso_status why, const char *w
     return iso_context_fail(w->ctx, why, "", "row %zu: %s", line - 1 + w->first_row, words);
 }
 
-/* It is counted. */
+/* A missed row ends nothing: the summary counts it. */
 static iso_status go_on(void *data, size_t line, const char *words)
 {
     (void)data, (void)line, (void)words;

@@ -85,8 +85,9 @@ static iso_status cannot_reach(iso_conversion *c, conversion_row *r, iso_status 
     return keep(c, r);
 }
 
-/* A damaged row may be very fast, or have a time that is far away: steps are bound by the angle by which the slower of
- * both rows turns meanwhile, ten for each radian, and by LONG times the longest angle so far. Returns the angle. */
+/* Limits the steps to this row, which may be damaged: very fast, or far away in time. Ten steps are allowed for each
+ * radian that the slower of both rows turns meanwhile; an angle counts up to LONG times the longest one so far. Returns
+ * the angle. */
 static double bound_steps(iso_conversion *c, const conversion_row *r)
 {
     const double LONG = 1e4, FEW = 1e4;

@@ -12,12 +12,6 @@
 
 /* --- states ----------------------------------------------------------------------------------------------------- */
 
-static void state_of(const iso_conversion *c, const double row[], double y[ISO_STATE])
-{
-    const int first = c->from == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT;
-    for (int i = 0; i < ISO_STATE; i++) y[i] = row[c->columns[first + i]];
-}
-
 static iso_status start_of(const iso_conversion *c, const double y[ISO_STATE], iso_start *start)
 {
     return iso_start_from_row(c->ctx, c->from, y, isnan(c->stated_eps) ? NULL : &c->stated_eps, false,
@@ -40,7 +34,7 @@ iso_status iso_conversion_open(void *data, const double row[], iso_orbit **orbit
     const iso_conversion *c = data;
     iso_start start;
     double y[ISO_STATE];
-    state_of(c, row, y);
+    iso_row_state(c->columns, c->from, row, y);
     ISO_TRY(start_of(c, y, &start));
     return open_orbit(c, start, true, orbit);
 }
@@ -183,7 +177,7 @@ static iso_status check_finite(const iso_conversion *c, const double row[])
 iso_status iso_conversion_read_row(iso_conversion *c, const double row[], conversion_row *r)
 {
     iso_start start;
-    state_of(c, row, r->y);
+    iso_row_state(c->columns, c->from, row, r->y);
     r->time = c->own_column >= 0 ? row[c->own_column] : 0;
     ISO_TRY(check_finite(c, row));
     ISO_TRY(start_of(c, r->y, &start));

@@ -11,16 +11,10 @@
 #include "model/model_impl.h"
 #include "orbit/watch_impl.h"
 
-static void state_of(const iso_rows *r, const double row[], double y[ISO_STATE])
-{
-    const int first = r->model == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT;
-    for (int i = 0; i < ISO_STATE; i++) y[i] = row[r->columns[first + i]];
-}
-
 static void add_sample(iso_rows *r, const double row[])
 {
     double own[ISO_STATE];
-    state_of(r, row, own);
+    iso_row_state(r->columns, r->model, row, own);
     for (int i = 0; i < 3; i++) own[i] /= r->unit;
     iso_two_point_add(r->quadrature, own);
 }
@@ -111,7 +105,7 @@ iso_status iso_rows_integrate(iso_rows *r, iso_row_gap *gap)
         gap->gained[k] = gap->reached.clock[k];
         gap->error[k] = fmax(tolerance, 4 * DBL_EPSILON) * fabs(gap->gained[k]);
     }
-    state_of(r, r->now, here);
+    iso_row_state(r->columns, r->model, r->now, here);
     const double *there = r->model == ISO_BALL ? gap->reached.ball : gap->reached.point;
     gap->miss = iso_distance(here, there);
     for (int v = 0; v < ISO_STATE; v += 3) {

@@ -48,6 +48,13 @@ typedef struct iso_rows {
     bool measured, last_measured;        /* which of them the quadrature has seen */
 } iso_rows;
 
+/* The state of a model in a row. */
+static inline void iso_row_state(const int columns[], iso_model_kind model, const double row[], double y[ISO_STATE])
+{
+    const int first = model == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT;
+    for (int i = 0; i < ISO_STATE; i++) y[i] = row[columns[first + i]];
+}
+
 /* The first row of an orbit, which that orbit begins at; rows before are forgotten. orbit NULL: it is not known, so that
  * each gap is integrated. tolerance: relative error of a clock's gain. Errors: ISO_NO_MEMORY. */
 iso_status iso_rows_begin(iso_rows *rows, const iso_orbit *orbit, const double first[], double tolerance);

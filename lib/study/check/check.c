@@ -80,7 +80,7 @@ static iso_status find_start(const checker *c, const checked_model *m, const dou
                              iso_effects *effects)
 {
     double y[ISO_STATE];
-    iso_checker_state(c, m, row, y);
+    iso_row_state(c->columns, m->kind, row, y);
     const iso_status status = m->rows.quadrature
                                   ? iso_start_from_row(c->ctx, m->kind, y, m->has_eps ? &m->eps : NULL, false,
                                                        iso_record_row_tolerance(c->record), start)
@@ -122,8 +122,8 @@ static iso_status check_model(checker *c, checked_model *m, const double row[])
 static void check_map(checker *c, const double row[])
 {
     double ball[ISO_STATE], point[ISO_STATE];
-    iso_checker_state(c, &c->model[ISO_BALL], row, ball);
-    iso_checker_state(c, &c->model[ISO_POINT], row, point);
+    iso_row_state(c->columns, ISO_BALL, row, ball);
+    iso_row_state(c->columns, ISO_POINT, row, point);
     iso_ball_to_point(&c->units.own, ball, ball);
     scale(ball, iso_unit(&c->units, iso_system_point.fast_dimension));
     iso_checker_note(&c->map, "map", "the ball's point (18) against the record's", iso_distance(ball, point),

@@ -29,11 +29,6 @@ void iso_checker_note(iso_residuals *found, const char *name, const char *what, 
     at->row = row;
 }
 
-void iso_checker_state(const checker *c, const checked_model *m, const double row[], double y[ISO_STATE])
-{
-    for (int i = 0; i < ISO_STATE; i++) y[i] = iso_checker_at(c, row, m->first + i);
-}
-
 iso_effects iso_checker_effects(const checker *c, iso_model_kind kind)
 {
     if (kind == ISO_BALL) return c->effects;

@@ -96,8 +96,8 @@ static iso_status check_step(checker *c, checked_model *m, const double row[])
 static bool is_near(const checker *c, const checked_model *m, const double row[])
 {
     double a[ISO_STATE], b[ISO_STATE];
-    iso_checker_state(c, m, m->rows.last, a);
-    iso_checker_state(c, m, row, b);
+    iso_row_state(c->columns, m->kind, m->rows.last, a);
+    iso_row_state(c->columns, m->kind, row, b);
     return iso_distance(a, b) <= NEAR;
 }
 

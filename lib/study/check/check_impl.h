@@ -123,8 +123,6 @@ static inline double iso_checker_at(const checker *c, const double row[], int co
     return row[c->columns[column]];
 }
 
-void iso_checker_state(const checker *c, const checked_model *m, const double row[], double y[ISO_STATE]);
-
 /* The effects of a model's orbit. A point shows nothing that belongs to the ball alone, and its level follows from
  * each row if eps is known. */
 iso_effects iso_checker_effects(const checker *c, iso_model_kind kind);
