@@ -2,6 +2,8 @@
 #include <math.h>
 
 #include "base/number_impl.h"
+#include "picture/picture_impl.h"
+#include "plot/draw.h"
 #include "say.h"
 #include "scene_options.h"
 #include "shell.h"
@@ -126,8 +128,8 @@ static iso_status describe(shell *s)
     const iso_separatrix_splitting *at = clearest(t);
     const double *J = s->scene.params.J;
     const bool by_level = iso_separatrix_by_level(t);
-    char k[ISO_PLOT_FRACTION + 8] = "", level[32] = "", number[ISO_PLOT_FRACTION];
-    if (at && (by_level || t->rows == 1)) snprintf(k, sizeof k, "k = %s, ", iso_plot_fraction(number, at->k));
+    char k[ISO_PICTURE_FRACTION + 8] = "", level[32] = "", number[ISO_PICTURE_FRACTION];
+    if (at && (by_level || t->rows == 1)) snprintf(k, sizeof k, "k = %s, ", iso_picture_fraction(number, at->k));
     if (at && !by_level && at->level != 0) snprintf(level, sizeof level, ", level %.6g", at->level);
     snprintf(s->title, sizeof s->title, "Splitting of the separatrix        %sJ = (%.6g, %.6g, %.6g)%s", k, J[0],
              J[1], J[2], level);
@@ -140,11 +142,19 @@ static int draw(const shell *s)
     const iso_separatrix_table *t = s->result.found;
     const iso_separatrix_splitting *at = clearest(t);
     iso_record *curve = NULL;
+    char at_number[ISO_PICTURE_FRACTION + 16], number[ISO_PICTURE_FRACTION];
+    const bool by_level = iso_separatrix_by_level(t);
     if (interrupted()) return EXIT_DONE;
     iso_status status = iso_separatrix_curve(s->ctx, at->k, s->scene.params.J, at->level, halves_of(at), &curve);
+    snprintf(at_number, sizeof at_number, "%s = %s", by_level ? "level" : "k",
+             iso_picture_fraction(number, number_of(at, by_level)));
+    if (status == ISO_OK) {
+        iso_record_set_kind(curve, "separatrix");
+        status = iso_record_set(s->ctx, curve, "at", at_number);
+    }
+    if (status == ISO_OK) status = iso_record_set_numbers(s->ctx, curve, "axis", 1, (double[]){at->section + 1});
     if (status == ISO_OK)
-        status = iso_plot_splitting(s->ctx, &s->told->plot, s->title, t->rows > 1 ? s->result.table[0] : NULL, curve,
-                                    number_of(at, iso_separatrix_by_level(t)), at->section);
+        status = plot_tables(s->ctx, &s->told->plot, (const iso_record *[]){s->result.table[0], curve, NULL});
     iso_record_free(curve);
     return finish(s->ctx, status);
 }

@@ -166,17 +166,6 @@ void view_note_turn(view_page *page);
  * memory is short, parts are missing; json_whole() then says so. */
 json_t *view_data(const view_page *page);
 
-/* The files of view/ and three.js, which the build puts into the program (view/embed.cmake). */
-typedef struct view_file {
-    const char *name; /* "page", "style", "three", "clocks", ...: without its ending; NULL after the last */
-    const unsigned char *bytes;
-    size_t length; /* 0: the build had no such file */
-} view_file;
-extern const view_file view_files[];
-
-/* The file called `name`, or the row without a name, which is empty. */
-const view_file *view_file_find(const char *name);
-
 /* Whether this build has what a page needs. Errors: ISO_BAD_ARGUMENT: it was built without three.js. */
 iso_status view_check_build(iso_context *ctx, bool live);
 

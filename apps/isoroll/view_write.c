@@ -6,18 +6,19 @@
  */
 #include <string.h>
 
+#include "embedded.h"
 #include "io/output_impl.h"
 #include "json.h"
 #include "view.h"
 
 iso_status view_check_build(iso_context *ctx, bool live)
 {
-    if (live && !view_file_find("library")->name)
+    if (live && !embedded_find(view_files, "library")->name)
         return iso_context_fail(
             ctx, ISO_BAD_ARGUMENT, "",
             "this isoroll was built without the library as WebAssembly, which --live needs: install "
             "emscripten and node-acorn, get sources with apps/live/sources.sh, and build again");
-    if (view_file_find("three")->length > 0) return ISO_OK;
+    if (embedded_find(view_files, "three")->length > 0) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                             "this isoroll was built without three.js, which a page needs: install it (package "
                             "libjs-three) and build again, or build with cmake -DISO_THREE_JS=three.min.js");
@@ -54,7 +55,7 @@ static bool is_of_live(const char *name)
 
 /* Writes a file of view/ with what its lines "@name@" stand for. False: there is no memory for it. Errors of writing
  * are found at the end, by iso_output_check. */
-static bool put_file(FILE *to, const view_file *file, const json_t *data, bool live)
+static bool put_file(FILE *to, const embedded_file *file, const json_t *data, bool live)
 {
     const char *at = (const char *)file->bytes, *end = at + file->length;
     char name[16];
@@ -66,7 +67,7 @@ static bool put_file(FILE *to, const view_file *file, const json_t *data, bool l
         } else if (strcmp(name, "data") == 0) {
             if (json_dump_callback(data, put_escaped, to, JSON_COMPACT | JSON_REAL_PRECISION(17)) != 0 && !ferror(to))
                 return false;
-        } else if ((live || !is_of_live(name)) && !put_file(to, view_file_find(name), data, live)) {
+        } else if ((live || !is_of_live(name)) && !put_file(to, embedded_find(view_files, name), data, live)) {
             return false;
         }
         fputc('\n', to);
@@ -82,7 +83,7 @@ iso_status view_write(iso_context *ctx, const char *path, const view_page *page)
     json_t *data = view_data(page);
     iso_status status = json_whole(data) ? iso_output_open(ctx, path, &out) : iso_context_no_memory(ctx, "the page");
     if (status == ISO_OK) {
-        status = put_file(iso_output_stream(out), view_file_find("page"), data, page->live)
+        status = put_file(iso_output_stream(out), embedded_find(view_files, "page"), data, page->live)
                      ? iso_output_check(ctx, out)
                      : iso_context_no_memory(ctx, "the page");
         const iso_status closed = iso_output_close(ctx, out, status == ISO_OK);

@@ -24,7 +24,7 @@ grep -rnE '^(<<<<<<<|>>>>>>>) ' README.md lib apps examples tests | complain "ma
 # of apps are part of the house and may include private ones. Sources and private headers write "floor/name.h"; public
 # ones "../floor/name.h" or "name.h", so that they work where installed.
 find lib apps examples -name '*.[ch]' ! -path lib/isoroll.h -exec awk '
-    BEGIN { n = split("base 0 model 1 map 2 method 2 exact 2 orbit 3 study 4 io 4 sweep 5 foreign 6", f)
+    BEGIN { n = split("base 0 model 1 map 2 method 2 exact 2 orbit 3 study 4 io 4 sweep 5 picture 6 foreign 7", f)
             for (i = 1; i < n; i += 2) floor[f[i]] = f[i + 1] }
     /^[ \t]*#[ \t]*include[ \t]*"/ {
         split($0, quoted, "\""); split(FILENAME, from, "/"); path = quoted[2]; shape = "floor/name.h or floor/room/name.h"

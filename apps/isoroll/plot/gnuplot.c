@@ -144,7 +144,7 @@ static iso_status open_files(iso_context *ctx, const iso_plot_page *page)
     return g.script && g.complaints ? ISO_OK : iso_file_trouble(ctx, "open", "a temporary file");
 }
 
-FILE *iso_gnuplot_open(iso_context *ctx, const iso_plot_page *page, int width, int height)
+static FILE *begin(iso_context *ctx, const iso_plot_page *page)
 {
     g.output = NULL;
     g.script = g.complaints = NULL;
@@ -153,8 +153,30 @@ FILE *iso_gnuplot_open(iso_context *ctx, const iso_plot_page *page, int width, i
     g.status = open_files(ctx, page);
     if (!g.script) return stdin; /* takes nothing */
     fprintf(g.script, "# Made by isoroll, for gnuplot 5.4: gnuplot -d SCRIPT >PICTURE%s\n", g.format->extension);
-    put_terminal(g.script, g.format, page, width, height);
     return g.script;
+}
+
+FILE *iso_gnuplot_open(iso_context *ctx, const iso_plot_page *page, int width, int height)
+{
+    FILE *f = begin(ctx, page);
+    if (g.script) put_terminal(f, g.format, page, width, height);
+    return f;
+}
+
+FILE *iso_gnuplot_begin(iso_context *ctx, const iso_plot_page *page)
+{
+    FILE *to = begin(ctx, page);
+    const format *f = g.format;
+    if (!g.script) return to;
+    const bool sized = page->size.width > 0;
+    fprintf(to,
+            "terminal = \"%s\"; unit = '%s'; in_print = %d; png = %d\n"
+            "per_pixel = %.17g; per_inch = %.17g; per_letter = %.17g; lines = %.17g; points = %.17g\n"
+            "given_width = %.17g; given_height = %.17g\n",
+            f->terminal, f->unit, page->style == ISO_PLOT_IN_PRINT, f->extension[2] == 'n', f->scale, f->inch,
+            f->letter, f->lines, f->points, sized ? given(f, page, page->size.width) : 0,
+            sized ? given(f, page, page->size.height) : 0);
+    return to;
 }
 
 /* ---- Texts ---- */

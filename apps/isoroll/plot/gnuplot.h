@@ -22,6 +22,9 @@ iso_status iso_gnuplot_check_files(iso_context *ctx, const iso_plot_page *page);
  * NULL; what goes wrong, closing tells. */
 FILE *iso_gnuplot_open(iso_context *ctx, const iso_plot_page *page, int width, int height);
 
+/* The same of a picture that pictures/page.gp lays out: the script begins with what the page is to be. */
+FILE *iso_gnuplot_begin(iso_context *ctx, const iso_plot_page *page);
+
 /* Whether a picture of one panel is one column wide: in print, if no other size is asked for. */
 bool iso_gnuplot_is_narrow(const iso_plot_page *page);
 

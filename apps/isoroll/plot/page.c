@@ -93,6 +93,7 @@ iso_status iso_plot_check_page(iso_context *ctx, const iso_plot_page *page)
                        : page->size.width > 0 ? "size"
                        : page->title          ? "title"
                        : page->script         ? "script"
+                       : page->template       ? "template"
                                               : iso_plot_section_wish(page);
     if (page->script && strcmp(page->script, "-") == 0)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "script",

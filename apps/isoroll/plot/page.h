@@ -29,6 +29,7 @@ typedef struct iso_plot_page {
     const char *path;     /* of the picture, which ends in .svg, .png or .pdf; NULL: no picture is asked for */
     const char *title;    /* in place of its own; "": none; NULL: its own                                    */
     const char *script;   /* gets gnuplot's script with its data; NULL: it is not kept                       */
+    const char *template; /* a file of gnuplot in place of pictures/KIND.gp; NULL: that one                    */
     iso_plot_style style; /* not given: the screen's                                                         */
     iso_plot_size size;
     iso_plot_window window;           /* of a section; not given: the whole                          */
@@ -70,7 +71,9 @@ const char *iso_plot_style_word(int i);             /* "screen", "print"        
                  "of the picture: its title; none: it has no title", iso_plot_set_title, type, field.title,          \
                  .aside = true),                                                                                     \
         ROW_OF_FILE("script", "FILE", "a file", "of the picture: write gnuplot's script, with its data",             \
-                    iso_set_text, type, field.script, 0, OPTION_WRITES)
+                    iso_set_text, type, field.script, 0, OPTION_WRITES),                                             \
+        ROW_OF_FILE("template", "FILE", "a file", "of the picture: draw it by this template of gnuplot",             \
+                    iso_set_text, type, field.template, 0, OPTION_READS)
 
 /* The rows of a command that draws sections. */
 #define ROWS_OF_SECTION(type, field)                                                                                 \

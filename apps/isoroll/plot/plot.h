@@ -116,14 +116,6 @@ iso_status iso_plot_exponents(iso_context *ctx, const iso_plot_page *page, const
  * backend. The first methods of each, which should be the fastest, have names. Errors: as iso_plot_momentum. */
 iso_status iso_plot_cost(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *table);
 
-/* Of the splitting of the separatrix. On the left |m| over k or the level, as spots with errors, blue for m > 0,
- * vermillion for m < 0, triangles where m is not distinguished from 0: they are upper bounds. On the right, if
- * there is a curve, W^u(O) and its mirror W^s(O') on the section. table NULL: only the right one. curve: columns u
- * and x, as iso_separatrix_curve has them; NULL: none. at: the k or level of the curve. axis: of its section, 0 to
- * 2. Errors: as iso_plot_momentum. */
-iso_status iso_plot_splitting(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *table,
-                              const iso_record *curve, double at, int axis);
-
 /* How an orbit is drawn: 0: in colours; grey, behind the others; dark. */
 typedef enum iso_plot_shade {
     ISO_PLOT_COLOURED,

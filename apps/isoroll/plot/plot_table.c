@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "orbit/description.h"
+#include "plot/draw.h"
 #include "plot/gnuplot.h"
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
@@ -190,11 +191,6 @@ static iso_status draw_orbits(iso_context *ctx, const iso_plot_page *page, const
     return status;
 }
 
-static iso_status draw_splitting(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *r)
-{
-    return iso_plot_splitting(ctx, page, title, r, NULL, NAN, 0);
-}
-
 /* --- the kinds -------------------------------------------------------------------------------------------------- */
 
 static const struct kind {
@@ -209,7 +205,6 @@ static const struct kind {
     {"periodic follow", "Periodic orbits followed", {"branch", "u", "trace", "event"}, false, draw_branches},
     {"periodic chart", "Where rotations are stable", {"kind", "k", "least", "greatest"}, false, draw_stability},
     {"cost", "Time and error of the methods", {"backend", "method", "error", "total"}, false, iso_plot_cost},
-    {"splitting", "Splitting of the separatrix", {"k", "level", "m", "error"}, false, draw_splitting},
 };
 
 static const struct kind *find_kind(const char *name)
@@ -221,6 +216,8 @@ static const struct kind *find_kind(const char *name)
 
 bool iso_plot_has_kind(const char *name)
 {
+    for (int i = 0; iso_picture_kind(i); i++)
+        if (strcmp(iso_picture_kind(i), name) == 0) return true;
     return find_kind(name) != NULL;
 }
 
@@ -241,6 +238,7 @@ iso_status iso_plot_table(iso_context *ctx, const iso_plot_page *page, const iso
     char title[ISO_PLOT_HEADING];
     iso_params p;
     const struct kind *kind = find_kind(iso_record_kind(r));
+    if (!kind) return plot_tables(ctx, page, (const iso_record *[]){r, NULL});
     ISO_TRY(check(ctx, r, kind));
     ISO_TRY(iso_record_params(ctx, r, &p));
     const char *own = iso_record_get(r, "title"), *wish = iso_plot_section_wish(page);

@@ -1,8 +1,7 @@
 # embed.cmake - writes files as arrays of C:
-#     cmake -DOUTPUT=FILE.c -DFILES=a.js,b.css -DTHREE=three.min.js -P embed.cmake
-# Each file is found by its name without the ending. THREE may be empty: then the array "three" has no bytes.
+#     cmake -DOUTPUT=FILE.c -DARRAY=view_files -DFILES=a.js,b.css -DTHREE=three.min.js -P embed.cmake
+# Each file is found by its name without the ending. Where THREE is given, but empty, the array "three" has no bytes.
 string(REPLACE "," ";" files "${FILES}")
-set(arrays)
 set(rows)
 function(add name path)
   set(bytes)
@@ -16,27 +15,13 @@ function(add name path)
   file(APPEND "${OUTPUT}.new" "static const unsigned char file_${name}[] = {${bytes}0};\n")
   set(rows "${rows}    {\"${name}\", file_${name}, ${length}},\n" PARENT_SCOPE)
 endfunction()
-file(WRITE "${OUTPUT}.new" "/* Made by apps/isoroll/view/embed.cmake. */
-#include <string.h>
-
-#include \"view.h\"
-
-")
+file(WRITE "${OUTPUT}.new" "/* Made by apps/isoroll/embed.cmake. */\n#include \"embedded.h\"\n\n")
 foreach(path IN LISTS files)
   get_filename_component(name "${path}" NAME_WE)
   add(${name} "${path}")
 endforeach()
-add(three "${THREE}")
-file(APPEND "${OUTPUT}.new" "
-const view_file view_files[] = {
-${rows}    {NULL, NULL, 0},
-};
-
-const view_file *view_file_find(const char *name)
-{
-    const view_file *file = view_files;
-    while (file->name && strcmp(file->name, name) != 0) file++;
-    return file;
-}
-")
+if(DEFINED THREE)
+  add(three "${THREE}")
+endif()
+file(APPEND "${OUTPUT}.new" "\nconst embedded_file ${ARRAY}[] = {\n${rows}    {NULL, NULL, 0},\n};\n")
 file(RENAME "${OUTPUT}.new" "${OUTPUT}")

@@ -1,0 +1,113 @@
+/* draw.c - a picture as a script of gnuplot (see draw.h). */
+#include "plot/draw.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number_impl.h"
+#include "embedded.h"
+#include "io/replacement_impl.h"
+#include "plot/gnuplot.h"
+
+enum { LONGEST = 110, LONGEST_WORD = 60, MOST_TEMPLATE = 1 << 20 };
+
+/* --- variables -------------------------------------------------------------------------------------------------- */
+
+/* The lines of the picture; keys that are no names of gnuplot, and those of the file that was read, are left out. */
+static void put_lines(FILE *f, const iso_plot_page *page, const iso_record *first)
+{
+    const char *key, *value, *own = iso_record_get(first, "title");
+    double x;
+    fprintf(f, "title = %s\nnarrow_title = %s\n", QUOTED(iso_plot_titled(page, own), LONGEST),
+            TITLE(page, own, LONGEST));
+    for (size_t i = 0; iso_record_line(first, i, &key, &value); i++) {
+        if (strcmp(key, "title") == 0 || key[strspn(key, "abcdefghijklmnopqrstuvwxyz0123456789_")]) continue;
+        if (iso_number_read(value, strlen(value), &x))
+            fprintf(f, isfinite(x) ? "%s = %.17g\n" : "%s = NaN\n", key, x);
+        else
+            fprintf(f, "%s = %s\n", key, QUOTED(value, LONGEST));
+    }
+}
+
+/* --- data ------------------------------------------------------------------------------------------------------- */
+
+/* A word in a block of data, where no octal numbers are read: what gnuplot could take for something else is changed. */
+static void put_word(FILE *f, const char *word)
+{
+    fputc('"', f);
+    for (int i = 0; word[i] && i < LONGEST_WORD; i++) {
+        const unsigned char c = (unsigned char)word[i];
+        fputc(c == '"' || c == '`' ? '\'' : c == '\\' ? '/' : c < 0x20 || c == 0x7F ? ' ' : c, f);
+    }
+    fputc('"', f);
+}
+
+/* Numbers that are not finite are missing. Of words, "" is. */
+static void put_block(FILE *f, const iso_record *r)
+{
+    const size_t columns = iso_record_columns(r);
+    fprintf(f, "$%s << EOD\n", iso_record_kind(r));
+    for (size_t c = 0; c < columns; c++) {
+        put_word(f, iso_record_name(r, c));
+        fputc(c + 1 < columns ? ' ' : '\n', f);
+    }
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        const double *row = iso_record_const_row(r, i);
+        bool any = false; /* a row of NaN alone is a gap of lines: an empty line */
+        for (size_t c = 0; c < columns && !any; c++) any = !isnan(row[c]);
+        for (size_t c = 0; any && c < columns; c++) {
+            if (iso_record_has_words(r, c))
+                put_word(f, iso_record_word(r, row[c]));
+            else
+                fprintf(f, isfinite(row[c]) ? "%.17g" : "NaN", row[c]);
+            if (c + 1 < columns) fputc(' ', f);
+        }
+        fputc('\n', f);
+    }
+    fputs("EOD\n", f);
+}
+
+/* --- the template ----------------------------------------------------------------------------------------------- */
+
+static void put_embedded(FILE *f, const char *name)
+{
+    const embedded_file *file = embedded_find(picture_files, name);
+    fwrite(file->bytes, 1, file->length, f);
+}
+
+static iso_status put_template(iso_context *ctx, FILE *f, const iso_plot_page *page, const char *layout)
+{
+    if (!page->template) return put_embedded(f, layout), ISO_OK;
+    FILE *from = fopen(page->template, "re");
+    char part[4096];
+    size_t got, all = 0;
+    if (!from) return iso_file_trouble(ctx, "open", page->template);
+    while ((got = fread(part, 1, sizeof part, from)) > 0 && (all += got) <= MOST_TEMPLATE) fwrite(part, 1, got, f);
+    const iso_status status = ferror(from) ? iso_file_trouble(ctx, "read", page->template) : ISO_OK;
+    fclose(from);
+    if (status != ISO_OK || all <= MOST_TEMPLATE) return status;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "template", "--template '%s' is larger than 1 MB", page->template);
+}
+
+iso_status plot_draw(iso_context *ctx, const iso_plot_page *page, const iso_picture *picture)
+{
+    FILE *f = iso_gnuplot_begin(ctx, page);
+    put_lines(f, page, picture->table[0]);
+    put_embedded(f, "page");
+    for (int i = 0; i < ISO_PICTURE_TABLES && picture->table[i]; i++) put_block(f, picture->table[i]);
+    const iso_status status = put_template(ctx, f, page, picture->layout);
+    const iso_status closed = iso_gnuplot_close(ctx, status == ISO_OK);
+    return status != ISO_OK ? status : closed;
+}
+
+iso_status plot_tables(iso_context *ctx, const iso_plot_page *page, const iso_record *const table[])
+{
+    iso_picture picture;
+    ISO_TRY(iso_picture_make(ctx, table, NULL, &picture));
+    const iso_status status = plot_draw(ctx, page, &picture);
+    iso_picture_free(&picture);
+    return status;
+}

@@ -1,0 +1,18 @@
+/* draw.h - draws what a picture shows (lib/picture) by a template of gnuplot (apps/isoroll/pictures). */
+#ifndef ISOROLL_DRAW_H
+#define ISOROLL_DRAW_H
+
+#include "picture/picture.h"
+#include "plot/page.h"
+
+/* The script is: variables (the look of the page, and the lines of the picture's first table: a number is a number,
+ * anything else a text), pictures/page.gp, a data block for each table with the names of its columns, and the template
+ * pictures/LAYOUT.gp, or the user's. Whatever the texts are, gnuplot takes them as texts.
+ * Errors: ISO_BAD_ARGUMENT (name of the file), ISO_FILE_TROUBLE (no gnuplot, or what it said; a file cannot be read or
+ * written), ISO_STOPPED, ISO_NO_MEMORY. */
+iso_status plot_draw(iso_context *ctx, const iso_plot_page *page, const iso_picture *picture);
+
+/* Makes the picture of these tables and draws it (iso_picture_make). */
+iso_status plot_tables(iso_context *ctx, const iso_plot_page *page, const iso_record *const table[]);
+
+#endif

@@ -1,0 +1,181 @@
+/* picture.c - the kinds of pictures, and what they share (see picture.h). */
+#include "picture/picture.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "orbit/description.h"
+#include "picture/picture_impl.h"
+
+static const iso_picture_maker *const makers[] = {&iso_picture_splitting};
+enum { MAKERS = sizeof makers / sizeof *makers };
+
+const char *iso_picture_kind(int i)
+{
+    return i >= 0 && i < MAKERS ? makers[i]->kind : NULL;
+}
+
+/* --- what is asked for ------------------------------------------------------------------------------------------ */
+
+const iso_record *iso_picture_given(const iso_picture_request *q, const char *kind)
+{
+    for (const iso_record *const *t = q->table + 1; *t; t++)
+        if (strcmp(iso_record_kind(*t), kind) == 0) return *t;
+    return NULL;
+}
+
+bool iso_picture_option(const iso_picture_request *q, const char *name, char value[static ISO_PICTURE_OPTION])
+{
+    const size_t length = strlen(name);
+    for (const char *line = q->options; line && *line; line += strcspn(line, "\n"), line += *line == '\n') {
+        if (strncmp(line, name, length) != 0 || line[length] != '=') continue;
+        snprintf(value, ISO_PICTURE_OPTION, "%.*s", (int)strcspn(line + length + 1, "\n"), line + length + 1);
+        return true;
+    }
+    return false;
+}
+
+/* Each option must be one that this kind of picture takes. */
+static iso_status check_options(iso_context *ctx, const iso_picture_request *q, const iso_picture_maker *m)
+{
+    for (const char *line = q->options; line && *line; line += strcspn(line, "\n"), line += *line == '\n') {
+        char name[ISO_PICTURE_OPTION];
+        const int length = (int)strcspn(line, "=\n");
+        snprintf(name, sizeof name, " %.*s ", length, line);
+        if (length > 0 && m->options && strstr(m->options, name)) continue;
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "options", "--%.*s is not for a picture of a table '%s'",
+                                length, line, m->kind);
+    }
+    return ISO_OK;
+}
+
+static iso_status check_table(iso_context *ctx, const iso_record *r, const iso_picture_maker *m)
+{
+    for (size_t i = 0; i < sizeof m->columns / sizeof *m->columns && m->columns[i]; i++)
+        if (iso_record_find(r, m->columns[i]) < 0)
+            return ISO_FAIL_INPUT(ctx, "", "no picture: the table has no column '%s'", m->columns[i]);
+    if (iso_record_rows(r) == 0) return ISO_FAIL_INPUT(ctx, "", "no picture: the table has no rows");
+    if (!m->axis || iso_picture_axis(r) >= 0) return ISO_OK;
+    return ISO_FAIL_INPUT(ctx, "", "no picture: the table does not say its axis, in a line '# axis: 3'");
+}
+
+/* --- the picture ------------------------------------------------------------------------------------------------ */
+
+iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], const char *options,
+                            iso_picture *picture)
+{
+    char title[ISO_PICTURE_TITLE];
+    const iso_picture_maker *m = NULL;
+    *picture = (iso_picture){.layout = NULL};
+    for (int i = 0; i < MAKERS && !m; i++)
+        if (strcmp(makers[i]->kind, iso_record_kind(table[0])) == 0) m = makers[i];
+    if (!m) return ISO_FAIL_INPUT(ctx, "", "there is no picture of a table '%s'", iso_record_kind(table[0]));
+    iso_picture_request q = {.table = table, .options = options, .title = iso_record_get(table[0], "title")};
+    ISO_TRY(check_options(ctx, &q, m));
+    ISO_TRY(check_table(ctx, table[0], m));
+    if (!q.title && iso_record_get(table[0], "k")) {
+        iso_params p;
+        ISO_TRY(iso_record_params(ctx, table[0], &p));
+        q.title = iso_picture_title(title, m->shows, &p);
+    }
+    if (!q.title) q.title = m->shows;
+    picture->layout = m->kind;
+    iso_status status = m->make(ctx, &q, picture);
+    if (status == ISO_OK && !iso_record_get(picture->table[0], "title"))
+        status = iso_picture_say(ctx, picture, "title", q.title);
+    if (status != ISO_OK) iso_picture_free(picture);
+    return status;
+}
+
+void iso_picture_free(iso_picture *picture)
+{
+    for (int i = 0; i < ISO_PICTURE_TABLES; i++) iso_record_free(picture->table[i]);
+    *picture = (iso_picture){.layout = NULL};
+}
+
+iso_record *iso_picture_table(const iso_picture *picture, const char *name)
+{
+    for (int i = 0; i < ISO_PICTURE_TABLES && picture->table[i]; i++)
+        if (strcmp(iso_record_kind(picture->table[i]), name) == 0) return picture->table[i];
+    return NULL;
+}
+
+iso_status iso_picture_add(iso_context *ctx, iso_picture *picture, const char *name, size_t columns,
+                           const char *const names[], iso_record **table)
+{
+    int i = 0;
+    while (picture->table[i]) i++; /* the makers know how many they have */
+    ISO_TRY(iso_record_create(ctx, columns, names, &picture->table[i]));
+    iso_record_set_kind(picture->table[i], name);
+    *table = picture->table[i];
+    return ISO_OK;
+}
+
+iso_status iso_picture_say(iso_context *ctx, iso_picture *picture, const char *key, const char *text)
+{
+    return iso_record_set(ctx, picture->table[0], key, text);
+}
+
+iso_status iso_picture_count(iso_context *ctx, iso_picture *picture, const char *key, double number)
+{
+    return iso_record_set_numbers(ctx, picture->table[0], key, 1, &number);
+}
+
+/* --- tables ----------------------------------------------------------------------------------------------------- */
+
+double iso_picture_number(const iso_record *r, size_t row, const char *name)
+{
+    const int column = iso_record_find(r, name);
+    return column < 0 ? (double)NAN : iso_record_const_row(r, row)[column];
+}
+
+bool iso_picture_is(const iso_record *r, size_t row, const char *name, const char *word)
+{
+    return strcmp(iso_record_word(r, iso_picture_number(r, row, name)), word) == 0;
+}
+
+int iso_picture_axis(const iso_record *r)
+{
+    const char *axis = iso_record_get(r, "axis");
+    return axis && axis[0] >= '1' && axis[0] <= '3' ? axis[0] - '1' : -1;
+}
+
+/* --- words ------------------------------------------------------------------------------------------------------ */
+
+char *iso_picture_fraction(char text[static ISO_PICTURE_FRACTION], double x)
+{
+    snprintf(text, ISO_PICTURE_FRACTION, "%.6g", x);
+    for (int below = 1; below < 13; below++) {
+        const double above = nearbyint(x * below);
+        if (above == 0 || fabs(above) >= 100 || fabs(above / below - x) > 1e-15 * fabs(x)) continue;
+        snprintf(text, ISO_PICTURE_FRACTION, below > 1 ? "%.0f/%d" : "%.0f", above, below);
+        break;
+    }
+    return text;
+}
+
+char *iso_picture_title(char title[static ISO_PICTURE_TITLE], const char *seen, const iso_params *p)
+{
+    char k[ISO_PICTURE_FRACTION];
+    snprintf(title, ISO_PICTURE_TITLE, "%s        k = %s, J = (%.6g, %.6g, %.6g)", seen,
+             iso_picture_fraction(k, p->k), p->J[0], p->J[1], p->J[2]);
+    return title;
+}
+
+const char *iso_picture_symbol(const char *name)
+{
+    static const char *const symbols[][5] = {{"omega", "ω", "ω₁", "ω₂", "ω₃"}, {"gamma", "γ", "γ₁", "γ₂", "γ₃"},
+                                             {"n", "n", "n₁", "n₂", "n₃"},     {"M", "M", "M₁", "M₂", "M₃"},
+                                             {"J", "J", "J₁", "J₂", "J₃"},     {"tau", "τ", NULL, NULL, NULL},
+                                             {"mu", "μ", NULL, NULL, NULL}};
+    for (size_t i = 0; i < sizeof symbols / sizeof *symbols; i++) {
+        const size_t length = strlen(symbols[i][0]);
+        const char *rest = name + length;
+        if (strncmp(symbols[i][0], name, length) != 0) continue;
+        const int component = *rest >= '1' && *rest <= '3' && !rest[1] ? *rest - '0' : 0;
+        if (*rest == '\0' || (component && symbols[i][1 + component])) return symbols[i][1 + component];
+    }
+    return name;
+}

@@ -1,0 +1,48 @@
+/* picture.h - what a picture of a table shows: from the tables of studies to the tables that are drawn.
+ *
+ *     iso_picture picture;
+ *     status = iso_picture_make(ctx, (const iso_record *[]){section, chaos, NULL}, "window=0:1,0:0.5", &picture);
+ *     ... picture.layout is "section", picture.table[0] has the columns side, right, up, colour, shade
+ *     iso_picture_free(&picture);
+ *
+ * The command's templates (apps/isoroll/pictures), Matplotlib and the page draw these tables, and compute nothing:
+ * which rows are grey, dashed, marked, or left out is said here, once. lib/doc/formats.md has the columns.
+ */
+#ifndef ISO_PICTURE_PICTURE_H
+#define ISO_PICTURE_PICTURE_H
+
+#include "../base/api.h"
+#include "../base/record.h"
+
+ISO_C_BEGIN
+
+enum { ISO_PICTURE_TABLES = 16 };
+
+typedef struct iso_picture {
+    const char *layout; /* how the tables are laid out: the name of a template, such as "section" */
+    /* NULL after the last. The kind of a table is its name in the template. The lines of the first one say what there
+     * is to say: the title, names of axes, numbers. */
+    iso_record *table[ISO_PICTURE_TABLES];
+} iso_picture;
+
+/* Makes the picture of table[0]; more tables with NULL behind them add to it, by their kinds: the verdicts of `chaos`,
+ * or orbits of `periodic`, to a section. options: lines NAME=VALUE with a newline between, or NULL:
+ *   columns=X,Y            of a trajectory: Y over X alone
+ *   value=NAME             of a sweep: the column that is drawn
+ *   window=L0:L1,X0:X1     of a section: this part of it
+ *   points=N               of a section: at most so many points a side
+ * Errors: ISO_BAD_INPUT: no picture shows such a table, it has no rows, or a column or line is missing;
+ * ISO_BAD_ARGUMENT about an option; ISO_NUMERICAL, ISO_NO_MEMORY. The picture is then empty. */
+ISO_API iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], const char *options,
+                                    iso_picture *picture);
+ISO_API void iso_picture_free(iso_picture *picture);
+
+/* The i-th kind of table that has a picture; NULL past the end. */
+ISO_API const char *iso_picture_kind(int i);
+
+/* The table of this name, or NULL. */
+ISO_API iso_record *iso_picture_table(const iso_picture *picture, const char *name);
+
+ISO_C_END
+
+#endif

@@ -1,0 +1,47 @@
+/* splitting.c - |m| over k or the level, and both curves of one row on the section.
+ *
+ * Tables: rows (over, size, low, high; sign: 1: m > 0, -1: m < 0, 0: |m| is below `size`) and curve (u, x): W^u(O);
+ * its mirror image u -> pi - u is W^s(O'). Given with a table "separatrix" (u, x; lines name, number, axis) the curve
+ * is drawn, else the rows alone. A row whose m is 0 by an argument, or has no error, is left out.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "picture/picture_impl.h"
+
+#define KNOWN 10 /* errors from which on m has a sign */
+
+static iso_status add_rows(iso_context *ctx, const iso_record *r, const char *over, iso_record *rows)
+{
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        const double at = iso_picture_number(r, i, over), m = iso_picture_number(r, i, "m"), size = fabs(m),
+                     error = iso_picture_number(r, i, "error");
+        const int sign = size < KNOWN * error ? 0 : m > 0 ? 1 : -1;
+        if (!isfinite(at) || !isfinite(m) || !(error > 0) || iso_picture_number(r, i, "zero") == 1) continue;
+        ISO_TRY(iso_record_add(ctx, rows, 1,
+                               (double[]){at, sign ? size : size + error, size - error, size + error, sign}));
+    }
+    return ISO_OK;
+}
+
+static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
+{
+    static const char *const names[] = {"over", "size", "low", "high", "sign"};
+    const iso_record *r = q->table[0], *curve = iso_picture_given(q, "separatrix");
+    const bool several = iso_record_rows(r) > 1;
+    const bool level = several && iso_picture_number(r, 0, "k") == iso_picture_number(r, 1, "k");
+    iso_record *rows, *copy;
+    ISO_TRY(iso_picture_add(ctx, picture, "rows", 5, names, &rows));
+    if (several || !curve) ISO_TRY(add_rows(ctx, r, level ? "level" : "k", rows));
+    ISO_TRY(iso_picture_say(ctx, picture, "over", level ? "level" : "k"));
+    ISO_TRY(iso_picture_count(ctx, picture, "sizes", several || !curve));
+    ISO_TRY(iso_picture_count(ctx, picture, "curves", curve != NULL));
+    ISO_TRY(iso_picture_add(ctx, picture, "curve", 2, (const char *const[]){"u", "x"}, &copy));
+    if (!curve) return ISO_OK;
+    ISO_TRY(iso_picture_say(ctx, picture, "at", iso_record_get(curve, "at")));
+    ISO_TRY(iso_picture_count(ctx, picture, "axis", iso_picture_axis(curve) + 1));
+    return iso_record_add(ctx, copy, iso_record_rows(curve), iso_record_const_row(curve, 0));
+}
+
+const iso_picture_maker iso_picture_splitting = {
+    "splitting", "Splitting of the separatrix", {"k", "level", "m", "error"}, .make = make};
