@@ -154,7 +154,7 @@ static int draw(const shell *s)
     }
     if (status == ISO_OK) status = iso_record_set_numbers(s->ctx, curve, "axis", 1, (double[]){at->section + 1});
     if (status == ISO_OK)
-        status = plot_tables(s->ctx, &s->told->plot, (const iso_record *[]){s->result.table[0], curve, NULL});
+        status = plot_tables(s->ctx, &s->told->plot, (const iso_record *[]){s->result.table[0], curve, NULL}, NULL);
     iso_record_free(curve);
     return finish(s->ctx, status);
 }

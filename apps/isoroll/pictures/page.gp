@@ -65,5 +65,6 @@ set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0"
 set encoding utf8
 set datafile missing NaN
 set datafile columnheaders
-# a letter with an index: a sign that is not seen stands before a blank that follows it, because some renderers of SVG drop a blank at the beginning of a piece of a text
+# a letter with an index. A sign that is not seen stands before a blank that follows it: some renderers of SVG drop a
+# blank at the beginning of a piece of a text.
 sub(letter, i) = sprintf("%s_%d\342\201\240", letter, i)

@@ -103,10 +103,11 @@ iso_status plot_draw(iso_context *ctx, const iso_plot_page *page, const iso_pict
     return status != ISO_OK ? status : closed;
 }
 
-iso_status plot_tables(iso_context *ctx, const iso_plot_page *page, const iso_record *const table[])
+iso_status plot_tables(iso_context *ctx, const iso_plot_page *page, const iso_record *const table[],
+                       const char *options)
 {
     iso_picture picture;
-    ISO_TRY(iso_picture_make(ctx, table, NULL, &picture));
+    ISO_TRY(iso_picture_make(ctx, table, options, &picture));
     const iso_status status = plot_draw(ctx, page, &picture);
     iso_picture_free(&picture);
     return status;

@@ -238,7 +238,7 @@ iso_status iso_plot_table(iso_context *ctx, const iso_plot_page *page, const iso
     char title[ISO_PLOT_HEADING];
     iso_params p;
     const struct kind *kind = find_kind(iso_record_kind(r));
-    if (!kind) return plot_tables(ctx, page, (const iso_record *[]){r, NULL});
+    if (!kind) return plot_tables(ctx, page, (const iso_record *[]){r, NULL}, NULL);
     ISO_TRY(check(ctx, r, kind));
     ISO_TRY(iso_record_params(ctx, r, &p));
     const char *own = iso_record_get(r, "title"), *wish = iso_plot_section_wish(page);
