@@ -54,8 +54,8 @@ void view_page_free(view_page *page);
 /* Adds a note that the page shows. */
 void view_note(view_page *page, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Gives the page a table; kind NULL: it has one. orbit >= 0: that of the section's orbit with this number. The page frees
- * it, also after an error. */
+/* Gives the page a table of this kind. orbit >= 0: that of the section's orbit with this number. The page frees it, also
+ * after an error. */
 iso_status view_add(iso_context *ctx, view_page *page, const char *kind, double orbit, iso_record *table);
 
 /* --- kinds of input --------------------------------------------------------------------------------------------- */
@@ -100,13 +100,13 @@ iso_status view_neighbour(iso_context *ctx, view_page *page, const iso_scene *sc
                           const iso_record *rows);
 
 /* The table "orbits": verdict, exponent and shade of the orbits that begin on the section's axis at (l, x), with the
- * energy of `scene`; number[i]: of which orbit. at NULL: of the scene's own orbit. Adds a note if there are none. Errors:
- * likewise. */
+ * energy of `scene`; number[i]: of which orbit. at NULL: of the scene's own orbit. Adds a note if there are none.
+ * Errors: likewise. */
 iso_status view_verdicts(iso_context *ctx, view_page *page, const iso_scene *scene, int axis, size_t count,
                          const double (*at)[2], const double number[]);
 
-/* Adds the rows of a scene or of a trajectory, and what is found out about them: "drifts" of the integrals of each model,
- * the neighbour, and the verdict. */
+/* Adds the rows of a scene or of a trajectory, and what is found out about them: "drifts" of the integrals of each
+ * model, the neighbour, and the verdict. */
 iso_status view_add_orbit(iso_context *ctx, view_page *page, iso_record *rows);
 
 /* --- output ----------------------------------------------------------------------------------------------------- */

@@ -31,7 +31,7 @@ iso_status view_add(iso_context *ctx, view_page *page, const char *kind, double 
     }
     page->table = more;
     page->table[page->tables++] = table;
-    if (kind) iso_record_set_kind(table, kind);
+    iso_record_set_kind(table, kind);
     return orbit < 0 ? ISO_OK : iso_record_set_numbers(ctx, table, "orbit", 1, &orbit);
 }
 

@@ -173,8 +173,8 @@ static iso_status keep_verdicts(iso_context *ctx, view_page *page, const iso_rec
     return ISO_OK;
 }
 
-/* The options of `chaos`. After so many turns an orbit without a verdict stays undecided, and an exponent is good enough
- * for the page. The caller frees them; NULL: no memory. */
+/* The options of `chaos`. After so many turns an orbit without a verdict stays undecided, and an exponent is good
+ * enough for the page. The caller frees them; NULL: no memory. */
 static char *options_of(int axis, size_t count, const double (*at)[2])
 {
     size_t size = 0;

@@ -64,8 +64,8 @@ static iso_status run_scene(iso_context *ctx, iso_scene *scene, view_page *page,
     return run_ball(ctx, scene, page, rows);
 }
 
-/* M and gamma of the rows become those of the point's own run; the table "compare" has how far both are apart. Says from
- * when on they differ by more than PARTED. */
+/* M and gamma of the rows become those of the point's own run; the table "compare" has how far both are apart. Says
+ * from when on they differ by more than PARTED. */
 static iso_status take_point(iso_context *ctx, view_page *page, iso_record *rows, const iso_record *apart,
                              const iso_record *point)
 {

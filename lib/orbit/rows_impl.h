@@ -85,8 +85,8 @@ typedef struct iso_row_miss {
     double by;
 } iso_row_miss;
 
-/* A trajectory with these columns (iso_column_name), in the same rows: those that it has, and those that it lacks, such as
- * the other model, clocks, and the attitude. It has a clock and the states of one model. twin: the ball has a point.
+/* A trajectory with these columns (iso_column_name), in the same rows: those that it has, and those that it lacks, such
+ * as the other model, clocks, and the attitude. It has a clock and the states of one model. twin: the ball has a point.
  * Errors: those of iso_orbit_create and iso_orbit_at, with the row; ISO_NO_MEMORY. */
 iso_status iso_rows_complete(iso_context *ctx, const iso_params *params, const iso_effects *effects, bool twin,
                              const iso_record *in, size_t count, const char *const names[], iso_record **made,

@@ -323,7 +323,7 @@ def sizes(browser):
                   min(left[2], right[2]) > 0.4 * min(width, 760) and left[3] > 190, left)
             # labels do not overlap: no text is wider than its box
             cut = page.evaluate("""
-                [...document.querySelectorAll('.clock span, figcaption, button, h1, h2, .legend li')]
+                [...document.querySelectorAll('.clock span, figcaption, button, h1, h2, .legend .key')]
                 .filter((e) => e.getClientRects().length && getComputedStyle(e).display !== 'inline')
                 .filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.textContent)""")
             check(f"{name}, {width} px: no text is cut", not cut, cut)

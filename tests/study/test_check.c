@@ -156,6 +156,32 @@ static void change_lines(iso_record *record, const answer *before, const char *f
     }
 }
 
+/* The drifts of each model that the file has: the line of an integral has the largest of its column. */
+static void hold_drifts(const iso_record *record, const char *file)
+{
+    static const char *const first[] = {"n1", "gamma1"};
+    iso_params params;
+    iso_record *drifts;
+    iso_status status = iso_record_params(ctx, record, &params);
+    for (int m = 0; m < 2 && status == ISO_OK; m++) {
+        if (iso_record_find(record, first[m]) < 0) continue;
+        status = iso_check_drifts_of(ctx, &params, record, (iso_model_kind)m, &drifts);
+        gsl_test(status != ISO_OK, "%s: has drifts: %s", file, iso_context_message(ctx));
+        for (size_t c = 1; status == ISO_OK && c < iso_record_columns(drifts); c++) {
+            double largest = 0, worst = 0;
+            char key[80];
+            snprintf(key, sizeof key, "%s.worst", iso_record_name(drifts, c));
+            const bool described = iso_record_get_numbers(ctx, drifts, key, 1, &worst, &status);
+            for (size_t i = 0; i < iso_record_rows(drifts); i++)
+                largest = fmax(largest, iso_record_const_row(drifts, i)[c]);
+            gsl_test(described && worst != largest, "%s: %s is %g, the largest of its drifts %g", file, key, worst,
+                     largest);
+            gsl_test(!(largest <= BOUND), "%s: %s drifts by %.2g", file, iso_record_name(drifts, c), largest);
+        }
+        iso_record_free(drifts);
+    }
+}
+
 static void hold(const iso_scene *scene, const char *file)
 {
     iso_record *record = file_of(scene);
@@ -166,6 +192,7 @@ static void hold(const iso_scene *scene, const char *file)
     if (before.status == ISO_OK) {
         change_columns(record, &before, file);
         change_lines(record, &before, file);
+        hold_drifts(record, file);
     }
     iso_record_free(record);
 }

@@ -33,10 +33,10 @@ const reading = (x, span) => {
   return span >= 1e6 || span < 1e-4 ? digits(x) : x.toFixed(decimals);
 };
 
-// Which colour is what, [colour, words] for each curve or dot, and then a sentence.
-function legend(parent, items, sentence = "", kind = "line") {
+// Which colour is what, [colour, words, kind of mark] for each curve or dot, and then a sentence.
+function legend(parent, items, sentence = "") {
   parent.replaceChildren();
-  for (const [colour, words] of items) {
+  for (const [colour, words, kind = "line"] of items) {
     const part = document.createElement("span"),
       mark = document.createElement("i");
     part.className = "key";

@@ -112,9 +112,9 @@ lab = {
         axis = Number(own.lines.axis);
       chart.axis = axis;
       const crossed = `crossings of n${"₁₂₃"[axis - 1]} = 0`,
-        items = [[colours.curve, "this orbit"], [shadeColour("grey"), "chaotic"], [shadeColour("dark"), "undecided"]];
+        items = [[colours.curve, "this orbit", "dot"], ...shadeItems(true)];
       if (page.alone) words.textContent = `Dots: ${crossed} by this orbit. The section has no other orbits under gravity.`;
-      else legend(words, items, `Dots: ${crossed} upwards; other colours are regular. Click to start there.`, "dot");
+      else legend(words, items, `Dots: ${crossed} upwards; other colours are regular. Click to start there.`);
       chart.canvas.setAttribute("aria-label", `The section n${axis} = 0. Arrow keys choose a start, Enter starts there.`);
       chart.add(own, { from: 0, number: 0 });
       for (let seed = 0; seed < this.DRAWS && !page.alone; seed++) {

@@ -125,7 +125,7 @@ const numbers = {
   // --- what does not change ---
 
   describe(orbit) {
-    for (const name of ["about", "notes", "left-legend", "right-legend"]) element(name).textContent = "";
+    for (const name of ["about", "notes"]) element(name).textContent = "";
     const id = element,
       { kind, A, B, k } = body;
     const where = {
@@ -234,30 +234,13 @@ const numbers = {
   },
 
   legends() {
-    const put = (list, items) =>
-      items.forEach(([colour, text, kind]) => {
-        const li = document.createElement("li"),
-          mark = document.createElement("i");
-        mark.className = kind || "line";
-        if (colour) mark.style.background = colour;
-        li.append(mark, text);
-        document.getElementById(list).append(li);
-      });
-    put("left-legend", [
+    const { levels, least, most, logarithmic } = potential,
+      to = `${digits(most, 3)} ${levels ? this.unitOf([4, -2, 2]) : ""}`.trim() + (logarithmic ? ", logarithmic" : ""),
+      scale = ["", `V from ${digits(least, 3)} (dark: the point is fast) to ${to}`, "scale"];
+    legend(element("left-legend"), [
       [colours.curve, "contact on the ball"],
       [colours.support, body.kind === "plane" ? "contact on the plane" : "contact on the sphere"],
     ]);
-    if (!page.alone) {
-      put("right-legend", [[colours.curve, "path of the point"]]);
-      if (potential.levels)
-        put("right-legend", [
-          [
-            null,
-            `V from ${digits(potential.least, 3)} (dark: the point is fast) to ` +
-              `${`${digits(potential.most, 3)} ${this.unitOf([4, -2, 2])}`.trim()}${potential.logarithmic ? ", logarithmic" : ""}`,
-            "scale",
-          ],
-        ]);
-    }
+    legend(element("right-legend"), [[colours.curve, "path of the point"], ...(levels ? [scale] : [])]);
   },
 };

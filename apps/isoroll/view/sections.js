@@ -284,13 +284,8 @@ const sections = !tables("section").length
       select.addEventListener("change", () => api.choose(Number(select.value)));
       document.getElementById("sections").hidden = false;
       document.body.classList.add("with-sections");
-      const dark = [...shades.values()].includes("dark") ? [[shadeColour("dark"), "undecided"]] : [];
-      legend(
-        document.getElementById("section-legend"),
-        [[colours.curve, "the orbit that runs"], [shadeColour("grey"), "chaotic"], ...dark],
-        "Other colours: a regular orbit each.",
-        "dot",
-      );
+      const items = [[colours.curve, "the orbit that runs", "dot"], ...shadeItems([...shades.values()].includes("dark"))];
+      legend(document.getElementById("section-legend"), items, "Other colours: a regular orbit each.");
       document.getElementById("section-name").textContent = `n${"₁₂₃"[a]} = 0`;
       return api;
     })();

@@ -42,6 +42,8 @@ const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#999933
 // Of the shades of orbits (view_orbit.c): grey is chaotic, dark undecided.
 const shadeColour = (shade, number) =>
   shade === "grey" ? "#8a929a" : shade === "dark" ? theme().text : palette[number % palette.length];
+const shadeItems = (dark) =>
+  [["grey", "chaotic"], ...(dark ? [["dark", "undecided"]] : [])].map(([shade, words]) => [shadeColour(shade), words, "dot"]);
 const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
 const theme = () => (isDark() ? colours.dark : colours.light);
 
