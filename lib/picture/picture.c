@@ -123,6 +123,25 @@ iso_status iso_picture_count(iso_context *ctx, iso_picture *picture, const char 
     return iso_record_set_numbers(ctx, picture->table[0], key, 1, &number);
 }
 
+iso_status iso_picture_as_it_is(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
+{
+    const iso_record *r = q->table[0];
+    iso_record **copy = &picture->table[0];
+    double *row;
+    ISO_TRY(iso_record_create_like(ctx, r, 0, NULL, copy));
+    for (size_t c = 0; c < iso_record_columns(r); c++) iso_record_set_words(*copy, c, iso_record_has_words(r, c));
+    iso_record_set_kind(*copy, "table");
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        ISO_TRY(iso_record_append(ctx, *copy, &row));
+        for (size_t c = 0; c < iso_record_columns(r); c++) {
+            row[c] = iso_record_const_row(r, i)[c];
+            if (iso_record_has_words(r, c))
+                ISO_TRY(iso_record_intern(ctx, *copy, iso_record_word(r, row[c]), &row[c]));
+        }
+    }
+    return ISO_OK;
+}
+
 /* --- tables ----------------------------------------------------------------------------------------------------- */
 
 double iso_picture_number(const iso_record *r, size_t row, const char *name)

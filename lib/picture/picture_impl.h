@@ -44,6 +44,9 @@ const char *iso_picture_symbol(const char *name);
 enum { ISO_PICTURE_TITLE = 400 };
 char *iso_picture_title(char title[static ISO_PICTURE_TITLE], const char *seen, const iso_params *p);
 
+/* A maker: the table as it is, called `table`. */
+iso_status iso_picture_as_it_is(iso_context *ctx, const iso_picture_request *request, iso_picture *picture);
+
 /* A kind of table. */
 typedef struct iso_picture_maker {
     const char *kind, *shows; /* shows: the title of a table that has none */
