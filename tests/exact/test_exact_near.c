@@ -174,7 +174,7 @@ int main(void)
     gsl_test_verbose(1);
     ctx = iso_context_create();
     iso_random *random = iso_random_create(1000);
-    const int orbits = tests_length(110, 220);
+    const int orbits = tests_length(110, 550);
     for (int i = 0; i < orbits; i++) {
         const exact_family family = list[i % EXACT_FAMILIES];
         const double delta = pow(10, -iso_random_uniform(random, 1, 12));
