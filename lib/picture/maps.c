@@ -213,20 +213,20 @@ static void to_picture(const iso_picture_maps *m, polygon *p)
 static iso_status add_scattered(iso_context *ctx, const iso_picture_maps *m, bool sizes, iso_record *cells)
 {
     const size_t rows = iso_record_rows(m->points);
-    const double half = fmin(0.5, 2 / sqrt((double)rows / m->count));
-    double nearest[2] = {INFINITY, 0};
+    double least = INFINITY, half = fmin(0.5, 2 / sqrt((double)rows / m->count));
+    size_t regular = 0;
     polygon p;
     for (size_t i = 0; i < rows && !m->back; i++) {
         double *row = iso_record_row(m->points, i);
         row[ISO_POINT_U] = row[ISO_POINT_X] / range_of(&m->x), row[ISO_POINT_V] = row[ISO_POINT_Y] / range_of(&m->y);
     }
     qsort(iso_record_row(m->points, 0), rows, ISO_POINT_COLUMNS * sizeof(double), by_map);
+    for (size_t i = 0; i < rows; i++) least = fmin(least, cell_of(m->points, i, half, false, &p));
+    for (size_t i = 0; i < rows; i++) regular += cell_of(m->points, i, half, false, &p) < 1.05 * least;
+    const bool lattice = 2 * regular > rows;
+    if (lattice && m->back) half = least / sqrt(3); /* as far as a hexagon reaches */
     for (size_t i = 0; i < rows; i++) {
-        const double d = cell_of(m->points, i, half, false, &p);
-        nearest[0] = fmin(nearest[0], d), nearest[1] = fmax(nearest[1], d);
-    }
-    for (size_t i = 0; i < rows; i++) {
-        cell_of(m->points, i, half, nearest[1] < 1.05 * nearest[0], &p);
+        cell_of(m->points, i, half, lattice, &p);
         to_picture(m, &p);
         ISO_TRY(add_cell(ctx, m, i, sizes, &p, cells));
     }

@@ -13,7 +13,7 @@ set style line 14 dt (2,3) lw 2.2 lc rgb ink
 parts = |$kinds| - 1; rotations = |$rotations| - 1
 part(i) = int(word($kinds[i + 1], 1)); line(i) = int(word($rotations[i + 1], 1))
 set xlabel 'energy h'; set xrange [0:2 * at_h]; unset key
-set yrange [*:*] noextend
+set yrange [*:*] noextend; set format y '%g'
 do for [over=0:1] {
     by(x) = over ? x / column('h') : x
     eval over ? box(0.6 * width, width - 18, 56, 358) : box(90, 0.48 * width, 56, 358)

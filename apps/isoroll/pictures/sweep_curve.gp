@@ -9,7 +9,7 @@ set key outside bottom center horizontal Left reverse samplen 1.6 width 2 height
 set xlabel over noenhanced; set ylabel value noenhanced
 if (sizes) { set logscale y; set format y '10^{%T}' }
 if (logarithmic_x) { set logscale x; set format x '10^{%T}' }
-set style line 11 dt (4,3) lw 1.2 lc rgb ink
+set style line 11 dt (12,9) lw 1.2 lc rgb ink
 do for [i=2:|$marks|] {
     k = real(word($marks[i], 2))
     set arrow from first k, graph 0 to first k, graph 1 nohead front ls 11

@@ -16,7 +16,7 @@ if (sizes) { set logscale cb; set format cb '10^{%T}' }
 if (logarithmic_x) { set logscale x; set format x '10^{%T}' }
 if (logarithmic_y) { set logscale y; set format y '10^{%T}' }
 set autoscale noextend; set offsets graph 0.02, graph 0.02, graph 0.02, graph 0.02
-set style line 11 dt (4,3) lw 1.2 lc rgb ink
+set style line 11 dt (12,9) lw 1.2 lc rgb ink
 do for [i=2:|$marks|] {
     k = real(word($marks[i], 2))
     if (int(word($marks[i], 1)) == 1) {
@@ -44,7 +44,7 @@ do for [i=1:maps] {
 }
 if (keys > 0) {
     eval whole_page
-    set key at screen 0.5, screen 22.0 / height center center horizontal Left reverse samplen 2 width 2
+    set key at screen 0.5, screen 22.0 / height center center vertical maxrows 1 Left reverse samplen 2 width 2
     plot for [i=1:marked] NaN with lines ls 11 title 'k = ±1: the free ball is integrable', \
         for [i=1:missing] NaN with boxes fs solid 1 noborder lc rgb grey title 'no value'
 }
