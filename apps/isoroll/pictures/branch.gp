@@ -9,7 +9,7 @@ set xrange [STATS_min:STATS_max]
 look(b) = (b - 1) % strokes + 1
 of(b, name) = column('branch') == b ? column(name) : NaN
 
-eval box(90, width - 27, 45, 294)
+eval box(90, width - 27, 45, 0.5 * height - 26)
 set ylabel 'trace' offset 1,0; set yrange [-6:6]
 set object 1 rectangle from graph 0, first -2 to graph 1, first 2 back fc rgb pale_blue fs solid noborder
 set label 2 'stable' at graph 0.01, first 1.5 tc rgb words
@@ -18,7 +18,7 @@ plot for [b=1:branches] $points using 'at':(of(b, 'trace')) with lines ls look(b
         rotate by 15 font ',8' point pt 7 ps 0.8 lc rgb black
 
 unset object; unset label
-eval box(90, width - 27, 333, 582)
+eval box(90, width - 27, 0.5 * height + 13, height - 58)
 set ylabel 'place on the line: 2 u/π'; set yrange [0:1]; set xlabel over noenhanced
 plot for [b=1:branches] $points using 'at':(of(b, 'place')) with lines ls look(b) lw 1.5, \
     for [i=1:|$events| > 1] $events using 'at':'place' with points pt 7 ps 0.8 lc rgb black

@@ -11,7 +11,7 @@ array moment[2] = ['least', 'greatest']
 is(s, c) = column('side') == s && column('class') == c
 set xlabel 'k'; set ylabel up noenhanced offset 1,0; unset key
 do for [s=1:2] {
-    eval box(s == 1 ? 72 : 504, s == 1 ? 441 : 873, 67, 370)
+    eval box(s == 1 ? 72 : 504, s == 1 ? 441 : 873, 67, height - 110)
     set title 'rotation about the axis of the '.moment[s].' moment' offset 0,-0.5
     plot for [c=1:4] $cells using (is(s, class[c]) ? (column('left') + column('right')) / 2 : NaN): \
             ((column('bottom') + column('top')) / 2):'left':'right':'bottom':'top' with boxxyerror \
@@ -19,7 +19,7 @@ do for [s=1:2] {
         $borders using (column('side') == s ? column('k') : NaN):'up' with points pt 7 ps 0.25 lc rgb black
 }
 eval whole_page
-set key at screen 0.5, screen down(width > 600 ? 425 : height - 40) center top vertical maxrows 2 Left reverse \
+set key at screen 0.5, screen down(height - 55) center top vertical maxrows 2 Left reverse \
     samplen 1 width 1 font ',10'
 plot for [c=1:3 + none] NaN with boxes fs solid 1 noborder lc rgb fill[c] title name[c], \
     NaN with points pt 7 ps 0.5 lc rgb black title 'border, T = ±2'

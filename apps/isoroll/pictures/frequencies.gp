@@ -1,6 +1,6 @@
 # frequencies.gp - the spectral lines of n(t): of the pair of components across the axis, and of the one along it.
 # $lines: signal (1, 2), frequency, amplitude, label. axis: 1 to 3; labels: how many; warning: above the lines, or ''.
-width = 900; height = 420; panels = 1
+width = 900; height = 420; panels = 2 # wide: the warning is long
 eval page
 eval axes_left
 warned = warning ne ''

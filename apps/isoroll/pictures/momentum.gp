@@ -16,7 +16,7 @@ set xlabel 'energy h'; set xrange [0:2 * at_h]; unset key
 set yrange [*:*] noextend; set format y '%g'
 do for [over=0:1] {
     by(x) = over ? x / column('h') : x
-    eval over ? box(0.6 * width, width - 18, 56, 358) : box(90, 0.48 * width, 56, 358)
+    eval over ? box(0.6 * width, width - 18, 56, height - 202) : box(90, 0.48 * width, 56, height - 202)
     set ylabel 'F_{'.f.'}'.(over ? "\342\201\240 / h" : '')
     if (over) {
         set yrange [low:high]
@@ -34,7 +34,7 @@ do for [over=0:1] {
         '+' using (at_h):(over ? at_f / at_h : at_f) every ::0::0 with points pt 7 ps 1.2 lc rgb black
 }
 eval whole_page
-set key at screen 0.1, screen down(425) left top Left reverse vertical maxrows 5 samplen 3 spacing 1.2 noenhanced
+set key at screen 0.1, screen down(height - 135) left top Left reverse vertical maxrows 5 samplen 3 spacing 1.2 noenhanced
 plot for [i=1:parts] NaN with boxes fs solid 1 noborder lc rgb fill[part(i)] title word($kinds[i + 1], 2), \
     for [i=1:rotations] NaN with lines ls 10 + line(i) title word($rotations[i + 1], 2), \
     NaN with points pt 7 ps 1.2 lc rgb black title 'this orbit'

@@ -35,7 +35,7 @@ shown(i, none) = column('map') == i && column('missing') == none ? column('x') :
 wide = 0.83 * width / columns; tall = 0.9 * (height - keys) / rows
 do for [i=1:maps] {
     left = 0.075 * width + wide * ((i - 1) % columns); top = 0.09 * (height - keys) + tall * ((i - 1) / columns)
-    eval box(left, left + wide - 58, top + (word($maps[i + 1], 1) eq '' ? 0 : 24), top + tall - 52)
+    eval box(left, left + wide - 58, top + (word($maps[i + 1], 1) eq '' ? 0 : 32), top + tall - 52)
     set title word($maps[i + 1], 1) noenhanced
     set ylabel (i - 1) % columns == 0 ? y : '' noenhanced
     if (i == 2) { unset colorbox }
@@ -44,7 +44,8 @@ do for [i=1:maps] {
 }
 if (keys > 0) {
     eval whole_page
-    set key at screen 0.5, screen 22.0 / height center center vertical maxrows 1 Left reverse samplen 2 width 2
-    plot for [i=1:marked] NaN with lines ls 11 title 'k = ±1: the free ball is integrable', \
-        for [i=1:missing] NaN with boxes fs solid 1 noborder lc rgb grey title 'no value'
+    set key at screen 0.5, screen 34.0 / height center top vertical maxrows 1 Left reverse samplen 2 width 2
+    line = "NaN with lines ls 11 title 'k = ±1: the free ball is integrable'"
+    fill = "NaN with boxes fs solid 1 noborder lc rgb grey title 'no value'"
+    eval 'plot '.(marked ? line : '').(marked && missing ? ', ' : '').(missing ? fill : '')
 }
