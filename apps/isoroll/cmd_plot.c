@@ -8,9 +8,11 @@
 #include "io/table.h"
 #include "orbit/description.h"
 #include "parameters.h"
+#include "plot/draw.h"
 #include "plot/plot.h"
 #include "study/check/check_impl.h"
 #include "study/energy.h"
+#include "sweep/sweep_store_impl.h"
 
 typedef struct options {
     file_options from;
@@ -222,13 +224,19 @@ static iso_status draw_file(iso_context *ctx, const options *o)
     return status;
 }
 
-static iso_status draw_table(iso_context *ctx, const options *o)
+/* A sweep is read with its sum: one that was changed is refused. */
+static iso_status draw_table(iso_context *ctx, const options *o, bool sweep)
 {
+    char value[NAME * 4] = "";
     iso_record *table = NULL;
-    iso_status status = iso_table_read(ctx, o->from.file, NULL, NULL, &table, NULL);
-    if (status == ISO_OK) status = iso_plot_table(ctx, &o->page, table);
+    if (o->value) snprintf(value, sizeof value, "value=%s", o->value);
+    iso_status status = sweep ? iso_sweep_read_table(ctx, o->from.file, &table)
+                              : iso_table_read(ctx, o->from.file, NULL, NULL, &table, NULL);
+    if (status == ISO_OK)
+        status = sweep ? plot_tables(ctx, &o->page, (const iso_record *[]){table, NULL}, value)
+                       : iso_plot_table(ctx, &o->page, table);
     iso_record_free(table);
-    return status;
+    return sweep ? name_the_file(ctx, o->from.file, status) : status;
 }
 
 static int run(iso_context *ctx, const void *options_given)
@@ -245,12 +253,12 @@ static int run(iso_context *ctx, const void *options_given)
         return complain("plot: --columns is for trajectories; of a sweep give --value NAME"), EXIT_USAGE;
     const char *wish = iso_plot_section_wish(&o->page);
     if (wish && !iso_plot_has_kind(kind)) return complain("plot: --%s is for sections", wish), EXIT_USAGE;
-    if (*kind && !sweep && strcmp(kind, "trajectory") != 0 && !iso_plot_has_kind(kind))
+    if (*kind && strcmp(kind, "trajectory") != 0 && !iso_plot_has_kind(kind))
         return complain("plot: there is no picture of a table '%s'", kind), EXIT_USAGE;
-    if (sweep) return finish(ctx, iso_plot_sweep(ctx, &o->page, o->from.file, o->value));
-    if (status == ISO_OK && o->value)
+    if (status == ISO_OK && o->value && !sweep)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "plot: --value is for results of sweeps");
-    if (status == ISO_OK && !o->from.columns && iso_plot_has_kind(kind)) return finish(ctx, draw_table(ctx, o));
+    if (status == ISO_OK && !o->from.columns && iso_plot_has_kind(kind))
+        return finish(ctx, draw_table(ctx, o, sweep));
     if (status == ISO_OK) status = names_two(o->from.columns, name) ? draw_two(ctx, o, name) : draw_file(ctx, o);
     return finish(ctx, name_the_file(ctx, o->from.file, status));
 }

@@ -9,7 +9,10 @@
 #include "orbit/description.h"
 #include "picture/picture_impl.h"
 
-static const iso_picture_maker *const makers[] = {&iso_picture_splitting};
+static const iso_picture_maker *const makers[] = {&iso_picture_branch,      &iso_picture_chart,
+                                                &iso_picture_cost,        &iso_picture_frequencies,
+                                                &iso_picture_splitting,   &iso_picture_sweep,
+                                                &iso_picture_sweep_part};
 enum { MAKERS = sizeof makers / sizeof *makers };
 
 const char *iso_picture_kind(int i)
@@ -56,7 +59,8 @@ static iso_status check_table(iso_context *ctx, const iso_record *r, const iso_p
     for (size_t i = 0; i < sizeof m->columns / sizeof *m->columns && m->columns[i]; i++)
         if (iso_record_find(r, m->columns[i]) < 0)
             return ISO_FAIL_INPUT(ctx, "", "no picture: the table has no column '%s'", m->columns[i]);
-    if (iso_record_rows(r) == 0) return ISO_FAIL_INPUT(ctx, "", "no picture: the table has no rows");
+    if (iso_record_rows(r) == 0 && !m->alone)
+        return ISO_FAIL_INPUT(ctx, "", "no picture: the table has no rows");
     if (!m->axis || iso_picture_axis(r) >= 0) return ISO_OK;
     return ISO_FAIL_INPUT(ctx, "", "no picture: the table does not say its axis, in a line '# axis: 3'");
 }

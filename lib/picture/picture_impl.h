@@ -4,6 +4,7 @@
 
 #include "model/params.h"
 #include "picture/picture.h"
+#include "study/frequencies/momentum.h"
 
 /* What is asked for. */
 typedef struct iso_picture_request {
@@ -53,9 +54,15 @@ typedef struct iso_picture_maker {
     const char *columns[5];   /* that the picture needs; NULL ends them    */
     bool axis;                /* and the line "axis"                       */
     const char *options;      /* those that it takes, with blanks around: " window points " */
+    bool alone;               /* it needs lines alone, no rows             */
     iso_status (*make)(iso_context *ctx, const iso_picture_request *request, iso_picture *picture);
 } iso_picture_maker;
 
-extern const iso_picture_maker iso_picture_splitting;
+extern const iso_picture_maker iso_picture_branch, iso_picture_chart, iso_picture_cost, iso_picture_frequencies,
+    iso_picture_splitting, iso_picture_sweep, iso_picture_sweep_part;
+
+/* The image of the momentum map with an orbit at (h, F) in it. */
+iso_status iso_picture_momentum(iso_context *ctx, const iso_momentum *momentum, const double at[2],
+                                iso_picture *picture);
 
 #endif

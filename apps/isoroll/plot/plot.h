@@ -13,8 +13,6 @@
 #include "base/record.h"
 #include "model/params.h"
 #include "plot/page.h"
-#include "study/frequencies/frequencies.h"
-#include "study/frequencies/momentum.h"
 
 /* "1/2" of 0.5, if the number is such a fraction to its last digits; else its first digits. Gives `text`. */
 enum { ISO_PLOT_FRACTION = 32 };
@@ -80,21 +78,10 @@ iso_status iso_plot_trajectory(iso_context *ctx, const iso_plot_page *page, cons
 iso_status iso_plot_columns(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *rows,
                             const char *x, const char *y, bool equal);
 
-/* The image of the momentum map: kinds of motion over the energy h and a second integral F, with the orbit at
- * (h, F) in it. On the left F over h, on the right F/h over h, where thin parts can be told apart.
- * Errors: ISO_BAD_ARGUMENT (name), those of iso_momentum_bounds, ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-iso_status iso_plot_momentum(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_momentum *m,
-                             const double at[2]);
-
-/* The spectral lines of n(t): of the pair of components across the axis, and of the one along it. Errors: as
- * iso_plot_momentum; ISO_BAD_ARGUMENT: there is no line. */
-iso_status iso_plot_lines(iso_context *ctx, const iso_plot_page *page, const char *title,
-                          const iso_estimate *estimate);
-
 /* The indicators of chaos against the turns. The records have the columns turn, t, growth, megno, mean and gali2, as
  * in iso_chaos. Above: ln D. Below: MEGNO and its mean on the left, GALI_2 on the right. A record that is NULL or
  * empty is left out.
- * Errors: as iso_plot_momentum. */
+ * Errors: as iso_plot_columns. */
 iso_status iso_plot_indicators(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *ball,
                                const iso_record *point);
 
@@ -108,13 +95,9 @@ bool iso_plot_has_kind(const char *kind);
 iso_status iso_plot_table(iso_context *ctx, const iso_plot_page *page, const iso_record *table);
 
 /* Of chaos: the section, with a spot for each orbit that starts on it, coloured by its exponent. Errors: as
- * iso_plot_momentum. */
+ * iso_plot_columns. */
 iso_status iso_plot_exponents(iso_context *ctx, const iso_plot_page *page, const char *title,
                               const iso_record *table);
-
-/* Of cost: a work-precision diagram, time over error, both logarithmic, small errors on the right; a panel for each
- * backend. The first methods of each, which should be the fastest, have names. Errors: as iso_plot_momentum. */
-iso_status iso_plot_cost(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *table);
 
 /* How an orbit is drawn: 0: in colours; grey, behind the others; dark. */
 typedef enum iso_plot_shade {
@@ -144,11 +127,5 @@ typedef struct iso_plot_section {
  * of the point. Its axes are l and L = M_a, and its boundaries are L = +-G(l).
  * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 iso_status iso_plot_sections(iso_context *ctx, const iso_plot_page *page, const iso_plot_section *section);
-
-/* The result of a sweep in a file. value: which column is drawn (NULL: the first that is there of a list of usual
- * ones), over the numbers that vary: over one as a curve with the band of its error, over two as maps. Marks stand at
- * k = +-1. Values of both signs or of very different sizes are drawn as |value| on a logarithmic axis. Errors:
- * ISO_BAD_INPUT: no such column, or a sweep that no picture shows; those of iso_plot_momentum. */
-iso_status iso_plot_sweep(iso_context *ctx, const iso_plot_page *page, const char *file, const char *value);
 
 #endif

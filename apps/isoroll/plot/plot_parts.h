@@ -217,22 +217,4 @@ void iso_plot_put_over(FILE *script, const struct iso_plot_section *section, con
 void iso_plot_draw_over(FILE *script, const struct iso_plot_section *section, const char *side);
 void iso_plot_over_key(FILE *script, const struct iso_plot_section *section, double y);
 
-/* --- sweeps ----------------------------------------------------------------------------------------------------- */
-
-/* A curve; rows: the number that varies, by growing size, the value, low and high, which may be NaN; the name of the
- * last says what the band from low to high is. */
-iso_status iso_plot_sweep_curve(iso_context *ctx, const iso_plot_page *page, const char *title,
-                                const iso_record *rows);
-
-/* Maps side by side, with one scale of colours; a NaN is grey. */
-enum { ISO_PLOT_MAPS = 6 };
-typedef struct iso_plot_maps {
-    const char *key_name; /* of what differs from map to map; NULL: there is one */
-    int count;            /* of maps, at most ISO_PLOT_MAPS */
-    double key[ISO_PLOT_MAPS];
-    iso_record *rows; /* x, y, the value, and the map, from 0; the names of the first three are shown */
-} iso_plot_maps;
-iso_status iso_plot_sweep_maps(iso_context *ctx, const iso_plot_page *page, const char *title,
-                               const iso_plot_maps *maps);
-
 #endif
