@@ -40,11 +40,12 @@ below = strip ? 320 : 50
 height = below
 do for [i=1:words(squares):2] { height = height + square_height(i) }
 height = height + (words(charts) - beside + 1) / 2 * 260 + (exists('noise') ? 40 : 0) + (space ? 26 : 0) + 12
-width = 900; panels = 2
+width = 900; panels = 2; own_height = height
 eval page
+width = 900; height = own_height # a page of another shape is filled: its panels are wider or higher
 set multiplot title title noenhanced font ',12'
 fresh = 'unset label; unset arrow; unset object; unset xlabel; unset ylabel; unset title; set size noratio; set key default'
-key_at(x, y) = whole_page.sprintf('; set key horizontal maxrows 1 samplen 1.4 Left reverse center center \
+key_at(x, y) = whole_page.sprintf('; set key horizontal maxrows 1 samplen 1.2 width -1 Left reverse center center \
 at screen %.6f, %.6f', across(x), down(y))
 
 # --- views of the path in space; square 0 is the strip
