@@ -9,10 +9,9 @@
 #include "orbit/description.h"
 #include "picture/picture_impl.h"
 
-static const iso_picture_maker *const makers[] = {&iso_picture_branch,      &iso_picture_chart,
-                                                &iso_picture_cost,        &iso_picture_frequencies,
-                                                &iso_picture_splitting,   &iso_picture_sweep,
-                                                &iso_picture_sweep_part};
+static const iso_picture_maker *const makers[] = {
+    &iso_picture_branch,    &iso_picture_chart, &iso_picture_compare,    &iso_picture_cost, &iso_picture_frequencies,
+    &iso_picture_splitting, &iso_picture_sweep, &iso_picture_sweep_part, &iso_picture_trajectory};
 enum { MAKERS = sizeof makers / sizeof *makers };
 
 const char *iso_picture_kind(int i)
@@ -70,13 +69,14 @@ static iso_status check_table(iso_context *ctx, const iso_record *r, const iso_p
 iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], const char *options,
                             iso_picture *picture)
 {
-    char title[ISO_PICTURE_TITLE];
-    const iso_picture_maker *m = NULL;
+    char title[ISO_PICTURE_TITLE], columns[ISO_PICTURE_OPTION];
+    iso_picture_request q = {.table = table, .options = options, .title = iso_record_get(table[0], "title")};
+    const iso_picture_maker *m = iso_picture_option(&q, "columns", columns) ? &iso_picture_columns : NULL;
+    const char *kind = *iso_record_kind(table[0]) ? iso_record_kind(table[0]) : "trajectory"; /* of others */
     *picture = (iso_picture){.layout = NULL};
     for (int i = 0; i < MAKERS && !m; i++)
-        if (strcmp(makers[i]->kind, iso_record_kind(table[0])) == 0) m = makers[i];
-    if (!m) return ISO_FAIL_INPUT(ctx, "", "there is no picture of a table '%s'", iso_record_kind(table[0]));
-    iso_picture_request q = {.table = table, .options = options, .title = iso_record_get(table[0], "title")};
+        if (strcmp(makers[i]->kind, kind) == 0) m = makers[i];
+    if (!m) return ISO_FAIL_INPUT(ctx, "", "there is no picture of a table '%s'", kind);
     ISO_TRY(check_options(ctx, &q, m));
     ISO_TRY(check_table(ctx, table[0], m));
     if (!q.title && iso_record_get(table[0], "k")) {
@@ -182,7 +182,7 @@ char *iso_picture_fraction(char text[static ISO_PICTURE_FRACTION], double x)
 char *iso_picture_title(char title[static ISO_PICTURE_TITLE], const char *seen, const iso_params *p)
 {
     char k[ISO_PICTURE_FRACTION];
-    snprintf(title, ISO_PICTURE_TITLE, "%s        k = %s, J = (%.6g, %.6g, %.6g)", seen,
+    snprintf(title, ISO_PICTURE_TITLE, "%s%sk = %s, J = (%.6g, %.6g, %.6g)", seen, *seen ? "        " : "",
              iso_picture_fraction(k, p->k), p->J[0], p->J[1], p->J[2]);
     return title;
 }

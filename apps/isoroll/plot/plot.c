@@ -1,33 +1,12 @@
-/* plot.c - what several pictures need: titles, and the columns of a table. */
+/* plot.c - what several pictures need: titles, a key. */
 #include "plot/plot.h"
 
 #include <math.h>
 #include <stdarg.h>
 
+#include "picture/picture_impl.h"
 #include "plot/gnuplot.h"
 #include "plot/plot_parts.h"
-
-const char *const iso_plot_normal[3] = {"n1", "n2", "n3"}, *const iso_plot_place_of_point[3] = {"gamma1", "gamma2",
-                                                                                                "gamma3"};
-
-iso_status iso_plot_find(iso_context *ctx, const iso_record *r, int count, const char *const names[], int *first)
-{
-    *first = -1;
-    if (!r || iso_record_rows(r) == 0)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture needs at least one row");
-    const int found = iso_record_find(r, names[0]);
-    for (int c = 0; c < count; c++)
-        if (found < 0 || iso_record_find(r, names[c]) != found + c)
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, names[c], "a picture: there is no column '%s'%s", names[c],
-                                    c > 0 ? " behind the one before" : "");
-    for (size_t i = 0; i < iso_record_rows(r); i++)
-        for (int c = 0; c < count; c++)
-            if (!isfinite(iso_record_const_row(r, i)[found + c]))
-                return iso_context_fail(ctx, ISO_NUMERICAL, names[c], "a picture: %s is not finite in row %zu",
-                                        names[c], i + 1);
-    *first = found;
-    return ISO_OK;
-}
 
 char *iso_plot_fraction(char text[static ISO_PLOT_FRACTION], double x)
 {
@@ -58,4 +37,17 @@ char *iso_plot_heading(char heading[static ISO_PLOT_HEADING], const char *seen, 
     char title[ISO_PLOT_TITLE];
     snprintf(heading, ISO_PLOT_HEADING, "%s        %s", seen, iso_plot_title(title, p, "%s", ""));
     return heading;
+}
+
+void iso_plot_key(FILE *f, double x, double y, const char *entries)
+{
+    fprintf(f,
+            ISO_PLOT_PAGE "set key default; set key horizontal maxrows 1 samplen 1.4 Left reverse center center at "
+                          "screen %.17g,%.17g\nplot %s\nunset key\n",
+            x, y, entries);
+}
+
+const char *iso_plot_symbol(const char *name)
+{
+    return iso_picture_symbol(name);
 }
