@@ -1,4 +1,5 @@
-/* compare.c - one orbit in both models, and their two clocks: of the tables of stretch.h.
+/* compare.c - one orbit in both models, and their two clocks: of the tables of stretch.h. Tables of differences have
+ * a picture of their own (difference.c).
  *
  * Tables: states and curve (t, s, n1..3, gamma1..3, t_part, s_part, colour, number, ball_right, ball_up, ball_near,
  * point_right, point_up, point_near). The parts of both clocks that have passed are from 0 to 1; colour is the first of
@@ -92,6 +93,7 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
     iso_status status;
     double k, end;
     int first;
+    if (iso_record_find(r, "omega") >= 0) return iso_picture_difference(ctx, q, picture);
     if (!path) return ISO_FAIL_INPUT(ctx, "", "no picture: the states have no curve");
     if (!iso_record_get_numbers(ctx, r, "k", 1, &k, &status) ||
         !iso_record_get_numbers(ctx, r, "compared", 1, &end, &status))
@@ -114,4 +116,4 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
 }
 
 const iso_picture_maker iso_picture_compare = {
-    "compare", "One orbit, two worlds, two clocks", {"t", "s", "n1", "gamma1"}, .options = " ", .make = make};
+    "compare", "One orbit, two worlds, two clocks", {NULL}, .options = " ", .make = make};
