@@ -27,12 +27,13 @@ tells_not() {
     for words; do check_not "$what: '$words'" grep -q -F -e "$words" script; done
 }
 
-# block NAME COLUMN VALUE NAME...: of the block of data with this name, the rows whose COLUMN has this value: these of its
-# columns, with blanks between
+# block NAME COLUMN VALUE NAME...: of the block of data with this name, the rows whose COLUMN has this value: these of
+# its columns, with blanks between
 block() {
     awk -v head="\$$1 << EOD" -v by="$2" -v value="$3" -v names="$(shift 3 && echo "$*")" '
         $0 == "EOD" { inside = 0 }
-        inside == 1 { n = split(names, name, " "); for (i = 1; i <= NF; i++) { gsub(/"/, "", $i); at[$i] = i } inside = 2; next }
+        inside == 1 { n = split(names, name, " "); for (i = 1; i <= NF; i++) { gsub(/"/, "", $i); at[$i] = i }
+                      inside = 2; next }
         inside == 2 && $at[by] == value { for (i = 1; i <= n; i++) printf "%s%s", $at[name[i]], i < n ? " " : "\n" }
         $0 == head { inside = 1 }' script
 }
