@@ -246,7 +246,8 @@ run 0 chaos scene.yaml --turns 20 --starts 5 --csv chaos.csv
 PATH=$work/bin:$real_path
 draw chaos.csv --columns l,x
 PATH=$real_path
-block values curve 1 x y >a && columns_of chaos.csv l x >b && same "two columns of another table"
+block values curve 1 x y >a && columns_of chaos.csv l x | grep -v nan >b &&
+    same "two columns of another table, rows without numbers left out"
 refuses 2 "--window is for sections" plot bowl.csv -o none.svg --window 0:1,0:1
 refuses_changed chaos.csv '/^# axis/d' "the table does not say its axis" plot -o none.svg
 refuses_changed chaos.csv 's/,l,x,/,l,z,/' "the table has no column 'x'" plot -o none.svg
