@@ -9,7 +9,8 @@
 #include "orbit/description.h"
 #include "picture/picture_impl.h"
 
-static const iso_picture_maker *const makers[] = {&iso_picture_splitting};
+static const iso_picture_maker *const makers[] = {&iso_picture_chaos, &iso_picture_indicators, &iso_picture_periodic,
+                                                  &iso_picture_section, &iso_picture_splitting};
 enum { MAKERS = sizeof makers / sizeof *makers };
 
 const char *iso_picture_kind(int i)

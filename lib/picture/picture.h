@@ -30,7 +30,7 @@ typedef struct iso_picture {
  *   columns=X,Y            of a trajectory: Y over X alone
  *   value=NAME             of a sweep: the column that is drawn
  *   window=L0:L1,X0:X1     of a section: this part of it
- *   points=N               of a section: at most so many points a side
+ *   points=N               of a section: at most so many spots a side; of more an image is made
  * Errors: ISO_BAD_INPUT: no picture shows such a table, it has no rows, or a column or line is missing;
  * ISO_BAD_ARGUMENT about an option; ISO_NUMERICAL, ISO_NO_MEMORY. The picture is then empty. */
 ISO_API iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], const char *options,

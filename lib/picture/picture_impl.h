@@ -53,6 +53,7 @@ typedef struct iso_picture_maker {
     iso_status (*make)(iso_context *ctx, const iso_picture_request *request, iso_picture *picture);
 } iso_picture_maker;
 
+extern const iso_picture_maker iso_picture_chaos, iso_picture_indicators, iso_picture_periodic, iso_picture_section;
 extern const iso_picture_maker iso_picture_splitting;
 
 #endif

@@ -30,6 +30,12 @@ set style line 9 dt (12,3,2,3,2,3) lc rgb green
 set style line 10 dt (5,2) lc rgb orange
 viridis = "set palette defined (0 '#440154', 1 '#472C7A', 2 '#3B518B', 3 '#2C718E', 4 '#21908D', 5 '#27AD81', \
 6 '#5CC863', 7 '#AADC32', 8 '#FDE725')"
+# the same without its lightest part, for dots: yellow ones are not seen on white
+viridis_dots = "set palette defined (0 '#440154', 1 '#472C7A', 2 '#3B518B', 3 '#2C718E', 4 '#21908D', 5 '#27AD81', \
+6 '#5CC863', 7 '#AADC32', 7.36 '#C8E02D')"
+exponents = sprintf("set palette defined (0 '%s', 0.5 '%s', 1 '%s')", pale_yellow, orange, dark_red)
+# of a colour above its number, for `lc rgb variable`
+code(colour) = int('0x'.colour[2:])
 
 # --- the page
 min(a, b) = a < b ? a : b

@@ -337,13 +337,13 @@ static iso_status run(iso_context *ctx)
     fputs("\nunset multiplot\nunset output\n", g.script);
     if (fflush(g.script) != 0 || ferror(g.script) || fseek(g.script, 0, SEEK_SET) != 0)
         return iso_file_trouble(ctx, "write", "gnuplot's temporary script");
-    /* -d: no start-up file of the user changes the picture */
+    /* -d: no start-up file of the user changes the picture. gnuplot reads its own standard input ("-") by single bytes. */
     const int error =
-        program_start((const char *[]){"gnuplot", "-d", "-", NULL},
+        program_start((const char *[]){"gnuplot", "-d", "/dev/stdin", NULL},
                       (int[]){fileno(g.script), fileno(iso_output_stream(g.output)), fileno(g.complaints)}, &child);
     if (error != 0)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot run gnuplot: %s; " INSTALL, strerror(error));
-    progress_drawing();
+    progress_doing("drawing");
     do ended = waitpid(child, &result, 0);
     while (ended < 0 && errno == EINTR);
     progress_end();

@@ -91,13 +91,6 @@ iso_status iso_plot_momentum(iso_context *ctx, const iso_plot_page *page, const 
 iso_status iso_plot_lines(iso_context *ctx, const iso_plot_page *page, const char *title,
                           const iso_estimate *estimate);
 
-/* The indicators of chaos against the turns. The records have the columns turn, t, growth, megno, mean and gali2, as
- * in iso_chaos. Above: ln D. Below: MEGNO and its mean on the left, GALI_2 on the right. A record that is NULL or
- * empty is left out.
- * Errors: as iso_plot_momentum. */
-iso_status iso_plot_indicators(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *ball,
-                               const iso_record *point);
-
 /* --- tables of commands ----------------------------------------------------------------------------------------- */
 
 /* Whether there is a picture of such tables ("section", "chaos", ...); trajectories and sweeps have their own. */
@@ -107,43 +100,9 @@ bool iso_plot_has_kind(const char *kind);
  * column or a line that the picture needs is missing, or there is no row; those of the picture. */
 iso_status iso_plot_table(iso_context *ctx, const iso_plot_page *page, const iso_record *table);
 
-/* Of chaos: the section, with a spot for each orbit that starts on it, coloured by its exponent. Errors: as
- * iso_plot_momentum. */
-iso_status iso_plot_exponents(iso_context *ctx, const iso_plot_page *page, const char *title,
-                              const iso_record *table);
-
 /* Of cost: a work-precision diagram, time over error, both logarithmic, small errors on the right; a panel for each
  * backend. The first methods of each, which should be the fastest, have names. Errors: as iso_plot_momentum. */
 iso_status iso_plot_cost(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *table);
-
-/* How an orbit is drawn: 0: in colours; grey, behind the others; dark. */
-typedef enum iso_plot_shade {
-    ISO_PLOT_COLOURED,
-    ISO_PLOT_CHAOTIC,
-    ISO_PLOT_UNDECIDED,
-    ISO_PLOT_SHADES
-} iso_plot_shade;
-
-/* Crossings of one section n_a = 0 by both models, as points (l, x) of the chart (map/section.h). */
-typedef struct iso_plot_section {
-    const char *title; /* one line, any characters; NULL: none                                          */
-    const iso_params *params;
-    double eps, energy; /* coupling, > 0, and level H, if the section has its chart; eps 0: x is drawn, not L */
-    bool alone;         /* ... and nothing acts but a level                                              */
-    int axis;           /* a, 0 to 2                                                                     */
-    /* Columns orbit (0, 1, ...), l, x and grey, an iso_plot_shade. If there is a column rotation, an orbit has the
-     * colour of its rotation number; else each has its own. The crossings of the point are the same, or in columns
-     * point_l, point_x. */
-    const iso_record *rows;
-    const char *grey_means, *dark_means; /* what the key says of these shades, such as "chaotic"; NULL: nothing */
-    const iso_record *over;              /* of iso_plot_read_over; NULL: nothing */
-    bool few; /* few crossings, as of periodic orbits: in colours and large; the axes end with them */
-} iso_plot_section;
-
-/* Left: the section of the ball. Its axes are the angle of n in the plane n_a = 0, and omega_a/|omega|. Right: that
- * of the point. Its axes are l and L = M_a, and its boundaries are L = +-G(l).
- * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-iso_status iso_plot_sections(iso_context *ctx, const iso_plot_page *page, const iso_plot_section *section);
 
 /* The result of a sweep in a file. value: which column is drawn (NULL: the first that is there of a list of usual
  * ones), over the numbers that vary: over one as a curve with the band of its error, over two as maps. Marks stand at

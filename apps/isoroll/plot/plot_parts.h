@@ -196,27 +196,6 @@ double iso_plot_view_shape(const iso_plot_scenery *scenery);
 /* The entries of their key, into text. */
 void iso_plot_view_key(const iso_plot_scenery *scenery, char text[static 512]);
 
-/* --- over a section --------------------------------------------------------------------------------------------- */
-
-struct iso_plot_section;
-typedef struct iso_plot_spot {
-    double right, up;
-} iso_plot_spot;
-
-/* The n-th of eight images of (l, x) by the reversors S1: (l, -x), S2: (-l, x), S3: (pi - l, x); 0: itself. */
-void iso_plot_image(int n, double l, double x, double image[2]);
-
-/* Reads the files that --over names: columns l, x, and how it is drawn. NULL: there are none. The caller frees it, also
- * after an error. Errors: ISO_BAD_INPUT: a file of another kind, or of another ball. */
-iso_status iso_plot_read_over(iso_context *ctx, const iso_plot_page *page, const struct iso_plot_section *section,
-                              iso_record **over);
-
-/* Writes its blocks of data for one side; goes on with a `plot` of this side; draws its key in the middle at y. */
-void iso_plot_put_over(FILE *script, const struct iso_plot_section *section, const char *side,
-                       iso_plot_spot (*place)(const struct iso_plot_section *section, const double chart[2]));
-void iso_plot_draw_over(FILE *script, const struct iso_plot_section *section, const char *side);
-void iso_plot_over_key(FILE *script, const struct iso_plot_section *section, double y);
-
 /* --- sweeps ----------------------------------------------------------------------------------------------------- */
 
 /* A curve; rows: the number that varies, by growing size, the value, low and high, which may be NaN; the name of the

@@ -8,7 +8,6 @@
 #include "plot/gnuplot.h"
 #include "plot/plot.h"
 #include "plot/plot_parts.h"
-#include "plot/section_picture.h"
 
 /* --- pictures that are a script of gnuplot ---------------------------------------------------------------------- */
 
@@ -143,54 +142,6 @@ static iso_status draw_stability(iso_context *ctx, const iso_plot_page *page, co
     return iso_gnuplot_close(ctx, true);
 }
 
-/* --- sections --------------------------------------------------------------------------------------------------- */
-
-static iso_status draw_section(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *r)
-{
-    section_picture *p = NULL;
-    iso_status status = section_picture_create(ctx, r, &p);
-    (void)title;
-    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(r); i++)
-        status = section_picture_row(ctx, p, iso_record_const_row(r, i));
-    if (status == ISO_OK) status = section_picture_draw(ctx, p, page);
-    section_picture_free(p);
-    return status;
-}
-
-/* The images of a crossing by the reversors and by half turns. */
-static iso_status put_images(iso_context *ctx, const iso_record *r, size_t i, iso_record *images)
-{
-    const bool grey = iso_plot_is(r, i, "stability", "unstable") || iso_plot_is(r, i, "stability", "inverse");
-    for (int n = 0; n < 8; n++) {
-        double row[] = {iso_plot_number(r, i, "orbit") - 1, 0, 0, grey};
-        iso_plot_image(n, iso_plot_number(r, i, "l"), iso_plot_number(r, i, "x"), &row[1]);
-        ISO_TRY(iso_record_add(ctx, images, 1, row));
-    }
-    return ISO_OK;
-}
-
-static iso_status draw_orbits(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *r)
-{
-    static const char *const names[] = {"orbit", "l", "x", "grey"};
-    char words[200];
-    iso_params params;
-    iso_record *images = NULL;
-    const bool part = !iso_record_get(r, "title"); /* a file has one crossing of each orbit */
-    snprintf(words, sizeof words, "%s%s", title, part ? ": a crossing of each orbit, its images" : "");
-    iso_status status = iso_record_params(ctx, r, &params);
-    if (status == ISO_OK) status = iso_record_create(ctx, 4, names, &images);
-    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(r); i++) status = put_images(ctx, r, i, images);
-    const iso_plot_section plot = {.title = words,
-                                   .params = &params,
-                                   .axis = iso_plot_axis_of(r),
-                                   .rows = images,
-                                   .grey_means = "unstable; each stable orbit has a colour",
-                                   .few = true};
-    if (status == ISO_OK) status = iso_plot_sections(ctx, page, &plot);
-    iso_record_free(images);
-    return status;
-}
-
 /* --- the kinds -------------------------------------------------------------------------------------------------- */
 
 static const struct kind {
@@ -199,9 +150,6 @@ static const struct kind {
     bool axis;                /* and the line "axis"                    */
     iso_status (*draw)(iso_context *ctx, const iso_plot_page *page, const char *title, const iso_record *rows);
 } kinds[] = {
-    {"section", "Poincaré section", {"orbit", "l", "x"}, true, draw_section},
-    {"chaos", "Chaos on the section", {"l", "x", "verdict"}, true, iso_plot_exponents},
-    {"periodic", "Periodic orbits", {"orbit", "l", "x", "stability"}, true, draw_orbits},
     {"periodic follow", "Periodic orbits followed", {"branch", "u", "trace", "event"}, false, draw_branches},
     {"periodic chart", "Where rotations are stable", {"kind", "k", "least", "greatest"}, false, draw_stability},
     {"cost", "Time and error of the methods", {"backend", "method", "error", "total"}, false, iso_plot_cost},
@@ -238,12 +186,13 @@ iso_status iso_plot_table(iso_context *ctx, const iso_plot_page *page, const iso
     char title[ISO_PLOT_HEADING];
     iso_params p;
     const struct kind *kind = find_kind(iso_record_kind(r));
+    const char *own = iso_record_get(r, "title"), *wish = iso_plot_section_wish(page);
+    if (strcmp(iso_record_kind(r), "section") == 0) return plot_section(ctx, page, r);
+    if (wish)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, wish, "--%s is for sections, and this is a table '%s'", wish,
+                                iso_record_kind(r));
     if (!kind) return plot_tables(ctx, page, (const iso_record *[]){r, NULL}, NULL);
     ISO_TRY(check(ctx, r, kind));
     ISO_TRY(iso_record_params(ctx, r, &p));
-    const char *own = iso_record_get(r, "title"), *wish = iso_plot_section_wish(page);
-    if (wish && kind->draw != draw_section)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, wish, "--%s is for sections, and this is a table '%s'", wish,
-                                kind->name);
     return kind->draw(ctx, page, own ? own : iso_plot_heading(title, kind->shows, &p), r);
 }
