@@ -3,7 +3,7 @@
 
 #include "base/number_impl.h"
 #include "model/effects_impl.h"
-#include "picture/stretch.h"
+#include "picture/stretch_impl.h"
 #include "plot/draw.h"
 #include "say.h"
 #include "shell.h"

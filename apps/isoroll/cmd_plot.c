@@ -24,6 +24,7 @@ static const char *name_of(const options *o)
 /* --- two columns ------------------------------------------------------------------------------------------------ */
 
 enum { NAME = 32 };
+#define TRAJECTORY "trajectory"
 
 /* Whether --columns names two columns; "-" stands for a column that is not read, and is not counted. */
 static bool names_two(const char *columns, char name[2][NAME])
@@ -39,31 +40,33 @@ static bool names_two(const char *columns, char name[2][NAME])
     return count == 2;
 }
 
-/* Reads a file, and says how many rows of nan it passes over. */
-static iso_status read_good(iso_context *ctx, const options *o, const char *columns, iso_record **file)
+/* Reads a table of this kind, and says how many rows of nan it passes over. */
+static iso_status read_good(iso_context *ctx, const options *o, const char *kind, const char *columns,
+                            iso_record **file)
 {
     size_t passed;
-    const iso_status status = iso_table_read(ctx, o->from.file, "trajectory", columns, file, &passed);
+    const iso_status status = iso_table_read(ctx, o->from.file, kind, columns, file, &passed);
     if (status != ISO_OK || passed == 0) return status;
     complain("%s: %zu rows of nan were passed over", name_of(o), passed);
     return ISO_OK;
 }
 
 /* Reads the file by its own names of columns. If it has none, or if --columns has a "-", by those of --columns. */
-static iso_status read_two(iso_context *ctx, const options *o, iso_record **file)
+static iso_status read_two(iso_context *ctx, const options *o, const char *kind, iso_record **file)
 {
+    if (strcmp(kind, TRAJECTORY) != 0) return read_good(ctx, o, NULL, NULL, file);
     const bool passes = strstr(o->from.columns, "-") != NULL, once = strcmp(o->from.file, "-") == 0;
-    const iso_status status = read_good(ctx, o, passes ? o->from.columns : NULL, file);
+    const iso_status status = read_good(ctx, o, kind, passes ? o->from.columns : NULL, file);
     if (status == ISO_OK || passes || once) return status;
-    if (read_good(ctx, o, o->from.columns, file) == ISO_OK) return ISO_OK;
-    return read_good(ctx, o, NULL, file); /* once more, for its words */
+    if (read_good(ctx, o, kind, o->from.columns, file) == ISO_OK) return ISO_OK;
+    return read_good(ctx, o, kind, NULL, file); /* once more, for its words */
 }
 
-static iso_status draw_two(iso_context *ctx, const options *o, char name[2][NAME])
+static iso_status draw_two(iso_context *ctx, const options *o, const char *kind, char name[2][NAME])
 {
     char wish[2 * NAME + 16];
     iso_record *file = NULL;
-    iso_status status = read_two(ctx, o, &file);
+    iso_status status = read_two(ctx, o, kind, &file);
     snprintf(wish, sizeof wish, "columns=%s,%s", name[0], name[1]);
     if (status == ISO_OK) status = plot_tables(ctx, &o->page, (const iso_record *[]){file, NULL}, wish);
     iso_record_free(file);
@@ -88,7 +91,7 @@ static iso_status draw_file(iso_context *ctx, const options *o)
 {
     iso_params params;
     iso_record *file = NULL;
-    iso_status status = read_good(ctx, o, o->from.columns, &file);
+    iso_status status = read_good(ctx, o, TRAJECTORY, o->from.columns, &file);
     if (status == ISO_OK) status = parameters_of_file(ctx, &o->from, file, &params);
     if (status == ISO_OK) status = draw(ctx, o, file);
     iso_record_free(file);
@@ -123,14 +126,17 @@ static int run(iso_context *ctx, const void *options_given)
     if (sweep && o->from.columns)
         return complain("plot: --columns is for trajectories; of a sweep give --value NAME"), EXIT_USAGE;
     const char *wish = iso_plot_section_wish(&o->page);
-    if (wish && !iso_plot_has_kind(kind)) return complain("plot: --%s is for sections", wish), EXIT_USAGE;
-    if (*kind && strcmp(kind, "trajectory") != 0 && !iso_plot_has_kind(kind))
+    if (!*kind) strcpy(kind, TRAJECTORY); /* a file of others */
+    const bool trajectory = strcmp(kind, TRAJECTORY) == 0;
+    if (wish && (trajectory || !iso_plot_has_kind(kind)))
+        return complain("plot: --%s is for sections", wish), EXIT_USAGE;
+    if (!sweep && !iso_plot_has_kind(kind))
         return complain("plot: there is no picture of a table '%s'", kind), EXIT_USAGE;
     if (status == ISO_OK && o->value && !sweep)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "plot: --value is for results of sweeps");
-    if (status == ISO_OK && !o->from.columns && iso_plot_has_kind(kind))
-        return finish(ctx, draw_table(ctx, o, sweep));
-    if (status == ISO_OK) status = names_two(o->from.columns, name) ? draw_two(ctx, o, name) : draw_file(ctx, o);
+    if (status == ISO_OK && !o->from.columns && !trajectory) return finish(ctx, draw_table(ctx, o, sweep));
+    if (status == ISO_OK)
+        status = names_two(o->from.columns, name) ? draw_two(ctx, o, kind, name) : draw_file(ctx, o);
     return finish(ctx, name_the_file(ctx, o->from.file, status));
 }
 

@@ -1,4 +1,4 @@
-/* compare.c - one orbit in both models, and their two clocks: of the tables of stretch.h.
+/* compare.c - one orbit in both models, and their two clocks: of the tables of stretch_impl.h.
  *
  * Tables: states and curve (t, s, n1..3, gamma1..3, t_part, s_part, colour, number, ball_right, ball_up, ball_near,
  * point_right, point_up, point_near). The parts of both clocks that have passed are from 0 to 1; colour is the first of
@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "picture/picture_impl.h"
-#include "picture/stretch.h"
+#include "picture/stretch_impl.h"
 
 enum { STEP = 8, COLOURS = 96, GIVEN = 8, COLUMNS = GIVEN + 10, BALL_NEAR = 14, POINT_NEAR = 17 };
 #define OUTLINE 0.1 /* a state so little behind the outline is shown in front */

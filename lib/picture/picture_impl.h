@@ -56,9 +56,10 @@ const double *iso_picture_row(const iso_record *r, size_t i);
  * there), ISO_NUMERICAL. */
 iso_status iso_picture_find(iso_context *ctx, const iso_record *r, int count, const char *const names[], int *first);
 
-/* Adds a table `name`, the path of three columns of unit vectors on the sphere (see sphere.c), and a line NAME_length:
- * its length in radians, 0: its rows are too far apart to be joined, and NAME_rows, how many there are. Adds its ends to a table "ends", and the axes of
- * the sphere to a table "axes"; `step`: the numbers of axes keep away from every step-th row. */
+/* Adds a table `name`, the path of three columns of unit vectors on the sphere (see sphere.c), and a line
+ * NAME_length: its length in radians, 0: its rows are too far apart to be joined, and NAME_rows, how many there are.
+ * Adds its ends to a table "ends", and the axes of the sphere to a table "axes"; `step`: the numbers of axes keep
+ * away from every step-th row. */
 iso_status iso_picture_path(iso_context *ctx, iso_picture *picture, const char *name, const iso_record *r,
                             int column);
 iso_status iso_picture_axes(iso_context *ctx, iso_picture *picture, const char *name, const iso_record *r, int column,

@@ -11,10 +11,10 @@
  *          |  /
  *          |/______ right
  *
- * Lines: paths: the values of `of`; above, side: titles of the views, "" if there is none; right_name, away_name, up_name; right_low, ... up_high:
- * what is to be seen; dots: the rows are too far apart to be joined; ball, support: radii, 0: not known; solid: the
- * support hides what is behind it; strip: the path is so narrow that the scale across it is larger; slope, at: the plane
- * seen from the side is up = at + slope right, if it is seen.
+ * Lines: paths: the values of `of`; above, side: titles of the views, "" if there is none; right_name, away_name,
+ * up_name; right_low, ... up_high: what is to be seen; dots: the rows are too far apart to be joined; ball, support:
+ * radii, 0: not known; solid: the support hides what is behind it; strip: the path is so narrow that the scale across
+ * it is larger; slope, at: the plane seen from the side is up = at + slope right, if it is seen.
  */
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* stretch.c - the first turns of an orbit, see stretch.h. */
-#include "picture/stretch.h"
+/* stretch.c - the first turns of an orbit, see stretch_impl.h. */
+#include "picture/stretch_impl.h"
 
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"

@@ -1,8 +1,9 @@
 /* trajectory.c - one trajectory: its path in space, on the spheres of ball and point, and charts over a clock.
  *
  * Tables: curves and values (curves.c) of the charts "energies", "pressure", "paces" and "drift"; losses (t): where
- * contact is lost; path and marks (space.c); ball and point with ends and axes (sphere.c). Lines: on_ball, on_point, above: titles of the panels that there are; noise: in place of the
- * chart of drifts, if all of them are rounding; lost: what lost contact is called; note: what the user should know.
+ * contact is lost; path and marks (space.c); ball and point with ends and axes (sphere.c). Lines: on_ball, on_point,
+ * above: titles of the panels that there are; noise: in place of the chart of drifts, if all of them are rounding;
+ * lost: what lost contact is called; note: what the user should know.
  *
  * What the file does not hold is computed: the path of the other model by the isomorphism, energies, drifts, clocks.
  */

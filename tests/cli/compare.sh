@@ -75,8 +75,8 @@ fi
 stand_in
 real_path=$PATH
 
-# draws ARGUMENT...: the picture of a comparison; its states are in `states`, its curves in `curve`: t s n gamma, the parts
-# of both clocks, the colour, the number
+# draws ARGUMENT...: the picture of a comparison; its states are in `states`, its curves in `curve`: t s n gamma, the
+# parts of both clocks, the colour, the number
 draws() {
     PATH=$work/bin:$real_path
     run 0 compare "$@" --plot drawn.svg

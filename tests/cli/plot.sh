@@ -27,12 +27,13 @@ tells_not() {
     for words; do check_not "$what: '$words'" grep -q -F -e "$words" script; done
 }
 
-# block NAME COLUMN VALUE NAME...: of the block of data with this name, the rows whose COLUMN has this value: these of its
-# columns, with blanks between
+# block NAME COLUMN VALUE NAME...: of the block of data with this name, the rows whose COLUMN has this value: these of
+# its columns, with blanks between
 block() {
     awk -v head="\$$1 << EOD" -v by="$2" -v value="$3" -v names="$(shift 3 && echo "$*")" '
         $0 == "EOD" { inside = 0 }
-        inside == 1 { n = split(names, name, " "); for (i = 1; i <= NF; i++) { gsub(/"/, "", $i); at[$i] = i } inside = 2; next }
+        inside == 1 { n = split(names, name, " "); for (i = 1; i <= NF; i++) { gsub(/"/, "", $i); at[$i] = i }
+                      inside = 2; next }
         inside == 2 && $at[by] == value { for (i = 1; i <= n; i++) printf "%s%s", $at[name[i]], i < n ? " " : "\n" }
         $0 == head { inside = 1 }' script
 }
@@ -64,6 +65,7 @@ draw bowl.csv
 tells "bowl" "the path of the ball, seen from above" "seen from the side" "height \\050axis 3\\051" \
     \"energy h\" \"pressure\" "μ needed" "up to rounding" \
     "where it touched the support"
+check "the user is told of the twin" grep -q "the ball is drawn alone: .*gravity" err
 tells_not "bowl" 'lost = "' '"drift" "t"'
 at_most "radius of the support" "$(line support | awk '{ d = $1 - 0.3; print (d < 0 ? -d : d) }')" 1e-15
 block path of '"centre"' right away >a && columns_of bowl.csv centre1 centre2 >b && same "from above: centre1, centre2"
@@ -241,6 +243,12 @@ refuses 5 "cannot write 'pipe'" chaos absent.yaml --plot look.svg --script pipe
 # --- tables that lack something
 scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml
 run 0 chaos scene.yaml --turns 20 --starts 5 --csv chaos.csv
+PATH=$work/bin:$real_path
+draw chaos.csv --columns l,x
+PATH=$real_path
+block values curve 1 x y >a && columns_of chaos.csv l x | grep -v nan >b &&
+    same "two columns of another table, rows without numbers left out"
+refuses 2 "--window is for sections" plot bowl.csv -o none.svg --window 0:1,0:1
 refuses_changed chaos.csv '/^# axis/d' "the table does not say its axis" plot -o none.svg
 refuses_changed chaos.csv 's/,l,x,/,l,z,/' "the table has no column 'x'" plot -o none.svg
 check "no picture of these" test ! -e none.svg

@@ -121,8 +121,8 @@ static double volume(const double a[3], const double b[3], const double c[3])
     return dot(normal, c);
 }
 
-/* A right-handed orthonormal frame keeps products and volumes; up is up. The rows are in their order, from the inside of
- * a bowl, where nothing is hidden. */
+/* A right-handed orthonormal frame keeps products and volumes; up is up. The rows are in their order, from the inside
+ * of a bowl, where nothing is hidden.*/
 static void test_frames(void)
 {
     enum { ROWS = 150 };
@@ -209,8 +209,8 @@ static void test_unknown_support(void)
 
 /* --- what is hidden, and where contact is lost ------------------------------------------------------------------ */
 
-/* Outside of a sphere a place is behind it, from above, where it is below its middle, up to a part of its outline; where
- * the path turns there, a row stands twice. */
+/* Outside of a sphere a place is behind it, from above, where it is below its middle, up to a part of its outline;
+ * where the path turns there, a row stands twice.*/
 static void test_hidden(void)
 {
     iso_record *r = make_sphere(400);

@@ -47,9 +47,9 @@ seen(i, near) = column(of(i).'_near') == near
 at_x(i) = x(i, column(of(i).'_right'))
 at_y(i) = y(column(of(i).'_up'))
 clock(i) = i ? 's_part' : 't_part'
-pale = "(mixed(viridis_colour(column('colour')), 0xF4F6F8, 0.7))"
+pale = "(mixed(viridis_colour(column('colour')), code(sphere), 0.7))"
 bright = "(viridis_colour(column('colour')))"
-letter_colour = "(column('t_part') < 0.6 ? 0xFFFFFF : 0)"
+letter_colour = "(column('t_part') < 0.6 ? code(white) : 0)"
 ring = "with points pt 7 ps 2.15 lc rgb white"
 disc = "with points pt 7 ps 1.85 lc rgb variable"
 number = "with labels center font ',8' tc rgb variable"
@@ -69,7 +69,7 @@ plot for [i=0:1] for [c=0:10] [a=-pi/72:2*pi] '+' using (x(i, globe_x(-1, c, a))
     for [i=0:1] $curve using (seen(i, 0) ? at_x(i) : NaN):(at_y(i)):@pale with lines lw 2 lc rgb variable, \
     for [i=0:1] $states using (state(i, 0)):(at_y(i)) @ring, \
     for [i=0:1] $states using (state(i, 0)):(at_y(i)):@pale @disc, \
-    for [i=0:1] $states using (state_number(i, 0)):(at_y(i)):@text:(0x707880) @number, \
+    for [i=0:1] $states using (state_number(i, 0)):(at_y(i)):@text:(code(help)) @number, \
     for [i=0:1] for [c=0:10] [a=-pi/72:2*pi] '+' using (x(i, globe_x(1, c, a))):(y(globe_y(c, a))) \
         with lines lw 0.7 lc rgb near_grid, \
     for [i=0:1] $curve using (seen(i, 1) ? at_x(i) : NaN):(at_y(i)):@bright with lines lw 3 lc rgb variable, \

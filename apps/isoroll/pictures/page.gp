@@ -85,8 +85,8 @@ tick_shift(name) = tick_base == 0 ? name : \
     name.(tick_base < 0 ? ' + ' : ' − ').sprintf('%.15g', abs(tick_base * tick_step))
 tick_over(name) = tick_power == 0 ? name : name eq '' ? '×10'.raised(tick_power) : \
     (tick_base == 0 ? name : '('.name.')').' / 10'.raised(tick_power)
-ticks(axis, low, high, most) = sprintf("tick_axis = '%s'; tick_low = 1.0*%.17g; tick_high = 1.0*%.17g; tick_most = %d; ", \
-    axis, low, high, most).choose_ticks
+ticks(axis, low, high, most) = sprintf("tick_axis = '%s'; tick_low = 1.0*%.17g; tick_high = 1.0*%.17g; \
+tick_most = %d; ", axis, low, high, most).choose_ticks
 choose_ticks = 'tick_size = max(abs(tick_low), abs(tick_high)); tick_base = 0; tick_power = 0; \
 if (tick_size >= 1e300) { \
     eval "set ".tick_axis."range [*:*]; set ".tick_axis."tics autofreq" \
@@ -115,9 +115,9 @@ tick_text = tick_over(tick_shift(tick_name eq "" && tick_base != 0 ? "number" : 
 named(axis, low, high, most) = ticks(axis, low, high, most). \
     "; eval 'set '.tick_axis.'label tick_text noenhanced offset '.(tick_axis eq 'x' ? '0,0.3' : '0.5,0')"
 
-# --- a sphere, seen as in lib/picture/sphere.c: its place to the right and upward, and > 0 on the near side; meridians
-# and parallels, 30 degrees apart, of the near side (side 1) or the far one (-1): globe_x(side, i, a), i from 0 to 10, a from 0 to 2 pi. gnuplot drops the
-# first place as if it were a line of names: begin before 0.
+# --- a sphere, seen as in lib/picture/sphere.c: its place to the right and upward, and > 0 on the near side;
+# meridians and parallels, 30 degrees apart, of the near side (side 1) or the far one (-1): globe_x(side, i, a), i
+# from 0 to 10, a from 0 to 2 pi. gnuplot drops the first place as if it were a line of names: begin before 0.
 X(x, y, z) = -0.42261826174069944 * x + 0.90630778703664996 * y
 Y(x, y, z) = -0.36862823570066146 * x - 0.17189417172037236 * y + 0.91354545764260087 * z
 D(x, y, z) = 0.8279521875606311 * x + 0.3860804504512761 * y + 0.40673664307580021 * z
@@ -129,9 +129,11 @@ globe_n3(i, a) = i < 6 ? sin(a) : sin(globe_angle(i))
 globe_x(side, i, a) = side * D(globe_n1(i, a), globe_n2(i, a), globe_n3(i, a)) < -0.03 ? NaN : \
     X(globe_n1(i, a), globe_n2(i, a), globe_n3(i, a))
 globe_y(i, a) = Y(globe_n1(i, a), globe_n2(i, a), globe_n3(i, a))
-# a mixture of two colours as numbers, part from 0 to 1; viridis at z from 0 to 1
+# a colour as a number; a mixture of two of these, part from 0 to 1; viridis at z from 0 to 1
+code(colour) = int('0x'.colour[2:7])
 mixed(a, b, part) = mixed_byte(a, b, part, 16) * 65536 + mixed_byte(a, b, part, 8) * 256 + mixed_byte(a, b, part, 0)
 mixed_byte(a, b, part, place) = round((1 - part) * (a >> place & 255) + part * (b >> place & 255))
-array viridis_at[9] = [0x440154, 0x472C7A, 0x3B518B, 0x2C718E, 0x21908D, 0x27AD81, 0x5CC863, 0xAADC32, 0xFDE725]
+array viridis_at[9] = [0x440154, 0x472C7A, 0x3B518B, 0x2C718E, 0x21908D, \
+    0x27AD81, 0x5CC863, 0xAADC32, 0xFDE725]
 viridis_colour(z) = mixed(viridis_at[viridis_piece(z) + 1], viridis_at[viridis_piece(z) + 2], z * 8 - viridis_piece(z))
 viridis_piece(z) = min(7, floor(z * 8))

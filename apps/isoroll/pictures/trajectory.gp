@@ -44,7 +44,8 @@ width = 900; panels = 2; own_height = height
 eval page
 width = 900; height = own_height # a page of another shape is filled: its panels are wider or higher
 set multiplot title title noenhanced font ',12'
-fresh = 'unset label; unset arrow; unset object; unset xlabel; unset ylabel; unset title; set size noratio; set key default'
+fresh = 'unset label; unset arrow; unset object; unset xlabel; unset ylabel; unset title; set size noratio; \
+set key default'
 key_at(x, y) = whole_page.sprintf('; set key horizontal maxrows 1 samplen 1.2 width -1 Left reverse center center \
 at screen %.6f, %.6f', across(x), down(y))
 
@@ -106,7 +107,7 @@ do for [i=(strip ? 0 : 1):words(squares)] {
         path = '$'.which
         of(name) = strcol('of') eq which ? column(name) : NaN
         end_of(sign) = strcol('sign') eq sign ? of('right') : NaN
-        hidden = 0x909090
+        sign_colour(near) = near == 1 ? 0 : code(behind)
         plot for [c=0:10] [a=-pi/72:2*pi] '+' using (globe_x(-1, c, a)):(globe_y(c, a)) with lines lw 0.6 lc rgb grid, \
             for [c in if_there(joined)] path using (column('near') == 1 ? NaN : column('right')):'up' \
                 with lines lw 0.8 lc rgb far_blue, \
@@ -114,13 +115,14 @@ do for [i=(strip ? 0 : 1):words(squares)] {
                 with points pt 7 ps dot lc rgb far_blue, \
             $axes using (of('right')):'up':(column('tip_right') - column('right')):(column('tip_up') - column('up')) \
                 with vectors nohead lw 1.2 lc rgb axes, \
-            for [c=0:10] [a=-pi/72:2*pi] '+' using (globe_x(1, c, a)):(globe_y(c, a)) with lines lw 0.8 lc rgb near_grid, \
+            for [c=0:10] [a=-pi/72:2*pi] '+' using (globe_x(1, c, a)):(globe_y(c, a)) with lines lw 0.8 \
+                lc rgb near_grid, \
             for [c in if_there(joined)] path using (column('near') == 1 ? column('right') : NaN):'up' \
                 with lines lw fine lc rgb blue, \
             for [c in if_there(!joined)] path using (column('near') == 1 ? column('right') : NaN):'up' \
                 with points pt 7 ps dot lc rgb blue, \
-            $ends using (end_of('start')):'up':(column('near') == 1 ? 0 : hidden) with points pt 7 ps 1.1 lc rgb variable, \
-            $ends using (end_of('end')):'up':(column('near') == 1 ? 0 : hidden) with points pt 9 ps 1.3 lc rgb variable, \
+            $ends using (end_of('start')):'up':(sign_colour(column('near'))) with points pt 7 ps 1.1 lc rgb variable, \
+            $ends using (end_of('end')):'up':(sign_colour(column('near'))) with points pt 9 ps 1.3 lc rgb variable, \
             $axes using (of('number_right')):'number_up':(sprintf('%d', column('number'))) with labels tc rgb ink
     }
     if (!alike || i % 2 == 0) { # a key under each square, or one for both
@@ -199,7 +201,9 @@ do for [j=1:words(charts)] {
             tick_name = 'μ'
             eval ticks('y2', from_zero(least_right, most_right), most_right + 0.04 * (most_right - least_right), \
                 tall ? 5 : 3)
-            if (tick_text ne 'μ') { set label 3 tick_text noenhanced left tc rgb ink at graph 1, graph 1 offset 0.5,0.6 }
+            if (tick_text ne 'μ') {
+                set label 3 tick_text noenhanced left tc rgb ink at graph 1, graph 1 offset 0.5,0.6
+            }
         }
         if (which eq 'paces') { set label 1 'speed (mean 1)' left at graph 0, graph 1 offset 0,0.9 }
         if (which ne 'paces') {

@@ -1,6 +1,6 @@
-/* stretch.h - the first turns of a scene's orbit in both models, close enough for smooth curves. */
-#ifndef ISO_PICTURE_STRETCH_H
-#define ISO_PICTURE_STRETCH_H
+/* stretch_impl.h - the first turns of a scene's orbit in both models, close enough for smooth curves. */
+#ifndef ISO_PICTURE_STRETCH_IMPL_H
+#define ISO_PICTURE_STRETCH_IMPL_H
 
 #include "base/record.h"
 #include "orbit/orbit.h"
