@@ -4,6 +4,7 @@
 width = 900; height = 490; panels = 2
 eval page
 array sign[10] = [7, 5, 9, 11, 13, 6, 4, 8, 10, 12]
+name(n) = n < |$methods| ? word($methods[n + 1], 1) : ''
 count = |$panels| - 1; names = |$methods| - 1; closed = |$closed| > 1
 set multiplot title title noenhanced font ',12'
 eval axes_left
@@ -46,7 +47,9 @@ eval whole_page
 entries = names + nameless + closed + (uncertainty > 0)
 set key at screen 0.5, screen 96.0 / height center top Left reverse vertical maxrows (entries + 2) / 3 samplen 3.5 \
     spacing 1.05 width -1 noenhanced font ',9'
-plot for [n=1:names] NaN with linespoints ls n pt sign[n] ps 0.75 lw 1.5 title word($methods[n + 1], 1), \
-    for [i=1:nameless] NaN with lines dt 1 lw 0.8 lc rgb others title 'other methods', \
-    for [i=1:closed] NaN with points pt 3 ps 1.5 lw 2 lc rgb black title 'closed solution', \
-    for [i=1:uncertainty > 0] NaN with boxes fs solid 1 noborder lc rgb band title 'below what is known'
+# an entry that is not there is left out: an empty loop would keep its place
+key = names ? 'for [n=1:names] NaN with linespoints ls n pt sign[n] ps 0.75 lw 1.5 title name(n)' : 'NaN notitle'
+if (nameless) { key = key.", NaN with lines dt 1 lw 0.8 lc rgb others title 'other methods'" }
+if (closed) { key = key.", NaN with points pt 3 ps 1.5 lw 2 lc rgb black title 'closed solution'" }
+if (uncertainty > 0) { key = key.", NaN with boxes fs solid 1 noborder lc rgb band title 'below what is known'" }
+eval 'plot '.key

@@ -14,7 +14,8 @@ do for [i=2:|$marks|] {
     k = real(word($marks[i], 2))
     set arrow from first k, graph 0 to first k, graph 1 nohead front ls 11
 }
-plot for [i=1:error ne ''] $curve using 'at':'low':'high' with filledcurves fc rgb far_blue fs solid 0.7 noborder \
-        title error, \
-    $curve using 'at':'value' with linespoints pt 7 ps 0.45 lw 1.4 lc rgb blue notitle, \
-    for [i=1:|$marks| > 1] NaN with lines ls 11 title 'k = ±1: the free ball is integrable'
+pale = "$curve using 'at':'low':'high' with filledcurves fc rgb far_blue fs solid 0.7 noborder title error, "
+mark = ", NaN with lines ls 11 title 'k = ±1: the free ball is integrable'"
+eval 'plot '.(error ne '' ? pale : '') \
+    ."$curve using 'at':'value' with linespoints pt 7 ps 0.45 lw 1.4 lc rgb blue notitle" \
+    .(|$marks| > 1 ? mark : '')

@@ -44,7 +44,7 @@ do for [i=1:maps] {
 }
 if (keys > 0) {
     eval whole_page
-    set key at screen 0.5, screen 34.0 / height center top vertical maxrows 1 Left reverse samplen 2 width 2
+    set key at screen 0.5, screen 28.0 / height center top vertical maxrows 1 Left reverse samplen 2 width 2
     line = "NaN with lines ls 11 title 'k = ±1: the free ball is integrable'"
     fill = "NaN with boxes fs solid 1 noborder lc rgb grey title 'no value'"
     eval 'plot '.(marked ? line : '').(marked && missing ? ', ' : '').(missing ? fill : '')
