@@ -41,7 +41,7 @@ static iso_status add_cells(iso_context *ctx, const iso_record *r, int side, int
         if (!iso_picture_is(r, i, "kind", "grid")) continue;
         for (; next < rows && iso_picture_is(r, next, "kind", "grid"); last = iso_record_const_row(r, next++)) {
             const double *row = iso_record_const_row(r, next);
-            const bool along = last == first ? row[K] == first[K] || row[UP] == first[UP]
+            const bool along = last == first         ? row[K] == first[K] || row[UP] == first[UP]
                                : last[K] == first[K] ? row[K] == first[K]
                                                      : row[UP] == first[UP];
             if (!along || class_of(row[trace]) != class_of(first[trace])) break;

@@ -57,10 +57,10 @@ static iso_status add_series(iso_context *ctx, tables *t, size_t first, const ch
     for (size_t i = first; i < iso_record_rows(t->r); i++)
         if (is_drawn(t->r, i) && iso_picture_is(t->r, i, "backend", backend) &&
             strcmp(method_of(t->r, i), method_of(t->r, first)) == 0)
-            ISO_TRY(iso_record_add(ctx, t->points, 1,
-                                   (double[]){panel, t->series, named,
-                                              fmax(iso_picture_number(t->r, i, "error"), FLOOR),
-                                              iso_picture_number(t->r, i, "total")}));
+            ISO_TRY(
+                iso_record_add(ctx, t->points, 1,
+                               (double[]){panel, t->series, named, fmax(iso_picture_number(t->r, i, "error"), FLOOR),
+                                          iso_picture_number(t->r, i, "total")}));
     return ISO_OK;
 }
 
@@ -102,9 +102,9 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
     ISO_TRY(add_panel(ctx, &t, "point"));
     for (size_t i = 0; i < iso_record_rows(t.r) && iso_record_rows(t.closed) == 0; i++)
         if (is_drawn(t.r, i) && !*method_of(t.r, i))
-            ISO_TRY(iso_record_add(ctx, t.closed, 1,
-                                   (double[]){fmax(iso_picture_number(t.r, i, "error"), FLOOR),
-                                              iso_picture_number(t.r, i, "total")}));
+            ISO_TRY(iso_record_add(
+                ctx, t.closed, 1,
+                (double[]){fmax(iso_picture_number(t.r, i, "error"), FLOOR), iso_picture_number(t.r, i, "total")}));
     if (t.series == 0 && iso_record_rows(t.closed) == 0)
         return ISO_FAIL_INPUT(ctx, "", "there are no measurements to draw");
     if (t.series == 0) ISO_TRY(add_name(ctx, t.panels, ""));

@@ -89,8 +89,9 @@ static double span_of(const iso_record *r, const char *const signals[2])
 
 static iso_status make_lines(iso_context *ctx, const iso_record *r, iso_picture *picture)
 {
-    static const char *const names[] = {"signal", "frequency", "amplitude", "label"},
-                             *const signals[] = {"lines_turning", "lines_along"};
+    static const char *const names[] = {"signal", "frequency", "amplitude", "label"}, *const signals[] = {
+                                                                                          "lines_turning",
+                                                                                          "lines_along"};
     const char *axis = iso_record_get(r, "estimate.axis"), *warning = warning_of(r);
     labels l = {.span = span_of(r, signals), .none = *warning != '\0'};
     iso_record *lines;

@@ -190,12 +190,9 @@ static iso_status add_cell(iso_context *ctx, const iso_picture_maps *m, size_t i
     const bool missing = !isfinite(value) || (sizes && value == 0);
     for (int c = 0; c <= p->corners; c++) {
         const double *corner = p->at[c % p->corners];
-        double row[] = {(double)i + 1,
-                        point[ISO_POINT_MAP],
-                        missing,
-                        missing ? (double)NAN : sizes ? fabs(value) : value,
-                        corner[0],
-                        corner[1]};
+        double row[] = {(double)i + 1, point[ISO_POINT_MAP],
+                        missing,       missing ? (double)NAN : sizes ? fabs(value) : value,
+                        corner[0],     corner[1]};
         ISO_TRY(iso_record_add(ctx, cells, 1, row));
     }
     return iso_record_add(ctx, cells, 1, (double[]){NAN, NAN, NAN, NAN, NAN, NAN});
@@ -242,8 +239,8 @@ iso_status iso_picture_cells(iso_context *ctx, const iso_picture_maps *m, bool s
         double across[2], up[2];
         edges_of(&m->x, at(m->points, i, ISO_POINT_X), across);
         edges_of(&m->y, at(m->points, i, ISO_POINT_Y), up);
-        const polygon p = {
-            {{across[0], up[0]}, {across[1], up[0]}, {across[1], up[1]}, {across[0], up[1]}}, .corners = 4};
+        const polygon p = {{{across[0], up[0]}, {across[1], up[0]}, {across[1], up[1]}, {across[0], up[1]}},
+                           .corners = 4};
         ISO_TRY(add_cell(ctx, m, i, sizes, &p, cells));
     }
     return ISO_OK;

@@ -1,4 +1,4 @@
-/* maps_impl.h - what sweep.c asks of maps.c: scales, and the cells of maps. */
+/* maps_impl.h - what the pictures of sweeps share (sweep.c, sweep_maps.c), and ask of maps.c: scales and cells. */
 #ifndef ISO_PICTURE_MAPS_IMPL_H
 #define ISO_PICTURE_MAPS_IMPL_H
 
@@ -32,5 +32,33 @@ typedef struct iso_picture_maps {
 /* Fills the table of the picture: cell, map, missing, value, x, y, the corners of each cell, closed, with a gap behind.
  * The cells of a grid are rectangles; else a cell is all that is nearer to its point than to others. */
 iso_status iso_picture_cells(iso_context *ctx, const iso_picture_maps *maps, bool sizes, iso_record *cells);
+
+/* --- sweeps ----------------------------------------------------------------------------------------------------- */
+
+enum { ISO_SWEPT_AXES = 64, ISO_SWEPT_NAME = 64 };
+
+/* The rows of a result, and which columns are drawn. */
+typedef struct iso_swept {
+    const iso_record *r;
+    int axis[ISO_SWEPT_AXES], axes; /* those that vary, and differ from row to row */
+    int value, low, high;           /* -1: there is none; low -1: high is an error +- */
+    char words[2 * ISO_SWEPT_NAME]; /* what the value is */
+} iso_swept;
+
+/* What varies, in words; whether it is k. */
+const char *iso_swept_axis(const iso_swept *s, int column);
+bool iso_swept_is_k(const iso_swept *s, int column);
+
+/* Adds k = 1 and k = -1, if they are on this axis: 1: x, 2: y. */
+iso_status iso_swept_marks(iso_context *ctx, const iso_picture_scale *scale, int axis, iso_record *marks);
+
+/* Lines: whether a scale is logarithmic; "sizes" and "value"; the title, of the values of a number, or of points. */
+iso_status iso_swept_say_scale(iso_context *ctx, iso_picture *picture, const char *key,
+                               const iso_picture_scale *scale);
+iso_status iso_swept_say_value(iso_context *ctx, iso_picture *picture, const iso_swept *s, bool sizes);
+iso_status iso_swept_say_title(iso_context *ctx, iso_picture *picture, const iso_swept *s, const char *of);
+
+/* The picture of a sweep in which more than one number varies. */
+iso_status iso_swept_maps(iso_context *ctx, const iso_swept *s, iso_picture *picture);
 
 #endif

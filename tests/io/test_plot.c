@@ -238,8 +238,7 @@ static void test_work(void)
     put_work(r, "ball", "a", NAN, 1);
     gsl_test(draw_work(path, "", r) != ISO_BAD_INPUT, "no points");
     put_work(r, "exact", "", 1e-15, 1e-6);
-    gsl_test((int)draw_work(path, NULL, r), "the closed solution alone: %s",
-             iso_context_message(ctx));
+    gsl_test((int)draw_work(path, NULL, r), "the closed solution alone: %s", iso_context_message(ctx));
     gsl_test(file_contains(path, "below what is known"), "nothing is known of it");
     static const char *const many[] = {"a", "b", "c", "d", "e", "f", "g", "h"};
     for (int i = 0; i < 8; i++) put_work(r, "point", many[i], 1e-3, 1e-5);

@@ -67,8 +67,11 @@ static double word(iso_record *r, const char *text)
 
 static void test_branch(void)
 {
-    static const char *const names[] = {"branch", "line", "point", "k", "u", "trace", "event"},
-                             *const events[] = {"", "fold", "", "end", "", "touch", "end"};
+    static const char *const names[] = {"branch", "line", "point", "k", "u", "trace", "event"}, *const events[] = {
+                                                                                                    "",   "fold",
+                                                                                                    "",   "end",
+                                                                                                    "",   "touch",
+                                                                                                    "end"};
     iso_record *r = create("periodic follow", 7, names);
     iso_record_set_words(r, 6, true);
     for (int i = 0; i < 7; i++) add(r, (double[]){i < 4 ? 1 : 2, 0, i, 0.1 * i, M_PI / 4, i, word(r, events[i])});
@@ -128,8 +131,10 @@ static void check_chart(bool across)
         int wrong = 0;
         gsl_test_abs(area(cells, side), 0.1 * K * UP, 1e-12, "cells cover the grid");
         for (int n = 0; n < K * UP; n++) {
-            const double trace = trace_at(n % K, n / K, side),
-                         class = isnan(trace) ? 2 : trace <= -2 - 1e-9 ? -1 : trace > 2 ? 1 : 0;
+            const double trace = trace_at(n % K, n / K, side), class = isnan(trace)         ? 2
+                                                                       : trace <= -2 - 1e-9 ? -1
+                                                                       : trace > 2          ? 1
+                                                                                            : 0;
             wrong += class_at(cells, side, 0.1 * (n % K), 1 + n / K) != class;
         }
         gsl_test(wrong != 0, "each grid point is in one cell, of its class: %d are not", wrong);
@@ -150,7 +155,8 @@ static void test_cost(void)
     for (size_t c = 0; c < 2; c++) iso_record_set_words(r, c, true);
     for (int i = 0; i < 60; i++) {
         snprintf(method, sizeof method, "m%d", i % 15);
-        add(r, (double[]){word(r, i % 2 ? "ball" : "point"), word(r, method), i % 7 ? i * 1e-9 : NAN, i % 11 ? 1e-3 : 0});
+        add(r, (double[]){word(r, i % 2 ? "ball" : "point"), word(r, method), i % 7 ? i * 1e-9 : NAN,
+                          i % 11 ? 1e-3 : 0});
     }
     add(r, (double[]){word(r, "exact"), word(r, ""), 0, 1e-6});
     for (size_t i = 0; i < 60; i++) counts[0] += isfinite(at(r, i, "error")) && at(r, i, "total") > 0;
@@ -163,7 +169,8 @@ static void test_cost(void)
     }
     gsl_test(counts[0] != counts[1] || iso_record_rows(points) != (size_t)counts[0], "%d measured rows, %d drawn",
              counts[0], counts[1]);
-    gsl_test(iso_record_rows(closed) != 1 || at(closed, 0, "error") != 1e-17, "the closed solution, error 0 as 1e-17");
+    gsl_test(iso_record_rows(closed) != 1 || at(closed, 0, "error") != 1e-17,
+             "the closed solution, error 0 as 1e-17");
     gsl_test(iso_record_rows(table_of(&p, "panels")) != 2 || !says(&p, "nameless", "1"), "two panels, some nameless");
     gsl_test(iso_record_rows(table_of(&p, "methods")) != 10, "ten names");
     iso_picture_free(&p);
@@ -202,8 +209,9 @@ static void test_curve(void)
 /* A sweep over x and y, by a grid or by moments in a triangle. */
 static iso_record *make_sweep(int n, bool moments, bool ordered)
 {
-    static const char *const flat[] = {"point", "J1", "x", "state_a", "status"},
-                             *const three[] = {"point", "J1", "J2", "J3", "state_a", "status"};
+    static const char *const flat[] = {"point", "J1", "x", "state_a", "status"}, *const three[] = {
+                                                                                     "point", "J1",      "J2",
+                                                                                     "J3",    "state_a", "status"};
     iso_record *r = create("sweep", moments ? 6 : 5, moments ? three : flat);
     iso_record_set(ctx, r, "names", moments ? "vary/J1 vary/J2 vary/J3 state/a" : "vary/J1 vary/x state/a");
     int i = 0;
@@ -320,10 +328,10 @@ static void test_frequencies(void)
     iso_record *r = create("frequencies", 1, (const char *const[]){"none"});
     iso_record_set(ctx, r, "estimate.axis", "3");
     iso_record_set(ctx, r, "estimate.verdict", "regular");
-    static const char *const lines[][2] = {
-        {"lines_turning.0.frequency", "1.5"}, {"lines_turning.0.amplitude", "0.5"}, {"lines_turning.0.m", "1"},
-        {"lines_turning.0.n", "0"},           {"lines_turning.1.frequency", "2"},   {"lines_turning.1.amplitude", "0"},
-        {"lines_along.0.frequency", "-2"},    {"lines_along.0.amplitude", "1e-3"}};
+    static const char *const lines[][2] = {{"lines_turning.0.frequency", "1.5"}, {"lines_turning.0.amplitude", "0.5"},
+                                           {"lines_turning.0.m", "1"},           {"lines_turning.0.n", "0"},
+                                           {"lines_turning.1.frequency", "2"},   {"lines_turning.1.amplitude", "0"},
+                                           {"lines_along.0.frequency", "-2"},    {"lines_along.0.amplitude", "1e-3"}};
     char key[64];
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         snprintf(key, sizeof key, "estimate.%s", lines[i][0]);
@@ -333,18 +341,20 @@ static void test_frequencies(void)
     const iso_record *found = table_of(&p, "lines");
     gsl_test(iso_record_rows(found) != 2 || at(found, 1, "signal") != 2 || at(found, 1, "frequency") != -2,
              "lines with an amplitude");
-    gsl_test(strcmp(iso_record_word(found, at(found, 0, "label")), "1,0") != 0 || !says(&p, "labels", "1"), "a label");
+    gsl_test(strcmp(iso_record_word(found, at(found, 0, "label")), "1,0") != 0 || !says(&p, "labels", "1"),
+             "a label");
     iso_picture_free(&p);
 
     r = create("frequencies", 1, (const char *const[]){"none"});
-    static const char *const map[][2] = {{"k", "-1"}, {"h", "1"}, {"H", "0"}, {"integral.name", "F_shell"},
-                                         {"integral.value", "18"}};
+    static const char *const map[][2] = {
+        {"k", "-1"}, {"h", "1"}, {"H", "0"}, {"integral.name", "F_shell"}, {"integral.value", "18"}};
     for (size_t i = 0; i < 5; i++) iso_record_set(ctx, r, map[i][0], map[i][1]);
     p = make(r, NULL, "momentum");
     const iso_record *parts = table_of(&p, "parts");
     int wrong = 0;
     for (size_t i = 0; i < iso_record_rows(parts); i++) wrong += !(at(parts, i, "low") <= at(parts, i, "high"));
-    gsl_test(wrong != 0 || iso_record_rows(table_of(&p, "kinds")) < 2 || iso_record_rows(table_of(&p, "rotations")) < 3,
+    gsl_test(wrong != 0 || iso_record_rows(table_of(&p, "kinds")) < 2 ||
+                 iso_record_rows(table_of(&p, "rotations")) < 3,
              "parts, their names, rotations");
     iso_picture_free(&p);
 }
@@ -355,8 +365,8 @@ static void refuses(iso_record *r, const char *options, const char *words)
 {
     iso_picture p;
     const iso_status status = iso_picture_make(ctx, (const iso_record *[]){r, NULL}, options, &p);
-    gsl_test(status != ISO_BAD_INPUT || !strstr(iso_context_message(ctx), words) || p.layout || p.table[0],
-             "%s: %s", words, iso_context_message(ctx));
+    gsl_test(status != ISO_BAD_INPUT || !strstr(iso_context_message(ctx), words) || p.layout || p.table[0], "%s: %s",
+             words, iso_context_message(ctx));
     iso_record_free(r);
 }
 

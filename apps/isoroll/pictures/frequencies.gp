@@ -12,7 +12,7 @@ set xlabel 'frequency in t'.(labels > 0 ? '; m,n: m times frequency 1 and n time
 set ylabel 'amplitude'; set offsets graph 0.04, graph 0.04, 0, 0
 stats $lines using 'amplitude' nooutput
 set yrange [10 ** (floor(log10(min(1, STATS_min))) - 1):4]
-array colour[2] = [blue, vermillion]; array dash[2] = ['1', '(4,2)']; array sign[2] = [7, 6]
+array colour[2] = [blue, vermillion]; array sign[2] = [7, 6]
 array name[2] = [sub('n', axis % 3 + 1).' + i '.sub('n', (axis + 1) % 3 + 1), sub('n', axis)]
 set style line 11 lw 2 lc rgb blue dt 1
 set style line 12 lw 2 lc rgb vermillion dt (4,2)
