@@ -221,9 +221,13 @@ static iso_status add_scattered(iso_context *ctx, const iso_picture_maps *m, boo
     for (size_t i = 0; i < rows; i++) least = fmin(least, cell_of(m->points, i, half, false, &p));
     for (size_t i = 0; i < rows; i++) regular += cell_of(m->points, i, half, false, &p) < 1.05 * least;
     const bool lattice = 2 * regular > rows;
+    if (!lattice) half /= 2;
     if (lattice && m->back) half = least / sqrt(3); /* as far as a hexagon reaches */
     for (size_t i = 0; i < rows; i++) {
+        const double *place = iso_record_const_row(m->points, i) + ISO_POINT_X;
         cell_of(m->points, i, half, lattice, &p);
+        if (m->x.k) cut(&p, (double[]){place[0] > 0 ? -1 : 1, 0}, 0); /* no cell reaches across k = 0 */
+        if (m->y.k) cut(&p, (double[]){0, place[1] > 0 ? -1 : 1}, 0);
         to_picture(m, &p);
         ISO_TRY(add_cell(ctx, m, i, sizes, &p, cells));
     }
