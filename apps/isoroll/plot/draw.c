@@ -13,7 +13,7 @@
 #include "io/table.h"
 #include "plot/gnuplot.h"
 
-enum { LONGEST = 110, LONGEST_WORD = 60, MOST_TEMPLATE = 1 << 20 };
+enum { LONGEST = 110, LONGEST_LINE = 150, LONGEST_WORD = 60, MOST_TEMPLATE = 1 << 20 };
 
 /* --- variables -------------------------------------------------------------------------------------------------- */
 
@@ -29,7 +29,7 @@ static void put_lines(FILE *f, const iso_plot_page *page, const iso_record *firs
         if (iso_number_read(value, strlen(value), &x))
             fprintf(f, isfinite(x) ? "%s = %.17g\n" : "%s = NaN\n", key, x);
         else
-            fprintf(f, "%s = %s\n", key, QUOTED(value, LONGEST));
+            fprintf(f, "%s = %s\n", key, QUOTED(value, LONGEST_LINE));
     }
 }
 

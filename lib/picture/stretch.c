@@ -1,8 +1,9 @@
-/* stretch.c - the first turns of an orbit, see stretch.h. */
-#include "plot/stretch.h"
+/* stretch.c - the first turns of an orbit, see stretch_impl.h. */
+#include "picture/stretch_impl.h"
 
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
+#include "model/effects_impl.h"
 #include "orbit/orbit_impl.h"
 
 #define NEAR 0.03 /* radians between neighbours on a curve, about          */
@@ -70,14 +71,27 @@ static iso_status add_states(const pair *p, double end, iso_record *states)
     return ISO_OK;
 }
 
-iso_status iso_plot_stretch(iso_context *ctx, const iso_scene *scene, double end, iso_record **curve,
-                            iso_record **states)
+/* The lines that "compare" reads. */
+static iso_status describe(iso_context *ctx, const iso_scene *scene, double end, iso_record *states)
+{
+    const iso_effects acting = iso_scene_acting(scene);
+    iso_record_set_kind(states, "compare");
+    ISO_TRY(iso_record_set_numbers(ctx, states, "k", 1, &scene->params.k));
+    ISO_TRY(iso_record_set_numbers(ctx, states, "J", 3, scene->params.J));
+    ISO_TRY(iso_record_set_numbers(ctx, states, "compared", 1, &end));
+    return iso_record_set(ctx, states, "field", iso_effects_have_image(&acting) ? "1" : "0");
+}
+
+iso_status iso_picture_stretch(iso_context *ctx, const iso_scene *scene, double end, iso_record **states,
+                               iso_record **curve)
 {
     static const char *const names[] = {"t", "s", "n1", "n2", "n3", "gamma1", "gamma2", "gamma3"};
     pair p = {ctx, NULL, NULL};
     *curve = *states = NULL;
     iso_status status = iso_record_create(ctx, COLUMNS, names, curve);
     if (status == ISO_OK) status = iso_record_create(ctx, COLUMNS, names, states);
+    if (status == ISO_OK) status = describe(ctx, scene, end, *states);
+    if (status == ISO_OK) iso_record_set_kind(*curve, "curve");
     if (status == ISO_OK) status = open_one(ctx, scene, ISO_BACKEND_BALL, &p.ball);
     if (status == ISO_OK) status = open_one(ctx, scene, ISO_BACKEND_POINT, &p.point);
     if (status == ISO_OK) status = follow(&p, &end, *curve);
