@@ -2,7 +2,7 @@
  *
  *     iso_picture picture;
  *     status = iso_picture_make(ctx, (const iso_record *[]){section, chaos, NULL}, "window=0:1,0:0.5", &picture);
- *     ... picture.layout is "section", picture.table[0] has the columns side, right, up, colour, shade
+ *     ... picture.layout is "section", picture.table[0], "ball", has the columns right, up, shade, colour
  *     iso_picture_free(&picture);
  *
  * The command's templates (apps/isoroll/pictures), Matplotlib and the page draw these tables, and compute nothing:
