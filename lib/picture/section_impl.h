@@ -73,7 +73,7 @@ typedef struct iso_picture_charts {
     size_t points;       /* single spots of a side, at most; 0: any number                                     */
 } iso_picture_charts;
 
-/* Columns of crossings: by the ball, by the point, and which of the eight images are drawn (bit n: iso_picture_image). */
+/* Columns of crossings: by the ball, by the point, how, and which of the eight images are drawn (bit n: the n-th). */
 enum {
     ISO_PICTURE_L,
     ISO_PICTURE_X,

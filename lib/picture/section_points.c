@@ -200,8 +200,8 @@ iso_status iso_picture_points_judge(iso_context *ctx, iso_picture_points *p, dou
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-/* The images by the reversors that the return map has. They carry an orbit to an orbit with the same rotation number: so
- * each island shows where one of its images has a start. */
+/* The images by the reversors that the return map has. They carry an orbit to an orbit with the same rotation number:
+ * so each island shows where one of its images has a start. */
 static unsigned images_of(unsigned reversors)
 {
     /* the reversors that make image n of iso_picture_image, as bits */

@@ -1,5 +1,5 @@
-/* test_section_picture.c - what the picture of a section draws: every crossing in its shade, images that are orbits of the same
- * return map, a window's rows and no others; and the same in an image. */
+/* test_section_picture.c - what the picture of a section draws: every crossing in its shade, images that are orbits of
+ * the same return map, a window's rows and no others; and the same in an image. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>

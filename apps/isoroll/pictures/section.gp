@@ -22,16 +22,19 @@ set cbrange [low:high]
 
 # --- one side: the more spots, the smaller; of few ones the coloured ones are large
 spot = min(max(9 / sqrt(|$ball| + 1), 0.08), 0.4)
+cells = images ? words($ball[1]) : 1  # across, and up
 spots(side) = images ? sprintf("$%s matrix every :::1 using \
-        (%s_x0 + (%s_x1 - %s_x0) * ($1 + 0.5) / 640):(%s_y0 + (%s_y1 - %s_y0) * ($2 - 0.5) / 640):(cell($3)) \
+        (%s_x0 + (%s_x1 - %s_x0) * ($1 + 0.5) / cells):(%s_y0 + (%s_y1 - %s_y0) * ($2 - 0.5) / cells):(cell($3)) \
         with rgbimage notitle", side, side, side, side, side, side, side) : \
-    few ? '$'.side.' using 1:2:($3 > 0 ? 0.45 : 1.1):(look($3, $4)) with points pt 7 ps variable lc rgb variable notitle' : \
+    few ? '$'.side.' using 1:2:($3 > 0 ? 0.45 : 1.1):(look($3, $4)) with points pt 7 ps variable lc rgb variable \
+        notitle' : \
     '$'.side.' using 1:2:(look($3, $4)) with points pt 7 ps spot lc rgb variable notitle'
 over(side) = (curves ? ', $'.side.'_enters using 1:2 with lines lw 1.4 dt (12,7) lc rgb blue notitle, $'.side.'_leaves \
         using 1:2 with lines lw 1.4 lc rgb vermillion notitle' : '') \
-    .(unstable ? ', $'.side.'_orbits using 1:($3 == 1 ? NaN : $2) with points pt 2 ps 0.8 lw 1.6 lc rgb black notitle' : '') \
-    .(stable ? ', for [under=1:0:-1] $'.side.'_orbits using 1:($3 == 1 ? $2 : NaN) with points pt (under ? 7 : 6) ps 0.9 \
-        lw 1.6 lc rgb (under ? white : black) notitle' : '')
+    .(unstable ? ', $'.side.'_orbits using 1:($3 == 1 ? NaN : $2) with points pt 2 ps 0.8 lw 1.6 lc rgb black \
+        notitle' : '') \
+    .(stable ? ', for [under=1:0:-1] $'.side.'_orbits using 1:($3 == 1 ? $2 : NaN) with points pt (under ? 7 : 6) \
+        ps 0.9 lw 1.6 lc rgb (under ? white : black) notitle' : '')
 ends(side) = sprintf("set xrange [%s_x0:%s_x1]; set yrange [%s_y0:%s_y1]; set title %s_title offset 0,-0.5 noenhanced; \
     set xlabel %s_right offset 0,0.3 noenhanced; set ylabel %s_up offset 1,0 noenhanced", \
     side, side, side, side, side, side, side)
@@ -54,8 +57,8 @@ set cblabel 'rotation number: turns from crossing to crossing' offset 0.5,0
 set colorbox user origin across(right + 13),down(bottom - 31) size across(12.6),across(bottom - 122) * width / height
 set cbtics offset -0.5,0
 # the image lies behind the area where the point cannot be
-eval 'plot '.(images ? spots('point').', ' : '').'$boundary using 1:3:(point_y1) with filledcurves fc rgb band notitle, \
-    $boundary using 1:2:(point_y0) with filledcurves fc rgb band notitle, \
+eval 'plot '.(images ? spots('point').', ' : '').'$boundary using 1:3:(point_y1) with filledcurves fc rgb band \
+    notitle, $boundary using 1:2:(point_y0) with filledcurves fc rgb band notitle, \
     for [c=2:3] $boundary using 1:c with lines lw 1 lc rgb axes notitle' \
     .(bar ? ', NaN with points lc palette notitle' : '').(images ? '' : ', '.spots('point')).over('point')
 
@@ -63,7 +66,8 @@ eval 'plot '.(images ? spots('point').', ' : '').'$boundary using 1:3:(point_y1)
 if (keys) {
     eval whole_page
     unset colorbox
-    set key at screen 0.5,down(height - (keys > 2 ? 32 : 20)) center horizontal maxcols 3 Left reverse samplen 1.5 width 2
+    set key at screen 0.5,down(height - (keys > 2 ? 32 : 20)) center horizontal maxcols 3 Left reverse samplen 1.5 \
+        width 2
     entry(there, looks, words) = there ? sprintf(", NaN with %s title '%s'", looks, words) : ''
     eval 'plot NaN notitle'.entry(grey_means ne '', 'points pt 7 ps 1 lc rgb grey', grey_means) \
         .entry(dark_means ne '', 'points pt 7 ps 1 lc rgb ink', dark_means) \

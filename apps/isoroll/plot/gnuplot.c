@@ -282,7 +282,7 @@ static iso_status run(iso_context *ctx)
     fputs("\nunset multiplot\nunset output\n", g.script);
     if (fflush(g.script) != 0 || ferror(g.script) || fseek(g.script, 0, SEEK_SET) != 0)
         return iso_file_trouble(ctx, "write", "gnuplot's temporary script");
-    /* -d: no start-up file of the user changes the picture. gnuplot reads its own standard input ("-") by single bytes. */
+    /* -d: no start-up file of the user changes the picture. What it is given as "-" gnuplot reads by single bytes. */
     const int error =
         program_start((const char *[]){"gnuplot", "-d", "/dev/stdin", NULL},
                       (int[]){fileno(g.script), fileno(iso_output_stream(g.output)), fileno(g.complaints)}, &child);
