@@ -10,8 +10,10 @@
 #include "picture/picture_impl.h"
 
 static const iso_picture_maker *const makers[] = {
-    &iso_picture_branch,    &iso_picture_chart, &iso_picture_compare,    &iso_picture_cost, &iso_picture_frequencies,
-    &iso_picture_splitting, &iso_picture_sweep, &iso_picture_sweep_part, &iso_picture_trajectory};
+    &iso_picture_branch,    &iso_picture_chaos,       &iso_picture_chart,      &iso_picture_compare,
+    &iso_picture_cost,      &iso_picture_frequencies, &iso_picture_indicators, &iso_picture_periodic,
+    &iso_picture_section,   &iso_picture_splitting,   &iso_picture_sweep,      &iso_picture_sweep_part,
+    &iso_picture_trajectory};
 enum { MAKERS = sizeof makers / sizeof *makers };
 
 const char *iso_picture_kind(int i)
@@ -58,8 +60,7 @@ static iso_status check_table(iso_context *ctx, const iso_record *r, const iso_p
     for (size_t i = 0; i < sizeof m->columns / sizeof *m->columns && m->columns[i]; i++)
         if (iso_record_find(r, m->columns[i]) < 0)
             return ISO_FAIL_INPUT(ctx, "", "no picture: the table has no column '%s'", m->columns[i]);
-    if (iso_record_rows(r) == 0 && !m->alone)
-        return ISO_FAIL_INPUT(ctx, "", "no picture: the table has no rows");
+    if (iso_record_rows(r) == 0 && !m->alone) return ISO_FAIL_INPUT(ctx, "", "no picture: the table has no rows");
     if (!m->axis || iso_picture_axis(r) >= 0) return ISO_OK;
     return ISO_FAIL_INPUT(ctx, "", "no picture: the table does not say its axis, in a line '# axis: 3'");
 }

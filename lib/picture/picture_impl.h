@@ -118,8 +118,9 @@ typedef struct iso_picture_maker {
     iso_status (*make)(iso_context *ctx, const iso_picture_request *request, iso_picture *picture);
 } iso_picture_maker;
 
-extern const iso_picture_maker iso_picture_branch, iso_picture_chart, iso_picture_cost, iso_picture_frequencies,
-    iso_picture_splitting, iso_picture_sweep, iso_picture_sweep_part, iso_picture_trajectory, iso_picture_compare;
+extern const iso_picture_maker iso_picture_branch, iso_picture_chaos, iso_picture_chart, iso_picture_indicators,
+    iso_picture_periodic, iso_picture_section, iso_picture_cost, iso_picture_frequencies, iso_picture_splitting,
+    iso_picture_sweep, iso_picture_sweep_part, iso_picture_trajectory, iso_picture_compare;
 
 /* The differences that `compare` finds, and the orbit on both spheres (difference.c). */
 iso_status iso_picture_difference(iso_context *ctx, const iso_picture_request *request, iso_picture *picture);

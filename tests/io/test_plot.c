@@ -250,34 +250,53 @@ static void test_work(void)
     gsl_test(files_in_folder() != 0, "nothing is left");
 }
 
-/* Sections: two models, grey orbits, one crossing, and what is refused. */
+static iso_record *make_crossings(const char *kind, const double rows[][3], size_t count)
+{
+    iso_record *r = NULL;
+    gsl_test((int)iso_record_create(ctx, 3, (const char *[]){"orbit", "l", "x"}, &r), "a record");
+    iso_record_set_kind(r, kind);
+    for (size_t i = 0; i < count; i++) iso_record_add(ctx, r, 1, rows[i]);
+    iso_record_set_numbers(ctx, r, "k", 1, (double[]){-1});
+    iso_record_set_numbers(ctx, r, "J", 3, (double[]){1, 2, 5});
+    iso_record_set_numbers(ctx, r, "eps", 1, (double[]){6.5});
+    iso_record_set_numbers(ctx, r, "axis", 1, (double[]){1});
+    return r;
+}
+
+/* Sections: two models, grey orbits, few crossings, and what is refused. */
 static void test_sections(void)
 {
-    static const double rows[][6] = {
-        {0, 0.1, 0.2, 0, 0.1, 0.2}, {1, -3, -0.999999, 1, -3, -0.9}, {1, 3.1, 1 - 1e-12, 1, 3.1, 1}};
-    static const char *const names[] = {"orbit", "l", "x", "grey", "point_l", "point_x"};
+    static const double rows[][3] = {{0, 0.1, 0.2}, {1, -3, -0.999999}, {2, 3.1, 1 - 1e-12}},
+                        others[][3] = {{0, 0.1, 0.2}, {1, -3, -0.9}, {2, 3.1, 1}};
     const char *path = in_folder("s.svg");
-    iso_params p;
-    iso_record *r;
-    double *row;
-    iso_params_reduced(ctx, -1, (double[]){1, 2, 5}, &p);
-    iso_record_create(ctx, 6, names, &r);
-    iso_plot_section section = {
-        .title = "it's `touch OWNED`", .params = &p, .eps = 6.5, .axis = 0, .rows = r, .grey_means = "chaotic"};
-    gsl_test(iso_plot_sections(ctx, &(iso_plot_page){.path = path}, &section) != ISO_BAD_ARGUMENT, "no crossing");
-    for (int i = 0; i < 3; i++)
-        if (iso_record_append(ctx, r, &row) == ISO_OK) memcpy(row, rows[i], sizeof rows[i]);
-    gsl_test((int)iso_plot_sections(ctx, &(iso_plot_page){.path = path}, &section), "%s", iso_context_message(ctx));
-    gsl_test(!file_contains(path, ">chaotic<") || !file_contains(path, "units of the scene"), "key and axes");
-    section.eps = 0;
-    gsl_test((int)iso_plot_sections(ctx, &(iso_plot_page){.path = path}, &section), "no free point: %s",
+    const iso_plot_page page = {.path = path, .title = "it's `touch OWNED`"};
+    iso_record *none = make_crossings("section", NULL, 0), *r = make_crossings("section", rows, 3),
+               *point = make_crossings("section", others, 3);
+    gsl_test(plot_tables(ctx, &page, (const iso_record *[]){none, NULL}, NULL) != ISO_BAD_INPUT, "no crossing");
+    gsl_test((int)plot_tables(ctx, &page, (const iso_record *[]){r, point, NULL}, "points=4000\n"), "%s",
+             iso_context_message(ctx));
+    gsl_test(!file_contains(path, ">chaotic, or too few crossings to tell<") ||
+                 !file_contains(path, "units of the scene"),
+             "key and axes");
+    gsl_test(!file_contains(path, "touch OWNED"), "a title is drawn as it is");
+    gsl_test(file_contains(path, "<image"), "few points are points");
+    gsl_test((int)plot_tables(ctx, &page, (const iso_record *[]){r, NULL}, "points=1\n"), "%s",
+             iso_context_message(ctx));
+    gsl_test(!file_contains(path, "<image"), "many points are an image");
+    iso_record_set(ctx, r, "eps", NULL);
+    gsl_test((int)plot_tables(ctx, &page, (const iso_record *[]){r, NULL}, NULL), "no free point: %s",
              iso_context_message(ctx));
     gsl_test(file_contains(path, "units of the scene"), "then x is drawn");
     unlink(path);
-    section.axis = 3;
-    gsl_test(iso_plot_sections(ctx, &(iso_plot_page){.path = path}, &section) != ISO_BAD_ARGUMENT,
-             "an axis that is none");
+    gsl_test(plot_tables(ctx, &page, (const iso_record *[]){r, NULL}, "window=1:0,0:1") != ISO_BAD_ARGUMENT,
+             "no window");
+    gsl_test(plot_tables(ctx, &page, (const iso_record *[]){r, NULL}, "value=l") != ISO_BAD_ARGUMENT,
+             "an option of another kind");
+    iso_record_set(ctx, r, "axis", "4");
+    gsl_test(plot_tables(ctx, &page, (const iso_record *[]){r, NULL}, NULL) != ISO_BAD_INPUT, "an axis that is none");
+    iso_record_free(none);
     iso_record_free(r);
+    iso_record_free(point);
     gsl_test(files_in_folder() != 0, "nothing is left");
 }
 

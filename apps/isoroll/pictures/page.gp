@@ -30,6 +30,10 @@ set style line 9 dt (12,3,2,3,2,3) lc rgb green
 set style line 10 dt (5,2) lc rgb orange
 viridis = "set palette defined (0 '#440154', 1 '#472C7A', 2 '#3B518B', 3 '#2C718E', 4 '#21908D', 5 '#27AD81', \
 6 '#5CC863', 7 '#AADC32', 8 '#FDE725')"
+# the same without its lightest part, for dots: yellow ones are not seen on white
+viridis_dots = "set palette defined (0 '#440154', 1 '#472977', 2 '#3D4B88', 3 '#30698D', 4 '#25868D', 5 '#25A186', \
+6 '#43BB71', 7 '#7ED14D', 8 '#C8E02D')"
+exponents = "set palette defined (0 '#F7E3B0', 0.5 '#E8AA00', 1 '#8B1A00')" # pale_yellow, orange, dark_red
 
 # --- the page
 min(a, b) = a < b ? a : b

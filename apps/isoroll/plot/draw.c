@@ -10,6 +10,7 @@
 #include "base/number_impl.h"
 #include "embedded.h"
 #include "io/replacement_impl.h"
+#include "io/table.h"
 #include "plot/gnuplot.h"
 
 enum { LONGEST = 110, LONGEST_LINE = 150, LONGEST_WORD = 60, MOST_TEMPLATE = 1 << 20 };
@@ -62,7 +63,7 @@ static void put_block(FILE *f, const iso_record *r)
             if (iso_record_has_words(r, c))
                 put_word(f, iso_record_word(r, row[c]));
             else
-                fprintf(f, isfinite(row[c]) ? "%.17g" : "NaN", row[c]);
+                fputs(isfinite(row[c]) ? ISO_SHORT(row[c]) : "NaN", f);
             if (c + 1 < columns) fputc(' ', f);
         }
         fputc('\n', f);
@@ -110,5 +111,43 @@ iso_status plot_tables(iso_context *ctx, const iso_plot_page *page, const iso_re
     ISO_TRY(iso_picture_make(ctx, table, options, &picture));
     const iso_status status = plot_draw(ctx, page, &picture);
     iso_picture_free(&picture);
+    return status;
+}
+
+/* --- what a page says of sections ------------------------------------------------------------------------------- */
+
+iso_status plot_read_over(iso_context *ctx, const iso_plot_page *page, iso_record *over[ISO_PLOT_OVERS + 1])
+{
+    for (int i = 0; i <= ISO_PLOT_OVERS; i++) over[i] = NULL;
+    for (int i = 0; i < ISO_PLOT_OVERS && page->over[i]; i++) {
+        const char *file = page->over[i];
+        ISO_TRY(iso_table_read(ctx, file, NULL, NULL, &over[i], NULL));
+        const char *kind = iso_record_kind(over[i]);
+        if (strcmp(kind, "periodic") != 0 && strcmp(kind, "splitting") != 0)
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "over",
+                                    "--over '%s': expected what 'periodic -o' or 'splitting -o' writes", file);
+        ISO_TRY(iso_record_set(ctx, over[i], "file", file));
+    }
+    return ISO_OK;
+}
+
+const char *plot_section_options(const iso_plot_page *page, char text[static PLOT_SECTION_OPTIONS])
+{
+    const size_t length = strlen(page->path);
+    const bool png = length > 4 && strcmp(page->path + length - 4, ".png") == 0;
+    snprintf(text, PLOT_SECTION_OPTIONS, "%s%s%s%s", page->window ? "window=" : "", page->window ? page->window : "",
+             page->window ? "\n" : "", png ? "" : "points=4000\n");
+    return text;
+}
+
+iso_status plot_section(iso_context *ctx, const iso_plot_page *page, const iso_record *section)
+{
+    char text[PLOT_SECTION_OPTIONS];
+    iso_record *over[ISO_PLOT_OVERS + 1];
+    const iso_record *table[ISO_PLOT_OVERS + 2] = {section};
+    iso_status status = plot_read_over(ctx, page, over);
+    for (int i = 0; i < ISO_PLOT_OVERS; i++) table[1 + i] = over[i];
+    if (status == ISO_OK) status = plot_tables(ctx, page, table, plot_section_options(page, text));
+    for (int i = 0; i < ISO_PLOT_OVERS; i++) iso_record_free(over[i]);
     return status;
 }

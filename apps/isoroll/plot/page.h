@@ -18,11 +18,6 @@ typedef struct iso_plot_size {
     bool mm;              /* else px      */
 } iso_plot_size;
 
-/* A part of a section. */
-typedef struct iso_plot_window {
-    double l[2], x[2]; /* x[0] = x[1]: not given */
-} iso_plot_window;
-
 enum { ISO_PLOT_OVERS = 4 };
 
 typedef struct iso_plot_page {
@@ -32,7 +27,7 @@ typedef struct iso_plot_page {
     const char *template; /* a file of gnuplot in place of pictures/KIND.gp; NULL: that one                    */
     iso_plot_style style; /* not given: the screen's                                                         */
     iso_plot_size size;
-    iso_plot_window window;           /* of a section; not given: the whole                          */
+    const char *window;               /* of a section: "L0:L1,X0:X1"; NULL: the whole                */
     const char *over[ISO_PLOT_OVERS]; /* files that are drawn over a section; NULL: no more of them  */
 } iso_plot_page;
 
