@@ -23,7 +23,7 @@ struct iso_picture_points {
     int l, x;               /* columns of the rows; l -1: there is none  */
     uint64_t rows;          /* that came so far                          */
     double limit;           /* rows whose hash is below it are kept      */
-    bool last_kept, judged; /* judged: there are verdicts                */
+    bool last_kept, judged, parted; /* judged: there are verdicts; parted: the models part on an orbit */
     iso_record *kept;
     size_t orbits;
     iso_record *first, *who; /* the first crossing of each orbit that has one, (l, x), and whose it is             */
@@ -169,7 +169,10 @@ iso_status iso_picture_points_pair(iso_context *ctx, iso_picture_points *p, cons
                                    const double point[2])
 {
     if (p->l < 0) return ISO_OK;
-    if (distance(ball, point) > ISO_SECTION_PARTED) ISO_TRY(set_shade(ctx, p, p->orbits - 1, ISO_PICTURE_GREY));
+    if (distance(ball, point) > ISO_SECTION_PARTED) {
+        ISO_TRY(set_shade(ctx, p, p->orbits - 1, ISO_PICTURE_GREY));
+        p->parted = true;
+    }
     if (!p->last_kept) return ISO_OK;
     double *row = iso_record_row(p->kept, iso_record_rows(p->kept) - 1);
     row[ISO_PICTURE_POINT_L] = point[0];
@@ -249,6 +252,7 @@ iso_status iso_picture_points_make(iso_context *ctx, iso_picture_points *p, cons
     ISO_TRY(iso_picture_say(ctx, picture, "grey_means",
                             !any[ISO_PICTURE_GREY] ? ""
                             : p->judged            ? "chaotic"
+                            : p->parted            ? "ball and point part: chaotic; or too few crossings to tell"
                                                    : "chaotic, or too few crossings to tell"));
     ISO_TRY(iso_picture_say(ctx, picture, "dark_means", any[ISO_PICTURE_DARK] ? "undecided" : ""));
     return iso_picture_over(ctx, &p->charts, over, picture);

@@ -156,7 +156,7 @@ class Law(Case):
                     self.alike(f"{name}:{branch:.0f}", "points", "at", name, points["branch"] == branch, True)
 
     def test_charts(self):
-        for chart in ("J2", {"level": (-1, 1)}):
+        for chart in ("J2", {"J2": (1, 3)}):
             self.by_both(isoroll.periodic(WILD, chart=chart, steps=12))
             cells, borders = self.gnuplot["cells"], self.gnuplot["borders"]
             for side, moment in ((1, "least"), (2, "greatest")):
@@ -197,8 +197,7 @@ class Law(Case):
         self.by_both(isoroll.sweep({**plan, "vary": {"k": {"from": 0.5, "to": 1.2, "count": 5}}}))
         self.alike("value", "curve", "at", "value", True, True)
         self.assertEqual([line.get_xdata()[0] for line in self.artists["integrable"]], self.gnuplot["marks"]["at"].tolist())
-        table = isoroll.sweep({**plan, "vary": {"k": [0.5, 0.75], "J3": [4, 5, 6], "J1": [1, 1.1, 1.2]}})
-        table["state_n1"][3:5] = np.nan
+        table = isoroll.sweep({**plan, "vary": {"k": [0.5, 0.75], "J3": [4, 5, 6], "J1": [-1, 1.1, 1.2]}})
         self.by_both(table, "--value", "state_n1", value="state_n1")
         cells = self.gnuplot["cells"]
         for missing, gid in ((1, "missing"), (0, "cells")):
@@ -207,6 +206,72 @@ class Law(Case):
         whole = cells["missing"] == 0
         values = [cells["value"][whole & (cells["cell"] == cell)][0] for cell in np.unique(cells["cell"][whole])]
         self.same(np.sort(np.concatenate([each.get_array() for each in self.artists["cells"]])), np.sort(values))
+
+
+    # --- sections and chaos
+
+    def check_section(self, *some):
+        for side in ("ball", "point"):
+            shade = self.gnuplot[side]["shade"]
+            for number, name in enumerate(("coloured", "grey", "dark")):
+                self.alike(f"{side}:{name}", side, "right", "up", shade == number, name in some)
+
+    def test_sections(self):
+        scene, level = isoroll.section(WILD, starts=4, crossings=200), isoroll.section(example("21_levels"), crossings=40)
+        for table, options, how in ((scene, (), {}), (level, (), {}),
+                                    (scene, ("--window", "0:1.5,-0.3:0.3"), {"window": ((0, 1.5), (-0.3, 0.3))})):
+            self.by_both(table, *options, **how)
+            self.check_section(*(("coloured", "grey") if table is scene and not how else ()))
+        self.assertIn("too few crossings", self.artists["ball:grey"][0].axes.get_legend().get_texts()[0].get_text())
+
+    def test_what_is_over_a_section(self):
+        over = isoroll.periodic(WILD, period=2), isoroll.splitting(WILD, k=[0.5])
+        for i, table in enumerate(over):
+            table.write(self.path(f"over{i}.csv"))
+        self.by_both(isoroll.section(WILD, crossings=30), "--over", "over0.csv", "--over", "over1.csv", over=over)
+        self.check_section()
+        for side in ("ball", "point"):
+            stable = self.gnuplot[side + "_orbits"]["stable"] == 1
+            self.alike(side + ":stable", side + "_orbits", "right", "up", stable, True)
+            self.alike(side + ":unstable", side + "_orbits", "right", "up", ~stable, True)
+            for name in ("leaves", "enters"):
+                self.alike(f"{side}:{name}", f"{side}_{name}", "right", "up", True, True)
+
+    def test_ball_and_point_part(self):
+        table = isoroll.section(WILD, starts=8, crossings=300)
+        apart = np.maximum(np.abs(np.remainder(table.l - table.point.l + np.pi, 2 * np.pi) - np.pi),
+                           np.abs(table.x - table.point.x)) > 1e-3
+        chaotic = np.isin(table["orbit"], np.unique(table["orbit"][apart]))
+        axes = table.plot()
+        grey, coloured = (next(each.get_offsets() for each in axes[1].collections if each.get_gid() == "point:" + name)
+                          for name in ("grey", "coloured"))
+        self.assertTrue(len(coloured) and chaotic.any() and not chaotic.all())
+        near = np.min(np.abs(table.point.l[chaotic][:, None] - coloured[:, 0]), axis=1) < 1e-4
+        self.assertLess(near.mean(), 0.1, "coloured ones stand there by chance only")
+        near = np.min(np.abs(table.point.l[chaotic][:, None] - grey[:, 0]), axis=1) < 1e-4
+        self.assertGreater(near.mean(), 0.9)
+        self.assertIn("ball and point part: chaotic", axes[0].get_legend().get_texts()[0].get_text())
+
+    def test_periodic_orbits(self):
+        for period in (1, 2):
+            self.by_both(isoroll.periodic(WILD, period=period))
+            self.check_section("coloured", *["grey"] * (period - 1))
+
+    def test_chaos(self):
+        for turns in (40, 200):
+            self.by_both(isoroll.chaos(WILD, starts=20, turns=turns))
+            for name in ("regular", "chaotic", "undecided"):
+                self.alike(name, name, "l", "x", True, name == ("undecided" if turns == 40 else "chaotic"))
+        self.same(self.artists["chaotic"][0].get_array(), self.gnuplot["chaotic"]["exponent"])
+
+    def test_indicators(self):
+        for options in ({}, {"model": "point"}):
+            words = [word for key, value in options.items() for word in (f"--{key}", value)]
+            self.command("chaos", WILD, "--turns", "60", *words, "--plot", "c.svg", "--script", "c.gp")
+            self.blocks_of("c.gp", isoroll.chaos(WILD, turns=60, **options))
+            for side in ("ball", "point"):
+                for name in ("growth", "megno", "mean", "gali2"):
+                    self.alike(f"{side}:{name}", side, "turn", name, True, side == "point")
 
 
 @unittest.skipUnless(matplotlib, "python3-matplotlib is not installed")
@@ -226,8 +291,10 @@ class Look(Case):
         self.assertEqual([(names[colour], dash) for dash, colour in lines],
                          [(colour, "1" if dash == "-" else f"({','.join(map(str, dash[1]))})")
                           for colour, dash in layouts.STROKES])
-        scale = re.search(r'^viridis = "(.*?)"', self.page, re.M | re.S)[1]
-        self.assertEqual(re.findall("#[0-9A-F]{6}", scale), list(layouts.VIRIDIS))
+        for name, ours in (("viridis", layouts.VIRIDIS), ("viridis_dots", layouts.VIRIDIS_DOTS),
+                           ("exponents", layouts.EXPONENTS)):
+            scale = re.search(rf'^{name} = "(.*?)"', self.page, re.M | re.S)[1]
+            self.assertEqual(re.findall("#[0-9A-F]{6}", scale), list(ours))
         for row, name in zip(layouts.SEEN, "XYD"):
             formula = re.search(rf"^{name}\(x, y, z\) = (.*)", self.page, re.M)[1]
             self.near([eval(formula, {"x": x, "y": y, "z": z}) for x, y, z in np.eye(3)], row, 0)

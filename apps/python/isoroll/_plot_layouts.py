@@ -21,7 +21,8 @@ STROKES = ((BLUE, "-"), (VERMILLION, (0, (8, 3))), (GREEN, (0, (8, 3, 2, 3))), (
            (PURPLE, (0, (12, 4))), (ORANGE, "-"), (SKY, (0, (4, 4))), (BLUE, (0, (2, 2))),
            (GREEN, (0, (12, 3, 2, 3, 2, 3))), (ORANGE, (0, (5, 2))))
 VIRIDIS = ("#440154", "#472C7A", "#3B518B", "#2C718E", "#21908D", "#27AD81", "#5CC863", "#AADC32", "#FDE725")
-VIRIDIS_DOTS = (*zip(np.arange(8) / 7.36, VIRIDIS), (1, "#C8E02D"))  # without its lightest part
+VIRIDIS_DOTS = ("#440154", "#472977", "#3D4B88", "#30698D", "#25868D", "#25A186", "#43BB71", "#7ED14D", "#C8E02D")
+EXPONENTS = (PALE_YELLOW, ORANGE, DARK_RED)
 ANGLES = ((-np.pi, -np.pi / 2, 0, np.pi / 2, np.pi), ("−π", "−π/2", "0", "π/2", "π"))
 DASHED = (0, (6, 4))
 Numbers = NDArray[np.float64]
@@ -397,22 +398,20 @@ def by_hue(hue: Numbers) -> Numbers:
 
 def crossings(at: Any, p: Picture, side: str) -> Any:
     """The spots of one model; those of a scale of colours."""
-    spots, few = p[side], p.number("few")
-    size, scaled = min(max(9 / (len(spots) + 1)**0.5, 0.05), 0.4)**2 * 60, None
-    for shade, name, look in ((1, "grey", {"color": GREY}), (2, "dark", {"color": INK}), (0, "coloured", {})):
-        rows, label = spots["shade"] == shade, p.text(name + "_means") or None
-        colour = spots["colour"][rows]
-        if shade == 0:
-            look = {"c": by_hue(colour)} if not p.number("bar") else {
-                "c": colour, "cmap": scale(VIRIDIS_DOTS), "vmin": p.number("low"), "vmax": p.number("high")}
+    spots, few, bar = p[side], p.number("few"), p.number("bar")
+    size = min(max(9 / (len(spots) + 1)**0.5, 0.05), 0.4)**2 * 30
+    for shade, name, colour in ((1, "grey", GREY), (2, "dark", INK), (0, "coloured", None)):
+        rows, words = spots["shade"] == shade, p.text(name + "_means")
+        look = {"color": colour} if colour else {"c": by_hue(spots["colour"][rows])} if not bar else {
+            "c": spots["colour"][rows], "cmap": scale(VIRIDIS_DOTS), "vmin": p.number("low"), "vmax": p.number("high")}
         drawn = dots(at, spots, "right", "up", rows, s=(4 if shade else 25) if few else size, linewidths=0, zorder=3,
-                     label=label, gid=f"{side}:{name}", rasterized=len(spots) > 40000, **look)
-        scaled = drawn if shade == 0 and p.number("bar") else None
+                     gid=f"{side}:{name}", rasterized=len(spots) > 40000, **look)
+        at.plot([], [], "o", ms=5, color=colour, label=words or None)
     at.set(xlim=(p.number(side + "_x0"), p.number(side + "_x1")), ylim=(p.number(side + "_y0"), p.number(side + "_y1")),
            xlabel=p.text(side + "_right"), ylabel=p.text(side + "_up"), title=p.text(side + "_title"))
     if not p.number("window"):
         at.set_xticks(*ANGLES)
-    return scaled
+    return drawn if bar else None
 
 
 def lines_over(at: Any, p: Picture, side: str) -> None:
@@ -446,13 +445,13 @@ def section(p: Picture, ax: Any) -> List[Any]:
 def chaos(p: Picture, ax: Any) -> List[Any]:
     (at,) = axes = parts(ax, ["A"], [5.2])
     size = min(max(30 / sum(len(p[name]) for name in ("regular", "chaotic", "undecided"))**0.5, 0.12), 1.6)**2 * 40
-    exponents = {"c": p["chaotic"]["exponent"], "vmin": 0, "cmap": scale((PALE_YELLOW, ORANGE, DARK_RED))}
+    exponents = {"c": p["chaotic"]["exponent"], "vmin": 0, "cmap": scale(EXPONENTS)}
     for name, look in (("regular", {"color": FAR_BLUE}), ("chaotic", exponents),
                        ("undecided", {"color": BLACK, "marker": "x"})):
         if len(p[name]):
             drawn = dots(at, p[name], "l", "x", s=size, label=name, gid=name, **look)
             at.figure.colorbar(drawn, ax=at, label="exponent per turn") if name == "chaotic" else None
-    at.set(xlim=(-np.pi, np.pi), ylim=(-1, 1), xlabel=p.text("right"), ylabel=p.text("up"))
+    at.set(xlim=(-np.pi, np.pi), ylim=(-1, 1), xlabel=p.text("right_name"), ylabel=p.text("up_name"))
     at.set_xticks(*ANGLES)
     return axes
 
