@@ -4,7 +4,7 @@ meaning is computed here: the library says what is to be seen (_picture.py)."""
 from __future__ import annotations
 
 import os
-from typing import Any, List, Optional, Sequence, Union
+from typing import Any, List, Optional, Sequence, Set, Union
 
 import numpy as np
 
@@ -50,6 +50,18 @@ def parts(ax: Any, rows: Sequence[str], heights: Sequence[float], width: float =
     return given
 
 
+def keys(axes: Sequence[Any], own: bool) -> None:
+    """Keys of axes that have none yet: below those of a new figure. What another one says is not said again."""
+    said: Set[str] = set()
+    for at in axes:
+        labels = set(at.get_legend_handles_labels()[1])
+        if at.get_legend() is None and not labels <= said:
+            room = 20 * at.figure.get_figwidth() * at.get_position().width / (5 + max(map(len, labels)))  # in letters
+            at.legend(**({"loc": "upper center", "bbox_to_anchor": (0.5, -0.13), "ncol": min(max(int(room), 1), 4)}
+                         if own else {}))
+        said |= labels
+
+
 def draw(table: Table, ax: Any = None, *, title: Optional[str] = None, **how: Any) -> Any:
     """Draws a table: see plot."""
     with pyplot().rc_context(_STYLE):
@@ -63,9 +75,7 @@ def draw(table: Table, ax: Any = None, *, title: Optional[str] = None, **how: An
             raise _errors.BadInput(f"matplotlib has no layout '{first.layout}' for a table '{table.kind}': "
                                    "table.picture(FILE) draws it by the command's template")
         axes = LAYOUTS["batch" if batch else first.layout](pictures if batch or options["columns"] else first, ax)
-        for at in axes:
-            if at.get_legend() is None and at.get_legend_handles_labels()[0]:
-                at.legend(loc="upper center", bbox_to_anchor=(0.5, -0.13), ncol=3)
+        keys(axes, ax is None)
         title = (f"{len(orbits)} orbits" if batch else first.text("title")) if title is None else title
         if len(axes) == 1:
             axes[0].set_title(plain(title))

@@ -3,6 +3,7 @@ its colours, dashes and marks. A layout takes a picture and the caller's Axes, a
 
 from __future__ import annotations
 
+import textwrap
 from typing import Any, Callable, Dict, List, Sequence
 
 import numpy as np
@@ -45,6 +46,11 @@ def where(rows: Rows, values: Numbers) -> Numbers:
 
 def dots(at: Any, table: Any, x: str, y: str, rows: Any = slice(None), **look: Any) -> Any:
     return at.scatter(table[x][rows], table[y][rows], **look)
+
+
+def bar(drawn: Any, axes: Any, words: str) -> None:
+    """A scale of colours, which is no image: a file of vectors has no pixels."""
+    drawn.figure.colorbar(drawn, ax=axes, label=words).solids.set(rasterized=False, edgecolor="face")
 
 
 def areas(at: Any, corners: Sequence[Any], **look: Any) -> Any:
@@ -383,7 +389,7 @@ def sweep_map(p: Picture, ax: Any) -> List[Any]:
         at.set(xlabel=p.text("x"), ylabel=p.text("y"), title=plain(name))
         at.margins(0.02)
         at.autoscale_view()
-    axes[0].figure.colorbar(drawn, ax=axes, label=p.text("value"))
+    bar(drawn, axes, p.text("value"))
     return axes
 
 
@@ -399,9 +405,9 @@ def by_hue(hue: Numbers) -> Numbers:
 def crossings(at: Any, p: Picture, side: str) -> Any:
     """The spots of one model; those of a scale of colours."""
     spots, few, bar = p[side], p.number("few"), p.number("bar")
-    size = min(max(9 / (len(spots) + 1)**0.5, 0.05), 0.4)**2 * 30
+    size = min(max(9 / (len(spots) + 1)**0.5, 0.05), 0.4)**2 * 45
     for shade, name, colour in ((1, "grey", GREY), (2, "dark", INK), (0, "coloured", None)):
-        rows, words = spots["shade"] == shade, p.text(name + "_means")
+        rows, words = spots["shade"] == shade, "\n".join(textwrap.wrap(p.text(name + "_means"), 40))
         look = {"color": colour} if colour else {"c": by_hue(spots["colour"][rows])} if not bar else {
             "c": spots["colour"][rows], "cmap": scale(VIRIDIS_DOTS), "vmin": p.number("low"), "vmax": p.number("high")}
         drawn = dots(at, spots, "right", "up", rows, s=(4 if shade else 25) if few else size, linewidths=0, zorder=3,
@@ -438,7 +444,7 @@ def section(p: Picture, ax: Any) -> List[Any]:
         axes[1].fill_between(boundary["l"], boundary[edge], end, color=BAND, lw=0, zorder=1)
         axes[1].plot(boundary["l"], boundary[edge], color=AXES, lw=1, zorder=2)
     if scaled is not None:
-        axes[0].figure.colorbar(scaled, ax=axes, label="rotation number: turns from crossing to crossing")
+        bar(scaled, axes, "rotation number: turns from crossing to crossing")
     return axes
 
 
@@ -450,7 +456,7 @@ def chaos(p: Picture, ax: Any) -> List[Any]:
                        ("undecided", {"color": BLACK, "marker": "x"})):
         if len(p[name]):
             drawn = dots(at, p[name], "l", "x", s=size, label=name, gid=name, **look)
-            at.figure.colorbar(drawn, ax=at, label="exponent per turn") if name == "chaotic" else None
+            bar(drawn, at, "exponent per turn") if name == "chaotic" else None
     at.set(xlim=(-np.pi, np.pi), ylim=(-1, 1), xlabel=p.text("right_name"), ylabel=p.text("up_name"))
     at.set_xticks(*ANGLES)
     return axes
