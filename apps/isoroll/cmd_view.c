@@ -113,9 +113,6 @@ static iso_status make(iso_context *ctx, const options *o, view_kind kind, view_
     iso_status status = kind == SECTION      ? view_of_section(ctx, &o->from, page)
                         : kind == TRAJECTORY ? view_of_trajectory(ctx, &o->from, page)
                                              : of_scene(ctx, o, page);
-    if (status == ISO_OK && page->rows) view_note_turn(page);
-    if (status == ISO_OK && page->rows) status = view_numbers(ctx, page);
-    if (status == ISO_OK && page->rows) status = view_neighbour_of_rows(ctx, page);
     if (strcmp(o->output, "-") == 0) progress_end();
     if (status == ISO_OK) status = view_write(ctx, o->output, page);
     return status;
@@ -141,8 +138,7 @@ static int run(iso_context *ctx, const void *options_given)
                       .live = o->live,
                       .kind = names[kind],
                       .eps = NAN,
-                      .h = NAN,
-                      .every = 1};
+                      .h = NAN};
     begin_work(ctx, NULL);
     status = make(ctx, o, kind, &page);
     const bool no_orbit = page.no_orbit;

@@ -27,8 +27,7 @@ json_t *json_number(double x)
     return isfinite(x) ? json_real(x) : json_null();
 }
 
-/* A text in which bytes that are no UTF-8 become question marks: JSON has only UTF-8. */
-static json_t *text_of(const char *text)
+json_t *json_text(const char *text)
 {
     json_t *made = json_string(text);
     if (made) return made;
@@ -58,7 +57,7 @@ static void add_expressions(json_t *to, const iso_effects *effects, iso_effect_i
     const iso_effect *e = iso_effect_list[id];
     for (int i = 0; e->expressions && e->expressions[i]; i++)
         if (iso_written_has(effects, id, i))
-            json_object_set_new(to, e->expressions[i], text_of(effects->written[e->written].expression[i]));
+            json_object_set_new(to, e->expressions[i], json_text(effects->written[e->written].expression[i]));
 }
 
 json_t *json_effects(const iso_effects *effects, bool all)
@@ -74,7 +73,7 @@ json_t *json_effects(const iso_effects *effects, bool all)
             const double *x = iso_effect_values(effects, e, &n);
             const bool word = n.kind == ISO_NUMBER_WORD;
             for (int i = 0; i < n.count; i++)
-                json_array_append_new(list, word ? text_of(n.word((int)x[i])) : json_number(x[i]));
+                json_array_append_new(list, word ? json_text(n.word((int)x[i])) : json_number(x[i]));
             if (all || !n.scene_only) json_object_set(numbers, n.name, list);
             json_decref(list);
         }
@@ -90,7 +89,7 @@ static json_t *value_of(const iso_field *f, const void *row, int i)
     iso_value v;
     iso_field_read(f, row, i, &v);
     if (!v.there) return json_null();
-    if (v.text) return text_of(v.text);
+    if (v.text) return json_text(v.text);
     if (f->type == ISO_FIELD_BOOL) return json_boolean(v.number != 0);
     return f->type == ISO_FIELD_REAL ? json_number(v.number) : json_integer((json_int_t)v.number);
 }

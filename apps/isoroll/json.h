@@ -14,6 +14,9 @@ void json_begin(void);
 /* A number. JSON has no infinity and no nan: they become null. */
 json_t *json_number(double x);
 
+/* A text in which bytes that are no UTF-8 become question marks: JSON has only UTF-8. */
+json_t *json_text(const char *text);
+
 /* An object: the version of isoroll, then a result. JSON has no infinity and no nan: they become null. */
 json_t *json_of(const iso_field *fields, const void *row);
 

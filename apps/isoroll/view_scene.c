@@ -3,182 +3,137 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/vec3_impl.h"
-#include "scene_options.h"
+#include "study/study.h"
 #include "view.h"
 
 /* Two runs whose unit vectors differ by more are no longer the same orbit. */
 #define PARTED 1e-3
 
-static void show_progress(void *data, double part)
+/* Chooses the rows: each `every`-th of the scene and the last, or, after each but the last, `between` more. */
+static iso_status choose_rows(iso_context *ctx, iso_scene *scene, size_t *total, size_t *every, size_t *between)
 {
-    (void)data;
-    progress_show(part);
+    iso_record *rough;
+    *total = iso_scene_rows(scene);
+    if (*total < 2) return iso_context_fail(ctx, ISO_BAD_INPUT, "end", "a page needs motion: the last time is 0");
+    const double step = fabs(iso_scene_time(scene, 1));
+    *every = (*total + VIEW_MOST_ROWS - 2) / (VIEW_MOST_ROWS - 1);
+    *between = 0;
+    if (*every == 1) {
+        ISO_TRY(view_run(ctx, scene, NULL, 0, NULL, &rough));
+        const double pieces = ceil(view_largest_turn(rough, scene->params.k) / VIEW_TURN);
+        const double most = floor((double)(VIEW_MOST_ROWS - 1) / (double)(*total - 1));
+        *between = (size_t)fmax(fmin(pieces, most), 1) - 1;
+        iso_record_free(rough);
+    }
+    scene->step = step * (double)*every / (double)(*between + 1);
+    return ISO_OK;
 }
 
-/* page NULL: notes are not wanted. */
-static void keep_note(void *page, iso_run_note note, const char *words)
+static iso_status set_count(iso_context *ctx, iso_record *r, const char *key, size_t count)
 {
-    (void)note;
-    if (page) view_note(page, "%s", words);
+    return iso_record_set_numbers(ctx, r, key, 1, (double[]){(double)count});
 }
 
-/* Runs a scene at the given times (NULL: the scene's own) into a new record. */
-static iso_status run_at(iso_context *ctx, const iso_scene *scene, const double times[], size_t count,
-                         view_page *page, iso_record **rows)
+/* The ball by its own equations, with its attitude, and the point that belongs to it. */
+static iso_status run_ball(iso_context *ctx, iso_scene *scene, view_page *page, iso_record **rows)
 {
-    const iso_run_sink sink = {.note = keep_note, .progress = show_progress, .data = page, .record = rows};
-    iso_run_options how = iso_run_defaults();
-    how.times = times;
-    how.count = count;
-    *rows = NULL;
-    const iso_status status = iso_run(ctx, scene, &how, &sink, NULL);
-    if (status != ISO_OK) iso_record_free(*rows), *rows = NULL;
+    const char *names[ISO_TRAJECTORY_COLUMNS];
+    size_t total = 0, every = 1, between = 0;
+    const double step = scene->step;
+    scene->as = *page->alone ? ISO_SHOW_BALL : ISO_SHOW_BOTH;
+    view_ask_for(scene, view_columns(page, NULL, names), names);
+    iso_status status = choose_rows(ctx, scene, &total, &every, &between);
+    if (status == ISO_OK) status = view_run(ctx, scene, NULL, 0, page, rows);
+    if (status != ISO_OK) scene->step = step;
+    if (status == ISO_OK) status = set_count(ctx, *rows, "total", total);
+    if (status == ISO_OK) status = set_count(ctx, *rows, "every", every);
+    if (status == ISO_OK) status = set_count(ctx, *rows, "between", between);
     return status;
 }
 
-/* --- columns ---------------------------------------------------------------------------------------------------- */
-
-/* All columns of the effects that are on, of both models or of the ball alone. */
-static void choose_columns(iso_scene *scene, bool twin)
+/* The same without the point where the ball has none. */
+static iso_status run_scene(iso_context *ctx, iso_scene *scene, view_page *page, iso_record **rows)
 {
-    scene->columns = 0;
-    for (int c = 0; c < iso_columns_count() && scene->columns < ISO_MAX_COLUMNS; c++) {
-        iso_effect_id effect = ISO_EFFECTS;
-        if (c >= ISO_COLUMN_EFFECTS) iso_effect_column_name(c - ISO_COLUMN_EFFECTS, &effect, NULL, NULL);
-        if ((view_is_of_point(c) && !twin) || (effect != ISO_EFFECTS && !scene->effects.on[effect])) continue;
-        if (effect == ISO_ATTITUDE && strncmp(iso_column_name(c), "trace", 5) == 0) continue; /* -b n */
-        snprintf(scene->column[scene->columns++], ISO_NAME_SIZE, "%s", iso_column_name(c));
-    }
-}
-
-/* --- times ------------------------------------------------------------------------------------------------------ */
-
-/* The times of the page, growing: those of each `every`-th row of the scene and of the last row. After each but the
- * last there are `between` more. */
-static iso_status find_times(iso_context *ctx, const iso_scene *scene, view_page *page)
-{
-    const size_t last = iso_scene_rows(scene) - 1, pieces = page->between + 1;
-    page->count = (last + page->every - 1) / page->every * pieces + 1;
-    free(page->times);
-    page->times = malloc(page->count * sizeof *page->times);
-    if (!page->times) return iso_context_no_memory(ctx, "the times");
-    for (size_t n = 0; n < page->count; n++) {
-        const size_t m = scene->end < 0 ? page->count - 1 - n : n, row = m / pieces * page->every;
-        const double from = iso_scene_time(scene, row < last ? row : last);
-        const double to = iso_scene_time(scene, row + page->every < last ? row + page->every : last);
-        const double step = (to - from) / (double)pieces;
-        page->times[n] = from + (double)(m % pieces) * step;
-    }
-    return ISO_OK;
-}
-
-/* Chooses page->every, or runs the scene once at its own times and chooses page->between. */
-static iso_status choose_rows(iso_context *ctx, const iso_scene *scene, view_page *page)
-{
-    iso_record *rough;
-    page->total = iso_scene_rows(scene);
-    if (page->total < 2)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "end", "a page needs motion: the last time is 0");
-    page->every = (page->total + VIEW_MOST_ROWS - 2) / (VIEW_MOST_ROWS - 1);
-    page->between = 0;
-    if (page->every > 1) return ISO_OK;
-    ISO_TRY(run_at(ctx, scene, NULL, 0, NULL, &rough));
-    const double pieces = ceil(view_largest_turn(rough, scene->params.k) / VIEW_TURN);
-    const double most = floor((double)(VIEW_MOST_ROWS - 1) / (double)(page->total - 1));
-    page->between = (size_t)fmax(fmin(pieces, most), 1) - 1;
-    iso_record_free(rough);
-    return ISO_OK;
-}
-
-/* --- the two models --------------------------------------------------------------------------------------------- */
-
-/* The ball by its own equations, with its attitude; with `twin` also the point that belongs to it. */
-static iso_status run_with(iso_context *ctx, iso_scene *scene, bool twin, view_page *page)
-{
-    scene->as = twin ? ISO_SHOW_BOTH : ISO_SHOW_BALL;
-    choose_columns(scene, twin);
-    iso_status status = choose_rows(ctx, scene, page);
-    if (status == ISO_OK) status = find_times(ctx, scene, page);
-    return status == ISO_OK ? run_at(ctx, scene, page->times, page->count, page, &page->rows) : status;
-}
-
-/* The ball and its point, or the ball alone where it has none. */
-static iso_status run_ball(iso_context *ctx, const iso_scene *asked, view_page *page)
-{
-    iso_scene scene = *asked;
-    iso_status status = iso_effects_set(ctx, &scene.effects, "attitude", NULL, 0, NULL);
-    scene.backend = ISO_BACKEND_BALL;
-    if (status == ISO_OK) status = run_with(ctx, &scene, true, page);
-    if (status != ISO_NOT_MAPPED || scene.start.model != ISO_BALL) return status;
-    page->effects = scene.effects;
+    scene->backend = ISO_BACKEND_BALL;
+    ISO_TRY(iso_effects_set(ctx, &scene->effects, "attitude", NULL, 0, NULL));
+    page->effects = scene->effects;
+    const iso_status status = run_ball(ctx, scene, page, rows);
+    if (status != ISO_NOT_MAPPED || scene->start.model != ISO_BALL) return status;
     page->notes = 0;
     if (!view_is_broken(page)) snprintf(page->alone, sizeof page->alone, "%s", iso_context_message(ctx));
-    return run_with(ctx, &scene, false, page);
+    return run_ball(ctx, scene, page, rows);
 }
 
-/* Puts the columns M and gamma of the point's own run into the rows of the page, and how far n and gamma of the two
- * runs differ into page->apart. Says from when on they differ by more than PARTED. */
-static iso_status compare(iso_context *ctx, view_page *page, const iso_record *own)
+/* M and gamma of the rows become those of the point's own run; the table "compare" has how far both are apart. Says from
+ * when on they differ by more than PARTED. */
+static iso_status take_point(iso_context *ctx, view_page *page, iso_record *rows, const iso_record *apart,
+                             const iso_record *point)
 {
-    static const char *const names[] = {"apart_n", "apart_gamma"};
+    static const char *const names[] = {"n", "gamma"};
+    const int to = iso_record_find(rows, "M1"), from = iso_record_find(point, "M1");
     const char *clock = iso_clock_name(page->clock);
+    iso_record *table;
     bool parted = false;
-    iso_status status = iso_record_create(ctx, 2, names, &page->apart);
-    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(page->rows); i++) {
-        double *row = iso_record_row(page->rows, i);
-        double *gamma = row + iso_record_find(page->rows, "gamma1"), *M = row + iso_record_find(page->rows, "M1");
-        const double to[] = {relative_difference(view_vector(page->rows, i, "n1"), view_vector(own, i, "n1")),
-                             relative_difference(gamma, view_vector(own, i, "gamma1"))};
-        status = iso_record_add(ctx, page->apart, 1, to);
-        memcpy(gamma, view_vector(own, i, "gamma1"), 3 * sizeof *gamma);
-        memcpy(M, view_vector(own, i, "M1"), 3 * sizeof *M);
-        if (parted || !(fmax(to[0], to[1]) > PARTED)) continue;
+    ISO_TRY(iso_record_create(ctx, 2, names, &table));
+    ISO_TRY(view_add(ctx, page, "compare", -1, table));
+    for (size_t i = 0; i < iso_record_rows(rows) && i < iso_record_rows(point); i++) {
+        const double by[] = {*view_vector(apart, i, "n"), *view_vector(apart, i, "gamma")};
+        memcpy(iso_record_row(rows, i) + to, iso_record_const_row(point, i) + from, ISO_STATE * sizeof(double));
+        ISO_TRY(iso_record_add(ctx, table, 1, by));
+        if (parted || !(fmax(by[0], by[1]) > PARTED)) continue;
         parted = true;
         view_note(page,
                   "From %s = %.6g on the two computations part: this orbit is chaotic, or the time is too long.",
-                  clock, row[iso_record_find(page->rows, clock)]);
+                  clock, *view_vector(rows, i, clock));
     }
-    return status;
+    return ISO_OK;
 }
 
-/* The same orbit by the point's own equations. */
-static iso_status run_point(iso_context *ctx, const iso_scene *asked, view_page *page)
+/* The same orbit by the point's own equations, and how far both are apart: the tables of `compare`. */
+static iso_status compare(iso_context *ctx, const iso_scene *asked, view_page *page, iso_record *rows)
 {
-    static const char *const names[] = {"n1", "n2", "n3", "M1", "M2", "M3", "gamma1", "gamma2", "gamma3"};
-    iso_record *own = NULL;
     iso_scene scene = *asked;
-    scene.backend = ISO_BACKEND_POINT;
-    scene.as = ISO_SHOW_BOTH;
-    snprintf(scene.method, sizeof scene.method, "auto");
-    scene.effects = iso_scene_acting(asked);
-    scene.columns = sizeof names / sizeof *names;
-    for (size_t i = 0; i < scene.columns; i++) snprintf(scene.column[i], ISO_NAME_SIZE, "%s", names[i]);
-    iso_status status = run_at(ctx, &scene, page->times, iso_record_rows(page->rows), NULL, &own);
+    iso_study_result result = {.failed = false};
+    /* where contact is lost, the ball's run has ended before the last of the times */
+    scene.end = *view_vector(rows, iso_record_rows(rows) - 1, iso_clock_name(page->clock));
+    iso_status status =
+        iso_study_ask(ctx, iso_study_find("compare"), &(iso_study_subject){.scene = &scene}, NULL, &result);
     if (status == ISO_OK)
-        status = compare(ctx, page, own);
+        status = take_point(ctx, page, rows, result.table[0], result.table[2]);
     else if (status != ISO_STOPPED && status != ISO_NO_MEMORY) {
         view_note(page, "The point was not integrated by itself: %s. It is computed from the ball, by the map.",
                   iso_context_message(ctx));
         status = ISO_OK;
     }
-    iso_record_free(own);
+    iso_study_result_free(&result);
     return status;
 }
 
-iso_status view_of_scene(iso_context *ctx, const iso_scene *scene, view_page *page)
+/* Times that run backwards are played forwards. */
+static void turn_round(iso_record *r)
 {
-    page->params = scene->params;
-    page->attitude = scene->effects.on[ISO_ATTITUDE];
-    page->clock = scene->start.model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
-    iso_status status = run_ball(ctx, scene, page);
-    if (status == ISO_OK) status = view_read_effects(ctx, page->rows, page);
-    if (status != ISO_OK || *page->alone) return status;
-    iso_record_get_numbers(ctx, page->rows, "h", 1, &page->h, &status);
-    iso_record_get_numbers(ctx, page->rows, "eps", 1, &page->eps, &status);
-    /* where contact is lost, the ball's run has ended before the last of the times: the point's shall end there */
-    const size_t last = iso_record_rows(page->rows) - 1;
-    page->times[last] =
-        iso_record_const_row(page->rows, last)[iso_record_find(page->rows, iso_clock_name(page->clock))];
-    return run_point(ctx, scene, page);
+    const size_t rows = iso_record_rows(r), columns = iso_record_columns(r);
+    for (size_t i = 0; 2 * i + 1 < rows; i++)
+        for (size_t j = 0; j < columns; j++) {
+            double *a = iso_record_row(r, i) + j, *b = iso_record_row(r, rows - 1 - i) + j, kept = *a;
+            *a = *b;
+            *b = kept;
+        }
+}
+
+iso_status view_of_scene(iso_context *ctx, const iso_scene *asked, view_page *page)
+{
+    iso_scene scene = *asked;
+    iso_record *rows = NULL;
+    page->params = scene.params;
+    page->attitude = scene.effects.on[ISO_ATTITUDE];
+    page->clock = scene.start.model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
+    iso_status status = run_scene(ctx, &scene, page, &rows);
+    if (status == ISO_OK) status = view_read_lines(ctx, NULL, rows, page);
+    if (status == ISO_OK && !*page->alone) status = compare(ctx, &scene, page, rows);
+    for (size_t i = 0; status == ISO_OK && scene.end < 0 && i < page->tables; i++) turn_round(page->table[i]);
+    if (status == ISO_OK && scene.end < 0) turn_round(rows);
+    if (status == ISO_OK) return view_add_orbit(ctx, page, rows);
+    iso_record_free(rows);
+    return status;
 }

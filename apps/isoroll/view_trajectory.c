@@ -4,11 +4,46 @@
 
 #include "base/number_impl.h"
 #include "map/state.h"
+#include "orbit/rows_impl.h"
 #include "report.h"
 #include "view.h"
 
 #define LOST 1e-9 /* a pressure below this part of the largest is 0, as for plots */
 
+/* --- lines ------------------------------------------------------------------------------------------------------ */
+
+bool view_is_broken(view_page *page)
+{
+    const iso_effect *breaking = iso_effects_breaking(&page->effects);
+    if (breaking)
+        snprintf(page->alone, sizeof page->alone, "the effect '%s' breaks the isomorphism: %s", breaking->name,
+                 iso_effect_why_broken(breaking));
+    return breaking != NULL;
+}
+
+/* Which effects are idle tells the first row. A row that is no start is refused later, with its place. */
+static iso_status read_effects(iso_context *ctx, const iso_record *r, view_page *page)
+{
+    iso_start start;
+    const iso_model_kind model = iso_record_find(r, "n1") >= 0 ? ISO_BALL : ISO_POINT;
+    ISO_TRY(iso_record_effects(ctx, r, &page->effects));
+    iso_effects settled = page->effects;
+    if (iso_record_rows(r) > 0 && iso_record_start(ctx, r, &page->params, model, 0, &start, &settled) == ISO_OK)
+        memcpy(page->effects.idle, settled.idle, sizeof settled.idle);
+    return ISO_OK;
+}
+
+iso_status view_read_lines(iso_context *ctx, const file_options *from, iso_record *r, view_page *page)
+{
+    iso_status status = from ? parameters_of_file(ctx, from, r, &page->params) : ISO_OK;
+    if (status == ISO_OK) status = read_effects(ctx, r, page);
+    if (from) page->attitude = page->effects.on[ISO_ATTITUDE];
+    if (status == ISO_OK && !from && *page->alone) return ISO_OK;
+    if (status == ISO_OK && !iso_record_get_numbers(ctx, r, "h", 1, &page->h, &status)) page->h = NAN;
+    if (status == ISO_OK && !iso_record_coupling(ctx, r, &page->params, &page->eps, &status)) page->eps = NAN;
+    if (status == ISO_OK) view_is_broken(page);
+    return status;
+}
 /* --- what the file must have ------------------------------------------------------------------------------------ */
 
 static iso_status check_columns(iso_context *ctx, const iso_record *r, iso_clock *clock)
@@ -57,19 +92,20 @@ static iso_status pick(iso_context *ctx, const iso_record *in, int time, size_t 
     return ISO_OK;
 }
 
-static iso_status thin_out(iso_context *ctx, const iso_record *in, view_page *page, iso_record **out)
+/* As many rows as there is room for; their lines say of how many. */
+static iso_status thin_out(iso_context *ctx, const iso_record *in, const view_page *page, iso_record **out)
 {
     const int time = iso_record_find(in, iso_clock_name(page->clock));
-    *out = NULL;
-    page->total = iso_record_rows(in);
-    if (page->total < 2)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "a page needs at least two rows, found %zu", page->total);
-    page->every = (page->total + VIEW_MOST_ROWS - 2) / (VIEW_MOST_ROWS - 1);
-    iso_status status = iso_record_create_like(ctx, in, 0, NULL, out);
-    if (status == ISO_OK) status = pick(ctx, in, time, page->every, *out);
-    if (status == ISO_OK && iso_record_rows(*out) < 2)
-        status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "all rows have the same time: nothing moves");
-    return status;
+    const size_t total = iso_record_rows(in), every = (total + VIEW_MOST_ROWS - 2) / (VIEW_MOST_ROWS - 1);
+    if (total < 2)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "a page needs at least two rows, found %zu", total);
+    ISO_TRY(iso_record_create_like(ctx, in, 0, NULL, out));
+    ISO_TRY(iso_record_set_numbers(ctx, *out, "total", 1, (double[]){(double)total}));
+    ISO_TRY(iso_record_set_numbers(ctx, *out, "every", 1, (double[]){(double)every}));
+    ISO_TRY(pick(ctx, in, time, every, *out));
+    if (iso_record_rows(*out) < 2)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "all rows have the same time: nothing moves");
+    return ISO_OK;
 }
 
 /* --- the page --------------------------------------------------------------------------------------------------- */
@@ -78,29 +114,29 @@ static iso_status thin_out(iso_context *ctx, const iso_record *in, view_page *pa
 static void find_twin(view_page *page, const iso_record *r)
 {
     const double *omega = view_vector(r, 0, "omega1");
-    if (!view_is_broken(page) && omega && omega[0] == 0 && omega[1] == 0 && omega[2] == 0)
+    if (!*page->alone && omega && omega[0] == 0 && omega[1] == 0 && omega[2] == 0)
         snprintf(page->alone, sizeof page->alone, "a ball at rest has no point");
 }
 
 /* If the file does not state h and eps: from its first row, if the ball is free. */
-static void find_energy(view_page *page)
+static void find_energy(view_page *page, const iso_record *rows)
 {
     iso_sample first;
     const iso_effects acting = iso_effects_acting(&page->effects);
     if (*page->alone || !isnan(page->eps)) return;
     for (int e = 0; e < ISO_EFFECTS; e++)
         if (acting.on[e]) return;
-    iso_record_sample(page->rows, 0, &first);
+    iso_record_sample(rows, 0, &first);
     page->h = iso_ball_energy(&page->params, first.ball);
     page->eps = iso_coupling(&page->params, page->h);
 }
 
 /* Says, here and on the page, that rows do not follow the equations. */
-static void tell_miss(const char *file, view_page *page, const view_miss *worst)
+static void tell_miss(const char *file, view_page *page, const iso_record *rows, const iso_row_miss *worst)
 {
     const char *clock = iso_clock_name(page->clock);
     if (worst->by == 0) return;
-    const double time = iso_record_const_row(page->rows, worst->row)[iso_record_find(page->rows, clock)];
+    const double time = *view_vector(rows, worst->row, clock);
     page->no_orbit = true;
     view_note(page, "Rows are no orbit: the row at %s = %.6g is missed by %.2g by the orbit through the row before.",
               clock, time, worst->by);
@@ -112,16 +148,16 @@ static void tell_miss(const char *file, view_page *page, const view_miss *worst)
 
 /* Where a run has lost contact, its last row, or of times that run backwards the first of the page, has pressure 0.
  * The page looks for notes that begin with "contact is lost", and says that it is lost at the end. */
-static void tell_loss(view_page *page)
+static void tell_loss(view_page *page, const iso_record *rows)
 {
-    const int pressure = iso_record_find(page->rows, "pressure");
-    const size_t last = iso_record_rows(page->rows) - 1;
-    const int time = iso_record_find(page->rows, iso_clock_name(page->clock));
+    const int pressure = iso_record_find(rows, "pressure");
+    const size_t last = iso_record_rows(rows) - 1;
+    const int time = iso_record_find(rows, iso_clock_name(page->clock));
     double largest = 0;
     if (pressure < 0) return;
-    for (size_t i = 0; i <= last; i++) largest = fmax(largest, fabs(iso_record_const_row(page->rows, i)[pressure]));
+    for (size_t i = 0; i <= last; i++) largest = fmax(largest, fabs(iso_record_const_row(rows, i)[pressure]));
     for (size_t i = 0; i <= last; i += last) {
-        const double *row = iso_record_const_row(page->rows, i);
+        const double *row = iso_record_const_row(rows, i);
         if (row[pressure] > LOST * largest) continue;
         if (i == last)
             view_note(page, "contact is lost at %s = %.6g", iso_clock_name(page->clock), row[time]);
@@ -130,27 +166,30 @@ static void tell_loss(view_page *page)
     }
 }
 
-static iso_status of_record(iso_context *ctx, const file_options *from, iso_record *in, view_page *page)
+static iso_status of_record(iso_context *ctx, const file_options *from, iso_record *in, iso_record **thin,
+                            view_page *page)
 {
-    iso_record *thin = NULL;
-    view_miss worst;
-    iso_status status = view_read_lines(ctx, from, in, page);
-    if (status == ISO_OK) status = check_columns(ctx, in, &page->clock);
-    if (status == ISO_OK) status = thin_out(ctx, in, page, &thin);
-    if (status == ISO_OK) find_twin(page, thin);
-    if (status == ISO_OK) status = view_complete(ctx, page, thin, &page->rows, &worst);
-    if (status == ISO_OK) tell_miss(from->file, page, &worst);
-    if (status == ISO_OK) tell_loss(page);
-    if (status == ISO_OK) find_energy(page);
-    iso_record_free(thin);
-    return status;
+    const char *names[ISO_TRAJECTORY_COLUMNS];
+    iso_record *rows;
+    iso_row_miss worst;
+    ISO_TRY(view_read_lines(ctx, from, in, page));
+    ISO_TRY(check_columns(ctx, in, &page->clock));
+    ISO_TRY(thin_out(ctx, in, page, thin));
+    find_twin(page, *thin);
+    const size_t count = view_columns(page, *thin, names);
+    ISO_TRY(iso_rows_complete(ctx, &page->params, &page->effects, !*page->alone, *thin, count, names, &rows, &worst));
+    tell_miss(from->file, page, rows, &worst);
+    tell_loss(page, rows);
+    find_energy(page, rows);
+    return view_add_orbit(ctx, page, rows);
 }
 
 iso_status view_of_trajectory(iso_context *ctx, const file_options *from, view_page *page)
 {
-    iso_record *in = NULL;
+    iso_record *in = NULL, *thin = NULL;
     iso_status status = iso_table_read(ctx, from->file, "trajectory", from->columns, &in, NULL);
-    if (status == ISO_OK) status = of_record(ctx, from, in, page);
+    if (status == ISO_OK) status = of_record(ctx, from, in, &thin, page);
     iso_record_free(in);
+    iso_record_free(thin);
     return name_the_file(ctx, from->file, status);
 }

@@ -79,4 +79,17 @@ void iso_rows_keep(iso_rows *rows);
  * The same bound holds for gaps that are added up while the unit vector moves by half a radian. */
 double iso_rows_largest_miss(iso_context *ctx, const iso_record *header, double row_tolerance);
 
+/* The row that the orbit through the row before misses most, and by how much; by 0: none is missed. */
+typedef struct iso_row_miss {
+    size_t row; /* from 0 */
+    double by;
+} iso_row_miss;
+
+/* A trajectory with these columns (iso_column_name), in the same rows: those that it has, and those that it lacks, such as
+ * the other model, clocks, and the attitude. It has a clock and the states of one model. twin: the ball has a point.
+ * Errors: those of iso_orbit_create and iso_orbit_at, with the row; ISO_NO_MEMORY. */
+iso_status iso_rows_complete(iso_context *ctx, const iso_params *params, const iso_effects *effects, bool twin,
+                             const iso_record *in, size_t count, const char *const names[], iso_record **made,
+                             iso_row_miss *worst);
+
 #endif

@@ -3,7 +3,7 @@ all colours; a script names them (blue), has them in an array (fill[c]) or in th
 
 Sights: the usual one, and those without red or green cones, by the matrices of Machado, Oliveira and Fernandes (2009),
 severity 1, on linear RGB. Distances are those of CIE Lab 1976 (D65). In grey two lines differ by their lightness, or
-by their dashes or signs. Scenery ($grid) is not looked at. Prints what fails; the exit status is then 1.
+by their dashes or signs. Scenery (globe_x) is not looked at. Prints what fails; the exit status is then 1.
 """
 import itertools
 import re
@@ -75,7 +75,7 @@ class Script:
         found = set()
         for part in re.split(r",\s*(?=for \[|\$|NaN|'')", plot):
             kind = re.search(r"\b(?:w|with) (l|lines|linespoints|impulses|p|points|yerrorbars)\b", part)
-            if kind and "$grid" not in part:
+            if kind and "globe_x" not in part:
                 found |= {(*self.look(part, i), kind[1][0]) for i in range(MOST)}
         return {line for line in found if line[0]}
 

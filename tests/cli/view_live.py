@@ -44,7 +44,8 @@ def ask(page, job, given, options):
     """The library in the page, asked by a Worker as the page asks it; columns as lists."""
     return page.evaluate(f"""(async () => {{ const helper = new Helper();
         const found = await helper.ask('{job}', {json.dumps(given)}, {json.dumps(options)});
-        for (const name in found.columns) found.columns[name] = [...found.columns[name]];
+        for (const table of found.tables || [found])
+            for (const name in table.columns) table.columns[name] = [...table.columns[name]];
         helper.worker.terminate(); return found; }})()""")
 
 
@@ -63,7 +64,7 @@ def same_numbers(page):
         write("orbit.yaml", scene(orbit, "output: {as: both}\n"))
         for backend, names in (("ball", ("t", "tau", "s", "omega", "n")), ("point", ("M", "gamma"))):
             run("run", "orbit.yaml", "--backend", backend, "-o", "orbit.csv", stderr=subprocess.DEVNULL)
-            rows, found = table("orbit.csv"), ask(page, "run", {**given, "effects": {"attitude": {}}}, {})["columns"]
+            rows, found = table("orbit.csv"), ask(page, "run", {**given, "effects": {"attitude": {}}}, {})["tables"][0]["columns"]
             for i, row in enumerate(rows):
                 for name in names:
                     columns = [name] if name in row else [name + j for j in "123"]
@@ -192,7 +193,7 @@ def worst_of(page, effects, columns):
     rows = table("forces.csv")
     check(f"{effects}: they are in the scene", set(shown["effects"]) == {"attitude", *effects}, str(shown["effects"]))
     found = page.evaluate("({t: [...controls.orbit.t], " + ", ".join(
-        f"{c}: [...controls.orbit.column.{c}]" for c in columns) + "})")
+        f"{c}: [...controls.orbit.column('{c}')]" for c in columns) + "})")
     check(f"{effects}: all rows", len(rows) == len(found["t"]))
     return max(abs(row[c] - found[c][i]) / max(1, abs(row[c])) for i, row in enumerate(rows[:400]) for c in columns)
 
@@ -232,7 +233,7 @@ def twin_and_judge(page):
     page.evaluate("void (judge.SHARES = [216])")
     page.evaluate("lab.change({k: 0.5, J: [1, 2, 5], n: [0.36, 0.48, 0.8], omega: [0.9, -0.3, -0.225]})")
     settled(page)
-    near = page.evaluate("[...controls.orbit.column.near]")
+    near = page.evaluate("[...controls.orbit.near]")
     check("the twin begins 1e-6 away", abs(near[0] - 1e-6) < 1e-12, str(near[0]))
     page.evaluate("void (controls.beside || document.getElementById('beside').click())")
     page.frame()
@@ -255,7 +256,7 @@ def twin_and_judge(page):
     slide(page, -1)
     page.wait("lab.shared === lab.pending")
     check("a regular orbit has a rotation number", "Rotation number: 1.2342377" in text(page, "lab-words") and
-          max(page.evaluate("[...controls.orbit.column.near]")) < 1e-3, text(page, "lab-words"))
+          max(page.evaluate("[...controls.orbit.near]")) < 1e-3, text(page, "lab-words"))
 
 
 def tale(page):
@@ -297,7 +298,7 @@ def taken(page):
     lines = text(page, "lab-commands").splitlines()
     run(*lines[0].split()[1:], stderr=subprocess.DEVNULL)
     rows = table("orbit.csv")
-    gap = max(abs(row[c] - page.evaluate(f"controls.orbit.column.{c}[{i}]")) for i, row in ((0, rows[0]), (300, rows[300]))
+    gap = max(abs(row[c] - page.evaluate(f"controls.orbit.column('{c}')[{i}]")) for i, row in ((0, rows[0]), (300, rows[300]))
               for c in ("omega1", "n2", "M3"))
     check(f"the command for the orbit gives its rows: {gap:.1e}", len(rows) == 1201 and gap < 1e-10)
     words = [line.split()[1:] for line in lines[1:]]

@@ -261,7 +261,7 @@ def section_of_a_level(browser):
     run("section", "level.yaml", "--as", "ball", "--starts", "3", "--crossings", "10", "--quiet", "-o", "level.csv")
     run("view", "level.csv", "-o", "level.html")
     page = browser.open(os.path.join(work, "level.html"), media=still)
-    gap = page.evaluate("""(() => { const a = page.section.axis, gamma = controls.orbit.gamma[0], M = controls.orbit.M[0],
+    gap = page.evaluate("""(() => { const a = Number(tables('section')[0].lines.axis) - 1, gamma = controls.orbit.gamma[0], M = controls.orbit.M[0],
         l = Math.atan2(-gamma[(a + 2) % 3], gamma[(a + 1) % 3]);
         return Math.abs(isoroll.sections().place(1, l, M[a] / Math.hypot(...M))[1] - M[a]); })()""")
     check(f"a level: L is that of the point: {gap:.1e}", gap < 1e-9)

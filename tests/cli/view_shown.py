@@ -150,14 +150,19 @@ def sharp(browser):
 
 def sea(browser):
     page = opened(browser, "sea")
-    orbits = page.evaluate("""page.section.list.map((o) => ({verdict: o.verdict, colour: isoroll.sections().colourOf(
-        o.number), grows: (([a, b]) => b / a)(((d) => [d[0], Math.max(...d)])(decoded(o.columns.near)))}))""")
+    orbits = page.evaluate("""isoroll.sections().orbits.map((number) => { const o = orbitOf(number);
+        return {number, verdict: o.verdict, colour: isoroll.sections().colourOf(number),
+                grows: Math.max(...o.near) / o.near[0]}; })""")
     kinds = {o["verdict"] for o in orbits}
     check("there are chaotic and regular orbits", {"chaotic", "regular"} <= kinds, kinds)
     for o in orbits:
         red, green, blue = (int(o["colour"][i:i + 2], 16) for i in (1, 3, 5))
         grey = max(red, green, blue) - min(red, green, blue) < 24
-        check("the sea is grey, and nothing else", grey == (o["verdict"] == "chaotic"), o)
+        check("the sea is grey, undecided orbits are dark, and nothing else", grey == (o["verdict"] != "regular"), o)
+    shades = page.evaluate("""(([t]) => column(t, 'orbit').length && Object.fromEntries(
+        Array.from(column(t, 'orbit'), (number, i) => [number, column(t, 'shade')[i]])))(tables('orbits'))""")
+    check("the data say which orbits are grey", shades == {str(o["number"]): {"chaotic": "grey", "undecided": "dark",
+          "regular": "colour"}[o["verdict"]] for o in orbits}, shades)
     least = min(o["grows"] for o in orbits if o["verdict"] == "chaotic")
     most = max(o["grows"] for o in orbits if o["verdict"] == "regular")
     check("neighbours in the sea run away, others do not", least > 30 and most < 1000, (least, most))
@@ -180,8 +185,8 @@ def neighbour(browser):
             run("run", file + ".yaml", "--as", "both", "-o", file + ".csv")
         first, moved = table("first.csv"), table("moved.csv")
         page = opened(browser, name, fragment="#view=beside")
-        rows = page.evaluate("""(({t, column: c}) => Array.from(t, (x, i) =>
-            [x, c.near[i], c.near1[i], c.near2[i], c.near3[i]]))(controls.orbit)""")
+        rows = page.evaluate("""(({t, near, beside}) => Array.from(t, (x, i) =>
+            [x, near[i], ...beside[i]]))(controls.orbit)""")
         rows = {round(row[0], 9): row[1:] for row in rows}
         worst = place = 0
         for a, b in zip(first, moved):

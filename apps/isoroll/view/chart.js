@@ -2,7 +2,7 @@
 
 const chart = {
   canvas: element("lab-section"),
-  dots: [], // {orbit, l, x}, by orbit; the scene's own is 0
+  dots: [], // {orbit, l, x, shade}, by orbit; the scene's own is 0
   cursor: null, // of the keyboard
   axis: 3, // that the crossings pass
 
@@ -10,9 +10,10 @@ const chart = {
     this.dots = [];
     this.draw();
   },
-  add(columns, first) {
+  add({ columns, shades }, first) {
     columns.orbit.forEach((orbit, i) => {
-      if (orbit >= first.from) this.dots.push({ orbit: orbit && orbit + first.number, l: columns.l[i], x: columns.x[i] });
+      const dot = { orbit: orbit && orbit + first.number, l: columns.l[i], x: columns.x[i], shade: shades[orbit] };
+      if (orbit >= first.from) this.dots.push(dot);
     });
     this.draw();
   },
@@ -53,11 +54,12 @@ const chart = {
     g.fillText(`x = M${"₁₂₃"[this.axis - 1]}/|M|`, 0, 0);
     g.restore();
     const size = this.dots.length > 4000 ? 1.4 : 2;
-    for (const own of [false, true]) {
+    const layer = ({ orbit, shade }) => (orbit === 0 ? 2 : (shade || "colour") === "colour" ? 1 : 0); // the sea first
+    for (const now of [0, 1, 2]) {
       for (const dot of this.dots) {
-        if ((dot.orbit === 0) !== own) continue;
-        g.fillStyle = own ? colours.curve : palette[dot.orbit % palette.length];
-        const radius = own ? 1.6 * size : size;
+        if (layer(dot) !== now) continue;
+        g.fillStyle = now === 2 ? colours.curve : shadeColour(dot.shade, dot.orbit);
+        const radius = now === 2 ? 1.6 * size : size;
         g.fillRect(x(dot.l) - radius / 2, y(dot.x) - radius / 2, radius, radius);
       }
     }

@@ -33,8 +33,8 @@ const stretch = {
       motion.at(orbit, clocks.even, from + size * (i + j / pieces)),
     );
     stretch.states = stretch.moments.filter((_, j) => j % stretch.FINER === 0);
-    const apart = orbit.column.apart_gamma;
-    stretch.parted = Boolean(apart) && stretch.states.some((m) => apart[Math.round(m.row)] > 1e-3);
+    const { apart } = orbit;
+    stretch.parted = Boolean(apart) && stretch.states.some((m) => apart.gamma[Math.round(m.row)] > 1e-3);
     return Object.assign(stretch, { key, from: from + size * i, size });
   },
 };

@@ -4,7 +4,7 @@ const growth = {
   canvas: document.getElementById("growth"),
 
   build(orbit) {
-    this.near = orbit.column.near;
+    this.near = orbit.near;
     this.orbit = orbit;
     document.getElementById("beside").hidden = !this.near;
     if (!this.near) return;
@@ -68,7 +68,7 @@ const growth = {
   place(now, name) {
     const i = Math.min(Math.floor(now.row), this.orbit.count - 2),
       u = now.row - i,
-      off = (j) => [1, 2, 3].map((a) => this.orbit.column[`near${a}`][j] - this.orbit[name][j][a - 1]);
+      off = (j) => plus(this.orbit.beside[j], times(this.orbit[name][j], -1));
     return unit(plus(now[name], plus(times(off(i), 1 - u), times(off(i + 1), u))));
   },
 };

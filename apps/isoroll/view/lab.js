@@ -61,22 +61,23 @@ lab = {
   take(found, seek) {
     const { k, J } = this.state,
       playing = controls.playing,
-      line = (name) => (name in found.lines ? Number(found.lines[name]) : null);
+      { lines } = found.tables[0],
+      line = (name) => (name in lines ? Number(lines[name]) : null);
     if (found.alone && controls.compared) controls.compare(false);
-    Object.assign(page, { k, J, radius: null, eps: line("eps"), h: line("h"), integrals: [], alone: found.alone });
+    Object.assign(page, { k, J, radius: null, eps: line("eps"), h: line("h"), alone: found.alone });
     page.attitude = false;
     page.effects = { ...forces.effects(this.state), attitude: {} };
     page.notes = found.notes ? found.notes.split("\n") : [];
-    page.rows = { count: found.rows, total: found.rows, every: 1, between: 0 };
+    page.tables = found.tables;
     free = isFree();
     body = bodyOf();
     potential = potentialOf();
     controls.pictures = found.alone ? this.pictures.slice(0, 1) : this.pictures;
     for (const picture of controls.pictures) picture.build();
-    const orbit = orbitOf({ count: found.rows, columns: found.columns });
+    const orbit = orbitOf();
     this.tolerance =
-      `Computed in this page by the library, ${found.lines.method}, with 64-bit numbers and a tolerance of ` +
-      `${found.lines.tolerance} for each step.`;
+      `Computed in this page by the library, ${lines.method}, with 64-bit numbers and a tolerance of ` +
+      `${lines.tolerance} for each step.`;
     controls.offerFrames();
     numbers.describe(orbit);
     controls.setOrbit(orbit);
@@ -115,10 +116,10 @@ lab = {
         : `Dots: crossings of n${"₁₂₃"[axis - 1]} = 0 upwards, the same for ball and point; large ones: this orbit’s. ` +
           "Click to start there.";
       chart.canvas.setAttribute("aria-label", `The section n${axis} = 0. Arrow keys choose a start, Enter starts there.`);
-      chart.add(own.columns, { from: 0, number: 0 });
+      chart.add(own, { from: 0, number: 0 });
       for (let seed = 0; seed < this.DRAWS && !page.alone; seed++) {
         const more = await ask({ starts: 6, crossings: 150, seed });
-        chart.add(more.columns, { from: 1, number: 6 * seed });
+        chart.add(more, { from: 1, number: 6 * seed });
       }
     } catch (error) {
       if (number === this.pending) words.textContent = `No section: ${error.message}`;

@@ -53,7 +53,7 @@ const controls = {
     stretch.measure(orbit);
     growth.build(orbit);
     clocks.build(orbit);
-    if (!orbit.column.near && this.beside) this.showBeside(false);
+    if (!orbit.near && this.beside) this.showBeside(false);
     for (const picture of [...this.pictures, ...(this.paths || [])]) picture.setOrbit(orbit, moments);
     if (sections) sections.setOrbit(orbit);
     numbers.build(orbit);
@@ -181,7 +181,7 @@ const controls = {
     return canvas;
   },
   showBeside(on) {
-    on = on && Boolean(this.orbit.column.near);
+    on = on && Boolean(this.orbit.near);
     this.beside = on;
     element("beside").setAttribute("aria-pressed", String(on));
     element("growth").hidden = element("beside-words").hidden = !on;
@@ -298,7 +298,7 @@ const controls = {
   // --- the beginning ---
 
   begin() {
-    this.orbit = orbitOf(page.rows || page.section.list[0]);
+    this.orbit = orbitOf(sections ? sections.chosen : undefined);
     this.pictures = [new BallPicture(element("ball")), ...(page.alone ? [] : [new PointPicture(element("point"))])];
     element("trouble").hidden = graphics.there;
     if (!graphics.there) element("trouble").textContent = "This browser has no WebGL: the pictures are line drawings.";

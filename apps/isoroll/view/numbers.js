@@ -41,40 +41,42 @@ const numbers = {
 
   build(orbit) {
     const id = (name) => document.getElementById(name);
-    id("conserved").hidden = page.integrals.length === 0;
     id("integrals").textContent = "";
     this.integrals = [];
-    const head = () => this.row(id("integrals"), ["", "value", body.reduced ? "" : "unit", "drift now", "largest"], "th");
-    if (page.integrals.length) head();
-    page.integrals.forEach((one, i) => {
-      const cells = this.row(id("integrals"), [
-        `${one.name} (${one.model})`,
-        one.start === 0 ? "0 within rounding" : digits(one.start, 5),
-        this.unitOf(one.dimension),
-        "",
-        this.small(one.worst),
-      ]);
-      cells[0].title = `${one.model}: ${one.doc}`;
-      this.integrals.push([cells[3], orbit.column[`drift${i}`]]);
-    });
+    this.row(id("integrals"), ["", "value", body.reduced ? "" : "unit", "drift now", "largest"], "th");
+    for (const table of tables("drifts"))
+      for (const name of Object.keys(table.columns).filter((one) => `${one}.model` in table.lines)) {
+        const line = (key) => table.lines[`${name}.${key}`],
+          start = Number(line("start"));
+        const cells = this.row(id("integrals"), [
+          `${name} (${line("model")})`,
+          start === 0 ? "0 within rounding" : digits(start, 5),
+          this.unitOf([0, 1, 2].map((i) => Number(line(`dimension.${i}`)))),
+          "",
+          this.small(Number(line("worst"))),
+        ]);
+        cells[0].title = `${line("model")}: ${line("doc")}`;
+        this.integrals.push([cells[3], column(table, name)]);
+      }
+    id("conserved").hidden = this.integrals.length === 0;
     this.buildDifference(orbit);
     this.buildState(orbit);
   },
 
   buildDifference(orbit) {
     const table = document.getElementById("differences"),
-      has = orbit.column.apart_n;
-    document.getElementById("agreement").hidden = !has;
+      { apart } = orbit;
+    document.getElementById("agreement").hidden = !apart;
     table.textContent = "";
     this.differences = [];
-    if (!has) return;
+    if (!apart) return;
     this.row(table, ["", "now", "largest"], "th");
     for (const [name, words] of [
-      ["apart_n", "n (ball)"],
-      ["apart_gamma", "γ (point)"],
+      ["n", "n (ball)"],
+      ["gamma", "γ (point)"],
     ]) {
-      const cells = this.row(table, [words, "", this.small(Math.max(...orbit.column[name]))]);
-      this.differences.push([cells[1], orbit.column[name]]);
+      const cells = this.row(table, [words, "", this.small(Math.max(...apart[name]))]);
+      this.differences.push([cells[1], apart[name]]);
     }
     document.getElementById("difference-words").textContent =
       "Each model was integrated by itself, by its own equations, and carried to the other by the map. " +
@@ -97,14 +99,14 @@ const numbers = {
     for (const [symbol, name, of] of list)
       if (name === "contact" || orbit[name]) this.states.push([this.row(table, [symbol, "", "", "", of]), name]);
     this.extras = [];
-    this.needed = orbit.column.mu; // grows without bound where contact is lost
+    this.needed = orbit.column("mu"); // grows without bound where contact is lost
     for (const [name, words, of] of [
       ["pressure", "pressure", body.reduced ? "" : "force"],
       ["mu", "mu needed", ""],
       ["friction", "friction", body.reduced ? "" : "force"],
       ["lambda", "twist torque", body.reduced ? "" : "torque"],
     ])
-      if (orbit.column[name]) this.extras.push([this.row(table, [words, "", "", "", of])[1], orbit.column[name]]);
+      if (orbit.column(name)) this.extras.push([this.row(table, [words, "", "", "", of])[1], orbit.column(name)]);
   },
 
   show(now) {
@@ -138,7 +140,7 @@ const numbers = {
     const ball = `${kind === "shell" ? "A hollow ball" : "A ball"} rolls ${where}`;
     id("title").textContent = page.alone
       ? `${ball}${falls.replace(/,$/, "")}`
-      : page.section
+      : page.kind === "section"
         ? "Orbits of one energy: a rolling ball, and the point that is its twin"
         : "One orbit in two worlds: a rolling ball, and the point that is its twin";
     document.title = `${page.title} – ${id("title").textContent}`;
@@ -216,15 +218,13 @@ const numbers = {
 
   notes(orbit) {
     const list = [...page.notes],
-      { rows } = page;
-    if (rows && rows.every > 1)
-      list.push(`The page has 1 row of every ${rows.every}: ${orbit.count} of ${rows.total}.`);
-    else if (rows && rows.between > 0)
-      list.push(`The page has the scene’s ${rows.total} rows, and ${rows.between} more after each but the last.`);
-    else if (rows) list.push(`The page has all ${rows.total} rows.`);
+      { total, every, between } = tables("trajectory")[0].lines; // none of a section's orbit
+    if (every > 1) list.push(`The page has 1 row of every ${every}: ${orbit.count} of ${total}.`);
+    else if (between > 0) list.push(`The page has the scene’s ${total} rows, and ${between} more after each but the last.`);
+    else if (total) list.push(`The page has all ${total} rows.`);
     list.push("Between rows the motion is interpolated by cubic curves with the slopes of the equations of motion.");
     list.push(`${page.alone ? "ω and n" : "ω, n, M and γ"} are in the ball’s axes, the contact is in axes of space.`);
-    if (page.integrals.length)
+    if (tables("drifts").length)
       list.push("Drift: change of an integral since the first row, divided by the size of its terms.");
     if (body.reduced)
       list.push("The scene gives k and J alone: its numbers have no units, but those of its own mass, length and time.");

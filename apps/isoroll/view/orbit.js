@@ -1,4 +1,4 @@
-// orbit.js - the data of the page: columns of numbers, and what follows from them.
+// orbit.js - the data of the page: a head, and tables {kind, rows, lines, columns}; and what follows from them.
 //
 // Vectors are arrays of three numbers, quaternions of four, [q0, q1, q2, q3] with q0 real. Columns are Float64Array.
 
@@ -17,7 +17,7 @@ function turned(q, v) {
 
 const inverse = (q) => [q[0], -q[1], -q[2], -q[3]];
 
-// A column from base64; one that the library has just computed (lab.js) is a column already.
+// A column of numbers from base64; words, and what the library has just computed (lab.js), are an array already.
 function decoded(text) {
   if (typeof text !== "string") return text;
   const bytes = atob(text),
@@ -32,6 +32,14 @@ function decoded(text) {
 }
 
 const page = JSON.parse(document.getElementById("data").textContent);
+
+// The tables of a kind; with a number only those of this orbit of a section. A column is decoded when it is asked for.
+const tables = (kind, orbit) =>
+  page.tables.filter((one) => one.kind === kind && (orbit === undefined || Number(one.lines.orbit) === orbit));
+function column(table, name) {
+  if (!table || !(name in table.columns)) return undefined;
+  return (table.columns[name] = decoded(table.columns[name]));
+}
 
 // The ball and its support, in the file's units. b < 0 where the ball is inside, or around, the fixed sphere. In the
 // laboratory (lab.js) k and J change.
@@ -84,30 +92,29 @@ const physics = {
   },
 };
 
-// An orbit: arrays of vectors by name, for each row, and columns of numbers.
-function orbitOf(packed) {
-  const column = {};
-  for (const name in packed.columns) column[name] = decoded(packed.columns[name]);
-  const count = packed.count;
-  const vectors = (name, first, size) =>
-    column[name + first] &&
-    Array.from({ length: count }, (_, i) => Array.from({ length: size }, (_, j) => column[name + (first + j)][i]));
+// The orbit of the page, or that of a section with this number: arrays of vectors by name, for each row, and tables.
+function orbitOf(number) {
+  const [rows] = tables("trajectory", number),
+    [neighbour] = tables("neighbour", number),
+    [compare] = tables("compare"),
+    [found] = tables("orbits"),
+    vectors = (table, name, first = 1, size = 3) =>
+      column(table, name + first) &&
+      Array.from({ length: table.rows }, (_, i) =>
+        Array.from({ length: size }, (_, j) => column(table, name + (first + j))[i]),
+      );
   const o = {
-    count,
-    column,
-    t: column.t,
-    tau: column.tau,
-    s: column.s,
-    q: vectors("q", 0, 4),
-    e: vectors("e", 1, 3),
-    n: vectors("n", 1, 3),
-    omega: vectors("omega", 1, 3),
-    gamma: vectors("gamma", 1, 3),
-    M: vectors("M", 1, 3),
-    verdict: packed.verdict,
-    exponent: packed.exponent,
-    contact: vectors("contact", 1, 3),
+    count: rows.rows,
+    column: (name) => column(rows, name),
+    q: vectors(rows, "q", 0, 4),
+    near: column(neighbour, "distance"),
+    apart: compare && { n: column(compare, "n"), gamma: column(compare, "gamma") },
   };
+  for (const name of ["t", "tau", "s"]) o[name] = column(rows, name);
+  for (const name of ["e", "n", "omega", "gamma", "M", "contact"]) o[name] = vectors(rows, name);
+  if (o.near) o.beside = vectors(neighbour, page.alone ? "n" : "gamma");
+  const at = found ? column(found, "orbit").indexOf(number ?? 0) : -1;
+  if (at >= 0) for (const name of ["verdict", "exponent"]) o[name] = column(found, name)[at];
   if (!o.n) o.n = o.gamma.map(physics.normal);
   if (!o.omega) o.omega = o.gamma.map((gamma, i) => physics.omega(o.M[i], gamma));
   o.clocks = ["t", "tau", "s"].filter((name) => o[name]);

@@ -3,18 +3,16 @@
 // For axis a, with b and c after it: gamma = (cos l, -sin l) in the axes b, c. The ball's coordinates are the angle
 // of n in them and omega_a/|omega|; the point's are l and L = G(l) x, where G^2 = |M|^2 = 2 (H + eps q^(-1/k)).
 
-const sections = !page.section
+const sections = !tables("section").length
   ? null
   : (() => {
       const { J, k } = body,
-        a = page.section.axis,
+        [crossed] = tables("section"),
+        [found] = tables("orbits"),
+        a = Number(crossed.lines.axis) - 1,
         b = (a + 1) % 3,
         c = (a + 2) % 3;
-      const column = {
-        orbit: page.section.counts.flatMap(([number, count]) => Array(count).fill(number)),
-        l: decoded(page.section.crossings.l),
-        x: decoded(page.section.crossings.x),
-      };
+      const [orbits, l, x] = ["orbit", "l", "x"].map((name) => column(crossed, name));
       const free = Boolean(page.eps) && !Object.keys(page.effects).some((name) => name !== "level" && name !== "clock");
       const H = page.effects.level ? (page.effects.level.c[0] * body.detJ) / k ** 2 : 0;
       const G = (l) => {
@@ -53,12 +51,12 @@ const sections = !page.section
           edge: G,
         },
       ];
-      const dots = plots.map((plot) => Array.from(column.l, (l, i) => plot.place(l, column.x[i])));
-      const runnable = new Map(page.section.list.map((one, i) => [one.number, i]));
-      const sea = new Set(page.section.list.filter((one) => one.verdict === "chaotic").map((one) => one.number));
-      const SEA = "#8a929a"; // of chaotic orbits
-      const colourOf = (orbit) => (sea.has(orbit) ? SEA : palette[orbit % palette.length]);
-      let chosen = page.section.list.length ? page.section.list[0].number : -1,
+      const dots = plots.map((plot) => Array.from(l, (angle, i) => plot.place(angle, x[i])));
+      const runnable = tables("trajectory").map((one) => Number(one.lines.orbit));
+      const shades = new Map(found && Array.from(column(found, "orbit"), (number, i) => [number, column(found, "shade")[i]]));
+      const colourOf = (orbit) => shadeColour(shades.get(orbit), orbit);
+      const behind = (orbit) => (shades.get(orbit) || "colour") !== "colour";
+      let chosen = runnable[0],
         hovered = -1,
         crossings = [];
 
@@ -129,10 +127,10 @@ const sections = !page.section
         axes(g, plot, frame, width, height);
         g.globalAlpha = 0.75;
         // the sea first, so that it covers no island
-        for (const chaotic of [true, false])
+        for (const first of [true, false])
           dots[i].forEach(([right, up], j) => {
-            if (sea.has(column.orbit[j]) !== chaotic) return;
-            g.fillStyle = colourOf(column.orbit[j]);
+            if (behind(orbits[j]) !== first) return;
+            g.fillStyle = colourOf(orbits[j]);
             g.fillRect(frame.x(right) - size / 2, frame.y(up) - size / 2, size, size);
           });
         Object.assign(plot, { key, image });
@@ -142,7 +140,7 @@ const sections = !page.section
       function highlight(g, frame, i, orbit, colour, size) {
         g.fillStyle = colour;
         dots[i].forEach(([right, up], j) => {
-          if (column.orbit[j] !== orbit) return;
+          if (orbits[j] !== orbit) return;
           g.beginPath();
           g.arc(frame.x(right), frame.y(up), size, 0, 7);
           g.fill();
@@ -172,16 +170,16 @@ const sections = !page.section
           least = 18 ** 2;
         dots[i].forEach(([right, up], j) => {
           const d = (frame.x(right) - e.clientX + box.left) ** 2 + (frame.y(up) - e.clientY + box.top) ** 2;
-          if (d < least && runnable.has(column.orbit[j])) {
+          if (d < least && runnable.includes(orbits[j])) {
             least = d;
             best = j;
           }
         });
-        return best < 0 ? -1 : column.orbit[best];
+        return best < 0 ? -1 : orbits[best];
       };
 
       const api = {
-        orbits: page.section.list.map((one) => one.number),
+        orbits: runnable,
         get chosen() {
           return chosen;
         },
@@ -194,10 +192,10 @@ const sections = !page.section
           let best = null,
             most = -1;
           spots.forEach((spot, j) => {
-            if (column.orbit[j] !== number) return;
+            if (orbits[j] !== number) return;
             const room = Math.min(
               ...spots.map((other, m) =>
-                column.orbit[m] === number ? Infinity : Math.hypot(other[0] - spot[0], other[1] - spot[1]),
+                orbits[m] === number ? Infinity : Math.hypot(other[0] - spot[0], other[1] - spot[1]),
               ),
             );
             if (room > most) {
@@ -208,10 +206,10 @@ const sections = !page.section
           return best;
         },
         choose(number) {
-          if (!runnable.has(number)) return;
+          if (!runnable.includes(number)) return;
           chosen = number;
           document.getElementById("orbit").value = String(number);
-          controls.setOrbit(orbitOf(page.section.list[runnable.get(number)]));
+          controls.setOrbit(orbitOf(number));
         },
         // The crossings n_a = 0, n_a growing, of the orbit that runs.
         setOrbit(orbit) {

@@ -39,6 +39,9 @@ const colours = {
 };
 // of orbits, by their numbers; it has no grey
 const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#999933", "#7d6b9e"];
+// Of the shades of orbits (view_orbit.c): grey is chaotic, dark undecided.
+const shadeColour = (shade, number) =>
+  shade === "grey" ? "#8a929a" : shade === "dark" ? theme().text : palette[number % palette.length];
 const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
 const theme = () => (isDark() ? colours.dark : colours.light);
 

@@ -19,8 +19,8 @@ onmessage = async ({ data }) => {
   const calls = callsOf(await library);
   try {
     const result = jobs[data.job](calls, data.scene, data.options),
-      columns = Object.values(result.columns || {});
-    postMessage({ id: data.id, result }, columns.map((column) => column.buffer));
+      columns = (result.tables || [result]).flatMap((table) => Object.values(table.columns || {}));
+    postMessage({ id: data.id, result }, [...new Set(columns.map((column) => column.buffer).filter(Boolean))]);
   } catch (error) {
     postMessage({ id: data.id, error: error.message });
   }
@@ -65,11 +65,12 @@ function callsOf(M) {
       key = room(8);
     for (let i = 0; M._iso_record_line(record, i, key, key + 4); i++)
       lines[M.UTF8ToString(pointer(key))] = M.UTF8ToString(pointer(key + 4));
-    for (let j = 0; j < count; j++)
-      columns[M.UTF8ToString(M._iso_record_name(record, j))] = Float64Array.from(
-        { length: rows },
-        (_, i) => M.HEAPF64[first + i * count + j],
-      );
+    for (let j = 0; j < count; j++) {
+      const numbers = Float64Array.from({ length: rows }, (_, i) => M.HEAPF64[first + i * count + j]);
+      columns[M.UTF8ToString(M._iso_record_name(record, j))] = M._iso_record_has_words(record, j)
+        ? Array.from(numbers, (number) => M.UTF8ToString(M._iso_record_word(record, number)))
+        : numbers;
+    }
     return { rows, lines, columns };
   };
   const notes = room(4096);
@@ -90,8 +91,8 @@ function callsOf(M) {
   };
 }
 
-// Each model by its own equations, at the same times; and how far they are apart. A ball without a point runs alone, and
-// the result says why.
+// The tables of a page (view.h): each model by its own equations, at the same times; and how far they are apart. A ball
+// without a point runs alone, and the result says why.
 jobs.run = (calls, scene) => {
   let ball,
     alone = "";
@@ -101,27 +102,29 @@ jobs.run = (calls, scene) => {
     ball = calls.run({ ...scene, solver: { backend: "ball" }, output: { as: "ball" } }); // or it is refused as well
     alone = error.message;
   }
-  const twin = twinOf(calls, scene, ball, alone);
-  if (alone) return { ...ball, columns: { ...ball.columns, ...twin }, alone };
+  const { rows, notes, columns } = ball,
+    lines = { ...ball.lines, total: rows, every: 1, between: 0 },
+    found = [{ kind: "trajectory", rows, lines, columns }, ...neighbourOf(calls, scene, ball, alone)];
+  if (alone) return { tables: found, notes, alone };
   const { attitude, ...effects } = scene.effects, // the point has none
     point = calls.run({ ...scene, effects, solver: { backend: "point" } });
   const distance = (name) =>
-    ball.columns[name + 1].map((_, i) =>
-      Math.hypot(...[1, 2, 3].map((j) => ball.columns[name + j][i] - point.columns[name + j][i])),
+    columns[name + 1].map((_, i) =>
+      Math.hypot(...[1, 2, 3].map((j) => columns[name + j][i] - point.columns[name + j][i])),
     );
-  const columns = { ...ball.columns, ...twin, apart_n: distance("n"), apart_gamma: distance("gamma") };
+  found.push({ kind: "compare", rows, lines: {}, columns: { n: distance("n"), gamma: distance("gamma") } });
   for (const name of ["M", "gamma"]) for (const j of [1, 2, 3]) columns[name + j] = point.columns[name + j];
-  return { ...ball, columns, alone };
+  return { tables: found, notes, alone };
 };
 
-// The twin, as in view_neighbour.c: omega is turned about n by 1e-6 radians. Its place in the picture of the point (n, if
+// The neighbour, as in view_orbit.c: omega is turned about n by 1e-6 radians. Its place in the picture of the point (n, if
 // there is none), and its distance.
-function twinOf(calls, scene, ball, alone) {
+function neighbourOf(calls, scene, ball, alone) {
   const vector = (columns, name, i) => [1, 2, 3].map((j) => columns[name + j][i]),
     [a, b, c] = vector(ball.columns, "n", 0),
     [x, y, z] = vector(ball.columns, "omega", 0),
     speed = Math.hypot(x, y, z);
-  if (!(speed > 0)) return {};
+  if (!(speed > 0)) return [];
   const omega = [x + 1e-6 * (b * z - c * y), y + 1e-6 * (c * x - a * z), z + 1e-6 * (a * y - b * x)],
     twin = calls.run({
       ...scene,
@@ -130,12 +133,31 @@ function twinOf(calls, scene, ball, alone) {
       output: { as: alone ? "ball" : "both" },
     }).columns;
   const apart = (name, i) => Math.hypot(...vector(ball.columns, name, i).map((v, j) => v - twin[name + (j + 1)][i])),
-    near = twin.t.map((_, i) => Math.hypot(apart("omega", i) / speed, apart("n", i))),
-    seen = alone ? "n" : "gamma";
-  return { near1: twin[seen + 1], near2: twin[seen + 2], near3: twin[seen + 3], near };
+    columns = { distance: twin.t.map((_, i) => Math.hypot(apart("omega", i) / speed, apart("n", i))) };
+  for (const j of [1, 2, 3]) columns[(alone ? "n" : "gamma") + j] = twin[(alone ? "n" : "gamma") + j];
+  return [{ kind: "neighbour", rows: twin.t.length, lines: {}, columns }];
 }
 
-jobs.section = (calls, scene, options) => calls.study("section", scene, options);
+// Crossings; of spread orbits also the shades, as in view_orbit.c: by the verdicts on orbits that begin at their first
+// crossings. Orbits without a verdict have no shade.
+jobs.section = (calls, scene, options) => {
+  const found = calls.study("section", scene, options),
+    { orbit, l, x } = found.columns,
+    starts = options.starts ? [...orbit.keys()].filter((i) => orbit[i] > 0 && orbit[i] !== orbit[i - 1]) : [];
+  found.shades = {};
+  if (!starts.length) return found;
+  const at = starts.map((i) => `${l[i]},${x[i]}`).join(";"),
+    axis = found.lines.axis;
+  try {
+    const { columns } = calls.study("chaos", scene, { at, axis, turns: 1000, model: options.model });
+    for (let i = 1; i < columns.orbit.length; i++)
+      found.shades[orbit[starts[columns.orbit[i] - 1]]] =
+        { chaotic: "grey", undecided: "dark" }[columns.verdict[i]] || "colour";
+  } catch (error) {
+    // the section is not global, ...
+  }
+  return found;
+};
 
 for (const name of ["chaos", "frequencies"])
   jobs[name] = (calls, scene, options) => ({ lines: calls.study(name, scene, options).lines });

@@ -235,6 +235,32 @@ iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_recor
 
 /* --- drifts over time ------------------------------------------------------------------------------------------- */
 
+/* Exponents of the unit of an integral, (mass length^2)^(a + b/(2k)) / time^c. */
+static void find_dimension(const void *row, int i, iso_value *v)
+{
+    const iso_dimension d = ((const iso_drift *)row)->integral->dimension;
+    v->number = i == 0 ? d.J : i == 1 ? d.J_2k : d.w;
+}
+
+static const iso_field doc_fields[] = {ISO_MEMBER(iso_integral, "doc", doc, "", "what it is"), ISO_FIELD_END};
+static const iso_field model_fields[] = {ISO_MEMBER(iso_system, "model", name, "", "ball or point"), ISO_FIELD_END};
+static const iso_field drift_fields[] = {
+    ISO_STRUCT(iso_drift, "", integral, doc_fields, "which", .pointer = true),
+    ISO_STRUCT(iso_drift, "", system, model_fields, "of which model", .pointer = true),
+    ISO_FOUND("dimension", ISO_FIELD_INT, find_dimension, "", "exponents a, b, c of its unit", .count = 3),
+    ISO_MEMBER(iso_drift, "start", start, "", "its value at the start; 0 within rounding"),
+    ISO_MEMBER(iso_drift, "worst", worst, "", "its largest drift"),
+    ISO_FIELD_END,
+};
+
+/* What an integral is, in lines: "h.doc", ... */
+static iso_status describe(iso_context *ctx, const iso_drift *d, iso_record *drifts)
+{
+    const iso_field one[] = {{.name = d->integral->name, .type = ISO_FIELD_STRUCT, .fields = drift_fields, .doc = ""},
+                             ISO_FIELD_END};
+    return d->integral->known == ISO_ANY_VALUE ? iso_record_set_fields(ctx, drifts, one, d) : ISO_OK;
+}
+
 static iso_status record_drifts(checker *c, checked_model *m, const iso_record *rows, iso_record **drifts)
 {
     expectations *e = &m->expect;
@@ -252,6 +278,7 @@ static iso_status record_drifts(checker *c, checked_model *m, const iso_record *
         iso_watch_follow(m->orbit, &sample, e->integral, e->count);
         for (int i = 0; i < e->count; i++) to[1 + i] = fabs(e->integral[i].now);
     }
+    for (int i = 0; status == ISO_OK && i < e->count; i++) status = describe(c->ctx, &e->integral[i], *drifts);
     return status;
 }
 
@@ -273,18 +300,30 @@ static iso_status look_at_rows(checker *c, checked_model *m, const iso_record *r
     return status;
 }
 
-iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record, iso_record **drifts)
+static iso_status drifts_of(iso_context *ctx, const iso_params *params, const iso_record *record, int model,
+                            iso_record **drifts)
 {
     ISO_DEFAULT_ARITHMETIC;
     checker *c;
     *drifts = NULL;
     ISO_TRY(iso_checking_create(ctx, params, record, 1e-12, &c));
-    checked_model *m = &c->model[c->model[ISO_BALL].there ? ISO_BALL : ISO_POINT];
+    checked_model *m = &c->model[model >= 0 ? model : c->model[ISO_BALL].there ? ISO_BALL : ISO_POINT];
     iso_status status = look_at_rows(c, m, record);
     if (status == ISO_OK) status = record_drifts(c, m, record, drifts);
     iso_checking_free(c);
     if (status != ISO_OK) iso_record_free(*drifts), *drifts = NULL;
     return status;
+}
+
+iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record, iso_record **drifts)
+{
+    return drifts_of(ctx, params, record, -1, drifts);
+}
+
+iso_status iso_check_drifts_of(iso_context *ctx, const iso_params *params, const iso_record *record,
+                               iso_model_kind model, iso_record **drifts)
+{
+    return drifts_of(ctx, params, record, (int)model, drifts);
 }
 
 const iso_field iso_residual_fields[] = {

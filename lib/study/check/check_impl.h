@@ -54,9 +54,15 @@ void iso_checking_unseen(iso_checking *checking, void (*tell)(void *data, const 
 
 /* The drifts of the integrals that hold, row by row, as a new record. The first column is the model's first clock, or
  * "row", the row's number. The others ("h", "F_shell", ...) are |I(row) - I(first row)| / size; for a constraint its
- * exact value stands in the place of I(first row). Errors: those of iso_check. */
+ * exact value stands in the place of I(first row). Of those that are no constraints, lines say what they are: h.doc,
+ * h.model, h.dimension (exponents a, b, c of the unit (mass length^2)^(a + b/(2k)) / time^c), h.start and h.worst.
+ * Errors: those of iso_check. */
 iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record,
                             iso_record **drifts);
+
+/* The same of one model, whose states the record must have; without `model` it is the ball if it has both. */
+iso_status iso_check_drifts_of(iso_context *ctx, const iso_params *params, const iso_record *record,
+                               iso_model_kind model, iso_record **drifts);
 
 typedef struct iso_checking checker;
 
