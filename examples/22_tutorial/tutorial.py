@@ -198,7 +198,7 @@ for at in axes[0]:
         dots.set_sizes([0.5])  # for a small figure
 axes[0, 0].get_legend().remove()
 sweep.plot(ax=axes[1, 0])
-axes[1, 0].set_ylabel("chaotic share of the section")
+axes[1, 0].set(ylabel="chaotic share of the section", title="")
 splitting.plot(ax=axes[1, 1])
 axes[1, 1].set(ylabel="splitting |m|", title="")
 for letter, at in zip("abcd", axes.flat):

@@ -4,6 +4,7 @@ import os
 import re
 import shlex
 import unittest
+import warnings
 
 import numpy as np
 from shared import BALL, SOURCE, WILD, Case, example
@@ -82,7 +83,8 @@ class Law(Case):
     def alike(self, gid, block, x, y, rows=True, some=False):
         """The rows of a block are those of the artist; some: and there are any."""
         table = self.gnuplot[block]
-        wanted = rows_of(table[x][rows & np.ones(len(table[x]), dtype=bool)], table[y][rows & np.ones(len(table[y]), dtype=bool)])
+        rows = np.broadcast_to(rows, len(table[x]))
+        wanted = rows_of(table[x][rows], table[y][rows])
         found = self.drawn(gid)
         self.assertEqual(found.shape, wanted.shape, gid)
         self.same(found, wanted)
@@ -121,7 +123,7 @@ class Law(Case):
         lost = [line.get_xdata()[0] for gid in ("pressure:lost", "energies:lost") for line in self.artists.get(gid, ())]
         self.assertEqual(sorted(set(lost)), sorted(set(self.gnuplot["losses"]["t"].tolist())))
         for gid in some:
-            self.assertTrue(gid in self.artists, f"{gid}: it is in no picture; there are {sorted(map(str, self.artists))}")
+            self.assertTrue(gid in self.artists, f"{gid} is not there; there are {sorted(map(str, self.artists))}")
 
     def test_trajectories(self):
         self.check_trajectory(isoroll.run(BALL), ["ball:far", "point:near", "paces:ds/dt"])
@@ -130,7 +132,6 @@ class Law(Case):
             self.check_trajectory(isoroll.run(example("10_bowl"), t_end=3), ["above:support", "side:contact:near"])
 
     def test_a_ball_on_a_sphere_loses_contact(self):
-        import warnings
         warnings.simplefilter("ignore", isoroll.IsorollWarning)
         self.check_trajectory(isoroll.run(example("09_off_the_top")), ["above:lost", "side:lost", "pressure:lost"])
         self.assertTrue(len(self.drawn("side:lost")))
@@ -196,7 +197,8 @@ class Law(Case):
         plan = {"scene": isoroll.Scene(WILD, end=20), "measure": {"state": {}}, "until": {"time": 1}}
         self.by_both(isoroll.sweep({**plan, "vary": {"k": {"from": 0.5, "to": 1.2, "count": 5}}}))
         self.alike("value", "curve", "at", "value", True, True)
-        self.assertEqual([line.get_xdata()[0] for line in self.artists["integrable"]], self.gnuplot["marks"]["at"].tolist())
+        marks = [line.get_xdata()[0] for line in self.artists["integrable"]]
+        self.assertEqual(marks, self.gnuplot["marks"]["at"].tolist())
         table = isoroll.sweep({**plan, "vary": {"k": [0.5, 0.75], "J3": [4, 5, 6], "J1": [-1, 1.1, 1.2]}})
         self.by_both(table, "--value", "state_n1", value="state_n1")
         cells = self.gnuplot["cells"]
@@ -217,7 +219,8 @@ class Law(Case):
                 self.alike(f"{side}:{name}", side, "right", "up", shade == number, name in some)
 
     def test_sections(self):
-        scene, level = isoroll.section(WILD, starts=4, crossings=200), isoroll.section(example("21_levels"), crossings=40)
+        scene = isoroll.section(WILD, starts=4, crossings=200)
+        level = isoroll.section(example("21_levels"), crossings=40)
         for table, options, how in ((scene, (), {}), (level, (), {}),
                                     (scene, ("--window", "0:1.5,-0.3:0.3"), {"window": ((0, 1.5), (-0.3, 0.3))})):
             self.by_both(table, *options, **how)
@@ -307,7 +310,8 @@ class Look(Case):
         branch = layouts.LAYOUTS.pop("branch")
         self.addCleanup(layouts.LAYOUTS.__setitem__, "branch", branch)
         table = isoroll.periodic(WILD, period=1, follow=("k", (0.49, 0.51)))
-        self.refuses(isoroll.BadInput, "no layout 'branch' for a table 'periodic follow': table.picture(FILE)", table.plot)
+        self.refuses(isoroll.BadInput, "no layout 'branch' for a table 'periodic follow': table.picture(FILE)",
+                     table.plot)
 
     def test_the_command_draws(self):
         table = isoroll.run(BALL, t_end=3)
@@ -316,7 +320,8 @@ class Look(Case):
             self.assertIn("Marked", picture.read())
             self.assertIn("$values << EOD", script.read())
         with open(self.path("own.gp"), "w", encoding="utf-8") as file:
-            file.write("width = 300; height = 200; panels = 1\neval page\nset title 'My own'\nplot $values using 'x':'y'\n")
+            file.write("width = 300; height = 200; panels = 1\neval page\nset title 'My own'\n"
+                       "plot $values using 'x':'y'\n")
         table.picture(self.path("b.svg"), template=self.path("own.gp"), size="600x400px", style="print")
         with open(self.path("b.svg"), encoding="utf-8") as picture:
             self.assertIn("My own", picture.read())

@@ -56,9 +56,9 @@ def keys(axes: Sequence[Any], own: bool) -> None:
     for at in axes:
         labels = set(at.get_legend_handles_labels()[1])
         if at.get_legend() is None and not labels <= said:
-            room = 20 * at.figure.get_figwidth() * at.get_position().width / (5 + max(map(len, labels)))  # in letters
-            at.legend(**({"loc": "upper center", "bbox_to_anchor": (0.5, -0.13), "ncol": min(max(int(room), 1), 4)}
-                         if own else {}))
+            width, height = at.get_position().size * at.figure.get_size_inches()
+            ncol = min(max(int(20 * width / (5 + max(map(len, labels)))), 1), 4)  # as many as there is room for
+            at.legend(**({"loc": "upper center", "bbox_to_anchor": (0.5, -0.5 / height), "ncol": ncol} if own else {}))
         said |= labels
 
 
@@ -82,8 +82,9 @@ def draw(table: Table, ax: Any = None, *, title: Optional[str] = None, **how: An
             return axes[0]
         if ax is None:
             axes[0].figure.suptitle(plain(title))
-            if first.text("noise") and not batch:
-                axes[0].figure.supxlabel(plain(first.text("noise")), fontsize="small")
+            units = "lengths, times and forces are in the units of the scene" if first.text("above") else ""
+            words = [plain(text) for text in (first.text("noise"), units) if text and not batch]
+            axes[0].figure.supxlabel("\n".join(words), fontsize="small")
     found = np.empty(len(axes), dtype=object)
     found[:] = axes
     return found

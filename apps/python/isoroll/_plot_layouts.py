@@ -164,27 +164,29 @@ def curve_of(at: Any, p: Picture, i: int, **look: Any) -> None:
 
 
 def chart(at: Any, p: Picture, which: str) -> None:
-    """Curves of one chart: energies, pressure, paces, or drifts."""
-    curves, drift = p["curves"], which == "drift"
+    """Curves of one chart: energies, pressure, paces; errors: drifts, or differences of two computations."""
+    curves, errors = p["curves"], which in ("drift", "difference")
     rows = np.flatnonzero(curves["chart"] == which)
-    at.set(xlabel=curves["over"][rows[0]], yscale="log" if drift else "linear")
-    at.set_title({"drift": "relative drift of the integrals", "paces": "speed (mean 1)"}.get(which, ""), loc="left")
+    at.set(xlabel=curves["over"][rows[0]], yscale="log" if errors else "linear")
+    at.set_title({"drift": "relative drift of the integrals", "paces": "speed (mean 1)",
+                  "difference": p.text("differences")}.get(which, ""), loc="left")
     colours = {"energy h": BLACK, "kinetic": BLUE, "pressure": BLUE, "ds/dt": BLUE}
     for j, i in enumerate(rows):
         name, low, high, on = curves["name"][i], curves["low"][i], curves["high"][i], at
         if curves["right"][i] == 1:
             on = at.twinx()
+            at.set(zorder=1, facecolor="none")  # its curves are before those of the right axis
             on.set(ylabel=name, ylim=(0 if 0 <= low < 0.3 * high else low, high + 0.04 * (high - low) or 1))
-        look = stroke(j) if drift else {"color": colours.get(name, ORANGE)}
-        curve_of(on, p, i, gid=f"{which}:{name}", label=f"{name}  {high:.0e}" if drift else name, **look)
+        look = stroke(j) if errors else {"color": colours.get(name, ORANGE)}
+        curve_of(on, p, i, gid=f"{which}:{name}", label=f"{name}  {high:.0e}" if errors else name, **look)
     for i, t in enumerate(p["losses"]["t"] if which in ("energies", "pressure") else ()):
         at.axvline(t, color=VERMILLION, ls=DASHED, gid=which + ":lost", label=None if i else p.text("lost"))
-    at.legend(loc="upper left" if drift else "lower right", bbox_to_anchor=(1, 1), ncol=1 if drift else 3,
-              title="largest" if drift else None)
+    at.legend(loc="upper left" if errors else "lower right", bbox_to_anchor=(1, 1), ncol=1 if errors else 4,
+              title="largest" if errors else None)
 
 
 def trajectory(p: Picture, ax: Any) -> List[Any]:
-    """Views in space, spheres, charts: in rows of two."""
+    """Views in space, spheres, charts, those that there are: in rows of two."""
     strip, all_charts = p.number("strip") > 0, list(dict.fromkeys(p["curves"]["chart"].tolist()))
     kinds = [*((view, which) for which in ("above", "side") if p.text(which)),
              *((sphere, which) for which in spheres_of(p)), *((chart, which) for which in all_charts)]
@@ -213,19 +215,6 @@ def columns(pictures: Sequence[Picture], ax: Any) -> List[Any]:
     at.set(xlabel=pictures[0]["curves"]["over"][0], ylabel=names[0] if len(names) == 1 else "")
     if pictures[0].number("equal"):
         at.set_aspect("equal", "datalim")
-    return axes
-
-
-def difference(p: Picture, ax: Any) -> List[Any]:
-    """How far the computations are apart, and the orbit on both spheres."""
-    spheres, curves = spheres_of(p), p["curves"]
-    axes = parts(ax, ["AB", "CC"], [4.3, 3.4]) if spheres else parts(ax, ["A"], [4.8])
-    for at, which in zip(axes, spheres):
-        sphere(at, p, which)
-    for i, name in enumerate(curves["name"]):
-        curve_of(axes[-1], p, i, label=name, gid=f"difference:{name}", **stroke(i))
-    axes[-1].set(yscale="log", xlabel=curves["over"][0], ylabel=p.text("differences"))
-    axes[-1].legend(ncol=4)
     return axes
 
 
@@ -481,6 +470,6 @@ def indicators(p: Picture, ax: Any) -> List[Any]:
 
 LAYOUTS: Dict[str, Callable[..., List[Any]]] = {
     "batch": batch, "branch": branch, "chaos": chaos, "chart": stability, "columns": columns, "cost": cost,
-    "difference": difference, "frequencies": frequencies, "indicators": indicators, "momentum": momentum,
+    "difference": trajectory, "frequencies": frequencies, "indicators": indicators, "momentum": momentum,
     "section": section, "splitting": splitting, "sweep_curve": sweep_curve, "sweep_map": sweep_map,
     "trajectory": trajectory}
