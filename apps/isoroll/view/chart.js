@@ -20,7 +20,7 @@ const chart = {
   frame() {
     const box = this.canvas.getBoundingClientRect(),
       wide = box.width - 46,
-      high = box.height - 34;
+      high = box.height - 44;
     return {
       x: (l) => 38 + ((l + Math.PI) / (2 * Math.PI)) * wide,
       y: (x) => 8 + ((1 - x) / 2) * high,
@@ -43,8 +43,8 @@ const chart = {
       [0, "0"],
       [Math.PI, "π"],
     ])
-      g.fillText(words, x(l), height - 10);
-    g.fillText("l, angle of γ", x(Math.PI / 2), height - 10);
+      g.fillText(words, x(l), height - 20);
+    g.fillText(`l, where ${turning("γ", this.axis - 1, "l")}`, x(0), height - 4);
     g.textAlign = "right";
     for (const v of [-1, 0, 1]) g.fillText(String(v).replace("-", "−"), x(-Math.PI) - 6, y(v) + 4);
     g.save();

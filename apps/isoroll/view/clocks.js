@@ -33,6 +33,21 @@ const reading = (x, span) => {
   return span >= 1e6 || span < 1e-4 ? digits(x) : x.toFixed(decimals);
 };
 
+// Which colour is what, [colour, words] for each curve or dot, and then a sentence.
+function legend(parent, items, sentence = "", kind = "line") {
+  parent.replaceChildren();
+  for (const [colour, words] of items) {
+    const part = document.createElement("span"),
+      mark = document.createElement("i");
+    part.className = "key";
+    mark.className = kind;
+    mark.style.background = colour;
+    part.append(mark, words);
+    parent.append(part);
+  }
+  parent.append(sentence);
+}
+
 // A canvas for drawings in pixels of the page; draws anew when its size changes.
 function sheet(canvas) {
   const g = canvas.getContext("2d"),

@@ -10,7 +10,7 @@ const growth = {
     if (!this.near) return;
     this.low = Math.floor(Math.log10(this.near.reduce((a, b) => (b > 0 ? Math.min(a, b) : a), 1e-6)));
     this.high = Math.ceil(Math.log10(this.near.reduce((a, b) => Math.max(a, b), 1e-5)));
-    document.getElementById("beside-words").textContent = this.words(orbit);
+    legend(document.getElementById("beside-words"), [[colours.curve, "distance of the neighbour"]], this.words(orbit));
   },
 
   words({ verdict, exponent, turns }) {
@@ -29,10 +29,11 @@ const growth = {
     if (!this.near || !controls.beside) return;
     const { g, width, height } = sheet(this.canvas),
       style = getComputedStyle(document.body),
-      { left, right, x } = pace.scales(width, height),
-      y = (log) => 8 + ((this.high - log) / (this.high - this.low)) * (height - 20);
+      { left, right, bottom, x } = pace.scales(width, height),
+      y = (log) => 8 + ((this.high - log) / (this.high - this.low)) * (bottom - 14);
     g.strokeStyle = style.getPropertyValue("--rule");
     g.fillStyle = style.getPropertyValue("--quiet");
+    g.textAlign = "left";
     for (let power = this.low; power <= this.high; power++) {
       g.beginPath();
       g.moveTo(left, y(power));
@@ -40,6 +41,7 @@ const growth = {
       g.stroke();
       if ((power - this.high) % 2 === 0) g.fillText(power === 0 ? "1" : `10${raised(power)}`, right + 6, y(power) + 4);
     }
+    pace.ticks(g, x, bottom, width);
     const at = this.orbit[clocks.even],
       line = (value, colour, dash) => {
         g.strokeStyle = colour;
@@ -60,7 +62,7 @@ const growth = {
     g.strokeStyle = style.getPropertyValue("--text");
     g.beginPath();
     g.moveTo(x(now[clocks.even]), 4);
-    g.lineTo(x(now[clocks.even]), height - 8);
+    g.lineTo(x(now[clocks.even]), bottom);
     g.stroke();
   },
 

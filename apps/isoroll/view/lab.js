@@ -111,10 +111,10 @@ lab = {
       const own = await ask({ crossings: 200 }),
         axis = Number(own.lines.axis);
       chart.axis = axis;
-      words.textContent = page.alone
-        ? `Dots: crossings of n${"₁₂₃"[axis - 1]} = 0 by this orbit. The section has no other orbits under gravity.`
-        : `Dots: crossings of n${"₁₂₃"[axis - 1]} = 0 upwards, the same for ball and point; large ones: this orbit’s. ` +
-          "Click to start there.";
+      const crossed = `crossings of n${"₁₂₃"[axis - 1]} = 0`,
+        items = [[colours.curve, "this orbit"], [shadeColour("grey"), "chaotic"], [shadeColour("dark"), "undecided"]];
+      if (page.alone) words.textContent = `Dots: ${crossed} by this orbit. The section has no other orbits under gravity.`;
+      else legend(words, items, `Dots: ${crossed} upwards; other colours are regular. Click to start there.`, "dot");
       chart.canvas.setAttribute("aria-label", `The section n${axis} = 0. Arrow keys choose a start, Enter starts there.`);
       chart.add(own, { from: 0, number: 0 });
       for (let seed = 0; seed < this.DRAWS && !page.alone; seed++) {

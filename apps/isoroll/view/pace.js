@@ -21,13 +21,10 @@ const pace = {
     this.low = values.reduce((a, b) => Math.min(a, b));
     this.most = values.reduce((a, b) => Math.max(a, b));
     this.key = null;
-    const symbols = others.map((name) => clockWords[name][0]).join(" and ");
-    document.getElementById("pace-words").textContent = controls.compared
-      ? ladder.words()
-      : !this.relative
-        ? this.lines[0].words
-        : `${clockWords[clocks.even][0]} runs evenly. The curves: how fast ${symbols} ` +
-          `${others.length > 1 ? "run" : "runs"} meanwhile; ×1 is the mean pace.`;
+    const words = document.getElementById("pace-words"),
+      items = this.lines.map(({ name, words: what }) => [`var(--${name})`, what || `how fast ${clockWords[name][0]} runs`]);
+    if (controls.compared) words.textContent = ladder.words();
+    else legend(words, items, this.relative ? `${clockWords[clocks.even][0]} runs evenly; ×1 is the mean pace.` : "");
   },
 
   height(orbit) {
@@ -35,10 +32,10 @@ const pace = {
     if (page.effects.gravity && body.kind !== "plane")
       return {
         name: "t",
-        words: "The curve: the height of the ball’s centre above the sphere’s centre, in units of length.",
+        words: "height of the ball’s centre above the sphere’s centre, in units of length",
         value: (now) => dot(turned(now.q, now.n), up) * (body.A + body.b),
       };
-    const words = "The curve: how fast the ball turns, |ω| in radians/time.";
+    const words = "how fast the ball turns, |ω| in radians/time";
     return { name: "t", words, value: (now) => Math.hypot(...now.omega) };
   },
 

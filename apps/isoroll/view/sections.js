@@ -1,7 +1,12 @@
 // sections.js - both Poincare sections as plots, from the chart (l, x) that they share.
 //
-// For axis a, with b and c after it: gamma = (cos l, -sin l) in the axes b, c. The ball's coordinates are the angle
-// of n in them and omega_a/|omega|; the point's are l and L = G(l) x, where G^2 = |M|^2 = 2 (H + eps q^(-1/k)).
+// For axis a, with b and c after it: gamma = (cos l, -sin l) in the axes b, c. The ball's coordinates are psi, with n =
+// (cos psi, -sin psi) in them, and omega_a/|omega|; the point's are l and L = G(l) x, where G^2 = |M|^2 = 2 (H + eps
+// q^(-1/k)). The words of the axes are those of the command's pictures.
+
+// "n₁ = cos ψ, n₂ = −sin ψ", in the axes after axis a, from 0 on.
+const turning = (vector, a, angle) =>
+  `${vector}${"₁₂₃"[(a + 1) % 3]} = cos ${angle}, ${vector}${"₁₂₃"[(a + 2) % 3]} = −sin ${angle}`;
 
 const sections = !tables("section").length
   ? null
@@ -38,7 +43,7 @@ const sections = !tables("section").length
           canvas: document.getElementById("section-ball"),
           place: ofBall,
           top: 1,
-          across: "angle of n",
+          across: `ψ, where ${turning("n", a, "ψ")}`,
           up: `ω${"₁₂₃"[a]}/|ω|`,
           edge: () => 1,
         },
@@ -46,7 +51,7 @@ const sections = !tables("section").length
           canvas: document.getElementById("section-point"),
           place: ofPoint,
           top,
-          across: "angle of γ",
+          across: `l, where ${turning("γ", a, "l")}`,
           up: free ? `L = M${"₁₂₃"[a]}` : `x = M${"₁₂₃"[a]}/|M|`,
           edge: G,
         },
@@ -86,7 +91,7 @@ const sections = !tables("section").length
           g.stroke();
           g.fillText(text, x(v), y(-plot.top * 1.04) + 17);
         }
-        g.fillText(plot.across, x(0) + (x(Math.PI) - x(0)) / 4, height - 6);
+        g.fillText(plot.across, x(0), height - 4);
         g.textAlign = "right";
         for (const v of [-1, -0.5, 0, 0.5, 1]) {
           g.beginPath();
@@ -279,6 +284,13 @@ const sections = !tables("section").length
       select.addEventListener("change", () => api.choose(Number(select.value)));
       document.getElementById("sections").hidden = false;
       document.body.classList.add("with-sections");
+      const dark = [...shades.values()].includes("dark") ? [[shadeColour("dark"), "undecided"]] : [];
+      legend(
+        document.getElementById("section-legend"),
+        [[colours.curve, "the orbit that runs"], [shadeColour("grey"), "chaotic"], ...dark],
+        "Other colours: a regular orbit each.",
+        "dot",
+      );
       document.getElementById("section-name").textContent = `n${"₁₂₃"[a]} = 0`;
       return api;
     })();

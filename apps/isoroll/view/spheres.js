@@ -178,7 +178,7 @@ class BallPicture extends Picture {
   build() {
     const { A, B, kind } = body;
     this.clear();
-    this.size = body.flat ? 2.3 * B : kind === "outside" ? A + 2 * B : kind === "inside" ? A : 2 * B - A;
+    this.size = body.flat ? 2.3 * B : kind === "outside" ? A + B : kind === "inside" ? A : Math.max(A, B);
     this.distance = 4.05 * this.size;
     this.eye.near = this.distance / 200;
     this.eye.far = this.distance * 30;
@@ -301,6 +301,9 @@ class BallPicture extends Picture {
     this.world.quaternion.copy(this.upright);
     this.world.position.set(0, 0, 0);
     this.target.copy(this.middle);
+    // the middle of ball and sphere together, so that they fill the picture; a bowl has its own
+    if (body.kind === "outside") this.target.copy(three(times(now.normal, body.B)).applyQuaternion(this.upright));
+    if (body.kind === "shell" && body.B > body.A) this.target.copy(centre.clone().applyQuaternion(this.upright));
     this.near = this.from === "room" ? 0 : 4.05 * (body.kind === "shell" ? 1.2 : 2.2) * body.B;
     this.eye.near = (this.near || this.distance) / 200;
     if (this.from === "follow") this.target.copy(centre.clone().applyQuaternion(this.upright));
