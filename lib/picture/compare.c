@@ -1,5 +1,5 @@
-/* compare.c - one orbit in both models, and their two clocks: of the tables of stretch_impl.h. Tables of differences have
- * a picture of their own (difference.c).
+/* compare.c - one orbit in both models, and their two clocks: of the tables of stretch_impl.h. Tables of differences
+ * have a picture of their own (difference.c).
  *
  * Tables: states and curve (t, s, n1..3, gamma1..3, t_part, s_part, colour, number, ball_right, ball_up, ball_near,
  * point_right, point_up, point_near). The parts of both clocks that have passed are from 0 to 1; colour is the first of

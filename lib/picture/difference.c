@@ -48,8 +48,7 @@ iso_status iso_picture_difference(iso_context *ctx, const iso_picture_request *q
     iso_status status = copy_differences(ctx, q->table[0], &copy);
     for (int c = 1; status == ISO_OK && c <= QUANTITIES; c++)
         status = iso_picture_add_curve(
-            ctx, picture,
-            &(iso_picture_curve){"difference", NULL, copy, 0, c, false, ISO_PICTURE_LARGEST, INFINITY});
+            ctx, picture, &(iso_picture_curve){"difference", NULL, copy, 0, c, false, ISO_PICTURE_LARGEST, INFINITY});
     iso_record_free(copy);
     ISO_TRY(status);
     ISO_TRY(iso_picture_say(ctx, picture, "differences", "difference of ball and point"));

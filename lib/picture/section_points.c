@@ -19,10 +19,10 @@ enum { ORBIT = ISO_PICTURE_COLUMNS, HASH, COLUMNS };
 
 struct iso_picture_points {
     iso_picture_charts charts;
-    unsigned reversors;     /* that the return map has, see iso_section_reversors */
-    int l, x;               /* columns of the rows; l -1: there is none  */
-    uint64_t rows;          /* that came so far                          */
-    double limit;           /* rows whose hash is below it are kept      */
+    unsigned reversors;             /* that the return map has, see iso_section_reversors */
+    int l, x;                       /* columns of the rows; l -1: there is none  */
+    uint64_t rows;                  /* that came so far                          */
+    double limit;                   /* rows whose hash is below it are kept      */
     bool last_kept, judged, parted; /* judged: there are verdicts; parted: the models part on an orbit */
     iso_record *kept;
     size_t orbits;
