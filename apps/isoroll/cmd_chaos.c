@@ -175,6 +175,8 @@ static int draw_indicators(const shell *s)
         if (status == ISO_OK) status = iso_record_set(s->ctx, r, "title", s->title);
         table[count++] = r;
     }
+    if (status == ISO_OK && count == 0)
+        status = iso_context_fail(s->ctx, ISO_BAD_INPUT, "", "no picture: there is no row of indicators");
     if (status == ISO_OK) status = plot_tables(s->ctx, &s->told->plot, table, NULL);
     return finish(s->ctx, status);
 }

@@ -75,25 +75,13 @@ static iso_status draw_two(iso_context *ctx, const options *o, const char *kind,
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-/* Draws a trajectory, and tells what the picture notes. */
-static iso_status draw(iso_context *ctx, const options *o, const iso_record *file)
-{
-    iso_picture picture;
-    ISO_TRY(iso_picture_make(ctx, (const iso_record *[]){file, NULL}, NULL, &picture));
-    const char *note = iso_record_get(picture.table[0], "note");
-    if (note) complain("%s", note);
-    const iso_status status = plot_draw(ctx, &o->page, &picture);
-    iso_picture_free(&picture);
-    return status;
-}
-
 static iso_status draw_file(iso_context *ctx, const options *o)
 {
     iso_params params;
     iso_record *file = NULL;
     iso_status status = read_good(ctx, o, TRAJECTORY, o->from.columns, &file);
     if (status == ISO_OK) status = parameters_of_file(ctx, &o->from, file, &params);
-    if (status == ISO_OK) status = draw(ctx, o, file);
+    if (status == ISO_OK) status = plot_tables(ctx, &o->page, (const iso_record *[]){file, NULL}, NULL);
     iso_record_free(file);
     return status;
 }
@@ -128,7 +116,7 @@ static int run(iso_context *ctx, const void *options_given)
     const char *wish = iso_plot_section_wish(&o->page);
     if (!*kind) strcpy(kind, TRAJECTORY); /* a file of others */
     const bool trajectory = strcmp(kind, TRAJECTORY) == 0;
-    if (wish && (trajectory || !iso_plot_has_kind(kind)))
+    if (wish && (trajectory || o->from.columns || !iso_plot_has_kind(kind)))
         return complain("plot: --%s is for sections", wish), EXIT_USAGE;
     if (!sweep && !iso_plot_has_kind(kind))
         return complain("plot: there is no picture of a table '%s'", kind), EXIT_USAGE;
@@ -172,6 +160,7 @@ const command command_plot = {
         "the picture. On the screen its letters grow with --size. --style print has letters of 8 pt; without "
         "--size it is 86 mm wide if it is one panel, else 178 mm. A px is a pixel of a .png, and 1/96 inch "
         "elsewhere. --script "
-        "FILE keeps the script of gnuplot with its data: gnuplot -d FILE >PICTURE draws the same.",
+        "FILE keeps the script of gnuplot with its data: gnuplot -d FILE >PICTURE draws the same. --template FILE "
+        "draws with a template of your own; copy one of those in share/isoroll/pictures.",
     .example = "isoroll plot trajectory.csv -o trajectory.svg",
 };

@@ -24,6 +24,8 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
         double row[] = {iso_picture_number(r, i, "branch"), iso_record_const_row(r, i)[OVER],
                         iso_picture_number(r, i, "trace"), iso_picture_number(r, i, "u") / acos(0), 0};
         if (end) continue;
+        if (!(row[0] >= 1 && row[0] <= (double)iso_record_rows(r) && row[0] == floor(row[0])))
+            return ISO_FAIL_INPUT(ctx, "branch", "no picture: row %zu has no number of a branch", i + 1);
         most = fmax(most, row[0]);
         if (!point)
             ISO_TRY(iso_record_intern(ctx, events, iso_record_word(r, iso_picture_number(r, i, "event")), &row[4]));

@@ -1,12 +1,13 @@
 /* chaos.c - the kind "chaos": the starts on the section, with their verdicts and exponents.
  *
- * Tables: regular, chaotic, undecided: l, x; of chaotic the exponent per turn, by the model that says what the verdict
- * says. Rows without a place on the section are left out. Lines: title; right_name, up_name: of the axes.
+ * Tables: regular (also of integrable motions), chaotic, undecided: l, x; of chaotic the exponent per turn, by the model
+ * that says what the verdict says; 0: not known. Rows without a place on the section are left out. Lines: title; right_name, up_name: of the axes.
  */
 #include <math.h>
 #include <stdio.h>
 
 #include "picture/picture_impl.h"
+#include "study/verdict.h"
 
 static double exponent_of(const iso_record *r, size_t i)
 {
@@ -34,9 +35,12 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
     for (int kind = 0; kind < KINDS; kind++)
         ISO_TRY(iso_picture_add(ctx, picture, kinds[kind], kind == CHAOTIC ? 3 : 2, names, &of[kind]));
     for (size_t i = 0; i < iso_record_rows(r); i++) {
-        const double row[] = {iso_picture_number(r, i, "l"), iso_picture_number(r, i, "x"), exponent_of(r, i)};
-        const bool regular = iso_picture_is(r, i, "verdict", "regular");
-        const bool chaotic = iso_picture_is(r, i, "verdict", "chaotic") && isfinite(row[2]);
+        const double exponent = exponent_of(r, i);
+        const double row[] = {iso_picture_number(r, i, "l"), iso_picture_number(r, i, "x"),
+                              isfinite(exponent) ? exponent : 0};
+        const bool chaotic = iso_picture_is(r, i, "verdict", "chaotic"),
+                   regular = iso_picture_is(r, i, "verdict", "regular") ||
+                             iso_picture_is(r, i, "verdict", iso_verdict_name(ISO_INTEGRABLE));
         if (!isfinite(row[0]) || !isfinite(row[1])) continue;
         ISO_TRY(iso_record_add(ctx, of[regular ? REGULAR : chaotic ? CHAOTIC : UNDECIDED], 1, row));
         all++;

@@ -62,6 +62,8 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
     iso_record *cells, *borders;
     bool none = false;
     picture->layout = "chart";
+    if (iso_record_find(r, "k") != K || iso_record_columns(r) <= UP)
+        return ISO_FAIL_INPUT(ctx, "k", "no picture: k is not the second column, what varies not the third");
     ISO_TRY(iso_picture_add(ctx, picture, "cells", 6, names, &cells));
     ISO_TRY(iso_picture_add(ctx, picture, "borders", 3, (const char *const[]){"side", "k", "up"}, &borders));
     for (int side = 1; side <= 2; side++) {

@@ -99,7 +99,9 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
         !iso_record_get_numbers(ctx, r, "compared", 1, &end, &status))
         return status != ISO_OK ? status : ISO_FAIL_INPUT(ctx, "k", "no picture: the states do not say k, compared");
     ISO_TRY(iso_picture_find(ctx, r, GIVEN, names, &first));
-    ISO_TRY(iso_picture_find(ctx, path, GIVEN, names, &first));
+    if (first == 0) ISO_TRY(iso_picture_find(ctx, path, GIVEN, names, &first));
+    if (first != 0 || iso_record_rows(r) == 0)
+        return ISO_FAIL_INPUT(ctx, "t", "no picture: t is not the first column");
     const double *last = iso_record_const_row(r, iso_record_rows(r) - 1);
     ISO_TRY(iso_picture_add(ctx, picture, "states", COLUMNS, names, &states));
     ISO_TRY(iso_picture_add(ctx, picture, "curve", COLUMNS, names, &curve));

@@ -52,7 +52,9 @@ iso_status iso_picture_difference(iso_context *ctx, const iso_picture_request *q
     iso_record_free(copy);
     ISO_TRY(status);
     ISO_TRY(iso_picture_say(ctx, picture, "differences", "difference of ball and point"));
-    if (!q->table[1]) return ISO_OK;
-    ISO_TRY(add_sphere(ctx, picture, true, q->table[1]));
-    return add_sphere(ctx, picture, false, q->table[2]);
+    for (const iso_record *const *r = q->table + 1; *r; r++) {
+        const bool ball = iso_record_find(*r, "n1") >= 0;
+        ISO_TRY(add_sphere(ctx, picture, ball, *r));
+    }
+    return ISO_OK;
 }

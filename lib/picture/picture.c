@@ -111,7 +111,8 @@ iso_status iso_picture_add(iso_context *ctx, iso_picture *picture, const char *n
                            const char *const names[], iso_record **table)
 {
     int i = 0;
-    while (picture->table[i]) i++; /* the makers know how many they have */
+    while (i < ISO_PICTURE_TABLES - 1 && picture->table[i]) i++;
+    if (picture->table[i]) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture has too many tables");
     ISO_TRY(iso_record_create(ctx, columns, names, &picture->table[i]));
     iso_record_set_kind(picture->table[i], name);
     *table = picture->table[i];
@@ -133,12 +134,17 @@ iso_status iso_picture_as_it_is(iso_context *ctx, const iso_picture_request *q, 
     const iso_record *r = q->table[0];
     iso_record **copy = &picture->table[0];
     double *row;
-    ISO_TRY(iso_record_create_like(ctx, r, 0, NULL, copy));
-    for (size_t c = 0; c < iso_record_columns(r); c++) iso_record_set_words(*copy, c, iso_record_has_words(r, c));
+    const char *names[ISO_PICTURE_MOST_COLUMNS];
+    const size_t columns = iso_record_columns(r);
+    if (columns > ISO_PICTURE_MOST_COLUMNS)
+        return ISO_FAIL_INPUT(ctx, "", "no picture: there are %zu columns", columns);
+    for (size_t c = 0; c < columns; c++) names[c] = iso_record_name(r, c);
+    ISO_TRY(iso_record_create(ctx, columns, names, copy)); /* without its lines, which are no variables of ours */
+    for (size_t c = 0; c < columns; c++) iso_record_set_words(*copy, c, iso_record_has_words(r, c));
     iso_record_set_kind(*copy, "table");
     for (size_t i = 0; i < iso_record_rows(r); i++) {
         ISO_TRY(iso_record_append(ctx, *copy, &row));
-        for (size_t c = 0; c < iso_record_columns(r); c++) {
+        for (size_t c = 0; c < columns; c++) {
             row[c] = iso_record_const_row(r, i)[c];
             if (iso_record_has_words(r, c))
                 ISO_TRY(iso_record_intern(ctx, *copy, iso_record_word(r, row[c]), &row[c]));

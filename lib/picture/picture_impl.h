@@ -105,7 +105,8 @@ iso_status iso_picture_add_curves(iso_context *ctx, iso_picture *picture);
 enum { ISO_PICTURE_TITLE = 400 };
 char *iso_picture_title(char title[static ISO_PICTURE_TITLE], const char *seen, const iso_params *p);
 
-/* A maker: the table as it is, called `table`. */
+/* A maker: the table as it is, called `table`, of at most so many columns. */
+enum { ISO_PICTURE_MOST_COLUMNS = 200 };
 iso_status iso_picture_as_it_is(iso_context *ctx, const iso_picture_request *request, iso_picture *picture);
 
 /* A kind of table. */

@@ -25,11 +25,12 @@ struct iso_picture_points {
     double limit;                   /* rows whose hash is below it are kept      */
     bool last_kept, judged, parted; /* judged: there are verdicts; parted: the models part on an orbit */
     iso_record *kept;
-    size_t orbits;
-    iso_record *first, *who; /* the first crossing of each orbit that has one, (l, x), and whose it is             */
-    iso_record *shade;       /* of each orbit: an iso_picture_shade; grey if ball and point have parted            */
-    iso_record *now;         /* crossings (l, x) of the orbit whose rows come                                      */
-    iso_record *rotation;    /* of each orbit before it; NaN: not found                                            */
+    size_t orbits;     /* that have a crossing; a row is of another orbit than the one before if its number differs */
+    double number;     /* of the orbit whose rows come                                             */
+    iso_record *first; /* of each orbit the first crossing, (l, x)                                 */
+    iso_record *shade; /* of each orbit: an iso_picture_shade; grey if ball and point have parted  */
+    iso_record *now;   /* crossings (l, x) of the orbit whose rows come                            */
+    iso_record *rotation; /* of each orbit before it; NaN: not found                                  */
 };
 
 /* G(l) and the reversors need what acts on the ball. */
@@ -65,7 +66,6 @@ iso_status iso_picture_points_create(iso_context *ctx, const iso_record *header,
     ISO_TRY(iso_record_create(ctx, COLUMNS, names, &p->kept));
     ISO_TRY(iso_record_create(ctx, 2, names, &p->first));
     ISO_TRY(iso_record_create(ctx, 2, names, &p->now));
-    ISO_TRY(iso_record_create(ctx, 1, &names[ORBIT], &p->who));
     ISO_TRY(iso_record_create(ctx, 1, names, &p->rotation));
     return iso_record_create(ctx, 1, names, &p->shade);
 }
@@ -75,7 +75,6 @@ void iso_picture_points_free(iso_picture_points *p)
     if (!p) return;
     iso_record_free(p->kept);
     iso_record_free(p->first);
-    iso_record_free(p->who);
     iso_record_free(p->shade);
     iso_record_free(p->now);
     iso_record_free(p->rotation);
@@ -115,12 +114,11 @@ static const double (*pairs(const iso_record *r))[2]
     return iso_record_rows(r) > 0 ? (const double(*)[2])(const void *)iso_record_const_row(r, 0) : NULL;
 }
 
-/* All rows of the orbit have come. Orbits without a row have no number. */
+/* All rows of the orbit have come. */
 static iso_status end_orbit(iso_context *ctx, iso_picture_points *p)
 {
-    const double rotation = iso_section_rotation(pairs(p->now), iso_record_rows(p->now)), none = NAN;
     if (p->orbits == 0) return ISO_OK;
-    while (iso_record_rows(p->rotation) + 1 < p->orbits) ISO_TRY(iso_record_add(ctx, p->rotation, 1, &none));
+    const double rotation = iso_section_rotation(pairs(p->now), iso_record_rows(p->now));
     ISO_TRY(iso_record_add(ctx, p->rotation, 1, &rotation));
     iso_record_free(p->now);
     return iso_record_create_like(ctx, p->first, 0, NULL, &p->now);
@@ -131,17 +129,19 @@ iso_status iso_picture_points_row(iso_context *ctx, iso_picture_points *p, const
     const double hash = hash_of(p->rows++);
     if (p->l < 0) return ISO_OK;
     const double at[2] = {row[p->l], row[p->x]};
-    const bool is_first = iso_record_rows(p->who) == 0 || (size_t)row[0] >= p->orbits;
-    if (is_first) ISO_TRY(end_orbit(ctx, p));
-    p->orbits = (size_t)row[0] + 1;
+    if (p->orbits == 0 || row[0] != p->number) {
+        ISO_TRY(end_orbit(ctx, p));
+        ISO_TRY(iso_record_add(ctx, p->first, 1, at));
+        p->number = row[0];
+        p->orbits++;
+    }
     if (iso_record_rows(p->now) < MOST_OF_ORBIT) ISO_TRY(iso_record_add(ctx, p->now, 1, at));
-    if (is_first) ISO_TRY(iso_record_add(ctx, p->first, 1, at));
-    if (is_first) ISO_TRY(iso_record_add(ctx, p->who, 1, row));
     ISO_TRY(thin_out(ctx, p, MOST - 1));
     p->last_kept = hash < p->limit;
     if (!p->last_kept) return ISO_OK;
-    return iso_record_add(ctx, p->kept, 1,
-                          (double[COLUMNS]){at[0], at[1], at[0], at[1], [ORBIT] = row[0], [HASH] = hash});
+    return iso_record_add(
+        ctx, p->kept, 1,
+        (double[COLUMNS]){at[0], at[1], at[0], at[1], [ORBIT] = (double)(p->orbits - 1), [HASH] = hash});
 }
 
 /* --- shades ----------------------------------------------------------------------------------------------------- */
@@ -195,7 +195,7 @@ iso_status iso_picture_points_judge(iso_context *ctx, iso_picture_points *p, dou
     const double at[2] = {l, x};
     for (size_t i = 0; i < iso_record_rows(p->first); i++) {
         if (!(distance(iso_record_const_row(p->first, i), at) <= 1e-12)) continue;
-        ISO_TRY(set_shade(ctx, p, (size_t)*iso_record_const_row(p->who, i), shades[verdict]));
+        ISO_TRY(set_shade(ctx, p, i, shades[verdict]));
         p->judged = true;
     }
     return ISO_OK;

@@ -241,7 +241,7 @@ static iso_status make_curve(iso_context *ctx, const iso_swept *s, iso_picture *
 static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
 {
     char value[ISO_PICTURE_OPTION];
-    iso_swept s = {.r = q->table[0]};
+    iso_swept s = {.r = q->table[0], .low = -1, .high = -1};
     ISO_TRY(choose_value(ctx, iso_picture_option(q, "value", value) ? value : NULL, &s));
     find_axes(&s);
     if (s.axes == 0) return ISO_FAIL_INPUT(ctx, "", "nothing varies in this sweep");

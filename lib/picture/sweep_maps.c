@@ -128,7 +128,8 @@ static iso_status collect(iso_context *ctx, const iso_swept *s, layout *l, iso_r
             return ISO_FAIL_INPUT(ctx, "", "more than %d values of '%s': a picture has no room", MAPS,
                                   iso_swept_axis(s, l->panel));
         place(s, l, i, point);
-        ISO_TRY(iso_record_add(ctx, points, 1, point));
+        if (isfinite(point[ISO_POINT_X]) && isfinite(point[ISO_POINT_Y]))
+            ISO_TRY(iso_record_add(ctx, points, 1, point));
     }
     return ISO_OK;
 }

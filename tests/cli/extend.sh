@@ -1,6 +1,6 @@
-# extend.sh - the recipes of tests/extend, followed in a copy of the source: an effect, a method, an integral, a column of a
-# result, a table of a new kind with its picture, a study of many orbits; and the system of lib/README.md. Every backend and method either simulates the new effect, and all agree, or
-# refuses it by name.
+# extend.sh - the recipes of tests/extend, followed in a copy of the source: an effect, a method, an integral, a column
+# of a result, a table of a new kind with its picture, a study of many orbits; and the system of lib/README.md. Every
+# backend and method either simulates the new effect, and all agree, or refuses it by name.
 . "$(dirname "$0")/lib.sh"
 copy=$work/copy
 recipes=$source/tests/extend

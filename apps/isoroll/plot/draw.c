@@ -12,12 +12,13 @@
 #include "io/replacement_impl.h"
 #include "io/table.h"
 #include "plot/gnuplot.h"
+#include "report.h"
 
 enum { LONGEST = 110, LONGEST_LINE = 150, LONGEST_WORD = 60, MOST_TEMPLATE = 1 << 20 };
 
 /* --- variables -------------------------------------------------------------------------------------------------- */
 
-/* The lines of the picture; keys that are no names of gnuplot, and those of the file that was read, are left out. */
+/* The lines of the picture; keys that are no names of gnuplot are left out. */
 static void put_lines(FILE *f, const iso_plot_page *page, const iso_record *first)
 {
     const char *key, *value, *own = iso_record_get(first, "title");
@@ -25,7 +26,9 @@ static void put_lines(FILE *f, const iso_plot_page *page, const iso_record *firs
     fprintf(f, "title = %s\nnarrow_title = %s\n", QUOTED(iso_plot_titled(page, own), LONGEST),
             TITLE(page, own, LONGEST));
     for (size_t i = 0; iso_record_line(first, i, &key, &value); i++) {
-        if (strcmp(key, "title") == 0 || key[strspn(key, "abcdefghijklmnopqrstuvwxyz0123456789_")]) continue;
+        if (strcmp(key, "title") == 0 || !(*key >= 'a' && *key <= 'z') ||
+            key[strspn(key, "abcdefghijklmnopqrstuvwxyz0123456789_")])
+            continue;
         if (iso_number_read(value, strlen(value), &x))
             fprintf(f, isfinite(x) ? "%s = %.17g\n" : "%s = NaN\n", key, x);
         else
@@ -39,9 +42,12 @@ static void put_lines(FILE *f, const iso_plot_page *page, const iso_record *firs
 static void put_word(FILE *f, const char *word)
 {
     fputc('"', f);
-    for (int i = 0; word[i] && i < LONGEST_WORD; i++) {
-        const unsigned char c = (unsigned char)word[i];
-        fputc(c == '"' || c == '`' ? '\'' : c == '\\' ? '/' : c < 0x20 || c == 0x7F ? ' ' : c, f);
+    for (int i = 0, length; *word && i<LONGEST_WORD; i++, word += length> 0 ? length : 1) {
+        length = iso_gnuplot_character(word);
+        if (length > 1)
+            fwrite(word, 1, (size_t)length, f);
+        else
+            fputc(length == 0 ? ' ' : *word == '"' || *word == '`' ? '\'' : *word == '\\' ? '/' : *word, f);
     }
     fputc('"', f);
 }
@@ -81,6 +87,8 @@ static void put_embedded(FILE *f, const char *name)
 
 static iso_status put_template(iso_context *ctx, FILE *f, const iso_plot_page *page, const char *layout)
 {
+    if (!page->template && !embedded_find(picture_files, layout)->name)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "this isoroll has no template '%s' of pictures", layout);
     if (!page->template) return put_embedded(f, layout), ISO_OK;
     FILE *from = fopen(page->template, "re");
     char part[4096];
@@ -89,6 +97,8 @@ static iso_status put_template(iso_context *ctx, FILE *f, const iso_plot_page *p
     while ((got = fread(part, 1, sizeof part, from)) > 0 && (all += got) <= MOST_TEMPLATE) fwrite(part, 1, got, f);
     const iso_status status = ferror(from) ? iso_file_trouble(ctx, "read", page->template) : ISO_OK;
     fclose(from);
+    if (status == ISO_OK && all == 0)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "template", "--template '%s' is empty", page->template);
     if (status != ISO_OK || all <= MOST_TEMPLATE) return status;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "template", "--template '%s' is larger than 1 MB", page->template);
 }
@@ -97,6 +107,7 @@ iso_status plot_draw(iso_context *ctx, const iso_plot_page *page, const iso_pict
 {
     FILE *f = iso_gnuplot_begin(ctx, page);
     put_lines(f, page, picture->table[0]);
+    iso_gnuplot_put_page(f, page); /* behind them: no line can change it */
     put_embedded(f, "page");
     for (int i = 0; i < ISO_PICTURE_TABLES && picture->table[i]; i++) put_block(f, picture->table[i]);
     const iso_status status = put_template(ctx, f, page, picture->layout);
@@ -109,6 +120,8 @@ iso_status plot_tables(iso_context *ctx, const iso_plot_page *page, const iso_re
 {
     iso_picture picture;
     ISO_TRY(iso_picture_make(ctx, table, options, &picture));
+    const char *note = iso_record_get(picture.table[0], "note");
+    if (note) complain("%s", note);
     const iso_status status = plot_draw(ctx, page, &picture);
     iso_picture_free(&picture);
     return status;

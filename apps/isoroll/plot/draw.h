@@ -12,7 +12,7 @@
  * written), ISO_STOPPED, ISO_NO_MEMORY. */
 iso_status plot_draw(iso_context *ctx, const iso_plot_page *page, const iso_picture *picture);
 
-/* Makes the picture of these tables and draws it; options: see iso_picture_make. */
+/* Makes the picture of these tables, says what it notes, and draws it; options: see iso_picture_make. */
 iso_status plot_tables(iso_context *ctx, const iso_plot_page *page, const iso_record *const table[],
                        const char *options);
 

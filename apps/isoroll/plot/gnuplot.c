@@ -107,7 +107,6 @@ static iso_status open_files(iso_context *ctx, const iso_plot_page *page)
 
 FILE *iso_gnuplot_begin(iso_context *ctx, const iso_plot_page *page)
 {
-    const bool sized = page->size.width > 0;
     const format *f = g.format = find_format(page->path);
     g.output = NULL;
     g.script = g.complaints = NULL;
@@ -115,20 +114,28 @@ FILE *iso_gnuplot_begin(iso_context *ctx, const iso_plot_page *page)
     g.status = open_files(ctx, page);
     if (!g.script) return stdin; /* takes nothing */
     fprintf(g.script, "# Made by isoroll, for gnuplot 5.4: gnuplot -d SCRIPT >PICTURE%s\n", f->extension);
-    fprintf(g.script,
+    return g.script;
+}
+
+void iso_gnuplot_put_page(FILE *to, const iso_plot_page *page)
+{
+    const format *f = g.format;
+    const bool sized = page->size.width > 0;
+    if (!g.script) return;
+    fprintf(to,
             "terminal = \"%s\"; unit = '%s'; in_print = %d\n"
             "per_pixel = %.17g; per_inch = %.17g; per_letter = %.17g; lines = %.17g; points = %.17g\n"
             "given_width = %.17g; given_height = %.17g\n",
             f->terminal, f->unit, page->style == ISO_PLOT_IN_PRINT, f->scale, f->inch, f->letter, f->lines, f->points,
             sized ? given(f, page, page->size.width) : 0, sized ? given(f, page, page->size.height) : 0);
-    return g.script;
 }
 
 /* ---- Texts ---- */
 
 /* The length of the character that begins text, 0 if it is none that XML and pango take (controls, broken UTF-8). */
-static int character(const unsigned char *text)
+int iso_gnuplot_character(const char *from)
 {
+    const unsigned char *text = (const unsigned char *)from;
     static const unsigned smallest[] = {0, 0x20, 0xA0, 0x800, 0x10000};
     const int length = text[0] < 0x80 ? 1 : text[0] < 0xC0 ? 0 : text[0] < 0xE0 ? 2 : text[0] < 0xF0 ? 3 : 4;
     if (length == 0 || text[0] >= 0xF8 || text[0] == 0x7F) return 0;
@@ -158,7 +165,7 @@ const char *iso_gnuplot_quote(char quoted[static ISO_QUOTED_SIZE], const char *t
     char *to = quoted;
     *to++ = '"';
     for (int i = 0; *c && i < longest; i++) {
-        const int length = character(c);
+        const int length = iso_gnuplot_character((const char *)c);
         if (length == 0)
             *to++ = *c < 0x20 ? ' ' : '.';
         else if (is_plain(*c))
@@ -190,11 +197,18 @@ static size_t end_of_line(const char *text)
 const char *iso_gnuplot_quote_title(char quoted[static ISO_QUOTED_SIZE], const iso_plot_page *page, const char *own,
                                     int longest)
 {
-    char line[ISO_QUOTED_SIZE];
+    char line[ISO_QUOTED_SIZE], whole[200] = "";
     const char *text = iso_plot_titled(page, own);
     if (!is_narrow(page)) return iso_gnuplot_quote(quoted, text, longest);
+    for (int i = 0, used = 0, length; text && *text && i < longest && used < (int)sizeof whole - 8; i++) {
+        length = iso_gnuplot_character(text);
+        used += snprintf(whole + used, sizeof whole - (size_t)used, "%.*s", length > 0 ? length : 1,
+                         length > 0 ? text : " ");
+        text += length > 0 ? length : 1;
+    }
+    text = whole;
     *quoted = '\0';
-    for (text = text ? text : ""; *quoted == '\0' || *text;) {
+    for (; *quoted == '\0' || *text;) {
         const size_t used = strlen(quoted), length = strlen(text) > NARROW_TITLE ? end_of_line(text) : strlen(text);
         char part[200];
         snprintf(part, sizeof part, "%.*s", (int)length, text);

@@ -22,6 +22,12 @@ iso_status iso_gnuplot_check_files(iso_context *ctx, const iso_plot_page *page);
  * Returns the script, never NULL; what goes wrong, closing tells. */
 FILE *iso_gnuplot_begin(iso_context *ctx, const iso_plot_page *page);
 
+/* Writes what the page is to be, as variables of pictures/page.gp. */
+void iso_gnuplot_put_page(FILE *script, const iso_plot_page *page);
+
+/* The length of the character that begins text, 0 if it is none that XML and pango take (controls, broken UTF-8). */
+int iso_gnuplot_character(const char *text);
+
 /* Ends the picture. keep: writes the script if it is asked for, draws the picture and gives it its name; else nothing
  * is left. Errors: ISO_BAD_ARGUMENT
  * (format); ISO_FILE_TROUBLE: no gnuplot, gnuplot's own complaint, or the picture cannot be written. */

@@ -67,7 +67,7 @@ const char *iso_plot_style_word(int i);             /* "screen", "print"        
                  .aside = true),                                                                                     \
         ROW_OF_FILE("script", "FILE", "a file", "of the picture: write gnuplot's script, with its data",             \
                     iso_set_text, type, field.script, 0, OPTION_WRITES),                                             \
-        ROW_OF_FILE("template", "FILE", "a file", "of the picture: draw it by this template of gnuplot",             \
+        ROW_OF_FILE("template", "FILE", "a file", "of the picture: draw with your own gnuplot template",             \
                     iso_set_text, type, field.template, 0, OPTION_READS)
 
 /* The rows of a command that draws sections. */
