@@ -170,7 +170,7 @@ const command command_view = {
         "integrated by "
         "itself, and the page shows how far they differ. Columns that a trajectory lacks (clocks, attitude, the "
         "other model) are computed from row to row. In the page of a section, click a crossing: its orbit runs "
-        "from the first crossing on; chaotic orbits are grey.\n\n"
+        "from the first crossing on; chaotic orbits are grey, undecided ones dark.\n\n"
         "A button lays both paths side by side, with the same numbers at equal states. Another one adds an orbit "
         "that "
         "begins 1e-6 radians beside: its distance shows whether the orbit is chaotic.\n\n"

@@ -1,5 +1,5 @@
 /* view.h - the page of `isoroll view`: a head, and tables. Scripts (view/) find a table by its kind, and its columns by
- * their names; so what a new panel shows needs no C if a table has it. view_add is called with the kinds.
+ * their names; so what a new panel shows needs no C if a table has it. lib/doc/formats.md, 9, has the kinds.
  *
  *     view_scene.c       a scene: `run`, and `compare` for how far both models are apart
  *     view_trajectory.c  a trajectory file; rows_impl.h gives it the columns that it lacks

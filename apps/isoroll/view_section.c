@@ -130,29 +130,28 @@ static iso_status start_at(iso_context *ctx, const view_page *page, const sectio
     return status;
 }
 
-/* Columns of an orbit. If it has M and gamma, omega and n follow from them. */
-static size_t columns_of(const view_page *page, const char *names[])
+/* Its columns: with M and gamma, from which omega and n follow; the contact is asked for on a plane alone. */
+static void ask_for_columns(const view_page *page, iso_scene *scene)
 {
-    const size_t all = view_columns(page, NULL, names);
-    size_t count = 0;
-    for (size_t i = 0; i < all; i++) {
-        const int c = iso_column_find(names[i]), attitude = iso_column_find("q0");
-        const bool ball = c >= ISO_COLUMN_BALL && c < ISO_COLUMN_POINT;
-        if ((ball && !*page->alone) || (c >= ISO_COLUMN_EFFECTS && c < attitude)) continue;
-        names[count++] = names[i];
-    }
-    return count;
+    static const char *const both[] = {"t",      "tau", "s",  "M1", "M2", "M3",       "gamma1",   "gamma2",
+                                       "gamma3", "q0",  "q1", "q2", "q3", "contact1", "contact2", "contact3"};
+    static const char *const alone[] = {"t",  "omega1", "omega2", "omega3", "n1",       "n2",       "n3",
+                                        "q0", "q1",     "q2",     "q3",     "contact1", "contact2", "contact3"};
+    const size_t less = page->params.k == 1 ? 0 : 3;
+    if (*page->alone)
+        view_ask_for(scene, sizeof alone / sizeof *alone - less, alone);
+    else
+        view_ask_for(scene, sizeof both / sizeof *both - less, both);
 }
 
 /* The first `rows` rows of the orbit, close enough for cubic curves. */
 static iso_status run_orbit(iso_context *ctx, view_page *page, const section *s, size_t row, size_t rows)
 {
-    const char *names[ISO_TRAJECTORY_COLUMNS];
     const double number = iso_record_const_row(s->in, row)[s->orbit];
     iso_record *orbit;
     iso_scene scene;
     ISO_TRY(start_at(ctx, page, s, row, &scene));
-    view_ask_for(&scene, columns_of(page, names), names);
+    ask_for_columns(page, &scene);
     const double turn = rows < 400 ? LONG_ORBIT_TURN : ORBIT_TURN;
     scene.step = turn / (norm(scene.start.y) * fmax(1, fabs(page->params.k)));
     scene.end = (double)(rows - 1) * scene.step;

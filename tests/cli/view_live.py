@@ -91,6 +91,8 @@ def controls(page):
     settled(page)
     check("a scene of its own: chaotic", text(page, "lab-words").startswith("Verdict: chaotic"), text(page, "lab-words"))
     check("the section is filled", page.evaluate("chart.dots.length") > 8000)
+    check("chaotic orbits are grey in it, others are not", shades(page) >= {"grey", "colour"} and page.evaluate(
+        "chart.dots.every((dot) => !dot.orbit || dot.shade)"), shades(page))
     page.evaluate("void (lab.DRAWS = 1, judge.SHARES = [24])")  # enough for what follows
     for given, k, words in ((-1.02, -1, "rolls around a sphere"), (0.49, 0.5, "outside of a sphere"),
                             (1.01, 1, "rolls on a plane"), (2, 2, "inside a sphere"), (-0.02, -0.1, "around"),
@@ -102,6 +104,7 @@ def controls(page):
         check(f"k = {k}: the section is filled", page.evaluate("chart.dots.length") > 900)
         if k in (-1, 1):
             check(f"k = {k}: regular", "regular" in text(page, "lab-words"), text(page, "lab-words"))
+            check(f"k = {k}: no orbit is grey", "grey" not in shades(page), shades(page))
     slide(page, 0.5)
     settled(page)
 
@@ -147,6 +150,11 @@ def controls(page):
     settled(page)
     check("Begin anew: the first state", state(page)["k"] == 0.5 and state(page)["J"] == [1, 2, 5], str(state(page)))
     return address, shown
+
+
+def shades(page):
+    """Of the section's orbits but the page's own."""
+    return set(page.evaluate("[...new Set(chart.dots.filter((dot) => dot.orbit).map((dot) => dot.shade))]"))
 
 
 def keys_move_sliders(page):

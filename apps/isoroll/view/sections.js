@@ -285,7 +285,7 @@ const sections = !tables("section").length
       select.addEventListener("change", () => api.choose(Number(select.value)));
       document.getElementById("sections").hidden = false;
       document.body.classList.add("with-sections");
-      const dark = Array.from(orbit).some((number) => shadeOf(number) === "dark") ? [[shadeColour("dark"), "undecided"]] : [];
+      const dark = Array.from(orbits).some((number) => shadeOf(number) === "dark") ? [[shadeColour("dark"), "undecided"]] : [];
       legend(
         document.getElementById("section-legend"),
         [[colours.curve, "the orbit that runs"], ...(found ? [[shadeColour("grey"), "chaotic"], ...dark] : [])],
