@@ -4,8 +4,11 @@ width = 900; height = 640; panels = 2
 eval page
 set multiplot title title noenhanced font ',12'
 set border 15 lc rgb axes; set tics nomirror out scale 0.6; unset key; set autoscale xfix
-stats $points using 'at' nooutput
-set xrange [STATS_min:STATS_max]
+least = 1e300; most = -1e300
+if (|$points| > 1) { stats $points using 'at' nooutput; least = STATS_min; most = STATS_max }
+if (|$events| > 1) { stats $events using 'at' nooutput; least = min(least, STATS_min); most = max(most, STATS_max) }
+room = least < most ? 0 : max(0.1 * abs(least), 0.1) # a single number has room on both sides
+set xrange [least - room:most + room]
 look(b) = (b - 1) % strokes + 1
 of(b, name) = column('branch') == b ? column(name) : NaN
 

@@ -95,7 +95,7 @@ choose_ticks = 'tick_size = max(abs(tick_low), abs(tick_high)); tick_base = 0; t
 if (tick_size >= 1e300) { \
     eval "set ".tick_axis."range [*:*]; set ".tick_axis."tics autofreq" \
 } else { \
-    tick_room = tick_high - tick_low > max(1e-12 * tick_size, 1e-292) ? 0 : tick_size > 0 ? tick_size / 2 : 0.5; \
+    tick_room = tick_high - tick_low > max(1e-12 * tick_size, 1e-292) ? 0 : tick_size > 1e-290 ? tick_size / 2 : 0.5; \
     tick_low = tick_low - tick_room; tick_high = tick_high + tick_room; \
     tick_step = (tick_high - tick_low) / tick_most; tick_place = floor(log10(tick_step)); \
     tick_part = tick_step / 10.0**tick_place; \

@@ -9,7 +9,7 @@ keys = (grey_means ne '') + (dark_means ne '') + stable + unstable + curves
 below = 66 + (keys > 2 ? 50 : keys > 0 ? 30 : 0)
 width = 900; panels = 2; height = 404 + below
 eval page
-bottom = height - below; right = width - (bar ? 106 : 16); wide = (right - 76 - 84) / 2.0
+bottom = height - below; right = width - (bar ? 120 : 16); wide = (right - 76 - 84) / 2.0
 
 # --- colours of spots. Of the i-th orbit alone: hues that are neither pale nor dark.
 part(hue) = int(255 * (0.47 + 0.36 * cos(2 * pi * hue) - 0.03 * cos(4 * pi * hue)))
