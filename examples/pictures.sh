@@ -74,7 +74,7 @@ EOF
 wild=$work/wild.csv
 draw_sections() {
     "$isoroll" section 16_sections/scene.yaml --starts 80 --crossings 400 -o "$wild" --plot 16_sections/picture.png \
-        2>"$work/out" # a .svg would hold each point
+        2>"$work/out" # a .svg would hold an image
     "$isoroll" section 16_sections/integrable.yaml --starts 40 --crossings 300 -o "$work/tame.csv" \
         --plot 16_sections/integrable.png 2>"$work/out"
     "$isoroll" section 20_rotor/scene.yaml --starts 60 --crossings 300 -o "$work/rotor.csv" \

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "plot/draw.h"
 #include "say.h"
 #include "shell.h"
 #include "study/chaos/chaos_impl.h"
@@ -162,13 +163,29 @@ static iso_status describe(shell *s)
                {.key = NULL}});
 }
 
+/* Of a model that was not followed there is no table. */
+static int draw_indicators(const shell *s)
+{
+    const iso_record *table[3] = {NULL};
+    int count = 0;
+    iso_status status = ISO_OK;
+    for (int i = 1; i <= 2; i++) {
+        iso_record *r = s->result.table[i];
+        if (!r || iso_record_rows(r) == 0) continue;
+        if (status == ISO_OK) status = iso_record_set(s->ctx, r, "title", s->title);
+        table[count++] = r;
+    }
+    if (status == ISO_OK && count == 0)
+        status = iso_context_fail(s->ctx, ISO_BAD_INPUT, "", "no picture: there is no row of indicators");
+    if (status == ISO_OK) status = plot_tables(s->ctx, &s->told->plot, table, NULL);
+    return finish(s->ctx, status);
+}
+
 static int draw(const shell *s)
 {
     const iso_chaos *c = s->result.found;
     if (c->share.count > 0) return shell_draw(s, s->result.table[0]);
-    if (c->plane < 0)
-        return finish(s->ctx,
-                      iso_plot_indicators(s->ctx, &s->told->plot, s->title, c->trace[ISO_BALL], c->trace[ISO_POINT]));
+    if (c->plane < 0) return draw_indicators(s);
     return finish(s->ctx, iso_context_fail(s->ctx, ISO_BAD_INPUT, "",
                                            "no picture: a rotation in a principal plane is periodic, and was not "
                                            "followed; --starts N draws the section of its energy"));

@@ -3,7 +3,8 @@
 
 #include "base/number_impl.h"
 #include "model/effects_impl.h"
-#include "plot/stretch.h"
+#include "picture/stretch_impl.h"
+#include "plot/draw.h"
 #include "say.h"
 #include "shell.h"
 #include "study/study_impl.h"
@@ -198,29 +199,17 @@ static void tell_result(const iso_scene *scene, const iso_comparison *c, char te
 
 static int draw(const shell *s)
 {
-    char title[ISO_PLOT_HEADING], drawn[160], result[200];
+    char result[200];
     const iso_comparison *c = s->result.found;
     const size_t rows = iso_record_rows(c->difference);
     iso_record *curve, *states;
     if (rows == 0) return EXIT_DONE;
     const double end = iso_record_const_row(c->run[ISO_BALL].trajectory, rows - 1)[ISO_CLOCK_T];
-    iso_status status = iso_plot_stretch(s->ctx, &s->scene, end, &curve, &states);
-    if (status == ISO_OK) {
-        iso_plot_heading(title, "One orbit, two worlds, two clocks", &s->scene.params);
-        const double last = iso_record_const_row(states, ISO_STRETCH_STATES - 1)[0];
-        if (last == end)
-            snprintf(drawn, sizeof drawn, "drawn and compared: to t = %.6g; pale: the far side", end);
-        else
-            snprintf(
-                drawn, sizeof drawn,
-                "drawn: a path as long as %.2g great circles, to t = %.4g; compared: to t = %.6g; pale: the far side",
-                ISO_STRETCH_TURNS, last, end);
-        tell_result(&s->scene, c, result, sizeof result);
-        const iso_effects acting = iso_scene_acting(&s->scene);
-        const iso_plot_twins plot = {title, drawn, result, &s->scene.params, iso_effects_have_image(&acting),
-                                     curve, states};
-        status = iso_plot_comparison(s->ctx, &s->told->plot, &plot);
-    }
+    iso_status status = iso_picture_stretch(s->ctx, &s->scene, end, &states, &curve);
+    tell_result(&s->scene, c, result, sizeof result);
+    if (status == ISO_OK) status = iso_record_set(s->ctx, states, "result", result);
+    if (status == ISO_OK)
+        status = plot_tables(s->ctx, &s->told->plot, (const iso_record *[]){states, curve, NULL}, NULL);
     iso_record_free(curve);
     iso_record_free(states);
     return finish(s->ctx, status);

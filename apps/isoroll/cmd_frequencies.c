@@ -3,10 +3,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "plot/draw.h"
 #include "say.h"
 #include "shell.h"
 #include "study/frequencies/frequencies.h"
 #include "study/frequencies/momentum.h"
+#include "study/options_impl.h"
 #include "study/study_impl.h"
 
 /* What frequencies can be told. */
@@ -115,32 +117,28 @@ static void print_table(const shell *s)
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-/* Draws the spectral lines of n(t). After a closed solution they are estimated here. */
-static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene *scene, const iso_frequencies *found)
+/* The map (h, F), or the spectral lines of n(t). After a closed solution without a map they are estimated here. */
+static iso_status draw_found(const shell *s, iso_frequencies *f)
 {
+    const options *o = s->options;
     iso_frequencies_options how = o->study;
+    iso_record *table = NULL;
+    iso_momentum m;
     how.progress = progress_told;
-    iso_frequencies f = *found;
-    const iso_status status = f.estimated ? ISO_OK : iso_frequencies_estimate(ctx, scene, &how, &f);
+    const bool mapped = f->integral && iso_momentum_at(&s->scene.params, f->H, f->h, f->integral->name, f->F, &m);
+    iso_status status = mapped || f->estimated ? ISO_OK : iso_frequencies_estimate(s->ctx, &s->scene, &how, f);
     progress_end();
-    char title[ISO_PLOT_HEADING];
-    iso_plot_heading(title, "Spectrum of n(t)", &scene->params);
-    return status == ISO_OK ? iso_plot_lines(ctx, &o->shell.plot, title, &f.estimate) : status;
+    if (status == ISO_OK)
+        status = iso_study_table(s->ctx, "frequencies", &s->scene, s->result.fields, f, NULL, &table);
+    if (status == ISO_OK) status = plot_tables(s->ctx, &o->shell.plot, (const iso_record *[]){table, NULL}, NULL);
+    iso_record_free(table);
+    return status;
 }
 
 static int draw(const shell *s)
 {
-    char title[ISO_PLOT_HEADING];
-    const options *o = s->options;
-    const iso_frequencies *f = s->result.found;
-    const iso_params *p = &s->scene.params;
-    iso_momentum m;
-    iso_plot_heading(title, "Kinds of motion, by energy h and integral F", p);
-    bool mapped = f->integral && f->h > 0 && iso_momentum_make(p, f->H, &m) && strcmp(f->integral->name, m.F) == 0;
-    double low, high; /* with equal moments the image has no area */
-    mapped = mapped && iso_momentum_interval(&m, f->h, iso_momentum_find(&m, f->h, f->F), &low, &high);
-    return finish(s->ctx, mapped ? iso_plot_momentum(s->ctx, &o->shell.plot, title, &m, (double[]){f->h, f->F})
-                                 : draw_lines(s->ctx, o, &s->scene, f));
+    iso_frequencies f = *(const iso_frequencies *)s->result.found;
+    return finish(s->ctx, draw_found(s, &f));
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */

@@ -1,16 +1,13 @@
 /* isoroll plot - draws a trajectory: the path in space, paths on the spheres, energies, integrals, clocks; or any two
  * of its columns. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/nearest_impl.h"
 #include "io/table.h"
-#include "orbit/description.h"
 #include "parameters.h"
+#include "plot/draw.h"
 #include "plot/plot.h"
-#include "study/check/check_impl.h"
-#include "study/energy.h"
+#include "sweep/sweep_store_impl.h"
 
 typedef struct options {
     file_options from;
@@ -18,116 +15,16 @@ typedef struct options {
     const char *value; /* NULL: not given */
 } options;
 
-/* What is drawn: the file, its conversion, and numbers from both. */
-typedef struct parts {
-    iso_record *file, *twin, *drifts, *paces, *energies;
-} parts;
-
-/* The model of the file; the ball if it has both. */
-static iso_model_kind model_of(const iso_record *record)
-{
-    return iso_record_find(record, "n1") >= 0 && iso_record_find(record, "omega1") >= 0 ? ISO_BALL : ISO_POINT;
-}
-
-/* ds/dt and dtau/dt in every row, up to their factors: powers of q = (gamma, J gamma), (16) and (24) of the theory. */
-static iso_status add_paces(iso_context *ctx, const iso_params *params, const iso_record *r, int clock,
-                            iso_record *paces)
-{
-    const bool ball = model_of(r) == ISO_BALL;
-    const int place = iso_record_find(r, ball ? "n1" : "gamma1");
-    double first = 0;
-    for (size_t i = 0; i < iso_record_rows(r); i++) {
-        double y[ISO_STATE] = {0};
-        const double *row = iso_record_const_row(r, i), e = 1 / (2 * params->k);
-        for (int c = 0; c < 3; c++) y[3 + c] = row[place + c];
-        const double q = iso_system_at(ball ? ISO_BALL : ISO_POINT)->q(params, y, NULL);
-        if (i == 0) first = q;
-        ISO_TRY(iso_record_add(ctx, paces, 1, (double[]){row[clock], pow(q / first, 1 + e), pow(q / first, 1 - e)}));
-    }
-    return ISO_OK;
-}
-
-/* Makes the mean of a column 1. */
-static void divide_by_mean(iso_record *r, int column)
-{
-    double sum = 0;
-    const size_t rows = iso_record_rows(r);
-    for (size_t i = 0; i < rows; i++) sum += iso_record_const_row(r, i)[column];
-    for (size_t i = 0; i < rows; i++) iso_record_row(r, i)[column] *= (double)rows / sum;
-}
-
-/* Where there is a twin, there are other clocks. */
-static iso_status find_paces(iso_context *ctx, const iso_params *params, parts *p)
-{
-    const char *names[] = {model_of(p->file) == ISO_BALL ? "t" : "s", "ds/dt", "dtau/dt"};
-    const int clock = iso_record_find(p->file, names[0]);
-    const bool both = iso_record_find(p->file, "n1") >= 0 && iso_record_find(p->file, "gamma1") >= 0;
-    if (clock < 0 || !(p->twin || both)) return ISO_OK;
-    ISO_TRY(iso_record_create(ctx, 3, names, &p->paces));
-    ISO_TRY(add_paces(ctx, params, p->file, clock, p->paces));
-    for (int c = 1; c < 3; c++) divide_by_mean(p->paces, c);
-    return ISO_OK;
-}
-
-/* Converts the file. A ball at rest, or with effects that break the isomorphism, has no twin and is drawn alone. */
-static iso_status find_twin(iso_context *ctx, const iso_params *params, parts *p)
-{
-    if (iso_record_find(p->file, "n1") >= 0 && iso_record_find(p->file, "gamma1") >= 0) return ISO_OK;
-    const iso_model_kind to = model_of(p->file) == ISO_BALL ? ISO_POINT : ISO_BALL;
-    const iso_status status = iso_convert(ctx, params, p->file, to, 1e-12, &p->twin);
-    if (status != ISO_NOT_MAPPED) return status;
-    complain("%s is drawn alone: %s", to == ISO_POINT ? "the ball" : "the point", iso_context_message(ctx));
-    return ISO_OK;
-}
-
 static const char *name_of(const options *o)
 {
     const char *slash = strrchr(o->from.file, '/');
     return slash ? slash + 1 : iso_text_name(o->from.file);
 }
 
-/* Whether the file has the path of a ball in space; into `space`, what the file says of it. */
-static bool find_space(iso_context *ctx, const iso_params *params, const iso_record *file, double up[3],
-                       iso_plot_space *space)
-{
-    *space = (iso_plot_space){.rows = file, .plane = params->k == 1};
-    if (iso_record_up(ctx, file, up)) space->up = up;
-    return iso_record_find(file, "centre1") >= 0 || iso_record_find(file, "contact1") >= 0;
-}
-
-static iso_status draw(iso_context *ctx, const options *o, const iso_params *params, parts *p)
-{
-    char title[ISO_PLOT_HEADING];
-    double up[3];
-    iso_plot_space space;
-    iso_status status = find_twin(ctx, params, p);
-    if (status == ISO_OK) status = find_paces(ctx, params, p);
-    if (status == ISO_OK) status = iso_check_drifts(ctx, params, p->file, &p->drifts);
-    /* of a free ball the energy is one of the integrals, whose drift is drawn */
-    const bool forced = model_of(p->file) == ISO_BALL && iso_record_get(p->file, "effects");
-    if (status == ISO_OK && forced) status = iso_record_energies(ctx, params, p->file, &p->energies);
-    if (status != ISO_OK) return status;
-    const bool ball = iso_record_find(p->file, "n1") >= 0, point = iso_record_find(p->file, "gamma1") >= 0;
-    const bool in_space = find_space(ctx, params, p->file, up, &space);
-    const bool twins = (ball || point) && (p->twin || (ball && point));
-    const char *seen = in_space ? "The path of a ball"
-                       : twins  ? "One orbit on both spheres"
-                       : ball   ? "A ball without a twin"
-                                : "A point without a twin";
-    iso_plot_heading(title, seen, params);
-    const iso_plot_orbit plot = {.title = title,
-                                 .ball = ball ? p->file : p->twin,
-                                 .point = point ? p->file : p->twin,
-                                 .drift = p->drifts,
-                                 .paces = p->paces,
-                                 .energies = p->energies,
-                                 .space = in_space ? &space : NULL};
-    return iso_plot_trajectory(ctx, &o->page, &plot);
-}
-
 /* --- two columns ------------------------------------------------------------------------------------------------ */
 
 enum { NAME = 32 };
+#define TRAJECTORY "trajectory"
 
 /* Whether --columns names two columns; "-" stands for a column that is not read, and is not counted. */
 static bool names_two(const char *columns, char name[2][NAME])
@@ -143,64 +40,35 @@ static bool names_two(const char *columns, char name[2][NAME])
     return count == 2;
 }
 
-/* Reads a file, and says how many rows of nan it passes over. */
-static iso_status read_good(iso_context *ctx, const options *o, const char *columns, iso_record **file)
+/* Reads a table of this kind, and says how many rows of nan it passes over. */
+static iso_status read_good(iso_context *ctx, const options *o, const char *kind, const char *columns,
+                            iso_record **file)
 {
     size_t passed;
-    const iso_status status = iso_table_read(ctx, o->from.file, "trajectory", columns, file, &passed);
+    const iso_status status = iso_table_read(ctx, o->from.file, kind, columns, file, &passed);
     if (status != ISO_OK || passed == 0) return status;
     complain("%s: %zu rows of nan were passed over", name_of(o), passed);
     return ISO_OK;
 }
 
 /* Reads the file by its own names of columns. If it has none, or if --columns has a "-", by those of --columns. */
-static iso_status read_two(iso_context *ctx, const options *o, iso_record **file)
+static iso_status read_two(iso_context *ctx, const options *o, const char *kind, iso_record **file)
 {
+    if (strcmp(kind, TRAJECTORY) != 0) return read_good(ctx, o, NULL, NULL, file);
     const bool passes = strstr(o->from.columns, "-") != NULL, once = strcmp(o->from.file, "-") == 0;
-    const iso_status status = read_good(ctx, o, passes ? o->from.columns : NULL, file);
+    const iso_status status = read_good(ctx, o, kind, passes ? o->from.columns : NULL, file);
     if (status == ISO_OK || passes || once) return status;
-    if (read_good(ctx, o, o->from.columns, file) == ISO_OK) return ISO_OK;
-    return read_good(ctx, o, NULL, file); /* once more, for its words */
+    if (read_good(ctx, o, kind, o->from.columns, file) == ISO_OK) return ISO_OK;
+    return read_good(ctx, o, kind, NULL, file); /* once more, for its words */
 }
 
-static iso_status find_column(iso_context *ctx, const iso_record *r, const char *name)
+static iso_status draw_two(iso_context *ctx, const options *o, const char *kind, char name[2][NAME])
 {
-    char suggested[ISO_SUGGEST_SIZE];
-    const char *names[ISO_TRAJECTORY_COLUMNS];
-    size_t count = 0;
-    if (iso_record_find(r, name) >= 0) return ISO_OK;
-    for (; count < iso_record_columns(r) && count < ISO_TRAJECTORY_COLUMNS; count++)
-        names[count] = iso_record_name(r, count);
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "there is no column '%s'; %s", name,
-                            iso_suggest(suggested, name, count, names));
-}
-
-/* Whether x and y are components of one vector: one unit is then equally long on both axes. */
-static bool are_components(const char *x, const char *y)
-{
-    const size_t length = strlen(x);
-    return length > 1 && strlen(y) == length && strncmp(x, y, length - 1) == 0 && x[0] != 'q' &&
-           strchr("123", x[length - 1]) && strchr("123", y[length - 1]);
-}
-
-/* k and J, if the file says them; else "": the axes have names. */
-static void what_is_drawn(iso_context *ctx, const iso_record *r, char title[static ISO_PLOT_TITLE])
-{
-    iso_params params;
-    *title = '\0';
-    if (iso_record_params(ctx, r, &params) == ISO_OK) iso_plot_title(title, &params, "%s", "");
-}
-
-static iso_status draw_two(iso_context *ctx, const options *o, char name[2][NAME])
-{
-    char title[ISO_PLOT_TITLE];
+    char wish[2 * NAME + 16];
     iso_record *file = NULL;
-    iso_status status = read_two(ctx, o, &file);
-    for (int i = 0; status == ISO_OK && i < 2; i++) status = find_column(ctx, file, name[i]);
-    if (status == ISO_OK) {
-        what_is_drawn(ctx, file, title);
-        status = iso_plot_columns(ctx, &o->page, title, file, name[0], name[1], are_components(name[0], name[1]));
-    }
+    iso_status status = read_two(ctx, o, kind, &file);
+    snprintf(wish, sizeof wish, "columns=%s,%s", name[0], name[1]);
+    if (status == ISO_OK) status = plot_tables(ctx, &o->page, (const iso_record *[]){file, NULL}, wish);
     iso_record_free(file);
     return status;
 }
@@ -209,26 +77,28 @@ static iso_status draw_two(iso_context *ctx, const options *o, char name[2][NAME
 
 static iso_status draw_file(iso_context *ctx, const options *o)
 {
-    parts p = {NULL, NULL, NULL, NULL, NULL};
     iso_params params;
-    iso_status status = read_good(ctx, o, o->from.columns, &p.file);
-    if (status == ISO_OK) status = parameters_of_file(ctx, &o->from, p.file, &params);
-    if (status == ISO_OK) status = draw(ctx, o, &params, &p);
-    iso_record_free(p.file);
-    iso_record_free(p.twin);
-    iso_record_free(p.drifts);
-    iso_record_free(p.paces);
-    iso_record_free(p.energies);
+    iso_record *file = NULL;
+    iso_status status = read_good(ctx, o, TRAJECTORY, o->from.columns, &file);
+    if (status == ISO_OK) status = parameters_of_file(ctx, &o->from, file, &params);
+    if (status == ISO_OK) status = plot_tables(ctx, &o->page, (const iso_record *[]){file, NULL}, NULL);
+    iso_record_free(file);
     return status;
 }
 
-static iso_status draw_table(iso_context *ctx, const options *o)
+/* A sweep is read with its sum: one that was changed is refused. */
+static iso_status draw_table(iso_context *ctx, const options *o, bool sweep)
 {
+    char value[NAME * 4] = "";
     iso_record *table = NULL;
-    iso_status status = iso_table_read(ctx, o->from.file, NULL, NULL, &table, NULL);
-    if (status == ISO_OK) status = iso_plot_table(ctx, &o->page, table);
+    if (o->value) snprintf(value, sizeof value, "value=%s", o->value);
+    iso_status status = sweep ? iso_sweep_read_table(ctx, o->from.file, &table)
+                              : iso_table_read(ctx, o->from.file, NULL, NULL, &table, NULL);
+    if (status == ISO_OK)
+        status = sweep ? plot_tables(ctx, &o->page, (const iso_record *[]){table, NULL}, value)
+                       : iso_plot_table(ctx, &o->page, table);
     iso_record_free(table);
-    return status;
+    return sweep ? name_the_file(ctx, o->from.file, status) : status;
 }
 
 static int run(iso_context *ctx, const void *options_given)
@@ -244,14 +114,17 @@ static int run(iso_context *ctx, const void *options_given)
     if (sweep && o->from.columns)
         return complain("plot: --columns is for trajectories; of a sweep give --value NAME"), EXIT_USAGE;
     const char *wish = iso_plot_section_wish(&o->page);
-    if (wish && !iso_plot_has_kind(kind)) return complain("plot: --%s is for sections", wish), EXIT_USAGE;
-    if (*kind && !sweep && strcmp(kind, "trajectory") != 0 && !iso_plot_has_kind(kind))
+    if (!*kind) strcpy(kind, TRAJECTORY); /* a file of others */
+    const bool trajectory = strcmp(kind, TRAJECTORY) == 0;
+    if (wish && (trajectory || o->from.columns || !iso_plot_has_kind(kind)))
+        return complain("plot: --%s is for sections", wish), EXIT_USAGE;
+    if (!sweep && !iso_plot_has_kind(kind))
         return complain("plot: there is no picture of a table '%s'", kind), EXIT_USAGE;
-    if (sweep) return finish(ctx, iso_plot_sweep(ctx, &o->page, o->from.file, o->value));
-    if (status == ISO_OK && o->value)
+    if (status == ISO_OK && o->value && !sweep)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "plot: --value is for results of sweeps");
-    if (status == ISO_OK && !o->from.columns && iso_plot_has_kind(kind)) return finish(ctx, draw_table(ctx, o));
-    if (status == ISO_OK) status = names_two(o->from.columns, name) ? draw_two(ctx, o, name) : draw_file(ctx, o);
+    if (status == ISO_OK && !o->from.columns && !trajectory) return finish(ctx, draw_table(ctx, o, sweep));
+    if (status == ISO_OK)
+        status = names_two(o->from.columns, name) ? draw_two(ctx, o, kind, name) : draw_file(ctx, o);
     return finish(ctx, name_the_file(ctx, o->from.file, status));
 }
 
@@ -287,6 +160,7 @@ const command command_plot = {
         "the picture. On the screen its letters grow with --size. --style print has letters of 8 pt; without "
         "--size it is 86 mm wide if it is one panel, else 178 mm. A px is a pixel of a .png, and 1/96 inch "
         "elsewhere. --script "
-        "FILE keeps the script of gnuplot with its data: gnuplot -d FILE >PICTURE draws the same.",
+        "FILE keeps the script of gnuplot with its data: gnuplot -d FILE >PICTURE draws the same. --template FILE "
+        "draws with a template of your own; copy one of those in share/isoroll/pictures.",
     .example = "isoroll plot trajectory.csv -o trajectory.svg",
 };

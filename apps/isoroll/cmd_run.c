@@ -107,7 +107,7 @@ static void tell_errors(const iso_run_result *r)
 /* Ends the file with all rows there are: what was computed before a failure or an interruption is kept. */
 static int close_file(const target *t, iso_status status, const iso_run_result *r)
 {
-    const bool keep = status == ISO_OK || status == ISO_STOPPED || (status == ISO_NUMERICAL && r->rows > 0);
+    const bool keep = status == ISO_OK || ((status == ISO_STOPPED || status == ISO_NUMERICAL) && r->rows > 0);
     const int result = finish(t->ctx, status);
     if (!t->writer) return result;
     const iso_status closed = iso_table_writer_close(t->ctx, t->writer, keep);

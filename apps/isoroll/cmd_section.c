@@ -3,10 +3,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "plot/section_picture.h"
+#include "picture/section_impl.h"
+#include "plot/draw.h"
 #include "say.h"
 #include "scene_options.h"
 #include "shell.h"
+#include "study/chaos/chaos.h"
 #include "study/section/section_impl.h"
 
 /* What section can be told. */
@@ -28,7 +30,7 @@ typedef struct target {
     const options *o;
     bool opened; /* from here on, an error is no mistake in the scene */
     iso_table_writer *writer;
-    section_picture *picture; /* NULL: none is drawn */
+    iso_picture_points *picture; /* NULL: none is drawn */
 } target;
 
 /* --- the rows --------------------------------------------------------------------------------------------------- */
@@ -37,7 +39,7 @@ static iso_status open_file(void *data, const iso_record *header)
 {
     target *t = data;
     t->opened = true;
-    iso_status status = t->o->shell.plot.path ? section_picture_create(t->ctx, header, &t->picture) : ISO_OK;
+    iso_status status = t->o->shell.plot.path ? iso_picture_points_create(t->ctx, header, &t->picture) : ISO_OK;
     if (status == ISO_OK) status = iso_table_writer_open(t->ctx, table_of(t->o), "section", &t->writer);
     return status == ISO_OK ? iso_table_write_header(t->ctx, t->writer, header) : status;
 }
@@ -46,7 +48,7 @@ static iso_status write_row(void *data, const double row[], size_t count)
 {
     const target *t = data;
     (void)count;
-    const iso_status status = t->picture ? section_picture_row(t->ctx, t->picture, row) : ISO_OK;
+    const iso_status status = t->picture ? iso_picture_points_row(t->ctx, t->picture, row) : ISO_OK;
     return status != ISO_OK ? status : iso_table_write_row(t->ctx, t->writer, row);
 }
 
@@ -54,7 +56,8 @@ static iso_status keep_pair(void *data, size_t orbit, const iso_crossing *ball, 
 {
     const target *t = data;
     (void)orbit;
-    return t->picture ? section_picture_pair(t->ctx, t->picture, ball, point) : ISO_OK;
+    if (!t->picture) return ISO_OK;
+    return iso_picture_points_pair(t->ctx, t->picture, (double[]){ball->l, ball->x}, (double[]){point->l, point->x});
 }
 
 static void tell_note(void *data, const char *words)
@@ -100,25 +103,41 @@ static void tell(const iso_section_result *r)
 /* Finds out which of the orbits are chaotic: the picture draws these in grey. If there are more than MOST_ORBITS, or
  * if this fails, the picture draws those in grey on which the models part. */
 static void judge(iso_context *ctx, const iso_scene *scene, const iso_section_options *how,
-                  const iso_section_result *r, section_picture *picture)
+                  const iso_section_result *r, iso_picture_points *picture)
 {
     enum { MOST_ORBITS = 3000 };
     iso_chaos *chaos = NULL;
     iso_chaos_options c = iso_chaos_defaults();
-    c.at_count = section_picture_starts(picture, &c.at);
+    c.at_count = iso_picture_points_starts(picture, &c.at);
     c.models = r->models == ISO_SHOW_BOTH ? ISO_SHOW_POINT : r->models;
     c.axis = r->nature.axis;
     c.tolerance = how->tolerance;
     c.threads = how->threads;
     if (r->orbits > MOST_ORBITS || c.at_count == 0) return;
-    if (iso_chaos_run(ctx, scene, &c, &chaos) == ISO_OK) section_picture_judge(ctx, picture, chaos);
+    c.progress = progress_told;
+    progress_doing("verdicts");
+    iso_status status = iso_chaos_run(ctx, scene, &c, &chaos);
+    for (size_t i = 0; status == ISO_OK && i < chaos->starts; i++)
+        status =
+            iso_picture_points_judge(ctx, picture, chaos->start[i].l, chaos->start[i].x, chaos->start[i].verdict);
     iso_chaos_free(chaos);
 }
 
 static int draw(target *t, const iso_scene *scene, const iso_section_options *how, const iso_section_result *r)
 {
+    const iso_plot_page *page = &t->o->shell.plot;
+    char text[PLOT_SECTION_OPTIONS];
+    iso_record *over[ISO_PLOT_OVERS + 1];
+    iso_picture picture = {.layout = NULL};
     if (!interrupted()) judge(t->ctx, scene, how, r, t->picture);
-    return finish(t->ctx, section_picture_draw(t->ctx, t->picture, &t->o->shell.plot));
+    iso_status status = plot_read_over(t->ctx, page, over);
+    if (status == ISO_OK)
+        status = iso_picture_points_make(t->ctx, t->picture, (const iso_record *const *)over,
+                                         plot_section_options(page, text), &picture);
+    if (status == ISO_OK) status = plot_draw(t->ctx, page, &picture);
+    for (int i = 0; i < ISO_PLOT_OVERS; i++) iso_record_free(over[i]);
+    iso_picture_free(&picture);
+    return finish(t->ctx, status);
 }
 
 /* --- the whole -------------------------------------------------------------------------------------------------- */
@@ -153,7 +172,7 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
         const int drawn = draw(&t, scene, how, &r);
         if (drawn != EXIT_DONE) result = drawn;
     }
-    section_picture_free(t.picture);
+    iso_picture_points_free(t.picture);
     return result;
 }
 

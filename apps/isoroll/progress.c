@@ -20,7 +20,7 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static pthread_cond_t woken;
 static struct {
     bool works, drawn;
-    bool picture;       /* gnuplot draws, which tells nothing */
+    const char *what;   /* is done, if it is not the work itself; NULL: it is */
     double begun;       /* when                                            */
     double first, part; /* told first, and last; NAN: nothing has been told */
     pthread_t drawer;
@@ -48,10 +48,11 @@ static int print_time(char *to, size_t room, double seconds)
 static void print_words(char words[LINE])
 {
     const double elapsed = wall_seconds() - bar.begun, done = bar.part - bar.first;
-    int used = bar.picture ? snprintf(words, LINE, "drawing, ")
-                           : snprintf(words, LINE, "%3.0f %% ", 100 * (isnan(bar.part) ? 0 : bar.part));
+    int used = bar.what ? snprintf(words, LINE, "%s, ", bar.what) : 0;
+    if (!bar.what || !isnan(bar.part))
+        used += snprintf(words + used, (size_t)(LINE - used), "%3.0f %% ", 100 * (isnan(bar.part) ? 0 : bar.part));
     used += print_time(words + used, (size_t)(LINE - used), elapsed);
-    if (bar.picture || !(done > 0)) return;
+    if (bar.what || !(done > 0)) return;
     used += snprintf(words + used, (size_t)(LINE - used), ", ");
     used += print_time(words + used, (size_t)(LINE - used), elapsed * (1 - bar.part) / done);
     snprintf(words + used, (size_t)(LINE - used), " left");
@@ -119,7 +120,7 @@ void progress_begin(void)
     if (!bar.works) {
         bar.begun = wall_seconds();
         bar.first = bar.part = NAN;
-        bar.picture = false;
+        bar.what = NULL;
         bar.works = true;
         bar.works = start_drawer();
     }
@@ -145,11 +146,12 @@ void progress_told(double part, void *unused)
     progress_show(part);
 }
 
-void progress_drawing(void)
+void progress_doing(const char *what)
 {
     progress_begin();
     pthread_mutex_lock(&lock);
-    bar.picture = true;
+    bar.what = what;
+    bar.first = bar.part = NAN;
     pthread_mutex_unlock(&lock);
 }
 

@@ -22,8 +22,9 @@ void progress_show(double part);
 /* The same, for options of the library that take such a function. */
 void progress_told(double part, void *unused);
 
-/* gnuplot draws from now on until progress_end: how much of it is done is not known. */
-void progress_drawing(void);
+/* What is done from now on until progress_end, "drawing" or another word: the bar shows it, and a part only if it is
+ * told. */
+void progress_doing(const char *what);
 
 /* The work has ended: takes the bar away. */
 void progress_end(void);

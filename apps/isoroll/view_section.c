@@ -14,6 +14,7 @@
 #include "map/state.h"
 #include "view.h"
 
+enum { MOST_VERDICTS = 3000 /* they take seconds */ };
 enum { LEAST_ROWS = 60, MOST_ROWS = 1500, ORBIT_NUMBERS = 17 /* of a row: t tau s, M, gamma, q, its neighbour */ };
 /* About how far the ball, n or gamma turns from row to row, in radians. LONG: if there are many orbits, each has few
  * rows, farther apart. */
@@ -186,7 +187,7 @@ static iso_status add_orbits(iso_context *ctx, view_page *page, const section *s
     const double rows = fmin(floor(VIEW_MOST_NUMBERS / (ORBIT_NUMBERS * (double)count)), MOST_ROWS);
     for (size_t o = 0; o < count; o++) ISO_TRY(run_orbit(ctx, page, s, s->first[o], (size_t)rows));
     if (count < s->orbits) view_note(page, "The first %zu of the %zu orbits can run in this page.", count, s->orbits);
-    return add_verdicts(ctx, page, s, count);
+    return add_verdicts(ctx, page, s, s->orbits < MOST_VERDICTS ? s->orbits : MOST_VERDICTS);
 }
 
 iso_status view_of_section(iso_context *ctx, const file_options *from, view_page *page)

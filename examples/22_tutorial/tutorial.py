@@ -186,21 +186,19 @@ print(splitting)
 # ## A figure for a paper
 #
 # Two columns of a journal are 178 mm wide. `plot` draws into Axes of your own, so a figure is put together as with any
-# other data. The end of the name says what is written: `.pdf` has vectors, for the journal; `.png` is for a page.
+# other data. Over the section are the periodic orbits: rings are stable ones, crosses unstable ones. The end of the
+# name says what is written: `.pdf` has vectors, for the journal; `.png` is for a page.
 
 # %%
 plt.rcParams.update({"font.size": 7, "axes.titlesize": 7, "legend.fontsize": 6, "pdf.fonttype": 42})
 figure, axes = plt.subplots(2, 2, figsize=(178 / 25.4, 135 / 25.4), layout="constrained")
-section.plot(ax=axes[0])
+section.plot(ax=axes[0], over=periodic)
 for at in axes[0]:
-    at.collections[0].set_sizes([0.5])  # dots for a small figure
-stable = periodic.stability == "stable"
-for rows, look, word in ((stable, "ok", "stable"), (~stable, "xk", "unstable")):
-    axes[0, 1].plot(periodic.l[rows], periodic.M[rows, 2], look, ms=4, mfc="white", label=word)
-axes[0, 1].set_ylim(bottom=-9)
-axes[0, 1].legend(loc="lower center", ncols=3)
+    for dots in at.collections[:3]:  # grey, dark, and coloured ones
+        dots.set_sizes([0.5])  # for a small figure
+axes[0, 0].get_legend().remove()
 sweep.plot(ax=axes[1, 0])
-axes[1, 0].set_ylabel("chaotic share of the section")
+axes[1, 0].set(ylabel="chaotic share of the section", title="")
 splitting.plot(ax=axes[1, 1])
 axes[1, 1].set(ylabel="splitting |m|", title="")
 for letter, at in zip("abcd", axes.flat):

@@ -9,7 +9,11 @@
 #include "orbit/description.h"
 #include "picture/picture_impl.h"
 
-static const iso_picture_maker *const makers[] = {&iso_picture_splitting};
+static const iso_picture_maker *const makers[] = {
+    &iso_picture_branch,    &iso_picture_chaos,       &iso_picture_chart,      &iso_picture_compare,
+    &iso_picture_cost,      &iso_picture_frequencies, &iso_picture_indicators, &iso_picture_periodic,
+    &iso_picture_section,   &iso_picture_splitting,   &iso_picture_sweep,      &iso_picture_sweep_part,
+    &iso_picture_trajectory};
 enum { MAKERS = sizeof makers / sizeof *makers };
 
 const char *iso_picture_kind(int i)
@@ -56,7 +60,7 @@ static iso_status check_table(iso_context *ctx, const iso_record *r, const iso_p
     for (size_t i = 0; i < sizeof m->columns / sizeof *m->columns && m->columns[i]; i++)
         if (iso_record_find(r, m->columns[i]) < 0)
             return ISO_FAIL_INPUT(ctx, "", "no picture: the table has no column '%s'", m->columns[i]);
-    if (iso_record_rows(r) == 0) return ISO_FAIL_INPUT(ctx, "", "no picture: the table has no rows");
+    if (iso_record_rows(r) == 0 && !m->alone) return ISO_FAIL_INPUT(ctx, "", "no picture: the table has no rows");
     if (!m->axis || iso_picture_axis(r) >= 0) return ISO_OK;
     return ISO_FAIL_INPUT(ctx, "", "no picture: the table does not say its axis, in a line '# axis: 3'");
 }
@@ -66,13 +70,14 @@ static iso_status check_table(iso_context *ctx, const iso_record *r, const iso_p
 iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], const char *options,
                             iso_picture *picture)
 {
-    char title[ISO_PICTURE_TITLE];
-    const iso_picture_maker *m = NULL;
+    char title[ISO_PICTURE_TITLE], columns[ISO_PICTURE_OPTION];
+    iso_picture_request q = {.table = table, .options = options, .title = iso_record_get(table[0], "title")};
+    const iso_picture_maker *m = iso_picture_option(&q, "columns", columns) ? &iso_picture_columns : NULL;
+    const char *kind = *iso_record_kind(table[0]) ? iso_record_kind(table[0]) : "trajectory"; /* of others */
     *picture = (iso_picture){.layout = NULL};
     for (int i = 0; i < MAKERS && !m; i++)
-        if (strcmp(makers[i]->kind, iso_record_kind(table[0])) == 0) m = makers[i];
-    if (!m) return ISO_FAIL_INPUT(ctx, "", "there is no picture of a table '%s'", iso_record_kind(table[0]));
-    iso_picture_request q = {.table = table, .options = options, .title = iso_record_get(table[0], "title")};
+        if (strcmp(makers[i]->kind, kind) == 0) m = makers[i];
+    if (!m) return ISO_FAIL_INPUT(ctx, "", "there is no picture of a table '%s'", kind);
     ISO_TRY(check_options(ctx, &q, m));
     ISO_TRY(check_table(ctx, table[0], m));
     if (!q.title && iso_record_get(table[0], "k")) {
@@ -106,7 +111,8 @@ iso_status iso_picture_add(iso_context *ctx, iso_picture *picture, const char *n
                            const char *const names[], iso_record **table)
 {
     int i = 0;
-    while (picture->table[i]) i++; /* the makers know how many they have */
+    while (i < ISO_PICTURE_TABLES - 1 && picture->table[i]) i++;
+    if (picture->table[i]) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture has too many tables");
     ISO_TRY(iso_record_create(ctx, columns, names, &picture->table[i]));
     iso_record_set_kind(picture->table[i], name);
     *table = picture->table[i];
@@ -121,6 +127,30 @@ iso_status iso_picture_say(iso_context *ctx, iso_picture *picture, const char *k
 iso_status iso_picture_count(iso_context *ctx, iso_picture *picture, const char *key, double number)
 {
     return iso_record_set_numbers(ctx, picture->table[0], key, 1, &number);
+}
+
+iso_status iso_picture_as_it_is(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
+{
+    const iso_record *r = q->table[0];
+    iso_record **copy = &picture->table[0];
+    double *row;
+    const char *names[ISO_PICTURE_MOST_COLUMNS];
+    const size_t columns = iso_record_columns(r);
+    if (columns > ISO_PICTURE_MOST_COLUMNS)
+        return ISO_FAIL_INPUT(ctx, "", "no picture: there are %zu columns", columns);
+    for (size_t c = 0; c < columns; c++) names[c] = iso_record_name(r, c);
+    ISO_TRY(iso_record_create(ctx, columns, names, copy)); /* without its lines, which are no variables of ours */
+    for (size_t c = 0; c < columns; c++) iso_record_set_words(*copy, c, iso_record_has_words(r, c));
+    iso_record_set_kind(*copy, "table");
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        ISO_TRY(iso_record_append(ctx, *copy, &row));
+        for (size_t c = 0; c < columns; c++) {
+            row[c] = iso_record_const_row(r, i)[c];
+            if (iso_record_has_words(r, c))
+                ISO_TRY(iso_record_intern(ctx, *copy, iso_record_word(r, row[c]), &row[c]));
+        }
+    }
+    return ISO_OK;
 }
 
 /* --- tables ----------------------------------------------------------------------------------------------------- */
@@ -159,7 +189,7 @@ char *iso_picture_fraction(char text[static ISO_PICTURE_FRACTION], double x)
 char *iso_picture_title(char title[static ISO_PICTURE_TITLE], const char *seen, const iso_params *p)
 {
     char k[ISO_PICTURE_FRACTION];
-    snprintf(title, ISO_PICTURE_TITLE, "%s        k = %s, J = (%.6g, %.6g, %.6g)", seen,
+    snprintf(title, ISO_PICTURE_TITLE, "%s%sk = %s, J = (%.6g, %.6g, %.6g)", seen, *seen ? "        " : "",
              iso_picture_fraction(k, p->k), p->J[0], p->J[1], p->J[2]);
     return title;
 }

@@ -2,11 +2,11 @@
  *
  *     iso_picture picture;
  *     status = iso_picture_make(ctx, (const iso_record *[]){section, chaos, NULL}, "window=0:1,0:0.5", &picture);
- *     ... picture.layout is "section", picture.table[0] has the columns side, right, up, colour, shade
+ *     ... picture.layout is "section", picture.table[0], "ball", has the columns right, up, shade, colour
  *     iso_picture_free(&picture);
  *
  * The command's templates (apps/isoroll/pictures), Matplotlib and the page draw these tables, and compute nothing:
- * which rows are grey, dashed, marked, or left out is said here, once. lib/doc/formats.md has the columns.
+ * which rows are grey, dashed, marked, or left out is said here, once. The head of each file of this folder has its tables.
  */
 #ifndef ISO_PICTURE_PICTURE_H
 #define ISO_PICTURE_PICTURE_H
@@ -30,7 +30,7 @@ typedef struct iso_picture {
  *   columns=X,Y            of a trajectory: Y over X alone
  *   value=NAME             of a sweep: the column that is drawn
  *   window=L0:L1,X0:X1     of a section: this part of it
- *   points=N               of a section: at most so many points a side
+ *   points=N               of a section: at most so many spots a side; of more an image is made
  * Errors: ISO_BAD_INPUT: no picture shows such a table, it has no rows, or a column or line is missing;
  * ISO_BAD_ARGUMENT about an option; ISO_NUMERICAL, ISO_NO_MEMORY. The picture is then empty. */
 ISO_API iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], const char *options,

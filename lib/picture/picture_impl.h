@@ -4,6 +4,7 @@
 
 #include "model/params.h"
 #include "picture/picture.h"
+#include "study/frequencies/momentum.h"
 
 /* What is asked for. */
 typedef struct iso_picture_request {
@@ -40,9 +41,73 @@ char *iso_picture_fraction(char text[static ISO_PICTURE_FRACTION], double x);
 /* A symbol for the name of a column: "γ" for "gamma", "n₁" for "n1"; the name itself if there is none. */
 const char *iso_picture_symbol(const char *name);
 
+/* What a path on a sphere is. */
+#define ISO_PICTURE_OF_BALL "the ball: n, the normal where it touches"
+#define ISO_PICTURE_OF_POINT "the point: γ, its place"
+
+/* --- paths and curves ------------------------------------------------------------------------------------------- */
+
+/* The rows that are drawn of a path: all, or so many with the first and the last; the i-th of them. */
+enum { ISO_PICTURE_ROWS = 5000 };
+size_t iso_picture_drawn(const iso_record *r);
+const double *iso_picture_row(const iso_record *r, size_t i);
+
+/* The first of `count` columns that stand side by side and are finite in all rows. Errors: ISO_BAD_INPUT (they are not
+ * there), ISO_NUMERICAL. */
+iso_status iso_picture_find(iso_context *ctx, const iso_record *r, int count, const char *const names[], int *first);
+
+/* Adds a table `name`, the path of three columns of unit vectors on the sphere (see sphere.c), and a line
+ * NAME_length: its length in radians, 0: its rows are too far apart to be joined, and NAME_rows, how many there are.
+ * Adds its ends to a table "ends", and the axes of the sphere to a table "axes"; `step`: the numbers of axes keep
+ * away from every step-th row. */
+iso_status iso_picture_path(iso_context *ctx, iso_picture *picture, const char *name, const iso_record *r,
+                            int column);
+iso_status iso_picture_axes(iso_context *ctx, iso_picture *picture, const char *name, const iso_record *r, int column,
+                            size_t step);
+
+/* A vector as it is seen: right, up, and towards the eye (> 0: it is near). */
+void iso_picture_see(const double v[3], double seen[3]);
+
+/* Whether no two drawn rows are so far apart, in radians about 0, that they are no path. */
+bool iso_picture_joined(const iso_record *r, int column);
+
+/* Adds the tables "path" and "marks", and what they show (see space.c). up: the vertical, a unit vector in axes of
+ * space, NULL: not known; plane: the support is one, else a sphere about 0. Errors: ISO_BAD_INPUT (no columns of a
+ * place), ISO_BAD_ARGUMENT (up), ISO_NUMERICAL. */
+iso_status iso_picture_space(iso_context *ctx, const iso_record *r, const double *up, bool plane,
+                             iso_picture *picture);
+
+/* The rows at which contact is lost: `pressure` falls to 0, or becomes negative (the support would have to pull).
+ * Returns how many. */
+enum { ISO_PICTURE_LOSSES = 20 };
+int iso_picture_losses(const iso_record *r, size_t lost[ISO_PICTURE_LOSSES]);
+
+/* Adds a curve of a chart to the tables "curves" and "values" (see curves.c): a column over another one. */
+typedef enum iso_picture_thinning {
+    ISO_PICTURE_EVENLY,
+    ISO_PICTURE_EXTREMES,
+    ISO_PICTURE_LARGEST
+} iso_picture_thinning;
+typedef struct iso_picture_curve {
+    const char *chart, *name; /* name: NULL: the symbol of the column */
+    const iso_record *rows;
+    int over, column;
+    bool right; /* its axis is on the right */
+    iso_picture_thinning thinning;
+    double top; /* it is cut off there; INFINITY: nowhere */
+} iso_picture_curve;
+iso_status iso_picture_add_curve(iso_context *ctx, iso_picture *picture, const iso_picture_curve *curve);
+
+/* Adds the empty tables "curves" and "values". */
+iso_status iso_picture_add_curves(iso_context *ctx, iso_picture *picture);
+
 /* What is seen, a gap, and "k = ..., J = (...)". Returns `title`. */
 enum { ISO_PICTURE_TITLE = 400 };
 char *iso_picture_title(char title[static ISO_PICTURE_TITLE], const char *seen, const iso_params *p);
+
+/* A maker: the table as it is, called `table`, of at most so many columns. */
+enum { ISO_PICTURE_MOST_COLUMNS = 200 };
+iso_status iso_picture_as_it_is(iso_context *ctx, const iso_picture_request *request, iso_picture *picture);
 
 /* A kind of table. */
 typedef struct iso_picture_maker {
@@ -50,9 +115,20 @@ typedef struct iso_picture_maker {
     const char *columns[5];   /* that the picture needs; NULL ends them    */
     bool axis;                /* and the line "axis"                       */
     const char *options;      /* those that it takes, with blanks around: " window points " */
+    bool alone;               /* it needs lines alone, no rows             */
     iso_status (*make)(iso_context *ctx, const iso_picture_request *request, iso_picture *picture);
 } iso_picture_maker;
 
-extern const iso_picture_maker iso_picture_splitting;
+extern const iso_picture_maker iso_picture_branch, iso_picture_chaos, iso_picture_chart, iso_picture_indicators,
+    iso_picture_periodic, iso_picture_section, iso_picture_cost, iso_picture_frequencies, iso_picture_splitting,
+    iso_picture_sweep, iso_picture_sweep_part, iso_picture_trajectory, iso_picture_compare;
+
+/* The differences that `compare` finds, and the orbit on both spheres (difference.c). */
+iso_status iso_picture_difference(iso_context *ctx, const iso_picture_request *request, iso_picture *picture);
+
+/* The image of the momentum map with an orbit at (h, F) in it. */
+iso_status iso_picture_momentum(iso_context *ctx, const iso_momentum *momentum, const double at[2],
+                                iso_picture *picture);
+extern const iso_picture_maker iso_picture_columns; /* two columns of a table of any kind */
 
 #endif

@@ -40,7 +40,11 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
     if (!curve) return ISO_OK;
     ISO_TRY(iso_picture_say(ctx, picture, "at", iso_record_get(curve, "at")));
     ISO_TRY(iso_picture_count(ctx, picture, "axis", iso_picture_axis(curve) + 1));
-    return iso_record_add(ctx, copy, iso_record_rows(curve), iso_record_const_row(curve, 0));
+    int u;
+    ISO_TRY(iso_picture_find(ctx, curve, 2, (const char *const[]){"u", "x"}, &u));
+    for (size_t i = 0; i < iso_record_rows(curve); i++)
+        ISO_TRY(iso_record_add(ctx, copy, 1, iso_record_const_row(curve, i) + u));
+    return ISO_OK;
 }
 
 const iso_picture_maker iso_picture_splitting = {

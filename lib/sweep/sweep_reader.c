@@ -211,3 +211,22 @@ iso_status iso_sweep_reader_failures(iso_context *ctx, iso_sweep_reader *r, iso_
     iso_sweep_rows_free(&rows);
     return status;
 }
+
+iso_status iso_sweep_read_table(iso_context *ctx, const char *path, iso_record **table)
+{
+    iso_sweep_reader *r;
+    iso_sweep_rows rows = {.number = NULL};
+    *table = NULL;
+    ISO_TRY(iso_sweep_reader_open(ctx, path, &r));
+    const size_t chunk = r->head.chunk;
+    iso_status status = iso_sweep_rows_create(ctx, r->head.columns, chunk, &rows);
+    if (status == ISO_OK) status = iso_sweep_table(ctx, &r->head, table);
+    if (status == ISO_OK && r->shard.count > 1) iso_record_set_kind(*table, ISO_SWEEP_PART_KIND);
+    while (status == ISO_OK && r->next < r->points) {
+        status = iso_sweep_reader_rows(ctx, r, r->points - r->next < chunk ? r->points - r->next : chunk, &rows);
+        if (status == ISO_OK) status = iso_sweep_table_add(ctx, *table, &rows);
+    }
+    iso_sweep_rows_free(&rows);
+    iso_sweep_reader_close(r);
+    return status;
+}

@@ -153,6 +153,10 @@ iso_status iso_sweep_write(iso_context *ctx, const char *path, const iso_sweep_h
 iso_status iso_sweep_table(iso_context *ctx, const iso_sweep_head *head, iso_record **table);
 iso_status iso_sweep_table_add(iso_context *ctx, iso_record *table, const iso_sweep_rows *rows);
 
+/* Reads a result or a part into a table. Errors: ISO_FILE_TROUBLE: no such file, none of a sweep, or a damaged one;
+ * ISO_NO_MEMORY. */
+iso_status iso_sweep_read_table(iso_context *ctx, const char *path, iso_record **table);
+
 /* Puts the parts of one sweep together. *failures: those of all parts. Errors: ISO_FILE_TROUBLE: a part is missing,
  * is there twice, was changed or damaged, or belongs to another sweep; `path` is there. */
 iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path,

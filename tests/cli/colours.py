@@ -1,8 +1,9 @@
-"""colours.py PALETTE SCRIPT... - tells lines of gnuplot's scripts apart as people see them.
+"""colours.py PAGE SCRIPT... - tells lines of gnuplot's scripts apart as people see them. PAGE, pictures/page.gp, names
+all colours; a script names them (blue), has them in an array (fill[c]) or in the style of a line (ls 3, ls look(b)).
 
 Sights: the usual one, and those without red or green cones, by the matrices of Machado, Oliveira and Fernandes (2009),
 severity 1, on linear RGB. Distances are those of CIE Lab 1976 (D65). In grey two lines differ by their lightness, or
-by their dashes or signs. Scenery ($grid) is not looked at. Prints what fails; the exit status is then 1.
+by their dashes or signs. Scenery (globe_x) is not looked at. Prints what fails; the exit status is then 1.
 """
 import itertools
 import re
@@ -40,23 +41,48 @@ def distance(one, other, sight):
     return sum((a - b) ** 2 for a, b in zip(lab(one, sight), lab(other, sight))) ** 0.5
 
 
-def lines_of(plot):
-    """The lines of a plot: colour, and dash, sign and fashion, which are seen in grey."""
-    found = set()
-    for part in re.split(r",\s*(?=\$|NaN|'')", plot):
-        colour = re.search(r"lc rgb '(#[0-9A-F]{6}|black)'", part)
-        kind = re.search(r"\b(?:w|with) (l|lines|linespoints|impulses|p|points|yerrorbars)\b", part)
-        if not colour or not kind or "$grid" in part:
-            continue
-        dash, sign = re.search(r"\bdt (\([^)]*\)|\d+)", part), re.search(r"\bpt (\d+)", part)
-        found.add((colour[1].replace("black", "#000000"), dash[1] if dash else "1", sign[1] if sign else "",
-                   kind[1][0]))
-    return found
+MOST = 10  # strokes
+COLOUR = r"lc rgb\s+('#[0-9A-F]{6}'|'black'|\w+(?:\[[^]]*\])?)"
 
 
-def check_plot(plot):
+class Script:
+    """Its colours by name, its styles of lines, and its plots."""
+
+    def __init__(self, text):
+        text = re.sub(r"\\\n\s*", " ", text)  # lines that go on
+        self.colours = dict(re.findall(r"(\w+) = '(#[0-9A-F]{6})'", text), black="#000000")
+        self.arrays = {name: re.findall(r"'[^']*'|[\w-]+", items)
+                       for name, items in re.findall(r"array (\w+)\[\d+\] = \[([^]]*)\]", text)}
+        self.styles = {int(number): look for number, look in re.findall(r"set style line (\d+) (.*)", text)}
+        self.plots = re.findall(r"\bplot (.*)$", text, re.M) + re.findall(r"^\w+ = [\"'](.* with .*)$", text, re.M)
+
+    def item(self, word, i):
+        """A word itself, or the i-th item of its array, i from 0; "": there is none."""
+        items = self.arrays.get(word.partition("[")[0], []) if "[" in word else [word] * MOST
+        return items[i].strip("'") if i < len(items) else ""
+
+    def look(self, part, i):
+        """Colour, dash and sign where the number of a loop is i + 1: of a style, ls n or ls 10 + n, or of its own."""
+        if style := re.search(r"\bls (\d+ \+|\d+|\w+)", part):
+            number = style[1]
+            part += " " + self.styles.get(int(number) if number.isdigit() else i + 1 + 10 * number.endswith("+"), "")
+        found = [re.search(form, part) for form in (COLOUR, r"\bdt (\([^)]*\)|\w+)", r"\bpt (\d+|\w+\[[^]]*\])")]
+        colour, dash, sign = (self.item(f[1], i) if f else "" for f in found)
+        return self.colours.get(colour, colour if colour.startswith("#") else ""), dash or "1", sign
+
+    def lines_of(self, plot):
+        """The lines of a plot: colour, and dash, sign and fashion, which are seen in grey."""
+        found = set()
+        for part in re.split(r",\s*(?=for \[|\$|NaN|'')", plot):
+            kind = re.search(r"\b(?:w|with) (l|lines|linespoints|impulses|p|points|yerrorbars)\b", part)
+            if kind and "globe_x" not in part:
+                found |= {(*self.look(part, i), kind[1][0]) for i in range(MOST)}
+        return {line for line in found if line[0]}
+
+
+def check_plot(lines):
     """What cannot be told apart in one plot."""
-    for one, other in itertools.combinations(sorted(lines_of(plot)), 2):
+    for one, other in itertools.combinations(sorted(lines), 2):
         if one[0] == other[0]:
             continue # told apart by their dashes, or the line and the signs of one thing
         for sight in SIGHTS:
@@ -80,16 +106,17 @@ def main():
     palette = set(re.findall(r"#[0-9A-F]{6}", open(sys.argv[1], encoding="utf-8").read()))
     bad, plots, pairs = set(), 0, 0
     for name in sys.argv[2:]:
-        script = open(name, encoding="utf-8").read()
-        scales = re.findall(r"set palette defined \(([^)]*)\)", script)
-        for plot in re.findall(r"^(?:set |do )?.*?plot (.*)$", script, re.M):
+        text = open(name, encoding="utf-8").read()
+        script = Script(text)
+        for plot in script.plots:
+            lines = script.lines_of(plot)
             plots += 1
-            pairs += len(lines_of(plot)) > 1
-            bad |= {f"{name}: {what}" for what in check_plot(plot)}
-        for scale in scales:
+            pairs += len(lines) > 1
+            bad |= {f"{name}: {what}" for what in check_plot(lines)}
+        for scale in re.findall(r"set palette defined \(([^)]*)\)", text):
             bad |= {f"{name}: {what}" for what in check_scale(scale)}
-            script = script.replace(scale, "")
-        bad |= {f"{name}: {c} is not in the palette" for c in re.findall(r"#[0-9A-F]{6}", script) if c not in palette}
+            text = text.replace(scale, "")
+        bad |= {f"{name}: {c} is not in the palette" for c in re.findall(r"#[0-9A-F]{6}", text) if c not in palette}
     print("\n".join(sorted(bad)))
     print(f"{plots} plots, {pairs} with lines of two colours")
     return 1 if bad or pairs < 5 else 0

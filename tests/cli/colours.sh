@@ -4,9 +4,13 @@
 . "$(dirname "$0")/lib.sh"
 has gnuplot "pictures" || { finish && exit; }
 has python3 "how colours are seen" || { finish && exit; }
-palette=$source/apps/isoroll/plot/palette.h
-check_not "colours outside of the palette" \
-    grep -n "#[0-9A-F]\{6\}\|0x[0-9A-F]\{6\}" "$source"/apps/isoroll/plot/plot_*.[ch]
+palette=$source/apps/isoroll/pictures/page.gp
+for file in "$source"/apps/isoroll/plot/*.[ch] "$source"/apps/isoroll/pictures/*.gp; do
+    case $file in
+    */page.gp) ;;
+    *) check_not "colours outside of page.gp: $file" grep -q "#[0-9A-F]\{6\}\|'0x[0-9A-F]\{6\}" "$file" ;;
+    esac
+done
 
 # drawn NAME ARGUMENT...: a picture; its script is NAME.gp
 drawn() {

@@ -75,13 +75,19 @@ fi
 stand_in
 real_path=$PATH
 
-# draws ARGUMENT...: the picture of a comparison; its states are in `states`, its curves in `curve`
+# draws ARGUMENT...: the picture of a comparison; its states are in `states`, its curves in `curve`: t s n gamma, the
+# parts of both clocks, the colour, the number
 draws() {
     PATH=$work/bin:$real_path
     run 0 compare "$@" --plot drawn.svg
     PATH=$real_path
     for block in states curve; do
-        awk -v head="\$$block << EOD" '$0 == "EOD" { inside = 0 } inside; $0 == head { inside = 1 }' script >$block
+        awk -v head="\$$block << EOD" -v names="t s n1 n2 n3 gamma1 gamma2 gamma3 t_part s_part colour number" '
+            $0 == "EOD" { inside = 0 }
+            inside == 1 { n = split(names, name, " "); for (i = 1; i <= NF; i++) { gsub(/"/, "", $i); at[$i] = i }
+                          inside = 2; next }
+            inside == 2 { for (i = 1; i <= n; i++) printf "%s%s", $at[name[i]], i < n ? " " : "\n" }
+            $0 == head { inside = 1 }' script >$block
     done
 }
 
@@ -100,7 +106,7 @@ true_picture() {
                   part = (i - 1) / 64; d = abs(t[i] / t[NR] - part) + abs(u[i] - part) + abs(v[i] - s[i] / s[NR]);
                   if (d > worst) worst = d }
               print worst + 0 }' states)" 1e-14
-    check "$1: numbers" test "$(awk 'NR % 8 == 1 { printf "%s", $15 }' states)" = 012345678
+    check "$1: numbers" test "$(awk 'NR % 8 == 1 { printf "%s", $12 }' states)" = 012345678
     at_most "$1: steps of the curves" "$(awk '
         NR > 1 { for (i = 3; i < 9; i += 3) {
                      d = 0; for (j = i; j < i + 3; j++) d += ($j - p[j]) ^ 2;

@@ -1,6 +1,6 @@
-# extend.sh - the recipes of tests/extend, followed in a copy of the source: an effect, a method, an integral, a column of a
-# result, a study of many orbits; and the system of lib/README.md. Every backend and method either simulates the new effect, and all agree, or
-# refuses it by name.
+# extend.sh - the recipes of tests/extend, followed in a copy of the source: an effect, a method, an integral, a column
+# of a result, a table of a new kind with its picture, a study of many orbits; and the system of lib/README.md. Every
+# backend and method either simulates the new effect, and all agree, or refuses it by name.
 . "$(dirname "$0")/lib.sh"
 copy=$work/copy
 recipes=$source/tests/extend
@@ -37,6 +37,11 @@ awk '/^const iso_result_table \*iso_result_table_at/ { while ((getline line < "t
     /iso_result_table tables\[\] = / { print "        {.kind = \"turns\", .doc = \"a turn\", .fields = turn_fields}," }
     ' "$source/lib/study/tables/tables.c" >"$copy/lib/study/tables/tables.c"
 
+# A picture of such tables: a row, and a template.
+cp "$recipes/turns.gp" "$copy/apps/isoroll/pictures/"
+sed -i 's/^static const iso_picture_maker \*const makers\[\] = {/static const iso_picture_maker turns = {"turns", "Turns", {"number", "angle"}, .make = iso_picture_as_it_is};\n&\&turns, /' \
+    "$copy/lib/picture/picture.c"
+
 # short FILE: a recipe is a diff of at most 15 lines
 short() {
     lines=$(diff "$source/$1" "$copy/$1" | grep -c '^[<>]')
@@ -45,6 +50,7 @@ short() {
 short lib/model/ball.c
 short lib/study/periodic/periodic_fields.c
 short lib/study/tables/tables.c
+short lib/picture/picture.c
 
 # The system of lib/README.md: every block from "circle.c" to the end of its row compiles.
 awk '/^    \/\* circle\.c/ { on = 1 } on && /^[^ ]/ { exit } on { sub(/^    /, ""); print }' \
@@ -91,6 +97,15 @@ run 0 list methods
 grep -q '^  kutta38 ' out || fail "list methods has no kutta38"
 awk 'NF > 2 && $1 != "name" && /^  / { print $1 }' out >methods
 [ "$(wc -l <methods)" -gt 20 ] || fail "list methods has fewer than 20 rows"
+
+# the picture: by its template, which a user can change
+if has gnuplot "a picture of a new kind"; then
+    run 0 plot turns.csv -o turns.svg
+    check "its axes" grep -q 'angle in rad' turns.svg
+    sed 's/angle in rad/another angle/' "$recipes/turns.gp" >my.gp
+    run 0 plot turns.csv -o turns.svg --template my.gp
+    check "by the user's own template" grep -q 'another angle' turns.svg
+fi
 
 # the table, and the column: in the list, in the table and in JSON
 run 0 list tables

@@ -1,6 +1,6 @@
 #!/bin/sh
-# plot.sh ISOROLL - pictures of trajectories: the path in space, where contact is lost, any two columns (frames,
-# marks and ticks: test_plot_space; tables of studies: tables.sh). gnuplot is replaced by a script that keeps its
+# plot.sh ISOROLL - pictures of trajectories: the path in space, where contact is lost, any two columns, ticks (frames
+# and marks: test_picture_space; tables of studies: tables.sh). gnuplot is replaced by a script that keeps its
 # input; the last part takes the real one.
 . "$(dirname "$0")/lib.sh"
 stand_in
@@ -27,13 +27,19 @@ tells_not() {
     for words; do check_not "$what: '$words'" grep -q -F -e "$words" script; done
 }
 
-# block NAME N: the numbers of the N-th block of data with this name, x and y
+# block NAME COLUMN VALUE NAME...: of the block of data with this name, the rows whose COLUMN has this value: these of
+# its columns, with blanks between
 block() {
-    awk -v head="\$$1 << EOD" -v wanted="$2" '
-        $0 == head { n++; inside = n == wanted; next }
+    awk -v head="\$$1 << EOD" -v by="$2" -v value="$3" -v names="$(shift 3 && echo "$*")" '
         $0 == "EOD" { inside = 0 }
-        inside && NF == 2 && $1 != "NaN"' script
+        inside == 1 { n = split(names, name, " "); for (i = 1; i <= NF; i++) { gsub(/"/, "", $i); at[$i] = i }
+                      inside = 2; next }
+        inside == 2 && $at[by] == value { for (i = 1; i <= n; i++) printf "%s%s", $at[name[i]], i < n ? " " : "\n" }
+        $0 == head { inside = 1 }' script
 }
+
+# line KEY: the value of a line of the picture
+line() { sed -n "s/^$1 = //p" script; }
 
 # columns_of FILE NAME...: these columns, with blanks between
 columns_of() {
@@ -57,14 +63,14 @@ bowl=$source/examples/10_bowl/scene.yaml
 run 0 run "$bowl" --t-end 8 --step 0.02 -o bowl.csv
 draw bowl.csv
 tells "bowl" "the path of the ball, seen from above" "seen from the side" "height \\050axis 3\\051" \
-    "energy h" "pressure" "μ needed" "up to rounding" \
+    \"energy h\" \"pressure\" "μ needed" "up to rounding" \
     "where it touched the support"
-tells_not "bowl" "contact lost" '$difference' "or less than"
-at_most "radius of the support" "$(sed -n 's/^set object 1 circle at 0,0 size \([^ ]*\).*/\1/p' script | head -n 2 | awk '
-    { d = $1 - 0.3; if (d < 0) d = -d; if (d > worst) worst = d } END { print (NR == 2 ? worst + 0 : "none") }')" 1e-15
-block way1 1 >a && columns_of bowl.csv centre1 centre2 >b && same "from above: centre1, centre2"
-block way1 2 >a && columns_of bowl.csv centre1 centre3 >b && same "from the side: centre1, centre3"
-block touch1 2 >a && columns_of bowl.csv contact1 contact3 >b && same "the contact from the side"
+check "the user is told of the twin" grep -q "the ball is drawn alone: .*gravity" err
+tells_not "bowl" 'lost = "' '"drift" "t"'
+at_most "radius of the support" "$(line support | awk '{ d = $1 - 0.3; print (d < 0 ? -d : d) }')" 1e-15
+block path of '"centre"' right away >a && columns_of bowl.csv centre1 centre2 >b && same "from above: centre1, centre2"
+block path of '"centre"' right up >a && columns_of bowl.csv centre1 centre3 >b && same "from the side: centre1, centre3"
+block path of '"contact"' right up >a && columns_of bowl.csv contact1 contact3 >b && same "the contact from the side"
 cp picture.svg kept.svg
 
 # a file of another program: the centre alone, without k
@@ -72,20 +78,25 @@ cp picture.svg kept.svg
     centre1 centre2 centre3 | tr ' ' ','; } >foreign.csv
 draw foreign.csv --k 1.1 --J 1.18e-4,1.26e-4,1.34e-4
 tells "foreign" "seen along axis 3 of space" "seen along axis 2 of space"
-tells_not "foreign" "above" "height" "circle at 0,0 size 0.3" "object 2 circle" "energy h"
+tells_not "foreign" "from above" '"height' '"energies"'
+check "foreign: neither support nor ball" test "$(line support) $(line ball)" = "0 0"
 
 # --- off the top: the last row is where contact is lost
 top=$source/examples/09_off_the_top/scene.yaml
 run 0 run "$top" -o off.csv
 lost=$(columns_of off.csv t | tail -n 1)
 draw off.csv
-tells "off the top" "title 'contact lost'" "front point pt 2" "from first $lost, graph 0 to first $lost, graph 1"
+tells "off the top" 'lost = "contact lost"'
+check "a mark in space" test "$(block marks sign '"lost"' right | grep -c .)" = 1
+check "no other end" test "$(block marks sign '"end"' right | grep -c .)" = 0
+check "and in the charts" test "$(block losses t "$lost" t)" = "$lost"
 
 # --- on a plane
 run 0 run "$source/examples/01_bowling_ball/lane.yaml" --t-end 30 -o lane.csv
 draw lane.csv
 tells "lane" "the scale across it is larger" "along the path" "the ball: n, the normal where it touches" # it has a point
-tells_not "lane" "seen from the side"
+tells_not "lane" 'side = "seen from the side"'
+check "no second view" grep -q '^side = ""' script
 at_most "the height of a ball on a level lane is its radius" "$(columns_of lane.csv centre3 | awk '
     { d = $1 - 0.108585; if (d < 0) d = -d; if (d > worst) worst = d } END { print worst + 0 }')" 1e-12
 
@@ -93,11 +104,11 @@ at_most "the height of a ball on a level lane is its radius" "$(columns_of lane.
 scene -1 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.1 >free.yaml
 run 0 run free.yaml -o free.csv
 draw free.csv
-tells "a free ball" 'title "ds/dt"' '"speed \050mean 1\051"'
-tells_not "a free ball" "seen from" "energy h" "pressure" "or less than"
+tells "a free ball" '"paces" "t" "ds/dt"'
+tells_not "a free ball" 'above = "' '"energies"' '"pressure"'
 columns_of free.csv n1 n2 n3 | awk '{ printf "%.17g\n", 1 / ($1 * $1 / 1.4 + $2 * $2 / 2.1 + $3 * $3 / 3) }' >q
 for pace in 0 1; do # q^(1 + 1/(2k)) and q^(1 - 1/(2k)), their means 1
-    block curve$pace 1 | paste - q >a
+    block values curve $((pace + 1)) x y | paste -d ' ' - q >a
     at_most "pace $pace" "$(awk -v e=$((2 * pace + 1)) '
         { x[NR] = $2; y[NR] = $3 ^ (e / 2); sum += $2; r = x[NR] / y[NR] / (x[1] / y[1]) - 1
           if (r < 0) r = -r; if (r > worst) worst = r }
@@ -106,16 +117,16 @@ done
 
 # --- two columns
 draw bowl.csv --columns t,n3
-tells "two columns" '"n₃ over t"'
-block curve0 1 >a && columns_of bowl.csv t n3 >b && same "t, n3"
+tells "two columns" '"columns" "t" "n₃"' "equal = 0"
+block values curve 1 x y >a && columns_of bowl.csv t n3 >b && same "t, n3"
 draw bowl.csv --columns centre1,centre3
-tells "components of a vector" "set size ratio -1"
-block curve0 1 >a && columns_of bowl.csv centre1 centre3 >b && same "centre1, centre3"
+tells "components of a vector" "equal = 1"
+block values curve 1 x y >a && columns_of bowl.csv centre1 centre3 >b && same "centre1, centre3"
 draw bowl.csv --columns pressure,mu
-tells "no vector" "set size noratio"
+tells "no vector" "equal = 0"
 columns_of bowl.csv t omega1 n3 | tr ' ' ',' >bare.csv
 draw bare.csv --columns t,-,n3
-block curve0 1 >a && columns_of bowl.csv t n3 >b && same "by their places, in a file without names"
+block values curve 1 x y >a && columns_of bowl.csv t n3 >b && same "by their places, in a file without names"
 columns_of bowl.csv t n3 | tr ' ' ',' >bare.csv
 cp script kept
 draw - --columns t,n3 <bowl.csv
@@ -149,6 +160,30 @@ if has gnuplot "pictures"; then
     check "words of the picture" grep -q ">seen from the side<" bowl.svg
 fi
 
+# ticks LOW HIGH TEXT TICK: about 5 ticks between these, each with its own short label: what they mean, and one of them
+ticks() {
+    gnuplot -d -e "load '$source/apps/isoroll/pictures/page.gp'; tick_name = 't'; eval ticks('x', $1, $2, 5); \
+        set print '-'; print tick_text; print tick_list" >out 2>err
+    check "from $1 to $2: '$3'" test "$(head -n 1 out)" = "$3"
+    check "from $1 to $2: $4" grep -q -F -e "$4" out
+    check "from $1 to $2: neither few nor many" test "$(tail -n 1 out | tr -cd , | wc -c)" -ge 2 -a \
+        "$(tail -n 1 out | tr -cd , | wc -c)" -le 10
+    check "from $1 to $2: all different" test -z "$(tail -n 1 out | tr , '\n' | sed "s/' .*//" | sort | uniq -d)"
+}
+if has gnuplot "ticks"; then
+    ticks 0 10 t "'4' 4"
+    ticks 0 1e6 "t / 10⁶" "'0.4' 400000"
+    ticks 0 1e-5 "t / 10⁻⁵" "'0.4' "
+    ticks -0.3 0.3 t "'−0.2' "
+    ticks 1e9 1e9+10 "t − 1000000000" "'4' 1000000004"
+    ticks -1e9 -1e9+10 "t + 1000000000" "'4' "
+    ticks 1e6 1e6+1e-3 "(t − 1000000) / 10⁻³" "'0.4' "
+    ticks 0 0 t "'0.0' 0"
+    ticks 5 5 t "'6' 6"
+    ticks 0 1e-280 "t / 10⁻²⁸⁰" "'0.4' "
+    ticks 0 1e299 "t / 10²⁹⁹" "'0.4' "
+fi
+
 # --- how it looks: --style, --size, --title, --script
 if has gnuplot "looks"; then
     for file in bowl.csv lane.csv; do
@@ -156,7 +191,7 @@ if has gnuplot "looks"; then
         check "$file: its script draws the same" sh -c 'gnuplot -d look.gp | cmp - look.svg'
         run 0 plot $file -o look.png --script look.gp --size 600x500px --title "a 'title' of \`my\` own"
         check "$file: its script draws the same .png" sh -c 'gnuplot -d look.gp | cmp - look.png'
-        check "its data are in it" grep -q '^\$path1 << EOD' look.gp
+        check "its data are in it" grep -q '^\$path << EOD' look.gp
         check_not "no file is named in it" grep -q "$file\|look" look.gp
     done
     check "a size in pixels" test "$(od -An -j16 -N8 -tu1 look.png | tr -d '\n')" = "   0   0   2  88   0   0   1 244"
@@ -208,6 +243,12 @@ refuses 5 "cannot write 'pipe'" chaos absent.yaml --plot look.svg --script pipe
 # --- tables that lack something
 scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml
 run 0 chaos scene.yaml --turns 20 --starts 5 --csv chaos.csv
+PATH=$work/bin:$real_path
+draw chaos.csv --columns l,x
+PATH=$real_path
+block values curve 1 x y >a && columns_of chaos.csv l x | grep -v nan >b &&
+    same "two columns of another table, rows without numbers left out"
+refuses 2 "--window is for sections" plot bowl.csv -o none.svg --window 0:1,0:1
 refuses_changed chaos.csv '/^# axis/d' "the table does not say its axis" plot -o none.svg
 refuses_changed chaos.csv 's/,l,x,/,l,z,/' "the table has no column 'x'" plot -o none.svg
 check "no picture of these" test ! -e none.svg

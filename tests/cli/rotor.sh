@@ -74,7 +74,7 @@ check "none at k = 1" grep -q '^  chaotic  *0\.0000' out
 if has gnuplot "mirror images"; then
     # points FILE: how many the picture has. All three reversors hold without a rotor, S1 and S3 with K along axis 1.
     points() {
-        run 0 plot "$1" -o picture.svg --script picture.gp
+        run 0 plot "$1" -o picture.png --script picture.gp
         grep -c '^ *-\{0,1\}[0-9.]* ' picture.gp
     }
     for K in "0.001, 0.001, 0.001" "0.001, 0, 0" "0, 0, 0"; do

@@ -216,7 +216,7 @@ for more in 1 30 10000 words; do
     rm torn.$h5
 done
 # --- kill -9 when some chunks more are in the journal, then another number of threads; SIGTERM and SIGINT
-tries=0 kills=$(length 6 60)
+tries=0 kills=$(length 6 20)
 while [ $tries -lt "$kills" ]; do
     begin=$(cat killed.$h5.journal 2>/dev/null | wc -c)
     "$isoroll" sweep long.yaml -o killed.$h5 --resume -j $((tries % 3 + 1)) 2>/dev/null &

@@ -23,6 +23,8 @@ done
 
 # --- pictures; the script of gnuplot is kept in script.gp
 has gnuplot "pictures" || { finish && exit; }
+# block NAME: the rows of a table in the script
+block() { sed -n "/^\$$1 <</,/^EOD/p" script.gp | sed '1,2d;$d'; }
 mkdir script
 printf '#!/bin/sh\ntee script.gp | %s "$@"\n' "$(command -v gnuplot)" >script/gnuplot
 chmod +x script/gnuplot
@@ -39,34 +41,35 @@ refuses 3 "it varies" plot each.csv -o curve.svg --value k
 printf 'scene: scene.yaml\nvary: {k: [-1, -0.5, 0.5, 1]}\nmeasure: {state: {}}\n' >signs.yaml
 run 0 sweep signs.yaml -o signs.csv
 run 0 plot signs.csv -o curve.svg --value state_n1
-check "no curve across k = 0" test "$(sed -n '/^\$curve <</,/^EOD/p' script.gp | grep -c '^$')" -eq 1
-check "k = 1 is marked" grep -q '^set arrow from first 1, graph 0 ' script.gp
+check "no curve across k = 0" test "$(block curve | grep -c '^$')" -eq 1
+check "k = -1 and k = 1 are marked" test "$(block marks)" = "1 -1
+1 1"
 if "$isoroll" sweep signs.yaml -o signs.h5 2>err; then
     cp script.gp csv.gp
     run 0 plot signs.h5 -o curve.svg --value state_n1
-    check "HDF5: the same curve" test "$(sed -n '/^\$curve/,$p' csv.gp)" = "$(sed -n '/^\$curve/,$p' script.gp |
-        sed 's/signs.h5/signs.csv/')"
+    check "HDF5: the same curve" test "$(sed -n '/^\$curve/,$p' csv.gp)" = "$(sed -n '/^\$curve/,$p' script.gp)"
 else
     skip "HDF5" "this build has none"
 fi
 
 run 0 sweep flow.yaml -o flow.csv
 run 0 plot flow.csv -o map.svg
-check "a grid is drawn as cells" test "$(grep -c 'boxxyerror fs solid' script.gp)" -eq 1
-check "a cell reaches half way to its neighbours" grep -q '^1 0.8[0-9]* [^ ]* 0.9[0-9]* 1.1[0-9]* 0.67[0-9]* 0.92[0-9]*$' script.gp
-check "k = -1 is marked, on the vertical axis" grep -q '^set arrow from graph 0, first -1 ' script.gp
-check_not "k = 1 is not: it is not there" grep -q 'first 1' script.gp
+check "a cell of a grid reaches half way to its neighbours" test "$(block cells | awk '$1 == 20 { print $5, $6 }' |
+    awk '{ printf "%.3f %.3f, ", $1, $2 }')" = "0.900 0.675, 1.150 0.675, 1.150 0.925, 0.900 0.925, 0.900 0.675, "
+check "k = -1 is marked, on the vertical axis, k = 1 is not there" test "$(block marks)" = "2 -1"
+check_not "no key of grey" grep -q 'no value' map.svg
 
-# of three moments: squares that do not overlap
+# of three moments: cells that meet and do not overlap; two that fail are grey
 printf 'scene: scene.yaml\nvary: {J: {triangle: 12, ordered: true}}\nmeasure: {rotations: {}}\n' >moments.yaml
 run 0 sweep moments.yaml -o moments.csv
 run 0 plot moments.csv -o map.svg
-sed -n '/^\$value0 <</,/^EOD/p' script.gp | awk 'NF == 7 && $1 != "NaN"' >squares
-check "squares" test "$(wc -l <squares)" -gt 5
-check "no two overlap" test "$(awk '
-    { for (i = 1; i < NR; i++) n += $4 + 1e-9 < r[i] && $5 > l[i] + 1e-9 && $6 + 1e-9 < t[i] && $7 > b[i] + 1e-9
-      l[NR] = $4; r[NR] = $5; b[NR] = $6; t[NR] = $7; empty += !($5 > $4 && $7 > $6) }
-    END { print n + empty }' squares)" -eq 0
+check "a cell for each point" test "$(block cells | awk 'NF { print $1 }' | sort -u | wc -l)" -eq 7
+sed 's/, ordered: true//' moments.yaml >triangle.yaml
+run 1 sweep triangle.yaml -o triangle.csv
+run 0 plot triangle.csv -o map.svg
+check "a key of grey" grep -q '>no value<' map.svg
+check "grey cells are the points that failed" test "$(block cells | awk '$3 == 1 { print $1 }' | sort -u | wc -l)" -eq \
+    "$(grep -c 'equal' triangle.csv)"
 
 # --- what no picture shows
 sed 's/^vary: .*/vary: {k: [0.5, 0.6], J1: [1, 2], l: [0.3, 0.4],\n  x: [0.1, 0.2]}/' signs.yaml >four.yaml

@@ -66,7 +66,7 @@ number() {
 
 passed=0
 seed=1
-while [ $seed -le "$(length 5 40)" ]; do
+while [ $seed -le "$(length 5 15)" ]; do
     random $seed
     cat >point.yaml <<END
 point: {k: $(number k), J: $(number J), eps: 1}
@@ -83,7 +83,7 @@ END
     pass_all "ball $seed" ball.yaml
     seed=$((seed + 1))
 done
-check "random scenes write tables" test "$passed" -ge "$(length 60 480)"
+check "random scenes write tables" test "$passed" -ge "$(length 60 180)"
 
 # --- a number of a table that another scene has is found
 run 0 section point.yaml --crossings 5 --starts 2 --as point -o one.csv

@@ -101,7 +101,7 @@ static void check_strong(void)
     laws_worst worst = {0}, clock_worst = {0};
     if (!quad) return; /* a compiler without its numbers */
     iso_random *random = iso_random_create(36);
-    for (int i = 0; i < tests_length(40, 400); i++) {
+    for (int i = 0; i < tests_length(40, 150); i++) {
         const double ratio = pow(10, iso_random_uniform(random, -2, 8));
         orbit o = random_orbit((family)(i % FAMILIES), i / FAMILIES, random);
         double *K = ROTOR_MOMENTUM(&o.model.problem.effects);
@@ -133,7 +133,7 @@ static void check_strong(void)
 
 static void check_random(void)
 {
-    const int each = tests_length(40, 250);
+    const int each = tests_length(40, 100);
     for (int kind = 0; kind < FAMILIES; kind++) {
         iso_random *random = iso_random_create(34);
         laws_worst worst = {0}, clocks = {0};

@@ -3,7 +3,9 @@
 #include <gsl/gsl_math.h>
 #include <signal.h>
 
+#include "base/vec3_impl.h"
 #include "folder.h"
+#include "plot/draw.h"
 #include "plot/plot.h"
 
 static iso_context *ctx;
@@ -38,29 +40,44 @@ static iso_record *make_path(size_t rows, double turn)
     return r;
 }
 
-static iso_record *make_differences(size_t rows, double turn, double size)
+/* A ball's n on the same curve; it rolls along the curve, but at a speed that keeps no integral. */
+static iso_record *make_ball(size_t rows, double turn, double unit)
 {
-    static const char *const names[] = {"t", "omega", "n", "M", "gamma", "tau", "s", "it's_a^'x"};
-    iso_record *r;
-    double *row;
-    if (iso_record_create(ctx, 8, names, &r) != ISO_OK) exit(1);
+    static const char *const names[] = {"t", "omega1", "omega2", "omega3", "n1", "n2", "n3"};
+    iso_record *path = make_path(rows, turn), *r;
+    if (iso_record_create(ctx, 7, names, &r) != ISO_OK) exit(1);
     for (size_t i = 0; i < rows; i++) {
+        const double *n = iso_record_const_row(path, i) + 2, axis[3] = {0.6, 0, 0.8};
+        double *row;
         if (iso_record_append(ctx, r, &row) != ISO_OK) exit(1);
-        row[0] = turn * (double)i;
-        for (int c = 1; c < 8; c++) row[c] = size * (double)i * pow(10, -c);
+        row[0] = unit * turn * (double)i;
+        cross(n, axis, row + 1);
+        memcpy(row + 4, n, 3 * sizeof *n);
     }
+    iso_record_free(path);
     return r;
+}
+
+static void set(iso_record *r, const char *key, const char *text)
+{
+    if (iso_record_set(ctx, r, key, text) != ISO_OK) exit(1);
 }
 
 /* Draws a comparison, and takes its record apart again. */
 static iso_status draw(const char *path, const char *title, iso_record *r)
 {
-    iso_params params;
-    if (iso_params_reduced(ctx, 0.5, (double[]){1, 2, 5}, &params) != ISO_OK) exit(1);
-    const iso_plot_twins plot = {
-        .title = title, .drawn = title, .result = title, .params = &params, .curve = r, .states = r};
-    const iso_status status = iso_plot_comparison(ctx, &(iso_plot_page){.path = path}, &plot);
+    iso_record *curve;
+    if (iso_record_create_like(ctx, r, 0, NULL, &curve) != ISO_OK) exit(1);
+    const size_t rows = iso_record_rows(r);
+    if (rows > 0 && iso_record_add(ctx, curve, rows, iso_record_const_row(r, 0)) != ISO_OK) exit(1);
+    iso_record_set_kind(r, "compare");
+    iso_record_set_kind(curve, "curve");
+    set(r, "k", "0.5"), set(r, "J", "1 2 5"), set(r, "compared", "3");
+    set(r, "title", title ? title : ""), set(r, "result", title ? title : "");
+    const iso_status status =
+        plot_tables(ctx, &(iso_plot_page){.path = path}, (const iso_record *[]){r, curve, NULL}, NULL);
     iso_record_free(r);
+    iso_record_free(curve);
     return status;
 }
 
@@ -69,13 +86,12 @@ static iso_status draw_simple(const char *path, const char *title)
     return draw(path, title, make_path(100, 0.1));
 }
 
-/* The same of a trajectory with drifts. */
-static iso_status draw_sheet(const char *path, const char *title, iso_record *r, iso_record *d)
+/* The same of a trajectory. */
+static iso_status draw_sheet(const char *path, const char *title, iso_record *r)
 {
-    const iso_plot_orbit plot = {.title = title, .ball = r, .point = r, .drift = d};
-    const iso_status status = iso_plot_trajectory(ctx, &(iso_plot_page){.path = path}, &plot);
+    set(r, "k", "0.5"), set(r, "J", "1 2 5"), set(r, "title", title);
+    const iso_status status = plot_tables(ctx, &(iso_plot_page){.path = path}, (const iso_record *[]){r, NULL}, NULL);
     iso_record_free(r);
-    iso_record_free(d);
     return status;
 }
 
@@ -146,17 +162,14 @@ static void test_records(void)
     gsl_test((int)draw(path, "one row", make_path(1, 1)), "%s", iso_context_message(ctx));
     gsl_test((int)draw(path, "backwards", make_path(50, -0.1)), "%s", iso_context_message(ctx));
     gsl_test((int)draw(path, "no time passes", make_path(50, 0)), "%s", iso_context_message(ctx));
-    gsl_test((int)draw_sheet(path, "one row", make_path(1, 1), make_differences(1, 1, 0)), "%s",
-             iso_context_message(ctx));
-    gsl_test((int)draw_sheet(path, "rows far apart", make_path(50, 2), make_differences(50, 2, 1e-9)), "%s",
-             iso_context_message(ctx));
-    gsl_test(!file_contains(path, "≤10"), "the floor is a tick");
-    gsl_test((int)draw_sheet(path, "wrong by all", make_path(50, -0.1), make_differences(50, 1e-200, 1e10)), "%s",
-             iso_context_message(ctx));
-    gsl_test((int)draw_sheet(path, "long times", make_path(50, 0.1), make_differences(50, 1e200, 1e-10)), "%s",
-             iso_context_message(ctx));
-    gsl_test((int)draw_sheet(path, "many rows", make_path(200000, 0.001), make_differences(200000, 0.001, 1e-8)),
-             "%s", iso_context_message(ctx));
+    gsl_test((int)draw_sheet(path, "one row", make_ball(1, 1, 1)), "%s", iso_context_message(ctx));
+    gsl_test(!file_contains(path, "up to rounding"), "one row has no drift");
+    gsl_test((int)draw_sheet(path, "rows far apart", make_ball(50, 2, 1)), "%s", iso_context_message(ctx));
+    gsl_test(!file_contains(path, "≤10") || file_contains(path, "up to rounding"), "the floor is a tick");
+    gsl_test((int)draw_sheet(path, "backwards", make_ball(50, -0.1, 1)), "%s", iso_context_message(ctx));
+    gsl_test((int)draw_sheet(path, "long times", make_ball(50, 0.1, 1e5)), "%s", iso_context_message(ctx));
+    gsl_test(!file_contains(path, "t / 10⁵"), "which the name of the axis says");
+    gsl_test((int)draw_sheet(path, "many rows", make_ball(200000, 0.001, 1)), "%s", iso_context_message(ctx));
     struct stat s;
     gsl_test(stat(path, &s) != 0 || s.st_size > 1 << 20, "200000 rows are thinned");
     unlink(path);
@@ -173,9 +186,8 @@ static void test_refused(void)
         gsl_test(draw(path, "not finite", r) != ISO_NUMERICAL, "not finite: %s", iso_context_message(ctx));
         gsl_test(strcmp(iso_context_about(ctx), "gamma2") != 0, "which: %s", iso_context_about(ctx));
     }
-    gsl_test(draw(path, "", make_path(0, 1)) != ISO_BAD_ARGUMENT, "no rows");
-    gsl_test(draw(path, "", NULL) != ISO_BAD_ARGUMENT, "no record");
-    gsl_test(draw(path, "", make_differences(5, 1, 1)) != ISO_BAD_ARGUMENT, "no n1");
+    gsl_test(draw(path, "", make_path(0, 1)) != ISO_BAD_INPUT, "no rows");
+    gsl_test(draw(path, "", make_ball(5, 1, 1)) != ISO_BAD_INPUT, "no gamma");
     gsl_test(files_in_folder() != 0, "nothing is left");
 }
 
@@ -197,6 +209,13 @@ static void put_work(iso_record *r, const char *backend, const char *method, dou
     row[3] = seconds;
 }
 
+static iso_status draw_work(const char *path, const char *title, iso_record *r)
+{
+    iso_record_set_kind(r, "cost");
+    if (title) iso_record_set(ctx, r, "title", title);
+    return plot_tables(ctx, &(iso_plot_page){.path = path}, (const iso_record *[]){r, NULL}, NULL);
+}
+
 /* A work-precision diagram: what it draws of what was measured, and what it refuses. */
 static void test_work(void)
 {
@@ -209,23 +228,21 @@ static void test_work(void)
     }
     put_work(r, "exact", "", 0, 1e-6);
     iso_record_set(ctx, r, "uncertainty", "1e-14");
-    gsl_test((int)iso_plot_cost(ctx, &(iso_plot_page){.path = path}, "a/0 'title'", r), "%s",
-             iso_context_message(ctx));
-    gsl_test(!file_contains(path, "`touch OWNED` &lt;b"), "a name is drawn as it is");
+    gsl_test((int)draw_work(path, "a/0 'title'", r), "%s", iso_context_message(ctx));
+    gsl_test(!file_contains(path, "'touch OWNED' &lt;b"), "a name is drawn as it is, but for backticks");
     gsl_test(!file_contains(path, "closed solution") || file_contains(path, "other methods"),
              "what there is is named, what there is not is not");
     iso_record_free(r);
     unlink(path);
     r = make_work();
     put_work(r, "ball", "a", NAN, 1);
-    gsl_test(iso_plot_cost(ctx, &(iso_plot_page){.path = path}, "", r) != ISO_BAD_INPUT, "no points");
+    gsl_test(draw_work(path, "", r) != ISO_BAD_INPUT, "no points");
     put_work(r, "exact", "", 1e-15, 1e-6);
-    gsl_test((int)iso_plot_cost(ctx, &(iso_plot_page){.path = path}, NULL, r), "the closed solution alone: %s",
-             iso_context_message(ctx));
+    gsl_test((int)draw_work(path, NULL, r), "the closed solution alone: %s", iso_context_message(ctx));
     gsl_test(file_contains(path, "below what is known"), "nothing is known of it");
     static const char *const many[] = {"a", "b", "c", "d", "e", "f", "g", "h"};
     for (int i = 0; i < 8; i++) put_work(r, "point", many[i], 1e-3, 1e-5);
-    gsl_test((int)iso_plot_cost(ctx, &(iso_plot_page){.path = path}, NULL, r), "%s", iso_context_message(ctx));
+    gsl_test((int)draw_work(path, NULL, r), "%s", iso_context_message(ctx));
     gsl_test(!file_contains(path, ">f<") || file_contains(path, ">g<") || !file_contains(path, "other methods"),
              "six methods of a backend have names");
     iso_record_free(r);
@@ -233,34 +250,53 @@ static void test_work(void)
     gsl_test(files_in_folder() != 0, "nothing is left");
 }
 
-/* Sections: two models, grey orbits, one crossing, and what is refused. */
+static iso_record *make_crossings(const char *kind, const double rows[][3], size_t count)
+{
+    iso_record *r = NULL;
+    gsl_test((int)iso_record_create(ctx, 3, (const char *[]){"orbit", "l", "x"}, &r), "a record");
+    iso_record_set_kind(r, kind);
+    for (size_t i = 0; i < count; i++) iso_record_add(ctx, r, 1, rows[i]);
+    iso_record_set_numbers(ctx, r, "k", 1, (double[]){-1});
+    iso_record_set_numbers(ctx, r, "J", 3, (double[]){1, 2, 5});
+    iso_record_set_numbers(ctx, r, "eps", 1, (double[]){6.5});
+    iso_record_set_numbers(ctx, r, "axis", 1, (double[]){1});
+    return r;
+}
+
+/* Sections: two models, grey orbits, few crossings, and what is refused. */
 static void test_sections(void)
 {
-    static const double rows[][6] = {
-        {0, 0.1, 0.2, 0, 0.1, 0.2}, {1, -3, -0.999999, 1, -3, -0.9}, {1, 3.1, 1 - 1e-12, 1, 3.1, 1}};
-    static const char *const names[] = {"orbit", "l", "x", "grey", "point_l", "point_x"};
+    static const double rows[][3] = {{0, 0.1, 0.2}, {1, -3, -0.999999}, {2, 3.1, 1 - 1e-12}},
+                        others[][3] = {{0, 0.1, 0.2}, {1, -3, -0.9}, {2, 3.1, 1}};
     const char *path = in_folder("s.svg");
-    iso_params p;
-    iso_record *r;
-    double *row;
-    iso_params_reduced(ctx, -1, (double[]){1, 2, 5}, &p);
-    iso_record_create(ctx, 6, names, &r);
-    iso_plot_section section = {
-        .title = "it's `touch OWNED`", .params = &p, .eps = 6.5, .axis = 0, .rows = r, .grey_means = "chaotic"};
-    gsl_test(iso_plot_sections(ctx, &(iso_plot_page){.path = path}, &section) != ISO_BAD_ARGUMENT, "no crossing");
-    for (int i = 0; i < 3; i++)
-        if (iso_record_append(ctx, r, &row) == ISO_OK) memcpy(row, rows[i], sizeof rows[i]);
-    gsl_test((int)iso_plot_sections(ctx, &(iso_plot_page){.path = path}, &section), "%s", iso_context_message(ctx));
-    gsl_test(!file_contains(path, ">chaotic<") || !file_contains(path, "units of the scene"), "key and axes");
-    section.eps = 0;
-    gsl_test((int)iso_plot_sections(ctx, &(iso_plot_page){.path = path}, &section), "no free point: %s",
+    const iso_plot_page page = {.path = path, .title = "it's `touch OWNED`"};
+    iso_record *none = make_crossings("section", NULL, 0), *r = make_crossings("section", rows, 3),
+               *point = make_crossings("section", others, 3);
+    gsl_test(plot_tables(ctx, &page, (const iso_record *[]){none, NULL}, NULL) != ISO_BAD_INPUT, "no crossing");
+    gsl_test((int)plot_tables(ctx, &page, (const iso_record *[]){r, point, NULL}, "points=4000\n"), "%s",
+             iso_context_message(ctx));
+    gsl_test(!file_contains(path, "ball and point part: chaotic") ||
+                 !file_contains(path, "units of the scene"),
+             "key and axes");
+    gsl_test(!file_contains(path, "touch OWNED"), "a title is drawn as it is");
+    gsl_test(file_contains(path, "<image"), "few points are points");
+    gsl_test((int)plot_tables(ctx, &page, (const iso_record *[]){r, NULL}, "points=1\n"), "%s",
+             iso_context_message(ctx));
+    gsl_test(!file_contains(path, "<image"), "many points are an image");
+    iso_record_set(ctx, r, "eps", NULL);
+    gsl_test((int)plot_tables(ctx, &page, (const iso_record *[]){r, NULL}, NULL), "no free point: %s",
              iso_context_message(ctx));
     gsl_test(file_contains(path, "units of the scene"), "then x is drawn");
     unlink(path);
-    section.axis = 3;
-    gsl_test(iso_plot_sections(ctx, &(iso_plot_page){.path = path}, &section) != ISO_BAD_ARGUMENT,
-             "an axis that is none");
+    gsl_test(plot_tables(ctx, &page, (const iso_record *[]){r, NULL}, "window=1:0,0:1") != ISO_BAD_ARGUMENT,
+             "no window");
+    gsl_test(plot_tables(ctx, &page, (const iso_record *[]){r, NULL}, "value=l") != ISO_BAD_ARGUMENT,
+             "an option of another kind");
+    iso_record_set(ctx, r, "axis", "4");
+    gsl_test(plot_tables(ctx, &page, (const iso_record *[]){r, NULL}, NULL) != ISO_BAD_INPUT, "an axis that is none");
+    iso_record_free(none);
     iso_record_free(r);
+    iso_record_free(point);
     gsl_test(files_in_folder() != 0, "nothing is left");
 }
 

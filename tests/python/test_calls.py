@@ -18,8 +18,8 @@ from isoroll import _instruments
 #: options that are no keywords, and what stands in their place
 EVERYWHERE = {"output": "table.write", "plot": "table.plot", "csv": "table.write", "json": "the table itself",
               "quiet": "warnings", "help": "help()",
-              **dict.fromkeys(("style", "size", "title", "script", "window", "over"), "of gnuplot's pictures: "
-                              "Python draws by matplotlib, where the axes are the caller's")}
+              **dict.fromkeys(("style", "size", "title", "script", "template", "window", "over"),
+                              "of gnuplot's pictures: table.picture")}
 ELSEWHERE = {
     "run": {"verbose": "errors=True",
             **dict.fromkeys(("certify", "digits", "work-digits"), "for the command: enclosures, which are no doubles")},
@@ -32,7 +32,7 @@ ELSEWHERE = {
 }
 #: keywords that are no options: what is studied, and how Python is told of progress; of each function
 OWN = {"scene", "table", "source", "progress", "columns"}
-OWN_OF = {"run": {"times", "errors", "changes"}, "plot": {"ax", "title", "output"}, "view": {"output"},
+OWN_OF = {"run": {"times", "errors", "changes"}, "plot": {"ax", "title", "output", "window", "over"}, "view": {"output"},
           "list": {"topic"}, "chaos": {"at"}}  # which the library has, and the command not
 NO_CALL = {"manual": "documents of the command"}
 

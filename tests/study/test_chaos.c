@@ -155,7 +155,7 @@ static void check_shares(void)
         const iso_scene scene = ball_scene(family[j].k, family[j].J);
         iso_chaos_options o = iso_chaos_defaults();
         iso_chaos *c;
-        o.starts = (size_t)tests_length(24, 400);
+        o.starts = (size_t)tests_length(24, 150);
         o.models = ISO_SHOW_BOTH;
         must(iso_chaos_run(ctx, &scene, &o, &c), "starts");
         const iso_chaos_fraction *s = &c->share;
@@ -272,7 +272,7 @@ static void check_spread_tolerance(void)
         const iso_scene scene = ball_scene(k[j], (const double[]){1.4, 2.1, 3});
         iso_chaos_options o = iso_chaos_defaults();
         iso_chaos *usual, *fine;
-        o.starts = (size_t)tests_length(20, 300);
+        o.starts = (size_t)tests_length(20, 100);
         o.models = ISO_SHOW_POINT;
         must(iso_chaos_run(ctx, &scene, &o, &usual), "as usual");
         o.tolerance = 1e-13;

@@ -32,7 +32,7 @@ static void rotors(void)
 {
     static const double k[] = {1, -1, 0.6};
     iso_random *random = iso_random_create(31);
-    const int count = tests_length(3, 60); /* K in space, in a plane, along an axis */
+    const int count = tests_length(3, 15); /* K in space, in a plane, along an axis */
     for (int which = 0; which < 3; which++) {
         const bool holds = k[which] == 1;
         int right = 0;

@@ -31,7 +31,7 @@ static void energy(const iso_integral_search *r, const char *what)
 static void quadratic(double k)
 {
     iso_random *random = iso_random_create(4);
-    const int count = tests_length(6, 60);
+    const int count = tests_length(6, 20);
     int right = 0;
     double worst = 0, largest = 0, smallest = INFINITY;
     for (int i = 0; i < count; i++) {
@@ -94,7 +94,7 @@ static void none(double k, int degree)
 static void none_at_random(void)
 {
     iso_random *random = iso_random_create(5);
-    const int count = tests_length(6, 60);
+    const int count = tests_length(6, 20);
     int right = 0;
     for (int i = 0; i < count; i++) {
         double J[3];
@@ -236,7 +236,7 @@ static void levels(void)
     iso_random *random = iso_random_create(29);
     iso_integral_search_options o = options(2);
     o.turns = 10;
-    for (int i = 0; i < 5 * tests_length(3, 30); i++) {
+    for (int i = 0; i < 5 * tests_length(3, 10); i++) {
         const iso_scene scene = on_level(random, k[i % 5], i % 2 == 0);
         const iso_integral_search r = search(&scene, &o);
         const bool integrable = fabs(k[i % 5]) == 1;

@@ -88,7 +88,7 @@ static void carry(iso_clock clock, double end, int count)
 /* A deviation of 4.5 comes by chance once in 10^5. */
 static void check(double k)
 {
-    const int count = tests_length(8000, MOST);
+    const int count = tests_length(8000, MOST / 2);
     const iso_params p = laws_params(k, (const double[]){1, 2, 5});
     draw(&p, NULL, count);
     for (iso_clock clock = ISO_CLOCK_T; clock <= ISO_CLOCK_S; clock += ISO_CLOCK_S - ISO_CLOCK_T) {
@@ -105,7 +105,7 @@ static void check(double k)
 /* Resistance makes the ball turn less. Its energy tells at once; here its directions do. */
 static void losses(void)
 {
-    const int count = tests_length(8000, MOST);
+    const int count = tests_length(8000, MOST / 2);
     const iso_params p = laws_params(0.5, (const double[]){1, 2, 5});
     iso_effects effects = iso_effects_default();
     if (iso_effects_set(ctx, &effects, "torque", NULL, 0, NULL) != ISO_OK ||

@@ -164,7 +164,7 @@ static void check_both_searches(void)
     iso_random *random = iso_random_create(4);
     size_t seen = 0;
     int lost[2] = {0, 0};
-    for (int i = 0; i < tests_length(3, 5); i++) {
+    for (int i = 0; i < tests_length(3, 4); i++) {
         const double k = (i % 2 ? 1 : -1) * exp(iso_random_uniform(random, log(0.35), log(tests_length(1, 2))));
         const double J[3] = {iso_random_uniform(random, 1, 1.3), iso_random_uniform(random, 1.5, 2),
                              iso_random_uniform(random, 2.2, 3)};
@@ -191,7 +191,7 @@ static void check_tori(void)
 {
     iso_random *random = iso_random_create(1);
     size_t tori = 0;
-    for (int i = 0; i < tests_length(6, 16); i++) {
+    for (int i = 0; i < tests_length(6, 8); i++) {
         const double k = i % 2 ? 1 : -1,
                      J[3] = {iso_random_uniform(random, 1, 1.5), iso_random_uniform(random, 1.6, 2),
                              iso_random_uniform(random, 2.2, 2.6)};
@@ -266,7 +266,7 @@ static void compare_digits(iso_random *random, int period, size_t *seen, size_t 
 /* The trace's error covers its distance from 128 bits, and orbits close to 1e-28 there. */
 static void check_polish(void)
 {
-    const size_t wanted = (size_t)tests_length(6, 30);
+    const size_t wanted = (size_t)tests_length(6, 15);
     size_t seen = 0, beaten = 0, open = 0;
     iso_random *random = iso_random_create(128);
     for (int i = 0; i < 1000 && seen < wanted; i++) compare_digits(random, 2, &seen, &beaten, &open);

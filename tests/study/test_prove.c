@@ -76,7 +76,7 @@ static void test_numbers(void)
 static void test_integrable(void)
 {
     enum { LENGTHS = 2 };
-    const int count = tests_length(1, 4), digits[LENGTHS] = {tests_length(8, 15), tests_length(16, 30)};
+    const int count = tests_length(1, 2), digits[LENGTHS] = {tests_length(8, 15), tests_length(16, 24)};
     iso_random *random = iso_random_create(35);
     for (int i = 0; i < count; i++) {
         iso_proof_ball b = {.k = {{i % 2 ? -1 : 1, 1}, {i % 2 ? -1 : 1, 1}}};

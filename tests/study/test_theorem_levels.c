@@ -145,7 +145,7 @@ int main(void)
     static const int even[] = {2, -2, 4, -4, 6}, odd[] = {3, -3, 1, -1};
     iso_random *random = iso_random_create(77);
     double eigenvalue = 0, off = INFINITY, trace = 0, integrable = 0, other = INFINITY;
-    for (int i = 0; i < tests_length(2, 30); i++) {
+    for (int i = 0; i < tests_length(2, 10); i++) {
         problem f;
         for (int j = 0; j < 5; j++) f.N = even[j], draw(random, &f), look_at_even(&f, &eigenvalue, &off);
         for (int j = 0; j < 4; j++) {

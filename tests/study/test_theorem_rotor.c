@@ -176,7 +176,7 @@ int main(void)
 {
     iso_random *random = iso_random_create(88);
     double twist = 0, diagonal = 0, known = 0, shell = INFINITY;
-    for (int i = 0; i < tests_length(2, 40); i++) {
+    for (int i = 0; i < tests_length(2, 10); i++) {
         problem f = {.k = -1};
         draw(random, &f);
         shell = fmin(shell, change_of(&f, random, &twist, &diagonal));

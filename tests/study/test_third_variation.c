@@ -215,7 +215,7 @@ int main(void)
     iso_random *random = iso_random_create(350);
     laws_worst right = {0}, none = {0}, equal = {0};
     double least = INFINITY;
-    for (int i = 0; i < tests_length(2, 30); i++)
+    for (int i = 0; i < tests_length(2, 8); i++)
         for (int j = 0; j < 6; j++) {
             laws_worst wrong = {0};
             problem f = {.n = odd[j]};

@@ -12,8 +12,20 @@
  * written), ISO_STOPPED, ISO_NO_MEMORY. */
 iso_status plot_draw(iso_context *ctx, const iso_plot_page *page, const iso_picture *picture);
 
-/* Makes the picture of these tables and draws it; options: see iso_picture_make. */
+/* Makes the picture of these tables, says what it notes, and draws it; options: see iso_picture_make. */
 iso_status plot_tables(iso_context *ctx, const iso_plot_page *page, const iso_record *const table[],
                        const char *options);
+
+/* The files of --over, NULL behind the last. The caller frees them, also after an error. Errors: ISO_BAD_INPUT: a table
+ * of another kind; those of iso_table_read. */
+iso_status plot_read_over(iso_context *ctx, const iso_plot_page *page, iso_record *over[ISO_PLOT_OVERS + 1]);
+
+/* The options of a section's picture: its window; in a file of single shapes (.svg, .pdf) how many spots are too many.
+ * Returns `text`. */
+enum { PLOT_SECTION_OPTIONS = 256 };
+const char *plot_section_options(const iso_plot_page *page, char text[static PLOT_SECTION_OPTIONS]);
+
+/* Draws a section with all that the page asks for. */
+iso_status plot_section(iso_context *ctx, const iso_plot_page *page, const iso_record *section);
 
 #endif

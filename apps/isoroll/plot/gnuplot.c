@@ -17,7 +17,6 @@
 
 #include "io/output_impl.h"
 #include "io/replacement_impl.h"
-#include "plot/plot.h"
 #include "progress.h"
 
 #define INSTALL "install gnuplot (package gnuplot-nox)"
@@ -42,11 +41,8 @@ static const format formats[] = {
     {".png", "pngcairo " LOOK " font 'DejaVu Sans,10'", "", 2, 300, 1, 40.0 / 3, 2, 2.1, "IEND\xAE\x42\x60\x82"},
     {".pdf", "pdfcairo " LOOK " font 'DejaVu Sans,10'", "in", 0.01, 1, 1.0 / 96, 5.0 / 27, 1.6, 1, "%%EOF"},
 };
-#define LETTER 13.0    /* on the screen, in pixels of the page */
-#define PRINT_LETTER 8 /* in print, in pt                      */
-#define COLUMNS_MM 178 /* a page of PAGE pixels in print       */
-#define MM 25.4        /* an inch                              */
-enum { PAGE = 900, NARROW = 435, NARROW_TITLE = 38 };
+#define MM 25.4 /* an inch */
+enum { NARROW_TITLE = 38 };
 
 /* The picture that is drawn. */
 static struct {
@@ -86,7 +82,8 @@ iso_status iso_gnuplot_check_files(iso_context *ctx, const iso_plot_page *page)
 
 /* ---- The page ---- */
 
-bool iso_gnuplot_is_narrow(const iso_plot_page *page)
+/* Whether a picture of one panel is one column wide. */
+static bool is_narrow(const iso_plot_page *page)
 {
     return page->style == ISO_PLOT_IN_PRINT && page->size.width == 0;
 }
@@ -95,42 +92,6 @@ bool iso_gnuplot_is_narrow(const iso_plot_page *page)
 static double given(const format *f, const iso_plot_page *page, double length)
 {
     return page->size.mm ? length / MM * f->inch : length * f->px;
-}
-
-/* Units of the file in a pixel of a page of width x height. */
-static double scale_of(const format *f, const iso_plot_page *page, int width, int height)
-{
-    if (page->style == ISO_PLOT_IN_PRINT) return COLUMNS_MM / MM * f->inch / PAGE;
-    if (page->size.width == 0) return f->scale;
-    return fmin(given(f, page, page->size.width) / width, given(f, page, page->size.height) / height);
-}
-
-void iso_gnuplot_fit(const iso_plot_page *page, bool one_panel, int *width, int *height)
-{
-    const format *f = find_format(page->path);
-    if (f && page->size.width > 0) {
-        const double scale = scale_of(f, page, *width, *height);
-        *width = (int)lround(given(f, page, page->size.width) / scale);
-        *height = (int)lround(given(f, page, page->size.height) / scale);
-    } else if (one_panel && iso_gnuplot_is_narrow(page)) {
-        *height = *height * NARROW / *width + 90;
-        *width = NARROW;
-    }
-}
-
-/* The terminal. Lines and signs are as wide as the scale says, letters in print are of one size. */
-static void put_terminal(FILE *to, const format *f, const iso_plot_page *page, int width, int height)
-{
-    const double scale = scale_of(f, page, width, height), finer = scale / f->scale;
-    const double letter = page->style == ISO_PLOT_IN_PRINT ? PRINT_LETTER * f->inch / 72 : LETTER * scale;
-    double size[2] = {width * scale, height * scale};
-    if (page->size.width > 0) size[0] = given(f, page, page->size.width);
-    if (page->size.width > 0) size[1] = given(f, page, page->size.height);
-    if (!*f->unit) size[0] = round(size[0]), size[1] = round(size[1]);
-    fprintf(to, "set encoding utf8\nset terminal %s fontscale %.4g linewidth %.4g size %.17g%s,%.17g%s", f->terminal,
-            letter / f->letter, f->lines * finer, size[0], f->unit, size[1], f->unit);
-    if (f->points > 0) fprintf(to, " pointscale %.4g", f->points * finer);
-    fputc('\n', to);
 }
 
 /* ---- Opening ---- */
@@ -144,46 +105,37 @@ static iso_status open_files(iso_context *ctx, const iso_plot_page *page)
     return g.script && g.complaints ? ISO_OK : iso_file_trouble(ctx, "open", "a temporary file");
 }
 
-static FILE *begin(iso_context *ctx, const iso_plot_page *page)
+FILE *iso_gnuplot_begin(iso_context *ctx, const iso_plot_page *page)
 {
+    const format *f = g.format = find_format(page->path);
     g.output = NULL;
     g.script = g.complaints = NULL;
     g.script_name = page->script;
-    g.format = find_format(page->path);
     g.status = open_files(ctx, page);
     if (!g.script) return stdin; /* takes nothing */
-    fprintf(g.script, "# Made by isoroll, for gnuplot 5.4: gnuplot -d SCRIPT >PICTURE%s\n", g.format->extension);
+    fprintf(g.script, "# Made by isoroll, for gnuplot 5.4: gnuplot -d SCRIPT >PICTURE%s\n", f->extension);
     return g.script;
 }
 
-FILE *iso_gnuplot_open(iso_context *ctx, const iso_plot_page *page, int width, int height)
+void iso_gnuplot_put_page(FILE *to, const iso_plot_page *page)
 {
-    FILE *f = begin(ctx, page);
-    if (g.script) put_terminal(f, g.format, page, width, height);
-    return f;
-}
-
-FILE *iso_gnuplot_begin(iso_context *ctx, const iso_plot_page *page)
-{
-    FILE *to = begin(ctx, page);
     const format *f = g.format;
-    if (!g.script) return to;
     const bool sized = page->size.width > 0;
+    if (!g.script) return;
     fprintf(to,
-            "terminal = \"%s\"; unit = '%s'; in_print = %d; png = %d\n"
+            "terminal = \"%s\"; unit = '%s'; in_print = %d\n"
             "per_pixel = %.17g; per_inch = %.17g; per_letter = %.17g; lines = %.17g; points = %.17g\n"
             "given_width = %.17g; given_height = %.17g\n",
-            f->terminal, f->unit, page->style == ISO_PLOT_IN_PRINT, f->extension[2] == 'n', f->scale, f->inch,
-            f->letter, f->lines, f->points, sized ? given(f, page, page->size.width) : 0,
-            sized ? given(f, page, page->size.height) : 0);
-    return to;
+            f->terminal, f->unit, page->style == ISO_PLOT_IN_PRINT, f->scale, f->inch, f->letter, f->lines, f->points,
+            sized ? given(f, page, page->size.width) : 0, sized ? given(f, page, page->size.height) : 0);
 }
 
 /* ---- Texts ---- */
 
 /* The length of the character that begins text, 0 if it is none that XML and pango take (controls, broken UTF-8). */
-static int character(const unsigned char *text)
+int iso_gnuplot_character(const char *from)
 {
+    const unsigned char *text = (const unsigned char *)from;
     static const unsigned smallest[] = {0, 0x20, 0xA0, 0x800, 0x10000};
     const int length = text[0] < 0x80 ? 1 : text[0] < 0xC0 ? 0 : text[0] < 0xE0 ? 2 : text[0] < 0xF0 ? 3 : 4;
     if (length == 0 || text[0] >= 0xF8 || text[0] == 0x7F) return 0;
@@ -213,7 +165,7 @@ const char *iso_gnuplot_quote(char quoted[static ISO_QUOTED_SIZE], const char *t
     char *to = quoted;
     *to++ = '"';
     for (int i = 0; *c && i < longest; i++) {
-        const int length = character(c);
+        const int length = iso_gnuplot_character((const char *)c);
         if (length == 0)
             *to++ = *c < 0x20 ? ' ' : '.';
         else if (is_plain(*c))
@@ -245,11 +197,18 @@ static size_t end_of_line(const char *text)
 const char *iso_gnuplot_quote_title(char quoted[static ISO_QUOTED_SIZE], const iso_plot_page *page, const char *own,
                                     int longest)
 {
-    char line[ISO_QUOTED_SIZE];
+    char line[ISO_QUOTED_SIZE], whole[200] = "";
     const char *text = iso_plot_titled(page, own);
-    if (!iso_gnuplot_is_narrow(page)) return iso_gnuplot_quote(quoted, text, longest);
+    if (!is_narrow(page)) return iso_gnuplot_quote(quoted, text, longest);
+    for (int i = 0, used = 0, length; text && *text && i < longest && used < (int)sizeof whole - 8; i++) {
+        length = iso_gnuplot_character(text);
+        used += snprintf(whole + used, sizeof whole - (size_t)used, "%.*s", length > 0 ? length : 1,
+                         length > 0 ? text : " ");
+        text += length > 0 ? length : 1;
+    }
+    text = whole;
     *quoted = '\0';
-    for (text = text ? text : ""; *quoted == '\0' || *text;) {
+    for (; *quoted == '\0' || *text;) {
         const size_t used = strlen(quoted), length = strlen(text) > NARROW_TITLE ? end_of_line(text) : strlen(text);
         char part[200];
         snprintf(part, sizeof part, "%.*s", (int)length, text);
@@ -337,13 +296,13 @@ static iso_status run(iso_context *ctx)
     fputs("\nunset multiplot\nunset output\n", g.script);
     if (fflush(g.script) != 0 || ferror(g.script) || fseek(g.script, 0, SEEK_SET) != 0)
         return iso_file_trouble(ctx, "write", "gnuplot's temporary script");
-    /* -d: no start-up file of the user changes the picture */
+    /* -d: no start-up file of the user changes the picture. What it is given as "-" gnuplot reads by single bytes. */
     const int error =
-        program_start((const char *[]){"gnuplot", "-d", "-", NULL},
+        program_start((const char *[]){"gnuplot", "-d", "/dev/stdin", NULL},
                       (int[]){fileno(g.script), fileno(iso_output_stream(g.output)), fileno(g.complaints)}, &child);
     if (error != 0)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot run gnuplot: %s; " INSTALL, strerror(error));
-    progress_drawing();
+    progress_doing("drawing");
     do ended = waitpid(child, &result, 0);
     while (ended < 0 && errno == EINTR);
     progress_end();

@@ -1,6 +1,6 @@
 /* gnuplot.h - one run of gnuplot: a script in, a picture file out, whole or not at all.
  *
- *     FILE *script = iso_gnuplot_open(ctx, &page, 900, 800);
+ *     FILE *script = iso_gnuplot_begin(ctx, &page);
  *     fprintf(script, "plot %.17g\n", 1.5);                      gnuplot commands and data go in here
  *     status = iso_gnuplot_close(ctx, true);                     runs gnuplot
  */
@@ -18,19 +18,15 @@
  * ISO_FILE_TROUBLE: what has the name is no regular file. */
 iso_status iso_gnuplot_check_files(iso_context *ctx, const iso_plot_page *page);
 
-/* Begins a picture that is laid out on width x height pixels (plot/page.h). One at a time. Gives the script, never
- * NULL; what goes wrong, closing tells. */
-FILE *iso_gnuplot_open(iso_context *ctx, const iso_plot_page *page, int width, int height);
-
-/* The same of a picture that pictures/page.gp lays out: the script begins with what the page is to be. */
+/* Begins a picture that pictures/page.gp lays out: the script begins with what the page is to be. One at a time.
+ * Returns the script, never NULL; what goes wrong, closing tells. */
 FILE *iso_gnuplot_begin(iso_context *ctx, const iso_plot_page *page);
 
-/* Whether a picture of one panel is one column wide: in print, if no other size is asked for. */
-bool iso_gnuplot_is_narrow(const iso_plot_page *page);
+/* Writes what the page is to be, as variables of pictures/page.gp. */
+void iso_gnuplot_put_page(FILE *script, const iso_plot_page *page);
 
-/* Width and height in pixels of the page that is asked for, from those of the picture on the screen: for pictures of
- * one panel, and those that are laid out in pixels. */
-void iso_gnuplot_fit(const iso_plot_page *page, bool one_panel, int *width, int *height);
+/* The length of the character that begins text, 0 if it is none that XML and pango take (controls, broken UTF-8). */
+int iso_gnuplot_character(const char *text);
 
 /* Ends the picture. keep: writes the script if it is asked for, draws the picture and gives it its name; else nothing
  * is left. Errors: ISO_BAD_ARGUMENT

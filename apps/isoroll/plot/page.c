@@ -1,10 +1,10 @@
 /* page.c - what is asked of a picture's page (see page.h). */
 #include "plot/page.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/number_impl.h"
+#include "picture/section_impl.h"
 #include "plot/gnuplot.h"
 
 /* --- setters ---------------------------------------------------------------------------------------------------- */
@@ -51,24 +51,11 @@ bool iso_plot_set_size(void *at, const char *text)
     return is_good(size.width, size.mm) && is_good(size.height, size.mm);
 }
 
-/* "A:B", A < B, both of a size up to `most`. */
-static bool read_range(const char *text, size_t length, double most, double range[2])
-{
-    const char *colon = memchr(text, ':', length);
-    return colon && iso_number_read(text, (size_t)(colon - text), &range[0]) &&
-           iso_number_read(colon + 1, (size_t)(text + length - colon - 1), &range[1]) && range[0] < range[1] &&
-           range[0] >= -most && range[1] <= most;
-}
-
 bool iso_plot_set_window(void *at, const char *text)
 {
-    iso_plot_window *window = at;
-    const size_t comma = strcspn(text, ",");
-    if (text[comma] != ',' || !read_range(text, comma, 3.15, window->l) ||
-        !read_range(text + comma + 1, strlen(text + comma + 1), 1, window->x))
-        return false;
-    for (int i = 0; i < 2; i++) window->l[i] = fmin(fmax(window->l[i], -M_PI), M_PI); /* a pi in few digits */
-    return window->l[0] < window->l[1];
+    double window[2][2];
+    *(const char **)at = text;
+    return iso_picture_window(text, window);
 }
 
 bool iso_plot_set_over(void *at, const char *text)
@@ -82,7 +69,7 @@ bool iso_plot_set_over(void *at, const char *text)
 
 const char *iso_plot_section_wish(const iso_plot_page *page)
 {
-    return page->over[0] ? "over" : page->window.x[0] < page->window.x[1] ? "window" : NULL;
+    return page->over[0] ? "over" : page->window ? "window" : NULL;
 }
 
 /* --- the page --------------------------------------------------------------------------------------------------- */

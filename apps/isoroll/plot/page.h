@@ -18,11 +18,6 @@ typedef struct iso_plot_size {
     bool mm;              /* else px      */
 } iso_plot_size;
 
-/* A part of a section. */
-typedef struct iso_plot_window {
-    double l[2], x[2]; /* x[0] = x[1]: not given */
-} iso_plot_window;
-
 enum { ISO_PLOT_OVERS = 4 };
 
 typedef struct iso_plot_page {
@@ -32,7 +27,7 @@ typedef struct iso_plot_page {
     const char *template; /* a file of gnuplot in place of pictures/KIND.gp; NULL: that one                    */
     iso_plot_style style; /* not given: the screen's                                                         */
     iso_plot_size size;
-    iso_plot_window window;           /* of a section; not given: the whole                          */
+    const char *window;               /* of a section: "L0:L1,X0:X1"; NULL: the whole                */
     const char *over[ISO_PLOT_OVERS]; /* files that are drawn over a section; NULL: no more of them  */
 } iso_plot_page;
 
@@ -72,7 +67,7 @@ const char *iso_plot_style_word(int i);             /* "screen", "print"        
                  .aside = true),                                                                                     \
         ROW_OF_FILE("script", "FILE", "a file", "of the picture: write gnuplot's script, with its data",             \
                     iso_set_text, type, field.script, 0, OPTION_WRITES),                                             \
-        ROW_OF_FILE("template", "FILE", "a file", "of the picture: draw it by this template of gnuplot",             \
+        ROW_OF_FILE("template", "FILE", "a file", "of the picture: draw with your own gnuplot template",             \
                     iso_set_text, type, field.template, 0, OPTION_READS)
 
 /* The rows of a command that draws sections. */

@@ -59,8 +59,9 @@ const sections = !tables("section").length
       const dots = plots.map((plot) => Array.from(l, (angle, i) => plot.place(angle, x[i])));
       const runnable = tables("trajectory").map((one) => Number(one.lines.orbit));
       const shades = new Map(found && Array.from(column(found, "orbit"), (number, i) => [number, column(found, "shade")[i]]));
-      const colourOf = (orbit) => shadeColour(shades.get(orbit), orbit);
-      const behind = (orbit) => (shades.get(orbit) || "colour") !== "colour";
+      const shadeOf = (orbit) => shades.get(orbit) || (found ? "dark" : "colour"); // of thousands some have no verdict
+      const colourOf = (orbit) => shadeColour(shadeOf(orbit), orbit);
+      const behind = (orbit) => shadeOf(orbit) !== "colour";
       let chosen = runnable[0],
         hovered = -1,
         crossings = [];
@@ -284,8 +285,9 @@ const sections = !tables("section").length
       select.addEventListener("change", () => api.choose(Number(select.value)));
       document.getElementById("sections").hidden = false;
       document.body.classList.add("with-sections");
-      const items = [[colours.curve, "the orbit that runs", "dot"], ...shadeItems([...shades.values()].includes("dark"))];
-      legend(document.getElementById("section-legend"), items, "Other colours: a regular orbit each.");
+      const dark = Array.from(orbits).some((number) => shadeOf(number) === "dark"),
+        items = [[colours.curve, "the orbit that runs", "dot"], ...(found ? shadeItems(dark) : [])];
+      legend(document.getElementById("section-legend"), items, `Other colours: ${found ? "a regular" : "an"} orbit each.`);
       document.getElementById("section-name").textContent = `n${"₁₂₃"[a]} = 0`;
       return api;
     })();

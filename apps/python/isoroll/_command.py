@@ -1,4 +1,4 @@
-"""What the command `isoroll` does for Python: pages of moving models, whose script and style are in the command."""
+"""What the command `isoroll` does for Python: pages of moving models and pictures, whose scripts are in the command."""
 
 from __future__ import annotations
 
@@ -102,6 +102,16 @@ def view(source: Union[None, SceneLike, Table] = None, output: Optional[PathLike
             return None
         with open(path, encoding="utf-8") as page:
             return Page(page.read())
+
+
+def picture(table: Table, output: PathLike, over: Sequence[Table], options: Mapping[str, Optional[str]]) -> None:
+    """The command's picture of a table, over which others are drawn: see table.picture."""
+    with tempfile.TemporaryDirectory() as folder:
+        files = [os.path.join(folder, f"table{i}.csv") for i in range(1 + len(over))]
+        for each, file in zip([table, *over], files):
+            each.write(file)
+        run_command(["plot", *_options(options), *(f"--over={file}" for file in files[1:]), "-o", _path(output), "--",
+                     files[0]])
 
 
 def _file_of(source: SceneLike, path: str) -> str:

@@ -95,6 +95,7 @@ _TABLE = {
     "iso_foreign_read": (c_int, c_void_p, c_char_p, c_char_p, _OBJECT) + _NOTES,
     "iso_foreign_write": (c_int, c_void_p, c_char_p, c_void_p, c_int, c_char_p),
     "iso_foreign_convert": (c_int, c_void_p, c_void_p, c_char_p, c_double, c_double, c_bool, _OBJECT) + _NOTES,
+    "iso_picture_make": (c_int, c_void_p, c_void_p, c_char_p, c_void_p),
 }
 
 # --- finding the library --------------------------------------------------------------------------------------------

@@ -269,13 +269,33 @@ class Table:
         check(status, ctx)
 
     def plot(self, ax: Any = None, **how: Any) -> Any:
-        """Draws the table with matplotlib, in the style of `isoroll plot`, and returns the Axes, or an array of them.
+        """Draws the table with matplotlib, as `isoroll plot` does, and returns the Axes, or an array of them.
 
         ax   where to draw: Axes, or as many as the picture has parts; None: a new figure
-        how  of the kind of table: see isoroll.plot
+        how  value, columns, title, window, over: see isoroll.plot
         """
         from ._plot import draw
-        return draw(self, ax, how)
+        return draw(self, ax, **how)
+
+    def picture(self, output: PathLike, *, style: Optional[str] = None, size: Optional[str] = None,
+                title: Optional[str] = None, template: Optional[PathLike] = None, script: Optional[PathLike] = None,
+                **how: Any) -> None:
+        """The command's own picture of the table, by gnuplot: `isoroll plot`, which must be installed.
+
+        output    the file of the picture: .svg, .png or .pdf
+        style     "screen" or "print", with letters of 8 pt
+        size      "86x60mm", "1200x800px"
+        title     above the picture; "none": nothing
+        template  a file of gnuplot in place of the command's own, such as a changed copy of apps/isoroll/pictures
+        script    a file that gets the script of gnuplot, with its data
+        how       value, columns, window, over: see isoroll.plot
+        """
+        from ._command import picture
+        from ._picture import wishes
+        files = {key: None if path is None else os.fsdecode(encoded(path))
+                 for key, path in (("template", template), ("script", script))}
+        over, options = wishes(**how)
+        picture(self, output, over, {"style": style, "size": size, "title": title, **files, **options})
 
     def __repr__(self) -> str:
         shape = f"{len(self)} rows" if self.array.ndim == 2 else f"shape {self.array.shape}"

@@ -152,6 +152,7 @@ static iso_status create_trace(iso_chaos_walk *w, int model)
 {
     ISO_TRY(iso_columns_create(w->ctx, iso_indicator_fields, &w->out->trace[model]));
     iso_record_set_kind(w->out->trace[model], "chaos indicators");
+    ISO_TRY(iso_record_set(w->ctx, w->out->trace[model], "model", iso_model_kind_name(model)));
     return ISO_OK;
 }
 

@@ -104,6 +104,7 @@ static const iso_field integral_fields[] = {
 const iso_field iso_frequencies_fields[] = {
     FIELD("h", h, "energy", "of the ball"),
     FIELD("eps", eps, "", "coupling of the point"),
+    FIELD("H", H, "energy", "of the point"),
     ISO_FOUND("solution", ISO_FIELD_NAME, find_solution, "", "closed or estimated"),
     FIELD("kind", kind, "", "of the closed solution", .word = kind_word),
     FIELD("motion", motion, "", "in words"),

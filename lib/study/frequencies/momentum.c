@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
@@ -68,6 +69,13 @@ iso_momentum_part iso_momentum_find(const iso_momentum *m, double h, double F)
         if (away < least) least = away, nearest = part;
     }
     return nearest;
+}
+
+bool iso_momentum_at(const iso_params *p, double H, double h, const char *integral, double F, iso_momentum *m)
+{
+    double low, high;
+    return h > 0 && iso_momentum_make(p, H, m) && strcmp(integral, m->F) == 0 &&
+           iso_momentum_interval(m, h, iso_momentum_find(m, h, F), &low, &high);
 }
 
 /* --- for a picture ---------------------------------------------------------------------------------------------- */

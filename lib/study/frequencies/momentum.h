@@ -39,6 +39,11 @@ ISO_API bool iso_momentum_make(const iso_params *params, double H, iso_momentum 
 ISO_API bool iso_momentum_interval(const iso_momentum *m, double h, iso_momentum_part part, double *low,
                                    double *high);
 
+/* The image with the orbit at (h, F), F the value of this integral, for a picture. False: there is none, or it has no
+ * area, as with equal moments. */
+ISO_API bool iso_momentum_at(const iso_params *params, double H, double h, const char *integral, double F,
+                             iso_momentum *momentum);
+
 /* For a picture of the image round an energy h: rows with h' from about 0 to 2 h, then low and high F of each part,
  * then F of the four rotations; NaN where there is none. Errors: ISO_NUMERICAL (h, H or a bound fits no double),
  * ISO_NO_MEMORY. */

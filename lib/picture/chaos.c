@@ -1,0 +1,53 @@
+/* chaos.c - the kind "chaos": the starts on the section, with their verdicts and exponents.
+ *
+ * Tables: regular (also of integrable motions), chaotic, undecided: l, x; of chaotic the exponent per turn, by the model
+ * that says what the verdict says; 0: not known. Rows without a place on the section are left out. Lines: title; right_name, up_name: of the axes.
+ */
+#include <math.h>
+#include <stdio.h>
+
+#include "picture/picture_impl.h"
+#include "study/verdict.h"
+
+static double exponent_of(const iso_record *r, size_t i)
+{
+    return iso_picture_number(r, i,
+                              iso_picture_is(r, i, "ball_verdict", "chaotic") ? "ball_per_turn" : "point_per_turn");
+}
+
+static iso_status say_axes(iso_context *ctx, int a, iso_picture *picture)
+{
+    static const char *const index[] = {"₁", "₂", "₃"};
+    char text[100];
+    snprintf(text, sizeof text, "l,  where γ%s = cos l, γ%s = −sin l", index[(a + 1) % 3], index[(a + 2) % 3]);
+    ISO_TRY(iso_picture_say(ctx, picture, "right_name", text));
+    snprintf(text, sizeof text, "M%s / |M|", index[a]);
+    return iso_picture_say(ctx, picture, "up_name", text);
+}
+
+static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
+{
+    static const char *const kinds[] = {"regular", "chaotic", "undecided"}, *const names[] = {"l", "x", "exponent"};
+    enum { REGULAR, CHAOTIC, UNDECIDED, KINDS };
+    const iso_record *r = q->table[0];
+    iso_record *of[KINDS];
+    size_t all = 0;
+    for (int kind = 0; kind < KINDS; kind++)
+        ISO_TRY(iso_picture_add(ctx, picture, kinds[kind], kind == CHAOTIC ? 3 : 2, names, &of[kind]));
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        const double exponent = exponent_of(r, i);
+        const double row[] = {iso_picture_number(r, i, "l"), iso_picture_number(r, i, "x"),
+                              isfinite(exponent) ? exponent : 0};
+        const bool chaotic = iso_picture_is(r, i, "verdict", "chaotic"),
+                   regular = iso_picture_is(r, i, "verdict", "regular") ||
+                             iso_picture_is(r, i, "verdict", iso_verdict_name(ISO_INTEGRABLE));
+        if (!isfinite(row[0]) || !isfinite(row[1])) continue;
+        ISO_TRY(iso_record_add(ctx, of[regular ? REGULAR : chaotic ? CHAOTIC : UNDECIDED], 1, row));
+        all++;
+    }
+    if (all == 0) return ISO_FAIL_INPUT(ctx, "", "no picture: the table has no orbit that starts on the section");
+    return say_axes(ctx, iso_picture_axis(r), picture);
+}
+
+const iso_picture_maker iso_picture_chaos = {
+    "chaos", "Chaos on the section", {"l", "x", "verdict"}, .axis = true, .make = make};

@@ -1,0 +1,121 @@
+/* compare.c - one orbit in both models, and their two clocks: of the tables of stretch_impl.h. Tables of differences
+ * have a picture of their own (difference.c).
+ *
+ * Tables: states and curve (t, s, n1..3, gamma1..3, t_part, s_part, colour, number, ball_right, ball_up, ball_near,
+ * point_right, point_up, point_near). The parts of both clocks that have passed are from 0 to 1; colour is the first of
+ * them, in 96 steps; every 8th state has a number, the same wherever it stands, the others NaN. The projection is that
+ * of sphere.c: where the curve goes to the other side its row stands twice. axes: see sphere.c.
+ * Lines: rolls: what rolls on what; potential: of the point; drawn, result: words below; t_end, s_end.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "picture/picture_impl.h"
+#include "picture/stretch_impl.h"
+
+enum { STEP = 8, COLOURS = 96, GIVEN = 8, COLUMNS = GIVEN + 10, BALL_NEAR = 14, POINT_NEAR = 17 };
+#define OUTLINE 0.1 /* a state so little behind the outline is shown in front */
+
+/* What follows from the first eight numbers of a row; last: those of the last state. */
+static void complete(const double *last, size_t i, double outline, double row[COLUMNS])
+{
+    double *part = row + GIVEN, *seen = part + 4;
+    for (int c = 0; c < 2; c++) part[c] = last[c] == 0 ? 0 : row[c] / last[c];
+    part[2] = floor(fmin(fmax(part[0], 0), 1) * COLOURS) / COLOURS;
+    part[3] = i % STEP == 0 ? (double)(i / STEP) : (double)NAN;
+    for (int side = 0; side < 2; side++, seen += 3) {
+        iso_picture_see(row + 2 + 3 * side, seen);
+        seen[2] = seen[2] > outline;
+    }
+}
+
+static iso_status add_rows(iso_context *ctx, const iso_record *r, const double *last, bool curve, iso_record *to)
+{
+    double row[COLUMNS], before[COLUMNS];
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        memcpy(row, iso_record_const_row(r, i), GIVEN * sizeof *row);
+        complete(last, curve ? 1 : i, curve ? 0 : -OUTLINE, row);
+        if (curve && i > 0 && (row[BALL_NEAR] != before[BALL_NEAR] || row[POINT_NEAR] != before[POINT_NEAR])) {
+            before[BALL_NEAR] = row[BALL_NEAR], before[POINT_NEAR] = row[POINT_NEAR];
+            ISO_TRY(iso_record_add(ctx, to, 1, before));
+        }
+        ISO_TRY(iso_record_add(ctx, to, 1, row));
+        memcpy(before, row, sizeof row);
+    }
+    return ISO_OK;
+}
+
+/* What rolls on what, from k alone: the radius of the fixed sphere is |k/(1-k)| times that of the ball. */
+static iso_status say_ball(iso_context *ctx, iso_picture *picture, double k)
+{
+    char text[200], where[100] = "on a plane", number[ISO_PICTURE_FRACTION];
+    const double ratio = fabs(k / (1 - k));
+    const char *side = k < 0 ? "around" : k < 1 ? "on" : "inside";
+    if (ratio == 1)
+        snprintf(where, sizeof where, "%s a sphere of its own radius", side);
+    else if (k != 1)
+        snprintf(where, sizeof where, "%s a sphere of %.3g times its radius", side, ratio);
+    snprintf(text, sizeof text, "k = %s: a %sball %s", iso_picture_fraction(number, k), k < 0 ? "hollow " : "",
+             where);
+    return iso_picture_say(ctx, picture, "rolls", text);
+}
+
+static iso_status say_potential(iso_context *ctx, iso_picture *picture, double k, bool field)
+{
+    char text[200], number[ISO_PICTURE_FRACTION], power[40] = "";
+    if (k != -1) snprintf(power, sizeof power, "^{%s}", iso_picture_fraction(number, -1 / k));
+    snprintf(text, sizeof text, "a point in the potential V = −ε (γ, Jγ)%s%s", power, field ? " + U/G" : "");
+    return iso_picture_say(ctx, picture, "potential", text);
+}
+
+static iso_status say_drawn(iso_context *ctx, iso_picture *picture, double to, double end)
+{
+    char text[200];
+    if (to == end)
+        snprintf(text, sizeof text, "drawn and compared: to t = %.6g; pale: the far side", end);
+    else
+        snprintf(
+            text, sizeof text,
+            "drawn: a path as long as %.2g great circles, to t = %.4g; compared: to t = %.6g; pale: the far side",
+            ISO_STRETCH_TURNS, to, end);
+    return iso_picture_say(ctx, picture, "drawn", text);
+}
+
+static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
+{
+    static const char *const names[COLUMNS] = {
+        "t",      "s",      "n1",     "n2",         "n3",      "gamma1",    "gamma2",      "gamma3",   "t_part",
+        "s_part", "colour", "number", "ball_right", "ball_up", "ball_near", "point_right", "point_up", "point_near"};
+    const iso_record *r = q->table[0], *path = iso_picture_given(q, "curve");
+    const char *field = iso_record_get(r, "field"), *result = iso_record_get(r, "result");
+    iso_record *states, *curve;
+    iso_status status;
+    double k, end;
+    int first;
+    if (iso_record_find(r, "omega") >= 0) return iso_picture_difference(ctx, q, picture);
+    if (!path) return ISO_FAIL_INPUT(ctx, "", "no picture: the states have no curve");
+    if (!iso_record_get_numbers(ctx, r, "k", 1, &k, &status) ||
+        !iso_record_get_numbers(ctx, r, "compared", 1, &end, &status))
+        return status != ISO_OK ? status : ISO_FAIL_INPUT(ctx, "k", "no picture: the states do not say k, compared");
+    ISO_TRY(iso_picture_find(ctx, r, GIVEN, names, &first));
+    if (first == 0) ISO_TRY(iso_picture_find(ctx, path, GIVEN, names, &first));
+    if (first != 0 || iso_record_rows(r) == 0)
+        return ISO_FAIL_INPUT(ctx, "t", "no picture: t is not the first column");
+    const double *last = iso_record_const_row(r, iso_record_rows(r) - 1);
+    ISO_TRY(iso_picture_add(ctx, picture, "states", COLUMNS, names, &states));
+    ISO_TRY(iso_picture_add(ctx, picture, "curve", COLUMNS, names, &curve));
+    ISO_TRY(add_rows(ctx, r, last, false, states));
+    ISO_TRY(add_rows(ctx, path, last, true, curve));
+    ISO_TRY(iso_picture_axes(ctx, picture, "ball", r, 2, STEP));
+    ISO_TRY(iso_picture_axes(ctx, picture, "point", r, 5, STEP));
+    ISO_TRY(say_ball(ctx, picture, k));
+    ISO_TRY(say_potential(ctx, picture, k, field && strcmp(field, "1") == 0));
+    ISO_TRY(say_drawn(ctx, picture, last[0], end));
+    ISO_TRY(iso_picture_say(ctx, picture, "result", result ? result : ""));
+    ISO_TRY(iso_picture_count(ctx, picture, "t_end", last[0]));
+    return iso_picture_count(ctx, picture, "s_end", last[1]);
+}
+
+const iso_picture_maker iso_picture_compare = {
+    "compare", "One orbit, two worlds, two clocks", {NULL}, .options = " ", .make = make};

@@ -1,0 +1,353 @@
+/* section_charts.c - from points (l, x) of a section to the spots of both charts (see section_impl.h).
+ *
+ * At (l, x), for a = 3,
+ *
+ *     gamma = (cos l, -sin l, 0),     M/|M| = (sqrt(1-x^2) sin l, sqrt(1-x^2) cos l, x)
+ *     n ~ J^(1/2) gamma,              omega ~ J^(-1/2) M, for k < 0 against it                                 (18)
+ *
+ * The ball's coordinates are the angle psi of n = (cos psi, -sin psi, 0) and omega_a/|omega|. The point's are l and
+ * L = G(l) x.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number_impl.h"
+#include "base/vec3_impl.h"
+#include "map/section_impl.h"
+#include "picture/section_impl.h"
+
+enum { BOUNDARY = 240, CELLS = ISO_PICTURE_CELLS };
+#define TOP 1.05 /* of the axis of L, by the largest L  */
+#define ROOM 1.2 /* beyond the crossings, if they are few */
+
+const char *const iso_picture_crossing_names[] = {"l", "x", "point_l", "point_x", "shade", "colour", "images"};
+
+void iso_picture_image(int n, double l, double x, double image[2])
+{
+    image[0] = remainder((n & 1 ? -l : l) + (n & 2 ? M_PI : 0), 2 * M_PI);
+    image[1] = n & 4 ? -x : x;
+}
+
+/* --- options ---------------------------------------------------------------------------------------------------- */
+
+/* "A:B", A < B, both of a size up to `most`. */
+static bool read_range(const char *text, size_t length, double most, double range[2])
+{
+    const char *colon = memchr(text, ':', length);
+    return colon && iso_number_read(text, (size_t)(colon - text), &range[0]) &&
+           iso_number_read(colon + 1, (size_t)(text + length - colon - 1), &range[1]) && range[0] < range[1] &&
+           range[0] >= -most && range[1] <= most;
+}
+
+bool iso_picture_window(const char *text, double window[2][2])
+{
+    const size_t comma = strcspn(text, ",");
+    if (text[comma] != ',' || !read_range(text, comma, 3.15, window[0]) ||
+        !read_range(text + comma + 1, strlen(text + comma + 1), 1, window[1]))
+        return false;
+    for (int i = 0; i < 2; i++) window[0][i] = fmin(fmax(window[0][i], -M_PI), M_PI);
+    return window[0][0] < window[0][1];
+}
+
+iso_status iso_picture_charts_options(iso_context *ctx, const iso_picture_request *q, iso_picture_charts *c)
+{
+    char text[ISO_PICTURE_OPTION];
+    double points;
+    c->windowed = iso_picture_option(q, "window", text);
+    if (c->windowed && !iso_picture_window(text, c->window))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "window",
+                                "window '%s': expected two ranges such as 0.5:1.2,-0.3:0.3, l up to pi and x up to 1",
+                                text);
+    if (!iso_picture_option(q, "points", text)) return ISO_OK;
+    if (!iso_number_read(text, strlen(text), &points) || !(points >= 1 && points <= 1e9))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "points", "points '%s': expected a number of points", text);
+    c->points = (size_t)points;
+    return ISO_OK;
+}
+
+/* --- places ----------------------------------------------------------------------------------------------------- */
+
+/* G(l). If more acts than a level, 1: then x is drawn in place of L. */
+static double largest_momentum(const iso_picture_charts *c, double l)
+{
+    return c->eps > 0 ? iso_section_momentum((iso_point_motion){&c->params, c->eps, c->energy}, c->axis, l) : 1;
+}
+
+iso_picture_spot iso_picture_place(const iso_picture_charts *chart, bool ball, double l, double x)
+{
+    if (!ball) return (iso_picture_spot){l, x * largest_momentum(chart, l)};
+    const iso_params *p = &chart->params;
+    const int a = chart->axis, b = (a + 1) % 3, c = (a + 2) % 3;
+    const double across = sqrt((1 - x) * (1 + x)), sign = copysign(1, p->k), sine = sin(l), cosine = cos(l);
+    const double omega[3] = {sign * across * sine / p->root_J[b], sign * across * cosine / p->root_J[c],
+                             sign * x / p->root_J[a]};
+    return (iso_picture_spot){atan2(p->root_J[c] * sine, p->root_J[b] * cosine), omega[2] / norm(omega)};
+}
+
+/* A chart's rectangle, and how its cells are counted. */
+typedef struct frame {
+    double low[2], high[2]; /* right, up */
+} frame;
+
+/* The rectangle that holds the window. */
+static frame window_of(const iso_picture_charts *c, bool ball)
+{
+    frame f = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (int i = 0; i <= 2 * BOUNDARY + 1; i++) {
+        const iso_picture_spot at = iso_picture_place(
+            c, ball, c->window[0][0] + (c->window[0][1] - c->window[0][0]) * (i / 2) / BOUNDARY, c->window[1][i % 2]);
+        f = (frame){{fmin(f.low[0], at.right), fmin(f.low[1], at.up)},
+                    {fmax(f.high[0], at.right), fmax(f.high[1], at.up)}};
+    }
+    return f;
+}
+
+/* `most`: how far up the spots go. */
+static frame frame_of(const iso_picture_charts *c, bool ball, double most)
+{
+    double top = 1;
+    if (c->windowed) return window_of(c, ball);
+    for (int i = 0; !ball && i <= BOUNDARY; i++) top = fmax(i ? top : 0, largest_momentum(c, M_PI * i / BOUNDARY));
+    if (c->few) top = fmin(top, ROOM * most + 1e-3 * top);
+    if (!ball) top *= TOP;
+    return (frame){{-M_PI, -top}, {M_PI, top}};
+}
+
+/* --- spots ------------------------------------------------------------------------------------------------------ */
+
+typedef struct spot {
+    iso_picture_spot at;
+    const double *crossing;
+} spot;
+
+/* Of few spots one at pi is one at -pi, and is seen at both. */
+static bool is_at_edge(const iso_picture_charts *c, iso_picture_spot at)
+{
+    return c->few && !c->windowed && fabs(at.right) > M_PI - 1e-9;
+}
+
+/* All crossings with their images by one model; NULL: no memory. The caller frees them. */
+static spot *place_all(const iso_picture_charts *c, const iso_record *r, bool ball, size_t *count)
+{
+    const int l = ball ? ISO_PICTURE_L : ISO_PICTURE_POINT_L, x = ball ? ISO_PICTURE_X : ISO_PICTURE_POINT_X;
+    spot *all = malloc((8 * iso_record_rows(r) + 1) * sizeof *all);
+    *count = 0;
+    for (size_t i = 0; all && i < iso_record_rows(r); i++) {
+        const double *row = iso_record_const_row(r, i);
+        for (int n = 0; n < 8; n++) {
+            double image[2];
+            if (!((unsigned)row[ISO_PICTURE_IMAGES] >> n & 1)) continue;
+            iso_picture_image(n, row[l], row[x], image);
+            all[*count] = (spot){iso_picture_place(c, ball, image[0], image[1]), row};
+            if (is_at_edge(c, all[*count].at)) all[*count].at.right = -M_PI;
+            *count += isfinite(all[*count].at.right) && isfinite(all[*count].at.up);
+        }
+    }
+    return all;
+}
+
+/* -1: outside of the frame. */
+static int cell_of(const frame *f, iso_picture_spot at)
+{
+    const double u = (at.right - f->low[0]) / (f->high[0] - f->low[0]),
+                 v = (at.up - f->low[1]) / (f->high[1] - f->low[1]);
+    if (!(u >= 0 && u <= 1 && v >= 0 && v <= 1)) return -1;
+    return (int)fmin(v * CELLS, CELLS - 1) * CELLS + (int)fmin(u * CELLS, CELLS - 1);
+}
+
+/* Grey lies behind dark, and both behind colours. */
+static const iso_picture_shade layers[] = {ISO_PICTURE_GREY, ISO_PICTURE_DARK, ISO_PICTURE_COLOURED};
+enum { LAYERS = sizeof layers / sizeof *layers };
+
+/* Digits that are not seen only make files large. */
+static double rounded(double x, double low, double high)
+{
+    const double unit = pow(10, 5 - ceil(log10(high - low)));
+    return fmin(fmax(nearbyint(x * unit) / unit, low), high);
+}
+
+static iso_status put_spot(iso_context *ctx, const iso_picture_charts *c, const frame *f, const spot *s,
+                           iso_record *to)
+{
+    const double row[] = {rounded(s->at.right, f->low[0], f->high[0]), rounded(s->at.up, f->low[1], f->high[1]),
+                          s->crossing[ISO_PICTURE_SHADE], s->crossing[ISO_PICTURE_COLOUR]};
+    ISO_TRY(iso_record_add(ctx, to, 1, row));
+    if (!is_at_edge(c, s->at)) return ISO_OK;
+    return iso_record_add(ctx, to, 1, (double[]){-row[0], row[1], row[2], row[3]});
+}
+
+/* From behind to before, one spot in each cell: the first of those that are before all others. cells: zeros. */
+static iso_status put_spots(iso_context *ctx, const iso_picture_charts *c, const frame *f, const spot *all,
+                            size_t count, unsigned char cells[], iso_record *to)
+{
+    enum { DONE = LAYERS + 1 };
+    int layer_of[LAYERS];
+    for (int layer = 0; layer < LAYERS; layer++) layer_of[layers[layer]] = layer + 1;
+    for (size_t i = 0; i < count; i++) {
+        const int cell = cell_of(f, all[i].at), layer = layer_of[(int)all[i].crossing[ISO_PICTURE_SHADE]];
+        if (cell >= 0 && layer > cells[cell]) cells[cell] = (unsigned char)layer;
+    }
+    for (int layer = 1; layer <= LAYERS; layer++)
+        for (size_t i = 0; i < count; i++) {
+            const int cell = cell_of(f, all[i].at);
+            if (cell < 0 || cells[cell] != layer || layer_of[(int)all[i].crossing[ISO_PICTURE_SHADE]] != layer)
+                continue;
+            cells[cell] = DONE;
+            ISO_TRY(put_spot(ctx, c, f, &all[i], to));
+        }
+    return ISO_OK;
+}
+
+/* In place of the spots of a table: an image. A spot is three cells wide, without the corners. */
+static iso_status put_image(iso_context *ctx, const frame *f, const iso_record *spots, iso_record *image)
+{
+    for (int i = 0; i < CELLS; i++) {
+        double *row;
+        ISO_TRY(iso_record_append(ctx, image, &row));
+        for (int j = 0; j < CELLS; j++) row[j] = ISO_PICTURE_CELL_EMPTY;
+    }
+    for (size_t i = 0; i < iso_record_rows(spots); i++) {
+        const double *s = iso_record_const_row(spots, i);
+        const int cell = cell_of(f, (iso_picture_spot){s[0], s[1]});
+        static const int across[] = {0, -1, 1, 0, 0}, up[] = {0, 0, 0, -1, 1};
+        for (int n = 0; n < 5 && cell >= 0; n++) {
+            const int x = cell % CELLS + across[n], y = cell / CELLS + up[n];
+            if (x >= 0 && x < CELLS && y >= 0 && y < CELLS)
+                iso_record_row(image, (size_t)y)[x] = s[2] == ISO_PICTURE_GREY   ? ISO_PICTURE_CELL_GREY
+                                                      : s[2] == ISO_PICTURE_DARK ? ISO_PICTURE_CELL_DARK
+                                                                                 : rounded(s[3], 0, 1);
+        }
+    }
+    return ISO_OK;
+}
+
+/* --- the tables ------------------------------------------------------------------------------------------------- */
+
+static iso_status say_of_side(iso_context *ctx, const char *side, const char *key, double number, const char *text,
+                              iso_picture *picture)
+{
+    char name[32];
+    snprintf(name, sizeof name, "%s_%s", side, key);
+    return text ? iso_picture_say(ctx, picture, name, text) : iso_picture_count(ctx, picture, name, number);
+}
+
+static iso_status say_frame(iso_context *ctx, const char *side, const frame *f, iso_picture *picture)
+{
+    ISO_TRY(say_of_side(ctx, side, "x0", f->low[0], NULL, picture));
+    ISO_TRY(say_of_side(ctx, side, "x1", f->high[0], NULL, picture));
+    ISO_TRY(say_of_side(ctx, side, "y0", f->low[1], NULL, picture));
+    return say_of_side(ctx, side, "y1", f->high[1], NULL, picture);
+}
+
+/* Words of the axes. */
+static iso_status say_names(iso_context *ctx, const iso_picture_charts *chart, bool ball, iso_picture *picture)
+{
+    static const char *const index[] = {"₁", "₂", "₃"};
+    const char *a = index[chart->axis], *b = index[(chart->axis + 1) % 3], *c = index[(chart->axis + 2) % 3];
+    const char *n = ball ? "n" : "γ", *side = ball ? "ball" : "point";
+    char text[160];
+    snprintf(text, sizeof text, "%s: %s%s = 0, %s%s increasing",
+             ball             ? "ball"
+             : chart->eps > 0 ? "point"
+                              : "directions of γ and M",
+             n, a, n, a);
+    ISO_TRY(say_of_side(ctx, side, "title", 0, text, picture));
+    snprintf(text, sizeof text, "%s,  where %s%s = cos %s, %s%s = −sin %s", ball ? "ψ" : "l", n, b, ball ? "ψ" : "l",
+             n, c, ball ? "ψ" : "l");
+    ISO_TRY(say_of_side(ctx, side, "right", 0, text, picture));
+    snprintf(text, sizeof text,
+             ball             ? "ω%s / |ω|"
+             : chart->eps > 0 ? "L = M%s, in the units of the scene"
+                              : "x = M%s / |M|",
+             a);
+    return say_of_side(ctx, side, "up", 0, text, picture);
+}
+
+/* The spots of one side, and where they are. */
+static iso_status find_spots(iso_context *ctx, const iso_picture_charts *c, const iso_record *crossings, bool ball,
+                             frame *f, iso_record *spots)
+{
+    size_t count;
+    double most = 0;
+    spot *all = place_all(c, crossings, ball, &count);
+    unsigned char *cells = calloc(CELLS, CELLS);
+    iso_status status = all && cells ? ISO_OK : iso_context_no_memory(ctx, "a picture");
+    for (size_t i = 0; all && i < count; i++) most = fmax(most, fabs(all[i].at.up));
+    *f = frame_of(c, ball, most);
+    if (status == ISO_OK) status = put_spots(ctx, c, f, all, count, cells, spots);
+    free(cells);
+    free(all);
+    return status;
+}
+
+/* The table of one side: its spots, or their image. */
+static iso_status add_side(iso_context *ctx, const frame *f, const iso_record *spots, bool ball, bool image,
+                           iso_picture *picture)
+{
+    const char *names[CELLS], *const *name = names;
+    char text[CELLS][8];
+    iso_record *table;
+    const size_t rows = iso_record_rows(spots), columns = image ? CELLS : iso_record_columns(spots);
+    for (size_t i = 0; i < columns; i++) {
+        snprintf(text[i], sizeof text[i], "%zu", i + 1);
+        names[i] = image ? text[i] : iso_record_name(spots, i);
+    }
+    ISO_TRY(iso_picture_add(ctx, picture, ball ? "ball" : "point", columns, name, &table));
+    ISO_TRY(say_frame(ctx, ball ? "ball" : "point", f, picture));
+    if (image) return put_image(ctx, f, spots, table);
+    return rows > 0 ? iso_record_add(ctx, table, rows, iso_record_const_row(spots, 0)) : ISO_OK;
+}
+
+/* The scale of the rotation numbers; nothing: there are none, or the colours are hues. */
+static iso_status say_range(iso_context *ctx, const iso_picture_charts *c, const iso_record *crossings,
+                            iso_picture *picture)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; !c->few && i < iso_record_rows(crossings); i++) {
+        const double *row = iso_record_const_row(crossings, i), x = row[ISO_PICTURE_COLOUR];
+        if (row[ISO_PICTURE_SHADE] == ISO_PICTURE_COLOURED) low = fmin(low, x), high = fmax(high, x);
+    }
+    const bool bar = low <= high;
+    if (bar && high - low < 1e-3) low -= 5e-4, high += 5e-4;
+    ISO_TRY(iso_picture_count(ctx, picture, "bar", bar));
+    ISO_TRY(iso_picture_count(ctx, picture, "low", bar ? low : 0));
+    return iso_picture_count(ctx, picture, "high", bar ? high : 1);
+}
+
+static iso_status put_boundary(iso_context *ctx, const iso_picture_charts *c, iso_record *to)
+{
+    for (int i = 0; i <= BOUNDARY; i++) {
+        const double l = M_PI * (2.0 * i / BOUNDARY - 1), G = largest_momentum(c, l);
+        ISO_TRY(iso_record_add(ctx, to, 1, (double[]){l, -G, G}));
+    }
+    return ISO_OK;
+}
+
+iso_status iso_picture_charts_put(iso_context *ctx, const iso_picture_charts *c, const iso_record *crossings,
+                                  iso_picture *picture)
+{
+    static const char *const columns[] = {"right", "up", "shade", "colour"};
+    iso_record *spots[2] = {NULL, NULL}, *boundary;
+    frame f[2];
+    iso_status status = ISO_OK;
+    for (int i = 0; status == ISO_OK && i < 2; i++) { /* the ball's, the point's */
+        status = iso_record_create(ctx, 4, columns, &spots[i]);
+        if (status == ISO_OK) status = find_spots(ctx, c, crossings, i == 0, &f[i], spots[i]);
+    }
+    const bool image = status == ISO_OK && c->points > 0 &&
+                       (iso_record_rows(spots[0]) > c->points || iso_record_rows(spots[1]) > c->points);
+    for (int i = 0; status == ISO_OK && i < 2; i++) {
+        status = add_side(ctx, &f[i], spots[i], i == 0, image, picture);
+        if (status == ISO_OK) status = say_names(ctx, c, i == 0, picture);
+    }
+    for (int i = 0; i < 2; i++) iso_record_free(spots[i]);
+    ISO_TRY(status);
+    ISO_TRY(iso_picture_count(ctx, picture, "images", image));
+    ISO_TRY(iso_picture_count(ctx, picture, "window", c->windowed));
+    ISO_TRY(iso_picture_count(ctx, picture, "few", c->few));
+    ISO_TRY(say_range(ctx, c, crossings, picture));
+    ISO_TRY(iso_picture_add(ctx, picture, "boundary", 3, (const char *const[]){"l", "low", "high"}, &boundary));
+    return put_boundary(ctx, c, boundary);
+}

@@ -1,0 +1,350 @@
+/* space.c - the path of a ball in space: its support, what is up, where the contact is lost.
+ *
+ *     contact = a R n (sphere), centre = contact + b R n, |b| the ball's radius
+ *
+ * Tables: path (of, right, away, up, above, side): `of` is "centre" or "contact"; above and side: 1: near, 0: behind
+ * the support, seen from above and from the side; the row where a path goes behind it stands twice. marks (sign, right,
+ * away, up): "start", "end", and "lost" where the contact is lost. The view from above has the axes (right,
+ * away), that from the side (right, up), with away = up x right:
+ *
+ *       up |    / away
+ *          |  /
+ *          |/______ right
+ *
+ * Lines: paths: the values of `of`; above, side: titles of the views, "" if there is none; right_name, away_name,
+ * up_name; right_low, ... up_high: what is to be seen; dots: the rows are too far apart to be joined; ball, support:
+ * radii, 0: not known; solid: the support hides what is behind it; strip: the path is so narrow that the scale across
+ * it is larger; slope, at: the plane seen from the side is up = at + slope right, if it is seen.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "picture/picture_impl.h"
+
+#define ALIKE 1e-6  /* directions and radii that differ by less are the same             */
+#define NARROW 6    /* a path that is so many times longer than wide has a wide panel    */
+#define FLAT 3      /* the same on a sphere: the eye looks at its side                   */
+#define LOST 1e-9   /* a pressure below this part of the largest is 0                    */
+#define OUTLINE 0.1 /* nothing is hidden this near the outline of the support; part of its radius */
+
+typedef struct scenery {
+    const iso_record *rows;
+    int centre, contact;             /* first columns, -1: not there                                            */
+    int place;                       /* the path that is drawn: of the centre if it is known, else of the contact */
+    bool plane, level;               /* the support is a plane; a plane that is level, or up is not known       */
+    bool normal, vertical;           /* the columns tell the plane's normal; up[] is the vertical               */
+    double right[3], away[3], up[3]; /* of the view from the side; `away` is up in the view from above          */
+    double ball, support;            /* radii, 0: not known                                                     */
+    double low[3], high[3];          /* of the path along right, away, up                                       */
+    const char *right_name, *away_name, *up_name, *above, *side;
+} scenery;
+
+static const double *vector_at(const scenery *s, size_t row, int column)
+{
+    return iso_record_const_row(s->rows, row) + column;
+}
+
+/* --- the support ------------------------------------------------------------------------------------------------ */
+
+/* The length of the vector, less another one, if it is the same in all rows; else 0. */
+static double constant_length(const scenery *s, int column, int less)
+{
+    double first = 0;
+    for (size_t i = 0; i < iso_record_rows(s->rows); i++) {
+        double v[3];
+        copy(vector_at(s, i, column), v, 3);
+        if (less >= 0) add_scaled(v, -1, vector_at(s, i, less));
+        if (i == 0) first = norm(v);
+        if (!(fabs(norm(v) - first) <= ALIKE * first)) return 0;
+    }
+    return first;
+}
+
+/* The normal of the plane, on the ball's side; false: the columns do not tell it. */
+static bool find_normal(const scenery *s, double normal[3])
+{
+    if (!s->plane || s->ball == 0) return false;
+    copy(vector_at(s, 0, s->centre), normal, 3);
+    add_scaled(normal, -1, vector_at(s, 0, s->contact));
+    scale(normal, 1 / s->ball);
+    return true;
+}
+
+/* On a plane the paths of contact and centre are the same from above. */
+static bool shows_contact(const scenery *s)
+{
+    return s->centre < 0 || (s->contact >= 0 && !s->plane);
+}
+
+/* Whether the support hides the place: only a sphere on whose outside the ball rolls, or that is inside the ball. */
+static bool is_solid(const scenery *s)
+{
+    if (s->support == 0 || s->ball == 0) return false;
+    return norm(vector_at(s, 0, s->centre)) > s->support || s->ball > s->support;
+}
+
+/* A run that ends where contact is lost has pressure 0 in its last row. */
+int iso_picture_losses(const iso_record *r, size_t lost[ISO_PICTURE_LOSSES])
+{
+    const int column = iso_record_find(r, "pressure");
+    double largest = 0;
+    int count = 0;
+    bool pressed = iso_record_rows(r) == 1; /* a start under a pull is no loss */
+    for (size_t i = 0; column >= 0 && i < iso_record_rows(r); i++)
+        largest = fmax(largest, fabs(iso_record_const_row(r, i)[column]));
+    for (size_t i = 0; column >= 0 && i < iso_record_rows(r); i++) {
+        const bool now = iso_record_const_row(r, i)[column] > LOST * largest;
+        if (pressed && !now && count < ISO_PICTURE_LOSSES) lost[count++] = i;
+        pressed = now;
+    }
+    return count;
+}
+
+/* --- directions ------------------------------------------------------------------------------------------------- */
+
+/* The part of v that is orthogonal to up, made a unit vector; false: there is none. */
+static bool across(const double v[3], const double up[3], double direction[3])
+{
+    copy(v, direction, 3);
+    add_scaled(direction, -dot(v, up), up);
+    const double length = norm(direction);
+    if (!(length > ALIKE * norm(v))) return false;
+    scale(direction, 1 / length);
+    return true;
+}
+
+static void turn_to(scenery *s, const double right[3])
+{
+    copy(right, s->right, 3);
+    cross(s->up, s->right, s->away);
+    const double *const axis[] = {s->right, s->away, s->up};
+    for (int a = 0; a < 3; a++) {
+        s->low[a] = INFINITY, s->high[a] = -INFINITY;
+        for (size_t i = 0; i < iso_record_rows(s->rows); i++) {
+            const double x = dot(vector_at(s, i, s->place), axis[a]);
+            s->low[a] = fmin(s->low[a], x), s->high[a] = fmax(s->high[a], x);
+        }
+    }
+}
+
+/* The horizontal direction from the start to the place that is farthest from it. */
+static bool find_far(const scenery *s, double direction[3])
+{
+    double most = 0;
+    for (size_t i = 1; i < iso_record_rows(s->rows); i++) {
+        double way[3];
+        copy(vector_at(s, i, s->place), way, 3);
+        add_scaled(way, -1, vector_at(s, 0, s->place));
+        add_scaled(way, -dot(way, s->up), s->up);
+        if (norm(way) > most) most = norm(way), copy(way, direction, 3);
+    }
+    if (most > 0) scale(direction, 1 / most);
+    return most > 0;
+}
+
+static void name_views(scenery *s, bool axes)
+{
+    const bool level_plane = s->plane && s->level && s->normal;
+    s->above = s->vertical   ? "the path of the ball, seen from above"
+               : level_plane ? "the path of the ball, seen along the normal of the plane"
+                             : "the path of the ball, seen along axis 3 of space";
+    s->side = s->vertical ? "seen from the side"
+              : axes      ? "seen along axis 2 of space"
+                          : "seen at a right angle to axis 3";
+    s->right_name = axes ? "axis 1" : s->vertical ? "horizontal" : "at a right angle to axis 3";
+    s->away_name = axes ? "axis 2" : s->vertical ? "horizontal" : "at a right angle to axis 3";
+    if (level_plane && !s->vertical) s->right_name = s->away_name = "in the plane";
+    s->up_name = !s->vertical ? "axis 3" : axes ? "height (axis 3)" : "height";
+}
+
+/* Whether the path is so long and narrow that it gets a wide panel, with a larger scale across it. */
+static bool is_narrow(const scenery *s)
+{
+    return s->plane && s->level && s->high[0] - s->low[0] > NARROW * (s->high[1] - s->low[1]);
+}
+
+/* Turns `right` along the path: on a plane if the path is narrow; on a sphere if it lies nearly in one upright plane,
+ * which the view from the side then shows from the front. Else nothing changes. */
+static void follow_path(scenery *s)
+{
+    scenery turned = *s;
+    double right[3];
+    if (!find_far(s, right)) return;
+    turn_to(&turned, right);
+    if (s->plane ? !is_narrow(&turned) : !(turned.high[0] - turned.low[0] > FLAT * (turned.high[1] - turned.low[1])))
+        return;
+    *s = turned;
+    name_views(s, false);
+    if (!s->plane) return;
+    s->above = s->vertical ? "the path of the ball, seen from above; the scale across it is larger"
+               : s->normal ? "the path of the ball, along the normal of the plane; the scale across it is larger"
+                           : "the path of the ball, along axis 3 of space; the scale across it is larger";
+    s->right_name = "along the path", s->away_name = "across";
+}
+
+/* To the right: down the slope of a plane, along a narrow path, else along axis 1 of space, or nearest to it. */
+static void choose_directions(scenery *s, const double normal[3])
+{
+    static const double axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double right[3];
+    if (s->normal && across(normal, s->up, right)) {
+        turn_to(s, right);
+        name_views(s, false);
+        s->right_name = "horizontal, down the slope", s->away_name = "across the slope";
+        return;
+    }
+    const bool upright = norm((double[]){s->up[0], s->up[1], s->up[2] - 1}) <= ALIKE;
+    if (upright)
+        copy(axis[0], right, 3);
+    else if (!across(axis[0], s->up, right))
+        across(axis[1], s->up, right);
+    turn_to(s, right);
+    const double rise = s->high[2] - s->low[2], width = fmax(s->high[0] - s->low[0], s->high[1] - s->low[1]);
+    s->level = s->plane && (s->normal || rise <= ALIKE * width);
+    name_views(s, upright);
+    follow_path(s);
+}
+
+/* --- tables ----------------------------------------------------------------------------------------------------- */
+
+/* Along right, away and up; the places of a narrow path are counted from its start. */
+static void project(const scenery *s, const double place[3], double at[3])
+{
+    const double *const axis[] = {s->right, s->away, s->up}, *start = vector_at(s, 0, s->place);
+    for (int a = 0; a < 3; a++) at[a] = dot(place, axis[a]) - (is_narrow(s) && a < 2 ? dot(start, axis[a]) : 0);
+}
+
+static iso_status add_path(iso_context *ctx, const scenery *s, const char *of, int column, iso_record *path)
+{
+    const bool hides = is_solid(s) && s->ball <= s->support;
+    double row[6] = {0, 0, 0, 0, -1, -1};
+    ISO_TRY(iso_record_intern(ctx, path, of, &row[0]));
+    for (size_t i = 0; i < iso_picture_drawn(s->rows); i++) {
+        project(s, iso_picture_row(s->rows, i) + column, &row[1]);
+        const double above = !hides || row[3] >= -OUTLINE * s->support,
+                     side = !hides || row[2] <= OUTLINE * s->support;
+        const bool turns = i > 0 && (above != row[4] || side != row[5]);
+        if (turns) ISO_TRY(iso_record_add(ctx, path, 1, row));
+        row[4] = above, row[5] = side;
+        ISO_TRY(iso_record_add(ctx, path, 1, row));
+    }
+    return ISO_OK;
+}
+
+static iso_status add_mark(iso_context *ctx, const scenery *s, const char *sign, size_t row, iso_record *marks)
+{
+    double numbers[4];
+    ISO_TRY(iso_record_intern(ctx, marks, sign, &numbers[0]));
+    project(s, vector_at(s, row, s->place), &numbers[1]);
+    return iso_record_add(ctx, marks, 1, numbers);
+}
+
+static iso_status add_marks(iso_context *ctx, const scenery *s, iso_record *marks)
+{
+    size_t lost[ISO_PICTURE_LOSSES];
+    const size_t last = iso_record_rows(s->rows) - 1;
+    const int losses = iso_picture_losses(s->rows, lost);
+    ISO_TRY(add_mark(ctx, s, "start", 0, marks));
+    if (losses == 0 || lost[losses - 1] != last) ISO_TRY(add_mark(ctx, s, "end", last, marks)); /* "lost" says more */
+    for (int i = 0; i < losses; i++) ISO_TRY(add_mark(ctx, s, "lost", lost[i], marks));
+    return ISO_OK;
+}
+
+/* What must fit into the views: the path, the ball, the sphere. */
+static iso_status say_extents(iso_context *ctx, const scenery *s, iso_picture *picture)
+{
+    static const char *const low[] = {"right_low", "away_low", "up_low"}, *const high[] = {"right_high", "away_high",
+                                                                                           "up_high"};
+    double start[3] = {0, 0, 0};
+    const double room = is_narrow(s) ? 0 : s->ball;
+    if (is_narrow(s)) {
+        start[0] = dot(vector_at(s, 0, s->place), s->right);
+        start[1] = dot(vector_at(s, 0, s->place), s->away);
+    }
+    for (int a = 0; a < 3; a++) {
+        const double least = s->low[a] - start[a] - room, most = s->high[a] - start[a] + room;
+        ISO_TRY(iso_picture_count(ctx, picture, low[a], s->support > 0 ? fmin(least, -s->support) : least));
+        ISO_TRY(iso_picture_count(ctx, picture, high[a], s->support > 0 ? fmax(most, s->support) : most));
+    }
+    return ISO_OK;
+}
+
+/* The plane, seen from the side, is a line through the first contact. */
+static void find_line(const scenery *s, double line[2])
+{
+    double contact[3], centre[3];
+    line[0] = line[1] = (double)NAN;
+    if (!s->plane || s->level || s->ball == 0) return;
+    project(s, vector_at(s, 0, s->contact), contact);
+    project(s, vector_at(s, 0, s->centre), centre);
+    line[0] = -(centre[0] - contact[0]) / (centre[2] - contact[2]);
+    line[1] = contact[2] - line[0] * contact[0];
+}
+
+static iso_status say_scenery(iso_context *ctx, const scenery *s, iso_picture *picture)
+{
+    double line[2];
+    const bool dots = !s->plane && !iso_picture_joined(s->rows, s->place);
+    find_line(s, line);
+    ISO_TRY(iso_picture_say(ctx, picture, "paths",
+                            s->centre < 0      ? "contact"
+                            : shows_contact(s) ? "centre contact"
+                                               : "centre"));
+    ISO_TRY(iso_picture_say(ctx, picture, "above", s->above));
+    ISO_TRY(iso_picture_say(ctx, picture, "side", s->plane && s->level ? "" : s->side));
+    ISO_TRY(iso_picture_say(ctx, picture, "right_name", s->right_name));
+    ISO_TRY(iso_picture_say(ctx, picture, "away_name", s->away_name));
+    ISO_TRY(iso_picture_say(ctx, picture, "up_name", s->up_name));
+    ISO_TRY(iso_picture_count(ctx, picture, "dots", dots));
+    ISO_TRY(iso_picture_count(ctx, picture, "ball", s->ball));
+    ISO_TRY(iso_picture_count(ctx, picture, "support", s->support));
+    ISO_TRY(iso_picture_count(ctx, picture, "solid", is_solid(s)));
+    ISO_TRY(iso_picture_count(ctx, picture, "strip", is_narrow(s)));
+    if (isfinite(line[0])) {
+        ISO_TRY(iso_picture_count(ctx, picture, "slope", line[0]));
+        ISO_TRY(iso_picture_count(ctx, picture, "at", line[1]));
+    }
+    return say_extents(ctx, s, picture);
+}
+
+/* --- all -------------------------------------------------------------------------------------------------------- */
+
+static iso_status look_around(iso_context *ctx, const iso_record *r, const double *up, bool plane, scenery *s)
+{
+    static const char *const centre[] = {"centre1", "centre2", "centre3"}, *const contact[] = {"contact1", "contact2",
+                                                                                               "contact3"};
+    static const double axis_3[3] = {0, 0, 1};
+    double normal[3];
+    *s = (scenery){.rows = r, .plane = plane, .vertical = up != NULL, .centre = -1, .contact = -1};
+    if (iso_record_find(r, centre[0]) >= 0) ISO_TRY(iso_picture_find(ctx, r, 3, centre, &s->centre));
+    if (iso_record_find(r, contact[0]) >= 0 || s->centre < 0)
+        ISO_TRY(iso_picture_find(ctx, r, 3, contact, &s->contact));
+    s->place = s->centre >= 0 ? s->centre : s->contact;
+    if (s->centre >= 0 && s->contact >= 0) s->ball = constant_length(s, s->centre, s->contact);
+    if (!plane && s->contact >= 0) s->support = constant_length(s, s->contact, -1);
+    s->normal = find_normal(s, normal);
+    copy(up ? up : s->normal ? normal : axis_3, s->up, 3);
+    if (!(fabs(norm(s->up) - 1) <= ALIKE))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "up", "a picture of space: up is no unit vector");
+    choose_directions(s, normal);
+    return ISO_OK;
+}
+
+iso_status iso_picture_space(iso_context *ctx, const iso_record *r, const double *up, bool plane,
+                             iso_picture *picture)
+{
+    static const char *const of_path[] = {"of", "right", "away", "up", "above", "side"};
+    static const char *const of_mark[] = {"sign", "right", "away", "up"};
+    scenery s;
+    iso_record *path, *marks;
+    ISO_TRY(look_around(ctx, r, up, plane, &s));
+    ISO_TRY(say_scenery(ctx, &s, picture));
+    ISO_TRY(iso_picture_add(ctx, picture, "path", 6, of_path, &path));
+    iso_record_set_words(path, 0, true);
+    if (s.centre >= 0) ISO_TRY(add_path(ctx, &s, "centre", s.centre, path));
+    if (shows_contact(&s)) ISO_TRY(add_path(ctx, &s, "contact", s.contact, path));
+    ISO_TRY(iso_picture_add(ctx, picture, "marks", 4, of_mark, &marks));
+    iso_record_set_words(marks, 0, true);
+    return add_marks(ctx, &s, marks);
+}
