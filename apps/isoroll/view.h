@@ -100,10 +100,10 @@ iso_status view_neighbour(iso_context *ctx, view_page *page, const iso_scene *sc
                           const iso_record *rows);
 
 /* The table "orbits": verdict, exponent and shade of the orbits that begin on the section's axis at (l, x), with the
- * energy of `scene`; number[i]: of which orbit. at NULL: of the scene's own orbit. Adds a note if there are none.
- * Errors: likewise. */
-iso_status view_verdicts(iso_context *ctx, view_page *page, const iso_scene *scene, int axis, size_t count,
-                         const double (*at)[2], const double number[]);
+ * energy of `scene`; number[i]: of which orbit of `section`, whose picture says the shades. section, at NULL: of the
+ * scene's own orbit, without a shade. Adds a note if there are none. Errors: likewise. */
+iso_status view_verdicts(iso_context *ctx, view_page *page, const iso_scene *scene, const iso_record *section,
+                         int axis, size_t count, const double (*at)[2], const double number[]);
 
 /* Adds the rows of a scene or of a trajectory, and what is found out about them: "drifts" of the integrals of each
  * model, the neighbour, and the verdict. */

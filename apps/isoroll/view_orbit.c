@@ -6,6 +6,7 @@
 #include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
+#include "picture/picture.h"
 #include "study/check/check_impl.h"
 #include "study/run.h"
 #include "study/study.h"
@@ -146,14 +147,18 @@ iso_status view_neighbour(iso_context *ctx, view_page *page, const iso_scene *st
 
 /* --- verdicts --------------------------------------------------------------------------------------------------- */
 
-/* How pictures show an orbit of this verdict. */
-static const char *shade_of(const char *verdict)
+/* How pictures show the orbit with this number: a word. */
+static const char *shade_of(const iso_record *orbits, double number)
 {
-    return strcmp(verdict, "chaotic") == 0 ? "grey" : strcmp(verdict, "undecided") == 0 ? "dark" : "colour";
+    static const char *const words[] = {"colour", "grey", "dark"};
+    for (size_t i = 0; orbits && i < iso_record_rows(orbits); i++)
+        if (iso_record_const_row(orbits, i)[0] == number) return words[(int)iso_record_const_row(orbits, i)[1]];
+    return "";
 }
 
 /* The rows of `chaos` as the table "orbits"; those from the second on are the starts, by their numbers from 1 on. */
-static iso_status keep_verdicts(iso_context *ctx, view_page *page, const iso_record *chaos, const double number[])
+static iso_status keep_verdicts(iso_context *ctx, view_page *page, const iso_record *chaos, const iso_record *shades,
+                                const double number[])
 {
     static const char *const names[] = {"orbit", "verdict", "exponent", "shade"};
     const int verdict = iso_record_find(chaos, "verdict"), exponent = iso_record_find(chaos, "ball_exponent_t");
@@ -167,7 +172,7 @@ static iso_status keep_verdicts(iso_context *ctx, view_page *page, const iso_rec
         const char *text = iso_record_word(chaos, from[verdict]);
         double row[] = {number ? number[(size_t)from[0] - 1] : 0, 0, from[exponent], 0};
         ISO_TRY(iso_record_intern(ctx, r, text, &row[1]));
-        ISO_TRY(iso_record_intern(ctx, r, shade_of(text), &row[3]));
+        ISO_TRY(iso_record_intern(ctx, r, shade_of(shades, row[0]), &row[3]));
         ISO_TRY(iso_record_add(ctx, r, 1, row));
     }
     return ISO_OK;
@@ -189,10 +194,11 @@ static char *options_of(int axis, size_t count, const double (*at)[2])
     return fclose(f) == 0 && good ? text : (free(text), NULL);
 }
 
-iso_status view_verdicts(iso_context *ctx, view_page *page, const iso_scene *start, int axis, size_t count,
-                         const double (*at)[2], const double number[])
+iso_status view_verdicts(iso_context *ctx, view_page *page, const iso_scene *start, const iso_record *section,
+                         int axis, size_t count, const double (*at)[2], const double number[])
 {
     iso_study_result result = {.failed = false};
+    iso_picture picture = {.layout = NULL};
     iso_scene scene = *start;
     char *options = options_of(axis, count, at);
     scene.effects = iso_scene_acting(start);
@@ -200,10 +206,14 @@ iso_status view_verdicts(iso_context *ctx, view_page *page, const iso_scene *sta
     iso_status status =
         options ? iso_study_ask(ctx, iso_study_find("chaos"), &(iso_study_subject){.scene = &scene}, options, &result)
                 : iso_context_no_memory(ctx, "%zu orbits", count);
+    if (status == ISO_OK && section)
+        status = iso_picture_make(ctx, (const iso_record *[]){section, result.table[0], NULL}, NULL, &picture);
     if (status == ISO_OK)
-        status = keep_verdicts(ctx, page, result.table[0], number);
+        status =
+            keep_verdicts(ctx, page, result.table[0], section ? iso_picture_table(&picture, "orbits") : NULL, number);
     else if (!is_fatal(status) && at)
         view_note(page, "Which orbits are chaotic is not known: %s.", iso_context_message(ctx));
+    iso_picture_free(&picture);
     iso_study_result_free(&result);
     free(options);
     return is_fatal(status) ? status : ISO_OK;
@@ -257,6 +267,6 @@ iso_status view_add_orbit(iso_context *ctx, view_page *page, iso_record *rows)
         if (is_fatal(status)) return status;
     }
     if (page->no_orbit) return ISO_OK;
-    ISO_TRY(view_verdicts(ctx, page, &scene, -1, 0, NULL, NULL));
+    ISO_TRY(view_verdicts(ctx, page, &scene, NULL, -1, 0, NULL, NULL));
     return view_neighbour(ctx, page, &scene, -1, rows);
 }

@@ -173,7 +173,8 @@ static iso_status add_verdicts(iso_context *ctx, view_page *page, const section 
         at[o][1] = row[s->x];
         number[o] = row[s->orbit];
     }
-    if (status == ISO_OK) status = view_verdicts(ctx, page, &scene, s->axis, count, (const double(*)[2])at, number);
+    if (status == ISO_OK)
+        status = view_verdicts(ctx, page, &scene, s->in, s->axis, count, (const double(*)[2])at, number);
     free(at);
     free(number);
     return status;

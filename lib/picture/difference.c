@@ -52,9 +52,9 @@ iso_status iso_picture_difference(iso_context *ctx, const iso_picture_request *q
     iso_record_free(copy);
     ISO_TRY(status);
     ISO_TRY(iso_picture_say(ctx, picture, "differences", "difference of ball and point"));
-    for (const iso_record *const *r = q->table + 1; *r; r++) {
-        const bool ball = iso_record_find(*r, "n1") >= 0;
-        ISO_TRY(add_sphere(ctx, picture, ball, *r));
+    for (int i = 1; i <= 2 && q->table[i]; i++) { /* the ball, then the point; the point may be alone */
+        const bool ball = i == 1 && (q->table[2] || iso_record_find(q->table[i], "n1") >= 0);
+        ISO_TRY(add_sphere(ctx, picture, ball, q->table[i]));
     }
     return ISO_OK;
 }

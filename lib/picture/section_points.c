@@ -27,7 +27,8 @@ struct iso_picture_points {
     iso_record *kept;
     size_t orbits;     /* that have a crossing; a row is of another orbit than the one before if its number differs */
     double number;     /* of the orbit whose rows come                                             */
-    iso_record *first; /* of each orbit the first crossing, (l, x)                                 */
+    iso_record *who;   /* of each orbit its number ... */
+    iso_record *first; /* ... and its first crossing, (l, x) */
     iso_record *shade; /* of each orbit: an iso_picture_shade; grey if ball and point have parted  */
     iso_record *now;   /* crossings (l, x) of the orbit whose rows come                            */
     iso_record *rotation; /* of each orbit before it; NaN: not found                                  */
@@ -66,6 +67,7 @@ iso_status iso_picture_points_create(iso_context *ctx, const iso_record *header,
     ISO_TRY(iso_record_create(ctx, COLUMNS, names, &p->kept));
     ISO_TRY(iso_record_create(ctx, 2, names, &p->first));
     ISO_TRY(iso_record_create(ctx, 2, names, &p->now));
+    ISO_TRY(iso_record_create(ctx, 1, &names[ORBIT], &p->who));
     ISO_TRY(iso_record_create(ctx, 1, names, &p->rotation));
     return iso_record_create(ctx, 1, names, &p->shade);
 }
@@ -74,6 +76,7 @@ void iso_picture_points_free(iso_picture_points *p)
 {
     if (!p) return;
     iso_record_free(p->kept);
+    iso_record_free(p->who);
     iso_record_free(p->first);
     iso_record_free(p->shade);
     iso_record_free(p->now);
@@ -132,6 +135,7 @@ iso_status iso_picture_points_row(iso_context *ctx, iso_picture_points *p, const
     if (p->orbits == 0 || row[0] != p->number) {
         ISO_TRY(end_orbit(ctx, p));
         ISO_TRY(iso_record_add(ctx, p->first, 1, at));
+        ISO_TRY(iso_record_add(ctx, p->who, 1, row));
         p->number = row[0];
         p->orbits++;
     }
@@ -215,19 +219,40 @@ static unsigned images_of(unsigned reversors)
     return images;
 }
 
-/* Of each row what is drawn. Without verdicts an orbit without a rotation number is grey. */
+/* The shade of each orbit is now decided. Without verdicts an orbit without a rotation number is grey. */
+static iso_status decide_shades(iso_context *ctx, iso_picture_points *p)
+{
+    for (size_t i = 0; i < p->orbits; i++)
+        if (shade_of(p, i) == ISO_PICTURE_COLOURED && isnan(*iso_record_const_row(p->rotation, i)))
+            ISO_TRY(set_shade(ctx, p, i, p->judged ? ISO_PICTURE_DARK : ISO_PICTURE_GREY));
+    return ISO_OK;
+}
+
+/* Of each row what is drawn. */
 static void put_shades(iso_picture_points *p, bool any[3])
 {
     for (size_t i = 0; i < iso_record_rows(p->kept); i++) {
         double *row = iso_record_row(p->kept, i);
-        const double rotation = *iso_record_const_row(p->rotation, (size_t)row[ORBIT]);
-        int shade = shade_of(p, (size_t)row[ORBIT]);
-        if (shade == ISO_PICTURE_COLOURED && isnan(rotation)) shade = p->judged ? ISO_PICTURE_DARK : ISO_PICTURE_GREY;
+        const int shade = shade_of(p, (size_t)row[ORBIT]);
         row[ISO_PICTURE_SHADE] = shade;
-        row[ISO_PICTURE_COLOUR] = shade == ISO_PICTURE_COLOURED ? rotation : 0;
+        row[ISO_PICTURE_COLOUR] =
+            shade == ISO_PICTURE_COLOURED ? *iso_record_const_row(p->rotation, (size_t)row[ORBIT]) : 0;
         row[ISO_PICTURE_IMAGES] = shade == ISO_PICTURE_COLOURED ? images_of(p->reversors) : 1;
         any[shade] = true;
     }
+}
+
+/* The table of the orbits: number, shade, rotation number. */
+static iso_status put_orbits(iso_context *ctx, const iso_picture_points *p, iso_picture *picture)
+{
+    static const char *const names[] = {"orbit", "shade", "rotation"};
+    iso_record *orbits;
+    ISO_TRY(iso_picture_add(ctx, picture, "orbits", 3, names, &orbits));
+    for (size_t i = 0; i < p->orbits; i++)
+        ISO_TRY(iso_record_add(
+            ctx, orbits, 1,
+            (double[]){*iso_record_const_row(p->who, i), shade_of(p, i), *iso_record_const_row(p->rotation, i)}));
+    return ISO_OK;
 }
 
 iso_status iso_picture_points_make(iso_context *ctx, iso_picture_points *p, const iso_record *const over[],
@@ -243,8 +268,10 @@ iso_status iso_picture_points_make(iso_context *ctx, iso_picture_points *p, cons
     ISO_TRY(iso_picture_charts_options(ctx, &q, &p->charts));
     ISO_TRY(end_orbit(ctx, p));
     ISO_TRY(thin_out(ctx, p, MOST / 4));
+    ISO_TRY(decide_shades(ctx, p));
     put_shades(p, any);
     ISO_TRY(iso_picture_charts_put(ctx, &p->charts, p->kept, picture));
+    ISO_TRY(put_orbits(ctx, p, picture));
     snprintf(title, sizeof title, "k = %s, J = (%.6g, %.6g, %.6g): %zu orbit%s%s",
              iso_picture_fraction(k, p->charts.params.k), J[0], J[1], J[2], p->orbits, p->orbits == 1 ? "" : "s",
              p->reversors && any[ISO_PICTURE_COLOURED] ? " and mirror images" : "");
