@@ -54,7 +54,7 @@ void view_page_free(view_page *page);
 /* Adds a note that the page shows. */
 void view_note(view_page *page, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Gives the page a table of this kind. orbit >= 0: that of the section's orbit with this number. The page frees it, also
+/* Gives the page a table of this kind; orbit >= 0: about the section's orbit of this number. The page frees it, also
  * after an error. */
 iso_status view_add(iso_context *ctx, view_page *page, const char *kind, double orbit, iso_record *table);
 
@@ -69,7 +69,7 @@ iso_status view_of_section(iso_context *ctx, const file_options *from, view_page
  * without such a line. Says in page->alone if an effect breaks the isomorphism. Errors: ISO_BAD_INPUT about a line. */
 iso_status view_read_lines(iso_context *ctx, const file_options *from, iso_record *r, view_page *page);
 
-/* Whether one does. Reads page->effects. */
+/* Whether an effect breaks the isomorphism. Reads page->effects. */
 bool view_is_broken(view_page *page);
 
 /* --- orbits ----------------------------------------------------------------------------------------------------- */
@@ -100,7 +100,7 @@ iso_status view_neighbour(iso_context *ctx, view_page *page, const iso_scene *sc
                           const iso_record *rows);
 
 /* The table "orbits": verdict, exponent and shade of the orbits that begin on the section's axis at (l, x), with the
- * energy of `scene`; number[i]: of which orbit of `section`, whose picture says the shades. section, at NULL: of the
+ * energy of `scene`; number[i]: the orbit's number in `section`, whose picture has the shades. section, at NULL: of the
  * scene's own orbit, without a shade. Adds a note if there are none. Errors: likewise. */
 iso_status view_verdicts(iso_context *ctx, view_page *page, const iso_scene *scene, const iso_record *section,
                          int axis, size_t count, const double (*at)[2], const double number[]);

@@ -21,7 +21,7 @@ bool view_is_broken(view_page *page)
     return breaking != NULL;
 }
 
-/* Which effects are idle tells the first row. A row that is no start is refused later, with its place. */
+/* The first row tells which effects are idle. A row that is no start is refused later, with its place. */
 static iso_status read_effects(iso_context *ctx, const iso_record *r, view_page *page)
 {
     iso_start start;

@@ -1,7 +1,8 @@
 /* chaos.c - the kind "chaos": the starts on the section, with their verdicts and exponents.
  *
- * Tables: regular (also of integrable motions), chaotic, undecided: l, x; of chaotic the exponent per turn, by the model
- * that says what the verdict says; 0: not known. Rows without a place on the section are left out. Lines: title; right_name, up_name: of the axes.
+ * Tables: regular (also integrable motions), chaotic, undecided: l, x; chaotic has also the exponent per turn, that of
+ * the ball if it is chaotic, else of the point; 0: not known. Rows without l and x are left out. Lines: title;
+ * right_name, up_name: names of the axes.
  */
 #include <math.h>
 #include <stdio.h>

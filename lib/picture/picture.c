@@ -139,7 +139,7 @@ iso_status iso_picture_as_it_is(iso_context *ctx, const iso_picture_request *q, 
     if (columns > ISO_PICTURE_MOST_COLUMNS)
         return ISO_FAIL_INPUT(ctx, "", "no picture: there are %zu columns", columns);
     for (size_t c = 0; c < columns; c++) names[c] = iso_record_name(r, c);
-    ISO_TRY(iso_record_create(ctx, columns, names, copy)); /* without its lines, which are no variables of ours */
+    ISO_TRY(iso_record_create(ctx, columns, names, copy)); /* no lines: they would become variables */
     for (size_t c = 0; c < columns; c++) iso_record_set_words(*copy, c, iso_record_has_words(r, c));
     iso_record_set_kind(*copy, "table");
     for (size_t i = 0; i < iso_record_rows(r); i++) {

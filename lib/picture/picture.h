@@ -6,7 +6,7 @@
  *     iso_picture_free(&picture);
  *
  * The command's templates (apps/isoroll/pictures), Matplotlib and the page draw these tables, and compute nothing:
- * which rows are grey, dashed, marked, or left out is said here, once. The head of each file of this folder has its tables.
+ * which rows are grey, dashed, marked or left out is said here, once. The head of each .c file here lists its tables.
  */
 #ifndef ISO_PICTURE_PICTURE_H
 #define ISO_PICTURE_PICTURE_H

@@ -47,7 +47,7 @@ const char *iso_picture_symbol(const char *name);
 
 /* --- paths and curves ------------------------------------------------------------------------------------------- */
 
-/* The rows that are drawn of a path: all, or so many with the first and the last; the i-th of them. */
+/* How many rows of a path are drawn: all, or so many, with the first and the last; the i-th of these rows. */
 enum { ISO_PICTURE_ROWS = 5000 };
 size_t iso_picture_drawn(const iso_record *r);
 const double *iso_picture_row(const iso_record *r, size_t i);
@@ -58,7 +58,7 @@ iso_status iso_picture_find(iso_context *ctx, const iso_record *r, int count, co
 
 /* Adds a table `name`, the path of three columns of unit vectors on the sphere (see sphere.c), and a line
  * NAME_length: its length in radians, 0: its rows are too far apart to be joined, and NAME_rows, how many there are.
- * Adds its ends to a table "ends", and the axes of the sphere to a table "axes"; `step`: the numbers of axes keep
+ * Adds its ends to a table "ends". iso_picture_axes adds the sphere's axes to a table "axes"; their numbers keep
  * away from every step-th row. */
 iso_status iso_picture_path(iso_context *ctx, iso_picture *picture, const char *name, const iso_record *r,
                             int column);
@@ -68,7 +68,7 @@ iso_status iso_picture_axes(iso_context *ctx, iso_picture *picture, const char *
 /* A vector as it is seen: right, up, and towards the eye (> 0: it is near). */
 void iso_picture_see(const double v[3], double seen[3]);
 
-/* Whether no two drawn rows are so far apart, in radians about 0, that they are no path. */
+/* Whether each drawn row is so near to the next one, in radians about 0, that a line may join them. */
 bool iso_picture_joined(const iso_record *r, int column);
 
 /* Adds the tables "path" and "marks", and what they show (see space.c). up: the vertical, a unit vector in axes of

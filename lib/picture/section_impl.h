@@ -7,7 +7,7 @@
  *
  * Tables of the picture, SIDE is ball or point:
  * - SIDE: spots; right, up; shade: an iso_picture_shade; colour: if `bar` the rotation number, else a hue in [0, 1); 0
- *   if the shade is no colour. What is drawn first comes first. Of spots that would lie on each other one is there. If
+ *   if the shade is no colour. What is drawn first comes first. Of spots that would cover each other one is kept. If
  *   `images`, because there are more than the option `points`: an image, see ISO_PICTURE_CELLS;
  * - orbits: orbit, shade, rotation: of each orbit of the file, of a section alone;
  * - boundary: l, low, high: where L = -G(l) and G(l), from -pi to pi;

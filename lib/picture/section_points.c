@@ -228,7 +228,7 @@ static iso_status decide_shades(iso_context *ctx, iso_picture_points *p)
     return ISO_OK;
 }
 
-/* Of each row what is drawn. */
+/* What is drawn of each row. */
 static void put_shades(iso_picture_points *p, bool any[3])
 {
     for (size_t i = 0; i < iso_record_rows(p->kept); i++) {

@@ -37,7 +37,7 @@ set label drawn at 450,48 center noenhanced tc rgb words
 set label result at 450,24 center noenhanced
 
 # --- what is drawn: behind the sphere in pale colours, then in front; then the ladder: thin rungs, rungs with numbers,
-# the numbers. A hidden number is off the page: gnuplot 5.4 ends by a signal where all labels are NaN.
+# the numbers. A hidden number is off the page: gnuplot 5.4 crashes if all labels are NaN.
 do for [i=0:1] {
     set object circle at middle(i),centre size R back fc rgb sphere fs solid border lc rgb outline
 }

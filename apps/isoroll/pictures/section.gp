@@ -2,7 +2,7 @@
 # $ball, $point: right, up, shade (0: in colours, 1: grey, 2: dark), colour; if `images`: matrices of colours, or -1
 # (grey), -2 (dark), -3 (nothing). ball_x0, ball_x1, ball_y0, ball_y1: the ends of the axes; ball_title, ball_right,
 # ball_up: their names; the same with point_. bar: 1: colours are rotation numbers from low to high; else hues.
-# window: only a part is drawn; few: few spots. $boundary: l, low, high: where the point cannot be beyond.
+# window: only a part is drawn; few: few spots. $boundary: l, low, high: the point stays between low and high.
 # grey_means, dark_means: for the key; "": there are none. Over it: $ball_orbits (right, up, stable; lines stable and
 # unstable say whether there are any), $ball_leaves and $ball_enters (right, up; line curves), the same with point_.
 keys = (grey_means ne '') + (dark_means ne '') + stable + unstable + curves
@@ -11,7 +11,7 @@ width = 900; panels = 2; height = 404 + below
 eval page
 bottom = height - below; right = width - (bar ? 120 : 16); wide = (right - 76 - 84) / 2.0
 
-# --- colours of spots. Of the i-th orbit alone: hues that are neither pale nor dark.
+# --- colours of spots. Without `bar` each orbit has its own hue, neither pale nor dark.
 part(hue) = int(255 * (0.47 + 0.36 * cos(2 * pi * hue) - 0.03 * cos(4 * pi * hue)))
 by_hue(hue) = part(hue) * 65536 + part(hue - 1 / 3.0) * 256 + part(hue - 2 / 3.0)
 grey_code = code(grey); dark_code = code(ink); white_code = code(white)
@@ -20,7 +20,7 @@ cell(value) = value == -3 ? white_code : look(value < 0 ? -value : 0, value)
 eval viridis_dots
 set cbrange [low:high]
 
-# --- one side: the more spots, the smaller; of few ones the coloured ones are large
+# --- one side: many spots are drawn small; if there are few, the coloured ones are large
 spot = min(max(9 / sqrt(|$ball| + 1), 0.08), 0.4)
 cells = images ? words($ball[1]) : 1  # across, and up
 spots(side) = images ? sprintf("$%s matrix every :::1 using \

@@ -38,7 +38,7 @@ static void put_lines(FILE *f, const iso_plot_page *page, const iso_record *firs
 
 /* --- data ------------------------------------------------------------------------------------------------------- */
 
-/* A word in a block of data, where no octal numbers are read: what gnuplot could take for something else is changed. */
+/* A word in a block of data. There gnuplot reads no octal codes, so quotes and backslashes become other signs. */
 static void put_word(FILE *f, const char *word)
 {
     fputc('"', f);
@@ -52,7 +52,7 @@ static void put_word(FILE *f, const char *word)
     fputc('"', f);
 }
 
-/* Numbers that are not finite are missing. Of words, "" is. */
+/* A number that is not finite is written as NaN, which is missing. */
 static void put_block(FILE *f, const iso_record *r)
 {
     const size_t columns = iso_record_columns(r);

@@ -20,7 +20,7 @@ iso_status plot_tables(iso_context *ctx, const iso_plot_page *page, const iso_re
  * of another kind; those of iso_table_read. */
 iso_status plot_read_over(iso_context *ctx, const iso_plot_page *page, iso_record *over[ISO_PLOT_OVERS + 1]);
 
-/* The options of a section's picture: its window; in a file of single shapes (.svg, .pdf) how many spots are too many.
+/* The options of a section's picture: its window; for .svg and .pdf, which store each spot, the most spots of a side.
  * Returns `text`. */
 enum { PLOT_SECTION_OPTIONS = 256 };
 const char *plot_section_options(const iso_plot_page *page, char text[static PLOT_SECTION_OPTIONS]);

@@ -19,7 +19,7 @@
 iso_status iso_gnuplot_check_files(iso_context *ctx, const iso_plot_page *page);
 
 /* Begins a picture that pictures/page.gp lays out: the script begins with what the page is to be. One at a time.
- * Returns the script, never NULL; what goes wrong, closing tells. */
+ * Returns the script, never NULL; iso_gnuplot_close tells what went wrong. */
 FILE *iso_gnuplot_begin(iso_context *ctx, const iso_plot_page *page);
 
 /* Writes what the page is to be, as variables of pictures/page.gp. */

@@ -1,4 +1,4 @@
-/* page.h - the file of a picture, and how it is to look: what the options --style, --size, --title and --script say.
+/* page.h - the file of a picture, and its look: what the options --style, --size, --title, --script, --template say.
  *
  * A picture is laid out in pixels of a page 900 wide, the same in every format. On the screen this page grows with
  * --size, and its letters with it. In print the letters are 8 pt high, whatever the size; a page 900 wide is 178 mm
@@ -24,7 +24,7 @@ typedef struct iso_plot_page {
     const char *path;     /* of the picture, which ends in .svg, .png or .pdf; NULL: no picture is asked for */
     const char *title;    /* in place of its own; "": none; NULL: its own                                    */
     const char *script;   /* gets gnuplot's script with its data; NULL: it is not kept                       */
-    const char *template; /* a file of gnuplot in place of pictures/KIND.gp; NULL: that one                    */
+    const char *template; /* a file of gnuplot in place of pictures/LAYOUT.gp; NULL: that one                  */
     iso_plot_style style; /* not given: the screen's                                                         */
     iso_plot_size size;
     const char *window;               /* of a section: "L0:L1,X0:X1"; NULL: the whole                */

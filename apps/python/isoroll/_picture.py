@@ -1,4 +1,4 @@
-"""What is to be seen of a table: the tables that the library makes for whoever draws (lib/picture/picture.h)."""
+"""What a picture of a table shows: the tables that the library makes to be drawn (lib/picture/picture.h)."""
 
 from __future__ import annotations
 
