@@ -2,7 +2,7 @@
 # rows.sh ISOROLL - long trajectories: what comes out does not depend on the pieces in which they arrive; mistakes keep
 # their places. `check` finds one wrong number among rows that are near each other; it and `plot` pass over rows of nan.
 . "$(dirname "$0")/lib.sh"
-scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" "$(length 60 1000)" 0.01 >scene.yaml
+scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" "$(length 60 300)" 0.01 >scene.yaml
 for as in ball point both; do run 0 run scene.yaml --as "$as" -o "$as.csv"; done
 count=$(rows ball.csv | wc -l)
 
