@@ -187,7 +187,7 @@ print(splitting)
 #
 # Two columns of a journal are 178 mm wide. `plot` draws into Axes of your own, so a figure is put together as with any
 # other data. Over the section are the periodic orbits: rings are stable ones, crosses unstable ones. The end of the
-# name says what is written: `.pdf` has vectors, for the journal; `.png` is for a page.
+# name says what is written: `.pdf` has vectors, for the journal (many spots are an image); `.png` is for a page.
 
 # %%
 plt.rcParams.update({"font.size": 7, "axes.titlesize": 7, "legend.fontsize": 6, "pdf.fonttype": 42})

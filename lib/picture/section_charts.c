@@ -287,7 +287,7 @@ static iso_status add_side(iso_context *ctx, const frame *f, const iso_record *s
                            iso_picture *picture)
 {
     const char *names[CELLS], *const *name = names;
-    char text[CELLS][8];
+    char text[CELLS][24];
     iso_record *table;
     const size_t rows = iso_record_rows(spots), columns = image ? CELLS : iso_record_columns(spots);
     for (size_t i = 0; i < columns; i++) {
