@@ -36,17 +36,18 @@ viridis_dots = "set palette defined (0 '#440154', 1 '#472977', 2 '#3D4B88', 3 '#
 exponents = "set palette defined (0 '#F7E3B0', 0.5 '#E8AA00', 1 '#8B1A00')" # pale_yellow, orange, dark_red
 
 # --- the page
+# (gnuplot 6 has a function called round)
 min(a, b) = a < b ? a : b
 max(a, b) = a > b ? a : b
-round(x) = floor(x + 0.5)
+nearest(x) = floor(x + 0.5)
 page = 'scale = in_print ? 178 / 25.4 * per_inch / 900 : given_width > 0 ? \
 min(1.0 * given_width / width, 1.0 * given_height / height) : per_pixel; \
 narrow = in_print && panels == 1 && given_width == 0; \
-if (given_width > 0) { width = round(1.0 * given_width / scale); height = round(1.0 * given_height / scale) }; \
+if (given_width > 0) { width = nearest(1.0 * given_width / scale); height = nearest(1.0 * given_height / scale) }; \
 if (narrow) { height = height * 435.0 / width + 90; width = 435; title = narrow_title }; \
 letter = in_print ? per_inch / 9.0 : 13 * scale; \
 size_x = given_width > 0 ? given_width : width * 1.0 * scale; size_y = given_width > 0 ? given_height : height * scale; \
-if (unit eq "") { size_x = round(size_x); size_y = round(size_y) }; \
+if (unit eq "") { size_x = nearest(size_x); size_y = nearest(size_y) }; \
 eval sprintf("set terminal %s fontscale %.4g linewidth %.4g size %.17g%s,%.17g%s", terminal, 1.0 * letter / per_letter, \
     1.0 * lines * scale / per_pixel, size_x, unit, size_y, unit) \
     .(points > 0 ? sprintf(" pointscale %.4g", 1.0 * points * scale / per_pixel) : "")'
@@ -136,7 +137,7 @@ globe_y(i, a) = Y(globe_n1(i, a), globe_n2(i, a), globe_n3(i, a))
 # a colour as a number; a mixture of two of these, part from 0 to 1; viridis at z from 0 to 1
 code(colour) = int('0x'.colour[2:7])
 mixed(a, b, part) = mixed_byte(a, b, part, 16) * 65536 + mixed_byte(a, b, part, 8) * 256 + mixed_byte(a, b, part, 0)
-mixed_byte(a, b, part, place) = round((1 - part) * (a >> place & 255) + part * (b >> place & 255))
+mixed_byte(a, b, part, place) = nearest((1 - part) * (a >> place & 255) + part * (b >> place & 255))
 array viridis_at[9] = [0x440154, 0x472C7A, 0x3B518B, 0x2C718E, 0x21908D, \
     0x27AD81, 0x5CC863, 0xAADC32, 0xFDE725]
 viridis_colour(z) = mixed(viridis_at[viridis_piece(z) + 1], viridis_at[viridis_piece(z) + 2], z * 8 - viridis_piece(z))
