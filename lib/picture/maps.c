@@ -12,7 +12,7 @@ static double at(const iso_record *r, size_t row, int column)
 
 /* --- scales ----------------------------------------------------------------------------------------------------- */
 
-static int by_size(const void *a, const void *b)
+int iso_picture_by_size(const void *a, const void *b)
 {
     const double *one = a, *other = b;
     return (*one > *other) - (*one < *other);
@@ -27,7 +27,7 @@ static iso_status sort_column(iso_context *ctx, const iso_record *r, int column,
         if (isfinite(x) && !(sizes && x == 0)) ISO_TRY(iso_record_add(ctx, *sorted, 1, &here));
     }
     if (iso_record_rows(*sorted) > 0)
-        qsort(iso_record_row(*sorted, 0), iso_record_rows(*sorted), sizeof(double), by_size);
+        qsort(iso_record_row(*sorted, 0), iso_record_rows(*sorted), sizeof(double), iso_picture_by_size);
     return ISO_OK;
 }
 
@@ -102,7 +102,8 @@ static double edge_of(const iso_picture_scale *s, double x, double step, double 
 /* Of a logarithmic axis the steps are those of the logarithm. */
 static void edges_of(const iso_picture_scale *s, double x, double edge[2])
 {
-    const double *here = bsearch(&x, iso_record_const_row(s->at, 0), iso_record_rows(s->at), sizeof x, by_size);
+    const double *here =
+        bsearch(&x, iso_record_const_row(s->at, 0), iso_record_rows(s->at), sizeof x, iso_picture_by_size);
     const bool first = here == iso_record_const_row(s->at, 0),
                last = here == iso_record_const_row(s->at, iso_record_rows(s->at) - 1);
     const double left = here[first ? 0 : -1], right = here[last ? 0 : 1];
@@ -129,8 +130,9 @@ typedef struct polygon {
 static int by_map(const void *a, const void *b)
 {
     const double *one = a, *other = b;
-    return one[ISO_POINT_MAP] != other[ISO_POINT_MAP] ? by_size(one + ISO_POINT_MAP, other + ISO_POINT_MAP)
-                                                      : by_size(one + ISO_POINT_U, other + ISO_POINT_U);
+    return one[ISO_POINT_MAP] != other[ISO_POINT_MAP]
+               ? iso_picture_by_size(one + ISO_POINT_MAP, other + ISO_POINT_MAP)
+               : iso_picture_by_size(one + ISO_POINT_U, other + ISO_POINT_U);
 }
 
 /* What is left of a polygon where (x, way) <= most. */

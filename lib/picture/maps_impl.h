@@ -49,12 +49,13 @@ typedef struct iso_swept {
 const char *iso_swept_axis(const iso_swept *s, int column);
 bool iso_swept_is_k(const iso_swept *s, int column);
 
+/* For qsort: by the first number of a row, the smallest first. */
+int iso_picture_by_size(const void *a, const void *b);
+
 /* Adds k = 1 and k = -1, if they are on this axis: 1: x, 2: y. */
 iso_status iso_swept_marks(iso_context *ctx, const iso_picture_scale *scale, int axis, iso_record *marks);
 
-/* Lines: whether a scale is logarithmic; "sizes" and "value"; the title, of the values of a number, or of points. */
-iso_status iso_swept_say_scale(iso_context *ctx, iso_picture *picture, const char *key,
-                               const iso_picture_scale *scale);
+/* Lines: "sizes" and "value"; the title, of the values of a number, or of points. */
 iso_status iso_swept_say_value(iso_context *ctx, iso_picture *picture, const iso_swept *s, bool sizes);
 iso_status iso_swept_say_title(iso_context *ctx, iso_picture *picture, const iso_swept *s, const char *of);
 

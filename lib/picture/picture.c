@@ -186,11 +186,18 @@ char *iso_picture_fraction(char text[static ISO_PICTURE_FRACTION], double x)
     return text;
 }
 
-char *iso_picture_title(char title[static ISO_PICTURE_TITLE], const char *seen, const iso_params *p)
+char *iso_picture_ball(char text[static ISO_PICTURE_BALL], const iso_params *p)
 {
     char k[ISO_PICTURE_FRACTION];
-    snprintf(title, ISO_PICTURE_TITLE, "%s%sk = %s, J = (%.6g, %.6g, %.6g)", seen, *seen ? "        " : "",
-             iso_picture_fraction(k, p->k), p->J[0], p->J[1], p->J[2]);
+    snprintf(text, ISO_PICTURE_BALL, "k = %s, J = (%.6g, %.6g, %.6g)", iso_picture_fraction(k, p->k), p->J[0],
+             p->J[1], p->J[2]);
+    return text;
+}
+
+char *iso_picture_title(char title[static ISO_PICTURE_TITLE], const char *seen, const iso_params *p)
+{
+    char ball[ISO_PICTURE_BALL];
+    snprintf(title, ISO_PICTURE_TITLE, "%s        %s", seen, iso_picture_ball(ball, p));
     return title;
 }
 

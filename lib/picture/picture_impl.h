@@ -101,7 +101,11 @@ iso_status iso_picture_add_curve(iso_context *ctx, iso_picture *picture, const i
 /* Adds the empty tables "curves" and "values". */
 iso_status iso_picture_add_curves(iso_context *ctx, iso_picture *picture);
 
-/* What is seen, a gap, and "k = ..., J = (...)". Returns `title`. */
+/* "k = ..., J = (...)". Returns `text`. */
+enum { ISO_PICTURE_BALL = 120 };
+char *iso_picture_ball(char text[static ISO_PICTURE_BALL], const iso_params *p);
+
+/* What is seen, a gap, and the ball. Returns `title`. */
 enum { ISO_PICTURE_TITLE = 400 };
 char *iso_picture_title(char title[static ISO_PICTURE_TITLE], const char *seen, const iso_params *p);
 

@@ -140,12 +140,6 @@ iso_status iso_swept_marks(iso_context *ctx, const iso_picture_scale *scale, int
     return ISO_OK;
 }
 
-iso_status iso_swept_say_scale(iso_context *ctx, iso_picture *picture, const char *key,
-                               const iso_picture_scale *scale)
-{
-    return iso_picture_count(ctx, picture, key, scale->logarithmic);
-}
-
 iso_status iso_swept_say_value(iso_context *ctx, iso_picture *picture, const iso_swept *s, bool sizes)
 {
     char size[2 * NAME + 2];
@@ -164,12 +158,6 @@ iso_status iso_swept_say_title(iso_context *ctx, iso_picture *picture, const iso
 }
 
 /* --- one number varies ------------------------------------------------------------------------------------------ */
-
-static int by_x(const void *a, const void *b)
-{
-    const double *one = a, *other = b;
-    return (*one > *other) - (*one < *other);
-}
 
 /* Where it is, the value, and its band. With sizes the band may not reach 0. False: there is no value. */
 static bool find_point(const iso_swept *s, size_t i, bool sizes, double row[4])
@@ -199,7 +187,7 @@ static iso_status fill_curve(iso_context *ctx, const iso_swept *s, bool sizes, b
         status = iso_record_add(ctx, all, 1, row);
     }
     const size_t rows = status == ISO_OK ? iso_record_rows(all) : 0;
-    if (rows > 0) qsort(iso_record_row(all, 0), rows, 4 * sizeof(double), by_x);
+    if (rows > 0) qsort(iso_record_row(all, 0), rows, 4 * sizeof(double), iso_picture_by_size);
     for (size_t i = 0; status == ISO_OK && i < rows; i++) {
         const double *row = iso_record_const_row(all, i);
         if (k && i > 0 && at(all, i - 1, 0) < 0 && row[0] > 0) status = iso_record_add(ctx, curve, 1, gap);
@@ -224,7 +212,7 @@ static iso_status make_curve(iso_context *ctx, const iso_swept *s, iso_picture *
     iso_status status = iso_picture_scale_of(ctx, s->r, s->axis[0], iso_swept_is_k(s, s->axis[0]), &x);
     if (status == ISO_OK) status = fill_curve(ctx, s, spread.sizes, x.k, curve, &band);
     if (status == ISO_OK) status = iso_swept_marks(ctx, &x, 1, marks);
-    if (status == ISO_OK) status = iso_swept_say_scale(ctx, picture, "logarithmic_x", &x);
+    if (status == ISO_OK) status = iso_picture_count(ctx, picture, "logarithmic_x", x.logarithmic);
     iso_record_free(x.at);
     ISO_TRY(status);
     ISO_TRY(iso_swept_say_value(ctx, picture, s, spread.sizes));

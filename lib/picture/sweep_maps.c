@@ -177,8 +177,8 @@ static iso_status fill_maps(iso_context *ctx, const iso_swept *s, layout *l, iso
     ISO_TRY(name_maps(ctx, s, l, picture->table[1]));
     ISO_TRY(iso_swept_marks(ctx, &m->x, 1, picture->table[2]));
     ISO_TRY(iso_swept_marks(ctx, &m->y, 2, picture->table[2]));
-    ISO_TRY(iso_swept_say_scale(ctx, picture, "logarithmic_x", &m->x));
-    ISO_TRY(iso_swept_say_scale(ctx, picture, "logarithmic_y", &m->y));
+    ISO_TRY(iso_picture_count(ctx, picture, "logarithmic_x", m->x.logarithmic));
+    ISO_TRY(iso_picture_count(ctx, picture, "logarithmic_y", m->y.logarithmic));
     ISO_TRY(iso_swept_say_value(ctx, picture, s, spread.sizes));
     ISO_TRY(say_colours(ctx, picture, m->points, spread.sizes, &spread));
     ISO_TRY(iso_picture_say(ctx, picture, "x", l->x_name));

@@ -36,10 +36,9 @@ viridis_dots = "set palette defined (0 '#440154', 1 '#472977', 2 '#3D4B88', 3 '#
 exponents = "set palette defined (0 '#F7E3B0', 0.5 '#E8AA00', 1 '#8B1A00')" # pale_yellow, orange, dark_red
 
 # --- the page
-# (gnuplot 6 has a function called round)
 min(a, b) = a < b ? a : b
 max(a, b) = a > b ? a : b
-nearest(x) = floor(x + 0.5)
+nearest(x) = floor(x + 0.5) # gnuplot 6 has a function called round itself
 page = 'scale = in_print ? 178 / 25.4 * per_inch / 900 : given_width > 0 ? \
 min(1.0 * given_width / width, 1.0 * given_height / height) : per_pixel; \
 narrow = in_print && panels == 1 && given_width == 0; \

@@ -12,9 +12,8 @@ char *iso_plot_title(char title[static ISO_PLOT_TITLE], const iso_params *p, con
 {
     va_list args;
     va_start(args, more);
-    char k[ISO_PICTURE_FRACTION];
-    const int used = snprintf(title, ISO_PLOT_TITLE, "k = %s, J = (%.6g, %.6g, %.6g)", iso_picture_fraction(k, p->k),
-                              p->J[0], p->J[1], p->J[2]);
+    char ball[ISO_PICTURE_BALL];
+    const int used = snprintf(title, ISO_PLOT_TITLE, "%s", iso_picture_ball(ball, p));
     vsnprintf(title + used, (size_t)(ISO_PLOT_TITLE - used), more, args);
     va_end(args);
     return title;
