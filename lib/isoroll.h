@@ -1,5 +1,5 @@
 /* isoroll.h - what most programs need: a context, parameters, effects, scenes, orbits, batches, runs, conversions,
- * scene files and trajectory files. Other headers are included by name, such as <isoroll/study/cost/cost.h>.
+ * scene files and trajectory files. Other headers are included by name, such as <isoroll/task/cost/cost.h>.
  *
  * Rules for all functions of the library. A header names only the exceptions.
  *
@@ -47,17 +47,17 @@
 
 /* model: what moves */
 #include "model/params.h"
-#include "model/effect.h"
+#include "model/effects/effect.h"
 
 /* orbit: where the ball, or the point, is at any time */
 #include "orbit/scene.h"
 #include "orbit/orbit.h"
 #include "orbit/batch.h"
 #include "orbit/description.h"
-#include "orbit/convert.h"
+#include "task/convert/convert.h"
 
 /* study: all rows of a scene */
-#include "study/run.h"
+#include "task/run.h"
 
 /* io: scene and trajectory files */
 #include "io/scene_file.h"

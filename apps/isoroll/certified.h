@@ -4,7 +4,7 @@
 
 #include "io/output_impl.h"
 #include "report.h"
-#include "study/certify/certify_impl.h"
+#include "instrument/certify/certify_impl.h"
 
 /* `out` is opened by the first line: before it nothing is written. */
 typedef struct certified_file {

@@ -5,7 +5,7 @@
 #include "plot/draw.h"
 #include "say.h"
 #include "shell.h"
-#include "study/chaos/chaos_impl.h"
+#include "instrument/chaos/chaos_impl.h"
 #include "study/study_impl.h"
 
 /* What chaos can be told. */

@@ -6,7 +6,7 @@
 #include "json.h"
 #include "parameters.h"
 #include "say.h"
-#include "study/check/check_impl.h"
+#include "task/check/check_impl.h"
 
 typedef struct options {
     iso_check_request study;

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/number_impl.h"
-#include "model/effects_impl.h"
+#include "model/effects/effects_impl.h"
 #include "picture/stretch_impl.h"
 #include "plot/draw.h"
 #include "say.h"

@@ -5,7 +5,7 @@
 #include "base/number_impl.h"
 #include "certified.h"
 #include "file_kind.h"
-#include "orbit/convert_impl.h"
+#include "task/convert/convert_impl.h"
 #include "parameters.h"
 #include "scene_options.h"
 

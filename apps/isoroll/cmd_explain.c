@@ -4,7 +4,7 @@
 
 #include "say.h"
 #include "shell.h"
-#include "study/explain/explain_impl.h"
+#include "task/explain/explain_impl.h"
 #include "sweep/sweep_impl.h"
 
 typedef struct options {

@@ -6,8 +6,8 @@
 #include "plot/draw.h"
 #include "say.h"
 #include "shell.h"
-#include "study/frequencies/frequencies.h"
-#include "study/frequencies/momentum.h"
+#include "instrument/frequencies/frequencies.h"
+#include "instrument/frequencies/momentum.h"
 #include "study/options_impl.h"
 #include "study/study_impl.h"
 

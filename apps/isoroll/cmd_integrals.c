@@ -4,7 +4,7 @@
 #include "base/number_impl.h"
 #include "say.h"
 #include "shell.h"
-#include "study/integrals/integrals_impl.h"
+#include "instrument/integrals/integrals_impl.h"
 #include "study/study_impl.h"
 
 /* What integrals can be told. */

@@ -3,7 +3,7 @@
 
 #include "command.h"
 #include "say.h"
-#include "study/tables/list_impl.h"
+#include "task/list/list_impl.h"
 
 typedef struct options {
     const char *topic;

@@ -6,7 +6,7 @@
 #include "say.h"
 #include "scene_options.h"
 #include "shell.h"
-#include "study/periodic/periodic_study_impl.h"
+#include "instrument/periodic/periodic_study_impl.h"
 #include "study/study_impl.h"
 
 /* What periodic can be told. */

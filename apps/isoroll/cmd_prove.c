@@ -5,7 +5,7 @@
 #include "say.h"
 #include "scene_options.h"
 #include "shell.h"
-#include "study/prove/prove_impl.h"
+#include "instrument/prove/prove_impl.h"
 
 /* What prove can be told. */
 typedef struct options {

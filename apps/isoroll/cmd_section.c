@@ -8,8 +8,8 @@
 #include "say.h"
 #include "scene_options.h"
 #include "shell.h"
-#include "study/chaos/chaos.h"
-#include "study/section/section_impl.h"
+#include "instrument/chaos/chaos.h"
+#include "instrument/section/section_impl.h"
 
 /* What section can be told. */
 typedef struct options {

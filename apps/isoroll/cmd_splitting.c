@@ -7,7 +7,7 @@
 #include "say.h"
 #include "scene_options.h"
 #include "shell.h"
-#include "study/separatrix/separatrix_study_impl.h"
+#include "instrument/separatrix/separatrix_study_impl.h"
 
 /* What splitting can be told. */
 typedef struct options {

@@ -5,7 +5,7 @@
 #define ISOROLL_COST_REPORT_H
 
 #include "shell.h"
-#include "study/cost/cost_impl.h"
+#include "task/cost/cost_impl.h"
 
 /* The options of `run` for a cell: "--backend point --method taylor --tol 1e-11". */
 enum { COST_OPTIONS = 96 };

@@ -126,7 +126,7 @@ static iso_status find_form(iso_context *ctx, const iso_problem *f, double point
 }
 
 /* A time so short that gamma and M turn by a tenth of a radian at most, and the clocks' rates change by a tenth at most.
- * M' is the force and B gamma', with the field B = (b,gamma) of a rotor (model/effect_rotor.c): M turns at the rate B,
+ * M' is the force and B gamma', with the field B = (b,gamma) of a rotor (model/effects/effect_rotor.c): M turns at the rate B,
  * which grows at the rates (b,gamma') and (b,gamma''). */
 static void find_moments(const iso_problem *f, const double point[ISO_STATE], double moment[ISO_CLOCKS])
 {

@@ -2,7 +2,7 @@
 #ifndef ISO_EXACT_INTEGRABILITY_IMPL_H
 #define ISO_EXACT_INTEGRABILITY_IMPL_H
 
-#include "model/effects_impl.h"
+#include "model/effects/effects_impl.h"
 
 typedef enum iso_integrability_kind {
     ISO_SECOND_INTEGRAL,   /* a second integral is known                                   */

@@ -5,7 +5,7 @@
  *     M^2 = m(y) = 2 (H + eps q^(-1/k)),     (dx/ds)^2 = P(y) = (1 - y) m(y) - M_x^2
  *
  * with M_x, the part of M along the axis, constant, but for a rotor with K along the axis: its field
- * (model/effect_rotor.c) makes dM_x/dy = field q^(-1 - 1/(2k)). With a and b the roots of P about y,
+ * (model/effects/effect_rotor.c) makes dM_x/dy = field q^(-1 - 1/(2k)). With a and b the roots of P about y,
  *
  *     equator:  x = sqrt(a) cn,    between -sqrt(a) and sqrt(a)     b <= 0, or too far to matter: cn is cos
  *     side:     x = +-sqrt(a) dn,  between sqrt(b) and sqrt(a)      b > 0

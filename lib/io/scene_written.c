@@ -5,7 +5,7 @@
 
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"
-#include "model/written_impl.h"
+#include "model/expression/written_impl.h"
 #include "orbit/orbit_impl.h"
 
 static iso_status read_expression(iso_draft *d, iso_effect_id id, int which, const yaml_node_t *value)

@@ -9,7 +9,7 @@
 #include "base/vec3_impl.h"
 #include "map/quarter_impl.h"
 #include "map/section_impl.h"
-#include "model/effects_impl.h"
+#include "model/effects/effects_impl.h"
 
 int iso_section_axis(iso_point_motion m)
 {

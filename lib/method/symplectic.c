@@ -26,7 +26,7 @@
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
-#include "model/formula_lines_impl.h"
+#include "model/formula/formula_lines_impl.h"
 #include "model/model_impl.h"
 
 /* --- coefficients ---------------------------------------------------------------------------------------------- */

@@ -20,7 +20,7 @@
 
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
-#include "model/effects_impl.h"
+#include "model/effects/effects_impl.h"
 #include "model/integrals_impl.h"
 
 /* (n,Jw), as (n,(J - min J) w) */

@@ -2,7 +2,7 @@
 #ifndef ISO_MODEL_INTEGRALS_IMPL_H
 #define ISO_MODEL_INTEGRALS_IMPL_H
 
-#include "model/effects_impl.h"
+#include "model/effects/effects_impl.h"
 #include "model/model_impl.h"
 
 static inline bool holds_plane(const iso_problem *f)

@@ -6,8 +6,8 @@
 #include <math.h>
 
 #include "base/vec3_impl.h"
-#include "model/contact_impl.h"
-#include "model/formula_lines_impl.h"
+#include "model/effects/contact_impl.h"
+#include "model/formula/formula_lines_impl.h"
 
 _Static_assert(ISO_MAX_STATE <= 256, "a formula holds places in y in uint8_t");
 

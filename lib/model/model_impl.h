@@ -2,7 +2,7 @@
 #ifndef ISO_MODEL_MODEL_IMPL_H
 #define ISO_MODEL_MODEL_IMPL_H
 
-#include "model/effects_impl.h"
+#include "model/effects/effects_impl.h"
 #include "model/model.h"
 
 /* --- parameters and units --------------------------------------------------------------------------------------- */

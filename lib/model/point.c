@@ -13,7 +13,7 @@
 
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
-#include "model/effects_impl.h"
+#include "model/effects/effects_impl.h"
 #include "model/integrals_impl.h"
 #include "model/system.h"
 

@@ -3,7 +3,7 @@
 #ifndef ISO_MODEL_QUANTITY_IMPL_H
 #define ISO_MODEL_QUANTITY_IMPL_H
 
-#include "model/formula_impl.h"
+#include "model/formula/formula_impl.h"
 
 typedef struct iso_quantity {
     enum { ISO_IS_ZERO, ISO_IS_ONE, ISO_IS_CONSTANT, ISO_IS_SCALAR } kind;

@@ -9,7 +9,7 @@
 #include <math.h>
 
 #include "base/vec3_impl.h"
-#include "model/effects_impl.h"
+#include "model/effects/effects_impl.h"
 
 static bool is_resisted(const iso_model *m)
 {

@@ -9,7 +9,7 @@
 #include "base/nearest_impl.h"
 #include "base/vec3_impl.h"
 #include "base/version.h"
-#include "model/effects_impl.h"
+#include "model/effects/effects_impl.h"
 #include "model/model_impl.h"
 
 void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const char *name)

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/vec3_impl.h"
-#include "model/effects_impl.h"
+#include "model/effects/effects_impl.h"
 #include "model/model_impl.h"
 #include "orbit/watch_impl.h"
 

@@ -9,7 +9,7 @@
 #include <stddef.h>
 
 #include "../base/api.h"
-#include "../model/effect.h"
+#include "../model/effects/effect.h"
 
 ISO_C_BEGIN
 

@@ -7,7 +7,7 @@
 
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
-#include "model/effects_impl.h"
+#include "model/effects/effects_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/walk_impl.h"
 

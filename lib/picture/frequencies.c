@@ -13,7 +13,7 @@
 #include "base/number_impl.h"
 #include "orbit/description.h"
 #include "picture/picture_impl.h"
-#include "study/frequencies/momentum.h"
+#include "instrument/frequencies/momentum.h"
 
 enum { LABELLED = 3, WORD = 32 };
 

@@ -7,7 +7,7 @@
 #include <math.h>
 
 #include "picture/picture_impl.h"
-#include "study/frequencies/momentum.h"
+#include "instrument/frequencies/momentum.h"
 
 enum { PARTS = ISO_MOMENTUM_PARTS };
 

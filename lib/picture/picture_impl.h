@@ -4,7 +4,7 @@
 
 #include "model/params.h"
 #include "picture/picture.h"
-#include "study/frequencies/momentum.h"
+#include "instrument/frequencies/momentum.h"
 
 /* What is asked for. */
 typedef struct iso_picture_request {

@@ -6,7 +6,7 @@
 #include "map/section_impl.h"
 #include "orbit/description.h"
 #include "picture/section_impl.h"
-#include "study/separatrix/separatrix.h"
+#include "instrument/separatrix/separatrix.h"
 
 /* The tables of both sides, the ball's first. */
 typedef struct over {

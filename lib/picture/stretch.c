@@ -3,7 +3,7 @@
 
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
-#include "model/effects_impl.h"
+#include "model/effects/effects_impl.h"
 #include "orbit/orbit_impl.h"
 
 #define NEAR 0.03 /* radians between neighbours on a curve, about          */

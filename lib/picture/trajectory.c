@@ -13,11 +13,11 @@
 #include <string.h>
 
 #include "base/vec3_impl.h"
-#include "orbit/convert.h"
+#include "task/convert/convert.h"
 #include "orbit/description.h"
 #include "orbit/orbit_impl.h"
 #include "picture/picture_impl.h"
-#include "study/check/check_impl.h"
+#include "task/check/check_impl.h"
 #include "study/energy.h"
 
 static const char *const normal[] = {"n1", "n2", "n3"}, *const place[] = {"gamma1", "gamma2", "gamma3"},

@@ -15,7 +15,7 @@
 #include <string.h>
 
 #include "orbit/orbit_impl.h"
-#include "study/run.h"
+#include "task/run.h"
 #include "study/study_impl.h"
 
 #define FINEST_OF_POINT 1e-12 /* a tolerance: below it the ball is more exact */

@@ -1,7 +1,7 @@
 /* refusals.c - what studies refuse (study_impl.h). */
 #include "base/number_impl.h"
 #include "map/section_impl.h"
-#include "model/effects_impl.h"
+#include "model/effects/effects_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/study_impl.h"

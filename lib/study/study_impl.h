@@ -5,8 +5,8 @@
 #include <stdio.h>
 
 #include "map/section.h"
-#include "study/analogue.h"
-#include "study/compare.h"
+#include "task/analogue.h"
+#include "task/compare.h"
 #include "study/error.h"
 #include "study/level.h"
 #include "study/verdict.h"

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "orbit/orbit_impl.h"
-#include "study/chaos/chaos_impl.h"
+#include "instrument/chaos/chaos_impl.h"
 #include "study/fields_impl.h"
 #include "sweep/sweep_impl.h"
 

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "orbit/orbit_impl.h"
-#include "study/compare.h"
-#include "study/run.h"
-#include "study/section/section.h"
+#include "task/compare.h"
+#include "task/run.h"
+#include "instrument/section/section.h"
 #include "sweep/sweep_impl.h"
 
 /* The scene with the end that the sweep asks for. */

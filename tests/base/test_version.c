@@ -8,10 +8,10 @@
 
 #include "base/options_impl.h"
 #include "isoroll.h"
-#include "orbit/convert_impl.h"
+#include "task/convert/convert_impl.h"
 #include "orbit/orbit_impl.h"
-#include "study/cost/cost.h"
-#include "study/frequencies/frequencies.h"
+#include "task/cost/cost.h"
+#include "instrument/frequencies/frequencies.h"
 #include "study/study_impl.h"
 
 static void test_version(void)

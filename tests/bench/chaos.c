@@ -1,4 +1,4 @@
-/* Calibration of the verdicts of lib/study/chaos/chaos.h, on orbits that are known to be regular or chaotic.
+/* Calibration of the verdicts of lib/instrument/chaos/chaos.h, on orbits that are known to be regular or chaotic.
  *
  *     bench_chaos [ORBITS] [TURNS] [ROWS]        orbits of each row (default 300), turns of each (default 3000);
  *                                                rows: all, integrable, others
@@ -13,7 +13,7 @@
 #include "base/pi_impl.h"
 #include "base/random_impl.h"
 #include "bench.h"
-#include "study/chaos/chaos.h"
+#include "instrument/chaos/chaos.h"
 
 typedef struct family {
     double k, J[3];

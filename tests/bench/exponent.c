@@ -1,4 +1,4 @@
-/* How often the error of an exponent (lib/study/chaos/indicators.h) covers: many orbits of one chaotic sea, against the mean
+/* How often the error of an exponent (lib/instrument/chaos/indicators.h) covers: many orbits of one chaotic sea, against the mean
  * of all of them over a long time.
  *
  *     bench_exponent [ORBITS] [TURNS] [SEED]      orbits that begin on the section (default 150), turns of each
@@ -10,8 +10,8 @@
  * errors, in turns and in t; how many state no error.
  */
 #include "bench.h"
-#include "study/chaos/chaos.h"
-#include "study/chaos/chaos_impl.h"
+#include "instrument/chaos/chaos.h"
+#include "instrument/chaos/chaos_impl.h"
 
 enum { EACH = 250, LENGTHS = 16 };
 

@@ -7,7 +7,7 @@
  * threads), and orbits a second. tests/python/rate.py prints the same lines for isoroll.batch: compare these. Samples
  * and tables are allocated in each run, as Python does.
  */
-#include "foreign/foreign.h"
+#include "api/foreign.h"
 #include "bench.h"
 #include "io/scene_file.h"
 #include "orbit/batch.h"

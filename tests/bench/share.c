@@ -9,8 +9,8 @@
  * ways, which is wider.
  */
 #include "bench.h"
-#include "study/chaos/chaos.h"
-#include "study/chaos/chaos_impl.h"
+#include "instrument/chaos/chaos.h"
+#include "instrument/chaos/chaos_impl.h"
 
 typedef struct motion {
     double k, J[3];

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include "bench.h"
-#include "study/chaos/chaos.h"
+#include "instrument/chaos/chaos.h"
 #include "sweep/sweep_store_impl.h"
 
 static iso_context *ctx;

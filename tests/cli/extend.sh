@@ -8,7 +8,7 @@ mkdir "$copy"
 cp -r "$source/lib" "$source/apps" "$source/CMakeLists.txt" "$copy/"
 
 # The lines that the documents ask for.
-sed -i 's/^    X(CLOCK, clock)$/    X(CLOCK, clock) X(DRAG, drag)/' "$copy/lib/model/effect_list.h"
+sed -i 's/^    X(CLOCK, clock)$/    X(CLOCK, clock) X(DRAG, drag)/' "$copy/lib/model/effects/effect_list.h"
 sed -i 's/    X(strang)/    X(kutta38) X(strang)/' "$copy/lib/method/methods_impl.h"
 # The functions of the integral stand above the table of ball.c, its row is the first.
 awk -v functions="$recipes/integral_round.c" '
@@ -28,14 +28,14 @@ check "study_passes.c has at most 60 lines" test "$(wc -l <"$recipes/study_passe
 
 # The line of lib/README.md that makes a column stands behind another one.
 column=$(sed -n 's/^    FIELD("u", /&/p' "$source/lib/README.md")
-sed -i "s|^    FIELD(\"torus\", .*|&\n$column|" "$copy/lib/study/periodic/periodic_fields.c"
+sed -i "s|^    FIELD(\"torus\", .*|&\n$column|" "$copy/lib/instrument/periodic/periodic_fields.c"
 
 # The description of a table of a new kind, and its row.
 sed -n '/^typedef struct turn/,/^ *ISO_FIELD_END};/p' "$recipes/table_turns.c" >turns.c
 awk '/^const iso_result_table \*iso_result_table_at/ { while ((getline line < "turns.c") > 0) print line; print "" }
     { print }
     /iso_result_table tables\[\] = / { print "        {.kind = \"turns\", .doc = \"a turn\", .fields = turn_fields}," }
-    ' "$source/lib/study/tables/tables.c" >"$copy/lib/study/tables/tables.c"
+    ' "$source/lib/task/list/tables.c" >"$copy/lib/task/list/tables.c"
 
 # A picture of such tables: a row, and a template.
 cp "$recipes/turns.gp" "$copy/apps/isoroll/pictures/"
@@ -48,8 +48,8 @@ short() {
     check "$1: $lines lines" test "$lines" -ge 1 -a "$lines" -le 15
 }
 short lib/model/ball.c
-short lib/study/periodic/periodic_fields.c
-short lib/study/tables/tables.c
+short lib/instrument/periodic/periodic_fields.c
+short lib/task/list/tables.c
 short lib/picture/picture.c
 
 # The system of lib/README.md: every block from "circle.c" to the end of its row compiles.
@@ -125,7 +125,7 @@ initial: {normal: [0, 0, 1], angular_velocity: [3, 4, 0]}
 time:    {end: 100, step: 10}
 EOF
 cat >passes.c <<'EOF'
-#include "foreign/foreign.h"
+#include "api/foreign.h"
 #include "io/table.h"
 int main(void)
 {
@@ -219,7 +219,7 @@ grep -q 'ball omega.omega' out || fail "check does not look at the new integral"
 # --- breaking the effect -------------------------------------------------------------------------------------------
 
 # No formula: what needs one refuses, auto takes what does not.
-cp "$recipes/effect_drag_plain.c" "$copy/lib/model/effect_drag.c"
+cp "$recipes/effect_drag_plain.c" "$copy/lib/model/effects/effect_drag.c"
 build "the effect without a formula"
 run 0 run drag.yaml --tol 1e-13 -o plain.csv
 grep -q '^# method: taylor' plain.csv && fail "taylor simulates an effect without a formula"
@@ -231,7 +231,7 @@ for method in taylor taylor_extended bdf bsimp; do
 done
 
 # No word on the energy: nobody takes it for conserved.
-sed -e '/\.work = /d' "$recipes/effect_drag.c" >"$copy/lib/model/effect_drag.c"
+sed -e '/\.work = /d' "$recipes/effect_drag.c" >"$copy/lib/model/effects/effect_drag.c"
 build "the effect without its work"
 run 0 explain drag.yaml
 holds h && fail "explain lists the energy of an effect that does not state its work"
@@ -239,14 +239,14 @@ run 0 run drag.yaml --tol 1e-13 -o silent.csv
 cmp -s silent.csv reference.csv || fail "the effect without its work moves otherwise"
 
 # No reason why the isomorphism breaks, and no image: it is broken all the same.
-sed -e '/\.breaks = /d' "$recipes/effect_drag.c" >"$copy/lib/model/effect_drag.c"
+sed -e '/\.breaks = /d' "$recipes/effect_drag.c" >"$copy/lib/model/effects/effect_drag.c"
 build "the effect without a reason"
 run 3 compare drag.yaml
 grep -q "'drag'" err || fail "compare takes an effect without an image"
 
 # No equations: refused by name.
 sed -e '/\.motion = /d' -e 's/^static void motion/__attribute__((unused)) static void motion/' \
-    "$recipes/effect_drag.c" >"$copy/lib/model/effect_drag.c"
+    "$recipes/effect_drag.c" >"$copy/lib/model/effects/effect_drag.c"
 build "the effect without equations"
 run 3 run drag.yaml
 grep -q "the row of 'drag' is not complete" err || fail "an effect without equations is not refused by name"

@@ -4,7 +4,7 @@
 
 #include <isoroll/isoroll.h>
 #include <isoroll/map/state.h>
-#include <isoroll/study/cost/cost.h>
+#include <isoroll/task/cost/cost.h>
 
 int main(void)
 {

@@ -6,7 +6,7 @@
 #include "base/random_impl.h"
 #include "exact/exact_impl.h"
 #include "exact_orbits.h"
-#include "model/effect.h"
+#include "model/effects/effect.h"
 
 static iso_context *ctx;
 

@@ -7,7 +7,7 @@
 #include "exact/integrability_impl.h"
 #include "laws.h"
 #include "length.h"
-#include "model/effect.h"
+#include "model/effects/effect.h"
 
 static iso_context *ctx;
 static const double ours[3] = {1.4, 2.1, 3}, pair[3] = {2, 2, 3}, all[3] = {2, 2, 2};

@@ -1,6 +1,6 @@
 /* effect_drag.c - the torque of still air on the turning ball: -c |omega| omega. */
-#include "model/effects_impl.h"
-#include "model/formula_impl.h"
+#include "model/effects/effects_impl.h"
+#include "model/formula/formula_impl.h"
 
 static double c_of(const iso_problem *f)
 {

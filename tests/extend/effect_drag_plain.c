@@ -2,7 +2,7 @@
  * formula. */
 #include <math.h>
 
-#include "model/effects_impl.h"
+#include "model/effects/effects_impl.h"
 
 static void torque(const iso_problem *f, const double y[], double T[3])
 {

@@ -1,6 +1,6 @@
-/* test_foreign.c - the calls for other languages (foreign/foreign.h): the same numbers as the calls with structs, to
+/* test_foreign.c - the calls for other languages (api/foreign.h): the same numbers as the calls with structs, to
  * the bit; words, notes, and a stop in the middle. tests/python tries the same calls from Python. */
-#include "foreign/foreign.h"
+#include "api/foreign.h"
 
 #include <unistd.h>
 

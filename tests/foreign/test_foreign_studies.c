@@ -1,15 +1,15 @@
 /* test_foreign_studies.c - every study by its name, with options as text (iso_foreign_study): the numbers of the calls
  * with structs, to the bit; sweeps; and what the library says of its studies, options and columns. */
-#include "foreign/foreign.h"
+#include "api/foreign.h"
 
 #include "runs.h"
-#include "study/check/check.h"
-#include "study/compare.h"
-#include "study/frequencies/frequencies.h"
-#include "study/integrals/integrals.h"
-#include "study/periodic/periodic.h"
-#include "study/periodic/stability_chart.h"
-#include "study/separatrix/separatrix.h"
+#include "task/check/check.h"
+#include "task/compare.h"
+#include "instrument/frequencies/frequencies.h"
+#include "instrument/integrals/integrals.h"
+#include "instrument/periodic/periodic.h"
+#include "instrument/periodic/stability_chart.h"
+#include "instrument/separatrix/separatrix.h"
 #include "study/study.h"
 
 #define FREE REDUCED("0.5") TIME

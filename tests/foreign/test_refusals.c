@@ -9,11 +9,11 @@
 
 #include "io/scene_file.h"
 #include "orbit/crossings.h"
-#include "study/chaos/chaos.h"
-#include "study/section/section.h"
-#include "study/section/section_impl.h"
+#include "instrument/chaos/chaos.h"
+#include "instrument/section/section.h"
+#include "instrument/section/section_impl.h"
 #include "study/study.h"
-#include "study/tables/tables.h"
+#include "task/list/tables.h"
 
 static iso_context *ctx;
 

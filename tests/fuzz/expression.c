@@ -2,7 +2,7 @@
  * a torque whose formulas can be computed, and whose text is read back from the lines of a file. */
 #define _GNU_SOURCE /* memfd_create */
 #include "fuzz.h"
-#include "model/written_impl.h"
+#include "model/expression/written_impl.h"
 #include "orbit/orbit_impl.h"
 
 static const double J[3] = {1.4, 2.1, 3}, start[ISO_STATE] = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8};

@@ -4,8 +4,8 @@
 
 #include "fuzz.h"
 #include "io/table.h"
-#include "orbit/convert.h"
-#include "study/check/check.h"
+#include "task/convert/convert.h"
+#include "task/check/check.h"
 
 enum { STEPS = 3000, ROWS = 200 };
 

@@ -9,15 +9,15 @@
 #include <unistd.h>
 
 #include "batches.h"
-#include "foreign/foreign.h"
+#include "api/foreign.h"
 #include "hard.h"
 #include "io/scene_file.h"
 #include "io/table.h"
-#include "orbit/convert.h"
-#include "study/check/check.h"
-#include "study/compare.h"
-#include "study/cost/cost.h"
-#include "study/frequencies/frequencies.h"
+#include "task/convert/convert.h"
+#include "task/check/check.h"
+#include "task/compare.h"
+#include "task/cost/cost.h"
+#include "instrument/frequencies/frequencies.h"
 #include "study/study_impl.h"
 
 static iso_context *ctx;

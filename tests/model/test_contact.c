@@ -4,7 +4,7 @@
 
 #include "base/random_impl.h"
 #include "effects.h"
-#include "model/contact_impl.h"
+#include "model/effects/contact_impl.h"
 #include "model/model_impl.h"
 #include "orbits.h"
 

@@ -1,4 +1,4 @@
-/* The rows of the registry of effects: each says all that its parts need (lib/model/effect.h). */
+/* The rows of the registry of effects: each says all that its parts need (lib/model/effects/effect.h). */
 #include <gsl/gsl_test.h>
 #include <stdlib.h>
 #include <string.h>

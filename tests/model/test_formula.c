@@ -1,4 +1,4 @@
-/* Formulas (model/formula.h): every operation gives the value it is named for, and one that cannot be computed is
+/* Formulas (model/formula/formula.h): every operation gives the value it is named for, and one that cannot be computed is
  * refused: no room, omega' where it is not known, states without a rate. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "laws.h"
-#include "model/formula_impl.h"
+#include "model/formula/formula_impl.h"
 
 static const double y[ISO_STATE] = {0.3, -0.7, 0.2, 0.36, 0.48, 0.8};
 static const double J[3] = {1.4, 2.1, 3.0};

@@ -14,7 +14,7 @@
 #define CHANNELS 2
 enum { KEPT = 24 };
 
-#include "model/formula_lines_impl.h"
+#include "model/formula/formula_lines_impl.h"
 #include "model/series/evaluate_impl.h"
 
 enum { NUMBERS = CHANNELS * KEPT };

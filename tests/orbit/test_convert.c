@@ -8,7 +8,7 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "orbit/convert.h"
+#include "task/convert/convert.h"
 #include "orbit/orbit_impl.h"
 #include "reference.h"
 

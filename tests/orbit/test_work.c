@@ -18,7 +18,7 @@
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
 #include "model/model_impl.h"
-#include "model/written_impl.h"
+#include "model/expression/written_impl.h"
 #include "orbit/batch.h"
 #include "orbit/orbit_impl.h"
 

@@ -9,8 +9,8 @@
 
 #include "io/scene_file.h"
 #include "picture/section_impl.h"
-#include "study/chaos/chaos.h"
-#include "study/section/section_impl.h"
+#include "instrument/chaos/chaos.h"
+#include "instrument/section/section_impl.h"
 
 static iso_context *ctx;
 

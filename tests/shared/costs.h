@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "scenes.h"
-#include "study/cost/cost.h"
+#include "task/cost/cost.h"
 
 static inline iso_scene cost_scene(iso_context *ctx, double k, const double J[3], double end)
 {

@@ -3,7 +3,7 @@
 #define ISO_TESTS_PERIODICS_H
 
 #include "studies.h"
-#include "study/periodic/periodic_impl.h"
+#include "instrument/periodic/periodic_impl.h"
 
 /* Ends the test when they are refused. */
 static inline iso_periodic *orbits_of(const iso_scene *scene, const iso_periodic_options *o)

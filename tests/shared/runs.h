@@ -1,4 +1,4 @@
-/* runs.h - runs of scenes (study/run.h) into a sink that keeps everything, and what their rows should be. */
+/* runs.h - runs of scenes (task/run.h) into a sink that keeps everything, and what their rows should be. */
 #ifndef ISO_TESTS_RUNS_H
 #define ISO_TESTS_RUNS_H
 
@@ -12,7 +12,7 @@
 #include "orbit/orbit_impl.h"
 #include "scenes.h"
 #include "studies.h"
-#include "study/run.h"
+#include "task/run.h"
 
 #define HEAVY "ball: {mass: 2, radius: 1, inertia: [0.7, 0.8, 0.9]}\n"
 #define OUTSIDE HEAVY "surface: {kind: outside, radius: 3}\n"

@@ -3,7 +3,7 @@
 #define ISO_TESTS_SEARCHES_H
 
 #include "studies.h"
-#include "study/integrals/integrals.h"
+#include "instrument/integrals/integrals.h"
 
 static const double searched_J[3] = {1.4, 2.1, 3};
 

@@ -13,7 +13,7 @@
 #include "base/vec3_impl.h"
 #include "numbers.h"
 #include "studies.h"
-#include "study/analogue.h"
+#include "task/analogue.h"
 
 static iso_random *rng;
 

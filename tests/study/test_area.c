@@ -8,7 +8,7 @@
 #include "base/random_impl.h"
 #include "laws.h"
 #include "length.h"
-#include "study/section/section_impl.h"
+#include "instrument/section/section_impl.h"
 
 static iso_context *ctx;
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "reference.h"
-#include "study/run.h"
+#include "task/run.h"
 
 static iso_context *ctx;
 

@@ -1,4 +1,4 @@
-/* Verdicts of lib/study/chaos/chaos.h by both models, on orbits that are known to be regular or chaotic; shares;
+/* Verdicts of lib/instrument/chaos/chaos.h by both models, on orbits that are known to be regular or chaotic; shares;
  * refusals. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -7,8 +7,8 @@
 
 #include "length.h"
 #include "studies.h"
-#include "study/chaos/chaos.h"
-#include "study/chaos/chaos_impl.h"
+#include "instrument/chaos/chaos.h"
+#include "instrument/chaos/chaos_impl.h"
 
 static void check_indication(const iso_indication *i, const char *what)
 {

@@ -6,8 +6,8 @@
 #include "orbit/description.h"
 #include "scenes.h"
 #include "studies.h"
-#include "study/check/check_impl.h"
-#include "study/run.h"
+#include "task/check/check_impl.h"
+#include "task/run.h"
 
 /* The files pass it; numbers of this size of order one, changed by CHANGE, must not. Numbers below SMALL are too
  * small beside the others of their vector. */

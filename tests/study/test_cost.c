@@ -1,4 +1,4 @@
-/* What accuracy costs (study/cost/cost.h): that the errors told are the true ones, that fits find orders and what is
+/* What accuracy costs (task/cost/cost.h): that the errors told are the true ones, that fits find orders and what is
  * broken, and that what is chosen is the cheapest. How long anything takes is no test. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -13,7 +13,7 @@
 #include "numbers.h"
 #include "orbit/watch_impl.h"
 #include "reference.h"
-#include "study/cost/cost_impl.h"
+#include "task/cost/cost_impl.h"
 
 static iso_context *ctx;
 

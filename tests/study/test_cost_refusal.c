@@ -1,4 +1,4 @@
-/* What study/cost/cost.h does not measure, gives up, and stops. */
+/* What task/cost/cost.h does not measure, gives up, and stops. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "costs.h"
 #include "numbers.h"
 #include "studies.h"
-#include "study/cost/cost_impl.h"
+#include "task/cost/cost_impl.h"
 
 /* --- refusals and ends ------------------------------------------------------------------------------------------ */
 

@@ -13,8 +13,8 @@
 #include "map/state.h"
 #include "numbers.h"
 #include "studies.h"
-#include "study/frequencies/frequencies.h"
-#include "study/frequencies/frequencies_impl.h"
+#include "instrument/frequencies/frequencies.h"
+#include "instrument/frequencies/frequencies_impl.h"
 
 /* --- scenes ----------------------------------------------------------------------------------------------------- */
 

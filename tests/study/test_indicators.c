@@ -1,4 +1,4 @@
-/* Exponent, MEGNO, GALI_2 and the verdict of lib/study/chaos/indicators.h, on maps of the plane with exact derivatives. */
+/* Exponent, MEGNO, GALI_2 and the verdict of lib/instrument/chaos/indicators.h, on maps of the plane with exact derivatives. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdbool.h>
@@ -7,7 +7,7 @@
 #include "base/pi_impl.h"
 #include "base/random_impl.h"
 #include "length.h"
-#include "study/chaos/chaos_impl.h"
+#include "instrument/chaos/chaos_impl.h"
 
 enum { TURNS = 3000 };
 

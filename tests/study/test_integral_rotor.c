@@ -1,4 +1,4 @@
-/* The search for first integrals of a ball with a rotor (study/integrals/integrals.h): it finds those that are known, and
+/* The search for first integrals of a ball with a rotor (instrument/integrals/integrals.h): it finds those that are known, and
  * nothing else; its functions do not depend on the rotor; units do not matter. */
 #include <gsl/gsl_test.h>
 #include <math.h>

@@ -1,4 +1,4 @@
-/* The search for first integrals (study/integrals/integrals.h): it finds those that are known, and no others; what is doubtful
+/* The search for first integrals (instrument/integrals/integrals.h): it finds those that are known, and no others; what is doubtful
  * is called undecided; values depend on k and the ratio of the moments alone; what is refused. */
 #include <gsl/gsl_test.h>
 #include <math.h>

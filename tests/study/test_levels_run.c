@@ -9,9 +9,9 @@
 #include "map/section_impl.h"
 #include "orbit/orbit_impl.h"
 #include "studies.h"
-#include "study/chaos/chaos.h"
-#include "study/check/check.h"
-#include "study/section/section.h"
+#include "instrument/chaos/chaos.h"
+#include "task/check/check.h"
+#include "instrument/section/section.h"
 
 static iso_scene scene_of(const char *text)
 {

@@ -1,4 +1,4 @@
-/* Periodic orbits (lib/study/periodic/periodic.h): the rotations' traces against Hill's equation and the section,
+/* Periodic orbits (lib/instrument/periodic/periodic.h): the rotations' traces against Hill's equation and the section,
  * orbits against their laws, the search along lines against Newton's method from a grid, k = 1 and -1. */
 #define _GNU_SOURCE /* functions of _Float128 */
 #include "base/random_impl.h"

@@ -15,9 +15,9 @@
 #include "orbit/orbit.h"
 #include "periodics.h"
 #include "study/level.h"
-#include "study/periodic/continuation.h"
-#include "study/periodic/stability_chart.h"
-#include "study/separatrix/separatrix.h"
+#include "instrument/periodic/continuation.h"
+#include "instrument/periodic/stability_chart.h"
+#include "instrument/separatrix/separatrix.h"
 
 /* A point of the section with eps and this level. */
 static iso_scene scene_on(double k, const double J[3], double eps, double level)

@@ -1,4 +1,4 @@
-/* test_run.c - iso_run (study/run.h): every row is that of a new orbit asked for this time alone. Times come in any
+/* test_run.c - iso_run (task/run.h): every row is that of a new orbit asked for this time alone. Times come in any
  * order; the sink, the monitor or a failure may end the run early. */
 #include "base/context_impl.h"
 #include "runs.h"

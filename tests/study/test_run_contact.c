@@ -1,4 +1,4 @@
-/* test_run_contact.c - iso_run (study/run.h) of a ball that leaves its support, or is not pressed to it. */
+/* test_run_contact.c - iso_run (task/run.h) of a ball that leaves its support, or is not pressed to it. */
 #include "runs.h"
 
 static int place_of(const iso_scene *scene, const char *name)

@@ -1,4 +1,4 @@
-/* iso_section_run (study/section/section.h): its rows equal the crossings of each orbit computed separately; starts, both
+/* iso_section_run (instrument/section/section.h): its rows equal the crossings of each orbit computed separately; starts, both
  * models, refusals, and the rows that stay when a sink, the monitor or a failure ends the work. */
 #include <gsl/gsl_test.h>
 #include <limits.h>
@@ -13,7 +13,7 @@
 #include "orbit/orbit_impl.h"
 #include "map/state.h"
 #include "poisson.h"
-#include "study/section/section_impl.h"
+#include "instrument/section/section_impl.h"
 
 static iso_context *ctx;
 

@@ -1,4 +1,4 @@
-/* The starts and the interval of lib/study/chaos/share.c: how often the interval holds the true share, for sets of many
+/* The starts and the interval of lib/instrument/chaos/share.c: how often the interval holds the true share, for sets of many
  * shapes whose share of the section's area is known. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "base/pi_impl.h"
 #include "laws.h"
 #include "length.h"
-#include "study/chaos/chaos_impl.h"
+#include "instrument/chaos/chaos_impl.h"
 
 /* u: the part of the area below the angle, v = (1 + x)/2; both are uniform on (0, 1). */
 typedef struct set {

@@ -1,6 +1,6 @@
-/* Lines of made signals, lib/study/frequencies/spectrum.h. */
+/* Lines of made signals, lib/instrument/frequencies/spectrum.h. */
 #include "studies.h"
-#include "study/frequencies/frequencies_impl.h"
+#include "instrument/frequencies/frequencies_impl.h"
 
 /* It asks before each line that it looks for, and before each that it refines, and once it is told no asks no more.
  */

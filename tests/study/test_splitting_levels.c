@@ -11,7 +11,7 @@
 #include "map/section.h"
 #include "map/section_impl.h"
 #include "orbit/crossings.h"
-#include "study/separatrix/separatrix.h"
+#include "instrument/separatrix/separatrix.h"
 
 static iso_context *ctx;
 

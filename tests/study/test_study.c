@@ -6,11 +6,11 @@
 #include <string.h>
 
 #include "base/vec3_impl.h"
-#include "orbit/convert.h"
+#include "task/convert/convert.h"
 #include "orbit/orbit_impl.h"
 #include "studies.h"
-#include "study/check/check.h"
-#include "study/compare.h"
+#include "task/check/check.h"
+#include "task/compare.h"
 
 /* --- compare --------------------------------------------------------------------------------------------------- */
 

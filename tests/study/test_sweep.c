@@ -12,9 +12,9 @@
 
 #include "length.h"
 #include "studies.h"
-#include "study/chaos/chaos.h"
-#include "study/compare.h"
-#include "study/separatrix/separatrix.h"
+#include "instrument/chaos/chaos.h"
+#include "task/compare.h"
+#include "instrument/separatrix/separatrix.h"
 #include "sweep/sweep_impl.h"
 
 /* --- a plan by hand: k and J2 vary ------------------------------------------------------------------------------ */

@@ -17,7 +17,7 @@
 #include "complex_paths.h"
 #include "laws.h"
 #include "length.h"
-#include "study/periodic/periodic_impl.h"
+#include "instrument/periodic/periodic_impl.h"
 
 typedef struct rotation {
     double k, J[3];

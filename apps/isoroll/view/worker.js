@@ -1,5 +1,5 @@
 // worker.js - runs in a Worker behind the loader of emscripten (isoroll.js): calls the library by its interface for other
-// languages (lib/foreign/foreign.h). All physics of the laboratory is computed here.
+// languages (lib/api/foreign.h). All physics of the laboratory is computed here.
 //
 // In: {module}, the compiled library, first; then {id, job, scene, options}. Out: {id, result} or {id, error}.
 

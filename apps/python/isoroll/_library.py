@@ -1,6 +1,6 @@
 """The shared library: where it is, which functions of it are used, and how a call is made.
 
-Only functions with plain arguments are used (lib/foreign/foreign.h); no struct of C is known here.
+Only functions with plain arguments are used (lib/api/foreign.h); no struct of C is known here.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from . import _errors
 from ._version import __version__
 
-ABI = 3  # ISO_FOREIGN_ABI of lib/foreign/foreign.h
+ABI = 3  # ISO_FOREIGN_ABI of lib/api/foreign.h
 _OBJECT = POINTER(c_void_p)  # where a new object goes
 
 _NAMES = {"darwin": "libisoroll.0.dylib", "win32": "isoroll.dll"}

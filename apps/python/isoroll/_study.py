@@ -212,7 +212,7 @@ def study(scene: Optional[SceneLike], name: str, *, progress: ProgressLike = Non
     options  as the command has them, exponent_turns=700 for --exponent-turns 700, as_="both" for --as both; True: one
              without an argument; None, False: not given
 
-    Returns six tables, None in place of those that are not made (iso_foreign_study in lib/foreign/foreign.h). The
+    Returns six tables, None in place of those that are not made (iso_foreign_study in lib/api/foreign.h). The
     lines of the first have the scene, and the result by the names of the command's --json. A study that has a
     function of its own, such as isoroll.chaos, is better asked by it.
     """

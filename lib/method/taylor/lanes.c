@@ -6,7 +6,7 @@
 
 #include "method/methods_impl.h"
 #include "method/taylor/tail_impl.h"
-#include "model/formula_lines_impl.h"
+#include "model/formula/formula_lines_impl.h"
 #include "model/model_impl.h"
 
 const iso_lane_code *const iso_lane_codes[] = {

@@ -1,10 +1,10 @@
-/* evaluate_impl.h - computes formulas (model/formula.h) as power series, one coefficient after the other.
+/* evaluate_impl.h - computes formulas (model/formula/formula.h) as power series, one coefficient after the other.
  *
  * The result of each line is a series. Coefficient n of it follows from coefficients 0 to n of what goes into the
  * line. The lines are computed from the first to the last: a line takes results of earlier lines only. Coefficient 0
  * is the plain value. A rate sets coefficient n + 1 of its state.
  */
-#include "model/formula.h"
+#include "model/formula/formula.h"
 #include "model/series/pairs_impl.h"
 
 /* Where the coefficients are, and where results go. Coefficient n of scalar (or vector) i in channel c is at

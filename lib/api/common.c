@@ -1,0 +1,84 @@
+/* common.c - what the calls for other languages share: notes, words, and the slow monitor. */
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/nearest_impl.h"
+#include "api/foreign_impl.h"
+
+int iso_foreign_abi(void)
+{
+    return ISO_FOREIGN_ABI;
+}
+
+/* --- notes ------------------------------------------------------------------------------------------------------ */
+
+notes iso_notes_begin(char text[], size_t room)
+{
+    if (room > 0) *text = '\0';
+    return (notes){text, room, 0};
+}
+
+static void put(notes *n, const char *words)
+{
+    for (; *words && n->used + 1 < n->room; words++) n->text[n->used++] = *words;
+    if (n->room > 0) n->text[n->used] = '\0';
+}
+
+void iso_notes_add(notes *n, const char *words)
+{
+    if (n->used > 0) put(n, "\n");
+    put(n, words);
+}
+
+/* --- words ------------------------------------------------------------------------------------------------------ */
+
+iso_status iso_foreign_word(iso_context *ctx, const char *key, const char *(*name)(int), const char *word,
+                            int *number)
+{
+    char suggested[ISO_SUGGEST_SIZE];
+    if (!word) word = "auto";
+    for (*number = 0; name(*number); ++*number)
+        if (strcmp(name(*number), word) == 0) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "%s cannot be '%s'; %s", key, word,
+                            iso_suggest_word(suggested, word, name));
+}
+
+/* --- the monitor ------------------------------------------------------------------------------------------------ */
+
+struct iso_foreign_monitor {
+    bool (*go_on)(void *data);
+    void *data;
+    double seconds, asked;
+};
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static bool ask_sometimes(void *data)
+{
+    iso_foreign_monitor *m = data;
+    const double time = now();
+    if (time - m->asked < m->seconds) return true;
+    m->asked = time;
+    return m->go_on(m->data);
+}
+
+iso_status iso_foreign_monitor_create(iso_context *ctx, double seconds, bool (*go_on)(void *data), void *data,
+                                      iso_foreign_monitor **monitor)
+{
+    iso_foreign_monitor *m = *monitor = malloc(sizeof *m);
+    if (!m) return iso_context_no_memory(ctx, "a monitor");
+    *m = (iso_foreign_monitor){go_on, data, seconds, now()};
+    iso_context_set_monitor(ctx, ask_sometimes, m);
+    return ISO_OK;
+}
+
+void iso_foreign_monitor_free(iso_foreign_monitor *monitor)
+{
+    free(monitor);
+}

@@ -1,0 +1,32 @@
+/* foreign_impl.h - what the files of this folder share: the scene behind its pointer, notes, and kept rows. */
+#ifndef ISO_FOREIGN_FOREIGN_IMPL_H
+#define ISO_FOREIGN_FOREIGN_IMPL_H
+
+#include "api/foreign.h"
+
+struct iso_foreign_scene {
+    iso_scene scene;
+    char *name;
+};
+
+/* The caller's notes; room 0: none. */
+typedef struct notes {
+    char *text;
+    size_t room, used;
+} notes;
+
+/* Ends the text at its beginning. */
+notes iso_notes_begin(char text[], size_t room);
+
+/* One more line. */
+void iso_notes_add(notes *n, const char *words);
+
+/* Puts the place in the scene before a failure (iso_scene_blame). */
+iso_status iso_foreign_blame(iso_context *ctx, const iso_foreign_scene *scene, iso_status status);
+
+/* The number of a word in a list of names that NULL ends, NULL being "auto".
+ * Errors: ISO_BAD_ARGUMENT about `key`. */
+iso_status iso_foreign_word(iso_context *ctx, const char *key, const char *(*name)(int), const char *word,
+                            int *number);
+
+#endif

@@ -1,0 +1,138 @@
+/* scene.c - scenes behind a pointer: read, copied, changed key by key, and asked for their numbers and words. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arithmetic_impl.h"
+#include "api/foreign_impl.h"
+#include "io/scene_draft_impl.h"
+#include "io/scene_file.h"
+#include "orbit/orbit_impl.h"
+
+static iso_status create(iso_context *ctx, const char *name, iso_foreign_scene **scene)
+{
+    iso_foreign_scene *s = calloc(1, sizeof *s);
+    *scene = NULL;
+    if (s) s->name = strdup(name);
+    if (!s || !s->name) return free(s), iso_context_no_memory(ctx, "a scene");
+    *scene = s;
+    return ISO_OK;
+}
+
+void iso_foreign_scene_free(iso_foreign_scene *scene)
+{
+    if (!scene) return;
+    free(scene->name);
+    free(scene);
+}
+
+/* Gives the scene away, or releases it. */
+static iso_status give(iso_status status, iso_foreign_scene **scene)
+{
+    if (status == ISO_OK) return status;
+    iso_foreign_scene_free(*scene);
+    *scene = NULL;
+    return status;
+}
+
+iso_status iso_foreign_scene_read(iso_context *ctx, const char *path, iso_foreign_scene **scene)
+{
+    const iso_status status = create(ctx, strcmp(path, "-") == 0 ? "<stdin>" : path, scene);
+    return status == ISO_OK ? give(iso_scene_read(ctx, path, &(*scene)->scene), scene) : status;
+}
+
+iso_status iso_foreign_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length,
+                                   iso_foreign_scene **scene)
+{
+    const iso_status status = create(ctx, name, scene);
+    return status == ISO_OK ? give(iso_scene_parse(ctx, name, text, length, &(*scene)->scene), scene) : status;
+}
+
+iso_status iso_foreign_scene_copy(iso_context *ctx, const iso_foreign_scene *from, iso_foreign_scene **scene)
+{
+    const iso_status status = create(ctx, from->name, scene);
+    if (status == ISO_OK) (*scene)->scene = from->scene;
+    return status;
+}
+
+iso_status iso_foreign_blame(iso_context *ctx, const iso_foreign_scene *scene, iso_status status)
+{
+    return iso_scene_blame(ctx, &scene->scene, scene->name, status);
+}
+
+/* --- changes ---------------------------------------------------------------------------------------------------- */
+
+iso_status iso_foreign_scene_set(iso_context *ctx, iso_foreign_scene *scene, const char *key, const char *value)
+{
+    const size_t room = strlen(key) + strlen(value) + sizeof ": []";
+    const bool time = strcmp(key, "end") == 0 || strcmp(key, "step") == 0;
+    char *text = malloc(room);
+    if (!text) return iso_context_no_memory(ctx, "a scene");
+    snprintf(text, room, strcmp(key, "columns") == 0 ? "%s: [%s]" : "%s: %s", key, value);
+    const iso_status status = iso_scene_change(ctx, text, &scene->scene);
+    free(text);
+    if (status == ISO_OK) iso_scene_forget_place(&scene->scene, time ? "end" : key);
+    if (status == ISO_OK && time) iso_scene_forget_place(&scene->scene, "step"); /* it may be due to the other */
+    if (status != ISO_BAD_INPUT) return status;
+    const char *words = strstr(iso_context_message(ctx), ": "); /* behind the place: no file is wrong */
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "%s", words ? words + 2 : iso_context_message(ctx));
+}
+
+iso_status iso_foreign_scene_replace(iso_context *ctx, iso_foreign_scene *scene, const double *k, const double J[3],
+                                     const double start[6])
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_params params;
+    iso_start y;
+    const iso_status status = iso_scene_replace(ctx, &scene->scene, k, J, start, &params, &y);
+    if (status == ISO_OK) scene->scene.params = params, scene->scene.start = y;
+    return status;
+}
+
+/* --- questions -------------------------------------------------------------------------------------------------- */
+
+int iso_foreign_scene_numbers(const iso_foreign_scene *scene, const char *key, double values[6])
+{
+    const iso_scene *s = &scene->scene;
+    const double eps = s->start.model == ISO_POINT ? s->start.eps : NAN;
+    const struct {
+        const char *key;
+        int count;
+        const double *from;
+    } rows[] = {
+        {"k", 1, &s->params.k}, {"J", 3, s->params.J}, {"D", 1, &s->params.D}, {"start", 6, s->start.y},
+        {"eps", 1, &eps},       {"end", 1, &s->end},   {"step", 1, &s->step},  {"tolerance", 1, &s->tolerance}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (strcmp(rows[i].key, key) == 0) {
+            memcpy(values, rows[i].from, (size_t)rows[i].count * sizeof *values);
+            return rows[i].count;
+        }
+    return 0;
+}
+
+const char *iso_foreign_scene_word(const iso_foreign_scene *scene, const char *key)
+{
+    const iso_scene *s = &scene->scene;
+    if (strcmp(key, "model") == 0) return iso_model_kind_name((int)s->start.model);
+    if (strcmp(key, "backend") == 0) return iso_backend_name((int)s->backend);
+    if (strcmp(key, "method") == 0) return s->method;
+    if (strcmp(key, "as") == 0) return iso_models_name((int)s->as);
+    return strcmp(key, "name") == 0 ? scene->name : NULL;
+}
+
+int iso_foreign_scene_columns(const iso_foreign_scene *scene, int columns[])
+{
+    return iso_scene_columns(&scene->scene, columns);
+}
+
+bool iso_foreign_scene_key(int i, const char **section, const char **key)
+{
+    return iso_scene_key(i, section, key);
+}
+
+iso_status iso_foreign_yaml_json(iso_context *ctx, const char *name, const char *text, size_t bytes, char json[],
+                                 size_t room, size_t *length)
+{
+    return iso_yaml_json(ctx, name, text, bytes, json, room, length);
+}

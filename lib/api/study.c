@@ -1,0 +1,153 @@
+/* study.c - any study by its name and options as text; and what studies, options and tables there are. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/nearest_impl.h"
+#include "api/foreign_impl.h"
+#include "study/study.h"
+#include "task/list/list_impl.h"
+#include "task/list/tables.h"
+#include "sweep/sweep_store_impl.h"
+
+/* --- asking ----------------------------------------------------------------------------------------------------- */
+
+/* Where a study's words go. */
+typedef struct listener {
+    notes notes;
+    void (*progress)(double part, void *data);
+    void *data;
+} listener;
+
+static void keep_note(void *data, const char *words)
+{
+    iso_notes_add(&((listener *)data)->notes, words);
+}
+
+static void show(double part, void *data)
+{
+    const listener *l = data;
+    if (l->progress) l->progress(part, l->data);
+}
+
+static iso_status find(iso_context *ctx, const char *name, const iso_study **study)
+{
+    char suggested[ISO_SUGGEST_SIZE];
+    *study = iso_study_find(name);
+    if (*study) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "study", "there is no study '%s'; %s", name,
+                            iso_suggest_word(suggested, name, iso_foreign_study_name));
+}
+
+iso_status iso_foreign_study(iso_context *ctx, const iso_foreign_scene *scene, const iso_record *record,
+                             const char *name, const char *options, void (*progress)(double part, void *data),
+                             void *data, iso_record *table[ISO_STUDY_TABLES], char text[], size_t room)
+{
+    const iso_study *study;
+    listener l = {iso_notes_begin(text, room), progress, data};
+    iso_study_result result = {.note = keep_note, .progress = show, .data = &l};
+    const iso_study_subject subject = {scene ? &scene->scene : NULL, record};
+    for (int i = 0; i < ISO_STUDY_TABLES; i++) table[i] = NULL;
+    iso_status status = find(ctx, name, &study);
+    if (status == ISO_OK) status = iso_study_ask(ctx, study, &subject, options, &result);
+    const bool of_scene = status != ISO_OK && status != ISO_BAD_ARGUMENT && scene && !result.table[0];
+    if (of_scene) status = iso_foreign_blame(ctx, scene, status);
+    for (int i = 0; i < ISO_STUDY_TABLES; i++) {
+        table[i] = result.table[i];
+        result.table[i] = NULL;
+    }
+    iso_study_result_free(&result);
+    return status;
+}
+
+/* --- what there is ---------------------------------------------------------------------------------------------- */
+
+const char *iso_foreign_study_name(int i)
+{
+    return iso_study_at(i) ? iso_study_at(i)->name : NULL;
+}
+
+const char *iso_foreign_study_doc(const char *name)
+{
+    return iso_study_find(name) ? iso_study_find(name)->doc : NULL;
+}
+
+int iso_foreign_study_of(const char *name)
+{
+    return iso_study_find(name) ? (int)iso_study_find(name)->of : 0;
+}
+
+static const iso_option *option_at(const char *study, int i)
+{
+    const iso_study *s = iso_study_find(study);
+    const iso_option *o = s ? s->options : NULL;
+    for (; o && o->name && i > 0; o++) i--;
+    return o && o->name && i == 0 ? o : NULL;
+}
+
+bool iso_foreign_option(const char *study, int i, const char *text[5])
+{
+    const iso_option *o = option_at(study, i);
+    if (!o) return false;
+    text[0] = o->name;
+    text[1] = iso_option_type(o);
+    text[2] = o->argument ? o->argument : "";
+    text[3] = o->expected ? o->expected : "";
+    text[4] = o->doc;
+    return true;
+}
+
+const char *iso_foreign_option_word(const char *study, int i, int word)
+{
+    const iso_option *o = option_at(study, i);
+    for (int w = 0; o && o->word && o->word(w); w++)
+        if (w == word) return o->word(w);
+    return NULL;
+}
+
+iso_status iso_foreign_list(iso_context *ctx, const char *topic, char text[], size_t room, size_t *length)
+{
+    char *words = NULL;
+    FILE *to = open_memstream(&words, length);
+    if (!to) return iso_context_no_memory(ctx, "a list");
+    const iso_status status = iso_list(ctx, topic, to);
+    const bool whole = fclose(to) == 0 && words;
+    if (whole && room > 0) snprintf(text, room, "%s", words);
+    free(words);
+    return whole ? status : iso_context_no_memory(ctx, "a list");
+}
+
+/* --- tables ----------------------------------------------------------------------------------------------------- */
+
+const char *iso_foreign_table_kind(int i)
+{
+    int of_studies = 0;
+    while (iso_result_table_at(of_studies)) of_studies++;
+    return i == of_studies ? ISO_SWEEP_KIND : iso_result_table_at(i) ? iso_result_table_at(i)->kind : NULL;
+}
+
+typedef struct column {
+    int wanted;
+    char *name;
+    const char **text; /* unit and doc */
+} column;
+
+static void look(void *data, const char *name, const iso_field *field, const iso_value *value)
+{
+    column *c = data;
+    (void)value;
+    if (c->wanted-- != 0) return;
+    c->text[0] = field->unit;
+    c->text[1] = field->doc;
+    memcpy(c->name, name, strlen(name) + 1);
+}
+
+bool iso_foreign_column(const char *kind, int i, char name[64], const char *text[2])
+{
+    column c = {i, name, text};
+    for (int t = 0; iso_result_table_at(t); t++)
+        if (strcmp(iso_result_table_at(t)->kind, kind) == 0)
+            iso_columns_visit(iso_result_table_at(t)->fields, NULL, look, &c);
+    if (strcmp(kind, ISO_SWEEP_KIND) == 0) iso_sweep_columns_visit(look, &c);
+    return i >= 0 && c.wanted < 0;
+}

@@ -1,0 +1,231 @@
+/* arb_convert.c - certified rows of one model as rows of the other: the map (18) in balls (certify_impl.h).
+ *
+ * A file that is read is checked as far as its rows tell: n (or gamma) can be a unit vector, and omega (or M)
+ * orthogonal to it. The clocks are in the file, and stay.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/context_impl.h"
+#include "instrument/certify/arb_certify_impl.h"
+
+typedef struct reader {
+    iso_context *ctx;
+    FILE *file;
+    const char *name;
+    const iso_certify_sink *sink;
+    iso_model_kind to, from;
+    char *line;
+    size_t room, number;
+    FILE *head; /* of the result, which is given away when the whole head is known to be good */
+    int digits; /* 0: not yet stated */
+    certify_exact exact;
+    bool has_k, has_J;
+    int columns;
+    int at[ISO_CLOCKS + CERTIFY_STATE]; /* column of each number that is read */
+    certify_ball ball;
+} reader;
+
+static iso_status fail(const reader *r, const char *at, const char *words)
+{
+    return iso_context_placed(r->ctx, ISO_FAIL_INPUT(r->ctx, "", "%s:%zu:%zu: %s", r->name, r->number,
+                                                     (size_t)(at ? at - r->line : 0) + 1, words));
+}
+
+/* The next line, without its end. */
+static bool next_line(reader *r)
+{
+    const ssize_t got = getline(&r->line, &r->room, r->file);
+    if (got < 0) return false;
+    r->number++;
+    r->line[strcspn(r->line, "\r\n")] = '\0';
+    return true;
+}
+
+/* --- the head ---------------------------------------------------------------------------------------------------- */
+
+static bool read_fractions(const char *text, int count, fmpq_t x[])
+{
+    char word[128];
+    int used = 0;
+    for (int i = 0; i < count; i++, text += used)
+        if (sscanf(text, "%127s%n", word, &used) != 1 || !certify_rational_read(word, x[i]) || fmpq_is_zero(x[i]))
+            return false;
+    return text[strspn(text, " ")] == '\0';
+}
+
+static bool are_moments(const certify_exact *e)
+{
+    return fmpq_sgn(e->J[0]) > 0 && fmpq_sgn(e->J[1]) > 0 && fmpq_sgn(e->J[2]) > 0;
+}
+
+/* A line "# key: value". */
+static void take_line(reader *r)
+{
+    const char *line = r->line;
+    if (strncmp(line, "# model: ", 9) == 0)
+        fprintf(r->head, "# model: %s\n", iso_model_kind_name((int)r->to));
+    else
+        fprintf(r->head, "%s\n", line);
+    if (strncmp(line, "# k: ", 5) == 0) r->has_k = read_fractions(line + 5, 1, &r->exact.k);
+    if (strncmp(line, "# J: ", 5) == 0) r->has_J = read_fractions(line + 5, 3, r->exact.J) && are_moments(&r->exact);
+    if (strncmp(line, "# digits: ", 10) == 0) r->digits = atoi(line + 10);
+}
+
+/* Which column has a name; -1: none. */
+static int find_column(const reader *r, const char *name)
+{
+    const size_t length = strlen(name);
+    const char *at = r->line;
+    for (int i = 0; *at; i++) {
+        const size_t here = strcspn(at, ",");
+        if (here == length && strncmp(at, name, length) == 0) return i;
+        at += here + (at[here] == ',');
+    }
+    return -1;
+}
+
+static bool find_columns(reader *r)
+{
+    bool all = true;
+    for (int c = 0; c < ISO_CLOCKS; c++) r->at[c] = find_column(r, iso_column_name(c));
+    for (int i = 0; i < CERTIFY_STATE; i++)
+        r->at[ISO_CLOCKS + i] =
+            find_column(r, iso_column_name((r->from == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT) + i));
+    for (int i = 0; i < ISO_CLOCKS + CERTIFY_STATE; i++) all = all && r->at[i] >= 0;
+    r->columns = 1;
+    for (const char *at = r->line; *at; at++) r->columns += *at == ',';
+    return all;
+}
+
+static iso_status read_head(reader *r)
+{
+    bool more = next_line(r);
+    if (!more || strcmp(r->line, "# isoroll " ISO_CERTIFIED_KIND " 1") != 0)
+        return fail(r, NULL, "expected '# isoroll " ISO_CERTIFIED_KIND " 1', as 'run --certify' writes it");
+    for (; more && *r->line == '#'; more = next_line(r)) take_line(r);
+    if (!more) return fail(r, NULL, "expected a line of column names");
+    if (!r->has_k || !r->has_J) return fail(r, NULL, "expected lines '# k: 1/2' and '# J: 7/5 21/10 3' before this");
+    if (r->digits < 1 || r->digits > ISO_MOST_CERTIFIED_DIGITS)
+        return fail(r, NULL, "expected a line '# digits: D' before this, D from 1 to 1000");
+    if (find_columns(r)) return ISO_OK;
+    return fail(r, NULL,
+                r->from == ISO_BALL ? "expected the clocks and the columns of the ball, which become the point's"
+                                    : "expected the clocks and the columns of the point, which become the ball's");
+}
+
+static iso_status convert_head(reader *r)
+{
+    char *text = NULL;
+    size_t length = 0;
+    r->head = open_memstream(&text, &length);
+    if (!r->head) return iso_context_no_memory(r->ctx, "a head");
+    iso_status status = read_head(r);
+    certify_print_columns(r->head, (iso_models)r->to);
+    const bool whole = fclose(r->head) == 0;
+    if (status == ISO_OK && !whole) status = iso_context_no_memory(r->ctx, "a head");
+    if (status == ISO_OK) status = r->sink->line(r->sink->data, text);
+    free(text);
+    return status;
+}
+
+/* --- rows -------------------------------------------------------------------------------------------------------- */
+
+/* One cell, which then ends with '\0'. */
+static iso_status read_cell(const reader *r, char *at, fmpq_t x)
+{
+    at[strcspn(at, ",")] = '\0';
+    if (*at && strspn(at, "0123456789+-.eE") == strlen(at) && certify_rational_read(at, x)) return ISO_OK;
+    return fail(r, at, "expected a decimal number");
+}
+
+static iso_status read_row(reader *r, arb_ptr x)
+{
+    fmpq_t middle, radius;
+    arb_t error;
+    char **cell = malloc((size_t)r->columns * sizeof *cell), *at = r->line;
+    int found = 0;
+    iso_status status = ISO_OK;
+    if (!cell) return iso_context_no_memory(r->ctx, "a row");
+    fmpq_init(middle), fmpq_init(radius), arb_init(error);
+    for (; at; found++) {
+        if (found < r->columns) cell[found] = at;
+        at = strchr(at, ',');
+        if (at) at++;
+    }
+    if (found != r->columns) status = fail(r, NULL, "expected one number for each column");
+    for (int i = 0; i < ISO_CLOCKS + CERTIFY_STATE && status == ISO_OK; i++) {
+        const int c = r->at[i];
+        if (c + 1 == r->columns) status = fail(r, NULL, "expected a radius behind each number");
+        if (status == ISO_OK) status = read_cell(r, cell[c], middle);
+        if (status == ISO_OK) status = read_cell(r, cell[c + 1], radius);
+        if (status == ISO_OK && fmpq_sgn(radius) < 0) status = fail(r, cell[c + 1], "expected a radius >= 0");
+        arb_set_fmpq(x + i, middle, r->ball.bits);
+        arb_set_fmpq(error, radius, 64);
+        arb_add_error(x + i, error);
+    }
+    free(cell);
+    fmpq_clear(middle), fmpq_clear(radius), arb_clear(error);
+    return status;
+}
+
+/* Whether the unit vector can be one, and the other orthogonal to it. */
+static bool is_state(const reader *r, arb_srcptr y)
+{
+    arb_t x;
+    arb_init(x);
+    arb_dot(x, NULL, 0, y, 1, y + 3, 1, 3, r->ball.bits);
+    bool good = arb_contains_zero(x);
+    arb_dot(x, NULL, 0, y + 3, 1, y + 3, 1, 3, r->ball.bits);
+    good = good && arb_contains_si(x, 1);
+    arb_clear(x);
+    return good;
+}
+
+static iso_status convert_row(reader *r, arb_ptr x)
+{
+    char *text = NULL;
+    size_t length = 0;
+    ISO_TRY(read_row(r, x));
+    if (!is_state(r, x + ISO_CLOCKS))
+        return fail(r, NULL, "this is no state: no unit vector, or the other vector is not orthogonal to it");
+    certify_map(&r->ball, r->from, x + ISO_CLOCKS, x + ISO_CLOCKS);
+    for (int i = 0; i < CERTIFY_STATE; i++)
+        if (!arb_is_finite(x + ISO_CLOCKS + i)) return fail(r, NULL, "the enclosures of this row are too wide");
+    FILE *to = open_memstream(&text, &length);
+    if (to) certify_write_row(&r->ball, x, r->to, x + ISO_CLOCKS, (iso_models)r->to, r->digits, to);
+    const bool written = to && fclose(to) == 0 && text;
+    const iso_status status = written ? r->sink->line(r->sink->data, text) : iso_context_no_memory(r->ctx, "a row");
+    free(text);
+    return status;
+}
+
+static iso_status convert(reader *r, size_t *rows)
+{
+    ISO_TRY(convert_head(r));
+    arb_ptr x = _arb_vec_init(ISO_CLOCKS + CERTIFY_STATE);
+    iso_status status = ISO_OK;
+    certify_ball_init(&r->ball, (slong)(3.4 * r->digits) + 80);
+    certify_ball_set(&r->ball, &r->exact);
+    while (status == ISO_OK && next_line(r)) {
+        if (!iso_context_goes_on(r->ctx)) status = iso_context_stopped(r->ctx);
+        if (status == ISO_OK) status = convert_row(r, x);
+        *rows += status == ISO_OK;
+    }
+    certify_ball_clear(&r->ball);
+    _arb_vec_clear(x, ISO_CLOCKS + CERTIFY_STATE);
+    return status;
+}
+
+iso_status iso_certify_convert(iso_context *ctx, FILE *file, const char *name, iso_model_kind to,
+                               const iso_certify_sink *sink, size_t *rows)
+{
+    reader r = {.ctx = ctx, .file = file, .name = name, .sink = sink, .to = to};
+    *rows = 0;
+    r.from = to == ISO_BALL ? ISO_POINT : ISO_BALL;
+    certify_exact_init(&r.exact);
+    const iso_status status = convert(&r, rows);
+    certify_exact_clear(&r.exact);
+    free(r.line);
+    return status;
+}

@@ -1,0 +1,343 @@
+/* frequencies_estimate.c - the frequencies of a motion from the lines of its n(t), see frequencies.h. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
+#include "base/vec3_impl.h"
+#include "orbit/orbit_impl.h"
+#include "instrument/chaos/chaos.h"
+#include "instrument/frequencies/frequencies_impl.h"
+#include "study/study_impl.h"
+
+/* Relative differences between the halves of an orbit below this are rounding. */
+static const double ROUNDING = 1e-14;
+
+static const double LEAST_TURNS = 20;
+
+/* The most turns for the indicators of chaos. The caller may ask for fewer. */
+enum { MOST_TURNS = 3000 };
+
+typedef struct estimator {
+    iso_context *ctx;
+    const iso_scene *scene;
+    iso_effects effects;
+    bool twin, fixed; /* whether there is a point, and so other clocks; whether the caller gave the length */
+    size_t count;
+    double end[ISO_CLOCKS];
+    long turns;            /* in which the indicators of chaos may decide */
+    iso_verdict indicated; /* what they say                               */
+    void (*progress)(double share, void *data);
+    void *data;
+    iso_frequencies *f;
+} estimator;
+
+/* --- the signals ------------------------------------------------------------------------------------------------ */
+
+static iso_status open_orbit(const estimator *e, iso_clock clock, iso_orbit **orbit)
+{
+    iso_orbit_options o = iso_orbit_defaults(&e->scene->start);
+    o.effects = &e->effects;
+    o.clock = clock;
+    o.shown = ISO_SHOW_BALL;
+    o.backend = e->twin ? ISO_BACKEND_AUTO : ISO_BACKEND_BALL;
+    o.tolerance = fmin(e->scene->tolerance, 1e-13);
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = e->twin && clock == ISO_CLOCK_T && c != (int)clock;
+    return iso_orbit_create(e->ctx, &e->scene->params, &e->scene->start, &o, orbit);
+}
+
+/* n at the samples, three numbers each, and the mean of omega. In t it also finds the ends of the other clocks. */
+static iso_status sample(estimator *e, iso_clock clock, double n[], double mean[3])
+{
+    iso_orbit *orbit;
+    iso_sample s;
+    iso_status status = open_orbit(e, clock, &orbit);
+    for (int i = 0; i < 3; i++) mean[i] = 0;
+    for (size_t j = 0; status == ISO_OK && j < e->count; j++) {
+        status = iso_orbit_at(orbit, e->end[clock] * (double)j / (double)e->count, &s);
+        if (status != ISO_OK) break;
+        copy(s.ball + 3, n + 3 * j, 3);
+        if (e->progress) e->progress((double)j / (double)e->count, e->data);
+        add_scaled(mean, 1 / (double)e->count, s.ball);
+    }
+    if (status == ISO_OK && clock == ISO_CLOCK_T) {
+        status = iso_orbit_at(orbit, e->end[clock], &s);
+        for (int c = ISO_CLOCK_TAU; e->twin && c < ISO_CLOCKS; c++) e->end[c] = s.clock[c];
+    }
+    iso_orbit_free(orbit);
+    return status;
+}
+
+static void split(const double n[], size_t count, int axis, series *s)
+{
+    for (size_t j = 0; j < count; j++) {
+        s->pair[2 * j] = n[3 * j + (size_t)(axis + 1) % 3];
+        s->pair[2 * j + 1] = n[3 * j + (size_t)(axis + 2) % 3];
+        s->third[2 * j] = n[3 * j + (size_t)axis];
+        s->third[2 * j + 1] = 0;
+    }
+}
+
+/* The signals of one clock. The axis of the estimate is that along which the mean of omega is largest. */
+static iso_status make_series(estimator *e, iso_clock clock, series *s)
+{
+    double mean[3], *const n = malloc(7 * e->count * sizeof *n);
+    if (!n) return iso_context_no_memory(e->ctx, "the samples");
+    const iso_status status = sample(e, clock, n, mean);
+    *s = (series){.count = e->count, .step = e->end[clock] / (double)e->count};
+    s->pair = malloc(4 * e->count * sizeof *s->pair);
+    s->third = s->pair ? s->pair + 2 * e->count : NULL;
+    int *const axis = &e->f->estimate.axis;
+    if (*axis < 0)
+        for (int i = *axis = 0; i < 3; i++)
+            if (fabs(mean[i]) > fabs(mean[*axis])) *axis = i;
+    if (status == ISO_OK && s->pair) split(n, e->count, *axis, s);
+    free(n);
+    if (status == ISO_OK && !s->pair) return iso_context_no_memory(e->ctx, "the samples");
+    return status;
+}
+
+/* --- regular or chaotic ----------------------------------------------------------------------------------------- */
+
+/* The largest relative change of a basic frequency between two neighbouring parts of `count` samples each. */
+static iso_status find_drift(estimator *e, const series *s, const basis *b, size_t count, double drift[2],
+                             double *error)
+{
+    double one[2] = {NAN, NAN}, other[2] = {NAN, NAN};
+    iso_status status = iso_basis_in_part(e->ctx, s, b, 0, count, one);
+    if (status == ISO_OK) status = iso_basis_in_part(e->ctx, s, b, count, count, other);
+    for (int i = 0; i < b->angles; i++) {
+        const double f = b->frequency[i];
+        drift[i] = fabs((one[i] - other[i]) / f);
+        if (error) error[i] = fmax(fmax(fabs(one[i] - f), fabs(other[i] - f)), ROUNDING * fabs(f));
+    }
+    return status;
+}
+
+/* How many turns the slowest small combination of the frequencies makes in half of the orbit. */
+static double slowest_beat(const basis *b, double length)
+{
+    double least = b->angles == 1 ? fabs(b->frequency[0]) : INFINITY;
+    for (int m = -3; m <= 3; m++)
+        for (int n = 0; n <= 3; n++)
+            if (b->angles == 2 && (m != 0 || n != 0))
+                least = fmin(least, fabs(m * b->frequency[0] + n * b->frequency[1]));
+    return least * length / 2 / (2 * ISO_PI);
+}
+
+/* The longer the orbit, the smaller the drift of a regular motion's frequencies, once the orbit has a dozen beats.
+ * The frequencies of a chaotic motion go on changing. An integrable problem has no chaotic motion. */
+static iso_verdict judge(const iso_estimate *e, const basis *b, bool integrable)
+{
+    static const double SAME = 1e-8, WANDERING = 1e-6, BEATS = 12;
+    if (b->angles > 0 && e->drift <= SAME) return ISO_REGULAR;
+    if (integrable) return ISO_INTEGRABLE;
+    if (b->angles == 0) return ISO_UNDECIDED;
+    const bool wanders = e->drift >= WANDERING && e->drift > e->drift_before / 8;
+    return wanders && slowest_beat(b, e->length) > BEATS ? ISO_CHAOTIC : ISO_UNDECIDED;
+}
+
+/* The indicators of chaos.h are sharper than the drift of frequencies. The drift decides only where the indicators do
+ * not, or cannot be computed (effects without deviations). */
+static iso_status ask_indicators(estimator *e)
+{
+    const bool point = e->twin && iso_point_is_better(&e->scene->params);
+    iso_chaos_options o = iso_chaos_defaults();
+    iso_chaos *c;
+    e->indicated = ISO_UNDECIDED;
+    if (e->f->integral) return ISO_OK;
+    o.turns = e->turns;
+    o.models = point ? ISO_SHOW_POINT : ISO_SHOW_BALL;
+    const iso_status status = iso_chaos_run(e->ctx, e->scene, &o, &c);
+    if (status == ISO_OK) e->indicated = c->own.verdict;
+    iso_chaos_free(c);
+    return status == ISO_STOPPED || status == ISO_NO_MEMORY ? status : ISO_OK;
+}
+
+/* Names each line by its combination of the frequencies of the angles. These are > 0, and in the order of the angles,
+ * which is the reverse of that of the basis. */
+static void name_lines(iso_frequencies *f, const line_list *l)
+{
+    iso_estimate *e = &f->estimate;
+    const double one = f->angle[0].frequency[ISO_CLOCK_T], other = f->angle[1].frequency[ISO_CLOCK_T];
+    const double basic[2] = {one, f->angles == 2 ? other : 0};
+    for (int s = 0; s < 2; s++) {
+        e->lines[s] = l->count[s];
+        for (int i = 0; i < l->count[s]; i++) {
+            iso_identified_line *named = &e->line[s][i];
+            named->line = l->line[s][i];
+            named->known = f->angles > 0 && iso_basis_combine(named->line.frequency, basic, ISO_NEAR * l->resolution,
+                                                              &named->m, &named->n);
+        }
+    }
+    e->unexplained = f->angles > 0 ? iso_basis_unexplained(l, basic) : 0;
+}
+
+/* --- one clock after the other ---------------------------------------------------------------------------------- */
+
+/* In the clock t: finds the basis, its drift and all lines. angle[0] swings, angle[1] turns. */
+static iso_status estimate_in_t(estimator *e, const series *s, basis *b)
+{
+    iso_frequencies *f = e->f;
+    iso_estimate *out = &f->estimate;
+    double drift[2], before[2] = {NAN, NAN}, error[2];
+    line_list l;
+    ISO_TRY(iso_basis_lines(e->ctx, s, 0, s->count, ISO_LINES, &l));
+    *b = iso_basis_find(&l);
+    f->angles = b->angles;
+    iso_status status = find_drift(e, s, b, s->count / 2, drift, error);
+    if (status == ISO_OK) status = find_drift(e, s, b, s->count / 8, before, NULL);
+    out->drift = out->drift_before = 0;
+    for (int i = 0; i < b->angles; i++) {
+        iso_angle *a = &f->angle[b->angles - 1 - i];
+        a->frequency[ISO_CLOCK_T] = fabs(b->frequency[i]);
+        a->error[ISO_CLOCK_T] = error[i];
+        a->drift = drift[i];
+        out->drift = fmax(out->drift, isnan(drift[i]) ? INFINITY : drift[i]);
+        out->drift_before = fmax(out->drift_before, before[i]);
+    }
+    out->length = e->end[ISO_CLOCK_T];
+    out->samples = s->count;
+    out->turns = b->angles > 0 ? fabs(b->frequency[0]) * out->length / (2 * ISO_PI) : 0;
+    out->verdict = e->indicated == ISO_CHAOTIC ? ISO_CHAOTIC : judge(out, b, f->integral != NULL);
+    name_lines(f, &l);
+    return status;
+}
+
+/* In another clock: the same lines, whose frequencies differ from those in t by about the ratio of the clocks. */
+static iso_status estimate_in(estimator *e, iso_clock clock, const basis *in_t)
+{
+    const double ratio = e->end[ISO_CLOCK_T] / e->end[clock];
+    series s = {.pair = NULL};
+    line_list l;
+    basis b = *in_t;
+    double drift[2], error[2] = {NAN, NAN};
+    for (int i = 0; i < b.angles; i++) b.frequency[i] *= ratio;
+    iso_status status = make_series(e, clock, &s);
+    if (status == ISO_OK) status = iso_basis_lines(e->ctx, &s, 0, s.count, ISO_PART_LINES, &l);
+    for (int i = 0; status == ISO_OK && i < b.angles; i++)
+        b.frequency[i] = iso_basis_nearest(&l, b.of_pair[i], b.frequency[i]);
+    if (status == ISO_OK) status = find_drift(e, &s, &b, s.count / 2, drift, error);
+    for (int i = 0; status == ISO_OK && i < b.angles; i++) {
+        iso_angle *a = &e->f->angle[b.angles - 1 - i];
+        const bool same = fabs(b.frequency[i] - in_t->frequency[i] * ratio) < 4 * l.resolution;
+        a->frequency[clock] = same ? fabs(b.frequency[i]) : NAN;
+        a->error[clock] = same ? error[i] : NAN;
+    }
+    free(s.pair);
+    return status;
+}
+
+static void say(iso_frequencies *f)
+{
+    static const char *const motion[] = {
+        [ISO_REGULAR] = "regular, as far as this orbit shows",
+        [ISO_CHAOTIC] = "chaotic",
+        [ISO_UNDECIDED] = "undecided: a longer orbit may tell",
+        [ISO_INTEGRABLE] = "this orbit is too short to settle its frequencies",
+    };
+    const int axis = f->estimate.axis + 1;
+    if (f->angles == 2)
+        snprintf(f->angle[0].what, sizeof f->angle[0].what,
+                 "strongest line of n%d that is no multiple of frequency 2", axis);
+    if (f->angles > 0)
+        snprintf(f->angle[f->angles - 1].what, sizeof f->angle[0].what, "strongest line of n%d + i n%d", axis % 3 + 1,
+                 (axis + 1) % 3 + 1);
+    snprintf(f->motion, sizeof f->motion, "%s%s%s", f->integral ? "integrable; " : "", motion[f->estimate.verdict],
+             f->estimate.verdict == ISO_REGULAR && f->estimate.unexplained > 1e-3 ? "; more than two frequencies"
+                                                                                  : "");
+}
+
+/* A motion that is not found regular is followed over a longer orbit, unless the caller gave the length. */
+static iso_status estimate(estimator *e)
+{
+    enum { LEVELS = 3, MOST = 1 << 20 };
+    basis b;
+    iso_estimate *out = &e->f->estimate;
+    iso_status status = ask_indicators(e);
+    for (int level = 0; status == ISO_OK && level < (e->fixed ? 1 : LEVELS); level++) {
+        series s = {.pair = NULL};
+        if (level > 0 && e->count > MOST / 4) break;
+        if (level > 0) e->end[ISO_CLOCK_T] *= 4, e->count *= level == 1 || fabs(e->scene->params.k) < 0.5 ? 4 : 2;
+        status = make_series(e, ISO_CLOCK_T, &s);
+        if (status == ISO_OK) status = estimate_in_t(e, &s, &b);
+        free(s.pair);
+        const bool wild = level > 0 && out->verdict == ISO_CHAOTIC && out->drift > 1e-4;
+        if (out->verdict == ISO_REGULAR || e->indicated == ISO_CHAOTIC || wild) break;
+    }
+    if (e->indicated == ISO_REGULAR) out->verdict = ISO_REGULAR;
+    const bool others = e->twin && out->verdict == ISO_REGULAR;
+    if (status != ISO_OK) return status;
+    for (iso_clock clock = ISO_CLOCK_TAU; others && clock < ISO_CLOCKS; clock++) ISO_TRY(estimate_in(e, clock, &b));
+    say(e->f);
+    iso_frequencies_finish(e->f);
+    return ISO_OK;
+}
+
+/* --- what there is to estimate ---------------------------------------------------------------------------------- */
+
+/* n turns at the rate |k omega|. Where |k| is small omega turns faster, at a rate of about |omega|. */
+static iso_status choose_length(estimator *e, double speed, const iso_frequencies_options *o)
+{
+    const double k = fabs(e->scene->params.k), turn = 2 * ISO_PI / (k * speed),
+                 fast = fmax(k, 1) * speed / (2 * ISO_PI);
+    const double turns = isnan(o->turns) ? 1000 * fmin(fmax(4 * k, 0.05), 1) : o->turns;
+    const double length = e->end[ISO_CLOCK_T] = isnan(o->end) ? turns * turn : o->end;
+    if (!(length >= LEAST_TURNS * turn * (1 - ROUNDING)))
+        return ISO_FAIL_ARGUMENT(e->ctx, isnan(o->end) ? "turns" : "end",
+                                 "an orbit to t = %g is %g turns: frequencies are estimated from %g or more", length,
+                                 length / turn, LEAST_TURNS);
+    e->turns = e->fixed && length / turn < MOST_TURNS ? (long)(length / turn) : MOST_TURNS;
+    const double samples = isnan(o->samples) ? fmax(32 * length / turn, 12 * length * fast) : o->samples;
+    e->count = 512;
+    while (e->count < ISO_MOST_SAMPLES && (double)e->count < samples) e->count *= 2;
+    const double needed = 8 * length * fast; /* for each turn of the ball */
+    if ((double)e->count >= needed) return ISO_OK;
+    if (needed <= ISO_MOST_SAMPLES)
+        return ISO_FAIL_ARGUMENT(
+            e->ctx, "samples",
+            "%zu samples of %g turns of the ball are fewer than 8 for each turn: take %.0f or more", e->count,
+            length * fast, ceil(needed));
+    const double most = ISO_MOST_SAMPLES / (8 * fast); /* in t */
+    return ISO_FAIL_ARGUMENT(e->ctx, isnan(o->end) ? "turns" : "end",
+                             "an estimate takes at most %d samples, 8 for each turn of the ball: take %.0f turns or "
+                             "fewer, or t = %.6g or less",
+                             ISO_MOST_SAMPLES, floor(most / turn), most * (1 - 1e-6));
+}
+
+/* Checks the scene, and chooses the length of the orbit. */
+static iso_status prepare(estimator *e, const iso_frequencies_options *o)
+{
+    iso_orbit *orbit;
+    iso_sample start;
+    iso_status status = iso_frequencies_open(e->ctx, e->scene, &e->effects, &orbit, &start);
+    if (status == ISO_OK) status = iso_refuse_unbound(e->ctx, orbit, ISO_NO_FREQUENCIES);
+    if (status == ISO_OK) {
+        const double moving = norm(start.ball), falling = iso_orbit_units(orbit)->w;
+        const double speed =
+            iso_effects_pull(&iso_orbit_model(orbit)->problem.effects) ? fmax(moving, falling) : moving;
+        e->twin = iso_orbit_has_twin(orbit);
+        iso_frequencies_place(orbit, &start, e->f);
+        status = choose_length(e, speed, o);
+    }
+    iso_orbit_free(orbit);
+    return status;
+}
+
+iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, const iso_frequencies_options *options,
+                                    iso_frequencies *f)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_frequencies_options own = iso_frequencies_defaults();
+    ISO_TRY(iso_options_take(ctx, "iso_frequencies_options", &own, sizeof own, options));
+    ISO_TRY(iso_frequencies_check(ctx, &own));
+    const bool fixed = !isnan(own.turns) || !isnan(own.end) || !isnan(own.samples);
+    estimator e = {.ctx = ctx, .scene = scene, .fixed = fixed, .effects = iso_scene_acting(scene), .f = f};
+    e.progress = own.progress;
+    e.data = own.data;
+    iso_frequencies_blank(f);
+    f->estimated = true;
+    ISO_TRY(prepare(&e, &own));
+    return estimate(&e);
+}

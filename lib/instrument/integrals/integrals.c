@@ -1,0 +1,312 @@
+/* integrals.c - the search for additional first integrals, see integrals.h: what is refused, and what the parts of
+ * the spaces tell together. Samples are taken in integrals_orbits.c, linear algebra is in integrals_part.c. */
+#include "instrument/integrals/integrals.h"
+#include "base/number_impl.h"
+#include "model/model_impl.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/arithmetic_impl.h"
+#include "base/context_impl.h"
+#include "base/names_impl.h"
+#include "base/options_impl.h"
+#include "map/section_impl.h"
+#include "model/effects/effects_impl.h"
+#include "instrument/integrals/integrals_impl.h"
+#include "study/study_impl.h"
+
+enum { LEAST_ORBITS = 64, MOST_ORBITS = 10000, PROBES = 16 };
+
+typedef struct search {
+    iso_context *ctx;
+    iso_integral_search_options options;
+    iso_integral_search *out;
+    integral_space space;
+    integral_samples samples;
+    size_t done, all;              /* parts searched, of how many                        */
+    double gradient[PROBES][2][2]; /* sums of grad f grad f^T over functions f, in the chart of the section */
+    const iso_integral *known[ISO_INTEGRAL_KNOWN];
+} search;
+
+ISO_NAMES(iso_integral_verdict_name, iso_integral_verdict, "none", "found", "undecided")
+
+/* --- what is refused -------------------------------------------------------------------------------------------- */
+
+static iso_status check_degrees(iso_context *ctx, iso_integral_search_options *o)
+{
+    if (o->degree < 1 || o->degree > ISO_INTEGRAL_DEGREE)
+        return ISO_FAIL_ARGUMENT(ctx, "degree", "degree %d of the polynomials in M: give 1 to %d", o->degree,
+                                 ISO_INTEGRAL_DEGREE);
+    if (o->coefficients == -1) o->coefficients = o->degree > 2 ? o->degree : 2;
+    if (o->coefficients >= 0 && o->coefficients <= ISO_INTEGRAL_DEGREE) return ISO_OK;
+    return ISO_FAIL_ARGUMENT(ctx, "coefficients", "degree %d of the coefficients in gamma: give 0 to %d",
+                             o->coefficients, ISO_INTEGRAL_DEGREE);
+}
+
+/* Twice as many conditions as there are terms. */
+static iso_status choose_orbits(iso_context *ctx, const integral_space *space, iso_integral_search_options *o)
+{
+    size_t most = 0;
+    for (int d = o->degree; d >= o->degree - 1; d--)
+        for (unsigned parity = 0; parity < INTEGRAL_PARITIES; parity++) {
+            const size_t terms = iso_integral_terms(space, d, parity, NULL);
+            if (terms > most) most = terms;
+        }
+    const size_t least = 4 + 2 * most / (ISO_INTEGRAL_ROWS - 1);
+    if (o->orbits == 0) o->orbits = least > LEAST_ORBITS ? least : LEAST_ORBITS;
+    if (o->orbits >= least && o->orbits <= MOST_ORBITS) return ISO_OK;
+    return ISO_FAIL_ARGUMENT(ctx, "orbits", "%zu orbits: these degrees need %zu to %d", o->orbits, least,
+                             MOST_ORBITS);
+}
+
+static iso_status check_options(iso_context *ctx, iso_integral_search_options *o)
+{
+    ISO_TRY(check_degrees(ctx, o));
+    if (!(o->turns >= 1 && o->turns <= 1e5))
+        return ISO_FAIL_ARGUMENT(ctx, "turns", "%s turns are not in [1, 1e5]", ISO_SHORT(o->turns));
+    if (!(o->within > 0 && o->within < 1))
+        return ISO_FAIL_ARGUMENT(ctx, "within", "within %s is not in (0, 1)", ISO_SHORT(o->within));
+    return ISO_OK;
+}
+
+/* --- integrals that are known ----------------------------------------------------------------------------------- */
+
+static void list_known(search *s)
+{
+    iso_integral_search *out = s->out;
+    const iso_integral *list[ISO_MAX_INTEGRALS];
+    const int count = iso_integrals_holding(&iso_system_point, &s->samples.problem, list, ISO_MAX_INTEGRALS);
+    for (int i = 0; i < count && out->known_count < ISO_INTEGRAL_KNOWN; i++) {
+        if (!list[i]->holds || list[i]->claimed) continue; /* the energy, and the constraints */
+        s->known[out->known_count] = list[i];
+        out->known[out->known_count++] = (iso_integral_known){list[i]->name, list[i]->doc, false, 0, INFINITY};
+    }
+}
+
+/* Its values on the samples, less their mean. Gives the sum of their squares; 0: it is a constant, to rounding. */
+static double values_of(const search *s, const iso_integral *known, double *work)
+{
+    const size_t rows = s->samples.rows;
+    double mean = 0, varies = 0, largest = 0, size;
+    for (size_t i = 0; i < rows; i++)
+        mean += work[i] = known->value(&s->samples.problem, s->samples.state[i], &size),
+                largest = fmax(largest, size);
+    mean /= (double)rows;
+    for (size_t i = 0; i < rows; i++) varies += (work[i] - mean) * (work[i] - mean);
+    return sqrt(varies / (double)rows) < 10 * s->out->delta * largest ? 0 : varies;
+}
+
+/* The distance of a known integral from the functions found in this part, by the size of what it varies. NaN: it is a
+ * constant. */
+static double residual_of(const search *s, const iso_integral *known, const integral_part *part, double *work)
+{
+    const size_t rows = s->samples.rows;
+    const double varies = values_of(s, known, work);
+    double rest = 0;
+    if (varies == 0) return NAN;
+    for (size_t f = 0; f < part->found; f++) {
+        const double *basis = part->basis + f * rows;
+        double along = 0;
+        for (size_t i = 0; i < rows; i++) along += basis[i] * work[i];
+        for (size_t i = 0; i < rows; i++) work[i] -= along * basis[i];
+    }
+    for (size_t i = 0; i < rows; i++) rest += work[i] * work[i];
+    return sqrt(rest / varies);
+}
+
+static iso_status compare_with_known(search *s, int degree, const integral_part *part)
+{
+    double *work = malloc(s->samples.rows * sizeof *work);
+    if (!work) return iso_context_no_memory(s->ctx, "%zu samples", s->samples.rows);
+    for (int i = 0; i < s->out->known_count; i++) {
+        iso_integral_known *known = &s->out->known[i];
+        const double residual = known->degree == 0 ? residual_of(s, s->known[i], part, work) : INFINITY;
+        known->constant = known->constant || isnan(residual);
+        if (!(residual < known->residual)) continue;
+        known->residual = residual;
+        if (residual < 1e-6) known->degree = degree;
+    }
+    free(work);
+    return ISO_OK;
+}
+
+/* --- how many do not depend on each other ----------------------------------------------------------------------- */
+
+/* The gradients of the functions found, at points of the section. A function of integrals changes with them alone. */
+static void add_gradients(search *s, const integral_part *part)
+{
+    for (uint64_t i = 0; i < PROBES; i++) {
+        double l, x, y[ISO_STATE], by[2][ISO_STATE], slope[2];
+        iso_section_spread_point(&s->samples.spread, i, &l, &x);
+        iso_section_point(iso_integral_motion(&s->samples), s->samples.axis, l, x, y);
+        iso_section_deviations(iso_integral_motion(&s->samples), s->samples.axis, l, x, by[0], by[1]);
+        for (size_t f = 0; f < part->found; f++) {
+            for (int c = 0; c < 2; c++)
+                slope[c] = iso_integral_slope(&part->function[f], &s->samples.problem, y, by[c]) *
+                           (c == 1 ? sqrt(1 - x * x) : 1);
+            for (int a = 0; a < 2; a++)
+                for (int b = 0; b < 2; b++) s->gradient[i][a][b] += slope[a] * slope[b];
+        }
+    }
+}
+
+/* The rank of the gradients: at most 2, where it is largest. */
+static int independent(const search *s)
+{
+    const double small = 1e-10; /* the square of 1e-5: rounding errors are smaller */
+    int most = 0;
+    for (int i = 0; i < PROBES; i++) {
+        const double(*g)[2] = s->gradient[i];
+        const double half = (g[0][0] + g[1][1]) / 2, root = hypot((g[0][0] - g[1][1]) / 2, g[0][1]);
+        const int rank = half + root < small ? 0 : half - root < small * (half + root) ? 1 : 2;
+        if (rank > most) most = rank;
+    }
+    return most;
+}
+
+/* --- the spaces ------------------------------------------------------------------------------------------------- */
+
+/* Puts a value among the smallest. */
+static void note_value(iso_integral_degree *at, const iso_integral_value *v)
+{
+    size_t i = at->values;
+    if (at->values < ISO_INTEGRAL_VALUES)
+        at->values++;
+    else if (!(v->value < at->value[--i].value))
+        return;
+    for (; i > 0 && v->value < at->value[i - 1].value; i--) at->value[i] = at->value[i - 1];
+    at->value[i] = *v;
+}
+
+static void note_part(const search *s, const integral_part *part, iso_integral_degree *at)
+{
+    const double within = s->options.within;
+    at->terms += part->terms;
+    at->functions += part->functions;
+    at->found += part->found;
+    for (size_t i = 0; i < part->functions; i++) {
+        const iso_integral_value *v = &part->value[i];
+        const bool found = integral_is_found(v, within);
+        note_value(at, v);
+        at->doubtful += !found && v->value <= fmax(v->error, within);
+        if (found)
+            at->largest = fmax(at->largest, v->value);
+        else
+            at->smallest = fmin(at->smallest, v->value);
+    }
+}
+
+static iso_status search_part(search *s, int degree, unsigned parity)
+{
+    integral_part part;
+    if (!iso_context_goes_on(s->ctx))
+        return iso_context_fail(s->ctx, ISO_STOPPED, "", "stopped in degree %d", degree);
+    iso_status status = iso_integral_search_part(s->ctx, &s->samples, &s->space, degree, parity, s->out->delta,
+                                                 s->options.within, &part);
+    if (status == ISO_OK) {
+        note_part(s, &part, &s->out->at[degree]);
+        add_gradients(s, &part);
+        status = compare_with_known(s, degree, &part);
+    }
+    iso_integral_free_part(&part);
+    if (s->options.progress) s->options.progress((double)++s->done / (double)s->all, s->options.data);
+    return status;
+}
+
+static iso_status search_degree(search *s, int degree)
+{
+    iso_integral_degree *at = &s->out->at[degree];
+    *at = (iso_integral_degree){.degree = degree, .largest = NAN, .smallest = NAN};
+    for (unsigned parity = 0; parity < INTEGRAL_PARITIES; parity++) ISO_TRY(search_part(s, degree, parity));
+    const int step = s->space.magnetic ? 1 : 2; /* V_d has V_(d - step); constants, so the energy, are in V_step */
+    const size_t known = degree <= step ? (size_t)(degree == step) : s->out->at[degree - step].found;
+    at->further = at->found > known ? at->found - known : 0;
+    s->out->degrees = degree;
+    return ISO_OK;
+}
+
+/* A number of an effect is nearly 0. The effects are in units of the motion. */
+static bool has_weak_effect(const iso_effects *effects)
+{
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; effects->on[e] && n && n->name; n++)
+            for (int i = 0; i < n->count; i++) {
+                const double x = fabs(iso_effect_values(effects, e, n)[i]);
+                if (x > 0 && x < 1e-9) return true;
+            }
+    return false;
+}
+
+/* Integrals of a neighbour are constant here within rounding: they change by the square of such a difference of
+ * moments, by 1/100 of such a difference of k, and by about such a field. */
+static bool has_neighbour(const iso_problem *f)
+{
+    const iso_params *p = &f->p;
+    const double k = fabs(fabs(p->k) - 1);
+    if (k > 0 && k < 1e-9) return true;
+    for (int i = 0; i < 3; i++) {
+        const double one = p->J[i], other = p->J[(i + 1) % 3];
+        if (one != other && fabs(one - other) < 1e-6 * fmax(one, other)) return true;
+    }
+    return has_weak_effect(&f->effects);
+}
+
+/* Lower degrees than that of the first integral come close to one as well. */
+static bool comes_closer(const iso_integral_search *r)
+{
+    double smallest = INFINITY;
+    int d = 1;
+    for (; d <= r->degrees && r->at[d].further == 0; d++) smallest = fmin(smallest, r->at[d].smallest);
+    return d <= r->degrees && smallest < 1e-3;
+}
+
+static void judge(search *s)
+{
+    iso_integral_search *out = s->out;
+    size_t doubtful = 0;
+    bool known = false;
+    for (int d = 1; d <= out->degrees; d++) doubtful += out->at[d].doubtful;
+    for (int i = 0; i < out->known_count; i++) known = known || out->known[i].degree > 0;
+    out->independent = independent(s);
+    out->near = has_neighbour(&s->samples.problem) || comes_closer(out);
+    out->verdict = ISO_INTEGRALS_NONE;
+    if (out->independent > 0 && (known || !out->near))
+        out->verdict = ISO_INTEGRALS_FOUND;
+    else if (out->independent > 0 || doubtful > 0 || out->degrees < s->options.degree)
+        out->verdict = ISO_INTEGRALS_UNDECIDED;
+}
+
+static iso_status run(search *s, const iso_scene *scene)
+{
+    iso_problem of_scene;
+    ISO_TRY(check_options(s->ctx, &s->options));
+    ISO_TRY(iso_level_problem(s->ctx, scene, "integrals are sought", &of_scene));
+    s->space = iso_integral_space_of(&of_scene, s->options.coefficients);
+    ISO_TRY(choose_orbits(s->ctx, &s->space, &s->options));
+    ISO_TRY(iso_integral_prepare(s->ctx, &of_scene, s->options.seed, s->options.orbits, &s->samples));
+    const iso_problem *f = &s->samples.problem;
+    s->out->level = f->energy == 0 ? 0 : iso_level_of(&f->p, f->energy / f->eps);
+    s->out->coefficients = s->options.coefficients;
+    s->out->orbits = s->options.orbits;
+    /* What steps of this tolerance do to an integral, with a margin (measured at k = 1 and k = -1, see the test). */
+    s->out->delta = 5e-15 + 1e-4 * s->options.tolerance * s->options.turns;
+    s->all = (size_t)s->options.degree * INTEGRAL_PARITIES;
+    list_known(s);
+    iso_status status = iso_integral_follow(s->ctx, &s->options, &s->samples, &s->out->energy);
+    for (int d = 1; d <= s->options.degree && status == ISO_OK; d++) status = search_degree(s, d);
+    if (status == ISO_OK || status == ISO_STOPPED) judge(s);
+    return status;
+}
+
+iso_status iso_integral_search_run(iso_context *ctx, const iso_scene *scene,
+                                   const iso_integral_search_options *options, iso_integral_search *result)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    search s = {.ctx = ctx, .options = iso_integral_search_defaults(), .out = result};
+    *result = (iso_integral_search){.verdict = ISO_INTEGRALS_UNDECIDED};
+    iso_status status = iso_options_take(ctx, "iso_integral_search_options", &s.options, sizeof s.options, options);
+    if (status == ISO_OK) status = run(&s, scene);
+    free(s.samples.state);
+    return status;
+}

@@ -1,0 +1,371 @@
+/* continuation_events.c - what happens to a followed orbit between two points of its curve, and exactly where; and the
+ * orbits that branch off there. */
+#define _GNU_SOURCE /* functions of _Float128 */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/pi_impl.h"
+#include "instrument/periodic/continuation_impl.h"
+
+iso_status iso_continuation_add_event(const iso_continuation *f, iso_branch *b, const iso_branch_event *e)
+{
+    iso_branch_event *larger = realloc(b->event, (b->events + 1) * sizeof *larger);
+    if (!larger) return iso_context_no_memory(f->ctx, "a branch");
+    b->event = larger;
+    b->event[b->events++] = *e;
+    return ISO_OK;
+}
+
+#define SAME_PLACE 1e-8 /* along the curve: zeros that are closer are one ... */
+#define TOO_CLOSE 1e-5  /* ... and those that are not as far apart may be one or two */
+
+/* The tests: each changes its sign where its event is. */
+enum { TEST_FOLD, TEST_BREAKING, TEST_DIAGONAL, TEST_OTHER_DIAGONAL, TEST_TURN, TESTS };
+
+static double test_of(const iso_continuation_point *p, int test)
+{
+    if (test == TEST_TURN) return p->tangent[1];
+    return test == TEST_FOLD ? p->by_u : test == TEST_BREAKING ? p->across : p->diagonal[test - TEST_DIAGONAL];
+}
+
+/* The point at arc `next`, between low (at `from`) and high (at `to`): from the nearer one, then from the other. */
+static bool between(const iso_continuation *f, const iso_continuation_point *low, const iso_continuation_point *high,
+                    double from, double to, double next, iso_continuation_point *at)
+{
+    int steps;
+    const bool first = next - from < to - next;
+    if (iso_continuation_step(f, first ? low : high, first ? next - from : next - to, at, &steps)) return true;
+    return iso_continuation_step(f, first ? high : low, first ? next - to : next - from, at, &steps);
+}
+
+/* Where the test is 0 on the curve, by halving and secants. *part: of ds. Where another branch of the same line
+ * crosses, Newton's method fails next to the crossing: there the last two points are joined by a straight line. */
+static void locate(const iso_continuation *f, const iso_continuation_point *a, const iso_continuation_point *b,
+                   int test, double ds, iso_continuation_point *at, double *part)
+{
+    iso_continuation_point low = *a, high = *b;
+    double from = 0, to = ds;
+    for (int i = 0; i < 40 && to - from > 1e-12; i++) {
+        const double F[2] = {test_of(&low, test), test_of(&high, test)}, room = 0.02 * (to - from);
+        const double secant = from + (to - from) * F[0] / (F[0] - F[1]);
+        double next = i % 3 == 2 ? (from + to) / 2 : fmin(fmax(secant, from + room), to - room);
+        if (!between(f, &low, &high, from, to, next, at) &&
+            !between(f, &low, &high, from, to, next = from + 0.3 * (to - from), at) &&
+            !between(f, &low, &high, from, to, next = from + 0.7 * (to - from), at))
+            break;
+        if ((test_of(at, test) < 0) == (F[0] < 0))
+            from = next, low = *at;
+        else
+            to = next, high = *at;
+    }
+    const double F[2] = {test_of(&low, test), test_of(&high, test)}, share = F[0] / (F[0] - F[1]);
+    *at = low;
+    at->u += share * (high.u - low.u);
+    at->v += share * (high.v - low.v);
+    at->value += share * (high.value - low.value);
+    at->trace += share * (high.trace - low.trace);
+    for (int i = 0; i < 2; i++) at->diagonal[i] += share * (high.diagonal[i] - low.diagonal[i]);
+    *part = from + share * (to - from);
+}
+
+/* Two moments that are equal at a value very near: it is set in *value, and their names. */
+static bool are_equal(const iso_continuation *f, double *value, char names[2])
+{
+    const iso_vary vary = f->options.vary;
+    const double *J = f->base.J;
+    if (vary == ISO_VARY_K || vary == ISO_VARY_LEVEL) return false;
+    for (int i = 0; i < 3; i++) {
+        const int moved = vary == ISO_VARY_RATIO ? 1 : (int)vary - (int)ISO_VARY_J1;
+        const double at = vary == ISO_VARY_RATIO ? (i == 2 ? 1 : 0) : J[i];
+        if (i == moved || fabs(*value - at) > 1e-4 * fmax(fabs(at), f->width)) continue;
+        *value = at;
+        names[0] = (char)('1' + (i < moved ? i : moved));
+        names[1] = (char)('1' + (i < moved ? moved : i));
+        return true;
+    }
+    return false;
+}
+
+static const char *words_of(iso_branch_kind kind)
+{
+    return kind == ISO_BRANCH_FOLD    ? "two orbits meet and vanish"
+           : kind == ISO_BRANCH_TORUS ? "the orbit lies on a resonant torus"
+                                      : "orbits with less symmetry branch off";
+}
+
+/* turns: the parameter turns back there. */
+static void name(const iso_continuation *f, iso_continuation_point *at, int test, bool turns, iso_branch_event *e)
+{
+    iso_params p;
+    double energy;
+    char names[2];
+    const bool torus = iso_continuation_params(f, at->value, &p, &energy) && fabs(fabs(p.k) - 1) < 1e-7;
+    const char *vary = iso_vary_name((int)f->options.vary);
+    e->kind = turns ? ISO_BRANCH_FOLD : test <= TEST_BREAKING ? ISO_BRANCH_BREAKING : ISO_BRANCH_DOUBLING;
+    if (torus && e->kind == ISO_BRANCH_BREAKING) e->kind = ISO_BRANCH_TORUS;
+    if (are_equal(f, &at->value, names)) {
+        e->kind = ISO_BRANCH_TORUS;
+        snprintf(e->words, sizeof e->words, "J%c = J%c: orbits fill tori, and this one is of no special kind",
+                 names[0], names[1]);
+        return;
+    }
+    if (e->kind == ISO_BRANCH_DOUBLING)
+        snprintf(e->words, sizeof e->words, "orbits of period %d branch off at %s = %.12g", 2 * f->period, vary,
+                 at->value);
+    else
+        snprintf(e->words, sizeof e->words, "%s at %s = %.12g", words_of(e->kind), vary, at->value);
+}
+
+/* trace + 2 = 4 D_00 D_11/det D changes its sign where one of D_00 and D_11 is 0. Where both are, as they are where
+ * half of an orbit with two symmetries has the trace 0, it only touches 0. How far from each other they are 0, along
+ * the curve, the slope between both points tells. */
+static iso_branch_kind doubles(const iso_continuation_point *a, const iso_continuation_point *to, int test, double ds,
+                               const iso_continuation_point *at)
+{
+    const int other = test == TEST_DIAGONAL ? TEST_OTHER_DIAGONAL : TEST_DIAGONAL;
+    const double slope = (test_of(to, other) - test_of(a, other)) / ds, apart = fabs(test_of(at, other) / slope);
+    const bool passes = (a->trace + 2) * (to->trace + 2) < 0;
+    if (!(apart < TOO_CLOSE)) return ISO_BRANCH_DOUBLING;
+    return apart < SAME_PLACE && !passes ? ISO_BRANCH_TOUCH : ISO_BRANCH_UNDECIDED;
+}
+
+/* At a touch the derivative of the return map is -1. Half of the orbit, up to its symmetry, has the multipliers i and
+ * -i, and orbits of four such halves may branch off. */
+static void name_touch(const iso_continuation *f, const iso_continuation_point *at, iso_branch_kind kind,
+                       iso_branch_event *e)
+{
+    if (kind == ISO_BRANCH_DOUBLING) return;
+    e->kind = kind;
+    snprintf(e->words, sizeof e->words, "%s at %s = %.12g; orbits of period %d may branch off",
+             kind == ISO_BRANCH_TOUCH ? "the trace touches -2 and does not pass it"
+                                      : "the trace touches -2, or passes it twice: undecided",
+             iso_vary_name((int)f->options.vary), at->value, 2 * f->period);
+}
+
+/* The curve turns where it meets another one, without a fold: there this orbit branches off from one of half the
+ * period (F of this period is 0 as well) or of more symmetry. */
+static void name_turn(const iso_continuation *f, const iso_continuation_point *at, iso_branch_event *e)
+{
+    iso_continuation half = *f;
+    iso_continuation_point there;
+    half.period = f->period / 2;
+    const bool doubled =
+        f->period % 2 == 0 && iso_continuation_evaluate(&half, at->u, at->v, false, &there) && fabs(there.off) < 1e-4;
+    e->joins = true;
+    e->kind = doubled ? ISO_BRANCH_DOUBLING : ISO_BRANCH_BREAKING;
+    snprintf(e->words, sizeof e->words, "it branches off there from an orbit of %s at %s = %.12g",
+             doubled ? "half its period" : "more symmetry", iso_vary_name((int)f->options.vary), at->value);
+}
+
+/* Of an orbit with two symmetries two tests have their zeros together. */
+static bool is_there(const iso_branch *b, const iso_branch_event *e)
+{
+    for (size_t i = 0; i < b->events; i++)
+        if (b->event[i].kind == e->kind &&
+            (fabs(b->event[i].at.arc - e->at.arc) < 1e-7 ||
+             (e->kind == ISO_BRANCH_TORUS && fabs(b->event[i].at.arc - e->at.arc) < 1e-3)))
+            return true;
+    return false;
+}
+
+/* Half way the coordinates of what stays on the line can themselves turn over: the trace tells. */
+static bool is_true(const iso_continuation *f, const iso_continuation_point *at, int test)
+{
+    const bool doubling = test == TEST_DIAGONAL || test == TEST_OTHER_DIAGONAL;
+    return !iso_symmetry_line_is_half_way(f->line) || test == TEST_TURN ||
+           fabs(at->trace - (doubling ? -2 : 2)) < 0.01;
+}
+
+iso_status iso_continuation_events(const iso_continuation *f, iso_branch *b, const iso_continuation_point *a,
+                                   const iso_continuation_point *to, double ds, double arc)
+{
+    iso_status status = ISO_OK;
+    for (int test = 0; test < TESTS && status == ISO_OK; test++) {
+        iso_branch_event e = {.axis = -1};
+        iso_continuation_point at;
+        double part;
+        if (test_of(a, test) * test_of(to, test) >= 0) continue;
+        if (test == TEST_TURN && a->by_u * to->by_u < 0) continue; /* a fold */
+        locate(f, a, to, test, ds, &at, &part);
+        if (!is_true(f, &at, test)) continue;
+        name(f, &at, test, test == TEST_FOLD && a->tangent[1] * to->tangent[1] < 0, &e);
+        if (test == TEST_TURN) name_turn(f, &at, &e);
+        if (e.kind == ISO_BRANCH_DOUBLING && test != TEST_TURN) name_touch(f, &at, doubles(a, to, test, ds, &at), &e);
+        e.at = iso_continuation_read(&at, arc + part);
+        if (is_there(b, &e)) continue;
+        status = iso_continuation_add_event(f, b, &e);
+    }
+    return status;
+}
+
+/* --- collisions ------------------------------------------------------------------------------------------------- */
+
+static double mismatch(const iso_continuation *f, int axis, double value, double target)
+{
+    iso_params p;
+    double energy;
+    return iso_continuation_params(f, value, &p, &energy) ? iso_hill_trace(p.k, p.J, energy, axis, NULL) - target
+                                                          : NAN;
+}
+
+/* The trace of the rotation at a collision, 2 cos theta, nearest to what it is. Neighbours of a fixed point turn p
+ * times by theta, whole half-turns in all. Those of the section's own axis cross the section every half-turn of
+ * theirs: p of these are m half-turns of the rotation, p pi = m theta. */
+static double target_of(const iso_continuation *f, int axis, double trace)
+{
+    const int p = f->period;
+    double best = INFINITY;
+    for (int m = 0; m <= (axis == f->axis ? 8 * p : p); m++) {
+        const double target = 2 * cos(axis == f->axis ? p * ISO_PI / (m + 1) : m * ISO_PI / p);
+        if (fabs(target - trace) < fabs(best - trace)) best = target;
+    }
+    return best;
+}
+
+bool iso_continuation_collision(const iso_continuation *f, const iso_continuation_point *a,
+                                const iso_continuation_point *b, iso_branch_event *e)
+{
+    const bool end = b->u > ISO_PI / 4;
+    const double near_a = end ? ISO_PI / 2 - a->u : a->u, near_b = end ? ISO_PI / 2 - b->u : b->u;
+    const int axis = iso_symmetry_line_axis_at(f->axis, f->line, end);
+    /* value ~ value* + c u^2, trace ~ 2 + d u^2 */
+    const double part = near_b * near_b / (near_a * near_a - near_b * near_b);
+    const double guess = b->value - (a->value - b->value) * part, trace = b->trace - (a->trace - b->trace) * part;
+    const double doubt = 0.3 * fabs(guess - b->value) + 1e-6 * f->width;
+    const double target = target_of(f, axis, mismatch(f, axis, guess, 0));
+    double x0 = guess, x1 = guess + 1e-6 * f->width, F0 = mismatch(f, axis, x0, target);
+    bool exact = isfinite(F0);
+    for (int i = 0; i < 30 && exact && fabs(x1 - x0) > 1e-14 * f->width; i++) {
+        const double F1 = mismatch(f, axis, x1, target), next = F1 == 0 ? x1 : x1 - F1 * (x1 - x0) / (F1 - F0);
+        exact = isfinite(next) && fabs(next - guess) < doubt;
+        x0 = x1, F0 = F1, x1 = next;
+    }
+    if (!exact || fabs(trace - 2) > 0.05) return false;
+    *e = (iso_branch_event){.kind = ISO_BRANCH_COLLISION, .axis = axis};
+    iso_continuation_point at = *b;
+    at.value = x1;
+    at.u = end ? ISO_PI / 2 : 0;
+    at.z[0] = axis == (f->axis + 1) % 3 ? ISO_PI / 2 : 0; /* the fixed point of the rotation */
+    at.z[1] = axis == f->axis ? 1 : 0;
+    e->at = iso_continuation_read(&at, 0);
+    snprintf(e->words, sizeof e->words, "it shrinks onto the rotation about axis %d at %s = %.12g", axis + 1,
+             iso_vary_name((int)f->options.vary), at.value);
+    return true;
+}
+
+/* --- what branches off ------------------------------------------------------------------------------------------ */
+
+/* They begin next to the orbit. So beside each of its points on a symmetry line, F of the new period is sampled at a
+ * value of the parameter a little to each side. There it has three zeros where branches are: the orbit itself, in the
+ * middle, and two of the new orbit. The first one is taken. Orbits without a symmetry are not found. */
+
+enum { SAMPLES = 40 };
+#define ASIDE 0.004 /* of the range */
+#define WINDOW 0.12 /* of the line, to each side */
+
+/* The zero of F between u and u + h, by halving; NaN: it is a jump. */
+static double refine(const iso_continuation *f, double v, double u, double h, double off)
+{
+    iso_continuation_point at;
+    for (int i = 0; i < 40 && fabs(h) > 1e-12; i++) {
+        h /= 2;
+        if (!iso_continuation_evaluate(f, u + h, v, false, &at)) return NAN;
+        if ((at.off < 0) == (off < 0)) u += h;
+    }
+    return fabs(at.off) < 1e-3 * (1 + fabs(at.by_u)) ? u : NAN;
+}
+
+/* The first of three zeros or more around `middle`; NaN: there are less. */
+static double first_of_three(const iso_continuation *f, double v, double middle)
+{
+    iso_continuation_point at;
+    double before = NAN, first = NAN, off = NAN;
+    int zeros = 0;
+    for (int i = 0; i <= SAMPLES; i++) {
+        const double u = middle + WINDOW * (2.0 * i / SAMPLES - 1);
+        if (!(u > 0 && u < ISO_PI / 2) || !iso_continuation_evaluate(f, u, v, false, &at)) continue;
+        if (at.off * before < 0 && fabs(at.off - before) < 1) {
+            if (zeros++ == 0) first = u, off = before;
+        }
+        before = at.off;
+    }
+    const double h = 2 * WINDOW / SAMPLES;
+    return zeros >= 3 ? refine(f, v, first - h, h, off) : NAN;
+}
+
+/* The u of a line half way whose orbit crosses at z, as near as samples tell; NaN: none. */
+static double look_up(const iso_periodic_map *map, int line, const double z[2])
+{
+    enum { PLACES = 400 };
+    double u[PLACES], place[PLACES][2], by_u[PLACES][2], best = NAN, least = 0.02;
+    for (int i = 0; i < PLACES; i++) u[i] = ISO_PI / 2 * (i + 0.5) / PLACES;
+    if (iso_periodic_place(map, line, PLACES, u, place, by_u) != ISO_OK) return NAN;
+    for (int i = 0; i < PLACES; i++)
+        if (iso_periodic_apart(place[i], z) < least) best = u[i], least = iso_periodic_apart(place[i], z);
+    return best;
+}
+
+/* Where the orbit passes a line between its crossings `before` and z, or at z; NaN: nowhere. */
+static double parameter_on(const iso_periodic_map *map, int line, const double before[2], const double z[2])
+{
+    const double near = 1e-4, l = fabs(remainder(z[0], ISO_PI)), x = fabs(z[1]);
+    double image[2];
+    if (line == LINE_X) return x < near ? l : NAN;
+    if (!iso_symmetry_line_is_half_way(line))
+        return fabs(l - (line == LINE_0 ? 0 : ISO_PI / 2)) < near ? asin(fmin(x, 1)) : NAN;
+    iso_periodic_reverse(iso_symmetry_line_reversor(line), before, image);
+    if (fabs(remainder(z[0] - image[0], 2 * ISO_PI)) > near || fabs(z[1] - image[1]) > near) return NAN;
+    return look_up(map, line, z);
+}
+
+typedef struct finder {
+    const iso_continuation *family; /* of the new period */
+    const iso_periodic_map *map;
+    double value;
+    iso_status (*found)(void *data, const iso_continuation *f, double u, double value);
+    void *data;
+} finder;
+
+/* Looks beside one point of the orbit, on all lines. */
+static iso_status look_beside(const finder *s, const double before[2], const double z[2], bool *any)
+{
+    iso_status status = ISO_OK;
+    for (int line = 0; line < LINES; line++) {
+        const double u = parameter_on(s->map, line, before, z);
+        iso_continuation beside = *s->family;
+        beside.line = line;
+        for (int side = -1; side <= 1 && !isnan(u) && !*any && status == ISO_OK; side += 2) {
+            const double at = s->value + side * ASIDE * beside.width,
+                         root = first_of_three(&beside, at / beside.width, u);
+            *any = !isnan(root);
+            if (*any) status = s->found(s->data, &beside, root, at);
+        }
+    }
+    return status;
+}
+
+iso_status iso_continuation_switch(const iso_continuation *f, const iso_branch *b, const iso_branch_event *e,
+                                   iso_status (*found)(void *data, const iso_continuation *f, double u, double value),
+                                   void *data)
+{
+    iso_continuation other = *f;
+    iso_params p;
+    double energy;
+    iso_periodic_map map;
+    const double from[1][2] = {{e->at.l, e->at.x}};
+    iso_periodic_point point[2 * ISO_PERIODIC_MOST];
+    const int halves = 2 * b->period;
+    bool any = false;
+    other.period = iso_continuation_doubles(e->kind) ? 2 * b->period : b->period;
+    if (other.period > ISO_PERIODIC_MOST || !iso_continuation_params(f, e->at.value, &p, &energy)) return ISO_OK;
+    iso_periodic_map_prepare(f->ctx, &p, energy, 1, &map);
+    const finder s = {&other, &map, e->at.value, found, data};
+    iso_status status = iso_periodic_walk(&map, 1, from, halves, false, 1e-13, point);
+    for (int n = 0; n < halves && !any && status == ISO_OK; n++) {
+        const iso_periodic_point *last = &point[(n + halves - 1) % halves];
+        status =
+            look_beside(&s, (const double[2]){last->l, last->x}, (const double[2]){point[n].l, point[n].x}, &any);
+    }
+    return status;
+}

@@ -1,0 +1,397 @@
+/* periodic_search.c - symmetric periodic orbits: roots along the symmetry lines; orbits of any kind: from a grid.
+ *
+ * u runs along a line, and F_n(u) tells how far the orbit is from the same line n half returns later. F_n is sampled
+ * with its derivative, closer and closer until between two samples each F_n either has no zero or is monotone. A sign
+ * change then holds one zero, a point of an orbit of period n or a divisor of it.
+ */
+#define _GNU_SOURCE /* functions of _Float128 */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/pi_impl.h"
+#include "map/section_impl.h"
+#include "instrument/periodic/periodic_impl.h"
+
+enum { FIRST = 192 /* intervals of a line at first */, DEEPEST = 14 /* halvings */, MOST_SAMPLES = 60000 };
+#define SKIPPED 1e-4 /* at the ends of the lines, where the rotations are */
+
+/* --- samples ---------------------------------------------------------------------------------------------------- */
+
+typedef struct sample {
+    double u;
+    double off[ISO_PERIODIC_MOST], slope[ISO_PERIODIC_MOST]; /* of F_1, F_2, ... */
+} sample;
+
+typedef struct interval {
+    size_t left, right; /* samples */
+    int depth;
+} interval;
+
+typedef struct bracket {
+    int n;
+    double low, high, off_low; /* F_n(low); F_n(high) has the other sign */
+    double u, z[2];            /* the best guess, and its point of the section */
+    double end[2];             /* g^n of this point */
+    bool there;                /* it is the orbit's own mirror image           */
+    bool done;
+} bracket;
+
+typedef struct search {
+    iso_periodic_work *w;
+    int line, periods;
+    sample *sample;
+    size_t samples, sample_room;
+    interval *open; /* intervals to look at */
+    size_t opened, open_room;
+    bracket *bracket;
+    size_t brackets, bracket_room;
+} search;
+
+/* Makes room for `more` further items. */
+static iso_status grow(iso_context *ctx, void **list, size_t *room, size_t count, size_t more, size_t size)
+{
+    if (count + more <= *room) return ISO_OK;
+    const size_t wanted = 2 * (count + more);
+    void *larger = realloc(*list, wanted * size);
+    if (!larger) return iso_context_no_memory(ctx, "the search");
+    *list = larger;
+    *room = wanted;
+    return ISO_OK;
+}
+
+/* F_1 to F_halves of the line at u[i], and their slopes, are off[halves i], ... */
+typedef struct misses {
+    double (*z)[2], (*z_by_u)[2];     /* the first point on the section, and its derivative */
+    double (*end)[2], (*end_by_u)[2]; /* g^halves of it                                     */
+    double *off, *slope;
+    bool *there;
+} misses;
+
+static void free_misses(misses *m)
+{
+    free(m->z);
+    free(m->z_by_u);
+    free(m->end);
+    free(m->end_by_u);
+    free(m->off);
+    free(m->slope);
+    free(m->there);
+}
+
+static iso_status make_misses(const search *s, size_t count, size_t halves, misses *m)
+{
+    m->z = malloc((count + 1) * sizeof *m->z);
+    m->z_by_u = malloc((count + 1) * sizeof *m->z_by_u);
+    m->end = malloc((count + 1) * sizeof *m->end);
+    m->end_by_u = malloc((count + 1) * sizeof *m->end_by_u);
+    m->off = malloc((count * halves + 1) * sizeof *m->off);
+    m->slope = malloc((count * halves + 1) * sizeof *m->slope);
+    m->there = malloc((count * halves + 1) * sizeof *m->there);
+    if (m->z && m->z_by_u && m->end && m->end_by_u && m->off && m->slope && m->there) return ISO_OK;
+    free_misses(m);
+    return iso_context_no_memory(s->w->ctx, "the search");
+}
+
+static iso_status evaluate(const search *s, size_t count, const double u[], int halves, double tolerance, misses *m)
+{
+    const size_t each = (size_t)halves;
+    iso_periodic_point *at = malloc((count * each + 1) * sizeof *at);
+    iso_status status = at ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
+    if (status == ISO_OK) status = iso_periodic_place(&s->w->map, s->line, count, u, m->z, m->z_by_u);
+    if (status == ISO_OK)
+        status = iso_periodic_walk(&s->w->map, count, (const double(*)[2])m->z, halves, false, tolerance, at);
+    for (size_t i = 0; i < count && status == ISO_OK; i++) {
+        iso_periodic_point before = {m->z[i][0], m->z[i][1], {{1, 0}, {0, 1}}};
+        for (size_t n = each * i; n < each * (i + 1); n++) {
+            m->off[n] = iso_periodic_miss(s->line, &before, &at[n], m->z_by_u[i], &m->slope[n], &m->there[n]);
+            before = at[n];
+        }
+        m->end[i][0] = before.l, m->end[i][1] = before.x;
+        for (int j = 0; j < 2; j++)
+            m->end_by_u[i][j] = before.slope[j][0] * m->z_by_u[i][0] + before.slope[j][1] * m->z_by_u[i][1];
+    }
+    free(at);
+    return status;
+}
+
+/* Adds samples at u[0], u[1], ... */
+static iso_status take_samples(search *s, size_t count, const double u[])
+{
+    const size_t P = (size_t)s->periods;
+    misses m;
+    ISO_TRY(grow(s->w->ctx, (void **)&s->sample, &s->sample_room, s->samples, count, sizeof(sample)));
+    ISO_TRY(make_misses(s, count, P, &m));
+    iso_status status = evaluate(s, count, u, s->periods, 1e-10, &m);
+    for (size_t i = 0; i < count && status == ISO_OK; i++) {
+        sample *to = &s->sample[s->samples++];
+        to->u = u[i];
+        memcpy(to->off, &m.off[P * i], P * sizeof *to->off);
+        memcpy(to->slope, &m.slope[P * i], P * sizeof *to->slope);
+    }
+    free_misses(&m);
+    return status;
+}
+
+static bool alike(double a, double b)
+{
+    const double ratio = a / b;
+    return ratio > 1.0 / 3 && ratio < 3;
+}
+
+/* Whether F_n has at most one zero in the interval, as far as its ends can tell. */
+static bool is_clear(const sample *a, const sample *b, int n)
+{
+    const double h = b->u - a->u, F[2] = {a->off[n], b->off[n]}, D[2] = {a->slope[n], b->slope[n]};
+    if (F[0] * F[1] > 0 && fmin(fabs(F[0]), fabs(F[1])) > 1.5 * h * fmax(fabs(D[0]), fabs(D[1]))) return true;
+    return alike(D[0], D[1]) && alike((F[1] - F[0]) / h, D[0]) && alike((F[1] - F[0]) / h, D[1]);
+}
+
+static iso_status add_bracket(search *s, const sample *a, const sample *b, int n)
+{
+    ISO_TRY(grow(s->w->ctx, (void **)&s->bracket, &s->bracket_room, s->brackets, 1, sizeof(bracket)));
+    const double low = a->u, high = b->u, part = a->off[n] / (a->off[n] - b->off[n]);
+    s->bracket[s->brackets++] =
+        (bracket){.n = n + 1, .low = low, .high = high, .off_low = a->off[n], .u = low + part * (high - low)};
+    return ISO_OK;
+}
+
+/* Looks at an interval: *split, or its sign changes become brackets. */
+static iso_status look_at(search *s, const interval *in, bool *split)
+{
+    const sample *a = &s->sample[in->left], *b = &s->sample[in->right];
+    bool clear = true;
+    for (int n = 0; n < s->periods; n++) clear = clear && is_clear(a, b, n);
+    *split = !clear && in->depth < DEEPEST && s->samples < MOST_SAMPLES;
+    if (*split) return ISO_OK;
+    s->w->out->unresolved += !clear;
+    for (int n = 0; n < s->periods; n++)
+        if (a->off[n] * b->off[n] < 0 || a->off[n] == 0) ISO_TRY(add_bracket(s, a, b, n));
+    return ISO_OK;
+}
+
+/* One round: intervals that are not clear are halved. */
+static iso_status refine_samples(search *s)
+{
+    const size_t before = s->opened, first = s->samples;
+    interval *old = s->open;
+    double *u = malloc(before * sizeof *u);
+    size_t halved = 0;
+    iso_status status = u ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
+    for (size_t i = 0; i < before && status == ISO_OK; i++) {
+        bool split;
+        status = look_at(s, &old[i], &split);
+        if (!split) continue;
+        u[halved] = (s->sample[old[i].left].u + s->sample[old[i].right].u) / 2;
+        old[halved++] = old[i];
+    }
+    if (status == ISO_OK && halved > 0) status = take_samples(s, halved, u);
+    s->opened = 0;
+    s->open = NULL;
+    s->open_room = 0;
+    if (status == ISO_OK)
+        status = grow(s->w->ctx, (void **)&s->open, &s->open_room, 0, 2 * halved + 1, sizeof(interval));
+    for (size_t i = 0; i < halved && status == ISO_OK; i++) {
+        s->open[s->opened++] = (interval){old[i].left, first + i, old[i].depth + 1};
+        s->open[s->opened++] = (interval){first + i, old[i].right, old[i].depth + 1};
+    }
+    free(old);
+    free(u);
+    return status;
+}
+
+static iso_status sample_line(search *s)
+{
+    double u[FIRST + 1], range[2];
+    if (!iso_symmetry_line_range(&s->w->map, s->line, range)) return ISO_OK;
+    const double end = range[1] - range[0] - 2 * SKIPPED;
+    if (!(end > 0)) return ISO_OK;
+    for (int i = 0; i <= FIRST; i++) u[i] = range[0] + SKIPPED + end * i / FIRST;
+    ISO_TRY(take_samples(s, FIRST + 1, u));
+    ISO_TRY(grow(s->w->ctx, (void **)&s->open, &s->open_room, 0, FIRST, sizeof(interval)));
+    for (size_t i = 0; i < FIRST; i++) s->open[s->opened++] = (interval){i, i + 1, 0};
+    while (s->opened > 0) ISO_TRY(refine_samples(s));
+    return ISO_OK;
+}
+
+/* --- roots ------------------------------------------------------------------------------------------------------ */
+
+/* Newton's method, kept inside the bracket. Behind a step of 1e-9, and so near the line, a step is one of rounding
+ * errors. */
+static void next_guess(bracket *b, double off, double slope)
+{
+    if (!isfinite(off)) {
+        b->done = true;
+        return;
+    }
+    if ((off < 0) == (b->off_low < 0))
+        b->low = b->u;
+    else
+        b->high = b->u;
+    double next = b->u - off / slope;
+    const bool inside = next > b->low && next < b->high;
+    if (!inside) next = (b->low + b->high) / 2;
+    b->done = fabs(next - b->u) < (inside && fabs(off) < 1e-6 ? 1e-9 : 1e-12) || off == 0;
+    b->u = next;
+}
+
+/* One step of all brackets of F_n. *left: how many go on. */
+static iso_status step_roots(search *s, int n, double u[], size_t of[], misses *m, size_t *left)
+{
+    size_t count = 0;
+    *left = 0;
+    for (size_t i = 0; i < s->brackets; i++)
+        if (s->bracket[i].n == n && !s->bracket[i].done) u[count] = s->bracket[i].u, of[count++] = i;
+    const iso_status status = evaluate(s, count, u, n, 1e-13, m);
+    for (size_t i = 0; i < count && status == ISO_OK; i++) {
+        const size_t end = (size_t)n * (i + 1) - 1;
+        bracket *b = &s->bracket[of[i]];
+        b->there = m->there[end];
+        next_guess(b, m->off[end], m->slope[end]);
+        for (int j = 0; j < 2; j++) {
+            b->z[j] = m->z[i][j] + (b->u - u[i]) * m->z_by_u[i][j];
+            b->end[j] = m->end[i][j] + (b->u - u[i]) * m->end_by_u[i][j];
+        }
+        *left += !b->done;
+    }
+    return status;
+}
+
+static iso_status find_roots(search *s)
+{
+    misses m;
+    iso_status status = make_misses(s, s->brackets, (size_t)s->periods, &m);
+    if (status != ISO_OK) return status;
+    double *u = malloc((s->brackets + 1) * sizeof *u);
+    size_t *of = malloc((s->brackets + 1) * sizeof *of);
+    if (!u || !of) status = iso_context_no_memory(s->w->ctx, "the search");
+    for (int n = 1; n <= s->periods && status == ISO_OK; n++) {
+        size_t left = 1;
+        for (int steps = 0; steps < 40 && left > 0 && status == ISO_OK; steps++)
+            status = step_roots(s, n, u, of, &m, &left);
+    }
+    free(u);
+    free(of);
+    free_misses(&m);
+    return status;
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const bracket *one = a, *other = b;
+    return (one->u > other->u) - (one->u < other->u);
+}
+
+/* Whether b seems to be the other point on the line of an orbit that has one before b. Copies of both count. */
+static bool comes_again(const search *s, const bracket *b)
+{
+    for (const bracket *a = s->bracket; a < b; a++)
+        if (a->n == b->n && a->there && iso_periodic_apart(a->end, b->z) < 1e-4) return true;
+    return false;
+}
+
+/* Of an orbit's points on the line the one with the least u counts. Those that seem to be others come last: by then
+ * their orbits are known, and most need not be solved. */
+static iso_status add_roots(search *s)
+{
+    const iso_periodic_options *o = &s->w->options;
+    iso_periodic_candidate *c = malloc((s->brackets + 1) * sizeof *c);
+    iso_status status = c ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
+    if (s->brackets > 0) qsort(s->bracket, s->brackets, sizeof *s->bracket, by_place);
+    for (int turn = 0; turn < 2 * s->periods && status == ISO_OK; turn++) {
+        const int n = turn / 2 + 1;
+        size_t count = 0;
+        for (const bracket *b = s->bracket; b < s->bracket + s->brackets; b++)
+            if (b->n == n && b->there && comes_again(s, b) == turn % 2)
+                c[count++] = (iso_periodic_candidate){s->line, n, b->u, b->z[0], b->z[1]};
+        status = iso_periodic_add(s->w, c, count);
+        if (o->progress) o->progress((s->line + (turn + 1.0) / (2 * s->periods)) / LINES, o->data);
+    }
+    free(c);
+    return status;
+}
+
+static iso_status search_line(iso_periodic_work *w, int line)
+{
+    search s = {.w = w, .line = line, .periods = w->options.period};
+    iso_status status = sample_line(&s);
+    if (status == ISO_OK) status = find_roots(&s);
+    if (status == ISO_OK) status = add_roots(&s);
+    free(s.sample);
+    free(s.open);
+    free(s.bracket);
+    return status;
+}
+
+iso_status iso_periodic_search(iso_periodic_work *w)
+{
+    for (int line = 0; line < LINES; line++) ISO_TRY(search_line(w, line));
+    return ISO_OK;
+}
+
+/* --- other orbits, from a grid ---------------------------------------------------------------------------------- */
+
+enum { STEPS = 10 };
+#define LONGEST 0.25 /* step of Newton's method */
+
+/* One step of Newton's method for f^p z = z; false: give up. *found: it is small. */
+static bool step(const iso_periodic_point *end, double z[2], bool *found)
+{
+    const double a = end->slope[0][0] - 1, b = end->slope[0][1], c = end->slope[1][0], d = end->slope[1][1] - 1;
+    const double r0 = remainder(z[0] - end->l, 2 * ISO_PI), r1 = z[1] - end->x, det = a * d - b * c;
+    double dl = (d * r0 - b * r1) / det, dx = (a * r1 - c * r0) / det;
+    const double length = hypot(dl, dx);
+    if (!isfinite(length) || length > 20) return false;
+    if (length > LONGEST) dl *= LONGEST / length, dx *= LONGEST / length;
+    z[0] = iso_periodic_angle(z[0] + dl);
+    z[1] += dx;
+    *found = length < 1e-10;
+    return fabs(z[1]) < 1 - 1e-6;
+}
+
+/* The points that go on move to the front; those that have arrived are tried. */
+static iso_status sweep(iso_periodic_work *w, int period, double (*z)[2], iso_periodic_point *at,
+                        iso_periodic_candidate *arrived, size_t *count)
+{
+    iso_status status = iso_periodic_walk(&w->map, *count, (const double(*)[2])z, period, true, 1e-12, at);
+    size_t left = 0, found = 0;
+    for (size_t i = 0; i < *count && status == ISO_OK; i++) {
+        bool there = false;
+        double to[2] = {z[i][0], z[i][1]};
+        if (!step(&at[(size_t)period * i + (size_t)period - 1], to, &there)) continue;
+        if (there)
+            arrived[found++] = (iso_periodic_candidate){-1, period, NAN, to[0], to[1]};
+        else
+            z[left][0] = to[0], z[left++][1] = to[1];
+    }
+    *count = left;
+    return status == ISO_OK ? iso_periodic_add(w, arrived, found) : status;
+}
+
+static iso_status try_period(iso_periodic_work *w, const iso_section_spread *spread, int period, double (*z)[2],
+                             iso_periodic_point *at, iso_periodic_candidate *arrived)
+{
+    size_t count = (size_t)w->options.grid;
+    for (size_t i = 0; i < count; i++) iso_section_spread_point(spread, i, &z[i][0], &z[i][1]);
+    for (int steps = 0; steps < STEPS && count > 0; steps++) ISO_TRY(sweep(w, period, z, at, arrived, &count));
+    return ISO_OK;
+}
+
+iso_status iso_periodic_from_grid(iso_periodic_work *w)
+{
+    const size_t count = (size_t)w->options.grid;
+    iso_section_spread spread;
+    double(*z)[2] = malloc(count * sizeof *z);
+    iso_periodic_point *at = malloc(count * (size_t)w->options.period * sizeof *at);
+    iso_periodic_candidate *arrived = malloc(count * sizeof *arrived);
+    iso_status status = z && at && arrived ? ISO_OK : iso_context_no_memory(w->ctx, "the grid");
+    iso_section_spread_prepare(&spread, iso_periodic_motion(&w->map), w->map.axis, 1);
+    for (int n = 1; n <= w->options.period && status == ISO_OK; n++) {
+        status = try_period(w, &spread, n, z, at, arrived);
+        if (w->options.progress) w->options.progress((double)n / w->options.period, w->options.data);
+    }
+    free(z);
+    free(at);
+    free(arrived);
+    return status;
+}

@@ -1,0 +1,64 @@
+/* arb_certificate.c - the text of a certificate (arb_certificate_impl.h). */
+#include "instrument/prove/arb_certificate_impl.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Room for `more` bytes and an end mark. */
+static bool has_room(prove_certificate *c, size_t more)
+{
+    if (c->lost || c->length + more < c->room) return !c->lost;
+    const size_t room = 2 * (c->room + more) + 1024;
+    char *text = realloc(c->text, room);
+    c->lost = !text;
+    if (text) c->text = text, c->room = room;
+    return !c->lost;
+}
+
+static void add(prove_certificate *c, const char *text)
+{
+    const size_t length = strlen(text);
+    if (!has_room(c, length)) return;
+    memcpy(c->text + c->length, text, length + 1);
+    c->length += length;
+}
+
+void prove_certificate_words(prove_certificate *c, const char *format, ...)
+{
+    char line[512];
+    if (!c) return;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    add(c, line);
+    add(c, "\n");
+}
+
+void prove_certificate_line(prove_certificate *c, const char *word, int count, arb_srcptr x)
+{
+    if (!c) return;
+    add(c, word);
+    for (int i = 0; i < count; i++) {
+        char *ball = arb_dump_str(x + i);
+        add(c, " ");
+        add(c, ball);
+        flint_free(ball);
+    }
+    add(c, "\n");
+}
+
+void prove_certificate_append(prove_certificate *c, const prove_certificate *more)
+{
+    c->lost = c->lost || more->lost;
+    if (more->text) add(c, more->text);
+}
+
+void prove_certificate_cut(prove_certificate *c, size_t length)
+{
+    if (!c || length > c->length) return;
+    c->length = length;
+    if (c->text) c->text[length] = '\0';
+}

@@ -1,0 +1,421 @@
+/* arb_half_return.c - from a crossing of gamma_c = 0 to the next one in the other direction, or a part of this way,
+ * enclosed (arb_flow_impl.h).
+ *
+ * On the section, psi = 0, with J_a, J_b, J_c, t = (sin l, cos l, 0) and X = sqrt(1 - x^2):
+ *
+ *     gamma = (cos l, -sin l, 0),   u = -x t + X e_c,   b = -X t - x e_c,   (J gamma, t) = (J_a - J_b) sin l cos l.
+ *
+ * At another psi, gamma and u are turned about b by psi:
+ *
+ *     gamma = cos psi gamma_0 + sin psi u_0,   u = cos psi u_0 - sin psi gamma_0,   b = b_0.
+ *
+ * A change of (l, x) moves gamma by y along b, with y' = v:
+ *
+ *     y = X cos psi dl + (sin psi/X) dx,   v + kappa x dl = (cos psi/X) dx - X sin psi dl;   the other way round
+ *     (X + kappa x sin psi) dl = cos psi y - sin psi v,   dx = X (sin psi y + cos psi (v + kappa x dl)).
+ *
+ * X sin(psi_end - psi) = sin(psi_end) u_c - cos(psi_end) gamma_c is 0 at the end; so "the end" below.
+ */
+#include "instrument/prove/arb_flow_impl.h"
+
+void prove_half_init(prove_half *h)
+{
+    for (int i = 0; i < 2; i++) arb_init(h->z + i);
+    for (int i = 0; i < 6; i++) arb_init(h->D + i);
+    arb_init(h->time), arb_init(h->window);
+}
+
+void prove_half_clear(prove_half *h)
+{
+    for (int i = 0; i < 2; i++) arb_clear(h->z + i);
+    for (int i = 0; i < 6; i++) arb_clear(h->D + i);
+    arb_clear(h->time), arb_clear(h->window);
+}
+
+/* --- the chart -------------------------------------------------------------------------------------------------- */
+
+/* An angle psi: exact numbers at 0 and pi. */
+typedef struct angle {
+    arb_t c, s;
+} angle;
+
+static void angle_init(const prove_flow *f, int number, int parts, angle *a)
+{
+    fmpq_t turn;
+    fmpq_init(turn);
+    fmpq_set_si(turn, number, (ulong)parts);
+    arb_init(a->c), arb_init(a->s);
+    arb_sin_cos_pi_fmpq(a->s, a->c, turn, f->bits);
+    fmpq_clear(turn);
+}
+
+static void angle_clear(angle *a)
+{
+    arb_clear(a->c), arb_clear(a->s);
+}
+
+/* x = a c + b s */
+static void combine(const arb_t a, const arb_t c, const arb_t b, const arb_t s, slong bits, arb_t x)
+{
+    arb_t first;
+    arb_init(first);
+    arb_mul(first, a, c, bits);
+    arb_mul(x, b, s, bits);
+    arb_add(x, x, first, bits);
+    arb_clear(first);
+}
+
+/* gamma and u turned about b by the angle: q, r, p, f, d, g, w. */
+static void turn(const angle *by, slong bits, arb_ptr y)
+{
+    arb_ptr old = _arb_vec_init(PROVE_POINT);
+    arb_t minus_s, part;
+    arb_init(minus_s), arb_init(part);
+    _arb_vec_set(old, y, PROVE_POINT);
+    arb_neg(minus_s, by->s);
+    combine(old + PROVE_P, by->c, old + PROVE_D, by->s, bits, y + PROVE_P);
+    combine(old + PROVE_D, by->c, old + PROVE_P, minus_s, bits, y + PROVE_D);
+    combine(old + PROVE_G, by->c, old + PROVE_W, by->s, bits, y + PROVE_G);
+    combine(old + PROVE_W, by->c, old + PROVE_G, minus_s, bits, y + PROVE_W);
+    combine(old + PROVE_Q, by->c, old + PROVE_R, by->s, bits, y + PROVE_Q); /* (J gamma_0, gamma) */
+    combine(old + PROVE_R, by->c, old + PROVE_F, by->s, bits, part);        /* (J u_0, gamma) */
+    combine(old + PROVE_R, by->c, old + PROVE_Q, minus_s, bits, y + PROVE_R);
+    combine(old + PROVE_F, by->c, old + PROVE_R, minus_s, bits, y + PROVE_F);
+    combine(y + PROVE_Q, by->c, part, by->s, bits, y + PROVE_Q);
+    combine(y + PROVE_R, by->c, y + PROVE_F, by->s, bits, part); /* (J u, gamma_0), (J u, u_0) */
+    combine(y + PROVE_F, by->c, y + PROVE_R, minus_s, bits, y + PROVE_F);
+    arb_set(y + PROVE_R, part);
+    _arb_vec_clear(old, PROVE_POINT);
+    arb_clear(minus_s), arb_clear(part);
+}
+
+/* The neighbours dl = 1, dx = 1 and dk = 1. */
+static void begin_neighbours(const prove_flow *f, const angle *psi, const arb_t X, const arb_t x, arb_ptr y)
+{
+    const slong bits = f->bits;
+    arb_t kappa;
+    arb_init(kappa);
+    arb_div(kappa, y + PROVE_P, y + PROVE_Q, bits);
+    arb_mul(kappa, kappa, f->inverse_k, bits); /* -kappa */
+    arb_mul(y + PROVE_Y1, X, psi->c, bits);
+    arb_mul(y + PROVE_V1, kappa, x, bits);
+    arb_submul(y + PROVE_V1, X, psi->s, bits);
+    arb_div(y + PROVE_Y2, psi->s, X, bits);
+    arb_div(y + PROVE_V2, psi->c, X, bits);
+    arb_zero(y + PROVE_Y3), arb_zero(y + PROVE_V3);
+    arb_clear(kappa);
+}
+
+static void begin_state(const prove_flow *f, const angle *psi, const arb_t l, const arb_t x, arb_ptr y)
+{
+    const slong bits = f->bits;
+    arb_t A, T, half, X;
+    arb_init(A), arb_init(T), arb_init(half), arb_init(X);
+    arb_mul_2exp_si(T, l, 1);
+    arb_sin_cos(A, y + PROVE_Q, T, bits);
+    arb_sub(half, f->J[0], f->J[1], bits);
+    arb_mul_2exp_si(half, half, -1);
+    arb_mul(A, A, half, bits); /* (J gamma, t) */
+    arb_mul(y + PROVE_Q, y + PROVE_Q, half, bits);
+    arb_add(T, f->J[0], f->J[1], bits);
+    arb_mul_2exp_si(half, T, -1);
+    arb_add(y + PROVE_Q, y + PROVE_Q, half, bits);
+    arb_sub(T, T, y + PROVE_Q, bits); /* (J t, t) */
+    arb_zero(y + PROVE_G);
+    arb_neg(y + PROVE_Z, x);
+    arb_mul(half, x, x, bits);
+    arb_sub_ui(half, half, 1, bits);
+    arb_neg(half, half);
+    arb_sqrt(X, half, bits);
+    arb_set(y + PROVE_W, X);
+    arb_mul(y + PROVE_R, y + PROVE_Z, A, bits);
+    arb_mul(y + PROVE_P, X, A, bits);
+    arb_neg(y + PROVE_P, y + PROVE_P);
+    arb_sub(T, T, f->J[2], bits); /* f = J_c + x^2 (T - J_c), d = x X (T - J_c) */
+    arb_mul(y + PROVE_F, x, x, bits);
+    arb_mul(y + PROVE_F, y + PROVE_F, T, bits);
+    arb_add(y + PROVE_F, y + PROVE_F, f->J[2], bits);
+    arb_mul(y + PROVE_D, x, X, bits);
+    arb_mul(y + PROVE_D, y + PROVE_D, T, bits);
+    if (!arb_is_zero(psi->s)) turn(psi, bits, y);
+    begin_neighbours(f, psi, X, x, y);
+    arb_clear(A), arb_clear(T), arb_clear(half), arb_clear(X);
+}
+
+/* l in (-pi/4, 3 pi/4) from sin 2l and -cos 2l; near 0 to all digits. */
+static void find_angle(const arb_t s, const arb_t minus_c, slong bits, arb_t l)
+{
+    arb_t part;
+    arb_init(part);
+    if (arb_is_negative(minus_c)) {
+        arb_div(part, s, minus_c, bits);
+        arb_neg(part, part);
+        arb_atan(l, part, bits);
+    } else {
+        arb_const_pi(part, bits);
+        arb_mul_2exp_si(part, part, -1);
+        arb_atan2(l, minus_c, s, bits); /* 2l - pi/2 */
+        arb_add(l, l, part, bits);
+    }
+    arb_mul_2exp_si(l, l, -1);
+    arb_clear(part);
+}
+
+/* (l, x), which has turned back to psi = 0 the state p_0 = -X A, q_0:
+ * sin 2l = -2 p_0/(X (J_a - J_b)), cos 2l = (2 q_0 - J_a - J_b)/(J_a - J_b); l in (-pi/4, 3 pi/4). */
+static void end_place(const prove_flow *f, const angle *psi, arb_srcptr y, arb_t X, arb_struct z[2])
+{
+    const slong bits = f->bits;
+    arb_ptr base = _arb_vec_init(PROVE_POINT);
+    angle back;
+    arb_t s, c, apart;
+    angle_init(f, 0, 1, &back);
+    arb_init(s), arb_init(c), arb_init(apart);
+    _arb_vec_set(base, y, PROVE_POINT);
+    arb_set(back.c, psi->c), arb_neg(back.s, psi->s);
+    turn(&back, bits, base);
+    arb_set(X, base + PROVE_W);
+    arb_sub(apart, f->J[1], f->J[0], bits);
+    arb_div(s, base + PROVE_P, X, bits);
+    arb_mul_2exp_si(s, s, 1);
+    arb_div(s, s, apart, bits);
+    arb_add(c, f->J[0], f->J[1], bits);
+    arb_mul_2exp_si(base + PROVE_Q, base + PROVE_Q, 1);
+    arb_sub(c, base + PROVE_Q, c, bits);
+    arb_div(c, c, apart, bits); /* -cos 2l */
+    find_angle(s, c, bits, z);
+    arb_neg(z + 1, y + PROVE_Z);
+    angle_clear(&back);
+    _arb_vec_clear(base, PROVE_POINT);
+    arb_clear(s), arb_clear(c), arb_clear(apart);
+}
+
+static void end_derivative(const prove_flow *f, const angle *psi, arb_srcptr y, const arb_t X, int numbers,
+                           prove_half *half)
+{
+    const slong bits = f->bits;
+    arb_t kappa_x, below, v;
+    arb_init(kappa_x), arb_init(below), arb_init(v);
+    arb_div(kappa_x, y + PROVE_P, y + PROVE_Q, bits);
+    arb_mul(kappa_x, kappa_x, f->inverse_k, bits);
+    arb_mul(kappa_x, kappa_x, y + PROVE_Z, bits); /* kappa x */
+    arb_mul(below, kappa_x, psi->s, bits);
+    arb_add(below, below, X, bits);
+    for (int j = 0; PROVE_Y1 + 2 * j < numbers; j++) {
+        const arb_srcptr neighbour = y + PROVE_Y1 + 2 * j;
+        arb_ptr dl = half->D + (j < 2 ? j : 4), dx = half->D + (j < 2 ? 2 + j : 5);
+        arb_mul(v, neighbour + 1, psi->s, bits);
+        arb_mul(dl, neighbour, psi->c, bits);
+        arb_sub(dl, dl, v, bits);
+        arb_div(dl, dl, below, bits);
+        arb_mul(v, kappa_x, dl, bits);
+        arb_add(v, v, neighbour + 1, bits);
+        combine(neighbour, psi->s, v, psi->c, bits, dx);
+        arb_mul(dx, dx, X, bits);
+    }
+    arb_clear(kappa_x), arb_clear(below), arb_clear(v);
+}
+
+/* --- the crossing ----------------------------------------------------------------------------------------------- */
+
+/* X sin(psi_end - psi) of a state. */
+static void find_ahead(const angle *end, arb_srcptr y, slong bits, arb_t x)
+{
+    arb_t part;
+    arb_init(part);
+    arb_mul(part, y + PROVE_G, end->c, bits);
+    arb_mul(x, y + PROVE_W, end->s, bits);
+    arb_sub(x, x, part, bits);
+    arb_clear(part);
+}
+
+/* It and its derivative at s; y: room for a state. w' = kappa z - g. */
+static void find_both(prove_flow *f, const angle *end, const arb_t s, arb_ptr y, arb_t ahead, arb_t slope)
+{
+    iso_series_at(&f->series, s, PROVE_G, arb_is_zero(end->s) ? 2 : 3, y + PROVE_G); /* g, w, z */
+    find_ahead(end, y, f->bits, ahead);
+    arb_mul(slope, y + PROVE_W, end->c, f->bits);
+    arb_neg(slope, slope);
+    if (arb_is_zero(end->s)) return;
+    iso_series_at(&f->series, s, PROVE_Q, PROVE_P + 1, y); /* q, r, p */
+    arb_div(y + PROVE_P, y + PROVE_P, y + PROVE_Q, f->bits);
+    arb_mul(y + PROVE_P, y + PROVE_P, f->inverse_k, f->bits); /* -kappa */
+    arb_mul(y + PROVE_P, y + PROVE_P, y + PROVE_Z, f->bits);
+    arb_add(y + PROVE_P, y + PROVE_P, y + PROVE_G, f->bits);
+    arb_submul(slope, y + PROVE_P, end->s, f->bits);
+}
+
+/* A point near the end; no proof needs it to be one. */
+static void guess_zero(prove_flow *f, const angle *end, const arb_t h, arb_ptr y, arb_t s)
+{
+    arb_t g, w;
+    arb_init(g), arb_init(w);
+    arb_mul_2exp_si(s, h, -1);
+    for (int i = 0; i < 60; i++) {
+        find_both(f, end, s, y, g, w);
+        arb_div(g, g, w, f->bits);
+        arb_sub(s, s, g, f->bits);
+        arb_get_mid_arb(s, s);
+        if (!arb_is_finite(g) || arb_contains_zero(g)) break;
+    }
+    arb_clear(g), arb_clear(w);
+}
+
+/* The interval Newton method: if s - g(s)/g'(U) lies in U, where g' < 0 on U, each orbit has one zero of g in U, and it
+ * lies there. g is what find_ahead finds. */
+static bool find_zero(prove_flow *f, const angle *end, const arb_t h, arb_t zero, arb_t window)
+{
+    arb_t s, g, w, other;
+    mag_t size;
+    arb_ptr y = _arb_vec_init(PROVE_POINT);
+    arb_init(s), arb_init(g), arb_init(w), arb_init(other), mag_init(size);
+    guess_zero(f, end, h, y, s);
+    bool found = arb_is_finite(s) && arb_is_positive(s) && arb_lt(s, h);
+    if (found) {
+        find_both(f, end, s, y, g, w);
+        arb_div(zero, g, w, f->bits);
+        arb_get_mag(size, zero);
+        mag_mul_2exp_si(size, size, 1);
+        arb_set(window, s);
+        arb_add_error_mag(window, size);
+        find_both(f, end, window, y, other, w);
+        arb_div(zero, g, w, f->bits);
+        arb_sub(zero, s, zero, f->bits);
+        found = arb_is_positive(window) && arb_lt(window, h) && arb_is_negative(w) && arb_contains(window, zero);
+    }
+    _arb_vec_clear(y, PROVE_POINT);
+    arb_clear(s), arb_clear(g), arb_clear(w), arb_clear(other), mag_clear(size);
+    return found;
+}
+
+/* --- steps ------------------------------------------------------------------------------------------------------ */
+
+enum { HALVINGS = 12, SPARE_BITS = 4 };
+
+/* h is made exact, with few bits, and small enough for a bound. */
+static bool choose_step(prove_flow *f, arb_t h)
+{
+    arf_t length;
+    arf_init(length);
+    arf_set_d(length, prove_flow_guess_step(f));
+    arf_set_round(length, length, 8, ARF_RND_DOWN);
+    bool good = false;
+    for (int i = 0; i < HALVINGS && !good; i++) {
+        arb_set_arf(h, length);
+        good = iso_series_bound(&f->series, h);
+        arf_mul_2exp_si(length, length, -1);
+    }
+    arf_clear(length);
+    return good;
+}
+
+void prove_widen(const prove_flow *f, slong part, arb_t x)
+{
+    mag_t more, size;
+    mag_init(more), mag_init(size);
+    mag_mul_2exp_si(more, arb_radref(x), -part);
+    arb_get_mag(size, x);
+    mag_mul_2exp_si(size, size, SPARE_BITS - f->bits);
+    mag_add(more, more, size);
+    arb_add_error_mag(x, more);
+    arb_set_round(x, x, f->bits);
+    mag_clear(more), mag_clear(size);
+}
+
+/* The state at the end of a step h, which is made shorter where it ends in the zero; *crossed: beyond it. */
+static bool go(prove_flow *f, const angle *to, int numbers, arb_t h, arb_ptr end, bool *crossed)
+{
+    arb_t ahead;
+    bool good = choose_step(f, h), open = true;
+    *crossed = false;
+    arb_init(ahead);
+    for (int i = 0; good && open; i++) {
+        iso_series_at(&f->series, h, 0, numbers, end);
+        find_ahead(to, end, f->bits, ahead);
+        open = arb_contains_zero(ahead);
+        *crossed = arb_is_negative(ahead);
+        if (!open) break;
+        arb_mul_2exp_si(h, h, -1);
+        good = i + 1 < HALVINGS && iso_series_bound(&f->series, h);
+    }
+    arb_clear(ahead);
+    return good;
+}
+
+/* A step. *crossed: the end lies in it, and y is the state there; else y is that at the end of the step. */
+static iso_status take_step(prove_flow *f, const angle *to, int numbers, arb_ptr y, prove_half *half, bool *crossed)
+{
+    arb_t h, zero, window;
+    arb_ptr end = _arb_vec_init(PROVE_STATE);
+    arb_init(h), arb_init(zero), arb_init(window);
+    prove_flow_expand(f, y, numbers);
+    bool good = go(f, to, numbers, h, end, crossed);
+    if (*crossed && good) good = find_zero(f, to, h, zero, window);
+    if (*crossed && good) iso_series_at(&f->series, zero, 0, numbers, end);
+    if (good && !*crossed) arb_set(zero, h);
+    for (int i = 0; i < numbers; i++) {
+        arb_set(y + i, end + i);
+        if (good) prove_widen(f, PROVE_EIGHTH, y + i);
+    }
+    if (good) {
+        prove_certificate_line(f->certificate, "step", 1, h);
+        if (*crossed) prove_certificate_line(f->certificate, "window", 1, window);
+        if (*crossed) prove_certificate_line(f->certificate, "zero", 1, zero);
+        prove_certificate_line(f->certificate, "state", numbers, y);
+    }
+    arb_add(half->window, half->time, *crossed ? window : zero, ARF_PREC_EXACT);
+    arb_add(half->time, half->time, zero, ARF_PREC_EXACT);
+    f->steps++;
+    _arb_vec_clear(end, PROVE_STATE);
+    arb_clear(h), arb_clear(zero), arb_clear(window);
+    return good ? ISO_OK : iso_context_fail(f->ctx, ISO_NUMERICAL, "", "a step of the orbit could not be enclosed");
+}
+
+/* False: not at the end angle, but at its antipode. */
+static bool finish(prove_flow *f, const angle *to, arb_srcptr y, int numbers, prove_half *half)
+{
+    arb_t X;
+    arb_init(X);
+    end_place(f, to, y, X, half->z);
+    end_derivative(f, to, y, X, numbers, half);
+    for (int i = 0; i < 2; i++) prove_widen(f, PROVE_EIGHTH, half->z + i);
+    for (int i = 0; i < numbers - PROVE_POINT; i++) prove_widen(f, PROVE_EIGHTH, half->D + i);
+    prove_certificate_line(f->certificate, "to", 2, half->z);
+    if (numbers > PROVE_POINT) prove_certificate_line(f->certificate, "derivative", numbers - PROVE_POINT, half->D);
+    const bool right = arb_is_positive(X);
+    arb_clear(X);
+    return right;
+}
+
+/* The first part counts for all of a half return. */
+static iso_status begin_work(const prove_flow *f, prove_part part)
+{
+    if (part.number > 0) return ISO_OK;
+    if (f->work->begun++ < f->work->most) return ISO_OK;
+    return ISO_FAIL_NUMERICAL(f->ctx, "it takes more than the %ld half returns of --half-returns", f->work->most);
+}
+
+iso_status prove_half_return(prove_flow *f, prove_part part, const arb_t l, const arb_t x, int numbers,
+                             prove_half *half)
+{
+    arb_ptr y = _arb_vec_init(PROVE_STATE);
+    angle from, to;
+    bool crossed = false;
+    iso_status status = begin_work(f, part);
+    angle_init(f, part.number, part.parts, &from), angle_init(f, part.number + 1, part.parts, &to);
+    begin_state(f, &from, l, x, y);
+    for (int i = 0; i < numbers; i++) prove_widen(f, PROVE_EIGHTH, y + i);
+    prove_certificate_line(f->certificate, "l", 1, l);
+    prove_certificate_line(f->certificate, "x", 1, x);
+    prove_certificate_line(f->certificate, "state", numbers, y);
+    arb_zero(half->time);
+    while (status == ISO_OK && !crossed) {
+        status = iso_context_goes_on(f->ctx) ? ISO_OK : iso_context_stopped(f->ctx);
+        if (status == ISO_OK) status = take_step(f, &to, numbers, y, half, &crossed);
+    }
+    if (status == ISO_OK && !finish(f, &to, y, numbers, half))
+        status = iso_context_fail(f->ctx, ISO_NUMERICAL, "", "a set crosses a section on both sides");
+    _arb_vec_clear(y, PROVE_STATE);
+    angle_clear(&from), angle_clear(&to);
+    return status;
+}

@@ -1,0 +1,244 @@
+/* section_study.c - the section by its name: its options, as words first, and its tables (study/study.h). */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/nearest_impl.h"
+#include "base/number_impl.h"
+#include "orbit/orbit_impl.h"
+#include "study/fields_impl.h"
+#include "study/options_impl.h"
+#include "instrument/section/section.h"
+#include "instrument/section/section_impl.h"
+
+/* --- what is typed ---------------------------------------------------------------------------------------------- */
+
+bool iso_set_at(void *at, const char *text)
+{
+    const char **list = at;
+    int i = 0;
+    while (list[i]) i++;
+    if (i == ISO_STUDY_MOST_AT) return false;
+    list[i] = text;
+    return *text != '\0';
+}
+
+static iso_status read_axis(iso_context *ctx, const char *text, int *axis)
+{
+    *axis = ISO_AXIS_AUTO;
+    if (!text || strcmp(text, "auto") == 0) return ISO_OK;
+    *axis = text[0] - '1';
+    if (strlen(text) == 1 && *axis >= 0 && *axis < 3) return ISO_OK;
+    return ISO_FAIL_ARGUMENT(ctx, "", "--axis '%s': expected auto, 1, 2 or 3", text);
+}
+
+/* Points l,x with semicolons between. */
+static iso_status read_points(iso_context *ctx, const char *text, double (**list)[2], size_t *count)
+{
+    size_t most = *count;
+    for (const char *c = text; *c; c++) most += *c == ';';
+    double(*more)[2] = realloc(*list, (most + 1) * sizeof *more);
+    if (!more) return iso_context_no_memory(ctx, "the starts");
+    *list = more;
+    for (const char *c = text; *c; c += *c == ';') {
+        const size_t l = strcspn(c, ",;"), x = c[l] == ',' ? strcspn(c + l + 1, ";") : 0;
+        if (x == 0 || !iso_number_read(c, l, &more[*count][0]) || !iso_number_read(c + l + 1, x, &more[*count][1]))
+            return ISO_FAIL_ARGUMENT(
+                ctx, "", "--at '%s': expected l,x, or several of them with ; between: 0.5,0.2;1,-0.3", text);
+        ++*count;
+        c += l + 1 + x;
+    }
+    return ISO_OK;
+}
+
+iso_status iso_section_words_read(iso_context *ctx, iso_section_words *words, int *axis, const double (**at)[2],
+                                  size_t *count)
+{
+    iso_status status = read_axis(ctx, words->axis, axis);
+    *count = 0;
+    for (int i = 0; status == ISO_OK && words->at[i]; i++)
+        status = read_points(ctx, words->at[i], &words->points, count);
+    *at = (const double(*)[2])words->points;
+    return status;
+}
+
+/* COLUMN=VALUE */
+static iso_status read_event(iso_context *ctx, const char *text, iso_section_options *how)
+{
+    char name[ISO_NAME_SIZE] = "", suggested[ISO_SUGGEST_SIZE];
+    const size_t length = text ? strcspn(text, "=") : 0;
+    if (!text) return ISO_OK;
+    if (length < sizeof name) memcpy(name, text, length);
+    if (text[length] != '=' || !iso_number_read(text + length + 1, strlen(text + length + 1), &how->value))
+        return ISO_FAIL_ARGUMENT(ctx, "", "--event '%s': expected COLUMN=VALUE, such as omega1=0.5", text);
+    how->column = iso_column_find(name);
+    if (how->column >= ISO_CLOCKS) return ISO_OK;
+    if (how->column >= 0)
+        return ISO_FAIL_ARGUMENT(ctx, "", "--event: the clock '%s' passes each value only once", name);
+    return ISO_FAIL_ARGUMENT(ctx, "", "--event: there is no column '%s'; %s", name,
+                             iso_suggest_word(suggested, name, iso_column_name));
+}
+
+static iso_status prepare(iso_context *ctx, void *options)
+{
+    iso_section_request *r = options;
+    iso_status status = iso_section_words_read(ctx, &r->words, &r->how.axis, &r->how.at, &r->how.at_count);
+    if (status == ISO_OK) status = read_event(ctx, r->event, &r->how);
+    if (status == ISO_OK && r->words.axis && r->event)
+        return ISO_FAIL_ARGUMENT(ctx, "", "section: --axis or --event, not both");
+    if (status == ISO_OK && r->area && r->event)
+        return ISO_FAIL_ARGUMENT(ctx, "", "section: --area or --event, not both: an event has no chart");
+    if (status == ISO_OK && r->area && r->how.shown != ISO_SHOW_START)
+        return ISO_FAIL_ARGUMENT(ctx, "", "section: --area or --as, not both: its rows have no states");
+    return status;
+}
+
+/* --- tables ----------------------------------------------------------------------------------------------------- */
+
+/* The rows of the file, and the same crossings as the point finds them, if both models are integrated. */
+typedef struct collector {
+    iso_context *ctx;
+    iso_study_result *result;
+    size_t orbit, crossing; /* of the last pair */
+} collector;
+
+/* Called after the ball's row; a pair of the same orbit is its next crossing. */
+static iso_status keep_pair(void *data, size_t orbit, const iso_crossing *ball, const iso_crossing *point)
+{
+    static const char *const names[] = {"orbit", "crossing", "t", "tau", "s", "l", "x"};
+    collector *k = data;
+    iso_record **table = &k->result->table[1];
+    iso_status status = ISO_OK;
+    (void)ball;
+    if (!*table) {
+        status = iso_record_create_like(k->ctx, k->result->table[0], sizeof names / sizeof *names, names, table);
+        if (status == ISO_OK) status = iso_record_set(k->ctx, *table, "model", "point");
+        if (status != ISO_OK) return status;
+    }
+    k->crossing = orbit == k->orbit ? k->crossing + 1 : 1;
+    k->orbit = orbit;
+    const double row[] = {
+        (double)orbit, (double)k->crossing, point->clock[0], point->clock[1], point->clock[2], point->l, point->x};
+    return iso_record_add(k->ctx, *table, 1, row);
+}
+
+static void keep_note(void *data, const char *words)
+{
+    const collector *k = data;
+    iso_study_note(k->result, "%s", words);
+}
+
+static void show(void *data, double part)
+{
+    const collector *k = data;
+    iso_study_progress(k->result, part);
+}
+
+ISO_STUDY_BEGIN(iso_section_request, (iso_section_request){.how = iso_section_defaults()})
+
+static void end(void *options)
+{
+    free(((iso_section_request *)options)->words.points);
+}
+
+static iso_status find_crossings(iso_context *ctx, const iso_scene *scene, const iso_section_request *request,
+                                 iso_study_result *result)
+{
+    collector k = {.ctx = ctx, .result = result, .orbit = SIZE_MAX};
+    const iso_section_sink sink = {
+        .pair = keep_pair, .note = keep_note, .progress = show, .data = &k, .record = &result->table[0]};
+    iso_section_result r = {.rows = 0};
+    const iso_status status = iso_section_run(ctx, scene, &request->how, &sink, &r);
+    for (int i = 0; i < 2; i++)
+        if (result->table[i]) iso_record_set_kind(result->table[i], "section");
+    result->failed = r.failed > 0;
+    if (r.failed > 0)
+        iso_study_note(result, "%zu of %zu orbits did not get to the end; %s", r.failed, r.orbits, r.words);
+    return status;
+}
+
+/* --- areas ------------------------------------------------------------------------------------------------------ */
+
+#define FIELD(key, member, ...) ISO_MEMBER(iso_section_area, key, member, __VA_ARGS__)
+
+const iso_field iso_section_area_fields[] = {
+    FIELD("orbit", orbit, "", "number of the orbit; 0 is the scene's own"),
+    FIELD("model", model, "", "that was integrated", .word = iso_model_kind_name),
+    FIELD("turns", turns, "", "returns, or steps of about a turn, that could be told"),
+    FIELD("worst", worst, "", "|det D - 1|, at the return where it is largest against its bound"),
+    FIELD("bound", bound, "", "what errors of the integration explain there"),
+    FIELD("area", kept, "", "kept, not kept or undecided"),
+    FIELD("failure", why, "", "why it ended early", .how = ISO_QUOTED),
+    ISO_FIELD_END,
+};
+#undef FIELD
+
+static const iso_field areas_fields[] = {
+    ISO_MEMBER(iso_section_areas, "returns", returns, "", "whether det D is told at returns"),
+    ISO_LIST_AT(iso_section_areas, "areas", orbit, count, iso_section_area_fields, "of the orbits"), ISO_FIELD_END};
+
+static void free_areas(void *found)
+{
+    iso_section_areas_free(found);
+    free(found);
+}
+
+static iso_status find_areas(iso_context *ctx, const iso_scene *scene, const iso_section_request *r,
+                             iso_study_result *result)
+{
+    collector k = {.ctx = ctx, .result = result};
+    iso_section_areas *found = iso_study_keep(result, calloc(1, sizeof *found), areas_fields, free_areas);
+    if (!found) return iso_context_no_memory(ctx, "areas");
+    const iso_status status = iso_section_areas_find(ctx, scene, &r->how, show, &k, found);
+    if (found->count == 0) return status;
+    iso_status made =
+        iso_study_table(ctx, "section area", scene, NULL, NULL, iso_section_area_fields, &result->table[0]);
+    for (size_t i = 0; made == ISO_OK && i < found->count; i++) {
+        made = iso_columns_append(ctx, iso_section_area_fields, &found->orbit[i], result->table[0]);
+        result->failed = result->failed || strcmp(found->orbit[i].kept, "kept") != 0;
+    }
+    return status == ISO_OK ? made : status;
+}
+
+static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
+                      iso_study_result *result)
+{
+    const iso_section_request *r = options;
+    return r->area ? find_areas(ctx, subject->scene, r, result) : find_crossings(ctx, subject->scene, r, result);
+}
+
+#define ROW(name, argument, expected, doc, set, member)                                                              \
+    ISO_OPTION(name, argument, expected, doc, set, iso_section_request, member)
+
+const iso_option iso_section_option[] = {
+    ROW("crossings", "N", "a whole number from 1 on", "crossings of each orbit (default 500)", iso_set_count_size,
+        how.crossings),
+    ROW("axis", "A", "auto, 1, 2 or 3", "which section n_A = 0, n_A increasing; auto (default): a global one",
+        iso_set_text, words.axis),
+    ROW("event", "COLUMN=VALUE", "COLUMN=VALUE",
+        "in place of --axis: crossings where this column passes this value upwards", iso_set_text, event),
+    ROW("starts", "M", "a whole number from 0 on", "M more orbits of the same energy, spread evenly over the section",
+        iso_set_whole_size, how.starts),
+    ISO_OPTION_SEED(ISO_SEED_SPREADS, iso_section_request, how.seed),
+    ROW("at", "L,X", ISO_AT_EXPECTED, "one more orbit, which starts at (l, x); for several: L,X;L,X or --at again",
+        iso_set_at, words.at),
+    ROW("area", NULL, NULL, "write no crossings: for each orbit, whether the return map keeps the area dL dl",
+        iso_set_flag, area),
+    ISO_OPTION_MODELS("model", "M", ISO_MODELS_INTEGRATED, iso_section_request, how.models),
+    ISO_OPTION_MODELS("as", "WHAT", "add the states of a model to each row: ball, point, both", iso_section_request,
+                      how.shown),
+    ISO_OPTION_TOLERANCE(ISO_TOLERANCE_OF_STEPS, iso_section_request, how.tolerance),
+    ISO_OPTION_THREADS(iso_section_request, how.threads),
+    ISO_OPTION_END,
+};
+
+const iso_study iso_section_study = {"section",
+                                     "compute the Poincare section of both models",
+                                     iso_section_option,
+                                     sizeof(iso_section_request),
+                                     begin,
+                                     end,
+                                     prepare,
+                                     run,
+                                     ISO_STUDY_OF_SCENE};

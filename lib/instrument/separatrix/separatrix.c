@@ -1,0 +1,181 @@
+/* separatrix.c - the splitting at one k on one level: x* and m, with errors. */
+#define _GNU_SOURCE /* functions of _Float128 */
+#include "instrument/separatrix/separatrix.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/arithmetic_impl.h"
+#include "base/names_impl.h"
+#include "instrument/separatrix/separatrix_impl.h"
+
+ISO_NAMES(iso_separatrix_digits_name, int, "double", "quad", "auto")
+
+/* Terms of the polynomial, and of the one that is compared with it. Its domain is 3/4 as large. */
+typedef struct numbers {
+    int terms, other;
+    int digits;
+} numbers;
+
+static const numbers with_64_bits = {ISO_MANIFOLD_TERMS_64, 10, 19}, with_106_bits = {21, 18, 32};
+
+/* --- one computation -------------------------------------------------------------------------------------------- */
+
+/* The same crossing by another polynomial on 3/4 of the domain. */
+static iso_status compute_again(const iso_manifold *m, int terms, const iso_manifold_crossing *c,
+                                iso_manifold_crossing *again)
+{
+    iso_manifold other = *m;
+    iso_manifold_resize(&other, m->size * 3 / 4, terms);
+    iso_status status = iso_manifold_solve(&other);
+    *again = *c;
+    again->theta *= m->size / other.size;
+    while (again->theta > 1) again->theta /= m->lambda, again->halves++;
+    return status == ISO_OK ? iso_manifold_refine(&other, again) : status;
+}
+
+/* What rounding does: each half return makes an error of some units in the last place, which is carried on by the
+ * derivative. Across the manifold it dies out like lambda^-i, i half returns later; such errors add up to sqrt(sum
+ * lambda^(-2 i)) of one. */
+static double rounding(const iso_manifold *m, const iso_manifold_crossing *c)
+{
+    const double lambda = (double)m->lambda, sum = sqrt(1 / (1 - 1 / (lambda * lambda)));
+    return 10 * m->code->error * (1 + fabs((double)c->slope)) * (1 + sum + log(lambda));
+}
+
+/* From the section n_g = 0 on which the manifold was computed to n_a = 0, on which O has l = 0. At the crossing
+ * gamma lies on the middle axis, so it is on both: x_a^2 + x_g^2 = 1. A change of x leaves |M|, so x_a dx_a = -x_g
+ * dx_g; along the flow a shift of gamma_a = dl_g becomes one of gamma_g, by gamma_a'/gamma_g' = -M_g/M_a, dl_a =
+ * -dl_g |x_a/x_g|:
+ *
+ *     m_a = (x_g/x_a)^2 m_g
+ */
+static void tell(const iso_manifold *m, const iso_manifold_crossing *c, const iso_manifold_crossing *again,
+                 int digits, iso_separatrix_splitting *s)
+{
+    const double floor = rounding(m, c),
+                 apart[2] = {fabs((double)(c->z[1] - again->z[1])), fabs((double)(c->slope - again->slope))};
+    double of[2];
+    for (int i = 0; i < 2; i++) of[i] = 3 * fmax(apart[i], fmax(c->scatter[i], again->scatter[i])) + floor;
+    const double of_x = of[0], of_m = of[1];
+    const iso_wide x = c->z[1], root = WIDE_ROOT((1 - x) * (1 + x)), ratio = x / root;
+    const bool same = s->axis == m->axis;
+    const iso_fine fine_x = iso_fine_of(same    ? x
+                                        : x < 0 ? root
+                                                : -root),
+                   fine_slope = iso_fine_of(same ? c->slope : c->slope * ratio * ratio);
+    const double r = fabs((double)ratio);
+    s->section_x = (double)x, s->section_m = (double)c->slope;
+    s->lambda = (double)(m->lambda * m->lambda);
+    s->x = fine_x.head, s->x_tail = fine_x.tail;
+    s->m = fine_slope.head, s->m_tail = fine_slope.tail;
+    s->error = same ? of_m : r * r * of_m + 2 * r * (1 + r * r) / (double)root * fabs(s->section_m) * of_x;
+    s->x_error = same ? of_x : r * of_x + m->code->error;
+    s->digits = digits;
+    s->from_zero = fabs(s->m) > 100 * s->error;
+}
+
+static iso_status compute(iso_manifold *m, const numbers *l, iso_manifold_crossing *c, iso_separatrix_splitting *s)
+{
+    iso_manifold_crossing again;
+    iso_status status = iso_manifold_refine(m, c);
+    if (status == ISO_OK) status = compute_again(m, l->other, c, &again);
+    if (status == ISO_OK) tell(m, c, &again, l->digits, s);
+    return status;
+}
+
+static iso_status check_digits(iso_context *ctx, iso_separatrix_digits digits)
+{
+    if (digits != ISO_SEPARATRIX_QUAD || iso_return_code_of(true)) return ISO_OK;
+    return ISO_FAIL_ARGUMENT(ctx, "digits", "splitting: this build has no numbers of 128 bits");
+}
+
+/* Where there are numbers of 128 bits. */
+static iso_status compute_finer(iso_manifold *m, iso_manifold_crossing *c, iso_separatrix_splitting *s)
+{
+    iso_status status = iso_manifold_use(m, iso_return_code_of(true));
+    m->terms = with_106_bits.terms;
+    if (status == ISO_OK) status = iso_manifold_solve(m);
+    return status == ISO_OK ? compute(m, &with_106_bits, c, s) : status;
+}
+
+/* --- one k ------------------------------------------------------------------------------------------------------ */
+
+static void begin(double k, double level, iso_separatrix_splitting *s)
+{
+    memset(s, 0, sizeof *s);
+    s->k = k;
+    s->level = level;
+    s->lambda = s->x = s->m = s->section_x = s->section_m = s->error = s->x_error = s->next_l = s->next_x =
+        s->next_m = NAN;
+}
+
+/* With 128 bits, where they are asked for or needed. If they fail where only needed, what 64 bits tell stays. */
+static iso_status find_finer(iso_manifold *m, iso_manifold_crossing *c, iso_separatrix_digits digits,
+                             iso_separatrix_splitting *s)
+{
+    const bool unclear = !(fabs(s->m) >= 1000 * s->error);
+    const iso_manifold kept = *m;
+    const iso_manifold_crossing found = *c;
+    if (digits == ISO_SEPARATRIX_DOUBLE || (digits == ISO_SEPARATRIX_AUTO && !(unclear && iso_return_code_of(true))))
+        return ISO_OK;
+    const iso_status status = compute_finer(m, c, s);
+    if (status != ISO_NUMERICAL || digits == ISO_SEPARATRIX_QUAD) return status;
+    snprintf(s->words, sizeof s->words, "128 bits failed: %s", iso_context_message(m->ctx));
+    *m = kept;
+    *c = found;
+    return ISO_OK;
+}
+
+static void tell_next(const iso_manifold *m, const iso_manifold_crossing *n, iso_separatrix_splitting *s)
+{
+    s->next_l = (double)iso_wide_turned(n->z[0] + m->corner);
+    s->next_x = (double)n->z[1];
+    s->next_m = (double)n->slope;
+}
+
+static iso_status find(iso_context *ctx, const double J[3], iso_separatrix_digits digits, bool next,
+                       iso_separatrix_splitting *s)
+{
+    iso_manifold m;
+    iso_manifold_crossing c, n;
+    ISO_TRY(check_digits(ctx, digits));
+    ISO_TRY(iso_manifold_find(ctx, s->k, J, s->level, &m));
+    s->section = m.axis;
+    s->middle = m.corner == 0 ? (m.axis + 2) % 3 : (m.axis + 1) % 3;
+    s->axis = (s->middle + 1) % 3;
+    iso_status status = iso_manifold_first(&m, &c);
+    if (status == ISO_OK) status = compute(&m, &with_64_bits, &c, s);
+    if (status == ISO_OK) status = find_finer(&m, &c, digits, s);
+    if (status != ISO_OK || !next) return status;
+    status = iso_manifold_next(&m, &c, &n);
+    if (status == ISO_OK) tell_next(&m, &n, s);
+    return status == ISO_NUMERICAL ? ISO_OK : status;
+}
+
+static iso_status find_at(iso_context *ctx, double k, const double J[3], double level, iso_separatrix_digits digits,
+                          bool next, iso_separatrix_splitting *s)
+{
+    begin(k, level, s);
+    const iso_status status = find(ctx, J, digits, next, s);
+    if (status == ISO_OK) return ISO_OK;
+    begin(k, level, s);
+    s->status = status;
+    snprintf(s->words, sizeof s->words, "%s", iso_context_message(ctx));
+    return status;
+}
+
+iso_status iso_separatrix_at(iso_context *ctx, double k, const double J[3], double level,
+                             iso_separatrix_digits digits, iso_separatrix_splitting *s)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    return find_at(ctx, k, J, level, digits, false, s);
+}
+
+iso_status iso_separatrix_next_at(iso_context *ctx, double k, const double J[3], double level,
+                                  iso_separatrix_digits digits, iso_separatrix_splitting *s)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    return find_at(ctx, k, J, level, digits, true, s);
+}

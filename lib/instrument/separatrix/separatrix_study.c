@@ -1,0 +1,217 @@
+/* separatrix_study.c - the splitting by its name: lists of k and of levels, and its table (study/study.h). */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/rational_impl.h"
+#include "orbit/orbit_impl.h"
+#include "study/fields_impl.h"
+#include "study/level.h"
+#include "instrument/separatrix/separatrix_study_impl.h"
+
+enum { MOST = 100000 };
+
+/* --- what is typed ---------------------------------------------------------------------------------------------- */
+
+static bool set_digits(void *at, const char *text)
+{
+    int i = 0;
+    while (i < 3 && strcmp(text, iso_separatrix_digits_name(i)) != 0) i++;
+    *(iso_separatrix_digits *)at = (iso_separatrix_digits)i;
+    return i < 3;
+}
+
+static iso_status bad_list(iso_context *ctx, const iso_separatrix_list *list)
+{
+    return iso_context_fail(
+        ctx, ISO_BAD_ARGUMENT, "",
+        "--%s '%s': expected values and ranges A:B:STEP, STEP not 0, with commas between, at most "
+        "%d values: 0.25:3:0.25, or 1/3,1/2,-0.5",
+        list->name, list->text, MOST);
+}
+
+static iso_status append(iso_context *ctx, iso_separatrix_list *list, double x)
+{
+    double *more = realloc(list->x, (list->count + 1) * sizeof *more);
+    if (!more) return iso_context_no_memory(ctx, "%zu values of %s", list->count + 1, list->name);
+    list->x = more;
+    list->x[list->count++] = x;
+    return ISO_OK;
+}
+
+/* 0.1 + 2 0.1 shall be 0.3, -0.3 + 3 0.1 shall be 0, and 1/3 stay as it is. */
+static double rounded(double k, double step)
+{
+    char digits[ISO_NUMBER_SIZE];
+    double tidy;
+    if (fabs(k) < 1e-9 * fabs(step)) return 0;
+    iso_number_print_as(digits, k, 12);
+    return iso_number_read(digits, strlen(digits), &tidy) && fabs(tidy - k) < 1e-15 * fmax(1, fabs(k)) ? tidy : k;
+}
+
+/* A, or A, A + STEP, ... up to B, which a rounding error does not cut off. STEP goes towards B, whatever its sign. */
+static iso_status read_item(iso_context *ctx, const char *item, size_t length, iso_separatrix_list *list)
+{
+    double number[3];
+    int parts = 0;
+    for (const char *c = item; c <= item + length; parts++) {
+        const size_t left = (size_t)(item + length - c), part = strcspn(c, ":") < left ? strcspn(c, ":") : left;
+        if (parts == 3 || !iso_rational_read_double(c, part, &number[parts])) return bad_list(ctx, list);
+        c += part + 1;
+    }
+    if (parts == 1) return append(ctx, list, number[0]);
+    const double way = number[1] - number[0], step = copysign(number[2], way), steps = floor(way / step + 1e-9);
+    if (parts != 3 || number[2] == 0 || !(steps < MOST)) return bad_list(ctx, list);
+    iso_status status = ISO_OK;
+    for (double i = 0; i <= steps && status == ISO_OK; i++)
+        status = append(ctx, list, rounded(number[0] + i * step, step));
+    return status;
+}
+
+static iso_status read_list(iso_context *ctx, iso_separatrix_list *list)
+{
+    for (const char *c = list->text; c; c = *c ? c + 1 : NULL) {
+        const size_t length = strcspn(c, ",");
+        ISO_TRY(read_item(ctx, c, length, list));
+        if (list->count > MOST) return bad_list(ctx, list);
+        c += length;
+    }
+    return ISO_OK;
+}
+
+ISO_STUDY_BEGIN(iso_separatrix_request,
+                (iso_separatrix_request){.k = {.name = "k"}, .level = {.name = "level"}, iso_separatrix_defaults()})
+
+static void end(void *options)
+{
+    free(((iso_separatrix_request *)options)->k.x);
+    free(((iso_separatrix_request *)options)->level.x);
+}
+
+static iso_status prepare(iso_context *ctx, void *options)
+{
+    iso_separatrix_request *r = options;
+    ISO_TRY(read_list(ctx, &r->k));
+    ISO_TRY(read_list(ctx, &r->level));
+    if (r->k.count <= 1 || r->level.count <= 1) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
+                            "--k has %zu values and --level %zu: give many k and one level, or one k and many "
+                            "levels",
+                            r->k.count, r->level.count);
+}
+
+/* Copies a list, or the scene's own number, to `count` places. */
+static double *repeated(const iso_separatrix_list *list, double own, size_t count)
+{
+    double *x = malloc((count + 1) * sizeof *x);
+    for (size_t i = 0; x && i < count; i++) x[i] = list->count == 0 ? own : list->x[list->count > 1 ? i : 0];
+    return x;
+}
+
+/* --- what is found ---------------------------------------------------------------------------------------------- */
+
+bool iso_separatrix_by_level(const iso_separatrix_table *s)
+{
+    bool differ = false;
+    for (size_t i = 1; i < s->rows; i++) differ = differ || s->row[i].level != s->row[0].level;
+    return differ;
+}
+
+/* A row for each k or level that did not fail, then one for each zero. */
+static iso_status put_rows(iso_context *ctx, const iso_separatrix_table *s, iso_record *table)
+{
+    iso_status status = ISO_OK;
+    for (size_t i = 0; status == ISO_OK && i < s->rows + s->zeros; i++) {
+        const iso_separatrix_splitting *row = i < s->rows ? &s->row[i] : &s->zero[i - s->rows];
+        if (row->status == ISO_OK) status = iso_columns_append(ctx, iso_separatrix_fields, row, table);
+    }
+    return status;
+}
+
+/* All rows failed: the first one's reason is that of the study. Some: they are told. */
+static iso_status judge(iso_context *ctx, const iso_separatrix_table *s, iso_study_result *result)
+{
+    size_t failed = 0, first = s->rows;
+    for (size_t i = 0; i < s->rows; i++) {
+        if (s->row[i].status == ISO_OK || s->row[i].status == ISO_STOPPED) continue;
+        if (failed++ == 0) first = i;
+    }
+    if (failed > 0 && failed == s->rows)
+        return iso_context_fail(ctx, s->row[first].status, "", "%s", s->row[first].words);
+    result->failed = failed > 0;
+    if (failed > 0)
+        iso_study_note(result, "%zu of %zu values of %s failed: %s", failed, s->rows,
+                       iso_separatrix_by_level(s) ? "the level" : "k", s->row[first].words);
+    if (s->lost > 0) iso_study_note(result, "%zu zeros of m lie between these values, but were not found", s->lost);
+    return ISO_OK;
+}
+
+static void free_table(void *found)
+{
+    iso_separatrix_free(found);
+}
+
+static iso_status find(iso_context *ctx, const iso_scene *scene, const iso_separatrix_options *how,
+                       iso_study_result *result)
+{
+    iso_field fields[ISO_MOST_FIELDS];
+    iso_separatrix_table *s = NULL;
+    const iso_status status = iso_separatrix_run(ctx, how, &s);
+    if (!iso_study_keep(result, s, iso_separatrix_table_fields, free_table)) return status;
+    iso_fields_copy(iso_separatrix_table_fields, "rows", fields);
+    iso_status made = iso_study_table(ctx, "splitting", scene, fields, s, iso_separatrix_fields, &result->table[0]);
+    if (made == ISO_OK) made = put_rows(ctx, s, result->table[0]);
+    if (made == ISO_OK) made = judge(ctx, s, result);
+    if (result->table[0] && iso_record_rows(result->table[0]) == 0)
+        iso_record_free(result->table[0]), result->table[0] = NULL;
+    return status == ISO_OK ? made : status;
+}
+
+static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
+                      iso_study_result *result)
+{
+    const iso_separatrix_request *r = options;
+    const iso_scene *scene = subject->scene;
+    iso_separatrix_options how = r->how;
+    double level = 0;
+    if (r->level.count == 0) ISO_TRY(iso_level_of_scene(ctx, scene, "the splitting is measured", &level));
+    how.count = r->level.count > 1 ? r->level.count : r->k.count > 1 ? r->k.count : 1;
+    double *k = repeated(&r->k, scene->params.k, how.count), *levels = repeated(&r->level, level, how.count);
+    how.k = k, how.level = levels;
+    for (int i = 0; i < 3; i++) how.J[i] = scene->params.J[i];
+    how.scene = scene;
+    how.progress = result->progress;
+    how.data = result->data;
+    const iso_status status =
+        k && levels ? find(ctx, scene, &how, result) : iso_context_no_memory(ctx, "%zu values", how.count);
+    free(k);
+    free(levels);
+    return status;
+}
+
+#define ROW(name, argument, expected, doc, set, member)                                                              \
+    ISO_OPTION(name, argument, expected, doc, set, iso_separatrix_request, member)
+
+const iso_option iso_splitting_option[] = {
+    ROW("k", "LIST", "values and ranges A:B:STEP",
+        "values of k in place of the scene's, with commas between: ranges A:B:STEP, numbers, fractions such as 1/3",
+        iso_set_text, k.text),
+    ROW("level", "LIST", "values and ranges A:B:STEP",
+        "levels in place of the scene's, at one k: a list like that of --k", iso_set_text, level.text),
+    ISO_OPTION_WORDS("digits", "D", "double, quad or auto",
+                     "double: 64 bits of mantissa (19 digits); quad: 128 bits (32 digits); auto: 128 bits where 64 "
+                     "give less than 3 digits of m (default)",
+                     set_digits, iso_separatrix_request, how.digits, iso_separatrix_digits_name),
+    ISO_OPTION_THREADS(iso_separatrix_request, how.threads),
+    ISO_OPTION_END,
+};
+
+const iso_study iso_splitting_study = {"splitting",
+                                       "measure how far the separatrix splits: why only k = 1 and k = -1",
+                                       iso_splitting_option,
+                                       sizeof(iso_separatrix_request),
+                                       begin,
+                                       end,
+                                       prepare,
+                                       run,
+                                       ISO_STUDY_OF_SCENE};

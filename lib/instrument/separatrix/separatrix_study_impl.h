@@ -1,0 +1,23 @@
+/* separatrix_study_impl.h - what the study of the splitting is asked. */
+#ifndef ISO_STUDY_SEPARATRIX_STUDY_IMPL_H
+#define ISO_STUDY_SEPARATRIX_STUDY_IMPL_H
+
+#include "study/options_impl.h"
+#include "instrument/separatrix/separatrix.h"
+
+/* Values of --k or --level: as they are typed (NULL: not given), and as numbers. */
+typedef struct iso_separatrix_list {
+    const char *name, *text;
+    double *x;
+    size_t count;
+} iso_separatrix_list;
+
+typedef struct iso_separatrix_request {
+    iso_separatrix_list k, level;
+    iso_separatrix_options how; /* digits and threads */
+} iso_separatrix_request;
+
+/* Whether the rows differ in the level, not in k. */
+bool iso_separatrix_by_level(const iso_separatrix_table *s);
+
+#endif

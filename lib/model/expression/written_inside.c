@@ -1,0 +1,140 @@
+/* written_inside.c - looks inside steps: how much the expressions of a scene vary where a step goes.
+ *
+ * A method chooses its steps by what it sees at a few places. An expression of the scene may have a feature between
+ * them, such as a narrow hill, a step or a wall, of which nothing shows there. So a method asks here how much the
+ * expressions vary over a box that holds the way of the step, or a part of it.
+ */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "model/model_impl.h"
+#include "model/expression/written_impl.h"
+
+/* A degree up to which a polynomial in n, omega and e is no narrower than the motion itself. */
+enum { FLAT_DEGREE = 12 };
+
+typedef struct drive {
+    iso_effect_id id;
+    int which;
+    iso_expression e;
+} drive;
+
+struct iso_inside {
+    char text[ISO_WRITTEN][ISO_EXPRESSIONS][ISO_EXPRESSION_SIZE]; /* of which `part` is made */
+    int parts;
+    drive part[ISO_WRITTEN * ISO_EXPRESSIONS];
+};
+
+static bool acts(const iso_effects *effects, iso_effect_id id)
+{
+    return iso_written_drives(effects, id) && !effects->idle[id];
+}
+
+bool iso_effects_written(const iso_effects *effects)
+{
+    bool any = false;
+    for (iso_effect_id id = 0; id < ISO_EFFECTS; id++) any = any || acts(effects, id);
+    return any;
+}
+
+/* Reads the texts, if they are not those that were read last. */
+static void read_texts(iso_inside *inside, const iso_effects *effects)
+{
+    bool same = inside->parts > 0;
+    for (int i = 0; i < ISO_WRITTEN; i++)
+        for (int j = 0; j < ISO_EXPRESSIONS; j++)
+            same = same && strcmp(inside->text[i][j], effects->written[i].expression[j]) == 0;
+    if (same) return;
+    inside->parts = 0;
+    for (int i = 0; i < ISO_WRITTEN; i++)
+        memcpy(inside->text[i], effects->written[i].expression, sizeof inside->text[i]);
+    for (iso_effect_id id = 0; id < ISO_EFFECTS; id++)
+        for (int i = 0; acts(effects, id) && iso_effect_list[id]->expressions[i]; i++) {
+            drive *p = &inside->part[inside->parts];
+            p->id = id, p->which = i;
+            if (iso_written_read(effects, id, i, &p->e)) inside->parts++; /* else the orbit is refused */
+        }
+}
+
+bool iso_inside_create(const iso_problem *f, iso_inside **inside)
+{
+    const bool any = iso_effects_written(&f->effects);
+    *inside = NULL;
+    if (any) *inside = calloc(1, sizeof **inside);
+    return !any || *inside;
+}
+
+void iso_inside_free(iso_inside *inside)
+{
+    free(inside);
+}
+
+bool iso_inside_flat(iso_inside *inside, const iso_problem *f)
+{
+    bool flat = true;
+    read_texts(inside, &f->effects);
+    for (int i = 0; i < inside->parts; i++) flat = flat && iso_expression_degree(&inside->part[i].e) <= FLAT_DEGREE;
+    return flat;
+}
+
+/* The largest change of an expression that does not matter: an energy U over that of the motion, or the change of omega
+ * by a torque in the time of the step, may be `least`. */
+static double negligible(const iso_problem *f, const drive *p, const iso_stretch *stretch, double speed, double least)
+{
+    const double *number = f->effects.number[p->id], W = number[ISO_WRITTEN_W];
+    const double unit = number[ISO_WRITTEN_J] * W * W, inertia = min3(f->p.J);
+    if (iso_effect_list[p->id]->potential) return least * unit * inertia * speed * speed;
+    return least * unit * inertia * speed / stretch->time;
+}
+
+double iso_inside_variation(iso_inside *inside, const iso_model *m, const iso_stretch *stretch, double least)
+{
+    const iso_problem *f = &m->problem;
+    const bool point = m->system == &iso_system_point;
+    double ball[ISO_MAX_STATE], most = 0;
+    read_texts(inside, &f->effects);
+    copy(stretch->y, ball, m->moving);
+    if (point) iso_point_to_point_t(&f->p, stretch->y, ball), iso_point_t_to_ball(&f->p, ball, ball);
+    const double speed = norm(ball) * (1 + stretch->omega / (norm(stretch->y) + DBL_MIN));
+    for (int i = 0; i < inside->parts; i++) {
+        const drive *p = &inside->part[i];
+        if (point && !iso_effect_list[p->id]->image) continue;
+        /* n = J^(1/2) gamma / |J^(1/2) gamma| moves at most (max J/min J)^(1/2) times as far as gamma */
+        const iso_expression_box box = {.middle = iso_written_state(f, p->id, ball),
+                                        .n = stretch->n * (point ? sqrt(max3(f->p.J) / min3(f->p.J)) : 1),
+                                        .omega = stretch->omega * f->effects.number[p->id][ISO_WRITTEN_W],
+                                        .e = stretch->e};
+        most = fmax(most, iso_expression_variation(&p->e, &box, negligible(f, p, stretch, speed, least)));
+    }
+    return most;
+}
+
+double iso_inside_longest(iso_inside *inside, const iso_model *m, int direction, const double y[], double least)
+{
+    const int up = m->problem.at[ISO_GRAVITY];
+    double dy[ISO_MAX_STATE], middle[ISO_MAX_STATE];
+    m->rhs(m, y, dy);
+    const double n = norm(dy + 3), omega = norm(dy), e = up > 0 ? norm(dy + up) : 0;
+    double h = 1 / (n + sqrt(omega)); /* about a radian, by the speed or from rest */
+    for (int i = 0; i < 64; i++, h /= 2) {
+        const double reach = 0.75 * h; /* from the middle; the rates may grow on the way */
+        for (int j = 0; j < m->moving; j++) middle[j] = y[j] + direction * h / 2 * dy[j];
+        const iso_stretch stretch = {.y = middle,
+                                     .n = reach * (n + h * omega),
+                                     .omega = reach * omega,
+                                     .e = e > 0 ? reach * (e + h * omega) : 0,
+                                     .time = h};
+        if (!(iso_inside_variation(inside, m, &stretch, least) > 1)) break;
+    }
+    return h;
+}
+
+bool iso_inside_is_lost(const iso_model *m, const double y[], double h)
+{
+    double dy[ISO_MAX_STATE];
+    m->rhs(m, y, dy);
+    return fabs(h) * (norm(dy + 3) + sqrt(norm(dy))) < 1e-8;
+}

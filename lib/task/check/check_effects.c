@@ -1,0 +1,205 @@
+/* check_effects.c - the columns of effects: each row integrated to the next, and compared; and what
+ * lines state of the energy and of the start, against a row. These numbers make no motion of their own, so that no flow
+ * shows when they are wrong. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "model/model_impl.h"
+#include "orbit/orbit_impl.h"
+#include "task/check/check_impl.h"
+
+/* Groups that are side by side and have one name in the report: `count` columns from `first` on. */
+typedef struct checked {
+    const iso_effect_column *group;
+    iso_effect_id effect;
+    int first, count;
+} checked;
+
+/* The size of the group that errors are measured by as well, which the radius carries into the units of this one:
+ * forces times it are torques. */
+static double other_size(const checker *c, const checked *k, const iso_sample *flow)
+{
+    const double radius = c->params->body.radius > 0 ? c->params->body.radius : 1;
+    const iso_effect_column *g;
+    double size = 0;
+    if (!k->group->sized_by) return 0;
+    const int first = iso_effect_group(k->effect, k->group->sized_by, &g);
+    for (int i = 0; i < g->count; i++)
+        size = fmax(size, fabs(iso_sample_column(flow, first + i)) * pow(radius, k->group->length - g->length));
+    return size;
+}
+
+/* What is compared: the number, or the angle of a ratio. */
+static double measured(const checked *k, double number)
+{
+    return k->group->ratio ? atan(number) : number;
+}
+
+static void check_columns(checker *c, iso_residuals *found, const checked *k, const iso_sample *flow,
+                          const double row[])
+{
+    bool any = false;
+    double error = 0, size = k->group->ratio ? 1 : other_size(c, k, flow);
+    char name[sizeof found->residual[0].name];
+    for (int i = k->first; i < k->first + k->count; i++) {
+        const double expected = measured(k, iso_sample_column(flow, i));
+        if (isnan(expected) || c->columns[i] < 0) continue;
+        const double there = measured(k, iso_checker_at(c, row, i));
+        any = c->looked[i] = true;
+        error = fmax(error, fabs(expected - there));
+        size = fmax(size, fmax(fabs(expected), fabs(there)));
+    }
+    snprintf(name, sizeof name, "%s flow", k->group->checked_as);
+    if (any && size > 0) iso_checker_note(found, name, "columns of effects, row to row", error / size, c->number);
+}
+
+static bool same_report(const iso_effect_column *a, const iso_effect_column *b)
+{
+    return b->name && a->checked_as && b->checked_as && strcmp(a->checked_as, b->checked_as) == 0;
+}
+
+void iso_checker_effects_flow(checker *c, iso_residuals *found, const iso_sample *flow, const double row[])
+{
+    int first = ISO_COLUMN_EFFECTS;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_column *g = iso_effect_list[e]->columns; g && g->name; g++) {
+            checked k = {.group = g, .effect = e, .first = first, .count = g->count};
+            for (; same_report(g, g + 1); g++) k.count += g[1].count;
+            if (g->checked_as) check_columns(c, found, &k, flow, row);
+            first += k.count;
+        }
+}
+
+void iso_checker_go_on(const checker *c, const double row[], iso_sample *flow)
+{
+    int column = ISO_COLUMN_EFFECTS;
+    for (iso_effect_id e = 0; c->params->k == 1 && e < ISO_EFFECTS; e++)
+        for (const iso_effect_column *g = iso_effect_list[e]->columns; g && g->name; column += g->count, g++)
+            for (int i = 0; g->moves && i < g->count; i++) {
+                const int from =
+                    c->columns[iso_effect_group(e, NULL, NULL) + i]; /* the centre lacks only its height b n */
+                const double there = iso_sample_column(flow, column + i);
+                iso_sample_set_column(flow, column + i, from < 0 ? NAN : there + row[from]);
+            }
+}
+
+bool iso_checker_has_effects(const checker *c)
+{
+    for (int i = ISO_COLUMN_EFFECTS; i < ISO_TRAJECTORY_COLUMNS; i++)
+        if (c->columns[i] >= 0) return true;
+    return false;
+}
+
+/* Whether an effect that acts on nothing can be asked for because its columns are there: no line has to state a
+ * number. */
+static bool is_shown(const checker *c, iso_effect_id id)
+{
+    const iso_effect *effect = iso_effect_list[id];
+    bool stated = false, there = false;
+    for (const iso_effect_number *n = effect->numbers; n && n->name; n++) stated = stated || !n->scene_only;
+    for (int i = iso_effect_first_column(id); i < iso_effect_first_column((iso_effect_id)(id + 1)); i++)
+        there = there || c->columns[ISO_COLUMN_EFFECTS + i] >= 0;
+    return there && !stated && (!effect->needs_D || c->params->D > 0);
+}
+
+void iso_checker_choose_observers(checker *c)
+{
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        if (iso_effect_list[e]->observes)
+            c->effects.on[e] =
+                (c->effects.on[e] && iso_columns_have_beginning(c->columns, c->params, e)) || is_shown(c, e);
+}
+
+/* --- lines: h, eps, c ------------------------------------------------------------------------------------------- */
+
+/* The energy h in own units that a line states, by itself or by eps; false: it does not, or *status. */
+static bool stated_energy(const checker *c, const iso_units *units, const char *key, double *h, iso_status *status)
+{
+    const bool eps = strcmp(key, "eps") == 0;
+    if (!iso_record_get_numbers(c->ctx, c->record, key, 1, h, status)) return false;
+    *h /= iso_unit(units, eps ? iso_dimension_eps : iso_dimension_h);
+    if (eps) *h = iso_energy(&units->own, *h);
+    return isfinite(*h);
+}
+
+/* How far the first row is from the energy h, relative to the size of its terms. A point has it if its H is that of
+ * its level. */
+static double off_energy(const checked_model *m, const double own[], double h)
+{
+    double size;
+    iso_problem f = m->expect.problem;
+    const bool ball = m->kind == ISO_BALL;
+    if (!ball) f.eps = iso_coupling(&f.p, h);
+    const double here = m->system->energy(&f, own, &size), wanted = ball ? h : m->expect.level;
+    return here == wanted ? 0 : fabs(here - wanted) / fmax(size, fabs(wanted));
+}
+
+/* A free point may have any H: then only h and eps can be compared, with each other. */
+static void take_level(checked_model *m, const double own[], double eps)
+{
+    double size;
+    iso_problem f = m->expect.problem;
+    f.eps = eps;
+    m->expect.level = m->system->energy(&f, own, &size);
+}
+
+static void note_line(checker *c, checked_model *m, const char *key, const char *what, double off)
+{
+    char name[sizeof m->found.residual[0].name];
+    snprintf(name, sizeof name, "# %s", key);
+    iso_checker_note(&m->found, name, what, off, c->number);
+}
+
+iso_status iso_checker_energy(checker *c, checked_model *m, const double first[])
+{
+    const iso_units *units = iso_orbit_units(m->orbit);
+    const bool ball = m->kind == ISO_BALL, level = iso_effects_have_level(&c->stated);
+    const bool any_level = !ball && !m->expect.on_level;
+    const char *what = any_level ? "h and eps of the file, against each other" : "this line, against the first row";
+    double h, eps, own[ISO_MAX_STATE], least = INFINITY;
+    iso_status status = ISO_OK;
+    const bool has_h = stated_energy(c, units, "h", &h, &status);
+    const bool has_eps = status == ISO_OK && stated_energy(c, units, "eps", &eps, &status);
+    if (status != ISO_OK || !iso_orbit_has_twin(m->orbit) || (!ball && c->model[ISO_BALL].there)) return status;
+    iso_checker_own(c, &m->expect, first, own);
+    if (any_level) { /* nothing but the other of the two can be compared with it; the flow depends on eps */
+        if (!has_h || !has_eps) return ISO_OK;
+        take_level(m, own, iso_coupling(&units->own, eps));
+    }
+    if (has_h) note_line(c, m, "h", what, least = off_energy(m, own, h));
+    if (has_eps) note_line(c, m, "eps", what, off_energy(m, own, any_level ? h : eps));
+    if (has_eps) least = fmin(least, off_energy(m, own, eps));
+    char key[ISO_NAME_SIZE];
+    const iso_effect *of_level = level ? iso_effect_list[iso_effect_find(iso_level_name())] : NULL;
+    if (!level || isinf(least)) return ISO_OK;
+    iso_effect_line(key, of_level, of_level->numbers->name);
+    note_line(c, m, key, "this line, against the first row and h or eps", least);
+    return ISO_OK;
+}
+
+/* --- lines: the start ------------------------------------------------------------------------------------------- */
+
+static void compare_beginning(checker *c, checked_model *ball, iso_effect_id id, const iso_effect_number *n,
+                              const double row[])
+{
+    const int column = iso_effect_group(id, n->turns_with, NULL);
+    double error = 0, size = 0;
+    char key[ISO_NAME_SIZE];
+    for (int i = 0; i < n->count; i++) {
+        const double stated = iso_effect_values(&c->stated, id, n)[i], there = iso_checker_at(c, row, column + i);
+        error = fmax(error, fabs(there - stated));
+        size = fmax(size, fmax(fabs(there), fabs(stated)));
+    }
+    iso_effect_line(key, iso_effect_list[id], n->name);
+    note_line(c, ball, key, "this line, against the row at time 0", size > 0 ? error / size : 0);
+}
+
+void iso_checker_beginning(checker *c, checked_model *ball, const double row[])
+{
+    if (ball->clock < 0 || iso_checker_at(c, row, ball->clock) != 0) return;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; c->stated.on[e] && n && n->name; n++)
+            if (n->turns_with && iso_columns_have_group(c->columns, e, n->turns_with))
+                compare_beginning(c, ball, e, n, row);
+}

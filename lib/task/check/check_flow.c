@@ -1,0 +1,160 @@
+/* check_flow.c - from each row to the next: the state and the other clocks (check_impl.h).
+ *
+ * Two-point Taylor quadrature (method/two_point_impl.h) tells in about a microsecond how far a row is from the orbit
+ * of the row before it. That is a sieve: rows which are off by more than half of the worst so far are integrated from
+ * the row before, and what is reported comes from these integrations alone. So the numbers do not depend on the
+ * quadrature, and few rows of a good trajectory are integrated. Rows far apart, and models with states or columns of
+ * effects, are always integrated. */
+#include <math.h>
+#include <stdio.h>
+
+#include "method/methods_impl.h"
+#include "task/convert/convert.h"
+#include "orbit/orbit_impl.h"
+#include "task/check/check_impl.h"
+
+/* Of the worst so far. */
+static const double SIEVE = 0.5;
+/* The quadrature's own measure of a defect is that of the integration as long as the state moves little: by so much
+ * of its length. */
+static const double NEAR = 0.5;
+
+/* --- by integration --------------------------------------------------------------------------------------------- */
+
+static iso_orbit_options options_of(const checker *c, const checked_model *m, const iso_start *start,
+                                    const iso_effects *effects)
+{
+    iso_orbit_options o = iso_orbit_defaults(start);
+    o.effects = effects;
+    o.tolerance = c->tolerance;
+    o.method = m->method;
+    if (m->clock >= 0) o.clock = (iso_clock)m->clock;
+    o.max_steps = ISO_MAX_ROW_STEPS;
+    for (int k = 0; k < ISO_CLOCKS; k++) o.with_clock[k] = k != m->clock && c->columns[k] >= 0;
+    return o;
+}
+
+iso_status iso_checker_open(const checker *c, const checked_model *m, const double row[], iso_orbit **orbit)
+{
+    iso_start start;
+    iso_effects effects = iso_checker_effects(c, m->kind);
+    ISO_TRY(iso_record_start_at(c->ctx, c->record, c->params, m->kind, row, &start, &effects));
+    iso_orbit_options o = options_of(c, m, &start, &effects);
+    iso_status status = iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
+    if (status != ISO_NOT_MAPPED) return status;
+    for (int k = 0; k < ISO_CLOCKS; k++) o.with_clock[k] = false;
+    return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
+}
+
+/* Names the row whose numbers are refused. */
+static iso_status name_row(const checker *c, iso_status status, size_t number)
+{
+    if (status == ISO_OK) return ISO_OK;
+    if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT; /* the number that is refused stands in the file */
+    return iso_context_fail(c->ctx, status, "", "row %zu: %s", number, iso_context_message(c->ctx));
+}
+
+/* The columns of effects in a row to which nothing is integrated: they belong to its state. */
+static iso_status check_alone(checker *c, checked_model *m, const double row[])
+{
+    iso_sample sample;
+    iso_orbit *orbit = NULL;
+    if (m->kind != ISO_BALL || !iso_checker_has_effects(c)) return ISO_OK;
+    iso_status status = iso_checker_open(c, m, row, &orbit);
+    if (status == ISO_OK) status = iso_orbit_at(orbit, 0, &sample);
+    iso_orbit_free(orbit);
+    ISO_TRY(name_row(c, status, c->number));
+    iso_checker_go_on(c, row, &sample);
+    iso_checker_effects_flow(c, &m->found, &sample, row);
+    return ISO_OK;
+}
+
+static iso_status check_step(checker *c, checked_model *m, const double row[])
+{
+    iso_row_gap gap;
+    char name[sizeof m->found.residual[0].name];
+    ISO_TRY(name_row(c, iso_rows_integrate(&m->rows, &gap), c->before));
+    m->followed = c->looked[m->clock] = true;
+    snprintf(name, sizeof name, "%s flow", iso_model_kind_name((int)m->kind));
+    iso_checker_note(&m->found, name, "each row integrated to the next", gap.miss, c->number);
+    iso_checker_go_on(c, m->rows.last, &gap.reached);
+    iso_checker_effects_flow(c, &m->found, &gap.reached, row);
+    for (int k = 0; k < ISO_CLOCKS; k++) {
+        if (k == m->clock || c->columns[k] < 0 || isnan(gap.gained[k])) continue;
+        c->looked[k] = true;
+        snprintf(name, sizeof name, "clock %s", iso_clock_name((iso_clock)k));
+        const double step = iso_checker_at(c, row, k) - iso_checker_at(c, m->rows.last, k);
+        iso_checker_note(&m->found, name, "its steps, from the equations of motion", step - gap.gained[k],
+                         c->number); /* divided by the clock's span at the end */
+    }
+    return ISO_OK;
+}
+
+/* --- by quadrature ---------------------------------------------------------------------------------------------- */
+
+/* The state moves little from the last row to this one. */
+static bool is_near(const checker *c, const checked_model *m, const double row[])
+{
+    double a[ISO_STATE], b[ISO_STATE];
+    iso_row_state(c->columns, m->kind, m->rows.last, a);
+    iso_row_state(c->columns, m->kind, row, b);
+    return iso_distance(a, b) <= NEAR;
+}
+
+/* How far the clock's step in the rows is from that of the quadrature. */
+static double clock_defect(const checker *c, const checked_model *m, const iso_row_gap *gap, int k,
+                           const double row[])
+{
+    if (k == m->clock || c->columns[k] < 0 || isnan(gap->gained[k])) return 0;
+    return fabs(iso_checker_at(c, row, k) - iso_checker_at(c, m->rows.last, k) - gap->gained[k]);
+}
+
+/* Whether the row is so near to the orbit of the last one that it needs no integration. */
+static bool passes(checker *c, checked_model *m, const double row[])
+{
+    iso_row_gap gap;
+    if (!m->followed || !is_near(c, m, row) || !iso_rows_measure(&m->rows, 0, &gap)) return false;
+    bool good = gap.miss <= SIEVE * m->seen;
+    for (int k = 0; k < ISO_CLOCKS; k++) good = good && clock_defect(c, m, &gap, k, row) <= SIEVE * m->seen_clock[k];
+    if (good) return true;
+    m->seen = fmax(m->seen, gap.miss);
+    for (int k = 0; k < ISO_CLOCKS; k++) m->seen_clock[k] = fmax(m->seen_clock[k], clock_defect(c, m, &gap, k, row));
+    return false;
+}
+
+static iso_status open_at(void *data, const double row[], iso_orbit **orbit)
+{
+    const checked_model *m = data;
+    return iso_checker_open(m->checker, m, row, orbit);
+}
+
+iso_status iso_checker_flow_begin(checker *c, checked_model *m, const double first[])
+{
+    iso_orbit *orbit = NULL;
+    iso_status status = check_alone(c, m, first);
+    if (m->clock < 0 || status != ISO_OK) return status;
+    iso_rows_free(&m->rows);
+    m->rows = (iso_rows){.ctx = c->ctx,
+                         .model = m->kind,
+                         .clock = (iso_clock)m->clock,
+                         .columns = c->columns,
+                         .width = c->width,
+                         .alone = iso_checker_has_effects(c),
+                         .open = open_at,
+                         .data = m};
+    status = iso_checker_open(c, m, first, &orbit);
+    if (status == ISO_NO_MEMORY) return status; /* what else is wrong is said when the row is integrated */
+    m->method = orbit ? iso_method_of_other_kind(iso_orbit_model(orbit)) : NULL;
+    status = iso_rows_begin(&m->rows, orbit, first, c->tolerance);
+    iso_orbit_free(orbit);
+    return status;
+}
+
+iso_status iso_checker_flow(checker *c, checked_model *m, const double row[])
+{
+    if (m->clock < 0) return check_alone(c, m, row);
+    iso_rows_take(&m->rows, row);
+    const iso_status status = passes(c, m, row) ? ISO_OK : check_step(c, m, row);
+    iso_rows_keep(&m->rows);
+    return status;
+}

@@ -1,0 +1,185 @@
+/* check_study.c - check by its name: what options add to the lines of a trajectory, its rows one after the other, and
+ * its residuals as a table (study/study.h). */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "orbit/description.h"
+#include "study/added_impl.h"
+#include "task/check/check_impl.h"
+#include "study/fields_impl.h"
+
+/* --- what is found ---------------------------------------------------------------------------------------------- */
+
+bool iso_checked_is_bad(const void *checked)
+{
+    const iso_checked *c = checked;
+    return !isnan(c->bound) && !(c->residual.worst <= c->bound);
+}
+
+const iso_field iso_checked_fields[] = {
+    ISO_STRUCT(iso_checked, "", residual, iso_residual_fields, "what is 0"),
+    ISO_IS("above_the_bound", iso_checked_is_bad, "whether it is larger than --max"),
+    ISO_FIELD_END,
+};
+
+static const iso_field name_field[] = {{.name = "", .type = ISO_FIELD_TEXT}, ISO_FIELD_END};
+
+#define FIELD(key, member, ...) ISO_MEMBER(iso_check_found, key, member, __VA_ARGS__)
+
+const iso_field iso_check_fields[] = {
+    FIELD("rows", rows, "", "of the file"),
+    FIELD("passed_over", passed, "", "rows of nan"),
+    FIELD("bound", bound, "", "of --max"),
+    ISO_LIST(iso_check_found, "residuals", checked, count, iso_checked_fields, "all"),
+    ISO_LIST_AT(iso_check_found, "not_looked_at", unseen, unseen_count, name_field, "on which no residual depends"),
+    ISO_FIELD_END,
+};
+#undef FIELD
+
+void iso_check_found_free(void *found)
+{
+    if (found) free(((iso_check_found *)found)->unseen);
+    free(found);
+}
+
+/* --- the rows --------------------------------------------------------------------------------------------------- */
+
+/* Names that find no memory are counted as lost. */
+typedef struct keeper {
+    iso_check_found *found;
+    bool lost;
+} keeper;
+
+static void keep_name(void *data, const char *name)
+{
+    keeper *k = data;
+    iso_check_found *f = k->found;
+    char(*more)[ISO_UNSEEN_SIZE] = realloc(f->unseen, (f->unseen_count + 1) * sizeof *more);
+    k->lost = k->lost || !more;
+    if (!more) return;
+    f->unseen = more;
+    snprintf(more[f->unseen_count++], sizeof *more, "%s", name);
+}
+
+/* Columns that are none of a trajectory never come so far that they could be compared. */
+static iso_status end_check(iso_context *ctx, iso_checking *checking, const char *ignored, iso_check_found *f)
+{
+    iso_residuals all;
+    keeper k = {f, false};
+    ISO_TRY(iso_checking_end(checking, &all));
+    f->rows = all.rows;
+    f->passed = all.passed;
+    f->count = all.count;
+    for (int i = 0; i < all.count; i++) f->checked[i] = (iso_checked){all.residual[i], f->bound};
+    char words[ISO_UNSEEN_SIZE];
+    snprintf(words, sizeof words, "other columns: %s", ignored ? ignored : "");
+    if (ignored) keep_name(&k, words);
+    iso_checking_unseen(checking, keep_name, &k);
+    return k.lost ? iso_context_no_memory(ctx, "the names of what is not looked at") : ISO_OK;
+}
+
+iso_status iso_check_rows(iso_context *ctx, const iso_check_request *r, const iso_scene *scene, iso_record *header,
+                          const iso_check_source *from, iso_check_found *f)
+{
+    iso_params params;
+    iso_checking *checking = NULL;
+    iso_check_row row = {.passed = 0};
+    size_t passed = 0;
+    f->bound = r->bound;
+    row.number = calloc(iso_record_columns(header) + 1, sizeof *row.number);
+    iso_status status = row.number ? from->next(ctx, from->data, &row) : iso_context_no_memory(ctx, "a row");
+    if (status == ISO_OK) status = iso_added_params(ctx, &r->added, scene, header, &params);
+    if (status == ISO_OK) status = iso_checking_create(ctx, &params, header, r->tolerance, &checking);
+    while (status == ISO_OK) {
+        for (; passed < row.passed; passed++) iso_checking_pass(checking);
+        if (!row.more) break;
+        if (row.begins_orbit) iso_checking_begin_orbit(checking);
+        status = iso_checking_put(checking, row.number);
+        if (status == ISO_OK) status = from->next(ctx, from->data, &row);
+    }
+    if (status == ISO_OK) status = end_check(ctx, checking, row.ignored, f);
+    iso_checking_free(checking);
+    free(row.number);
+    return status;
+}
+
+/* --- the study -------------------------------------------------------------------------------------------------- */
+
+static void begin(void *options)
+{
+    *(iso_check_request *)options = (iso_check_request)ISO_CHECK_UNSET;
+}
+
+/* Rows of a record. */
+typedef struct place {
+    const iso_record *record;
+    const iso_study_result *result;
+    size_t row;
+} place;
+
+static bool is_nan(const double row[], size_t columns)
+{
+    size_t known = 0;
+    for (size_t i = 0; i < columns; i++) known += isnan(row[i]) ? 0 : 1;
+    return known == 0;
+}
+
+static iso_status next_row(iso_context *ctx, void *data, iso_check_row *row)
+{
+    place *at = data;
+    const size_t columns = iso_record_columns(at->record), rows = iso_record_rows(at->record);
+    const int orbit = iso_record_find(at->record, "orbit");
+    (void)ctx;
+    for (; at->row < rows && is_nan(iso_record_const_row(at->record, at->row), columns); at->row++) row->passed++;
+    row->more = at->row < rows;
+    if (!row->more) return ISO_OK;
+    const double *now = iso_record_const_row(at->record, at->row);
+    row->begins_orbit = orbit >= 0 && at->row > 0 && now[orbit] != row->number[orbit];
+    memcpy(row->number, now, columns * sizeof *now);
+    at->row++;
+    if (at->row % 1024 == 0) iso_study_progress(at->result, (double)at->row / (double)rows);
+    return ISO_OK;
+}
+
+static iso_status find(iso_context *ctx, const iso_study_subject *subject, const iso_check_request *r,
+                       const iso_study_result *result, iso_check_found *f)
+{
+    place at = {subject->record, result, 0};
+    const iso_check_source from = {next_row, &at};
+    iso_record *header;
+    ISO_TRY(iso_record_create_like(ctx, subject->record, 0, NULL, &header));
+    const iso_status status = iso_check_rows(ctx, r, subject->scene, header, &from, f);
+    iso_record_free(header);
+    return status;
+}
+
+static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
+                      iso_study_result *result)
+{
+    iso_field fields[ISO_MOST_FIELDS];
+    iso_check_found *f = iso_study_keep(result, calloc(1, sizeof *f), iso_check_fields, iso_check_found_free);
+    if (!f) return iso_context_no_memory(ctx, "a check");
+    ISO_TRY(find(ctx, subject, options, result, f));
+    iso_fields_copy(iso_check_fields, "residuals", fields);
+    iso_status status =
+        iso_study_table(ctx, "check", subject->scene, fields, f, iso_checked_fields, &result->table[0]);
+    for (int i = 0; i < f->count; i++) result->failed = result->failed || iso_checked_is_bad(&f->checked[i]);
+    for (int i = 0; status == ISO_OK && i < f->count; i++)
+        status = iso_columns_append(ctx, iso_checked_fields, &f->checked[i], result->table[0]);
+    return status;
+}
+
+const iso_option iso_check_option[] = {
+    ISO_OPTION_TOLERANCE("tolerance of the flow from row to row (default 1e-13)", iso_check_request, tolerance),
+    ISO_OPTIONS_ADDED(iso_check_request, added),
+    ISO_OPTION_ROW_TOLERANCE(iso_check_request, added),
+    ISO_OPTION("max", "X", "a number from 0 on", "exit with status 1 if a residual is larger than X", iso_set_bound,
+               iso_check_request, bound),
+    ISO_OPTION_END,
+};
+
+const iso_study iso_check_study = {
+    "check",    "test whether a trajectory solves its model",    iso_check_option, sizeof(iso_check_request), begin,
+    .run = run, .of = ISO_STUDY_OF_RECORD | ISO_STUDY_USES_SCENE};

@@ -1,0 +1,246 @@
+/* convert.c - the calls of a conversion: begin, one row after the other, end; and conversions of whole records. */
+#include "task/convert/convert.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
+#include "base/vec3_impl.h"
+#include "task/convert/convert_impl.h"
+#include "orbit/orbit_impl.h"
+
+/* The header, and the marks of rows before the first good one. */
+static iso_status begin(iso_conversion *c, const double row[], const conversion_row *r)
+{
+    iso_record *header;
+    iso_status status = ISO_OK;
+    c->rows = (iso_rows){.ctx = c->ctx,
+                         .model = c->from,
+                         .clock = c->own,
+                         .columns = c->columns,
+                         .width = iso_record_columns(c->in),
+                         .open = iso_conversion_open,
+                         .data = c};
+    if (c->own_column >= 0) status = iso_rows_begin(&c->rows, c->first, row, c->tolerance);
+    if (status == ISO_OK) status = iso_conversion_describe(c, r->time, &header);
+    if (status != ISO_OK) return status;
+    status = c->target.header(c->target.data, header);
+    iso_record_free(header);
+    c->begun = true;
+    for (; status == ISO_OK && c->marks > 0; c->marks--) status = c->target.row(c->target.data, NULL);
+    return status;
+}
+
+/* --- rows ------------------------------------------------------------------------------------------------------- */
+
+/* The first row fits, and three after it have other energies: then the file's eps or h is wrong, not these rows. */
+static bool is_eps_wrong(iso_conversion *c, const conversion_row *r)
+{
+    return r->other_energy && c->good == 1 && ++c->strangers == 3;
+}
+
+/* From the first good row on it is known which effects only observe. Those that break the isomorphism are refused. */
+static iso_status settle_effects(iso_conversion *c, const double row[])
+{
+    iso_start start;
+    iso_effects effects = c->effects;
+    if (c->settled || iso_record_start_at(c->ctx, c->in, c->params, c->from, row, &start, &effects) != ISO_OK)
+        return ISO_OK;
+    const iso_effect *e = iso_effects_breaking(&effects);
+    c->effects = iso_effects_acting(&effects);
+    c->settled = true;
+    if (!e) return ISO_OK;
+    return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "effects",
+                            "this trajectory was made with '%s', which breaks the isomorphism: %s", e->name,
+                            iso_effect_why_broken(e));
+}
+
+iso_status iso_conversion_put(iso_conversion *c, const double row[], size_t line)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    conversion_row r = {.line = line};
+    c->summary.rows++;
+    ISO_TRY(settle_effects(c, row));
+    iso_status status = iso_conversion_read_row(c, row, &r);
+    if (status != ISO_OK) return is_eps_wrong(c, &r) ? status : iso_conversion_bad(c, line, status);
+    c->good++;
+    if (!c->begun) status = begin(c, row, &r);
+    if (status != ISO_OK) return status;
+    return c->own_column >= 0 ? iso_conversion_follow(c, row, &r) : c->target.row(c->target.data, r.out);
+}
+
+iso_status iso_conversion_skip(iso_conversion *c)
+{
+    c->summary.rows++;
+    c->summary.bad++;
+    return iso_conversion_mark(c);
+}
+
+iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *summary)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    c->summary.checked = c->begun && c->own_column >= 0;
+    if (c->summary.checked) iso_conversion_settle(c);
+    c->summary.clock = c->other;
+    if (summary) *summary = c->summary;
+    if (c->begun) return ISO_OK;
+    if (c->first_words) return iso_context_fail(c->ctx, c->first_failure, "", "%s", c->first_words);
+    return ISO_FAIL_INPUT(c->ctx, "", c->summary.rows ? "no row could be read" : "the trajectory has no rows");
+}
+
+static void add_worst(iso_worst *all, const iso_worst *one)
+{
+    if (one->line > 0) iso_worst_note(all, one->value, one->line);
+}
+
+void iso_conversion_summary_add(iso_conversion_summary *all, const iso_conversion_summary *one)
+{
+    const iso_conversion_summary before = *all;
+    *all = *one;
+    if (before.rows == 0) return;
+    all->rows += before.rows;
+    all->bad += before.bad;
+    all->missed += before.missed;
+    if (before.missed > 0) all->missed_line = before.missed_line;
+    add_worst(&all->constraint, &before.constraint);
+    add_worst(&all->energy, &before.energy);
+    add_worst(&all->defect, &before.defect);
+    add_worst(&all->drift, &before.drift);
+    all->checked = all->checked || before.checked;
+    all->between += before.between;
+    all->integrated += before.integrated;
+    all->error = fmax(all->error, before.error);
+    if (before.stated_count == 0) return;
+    all->stated_count = before.stated_count;
+    memcpy(all->stated, before.stated, sizeof before.stated);
+}
+
+/* --- beginning and end ------------------------------------------------------------------------------------------ */
+
+static iso_status find_columns(iso_conversion *c)
+{
+    int state[ISO_STATE];
+    const iso_model_kind to = c->from == ISO_BALL ? ISO_POINT : ISO_BALL;
+    const iso_status status = iso_record_find_state(c->ctx, c->in, c->from, state);
+    if (status != ISO_OK && iso_record_find_state(c->ctx, c->in, to, state) == ISO_OK)
+        return ISO_FAIL_INPUT(c->ctx, "columns", "this is a %s's trajectory already", iso_model_kind_name((int)to));
+    if (status != ISO_OK) return iso_record_find_state(c->ctx, c->in, c->from, state);
+    iso_record_find_columns(c->in, c->columns);
+    c->own = c->from == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
+    c->other = c->from == ISO_BALL ? ISO_CLOCK_S : ISO_CLOCK_T;
+    c->own_column = c->columns[c->own];
+    c->other_column = c->columns[c->other];
+    c->summary.computed = c->own_column >= 0 && c->other_column < 0;
+    return ISO_OK;
+}
+
+static iso_status read_lines(iso_conversion *c)
+{
+    iso_status status = iso_record_effects(c->ctx, c->in, &c->effects);
+    c->stated_eps = NAN;
+    if (status == ISO_OK && c->from == ISO_POINT) {
+        double eps;
+        if (iso_record_coupling(c->ctx, c->in, c->params, &eps, &status)) c->stated_eps = eps;
+    }
+    return status;
+}
+
+iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header,
+                                 iso_model_kind to, const iso_conversion_options *options,
+                                 const iso_conversion_target *target, iso_conversion **conversion)
+{
+    iso_conversion *c = *conversion = calloc(1, sizeof *c);
+    if (!c) return iso_context_no_memory(ctx, "a conversion");
+    c->ctx = ctx;
+    c->params = params;
+    c->in = header;
+    c->target = *target;
+    c->from = to == ISO_BALL ? ISO_POINT : ISO_BALL;
+    iso_conversion_options own = iso_conversion_defaults();
+    iso_status status = iso_options_take(ctx, "iso_conversion_options", &own, sizeof own, options);
+    c->tolerance = own.tolerance;
+    c->row_tolerance = own.row_tolerance > 0 ? own.row_tolerance : iso_record_row_tolerance(header);
+    c->shift_J = own.shift_J;
+    const double miss = iso_rows_largest_miss(ctx, header, c->row_tolerance);
+    c->summary.max_defect = isnan(own.max_defect) ? miss : own.max_defect;
+    c->summary.max_drift = isnan(own.max_defect) ? miss : INFINITY;
+    if (status == ISO_OK) status = find_columns(c);
+    if (status == ISO_OK && c->shift_J && (c->from != ISO_POINT || params->k != -1))
+        status = ISO_FAIL_ARGUMENT(ctx, "shift-J", "energy can shift J for a point with k = -1 alone");
+    if (status == ISO_OK) status = read_lines(c);
+    if (status == ISO_OK) return ISO_OK;
+    iso_conversion_free(c);
+    *conversion = NULL;
+    return status;
+}
+
+void iso_conversion_free(iso_conversion *c)
+{
+    if (!c) return;
+    iso_rows_free(&c->rows);
+    iso_orbit_free(c->first);
+    free(c->first_words);
+    free(c);
+}
+
+/* --- whole records ---------------------------------------------------------------------------------------------- */
+
+typedef struct whole {
+    iso_context *ctx;
+    iso_record *out;
+    size_t first_row;
+} whole;
+
+static iso_status keep_header(void *data, const iso_record *header)
+{
+    whole *w = data;
+    return iso_record_create_like(w->ctx, header, 0, NULL, &w->out);
+}
+
+static iso_status keep_row(void *data, const double row[])
+{
+    whole *w = data;
+    return iso_record_add(w->ctx, w->out, 1, row);
+}
+
+static iso_status stop_at(void *data, size_t line, iso_status why, const char *words)
+{
+    const whole *w = data;
+    return iso_context_fail(w->ctx, why, "", "row %zu: %s", line - 1 + w->first_row, words);
+}
+
+/* A missed row ends nothing: the summary counts it. */
+static iso_status go_on(void *data, size_t line, const char *words)
+{
+    (void)data, (void)line, (void)words;
+    return ISO_OK;
+}
+
+iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
+                       double tolerance, iso_record **out)
+{
+    iso_conversion_options options = iso_conversion_defaults();
+    options.tolerance = tolerance;
+    return iso_convert_as(ctx, params, in, to, &options, NULL, out);
+}
+
+iso_status iso_convert_as(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
+                          const iso_conversion_options *options, iso_conversion_summary *summary, iso_record **out)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    whole w = {.ctx = ctx, .first_row = options->first_row};
+    const iso_conversion_target target = {keep_header, keep_row, stop_at, go_on, &w};
+    iso_conversion *c;
+    *out = NULL;
+    iso_status status = iso_conversion_create(ctx, params, in, to, options, &target, &c);
+    if (status != ISO_OK) return status;
+    for (size_t row = 0; status == ISO_OK && row < iso_record_rows(in); row++)
+        status = iso_conversion_put(c, iso_record_const_row(in, row), row + 1);
+    if (status == ISO_OK) status = iso_conversion_end(c, summary);
+    iso_conversion_free(c);
+    if (status != ISO_OK) iso_record_free(w.out), w.out = NULL;
+    *out = w.out;
+    return status;
+}

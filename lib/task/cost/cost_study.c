@@ -1,0 +1,159 @@
+/* cost_study.c - cost by its name: what is measured, in which order it is shown
+ * (study/study.h). */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/context_impl.h"
+#include "method/methods_impl.h"
+#include "orbit/orbit_impl.h"
+#include "task/cost/cost_impl.h"
+#include "study/fields_impl.h"
+
+/* --- cells and series -------------------------------------------------------------------------------------------- */
+
+bool iso_cost_has_failed(const iso_cost_cell *cell)
+{
+    return cell->status != ISO_OK && cell->status != ISO_STOPPED;
+}
+
+int iso_cost_count(const iso_cost *cost, bool (*is)(const iso_cost_cell *cell))
+{
+    int count = 0;
+    for (int i = 0; i < cost->cells; i++) count += is(&cost->cell[i]);
+    return count;
+}
+
+const iso_cost_cell *iso_cost_choose_steps(const iso_cost *cost, const iso_cost_series *series, double want)
+{
+    const iso_cost_cell *best = NULL;
+    const int first = series ? series->first : 0, end = series ? first + series->count : cost->cells;
+    for (int i = first; i < end; i++) {
+        const iso_cost_cell *c = &cost->cell[i];
+        if (c->method && iso_cost_reaches(cost, c, want) && (!best || c->total < best->total)) best = c;
+    }
+    return best;
+}
+
+static bool is_faster(const iso_cost *cost, const iso_cost_series *a, const iso_cost_series *b)
+{
+    static const double wants[] = {1e-9, 1e-6, 1e-3};
+    if (!a->method || !b->method) return !a->method && b->method;
+    for (int i = 0; i < 3; i++) {
+        const iso_cost_cell *x = iso_cost_choose_steps(cost, a, wants[i]),
+                            *y = iso_cost_choose_steps(cost, b, wants[i]);
+        if (x && y && x->total != y->total) return x->total < y->total;
+        if (!x != !y) return x != NULL;
+    }
+    return false;
+}
+
+static const iso_cost_series **sort_series(const iso_cost *cost)
+{
+    const iso_cost_series **series = calloc((size_t)cost->series_count + 1, sizeof *series);
+    for (int i = 0; series && i < cost->series_count; i++) {
+        int at = i;
+        for (; at > 0 && is_faster(cost, &cost->series[i], series[at - 1]); at--) series[at] = series[at - 1];
+        series[at] = &cost->series[i];
+    }
+    return series;
+}
+
+/* --- what is found ---------------------------------------------------------------------------------------------- */
+
+static const iso_field found_fields[] = {
+    ISO_STRUCT(iso_cost_found, "", cost, iso_cost_fields, "what was measured", .pointer = true),
+    ISO_MEMBER(iso_cost_found, "want", want, "", "the error that is wanted"),
+    ISO_STRUCT(iso_cost_found, "choice", choice, iso_cost_cell_fields, "the cheapest", .pointer = true),
+    ISO_FIELD_END,
+};
+
+static void free_found(void *found)
+{
+    iso_cost_found *f = found;
+    iso_cost_free(f->cost);
+    free(f->series);
+    free(f);
+}
+
+/* The lines of the table have all but the cells, which are its rows. */
+static iso_status put(iso_context *ctx, const iso_scene *scene, const iso_cost_found *f, iso_record **table)
+{
+    iso_field cost[ISO_MOST_FIELDS], fields[sizeof found_fields / sizeof *found_fields];
+    const iso_cost *c = f->cost;
+    iso_fields_copy(iso_cost_fields, "cells", cost);
+    memcpy(fields, found_fields, sizeof fields);
+    fields[0].fields = cost;
+    iso_status status = iso_study_table(ctx, "cost", scene, fields, f, iso_cost_cell_fields, table);
+    for (int l = 0; l < c->series_count; l++)
+        for (int i = f->series[l]->first; status == ISO_OK && i < f->series[l]->first + f->series[l]->count; i++)
+            status = iso_columns_append(ctx, iso_cost_cell_fields, &c->cell[i], *table);
+    return status;
+}
+
+/* --- the study -------------------------------------------------------------------------------------------------- */
+
+ISO_STUDY_BEGIN(iso_cost_request, (iso_cost_request){.change = ISO_SCENE_AS_IT_IS, .want = NAN})
+
+static void show(double share, const char *what, void *data)
+{
+    (void)what;
+    iso_study_progress(data, share);
+}
+
+static iso_cost_options options_of(const iso_cost_request *r, iso_study_result *result)
+{
+    iso_cost_options c = iso_cost_defaults();
+    c.quick = r->quick || !isnan(r->want);
+    if ((int)r->change.backend >= 0) c.backend = r->change.backend;
+    if (r->change.method) c.method = iso_method_find(r->change.method);
+    if (!isnan(r->change.tolerance)) c.tolerance = r->change.tolerance;
+    c.progress = show;
+    c.data = result;
+    return c;
+}
+
+/* Where nothing is measured there is no table. */
+static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
+                      iso_study_result *result)
+{
+    const iso_cost_request *r = options;
+    const iso_cost_options how = options_of(r, result);
+    iso_scene scene = *subject->scene;
+    iso_cost_found *f = iso_study_keep(result, calloc(1, sizeof *f), found_fields, free_found);
+    if (!f) return iso_context_no_memory(ctx, "a cost");
+    *f = (iso_cost_found){.want = r->want};
+    ISO_TRY(iso_scene_apply(ctx, &r->change, &scene));
+    iso_status status = iso_cost_measure(ctx, &scene, &how, &f->cost);
+    if (!f->cost || (status != ISO_OK && iso_cost_count(f->cost, iso_cost_is_measured) == 0)) return status;
+    f->series = sort_series(f->cost);
+    if (!f->series) return iso_context_no_memory(ctx, "a cost");
+    if (!isnan(r->want)) f->choice = iso_cost_choose(f->cost, r->want);
+    const bool lost = !f->cost->complete || iso_cost_count(f->cost, iso_cost_has_failed) > 0;
+    result->failed = isnan(r->want) ? lost : !f->choice;
+    const iso_status made = put(ctx, &scene, f, &result->table[0]);
+    return status == ISO_OK ? made : status;
+}
+
+#define ROW(name, argument, expected, doc, set, member)                                                              \
+    ISO_OPTION(name, argument, expected, doc, set, iso_cost_request, member)
+
+const iso_option iso_cost_option[] = {
+    ISO_OPTION_BACKEND(iso_cost_request, change),
+    ISO_OPTION_METHOD(iso_cost_request, change),
+    ISO_OPTION_TOLERANCE(ISO_TOLERANCE_OF_STEPS, iso_cost_request, change.tolerance),
+    ISO_OPTION_T_END(iso_cost_request, change),
+    ROW("quick", NULL, NULL, "measure three tolerances only: a few seconds", iso_set_flag, quick),
+    ROW("want", "X", "a positive number", "print only the cheapest choice with an error of at most X",
+        iso_set_positive, want),
+    ISO_OPTION_END,
+};
+
+const iso_study iso_cost_study = {"cost",
+                                  "measure error against time for every backend, method and tolerance",
+                                  iso_cost_option,
+                                  sizeof(iso_cost_request),
+                                  begin,
+                                  .run = run,
+                                  .of = ISO_STUDY_OF_SCENE};
