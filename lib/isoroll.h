@@ -39,28 +39,28 @@
 
 /* base: no physics */
 #include "base/api.h"
-#include "base/version.h"
-#include "base/status.h"
 #include "base/context.h"
-#include "base/record.h"
 #include "base/field.h"
+#include "base/record.h"
+#include "base/status.h"
+#include "base/version.h"
 
 /* model: what moves */
-#include "model/params.h"
 #include "model/effects/effect.h"
+#include "model/params.h"
 
 /* orbit: where the ball, or the point, is at any time */
-#include "orbit/scene.h"
-#include "orbit/orbit.h"
 #include "orbit/batch.h"
 #include "orbit/description.h"
-#include "task/convert/convert.h"
-
-/* study: all rows of a scene */
-#include "task/run.h"
+#include "orbit/orbit.h"
+#include "orbit/scene.h"
 
 /* io: scene and trajectory files */
 #include "io/scene_file.h"
 #include "io/table.h"
+
+/* task: all rows of a scene; the other model's rows */
+#include "task/convert/convert.h"
+#include "task/run.h"
 
 #endif

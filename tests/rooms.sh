@@ -20,7 +20,7 @@ find lib apps -name '*.[ch]' ! -path lib/isoroll.h -exec awk '
         known[folder, to] = 1; list[folder] = list[folder] " " to
     }
     END { for (f in files) print f, files[f] list[f] }' {} + |
-    awk 'BEGIN { n = split("base model map method method/taylor exact orbit study io sweep foreign apps", order, " ")
+    awk 'BEGIN { n = split("base model map method method/taylor exact orbit study io instrument task sweep picture api apps", order, " ")
                  for (i = 1; i <= n; i++) floor[order[i]] = i }
          { top = $1; sub(/\/.*/, "", top)
            m = split($0, word, " "); line = sprintf("  %-22s (%3d):", $1, $2)

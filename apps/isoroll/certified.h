@@ -2,9 +2,9 @@
 #ifndef ISOROLL_CERTIFIED_H
 #define ISOROLL_CERTIFIED_H
 
+#include "instrument/certify/certify_impl.h"
 #include "io/output_impl.h"
 #include "report.h"
-#include "instrument/certify/certify_impl.h"
 
 /* `out` is opened by the first line: before it nothing is written. */
 typedef struct certified_file {

@@ -4,7 +4,7 @@
 #include "command.h"
 #include "parameters.h"
 #include "say.h"
-#include "study/study_impl.h"
+#include "task/task_impl.h"
 
 typedef struct options {
     iso_analogue_request study;

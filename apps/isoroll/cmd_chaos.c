@@ -2,10 +2,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "instrument/chaos/chaos_impl.h"
 #include "plot/draw.h"
 #include "say.h"
 #include "shell.h"
-#include "instrument/chaos/chaos_impl.h"
 #include "study/study_impl.h"
 
 /* What chaos can be told. */

@@ -7,7 +7,7 @@
 #include "plot/draw.h"
 #include "say.h"
 #include "shell.h"
-#include "study/study_impl.h"
+#include "task/task_impl.h"
 
 /* What compare can be told. */
 typedef struct options {

@@ -5,9 +5,9 @@
 #include "base/number_impl.h"
 #include "certified.h"
 #include "file_kind.h"
-#include "task/convert/convert_impl.h"
 #include "parameters.h"
 #include "scene_options.h"
+#include "task/convert/convert_impl.h"
 
 typedef struct options {
     file_options from;

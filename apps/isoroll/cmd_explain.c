@@ -4,8 +4,8 @@
 
 #include "say.h"
 #include "shell.h"
-#include "task/explain/explain_impl.h"
 #include "sweep/sweep_impl.h"
+#include "task/explain/explain_impl.h"
 
 typedef struct options {
     iso_scene_request study;

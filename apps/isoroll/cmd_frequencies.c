@@ -3,11 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "instrument/frequencies/frequencies.h"
+#include "instrument/frequencies/momentum.h"
 #include "plot/draw.h"
 #include "say.h"
 #include "shell.h"
-#include "instrument/frequencies/frequencies.h"
-#include "instrument/frequencies/momentum.h"
 #include "study/options_impl.h"
 #include "study/study_impl.h"
 

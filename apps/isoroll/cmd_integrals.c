@@ -2,9 +2,9 @@
 #include <math.h>
 
 #include "base/number_impl.h"
+#include "instrument/integrals/integrals_impl.h"
 #include "say.h"
 #include "shell.h"
-#include "instrument/integrals/integrals_impl.h"
 #include "study/study_impl.h"
 
 /* What integrals can be told. */

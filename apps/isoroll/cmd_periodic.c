@@ -3,10 +3,10 @@
 #include <stdlib.h>
 
 #include "base/number_impl.h"
+#include "instrument/periodic/periodic_study_impl.h"
 #include "say.h"
 #include "scene_options.h"
 #include "shell.h"
-#include "instrument/periodic/periodic_study_impl.h"
 #include "study/study_impl.h"
 
 /* What periodic can be told. */

@@ -1,11 +1,11 @@
 /* isoroll prove - encloses the splitting of the separatrix: a proof that there is no further integral. */
 #include <string.h>
 
+#include "instrument/prove/prove_impl.h"
 #include "io/output_impl.h"
 #include "say.h"
 #include "scene_options.h"
 #include "shell.h"
-#include "instrument/prove/prove_impl.h"
 
 /* What prove can be told. */
 typedef struct options {

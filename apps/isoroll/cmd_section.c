@@ -3,13 +3,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "instrument/chaos/chaos.h"
+#include "instrument/section/section_impl.h"
 #include "picture/section_impl.h"
 #include "plot/draw.h"
 #include "say.h"
 #include "scene_options.h"
 #include "shell.h"
-#include "instrument/chaos/chaos.h"
-#include "instrument/section/section_impl.h"
 
 /* What section can be told. */
 typedef struct options {

@@ -2,12 +2,12 @@
 #include <math.h>
 
 #include "base/number_impl.h"
+#include "instrument/separatrix/separatrix_study_impl.h"
 #include "picture/picture_impl.h"
 #include "plot/draw.h"
 #include "say.h"
 #include "scene_options.h"
 #include "shell.h"
-#include "instrument/separatrix/separatrix_study_impl.h"
 
 /* What splitting can be told. */
 typedef struct options {

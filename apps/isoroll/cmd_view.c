@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "scene_options.h"
-#include "view.h"
+#include "view/view.h"
 
 typedef struct options {
     file_options from;

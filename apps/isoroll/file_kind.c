@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include "command.h"
-#include "io/table_impl.h"
 #include "instrument/certify/certify_impl.h"
+#include "io/table_impl.h"
 #include "sweep/sweep_impl.h"
 
 /* --- the kind --------------------------------------------------------------------------------------------------- */

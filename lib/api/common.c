@@ -3,8 +3,8 @@
 #include <string.h>
 #include <time.h>
 
-#include "base/nearest_impl.h"
 #include "api/foreign_impl.h"
+#include "base/nearest_impl.h"
 
 int iso_foreign_abi(void)
 {

@@ -3,8 +3,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/number_impl.h"
 #include "api/foreign_impl.h"
+#include "base/number_impl.h"
 #include "io/table_impl.h"
 #include "method/integrator_impl.h"
 #include "task/convert/convert_impl.h"

@@ -4,14 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "api/foreign_impl.h"
 #include "base/arithmetic_impl.h"
 #include "base/context_impl.h"
 #include "base/number_impl.h"
-#include "api/foreign_impl.h"
 #include "orbit/batch.h"
 #include "orbit/orbit_impl.h"
 #include "task/run.h"
-#include "study/study_impl.h"
+#include "task/task_impl.h"
 
 /* --- runs ------------------------------------------------------------------------------------------------------- */
 

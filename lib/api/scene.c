@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/arithmetic_impl.h"
 #include "api/foreign_impl.h"
+#include "base/arithmetic_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/scene_file.h"
 #include "orbit/orbit_impl.h"

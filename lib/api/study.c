@@ -3,12 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/nearest_impl.h"
 #include "api/foreign_impl.h"
+#include "base/nearest_impl.h"
 #include "study/study.h"
+#include "sweep/sweep_store_impl.h"
 #include "task/list/list_impl.h"
 #include "task/list/tables.h"
-#include "sweep/sweep_store_impl.h"
 
 /* --- asking ----------------------------------------------------------------------------------------------------- */
 

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
-#include "base/record_impl.h"
 #include "api/foreign_impl.h"
+#include "base/record_impl.h"
 #include "io/text_impl.h"
 #include "sweep/sweep_impl.h"
 #include "sweep/sweep_store_impl.h"

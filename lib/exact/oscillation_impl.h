@@ -31,12 +31,12 @@ typedef struct oscillation {
     real C, far[2];
     int rests;
     elliptic f;
-    real omega, start;        /* dtheta/dsigma; theta at sigma = 0                                         */
+    real omega, start;         /* dtheta/dsigma; theta at sigma = 0                                         */
     int modes, samples, terms; /* of beta; intervals of [0, pi] that resolve functions of theta; of gamma, z */
     real beta[MOST_XI_MODES + 1], *at; /* at: z where theta = pi j/samples                                 */
     double *gamma, *z;
     bool no_memory; /* for samples: why a solution failed */
-    int parts; /* of sn = sum sn_part[n] sin (n + 1/2) theta and cn likewise, in double precision; 0: not made */
+    int parts;      /* of sn = sum sn_part[n] sin (n + 1/2) theta and cn likewise, in double precision; 0: not made */
     double sn_part[MOST_PARTS], cn_part[MOST_PARTS];
 } oscillation;
 

@@ -27,17 +27,17 @@ enum { SEPARATION_ROOTS = 5 }; /* b1, b2, b3, al, be */
 typedef enum root_role { ROOT_SN, ROOT_CN, ROOT_DN, ROOT_BASE, ROOT_REST, ROOT_NONE } root_role;
 
 typedef struct separation {
-    int k, axis[3], handed;            /* axis[i]: the caller's axis with b[i]; 1: axes are right-handed       */
-    int unstable;                      /* on a separatrix: the caller's axis of its rotation; else -1          */
-    real before[ISO_CLOCKS];           /* clocks at sigma = 0                                                  */
-    real b[3], off[3];                 /* b_i, and b_i - b2: u and v are counted from b2                       */
+    int k, axis[3], handed;  /* axis[i]: the caller's axis with b[i]; 1: axes are right-handed       */
+    int unstable;            /* on a separatrix: the caller's axis of its rotation; else -1          */
+    real before[ISO_CLOCKS]; /* clocks at sigma = 0                                                  */
+    real b[3], off[3];       /* b_i, and b_i - b2: u and v are counted from b2                       */
     real eps, energy, c, distance, det;
-    real to_al[3], to_be[3], width;    /* b_j - al; be - b_j; be - al (k = 1: infinite)                        */
-    bool librates_low, below_b3;       /* al < b2: u turns at al, else v does; be < b3: v turns there, not at b3 */
-    oscillation coordinate[2];         /* u, v                                                                 */
+    real to_al[3], to_be[3], width; /* b_j - al; be - b_j; be - al (k = 1: infinite)                        */
+    bool librates_low, below_b3;    /* al < b2: u turns at al, else v does; be < b3: v turns there, not at b3 */
+    oscillation coordinate[2];      /* u, v                                                                 */
     root_role role[2][SEPARATION_ROOTS];
-    double size[2][SEPARATION_ROOTS];  /* what goes with sn, cn, dn or 1; of a rest its distance from cn's root */
-    double norm[3], gap, sign[3];      /* sqrt(product of |b_i - b_j|); of the roots between u and v; of gamma */
+    double size[2][SEPARATION_ROOTS]; /* what goes with sn, cn, dn or 1; of a rest its distance from cn's root */
+    double norm[3], gap, sign[3];     /* sqrt(product of |b_i - b_j|); of the roots between u and v; of gamma */
 } separation;
 
 /* From (M, gamma). The caller always releases it. False: too many terms would be needed. */

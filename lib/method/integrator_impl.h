@@ -70,8 +70,8 @@ struct iso_integrator {
 
     iso_inside *inside; /* expressions that the scene writes; NULL: none act                        */
     double longest;     /* of the next step, for methods that choose their steps; infinite: any     */
-    void *data;       /* the method's own                                                           */
-    iso_dense *dense; /* reaches times within a step; NULL where the method does                    */
+    void *data;         /* the method's own                                                           */
+    iso_dense *dense;   /* reaches times within a step; NULL where the method does                    */
 };
 
 /* The contract of iso_method.step: y holds the state at the end of the last step, after `start` that at time 0.

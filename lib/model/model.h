@@ -11,7 +11,7 @@
 #define ISO_MODEL_MODEL_H
 
 #include "../base/api.h"
-#include "effect.h"
+#include "effects/effect.h"
 
 ISO_C_BEGIN
 

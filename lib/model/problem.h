@@ -9,8 +9,8 @@
 #include <stdbool.h>
 
 #include "../base/api.h"
-#include "effect_list.h"
-#include "formula.h"
+#include "effects/effect_list.h"
+#include "formula/formula.h"
 #include "params.h"
 
 ISO_C_BEGIN

@@ -11,9 +11,9 @@
 #include <string.h>
 
 #include "base/number_impl.h"
+#include "instrument/frequencies/momentum.h"
 #include "orbit/description.h"
 #include "picture/picture_impl.h"
-#include "instrument/frequencies/momentum.h"
 
 enum { LABELLED = 3, WORD = 32 };
 

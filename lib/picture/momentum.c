@@ -6,8 +6,8 @@
  */
 #include <math.h>
 
-#include "picture/picture_impl.h"
 #include "instrument/frequencies/momentum.h"
+#include "picture/picture_impl.h"
 
 enum { PARTS = ISO_MOMENTUM_PARTS };
 

@@ -2,9 +2,9 @@
 #ifndef ISO_PICTURE_PICTURE_IMPL_H
 #define ISO_PICTURE_PICTURE_IMPL_H
 
+#include "instrument/frequencies/momentum.h"
 #include "model/params.h"
 #include "picture/picture.h"
-#include "instrument/frequencies/momentum.h"
 
 /* What is asked for. */
 typedef struct iso_picture_request {

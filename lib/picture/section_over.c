@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "instrument/separatrix/separatrix.h"
 #include "map/section_impl.h"
 #include "orbit/description.h"
 #include "picture/section_impl.h"
-#include "instrument/separatrix/separatrix.h"
 
 /* The tables of both sides, the ball's first. */
 typedef struct over {

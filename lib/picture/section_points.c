@@ -3,11 +3,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "instrument/section/section_impl.h"
 #include "map/section_impl.h"
 #include "model/effects/effects_impl.h"
 #include "orbit/description.h"
 #include "picture/section_impl.h"
-#include "instrument/section/section_impl.h"
 
 /* Rows that are kept, at most: more cannot be seen. With their images there may be twice as many. */
 enum { MOST = 200000 };

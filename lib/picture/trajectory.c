@@ -13,12 +13,12 @@
 #include <string.h>
 
 #include "base/vec3_impl.h"
-#include "task/convert/convert.h"
 #include "orbit/description.h"
 #include "orbit/orbit_impl.h"
 #include "picture/picture_impl.h"
-#include "task/check/check_impl.h"
 #include "study/energy.h"
+#include "task/check/check_impl.h"
+#include "task/convert/convert.h"
 
 static const char *const normal[] = {"n1", "n2", "n3"}, *const place[] = {"gamma1", "gamma2", "gamma3"},
                          *const trace[] = {"trace1", "trace2", "trace3"};

@@ -5,8 +5,6 @@
 #include <stdio.h>
 
 #include "map/section.h"
-#include "task/analogue.h"
-#include "task/compare.h"
 #include "study/error.h"
 #include "study/level.h"
 #include "study/verdict.h"
@@ -79,37 +77,6 @@ iso_status iso_level_problem(iso_context *ctx, const iso_scene *scene, const cha
 /* Errors: those of iso_refuse_beyond_level, iso_refuse_coupling and iso_orbit_create. */
 iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *what, iso_on_level *on);
 
-/* --- which backend `auto` means for the questions of a run (backend.c) ------------------------------------------ */
-
-/* What an orbit is asked for. */
-typedef struct iso_questions {
-    size_t rows;     /* this many times, ...                      */
-    double farthest; /* ... this one the farthest, caller's units */
-} iso_questions;
-
-/* The orbit, as `how` says. ISO_BACKEND_AUTO there is the cheapest backend for the questions. If it has no such
- * orbit, it is what iso_orbit_create takes for ISO_BACKEND_AUTO. Errors: those of iso_orbit_create. */
-iso_status iso_backend_open(iso_context *ctx, const iso_scene *scene, const iso_orbit_options *how,
-                            const iso_questions *questions, iso_orbit **orbit);
-
-/* --- the order in which an orbit is followed to times that come in any order (run.c) ---------------------------- */
-
-/* The orbit is followed away from its start, and keeps no ends of steps. For a time that lies behind, it begins at
- * the start again. So the order of the work is: times after the start, then those before it; on each side the nearer
- * times come first, and equal times as they are asked for. */
-
-/* A time asked for, and the row of the result that it belongs to. */
-typedef struct iso_asked_time {
-    double time;
-    size_t row;
-} iso_asked_time;
-
-/* Whether the times already stand in the order of the work. */
-bool iso_times_in_order(const double times[], size_t count);
-
-/* The times in the order of the work, for the caller to free; count is above 0. NULL: no memory. */
-iso_asked_time *iso_times_sorted(const double times[], size_t count);
-
 /* --- the errors of error.h (error.c) ---------------------------------------------------------------------------- */
 
 typedef struct iso_error_finder iso_error_finder;
@@ -133,50 +100,11 @@ iso_error iso_error_finder_read(const iso_error_finder *finder);
 
 /* --- in words --------------------------------------------------------------------------------------------------- */
 
-enum { ISO_COMPARISON_WORDS = 512 };
-
-/* The result of a comparison in one sentence, for people. True: it is the same orbit by all backends, since the largest
- * difference, *most, is within what the errors of the steps may add up to. False: the sentence says why not. */
-bool iso_comparison_words(const iso_scene *scene, const iso_comparison *c, double *most,
-                          char words[ISO_COMPARISON_WORDS]);
-
 /* "k = 1, J = 1 2 5" (effects.c). What was given reads back as the same doubles. What was computed from a body has 15
  * digits: the others are rounding. */
 void iso_params_print(FILE *to, const iso_params *params);
 
 /* Prints those that act, with their numbers and, if wanted, what they are. Prints nothing where none acts. */
 void iso_effects_print(FILE *to, const iso_effects *effects, bool docs);
-
-/* --- comparisons (compare_fields.c) ----------------------------------------------------------------------------- */
-
-/* Fields of a comparison, whose names depend on it: the largest differences. where: before the name; offset: of the
- * numbers. */
-typedef struct iso_worst_fields {
-    char name[ISO_DIFFERENCES - 1][ISO_COLUMN_SIZE];
-    iso_field field[ISO_DIFFERENCES];
-} iso_worst_fields;
-void iso_comparison_worst(const iso_comparison *c, const char *where, size_t offset, iso_worst_fields *w);
-
-/* --- the study analogue (analogue_study.c) ---------------------------------------------------------------------- */
-
-typedef struct iso_analogue_request {
-    double k, J[3], eps, neumann[3], energy; /* NAN: not given               */
-    double mass, radius;                     /* NAN: analogue chooses        */
-    bool level;
-} iso_analogue_request;
-
-/* Whether the options state a problem. If not, a scene must. */
-bool iso_analogue_is_stated(const iso_analogue_request *request);
-
-typedef struct iso_analogue_found {
-    iso_analogue analogue;
-    iso_analogue_ball ball;
-    const char *text; /* the scene of the ball, with a report in # lines; it is freed with the rest */
-} iso_analogue_found;
-
-/* --- analogue.c ------------------------------------------------------------------------------------------------- */
-
-/* Chooses what is NAN of mass and radius. a->room and a->reduced are known and have a body; start: of the point. */
-void iso_analogue_choose_units(const iso_analogue *a, const double start[ISO_STATE], double *mass, double *radius);
 
 #endif

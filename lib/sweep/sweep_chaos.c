@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "orbit/orbit_impl.h"
 #include "instrument/chaos/chaos_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/fields_impl.h"
 #include "sweep/sweep_impl.h"
 

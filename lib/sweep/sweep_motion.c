@@ -1,8 +1,8 @@
 /* sweep_motion.c - quantities of the free ball: frequencies, the splitting of the separatrix, the rotations. */
-#include "study/fields_impl.h"
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/periodic/periodic.h"
 #include "instrument/separatrix/separatrix.h"
+#include "study/fields_impl.h"
 #include "study/study_impl.h"
 #include "sweep/sweep_impl.h"
 

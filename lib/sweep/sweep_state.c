@@ -3,11 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "instrument/section/section.h"
 #include "orbit/orbit_impl.h"
+#include "sweep/sweep_impl.h"
 #include "task/compare.h"
 #include "task/run.h"
-#include "instrument/section/section.h"
-#include "sweep/sweep_impl.h"
 
 /* The scene with the end that the sweep asks for. */
 static iso_scene until(const iso_sweep_job *job, const iso_scene *scene)

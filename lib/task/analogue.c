@@ -13,7 +13,7 @@
 #include "map/state.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-#include "study/study_impl.h"
+#include "task/task_impl.h"
 
 /* The largest ratio of moments of a free ball with J = 2 E - c. The least moment is a difference, and loses as
  * many digits as the ratio has. */

@@ -8,7 +8,7 @@
 #include "base/number_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/options_impl.h"
-#include "study/study_impl.h"
+#include "task/task_impl.h"
 
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
 

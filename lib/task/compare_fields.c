@@ -7,7 +7,7 @@
 #include "orbit/orbit_impl.h"
 #include "study/fields_impl.h"
 #include "study/options_impl.h"
-#include "study/study_impl.h"
+#include "task/task_impl.h"
 
 /* --- one backend ------------------------------------------------------------------------------------------------ */
 

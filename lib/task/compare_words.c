@@ -5,7 +5,7 @@
 
 #include "base/number_impl.h"
 #include "orbit/orbit_impl.h"
-#include "study/study_impl.h"
+#include "task/task_impl.h"
 
 /* The largest difference in row i: of states and clocks, between any two backends. */
 static double row_worst(const iso_comparison *c, size_t i)

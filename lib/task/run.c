@@ -14,7 +14,7 @@
 #include "base/version.h"
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
-#include "study/study_impl.h"
+#include "task/task_impl.h"
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
 

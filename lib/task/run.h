@@ -13,7 +13,7 @@
 
 #include "../base/api.h"
 #include "../base/record.h"
-#include "error.h"
+#include "../study/error.h"
 
 ISO_C_BEGIN
 

@@ -7,12 +7,12 @@
 #include <string.h>
 
 #include "base/options_impl.h"
-#include "isoroll.h"
-#include "task/convert/convert_impl.h"
-#include "orbit/orbit_impl.h"
-#include "task/cost/cost.h"
 #include "instrument/frequencies/frequencies.h"
+#include "isoroll.h"
+#include "orbit/orbit_impl.h"
 #include "study/study_impl.h"
+#include "task/convert/convert_impl.h"
+#include "task/cost/cost.h"
 
 static void test_version(void)
 {

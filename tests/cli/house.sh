@@ -24,7 +24,7 @@ grep -rnE '^(<<<<<<<|>>>>>>>) ' README.md lib apps examples tests | complain "ma
 # of apps are part of the house and may include private ones. Sources and private headers write "floor/name.h"; public
 # ones "../floor/name.h" or "name.h", so that they work where installed.
 find lib apps examples -name '*.[ch]' ! -path lib/isoroll.h -exec awk '
-    BEGIN { n = split("base 0 model 1 map 2 method 2 exact 2 orbit 3 study 4 io 4 sweep 5 picture 6 foreign 7", f)
+    BEGIN { n = split("base 0 model 1 map 2 method 2 exact 2 orbit 3 study 4 io 4 instrument 5 task 6 sweep 7 picture 8 api 9", f)
             for (i = 1; i < n; i += 2) floor[f[i]] = f[i + 1] }
     /^[ \t]*#[ \t]*include[ \t]*"/ {
         split($0, quoted, "\""); split(FILENAME, from, "/"); path = quoted[2]; shape = "floor/name.h or floor/room/name.h"
@@ -33,6 +33,7 @@ find lib apps examples -name '*.[ch]' ! -path lib/isoroll.h -exec awk '
             room = FILENAME ~ /^lib\/[a-z]*\/[a-z0-9]*\// ? from[2] "/" from[3] : from[2]
             if (path !~ /\//) path = room "/" path
             else if (path ~ /^\.\.\/[^.]/ && room != from[2] && path !~ /^\.\.\/[a-z0-9]*\/[a-z0-9]*\//) sub(/^\.\./, from[2], path)
+            else if (path ~ /^[a-z]/) path = from[2] "/" path
             else if (!sub(/^(\.\.\/)+/, "", path)) path = ""
             if (path ~ /_impl\.h$/) print FILENAME ":" FNR ": " quoted[2] " is private, " FILENAME " is not"
         }
@@ -50,7 +51,7 @@ find lib -name '*.c' -exec grep -H '^#include "' {} + | awk -F '[:"]' '
     { from = substr($1, 5); to = $3
       split(from, f, "/"); split(to, t, "/")
       from = from ~ /\/.*\// ? f[1] "/" f[2] : f[1]; to = to ~ /\/.*\// ? t[1] "/" t[2] : t[1]
-      if (f[1] == t[1] && from != to && t[1] ~ /^(study|io)$/) print from, to }' |
+      if (f[1] == t[1] && from != to && t[1] ~ /^(instrument|task|io)$/) print from, to }' |
     sort -u | tsort 2>&1 >/dev/null | complain "rooms in a circle"
 find apps examples -name '*.[ch]' -exec grep -HnE 'include <isoroll/.*_impl\.h>' {} + | complain "floors"
 
@@ -139,7 +140,7 @@ fi
 sed -n 's/^#include "\(.*\)".*/\1/p' lib/isoroll.h | while read -r header; do
     [ -e "lib/$header" ] || echo "$header is not there"
 done | complain "lib/isoroll.h"
-awk -F '["/]' '/^#include "/ { place = index("base model map method exact orbit study io sweep", $2)
+awk -F '["/]' '/^#include "/ { place = index("base model map method exact orbit study io instrument task sweep", $2)
                               if (place < last) print $2 " stands too late"; last = place }' lib/isoroll.h |
     complain "lib/isoroll.h goes bottom-up"
 sed -n 's/^#include "\(.*\)".*/\1/p' lib/isoroll.h | grep '_impl\.h' | complain "lib/isoroll.h lists public headers only"

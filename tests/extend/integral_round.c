@@ -9,4 +9,3 @@ static double omega_square(const iso_problem *f, const double y[], double *size)
     (void)f;
     return *size = dot(y, y);
 }
-

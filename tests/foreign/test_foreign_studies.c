@@ -2,15 +2,15 @@
  * with structs, to the bit; sweeps; and what the library says of its studies, options and columns. */
 #include "api/foreign.h"
 
-#include "runs.h"
-#include "task/check/check.h"
-#include "task/compare.h"
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/integrals/integrals.h"
 #include "instrument/periodic/periodic.h"
 #include "instrument/periodic/stability_chart.h"
 #include "instrument/separatrix/separatrix.h"
+#include "runs.h"
 #include "study/study.h"
+#include "task/check/check.h"
+#include "task/compare.h"
 
 #define FREE REDUCED("0.5") TIME
 

@@ -7,11 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/scene_file.h"
-#include "orbit/crossings.h"
 #include "instrument/chaos/chaos.h"
 #include "instrument/section/section.h"
 #include "instrument/section/section_impl.h"
+#include "io/scene_file.h"
+#include "orbit/crossings.h"
 #include "study/study.h"
 #include "task/list/tables.h"
 

@@ -4,8 +4,8 @@
 
 #include "fuzz.h"
 #include "io/table.h"
-#include "task/convert/convert.h"
 #include "task/check/check.h"
+#include "task/convert/convert.h"
 
 enum { STEPS = 3000, ROWS = 200 };
 

@@ -8,17 +8,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "batches.h"
 #include "api/foreign.h"
+#include "batches.h"
 #include "hard.h"
+#include "instrument/frequencies/frequencies.h"
 #include "io/scene_file.h"
 #include "io/table.h"
-#include "task/convert/convert.h"
+#include "study/study_impl.h"
 #include "task/check/check.h"
 #include "task/compare.h"
+#include "task/convert/convert.h"
 #include "task/cost/cost.h"
-#include "instrument/frequencies/frequencies.h"
-#include "study/study_impl.h"
 
 static iso_context *ctx;
 static batch_pool pool;

@@ -4,16 +4,16 @@
 
 #include "base/number_impl.h"
 #include "hard.h"
+#include "instrument/frequencies/frequencies.h"
+#include "instrument/frequencies/frequencies_impl.h"
+#include "instrument/frequencies/momentum.h"
 #include "isoroll.h"
 #include "orbit/orbit_impl.h"
+#include "sweep.h"
 #include "task/analogue.h"
 #include "task/check/check.h"
 #include "task/compare.h"
 #include "task/cost/cost_impl.h"
-#include "instrument/frequencies/frequencies.h"
-#include "instrument/frequencies/frequencies_impl.h"
-#include "instrument/frequencies/momentum.h"
-#include "sweep.h"
 
 /* --- records ---------------------------------------------------------------------------------------------------- */
 

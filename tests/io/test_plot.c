@@ -275,8 +275,7 @@ static void test_sections(void)
     gsl_test(plot_tables(ctx, &page, (const iso_record *[]){none, NULL}, NULL) != ISO_BAD_INPUT, "no crossing");
     gsl_test((int)plot_tables(ctx, &page, (const iso_record *[]){r, point, NULL}, "points=4000\n"), "%s",
              iso_context_message(ctx));
-    gsl_test(!file_contains(path, "ball and point part: chaotic") ||
-                 !file_contains(path, "units of the scene"),
+    gsl_test(!file_contains(path, "ball and point part: chaotic") || !file_contains(path, "units of the scene"),
              "key and axes");
     gsl_test(!file_contains(path, "touch OWNED"), "a title is drawn as it is");
     gsl_test(file_contains(path, "<image"), "few points are points");

@@ -44,7 +44,8 @@ static bool place(iso_random *r, iso_point_motion m, int axis, double *l, double
 /* H = E, n_a = 0 rising, the chart comes back; deviations against differences, and their slopes. */
 static void points(iso_random *r, iso_point_motion m, int axis, double worst[3])
 {
-    double l, x, l1, x1, point[ISO_STATE], rate[ISO_STATE], moved[2][ISO_STATE], d[2][ISO_STATE], ball[ISO_STATE], size, slope[2];
+    double l, x, l1, x1, point[ISO_STATE], rate[ISO_STATE], moved[2][ISO_STATE], d[2][ISO_STATE], ball[ISO_STATE],
+        size, slope[2];
     const iso_problem problem = {.p = *m.p, .eps = m.eps, .energy = m.energy};
     if (!place(r, m, axis, &l, &x)) return;
     iso_section_point(m, axis, l, x, point);

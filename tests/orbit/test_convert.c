@@ -8,9 +8,9 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "task/convert/convert.h"
 #include "orbit/orbit_impl.h"
 #include "reference.h"
+#include "task/convert/convert.h"
 
 static const double J_three[3] = {1.4, 2.1, 3.0};
 

@@ -17,8 +17,8 @@
 #include "length.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
-#include "model/model_impl.h"
 #include "model/expression/written_impl.h"
+#include "model/model_impl.h"
 #include "orbit/batch.h"
 #include "orbit/orbit_impl.h"
 

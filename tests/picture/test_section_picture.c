@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/scene_file.h"
-#include "picture/section_impl.h"
 #include "instrument/chaos/chaos.h"
 #include "instrument/section/section_impl.h"
+#include "io/scene_file.h"
+#include "picture/section_impl.h"
 
 static iso_context *ctx;
 

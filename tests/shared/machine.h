@@ -11,16 +11,16 @@
 #include "base/number_impl.h"
 #include "batches.h"
 #include "hard.h"
+#include "instrument/frequencies/frequencies.h"
 #include "io/scene_file.h"
 #include "io/table.h"
-#include "task/convert/convert.h"
 #include "orbit/orbit_impl.h"
+#include "study/study_impl.h"
 #include "task/analogue.h"
 #include "task/check/check.h"
 #include "task/compare.h"
+#include "task/convert/convert.h"
 #include "task/cost/cost.h"
-#include "instrument/frequencies/frequencies.h"
-#include "study/study_impl.h"
 
 static iso_context *ctx;
 static batch_pool pool; /* filled before the machine's state is changed */

@@ -2,8 +2,8 @@
 #ifndef ISO_TESTS_PERIODICS_H
 #define ISO_TESTS_PERIODICS_H
 
-#include "studies.h"
 #include "instrument/periodic/periodic_impl.h"
+#include "studies.h"
 
 /* Ends the test when they are refused. */
 static inline iso_periodic *orbits_of(const iso_scene *scene, const iso_periodic_options *o)

@@ -2,8 +2,8 @@
 #ifndef ISO_TESTS_SEARCHES_H
 #define ISO_TESTS_SEARCHES_H
 
-#include "studies.h"
 #include "instrument/integrals/integrals.h"
+#include "studies.h"
 
 static const double searched_J[3] = {1.4, 2.1, 3};
 

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "base/random_impl.h"
+#include "instrument/section/section_impl.h"
 #include "laws.h"
 #include "length.h"
-#include "instrument/section/section_impl.h"
 
 static iso_context *ctx;
 

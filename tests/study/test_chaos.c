@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "length.h"
-#include "studies.h"
 #include "instrument/chaos/chaos.h"
 #include "instrument/chaos/chaos_impl.h"
+#include "length.h"
+#include "studies.h"
 
 static void check_indication(const iso_indication *i, const char *what)
 {

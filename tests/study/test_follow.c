@@ -1,8 +1,8 @@
 /* Following periodic orbits (lib/instrument/periodic/continuation.h): points of a branch are periodic orbits, events are where
  * their law says, branches that meet agree; refusals. */
 #define _GNU_SOURCE /* functions of _Float128 */
-#include "periodics.h"
 #include "instrument/periodic/continuation.h"
+#include "periodics.h"
 
 static const iso_branch_event *event_of(const iso_branch *b, iso_branch_kind kind)
 {

@@ -9,12 +9,12 @@
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "exact/coordinates_impl.h"
+#include "instrument/frequencies/frequencies.h"
+#include "instrument/frequencies/frequencies_impl.h"
 #include "length.h"
 #include "map/state.h"
 #include "numbers.h"
 #include "studies.h"
-#include "instrument/frequencies/frequencies.h"
-#include "instrument/frequencies/frequencies_impl.h"
 
 /* --- scenes ----------------------------------------------------------------------------------------------------- */
 

@@ -6,8 +6,8 @@
 
 #include "base/pi_impl.h"
 #include "base/random_impl.h"
-#include "length.h"
 #include "instrument/chaos/chaos_impl.h"
+#include "length.h"
 
 enum { TURNS = 3000 };
 

@@ -4,14 +4,14 @@
 
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
+#include "instrument/chaos/chaos.h"
+#include "instrument/section/section.h"
 #include "io/scene_file.h"
 #include "length.h"
 #include "map/section_impl.h"
 #include "orbit/orbit_impl.h"
 #include "studies.h"
-#include "instrument/chaos/chaos.h"
 #include "task/check/check.h"
-#include "instrument/section/section.h"
 
 static iso_scene scene_of(const char *text)
 {

@@ -7,6 +7,9 @@
 
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
+#include "instrument/periodic/continuation.h"
+#include "instrument/periodic/stability_chart.h"
+#include "instrument/separatrix/separatrix.h"
 #include "length.h"
 #include "map/section.h"
 #include "map/section_impl.h"
@@ -15,9 +18,6 @@
 #include "orbit/orbit.h"
 #include "periodics.h"
 #include "study/level.h"
-#include "instrument/periodic/continuation.h"
-#include "instrument/periodic/stability_chart.h"
-#include "instrument/separatrix/separatrix.h"
 
 /* A point of the section with eps and this level. */
 static iso_scene scene_on(double k, const double J[3], double eps, double level)

@@ -1,11 +1,11 @@
 /* Enclosures of the splitting, lib/instrument/prove/prove_impl.h: laws at k = 1 and -1, known values, the same number as
  * the splitting that is measured, refusals. */
 #include "base/random_impl.h"
+#include "instrument/prove/prove_impl.h"
+#include "instrument/separatrix/separatrix.h"
 #include "io/scene_file.h"
 #include "length.h"
 #include "studies.h"
-#include "instrument/prove/prove_impl.h"
-#include "instrument/separatrix/separatrix.h"
 
 static iso_proof_work work = {.most = 1000000};
 

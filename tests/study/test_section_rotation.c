@@ -1,8 +1,8 @@
 /* iso_section_rotation: circles whose number is known, mirror images, the frequencies of the closed solution; chaos, and
  * too few crossings, have none. */
-#include "studies.h"
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/section/section_impl.h"
+#include "studies.h"
 
 enum { MOST = 400 };
 

@@ -7,13 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "instrument/section/section_impl.h"
 #include "io/scene_file.h"
 #include "laws.h"
 #include "length.h"
-#include "orbit/orbit_impl.h"
 #include "map/state.h"
+#include "orbit/orbit_impl.h"
 #include "poisson.h"
-#include "instrument/section/section_impl.h"
 
 static iso_context *ctx;
 

@@ -7,9 +7,9 @@
 #include <string.h>
 
 #include "base/pi_impl.h"
+#include "instrument/chaos/chaos_impl.h"
 #include "laws.h"
 #include "length.h"
-#include "instrument/chaos/chaos_impl.h"
 
 /* u: the part of the area below the angle, v = (1 + x)/2; both are uniform on (0, 1). */
 typedef struct set {

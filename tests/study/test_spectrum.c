@@ -1,6 +1,6 @@
 /* Lines of made signals, lib/instrument/frequencies/spectrum.h. */
-#include "studies.h"
 #include "instrument/frequencies/frequencies_impl.h"
+#include "studies.h"
 
 /* It asks before each line that it looks for, and before each that it refines, and once it is told no asks no more.
  */

@@ -1,8 +1,8 @@
 /* The splitting of the separatrix, lib/instrument/separatrix/separatrix.h: known values, symmetries, errors, zeros,
  * refusals. */
+#include "instrument/separatrix/separatrix.h"
 #include "length.h"
 #include "studies.h"
-#include "instrument/separatrix/separatrix.h"
 
 static const double J_thin[3] = {1.4, 2.1, 3}, J_wide[3] = {1, 2, 5};
 

@@ -6,12 +6,12 @@
 #include <string.h>
 
 #include "base/pi_impl.h"
+#include "instrument/separatrix/separatrix.h"
 #include "laws.h"
 #include "length.h"
 #include "map/section.h"
 #include "map/section_impl.h"
 #include "orbit/crossings.h"
-#include "instrument/separatrix/separatrix.h"
 
 static iso_context *ctx;
 

@@ -6,11 +6,11 @@
 #include <string.h>
 
 #include "base/vec3_impl.h"
-#include "task/convert/convert.h"
 #include "orbit/orbit_impl.h"
 #include "studies.h"
 #include "task/check/check.h"
 #include "task/compare.h"
+#include "task/convert/convert.h"
 
 /* --- compare --------------------------------------------------------------------------------------------------- */
 
@@ -198,8 +198,8 @@ static iso_record *record_of(const iso_params *p, const iso_start *start, int fi
     for (int c = 0; c < width; c++) names[c] = iso_column_name(columns[c]);
     o.tolerance = 1e-14;
     o.shown = first < 9                  ? last > 9 ? ISO_SHOW_BOTH : ISO_SHOW_BALL
-             : start->model == ISO_BALL ? ISO_SHOW_BOTH
-                                        : ISO_SHOW_POINT;
+              : start->model == ISO_BALL ? ISO_SHOW_BOTH
+                                         : ISO_SHOW_POINT;
     must(iso_orbit_create(ctx, p, start, &o, &orbit), "an orbit");
     must(iso_record_create(ctx, (size_t)width, names, &record), "a record");
     for (int i = 0; i < ROWS; i++) {

@@ -10,12 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "instrument/chaos/chaos.h"
+#include "instrument/separatrix/separatrix.h"
 #include "length.h"
 #include "studies.h"
-#include "instrument/chaos/chaos.h"
-#include "task/compare.h"
-#include "instrument/separatrix/separatrix.h"
 #include "sweep/sweep_impl.h"
+#include "task/compare.h"
 
 /* --- a plan by hand: k and J2 vary ------------------------------------------------------------------------------ */
 
@@ -174,8 +174,8 @@ static void check_chaos(bool near, long turns)
         must(iso_chaos_run(ctx, &scene, &o, &c), "chaos");
         gsl_test((int)row[2] != (int)c->own.verdict, "verdict of point %zu", i);
         for (int m = 0; m < 2; m++) {
-            gsl_test(row[5 + 11 * m] != c->own.result[m].megno, "MEGNO of point %zu: %.17g, %.17g", i, row[5 + 11 * m],
-                     c->own.result[m].megno);
+            gsl_test(row[5 + 11 * m] != c->own.result[m].megno, "MEGNO of point %zu: %.17g, %.17g", i,
+                     row[5 + 11 * m], c->own.result[m].megno);
             gsl_test(row[8 + 11 * m] != c->own.result[m].exponent[ISO_CLOCK_T], "exponent of point %zu", i);
         }
         iso_chaos_free(c);

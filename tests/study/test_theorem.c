@@ -15,9 +15,9 @@
 #include "base/pi_impl.h"
 #include "base/random_impl.h"
 #include "complex_paths.h"
+#include "instrument/periodic/periodic_impl.h"
 #include "laws.h"
 #include "length.h"
-#include "instrument/periodic/periodic_impl.h"
 
 typedef struct rotation {
     double k, J[3];

@@ -5,7 +5,7 @@
 
 #include "base/version.h"
 #include "json.h"
-#include "view.h"
+#include "view/view.h"
 
 void view_page_free(view_page *page)
 {

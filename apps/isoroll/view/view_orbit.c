@@ -7,10 +7,10 @@
 #include "base/vec3_impl.h"
 #include "map/state.h"
 #include "picture/picture.h"
+#include "study/study.h"
 #include "task/check/check_impl.h"
 #include "task/run.h"
-#include "study/study.h"
-#include "view.h"
+#include "view/view.h"
 
 /* Only memory and a stop end the page. An orbit at rest, or one that loses energy, has no verdict and no neighbour. */
 static bool is_fatal(iso_status status)

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "study/study.h"
-#include "view.h"
+#include "view/view.h"
 
 /* Two runs whose unit vectors differ by more are no longer the same orbit. */
 #define PARTED 1e-3

@@ -12,7 +12,7 @@
 #include "io/table.h"
 #include "map/section.h"
 #include "map/state.h"
-#include "view.h"
+#include "view/view.h"
 
 enum { MOST_VERDICTS = 3000 /* they take seconds */ };
 enum { LEAST_ROWS = 60, MOST_ROWS = 1500, ORBIT_NUMBERS = 17 /* of a row: t tau s, M, gamma, q, its neighbour */ };

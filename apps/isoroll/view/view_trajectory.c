@@ -6,7 +6,7 @@
 #include "map/state.h"
 #include "orbit/rows_impl.h"
 #include "report.h"
-#include "view.h"
+#include "view/view.h"
 
 #define LOST 1e-9 /* a pressure below this part of the largest is 0, as for plots */
 

@@ -9,7 +9,7 @@
 #include "embedded.h"
 #include "io/output_impl.h"
 #include "json.h"
-#include "view.h"
+#include "view/view.h"
 
 iso_status view_check_build(iso_context *ctx, bool live)
 {

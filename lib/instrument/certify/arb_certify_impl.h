@@ -12,8 +12,8 @@
 
 #include <stdio.h>
 
-#include "method/enclosure/arb_tape_impl.h"
 #include "instrument/certify/certify_impl.h"
+#include "method/enclosure/arb_tape_impl.h"
 
 /* --- arb_exact.c ------------------------------------------------------------------------------------------------- */
 

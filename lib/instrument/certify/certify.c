@@ -4,8 +4,8 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/number_impl.h"
-#include "orbit/orbit_impl.h"
 #include "instrument/certify/certify_impl.h"
+#include "orbit/orbit_impl.h"
 
 #define WHAT "--certify encloses the free ball, with a rotor or on a level"
 

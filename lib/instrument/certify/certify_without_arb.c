@@ -3,10 +3,9 @@
 
 iso_status iso_certify_is_possible(iso_context *ctx)
 {
-    return ISO_FAIL_ARGUMENT(
-        ctx, "",
-        "this build has no Arb, which encloses numbers: install it (package libflint-arb-dev; "
-        "Debian 13: libflint-dev) and build isoroll again");
+    return ISO_FAIL_ARGUMENT(ctx, "",
+                             "this build has no Arb, which encloses numbers: install it (package libflint-arb-dev; "
+                             "Debian 13: libflint-dev) and build isoroll again");
 }
 
 iso_status iso_certify_orbit(iso_context *ctx, const iso_certify_problem *p, const iso_certify_sink *sink,

@@ -6,8 +6,8 @@
 #ifndef ISO_STUDY_CHAOS_IMPL_H
 #define ISO_STUDY_CHAOS_IMPL_H
 
-#include "orbit/walk_impl.h"
 #include "instrument/chaos/chaos.h"
+#include "orbit/walk_impl.h"
 #include "study/options_impl.h"
 
 typedef struct iso_chaos_walk {

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "orbit/crossings_impl.h"
 #include "instrument/chaos/chaos_impl.h"
+#include "orbit/crossings_impl.h"
 #include "study/fields_impl.h"
 
 /* GROUP: orbits that are followed by the point, then by the ball; as many as a walk has in memory. CHECKED: one of so

@@ -45,7 +45,7 @@
 #include "../../base/api.h"
 #include "../../base/field.h"
 #include "../../orbit/crossings.h"
-#include "../verdict.h"
+#include "../../study/verdict.h"
 
 ISO_C_BEGIN
 

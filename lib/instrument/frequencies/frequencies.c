@@ -12,9 +12,9 @@
 #include "base/vec3_impl.h"
 #include "exact/coordinates_impl.h"
 #include "exact/exact_impl.h"
-#include "model/model_impl.h"
 #include "instrument/frequencies/frequencies_impl.h"
 #include "instrument/frequencies/momentum.h"
+#include "model/model_impl.h"
 
 /* --- the closed solution ---------------------------------------------------------------------------------------- */
 

@@ -24,7 +24,7 @@
 #include "../../base/field.h"
 #include "../../exact/exact.h"
 #include "../../orbit/orbit.h"
-#include "../verdict.h"
+#include "../../study/verdict.h"
 #include "momentum.h"
 #include "spectrum.h"
 

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "orbit/orbit_impl.h"
 #include "instrument/frequencies/frequencies_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/study_impl.h"
 
 iso_status iso_frequencies_check(iso_context *ctx, const iso_frequencies_options *o)

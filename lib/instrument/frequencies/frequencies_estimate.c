@@ -6,9 +6,9 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
-#include "orbit/orbit_impl.h"
 #include "instrument/chaos/chaos.h"
 #include "instrument/frequencies/frequencies_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/study_impl.h"
 
 /* Relative differences between the halves of an orbit below this are rounding. */

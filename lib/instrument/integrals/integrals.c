@@ -11,9 +11,9 @@
 #include "base/context_impl.h"
 #include "base/names_impl.h"
 #include "base/options_impl.h"
+#include "instrument/integrals/integrals_impl.h"
 #include "map/section_impl.h"
 #include "model/effects/effects_impl.h"
-#include "instrument/integrals/integrals_impl.h"
 #include "study/study_impl.h"
 
 enum { LEAST_ORBITS = 64, MOST_ORBITS = 10000, PROBES = 16 };

@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "orbit/orbit_impl.h"
 #include "instrument/integrals/integrals_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/options_impl.h"
 
 static const char *verdict_word(int verdict)

@@ -3,8 +3,8 @@
 #define ISO_STUDY_INTEGRALS_IMPL_H
 
 #include "exact/integrability_impl.h"
-#include "map/section_impl.h"
 #include "instrument/integrals/integrals.h"
+#include "map/section_impl.h"
 
 /* What functions are made of: M, gamma, and with a rotor v = q^(-1/(2k)). */
 enum { INTEGRAL_V = ISO_STATE, INTEGRAL_NUMBERS, INTEGRAL_POWERS = ISO_INTEGRAL_DEGREE + 1, INTEGRAL_PARITIES = 8 };

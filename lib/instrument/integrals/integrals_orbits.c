@@ -5,11 +5,11 @@
 #include "base/pi_impl.h"
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
+#include "instrument/integrals/integrals_impl.h"
 #include "map/section_impl.h"
 #include "model/effects/effects_impl.h"
 #include "model/model_impl.h"
 #include "orbit/batch.h"
-#include "instrument/integrals/integrals_impl.h"
 
 /* J in a unit with which max(q^(-1/k)) = 1. */
 static iso_status choose_unit(iso_context *ctx, const iso_params *p, iso_params *own, double *unit)

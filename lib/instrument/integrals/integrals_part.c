@@ -6,8 +6,8 @@
 
 #include "base/finite_impl.h"
 #include "base/vec3_impl.h"
-#include "model/effects/effects_impl.h"
 #include "instrument/integrals/integrals_impl.h"
+#include "model/effects/effects_impl.h"
 
 /* A function that is smaller than this part of its terms is zero on the surface: what is left of it is rounding. */
 static const double least = 1e-13;

@@ -3,9 +3,9 @@
 #include <math.h>
 
 #include "base/names_impl.h"
+#include "instrument/periodic/continuation_impl.h"
 #include "map/section_impl.h"
 #include "model/model_impl.h"
-#include "instrument/periodic/continuation_impl.h"
 
 ISO_NAMES(iso_vary_name, int, "k", "J1", "J2", "J3", "ratio", "level")
 

@@ -11,11 +11,11 @@
 #include "base/number_impl.h"
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
+#include "instrument/periodic/periodic_impl.h"
+#include "instrument/periodic/stability_chart.h"
 #include "map/section_impl.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-#include "instrument/periodic/periodic_impl.h"
-#include "instrument/periodic/stability_chart.h"
 #include "study/study_impl.h"
 
 ISO_NAMES(iso_stability_name, iso_stability, "stable", "unstable", "inverse", "degenerate", "undecided")

@@ -14,11 +14,11 @@
 #ifndef ISO_STUDY_PERIODIC_IMPL_H
 #define ISO_STUDY_PERIODIC_IMPL_H
 
+#include "instrument/periodic/periodic.h"
 #include "map/section.h"
 #include "method/wide_impl.h"
 #include "model/model.h"
 #include "orbit/crossings.h"
-#include "instrument/periodic/periodic.h"
 
 /* --- the map ---------------------------------------------------------------------------------------------------- */
 

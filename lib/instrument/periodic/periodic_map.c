@@ -11,11 +11,11 @@
 
 #include "base/context_impl.h"
 #include "base/vec3_impl.h"
+#include "instrument/periodic/periodic_impl.h"
 #include "method/taylor/lanes_impl.h"
 #include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/walk_impl.h"
-#include "instrument/periodic/periodic_impl.h"
 
 void iso_periodic_map_turn(int axis, iso_periodic_map *map)
 {

@@ -9,9 +9,9 @@
 #include "base/names_impl.h"
 #include "base/pi_impl.h"
 #include "base/pool_impl.h"
+#include "instrument/periodic/periodic_impl.h"
 #include "map/state.h"
 #include "model/model_impl.h"
-#include "instrument/periodic/periodic_impl.h"
 
 #define SAME 1e-7 /* points of the section that are closer are the same */
 

@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "base/pi_impl.h"
-#include "map/section_impl.h"
 #include "instrument/periodic/periodic_impl.h"
+#include "map/section_impl.h"
 
 enum { FIRST = 192 /* intervals of a line at first */, DEEPEST = 14 /* halvings */, MOST_SAMPLES = 60000 };
 #define SKIPPED 1e-4 /* at the ends of the lines, where the rotations are */

@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "base/number_impl.h"
+#include "instrument/periodic/periodic_study_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/fields_impl.h"
 #include "study/level.h"
-#include "instrument/periodic/periodic_study_impl.h"
 
 enum { STEPS = 120 };
 

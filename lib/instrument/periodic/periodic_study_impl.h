@@ -2,9 +2,9 @@
 #ifndef ISO_STUDY_PERIODIC_STUDY_IMPL_H
 #define ISO_STUDY_PERIODIC_STUDY_IMPL_H
 
-#include "study/options_impl.h"
 #include "instrument/periodic/continuation.h"
 #include "instrument/periodic/stability_chart.h"
+#include "study/options_impl.h"
 
 typedef struct iso_periodic_request {
     iso_periodic_options how;

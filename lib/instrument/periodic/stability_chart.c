@@ -12,8 +12,8 @@
 #include "base/options_impl.h"
 #include "base/pool_impl.h"
 #include "base/vec3_impl.h"
-#include "map/section_impl.h"
 #include "instrument/periodic/periodic_impl.h"
+#include "map/section_impl.h"
 
 typedef struct chart {
     iso_context *ctx;

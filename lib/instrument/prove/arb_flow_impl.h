@@ -27,9 +27,9 @@
 
 #include "base/arb_impl.h"
 #include "base/context_impl.h"
-#include "method/enclosure/arb_tape_impl.h"
 #include "instrument/prove/arb_certificate_impl.h"
 #include "instrument/prove/prove_impl.h"
+#include "method/enclosure/arb_tape_impl.h"
 
 /* The numbers of a state; the last six are neighbours: two of the same k, one of another k. */
 enum {

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "orbit/orbit_impl.h"
 #include "instrument/prove/prove_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/study_impl.h"
 
 /* Digits that are tried, if none are asked for; how often an interval is halved. */

@@ -9,11 +9,11 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/pi_impl.h"
+#include "instrument/section/section_impl.h"
 #include "map/section_impl.h"
 #include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
-#include "instrument/section/section_impl.h"
 #include "study/study_impl.h"
 
 /* --- which section is global ------------------------------------------------------------------------------------ */

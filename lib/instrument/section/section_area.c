@@ -12,10 +12,10 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
+#include "instrument/section/section_impl.h"
 #include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
-#include "instrument/section/section_impl.h"
 #include "study/study_impl.h"
 
 /* An error of a deviation after n turns, in units of n and of the tolerance; det D is computed while its bound is below

@@ -7,9 +7,9 @@
 #ifndef ISO_STUDY_SECTION_IMPL_H
 #define ISO_STUDY_SECTION_IMPL_H
 
+#include "instrument/section/section.h"
 #include "orbit/walk_impl.h"
 #include "study/options_impl.h"
-#include "instrument/section/section.h"
 
 /* What is known of the orbit whose rows are given. */
 typedef struct iso_section_member {

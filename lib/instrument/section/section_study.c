@@ -6,11 +6,11 @@
 
 #include "base/nearest_impl.h"
 #include "base/number_impl.h"
+#include "instrument/section/section.h"
+#include "instrument/section/section_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/fields_impl.h"
 #include "study/options_impl.h"
-#include "instrument/section/section.h"
-#include "instrument/section/section_impl.h"
 
 /* --- what is typed ---------------------------------------------------------------------------------------------- */
 

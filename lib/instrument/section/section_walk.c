@@ -8,9 +8,9 @@
 #include "base/number_impl.h"
 #include "base/pi_impl.h"
 #include "base/version.h"
+#include "instrument/section/section_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/fields_impl.h"
-#include "instrument/section/section_impl.h"
 
 /* --- what is walked --------------------------------------------------------------------------------------------- */
 

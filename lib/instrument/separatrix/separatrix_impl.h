@@ -18,8 +18,8 @@
 #include <stddef.h>
 
 #include "base/number_impl.h"
-#include "method/wide_impl.h"
 #include "instrument/separatrix/separatrix.h"
+#include "method/wide_impl.h"
 
 /* The study's part of shared refusals (study_impl.h). */
 #define ISO_SPLITTING_IS "the splitting is measured"

@@ -13,11 +13,11 @@
 #include "base/context_impl.h"
 #include "base/number_impl.h"
 #include "base/pi_impl.h"
+#include "instrument/separatrix/separatrix_impl.h"
 #include "map/section.h"
 #include "map/section_impl.h"
 #include "method/taylor/lanes_impl.h"
 #include "orbit/crossings_impl.h"
-#include "instrument/separatrix/separatrix_impl.h"
 #include "study/study_impl.h"
 
 /* --- the map ---------------------------------------------------------------------------------------------------- */

@@ -7,8 +7,8 @@
 #include "base/options_impl.h"
 #include "base/pi_impl.h"
 #include "base/pool_impl.h"
-#include "orbit/orbit_impl.h"
 #include "instrument/separatrix/separatrix_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/study_impl.h"
 
 /* m has the zeros k = 1 and k = -1 anyway. Others are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1), which is of the

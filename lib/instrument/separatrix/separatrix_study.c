@@ -4,10 +4,10 @@
 #include <string.h>
 
 #include "base/rational_impl.h"
+#include "instrument/separatrix/separatrix_study_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/fields_impl.h"
 #include "study/level.h"
-#include "instrument/separatrix/separatrix_study_impl.h"
 
 enum { MOST = 100000 };
 

@@ -2,8 +2,8 @@
 #ifndef ISO_STUDY_SEPARATRIX_STUDY_IMPL_H
 #define ISO_STUDY_SEPARATRIX_STUDY_IMPL_H
 
-#include "study/options_impl.h"
 #include "instrument/separatrix/separatrix.h"
+#include "study/options_impl.h"
 
 /* Values of --k or --level: as they are typed (NULL: not given), and as numbers. */
 typedef struct iso_separatrix_list {

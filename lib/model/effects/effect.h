@@ -25,8 +25,8 @@
 #ifndef ISO_MODEL_EFFECT_H
 #define ISO_MODEL_EFFECT_H
 
-#include "../base/api.h"
-#include "system.h"
+#include "../../base/api.h"
+#include "../system.h"
 
 ISO_C_BEGIN
 

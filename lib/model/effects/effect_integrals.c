@@ -6,8 +6,8 @@
  */
 #include <math.h>
 
-#include "model/integrals_impl.h"
 #include "model/expression/written_impl.h"
+#include "model/integrals_impl.h"
 
 static const char *const names[] = {"F", "F2", "F3", NULL};
 

@@ -6,7 +6,7 @@
 #ifndef ISO_MODEL_EFFECT_LIST_H
 #define ISO_MODEL_EFFECT_LIST_H
 
-#include "../base/api.h"
+#include "../../base/api.h"
 
 ISO_C_BEGIN
 

@@ -11,8 +11,8 @@
 #include "base/number_impl.h"
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
-#include "model/model_impl.h"
 #include "model/expression/written_impl.h"
+#include "model/model_impl.h"
 
 enum { COMPONENTS = 3, SAMPLES = 200, AT_START = 20, BY_FORM = -1 };
 

@@ -10,8 +10,8 @@
 #include "base/vec3_impl.h"
 #include "model/effects/effects_impl.h"
 #include "model/expression/expression_impl.h"
-#include "model/model_impl.h"
 #include "model/expression/written_impl.h"
+#include "model/model_impl.h"
 
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
 

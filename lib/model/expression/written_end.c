@@ -4,8 +4,8 @@
 
 #include "base/number_impl.h"
 #include "base/vec3_impl.h"
-#include "model/model_impl.h"
 #include "model/expression/written_impl.h"
+#include "model/model_impl.h"
 
 /* The reason is an expression that is nearer than NEAR to where it is not defined, or a torque that changes omega more
  * than STRONG times as fast as the ball turns. */

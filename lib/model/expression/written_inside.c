@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "base/vec3_impl.h"
-#include "model/model_impl.h"
 #include "model/expression/written_impl.h"
+#include "model/model_impl.h"
 
 /* A degree up to which a polynomial in n, omega and e is no narrower than the motion itself. */
 enum { FLAT_DEGREE = 12 };

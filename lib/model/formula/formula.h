@@ -20,8 +20,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "../base/api.h"
-#include "params.h"
+#include "../../base/api.h"
+#include "../params.h"
 
 ISO_C_BEGIN
 

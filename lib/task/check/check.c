@@ -11,8 +11,8 @@
 #include "map/state.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-#include "task/check/check_impl.h"
 #include "study/fields_impl.h"
+#include "task/check/check_impl.h"
 
 /* --- beginning -------------------------------------------------------------------------------------------------- */
 

@@ -9,9 +9,9 @@
 #include <stdio.h>
 
 #include "method/methods_impl.h"
-#include "task/convert/convert.h"
 #include "orbit/orbit_impl.h"
 #include "task/check/check_impl.h"
+#include "task/convert/convert.h"
 
 /* Of the worst so far. */
 static const double SIEVE = 0.5;

@@ -7,8 +7,8 @@
 
 #include "orbit/description.h"
 #include "study/added_impl.h"
-#include "task/check/check_impl.h"
 #include "study/fields_impl.h"
+#include "task/check/check_impl.h"
 
 /* --- what is found ---------------------------------------------------------------------------------------------- */
 

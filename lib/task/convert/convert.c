@@ -8,8 +8,8 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
-#include "task/convert/convert_impl.h"
 #include "orbit/orbit_impl.h"
+#include "task/convert/convert_impl.h"
 
 /* The header, and the marks of rows before the first good one. */
 static iso_status begin(iso_conversion *c, const double row[], const conversion_row *r)

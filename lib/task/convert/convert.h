@@ -9,8 +9,8 @@
 
 #include <math.h>
 
-#include "../base/api.h"
-#include "description.h"
+#include "../../base/api.h"
+#include "../../orbit/description.h"
 
 ISO_C_BEGIN
 

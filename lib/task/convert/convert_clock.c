@@ -7,8 +7,8 @@
 #include "base/sum_impl.h"
 #include "base/vec3_impl.h"
 #include "model/model_impl.h"
-#include "task/convert/convert_impl.h"
 #include "orbit/watch_impl.h"
+#include "task/convert/convert_impl.h"
 
 /* How far n moves in the time by which the file's other clock, if it has one, is wrong since the last row. */
 static double late(const iso_conversion *c, const conversion_row *r, double gained)

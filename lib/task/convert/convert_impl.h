@@ -3,8 +3,8 @@
 #ifndef ISO_ORBIT_CONVERT_IMPL_H
 #define ISO_ORBIT_CONVERT_IMPL_H
 
-#include "task/convert/convert.h"
 #include "orbit/rows_impl.h"
+#include "task/convert/convert.h"
 
 /* A good row. */
 typedef struct conversion_row {

@@ -7,8 +7,8 @@
 #include "base/vec3_impl.h"
 #include "map/state.h"
 #include "model/model_impl.h"
-#include "task/convert/convert_impl.h"
 #include "orbit/orbit_impl.h"
+#include "task/convert/convert_impl.h"
 
 /* --- states ----------------------------------------------------------------------------------------------------- */
 

@@ -11,8 +11,8 @@
 #include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "model/model_impl.h"
-#include "task/convert/convert_impl.h"
 #include "orbit/orbit_impl.h"
+#include "task/convert/convert_impl.h"
 
 /* Energies h of the ball, in own units. */
 typedef struct account {

@@ -3,8 +3,8 @@
 #define ISO_STUDY_COST_IMPL_H
 
 #include "base/seconds_impl.h"
-#include "task/cost/cost.h"
 #include "study/options_impl.h"
+#include "task/cost/cost.h"
 
 /* What may end a run: the caller's own monitor, or a limit of processor time. */
 typedef struct cost_monitor {

@@ -8,8 +8,8 @@
 #include "base/context_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
-#include "task/cost/cost_impl.h"
 #include "study/fields_impl.h"
+#include "task/cost/cost_impl.h"
 
 /* --- cells and series -------------------------------------------------------------------------------------------- */
 

@@ -8,13 +8,13 @@
 #include "base/seconds_impl.h"
 #include "exact/exact_impl.h"
 #include "exact/integrability_impl.h"
+#include "instrument/section/section_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
-#include "task/explain/explain_impl.h"
 #include "study/options_impl.h"
-#include "task/run.h"
-#include "instrument/section/section_impl.h"
 #include "study/study_impl.h"
+#include "task/explain/explain_impl.h"
+#include "task/run.h"
 
 enum { WHY = 512 }; /* room for a message */
 

@@ -5,15 +5,15 @@
 #include <string.h>
 
 #include "instrument/chaos/chaos.h"
-#include "task/cost/cost.h"
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/integrals/integrals.h"
-#include "study/options_impl.h"
 #include "instrument/periodic/continuation.h"
 #include "instrument/periodic/periodic.h"
 #include "instrument/periodic/stability_chart.h"
 #include "instrument/section/section.h"
 #include "instrument/separatrix/separatrix.h"
+#include "study/options_impl.h"
+#include "task/cost/cost.h"
 
 #define ISO_STUDY_ROW(name) &iso_##name##_study,
 

@@ -16,7 +16,7 @@
 
 #include "orbit/orbit_impl.h"
 #include "task/run.h"
-#include "study/study_impl.h"
+#include "task/task_impl.h"
 
 #define FINEST_OF_POINT 1e-12 /* a tolerance: below it the ball is more exact */
 #define LEAST_K 0.5           /* below it its errors are as large as the ball's, some larger */
