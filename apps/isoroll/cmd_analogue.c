@@ -19,7 +19,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_study_result r = {.note = NULL};
     if (stated && strcmp(o->file, "-") != 0)
         return complain("analogue: '%s' and a problem in options: leave one of them out", o->file), EXIT_USAGE;
-    iso_status status = stated ? ISO_OK : iso_scene_read(ctx, o->file, &scene);
+    iso_status status = stated ? ISO_OK : iso_scene_load(ctx, o->file, &scene);
     begin_work(ctx, NULL);
     if (status == ISO_OK)
         status = iso_analogue_study.run(ctx, &(iso_study_subject){.scene = stated ? NULL : &scene}, &o->study, &r);

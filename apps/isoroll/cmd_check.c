@@ -71,7 +71,7 @@ static iso_status check_file(iso_context *ctx, const options *o, iso_check_found
     if (status != ISO_OK) return status;
     iso_table_pass_nan(in);
     progress_begin();
-    if (o->scene) status = iso_scene_read(ctx, o->scene, &scene);
+    if (o->scene) status = iso_scene_load(ctx, o->scene, &scene);
     if (status == ISO_OK)
         status = iso_check_rows(ctx, &o->study, o->scene ? &scene : NULL, iso_table_header(in),
                                 &(iso_check_source){next_row, in}, f);

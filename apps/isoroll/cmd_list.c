@@ -12,7 +12,7 @@ typedef struct options {
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
-    const iso_status status = iso_list(ctx, strcmp(o->topic, "-") == 0 ? NULL : o->topic, say_to());
+    const iso_status status = iso_list_print(ctx, strcmp(o->topic, "-") == 0 ? NULL : o->topic, say_to());
     if (status == ISO_BAD_ARGUMENT) return complain("%s", iso_context_message(ctx)), EXIT_USAGE;
     return finish(ctx, status);
 }

@@ -186,7 +186,7 @@ static int section(iso_context *ctx, const options *o)
         !iso_section_is_of_axis(how->column, how->value, &axis))
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                   "--plot draws sections n_A = 0: an event has no coordinates l, x");
-    if (status == ISO_OK) status = iso_scene_read(ctx, o->shell.file, &scene);
+    if (status == ISO_OK) status = iso_scene_load(ctx, o->shell.file, &scene);
     return status == ISO_OK ? run_scene(ctx, o, &scene, how) : finish(ctx, status);
 }
 

@@ -100,8 +100,9 @@ static iso_status check_live(iso_context *ctx, const view_page *page)
 static iso_status of_scene(iso_context *ctx, const options *o, view_page *page)
 {
     iso_scene scene = {.places = 0};
-    iso_status status = has_own_scene(o) ? iso_scene_parse(ctx, page->title, own_scene, sizeof own_scene - 1, &scene)
-                                         : iso_scene_read(ctx, o->from.file, &scene);
+    iso_status status = has_own_scene(o)
+                            ? iso_scene_load_text(ctx, page->title, own_scene, sizeof own_scene - 1, &scene)
+                            : iso_scene_load(ctx, o->from.file, &scene);
     if (status == ISO_OK) status = iso_scene_check_times(ctx, &scene);
     if (status == ISO_OK) status = view_of_scene(ctx, &scene, page);
     if (status == ISO_OK) status = check_live(ctx, page);

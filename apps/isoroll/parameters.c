@@ -4,7 +4,7 @@
 iso_status parameters_of_file(iso_context *ctx, const file_options *o, iso_record *record, iso_params *params)
 {
     iso_scene scene;
-    const iso_status status = o->scene ? iso_scene_read(ctx, o->scene, &scene) : ISO_OK;
+    const iso_status status = o->scene ? iso_scene_load(ctx, o->scene, &scene) : ISO_OK;
     return status == ISO_OK ? iso_added_params(ctx, &o->added, o->scene ? &scene : NULL, record, params) : status;
 }
 

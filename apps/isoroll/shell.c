@@ -36,7 +36,7 @@ static iso_status prepare(shell *s, const shell_parts *parts, iso_table_writer *
     const shell_options *o = s->told;
     iso_status status = parts->check ? parts->check(s) : check_json_alone(s, parts);
     if (status == ISO_OK) status = iso_plot_check_page(s->ctx, &o->plot);
-    if (status == ISO_OK) status = iso_scene_read(s->ctx, o->file, &s->scene);
+    if (status == ISO_OK) status = iso_scene_load(s->ctx, o->file, &s->scene);
     if (status == ISO_OK && parts->change) status = parts->change(s);
     return status == ISO_OK && o->table ? iso_table_writer_open(s->ctx, o->table, parts->kind, writer) : status;
 }

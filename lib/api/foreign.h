@@ -50,7 +50,7 @@ ISO_API void iso_foreign_monitor_free(iso_foreign_monitor *monitor);
 /* A scene, and what messages call it. It belongs to no context. */
 typedef struct iso_foreign_scene iso_foreign_scene;
 
-/* From a file; from text, which messages call `name`. Errors: those of iso_scene_read, iso_scene_parse. */
+/* From a file; from text, which messages call `name`. Errors: those of iso_scene_load, iso_scene_load_text. */
 ISO_API iso_status iso_foreign_scene_read(iso_context *ctx, const char *path, iso_foreign_scene **scene);
 ISO_API iso_status iso_foreign_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length,
                                            iso_foreign_scene **scene);
@@ -65,7 +65,7 @@ ISO_API iso_status iso_foreign_scene_set(iso_context *ctx, iso_foreign_scene *sc
                                          const char *value);
 
 /* Gives the scene another k, J (three) or start (six: omega, n; or M, gamma); NULL: as it was. The rules and errors
- * are those of iso_scene_replace. After an error the scene is as it was. */
+ * are those of iso_scene_replaced. After an error the scene is as it was. */
 ISO_API iso_status iso_foreign_scene_replace(iso_context *ctx, iso_foreign_scene *scene, const double *k,
                                              const double J[3], const double start[6]);
 

@@ -39,14 +39,14 @@ static iso_status give(iso_status status, iso_foreign_scene **scene)
 iso_status iso_foreign_scene_read(iso_context *ctx, const char *path, iso_foreign_scene **scene)
 {
     const iso_status status = create(ctx, strcmp(path, "-") == 0 ? "<stdin>" : path, scene);
-    return status == ISO_OK ? give(iso_scene_read(ctx, path, &(*scene)->scene), scene) : status;
+    return status == ISO_OK ? give(iso_scene_load(ctx, path, &(*scene)->scene), scene) : status;
 }
 
 iso_status iso_foreign_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length,
                                    iso_foreign_scene **scene)
 {
     const iso_status status = create(ctx, name, scene);
-    return status == ISO_OK ? give(iso_scene_parse(ctx, name, text, length, &(*scene)->scene), scene) : status;
+    return status == ISO_OK ? give(iso_scene_load_text(ctx, name, text, length, &(*scene)->scene), scene) : status;
 }
 
 iso_status iso_foreign_scene_copy(iso_context *ctx, const iso_foreign_scene *from, iso_foreign_scene **scene)
@@ -85,7 +85,7 @@ iso_status iso_foreign_scene_replace(iso_context *ctx, iso_foreign_scene *scene,
     ISO_DEFAULT_ARITHMETIC;
     iso_params params;
     iso_start y;
-    const iso_status status = iso_scene_replace(ctx, &scene->scene, k, J, start, &params, &y);
+    const iso_status status = iso_scene_replaced(ctx, &scene->scene, k, J, start, &params, &y);
     if (status == ISO_OK) scene->scene.params = params, scene->scene.start = y;
     return status;
 }

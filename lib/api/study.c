@@ -110,7 +110,7 @@ iso_status iso_foreign_list(iso_context *ctx, const char *topic, char text[], si
     char *words = NULL;
     FILE *to = open_memstream(&words, length);
     if (!to) return iso_context_no_memory(ctx, "a list");
-    const iso_status status = iso_list(ctx, topic, to);
+    const iso_status status = iso_list_print(ctx, topic, to);
     const bool whole = fclose(to) == 0 && words;
     if (whole && room > 0) snprintf(text, room, "%s", words);
     free(words);

@@ -234,7 +234,7 @@ static iso_status parse(iso_context *ctx, const char *name, const char *text, si
     return status;
 }
 
-iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene *scene)
+iso_status iso_scene_load_text(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene *scene)
 {
     return parse(ctx, name, text, length, scene, NULL);
 }
@@ -268,7 +268,7 @@ iso_status iso_scene_read_literals(iso_context *ctx, const char *path, iso_scene
     return status;
 }
 
-iso_status iso_scene_read(iso_context *ctx, const char *path, iso_scene *scene)
+iso_status iso_scene_load(iso_context *ctx, const char *path, iso_scene *scene)
 {
     return iso_scene_read_literals(ctx, path, scene, NULL);
 }

@@ -5,7 +5,7 @@
 #include "base/literal_impl.h"
 #include "io/scene_file.h"
 
-/* As iso_scene_read. The literals have the names of iso_draft_numbers; lists of nine are left out. They are to be
+/* As iso_scene_load. The literals have the names of iso_draft_numbers; lists of nine are left out. They are to be
  * cleared, also after an error. */
 iso_status iso_scene_read_literals(iso_context *ctx, const char *path, iso_scene *scene, iso_literals *literals);
 

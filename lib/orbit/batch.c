@@ -76,8 +76,8 @@ static iso_status choose(iso_context *ctx, const batch *b, size_t i, member *m)
     if (b->orbits) return m->given = b->orbits[i], ISO_OK;
     const iso_scene *scene = scene_of(b, i);
     m->given = (iso_batch_orbit){&m->params, &m->start, &scene->effects};
-    return iso_scene_replace(ctx, scene, b->k ? b->k + i : NULL, b->J ? b->J + 3 * i : NULL,
-                             b->start ? b->start + 6 * i : NULL, &m->params, &m->start);
+    return iso_scene_replaced(ctx, scene, b->k ? b->k + i : NULL, b->J ? b->J + 3 * i : NULL,
+                              b->start ? b->start + 6 * i : NULL, &m->params, &m->start);
 }
 
 static iso_orbit_options options_of(const batch *b, const member *m, iso_backend backend)

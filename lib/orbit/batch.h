@@ -64,7 +64,7 @@ ISO_API iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[
  * table[], which has room for count x rows x columns.
  * scene[]: `scenes` of them, 1 for all orbits or `count`. They agree in columns, backend, tolerance and the model of
  *   the start. The method is `taylor`, in lanes: scenes with another one are refused.
- * k, J, start: NULL, or numbers in place of the scenes': 1, 3 and 6 for each orbit (see iso_scene_replace). If they
+ * k, J, start: NULL, or numbers in place of the scenes': 1, 3 and 6 for each orbit (see iso_scene_replaced). If they
  *   make no sense, that orbit alone fails.
  * times: t for a ball's scene, s for a point's.
  * Units, in any consistent system: k, n and gamma have none; J mass length^2; omega 1/time; t time;

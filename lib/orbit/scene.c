@@ -139,8 +139,8 @@ iso_status iso_start_point(iso_context *ctx, const double M[3], const double gam
     return check_pair(ctx, "gamma", "M", project ? ISO_SPIN_REMOVE : ISO_SPIN_REFUSE, start->y + 3, start->y);
 }
 
-iso_status iso_scene_replace(iso_context *ctx, const iso_scene *s, const double *k, const double J[3],
-                             const double y[6], iso_params *params, iso_start *start)
+iso_status iso_scene_replaced(iso_context *ctx, const iso_scene *s, const double *k, const double J[3],
+                              const double y[6], iso_params *params, iso_start *start)
 {
     iso_status status = ISO_OK;
     *params = s->params;

@@ -1,6 +1,6 @@
 /* scene.h - one problem to be solved, as a scene file states it: a ball, its start, times, how to solve.
  *
- * Fill it by hand or with iso_scene_read (io/scene_file.h). All numbers are in the user's units.
+ * Fill it by hand or with iso_scene_load (io/scene_file.h). All numbers are in the user's units.
  */
 #ifndef ISO_ORBIT_SCENE_H
 #define ISO_ORBIT_SCENE_H
@@ -98,8 +98,8 @@ ISO_API iso_scene iso_scene_default(void);
  * of a point that states eps keeps it: the point then has another energy H = M^2/2 - eps (gamma, J gamma)^(-1/k),
  * which is not 0 if it was. Without eps in the scene it is the one with which H = 0.
  * Errors: those of iso_params_reduced, iso_start_ball, iso_start_point. */
-ISO_API iso_status iso_scene_replace(iso_context *ctx, const iso_scene *scene, const double *k, const double J[3],
-                                     const double start[6], iso_params *params, iso_start *replaced);
+ISO_API iso_status iso_scene_replaced(iso_context *ctx, const iso_scene *scene, const double *k, const double J[3],
+                                      const double start[6], iso_params *params, iso_start *replaced);
 
 /* More rows than this in a scene file are a mistake in `step`. */
 #define ISO_MOST_ROWS 1e8

@@ -44,7 +44,7 @@ typedef struct iso_family {
     int columns;                       /* how many numbers vary ... */
     const char (*name)[ISO_NAME_SIZE]; /* ... and their names */
     /* Makes the scene of point i, and the numbers that vary. Threads call it at the same time, each with its own
-     * context. After an error numbers that are not known are NaN. Errors: those of iso_scene_read. */
+     * context. After an error numbers that are not known are NaN. Errors: those of iso_scene_load. */
     iso_status (*scene)(iso_context *ctx, const void *data, size_t i, iso_scene *scene, double numbers[]);
     const void *data;
     const iso_scene *base; /* the scene that the others are made from: every point has its effects and columns */

@@ -126,7 +126,7 @@ static void test_place(iso_context *ctx)
     iso_scene scene;
     static const char bad[] = "version: 1\nmodel: [";
     gsl_test(iso_context_has_place(ctx), "no place before a failure with one");
-    gsl_test(iso_scene_parse(ctx, "a.yaml", bad, sizeof bad - 1, &scene) != ISO_BAD_INPUT ||
+    gsl_test(iso_scene_load_text(ctx, "a.yaml", bad, sizeof bad - 1, &scene) != ISO_BAD_INPUT ||
                  !iso_context_has_place(ctx) || strncmp(iso_context_message(ctx), "a.yaml:", 7) != 0,
              "a bad scene's message has a place: %s", iso_context_message(ctx));
     scene = iso_scene_default();

@@ -92,8 +92,8 @@ int main(int argc, char **argv)
     iso_foreign_scene *foreign;
     ctx = iso_context_create();
     if (!ctx) return 1;
-    bench_must(ctx, argc > 1 ? iso_scene_read(ctx, argv[1], &scene)
-                             : iso_scene_parse(ctx, "usual", usual, sizeof usual - 1, &scene));
+    bench_must(ctx, argc > 1 ? iso_scene_load(ctx, argv[1], &scene)
+                             : iso_scene_load_text(ctx, "usual", usual, sizeof usual - 1, &scene));
     bench_must(ctx, argc > 1 ? iso_foreign_scene_read(ctx, argv[1], &foreign)
                              : iso_foreign_scene_parse(ctx, "usual", usual, sizeof usual - 1, &foreign));
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)

@@ -190,7 +190,7 @@ static void hold(const situation *s)
 {
     iso_scene scene;
     char asked[256], *rest = NULL;
-    if (iso_scene_parse(ctx, s->what, s->scene, strlen(s->scene), &scene) != ISO_OK) {
+    if (iso_scene_load_text(ctx, s->what, s->scene, strlen(s->scene), &scene) != ISO_OK) {
         gsl_test(1, "%s: %s", s->what, iso_context_message(ctx));
         return;
     }

@@ -119,7 +119,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     iso_context *ctx = iso_context_create();
     iso_scene scene;
     if (!ctx) return 0;
-    const iso_status status = iso_scene_parse(ctx, "scene", (const char *)data, size, &scene);
+    const iso_status status = iso_scene_load_text(ctx, "scene", (const char *)data, size, &scene);
     if (status == ISO_OK)
         solve(ctx, &scene);
     else {

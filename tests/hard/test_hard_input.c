@@ -112,7 +112,7 @@ static bool scene_accepts(const char *number)
              "reduced: {k: %s, J: [1.4, 2.1, 3]}\ninitial: {normal: [0, 0, 1], angular_velocity: [1, 0, 0]}\n"
              "time: {end: 1}\n",
              number);
-    const iso_status status = iso_scene_parse(ctx, "scene", text, strlen(text), &scene);
+    const iso_status status = iso_scene_load_text(ctx, "scene", text, strlen(text), &scene);
     iso_context_free(ctx);
     return status == ISO_OK;
 }

@@ -161,7 +161,7 @@ static iso_status study(const hard_road *way)
     iso_residuals residuals;
     (void)way;
     digits = 0;
-    iso_status status = iso_scene_parse(ctx, "scene", closed, strlen(closed), &scene);
+    iso_status status = iso_scene_load_text(ctx, "scene", closed, strlen(closed), &scene);
     if (status == ISO_OK) status = iso_compare(ctx, &scene, NULL, NULL, &c);
     iso_record *const written = c ? c->run[ISO_BALL].trajectory : NULL;
     if (status == ISO_OK) status = iso_record_set_numbers(ctx, written, "k", 1, &scene.params.k);
@@ -262,7 +262,7 @@ static iso_status find_frequencies(const hard_road *way)
     const char *const text = way ? closed : chaotic;
     o.turns = 24;
     o.samples = 512;
-    iso_status status = iso_scene_parse(ctx, "scene", text, strlen(text), &scene);
+    iso_status status = iso_scene_load_text(ctx, "scene", text, strlen(text), &scene);
     if (status == ISO_OK) status = iso_frequencies_find(ctx, &scene, &o, &f);
     digits = status == ISO_OK ? f.rotation : 0;
     return status;
@@ -297,7 +297,7 @@ static iso_status measure_cost(const hard_road *way)
     o.seconds = 60; /* no timing is tested: a busy machine must not cut it short */
     o.method = method;
     o.tolerance = 1e-6;
-    iso_status status = iso_scene_parse(ctx, "scene", closed, strlen(closed), &scene);
+    iso_status status = iso_scene_load_text(ctx, "scene", closed, strlen(closed), &scene);
     if (status == ISO_OK) status = iso_cost_measure(ctx, &scene, &o, &cost);
     digits = 0;
     if (status != ISO_OK) return status;

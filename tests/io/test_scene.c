@@ -27,7 +27,7 @@ static int failed(iso_status status)
 
 static iso_status parse(const char *text, iso_scene *scene)
 {
-    return iso_scene_parse(ctx, "s.yaml", text, strlen(text), scene);
+    return iso_scene_load_text(ctx, "s.yaml", text, strlen(text), scene);
 }
 
 /* Scenes with one mistake each (tests/cli/bad_files.txt): the first line of a file tells where it is, and a part of what
@@ -42,7 +42,7 @@ static bool check_mistake(const char *name)
     const size_t size = fread(text, 1, sizeof text - 1, from);
     fclose(from);
     if (sscanf(text, "# expect %511[^\n]", expected) != 1) return false;
-    const iso_status status = iso_scene_parse(ctx, "s.yaml", text, size, &scene);
+    const iso_status status = iso_scene_load_text(ctx, "s.yaml", text, size, &scene);
     if (status == ISO_OK) return false;
     const char *message = iso_context_message(ctx);
     words = strchr(expected, ' ');
@@ -140,9 +140,9 @@ static void test_bytes(void)
     static const char nul[] = BALL "\0" SURFACE INITIAL TIME;
     static const char key[] = "ball: {\"ma\\0ss\": 2}\n";
     iso_scene s;
-    gsl_test(iso_scene_parse(ctx, "s.yaml", nul, sizeof nul - 1, &s) != ISO_BAD_INPUT, "a NUL byte");
+    gsl_test(iso_scene_load_text(ctx, "s.yaml", nul, sizeof nul - 1, &s) != ISO_BAD_INPUT, "a NUL byte");
     gsl_test(!strstr(iso_context_message(ctx), "s.yaml:2:1: "), "NUL: %s", iso_context_message(ctx));
-    gsl_test(iso_scene_parse(ctx, "s.yaml", "", 0, &s) != ISO_BAD_INPUT, "no text");
+    gsl_test(iso_scene_load_text(ctx, "s.yaml", "", 0, &s) != ISO_BAD_INPUT, "no text");
     gsl_test(!strstr(iso_context_message(ctx), "s.yaml:1:1: the file is empty"), "%s", iso_context_message(ctx));
     gsl_test(parse(key, &s) != ISO_BAD_INPUT, "a key with a NUL");
     gsl_test(failed(parse("\xEF\xBB\xBF" REDUCED INITIAL TIME, &s)), "a byte order mark: %s",
@@ -162,7 +162,7 @@ static void test_cuts(void)
         char *cut = malloc(n + 1); /* exact, for the address sanitizer */
         if (!cut) return;
         memcpy(cut, text, n);
-        const iso_status status = iso_scene_parse(ctx, "s.yaml", cut, n, &s);
+        const iso_status status = iso_scene_load_text(ctx, "s.yaml", cut, n, &s);
         gsl_test(status != ISO_OK && status != ISO_BAD_INPUT, "cut at %zu: %s", n, iso_context_message(ctx));
         free(cut);
     }
@@ -171,9 +171,9 @@ static void test_cuts(void)
 static void test_files(void)
 {
     iso_scene s;
-    gsl_test(iso_scene_read(ctx, "/nowhere/scene.yaml", &s) != ISO_FILE_TROUBLE, "no such file");
-    gsl_test(iso_scene_read(ctx, "/", &s) != ISO_FILE_TROUBLE, "a folder");
-    gsl_test(iso_scene_read(ctx, "/dev/zero", &s) != ISO_BAD_INPUT, "an endless file");
+    gsl_test(iso_scene_load(ctx, "/nowhere/scene.yaml", &s) != ISO_FILE_TROUBLE, "no such file");
+    gsl_test(iso_scene_load(ctx, "/", &s) != ISO_FILE_TROUBLE, "a folder");
+    gsl_test(iso_scene_load(ctx, "/dev/zero", &s) != ISO_BAD_INPUT, "an endless file");
     gsl_test(!strstr(iso_context_message(ctx), "/dev/zero:1:1: larger than 16 MiB"), "%s", iso_context_message(ctx));
 }
 

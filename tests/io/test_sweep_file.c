@@ -91,7 +91,7 @@ static void check_points(iso_context *ctx, const char *name, const char *text, s
         family->scene(ctx, family->data, i, &two, numbers[1]);
         unlike += !same(&one, &two) || memcmp(numbers[0], numbers[1], (size_t)family->columns * sizeof(double)) != 0;
         iso_status status = iso_sweep_scene_text(ctx, f, i, &scene);
-        if (status == ISO_OK) status = iso_scene_parse(ctx, "point.yaml", scene, strlen(scene), &again);
+        if (status == ISO_OK) status = iso_scene_load_text(ctx, "point.yaml", scene, strlen(scene), &again);
         if (status != ISO_OK) gsl_test(1, "%s, point %zu: %s", name, i, iso_context_message(ctx));
         if (status == ISO_OK && !same(&one, &again) && unread++ == 0)
             for (int k = 0; k < 6; k++)

@@ -24,7 +24,7 @@ static iso_scene make_scene(double k)
              "reduced: {k: %.17g, J: [1, 2, 5], D: 0.5}\ninitial: {normal: [0.36, 0.48, 0.8], angular_velocity: "
              "[0.9, -0.3, -0.225]}\ntime: {end: 1}\n",
              k);
-    gsl_test((int)iso_scene_parse(ctx, "test", text, strlen(text), &scene), "%s", iso_context_message(ctx));
+    gsl_test((int)iso_scene_load_text(ctx, "test", text, strlen(text), &scene), "%s", iso_context_message(ctx));
     return scene;
 }
 

@@ -128,7 +128,7 @@ enum { SCENES = sizeof scenes / sizeof *scenes };
 static iso_scene scene_of(FILE *to, const char *text)
 {
     iso_scene scene = iso_scene_default();
-    put_status(to, ctx, iso_scene_parse(ctx, "scene", text, strlen(text), &scene), true);
+    put_status(to, ctx, iso_scene_load_text(ctx, "scene", text, strlen(text), &scene), true);
     return scene;
 }
 

@@ -26,7 +26,7 @@
 static inline iso_scene parse(const char *text)
 {
     iso_scene scene;
-    laws_stop_if(ctx, iso_scene_parse(ctx, "scene", text, strlen(text), &scene) != ISO_OK, text);
+    laws_stop_if(ctx, iso_scene_load_text(ctx, "scene", text, strlen(text), &scene) != ISO_OK, text);
     return scene;
 }
 

@@ -16,7 +16,7 @@
 static iso_scene scene_of(const char *text)
 {
     iso_scene scene = iso_scene_default();
-    if (iso_scene_parse(ctx, "test", text, strlen(text), &scene) != ISO_OK) {
+    if (iso_scene_load_text(ctx, "test", text, strlen(text), &scene) != ISO_OK) {
         gsl_test(1, "a scene is refused: %s", iso_context_message(ctx));
         exit(gsl_test_summary());
     }

@@ -161,7 +161,7 @@ static void refuses(const char *text, const char *options, const char *words)
 {
     iso_scene scene;
     iso_study_result result = {.note = NULL};
-    iso_status status = iso_scene_parse(ctx, "scene", text, strlen(text), &scene);
+    iso_status status = iso_scene_load_text(ctx, "scene", text, strlen(text), &scene);
     gsl_test(status != ISO_OK, "a scene: %s", iso_context_message(ctx));
     if (status != ISO_OK) return;
     status = iso_study_ask(ctx, iso_study_find("prove"), &(iso_study_subject){.scene = &scene}, options, &result);

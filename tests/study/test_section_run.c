@@ -79,7 +79,7 @@ static kept *run(const char *text, const iso_section_options *o, size_t most)
     k->row = calloc(MOST, sizeof *k->row);
     k->most = most;
     const iso_section_sink sink = {keep_header, keep_row, keep_pair, keep_note, keep_progress, k, NULL};
-    if (iso_scene_parse(ctx, "test", text, strlen(text), &scene) != ISO_OK) {
+    if (iso_scene_load_text(ctx, "test", text, strlen(text), &scene) != ISO_OK) {
         gsl_test(1, "a scene is refused: %s", iso_context_message(ctx));
         exit(gsl_test_summary());
     }

@@ -158,7 +158,7 @@ const char *iso_list_topic(int i)
     return i >= 0 && i < TOPICS ? topics[i].name : NULL;
 }
 
-iso_status iso_list(iso_context *ctx, const char *topic, FILE *to)
+iso_status iso_list_print(iso_context *ctx, const char *topic, FILE *to)
 {
     char suggested[ISO_SUGGEST_SIZE];
     int listed = 0;

@@ -10,6 +10,6 @@
 const char *iso_list_topic(int i);
 
 /* Writes all of a topic (NULL: of every topic). Errors: ISO_BAD_ARGUMENT about "topic": there is no such one. */
-iso_status iso_list(iso_context *ctx, const char *topic, FILE *to);
+iso_status iso_list_print(iso_context *ctx, const char *topic, FILE *to);
 
 #endif
