@@ -1,5 +1,5 @@
 /* context.c - the context: the message of the last failure, the monitor (context.h); and what every call begins
- * with: options of a known size, default arithmetic. */
+ * with: default arithmetic. */
 #include "base/context_impl.h"
 
 #include <stdarg.h>
@@ -8,9 +8,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/options_impl.h"
 #include "base/room_impl.h"
-#include "base/version.h"
 
 struct iso_context {
     void *attached; /* see iso_context_attach */
@@ -125,23 +123,6 @@ void iso_context_attach(iso_context *ctx, void *thing, void (*release)(void *thi
 {
     ctx->attached = thing;
     ctx->release = release;
-}
-
-/* --- options ---------------------------------------------------------------------------------------------------- */
-
-iso_status iso_options_take(iso_context *ctx, const char *name, void *own, size_t known, const void *given)
-{
-    size_t size;
-    if (!given) return ISO_OK;
-    memcpy(&size, given, sizeof size);
-    if (size > known)
-        return ISO_FAIL_ARGUMENT(ctx, "size",
-                                 "%s has %zu bytes, isoroll %s knows %zu: the program was compiled against a newer "
-                                 "isoroll, or did not set size",
-                                 name, size, ISO_VERSION, known);
-    memcpy(own, given, size > 0 ? size : known);
-    memcpy(own, &known, sizeof known);
-    return ISO_OK;
 }
 
 /* --- arithmetic ------------------------------------------------------------------------------------------------- */

@@ -8,7 +8,6 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/number_impl.h"
-#include "base/options_impl.h"
 #include "method/integrator_impl.h"
 #include "orbit/lane_groups_impl.h"
 #include "orbit/orbit_impl.h"
@@ -234,12 +233,9 @@ static void leave(const batch *b, size_t i, iso_status answer)
 /* Looks at the options, then solves all. */
 static iso_status run(iso_context *ctx, batch *b, const iso_batch_options *options, iso_status status[])
 {
-    const iso_batch_options defaults = iso_batch_defaults();
-    b->options = defaults;
-    iso_status answer = iso_options_take(ctx, "iso_batch_options", &b->options, sizeof defaults, options);
-    if (answer != ISO_OK) return answer;
+    b->options = options ? *options : iso_batch_defaults();
     b->code = iso_lane_code_find(b->options.vectors, false);
-    answer = check(ctx, &b->options, b->code, b->times, b->rows);
+    iso_status answer = check(ctx, &b->options, b->code, b->times, b->rows);
     if (answer != ISO_OK) return answer;
     const size_t fits = ROOM / ((b->rows + 1) * sizeof(iso_sample));
     const size_t chunk = !b->table || fits > CHUNK ? CHUNK : fits < LEAST ? LEAST : fits;

@@ -25,7 +25,6 @@ typedef struct iso_batch_orbit {
 
 /* As in iso_orbit_options, for all orbits. */
 typedef struct iso_batch_options {
-    size_t size; /* set by iso_batch_defaults; see isoroll.h */
     /* ISO_BACKEND_AUTO: the cheaper point, where the orbit has one and |k| >= 1/8; else the start's own model; not
      * ISO_BACKEND_EXACT: its orbits share no work, so iso_orbit is as fast. */
     iso_backend backend;
@@ -42,7 +41,6 @@ typedef struct iso_batch_options {
 static inline iso_batch_options iso_batch_defaults(void)
 {
     iso_batch_options o = ISO_ALL_ZERO;
-    o.size = sizeof o;
     o.backend = ISO_BACKEND_AUTO;
     o.tolerance = 1e-12;
     o.clock = ISO_CLOCK_T;

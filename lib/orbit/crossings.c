@@ -8,7 +8,6 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/number_impl.h"
-#include "base/options_impl.h"
 #include "method/integrator_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/lane_groups_impl.h"
@@ -55,7 +54,7 @@ iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[]
     ISO_DEFAULT_ARITHMETIC;
     iso_crossings_options own = iso_crossings_defaults();
     *crossings = NULL;
-    ISO_TRY(iso_options_take(ctx, "iso_crossings_options", &own, sizeof own, options));
+    if (options) own = *options;
     ISO_TRY(iso_crossings_check(ctx, &own));
     iso_crossings *c = calloc(1, sizeof *c);
     iso_crossed *each = calloc(count + 1, sizeof *each);

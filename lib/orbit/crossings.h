@@ -37,7 +37,6 @@ typedef enum iso_section_kind {
 
 /* As in iso_batch_options where the names are the same. */
 typedef struct iso_crossings_options {
-    size_t size;         /* set by iso_crossings_defaults; see isoroll.h */
     iso_backend backend; /* the model that is integrated: ISO_BACKEND_BALL, _POINT, or _AUTO as in batches       */
     iso_section_kind kind;
     int axis;        /* of ISO_SECTION_AXIS: 0 to 2; ISO_AXIS_AUTO: the global one of each orbit             */
@@ -57,7 +56,6 @@ enum { ISO_AXIS_AUTO = -1, ISO_DEVIATIONS = 2 };
 static inline iso_crossings_options iso_crossings_defaults(void)
 {
     iso_crossings_options o = ISO_ALL_ZERO;
-    o.size = sizeof o;
     o.backend = ISO_BACKEND_AUTO;
     o.axis = ISO_AXIS_AUTO;
     o.tolerance = 1e-12;

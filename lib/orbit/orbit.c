@@ -12,7 +12,6 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state_impl.h"
 #include "method/integrator_impl.h"
@@ -94,8 +93,8 @@ iso_status iso_orbit_create(iso_context *ctx, const iso_params *p, const iso_sta
     if (!o) return iso_context_no_memory(ctx, "an orbit");
     o->ctx = ctx;
     o->options = iso_orbit_defaults(start);
-    iso_status status = iso_options_take(ctx, "iso_orbit_options", &o->options, sizeof o->options, options);
-    if (status == ISO_OK) status = set_up(o, p, start);
+    if (options) o->options = *options;
+    iso_status status = set_up(o, p, start);
     if (status != ISO_OK) return iso_orbit_free(o), status;
     *orbit = o;
     return ISO_OK;

@@ -24,7 +24,6 @@ ISO_C_BEGIN
 typedef struct iso_orbit iso_orbit;
 
 typedef struct iso_orbit_options {
-    size_t size;                /* set by iso_orbit_defaults; see isoroll.h */
     const iso_effects *effects; /* what acts on the ball, in the caller's units; NULL: nothing           */
     /* What finds the orbit; ISO_BACKEND_AUTO: steps of the model of the start, of the ball where effects need it, of
      * the model that the method is for. */
@@ -48,7 +47,6 @@ typedef struct iso_orbit_options {
 static inline iso_orbit_options iso_orbit_defaults(const iso_start *start)
 {
     iso_orbit_options o = ISO_ALL_ZERO;
-    o.size = sizeof o;
     o.backend = ISO_BACKEND_AUTO;
     o.tolerance = 1e-12;
     o.memory = ISO_ORBIT_MEMORY;

@@ -7,7 +7,6 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/number_impl.h"
-#include "base/options_impl.h"
 #include "base/seconds_impl.h"
 #include "base/vec3_impl.h"
 #include "method/methods_impl.h"
@@ -207,8 +206,7 @@ iso_status iso_error_finder_create(iso_context *ctx, const iso_params *params, c
     static const iso_error_of unknown = {NAN, NAN, NAN};
     iso_orbit_options o = iso_orbit_defaults(start);
     *finder = NULL;
-    const iso_status taken = iso_options_take(ctx, "iso_orbit_options", &o, sizeof o, options);
-    if (taken != ISO_OK) return taken;
+    if (options) o = *options;
     const double tolerance = o.tolerance;
     if (!make_finer(orbit, &o))
         return ISO_FAIL_ARGUMENT(ctx, "method", "there is nothing finer than %s at %s for this model",

@@ -10,7 +10,6 @@
 #include "base/arithmetic_impl.h"
 #include "base/context_impl.h"
 #include "base/number_impl.h"
-#include "base/options_impl.h"
 #include "base/version.h"
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
@@ -367,8 +366,8 @@ iso_status iso_run(iso_context *ctx, const iso_scene *scene, const iso_run_optio
     r.options = iso_run_defaults();
     r.monitor = iso_context_monitor(ctx);
     *r.result = (iso_run_result){.error_status = ISO_BAD_ARGUMENT, .error_words = "errors were not asked for"};
-    iso_status status = iso_options_take(ctx, "iso_run_options", &r.options, sizeof r.options, options);
-    if (status == ISO_OK) status = check(&r);
+    if (options) r.options = *options;
+    iso_status status = check(&r);
     if (status == ISO_OK) status = sort_times(&r);
     if (status == ISO_OK) status = open_orbit(&r);
     if (status == ISO_OK) open_errors(&r);

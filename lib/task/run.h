@@ -30,7 +30,6 @@ ISO_API const char *iso_scene_why_backend(const iso_scene *scene, const iso_orbi
 /* --- a run ------------------------------------------------------------------------------------------------------ */
 
 typedef struct iso_run_options {
-    size_t size; /* set by iso_run_defaults; see isoroll.h */
     /* In any order, before and after the start; in t for a ball's scene, in s for a point's. NULL: the scene's own
      * grid. */
     const double *times;
@@ -43,7 +42,6 @@ typedef struct iso_run_options {
 static inline iso_run_options iso_run_defaults(void)
 {
     iso_run_options o = ISO_ALL_ZERO;
-    o.size = sizeof o;
     return o;
 }
 

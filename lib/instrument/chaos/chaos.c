@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "instrument/chaos/chaos_impl.h"
 #include "instrument/section/section_impl.h"
@@ -178,7 +177,7 @@ static iso_status run(iso_chaos_walk *w)
 static iso_status begin(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options, iso_chaos_walk *w)
 {
     *w = (iso_chaos_walk){.ctx = ctx, .scene = scene, .options = iso_chaos_defaults()};
-    ISO_TRY(iso_options_take(ctx, "iso_chaos_options", &w->options, sizeof w->options, options));
+    if (options) w->options = *options;
     const double asked = w->options.tolerance;
     w->options.tolerance = isnan(asked) ? scene->tolerance : asked;
     w->spread_tolerance = isnan(asked) ? fmax(scene->tolerance, ISO_SPREAD_TOLERANCE) : asked;

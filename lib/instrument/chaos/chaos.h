@@ -47,7 +47,6 @@ ISO_C_BEGIN
 #define ISO_SPREAD_TOLERANCE 1e-10
 
 typedef struct iso_chaos_options {
-    size_t size;           /* set by iso_chaos_defaults; see isoroll.h */
     long turns;            /* at most, of each orbit; 1 or more                                          */
     long exponent_turns;   /* an orbit that is chaotic goes on to so many turns, for its exponent; 0: it ends */
     size_t starts;         /* orbits spread over the section                                             */
@@ -68,7 +67,6 @@ typedef struct iso_chaos_options {
 static inline iso_chaos_options iso_chaos_defaults(void)
 {
     iso_chaos_options o = ISO_ALL_ZERO;
-    o.size = sizeof o;
     o.turns = 3000;
     o.models = ISO_SHOW_START;
     o.axis = ISO_AXIS_AUTO;

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "exact/coordinates_impl.h"
 #include "exact/exact_impl.h"
@@ -188,8 +187,8 @@ iso_status iso_frequencies_find(iso_context *ctx, const iso_scene *scene, const 
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_frequencies_options own = iso_frequencies_defaults();
-    iso_status status = iso_options_take(ctx, "iso_frequencies_options", &own, sizeof own, options);
-    if (status == ISO_OK) status = iso_frequencies_check(ctx, &own);
+    if (options) own = *options;
+    iso_status status = iso_frequencies_check(ctx, &own);
     if (status == ISO_OK) status = find_exact(ctx, scene, f);
     if (status != ISO_OK || !f->estimated) return status;
     const bool unresolved = f->unresolved;

@@ -33,7 +33,6 @@ ISO_C_BEGIN
 enum { ISO_MOST_SAMPLES = 1 << 22 };
 
 typedef struct iso_frequencies_options {
-    size_t size;    /* set by iso_frequencies_defaults; see isoroll.h */
     double turns;   /* of n in the estimate, about, 20 or more; NaN: 1000                                */
     double end;     /* length of the orbit in t, 20 turns or more; NaN: by turns                         */
     double samples; /* of the orbit, rounded up to a power of two, 512 or more; NaN: 32 for each turn    */
@@ -45,7 +44,6 @@ typedef struct iso_frequencies_options {
 static inline iso_frequencies_options iso_frequencies_defaults(void)
 {
     iso_frequencies_options o = ISO_ALL_ZERO;
-    o.size = sizeof o;
     o.turns = o.end = o.samples = NAN;
     return o;
 }

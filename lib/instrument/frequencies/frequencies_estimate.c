@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "instrument/chaos/chaos.h"
 #include "instrument/frequencies/frequencies_impl.h"
@@ -330,7 +329,7 @@ iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, co
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_frequencies_options own = iso_frequencies_defaults();
-    ISO_TRY(iso_options_take(ctx, "iso_frequencies_options", &own, sizeof own, options));
+    if (options) own = *options;
     ISO_TRY(iso_frequencies_check(ctx, &own));
     const bool fixed = !isnan(own.turns) || !isnan(own.end) || !isnan(own.samples);
     estimator e = {.ctx = ctx, .scene = scene, .fixed = fixed, .effects = iso_scene_acting(scene), .f = f};

@@ -10,7 +10,6 @@
 #include "base/arithmetic_impl.h"
 #include "base/context_impl.h"
 #include "base/names_impl.h"
-#include "base/options_impl.h"
 #include "instrument/integrals/integrals_impl.h"
 #include "map/section_impl.h"
 #include "model/effects/effects_impl.h"
@@ -305,8 +304,8 @@ iso_status iso_integral_search_run(iso_context *ctx, const iso_scene *scene,
     ISO_DEFAULT_ARITHMETIC;
     search s = {.ctx = ctx, .options = iso_integral_search_defaults(), .out = result};
     *result = (iso_integral_search){.verdict = ISO_INTEGRALS_UNDECIDED};
-    iso_status status = iso_options_take(ctx, "iso_integral_search_options", &s.options, sizeof s.options, options);
-    if (status == ISO_OK) status = run(&s, scene);
+    if (options) s.options = *options;
+    iso_status status = run(&s, scene);
     free(s.samples.state);
     return status;
 }

@@ -68,7 +68,6 @@ enum {
 };
 
 typedef struct iso_integral_search_options {
-    size_t size;      /* set by iso_integral_search_defaults; see isoroll.h                              */
     int degree;       /* D, of the polynomials in M: 1 to ISO_INTEGRAL_DEGREE                            */
     int coefficients; /* E, of their coefficients in gamma: 0 to ISO_INTEGRAL_DEGREE; -1: D, at least 2  */
     size_t orbits;    /* to 10000; 0: 64, more where degrees need it                                       */
@@ -85,7 +84,6 @@ typedef struct iso_integral_search_options {
 static inline iso_integral_search_options iso_integral_search_defaults(void)
 {
     iso_integral_search_options o = ISO_ALL_ZERO;
-    o.size = sizeof o;
     o.degree = 2;
     o.coefficients = -1;
     o.turns = 50;

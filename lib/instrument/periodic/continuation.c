@@ -12,7 +12,6 @@
 #include "base/context_impl.h"
 #include "base/names_impl.h"
 #include "base/number_impl.h"
-#include "base/options_impl.h"
 #include "base/pi_impl.h"
 #include "base/pool_impl.h"
 #include "instrument/periodic/continuation_impl.h"
@@ -353,8 +352,8 @@ static iso_status prepare(iso_context *ctx, const iso_scene *scene, const iso_co
                           iso_continuation *f, double *own)
 {
     *f = (iso_continuation){.ctx = ctx, .options = iso_continuation_defaults(), .base = scene->params};
-    iso_status status = iso_options_take(ctx, "iso_continuation_options", &f->options, sizeof f->options, options);
-    if (status == ISO_OK) status = iso_level_of_scene(ctx, scene, "periodic orbits are followed", &f->level);
+    if (options) f->options = *options;
+    iso_status status = iso_level_of_scene(ctx, scene, "periodic orbits are followed", &f->level);
     f->axis = iso_section_axis(iso_free_point(&scene->params, 1));
     f->width = f->options.to - f->options.from;
     *own = value_of(&scene->params, f->level, f->options.vary);

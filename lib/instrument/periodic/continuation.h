@@ -61,7 +61,6 @@ typedef struct iso_branch {
 } iso_branch;
 
 typedef struct iso_continuation_options {
-    size_t size; /* set by iso_continuation_defaults; see isoroll.h */
     iso_vary vary;
     double from, to; /* the range, which holds the scene's own value */
     double longest;  /* step, in parts of the range and radians of the line */
@@ -76,7 +75,6 @@ typedef struct iso_continuation_options {
 static inline iso_continuation_options iso_continuation_defaults(void)
 {
     iso_continuation_options o = ISO_ALL_ZERO;
-    o.size = sizeof o;
     o.longest = 0.03;
     o.most = 2000;
     return o;

@@ -9,7 +9,6 @@
 #include "base/arithmetic_impl.h"
 #include "base/names_impl.h"
 #include "base/number_impl.h"
-#include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "instrument/periodic/periodic_impl.h"
 #include "instrument/periodic/stability_chart.h"
@@ -113,7 +112,7 @@ iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_
     ISO_DEFAULT_ARITHMETIC;
     iso_periodic_work w = {.ctx = ctx, .scene = scene, .options = iso_periodic_defaults()};
     *found = NULL;
-    ISO_TRY(iso_options_take(ctx, "iso_periodic_options", &w.options, sizeof w.options, options));
+    if (options) w.options = *options;
     w.out = calloc(1, sizeof *w.out);
     if (!w.out) return iso_context_no_memory(ctx, "periodic orbits");
     iso_status status = work(&w);

@@ -114,7 +114,6 @@ typedef struct iso_periodic_orbit {
 } iso_periodic_orbit;
 
 typedef struct iso_periodic_options {
-    size_t size;   /* set by iso_periodic_defaults; see isoroll.h */
     int period;    /* the longest, 1 to ISO_PERIODIC_MOST                                                         */
     bool all;      /* orbits without a symmetry as well, by Newton's method from a grid                            */
     long grid;     /* its points                                                                                   */
@@ -130,7 +129,6 @@ typedef struct iso_periodic_options {
 static inline iso_periodic_options iso_periodic_defaults(void)
 {
     iso_periodic_options o = ISO_ALL_ZERO;
-    o.size = sizeof o;
     o.period = 6;
     o.grid = 2000;
     return o;

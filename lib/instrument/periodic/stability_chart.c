@@ -9,7 +9,6 @@
 #include "base/context_impl.h"
 #include "base/names_impl.h"
 #include "base/number_impl.h"
-#include "base/options_impl.h"
 #include "base/pool_impl.h"
 #include "base/vec3_impl.h"
 #include "instrument/periodic/periodic_impl.h"
@@ -157,9 +156,9 @@ iso_status iso_stability_chart(iso_context *ctx, const iso_stability_options *op
 {
     ISO_DEFAULT_ARITHMETIC;
     chart c = {.ctx = ctx, .o = iso_stability_defaults()};
-    iso_status status = iso_options_take(ctx, "iso_stability_options", &c.o, sizeof c.o, options);
+    if (options) c.o = *options;
     *grid = *borders = NULL;
-    if (status == ISO_OK) status = check(&c);
+    iso_status status = check(&c);
     const char *const varies = status == ISO_OK ? iso_chart_name(c.o.moment) : NULL;
     const char *const of_grid[] = {"k", varies, "least", "greatest"};
     const char *const of_borders[] = {"axis", "trace", "k", varies};

@@ -12,7 +12,6 @@
 ISO_C_BEGIN
 
 typedef struct iso_stability_options {
-    size_t size; /* set by iso_stability_defaults; see isoroll.h */
     int moment;  /* which of J varies, 0 to 2; ISO_CHART_LEVEL: the level */
     double J[3]; /* the others, > 0 */
     /* Of k, and of the moment or level: from < to. |k| < ISO_LEAST_K is left out: there the trace has no limit. */
@@ -32,7 +31,6 @@ ISO_API const char *iso_chart_name(int moment);
 static inline iso_stability_options iso_stability_defaults(void)
 {
     iso_stability_options o = ISO_ALL_ZERO;
-    o.size = sizeof o;
     o.moment = 1;
     o.from[0] = -3;
     o.to[0] = 3;

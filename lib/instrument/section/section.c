@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/options_impl.h"
 #include "base/pi_impl.h"
 #include "instrument/section/section_impl.h"
 #include "map/section_impl.h"
@@ -219,7 +218,7 @@ iso_status iso_section_begin(iso_section_walk *w, iso_context *ctx, const iso_sc
     w->scene = scene;
     w->options = iso_section_defaults();
     *w->result = (iso_section_result){.nature = {.axis = -1}};
-    ISO_TRY(iso_options_take(ctx, "iso_section_options", &w->options, sizeof w->options, options));
+    if (options) w->options = *options;
     return set_up(w);
 }
 

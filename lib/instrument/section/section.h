@@ -35,7 +35,6 @@ typedef struct iso_section_nature {
 } iso_section_nature;
 
 typedef struct iso_section_options {
-    size_t size;           /* set by iso_section_defaults; see isoroll.h */
     size_t crossings;      /* of each orbit, 1 or more                                                           */
     size_t starts;         /* orbits spread over the section                                                     */
     uint64_t seed;         /* of their spreading                                                                 */
@@ -55,7 +54,6 @@ typedef struct iso_section_options {
 static inline iso_section_options iso_section_defaults(void)
 {
     iso_section_options o = ISO_ALL_ZERO;
-    o.size = sizeof o;
     o.crossings = 500;
     o.axis = ISO_AXIS_AUTO;
     o.column = -1;

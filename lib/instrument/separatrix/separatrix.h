@@ -70,7 +70,6 @@ ISO_API iso_status iso_separatrix_at(iso_context *ctx, double k, const double J[
                                      iso_separatrix_digits digits, iso_separatrix_splitting *s);
 
 typedef struct iso_separatrix_options {
-    size_t size;     /* set by iso_separatrix_defaults; see isoroll.h */
     const double *k; /* the values, in any order                                              */
     size_t count;
     double J[3];
@@ -88,7 +87,6 @@ typedef struct iso_separatrix_options {
 static inline iso_separatrix_options iso_separatrix_defaults(void)
 {
     iso_separatrix_options o = ISO_ALL_ZERO;
-    o.size = sizeof o;
     o.digits = ISO_SEPARATRIX_AUTO;
     o.zeros = true;
     return o;

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/options_impl.h"
 #include "base/pi_impl.h"
 #include "base/pool_impl.h"
 #include "instrument/separatrix/separatrix_impl.h"
@@ -238,7 +237,7 @@ iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *op
     *s = NULL;
     iso_separatrix_options o = iso_separatrix_defaults();
     double level = 0;
-    ISO_TRY(iso_options_take(ctx, "iso_separatrix_options", &o, sizeof o, options));
+    if (options) o = *options;
     if (o.count == 0) return ISO_FAIL_ARGUMENT(ctx, "k", "splitting: there is no k");
     ISO_TRY(iso_refuse_equal_moments(ctx, o.J, ISO_NO_SPLITTING));
     if (o.scene) ISO_TRY(check_scene(ctx, &o, &level));

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "orbit/orbit_impl.h"
 #include "task/convert/convert_impl.h"
@@ -159,14 +158,14 @@ iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, con
     c->target = *target;
     c->from = to == ISO_BALL ? ISO_POINT : ISO_BALL;
     iso_conversion_options own = iso_conversion_defaults();
-    iso_status status = iso_options_take(ctx, "iso_conversion_options", &own, sizeof own, options);
+    if (options) own = *options;
     c->tolerance = own.tolerance;
     c->row_tolerance = own.row_tolerance > 0 ? own.row_tolerance : iso_record_row_tolerance(header);
     c->shift_J = own.shift_J;
     const double miss = iso_rows_largest_miss(ctx, header, c->row_tolerance);
     c->summary.max_defect = isnan(own.max_defect) ? miss : own.max_defect;
     c->summary.max_drift = isnan(own.max_defect) ? miss : INFINITY;
-    if (status == ISO_OK) status = find_columns(c);
+    iso_status status = find_columns(c);
     if (status == ISO_OK && c->shift_J && (c->from != ISO_POINT || params->k != -1))
         status = ISO_FAIL_ARGUMENT(ctx, "shift-J", "energy can shift J for a point with k = -1 alone");
     if (status == ISO_OK) status = read_lines(c);

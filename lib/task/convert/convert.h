@@ -80,7 +80,6 @@ typedef struct iso_conversion_summary {
 typedef struct iso_conversion iso_conversion;
 
 typedef struct iso_conversion_options {
-    size_t size;      /* set by iso_conversion_defaults; see isoroll.h */
     double tolerance; /* of the other clock's gain from row to row, relative                                  */
     /* For points with k = -1 off the level H = 0. true: the point becomes the free ball with the moments
      * J + E/eps, where E is the energy of the first row: the same motion. false: it becomes a ball in the potential
@@ -95,7 +94,6 @@ typedef struct iso_conversion_options {
 static inline iso_conversion_options iso_conversion_defaults(void)
 {
     iso_conversion_options o = ISO_ALL_ZERO;
-    o.size = sizeof o;
     o.tolerance = 1e-14;
     o.max_defect = NAN;
     o.first_row = 1;

@@ -9,7 +9,6 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/options_impl.h"
 #include "base/pi_impl.h"
 #include "task/cost/cost_impl.h"
 
@@ -305,7 +304,7 @@ iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_
     iso_cost_options own = iso_cost_defaults();
     measurer m = {.options = &own, .begin = processor_seconds()};
     *cost = NULL;
-    ISO_TRY(iso_options_take(ctx, "iso_cost_options", &own, sizeof own, options));
+    if (options) own = *options;
     m.seconds = own.seconds > 0 ? own.seconds : own.quick ? QUICK : LONG;
     ISO_TRY(iso_cost_problem_open(&m.p, ctx, scene, &own));
     m.out = calloc(1, sizeof *m.out);

@@ -29,7 +29,6 @@
 ISO_C_BEGIN
 
 typedef struct iso_cost_options {
-    size_t size;         /* set by iso_cost_defaults; see isoroll.h */
     bool quick;          /* three tolerances and about 3 s; else every second power of ten and about 40 s       */
     double seconds;      /* of processor time, about how long it may take in all; 0: as above                   */
     int times;           /* output times at which errors are taken; 0: 20                                       */
@@ -44,7 +43,6 @@ typedef struct iso_cost_options {
 static inline iso_cost_options iso_cost_defaults(void)
 {
     iso_cost_options o = ISO_ALL_ZERO;
-    o.size = sizeof o;
     o.backend = ISO_BACKEND_AUTO;
     return o;
 }
