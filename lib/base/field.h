@@ -17,10 +17,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "api.h"
-#include "record.h"
-
-ISO_C_BEGIN
+#include "base/record.h"
 
 typedef enum iso_field_type {
     ISO_FIELD_REAL,
@@ -134,33 +131,30 @@ typedef struct iso_field {
 /* clang-format on */
 
 /* Value i of a field that is no struct, record or list, i from 0 to its count - 1. row NULL: there is none. */
-ISO_API void iso_field_read(const iso_field *field, const void *row, int i, iso_value *value);
+void iso_field_read(const iso_field *field, const void *row, int i, iso_value *value);
 
 /* Whether it has a value, a struct or a list in this row; row NULL: no. */
-ISO_API bool iso_field_is_there(const iso_field *field, const void *row);
+bool iso_field_is_there(const iso_field *field, const void *row);
 
 /* The struct of a field, and the i-th of a list. NULL: there is none, or there are no more. */
-ISO_API const void *iso_field_struct(const iso_field *field, const void *row);
-ISO_API const void *iso_field_item(const iso_field *field, const void *row, size_t i);
+const void *iso_field_struct(const iso_field *field, const void *row);
+const void *iso_field_item(const iso_field *field, const void *row, size_t i);
 
 /* Copies fields, all but `without` and those below it, "without.x" (NULL: all), to change them. At most
  * ISO_MOST_FIELDS - 1. */
 enum { ISO_MOST_FIELDS = 64 };
-ISO_API void iso_fields_copy(const iso_field *fields, const char *without, iso_field copy[ISO_MOST_FIELDS]);
+void iso_fields_copy(const iso_field *fields, const char *without, iso_field copy[ISO_MOST_FIELDS]);
 
 /* Calls `visit` for each column of a table, with its name and its value in this row (NULL: there are no values). */
 typedef void iso_column_visitor(void *data, const char *name, const iso_field *field, const iso_value *value);
-ISO_API void iso_columns_visit(const iso_field *fields, const void *row, iso_column_visitor *visit, void *data);
+void iso_columns_visit(const iso_field *fields, const void *row, iso_column_visitor *visit, void *data);
 
 /* A record with these columns, and a row of it. What is not there is NaN, or the empty word. Errors: as record.h. */
-ISO_API iso_status iso_columns_create(iso_context *ctx, const iso_field *fields, iso_record **record);
-ISO_API iso_status iso_columns_append(iso_context *ctx, const iso_field *fields, const void *row, iso_record *record);
+iso_status iso_columns_create(iso_context *ctx, const iso_field *fields, iso_record **record);
+iso_status iso_columns_append(iso_context *ctx, const iso_field *fields, const void *row, iso_record *record);
 
 /* Puts all that JSON shows of a struct into lines of a record: "ball.exponent.t", and of the structs of a list
  * "orbit.0.period". What is not there has no line. Errors: those of iso_record_set. */
-ISO_API iso_status iso_record_set_fields(iso_context *ctx, iso_record *record, const iso_field *fields,
-                                         const void *row);
-
-ISO_C_END
+iso_status iso_record_set_fields(iso_context *ctx, iso_record *record, const iso_field *fields, const void *row);
 
 #endif

@@ -2,16 +2,10 @@
 #ifndef ISO_BASE_RANDOM_H
 #define ISO_BASE_RANDOM_H
 
-#include "api.h"
-
-ISO_C_BEGIN
-
 typedef struct iso_random iso_random;
 
 /* A generator with its own state; the same seed gives the same numbers. NULL when there is no memory. */
-ISO_API iso_random *iso_random_create(unsigned long seed);
-ISO_API void iso_random_free(iso_random *r);
-
-ISO_C_END
+iso_random *iso_random_create(unsigned long seed);
+void iso_random_free(iso_random *r);
 
 #endif

@@ -19,10 +19,7 @@
 #ifndef ISO_EXACT_EXACT_H
 #define ISO_EXACT_EXACT_H
 
-#include "../base/api.h"
-#include "../model/system.h"
-
-ISO_C_BEGIN
+#include "model/system.h"
 
 typedef struct iso_exact iso_exact;
 
@@ -34,7 +31,5 @@ typedef enum iso_exact_kind {
     ISO_EXACT_REST,       /* none: the point rests                                                             */
     ISO_EXACT_KINDS
 } iso_exact_kind;
-
-ISO_C_END
 
 #endif

@@ -20,24 +20,18 @@
 
 #include <stddef.h>
 
-#include "../base/api.h"
-#include "../orbit/scene.h"
-
-ISO_C_BEGIN
+#include "orbit/scene.h"
 
 /* Reads the scene in the file `path`, "-" being standard input (called <stdin> in messages).
  * *scene is set only when the answer is ISO_OK. Errors: ISO_BAD_INPUT, ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-ISO_API iso_status iso_scene_load(iso_context *ctx, const char *path, iso_scene *scene);
+iso_status iso_scene_load(iso_context *ctx, const char *path, iso_scene *scene);
 
 /* The same from `length` bytes of text, which messages call `name`. Errors: ISO_BAD_INPUT, ISO_NO_MEMORY. */
-ISO_API iso_status iso_scene_load_text(iso_context *ctx, const char *name, const char *text, size_t length,
-                                       iso_scene *scene);
+iso_status iso_scene_load_text(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene *scene);
 
 /* Changes a scene by a mapping of backend, method, tolerance, end, step, as and columns, such as "tolerance: 1e-9".
  * "as" sets the columns as well, unless they are there, too. After an error the scene is as it was. Errors:
  * ISO_BAD_INPUT, ISO_NO_MEMORY. */
-ISO_API iso_status iso_scene_change(iso_context *ctx, const char *text, iso_scene *scene);
-
-ISO_C_END
+iso_status iso_scene_change(iso_context *ctx, const char *text, iso_scene *scene);
 
 #endif

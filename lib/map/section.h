@@ -25,10 +25,7 @@
 
 #include <stdint.h>
 
-#include "../base/api.h"
-#include "../model/system.h"
-
-ISO_C_BEGIN
+#include "model/system.h"
 
 /* The motions of a point in the potential -eps q^(-1/k) on the level H = energy. The point of a free ball has
  * H = 0. */
@@ -51,15 +48,13 @@ static inline iso_point_motion iso_free_point(const iso_params *p, double eps)
  * both terms are 0 or more wherever the point can be. Both are 0 only at rest on axis a. So every orbit crosses the
  * section for ever, except the rotation in the plane gamma_a = 0 and, where E = V on axis a, the orbits that come to
  * rest there; and no orbit only touches it. */
-ISO_API int iso_section_axis(iso_point_motion m);
+int iso_section_axis(iso_point_motion m);
 
 /* The crossing at (l, x), as a point (M, gamma) on H = E. |x| <= 1. */
-ISO_API void iso_section_point(iso_point_motion m, int axis, double l, double x, double point[ISO_STATE]);
+void iso_section_point(iso_point_motion m, int axis, double l, double x, double point[ISO_STATE]);
 
 /* The chart of a crossing (M, gamma). l is the angle of (gamma_b, gamma_c), so it keeps its digits where |x| is near
  * 1; x is M_a/|M|. Small errors of gamma_a do not matter. */
-ISO_API void iso_section_chart(int axis, const double point[ISO_STATE], double *l, double *x);
-
-ISO_C_END
+void iso_section_chart(int axis, const double point[ISO_STATE], double *l, double *x);
 
 #endif

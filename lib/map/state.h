@@ -9,18 +9,13 @@
 #ifndef ISO_MAP_STATE_H
 #define ISO_MAP_STATE_H
 
-#include "../base/api.h"
-#include "../model/system.h"
-
-ISO_C_BEGIN
+#include "model/system.h"
 
 /* Each way, all of n's (gamma's) direction and nothing of its length is used; ball and point may be one array. */
-ISO_API void iso_ball_to_point(const iso_params *p, const double ball[ISO_STATE], double point[ISO_STATE]);
-ISO_API void iso_point_to_ball(const iso_params *p, const double point[ISO_STATE], double ball[ISO_STATE]);
+void iso_ball_to_point(const iso_params *p, const double ball[ISO_STATE], double point[ISO_STATE]);
+void iso_point_to_ball(const iso_params *p, const double point[ISO_STATE], double ball[ISO_STATE]);
 
 /* The ball's energy h = (w,Jw)/2. */
-ISO_API double iso_ball_energy(const iso_params *p, const double ball[ISO_STATE]);
-
-ISO_C_END
+double iso_ball_energy(const iso_params *p, const double ball[ISO_STATE]);
 
 #endif

@@ -19,10 +19,7 @@
 #ifndef ISO_METHOD_METHOD_H
 #define ISO_METHOD_METHOD_H
 
-#include "../base/api.h"
-#include "../model/model.h"
-
-ISO_C_BEGIN
+#include "model/model.h"
 
 typedef struct iso_integrator iso_integrator;
 
@@ -99,12 +96,10 @@ typedef struct iso_method {
 enum { ISO_DOUBLE_DIGITS = 16 };
 
 /* The i-th method; NULL past the last. */
-ISO_API const iso_method *iso_method_at(int i);
+const iso_method *iso_method_at(int i);
 
 /* The method called `name`, or NULL. Upper and lower case, '-' and '_' are the same, the family may stand before
  * ("gsl-rk8pd", "cvode_adams"), and a beginning that fits only one method is enough ("dormand_prince"). */
-ISO_API const iso_method *iso_method_find(const char *name);
-
-ISO_C_END
+const iso_method *iso_method_find(const char *name);
 
 #endif

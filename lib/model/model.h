@@ -10,10 +10,7 @@
 #ifndef ISO_MODEL_MODEL_H
 #define ISO_MODEL_MODEL_H
 
-#include "../base/api.h"
-#include "effects/effect.h"
-
-ISO_C_BEGIN
+#include "model/effects/effect.h"
 
 /* Room for the states of effects; a model with more is refused. */
 enum { ISO_MOST_EFFECT_STATES = 16, ISO_MAX_STATE = ISO_STATE + ISO_MOST_EFFECT_STATES + ISO_CLOCKS - 1 };
@@ -37,7 +34,5 @@ struct iso_model {
     const iso_effect *follower[ISO_EFFECTS];
     const iso_effect *without_formula; /* the first effect whose equations are no formula; NULL: none */
 };
-
-ISO_C_END
 
 #endif

@@ -13,15 +13,12 @@
 #ifndef ISO_MODEL_PARAMS_H
 #define ISO_MODEL_PARAMS_H
 
-#include "../base/api.h"
-#include "../base/context.h"
-
-ISO_C_BEGIN
+#include "base/context.h"
 
 typedef enum iso_surface { ISO_REDUCED, ISO_PLANE, ISO_OUTSIDE, ISO_INSIDE, ISO_SHELL } iso_surface;
 
 /* "reduced", "plane", "outside", "inside", "shell"; NULL past the end. */
-ISO_API const char *iso_surface_name(int surface);
+const char *iso_surface_name(int surface);
 
 /* A ball one can hold, in any consistent units of mass and length. */
 typedef struct iso_body {
@@ -44,20 +41,20 @@ typedef struct iso_params {
 
 /* From k and J directly. They need not belong to a solid body.
  * Errors: ISO_BAD_INPUT about "k" or "J". */
-ISO_API iso_status iso_params_reduced(iso_context *ctx, double k, const double J[3], iso_params *params);
+iso_status iso_params_reduced(iso_context *ctx, double k, const double J[3], iso_params *params);
 
 /* Says what part D = m b^2 of J is the mass's, which only some effects ask for.
  * Errors: ISO_BAD_INPUT about "D": not in (0, min J). */
-ISO_API iso_status iso_params_set_D(iso_context *ctx, double D, iso_params *params);
+iso_status iso_params_set_D(iso_context *ctx, double D, iso_params *params);
 
 /* From a physical ball; J = I + m B^2.
  * Errors: ISO_BAD_INPUT about "mass", "radius", "inertia" or "surface_radius" (not positive, not finite, a triangle
  * inequality I_i <= I_j + I_l broken by more than rounding, radii that give no k). */
-ISO_API iso_status iso_params_physical(iso_context *ctx, const iso_body *body, iso_params *params);
+iso_status iso_params_physical(iso_context *ctx, const iso_body *body, iso_params *params);
 
 /* Coupling of the point and energy of the ball: eps = h det J / k^2 (24), and back. */
-ISO_API double iso_coupling(const iso_params *params, double h);
-ISO_API double iso_energy(const iso_params *params, double eps);
+double iso_coupling(const iso_params *params, double h);
+double iso_energy(const iso_params *params, double eps);
 
 /* A number x with which a quantity is measured: x = J^(J + J_2k/(2k)) w^(w), J a moment of inertia, w a rate.
  * With it every quantity of either model can be carried from one system of units to another. */
@@ -71,7 +68,5 @@ typedef struct iso_units {
     double J, w;    /* the two units, in the caller's units */
     iso_params own; /* the same ball, J in the unit J       */
 } iso_units;
-
-ISO_C_END
 
 #endif

@@ -8,12 +8,9 @@
 
 #include <stdbool.h>
 
-#include "../base/api.h"
-#include "effects/effect_list.h"
-#include "formula/formula.h"
-#include "params.h"
-
-ISO_C_BEGIN
+#include "model/effects/effect_list.h"
+#include "model/formula/formula.h"
+#include "model/params.h"
 
 enum { ISO_EFFECT_NUMBERS = 12 }; /* the most numbers of one effect */
 
@@ -47,7 +44,5 @@ typedef struct iso_problem {
     iso_formula motion;         /* the equations of the effects on the ball ...                 */
     iso_formula energy_formula; /* ... and their potential; of the point, their image    */
 } iso_problem;
-
-ISO_C_END
 
 #endif

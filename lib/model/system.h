@@ -13,11 +13,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "../base/api.h"
-#include "../base/random.h"
-#include "problem.h"
-
-ISO_C_BEGIN
+#include "base/random.h"
+#include "model/problem.h"
 
 enum { ISO_STATE = 6 }; /* numbers in a state of either system: two vectors of R^3 */
 
@@ -25,7 +22,7 @@ enum { ISO_STATE = 6 }; /* numbers in a state of either system: two vectors of R
 typedef enum iso_clock { ISO_CLOCK_T, ISO_CLOCK_TAU, ISO_CLOCK_S, ISO_CLOCKS } iso_clock;
 
 /* "t", "tau", "s". */
-ISO_API const char *iso_clock_name(iso_clock clock);
+const char *iso_clock_name(iso_clock clock);
 
 /* A first integral. y is the state of the whole model, of which most integrals read six numbers. `value` gives I(y)
  * and, in *size, the magnitude of its terms. Drift is measured by this size: if I is conserved,
@@ -66,8 +63,6 @@ typedef struct iso_system {
 } iso_system;
 
 /* The system of a ball (0) or of a point (1); NULL past the end. */
-ISO_API const iso_system *iso_system_at(int i);
-
-ISO_C_END
+const iso_system *iso_system_at(int i);
 
 #endif

@@ -12,10 +12,7 @@
 #ifndef ISO_ORBIT_BATCH_H
 #define ISO_ORBIT_BATCH_H
 
-#include "../base/api.h"
-#include "orbit.h"
-
-ISO_C_BEGIN
+#include "orbit/orbit.h"
 
 typedef struct iso_batch_orbit {
     const iso_params *params;
@@ -40,7 +37,7 @@ typedef struct iso_batch_options {
 /* Balls in their time t; backend ISO_BACKEND_AUTO, tolerance 1e-12, no bound on the steps, all processors. */
 static inline iso_batch_options iso_batch_defaults(void)
 {
-    iso_batch_options o = ISO_ALL_ZERO;
+    iso_batch_options o = {0};
     o.backend = ISO_BACKEND_AUTO;
     o.tolerance = 1e-12;
     o.clock = ISO_CLOCK_T;
@@ -52,11 +49,12 @@ static inline iso_batch_options iso_batch_defaults(void)
  * growing, or all <= 0 and falling. status[i] (may be NULL) says how orbit i went; the rows that it has not reached
  * are NaN in every column. Gives ISO_OK, or the status of the first orbit that failed, with its number and reason in
  * the message (numbers from 0); the others go on. Errors of one orbit: those of iso_orbit_create and iso_orbit_at.
- * Errors of all: ISO_BAD_ARGUMENT (backend, tolerance, times, threads, vectors): status[] and samples[] are as they were; ISO_NO_MEMORY, ISO_STOPPED by the context's monitor (asked by the
- * calling thread alone): status and rows of what is done by then are valid. */
-ISO_API iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
-                                 const iso_batch_options *options, const double times[], size_t rows,
-                                 iso_sample samples[], iso_status status[]);
+ * Errors of all: ISO_BAD_ARGUMENT (backend, tolerance, times, threads, vectors): status[] and samples[] are as they
+ * were; ISO_NO_MEMORY, ISO_STOPPED by the context's monitor (asked by the calling thread alone): status and rows of
+ * what is done by then are valid. */
+iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
+                         const iso_batch_options *options, const double times[], size_t rows, iso_sample samples[],
+                         iso_status status[]);
 
 /* The same for `count` orbits of scenes, in the scenes' own columns: row j of orbit i is number i rows + j of
  * table[], which has room for count x rows x columns.
@@ -71,15 +69,12 @@ ISO_API iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[
  * After ISO_STOPPED or ISO_NO_MEMORY each orbit that was not followed has this status, too. Other errors of the call
  * leave table[] and status[] as they were. Those about "scenes": they do not agree; or a ball could lose contact,
  * which only a run watches (reactions without two_sided). */
-ISO_API iso_status iso_batch_table(iso_context *ctx, const iso_scene *const scene[], size_t scenes, size_t count,
-                                   const double k[], const double J[], const double start[], const double times[],
-                                   size_t rows, int threads, const char *vectors, double table[],
-                                   iso_status status[]);
+iso_status iso_batch_table(iso_context *ctx, const iso_scene *const scene[], size_t scenes, size_t count,
+                           const double k[], const double J[], const double start[], const double times[],
+                           size_t rows, int threads, const char *vectors, double table[], iso_status status[]);
 
 /* The vectors of this processor, widest first: "avx512", "avx2", "plain", and how many orbits stand in one (lanes may
  * be NULL); NULL past the end. */
-ISO_API const char *iso_batch_vectors(int i, int *lanes);
-
-ISO_C_END
+const char *iso_batch_vectors(int i, int *lanes);
 
 #endif

@@ -24,10 +24,7 @@
 #ifndef ISO_ORBIT_CROSSINGS_H
 #define ISO_ORBIT_CROSSINGS_H
 
-#include "../base/api.h"
-#include "batch.h"
-
-ISO_C_BEGIN
+#include "orbit/batch.h"
 
 typedef enum iso_section_kind {
     ISO_SECTION_AXIS,   /* n_a = 0, n_a increasing                                  */
@@ -55,7 +52,7 @@ enum { ISO_AXIS_AUTO = -1, ISO_DEVIATIONS = 2 };
 
 static inline iso_crossings_options iso_crossings_defaults(void)
 {
-    iso_crossings_options o = ISO_ALL_ZERO;
+    iso_crossings_options o = {0};
     o.backend = ISO_BACKEND_AUTO;
     o.axis = ISO_AXIS_AUTO;
     o.tolerance = 1e-12;
@@ -88,9 +85,9 @@ typedef struct iso_crossings iso_crossings;
 /* Errors: ISO_BAD_ARGUMENT about "backend", "axis", "column", "value", "tolerance", "threads", "vectors", or about
  * "deviations" with ISO_SECTION_COLUMN; ISO_NO_MEMORY. Errors of single orbits come from iso_crossings_go. Orbits,
  * parameters, starts and effects must live as long as the object. */
-ISO_API iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
-                                        const iso_crossings_options *options, iso_crossings **crossings);
-ISO_API void iso_crossings_free(iso_crossings *c);
+iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
+                                const iso_crossings_options *options, iso_crossings **crossings);
+void iso_crossings_free(iso_crossings *c);
 
 /* Each orbit i with wanted[i] (wanted NULL: every orbit) goes on to its next `each` crossings. They are
  * crossing[each i + j] and sample[each i + j] (sample NULL: none), j < done[i]. status[i] is ISO_OK, or tells why
@@ -106,9 +103,7 @@ ISO_API void iso_crossings_free(iso_crossings *c);
  * and the reason. Errors of the call: ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: then done[] and the
  * crossings that it counts are valid, and the next call goes on from there. */
 enum { ISO_MOST_BETWEEN = 10000 };
-ISO_API iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, iso_crossing crossing[],
-                                    iso_sample sample[], size_t done[], iso_status status[]);
-
-ISO_C_END
+iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, iso_crossing crossing[],
+                            iso_sample sample[], size_t done[], iso_status status[]);
 
 #endif

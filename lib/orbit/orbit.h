@@ -13,13 +13,10 @@
 #ifndef ISO_ORBIT_ORBIT_H
 #define ISO_ORBIT_ORBIT_H
 
-#include "../base/api.h"
-#include "../exact/exact.h"
-#include "../map/section.h"
-#include "../method/method.h"
-#include "scene.h"
-
-ISO_C_BEGIN
+#include "exact/exact.h"
+#include "map/section.h"
+#include "method/method.h"
+#include "orbit/scene.h"
 
 typedef struct iso_orbit iso_orbit;
 
@@ -46,7 +43,7 @@ typedef struct iso_orbit_options {
  * bound on the steps; ends of steps in ISO_ORBIT_MEMORY bytes. */
 static inline iso_orbit_options iso_orbit_defaults(const iso_start *start)
 {
-    iso_orbit_options o = ISO_ALL_ZERO;
+    iso_orbit_options o = {0};
     o.backend = ISO_BACKEND_AUTO;
     o.tolerance = 1e-12;
     o.memory = ISO_ORBIT_MEMORY;
@@ -65,7 +62,7 @@ typedef struct iso_sample {
 } iso_sample;
 
 /* The number in the column called `name`, such as "pressure" or "e1"; NaN where there is no such column. */
-ISO_API double iso_sample_get(const iso_sample *sample, const char *name);
+double iso_sample_get(const iso_sample *sample, const char *name);
 
 /* A point's orbit has a ball at every energy: off the level H = 0 in the potential of the effect `level`, which is
  * then added. Errors:
@@ -77,9 +74,9 @@ ISO_API double iso_sample_get(const iso_sample *sample, const char *name);
  *   for (24) alone need. A free ball, and gamma in t, can be had for every k by all other methods.
  * - Of ISO_BACKEND_EXACT: ISO_BAD_ARGUMENT about "method", and the errors of iso_exact_create.
  * - ISO_NO_MEMORY. */
-ISO_API iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const iso_start *start,
-                                    const iso_orbit_options *options, iso_orbit **orbit);
-ISO_API void iso_orbit_free(iso_orbit *orbit);
+iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const iso_start *start,
+                            const iso_orbit_options *options, iso_orbit **orbit);
+void iso_orbit_free(iso_orbit *orbit);
 
 /* The orbit at `time` of the options' clock, before or after the start. The order of the calls does not change a
  * bit. Times that move away from the start are cheap. An earlier time is found in microseconds from a step's end
@@ -94,37 +91,36 @@ ISO_API void iso_orbit_free(iso_orbit *orbit);
  * where resistance drives it, it is followed until it turns 1e4 times as fast as at the start.
  * Errors: ISO_BAD_ARGUMENT (a time that iso_orbit_check_time refuses), ISO_NUMERICAL (what stopped, and where; or
  * a result that does not fit a double, or lost its digits). */
-ISO_API iso_status iso_orbit_at(iso_orbit *orbit, double time, iso_sample *sample);
+iso_status iso_orbit_at(iso_orbit *orbit, double time, iso_sample *sample);
 
 /* The first zero of g(sample) after `from`, not after `to`; see iso_integrator_event. direction as there. The sample
  * that g sees has no time (NaN) in the options' clock, only the clocks carried. Errors: as iso_orbit_at, and
  * ISO_NUMERICAL when g is not finite. */
-ISO_API iso_status iso_orbit_event(iso_orbit *orbit, double (*g)(const iso_sample *sample, const void *data),
-                                   const void *data, int direction, double from, double to, bool *found,
-                                   iso_sample *sample);
+iso_status iso_orbit_event(iso_orbit *orbit, double (*g)(const iso_sample *sample, const void *data),
+                           const void *data, int direction, double from, double to, bool *found, iso_sample *sample);
 
 /* The first time after `from`, not after `to`, at which the support would have to pull the ball: `pressure` falls
  * through 0. A touch is no loss. On a plane the pressure does not change. Needs the effect `reactions`. Errors: as
  * iso_orbit_event. */
-ISO_API iso_status iso_orbit_lost_contact(iso_orbit *orbit, double from, double to, bool *lost, iso_sample *sample);
+iso_status iso_orbit_lost_contact(iso_orbit *orbit, double from, double to, bool *lost, iso_sample *sample);
 
-ISO_API iso_statistics iso_orbit_statistics(const iso_orbit *orbit);
+iso_statistics iso_orbit_statistics(const iso_orbit *orbit);
 
 /* What the orbit is made of: the backend (not ISO_BACKEND_AUTO), the model in own units, the units, the method. */
-ISO_API iso_backend iso_orbit_backend(const iso_orbit *orbit);
-ISO_API const iso_method *iso_orbit_method(const iso_orbit *orbit);
+iso_backend iso_orbit_backend(const iso_orbit *orbit);
+const iso_method *iso_orbit_method(const iso_orbit *orbit);
 
 /* Whether the orbit has both models: no effect that breaks the isomorphism, and a ball that moves. */
-ISO_API bool iso_orbit_has_twin(const iso_orbit *orbit);
+bool iso_orbit_has_twin(const iso_orbit *orbit);
 
 /* Energy h of the ball and coupling eps of the point in the caller's units (infinite or 0 where they do not fit). */
-ISO_API double iso_orbit_energy(const iso_orbit *orbit);
-ISO_API double iso_orbit_coupling(const iso_orbit *orbit);
+double iso_orbit_energy(const iso_orbit *orbit);
+double iso_orbit_coupling(const iso_orbit *orbit);
 
 /* An integral of either system at a sample that shows it: its value and the measure of its drift, in own units
  * (times iso_unit(units, integral->dimension) in the caller's). */
-ISO_API double iso_orbit_integral(const iso_orbit *orbit, const iso_system *system, const iso_integral *integral,
-                                  const iso_sample *sample, double *size);
+double iso_orbit_integral(const iso_orbit *orbit, const iso_system *system, const iso_integral *integral,
+                          const iso_sample *sample, double *size);
 
 /* One integral along an orbit, in the model of `system`. What it should be: a constraint its exact value; H of a point
  * on a known level the level's value; every other integral its value at the start. */
@@ -135,7 +131,5 @@ typedef struct iso_drift {
     double expected; /* what it should be, in own units                                                    */
     double now, worst; /* (I - expected) / size at the last sample, see iso_integral; largest size of that so far */
 } iso_drift;
-
-ISO_C_END
 
 #endif

@@ -8,10 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "../base/api.h"
-#include "../model/effects/effect.h"
-
-ISO_C_BEGIN
+#include "model/effects/effect.h"
 
 /* Ball and point have the same values in the three enumerations, so that a cast leads from one to another. */
 
@@ -35,9 +32,9 @@ typedef enum iso_models {
 } iso_models;
 
 /* "ball", "point"; "ball", "point", "auto", "exact"; "ball", "point", "both", "auto". NULL past the end. */
-ISO_API const char *iso_model_kind_name(int kind);
-ISO_API const char *iso_backend_name(int backend);
-ISO_API const char *iso_models_name(int shown);
+const char *iso_model_kind_name(int kind);
+const char *iso_backend_name(int backend);
+const char *iso_models_name(int shown);
 
 /* Where an orbit starts (its clock at 0), in one of the models. */
 typedef struct iso_start {
@@ -57,14 +54,14 @@ typedef enum iso_spin {
 
 /* Makes a valid start of a ball. The normal is made a unit vector if its length is within 1e-6 of 1.
  * Errors: ISO_BAD_INPUT about "normal" or "angular_velocity", saying what to write instead. */
-ISO_API iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double normal[3], iso_spin spin,
-                                  iso_start *start);
+iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double normal[3], iso_spin spin,
+                          iso_start *start);
 
 /* Makes a valid start of a point: |gamma| within 1e-6 of 1, (M, gamma) at most 1e-9 |M| (or `project`).
  * eps NULL: start->eps is NAN.
  * Errors: ISO_BAD_INPUT about "gamma", "M" or "eps". */
-ISO_API iso_status iso_start_point(iso_context *ctx, const double M[3], const double gamma[3], const double *eps,
-                                   bool project, iso_start *start);
+iso_status iso_start_point(iso_context *ctx, const double M[3], const double gamma[3], const double *eps,
+                           bool project, iso_start *start);
 
 enum { ISO_MAX_COLUMNS = 64, ISO_NAME_SIZE = 32, ISO_MAX_PLACES = 48 };
 
@@ -91,26 +88,26 @@ typedef struct iso_scene {
 } iso_scene;
 
 /* A scene without a ball: backend and method "auto", tolerance 1e-12, as ISO_SHOW_START (the model of the start). */
-ISO_API iso_scene iso_scene_default(void);
+iso_scene iso_scene_default(void);
 
 /* The ball and the start of a scene with another k, J (three) or start (six: omega, n; or M, gamma); NULL: the
  * scene's. With k or J the ball is a reduced one: its body is forgotten, D stays; effects keep their numbers. A scene
  * of a point that states eps keeps it: the point then has another energy H = M^2/2 - eps (gamma, J gamma)^(-1/k),
  * which is not 0 if it was. Without eps in the scene it is the one with which H = 0.
  * Errors: those of iso_params_reduced, iso_start_ball, iso_start_point. */
-ISO_API iso_status iso_scene_replaced(iso_context *ctx, const iso_scene *scene, const double *k, const double J[3],
-                                      const double start[6], iso_params *params, iso_start *replaced);
+iso_status iso_scene_replaced(iso_context *ctx, const iso_scene *scene, const double *k, const double J[3],
+                              const double start[6], iso_params *params, iso_start *replaced);
 
 /* More rows than this in a scene file are a mistake in `step`. */
 #define ISO_MOST_ROWS 1e8
 
 /* Output times: row i of a scene's time grid, i = 0 ... iso_scene_rows() - 1; the last row is exactly `end`. */
-ISO_API size_t iso_scene_rows(const iso_scene *scene);
-ISO_API double iso_scene_time(const iso_scene *scene, size_t row);
+size_t iso_scene_rows(const iso_scene *scene);
+double iso_scene_time(const iso_scene *scene, size_t row);
 
 /* Indices of the columns the scene asks for (iso_column_name), and how many: columns[] has room for
  * ISO_MAX_COLUMNS. */
-ISO_API int iso_scene_columns(const iso_scene *scene, int columns[]);
+int iso_scene_columns(const iso_scene *scene, int columns[]);
 
 /* Every column a trajectory can have, in file order: the clocks, the states of the ball and of the point, then
  * those of the effects, in the order of the registry (iso_effect_column_name):
@@ -133,12 +130,10 @@ enum {
 };
 
 /* How many there are, and their names; NULL past the last. */
-ISO_API int iso_columns_count(void);
-ISO_API const char *iso_column_name(int column);
+int iso_columns_count(void);
+const char *iso_column_name(int column);
 
 /* What a column is, in one line, and its unit ("": a number without one); NULL past the last. */
-ISO_API const char *iso_column_doc(int column, const char **unit);
-
-ISO_C_END
+const char *iso_column_doc(int column, const char **unit);
 
 #endif

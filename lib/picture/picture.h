@@ -11,10 +11,7 @@
 #ifndef ISO_PICTURE_PICTURE_H
 #define ISO_PICTURE_PICTURE_H
 
-#include "../base/api.h"
-#include "../base/record.h"
-
-ISO_C_BEGIN
+#include "base/record.h"
 
 enum { ISO_PICTURE_TABLES = 16 };
 
@@ -33,16 +30,14 @@ typedef struct iso_picture {
  *   points=N               of a section: at most so many spots a side; of more an image is made
  * Errors: ISO_BAD_INPUT: no picture shows such a table, it has no rows, or a column or line is missing;
  * ISO_BAD_ARGUMENT about an option; ISO_NUMERICAL, ISO_NO_MEMORY. The picture is then empty. */
-ISO_API iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], const char *options,
-                                    iso_picture *picture);
-ISO_API void iso_picture_free(iso_picture *picture);
+iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], const char *options,
+                            iso_picture *picture);
+void iso_picture_free(iso_picture *picture);
 
 /* The i-th kind of table that has a picture; NULL past the end. */
-ISO_API const char *iso_picture_kind(int i);
+const char *iso_picture_kind(int i);
 
 /* The table of this name, or NULL. */
-ISO_API iso_record *iso_picture_table(const iso_picture *picture, const char *name);
-
-ISO_C_END
+iso_record *iso_picture_table(const iso_picture *picture, const char *name);
 
 #endif

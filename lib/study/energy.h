@@ -2,11 +2,8 @@
 #ifndef ISO_STUDY_ENERGY_H
 #define ISO_STUDY_ENERGY_H
 
-#include "../base/api.h"
-#include "../base/record.h"
-#include "../model/params.h"
-
-ISO_C_BEGIN
+#include "base/record.h"
+#include "model/params.h"
 
 /* A new record with a row for each row of `record`, a ball's trajectory with its effects (orbit/description.h):
  *
@@ -18,9 +15,7 @@ ISO_C_BEGIN
  * in the units of the record. If the energy is not known, *energies is NULL and the status ISO_OK. It is not known on
  * a plane with gravity if the columns of `attitude` are missing: the energy needs the height.
  * Errors: ISO_BAD_INPUT (no columns of a ball, a row that is no state), ISO_NUMERICAL, ISO_NO_MEMORY. */
-ISO_API iso_status iso_record_energies(iso_context *ctx, const iso_params *params, const iso_record *record,
-                                       iso_record **energies);
-
-ISO_C_END
+iso_status iso_record_energies(iso_context *ctx, const iso_params *params, const iso_record *record,
+                               iso_record **energies);
 
 #endif

@@ -24,10 +24,7 @@
 #ifndef ISO_STUDY_ERROR_H
 #define ISO_STUDY_ERROR_H
 
-#include "../base/api.h"
-#include "../orbit/orbit.h"
-
-ISO_C_BEGIN
+#include "orbit/orbit.h"
 
 enum { ISO_ERROR_ULPS = 2 };
 
@@ -44,7 +41,5 @@ typedef struct iso_error {
     const iso_method *method;       /* of the finer orbit                                                  */
     double tolerance, seconds;      /* its tolerance; processor time for all of it                         */
 } iso_error;
-
-ISO_C_END
 
 #endif

@@ -16,12 +16,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "../base/api.h"
-#include "../base/field.h"
-#include "../base/record.h"
-#include "../orbit/scene.h"
-
-ISO_C_BEGIN
+#include "base/field.h"
+#include "base/record.h"
+#include "orbit/scene.h"
 
 typedef struct iso_option {
     const char *name;     /* without the two dashes; NULL ends a table              */
@@ -45,7 +42,7 @@ typedef struct iso_option {
     }
 
 /* What its text is: "flag", "whole", "number", "numbers" (three, with commas between), "word", or "text". */
-ISO_API const char *iso_option_type(const iso_option *option);
+const char *iso_option_type(const iso_option *option);
 
 enum { ISO_STUDY_TABLES = 6, ISO_STUDY_MOST_AT = 64 };
 
@@ -88,22 +85,19 @@ typedef struct iso_study {
 } iso_study;
 
 /* The i-th study; NULL past the end. By its name; NULL: there is none. */
-ISO_API const iso_study *iso_study_at(int i);
-ISO_API const iso_study *iso_study_find(const char *name);
+const iso_study *iso_study_at(int i);
+const iso_study *iso_study_find(const char *name);
 
 /* Reads one option, `name` as the command calls it; of a flag the text is "true". Errors: ISO_BAD_ARGUMENT about the
  * name. */
-ISO_API iso_status iso_study_set(iso_context *ctx, const iso_study *study, const char *name, const char *text,
-                                 void *options);
+iso_status iso_study_set(iso_context *ctx, const iso_study *study, const char *name, const char *text, void *options);
 
 /* Runs a study. options: lines NAME=VALUE with a newline between, or NULL. Errors: ISO_BAD_ARGUMENT about an option,
  * or about "scene" or "record", which the study needs; those of the study. Without a row the tables are NULL then. */
-ISO_API iso_status iso_study_ask(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
-                                 const char *options, iso_study_result *result);
+iso_status iso_study_ask(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
+                         const char *options, iso_study_result *result);
 
 /* Frees the tables and what was found. */
-ISO_API void iso_study_result_free(iso_study_result *result);
-
-ISO_C_END
+void iso_study_result_free(iso_study_result *result);
 
 #endif

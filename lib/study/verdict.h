@@ -2,17 +2,11 @@
 #ifndef ISO_STUDY_VERDICT_H
 #define ISO_STUDY_VERDICT_H
 
-#include "../base/api.h"
-
-ISO_C_BEGIN
-
 /* ISO_INTEGRABLE: regular because there is an additional integral, although the estimated frequencies have not
  * settled. */
 typedef enum iso_verdict { ISO_REGULAR, ISO_CHAOTIC, ISO_UNDECIDED, ISO_INTEGRABLE } iso_verdict;
 
 /* "regular", "chaotic", "undecided", "integrable" */
-ISO_API const char *iso_verdict_name(iso_verdict verdict);
-
-ISO_C_END
+const char *iso_verdict_name(iso_verdict verdict);
 
 #endif

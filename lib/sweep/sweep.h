@@ -32,10 +32,7 @@
 
 #include <stdint.h>
 
-#include "../base/api.h"
-#include "../orbit/scene.h"
-
-ISO_C_BEGIN
+#include "orbit/scene.h"
 
 /* --- the points ------------------------------------------------------------------------------------------------- */
 
@@ -72,7 +69,7 @@ typedef struct iso_sweep_quantity {
 } iso_sweep_quantity;
 
 /* All of them, ended by NULL. */
-ISO_API const iso_sweep_quantity *const *iso_sweep_quantities(void);
+const iso_sweep_quantity *const *iso_sweep_quantities(void);
 
 /* One quantity that is asked for. */
 typedef struct iso_sweep_request {
@@ -97,11 +94,11 @@ typedef struct iso_sweep_file iso_sweep_file;
 
 /* Reads the sweep in the file `path` ("-" is standard input). The file of its scene is sought in the same folder.
  * Errors: ISO_BAD_INPUT with line and column, ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-ISO_API iso_status iso_sweep_read(iso_context *ctx, const char *path, iso_sweep_file **file);
-ISO_API void iso_sweep_file_free(iso_sweep_file *file);
+iso_status iso_sweep_read(iso_context *ctx, const char *path, iso_sweep_file **file);
+void iso_sweep_file_free(iso_sweep_file *file);
 
 /* What the file says. It is valid until the file is freed. */
-ISO_API const iso_sweep_plan *iso_sweep_file_plan(const iso_sweep_file *file);
+const iso_sweep_plan *iso_sweep_file_plan(const iso_sweep_file *file);
 
 /* --- what comes out --------------------------------------------------------------------------------------------- */
 
@@ -134,14 +131,14 @@ typedef struct iso_sweep iso_sweep;
 
 /* The plan must live as long as the sweep. Errors: ISO_BAD_INPUT about the name of a quantity that the scene does not
  * have; ISO_BAD_ARGUMENT about "vectors"; ISO_NO_MEMORY. */
-ISO_API iso_status iso_sweep_create(iso_context *ctx, const iso_sweep_plan *plan, iso_sweep **sweep);
-ISO_API void iso_sweep_free(iso_sweep *sweep);
+iso_status iso_sweep_create(iso_context *ctx, const iso_sweep_plan *plan, iso_sweep **sweep);
+void iso_sweep_free(iso_sweep *sweep);
 
 /* What its rows are. It is valid until the sweep is freed. */
-ISO_API const iso_sweep_head *iso_sweep_head_of(const iso_sweep *sweep);
+const iso_sweep_head *iso_sweep_head_of(const iso_sweep *sweep);
 
 /* The number of chunks. */
-ISO_API size_t iso_sweep_chunks(const iso_sweep_head *head);
+size_t iso_sweep_chunks(const iso_sweep_head *head);
 
 /* Where chunks come from and where their rows go. Both functions are called by one thread at a time. */
 typedef struct iso_sweep_source {
@@ -154,9 +151,6 @@ typedef struct iso_sweep_source {
 /* Measures chunks on `threads` threads (0: as many as there are processors) until there is no next one.
  * Errors: what `take` answers; ISO_STOPPED by the context's monitor, which is asked often and throws away what is
  * being computed (to let it end, let `next` answer false); ISO_NO_MEMORY. */
-ISO_API iso_status iso_sweep_run(iso_context *ctx, const iso_sweep *sweep, int threads,
-                                 const iso_sweep_source *source);
-
-ISO_C_END
+iso_status iso_sweep_run(iso_context *ctx, const iso_sweep *sweep, int threads, const iso_sweep_source *source);
 
 #endif

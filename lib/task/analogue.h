@@ -24,10 +24,7 @@
 #ifndef ISO_STUDY_ANALOGUE_H
 #define ISO_STUDY_ANALOGUE_H
 
-#include "../base/api.h"
-#include "../orbit/orbit.h"
-
-ISO_C_BEGIN
+#include "orbit/orbit.h"
 
 typedef struct iso_analogue_problem {
     bool neumann; /* V = (1/2) sum c_i gamma_i^2: k, J and eps are not read                     */
@@ -71,26 +68,24 @@ typedef struct iso_analogue {
 /* The ball of a problem; its body is to have this mass and radius. NAN: the function chooses a round number.
  * Errors: ISO_BAD_INPUT about "k", "J", "eps", "c" or "energy" (no numbers, k = 0, J not positive); ISO_NOT_MAPPED
  * about "energy": no motion has it, or in a constant potential only rest; ISO_NUMERICAL: what leaves the doubles. */
-ISO_API iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *problem, double mass,
-                                     double radius, iso_analogue *analogue);
+iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *problem, double mass, double radius,
+                             iso_analogue *analogue);
 
 /* The problem of a point's start: its eps, its energy, and the start on that energy to the last digit, in point[].
  * Errors: ISO_NOT_MAPPED about an effect that acts on the point beyond its potential; as iso_orbit_create. */
-ISO_API iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso_analogue_problem *problem,
-                                           double point[ISO_STATE]);
+iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso_analogue_problem *problem,
+                                   double point[ISO_STATE]);
 
 /* A start for a problem that has none: off the axes where the energy allows it. Gives a time s of about ten turns. */
-ISO_API double iso_analogue_start(const iso_analogue *analogue, double point[ISO_STATE]);
+double iso_analogue_start(const iso_analogue *analogue, double point[ISO_STATE]);
 
 /* A scene of that ball, begun where its twin is at point[]; its end is where the point is at s_end (integrated).
  * Errors: as iso_orbit_create and iso_orbit_at. */
-ISO_API iso_status iso_analogue_scene(iso_context *ctx, const iso_analogue_ball *ball, const double point[ISO_STATE],
-                                      double s_end, iso_scene *scene);
+iso_status iso_analogue_scene(iso_context *ctx, const iso_analogue_ball *ball, const double point[ISO_STATE],
+                              double s_end, iso_scene *scene);
 
 /* The least number that is 1, 2 or 5 times a power of ten and not less than x > 0. Any other x comes back as it
  * is. */
-ISO_API double iso_analogue_round_up(double x);
-
-ISO_C_END
+double iso_analogue_round_up(double x);
 
 #endif

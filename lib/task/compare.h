@@ -9,12 +9,9 @@
 #ifndef ISO_STUDY_COMPARE_H
 #define ISO_STUDY_COMPARE_H
 
-#include "../base/api.h"
-#include "../base/field.h"
-#include "../base/record.h"
-#include "../orbit/orbit.h"
-
-ISO_C_BEGIN
+#include "base/field.h"
+#include "base/record.h"
+#include "orbit/orbit.h"
 
 /* The index of each run: [ISO_BALL] and [ISO_POINT] are integrated, [ISO_BY_EXACT] is the closed solution. */
 enum { ISO_INTEGRATED = 2, ISO_BY_EXACT = ISO_INTEGRATED, ISO_BACKENDS };
@@ -53,10 +50,8 @@ typedef struct iso_comparison {
  * Errors: those of iso_scene_check_times, iso_orbit_create and iso_orbit_at; ISO_BAD_ARGUMENT for an unknown method.
  * After ISO_NUMERICAL or ISO_STOPPED *comparison holds the rows found before, if there are any; after other errors
  * it is NULL. */
-ISO_API iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(double part, void *data),
-                               void *data, iso_comparison **comparison);
-ISO_API void iso_comparison_free(iso_comparison *comparison);
-
-ISO_C_END
+iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(double part, void *data),
+                       void *data, iso_comparison **comparison);
+void iso_comparison_free(iso_comparison *comparison);
 
 #endif

@@ -11,21 +11,18 @@
 #ifndef ISO_STUDY_RUN_H
 #define ISO_STUDY_RUN_H
 
-#include "../base/api.h"
-#include "../base/record.h"
-#include "../study/error.h"
-
-ISO_C_BEGIN
+#include "base/record.h"
+#include "study/error.h"
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
 
 /* The orbit that fills these columns (iso_scene_columns) and computes nothing else. The backend `auto` is the
  * cheapest for the rows and the tolerance of the scene. Errors: those of iso_orbit_create. */
-ISO_API iso_status iso_scene_orbit(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
-                                   iso_orbit **orbit);
+iso_status iso_scene_orbit(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
+                           iso_orbit **orbit);
 
 /* Why an orbit of iso_scene_orbit has the backend that it has, in words. */
-ISO_API const char *iso_scene_why_backend(const iso_scene *scene, const iso_orbit *orbit);
+const char *iso_scene_why_backend(const iso_scene *scene, const iso_orbit *orbit);
 
 /* --- a run ------------------------------------------------------------------------------------------------------ */
 
@@ -41,7 +38,7 @@ typedef struct iso_run_options {
 /* The scene's own grid, no errors. */
 static inline iso_run_options iso_run_defaults(void)
 {
-    iso_run_options o = ISO_ALL_ZERO;
+    iso_run_options o = {0};
     return o;
 }
 
@@ -91,9 +88,7 @@ typedef struct iso_run_result {
  * - ISO_BAD_ARGUMENT about "times" (there are none, or one is not finite) or "method" (no method has this name).
  * Errors after it: what the sink answers; those of iso_orbit_at; ISO_STOPPED; ISO_NO_MEMORY.
  * It is no failure if the error of the rows is not known: see result->error_status. */
-ISO_API iso_status iso_run(iso_context *ctx, const iso_scene *scene, const iso_run_options *options,
-                           const iso_run_sink *sink, iso_run_result *result);
-
-ISO_C_END
+iso_status iso_run(iso_context *ctx, const iso_scene *scene, const iso_run_options *options, const iso_run_sink *sink,
+                   iso_run_result *result);
 
 #endif

@@ -33,14 +33,11 @@
 #include <math.h>
 #include <stdint.h>
 
-#include "../../base/api.h"
-#include "../../base/record.h"
-#include "../../orbit/crossings.h"
-#include "../../orbit/scene.h"
-#include "../section/section.h"
-#include "indicators.h"
-
-ISO_C_BEGIN
+#include "base/record.h"
+#include "instrument/chaos/indicators.h"
+#include "instrument/section/section.h"
+#include "orbit/crossings.h"
+#include "orbit/scene.h"
 
 /* Verdicts do not need more: of 5600 starts (7 values of k, two balls) each had the same one at 1e-12.
  * tests/study/test_chaos.c repeats it. */
@@ -66,7 +63,7 @@ typedef struct iso_chaos_options {
 /* 3000 turns of the scene's own orbit. */
 static inline iso_chaos_options iso_chaos_defaults(void)
 {
-    iso_chaos_options o = ISO_ALL_ZERO;
+    iso_chaos_options o = {0};
     o.turns = 3000;
     o.models = ISO_SHOW_START;
     o.axis = ISO_AXIS_AUTO;
@@ -128,10 +125,8 @@ typedef struct iso_chaos {
  * - ISO_BAD_INPUT about `at`, `starts` or an effect: those of iso_section_run;
  * - those of iso_orbit_create: ISO_NOT_MAPPED if the point is asked for and there is none;
  * - ISO_STOPPED by the context's monitor: *chaos has what is known by then. */
-ISO_API iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options,
-                                 iso_chaos **chaos);
-ISO_API void iso_chaos_free(iso_chaos *chaos);
-
-ISO_C_END
+iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options,
+                         iso_chaos **chaos);
+void iso_chaos_free(iso_chaos *chaos);
 
 #endif

@@ -42,12 +42,9 @@
 
 #include <stdbool.h>
 
-#include "../../base/api.h"
-#include "../../base/field.h"
-#include "../../orbit/crossings.h"
-#include "../../study/verdict.h"
-
-ISO_C_BEGIN
+#include "base/field.h"
+#include "orbit/crossings.h"
+#include "study/verdict.h"
 
 /* The indicators of an orbit. NaN: not known. */
 typedef struct iso_indication {
@@ -61,7 +58,5 @@ typedef struct iso_indication {
     double gali2;
     double digits; /* to which the means over the two halves agree                                            */
 } iso_indication;
-
-ISO_C_END
 
 #endif

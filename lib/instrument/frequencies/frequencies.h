@@ -20,15 +20,12 @@
 
 #include <math.h>
 
-#include "../../base/api.h"
-#include "../../base/field.h"
-#include "../../exact/exact.h"
-#include "../../orbit/orbit.h"
-#include "../../study/verdict.h"
-#include "momentum.h"
-#include "spectrum.h"
-
-ISO_C_BEGIN
+#include "base/field.h"
+#include "exact/exact.h"
+#include "instrument/frequencies/momentum.h"
+#include "instrument/frequencies/spectrum.h"
+#include "orbit/orbit.h"
+#include "study/verdict.h"
 
 enum { ISO_MOST_SAMPLES = 1 << 22 };
 
@@ -43,7 +40,7 @@ typedef struct iso_frequencies_options {
 /* All NaN: 1000 turns (fewer where |k| < 1/4), up to 16 times as many while the motion is not found regular. */
 static inline iso_frequencies_options iso_frequencies_defaults(void)
 {
-    iso_frequencies_options o = ISO_ALL_ZERO;
+    iso_frequencies_options o = {0};
     o.turns = o.end = o.samples = NAN;
     return o;
 }
@@ -125,13 +122,11 @@ typedef struct iso_frequencies {
  * - ISO_BAD_ARGUMENT about the options: for an estimate fewer than 20 turns, fewer than 8 samples a turn, too many
  *   samples;
  * - those of iso_orbit_create and iso_orbit_at. */
-ISO_API iso_status iso_frequencies_find(iso_context *ctx, const iso_scene *scene,
-                                        const iso_frequencies_options *options, iso_frequencies *frequencies);
+iso_status iso_frequencies_find(iso_context *ctx, const iso_scene *scene, const iso_frequencies_options *options,
+                                iso_frequencies *frequencies);
 
 /* The estimate alone, whatever solution there is. */
-ISO_API iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene,
-                                            const iso_frequencies_options *options, iso_frequencies *frequencies);
-
-ISO_C_END
+iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, const iso_frequencies_options *options,
+                                    iso_frequencies *frequencies);
 
 #endif

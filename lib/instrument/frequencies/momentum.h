@@ -11,11 +11,8 @@
 #ifndef ISO_STUDY_MOMENTUM_H
 #define ISO_STUDY_MOMENTUM_H
 
-#include "../../base/api.h"
-#include "../../base/record.h"
-#include "../../model/system.h"
-
-ISO_C_BEGIN
+#include "base/record.h"
+#include "model/system.h"
 
 /* Parts of the image. Axes 1, 2, 3 are those of b1, b2, b3. */
 typedef enum iso_momentum_part {
@@ -33,31 +30,28 @@ typedef struct iso_momentum {
 } iso_momentum;
 
 /* False: there is none, k is not 1 or -1, or k = 1 and H is not 0. Any consistent units. */
-ISO_API bool iso_momentum_make(const iso_params *params, double H, iso_momentum *momentum);
+bool iso_momentum_make(const iso_params *params, double H, iso_momentum *momentum);
 
 /* For an energy h > 0 of the ball: the values of F of a part. False: it is empty. */
-ISO_API bool iso_momentum_interval(const iso_momentum *m, double h, iso_momentum_part part, double *low,
-                                   double *high);
+bool iso_momentum_interval(const iso_momentum *m, double h, iso_momentum_part part, double *low, double *high);
 
 /* The image with the orbit at (h, F), F the value of this integral, for a picture. False: there is none, or it has no
  * area, as with equal moments. */
-ISO_API bool iso_momentum_at(const iso_params *params, double H, double h, const char *integral, double F,
-                             iso_momentum *momentum);
+bool iso_momentum_at(const iso_params *params, double H, double h, const char *integral, double F,
+                     iso_momentum *momentum);
 
 /* For a picture of the image round an energy h: rows with h' from about 0 to 2 h, then low and high F of each part,
  * then F of the four rotations; NaN where there is none. Errors: ISO_NUMERICAL (h, H or a bound fits no double),
  * ISO_NO_MEMORY. */
 enum { ISO_MOMENTUM_LINES = 4 };
-ISO_API iso_status iso_momentum_bounds(iso_context *ctx, const iso_momentum *m, double h, iso_record **bounds);
+iso_status iso_momentum_bounds(iso_context *ctx, const iso_momentum *m, double h, iso_record **bounds);
 
 /* What moves how in a part, and which rotation it is, in words. */
 enum { ISO_MOMENTUM_WORDS = 64 };
-ISO_API void iso_momentum_name_part(const iso_momentum *m, iso_momentum_part part, char words[ISO_MOMENTUM_WORDS]);
-ISO_API void iso_momentum_name_line(const iso_momentum *m, int i, char words[ISO_MOMENTUM_WORDS]);
+void iso_momentum_name_part(const iso_momentum *m, iso_momentum_part part, char words[ISO_MOMENTUM_WORDS]);
+void iso_momentum_name_line(const iso_momentum *m, int i, char words[ISO_MOMENTUM_WORDS]);
 
 /* The part in which (h, F) lies, the nearest if it lies outside by rounding. */
-ISO_API iso_momentum_part iso_momentum_find(const iso_momentum *m, double h, double F);
-
-ISO_C_END
+iso_momentum_part iso_momentum_find(const iso_momentum *m, double h, double F);
 
 #endif

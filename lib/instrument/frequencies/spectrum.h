@@ -14,10 +14,7 @@
 
 #include <stddef.h>
 
-#include "../../base/api.h"
-#include "../../base/context.h"
-
-ISO_C_BEGIN
+#include "base/context.h"
 
 enum { ISO_MAX_LINES = 24 };
 
@@ -26,7 +23,5 @@ typedef struct iso_spectral_line {
     double frequency; /* radians per unit of time, of either sign, |frequency| <= pi/step */
     double amplitude, phase;
 } iso_spectral_line;
-
-ISO_C_END
 
 #endif

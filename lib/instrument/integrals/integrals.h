@@ -54,11 +54,8 @@
 #ifndef ISO_STUDY_INTEGRALS_H
 #define ISO_STUDY_INTEGRALS_H
 
-#include "../../base/api.h"
-#include "../../base/field.h"
-#include "../../orbit/orbit.h"
-
-ISO_C_BEGIN
+#include "base/field.h"
+#include "orbit/orbit.h"
 
 enum {
     ISO_INTEGRAL_DEGREE = 8, /* the largest degree, in M and in gamma                */
@@ -83,7 +80,7 @@ typedef struct iso_integral_search_options {
 /* Degree 2, coefficients of degree 2, 64 orbits of 50 turns, seed 0, within 1e-10, tolerance 1e-14. */
 static inline iso_integral_search_options iso_integral_search_defaults(void)
 {
-    iso_integral_search_options o = ISO_ALL_ZERO;
+    iso_integral_search_options o = {0};
     o.degree = 2;
     o.coefficients = -1;
     o.turns = 50;
@@ -150,9 +147,7 @@ typedef struct iso_integral_search {
  * effect that acts, other than `level` and `rotor`, about "M" where the point can only rest on its level; those of
  * iso_batch_run;
  * ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: the degrees done are valid. */
-ISO_API iso_status iso_integral_search_run(iso_context *ctx, const iso_scene *scene,
-                                           const iso_integral_search_options *options, iso_integral_search *result);
-
-ISO_C_END
+iso_status iso_integral_search_run(iso_context *ctx, const iso_scene *scene,
+                                   const iso_integral_search_options *options, iso_integral_search *result);
 
 #endif

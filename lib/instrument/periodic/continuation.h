@@ -16,14 +16,12 @@
 #ifndef ISO_STUDY_CONTINUATION_H
 #define ISO_STUDY_CONTINUATION_H
 
-#include "periodic.h"
-
-ISO_C_BEGIN
+#include "instrument/periodic/periodic.h"
 
 typedef enum iso_vary { ISO_VARY_K, ISO_VARY_J1, ISO_VARY_J2, ISO_VARY_J3, ISO_VARY_RATIO, ISO_VARY_LEVEL } iso_vary;
 /* "k", "J1", "J2", "J3", "ratio", "level"; NULL past the end. ratio: (J2 - J1)/(J3 - J1), by J2. level: (H/eps)
  * J2^(1/k) (study/level.h); it stays the scene's while the others change. */
-ISO_API const char *iso_vary_name(int vary);
+const char *iso_vary_name(int vary);
 
 typedef enum iso_branch_kind {
     ISO_BRANCH_FOLD,
@@ -37,7 +35,7 @@ typedef enum iso_branch_kind {
     ISO_BRANCH_UNDECIDED /* a touch, or two period doublings that are too close to tell */
 } iso_branch_kind;
 /* "fold", "period doubling", "symmetry breaking", "collision", "torus", "end", "failure", "touch", "undecided". */
-ISO_API const char *iso_branch_kind_name(iso_branch_kind kind);
+const char *iso_branch_kind_name(iso_branch_kind kind);
 
 typedef struct iso_branch_point {
     double value, u, l, x, trace; /* u: of the line; (l, x): the first point on the section */
@@ -74,7 +72,7 @@ typedef struct iso_continuation_options {
 
 static inline iso_continuation_options iso_continuation_defaults(void)
 {
-    iso_continuation_options o = ISO_ALL_ZERO;
+    iso_continuation_options o = {0};
     o.longest = 0.03;
     o.most = 2000;
     return o;
@@ -95,18 +93,14 @@ typedef struct iso_branch_row {
 } iso_branch_row;
 
 /* Whether the options suit the scene: the errors of iso_continuation_run about "range". */
-ISO_API iso_status iso_continuation_check(iso_context *ctx, const iso_scene *scene,
-                                          const iso_continuation_options *options);
+iso_status iso_continuation_check(iso_context *ctx, const iso_scene *scene, const iso_continuation_options *options);
 
 /* Follows orbits[0 .. count) of a scene, as iso_periodic_run found them. Errors: ISO_BAD_ARGUMENT about "range": it
  * is none, k = 0 or a moment <= 0 is in it, or the scene's value is not; ISO_BAD_INPUT about "orbit": it has no
  * symmetry line, or there is none; ISO_NO_MEMORY; ISO_STOPPED: *follow has what is known by then. A branch that
  * cannot be followed to its end is kept, with an event. */
-ISO_API iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_orbit orbits[],
-                                        size_t count, const iso_continuation_options *options,
-                                        iso_continuations **follow);
-ISO_API void iso_continuation_free(iso_continuations *follow);
-
-ISO_C_END
+iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_orbit orbits[],
+                                size_t count, const iso_continuation_options *options, iso_continuations **follow);
+void iso_continuation_free(iso_continuations *follow);
 
 #endif

@@ -32,12 +32,9 @@
 
 #include <stdint.h>
 
-#include "../../base/api.h"
-#include "../../base/field.h"
-#include "../../model/system.h"
-#include "../../orbit/scene.h"
-
-ISO_C_BEGIN
+#include "base/field.h"
+#include "model/system.h"
+#include "orbit/scene.h"
 
 /* The multipliers of a map of the plane that keeps an area: lambda and 1/lambda, lambda + 1/lambda = trace. */
 typedef enum iso_stability {
@@ -48,7 +45,7 @@ typedef enum iso_stability {
     ISO_STABILITY_UNDECIDED /* the same, and the error is above 2.5e-4: too large to tell                     */
 } iso_stability;
 /* "stable", "unstable", "inverse", "degenerate", "undecided". */
-ISO_API const char *iso_stability_name(iso_stability stability);
+const char *iso_stability_name(iso_stability stability);
 
 typedef struct iso_multipliers {
     iso_stability stability;
@@ -128,7 +125,7 @@ typedef struct iso_periodic_options {
 /* Symmetric orbits of period 6 at most. */
 static inline iso_periodic_options iso_periodic_defaults(void)
 {
-    iso_periodic_options o = ISO_ALL_ZERO;
+    iso_periodic_options o = {0};
     o.period = 6;
     o.grid = 2000;
     return o;
@@ -152,18 +149,16 @@ typedef struct iso_periodic {
  *   where |k| < 0.02; about "J", where max J/(min J |k|) > 1e5 or two moments are equal: then a rotation carries
  *   every orbit along, and none is isolated;
  * - ISO_NUMERICAL; ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *found has what is known by then. */
-ISO_API iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_options *options,
-                                    iso_periodic **found);
-ISO_API void iso_periodic_free(iso_periodic *found);
+iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_options *options,
+                            iso_periodic **found);
+void iso_periodic_free(iso_periodic *found);
 
 /* The reversor of a symmetry line 0 to 5: "S1", "S2", "S3", "TS1", "TS2", "TS3"; NULL for other numbers. */
-ISO_API const char *iso_symmetry_line_name(int line);
+const char *iso_symmetry_line_name(int line);
 
 /* head + tail with up to 31 digits, as text; the reversors of `symmetry`: "S1 S3", "none". */
 enum { ISO_DIGITS_SIZE = 48 };
-ISO_API void iso_periodic_digits(double head, double tail, char text[ISO_DIGITS_SIZE]);
-ISO_API int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE]);
-
-ISO_C_END
+void iso_periodic_digits(double head, double tail, char text[ISO_DIGITS_SIZE]);
+int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE]);
 
 #endif

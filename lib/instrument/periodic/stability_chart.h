@@ -5,11 +5,8 @@
 #ifndef ISO_STUDY_STABILITY_CHART_H
 #define ISO_STUDY_STABILITY_CHART_H
 
-#include "../../base/api.h"
-#include "../../base/field.h"
-#include "../../base/record.h"
-
-ISO_C_BEGIN
+#include "base/field.h"
+#include "base/record.h"
 
 typedef struct iso_stability_options {
     int moment;  /* which of J varies, 0 to 2; ISO_CHART_LEVEL: the level */
@@ -26,11 +23,11 @@ typedef struct iso_stability_options {
 enum { ISO_CHART_LEVEL = 3 };
 #define ISO_LEAST_K 0.02
 /* "J1", "J2", "J3", "level"; NULL past the end. */
-ISO_API const char *iso_chart_name(int moment);
+const char *iso_chart_name(int moment);
 
 static inline iso_stability_options iso_stability_defaults(void)
 {
-    iso_stability_options o = ISO_ALL_ZERO;
+    iso_stability_options o = {0};
     o.moment = 1;
     o.from[0] = -3;
     o.to[0] = 3;
@@ -50,9 +47,7 @@ typedef struct iso_chart_row {
  * 1: of the greatest), trace (2 or -2), k and what varies: points of the border curves, where they cross the lines of
  * the grid of equal J and of equal k. The caller frees both records. Errors: ISO_BAD_ARGUMENT about "k", "J",
  * "level", "steps"; ISO_NO_MEMORY; ISO_STOPPED. */
-ISO_API iso_status iso_stability_chart(iso_context *ctx, const iso_stability_options *options, iso_record **grid,
-                                       iso_record **borders);
-
-ISO_C_END
+iso_status iso_stability_chart(iso_context *ctx, const iso_stability_options *options, iso_record **grid,
+                               iso_record **borders);
 
 #endif

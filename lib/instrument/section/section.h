@@ -20,12 +20,9 @@
 #include <math.h>
 #include <stdint.h>
 
-#include "../../base/api.h"
-#include "../../base/record.h"
-#include "../../orbit/crossings.h"
-#include "../../orbit/scene.h"
-
-ISO_C_BEGIN
+#include "base/record.h"
+#include "orbit/crossings.h"
+#include "orbit/scene.h"
 
 /* Whether a section is global, and why. */
 typedef struct iso_section_nature {
@@ -53,7 +50,7 @@ typedef struct iso_section_options {
 /* 500 crossings of the global section by the scene's own orbit, both models, no states. */
 static inline iso_section_options iso_section_defaults(void)
 {
-    iso_section_options o = ISO_ALL_ZERO;
+    iso_section_options o = {0};
     o.crossings = 500;
     o.axis = ISO_AXIS_AUTO;
     o.column = -1;
@@ -114,9 +111,7 @@ typedef struct iso_section_result {
  *   (l, x) does not determine an orbit with effects beyond a level, nor at an event;
  * - those of iso_orbit_create: ISO_NOT_MAPPED if the point is asked for and there is none.
  * Errors after the header: what the sink returns; ISO_STOPPED; ISO_NO_MEMORY. */
-ISO_API iso_status iso_section_run(iso_context *ctx, const iso_scene *scene, const iso_section_options *options,
-                                   const iso_section_sink *sink, iso_section_result *result);
-
-ISO_C_END
+iso_status iso_section_run(iso_context *ctx, const iso_scene *scene, const iso_section_options *options,
+                           const iso_section_sink *sink, iso_section_result *result);
 
 #endif

@@ -21,12 +21,9 @@
 
 #include <stdint.h>
 
-#include "../../base/api.h"
-#include "../../base/field.h"
-#include "../../base/record.h"
-#include "../../orbit/scene.h"
-
-ISO_C_BEGIN
+#include "base/field.h"
+#include "base/record.h"
+#include "orbit/scene.h"
 
 /* Numbers of 64 bits of mantissa, of 128 (113 of mantissa), or the first and where |m| < 1000 errors the second. */
 typedef enum iso_separatrix_digits {
@@ -36,7 +33,7 @@ typedef enum iso_separatrix_digits {
 } iso_separatrix_digits;
 
 /* "double", "quad", "auto"; NULL past the end. */
-ISO_API const char *iso_separatrix_digits_name(int digits);
+const char *iso_separatrix_digits_name(int digits);
 
 /* What is found at one k, on one level. */
 typedef struct iso_separatrix_splitting {
@@ -66,8 +63,8 @@ typedef struct iso_separatrix_splitting {
  * axis has no rotation, but an oscillation between two places of rest. ISO_NUMERICAL: no crossing was found, or a
  * return failed. ISO_BAD_ARGUMENT about "digits" where this build has no 128 bits. ISO_NO_MEMORY, ISO_STOPPED. The
  * status and its words are in *s as well. */
-ISO_API iso_status iso_separatrix_at(iso_context *ctx, double k, const double J[3], double level,
-                                     iso_separatrix_digits digits, iso_separatrix_splitting *s);
+iso_status iso_separatrix_at(iso_context *ctx, double k, const double J[3], double level,
+                             iso_separatrix_digits digits, iso_separatrix_splitting *s);
 
 typedef struct iso_separatrix_options {
     const double *k; /* the values, in any order                                              */
@@ -86,7 +83,7 @@ typedef struct iso_separatrix_options {
 
 static inline iso_separatrix_options iso_separatrix_defaults(void)
 {
-    iso_separatrix_options o = ISO_ALL_ZERO;
+    iso_separatrix_options o = {0};
     o.digits = ISO_SEPARATRIX_AUTO;
     o.zeros = true;
     return o;
@@ -108,15 +105,12 @@ typedef struct iso_separatrix_table {
  * (no k; "digits"); ISO_BAD_INPUT about "J", where two moments are equal, and about an effect that acts on the
  * ball, other than `level`; where the scene starts as a point, or has a level, those of iso_orbit_create; ISO_NO_MEMORY;
  * ISO_STOPPED by the context's monitor: *s has the rows that are done. */
-ISO_API iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *options,
-                                      iso_separatrix_table **s);
-ISO_API void iso_separatrix_free(iso_separatrix_table *s);
+iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *options, iso_separatrix_table **s);
+void iso_separatrix_free(iso_separatrix_table *s);
 
 /* The unstable manifold of O as a line of points, columns u and x, from O for `halves` half returns past the first
  * crossing, in numbers of 64 bits. (pi - u, x) is the stable manifold of O'. Errors: as iso_separatrix_at. */
-ISO_API iso_status iso_separatrix_curve(iso_context *ctx, double k, const double J[3], double level, int halves,
-                                        iso_record **curve);
-
-ISO_C_END
+iso_status iso_separatrix_curve(iso_context *ctx, double k, const double J[3], double level, int halves,
+                                iso_record **curve);
 
 #endif

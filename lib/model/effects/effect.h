@@ -25,10 +25,7 @@
 #ifndef ISO_MODEL_EFFECT_H
 #define ISO_MODEL_EFFECT_H
 
-#include "../../base/api.h"
-#include "../system.h"
-
-ISO_C_BEGIN
+#include "model/system.h"
 
 /* A number, vector or matrix of an effect: a key of the scene, and a line "# effect.name" of a trajectory file. */
 typedef struct iso_effect_number {
@@ -182,22 +179,22 @@ typedef struct iso_effect {
 
 /* The i-th number of an effect: those of its row, but hidden ones, then the parameters that the scene names. False:
  * past the last. n->name is good as long as effects are. */
-ISO_API bool iso_effect_number_at(const iso_effects *effects, iso_effect_id effect, int i, iso_effect_number *n);
+bool iso_effect_number_at(const iso_effects *effects, iso_effect_id effect, int i, iso_effect_number *n);
 
 /* No effects; every number as it is where a scene does not state it. */
-ISO_API iso_effects iso_effects_default(void);
+iso_effects iso_effects_default(void);
 
 /* Switches an effect on and sets one of its numbers (name NULL: none): "gravity", "up", 3 numbers.
  * Errors: ISO_BAD_ARGUMENT about the name: no such effect, no such number, not so many numbers. */
-ISO_API iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *effect, const char *name,
-                                   int count, const double values[]);
+iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *effect, const char *name, int count,
+                           const double values[]);
 
 /* Switches an effect on that is written in the scene, and sets one of its expressions: "potential", "U", "c*n1^2".
  * Parameters are numbers: iso_effects_set gives a new name a place. What is wrong with an expression is found when
  * an orbit is made. Errors: ISO_BAD_ARGUMENT about the name: no such effect, no such expression; the text is longer
  * than ISO_EXPRESSION_SIZE - 1. */
-ISO_API iso_status iso_effects_write(iso_context *ctx, iso_effects *effects, const char *effect, const char *name,
-                                     const char *text);
+iso_status iso_effects_write(iso_context *ctx, iso_effects *effects, const char *effect, const char *name,
+                             const char *text);
 
 /* --- what they do to the motion --------------------------------------------------------------------------------- */
 
@@ -210,8 +207,6 @@ enum { ISO_EFFECT_COLUMNS = 28 }; /* room for the columns of all effects */
 enum { ISO_MAX_INTEGRALS = 24 };
 
 /* The i-th effect, in the order of iso_effect_id; NULL past the last. */
-ISO_API const iso_effect *iso_effect_at(int i);
-
-ISO_C_END
+const iso_effect *iso_effect_at(int i);
 
 #endif

@@ -6,10 +6,6 @@
 #ifndef ISO_MODEL_EFFECT_LIST_H
 #define ISO_MODEL_EFFECT_LIST_H
 
-#include "../../base/api.h"
-
-ISO_C_BEGIN
-
 #define ISO_EFFECT_LIST(X)                                                                                           \
     X(GRAVITY, gravity)                                                                                              \
     X(FIELD, field)                                                                                                  \
@@ -31,7 +27,5 @@ typedef enum iso_effect_id {
 #undef ISO_EFFECT_ID
         ISO_EFFECTS
 } iso_effect_id;
-
-ISO_C_END
 
 #endif

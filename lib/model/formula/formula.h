@@ -20,10 +20,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "../../base/api.h"
-#include "../params.h"
-
-ISO_C_BEGIN
+#include "model/params.h"
 
 struct iso_problem;
 
@@ -143,7 +140,5 @@ typedef struct iso_formula {
         uint8_t kind; /* the kind of iso_effect_state            */
     } state[ISO_FORMULA_STATES];
 } iso_formula;
-
-ISO_C_END
 
 #endif

@@ -2,12 +2,9 @@
 #ifndef ISO_STUDY_CHECK_H
 #define ISO_STUDY_CHECK_H
 
-#include "../../base/api.h"
-#include "../../base/field.h"
-#include "../../base/record.h"
-#include "../../orbit/orbit.h"
-
-ISO_C_BEGIN
+#include "base/field.h"
+#include "base/record.h"
+#include "orbit/orbit.h"
 
 enum { ISO_MAX_RESIDUALS = 64 };
 
@@ -41,9 +38,7 @@ typedef struct iso_residuals {
  *   are the numbers of the equations that all this is done with.
  * Errors, with the row: ISO_BAD_INPUT (no model's columns, a row that is no state, a time that is not finite),
  * ISO_NOT_MAPPED (a point with H not 0 in the times of a ball), ISO_NUMERICAL, ISO_NO_MEMORY. */
-ISO_API iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
-                             iso_residuals *residuals);
-
-ISO_C_END
+iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
+                     iso_residuals *residuals);
 
 #endif

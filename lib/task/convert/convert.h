@@ -9,10 +9,7 @@
 
 #include <math.h>
 
-#include "../../base/api.h"
-#include "../../orbit/description.h"
-
-ISO_C_BEGIN
+#include "orbit/description.h"
 
 /* The most steps from one row to the next. Without this limit a damaged time could keep a program busy for ever. */
 enum { ISO_MAX_ROW_STEPS = 10000000 };
@@ -93,7 +90,7 @@ typedef struct iso_conversion_options {
 /* Tolerance 1e-14, J as it is. */
 static inline iso_conversion_options iso_conversion_defaults(void)
 {
-    iso_conversion_options o = ISO_ALL_ZERO;
+    iso_conversion_options o = {0};
     o.tolerance = 1e-14;
     o.max_defect = NAN;
     o.first_row = 1;
@@ -109,14 +106,11 @@ static inline iso_conversion_options iso_conversion_defaults(void)
  * - ISO_NOT_MAPPED: a row is at rest; the M of a point does not fit eps or h of the record and the energy of the
  *   first row; or an effect breaks the isomorphism;
  * - ISO_NUMERICAL, ISO_NO_MEMORY. */
-ISO_API iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
-                               double tolerance, iso_record **out);
+iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
+                       double tolerance, iso_record **out);
 
 /* The same with all options, and a summary (may be NULL). */
-ISO_API iso_status iso_convert_as(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
-                                  const iso_conversion_options *options, iso_conversion_summary *summary,
-                                  iso_record **out);
-
-ISO_C_END
+iso_status iso_convert_as(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
+                          const iso_conversion_options *options, iso_conversion_summary *summary, iso_record **out);
 
 #endif

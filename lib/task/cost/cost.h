@@ -22,11 +22,8 @@
 #ifndef ISO_STUDY_COST_H
 #define ISO_STUDY_COST_H
 
-#include "../../base/api.h"
-#include "../../base/field.h"
-#include "../../orbit/orbit.h"
-
-ISO_C_BEGIN
+#include "base/field.h"
+#include "orbit/orbit.h"
 
 typedef struct iso_cost_options {
     bool quick;          /* three tolerances and about 3 s; else every second power of ten and about 40 s       */
@@ -42,7 +39,7 @@ typedef struct iso_cost_options {
 /* All backends, methods and tolerances, about 40 s. */
 static inline iso_cost_options iso_cost_defaults(void)
 {
-    iso_cost_options o = ISO_ALL_ZERO;
+    iso_cost_options o = {0};
     o.backend = ISO_BACKEND_AUTO;
     return o;
 }
@@ -90,10 +87,8 @@ typedef struct iso_cost {
  * iso_orbit_create); ISO_BAD_ARGUMENT about "end" for a scene without length; ISO_NUMERICAL where no reference gets
  * there; ISO_NO_MEMORY. On ISO_STOPPED *cost holds what was measured so far, NULL if nothing; on other errors it is
  * NULL. */
-ISO_API iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_cost_options *options,
-                                    iso_cost **cost);
-ISO_API void iso_cost_free(iso_cost *cost);
-
-ISO_C_END
+iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_cost_options *options,
+                            iso_cost **cost);
+void iso_cost_free(iso_cost *cost);
 
 #endif

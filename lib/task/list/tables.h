@@ -6,10 +6,7 @@
 #ifndef ISO_STUDY_TABLES_H
 #define ISO_STUDY_TABLES_H
 
-#include "../../base/api.h"
-#include "../../base/field.h"
-
-ISO_C_BEGIN
+#include "base/field.h"
 
 typedef struct iso_result_table {
     const char *kind; /* as in the first line of its file, "# isoroll KIND 1" */
@@ -19,8 +16,6 @@ typedef struct iso_result_table {
 } iso_result_table;
 
 /* The i-th table; NULL past the end. */
-ISO_API const iso_result_table *iso_result_table_at(int i);
-
-ISO_C_END
+const iso_result_table *iso_result_table_at(int i);
 
 #endif
