@@ -46,6 +46,11 @@ typedef struct iso_effect_number {
     } kind;
     bool required;           /* a scene must have the key                                                           */
     bool scene_only;         /* not a line of trajectory files: the row's `complete` uses it, or only a run does    */
+    enum {
+        ISO_OF_ANY_BALL, /* which scenes state it, and must: */
+        ISO_OF_BODY,     /* those of a body with mass and radius; such a number is scene_only */
+        ISO_OF_REDUCED   /* those of k and J; of a body `complete` computes it                */
+    } of;
     bool hidden;             /* the row finds it by itself: in no scene, no file and no list                        */
     const double *initially; /* count numbers, where a scene has no such key; NULL: zeros                           */
     /* The group of columns with these numbers at later times: a row of a file starts with them (`begin`); NULL: they
