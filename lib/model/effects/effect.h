@@ -44,8 +44,8 @@ typedef struct iso_effect_number {
         ISO_NUMBER_FLAG,         /* 0 or 1; true or false in a scene                                                */
         ISO_NUMBER_WORD          /* which of `word`, from 0; the word itself in scenes and files                    */
     } kind;
-    bool required;           /* a scene must have the key                                                           */
-    bool scene_only;         /* not a line of trajectory files: the row's `complete` uses it, or only a run does    */
+    bool required;   /* a scene must have the key                                                           */
+    bool scene_only; /* not a line of trajectory files: the row's `complete` uses it, or only a run does    */
     enum {
         ISO_OF_ANY_BALL, /* which scenes state it, and must: */
         ISO_OF_BODY,     /* those of a body with mass and radius; such a number is scene_only */
