@@ -13,7 +13,6 @@
 #include "map/state.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-#include "task/task_impl.h"
 
 /* The largest ratio of moments of a free ball with J = 2 E - c. The least moment is a difference, and loses as
  * many digits as the ratio has. */
@@ -197,6 +196,53 @@ static iso_status make_reduced(iso_context *ctx, iso_analogue *a)
     return make_level(ctx, a);
 }
 
+/* --- units ------------------------------------------------------------------------------------------------------ */
+
+/* A problem of a point fixes the ball's J up to a scale s (analogue.h). The angular velocity goes as
+ * s^((1/k - 4)/2). With D = m B^2 in the middle of its range, s is 2 D/(J1 + J2 - J3). So there is one D for which
+ * the angular velocity is 1. Mass and radius are round numbers with a product m B^2 near this D. */
+
+/* Of the numbers ..., 0.5, 1, 2, 5, 10, ...: the nearest to x > 0, by ratio; or the first that is not less. */
+static double round_number(double x, bool up)
+{
+    static const int digits[] = {1, 2, 5, 10};
+    double found = NAN, y;
+    x = fmin(fmax(x, 1e-300), 1e300);
+    for (int i = 0; i < 4; i++) {
+        char text[ISO_NUMBER_SIZE];
+        const int length = snprintf(text, sizeof text, "%de%d", digits[i], (int)floor(log10(x)));
+        if (!iso_number_read(text, (size_t)length, &y)) continue;
+        if (up && y >= x) return y;
+        if (!(fabs(log(y / x)) >= fabs(log(found / x)))) found = y;
+    }
+    return found;
+}
+
+double iso_analogue_round_up(double x)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    return x > 1e-300 && x < 1e300 ? round_number(x, true) : x;
+}
+
+/* Chooses what is NAN of mass and radius. For k near 1/4 the angular velocity hardly depends on D: then, and where the
+ * ball is at rest, D is 1. */
+static void choose_units(const iso_analogue *a, double *mass, double *radius)
+{
+    double start[ISO_STATE], ball[ISO_STATE], D = 1, best = INFINITY;
+    const double power = (1 / a->reduced.params.k - 4) / 2, m = *mass, B = *radius;
+    iso_analogue_start(a, start);
+    iso_point_to_ball(&a->reduced.params, start, ball);
+    const double w = norm(ball);
+    if (w > 0 && isfinite(w) && fabs(power) > 0.25) D = fmin(fmax(a->room / 2 * pow(w, -1 / power), 1e-9), 1e9);
+    if (!isnan(B) && isnan(m)) *mass = round_number(D / B / B, false);
+    if (isnan(B) && !isnan(m)) *radius = round_number(sqrt(D / m), false);
+    for (int i = -1; i <= 1 && isnan(B) && isnan(m); i++) { /* one of three radii near the cube root of D */
+        const double b = round_number(round_number(cbrt(D), false) * pow(2.2, i), false);
+        const double one = round_number(D / (b * b), false), off = fabs(log(one * b * b / D));
+        if (off < best) best = off, *mass = one, *radius = b;
+    }
+}
+
 /* --- the body --------------------------------------------------------------------------------------------------- */
 
 /* The surface that gives k: A/(A+B), 1, A/(A-B), -A/(B-A). */
@@ -212,7 +258,6 @@ static void make_body(iso_context *ctx, double mass, double radius, iso_analogue
 {
     const iso_analogue_ball *r = &a->reduced;
     iso_params params;
-    double start[ISO_STATE];
     a->room = triangle_room(r->params.J);
     if (!(a->room > 0)) {
         snprintf(a->no_body, sizeof a->no_body,
@@ -221,8 +266,7 @@ static void make_body(iso_context *ctx, double mass, double radius, iso_analogue
                  a->room);
         return;
     }
-    iso_analogue_start(a, start);
-    iso_analogue_choose_units(a, start, &mass, &radius);
+    choose_units(a, &mass, &radius);
     iso_body body = {.mass = mass, .radius = radius};
     const double D = mass * radius * radius, level_energy = iso_coupling(&r->params, r->level);
     a->scale = 2 * (D / a->room);
@@ -342,6 +386,7 @@ iso_status iso_analogue_scene(iso_context *ctx, const iso_analogue_ball *ball, c
     s.params = ball->params;
     iso_effects_set_level(&s.effects, ball->level != 0, ball->level);
     ISO_TRY(start_ball(ctx, &s.params, point, &s.start));
+    for (int i = 0; i < ISO_STATE; i++) s.start.y[i] += 0.0; /* no -0 */
     iso_orbit_options o = iso_orbit_defaults(&s.start);
     o.effects = &s.effects;
     o.clock = ISO_CLOCK_S;
@@ -352,81 +397,4 @@ iso_status iso_analogue_scene(iso_context *ctx, const iso_analogue_ball *ball, c
     iso_orbit_free(orbit);
     if (status == ISO_OK) *scene = s;
     return status;
-}
-
-/* --- units ------------------------------------------------------------------------------------------------------ */
-
-/* A problem of a point fixes the ball's J up to a scale s (analogue.h). The angular velocity goes as
- * s^((1/k - 4)/2). With D = m B^2 in the middle of its range, s is 2 D/(J1 + J2 - J3). So there is one D for which
- * the angular velocity is 1. Mass and radius are round numbers with a product m B^2 near this D. */
-
-/* The n-th of the numbers ..., 0.5, 1, 2, 5, 10, ...: 1 is the 0th. */
-static double round_number(int n)
-{
-    static const int digit[] = {1, 2, 5};
-    char text[ISO_NUMBER_SIZE];
-    const int place = ((n % 3) + 3) % 3;
-    double x = NAN;
-    const int length = snprintf(text, sizeof text, "%de%d", digit[place], (n - place) / 3);
-    return iso_number_read(text, (size_t)length, &x) ? x : NAN;
-}
-
-/* Which of them is nearest to x > 0, by ratio. */
-static int nearest_round(double x)
-{
-    x = fmin(fmax(x, 1e-100), 1e100);
-    int n = 3 * (int)floor(log10(x));
-    while (x * x > round_number(n) * round_number(n + 1)) n++;
-    return n;
-}
-
-double iso_analogue_round_up(double x)
-{
-    ISO_DEFAULT_ARITHMETIC;
-    if (!(x > 1e-300 && x < 1e300)) return x;
-    int n = 3 * (int)floor(log10(x)) - 1;
-    while (round_number(n) < x) n++;
-    return round_number(n);
-}
-
-/* The ball's angular velocity at the point's start. */
-static double angular_velocity(const iso_analogue *a, const double start[ISO_STATE])
-{
-    double ball[ISO_STATE];
-    iso_point_to_ball(&a->reduced.params, start, ball);
-    return norm(ball);
-}
-
-/* The D = m B^2 for which the angular velocity of the body is 1. For k near 1/4 it hardly depends on D: then, and
- * where the ball is at rest, D is 1. */
-static double best_D(const iso_analogue *a, const double start[ISO_STATE])
-{
-    const double power = (1 / a->reduced.params.k - 4) / 2, w = angular_velocity(a, start);
-    const double D = a->room / 2 * pow(w, -1 / power);
-    if (!(w > 0) || !isfinite(w) || !(fabs(power) > 0.25)) return 1;
-    return fmin(fmax(D, 1e-9), 1e9);
-}
-
-/* The round mass and radius whose m B^2 is nearest to D. The radius is one of three near the cube root of D. */
-static void choose_both(double D, double *mass, double *radius)
-{
-    const int middle = nearest_round(cbrt(D));
-    double best = INFINITY;
-    for (int n = middle - 1; n <= middle + 1; n++) {
-        const double B = round_number(n), m = round_number(nearest_round(D / (B * B)));
-        const double off = fabs(log(m * B * B / D));
-        if (off < best) best = off, *mass = m, *radius = B;
-    }
-}
-
-void iso_analogue_choose_units(const iso_analogue *a, const double start[ISO_STATE], double *mass, double *radius)
-{
-    if (!isnan(*mass) && !isnan(*radius)) return;
-    const double D = best_D(a, start);
-    if (isnan(*mass) && isnan(*radius))
-        choose_both(D, mass, radius);
-    else if (isnan(*mass))
-        *mass = round_number(nearest_round(D / *radius / *radius));
-    else
-        *radius = round_number(nearest_round(sqrt(D / *mass)));
 }

@@ -73,9 +73,4 @@ typedef struct iso_analogue_found {
     const char *text; /* the scene of the ball, with a report in # lines; it is freed with the rest */
 } iso_analogue_found;
 
-/* --- analogue.c ------------------------------------------------------------------------------------------------- */
-
-/* Chooses what is NAN of mass and radius. a->room and a->reduced are known and have a body; start: of the point. */
-void iso_analogue_choose_units(const iso_analogue *a, const double start[ISO_STATE], double *mass, double *radius);
-
 #endif
