@@ -20,31 +20,22 @@
 
 /* --- the problem ------------------------------------------------------------------------------------------------ */
 
-/* c of V = (1/2) sum c_i gamma_i^2 = -eps (gamma, J gamma), for k = -1 */
-static void neumann_c(const iso_analogue_problem *p, double c[3])
-{
-    for (int i = 0; i < 3; i++) c[i] = p->neumann ? p->c[i] : -2 * p->eps * p->J[i];
-}
-
 static double potential(const iso_analogue_problem *p, const double gamma[3])
 {
     if (p->neumann) return dot_diag(gamma, p->c, gamma) / 2;
     return -p->eps * pow(dot_diag(gamma, p->J, gamma), -1 / p->k);
 }
 
-/* Finds the least and the largest V on the sphere. V is monotonic in one quadratic form, so both are on axes.
- * Returns the axis of the least V. */
-static int find_range(const iso_analogue_problem *p, double *lowest, double *highest)
+/* Finds the least and the largest V on the sphere. V is monotonic in one quadratic form, so both are on axes. */
+static void find_range(iso_analogue *a)
 {
-    int bottom = 0;
-    *lowest = INFINITY;
-    *highest = -INFINITY;
+    a->lowest = INFINITY;
+    a->highest = -INFINITY;
     for (int i = 0; i < 3; i++) {
-        const double axis[3] = {i == 0, i == 1, i == 2}, V = potential(p, axis) + 0.0; /* no -0 */
-        if (V < *lowest) *lowest = V, bottom = i;
-        *highest = fmax(*highest, V);
+        const double axis[3] = {i == 0, i == 1, i == 2}, V = potential(&a->problem, axis) + 0.0; /* no -0 */
+        if (V < a->lowest) a->lowest = V, a->bottom = i;
+        a->highest = fmax(a->highest, V);
     }
-    return bottom;
 }
 
 static iso_status check_numbers(iso_context *ctx, const iso_analogue_problem *p)
@@ -125,6 +116,17 @@ static iso_status make_ball(iso_context *ctx, double k, const double J[3], doubl
                               ISO_SHORT(level_energy));
 }
 
+/* k = -1: J = d - c, eps = 1/2, on the level E - d/2. A stated eps > 0 is kept: then J is in other units. */
+static iso_status make_shifted(iso_context *ctx, iso_analogue *a, const double c[3], double d, double level_energy)
+{
+    const iso_analogue_problem *p = &a->problem;
+    const double unit = !p->neumann && p->eps > 0 ? 2 * p->eps : 1;
+    double J[3];
+    for (int i = 0; i < 3; i++) J[i] = p->neumann || p->eps < 0 ? d - c[i] : p->J[i] + d / unit;
+    a->shift = d / 2;
+    return make_ball(ctx, -1, J, unit / 2, level_energy, &a->reduced);
+}
+
 /* V is a constant: takes the stated moments if they are equal, else moments that make the ball of order one. */
 static iso_status make_constant(iso_context *ctx, iso_analogue *a)
 {
@@ -138,62 +140,37 @@ static iso_status make_constant(iso_context *ctx, iso_analogue *a)
     return make_ball(ctx, k, J, over * pow(one, 1 / k), 0, &a->reduced);
 }
 
-/* k = -1: J = d - c, eps = 1/2, on the level E - d/2. A stated eps > 0 is kept: then J is in other units. */
-static iso_status make_shifted(iso_context *ctx, iso_analogue *a, double d, double level_energy)
-{
-    const iso_analogue_problem *p = &a->problem;
-    const double unit = !p->neumann && p->eps > 0 ? 2 * p->eps : 1;
-    double J[3];
-    neumann_c(p, J);
-    for (int i = 0; i < 3; i++) J[i] = p->neumann || p->eps < 0 ? d - J[i] : p->J[i] + d / unit;
-    a->shift = d / 2;
-    return make_ball(ctx, -1, J, unit / 2, level_energy, &a->reduced);
-}
-
-/* Whether J = 2 E - c is positive. If not, a->not_free says why. */
-static bool shift_is_free(iso_analogue *a)
-{
-    double c[3], J[3];
-    neumann_c(&a->problem, c);
-    for (int i = 0; i < 3; i++) J[i] = 2 * a->problem.energy - c[i];
-    if (min3(J) > 0 && min3(J) * MOST_SPREAD >= max3(J)) return true;
-    snprintf(a->not_free, sizeof a->not_free,
-             "no free ball: 2 E - c = %.6g %.6g %.6g must be positive (and within a factor %s of each other)", J[0],
-             J[1], J[2], ISO_SHORT(MOST_SPREAD));
-    return false;
-}
-
-static iso_status make_level(iso_context *ctx, iso_analogue *a)
-{
-    const iso_analogue_problem *p = &a->problem;
-    double c[3];
-    if (p->neumann || (p->k == -1 && triangle_room(p->J) <= 0)) {
-        neumann_c(p, c);
-        const double d = max3(c) + 2 * (max3(c) - min3(c));
-        a->way = ISO_ANALOGUE_SHIFTED;
-        return make_shifted(ctx, a, d, p->energy - d / 2);
-    }
-    a->way = ISO_ANALOGUE_STATED;
-    return make_ball(ctx, p->k, p->J, p->eps, p->energy, &a->reduced);
-}
-
+/* The free ball, where there is one; else the stated ball, or one that has a body, in the potential of a level. */
 static iso_status make_reduced(iso_context *ctx, iso_analogue *a)
 {
     const iso_analogue_problem *p = &a->problem;
     const bool shell = p->neumann || p->k == -1;
+    double c[3], free[3]; /* c of V = (1/2) sum c_i gamma_i^2 = -eps (gamma, J gamma); J = 2 E - c */
     if (is_constant(p)) return make_constant(ctx, a);
-    if (!p->neumann && p->energy == 0 && !(p->level && shell)) return make_level(ctx, a);
+    for (int i = 0; i < 3; i++) {
+        c[i] = p->neumann ? p->c[i] : -2 * p->eps * p->J[i];
+        free[i] = 2 * p->energy - c[i];
+    }
     if (p->level && shell) {
         snprintf(a->not_free, sizeof a->not_free, "a ball in the potential of a level was asked for");
-    } else if (!shell) {
+    } else if (!shell && p->energy != 0) {
         snprintf(a->not_free, sizeof a->not_free,
                  "no free ball: for k = %.10g a free ball has E = 0; only for k = -1 can J take up another energy",
                  p->k);
-    } else if (shift_is_free(a)) {
+    } else if (p->neumann || p->energy != 0) {
         a->way = ISO_ANALOGUE_FREE;
-        return make_shifted(ctx, a, 2 * p->energy, 0);
+        if (min3(free) > 0 && min3(free) * MOST_SPREAD >= max3(free))
+            return make_shifted(ctx, a, c, 2 * p->energy, 0);
+        snprintf(a->not_free, sizeof a->not_free,
+                 "no free ball: 2 E - c = %.6g %.6g %.6g must be positive (and within a factor %s of each other)",
+                 free[0], free[1], free[2], ISO_SHORT(MOST_SPREAD));
     }
-    return make_level(ctx, a);
+    a->way = ISO_ANALOGUE_STATED;
+    if (!p->neumann && !(shell && triangle_room(p->J) <= 0))
+        return make_ball(ctx, p->k, p->J, p->eps, p->energy, &a->reduced);
+    const double d = max3(c) + 2 * (max3(c) - min3(c));
+    a->way = ISO_ANALOGUE_SHIFTED;
+    return make_shifted(ctx, a, c, d, p->energy - d / 2);
 }
 
 /* --- units ------------------------------------------------------------------------------------------------------ */
@@ -245,14 +222,6 @@ static void choose_units(const iso_analogue *a, double *mass, double *radius)
 
 /* --- the body --------------------------------------------------------------------------------------------------- */
 
-/* The surface that gives k: A/(A+B), 1, A/(A-B), -A/(B-A). */
-static void choose_surface(double k, iso_body *body)
-{
-    const double B = body->radius;
-    body->surface = k == 1 ? ISO_PLANE : k > 1 ? ISO_INSIDE : k > 0 ? ISO_OUTSIDE : ISO_SHELL;
-    body->surface_radius = k == 1 ? 0 : k > 1 || k < 0 ? B * (k / (k - 1)) : B * (k / (1 - k));
-}
-
 /* The body of mass and radius (NAN: chosen) with D = m B^2 in the middle of (0, s room]. */
 static void make_body(iso_context *ctx, double mass, double radius, iso_analogue *a)
 {
@@ -267,14 +236,15 @@ static void make_body(iso_context *ctx, double mass, double radius, iso_analogue
         return;
     }
     choose_units(a, &mass, &radius);
-    iso_body body = {.mass = mass, .radius = radius};
-    const double D = mass * radius * radius, level_energy = iso_coupling(&r->params, r->level);
+    iso_body body = {.mass = mass, .radius = radius}; /* on the surface with A/(A+B), 1, A/(A-B) or -A/(B-A) = k */
+    const double k = r->params.k, D = mass * radius * radius, level_energy = iso_coupling(&r->params, r->level);
     a->scale = 2 * (D / a->room);
     for (int i = 0; i < 3; i++) body.inertia[i] = D * (2 * (r->params.J[i] / a->room) - 1);
-    choose_surface(r->params.k, &body);
+    body.surface = k == 1 ? ISO_PLANE : k > 1 ? ISO_INSIDE : k > 0 ? ISO_OUTSIDE : ISO_SHELL;
+    body.surface_radius = k == 1 ? 0 : k > 1 || k < 0 ? radius * (k / (k - 1)) : radius * (k / (1 - k));
     iso_status status = iso_params_physical(ctx, &body, &params);
     if (status == ISO_OK)
-        status = make_ball(ctx, params.k, params.J, r->eps * pow(a->scale, 1 / r->params.k), level_energy, &a->body);
+        status = make_ball(ctx, params.k, params.J, r->eps * pow(a->scale, 1 / k), level_energy, &a->body);
     a->has_body = status == ISO_OK;
     if (a->has_body)
         a->body.params = params;
@@ -289,7 +259,7 @@ iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *probl
     memset(a, 0, sizeof *a);
     a->problem = *problem;
     ISO_TRY(check_numbers(ctx, problem));
-    find_range(problem, &a->lowest, &a->highest);
+    find_range(a);
     ISO_TRY(check_energy(ctx, a));
     ISO_TRY(make_reduced(ctx, a));
     if (a->reduced.level == 0) a->not_free[0] = '\0';
@@ -342,15 +312,14 @@ double iso_analogue_start(const iso_analogue *a, double point[ISO_STATE])
     static const double off[3] = {0.48, 0.6, 0.64}, way[3] = {0.6, -0.48, 0.64};
     const iso_analogue_problem *p = &a->problem;
     const double over = p->energy - a->lowest, most = fmax(p->energy, a->highest) - a->lowest;
-    double lowest, highest, *M = point, *gamma = point + 3;
-    const int bottom = find_range(p, &lowest, &highest);
+    double *M = point, *gamma = point + 3;
     copy(off, gamma, 3);
     for (int i = 0; i < 30 && potential(p, gamma) - a->lowest > over / 2; i++) {
-        gamma[bottom] += 1;
+        gamma[a->bottom] += 1;
         make_unit(gamma);
     }
     if (over <= rounding(a)) /* at rest at the bottom */
-        for (int i = 0; i < 3; i++) gamma[i] = i == bottom;
+        for (int i = 0; i < 3; i++) gamma[i] = i == a->bottom;
     copy(way, M, 3);
     remove_along(M, gamma);
     make_unit(M);

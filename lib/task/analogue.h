@@ -56,7 +56,8 @@ typedef struct iso_analogue_ball {
 
 typedef struct iso_analogue {
     iso_analogue_problem problem;
-    double lowest, highest; /* of V on the sphere                                                       */
+    double lowest, highest; /* of V on the sphere ... */
+    int bottom;             /* ... the axis of the least V */
     iso_analogue_way way;
     double shift; /* V of the problem less that of the ball's twin, a constant                         */
     iso_analogue_ball reduced;
