@@ -32,11 +32,12 @@ static void open_section(printer *p, const char *before, const char *section)
     p->keys = 0;
 }
 
-/* Begins the value of a key in a section, which may be open. */
+/* Begins the value of a key in a section, which may be open. The six numbers of a start are too long for one line. */
 static void print_key(printer *p, const char *section, const char *key)
 {
     if (!p->section || strcmp(p->section, section) != 0) open_section(p, "", section);
-    fprintf(p->to, "%s%s: ", p->keys++ > 0 ? ", " : "", key);
+    const char *comma = strcmp(section, "initial") == 0 ? ",\n          " : ", ";
+    fprintf(p->to, "%s%s: ", p->keys++ > 0 ? comma : "", key);
 }
 
 static void print_word(printer *p, const char *section, const char *key, const char *word)

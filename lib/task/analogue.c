@@ -269,15 +269,6 @@ iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *probl
 
 /* --- starts and scenes ------------------------------------------------------------------------------------------ */
 
-/* Refuses effects other than the level: they change the potential of the point, or leave the ball without a twin. */
-static iso_status check_effects(iso_context *ctx, const iso_effects *e)
-{
-    const iso_effect *more = iso_effects_beyond_level(e);
-    if (!more) return ISO_OK;
-    return iso_context_fail(ctx, ISO_NOT_MAPPED, more->name,
-                            "'%s' is more than V = -eps (gamma, J gamma)^(-1/k): take it out", more->name);
-}
-
 /* Asks an orbit for the coupling and the level of the start: the scene may not state them. */
 iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso_analogue_problem *problem,
                                    double point[ISO_STATE])
@@ -289,7 +280,10 @@ iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso
     iso_effects effects = iso_scene_acting(scene);
     if (scene->start.model != ISO_POINT)
         return ISO_FAIL_INPUT(ctx, "", "this scene is a ball already: an analogue is of a 'point'");
-    ISO_TRY(check_effects(ctx, &effects));
+    const iso_effect *more = iso_effects_beyond_level(&effects); /* changes the potential, or there is no twin */
+    if (more)
+        return iso_context_fail(ctx, ISO_NOT_MAPPED, more->name,
+                                "'%s' is more than V = -eps (gamma, J gamma)^(-1/k): take it out", more->name);
     o.effects = &effects;
     ISO_TRY(iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit));
     iso_status status = iso_orbit_at(orbit, 0, &sample);

@@ -13,8 +13,9 @@
 
 /* --- the report ------------------------------------------------------------------------------------------------- */
 
-static void print_problem(FILE *to, const iso_analogue_problem *p)
+static void print_problem(FILE *to, const iso_analogue *a)
 {
+    const iso_analogue_problem *p = &a->problem;
     const double *x = p->neumann ? p->c : p->J;
     fprintf(to, "# a ball that realises a point on a sphere\n# point: V = ");
     if (p->neumann)
@@ -22,11 +23,8 @@ static void print_problem(FILE *to, const iso_analogue_problem *p)
     else
         fprintf(to, "-eps (gamma, J gamma)^(-1/k), k = %.10g, J = %.10g %.10g %.10g, eps = %.10g\n", p->k, x[0], x[1],
                 x[2], p->eps);
-}
-
-static void print_way(FILE *to, const iso_analogue *a)
-{
-    const bool free = a->reduced.level == 0, shifted = a->problem.neumann || a->problem.eps < 0;
+    fprintf(to, "#   energy M^2/2 + V = %.10g; V is between %.10g and %.10g\n", p->energy, a->lowest, a->highest);
+    const bool free = a->reduced.level == 0, shifted = p->neumann || p->eps < 0;
     fprintf(to, "# ball: %s", free ? "free" : "in the potential U = -c (n, J^-1 n)^(-1/k)");
     if (a->way == ISO_ANALOGUE_STATED) fprintf(to, free ? ", since the energy is 0\n" : "; c = E k^2/det J\n");
     if (a->way == ISO_ANALOGUE_FREE)
@@ -42,30 +40,26 @@ static void print_way(FILE *to, const iso_analogue *a)
     if (*a->not_free) fprintf(to, "#   %s\n", a->not_free);
 }
 
-static void print_reduced(FILE *to, const iso_analogue_ball *b)
-{
-    const double *J = b->params.J;
-    fprintf(to, "# reduced: k = %s, J = %s %s %s\n#   eps = %s, h = eps k^2/det J = %s", ISO_SHORT(b->params.k),
-            ISO_SHORT(J[0]), ISO_SHORT(J[1]), ISO_SHORT(J[2]), ISO_SHORT(b->eps), ISO_SHORT(b->h));
-    if (b->level != 0) fprintf(to, ", c = %s", ISO_SHORT(b->level));
-    if (b->h < 0) fprintf(to, "\n#   eps and h are negative: the ball moves by the potential of the level alone");
-    fprintf(to, "\n");
-}
-
 /* With a body: which other bodies there are. Without: why there is none, and which option gives one. */
-static void print_body(FILE *to, const iso_analogue *a)
+static void print_ball(FILE *to, const iso_analogue *a)
 {
+    const iso_analogue_ball *r = &a->reduced;
     const iso_body *b = &a->body.params.body;
+    const double *J = r->params.J;
+    fprintf(to, "# reduced: k = %s, J = %s %s %s\n#   eps = %s, h = eps k^2/det J = %s", ISO_SHORT(r->params.k),
+            ISO_SHORT(J[0]), ISO_SHORT(J[1]), ISO_SHORT(J[2]), ISO_SHORT(r->eps), ISO_SHORT(r->h));
+    if (r->level != 0) fprintf(to, ", c = %s", ISO_SHORT(r->level));
+    if (r->h < 0) fprintf(to, "\n#   eps and h are negative: the ball moves by the potential of the level alone");
+    fprintf(to, "\n");
     if (!a->has_body) {
         fprintf(to, "# no body:\n#   %s\n", a->no_body);
-        if (a->reduced.params.k == -1 && a->way != ISO_ANALOGUE_SHIFTED && !(a->room > 0))
+        if (r->params.k == -1 && a->way != ISO_ANALOGUE_SHIFTED && !(a->room > 0))
             fprintf(to, "#   --level gives one that has a body, in the potential of a level\n");
         return;
     }
     fprintf(to, "# body: %s, m = %.10g, B = %.10g", iso_surface_name((int)b->surface), b->mass, b->radius);
     if (b->surface != ISO_PLANE) fprintf(to, ", A = %.10g", b->surface_radius);
-    fprintf(to, "; J times %.10g, which with eps times %.10g leaves V as it is;\n", a->scale,
-            a->body.eps / a->reduced.eps);
+    fprintf(to, "; J times %.10g, which with eps times %.10g leaves V as it is;\n", a->scale, a->body.eps / r->eps);
     fprintf(to, "#   the triangle inequalities allow m B^2 = D times that for D in (0, J1 + J2 - J3] = (0, %.10g]\n",
             a->room);
 }
@@ -75,20 +69,19 @@ static void print_body(FILE *to, const iso_analogue *a)
 static void begin(void *options)
 {
     iso_analogue_request *r = options;
-    *r = (iso_analogue_request){.J = {NAN}, .neumann = {NAN}};
-    r->k = r->eps = r->energy = r->mass = r->radius = NAN;
+    *r = (iso_analogue_request){{.c = {NAN}, .k = NAN, .J = {NAN}, .eps = NAN, .energy = NAN}, NAN, NAN};
 }
 
 bool iso_analogue_is_stated(const iso_analogue_request *r)
 {
-    return !isnan(r->neumann[0]) || !isnan(r->k);
+    return !isnan(r->problem.c[0]) || !isnan(r->problem.k);
 }
 
 /* Options that state half a problem, or two. */
 static iso_status prepare(iso_context *ctx, void *options)
 {
-    const iso_analogue_request *r = options;
-    const bool neumann = !isnan(r->neumann[0]), k = !isnan(r->k), J = !isnan(r->J[0]), eps = !isnan(r->eps);
+    const iso_analogue_problem *p = &((const iso_analogue_request *)options)->problem;
+    const bool neumann = !isnan(p->c[0]), k = !isnan(p->k), J = !isnan(p->J[0]), eps = !isnan(p->eps);
     if (neumann && (k || J || eps))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "neumann",
                                 "analogue: --neumann has k = -1 and needs no --k, --J or --eps: leave them out");
@@ -97,7 +90,7 @@ static iso_status prepare(iso_context *ctx, void *options)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, missing,
                                 "analogue: --%s is missing: a problem is --k, --J and --eps, or --neumann", missing);
     }
-    if (!neumann && !k && !isnan(r->energy))
+    if (!neumann && !k && !isnan(p->energy))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "energy",
                                 "analogue: --energy needs --neumann or --k, --J and --eps; a scene's start has its "
                                 "own");
@@ -109,16 +102,15 @@ static iso_status state(iso_context *ctx, const iso_scene *scene, const iso_anal
                         double point[ISO_STATE], double *end)
 {
     const bool stated = iso_analogue_is_stated(r);
-    iso_analogue_problem p = {.neumann = !isnan(r->neumann[0]), .k = r->k, .eps = r->eps};
+    iso_analogue_problem p = r->problem;
     if (stated == (scene != NULL))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scene",
                                 stated ? "analogue: a scene and a problem in options: leave one of them out"
                                        : "analogue needs a scene, or a problem in options");
-    memcpy(p.J, r->J, sizeof p.J);
-    memcpy(p.c, r->neumann, sizeof p.c);
-    p.energy = isnan(r->energy) ? 0 : r->energy;
+    p.neumann = !isnan(p.c[0]);
+    if (isnan(p.energy)) p.energy = 0;
     if (scene) ISO_TRY(iso_analogue_problem_of(ctx, scene, &p, point));
-    p.level = r->level;
+    p.level = r->problem.level;
     ISO_TRY(iso_analogue_find(ctx, &p, r->mass, r->radius, a));
     *end = scene ? scene->end : 2 * iso_analogue_start(a, point); /* about twenty turns */
     return ISO_OK;
@@ -129,12 +121,8 @@ static iso_status state(iso_context *ctx, const iso_scene *scene, const iso_anal
 /* of: the scene of the point; NULL: options state the problem. */
 static void report(FILE *to, const iso_analogue *a, const iso_scene *of, const iso_scene *scene)
 {
-    print_problem(to, &a->problem);
-    fprintf(to, "#   energy M^2/2 + V = %.10g; V is between %.10g and %.10g\n", a->problem.energy, a->lowest,
-            a->highest);
-    print_way(to, a);
-    print_reduced(to, &a->reduced);
-    print_body(to, a);
+    print_problem(to, a);
+    print_ball(to, a);
     fprintf(to, "# start: %s; the twin's gamma and M are the point's, in its clock s\n",
             of ? "the scene's" : "one that has this energy");
     if (of)
@@ -190,13 +178,13 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
 
 const iso_option iso_analogue_option[] = {
     ROW("neumann", "C", "three numbers C1,C2,C3", "C1,C2,C3 of Neumann's problem V = (1/2) sum C_i gamma_i^2",
-        iso_set_vector, neumann),
-    ROW("k", "K", "a number", "k of the problem V = -eps (gamma, J gamma)^(-1/k)", iso_set_number, k),
-    ROW("J", "J1,J2,J3", "three numbers J1,J2,J3", "J of this problem", iso_set_vector, J),
-    ROW("eps", "X", "a number", "eps of this problem", iso_set_number, eps),
-    ROW("energy", "E", "a number", "energy of the point, M^2/2 + V (default 0)", iso_set_number, energy),
+        iso_set_vector, problem.c),
+    ROW("k", "K", "a number", "k of the problem V = -eps (gamma, J gamma)^(-1/k)", iso_set_number, problem.k),
+    ROW("J", "J1,J2,J3", "three numbers J1,J2,J3", "J of this problem", iso_set_vector, problem.J),
+    ROW("eps", "X", "a number", "eps of this problem", iso_set_number, problem.eps),
+    ROW("energy", "E", "a number", "energy of the point, M^2/2 + V (default 0)", iso_set_number, problem.energy),
     ROW("level", NULL, NULL, "k = -1: a ball in the potential of a level, even where there is a free one",
-        iso_set_flag, level),
+        iso_set_flag, problem.level),
     ROW("mass", "M", "a positive number", "mass of the ball (default: chosen)", iso_set_positive, mass),
     ROW("radius", "B", "a positive number", "radius of the ball (default: chosen)", iso_set_positive, radius),
     ISO_OPTION_END,

@@ -59,9 +59,8 @@ void iso_comparison_worst(const iso_comparison *c, const char *where, size_t off
 /* --- the study analogue (analogue_study.c) ---------------------------------------------------------------------- */
 
 typedef struct iso_analogue_request {
-    double k, J[3], eps, neumann[3], energy; /* NAN: not given               */
-    double mass, radius;                     /* NAN: analogue chooses        */
-    bool level;
+    iso_analogue_problem problem; /* numbers that are not given are NAN; its `neumann` is not read */
+    double mass, radius;          /* NAN: analogue chooses                                         */
 } iso_analogue_request;
 
 /* Whether the options state a problem. If not, a scene must. */

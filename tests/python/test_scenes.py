@@ -142,7 +142,8 @@ class Text(Case):
         third = isoroll.Scene("# k is a fraction\nreduced: {k: 1/3, J: [1, 2, 5/7]}\ntime: {end: 1}\n"
                               "initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}\n")
         text = ("reduced: {k: 1/3, J: [1, 2, 5/7]}\n"
-                "initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}\ntime: {end: 2.5}\n")
+                "initial: {normal: [0.36, 0.48, 0.8],\n          angular_velocity: [0.9, -0.3, -0.225]}\n"
+                "time: {end: 2.5}\n")
         self.assertEqual(isoroll.Scene(third, end=2.5).text, text)
         text += "effects:\n  potential: {U: \"c*n1^2\", parameters: {c: 0.1}}\n  attitude: {}\n"
         changed = isoroll.Scene(third, end=2.5, attitude=True, potential={"U": "c*n1^2", "parameters": {"c": 0.1}})
