@@ -81,7 +81,6 @@ finds "Neumann below the top" "no free ball: 2 E - c = 1 0 -1" --neumann 1,2,3 -
 finds "at rest" "energy M^2/2 + V = 0.5; V is between 0.5 and 1.5" --neumann 1,2,3 --energy 0.5
 check "a ball at rest" grep -q '^ *angular_velocity: \[0, 0, 0\]}$' out
 finds "plane" "ball: free, since the energy is 0" --k 1 --J 1.4,2.1,3 --eps 6.5
-check "a plane has no radius" grep -qx 'surface: {kind: plane}' out
 finds "outside" "body: outside, m = 3, B = 0.1, A = 0.2333333333" --k 0.7 --J 1.4,2.1,3 --eps 6.5 --energy 2 --mass 3 --radius 0.1
 reports "no free ball: for k = 0.7 a free ball has E = 0"
 finds "inside" "eps and h are negative" --k 2 --J 1.4,2.1,3 --eps -1.5 --energy 1

@@ -46,11 +46,9 @@ typedef struct iso_effect_number {
     } kind;
     bool required;   /* a scene must have the key                                                           */
     bool scene_only; /* not a line of trajectory files: the row's `complete` uses it, or only a run does    */
-    enum {
-        ISO_OF_ANY_BALL, /* which scenes state it, and must: */
-        ISO_OF_BODY,     /* those of a body with mass and radius; such a number is scene_only */
-        ISO_OF_REDUCED   /* those of k and J; of a body `complete` computes it                */
-    } of;
+    /* Whose scenes state it. Those of ISO_OF_BODY and ISO_OF_REDUCED stand for each other, and one must be there:
+     * `complete` computes the second from the first, which is scene_only. */
+    enum { ISO_OF_ANY_BALL, ISO_OF_BODY, ISO_OF_REDUCED } of;
     bool hidden;             /* the row finds it by itself: in no scene, no file and no list                        */
     const double *initially; /* count numbers, where a scene has no such key; NULL: zeros                           */
     /* The group of columns with these numbers at later times: a row of a file starts with them (`begin`); NULL: they
