@@ -230,14 +230,10 @@ static bool fits(const options *o)
 static int print_point(iso_context *ctx, const options *o, const iso_sweep_file *file)
 {
     const size_t count = iso_sweep_file_plan(file)->family.count;
-    char *text = NULL;
     if (!(o->point < (double)count))
         return complain("sweep: --point %.0f: points are 0 to %zu", o->point, count - 1), EXIT_USAGE;
     if (!fits(o)) return EXIT_USAGE;
-    const iso_status status = iso_sweep_scene_text(ctx, file, (size_t)o->point, &text);
-    if (status == ISO_OK) fputs(text, stdout);
-    free(text);
-    return finish(ctx, status);
+    return finish(ctx, iso_sweep_print_point(ctx, file, (size_t)o->point, stdout));
 }
 
 static int merge(iso_context *ctx, const options *o)

@@ -34,12 +34,11 @@ typedef struct iso_sweep_axis {
     int width;  /* numbers of one value: 1, 2 (l, x), 3 or 9                   */
     int column; /* of its first number                                         */
     size_t offset;
-    const yaml_node_t *node; /* ISO_TO_NUMBER: what it replaces in the scene's text ... */
-    int whole, part;         /* ... it has `whole` numbers; the axis sets those from number `part` on */
-    int of;                  /* ISO_TO_RATIO                                */
-    int chart;               /* ISO_TO_CHART: 0 l, 1 x, 2 both                     */
-    size_t count;            /* of values; 1 of those that are drawn               */
-    double *list;            /* count * width                                  */
+    int part;     /* it sets the numbers from this one on, of one or of a vector   */
+    int of;       /* ISO_TO_RATIO                                                  */
+    int chart;    /* ISO_TO_CHART: 0 l, 1 x, 2 both                                */
+    size_t count; /* of values; 1 of those that are drawn                          */
+    double *list; /* count * width                                                 */
     double from, to;
     bool logarithmic, ordered;
     long sum; /* of a triangle */

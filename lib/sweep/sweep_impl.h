@@ -7,6 +7,8 @@
 #ifndef ISO_SWEEP_IMPL_H
 #define ISO_SWEEP_IMPL_H
 
+#include <stdio.h>
+
 #include "base/field.h"
 #include "sweep/sweep.h"
 
@@ -121,9 +123,9 @@ bool iso_sweep_axis_words(const iso_sweep_file *file, int i, char words[ISO_SWEE
 /* How many points have k = 0, where there is no ball: they will fail. Of values that are drawn none is counted. */
 size_t iso_sweep_zeros_of_k(const iso_sweep_file *file);
 
-/* The scene of point i as text: that of the scene's file with the numbers of the point in it. It reads back as the
- * same scene, to the bit. *text is the caller's to free. Errors: ISO_NO_MEMORY, and those of the point. */
-iso_status iso_sweep_scene_text(iso_context *ctx, const iso_sweep_file *file, size_t i, char **text);
+/* Prints the scene of point i: it reads back as the same scene, to the bit. Errors: those of the point, which is then
+ * not printed. */
+iso_status iso_sweep_print_point(iso_context *ctx, const iso_sweep_file *file, size_t i, FILE *to);
 
 /* How many points it has, and how long it takes here, in words; for this a few points are computed. *text is the
  * caller's to free. Errors: ISO_STOPPED, ISO_NO_MEMORY, and those of iso_sweep_create. */

@@ -163,15 +163,6 @@ run 0 sweep contact.yaml -o contact.csv
 run 0 run off.yaml -o run.csv
 equal "contact is lost" "$(cell contact.csv 0 contact_time)" "$(tail -n 1 run.csv | cut -d, -f1)"
 
-# --- a scene of a point reads back as the same start: its sweep with nothing but itself
-run 0 sweep each.yaml --point 1
-cp out point.yaml
-printf 'scene: point.yaml\nvary: {k: -0.75}\nmeasure: {state: {as: both}}\nuntil: {time: 400}\n' >itself.yaml
-run 0 sweep itself.yaml -o itself.csv
-for name in omega1 omega2 n1 n3 M1 gamma2; do
-    equal "read back: $name" "$(cell each.csv 1 state_$name)" "$(cell itself.csv 0 state_$name)"
-done
-
 # --- a bad scene inside; other bad files are in bad_files.txt
 refuses 3 "<stdin>:1:" sweep - <<'END'
 scene: {reduced: {k: 1, J: [1, 2, -5]}, initial: {normal: [1, 0, 0], angular_velocity: [0, 1, 0]}, time: {end: 1}}
