@@ -1,4 +1,5 @@
 /* sweep_explain.c - tells how many points a sweep has, and measures what they cost here. */
+#define _GNU_SOURCE /* asprintf */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -77,16 +78,17 @@ static void print_time(FILE *to, double seconds)
         fprintf(to, "%.3g days", seconds / 86400);
 }
 
-/* Gives by how much a point with all its starts takes longer. */
-static double take_few_starts(const iso_sweep_quantity *quantity, iso_sweep_request *request)
+/* Options with few starts in place of many, to be freed. *scale: by how much a point with all its starts takes longer.
+ * NULL: no memory. */
+static char *with_few_starts(const char *options, double *scale)
 {
-    for (int i = 0; quantity->settings && quantity->settings[i].name; i++) {
-        const double starts = request->setting[i];
-        if (strcmp(quantity->settings[i].name, "starts") != 0 || !(starts > 2 * STARTS)) continue;
-        request->setting[i] = STARTS;
-        return starts / STARTS;
-    }
-    return 1;
+    const char *text = iso_sweep_option(options, "starts");
+    const double starts = text ? strtod(text, NULL) : 0;
+    char *few = NULL;
+    *scale = starts > 2 * STARTS ? starts / STARTS : 1;
+    const int length =
+        *scale > 1 ? asprintf(&few, "%sstarts=%d\n", options, STARTS) : asprintf(&few, "%s", options ? options : "");
+    return length < 0 ? NULL : few;
 }
 
 /* One quantity by itself; *mean: seconds of a point. */
@@ -100,15 +102,19 @@ static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan,
     one.requests = 1;
     one.request[0] = plan->request[which];
     one.chunk = chunk;
-    const iso_sweep_quantity *quantity = iso_sweep_quantities()[one.request[0].quantity];
-    const double scale = take_few_starts(quantity, &one.request[0]);
-    ISO_TRY(iso_sweep_create(ctx, &one, &sweep));
-    iso_status status = iso_sweep_rows_create(ctx, iso_sweep_head_of(sweep)->columns, chunk, &rows);
+    double scale;
+    char *options = with_few_starts(one.request[0].options, &scale);
+    if (!options) return iso_context_no_memory(ctx, "words");
+    const char *name = one.request[0].name;
+    one.request[0].options = options;
+    iso_status status = iso_sweep_create(ctx, &one, &sweep);
+    if (status != ISO_OK) return free(options), status;
+    status = iso_sweep_rows_create(ctx, iso_sweep_head_of(sweep)->columns, chunk, &rows);
     if (status == ISO_OK) status = measure(ctx, sweep, &rows, &c);
     c.mean *= scale;
     c.most *= scale;
     if (status == ISO_OK) {
-        fprintf(to, "  %-12s %s\n  %-12s ", quantity->name, quantity->doc, "");
+        fprintf(to, "  %-12s %s\n  %-12s ", name, iso_sweep_study(name)->doc, "");
         print_time(to, c.mean);
         fprintf(to, " a point, up to ");
         print_time(to, c.most);
@@ -122,6 +128,7 @@ static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan,
     }
     iso_sweep_rows_free(&rows);
     iso_sweep_free(sweep);
+    free(options);
     return status;
 }
 

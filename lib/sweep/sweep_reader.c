@@ -45,7 +45,7 @@ static iso_sweep_column *scan_columns(const char *text, int *count)
     iso_sweep_column *columns = calloc((size_t)*count, sizeof *columns);
     for (int i = 0; columns && i < *count; i++) {
         int used = 0;
-        if (sscanf(text, " %31[^/ ]/%31[^ ]%n", columns[i].group, columns[i].name, &used) != 2) {
+        if (sscanf(text, " %31[^/ ]/%63[^ ]%n", columns[i].group, columns[i].name, &used) != 2) {
             free(columns);
             return NULL;
         }

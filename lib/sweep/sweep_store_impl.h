@@ -55,7 +55,7 @@ uint64_t iso_sweep_checksum(const void *bytes, size_t length, uint64_t salt);
 uint64_t iso_sweep_sum(uint64_t before, const iso_sweep_rows *rows);
 
 /* The name of a column in a table: k, chaos_verdict. */
-enum { ISO_SWEEP_NAME = 2 * ISO_NAME_SIZE };
+enum { ISO_SWEEP_NAME = 3 * ISO_NAME_SIZE + 1 };
 const char *iso_sweep_column_name(const iso_sweep_column *column, char name[ISO_SWEEP_NAME]);
 
 /* --- rows as bytes (sweep_record.c) ----------------------------------------------------------------------------- */

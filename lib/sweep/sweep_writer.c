@@ -51,7 +51,7 @@ static iso_status set_part(iso_context *ctx, iso_record *r, iso_sweep_shard shar
 /* "vary/k chaos/verdict": all columns, as text. NULL: no memory. */
 static char *print_columns(const iso_sweep_head *head)
 {
-    char *text = malloc((size_t)(head->columns + 1) * 2 * ISO_NAME_SIZE), *at = text;
+    char *text = malloc((size_t)(head->columns + 1) * (ISO_SWEEP_NAME + 1)), *at = text;
     if (!text) return NULL;
     *at = '\0';
     for (int i = 0; i < head->columns; i++)
