@@ -20,22 +20,25 @@ struct iso_sweep {
     iso_sweep_column *column;
 };
 
+/* One block: numbers, statuses, reasons. */
 iso_status iso_sweep_rows_create(iso_context *ctx, int columns, size_t most, iso_sweep_rows *rows)
 {
     *rows = (iso_sweep_rows){.columns = columns, .most = most};
-    rows->number = calloc(most + 1, ((size_t)columns + 1) * sizeof *rows->number);
-    rows->status = calloc(most + 1, sizeof *rows->status);
-    rows->reason = calloc(most + 1, sizeof *rows->reason);
-    if (rows->number && rows->status && rows->reason) return ISO_OK;
-    iso_sweep_rows_free(rows);
-    return iso_context_no_memory(ctx, "the rows of %zu points", most);
+    rows->number = calloc(1, iso_sweep_rows_bytes(rows) + 1);
+    if (!rows->number) return iso_context_no_memory(ctx, "the rows of %zu points", most);
+    rows->status = (iso_status *)(void *)(rows->number + most * (size_t)columns);
+    rows->reason = (char(*)[ISO_REASON_SIZE])(void *)(rows->status + most);
+    return ISO_OK;
+}
+
+size_t iso_sweep_rows_bytes(const iso_sweep_rows *rows)
+{
+    return rows->most * ((size_t)rows->columns * sizeof *rows->number + sizeof *rows->status + sizeof *rows->reason);
 }
 
 void iso_sweep_rows_free(iso_sweep_rows *rows)
 {
     free(rows->number);
-    free(rows->status);
-    free(rows->reason);
     *rows = (iso_sweep_rows){.columns = 0};
 }
 

@@ -112,6 +112,9 @@ bool iso_sweep_head_fits(const iso_sweep_head *head, const char *version);
 iso_status iso_sweep_rows_create(iso_context *ctx, int columns, size_t most, iso_sweep_rows *rows);
 void iso_sweep_rows_free(iso_sweep_rows *rows);
 
+/* All of it is one block of so many bytes, from rows->number on; the reasons stand last. */
+size_t iso_sweep_rows_bytes(const iso_sweep_rows *rows);
+
 /* How many points chunk c has. */
 size_t iso_sweep_chunk_points(const iso_sweep_head *head, size_t c);
 
