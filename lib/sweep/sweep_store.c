@@ -104,19 +104,18 @@ static iso_status look_for_journal(iso_context *ctx, const char *path)
  * *columns: whether the line with its columns is there. */
 static size_t lines_length(const char *name, size_t most, bool *header, bool *columns)
 {
-    size_t length = 0, at = 0;
-    char begin[17] = "";
+    size_t length = 0, room = 0;
+    ssize_t got;
+    char *line = NULL;
     FILE *file = fopen(name, "re");
     *header = *columns = false;
-    for (int c; file && most > 0 && (c = getc(file)) != EOF;) {
-        if (at - length < sizeof begin - 1) begin[at - length] = (char)c, begin[at - length + 1] = '\0';
-        at++;
-        if (length == 0) *header = *header || strcmp(begin, "# isoroll sweep") == 0;
-        if (c != '\n') continue;
-        *columns = *columns || strncmp(begin, "point,", 6) == 0;
-        length = at;
-        most--;
+    while (file && most-- > 0 && (got = getline(&line, &room, file)) > 0) {
+        *header = *header || strncmp(line, "# isoroll sweep", 15) == 0;
+        if (!*header || line[got - 1] != '\n') break;
+        *columns = *columns || strncmp(line, "point,", 6) == 0;
+        length += (size_t)got;
     }
+    free(line);
     if (file) fclose(file);
     return length;
 }
@@ -144,12 +143,11 @@ static iso_status read_chunks(iso_context *ctx, iso_sweep_store *s, size_t *line
 /* What a program has left is cut behind its last whole chunk. */
 static iso_status take_rows(iso_context *ctx, iso_sweep_store *s, bool resume)
 {
-    bool header, columns, same = false;
+    bool header, columns;
     iso_sweep_reader *r = NULL;
     size_t length = lines_length(s->part, SIZE_MAX, &header, &columns), lines = 0;
-    iso_status status = columns ? iso_sweep_reader_open(ctx, s->part, &r) : ISO_OK;
-    if (status == ISO_NO_MEMORY) return status;
-    same = r && is_ours(s, r);
+    if (columns && iso_sweep_reader_open(ctx, s->part, &r) == ISO_NO_MEMORY) return ISO_NO_MEMORY;
+    const bool same = r && is_ours(s, r);
     iso_sweep_reader_close(r);
     if (!header || (columns && !r)) return refuse(ctx, s->part, "is no file of a sweep: it would be overwritten");
     if (columns && !same)
@@ -216,8 +214,8 @@ iso_status iso_sweep_store_open(iso_context *ctx, const char *path, const iso_sw
 
 void iso_sweep_store_close(iso_sweep_store *s)
 {
-    iso_context *ctx = s ? iso_context_create() : NULL; /* nobody hears of trouble now */
     if (!s) return;
+    iso_context *ctx = iso_context_create(); /* nobody hears of trouble now */
     if (s->ours && (s->done == 0 || s->complete)) unlink(s->part);
     iso_sweep_writer_close(ctx, &s->writer, false);
     iso_context_free(ctx);

@@ -10,6 +10,7 @@
  */
 #include <inttypes.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,10 +60,14 @@ void iso_sweep_failures_add(iso_sweep_failures *f, const iso_sweep_rows *rows)
 
 /* --- the header --------------------------------------------------------------------------------------------------- */
 
-static iso_status set_size(iso_context *ctx, iso_record *r, const char *key, size_t size)
+__attribute__((format(printf, 4, 5))) static iso_status set(iso_context *ctx, iso_record *r, const char *key,
+                                                            const char *format, ...)
 {
-    char text[32];
-    snprintf(text, sizeof text, "%zu", size);
+    char text[64];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
     return iso_record_set(ctx, r, key, text);
 }
 
@@ -80,14 +85,6 @@ static iso_status set_text(iso_context *ctx, iso_record *r, const char *key, con
     return status;
 }
 
-static iso_status set_part(iso_context *ctx, iso_record *r, iso_sweep_shard shard)
-{
-    char text[64];
-    if (shard.count == 1) return ISO_OK;
-    snprintf(text, sizeof text, "%zu of %zu", shard.index + 1, shard.count);
-    return iso_record_set(ctx, r, "part", text);
-}
-
 /* "vary/k chaos/verdict": all columns, as text. NULL: no memory. */
 static char *print_columns(const iso_sweep_head *head)
 {
@@ -101,20 +98,19 @@ static char *print_columns(const iso_sweep_head *head)
 
 static iso_status set_lines(iso_context *ctx, iso_record *r, const iso_sweep_head *head, iso_sweep_shard shard)
 {
-    char hash[33], *columns = print_columns(head);
-    if (!columns) return iso_context_no_memory(ctx, "a sweep");
-    snprintf(hash, sizeof hash, "%016" PRIx64 "%016" PRIx64, head->hash[0], head->hash[1]);
-    iso_status status = iso_record_set(ctx, r, "isoroll", ISO_VERSION);
-    if (status == ISO_OK) status = iso_record_set(ctx, r, "hash", hash);
-    if (status == ISO_OK) status = set_size(ctx, r, "points", head->count);
-    if (status == ISO_OK) status = set_size(ctx, r, "chunk", head->chunk);
-    if (status == ISO_OK) status = iso_record_set(ctx, r, "vectors", head->vectors);
-    if (status == ISO_OK) status = set_part(ctx, r, shard);
-    if (status == ISO_OK) status = iso_record_set(ctx, r, "names", columns);
-    if (status == ISO_OK) status = set_text(ctx, r, ISO_TABLE_TEXT, head->text);
-    if (status == ISO_OK && head->scene) status = set_text(ctx, r, "scene", head->scene);
+    ISO_TRY(iso_record_set(ctx, r, "isoroll", ISO_VERSION));
+    ISO_TRY(set(ctx, r, "hash", "%016" PRIx64 "%016" PRIx64, head->hash[0], head->hash[1]));
+    ISO_TRY(set(ctx, r, "points", "%zu", head->count));
+    ISO_TRY(set(ctx, r, "chunk", "%zu", head->chunk));
+    ISO_TRY(iso_record_set(ctx, r, "vectors", head->vectors));
+    if (shard.count > 1) ISO_TRY(set(ctx, r, "part", "%zu of %zu", shard.index + 1, shard.count));
+    char *columns = print_columns(head);
+    const iso_status status =
+        columns ? iso_record_set(ctx, r, "names", columns) : iso_context_no_memory(ctx, "a sweep");
     free(columns);
-    return status;
+    ISO_TRY(status);
+    ISO_TRY(set_text(ctx, r, ISO_TABLE_TEXT, head->text));
+    return head->scene ? set_text(ctx, r, "scene", head->scene) : ISO_OK;
 }
 
 /* point, what varies, what was measured, status, reason */
@@ -154,9 +150,7 @@ iso_status iso_sweep_table(iso_context *ctx, const iso_sweep_head *head, iso_rec
 
 iso_status iso_sweep_set_sum(iso_context *ctx, iso_record *table, uint64_t sum)
 {
-    char text[17];
-    snprintf(text, sizeof text, "%016" PRIx64, sum);
-    return iso_record_set(ctx, table, "sum", text);
+    return set(ctx, table, "sum", "%016" PRIx64, sum);
 }
 
 iso_status iso_sweep_table_add(iso_context *ctx, iso_record *table, const iso_sweep_rows *rows)
