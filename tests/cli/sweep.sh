@@ -182,15 +182,9 @@ measure:
   chaos: {turns: 70, exponent_turns: 80, at: [0.4, 0.3]}
   compare: {t-end: 4}
 END
-run 0 sweep studies.yaml -o studies.csv
-run 0 section scene.yaml --crossings 9 -o section.csv
-equal "section: the last crossing" "$(cell studies.csv 0 section_l)" "$(tail -n 1 section.csv | cut -d, -f6)"
-run 0 periodic scene.yaml --period 2 --json
-equal "periodic: the first orbit" "$(cell studies.csv 0 periodic_orbits1_trace)" "$(value trace 1)"
+run 0 sweep studies.yaml -o studies.csv # its numbers: test_sweep
 run 0 compare scene.yaml --t-end 4 --json
 equal "compare: the largest difference of M" "$(cell studies.csv 0 compare_worst_difference_M)" "$(value M 1)"
-run 0 chaos scene.yaml --turns 70 --exponent-turns 80 --at 0.4,0.3 --json
-equal "chaos: the ball's turns" "$(cell studies.csv 0 chaos_ball_turns)" "$(value turns 2)"
 sed 's/crossings/crosings/' studies.yaml >bad.yaml
 refuses 3 "bad.yaml:4:13: section has no option 'crosings'; did you mean 'crossings'?" sweep bad.yaml
 sed 's/crossings: 9/threads: 2/' studies.yaml >bad.yaml
