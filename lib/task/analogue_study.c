@@ -197,4 +197,5 @@ const iso_study iso_analogue_study = {"analogue",
                                       begin,
                                       .prepare = prepare,
                                       .run = run,
-                                      .of = ISO_STUDY_USES_SCENE};
+                                      .of = ISO_STUDY_USES_SCENE,
+                                      .fields = fields};

@@ -46,16 +46,6 @@ enum { ISO_COMPARISON_WORDS = 512 };
 bool iso_comparison_words(const iso_scene *scene, const iso_comparison *c, double *most,
                           char words[ISO_COMPARISON_WORDS]);
 
-/* --- comparisons (compare_fields.c) ----------------------------------------------------------------------------- */
-
-/* Fields of a comparison, whose names depend on it: the largest differences. where: before the name; offset: of the
- * numbers. */
-typedef struct iso_worst_fields {
-    char name[ISO_DIFFERENCES - 1][ISO_COLUMN_SIZE];
-    iso_field field[ISO_DIFFERENCES];
-} iso_worst_fields;
-void iso_comparison_worst(const iso_comparison *c, const char *where, size_t offset, iso_worst_fields *w);
-
 /* --- the study analogue (analogue_study.c) ---------------------------------------------------------------------- */
 
 typedef struct iso_analogue_request {
