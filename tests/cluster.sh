@@ -112,11 +112,11 @@ sed 's/turns: 1000/turns: 2000/; s/starts: 100/starts: 20/' sweep.yaml >limit.ya
 printf 'chunk: 1\n' >>limit.yaml
 run 0 sweep limit.yaml -o limit.h5
 job=$(sbatch --parsable mpi.sbatch limit.yaml)
-check "a limit: the job begins" within 60 test -s share.mpi.h5.journal
+check "a limit: the job begins" within 60 test -s share.mpi.h5.csv.part
 sleep 1
 scancel --batch --signal=USR1 "$job"
 check "a limit: the job is in the queue again" within 60 waits
-check "a limit: the journal is kept" grep -q "stopped by SIGTERM or SIGUSR1: .* are in 'share.mpi.h5.journal'" mpi.log
+check "a limit: the rows are kept" grep -q "stopped by SIGTERM or SIGUSR1: .* are in 'share.mpi.h5.csv.part'" mpi.log
 sleep 3 # in the second in which it was stopped slurmd takes it for a job that was killed
 scontrol update JobId="$job" StartTime=now # Slurm would let it wait for two minutes
 check "a limit: the job ends" within 300 no_jobs

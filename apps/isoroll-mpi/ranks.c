@@ -106,14 +106,6 @@ static void stop_all(ranks *r)
     change_counter(r, INT64_MAX / 2, MPI_REPLACE);
 }
 
-/* The missing chunk of this number: in the last gap that begins with it or before it. */
-static size_t chunk_of(const ranks *r, uint64_t number)
-{
-    const missing *gap = r->gap + r->gaps - 1;
-    while (gap->before > number) gap--;
-    return (size_t)(gap->first + (number - gap->before) * gap->step);
-}
-
 static bool fetch(void *data, size_t *c)
 {
     ranks *r = data;
@@ -125,7 +117,7 @@ static bool fetch(void *data, size_t *c)
     r->times[FETCH_SECONDS] += wall_seconds() - begun;
     pthread_mutex_unlock(&r->lock);
     if (number >= (int64_t)r->count) return false;
-    *c = chunk_of(r, (uint64_t)number);
+    *c = (size_t)(r->first + (uint64_t)number * r->step);
     return true;
 }
 
@@ -140,11 +132,15 @@ static void send(ranks *r, message_head head, size_t length)
     wait_for(&request);
 }
 
-/* Other ranks: send the rows of a chunk. */
+/* Other ranks: send the rows of a chunk, as they are in memory; without the reasons if no point has failed. */
 static void send_rows(ranks *r, size_t c, const iso_sweep_rows *rows)
 {
     const double begun = wall_seconds();
-    send(r, (message_head){.chunk = c}, iso_sweep_rows_pack(rows, r->bytes + sizeof(message_head)));
+    size_t length = (size_t)((char *)rows->reason - (char *)rows->number);
+    for (size_t i = 0; i < rows->count; i++)
+        if (rows->status[i] != ISO_OK) length = iso_sweep_rows_bytes(rows);
+    memcpy(r->bytes + sizeof(message_head), rows->number, length);
+    send(r, (message_head){.chunk = c}, length);
     r->times[SENDS]++;
     r->times[SEND_SECONDS] += wall_seconds() - begun;
 }
@@ -168,14 +164,18 @@ static void take_rows(ranks *r, int from, size_t c, size_t length)
 {
     const iso_sweep_head *head = iso_sweep_head_of(r->sweep);
     if (r->status != ISO_OK) return; /* rows that come after a failure are thrown away */
-    const bool known = c < iso_sweep_chunks(head);
-    r->rows.first = c * head->chunk;
-    r->rows.count = known ? iso_sweep_chunk_points(head, c) : 0;
+    const size_t reasons = (size_t)((char *)r->rows.reason - (char *)r->rows.number),
+                 all = iso_sweep_rows_bytes(&r->rows);
     iso_status status;
-    if (known && iso_sweep_rows_unpack(r->bytes + sizeof(message_head), length, &r->rows))
+    if (c < iso_sweep_chunks(head) && (length == reasons || length == all)) {
+        memset(r->rows.reason, 0, all - reasons);
+        memcpy(r->rows.number, r->bytes + sizeof(message_head), length);
+        r->rows.first = c * head->chunk;
+        r->rows.count = iso_sweep_chunk_points(head, c);
         status = r->source->take(r->source->data, r->ctx, c, &r->rows);
-    else
+    } else {
         status = iso_context_fail(r->ctx, ISO_NUMERICAL, "", "rank %d has sent a damaged chunk", from);
+    }
     if (status != ISO_OK) note_failure(r, status);
 }
 
@@ -252,42 +252,21 @@ static void no_memory(const ranks *r)
     MPI_Abort(r->comm, EXIT_NUMERICAL);
 }
 
-static void begin_gap(ranks *r, size_t c)
+/* All ranks learn which chunks are missing; the second one gives the step. Gives whether they have the same sweep. */
+static bool share_missing(ranks *r, const iso_sweep_source *source)
 {
-    if ((r->gaps & (r->gaps - 1)) == 0) { /* 0, 1, 2, 4, ... are full */
-        missing *more = realloc(r->gap, (2 * r->gaps + 1) * sizeof *more);
-        if (!more) no_memory(r);
-        r->gap = more;
-    }
-    r->gap[r->gaps++] = (missing){c, 0, r->count};
-}
-
-/* The second chunk of a gap gives its step. */
-static void list_missing(ranks *r, const iso_sweep_source *source)
-{
-    size_t c;
-    for (; source->next(source->data, &c); r->count++) {
-        missing *last = r->gaps > 0 ? &r->gap[r->gaps - 1] : NULL;
-        const size_t length = last ? r->count - last->before : 0;
-        if (length == 1) last->step = c - last->first;
-        if (length == 0 || c != last->first + length * last->step) begin_gap(r, c);
-    }
-}
-
-/* All ranks learn which chunks are missing. Gives whether they have the same sweep. */
-static bool share_missing(ranks *r)
-{
-    enum { PIECE = 1 << 24, NUMBERS = sizeof(missing) / sizeof(uint64_t) };
     const iso_sweep_head *head = iso_sweep_head_of(r->sweep);
-    uint64_t begin[4] = {r->count, head->hash[0], head->hash[1], r->gaps};
-    tell(r, begin, 4);
-    r->count = (size_t)begin[0];
-    r->gaps = (size_t)begin[3];
-    if (r->rank > 0) r->gap = calloc(r->gaps + 1, sizeof *r->gap);
-    if (!r->gap && r->gaps > 0) no_memory(r);
-    for (size_t at = 0; at < r->gaps; at += PIECE)
-        tell(r, r->gap + at, NUMBERS * (r->gaps - at < PIECE ? r->gaps - at : PIECE));
-    return begin[1] == head->hash[0] && begin[2] == head->hash[1];
+    size_t c;
+    for (; source && source->next(source->data, &c); r->count++) {
+        if (r->count == 0) r->first = c;
+        if (r->count == 1) r->step = c - r->first;
+    }
+    uint64_t begin[5] = {r->count, r->first, r->step, head->hash[0], head->hash[1]};
+    tell(r, begin, 5);
+    r->count = begin[0];
+    r->first = begin[1];
+    r->step = begin[2];
+    return begin[3] == head->hash[0] && begin[4] == head->hash[1];
 }
 
 static void open_counter(ranks *r)
@@ -350,7 +329,7 @@ static void print_times(ranks *r)
 static iso_status prepare(ranks *r, iso_context *ctx)
 {
     const iso_sweep_head *head = iso_sweep_head_of(r->sweep);
-    const size_t rows = iso_sweep_rows_bytes(&(iso_sweep_rows){.columns = head->columns}, head->chunk);
+    const size_t rows = iso_sweep_rows_bytes(&(iso_sweep_rows){.columns = head->columns, .most = head->chunk});
     const size_t room = sizeof(message_head) + (rows > WORDS ? rows : WORDS);
     r->bytes = room < INT_MAX ? malloc(room) : NULL;
     r->ctx = iso_context_create();
@@ -363,7 +342,6 @@ static void release(ranks *r)
     iso_sweep_rows_free(&r->rows);
     iso_context_free(r->ctx);
     free(r->bytes);
-    free(r->gap);
 }
 
 static iso_status run(void *data, iso_context *ctx, const iso_sweep *sweep, int threads,
@@ -373,8 +351,7 @@ static iso_status run(void *data, iso_context *ctx, const iso_sweep *sweep, int 
     r->sweep = sweep;
     r->source = source;
     if (prepare(r, ctx) != ISO_OK) no_memory(r);
-    if (source) list_missing(r, source);
-    const bool same = share_missing(r);
+    const bool same = share_missing(r, source);
     if (threads == 0) threads = threads_of(r);
     open_counter(r);
     iso_status status = ISO_OK;

@@ -17,12 +17,6 @@
 /* What MPI costs, for print_times: numbers of calls, their seconds, bytes. */
 enum { FETCHES, FETCH_SECONDS, SENDS, SEND_SECONDS, WRITES, WRITE_SECONDS, BYTES, TIMES };
 
-/* Chunks first, first + step, first + 2 step, ... that are missing; `before` of them stand in gaps before this one. A
- * sweep that begins has one gap, one that was stopped has a few more. So ranks need little memory. */
-typedef struct missing {
-    uint64_t first, step, before;
-} missing;
-
 typedef struct ranks {
     MPI_Comm comm;
     int rank, size;
@@ -32,10 +26,8 @@ typedef struct ranks {
     /* while it runs */
     pthread_mutex_t lock; /* one thread of this process at a time is inside MPI */
     MPI_Win window;
-    int64_t *counter; /* of rank 0: numbers taken */
-    size_t count;     /* chunks that are missing ... */
-    missing *gap;     /* ... and which */
-    size_t gaps;
+    int64_t *counter;            /* of rank 0: numbers taken */
+    uint64_t count, first, step; /* chunks that are missing: first, first + step, ... */
     const iso_sweep *sweep;
     const iso_sweep_source *source; /* of rank 0 */
     unsigned char *bytes;           /* one message */

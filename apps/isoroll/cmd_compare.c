@@ -162,24 +162,12 @@ static void print_table(const shell *s)
 
 /* --- JSON ------------------------------------------------------------------------------------------------------- */
 
-static void add_worst(json_t *o, const iso_comparison *c, const char *where, size_t offset)
-{
-    iso_worst_fields w;
-    iso_comparison_worst(c, where, offset, &w);
-    json_add(o, w.field, c);
-}
-
 static json_t *json(const shell *s)
 {
     const iso_comparison *c = s->result.found;
-    const size_t from_exact = offsetof(iso_comparison, worst_from_exact);
     json_t *o = json_of_scene(&s->scene, s->result.fields, c);
     json_put(o, "tolerance", json_number(s->scene.tolerance));
     json_put(o, "effects", json_effects(&c->effects, false));
-    add_worst(o, c, "", offsetof(iso_comparison, worst));
-    if (c->runs < ISO_BACKENDS) return o;
-    add_worst(o, c, "from_exact.ball.", from_exact);
-    add_worst(o, c, "from_exact.point.", from_exact + sizeof c->worst);
     return o;
 }
 

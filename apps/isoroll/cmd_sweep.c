@@ -94,43 +94,44 @@ static iso_status read_shard(iso_context *ctx, const char *text, iso_sweep_shard
 /* --- the work --------------------------------------------------------------------------------------------------- */
 
 typedef struct work {
-    iso_sweep_journal *journal;
-    size_t next, chunks; /* the chunk to look at next; all */
+    iso_sweep_store *store;
+    size_t next; /* of the chunks of the shard, the one to be computed next */
 } work;
 
 static void show(const work *w)
 {
-    progress_show((double)w->journal->done / (double)w->journal->wanted);
+    progress_show((double)(w->store->done + w->store->queue.count) / (double)w->store->wanted);
 }
 
 static bool next_chunk(void *data, size_t *c)
 {
     work *w = data;
-    while (w->next < w->chunks && iso_sweep_journal_has(w->journal, w->next)) w->next++;
-    if (interrupted() || w->next == w->chunks) return false;
-    *c = w->next++;
+    if (interrupted() || w->next == w->store->wanted) return false;
+    *c = w->store->shard.index + w->next++ * w->store->shard.count;
     return true;
 }
 
 static iso_status take_chunk(void *data, iso_context *ctx, size_t c, const iso_sweep_rows *rows)
 {
     const work *w = data;
-    const iso_status status = iso_sweep_journal_add(ctx, w->journal, c, rows);
+    (void)c;
+    const iso_status status = iso_sweep_store_add(ctx, w->store, rows);
     show(w);
     return status;
 }
 
-static int tell_interrupted(const options *o, const work *w)
+static int tell_interrupted(const options *o, const iso_sweep_store *s)
 {
-    const size_t done = w->journal->done, all = w->journal->wanted;
-    if (!w->journal->name || done == 0) {
-        complain("interrupted: nothing was written");
-        return limit_is_near() && done == 0 ? EXIT_DONE : EXIT_SOME_FAILED;
-    }
-    complain("%s: %zu of %zu chunks are in '%s.journal'; go on with: isoroll sweep %s -o %s%s%s --resume",
-             limit_is_near() ? "stopped by SIGTERM or SIGUSR1" : "interrupted", done, all, o->output, o->file,
-             o->output, o->shard ? " --shard " : "", o->shard ? o->shard : "");
-    return limit_is_near() ? EXIT_DONE : EXIT_SOME_FAILED;
+    const char *how = limit_is_near() ? "stopped by SIGTERM or SIGUSR1" : "interrupted";
+    const bool gentle = limit_is_near() && (s->part || s->done == 0);
+    if (s->done == 0)
+        complain("%s: nothing was written", how);
+    else if (!s->part)
+        complain("%s: %zu of %zu chunks were written", how, s->done, s->wanted);
+    else
+        complain("%s: %zu of %zu chunks are in '%s'; go on with: isoroll sweep %s -o %s%s%s --resume", how, s->done,
+                 s->wanted, s->part, o->file, o->output, o->shard ? " --shard " : "", o->shard ? o->shard : "");
+    return gentle ? EXIT_DONE : EXIT_SOME_FAILED;
 }
 
 static int tell_failures(const iso_sweep_failures *f, const char *of)
@@ -146,20 +147,20 @@ static int threads_of(const options *o)
 }
 
 /* Before the work begins, not hours later. */
-static void warn_of_zeros(const iso_sweep_file *file, const iso_sweep_journal *journal)
+static void warn_of_zeros(const iso_sweep_file *file, const iso_sweep_store *store)
 {
     const size_t zeros = iso_sweep_zeros_of_k(file);
-    if (zeros > 0 && journal->done < journal->wanted)
+    if (zeros > 0 && store->done < store->wanted)
         complain("sweep: %zu of %zu points have k = 0, where there is no ball: they will fail", zeros,
                  iso_sweep_file_plan(file)->family.count);
 }
 
 static int compute(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep *sweep,
-                   iso_sweep_journal *journal)
+                   iso_sweep_store *store)
 {
     const iso_sweep_head *head = iso_sweep_head_of(sweep);
     char of[32];
-    work w = {.journal = journal, .chunks = iso_sweep_chunks(head)};
+    work w = {store, store->done};
     const iso_sweep_source source = {next_chunk, take_chunk, &w};
     stop_gently();
     progress_begin();
@@ -167,10 +168,10 @@ static int compute(iso_context *ctx, const options *o, const sweep_team *team, c
     iso_status status = team->run(team->data, ctx, sweep, threads_of(o), &source);
     progress_end();
     if (status != ISO_OK) return finish(ctx, status);
-    if (journal->done < journal->wanted) return tell_interrupted(o, &w);
-    status = iso_sweep_journal_finish(ctx, journal);
-    snprintf(of, sizeof of, "of %zu ", iso_sweep_shard_points(head, journal->shard));
-    return status == ISO_OK ? tell_failures(&journal->failures, of) : finish(ctx, status);
+    if (store->done < store->wanted) return tell_interrupted(o, store);
+    status = iso_sweep_store_finish(ctx, store);
+    snprintf(of, sizeof of, "of %zu ", iso_sweep_shard_points(head, store->shard));
+    return status == ISO_OK ? tell_failures(&store->failures, of) : finish(ctx, status);
 }
 
 /* A quantity that the scene does not have is refused where the file asks for it. */
@@ -185,21 +186,21 @@ static int refused(iso_context *ctx, const options *o, const iso_sweep_plan *pla
     return finish(ctx, status);
 }
 
-/* Every member has read the sweep. The one that writes opens the journal. */
+/* Every member has read the sweep. The one that writes opens the result. */
 static int run_sweep(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep_file *file,
                      const iso_sweep *sweep, iso_sweep_shard shard)
 {
-    iso_sweep_journal *journal = NULL;
+    iso_sweep_store *store = NULL;
     iso_status status = ISO_OK;
     if (team->writes)
-        status = iso_sweep_journal_open(ctx, o->output, iso_sweep_head_of(sweep), shard, o->resume, &journal);
+        status = iso_sweep_store_open(ctx, o->output, iso_sweep_head_of(sweep), shard, o->resume, &store);
     int result = team->agree(team->data, finish(ctx, status));
-    if (journal) warn_of_zeros(file, journal);
+    if (store) warn_of_zeros(file, store);
     if (result == EXIT_DONE && team->writes)
-        result = compute(ctx, o, team, sweep, journal);
+        result = compute(ctx, o, team, sweep, store);
     else if (result == EXIT_DONE)
         result = finish(ctx, team->run(team->data, ctx, sweep, threads_of(o), NULL));
-    iso_sweep_journal_close(journal);
+    iso_sweep_store_close(store);
     return result;
 }
 
@@ -230,14 +231,10 @@ static bool fits(const options *o)
 static int print_point(iso_context *ctx, const options *o, const iso_sweep_file *file)
 {
     const size_t count = iso_sweep_file_plan(file)->family.count;
-    char *text = NULL;
     if (!(o->point < (double)count))
         return complain("sweep: --point %.0f: points are 0 to %zu", o->point, count - 1), EXIT_USAGE;
     if (!fits(o)) return EXIT_USAGE;
-    const iso_status status = iso_sweep_scene_text(ctx, file, (size_t)o->point, &text);
-    if (status == ISO_OK) fputs(text, stdout);
-    free(text);
-    return finish(ctx, status);
+    return finish(ctx, iso_sweep_print_point(ctx, file, (size_t)o->point, stdout));
 }
 
 static int merge(iso_context *ctx, const options *o)
@@ -304,8 +301,7 @@ static const option_row rows[] = {
     ROW_OF_FILE("output", "FILE", "a file", "write to FILE: HDF5 if it ends in .h5, else CSV; - is standard output",
                 iso_set_text, options, output, 'o', OPTION_WRITES),
     ROW_THREADS(options, threads),
-    ROW("resume", NULL, NULL, "go on with what FILE.journal has; begin if there is none", iso_set_flag, options,
-        resume),
+    ROW("resume", NULL, NULL, "go on with what FILE.part has; begin if there is none", iso_set_flag, options, resume),
     ROW("shard", "I/N", "i/n, slurm or slurm/n",
         "compute every N-th chunk, from the I-th on; slurm/N: I is the number of the task of a Slurm array; slurm: "
         "I and N come from the array, which must be whole",
@@ -324,10 +320,12 @@ const command command_sweep = {
     .description =
         "A sweep is a file in YAML: a scene, the numbers in it that vary, and what is measured at each point "
         "(lib/doc/formats.md). 'isoroll explain SWEEP' tells how many points it has, and how long it takes here.\n\n"
-        "Finished chunks of points are kept in FILE.journal until all are there; then FILE is written. Ctrl-C lets "
-        "the chunks that are being computed end. So do SIGTERM and SIGUSR1, after which the exit status is 0. Even "
-        "kill -9 loses only the chunks that are being computed. --resume goes on, with any number of threads. The "
-        "bytes of FILE do not depend on threads, shards or interruptions.\n\n"
+        "Finished chunks of points go to FILE.part (HDF5: FILE.csv.part) in their order; it becomes FILE when all "
+        "are "
+        "there. Ctrl-C lets the chunks that are being computed end. So do SIGTERM and SIGUSR1, after which the exit "
+        "status is 0. Even kill -9 loses only the chunks that are being computed, and those that wait for them. "
+        "--resume goes on, with any number of threads. The bytes of FILE do not depend on threads, shards or "
+        "interruptions.\n\n"
         "A point that fails is a row with its reason. A file that is there is not overwritten.",
     .example = "isoroll sweep sweep.yaml -o out.h5\n"
                "isoroll sweep sweep.yaml -o out.h5 --resume\n"

@@ -1,6 +1,6 @@
 /* sweep_team.h - who computes the chunks of a sweep: this process alone, or this one as a member of a team.
  *
- * All members read the same sweep and run the same code. One of them writes: it has the journal and the result. */
+ * All members read the same sweep and run the same code. One of them writes: it has the result. */
 #ifndef ISOROLL_SWEEP_TEAM_H
 #define ISOROLL_SWEEP_TEAM_H
 
@@ -9,7 +9,7 @@
 
 typedef struct sweep_team {
     int members;
-    bool writes; /* this member has the journal */
+    bool writes; /* this member has the result */
     /* Every member calls it with its exit status. All get the same answer: the largest. */
     int (*agree)(void *data, int result);
     /* Computes all chunks that the source has; every member calls it. threads: 0 for all processors. The source is

@@ -81,6 +81,11 @@ ISO_API const char *iso_foreign_scene_word(const iso_foreign_scene *scene, const
  * the names of the effects. False: there are no more. */
 ISO_API bool iso_foreign_scene_key(int i, const char **section, const char **key);
 
+/* The scene as YAML that reads back as the same scene to the bit: as much of it as there is room for, with an end mark;
+ * *length is that of all of it. Errors: ISO_NO_MEMORY. */
+ISO_API iso_status iso_foreign_scene_text(iso_context *ctx, const iso_foreign_scene *scene, char text[], size_t room,
+                                          size_t *length);
+
 /* The text of a scene or of a sweep, YAML of `bytes` bytes, as JSON: as much of it as there is room for, with an end
  * mark; *length is that of all of it. Errors: ISO_BAD_INPUT about its YAML, with line and column in `name`. */
 ISO_API iso_status iso_foreign_yaml_json(iso_context *ctx, const char *name, const char *text, size_t bytes,

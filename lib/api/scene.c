@@ -8,6 +8,7 @@
 #include "base/arithmetic_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/scene_file.h"
+#include "io/scene_print_impl.h"
 #include "orbit/orbit_impl.h"
 
 static iso_status create(iso_context *ctx, const char *name, iso_foreign_scene **scene)
@@ -129,6 +130,18 @@ int iso_foreign_scene_columns(const iso_foreign_scene *scene, int columns[])
 bool iso_foreign_scene_key(int i, const char **section, const char **key)
 {
     return iso_scene_key(i, section, key);
+}
+
+iso_status iso_foreign_scene_text(iso_context *ctx, const iso_foreign_scene *scene, char text[], size_t room,
+                                  size_t *length)
+{
+    char *whole = NULL;
+    FILE *to = open_memstream(&whole, length);
+    if (to) iso_scene_print(&scene->scene, to);
+    const bool made = to && fclose(to) == 0;
+    if (made && room > 0) snprintf(text, room, "%s", whole);
+    free(whole);
+    return made ? ISO_OK : iso_context_no_memory(ctx, "a scene");
 }
 
 iso_status iso_foreign_yaml_json(iso_context *ctx, const char *name, const char *text, size_t bytes, char json[],

@@ -1,8 +1,4 @@
-/* sweep.c - a whole sweep, as a table; and what it would take, in words.
- *
- * Chunks end in any order; those that come early wait as bytes.
- */
-#include <inttypes.h>
+/* sweep.c - a whole sweep, as a table; and what it would take, in words. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -13,19 +9,12 @@
 #include "sweep/sweep_impl.h"
 #include "sweep/sweep_store_impl.h"
 
-typedef struct packed {
-    unsigned char *bytes; /* NULL: not there, or in the table already */
-    size_t length;
-} packed;
-
 typedef struct keeper {
     const iso_sweep_head *head;
     iso_record *table;
-    iso_sweep_rows rows; /* room for a chunk */
-    packed *chunk;
-    /* next: to be computed; taken: were computed; added: looked at for the table */
-    size_t chunks, next, taken, added;
-    uint64_t sum; /* of the rows of the table, in order */
+    iso_sweep_queue queue;
+    size_t chunks, next, taken, added; /* chunks: next to be computed; that were computed; in the table */
+    uint64_t sum;                      /* of the rows of the table, in order */
     void (*progress)(double part, void *data);
     void *data;
 } keeper;
@@ -37,31 +26,27 @@ static bool next_chunk(void *data, size_t *c)
     return k->next++ < k->chunks;
 }
 
-/* Puts the next chunk into the table, if it is there. */
-static iso_status add(iso_context *ctx, keeper *k, size_t c)
+/* Puts chunks that have waited into the table: those whose turn it is, or all. */
+static iso_status add(iso_context *ctx, keeper *k, bool all)
 {
-    packed *p = &k->chunk[c];
-    if (!p->bytes) return ISO_OK;
-    k->rows.first = c * k->head->chunk;
-    k->rows.count = iso_sweep_chunk_points(k->head, c);
-    iso_sweep_rows_unpack(p->bytes, p->length, &k->rows); /* they are our own bytes */
-    free(p->bytes);
-    *p = (packed){NULL, 0};
-    k->sum = iso_sweep_sum(k->sum, &k->rows);
-    return iso_sweep_table_add(ctx, k->table, &k->rows);
+    iso_sweep_rows rows;
+    iso_status status = ISO_OK;
+    while (status == ISO_OK && iso_sweep_queue_take(&k->queue, all ? SIZE_MAX : k->added * k->head->chunk, &rows)) {
+        k->added++;
+        k->sum = iso_sweep_sum(k->sum, &rows);
+        status = iso_sweep_table_add(ctx, k->table, &rows);
+        iso_sweep_rows_free(&rows);
+    }
+    return status;
 }
 
 static iso_status take_chunk(void *data, iso_context *ctx, size_t c, const iso_sweep_rows *rows)
 {
     keeper *k = data;
-    packed *p = &k->chunk[c];
-    p->bytes = malloc(iso_sweep_rows_bytes(rows, rows->count) + 1);
-    if (!p->bytes) return iso_context_no_memory(ctx, "the rows of a sweep");
-    p->length = iso_sweep_rows_pack(rows, p->bytes);
-    k->taken++;
-    iso_status status = ISO_OK;
-    while (status == ISO_OK && k->added < k->chunks && k->chunk[k->added].bytes) status = add(ctx, k, k->added++);
-    if (k->progress) k->progress((double)k->taken / (double)k->chunks, k->data);
+    (void)c;
+    iso_status status = iso_sweep_queue_add(ctx, &k->queue, rows);
+    if (status == ISO_OK) status = add(ctx, k, false);
+    if (k->progress) k->progress((double)++k->taken / (double)k->chunks, k->data);
     return status;
 }
 
@@ -70,22 +55,9 @@ static iso_status compute(iso_context *ctx, const iso_sweep *sweep, int threads,
 {
     const iso_sweep_source source = {next_chunk, take_chunk, k};
     k->chunks = iso_sweep_chunks(k->head);
-    k->chunk = calloc(k->chunks + 1, sizeof *k->chunk);
-    if (!k->chunk) return iso_context_no_memory(ctx, "a sweep");
-    const iso_status status = iso_sweep_run(ctx, sweep, threads, &source);
-    iso_status added = ISO_OK;
-    for (; added == ISO_OK && k->added < k->chunks; k->added++) added = add(ctx, k, k->added);
-    for (size_t c = 0; c < k->chunks; c++) free(k->chunk[c].bytes);
-    free(k->chunk);
+    const iso_status status = iso_sweep_run(ctx, sweep, threads, &source), added = add(ctx, k, true);
+    iso_sweep_queue_free(&k->queue);
     return status == ISO_OK ? added : status;
-}
-
-/* A file without the sum is no whole result. */
-static iso_status set_sum(iso_context *ctx, const keeper *k)
-{
-    char text[17];
-    snprintf(text, sizeof text, "%016" PRIx64, k->sum);
-    return iso_record_set(ctx, k->table, "sum", text);
 }
 
 static iso_status run(iso_context *ctx, const iso_sweep_file *file, int threads, keeper *k)
@@ -94,11 +66,9 @@ static iso_status run(iso_context *ctx, const iso_sweep_file *file, int threads,
     iso_status status = iso_sweep_create(ctx, iso_sweep_file_plan(file), &sweep);
     if (status != ISO_OK) return status;
     k->head = iso_sweep_head_of(sweep);
-    status = iso_sweep_rows_create(ctx, k->head->columns, k->head->chunk, &k->rows);
-    if (status == ISO_OK) status = iso_sweep_table(ctx, k->head, &k->table);
+    status = iso_sweep_table(ctx, k->head, &k->table);
     if (status == ISO_OK) status = compute(ctx, sweep, threads, k);
-    if (status == ISO_OK) status = set_sum(ctx, k);
-    iso_sweep_rows_free(&k->rows);
+    if (status == ISO_OK) status = iso_sweep_set_sum(ctx, k->table, k->sum); /* without it, it is no whole result */
     iso_sweep_free(sweep);
     return status;
 }

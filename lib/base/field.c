@@ -102,7 +102,7 @@ static void name_column(char name[ISO_COLUMN_SIZE], const char *outer, const iso
     if (*last)
         snprintf(name + length, ISO_COLUMN_SIZE - (size_t)length, "%s%s", length > 0 ? "_" : "", last);
     else if (f->count > 1)
-        snprintf(name + length, ISO_COLUMN_SIZE - (size_t)length, "%d", i + 1);
+        snprintf(name + length, ISO_COLUMN_SIZE - (size_t)length, "%s%d", *own ? "" : "_", i + 1);
     for (char *c = name; *c; c++)
         if (*c == '.') *c = '_';
 }
@@ -129,6 +129,42 @@ static void visit_columns(const char *outer, const iso_field *fields, const void
 void iso_columns_visit(const iso_field *fields, const void *row, iso_column_visitor *visit, void *data)
 {
     visit_columns("", fields, row, visit, data);
+}
+
+static bool is_number(const iso_field *f)
+{
+    return f->type < ISO_FIELD_TEXT && strcmp(f->unit ? f->unit : "", "s") != 0;
+}
+
+static void visit_numbers(const char *outer, const iso_field *fields, const void *row, iso_column_visitor *visit,
+                          void *data)
+{
+    char name[ISO_COLUMN_SIZE], item[ISO_COLUMN_SIZE + 4];
+    iso_value value;
+    for (const iso_field *f = fields; f->name; f++) {
+        iso_field own = *f;
+        own.column = NULL;
+        if (f->type >= ISO_FIELD_STRUCT) own.count = 0;
+        name_column(name, outer, &own, 0);
+        if (f->type == ISO_FIELD_STRUCT) visit_numbers(name, f->fields, iso_field_struct(f, row), visit, data);
+        const int known = f->item || f->counter_size ? 1 : f->count;
+        for (int i = 0; f->type == ISO_FIELD_LIST && i < ISO_MOST_FIELDS; i++) {
+            const void *at = row ? iso_field_item(f, row, (size_t)i) : NULL;
+            if (row ? !at : i == known) break;
+            snprintf(item, sizeof item, "%s%d", name, i + 1);
+            visit_numbers(item, f->fields, at, visit, data);
+        }
+        for (int i = 0; is_number(f) && (i == 0 || i < f->count); i++) {
+            name_column(name, outer, &own, i);
+            iso_field_read(f, row, i, &value);
+            visit(data, name, f, &value);
+        }
+    }
+}
+
+void iso_numbers_visit(const iso_field *fields, const void *row, iso_column_visitor *visit, void *data)
+{
+    visit_numbers("", fields, row, visit, data);
 }
 
 /* --- records ---------------------------------------------------------------------------------------------------- */

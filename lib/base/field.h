@@ -149,6 +149,11 @@ void iso_fields_copy(const iso_field *fields, const char *without, iso_field cop
 typedef void iso_column_visitor(void *data, const char *name, const iso_field *field, const iso_value *value);
 void iso_columns_visit(const iso_field *fields, const void *row, iso_column_visitor *visit, void *data);
 
+/* The same for each number of a struct, also those that JSON alone has: "ball.exponent.t" is ball_exponent_t, and the
+ * first struct of the list "rows" has rows1_m. The number of a word is its place in the list of words. Times that were
+ * measured, in seconds, are left out. row NULL: of a list without a fixed length the first struct. */
+ISO_API void iso_numbers_visit(const iso_field *fields, const void *row, iso_column_visitor *visit, void *data);
+
 /* A record with these columns, and a row of it. What is not there is NaN, or the empty word. Errors: as record.h. */
 iso_status iso_columns_create(iso_context *ctx, const iso_field *fields, iso_record **record);
 iso_status iso_columns_append(iso_context *ctx, const iso_field *fields, const void *row, iso_record *record);

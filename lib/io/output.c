@@ -30,14 +30,14 @@ static bool is_direct(const char *path)
     return stream;
 }
 
-static iso_status open_file(iso_context *ctx, iso_output *out, const char *path)
+static iso_status open_file(iso_context *ctx, iso_output *out, const char *path, bool stays)
 {
     int fd;
-    if (is_direct(path)) {
+    if (!stays && is_direct(path)) {
         out->direct = strdup(path);
         fd = out->direct ? open(path, O_WRONLY | O_APPEND | O_CLOEXEC) : -1;
     } else {
-        ISO_TRY(iso_replacement_open(ctx, path, &out->replacement, &fd));
+        ISO_TRY(iso_replacement_open(ctx, path, stays, &out->replacement, &fd));
     }
     if (fd >= 0) out->file = fdopen(fd, out->direct ? "a" : "w");
     if (out->file) return ISO_OK;
@@ -48,7 +48,7 @@ static iso_status open_file(iso_context *ctx, iso_output *out, const char *path)
     return status;
 }
 
-iso_status iso_output_open(iso_context *ctx, const char *path, iso_output **answer)
+static iso_status open_output(iso_context *ctx, const char *path, bool stays, iso_output **answer)
 {
     iso_status status = ISO_OK;
     iso_output *out = calloc(1, sizeof *out);
@@ -57,10 +57,20 @@ iso_status iso_output_open(iso_context *ctx, const char *path, iso_output **answ
     else if (strcmp(path, "-") == 0)
         out->file = stdout;
     else
-        status = open_file(ctx, out, path);
+        status = open_file(ctx, out, path, stays);
     if (status != ISO_OK) free(out), out = NULL;
     *answer = out;
     return status;
+}
+
+iso_status iso_output_open(iso_context *ctx, const char *path, iso_output **out)
+{
+    return open_output(ctx, path, false, out);
+}
+
+iso_status iso_output_resume(iso_context *ctx, const char *path, iso_output **out)
+{
+    return open_output(ctx, path, true, out);
 }
 
 /* ---- Writing ---- */
@@ -82,7 +92,9 @@ iso_status iso_output_copy(iso_context *ctx, iso_output *out, FILE *from)
 
 const char *iso_output_name(const iso_output *out)
 {
-    return out->replacement.target ? out->replacement.target : out->direct ? out->direct : "<stdout>";
+    const iso_replacement *r = &out->replacement;
+    if (r->target) return r->stays ? r->temporary : r->target;
+    return out->direct ? out->direct : "<stdout>";
 }
 
 void iso_output_keep_others(iso_output *out)
@@ -100,6 +112,12 @@ iso_status iso_output_check(iso_context *ctx, iso_output *out)
     if (!ferror(out->file)) return ISO_OK;
     if (out->error == 0) out->error = errno;
     errno = out->error;
+    return trouble(ctx, out);
+}
+
+iso_status iso_output_cut(iso_context *ctx, iso_output *out, size_t length)
+{
+    if (ftruncate(fileno(out->file), (off_t)length) == 0 && fseek(out->file, 0, SEEK_END) == 0) return ISO_OK;
     return trouble(ctx, out);
 }
 

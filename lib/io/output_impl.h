@@ -21,6 +21,13 @@ typedef struct iso_output iso_output;
 /* Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY; *out is then NULL. */
 iso_status iso_output_open(iso_context *ctx, const char *path, iso_output **out);
 
+/* The same of a regular file that can be gone on with: FILE.part, locked, is as it was, and stays when this ends without
+ * keeping it. It is to be cut before anything is written. */
+iso_status iso_output_resume(iso_context *ctx, const char *path, iso_output **out);
+
+/* Cuts it behind its first `length` bytes, where it goes on. Errors: ISO_FILE_TROUBLE. */
+iso_status iso_output_cut(iso_context *ctx, iso_output *out, size_t length);
+
 /* Where to write. */
 FILE *iso_output_stream(iso_output *out);
 

@@ -94,8 +94,10 @@ void iso_replacement_unlink_all(void)
 
 /* --- the file --------------------------------------------------------------------------------------------------- */
 
-/* Who had the lock may have renamed or removed its file in between: then the name is opened again. */
-int iso_file_open_locked(const char *name)
+/* Opens a file for reading and writing, or makes it, and locks it; it is not followed if it is a link. -1 with errno
+ * set: EWOULDBLOCK, another program has it. Who had the lock may have renamed or removed its file in between: then the
+ * name is opened again. */
+static int open_locked(const char *name)
 {
     for (;;) {
         struct stat file, named;
@@ -117,27 +119,28 @@ static void release(iso_replacement *r)
     *r = (iso_replacement){0};
 }
 
-/* Empty, with the permissions of the old file. -1: errno says why. */
+/* Empty, if it does not stay, with the permissions of the old file. -1: errno says why. */
 static int create(const iso_replacement *r, const struct stat *old)
 {
     struct stat s = {.st_mode = S_IFREG};
     if (old && access(r->target, W_OK) != 0) return -1;
-    const int fd = iso_file_open_locked(r->temporary);
-    if (fd >= 0 && fstat(fd, &s) == 0 && S_ISREG(s.st_mode) && ftruncate(fd, 0) == 0) {
+    const int fd = open_locked(r->temporary);
+    if (fd >= 0 && fstat(fd, &s) == 0 && S_ISREG(s.st_mode) && (r->stays || ftruncate(fd, 0) == 0)) {
         if (old) (void)!fchmod(fd, old->st_mode & 07777);
-        return exchange(NULL, r->temporary), fd;
+        if (!r->stays) exchange(NULL, r->temporary);
+        return fd;
     }
     const int error = fd >= 0 && !S_ISREG(s.st_mode) ? EEXIST : errno;
     if (fd >= 0) close(fd), errno = error;
     return -1;
 }
 
-iso_status iso_replacement_open(iso_context *ctx, const char *path, iso_replacement *r, int *descriptor)
+iso_status iso_replacement_open(iso_context *ctx, const char *path, bool stays, iso_replacement *r, int *descriptor)
 {
     struct stat old;
     const bool exists = stat(path, &old) == 0;
     *descriptor = -1;
-    *r = (iso_replacement){.target = NULL};
+    *r = (iso_replacement){.stays = stays};
     if (exists && !S_ISREG(old.st_mode))
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot write '%s': it is not a regular file", path);
     r->target = iso_file_follow(path);
@@ -172,9 +175,9 @@ static iso_status give_name(iso_context *ctx, const iso_replacement *r, int desc
 
 iso_status iso_replacement_close(iso_context *ctx, iso_replacement *r, int descriptor, bool keep)
 {
-    exchange(r->temporary, NULL); /* from the renaming on, the name may be another program's */
+    if (!r->stays) exchange(r->temporary, NULL); /* from the renaming on, the name may be another program's */
     const iso_status status = keep ? give_name(ctx, r, descriptor) : ISO_OK;
-    if (!keep || status != ISO_OK) unlink(r->temporary);
+    if (!r->stays && (!keep || status != ISO_OK)) unlink(r->temporary);
     release(r);
     return status;
 }

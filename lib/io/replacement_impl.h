@@ -15,6 +15,7 @@ typedef struct iso_replacement {
     char *target;    /* the name it is to have, links followed */
     char *temporary; /* target.part                            */
     bool fresh;      /* set it between open and close: a file that has the name by then is not replaced */
+    bool stays;      /* target.part outlives failures and signals: it can be gone on with */
 } iso_replacement;
 
 /* ISO_FILE_TROUBLE in errno's words: "cannot WHAT 'path': ..."; ISO_CLOSED_PIPE when errno is EPIPE. */
@@ -27,18 +28,15 @@ char *iso_file_follow(const char *path);
 /* Whether it is another name of a stream that is already open: /dev/stdout, /dev/fd/3. */
 bool iso_file_is_stream(const char *path);
 
-/* Opens a file for reading and writing, or makes it, and locks it; it is not followed if it is a link. -1 with errno
- * set: EWOULDBLOCK, another program has it. The lock ends with the descriptor. */
-int iso_file_open_locked(const char *name);
-
 /* What would be written beside `path`, to be freed by the caller; NULL: errno says why. */
 char *iso_replacement_name(const char *path);
 
-/* A new file, open for reading and writing, which is to become `path`. Errors: ISO_FILE_TROUBLE, also if `path` leads
+/* A new file, open for reading and writing, which is to become `path`. stays: it is kept as it is, if it is there, and
+ * stays unless it gets its name. Errors: ISO_FILE_TROUBLE, also if `path` leads
  * to what is no regular file, and if another program writes it; nothing is left to be released then. */
-iso_status iso_replacement_open(iso_context *ctx, const char *path, iso_replacement *r, int *descriptor);
+iso_status iso_replacement_open(iso_context *ctx, const char *path, bool stays, iso_replacement *r, int *descriptor);
 
-/* Brings the file to the disk (keep) or takes it away, closes nothing, releases r. Errors: ISO_FILE_TROUBLE, also if
+/* Brings the file to the disk (keep) or takes it away, if it does not stay, closes nothing, releases r. Errors: ISO_FILE_TROUBLE, also if
  * a fresh file's name is taken; an older file of that name is then as it was. */
 iso_status iso_replacement_close(iso_context *ctx, iso_replacement *r, int descriptor, bool keep);
 

@@ -192,7 +192,8 @@ static void release(iso_table_writer *w)
     free(w);
 }
 
-iso_status iso_table_writer_open(iso_context *ctx, const char *path, const char *kind, iso_table_writer **writer)
+static iso_status open_writer(iso_context *ctx, const char *path, const char *kind, bool resumes,
+                              iso_table_writer **writer)
 {
     *writer = NULL;
     ISO_TRY(iso_table_check_format(ctx, path));
@@ -203,10 +204,31 @@ iso_status iso_table_writer_open(iso_context *ctx, const char *path, const char 
     w->kind = kind;
     w->finite = iso_table_is_finite(kind);
     w->expected = SIZE_MAX;
-    const iso_status status = w->format->open(ctx, w, path);
+    const iso_status status = resumes ? iso_csv_resume(ctx, w, path) : w->format->open(ctx, w, path);
     if (status != ISO_OK) release(w), w = NULL;
     *writer = w;
     return status;
+}
+
+iso_status iso_table_writer_open(iso_context *ctx, const char *path, const char *kind, iso_table_writer **writer)
+{
+    return open_writer(ctx, path, kind, false, writer);
+}
+
+iso_status iso_table_writer_resume(iso_context *ctx, const char *path, const char *kind, iso_table_writer **writer)
+{
+    return open_writer(ctx, path, kind, true, writer);
+}
+
+iso_status iso_table_go_on(iso_context *ctx, iso_table_writer *w, const iso_record *header, size_t length)
+{
+    ISO_TRY(iso_csv_cut(ctx, w, length));
+    return iso_table_write_header(ctx, w, header);
+}
+
+iso_status iso_table_flush(iso_context *ctx, iso_table_writer *w)
+{
+    return w->format->flush ? w->format->flush(ctx, w) : ISO_OK;
 }
 
 void iso_table_set_digits(iso_table_writer *w, int digits)

@@ -25,11 +25,14 @@ typedef struct iso_table_writing {
     iso_status (*header)(iso_context *ctx, iso_table_writer *w, const iso_record *header);
     iso_status (*row)(iso_context *ctx, iso_table_writer *w, const double row[]);
     iso_status (*line)(iso_context *ctx, iso_table_writer *w, const char *key, const char *value);
+    iso_status (*flush)(iso_context *ctx, iso_table_writer *w);            /* NULL: there is nothing to do */
     iso_status (*close)(iso_context *ctx, iso_table_writer *w, bool keep); /* not after a failing open */
 } iso_table_writing;
 
 extern const iso_table_reading iso_csv_reading, iso_hdf5_reading;
 extern const iso_table_writing iso_csv_writing, iso_hdf5_writing; /* of HDF5: where the build has it */
+iso_status iso_csv_resume(iso_context *ctx, iso_table_writer *w, const char *path); /* opens it, see below */
+iso_status iso_csv_cut(iso_context *ctx, iso_table_writer *w, size_t length);
 
 struct iso_table_reader {
     const iso_table_reading *format;
@@ -73,6 +76,15 @@ struct iso_table_writer {
     bool fresh; /* set it, and a file that has the name when this one ends is not replaced */
     void *data;
 };
+
+/* A table as CSV in a regular file, that can be gone on with: FILE.part is locked, and as it was. When this ends
+ * without keeping it, it stays. iso_table_go_on goes on behind its first `length` bytes, whose header is this one;
+ * 0: begins with the header. Errors: those of iso_table_writer_open and iso_table_write_header. */
+iso_status iso_table_writer_resume(iso_context *ctx, const char *path, const char *kind, iso_table_writer **writer);
+iso_status iso_table_go_on(iso_context *ctx, iso_table_writer *w, const iso_record *header, size_t length);
+
+/* Brings the rows of CSV so far into the file. Errors: ISO_FILE_TROUBLE, ISO_CLOSED_PIPE. */
+iso_status iso_table_flush(iso_context *ctx, iso_table_writer *w);
 
 /* Whether a file that is to be written is HDF5. */
 bool iso_table_is_hdf5(const char *path);

@@ -1,6 +1,7 @@
 /* scene.c - what a scene asks for: columns and models by their names, starts, and times. */
 #include "orbit/orbit_impl.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -81,6 +82,10 @@ ISO_NAMES(iso_model_kind_name, int, "ball", "point")
 ISO_NAMES(iso_backend_name, int, "ball", "point", "auto", "exact")
 ISO_NAMES(iso_models_name, int, "ball", "point", "both", "auto")
 
+/* What is a unit vector, or orthogonal, to this, stays as it is. Both corrections leave less than it, so that what was
+ * read once, printed and read again is the same to the bit. */
+#define ROUNDING (8 * DBL_EPSILON)
+
 /* A unit vector and a vector orthogonal to it, from numbers typed by hand. */
 static iso_status check_pair(iso_context *ctx, const char *unit_name, const char *vector_name, iso_spin spin,
                              double unit[3], double vector[3])
@@ -95,7 +100,7 @@ static iso_status check_pair(iso_context *ctx, const char *unit_name, const char
         return ISO_FAIL_INPUT(ctx, unit_name,
                               "%s has length %.10g, it must be a unit vector (to 1e-6): write [%.10g, %.10g, %.10g]",
                               unit_name, length, unit[0] / length, unit[1] / length, unit[2] / length);
-    make_unit(unit);
+    if (fabs(dot(unit, unit) - 1) > ROUNDING) make_unit(unit);
     const double most = largest(vector);
     if (most == 0) return ISO_OK;
     if (!isnormal(most))
@@ -105,6 +110,7 @@ static iso_status check_pair(iso_context *ctx, const char *unit_name, const char
     if (spin == ISO_SPIN_KEEP) return ISO_OK;
     const double size = ldexp(1, ilogb(most)); /* a power of two: dividing by it rounds nothing */
     double v[3] = {vector[0] / size, vector[1] / size, vector[2] / size}; /* no overflow in the products */
+    if (fabs(dot(v, unit)) <= ROUNDING / 2 * norm(v)) return ISO_OK;
     const double along = remove_along(v, unit);
     if (spin == ISO_SPIN_REFUSE && fabs(along) > 1e-9 * hypot(norm(v), along))
         return ISO_FAIL_INPUT(ctx, vector_name,

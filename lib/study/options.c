@@ -224,15 +224,20 @@ static iso_status set_options(iso_context *ctx, const iso_study *study, char *te
     return status;
 }
 
+iso_status iso_study_read(iso_context *ctx, const iso_study *study, char *text, void *how)
+{
+    study->begin(how);
+    iso_status status = set_options(ctx, study, text, how);
+    if (status == ISO_OK && study->prepare) status = study->prepare(ctx, how);
+    return status == ISO_BAD_INPUT ? ISO_BAD_ARGUMENT : status; /* it is the call that is wrong, no file */
+}
+
 static iso_status ask(iso_context *ctx, const iso_study *study, const iso_study_subject *subject, char *text,
                       void *how, iso_study_result *result)
 {
     iso_status status = refuse_subject(ctx, study, subject);
     if (status != ISO_OK) return status;
-    study->begin(how);
-    status = set_options(ctx, study, text, how);
-    if (status == ISO_OK && study->prepare) status = study->prepare(ctx, how);
-    if (status == ISO_BAD_INPUT) status = ISO_BAD_ARGUMENT; /* it is the call that is wrong, no file */
+    status = iso_study_read(ctx, study, text, how);
     if (status == ISO_OK) status = study->run(ctx, subject, how, result);
     if (study->end) study->end(how);
     return status;

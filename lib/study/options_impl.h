@@ -44,6 +44,10 @@ bool iso_set_method(void *at, const char *text);  /* const char *, a method or a
 bool iso_set_backend(void *at, const char *text); /* iso_backend: a word of iso_backend_word */
 const char *iso_backend_word(int i);              /* "ball", "point", "exact", "auto"       */
 
+/* Reads options, lines NAME=VALUE, into a study's struct of them, to be ended by study->end also after an error. The
+ * text is changed, and must live as long as they do. Errors: ISO_BAD_ARGUMENT, ISO_NO_MEMORY. */
+iso_status iso_study_read(iso_context *ctx, const iso_study *study, char *text, void *options);
+
 /* What to use in place of an option that this study or command had before; NULL: it had none of this name. */
 const char *iso_option_gone(const char *command, const char *name);
 

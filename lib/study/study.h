@@ -82,6 +82,8 @@ typedef struct iso_study {
     iso_status (*run)(iso_context *ctx, const iso_study_subject *subject, const void *options,
                       iso_study_result *result);
     unsigned of; /* ISO_STUDY_OF_SCENE, ... */
+    /* Of what it finds in one scene. Its numbers are columns of sweeps; NULL: it has none that another run repeats. */
+    const iso_field *fields;
 } iso_study;
 
 /* The i-th study; NULL past the end. By its name; NULL: there is none. */

@@ -13,12 +13,6 @@
 #include "study/study_impl.h"
 #include "sweep/sweep_impl.h"
 
-#define COMPUTATION(name) &iso_sweep_##name,
-static const iso_sweep_computation *const computations[] = {ISO_SWEEP_LIST(COMPUTATION) NULL};
-
-#define QUANTITY(name) &iso_sweep_##name.quantity,
-static const iso_sweep_quantity *const quantities[] = {ISO_SWEEP_LIST(QUANTITY) NULL};
-
 struct iso_sweep {
     const iso_sweep_plan *plan;
     iso_sweep_head head;
@@ -26,27 +20,25 @@ struct iso_sweep {
     iso_sweep_column *column;
 };
 
-const iso_sweep_quantity *const *iso_sweep_quantities(void)
-{
-    return quantities;
-}
-
+/* One block: numbers, statuses, reasons. */
 iso_status iso_sweep_rows_create(iso_context *ctx, int columns, size_t most, iso_sweep_rows *rows)
 {
     *rows = (iso_sweep_rows){.columns = columns, .most = most};
-    rows->number = calloc(most + 1, ((size_t)columns + 1) * sizeof *rows->number);
-    rows->status = calloc(most + 1, sizeof *rows->status);
-    rows->reason = calloc(most + 1, sizeof *rows->reason);
-    if (rows->number && rows->status && rows->reason) return ISO_OK;
-    iso_sweep_rows_free(rows);
-    return iso_context_no_memory(ctx, "the rows of %zu points", most);
+    rows->number = calloc(1, iso_sweep_rows_bytes(rows) + 1);
+    if (!rows->number) return iso_context_no_memory(ctx, "the rows of %zu points", most);
+    rows->status = (iso_status *)(void *)(rows->number + most * (size_t)columns);
+    rows->reason = (char(*)[ISO_REASON_SIZE])(void *)(rows->status + most);
+    return ISO_OK;
+}
+
+size_t iso_sweep_rows_bytes(const iso_sweep_rows *rows)
+{
+    return rows->most * ((size_t)rows->columns * sizeof *rows->number + sizeof *rows->status + sizeof *rows->reason);
 }
 
 void iso_sweep_rows_free(iso_sweep_rows *rows)
 {
     free(rows->number);
-    free(rows->status);
-    free(rows->reason);
     *rows = (iso_sweep_rows){.columns = 0};
 }
 
@@ -61,7 +53,7 @@ size_t iso_sweep_chunk_points(const iso_sweep_head *head, size_t c)
     return head->count - first < head->chunk ? head->count - first : head->chunk;
 }
 
-/* --- what the quantities share ---------------------------------------------------------------------------------- */
+/* --- failures --------------------------------------------------------------------------------------------------- */
 
 iso_status iso_sweep_note(iso_context *ctx, const iso_sweep_job *job, iso_sweep_batch *batch, size_t i,
                           iso_status status)
@@ -70,156 +62,14 @@ iso_status iso_sweep_note(iso_context *ctx, const iso_sweep_job *job, iso_sweep_
     if (status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
     if (status == ISO_OK || rows->status[i] != ISO_OK) return ISO_OK;
     rows->status[i] = status;
-    snprintf(rows->reason[i], sizeof rows->reason[i], "%s%s%s", job ? job->computation->quantity.name : "",
-             job ? ": " : "", iso_context_message(ctx));
+    snprintf(rows->reason[i], sizeof rows->reason[i], "%s%s%s", job ? job->quantity.name : "", job ? ": " : "",
+             iso_context_message(ctx));
     for (char *c = rows->reason[i]; *c; c++)
         if (*c == '"' || (unsigned char)*c < ' ') *c = '\'';
     return ISO_OK;
 }
 
-double *iso_sweep_numbers(const iso_sweep_job *job, const iso_sweep_batch *batch, size_t i)
-{
-    return batch->rows->number + i * (size_t)batch->rows->columns + job->first;
-}
-
-const char *iso_sweep_models(int i)
-{
-    return i <= ISO_SHOW_BOTH ? iso_models_name(i) : NULL;
-}
-
-iso_status iso_sweep_refuse_effects(iso_context *ctx, const iso_sweep_job *job)
-{
-    const iso_effects acting = iso_scene_acting(job->base);
-    return iso_refuse_beyond_level(ctx, &acting, "it is known");
-}
-
-void iso_sweep_add(iso_sweep_job *job, const char *names)
-{
-    const iso_sweep_computation *q = job->computation;
-    for (int used = 0; job->count < ISO_SWEEP_NUMBERS && *names; names += used) {
-        iso_sweep_column *c = &job->column[job->count];
-        snprintf(c->group, sizeof c->group, "%s", q->quantity.name);
-        sscanf(names, "%24s %n", c->name, &used);
-        job->count += !q->has || q->has(job, c->name);
-    }
-}
-
-static void add_column(void *data, const char *name, const iso_field *field, const iso_value *value)
-{
-    (void)field, (void)value;
-    iso_sweep_add(data, name);
-}
-
-/* --- what the columns are --------------------------------------------------------------------------------------- */
-
-/* Also those that are not for the study's own tables. */
-static void visit_all(const iso_field fields[], const void *row, iso_column_visitor *visit, void *data)
-{
-    iso_field all[ISO_MOST_FIELDS];
-    iso_fields_copy(fields, NULL, all);
-    for (iso_field *f = all; f->name; f++) f->how &= ~(unsigned)ISO_IN_TREE;
-    iso_columns_visit(all, row, visit, data);
-}
-
-/* Whether a list of words with blanks between has this one. */
-static bool has_word(const char *words, const char *word)
-{
-    const size_t length = strlen(word);
-    for (; *words; words += strcspn(words, " "), words += strspn(words, " "))
-        if (strcspn(words, " ") == length && strncmp(words, word, length) == 0) return true;
-    return false;
-}
-
-typedef struct described {
-    const iso_sweep_computation *of;
-    iso_column_visitor *visit;
-    void *data;
-} described;
-
-static void describe(void *data, const char *name, const iso_field *field, const iso_value *value)
-{
-    const described *d = data;
-    char full[ISO_COLUMN_SIZE];
-    if (d->of && d->of->names && !has_word(d->of->names, name)) return;
-    snprintf(full, sizeof full, "%s%s%s", d->of ? d->of->quantity.name : "", d->of ? "_" : "", name);
-    iso_field told = *field;
-    if (field->type == ISO_FIELD_INT && field->word) told.doc = "0 regular, 1 chaotic, 2 undecided"; /* a verdict */
-    d->visit(d->data, full, &told, value);
-}
-
-static void describe_columns_of_trajectories(described *d)
-{
-    d->of = &iso_sweep_state;
-    for (int c = 0; c < iso_columns_count(); c++) {
-        iso_field field = {.name = iso_column_name(c)};
-        field.doc = iso_column_doc(c, &field.unit);
-        describe(d, field.name, &field, NULL);
-    }
-}
-
-void iso_sweep_columns_visit(iso_column_visitor *visit, void *data)
-{
-    static const iso_field of_row[] = {
-        {.name = "point", .unit = "", .doc = "number of the point, from 0 on"},
-        {.name = "status", .unit = "", .doc = "0, or why the point failed: a number of iso_status"},
-        {.name = "reason", .unit = "", .doc = "the same in words"},
-        ISO_FIELD_END,
-    };
-    described d = {NULL, visit, data};
-    visit_all(of_row, NULL, describe, &d);
-    describe_columns_of_trajectories(&d);
-    for (int i = 0; computations[i]; i++) {
-        d.of = computations[i];
-        for (int f = 0; d.of->fields[f]; f++) visit_all(d.of->fields[f], NULL, describe, &d);
-    }
-}
-
-/* --- what the columns hold -------------------------------------------------------------------------------------- */
-
-typedef struct filled {
-    const iso_sweep_job *job;
-    double *number;
-} filled;
-
-static void fill(void *data, const char *name, const iso_field *field, const iso_value *value)
-{
-    const filled *f = data;
-    (void)field;
-    for (int i = 0; i < f->job->count; i++)
-        if (strcmp(f->job->column[i].name, name) == 0) f->number[i] = value->number;
-}
-
-void iso_sweep_fill(const iso_sweep_job *job, const iso_field fields[], const void *row, double number[])
-{
-    visit_all(fields, row, fill, &(filled){job, number});
-}
-
 /* --- columns ---------------------------------------------------------------------------------------------------- */
-
-static iso_status make_job(iso_context *ctx, iso_sweep *s, const iso_sweep_request *request, iso_sweep_job *job)
-{
-    const iso_sweep_computation *q = computations[request->quantity];
-    *job = (iso_sweep_job){.computation = q,
-                           .turns = s->plan->turns,
-                           .time = s->plan->time,
-                           .vectors = s->head.vectors,
-                           .base = s->plan->family.base,
-                           .first = s->head.columns,
-                           .column = s->column + s->head.columns};
-    memcpy(job->setting, request->setting, sizeof job->setting);
-    const iso_status status = q->refuse && job->base ? q->refuse(ctx, job) : ISO_OK;
-    if (status != ISO_OK)
-        iso_context_fail(ctx, status, q->quantity.name, "%s: %s", q->quantity.name, iso_context_message(ctx));
-    if (status != ISO_OK) return status;
-    if (q->columns)
-        q->columns(job);
-    else if (q->names)
-        iso_sweep_add(job, q->names);
-    else
-        iso_columns_visit(q->fields[0], NULL, add_column, job);
-    s->head.columns += job->count;
-    return ISO_OK;
-}
 
 /* The columns of what varies, and those of each quantity. */
 static iso_status make_columns(iso_context *ctx, iso_sweep *s)
@@ -231,7 +81,13 @@ static iso_status make_columns(iso_context *ctx, iso_sweep *s)
         strcpy(s->column[c].name, f->name[c]);
     }
     s->head.columns = f->columns;
-    for (int i = 0; i < s->plan->requests; i++) ISO_TRY(make_job(ctx, s, &s->plan->request[i], &s->job[i]));
+    for (int i = 0; i < s->plan->requests; i++) {
+        iso_sweep_job *job = &s->job[i];
+        *job = (iso_sweep_job){.vectors = s->head.vectors, .first = s->head.columns};
+        job->column = s->column + s->head.columns;
+        ISO_TRY(iso_sweep_job_begin(ctx, s->plan, &s->plan->request[i], job));
+        s->head.columns += job->count;
+    }
     return ISO_OK;
 }
 
@@ -243,7 +99,7 @@ static size_t chunk_of(const iso_sweep *s)
     size_t chunk = s->head.count / CHUNKS + 1;
     if (chunk > LANES / 2) chunk = (chunk + LANES - 1) / LANES * LANES;
     for (const iso_sweep_job *job = s->job; job < s->job + s->plan->requests; job++) {
-        const size_t fits = job->computation->points > 0 ? job->computation->points : job->computation->chunk(job);
+        const size_t fits = job->quantity.chunk ? job->quantity.chunk(job) : job->quantity.points;
         if (fits < chunk) chunk = fits;
     }
     return chunk;
@@ -291,6 +147,7 @@ iso_status iso_sweep_create(iso_context *ctx, const iso_sweep_plan *plan, iso_sw
 void iso_sweep_free(iso_sweep *s)
 {
     if (!s) return;
+    for (int i = 0; i < s->plan->requests; i++) iso_sweep_job_end(&s->job[i]);
     free(s->column);
     free(s);
 }
@@ -319,16 +176,6 @@ static iso_status make_points(iso_context *ctx, const iso_sweep *s, size_t first
     return status;
 }
 
-/* A point that has failed in an earlier quantity is still asked for the others, but not if it has no scene. */
-static iso_status find_each(iso_context *ctx, const iso_sweep_job *job, iso_sweep_batch *b)
-{
-    for (size_t i = 0; i < b->count; i++)
-        if (b->scene[i])
-            ISO_TRY(iso_sweep_note(ctx, job, b, i,
-                                   job->computation->find(ctx, job, b->scene[i], iso_sweep_numbers(job, b, i))));
-    return ISO_OK;
-}
-
 iso_status iso_sweep_compute_points(iso_context *ctx, const iso_sweep *s, size_t first, size_t count,
                                     iso_sweep_rows *rows)
 {
@@ -340,10 +187,8 @@ iso_status iso_sweep_compute_points(iso_context *ctx, const iso_sweep *s, size_t
     b.scene = malloc((count + 1) * sizeof *b.scene);
     const bool memory = b.room && b.scene;
     iso_status status = memory ? make_points(ctx, s, first, &b) : iso_context_no_memory(ctx, "%zu points", count);
-    for (const iso_sweep_job *job = s->job; job < s->job + s->plan->requests && status == ISO_OK; job++) {
-        const iso_sweep_computation *q = job->computation;
-        status = q->find_all && q->together(job) ? q->find_all(ctx, job, &b) : find_each(ctx, job, &b);
-    }
+    for (const iso_sweep_job *job = s->job; job < s->job + s->plan->requests && status == ISO_OK; job++)
+        status = iso_sweep_measure(ctx, job, &b);
     free(b.room);
     free(b.scene);
     return status;

@@ -12,20 +12,16 @@
  * from the plan alone. So the rows of a chunk are the same whoever computes them, on how many threads, and in which
  * order. lib/doc/formats.md tells what stands in a file of a sweep and in its result.
  *
- * Each quantity calls the function of the library that its command calls. So its numbers are those that the command
- * gives for the scene of the point, to the bit, with the same vectors.
+ * What is measured is a study (study/study.h) of the scene of the point, with options of its own: its numbers are the
+ * columns. Older words stand for some of them: `frequencies`, `splitting`, `rotations` (of `periodic`) and `backends`
+ * (of `compare`). Besides there are the quantities of a run:
  *
- *     quantity     command                 numbers
- *     state        run, section            the state at the time `until`, or at the turn `until`
- *     chaos        chaos                   verdict, exponents, MEGNO, GALI_2; with starts: the chaotic share
- *     frequencies  frequencies             frequencies and rotation number
- *     splitting    splitting               x and m of the separatrix, and their errors
- *     rotations    periodic                half-turn traces of the rotations about the three axes
- *     backends     compare                 largest differences of the backends
- *     error        run --verbose           largest errors over the rows of `run`
- *     contact      run                     when contact is lost
+ *     state        the state at the time `until`, or at the turn `until`
+ *     error        largest errors over the rows of `run`
+ *     contact      when contact is lost
  *
- * A verdict is 0 (regular), 1 (chaotic), 2 (undecided) or 3 (integrable).
+ * The numbers are those that the command gives for the scene of the point, to the bit, with the same vectors. A word
+ * is the number of its place: a verdict is 0 (regular), 1 (chaotic), 2 (undecided) or 3 (integrable).
  */
 #ifndef ISO_SWEEP_H
 #define ISO_SWEEP_H
@@ -49,33 +45,16 @@ typedef struct iso_family {
 
 /* --- what is asked ---------------------------------------------------------------------------------------------- */
 
-enum { ISO_SWEEP_SETTINGS = 6, ISO_SWEEP_REQUESTS = 16 };
+enum { ISO_SWEEP_REQUESTS = 16 };
 
-/* A number or a word in a mapping of a sweep file. */
-typedef struct iso_sweep_setting {
-    const char *name;           /* NULL ends a list                                                     */
-    const char *(*word)(int i); /* the words that it can be: the setting is then i; NULL: it is a number */
-    double usual;               /* where the file does not say it; NaN: the scene's                      */
-    double least, most;         /* of a number; both 0: any                                              */
-    bool whole, flag;           /* the number is whole; true or false                                    */
-    const char *missing;        /* it must be there, or it is "missing in ..."; NULL: it may be absent   */
-} iso_sweep_setting;
-
-/* What can be measured. */
-typedef struct iso_sweep_quantity {
-    const char *name, *doc;
-    const iso_sweep_setting *settings; /* NULL: none                                          */
-    bool turns, time;                  /* it can go on for a number of turns; to a given time */
-} iso_sweep_quantity;
-
-/* All of them, ended by NULL. */
-const iso_sweep_quantity *const *iso_sweep_quantities(void);
+/* The name of the i-th quantity; NULL past the end. */
+const char *iso_sweep_quantity_name(int i);
 
 /* One quantity that is asked for. */
 typedef struct iso_sweep_request {
-    int quantity; /* its number in the list of quantities */
-    double setting[ISO_SWEEP_SETTINGS];
-    iso_place place; /* where the file asks for it; line 0: nowhere */
+    const char *name;    /* of the quantity */
+    const char *options; /* of its study, lines NAME=VALUE; NULL: none */
+    iso_place place;     /* where the file asks for it; line 0: nowhere */
 } iso_sweep_request;
 
 /* Filled by iso_sweep_read, or by hand. */
@@ -105,7 +84,7 @@ const iso_sweep_plan *iso_sweep_file_plan(const iso_sweep_file *file);
 enum { ISO_REASON_SIZE = 200 };
 
 typedef struct iso_sweep_column {
-    char group[ISO_NAME_SIZE], name[ISO_NAME_SIZE]; /* group: "vary", or the quantity's name */
+    char group[ISO_NAME_SIZE], name[2 * ISO_NAME_SIZE]; /* group: "vary", or the quantity's name */
 } iso_sweep_column;
 
 /* What the rows of a sweep are: all that a file of results says besides the rows. */
@@ -129,8 +108,8 @@ typedef struct iso_sweep_rows {
 
 typedef struct iso_sweep iso_sweep;
 
-/* The plan must live as long as the sweep. Errors: ISO_BAD_INPUT about the name of a quantity that the scene does not
- * have; ISO_BAD_ARGUMENT about "vectors"; ISO_NO_MEMORY. */
+/* The plan must live as long as the sweep. Errors: ISO_BAD_INPUT or ISO_NOT_MAPPED about the name of a quantity that the
+ * scene does not have, or whose options are wrong; ISO_BAD_ARGUMENT about "vectors"; ISO_NO_MEMORY. */
 iso_status iso_sweep_create(iso_context *ctx, const iso_sweep_plan *plan, iso_sweep **sweep);
 void iso_sweep_free(iso_sweep *sweep);
 

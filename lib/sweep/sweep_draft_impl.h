@@ -7,7 +7,17 @@
 #include "map/section.h"
 #include "sweep/sweep_impl.h"
 
-enum { ISO_SWEEP_AXES = 24, ISO_SWEEP_NAMES = 64, ISO_SWEEP_DRAWN = 8 };
+enum { ISO_SWEEP_AXES = 24, ISO_SWEEP_NAMES = 64, ISO_SWEEP_DRAWN = 8, ISO_SWEEP_SETTINGS = 6 };
+
+/* A number or a word in a mapping of a sweep file. */
+typedef struct iso_sweep_setting {
+    const char *name;           /* NULL ends a list                                                     */
+    const char *(*word)(int i); /* the words that it can be: the setting is then i; NULL: it is a number */
+    double usual;               /* where the file does not say it                                       */
+    double least, most;         /* of a number; both 0: any                                              */
+    bool whole, flag;           /* the number is whole; true or false                                    */
+    const char *missing;        /* it must be there, or it is "missing in ..."; NULL: it may be absent   */
+} iso_sweep_setting;
 
 /* Where the values of an axis go. */
 typedef enum iso_axis_target {
@@ -34,12 +44,11 @@ typedef struct iso_sweep_axis {
     int width;  /* numbers of one value: 1, 2 (l, x), 3 or 9                   */
     int column; /* of its first number                                         */
     size_t offset;
-    const yaml_node_t *node; /* ISO_TO_NUMBER: what it replaces in the scene's text ... */
-    int whole, part;         /* ... it has `whole` numbers; the axis sets those from number `part` on */
-    int of;                  /* ISO_TO_RATIO                                */
-    int chart;               /* ISO_TO_CHART: 0 l, 1 x, 2 both                     */
-    size_t count;            /* of values; 1 of those that are drawn               */
-    double *list;            /* count * width                                  */
+    int part;     /* it sets the numbers from this one on, of one or of a vector   */
+    int of;       /* ISO_TO_RATIO                                                  */
+    int chart;    /* ISO_TO_CHART: 0 l, 1 x, 2 both                                */
+    size_t count; /* of values; 1 of those that are drawn                          */
+    double *list; /* count * width                                                 */
     double from, to;
     bool logarithmic, ordered;
     long sum; /* of a triangle */
@@ -66,6 +75,7 @@ struct iso_sweep_file {
     int drawn;
     uint64_t step[ISO_SWEEP_DRAWN], shift[ISO_SWEEP_DRAWN];
     char (*column)[ISO_NAME_SIZE];
+    char *options[ISO_SWEEP_REQUESTS]; /* those of the plan's requests */
     iso_sweep_plan plan;
 };
 

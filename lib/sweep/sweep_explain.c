@@ -1,4 +1,5 @@
 /* sweep_explain.c - tells how many points a sweep has, and measures what they cost here. */
+#define _GNU_SOURCE /* asprintf */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,42 +21,31 @@ typedef struct cost {
     size_t points, failed, places;
 } cost;
 
-static iso_status seconds_of(iso_context *ctx, const iso_sweep *sweep, size_t first, size_t count,
-                             iso_sweep_rows *rows, double *seconds)
-{
-    const double before = processor_seconds();
-    const iso_status status = iso_sweep_compute_points(ctx, sweep, first, count, rows);
-    *seconds = processor_seconds() - before;
-    return status;
-}
-
 /* Every place stands for as many points of the sweep, so it counts the same, however many points were computed there.
  * A point by itself comes first: it tells whether many can be computed, and warms up. */
-static iso_status measure(iso_context *ctx, const iso_sweep *sweep, iso_sweep_rows *rows, cost *c)
+static iso_status measure(iso_context *ctx, const iso_sweep *sweep, iso_sweep_rows *rows, double scale, cost *c)
 {
     static const int order[PLACES] = {4, 1, 6, 3, 7, 0, 5, 2}; /* if time is short, places far from each other */
-    const iso_sweep_head *head = iso_sweep_head_of(sweep);
+    const size_t points = iso_sweep_head_of(sweep)->count;
     double total = 0, slowest = 0;
-    *c = (cost){.mean = 0};
-    for (size_t p = 0; p < PLACES && total < patience; p++) {
-        const size_t first = (size_t)((order[p] + 0.5) / PLACES * (double)head->count);
-        if (head->count < PLACES && p >= head->count) break;
-        size_t count = head->count < PLACES ? 1 : rows->most < POINTS ? rows->most : POINTS;
-        if (count > head->count - first) count = head->count - first;
+    for (size_t p = 0; p < PLACES && (points >= PLACES || p < points) && total < patience; p++) {
+        const size_t first = (size_t)((order[p] + 0.5) / PLACES * (double)points);
+        size_t count = points < PLACES ? 1 : rows->most < POINTS ? rows->most : POINTS;
         double time = 0;
-        if (p == 0) ISO_TRY(seconds_of(ctx, sweep, first, 1, rows, &time));
-        slowest = fmax(slowest, time);
-        total += time;
-        if (slowest * (double)count > patience) count = 1; /* they are slow */
-        if (p > 0 || count > 1) {
-            ISO_TRY(seconds_of(ctx, sweep, first, count, rows, &time));
+        if (count > points - first) count = points - first;
+        for (int warm = p == 0; warm >= 0; warm--) {
+            if (slowest * (double)count > patience) count = 1; /* they are slow */
+            if (p == 0 && !warm && count == 1) break;
+            const size_t now = warm ? 1 : count;
+            const double before = processor_seconds();
+            ISO_TRY(iso_sweep_compute_points(ctx, sweep, first, now, rows));
+            time = processor_seconds() - before;
             total += time;
+            slowest = fmax(slowest, time / (double)now);
         }
-        const double each = time / (double)count;
-        slowest = fmax(slowest, each);
         c->points += count;
-        c->mean += each;
-        c->most = fmax(c->most, each);
+        c->mean += scale * time / (double)count;
+        c->most = fmax(c->most, scale * time / (double)count);
         for (size_t i = 0; i < count; i++) c->failed += rows->status[i] != ISO_OK;
         c->places++;
     }
@@ -63,131 +53,88 @@ static iso_status measure(iso_context *ctx, const iso_sweep *sweep, iso_sweep_ro
     return ISO_OK;
 }
 
-static void print_time(FILE *to, double seconds)
-{
-    if (seconds < 1)
-        fprintf(to, "%.*f ms", seconds < 1e-3 ? 3 : seconds < 0.1 ? 1 : 0, 1e3 * seconds);
-    else if (seconds < 120)
-        fprintf(to, "%.*f s", seconds < 10, seconds);
-    else if (seconds < 7200)
-        fprintf(to, "%.0f minutes", seconds / 60);
-    else if (seconds < 172800)
-        fprintf(to, "%.3g hours", seconds / 3600);
-    else
-        fprintf(to, "%.3g days", seconds / 86400);
-}
-
-/* Gives by how much a point with all its starts takes longer. */
-static double take_few_starts(const iso_sweep_quantity *quantity, iso_sweep_request *request)
-{
-    for (int i = 0; quantity->settings && quantity->settings[i].name; i++) {
-        const double starts = request->setting[i];
-        if (strcmp(quantity->settings[i].name, "starts") != 0 || !(starts > 2 * STARTS)) continue;
-        request->setting[i] = STARTS;
-        return starts / STARTS;
-    }
-    return 1;
-}
-
-/* One quantity by itself; *mean: seconds of a point. */
-static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan, int which, size_t chunk, FILE *to,
-                                   double *mean)
+/* One quantity by itself. */
+static iso_status measure_quantity(iso_context *ctx, const iso_sweep_plan *plan, int which, size_t chunk, cost *c)
 {
     iso_sweep_plan one = *plan;
     iso_sweep *sweep;
-    iso_sweep_rows rows;
-    cost c = {.mean = 0};
+    iso_sweep_rows rows = {.number = NULL};
+    char *options = NULL;
+    const char *own = plan->request[which].options, *starts = iso_sweep_option(own, "starts");
+    const double scale = starts && strtod(starts, NULL) > 2 * STARTS ? strtod(starts, NULL) / STARTS : 1;
+    if (scale > 1 && asprintf(&options, "%sstarts=%d\n", own, STARTS) < 0) return iso_context_no_memory(ctx, "words");
     one.requests = 1;
     one.request[0] = plan->request[which];
+    if (options) one.request[0].options = options;
     one.chunk = chunk;
-    const iso_sweep_quantity *quantity = iso_sweep_quantities()[one.request[0].quantity];
-    const double scale = take_few_starts(quantity, &one.request[0]);
-    ISO_TRY(iso_sweep_create(ctx, &one, &sweep));
-    iso_status status = iso_sweep_rows_create(ctx, iso_sweep_head_of(sweep)->columns, chunk, &rows);
-    if (status == ISO_OK) status = measure(ctx, sweep, &rows, &c);
-    c.mean *= scale;
-    c.most *= scale;
-    if (status == ISO_OK) {
-        fprintf(to, "  %-12s %s\n  %-12s ", quantity->name, quantity->doc, "");
-        print_time(to, c.mean);
-        fprintf(to, " a point, up to ");
-        print_time(to, c.most);
-        const iso_sweep_head *head = iso_sweep_head_of(sweep);
-        const bool alone = c.places < 2 && head->count > 1;
-        fprintf(to, " (%zu points, %zu of them failed%s); columns", c.points, c.failed,
-                alone ? "; one place alone: others may take several times as long" : "");
-        for (int i = plan->family.columns; i < head->columns; i++) fprintf(to, " %s", head->column[i].name);
-        fprintf(to, "\n");
-        *mean = c.mean;
-    }
+    iso_status status = iso_sweep_create(ctx, &one, &sweep);
+    if (status == ISO_OK) status = iso_sweep_rows_create(ctx, iso_sweep_head_of(sweep)->columns, chunk, &rows);
+    if (status == ISO_OK) status = measure(ctx, sweep, &rows, scale, c);
     iso_sweep_rows_free(&rows);
     iso_sweep_free(sweep);
+    free(options);
     return status;
 }
 
-/* All quantities, in words into `to`; *mean: seconds of a point. */
-static iso_status explain_quantities(iso_context *ctx, const iso_sweep_plan *plan, size_t chunk, FILE *to,
-                                     double *mean)
+static const char *time_text(double seconds, char text[24])
 {
-    iso_status status = ISO_OK;
-    *mean = 0;
-    for (int i = 0; i < plan->requests && status == ISO_OK; i++) {
-        double one = 0;
-        status = explain_quantity(ctx, plan, i, chunk, to, &one);
-        *mean += one;
-    }
-    return status;
+    if (seconds < 1)
+        snprintf(text, 24, "%.*f ms", seconds < 1e-3 ? 3 : seconds < 0.1 ? 1 : 0, 1e3 * seconds);
+    else if (seconds < 120)
+        snprintf(text, 24, "%.*f s", seconds < 10, seconds);
+    else if (seconds < 7200)
+        snprintf(text, 24, "%.0f minutes", seconds / 60);
+    else
+        snprintf(text, 24, seconds < 172800 ? "%.3g hours" : "%.3g days",
+                 seconds / (seconds < 172800 ? 3600 : 86400));
+    return text;
 }
 
 /* The time first, which is what one asks for; then how it was found. */
-static void tell(FILE *to, const iso_sweep_file *file, const iso_sweep_head *head, double mean, const char *measured)
+static void tell(FILE *to, const iso_sweep_file *file, const iso_sweep_head *head, const cost costs[])
 {
+    const iso_sweep_plan *plan = iso_sweep_file_plan(file);
     const size_t processors = iso_pool_threads(0, SIZE_MAX - 1, 1);
+    char words[ISO_SWEEP_WORDS], one[24], other[24];
+    double mean = 0;
+    for (int i = 0; i < plan->requests; i++) mean += costs[i].mean;
     const double all = mean * (double)head->count;
-    char words[ISO_SWEEP_WORDS];
-    fprintf(to, "time\n  about ");
-    print_time(to, all);
-    fprintf(to, " of processor time; here, with %zu threads, about ", processors);
-    print_time(to, all / (double)processors);
-    fprintf(to, "\n  a chunk takes about ");
-    print_time(to, mean * (double)iso_sweep_chunk_points(head, 0));
-    fprintf(to, "\n  a file of about %.3g MB\n", ((double)head->columns + 0.5) * 8e-6 * (double)head->count);
+    fprintf(to, "time\n  about %s of processor time; here, with %zu threads, about %s\n", time_text(all, one),
+            processors, time_text(all / (double)processors, other));
+    fprintf(to, "  a chunk takes about %s\n", time_text(mean * (double)iso_sweep_chunk_points(head, 0), one));
+    fprintf(to, "  a file of about %.3g MB\n", ((double)head->columns + 0.5) * 8e-6 * (double)head->count);
     fprintf(to, "\nsweep\n  %zu points in %zu chunks of %zu; %d columns; vectors %s\n", head->count,
             iso_sweep_chunks(head), head->chunk, head->columns, head->vectors);
     for (int i = 0; iso_sweep_axis_words(file, i, words); i++) fprintf(to, "  %s\n", words);
-    fprintf(to, "\nmeasured\n%s", measured);
-}
-
-/* All words, into `to`. */
-static iso_status explain(iso_context *ctx, const iso_sweep_file *file, FILE *to)
-{
-    const iso_sweep_plan *plan = iso_sweep_file_plan(file);
-    iso_sweep *sweep;
-    double mean = 0;
-    char *measured = NULL;
-    size_t size;
-    ISO_TRY(iso_sweep_create(ctx, plan, &sweep));
-    const iso_sweep_head *head = iso_sweep_head_of(sweep);
-    FILE *parts = open_memstream(&measured, &size);
-    iso_status status =
-        parts ? explain_quantities(ctx, plan, head->chunk, parts, &mean) : iso_context_no_memory(ctx, "words");
-    if (parts && fclose(parts) != 0 && status == ISO_OK) status = iso_context_no_memory(ctx, "words");
-    if (status == ISO_OK) tell(to, file, head, mean, measured);
-    free(measured);
-    iso_sweep_free(sweep);
-    return status;
+    fprintf(to, "\nmeasured\n");
+    for (int i = 0; i < plan->requests; i++) {
+        const cost *c = &costs[i];
+        const char *name = plan->request[i].name;
+        fprintf(to, "  %-12s %s\n  %-12s %s a point, up to %s", name, iso_sweep_study(name)->doc, "",
+                time_text(c->mean, one), time_text(c->most, other));
+        fprintf(to, " (%zu points, %zu of them failed%s); columns", c->points, c->failed,
+                c->places < 2 && head->count > 1 ? "; one place alone: others may take several times as long" : "");
+        for (int j = 0; j < head->columns; j++)
+            if (strcmp(head->column[j].group, name) == 0) fprintf(to, " %s", head->column[j].name);
+        fprintf(to, "\n");
+    }
 }
 
 iso_status iso_sweep_explain(iso_context *ctx, const iso_sweep_file *file, char **text)
 {
+    const iso_sweep_plan *plan = iso_sweep_file_plan(file);
+    cost costs[ISO_SWEEP_REQUESTS] = {{.mean = 0}};
+    iso_sweep *sweep;
     size_t size;
     *text = NULL;
-    FILE *to = open_memstream(text, &size);
-    if (!to) return iso_context_no_memory(ctx, "words");
-    iso_status status = explain(ctx, file, to);
-    if (fclose(to) != 0 && status == ISO_OK) status = iso_context_no_memory(ctx, "words");
-    if (status == ISO_OK) return ISO_OK;
-    free(*text);
-    *text = NULL;
+    ISO_TRY(iso_sweep_create(ctx, plan, &sweep));
+    const iso_sweep_head *head = iso_sweep_head_of(sweep);
+    iso_status status = ISO_OK;
+    for (int i = 0; i < plan->requests && status == ISO_OK; i++)
+        status = measure_quantity(ctx, plan, i, head->chunk, &costs[i]);
+    FILE *to = status == ISO_OK ? open_memstream(text, &size) : NULL;
+    if (to) tell(to, file, head, costs);
+    if (status == ISO_OK && (!to || fclose(to) != 0)) status = iso_context_no_memory(ctx, "words");
+    iso_sweep_free(sweep);
     return status;
 }

@@ -59,29 +59,94 @@ static iso_status read_scene(iso_context *ctx, iso_sweep_file *f, const yaml_nod
 
 /* --- what is measured ------------------------------------------------------------------------------------------- */
 
+/* The text of an option: a number or a word as it stands, numbers of a list with commas between. NULL: it is none. */
+static char *option_text(iso_yaml *y, const yaml_node_t *n)
+{
+    char *text = NULL;
+    size_t size;
+    bool good = n->type == YAML_SCALAR_NODE || n->type == YAML_SEQUENCE_NODE;
+    FILE *to = good ? open_memstream(&text, &size) : NULL;
+    if (!to) return NULL;
+    if (n->type == YAML_SCALAR_NODE) fputs((const char *)n->data.scalar.value, to);
+    for (yaml_node_item_t *i = n->data.sequence.items.start;
+         n->type == YAML_SEQUENCE_NODE && i < n->data.sequence.items.top; i++) {
+        const yaml_node_t *item = iso_yaml_node(y, *i);
+        good = good && item->type == YAML_SCALAR_NODE;
+        if (good)
+            fprintf(to, "%s%s", i > n->data.sequence.items.start ? "," : "", (const char *)item->data.scalar.value);
+    }
+    if (fclose(to) == 0 && good && !strchr(text, '\n')) return text;
+    free(text);
+    return NULL;
+}
+
+/* Options are called as the command calls them, or with "_" for "-". A flag that is false is not there. */
+static iso_status read_option(iso_sweep_file *f, const iso_study *study, const yaml_node_pair_t *p, void *options,
+                              FILE *to)
+{
+    char name[2 * ISO_NAME_SIZE] = "";
+    const yaml_node_t *key = iso_yaml_node(&f->yaml, p->key), *value = iso_yaml_node(&f->yaml, p->value);
+    if (key->type == YAML_SCALAR_NODE) snprintf(name, sizeof name, "%s", (const char *)key->data.scalar.value);
+    for (char *c = name; *c; c++) *c = *c == '_' ? '-' : *c;
+    const iso_option *o = study->options;
+    while (o->name && strcmp(o->name, name) != 0) o++;
+    if (o->name && o->aside) return ISO_FAIL_AT(f, key, "'%s' changes no number", name);
+    char *text = option_text(&f->yaml, value);
+    if (!text) return iso_yaml_expected(&f->yaml, value, name, "a number, a word or a list of numbers");
+    iso_status status = ISO_OK;
+    if (!o->name || o->argument || strcmp(text, "false") != 0) {
+        status = iso_study_set(f->yaml.ctx, study, name, text, options);
+        fprintf(to, "%s=%s\n", name, text);
+    }
+    if (status != ISO_OK) status = ISO_FAIL_AT(f, o->name ? value : key, "%s", iso_context_message(f->yaml.ctx));
+    free(text);
+    return status;
+}
+
+/* Reads the options of a quantity as text for its study, which is asked whether they are right. */
+static iso_status read_options(iso_sweep_file *f, const iso_study *study, const yaml_node_t *mapping, char **text)
+{
+    size_t size;
+    iso_status status = ISO_OK;
+    if (mapping->type != YAML_MAPPING_NODE) return iso_yaml_expected(&f->yaml, mapping, study->name, "a mapping");
+    void *options = malloc(study->size);
+    FILE *to = open_memstream(text, &size);
+    if (options) study->begin(options);
+    const yaml_node_pair_t *first = mapping->data.mapping.pairs.start, *end = mapping->data.mapping.pairs.top;
+    for (const yaml_node_pair_t *p = first; to && options && p < end && status == ISO_OK; p++) {
+        const yaml_node_t *key = iso_yaml_node(&f->yaml, p->key);
+        if (key->type == YAML_SCALAR_NODE)
+            status = iso_yaml_once(&f->yaml, mapping, key, (const char *)key->data.scalar.value);
+        if (status == ISO_OK) status = read_option(f, study, p, options, to);
+    }
+    const bool memory = to && options;
+    if ((to && fclose(to) != 0) || !memory) status = iso_context_no_memory(f->yaml.ctx, "a sweep");
+    free(options);
+    return status;
+}
+
 static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure)
 {
     const char *names[MOST_QUANTITIES];
     size_t count = 0;
     iso_yaml *y = &f->yaml;
-    const iso_sweep_quantity *const *quantities = iso_sweep_quantities();
-    while (quantities[count] && count < MOST_QUANTITIES) names[count] = quantities[count]->name, count++;
+    while (count < MOST_QUANTITIES && (names[count] = iso_sweep_quantity_name((int)count))) count++;
     iso_status status = iso_sweep_check_keys(y, measure, "measure", count, names);
     if (status != ISO_OK) return status;
     const yaml_node_pair_t *end = measure->data.mapping.pairs.top;
     for (const yaml_node_pair_t *p = measure->data.mapping.pairs.start; p < end && status == ISO_OK; p++) {
         const yaml_node_t *key = iso_yaml_node(y, p->key);
         iso_sweep_request *request = &f->plan.request[f->plan.requests];
+        char **options = &f->options[f->plan.requests];
         if (f->plan.requests++ == ISO_SWEEP_REQUESTS)
             return iso_yaml_fail(y, key->start_mark, "more than %d things to measure", ISO_SWEEP_REQUESTS);
         for (size_t i = 0; i < count; i++)
-            if (iso_yaml_is(key, names[i])) request->quantity = (int)i;
-        snprintf(request->place.key, sizeof request->place.key, "%s", names[request->quantity]);
+            if (iso_yaml_is(key, names[i])) request->name = names[i];
+        snprintf(request->place.key, sizeof request->place.key, "%s", request->name);
         request->place.line = (int)key->start_mark.line + 1;
         request->place.column = (int)key->start_mark.column + 1;
-        const iso_sweep_quantity *quantity = quantities[request->quantity];
-        status = iso_sweep_read_mapping(y, iso_yaml_node(y, p->value), quantity->name, quantity->settings,
-                                        request->setting);
+        status = read_options(f, iso_sweep_study(request->name), iso_yaml_node(y, p->value), options);
+        request->options = *options;
     }
     if (status == ISO_OK && f->plan.requests == 0)
         return iso_yaml_fail(y, measure->start_mark, "nothing is to be measured: write chaos: {}, for example");
@@ -96,10 +161,11 @@ static iso_status check_until(iso_sweep_file *f, const yaml_node_t *until)
     const bool turns = !isnan(f->plan.turns);
     bool used = false;
     for (int i = 0; i < f->plan.requests; i++) {
-        const iso_sweep_quantity *t = iso_sweep_quantities()[f->plan.request[i].quantity];
-        used = used || (turns ? t->turns : t->time);
-        if (turns ? t->time && !t->turns : t->turns && !t->time)
-            return ISO_FAIL_AT(f, until, "'%s' needs 'until: {%s: ...}'", t->name, turns ? "time" : "turns");
+        const char *name = f->plan.request[i].name;
+        const bool fits = iso_sweep_has_option(name, turns ? "turns" : "t-end");
+        used = used || fits;
+        if (!fits && iso_sweep_has_option(name, turns ? "t-end" : "turns"))
+            return ISO_FAIL_AT(f, until, "'%s' needs 'until: {%s: ...}'", name, turns ? "time" : "turns");
     }
     if (used) return ISO_OK;
     return ISO_FAIL_AT(f, until, "no quantity in 'measure' uses %s", turns ? "turns" : "a time");
@@ -120,21 +186,19 @@ static iso_status read_until(iso_sweep_file *f, const yaml_node_t *until)
     return check_until(f, until);
 }
 
-/* Refuses numbers that vary but are not used: `until` replaces the scene's end, and a quantity's own setting replaces
+/* Refuses numbers that vary but are not used: `until` replaces the scene's end, and a quantity's own option replaces
  * that of the scene. */
 static iso_status check_used(iso_sweep_file *f, const yaml_node_t *vary)
 {
     const iso_sweep_plan *p = &f->plan;
     for (int i = 0; i < f->axes; i++) {
-        const char *name = f->axis[i].name;
+        const char *name = f->axis[i].name, *option = strcmp(name, "end") == 0 ? "t-end" : name;
         if (strcmp(name, "end") == 0 && !(isnan(p->turns) && isnan(p->time)))
             return ISO_FAIL_AT(f, vary, "'end' varies, but 'until' replaces it");
-        for (int w = 0; w < p->requests; w++) {
-            const iso_sweep_quantity *t = iso_sweep_quantities()[p->request[w].quantity];
-            for (int s = 0; t->settings && t->settings[s].name; s++)
-                if (strcmp(name, t->settings[s].name) == 0 && !isnan(p->request[w].setting[s]))
-                    return ISO_FAIL_AT(f, vary, "'%s' varies, but '%s' sets its own", name, t->name);
-        }
+        if (strcmp(name, "tolerance") == 0) option = "tol";
+        for (int w = 0; w < p->requests; w++)
+            if (iso_sweep_option(p->request[w].options, option) || iso_sweep_option(p->request[w].options, name))
+                return ISO_FAIL_AT(f, vary, "'%s' varies, but '%s' sets its own", name, p->request[w].name);
     }
     return ISO_OK;
 }
@@ -233,6 +297,7 @@ void iso_sweep_file_free(iso_sweep_file *f)
     if (f->scene_loaded) iso_yaml_free(&f->draft.yaml);
     if (f->loaded) iso_yaml_free(&f->yaml);
     for (int i = 0; i < f->axes; i++) free(f->axis[i].list);
+    for (int i = 0; i < ISO_SWEEP_REQUESTS; i++) free(f->options[i]);
     free(f->column);
     free(f->text);
     free(f->scene_text);

@@ -1,9 +1,10 @@
 /* sweep_hash.c - the hash of a sweep: of its texts, and of all else that its rows depend on. A result that is read is
  * hashed again: texts that were changed later are found out. */
+#include <math.h>
 #include <string.h>
 
 #include "base/low_discrepancy_impl.h"
-#include "sweep/sweep_impl.h"
+#include "sweep/sweep_store_impl.h"
 
 /* Each byte goes through splitmix64, once for each half. */
 void iso_sweep_hash(uint64_t hash[2], const void *bytes, size_t length)
@@ -66,4 +67,50 @@ bool iso_sweep_head_fits(const iso_sweep_head *h, const char *version)
         if (memcmp(hash, h->hash, sizeof hash) == 0) return true;
     }
     return false;
+}
+
+/* --- sums ------------------------------------------------------------------------------------------------------- */
+
+static uint64_t mix(uint64_t x, uint64_t word)
+{
+    const uint64_t y = (x ^ word) * 0x9e3779b97f4a7c15;
+    return y << 29 | y >> 35;
+}
+
+/* Four sums side by side, of eight bytes at a time. The last bytes are filled up with zeros. */
+static uint64_t sum_of_text(const char *text, size_t length)
+{
+    enum { LANES = 4, BYTES = 8 * LANES };
+    uint64_t x[LANES] = {0, ~(uint64_t)0, length, 1}, word[LANES];
+    const char *at = text, *end = at + length - length % BYTES;
+    for (; at < end; at += BYTES) {
+        memcpy(word, at, sizeof word);
+        for (int i = 0; i < LANES; i++) x[i] = mix(x[i], word[i]);
+    }
+    if (length % BYTES > 0) {
+        memset(word, 0, sizeof word);
+        memcpy(word, at, length % BYTES);
+        for (int i = 0; i < LANES; i++) x[i] = mix(x[i], word[i]);
+    }
+    uint64_t hash[2] = {0, 0};
+    iso_sweep_hash(hash, x, sizeof x);
+    return hash[1];
+}
+
+uint64_t iso_sweep_sum(uint64_t before, const iso_sweep_rows *rows)
+{
+    uint64_t sum = before;
+    for (size_t i = 0; i < rows->count; i++) {
+        const double *row = rows->number + i * (size_t)rows->columns;
+        sum = mix(sum, (uint64_t)rows->status[i]);
+        for (int c = 0; c < rows->columns; c++) {
+            const double x = isnan(row[c]) ? (double)NAN : row[c];
+            uint64_t word;
+            memcpy(&word, &x, sizeof word);
+            sum = mix(sum, word);
+        }
+        if (rows->status[i] != ISO_OK)
+            sum = mix(sum, sum_of_text(rows->reason[i], strnlen(rows->reason[i], ISO_REASON_SIZE)));
+    }
+    return sum;
 }

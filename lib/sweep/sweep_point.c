@@ -1,13 +1,12 @@
-/* sweep_point.c - point i of a sweep: its numbers, its scene, and its scene as text. Everything is a pure function of
- * i. */
+/* sweep_point.c - point i of a sweep: its numbers and its scene. Everything is a pure function of i. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/low_discrepancy_impl.h"
 #include "base/number_impl.h"
+#include "io/scene_print_impl.h"
 #include "map/section_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
@@ -112,34 +111,12 @@ static iso_draft draft_of(iso_context *ctx, const iso_sweep_file *f, size_t i, d
 
 /* --- starts on the section -------------------------------------------------------------------------------------- */
 
-/* The start as it is when it is read. */
-static iso_status read_again(iso_context *ctx, iso_start *start)
+/* The start as it is when it is read: it then stays what it is when it is written and read. */
+static iso_status as_read(iso_context *ctx, iso_start *start)
 {
     const iso_start before = *start;
     if (start->model == ISO_BALL) return iso_start_ball(ctx, before.y, before.y + 3, ISO_SPIN_REMOVE, start);
     return iso_start_point(ctx, before.y, before.y + 3, isnan(before.eps) ? NULL : &before.eps, true, start);
-}
-
-/* A start that stays what it is, to the bit, when it is written and read again. Reading makes a unit vector of n, and
- * takes the part along n away from omega. Done again and again, this ends, or goes round between neighbouring
- * numbers. Then a neighbour of one of them stays what it is. */
-static iso_status settle(iso_context *ctx, iso_start *start)
-{
-    enum { ROUNDS = 4, NEIGHBOURS = 600 };
-    const iso_start given = *start;
-    iso_status status = ISO_OK;
-    for (int n = 0; n < NEIGHBOURS && status == ISO_OK; n++) {
-        const int which = n % 6, ulps = (n / 6 + 1) / 2, side = n / 6 % 2;
-        if (n > 0 && given.y[which] == 0) continue;
-        *start = given;
-        for (int i = 0; i < ulps; i++) start->y[which] = nextafter(start->y[which], side ? INFINITY : -INFINITY);
-        for (int i = 0; i < ROUNDS && status == ISO_OK; i++) {
-            const iso_start before = *start;
-            status = read_again(ctx, start);
-            if (memcmp(start->y, before.y, sizeof before.y) == 0) return status;
-        }
-    }
-    return status;
 }
 
 /* l and x of the point. */
@@ -180,7 +157,7 @@ static iso_status on_section(iso_context *ctx, const iso_sweep_file *f, size_t i
     if (status == ISO_OK) {
         scene->start = iso_section_start(orbit, scene->start.model, axis, lx[0][0], lx[0][1]);
         scene->start.eps = eps;
-        status = settle(ctx, &scene->start);
+        status = as_read(ctx, &scene->start);
     }
     iso_orbit_free(orbit);
     return status;
@@ -195,137 +172,16 @@ iso_status iso_sweep_point(iso_context *ctx, const void *file, size_t i, iso_sce
     if (status != ISO_OK) return status;
     *scene = d.scene;
     if (f->level) status = iso_scene_on_level(ctx, scene, numbers[f->level->column]);
-    if (status == ISO_OK && f->level && scene->start.model == ISO_POINT) status = settle(ctx, &scene->start);
+    if (status == ISO_OK && f->level && scene->start.model == ISO_POINT) status = as_read(ctx, &scene->start);
     if (status != ISO_OK) return status;
     return f->on_section ? on_section(ctx, f, i, scene, numbers) : ISO_OK;
 }
 
-/* --- the scene as text ------------------------------------------------------------------------------------------ */
-
-/* Numbers that stand in the place of a part of the scene's text. */
-typedef struct patch {
-    size_t from, to; /* bytes */
-    bool block;      /* a list in lines of its own */
-    int count;       /* 1, 3 or 9 */
-    double number[9];
-} patch;
-
-typedef struct patches {
-    iso_sweep_file *f;
-    const char *text;
-    size_t length;
-    int count;
-    patch list[ISO_SWEEP_NAMES];
-} patches;
-
-/* libyaml counts characters. */
-static size_t byte_of(const patches *p, yaml_mark_t mark)
+iso_status iso_sweep_print_point(iso_context *ctx, const iso_sweep_file *file, size_t i, FILE *to)
 {
-    size_t byte = 0;
-    for (size_t characters = 0; byte < p->length && characters < mark.index; characters++) {
-        byte++;
-        while (byte < p->length && (p->text[byte] & 0xC0) == 0x80) byte++;
-    }
-    return byte;
-}
-
-static bool is_block(const yaml_node_t *n)
-{
-    return n->type == YAML_SEQUENCE_NODE && n->data.sequence.style == YAML_BLOCK_SEQUENCE_STYLE;
-}
-
-/* A list in lines of its own ends behind its last item; what libyaml calls its end is the next key. */
-static yaml_mark_t end_of(patches *p, const yaml_node_t *n)
-{
-    return is_block(n) ? end_of(p, iso_yaml_node(&p->f->draft.yaml, n->data.sequence.items.top[-1])) : n->end_mark;
-}
-
-/* A later one for the same part counts no more. */
-static void add_patch(patches *p, const yaml_node_t *node, const double number[], int count)
-{
-    const size_t from = byte_of(p, node->start_mark);
-    int i = p->count;
-    for (int j = 0; j < p->count; j++)
-        if (p->list[j].from == from) return;
-    for (; i > 0 && p->list[i - 1].from > from; i--) p->list[i] = p->list[i - 1];
-    p->list[i] = (patch){from, byte_of(p, end_of(p, node)), is_block(node), count, {0}};
-    memcpy(p->list[i].number, number, (size_t)count * sizeof *number);
-    p->count++;
-}
-
-static void add_start(patches *p, const iso_scene *scene)
-{
-    static const char *const names[2][2] = {{"angular_velocity", "normal"}, {"M", "gamma"}};
-    iso_draft *d = &p->f->draft;
-    const yaml_node_t *initial, *value;
-    iso_yaml_find(&d->yaml, d->root, "initial", NULL, &initial);
-    for (int v = 0; v < 2; v++)
-        if (iso_yaml_find(&d->yaml, initial, names[scene->start.model == ISO_POINT][v], NULL, &value))
-            add_patch(p, value, scene->start.y + 3 * v, 3);
-}
-
-static void write_numbers(FILE *to, const patch *one)
-{
-    char digits[ISO_NUMBER_SIZE];
-    const bool matrix = one->count == 9, list = one->count > 1;
-    if (one->block) fputc(' ', to); /* deeper than its key */
-    for (int i = 0; i < one->count; i++) {
-        iso_number_print(digits, one->number[i]);
-        fprintf(to, "%s%s%s%s%s%s", i > 0 ? ", " : "", matrix && i == 0 ? "[" : "", list && i % 3 == 0 ? "[" : "",
-                digits, list && i % 3 == 2 ? "]" : "", matrix && i == 8 ? "]" : "");
-    }
-}
-
-/* The scene's part of the text: all of it, or the value of `scene` with the indentation of its first line. */
-static void write_text(FILE *to, const patches *p)
-{
-    const yaml_node_t *root = p->f->draft.root;
-    size_t at = p->f->inside ? byte_of(p, root->start_mark) : 0;
-    const size_t end = p->f->inside ? byte_of(p, root->end_mark) : p->length;
-    while (p->f->inside && at > 0 && p->text[at - 1] == ' ') at--;
-    for (const patch *one = p->list; one < p->list + p->count; one++) {
-        fwrite(p->text + at, 1, one->from - at, to);
-        write_numbers(to, one);
-        at = one->to;
-    }
-    fwrite(p->text + at, 1, end - at, to);
-    if (end > 0 && p->text[end - 1] != '\n') fputc('\n', to);
-}
-
-/* Text as libyaml counts it, without a byte order mark. */
-static void take_text(patches *p, const iso_sweep_file *f)
-{
-    p->text = f->inside ? f->text : f->scene_text;
-    p->length = f->inside ? f->length : f->scene_length;
-    if (p->length >= 3 && memcmp(p->text, "\xEF\xBB\xBF", 3) == 0) p->text += 3, p->length -= 3;
-}
-
-iso_status iso_sweep_scene_text(iso_context *ctx, const iso_sweep_file *file, size_t i, char **text)
-{
-    ISO_DEFAULT_ARITHMETIC;
-    patches p = {.f = (iso_sweep_file *)file}; /* libyaml's nodes are asked through pointers that are not const */
     double numbers[9 * ISO_SWEEP_AXES];
     iso_scene scene;
-    size_t length;
-    *text = NULL;
     ISO_TRY(iso_sweep_point(ctx, file, i, &scene, numbers));
-    const bool ball = scene.start.model == ISO_BALL;
-    if (file->level && ball && !iso_effects_have_level(&scene.effects))
-        return ISO_FAIL_INPUT(ctx, "level",
-                              "the ball of level 0 has no effect 'level': take it out of the scene's text");
-    const iso_draft d = draft_of(ctx, file, i, numbers);
-    take_text(&p, file);
-    for (int n = 0; n < file->axes; n++) {
-        const iso_sweep_axis *a = &file->axis[n];
-        const double *at = (const double *)(const void *)((const char *)&d + a->offset);
-        if (a->target == ISO_TO_NUMBER || a->target == ISO_TO_RATIO)
-            add_patch(&p, a->node, at - a->part * (a->target == ISO_TO_NUMBER), a->whole);
-    }
-    if (file->on_section || (file->level && !ball)) add_start(&p, &scene);
-    const double c = iso_effects_level(&scene.effects);
-    if (file->level && ball) add_patch(&p, file->level->node, &c, 1);
-    FILE *to = open_memstream(text, &length);
-    if (to) write_text(to, &p);
-    if (to && fclose(to) == 0) return ISO_OK;
-    return iso_context_no_memory(ctx, "a scene");
+    iso_scene_print(&scene, to);
+    return ISO_OK;
 }

@@ -45,7 +45,7 @@ static iso_sweep_column *scan_columns(const char *text, int *count)
     iso_sweep_column *columns = calloc((size_t)*count, sizeof *columns);
     for (int i = 0; columns && i < *count; i++) {
         int used = 0;
-        if (sscanf(text, " %31[^/ ]/%31[^ ]%n", columns[i].group, columns[i].name, &used) != 2) {
+        if (sscanf(text, " %31[^/ ]/%63[^ ]%n", columns[i].group, columns[i].name, &used) != 2) {
             free(columns);
             return NULL;
         }
@@ -183,50 +183,49 @@ static bool take_row(iso_context *ctx, const iso_sweep_reader *r, iso_sweep_rows
     return rows->status[i] != ISO_OK || !*reason;
 }
 
-iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *r, size_t count, iso_sweep_rows *rows)
+iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *r, iso_sweep_rows *rows)
 {
     iso_status status = ISO_OK;
-    if (r->points - r->next < count) return damaged(ctx, r->path, "it has no more rows");
-    rows->first = iso_sweep_shard_point(&r->head, r->shard, r->next);
-    rows->count = count;
-    r->next += count;
-    for (size_t i = 0; i < count; i++)
+    const size_t left = r->points - r->next;
+    rows->first = left > 0 ? iso_sweep_shard_point(&r->head, r->shard, r->next) : 0;
+    rows->count = left < r->head.chunk ? left : r->head.chunk;
+    if (left == 0) return damaged(ctx, r->path, "it has no more rows");
+    for (size_t i = 0; i < rows->count; i++)
         if (!take_row(ctx, r, rows, i, &status))
             return status == ISO_NO_MEMORY ? status : damaged(ctx, r->path, "a row is missing, moved or damaged");
+    r->next += rows->count;
     r->sum = iso_sweep_sum(r->sum, rows);
-    return r->next < r->points ? ISO_OK : check_sum(ctx, r);
+    return r->unended || r->next < r->points ? ISO_OK : check_sum(ctx, r);
 }
 
-iso_status iso_sweep_reader_failures(iso_context *ctx, iso_sweep_reader *r, iso_sweep_failures *failures)
+iso_status iso_sweep_reader_all(iso_context *ctx, iso_sweep_reader *r, iso_sweep_failures *failures,
+                                iso_status (*take)(iso_context *ctx, void *data, const iso_sweep_rows *rows),
+                                void *data)
 {
-    const size_t chunk = r->head.chunk;
     iso_sweep_rows rows;
-    *failures = (iso_sweep_failures){.count = 0};
-    iso_status status = iso_sweep_rows_create(ctx, r->head.columns, chunk, &rows);
-    if (status != ISO_OK) return status;
-    while (r->next < r->points && status == ISO_OK) {
-        status = iso_sweep_reader_rows(ctx, r, r->points - r->next < chunk ? r->points - r->next : chunk, &rows);
-        if (status == ISO_OK) iso_sweep_failures_add(failures, &rows);
+    iso_status status = iso_sweep_rows_create(ctx, r->head.columns, r->head.chunk, &rows);
+    while (status == ISO_OK && r->next < r->points) {
+        status = iso_sweep_reader_rows(ctx, r, &rows);
+        if (status == ISO_OK && failures) iso_sweep_failures_add(failures, &rows);
+        if (status == ISO_OK && take) status = take(ctx, data, &rows);
     }
     iso_sweep_rows_free(&rows);
     return status;
 }
 
+static iso_status add_rows(iso_context *ctx, void *table, const iso_sweep_rows *rows)
+{
+    return iso_sweep_table_add(ctx, table, rows);
+}
+
 iso_status iso_sweep_read_table(iso_context *ctx, const char *path, iso_record **table)
 {
     iso_sweep_reader *r;
-    iso_sweep_rows rows = {.number = NULL};
     *table = NULL;
     ISO_TRY(iso_sweep_reader_open(ctx, path, &r));
-    const size_t chunk = r->head.chunk;
-    iso_status status = iso_sweep_rows_create(ctx, r->head.columns, chunk, &rows);
-    if (status == ISO_OK) status = iso_sweep_table(ctx, &r->head, table);
+    iso_status status = iso_sweep_table(ctx, &r->head, table);
     if (status == ISO_OK && r->shard.count > 1) iso_record_set_kind(*table, ISO_SWEEP_PART_KIND);
-    while (status == ISO_OK && r->next < r->points) {
-        status = iso_sweep_reader_rows(ctx, r, r->points - r->next < chunk ? r->points - r->next : chunk, &rows);
-        if (status == ISO_OK) status = iso_sweep_table_add(ctx, *table, &rows);
-    }
-    iso_sweep_rows_free(&rows);
+    if (status == ISO_OK) status = iso_sweep_reader_all(ctx, r, NULL, add_rows, *table);
     iso_sweep_reader_close(r);
     return status;
 }

@@ -1,18 +1,16 @@
-/* sweep_store_impl.h - where the rows of a sweep go: a journal while it runs, and its result when all is there.
+/* sweep_store_impl.h - where the rows of a sweep go: into its result, as they come.
  *
- *     iso_sweep_journal *j;
- *     status = iso_sweep_journal_open(ctx, "out.h5", head, whole, true, &j);     whole: (iso_sweep_shard){0, 1}
- *     for each chunk c with !iso_sweep_journal_has(j, c):
- *         status = iso_sweep_journal_add(ctx, j, c, &rows);
- *     status = iso_sweep_journal_finish(ctx, j);                               writes out.h5, removes out.h5.journal
- *     iso_sweep_journal_close(j);
+ *     iso_sweep_store *s;
+ *     status = iso_sweep_store_open(ctx, "out.csv", head, whole, true, &s);      whole: (iso_sweep_shard){0, 1}
+ *     for each chunk c of the shard from number s->done on:
+ *         status = iso_sweep_store_add(ctx, s, c, &rows);
+ *     status = iso_sweep_store_finish(ctx, s);                                 out.csv.part becomes out.csv
+ *     iso_sweep_store_close(s);
  *
- * The journal is out.h5.journal. It begins with what the sweep is. Each finished chunk is one record with a checksum,
- * added at the end by one write. So a program that is killed loses only chunks that were being computed; a record
- * that was cut short is taken away by the next program. A journal is for one program at a time.
- *
- * The result is written from the journal, chunk by chunk by growing number, into a temporary file that is renamed. So
- * its bytes depend on nothing but the sweep. It is HDF5 if its name ends in .h5, else CSV (lib/doc/formats.md).
+ * Rows are written in the order of chunks; a chunk that comes early waits in memory for its turn. So the bytes of the
+ * result depend on nothing but the sweep. Until it is whole it is out.csv.part, locked while a program writes it. One
+ * that was left is cut behind its last whole chunk, and gone on with. A result in HDF5, out.h5, is made at the end from
+ * such a file: out.h5.csv.part.
  *
  * Shard i of n (option --shard) is chunk i, i + n, i + 2n, ... of a sweep. Its result is a part; iso_sweep_merge
  * puts parts together, to the bytes that one program gives.
@@ -20,16 +18,13 @@
 #ifndef ISO_SWEEP_STORE_IMPL_H
 #define ISO_SWEEP_STORE_IMPL_H
 
-#include <sys/types.h>
-#include <time.h>
-
 #include "io/table_impl.h"
 #include "sweep/sweep_impl.h"
 
 #define ISO_SWEEP_KIND "sweep"
 #define ISO_SWEEP_PART_KIND "sweep part"
 
-/* --- shards, failures, sums (sweep_record.c) -------------------------------------------------------------------- */
+/* --- shards, failures, sums ------------------------------------------------------------------------------------- */
 
 /* Chunks index, index + count, ...; {0, 1}: all. count is at most ISO_SWEEP_MOST_SHARDS. */
 enum { ISO_SWEEP_MOST_SHARDS = 1000000 };
@@ -37,7 +32,8 @@ typedef struct iso_sweep_shard {
     size_t index, count;
 } iso_sweep_shard;
 
-/* Its points, and the number in the sweep of its i-th point. */
+/* Its chunks, its points, and the number in the sweep of its i-th point. */
+size_t iso_sweep_shard_chunks(const iso_sweep_head *head, iso_sweep_shard shard);
 size_t iso_sweep_shard_points(const iso_sweep_head *head, iso_sweep_shard shard);
 size_t iso_sweep_shard_point(const iso_sweep_head *head, iso_sweep_shard shard, size_t i);
 
@@ -48,75 +44,26 @@ typedef struct iso_sweep_failures {
 } iso_sweep_failures;
 void iso_sweep_failures_add(iso_sweep_failures *failures, const iso_sweep_rows *rows);
 
-/* Of bytes; another salt gives another number. */
-uint64_t iso_sweep_checksum(const void *bytes, size_t length, uint64_t salt);
-
-/* The sum of rows before and these. It begins as 0. All kinds of nan count as one. */
+/* The sum of rows before and these (sweep_hash.c). It begins as 0. All kinds of nan count as one. */
 uint64_t iso_sweep_sum(uint64_t before, const iso_sweep_rows *rows);
 
 /* The name of a column in a table: k, chaos_verdict. */
-enum { ISO_SWEEP_NAME = 2 * ISO_NAME_SIZE };
+enum { ISO_SWEEP_NAME = 3 * ISO_NAME_SIZE + 1 };
 const char *iso_sweep_column_name(const iso_sweep_column *column, char name[ISO_SWEEP_NAME]);
 
-/* --- rows as bytes (sweep_record.c) ----------------------------------------------------------------------------- */
+/* --- chunks that wait for their turn ---------------------------------------------------------------------------- */
 
-/* As a record of the journal has them, for programs that compute chunks elsewhere and send them to the one that has
- * the journal. Numbers stand as they are in memory. iso_sweep_rows_bytes: the most bytes that `count` points need.
- * pack gives the number of bytes. Before unpack set rows->first and rows->count; false: the bytes are not those of so
- * many rows. */
-size_t iso_sweep_rows_bytes(const iso_sweep_rows *rows, size_t count);
-size_t iso_sweep_rows_pack(const iso_sweep_rows *rows, unsigned char bytes[]);
-bool iso_sweep_rows_unpack(const unsigned char bytes[], size_t length, iso_sweep_rows *rows);
+typedef struct iso_sweep_queue {
+    size_t count, room;
+    iso_sweep_rows *rows; /* by growing first point */
+} iso_sweep_queue;
 
-/* What stands before the bytes of a chunk in a journal; `bytes` are those behind it. */
-typedef struct iso_sweep_record {
-    uint64_t chunk, length, checksum;
-} iso_sweep_record;
-uint64_t iso_sweep_record_sum(const iso_sweep_record *r, const unsigned char bytes[]);
+/* Keeps a copy of a chunk. Errors: ISO_NO_MEMORY. */
+iso_status iso_sweep_queue_add(iso_context *ctx, iso_sweep_queue *queue, const iso_sweep_rows *rows);
 
-/* Whether a whole record begins somewhere in these bytes. */
-bool iso_sweep_record_inside(const iso_sweep_head *head, const unsigned char bytes[], size_t length);
-
-/* --- the journal ------------------------------------------------------------------------------------------------ */
-
-typedef struct iso_sweep_journal {
-    char *path, *name; /* of the result, of the journal; name NULL: nobody can go on with it */
-    const iso_sweep_head *head;
-    iso_sweep_shard shard;
-    size_t wanted, done; /* chunks of the shard, and how many of them are there */
-    iso_sweep_failures failures;
-    bool complete; /* the result is there already */
-    bool ours;     /* the journal's file was not refused */
-    int descriptor;
-    off_t end;
-    off_t *at;             /* of the record of each chunk; 0: it is not there */
-    unsigned char *buffer; /* for the largest record */
-    size_t room;
-    time_t synced;
-} iso_sweep_journal;
-
-/* Begins the journal of the result `path`, or goes on with one (resume). With resume it is no error if there is none.
- * If `path` is no regular file, or is "-" (standard output, as CSV), the journal has no name, and cannot be resumed.
- * The head must live as long as the journal.
- * Errors: ISO_FILE_TROUBLE: a journal of another sweep, a damaged one, one that another program works on, one that is
- * there without resume; a file `path` that is there, unless it is the result of this sweep and resume is given: then
- * all chunks are done, and finishing writes nothing. Nothing is changed then. ISO_BAD_ARGUMENT: this build has no
- * HDF5; too many shards. ISO_NO_MEMORY. */
-iso_status iso_sweep_journal_open(iso_context *ctx, const char *path, const iso_sweep_head *head,
-                                  iso_sweep_shard shard, bool resume, iso_sweep_journal **journal);
-
-/* Whether chunk c is there or belongs to another shard. */
-bool iso_sweep_journal_has(const iso_sweep_journal *j, size_t c);
-
-/* Adds a chunk. Errors: ISO_FILE_TROUBLE: the journal is then as it was before. */
-iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t c, const iso_sweep_rows *rows);
-
-/* Writes the result; all chunks of the shard must be there. Errors: ISO_FILE_TROUBLE, also if a file of this name
- * has appeared: then that file and the journal both stay; ISO_NO_MEMORY. */
-iso_status iso_sweep_journal_finish(iso_context *ctx, iso_sweep_journal *j);
-
-/* The journal's file stays, unless nothing is in it. */
-void iso_sweep_journal_close(iso_sweep_journal *j);
+/* Takes the first chunk out, to be freed by the caller, if it begins with this point (SIZE_MAX: with any). */
+bool iso_sweep_queue_take(iso_sweep_queue *queue, size_t first, iso_sweep_rows *rows);
+void iso_sweep_queue_free(iso_sweep_queue *queue);
 
 /* --- results: tables (sweep_reader.c, sweep_writer.c) ----------------------------------------------------------- */
 
@@ -126,6 +73,7 @@ typedef struct iso_sweep_reader {
     iso_sweep_shard shard;
     size_t lines, next, points; /* lines before the rows; the row that is read next; rows in the file */
     uint64_t sum;               /* of the rows that were read */
+    bool unended;               /* set it: the file may be one that is gone on with, and have no sum */
     double *row;
     char *path;
 } iso_sweep_reader;
@@ -134,32 +82,84 @@ typedef struct iso_sweep_reader {
 iso_status iso_sweep_reader_open(iso_context *ctx, const char *path, iso_sweep_reader **reader);
 void iso_sweep_reader_close(iso_sweep_reader *reader);
 
-/* Reads the next `count` rows of one chunk, at most rows->most. Errors: ISO_FILE_TROUBLE: a row is missing or
- * damaged; with the last rows: the sum of all is not that in the file. */
-iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *reader, size_t count, iso_sweep_rows *rows);
+/* Reads the rows of the next chunk, or of what there is of it. Errors: ISO_FILE_TROUBLE: a row is missing or damaged;
+ * with the last rows: the sum of all is not that in the file. */
+iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *reader, iso_sweep_rows *rows);
 
-/* Reads all rows, from the first on, for those that have failed. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-iso_status iso_sweep_reader_failures(iso_context *ctx, iso_sweep_reader *reader, iso_sweep_failures *failures);
+/* Reads all rows, from the first on: `take` (NULL: nobody) gets them, failures (NULL: not wanted) are counted. */
+iso_status iso_sweep_reader_all(iso_context *ctx, iso_sweep_reader *reader, iso_sweep_failures *failures,
+                                iso_status (*take)(iso_context *ctx, void *data, const iso_sweep_rows *rows),
+                                void *data);
 
-/* Writes a result: `next` gives the rows of chunk c, by growing number. If a file of this name exists at the end, it
- * is kept. The sum of all rows stands in the file: a result that was changed or damaged later is found out. Errors:
- * ISO_FILE_TROUBLE, ISO_NO_MEMORY, those of `next`: then there is no new file. */
-iso_status iso_sweep_write(iso_context *ctx, const char *path, const iso_sweep_head *head, iso_sweep_shard shard,
-                           iso_status (*next)(iso_context *ctx, void *data, size_t c, iso_sweep_rows *rows),
-                           void *data);
+/* Writes a result, chunk by chunk in their order. The sum of all rows stands in the file: a result that was changed or
+ * damaged later is found out. */
+typedef struct iso_sweep_writer {
+    iso_table_writer *table;
+    iso_record *header;
+    double *row;
+    uint64_t sum;
+} iso_sweep_writer;
+
+/* Begins one. A file that has the name at the end is kept. resumes: a file in CSV that can be gone on with; nothing is
+ * written before iso_table_go_on. Errors: those of iso_table_writer_open; close it also then. */
+iso_status iso_sweep_writer_open(iso_context *ctx, const char *path, const iso_sweep_head *head,
+                                 iso_sweep_shard shard, bool resumes, iso_sweep_writer *writer);
+iso_status iso_sweep_writer_rows(iso_context *ctx, iso_sweep_writer *writer, const iso_sweep_rows *rows);
+iso_status iso_sweep_writer_end(iso_context *ctx, iso_sweep_writer *writer); /* writes the sum; close does so, too */
+iso_status iso_sweep_writer_close(iso_context *ctx, iso_sweep_writer *writer, bool keep);
 
 /* The same in memory: a table without rows, to be freed also after an error, and the rows of a chunk. Errors:
  * ISO_NO_MEMORY. */
 iso_status iso_sweep_table(iso_context *ctx, const iso_sweep_head *head, iso_record **table);
 iso_status iso_sweep_table_add(iso_context *ctx, iso_record *table, const iso_sweep_rows *rows);
+iso_status iso_sweep_set_sum(iso_context *ctx, iso_record *table, uint64_t sum);
 
 /* Reads a result or a part into a table. Errors: ISO_FILE_TROUBLE: no such file, none of a sweep, or a damaged one;
  * ISO_NO_MEMORY. */
 iso_status iso_sweep_read_table(iso_context *ctx, const char *path, iso_record **table);
 
-/* Puts the parts of one sweep together. *failures: those of all parts. Errors: ISO_FILE_TROUBLE: a part is missing,
- * is there twice, was changed or damaged, or belongs to another sweep; `path` is there. */
+/* Puts the parts of one sweep together (sweep_merge.c). *failures: those of all parts. Errors: ISO_FILE_TROUBLE: a
+ * part is missing, is there twice, was changed or damaged, or belongs to another sweep; `path` is there. */
 iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path,
                            iso_sweep_failures *failures);
+
+/* The chunks of a shard to a new result `path`; each one from part c % count. */
+iso_status iso_sweep_copy(iso_context *ctx, iso_sweep_reader *const part[], size_t count, iso_sweep_shard shard,
+                          const char *path, iso_sweep_failures *failures);
+
+/* --- the store (sweep_store.c) ---------------------------------------------------------------------------------- */
+
+typedef struct iso_sweep_store {
+    char *path, *rows; /* of the result, and of its rows as CSV */
+    char *part;        /* the name that these have until all are there; NULL: nobody can go on with them */
+    const iso_sweep_head *head;
+    iso_sweep_shard shard;
+    size_t wanted, done; /* chunks of the shard, and how many of them are written */
+    iso_sweep_failures failures;
+    bool complete; /* the result is there already */
+    bool ours;     /* its file was not refused */
+    iso_sweep_queue queue;
+    iso_sweep_writer writer;
+} iso_sweep_store;
+
+/* Begins the result `path`, or goes on with what there is of it (resume). With resume it is no error if there is
+ * nothing. If `path` is no regular file, or is "-" (standard output, as CSV), rows go there, and it cannot be resumed.
+ * The head must live as long as the store.
+ * Errors: ISO_FILE_TROUBLE: rows of another sweep, or that another program works on, or that are there without
+ * resume; a journal of an older version; a file `path` that is there, unless it is the result of this sweep and resume
+ * is given: then all chunks are done, and finishing writes nothing. Nothing is changed then. ISO_BAD_ARGUMENT: this
+ * build has no HDF5; too many shards. ISO_NO_MEMORY. */
+iso_status iso_sweep_store_open(iso_context *ctx, const char *path, const iso_sweep_head *head, iso_sweep_shard shard,
+                                bool resume, iso_sweep_store **store);
+
+/* Adds a chunk of the shard that is not written yet. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+iso_status iso_sweep_store_add(iso_context *ctx, iso_sweep_store *store, const iso_sweep_rows *rows);
+
+/* Ends the result; all chunks of the shard must be there. Errors: ISO_FILE_TROUBLE, also if a file of this name has
+ * appeared: then that file and the rows both stay; ISO_NO_MEMORY. */
+iso_status iso_sweep_store_finish(iso_context *ctx, iso_sweep_store *store);
+
+/* The rows stay, if there are any. */
+void iso_sweep_store_close(iso_sweep_store *store);
 
 #endif

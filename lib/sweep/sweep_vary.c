@@ -31,8 +31,6 @@ static bool find_number(const iso_draft_number list[], int count, iso_sweep_axis
         const bool all = strcmp(a->name, list[i].name) == 0;
         if (!all && part < 0) continue;
         a->target = ISO_TO_NUMBER;
-        a->node = list[i].value;
-        a->whole = list[i].count;
         a->width = all ? list[i].count : 1;
         a->part = all ? 0 : part;
         a->offset = list[i].offset + (size_t)a->part * sizeof(double);
@@ -50,8 +48,6 @@ static bool find_ratio(const iso_draft_number list[], int count, iso_sweep_axis 
     for (int i = 0; i < count; i++) {
         if (strcmp(list[i].name, "J") != 0) continue;
         a->target = ISO_TO_RATIO;
-        a->node = list[i].value;
-        a->whole = 3;
         a->width = 1;
         a->part = *part - '1';
         a->of = *of - '1';
@@ -265,18 +261,18 @@ static iso_status check_chart(iso_sweep_file *f, const yaml_node_t *node, const 
     return ISO_OK;
 }
 
-/* A point's eps, or a ball's c, must stand in the scene: so its text can state the level. */
+/* A point's eps, or a ball's c, must stand in the scene, which then has a level. */
 static iso_status check_level(iso_sweep_file *f, const yaml_node_t *key, iso_sweep_axis *a)
 {
     iso_draft_number list[ISO_SWEEP_NAMES];
     const bool point = f->base.start.model == ISO_POINT;
     const char *needed = point ? "eps" : "level.c";
+    bool stated = false;
     if (a->target != ISO_TO_LEVEL) return ISO_OK;
     f->level = a;
     const int count = iso_draft_numbers(&f->draft, ISO_SWEEP_NAMES, list);
-    for (int i = 0; i < count; i++)
-        if (strcmp(list[i].name, needed) == 0) a->node = list[i].value;
-    if (!a->node)
+    for (int i = 0; i < count; i++) stated = stated || strcmp(list[i].name, needed) == 0;
+    if (!stated)
         return ISO_FAIL_AT(f, key, "'level' needs %s in the scene",
                            point ? "'eps'" : "'effects: {level: {c: 1}}', whose c it sets,");
     for (const iso_sweep_axis *b = f->axis; b < f->axis + f->axes; b++)

@@ -10,6 +10,7 @@
  */
 #include <inttypes.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,12 +18,56 @@
 #include "base/version.h"
 #include "sweep/sweep_store_impl.h"
 
-typedef iso_status (*source)(iso_context *ctx, void *data, size_t c, iso_sweep_rows *rows);
+/* --- shards, failures, names ------------------------------------------------------------------------------------- */
 
-static iso_status set_size(iso_context *ctx, iso_record *r, const char *key, size_t size)
+size_t iso_sweep_shard_chunks(const iso_sweep_head *head, iso_sweep_shard shard)
 {
-    char text[32];
-    snprintf(text, sizeof text, "%zu", size);
+    const size_t chunks = iso_sweep_chunks(head);
+    return chunks > shard.index ? (chunks - shard.index - 1) / shard.count + 1 : 0;
+}
+
+size_t iso_sweep_shard_points(const iso_sweep_head *head, iso_sweep_shard shard)
+{
+    const size_t mine = iso_sweep_shard_chunks(head, shard);
+    if (mine == 0) return 0;
+    const size_t last = shard.index + (mine - 1) * shard.count;
+    return (mine - 1) * head->chunk + iso_sweep_chunk_points(head, last);
+}
+
+/* All its chunks are full, but perhaps the last one. */
+size_t iso_sweep_shard_point(const iso_sweep_head *head, iso_sweep_shard shard, size_t i)
+{
+    return (shard.index + i / head->chunk * shard.count) * head->chunk + i % head->chunk;
+}
+
+const char *iso_sweep_column_name(const iso_sweep_column *c, char name[ISO_SWEEP_NAME])
+{
+    const bool vary = strcmp(c->group, "vary") == 0;
+    snprintf(name, ISO_SWEEP_NAME, "%s%s%s", vary ? "" : c->group, vary ? "" : "_", c->name);
+    return name;
+}
+
+/* The failure of the lowest number counts as the first. */
+void iso_sweep_failures_add(iso_sweep_failures *f, const iso_sweep_rows *rows)
+{
+    for (size_t i = 0; i < rows->count; i++) {
+        if (rows->status[i] == ISO_OK) continue;
+        if (f->count++ > 0 && f->first < rows->first + i) continue;
+        f->first = rows->first + i;
+        snprintf(f->reason, sizeof f->reason, "%s", rows->reason[i]);
+    }
+}
+
+/* --- the header --------------------------------------------------------------------------------------------------- */
+
+__attribute__((format(printf, 4, 5))) static iso_status set(iso_context *ctx, iso_record *r, const char *key,
+                                                            const char *format, ...)
+{
+    char text[64];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
     return iso_record_set(ctx, r, key, text);
 }
 
@@ -40,18 +85,10 @@ static iso_status set_text(iso_context *ctx, iso_record *r, const char *key, con
     return status;
 }
 
-static iso_status set_part(iso_context *ctx, iso_record *r, iso_sweep_shard shard)
-{
-    char text[64];
-    if (shard.count == 1) return ISO_OK;
-    snprintf(text, sizeof text, "%zu of %zu", shard.index + 1, shard.count);
-    return iso_record_set(ctx, r, "part", text);
-}
-
 /* "vary/k chaos/verdict": all columns, as text. NULL: no memory. */
 static char *print_columns(const iso_sweep_head *head)
 {
-    char *text = malloc((size_t)(head->columns + 1) * 2 * ISO_NAME_SIZE), *at = text;
+    char *text = malloc((size_t)(head->columns + 1) * (ISO_SWEEP_NAME + 1)), *at = text;
     if (!text) return NULL;
     *at = '\0';
     for (int i = 0; i < head->columns; i++)
@@ -61,20 +98,19 @@ static char *print_columns(const iso_sweep_head *head)
 
 static iso_status set_lines(iso_context *ctx, iso_record *r, const iso_sweep_head *head, iso_sweep_shard shard)
 {
-    char hash[33], *columns = print_columns(head);
-    if (!columns) return iso_context_no_memory(ctx, "a sweep");
-    snprintf(hash, sizeof hash, "%016" PRIx64 "%016" PRIx64, head->hash[0], head->hash[1]);
-    iso_status status = iso_record_set(ctx, r, "isoroll", ISO_VERSION);
-    if (status == ISO_OK) status = iso_record_set(ctx, r, "hash", hash);
-    if (status == ISO_OK) status = set_size(ctx, r, "points", head->count);
-    if (status == ISO_OK) status = set_size(ctx, r, "chunk", head->chunk);
-    if (status == ISO_OK) status = iso_record_set(ctx, r, "vectors", head->vectors);
-    if (status == ISO_OK) status = set_part(ctx, r, shard);
-    if (status == ISO_OK) status = iso_record_set(ctx, r, "names", columns);
-    if (status == ISO_OK) status = set_text(ctx, r, ISO_TABLE_TEXT, head->text);
-    if (status == ISO_OK && head->scene) status = set_text(ctx, r, "scene", head->scene);
+    ISO_TRY(iso_record_set(ctx, r, "isoroll", ISO_VERSION));
+    ISO_TRY(set(ctx, r, "hash", "%016" PRIx64 "%016" PRIx64, head->hash[0], head->hash[1]));
+    ISO_TRY(set(ctx, r, "points", "%zu", head->count));
+    ISO_TRY(set(ctx, r, "chunk", "%zu", head->chunk));
+    ISO_TRY(iso_record_set(ctx, r, "vectors", head->vectors));
+    if (shard.count > 1) ISO_TRY(set(ctx, r, "part", "%zu of %zu", shard.index + 1, shard.count));
+    char *columns = print_columns(head);
+    const iso_status status =
+        columns ? iso_record_set(ctx, r, "names", columns) : iso_context_no_memory(ctx, "a sweep");
     free(columns);
-    return status;
+    ISO_TRY(status);
+    ISO_TRY(set_text(ctx, r, ISO_TABLE_TEXT, head->text));
+    return head->scene ? set_text(ctx, r, "scene", head->scene) : ISO_OK;
 }
 
 /* point, what varies, what was measured, status, reason */
@@ -105,23 +141,16 @@ static iso_status fill_row(iso_context *ctx, iso_record *table, const iso_sweep_
     return iso_record_intern(ctx, table, rows->status[i] != ISO_OK ? rows->reason[i] : "", &row[columns + 2]);
 }
 
-static iso_status write_rows(iso_context *ctx, iso_table_writer *table, iso_record *header,
-                             const iso_sweep_rows *rows, double row[])
-{
-    iso_status status = ISO_OK;
-    for (size_t i = 0; i < rows->count && status == ISO_OK; i++) {
-        if (!table->waits) iso_record_forget_words(header);
-        status = fill_row(ctx, header, rows, i, row);
-        if (status == ISO_OK) status = iso_table_write_row(ctx, table, row);
-    }
-    return status;
-}
-
 iso_status iso_sweep_table(iso_context *ctx, const iso_sweep_head *head, iso_record **table)
 {
     ISO_TRY(make_header(ctx, head, table));
     iso_record_set_kind(*table, ISO_SWEEP_KIND);
     return set_lines(ctx, *table, head, (iso_sweep_shard){0, 1});
+}
+
+iso_status iso_sweep_set_sum(iso_context *ctx, iso_record *table, uint64_t sum)
+{
+    return set(ctx, table, "sum", "%016" PRIx64, sum);
 }
 
 iso_status iso_sweep_table_add(iso_context *ctx, iso_record *table, const iso_sweep_rows *rows)
@@ -135,44 +164,47 @@ iso_status iso_sweep_table_add(iso_context *ctx, iso_record *table, const iso_sw
     return status;
 }
 
-/* All chunks and their sum. */
-static iso_status write_chunks(iso_context *ctx, iso_table_writer *table, iso_record *header,
-                               const iso_sweep_head *head, iso_sweep_shard shard, source next, void *data)
+/* --- files ------------------------------------------------------------------------------------------------------ */
+
+iso_status iso_sweep_writer_open(iso_context *ctx, const char *path, const iso_sweep_head *head,
+                                 iso_sweep_shard shard, bool resumes, iso_sweep_writer *w)
 {
-    iso_sweep_rows rows;
-    uint64_t sum = 0;
-    char text[17];
-    double *row = calloc((size_t)head->columns + 3, sizeof *row);
-    iso_status status = iso_sweep_rows_create(ctx, head->columns, head->chunk, &rows);
-    if (!row) status = iso_context_no_memory(ctx, "a sweep");
-    for (size_t c = shard.index; c < iso_sweep_chunks(head) && status == ISO_OK; c += shard.count) {
-        status = next(ctx, data, c, &rows);
-        if (status == ISO_OK) status = write_rows(ctx, table, header, &rows, row);
-        sum = iso_sweep_sum(sum, &rows);
-    }
-    iso_sweep_rows_free(&rows);
-    free(row);
-    snprintf(text, sizeof text, "%016" PRIx64, sum);
-    return status == ISO_OK ? iso_table_write_line(ctx, table, "sum", text) : status;
+    const char *kind = shard.count == 1 ? ISO_SWEEP_KIND : ISO_SWEEP_PART_KIND;
+    *w = (iso_sweep_writer){.row = calloc((size_t)head->columns + 3, sizeof *w->row)};
+    if (!w->row) return iso_context_no_memory(ctx, "a sweep");
+    ISO_TRY(make_header(ctx, head, &w->header));
+    ISO_TRY(set_lines(ctx, w->header, head, shard));
+    ISO_TRY(resumes ? iso_table_writer_resume(ctx, path, kind, &w->table)
+                    : iso_table_writer_open(ctx, path, kind, &w->table));
+    w->table->fresh = true;
+    w->table->expected = iso_sweep_shard_points(head, shard);
+    return resumes ? ISO_OK : iso_table_write_header(ctx, w->table, w->header);
 }
 
-iso_status iso_sweep_write(iso_context *ctx, const char *path, const iso_sweep_head *head, iso_sweep_shard shard,
-                           source next, void *data)
+iso_status iso_sweep_writer_rows(iso_context *ctx, iso_sweep_writer *w, const iso_sweep_rows *rows)
 {
-    iso_table_writer *table = NULL;
-    iso_record *header = NULL;
-    iso_status status = make_header(ctx, head, &header);
-    if (status == ISO_OK) status = set_lines(ctx, header, head, shard);
-    if (status == ISO_OK)
-        status = iso_table_writer_open(ctx, path, shard.count == 1 ? ISO_SWEEP_KIND : ISO_SWEEP_PART_KIND, &table);
-    if (status == ISO_OK) {
-        table->fresh = true;
-        table->expected = iso_sweep_shard_points(head, shard);
-        status = iso_table_write_header(ctx, table, header);
-        if (status == ISO_OK) status = write_chunks(ctx, table, header, head, shard, next, data);
-        const iso_status closed = iso_table_writer_close(ctx, table, status == ISO_OK);
-        if (status == ISO_OK) status = closed;
+    for (size_t i = 0; i < rows->count; i++) {
+        if (!w->table->waits) iso_record_forget_words(w->header);
+        ISO_TRY(fill_row(ctx, w->header, rows, i, w->row));
+        ISO_TRY(iso_table_write_row(ctx, w->table, w->row));
     }
-    iso_record_free(header);
-    return status;
+    w->sum = iso_sweep_sum(w->sum, rows);
+    return ISO_OK;
+}
+
+iso_status iso_sweep_writer_end(iso_context *ctx, iso_sweep_writer *w)
+{
+    char text[17];
+    snprintf(text, sizeof text, "%016" PRIx64, w->sum);
+    return iso_table_write_line(ctx, w->table, "sum", text);
+}
+
+iso_status iso_sweep_writer_close(iso_context *ctx, iso_sweep_writer *w, bool keep)
+{
+    const iso_status status = keep ? iso_sweep_writer_end(ctx, w) : ISO_OK;
+    const iso_status closed = iso_table_writer_close(ctx, w->table, keep && status == ISO_OK);
+    iso_record_free(w->header);
+    free(w->row);
+    *w = (iso_sweep_writer){.sum = 0};
+    return status == ISO_OK ? closed : status;
 }

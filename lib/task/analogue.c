@@ -13,7 +13,6 @@
 #include "map/state.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-#include "task/task_impl.h"
 
 /* The largest ratio of moments of a free ball with J = 2 E - c. The least moment is a difference, and loses as
  * many digits as the ratio has. */
@@ -21,31 +20,22 @@
 
 /* --- the problem ------------------------------------------------------------------------------------------------ */
 
-/* c of V = (1/2) sum c_i gamma_i^2 = -eps (gamma, J gamma), for k = -1 */
-static void neumann_c(const iso_analogue_problem *p, double c[3])
-{
-    for (int i = 0; i < 3; i++) c[i] = p->neumann ? p->c[i] : -2 * p->eps * p->J[i];
-}
-
 static double potential(const iso_analogue_problem *p, const double gamma[3])
 {
     if (p->neumann) return dot_diag(gamma, p->c, gamma) / 2;
     return -p->eps * pow(dot_diag(gamma, p->J, gamma), -1 / p->k);
 }
 
-/* Finds the least and the largest V on the sphere. V is monotonic in one quadratic form, so both are on axes.
- * Returns the axis of the least V. */
-static int find_range(const iso_analogue_problem *p, double *lowest, double *highest)
+/* Finds the least and the largest V on the sphere. V is monotonic in one quadratic form, so both are on axes. */
+static void find_range(iso_analogue *a)
 {
-    int bottom = 0;
-    *lowest = INFINITY;
-    *highest = -INFINITY;
+    a->lowest = INFINITY;
+    a->highest = -INFINITY;
     for (int i = 0; i < 3; i++) {
-        const double axis[3] = {i == 0, i == 1, i == 2}, V = potential(p, axis) + 0.0; /* no -0 */
-        if (V < *lowest) *lowest = V, bottom = i;
-        *highest = fmax(*highest, V);
+        const double axis[3] = {i == 0, i == 1, i == 2}, V = potential(&a->problem, axis) + 0.0; /* no -0 */
+        if (V < a->lowest) a->lowest = V, a->bottom = i;
+        a->highest = fmax(a->highest, V);
     }
-    return bottom;
 }
 
 static iso_status check_numbers(iso_context *ctx, const iso_analogue_problem *p)
@@ -126,6 +116,17 @@ static iso_status make_ball(iso_context *ctx, double k, const double J[3], doubl
                               ISO_SHORT(level_energy));
 }
 
+/* k = -1: J = d - c, eps = 1/2, on the level E - d/2. A stated eps > 0 is kept: then J is in other units. */
+static iso_status make_shifted(iso_context *ctx, iso_analogue *a, const double c[3], double d, double level_energy)
+{
+    const iso_analogue_problem *p = &a->problem;
+    const double unit = !p->neumann && p->eps > 0 ? 2 * p->eps : 1;
+    double J[3];
+    for (int i = 0; i < 3; i++) J[i] = p->neumann || p->eps < 0 ? d - c[i] : p->J[i] + d / unit;
+    a->shift = d / 2;
+    return make_ball(ctx, -1, J, unit / 2, level_energy, &a->reduced);
+}
+
 /* V is a constant: takes the stated moments if they are equal, else moments that make the ball of order one. */
 static iso_status make_constant(iso_context *ctx, iso_analogue *a)
 {
@@ -139,80 +140,93 @@ static iso_status make_constant(iso_context *ctx, iso_analogue *a)
     return make_ball(ctx, k, J, over * pow(one, 1 / k), 0, &a->reduced);
 }
 
-/* k = -1: J = d - c, eps = 1/2, on the level E - d/2. A stated eps > 0 is kept: then J is in other units. */
-static iso_status make_shifted(iso_context *ctx, iso_analogue *a, double d, double level_energy)
-{
-    const iso_analogue_problem *p = &a->problem;
-    const double unit = !p->neumann && p->eps > 0 ? 2 * p->eps : 1;
-    double J[3];
-    neumann_c(p, J);
-    for (int i = 0; i < 3; i++) J[i] = p->neumann || p->eps < 0 ? d - J[i] : p->J[i] + d / unit;
-    a->shift = d / 2;
-    return make_ball(ctx, -1, J, unit / 2, level_energy, &a->reduced);
-}
-
-/* Whether J = 2 E - c is positive. If not, a->not_free says why. */
-static bool shift_is_free(iso_analogue *a)
-{
-    double c[3], J[3];
-    neumann_c(&a->problem, c);
-    for (int i = 0; i < 3; i++) J[i] = 2 * a->problem.energy - c[i];
-    if (min3(J) > 0 && min3(J) * MOST_SPREAD >= max3(J)) return true;
-    snprintf(a->not_free, sizeof a->not_free,
-             "no free ball: 2 E - c = %.6g %.6g %.6g must be positive (and within a factor %s of each other)", J[0],
-             J[1], J[2], ISO_SHORT(MOST_SPREAD));
-    return false;
-}
-
-static iso_status make_level(iso_context *ctx, iso_analogue *a)
-{
-    const iso_analogue_problem *p = &a->problem;
-    double c[3];
-    if (p->neumann || (p->k == -1 && triangle_room(p->J) <= 0)) {
-        neumann_c(p, c);
-        const double d = max3(c) + 2 * (max3(c) - min3(c));
-        a->way = ISO_ANALOGUE_SHIFTED;
-        return make_shifted(ctx, a, d, p->energy - d / 2);
-    }
-    a->way = ISO_ANALOGUE_STATED;
-    return make_ball(ctx, p->k, p->J, p->eps, p->energy, &a->reduced);
-}
-
+/* The free ball, where there is one; else the stated ball, or one that has a body, in the potential of a level. */
 static iso_status make_reduced(iso_context *ctx, iso_analogue *a)
 {
     const iso_analogue_problem *p = &a->problem;
     const bool shell = p->neumann || p->k == -1;
+    double c[3], free[3]; /* c of V = (1/2) sum c_i gamma_i^2 = -eps (gamma, J gamma); J = 2 E - c */
     if (is_constant(p)) return make_constant(ctx, a);
-    if (!p->neumann && p->energy == 0 && !(p->level && shell)) return make_level(ctx, a);
+    for (int i = 0; i < 3; i++) {
+        c[i] = p->neumann ? p->c[i] : -2 * p->eps * p->J[i];
+        free[i] = 2 * p->energy - c[i];
+    }
     if (p->level && shell) {
         snprintf(a->not_free, sizeof a->not_free, "a ball in the potential of a level was asked for");
-    } else if (!shell) {
+    } else if (!shell && p->energy != 0) {
         snprintf(a->not_free, sizeof a->not_free,
                  "no free ball: for k = %.10g a free ball has E = 0; only for k = -1 can J take up another energy",
                  p->k);
-    } else if (shift_is_free(a)) {
+    } else if (p->neumann || p->energy != 0) {
         a->way = ISO_ANALOGUE_FREE;
-        return make_shifted(ctx, a, 2 * p->energy, 0);
+        if (min3(free) > 0 && min3(free) * MOST_SPREAD >= max3(free))
+            return make_shifted(ctx, a, c, 2 * p->energy, 0);
+        snprintf(a->not_free, sizeof a->not_free,
+                 "no free ball: 2 E - c = %.6g %.6g %.6g must be positive (and within a factor %s of each other)",
+                 free[0], free[1], free[2], ISO_SHORT(MOST_SPREAD));
     }
-    return make_level(ctx, a);
+    a->way = ISO_ANALOGUE_STATED;
+    if (!p->neumann && !(shell && triangle_room(p->J) <= 0))
+        return make_ball(ctx, p->k, p->J, p->eps, p->energy, &a->reduced);
+    const double d = max3(c) + 2 * (max3(c) - min3(c));
+    a->way = ISO_ANALOGUE_SHIFTED;
+    return make_shifted(ctx, a, c, d, p->energy - d / 2);
+}
+
+/* --- units ------------------------------------------------------------------------------------------------------ */
+
+/* A problem of a point fixes the ball's J up to a scale s (analogue.h). The angular velocity goes as
+ * s^((1/k - 4)/2). With D = m B^2 in the middle of its range, s is 2 D/(J1 + J2 - J3). So there is one D for which
+ * the angular velocity is 1. Mass and radius are round numbers with a product m B^2 near this D. */
+
+/* Of the numbers ..., 0.5, 1, 2, 5, 10, ...: the nearest to x > 0, by ratio; or the first that is not less. */
+static double round_number(double x, bool up)
+{
+    static const int digits[] = {1, 2, 5, 10};
+    double found = NAN, y;
+    x = fmin(fmax(x, 1e-300), 1e300);
+    for (int i = 0; i < 4; i++) {
+        char text[ISO_NUMBER_SIZE];
+        const int length = snprintf(text, sizeof text, "%de%d", digits[i], (int)floor(log10(x)));
+        if (!iso_number_read(text, (size_t)length, &y)) continue;
+        if (up && y >= x) return y;
+        if (!(fabs(log(y / x)) >= fabs(log(found / x)))) found = y;
+    }
+    return found;
+}
+
+double iso_analogue_round_up(double x)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    return x > 1e-300 && x < 1e300 ? round_number(x, true) : x;
+}
+
+/* Chooses what is NAN of mass and radius. For k near 1/4 the angular velocity hardly depends on D: then, and where the
+ * ball is at rest, D is 1. */
+static void choose_units(const iso_analogue *a, double *mass, double *radius)
+{
+    double start[ISO_STATE], ball[ISO_STATE], D = 1, best = INFINITY;
+    const double power = (1 / a->reduced.params.k - 4) / 2, m = *mass, B = *radius;
+    iso_analogue_start(a, start);
+    iso_point_to_ball(&a->reduced.params, start, ball);
+    const double w = norm(ball);
+    if (w > 0 && isfinite(w) && fabs(power) > 0.25) D = fmin(fmax(a->room / 2 * pow(w, -1 / power), 1e-9), 1e9);
+    if (!isnan(B) && isnan(m)) *mass = round_number(D / B / B, false);
+    if (isnan(B) && !isnan(m)) *radius = round_number(sqrt(D / m), false);
+    for (int i = -1; i <= 1 && isnan(B) && isnan(m); i++) { /* one of three radii near the cube root of D */
+        const double b = round_number(round_number(cbrt(D), false) * pow(2.2, i), false);
+        const double one = round_number(D / (b * b), false), off = fabs(log(one * b * b / D));
+        if (off < best) best = off, *mass = one, *radius = b;
+    }
 }
 
 /* --- the body --------------------------------------------------------------------------------------------------- */
-
-/* The surface that gives k: A/(A+B), 1, A/(A-B), -A/(B-A). */
-static void choose_surface(double k, iso_body *body)
-{
-    const double B = body->radius;
-    body->surface = k == 1 ? ISO_PLANE : k > 1 ? ISO_INSIDE : k > 0 ? ISO_OUTSIDE : ISO_SHELL;
-    body->surface_radius = k == 1 ? 0 : k > 1 || k < 0 ? B * (k / (k - 1)) : B * (k / (1 - k));
-}
 
 /* The body of mass and radius (NAN: chosen) with D = m B^2 in the middle of (0, s room]. */
 static void make_body(iso_context *ctx, double mass, double radius, iso_analogue *a)
 {
     const iso_analogue_ball *r = &a->reduced;
     iso_params params;
-    double start[ISO_STATE];
     a->room = triangle_room(r->params.J);
     if (!(a->room > 0)) {
         snprintf(a->no_body, sizeof a->no_body,
@@ -221,16 +235,16 @@ static void make_body(iso_context *ctx, double mass, double radius, iso_analogue
                  a->room);
         return;
     }
-    iso_analogue_start(a, start);
-    iso_analogue_choose_units(a, start, &mass, &radius);
-    iso_body body = {.mass = mass, .radius = radius};
-    const double D = mass * radius * radius, level_energy = iso_coupling(&r->params, r->level);
+    choose_units(a, &mass, &radius);
+    iso_body body = {.mass = mass, .radius = radius}; /* on the surface with A/(A+B), 1, A/(A-B) or -A/(B-A) = k */
+    const double k = r->params.k, D = mass * radius * radius, level_energy = iso_coupling(&r->params, r->level);
     a->scale = 2 * (D / a->room);
     for (int i = 0; i < 3; i++) body.inertia[i] = D * (2 * (r->params.J[i] / a->room) - 1);
-    choose_surface(r->params.k, &body);
+    body.surface = k == 1 ? ISO_PLANE : k > 1 ? ISO_INSIDE : k > 0 ? ISO_OUTSIDE : ISO_SHELL;
+    body.surface_radius = k == 1 ? 0 : k > 1 || k < 0 ? radius * (k / (k - 1)) : radius * (k / (1 - k));
     iso_status status = iso_params_physical(ctx, &body, &params);
     if (status == ISO_OK)
-        status = make_ball(ctx, params.k, params.J, r->eps * pow(a->scale, 1 / r->params.k), level_energy, &a->body);
+        status = make_ball(ctx, params.k, params.J, r->eps * pow(a->scale, 1 / k), level_energy, &a->body);
     a->has_body = status == ISO_OK;
     if (a->has_body)
         a->body.params = params;
@@ -245,7 +259,7 @@ iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *probl
     memset(a, 0, sizeof *a);
     a->problem = *problem;
     ISO_TRY(check_numbers(ctx, problem));
-    find_range(problem, &a->lowest, &a->highest);
+    find_range(a);
     ISO_TRY(check_energy(ctx, a));
     ISO_TRY(make_reduced(ctx, a));
     if (a->reduced.level == 0) a->not_free[0] = '\0';
@@ -254,15 +268,6 @@ iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *probl
 }
 
 /* --- starts and scenes ------------------------------------------------------------------------------------------ */
-
-/* Refuses effects other than the level: they change the potential of the point, or leave the ball without a twin. */
-static iso_status check_effects(iso_context *ctx, const iso_effects *e)
-{
-    const iso_effect *more = iso_effects_beyond_level(e);
-    if (!more) return ISO_OK;
-    return iso_context_fail(ctx, ISO_NOT_MAPPED, more->name,
-                            "'%s' is more than V = -eps (gamma, J gamma)^(-1/k): take it out", more->name);
-}
 
 /* Asks an orbit for the coupling and the level of the start: the scene may not state them. */
 iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso_analogue_problem *problem,
@@ -275,7 +280,10 @@ iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso
     iso_effects effects = iso_scene_acting(scene);
     if (scene->start.model != ISO_POINT)
         return ISO_FAIL_INPUT(ctx, "", "this scene is a ball already: an analogue is of a 'point'");
-    ISO_TRY(check_effects(ctx, &effects));
+    const iso_effect *more = iso_effects_beyond_level(&effects); /* changes the potential, or there is no twin */
+    if (more)
+        return iso_context_fail(ctx, ISO_NOT_MAPPED, more->name,
+                                "'%s' is more than V = -eps (gamma, J gamma)^(-1/k): take it out", more->name);
     o.effects = &effects;
     ISO_TRY(iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit));
     iso_status status = iso_orbit_at(orbit, 0, &sample);
@@ -298,15 +306,14 @@ double iso_analogue_start(const iso_analogue *a, double point[ISO_STATE])
     static const double off[3] = {0.48, 0.6, 0.64}, way[3] = {0.6, -0.48, 0.64};
     const iso_analogue_problem *p = &a->problem;
     const double over = p->energy - a->lowest, most = fmax(p->energy, a->highest) - a->lowest;
-    double lowest, highest, *M = point, *gamma = point + 3;
-    const int bottom = find_range(p, &lowest, &highest);
+    double *M = point, *gamma = point + 3;
     copy(off, gamma, 3);
     for (int i = 0; i < 30 && potential(p, gamma) - a->lowest > over / 2; i++) {
-        gamma[bottom] += 1;
+        gamma[a->bottom] += 1;
         make_unit(gamma);
     }
     if (over <= rounding(a)) /* at rest at the bottom */
-        for (int i = 0; i < 3; i++) gamma[i] = i == bottom;
+        for (int i = 0; i < 3; i++) gamma[i] = i == a->bottom;
     copy(way, M, 3);
     remove_along(M, gamma);
     make_unit(M);
@@ -342,6 +349,7 @@ iso_status iso_analogue_scene(iso_context *ctx, const iso_analogue_ball *ball, c
     s.params = ball->params;
     iso_effects_set_level(&s.effects, ball->level != 0, ball->level);
     ISO_TRY(start_ball(ctx, &s.params, point, &s.start));
+    for (int i = 0; i < ISO_STATE; i++) s.start.y[i] += 0.0; /* no -0 */
     iso_orbit_options o = iso_orbit_defaults(&s.start);
     o.effects = &s.effects;
     o.clock = ISO_CLOCK_S;
@@ -352,81 +360,4 @@ iso_status iso_analogue_scene(iso_context *ctx, const iso_analogue_ball *ball, c
     iso_orbit_free(orbit);
     if (status == ISO_OK) *scene = s;
     return status;
-}
-
-/* --- units ------------------------------------------------------------------------------------------------------ */
-
-/* A problem of a point fixes the ball's J up to a scale s (analogue.h). The angular velocity goes as
- * s^((1/k - 4)/2). With D = m B^2 in the middle of its range, s is 2 D/(J1 + J2 - J3). So there is one D for which
- * the angular velocity is 1. Mass and radius are round numbers with a product m B^2 near this D. */
-
-/* The n-th of the numbers ..., 0.5, 1, 2, 5, 10, ...: 1 is the 0th. */
-static double round_number(int n)
-{
-    static const int digit[] = {1, 2, 5};
-    char text[ISO_NUMBER_SIZE];
-    const int place = ((n % 3) + 3) % 3;
-    double x = NAN;
-    const int length = snprintf(text, sizeof text, "%de%d", digit[place], (n - place) / 3);
-    return iso_number_read(text, (size_t)length, &x) ? x : NAN;
-}
-
-/* Which of them is nearest to x > 0, by ratio. */
-static int nearest_round(double x)
-{
-    x = fmin(fmax(x, 1e-100), 1e100);
-    int n = 3 * (int)floor(log10(x));
-    while (x * x > round_number(n) * round_number(n + 1)) n++;
-    return n;
-}
-
-double iso_analogue_round_up(double x)
-{
-    ISO_DEFAULT_ARITHMETIC;
-    if (!(x > 1e-300 && x < 1e300)) return x;
-    int n = 3 * (int)floor(log10(x)) - 1;
-    while (round_number(n) < x) n++;
-    return round_number(n);
-}
-
-/* The ball's angular velocity at the point's start. */
-static double angular_velocity(const iso_analogue *a, const double start[ISO_STATE])
-{
-    double ball[ISO_STATE];
-    iso_point_to_ball(&a->reduced.params, start, ball);
-    return norm(ball);
-}
-
-/* The D = m B^2 for which the angular velocity of the body is 1. For k near 1/4 it hardly depends on D: then, and
- * where the ball is at rest, D is 1. */
-static double best_D(const iso_analogue *a, const double start[ISO_STATE])
-{
-    const double power = (1 / a->reduced.params.k - 4) / 2, w = angular_velocity(a, start);
-    const double D = a->room / 2 * pow(w, -1 / power);
-    if (!(w > 0) || !isfinite(w) || !(fabs(power) > 0.25)) return 1;
-    return fmin(fmax(D, 1e-9), 1e9);
-}
-
-/* The round mass and radius whose m B^2 is nearest to D. The radius is one of three near the cube root of D. */
-static void choose_both(double D, double *mass, double *radius)
-{
-    const int middle = nearest_round(cbrt(D));
-    double best = INFINITY;
-    for (int n = middle - 1; n <= middle + 1; n++) {
-        const double B = round_number(n), m = round_number(nearest_round(D / (B * B)));
-        const double off = fabs(log(m * B * B / D));
-        if (off < best) best = off, *mass = m, *radius = B;
-    }
-}
-
-void iso_analogue_choose_units(const iso_analogue *a, const double start[ISO_STATE], double *mass, double *radius)
-{
-    if (!isnan(*mass) && !isnan(*radius)) return;
-    const double D = best_D(a, start);
-    if (isnan(*mass) && isnan(*radius))
-        choose_both(D, mass, radius);
-    else if (isnan(*mass))
-        *mass = round_number(nearest_round(D / *radius / *radius));
-    else
-        *radius = round_number(nearest_round(sqrt(D / *mass)));
 }

@@ -17,9 +17,6 @@
  * A body: J -> s J, eps -> s^(1/k) eps leaves V and its clock s as they are. The central moments I = s J - D with
  * D = m B^2 must be positive and obey the triangle inequalities. With J sorted, they do for 0 < D/s <= J1 + J2 - J3:
  * a body exists exactly if J1 + J2 > J3. D/s is put in the middle.
- *
- * Units: the angular velocity of the body goes as s^((1/k - 4)/2). Mass and radius that are not given are 1, 2 or 5
- * times a power of ten, chosen so that the angular velocity is of order one (analogue.c).
  */
 #ifndef ISO_STUDY_ANALOGUE_H
 #define ISO_STUDY_ANALOGUE_H
@@ -53,7 +50,8 @@ typedef struct iso_analogue_ball {
 
 typedef struct iso_analogue {
     iso_analogue_problem problem;
-    double lowest, highest; /* of V on the sphere                                                       */
+    double lowest, highest; /* of V on the sphere ... */
+    int bottom;             /* ... the axis of the least V */
     iso_analogue_way way;
     double shift; /* V of the problem less that of the ball's twin, a constant                         */
     iso_analogue_ball reduced;

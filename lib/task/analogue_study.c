@@ -6,146 +6,82 @@
 #include <string.h>
 
 #include "base/number_impl.h"
+#include "io/scene_print_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/options_impl.h"
 #include "task/task_impl.h"
-
-/* --- numbers ---------------------------------------------------------------------------------------------------- */
-
-static void print_number(FILE *to, const char *before, double x)
-{
-    fprintf(to, "%s%s", before, ISO_SHORT(x + 0.0)); /* no -0 */
-}
-
-static void print_vector(FILE *to, const char *before, const double x[3])
-{
-    fprintf(to, "%s", before);
-    for (int i = 0; i < 3; i++) print_number(to, i == 0 ? "[" : ", ", x[i]);
-    fprintf(to, "]");
-}
 
 /* --- the report ------------------------------------------------------------------------------------------------- */
 
 static void print_problem(FILE *to, const iso_analogue *a)
 {
     const iso_analogue_problem *p = &a->problem;
-    fprintf(to, "# a ball that realises a point on a sphere\n# point: ");
+    const double *x = p->neumann ? p->c : p->J;
+    fprintf(to, "# a ball that realises a point on a sphere\n# point: V = ");
     if (p->neumann)
-        fprintf(to, "V = (1/2) sum c_i gamma_i^2, c = %.10g %.10g %.10g\n", p->c[0], p->c[1], p->c[2]);
+        fprintf(to, "(1/2) sum c_i gamma_i^2, c = %.10g %.10g %.10g\n", x[0], x[1], x[2]);
     else
-        fprintf(to, "V = -eps (gamma, J gamma)^(-1/k), k = %.10g, J = %.10g %.10g %.10g, eps = %.10g\n", p->k,
-                p->J[0], p->J[1], p->J[2], p->eps);
+        fprintf(to, "-eps (gamma, J gamma)^(-1/k), k = %.10g, J = %.10g %.10g %.10g, eps = %.10g\n", p->k, x[0], x[1],
+                x[2], p->eps);
     fprintf(to, "#   energy M^2/2 + V = %.10g; V is between %.10g and %.10g\n", p->energy, a->lowest, a->highest);
-}
-
-static void print_way(FILE *to, const iso_analogue *a)
-{
-    const iso_analogue_problem *p = &a->problem;
-    const iso_analogue_ball *b = &a->reduced;
-    const char *shift = p->neumann || p->eps < 0 ? "2 E - c, eps = 1/2" : "J + E/eps";
-    fprintf(to, "# ball: %s", b->level == 0 ? "free" : "in the potential U = -c (n, J^-1 n)^(-1/k)");
-    switch (a->way) {
-    case ISO_ANALOGUE_STATED: fprintf(to, b->level == 0 ? ", since the energy is 0\n" : "; c = E k^2/det J\n"); break;
-    case ISO_ANALOGUE_FREE:
-        fprintf(to, ": on the sphere V = E - eps (gamma, J gamma) with the ball's J = %s\n", shift);
-        break;
-    case ISO_ANALOGUE_SHIFTED:
+    const bool free = a->reduced.level == 0, shifted = p->neumann || p->eps < 0;
+    fprintf(to, "# ball: %s", free ? "free" : "in the potential U = -c (n, J^-1 n)^(-1/k)");
+    if (a->way == ISO_ANALOGUE_STATED) fprintf(to, free ? ", since the energy is 0\n" : "; c = E k^2/det J\n");
+    if (a->way == ISO_ANALOGUE_FREE)
+        fprintf(to, ": on the sphere V = E - eps (gamma, J gamma) with the ball's J = %s\n",
+                shifted ? "2 E - c, eps = 1/2" : "J + E/eps");
+    if (a->way == ISO_ANALOGUE_SHIFTED)
         fprintf(to,
                 ": V = d/2 - eps (gamma, J gamma), d = %.10g, and c = (E - d/2) k^2/det J;\n"
                 "#   any d with a positive J would do; this one makes max J/min J = 3/2\n",
                 2 * a->shift);
-        break;
-    case ISO_ANALOGUE_CONSTANT:
+    if (a->way == ISO_ANALOGUE_CONSTANT)
         fprintf(to, ": V is constant: the point turns uniformly, and so does any ball of equal moments\n");
-        break;
-    }
     if (*a->not_free) fprintf(to, "#   %s\n", a->not_free);
 }
 
-static void print_reduced(FILE *to, const iso_analogue *a)
-{
-    const iso_analogue_ball *b = &a->reduced;
-    const double *J = b->params.J;
-    fprintf(to, "# reduced: k = %s, J = %s %s %s\n#   eps = %s, h = eps k^2/det J = %s", ISO_SHORT(b->params.k),
-            ISO_SHORT(J[0]), ISO_SHORT(J[1]), ISO_SHORT(J[2]), ISO_SHORT(b->eps), ISO_SHORT(b->h));
-    if (b->level != 0) fprintf(to, ", c = %s", ISO_SHORT(b->level));
-    if (b->h < 0) fprintf(to, "\n#   eps and h are negative: the ball moves by the potential of the level alone");
-    fprintf(to, "\n");
-}
-
 /* With a body: which other bodies there are. Without: why there is none, and which option gives one. */
-static void print_body(FILE *to, const iso_analogue *a)
+static void print_ball(FILE *to, const iso_analogue *a)
 {
+    const iso_analogue_ball *r = &a->reduced;
     const iso_body *b = &a->body.params.body;
+    const double *J = r->params.J;
+    fprintf(to, "# reduced: k = %s, J = %s %s %s\n#   eps = %s, h = eps k^2/det J = %s", ISO_SHORT(r->params.k),
+            ISO_SHORT(J[0]), ISO_SHORT(J[1]), ISO_SHORT(J[2]), ISO_SHORT(r->eps), ISO_SHORT(r->h));
+    if (r->level != 0) fprintf(to, ", c = %s", ISO_SHORT(r->level));
+    if (r->h < 0) fprintf(to, "\n#   eps and h are negative: the ball moves by the potential of the level alone");
+    fprintf(to, "\n");
     if (!a->has_body) {
         fprintf(to, "# no body:\n#   %s\n", a->no_body);
-        if (a->reduced.params.k == -1 && a->way != ISO_ANALOGUE_SHIFTED && !(a->room > 0))
+        if (r->params.k == -1 && a->way != ISO_ANALOGUE_SHIFTED && !(a->room > 0))
             fprintf(to, "#   --level gives one that has a body, in the potential of a level\n");
         return;
     }
     fprintf(to, "# body: %s, m = %.10g, B = %.10g", iso_surface_name((int)b->surface), b->mass, b->radius);
     if (b->surface != ISO_PLANE) fprintf(to, ", A = %.10g", b->surface_radius);
-    fprintf(to, "; J times %.10g, which with eps times %.10g leaves V as it is;\n", a->scale,
-            a->body.eps / a->reduced.eps);
+    fprintf(to, "; J times %.10g, which with eps times %.10g leaves V as it is;\n", a->scale, a->body.eps / r->eps);
     fprintf(to, "#   the triangle inequalities allow m B^2 = D times that for D in (0, J1 + J2 - J3] = (0, %.10g]\n",
             a->room);
-}
-
-/* --- the scene -------------------------------------------------------------------------------------------------- */
-
-static void print_ball(FILE *to, const iso_params *p)
-{
-    const iso_body *b = &p->body;
-    if (b->surface == ISO_REDUCED) {
-        print_number(to, "reduced: {k: ", p->k);
-        print_vector(to, ", J: ", p->J);
-    } else {
-        print_number(to, "ball:    {mass: ", b->mass);
-        print_number(to, ", radius: ", b->radius);
-        print_vector(to, ", inertia: ", b->inertia);
-        fprintf(to, "}\nsurface: {kind: %s", iso_surface_name((int)b->surface));
-        if (b->surface != ISO_PLANE) print_number(to, ", radius: ", b->surface_radius);
-    }
-    fprintf(to, "}\n");
-}
-
-static void print_scene(FILE *to, const iso_scene *s)
-{
-    print_ball(to, &s->params);
-    print_vector(to, "initial:\n  normal: ", s->start.y + 3);
-    print_vector(to, "\n  angular_velocity: ", s->start.y);
-    print_number(to, "\ntime:    {end: ", s->end);
-    if (s->step > 0) print_number(to, ", step: ", s->step);
-    fprintf(to, "}\n");
-    if (!iso_effects_have_level(&s->effects)) return;
-    fprintf(to, "effects: {%s: ", iso_level_name());
-    print_number(to, "{c: ", iso_effects_level(&s->effects));
-    fprintf(to, "}}\n");
 }
 
 /* --- the problem ------------------------------------------------------------------------------------------------ */
 
 static void begin(void *options)
 {
-    *(iso_analogue_request *)options = (iso_analogue_request){.k = NAN,
-                                                              .J = {NAN, NAN, NAN},
-                                                              .eps = NAN,
-                                                              .neumann = {NAN, NAN, NAN},
-                                                              .energy = NAN,
-                                                              .mass = NAN,
-                                                              .radius = NAN};
+    iso_analogue_request *r = options;
+    *r = (iso_analogue_request){{.c = {NAN}, .k = NAN, .J = {NAN}, .eps = NAN, .energy = NAN}, NAN, NAN};
 }
 
 bool iso_analogue_is_stated(const iso_analogue_request *r)
 {
-    return !isnan(r->neumann[0]) || !isnan(r->k);
+    return !isnan(r->problem.c[0]) || !isnan(r->problem.k);
 }
 
 /* Options that state half a problem, or two. */
 static iso_status prepare(iso_context *ctx, void *options)
 {
-    const iso_analogue_request *r = options;
-    const bool neumann = !isnan(r->neumann[0]), k = !isnan(r->k), J = !isnan(r->J[0]), eps = !isnan(r->eps);
+    const iso_analogue_problem *p = &((const iso_analogue_request *)options)->problem;
+    const bool neumann = !isnan(p->c[0]), k = !isnan(p->k), J = !isnan(p->J[0]), eps = !isnan(p->eps);
     if (neumann && (k || J || eps))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "neumann",
                                 "analogue: --neumann has k = -1 and needs no --k, --J or --eps: leave them out");
@@ -154,68 +90,46 @@ static iso_status prepare(iso_context *ctx, void *options)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, missing,
                                 "analogue: --%s is missing: a problem is --k, --J and --eps, or --neumann", missing);
     }
-    if (!neumann && !k && !isnan(r->energy))
+    if (!neumann && !k && !isnan(p->energy))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "energy",
                                 "analogue: --energy needs --neumann or --k, --J and --eps; a scene's start has its "
                                 "own");
     return ISO_OK;
 }
 
-/* The problem, and the start of its point. */
-typedef struct task {
-    iso_analogue_problem problem;
-    bool started;                       /* a scene gives the start */
-    double point[ISO_STATE], end, rows; /* end: in s; rows: those of a scene, 0 is the usual hundred */
-} task;
-
-static iso_status state(iso_context *ctx, const iso_scene *scene, const iso_analogue_request *r, task *t)
+/* The problem of the scene, or, NULL, of the options; and the start and end, in s, of its point. */
+static iso_status state(iso_context *ctx, const iso_scene *scene, const iso_analogue_request *r, iso_analogue *a,
+                        double point[ISO_STATE], double *end)
 {
     const bool stated = iso_analogue_is_stated(r);
-    iso_analogue_problem *p = &t->problem;
-    *t = (task){.started = !stated};
+    iso_analogue_problem p = r->problem;
     if (stated == (scene != NULL))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scene",
                                 stated ? "analogue: a scene and a problem in options: leave one of them out"
                                        : "analogue needs a scene, or a problem in options");
-    if (scene) {
-        t->end = scene->end;
-        t->rows = scene->step > 0 ? fabs(scene->end) / scene->step : 0;
-        ISO_TRY(iso_analogue_problem_of(ctx, scene, p, t->point));
-    } else {
-        *p = (iso_analogue_problem){.neumann = !isnan(r->neumann[0]), .k = r->k, .eps = r->eps};
-        memcpy(p->J, r->J, sizeof p->J);
-        memcpy(p->c, r->neumann, sizeof p->c);
-        p->energy = isnan(r->energy) ? 0 : r->energy;
-    }
-    p->level = r->level;
+    p.neumann = !isnan(p.c[0]);
+    if (isnan(p.energy)) p.energy = 0;
+    if (scene) ISO_TRY(iso_analogue_problem_of(ctx, scene, &p, point));
+    p.level = r->problem.level;
+    ISO_TRY(iso_analogue_find(ctx, &p, r->mass, r->radius, a));
+    *end = scene ? scene->end : 2 * iso_analogue_start(a, point); /* about twenty turns */
     return ISO_OK;
 }
 
 /* --- the study -------------------------------------------------------------------------------------------------- */
 
-static void report(FILE *to, const iso_analogue *a, const task *t, const iso_scene *scene)
+/* of: the scene of the point; NULL: options state the problem. */
+static void report(FILE *to, const iso_analogue *a, const iso_scene *of, const iso_scene *scene)
 {
     print_problem(to, a);
-    print_way(to, a);
-    print_reduced(to, a);
-    print_body(to, a);
+    print_ball(to, a);
     fprintf(to, "# start: %s; the twin's gamma and M are the point's, in its clock s\n",
-            t->started ? "the scene's" : "one that has this energy");
-    if (t->started)
-        fprintf(to, "# end: where s = %.10g\n", t->end);
+            of ? "the scene's" : "one that has this energy");
+    if (of)
+        fprintf(to, "# end: where s = %.10g\n", of->end);
     else
         fprintf(to, "# end: a round time t, 20 turns or more\n");
-    print_scene(to, scene);
-}
-
-static iso_status answer(iso_context *ctx, const iso_analogue_request *r, task *t, iso_analogue *a, iso_scene *scene)
-{
-    ISO_TRY(iso_analogue_find(ctx, &t->problem, r->mass, r->radius, a));
-    if (!t->started) t->end = 2 * iso_analogue_start(a, t->point); /* about twenty turns */
-    ISO_TRY(iso_analogue_scene(ctx, a->has_body ? &a->body : &a->reduced, t->point, t->end, scene));
-    if (!t->started) scene->end = iso_analogue_round_up(scene->end);
-    if (t->rows > 0 && scene->end != 0) scene->step = fabs(scene->end) / t->rows;
-    return ISO_OK;
+    iso_scene_print(scene, to);
 }
 
 static const iso_field fields[] = {
@@ -240,17 +154,20 @@ static void free_found(void *found)
 static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
                       iso_study_result *result)
 {
-    task t;
+    const iso_scene *of = subject->scene;
+    double point[ISO_STATE], end = 0;
     char *text = NULL;
     size_t size;
     iso_scene scene;
     iso_analogue_found *f = iso_study_keep(result, calloc(1, sizeof *f), fields, free_found);
     if (!f) return iso_context_no_memory(ctx, "a ball");
-    ISO_TRY(state(ctx, subject->scene, options, &t));
-    ISO_TRY(answer(ctx, options, &t, &f->analogue, &scene));
+    ISO_TRY(state(ctx, of, options, &f->analogue, point, &end));
     f->ball = f->analogue.has_body ? f->analogue.body : f->analogue.reduced;
+    ISO_TRY(iso_analogue_scene(ctx, &f->ball, point, end, &scene));
+    if (!of) scene.end = iso_analogue_round_up(scene.end);
+    if (of && of->step > 0 && end != 0) scene.step = fabs(scene.end) / (fabs(end) / of->step);
     FILE *to = open_memstream(&text, &size);
-    if (to) report(to, &f->analogue, &t, &scene);
+    if (to) report(to, &f->analogue, of, &scene);
     if (!to || fclose(to) != 0) return free(text), iso_context_no_memory(ctx, "words");
     f->text = text;
     return iso_study_table(ctx, "analogue", &scene, fields, f, NULL, &result->table[0]);
@@ -261,13 +178,13 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
 
 const iso_option iso_analogue_option[] = {
     ROW("neumann", "C", "three numbers C1,C2,C3", "C1,C2,C3 of Neumann's problem V = (1/2) sum C_i gamma_i^2",
-        iso_set_vector, neumann),
-    ROW("k", "K", "a number", "k of the problem V = -eps (gamma, J gamma)^(-1/k)", iso_set_number, k),
-    ROW("J", "J1,J2,J3", "three numbers J1,J2,J3", "J of this problem", iso_set_vector, J),
-    ROW("eps", "X", "a number", "eps of this problem", iso_set_number, eps),
-    ROW("energy", "E", "a number", "energy of the point, M^2/2 + V (default 0)", iso_set_number, energy),
+        iso_set_vector, problem.c),
+    ROW("k", "K", "a number", "k of the problem V = -eps (gamma, J gamma)^(-1/k)", iso_set_number, problem.k),
+    ROW("J", "J1,J2,J3", "three numbers J1,J2,J3", "J of this problem", iso_set_vector, problem.J),
+    ROW("eps", "X", "a number", "eps of this problem", iso_set_number, problem.eps),
+    ROW("energy", "E", "a number", "energy of the point, M^2/2 + V (default 0)", iso_set_number, problem.energy),
     ROW("level", NULL, NULL, "k = -1: a ball in the potential of a level, even where there is a free one",
-        iso_set_flag, level),
+        iso_set_flag, problem.level),
     ROW("mass", "M", "a positive number", "mass of the ball (default: chosen)", iso_set_positive, mass),
     ROW("radius", "B", "a positive number", "radius of the ball (default: chosen)", iso_set_positive, radius),
     ISO_OPTION_END,
@@ -280,4 +197,5 @@ const iso_study iso_analogue_study = {"analogue",
                                       begin,
                                       .prepare = prepare,
                                       .run = run,
-                                      .of = ISO_STUDY_USES_SCENE};
+                                      .of = ISO_STUDY_USES_SCENE,
+                                      .fields = fields};

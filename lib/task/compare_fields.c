@@ -70,8 +70,46 @@ static bool has_no_exact(const void *row)
     return !has_exact(row);
 }
 
+static bool is_of_ball(const void *row)
+{
+    return ((const iso_comparison *)row)->clock == ISO_CLOCK_T;
+}
+
+static bool is_of_point(const void *row)
+{
+    return !is_of_ball(row);
+}
+
+static bool is_exact_of_ball(const void *row)
+{
+    return has_exact(row) && is_of_ball(row);
+}
+
+static bool is_exact_of_point(const void *row)
+{
+    return has_exact(row) && is_of_point(row);
+}
+
+static double largest_of(const void *row)
+{
+    const double *w = ((const iso_comparison *)row)->worst;
+    return fmax(fmax(w[1], w[2]), fmax(w[3], w[4]));
+}
+
 #define FIELD(key, member, ...) ISO_MEMBER(iso_comparison, key, member, __VA_ARGS__)
 #define EXACT .there = has_exact, .how = ISO_OPTIONAL
+#define WORST(key, member, doc, is) FIELD(key, member, "", doc, .there = is, .how = ISO_OPTIONAL)
+
+/* Where `from` has the columns of a difference: omega, n, M, gamma and the two other clocks. */
+#define ALL_WORST(where, from, any, of_ball, of_point)                                                               \
+    WORST(where "worst_difference.omega", from[1], "the largest difference of omega, by its length", any),           \
+        WORST(where "worst_difference.n", from[2], "of n", any),                                                     \
+        WORST(where "worst_difference.M", from[3], "of M, by its length", any),                                      \
+        WORST(where "worst_difference.gamma", from[4], "of gamma", any),                                             \
+        WORST(where "worst_difference.t", from[5], "of t, by its largest value", of_point),                          \
+        WORST(where "worst_difference.tau", from[5], "of tau, by its largest value", of_ball),                       \
+        WORST(where "worst_difference.tau", from[6], "of tau, by its largest value", of_point),                      \
+        WORST(where "worst_difference.s", from[6], "of s, by its largest value", of_ball)
 
 const iso_field iso_comparison_fields[] = {
     FIELD("h", h, "energy", "of the ball"),
@@ -84,32 +122,12 @@ const iso_field iso_comparison_fields[] = {
     FIELD("no_exact", no_exact, "", "why there is no closed solution", .there = has_no_exact, .how = ISO_OPTIONAL),
     FIELD("from_exact.ball.difference", from_exact[ISO_BALL], "", "of ball and closed solution", EXACT),
     FIELD("from_exact.point.difference", from_exact[ISO_POINT], "", "of point and closed solution", EXACT),
+    ALL_WORST("", worst, NULL, is_of_ball, is_of_point),
+    ALL_WORST("from_exact.ball.", worst_from_exact[ISO_BALL], has_exact, is_exact_of_ball, is_exact_of_point),
+    ALL_WORST("from_exact.point.", worst_from_exact[ISO_POINT], has_exact, is_exact_of_ball, is_exact_of_point),
+    ISO_NUMBER("largest", largest_of, "", "the largest of omega, n, M and gamma", .how = ISO_IN_TABLE),
     ISO_FIELD_END,
 };
-
-/* --- the largest differences ------------------------------------------------------------------------------------ */
-
-void iso_comparison_worst(const iso_comparison *c, const char *where, size_t offset, iso_worst_fields *w)
-{
-    for (size_t i = 1; i < ISO_DIFFERENCES; i++) {
-        char *name = w->name[i - 1];
-        snprintf(name, sizeof w->name[0], "%sworst_difference.%s", where, iso_record_name(c->difference, i));
-        w->field[i - 1] = (iso_field){.name = name,
-                                      .type = ISO_FIELD_REAL,
-                                      .offset = offset + i * sizeof(double),
-                                      .unit = "",
-                                      .doc = "the largest difference"};
-    }
-    w->field[ISO_DIFFERENCES - 1] = (iso_field)ISO_FIELD_END;
-}
-
-static iso_status put_worst(iso_context *ctx, const iso_comparison *c, const char *where, size_t offset,
-                            iso_record *r)
-{
-    iso_worst_fields w;
-    iso_comparison_worst(c, where, offset, &w);
-    return iso_record_set_fields(ctx, r, w.field, c);
-}
 
 /* --- the study -------------------------------------------------------------------------------------------------- */
 
@@ -131,10 +149,6 @@ static iso_status describe(iso_context *ctx, const iso_scene *scene, const iso_c
     iso_status status = iso_record_describe_scene(ctx, r, scene);
     if (status == ISO_OK) status = iso_record_set_fields(ctx, r, iso_comparison_fields, c);
     if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "tolerance", 1, &scene->tolerance);
-    if (status == ISO_OK) status = put_worst(ctx, c, "", offsetof(iso_comparison, worst), r);
-    for (int b = 0; status == ISO_OK && b < ISO_INTEGRATED && c->runs == ISO_BACKENDS; b++)
-        status = put_worst(ctx, c, b == ISO_BALL ? "from_exact.ball." : "from_exact.point.",
-                           offsetof(iso_comparison, worst_from_exact) + (size_t)b * sizeof c->worst, r);
     return status;
 }
 
@@ -184,4 +198,5 @@ const iso_study iso_compare_study = {"compare",
                                      sizeof(iso_scene_request),
                                      begin,
                                      .run = run,
-                                     .of = ISO_STUDY_OF_SCENE};
+                                     .of = ISO_STUDY_OF_SCENE,
+                                     .fields = iso_comparison_fields};

@@ -46,22 +46,11 @@ enum { ISO_COMPARISON_WORDS = 512 };
 bool iso_comparison_words(const iso_scene *scene, const iso_comparison *c, double *most,
                           char words[ISO_COMPARISON_WORDS]);
 
-/* --- comparisons (compare_fields.c) ----------------------------------------------------------------------------- */
-
-/* Fields of a comparison, whose names depend on it: the largest differences. where: before the name; offset: of the
- * numbers. */
-typedef struct iso_worst_fields {
-    char name[ISO_DIFFERENCES - 1][ISO_COLUMN_SIZE];
-    iso_field field[ISO_DIFFERENCES];
-} iso_worst_fields;
-void iso_comparison_worst(const iso_comparison *c, const char *where, size_t offset, iso_worst_fields *w);
-
 /* --- the study analogue (analogue_study.c) ---------------------------------------------------------------------- */
 
 typedef struct iso_analogue_request {
-    double k, J[3], eps, neumann[3], energy; /* NAN: not given               */
-    double mass, radius;                     /* NAN: analogue chooses        */
-    bool level;
+    iso_analogue_problem problem; /* numbers that are not given are NAN; its `neumann` is not read */
+    double mass, radius;          /* NAN: analogue chooses                                         */
 } iso_analogue_request;
 
 /* Whether the options state a problem. If not, a scene must. */
@@ -72,10 +61,5 @@ typedef struct iso_analogue_found {
     iso_analogue_ball ball;
     const char *text; /* the scene of the ball, with a report in # lines; it is freed with the rest */
 } iso_analogue_found;
-
-/* --- analogue.c ------------------------------------------------------------------------------------------------- */
-
-/* Chooses what is NAN of mass and radius. a->room and a->reduced are known and have a body; start: of the point. */
-void iso_analogue_choose_units(const iso_analogue *a, const double start[ISO_STATE], double *mass, double *radius);
 
 #endif

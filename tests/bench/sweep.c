@@ -2,7 +2,7 @@
  *
  *     bench_sweep [ORBITS] [TURNS] [THREADS]        default 20000, 100, 2
  *
- * 1. Dispatch: the time of a chunk outside of the orbits: it is chosen, its rows go into the journal. Behind it
+ * 1. Dispatch: the time of a chunk outside of the orbits: it is chosen, its rows go into the store. Behind it
  *    stands what the system takes to write as many bytes to a file.
  * 2. Rate: orbits of k = 0.5, J = (1, 2, 5), spread over the section, with verdicts by the point. First by
  *    iso_chaos_run, as starts of one scene, on one thread; then as points of a sweep, on one thread and on all.
@@ -46,7 +46,7 @@ static iso_sweep_file *sweep_of(size_t orbits, long turns, size_t chunk)
 }
 
 typedef struct work {
-    iso_sweep_journal *journal;
+    iso_sweep_store *store;
     size_t next, chunks;
 } work;
 
@@ -60,7 +60,8 @@ static bool next_chunk(void *data, size_t *c)
 static iso_status take_chunk(void *data, iso_context *of, size_t c, const iso_sweep_rows *rows)
 {
     const work *w = data;
-    return iso_sweep_journal_add(of, w->journal, c, rows);
+    (void)c;
+    return iso_sweep_store_add(of, w->store, rows);
 }
 
 enum { CHUNKS = 4000 };
@@ -81,7 +82,7 @@ static double plain_write(const char *path, size_t length)
     return 1e3 * time / CHUNKS;
 }
 
-/* Rows that are there already: only the journal works. */
+/* Rows that are there already: only the store works. */
 static void dispatch(size_t chunk)
 {
     char path[64];
@@ -93,7 +94,7 @@ static void dispatch(size_t chunk)
     const iso_sweep_head *head = iso_sweep_head_of(sweep);
     must(iso_sweep_rows_create(ctx, head->columns, chunk, &rows));
     snprintf(path, sizeof path, "/tmp/bench_sweep_%ld.csv", (long)getpid());
-    must(iso_sweep_journal_open(ctx, path, head, (iso_sweep_shard){0, 1}, false, &w.journal));
+    must(iso_sweep_store_open(ctx, path, head, (iso_sweep_shard){0, 1}, false, &w.store));
     rows.count = chunk;
     const double before = bench_wall_milliseconds();
     for (size_t c; next_chunk(&w, &c);) {
@@ -101,8 +102,8 @@ static void dispatch(size_t chunk)
         must(take_chunk(&w, ctx, c, &rows));
     }
     const double time = 1e3 * (bench_wall_milliseconds() - before) / CHUNKS;
-    iso_sweep_journal_close(w.journal);
-    strcat(path, ".journal");
+    iso_sweep_store_close(w.store);
+    strcat(path, ".part");
     unlink(path);
     const size_t length = chunk * (8 * (size_t)head->columns + 4);
     printf("dispatch: %7.2f us a chunk of %zu points; to write its %zu bytes alone: %.2f us\n", time, chunk, length,
@@ -138,14 +139,14 @@ static double by_sweep(size_t orbits, long turns, int threads, double *processor
     must(iso_sweep_create(ctx, iso_sweep_file_plan(file), &sweep));
     const iso_sweep_head *head = iso_sweep_head_of(sweep);
     w.chunks = iso_sweep_chunks(head);
-    must(iso_sweep_journal_open(ctx, "/dev/null", head, (iso_sweep_shard){0, 1}, false, &w.journal));
+    must(iso_sweep_store_open(ctx, "/dev/null", head, (iso_sweep_shard){0, 1}, false, &w.store));
     const iso_sweep_source source = {next_chunk, take_chunk, &w};
     const double before = bench_wall_milliseconds(), busy = bench_busy_milliseconds();
     must(iso_sweep_run(ctx, sweep, threads, &source));
-    must(iso_sweep_journal_finish(ctx, w.journal));
+    must(iso_sweep_store_finish(ctx, w.store));
     const double time = bench_wall_milliseconds() - before;
     *processor = (double)orbits / (bench_busy_milliseconds() - busy) * 1e3;
-    iso_sweep_journal_close(w.journal);
+    iso_sweep_store_close(w.store);
     iso_sweep_free(sweep);
     iso_sweep_file_free(file);
     return (double)orbits / time * 1e3;

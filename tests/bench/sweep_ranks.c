@@ -6,7 +6,7 @@
  * `ISOROLL_TIMES=1 mpirun ... isoroll-mpi sweep ...` prints both for a machine.
  *
  * Measured: how the times of chunks are spread (chaotic shares at 60 values of k: their mean is scaled to what the
- * table says), and what a row costs the writer, in the journal and in the result.
+ * table says), and what a row costs the writer, in FILE.part and in the result.
  *
  * Simulated: every rank fetches a chunk, computes it, and waits until rank 0 has written it. The counter serves one
  * rank at a time, and so does rank 0, which looks for messages every millisecond when it has none. Each rank computes 100
@@ -69,8 +69,8 @@ static void measure_chunks(double times[SAMPLES])
     iso_sweep_file_free(file);
 }
 
-/* Microseconds of a row in the journal, and in the result. */
-static void measure_rows(double *journal_row, double *result_row)
+/* Microseconds of a row in FILE.part, and in the result. */
+static void measure_rows(double *part_row, double *result_row)
 {
     enum { CHUNKS = 200, CHUNK = 1000 };
     iso_sweep_file *file;
@@ -79,25 +79,25 @@ static void measure_rows(double *journal_row, double *result_row)
                                 &file);
     const iso_sweep_head *head = iso_sweep_head_of(sweep);
     char name[] = "/tmp/bench_sweep_XXXXXX", path[64];
-    iso_sweep_journal *journal;
+    iso_sweep_store *store;
     iso_sweep_rows rows;
     if (!mkdtemp(name)) exit(1);
     snprintf(path, sizeof path, "%s/out.h5", name);
     must(iso_sweep_rows_create(ctx, head->columns, CHUNK, &rows));
     must(iso_sweep_compute_points(ctx, sweep, 0, CHUNK, &rows));
-    must(iso_sweep_journal_open(ctx, path, head, (iso_sweep_shard){0, 1}, false, &journal));
+    must(iso_sweep_store_open(ctx, path, head, (iso_sweep_shard){0, 1}, false, &store));
     double begun = bench_wall_milliseconds();
     for (size_t c = 0; c < CHUNKS; c++) {
         rows.first = c * CHUNK;
-        must(iso_sweep_journal_add(ctx, journal, c, &rows));
+        must(iso_sweep_store_add(ctx, store, &rows));
     }
-    *journal_row = 1e3 * (bench_wall_milliseconds() - begun) / (CHUNKS * CHUNK);
+    *part_row = 1e3 * (bench_wall_milliseconds() - begun) / (CHUNKS * CHUNK);
     begun = bench_wall_milliseconds();
-    must(iso_sweep_journal_finish(ctx, journal));
+    must(iso_sweep_store_finish(ctx, store));
     *result_row = 1e3 * (bench_wall_milliseconds() - begun) / (CHUNKS * CHUNK);
-    printf("a row of %d numbers: %.3f us in the journal, %.3f us in the result\n", head->columns, *journal_row,
+    printf("a row of %d numbers: %.3f us in FILE.part, %.3f us in the result\n", head->columns, *part_row,
            *result_row);
-    iso_sweep_journal_close(journal);
+    iso_sweep_store_close(store);
     iso_sweep_rows_free(&rows);
     iso_sweep_free(sweep);
     iso_sweep_file_free(file);
@@ -188,11 +188,11 @@ int main(int argc, char **argv)
     const double fetch = argc > 1 ? strtod(argv[1], NULL) : 5, message = argc > 2 ? strtod(argv[2], NULL) : 15;
     static const double point[] = {1e-3, 1e-2, 1e-1, 1, 10}, chunk[] = {1, 10};
     static const size_t ranks[] = {100, 1000, 10000};
-    double spread[SAMPLES], journal_row, result_row;
+    double spread[SAMPLES], part_row, result_row;
     ctx = iso_context_create();
     if (!ctx) return 1;
     measure_chunks(spread);
-    measure_rows(&journal_row, &result_row);
+    measure_rows(&part_row, &result_row);
     printf(
         "a fetch takes %.1f us, a message %.1f us\n\nefficiency for a day's work, and chunks a second at which the "
         "writer is full\npoint     chunk  ",
@@ -202,7 +202,7 @@ int main(int argc, char **argv)
     for (int c = 0; c < 2; c++)
         for (int p = 0; p < 5; p++) {
             const double rows = point[p] < chunk[c] ? chunk[c] / point[p] : 1, length = rows * point[p];
-            const costs cost = {1e-6 * fetch, 1e-6 * (message + rows * journal_row), length, spread};
+            const costs cost = {1e-6 * fetch, 1e-6 * (message + rows * part_row), length, spread};
             printf("%6.3f s %6.0f s ", point[p], length);
             for (int r = 0; r < 3; r++)
                 printf("%10.1f %%", 100 * efficiency(&cost, ranks[r], rows, 1e-6 * result_row));

@@ -37,7 +37,7 @@ is_readable() {
     sed -n 's/^ball: *{mass: \([^,]*\), radius: \([^,]*\),.*/\1 \2/p; s/^time: *{end: \([^}]*\)}/\1/p' out | tr ' ' '\n' >round
     check "$1: mass, radius and end" test "$(wc -l <round)" -eq 3
     check "$1: round: $(tr '\n' ' ' <round)" test "$(grep -cxE '(0\.0*|)[125](0*|e[-+]?[0-9]+)' round)" -eq 3
-    omega=$(sed -n 's/^  angular_velocity: \[\(.*\)\]/\1/p' out | awk -F, '{ print sqrt($1 * $1 + $2 * $2 + $3 * $3) }')
+    omega=$(sed -n 's/^ *angular_velocity: \[\(.*\)\]}/\1/p' out | awk -F, '{ print sqrt($1 * $1 + $2 * $2 + $3 * $3) }')
     at_most "$1: angular velocity" "$omega" 3
     at_most "$1: angular velocity $omega, at least 0.3" 0.3 "$omega"
     turns=$(awk -v omega="$omega" 'END { print omega * $1 / 6.2831853 }' round)
@@ -70,18 +70,17 @@ check "2 E - c" grep -qx '# reduced: k = -1, J = 3 2 1.5' out
 reports "h = eps k^2/det J = 0.05555555555555555" # 1/(2 x 9)
 check "B = 2 A" grep -qx 'surface: {kind: shell, radius: 0.5}' out
 # J1 + J2 - J3 = 0.5, twice D: J times 4, less D = 1
-check "the body" grep -qx 'ball:    {mass: 1, radius: 1, inertia: \[11, 7, 5\]}' out
+check "the body" grep -qx 'ball: {mass: 1, radius: 1, inertia: \[11, 7, 5\]}' out
 finds "free Neumann of no body" "triangle inequality: J1 + J2 - J3 = -0.5" --neumann 1,2,4 --energy 2.25
 reports "--level gives one that has a body"
 check "k and J" grep -qx 'reduced: {k: -1, J: \[3.5, 2.5, 0.5\]}' out
 finds "Neumann with --level" "d = 10" --neumann 1,2,4 --energy 2.25 --level
 check "it has a body" grep -q '^ball: .*inertia' out
-check "and a level" grep -q '^effects: {level: {c: ' out
+check "and a level" grep -q '^  level: {c: ' out
 finds "Neumann below the top" "no free ball: 2 E - c = 1 0 -1" --neumann 1,2,3 --energy 1
 finds "at rest" "energy M^2/2 + V = 0.5; V is between 0.5 and 1.5" --neumann 1,2,3 --energy 0.5
-check "a ball at rest" grep -qx '  angular_velocity: \[0, 0, 0\]' out
+check "a ball at rest" grep -q '^ *angular_velocity: \[0, 0, 0\]}$' out
 finds "plane" "ball: free, since the energy is 0" --k 1 --J 1.4,2.1,3 --eps 6.5
-check "a plane has no radius" grep -qx 'surface: {kind: plane}' out
 finds "outside" "body: outside, m = 3, B = 0.1, A = 0.2333333333" --k 0.7 --J 1.4,2.1,3 --eps 6.5 --energy 2 --mass 3 --radius 0.1
 reports "no free ball: for k = 0.7 a free ball has E = 0"
 finds "inside" "eps and h are negative" --k 2 --J 1.4,2.1,3 --eps -1.5 --energy 1
@@ -128,7 +127,7 @@ run 0 analogue more.yaml
 check "what acts on nothing is left out" cmp out ball.yaml
 sed 's/end: 20/end: -20/' point.yaml >back.yaml
 run 0 analogue back.yaml
-check "backwards" grep -q '^time:    {end: -' out
+check "backwards" grep -q '^time: {end: -' out
 agrees "backwards"
 
 # --- refusals

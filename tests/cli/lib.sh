@@ -52,9 +52,14 @@ worked() {
     esac
 }
 
-# in_journal FILE BYTES PID: the sweep's journal is there, and has more bytes
-in_journal() {
-    [ "$(cat "$1.journal" 2>/dev/null | wc -c)" -gt "$2" ]
+# part_of FILE: where the rows of a sweep into FILE are until all are there
+part_of() {
+    case $1 in *.h5) echo "$1.csv.part" ;; *) echo "$1.part" ;; esac
+}
+
+# in_part FILE BYTES PID: the part of the sweep into FILE is there, and has more bytes
+in_part() {
+    [ "$(cat "$(part_of "$1")" 2>/dev/null | wc -c)" -gt "$2" ]
 }
 
 # await CONDITION... PID: waits until it is so, or the program has ended
@@ -81,7 +86,7 @@ signalled() {
     wait $!
 }
 
-# held FILE ARGUMENT...: starts isoroll with a sweep into FILE, and stops it (SIGSTOP) when its journal has begun; from
+# held FILE ARGUMENT...: starts isoroll with a sweep into FILE, and stops it (SIGSTOP) when its part has begun; from
 # the beginning if it has ended by then. Its number is in $pid.
 held() {
     into=$1
@@ -90,7 +95,7 @@ held() {
         rm -f "$into"
         "$isoroll" "$@" -o "$into" 2>err &
         pid=$!
-        await in_journal "$into" 200 $pid
+        await in_part "$into" 800 $pid
         kill -STOP $pid 2>/dev/null
         [ -e "$into" ] || return 0
         kill -CONT $pid 2>/dev/null

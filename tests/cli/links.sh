@@ -25,7 +25,7 @@ writes() {
         check "$last ($there): its end is a file" test -f "there/$made" -a ! -h "there/$made" -a -s "there/$made"
         check_not "$last ($there): it is as before" grep -qx old "there/$made"
         [ -z "$there" ] || check "$last: its permissions" test "$(stat -c %a "there/$made")" = 640
-        check "$last ($there): nothing else is left" test "$(ls -A there chain . | grep -c 'part$\|journal$')" -eq 0
+        check "$last ($there): nothing else is left" test "$(ls -A there chain . | grep -c 'part$')" -eq 0
     done
     rm -f "$made" there/*
     ln -s missing/file "$made"
@@ -51,12 +51,10 @@ writes text.txt manual run -o
 ! command -v gnuplot >/dev/null || writes picture.svg plot ball.csv -o
 "$isoroll" view ball.csv -o - >/dev/null 2>&1 && writes page.html view ball.csv -o
 
-# a sweep's journal stands beside the result, not beside the link; or where a link of its name leads
+# a sweep's part stands beside the result, not beside the link
 ln -s there/far.csv near.csv
-ln -s ../chain/journal there/far.csv.journal
 run 0 sweep sweep.yaml -o near.csv
-check "the result" test -f there/far.csv -a -h near.csv
-check "the journal is gone, its link is left" test -h there/far.csv.journal -a ! -e chain/journal
+check "the result" test -f there/far.csv -a -h near.csv -a ! -e there/far.csv.part
 
 # to what is no regular file: text goes there, HDF5 cannot
 mkfifo pipe

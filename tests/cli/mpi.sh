@@ -74,7 +74,7 @@ ranks 0 3 sweep quick.yaml -o quick.h5 --resume
 for shard in 1 2; do ranks 0 2 sweep quick.yaml -o part.$shard.h5 --shard $shard/2; done
 ranks 0 2 sweep --merge part.?.h5 -o merged.h5
 check "shards by ranks, merged" cmp quick.h5 merged.h5
-check "no journal stays" test "$(find . -name '*.part' -o -name '*.journal' | wc -l)" -eq 0
+check "no part stays" test "$(find . -name '*.part' | wc -l)" -eq 0
 
 # --- what is refused is refused once, with the status of isoroll
 echo "my thesis" >thesis.csv
@@ -112,13 +112,14 @@ pids() {
         END { for (i in name) if (name[i] ~ /^isoroll-mpi/) for (j = i; j > 1; j = above[j]) if (j == top) print i }' |
         sort -n
 }
-# start N FILE [CHUNKS]: a run in the background, of $pid; it goes on when so many further chunks are in the journal
+# start N FILE [CHUNKS]: a run in the background, of $pid; it goes on when so many further chunks are in the part
 start() {
-    begin=$(cat "$2.journal" 2>/dev/null | wc -c)
+    begin=$(cat "$(part_of "$2")" 2>/dev/null | wc -c)
+    [ "$begin" -gt 0 ] || begin=800 # the header
     # shellcheck disable=SC2086
     "$mpirun" $options -n "$1" "$program" sweep long.yaml -o "$2" --resume >out 2>err </dev/null &
     pid=$!
-    await in_journal "$2" $((begin + ${3-2} * 100)) $pid
+    await in_part "$2" $((begin + ${3-2} * 100)) $pid
 }
 # midway N FILE COMMAND: start, then COMMAND, then its end, with $status; again if the run was done before
 midway() {
@@ -138,10 +139,10 @@ if has ps "signals and kills"; then
     run 0 sweep long.yaml -o long.h5
     midway 3 stopped.h5 to_all
     check "USR1 to all" test $status -eq 0
-    once "stopped by SIGTERM or SIGUSR1: .* of 60 chunks are in 'stopped.h5.journal'"
+    once "stopped by SIGTERM or SIGUSR1: .* of 60 chunks are in 'stopped.h5.csv.part'"
     midway 3 stopped.h5 to_last
     check "TERM to the last rank" test $status -eq 0
-    once "stopped by SIGTERM or SIGUSR1: .* of 60 chunks are in 'stopped.h5.journal'"
+    once "stopped by SIGTERM or SIGUSR1: .* of 60 chunks are in 'stopped.h5.csv.part'"
     ranks 0 2 sweep long.yaml -o stopped.h5 --resume
     check "after signals" cmp stopped.h5 long.h5
 
@@ -149,7 +150,7 @@ if has ps "signals and kills"; then
     if has prlimit "a full disk"; then
         midway 3 full.h5 full_disk
         check "a full disk" test $status -eq 5
-        once "cannot write 'full.h5.journal': File too large"
+        once "cannot write 'full.h5.csv.part': File too large"
         ranks 0 4 sweep long.yaml -o full.h5 --resume
         check "after a full disk" cmp full.h5 long.h5
     fi

@@ -1,6 +1,6 @@
 #!/bin/sh
 # sweep.sh ISOROLL - `isoroll sweep`: the same bytes whichever way they are computed, every quantity as its own command
-# gives it. Its files and journals: sweep_files.sh.
+# gives it. Its files: sweep_files.sh.
 . "$(dirname "$0")/lib.sh"
 
 scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >scene.yaml
@@ -64,7 +64,7 @@ grep -v '^#' other.csv >two
 check "other chunks give the same rows" cmp one two
 "$isoroll" sweep other.yaml -o other.2.csv --shard 2/5 2>err
 refuses 5 "part of another sweep" sweep --merge part.1.$h5 other.2.csv -o new.$h5
-check "no journal stays" test "$(find . -name '*.part' -o -name '*.journal' | wc -l)" -eq 0
+check "no part stays" test "$(find . -name '*.part' | wc -l)" -eq 0
 
 # --- shards of Slurm: arrays can begin anywhere, and go in steps
 slurm() { SLURM_ARRAY_TASK_ID=$1 SLURM_ARRAY_TASK_COUNT=5 SLURM_ARRAY_TASK_MIN=$2 SLURM_ARRAY_TASK_STEP=$3 \
@@ -163,14 +163,28 @@ run 0 sweep contact.yaml -o contact.csv
 run 0 run off.yaml -o run.csv
 equal "contact is lost" "$(cell contact.csv 0 contact_time)" "$(tail -n 1 run.csv | cut -d, -f1)"
 
-# --- a scene of a point reads back as the same start: its sweep with nothing but itself
-run 0 sweep each.yaml --point 1
-cp out point.yaml
-printf 'scene: point.yaml\nvary: {k: -0.75}\nmeasure: {state: {as: both}}\nuntil: {time: 400}\n' >itself.yaml
-run 0 sweep itself.yaml -o itself.csv
-for name in omega1 omega2 n1 n3 M1 gamma2; do
-    equal "read back: $name" "$(cell each.csv 1 state_$name)" "$(cell itself.csv 0 state_$name)"
-done
+# --- every study that has numbers can be measured, with its own options and names
+cat >studies.yaml <<'END'
+scene: scene.yaml
+vary: {k: [0.5, -0.75]}
+measure:
+  section: {crossings: 9, as: both}
+  periodic: {period: 2, all: false}
+  chaos: {turns: 70, exponent_turns: 80, at: [0.4, 0.3]}
+  compare: {t-end: 4}
+END
+run 0 sweep studies.yaml -o studies.csv # its numbers: test_sweep
+run 0 compare scene.yaml --t-end 4 --json
+equal "compare: the largest difference of M" "$(cell studies.csv 0 compare_worst_difference_M)" "$(value M 1)"
+sed 's/crossings/crosings/' studies.yaml >bad.yaml
+refuses 3 "bad.yaml:4:13: section has no option 'crosings'; did you mean 'crossings'?" sweep bad.yaml
+sed 's/crossings: 9/threads: 2/' studies.yaml >bad.yaml
+refuses 3 "bad.yaml:4:13: 'threads' changes no number" sweep bad.yaml
+sed 's/period: 2/steps: 2/' studies.yaml >bad.yaml
+refuses 3 "bad.yaml:5:3: periodic: periodic: --steps goes with --chart" sweep bad.yaml
+sed 's/all: false/chart: J2/;s/period: 2, //' studies.yaml >bad.yaml
+run 1 sweep bad.yaml -o chart.csv
+says "with these options it has no numbers of one scene"
 
 # --- a bad scene inside; other bad files are in bad_files.txt
 refuses 3 "<stdin>:1:" sweep - <<'END'

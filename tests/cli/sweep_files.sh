@@ -1,6 +1,7 @@
 #!/bin/sh
 # sweep_files.sh ISOROLL - files of sweeps that are damaged, cut short, changed by hand, or in the way: words and
-# status 5, never a crash, a wrong row, or a file that is overwritten. Journals after a full disk, kill -9 and signals.
+# status 5, never a crash, a wrong row, or a file that is overwritten. Parts that are gone on with after a full disk, kill -9 and
+# signals.
 . "$(dirname "$0")/lib.sh"
 
 scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >scene.yaml
@@ -152,15 +153,18 @@ silent
 check "a result that is there stays" cmp all.$h5 before.$h5
 run 1 sweep fails.yaml -o fails.csv --resume
 says "1 of 2 points failed; the first is point 0: scene.yaml:1:14: k = 0"
-cp thesis.csv new.csv.journal
-refuses 5 "is no journal of a sweep" sweep sweep.yaml -o new.csv --resume
+cp thesis.csv new.csv.part
+refuses 5 "is no file of a sweep: it would be overwritten" sweep sweep.yaml -o new.csv --resume
 check "the thesis" cmp thesis.csv thesis.copy
-check "the thesis, as a journal" cmp new.csv.journal thesis.copy
-rm new.csv.journal
+check "the thesis, as a part" cmp new.csv.part thesis.copy
+printf 'isoroll sweep journal\n\0\0\0' >new.csv.journal
+refuses 5 "'new.csv.journal' is the journal of an older version of isoroll, which cannot be gone on with" \
+    sweep sweep.yaml -o new.csv --resume
+rm new.csv.part new.csv.journal
 refuses 5 "cannot write" sweep sweep.yaml -o /nowhere/new.csv
 run 5 sweep sweep.yaml -o /dev/full
 check "a full disk" grep -q "No space left" err
-# --- a file that appears while the sweep runs stays, and so does the journal
+# --- a file that appears while the sweep runs stays, and so do the rows
 cat >long.yaml <<END
 scene: scene.yaml
 vary: {k: {from: 0.3, to: 0.9, count: 60}}
@@ -180,48 +184,57 @@ for kind in csv $h5; do
     check "$kind: a file has appeared: status $?" test $? -eq 5
     check "$kind: words" grep -q "late.$kind' has appeared: it is not overwritten" err
     check "$kind: it stays" grep -q "my thesis" late.$kind
-    check "$kind: the journal stays" test -s late.$kind.journal
+    check "$kind: the rows stay" test -s "$(part_of late.$kind)"
     rm late.$kind
     run 0 sweep long.yaml -o late.$kind --resume
     check "$kind: it goes on" cmp late.$kind long.$kind
-    check "$kind: nothing is left over" test "$(find . -name '*.part' -o -name '*.journal' | wc -l)" -eq 0
+    check "$kind: nothing is left over" test "$(find . -name '*.part' | wc -l)" -eq 0
 done
-# --- a full disk; a damaged journal stays as it is; what is cut short behind the last record is computed again
+# --- a full disk; what is cut short or damaged behind the last whole chunk is computed again
 checks=$((checks + 1))
 (ulimit -f 4 && "$isoroll" sweep long.yaml -o full.$h5 -j 1 2>err)
 [ $? -eq 5 ] || fail "a full disk: not status 5"
-check "a full disk: words" grep -q "cannot write 'full.$h5.journal': File too large" err
-check "a journal of some chunks" test "$(wc -c <full.$h5.journal)" -gt 600
+part=$(part_of full.$h5)
+check "a full disk: words" grep -q "cannot write '$part': File too large" err
+check "a part with some chunks" test "$(grep -c '^[0-9]' "$part")" -gt 3
 refuses 5 "add --resume to go on with it" sweep long.yaml -o full.$h5
-refuses 5 "journal of another sweep" sweep sweep.yaml -o full.$h5 --resume
-cp full.$h5.journal journal
+refuses 5 "has chunks of another sweep" sweep sweep.yaml -o full.$h5 --resume
+refuses 5 "has chunks of another sweep" sweep long.yaml -o full.$h5 --resume --shard 1/2
+cp "$part" part
 run 0 sweep long.yaml -o full.$h5 --resume
 check "after a full disk" cmp full.$h5 long.$h5
-# behind the head of 96 bytes: the number of a chunk, then a length; an X in the middle
-for damage in "110 1" "110 3" "104 200" "400 130"; do
-    cp journal damaged.$h5.journal
-    printf "\\${damage#* }" | dd of=damaged.$h5.journal bs=1 seek="${damage% *}" conv=notrunc 2>/dev/null
-    cp damaged.$h5.journal damaged.copy
-    refuses 5 "is damaged" sweep long.yaml -o damaged.$h5 --resume
-    check "damaged at $damage: it stays" cmp damaged.$h5.journal damaged.copy
-done
-cp damaged.copy long.$h5.journal
+cp part "$(part_of long.$h5)"
 run 0 sweep long.yaml -o long.$h5 --resume
-check_not "a journal that outlived its result is removed" test -e long.$h5.journal
-for more in 1 30 10000 words; do
-    cp journal torn.$h5.journal
-    case $more in words) printf 'half a record of a chunk' ;; *) head -c $more /dev/zero ;; esac >>torn.$h5.journal
+check_not "a part that outlived its result is removed" test -e "$(part_of long.$h5)"
+# torn WORDS: the part that is in `torn` is gone on with, to the same bytes
+torn() {
+    cp torn "$(part_of torn.$h5)"
     run 0 sweep long.yaml -o torn.$h5 --resume
-    check "$more behind the last record" cmp torn.$h5 long.$h5
+    check "$1" cmp torn.$h5 long.$h5
     rm torn.$h5
+}
+for more in 1 30 10000 words; do
+    case $more in words) printf '7,0.3' ;; *) head -c $more /dev/zero ;; esac | cat part - >torn
+    torn "$more behind the last chunk"
 done
-# --- kill -9 when some chunks more are in the journal, then another number of threads; SIGTERM and SIGINT
+size=$(wc -c <part)
+for less in 0 1 2 5 9 20 40 77 200; do # also in the header
+    head -c $((size - less * less / 4)) part >torn
+    torn "cut short by $less"
+done
+head -c 300 part >torn
+torn "cut in its header"
+awk '/^[0-9]/ && ++n == 3 { sub(/,0,$/, ",x,") } { print }' part >torn
+torn "a damaged row"
+grep -v '^1,' part >torn
+torn "a row that is missing"
+# --- kill -9 when some chunks more are in the part, then another number of threads; SIGTERM and SIGINT
 tries=0 kills=$(length 6 20)
 while [ $tries -lt "$kills" ]; do
-    begin=$(cat killed.$h5.journal 2>/dev/null | wc -c)
+    begin=$(cat "$(part_of killed.$h5)" 2>/dev/null | wc -c)
     "$isoroll" sweep long.yaml -o killed.$h5 --resume -j $((tries % 3 + 1)) 2>/dev/null &
     pid=$!
-    await in_journal killed.$h5 $((begin + tries % 7 * 100)) $pid
+    await in_part killed.$h5 $((begin + tries % 7 * 100)) $pid
     kill -9 $pid 2>/dev/null
     wait $pid 2>/dev/null
     tries=$((tries + 1))
@@ -234,11 +247,11 @@ check "killed $kills times" cmp killed.$h5 long.$h5
 stopped() {
     for _ in 1 2 3 4 5 6 7 8 9 10; do # again if it was done before the signal came
         rm -f stopped.$h5
-        signalled "$1" "in_journal stopped.$h5 200" sweep long.yaml -o stopped.$h5 -j 1
+        signalled "$1" "in_part stopped.$h5 800" sweep long.yaml -o stopped.$h5 -j 1
         [ -e stopped.$h5 ] || break
     done
     check "$1: status $status" test $status -eq "$2"
-    check "$1: words" grep -q "$3: .* of 60 chunks are in 'stopped.$h5.journal'; go on with: .* --resume" err
+    check "$1: words" grep -q "$3: .* of 60 chunks are in '$(part_of stopped.$h5)'; go on with: .* --resume" err
     run 0 sweep long.yaml -o stopped.$h5 --resume
     check "$1" cmp stopped.$h5 long.$h5
     rm stopped.$h5
@@ -247,14 +260,14 @@ stopped TERM 0 "stopped by SIGTERM or SIGUSR1"
 stopped USR1 0 "stopped by SIGTERM or SIGUSR1"
 interruptible "Ctrl-C" && stopped INT 1 "interrupted"
 
-# --- one journal, one program
+# --- one result, one program
 held twice.$h5 sweep long.yaml -j 1
-refuses 5 "another isoroll works on this sweep" sweep long.yaml -o twice.$h5 --resume
+refuses 5 "is in use: another program writes" sweep long.yaml -o twice.$h5 --resume
 kill -CONT $pid
 wait $pid
 check "the first one goes on" cmp twice.$h5 long.$h5
 
-# --- journals where files cannot be locked, and one that is removed between opening and locking it
+# --- where files cannot be locked, and where a part is removed between opening and locking it
 cc=${CC:-cc}
 if [ -z "${ISO_NO_MEMORY-none}" ]; then
     skip "locks" "sanitizers do not let flock be replaced"
@@ -263,10 +276,10 @@ elif has "$cc" "locks"; then
     checks=$((checks + 1))
     ISO_LOCK=none LD_PRELOAD=$PWD/no_lock.so "$isoroll" sweep long.yaml -o unlocked.csv 2>err || fail "without locks"
     check "a file system without locks" cmp unlocked.csv long.csv
-    cp journal gone.csv.journal
-    (ulimit -f 3 && ISO_LOCK=gone.csv.journal LD_PRELOAD=$PWD/no_lock.so "$isoroll" sweep long.yaml -o gone.csv -j 1 \
+    sed '/^#.*/!q' part >gone.csv.part
+    (ulimit -f 4 && ISO_LOCK=gone.csv.part LD_PRELOAD=$PWD/no_lock.so "$isoroll" sweep long.yaml -o gone.csv -j 1 \
         --resume 2>err)
-    check "removed before it was locked: a journal is there" test -s gone.csv.journal
+    check "removed before it was locked: a part is there" test -s gone.csv.part
     run 0 sweep long.yaml -o gone.csv --resume
     check "it can be resumed" cmp gone.csv long.csv
 fi

@@ -77,6 +77,13 @@ static void check_texts(void)
     gsl_test(iso_foreign_yaml_json(ctx, "y", "[a]: 1", 6, text, sizeof text, &length) != ISO_BAD_INPUT ||
                  strncmp(iso_context_message(ctx), "y:1:1: ", 7) != 0,
              "a key that is a list: %s", iso_context_message(ctx));
+    iso_foreign_scene *scene = made(REDUCED("1/3") TIME);
+    gsl_test(iso_foreign_scene_text(ctx, scene, text, sizeof text, &length) != ISO_OK || strlen(text) != length ||
+                 strncmp(text, "reduced: {k: 1/3, J: [", 22) != 0 ||
+                 iso_foreign_scene_text(ctx, scene, part, sizeof part, &whole) != ISO_OK || whole != length ||
+                 strcmp(part, "reduced") != 0 || iso_foreign_scene_text(ctx, scene, NULL, 0, &whole) != ISO_OK,
+             "a scene as text: %s", text);
+    iso_foreign_scene_free(scene);
     while (iso_foreign_scene_key(keys, &section, &key)) keys++;
     gsl_test(keys < 30 || strcmp(section, "output") != 0 || strcmp(key, "columns") != 0, "%d keys, then %s.%s", keys,
              section, key);

@@ -83,14 +83,18 @@ static void check_points(iso_context *ctx, const char *name, const char *text, s
         const size_t i = j * 7919 % family->count;
         iso_scene one, two, again;
         double numbers[2][32];
-        char *scene;
+        char *scene = NULL;
+        size_t length;
         if (family->scene(ctx, family->data, i, &one, numbers[0]) != ISO_OK) {
             gsl_test(1, "%s, point %zu: %s", name, i, iso_context_message(ctx));
             continue;
         }
         family->scene(ctx, family->data, i, &two, numbers[1]);
         unlike += !same(&one, &two) || memcmp(numbers[0], numbers[1], (size_t)family->columns * sizeof(double)) != 0;
-        iso_status status = iso_sweep_scene_text(ctx, f, i, &scene);
+        FILE *to = open_memstream(&scene, &length);
+        if (!to) return;
+        iso_status status = iso_sweep_print_point(ctx, f, i, to);
+        fclose(to);
         if (status == ISO_OK) status = iso_scene_load_text(ctx, "point.yaml", scene, strlen(scene), &again);
         if (status != ISO_OK) gsl_test(1, "%s, point %zu: %s", name, i, iso_context_message(ctx));
         if (status == ISO_OK && !same(&one, &again) && unread++ == 0)

@@ -138,6 +138,18 @@ class Text(Case):
         with open(BALL, encoding="utf-8") as file:
             self.assertEqual(isoroll.Scene(BALL).text, file.read())
 
+    def test_of_a_changed_scene_is_the_library_s(self):
+        third = isoroll.Scene("# k is a fraction\nreduced: {k: 1/3, J: [1, 2, 5/7]}\ntime: {end: 1}\n"
+                              "initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}\n")
+        text = ("reduced: {k: 1/3, J: [1, 2, 5/7]}\n"
+                "initial: {normal: [0.36, 0.48, 0.8],\n          angular_velocity: [0.9, -0.3, -0.225]}\n"
+                "time: {end: 2.5}\n")
+        self.assertEqual(isoroll.Scene(third, end=2.5).text, text)
+        text += "effects:\n  potential: {U: \"c*n1^2\", parameters: {c: 0.1}}\n  attitude: {}\n"
+        changed = isoroll.Scene(third, end=2.5, attitude=True, potential={"U": "c*n1^2", "parameters": {"c": 0.1}})
+        self.assertEqual(changed.text, text)
+        self.assertEqual(eval(repr(changed), {"isoroll": isoroll}).text, text)
+
     def test_of_unusual_yaml(self):
         text = '{"reduced": {k: 5.0e-1, "J": [+1, 2.0,\n 5]}, initial: {project: true, normal: [-0.0, 0, 1], ' \
             "angular_velocity: [1,0,0.5]}, time: {end: 1}, output: {columns: ['t', \"n1\"]}}"

@@ -2,7 +2,7 @@
  *
  * - A row does not depend on the chunk it is computed in, on threads, or on the order of the chunks.
  * - No thread has more than one chunk that is not given away: so much is lost when a program is killed.
- * - Rows are what the functions of the library give for the scene.
+ * - Rows are what the functions of the library give for the scene, and every study that has numbers can be swept.
  * - A point that fails is a row with its reason; the others are there.
  */
 #include <gsl/gsl_test.h>
@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "instrument/chaos/chaos.h"
-#include "instrument/separatrix/separatrix.h"
 #include "length.h"
 #include "studies.h"
 #include "sweep/sweep_impl.h"
@@ -34,20 +33,14 @@ static iso_status scene_of(iso_context *of, const void *data, size_t i, iso_scen
     return iso_params_reduced(of, numbers[0], (double[]){1, numbers[1], 5}, &scene->params);
 }
 
-static int quantity(const char *name)
+static void ask_with(iso_sweep_plan *plan, const char *name, const char *options)
 {
-    int i = 0;
-    while (strcmp(iso_sweep_quantities()[i]->name, name) != 0) i++;
-    return i;
+    plan->request[plan->requests++] = (iso_sweep_request){.name = name, .options = options};
 }
 
 static void ask(iso_sweep_plan *plan, const char *name)
 {
-    iso_sweep_request *request = &plan->request[plan->requests++];
-    request->quantity = quantity(name);
-    const iso_sweep_setting *s = iso_sweep_quantities()[request->quantity]->settings;
-    for (int i = 0; s && s[i].name; i++) request->setting[i] = s[i].usual;
-    if (strcmp(name, "splitting") == 0) request->setting[0] = ISO_SEPARATRIX_DOUBLE; /* 128 bits take long */
+    ask_with(plan, name, strcmp(name, "splitting") == 0 ? "digits=double" : NULL); /* 128 bits take long */
 }
 
 static iso_sweep_plan plan_of(double turns, double time, size_t chunk)
@@ -202,6 +195,102 @@ static void check_backends(void)
     iso_sweep_rows_free(&a.rows);
 }
 
+/* --- every study -------------------------------------------------------------------------------------------------- */
+
+/* "rotations.0.error" is rotations1_error. Of a proof the lines have what stands in its only row. */
+static void column_of(const char *study, const char *key, char column[])
+{
+    int place;
+    column += sprintf(column, strcmp(study, "prove") == 0 ? "%s_rows1_" : "%s_", study);
+    for (; *key; key++) {
+        int length = 0;
+        if (sscanf(key, ".%d%n", &place, &length) == 1 && (key[length] == '.' || !key[length])) {
+            column += sprintf(column, key[length] || column[-1] < '0' || column[-1] > '9' ? "%d" : "_%d", place + 1);
+            key += length - 1;
+        } else {
+            *column++ = *key == '.' ? '_' : *key;
+        }
+    }
+    *column = '\0';
+}
+
+/* The lines of a study's table have its result, whatever the sweep makes of it. Gives how many numbers are the same. */
+static int compare_lines(const iso_sweep_head *head, const double *row, const char *study, const iso_record *table)
+{
+    const char *key, *value;
+    char column[400], name[2 * ISO_NAME_SIZE + 40], *end;
+    int same = 0;
+    for (size_t i = 0; iso_record_line(table, i, &key, &value); i++) {
+        const double number = strtod(value, &end);
+        column_of(study, key, column);
+        for (int c = 2; c < head->columns; c++) {
+            snprintf(name, sizeof name, "%s_%s", head->column[c].group, head->column[c].name);
+            if (*end || strcmp(name, column) != 0) continue;
+            const bool equal = row[c] == number || (isnan(row[c]) && isnan(number));
+            gsl_test(!equal, "%s: %.17g is %s", column, row[c], value);
+            same += equal;
+        }
+    }
+    return same;
+}
+
+static void check_study(const iso_study *study, const char *options, const iso_scene *scene_asked)
+{
+    iso_sweep_plan plan = plan_of(NAN, NAN, 2);
+    int same = 0;
+    base = *scene_asked;
+    ask_with(&plan, study->name, options);
+    iso_sweep *sweep;
+    iso_sweep_rows rows;
+    must(iso_sweep_create(ctx, &plan, &sweep), study->name);
+    const iso_sweep_head *head = iso_sweep_head_of(sweep);
+    must(iso_sweep_rows_create(ctx, head->columns, 3, &rows), "rows");
+    must(iso_sweep_compute_points(ctx, sweep, 5, 3, &rows), "three points"); /* k = 0.25, 0.5, 0.75 */
+    gsl_test(head->columns < 4, "%s has columns", study->name);
+    for (size_t i = 0; i < 3; i++) {
+        iso_study_result result = {.found = NULL};
+        iso_scene scene;
+        double numbers[2];
+        must(scene_of(ctx, NULL, 5 + i, &scene, numbers), "a scene");
+        const iso_status status = iso_study_ask(ctx, study, &(iso_study_subject){.scene = &scene}, options, &result);
+        gsl_test(status != rows.status[i], "%s, point %zu: %s", study->name, i, rows.reason[i]);
+        const double *row = rows.number + i * (size_t)rows.columns;
+        if (status == ISO_OK && result.found)
+            same += compare_lines(head, row, study->name, result.table[0]);
+        else if (status == ISO_OK)
+            for (int c = 2; c < head->columns; c++) {
+                const int column = iso_record_find(result.table[0], head->column[c].name);
+                const size_t last = iso_record_rows(result.table[0]) - 1;
+                same += column >= 0 && row[c] == iso_record_const_row(result.table[0], last)[column];
+            }
+        iso_study_result_free(&result);
+        if (status != ISO_OK) same++; /* this build cannot */
+    }
+    gsl_test(same < 3, "%s: numbers were compared", study->name);
+    iso_sweep_rows_free(&rows);
+    iso_sweep_free(sweep);
+}
+
+static void check_studies(void)
+{
+    static const struct {
+        const char *name, *options;
+    } quick[] = {{"section", "crossings=9"},     {"chaos", "turns=50\nstarts=2"}, {"frequencies", "turns=40"},
+                 {"splitting", "digits=double"}, {"periodic", "period=1"},        {"integrals", "orbits=8\nturns=5"}};
+    const iso_study *study;
+    plan_of(NAN, NAN, 0);
+    const iso_scene ball = base;
+    iso_scene point = base;
+    must(iso_start_point(ctx, (double[]){0.9, -0.3, -0.225}, (double[]){0.36, 0.48, 0.8}, NULL, true, &point.start),
+         "a point");
+    for (int i = 0; (study = iso_study_at(i)) != NULL; i++) {
+        const char *options = NULL;
+        for (size_t q = 0; q < sizeof quick / sizeof *quick; q++)
+            if (strcmp(quick[q].name, study->name) == 0) options = quick[q].options;
+        if (study->fields) check_study(study, options, study->of & ISO_STUDY_OF_SCENE ? &ball : &point);
+    }
+}
+
 /* --- failures --------------------------------------------------------------------------------------------------- */
 
 /* k = 0 is no ball: the numbers that vary are there, and nothing else. */
@@ -233,6 +322,9 @@ static void check_refusals(void)
     ask(&plan, "state");
     strcpy(plan.vectors, "none");
     gsl_test(iso_sweep_create(ctx, &plan, &sweep) != ISO_BAD_ARGUMENT, "unknown vectors are refused");
+    plan = plan_of(NAN, NAN, 0);
+    ask_with(&plan, "periodic", "steps=7\n");
+    gsl_test(iso_sweep_create(ctx, &plan, &sweep) != ISO_BAD_INPUT, "options that exclude each other are refused");
 }
 
 /* A chunk takes about a second, so that little is lost when a program is killed: points that take long come alone. */
@@ -270,6 +362,7 @@ int main(void)
     check_chaos(false, 300);
     check_chaos(true, 240);
     check_backends();
+    check_studies();
     check_failure();
     check_refusals();
     iso_context_free(ctx);

@@ -65,6 +65,7 @@ _TABLE = {
     "iso_foreign_scene_numbers": (c_int, c_void_p, c_char_p, POINTER(c_double)),
     "iso_foreign_scene_word": (c_char_p, c_void_p, c_char_p),
     "iso_foreign_scene_key": (c_bool, c_int, POINTER(c_char_p), POINTER(c_char_p)),
+    "iso_foreign_scene_text": (c_int, c_void_p, c_void_p, c_char_p, c_size_t, POINTER(c_size_t)),
     "iso_foreign_yaml_json": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, c_char_p, c_size_t, POINTER(c_size_t)),
     "iso_foreign_scene_columns": (c_int, c_void_p, POINTER(c_int)),
     "iso_foreign_run": (c_int, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, _OBJECT) + _NOTES,

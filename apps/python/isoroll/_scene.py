@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import json
 import os
 import sys
 from ctypes import byref, c_char_p, c_double, c_int, c_void_p
@@ -14,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _errors
 from ._library import Owned, check, context, encoded, items, lib, listed, real
-from ._yaml import dump, load, plain
+from ._yaml import dump, filled, load, plain
 
 SceneLike = Union["Scene", str, "os.PathLike[str]", Mapping[str, Any]]
 
@@ -134,9 +133,8 @@ class Scene(Owned):
     be copied and pickled. They cannot be changed.
     """
 
-    _text: bytes
     _name: str
-    _from_text: bool
+    _text: Optional[bytes]  # that it was read from; None: it was made of keywords or a dict, or was changed
 
     def __init__(self, source: Optional[SceneLike] = None, *, k: Optional[float] = None,
                  J: Optional[ArrayLike] = None, D: Optional[float] = None, eps: Optional[float] = None,
@@ -156,10 +154,9 @@ class Scene(Owned):
                 raise _unknown(key)
         settings = {"backend": backend, "method": method, "tolerance": tolerance, "end": end, "step": step, "as": as_,
                     "columns": columns}  # the columns last: those of `as` stand behind it
-        self._settings: Dict[str, Any] = {}
         if keys or source is None:
             self._parse(self._changed(source, keys), "<keywords>")
-            self._from_text = False
+            self._text = None
         else:
             self._take(source)
         for key, value in settings.items():
@@ -172,7 +169,7 @@ class Scene(Owned):
         new, ctx = c_void_p(), context()
         check(lib.iso_foreign_scene_parse(ctx, encoded(name), text, len(text), byref(new)), ctx)
         self._own(new.value, lib.iso_foreign_scene_free)
-        self._text, self._name, self._from_text = text, name, True
+        self._text, self._name = text, name
         self._find_columns()
 
     def _take(self, source: SceneLike) -> None:
@@ -181,11 +178,10 @@ class Scene(Owned):
             new, ctx = c_void_p(), context()
             check(lib.iso_foreign_scene_copy(ctx, source.pointer, byref(new)), ctx)
             self._own(new.value, lib.iso_foreign_scene_free)
-            self._text, self._name, self._from_text = source._text, source._name, source._from_text
-            self._settings, self._columns = dict(source._settings), source._columns
+            self._text, self._name, self._columns = source._text, source._name, source._columns
         elif isinstance(source, Mapping):
             self._parse(dump(source), "<dict>")
-            self._from_text = False
+            self._text = None
         elif isinstance(source, str) and "\n" in source:
             try:
                 self._parse(source.encode(), "<text>")
@@ -224,15 +220,8 @@ class Scene(Owned):
             raise error
         ctx = context()
         check(lib.iso_foreign_scene_set(ctx, self.pointer, key.encode(), encoded(value)), ctx)
-        if key == "as":
-            self._settings.pop("columns", None)
+        self._text = None
         self._find_columns()
-        self._settings[key] = self._setting(key)  # as the library has understood it
-
-    def _setting(self, key: str) -> Any:
-        if key == "columns":
-            return list(self._columns)
-        return float(self._numbers(key)[0]) if key in _NUMBERS else self._word(key)
 
     def _find_columns(self) -> None:
         numbers = (c_int * _MOST_COLUMNS)()
@@ -241,37 +230,29 @@ class Scene(Owned):
 
     # --- as text ----------------------------------------------------------------------------------------------------
 
+    def _printed(self) -> bytes:
+        return filled(lambda *into: lib.iso_foreign_scene_text(context(), self.pointer, *into), 1024)
+
     @property
     def sections(self) -> Dict[str, Any]:
         """What the scene says, as a dict of its sections: Scene(scene.sections) == scene."""
-        found = load(self._text, self._name)
-        for key, value in self._settings.items():
-            section = found.setdefault(_SECTION[key], {})
-            if key == "as":
-                section.pop("columns", None)
-                section.pop("as", None)
-            if not (key == "as" and value == "auto"):
-                section[key] = value
+        found = load(self._text or self._printed(), self._name)
         return {name: value for name, value in found.items() if value != {}}
 
     @property
     def text(self) -> str:
         """YAML that the command takes, and that gives the same run to the bit. Of a file it is the file's own text,
         unless something was changed."""
-        pure = self._from_text and not self._settings
-        return (self._text if pure else dump(self.sections)).decode("utf-8-sig")
-
-    def _value(self) -> str:
-        return json.dumps(_canonical(self.sections), sort_keys=True)
+        return (self._text or self._printed()).decode("utf-8-sig")
 
     def __eq__(self, other: object) -> bool:
-        return self._value() == other._value() if isinstance(other, Scene) else NotImplemented
+        return self._printed() == other._printed() if isinstance(other, Scene) else NotImplemented
 
     def __hash__(self) -> int:
-        return hash(self._value())
+        return hash(self._printed())
 
     def __reduce_ex__(self, protocol: Any) -> Any:
-        return _again, (self._text, self._name, self._from_text, self._settings)
+        return _again, (self._text, self._text or self._printed(), self._name)
 
     def __setattr__(self, name: str, value: Any) -> None:
         if not name.startswith("_"):
@@ -416,23 +397,11 @@ def _file(path: Union[str, "os.PathLike[str]"]) -> Tuple[bytes, str]:
     return text, name
 
 
-def _canonical(value: Any) -> Any:
-    """A value in which equal numbers are alike."""
-    if isinstance(value, dict):
-        return {key: _canonical(item) for key, item in value.items()}
-    if isinstance(value, list):
-        return [_canonical(item) for item in value]
-    return value if isinstance(value, bool) or not isinstance(value, (int, float)) else float(value)
-
-
-def _again(text: bytes, name: str, from_text: bool, settings: Mapping[str, Any]) -> Scene:
+def _again(own: Optional[bytes], text: bytes, name: str) -> Scene:
     """A scene that was pickled."""
     scene = Scene.__new__(Scene)
-    scene._settings = {}
     scene._parse(text, name)
-    scene._from_text = from_text
-    for key, value in settings.items():
-        scene._set(key, value)
+    scene._text = own
     return scene
 
 

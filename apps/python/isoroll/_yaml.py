@@ -1,11 +1,11 @@
-"""The text of scenes and sweeps: from dicts to YAML, and from YAML to dicts by the library."""
+"""The text of scenes and sweeps: from dicts to YAML, and from YAML to dicts, which the library reads."""
 
 from __future__ import annotations
 
 import json
 import re
 from ctypes import byref, c_size_t, create_string_buffer
-from typing import Any, Dict, Mapping
+from typing import Any, Callable, Dict, Mapping
 
 import numpy as np
 
@@ -13,35 +13,22 @@ from . import _errors
 from ._library import check, context, encoded, lib
 
 
-def _word(text: str) -> str:
-    plain = re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", text) and text not in ("true", "false")
-    return text if plain else json.dumps(text, ensure_ascii=False)
-
-
-def _value(value: Any) -> str:
-    """A value as YAML in one line."""
-    if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_word(str(key))}: {_value(item)}" for key, item in value.items()) + "}"
-    if isinstance(value, (bool, np.bool_)):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        return _word(value)
-    if isinstance(value, (int, np.integer)):
-        return str(int(value))
-    if isinstance(value, (float, np.floating)):
-        return repr(float(value))
-    if isinstance(value, np.ndarray) and not np.ma.is_masked(value):
-        return _value(value.tolist())
-    if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(_value(item) for item in value) + "]"
-    raise _errors.BadArgument(f"a scene has numbers, words, lists and dicts, not {type(value).__name__}: {value!r}")
+def _unknown(value: Any) -> Any:
+    """What json does not know as a value that it knows."""
+    known = plain(value)
+    if known is value:
+        raise _errors.BadArgument(f"a scene has numbers, words, lists and dicts, not {type(value).__name__}: {value!r}")
+    return known
 
 
 def dump(sections: Mapping[str, Any]) -> bytes:
-    """A dict as YAML, a line for each section. Numbers read back to the same doubles."""
+    """A dict as YAML, in JSON's form, a line for each section. Numbers read back to the same doubles, and fractions,
+    such as "1/3", as what they are."""
+    json_of = json.JSONEncoder(ensure_ascii=False, default=_unknown).encode
     try:
-        return "".join(f"{_word(str(key))}: {_value(value)}\n" for key, value in sections.items()).encode()
-    except (RecursionError, UnicodeError, ValueError) as error:
+        text = "".join(f"{json_of(str(key))}: {json_of(value)}\n" for key, value in sections.items())
+        return re.sub(r'"([-+.\deE]+/[-+.\deE]+)"', r"\1", text).encode()
+    except (RecursionError, TypeError, UnicodeError, ValueError) as error:
         if isinstance(error, _errors.IsorollError):
             raise
         raise _errors.BadArgument(f"this cannot be made into the text of a scene: {error}") from None
@@ -53,19 +40,26 @@ def plain(value: Any) -> Any:
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
         return [plain(item) for item in value]
+    if isinstance(value, np.floating):
+        return float(value)
     if isinstance(value, (np.ndarray, np.generic)) and not np.ma.is_masked(value):
         return value.tolist()
     return value
 
 
-def load(text: bytes, name: str) -> Dict[str, Any]:
-    """YAML as a dict of dicts, lists, numbers and words. Messages call it `name`."""
-    ctx, room, length = context(), 4 * len(text) + 64, c_size_t()
+def filled(call: Callable[[Any, int, Any], int], room: int) -> bytes:
+    """The text that a function of the library writes into a buffer, of which it tells how long it should be."""
+    length = c_size_t()
     while True:
         buffer = create_string_buffer(room)
-        check(lib.iso_foreign_yaml_json(ctx, encoded(name), text, len(text), buffer, room, byref(length)), ctx)
+        check(call(buffer, room, byref(length)), context())
         if length.value < room:
-            break
+            return buffer.value
         room = length.value + 1
-    found = json.loads(buffer.value)
+
+
+def load(text: bytes, name: str) -> Dict[str, Any]:
+    """YAML as a dict of dicts, lists, numbers and words. Messages call it `name`."""
+    found = json.loads(filled(lambda *into: lib.iso_foreign_yaml_json(context(), encoded(name), text, len(text), *into),
+                              4 * len(text) + 64))
     return found if isinstance(found, dict) else {}

@@ -97,4 +97,5 @@ const iso_study iso_chaos_study = {"chaos",
                                    end,
                                    prepare,
                                    run,
-                                   ISO_STUDY_OF_SCENE};
+                                   ISO_STUDY_OF_SCENE,
+                                   iso_chaos_fields};

@@ -57,7 +57,8 @@ static const iso_field line_fields[] = {
 #define FIELD(key, member, ...) ISO_MEMBER(iso_estimate, key, member, __VA_ARGS__)
 
 static const iso_field found_fields[] = {
-    FIELD("verdict", verdict, "", "on the orbit", .word = iso_verdict_word),
+    FIELD("verdict", verdict, "", "on the orbit; in sweeps 0 regular, 1 chaotic, 2 undecided, 3 integrable",
+          .word = iso_verdict_word),
     FIELD("length", length, "time", "of the orbit, in t"),
     FIELD("turns", turns, "", "of n"),
     FIELD("samples", samples, "", "of the orbit"),
@@ -73,10 +74,11 @@ static const iso_field found_fields[] = {
 
 /* --- all -------------------------------------------------------------------------------------------------------- */
 
-static void find_solution(const void *row, int i, iso_value *v)
+static ISO_NAMES(solution_word, int, "closed", "estimated")
+
+    static double solution_of(const void *row)
 {
-    (void)i;
-    v->text = ((const iso_frequencies *)row)->estimated ? "estimated" : "closed";
+    return ((const iso_frequencies *)row)->estimated;
 }
 
 static const iso_field name_field[] = {ISO_MEMBER(iso_integral, "name", name, "", "of the integral"), ISO_FIELD_END};
@@ -105,7 +107,7 @@ const iso_field iso_frequencies_fields[] = {
     FIELD("h", h, "energy", "of the ball"),
     FIELD("eps", eps, "", "coupling of the point"),
     FIELD("H", H, "energy", "of the point"),
-    ISO_FOUND("solution", ISO_FIELD_NAME, find_solution, "", "closed or estimated"),
+    ISO_COUNT("solution", solution_of, "", "closed or estimated", .word = solution_word),
     FIELD("kind", kind, "", "of the closed solution", .word = kind_word),
     FIELD("motion", motion, "", "in words"),
     ISO_GROUP("integral", integral_fields, "beyond the energy", .there = has_integral),
@@ -155,4 +157,5 @@ const iso_study iso_frequencies_study = {"frequencies",
                                          sizeof(iso_frequencies_options),
                                          begin,
                                          .run = run,
-                                         .of = ISO_STUDY_OF_SCENE};
+                                         .of = ISO_STUDY_OF_SCENE,
+                                         .fields = iso_frequencies_fields};

@@ -193,4 +193,5 @@ const iso_study iso_integrals_study = {"integrals",
                                        sizeof(iso_integral_search_options),
                                        begin,
                                        .run = run,
-                                       .of = ISO_STUDY_OF_SCENE};
+                                       .of = ISO_STUDY_OF_SCENE,
+                                       .fields = found_fields};

@@ -8,7 +8,10 @@ static const char *stability_word(int stability)
     return iso_stability_name((iso_stability)stability);
 }
 
-static const iso_field pair[] = {{.name = "", .type = ISO_FIELD_REAL, .count = 2}, ISO_FIELD_END};
+static const iso_field pair[] = {
+    {.name = "", .type = ISO_FIELD_REAL, .count = 2, .unit = "", .doc = "l and x, or real and imaginary part"},
+    ISO_FIELD_END,
+};
 
 /* --- multipliers ------------------------------------------------------------------------------------------------ */
 

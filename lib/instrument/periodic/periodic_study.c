@@ -328,4 +328,5 @@ const iso_study iso_periodic_study = {"periodic",
                                       begin,
                                       .prepare = prepare,
                                       .run = run,
-                                      .of = ISO_STUDY_OF_SCENE};
+                                      .of = ISO_STUDY_OF_SCENE,
+                                      .fields = iso_periodic_fields};

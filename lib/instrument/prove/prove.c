@@ -331,4 +331,5 @@ const iso_study iso_prove_study = {
     begin,
     .prepare = prepare,
     .run = run,
-    .of = ISO_STUDY_OF_SCENE};
+    .of = ISO_STUDY_OF_SCENE,
+    .fields = iso_proofs_fields};

@@ -241,4 +241,5 @@ const iso_study iso_section_study = {"section",
                                      end,
                                      prepare,
                                      run,
-                                     ISO_STUDY_OF_SCENE};
+                                     ISO_STUDY_OF_SCENE,
+                                     iso_section_fields};

@@ -214,4 +214,5 @@ const iso_study iso_splitting_study = {"splitting",
                                        end,
                                        prepare,
                                        run,
-                                       ISO_STUDY_OF_SCENE};
+                                       ISO_STUDY_OF_SCENE,
+                                       iso_separatrix_table_fields};

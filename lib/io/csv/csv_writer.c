@@ -17,6 +17,7 @@ typedef struct csv {
     bool seen;    /* the file is a terminal: each row is shown at once     */
     char *text;   /* room for a row                                        */
     double shown; /* when all rows were last written, in seconds           */
+    bool headed;  /* the file that is gone on with has its header          */
 } csv;
 
 static double now(void)
@@ -51,16 +52,40 @@ static void write_line(FILE *to, const char *key, const char *value)
 
 /* --- the file --------------------------------------------------------------------------------------------------- */
 
-static iso_status csv_open(iso_context *ctx, iso_table_writer *w, const char *path)
+static iso_status open_csv(iso_context *ctx, iso_table_writer *w, const char *path, bool resumes)
 {
     csv *c = w->data = calloc(1, sizeof *c);
     if (!c) return iso_text_no_memory(ctx, "write", path);
-    const iso_status status = iso_output_open(ctx, path, &c->out);
+    const iso_status status = resumes ? iso_output_resume(ctx, path, &c->out) : iso_output_open(ctx, path, &c->out);
     if (status != ISO_OK) return free(c), status;
     w->name = iso_output_name(c->out);
     c->shown = now();
     c->seen = isatty(fileno(iso_output_stream(c->out))) == 1;
     return ISO_OK;
+}
+
+static iso_status csv_open(iso_context *ctx, iso_table_writer *w, const char *path)
+{
+    return open_csv(ctx, w, path, false);
+}
+
+iso_status iso_csv_resume(iso_context *ctx, iso_table_writer *w, const char *path)
+{
+    return open_csv(ctx, w, path, true);
+}
+
+iso_status iso_csv_cut(iso_context *ctx, iso_table_writer *w, size_t length)
+{
+    csv *c = w->data;
+    c->headed = length > 0;
+    return iso_output_cut(ctx, c->out, length);
+}
+
+static iso_status csv_flush(iso_context *ctx, iso_table_writer *w)
+{
+    csv *c = w->data;
+    fflush(iso_output_stream(c->out));
+    return iso_output_check(ctx, c->out);
 }
 
 static iso_status csv_line(iso_context *ctx, iso_table_writer *w, const char *key, const char *value)
@@ -70,10 +95,8 @@ static iso_status csv_line(iso_context *ctx, iso_table_writer *w, const char *ke
     return iso_output_check(ctx, c->out);
 }
 
-static iso_status csv_header(iso_context *ctx, iso_table_writer *w, const iso_record *header)
+static void print_header(FILE *to, const iso_table_writer *w, const iso_record *header)
 {
-    csv *c = w->data;
-    FILE *const to = iso_output_stream(c->out);
     const char *key, *value;
     const size_t columns = iso_record_columns(header);
     fprintf(to, "# isoroll %s 1\n", w->kind);
@@ -84,7 +107,13 @@ static iso_status csv_header(iso_context *ctx, iso_table_writer *w, const iso_re
     if (w->words) putc('\n', to);
     for (size_t i = 0; i < columns; i++)
         fprintf(to, "%s%c", iso_record_name(header, i), i + 1 < columns ? ',' : '\n');
-    c->text = malloc(columns * ISO_NUMBER_SIZE);
+}
+
+static iso_status csv_header(iso_context *ctx, iso_table_writer *w, const iso_record *header)
+{
+    csv *c = w->data;
+    if (!c->headed) print_header(iso_output_stream(c->out), w, header);
+    c->text = malloc(iso_record_columns(header) * ISO_NUMBER_SIZE);
     return c->text ? iso_output_check(ctx, c->out) : iso_context_no_memory(ctx, "rows of '%s'", w->name);
 }
 
@@ -140,4 +169,4 @@ static iso_status csv_close(iso_context *ctx, iso_table_writer *w, bool keep)
     return status;
 }
 
-const iso_table_writing iso_csv_writing = {csv_open, csv_header, csv_row, csv_line, csv_close};
+const iso_table_writing iso_csv_writing = {csv_open, csv_header, csv_row, csv_line, csv_flush, csv_close};

@@ -23,7 +23,7 @@ static iso_status hdf5_create(iso_context *ctx, iso_table_writer *w, const char 
 {
     iso_hdf5_store *s = w->data = iso_hdf5_store_create();
     if (!s) return iso_text_no_memory(ctx, "write", path);
-    iso_status status = iso_replacement_open(ctx, path, &s->replacement, &s->descriptor);
+    iso_status status = iso_replacement_open(ctx, path, false, &s->replacement, &s->descriptor);
     if (status == ISO_OK) {
         w->name = s->replacement.target;
         ISO_HDF5_QUIETLY(s->file = create_file(s->replacement.temporary));
@@ -180,4 +180,4 @@ static iso_status hdf5_finish(iso_context *ctx, iso_table_writer *w, bool keep)
     return status == ISO_OK ? renamed : status;
 }
 
-const iso_table_writing iso_hdf5_writing = {hdf5_create, hdf5_header, hdf5_row, hdf5_line, hdf5_finish};
+const iso_table_writing iso_hdf5_writing = {hdf5_create, hdf5_header, hdf5_row, hdf5_line, NULL, hdf5_finish};

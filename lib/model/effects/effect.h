@@ -41,8 +41,11 @@ typedef struct iso_effect_number {
         ISO_NUMBER_FLAG,         /* 0 or 1; true or false in a scene                                                */
         ISO_NUMBER_WORD          /* which of `word`, from 0; the word itself in scenes and files                    */
     } kind;
-    bool required;           /* a scene must have the key                                                           */
-    bool scene_only;         /* not a line of trajectory files: the row's `complete` uses it, or only a run does    */
+    bool required;   /* a scene must have the key                                                           */
+    bool scene_only; /* not a line of trajectory files: the row's `complete` uses it, or only a run does    */
+    /* Whose scenes state it. Those of ISO_OF_BODY and ISO_OF_REDUCED stand for each other, and one must be there:
+     * `complete` computes the second from the first, which is scene_only. */
+    enum { ISO_OF_ANY_BALL, ISO_OF_BODY, ISO_OF_REDUCED } of;
     bool hidden;             /* the row finds it by itself: in no scene, no file and no list                        */
     const double *initially; /* count numbers, where a scene has no such key; NULL: zeros                           */
     /* The group of columns with these numbers at later times: a row of a file starts with them (`begin`); NULL: they

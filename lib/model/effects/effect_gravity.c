@@ -156,7 +156,6 @@ static iso_status complete(iso_context *ctx, const iso_params *p, int model, dou
                               body ? "the ball's mass and radius are known" : "k and J know no mass", wanted);
     if (!given(scene, wanted)) return ISO_FAIL_INPUT(ctx, "gravity", "missing '%s' in 'gravity'", wanted);
     if (body) number[MGB] = p->body.mass * number[G] * (iso_params_sign_of_radius(p) * p->body.radius);
-    number[G] = 0;
     if (isfinite(number[MGB])) return ISO_OK;
     return ISO_FAIL_INPUT(ctx, wanted, "the weight m g times the radius b does not fit a double");
 }
@@ -164,8 +163,8 @@ static iso_status complete(iso_context *ctx, const iso_params *p, int model, dou
 static const char *const e_names[] = {"e1", "e2", "e3"};
 
 static const iso_effect_number numbers[] = {
-    {.name = "g", .at = G, .count = 1, .scene_only = true},
-    {.name = "mgb", .at = MGB, .count = 1, .dimension = {1, 0, 2}},
+    {.name = "g", .at = G, .count = 1, .scene_only = true, .of = ISO_OF_BODY},
+    {.name = "mgb", .at = MGB, .count = 1, .dimension = {1, 0, 2}, .of = ISO_OF_REDUCED},
     {.name = "up", .at = UP, .count = 3, .kind = ISO_NUMBER_UNIT, .required = true, .turns_with = "e"},
     {0},
 };

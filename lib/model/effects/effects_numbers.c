@@ -100,7 +100,7 @@ iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *e
     if (!name) return ISO_OK;
     for (int i = 0; iso_effect_number_at(effects, e, i, &n); i++) {
         if (strcmp(n.name, name) != 0) continue;
-        if (n.scene_only && n.kind != ISO_NUMBER_FLAG)
+        if (n.of == ISO_OF_BODY)
             return ISO_FAIL_ARGUMENT(
                 ctx, name, "'%s' of '%s' is for scenes alone: set the number that is computed from it", name, effect);
         if (n.count != count || !has_room(&n))

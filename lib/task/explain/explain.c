@@ -335,4 +335,5 @@ const iso_study iso_explain_study = {"explain",
                                      sizeof(iso_scene_request),
                                      begin,
                                      .run = run,
-                                     .of = ISO_STUDY_OF_SCENE};
+                                     .of = ISO_STUDY_OF_SCENE,
+                                     .fields = fields};

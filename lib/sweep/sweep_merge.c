@@ -1,4 +1,4 @@
-/* sweep_result.c - one result from the parts of a sweep. */
+/* sweep_merge.c - one result from the parts of a sweep. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,13 +6,30 @@
 
 #include "sweep/sweep_store_impl.h"
 
+iso_status iso_sweep_copy(iso_context *ctx, iso_sweep_reader *const part[], size_t count, iso_sweep_shard shard,
+                          const char *path, iso_sweep_failures *failures)
+{
+    const iso_sweep_head *head = &part[0]->head;
+    iso_sweep_writer writer = {.sum = 0};
+    iso_sweep_rows rows;
+    ISO_TRY(iso_sweep_rows_create(ctx, head->columns, head->chunk, &rows));
+    iso_status status = iso_sweep_writer_open(ctx, path, head, shard, false, &writer);
+    for (size_t c = shard.index; c < iso_sweep_chunks(head) && status == ISO_OK; c += shard.count) {
+        status = iso_sweep_reader_rows(ctx, part[c % count], &rows);
+        if (status == ISO_OK) status = iso_sweep_writer_rows(ctx, &writer, &rows);
+        if (status == ISO_OK && failures) iso_sweep_failures_add(failures, &rows);
+    }
+    const iso_status closed = iso_sweep_writer_close(ctx, &writer, status == ISO_OK);
+    iso_sweep_rows_free(&rows);
+    return status == ISO_OK ? closed : status;
+}
+
 /* --- merging ---------------------------------------------------------------------------------------------------- */
 
 typedef struct merger {
     size_t count, given;     /* parts of the sweep; files */
     iso_sweep_reader **part; /* by its index in the sweep */
     const iso_sweep_reader *first;
-    iso_sweep_failures *failures;
 } merger;
 
 /* The first part tells how many there are. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
@@ -52,20 +69,11 @@ static iso_status add_part(iso_context *ctx, merger *m, const char *path)
     return status;
 }
 
-static iso_status next_rows(iso_context *ctx, void *merging, size_t c, iso_sweep_rows *rows)
-{
-    const merger *m = merging;
-    iso_sweep_reader *part = m->part[c % m->count];
-    const iso_status status = iso_sweep_reader_rows(ctx, part, iso_sweep_chunk_points(&part->head, c), rows);
-    if (status == ISO_OK) iso_sweep_failures_add(m->failures, rows);
-    return status;
-}
-
 iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path,
                            iso_sweep_failures *failures)
 {
     struct stat s;
-    merger m = {.given = count, .failures = failures};
+    merger m = {.given = count};
     iso_status status = ISO_OK;
     *failures = (iso_sweep_failures){.count = 0};
     if (strcmp(path, "-") != 0 && stat(path, &s) == 0 && S_ISREG(s.st_mode))
@@ -74,7 +82,7 @@ iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const par
     for (size_t i = 0; i < m.count && status == ISO_OK; i++)
         if (!m.part[i])
             status = iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "part %zu of %zu is missing", i + 1, m.count);
-    if (status == ISO_OK) status = iso_sweep_write(ctx, path, &m.first->head, (iso_sweep_shard){0, 1}, next_rows, &m);
+    if (status == ISO_OK) status = iso_sweep_copy(ctx, m.part, m.count, (iso_sweep_shard){0, 1}, path, failures);
     for (size_t i = 0; i < m.count; i++) iso_sweep_reader_close(m.part[i]);
     free(m.part);
     return status;

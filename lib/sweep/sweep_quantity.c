@@ -1,0 +1,367 @@
+/* sweep_quantity.c - what can be measured at a point: studies. Their options, their columns, and their numbers. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number_impl.h"
+#include "instrument/chaos/chaos_impl.h"
+#include "instrument/periodic/periodic_study_impl.h"
+#include "instrument/section/section_impl.h"
+#include "orbit/orbit_impl.h"
+#include "study/fields_impl.h"
+#include "study/options_impl.h"
+#include "sweep/sweep_impl.h"
+
+/* --- chaos: its columns are those of the models that are integrated; orbits of many scenes go together ----------- */
+
+static const iso_chaos_options *chaos_options(const iso_sweep_job *job)
+{
+    return &((const iso_chaos_request *)job->options)->how;
+}
+
+static bool with_model(const iso_sweep_job *job, iso_models model)
+{
+    const iso_models asked = chaos_options(job)->models;
+    return asked == ISO_SHOW_START || asked == ISO_SHOW_BOTH || asked == model;
+}
+
+static bool chaos_has(const iso_sweep_job *job, const char *name)
+{
+    if (strncmp(name, "ball_", 5) == 0) return with_model(job, ISO_SHOW_BALL);
+    if (strncmp(name, "point_", 6) == 0) return with_model(job, ISO_SHOW_POINT);
+    return strcmp(name, "verdict") == 0 || chaos_options(job)->starts > 0;
+}
+
+static void chaos_settle(const iso_sweep_job *job, void *options)
+{
+    ((iso_chaos_request *)options)->how.vectors = job->vectors;
+}
+
+/* Starts that failed are counted in the share. */
+static iso_status chaos_check(iso_context *ctx, const void *found)
+{
+    const iso_chaos *c = found;
+    if (c->own.status[ISO_BALL] == ISO_OK && c->own.status[ISO_POINT] == ISO_OK) return ISO_OK;
+    return iso_context_fail(ctx, c->failure, "", "%s", c->words);
+}
+
+/* Starts of one section already fill the lanes. */
+static bool chaos_together(const iso_sweep_job *job)
+{
+    const iso_chaos_options *o = chaos_options(job);
+    return o->starts == 0 && o->at_count == 0 && o->axis == ISO_AXIS_AUTO;
+}
+
+/* A turn takes about 15 microseconds by each model, and most orbits have a verdict after 1000. Orbits are followed in
+ * the lanes of vectors, so points come in eights. With effects a turn takes 300 microseconds, and each orbit goes
+ * alone. */
+static size_t chaos_chunk(const iso_sweep_job *job)
+{
+    enum { MOST = 512, LANES = 8 };
+    const iso_chaos_options *o = chaos_options(job);
+    const double asked = fmax(fmin((double)o->turns, 1000), (double)o->exponent_turns),
+                 models = with_model(job, ISO_SHOW_BALL) + with_model(job, ISO_SHOW_POINT);
+    const iso_effects acting = job->base ? iso_scene_acting(job->base) : iso_effects_default();
+    const bool effects = iso_effects_beyond_level(&acting);
+    const double point = (effects ? 300e-6 : 15e-6) * asked * models * ((double)o->starts + 1),
+                 fits = fmin(1 / point, MOST);
+    if (o->starts > 0 || effects) return fits > 1 ? (size_t)fits : 1;
+    return fits > LANES ? (size_t)(fits / LANES) * LANES : LANES;
+}
+
+/* --- the list ---------------------------------------------------------------------------------------------------- */
+
+static void section_settle(const iso_sweep_job *job, void *options)
+{
+    ((iso_section_request *)options)->how.vectors = job->vectors;
+}
+
+static void rotations_settle(const iso_sweep_job *job, void *options)
+{
+    (void)job;
+    ((iso_periodic_request *)options)->how.rotations_alone = true; /* the search for other orbits takes long */
+}
+
+/* Of t and s one is the scene's own clock. */
+static bool backends_has(const iso_sweep_job *job, const char *name)
+{
+    return strcmp(name, job->base->start.model == ISO_BALL ? "t" : "s") != 0;
+}
+
+#define CHAOS(m)                                                                                                     \
+    m "_verdict " m "_turns " m "_megno " m "_gali2 " m "_per_turn=" m "_exponent_per_turn " m "_exponent_t " m      \
+      "_exponent_tau " m "_exponent_s " m "_error_t " m "_error_tau " m "_error_s "
+#define FREQUENCY(i)                                                                                                 \
+    "f" i "_t=angles" i "_frequency_t f" i "_tau=angles" i "_frequency_tau f" i "_s=angles" i "_frequency_s "
+#define ROW(name) name "=rows1_" name " "
+#define WORST(name) name "=worst_difference_" name " "
+#define AXIS(a) "trace" a "=rotations" a "_half_turn_trace "
+#define ERROR(a) "error" a "=rotations" a "_error "
+
+/* Those with columns or words of their own; other studies follow by their names. The words of older sweeps have the
+ * columns of then. */
+static const iso_sweep_quantity special[] = {
+    {"state", &iso_state_study, .chunk = iso_sweep_state_chunk, .add = iso_sweep_add_state,
+     .settle = iso_sweep_settle_state},
+    {"chaos", &iso_chaos_study,
+     "verdict share=share_chaotic share_low share_high regular=share_regular undecided=share_undecided "
+     "failed=share_failed " CHAOS("ball") CHAOS("point"),
+     .chunk = chaos_chunk, .has = chaos_has, .settle = chaos_settle, .check = chaos_check,
+     .together = chaos_together},
+    {"frequencies", &iso_frequencies_study,
+     "rotation=rotation_number " FREQUENCY("1")
+         FREQUENCY("2") "f1_error=angles1_error_t f2_error=angles2_error_t "
+                        "verdict=estimate_verdict estimated=solution h F=integral_value",
+     .points = 2},
+    {"splitting", &iso_splitting_study,
+     ROW("x") ROW("m") ROW("error") ROW("x_error") ROW("x_tail") ROW("m_tail") ROW("digits") ROW("multiplier")
+         ROW("from_zero") "axis",
+     .points = 2},
+    {"rotations", &iso_periodic_study, AXIS("1") AXIS("2") AXIS("3") ERROR("1") ERROR("2") ERROR("3"), .points = 64,
+     .settle = rotations_settle},
+    {"backends", &iso_compare_study,
+     WORST("omega") WORST("n") WORST("M") WORST("gamma") WORST("t") WORST("tau") WORST("s") "largest", .points = 8,
+     .has = backends_has},
+    {"error", &iso_error_study, .points = 8},
+    {"contact", &iso_contact_study, .chunk = iso_sweep_state_chunk},
+    {"section", &iso_section_study, .points = 2, .settle = section_settle},
+};
+enum { SPECIAL = sizeof special / sizeof *special };
+
+static bool is_special(const char *name)
+{
+    int i = 0;
+    while (i < SPECIAL && strcmp(special[i].name, name) != 0) i++;
+    return i < SPECIAL;
+}
+
+bool iso_sweep_quantity_at(int i, iso_sweep_quantity *q)
+{
+    if (i < SPECIAL) return *q = special[i], true;
+    const iso_study *study;
+    for (int s = 0; (study = iso_study_at(s)) != NULL; s++)
+        if (study->fields && !is_special(study->name) && i-- == SPECIAL)
+            return *q = (iso_sweep_quantity){study->name, study, .points = 2}, true;
+    return false;
+}
+
+static bool find_quantity(const char *name, iso_sweep_quantity *q)
+{
+    int i = 0;
+    while (iso_sweep_quantity_at(i, q) && strcmp(q->name, name) != 0) i++;
+    return iso_sweep_quantity_at(i, q);
+}
+
+const char *iso_sweep_quantity_name(int i)
+{
+    iso_sweep_quantity q;
+    return iso_sweep_quantity_at(i, &q) ? q.name : NULL;
+}
+
+const iso_study *iso_sweep_study(const char *quantity)
+{
+    iso_sweep_quantity q;
+    return find_quantity(quantity, &q) ? q.study : NULL;
+}
+
+/* --- options ----------------------------------------------------------------------------------------------------- */
+
+const char *iso_sweep_option(const char *options, const char *name)
+{
+    const size_t length = strlen(name);
+    const char *value = NULL;
+    for (const char *line = options; line && *line; line += strcspn(line, "\n"), line += *line == '\n')
+        if (strncmp(line, name, length) == 0 && line[length] == '=') value = line + length + 1;
+    return value;
+}
+
+static bool has_option(const iso_study *study, const char *name)
+{
+    const iso_option *o = study->options;
+    while (o->name && strcmp(o->name, name) != 0) o++;
+    return o->name != NULL;
+}
+
+bool iso_sweep_has_option(const char *quantity, const char *option)
+{
+    const iso_study *study = iso_sweep_study(quantity);
+    return study && has_option(study, option);
+}
+
+/* Those that the plan makes, then those of the request. One thread: a chunk is computed by one. NULL: no memory. */
+static char *options_text(const iso_sweep_plan *plan, const iso_sweep_request *request, const iso_study *study)
+{
+    char *text = NULL, number[ISO_NUMBER_SIZE];
+    size_t size;
+    FILE *to = open_memstream(&text, &size);
+    if (!to) return NULL;
+    const struct {
+        const char *name;
+        double value;
+    } made[] = {{"threads", 1}, {"turns", plan->turns}, {"t-end", plan->time}};
+    for (size_t i = 0; i < sizeof made / sizeof *made; i++) {
+        iso_number_print(number, made[i].value);
+        if (!isnan(made[i].value) && has_option(study, made[i].name)) fprintf(to, "%s=%s\n", made[i].name, number);
+    }
+    fputs(request->options ? request->options : "", to);
+    if (fclose(to) == 0) return text;
+    free(text);
+    return NULL;
+}
+
+/* --- jobs -------------------------------------------------------------------------------------------------------- */
+
+static bool stop_at_once(void *unused)
+{
+    (void)unused;
+    return false;
+}
+
+/* Whether every scene of the sweep will be refused for what it has: an effect, or columns. */
+static bool is_about_all(const iso_scene *base, const char *about)
+{
+    bool is = strcmp(about, "effects") == 0 || strcmp(about, "columns") == 0;
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        is = is || (base->effects.on[e] && strcmp(about, iso_effect_list[e]->name) == 0);
+    return is;
+}
+
+/* The study is asked for the base, and stopped as soon as it has refused nothing. */
+static iso_status refuse(iso_context *ctx, const iso_sweep_job *job)
+{
+    iso_context *own = iso_context_create();
+    iso_study_result result = {.found = NULL};
+    const iso_study_subject subject = {.scene = job->base};
+    if (!own) return iso_context_no_memory(ctx, "a sweep");
+    iso_context_set_monitor(own, stop_at_once, NULL);
+    iso_status status = job->quantity.study->run(own, &subject, job->options, &result);
+    if ((status == ISO_BAD_INPUT || status == ISO_NOT_MAPPED) && is_about_all(job->base, iso_context_about(own)))
+        iso_context_fail(ctx, status, "", "%s", iso_context_message(own));
+    else
+        status = ISO_OK;
+    iso_study_result_free(&result);
+    iso_context_free(own);
+    return status;
+}
+
+iso_status iso_sweep_job_begin(iso_context *ctx, const iso_sweep_plan *plan, const iso_sweep_request *request,
+                               iso_sweep_job *job)
+{
+    if (!find_quantity(request->name, &job->quantity))
+        return ISO_FAIL_INPUT(ctx, request->name, "there is no quantity '%s'", request->name);
+    const iso_sweep_quantity *q = &job->quantity;
+    job->base = plan->family.base;
+    job->text = options_text(plan, request, q->study);
+    job->options = malloc(q->study->size);
+    if (!job->text || !job->options) return iso_context_no_memory(ctx, "a sweep");
+    iso_status status = iso_study_read(ctx, q->study, job->text, job->options);
+    if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT; /* it stands in a file */
+    job->begun = true;
+    if (status == ISO_OK && q->settle) q->settle(job, job->options);
+    if (status == ISO_OK && job->base) status = refuse(ctx, job);
+    if (status != ISO_OK && status != ISO_NO_MEMORY)
+        iso_context_fail(ctx, status, q->name, "%s: %s", q->name, iso_context_message(ctx));
+    if (status == ISO_OK) iso_sweep_add_columns(job);
+    return status;
+}
+
+void iso_sweep_job_end(iso_sweep_job *job)
+{
+    if (job->begun && job->quantity.study->end) job->quantity.study->end(job->options);
+    free(job->options);
+    free(job->text);
+}
+
+/* --- numbers ----------------------------------------------------------------------------------------------------- */
+
+typedef struct filled {
+    const iso_sweep_job *job;
+    double *number;
+} filled;
+
+static void fill(void *data, const char *name, const iso_field *field, const iso_value *value)
+{
+    const filled *f = data;
+    (void)field;
+    for (int i = 0; value->there && i < f->job->count; i++)
+        if (strcmp(f->job->number[i], name) == 0) f->number[i] = value->number;
+}
+
+/* Of a study that finds no struct, the last row of its table. */
+static void fill_from_row(const iso_sweep_job *job, const iso_record *table, double number[])
+{
+    const double *row = iso_record_const_row(table, iso_record_rows(table) - 1);
+    for (int i = 0; i < job->count; i++) {
+        const int column = iso_record_find(table, job->number[i]);
+        if (column >= 0) number[i] = row[column];
+    }
+}
+
+static double *numbers_of(const iso_sweep_job *job, const iso_sweep_rows *rows, size_t i)
+{
+    return rows->number + i * (size_t)rows->columns + job->first;
+}
+
+static void keep_note(void *words, const char *note)
+{
+    snprintf(words, ISO_REASON_SIZE, "%s", note);
+}
+
+static iso_status take(iso_context *ctx, const iso_sweep_job *job, const iso_study_result *r, const char *words,
+                       double number[])
+{
+    const iso_sweep_quantity *q = &job->quantity;
+    if (r->found && r->fields == q->study->fields)
+        iso_numbers_visit(r->fields, r->found, fill, &(filled){job, number});
+    else if (!r->found && r->table[0] && iso_record_rows(r->table[0]) > 0)
+        fill_from_row(job, r->table[0], number);
+    else
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "with these options it has no numbers of one scene");
+    if (q->check) return q->check(ctx, r->found);
+    return r->failed ? iso_context_fail(ctx, ISO_NUMERICAL, "", "%s", words) : ISO_OK;
+}
+
+static iso_status find(iso_context *ctx, const iso_sweep_job *job, const iso_scene *scene, double number[])
+{
+    char words[ISO_REASON_SIZE] = "it failed";
+    iso_study_result result = {.note = keep_note, .data = words};
+    const iso_study_subject subject = {.scene = scene};
+    iso_status status = job->quantity.study->run(ctx, &subject, job->options, &result);
+    if (status == ISO_OK) status = take(ctx, job, &result, words, number);
+    iso_study_result_free(&result);
+    return status;
+}
+
+/* The points of a chunk, followed together. */
+static iso_status chaos_find_all(iso_context *ctx, const iso_sweep_job *job, iso_sweep_batch *b)
+{
+    iso_chaos **chaos = calloc(b->count + 1, sizeof *chaos);
+    iso_status *status = calloc(b->count + 1, sizeof *status);
+    iso_status answer = chaos && status
+                            ? iso_chaos_run_many(ctx, b->count, b->scene, chaos_options(job), chaos, status)
+                            : iso_context_no_memory(ctx, "the orbits of a chunk");
+    for (size_t i = 0; i < b->count && answer == ISO_OK; i++) {
+        const iso_study_result result = {.found = chaos[i], .fields = iso_chaos_fields};
+        if (!b->scene[i]) continue;
+        if (status[i] == ISO_OK)
+            status[i] = take(ctx, job, &result, "", numbers_of(job, b->rows, i));
+        else
+            iso_context_fail(ctx, status[i], "", "%s", chaos[i] ? chaos[i]->words : "it failed");
+        answer = iso_sweep_note(ctx, job, b, i, status[i]);
+    }
+    for (size_t i = 0; chaos && i < b->count; i++) iso_chaos_free(chaos[i]);
+    free(chaos);
+    free(status);
+    return answer;
+}
+
+/* A point that has failed in an earlier quantity is still asked for the others, but not if it has no scene. */
+iso_status iso_sweep_measure(iso_context *ctx, const iso_sweep_job *job, iso_sweep_batch *b)
+{
+    if (job->quantity.together && job->quantity.together(job)) return chaos_find_all(ctx, job, b);
+    for (size_t i = 0; i < b->count; i++)
+        if (b->scene[i])
+            ISO_TRY(iso_sweep_note(ctx, job, b, i, find(ctx, job, b->scene[i], numbers_of(job, b->rows, i))));
+    return ISO_OK;
+}

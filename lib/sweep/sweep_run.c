@@ -1,0 +1,249 @@
+/* sweep_run.c - quantities of one run, as studies: the state at its end or at a turn, its errors, and when contact is
+ * lost. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "instrument/section/section.h"
+#include "orbit/orbit_impl.h"
+#include "study/options_impl.h"
+#include "sweep/sweep_impl.h"
+#include "task/run.h"
+
+typedef struct run_request {
+    iso_models as, models;        /* -1: not given */
+    double turns, end, tolerance; /* NAN: not given */
+    const char *vectors;
+} run_request;
+
+static void begin(void *options)
+{
+    *(run_request *)options = (run_request){(iso_models)-1, (iso_models)-1, NAN, NAN, NAN, NULL};
+}
+
+void iso_sweep_settle_state(const iso_sweep_job *job, void *options)
+{
+    ((run_request *)options)->vectors = job->vectors;
+}
+
+#define ROW(name, argument, expected, doc, set, member)                                                              \
+    ISO_OPTION(name, argument, expected, doc, set, run_request, member)
+#define ROW_END_OF_RUN ROW("t-end", "T", "a number", "the end, in place of the scene's", iso_set_number, end)
+
+/* The scene with the changes that the sweep asks for. */
+static iso_scene scene_of(const run_request *r, const iso_scene *scene)
+{
+    iso_scene s = *scene;
+    if (!isnan(r->end)) s.end = r->end;
+    if (!isnan(r->tolerance)) s.tolerance = r->tolerance;
+    if ((int)r->as >= 0) s.as = r->as, s.columns = 0;
+    return s;
+}
+
+static iso_models shown_of(const iso_scene *s)
+{
+    return s->as == ISO_SHOW_START ? (iso_models)s->start.model : s->as;
+}
+
+/* --- state ------------------------------------------------------------------------------------------------------ */
+
+/* At a turn: clocks, chart, and the states of the models shown. */
+void iso_sweep_add_state(iso_sweep_job *job)
+{
+    const run_request *r = job->options;
+    const iso_scene s = scene_of(r, job->base);
+    const iso_models as = shown_of(&s);
+    int columns[ISO_MAX_COLUMNS], count = 0;
+    if (isnan(r->turns)) {
+        count = iso_scene_columns(&s, columns);
+    } else {
+        iso_sweep_add(job, "t tau s l x");
+        for (int i = 0; i < ISO_STATE && as != ISO_SHOW_POINT; i++) columns[count++] = ISO_COLUMN_BALL + i;
+        for (int i = 0; i < ISO_STATE && as != ISO_SHOW_BALL; i++) columns[count++] = ISO_COLUMN_POINT + i;
+    }
+    for (int i = 0; i < count; i++) iso_sweep_add(job, iso_column_name(columns[i]));
+}
+
+/* A crossing takes about 0.2 ms by both models, and a ball about 2 microseconds to turn by 1 radian. */
+size_t iso_sweep_state_chunk(const iso_sweep_job *job)
+{
+    enum { MOST = 64 };
+    static const iso_scene none;
+    const run_request *r = job->options;
+    const iso_scene s = scene_of(r, job->base ? job->base : &none);
+    const double *y = s.start.y, speed = sqrt(y[0] * y[0] + y[1] * y[1] + y[2] * y[2]);
+    const double point = isnan(r->turns) ? 2e-6 * fabs(s.end) * speed : 2e-4 * r->turns;
+    return point < 1.0 / MOST ? MOST : point < 1 ? (size_t)(1 / point) : 1;
+}
+
+/* The last row that there is, in a table of one row. */
+typedef struct last_row {
+    iso_context *ctx;
+    iso_record **table;
+} last_row;
+
+static iso_status begin_table(void *data, const iso_record *header)
+{
+    const last_row *last = data;
+    double *row;
+    ISO_TRY(iso_record_create_like(last->ctx, header, 0, NULL, last->table));
+    ISO_TRY(iso_record_append(last->ctx, *last->table, &row));
+    for (size_t i = 0; i < iso_record_columns(header); i++) row[i] = NAN;
+    return ISO_OK;
+}
+
+static iso_status keep_row(void *data, const double row[], size_t count)
+{
+    const last_row *last = data;
+    memcpy(iso_record_row(*last->table, 0), row, count * sizeof *row);
+    return ISO_OK;
+}
+
+static iso_status at_turn(iso_context *ctx, const run_request *r, const iso_scene *s, last_row *last)
+{
+    const iso_section_sink sink = {.header = begin_table, .row = keep_row, .data = last};
+    iso_section_options o = iso_section_defaults();
+    iso_section_result result;
+    o.crossings = (size_t)r->turns;
+    o.shown = shown_of(s);
+    if ((int)r->models >= 0) o.models = r->models;
+    o.threads = 1;
+    o.vectors = r->vectors;
+    ISO_TRY(iso_section_run(ctx, s, &o, &sink, &result));
+    return result.failed == 0 ? ISO_OK : iso_context_fail(ctx, result.failure, "", "%s", result.words);
+}
+
+static iso_status state(iso_context *ctx, const iso_study_subject *subject, const void *options,
+                        iso_study_result *result)
+{
+    const run_request *r = options;
+    const iso_scene s = scene_of(r, subject->scene);
+    last_row last = {ctx, &result->table[0]};
+    const iso_run_sink sink = {.header = begin_table, .row = keep_row, .data = &last};
+    iso_run_options o = iso_run_defaults();
+    ISO_TRY(iso_scene_check_columns(ctx, &s));
+    if (!isnan(r->turns)) return at_turn(ctx, r, &s, &last);
+    o.times = &s.end;
+    o.count = 1;
+    return iso_run(ctx, &s, &o, &sink, NULL);
+}
+
+static iso_status prepare(iso_context *ctx, void *options)
+{
+    const run_request *r = options;
+    if ((int)r->models < 0 || !isnan(r->turns)) return ISO_OK;
+    return ISO_FAIL_ARGUMENT(ctx, "model", "'model' is for 'until: {turns: ...}'");
+}
+
+static const iso_option state_options[] = {
+    ISO_OPTION_MODELS("as", "WHAT", "which model is written: ball, point, both", run_request, as),
+    ISO_OPTION_MODELS("model", "M", ISO_MODELS_INTEGRATED, run_request, models),
+    ROW("turns", "N", "a whole number from 1 on", "the state at this crossing of the section", iso_set_count, turns),
+    ROW_END_OF_RUN,
+    ISO_OPTION_END,
+};
+
+/* Beside the columns of trajectories. */
+static const iso_field state_fields[] = {
+    {.name = "l", .unit = "rad", .doc = "angle of the crossing on the section, in (-pi, pi]"},
+    {.name = "x", .unit = "", .doc = "the other coordinate, M_a/|M| on the section n_a = 0"},
+    ISO_FIELD_END,
+};
+
+const iso_study iso_state_study = {"state",
+                                   "the state at the end (the time of `until`, or the turn)",
+                                   state_options,
+                                   sizeof(run_request),
+                                   begin,
+                                   .prepare = prepare,
+                                   .run = state,
+                                   .of = ISO_STUDY_OF_SCENE,
+                                   .fields = state_fields};
+
+/* --- what a whole run tells --------------------------------------------------------------------------------------- */
+
+/* All rows of the scene, of which none is kept. errors: they are asked for. */
+static iso_status run_all(iso_context *ctx, const iso_scene *scene, bool errors, iso_run_result *result)
+{
+    const iso_run_sink sink = {.data = NULL};
+    iso_run_options o = iso_run_defaults();
+    o.errors = errors;
+    return iso_run(ctx, scene, &o, &sink, result);
+}
+
+#define FIELD(key, member, unit, doc) ISO_MEMBER(iso_run_result, key, member, unit, doc)
+
+static const iso_field error_fields[] = {
+    FIELD("ball", error.state[ISO_BALL].worst, "", "the largest error of omega and n, each by its length"),
+    FIELD("ball_last", error.state[ISO_BALL].last, "", "that of the last row"),
+    FIELD("point", error.state[ISO_POINT].worst, "", "the largest error of M and gamma, each by its length"),
+    FIELD("point_last", error.state[ISO_POINT].last, "", "that of the last row"),
+    FIELD("start", error.start, "", "the part of the largest error that the start's rounding makes"),
+    ISO_FIELD_END,
+};
+
+static iso_status error(iso_context *ctx, const iso_study_subject *subject, const void *options,
+                        iso_study_result *result)
+{
+    const iso_scene s = scene_of(options, subject->scene);
+    iso_run_result *r = iso_study_keep(result, malloc(sizeof *r), error_fields, free);
+    if (!r) return iso_context_no_memory(ctx, "a run");
+    ISO_TRY(run_all(ctx, &s, true, r));
+    if (r->error_status == ISO_OK) return ISO_OK;
+    return iso_context_fail(ctx, r->error_status, "", "the error is not known: %s", r->error_words);
+}
+
+static const iso_option error_options[] = {
+    ISO_OPTION("tolerance", "X", "a number in " ISO_TOLERANCE_RANGE, "in place of the scene's", iso_set_tolerance,
+               run_request, tolerance),
+    ROW_END_OF_RUN,
+    ISO_OPTION_END,
+};
+
+const iso_study iso_error_study = {"error",
+                                   "the largest errors over the rows of `run`, at a tolerance",
+                                   error_options,
+                                   sizeof(run_request),
+                                   begin,
+                                   .run = error,
+                                   .of = ISO_STUDY_OF_SCENE,
+                                   .fields = error_fields};
+
+/* --- contact ---------------------------------------------------------------------------------------------------- */
+
+/* Of the side of the start on which the end lies. */
+typedef struct contact {
+    bool lost;
+    double time;
+} contact;
+
+static const iso_field contact_fields[] = {
+    ISO_MEMBER(contact, "lost", lost, "", "1: contact is lost before the end"),
+    ISO_MEMBER(contact, "time", time, "time", "when it is lost first", ISO_WHEN(contact, lost)),
+    ISO_FIELD_END,
+};
+
+static iso_status find_contact(iso_context *ctx, const iso_study_subject *subject, const void *options,
+                               iso_study_result *result)
+{
+    const iso_scene s = scene_of(options, subject->scene);
+    contact *c = iso_study_keep(result, malloc(sizeof *c), contact_fields, free);
+    iso_run_result r;
+    if (!c) return iso_context_no_memory(ctx, "a run");
+    if (!iso_effects_watch_contact(&subject->scene->effects))
+        return ISO_FAIL_INPUT(ctx, "effects", "the scene needs the effect 'reactions'");
+    ISO_TRY(run_all(ctx, &s, false, &r));
+    *c = (contact){r.lost[s.end < 0], r.lost_at[s.end < 0]};
+    return ISO_OK;
+}
+
+static const iso_option contact_options[] = {ROW_END_OF_RUN, ISO_OPTION_END};
+
+const iso_study iso_contact_study = {"contact",
+                                     "whether contact is lost before the end, and when first",
+                                     contact_options,
+                                     sizeof(run_request),
+                                     begin,
+                                     .run = find_contact,
+                                     .of = ISO_STUDY_OF_SCENE,
+                                     .fields = contact_fields};
