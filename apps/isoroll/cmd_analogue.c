@@ -3,7 +3,7 @@
 
 #include "command.h"
 #include "parameters.h"
-#include "say.h"
+#include "terminal.h"
 #include "task/task_impl.h"
 
 typedef struct options {
@@ -16,7 +16,7 @@ static int run(iso_context *ctx, const void *options_given)
     const options *o = options_given;
     const bool stated = iso_analogue_is_stated(&o->study);
     iso_scene scene = {.places = 0};
-    iso_study_result r = {.note = NULL};
+    iso_study_result r = {.text = NULL};
     if (stated && strcmp(o->file, "-") != 0)
         return complain("analogue: '%s' and a problem in options: leave one of them out", o->file), EXIT_USAGE;
     iso_status status = stated ? ISO_OK : iso_scene_load(ctx, o->file, &scene);
@@ -24,7 +24,7 @@ static int run(iso_context *ctx, const void *options_given)
     if (status == ISO_OK)
         status = iso_analogue_study.run(ctx, &(iso_study_subject){.scene = stated ? NULL : &scene}, &o->study, &r);
     progress_end();
-    if (status == ISO_OK) say("%s", ((const iso_analogue_found *)r.found)->text);
+    if (status == ISO_OK) iso_fold(stdout, ((const iso_analogue_found *)r.found)->text, terminal_width(stdout));
     iso_study_result_free(&r);
     if (!stated) status = name_the_file(ctx, o->file, iso_scene_blame(ctx, &scene, iso_text_name(o->file), status));
     return finish(ctx, status);

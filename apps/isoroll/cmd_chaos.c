@@ -4,7 +4,7 @@
 
 #include "instrument/chaos/chaos_impl.h"
 #include "plot/draw.h"
-#include "say.h"
+#include "terminal.h"
 #include "shell.h"
 #include "study/study_impl.h"
 

@@ -5,7 +5,7 @@
 #include "base/number_impl.h"
 #include "json.h"
 #include "parameters.h"
-#include "say.h"
+#include "terminal.h"
 #include "task/check/check_impl.h"
 
 typedef struct options {

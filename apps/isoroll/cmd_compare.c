@@ -5,7 +5,7 @@
 #include "model/effects/effects_impl.h"
 #include "picture/stretch_impl.h"
 #include "plot/draw.h"
-#include "say.h"
+#include "terminal.h"
 #include "shell.h"
 #include "task/task_impl.h"
 

@@ -4,7 +4,7 @@
 
 #include "base/number_impl.h"
 #include "cost_report.h"
-#include "say.h"
+#include "terminal.h"
 
 /* What cost can be told. */
 typedef struct options {

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "say.h"
+#include "terminal.h"
 #include "shell.h"
 #include "sweep/sweep_impl.h"
 #include "task/explain/explain_impl.h"
@@ -11,11 +11,6 @@ typedef struct options {
     iso_scene_request study;
     shell_options shell;
 } options;
-
-static void print_text(const shell *s)
-{
-    say("%s", ((const iso_explanation *)s->result.found)->text);
-}
 
 static bool changes(const iso_scene_changes *c)
 {
@@ -35,7 +30,7 @@ static int run_sweep(iso_context *ctx, const options *o)
     progress_begin();
     status = iso_sweep_explain(ctx, file, &text);
     progress_end();
-    if (status == ISO_OK) say("%s", text);
+    if (status == ISO_OK) iso_fold(stdout, text, terminal_width(stdout));
     free(text);
     iso_sweep_file_free(file);
     return finish(ctx, status);
@@ -43,7 +38,7 @@ static int run_sweep(iso_context *ctx, const options *o)
 
 static int run(iso_context *ctx, const void *options_given)
 {
-    static const shell_parts parts = {.study = &iso_explain_study, .change = shell_change, .print = print_text};
+    static const shell_parts parts = {.study = &iso_explain_study, .change = shell_change};
     const options *o = options_given;
     return file_kind(o->shell.file, (char[ISO_KIND_SIZE]){0}) == FILE_SWEEP ? run_sweep(ctx, o)
                                                                             : shell_run(ctx, &parts, o, &o->shell);

@@ -6,7 +6,7 @@
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/frequencies/momentum.h"
 #include "plot/draw.h"
-#include "say.h"
+#include "terminal.h"
 #include "shell.h"
 #include "study/options_impl.h"
 #include "study/study_impl.h"

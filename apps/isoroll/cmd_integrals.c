@@ -3,7 +3,7 @@
 
 #include "base/number_impl.h"
 #include "instrument/integrals/integrals_impl.h"
-#include "say.h"
+#include "terminal.h"
 #include "shell.h"
 #include "study/study_impl.h"
 

@@ -1,8 +1,9 @@
 /* isoroll list - prints what there is: systems, backends, effects, methods and so on. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
-#include "say.h"
+#include "terminal.h"
 #include "task/list/list_impl.h"
 
 typedef struct options {
@@ -12,7 +13,13 @@ typedef struct options {
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
-    const iso_status status = iso_list_print(ctx, strcmp(o->topic, "-") == 0 ? NULL : o->topic, say_to());
+    char *text = NULL;
+    size_t length;
+    FILE *to = open_memstream(&text, &length);
+    if (!to) return finish(ctx, iso_context_no_memory(ctx, "a list"));
+    const iso_status status = iso_list_print(ctx, strcmp(o->topic, "-") == 0 ? NULL : o->topic, to);
+    if (fclose(to) == 0 && text && status == ISO_OK) iso_fold(stdout, text, terminal_width(stdout));
+    free(text);
     if (status == ISO_BAD_ARGUMENT) return complain("%s", iso_context_message(ctx)), EXIT_USAGE;
     return finish(ctx, status);
 }

@@ -4,7 +4,7 @@
 
 #include "base/number_impl.h"
 #include "instrument/periodic/periodic_study_impl.h"
-#include "say.h"
+#include "terminal.h"
 #include "scene_options.h"
 #include "shell.h"
 #include "study/study_impl.h"

@@ -3,7 +3,7 @@
 
 #include "instrument/prove/prove_impl.h"
 #include "io/output_impl.h"
-#include "say.h"
+#include "terminal.h"
 #include "scene_options.h"
 #include "shell.h"
 

@@ -7,7 +7,7 @@
 #include "instrument/section/section_impl.h"
 #include "picture/section_impl.h"
 #include "plot/draw.h"
-#include "say.h"
+#include "terminal.h"
 #include "scene_options.h"
 #include "shell.h"
 

@@ -5,7 +5,7 @@
 #include "instrument/separatrix/separatrix_study_impl.h"
 #include "picture/picture_impl.h"
 #include "plot/draw.h"
-#include "say.h"
+#include "terminal.h"
 #include "scene_options.h"
 #include "shell.h"
 

@@ -3,7 +3,7 @@
 
 #include "base/number_impl.h"
 #include "cost_report.h"
-#include "say.h"
+#include "terminal.h"
 #include "study/study_impl.h"
 
 /* --- words ------------------------------------------------------------------------------------------------------ */

@@ -2,12 +2,12 @@
 #include <string.h>
 
 #include "command.h"
-#include "say.h"
+#include "terminal.h"
 
 static int width_of(FILE *to)
 {
     const int width = terminal_width(to);
-    return width == ANY_WIDTH ? USUAL_WIDTH : width;
+    return width == ISO_ANY_WIDTH ? USUAL_WIDTH : width;
 }
 
 /* Each line of text behind `column` blanks, folded. */
@@ -17,7 +17,7 @@ static void print_lines(const char *text, int column, FILE *to)
     while (*text) {
         const int length = (int)strcspn(text, "\n");
         snprintf(line, sizeof line, "%*s%.*s", column, "", length, text);
-        fold_line(to, line, strlen(line), width_of(to));
+        iso_fold_line(to, line, strlen(line), width_of(to));
         text += length;
         text += *text == '\n';
     }
@@ -30,7 +30,7 @@ static void print_row(const option_row *r, FILE *to)
     const char *argument = r->argument ? r->argument : "";
     if (r->letter) snprintf(letter, sizeof letter, " (-%c%s%s)", r->letter, r->argument ? " " : "", argument);
     snprintf(line, sizeof line, "  --%-*s %-*s  %s%s", name, r->name, 18 - name, argument, r->doc, letter);
-    fold_line(to, line, strlen(line), width_of(to));
+    iso_fold_line(to, line, strlen(line), width_of(to));
 }
 
 void help_command(const command *c, FILE *to)
@@ -54,7 +54,7 @@ static void print_command(const command *c, FILE *to)
 {
     char line[512];
     snprintf(line, sizeof line, "  %-11s  %-9s  %s", c->name, c->argument, command_doc(c));
-    fold_line(to, line, strlen(line), width_of(to));
+    iso_fold_line(to, line, strlen(line), width_of(to));
 }
 
 void help_program(FILE *to)

@@ -15,7 +15,6 @@
 #include <yaml.h>
 
 #include "json.h"
-#include "say.h"
 
 void program_version(void)
 {
@@ -63,11 +62,6 @@ int program_run(const command *c, int argc, char **argv)
 /* What was printed may still be lost: a full disk shows when the buffer is written. */
 int program_flush(int status)
 {
-    say_end();
-    if (say_failed()) {
-        complain("no memory for the text: a part of it is missing");
-        if (status == EXIT_DONE) status = EXIT_NUMERICAL;
-    }
     errno = 0;
     if (fflush(stdout) == 0 && !ferror(stdout)) return status;
     if (errno == 0) (void)!write(STDOUT_FILENO, "\n", 1); /* an earlier write failed: this one says why */

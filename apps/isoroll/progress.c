@@ -11,7 +11,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "say.h"
+#include "terminal.h"
 
 enum { WIDTH = 40, LINE = 80, WORDS = 32 /* the percentage, and the times */ };
 
@@ -140,7 +140,7 @@ void progress_show(double part)
     pthread_mutex_unlock(&lock);
 }
 
-void progress_told(double part, void *unused)
+void progress_told(void *unused, double part)
 {
     (void)unused;
     progress_show(part);

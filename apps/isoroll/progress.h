@@ -20,7 +20,7 @@ void progress_begin_rows(const char *output);
 void progress_show(double part);
 
 /* The same, for options of the library that take such a function. */
-void progress_told(double part, void *unused);
+void progress_told(void *unused, double part);
 
 /* What is done from now on until progress_end, "drawing" or another word: the bar shows it, and a part only if it is
  * told. */

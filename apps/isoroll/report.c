@@ -10,7 +10,7 @@
 
 #include "io/replacement_impl.h"
 #include "progress.h"
-#include "say.h"
+#include "terminal.h"
 
 static volatile sig_atomic_t stop_asked, stop_signal;
 
@@ -96,7 +96,7 @@ static void print_message(void)
 {
     char line[sizeof kept + 16];
     const int length = snprintf(line, sizeof line, "isoroll: %s", kept);
-    fold_line(stderr, line, (size_t)length, isatty(STDERR_FILENO) ? terminal_width(stderr) : ANY_WIDTH);
+    iso_fold_line(stderr, line, (size_t)length, isatty(STDERR_FILENO) ? terminal_width(stderr) : ISO_ANY_WIDTH);
 }
 
 /* File names may hold control characters: they become question marks. */

@@ -1,11 +1,11 @@
 /* shell.c - a command that asks a study, from its options to its exit status (see shell.h). */
 #include "shell.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/record_impl.h"
 #include "scene_options.h"
+#include "terminal.h"
 
 /* --- before ----------------------------------------------------------------------------------------------------- */
 
@@ -43,27 +43,14 @@ static iso_status prepare(shell *s, const shell_parts *parts, iso_table_writer *
 
 /* --- after ------------------------------------------------------------------------------------------------------ */
 
-/* The table says of what it is: the scene's numbers (description.h), the version of isoroll, the command line, from
- * which it can be made again, and what the command adds. */
+/* The file's table says of what it is, not all that was found: the scene's numbers, the version of isoroll, and what
+ * the study says (iso_study_describe). */
 static iso_status describe(shell *s, const shell_parts *parts)
 {
     iso_record *table = s->result.table[0];
     iso_record_forget_lines(table);
-    iso_status status = iso_record_describe_scene(s->ctx, table, &s->scene);
-    if (status == ISO_OK) status = iso_record_set(s->ctx, table, "command", options_command());
-    return status == ISO_OK && parts->describe ? parts->describe(s) : status;
-}
-
-iso_status shell_lines(shell *s, const table_line *l)
-{
-    iso_record *table = s->result.table[0];
-    iso_status status = ISO_OK;
-    for (; status == ISO_OK && l->key; l++)
-        if (l->text)
-            status = iso_record_set(s->ctx, table, l->key, l->text);
-        else if (!isnan(l->number))
-            status = iso_record_set_numbers(s->ctx, table, l->key, 1, &l->number);
-    return status;
+    const iso_status status = iso_record_describe_scene(s->ctx, table, &s->scene);
+    return status == ISO_OK ? iso_study_describe(s->ctx, parts->study, &s->subject, s->options, &s->result) : status;
 }
 
 int shell_draw(const shell *s, const iso_record *table)
@@ -71,7 +58,7 @@ int shell_draw(const shell *s, const iso_record *table)
     return finish(s->ctx, iso_plot_table(s->ctx, &s->told->plot, table));
 }
 
-/* Prints words or JSON, unless the table goes to standard output. */
+/* Prints text or JSON, unless the table goes to standard output. */
 static int print(const shell *s, const shell_parts *parts)
 {
     const iso_study_result *r = &s->result;
@@ -79,7 +66,8 @@ static int print(const shell *s, const shell_parts *parts)
         json_t *o = parts->json ? parts->json(s) : json_of_scene(&s->scene, r->fields, r->found);
         return json_print(o) ? EXIT_DONE : EXIT_NUMERICAL;
     }
-    if (parts->print && !(s->told->table && strcmp(s->told->table, "-") == 0)) parts->print(s);
+    if (r->text && !(s->told->table && strcmp(s->told->table, "-") == 0))
+        iso_fold(stdout, r->text, terminal_width(stdout));
     return EXIT_DONE;
 }
 
@@ -100,12 +88,13 @@ static int save(shell *s, const shell_parts *parts, iso_table_writer *writer)
 int shell_run(iso_context *ctx, const shell_parts *parts, const void *options, const shell_options *told)
 {
     shell s = {
-        .ctx = ctx, .options = options, .told = told, .result = {.note = tell_note, .progress = progress_told}};
+        .ctx = ctx, .options = options, .told = told, .result = {.sink = {.note = tell_note, .progress = progress_told}}};
     iso_table_writer *writer = NULL;
     iso_status status = prepare(&s, parts, &writer);
     if (status != ISO_OK) return finish_scene(ctx, told->file, &s.scene, status);
     begin_work(ctx, NULL);
-    status = parts->study->run(ctx, &(iso_study_subject){.scene = &s.scene}, options, &s.result);
+    s.subject = (iso_study_subject){.scene = &s.scene, .command = options_command()};
+    status = iso_study_answer(ctx, parts->study, &s.subject, options, &s.result);
     progress_end();
     int result = finish_scene(ctx, told->file, &s.scene, status);
     if (status == ISO_STOPPED && parts->stopped) complain("interrupted: %s", parts->stopped);

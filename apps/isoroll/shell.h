@@ -20,8 +20,8 @@ typedef struct shell {
     const void *options; /* of the command */
     const shell_options *told;
     iso_scene scene;
+    iso_study_subject subject;
     iso_study_result result; /* table[0] is there */
-    char title[ISO_PLOT_TITLE];
 } shell;
 
 /* A command's own part of it. A function that is NULL has nothing to do. */
@@ -33,9 +33,7 @@ typedef struct shell_parts {
     const char *stopped;                 /* what to say after Ctrl-C ...                          */
     void (*interrupted)(const shell *s); /* ... or who says it; table[0] may be NULL              */
     json_t *(*json)(const shell *s);     /* NULL: version, k, J and all that was found            */
-    void (*print)(const shell *s);       /* words on standard output                              */
     int (*write)(const shell *s);        /* writes what is no table; the exit status              */
-    iso_status (*describe)(shell *s);    /* adds lines to the table, among them its title         */
     int (*draw)(const shell *s);         /* the exit status; NULL: the table is drawn by its kind */
 } shell_parts;
 
@@ -44,16 +42,6 @@ int shell_run(iso_context *ctx, const shell_parts *parts, const void *options, c
 
 /* A `change` of commands whose options begin with those that change something in a scene. */
 iso_status shell_change(shell *s);
-
-/* A line "# key: value" of a table: `text`, or if that is NULL `number`. A NAN is left out. */
-typedef struct table_line {
-    const char *key; /* NULL ends a list */
-    double number;
-    const char *text;
-} table_line;
-
-/* Adds them to the table of the study. */
-iso_status shell_lines(shell *s, const table_line *lines);
 
 /* A picture of a table by its kind; its exit status. */
 int shell_draw(const shell *s, const iso_record *table);

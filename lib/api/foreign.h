@@ -157,7 +157,7 @@ ISO_API iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *
  * Errors: those of the study; ISO_BAD_ARGUMENT about "study", "scene", "record" or about an option. The tables then
  * have the rows that were found before, or are NULL. */
 ISO_API iso_status iso_foreign_study(iso_context *ctx, const iso_foreign_scene *scene, const iso_record *record,
-                                     const char *name, const char *options, void (*progress)(double part, void *data),
+                                     const char *name, const char *options, void (*progress)(void *data, double part),
                                      void *data, iso_record *table[6], char notes[], size_t room);
 
 /* The name of the i-th study; NULL past the end. In one line, what it does; what it is of: bit 0: it needs a scene;
@@ -193,7 +193,7 @@ ISO_API iso_status iso_foreign_list(iso_context *ctx, const char *topic, char te
  *   reason. After a failure or a stop on the way it has the points of finished chunks, and is NULL if there is none.
  * Errors: those of iso_sweep_read, iso_sweep_create and iso_sweep_run. */
 ISO_API iso_status iso_foreign_sweep(iso_context *ctx, const char *path, const char *text, size_t length, int threads,
-                                     void (*progress)(double part, void *data), void *data, iso_record **record);
+                                     void (*progress)(void *data, double part), void *data, iso_record **record);
 
 /* What `isoroll explain` says of a sweep, in the line "text" of the record; for this a few points are computed. *record
  * is NULL if there is no sweep: a scene, or no file that can be read more than once.

@@ -15,7 +15,7 @@
 /* Where a study's words go. */
 typedef struct listener {
     notes notes;
-    void (*progress)(double part, void *data);
+    void (*progress)(void *data, double part);
     void *data;
 } listener;
 
@@ -24,10 +24,10 @@ static void keep_note(void *data, const char *words)
     iso_notes_add(&((listener *)data)->notes, words);
 }
 
-static void show(double part, void *data)
+static void show(void *data, double part)
 {
     const listener *l = data;
-    if (l->progress) l->progress(part, l->data);
+    if (l->progress) l->progress(l->data, part);
 }
 
 static iso_status find(iso_context *ctx, const char *name, const iso_study **study)
@@ -40,12 +40,12 @@ static iso_status find(iso_context *ctx, const char *name, const iso_study **stu
 }
 
 iso_status iso_foreign_study(iso_context *ctx, const iso_foreign_scene *scene, const iso_record *record,
-                             const char *name, const char *options, void (*progress)(double part, void *data),
+                             const char *name, const char *options, void (*progress)(void *data, double part),
                              void *data, iso_record *table[ISO_STUDY_TABLES], char text[], size_t room)
 {
     const iso_study *study;
     listener l = {iso_notes_begin(text, room), progress, data};
-    iso_study_result result = {.note = keep_note, .progress = show, .data = &l};
+    iso_study_result result = {.sink = {.note = keep_note, .progress = show, .data = &l}};
     const iso_study_subject subject = {scene ? &scene->scene : NULL, record};
     for (int i = 0; i < ISO_STUDY_TABLES; i++) table[i] = NULL;
     iso_status status = find(ctx, name, &study);

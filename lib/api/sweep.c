@@ -15,7 +15,7 @@ typedef struct keeper {
     iso_sweep_queue queue;
     size_t chunks, next, taken, added; /* chunks: next to be computed; that were computed; in the table */
     uint64_t sum;                      /* of the rows of the table, in order */
-    void (*progress)(double part, void *data);
+    void (*progress)(void *data, double part);
     void *data;
 } keeper;
 
@@ -46,7 +46,7 @@ static iso_status take_chunk(void *data, iso_context *ctx, size_t c, const iso_s
     (void)c;
     iso_status status = iso_sweep_queue_add(ctx, &k->queue, rows);
     if (status == ISO_OK) status = add(ctx, k, false);
-    if (k->progress) k->progress((double)++k->taken / (double)k->chunks, k->data);
+    if (k->progress) k->progress(k->data, (double)++k->taken / (double)k->chunks);
     return status;
 }
 
@@ -74,7 +74,7 @@ static iso_status run(iso_context *ctx, const iso_sweep_file *file, int threads,
 }
 
 iso_status iso_foreign_sweep(iso_context *ctx, const char *path, const char *text, size_t length, int threads,
-                             void (*progress)(double part, void *data), void *data, iso_record **record)
+                             void (*progress)(void *data, double part), void *data, iso_record **record)
 {
     keeper k = {.progress = progress, .data = data};
     iso_sweep_file *file;

@@ -4,6 +4,7 @@
 
 #include "base/field.h"
 #include "method/method.h"
+#include "base/fold_impl.h"
 #include "study/study.h"
 
 /* The studies and their options. Each stands in the room of its study. Their tables: of chaos the orbits and both
@@ -134,8 +135,13 @@ void *iso_study_keep(iso_study_result *result, void *found, const iso_field *fie
 /* Passes a remark on, in printf's words. */
 void iso_study_note(const iso_study_result *result, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The part of the work that is done, from a study whose own function takes other arguments. */
-void iso_study_progress(const iso_study_result *result, double part);
+/* The part of the work that is done; `result` is the study's. */
+void iso_study_progress(void *result, double part);
+
+/* A table for people, from its fields: the names of its columns, and a row, with tabs between the cells. names: of the
+ * columns that are printed, with blanks between; NULL: all. Six digits, where a field does not say how many. */
+void iso_print_columns(FILE *to, const iso_field *fields, const char *names);
+void iso_print_row(FILE *to, const iso_field *fields, const void *row, const char *names);
 
 /* Copies fields, one of them with another name. */
 void iso_fields_rename(const iso_field *fields, const char *old, const char *name, iso_field copy[ISO_MOST_FIELDS]);

@@ -1,7 +1,7 @@
 /* study.h - studies by their names, with options as text: what the command, Python and others ask of a scene or of a
  * trajectory.
  *
- *     iso_study_result result = {.note = show, .progress = draw};
+ *     iso_study_result result = {.sink = {.note = show, .progress = draw}};
  *     const iso_study_subject subject = {.scene = &scene};
  *     status = iso_study_ask(ctx, iso_study_find("chaos"), &subject, "turns=500\nstarts=20", &result);
  *     ... iso_record_rows(result.table[0]) ...
@@ -15,9 +15,11 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "base/field.h"
 #include "base/record.h"
+#include "base/sink.h"
 #include "orbit/scene.h"
 
 typedef struct iso_option {
@@ -48,22 +50,24 @@ enum { ISO_STUDY_TABLES = 6, ISO_STUDY_MOST_AT = 64 };
 
 /* What is studied. */
 typedef struct iso_study_subject {
-    const iso_scene *scene;   /* NULL: none               */
-    const iso_record *record; /* a trajectory; NULL: none */
+    const iso_scene *scene;   /* NULL: none                                                        */
+    const char *name;         /* of its file, for the line `command` of tables; NULL: not known     */
+    const iso_record *record; /* a trajectory; NULL: none                                           */
+    const char *command;      /* the line itself; NULL: made from the options                       */
 } iso_study_subject;
 
-/* What a study gives, and whom it tells. */
+/* The result of a study, and who takes rows, notes and progress meanwhile. */
 typedef struct iso_study_result {
-    /* NULL: there is none. The lines of the first table hold the scene, and the whole result with the names of the
-     * command's JSON. */
+    /* NULL: there is none. The lines of the first table hold the scene, the command line, and the whole result with the
+     * names of the command's JSON. */
     iso_record *table[ISO_STUDY_TABLES];
     const iso_field *fields; /* of `found`: the result as a struct, ...                         */
     void *found;             /* ... which some studies have besides                             */
     void (*free)(void *found);
+    char *text;  /* what the study tells people (base/fold_impl.h prints it); NULL: nothing */
     bool failed; /* some of what was asked for failed, or was found to be wrong: notes or the tables say what */
-    void (*note)(void *data, const char *words); /* called with a remark for the user; NULL: nobody is */
-    void (*progress)(double part, void *data);   /* the part of the work that is done, in [0, 1]; NULL: nobody is */
-    void *data;
+    /* Of the studies run, section and convert, rows go to sink.row where that is not NULL, and to no table. */
+    iso_sink sink;
 } iso_study_result;
 
 /* What a study needs, ... and what it can use as well. */
@@ -82,6 +86,10 @@ typedef struct iso_study {
     iso_status (*run)(iso_context *ctx, const iso_study_subject *subject, const void *options,
                       iso_study_result *result);
     unsigned of; /* ISO_STUDY_OF_SCENE, ... */
+    /* Prints what was found, for people; NULL: nothing. */
+    void (*print)(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
+    /* Adds lines to the first table, among them its title; NULL: none. */
+    iso_status (*describe)(iso_context *ctx, const iso_scene *scene, const void *options, iso_study_result *result);
     /* Of what it finds in one scene. Its numbers are columns of sweeps; NULL: it has none that another run repeats. */
     const iso_field *fields;
 } iso_study;
@@ -99,7 +107,15 @@ iso_status iso_study_set(iso_context *ctx, const iso_study *study, const char *n
 iso_status iso_study_ask(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
                          const char *options, iso_study_result *result);
 
-/* Frees the tables and what was found. */
+/* The same with options that were read before (iso_study_read). */
+iso_status iso_study_answer(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
+                            const void *options, iso_study_result *result);
+
+/* Adds the lines `command`, `title` and the study's own to the first table. */
+iso_status iso_study_describe(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
+                              const void *options, iso_study_result *result);
+
+/* Frees the tables, the text and what was found. */
 void iso_study_result_free(iso_study_result *result);
 
 #endif

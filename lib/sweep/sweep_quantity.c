@@ -325,7 +325,7 @@ static iso_status take(iso_context *ctx, const iso_sweep_job *job, const iso_stu
 static iso_status find(iso_context *ctx, const iso_sweep_job *job, const iso_scene *scene, double number[])
 {
     char words[ISO_REASON_SIZE] = "it failed";
-    iso_study_result result = {.note = keep_note, .data = words};
+    iso_study_result result = {.sink = {.note = keep_note, .data = words}};
     const iso_study_subject subject = {.scene = scene};
     iso_status status = job->quantity.study->run(ctx, &subject, job->options, &result);
     if (status == ISO_OK) status = take(ctx, job, &result, words, number);

@@ -99,7 +99,7 @@ static iso_status add_row(comparer *r, size_t i)
     return ISO_OK;
 }
 
-static iso_status add_rows(comparer *r, bool (*progress)(double part, void *data), void *data)
+static iso_status add_rows(comparer *r, bool (*progress)(void *data, double part), void *data)
 {
     const size_t rows = iso_scene_rows(r->scene);
     for (size_t i = 0; i < rows; i++) {
@@ -153,7 +153,7 @@ static iso_status compare_runs(iso_context *ctx, iso_comparison *c)
     return ISO_OK;
 }
 
-iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(double part, void *data),
+iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(void *data, double part),
                        void *data, iso_comparison **comparison)
 {
     ISO_DEFAULT_ARITHMETIC;

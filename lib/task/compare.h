@@ -50,7 +50,7 @@ typedef struct iso_comparison {
  * Errors: those of iso_scene_check_times, iso_orbit_create and iso_orbit_at; ISO_BAD_ARGUMENT for an unknown method.
  * After ISO_NUMERICAL or ISO_STOPPED *comparison holds the rows found before, if there are any; after other errors
  * it is NULL. */
-iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(double part, void *data),
+iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(void *data, double part),
                        void *data, iso_comparison **comparison);
 void iso_comparison_free(iso_comparison *comparison);
 

@@ -152,7 +152,7 @@ static iso_status describe(iso_context *ctx, const iso_scene *scene, const iso_c
     return status;
 }
 
-static bool show(double part, void *data)
+static bool show(void *data, double part)
 {
     iso_study_progress(data, part);
     return true;

@@ -31,7 +31,7 @@ typedef struct watch {
     bool told, wrong;
 } watch;
 
-static void look(double part, void *data)
+static void look(void *data, double part)
 {
     watch *w = data;
     w->told = true;

@@ -160,7 +160,7 @@ static void test_interval(void)
 static void refuses(const char *text, const char *options, const char *words)
 {
     iso_scene scene;
-    iso_study_result result = {.note = NULL};
+    iso_study_result result = {.text = NULL};
     iso_status status = iso_scene_load_text(ctx, "scene", text, strlen(text), &scene);
     gsl_test(status != ISO_OK, "a scene: %s", iso_context_message(ctx));
     if (status != ISO_OK) return;

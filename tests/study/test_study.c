@@ -94,7 +94,7 @@ static void check_drift(void)
     iso_comparison_free(c);
 }
 
-static bool stop_at(double part, void *data)
+static bool stop_at(void *data, double part)
 {
     return part < *(double *)data - 1e-9;
 }

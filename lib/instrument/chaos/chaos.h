@@ -56,7 +56,7 @@ typedef struct iso_chaos_options {
     int threads;         /* 0: as many as there are processors to run on                               */
     const char *vectors; /* see batch.h                                       */
     /* Called with the part of the work that is done, in [0, 1]. May be NULL. */
-    void (*progress)(double part, void *data);
+    void (*progress)(void *data, double part);
     void *data;
 } iso_chaos_options;
 

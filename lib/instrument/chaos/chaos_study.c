@@ -49,7 +49,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     iso_chaos_options how = ((const iso_chaos_request *)options)->how;
     iso_chaos *c = NULL;
     how.progress = result->progress;
-    how.data = result->data;
+    how.data = result->sink.data;
     const iso_status status = iso_chaos_run(ctx, subject->scene, &how, &c);
     if (!iso_study_keep(result, c, iso_chaos_fields, free_chaos)) return status;
     result->failed = c->failure != ISO_OK;

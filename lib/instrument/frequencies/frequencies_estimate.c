@@ -57,7 +57,7 @@ static iso_status sample(estimator *e, iso_clock clock, double n[], double mean[
         status = iso_orbit_at(orbit, e->end[clock] * (double)j / (double)e->count, &s);
         if (status != ISO_OK) break;
         copy(s.ball + 3, n + 3 * j, 3);
-        if (e->progress) e->progress((double)j / (double)e->count, e->data);
+        if (e->progress) e->progress(e->data, (double)j / (double)e->count);
         add_scaled(mean, 1 / (double)e->count, s.ball);
     }
     if (status == ISO_OK && clock == ISO_CLOCK_T) {

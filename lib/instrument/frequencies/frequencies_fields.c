@@ -132,7 +132,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     iso_frequencies *f = iso_study_keep(result, malloc(sizeof *f), iso_frequencies_fields, free);
     if (!f) return iso_context_no_memory(ctx, "frequencies");
     how.progress = result->progress;
-    how.data = result->data;
+    how.data = result->sink.data;
     ISO_TRY(iso_frequencies_find(ctx, subject->scene, &how, f));
     return iso_study_table(ctx, "frequencies", subject->scene, result->fields, f, NULL, &result->table[0]);
 }

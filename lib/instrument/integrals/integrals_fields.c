@@ -156,7 +156,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     if (!found) return iso_context_no_memory(ctx, "integrals");
     *found = (iso_integrals_found){.how = *(const iso_integral_search_options *)options};
     found->how.progress = result->progress;
-    found->how.data = result->data;
+    found->how.data = result->sink.data;
     const iso_status status = iso_integral_search_run(ctx, subject->scene, &found->how, &found->search);
     if (status != ISO_OK && status != ISO_STOPPED) return status;
     const iso_effects acting = iso_scene_acting(subject->scene);

@@ -290,7 +290,7 @@ static bool follow_some(iso_pool_worker *w, void *data, size_t first, size_t cou
     const crowd *c = data;
     for (size_t i = first; i < first + count; i++) {
         const iso_continuation_options *o = &c->family->options;
-        if (w->asks && o->progress) o->progress((double)i / (double)w->all->count, o->data);
+        if (w->asks && o->progress) o->progress(o->data, (double)i / (double)w->all->count);
         iso_continuation f = *c->family;
         f.ctx = w->ctx;
         const iso_status status = follow_orbit(&f, &c->orbit[i], c->own, &c->of[i]);

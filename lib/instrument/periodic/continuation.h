@@ -66,7 +66,7 @@ typedef struct iso_continuation_options {
     bool branches;   /* follow what branches off as well; not what branches off from that */
     int threads;     /* that follow orbits side by side; 0: as many as there are processors to run on */
     /* Is told the part of the work that is done, in [0, 1]; NULL: nobody is. */
-    void (*progress)(double part, void *data);
+    void (*progress)(void *data, double part);
     void *data;
 } iso_continuation_options;
 

@@ -118,7 +118,7 @@ typedef struct iso_periodic_options {
     bool polish;   /* everything in numbers of 128 bits                                                            */
     bool rotations_alone; /* no search: only iso_periodic.rotation is found                                     */
     int threads; /* 0: as many as there are processors to run on                                                 */
-    void (*progress)(double part, void *data); /* NULL: nobody is told                                           */
+    void (*progress)(void *data, double part); /* NULL: nobody is told                                           */
     void *data;
 } iso_periodic_options;
 

@@ -305,7 +305,7 @@ static iso_status add_roots(search *s)
             if (b->n == n && b->there && comes_again(s, b) == turn % 2)
                 c[count++] = (iso_periodic_candidate){s->line, n, b->u, b->z[0], b->z[1]};
         status = iso_periodic_add(s->w, c, count);
-        if (o->progress) o->progress((s->line + (turn + 1.0) / (2 * s->periods)) / LINES, o->data);
+        if (o->progress) o->progress(o->data, (s->line + (turn + 1.0) / (2 * s->periods)) / LINES);
     }
     free(c);
     return status;

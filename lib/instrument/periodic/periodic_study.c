@@ -168,7 +168,7 @@ static iso_status follow(iso_context *ctx, const iso_scene *scene, const iso_per
     iso_periodic_orbit *orbits = NULL;
     size_t count = 0, failed = 0;
     how->progress = result->progress;
-    how->data = result->data;
+    how->data = result->sink.data;
     iso_status status = choose(ctx, scene, r, found, result, &orbits, &count);
     if (status == ISO_OK) status = iso_continuation_run(ctx, scene, orbits, count, how, &f);
     free(orbits);
@@ -191,7 +191,7 @@ static iso_status search(iso_context *ctx, const iso_scene *scene, const iso_per
     iso_periodic_options options = r->how;
     iso_periodic *found = NULL;
     options.progress = result->progress;
-    options.data = result->data;
+    options.data = result->sink.data;
     if (r->follow) ISO_TRY(read_follow(ctx, r, scene, &how));
     const iso_status status = iso_periodic_run(ctx, scene, &options, &found);
     if (!found) return status;
@@ -277,7 +277,7 @@ static iso_status chart(iso_context *ctx, const iso_scene *scene, const iso_peri
     ISO_TRY(read_chart(ctx, scene, r, &f->how));
     f->level = f->how.moment == ISO_CHART_LEVEL ? (double)NAN : f->how.level;
     f->how.progress = result->progress;
-    f->how.data = result->data;
+    f->how.data = result->sink.data;
     const iso_status status = iso_stability_chart(ctx, &f->how, &f->grid, &f->borders);
     if (status == ISO_BAD_ARGUMENT) /* the ranges are the option's, not the scene's */
         return iso_context_fail(ctx, status, "chart", "%s", iso_context_message(ctx));

@@ -76,7 +76,7 @@ typedef struct iso_separatrix_options {
     bool zeros;  /* look for zeros of m between neighbours of this list                    */
     int threads; /* 0: as many as there are processors to run on                           */
     /* Is told the part of the work that is done, in [0, 1]; NULL: nobody is. */
-    void (*progress)(double part, void *data);
+    void (*progress)(void *data, double part);
     void *data;
     const double *level; /* one for each k; NULL: the scene's level everywhere */
 } iso_separatrix_options;

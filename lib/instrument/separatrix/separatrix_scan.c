@@ -50,7 +50,7 @@ static bool solve_rows(iso_pool_worker *w, void *data, size_t first, size_t coun
             ISO_NO_MEMORY)
             return false;
         const size_t now = atomic_fetch_add(&c->done, 1) + 1;
-        if (w->asks && c->o->progress) c->o->progress((double)now / (double)c->all, c->o->data);
+        if (w->asks && c->o->progress) c->o->progress(c->o->data, (double)now / (double)c->all);
     }
     return true;
 }

@@ -181,7 +181,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     for (int i = 0; i < 3; i++) how.J[i] = scene->params.J[i];
     how.scene = scene;
     how.progress = result->progress;
-    how.data = result->data;
+    how.data = result->sink.data;
     const iso_status status =
         k && levels ? find(ctx, scene, &how, result) : iso_context_no_memory(ctx, "%zu values", how.count);
     free(k);

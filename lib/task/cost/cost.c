@@ -48,7 +48,7 @@ static double elapsed(const measurer *m)
 static void report_progress(measurer *m, const char *what)
 {
     m->share = fmax(m->share, fmin(1, elapsed(m) / m->seconds));
-    if (m->options->progress) m->options->progress(m->share, what, m->options->data);
+    if (m->options->progress) m->options->progress(m->options->data, m->share, what);
 }
 
 /* --- which cells ------------------------------------------------------------------------------------------------ */

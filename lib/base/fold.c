@@ -1,30 +1,8 @@
-/* say.c - text for people on standard output, as wide as the terminal (see say.h). */
-#define _GNU_SOURCE /* fopencookie */
-#include "say.h"
+/* fold.c - text for people, folded to the width of a page (see fold_impl.h). */
+#include "base/fold_impl.h"
 
-#include <stdarg.h>
-#include <stdlib.h>
+#include <stdbool.h>
 #include <string.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
-
-/* --- the width -------------------------------------------------------------------------------------------------- */
-
-enum { LEAST_WIDTH = 40, MOST_WIDTH = 10000 };
-
-int terminal_width(FILE *stream)
-{
-    struct winsize size;
-    const char *columns = getenv("COLUMNS");
-    const bool is_terminal = isatty(fileno(stream));
-    const long wanted = columns ? strtol(columns, NULL, 10) : 0;
-    long width = is_terminal ? USUAL_WIDTH : ANY_WIDTH;
-    if (is_terminal && ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
-        width = size.ws_col;
-    else if (wanted > 0 && wanted <= MOST_WIDTH)
-        width = wanted;
-    return width == ANY_WIDTH || width >= LEAST_WIDTH ? (int)width : LEAST_WIDTH;
-}
 
 /* Columns of text in UTF-8: bytes that begin a character. */
 static int columns_of(const char *text, size_t length)
@@ -48,7 +26,7 @@ static void fold_words(FILE *to, const char *text, size_t length, int column, in
         size_t word = strcspn(text, " \n");
         if (word > (size_t)(end - text)) word = (size_t)(end - text);
         const int columns = columns_of(text, word);
-        if (!first && width != ANY_WIDTH && column + (int)blanks + columns > width)
+        if (!first && width != ISO_ANY_WIDTH && column + (int)blanks + columns > width)
             fprintf(to, "\n%-*s", indent, mark), column = indent;
         else
             fprintf(to, "%*s", (int)blanks, ""), column += (int)blanks;
@@ -71,7 +49,7 @@ static int indent_of(const char *text, size_t length, int width)
     return (int)at + ROOM / 2 < width ? (int)at : STEP;
 }
 
-void fold_line(FILE *to, const char *text, size_t length, int width)
+void iso_fold_line(FILE *to, const char *text, size_t length, int width)
 {
     const bool comment = *text == '#';
     fold_words(to, text, length, 0, comment ? 4 : indent_of(text, length, width), comment ? "#" : "", width);
@@ -80,7 +58,8 @@ void fold_line(FILE *to, const char *text, size_t length, int width)
 
 /* --- tables ----------------------------------------------------------------------------------------------------- */
 
-enum { MOST_CELLS = 24, GAP = 2, LEAST_WORDS = 24 };
+enum { MOST_CELLS = 24, GAP = 2, LEAST_WORDS = 24, MOST_WIDTH = 10000 };
+enum { BEGIN = '\001', END = '\002' }; /* marks around a table */
 
 typedef struct cell {
     const char *text;
@@ -88,7 +67,7 @@ typedef struct cell {
 } cell;
 
 typedef struct table {
-    const char *text; /* all rows; the first is the header */
+    const char *text; /* all rows until END; the first is the header */
     int columns, keys;
     int width[MOST_CELLS];
     bool words[MOST_CELLS]; /* not all are numbers */
@@ -133,7 +112,7 @@ static void measure(table *t)
             if (columns > t->width[i]) t->width[i] = columns;
             if (row > 0 && !is_number(&cells[i])) t->words[i] = true;
         }
-        count = *at ? read_row(&at, cells) : 0;
+        count = *at && *at != END ? read_row(&at, cells) : 0;
     }
 }
 
@@ -155,7 +134,7 @@ static void print_row(FILE *to, const table *t, const cell cells[], int count, i
         const bool folded = is_free(t, count, i) || (t->words[i] && i == t->columns - 1);
         if (folded && is_free(t, count, i) && first > t->keys && count > 1) continue;
         if (folded) {
-            const bool room = width == ANY_WIDTH || column + GAP + LEAST_WORDS <= width;
+            const bool room = width == ISO_ANY_WIDTH || column + GAP + LEAST_WORDS <= width;
             const int indent = room ? column + GAP : 2 * GAP;
             fprintf(to, room ? "%*s" : "\n%*s", room ? GAP : indent, "");
             fold_words(to, cells[i].text, cells[i].length, indent, indent, "", width);
@@ -171,7 +150,7 @@ static void print_part(FILE *to, const table *t, int first, int end, int width)
 {
     cell cells[MOST_CELLS];
     const char *at = t->text;
-    while (*at) {
+    while (*at && *at != END) {
         const int count = read_row(&at, cells);
         print_row(to, t, cells, count, first, end, width);
     }
@@ -203,7 +182,7 @@ static void print_table(FILE *to, const char *text, int keys, int width)
 {
     table t = {.text = text, .keys = keys};
     measure(&t);
-    int narrow = width == ANY_WIDTH ? MOST_WIDTH : width;
+    int narrow = width == ISO_ANY_WIDTH ? MOST_WIDTH : width;
     const int parts = count_parts(&t, narrow);
     while (narrow > 1 && parts > 1 && count_parts(&t, narrow - 1) == parts) narrow--;
     for (int first = keys, end; first < t.columns; first = end) {
@@ -213,90 +192,30 @@ static void print_table(FILE *to, const char *text, int keys, int width)
     }
 }
 
-/* --- what is said ----------------------------------------------------------------------------------------------- */
+/* --- texts with tables ------------------------------------------------------------------------------------------ */
 
-static struct {
-    FILE *stream; /* writes into text */
-    char *text;
-    size_t used, room;
-    bool in_table, failed;
-    int keys;
-} said;
-
-/* Keeps what is written into the stream. A stream of open_memstream would not tell that memory has failed. */
-static ssize_t keep(void *unused, const char *text, size_t size)
+void iso_table_begin(FILE *to, int keys)
 {
-    (void)unused;
-    if (said.used + size + 1 > said.room) {
-        const size_t room = 2 * said.room + size + 1;
-        char *more = realloc(said.text, room);
-        if (!more) return said.failed = true, 0;
-        said.text = more;
-        said.room = room;
-    }
-    memcpy(said.text + said.used, text, size);
-    said.used += size;
-    said.text[said.used] = '\0';
-    return (ssize_t)size;
+    fprintf(to, "%c%d\n", BEGIN, keys);
 }
 
-FILE *say_to(void)
+void iso_table_end(FILE *to)
 {
-    if (!said.stream) said.stream = fopencookie(NULL, "w", (cookie_io_functions_t){.write = keep});
-    if (!said.stream) said.failed = true;
-    return said.stream ? said.stream : stdout;
+    fprintf(to, "%c\n", END);
 }
 
-/* Prints what waits, and forgets it. */
-static void print_said(void)
+void iso_fold(FILE *to, const char *text, int width)
 {
-    const int width = terminal_width(stdout);
-    if (!said.stream) return;
-    fclose(said.stream);
-    said.stream = NULL;
-    if (said.used > 0 && said.in_table)
-        print_table(stdout, said.text, said.keys, width);
-    else if (said.used > 0)
-        for (const char *at = said.text; *at; at += *at == '\n') {
-            const size_t length = strcspn(at, "\n");
-            fold_line(stdout, at, length, width);
-            at += length;
+    while (*text) {
+        const size_t length = strcspn(text, "\n");
+        if (*text == BEGIN) {
+            print_table(to, text + length + 1, text[1] - '0', width);
+            text += strcspn(text, (char[]){END, '\0'});
+            text += strcspn(text, "\n");
+        } else {
+            iso_fold_line(to, text, length, width);
+            text += length;
         }
-    free(said.text);
-    said.text = NULL;
-    said.used = said.room = 0;
-}
-
-bool say_failed(void)
-{
-    return said.failed;
-}
-
-void say(const char *format, ...)
-{
-    va_list args;
-    FILE *to = say_to();
-    va_start(args, format);
-    vfprintf(to, format, args);
-    va_end(args);
-    if (said.in_table || !said.stream) return;
-    fflush(to);
-    if (said.used > 0 && said.text[said.used - 1] == '\n') print_said();
-}
-
-void say_end(void)
-{
-    print_said();
-}
-
-void say_table(int keys)
-{
-    said.in_table = true;
-    said.keys = keys;
-}
-
-void say_table_end(void)
-{
-    print_said();
-    said.in_table = false;
+        text += *text == '\n';
+    }
 }

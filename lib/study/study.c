@@ -1,0 +1,239 @@
+/* study.c - asking a study: its options, its tables, what it tells people (see study.h). */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fold_impl.h"
+#include "orbit/orbit_impl.h"
+#include "study/options_impl.h"
+
+/* --- asking ----------------------------------------------------------------------------------------------------- */
+
+static iso_status refuse_subject(iso_context *ctx, const iso_study *study, const iso_study_subject *subject)
+{
+    if (study->of & ISO_STUDY_OF_SCENE && !subject->scene)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scene", "%s needs a scene", study->name);
+    if (study->of & ISO_STUDY_OF_RECORD && !subject->record)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "record", "%s needs a trajectory", study->name);
+    if (subject->scene && !(study->of & (ISO_STUDY_OF_SCENE | ISO_STUDY_USES_SCENE)))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scene", "%s takes no scene", study->name);
+    if (subject->record && !(study->of & ISO_STUDY_OF_RECORD))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "record", "%s takes no trajectory", study->name);
+    return ISO_OK;
+}
+
+/* The row of an option, of which `length` characters are the name; NULL: there is none. */
+static const iso_option *option_of(const iso_study *study, const char *name, size_t length)
+{
+    const iso_option *o = study->options;
+    while (o->name && (strlen(o->name) != length || strncmp(o->name, name, length) != 0)) o++;
+    return o->name ? o : NULL;
+}
+
+/* Ends the words of text, which then are names and values in turn. */
+static iso_status set_options(iso_context *ctx, const iso_study *study, char *text, void *how)
+{
+    iso_status status = ISO_OK;
+    for (char *name = text, *next; status == ISO_OK && *name; name = next) {
+        next = name + strcspn(name, "\n");
+        if (*next) *next++ = '\0';
+        char *value = strchr(name, '=');
+        if (!value) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "'%s' is no option: write NAME=VALUE", name);
+        *value++ = '\0';
+        status = iso_study_set(ctx, study, name, value, how);
+    }
+    return status;
+}
+
+iso_status iso_study_read(iso_context *ctx, const iso_study *study, char *text, void *how)
+{
+    study->begin(how);
+    iso_status status = set_options(ctx, study, text, how);
+    if (status == ISO_OK && study->prepare) status = study->prepare(ctx, how);
+    return status == ISO_BAD_INPUT ? ISO_BAD_ARGUMENT : status; /* it is the call that is wrong, no file */
+}
+
+/* The text that a study prints for people. */
+static iso_status print_text(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
+                             const void *options, iso_study_result *result)
+{
+    size_t length;
+    if (!study->print || !result->found) return ISO_OK;
+    FILE *to = open_memstream(&result->text, &length);
+    if (to) study->print(to, subject->scene, options, result);
+    return to && fclose(to) == 0 && result->text ? ISO_OK : iso_context_no_memory(ctx, "a text");
+}
+
+iso_status iso_study_describe(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
+                              const void *options, iso_study_result *result)
+{
+    iso_record *table = result->table[0];
+    iso_status status = subject->command ? iso_record_set(ctx, table, "command", subject->command) : ISO_OK;
+    return status == ISO_OK && study->describe ? study->describe(ctx, subject->scene, options, result) : status;
+}
+
+iso_status iso_study_answer(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
+                            const void *options, iso_study_result *result)
+{
+    ISO_TRY(refuse_subject(ctx, study, subject));
+    const iso_status status = study->run(ctx, subject, options, result);
+    iso_status told = print_text(ctx, study, subject, options, result);
+    if (told == ISO_OK && result->table[0]) told = iso_study_describe(ctx, study, subject, options, result);
+    return status == ISO_OK ? told : status;
+}
+
+/* "isoroll chaos SCENE --turns 500 --starts 20": what makes the table again. Options that change no number are left
+ * out. NULL: no memory. */
+static char *command_of(const iso_study *study, const char *name, const char *options)
+{
+    char *text;
+    size_t length;
+    FILE *to = open_memstream(&text, &length);
+    if (!to) return NULL;
+    fprintf(to, "isoroll %s %s", study->name, name ? name : study->of & ISO_STUDY_OF_SCENE ? "SCENE" : "FILE");
+    for (const char *o = options; *o; o += *o == '\n') {
+        const size_t length_of_name = strcspn(o, "=\n"), line = strcspn(o, "\n");
+        const iso_option *row = option_of(study, o, length_of_name);
+        if (row && !row->aside) {
+            const char *value = o + length_of_name + 1;
+            const int rest = (int)(line - length_of_name - 1);
+            const bool quoted = strcspn(value, " ;*?&|<>()$'\"\n") < (size_t)rest;
+            fprintf(to, " --%s", row->name);
+            if (row->argument) fprintf(to, quoted ? " '%.*s'" : " %.*s", rest, value);
+        }
+        o += line;
+    }
+    return fclose(to) == 0 ? text : NULL;
+}
+
+static iso_status ask(iso_context *ctx, const iso_study *study, const iso_study_subject *subject, char *text,
+                      void *how, iso_study_result *result)
+{
+    iso_study_subject asked = *subject;
+    char *command = asked.command ? NULL : command_of(study, asked.name, text);
+    if (command) asked.command = command;
+    iso_status status = iso_study_read(ctx, study, text, how);
+    if (status == ISO_OK) status = iso_study_answer(ctx, study, &asked, how, result);
+    if (study->end) study->end(how);
+    free(command);
+    return status;
+}
+
+iso_status iso_study_ask(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
+                         const char *options, iso_study_result *result)
+{
+    ISO_TRY(refuse_subject(ctx, study, subject));
+    char *text = strdup(options ? options : "");
+    void *how = malloc(study->size);
+    const iso_status status =
+        text && how ? ask(ctx, study, subject, text, how, result) : iso_context_no_memory(ctx, "a study");
+    free(how);
+    free(text);
+    if (status != ISO_OK && (!result->table[0] || iso_record_rows(result->table[0]) == 0))
+        iso_study_result_free(result);
+    return status;
+}
+
+void *iso_study_keep(iso_study_result *result, void *found, const iso_field *fields, void (*free)(void *found))
+{
+    result->found = found;
+    result->fields = fields;
+    result->free = found ? free : NULL;
+    return found;
+}
+
+void iso_study_result_free(iso_study_result *result)
+{
+    for (int i = 0; i < ISO_STUDY_TABLES; i++) {
+        iso_record_free(result->table[i]);
+        result->table[i] = NULL;
+    }
+    if (result->free) result->free(result->found);
+    free(result->text);
+    result->text = NULL;
+    result->found = NULL;
+    result->free = NULL;
+}
+
+void iso_study_note(const iso_study_result *result, const char *format, ...)
+{
+    char words[640];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(words, sizeof words, format, args);
+    va_end(args);
+    if (result->sink.note) result->sink.note(result->sink.data, words);
+}
+
+void iso_study_progress(void *result, double part)
+{
+    const iso_sink *sink = &((const iso_study_result *)result)->sink;
+    if (sink->progress) sink->progress(sink->data, part);
+}
+
+/* --- text for people -------------------------------------------------------------------------------------------- */
+
+typedef struct printer {
+    FILE *to;
+    const char *names; /* of the columns that are printed, with blanks between */
+    bool first, head;
+} printer;
+
+static bool is_among(const char *name, const char *names)
+{
+    const size_t length = strlen(name);
+    for (const char *at = names; (at = strstr(at, name)) != NULL; at += length)
+        if ((at == names || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) return true;
+    return false;
+}
+
+static void print_cell(void *data, const char *name, const iso_field *field, const iso_value *value)
+{
+    printer *p = data;
+    if (p->names && !is_among(name, p->names)) return;
+    fputs(p->first ? "" : "\t", p->to);
+    p->first = false;
+    if (p->head)
+        fputs(name, p->to);
+    else if (value->text)
+        fputs(value->text, p->to);
+    else if (!value->there || isnan(value->number))
+        fputs("-", p->to);
+    else
+        fprintf(p->to, "%.*g", field->digits > 0 ? field->digits : 6, value->number);
+}
+
+void iso_print_columns(FILE *to, const iso_field *fields, const char *names)
+{
+    printer p = {to, names, .first = true, .head = true};
+    iso_columns_visit(fields, NULL, print_cell, &p);
+    fputc('\n', to);
+}
+
+void iso_print_row(FILE *to, const iso_field *fields, const void *row, const char *names)
+{
+    printer p = {to, names, .first = true, .head = false};
+    iso_columns_visit(fields, row, print_cell, &p);
+    fputc('\n', to);
+}
+
+/* --- tables ----------------------------------------------------------------------------------------------------- */
+
+void iso_fields_rename(const iso_field *fields, const char *old, const char *name, iso_field copy[ISO_MOST_FIELDS])
+{
+    iso_fields_copy(fields, NULL, copy);
+    for (iso_field *f = copy; f->name; f++)
+        if (strcmp(f->name, old) == 0) f->name = name;
+}
+
+iso_status iso_study_table(iso_context *ctx, const char *kind, const iso_scene *scene, const iso_field *fields,
+                           const void *found, const iso_field *rows, iso_record **table)
+{
+    static const iso_field none[] = {ISO_FIELD_END};
+    ISO_TRY(iso_columns_create(ctx, rows ? rows : none, table));
+    iso_record_set_kind(*table, kind);
+    const iso_status status = scene ? iso_record_describe_scene(ctx, *table, scene) : ISO_OK;
+    return status == ISO_OK && fields ? iso_record_set_fields(ctx, *table, fields, found) : status;
+}
