@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "base/number_impl.h"
-#include "cost_report.h"
-#include "terminal.h"
+#include "shell.h"
+#include "task/cost/cost_impl.h"
 
 /* What cost can be told. */
 typedef struct options {
@@ -12,14 +12,10 @@ typedef struct options {
     shell_options shell;
 } options;
 
-static double wanted(const shell *s)
-{
-    return ((const options *)s->options)->study.want;
-}
-
 static iso_status check(const shell *s)
 {
-    const bool table = s->told->table && strcmp(s->told->table, "-") == 0, want = !isnan(wanted(s));
+    const bool table = s->told->table && strcmp(s->told->table, "-") == 0,
+               want = !isnan(((const options *)s->options)->study.want);
     if (table && (s->told->json || want))
         return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "output",
                                 "cost: standard output has room for one: choose -o -, --json or --want");
@@ -36,42 +32,6 @@ static void complain_interrupted(const shell *s)
         complain("interrupted: nothing has been measured");
 }
 
-/* Prints the choice for --want as options of `run`. The error and time to expect go to stderr. */
-static void tell_choice(const iso_cost_found *f)
-{
-    char words[COST_OPTIONS], seconds[COST_SECONDS];
-    const iso_cost_cell *c = f->choice;
-    if (!c) {
-        complain("nothing measured reaches an error of %s: try a larger --want", ISO_SHORT(f->want));
-        return;
-    }
-    printf("%s\n", cost_options_of(c, words));
-    complain("expected: error %.1e%s, time %s", c->error, c->below ? ", or less: the reference is no better" : "",
-             cost_seconds(c->total, seconds));
-}
-
-static void print_found(const shell *s)
-{
-    const iso_cost_found *f = s->result.found;
-    if (isnan(f->want))
-        cost_print(&s->scene, f);
-    else
-        tell_choice(f);
-}
-
-static iso_status describe(shell *s)
-{
-    const iso_cost *c = ((const iso_cost_found *)s->result.found)->cost;
-    iso_plot_title(s->title, &s->scene.params, ", %s = %.6g, about %.3g turns",
-                   s->scene.start.model == ISO_BALL ? "t" : "s", c->end, c->turns);
-    return shell_lines(s, (const table_line[]){{.key = "end", .number = c->end},
-                                               {.key = "reference", .text = c->reference},
-                                               {.key = "second reference", .text = c->second},
-                                               {.key = "uncertainty", .number = c->uncertainty},
-                                               {.key = "title", .text = s->title},
-                                               {.key = NULL}});
-}
-
 static int draw(const shell *s)
 {
     const iso_cost *c = ((const iso_cost_found *)s->result.found)->cost;
@@ -86,8 +46,6 @@ static int run(iso_context *ctx, const void *options_given)
                                       .check = check,
                                       .change = shell_change,
                                       .interrupted = complain_interrupted,
-                                      .print = print_found,
-                                      .describe = describe,
                                       .draw = draw};
     return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
 }

@@ -3,7 +3,6 @@
 
 #include "base/number_impl.h"
 #include "instrument/integrals/integrals_impl.h"
-#include "terminal.h"
 #include "shell.h"
 #include "study/study_impl.h"
 
@@ -13,89 +12,11 @@ typedef struct options {
     shell_options shell;
 } options;
 
-/* --- the table -------------------------------------------------------------------------------------------------- */
-
-static void print_head(const options *o, const iso_scene *scene, const iso_integral_search *r)
-{
-    iso_params_print(say_to(), &scene->params);
-    if (r->level != 0) say("; level (H/eps) J2^(1/k) = %.10g", r->level);
-    say("\n"
-        "%zu orbits of %s turns, %d samples of each; relative error of a sample about %.0e\n"
-        "functions %s, |b| <= %d; a value is the variation of a function along orbits, divided by its size: 0 "
-        "for an integral\n\n",
-        r->orbits, ISO_SHORT(o->study.turns), ISO_INTEGRAL_ROWS, r->delta,
-        iso_integral_energy_degree(r) == 1 ? "v^c M^a gamma^b, v = q^(-1/(2k)), |a| + c <= degree, c <= 1"
-                                           : "h^j M^a gamma^b, |a| + 2 j = degree",
-        r->coefficients);
-}
-
-static void print_value(double x)
-{
-    if (isnan(x))
-        say("\t-");
-    else
-        say("\t%.1e", x);
-}
-
-static void print_degree(const iso_integral_degree *at)
-{
-    say("%d\t%zu\t%zu\t%zu\t%zu", at->degree, at->functions, at->found, at->further, at->doubtful);
-    print_value(at->largest);
-    print_value(at->smallest);
-    say("\n");
-}
-
-static void print_known(const iso_integral_search *r)
-{
-    const int energy = iso_integral_energy_degree(r);
-    if (energy > 0) say("  the energy, a constant on the level: found in degree %d\n", energy);
-    for (int i = 0; i < r->known_count; i++) {
-        const iso_integral_known *known = &r->known[i];
-        say("  %s = %s: ", known->name, known->doc);
-        if (known->degree > 0)
-            say("found in degree %d, to %.1e\n", known->degree, known->residual);
-        else
-            say(known->constant ? "a constant on the level\n" : "not in this space\n");
-    }
-}
-
-static void print_verdict(const options *o, const iso_integral_search *r)
-{
-    if (r->verdict == ISO_INTEGRALS_FOUND)
-        say("found: %d independent integral%s beside the energy\n", r->independent, r->independent > 1 ? "s" : "");
-    else if (r->verdict == ISO_INTEGRALS_NONE)
-        say("none beside the energy up to degree %d within %s: the smallest value is %.1e\n", r->degrees,
-            ISO_SHORT(o->study.within), iso_integral_smallest(r));
-    else if (r->degrees < o->study.degree)
-        say("undecided: stopped after degree %d\n", r->degrees);
-    else if (r->independent > 0)
-        say("undecided: k and J are so near those of an integrable ball that its integral is constant here\n");
-    else
-        say("undecided: there are values between their error and %s\n", ISO_SHORT(o->study.within));
-}
-
-static void print_table(const shell *s)
-{
-    const options *o = s->options;
-    const iso_integrals_found *found = s->result.found;
-    const iso_integral_search *r = &found->search;
-    print_verdict(o, r);
-    say("theory: %s: %s\n\n", iso_integrability_name(found->theory.kind), found->theory.why);
-    print_head(o, &s->scene, r);
-    say_table(1);
-    say("degree\tfunctions\tintegrals\tfurther\tdoubtful\ttheir values up to\tsmallest other value\n");
-    for (int d = 1; d <= r->degrees; d++) print_degree(&r->at[d]);
-    say_table_end();
-    say("\n");
-    print_known(r);
-}
-
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
 static int run(iso_context *ctx, const void *options_given)
 {
-    static const shell_parts parts = {
-        .study = &iso_integrals_study, .stopped = "what is known by now is printed", .print = print_table};
+    static const shell_parts parts = {.study = &iso_integrals_study, .stopped = "what is known by now is printed"};
     return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
 }
 

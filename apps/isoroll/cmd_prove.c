@@ -3,7 +3,6 @@
 
 #include "instrument/prove/prove_impl.h"
 #include "io/output_impl.h"
-#include "terminal.h"
 #include "scene_options.h"
 #include "shell.h"
 
@@ -14,60 +13,6 @@ typedef struct options {
 } options;
 
 /* --- words ------------------------------------------------------------------------------------------------------ */
-
-static void print_moments(const iso_proof_ball *b)
-{
-    char text[3][ISO_RATIONAL_SIZE];
-    for (int i = 0; i < 3; i++) iso_rational_print(text[i], &b->J[i]);
-    say(", J = %s, %s, %s\n", text[0], text[1], text[2]);
-}
-
-static void print_proof(const iso_proof *p)
-{
-    say("k = %s", p->exact);
-    print_moments(&p->ball);
-    say("multiplier of the rotation about axis %d: %s\n", p->middle + 1, p->multiplier.text);
-    say("after %ld half returns its unstable manifold meets l = pi/2, on the section n_%d = 0:\n", p->halves,
-        p->axis + 1);
-    say("x = %s\n", p->x.text);
-    say("m = %s\n", p->m.text);
-    if (p->axis != p->section) say("on n_%d = 0, where it was enclosed: m = %s\n", p->section + 1, p->section_m.text);
-    say("%s\n", p->statement);
-}
-
-/* The pieces of an interval, from the first to the last that was enclosed. */
-static void print_pieces(const iso_proofs *f)
-{
-    char from[ISO_RATIONAL_SIZE], to[ISO_RATIONAL_SIZE];
-    iso_rational_print(from, &f->row[0].ball.k[0]);
-    iso_rational_print(to, &f->row[f->rows - 1].ball.k[1]);
-    say("k from %s to %s", from, to);
-    print_moments(&f->row[0].ball);
-    say_table(1);
-    say("k from\tto\tm from\tto\tdigits\t\n");
-    for (size_t i = 0; i < f->rows; i++) {
-        const iso_proof *p = &f->row[i];
-        char text[2][ISO_RATIONAL_SIZE];
-        for (int j = 0; j < 2; j++) iso_rational_print(text[j], &p->ball.k[j]);
-        say("%s\t%s\t%.6e\t%.6e\t%d\t%s\n", text[0], text[1], p->m.low, p->m.high, p->digits,
-            p->sign ? "proved" : "undecided");
-    }
-    say_table_end();
-    if (!f->all)
-        say("undecided: a share of %.3g of the interval\n", f->undecided);
-    else
-        say("proved for all these k: m is not 0, so the manifolds cross, and there is no further real-analytic "
-            "integral\n");
-}
-
-static void print(const shell *s)
-{
-    const iso_proofs *f = s->result.found;
-    if (iso_proof_is_thin(&f->row[0].ball))
-        print_proof(&f->row[0]);
-    else
-        print_pieces(f);
-}
 
 /* One k: its numbers; an interval: rows of them. */
 static json_t *json(const shell *s)
@@ -106,7 +51,6 @@ static int run(iso_context *ctx, const void *options_given)
                                       .check = check,
                                       .stopped = "what was proved so far is kept",
                                       .json = json,
-                                      .print = print,
                                       .write = write_certificates};
     return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
 }

@@ -7,7 +7,6 @@
 #include "instrument/section/section_impl.h"
 #include "picture/section_impl.h"
 #include "plot/draw.h"
-#include "terminal.h"
 #include "scene_options.h"
 #include "shell.h"
 
@@ -199,45 +198,10 @@ static iso_status check_area(const shell *s)
     return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "", "section: --area draws no picture: leave out --plot");
 }
 
-/* Of each model the orbits by their verdicts, and the orbit that is worst. */
-static void print_areas(const shell *s)
-{
-    const iso_section_areas *f = s->result.found;
-    say("det D - 1 of %s: 0 where %s is kept\n",
-        f->returns ? "the map from the start to each return" : "the flow over steps of about a turn",
-        f->returns ? "the area dL dl" : "the measure (10)");
-    for (int model = ISO_BALL; model <= ISO_POINT; model++) {
-        const iso_section_area *worst = NULL;
-        size_t count = 0, kept = 0, not_kept = 0;
-        for (size_t i = 0; i < f->count; i++) {
-            const iso_section_area *a = &f->orbit[i];
-            if ((int)a->model != model) continue;
-            count++;
-            kept += strcmp(a->kept, "kept") == 0;
-            not_kept += strcmp(a->kept, "not kept") == 0;
-            if (a->turns > 0 && (!worst || a->worst * worst->bound > worst->worst * a->bound)) worst = a;
-        }
-        if (count == 0) continue;
-        say("%s: the area is %s", iso_model_kind_name(model),
-            not_kept > 0    ? "not kept"
-            : kept == count ? "kept"
-                            : "undecided");
-        say(": %zu of %zu orbits keep it", kept, count);
-        if (worst)
-            say("; farthest is orbit %zu, by %.2g, of which errors explain %.2g", worst->orbit, worst->worst,
-                worst->bound);
-        say("\n");
-    }
-    if (*f->words) complain("%s", f->words);
-}
-
 static int run(iso_context *ctx, const void *options_given)
 {
-    static const shell_parts areas = {.study = &iso_section_study,
-                                      .kind = "section area",
-                                      .check = check_area,
-                                      .stopped = "orbits are missing",
-                                      .print = print_areas};
+    static const shell_parts areas = {
+        .study = &iso_section_study, .kind = "section area", .check = check_area, .stopped = "orbits are missing"};
     const options *o = options_given;
     if (!o->study.area) return section(ctx, o);
     return shell_run(ctx, &areas, o, &o->shell);

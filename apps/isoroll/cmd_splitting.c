@@ -5,7 +5,6 @@
 #include "instrument/separatrix/separatrix_study_impl.h"
 #include "picture/picture_impl.h"
 #include "plot/draw.h"
-#include "terminal.h"
 #include "scene_options.h"
 #include "shell.h"
 
@@ -17,79 +16,10 @@ typedef struct options {
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
-/* The axes are those of each row that did not fail; NULL: all did. */
-static const iso_separatrix_splitting *first_good(const iso_separatrix_table *s)
-{
-    for (size_t i = 0; i < s->rows; i++)
-        if (s->row[i].status == ISO_OK) return &s->row[i];
-    return NULL;
-}
-
 /* What differs from row to row. */
 static double number_of(const iso_separatrix_splitting *s, bool by_level)
 {
     return by_level ? s->level : s->k;
-}
-
-static void print_head(const double J[3], const iso_separatrix_splitting *row, bool by_level)
-{
-    say("J = %s %s %s\n", ISO_ROUNDED(J[0], 15), ISO_ROUNDED(J[1], 15), ISO_ROUNDED(J[2], 15));
-    if (!row) return;
-    if (by_level) say("k = %s\n", ISO_ROUNDED(row->k, 15));
-    if (!by_level && row->level != 0) say("level of the point, (H/eps) J2^(1/k): %s\n", ISO_ROUNDED(row->level, 15));
-    say("The unstable manifold of the rotation about axis %d meets l = pi/2 on the section n_%d = 0 at x, "
-        "with the slope m. The stable one has -m: they are one curve only if m = 0.\n\n",
-        row->middle + 1, row->axis + 1);
-}
-
-/* Digits behind the point of the slope, until its error. */
-static int digits_of(const iso_separatrix_splitting *s)
-{
-    return (int)fmax(1, fmin(16, ceil(log10(fabs(s->m) / s->error))));
-}
-
-static void print_row(const iso_separatrix_splitting *s, bool by_level)
-{
-    const double at = number_of(s, by_level);
-    if (s->status == ISO_STOPPED) return;
-    if (s->status != ISO_OK) {
-        say("%.15g\t%s\n", at, s->words);
-        return;
-    }
-    say("%.15g\t%.8g\t%.16g\t", at, s->lambda, s->x);
-    if (s->from_zero)
-        say("%.*e\t%.1e\t%d\t\n", digits_of(s), s->m, s->error, s->digits);
-    else if (fabs(s->m) > s->error)
-        say("%.*e\t%.1e\t%d\tundecided: less than 100 errors from 0\n", digits_of(s), s->m, s->error, s->digits);
-    else /* 1.05: rounding of the bound to two digits must not make it smaller */
-        say("0\t%.1e\t%d\tnot distinguishable from 0: below %.1e\n", s->error, s->digits,
-            1.05 * (fabs(s->m) + s->error));
-    if (s->words[0]) say("\t%s\n", s->words);
-}
-
-static void print_zero(const iso_separatrix_splitting *s, bool by_level)
-{
-    say("\nm = 0 at %s = %.15g +- %.1e, where the manifolds touch at x = %.15g.\n", by_level ? "level" : "k",
-        number_of(s, by_level), by_level ? s->level_error : s->k_error, s->x);
-    if (isfinite(s->next_m))
-        say("On the section n_%d = 0 they meet next at l = %.12g, x = %.12g, "
-            "and there with slopes %.6e above and below their mean: %s.",
-            s->section + 1, s->next_l, s->next_x, fabs(s->next_m),
-            fabs(s->next_m) > 100 * fmax(s->error, fabs(s->m)) ? "they cross there"
-                                                               : "too small for these digits, undecided");
-    say("\n");
-}
-
-static void print_table(const shell *s)
-{
-    const iso_separatrix_table *t = s->result.found;
-    const bool by_level = iso_separatrix_by_level(t);
-    print_head(s->scene.params.J, first_good(t), by_level);
-    say_table(1);
-    say("%s\tmultiplier\tx\tm\terror\tdigits\tremark\n", by_level ? "level" : "k");
-    for (size_t i = 0; i < t->rows; i++) print_row(&t->row[i], by_level);
-    say_table_end();
-    for (size_t i = 0; i < t->zeros; i++) print_zero(&t->zero[i], by_level);
 }
 
 static json_t *json(const shell *s)
@@ -103,18 +33,6 @@ static json_t *json(const shell *s)
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-/* The row whose curves are best seen: |m| is about 1/30. */
-static const iso_separatrix_splitting *clearest(const iso_separatrix_table *s)
-{
-    const iso_separatrix_splitting *best = NULL;
-    double least = INFINITY;
-    for (size_t i = 0; i < s->rows; i++) {
-        const double apart = fabs(log(fmax(fabs(s->row[i].m), 1e-40) * 30));
-        if (s->row[i].status == ISO_OK && apart < least) best = &s->row[i], least = apart;
-    }
-    return best;
-}
-
 /* As many half returns beyond the crossing as the lobes need to be seen: they grow like lambda^(1/2) each. */
 static int halves_of(const iso_separatrix_splitting *s)
 {
@@ -122,32 +40,18 @@ static int halves_of(const iso_separatrix_splitting *s)
     return (int)fmin(fmax(needed, 2) + 2, 60);
 }
 
-static iso_status describe(shell *s)
-{
-    const iso_separatrix_table *t = s->result.found;
-    const iso_separatrix_splitting *at = clearest(t);
-    const double *J = s->scene.params.J;
-    const bool by_level = iso_separatrix_by_level(t);
-    char k[ISO_PICTURE_FRACTION + 8] = "", level[32] = "", number[ISO_PICTURE_FRACTION];
-    if (at && (by_level || t->rows == 1)) snprintf(k, sizeof k, "k = %s, ", iso_picture_fraction(number, at->k));
-    if (at && !by_level && at->level != 0) snprintf(level, sizeof level, ", level %.6g", at->level);
-    snprintf(s->title, sizeof s->title, "Splitting of the separatrix        %sJ = (%.6g, %.6g, %.6g)%s", k, J[0],
-             J[1], J[2], level);
-    return shell_lines(s, (const table_line[]){{.key = "title", .text = s->title}, {.key = NULL}});
-}
-
 /* |m| over k or the level, where there are several rows, and both curves of one of them. */
 static int draw(const shell *s)
 {
     const iso_separatrix_table *t = s->result.found;
-    const iso_separatrix_splitting *at = clearest(t);
+    const iso_separatrix_splitting *at = iso_separatrix_clearest(t);
     iso_record *curve = NULL;
-    char at_number[ISO_PICTURE_FRACTION + 16], number[ISO_PICTURE_FRACTION];
+    char at_number[ISO_FRACTION_SIZE + 16], number[ISO_FRACTION_SIZE];
     const bool by_level = iso_separatrix_by_level(t);
     if (interrupted()) return EXIT_DONE;
     iso_status status = iso_separatrix_curve(s->ctx, at->k, s->scene.params.J, at->level, halves_of(at), &curve);
     snprintf(at_number, sizeof at_number, "%s = %s", by_level ? "level" : "k",
-             iso_picture_fraction(number, number_of(at, by_level)));
+             iso_fraction_text(number, number_of(at, by_level)));
     if (status == ISO_OK) {
         iso_record_set_kind(curve, "separatrix");
         status = iso_record_set(s->ctx, curve, "at", at_number);
@@ -167,8 +71,6 @@ static int run(iso_context *ctx, const void *options_given)
                                       .kind = "splitting",
                                       .stopped = "only rows that are done are shown",
                                       .json = json,
-                                      .print = print_table,
-                                      .describe = describe,
                                       .draw = draw};
     return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
 }

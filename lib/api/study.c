@@ -46,7 +46,8 @@ iso_status iso_foreign_study(iso_context *ctx, const iso_foreign_scene *scene, c
     const iso_study *study;
     listener l = {iso_notes_begin(text, room), progress, data};
     iso_study_result result = {.sink = {.note = keep_note, .progress = show, .data = &l}};
-    const iso_study_subject subject = {scene ? &scene->scene : NULL, record};
+    const iso_study_subject subject = {
+        .scene = scene ? &scene->scene : NULL, .name = scene ? scene->name : NULL, .record = record};
     for (int i = 0; i < ISO_STUDY_TABLES; i++) table[i] = NULL;
     iso_status status = find(ctx, name, &study);
     if (status == ISO_OK) status = iso_study_ask(ctx, study, &subject, options, &result);

@@ -49,22 +49,21 @@ static iso_status add_rows(iso_context *ctx, const iso_record *r, const double *
 /* What rolls on what, from k alone: the radius of the fixed sphere is |k/(1-k)| times that of the ball. */
 static iso_status say_ball(iso_context *ctx, iso_picture *picture, double k)
 {
-    char text[200], where[100] = "on a plane", number[ISO_PICTURE_FRACTION];
+    char text[200], where[100] = "on a plane", number[ISO_FRACTION_SIZE];
     const double ratio = fabs(k / (1 - k));
     const char *side = k < 0 ? "around" : k < 1 ? "on" : "inside";
     if (ratio == 1)
         snprintf(where, sizeof where, "%s a sphere of its own radius", side);
     else if (k != 1)
         snprintf(where, sizeof where, "%s a sphere of %.3g times its radius", side, ratio);
-    snprintf(text, sizeof text, "k = %s: a %sball %s", iso_picture_fraction(number, k), k < 0 ? "hollow " : "",
-             where);
+    snprintf(text, sizeof text, "k = %s: a %sball %s", iso_fraction_text(number, k), k < 0 ? "hollow " : "", where);
     return iso_picture_say(ctx, picture, "rolls", text);
 }
 
 static iso_status say_potential(iso_context *ctx, iso_picture *picture, double k, bool field)
 {
-    char text[200], number[ISO_PICTURE_FRACTION], power[40] = "";
-    if (k != -1) snprintf(power, sizeof power, "^{%s}", iso_picture_fraction(number, -1 / k));
+    char text[200], number[ISO_FRACTION_SIZE], power[40] = "";
+    if (k != -1) snprintf(power, sizeof power, "^{%s}", iso_fraction_text(number, -1 / k));
     snprintf(text, sizeof text, "a point in the potential V = −ε (γ, Jγ)%s%s", power, field ? " + U/G" : "");
     return iso_picture_say(ctx, picture, "potential", text);
 }

@@ -174,30 +174,10 @@ int iso_picture_axis(const iso_record *r)
 
 /* --- words ------------------------------------------------------------------------------------------------------ */
 
-char *iso_picture_fraction(char text[static ISO_PICTURE_FRACTION], double x)
-{
-    snprintf(text, ISO_PICTURE_FRACTION, "%.6g", x);
-    for (int below = 1; below < 13; below++) {
-        const double above = nearbyint(x * below);
-        if (above == 0 || fabs(above) >= 100 || fabs(above / below - x) > 1e-15 * fabs(x)) continue;
-        snprintf(text, ISO_PICTURE_FRACTION, below > 1 ? "%.0f/%d" : "%.0f", above, below);
-        break;
-    }
-    return text;
-}
-
-char *iso_picture_ball(char text[static ISO_PICTURE_BALL], const iso_params *p)
-{
-    char k[ISO_PICTURE_FRACTION];
-    snprintf(text, ISO_PICTURE_BALL, "k = %s, J = (%.6g, %.6g, %.6g)", iso_picture_fraction(k, p->k), p->J[0],
-             p->J[1], p->J[2]);
-    return text;
-}
-
 char *iso_picture_title(char title[static ISO_PICTURE_TITLE], const char *seen, const iso_params *p)
 {
-    char ball[ISO_PICTURE_BALL];
-    snprintf(title, ISO_PICTURE_TITLE, "%s        %s", seen, iso_picture_ball(ball, p));
+    char ball[ISO_BALL_SIZE];
+    snprintf(title, ISO_PICTURE_TITLE, "%s        %s", seen, iso_ball_text(ball, p));
     return title;
 }
 

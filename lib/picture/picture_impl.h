@@ -5,6 +5,7 @@
 #include "instrument/frequencies/momentum.h"
 #include "model/params.h"
 #include "picture/picture.h"
+#include "study/study_impl.h"
 
 /* What is asked for. */
 typedef struct iso_picture_request {
@@ -33,10 +34,6 @@ iso_status iso_picture_count(iso_context *ctx, iso_picture *picture, const char 
 double iso_picture_number(const iso_record *table, size_t row, const char *column);
 bool iso_picture_is(const iso_record *table, size_t row, const char *column, const char *word);
 int iso_picture_axis(const iso_record *table);
-
-/* "1/2" of 0.5, if the number is such a fraction to its last digits; else its first digits. Returns `text`. */
-enum { ISO_PICTURE_FRACTION = 32 };
-char *iso_picture_fraction(char text[static ISO_PICTURE_FRACTION], double x);
 
 /* A symbol for the name of a column: "γ" for "gamma", "n₁" for "n1"; the name itself if there is none. */
 const char *iso_picture_symbol(const char *name);
@@ -100,10 +97,6 @@ iso_status iso_picture_add_curve(iso_context *ctx, iso_picture *picture, const i
 
 /* Adds the empty tables "curves" and "values". */
 iso_status iso_picture_add_curves(iso_context *ctx, iso_picture *picture);
-
-/* "k = ..., J = (...)". Returns `text`. */
-enum { ISO_PICTURE_BALL = 120 };
-char *iso_picture_ball(char text[static ISO_PICTURE_BALL], const iso_params *p);
 
 /* What is seen, a gap, and the ball. Returns `title`. */
 enum { ISO_PICTURE_TITLE = 400 };

@@ -259,7 +259,7 @@ iso_status iso_picture_points_make(iso_context *ctx, iso_picture_points *p, cons
                                    const char *options, iso_picture *picture)
 {
     const iso_picture_request q = {.options = options};
-    char title[ISO_PICTURE_TITLE], ball[ISO_PICTURE_BALL];
+    char title[ISO_PICTURE_TITLE], ball[ISO_BALL_SIZE];
     bool any[3] = {false};
     if (p->l < 0) return ISO_FAIL_INPUT(ctx, "", "no picture: an event has no coordinates l, x");
     if (iso_record_rows(p->first) == 0) return ISO_FAIL_INPUT(ctx, "", "no picture: there is no crossing");
@@ -271,7 +271,7 @@ iso_status iso_picture_points_make(iso_context *ctx, iso_picture_points *p, cons
     put_shades(p, any);
     ISO_TRY(iso_picture_charts_put(ctx, &p->charts, p->kept, picture));
     ISO_TRY(put_orbits(ctx, p, picture));
-    snprintf(title, sizeof title, "%s: %zu orbit%s%s", iso_picture_ball(ball, &p->charts.params), p->orbits,
+    snprintf(title, sizeof title, "%s: %zu orbit%s%s", iso_ball_text(ball, &p->charts.params), p->orbits,
              p->orbits == 1 ? "" : "s", p->reversors && any[ISO_PICTURE_COLOURED] ? " and mirror images" : "");
     ISO_TRY(iso_picture_say(ctx, picture, "title", title));
     ISO_TRY(iso_picture_say(ctx, picture, "grey_means",

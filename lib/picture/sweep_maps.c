@@ -136,11 +136,11 @@ static iso_status collect(iso_context *ctx, const iso_swept *s, layout *l, iso_r
 
 static iso_status name_maps(iso_context *ctx, const iso_swept *s, const layout *l, iso_record *maps)
 {
-    char name[2 * NAME], number[ISO_PICTURE_FRACTION];
+    char name[2 * NAME], number[ISO_FRACTION_SIZE];
     for (int i = 0; i < l->maps; i++) {
         double word;
         snprintf(name, sizeof name, "%s = %s", l->panel < 0 ? "" : iso_swept_axis(s, l->panel),
-                 iso_picture_fraction(number, l->key[i]));
+                 iso_fraction_text(number, l->key[i]));
         ISO_TRY(iso_record_intern(ctx, maps, l->panel < 0 ? "" : name, &word));
         ISO_TRY(iso_record_add(ctx, maps, 1, &word));
     }

@@ -1,4 +1,5 @@
 /* effects.c - the ball and the effects that act, in words. */
+#include <math.h>
 #include <stdio.h>
 
 #include "base/number_impl.h"
@@ -45,4 +46,24 @@ void iso_effects_print(FILE *to, const iso_effects *effects, bool docs)
         fprintf(to, "\n");
     }
     if (shown) fprintf(to, "\n");
+}
+
+char *iso_fraction_text(char text[static ISO_FRACTION_SIZE], double x)
+{
+    snprintf(text, ISO_FRACTION_SIZE, "%.6g", x);
+    for (int below = 1; below < 13; below++) {
+        const double above = nearbyint(x * below);
+        if (above == 0 || fabs(above) >= 100 || fabs(above / below - x) > 1e-15 * fabs(x)) continue;
+        snprintf(text, ISO_FRACTION_SIZE, below > 1 ? "%.0f/%d" : "%.0f", above, below);
+        break;
+    }
+    return text;
+}
+
+char *iso_ball_text(char text[static ISO_BALL_SIZE], const iso_params *p)
+{
+    char k[ISO_FRACTION_SIZE];
+    snprintf(text, ISO_BALL_SIZE, "k = %s, J = (%.6g, %.6g, %.6g)", iso_fraction_text(k, p->k), p->J[0], p->J[1],
+             p->J[2]);
+    return text;
 }

@@ -3,8 +3,8 @@
 #define ISO_STUDY_OPTIONS_IMPL_H
 
 #include "base/field.h"
-#include "method/method.h"
 #include "base/fold_impl.h"
+#include "method/method.h"
 #include "study/study.h"
 
 /* The studies and their options. Each stands in the room of its study. Their tables: of chaos the orbits and both
@@ -131,6 +131,10 @@ iso_status iso_scene_apply(iso_context *ctx, const iso_scene_changes *change, is
 /* Makes `found` the struct of the result, with what describes and frees it, and returns it; NULL, for which there was
  * no memory, is never freed. */
 void *iso_study_keep(iso_study_result *result, void *found, const iso_field *fields, void (*free)(void *found));
+
+/* The line "title" of the first table, in printf's words. */
+iso_status iso_study_title(iso_context *ctx, const iso_study_result *result, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 /* Passes a remark on, in printf's words. */
 void iso_study_note(const iso_study_result *result, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -157,6 +157,16 @@ void iso_study_result_free(iso_study_result *result)
     result->free = NULL;
 }
 
+iso_status iso_study_title(iso_context *ctx, const iso_study_result *result, const char *format, ...)
+{
+    char title[320];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(title, sizeof title, format, args);
+    va_end(args);
+    return iso_record_set(ctx, result->table[0], "title", title);
+}
+
 void iso_study_note(const iso_study_result *result, const char *format, ...)
 {
     char words[640];

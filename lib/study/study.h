@@ -48,12 +48,26 @@ const char *iso_option_type(const iso_option *option);
 
 enum { ISO_STUDY_TABLES = 6, ISO_STUDY_MOST_AT = 64 };
 
+/* Where rows come from: next() gives one in *row, which has the last one before. */
+typedef struct iso_source_row {
+    double *number;
+    bool more, begins_orbit;
+    size_t passed;       /* rows of nan so far                                         */
+    const char *ignored; /* columns that are no part of the rows, in words; NULL: none */
+} iso_source_row;
+
+typedef struct iso_row_source {
+    iso_status (*next)(iso_context *ctx, void *data, iso_source_row *row);
+    void *data;
+} iso_row_source;
+
 /* What is studied. */
 typedef struct iso_study_subject {
-    const iso_scene *scene;   /* NULL: none                                                        */
-    const char *name;         /* of its file, for the line `command` of tables; NULL: not known     */
-    const iso_record *record; /* a trajectory; NULL: none                                           */
-    const char *command;      /* the line itself; NULL: made from the options                       */
+    const iso_scene *scene;     /* NULL: none                                                        */
+    const char *name;           /* of its file, for the line `command` of tables; NULL: not known     */
+    const iso_record *record;   /* a trajectory; NULL: none                                           */
+    const iso_row_source *rows; /* of the record, which has columns and lines alone; NULL: it has its rows  */
+    const char *command;        /* the line itself; NULL: made from the options                       */
 } iso_study_subject;
 
 /* The result of a study, and who takes rows, notes and progress meanwhile. */
@@ -86,12 +100,12 @@ typedef struct iso_study {
     iso_status (*run)(iso_context *ctx, const iso_study_subject *subject, const void *options,
                       iso_study_result *result);
     unsigned of; /* ISO_STUDY_OF_SCENE, ... */
+    /* Of what it finds in one scene. Its numbers are columns of sweeps; NULL: it has none that another run repeats. */
+    const iso_field *fields;
     /* Prints what was found, for people; NULL: nothing. */
     void (*print)(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
     /* Adds lines to the first table, among them its title; NULL: none. */
     iso_status (*describe)(iso_context *ctx, const iso_scene *scene, const void *options, iso_study_result *result);
-    /* Of what it finds in one scene. Its numbers are columns of sweeps; NULL: it has none that another run repeats. */
-    const iso_field *fields;
 } iso_study;
 
 /* The i-th study; NULL past the end. By its name; NULL: there is none. */

@@ -100,6 +100,14 @@ iso_error iso_error_finder_read(const iso_error_finder *finder);
 
 /* --- in words --------------------------------------------------------------------------------------------------- */
 
+/* A number as a fraction where it is one, such as -1/2; else with six digits (effects.c). */
+enum { ISO_FRACTION_SIZE = 32 };
+char *iso_fraction_text(char text[static ISO_FRACTION_SIZE], double x);
+
+/* "k = 1, J = (1, 2, 5)", with six digits, for titles. */
+enum { ISO_BALL_SIZE = 120 };
+char *iso_ball_text(char text[static ISO_BALL_SIZE], const iso_params *p);
+
 /* "k = 1, J = 1 2 5" (effects.c). What was given reads back as the same doubles. What was computed from a body has 15
  * digits: the others are rounding. */
 void iso_params_print(FILE *to, const iso_params *params);

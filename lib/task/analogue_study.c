@@ -190,6 +190,12 @@ const iso_option iso_analogue_option[] = {
     ISO_OPTION_END,
 };
 
+static void print_found(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
+{
+    (void)scene, (void)options;
+    fputs(((const iso_analogue_found *)result->found)->text, to);
+}
+
 const iso_study iso_analogue_study = {"analogue",
                                       "find a ball that realises a problem of a point on a sphere",
                                       iso_analogue_option,
@@ -198,4 +204,5 @@ const iso_study iso_analogue_study = {"analogue",
                                       .prepare = prepare,
                                       .run = run,
                                       .of = ISO_STUDY_USES_SCENE,
-                                      .fields = fields};
+                                      .fields = fields,
+                                      .print = print_found};

@@ -104,7 +104,7 @@ static iso_status add_rows(comparer *r, bool (*progress)(void *data, double part
     const size_t rows = iso_scene_rows(r->scene);
     for (size_t i = 0; i < rows; i++) {
         ISO_TRY(add_row(r, i));
-        if (progress && !progress((double)(i + 1) / (double)rows, data)) break;
+        if (progress && !progress(data, (double)(i + 1) / (double)rows)) break;
     }
     return ISO_OK;
 }

@@ -131,7 +131,7 @@ const iso_field iso_comparison_fields[] = {
 
 /* --- the study -------------------------------------------------------------------------------------------------- */
 
-ISO_STUDY_BEGIN(iso_scene_request, (iso_scene_request){.change = ISO_SCENE_AS_IT_IS})
+ISO_STUDY_BEGIN(iso_compare_request, (iso_compare_request){.change = ISO_SCENE_AS_IT_IS, .rows = 6})
 
 /* The records that are tables of the result. */
 static void free_comparison(void *found)
@@ -163,7 +163,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
 {
     iso_scene scene = *subject->scene;
     iso_comparison *c = NULL;
-    ISO_TRY(iso_scene_apply(ctx, &((const iso_scene_request *)options)->change, &scene));
+    ISO_TRY(iso_scene_apply(ctx, &((const iso_compare_request *)options)->change, &scene));
     const iso_status status = iso_compare(ctx, &scene, show, result, &c);
     if (!c) return status;
     iso_record *const tables[ISO_STUDY_TABLES] = {c->difference,
@@ -185,18 +185,26 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
 }
 
 const iso_option iso_compare_option[] = {
-    ISO_OPTION_METHOD(iso_scene_request, change),
-    ISO_OPTION_TOLERANCE(ISO_TOLERANCE_OF_STEPS, iso_scene_request, change.tolerance),
-    ISO_OPTION_T_END(iso_scene_request, change),
-    ISO_OPTION_STEP(iso_scene_request, change),
+    ISO_OPTION_METHOD(iso_compare_request, change),
+    ISO_OPTION_TOLERANCE(ISO_TOLERANCE_OF_STEPS, iso_compare_request, change.tolerance),
+    ISO_OPTION_T_END(iso_compare_request, change),
+    ISO_OPTION_STEP(iso_compare_request, change),
+    {.name = "rows",
+     .argument = "N",
+     .expected = "a whole number from 1 on",
+     .doc = "rows of the table to print (default 6)",
+     .set = iso_set_count,
+     .offset = offsetof(iso_compare_request, rows),
+     .aside = true},
     ISO_OPTION_END,
 };
 
 const iso_study iso_compare_study = {"compare",
                                      "compute an orbit by every backend and show the differences",
                                      iso_compare_option,
-                                     sizeof(iso_scene_request),
+                                     sizeof(iso_compare_request),
                                      begin,
                                      .run = run,
                                      .of = ISO_STUDY_OF_SCENE,
-                                     .fields = iso_comparison_fields};
+                                     .fields = iso_comparison_fields,
+                                     .print = iso_compare_print};

@@ -2,6 +2,7 @@
 #ifndef ISO_TASK_TASK_IMPL_H
 #define ISO_TASK_TASK_IMPL_H
 
+#include "study/options_impl.h"
 #include "study/study_impl.h"
 #include "task/analogue.h"
 #include "task/compare.h"
@@ -37,6 +38,12 @@ bool iso_times_in_order(const double times[], size_t count);
 /* The times in the order of the work, for the caller to free; count is above 0. NULL: no memory. */
 iso_asked_time *iso_times_sorted(const double times[], size_t count);
 
+/* What the options of compare hold. */
+typedef struct iso_compare_request {
+    iso_scene_changes change;
+    double rows; /* of states that are printed */
+} iso_compare_request;
+
 /* --- comparisons, as text (compare_words.c) --------------------------------------------------------------------- */
 
 enum { ISO_COMPARISON_WORDS = 512 };
@@ -61,5 +68,8 @@ typedef struct iso_analogue_found {
     iso_analogue_ball ball;
     const char *text; /* the scene of the ball, with a report in # lines; it is freed with the rest */
 } iso_analogue_found;
+
+/* What it tells people, and the lines of its table (compare_print.c). */
+void iso_compare_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
 
 #endif

@@ -1,23 +1,10 @@
 /* plot.c - pictures of the tables of commands (see plot.h). */
 #include "plot/plot.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "picture/picture_impl.h"
 #include "plot/draw.h"
-
-char *iso_plot_title(char title[static ISO_PLOT_TITLE], const iso_params *p, const char *more, ...)
-{
-    va_list args;
-    va_start(args, more);
-    char ball[ISO_PICTURE_BALL];
-    const int used = snprintf(title, ISO_PLOT_TITLE, "%s", iso_picture_ball(ball, p));
-    vsnprintf(title + used, (size_t)(ISO_PLOT_TITLE - used), more, args);
-    va_end(args);
-    return title;
-}
 
 bool iso_plot_has_kind(const char *name)
 {

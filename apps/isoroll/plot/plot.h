@@ -3,13 +3,7 @@
 #define ISOROLL_PLOT_H
 
 #include "base/record.h"
-#include "model/params.h"
 #include "plot/page.h"
-
-/* "k = ..., J = ...", and what follows. Returns `title`. */
-enum { ISO_PLOT_TITLE = 200 };
-char *iso_plot_title(char title[static ISO_PLOT_TITLE], const iso_params *p, const char *more, ...)
-    __attribute__((format(printf, 3, 4)));
 
 /* Whether there is a picture of such tables ("section", "chaos", ...). */
 bool iso_plot_has_kind(const char *kind);

@@ -113,4 +113,9 @@ typedef struct iso_chaos_request {
     iso_section_words words;
 } iso_chaos_request;
 
+/* What it tells people, and the lines of its table (chaos_print.c). */
+void iso_chaos_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
+iso_status iso_chaos_describe(iso_context *ctx, const iso_scene *scene, const void *options,
+                              iso_study_result *result);
+
 #endif

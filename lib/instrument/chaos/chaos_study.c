@@ -48,7 +48,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
 {
     iso_chaos_options how = ((const iso_chaos_request *)options)->how;
     iso_chaos *c = NULL;
-    how.progress = result->progress;
+    how.progress = result->sink.progress;
     how.data = result->sink.data;
     const iso_status status = iso_chaos_run(ctx, subject->scene, &how, &c);
     if (!iso_study_keep(result, c, iso_chaos_fields, free_chaos)) return status;
@@ -98,4 +98,6 @@ const iso_study iso_chaos_study = {"chaos",
                                    prepare,
                                    run,
                                    ISO_STUDY_OF_SCENE,
-                                   iso_chaos_fields};
+                                   iso_chaos_fields,
+                                   .print = iso_chaos_print,
+                                   .describe = iso_chaos_describe};

@@ -168,7 +168,7 @@ static void show_progress(void *user, double part)
     for (size_t i = g->first; i < g->first + g->count; i++)
         done += wanted(g, i) > 0 ? (double)shown_of(g, g->model, i)->turns / (double)most_turns(g, i) : 1;
     const double all = (double)(w->options.starts + w->options.at_count) + 1;
-    w->options.progress(fmin(1, ((double)g->first + done / (both ? 2 : 1)) / all), w->options.data);
+    w->options.progress(w->options.data, fmin(1, ((double)g->first + done / (both ? 2 : 1)) / all));
 }
 
 /* The verdict of both models. */

@@ -25,6 +25,7 @@
 #include "instrument/frequencies/momentum.h"
 #include "instrument/frequencies/spectrum.h"
 #include "orbit/orbit.h"
+#include "study/study.h"
 #include "study/verdict.h"
 
 enum { ISO_MOST_SAMPLES = 1 << 22 };
@@ -33,7 +34,7 @@ typedef struct iso_frequencies_options {
     double turns;   /* of n in the estimate, about, 20 or more; NaN: 1000                                */
     double end;     /* length of the orbit in t, 20 turns or more; NaN: by turns                         */
     double samples; /* of the orbit, rounded up to a power of two, 512 or more; NaN: 32 for each turn    */
-    void (*progress)(double share, void *data); /* may be NULL; of the orbit in hand, in [0, 1]          */
+    void (*progress)(void *data, double share); /* may be NULL; of the orbit in hand, in [0, 1]          */
     void *data;
 } iso_frequencies_options;
 
@@ -128,5 +129,8 @@ iso_status iso_frequencies_find(iso_context *ctx, const iso_scene *scene, const 
 /* The estimate alone, whatever solution there is. */
 iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, const iso_frequencies_options *options,
                                     iso_frequencies *frequencies);
+
+/* What it tells people, and the lines of its table (frequencies_print.c). */
+void iso_frequencies_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
 
 #endif

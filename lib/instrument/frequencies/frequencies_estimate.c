@@ -27,7 +27,7 @@ typedef struct estimator {
     double end[ISO_CLOCKS];
     long turns;            /* in which the indicators of chaos may decide */
     iso_verdict indicated; /* what they say                               */
-    void (*progress)(double share, void *data);
+    void (*progress)(void *data, double share);
     void *data;
     iso_frequencies *f;
 } estimator;

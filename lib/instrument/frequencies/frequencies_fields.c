@@ -131,7 +131,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     iso_frequencies_options how = *(const iso_frequencies_options *)options;
     iso_frequencies *f = iso_study_keep(result, malloc(sizeof *f), iso_frequencies_fields, free);
     if (!f) return iso_context_no_memory(ctx, "frequencies");
-    how.progress = result->progress;
+    how.progress = result->sink.progress;
     how.data = result->sink.data;
     ISO_TRY(iso_frequencies_find(ctx, subject->scene, &how, f));
     return iso_study_table(ctx, "frequencies", subject->scene, result->fields, f, NULL, &result->table[0]);
@@ -158,4 +158,5 @@ const iso_study iso_frequencies_study = {"frequencies",
                                          begin,
                                          .run = run,
                                          .of = ISO_STUDY_OF_SCENE,
-                                         .fields = iso_frequencies_fields};
+                                         .fields = iso_frequencies_fields,
+                                         .print = iso_frequencies_print};

@@ -209,7 +209,7 @@ static iso_status search_part(search *s, int degree, unsigned parity)
         status = compare_with_known(s, degree, &part);
     }
     iso_integral_free_part(&part);
-    if (s->options.progress) s->options.progress((double)++s->done / (double)s->all, s->options.data);
+    if (s->options.progress) s->options.progress(s->options.data, (double)++s->done / (double)s->all);
     return status;
 }
 

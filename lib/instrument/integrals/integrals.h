@@ -73,7 +73,7 @@ typedef struct iso_integral_search_options {
     double within;    /* in (0, 1): a function that varies more is no integral                           */
     double tolerance; /* of the integration                                                              */
     int threads;      /* 0: as many as there are processors to run on                                    */
-    void (*progress)(double share, void *data); /* may be NULL; share of the work done, in [0, 1]        */
+    void (*progress)(void *data, double share); /* may be NULL; share of the work done, in [0, 1]        */
     void *data;
 } iso_integral_search_options;
 

@@ -155,7 +155,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     iso_integrals_found *found = iso_study_keep(result, malloc(sizeof *found), found_fields, free);
     if (!found) return iso_context_no_memory(ctx, "integrals");
     *found = (iso_integrals_found){.how = *(const iso_integral_search_options *)options};
-    found->how.progress = result->progress;
+    found->how.progress = result->sink.progress;
     found->how.data = result->sink.data;
     const iso_status status = iso_integral_search_run(ctx, subject->scene, &found->how, &found->search);
     if (status != ISO_OK && status != ISO_STOPPED) return status;
@@ -194,4 +194,5 @@ const iso_study iso_integrals_study = {"integrals",
                                        begin,
                                        .run = run,
                                        .of = ISO_STUDY_OF_SCENE,
-                                       .fields = found_fields};
+                                       .fields = found_fields,
+                                       .print = iso_integrals_print};

@@ -5,6 +5,7 @@
 #include "exact/integrability_impl.h"
 #include "instrument/integrals/integrals.h"
 #include "map/section_impl.h"
+#include "study/study.h"
 
 /* What functions are made of: M, gamma, and with a rotor v = q^(-1/(2k)). */
 enum { INTEGRAL_V = ISO_STATE, INTEGRAL_NUMBERS, INTEGRAL_POWERS = ISO_INTEGRAL_DEGREE + 1, INTEGRAL_PARITIES = 8 };
@@ -95,5 +96,8 @@ int iso_integral_energy_degree(const iso_integral_search *found);
 
 /* The smallest value that is no integral's, over all degrees; NaN: there is none. */
 double iso_integral_smallest(const iso_integral_search *found);
+
+/* What it tells people, and the lines of its table (integrals_print.c). */
+void iso_integrals_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
 
 #endif

@@ -388,7 +388,7 @@ iso_status iso_periodic_from_grid(iso_periodic_work *w)
     iso_section_spread_prepare(&spread, iso_periodic_motion(&w->map), w->map.axis, 1);
     for (int n = 1; n <= w->options.period && status == ISO_OK; n++) {
         status = try_period(w, &spread, n, z, at, arrived);
-        if (w->options.progress) w->options.progress((double)n / w->options.period, w->options.data);
+        if (w->options.progress) w->options.progress(w->options.data, (double)n / w->options.period);
     }
     free(z);
     free(at);

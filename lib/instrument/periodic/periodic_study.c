@@ -167,7 +167,7 @@ static iso_status follow(iso_context *ctx, const iso_scene *scene, const iso_per
     iso_continuations *f = NULL;
     iso_periodic_orbit *orbits = NULL;
     size_t count = 0, failed = 0;
-    how->progress = result->progress;
+    how->progress = result->sink.progress;
     how->data = result->sink.data;
     iso_status status = choose(ctx, scene, r, found, result, &orbits, &count);
     if (status == ISO_OK) status = iso_continuation_run(ctx, scene, orbits, count, how, &f);
@@ -190,7 +190,7 @@ static iso_status search(iso_context *ctx, const iso_scene *scene, const iso_per
     iso_continuation_options how;
     iso_periodic_options options = r->how;
     iso_periodic *found = NULL;
-    options.progress = result->progress;
+    options.progress = result->sink.progress;
     options.data = result->sink.data;
     if (r->follow) ISO_TRY(read_follow(ctx, r, scene, &how));
     const iso_status status = iso_periodic_run(ctx, scene, &options, &found);
@@ -276,7 +276,7 @@ static iso_status chart(iso_context *ctx, const iso_scene *scene, const iso_peri
     if (!f) return iso_context_no_memory(ctx, "a chart");
     ISO_TRY(read_chart(ctx, scene, r, &f->how));
     f->level = f->how.moment == ISO_CHART_LEVEL ? (double)NAN : f->how.level;
-    f->how.progress = result->progress;
+    f->how.progress = result->sink.progress;
     f->how.data = result->sink.data;
     const iso_status status = iso_stability_chart(ctx, &f->how, &f->grid, &f->borders);
     if (status == ISO_BAD_ARGUMENT) /* the ranges are the option's, not the scene's */
@@ -329,4 +329,6 @@ const iso_study iso_periodic_study = {"periodic",
                                       .prepare = prepare,
                                       .run = run,
                                       .of = ISO_STUDY_OF_SCENE,
-                                      .fields = iso_periodic_fields};
+                                      .fields = iso_periodic_fields,
+                                      .print = iso_periodic_print,
+                                      .describe = iso_periodic_describe};

@@ -56,7 +56,7 @@ static bool fill_lines(iso_pool_worker *w, void *data, size_t first, size_t coun
     chart *c = data;
     const size_t n = (size_t)c->o.steps + 1;
     for (size_t j = first; j < first + count; j++) {
-        if (w->asks && c->o.progress) c->o.progress((double)j / (double)n, c->o.data);
+        if (w->asks && c->o.progress) c->o.progress(c->o.data, (double)j / (double)n);
         for (size_t i = 0; i < n && iso_pool_goes_on(w); i++) {
             double *row = iso_record_row(c->grid, n * j + i);
             for (int which = 0; which < 2; which++) row[2 + which] = trace_at(c, which, row);

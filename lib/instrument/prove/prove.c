@@ -154,7 +154,7 @@ static void tell_undecided(const iso_context *ctx, const plan *p, int digits, ch
 typedef struct work {
     iso_context *ctx;
     const iso_prove_request *request;
-    const iso_study_result *result;
+    iso_study_result *result;
     iso_proofs *found;
     double length, done; /* of the interval */
     long tried;          /* intervals */
@@ -255,7 +255,7 @@ static iso_status find_one(work *w, const iso_proof_ball *ball)
 }
 
 static iso_status find_all(iso_context *ctx, const iso_proof_ball *ball, const iso_prove_request *r,
-                           const iso_study_result *result, iso_proofs *found)
+                           iso_study_result *result, iso_proofs *found)
 {
     work w = {ctx, r, result, found, length_of(ball), 0, 0};
     return iso_proof_is_thin(ball) ? find_one(&w, ball) : find_interval(&w, ball);
@@ -332,4 +332,5 @@ const iso_study iso_prove_study = {
     .prepare = prepare,
     .run = run,
     .of = ISO_STUDY_OF_SCENE,
-    .fields = iso_proofs_fields};
+    .fields = iso_proofs_fields,
+    .print = iso_prove_print};

@@ -82,4 +82,7 @@ typedef struct iso_proofs {
 
 extern const iso_field iso_proof_fields[], iso_proofs_fields[];
 
+/* What it tells people, and the lines of its table (prove_print.c). */
+void iso_prove_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
+
 #endif

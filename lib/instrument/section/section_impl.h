@@ -107,4 +107,7 @@ iso_status iso_section_areas_find(iso_context *ctx, const iso_scene *scene, cons
                                   void (*progress)(void *data, double part), void *data, iso_section_areas *areas);
 void iso_section_areas_free(iso_section_areas *areas);
 
+/* What it tells people, and the lines of its table (section_print.c). */
+void iso_section_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
+
 #endif

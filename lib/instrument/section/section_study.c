@@ -191,6 +191,7 @@ static iso_status find_areas(iso_context *ctx, const iso_scene *scene, const iso
     iso_section_areas *found = iso_study_keep(result, calloc(1, sizeof *found), areas_fields, free_areas);
     if (!found) return iso_context_no_memory(ctx, "areas");
     const iso_status status = iso_section_areas_find(ctx, scene, &r->how, show, &k, found);
+    if (*found->words) iso_study_note(result, "%s", found->words);
     if (found->count == 0) return status;
     iso_status made =
         iso_study_table(ctx, "section area", scene, NULL, NULL, iso_section_area_fields, &result->table[0]);
@@ -242,4 +243,5 @@ const iso_study iso_section_study = {"section",
                                      prepare,
                                      run,
                                      ISO_STUDY_OF_SCENE,
-                                     iso_section_fields};
+                                     iso_section_fields,
+                                     .print = iso_section_print};

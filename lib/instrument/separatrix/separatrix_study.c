@@ -180,7 +180,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     how.k = k, how.level = levels;
     for (int i = 0; i < 3; i++) how.J[i] = scene->params.J[i];
     how.scene = scene;
-    how.progress = result->progress;
+    how.progress = result->sink.progress;
     how.data = result->sink.data;
     const iso_status status =
         k && levels ? find(ctx, scene, &how, result) : iso_context_no_memory(ctx, "%zu values", how.count);
@@ -215,4 +215,6 @@ const iso_study iso_splitting_study = {"splitting",
                                        prepare,
                                        run,
                                        ISO_STUDY_OF_SCENE,
-                                       iso_separatrix_table_fields};
+                                       iso_separatrix_table_fields,
+                                       .print = iso_separatrix_print,
+                                       .describe = iso_separatrix_describe};

@@ -206,22 +206,9 @@ typedef struct iso_check_found {
 void iso_check_found_free(void *found);
 extern const iso_field iso_check_fields[];
 
-/* Where rows come from: next() gives one in *row, which has the last one before. */
-typedef struct iso_check_row {
-    double *number;
-    bool more, begins_orbit;
-    size_t passed;       /* rows of nan so far                                         */
-    const char *ignored; /* columns that are no part of the rows, in words; NULL: none */
-} iso_check_row;
-
-typedef struct iso_check_source {
-    iso_status (*next)(iso_context *ctx, void *data, iso_check_row *row);
-    void *data;
-} iso_check_source;
-
 /* Checks the rows one after the other. A mistake in the first one is told before what the header lacks. header: gets
  * the lines that the request and the scene (NULL: none) state. *f begins as zeros, and is to be freed. */
-iso_status iso_check_rows(iso_context *ctx, const iso_check_request *r, const iso_scene *scene, iso_record *header,
-                          const iso_check_source *from, iso_check_found *f);
+iso_status iso_source_rows(iso_context *ctx, const iso_check_request *r, const iso_scene *scene, iso_record *header,
+                           const iso_row_source *from, iso_check_found *f);
 
 #endif

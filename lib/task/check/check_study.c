@@ -80,12 +80,12 @@ static iso_status end_check(iso_context *ctx, iso_checking *checking, const char
     return k.lost ? iso_context_no_memory(ctx, "the names of what is not looked at") : ISO_OK;
 }
 
-iso_status iso_check_rows(iso_context *ctx, const iso_check_request *r, const iso_scene *scene, iso_record *header,
-                          const iso_check_source *from, iso_check_found *f)
+iso_status iso_source_rows(iso_context *ctx, const iso_check_request *r, const iso_scene *scene, iso_record *header,
+                           const iso_row_source *from, iso_check_found *f)
 {
     iso_params params;
     iso_checking *checking = NULL;
-    iso_check_row row = {.passed = 0};
+    iso_source_row row = {.passed = 0};
     size_t passed = 0;
     f->bound = r->bound;
     row.number = calloc(iso_record_columns(header) + 1, sizeof *row.number);
@@ -115,7 +115,7 @@ static void begin(void *options)
 /* Rows of a record. */
 typedef struct place {
     const iso_record *record;
-    const iso_study_result *result;
+    iso_study_result *result;
     size_t row;
 } place;
 
@@ -126,7 +126,7 @@ static bool is_nan(const double row[], size_t columns)
     return known == 0;
 }
 
-static iso_status next_row(iso_context *ctx, void *data, iso_check_row *row)
+static iso_status next_row(iso_context *ctx, void *data, iso_source_row *row)
 {
     place *at = data;
     const size_t columns = iso_record_columns(at->record), rows = iso_record_rows(at->record);
@@ -144,15 +144,36 @@ static iso_status next_row(iso_context *ctx, void *data, iso_check_row *row)
 }
 
 static iso_status find(iso_context *ctx, const iso_study_subject *subject, const iso_check_request *r,
-                       const iso_study_result *result, iso_check_found *f)
+                       iso_study_result *result, iso_check_found *f)
 {
     place at = {subject->record, result, 0};
-    const iso_check_source from = {next_row, &at};
+    const iso_row_source kept = {next_row, &at};
     iso_record *header;
     ISO_TRY(iso_record_create_like(ctx, subject->record, 0, NULL, &header));
-    const iso_status status = iso_check_rows(ctx, r, subject->scene, header, &from, f);
+    const iso_status status =
+        iso_source_rows(ctx, r, subject->scene, header, subject->rows ? subject->rows : &kept, f);
     iso_record_free(header);
     return status;
+}
+
+static void print_found(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
+{
+    const iso_check_found *f = result->found;
+    (void)scene, (void)options;
+    fprintf(to, "%zu rows", f->rows);
+    if (f->passed > 0) fprintf(to, ", %zu of nan passed over", f->passed);
+    fputs("\n", to);
+    iso_table_begin(to, 1);
+    fputs("residual\tworst\tat row\tof\n", to);
+    for (int i = 0; i < f->count; i++) {
+        const iso_residual *x = &f->checked[i].residual;
+        fprintf(to, "%s\t%.2e\t%zu\t%s%s\n", x->name, x->worst, x->row, x->what,
+                iso_checked_is_bad(&f->checked[i]) ? "  ABOVE THE BOUND" : "");
+    }
+    iso_table_end(to);
+    if (f->unseen_count > 0) fputs("not looked at:", to);
+    for (size_t i = 0; i < f->unseen_count; i++)
+        fprintf(to, " %s%s", f->unseen[i], i + 1 < f->unseen_count ? "," : "\n");
 }
 
 static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
@@ -180,6 +201,11 @@ const iso_option iso_check_option[] = {
     ISO_OPTION_END,
 };
 
-const iso_study iso_check_study = {
-    "check",    "test whether a trajectory solves its model",    iso_check_option, sizeof(iso_check_request), begin,
-    .run = run, .of = ISO_STUDY_OF_RECORD | ISO_STUDY_USES_SCENE};
+const iso_study iso_check_study = {"check",
+                                   "test whether a trajectory solves its model",
+                                   iso_check_option,
+                                   sizeof(iso_check_request),
+                                   begin,
+                                   .run = run,
+                                   .of = ISO_STUDY_OF_RECORD | ISO_STUDY_USES_SCENE,
+                                   .print = print_found};

@@ -32,7 +32,7 @@ typedef struct iso_cost_options {
     iso_backend backend; /* this backend alone; ISO_BACKEND_AUTO: all                                           */
     const iso_method *method; /* this method alone; NULL: all that serve the scene, but for slow reference ones */
     double tolerance; /* this tolerance alone; 0: all                                                        */
-    void (*progress)(double share, const char *what, void *data); /* may be NULL; share in [0, 1], never falls  */
+    void (*progress)(void *data, double share, const char *what); /* may be NULL; share in [0, 1], never falls  */
     void *data;
 } iso_cost_options;
 

@@ -136,4 +136,11 @@ int iso_cost_count(const iso_cost *cost, bool (*is)(const iso_cost_cell *cell));
 /* As iso_cost_choose, but only among the methods that take steps, and in one series (NULL: in all). */
 const iso_cost_cell *iso_cost_choose_steps(const iso_cost *cost, const iso_cost_series *series, double want);
 
+/* What it tells people, and the lines of its table (cost_print.c). */
+void iso_cost_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
+iso_status iso_cost_describe(iso_context *ctx, const iso_scene *scene, const void *options, iso_study_result *result);
+
+/* A note about the choice for --want: the error and time to expect. */
+void iso_cost_note_wanted(const iso_study_result *result, const iso_cost_found *found);
+
 #endif

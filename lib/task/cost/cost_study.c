@@ -96,7 +96,7 @@ static iso_status put(iso_context *ctx, const iso_scene *scene, const iso_cost_f
 
 ISO_STUDY_BEGIN(iso_cost_request, (iso_cost_request){.change = ISO_SCENE_AS_IT_IS, .want = NAN})
 
-static void show(double share, const char *what, void *data)
+static void show(void *data, double share, const char *what)
 {
     (void)what;
     iso_study_progress(data, share);
@@ -132,6 +132,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     if (!isnan(r->want)) f->choice = iso_cost_choose(f->cost, r->want);
     const bool lost = !f->cost->complete || iso_cost_count(f->cost, iso_cost_has_failed) > 0;
     result->failed = isnan(r->want) ? lost : !f->choice;
+    if (!isnan(r->want)) iso_cost_note_wanted(result, f);
     const iso_status made = put(ctx, &scene, f, &result->table[0]);
     return status == ISO_OK ? made : status;
 }
@@ -156,4 +157,6 @@ const iso_study iso_cost_study = {"cost",
                                   sizeof(iso_cost_request),
                                   begin,
                                   .run = run,
-                                  .of = ISO_STUDY_OF_SCENE};
+                                  .of = ISO_STUDY_OF_SCENE,
+                                  .print = iso_cost_print,
+                                  .describe = iso_cost_describe};

@@ -329,6 +329,12 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     return iso_study_table(ctx, "explain", &scene, fields, e, NULL, &result->table[0]);
 }
 
+static void print_explanation(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
+{
+    (void)scene, (void)options;
+    fputs(((const iso_explanation *)result->found)->text, to);
+}
+
 const iso_study iso_explain_study = {"explain",
                                      "say what would be simulated and why, without doing it",
                                      iso_scene_change_option,
@@ -336,4 +342,5 @@ const iso_study iso_explain_study = {"explain",
                                      begin,
                                      .run = run,
                                      .of = ISO_STUDY_OF_SCENE,
-                                     .fields = fields};
+                                     .fields = fields,
+                                     .print = print_explanation};
