@@ -9,6 +9,7 @@
 #include "plot/draw.h"
 #include "scene_options.h"
 #include "shell.h"
+#include "stream.h"
 
 /* What section can be told. */
 typedef struct options {
@@ -25,76 +26,28 @@ static const char *table_of(const options *o)
 
 /* Where the rows go. */
 typedef struct target {
-    iso_context *ctx;
-    const options *o;
-    bool opened; /* from here on, an error is no mistake in the scene */
-    iso_table_writer *writer;
+    stream to; /* first */
     iso_picture_points *picture; /* NULL: none is drawn */
+    bool draws;
+    int l;        /* the column l of table 0; -1: there is none */
+    double at[2]; /* l, x of its last row                       */
 } target;
 
-/* --- the rows --------------------------------------------------------------------------------------------------- */
-
-static iso_status open_file(void *data, const iso_record *header)
+static iso_status open_file(void *data, int table, const iso_record *header)
 {
     target *t = data;
-    t->opened = true;
-    iso_status status = t->o->shell.plot.path ? iso_picture_points_create(t->ctx, header, &t->picture) : ISO_OK;
-    if (status == ISO_OK) status = iso_table_writer_open(t->ctx, table_of(t->o), "section", &t->writer);
-    return status == ISO_OK ? iso_table_write_header(t->ctx, t->writer, header) : status;
+    if (table == 0) t->l = iso_record_find(header, "l");
+    if (table == 0 && t->draws) ISO_TRY(iso_picture_points_create(t->to.ctx, header, &t->picture));
+    return stream_header(&t->to, table, header);
 }
 
-static iso_status write_row(void *data, const double row[], size_t count)
+static iso_status write_row(void *data, int table, const double row[], size_t count)
 {
-    const target *t = data;
-    (void)count;
-    const iso_status status = t->picture ? iso_picture_points_row(t->ctx, t->picture, row) : ISO_OK;
-    return status != ISO_OK ? status : iso_table_write_row(t->ctx, t->writer, row);
-}
-
-static iso_status keep_pair(void *data, size_t orbit, const iso_crossing *ball, const iso_crossing *point)
-{
-    const target *t = data;
-    (void)orbit;
-    if (!t->picture) return ISO_OK;
-    return iso_picture_points_pair(t->ctx, t->picture, (double[]){ball->l, ball->x}, (double[]){point->l, point->x});
-}
-
-static void tell_note(void *data, const char *words)
-{
-    const target *t = data;
-    if (!t->o->quiet) complain("%s", words);
-}
-
-static void show_progress(void *data, double part)
-{
-    (void)data;
-    progress_show(part);
-}
-
-/* --- the summary ------------------------------------------------------------------------------------------------ */
-
-static void tell_both(const iso_section_result *r)
-{
-    if (r->crossings[ISO_BALL] == r->crossings[ISO_POINT] && r->unequal == 0)
-        complain("ball and point, each by itself: %zu crossings both", r->crossings[ISO_BALL]);
-    else
-        complain("ball and point, each by itself: %zu and %zu crossings; %zu orbits have different numbers",
-                 r->crossings[ISO_BALL], r->crossings[ISO_POINT], r->unequal);
-    if (r->distance > 0)
-        complain("largest distance of the two%s, where they do not part: %.2g, at orbit %zu, crossing %zu",
-                 r->nature.axis < 0 ? " in t, by the mean time between crossings" : " in (l, x)", r->distance,
-                 r->distance_orbit, r->distance_crossing);
-    if (r->parted > 0)
-        complain("%zu of %zu orbits part (distance above %g): their rounding errors grow, as on chaotic orbits; the "
-                 "first is orbit %zu, at crossing %zu",
-                 r->parted, r->orbits, ISO_SECTION_PARTED, r->parted_orbit, r->parted_crossing);
-}
-
-static void tell(const iso_section_result *r)
-{
-    complain("%zu orbit%s, %zu crossings written", r->orbits, r->orbits == 1 ? "" : "s", r->rows);
-    if (r->nature.global) complain("%s", r->nature.words);
-    if (r->models == ISO_SHOW_BOTH) tell_both(r);
+    target *t = data;
+    if (table > 0) return t->picture ? iso_picture_points_pair(t->to.ctx, t->picture, t->at, row + 5) : ISO_OK;
+    if (t->l >= 0) memcpy(t->at, row + t->l, sizeof t->at);
+    if (t->picture) ISO_TRY(iso_picture_points_row(t->to.ctx, t->picture, row));
+    return stream_row(&t->to, table, row, count);
 }
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
@@ -122,56 +75,47 @@ static void judge(iso_context *ctx, const iso_scene *scene, const iso_section_op
     iso_chaos_free(chaos);
 }
 
-static int draw(target *t, const iso_scene *scene, const iso_section_options *how, const iso_section_result *r)
+static int draw(target *t, const options *o, const iso_scene *scene, const iso_section_result *r)
 {
-    const iso_plot_page *page = &t->o->shell.plot;
+    const iso_plot_page *page = &o->shell.plot;
     char text[PLOT_SECTION_OPTIONS];
     iso_record *over[ISO_PLOT_OVERS + 1];
     iso_picture picture = {.layout = NULL};
-    if (!interrupted()) judge(t->ctx, scene, how, r, t->picture);
-    iso_status status = plot_read_over(t->ctx, page, over);
+    if (!interrupted()) judge(t->to.ctx, scene, &o->study.how, r, t->picture);
+    iso_status status = plot_read_over(t->to.ctx, page, over);
     if (status == ISO_OK)
-        status = iso_picture_points_make(t->ctx, t->picture, (const iso_record *const *)over,
+        status = iso_picture_points_make(t->to.ctx, t->picture, (const iso_record *const *)over,
                                          plot_section_options(page, text), &picture);
-    if (status == ISO_OK) status = plot_draw(t->ctx, page, &picture);
+    if (status == ISO_OK) status = plot_draw(t->to.ctx, page, &picture);
     for (int i = 0; i < ISO_PLOT_OVERS; i++) iso_record_free(over[i]);
     iso_picture_free(&picture);
-    return finish(t->ctx, status);
+    return finish(t->to.ctx, status);
 }
 
 /* --- the whole -------------------------------------------------------------------------------------------------- */
 
-/* Closes the file. It keeps all rows that were written. */
-static int close_file(const target *t, iso_status status, const iso_section_result *r)
+static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene)
 {
-    const bool keep = r->rows > 0 && status != ISO_FILE_TROUBLE && status != ISO_CLOSED_PIPE;
-    int result = finish(t->ctx, status);
-    if (!t->writer) return result;
-    const iso_status closed = iso_table_writer_close(t->ctx, t->writer, keep);
-    if (closed != ISO_OK) return result == EXIT_DONE ? finish(t->ctx, closed) : result;
-    if (status == ISO_STOPPED) complain("interrupted: %zu crossings were written", r->rows);
-    if (!keep) return result;
-    if (r->failed > 0) {
-        complain("%zu of %zu orbits did not get to the end; %s", r->failed, r->orbits, r->words);
-        result = result == EXIT_DONE ? EXIT_SOME_FAILED : result;
-    }
-    if (status == ISO_OK && !t->o->quiet) tell(r);
-    return result;
-}
-
-static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene, const iso_section_options *how)
-{
-    target t = {.ctx = ctx, .o = o};
-    const iso_section_sink sink = {open_file, write_row, keep_pair, tell_note, show_progress, &t, NULL};
-    iso_section_result r;
+    target t = {.to = {.ctx = ctx, .output = table_of(o), .kind = "section", .quiet = o->quiet},
+                .draws = o->shell.plot.path != NULL};
+    iso_study_result r = {.sink = stream_sink(&t.to)};
+    r.sink.header = open_file;
+    r.sink.row = write_row;
     begin_work(ctx, table_of(o));
-    const iso_status status = iso_section_run(ctx, scene, how, &sink, &r);
-    int result = t.opened ? close_file(&t, status, &r) : finish_scene(ctx, o->shell.file, scene, status);
-    if (t.opened && o->shell.plot.path && r.rows > 0 && result <= EXIT_SOME_FAILED) {
-        const int drawn = draw(&t, scene, how, &r);
+    const iso_status status =
+        iso_study_answer(ctx, &iso_section_study, &(iso_study_subject){.scene = scene}, &o->study, &r);
+    const iso_section_result *found = r.found;
+    const bool keep = found && found->rows > 0 && status != ISO_FILE_TROUBLE && status != ISO_CLOSED_PIPE;
+    int result = t.to.opened ? stream_close(&t.to, status, keep) : finish_scene(ctx, o->shell.file, scene, status);
+    if (keep && status == ISO_STOPPED) complain("interrupted: %zu crossings were written", found->rows);
+    if (keep && r.failed) result = worse(result, EXIT_SOME_FAILED);
+    if (keep && status == ISO_OK && !o->quiet && result <= EXIT_SOME_FAILED) complain_lines(r.text);
+    if (keep && t.draws && result <= EXIT_SOME_FAILED) {
+        const int drawn = draw(&t, o, scene, found);
         if (drawn != EXIT_DONE) result = drawn;
     }
     iso_picture_points_free(t.picture);
+    iso_study_result_free(&r);
     return result;
 }
 
@@ -186,7 +130,7 @@ static int section(iso_context *ctx, const options *o)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                   "--plot draws sections n_A = 0: an event has no coordinates l, x");
     if (status == ISO_OK) status = iso_scene_load(ctx, o->shell.file, &scene);
-    return status == ISO_OK ? run_scene(ctx, o, &scene, how) : finish(ctx, status);
+    return status == ISO_OK ? run_scene(ctx, o, &scene) : finish(ctx, status);
 }
 
 /* --- areas in place of crossings -------------------------------------------------------------------------------- */

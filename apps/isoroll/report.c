@@ -81,6 +81,15 @@ void begin_work(iso_context *ctx, const char *rows)
 static bool silently;
 static char kept[2048];
 
+void complain_lines(const char *text)
+{
+    while (text && *text) {
+        const size_t length = strcspn(text, "\n");
+        complain("%.*s", (int)length, text);
+        text += length + (text[length] == '\n');
+    }
+}
+
 void complain_silently(void)
 {
     silently = true;

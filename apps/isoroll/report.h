@@ -20,6 +20,9 @@ enum exit_status {
 /* Prints "isoroll: MESSAGE" on stderr, in one line. */
 void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* Prints each line of a text as complain does; NULL: there is none. */
+void complain_lines(const char *text);
+
 /* From now on complain only keeps its message, the last one; complaint gives it ("": none). */
 void complain_silently(void);
 const char *complaint(void);

@@ -15,9 +15,8 @@
 
 /* --- runs ------------------------------------------------------------------------------------------------------- */
 
-static void keep_note(void *data, iso_run_note note, const char *words)
+static void keep_note(void *data, const char *words)
 {
-    (void)note;
     iso_notes_add(data, words);
 }
 
@@ -44,7 +43,7 @@ iso_status iso_foreign_run(iso_context *ctx, const iso_foreign_scene *scene, con
                            double errors[5], iso_record **record, char text[], size_t room)
 {
     notes n = iso_notes_begin(text, room);
-    const iso_run_sink sink = {.note = keep_note, .data = &n, .record = record};
+    const iso_sink sink = {.note = keep_note, .data = &n};
     iso_run_options how = iso_run_defaults();
     iso_run_result result;
     *record = NULL;
@@ -53,7 +52,7 @@ iso_status iso_foreign_run(iso_context *ctx, const iso_foreign_scene *scene, con
     how.times = times;
     how.count = count;
     how.errors = errors != NULL;
-    iso_status status = iso_run(ctx, &scene->scene, &how, &sink, &result);
+    iso_status status = iso_run(ctx, &scene->scene, &how, &sink, record, &result);
     if (errors) tell_errors(&result, errors, &n);
     if (!*record) status = iso_foreign_blame(ctx, scene, status);
     if (status != ISO_OK && result.rows == 0) iso_record_free(*record), *record = NULL;
@@ -144,12 +143,12 @@ static iso_status fill_sorted(iso_foreign_orbit *o, const double times[], size_t
 static iso_status fill_watched(iso_foreign_orbit *o, const double times[], size_t count, double table[], notes *n)
 {
     iso_record *rows = NULL;
-    const iso_run_sink sink = {.note = keep_note, .data = n, .record = &rows};
+    const iso_sink sink = {.note = keep_note, .data = n};
     iso_run_options how = iso_run_defaults();
     iso_run_result r;
     how.times = times;
     how.count = count;
-    const iso_status status = iso_run(o->ctx, &o->scene, &how, &sink, &r);
+    const iso_status status = iso_run(o->ctx, &o->scene, &how, &sink, &rows, &r);
     if (status == ISO_OK && r.rows > 0)
         memcpy(table, iso_record_row(rows, 0), r.rows * (size_t)o->count * sizeof *table);
     iso_record_free(rows);

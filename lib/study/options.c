@@ -163,15 +163,7 @@ const char *iso_option_type(const iso_option *o)
 
 /* --- scenes ----------------------------------------------------------------------------------------------------- */
 
-const iso_option iso_scene_change_option[] = {
-    ISO_OPTION_BACKEND(iso_scene_request, change),
-    ISO_OPTION_METHOD(iso_scene_request, change),
-    ISO_OPTION_TOLERANCE(ISO_TOLERANCE_OF_STEPS, iso_scene_request, change.tolerance),
-    ISO_OPTION_MODELS("as", "WHAT", "which model is written: ball, point, both", iso_scene_request, change.as),
-    ISO_OPTION_T_END(iso_scene_request, change),
-    ISO_OPTION_STEP(iso_scene_request, change),
-    ISO_OPTION_END,
-};
+const iso_option iso_scene_change_option[] = {ISO_OPTIONS_OF_SCENE(iso_scene_request, change), ISO_OPTION_END};
 
 /* What an option says does not stand in the file. Of end and step, a wrong one may be due to the other. */
 static void forget_places(const iso_scene_changes *c, iso_scene *scene)

@@ -12,6 +12,7 @@
  * or the areas; of splitting, prove and cost their rows; of compare the differences, and those of ball and point from the
  * closed solution; of check the residuals. Those of the others have no rows. */
 #define ISO_STUDY_LIST(X)                                                                                            \
+    X(run)                                                                                                           \
     X(section)                                                                                                       \
     X(chaos)                                                                                                         \
     X(frequencies) X(periodic) X(splitting) X(prove) X(integrals) X(cost) X(compare) X(check) X(explain) X(analogue)
@@ -109,6 +110,13 @@ typedef struct iso_scene_changes {
 #define ISO_OPTION_STEP(type, change)                                                                                \
     ISO_OPTION("step", "DT", "a positive number", "time between rows, in place of the scene's", iso_set_positive,    \
                type, change.step)
+
+/* All of them. */
+#define ISO_OPTIONS_OF_SCENE(type, change)                                                                           \
+    ISO_OPTION_BACKEND(type, change), ISO_OPTION_METHOD(type, change),                                               \
+        ISO_OPTION_TOLERANCE(ISO_TOLERANCE_OF_STEPS, type, change.tolerance),                                        \
+        ISO_OPTION_MODELS("as", "WHAT", "which model is written: ball, point, both", type, change.as),               \
+        ISO_OPTION_T_END(type, change), ISO_OPTION_STEP(type, change)
 
 /* Options that only change the scene, and all their rows. */
 typedef struct iso_scene_request {

@@ -19,7 +19,7 @@ static iso_status refuse_subject(iso_context *ctx, const iso_study *study, const
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "record", "%s needs a trajectory", study->name);
     if (subject->scene && !(study->of & (ISO_STUDY_OF_SCENE | ISO_STUDY_USES_SCENE)))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scene", "%s takes no scene", study->name);
-    if (subject->record && !(study->of & ISO_STUDY_OF_RECORD))
+    if (subject->record && !(study->of & (ISO_STUDY_OF_RECORD | ISO_STUDY_USES_RECORD)))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "record", "%s takes no trajectory", study->name);
     return ISO_OK;
 }

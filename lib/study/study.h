@@ -85,7 +85,7 @@ typedef struct iso_study_result {
 } iso_study_result;
 
 /* What a study needs, ... and what it can use as well. */
-enum { ISO_STUDY_OF_SCENE = 1, ISO_STUDY_OF_RECORD = 2, ISO_STUDY_USES_SCENE = 4 };
+enum { ISO_STUDY_OF_SCENE = 1, ISO_STUDY_OF_RECORD = 2, ISO_STUDY_USES_SCENE = 4, ISO_STUDY_USES_RECORD = 8 };
 
 typedef struct iso_study {
     const char *name, *doc; /* doc: one line */

@@ -82,26 +82,27 @@ typedef struct last_row {
     iso_record **table;
 } last_row;
 
-static iso_status begin_table(void *data, const iso_record *header)
+static iso_status begin_table(void *data, int table, const iso_record *header)
 {
     const last_row *last = data;
     double *row;
+    if (table > 0) return ISO_OK;
     ISO_TRY(iso_record_create_like(last->ctx, header, 0, NULL, last->table));
     ISO_TRY(iso_record_append(last->ctx, *last->table, &row));
     for (size_t i = 0; i < iso_record_columns(header); i++) row[i] = NAN;
     return ISO_OK;
 }
 
-static iso_status keep_row(void *data, const double row[], size_t count)
+static iso_status keep_row(void *data, int table, const double row[], size_t count)
 {
     const last_row *last = data;
-    memcpy(iso_record_row(*last->table, 0), row, count * sizeof *row);
+    if (table == 0) memcpy(iso_record_row(*last->table, 0), row, count * sizeof *row);
     return ISO_OK;
 }
 
 static iso_status at_turn(iso_context *ctx, const run_request *r, const iso_scene *s, last_row *last)
 {
-    const iso_section_sink sink = {.header = begin_table, .row = keep_row, .data = last};
+    const iso_sink sink = {.header = begin_table, .row = keep_row, .data = last};
     iso_section_options o = iso_section_defaults();
     iso_section_result result;
     o.crossings = (size_t)r->turns;
@@ -109,7 +110,7 @@ static iso_status at_turn(iso_context *ctx, const run_request *r, const iso_scen
     if ((int)r->models >= 0) o.models = r->models;
     o.threads = 1;
     o.vectors = r->vectors;
-    ISO_TRY(iso_section_run(ctx, s, &o, &sink, &result));
+    ISO_TRY(iso_section_run(ctx, s, &o, &sink, NULL, &result));
     return result.failed == 0 ? ISO_OK : iso_context_fail(ctx, result.failure, "", "%s", result.words);
 }
 
@@ -119,13 +120,13 @@ static iso_status state(iso_context *ctx, const iso_study_subject *subject, cons
     const run_request *r = options;
     const iso_scene s = scene_of(r, subject->scene);
     last_row last = {ctx, &result->table[0]};
-    const iso_run_sink sink = {.header = begin_table, .row = keep_row, .data = &last};
+    const iso_sink sink = {.header = begin_table, .row = keep_row, .data = &last};
     iso_run_options o = iso_run_defaults();
     ISO_TRY(iso_scene_check_columns(ctx, &s));
     if (!isnan(r->turns)) return at_turn(ctx, r, &s, &last);
     o.times = &s.end;
     o.count = 1;
-    return iso_run(ctx, &s, &o, &sink, NULL);
+    return iso_run(ctx, &s, &o, &sink, NULL, NULL);
 }
 
 static iso_status prepare(iso_context *ctx, void *options)
@@ -165,10 +166,10 @@ const iso_study iso_state_study = {"state",
 /* All rows of the scene, of which none is kept. errors: they are asked for. */
 static iso_status run_all(iso_context *ctx, const iso_scene *scene, bool errors, iso_run_result *result)
 {
-    const iso_run_sink sink = {.data = NULL};
+    const iso_sink sink = {.data = NULL};
     iso_run_options o = iso_run_defaults();
     o.errors = errors;
-    return iso_run(ctx, scene, &o, &sink, result);
+    return iso_run(ctx, scene, &o, &sink, NULL, result);
 }
 
 #define FIELD(key, member, unit, doc) ISO_MEMBER(iso_run_result, key, member, unit, doc)

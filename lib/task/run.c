@@ -70,7 +70,8 @@ iso_status iso_scene_orbit(iso_context *ctx, const iso_scene *scene, const int c
 typedef struct runner {
     iso_context *ctx;
     const iso_scene *scene;
-    const iso_run_sink *sink;
+    const iso_sink *sink;
+    iso_record **rows; /* NULL: none are kept */
     iso_run_options options;
     iso_run_result *result;
     iso_monitor monitor; /* the caller's */
@@ -89,9 +90,9 @@ typedef struct runner {
     double safe_to[2]; /* after the start and before it: contact is known to last to this time  */
 } runner;
 
-static void say(const runner *r, iso_run_note note, const char *words)
+static void note(const runner *r, const char *text)
 {
-    if (r->sink->note) r->sink->note(r->sink->data, note, words);
+    if (r->sink->note) r->sink->note(r->sink->data, text);
 }
 
 /* --- the header ------------------------------------------------------------------------------------------------- */
@@ -115,9 +116,9 @@ static iso_status give_header(const runner *r)
 {
     iso_record *header = NULL;
     iso_status status = describe(r, &header);
-    if (status == ISO_OK && r->sink->header) status = r->sink->header(r->sink->data, header);
-    if (status == ISO_OK && r->sink->record)
-        *r->sink->record = header;
+    if (status == ISO_OK && r->sink->header) status = r->sink->header(r->sink->data, 0, header);
+    if (status == ISO_OK && r->rows)
+        *r->rows = header;
     else
         iso_record_free(header);
     return status;
@@ -175,7 +176,7 @@ static iso_status look_both_ways(runner *r)
     }
     r->pressed = true;
     if (r->result->lost[end < 0])
-        say(r, ISO_NOTE_LOST_AT_START, "contact is lost at 0: there is a row there, and none beyond");
+        note(r, "contact is lost at 0: there is a row there, and none beyond");
     return ISO_OK;
 }
 
@@ -195,7 +196,7 @@ static iso_status look_at_contact(runner *r)
              "the support would have to pull the ball from the start (pressure %.3g): this is the motion of a "
              "two-sided contact",
              pressure);
-    say(r, ISO_NOTE_PULLED, words);
+    note(r, words);
     return ISO_OK;
 }
 
@@ -205,7 +206,7 @@ static void say_lost(runner *r, int side, double time)
     r->result->lost_at[side] = time;
     snprintf(words, sizeof words, "contact is lost at %s = %s: there is a row there, and none beyond",
              iso_clock_name(r->how.clock), ISO_SHORT(time));
-    say(r, ISO_NOTE_LOST, words);
+    note(r, words);
 }
 
 /* The orbit at `time`. If `auto` has taken another model than the start's, the row of the start has the numbers
@@ -276,8 +277,8 @@ static void close_errors(runner *r)
 
 static iso_status give_row(runner *r, const double row[])
 {
-    iso_status status = r->sink->record ? iso_record_add(r->ctx, *r->sink->record, 1, row) : ISO_OK;
-    if (status == ISO_OK && r->sink->row) status = r->sink->row(r->sink->data, row, (size_t)r->count);
+    iso_status status = r->rows ? iso_record_add(r->ctx, *r->rows, 1, row) : ISO_OK;
+    if (status == ISO_OK && r->sink->row) status = r->sink->row(r->sink->data, 0, row, (size_t)r->count);
     r->result->rows += status == ISO_OK;
     return status;
 }
@@ -319,7 +320,7 @@ static iso_status work(runner *r)
 static bool monitor(void *data)
 {
     const runner *r = data;
-    const iso_run_sink *sink = r->sink;
+    const iso_sink *sink = r->sink;
     if (sink->progress && r->orbit && r->farthest != 0)
         sink->progress(sink->data, fmin(fabs(iso_orbit_reached(r->orbit) / r->farthest), 1));
     return iso_monitor_goes_on(&r->monitor);
@@ -357,12 +358,12 @@ static void close_run(runner *r)
     free(r->found);
 }
 
-iso_status iso_run(iso_context *ctx, const iso_scene *scene, const iso_run_options *options, const iso_run_sink *sink,
-                   iso_run_result *result)
+iso_status iso_run(iso_context *ctx, const iso_scene *scene, const iso_run_options *options, const iso_sink *sink,
+                   iso_record **rows, iso_run_result *result)
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_run_result unused;
-    runner r = {.ctx = ctx, .scene = scene, .sink = sink, .result = result ? result : &unused};
+    runner r = {.ctx = ctx, .scene = scene, .sink = sink, .rows = rows, .result = result ? result : &unused};
     r.options = iso_run_defaults();
     r.monitor = iso_context_monitor(ctx);
     *r.result = (iso_run_result){.error_status = ISO_BAD_ARGUMENT, .error_words = "errors were not asked for"};

@@ -1,9 +1,9 @@
 /* run.h - the trajectory of a scene: every row goes to a sink as soon as it is found.
  *
- *     iso_status keep_row(void *data, const double row[], size_t count);
- *     iso_run_sink sink = {.row = keep_row, .data = &rows};
+ *     iso_status keep_row(void *data, int table, const double row[], size_t count);
+ *     iso_sink sink = {.row = keep_row, .data = &rows};
  *     iso_run_result result;
- *     status = iso_run(ctx, &scene, NULL, &sink, &result);              the times of the scene's own grid
+ *     status = iso_run(ctx, &scene, NULL, &sink, NULL, &result);              the times of the scene's own grid
  *
  * The columns are those that the scene asks for (iso_scene_columns). The rows are kept in memory only if the times
  * come in another order than they are worked on.
@@ -12,6 +12,7 @@
 #define ISO_STUDY_RUN_H
 
 #include "base/record.h"
+#include "base/sink.h"
 #include "study/error.h"
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
@@ -42,24 +43,6 @@ static inline iso_run_options iso_run_defaults(void)
     return o;
 }
 
-/* What a run can say about the contact of ball and support (effect `reactions`). */
-typedef enum iso_run_note {
-    ISO_NOTE_LOST,          /* the ball loses contact; the row of this moment is the last on this side of the start */
-    ISO_NOTE_LOST_AT_START, /* it loses contact at time 0, which has a row; there are no others towards the end     */
-    ISO_NOTE_PULLED         /* the support would have to pull at time 0; the rows are those of a two-sided contact  */
-} iso_run_note;
-
-/* Who takes the rows. A function may be NULL: it is not called. `header` and `row` answer ISO_OK to go on. Any other
- * answer ends the run, and iso_run answers the same. */
-typedef struct iso_run_sink {
-    iso_status (*header)(void *data, const iso_record *header); /* columns and lines, once, before all rows       */
-    iso_status (*row)(void *data, const double row[], size_t count); /* in the order of the times asked for       */
-    void (*note)(void *data, iso_run_note note, const char *words);  /* one line without a newline                */
-    void (*progress)(void *data, double part); /* at each step: the part done of the farthest time, in [0, 1]      */
-    void *data;
-    iso_record **record; /* where a new record with header and rows goes; NULL: none is made                      */
-} iso_run_sink;
-
 typedef struct iso_run_result {
     size_t asked, rows; /* times asked for, and rows that the sink has taken                                       */
     /* of the orbit; method is NULL if there is no orbit */
@@ -81,6 +64,8 @@ typedef struct iso_run_result {
  *   Times still farther from the start have no row.
  * - After a failure or a stop the sink has every row that was found before.
  * - The context's monitor is asked at each step and before each row; it can stop the run.
+ * - rows: where a new record with header and rows goes; NULL: none is made.
+ * - Notes are about the contact of ball and support (effect `reactions`): it is lost, or the support pulls.
  * - options NULL: iso_run_defaults(). result may be NULL; else it is always filled, after an error, too.
  *
  * Errors before the header:
@@ -88,7 +73,7 @@ typedef struct iso_run_result {
  * - ISO_BAD_ARGUMENT about "times" (there are none, or one is not finite) or "method" (no method has this name).
  * Errors after it: what the sink answers; those of iso_orbit_at; ISO_STOPPED; ISO_NO_MEMORY.
  * It is no failure if the error of the rows is not known: see result->error_status. */
-iso_status iso_run(iso_context *ctx, const iso_scene *scene, const iso_run_options *options, const iso_run_sink *sink,
-                   iso_run_result *result);
+iso_status iso_run(iso_context *ctx, const iso_scene *scene, const iso_run_options *options, const iso_sink *sink,
+                   iso_record **rows, iso_run_result *result);
 
 #endif

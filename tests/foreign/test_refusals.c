@@ -125,11 +125,11 @@ static iso_status by_name(const iso_study *study, const iso_scene *scene, char *
 static iso_status section_run(const iso_scene *scene, bool axis)
 {
     iso_section_options o = iso_section_defaults();
-    iso_section_sink sink = {0};
+    iso_sink sink = {0};
     iso_section_result result;
     if (axis) o.axis = 3;
     if (!axis) o.tolerance = 2;
-    return iso_section_run(ctx, scene, &o, &sink, &result);
+    return iso_section_run(ctx, scene, &o, &sink, NULL, &result);
 }
 
 static iso_status chaos_run(const iso_scene *scene, bool axis)

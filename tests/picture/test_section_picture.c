@@ -30,14 +30,15 @@ static iso_scene make_scene(double k)
 
 static iso_record *make_section(const iso_scene *scene, size_t starts, size_t crossings)
 {
-    iso_record *r = NULL;
+    iso_record *tables[2] = {NULL, NULL};
     iso_section_options o = iso_section_defaults();
     o.starts = starts;
     o.crossings = crossings;
-    gsl_test((int)iso_section_run(ctx, scene, &o, &(iso_section_sink){.record = &r}, NULL), "%s",
+    gsl_test((int)iso_section_run(ctx, scene, &o, &(iso_sink){.data = NULL}, tables, NULL), "%s",
              iso_context_message(ctx));
-    iso_record_set_kind(r, "section");
-    return r;
+    iso_record_set_kind(tables[0], "section");
+    iso_record_free(tables[1]);
+    return tables[0];
 }
 
 static iso_picture make_picture(const iso_record *const table[], const char *options)

@@ -37,7 +37,7 @@ enum { MOST = 400 };
 typedef struct kept {
     size_t headers, columns, rows, notes, steps;
     double row[MOST][ISO_MAX_COLUMNS], time[MOST];
-    iso_run_note note;
+    char note[160];
     size_t rows_at_note;
     size_t stop_at; /* the row that is refused, from 1; 0: none */
     bool refuses_header, wrong_progress;
@@ -46,28 +46,29 @@ typedef struct kept {
     iso_status status;
 } kept;
 
-static inline iso_status keep_header(void *data, const iso_record *header)
+static inline iso_status keep_header(void *data, int table, const iso_record *header)
 {
     kept *k = data;
+    gsl_test(table != 0, "a run has one table");
     k->headers++;
     k->columns = iso_record_columns(header);
     return k->refuses_header ? iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "no header, please") : ISO_OK;
 }
 
-static inline iso_status keep_row(void *data, const double row[], size_t count)
+static inline iso_status keep_row(void *data, int table, const double row[], size_t count)
 {
     kept *k = data;
-    laws_stop_if(ctx, k->rows == MOST || count != k->columns, "a row of another kind");
+    laws_stop_if(ctx, table != 0 || k->rows == MOST || count != k->columns, "a row of another kind");
     if (k->rows + 1 == k->stop_at) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "no more rows, please");
     memcpy(k->row[k->rows++], row, count * sizeof *row);
     return ISO_OK;
 }
 
-static inline void keep_note(void *data, iso_run_note note, const char *words)
+static inline void keep_note(void *data, const char *words)
 {
     kept *k = data;
     k->notes++;
-    k->note = note;
+    snprintf(k->note, sizeof k->note, "%s", words);
     k->rows_at_note = k->rows;
     gsl_test(*words == '\0', "a note: %s", words);
 }
@@ -87,9 +88,9 @@ static inline kept *run_like(const kept *like, const iso_scene *scene, const dou
     kept *k = malloc(sizeof *k);
     laws_stop_if(ctx, !k, "no memory");
     *k = *like;
-    const iso_run_sink sink = {keep_header, keep_row, keep_note, keep_progress, k, NULL};
+    const iso_sink sink = {keep_header, keep_row, keep_note, keep_progress, k};
     const iso_run_options o = {.times = times, .count = count, .errors = errors};
-    k->status = iso_run(ctx, scene, &o, &sink, &k->result);
+    k->status = iso_run(ctx, scene, &o, &sink, NULL, &k->result);
     gsl_test(k->result.rows != k->rows, "the result counts the sink's rows");
     return k;
 }

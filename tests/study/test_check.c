@@ -21,8 +21,8 @@ static size_t changed, small, told;
 static iso_record *file_of(const iso_scene *scene)
 {
     iso_record *record = NULL;
-    const iso_run_sink sink = {.record = &record};
-    if (iso_run(ctx, scene, NULL, &sink, NULL) == ISO_OK) return record;
+    const iso_sink sink = {.data = NULL};
+    if (iso_run(ctx, scene, NULL, &sink, &record, NULL) == ISO_OK) return record;
     iso_record_free(record);
     return NULL;
 }

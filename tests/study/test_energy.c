@@ -16,8 +16,8 @@ static iso_record *record_of(const char *text)
 {
     const iso_scene scene = parse(text);
     iso_record *r = NULL;
-    const iso_run_sink sink = {.record = &r};
-    if (iso_run(ctx, &scene, NULL, &sink, NULL) != ISO_OK) fprintf(stderr, "%s\n", iso_context_message(ctx)), exit(1);
+    const iso_sink sink = {.data = NULL};
+    if (iso_run(ctx, &scene, NULL, &sink, &r, NULL) != ISO_OK) fprintf(stderr, "%s\n", iso_context_message(ctx)), exit(1);
     return r;
 }
 

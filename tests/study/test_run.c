@@ -66,8 +66,8 @@ static void check_result(void)
         free(k);
     }
     const iso_scene scene = parse(kinds[0]);
-    const iso_run_sink none = {.data = NULL};
-    gsl_test(iso_run(ctx, &scene, NULL, &none, NULL) != ISO_OK, "nobody takes anything: that is a run as well");
+    const iso_sink none = {.data = NULL};
+    gsl_test(iso_run(ctx, &scene, NULL, &none, NULL, NULL) != ISO_OK, "nobody takes anything: that is a run as well");
 }
 
 /* Times in any order take no more steps than one way forth and one way back. */

@@ -25,7 +25,7 @@ static void check_loss(void)
     for (size_t i = 0; i + 1 < k->rows; i++) pressed = pressed && k->row[i][pressure] > 0;
     gsl_test(k->status != ISO_OK || !k->result.lost[0] || k->result.lost[1] || !(lost > 0 && lost < 6), "lost at %g",
              lost);
-    gsl_test(k->notes != 1 || k->note != ISO_NOTE_LOST || k->rows_at_note + 1 != k->rows,
+    gsl_test(k->notes != 1 || !strstr(k->note, "contact is lost at") || k->rows_at_note + 1 != k->rows,
              "said once, before its row");
     gsl_test(!pressed || k->row[k->rows - 1][0] != lost || !(fabs(k->row[k->rows - 1][pressure]) < 1e-12 * weight),
              "pressed until then, and not there: %.1e", k->row[k->rows - 1][pressure]);
@@ -58,7 +58,7 @@ static void check_no_pressure(void)
                                     "time: {end: 1, step: 0.25}\n"
                                     "effects: {gravity: {g: 9.81, up: [0, 0, -1]}, reactions: {}}\n");
     kept *k = run(&scene, NULL, 0);
-    gsl_test(k->status != ISO_OK || k->notes != 1 || k->note != ISO_NOTE_PULLED || k->rows_at_note != 0 ||
+    gsl_test(k->status != ISO_OK || k->notes != 1 || !strstr(k->note, "the support would have to pull") || k->rows_at_note != 0 ||
                  k->rows != 5 || k->result.lost[0],
              "below the sphere: two-sided, %zu rows", k->rows);
     free(k);
@@ -66,7 +66,7 @@ static void check_no_pressure(void)
                           "time: {end: 1, step: 0.25}\n"
                           "effects: {gravity: {g: 9.81, up: [0, 1, 0]}, reactions: {}}\n");
     k = run(&scene, NULL, 0);
-    gsl_test(k->status != ISO_OK || k->notes != 1 || k->note != ISO_NOTE_LOST_AT_START || k->rows != 1 ||
+    gsl_test(k->status != ISO_OK || k->notes != 1 || !strstr(k->note, "contact is lost at 0:") || k->rows != 1 ||
                  !k->result.lost[0] || k->result.lost_at[0] != 0,
              "at rest beside the sphere: one row, %zu", k->rows);
     free(k);

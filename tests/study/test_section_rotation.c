@@ -47,11 +47,13 @@ static void test_circles(void)
 static double rotation_of(const iso_scene *scene)
 {
     static double z[MOST][2];
-    iso_record *record = NULL;
+    iso_record *tables[2] = {NULL, NULL};
     iso_section_options o = iso_section_defaults();
     iso_section_result result;
     o.crossings = MOST;
-    must(iso_section_run(ctx, scene, &o, &(iso_section_sink){.record = &record}, &result), "a section");
+    must(iso_section_run(ctx, scene, &o, &(iso_sink){.data = NULL}, tables, &result), "a section");
+    iso_record *record = tables[0];
+    iso_record_free(tables[1]);
     for (size_t i = 0; i < iso_record_rows(record); i++)
         memcpy(z[i], iso_record_const_row(record, i) + iso_record_find(record, "l"), sizeof z[i]);
     const double rotation = iso_section_rotation(ALL(z), iso_record_rows(record));

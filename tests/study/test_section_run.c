@@ -29,9 +29,10 @@ typedef struct kept {
     iso_status status;
 } kept;
 
-static iso_status keep_header(void *data, const iso_record *header)
+static iso_status keep_header(void *data, int table, const iso_record *header)
 {
     kept *k = data;
+    if (table > 0) return ISO_OK;
     k->headers++;
     k->columns = iso_record_columns(header);
     for (size_t i = 0; i < k->columns; i++) {
@@ -41,20 +42,17 @@ static iso_status keep_header(void *data, const iso_record *header)
     return ISO_OK;
 }
 
-static iso_status keep_row(void *data, const double row[], size_t count)
+static iso_status keep_row(void *data, int table, const double row[], size_t count)
 {
     kept *k = data;
+    if (table > 0) { /* this crossing by the point, behind that by the ball */
+        const double *ball = k->row[k->rows - 1];
+        k->pairs += row[0] == ball[0] && row[1] == ball[1] && isfinite(row[5]);
+        return ISO_OK;
+    }
     gsl_test(count != k->columns || k->headers != 1, "a row has the header's columns");
     if (k->rows == k->most) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "full");
     memcpy(k->row[k->rows++], row, count * sizeof *row);
-    return ISO_OK;
-}
-
-static iso_status keep_pair(void *data, size_t orbit, const iso_crossing *ball, const iso_crossing *point)
-{
-    kept *k = data;
-    const double *row = k->row[k->rows - 1];
-    k->pairs += row[0] == (double)orbit && row[2] == ball->clock[ISO_CLOCK_T] && isfinite(point->l);
     return ISO_OK;
 }
 
@@ -78,12 +76,12 @@ static kept *run(const char *text, const iso_section_options *o, size_t most)
     kept *k = calloc(1, sizeof *k);
     k->row = calloc(MOST, sizeof *k->row);
     k->most = most;
-    const iso_section_sink sink = {keep_header, keep_row, keep_pair, keep_note, keep_progress, k, NULL};
+    const iso_sink sink = {keep_header, keep_row, keep_note, keep_progress, k};
     if (iso_scene_load_text(ctx, "test", text, strlen(text), &scene) != ISO_OK) {
         gsl_test(1, "a scene is refused: %s", iso_context_message(ctx));
         exit(gsl_test_summary());
     }
-    k->status = iso_section_run(ctx, &scene, o, &sink, &k->result);
+    k->status = iso_section_run(ctx, &scene, o, &sink, NULL, &k->result);
     return k;
 }
 

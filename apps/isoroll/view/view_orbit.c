@@ -69,21 +69,20 @@ static void show_progress(void *data, double part)
     progress_show(part);
 }
 
-static void keep_note(void *page, iso_run_note note, const char *words)
+static void keep_note(void *page, const char *words)
 {
-    (void)note;
     if (page) view_note(page, "%s", words);
 }
 
 iso_status view_run(iso_context *ctx, const iso_scene *scene, const double times[], size_t count, view_page *page,
                     iso_record **rows)
 {
-    const iso_run_sink sink = {.note = keep_note, .progress = show_progress, .data = page, .record = rows};
+    const iso_sink sink = {.note = keep_note, .progress = show_progress, .data = page};
     iso_run_options o = iso_run_defaults();
     o.times = times;
     o.count = count;
     *rows = NULL;
-    const iso_status status = iso_run(ctx, scene, &o, &sink, NULL);
+    const iso_status status = iso_run(ctx, scene, &o, &sink, rows, NULL);
     if (status != ISO_OK) iso_record_free(*rows), *rows = NULL;
     return status;
 }

@@ -223,11 +223,11 @@ iso_status iso_section_begin(iso_section_walk *w, iso_context *ctx, const iso_sc
 }
 
 iso_status iso_section_run(iso_context *ctx, const iso_scene *scene, const iso_section_options *options,
-                           const iso_section_sink *sink, iso_section_result *result)
+                           const iso_sink *sink, iso_record *tables[2], iso_section_result *result)
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_section_result unused;
-    iso_section_walk w = {.sink = sink, .result = result ? result : &unused};
+    iso_section_walk w = {.sink = sink, .tables = tables, .result = result ? result : &unused};
     iso_status status = iso_section_begin(&w, ctx, scene, options);
     if (status == ISO_OK) tell_nature(&w);
     if (status == ISO_OK) status = iso_section_walk_all(&w);

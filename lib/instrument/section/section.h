@@ -1,10 +1,10 @@
 /* section.h - the Poincare section of a scene: crossings of many orbits. Each crossing goes to a sink, as a row.
  *
- *     iso_status keep_row(void *data, const double row[], size_t count);
- *     iso_section_sink sink = {.row = keep_row, .data = &rows};
+ *     iso_status keep_row(void *data, int table, const double row[], size_t count);
+ *     iso_sink sink = {.row = keep_row, .data = &rows};
  *     iso_section_options o = iso_section_defaults();
  *     o.starts = 100;
- *     status = iso_section_run(ctx, &scene, &o, &sink, &result);
+ *     status = iso_section_run(ctx, &scene, &o, &sink, NULL, &result);
  *
  * The section is n_a = 0, n_a increasing, the same for ball and point (map/section.h); or an event: a column of the
  * samples passes a value upwards. Orbit 0 is the scene's own. Then come `starts` orbits, spread evenly over the
@@ -21,6 +21,7 @@
 #include <stdint.h>
 
 #include "base/record.h"
+#include "base/sink.h"
 #include "orbit/crossings.h"
 #include "orbit/scene.h"
 
@@ -60,19 +61,6 @@ static inline iso_section_options iso_section_defaults(void)
     return o;
 }
 
-/* Takes the rows. A function that is NULL is not called. `header`, `row` and `pair` return ISO_OK to go on. Any other
- * status ends the work, and iso_section_run returns it. */
-typedef struct iso_section_sink {
-    iso_status (*header)(void *data, const iso_record *header); /* columns and lines, once, before all rows        */
-    iso_status (*row)(void *data, const double row[], size_t count); /* by orbit, then by crossing                 */
-    /* if both models are integrated: called after each row with this crossing by both; the rows are the ball's    */
-    iso_status (*pair)(void *data, size_t orbit, const iso_crossing *ball, const iso_crossing *point);
-    void (*note)(void *data, const char *words); /* one line without a newline: the section is not global, ...      */
-    void (*progress)(void *data, double part);   /* the part done, in [0, 1]                                        */
-    void *data;
-    iso_record **record; /* where a new record with header and rows goes; NULL: none is made                      */
-} iso_section_sink;
-
 /* Two models part on an orbit when their distance passes this. On chaotic orbits the rounding errors of the models
  * grow until they part. */
 #define ISO_SECTION_PARTED 1e-3
@@ -94,7 +82,11 @@ typedef struct iso_section_result {
     size_t parted_orbit, parted_crossing; /* the orbit that parts at the lowest crossing number, and the crossing */
 } iso_section_result;
 
-/* The rows have the columns orbit (from 0), crossing (from 1), t; tau and s if the orbit has both models; l and x
+/* Rows go to the sink, and to new records if `tables` is not NULL: of table 0 by orbit, then by crossing. If both models
+ * are integrated, a crossing that both have is a row of table 1, too: as the point finds it, in the columns orbit,
+ * crossing, t, tau, s, l, x, just behind the row of table 0. Notes: the section is not global, ...
+ *
+ * The rows of table 0 have the columns orbit (from 0), crossing (from 1), t; tau and s if the orbit has both models; l and x
  * unless the section is an event; then the states that are shown. The ball's states include the columns of effects.
  * With both models the rows are the ball's.
  * - If an orbit fails, its earlier rows stay, and the other orbits go on. If no orbit has a row, the call returns the
@@ -112,6 +104,6 @@ typedef struct iso_section_result {
  * - those of iso_orbit_create: ISO_NOT_MAPPED if the point is asked for and there is none.
  * Errors after the header: what the sink returns; ISO_STOPPED; ISO_NO_MEMORY. */
 iso_status iso_section_run(iso_context *ctx, const iso_scene *scene, const iso_section_options *options,
-                           const iso_section_sink *sink, iso_section_result *result);
+                           const iso_sink *sink, iso_record *tables[2], iso_section_result *result);
 
 #endif

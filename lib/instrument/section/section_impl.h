@@ -26,7 +26,8 @@ iso_status iso_section_words_read(iso_context *ctx, iso_section_words *words, in
 typedef struct iso_section_walk {
     iso_context *ctx;
     const iso_scene *scene;
-    const iso_section_sink *sink;
+    const iso_sink *sink;
+    iso_record **tables; /* NULL: no rows are kept */
     iso_section_result *result;
     iso_section_options options;
     iso_effects effects; /* of the scene; observers only if a column needs them   */
@@ -37,7 +38,7 @@ typedef struct iso_section_walk {
     int columns[ISO_MAX_COLUMNS], count; /* of the samples, behind those                   */
     int models;                          /* 1 or 2 ... */
     iso_model_kind model[2];             /* ... that are integrated; rows are the first one's     */
-    bool begun;                          /* the sink has the header */
+    bool begun[2];                       /* the sink has the header of this table */
     iso_walk walk;
     iso_section_member member;
 } iso_section_walk;

@@ -4,7 +4,7 @@
 #include "instrument/section/section_impl.h"
 
 /* Of each model the orbits by their verdicts, and the orbit that is worst. */
-void iso_section_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
+static void print_areas(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
 {
     const iso_section_areas *f = result->found;
     (void)scene, (void)options;
@@ -33,4 +33,39 @@ void iso_section_print(FILE *to, const iso_scene *scene, const void *options, co
                     worst->bound);
         fputs("\n", to);
     }
+}
+
+static void print_both(FILE *to, const iso_section_result *r)
+{
+    if (r->crossings[ISO_BALL] == r->crossings[ISO_POINT] && r->unequal == 0)
+        fprintf(to, "ball and point, each by itself: %zu crossings both\n", r->crossings[ISO_BALL]);
+    else
+        fprintf(to, "ball and point, each by itself: %zu and %zu crossings; %zu orbits have different numbers\n",
+                r->crossings[ISO_BALL], r->crossings[ISO_POINT], r->unequal);
+    if (r->distance > 0)
+        fprintf(to,
+                "largest distance of the two%s, where they do not part: %.2g, at orbit %zu, crossing %zu\n",
+                r->nature.axis < 0 ? " in t, by the mean time between crossings" : " in (l, x)", r->distance,
+                r->distance_orbit, r->distance_crossing);
+    if (r->parted > 0)
+        fprintf(to,
+                "%zu of %zu orbits part (distance above %g): their rounding errors grow, as on chaotic orbits; the "
+                "first is orbit %zu, at crossing %zu\n",
+                r->parted, r->orbits, ISO_SECTION_PARTED, r->parted_orbit, r->parted_crossing);
+}
+
+static void print_crossings(FILE *to, const iso_section_result *r)
+{
+    fprintf(to, "%zu orbit%s, %zu crossings written\n", r->orbits, r->orbits == 1 ? "" : "s", r->rows);
+    if (r->nature.global) fprintf(to, "%s\n", r->nature.words);
+    if (r->models == ISO_SHOW_BOTH) print_both(to, r);
+}
+
+void iso_section_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
+{
+    const iso_section_request *r = options;
+    if (r->area)
+        print_areas(to, scene, options, result);
+    else
+        print_crossings(to, result->found);
 }

@@ -96,45 +96,6 @@ static iso_status prepare(iso_context *ctx, void *options)
 
 /* --- tables ----------------------------------------------------------------------------------------------------- */
 
-/* The rows of the file, and the same crossings as the point finds them, if both models are integrated. */
-typedef struct collector {
-    iso_context *ctx;
-    iso_study_result *result;
-    size_t orbit, crossing; /* of the last pair */
-} collector;
-
-/* Called after the ball's row; a pair of the same orbit is its next crossing. */
-static iso_status keep_pair(void *data, size_t orbit, const iso_crossing *ball, const iso_crossing *point)
-{
-    static const char *const names[] = {"orbit", "crossing", "t", "tau", "s", "l", "x"};
-    collector *k = data;
-    iso_record **table = &k->result->table[1];
-    iso_status status = ISO_OK;
-    (void)ball;
-    if (!*table) {
-        status = iso_record_create_like(k->ctx, k->result->table[0], sizeof names / sizeof *names, names, table);
-        if (status == ISO_OK) status = iso_record_set(k->ctx, *table, "model", "point");
-        if (status != ISO_OK) return status;
-    }
-    k->crossing = orbit == k->orbit ? k->crossing + 1 : 1;
-    k->orbit = orbit;
-    const double row[] = {
-        (double)orbit, (double)k->crossing, point->clock[0], point->clock[1], point->clock[2], point->l, point->x};
-    return iso_record_add(k->ctx, *table, 1, row);
-}
-
-static void keep_note(void *data, const char *words)
-{
-    const collector *k = data;
-    iso_study_note(k->result, "%s", words);
-}
-
-static void show(void *data, double part)
-{
-    const collector *k = data;
-    iso_study_progress(k->result, part);
-}
-
 ISO_STUDY_BEGIN(iso_section_request, (iso_section_request){.how = iso_section_defaults()})
 
 static void end(void *options)
@@ -145,16 +106,15 @@ static void end(void *options)
 static iso_status find_crossings(iso_context *ctx, const iso_scene *scene, const iso_section_request *request,
                                  iso_study_result *result)
 {
-    collector k = {.ctx = ctx, .result = result, .orbit = SIZE_MAX};
-    const iso_section_sink sink = {
-        .pair = keep_pair, .note = keep_note, .progress = show, .data = &k, .record = &result->table[0]};
-    iso_section_result r = {.rows = 0};
-    const iso_status status = iso_section_run(ctx, scene, &request->how, &sink, &r);
+    iso_section_result *r = iso_study_keep(result, calloc(1, sizeof *r), NULL, free);
+    if (!r) return iso_context_no_memory(ctx, "a section");
+    const iso_status status =
+        iso_section_run(ctx, scene, &request->how, &result->sink, result->sink.row ? NULL : result->table, r);
     for (int i = 0; i < 2; i++)
         if (result->table[i]) iso_record_set_kind(result->table[i], "section");
-    result->failed = r.failed > 0;
-    if (r.failed > 0)
-        iso_study_note(result, "%zu of %zu orbits did not get to the end; %s", r.failed, r.orbits, r.words);
+    result->failed = r->failed > 0;
+    if (r->failed > 0)
+        iso_study_note(result, "%zu of %zu orbits did not get to the end; %s", r->failed, r->orbits, r->words);
     return status;
 }
 
@@ -187,10 +147,9 @@ static void free_areas(void *found)
 static iso_status find_areas(iso_context *ctx, const iso_scene *scene, const iso_section_request *r,
                              iso_study_result *result)
 {
-    collector k = {.ctx = ctx, .result = result};
     iso_section_areas *found = iso_study_keep(result, calloc(1, sizeof *found), areas_fields, free_areas);
     if (!found) return iso_context_no_memory(ctx, "areas");
-    const iso_status status = iso_section_areas_find(ctx, scene, &r->how, show, &k, found);
+    const iso_status status = iso_section_areas_find(ctx, scene, &r->how, iso_study_progress, result, found);
     if (*found->words) iso_study_note(result, "%s", found->words);
     if (found->count == 0) return status;
     iso_status made =

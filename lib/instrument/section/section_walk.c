@@ -115,18 +115,27 @@ static iso_status describe(const iso_section_walk *w, iso_record *r)
     return iso_record_set(w->ctx, r, "isoroll", ISO_VERSION);
 }
 
+/* The crossings as the point finds them. */
+static iso_status create_second(const iso_section_walk *w, iso_record **header)
+{
+    static const char *const names[] = {"orbit", "crossing", "t", "tau", "s", "l", "x"};
+    ISO_TRY(iso_record_create(w->ctx, sizeof names / sizeof *names, names, header));
+    ISO_TRY(iso_record_describe(w->ctx, *header, "point", &w->scene->params, w->orbit));
+    return describe(w, *header);
+}
+
 /* Just before the first row: a scene without crossings opens no file. */
-static iso_status give_header(iso_section_walk *w)
+static iso_status give_header(iso_section_walk *w, int table)
 {
     iso_record *header = NULL;
-    iso_status status = create_header(w, &header);
-    if (status == ISO_OK) status = describe(w, header);
-    if (status == ISO_OK && w->sink->header) status = w->sink->header(w->sink->data, header);
-    if (status == ISO_OK && w->sink->record)
-        *w->sink->record = header;
+    iso_status status = table ? create_second(w, &header) : create_header(w, &header);
+    if (status == ISO_OK && table == 0) status = describe(w, header);
+    if (status == ISO_OK && w->sink->header) status = w->sink->header(w->sink->data, table, header);
+    if (status == ISO_OK && w->tables)
+        w->tables[table] = header;
     else
         iso_record_free(header);
-    w->begun = true;
+    w->begun[table] = true;
     return status;
 }
 
@@ -176,6 +185,13 @@ static void conclude(iso_section_walk *w)
     r->distance_crossing = member->crossing;
 }
 
+static iso_status give(iso_section_walk *w, int table, const double row[], size_t count)
+{
+    iso_status status = w->begun[table] ? ISO_OK : give_header(w, table);
+    if (status == ISO_OK && w->tables) status = iso_record_add(w->ctx, w->tables[table], 1, row);
+    return status == ISO_OK && w->sink->row ? w->sink->row(w->sink->data, table, row, count) : status;
+}
+
 static iso_status give_row(iso_section_walk *w, size_t i, const iso_walk_stop *stop)
 {
     const iso_crossing *at = stop->crossing[0];
@@ -191,9 +207,7 @@ static iso_status give_row(iso_section_walk *w, size_t i, const iso_walk_stop *s
         iso_walk_fail(&w->walk, i, ISO_NUMERICAL, "a number of a crossing does not fit a double");
         return ISO_OK;
     }
-    iso_status status = w->begun ? ISO_OK : give_header(w);
-    if (status == ISO_OK && w->sink->record) status = iso_record_add(w->ctx, *w->sink->record, 1, row);
-    if (status == ISO_OK && w->sink->row) status = w->sink->row(w->sink->data, row, n);
+    const iso_status status = give(w, 0, row, n);
     w->result->rows += status == ISO_OK;
     return status;
 }
@@ -208,7 +222,10 @@ static iso_status visit(void *user, size_t i, const iso_walk_stop *stop)
         w->member = (iso_section_member){.orbit = i};
     }
     if (by[0]) ISO_TRY(give_row(w, i, stop));
-    if (both && w->sink->pair) ISO_TRY(w->sink->pair(w->sink->data, i, by[0], by[1]));
+    if (both) {
+        const double *t = by[1]->clock;
+        ISO_TRY(give(w, 1, (double[]){(double)i, (double)stop->number, t[0], t[1], t[2], by[1]->l, by[1]->x}, 7));
+    }
     if (both) compare(w, stop);
     w->member.unequal = w->member.unequal || (w->models == 2 && !both);
     for (int m = 0; m < w->models; m++) w->result->crossings[w->model[m]] += by[m] != NULL;
