@@ -1,10 +1,10 @@
-/* isoroll.h - what most programs need: a context, parameters, effects, scenes, orbits, batches, runs, conversions,
- * scene files and trajectory files. Other headers are included by name, such as <isoroll/task/cost/cost.h>.
+/* isoroll.h - all that a program calls: contexts, records, sinks, tables in files, scenes, solutions, batches, studies,
+ * sweeps. Objects are opaque, options are text, results are records. A study takes a request in text and gives tables.
  *
  * Rules for all functions of the library. A header names only the exceptions.
  *
  * Arguments stand in this order: the context, the object that is asked or changed, the inputs, the outputs.
- * Functions of an object that keeps its context (orbits, conversions, error finders) take no context.
+ * Functions of an object that keeps its context (solutions) take no context.
  *
  * Results. A function that can fail returns an iso_status, and the context then has the words
  *   (iso_context_message). After an error the outputs are not defined, but an output that is a new object is NULL.
@@ -16,12 +16,10 @@
  * - Inputs are read, not kept: they may go after the call. Headers name the exceptions, such as
  *   the header of a conversion. An object must not outlive its context.
  *
- * NULL is allowed only where a header says so, and for option structs, where it means the defaults. Strings that a call
- *   takes (names, texts, paths, keys) end with a zero byte and are not NULL: the library does not test it.
+ * NULL is allowed only where a header says so. Strings that a call takes (names, texts, paths, keys) end with a zero byte and are not NULL: the library does not test it.
  *
- * Option structs come from their *_defaults function; then members are set. Its member `size` is the size of the
- *   struct in the headers that the program was compiled with, so the struct can grow. 0 means: as in
- *   version 0.2. The library refuses a size that is larger than its own.
+ * Binary interface: it is kept from version 0.3 on. A function may be added; none changes its arguments or goes without
+ *   a new number in the name of the shared library.
  *
  * Units are the caller's own, any that fit together (SI, for example). Angles are in radians. Axes are those of the
  *   body. Vectors have three numbers, states six: omega, n of the ball; M, gamma of the point.
@@ -37,30 +35,15 @@
 #ifndef ISOROLL_H
 #define ISOROLL_H
 
-/* base: no physics */
 #include "base/api.h"
 #include "base/context.h"
-#include "base/field.h"
 #include "base/record.h"
+#include "base/sink.h"
 #include "base/status.h"
 #include "base/version.h"
 
-/* model: what moves */
-#include "model/effects/effect.h"
-#include "model/params.h"
-
-/* orbit: where the ball, or the point, is at any time */
-#include "orbit/batch.h"
-#include "orbit/description.h"
-#include "orbit/orbit.h"
-#include "orbit/scene.h"
-
-/* io: scene and trajectory files */
-#include "io/scene_file.h"
 #include "io/table.h"
 
-/* task: all rows of a scene; the other model's rows */
-#include "task/convert/convert.h"
-#include "task/run.h"
+#include "api/interface.h"
 
 #endif

@@ -5,7 +5,7 @@
 #include <jansson.h>
 #include <stdbool.h>
 
-#include "isoroll.h"
+#include "api/typed_impl.h"
 #include "study/fields_impl.h"
 
 /* Call it before any other function of jansson. */

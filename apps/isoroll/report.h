@@ -5,7 +5,7 @@
 #include <stdbool.h>
 
 #include "io/table_impl.h"
-#include "isoroll.h"
+#include "api/typed_impl.h"
 #include "orbit/orbit_impl.h"
 
 enum exit_status {

@@ -3,12 +3,12 @@
 #include <string.h>
 #include <time.h>
 
-#include "api/foreign_impl.h"
+#include "api/interface_impl.h"
 #include "base/nearest_impl.h"
 
-int iso_foreign_abi(void)
+int iso_interface(void)
 {
-    return ISO_FOREIGN_ABI;
+    return ISO_INTERFACE;
 }
 
 /* --- notes ------------------------------------------------------------------------------------------------------ */
@@ -33,8 +33,7 @@ void iso_notes_add(notes *n, const char *words)
 
 /* --- words ------------------------------------------------------------------------------------------------------ */
 
-iso_status iso_foreign_word(iso_context *ctx, const char *key, const char *(*name)(int), const char *word,
-                            int *number)
+iso_status iso_word_find(iso_context *ctx, const char *key, const char *(*name)(int), const char *word, int *number)
 {
     char suggested[ISO_SUGGEST_SIZE];
     if (!word) word = "auto";
@@ -46,7 +45,7 @@ iso_status iso_foreign_word(iso_context *ctx, const char *key, const char *(*nam
 
 /* --- the monitor ------------------------------------------------------------------------------------------------ */
 
-struct iso_foreign_monitor {
+struct iso_slow_monitor {
     bool (*go_on)(void *data);
     void *data;
     double seconds, asked;
@@ -61,24 +60,24 @@ static double now(void)
 
 static bool ask_sometimes(void *data)
 {
-    iso_foreign_monitor *m = data;
+    iso_slow_monitor *m = data;
     const double time = now();
     if (time - m->asked < m->seconds) return true;
     m->asked = time;
     return m->go_on(m->data);
 }
 
-iso_status iso_foreign_monitor_create(iso_context *ctx, double seconds, bool (*go_on)(void *data), void *data,
-                                      iso_foreign_monitor **monitor)
+iso_status iso_slow_monitor_create(iso_context *ctx, double seconds, bool (*go_on)(void *data), void *data,
+                                   iso_slow_monitor **monitor)
 {
-    iso_foreign_monitor *m = *monitor = malloc(sizeof *m);
+    iso_slow_monitor *m = *monitor = malloc(sizeof *m);
     if (!m) return iso_context_no_memory(ctx, "a monitor");
-    *m = (iso_foreign_monitor){go_on, data, seconds, now()};
+    *m = (iso_slow_monitor){go_on, data, seconds, now()};
     iso_context_set_monitor(ctx, ask_sometimes, m);
     return ISO_OK;
 }
 
-void iso_foreign_monitor_free(iso_foreign_monitor *monitor)
+void iso_slow_monitor_free(iso_slow_monitor *monitor)
 {
     free(monitor);
 }

@@ -3,7 +3,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "api/foreign_impl.h"
+#include "api/interface_impl.h"
 #include "base/number_impl.h"
 #include "io/table_impl.h"
 #include "method/integrator_impl.h"
@@ -25,8 +25,8 @@ static bool is_table(const char *path)
            strncmp(begin, ISO_TRAJECTORY_MAGIC, strlen(ISO_TRAJECTORY_MAGIC)) != 0;
 }
 
-iso_status iso_foreign_read(iso_context *ctx, const char *path, const char *columns, iso_record **record, char text[],
-                            size_t room)
+iso_status iso_record_read(iso_context *ctx, const char *path, const char *columns, iso_record **record, char text[],
+                           size_t room)
 {
     iso_table_reader *in;
     notes n = iso_notes_begin(text, room);
@@ -46,8 +46,8 @@ iso_status iso_foreign_read(iso_context *ctx, const char *path, const char *colu
 
 /* --- writing ---------------------------------------------------------------------------------------------------- */
 
-iso_status iso_foreign_write(iso_context *ctx, const char *path, const iso_record *record, int digits,
-                             const char *kind)
+iso_status iso_record_write(iso_context *ctx, const char *path, const iso_record *record, int digits,
+                            const char *kind)
 {
     if (digits < 0 || digits > 17)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "digits", "%d digits: from 1 to 17, or 0: hexadecimal",
@@ -80,8 +80,8 @@ static void note_verdict(const iso_conversion_summary *s, notes *n)
     iso_notes_add(n, text);
 }
 
-iso_status iso_foreign_convert(iso_context *ctx, const iso_record *in, const char *to, double tolerance,
-                               double row_tolerance, bool shift_J, iso_record **out, char text[], size_t room)
+iso_status iso_record_convert(iso_context *ctx, const iso_record *in, const char *to, double tolerance,
+                              double row_tolerance, bool shift_J, iso_record **out, char text[], size_t room)
 {
     notes n = iso_notes_begin(text, room);
     iso_conversion_options o = iso_conversion_defaults();
@@ -93,7 +93,7 @@ iso_status iso_foreign_convert(iso_context *ctx, const iso_record *in, const cha
     o.shift_J = shift_J;
     o.row_tolerance = row_tolerance;
     o.first_row = 0;
-    iso_status status = iso_foreign_word(ctx, "to", iso_model_kind_name, to, &model);
+    iso_status status = iso_word_find(ctx, "to", iso_model_kind_name, to, &model);
     if (status == ISO_OK && !iso_tolerance_is_good(row_tolerance))
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "row_tolerance",
                                   "row_tolerance %s is not in " ISO_TOLERANCE_RANGE, ISO_SHORT(row_tolerance));

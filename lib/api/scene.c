@@ -4,98 +4,105 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/foreign_impl.h"
+#include "api/interface_impl.h"
 #include "base/arithmetic_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/scene_file.h"
 #include "io/scene_print_impl.h"
+#include "map/state.h"
+#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 
-static iso_status create(iso_context *ctx, const char *name, iso_foreign_scene **scene)
+/* A scene, with its name behind it. */
+static iso_status create(iso_context *ctx, const char *name, iso_scene **scene)
 {
-    iso_foreign_scene *s = calloc(1, sizeof *s);
-    *scene = NULL;
-    if (s) s->name = strdup(name);
-    if (!s || !s->name) return free(s), iso_context_no_memory(ctx, "a scene");
-    *scene = s;
+    const size_t length = strlen(name) + 1;
+    iso_scene *s = *scene = calloc(1, sizeof *s + length);
+    if (!s) return iso_context_no_memory(ctx, "a scene");
+    s->name = memcpy(s + 1, name, length);
     return ISO_OK;
 }
 
-void iso_foreign_scene_free(iso_foreign_scene *scene)
+void iso_scene_free(iso_scene *scene)
 {
-    if (!scene) return;
-    free(scene->name);
     free(scene);
 }
 
+/* The name stands behind the scene; reading has forgotten where. */
+static iso_status named(iso_scene *scene, iso_status status)
+{
+    scene->name = (const char *)(scene + 1);
+    return status;
+}
+
 /* Gives the scene away, or releases it. */
-static iso_status give(iso_status status, iso_foreign_scene **scene)
+static iso_status give(iso_status status, iso_scene **scene)
 {
     if (status == ISO_OK) return status;
-    iso_foreign_scene_free(*scene);
+    iso_scene_free(*scene);
     *scene = NULL;
     return status;
 }
 
-iso_status iso_foreign_scene_read(iso_context *ctx, const char *path, iso_foreign_scene **scene)
+iso_status iso_scene_read(iso_context *ctx, const char *path, iso_scene **scene)
 {
     const iso_status status = create(ctx, strcmp(path, "-") == 0 ? "<stdin>" : path, scene);
-    return status == ISO_OK ? give(iso_scene_load(ctx, path, &(*scene)->scene), scene) : status;
+    return status == ISO_OK ? give(named(*scene, iso_scene_load(ctx, path, *scene)), scene) : status;
 }
 
-iso_status iso_foreign_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length,
-                                   iso_foreign_scene **scene)
+iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene **scene)
 {
     const iso_status status = create(ctx, name, scene);
-    return status == ISO_OK ? give(iso_scene_load_text(ctx, name, text, length, &(*scene)->scene), scene) : status;
+    return status == ISO_OK ? give(named(*scene, iso_scene_load_text(ctx, name, text, length, *scene)), scene)
+                            : status;
 }
 
-iso_status iso_foreign_scene_copy(iso_context *ctx, const iso_foreign_scene *from, iso_foreign_scene **scene)
+iso_status iso_scene_copy(iso_context *ctx, const iso_scene *from, iso_scene **scene)
 {
-    const iso_status status = create(ctx, from->name, scene);
-    if (status == ISO_OK) (*scene)->scene = from->scene;
-    return status;
+    ISO_TRY(create(ctx, from->name, scene));
+    **scene = *from;
+    return named(*scene, ISO_OK);
 }
 
-iso_status iso_foreign_blame(iso_context *ctx, const iso_foreign_scene *scene, iso_status status)
+iso_status iso_blame_scene(iso_context *ctx, const iso_scene *scene, iso_status status)
 {
-    return iso_scene_blame(ctx, &scene->scene, scene->name, status);
+    return iso_scene_blame(ctx, scene, scene->name, status);
 }
 
 /* --- changes ---------------------------------------------------------------------------------------------------- */
 
-iso_status iso_foreign_scene_set(iso_context *ctx, iso_foreign_scene *scene, const char *key, const char *value)
+iso_status iso_scene_set(iso_context *ctx, iso_scene *scene, const char *key, const char *value)
 {
     const size_t room = strlen(key) + strlen(value) + sizeof ": []";
     const bool time = strcmp(key, "end") == 0 || strcmp(key, "step") == 0;
     char *text = malloc(room);
     if (!text) return iso_context_no_memory(ctx, "a scene");
     snprintf(text, room, strcmp(key, "columns") == 0 ? "%s: [%s]" : "%s: %s", key, value);
-    const iso_status status = iso_scene_change(ctx, text, &scene->scene);
+    const iso_status status = iso_scene_change(ctx, text, scene);
     free(text);
-    if (status == ISO_OK) iso_scene_forget_place(&scene->scene, time ? "end" : key);
-    if (status == ISO_OK && time) iso_scene_forget_place(&scene->scene, "step"); /* it may be due to the other */
+    if (status == ISO_OK) iso_scene_forget_place(scene, time ? "end" : key);
+    if (status == ISO_OK && time) iso_scene_forget_place(scene, "step"); /* it may be due to the other */
     if (status != ISO_BAD_INPUT) return status;
     const char *words = strstr(iso_context_message(ctx), ": "); /* behind the place: no file is wrong */
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "%s", words ? words + 2 : iso_context_message(ctx));
 }
 
-iso_status iso_foreign_scene_replace(iso_context *ctx, iso_foreign_scene *scene, const double *k, const double J[3],
-                                     const double start[6])
+iso_status iso_scene_replace(iso_context *ctx, iso_scene *scene, const double *k, const double J[3],
+                             const double start[6])
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_params params;
     iso_start y;
-    const iso_status status = iso_scene_replaced(ctx, &scene->scene, k, J, start, &params, &y);
-    if (status == ISO_OK) scene->scene.params = params, scene->scene.start = y;
+    const iso_status status = iso_scene_replaced(ctx, scene, k, J, start, &params, &y);
+    if (status == ISO_OK) scene->params = params, scene->start = y;
     return status;
 }
 
 /* --- questions -------------------------------------------------------------------------------------------------- */
 
-int iso_foreign_scene_numbers(const iso_foreign_scene *scene, const char *key, double values[6])
+int iso_scene_numbers(const iso_scene *scene, const char *key, double values[6])
 {
-    const iso_scene *s = &scene->scene;
+    const iso_scene *s = scene;
     const double eps = s->start.model == ISO_POINT ? s->start.eps : NAN;
     const struct {
         const char *key;
@@ -112,9 +119,9 @@ int iso_foreign_scene_numbers(const iso_foreign_scene *scene, const char *key, d
     return 0;
 }
 
-const char *iso_foreign_scene_word(const iso_foreign_scene *scene, const char *key)
+const char *iso_scene_word(const iso_scene *scene, const char *key)
 {
-    const iso_scene *s = &scene->scene;
+    const iso_scene *s = scene;
     if (strcmp(key, "model") == 0) return iso_model_kind_name((int)s->start.model);
     if (strcmp(key, "backend") == 0) return iso_backend_name((int)s->backend);
     if (strcmp(key, "method") == 0) return s->method;
@@ -122,30 +129,61 @@ const char *iso_foreign_scene_word(const iso_foreign_scene *scene, const char *k
     return strcmp(key, "name") == 0 ? scene->name : NULL;
 }
 
-int iso_foreign_scene_columns(const iso_foreign_scene *scene, int columns[])
-{
-    return iso_scene_columns(&scene->scene, columns);
-}
-
-bool iso_foreign_scene_key(int i, const char **section, const char **key)
-{
-    return iso_scene_key(i, section, key);
-}
-
-iso_status iso_foreign_scene_text(iso_context *ctx, const iso_foreign_scene *scene, char text[], size_t room,
-                                  size_t *length)
+iso_status iso_scene_text(iso_context *ctx, const iso_scene *scene, char text[], size_t room, size_t *length)
 {
     char *whole = NULL;
     FILE *to = open_memstream(&whole, length);
-    if (to) iso_scene_print(&scene->scene, to);
+    if (to) iso_scene_print(scene, to);
     const bool made = to && fclose(to) == 0;
     if (made && room > 0) snprintf(text, room, "%s", whole);
     free(whole);
     return made ? ISO_OK : iso_context_no_memory(ctx, "a scene");
 }
 
-iso_status iso_foreign_yaml_json(iso_context *ctx, const char *name, const char *text, size_t bytes, char json[],
-                                 size_t room, size_t *length)
+int iso_scene_columns(const iso_scene *scene, int columns[])
 {
-    return iso_yaml_json(ctx, name, text, bytes, json, room, length);
+    return iso_scene_column_list(scene, columns);
+}
+
+bool iso_scene_key(int i, const char **section, const char **key)
+{
+    return iso_scene_key_at(i, section, key);
+}
+
+bool iso_column(int i, const char *text[3])
+{
+    text[0] = iso_column_name(i);
+    text[2] = iso_column_doc(i, &text[1]);
+    return text[0] != NULL;
+}
+
+iso_status iso_yaml_json(iso_context *ctx, const char *name, const char *text, size_t bytes, char json[], size_t room,
+                         size_t *length)
+{
+    return iso_yaml_to_json(ctx, name, text, bytes, json, room, length);
+}
+
+/* --- formulas --------------------------------------------------------------------------------------------------- */
+
+void iso_scene_to_point(const iso_scene *scene, const double ball[6], double point[6])
+{
+    iso_ball_to_point(&scene->params, ball, point);
+}
+
+void iso_scene_to_ball(const iso_scene *scene, const double point[6], double ball[6])
+{
+    iso_point_to_ball(&scene->params, point, ball);
+}
+
+void iso_scene_clock_rates(const iso_scene *scene, const double n[3], double rates[2])
+{
+    double q = 0;
+    for (int i = 0; i < 3; i++) q += n[i] * n[i] / scene->params.J[i];
+    for (int c = 0; c < 2; c++)
+        rates[c] = iso_clock_rate(&scene->params, c ? ISO_CLOCK_S : ISO_CLOCK_TAU, 1 / q, NULL);
+}
+
+double iso_scene_energy(const iso_scene *scene, const double ball[6])
+{
+    return iso_ball_energy(&scene->params, ball);
 }

@@ -3,8 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/foreign_impl.h"
+#include "api/interface_impl.h"
+#include "base/fold_impl.h"
 #include "base/nearest_impl.h"
+#include "base/record_impl.h"
 #include "study/study.h"
 #include "sweep/sweep_store_impl.h"
 #include "task/list/list_impl.h"
@@ -12,48 +14,29 @@
 
 /* --- asking ----------------------------------------------------------------------------------------------------- */
 
-/* Where a study's words go. */
-typedef struct listener {
-    notes notes;
-    void (*progress)(void *data, double part);
-    void *data;
-} listener;
-
-static void keep_note(void *data, const char *words)
-{
-    iso_notes_add(&((listener *)data)->notes, words);
-}
-
-static void show(void *data, double part)
-{
-    const listener *l = data;
-    if (l->progress) l->progress(l->data, part);
-}
-
 static iso_status find(iso_context *ctx, const char *name, const iso_study **study)
 {
     char suggested[ISO_SUGGEST_SIZE];
     *study = iso_study_find(name);
     if (*study) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "study", "there is no study '%s'; %s", name,
-                            iso_suggest_word(suggested, name, iso_foreign_study_name));
+                            iso_suggest_word(suggested, name, iso_study_name));
 }
 
-iso_status iso_foreign_study(iso_context *ctx, const iso_foreign_scene *scene, const iso_record *record,
-                             const char *name, const char *options, void (*progress)(void *data, double part),
-                             void *data, iso_record *table[ISO_STUDY_TABLES], char text[], size_t room)
+iso_status iso_study_ask(iso_context *ctx, const char *name, const iso_scene *scene, const iso_record *record,
+                         const char *options, const iso_sink *sink, iso_record *table[ISO_TABLES])
 {
     const iso_study *study;
-    listener l = {iso_notes_begin(text, room), progress, data};
-    iso_study_result result = {.sink = {.note = keep_note, .progress = show, .data = &l}};
-    const iso_study_subject subject = {
-        .scene = scene ? &scene->scene : NULL, .name = scene ? scene->name : NULL, .record = record};
-    for (int i = 0; i < ISO_STUDY_TABLES; i++) table[i] = NULL;
+    iso_study_result result = {.text = NULL};
+    const iso_study_subject subject = {.scene = scene, .name = scene ? scene->name : NULL, .record = record};
+    if (sink) result.sink = *sink;
+    for (int i = 0; i < ISO_TABLES; i++) table[i] = NULL;
     iso_status status = find(ctx, name, &study);
-    if (status == ISO_OK) status = iso_study_ask(ctx, study, &subject, options, &result);
+    if (status == ISO_OK) status = iso_study_ask_text(ctx, study, &subject, options, &result);
     const bool of_scene = status != ISO_OK && status != ISO_BAD_ARGUMENT && scene && !result.table[0];
-    if (of_scene) status = iso_foreign_blame(ctx, scene, status);
-    for (int i = 0; i < ISO_STUDY_TABLES; i++) {
+    if (of_scene) status = iso_blame_scene(ctx, scene, status);
+    if (result.table[0]) iso_record_keep_text(result.table[0], result.text), result.text = NULL;
+    for (int i = 0; i < ISO_TABLES; i++) {
         table[i] = result.table[i];
         result.table[i] = NULL;
     }
@@ -61,19 +44,34 @@ iso_status iso_foreign_study(iso_context *ctx, const iso_foreign_scene *scene, c
     return status;
 }
 
+_Static_assert((int)ISO_TABLES == (int)ISO_STUDY_TABLES, "tables of a study");
+
+iso_status iso_study_text(iso_context *ctx, const iso_record *table, int width, char text[], size_t room,
+                          size_t *length)
+{
+    char *folded = NULL;
+    FILE *to = open_memstream(&folded, length);
+    const char *raw = iso_record_text(table);
+    if (to && raw) iso_fold(to, raw, width);
+    const bool whole = to && fclose(to) == 0 && folded;
+    if (whole && room > 0) snprintf(text, room, "%s", folded);
+    free(folded);
+    return whole ? ISO_OK : iso_context_no_memory(ctx, "a text");
+}
+
 /* --- what there is ---------------------------------------------------------------------------------------------- */
 
-const char *iso_foreign_study_name(int i)
+const char *iso_study_name(int i)
 {
     return iso_study_at(i) ? iso_study_at(i)->name : NULL;
 }
 
-const char *iso_foreign_study_doc(const char *name)
+const char *iso_study_doc(const char *name)
 {
     return iso_study_find(name) ? iso_study_find(name)->doc : NULL;
 }
 
-int iso_foreign_study_of(const char *name)
+int iso_study_of(const char *name)
 {
     return iso_study_find(name) ? (int)iso_study_find(name)->of : 0;
 }
@@ -86,7 +84,7 @@ static const iso_option *option_at(const char *study, int i)
     return o && o->name && i == 0 ? o : NULL;
 }
 
-bool iso_foreign_option(const char *study, int i, const char *text[5])
+bool iso_study_option(const char *study, int i, const char *text[5])
 {
     const iso_option *o = option_at(study, i);
     if (!o) return false;
@@ -98,7 +96,7 @@ bool iso_foreign_option(const char *study, int i, const char *text[5])
     return true;
 }
 
-const char *iso_foreign_option_word(const char *study, int i, int word)
+const char *iso_study_option_word(const char *study, int i, int word)
 {
     const iso_option *o = option_at(study, i);
     for (int w = 0; o && o->word && o->word(w); w++)
@@ -106,7 +104,7 @@ const char *iso_foreign_option_word(const char *study, int i, int word)
     return NULL;
 }
 
-iso_status iso_foreign_list(iso_context *ctx, const char *topic, char text[], size_t room, size_t *length)
+iso_status iso_list(iso_context *ctx, const char *topic, char text[], size_t room, size_t *length)
 {
     char *words = NULL;
     FILE *to = open_memstream(&words, length);
@@ -120,7 +118,7 @@ iso_status iso_foreign_list(iso_context *ctx, const char *topic, char text[], si
 
 /* --- tables ----------------------------------------------------------------------------------------------------- */
 
-const char *iso_foreign_table_kind(int i)
+const char *iso_kind_name(int i)
 {
     int of_studies = 0;
     while (iso_result_table_at(of_studies)) of_studies++;
@@ -143,7 +141,7 @@ static void look(void *data, const char *name, const iso_field *field, const iso
     memcpy(c->name, name, strlen(name) + 1);
 }
 
-bool iso_foreign_column(const char *kind, int i, char name[64], const char *text[2])
+bool iso_kind_column(const char *kind, int i, char name[64], const char *text[2])
 {
     column c = {i, name, text};
     for (int t = 0; iso_result_table_at(t); t++)

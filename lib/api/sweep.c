@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
-#include "api/foreign_impl.h"
+#include "api/interface_impl.h"
 #include "base/record_impl.h"
 #include "io/text_impl.h"
 #include "sweep/sweep_impl.h"
@@ -73,8 +73,8 @@ static iso_status run(iso_context *ctx, const iso_sweep_file *file, int threads,
     return status;
 }
 
-iso_status iso_foreign_sweep(iso_context *ctx, const char *path, const char *text, size_t length, int threads,
-                             void (*progress)(void *data, double part), void *data, iso_record **record)
+iso_status iso_sweep_ask(iso_context *ctx, const char *path, const char *text, size_t length, int threads,
+                         void (*progress)(void *data, double part), void *data, iso_record **record)
 {
     keeper k = {.progress = progress, .data = data};
     iso_sweep_file *file;
@@ -120,8 +120,7 @@ static char *load(iso_context *ctx, const char *path, size_t *length)
     return iso_text_load(ctx, path, ISO_LARGEST_TEXT, &text, length) == ISO_OK ? text : NULL;
 }
 
-iso_status iso_foreign_sweep_explain(iso_context *ctx, const char *path, const char *text, size_t length,
-                                     iso_record **record)
+iso_status iso_sweep_text(iso_context *ctx, const char *path, const char *text, size_t length, iso_record **record)
 {
     *record = NULL;
     char *own = text ? NULL : load(ctx, path, &length);

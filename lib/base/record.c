@@ -29,6 +29,7 @@ struct iso_record {
     char kind[KIND_SIZE];
     size_t words, buckets; /* buckets: 0, or a power of 2 above twice the words */
     char **word;           /* by its number, from 1 on */
+    char *text;            /* what a study tells people; NULL: nothing */
     size_t *bucket;        /* the number of a word whose hash leads here; 0: none */
 };
 
@@ -68,6 +69,7 @@ void iso_record_free(iso_record *r)
     }
     for (size_t i = 1; i <= r->words; i++) free(r->word[i]);
     free(r->word);
+    free(r->text);
     free(r->bucket);
     free(r->line);
     free(r->column);
@@ -370,4 +372,15 @@ bool iso_record_get_numbers(iso_context *ctx, const iso_record *r, const char *k
     *status =
         ISO_FAIL_INPUT(ctx, key, "'%s: %s' should be %zu finite number%s", key, text, count, count == 1 ? "" : "s");
     return false;
+}
+
+void iso_record_keep_text(iso_record *r, char *text)
+{
+    free(r->text);
+    r->text = text;
+}
+
+const char *iso_record_text(const iso_record *r)
+{
+    return r->text;
 }

@@ -31,7 +31,7 @@ bool iso_draft_initial_key(int i, const char **name, iso_models *model);
 
 /* The i-th key that a scene can have, and its section; those of `effects` are the names of the effects. False: there
  * are no more. */
-bool iso_scene_key(int i, const char **section, const char **key);
+bool iso_scene_key_at(int i, const char **section, const char **key);
 
 /* Notes where a key stands, for what is found wrong only later, when an orbit is made. */
 void iso_scene_note_place(iso_scene *s, const char *key, yaml_mark_t at);

@@ -365,7 +365,7 @@ iso_status iso_draft_read_keys(iso_draft *d)
     return read_mapping(d, scene_keys, "the scene", d->root, d->root);
 }
 
-bool iso_scene_key(int i, const char **section, const char **key)
+bool iso_scene_key_at(int i, const char **section, const char **key)
 {
     for (const entry *e = scene_keys; e->name; e++) {
         int keys = 0;

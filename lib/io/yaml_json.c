@@ -89,7 +89,7 @@ static iso_status put_node(output *o, const yaml_node_t *n)
     return ISO_OK;
 }
 
-iso_status iso_yaml_json(iso_context *ctx, const char *name, const char *text, size_t bytes, char json[], size_t room,
+iso_status iso_yaml_to_json(iso_context *ctx, const char *name, const char *text, size_t bytes, char json[], size_t room,
                          size_t *length)
 {
     ISO_DEFAULT_ARITHMETIC;

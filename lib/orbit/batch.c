@@ -263,7 +263,7 @@ iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_
 static bool same_columns(const batch *b, const iso_scene *scene)
 {
     int columns[ISO_MAX_COLUMNS];
-    return iso_scene_columns(scene, columns) == b->width &&
+    return iso_scene_column_list(scene, columns) == b->width &&
            memcmp(columns, b->columns, (size_t)b->width * sizeof *columns) == 0;
 }
 
@@ -322,7 +322,7 @@ iso_status iso_batch_table(iso_context *ctx, const iso_scene *const scene[], siz
         return ISO_FAIL_ARGUMENT(ctx, "scenes", "%zu scenes for %zu orbits: give one, or one for each", scenes,
                                  count);
     if (count == 0) return ISO_OK;
-    b.width = iso_scene_columns(scene_of(&b, 0), b.columns);
+    b.width = iso_scene_column_list(scene_of(&b, 0), b.columns);
     iso_status answer = ISO_OK;
     for (size_t i = 0; answer == ISO_OK && i < scenes; i++) answer = check_scene(ctx, &b, i);
     const iso_batch_options o = shared_options(&b, threads, vectors);

@@ -256,7 +256,7 @@ static bool is_default(const iso_scene *scene, int c)
     return as == ISO_SHOW_BOTH || (as == ISO_SHOW_BALL && ball) || (as == ISO_SHOW_POINT && point);
 }
 
-int iso_scene_columns(const iso_scene *scene, int columns[])
+int iso_scene_column_list(const iso_scene *scene, int columns[])
 {
     int count = 0;
     for (size_t i = 0; i < scene->columns; i++)
@@ -269,7 +269,7 @@ int iso_scene_columns(const iso_scene *scene, int columns[])
 iso_status iso_scene_check_columns(iso_context *ctx, const iso_scene *scene)
 {
     int columns[ISO_MAX_COLUMNS];
-    const int count = iso_scene_columns(scene, columns);
+    const int count = iso_scene_column_list(scene, columns);
     for (int i = 0; i < count; i++) {
         const iso_effect_id effect = iso_column_effect(columns[i]);
         if (is_filled(scene, columns[i])) continue;

@@ -83,6 +83,7 @@ typedef struct iso_scene {
     iso_models as;              /* whose states are written                                               */
     size_t columns;             /* names of the columns wanted; 0: those of `as`                           */
     char column[ISO_MAX_COLUMNS][ISO_NAME_SIZE];
+    const char *name; /* what messages call it; NULL: nothing. Not copied with the scene            */
     int places; /* of what was read from a file, 0 for a scene filled by hand                              */
     iso_place place[ISO_MAX_PLACES];
 } iso_scene;
@@ -107,7 +108,7 @@ double iso_scene_time(const iso_scene *scene, size_t row);
 
 /* Indices of the columns the scene asks for (iso_column_name), and how many: columns[] has room for
  * ISO_MAX_COLUMNS. */
-int iso_scene_columns(const iso_scene *scene, int columns[]);
+int iso_scene_column_list(const iso_scene *scene, int columns[]);
 
 /* Every column a trajectory can have, in file order: the clocks, the states of the ball and of the point, then
  * those of the effects, in the order of the registry (iso_effect_column_name):

@@ -121,7 +121,7 @@ static iso_status ask(iso_context *ctx, const iso_study *study, const iso_study_
     return status;
 }
 
-iso_status iso_study_ask(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
+iso_status iso_study_ask_text(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
                          const char *options, iso_study_result *result)
 {
     ISO_TRY(refuse_subject(ctx, study, subject));

@@ -3,7 +3,7 @@
  *
  *     iso_study_result result = {.sink = {.note = show, .progress = draw}};
  *     const iso_study_subject subject = {.scene = &scene};
- *     status = iso_study_ask(ctx, iso_study_find("chaos"), &subject, "turns=500\nstarts=20", &result);
+ *     status = iso_study_ask_text(ctx, iso_study_find("chaos"), &subject, "turns=500\nstarts=20", &result);
  *     ... iso_record_rows(result.table[0]) ...
  *     iso_study_result_free(&result);
  *
@@ -118,7 +118,7 @@ iso_status iso_study_set(iso_context *ctx, const iso_study *study, const char *n
 
 /* Runs a study. options: lines NAME=VALUE with a newline between, or NULL. Errors: ISO_BAD_ARGUMENT about an option,
  * or about "scene" or "record", which the study needs; those of the study. Without a row the tables are NULL then. */
-iso_status iso_study_ask(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
+iso_status iso_study_ask_text(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
                          const char *options, iso_study_result *result);
 
 /* The same with options that were read before (iso_study_read). */

@@ -55,7 +55,7 @@ void iso_sweep_add_state(iso_sweep_job *job)
     const iso_models as = shown_of(&s);
     int columns[ISO_MAX_COLUMNS], count = 0;
     if (isnan(r->turns)) {
-        count = iso_scene_columns(&s, columns);
+        count = iso_scene_column_list(&s, columns);
     } else {
         iso_sweep_add(job, "t tau s l x");
         for (int i = 0; i < ISO_STATE && as != ISO_SHOW_POINT; i++) columns[count++] = ISO_COLUMN_BALL + i;

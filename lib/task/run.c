@@ -28,7 +28,7 @@ static void leave_out_unseen(iso_effects *effects, const int columns[], int coun
     }
 }
 
-/* Options of the orbit that fills these columns (iso_scene_columns) and computes nothing else. Writes *effects; the
+/* Options of the orbit that fills these columns (iso_scene_column_list) and computes nothing else. Writes *effects; the
  * options point to it. */
 static iso_orbit_options orbit_options(const iso_scene *scene, const int columns[], int count, iso_effects *effects)
 {
@@ -330,7 +330,7 @@ static iso_status check(runner *r)
 {
     ISO_TRY(check_times(r));
     ISO_TRY(iso_scene_check_columns(r->ctx, r->scene));
-    r->count = iso_scene_columns(r->scene, r->columns);
+    r->count = iso_scene_column_list(r->scene, r->columns);
     r->result->asked = r->options.times ? r->options.count : iso_scene_rows(r->scene);
     return iso_method_check(r->ctx, r->scene->method);
 }

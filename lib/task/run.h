@@ -5,7 +5,7 @@
  *     iso_run_result result;
  *     status = iso_run(ctx, &scene, NULL, &sink, NULL, &result);              the times of the scene's own grid
  *
- * The columns are those that the scene asks for (iso_scene_columns). The rows are kept in memory only if the times
+ * The columns are those that the scene asks for (iso_scene_column_list). The rows are kept in memory only if the times
  * come in another order than they are worked on.
  */
 #ifndef ISO_STUDY_RUN_H
@@ -17,7 +17,7 @@
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
 
-/* The orbit that fills these columns (iso_scene_columns) and computes nothing else. The backend `auto` is the
+/* The orbit that fills these columns (iso_scene_column_list) and computes nothing else. The backend `auto` is the
  * cheapest for the rows and the tolerance of the scene. Errors: those of iso_orbit_create. */
 iso_status iso_scene_orbit(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
                            iso_orbit **orbit);

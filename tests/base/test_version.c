@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "isoroll.h"
+#include "api/typed_impl.h"
 #include "orbit/orbit_impl.h"
 
 static void test_version(void)

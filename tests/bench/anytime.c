@@ -15,7 +15,7 @@
  * questions backwards and at random are asked.
  */
 #include "bench.h"
-#include "isoroll.h"
+#include "api/typed_impl.h"
 #include "rivals/rivals.h"
 
 enum { QUESTIONS = 2000, FEW = 20, PASSES = 15, ORDERS = 3 };

@@ -12,7 +12,7 @@
  */
 #include "base/random_impl.h"
 #include "bench.h"
-#include "isoroll.h"
+#include "api/typed_impl.h"
 
 enum { STARTS = 18, PASSES = 5, END = 1000, QUESTIONS = 4 };
 static const int rows_asked[QUESTIONS] = {1, 1000, 2000, 10000};

@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "bench.h"
-#include "isoroll.h"
+#include "api/typed_impl.h"
 #include "orbit/orbit_impl.h"
 
 enum { CALLS = 20000, ROUNDS = 15, MOST = 24 };

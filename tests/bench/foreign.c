@@ -1,4 +1,4 @@
-/* bench_foreign - what the calls for other languages cost: a batch by iso_batch_run and by iso_foreign_batch.
+/* bench_foreign - what the calls for other languages cost: a batch by iso_batch_run and by iso_batch.
  *
  *     bench_foreign [SCENE]
  *
@@ -7,7 +7,7 @@
  * threads), and orbits a second. tests/python/rate.py prints the same lines for isoroll.batch: compare these. Samples
  * and tables are allocated in each run, as Python does.
  */
-#include "api/foreign.h"
+#include "api/interface.h"
 #include "bench.h"
 #include "io/scene_file.h"
 #include "orbit/batch.h"
@@ -50,13 +50,13 @@ static double by_structs(const iso_scene *scene, const double *y, size_t count, 
     return seconds() - before;
 }
 
-static double by_arrays(const iso_foreign_scene *scene, const double *y, size_t count, const double *times,
+static double by_arrays(const iso_scene *scene, const double *y, size_t count, const double *times,
                         size_t rows)
 {
     const double before = seconds();
     double *table = malloc(count * rows * WIDTH * sizeof *table);
     if (!table) exit(1);
-    bench_must(ctx, iso_foreign_batch(ctx, &scene, 1, count, NULL, NULL, y, times, rows, 0, NULL, table, NULL));
+    bench_must(ctx, iso_batch(ctx, &scene, 1, count, NULL, NULL, y, times, rows, 0, NULL, table, NULL));
     free(table);
     return seconds() - before;
 }
@@ -67,7 +67,7 @@ static void tell(const char *name, size_t count, double end, size_t rows, double
            (double)count / best);
 }
 
-static void measure(const iso_scene *scene, const iso_foreign_scene *foreign, size_t count, double end, size_t rows)
+static void measure(const iso_scene *scene, const iso_scene *foreign, size_t count, double end, size_t rows)
 {
     double *y = calloc(6 * count, sizeof *y), *times = calloc(rows, sizeof *times), best[2] = {INFINITY, INFINITY};
     if (!y || !times) exit(1);
@@ -81,7 +81,7 @@ static void measure(const iso_scene *scene, const iso_foreign_scene *foreign, si
         best[1] = fmin(best[1], by_arrays(foreign, y, count, times, rows));
     }
     tell("iso_batch_run", count, end, rows, best[0]);
-    tell("iso_foreign_batch", count, end, rows, best[1]);
+    tell("iso_batch", count, end, rows, best[1]);
     free(y);
     free(times);
 }
@@ -89,16 +89,16 @@ static void measure(const iso_scene *scene, const iso_foreign_scene *foreign, si
 int main(int argc, char **argv)
 {
     iso_scene scene;
-    iso_foreign_scene *foreign;
+    iso_scene *foreign;
     ctx = iso_context_create();
     if (!ctx) return 1;
     bench_must(ctx, argc > 1 ? iso_scene_load(ctx, argv[1], &scene)
                              : iso_scene_load_text(ctx, "usual", usual, sizeof usual - 1, &scene));
-    bench_must(ctx, argc > 1 ? iso_foreign_scene_read(ctx, argv[1], &foreign)
-                             : iso_foreign_scene_parse(ctx, "usual", usual, sizeof usual - 1, &foreign));
+    bench_must(ctx, argc > 1 ? iso_scene_read(ctx, argv[1], &foreign)
+                             : iso_scene_parse(ctx, "usual", usual, sizeof usual - 1, &foreign));
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
         measure(&scene, foreign, sizes[i].orbits, sizes[i].end, sizes[i].rows);
-    iso_foreign_scene_free(foreign);
+    iso_scene_free(foreign);
     iso_context_free(ctx);
     return 0;
 }

@@ -125,16 +125,16 @@ initial: {normal: [0, 0, 1], angular_velocity: [3, 4, 0]}
 time:    {end: 100, step: 10}
 EOF
 cat >passes.c <<'EOF'
-#include "api/foreign.h"
+#include "api/interface.h"
 #include "io/table.h"
 int main(void)
 {
     char notes[200];
     iso_context *ctx = iso_context_create();
-    iso_foreign_scene *scene;
+    iso_scene *scene;
     iso_record *table[6];
-    iso_foreign_scene_read(ctx, "round.yaml", &scene);
-    return iso_foreign_study(ctx, scene, NULL, "passes", "starts=3", NULL, NULL, table, notes, sizeof notes) ||
+    iso_scene_read(ctx, "round.yaml", &scene);
+    return iso_study_ask(ctx, scene, NULL, "passes", "starts=3", NULL, NULL, table, notes, sizeof notes) ||
            iso_table_write(ctx, "passes.csv", table[0]);
 }
 EOF

@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "api/foreign.h"
+#include "api/interface.h"
 #include "batches.h"
 #include "hard.h"
 #include "instrument/frequencies/frequencies.h"
@@ -181,39 +181,39 @@ static iso_status study(const hard_road *way)
 /* The calls for other languages: those that hold memory beside what they call. */
 static iso_status call_foreign(const hard_road *way)
 {
-    iso_foreign_scene *scene = NULL;
-    iso_foreign_orbit *one = NULL;
+    iso_scene *scene = NULL;
+    iso_orbit *one = NULL;
     iso_record *ball = NULL, *point = NULL, *section[6] = {NULL}, *chaos[6] = {NULL};
     char notes[80];
     double table[4 * 7];
     (void)way;
     digits = 0;
-    iso_status status = iso_foreign_scene_parse(ctx, "scene", closed, strlen(closed), &scene);
+    iso_status status = iso_scene_parse(ctx, "scene", closed, strlen(closed), &scene);
     if (status == ISO_OK) status = iso_foreign_run(ctx, scene, NULL, 0, NULL, &ball, notes, sizeof notes);
-    if (status == ISO_OK) status = iso_foreign_convert(ctx, ball, "point", 1e-12, 1e-5, false, &point, notes, 80);
+    if (status == ISO_OK) status = iso_record_convert(ctx, ball, "point", 1e-12, 1e-5, false, &point, notes, 80);
     if (status == ISO_OK) digits = iso_record_row(point, 4)[2];
     iso_record_free(point);
     point = NULL;
-    if (status == ISO_OK) status = iso_foreign_orbit_create(ctx, scene, &one);
-    if (status == ISO_OK) status = iso_foreign_orbit_at(one, (double[]){2, 1, -1}, 3, table, notes, sizeof notes);
+    if (status == ISO_OK) status = iso_solution_create(ctx, scene, &one);
+    if (status == ISO_OK) status = iso_solution_at(one, (double[]){2, 1, -1}, 3, table, notes, sizeof notes);
     if (status != ISO_OK && one) /* it has the words */
-        iso_context_fail(ctx, status, "", "%s", iso_context_message(iso_foreign_orbit_context(one)));
+        iso_context_fail(ctx, status, "", "%s", iso_context_message(iso_solution_context(one)));
     digits += table[0];
     if (status == ISO_OK)
-        status = iso_foreign_batch(ctx, (const iso_foreign_scene *[]){scene}, 1, 4, (double[]){1, 2, 3, 4}, NULL,
+        status = iso_batch(ctx, (const iso_scene *[]){scene}, 1, 4, (double[]){1, 2, 3, 4}, NULL,
                                    NULL, (double[]){1}, 1, 1, NULL, table, NULL);
     if (status == ISO_OK)
-        status = iso_foreign_study(ctx, scene, NULL, "section", "crossings=2\nat=0.5,0.2\nthreads=1", NULL, NULL,
+        status = iso_study_ask(ctx, scene, NULL, "section", "crossings=2\nat=0.5,0.2\nthreads=1", NULL, NULL,
                                    section, notes, 80);
     if (status == ISO_OK)
-        status = iso_foreign_study(ctx, scene, NULL, "chaos", "turns=4\nstarts=1\nthreads=1", NULL, NULL, chaos,
+        status = iso_study_ask(ctx, scene, NULL, "chaos", "turns=4\nstarts=1\nthreads=1", NULL, NULL, chaos,
                                    notes, 80);
     digits = status == ISO_OK ? digits + table[27] + iso_record_row(section[1], 3)[6] : 0;
     iso_record_free(ball);
     iso_record_free(point);
     for (int i = 0; i < 6; i++) iso_record_free(section[i]), iso_record_free(chaos[i]);
-    iso_foreign_orbit_free(one);
-    iso_foreign_scene_free(scene);
+    iso_orbit_free(one);
+    iso_scene_free(scene);
     return status;
 }
 
@@ -242,15 +242,15 @@ static iso_status fill_table(const hard_road *way)
 {
     static double table[MANY * ROWS * WIDTH], k[MANY];
     static int32_t one[MANY];
-    iso_foreign_scene *scene;
-    const iso_status status = iso_foreign_scene_parse(ctx, "scene", closed, strlen(closed), &scene);
+    iso_scene *scene;
+    const iso_status status = iso_scene_parse(ctx, "scene", closed, strlen(closed), &scene);
     digits = 0;
     if (status != ISO_OK) return status;
     for (int i = 0; i < MANY * ROWS * WIDTH; i++) table[i] = NOBODY;
     for (int i = 0; i < MANY; i++) one[i] = -7, k[i] = 0.5 + 0.001 * i;
-    const iso_status answer = iso_foreign_batch(ctx, (const iso_foreign_scene *[]){scene}, 1, MANY, k, NULL, NULL,
+    const iso_status answer = iso_batch(ctx, (const iso_scene *[]){scene}, 1, MANY, k, NULL, NULL,
                                                 (double[]){0.1, 0.2}, ROWS, way ? 1 : 2, NULL, table, one);
-    iso_foreign_scene_free(scene);
+    iso_scene_free(scene);
     return judge_table(answer, table, one);
 }
 

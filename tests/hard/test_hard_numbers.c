@@ -4,7 +4,7 @@
 
 #include "exact/exact_impl.h"
 #include "hard.h"
-#include "isoroll.h"
+#include "api/typed_impl.h"
 #include "method/integrator_impl.h"
 #include "numbers.h"
 #include "sweep.h"

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "hard.h"
-#include "isoroll.h"
+#include "api/typed_impl.h"
 #include "laws.h"
 #include "map/state.h"
 #include "orbit/orbit_impl.h"

@@ -7,7 +7,7 @@
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/frequencies/frequencies_impl.h"
 #include "instrument/frequencies/momentum.h"
-#include "isoroll.h"
+#include "api/typed_impl.h"
 #include "orbit/orbit_impl.h"
 #include "sweep.h"
 #include "task/analogue.h"

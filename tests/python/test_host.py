@@ -282,7 +282,7 @@ class Library(Case):
         compiler = os.environ.get("CC", "cc")
         for code, words in (('const char *iso_version(void) { return "9.9.9"; }', "is isoroll 9.9.9"),
                             (f'const char *iso_version(void) {{ return "{isoroll.__version__}"; }}',
-                             "has no function iso_foreign_abi")):
+                             "has no function iso_interface")):
             with open(self.path("other.c"), "w", encoding="utf-8") as file:
                 file.write(code)
             try:

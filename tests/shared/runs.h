@@ -108,7 +108,7 @@ static inline kept *run(const iso_scene *scene, const double times[], size_t cou
 static inline int different(const iso_scene *scene, const kept *k, size_t at, double time)
 {
     int columns[ISO_MAX_COLUMNS], wrong = 0;
-    const int count = iso_scene_columns(scene, columns);
+    const int count = iso_scene_column_list(scene, columns);
     iso_orbit *orbit;
     iso_sample sample;
     laws_stop_if(ctx,

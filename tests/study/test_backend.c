@@ -22,7 +22,7 @@ static iso_scene scene_of(const reference *r, double end, double rows)
 static iso_backend taken(const iso_scene *scene, const double truth[ISO_STATE], double *error)
 {
     int columns[ISO_MAX_COLUMNS];
-    const int count = iso_scene_columns(scene, columns);
+    const int count = iso_scene_column_list(scene, columns);
     iso_orbit *orbit;
     iso_sample s;
     double apart[ISO_STATE];

@@ -164,7 +164,7 @@ static void refuses(const char *text, const char *options, const char *words)
     iso_status status = iso_scene_load_text(ctx, "scene", text, strlen(text), &scene);
     gsl_test(status != ISO_OK, "a scene: %s", iso_context_message(ctx));
     if (status != ISO_OK) return;
-    status = iso_study_ask(ctx, iso_study_find("prove"), &(iso_study_subject){.scene = &scene}, options, &result);
+    status = iso_study_ask_text(ctx, iso_study_find("prove"), &(iso_study_subject){.scene = &scene}, options, &result);
     gsl_test(!(status != ISO_OK && strstr(iso_context_message(ctx), words)), "refused: %s", iso_context_message(ctx));
     iso_study_result_free(&result);
 }

@@ -4,7 +4,7 @@
 static int place_of(const iso_scene *scene, const char *name)
 {
     int columns[ISO_MAX_COLUMNS];
-    const int count = iso_scene_columns(scene, columns);
+    const int count = iso_scene_column_list(scene, columns);
     for (int c = 0; c < count; c++)
         if (strcmp(iso_column_name(columns[c]), name) == 0) return c;
     laws_stop_if(ctx, true, "a column is missing");

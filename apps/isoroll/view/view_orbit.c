@@ -203,7 +203,7 @@ iso_status view_verdicts(iso_context *ctx, view_page *page, const iso_scene *sta
     scene.effects = iso_scene_acting(start);
     scene.end = 1;
     iso_status status =
-        options ? iso_study_ask(ctx, iso_study_find("chaos"), &(iso_study_subject){.scene = &scene}, options, &result)
+        options ? iso_study_ask_text(ctx, iso_study_find("chaos"), &(iso_study_subject){.scene = &scene}, options, &result)
                 : iso_context_no_memory(ctx, "%zu orbits", count);
     if (status == ISO_OK && section)
         status = iso_picture_make(ctx, (const iso_record *[]){section, result.table[0], NULL}, NULL, &picture);

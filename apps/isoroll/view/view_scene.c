@@ -97,7 +97,7 @@ static iso_status compare(iso_context *ctx, const iso_scene *asked, view_page *p
     /* where contact is lost, the ball's run has ended before the last of the times */
     scene.end = *view_vector(rows, iso_record_rows(rows) - 1, iso_clock_name(page->clock));
     iso_status status =
-        iso_study_ask(ctx, iso_study_find("compare"), &(iso_study_subject){.scene = &scene}, NULL, &result);
+        iso_study_ask_text(ctx, iso_study_find("compare"), &(iso_study_subject){.scene = &scene}, NULL, &result);
     if (status == ISO_OK)
         status = take_point(ctx, page, rows, result.table[0], result.table[2]);
     else if (status != ISO_STOPPED && status != ISO_NO_MEMORY) {

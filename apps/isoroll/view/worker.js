@@ -1,5 +1,5 @@
 // worker.js - runs in a Worker behind the loader of emscripten (isoroll.js): calls the library by its interface for other
-// languages (lib/api/foreign.h). All physics of the laboratory is computed here.
+// languages (lib/api/interface.h). All physics of the laboratory is computed here.
 //
 // In: {module}, the compiled library, first; then {id, job, scene, options}. Out: {id, result} or {id, error}.
 
@@ -49,9 +49,9 @@ function callsOf(M) {
   const sceneOf = (scene) => {
     const words = JSON.stringify(scene), // YAML as well
       at = room(4);
-    ok(M._iso_foreign_scene_parse(ctx, text("page"), text(words), M.lengthBytesUTF8(words), at));
+    ok(M._iso_scene_parse(ctx, text("page"), text(words), M.lengthBytesUTF8(words), at));
     const made = pointer(at);
-    ends.push(() => M._iso_foreign_scene_free(made));
+    ends.push(() => M._iso_scene_free(made));
     return made;
   };
   // The lines of a record, and its columns by their names; words where a column has words.
@@ -83,7 +83,7 @@ function callsOf(M) {
     study(name, scene, options) {
       const at = room(24),
         lines = Object.entries(options).map(([key, value]) => `${key}=${value}`);
-      ok(M._iso_foreign_study(ctx, sceneOf(scene), 0, text(name), text(lines.join("\n")), 0, 0, at, notes, 4096));
+      ok(M._iso_study_ask(ctx, sceneOf(scene), 0, text(name), text(lines.join("\n")), 0, 0, at, notes, 4096));
       for (let i = 1; i < 6; i++) if (pointer(at + 4 * i)) M._iso_record_free(pointer(at + 4 * i));
       return taken(pointer(at));
     },

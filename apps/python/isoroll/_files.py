@@ -27,7 +27,7 @@ def read(path: PathLike, columns: Optional[Union[str, Sequence[str]]] = None) ->
     named = None if columns is None else encoded(listed("columns", columns))
     ctx, new, notes, name = context(), new_record(), Notes(), encoded(path)
     with _hdf5.calls(name), interruptible():
-        status = lib.iso_foreign_read(ctx, name, named, byref(new), *notes.arguments)
+        status = lib.iso_record_read(ctx, name, named, byref(new), *notes.arguments)
     check(status, ctx)
     notes.tell()
     return from_record(new)
@@ -90,7 +90,7 @@ def convert(table: Union[Table, PathLike], to: str, *, tol: float = 1e-14, k: Op
                                    f"{', '.join(table.lines) or 'none'}")
     ctx, record, new, notes = context(), as_record(table), new_record(), Notes()
     with interruptible():
-        status = lib.iso_foreign_convert(ctx, record.pointer, encoded(to), real("tol", tol),
+        status = lib.iso_record_convert(ctx, record.pointer, encoded(to), real("tol", tol),
                                          real("row_tolerance", row_tolerance), bool(shift_J), byref(new), *notes.arguments)
     check(status, ctx)
     notes.tell()

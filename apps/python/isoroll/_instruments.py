@@ -91,7 +91,7 @@ def _type_of(option: Option) -> str:
 
 def _subject(study: str) -> List[inspect.Parameter]:
     """What a study is of: a scene, or a table and perhaps a scene."""
-    of, parameter = lib.iso_foreign_study_of(study.encode()), inspect.Parameter
+    of, parameter = lib.iso_study_of(study.encode()), inspect.Parameter
     first = parameter.POSITIONAL_OR_KEYWORD
     if of & NEEDS_SCENE:
         return [parameter("scene", first, annotation="SceneLike")]

@@ -1,6 +1,6 @@
 """The shared library: where it is, which functions of it are used, and how a call is made.
 
-Only functions with plain arguments are used (lib/api/foreign.h); no struct of C is known here.
+Only functions with plain arguments are used (lib/api/interface.h); no struct of C is known here.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from . import _errors
 from ._version import __version__
 
-ABI = 3  # ISO_FOREIGN_ABI of lib/api/foreign.h
+ABI = 3  # ISO_INTERFACE of lib/api/interface.h
 _OBJECT = POINTER(c_void_p)  # where a new object goes
 
 _NAMES = {"darwin": "libisoroll.0.dylib", "win32": "isoroll.dll"}
@@ -31,13 +31,13 @@ INSIDE = os.path.join(os.path.dirname(os.path.abspath(__file__)), NAME)  # a whe
 _NOTES = (c_char_p, c_size_t)
 _TABLE = {
     "iso_version": (c_char_p,),
-    "iso_foreign_abi": (c_int,),
+    "iso_interface": (c_int,),
     "iso_context_create": (c_void_p,),
     "iso_context_free": (None, c_void_p),
     "iso_context_message": (c_char_p, c_void_p),
     "iso_context_about": (c_char_p, c_void_p),
-    "iso_foreign_monitor_create": (c_int, c_void_p, c_double, c_void_p, c_void_p, _OBJECT),
-    "iso_foreign_monitor_free": (None, c_void_p),
+    "iso_slow_monitor_create": (c_int, c_void_p, c_double, c_void_p, c_void_p, _OBJECT),
+    "iso_slow_monitor_free": (None, c_void_p),
     "iso_column_name": (c_char_p, c_int),
     "iso_column_doc": (c_char_p, c_int, POINTER(c_char_p)),
     "iso_record_create": (c_int, c_void_p, c_size_t, POINTER(c_char_p), _OBJECT),
@@ -56,46 +56,46 @@ _TABLE = {
     "iso_record_get": (c_char_p, c_void_p, c_char_p),
     "iso_record_set": (c_int, c_void_p, c_void_p, c_char_p, c_char_p),
     "iso_record_add": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
-    "iso_foreign_scene_read": (c_int, c_void_p, c_char_p, _OBJECT),
-    "iso_foreign_scene_parse": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, _OBJECT),
-    "iso_foreign_scene_copy": (c_int, c_void_p, c_void_p, _OBJECT),
-    "iso_foreign_scene_free": (None, c_void_p),
-    "iso_foreign_scene_set": (c_int, c_void_p, c_void_p, c_char_p, c_char_p),
-    "iso_foreign_scene_replace": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p),
-    "iso_foreign_scene_numbers": (c_int, c_void_p, c_char_p, POINTER(c_double)),
-    "iso_foreign_scene_word": (c_char_p, c_void_p, c_char_p),
-    "iso_foreign_scene_key": (c_bool, c_int, POINTER(c_char_p), POINTER(c_char_p)),
-    "iso_foreign_scene_text": (c_int, c_void_p, c_void_p, c_char_p, c_size_t, POINTER(c_size_t)),
-    "iso_foreign_yaml_json": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, c_char_p, c_size_t, POINTER(c_size_t)),
-    "iso_foreign_scene_columns": (c_int, c_void_p, POINTER(c_int)),
+    "iso_scene_read": (c_int, c_void_p, c_char_p, _OBJECT),
+    "iso_scene_parse": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, _OBJECT),
+    "iso_scene_copy": (c_int, c_void_p, c_void_p, _OBJECT),
+    "iso_scene_free": (None, c_void_p),
+    "iso_scene_set": (c_int, c_void_p, c_void_p, c_char_p, c_char_p),
+    "iso_scene_replace": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p),
+    "iso_scene_numbers": (c_int, c_void_p, c_char_p, POINTER(c_double)),
+    "iso_scene_word": (c_char_p, c_void_p, c_char_p),
+    "iso_scene_key": (c_bool, c_int, POINTER(c_char_p), POINTER(c_char_p)),
+    "iso_scene_text": (c_int, c_void_p, c_void_p, c_char_p, c_size_t, POINTER(c_size_t)),
+    "iso_yaml_json": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, c_char_p, c_size_t, POINTER(c_size_t)),
+    "iso_scene_columns": (c_int, c_void_p, POINTER(c_int)),
     "iso_foreign_run": (c_int, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, _OBJECT) + _NOTES,
-    "iso_foreign_orbit_create": (c_int, c_void_p, c_void_p, _OBJECT),
-    "iso_foreign_orbit_free": (None, c_void_p),
-    "iso_foreign_orbit_context": (c_void_p, c_void_p),
-    "iso_foreign_orbit_inside": (c_void_p, c_void_p),
-    "iso_foreign_orbit_at": (c_int, c_void_p, c_void_p, c_size_t, c_void_p) + _NOTES,
+    "iso_solution_create": (c_int, c_void_p, c_void_p, _OBJECT),
+    "iso_orbit_free": (None, c_void_p),
+    "iso_solution_context": (c_void_p, c_void_p),
+    "iso_solution_inside": (c_void_p, c_void_p),
+    "iso_solution_at": (c_int, c_void_p, c_void_p, c_size_t, c_void_p) + _NOTES,
     "iso_orbit_backend": (c_int, c_void_p),
     "iso_backend_name": (c_char_p, c_int),
     "iso_orbit_energy": (c_double, c_void_p),
     "iso_orbit_coupling": (c_double, c_void_p),
     "iso_orbit_has_twin": (c_bool, c_void_p),
-    "iso_foreign_batch": (c_int, c_void_p, POINTER(c_void_p), c_size_t, c_size_t, c_void_p, c_void_p, c_void_p,
+    "iso_batch": (c_int, c_void_p, POINTER(c_void_p), c_size_t, c_size_t, c_void_p, c_void_p, c_void_p,
                           c_void_p, c_size_t, c_int, c_char_p, c_void_p, c_void_p),
-    "iso_foreign_study": (c_int, c_void_p, c_void_p, c_void_p, c_char_p, c_char_p, c_void_p, c_void_p,
+    "iso_study_ask": (c_int, c_void_p, c_void_p, c_void_p, c_char_p, c_char_p, c_void_p, c_void_p,
                           c_void_p) + _NOTES,
-    "iso_foreign_study_name": (c_char_p, c_int),
-    "iso_foreign_study_doc": (c_char_p, c_char_p),
-    "iso_foreign_study_of": (c_int, c_char_p),
-    "iso_foreign_option": (c_bool, c_char_p, c_int, POINTER(c_char_p)),
-    "iso_foreign_option_word": (c_char_p, c_char_p, c_int, c_int),
-    "iso_foreign_table_kind": (c_char_p, c_int),
-    "iso_foreign_column": (c_bool, c_char_p, c_int, c_char_p, POINTER(c_char_p)),
-    "iso_foreign_list": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, POINTER(c_size_t)),
-    "iso_foreign_sweep": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, c_int, c_void_p, c_void_p, _OBJECT),
-    "iso_foreign_sweep_explain": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, _OBJECT),
-    "iso_foreign_read": (c_int, c_void_p, c_char_p, c_char_p, _OBJECT) + _NOTES,
-    "iso_foreign_write": (c_int, c_void_p, c_char_p, c_void_p, c_int, c_char_p),
-    "iso_foreign_convert": (c_int, c_void_p, c_void_p, c_char_p, c_double, c_double, c_bool, _OBJECT) + _NOTES,
+    "iso_study_name": (c_char_p, c_int),
+    "iso_study_doc": (c_char_p, c_char_p),
+    "iso_study_of": (c_int, c_char_p),
+    "iso_study_option": (c_bool, c_char_p, c_int, POINTER(c_char_p)),
+    "iso_study_option_word": (c_char_p, c_char_p, c_int, c_int),
+    "iso_kind_name": (c_char_p, c_int),
+    "iso_kind_column": (c_bool, c_char_p, c_int, c_char_p, POINTER(c_char_p)),
+    "iso_list": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, POINTER(c_size_t)),
+    "iso_sweep_ask": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, c_int, c_void_p, c_void_p, _OBJECT),
+    "iso_sweep_text": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, _OBJECT),
+    "iso_record_read": (c_int, c_void_p, c_char_p, c_char_p, _OBJECT) + _NOTES,
+    "iso_record_write": (c_int, c_void_p, c_char_p, c_void_p, c_int, c_char_p),
+    "iso_record_convert": (c_int, c_void_p, c_void_p, c_char_p, c_double, c_double, c_bool, _OBJECT) + _NOTES,
     "iso_picture_make": (c_int, c_void_p, c_void_p, c_char_p, c_void_p),
 }
 
@@ -145,8 +145,8 @@ def _declare(library: ctypes.CDLL) -> ctypes.CDLL:
             raise _errors.LibraryError(f"{name} (isoroll {version}) has no function {function}, which this Python "
                                        f"package {__version__} needs: install both from one source") from None
         entry.restype, entry.argtypes = types[0], types[1:]
-    if library.iso_foreign_abi() != ABI:
-        raise _errors.LibraryError(f"{name} has interface {library.iso_foreign_abi()} for other languages, and this "
+    if library.iso_interface() != ABI:
+        raise _errors.LibraryError(f"{name} has interface {library.iso_interface()} for other languages, and this "
                                    f"Python package knows {ABI}: install both from one source")
     return library
 
@@ -293,9 +293,9 @@ class Monitor(Owned):
 
     def __init__(self, pointer: int) -> None:
         new = c_void_p()
-        check(lib.iso_foreign_monitor_create(pointer, 0.1, ctypes.cast(_go_on, c_void_p), None, ctypes.byref(new)),
+        check(lib.iso_slow_monitor_create(pointer, 0.1, ctypes.cast(_go_on, c_void_p), None, ctypes.byref(new)),
               pointer)
-        self._own(new.value, lib.iso_foreign_monitor_free)
+        self._own(new.value, lib.iso_slow_monitor_free)
 
 
 class _Context(Owned):

@@ -96,12 +96,12 @@ class Orbit(Owned):
 
     def __init__(self, scene: SceneLike, **changes: Any) -> None:
         self.scene = as_scene(scene, changes)
-        new, ctx = New(lib.iso_foreign_orbit_free), context()
+        new, ctx = New(lib.iso_orbit_free), context()
         with interruptible():
-            status = lib.iso_foreign_orbit_create(ctx, self.scene.pointer, byref(new))
+            status = lib.iso_solution_create(ctx, self.scene.pointer, byref(new))
         check(status, ctx)
-        self._own(new.take(), lib.iso_foreign_orbit_free)
-        self._context = lib.iso_foreign_orbit_context(self.pointer)
+        self._own(new.take(), lib.iso_orbit_free)
+        self._context = lib.iso_solution_context(self.pointer)
         self._monitor = Monitor(self._context)
         self._lock = threading.Lock()
         self.columns = self.scene.columns
@@ -116,14 +116,14 @@ class Orbit(Owned):
         asked, notes = _times(times), Notes()
         array = np.empty(asked.shape + (len(self.columns),))
         with self._lock, interruptible():
-            status = lib.iso_foreign_orbit_at(self.pointer, asked.ctypes.data, asked.size, array.ctypes.data,
+            status = lib.iso_solution_at(self.pointer, asked.ctypes.data, asked.size, array.ctypes.data,
                                               *notes.arguments)
             check(status, self._context)
         notes.tell()
         return _OfOrbit(array, self)
 
     def _number(self, function: Any) -> Any:
-        return function(lib.iso_foreign_orbit_inside(self.pointer))
+        return function(lib.iso_solution_inside(self.pointer))
 
     @property
     def backend(self) -> str:
@@ -180,7 +180,7 @@ class Batch(Trajectory):
         scenes, replaced = self._origin
         scene, ctx = Scene(scenes[i if len(scenes) > 1 else 0]), context()
         own = [None if values is None else np.ascontiguousarray(values[i]) for values in replaced]
-        check(lib.iso_foreign_scene_replace(ctx, scene.pointer, *(None if x is None else x.ctypes.data for x in own)),
+        check(lib.iso_scene_replace(ctx, scene.pointer, *(None if x is None else x.ctypes.data for x in own)),
               ctx)
         lines = dict(run(scene, [0.0]).lines.text)
         if scene.backend == "auto":
@@ -248,7 +248,7 @@ def batch(scenes: Union[SceneLike, Iterable[SceneLike]], times: ArrayLike, *, k:
     result, ctx = Batch(array, columns, kind="batch"), context()
     result.status, result._origin = statuses, (chosen, arrays)
     with interruptible(lambda: result if statuses.any() else None):
-        status = lib.iso_foreign_batch(ctx, pointers, len(chosen), count,
+        status = lib.iso_batch(ctx, pointers, len(chosen), count,
                                        *(None if a is None else a.ctypes.data for a in arrays), asked.ctypes.data,
                                        asked.size, whole("threads", threads, 0, 1024),
                                        None if vectors is None else encoded(vectors),

@@ -19,7 +19,7 @@ SceneLike = Union["Scene", str, "os.PathLike[str]", Mapping[str, Any]]
 
 _MOST_COLUMNS = 64  # ISO_MAX_COLUMNS
 _MOST_BYTES = 16 << 20  # of a file
-_SET = ("backend", "method", "tolerance", "end", "step", "as", "columns")  # what iso_foreign_scene_set can change
+_SET = ("backend", "method", "tolerance", "end", "step", "as", "columns")  # what iso_scene_set can change
 _NUMBERS = ("tolerance", "end", "step")  # those of them that are numbers
 
 
@@ -28,7 +28,7 @@ def _keys() -> Dict[str, Dict[str, None]]:
     section, key = c_char_p(), c_char_p()
     found: Dict[str, Dict[str, None]] = {}
     i = 0
-    while lib.iso_foreign_scene_key(i, byref(section), byref(key)):
+    while lib.iso_scene_key(i, byref(section), byref(key)):
         found.setdefault((section.value or b"").decode(), {})[(key.value or b"").decode()] = None
         i += 1
     return found
@@ -167,8 +167,8 @@ class Scene(Owned):
 
     def _parse(self, text: bytes, name: str) -> None:
         new, ctx = c_void_p(), context()
-        check(lib.iso_foreign_scene_parse(ctx, encoded(name), text, len(text), byref(new)), ctx)
-        self._own(new.value, lib.iso_foreign_scene_free)
+        check(lib.iso_scene_parse(ctx, encoded(name), text, len(text), byref(new)), ctx)
+        self._own(new.value, lib.iso_scene_free)
         self._text, self._name = text, name
         self._find_columns()
 
@@ -176,8 +176,8 @@ class Scene(Owned):
         """A scene as the source has it."""
         if isinstance(source, Scene):
             new, ctx = c_void_p(), context()
-            check(lib.iso_foreign_scene_copy(ctx, source.pointer, byref(new)), ctx)
-            self._own(new.value, lib.iso_foreign_scene_free)
+            check(lib.iso_scene_copy(ctx, source.pointer, byref(new)), ctx)
+            self._own(new.value, lib.iso_scene_free)
             self._text, self._name, self._columns = source._text, source._name, source._columns
         elif isinstance(source, Mapping):
             self._parse(dump(source), "<dict>")
@@ -219,19 +219,19 @@ class Scene(Owned):
             error.about = key
             raise error
         ctx = context()
-        check(lib.iso_foreign_scene_set(ctx, self.pointer, key.encode(), encoded(value)), ctx)
+        check(lib.iso_scene_set(ctx, self.pointer, key.encode(), encoded(value)), ctx)
         self._text = None
         self._find_columns()
 
     def _find_columns(self) -> None:
         numbers = (c_int * _MOST_COLUMNS)()
-        count = lib.iso_foreign_scene_columns(self.pointer, numbers)
+        count = lib.iso_scene_columns(self.pointer, numbers)
         self._columns = tuple(lib.iso_column_name(c).decode() for c in numbers[:count])
 
     # --- as text ----------------------------------------------------------------------------------------------------
 
     def _printed(self) -> bytes:
-        return filled(lambda *into: lib.iso_foreign_scene_text(context(), self.pointer, *into), 1024)
+        return filled(lambda *into: lib.iso_scene_text(context(), self.pointer, *into), 1024)
 
     @property
     def sections(self) -> Dict[str, Any]:
@@ -278,11 +278,11 @@ class Scene(Owned):
 
     def _numbers(self, key: str) -> NDArray[np.float64]:
         values = (c_double * 6)()
-        count = lib.iso_foreign_scene_numbers(self.pointer, key.encode(), values)
+        count = lib.iso_scene_numbers(self.pointer, key.encode(), values)
         return np.array(values[:count])
 
     def _word(self, key: str) -> str:
-        word: bytes = lib.iso_foreign_scene_word(self.pointer, key.encode())
+        word: bytes = lib.iso_scene_word(self.pointer, key.encode())
         return word.decode("utf-8", "replace")
 
     @property
@@ -389,9 +389,9 @@ def _file(path: Union[str, "os.PathLike[str]"]) -> Tuple[bytes, str]:
         text = None
     if text is None or len(text) > _MOST_BYTES:
         new, ctx = c_void_p(), context()
-        status = lib.iso_foreign_scene_read(ctx, code, byref(new))
+        status = lib.iso_scene_read(ctx, code, byref(new))
         if new.value:
-            lib.iso_foreign_scene_free(new.value)
+            lib.iso_scene_free(new.value)
         check(status, ctx)
         raise _errors.FileTrouble(f"'{name}' changes while it is read")
     return text, name

@@ -37,9 +37,9 @@ def options_of(study: str) -> List[Option]:
     """The options of a study, in the order of the command's help."""
     found: List[Option] = []
     text, name = (c_char_p * 5)(), encoded(study)
-    while lib.iso_foreign_option(name, len(found), text):
+    while lib.iso_study_option(name, len(found), text):
         words: List[str] = []
-        while word := lib.iso_foreign_option_word(name, len(found), len(words)):
+        while word := lib.iso_study_option_word(name, len(found), len(words)):
             words.append(word.decode())
         found.append(Option(*((x or b"").decode() for x in text), words=tuple(words)))
     return found
@@ -47,7 +47,7 @@ def options_of(study: str) -> List[Option]:
 
 def _names() -> Tuple[str, ...]:
     found: List[str] = []
-    while name := lib.iso_foreign_study_name(len(found)):
+    while name := lib.iso_study_name(len(found)):
         found.append(name.decode())
     return tuple(found)
 
@@ -191,7 +191,7 @@ def ask(name: str, scene: Optional[SceneLike], record: Optional[Record], options
         return kept[0]  # type: ignore[no-any-return]
 
     with interruptible(found):
-        status = lib.iso_foreign_study(ctx, None if chosen is None else chosen.pointer,
+        status = lib.iso_study_ask(ctx, None if chosen is None else chosen.pointer,
                                        None if record is None else record.pointer, encoded(name), encoded(text),
                                        shown.pointer, None, made, *notes.arguments)
     result = found()
@@ -212,7 +212,7 @@ def study(scene: Optional[SceneLike], name: str, *, progress: ProgressLike = Non
     options  as the command has them, exponent_turns=700 for --exponent-turns 700, as_="both" for --as both; True: one
              without an argument; None, False: not given
 
-    Returns six tables, None in place of those that are not made (iso_foreign_study in lib/api/foreign.h). The
+    Returns six tables, None in place of those that are not made (iso_study_ask in lib/api/interface.h). The
     lines of the first have the scene, and the result by the names of the command's --json. A study that has a
     function of its own, such as isoroll.chaos, is better asked by it.
     """
@@ -221,7 +221,7 @@ def study(scene: Optional[SceneLike], name: str, *, progress: ProgressLike = Non
 
 def docs() -> Dict[str, str]:
     """What each study does, in one line."""
-    return {name: lib.iso_foreign_study_doc(name.encode()).decode() for name in STUDIES}
+    return {name: lib.iso_study_doc(name.encode()).decode() for name in STUDIES}
 
 
 def list_(topic: Optional[str] = None) -> str:
@@ -236,7 +236,7 @@ def list_(topic: Optional[str] = None) -> str:
     """
     ctx, length = context(), c_size_t()
     named = None if topic is None else encoded(topic)
-    check(lib.iso_foreign_list(ctx, named, None, 0, byref(length)), ctx)
+    check(lib.iso_list(ctx, named, None, 0, byref(length)), ctx)
     text = create_string_buffer(length.value + 1)
-    check(lib.iso_foreign_list(ctx, named, text, length.value + 1, byref(length)), ctx)
+    check(lib.iso_list(ctx, named, text, length.value + 1, byref(length)), ctx)
     return text.value.decode()

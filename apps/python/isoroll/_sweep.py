@@ -38,7 +38,7 @@ def explained(source: Any) -> Optional[Table]:
         return None
     (name, text), new, ctx = _named(source), new_record(), context()
     with interruptible():
-        status = lib.iso_foreign_sweep_explain(ctx, encoded(name), text, len(text or b""), byref(new))
+        status = lib.iso_sweep_text(ctx, encoded(name), text, len(text or b""), byref(new))
     check(status, ctx)
     return from_record(new) if new.value else None
 
@@ -68,7 +68,7 @@ def sweep(source: SweepLike, *, threads: int = 0, progress: ProgressLike = None)
         return kept[0]
 
     with interruptible(found):
-        status = lib.iso_foreign_sweep(ctx, encoded(name), text, len(text or b""), whole("threads", threads, 0, 1024),
+        status = lib.iso_sweep_ask(ctx, encoded(name), text, len(text or b""), whole("threads", threads, 0, 1024),
                                        shown.pointer, None, byref(new))
     try:
         shown.end()

@@ -265,7 +265,7 @@ class Table:
             raise _errors.BadArgument(f"'{os.fsdecode(path)}' ends in '{ending}': a table is written as .csv or .h5")
         number = 0 if isinstance(digits, str) and digits == "hex" else whole("digits", digits, 1, 17)
         with _hdf5.calls(name), interruptible():
-            status = lib.iso_foreign_write(ctx, name, record.pointer, number, encoded(self.kind))
+            status = lib.iso_record_write(ctx, name, record.pointer, number, encoded(self.kind))
         check(status, ctx)
 
     def plot(self, ax: Any = None, **how: Any) -> Any:
@@ -352,7 +352,7 @@ def columns_of(kind: str) -> Mapping[str, Tuple[str, str]]:
     found: Dict[str, Tuple[str, str]] = {}
     i = 0
     kind = "sweep" if kind == "sweep part" else kind
-    while lib.iso_foreign_column(kind.encode(), i, name, text):
+    while lib.iso_kind_column(kind.encode(), i, name, text):
         found[name.value.decode()] = (text[0] or b"").decode(), (text[1] or b"").decode()
         i += 1
     i = 0

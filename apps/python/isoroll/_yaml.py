@@ -60,6 +60,6 @@ def filled(call: Callable[[Any, int, Any], int], room: int) -> bytes:
 
 def load(text: bytes, name: str) -> Dict[str, Any]:
     """YAML as a dict of dicts, lists, numbers and words. Messages call it `name`."""
-    found = json.loads(filled(lambda *into: lib.iso_foreign_yaml_json(context(), encoded(name), text, len(text), *into),
+    found = json.loads(filled(lambda *into: lib.iso_yaml_json(context(), encoded(name), text, len(text), *into),
                               4 * len(text) + 64))
     return found if isinstance(found, dict) else {}

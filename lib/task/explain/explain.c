@@ -303,7 +303,7 @@ static iso_status fill(iso_context *ctx, const iso_scene *scene, iso_explanation
     int columns[ISO_MAX_COLUMNS];
     char *text = NULL;
     size_t size;
-    const int count = iso_scene_columns(scene, columns);
+    const int count = iso_scene_column_list(scene, columns);
     ISO_TRY(iso_scene_orbit(ctx, scene, columns, count, &orbit));
     *e = (iso_explanation){.backend = iso_backend_name((int)iso_orbit_backend(orbit)),
                            .method = iso_orbit_exact(orbit) ? NULL : iso_orbit_method(orbit)->name,

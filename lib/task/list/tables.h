@@ -12,7 +12,7 @@ typedef struct iso_result_table {
     const char *kind; /* as in the first line of its file, "# isoroll KIND 1" */
     const char *doc;  /* what a row is                                        */
     const iso_field *fields;
-    bool in_memory; /* iso_study_ask makes it, but no command writes it to a file */
+    bool in_memory; /* iso_study_ask_text makes it, but no command writes it to a file */
 } iso_result_table;
 
 /* The i-th table; NULL past the end. */

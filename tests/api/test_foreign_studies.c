@@ -1,6 +1,6 @@
-/* test_foreign_studies.c - every study by its name, with options as text (iso_foreign_study): the numbers of the calls
+/* test_foreign_studies.c - every study by its name, with options as text (iso_study_ask): the numbers of the calls
  * with structs, to the bit; sweeps; and what the library says of its studies, options and columns. */
-#include "api/foreign.h"
+#include "api/interface.h"
 
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/integrals/integrals.h"
@@ -17,10 +17,10 @@
 static char notes[400];
 static iso_record *table[ISO_STUDY_TABLES];
 
-static iso_foreign_scene *made(const char *text)
+static iso_scene *made(const char *text)
 {
-    iso_foreign_scene *scene;
-    laws_stop_if(ctx, iso_foreign_scene_parse(ctx, "scene", text, strlen(text), &scene) != ISO_OK, text);
+    iso_scene *scene;
+    laws_stop_if(ctx, iso_scene_parse(ctx, "scene", text, strlen(text), &scene) != ISO_OK, text);
     return scene;
 }
 
@@ -38,18 +38,18 @@ static void look(void *data, double part)
     if (!(part >= 0 && part <= 1)) w->wrong = true;
 }
 
-static iso_status ask_of(const iso_foreign_scene *scene, const iso_record *record, const char *name,
+static iso_status ask_of(const iso_scene *scene, const iso_record *record, const char *name,
                          const char *options)
 {
     watch w = {false, false};
     for (int i = 0; i < ISO_STUDY_TABLES; i++) iso_record_free(table[i]);
     const iso_status status =
-        iso_foreign_study(ctx, scene, record, name, options, look, &w, table, notes, sizeof notes);
+        iso_study_ask(ctx, scene, record, name, options, look, &w, table, notes, sizeof notes);
     gsl_test(w.wrong, "%s: progress is in [0, 1]", name);
     return status;
 }
 
-static iso_status ask(const iso_foreign_scene *scene, const char *name, const char *options)
+static iso_status ask(const iso_scene *scene, const char *name, const char *options)
 {
     return ask_of(scene, NULL, name, options);
 }
@@ -77,7 +77,7 @@ static const char *word(const iso_record *r, size_t row, const char *column)
     return iso_record_word(r, cell(r, row, column));
 }
 
-static bool refused(const iso_foreign_scene *scene, const iso_record *record, const char *name, const char *options,
+static bool refused(const iso_scene *scene, const iso_record *record, const char *name, const char *options,
                     const char *about)
 {
     const iso_status status = ask_of(scene, record, name, options);
@@ -86,7 +86,7 @@ static bool refused(const iso_foreign_scene *scene, const iso_record *record, co
 
 /* --- each study ------------------------------------------------------------------------------------------------- */
 
-static void check_splitting(const iso_foreign_scene *scene, const iso_scene *same)
+static void check_splitting(const iso_scene *scene, const iso_scene *same)
 {
     iso_separatrix_splitting s;
     gsl_test(ask(scene, "splitting", "k=0.5,3/4,1:1.5:0.25\ndigits=double") != ISO_OK ||
@@ -110,7 +110,7 @@ static void check_splitting(const iso_foreign_scene *scene, const iso_scene *sam
              "splitting: one row fails: %s", notes);
 }
 
-static void check_periodic(const iso_foreign_scene *scene, const iso_scene *same)
+static void check_periodic(const iso_scene *scene, const iso_scene *same)
 {
     iso_periodic_options how = iso_periodic_defaults();
     iso_periodic *found;
@@ -138,7 +138,7 @@ static void check_periodic(const iso_foreign_scene *scene, const iso_scene *same
     gsl_test(!refused(scene, NULL, "periodic", "steps=3", "steps"), "periodic: steps of no chart");
 }
 
-static void check_chart(const iso_foreign_scene *scene, const iso_scene *same)
+static void check_chart(const iso_scene *scene, const iso_scene *same)
 {
     iso_stability_options o = iso_stability_defaults();
     iso_record *grid, *borders;
@@ -159,7 +159,7 @@ static void check_chart(const iso_foreign_scene *scene, const iso_scene *same)
     iso_record_free(borders);
 }
 
-static void check_search(const iso_foreign_scene *scene, const iso_scene *same)
+static void check_search(const iso_scene *scene, const iso_scene *same)
 {
     iso_frequencies f;
     iso_frequencies_options how = iso_frequencies_defaults();
@@ -170,14 +170,14 @@ static void check_search(const iso_foreign_scene *scene, const iso_scene *same)
     gsl_test(ask(scene, "integrals", "turns=5\norbits=20") != ISO_OK || !says("verdict", "none") ||
                  line("degree") != 2 || line("orbits") != 20 || !says("energy", "1"),
              "integrals: no additional one");
-    iso_foreign_scene *neumann = made(REDUCED("-1") TIME);
+    iso_scene *neumann = made(REDUCED("-1") TIME);
     gsl_test(ask(neumann, "integrals", "turns=5\norbits=20") != ISO_OK || !says("verdict", "found") ||
                  line("independent") != 1,
              "integrals: one at k = -1");
-    iso_foreign_scene_free(neumann);
+    iso_scene_free(neumann);
 }
 
-static void check_areas(const iso_foreign_scene *scene)
+static void check_areas(const iso_scene *scene)
 {
     gsl_test(ask(scene, "section", "area=true\nstarts=2\ncrossings=10") != ISO_OK || iso_record_rows(table[0]) != 6 ||
                  strcmp(word(table[0], 5, "model"), "point") != 0,
@@ -191,7 +191,7 @@ static void check_areas(const iso_foreign_scene *scene)
              "clouds are gone");
 }
 
-static void check_compare(const iso_foreign_scene *scene, const iso_scene *same)
+static void check_compare(const iso_scene *scene, const iso_scene *same)
 {
     iso_scene shorter = *same;
     iso_comparison *c;
@@ -205,14 +205,14 @@ static void check_compare(const iso_foreign_scene *scene, const iso_scene *same)
                  memcmp(iso_record_row(table[2], 4), iso_record_row(c->run[ISO_POINT].trajectory, 4), 80) != 0,
              "compare: the orbits");
     iso_comparison_free(c);
-    iso_foreign_scene *closed = made(REDUCED("1") TIME);
+    iso_scene *closed = made(REDUCED("1") TIME);
     gsl_test(ask(closed, "compare", NULL) != ISO_OK || !table[3] || !table[4] || !table[5] ||
                  !(line("from_exact.ball.worst_difference.n") < 1e-10),
              "compare: the closed solution");
-    iso_foreign_scene_free(closed);
+    iso_scene_free(closed);
 }
 
-static void check_cost(const iso_foreign_scene *scene)
+static void check_cost(const iso_scene *scene)
 {
     gsl_test(ask(scene, "cost", "backend=ball\nmethod=rk8pd\ntol=1e-9\nwant=1e-5") != ISO_OK ||
                  iso_record_rows(table[0]) != 1 || strcmp(word(table[0], 0, "method"), "rk8pd") != 0 ||
@@ -225,7 +225,7 @@ static void check_cost(const iso_foreign_scene *scene)
 }
 
 /* A trajectory solves its model; with another k, or a damaged number, it does not. The record stays as it is. */
-static void check_check(const iso_foreign_scene *scene)
+static void check_check(const iso_scene *scene)
 {
     iso_record *rows;
     gsl_test(iso_foreign_run(ctx, scene, NULL, 0, NULL, &rows, notes, sizeof notes) != ISO_OK, "a run");
@@ -255,7 +255,7 @@ static void check_check(const iso_foreign_scene *scene)
 }
 
 /* The text of analogue is a scene, whose point has the energy that was asked for. */
-static void check_texts(const iso_foreign_scene *scene)
+static void check_texts(const iso_scene *scene)
 {
     double values[6];
     gsl_test(ask(scene, "explain", "method=rk8pd\nas=both") != ISO_OK || !says("method", "rk8pd") ||
@@ -263,11 +263,11 @@ static void check_texts(const iso_foreign_scene *scene)
                  strncmp(iso_record_get(table[0], "text"), "This orbit has a twin", 21) != 0,
              "explain: %s", iso_context_message(ctx));
     gsl_test(ask(NULL, "analogue", "neumann=1,2,2.5\nenergy=2") != ISO_OK, "analogue: %s", iso_context_message(ctx));
-    iso_foreign_scene *ball = made(iso_record_get(table[0], "text"));
-    iso_foreign_scene_numbers(ball, "k", values);
+    iso_scene *ball = made(iso_record_get(table[0], "text"));
+    iso_scene_numbers(ball, "k", values);
     gsl_test(values[0] != -1 || line("k") != -1 || line("level") != 0, "analogue: a free ball of k = -1");
     gsl_test(ask(ball, "explain", NULL) != ISO_OK || !says("twin", "1"), "analogue: the ball has a twin");
-    iso_foreign_scene_free(ball);
+    iso_scene_free(ball);
     gsl_test(!refused(scene, NULL, "analogue", "neumann=1,2,3", "scene"), "analogue: two problems");
     gsl_test(!refused(NULL, NULL, "analogue", NULL, "scene"), "analogue: no problem");
     gsl_test(!refused(NULL, NULL, "analogue", "k=1", "J"), "analogue: half a problem");
@@ -283,7 +283,7 @@ static void check_texts(const iso_foreign_scene *scene)
 static iso_status sweep(int threads, iso_record **record)
 {
     watch w = {false, false};
-    const iso_status status = iso_foreign_sweep(ctx, "a sweep", SWEEP, strlen(SWEEP), threads, look, &w, record);
+    const iso_status status = iso_sweep_ask(ctx, "a sweep", SWEEP, strlen(SWEEP), threads, look, &w, record);
     gsl_test(w.wrong || (status == ISO_OK && !w.told), "sweep: progress");
     return status;
 }
@@ -305,12 +305,12 @@ static void check_sweep_columns(const char *text)
     iso_record *all = NULL;
     const char *column[2];
     char name[64];
-    gsl_test(iso_foreign_sweep(ctx, "a sweep", text, strlen(text), 1, NULL, NULL, &all) != ISO_OK, "all: %s",
+    gsl_test(iso_sweep_ask(ctx, "a sweep", text, strlen(text), 1, NULL, NULL, &all) != ISO_OK, "all: %s",
              iso_context_message(ctx));
     for (size_t c = 0; all && c < iso_record_columns(all); c++) {
         const char *wanted = iso_record_name(all, c);
         int i = 0;
-        while (iso_foreign_column("sweep", i, name, column) && strcmp(name, wanted) != 0) i++;
+        while (iso_kind_column("sweep", i, name, column) && strcmp(name, wanted) != 0) i++;
         gsl_test(strcmp(wanted, "mass") != 0 && strcmp(name, wanted) != 0, "sweep: what is '%s'", wanted);
     }
     iso_record_free(all);
@@ -321,7 +321,7 @@ static bool stop(void *data)
     return (*(int *)data)-- > 0;
 }
 
-static void check_sweep(const iso_foreign_scene *scene)
+static void check_sweep(const iso_scene *scene)
 {
     iso_record *one = NULL, *two = NULL, *none = NULL;
     gsl_test(sweep(1, &one) != ISO_OK || sweep(2, &two) != ISO_OK || iso_record_rows(one) != 30, "sweep: %s",
@@ -349,9 +349,9 @@ static void check_sweep(const iso_foreign_scene *scene)
     gsl_test(sweep(1, &none) != ISO_STOPPED || (none && iso_record_rows(none) == 30), "sweep: stopped");
     iso_context_set_monitor(ctx, NULL, NULL);
     iso_record_free(none);
-    gsl_test(iso_foreign_sweep(ctx, "a sweep", "vary: {", 7, 1, NULL, NULL, &none) != ISO_BAD_INPUT || none,
+    gsl_test(iso_sweep_ask(ctx, "a sweep", "vary: {", 7, 1, NULL, NULL, &none) != ISO_BAD_INPUT || none,
              "sweep: a mistake");
-    gsl_test(iso_foreign_sweep(ctx, "absent.yaml", NULL, 0, 1, NULL, NULL, &none) != ISO_FILE_TROUBLE || none,
+    gsl_test(iso_sweep_ask(ctx, "absent.yaml", NULL, 0, 1, NULL, NULL, &none) != ISO_FILE_TROUBLE || none,
              "sweep: no file");
 }
 
@@ -370,15 +370,15 @@ static void check_option(const char *study, int i)
 {
     const char *text[5];
     char given[80];
-    iso_foreign_option(study, i, text);
+    iso_study_option(study, i, text);
     const bool flag = strcmp(text[1], "flag") == 0, words = strcmp(text[1], "word") == 0;
     gsl_test(!is_type(text[1]) || !*text[4] || flag != !*text[2] || flag != !*text[3] ||
-                 words != (iso_foreign_option_word(study, i, 0) != NULL),
+                 words != (iso_study_option_word(study, i, 0) != NULL),
              "%s --%s is complete", study, text[0]);
     void *how = malloc(iso_study_find(study)->size);
     if (how) iso_study_find(study)->begin(how);
-    for (int w = 0; how && iso_foreign_option_word(study, i, w); w++) {
-        snprintf(given, sizeof given, "%s", iso_foreign_option_word(study, i, w));
+    for (int w = 0; how && iso_study_option_word(study, i, w); w++) {
+        snprintf(given, sizeof given, "%s", iso_study_option_word(study, i, w));
         gsl_test(iso_study_set(ctx, iso_study_find(study), text[0], given, how) != ISO_OK, "%s --%s %s", study,
                  text[0], given);
     }
@@ -394,30 +394,30 @@ static void check_lists(void)
     char name[64];
     for (int i = 0; i < STUDIES; i++) {
         int options = 0;
-        gsl_test(!iso_foreign_study_doc(names[i]) || iso_foreign_study_of(names[i]) == 0, "%s is there", names[i]);
-        for (; iso_foreign_option(names[i], options, text); options++) check_option(names[i], options);
+        gsl_test(!iso_study_doc(names[i]) || iso_study_of(names[i]) == 0, "%s is there", names[i]);
+        for (; iso_study_option(names[i], options, text); options++) check_option(names[i], options);
         gsl_test(options < 2, "%s has %d options", names[i], options);
     }
-    gsl_test(!iso_foreign_study_name(STUDIES - 1) || iso_foreign_study_name(STUDIES), "%d studies", STUDIES);
-    gsl_test(iso_foreign_study_doc("poetry") || iso_foreign_study_of("poetry") ||
-                 iso_foreign_option("poetry", 0, text) || iso_foreign_option_word("poetry", 0, 0),
+    gsl_test(!iso_study_name(STUDIES - 1) || iso_study_name(STUDIES), "%d studies", STUDIES);
+    gsl_test(iso_study_doc("poetry") || iso_study_of("poetry") ||
+                 iso_study_option("poetry", 0, text) || iso_study_option_word("poetry", 0, 0),
              "no other study");
     int kinds = 0;
-    for (const char *kind; (kind = iso_foreign_table_kind(kinds)); kinds++) {
+    for (const char *kind; (kind = iso_kind_name(kinds)); kinds++) {
         int columns = 0, lacking = 0;
-        for (; iso_foreign_column(kind, columns, name, column); columns++)
+        for (; iso_kind_column(kind, columns, name, column); columns++)
             lacking += !*name || !column[0] || !*column[1];
         gsl_test(columns < 4 || lacking, "%s: %d columns", kind, columns);
     }
-    gsl_test(kinds < 12 || iso_foreign_column("poetry", 0, name, column), "%d kinds of tables", kinds);
-    gsl_test(!iso_foreign_column("splitting", 2, name, column) || strcmp(name, "m") != 0, "its third column is m");
+    gsl_test(kinds < 12 || iso_kind_column("poetry", 0, name, column), "%d kinds of tables", kinds);
+    gsl_test(!iso_kind_column("splitting", 2, name, column) || strcmp(name, "m") != 0, "its third column is m");
 }
 
 int main(void)
 {
     ctx = iso_context_create();
     if (!ctx) return 1;
-    iso_foreign_scene *scene = made(FREE);
+    iso_scene *scene = made(FREE);
     const iso_scene same = parse(FREE);
     check_splitting(scene, &same);
     check_periodic(scene, &same);
@@ -433,7 +433,7 @@ int main(void)
     check_sweep_columns(BY_TIME);
     check_lists();
     for (int i = 0; i < ISO_STUDY_TABLES; i++) iso_record_free(table[i]);
-    iso_foreign_scene_free(scene);
+    iso_scene_free(scene);
     iso_context_free(ctx);
     return gsl_test_summary();
 }

@@ -1,10 +1,10 @@
-/* run.c - runs whose rows are kept, orbits that are asked for arrays of times, and batches of orbits. */
+/* solution.c - a solution that is asked for arrays of times, and batches of orbits. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/foreign_impl.h"
+#include "api/interface_impl.h"
 #include "base/arithmetic_impl.h"
 #include "base/context_impl.h"
 #include "base/number_impl.h"
@@ -13,11 +13,9 @@
 #include "task/run.h"
 #include "task/task_impl.h"
 
-/* --- runs ------------------------------------------------------------------------------------------------------- */
-
-static void keep_note(void *data, const char *words)
+static void keep_note(void *data, const char *text)
 {
-    iso_notes_add(data, words);
+    iso_notes_add(data, text);
 }
 
 static iso_status no_place(iso_context *ctx, size_t count)
@@ -25,43 +23,9 @@ static iso_status no_place(iso_context *ctx, size_t count)
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "times", "%zu times are at NULL", count);
 }
 
-/* The five errors, NaN where the rows do not show them, or one of the reasons is told. */
-static void tell_errors(const iso_run_result *r, double errors[5], notes *n)
-{
-    char words[320];
-    for (int i = 0; i < 5; i++) errors[i] = NAN;
-    if (r->error_status != ISO_OK) {
-        snprintf(words, sizeof words, "error not known: %s", r->error_words);
-        iso_notes_add(n, words);
-        return;
-    }
-    for (int i = 0; i < 2; i++) errors[i] = r->error.state[i].worst;
-    for (int c = 0; c < ISO_CLOCKS; c++) errors[2 + c] = r->error.clock[c].worst;
-}
-
-iso_status iso_foreign_run(iso_context *ctx, const iso_foreign_scene *scene, const double times[], size_t count,
-                           double errors[5], iso_record **record, char text[], size_t room)
-{
-    notes n = iso_notes_begin(text, room);
-    const iso_sink sink = {.note = keep_note, .data = &n};
-    iso_run_options how = iso_run_defaults();
-    iso_run_result result;
-    *record = NULL;
-    for (int i = 0; errors && i < 5; i++) errors[i] = NAN;
-    if (!times && count > 0) return no_place(ctx, count);
-    how.times = times;
-    how.count = count;
-    how.errors = errors != NULL;
-    iso_status status = iso_run(ctx, &scene->scene, &how, &sink, record, &result);
-    if (errors) tell_errors(&result, errors, &n);
-    if (!*record) status = iso_foreign_blame(ctx, scene, status);
-    if (status != ISO_OK && result.rows == 0) iso_record_free(*record), *record = NULL;
-    return status;
-}
-
 /* --- orbits ----------------------------------------------------------------------------------------------------- */
 
-struct iso_foreign_orbit {
+struct iso_solution {
     iso_context *ctx;
     iso_scene scene;
     iso_orbit *orbit;
@@ -69,7 +33,7 @@ struct iso_foreign_orbit {
     bool starts_as_given; /* the row at time 0 has the numbers of the start, as in a run by auto */
 };
 
-void iso_foreign_orbit_free(iso_foreign_orbit *o)
+void iso_solution_free(iso_solution *o)
 {
     if (!o) return;
     iso_orbit_free(o->orbit);
@@ -82,42 +46,51 @@ static iso_status no_orbit(iso_context *ctx)
     return iso_context_no_memory(ctx, "an orbit");
 }
 
-iso_status iso_foreign_orbit_create(iso_context *ctx, const iso_foreign_scene *scene, iso_foreign_orbit **orbit)
+iso_status iso_solution_create(iso_context *ctx, const iso_scene *scene, iso_solution **solution)
 {
-    iso_foreign_orbit *o = calloc(1, sizeof *o);
-    *orbit = NULL;
+    iso_solution *o = calloc(1, sizeof *o);
+    *solution = NULL;
     if (!o) return no_orbit(ctx);
     o->ctx = iso_context_create();
-    if (!o->ctx) return iso_foreign_orbit_free(o), no_orbit(ctx);
-    o->scene = scene->scene;
+    if (!o->ctx) return iso_solution_free(o), no_orbit(ctx);
+    o->scene = *scene;
     o->count = iso_scene_columns(&o->scene, o->columns);
     iso_status status = iso_scene_check_columns(o->ctx, &o->scene);
     if (status == ISO_OK) status = iso_scene_orbit(o->ctx, &o->scene, o->columns, o->count, &o->orbit);
     if (status == ISO_OK) {
         o->starts_as_given = o->scene.backend == ISO_BACKEND_AUTO && o->scene.start.model == ISO_BALL;
         o->scene.backend = iso_orbit_backend(o->orbit); /* auto may depend on the rows that are asked for */
-        *orbit = o;
+        *solution = o;
         return ISO_OK;
     }
-    status = iso_foreign_blame(o->ctx, scene, status);
+    status = iso_blame_scene(o->ctx, scene, status);
     iso_context_fail(ctx, status, iso_context_about(o->ctx), "%s", iso_context_message(o->ctx));
-    iso_foreign_orbit_free(o);
+    iso_solution_free(o);
     return status;
 }
 
-iso_context *iso_foreign_orbit_context(const iso_foreign_orbit *o)
+iso_context *iso_solution_context(const iso_solution *o)
 {
     return o->ctx;
 }
 
-const iso_orbit *iso_foreign_orbit_inside(const iso_foreign_orbit *o)
+const char *iso_solution_word(const iso_solution *o, const char *key)
 {
-    return o->orbit;
+    if (strcmp(key, "backend") == 0) return iso_backend_name((int)iso_orbit_backend(o->orbit));
+    if (strcmp(key, "method") == 0) return iso_orbit_exact(o->orbit) ? "" : iso_orbit_method(o->orbit)->name;
+    if (strcmp(key, "models") == 0) return iso_orbit_has_twin(o->orbit) ? "both" : "ball";
+    return NULL;
+}
+
+double iso_solution_number(const iso_solution *o, const char *key)
+{
+    if (strcmp(key, "h") == 0) return iso_orbit_energy(o->orbit);
+    return strcmp(key, "eps") == 0 ? iso_orbit_coupling(o->orbit) : (double)NAN;
 }
 
 /* --- an orbit at many times ------------------------------------------------------------------------------------- */
 
-static iso_status fill_row(iso_foreign_orbit *o, double time, double row[])
+static iso_status fill_row(iso_solution *o, double time, double row[])
 {
     iso_sample sample;
     if (!iso_context_goes_on(o->ctx)) return iso_context_stopped(o->ctx);
@@ -128,7 +101,7 @@ static iso_status fill_row(iso_foreign_orbit *o, double time, double row[])
     return status;
 }
 
-static iso_status fill_sorted(iso_foreign_orbit *o, const double times[], size_t count, double table[])
+static iso_status fill_sorted(iso_solution *o, const double times[], size_t count, double table[])
 {
     iso_asked_time *order = iso_times_sorted(times, count);
     iso_status status = ISO_OK;
@@ -140,7 +113,7 @@ static iso_status fill_sorted(iso_foreign_orbit *o, const double times[], size_t
 }
 
 /* A ball that can lose contact: a run watches it. Where it has lost it there is no row, which is refused. */
-static iso_status fill_watched(iso_foreign_orbit *o, const double times[], size_t count, double table[], notes *n)
+static iso_status fill_watched(iso_solution *o, const double times[], size_t count, double table[], notes *n)
 {
     iso_record *rows = NULL;
     const iso_sink sink = {.note = keep_note, .data = n};
@@ -164,8 +137,8 @@ static iso_status fill_watched(iso_foreign_orbit *o, const double times[], size_
     return ISO_OK;
 }
 
-iso_status iso_foreign_orbit_at(iso_foreign_orbit *o, const double times[], size_t count, double table[], char text[],
-                                size_t room)
+iso_status iso_solution_at(iso_solution *o, const double times[], size_t count, double table[], char text[],
+                           size_t room)
 {
     ISO_DEFAULT_ARITHMETIC;
     notes n = iso_notes_begin(text, room);
@@ -186,22 +159,10 @@ iso_status iso_foreign_orbit_at(iso_foreign_orbit *o, const double times[], size
 
 _Static_assert(sizeof(iso_status) == sizeof(int32_t), "a status has 32 bits");
 
-iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *const scene[], size_t scenes, size_t count,
-                             const double k[], const double J[], const double start[], const double times[],
-                             size_t rows, int threads, const char *vectors, double table[], int32_t status[])
+iso_status iso_batch(iso_context *ctx, const iso_scene *const scene[], size_t scenes, size_t count, const double k[],
+                     const double J[], const double start[], const double times[], size_t rows, int threads,
+                     const char *vectors, double table[], int32_t status[])
 {
-    const size_t given = scenes == 0 || scenes == count ? scenes : 1; /* any other number is refused below */
-    const iso_scene **inside = malloc((scenes + 1) * sizeof *inside);
-    int columns[ISO_MAX_COLUMNS];
-    for (size_t i = 0; inside && i < given; i++) inside[i] = &scene[i]->scene;
-    if (!inside) {
-        const size_t width = (size_t)iso_scene_columns(&scene[0]->scene, columns);
-        for (size_t i = 0; i < count * rows * width; i++) table[i] = NAN;
-        for (size_t i = 0; status && i < count; i++) status[i] = ISO_NO_MEMORY;
-        return no_orbit(ctx);
-    }
-    const iso_status answer = iso_batch_table(ctx, inside, scenes, count, k, J, start, times, rows, threads, vectors,
-                                              table, (iso_status *)status);
-    free(inside);
-    return answer;
+    return iso_batch_table(ctx, scene, scenes, count, k, J, start, times, rows, threads, vectors, table,
+                           (iso_status *)status);
 }

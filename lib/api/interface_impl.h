@@ -1,13 +1,10 @@
 /* foreign_impl.h - what the files of this folder share: the scene behind its pointer, notes, and kept rows. */
-#ifndef ISO_FOREIGN_FOREIGN_IMPL_H
-#define ISO_FOREIGN_FOREIGN_IMPL_H
+#ifndef ISO_API_INTERFACE_IMPL_H
+#define ISO_API_INTERFACE_IMPL_H
 
-#include "api/foreign.h"
-
-struct iso_foreign_scene {
-    iso_scene scene;
-    char *name;
-};
+#include "api/interface.h"
+#include "orbit/orbit.h"
+#include "orbit/scene.h"
 
 /* The caller's notes; room 0: none. */
 typedef struct notes {
@@ -22,11 +19,10 @@ notes iso_notes_begin(char text[], size_t room);
 void iso_notes_add(notes *n, const char *words);
 
 /* Puts the place in the scene before a failure (iso_scene_blame). */
-iso_status iso_foreign_blame(iso_context *ctx, const iso_foreign_scene *scene, iso_status status);
+iso_status iso_blame_scene(iso_context *ctx, const iso_scene *scene, iso_status status);
 
 /* The number of a word in a list of names that NULL ends, NULL being "auto".
  * Errors: ISO_BAD_ARGUMENT about `key`. */
-iso_status iso_foreign_word(iso_context *ctx, const char *key, const char *(*name)(int), const char *word,
-                            int *number);
+iso_status iso_word_find(iso_context *ctx, const char *key, const char *(*name)(int), const char *word, int *number);
 
 #endif

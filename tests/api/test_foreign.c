@@ -1,6 +1,6 @@
-/* test_foreign.c - the calls for other languages (api/foreign.h): the same numbers as the calls with structs, to
+/* test_foreign.c - the calls for other languages (api/interface.h): the same numbers as the calls with structs, to
  * the bit; words, notes, and a stop in the middle. tests/python tries the same calls from Python. */
-#include "api/foreign.h"
+#include "api/interface.h"
 
 #include <unistd.h>
 
@@ -13,10 +13,10 @@ enum { ORBITS = 700, WIDTH = 7 };
 
 static char notes[400];
 
-static iso_foreign_scene *made(const char *text)
+static iso_scene *made(const char *text)
 {
-    iso_foreign_scene *scene;
-    laws_stop_if(ctx, iso_foreign_scene_parse(ctx, "scene", text, strlen(text), &scene) != ISO_OK, text);
+    iso_scene *scene;
+    laws_stop_if(ctx, iso_scene_parse(ctx, "scene", text, strlen(text), &scene) != ISO_OK, text);
     return scene;
 }
 
@@ -27,35 +27,35 @@ static bool about(const char *words)
 
 static void check_scenes(void)
 {
-    iso_foreign_scene *scene = made(REDUCED("0.5") TIME "output: {columns: [s, n3]}\n"), *copy, *none;
+    iso_scene *scene = made(REDUCED("0.5") TIME "output: {columns: [s, n3]}\n"), *copy, *none;
     const char *const bad[][2] = {{"backend", "x"},  {"method", "x"},   {"tolerance", "2"}, {"end", "nan"},
                                   {"step", "0"},     {"as", "neither"}, {"columns", "t,t"}, {"columns", "t,,n1"},
                                   {"columns", "e1"}, {"columns", ""},   {"colour", "red"}};
     int columns[ISO_MAX_COLUMNS];
     double x[6];
-    gsl_test(iso_foreign_scene_copy(ctx, scene, &copy) != ISO_OK, "a copy");
+    gsl_test(iso_scene_copy(ctx, scene, &copy) != ISO_OK, "a copy");
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-        gsl_test(iso_foreign_scene_set(ctx, scene, bad[i][0], bad[i][1]) != ISO_BAD_ARGUMENT || !about(bad[i][0]),
+        gsl_test(iso_scene_set(ctx, scene, bad[i][0], bad[i][1]) != ISO_BAD_ARGUMENT || !about(bad[i][0]),
                  "%s = %s is refused: %s", bad[i][0], bad[i][1], iso_context_message(ctx));
-    gsl_test(iso_foreign_scene_columns(scene, columns) != 2 ||
-                 strcmp(iso_foreign_scene_word(scene, "method"), "auto"),
+    gsl_test(iso_scene_columns(scene, columns) != 2 ||
+                 strcmp(iso_scene_word(scene, "method"), "auto"),
              "the scene is as it was");
-    gsl_test(iso_foreign_scene_set(ctx, scene, "as", "both") != ISO_OK ||
-                 iso_foreign_scene_columns(scene, columns) != 15 || iso_foreign_scene_columns(copy, columns) != 2,
+    gsl_test(iso_scene_set(ctx, scene, "as", "both") != ISO_OK ||
+                 iso_scene_columns(scene, columns) != 15 || iso_scene_columns(copy, columns) != 2,
              "'as' sets the columns, not those of the copy");
-    gsl_test(iso_foreign_scene_set(ctx, scene, "end", "7.5") != ISO_OK ||
-                 iso_foreign_scene_numbers(scene, "end", x) != 1 || x[0] != 7.5,
+    gsl_test(iso_scene_set(ctx, scene, "end", "7.5") != ISO_OK ||
+                 iso_scene_numbers(scene, "end", x) != 1 || x[0] != 7.5,
              "a number");
-    gsl_test(iso_foreign_scene_numbers(scene, "J", x) != 3 || x[1] != 2.1, "J");
-    gsl_test(iso_foreign_scene_numbers(scene, "eps", x) != 1 || !isnan(x[0]), "a ball has no eps of its own");
-    gsl_test(iso_foreign_scene_numbers(scene, "mood", x) != 0 || iso_foreign_scene_word(scene, "mood"), "no key");
-    gsl_test(iso_foreign_scene_read(ctx, "absent.yaml", &none) != ISO_FILE_TROUBLE || none, "no file");
-    gsl_test(iso_foreign_scene_parse(ctx, "here", "a: 1", 4, &none) != ISO_BAD_INPUT || none ||
+    gsl_test(iso_scene_numbers(scene, "J", x) != 3 || x[1] != 2.1, "J");
+    gsl_test(iso_scene_numbers(scene, "eps", x) != 1 || !isnan(x[0]), "a ball has no eps of its own");
+    gsl_test(iso_scene_numbers(scene, "mood", x) != 0 || iso_scene_word(scene, "mood"), "no key");
+    gsl_test(iso_scene_read(ctx, "absent.yaml", &none) != ISO_FILE_TROUBLE || none, "no file");
+    gsl_test(iso_scene_parse(ctx, "here", "a: 1", 4, &none) != ISO_BAD_INPUT || none ||
                  strncmp(iso_context_message(ctx), "here:1:1: ", 10) != 0,
              "no scene: %s", iso_context_message(ctx));
-    iso_foreign_scene_free(scene);
-    iso_foreign_scene_free(copy);
-    iso_foreign_scene_free(NULL);
+    iso_scene_free(scene);
+    iso_scene_free(copy);
+    iso_scene_free(NULL);
 }
 
 /* Texts that languages without YAML or without our structs need. */
@@ -68,39 +68,39 @@ static void check_texts(void)
     const char *section = "", *key = "";
     size_t length = 0, whole = 0;
     int keys = 0;
-    gsl_test(iso_foreign_yaml_json(ctx, "y", yaml, strlen(yaml), text, sizeof text, &length) != ISO_OK ||
+    gsl_test(iso_yaml_json(ctx, "y", yaml, strlen(yaml), text, sizeof text, &length) != ISO_OK ||
                  strcmp(text, json) != 0 || length != strlen(json),
              "YAML as JSON: %s", text);
-    gsl_test(iso_foreign_yaml_json(ctx, "y", yaml, strlen(yaml), part, sizeof part, &length) != ISO_OK ||
+    gsl_test(iso_yaml_json(ctx, "y", yaml, strlen(yaml), part, sizeof part, &length) != ISO_OK ||
                  strcmp(part, "{\"a\": {") != 0 || length != strlen(json),
              "as much as there is room for: %s", part);
-    gsl_test(iso_foreign_yaml_json(ctx, "y", "[a]: 1", 6, text, sizeof text, &length) != ISO_BAD_INPUT ||
+    gsl_test(iso_yaml_json(ctx, "y", "[a]: 1", 6, text, sizeof text, &length) != ISO_BAD_INPUT ||
                  strncmp(iso_context_message(ctx), "y:1:1: ", 7) != 0,
              "a key that is a list: %s", iso_context_message(ctx));
-    iso_foreign_scene *scene = made(REDUCED("1/3") TIME);
-    gsl_test(iso_foreign_scene_text(ctx, scene, text, sizeof text, &length) != ISO_OK || strlen(text) != length ||
+    iso_scene *scene = made(REDUCED("1/3") TIME);
+    gsl_test(iso_scene_text(ctx, scene, text, sizeof text, &length) != ISO_OK || strlen(text) != length ||
                  strncmp(text, "reduced: {k: 1/3, J: [", 22) != 0 ||
-                 iso_foreign_scene_text(ctx, scene, part, sizeof part, &whole) != ISO_OK || whole != length ||
-                 strcmp(part, "reduced") != 0 || iso_foreign_scene_text(ctx, scene, NULL, 0, &whole) != ISO_OK,
+                 iso_scene_text(ctx, scene, part, sizeof part, &whole) != ISO_OK || whole != length ||
+                 strcmp(part, "reduced") != 0 || iso_scene_text(ctx, scene, NULL, 0, &whole) != ISO_OK,
              "a scene as text: %s", text);
-    iso_foreign_scene_free(scene);
-    while (iso_foreign_scene_key(keys, &section, &key)) keys++;
+    iso_scene_free(scene);
+    while (iso_scene_key(keys, &section, &key)) keys++;
     gsl_test(keys < 30 || strcmp(section, "output") != 0 || strcmp(key, "columns") != 0, "%d keys, then %s.%s", keys,
              section, key);
-    gsl_test(iso_foreign_list(ctx, NULL, NULL, 0, &whole) != ISO_OK ||
-                 iso_foreign_list(ctx, "clocks", text, sizeof text, &length) != ISO_OK || length >= whole ||
+    gsl_test(iso_list(ctx, NULL, NULL, 0, &whole) != ISO_OK ||
+                 iso_list(ctx, "clocks", text, sizeof text, &length) != ISO_OK || length >= whole ||
                  strncmp(text, "clocks: ", 8) != 0,
              "lists: %zu of %zu", length, whole);
-    gsl_test(iso_foreign_list(ctx, "clock", NULL, 0, &length) != ISO_BAD_ARGUMENT || !about("topic"), "no such list");
+    gsl_test(iso_list(ctx, "clock", NULL, 0, &length) != ISO_BAD_ARGUMENT || !about("topic"), "no such list");
 }
 
 /* Rows of the scene by iso_foreign_run and by an orbit, times in two orders. */
 static void check_rows(const char *text)
 {
-    iso_foreign_scene *scene = made(text);
+    iso_scene *scene = made(text);
     const iso_scene with_struct = parse(text);
     kept *wanted = run(&with_struct, NULL, 0);
-    iso_foreign_orbit *orbit = NULL;
+    iso_orbit *orbit = NULL;
     iso_record *record = NULL;
     static double times[MOST], table[MOST * ISO_MAX_COLUMNS];
     gsl_test(iso_foreign_run(ctx, scene, NULL, 0, NULL, &record, notes, sizeof notes) != ISO_OK || *notes, "it runs");
@@ -110,16 +110,16 @@ static void check_rows(const char *text)
     for (size_t i = 0; i < rows; i++) wrong += memcmp(iso_record_row(record, i), wanted->row[i], bytes) != 0;
     gsl_test(wrong, "%zu rows are those of iso_run", rows);
     for (size_t i = 0; i < rows; i++) times[(i * 5 + 1) % rows] = iso_scene_time(&with_struct, i);
-    wrong = iso_foreign_orbit_create(ctx, scene, &orbit) != ISO_OK;
+    wrong = iso_solution_create(ctx, scene, &orbit) != ISO_OK;
     for (int twice = 0; twice < 2 && !wrong; twice++) {
-        wrong += iso_foreign_orbit_at(orbit, times, rows, table, notes, sizeof notes) != ISO_OK;
+        wrong += iso_solution_at(orbit, times, rows, table, notes, sizeof notes) != ISO_OK;
         for (size_t i = 0; i < rows; i++)
             wrong += memcmp(table + (i * 5 + 1) % rows * columns, wanted->row[i], bytes) != 0;
     }
     gsl_test(wrong, "an orbit has them in any order");
-    iso_foreign_orbit_free(orbit);
+    iso_orbit_free(orbit);
     iso_record_free(record);
-    iso_foreign_scene_free(scene);
+    iso_scene_free(scene);
     free(wanted);
 }
 
@@ -128,8 +128,8 @@ static void check_example(void)
 {
     const double times[3] = {0, 2, 1};
     double table[3 * WIDTH];
-    iso_foreign_scene *scene = NULL;
-    iso_foreign_orbit *orbit = NULL;
+    iso_scene *scene = NULL;
+    iso_orbit *orbit = NULL;
     iso_record *record = NULL;
     char folder[] = "foreign-XXXXXX"; /* of its own: another scene.yaml is not ours */
     const bool there = mkdtemp(folder) && chdir(folder) == 0;
@@ -138,25 +138,25 @@ static void check_example(void)
     if (!file) return;
     fputs(FREE, file);
     fclose(file);
-    iso_foreign_scene_read(ctx, "scene.yaml", &scene);
+    iso_scene_read(ctx, "scene.yaml", &scene);
     iso_foreign_run(ctx, scene, NULL, 0, NULL, &record, notes, sizeof notes);
-    iso_foreign_orbit_create(ctx, scene, &orbit);
-    iso_foreign_orbit_at(orbit, times, 3, table, notes, sizeof notes);
+    iso_solution_create(ctx, scene, &orbit);
+    iso_solution_at(orbit, times, 3, table, notes, sizeof notes);
     remove("scene.yaml");
     gsl_test(chdir("..") != 0 || rmdir(folder) != 0, "and its folder");
     gsl_test(iso_record_rows(record) != 9 ||
                  memcmp(table + WIDTH, iso_record_row(record, 8), WIDTH * sizeof *table) != 0,
              "the example");
-    iso_foreign_orbit_free(orbit);
+    iso_orbit_free(orbit);
     iso_record_free(record);
-    iso_foreign_scene_free(scene);
+    iso_scene_free(scene);
 }
 
 /* Times that are not there: none at all are the scene's own; a number without a place is refused, and so is a place
  * without a number. */
 static void check_no_times(void)
 {
-    iso_foreign_scene *scene = made(FREE);
+    iso_scene *scene = made(FREE);
     iso_record *record = NULL;
     double errors[5] = {0}, time = 1;
     gsl_test(iso_foreign_run(ctx, scene, NULL, 3, errors, &record, notes, sizeof notes) != ISO_BAD_ARGUMENT ||
@@ -165,20 +165,20 @@ static void check_no_times(void)
     gsl_test(iso_foreign_run(ctx, scene, &time, 0, NULL, &record, NULL, 0) != ISO_BAD_ARGUMENT || record ||
                  !about("times"),
              "no times: %s", iso_context_message(ctx));
-    iso_foreign_orbit *orbit;
-    gsl_test(iso_foreign_orbit_create(ctx, scene, &orbit) != ISO_OK, "an orbit");
-    gsl_test(iso_foreign_orbit_at(orbit, NULL, 1, &time, NULL, 0) != ISO_BAD_ARGUMENT, "a time at NULL");
-    gsl_test(iso_foreign_orbit_at(orbit, NULL, 0, NULL, NULL, 0) != ISO_OK, "no time for an orbit");
-    iso_foreign_orbit_free(orbit);
-    iso_foreign_scene_free(scene);
+    iso_orbit *orbit;
+    gsl_test(iso_solution_create(ctx, scene, &orbit) != ISO_OK, "an orbit");
+    gsl_test(iso_solution_at(orbit, NULL, 1, &time, NULL, 0) != ISO_BAD_ARGUMENT, "a time at NULL");
+    gsl_test(iso_solution_at(orbit, NULL, 0, NULL, NULL, 0) != ISO_OK, "no time for an orbit");
+    iso_orbit_free(orbit);
+    iso_scene_free(scene);
 }
 
 /* Contact is lost: the words have no room in few bytes, and an orbit refuses what is beyond. */
 static void check_contact(void)
 {
-    iso_foreign_scene *scene =
+    iso_scene *scene =
         made(OUTSIDE START "time: {end: 50, step: 1}\neffects: {" GRAVITY ", reactions: {}}\n");
-    iso_foreign_orbit *orbit;
+    iso_orbit *orbit;
     iso_record *record;
     double table[200];
     char few[8] = "xxxxxxx";
@@ -188,13 +188,13 @@ static void check_contact(void)
     iso_record_free(record);
     gsl_test(iso_foreign_run(ctx, scene, NULL, 0, NULL, &record, NULL, 0) != ISO_OK, "no room for notes");
     const double lost = iso_record_row(record, iso_record_rows(record) - 1)[0];
-    gsl_test(iso_foreign_orbit_create(ctx, scene, &orbit) != ISO_OK, "an orbit");
-    gsl_test(iso_foreign_orbit_at(orbit, (double[]){lost / 2}, 1, table, NULL, 0) != ISO_OK || table[0] != lost / 2,
+    gsl_test(iso_solution_create(ctx, scene, &orbit) != ISO_OK, "an orbit");
+    gsl_test(iso_solution_at(orbit, (double[]){lost / 2}, 1, table, NULL, 0) != ISO_OK || table[0] != lost / 2,
              "before the loss");
-    gsl_test(iso_foreign_orbit_at(orbit, (double[]){0, 2 * lost}, 2, table, NULL, 0) != ISO_NUMERICAL, "after it");
-    iso_foreign_orbit_free(orbit);
+    gsl_test(iso_solution_at(orbit, (double[]){0, 2 * lost}, 2, table, NULL, 0) != ISO_NUMERICAL, "after it");
+    iso_orbit_free(orbit);
     iso_record_free(record);
-    iso_foreign_scene_free(scene);
+    iso_scene_free(scene);
 }
 
 /* --- batches ---------------------------------------------------------------------------------------------------- */
@@ -212,7 +212,7 @@ static void fill(void)
     }
 }
 
-static void check_batch(const iso_foreign_scene *const *scene)
+static void check_batch(const iso_scene *const *scene)
 {
     static iso_params params[ORBITS];
     static iso_start start[ORBITS];
@@ -228,7 +228,7 @@ static void check_batch(const iso_foreign_scene *const *scene)
     for (int threads = 1; threads <= 3; threads += 2) {
         memset(table, 0, sizeof table);
         wrong += ISO_OK !=
-                 iso_foreign_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, threads, NULL, table, status);
+                 iso_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, threads, NULL, table, status);
         for (int i = 0; i < 2 * ORBITS; i++) {
             wrong += table[i * WIDTH] != sample[i].clock[0];
             wrong += memcmp(table + i * WIDTH + 1, sample[i].ball, 6 * sizeof *table) != 0;
@@ -243,13 +243,13 @@ static bool stop_later(void *data)
 }
 
 /* A stop leaves rows, or not-a-number and a status that says so. */
-static void check_stop(const iso_foreign_scene *const *scene)
+static void check_stop(const iso_scene *const *scene)
 {
     const double far[2] = {1, 2000};
-    iso_foreign_monitor *monitor;
+    iso_slow_monitor *monitor;
     int left = 3, wrong = 0, stopped = 0;
-    gsl_test(iso_foreign_monitor_create(ctx, 0, stop_later, &left, &monitor) != ISO_OK, "a monitor");
-    gsl_test(iso_foreign_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], far, 2, 1, NULL, table, status) !=
+    gsl_test(iso_slow_monitor_create(ctx, 0, stop_later, &left, &monitor) != ISO_OK, "a monitor");
+    gsl_test(iso_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], far, 2, 1, NULL, table, status) !=
                  ISO_STOPPED,
              "a batch stops");
     for (int i = 0; i < ORBITS; i++) {
@@ -261,22 +261,22 @@ static void check_stop(const iso_foreign_scene *const *scene)
     memset(status, 0, sizeof status);
     memset(table, 0, sizeof table);
     left = 1, wrong = 0;
-    gsl_test(iso_foreign_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], far, 2, 1, NULL, table, status) !=
+    gsl_test(iso_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], far, 2, 1, NULL, table, status) !=
                  ISO_STOPPED,
              "it stops before the first orbit");
     for (int i = 0; i < ORBITS; i++) wrong += status[i] != ISO_STOPPED || !isnan(table[2 * i * WIDTH]);
     gsl_test(wrong, "and no orbit has a row");
     iso_context_set_monitor(ctx, NULL, NULL);
-    iso_foreign_monitor_free(monitor);
+    iso_slow_monitor_free(monitor);
 }
 
-static void check_failures(const iso_foreign_scene *const *scene)
+static void check_failures(const iso_scene *const *scene)
 {
     int wrong =
-        ISO_OK != iso_foreign_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, 0, NULL, table, NULL);
+        ISO_OK != iso_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, 0, NULL, table, NULL);
     const double before = table[2 * 610 * WIDTH + 1];
     k[5] = NAN, k[611] = 0, starts[612][5] = 2;
-    gsl_test(iso_foreign_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, 0, NULL, table, status) !=
+    gsl_test(iso_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, 0, NULL, table, status) !=
                      ISO_BAD_INPUT ||
                  strncmp(iso_context_message(ctx), "orbit 5: ", 9) != 0 || !about("k"),
              "no ball: %s", iso_context_message(ctx));
@@ -291,7 +291,7 @@ static void check_failures(const iso_foreign_scene *const *scene)
     starts[650][0] = 1e13, starts[650][1] = 0;
     const double late[2] = {1, 1e4};
     const iso_status found =
-        iso_foreign_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], late, 2, 0, NULL, table, status);
+        iso_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], late, 2, 0, NULL, table, status);
     gsl_test((int32_t)found != status[600] || found == ISO_OK ||
                  strncmp(iso_context_message(ctx), "orbit 600: ", 11) != 0,
              "no orbit: %s", iso_context_message(ctx));
@@ -299,18 +299,18 @@ static void check_failures(const iso_foreign_scene *const *scene)
     for (int i = 0; i < ORBITS; i++) wrong += (status[i] != ISO_OK) != (i == 600 || i == 650);
     gsl_test(wrong, "the others are there");
     status[3] = -7, table[0] = -7;
-    gsl_test(iso_foreign_batch(ctx, scene, 2, ORBITS, NULL, NULL, NULL, times, 2, 0, NULL, table, status) !=
+    gsl_test(iso_batch(ctx, scene, 2, ORBITS, NULL, NULL, NULL, times, 2, 0, NULL, table, status) !=
                      ISO_BAD_ARGUMENT ||
                  status[3] != -7 || table[0] != -7,
              "two scenes for %d orbits", ORBITS);
-    gsl_test(iso_foreign_batch(ctx, scene, 1, 0, NULL, NULL, NULL, times, 2, 0, NULL, NULL, NULL) != ISO_OK, "none");
+    gsl_test(iso_batch(ctx, scene, 1, 0, NULL, NULL, NULL, times, 2, 0, NULL, NULL, NULL) != ISO_OK, "none");
 }
 
 /* A point whose start is replaced keeps the eps of the scene, if that states one; else it has its own, with H = 0. */
 static void check_coupling(const char *eps)
 {
     char text[2][256];
-    iso_foreign_scene *scene[2];
+    iso_scene *scene[2];
     const double y[6] = {0.5, 0, 0, 0, 0.6, 0.8};
     double rows[2][2 * WIDTH];
     static const char *const initial[] = {"gamma: [0.6, 0, 0.8], M: [0, 2.5, 0]",
@@ -319,11 +319,11 @@ static void check_coupling(const char *eps)
         snprintf(text[i], sizeof text[i], "point: {k: -1, J: [1.4, 2.1, 3.0]%s}\ninitial: {%s}\n" TIME, eps,
                  initial[i]);
         scene[i] = made(text[i]);
-        const iso_foreign_scene *one = scene[i];
-        gsl_test(iso_foreign_batch(ctx, &one, 1, 1, NULL, NULL, i ? NULL : y, times, 2, 1, NULL, rows[i], NULL) !=
+        const iso_scene *one = scene[i];
+        gsl_test(iso_batch(ctx, &one, 1, 1, NULL, NULL, i ? NULL : y, times, 2, 1, NULL, rows[i], NULL) !=
                      ISO_OK,
                  "a point");
-        iso_foreign_scene_free(scene[i]);
+        iso_scene_free(scene[i]);
     }
     gsl_test(memcmp(rows[0], rows[1], sizeof rows[0]) != 0 || !isfinite(rows[0][3]), "its eps is the scene's '%s'",
              eps);
@@ -334,13 +334,13 @@ static void check_coupling(const char *eps)
 static iso_record *table_of[ISO_STUDY_TABLES];
 
 /* Runs a study; the tables of the one before are freed. */
-static iso_status study(const iso_foreign_scene *scene, const char *name, const char *options)
+static iso_status study(const iso_scene *scene, const char *name, const char *options)
 {
     for (int i = 0; i < ISO_STUDY_TABLES; i++) iso_record_free(table_of[i]);
-    return iso_foreign_study(ctx, scene, NULL, name, options, NULL, NULL, table_of, notes, sizeof notes);
+    return iso_study_ask(ctx, scene, NULL, name, options, NULL, NULL, table_of, notes, sizeof notes);
 }
 
-static void check_studies(const iso_foreign_scene *scene)
+static void check_studies(const iso_scene *scene)
 {
     gsl_test(study(scene, "section", "crossings=20\nstarts=2\nat=0.5,0.2\nas=both\n") != ISO_OK ||
                  iso_record_rows(table_of[0]) != 80 || iso_record_rows(table_of[1]) != 80 || table_of[2],
@@ -358,7 +358,7 @@ static void check_studies(const iso_foreign_scene *scene)
  * blamed. */
 static void check_numbers(void)
 {
-    iso_foreign_scene *scene = made(FREE "solver: {tolerance: 1e-9}\n");
+    iso_scene *scene = made(FREE "solver: {tolerance: 1e-9}\n");
     static const char *const bad[][2] = {{"tol=nan", "tol"},      {"tol=-1e-9", "tol"},     {"tol=1e-16", "tol"},
                                          {"tol=0.2", "tol"},      {"tol=inf", "tol"},       {"tol=0", "tol"},
                                          {"starts=-1", "starts"}, {"starts=1.5", "starts"}, {"starts=1e17", "starts"},
@@ -380,21 +380,21 @@ static void check_numbers(void)
                      strcmp(iso_record_get(table_of[0], "tolerance"), own ? "1e-06" : "1e-09"),
                  "the section says its tolerance");
     for (int i = 0; i < ISO_STUDY_TABLES; i++) iso_record_free(table_of[i]);
-    iso_foreign_scene_free(scene);
+    iso_scene_free(scene);
 }
 
-static void check_files(const iso_foreign_scene *scene)
+static void check_files(const iso_scene *scene)
 {
     iso_record *ball, *point = NULL, *read = NULL, *back = NULL;
     double errors[5] = {0};
     gsl_test(iso_foreign_run(ctx, scene, NULL, 0, errors, &ball, notes, sizeof notes) != ISO_OK ||
                  !(errors[0] < 1e-10) || !isnan(errors[1]) || !isnan(errors[2]),
              "errors of a run: %g", errors[0]);
-    gsl_test(iso_foreign_convert(ctx, ball, "point", 1e-14, 1e-5, false, &point, notes, sizeof notes) != ISO_OK,
+    gsl_test(iso_record_convert(ctx, ball, "point", 1e-14, 1e-5, false, &point, notes, sizeof notes) != ISO_OK,
              "there");
-    gsl_test(iso_foreign_write(ctx, "foreign.csv", point, 17, "trajectory") != ISO_OK, "written");
-    gsl_test(iso_foreign_read(ctx, "foreign.csv", NULL, &read, notes, sizeof notes) != ISO_OK || *notes, "read");
-    gsl_test(iso_foreign_convert(ctx, read, "ball", 1e-14, 1e-5, false, &back, notes, sizeof notes) != ISO_OK,
+    gsl_test(iso_record_write(ctx, "foreign.csv", point, 17, "trajectory") != ISO_OK, "written");
+    gsl_test(iso_record_read(ctx, "foreign.csv", NULL, &read, notes, sizeof notes) != ISO_OK || *notes, "read");
+    gsl_test(iso_record_convert(ctx, read, "ball", 1e-14, 1e-5, false, &back, notes, sizeof notes) != ISO_OK,
              "back");
     remove("foreign.csv");
     int wrong = 0;
@@ -402,10 +402,10 @@ static void check_files(const iso_foreign_scene *scene)
         for (int c = 0; c < WIDTH; c++)
             wrong += !(fabs(iso_record_row(ball, i)[c] - iso_record_row(back, i)[c]) <= 1e-13);
     gsl_test(wrong, "the same ball");
-    gsl_test(iso_foreign_write(ctx, "foreign.csv", ball, 18, "trajectory") != ISO_BAD_ARGUMENT, "18 digits");
-    gsl_test(iso_foreign_write(ctx, "foreign.csv", ball, 17, "a/poem") != ISO_BAD_ARGUMENT, "no kind");
+    gsl_test(iso_record_write(ctx, "foreign.csv", ball, 18, "trajectory") != ISO_BAD_ARGUMENT, "18 digits");
+    gsl_test(iso_record_write(ctx, "foreign.csv", ball, 17, "a/poem") != ISO_BAD_ARGUMENT, "no kind");
     iso_record_free(read);
-    gsl_test(iso_foreign_read(ctx, "absent.csv", NULL, &read, notes, sizeof notes) != ISO_FILE_TROUBLE || read,
+    gsl_test(iso_record_read(ctx, "absent.csv", NULL, &read, notes, sizeof notes) != ISO_FILE_TROUBLE || read,
              "none");
     iso_record_free(ball);
     iso_record_free(point);
@@ -416,7 +416,7 @@ int main(void)
 {
     ctx = iso_context_create();
     if (!ctx) return 1;
-    gsl_test(iso_foreign_abi() != ISO_FOREIGN_ABI, "the interface has its number");
+    gsl_test(iso_interface() != ISO_INTERFACE, "the interface has its number");
     check_scenes();
     check_texts();
     check_rows(FREE);
@@ -426,8 +426,8 @@ int main(void)
     check_example();
     check_no_times();
     check_contact();
-    iso_foreign_scene *scene = made(FREE);
-    const iso_foreign_scene *one = scene;
+    iso_scene *scene = made(FREE);
+    const iso_scene *one = scene;
     fill();
     check_batch(&one);
     check_stop(&one);
@@ -437,7 +437,7 @@ int main(void)
     check_studies(scene);
     check_numbers();
     check_files(scene);
-    iso_foreign_scene_free(scene);
+    iso_scene_free(scene);
     iso_context_free(ctx);
     return gsl_test_summary();
 }

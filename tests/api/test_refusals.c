@@ -115,7 +115,7 @@ static iso_status by_name(const iso_study *study, const iso_scene *scene, char *
         if (*c == ' ') *c = (value = !value) ? '=' : '\n';
         if (*c == ';') *c = ',';
     }
-    const iso_status status = iso_study_ask(ctx, study, &subject, options, &result);
+    const iso_status status = iso_study_ask_text(ctx, study, &subject, options, &result);
     iso_study_result_free(&result);
     return status;
 }
