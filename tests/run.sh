@@ -36,13 +36,13 @@ round() {
     rounds="$rounds${rounds:+, }$name ($length)"
 }
 
-threaded='foreign|batch|batch_failures|crossings|chaos|sweep|section_run|indicators|hard_machine|sweep_files|section'
+threaded='api|batch|batch_failures|crossings|chaos|sweep|section_run|indicators|hard_machine|sweep_files|section'
 quick='number|version|params|model|integrals|formula|effect_rows|rest|map|reduction|poisson|needs|refusal'
 quick="$quick|two_point|separation|coordinates|orbit|attitude|convert|off_level|analogue"
-quick="$quick|spectrum|scene|trajectory|sweep_file|plot|foreign"
+quick="$quick|spectrum|scene|trajectory|sweep_file|plot|api"
 # other compilers build every test, and run all but these, which take most of the time
 long='periodic|chaos|effects|tangent|splitting_k|prove|integral_rotor|integral_search|theorem_rotor|taylor|level|lanes'
-long="$long|event|exact|exact_forms|exact_near|exact_far|exact_rotor|measure|sweep|foreign_studies|hard_.*"
+long="$long|event|exact|exact_forms|exact_near|exact_far|exact_rotor|measure|sweep|api_studies|hard_.*"
 mkdir -p .build
 left_out=
 case $what in

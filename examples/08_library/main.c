@@ -10,59 +10,63 @@
  */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include <isoroll/isoroll.h>
 
+/* A globe of 1.8 kg, radius 0.3 m, rolls around a fixed ball of radius 0.15 m (../02_neumann_shell): k = -1. */
+static const char text[] = "ball: {mass: 1.8, radius: 0.3, inertia: [0.081, 0.108, 0.135]}\n"
+                           "surface: {kind: shell, radius: 0.15}\n"
+                           "initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.8, -0.6, 0]}\n"
+                           "time: {end: 10}\n"
+                           "output: {as: ball, columns: [omega1, omega2, omega3, n1, n2, n3]}\n";
+
 /* F = [ (Jw,Jw) + det J (w,Jw)(J^-1 n,J^-1 n) ] / (n,J^-1 n), constant for k = -1. */
-static double F(const iso_params *p, const double w[3], const double n[3])
+static double F(const double J[3], const double state[6])
 {
+    const double *w = state, *n = state + 3;
     double JwJw = 0, wJw = 0, nn = 0, g = 0;
     for (int i = 0; i < 3; i++) {
-        JwJw += p->J[i] * w[i] * p->J[i] * w[i];
-        wJw += w[i] * p->J[i] * w[i];
-        nn += n[i] * n[i] / (p->J[i] * p->J[i]);
-        g += n[i] * n[i] / p->J[i];
+        JwJw += J[i] * w[i] * J[i] * w[i];
+        wJw += w[i] * J[i] * w[i];
+        nn += n[i] * n[i] / (J[i] * J[i]);
+        g += n[i] * n[i] / J[i];
     }
-    return (JwJw + p->det_J * wJw * nn) / g;
+    return (JwJw + J[0] * J[1] * J[2] * wJw * nn) / g;
 }
 
-/* The ball at t = 10, found by integrating the model `backend`. */
-static iso_status ask(iso_context *ctx, const iso_params *p, const iso_start *start, iso_backend backend,
-                      iso_sample *at)
+/* The states at t = 0 and t = 10, found by integrating the model `backend`. */
+static iso_status ask(iso_context *ctx, iso_scene *scene, const char *backend, double states[2][6])
 {
-    iso_orbit *orbit;
-    iso_orbit_options options = iso_orbit_defaults(start);
-    options.backend = backend;
-    iso_status status = iso_orbit_create(ctx, p, start, &options, &orbit);
+    iso_solution *solution;
+    iso_status status = iso_scene_set(ctx, scene, "backend", backend);
+    if (status == ISO_OK) status = iso_solution_create(ctx, scene, &solution);
     if (status != ISO_OK) return status;
-    status = iso_orbit_at(orbit, 10, at);
-    iso_orbit_free(orbit);
+    status = iso_solution_at(solution, (double[]){0, 10}, 2, states[0], NULL, 0);
+    iso_solution_free(solution);
     return status;
 }
 
 int main(void)
 {
-    /* A globe of 1.8 kg, radius 0.3 m, rolls around a fixed ball of radius 0.15 m (../02_neumann_shell): k = -1. */
-    const iso_body globe = {1.8, 0.3, {0.081, 0.108, 0.135}, ISO_SHELL, 0.15};
-    const double w[3] = {0.8, -0.6, 0}, n[3] = {0.36, 0.48, 0.8};
+    static const char *const names[] = {"omega1", "omega2", "omega3", "n1", "n2", "n3"};
+    double a[2][6], b[2][6], J[6], worst = 0;
     iso_context *ctx = iso_context_create();
-    iso_params p;
-    iso_start start;
-    iso_sample a, b;
-    if (!ctx || iso_params_physical(ctx, &globe, &p) || iso_start_ball(ctx, w, n, false, &start) ||
-        ask(ctx, &p, &start, ISO_BACKEND_BALL, &a) || ask(ctx, &p, &start, ISO_BACKEND_POINT, &b)) {
+    iso_scene *scene = NULL;
+    if (!ctx || iso_scene_parse(ctx, "globe", text, strlen(text), &scene) || ask(ctx, scene, "ball", a) ||
+        ask(ctx, scene, "point", b)) {
         fprintf(stderr, "twice: %s\n", ctx ? iso_context_message(ctx) : "no memory");
         return 1;
     }
-    double worst = 0;
+    iso_scene_numbers(scene, "J", J);
     printf("t = 10         backend ball         backend point  difference\n");
-    for (int i = 0; i < ISO_STATE; i++) {
-        printf("%-6s %20.15f  %20.15f  %10.1e\n", iso_system_at(ISO_BALL)->state[i], a.ball[i], b.ball[i],
-               b.ball[i] - a.ball[i]);
-        worst = fmax(worst, fabs(b.ball[i] - a.ball[i]));
+    for (int i = 0; i < 6; i++) {
+        printf("%-6s %20.15f  %20.15f  %10.1e\n", names[i], a[1][i], b[1][i], b[1][i] - a[1][i]);
+        worst = fmax(worst, fabs(b[1][i] - a[1][i]));
     }
-    const double F0 = F(&p, w, n), F10 = F(&p, a.ball, a.ball + 3);
+    const double F0 = F(J, a[0]), F10 = F(J, a[1]);
     printf("F = %.15f at t = 0, %.15f at t = 10\n", F0, F10);
+    iso_scene_free(scene);
     iso_context_free(ctx);
     return worst < 1e-10 && fabs(F10 / F0 - 1) < 1e-11 ? 0 : 1;
 }

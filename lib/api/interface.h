@@ -35,7 +35,7 @@ ISO_C_BEGIN
 
 /* The number of this interface. It grows when a function here changes its arguments, so that a caller without headers
  * can refuse a library that it does not know. */
-enum { ISO_INTERFACE = 3 };
+enum { ISO_INTERFACE = 4 };
 ISO_API int iso_interface(void);
 
 /* --- stopping --------------------------------------------------------------------------------------------------- */
@@ -194,6 +194,15 @@ ISO_API bool iso_kind_column(const char *kind, int i, char name[64], const char 
 /* What there is, in the words of `isoroll list`: as much of it as there is room for, with an end mark; *length is that
  * of all of it. topic: "methods", ...; NULL: all. Errors: ISO_BAD_ARGUMENT about "topic", ISO_NO_MEMORY. */
 ISO_API iso_status iso_list(iso_context *ctx, const char *topic, char text[], size_t room, size_t *length);
+
+/* --- pictures --------------------------------------------------------------------------------------------------- */
+
+/* The tables of a picture of these tables (NULL after the last), by their kinds, as templates and apps/python draw
+ * them. options: "KEY=VALUE" lines, or NULL. *layout: the name of the template. made[]: NULL after the last; the kind of
+ * each is its name in the template; the caller frees them. Errors: ISO_BAD_ARGUMENT, ISO_BAD_INPUT, ISO_NO_MEMORY. */
+enum { ISO_PICTURE_MOST = 16 };
+ISO_API iso_status iso_picture_of(iso_context *ctx, const iso_record *const table[], const char *options,
+                                  const char **layout, iso_record *made[ISO_PICTURE_MOST]);
 
 /* --- sweeps ----------------------------------------------------------------------------------------------------- */
 

@@ -7,6 +7,7 @@
 #include "base/fold_impl.h"
 #include "base/nearest_impl.h"
 #include "base/record_impl.h"
+#include "picture/picture.h"
 #include "study/study.h"
 #include "sweep/sweep_store_impl.h"
 #include "task/list/list_impl.h"
@@ -149,4 +150,18 @@ bool iso_kind_column(const char *kind, int i, char name[64], const char *text[2]
             iso_columns_visit(iso_result_table_at(t)->fields, NULL, look, &c);
     if (strcmp(kind, ISO_SWEEP_KIND) == 0) iso_sweep_columns_visit(look, &c);
     return i >= 0 && c.wanted < 0;
+}
+
+/* --- pictures --------------------------------------------------------------------------------------------------- */
+
+_Static_assert((int)ISO_PICTURE_MOST == (int)ISO_PICTURE_TABLES, "tables of a picture");
+
+iso_status iso_picture_of(iso_context *ctx, const iso_record *const table[], const char *options, const char **layout,
+                          iso_record *made[ISO_PICTURE_MOST])
+{
+    iso_picture picture = {.layout = ""};
+    const iso_status status = iso_picture_make(ctx, table, options, &picture);
+    *layout = picture.layout;
+    memcpy(made, picture.table, sizeof picture.table);
+    return status;
 }

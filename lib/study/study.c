@@ -70,7 +70,8 @@ iso_status iso_study_describe(iso_context *ctx, const iso_study *study, const is
                               const void *options, iso_study_result *result)
 {
     iso_record *table = result->table[0];
-    iso_status status = subject->command ? iso_record_set(ctx, table, "command", subject->command) : ISO_OK;
+    const bool says = subject->command && !(study->of & ISO_STUDY_STREAMS);
+    iso_status status = says ? iso_record_set(ctx, table, "command", subject->command) : ISO_OK;
     return status == ISO_OK && study->describe ? study->describe(ctx, subject->scene, options, result) : status;
 }
 

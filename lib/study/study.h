@@ -87,6 +87,9 @@ typedef struct iso_study_result {
 /* What a study needs, ... and what it can use as well. */
 enum { ISO_STUDY_OF_SCENE = 1, ISO_STUDY_OF_RECORD = 2, ISO_STUDY_USES_SCENE = 4, ISO_STUDY_USES_RECORD = 8 };
 
+/* Its rows go to the sink as they are found; their header says all, without a command line. */
+enum { ISO_STUDY_STREAMS = 16 };
+
 typedef struct iso_study {
     const char *name, *doc; /* doc: one line */
     const iso_option *options;

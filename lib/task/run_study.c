@@ -106,5 +106,5 @@ const iso_study iso_run_study = {"run",
                                  sizeof(iso_run_request),
                                  begin,
                                  .run = run,
-                                 .of = ISO_STUDY_OF_SCENE | ISO_STUDY_USES_RECORD,
+                                 .of = ISO_STUDY_OF_SCENE | ISO_STUDY_USES_RECORD | ISO_STUDY_STREAMS,
                                  .print = print};

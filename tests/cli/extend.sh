@@ -129,12 +129,11 @@ cat >passes.c <<'EOF'
 #include "io/table.h"
 int main(void)
 {
-    char notes[200];
     iso_context *ctx = iso_context_create();
     iso_scene *scene;
     iso_record *table[6];
     iso_scene_read(ctx, "round.yaml", &scene);
-    return iso_study_ask(ctx, scene, NULL, "passes", "starts=3", NULL, NULL, table, notes, sizeof notes) ||
+    return iso_study_ask(ctx, "passes", scene, NULL, "starts=3", NULL, table) ||
            iso_table_write(ctx, "passes.csv", table[0]);
 }
 EOF

@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "api/interface.h"
+#include "asked.h"
 #include "batches.h"
 #include "hard.h"
 #include "instrument/frequencies/frequencies.h"
@@ -182,14 +182,14 @@ static iso_status study(const hard_road *way)
 static iso_status call_foreign(const hard_road *way)
 {
     iso_scene *scene = NULL;
-    iso_orbit *one = NULL;
+    iso_solution *one = NULL;
     iso_record *ball = NULL, *point = NULL, *section[6] = {NULL}, *chaos[6] = {NULL};
     char notes[80];
     double table[4 * 7];
     (void)way;
     digits = 0;
     iso_status status = iso_scene_parse(ctx, "scene", closed, strlen(closed), &scene);
-    if (status == ISO_OK) status = iso_foreign_run(ctx, scene, NULL, 0, NULL, &ball, notes, sizeof notes);
+    if (status == ISO_OK) status = asked_run(ctx, scene, NULL, 0, NULL, &ball, notes, sizeof notes);
     if (status == ISO_OK) status = iso_record_convert(ctx, ball, "point", 1e-12, 1e-5, false, &point, notes, 80);
     if (status == ISO_OK) digits = iso_record_row(point, 4)[2];
     iso_record_free(point);
@@ -200,19 +200,18 @@ static iso_status call_foreign(const hard_road *way)
         iso_context_fail(ctx, status, "", "%s", iso_context_message(iso_solution_context(one)));
     digits += table[0];
     if (status == ISO_OK)
-        status = iso_batch(ctx, (const iso_scene *[]){scene}, 1, 4, (double[]){1, 2, 3, 4}, NULL,
-                                   NULL, (double[]){1}, 1, 1, NULL, table, NULL);
+        status = iso_batch(ctx, (const iso_scene *[]){scene}, 1, 4, (double[]){1, 2, 3, 4}, NULL, NULL, (double[]){1},
+                           1, 1, NULL, table, NULL);
     if (status == ISO_OK)
-        status = iso_study_ask(ctx, scene, NULL, "section", "crossings=2\nat=0.5,0.2\nthreads=1", NULL, NULL,
-                                   section, notes, 80);
+        status =
+            asked(ctx, scene, NULL, "section", "crossings=2\nat=0.5,0.2\nthreads=1", NULL, NULL, section, notes, 80);
     if (status == ISO_OK)
-        status = iso_study_ask(ctx, scene, NULL, "chaos", "turns=4\nstarts=1\nthreads=1", NULL, NULL, chaos,
-                                   notes, 80);
+        status = asked(ctx, scene, NULL, "chaos", "turns=4\nstarts=1\nthreads=1", NULL, NULL, chaos, notes, 80);
     digits = status == ISO_OK ? digits + table[27] + iso_record_row(section[1], 3)[6] : 0;
     iso_record_free(ball);
     iso_record_free(point);
     for (int i = 0; i < 6; i++) iso_record_free(section[i]), iso_record_free(chaos[i]);
-    iso_orbit_free(one);
+    iso_solution_free(one);
     iso_scene_free(scene);
     return status;
 }
@@ -249,7 +248,7 @@ static iso_status fill_table(const hard_road *way)
     for (int i = 0; i < MANY * ROWS * WIDTH; i++) table[i] = NOBODY;
     for (int i = 0; i < MANY; i++) one[i] = -7, k[i] = 0.5 + 0.001 * i;
     const iso_status answer = iso_batch(ctx, (const iso_scene *[]){scene}, 1, MANY, k, NULL, NULL,
-                                                (double[]){0.1, 0.2}, ROWS, way ? 1 : 2, NULL, table, one);
+                                        (double[]){0.1, 0.2}, ROWS, way ? 1 : 2, NULL, table, one);
     iso_scene_free(scene);
     return judge_table(answer, table, one);
 }

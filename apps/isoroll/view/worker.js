@@ -73,20 +73,22 @@ function callsOf(M) {
     }
     return { rows, lines, columns };
   };
-  const notes = room(4096);
+  // The first table of a study, and what it notes.
+  const ask = (name, scene, options) => {
+    const at = room(24),
+      sink = room(20),
+      notes = [],
+      note = M.addFunction((_, words) => notes.push(M.UTF8ToString(words)), "vii"),
+      lines = Object.entries(options).map(([key, value]) => `${key}=${value}`);
+    ends.push(() => M.removeFunction(note));
+    M.HEAPU32.set([0, 0, note, 0, 0], sink >> 2); // iso_sink: header, row, note, progress, data
+    ok(M._iso_study_ask(ctx, text(name), sceneOf(scene), 0, text(lines.join("\n")), sink, at));
+    for (let i = 1; i < 6; i++) if (pointer(at + 4 * i)) M._iso_record_free(pointer(at + 4 * i));
+    return { ...taken(pointer(at)), notes: notes.join("\n") };
+  };
   return {
-    run(scene) {
-      const at = room(4);
-      ok(M._iso_foreign_run(ctx, sceneOf(scene), 0, 0, 0, at, notes, 4096));
-      return { ...taken(pointer(at)), notes: M.UTF8ToString(notes) };
-    },
-    study(name, scene, options) {
-      const at = room(24),
-        lines = Object.entries(options).map(([key, value]) => `${key}=${value}`);
-      ok(M._iso_study_ask(ctx, sceneOf(scene), 0, text(name), text(lines.join("\n")), 0, 0, at, notes, 4096));
-      for (let i = 1; i < 6; i++) if (pointer(at + 4 * i)) M._iso_record_free(pointer(at + 4 * i));
-      return taken(pointer(at));
-    },
+    run: (scene) => ask("run", scene, {}),
+    study: ask,
     end: () => ends.reverse().forEach((end) => end()),
   };
 }

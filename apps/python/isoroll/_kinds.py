@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import shutil
 from typing import Any, Dict, Iterable, NamedTuple, Optional
 
 import numpy as np
@@ -151,7 +152,7 @@ class Result(Table):
     >>> isoroll.frequencies("scene.yaml").angles[0]["frequency"]["t"]
 
     tree  all lines as dicts and lists: tree["angles"][0]["frequency"]["t"] is the line "angles.0.frequency.t"
-    text  of explain and analogue: what the command prints; of others: the lines
+    text  what the command prints
     """
 
     @property
@@ -161,9 +162,8 @@ class Result(Table):
 
     @property
     def text(self) -> str:
-        """What the command prints, or the lines."""
-        lines = self.lines.text
-        return lines["text"] if "text" in lines else "\n".join(f"{key}: {value}" for key, value in lines.items())
+        """What the command prints."""
+        return self._told(0) or "\n".join(f"{key}: {value}" for key, value in self.lines.text.items())
 
     def __getattr__(self, name: str) -> Any:
         if not name.startswith("_") and "_columns" in self.__dict__ and name in self.tree:
@@ -177,7 +177,7 @@ class Result(Table):
         return f"<pre>{html.escape(self.text)}</pre>"
 
     def __str__(self) -> str:
-        return self.text
+        return self._told(shutil.get_terminal_size().columns) or self.text
 
     def __repr__(self) -> str:
         return f"<isoroll.Result: {self.kind}; {', '.join(self.tree)}>"

@@ -1,6 +1,6 @@
 """The shared library: where it is, which functions of it are used, and how a call is made.
 
-Only functions with plain arguments are used (lib/api/interface.h); no struct of C is known here.
+Only functions with plain arguments are used (lib/api/interface.h); of structs only iso_sink is known.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from . import _errors
 from ._version import __version__
 
-ABI = 3  # ISO_INTERFACE of lib/api/interface.h
+ABI = 4  # ISO_INTERFACE of lib/api/interface.h
 _OBJECT = POINTER(c_void_p)  # where a new object goes
 
 _NAMES = {"darwin": "libisoroll.0.dylib", "win32": "isoroll.dll"}
@@ -38,8 +38,7 @@ _TABLE = {
     "iso_context_about": (c_char_p, c_void_p),
     "iso_slow_monitor_create": (c_int, c_void_p, c_double, c_void_p, c_void_p, _OBJECT),
     "iso_slow_monitor_free": (None, c_void_p),
-    "iso_column_name": (c_char_p, c_int),
-    "iso_column_doc": (c_char_p, c_int, POINTER(c_char_p)),
+    "iso_column": (c_bool, c_int, POINTER(c_char_p)),
     "iso_record_create": (c_int, c_void_p, c_size_t, POINTER(c_char_p), _OBJECT),
     "iso_record_free": (None, c_void_p),
     "iso_record_kind": (c_char_p, c_void_p),
@@ -68,21 +67,16 @@ _TABLE = {
     "iso_scene_text": (c_int, c_void_p, c_void_p, c_char_p, c_size_t, POINTER(c_size_t)),
     "iso_yaml_json": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, c_char_p, c_size_t, POINTER(c_size_t)),
     "iso_scene_columns": (c_int, c_void_p, POINTER(c_int)),
-    "iso_foreign_run": (c_int, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, _OBJECT) + _NOTES,
     "iso_solution_create": (c_int, c_void_p, c_void_p, _OBJECT),
-    "iso_orbit_free": (None, c_void_p),
+    "iso_solution_free": (None, c_void_p),
     "iso_solution_context": (c_void_p, c_void_p),
-    "iso_solution_inside": (c_void_p, c_void_p),
+    "iso_solution_word": (c_char_p, c_void_p, c_char_p),
+    "iso_solution_number": (c_double, c_void_p, c_char_p),
     "iso_solution_at": (c_int, c_void_p, c_void_p, c_size_t, c_void_p) + _NOTES,
-    "iso_orbit_backend": (c_int, c_void_p),
-    "iso_backend_name": (c_char_p, c_int),
-    "iso_orbit_energy": (c_double, c_void_p),
-    "iso_orbit_coupling": (c_double, c_void_p),
-    "iso_orbit_has_twin": (c_bool, c_void_p),
     "iso_batch": (c_int, c_void_p, POINTER(c_void_p), c_size_t, c_size_t, c_void_p, c_void_p, c_void_p,
                           c_void_p, c_size_t, c_int, c_char_p, c_void_p, c_void_p),
-    "iso_study_ask": (c_int, c_void_p, c_void_p, c_void_p, c_char_p, c_char_p, c_void_p, c_void_p,
-                          c_void_p) + _NOTES,
+    "iso_study_ask": (c_int, c_void_p, c_char_p, c_void_p, c_void_p, c_char_p, c_void_p, c_void_p),
+    "iso_study_text": (c_int, c_void_p, c_void_p, c_int, c_char_p, c_size_t, POINTER(c_size_t)),
     "iso_study_name": (c_char_p, c_int),
     "iso_study_doc": (c_char_p, c_char_p),
     "iso_study_of": (c_int, c_char_p),
@@ -96,7 +90,7 @@ _TABLE = {
     "iso_record_read": (c_int, c_void_p, c_char_p, c_char_p, _OBJECT) + _NOTES,
     "iso_record_write": (c_int, c_void_p, c_char_p, c_void_p, c_int, c_char_p),
     "iso_record_convert": (c_int, c_void_p, c_void_p, c_char_p, c_double, c_double, c_bool, _OBJECT) + _NOTES,
-    "iso_picture_make": (c_int, c_void_p, c_void_p, c_char_p, c_void_p),
+    "iso_picture_of": (c_int, c_void_p, c_void_p, c_char_p, POINTER(c_char_p), c_void_p),
 }
 
 # --- finding the library --------------------------------------------------------------------------------------------

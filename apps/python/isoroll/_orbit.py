@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from ctypes import byref, c_void_p
+from ctypes import byref, c_char_p, c_void_p
 from typing import Any, Dict, Iterable, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
@@ -14,7 +14,8 @@ from ._library import Monitor, New, Notes, Owned, check, context, encoded, inter
 from ._scene import Scene, SceneLike, as_scene, as_scenes
 from ._kinds import Trajectory
 from ._lines import Lines
-from ._table import Table, doubles, from_record, new_record
+from ._study import ask
+from ._table import Record, Table, doubles, new_record
 
 _ERRORS = ("ball", "point", "t", "tau", "s")
 
@@ -45,27 +46,17 @@ def run(scene: SceneLike, times: Optional[ArrayLike] = None, *, backend: Optiona
     """
     changes.update({key: value for key, value in (("backend", backend), ("method", method), ("tolerance", tol),
                                                   ("as_", as_), ("end", t_end), ("step", step)) if value is not None})
-    chosen, ctx, new, notes = as_scene(scene, changes), context(), new_record(), Notes()
-    asked = None if times is None else np.atleast_1d(_times(times)).ravel()
-    found = np.full(5, np.nan) if errors else None
-
-    def so_far() -> Optional[Table]:
-        return from_record(new) if new.value else None
-
-    with interruptible(so_far):
-        status = lib.iso_foreign_run(ctx, chosen.pointer, None if asked is None else asked.ctypes.data,
-                                     0 if asked is None else asked.size, None if found is None else found.ctypes.data,
-                                     byref(new), *notes.arguments)
-    try:
-        check(status, ctx)
-    except _errors.IsorollError as error:
-        error.partial = so_far()
-        raise
-    notes.tell()
-    table = from_record(new)
+    chosen, record = as_scene(scene, changes), None
+    if times is not None:
+        asked, new, ctx = np.atleast_1d(_times(times)).ravel(), new_record(), context()
+        check(lib.iso_record_create(ctx, 1, (c_char_p * 1)(b"time"), byref(new)), ctx)
+        record = Record(new.take() or 0)
+        check(lib.iso_record_add(ctx, record.pointer, asked.size, asked.ctypes.data), ctx)
+    table = ask("run", chosen, record, {"verbose": True} if errors else {}, lambda *tables: tables[0])
     assert isinstance(table, Trajectory)
-    if found is not None:
-        table.errors = dict(zip(_ERRORS, found.tolist()))
+    if errors:
+        known = table.lines.text
+        table.errors = {name: float(known.get(f"errors.{name}", "nan")) for name in _ERRORS}
     return table
 
 
@@ -96,11 +87,11 @@ class Orbit(Owned):
 
     def __init__(self, scene: SceneLike, **changes: Any) -> None:
         self.scene = as_scene(scene, changes)
-        new, ctx = New(lib.iso_orbit_free), context()
+        new, ctx = New(lib.iso_solution_free), context()
         with interruptible():
             status = lib.iso_solution_create(ctx, self.scene.pointer, byref(new))
         check(status, ctx)
-        self._own(new.take(), lib.iso_orbit_free)
+        self._own(new.take(), lib.iso_solution_free)
         self._context = lib.iso_solution_context(self.pointer)
         self._monitor = Monitor(self._context)
         self._lock = threading.Lock()
@@ -122,29 +113,26 @@ class Orbit(Owned):
         notes.tell()
         return _OfOrbit(array, self)
 
-    def _number(self, function: Any) -> Any:
-        return function(lib.iso_solution_inside(self.pointer))
-
     @property
     def backend(self) -> str:
         """What finds the orbit: "ball", "point" or "exact"."""
-        name: bytes = lib.iso_backend_name(self._number(lib.iso_orbit_backend))
+        name: bytes = lib.iso_solution_word(self.pointer, b"backend")
         return name.decode()
 
     @property
     def energy(self) -> float:
         """The energy h of the ball, mass length^2 / time^2."""
-        return float(self._number(lib.iso_orbit_energy))
+        return float(lib.iso_solution_number(self.pointer, b"h"))
 
     @property
     def coupling(self) -> float:
         """The coupling eps of the point, h det(J) / k^2: mass^4 length^8 / time^2."""
-        return float(self._number(lib.iso_orbit_coupling))
+        return float(lib.iso_solution_number(self.pointer, b"eps"))
 
     @property
     def has_twin(self) -> bool:
         """Whether the orbit has both models."""
-        return bool(self._number(lib.iso_orbit_has_twin))
+        return bool(lib.iso_solution_word(self.pointer, b"models") == b"both")
 
     def __repr__(self) -> str:
         return f"<isoroll.Orbit of {self.scene!r}>"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ctypes import byref, c_char_p, c_void_p, cast
+from ctypes import byref, c_char_p, c_void_p
 from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 from . import _errors
@@ -50,16 +50,16 @@ def picture_of(table: Table, over: Sequence[Table] = (), **options: Optional[str
     records, ctx = [as_record(each) for each in _given(table, over)], context()
     given = (c_void_p * (len(records) + 1))(*(record.pointer for record in records), None)
     text = "\n".join(f"{key}={value}" for key, value in options.items() if value is not None)
-    made = (c_void_p * (1 + TABLES))()  # in place of an iso_picture: the name of the layout, then the tables
+    made, layout = (c_void_p * TABLES)(), c_char_p()
     try:
         with interruptible():
-            status = lib.iso_picture_make(ctx, given, encoded(text), byref(made))
+            status = lib.iso_picture_of(ctx, given, encoded(text), byref(layout), made)
     finally:
         news = [new_record() for _ in range(TABLES)]
-        for new, pointer in zip(news, made[1:]):
+        for new, pointer in zip(news, made):
             new.value = pointer
     check(status, ctx)
-    found = Picture((cast(made[0], c_char_p).value or b"").decode(), [from_record(new) for new in news if new.value])
+    found = Picture((layout.value or b"").decode(), [from_record(new) for new in news if new.value])
     if found.text("note"):
         _errors.warn(found.text("note"))
     return found

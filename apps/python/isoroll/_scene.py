@@ -226,7 +226,11 @@ class Scene(Owned):
     def _find_columns(self) -> None:
         numbers = (c_int * _MOST_COLUMNS)()
         count = lib.iso_scene_columns(self.pointer, numbers)
-        self._columns = tuple(lib.iso_column_name(c).decode() for c in numbers[:count])
+        text, names = (c_char_p * 3)(), []
+        for number in numbers[:count]:
+            lib.iso_column(number, text)
+            names.append((text[0] or b"").decode())
+        self._columns = tuple(names)
 
     # --- as text ----------------------------------------------------------------------------------------------------
 

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import shlex
 import sys
 import threading
-from ctypes import CFUNCTYPE, byref, c_char_p, c_double, c_size_t, c_void_p, cast, create_string_buffer
+from ctypes import CFUNCTYPE, Structure, byref, c_char_p, c_double, c_size_t, c_void_p, cast, create_string_buffer
 from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Tuple, TypeVar, Union
 
 import numpy as np
 
 from . import _errors
-from ._library import Notes, _raised, check, context, doubles, encoded, interruptible, lib, number
+from ._library import _raised, check, context, doubles, encoded, interruptible, lib, number
 from ._scene import Scene, SceneLike, as_scene
 from ._table import Record, Table, from_record, new_record
 
@@ -103,24 +102,6 @@ def _given(study: str, options: Mapping[str, Any]) -> Dict[str, str]:
     return texts
 
 
-def _say_how(record: int, name: str, options: Mapping[str, str], scene: Optional[Scene]) -> None:
-    """The lines that the command writes into a table of this study: the command line, and the axis."""
-    if name == "section":
-        return  # its own lines say all
-    flags = {option.name for option in options_of(name) if option.type == "flag"}
-    words = ["isoroll", name]
-    for key, value in options.items():
-        if key != "threads":  # it changes no row
-            words += [f"--{key}"] if key in flags else [f"--{key}", value]
-    if scene is not None:
-        words.append(scene.name)
-    ctx = context()
-    lib.iso_record_set(ctx, record, b"command", encoded(shlex.join(words)))
-    axis = lib.iso_record_get(record, b"section.axis")
-    if axis and not lib.iso_record_get(record, b"axis"):
-        lib.iso_record_set(ctx, record, b"axis", axis)
-
-
 # --- progress -------------------------------------------------------------------------------------------------------
 
 
@@ -141,13 +122,13 @@ class Progress:
         self.show = _bar if progress is True else progress or None
         self.bar, self.raised, self.shown = progress is True, None, 0.0
         self.lock, self.thread = threading.Lock(), threading.get_ident()
-        self.call = CFUNCTYPE(None, c_double, c_void_p)(self._tell) if self.show else None
+        self.call = CFUNCTYPE(None, c_void_p, c_double)(self._tell) if self.show else None
 
     @property
     def pointer(self) -> Optional[c_void_p]:
         return cast(self.call, c_void_p) if self.call is not None else None
 
-    def _tell(self, part: float, _unused: Any) -> None:
+    def _tell(self, _unused: Any, part: float) -> None:
         with self.lock:
             if self.raised is not None or part < self.shown or self.show is None:
                 return
@@ -167,6 +148,15 @@ class Progress:
             raise self.raised
 
 
+class _Sink(Structure):
+    """iso_sink of lib/base/sink.h: who takes notes and progress. Rows stay in the tables."""
+
+    _fields_ = [(name, c_void_p) for name in ("header", "row", "note", "progress", "data")]
+
+
+_Note = CFUNCTYPE(None, c_void_p, c_char_p)
+
+
 # --- asking ---------------------------------------------------------------------------------------------------------
 
 
@@ -174,15 +164,15 @@ def ask(name: str, scene: Optional[SceneLike], record: Optional[Record], options
         make: Callable[..., _Made], progress: ProgressLike = None) -> _Made:
     """What `make` makes of the tables of a study; so also an exception's `partial`."""
     chosen: Optional[Scene] = None if scene is None else as_scene(scene, {})
-    ctx, notes, made, shown = context(), Notes(), (c_void_p * TABLES)(), Progress(progress)
+    ctx, notes, made, shown = context(), [], (c_void_p * TABLES)(), Progress(progress)
+    note = _Note(lambda _unused, words: notes.append(words.decode("utf-8", "replace")))
+    sink = _Sink(None, None, cast(note, c_void_p), shown.pointer, None)
     kept: List[Any] = []
     given = _given(name, options)
     text = "\n".join(f"{key}={value}" for key, value in given.items())
 
     def found() -> Optional[_Made]:
         if not kept:
-            if made[0]:
-                _say_how(made[0], name, given, chosen)
             news = [new_record() for _ in made]
             for new, pointer in zip(news, made):
                 new.value = pointer
@@ -191,9 +181,8 @@ def ask(name: str, scene: Optional[SceneLike], record: Optional[Record], options
         return kept[0]  # type: ignore[no-any-return]
 
     with interruptible(found):
-        status = lib.iso_study_ask(ctx, None if chosen is None else chosen.pointer,
-                                       None if record is None else record.pointer, encoded(name), encoded(text),
-                                       shown.pointer, None, made, *notes.arguments)
+        status = lib.iso_study_ask(ctx, encoded(name), None if chosen is None else chosen.pointer,
+                                   None if record is None else record.pointer, encoded(text), byref(sink), made)
     result = found()
     try:
         shown.end()
@@ -201,7 +190,8 @@ def ask(name: str, scene: Optional[SceneLike], record: Optional[Record], options
     except BaseException as error:
         error.partial = result  # type: ignore[attr-defined]
         raise
-    notes.tell()
+    for words in notes:
+        _errors.warn(words)
     return result  # type: ignore[return-value]
 
 

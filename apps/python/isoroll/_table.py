@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import html
+import shutil
 import os
 import textwrap
 from ctypes import byref, c_char_p, c_double, create_string_buffer
@@ -310,8 +311,21 @@ class Table:
         return [["..." if row is None else str(words[name][row]) if name in words else f"{flat[row, i]:.6g}"
                  for row in shown] for i, name in enumerate(self.columns)]
 
+    def _told(self, width: int) -> str:
+        """What the command prints of a study, folded to this width (0: not folded); "" of other tables."""
+        if self._record is None:
+            return ""
+        ctx, length = context(), c_size_t()
+        check(lib.iso_study_text(ctx, self._record.pointer, width, None, 0, byref(length)), ctx)
+        text = create_string_buffer(length.value + 1)
+        check(lib.iso_study_text(ctx, self._record.pointer, width, text, length.value + 1, byref(length)), ctx)
+        return text.value.decode("utf-8", "replace").rstrip("\n")
+
     def __str__(self) -> str:
-        """The first and the last rows, and as many columns as there is room for."""
+        """What the command prints of a study; else the first and the last rows, and as many columns as fit."""
+        told = self._told(shutil.get_terminal_size().columns)
+        if told:
+            return told
         columns = [[name, *cells] for name, cells in zip(self.columns, self._cells())]
         columns = [[text.rjust(max(map(len, column)) + 2) for text in column] for column in columns]
         ends = np.cumsum([len(column[0]) for column in columns])
@@ -331,14 +345,16 @@ class Table:
         return f"{self.kind}, {shape}{said}"
 
     def _repr_html_(self) -> str:
-        """For notebooks: the first and the last rows, with units."""
+        """For notebooks: what the command prints of a study; the first and the last rows, with units."""
+        told = self._told(0)
+        told = f"<pre>{html.escape(told)}</pre>" if told else ""
         units = self.units
         head = "".join(f"<th>{html.escape(name)}<br><small>{html.escape(units[name])}</small></th>"
                        for name in self.columns)
         rows = zip(*self._cells())
         body = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
         caption = f"<caption>{html.escape(self._heading())}</caption>"
-        return f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+        return f"{told}<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
 
 #: the class of each kind; others are plain tables (_kinds.py fills it)
@@ -348,7 +364,7 @@ CLASSES: Dict[str, Type[Table]] = {}
 @functools.lru_cache(maxsize=None)
 def columns_of(kind: str) -> Mapping[str, Tuple[str, str]]:
     """The columns of a kind of table: name, unit and meaning; besides, those of a trajectory."""
-    name, text, unit = create_string_buffer(64), (c_char_p * 2)(), c_char_p()
+    name, text, own = create_string_buffer(64), (c_char_p * 2)(), (c_char_p * 3)()
     found: Dict[str, Tuple[str, str]] = {}
     i = 0
     kind = "sweep" if kind == "sweep part" else kind
@@ -356,8 +372,8 @@ def columns_of(kind: str) -> Mapping[str, Tuple[str, str]]:
         found[name.value.decode()] = (text[0] or b"").decode(), (text[1] or b"").decode()
         i += 1
     i = 0
-    while doc := lib.iso_column_doc(i, byref(unit)):
-        found.setdefault(lib.iso_column_name(i).decode(), ((unit.value or b"").decode(), doc.decode()))
+    while lib.iso_column(i, own):
+        found.setdefault(own[0].decode(), ((own[1] or b"").decode(), (own[2] or b"").decode()))
         i += 1
     return found
 

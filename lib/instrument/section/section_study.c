@@ -201,6 +201,6 @@ const iso_study iso_section_study = {"section",
                                      end,
                                      prepare,
                                      run,
-                                     ISO_STUDY_OF_SCENE,
+                                     ISO_STUDY_OF_SCENE | ISO_STUDY_STREAMS,
                                      iso_section_fields,
                                      .print = iso_section_print};

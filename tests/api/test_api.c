@@ -1,6 +1,6 @@
-/* test_foreign.c - the calls for other languages (api/interface.h): the same numbers as the calls with structs, to
+/* test_api.c - the calls for other languages (api/interface.h): the same numbers as the calls with structs, to
  * the bit; words, notes, and a stop in the middle. tests/python tries the same calls from Python. */
-#include "api/interface.h"
+#include "asked.h"
 
 #include <unistd.h>
 
@@ -37,14 +37,13 @@ static void check_scenes(void)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         gsl_test(iso_scene_set(ctx, scene, bad[i][0], bad[i][1]) != ISO_BAD_ARGUMENT || !about(bad[i][0]),
                  "%s = %s is refused: %s", bad[i][0], bad[i][1], iso_context_message(ctx));
-    gsl_test(iso_scene_columns(scene, columns) != 2 ||
-                 strcmp(iso_scene_word(scene, "method"), "auto"),
+    gsl_test(iso_scene_columns(scene, columns) != 2 || strcmp(iso_scene_word(scene, "method"), "auto"),
              "the scene is as it was");
-    gsl_test(iso_scene_set(ctx, scene, "as", "both") != ISO_OK ||
-                 iso_scene_columns(scene, columns) != 15 || iso_scene_columns(copy, columns) != 2,
+    gsl_test(iso_scene_set(ctx, scene, "as", "both") != ISO_OK || iso_scene_columns(scene, columns) != 15 ||
+                 iso_scene_columns(copy, columns) != 2,
              "'as' sets the columns, not those of the copy");
-    gsl_test(iso_scene_set(ctx, scene, "end", "7.5") != ISO_OK ||
-                 iso_scene_numbers(scene, "end", x) != 1 || x[0] != 7.5,
+    gsl_test(iso_scene_set(ctx, scene, "end", "7.5") != ISO_OK || iso_scene_numbers(scene, "end", x) != 1 ||
+                 x[0] != 7.5,
              "a number");
     gsl_test(iso_scene_numbers(scene, "J", x) != 3 || x[1] != 2.1, "J");
     gsl_test(iso_scene_numbers(scene, "eps", x) != 1 || !isnan(x[0]), "a ball has no eps of its own");
@@ -100,10 +99,10 @@ static void check_rows(const char *text)
     iso_scene *scene = made(text);
     const iso_scene with_struct = parse(text);
     kept *wanted = run(&with_struct, NULL, 0);
-    iso_orbit *orbit = NULL;
+    iso_solution *orbit = NULL;
     iso_record *record = NULL;
     static double times[MOST], table[MOST * ISO_MAX_COLUMNS];
-    gsl_test(iso_foreign_run(ctx, scene, NULL, 0, NULL, &record, notes, sizeof notes) != ISO_OK || *notes, "it runs");
+    gsl_test(asked_run(ctx, scene, NULL, 0, NULL, &record, notes, sizeof notes) != ISO_OK || *notes, "it runs");
     const size_t rows = iso_record_rows(record), columns = iso_record_columns(record),
                  bytes = columns * sizeof *times;
     int wrong = rows != wanted->rows || columns != wanted->columns;
@@ -117,7 +116,7 @@ static void check_rows(const char *text)
             wrong += memcmp(table + (i * 5 + 1) % rows * columns, wanted->row[i], bytes) != 0;
     }
     gsl_test(wrong, "an orbit has them in any order");
-    iso_orbit_free(orbit);
+    iso_solution_free(orbit);
     iso_record_free(record);
     iso_scene_free(scene);
     free(wanted);
@@ -129,7 +128,7 @@ static void check_example(void)
     const double times[3] = {0, 2, 1};
     double table[3 * WIDTH];
     iso_scene *scene = NULL;
-    iso_orbit *orbit = NULL;
+    iso_solution *orbit = NULL;
     iso_record *record = NULL;
     char folder[] = "foreign-XXXXXX"; /* of its own: another scene.yaml is not ours */
     const bool there = mkdtemp(folder) && chdir(folder) == 0;
@@ -139,7 +138,7 @@ static void check_example(void)
     fputs(FREE, file);
     fclose(file);
     iso_scene_read(ctx, "scene.yaml", &scene);
-    iso_foreign_run(ctx, scene, NULL, 0, NULL, &record, notes, sizeof notes);
+    asked_run(ctx, scene, NULL, 0, NULL, &record, notes, sizeof notes);
     iso_solution_create(ctx, scene, &orbit);
     iso_solution_at(orbit, times, 3, table, notes, sizeof notes);
     remove("scene.yaml");
@@ -147,7 +146,7 @@ static void check_example(void)
     gsl_test(iso_record_rows(record) != 9 ||
                  memcmp(table + WIDTH, iso_record_row(record, 8), WIDTH * sizeof *table) != 0,
              "the example");
-    iso_orbit_free(orbit);
+    iso_solution_free(orbit);
     iso_record_free(record);
     iso_scene_free(scene);
 }
@@ -159,40 +158,38 @@ static void check_no_times(void)
     iso_scene *scene = made(FREE);
     iso_record *record = NULL;
     double errors[5] = {0}, time = 1;
-    gsl_test(iso_foreign_run(ctx, scene, NULL, 3, errors, &record, notes, sizeof notes) != ISO_BAD_ARGUMENT ||
-                 record || !about("times") || !isnan(errors[0]) || *notes,
+    gsl_test(asked_run(ctx, scene, NULL, 3, errors, &record, notes, sizeof notes) != ISO_BAD_ARGUMENT || record ||
+                 !about("times") || !isnan(errors[0]) || *notes,
              "three times at NULL: %s", iso_context_message(ctx));
-    gsl_test(iso_foreign_run(ctx, scene, &time, 0, NULL, &record, NULL, 0) != ISO_BAD_ARGUMENT || record ||
-                 !about("times"),
+    gsl_test(asked_run(ctx, scene, &time, 0, NULL, &record, NULL, 0) != ISO_BAD_ARGUMENT || record || !about("times"),
              "no times: %s", iso_context_message(ctx));
-    iso_orbit *orbit;
+    iso_solution *orbit;
     gsl_test(iso_solution_create(ctx, scene, &orbit) != ISO_OK, "an orbit");
     gsl_test(iso_solution_at(orbit, NULL, 1, &time, NULL, 0) != ISO_BAD_ARGUMENT, "a time at NULL");
     gsl_test(iso_solution_at(orbit, NULL, 0, NULL, NULL, 0) != ISO_OK, "no time for an orbit");
-    iso_orbit_free(orbit);
+    iso_solution_free(orbit);
     iso_scene_free(scene);
 }
 
 /* Contact is lost: the words have no room in few bytes, and an orbit refuses what is beyond. */
 static void check_contact(void)
 {
-    iso_scene *scene =
-        made(OUTSIDE START "time: {end: 50, step: 1}\neffects: {" GRAVITY ", reactions: {}}\n");
-    iso_orbit *orbit;
+    iso_scene *scene = made(OUTSIDE START "time: {end: 50, step: 1}\neffects: {" GRAVITY ", reactions: {}}\n");
+    iso_solution *orbit;
     iso_record *record;
     double table[200];
     char few[8] = "xxxxxxx";
-    gsl_test(iso_foreign_run(ctx, scene, NULL, 0, NULL, &record, few, sizeof few - 1) != ISO_OK || few[6] || few[7],
+    gsl_test(asked_run(ctx, scene, NULL, 0, NULL, &record, few, sizeof few - 1) != ISO_OK || few[6] || few[7],
              "a note that is cut: '%s'", few);
     gsl_test(iso_record_rows(record) >= 50, "%zu rows to the loss", iso_record_rows(record));
     iso_record_free(record);
-    gsl_test(iso_foreign_run(ctx, scene, NULL, 0, NULL, &record, NULL, 0) != ISO_OK, "no room for notes");
+    gsl_test(asked_run(ctx, scene, NULL, 0, NULL, &record, NULL, 0) != ISO_OK, "no room for notes");
     const double lost = iso_record_row(record, iso_record_rows(record) - 1)[0];
     gsl_test(iso_solution_create(ctx, scene, &orbit) != ISO_OK, "an orbit");
     gsl_test(iso_solution_at(orbit, (double[]){lost / 2}, 1, table, NULL, 0) != ISO_OK || table[0] != lost / 2,
              "before the loss");
     gsl_test(iso_solution_at(orbit, (double[]){0, 2 * lost}, 2, table, NULL, 0) != ISO_NUMERICAL, "after it");
-    iso_orbit_free(orbit);
+    iso_solution_free(orbit);
     iso_record_free(record);
     iso_scene_free(scene);
 }
@@ -227,8 +224,8 @@ static void check_batch(const iso_scene *const *scene)
     int wrong = iso_batch_run(ctx, orbit, ORBITS, &o, times, 2, sample, NULL) != ISO_OK;
     for (int threads = 1; threads <= 3; threads += 2) {
         memset(table, 0, sizeof table);
-        wrong += ISO_OK !=
-                 iso_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, threads, NULL, table, status);
+        wrong +=
+            ISO_OK != iso_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, threads, NULL, table, status);
         for (int i = 0; i < 2 * ORBITS; i++) {
             wrong += table[i * WIDTH] != sample[i].clock[0];
             wrong += memcmp(table + i * WIDTH + 1, sample[i].ball, 6 * sizeof *table) != 0;
@@ -249,8 +246,7 @@ static void check_stop(const iso_scene *const *scene)
     iso_slow_monitor *monitor;
     int left = 3, wrong = 0, stopped = 0;
     gsl_test(iso_slow_monitor_create(ctx, 0, stop_later, &left, &monitor) != ISO_OK, "a monitor");
-    gsl_test(iso_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], far, 2, 1, NULL, table, status) !=
-                 ISO_STOPPED,
+    gsl_test(iso_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], far, 2, 1, NULL, table, status) != ISO_STOPPED,
              "a batch stops");
     for (int i = 0; i < ORBITS; i++) {
         const bool whole = !isnan(table[(2 * i + 1) * WIDTH]);
@@ -261,8 +257,7 @@ static void check_stop(const iso_scene *const *scene)
     memset(status, 0, sizeof status);
     memset(table, 0, sizeof table);
     left = 1, wrong = 0;
-    gsl_test(iso_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], far, 2, 1, NULL, table, status) !=
-                 ISO_STOPPED,
+    gsl_test(iso_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], far, 2, 1, NULL, table, status) != ISO_STOPPED,
              "it stops before the first orbit");
     for (int i = 0; i < ORBITS; i++) wrong += status[i] != ISO_STOPPED || !isnan(table[2 * i * WIDTH]);
     gsl_test(wrong, "and no orbit has a row");
@@ -272,8 +267,7 @@ static void check_stop(const iso_scene *const *scene)
 
 static void check_failures(const iso_scene *const *scene)
 {
-    int wrong =
-        ISO_OK != iso_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, 0, NULL, table, NULL);
+    int wrong = ISO_OK != iso_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, 0, NULL, table, NULL);
     const double before = table[2 * 610 * WIDTH + 1];
     k[5] = NAN, k[611] = 0, starts[612][5] = 2;
     gsl_test(iso_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, 0, NULL, table, status) !=
@@ -290,8 +284,7 @@ static void check_failures(const iso_scene *const *scene)
     starts[600][0] = 1e13, starts[600][1] = 0;
     starts[650][0] = 1e13, starts[650][1] = 0;
     const double late[2] = {1, 1e4};
-    const iso_status found =
-        iso_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], late, 2, 0, NULL, table, status);
+    const iso_status found = iso_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], late, 2, 0, NULL, table, status);
     gsl_test((int32_t)found != status[600] || found == ISO_OK ||
                  strncmp(iso_context_message(ctx), "orbit 600: ", 11) != 0,
              "no orbit: %s", iso_context_message(ctx));
@@ -320,8 +313,7 @@ static void check_coupling(const char *eps)
                  initial[i]);
         scene[i] = made(text[i]);
         const iso_scene *one = scene[i];
-        gsl_test(iso_batch(ctx, &one, 1, 1, NULL, NULL, i ? NULL : y, times, 2, 1, NULL, rows[i], NULL) !=
-                     ISO_OK,
+        gsl_test(iso_batch(ctx, &one, 1, 1, NULL, NULL, i ? NULL : y, times, 2, 1, NULL, rows[i], NULL) != ISO_OK,
                  "a point");
         iso_scene_free(scene[i]);
     }
@@ -337,7 +329,7 @@ static iso_record *table_of[ISO_STUDY_TABLES];
 static iso_status study(const iso_scene *scene, const char *name, const char *options)
 {
     for (int i = 0; i < ISO_STUDY_TABLES; i++) iso_record_free(table_of[i]);
-    return iso_study_ask(ctx, scene, NULL, name, options, NULL, NULL, table_of, notes, sizeof notes);
+    return asked(ctx, scene, NULL, name, options, NULL, NULL, table_of, notes, sizeof notes);
 }
 
 static void check_studies(const iso_scene *scene)
@@ -387,15 +379,14 @@ static void check_files(const iso_scene *scene)
 {
     iso_record *ball, *point = NULL, *read = NULL, *back = NULL;
     double errors[5] = {0};
-    gsl_test(iso_foreign_run(ctx, scene, NULL, 0, errors, &ball, notes, sizeof notes) != ISO_OK ||
-                 !(errors[0] < 1e-10) || !isnan(errors[1]) || !isnan(errors[2]),
+    gsl_test(asked_run(ctx, scene, NULL, 0, errors, &ball, notes, sizeof notes) != ISO_OK || !(errors[0] < 1e-10) ||
+                 !isnan(errors[1]) || !isnan(errors[2]),
              "errors of a run: %g", errors[0]);
     gsl_test(iso_record_convert(ctx, ball, "point", 1e-14, 1e-5, false, &point, notes, sizeof notes) != ISO_OK,
              "there");
     gsl_test(iso_record_write(ctx, "foreign.csv", point, 17, "trajectory") != ISO_OK, "written");
     gsl_test(iso_record_read(ctx, "foreign.csv", NULL, &read, notes, sizeof notes) != ISO_OK || *notes, "read");
-    gsl_test(iso_record_convert(ctx, read, "ball", 1e-14, 1e-5, false, &back, notes, sizeof notes) != ISO_OK,
-             "back");
+    gsl_test(iso_record_convert(ctx, read, "ball", 1e-14, 1e-5, false, &back, notes, sizeof notes) != ISO_OK, "back");
     remove("foreign.csv");
     int wrong = 0;
     for (size_t i = 0; i < iso_record_rows(ball); i++)

@@ -1,6 +1,6 @@
-/* test_foreign_studies.c - every study by its name, with options as text (iso_study_ask): the numbers of the calls
+/* test_api_studies.c - every study by its name, with options as text (iso_study_ask): the numbers of the calls
  * with structs, to the bit; sweeps; and what the library says of its studies, options and columns. */
-#include "api/interface.h"
+#include "asked.h"
 
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/integrals/integrals.h"
@@ -38,13 +38,11 @@ static void look(void *data, double part)
     if (!(part >= 0 && part <= 1)) w->wrong = true;
 }
 
-static iso_status ask_of(const iso_scene *scene, const iso_record *record, const char *name,
-                         const char *options)
+static iso_status ask_of(const iso_scene *scene, const iso_record *record, const char *name, const char *options)
 {
     watch w = {false, false};
     for (int i = 0; i < ISO_STUDY_TABLES; i++) iso_record_free(table[i]);
-    const iso_status status =
-        iso_study_ask(ctx, scene, record, name, options, look, &w, table, notes, sizeof notes);
+    const iso_status status = asked(ctx, scene, record, name, options, look, &w, table, notes, sizeof notes);
     gsl_test(w.wrong, "%s: progress is in [0, 1]", name);
     return status;
 }
@@ -228,7 +226,7 @@ static void check_cost(const iso_scene *scene)
 static void check_check(const iso_scene *scene)
 {
     iso_record *rows;
-    gsl_test(iso_foreign_run(ctx, scene, NULL, 0, NULL, &rows, notes, sizeof notes) != ISO_OK, "a run");
+    gsl_test(asked_run(ctx, scene, NULL, 0, NULL, &rows, notes, sizeof notes) != ISO_OK, "a run");
     gsl_test(ask_of(NULL, rows, "check", "max=1e-9") != ISO_OK || line("rows") != 9 || line("bound") != 1e-9,
              "check: %s", iso_context_message(ctx));
     int above = 0, named = 0;
@@ -399,8 +397,8 @@ static void check_lists(void)
         gsl_test(options < 2, "%s has %d options", names[i], options);
     }
     gsl_test(!iso_study_name(STUDIES - 1) || iso_study_name(STUDIES), "%d studies", STUDIES);
-    gsl_test(iso_study_doc("poetry") || iso_study_of("poetry") ||
-                 iso_study_option("poetry", 0, text) || iso_study_option_word("poetry", 0, 0),
+    gsl_test(iso_study_doc("poetry") || iso_study_of("poetry") || iso_study_option("poetry", 0, text) ||
+                 iso_study_option_word("poetry", 0, 0),
              "no other study");
     int kinds = 0;
     for (const char *kind; (kind = iso_kind_name(kinds)); kinds++) {
