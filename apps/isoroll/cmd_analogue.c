@@ -3,8 +3,8 @@
 
 #include "command.h"
 #include "parameters.h"
-#include "terminal.h"
 #include "task/task_impl.h"
+#include "terminal.h"
 
 typedef struct options {
     iso_analogue_request study;

@@ -32,6 +32,17 @@ static void complain_interrupted(const shell *s)
         complain("interrupted: nothing has been measured");
 }
 
+/* The error and time to expect of the choice go to stderr. */
+static int tell_expected(const shell *s)
+{
+    char text[ISO_COST_EXPECTED];
+    const iso_cost_found *f = s->result.found;
+    if (isnan(f->want) || s->told->json) return EXIT_DONE;
+    iso_cost_expected(f, text);
+    complain("%s", text);
+    return EXIT_DONE;
+}
+
 static int draw(const shell *s)
 {
     const iso_cost *c = ((const iso_cost_found *)s->result.found)->cost;
@@ -46,6 +57,7 @@ static int run(iso_context *ctx, const void *options_given)
                                       .check = check,
                                       .change = shell_change,
                                       .interrupted = complain_interrupted,
+                                      .write = tell_expected,
                                       .draw = draw};
     return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
 }

@@ -2,10 +2,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "terminal.h"
 #include "shell.h"
 #include "sweep/sweep_impl.h"
 #include "task/explain/explain_impl.h"
+#include "terminal.h"
 
 typedef struct options {
     iso_scene_request study;

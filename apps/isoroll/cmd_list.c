@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "command.h"
-#include "terminal.h"
 #include "task/list/list_impl.h"
+#include "terminal.h"
 
 typedef struct options {
     const char *topic;
@@ -18,8 +18,10 @@ static int run(iso_context *ctx, const void *options_given)
     FILE *to = open_memstream(&text, &length);
     if (!to) return finish(ctx, iso_context_no_memory(ctx, "a list"));
     const iso_status status = iso_list_print(ctx, strcmp(o->topic, "-") == 0 ? NULL : o->topic, to);
-    if (fclose(to) == 0 && text && status == ISO_OK) iso_fold(stdout, text, terminal_width(stdout));
+    const bool whole = iso_memory_close(to) && text;
+    if (whole && status == ISO_OK) iso_fold(stdout, text, terminal_width(stdout));
     free(text);
+    if (!whole && status == ISO_OK) return finish(ctx, iso_context_no_memory(ctx, "a list"));
     if (status == ISO_BAD_ARGUMENT) return complain("%s", iso_context_message(ctx)), EXIT_USAGE;
     return finish(ctx, status);
 }

@@ -26,7 +26,7 @@ static const char *table_of(const options *o)
 
 /* Where the rows go. */
 typedef struct target {
-    stream to; /* first */
+    stream to;                   /* first */
     iso_picture_points *picture; /* NULL: none is drawn */
     bool draws;
     int l;        /* the column l of table 0; -1: there is none */

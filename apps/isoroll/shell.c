@@ -87,8 +87,10 @@ static int save(shell *s, const shell_parts *parts, iso_table_writer *writer)
 
 int shell_run(iso_context *ctx, const shell_parts *parts, const void *options, const shell_options *told)
 {
-    shell s = {
-        .ctx = ctx, .options = options, .told = told, .result = {.sink = {.note = tell_note, .progress = progress_told}}};
+    shell s = {.ctx = ctx,
+               .options = options,
+               .told = told,
+               .result = {.sink = {.note = tell_note, .progress = progress_told}}};
     iso_table_writer *writer = NULL;
     iso_status status = prepare(&s, parts, &writer);
     if (status != ISO_OK) return finish_scene(ctx, told->file, &s.scene, status);

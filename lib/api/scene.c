@@ -6,6 +6,7 @@
 
 #include "api/interface_impl.h"
 #include "base/arithmetic_impl.h"
+#include "base/fold_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/scene_file.h"
 #include "io/scene_print_impl.h"
@@ -134,7 +135,7 @@ iso_status iso_scene_text(iso_context *ctx, const iso_scene *scene, char text[],
     char *whole = NULL;
     FILE *to = open_memstream(&whole, length);
     if (to) iso_scene_print(scene, to);
-    const bool made = to && fclose(to) == 0;
+    const bool made = iso_memory_close(to);
     if (made && room > 0) snprintf(text, room, "%s", whole);
     free(whole);
     return made ? ISO_OK : iso_context_no_memory(ctx, "a scene");

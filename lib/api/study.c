@@ -54,7 +54,7 @@ iso_status iso_study_text(iso_context *ctx, const iso_record *table, int width, 
     FILE *to = open_memstream(&folded, length);
     const char *raw = iso_record_text(table);
     if (to && raw) iso_fold(to, raw, width);
-    const bool whole = to && fclose(to) == 0 && folded;
+    const bool whole = iso_memory_close(to) && folded;
     if (whole && room > 0) snprintf(text, room, "%s", folded);
     free(folded);
     return whole ? ISO_OK : iso_context_no_memory(ctx, "a text");
@@ -111,7 +111,7 @@ iso_status iso_list(iso_context *ctx, const char *topic, char text[], size_t roo
     FILE *to = open_memstream(&words, length);
     if (!to) return iso_context_no_memory(ctx, "a list");
     const iso_status status = iso_list_print(ctx, topic, to);
-    const bool whole = fclose(to) == 0 && words;
+    const bool whole = iso_memory_close(to) && words;
     if (whole && room > 0) snprintf(text, room, "%s", words);
     free(words);
     return whole ? status : iso_context_no_memory(ctx, "a list");

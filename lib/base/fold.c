@@ -219,3 +219,10 @@ void iso_fold(FILE *to, const char *text, int width)
         text += *text == '\n';
     }
 }
+
+bool iso_memory_close(FILE *to)
+{
+    if (!to) return false;
+    const bool whole = fflush(to) == 0 && !ferror(to);
+    return fclose(to) == 0 && whole;
+}

@@ -17,6 +17,7 @@
 #ifndef ISO_BASE_FOLD_IMPL_H
 #define ISO_BASE_FOLD_IMPL_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -28,6 +29,9 @@ void iso_table_end(FILE *to);
 
 /* Prints a text with tables. width: columns of the page; ISO_ANY_WIDTH: no line is folded. */
 void iso_fold(FILE *to, const char *text, int width);
+
+/* Closes a stream of open_memstream. False: it is NULL, or memory was short for a part of the text. */
+bool iso_memory_close(FILE *to);
 
 /* One line (the first `length` characters of text), folded; the end of the line is added. */
 void iso_fold_line(FILE *to, const char *text, size_t length, int width);

@@ -55,15 +55,16 @@ iso_status iso_study_read(iso_context *ctx, const iso_study *study, char *text, 
     return status == ISO_BAD_INPUT ? ISO_BAD_ARGUMENT : status; /* it is the call that is wrong, no file */
 }
 
-/* The text that a study prints for people. */
+/* The text that a study prints for people, if it has made something. */
 static iso_status print_text(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
                              const void *options, iso_study_result *result)
 {
     size_t length;
-    if (!study->print || !result->found) return ISO_OK;
+    const bool made = result->table[0] || study->of & ISO_STUDY_STREAMS;
+    if (!study->print || !result->found || !made) return ISO_OK;
     FILE *to = open_memstream(&result->text, &length);
     if (to) study->print(to, subject->scene, options, result);
-    return to && fclose(to) == 0 && result->text ? ISO_OK : iso_context_no_memory(ctx, "a text");
+    return iso_memory_close(to) && result->text ? ISO_OK : iso_context_no_memory(ctx, "a text");
 }
 
 iso_status iso_study_describe(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
@@ -123,7 +124,7 @@ static iso_status ask(iso_context *ctx, const iso_study *study, const iso_study_
 }
 
 iso_status iso_study_ask_text(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
-                         const char *options, iso_study_result *result)
+                              const char *options, iso_study_result *result)
 {
     ISO_TRY(refuse_subject(ctx, study, subject));
     char *text = strdup(options ? options : "");

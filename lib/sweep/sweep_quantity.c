@@ -314,7 +314,7 @@ static iso_status take(iso_context *ctx, const iso_sweep_job *job, const iso_stu
     const iso_sweep_quantity *q = &job->quantity;
     if (r->found && r->fields == q->study->fields)
         iso_numbers_visit(r->fields, r->found, fill, &(filled){job, number});
-    else if (!r->found && r->table[0] && iso_record_rows(r->table[0]) > 0)
+    else if (!r->fields && r->table[0] && iso_record_rows(r->table[0]) > 0)
         fill_from_row(job, r->table[0], number);
     else
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "with these options it has no numbers of one scene");

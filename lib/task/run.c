@@ -175,8 +175,7 @@ static iso_status look_both_ways(runner *r)
         r->result->lost[side] = iso_sample_get(&sample, "pressure") < 0;
     }
     r->pressed = true;
-    if (r->result->lost[end < 0])
-        note(r, "contact is lost at 0: there is a row there, and none beyond");
+    if (r->result->lost[end < 0]) note(r, "contact is lost at 0: there is a row there, and none beyond");
     return ISO_OK;
 }
 

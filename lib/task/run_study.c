@@ -31,13 +31,15 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     ISO_TRY(iso_scene_apply(ctx, &r->change, &scene));
     if (times && iso_record_columns(times) != 1)
         return ISO_FAIL_ARGUMENT(ctx, "record", "the times of a run are a table of one column");
+    if (times && iso_record_rows(times) == 0) return ISO_FAIL_ARGUMENT(ctx, "times", "there are no times");
     how.times = times ? iso_record_const_row(times, 0) : NULL;
     how.count = times ? iso_record_rows(times) : 0;
     how.errors = r->verbose;
     const iso_status status =
         iso_run(ctx, &scene, &how, &result->sink, result->sink.row ? NULL : &result->table[0], found);
     if (result->table[0]) iso_record_set_kind(result->table[0], "trajectory");
-    if (result->table[0] && r->verbose && found->error_status == ISO_OK) ISO_TRY(put_errors(ctx, found, result->table[0]));
+    if (result->table[0] && r->verbose && found->error_status == ISO_OK)
+        ISO_TRY(put_errors(ctx, found, result->table[0]));
     if (r->verbose && found->error_status != ISO_OK && !result->sink.row)
         iso_study_note(result, "error not known: %s", found->error_words);
     return status;

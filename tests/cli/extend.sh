@@ -31,7 +31,7 @@ column=$(sed -n 's/^    FIELD("u", /&/p' "$source/lib/README.md")
 sed -i "s|^    FIELD(\"torus\", .*|&\n$column|" "$copy/lib/instrument/periodic/periodic_fields.c"
 
 # The description of a table of a new kind, and its row.
-sed -n '/^typedef struct turn/,/^ *ISO_FIELD_END};/p' "$recipes/table_turns.c" >turns.c
+sed -n '/^typedef struct turn/,/^ *ISO_FIELD_END};/p' "$recipes/turns_fields.c" >turns.c
 awk '/^const iso_result_table \*iso_result_table_at/ { while ((getline line < "turns.c") > 0) print line; print "" }
     { print }
     /iso_result_table tables\[\] = / { print "        {.kind = \"turns\", .doc = \"a turn\", .fields = turn_fields}," }
@@ -65,7 +65,7 @@ for recipe in effect_drag effect_drag_plain kutta38 study_passes; do # also with
 done
 
 # A table of a new kind: one description of its columns makes files of both formats.
-check "table_turns.c" "${CC:-cc}" -std=c11 -Wall -Wextra -Wpedantic -Werror -I"$source/lib" "$recipes/table_turns.c" \
+check "table_turns.c" "${CC:-cc}" -std=c11 -Wall -Wextra -Wpedantic -Werror -I"$ISO_BUILD/include" "$recipes/table_turns.c" \
     -o turns -L"$ISO_BUILD" -lisoroll -Wl,-rpath,"$ISO_BUILD"
 check "a table of turns" ./turns turns.csv
 check "it says its kind" grep -qx '# isoroll turns 1' turns.csv

@@ -140,7 +140,8 @@ const iso_cost_cell *iso_cost_choose_steps(const iso_cost *cost, const iso_cost_
 void iso_cost_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
 iso_status iso_cost_describe(iso_context *ctx, const iso_scene *scene, const void *options, iso_study_result *result);
 
-/* A note about the choice for --want: the error and time to expect. */
-void iso_cost_note_wanted(const iso_study_result *result, const iso_cost_found *found);
+/* What to expect of the choice for --want: its error and its time. */
+enum { ISO_COST_EXPECTED = 160 };
+void iso_cost_expected(const iso_cost_found *found, char text[static ISO_COST_EXPECTED]);
 
 #endif

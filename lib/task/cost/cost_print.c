@@ -235,15 +235,16 @@ static void print_wanted(FILE *to, const iso_cost_cell *c)
     if (c) fprintf(to, "%s\n", options_of(c, words));
 }
 
-void iso_cost_note_wanted(const iso_study_result *result, const iso_cost_found *f)
+void iso_cost_expected(const iso_cost_found *f, char text[static ISO_COST_EXPECTED])
 {
     char seconds[COST_SECONDS];
     const iso_cost_cell *c = f->choice;
     if (!c)
-        iso_study_note(result, "nothing measured reaches an error of %s: try a larger --want", ISO_SHORT(f->want));
+        snprintf(text, ISO_COST_EXPECTED, "nothing measured reaches an error of %s: try a larger --want",
+                 ISO_SHORT(f->want));
     else
-        iso_study_note(result, "expected: error %.1e%s, time %s", c->error,
-                       c->below ? ", or less: the reference is no better" : "", seconds_text(c->total, seconds));
+        snprintf(text, ISO_COST_EXPECTED, "expected: error %.1e%s, time %s", c->error,
+                 c->below ? ", or less: the reference is no better" : "", seconds_text(c->total, seconds));
 }
 
 void iso_cost_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)

@@ -132,7 +132,6 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     if (!isnan(r->want)) f->choice = iso_cost_choose(f->cost, r->want);
     const bool lost = !f->cost->complete || iso_cost_count(f->cost, iso_cost_has_failed) > 0;
     result->failed = isnan(r->want) ? lost : !f->choice;
-    if (!isnan(r->want)) iso_cost_note_wanted(result, f);
     const iso_status made = put(ctx, &scene, f, &result->table[0]);
     return status == ISO_OK ? made : status;
 }
