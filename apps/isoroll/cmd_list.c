@@ -13,15 +13,14 @@ typedef struct options {
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
-    char *text = NULL;
-    size_t length;
-    FILE *to = open_memstream(&text, &length);
+    iso_memory memory;
+    FILE *to = iso_memory_open(&memory);
     if (!to) return finish(ctx, iso_context_no_memory(ctx, "a list"));
     const iso_status status = iso_list_print(ctx, strcmp(o->topic, "-") == 0 ? NULL : o->topic, to);
-    const bool whole = iso_memory_close(to) && text;
-    if (whole && status == ISO_OK) iso_fold(stdout, text, terminal_width(stdout));
+    char *text = iso_memory_close(to, &memory);
+    if (text && status == ISO_OK) iso_fold(stdout, text, terminal_width(stdout));
     free(text);
-    if (!whole && status == ISO_OK) return finish(ctx, iso_context_no_memory(ctx, "a list"));
+    if (!text && status == ISO_OK) return finish(ctx, iso_context_no_memory(ctx, "a list"));
     if (status == ISO_BAD_ARGUMENT) return complain("%s", iso_context_message(ctx)), EXIT_USAGE;
     return finish(ctx, status);
 }

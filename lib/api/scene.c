@@ -132,13 +132,14 @@ const char *iso_scene_word(const iso_scene *scene, const char *key)
 
 iso_status iso_scene_text(iso_context *ctx, const iso_scene *scene, char text[], size_t room, size_t *length)
 {
-    char *whole = NULL;
-    FILE *to = open_memstream(&whole, length);
+    iso_memory memory;
+    FILE *to = iso_memory_open(&memory);
     if (to) iso_scene_print(scene, to);
-    const bool made = iso_memory_close(to);
-    if (made && room > 0) snprintf(text, room, "%s", whole);
+    char *whole = iso_memory_close(to, &memory);
+    *length = memory.used;
+    if (whole && room > 0) snprintf(text, room, "%s", whole);
     free(whole);
-    return made ? ISO_OK : iso_context_no_memory(ctx, "a scene");
+    return whole ? ISO_OK : iso_context_no_memory(ctx, "a scene");
 }
 
 int iso_scene_columns(const iso_scene *scene, int columns[])

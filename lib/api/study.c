@@ -50,14 +50,15 @@ _Static_assert((int)ISO_TABLES == (int)ISO_STUDY_TABLES, "tables of a study");
 iso_status iso_study_text(iso_context *ctx, const iso_record *table, int width, char text[], size_t room,
                           size_t *length)
 {
-    char *folded = NULL;
-    FILE *to = open_memstream(&folded, length);
+    iso_memory memory;
+    FILE *to = iso_memory_open(&memory);
     const char *raw = iso_record_text(table);
     if (to && raw) iso_fold(to, raw, width);
-    const bool whole = iso_memory_close(to) && folded;
-    if (whole && room > 0) snprintf(text, room, "%s", folded);
+    char *folded = iso_memory_close(to, &memory);
+    *length = memory.used;
+    if (folded && room > 0) snprintf(text, room, "%s", folded);
     free(folded);
-    return whole ? ISO_OK : iso_context_no_memory(ctx, "a text");
+    return folded ? ISO_OK : iso_context_no_memory(ctx, "a text");
 }
 
 /* --- what there is ---------------------------------------------------------------------------------------------- */
@@ -107,14 +108,15 @@ const char *iso_study_option_word(const char *study, int i, int word)
 
 iso_status iso_list(iso_context *ctx, const char *topic, char text[], size_t room, size_t *length)
 {
-    char *words = NULL;
-    FILE *to = open_memstream(&words, length);
+    iso_memory memory;
+    FILE *to = iso_memory_open(&memory);
     if (!to) return iso_context_no_memory(ctx, "a list");
     const iso_status status = iso_list_print(ctx, topic, to);
-    const bool whole = iso_memory_close(to) && words;
-    if (whole && room > 0) snprintf(text, room, "%s", words);
+    char *words = iso_memory_close(to, &memory);
+    *length = memory.used;
+    if (words && room > 0) snprintf(text, room, "%s", words);
     free(words);
-    return whole ? status : iso_context_no_memory(ctx, "a list");
+    return words ? status : iso_context_no_memory(ctx, "a list");
 }
 
 /* --- tables ----------------------------------------------------------------------------------------------------- */

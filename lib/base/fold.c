@@ -1,8 +1,11 @@
 /* fold.c - text for people, folded to the width of a page (see fold_impl.h). */
+#define _GNU_SOURCE /* fopencookie */
 #include "base/fold_impl.h"
 
 #include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/types.h>
 
 /* Columns of text in UTF-8: bytes that begin a character. */
 static int columns_of(const char *text, size_t length)
@@ -220,9 +223,35 @@ void iso_fold(FILE *to, const char *text, int width)
     }
 }
 
-bool iso_memory_close(FILE *to)
+/* --- a text that grows ------------------------------------------------------------------------------------------ */
+
+static ssize_t keep(void *cookie, const char *text, size_t size)
 {
-    if (!to) return false;
-    const bool whole = fflush(to) == 0 && !ferror(to);
-    return fclose(to) == 0 && whole;
+    iso_memory *m = cookie;
+    if (m->used + size + 1 > m->room) {
+        const size_t room = 2 * m->room + size + 1;
+        char *more = realloc(m->text, room);
+        if (!more) return m->failed = true, 0;
+        m->text = more;
+        m->room = room;
+    }
+    memcpy(m->text + m->used, text, size);
+    m->used += size;
+    m->text[m->used] = '\0';
+    return (ssize_t)size;
+}
+
+FILE *iso_memory_open(iso_memory *m)
+{
+    *m = (iso_memory){.used = 0};
+    return fopencookie(m, "w", (cookie_io_functions_t){.write = keep});
+}
+
+char *iso_memory_close(FILE *to, iso_memory *m)
+{
+    const bool closed = to && fclose(to) == 0;
+    if (closed && m->used == 0) keep(m, "", 0);
+    if (closed && !m->failed) return m->text;
+    free(m->text);
+    return NULL;
 }

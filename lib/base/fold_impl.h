@@ -30,8 +30,15 @@ void iso_table_end(FILE *to);
 /* Prints a text with tables. width: columns of the page; ISO_ANY_WIDTH: no line is folded. */
 void iso_fold(FILE *to, const char *text, int width);
 
-/* Closes a stream of open_memstream. False: it is NULL, or memory was short for a part of the text. */
-bool iso_memory_close(FILE *to);
+/* A text that is written into a stream. iso_memory_close returns it, for the caller to free; NULL: `to` is NULL, or
+ * memory was short for a part of it, which a stream of open_memstream would not tell. */
+typedef struct iso_memory {
+    char *text;
+    size_t used, room;
+    bool failed;
+} iso_memory;
+FILE *iso_memory_open(iso_memory *memory);
+char *iso_memory_close(FILE *to, iso_memory *memory);
 
 /* One line (the first `length` characters of text), folded; the end of the line is added. */
 void iso_fold_line(FILE *to, const char *text, size_t length, int width);

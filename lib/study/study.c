@@ -59,12 +59,13 @@ iso_status iso_study_read(iso_context *ctx, const iso_study *study, char *text, 
 static iso_status print_text(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
                              const void *options, iso_study_result *result)
 {
-    size_t length;
+    iso_memory memory;
     const bool made = result->table[0] || study->of & ISO_STUDY_STREAMS;
     if (!study->print || !result->found || !made) return ISO_OK;
-    FILE *to = open_memstream(&result->text, &length);
+    FILE *to = iso_memory_open(&memory);
     if (to) study->print(to, subject->scene, options, result);
-    return iso_memory_close(to) && result->text ? ISO_OK : iso_context_no_memory(ctx, "a text");
+    result->text = iso_memory_close(to, &memory);
+    return result->text ? ISO_OK : iso_context_no_memory(ctx, "a text");
 }
 
 iso_status iso_study_describe(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
@@ -90,9 +91,8 @@ iso_status iso_study_answer(iso_context *ctx, const iso_study *study, const iso_
  * out. NULL: no memory. */
 static char *command_of(const iso_study *study, const char *name, const char *options)
 {
-    char *text;
-    size_t length;
-    FILE *to = open_memstream(&text, &length);
+    iso_memory memory;
+    FILE *to = iso_memory_open(&memory);
     if (!to) return NULL;
     fprintf(to, "isoroll %s %s", study->name, name ? name : study->of & ISO_STUDY_OF_SCENE ? "SCENE" : "FILE");
     for (const char *o = options; *o; o += *o == '\n') {
@@ -107,7 +107,7 @@ static char *command_of(const iso_study *study, const char *name, const char *op
         }
         o += line;
     }
-    return fclose(to) == 0 ? text : NULL;
+    return iso_memory_close(to, &memory);
 }
 
 static iso_status ask(iso_context *ctx, const iso_study *study, const iso_study_subject *subject, char *text,

@@ -385,8 +385,9 @@ static void check_option(const char *study, int i)
 
 static void check_lists(void)
 {
-    static const char *const names[] = {"section",   "chaos", "frequencies", "periodic", "splitting", "prove",
-                                        "integrals", "cost",  "compare",     "check",    "explain",   "analogue"};
+    static const char *const names[] = {"run",       "section", "chaos",     "frequencies", "periodic",
+                                        "splitting", "prove",   "integrals", "cost",        "compare",
+                                        "check",     "explain", "analogue"};
     enum { STUDIES = sizeof names / sizeof *names };
     const char *text[5], *column[2];
     char name[64];

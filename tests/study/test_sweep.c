@@ -255,7 +255,7 @@ static void check_study(const iso_study *study, const char *options, const iso_s
         const iso_status status = iso_study_ask_text(ctx, study, &(iso_study_subject){.scene = &scene}, options, &result);
         gsl_test(status != rows.status[i], "%s, point %zu: %s", study->name, i, rows.reason[i]);
         const double *row = rows.number + i * (size_t)rows.columns;
-        if (status == ISO_OK && result.found)
+        if (status == ISO_OK && result.fields)
             same += compare_lines(head, row, study->name, result.table[0]);
         else if (status == ISO_OK)
             for (int c = 2; c < head->columns; c++) {
