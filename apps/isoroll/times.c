@@ -61,6 +61,6 @@ iso_status times_read(iso_context *ctx, const char *path, iso_record **times)
     FILE *file = iso_text_open(ctx, path);
     if (!file) return ISO_FILE_TROUBLE;
     const iso_status status = read_words(ctx, iso_text_name(path), file, *times);
-    iso_memory_close(file);
+    iso_text_close(file);
     return status;
 }
