@@ -152,7 +152,7 @@ void iso_columns_visit(const iso_field *fields, const void *row, iso_column_visi
 /* The same for each number of a struct, also those that JSON alone has: "ball.exponent.t" is ball_exponent_t, and the
  * first struct of the list "rows" has rows1_m. The number of a word is its place in the list of words. Times that were
  * measured, in seconds, are left out. row NULL: of a list without a fixed length the first struct. */
-ISO_API void iso_numbers_visit(const iso_field *fields, const void *row, iso_column_visitor *visit, void *data);
+void iso_numbers_visit(const iso_field *fields, const void *row, iso_column_visitor *visit, void *data);
 
 /* A record with these columns, and a row of it. What is not there is NaN, or the empty word. Errors: as record.h. */
 iso_status iso_columns_create(iso_context *ctx, const iso_field *fields, iso_record **record);
