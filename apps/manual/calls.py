@@ -10,7 +10,6 @@ from tree import attributes, code, code_block, header, node, prose
 
 # --- C -----------------------------------------------------------------------------------------------------------
 
-NOT_INSTALLED = re.compile(r"_impl\.h$|/(taylor|series)/")  # of a path in lib
 NOT_SHOWN = re.compile(r"#ifndef \w+_H\n#define \w+_H\n(\n+(#include .*\n)+)*|ISO_C_(BEGIN|END)\n|#endif\n$|"
                        r"/\* clang-format \w+ \*/\n")
 DECLARED = re.compile(r"^#define (ISO_\w+)|\} (iso_\w+);|^typedef struct \w+ (iso_\w+);|^typedef \w+ \*?(iso_\w+)\(|"
@@ -20,9 +19,9 @@ DECLARED = re.compile(r"^#define (ISO_\w+)|\} (iso_\w+);|^typedef struct \w+ (is
 def headers(lib):
     """The public headers by floors: of each floor, its name and the paths of its headers."""
     yield "isoroll.h", [lib / "isoroll.h"]
-    for floor in re.findall(r"^\| \d \| `(\w+)` \|", (lib / "README.md").read_text("utf-8"), re.M):
-        found = sorted((lib / floor).glob("**/*.h"))
-        yield floor, [path for path in found if not NOT_INSTALLED.search(path.relative_to(lib).as_posix())]
+    public = re.findall(r'^#include "(.*)"', (lib / "isoroll.h").read_text("utf-8"), re.M)
+    for floor in dict.fromkeys(path.partition("/")[0] for path in public):
+        yield floor, [lib / path for path in public if path.startswith(floor + "/")]
 
 
 def parts_of(text):

@@ -3,24 +3,28 @@
 #include <string.h>
 
 #include <isoroll/isoroll.h>
-#include <isoroll/map/state.h>
-#include <isoroll/task/cost/cost.h>
 
 int main(void)
 {
-    const double J[3] = {1.4, 2.1, 3.0};
-    iso_params p = {0};
+    static const char text[] = "reduced: {k: -1, J: [1.4, 2.1, 3]}\n"
+                               "initial: {normal: [0, 0.6, 0.8], angular_velocity: [0.3, -0.4, 0.3]}\n"
+                               "time: {end: 1}\n";
+    double k[6] = {0}, J[6] = {0};
+    iso_scene *scene = NULL;
+    iso_record *table[ISO_TABLES];
     iso_context *ctx = iso_context_create();
-    if (!ctx || iso_params_reduced(ctx, -1, J, &p) != ISO_OK) {
+    if (!ctx || iso_scene_parse(ctx, "outside", text, strlen(text), &scene) != ISO_OK ||
+        iso_study_ask(ctx, "run", scene, NULL, "t-end=2", NULL, table) != ISO_OK) {
         fprintf(stderr, "outside: %s\n", ctx ? iso_context_message(ctx) : "no memory");
         return 1;
     }
-    const double ball[ISO_STATE] = {0.3, -0.2, 0.5, 0, 0.6, 0.8};
-    const iso_cost_options cost = iso_cost_defaults();
-    const int same = strcmp(iso_version(), ISO_VERSION) == 0 && iso_ball_energy(&p, ball) > 0;
-    const int right =
-        same && cost.size == sizeof cost && p.k == -1 && p.J[0] == J[0] && p.J[1] == J[1] && p.J[2] == J[2];
-    printf("k = %g\n", p.k);
+    iso_scene_numbers(scene, "k", k);
+    iso_scene_numbers(scene, "J", J);
+    const int right = strcmp(iso_version(), ISO_VERSION) == 0 && iso_record_rows(table[0]) == 101 && k[0] == -1 &&
+                      J[0] == 1.4 && J[1] == 2.1 && J[2] == 3.0;
+    printf("k = %g\n", k[0]);
+    iso_record_free(table[0]);
+    iso_scene_free(scene);
     iso_context_free(ctx);
     return right ? 0 : 1;
 }
