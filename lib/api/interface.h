@@ -216,7 +216,7 @@ ISO_API iso_status iso_picture_of(iso_context *ctx, const iso_record *const tabl
 ISO_API iso_status iso_sweep_ask(iso_context *ctx, const char *path, const char *text, size_t length, int threads,
                                  void (*progress)(void *data, double part), void *data, iso_record **record);
 
-/* What `isoroll explain` says of a sweep, in the line "text" of the record; for this a few points are computed. *record
+/* What `isoroll explain` says of a sweep, as the text of the record (iso_study_text); for this a few points are computed. *record
  * is NULL if there is no sweep: a scene, or no file that can be read more than once.
  * Errors: those of iso_sweep_read and iso_sweep_create; ISO_STOPPED. */
 ISO_API iso_status iso_sweep_text(iso_context *ctx, const char *path, const char *text, size_t length,

@@ -102,8 +102,8 @@ static iso_status explain(iso_context *ctx, const char *path, const char *text, 
     iso_sweep_file_free(file);
     if (status == ISO_OK) status = iso_record_create(ctx, 0, NULL, record);
     if (status == ISO_OK) iso_record_set_kind(*record, "explain");
-    if (status == ISO_OK) status = iso_record_set(ctx, *record, "text", words);
-    free(words);
+    if (status == ISO_OK) iso_record_keep_text(*record, words);
+    if (status != ISO_OK) free(words);
     if (status != ISO_OK) {
         iso_record_free(*record);
         *record = NULL;

@@ -87,14 +87,14 @@ iso_status iso_study_answer(iso_context *ctx, const iso_study *study, const iso_
     return status == ISO_OK ? told : status;
 }
 
-/* "isoroll chaos SCENE --turns 500 --starts 20": what makes the table again. Options that change no number are left
+/* "isoroll chaos --turns 500 --starts 20 scene.yaml": what makes the table again. Options that change no number are left
  * out. NULL: no memory. */
 static char *command_of(const iso_study *study, const char *name, const char *options)
 {
     iso_memory memory;
     FILE *to = iso_memory_open(&memory);
     if (!to) return NULL;
-    fprintf(to, "isoroll %s %s", study->name, name ? name : study->of & ISO_STUDY_OF_SCENE ? "SCENE" : "FILE");
+    fprintf(to, "isoroll %s", study->name);
     for (const char *o = options; *o; o += *o == '\n') {
         const size_t length_of_name = strcspn(o, "=\n"), line = strcspn(o, "\n");
         const iso_option *row = option_of(study, o, length_of_name);
@@ -107,6 +107,7 @@ static char *command_of(const iso_study *study, const char *name, const char *op
         }
         o += line;
     }
+    if (name) fprintf(to, " %s", name);
     return iso_memory_close(to, &memory);
 }
 

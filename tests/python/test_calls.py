@@ -24,7 +24,6 @@ ELSEWHERE = {
     "run": {"verbose": "errors=True",
             **dict.fromkeys(("certify", "digits", "work-digits"), "for the command: enclosures, which are no doubles")},
     "convert": {"digits": "table.write(digits=)", "max-defect": "a warning", "strict": "a warning"},
-    "compare": {"rows": "of the text that is printed"},
     "sweep": {"resume": "for the command: a file", "shard": "for the command: many machines",
               "merge": "for the command: files", "point": "for the command: prints a scene"},
     "plot": {"k": "the table says it", "J": "the table says it", "eps": "the table says it", "h": "the table says it",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import html
-import shutil
 from typing import Any, Dict, Iterable, NamedTuple, Optional
 
 import numpy as np
@@ -163,7 +162,7 @@ class Result(Table):
     @property
     def text(self) -> str:
         """What the command prints."""
-        return self._told(0) or "\n".join(f"{key}: {value}" for key, value in self.lines.text.items())
+        return self._told(False) or "\n".join(f"{key}: {value}" for key, value in self.lines.text.items())
 
     def __getattr__(self, name: str) -> Any:
         if not name.startswith("_") and "_columns" in self.__dict__ and name in self.tree:
@@ -177,7 +176,7 @@ class Result(Table):
         return f"<pre>{html.escape(self.text)}</pre>"
 
     def __str__(self) -> str:
-        return self._told(shutil.get_terminal_size().columns) or self.text
+        return self._told(True) or self.text
 
     def __repr__(self) -> str:
         return f"<isoroll.Result: {self.kind}; {', '.join(self.tree)}>"

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import functools
 import html
-import shutil
 import os
+import shutil
+import sys
 import textwrap
-from ctypes import byref, c_char_p, c_double, create_string_buffer
+from ctypes import byref, c_char_p, c_double, c_size_t, create_string_buffer
 from types import MappingProxyType
 from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
 
@@ -311,21 +312,22 @@ class Table:
         return [["..." if row is None else str(words[name][row]) if name in words else f"{flat[row, i]:.6g}"
                  for row in shown] for i, name in enumerate(self.columns)]
 
-    def _told(self, width: int) -> str:
-        """What the command prints of a study, folded to this width (0: not folded); "" of other tables."""
-        if self._record is None:
+    def _told(self, folded: bool) -> str:
+        """What the command prints of a study, as wide as the terminal if that is wanted; "" of rows that it writes."""
+        if self._record is None or self.kind in ("trajectory", "section"):
             return ""
+        width = shutil.get_terminal_size().columns if folded and sys.stdout.isatty() else 0
         ctx, length = context(), c_size_t()
         check(lib.iso_study_text(ctx, self._record.pointer, width, None, 0, byref(length)), ctx)
         text = create_string_buffer(length.value + 1)
         check(lib.iso_study_text(ctx, self._record.pointer, width, text, length.value + 1, byref(length)), ctx)
-        return text.value.decode("utf-8", "replace").rstrip("\n")
+        return text.value.decode("utf-8", "replace")
 
     def __str__(self) -> str:
         """What the command prints of a study; else the first and the last rows, and as many columns as fit."""
-        told = self._told(shutil.get_terminal_size().columns)
+        told = self._told(True)
         if told:
-            return told
+            return told.rstrip("\n")
         columns = [[name, *cells] for name, cells in zip(self.columns, self._cells())]
         columns = [[text.rjust(max(map(len, column)) + 2) for text in column] for column in columns]
         ends = np.cumsum([len(column[0]) for column in columns])
@@ -346,7 +348,7 @@ class Table:
 
     def _repr_html_(self) -> str:
         """For notebooks: what the command prints of a study; the first and the last rows, with units."""
-        told = self._told(0)
+        told = self._told(False)
         told = f"<pre>{html.escape(told)}</pre>" if told else ""
         units = self.units
         head = "".join(f"<th>{html.escape(name)}<br><small>{html.escape(units[name])}</small></th>"

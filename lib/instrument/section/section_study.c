@@ -113,7 +113,7 @@ static iso_status find_crossings(iso_context *ctx, const iso_scene *scene, const
     for (int i = 0; i < 2; i++)
         if (result->table[i]) iso_record_set_kind(result->table[i], "section");
     result->failed = r->failed > 0;
-    if (r->failed > 0)
+    if (r->failed > 0 && r->rows > 0)
         iso_study_note(result, "%zu of %zu orbits did not get to the end; %s", r->failed, r->orbits, r->words);
     return status;
 }
