@@ -36,11 +36,6 @@ static const char *without_family(const char *pattern, const char *family)
     return pattern[length] == '-' || pattern[length] == '_' ? pattern + length + 1 : pattern;
 }
 
-const iso_method *iso_method_at(int i)
-{
-    return i >= 0 && i < (int)(sizeof iso_methods / sizeof *iso_methods) ? iso_methods[i] : NULL;
-}
-
 const iso_method *iso_method_find(const char *name)
 {
     const iso_method *candidate = NULL;

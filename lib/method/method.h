@@ -95,9 +95,6 @@ typedef struct iso_method {
 
 enum { ISO_DOUBLE_DIGITS = 16 };
 
-/* The i-th method; NULL past the last. */
-const iso_method *iso_method_at(int i);
-
 /* The method called `name`, or NULL. Upper and lower case, '-' and '_' are the same, the family may stand before
  * ("gsl-rk8pd", "cvode_adams"), and a beginning that fits only one method is enough ("dormand_prince"). */
 const iso_method *iso_method_find(const char *name);

@@ -150,11 +150,6 @@ void iso_study_note(const iso_study_result *result, const char *format, ...) __a
 /* The part of the work that is done; `result` is the study's. */
 void iso_study_progress(void *result, double part);
 
-/* A table for people, from its fields: the names of its columns, and a row, with tabs between the cells. names: of the
- * columns that are printed, with blanks between; NULL: all. Six digits, where a field does not say how many. */
-void iso_print_columns(FILE *to, const iso_field *fields, const char *names);
-void iso_print_row(FILE *to, const iso_field *fields, const void *row, const char *names);
-
 /* Copies fields, one of them with another name. */
 void iso_fields_rename(const iso_field *fields, const char *old, const char *name, iso_field copy[ISO_MOST_FIELDS]);
 

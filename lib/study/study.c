@@ -1,5 +1,4 @@
 /* study.c - asking a study: its options, its tables, what it tells people (see study.h). */
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -184,52 +183,6 @@ void iso_study_progress(void *result, double part)
 {
     const iso_sink *sink = &((const iso_study_result *)result)->sink;
     if (sink->progress) sink->progress(sink->data, part);
-}
-
-/* --- text for people -------------------------------------------------------------------------------------------- */
-
-typedef struct printer {
-    FILE *to;
-    const char *names; /* of the columns that are printed, with blanks between */
-    bool first, head;
-} printer;
-
-static bool is_among(const char *name, const char *names)
-{
-    const size_t length = strlen(name);
-    for (const char *at = names; (at = strstr(at, name)) != NULL; at += length)
-        if ((at == names || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) return true;
-    return false;
-}
-
-static void print_cell(void *data, const char *name, const iso_field *field, const iso_value *value)
-{
-    printer *p = data;
-    if (p->names && !is_among(name, p->names)) return;
-    fputs(p->first ? "" : "\t", p->to);
-    p->first = false;
-    if (p->head)
-        fputs(name, p->to);
-    else if (value->text)
-        fputs(value->text, p->to);
-    else if (!value->there || isnan(value->number))
-        fputs("-", p->to);
-    else
-        fprintf(p->to, "%.*g", field->digits > 0 ? field->digits : 6, value->number);
-}
-
-void iso_print_columns(FILE *to, const iso_field *fields, const char *names)
-{
-    printer p = {to, names, .first = true, .head = true};
-    iso_columns_visit(fields, NULL, print_cell, &p);
-    fputc('\n', to);
-}
-
-void iso_print_row(FILE *to, const iso_field *fields, const void *row, const char *names)
-{
-    printer p = {to, names, .first = true, .head = false};
-    iso_columns_visit(fields, row, print_cell, &p);
-    fputc('\n', to);
 }
 
 /* --- tables ----------------------------------------------------------------------------------------------------- */

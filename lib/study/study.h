@@ -122,7 +122,7 @@ iso_status iso_study_set(iso_context *ctx, const iso_study *study, const char *n
 /* Runs a study. options: lines NAME=VALUE with a newline between, or NULL. Errors: ISO_BAD_ARGUMENT about an option,
  * or about "scene" or "record", which the study needs; those of the study. Without a row the tables are NULL then. */
 iso_status iso_study_ask_text(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
-                         const char *options, iso_study_result *result);
+                              const char *options, iso_study_result *result);
 
 /* The same with options that were read before (iso_study_read). */
 iso_status iso_study_answer(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,

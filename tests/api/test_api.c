@@ -122,7 +122,33 @@ static void check_rows(const char *text)
     free(wanted);
 }
 
-/* The example of foreign.h: its lines as they stand there. */
+/* The formulas against rows: the map and its inverse, the rates of the clocks by differences, the energy. */
+static void check_formulas(void)
+{
+    enum { COLUMNS = 15 };
+    const double d = 1e-4, times[2] = {1 - d, 1 + d}, at = 1;
+    double side[2][COLUMNS], row[COLUMNS], point[6], ball[6], rates[2];
+    iso_scene *scene = made(REDUCED("-0.6") TIME "output: {as: both}\n");
+    iso_solution *solution;
+    gsl_test(iso_solution_create(ctx, scene, &solution) != ISO_OK, "a solution");
+    gsl_test(iso_solution_at(solution, times, 2, side[0], NULL, 0) != ISO_OK, "rows beside t = 1");
+    gsl_test(iso_solution_at(solution, &at, 1, row, NULL, 0) != ISO_OK, "the row at t = 1");
+    iso_scene_to_point(scene, row + 3, point);
+    iso_scene_to_ball(scene, row + 9, ball);
+    for (int i = 0; i < 6; i++) {
+        gsl_test_abs(point[i], row[9 + i], 1e-10, "point %d", i);
+        gsl_test_abs(ball[i], row[3 + i], 1e-10, "ball %d", i);
+    }
+    iso_scene_clock_rates(scene, row + 6, rates);
+    for (int c = 0; c < 2; c++)
+        gsl_test_rel(rates[c], (side[1][1 + c] - side[0][1 + c]) / (2 * d), 1e-6, "rate of clock %d", c);
+    gsl_test_rel(iso_scene_energy(scene, row + 3), iso_solution_number(solution, "h"), 1e-10, "the energy");
+    gsl_test(strcmp(iso_solution_word(solution, "models"), "both") != 0, "it has both models");
+    iso_solution_free(solution);
+    iso_scene_free(scene);
+}
+
+/* The example of interface.h: its lines as they stand there. */
 static void check_example(void)
 {
     const double times[3] = {0, 2, 1};
@@ -411,6 +437,7 @@ int main(void)
     check_rows(REDUCED("-1") "time: {end: -3, step: 0.25}\noutput: {as: both}\n");
     check_rows(POINT TIME "output: {as: ball}\n");
     check_rows(OUTSIDE START TIME "effects: {" GRAVITY ", attitude: {}, reactions: {two_sided: true}}\n");
+    check_formulas();
     check_example();
     check_no_times();
     check_contact();
