@@ -21,7 +21,7 @@ def headers(lib):
     yield "isoroll.h", [lib / "isoroll.h"]
     public = re.findall(r'^#include "(.*)"', (lib / "isoroll.h").read_text("utf-8"), re.M)
     for floor in dict.fromkeys(path.partition("/")[0] for path in public):
-        yield floor, [lib / path for path in public if path.startswith(floor + "/")]
+        yield floor, [lib / path for path in public if path.startswith(floor + "/") and (lib / path).exists()]
 
 
 def parts_of(text):

@@ -65,7 +65,7 @@ if has node "the search of the manual"; then
     finds "what does exit status 4 mean" apps.html
     finds "how is share defined" formats.html#formats.the-share
     finds "how to add an effect" lib.html#lib.an-effect
-    finds "iso_orbit_at" c-orbit.html#c-orbit.iso_orbit_at
+    finds "iso_solution_at" c-api.html#c-api.iso_solution_at
     finds "--exponent-turns" isoroll-chaos.html#isoroll-chaos.options
     finds "poincare section" python-calls.html#python-calls.section
 fi
@@ -73,7 +73,7 @@ fi
 # --- the PDF
 if [ -n "$browser" ] && has pdftotext "the text of the PDF"; then
     pdftotext -layout one/isoroll.pdf text
-    for words in "Theory: a rolling ball" "isoroll chaos" "iso_orbit_create" "Tester, Anna"; do
+    for words in "Theory: a rolling ball" "isoroll chaos" "iso_solution_create" "Tester, Anna"; do
         check "the PDF has '$words'" grep -q "$words" text
     done
     check "it has no address of this machine" test -z "$(grep -a -c "$work" one/isoroll.pdf | grep -v '^0$')"
