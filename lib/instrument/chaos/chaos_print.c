@@ -130,13 +130,15 @@ void iso_chaos_print(FILE *to, const iso_scene *scene, const void *options, cons
 /* Orbit 0 is the scene's own. Other orbits that were not followed have no row. */
 iso_status iso_chaos_describe(iso_context *ctx, const iso_scene *scene, const void *options, iso_study_result *result)
 {
+    const iso_chaos_options *how = &((const iso_chaos_request *)options)->how;
     const iso_chaos *c = result->found;
     const iso_chaos_fraction *part = &c->share;
     iso_record *table = result->table[0];
     const double axis = c->chart + 1;
     char ball[ISO_BALL_SIZE];
-    (void)options;
     ISO_TRY(iso_record_set_numbers(ctx, table, "axis", 1, &axis));
+    ISO_TRY(iso_record_set_numbers(ctx, table, "tolerance", 1,
+                                   isnan(how->tolerance) ? &scene->tolerance : &how->tolerance));
     if (part->count > 0) ISO_TRY(iso_record_set_numbers(ctx, table, "starts_tolerance", 1, &part->tolerance));
     ISO_TRY(
         iso_record_set(ctx, table, "orbit 0", "the scene's own; l and x are nan: it need not start on the section"));
