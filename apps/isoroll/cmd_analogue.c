@@ -22,9 +22,10 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = stated ? ISO_OK : iso_scene_load(ctx, o->file, &scene);
     begin_work(ctx, NULL);
     if (status == ISO_OK)
-        status = iso_analogue_study.run(ctx, &(iso_study_subject){.scene = stated ? NULL : &scene}, &o->study, &r);
+        status = iso_study_answer(ctx, &iso_analogue_study, &(iso_study_subject){.scene = stated ? NULL : &scene},
+                                  &o->study, &r);
     progress_end();
-    if (status == ISO_OK) iso_fold(stdout, ((const iso_analogue_found *)r.found)->text, terminal_width(stdout));
+    if (status == ISO_OK) iso_fold(stdout, r.text, terminal_width(stdout));
     iso_study_result_free(&r);
     if (!stated) status = name_the_file(ctx, o->file, iso_scene_blame(ctx, &scene, iso_text_name(o->file), status));
     return finish(ctx, status);

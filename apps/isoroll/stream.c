@@ -26,16 +26,9 @@ static void show_note(void *data, const char *text)
     if (!((const stream *)data)->quiet) complain("%s", text);
 }
 
-static void show_progress(void *data, double part)
-{
-    static unsigned calls;
-    (void)data;
-    if (calls++ % 256 == 0) progress_show(part);
-}
-
 iso_sink stream_sink(stream *s)
 {
-    return (iso_sink){stream_header, stream_row, show_note, show_progress, s};
+    return (iso_sink){stream_header, stream_row, show_note, progress_told, s};
 }
 
 int stream_close(stream *s, iso_status status, bool keep)

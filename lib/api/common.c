@@ -1,4 +1,5 @@
 /* common.c - what the calls for other languages share: notes, words, and the slow monitor. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -29,6 +30,16 @@ void iso_notes_add(notes *n, const char *words)
 {
     if (n->used > 0) put(n, "\n");
     put(n, words);
+}
+
+iso_status iso_text_give(iso_context *ctx, FILE *to, iso_memory *memory, char text[], size_t room, size_t *length)
+{
+    char *whole = iso_memory_close(to, memory);
+    if (!whole) return iso_context_no_memory(ctx, "a text");
+    *length = memory->used;
+    if (room > 0) snprintf(text, room, "%s", whole);
+    free(whole);
+    return ISO_OK;
 }
 
 /* --- words ------------------------------------------------------------------------------------------------------ */

@@ -6,7 +6,6 @@
 
 #include "api/interface_impl.h"
 #include "base/arithmetic_impl.h"
-#include "base/fold_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/scene_file.h"
 #include "io/scene_print_impl.h"
@@ -103,15 +102,15 @@ iso_status iso_scene_replace(iso_context *ctx, iso_scene *scene, const double *k
 
 int iso_scene_numbers(const iso_scene *scene, const char *key, double values[6])
 {
-    const iso_scene *s = scene;
-    const double eps = s->start.model == ISO_POINT ? s->start.eps : NAN;
+    const double eps = scene->start.model == ISO_POINT ? scene->start.eps : NAN;
     const struct {
         const char *key;
         int count;
         const double *from;
-    } rows[] = {
-        {"k", 1, &s->params.k}, {"J", 3, s->params.J}, {"D", 1, &s->params.D}, {"start", 6, s->start.y},
-        {"eps", 1, &eps},       {"end", 1, &s->end},   {"step", 1, &s->step},  {"tolerance", 1, &s->tolerance}};
+    } rows[] = {{"k", 1, &scene->params.k}, {"J", 3, scene->params.J},
+                {"D", 1, &scene->params.D}, {"start", 6, scene->start.y},
+                {"eps", 1, &eps},           {"end", 1, &scene->end},
+                {"step", 1, &scene->step},  {"tolerance", 1, &scene->tolerance}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (strcmp(rows[i].key, key) == 0) {
             memcpy(values, rows[i].from, (size_t)rows[i].count * sizeof *values);
@@ -122,11 +121,10 @@ int iso_scene_numbers(const iso_scene *scene, const char *key, double values[6])
 
 const char *iso_scene_word(const iso_scene *scene, const char *key)
 {
-    const iso_scene *s = scene;
-    if (strcmp(key, "model") == 0) return iso_model_kind_name((int)s->start.model);
-    if (strcmp(key, "backend") == 0) return iso_backend_name((int)s->backend);
-    if (strcmp(key, "method") == 0) return s->method;
-    if (strcmp(key, "as") == 0) return iso_models_name((int)s->as);
+    if (strcmp(key, "model") == 0) return iso_model_kind_name((int)scene->start.model);
+    if (strcmp(key, "backend") == 0) return iso_backend_name((int)scene->backend);
+    if (strcmp(key, "method") == 0) return scene->method;
+    if (strcmp(key, "as") == 0) return iso_models_name((int)scene->as);
     return strcmp(key, "name") == 0 ? scene->name : NULL;
 }
 
@@ -135,11 +133,7 @@ iso_status iso_scene_text(iso_context *ctx, const iso_scene *scene, char text[],
     iso_memory memory;
     FILE *to = iso_memory_open(&memory);
     if (to) iso_scene_print(scene, to);
-    char *whole = iso_memory_close(to, &memory);
-    *length = memory.used;
-    if (whole && room > 0) snprintf(text, room, "%s", whole);
-    free(whole);
-    return whole ? ISO_OK : iso_context_no_memory(ctx, "a scene");
+    return iso_text_give(ctx, to, &memory, text, room, length);
 }
 
 int iso_scene_columns(const iso_scene *scene, int columns[])

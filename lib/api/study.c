@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "api/interface_impl.h"
-#include "base/fold_impl.h"
 #include "base/nearest_impl.h"
 #include "base/record_impl.h"
 #include "picture/picture.h"
@@ -54,11 +53,7 @@ iso_status iso_study_text(iso_context *ctx, const iso_record *table, int width, 
     FILE *to = iso_memory_open(&memory);
     const char *raw = iso_record_text(table);
     if (to && raw) iso_fold(to, raw, width);
-    char *folded = iso_memory_close(to, &memory);
-    *length = memory.used;
-    if (folded && room > 0) snprintf(text, room, "%s", folded);
-    free(folded);
-    return folded ? ISO_OK : iso_context_no_memory(ctx, "a text");
+    return iso_text_give(ctx, to, &memory, text, room, length);
 }
 
 /* --- what there is ---------------------------------------------------------------------------------------------- */
@@ -110,13 +105,9 @@ iso_status iso_list(iso_context *ctx, const char *topic, char text[], size_t roo
 {
     iso_memory memory;
     FILE *to = iso_memory_open(&memory);
-    if (!to) return iso_context_no_memory(ctx, "a list");
-    const iso_status status = iso_list_print(ctx, topic, to);
-    char *words = iso_memory_close(to, &memory);
-    *length = memory.used;
-    if (words && room > 0) snprintf(text, room, "%s", words);
-    free(words);
-    return words ? status : iso_context_no_memory(ctx, "a list");
+    const iso_status status = to ? iso_list_print(ctx, topic, to) : ISO_OK,
+                     given = iso_text_give(ctx, to, &memory, text, room, length);
+    return status == ISO_OK ? given : status;
 }
 
 /* --- tables ----------------------------------------------------------------------------------------------------- */

@@ -101,13 +101,14 @@ static iso_status explain(iso_context *ctx, const char *path, const char *text, 
     status = iso_sweep_explain(ctx, file, &words);
     iso_sweep_file_free(file);
     if (status == ISO_OK) status = iso_record_create(ctx, 0, NULL, record);
-    if (status == ISO_OK) iso_record_set_kind(*record, "explain");
-    if (status == ISO_OK) iso_record_keep_text(*record, words);
-    if (status != ISO_OK) free(words);
-    if (status != ISO_OK) {
-        iso_record_free(*record);
-        *record = NULL;
+    if (status == ISO_OK) {
+        iso_record_set_kind(*record, "explain");
+        iso_record_keep_text(*record, words);
+        return ISO_OK;
     }
+    free(words);
+    iso_record_free(*record);
+    *record = NULL;
     return status;
 }
 

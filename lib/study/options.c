@@ -123,22 +123,31 @@ const char *iso_option_gone(const char *command, const char *name)
     return NULL;
 }
 
-iso_status iso_study_set(iso_context *ctx, const iso_study *study, const char *name, const char *text, void *options)
+const iso_option *iso_study_option_find(const iso_study *study, const char *name, size_t length)
 {
     const iso_option *o = study->options;
-    const char *names[32];
+    while (o->name && (strlen(o->name) != length || strncmp(o->name, name, length) != 0)) o++;
+    return o->name ? o : NULL;
+}
+
+static iso_status refuse_option(iso_context *ctx, const iso_study *study, const char *name)
+{
+    const char *names[32], *gone = iso_option_gone(study->name, name);
     char suggested[ISO_SUGGEST_SIZE];
     size_t count = 0;
-    for (; o->name && strcmp(o->name, name) != 0; o++) {
-        if (count < sizeof names / sizeof *names) names[count++] = o->name;
-    }
-    const char *gone = o->name ? NULL : iso_option_gone(study->name, name);
     if (gone)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "%s has no option '%s' any more: %s", study->name, name,
                                 gone);
-    if (!o->name)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "%s has no option '%s'; %s", study->name, name,
-                                iso_suggest(suggested, name, count, names));
+    for (const iso_option *o = study->options; o->name && count < sizeof names / sizeof *names; o++)
+        names[count++] = o->name;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "%s has no option '%s'; %s", study->name, name,
+                            iso_suggest(suggested, name, count, names));
+}
+
+iso_status iso_study_set(iso_context *ctx, const iso_study *study, const char *name, const char *text, void *options)
+{
+    const iso_option *o = iso_study_option_find(study, name, strlen(name));
+    if (!o) return refuse_option(ctx, study, name);
     if (o->argument ? o->set((char *)options + o->offset, text)
                     : strcmp(text, "true") == 0 && o->set((char *)options + o->offset, text))
         return ISO_OK;

@@ -23,14 +23,6 @@ static iso_status refuse_subject(iso_context *ctx, const iso_study *study, const
     return ISO_OK;
 }
 
-/* The row of an option, of which `length` characters are the name; NULL: there is none. */
-static const iso_option *option_of(const iso_study *study, const char *name, size_t length)
-{
-    const iso_option *o = study->options;
-    while (o->name && (strlen(o->name) != length || strncmp(o->name, name, length) != 0)) o++;
-    return o->name ? o : NULL;
-}
-
 /* Ends the words of text, which then are names and values in turn. */
 static iso_status set_options(iso_context *ctx, const iso_study *study, char *text, void *how)
 {
@@ -96,7 +88,7 @@ static char *command_of(const iso_study *study, const char *name, const char *op
     fprintf(to, "isoroll %s", study->name);
     for (const char *o = options; *o; o += *o == '\n') {
         const size_t length_of_name = strcspn(o, "=\n"), line = strcspn(o, "\n");
-        const iso_option *row = option_of(study, o, length_of_name);
+        const iso_option *row = iso_study_option_find(study, o, length_of_name);
         if (row && !row->aside) {
             const char *value = o + length_of_name + 1;
             const int rest = (int)(line - length_of_name - 1);
@@ -126,7 +118,6 @@ static iso_status ask(iso_context *ctx, const iso_study *study, const iso_study_
 iso_status iso_study_ask_text(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,
                               const char *options, iso_study_result *result)
 {
-    ISO_TRY(refuse_subject(ctx, study, subject));
     char *text = strdup(options ? options : "");
     void *how = malloc(study->size);
     const iso_status status =

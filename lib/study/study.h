@@ -119,6 +119,9 @@ const iso_study *iso_study_find(const char *name);
  * name. */
 iso_status iso_study_set(iso_context *ctx, const iso_study *study, const char *name, const char *text, void *options);
 
+/* The row of an option, of which `length` characters are the name; NULL: there is none. */
+const iso_option *iso_study_option_find(const iso_study *study, const char *name, size_t length);
+
 /* Runs a study. options: lines NAME=VALUE with a newline between, or NULL. Errors: ISO_BAD_ARGUMENT about an option,
  * or about "scene" or "record", which the study needs; those of the study. Without a row the tables are NULL then. */
 iso_status iso_study_ask_text(iso_context *ctx, const iso_study *study, const iso_study_subject *subject,

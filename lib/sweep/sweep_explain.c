@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/context_impl.h"
+#include "base/fold_impl.h"
 #include "base/pool_impl.h"
 #include "base/seconds_impl.h"
 #include "sweep/sweep_impl.h"
@@ -125,16 +126,16 @@ iso_status iso_sweep_explain(iso_context *ctx, const iso_sweep_file *file, char 
     const iso_sweep_plan *plan = iso_sweep_file_plan(file);
     cost costs[ISO_SWEEP_REQUESTS] = {{.mean = 0}};
     iso_sweep *sweep;
-    size_t size;
+    iso_memory memory;
     *text = NULL;
     ISO_TRY(iso_sweep_create(ctx, plan, &sweep));
     const iso_sweep_head *head = iso_sweep_head_of(sweep);
     iso_status status = ISO_OK;
     for (int i = 0; i < plan->requests && status == ISO_OK; i++)
         status = measure_quantity(ctx, plan, i, head->chunk, &costs[i]);
-    FILE *to = status == ISO_OK ? open_memstream(text, &size) : NULL;
+    FILE *to = status == ISO_OK ? iso_memory_open(&memory) : NULL;
     if (to) tell(to, file, head, costs);
-    if (status == ISO_OK && (!to || fclose(to) != 0)) status = iso_context_no_memory(ctx, "words");
+    if (status == ISO_OK && !(*text = iso_memory_close(to, &memory))) status = iso_context_no_memory(ctx, "words");
     iso_sweep_free(sweep);
     return status;
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/fold_impl.h"
 #include "base/names_impl.h"
 #include "base/number_impl.h"
 #include "base/version.h"
@@ -62,10 +63,9 @@ static iso_status read_scene(iso_context *ctx, iso_sweep_file *f, const yaml_nod
 /* The text of an option: a number or a word as it stands, numbers of a list with commas between. NULL: it is none. */
 static char *option_text(iso_yaml *y, const yaml_node_t *n)
 {
-    char *text = NULL;
-    size_t size;
+    iso_memory memory;
     bool good = n->type == YAML_SCALAR_NODE || n->type == YAML_SEQUENCE_NODE;
-    FILE *to = good ? open_memstream(&text, &size) : NULL;
+    FILE *to = good ? iso_memory_open(&memory) : NULL;
     if (!to) return NULL;
     if (n->type == YAML_SCALAR_NODE) fputs((const char *)n->data.scalar.value, to);
     for (yaml_node_item_t *i = n->data.sequence.items.start;
@@ -75,7 +75,8 @@ static char *option_text(iso_yaml *y, const yaml_node_t *n)
         if (good)
             fprintf(to, "%s%s", i > n->data.sequence.items.start ? "," : "", (const char *)item->data.scalar.value);
     }
-    if (fclose(to) == 0 && good && !strchr(text, '\n')) return text;
+    char *text = iso_memory_close(to, &memory);
+    if (good && text && !strchr(text, '\n')) return text;
     free(text);
     return NULL;
 }
@@ -88,17 +89,16 @@ static iso_status read_option(iso_sweep_file *f, const iso_study *study, const y
     const yaml_node_t *key = iso_yaml_node(&f->yaml, p->key), *value = iso_yaml_node(&f->yaml, p->value);
     if (key->type == YAML_SCALAR_NODE) snprintf(name, sizeof name, "%s", (const char *)key->data.scalar.value);
     for (char *c = name; *c; c++) *c = *c == '_' ? '-' : *c;
-    const iso_option *o = study->options;
-    while (o->name && strcmp(o->name, name) != 0) o++;
-    if (o->name && o->aside) return ISO_FAIL_AT(f, key, "'%s' changes no number", name);
+    const iso_option *o = iso_study_option_find(study, name, strlen(name));
+    if (o && o->aside) return ISO_FAIL_AT(f, key, "'%s' changes no number", name);
     char *text = option_text(&f->yaml, value);
     if (!text) return iso_yaml_expected(&f->yaml, value, name, "a number, a word or a list of numbers");
     iso_status status = ISO_OK;
-    if (!o->name || o->argument || strcmp(text, "false") != 0) {
+    if (!o || o->argument || strcmp(text, "false") != 0) {
         status = iso_study_set(f->yaml.ctx, study, name, text, options);
         fprintf(to, "%s=%s\n", name, text);
     }
-    if (status != ISO_OK) status = ISO_FAIL_AT(f, o->name ? value : key, "%s", iso_context_message(f->yaml.ctx));
+    if (status != ISO_OK) status = ISO_FAIL_AT(f, o ? value : key, "%s", iso_context_message(f->yaml.ctx));
     free(text);
     return status;
 }
@@ -106,11 +106,11 @@ static iso_status read_option(iso_sweep_file *f, const iso_study *study, const y
 /* Reads the options of a quantity as text for its study, which is asked whether they are right. */
 static iso_status read_options(iso_sweep_file *f, const iso_study *study, const yaml_node_t *mapping, char **text)
 {
-    size_t size;
+    iso_memory memory;
     iso_status status = ISO_OK;
     if (mapping->type != YAML_MAPPING_NODE) return iso_yaml_expected(&f->yaml, mapping, study->name, "a mapping");
     void *options = malloc(study->size);
-    FILE *to = open_memstream(text, &size);
+    FILE *to = iso_memory_open(&memory);
     if (options) study->begin(options);
     const yaml_node_pair_t *first = mapping->data.mapping.pairs.start, *end = mapping->data.mapping.pairs.top;
     for (const yaml_node_pair_t *p = first; to && options && p < end && status == ISO_OK; p++) {
@@ -119,8 +119,8 @@ static iso_status read_options(iso_sweep_file *f, const iso_study *study, const 
             status = iso_yaml_once(&f->yaml, mapping, key, (const char *)key->data.scalar.value);
         if (status == ISO_OK) status = read_option(f, study, p, options, to);
     }
-    const bool memory = to && options;
-    if ((to && fclose(to) != 0) || !memory) status = iso_context_no_memory(f->yaml.ctx, "a sweep");
+    *text = iso_memory_close(to, &memory);
+    if (!*text || !options) status = iso_context_no_memory(f->yaml.ctx, "a sweep");
     free(options);
     return status;
 }

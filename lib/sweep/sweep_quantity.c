@@ -176,38 +176,30 @@ const char *iso_sweep_option(const char *options, const char *name)
     return value;
 }
 
-static bool has_option(const iso_study *study, const char *name)
-{
-    const iso_option *o = study->options;
-    while (o->name && strcmp(o->name, name) != 0) o++;
-    return o->name != NULL;
-}
-
 bool iso_sweep_has_option(const char *quantity, const char *option)
 {
     const iso_study *study = iso_sweep_study(quantity);
-    return study && has_option(study, option);
+    return study && iso_study_option_find(study, option, strlen(option));
 }
 
 /* Those that the plan makes, then those of the request. One thread: a chunk is computed by one. NULL: no memory. */
 static char *options_text(const iso_sweep_plan *plan, const iso_sweep_request *request, const iso_study *study)
 {
-    char *text = NULL, number[ISO_NUMBER_SIZE];
-    size_t size;
-    FILE *to = open_memstream(&text, &size);
+    char number[ISO_NUMBER_SIZE];
+    iso_memory memory;
+    FILE *to = iso_memory_open(&memory);
     if (!to) return NULL;
     const struct {
         const char *name;
         double value;
     } made[] = {{"threads", 1}, {"turns", plan->turns}, {"t-end", plan->time}};
     for (size_t i = 0; i < sizeof made / sizeof *made; i++) {
+        const bool has = iso_study_option_find(study, made[i].name, strlen(made[i].name));
         iso_number_print(number, made[i].value);
-        if (!isnan(made[i].value) && has_option(study, made[i].name)) fprintf(to, "%s=%s\n", made[i].name, number);
+        if (!isnan(made[i].value) && has) fprintf(to, "%s=%s\n", made[i].name, number);
     }
     fputs(request->options ? request->options : "", to);
-    if (fclose(to) == 0) return text;
-    free(text);
-    return NULL;
+    return iso_memory_close(to, &memory);
 }
 
 /* --- jobs -------------------------------------------------------------------------------------------------------- */

@@ -156,8 +156,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
 {
     const iso_scene *of = subject->scene;
     double point[ISO_STATE], end = 0;
-    char *text = NULL;
-    size_t size;
+    iso_memory memory;
     iso_scene scene;
     iso_analogue_found *f = iso_study_keep(result, calloc(1, sizeof *f), fields, free_found);
     if (!f) return iso_context_no_memory(ctx, "a ball");
@@ -166,10 +165,10 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     ISO_TRY(iso_analogue_scene(ctx, &f->ball, point, end, &scene));
     if (!of) scene.end = iso_analogue_round_up(scene.end);
     if (of && of->step > 0 && end != 0) scene.step = fabs(scene.end) / (fabs(end) / of->step);
-    FILE *to = open_memstream(&text, &size);
+    FILE *to = iso_memory_open(&memory);
     if (to) report(to, &f->analogue, of, &scene);
-    if (!to || fclose(to) != 0) return free(text), iso_context_no_memory(ctx, "words");
-    f->text = text;
+    f->text = iso_memory_close(to, &memory);
+    if (!f->text) return iso_context_no_memory(ctx, "words");
     return iso_study_table(ctx, "analogue", &scene, fields, f, NULL, &result->table[0]);
 }
 

@@ -301,8 +301,7 @@ static iso_status fill(iso_context *ctx, const iso_scene *scene, iso_explanation
 {
     iso_orbit *orbit;
     int columns[ISO_MAX_COLUMNS];
-    char *text = NULL;
-    size_t size;
+    iso_memory memory;
     const int count = iso_scene_column_list(scene, columns);
     ISO_TRY(iso_scene_orbit(ctx, scene, columns, count, &orbit));
     *e = (iso_explanation){.backend = iso_backend_name((int)iso_orbit_backend(orbit)),
@@ -310,10 +309,10 @@ static iso_status fill(iso_context *ctx, const iso_scene *scene, iso_explanation
                            .twin = iso_orbit_has_twin(orbit),
                            .integrability = iso_integrability_name(integrability_of(scene, orbit).kind),
                            .rows = iso_scene_rows(scene)};
-    FILE *to = open_memstream(&text, &size);
+    FILE *to = iso_memory_open(&memory);
     iso_status status = to ? explain(ctx, to, scene, orbit, columns, count) : ISO_OK;
-    if (!to || fclose(to) != 0) status = iso_context_no_memory(ctx, "words");
-    e->text = text;
+    e->text = iso_memory_close(to, &memory);
+    if (!e->text) status = iso_context_no_memory(ctx, "words");
     iso_orbit_free(orbit);
     return status;
 }
