@@ -21,7 +21,7 @@ build() {
 build one "$@"
 build another/much/longer.name "$@"
 different=0 same=0
-for file in isoroll isoroll-mpi libisoroll.so.0.2.0 libisoroll.a isoroll.pc $(cd "$work/one/out" && ls ./*.deb man/man1/* man/*soroll 2>/dev/null); do
+for file in isoroll isoroll-mpi libisoroll.so.0.3.0 libisoroll.a isoroll.pc $(cd "$work/one/out" && ls ./*.deb man/man1/* man/*soroll 2>/dev/null); do
     [ -e "$work/one/out/$file" ] || continue
     if cmp "$work/one/out/$file" "$work/another/much/longer.name/out/$file"; then
         same=$((same + 1))

@@ -9,7 +9,7 @@
 #include "api.h"
 
 #define ISO_VERSION_MAJOR 0
-#define ISO_VERSION_MINOR 2
+#define ISO_VERSION_MINOR 3
 #define ISO_VERSION_PATCH 0
 
 /* "MAJOR.MINOR.PATCH" */
@@ -19,7 +19,7 @@
 
 ISO_C_BEGIN
 
-/* The version of the library that runs, such as "0.2.0". */
+/* The version of the library that runs, such as "0.3.0". */
 ISO_API const char *iso_version(void);
 
 ISO_C_END

@@ -1,3 +1,3 @@
 """The version of this package; tests/cli/python.sh compares it with that of the library (lib/base/version.h)."""
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
