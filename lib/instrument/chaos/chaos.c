@@ -8,7 +8,6 @@
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "instrument/chaos/chaos_impl.h"
-#include "instrument/section/section_impl.h"
 #include "map/section_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"

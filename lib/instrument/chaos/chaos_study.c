@@ -2,7 +2,6 @@
 #include <stdlib.h>
 
 #include "instrument/chaos/chaos_impl.h"
-#include "instrument/section/section_impl.h"
 #include "study/fields_impl.h"
 #include "study/options_impl.h"
 

@@ -43,8 +43,7 @@ static void print_both(FILE *to, const iso_section_result *r)
         fprintf(to, "ball and point, each by itself: %zu and %zu crossings; %zu orbits have different numbers\n",
                 r->crossings[ISO_BALL], r->crossings[ISO_POINT], r->unequal);
     if (r->distance > 0)
-        fprintf(to,
-                "largest distance of the two%s, where they do not part: %.2g, at orbit %zu, crossing %zu\n",
+        fprintf(to, "largest distance of the two%s, where they do not part: %.2g, at orbit %zu, crossing %zu\n",
                 r->nature.axis < 0 ? " in t, by the mean time between crossings" : " in (l, x)", r->distance,
                 r->distance_orbit, r->distance_crossing);
     if (r->parted > 0)
