@@ -236,15 +236,6 @@ ISO_API iso_status iso_record_read(iso_context *ctx, const char *path, const cha
 ISO_API iso_status iso_record_write(iso_context *ctx, const char *path, const iso_record *record, int digits,
                                     const char *kind);
 
-/* Converts a record to the model `to`, "ball" or "point" (task/convert/convert.h). k, J and h or eps are in its lines.
- * shift_J: see iso_conversion_options. row_tolerance: see iso_record_set_row_tolerance.
- * *out has a row for each row of `in`, and the lines of `isoroll convert`.
- * Notes: the rows do not solve the equations that their lines state.
- * Errors: as iso_convert, ISO_BAD_ARGUMENT about "to", "row_tolerance". */
-ISO_API iso_status iso_record_convert(iso_context *ctx, const iso_record *in, const char *to, double tolerance,
-                                      double row_tolerance, bool shift_J, iso_record **out, char notes[],
-                                      size_t room);
-
 ISO_C_END
 
 #endif

@@ -22,13 +22,14 @@ static iso_status begin(iso_conversion *c, const double row[], const conversion_
                          .width = iso_record_columns(c->in),
                          .open = iso_conversion_open,
                          .data = c};
-    if (c->own_column >= 0) status = iso_rows_begin(&c->rows, c->first, row, c->tolerance);
+    if (c->own_column >= 0) status = iso_rows_begin(&c->rows, c->first, row, c->how->tolerance);
     if (status == ISO_OK) status = iso_conversion_describe(c, r->time, &header);
     if (status != ISO_OK) return status;
-    status = c->target.header(c->target.data, header);
+    c->width = iso_record_columns(header);
+    status = c->sink.header(c->sink.data, 0, header);
     iso_record_free(header);
     c->begun = true;
-    for (; status == ISO_OK && c->marks > 0; c->marks--) status = c->target.row(c->target.data, NULL);
+    for (; status == ISO_OK && c->marks > 0; c->marks--) status = iso_conversion_write(c, NULL);
     return status;
 }
 
@@ -67,7 +68,7 @@ iso_status iso_conversion_put(iso_conversion *c, const double row[], size_t line
     c->good++;
     if (!c->begun) status = begin(c, row, &r);
     if (status != ISO_OK) return status;
-    return c->own_column >= 0 ? iso_conversion_follow(c, row, &r) : c->target.row(c->target.data, r.out);
+    return c->own_column >= 0 ? iso_conversion_follow(c, row, &r) : iso_conversion_write(c, r.out);
 }
 
 iso_status iso_conversion_skip(iso_conversion *c)
@@ -147,26 +148,24 @@ static iso_status read_lines(iso_conversion *c)
 }
 
 iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header,
-                                 iso_model_kind to, const iso_conversion_options *options,
-                                 const iso_conversion_target *target, iso_conversion **conversion)
+                                 const iso_convert_request *how, const char *name, const iso_sink *sink,
+                                 iso_conversion **conversion)
 {
     iso_conversion *c = *conversion = calloc(1, sizeof *c);
     if (!c) return iso_context_no_memory(ctx, "a conversion");
     c->ctx = ctx;
     c->params = params;
     c->in = header;
-    c->target = *target;
-    c->from = to == ISO_BALL ? ISO_POINT : ISO_BALL;
-    iso_conversion_options own = iso_conversion_defaults();
-    if (options) own = *options;
-    c->tolerance = own.tolerance;
-    c->row_tolerance = own.row_tolerance > 0 ? own.row_tolerance : iso_record_row_tolerance(header);
-    c->shift_J = own.shift_J;
+    c->how = how;
+    c->name = name;
+    c->sink = *sink;
+    c->from = how->to == ISO_BALL ? ISO_POINT : ISO_BALL;
+    c->row_tolerance = iso_record_row_tolerance(header);
     const double miss = iso_rows_largest_miss(ctx, header, c->row_tolerance);
-    c->summary.max_defect = isnan(own.max_defect) ? miss : own.max_defect;
-    c->summary.max_drift = isnan(own.max_defect) ? miss : INFINITY;
+    c->summary.max_defect = isnan(how->max_defect) ? miss : how->max_defect;
+    c->summary.max_drift = isnan(how->max_defect) ? miss : INFINITY;
     iso_status status = find_columns(c);
-    if (status == ISO_OK && c->shift_J && (c->from != ISO_POINT || params->k != -1))
+    if (status == ISO_OK && how->shift_J && (c->from != ISO_POINT || params->k != -1))
         status = ISO_FAIL_ARGUMENT(ctx, "shift-J", "energy can shift J for a point with k = -1 alone");
     if (status == ISO_OK) status = read_lines(c);
     if (status == ISO_OK) return ISO_OK;
@@ -189,55 +188,38 @@ void iso_conversion_free(iso_conversion *c)
 typedef struct whole {
     iso_context *ctx;
     iso_record *out;
-    size_t first_row;
 } whole;
 
-static iso_status keep_header(void *data, const iso_record *header)
+static iso_status keep_header(void *data, int table, const iso_record *header)
 {
     whole *w = data;
+    (void)table;
     return iso_record_create_like(w->ctx, header, 0, NULL, &w->out);
 }
 
-static iso_status keep_row(void *data, const double row[])
+static iso_status keep_row(void *data, int table, const double row[], size_t count)
 {
     whole *w = data;
+    (void)table, (void)count;
     return iso_record_add(w->ctx, w->out, 1, row);
-}
-
-static iso_status stop_at(void *data, size_t line, iso_status why, const char *words)
-{
-    const whole *w = data;
-    return iso_context_fail(w->ctx, why, "", "row %zu: %s", line - 1 + w->first_row, words);
-}
-
-/* A missed row ends nothing: the summary counts it. */
-static iso_status go_on(void *data, size_t line, const char *words)
-{
-    (void)data, (void)line, (void)words;
-    return ISO_OK;
 }
 
 iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
                        double tolerance, iso_record **out)
 {
-    iso_conversion_options options = iso_conversion_defaults();
-    options.tolerance = tolerance;
-    return iso_convert_as(ctx, params, in, to, &options, NULL, out);
-}
-
-iso_status iso_convert_as(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
-                          const iso_conversion_options *options, iso_conversion_summary *summary, iso_record **out)
-{
     ISO_DEFAULT_ARITHMETIC;
-    whole w = {.ctx = ctx, .first_row = options->first_row};
-    const iso_conversion_target target = {keep_header, keep_row, stop_at, go_on, &w};
+    whole w = {.ctx = ctx};
+    const iso_sink sink = {.header = keep_header, .row = keep_row, .data = &w};
+    iso_convert_request how = ISO_CONVERT_UNSET;
     iso_conversion *c;
+    how.to = to;
+    how.tolerance = tolerance;
     *out = NULL;
-    iso_status status = iso_conversion_create(ctx, params, in, to, options, &target, &c);
+    iso_status status = iso_conversion_create(ctx, params, in, &how, NULL, &sink, &c);
     if (status != ISO_OK) return status;
     for (size_t row = 0; status == ISO_OK && row < iso_record_rows(in); row++)
         status = iso_conversion_put(c, iso_record_const_row(in, row), row + 1);
-    if (status == ISO_OK) status = iso_conversion_end(c, summary);
+    if (status == ISO_OK) status = iso_conversion_end(c, NULL);
     iso_conversion_free(c);
     if (status != ISO_OK) iso_record_free(w.out), w.out = NULL;
     *out = w.out;
