@@ -1,10 +1,9 @@
-/* common.c - what the calls for other languages share: notes, words, and the slow monitor. */
+/* common.c - what the calls for other languages share: notes, and the slow monitor. */
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "api/interface_impl.h"
-#include "base/nearest_impl.h"
 
 int iso_interface(void)
 {
@@ -29,18 +28,6 @@ void iso_notes_add(notes *n, const char *words)
 {
     if (n->used > 0) put(n, "\n");
     put(n, words);
-}
-
-/* --- words ------------------------------------------------------------------------------------------------------ */
-
-iso_status iso_word_find(iso_context *ctx, const char *key, const char *(*name)(int), const char *word, int *number)
-{
-    char suggested[ISO_SUGGEST_SIZE];
-    if (!word) word = "auto";
-    for (*number = 0; name(*number); ++*number)
-        if (strcmp(name(*number), word) == 0) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "%s cannot be '%s'; %s", key, word,
-                            iso_suggest_word(suggested, word, name));
 }
 
 /* --- the monitor ------------------------------------------------------------------------------------------------ */

@@ -21,8 +21,4 @@ void iso_notes_add(notes *n, const char *words);
 /* Puts the place in the scene before a failure (iso_scene_blame). */
 iso_status iso_blame_scene(iso_context *ctx, const iso_scene *scene, iso_status status);
 
-/* The number of a word in a list of names that NULL ends, NULL being "auto".
- * Errors: ISO_BAD_ARGUMENT about `key`. */
-iso_status iso_word_find(iso_context *ctx, const char *key, const char *(*name)(int), const char *word, int *number);
-
 #endif

@@ -2,12 +2,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "api/typed_impl.h"
 #include "base/number_impl.h"
 #include "hard.h"
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/frequencies/frequencies_impl.h"
 #include "instrument/frequencies/momentum.h"
-#include "api/typed_impl.h"
 #include "orbit/orbit_impl.h"
 #include "sweep.h"
 #include "task/analogue.h"
@@ -59,7 +59,7 @@ static iso_status convert(iso_context *ctx, const void *data, const double v[], 
     iso_record *in = NULL, *out = NULL;
     iso_status status = iso_params_reduced(ctx, k, J, &p);
     if (status == ISO_OK) status = make_record(ctx, &p, c->point, v, c->row, &in);
-    if (status == ISO_OK) status = iso_convert(ctx, &p, in, c->point ? ISO_BALL : ISO_POINT, v[ROW], &out);
+    if (status == ISO_OK) status = iso_convert(ctx, in, c->point ? ISO_BALL : ISO_POINT, v[ROW], &out);
     if (status == ISO_OK) give_record(a, out);
     iso_record_free(in);
     iso_record_free(out);

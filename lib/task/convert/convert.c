@@ -1,4 +1,4 @@
-/* convert.c - the calls of a conversion: begin, one row after the other, end; and conversions of whole records. */
+/* convert.c - the calls of a conversion: begin, one row after the other, end. */
 #include "task/convert/convert.h"
 
 #include <math.h>
@@ -181,47 +181,4 @@ void iso_conversion_free(iso_conversion *c)
     iso_orbit_free(c->first);
     free(c->first_words);
     free(c);
-}
-
-/* --- whole records ---------------------------------------------------------------------------------------------- */
-
-typedef struct whole {
-    iso_context *ctx;
-    iso_record *out;
-} whole;
-
-static iso_status keep_header(void *data, int table, const iso_record *header)
-{
-    whole *w = data;
-    (void)table;
-    return iso_record_create_like(w->ctx, header, 0, NULL, &w->out);
-}
-
-static iso_status keep_row(void *data, int table, const double row[], size_t count)
-{
-    whole *w = data;
-    (void)table, (void)count;
-    return iso_record_add(w->ctx, w->out, 1, row);
-}
-
-iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
-                       double tolerance, iso_record **out)
-{
-    ISO_DEFAULT_ARITHMETIC;
-    whole w = {.ctx = ctx};
-    const iso_sink sink = {.header = keep_header, .row = keep_row, .data = &w};
-    iso_convert_request how = ISO_CONVERT_UNSET;
-    iso_conversion *c;
-    how.to = to;
-    how.tolerance = tolerance;
-    *out = NULL;
-    iso_status status = iso_conversion_create(ctx, params, in, &how, NULL, &sink, &c);
-    if (status != ISO_OK) return status;
-    for (size_t row = 0; status == ISO_OK && row < iso_record_rows(in); row++)
-        status = iso_conversion_put(c, iso_record_const_row(in, row), row + 1);
-    if (status == ISO_OK) status = iso_conversion_end(c, NULL);
-    iso_conversion_free(c);
-    if (status != ISO_OK) iso_record_free(w.out), w.out = NULL;
-    *out = w.out;
-    return status;
 }

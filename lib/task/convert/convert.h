@@ -57,13 +57,13 @@ typedef struct iso_conversion_summary {
 } iso_conversion_summary;
 
 /* Converts `in` to the model `to`. *out has the clock, then the six columns, and one row for each row of `in`; a row that
- * is not on the orbit of the row before, or before it in time, as it stands. The study `convert` does the same, and
- * counts such rows. Errors; messages give the number of the row, from 1:
+ * is not on the orbit of the row before, or before it in time, as it stands. It is the study `convert`, which also counts
+ * such rows. Errors; messages give the number of the row, from 1:
+ * - those of iso_record_params;
  * - ISO_BAD_INPUT: a row is no state;
  * - ISO_NOT_MAPPED: a row is at rest; the M of a point does not fit eps or h of the record and the energy of the
  *   first row; or an effect breaks the isomorphism;
  * - ISO_NUMERICAL, ISO_NO_MEMORY. */
-iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
-                       double tolerance, iso_record **out);
+iso_status iso_convert(iso_context *ctx, const iso_record *in, iso_model_kind to, double tolerance, iso_record **out);
 
 #endif

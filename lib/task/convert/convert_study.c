@@ -252,7 +252,7 @@ const iso_option iso_convert_option[] = {
                iso_set_flag, iso_convert_request, shift_J),
     ISO_OPTION("strict", NULL, NULL, "stop at the first row that is named", iso_set_flag, iso_convert_request,
                strict),
-    ISO_OPTION("quiet", NULL, NULL, "print no summary on stderr", iso_set_flag, iso_convert_request, quiet),
+    ISO_OPTION("quiet", NULL, NULL, "print no summary", iso_set_flag, iso_convert_request, quiet),
     ISO_OPTION_END,
 };
 
@@ -265,3 +265,17 @@ const iso_study iso_convert_study = {"convert",
                                      .run = run,
                                      .of = ISO_STUDY_OF_RECORD | ISO_STUDY_USES_SCENE | ISO_STUDY_STREAMS,
                                      .print = print};
+
+iso_status iso_convert(iso_context *ctx, const iso_record *in, iso_model_kind to, double tolerance, iso_record **out)
+{
+    iso_convert_request how = ISO_CONVERT_UNSET;
+    iso_study_result r = {.text = NULL};
+    how.to = to;
+    how.tolerance = tolerance;
+    how.added.row_tolerance = iso_record_row_tolerance(in);
+    const iso_status status = iso_study_answer(ctx, &iso_convert_study, &(iso_study_subject){.record = in}, &how, &r);
+    *out = status == ISO_OK ? r.table[0] : NULL;
+    if (status == ISO_OK) r.table[0] = NULL;
+    iso_study_result_free(&r);
+    return status;
+}
