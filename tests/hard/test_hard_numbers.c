@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/typed_impl.h"
 #include "exact/exact_impl.h"
 #include "hard.h"
+#include "api/typed_impl.h"
 #include "method/integrator_impl.h"
 #include "numbers.h"
 #include "sweep.h"

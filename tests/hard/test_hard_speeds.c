@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "api/typed_impl.h"
 #include "hard.h"
+#include "api/typed_impl.h"
 #include "laws.h"
 #include "map/state.h"
 #include "orbit/orbit_impl.h"

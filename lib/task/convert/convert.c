@@ -10,7 +10,6 @@
 #include "orbit/orbit_impl.h"
 #include "task/convert/convert_impl.h"
 
-/* The header, and the marks of rows before the first good one. */
 static iso_status begin(iso_conversion *c, const double row[], const conversion_row *r)
 {
     iso_record *header;
@@ -29,7 +28,6 @@ static iso_status begin(iso_conversion *c, const double row[], const conversion_
     status = c->sink.header(c->sink.data, 0, header);
     iso_record_free(header);
     c->begun = true;
-    for (; status == ISO_OK && c->marks > 0; c->marks--) status = iso_conversion_write(c, NULL);
     return status;
 }
 
@@ -78,24 +76,12 @@ iso_status iso_conversion_skip(iso_conversion *c)
     return iso_conversion_mark(c);
 }
 
-iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *summary)
-{
-    ISO_DEFAULT_ARITHMETIC;
-    c->summary.checked = c->begun && c->own_column >= 0;
-    if (c->summary.checked) iso_conversion_settle(c);
-    c->summary.clock = c->other;
-    if (summary) *summary = c->summary;
-    if (c->begun) return ISO_OK;
-    if (c->first_words) return iso_context_fail(c->ctx, c->first_failure, "", "%s", c->first_words);
-    return ISO_FAIL_INPUT(c->ctx, "", c->summary.rows ? "no row could be read" : "the trajectory has no rows");
-}
-
 static void add_worst(iso_worst *all, const iso_worst *one)
 {
     if (one->line > 0) iso_worst_note(all, one->value, one->line);
 }
 
-void iso_conversion_summary_add(iso_conversion_summary *all, const iso_conversion_summary *one)
+static void add_summary(iso_conversion_summary *all, const iso_conversion_summary *one)
 {
     const iso_conversion_summary before = *all;
     *all = *one;
@@ -115,6 +101,18 @@ void iso_conversion_summary_add(iso_conversion_summary *all, const iso_conversio
     if (before.stated_count == 0) return;
     all->stated_count = before.stated_count;
     memcpy(all->stated, before.stated, sizeof before.stated);
+}
+
+iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *all)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    c->summary.checked = c->begun && c->own_column >= 0;
+    if (c->summary.checked) iso_conversion_settle(c);
+    c->summary.clock = c->other;
+    add_summary(all, &c->summary);
+    if (c->begun) return ISO_OK;
+    if (c->first_words) return iso_context_fail(c->ctx, c->first_failure, "", "%s", c->first_words);
+    return ISO_FAIL_INPUT(c->ctx, "", c->summary.rows ? "no row could be read" : "the trajectory has no rows");
 }
 
 /* --- beginning and end ------------------------------------------------------------------------------------------ */

@@ -36,7 +36,7 @@ typedef struct iso_convert_found {
  *
  *     iso_conversion_create(ctx, &params, header, &how, name, &sink, &c);
  *     while (next(row)) status = iso_conversion_put(c, row, ++line);
- *     status = iso_conversion_end(c, &summary);
+ *     status = iso_conversion_end(c, &all);
  *     iso_conversion_free(c); */
 
 typedef struct iso_conversion iso_conversion;
@@ -85,7 +85,6 @@ struct iso_conversion {
     long max_steps;                       /* from it to the row in hand          */
     double longest;                       /* angle from a row to the next so far */
     bool unreached;                       /* its orbit did not get to the row behind it */
-    size_t marks;                         /* bad rows before the first good one                              */
     double direction, typical;            /* of time; size of defects                                   */
     double drift[ISO_STATE], late, moved; /* see iso_conversion_summary.drift                            */
     double gained;                        /* by the other clock meanwhile                                */
@@ -100,7 +99,7 @@ struct iso_conversion {
 /* Gives away a row; NULL: a mark in the place of a bad one. */
 iso_status iso_conversion_write(const iso_conversion *c, const double row[]);
 
-/* Marks the place of a bad row; those before the first good row are written with the header. */
+/* Marks the place of a bad row; if too many are bad before the first good one, this fails. */
 iso_status iso_conversion_mark(iso_conversion *c);
 
 /* Names a row of a file: a note, or with `strict` the error `why`. */
@@ -144,7 +143,7 @@ void iso_conversion_settle(iso_conversion *c);
 
 /* header: columns, lines and row tolerance of what is converted. It, params, how and name must outlive the conversion;
  * lines may be added to it meanwhile. name: of the file, in the names of rows; NULL: these are a record's, of which a bad
- * one ends the work, and missed ones are only counted. sink: its row can be NULL, a mark in the place of a bad row. The
+ * one ends the work, and missed ones are only counted. sink: its row can be NULL, a mark in the place of a bad row, also before the header. The
  * header must have the six columns of one model. The clock of the result is
  * - the column of the header, if it has the other model's clock;
  * - else computed, from the line `t0` or `s0` of an earlier conversion on, or from 0;
@@ -167,12 +166,9 @@ iso_status iso_conversion_put(iso_conversion *conversion, const double row[], si
 /* Call this in the place of a row that could not even be read. */
 iso_status iso_conversion_skip(iso_conversion *conversion);
 
-/* Call this after the last row. summary may be NULL. Errors: as for a row; if no row could be converted, the reason
- * for the first one. */
-iso_status iso_conversion_end(iso_conversion *conversion, iso_conversion_summary *summary);
-
-/* Adds the summary of one more orbit of a file to those before it: sums, and the worst of all. */
-void iso_conversion_summary_add(iso_conversion_summary *all, const iso_conversion_summary *one);
+/* Call this after the last row. Adds the summary to that of the orbits before: sums, and the worst of all. Errors: as
+ * for a row; if no row could be converted, the reason for the first one. */
+iso_status iso_conversion_end(iso_conversion *conversion, iso_conversion_summary *all);
 
 /* What is wrong with the rows as a whole, most at line *at; false: nothing. */
 enum { ISO_VERDICT_SIZE = 400 };

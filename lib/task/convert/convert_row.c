@@ -218,9 +218,7 @@ iso_status iso_conversion_write(const iso_conversion *c, const double row[])
 
 iso_status iso_conversion_mark(iso_conversion *c)
 {
-    if (c->begun) return iso_conversion_write(c, NULL);
-    c->marks++;
-    return c->summary.bad == HOPELESS ? give_up(c) : ISO_OK;
+    return !c->begun && c->summary.bad == HOPELESS ? give_up(c) : iso_conversion_write(c, NULL);
 }
 
 iso_status iso_conversion_name(const iso_conversion *c, size_t line, iso_status why, const char *text)

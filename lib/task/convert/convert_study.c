@@ -24,8 +24,8 @@ typedef struct work {
     iso_record *out;    /* the header of the result; NULL: not yet written */
     iso_convert_found *found;
     iso_source_row row;
-    size_t marks;       /* rows of orbits without a good row, which wait for the header */
-    iso_status failure; /* of the first such orbit */
+    size_t marks;       /* bad rows before the first good one, which wait for the header */
+    iso_status failure; /* of the first orbit without a good row */
     size_t named;
     bool began; /* the first row was asked for */
 } work;
@@ -58,13 +58,6 @@ static iso_status write_row(const work *w, const double row[])
     return w->to->row(w->to->data, 0, row, iso_record_columns(w->out));
 }
 
-/* A row of nan for each row of orbits without a good one. */
-static iso_status put_marks(work *w)
-{
-    for (; w->marks > 0; w->marks--) ISO_TRY(write_row(w, NULL));
-    return ISO_OK;
-}
-
 /* A file of several orbits has the column `orbit` before the others, and one header. The time at which the first
  * orbit begins is not that of the others. */
 static iso_status put_header(void *data, int table, const iso_record *header)
@@ -79,7 +72,8 @@ static iso_status put_header(void *data, int table, const iso_record *header)
     if (own) ISO_TRY(iso_record_set(w->ctx, w->out, "s0", NULL));
     iso_record_set_kind(w->out, "trajectory");
     if (w->to->header) ISO_TRY(w->to->header(w->to->data, table, w->out));
-    return put_marks(w);
+    for (; w->marks > 0; w->marks--) ISO_TRY(write_row(w, NULL));
+    return ISO_OK;
 }
 
 static iso_status put_row(void *data, int table, const double row[], size_t count)
@@ -87,6 +81,7 @@ static iso_status put_row(void *data, int table, const double row[], size_t coun
     work *w = data;
     double with_orbit[1 + ISO_TRAJECTORY_COLUMNS] = {w->row.orbit};
     (void)table;
+    if (!w->out) return w->marks++, ISO_OK;
     if (!row || !w->row.orbits) return write_row(w, row);
     memcpy(with_orbit + 1, row, count * sizeof *row);
     return write_row(w, with_orbit);
@@ -107,18 +102,15 @@ static iso_status begin_orbit(work *w)
     return iso_conversion_create(w->ctx, &w->params, w->in, w->how, w->found->name, &sink, &w->conversion);
 }
 
-/* Ends an orbit, and adds its summary to that of those before. */
+/* An orbit of several may have no good row. */
 static iso_status end_orbit(work *w)
 {
-    iso_conversion_summary one;
-    const iso_status status = iso_conversion_end(w->conversion, &one);
+    const iso_status status = iso_conversion_end(w->conversion, &w->found->all);
     iso_conversion_free(w->conversion);
     w->conversion = NULL;
-    iso_conversion_summary_add(&w->found->all, &one);
-    if (status == ISO_OK || !w->row.orbits || one.rows == 0 || one.bad < one.rows) return status;
-    w->marks += one.rows;
+    if (status == ISO_OK || !w->row.orbits) return status;
     if (w->failure == ISO_OK) w->failure = status;
-    return w->out ? put_marks(w) : ISO_OK;
+    return ISO_OK;
 }
 
 static iso_status convert_row(work *w, const iso_row_source *from)
