@@ -143,15 +143,17 @@ ISO_API iso_status iso_batch(iso_context *ctx, const iso_scene *const scene[], s
 
 /* Asks a study by its name: "run", "section", "chaos", ...
  * scene, record: what is studied. Most studies need a scene; run also takes a record of one column, its times; check
- *   needs a trajectory, and takes k, J and effects from a scene; analogue needs a scene or the problem in its options.
- *   NULL: not given.
+ *   and convert need a trajectory, and take k, J and effects from a scene; analogue needs a scene or the problem in its
+ *   options. NULL: not given.
  * options: lines NAME=VALUE with a newline between, or NULL. Names and values are those of the command, such as
  *   "starts=12\nat=0.5,0.2;1,-0.3\nmodel=both"; a flag is "NAME=true".
- * sink: takes notes and progress, and of run and section the rows as they are found, if its `row` is not NULL: they
+ * sink: takes notes and progress, and of run, section and convert the rows as they are found, if its `row` is not NULL: they
  *   are then in no table. NULL: nobody does.
  * table[]: those not made are NULL. The lines of table[0] are the scene's, the command line that makes it again, and
  *   the result by the names of the command's --json, but what the rows have. The caller frees each (iso_record_free).
  *   run: the trajectory; with verbose=true its lines errors.ball, .point, .t, .tau, .s are the largest errors.
+ *   convert: what its file holds, with a row for each row of the record; a bad one is an error. Notes: the rows do not
+ *     solve the equations that their lines state.
  *   section: what its file holds; if both models are integrated, the crossings as the point finds them, in the
  *     columns orbit, crossing, t, tau, s, l, x; with area: a row for each orbit and model.
  *   chaos: a row for each orbit, row 0 the scene's own, in the columns of the file of `isoroll chaos`; the indicators

@@ -16,7 +16,8 @@ enum { NAMED = 20 };
 typedef struct work {
     iso_context *ctx;
     const iso_convert_request *how;
-    iso_record *in; /* columns and lines */
+    const iso_study_subject *subject;
+    iso_record *in; /* columns and lines, and what is added to them */
     iso_params params;
     iso_conversion *conversion;
     iso_study_result *result;
@@ -96,8 +97,13 @@ static void name_row(void *data, const char *text)
 
 /* --- orbits ----------------------------------------------------------------------------------------------------- */
 
+/* Lines of a file can come before any of its orbits. */
 static iso_status begin_orbit(work *w)
 {
+    iso_record_free(w->in);
+    w->in = NULL;
+    ISO_TRY(iso_record_create_like(w->ctx, w->subject->record, 0, NULL, &w->in));
+    ISO_TRY(iso_added_params(w->ctx, &w->how->added, w->subject->scene, w->in, &w->params));
     const iso_sink sink = {.header = put_header, .row = put_row, .note = name_row, .data = w};
     return iso_conversion_create(w->ctx, &w->params, w->in, w->how, w->found->name, &sink, &w->conversion);
 }
@@ -173,14 +179,12 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     iso_kept_rows kept = {.record = subject->record, .sink = &result->sink};
     const iso_row_source own = {iso_kept_rows_next, &kept}, *from = subject->rows ? subject->rows : &own;
     iso_convert_found *found = iso_study_keep(result, calloc(1, sizeof *found), NULL, free);
-    work w = {.ctx = ctx, .how = options, .result = result, .to = &result->sink, .found = found};
+    work w = {.ctx = ctx, .subject = subject, .how = options, .result = result, .to = &result->sink, .found = found};
     if (!found) return iso_context_no_memory(ctx, "a conversion");
     found->name = subject->rows && w.to->row ? subject->name : NULL;
     w.row.more = true;
     w.row.number = calloc(iso_record_columns(subject->record) + 1, sizeof *w.row.number);
     iso_status status = w.row.number ? ISO_OK : iso_context_no_memory(ctx, "a row");
-    if (status == ISO_OK) status = iso_record_create_like(ctx, subject->record, 0, NULL, &w.in);
-    if (status == ISO_OK) status = iso_added_params(ctx, &w.how->added, subject->scene, w.in, &w.params);
     if (status == ISO_OK) status = convert_rows(&w, from);
     if (status == ISO_OK) status = end_rows(&w);
     if (w.named > NAMED) iso_study_note(result, "%s: %zu more rows are not named", found->name, w.named - NAMED);
