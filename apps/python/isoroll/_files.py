@@ -67,7 +67,8 @@ def convert(table: Union[Table, PathLike], to: str, *, tol: float = 1e-14, k: Op
     Returns a table with a row for each row: the clock, then omega, n or M, gamma. A warning says if the rows do not
     solve the equations that their lines state.
     """
-    options = {"to": to, "tol": tol, "k": k, "J": J, "eps": eps, "h": h, "row_tolerance": row_tolerance, "shift_J": shift_J}
+    options = {"to": to, "tol": tol, "k": k, "J": J, "eps": eps, "h": h, "row_tolerance": row_tolerance,
+               "shift_J": shift_J}
     found = ask("convert", scene, as_record(as_table(table, columns)), options, lambda rows, *_: rows)
     assert isinstance(found, Trajectory)
     return found
