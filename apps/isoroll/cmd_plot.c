@@ -6,7 +6,6 @@
 #include "io/table.h"
 #include "parameters.h"
 #include "plot/draw.h"
-#include "plot/plot.h"
 #include "sweep/sweep_store_impl.h"
 
 typedef struct options {
@@ -96,7 +95,7 @@ static iso_status draw_table(iso_context *ctx, const options *o, bool sweep)
                               : iso_table_read(ctx, o->from.file, NULL, NULL, &table, NULL);
     if (status == ISO_OK)
         status = sweep ? plot_tables(ctx, &o->page, (const iso_record *[]){table, NULL}, value)
-                       : iso_plot_table(ctx, &o->page, table);
+                       : plot_table(ctx, &o->page, table);
     iso_record_free(table);
     return sweep ? name_the_file(ctx, o->from.file, status) : status;
 }
@@ -116,9 +115,9 @@ static int run(iso_context *ctx, const void *options_given)
     const char *wish = iso_plot_section_wish(&o->page);
     if (!*kind) strcpy(kind, TRAJECTORY); /* a file of others */
     const bool trajectory = strcmp(kind, TRAJECTORY) == 0;
-    if (wish && (trajectory || o->from.columns || !iso_plot_has_kind(kind)))
+    if (wish && (trajectory || o->from.columns || !iso_picture_has(kind)))
         return complain("plot: --%s is for sections", wish), EXIT_USAGE;
-    if (!sweep && !iso_plot_has_kind(kind))
+    if (!sweep && !iso_picture_has(kind))
         return complain("plot: there is no picture of a table '%s'", kind), EXIT_USAGE;
     if (status == ISO_OK && o->value && !sweep)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "plot: --value is for results of sweeps");

@@ -5,38 +5,22 @@
  * right_name, up_name: names of the axes.
  */
 #include <math.h>
-#include <stdio.h>
 
 #include "picture/picture_impl.h"
 #include "study/verdict.h"
 
-static double exponent_of(const iso_record *r, size_t i)
-{
-    return iso_picture_number(r, i,
-                              iso_picture_is(r, i, "ball_verdict", "chaotic") ? "ball_per_turn" : "point_per_turn");
-}
-
-static iso_status say_axes(iso_context *ctx, int a, iso_picture *picture)
-{
-    static const char *const index[] = {"₁", "₂", "₃"};
-    char text[100];
-    snprintf(text, sizeof text, "l,  where γ%s = cos l, γ%s = −sin l", index[(a + 1) % 3], index[(a + 2) % 3]);
-    ISO_TRY(iso_picture_say(ctx, picture, "right_name", text));
-    snprintf(text, sizeof text, "M%s / |M|", index[a]);
-    return iso_picture_say(ctx, picture, "up_name", text);
-}
-
 static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
 {
-    static const char *const kinds[] = {"regular", "chaotic", "undecided"}, *const names[] = {"l", "x", "exponent"};
+    static const char *const kinds[] = {"regular", "chaotic", "undecided"};
     enum { REGULAR, CHAOTIC, UNDECIDED, KINDS };
     const iso_record *r = q->table[0];
     iso_record *of[KINDS];
     size_t all = 0;
     for (int kind = 0; kind < KINDS; kind++)
-        ISO_TRY(iso_picture_add(ctx, picture, kinds[kind], kind == CHAOTIC ? 3 : 2, names, &of[kind]));
+        ISO_TRY(iso_picture_add(ctx, picture, kinds[kind], kind == CHAOTIC ? "l x exponent" : "l x", &of[kind]));
     for (size_t i = 0; i < iso_record_rows(r); i++) {
-        const double exponent = exponent_of(r, i);
+        const bool by_ball = iso_picture_is(r, i, "ball_verdict", "chaotic");
+        const double exponent = iso_picture_number(r, i, by_ball ? "ball_per_turn" : "point_per_turn");
         const double row[] = {iso_picture_number(r, i, "l"), iso_picture_number(r, i, "x"),
                               isfinite(exponent) ? exponent : 0};
         const bool chaotic = iso_picture_is(r, i, "verdict", "chaotic"),
@@ -47,7 +31,9 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
         all++;
     }
     if (all == 0) return ISO_FAIL_INPUT(ctx, "", "no picture: the table has no orbit that starts on the section");
-    return say_axes(ctx, iso_picture_axis(r), picture);
+    const char *const *index = iso_picture_index + iso_picture_axis(r);
+    ISO_TRY(iso_picture_say(ctx, picture, "right_name", "l,  where γ%s = cos l, γ%s = −sin l", index[1], index[2]));
+    return iso_picture_say(ctx, picture, "up_name", "M%s / |M|", index[0]);
 }
 
 const iso_picture_maker iso_picture_chaos = {
