@@ -54,9 +54,12 @@ void view_page_free(view_page *page);
 /* Adds a note that the page shows. */
 void view_note(view_page *page, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Gives the page a table of this kind; orbit >= 0: about the section's orbit of this number. The page frees it, also
- * after an error. */
+/* Adds a table of this kind; orbit >= 0: about the section's orbit of this number. The page frees it, also after an
+ * error. */
 iso_status view_add(iso_context *ctx, view_page *page, const char *kind, double orbit, iso_record *table);
+
+/* A line of a table. */
+iso_status view_count(iso_context *ctx, iso_record *table, const char *key, size_t count);
 
 /* --- kinds of input --------------------------------------------------------------------------------------------- */
 

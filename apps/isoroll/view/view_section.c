@@ -43,18 +43,18 @@ static iso_status check(iso_context *ctx, const view_page *page, section *s)
     s->orbit = iso_record_find(r, "orbit");
     s->l = iso_record_find(r, "l");
     s->x = iso_record_find(r, "x");
-    if (s->orbit < 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "", "there is no column 'orbit'");
+    if (s->orbit < 0) return ISO_FAIL_INPUT(ctx, "", "there is no column 'orbit'");
     if (s->l < 0 || s->x < 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                "there are no columns 'l' and 'x': a page draws sections n_A = 0; write the file "
-                                "with 'isoroll section --axis A', without --event");
+        return ISO_FAIL_INPUT(ctx, "",
+                              "there are no columns 'l' and 'x': a page draws sections n_A = 0; write the file "
+                              "with 'isoroll section --axis A', without --event");
     if (!axis || axis[0] < '1' || axis[0] > '3' || axis[1])
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "there is no line '# axis: 1', 2 or 3");
+        return ISO_FAIL_INPUT(ctx, "", "there is no line '# axis: 1', 2 or 3");
     s->axis = axis[0] - '1';
     if (!s->states && (iso_record_get(r, "effects") || isnan(page->eps)))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                "l and x do not determine these orbits (there are effects, or no line '# eps'): "
-                                "write the file with the states, by 'isoroll section --as ball'");
+        return ISO_FAIL_INPUT(ctx, "",
+                              "l and x do not determine these orbits (there are effects, or no line '# eps'): "
+                              "write the file with the states, by 'isoroll section --as ball'");
     return ISO_OK;
 }
 
@@ -63,20 +63,18 @@ static iso_status find_orbits(iso_context *ctx, section *s)
 {
     const size_t rows = iso_record_rows(s->in);
     double before = -1;
-    if (rows == 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "expected rows of crossings, found the end of the file");
+    if (rows == 0) return ISO_FAIL_INPUT(ctx, "", "expected rows of crossings, found the end of the file");
     s->first = malloc((rows + 1) * sizeof *s->first);
     if (!s->first) return iso_context_no_memory(ctx, "%zu crossings", rows);
     for (size_t i = 0; i < rows; i++) {
         const double *row = iso_record_const_row(s->in, i), orbit = row[s->orbit];
         if (!(orbit >= 0 && orbit <= MOST_ORBIT && orbit == floor(orbit)))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                    "row %zu: expected a whole number of 0 or more for orbit, found %s", i + 1,
-                                    ISO_SHORT(orbit));
+            return ISO_FAIL_INPUT(ctx, "", "row %zu: expected a whole number of 0 or more for orbit, found %s", i + 1,
+                                  ISO_SHORT(orbit));
         for (size_t c = 0; c < iso_record_columns(s->in); c++)
             if (!isfinite(row[c]))
-                return iso_context_fail(ctx, ISO_BAD_INPUT, "", "row %zu: expected a finite number for %s", i + 1,
-                                        iso_record_name(s->in, c));
+                return ISO_FAIL_INPUT(ctx, "", "row %zu: expected a finite number for %s", i + 1,
+                                      iso_record_name(s->in, c));
         if (orbit != before) s->first[s->orbits++] = i;
         before = orbit;
     }
@@ -130,28 +128,20 @@ static iso_status start_at(iso_context *ctx, const view_page *page, const sectio
     return status;
 }
 
-/* Its columns: with M and gamma, from which omega and n follow; the contact is asked for on a plane alone. */
-static void ask_for_columns(const view_page *page, iso_scene *scene)
-{
-    static const char *const both[] = {"t",      "tau", "s",  "M1", "M2", "M3",       "gamma1",   "gamma2",
-                                       "gamma3", "q0",  "q1", "q2", "q3", "contact1", "contact2", "contact3"};
-    static const char *const alone[] = {"t",  "omega1", "omega2", "omega3", "n1",       "n2",       "n3",
-                                        "q0", "q1",     "q2",     "q3",     "contact1", "contact2", "contact3"};
-    const size_t less = page->params.k == 1 ? 0 : 3;
-    if (*page->alone)
-        view_ask_for(scene, sizeof alone / sizeof *alone - less, alone);
-    else
-        view_ask_for(scene, sizeof both / sizeof *both - less, both);
-}
-
-/* The first `rows` rows of the orbit, close enough for cubic curves. */
+/* The first `rows` rows of the orbit, close enough for cubic curves: with M and gamma, from which omega and n follow. */
 static iso_status run_orbit(iso_context *ctx, view_page *page, const section *s, size_t row, size_t rows)
 {
+    static const char *const names[] = {"t",      "tau", "s",  "M1", "M2", "M3",       "gamma1",   "gamma2",
+                                        "gamma3", "q0",  "q1", "q2", "q3", "contact1", "contact2", "contact3"},
+                             *const alone[] = {"t",  "omega1",   "omega2",   "omega3",  "n1",
+                                               "n2", "n3",       "q0",       "q1",      "q2",
+                                               "q3", "contact1", "contact2", "contact3"};
     const double number = iso_record_const_row(s->in, row)[s->orbit];
+    const size_t less = page->params.k == 1 ? 0 : 3; /* the contact is asked for on a plane alone */
     iso_record *orbit;
     iso_scene scene;
     ISO_TRY(start_at(ctx, page, s, row, &scene));
-    ask_for_columns(page, &scene);
+    view_ask_for(&scene, (*page->alone ? 14 : 16) - less, *page->alone ? alone : names);
     const double turn = rows < 400 ? LONG_ORBIT_TURN : ORBIT_TURN;
     scene.step = turn / (norm(scene.start.y) * fmax(1, fabs(page->params.k)));
     scene.end = (double)(rows - 1) * scene.step;
