@@ -1,15 +1,20 @@
-/* chaos.c - the kind "chaos": the starts on the section, with their verdicts and exponents.
+/* chaos.c - the starts on the section with their verdicts and exponents; indicators of chaos.
  *
- * Tables: regular (also integrable motions), chaotic, undecided: l, x; chaotic has also the exponent per turn, that of
- * the ball if it is chaotic, else of the point; 0: not known. Rows without l and x are left out. Lines: title;
+ * The kind "chaos": regular (also integrable motions), chaotic, undecided: l, x; chaotic has also the exponent per turn,
+ * that of the ball if it is chaotic, else of the point; 0: not known. Rows without l and x are left out. Lines: title;
  * right_name, up_name: names of the axes.
+ *
+ * The kind "chaos indicators", MEGNO, GALI_2 and the growth of deviations against the turns: ball, point: turn, growth,
+ * megno, mean, gali2; the second one has rows if two tables are given. The line "model" of a table says whose it is;
+ * without it the first is the ball's.
  */
 #include <math.h>
+#include <string.h>
 
 #include "picture/picture_impl.h"
 #include "study/verdict.h"
 
-static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
+static iso_status make_starts(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
 {
     static const char *const kinds[] = {"regular", "chaotic", "undecided"};
     enum { REGULAR, CHAOTIC, UNDECIDED, KINDS };
@@ -36,5 +41,34 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
     return iso_picture_say(ctx, picture, "up_name", "M%s / |M|", index[0]);
 }
 
+/* --- indicators ------------------------------------------------------------------------------------------------- */
+
+#define LEAST_GALI 1e-17 /* an angle is not known better than to rounding */
+enum { ROWS = 5000 };
+
+static iso_status make_indicators(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
+{
+    enum { COLUMNS = 5, GALI = COLUMNS - 1 };
+    static const char columns[] = "turn growth megno mean gali2";
+    iso_record *side[2];
+    picture->layout = "indicators";
+    ISO_TRY(iso_picture_add(ctx, picture, "ball", columns, &side[0]));
+    ISO_TRY(iso_picture_add(ctx, picture, "point", columns, &side[1]));
+    for (int i = 0; i < 2 && q->table[i] && strcmp(iso_record_kind(q->table[i]), "chaos indicators") == 0; i++) {
+        const iso_record *r = q->table[i];
+        const char *model = iso_record_get(r, "model");
+        iso_record *to = side[model ? strcmp(model, "point") == 0 : i];
+        for (size_t j = 0; j < iso_record_rows(r); j += iso_record_rows(r) / ROWS + 1) {
+            double row[COLUMNS];
+            for (int c = 0; c < COLUMNS; c++) row[c] = iso_picture_number(r, j, iso_picture_indicators.columns[c]);
+            if (row[GALI] < LEAST_GALI) row[GALI] = LEAST_GALI;
+            ISO_TRY(iso_record_add(ctx, to, 1, row));
+        }
+    }
+    return ISO_OK;
+}
+
 const iso_picture_maker iso_picture_chaos = {
-    "chaos", "Chaos on the section", {"l", "x", "verdict"}, .axis = true, .make = make};
+    "chaos", "Chaos on the section", {"l", "x", "verdict"}, .axis = true, .make = make_starts};
+const iso_picture_maker iso_picture_indicators = {
+    "chaos indicators", "Indicators of chaos", {"turn", "growth", "megno", "mean", "gali2"}, .make = make_indicators};

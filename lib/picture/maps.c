@@ -138,13 +138,6 @@ static void cut(polygon *p, const double direction[2], double most)
     *p = left;
 }
 
-static double reach_of(const polygon *p, const double from[2])
-{
-    double reach = 0;
-    for (int i = 0; i < p->corners; i++) reach = fmax(reach, hypot(p->at[i][0] - from[0], p->at[i][1] - from[1]));
-    return reach;
-}
-
 /* The cell of point i: a square, cut half way to each neighbour. `mirrored`: and as far on the other side, so that the
  * cells at the rim of a lattice are as large as the others. The distance of the nearest neighbour; infinite: none. */
 static double cell_of(const iso_record *points, size_t i, double half, bool mirrored, polygon *p)
@@ -161,7 +154,10 @@ static double cell_of(const iso_record *points, size_t i, double half, bool mirr
             const double *there = iso_record_const_row(points, j);
             const double to[2] = {there[ISO_POINT_U] - from[0], there[ISO_POINT_V] - from[1]},
                          d = hypot(to[0], to[1]), middle = from[0] * to[0] + from[1] * to[1];
-            if (there[ISO_POINT_MAP] != here[ISO_POINT_MAP] || fabs(to[0]) > 2 * reach_of(p, from)) break;
+            double reach = 0;
+            for (int c = 0; c < p->corners; c++)
+                reach = fmax(reach, hypot(p->at[c][0] - from[0], p->at[c][1] - from[1]));
+            if (there[ISO_POINT_MAP] != here[ISO_POINT_MAP] || fabs(to[0]) > 2 * reach) break;
             if (!(d > 0)) continue;
             nearest = fmin(nearest, d);
             cut(p, to, middle + d * d / 2);

@@ -32,23 +32,17 @@ void iso_picture_image(int n, double l, double x, double image[2])
 
 /* --- options ---------------------------------------------------------------------------------------------------- */
 
-/* "A:B", A < B, both of a size up to `most`. */
-static bool read_range(const char *text, size_t length, double most, double range[2])
-{
-    const char *colon = memchr(text, ':', length);
-    return colon && iso_number_read(text, (size_t)(colon - text), &range[0]) &&
-           iso_number_read(colon + 1, (size_t)(text + length - colon - 1), &range[1]) && range[0] < range[1] &&
-           range[0] >= -most && range[1] <= most;
-}
-
 bool iso_picture_window(const char *text, double window[2][2])
 {
-    const size_t comma = strcspn(text, ",");
-    if (text[comma] != ',' || !read_range(text, comma, 3.15, window[0]) ||
-        !read_range(text + comma + 1, strlen(text + comma + 1), 1, window[1]))
-        return false;
-    for (int i = 0; i < 2; i++) window[0][i] = fmin(fmax(window[0][i], -M_PI), M_PI);
-    return window[0][0] < window[0][1];
+    double *l = window[0], *x = window[1];
+    for (int i = 0; i < 4; i++) { /* "L0:L1,X0:X1" */
+        const size_t length = i == 3 ? strlen(text) : strcspn(text, i == 1 ? "," : ":");
+        if (!iso_number_read(text, length, &window[i / 2][i % 2]) || (i < 3 && !text[length])) return false;
+        text += length + 1;
+    }
+    if (!(l[0] >= -3.15 && l[1] <= 3.15 && l[0] < l[1] && x[0] >= -1 && x[1] <= 1 && x[0] < x[1])) return false;
+    for (int i = 0; i < 2; i++) l[i] = fmin(fmax(l[i], -M_PI), M_PI);
+    return l[0] < l[1];
 }
 
 iso_status iso_picture_charts_options(iso_context *ctx, const iso_picture_request *q, iso_picture_charts *c)
@@ -91,25 +85,19 @@ typedef struct frame {
     double low[2], high[2]; /* right, up */
 } frame;
 
-/* The rectangle that holds the window. */
-static frame window_of(const iso_picture_charts *c, bool ball)
+/* The rectangle that holds the window, or the whole chart. most: how far up the spots go. */
+static frame frame_of(const iso_picture_charts *c, bool ball, double most)
 {
+    const double *l = c->window[0], *x = c->window[1];
     frame f = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-    for (int i = 0; i <= 2 * BOUNDARY + 1; i++) {
-        const iso_picture_spot at = iso_picture_place(
-            c, ball, c->window[0][0] + (c->window[0][1] - c->window[0][0]) * (i / 2) / BOUNDARY, c->window[1][i % 2]);
+    for (int i = 0; c->windowed && i <= 2 * BOUNDARY + 1; i++) {
+        const iso_picture_spot at = iso_picture_place(c, ball, l[0] + (l[1] - l[0]) * (i / 2) / BOUNDARY, x[i % 2]);
         f = (frame){{fmin(f.low[0], at.right), fmin(f.low[1], at.up)},
                     {fmax(f.high[0], at.right), fmax(f.high[1], at.up)}};
     }
-    return f;
-}
-
-/* `most`: how far up the spots go. */
-static frame frame_of(const iso_picture_charts *c, bool ball, double most)
-{
-    double top = 1;
-    if (c->windowed) return window_of(c, ball);
-    for (int i = 0; !ball && i <= BOUNDARY; i++) top = fmax(i ? top : 0, largest_momentum(c, M_PI * i / BOUNDARY));
+    if (c->windowed) return f;
+    double top = ball ? 1 : 0;
+    for (int i = 0; !ball && i <= BOUNDARY; i++) top = fmax(top, largest_momentum(c, M_PI * i / BOUNDARY));
     if (c->few) top = fmin(top, ROOM * most + 1e-3 * top);
     if (!ball) top *= TOP;
     return (frame){{-M_PI, -top}, {M_PI, top}};

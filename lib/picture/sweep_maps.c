@@ -32,30 +32,7 @@ static void keep(const double uv[2], double xy[2])
     xy[0] = uv[0], xy[1] = uv[1];
 }
 
-/* The three moments vary: they are one point of a triangle. */
-static bool takes_moments(const iso_swept *s, layout *l, int rest[], int *others)
-{
-    int moments = 0;
-    *others = 0;
-    for (int i = 0; i < s->axes; i++) {
-        const char *name = iso_record_name(s->r, (size_t)s->axis[i]);
-        const bool moment = name[0] == 'J' && name[1] >= '1' && name[1] <= '3' && name[2] == '\0';
-        if (moment && moments++ == 0) l->J = s->axis[i];
-        if (!moment) rest[(*others)++] = s->axis[i];
-    }
-    if (moments != 3) return false;
-    l->ratios = true;
-    for (size_t i = 0; i < iso_record_rows(s->r); i++) {
-        const double *J = iso_record_const_row(s->r, i) + l->J;
-        l->ratios = l->ratios && J[0] <= J[1] && J[1] <= J[2];
-    }
-    l->triangle = !l->ratios;
-    l->x_name = l->ratios ? "J₁/J₃" : "(J₂ + J₃/2)/(J₁ + J₂ + J₃)";
-    l->y_name = l->ratios ? "J₂/J₃" : "(√3/2) J₃/(J₁ + J₂ + J₃)";
-    return true;
-}
-
-/* The place of a number in a list, at whose end it is put; -1: the list is full. */
+/* The place of a number in a list, to which it is added; -1: the list is full. */
 static int place_in(double list[MAPS], int *count, double x)
 {
     int i = 0;
@@ -66,36 +43,45 @@ static int place_in(double list[MAPS], int *count, double x)
     return i;
 }
 
-/* Of three numbers that vary the one with the fewest values tells the maps apart. */
-static void take_columns(const iso_swept *s, layout *l)
+/* The three moments are one point of a triangle. Of three other numbers that vary the one with the fewest values tells the
+ * maps apart. */
+static iso_status choose_layout(iso_context *ctx, const iso_swept *s, layout *l)
 {
-    int panel = -1, fewest = MAPS + 2, rest[3], others = 0;
-    for (int i = 0; i < s->axes && s->axes == 3; i++) {
+    int rest[ISO_SWEPT_AXES], others = 0, moments = 0, fewest = MAPS + 2;
+    for (int i = 0; i < s->axes; i++) {
+        const char *name = iso_record_name(s->r, (size_t)s->axis[i]);
+        const bool moment = name[0] == 'J' && name[1] >= '1' && name[1] <= '3' && name[2] == '\0';
+        if (moment && moments++ == 0) l->J = s->axis[i];
+        if (!moment) rest[others++] = s->axis[i];
+    }
+    const bool triangle = moments == 3;
+    const int left = triangle ? others : s->axes - 2;
+    if (left < 0 || left > 1)
+        return ISO_FAIL_INPUT(ctx, "", "%d numbers vary: a picture shows one, two, or three (J counts as two)",
+                              s->axes);
+    if (triangle) {
+        if (left == 1) l->panel = rest[0];
+        l->ratios = true;
+        for (size_t i = 0; i < iso_record_rows(s->r); i++) {
+            const double *J = iso_record_const_row(s->r, i) + l->J;
+            l->ratios = l->ratios && J[0] <= J[1] && J[1] <= J[2];
+        }
+        l->triangle = !l->ratios;
+        l->x_name = l->ratios ? "J₁/J₃" : "(J₂ + J₃/2)/(J₁ + J₂ + J₃)";
+        l->y_name = l->ratios ? "J₂/J₃" : "(√3/2) J₃/(J₁ + J₂ + J₃)";
+        return ISO_OK;
+    }
+    for (int i = 0; i < s->axes && left == 1; i++) {
         double seen[MAPS];
         int values = 0;
         for (size_t row = 0; values <= MAPS && row < iso_record_rows(s->r); row++)
             if (place_in(seen, &values, iso_picture_at(s->r, row, s->axis[i])) < 0) values = MAPS + 1;
-        if (values < fewest) fewest = values, panel = i;
+        if (values < fewest) fewest = values, l->panel = s->axis[i];
     }
-    for (int i = 0; i < s->axes; i++)
-        if (i != panel) rest[others++] = s->axis[i];
-    if (panel >= 0) l->panel = s->axis[panel];
-    l->x = rest[0];
-    l->y = rest[1];
+    l->x = s->axis[0] == l->panel ? s->axis[1] : s->axis[0];
+    l->y = s->axis[s->axes - 1] == l->panel ? s->axis[s->axes - 2] : s->axis[s->axes - 1];
     l->x_name = iso_swept_axis(s, l->x);
     l->y_name = iso_swept_axis(s, l->y);
-}
-
-static iso_status choose_layout(iso_context *ctx, const iso_swept *s, layout *l)
-{
-    int rest[ISO_SWEPT_AXES], others;
-    const bool moments = takes_moments(s, l, rest, &others);
-    const int left = moments ? others : s->axes - 2;
-    if (left < 0 || left > 1)
-        return ISO_FAIL_INPUT(ctx, "", "%d numbers vary: a picture shows one, two, or three (J counts as two)",
-                              s->axes);
-    if (!moments) take_columns(s, l);
-    if (moments && left == 1) l->panel = rest[0];
     return ISO_OK;
 }
 

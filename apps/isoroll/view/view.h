@@ -82,9 +82,9 @@ bool view_is_broken(view_page *page);
 size_t view_columns(const view_page *page, const iso_record *rows, const char *names[ISO_TRAJECTORY_COLUMNS]);
 
 /* The scene whose ball starts as a row does: with the page's parameters and effects and the attitude, by steps of the
- * ball, and with these columns. Errors: those of iso_record_start. */
+ * ball. view_ask_for adds columns to it, with blanks between. Errors: those of iso_record_start. */
 iso_status view_start(iso_context *ctx, const view_page *page, const iso_record *r, size_t row, iso_scene *scene);
-void view_ask_for(iso_scene *scene, size_t count, const char *const names[]);
+void view_ask_for(iso_scene *scene, const char *columns);
 
 /* Runs it into a new record at `count` times; NULL: its own times. page NULL: its notes are not wanted. */
 iso_status view_run(iso_context *ctx, const iso_scene *scene, const double times[], size_t count, view_page *page,
@@ -102,11 +102,11 @@ double view_largest_turn(const iso_record *r, double k);
 iso_status view_neighbour(iso_context *ctx, view_page *page, const iso_scene *scene, double orbit,
                           const iso_record *rows);
 
-/* The table "orbits": verdict, exponent and shade of the orbits that begin on the section's axis at (l, x), with the
- * energy of `scene`; number[i]: the orbit's number in `section`, whose picture has the shades. section, at NULL: of the
- * scene's own orbit, without a shade. Adds a note if there are none. Errors: likewise. */
+/* The table "orbits": verdict, exponent and shade of the orbits of a section, by their first crossings, whose rows are
+ * first[], with the energy of `scene`; the section's picture has the shades. section NULL: of the scene's own orbit,
+ * without a shade. Adds a note if there are none. Errors: likewise. */
 iso_status view_verdicts(iso_context *ctx, view_page *page, const iso_scene *scene, const iso_record *section,
-                         int axis, size_t count, const double (*at)[2], const double number[]);
+                         size_t count, const size_t first[]);
 
 /* Adds the rows of a scene or of a trajectory, and what is found out about them: "drifts" of the integrals of each
  * model, the neighbour, and the verdict. */

@@ -18,7 +18,8 @@ static iso_status run_ball(iso_context *ctx, iso_scene *scene, view_page *page, 
     const size_t total = iso_scene_rows(scene), every = (total + VIEW_MOST_ROWS - 2) / (VIEW_MOST_ROWS - 1);
     size_t between = 0;
     scene->as = *page->alone ? ISO_SHOW_BALL : ISO_SHOW_BOTH;
-    view_ask_for(scene, view_columns(page, NULL, names), names);
+    scene->columns = 0;
+    for (size_t i = 0, count = view_columns(page, NULL, names); i < count; i++) view_ask_for(scene, names[i]);
     if (total < 2) return ISO_FAIL_INPUT(ctx, "end", "a page needs motion: the last time is 0");
     if (every == 1) {
         iso_record *rough;
