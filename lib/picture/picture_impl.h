@@ -136,6 +136,11 @@ iso_status iso_picture_add_chart(iso_context *ctx, iso_picture *picture, const c
 /* Adds the empty tables "curves" and "values". */
 iso_status iso_picture_add_curves(iso_context *ctx, iso_picture *picture);
 
+/* The curve of a splitting with slope m and multiplier lambda (iso_separatrix_curve), with as many half returns beyond
+ * the crossing as are needed to see the lobes (section_over.c). */
+iso_status iso_picture_separatrix(iso_context *ctx, double k, const double J[3], double level, double m,
+                                  double lambda, iso_record **curve);
+
 /* --- the first turns of an orbit (stretch.c) -------------------------------------------------------------------- */
 
 enum { ISO_STRETCH_STATES = 65 };

@@ -75,6 +75,14 @@ static iso_status add_curve(iso_context *ctx, const over *o, const iso_record *c
     return ISO_OK;
 }
 
+/* The lobes grow like lambda^(1/2) with each half return. */
+iso_status iso_picture_separatrix(iso_context *ctx, double k, const double J[3], double level, double m,
+                                  double lambda, iso_record **curve)
+{
+    const double needed = log(0.3 / fmax(fabs(m), 1e-4)) / (log(lambda) / 2);
+    return iso_separatrix_curve(ctx, k, J, level, (int)fmin(fmax(needed, 2) + 2, 60), curve);
+}
+
 /* The row of the section's k and level; its curves are computed anew, which takes less than a second. */
 static iso_status add_manifolds(iso_context *ctx, const over *o, const iso_record *table)
 {
@@ -89,14 +97,13 @@ static iso_status add_manifolds(iso_context *ctx, const over *o, const iso_recor
         i++;
     if (i == iso_record_rows(table)) return refuse(ctx, table, "no row has the k and the level of the section");
     if (axis != charts->axis) return refuse(ctx, table, "its section is about another axis");
-    const double m = fabs(iso_picture_number(table, i, "m")), lambda = iso_picture_number(table, i, "multiplier");
-    const double halves = log(0.3 / fmax(m, 1e-4)) / (log(lambda) / 2);
     /* l of the rotation about the middle axis. The section is about the axis of the largest moment if k > 0, else of
      * the smallest: of the other two axes b and c the middle one is nearer to it. */
     const double b = p->J[(axis + 1) % 3], c = p->J[(axis + 2) % 3];
     const double corner = (p->k > 0 ? c > b : c < b) ? 0 : M_PI / 2;
     iso_record *curve = NULL;
-    iso_status status = iso_separatrix_curve(ctx, p->k, p->J, level, (int)fmin(fmax(halves, 2) + 2, 60), &curve);
+    iso_status status = iso_picture_separatrix(ctx, p->k, p->J, level, iso_picture_number(table, i, "m"),
+                                               iso_picture_number(table, i, "multiplier"), &curve);
     if (status == ISO_OK) status = add_curve(ctx, o, curve, corner);
     iso_record_free(curve);
     return status;

@@ -28,15 +28,17 @@
 #define LOST 1e-9   /* a pressure below this part of the largest is 0                    */
 #define OUTLINE 0.1 /* nothing is hidden this near the outline of the support; part of its radius */
 
+enum { RIGHT, AWAY, UP };
+
 typedef struct scenery {
     const iso_record *rows;
-    int centre, contact;             /* first columns, -1: not there                                            */
-    int place;                       /* the path that is drawn: of the centre if it is known, else of the contact */
-    bool plane, level;               /* the support is a plane; a plane that is level, or up is not known       */
-    bool normal, vertical;           /* the columns tell the plane's normal; up[] is the vertical               */
-    double right[3], away[3], up[3]; /* of the view from the side; `away` is up in the view from above          */
-    double ball, support;            /* radii, 0: not known                                                     */
-    double low[3], high[3];          /* of the path along right, away, up                                       */
+    int centre, contact;    /* first columns, -1: not there                                            */
+    int place;              /* the path that is drawn: of the centre if it is known, else of the contact */
+    bool plane, level;      /* the support is a plane; a plane that is level, or up is not known       */
+    bool normal, vertical;  /* the columns tell the plane's normal; up[] is the vertical               */
+    double axis[3][3];      /* right, away, up: of the view from the side; `away` is up in the other one   */
+    double ball, support;   /* radii, 0: not known                                                     */
+    double low[3], high[3]; /* of the path along right, away, up                                       */
     const char *right_name, *away_name, *up_name, *above, *side;
 } scenery;
 
@@ -97,22 +99,18 @@ int iso_picture_losses(const iso_record *r, size_t lost[ISO_PICTURE_LOSSES])
 static bool across(const double v[3], const double up[3], double direction[3])
 {
     copy(v, direction, 3);
-    add_scaled(direction, -dot(v, up), up);
-    const double length = norm(direction);
-    if (!(length > ALIKE * norm(v))) return false;
-    scale(direction, 1 / length);
-    return true;
+    remove_along(direction, up);
+    return make_unit(direction) > ALIKE * norm(v);
 }
 
 static void turn_to(scenery *s, const double right[3])
 {
-    copy(right, s->right, 3);
-    cross(s->up, s->right, s->away);
-    const double *const axis[] = {s->right, s->away, s->up};
+    copy(right, s->axis[RIGHT], 3);
+    cross(s->axis[UP], right, s->axis[AWAY]);
     for (int a = 0; a < 3; a++) {
         s->low[a] = INFINITY, s->high[a] = -INFINITY;
         for (size_t i = 0; i < iso_record_rows(s->rows); i++) {
-            const double x = dot(vector_at(s, i, s->place), axis[a]);
+            const double x = dot(vector_at(s, i, s->place), s->axis[a]);
             s->low[a] = fmin(s->low[a], x), s->high[a] = fmax(s->high[a], x);
         }
     }
@@ -149,7 +147,7 @@ static void follow_path(scenery *s)
         double to[3];
         copy(vector_at(s, i, s->place), to, 3);
         add_scaled(to, -1, vector_at(s, 0, s->place));
-        add_scaled(to, -dot(to, s->up), s->up);
+        remove_along(to, s->axis[UP]);
         if (norm(to) > most) most = norm(to), copy(to, right, 3);
     }
     if (most == 0) return;
@@ -169,19 +167,19 @@ static void follow_path(scenery *s)
 /* To the right: down the slope of a plane, along a narrow path, else along axis 1 of space, or nearest to it. */
 static void choose_directions(scenery *s, const double normal[3])
 {
-    static const double axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const double *up = s->axis[UP];
     double right[3];
-    if (s->normal && across(normal, s->up, right)) {
+    if (s->normal && across(normal, up, right)) {
         turn_to(s, right);
         name_views(s, false);
         s->right_name = "horizontal, down the slope", s->away_name = "across the slope";
         return;
     }
-    const bool upright = norm((double[]){s->up[0], s->up[1], s->up[2] - 1}) <= ALIKE;
+    const bool upright = norm((double[]){up[0], up[1], up[2] - 1}) <= ALIKE;
     if (upright)
-        copy(axis[0], right, 3);
-    else if (!across(axis[0], s->up, right))
-        across(axis[1], s->up, right);
+        copy((double[]){1, 0, 0}, right, 3);
+    else if (!across((double[]){1, 0, 0}, up, right))
+        across((double[]){0, 1, 0}, up, right);
     turn_to(s, right);
     const double rise = s->high[2] - s->low[2], width = fmax(s->high[0] - s->low[0], s->high[1] - s->low[1]);
     s->level = s->plane && (s->normal || rise <= ALIKE * width);
@@ -191,11 +189,16 @@ static void choose_directions(scenery *s, const double normal[3])
 
 /* --- tables ----------------------------------------------------------------------------------------------------- */
 
-/* Along right, away and up; the places of a narrow path are counted from its start. */
+/* The places of a narrow path are counted from its start. */
+static double origin(const scenery *s, int axis)
+{
+    return is_narrow(s) && axis != UP ? dot(vector_at(s, 0, s->place), s->axis[axis]) : 0;
+}
+
+/* Along right, away and up. */
 static void project(const scenery *s, const double place[3], double at[3])
 {
-    const double *const axis[] = {s->right, s->away, s->up}, *start = vector_at(s, 0, s->place);
-    for (int a = 0; a < 3; a++) at[a] = dot(place, axis[a]) - (is_narrow(s) && a < 2 ? dot(start, axis[a]) : 0);
+    for (int a = 0; a < 3; a++) at[a] = dot(place, s->axis[a]) - origin(s, a);
 }
 
 static iso_status add_path(iso_context *ctx, const scenery *s, const char *of, int column, iso_record *path)
@@ -228,10 +231,9 @@ static iso_status say_extents(iso_context *ctx, const scenery *s, iso_picture *p
 {
     static const char *const low[] = {"right_low", "away_low", "up_low"}, *const high[] = {"right_high", "away_high",
                                                                                            "up_high"};
-    const double *const axis[] = {s->right, s->away}, room = is_narrow(s) ? 0 : s->ball;
+    const double room = is_narrow(s) ? 0 : s->ball;
     for (int a = 0; a < 3; a++) {
-        const double start = is_narrow(s) && a < 2 ? dot(vector_at(s, 0, s->place), axis[a]) : 0,
-                     least = s->low[a] - start - room, most = s->high[a] - start + room;
+        const double least = s->low[a] - origin(s, a) - room, most = s->high[a] - origin(s, a) + room;
         ISO_TRY(iso_picture_count(ctx, picture, low[a], s->support > 0 ? fmin(least, -s->support) : least));
         ISO_TRY(iso_picture_count(ctx, picture, high[a], s->support > 0 ? fmax(most, s->support) : most));
     }
@@ -274,7 +276,8 @@ static iso_status look_around(iso_context *ctx, const iso_record *r, const doubl
     static const char *const centre[] = {"centre1", "centre2", "centre3"}, *const contact[] = {"contact1", "contact2",
                                                                                                "contact3"};
     double normal[3];
-    *s = (scenery){.rows = r, .plane = plane, .vertical = up != NULL, .centre = -1, .contact = -1, .up = {0, 0, 1}};
+    *s = (scenery){
+        .rows = r, .plane = plane, .vertical = up != NULL, .centre = -1, .contact = -1, .axis = {[UP] = {0, 0, 1}}};
     if (iso_record_find(r, centre[0]) >= 0) ISO_TRY(iso_picture_find(ctx, r, 3, centre, &s->centre));
     if (iso_record_find(r, contact[0]) >= 0 || s->centre < 0)
         ISO_TRY(iso_picture_find(ctx, r, 3, contact, &s->contact));
@@ -286,10 +289,10 @@ static iso_status look_around(iso_context *ctx, const iso_record *r, const doubl
         copy(vector_at(s, 0, s->centre), normal, 3);
         add_scaled(normal, -1, vector_at(s, 0, s->contact));
         scale(normal, 1 / s->ball);
-        copy(normal, s->up, 3);
+        copy(normal, s->axis[UP], 3);
     }
-    if (up) copy(up, s->up, 3);
-    if (!(fabs(norm(s->up) - 1) <= ALIKE))
+    if (up) copy(up, s->axis[UP], 3);
+    if (!(fabs(norm(s->axis[UP]) - 1) <= ALIKE))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "up", "a picture of space: up is no unit vector");
     choose_directions(s, normal);
     return ISO_OK;

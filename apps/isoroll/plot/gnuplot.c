@@ -70,22 +70,17 @@ iso_status iso_gnuplot_check_files(iso_context *ctx, const iso_plot_page *page)
     return page->script ? check_regular(ctx, page->script) : ISO_OK;
 }
 
-/* A length that the user gives, in units of the file. */
-static double given(const format *f, const iso_plot_page *page, double length)
-{
-    return page->size.mm ? length / MM * f->inch : length * f->px;
-}
-
 void iso_gnuplot_write_page(FILE *to, const iso_plot_page *page)
 {
     const format *f = find_format(page->path);
-    const bool sized = page->size.width > 0;
+    double given[] = {page->size.width, page->size.height}; /* in units of the file */
+    for (int i = 0; i < 2; i++) given[i] = page->size.mm ? given[i] / MM * f->inch : given[i] * f->px;
     fprintf(to,
             "terminal = \"%s\"; unit = '%s'; in_print = %d\n"
             "per_pixel = %.17g; per_inch = %.17g; per_letter = %.17g; lines = %.17g; points = %.17g\n"
             "given_width = %.17g; given_height = %.17g\n",
             f->terminal, f->unit, page->style == ISO_PLOT_IN_PRINT, f->scale, f->inch, f->letter, f->lines, f->points,
-            sized ? given(f, page, page->size.width) : 0, sized ? given(f, page, page->size.height) : 0);
+            given[0], given[1]);
 }
 
 /* ---- Drawing ---- */
