@@ -1,8 +1,8 @@
 /* chaos.c - the starts on the section with their verdicts and exponents; indicators of chaos.
  *
- * The kind "chaos": regular (also integrable motions), chaotic, undecided: l, x; chaotic has also the exponent per turn,
- * that of the ball if it is chaotic, else of the point; 0: not known. Rows without l and x are left out. Lines: title;
- * right_name, up_name: names of the axes.
+ * The kind "chaos": regular (also integrable motions), chaotic, undecided: l, x; chaotic has also the exponent per
+ * turn, that of the ball if it is chaotic, else of the point; 0: not known. Rows without l and x are left out. Lines:
+ * title; right_name, up_name: names of the axes.
  *
  * The kind "chaos indicators", MEGNO, GALI_2 and the growth of deviations against the turns: ball, point: turn, growth,
  * megno, mean, gali2; the second one has rows if two tables are given. The line "model" of a table says whose it is;

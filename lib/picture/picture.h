@@ -17,8 +17,8 @@ enum { ISO_PICTURE_TABLES = 16, ISO_PICTURE_ASIDE = 8 };
 
 typedef struct iso_picture {
     const char *layout; /* how the tables are laid out: the name of a template, such as "section" */
-    /* NULL after the last. The kind of a table is its name in the template. The lines of the first one say what there
-     * is to say: the title, names of axes, numbers. */
+    /* NULL after the last. The kind of a table is its name in the template. The lines of the first one are its
+     * texts and numbers: the title, names of axes. */
     iso_record *table[ISO_PICTURE_TABLES];
     iso_record *aside[ISO_PICTURE_ASIDE]; /* that are not drawn, while the picture is made */
 } iso_picture;

@@ -48,8 +48,8 @@ void iso_picture_points_pair(iso_picture_points *p, const double ball[2], const 
 /* The first crossing (l, x) of each orbit that has one. Returns how many; valid until the next row. */
 size_t iso_picture_points_starts(iso_picture_points *p, const double (**starts)[2]);
 
-/* The verdict ("regular", ...) on the orbit whose first crossing is (l, x): chaotic ones are grey. Without this call, orbits are grey on
- * which the two models part, or of which no rotation number is found. */
+/* The verdict ("regular", ...) on the orbit whose first crossing is (l, x): chaotic ones are grey. Without this call,
+ * orbits are grey on which the two models part, or of which no rotation number is found. */
 void iso_picture_points_verdict(iso_picture_points *p, double l, double x, const char *verdict);
 
 /* The picture, empty at first. Tables "periodic" and "splitting" of over[] (NULL behind the last) are drawn over it;

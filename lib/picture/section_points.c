@@ -20,11 +20,11 @@ enum { ORBIT = ISO_PICTURE_COLUMNS, HASH, COLUMNS };
 
 struct iso_picture_points {
     iso_picture_charts charts;
-    unsigned reversors;             /* that the return map has, see iso_section_reversors */
-    int l, x;                       /* columns of the rows; l -1: there is none  */
-    uint64_t rows;                  /* that came so far                          */
-    double limit;                   /* rows whose hash is below it are kept      */
-    bool last_kept, judged, parted; /* judged: there are verdicts; parted: the models part on an orbit */
+    unsigned reversors;               /* that the return map has, see iso_section_reversors */
+    int l, x;                         /* columns of the rows; l -1: there is none  */
+    uint64_t rows;                    /* that came so far                          */
+    double limit;                     /* rows whose hash is below it are kept      */
+    bool last_kept, verdicts, parted; /* there are verdicts; the models part on an orbit */
     iso_record *kept;
     /* Of each orbit that has a crossing its number, shade and rotation number (NaN: not found), and its first crossing
      * (l, x). A row is of another orbit than the one before if its number differs. */
@@ -183,7 +183,7 @@ void iso_picture_points_verdict(iso_picture_points *p, double l, double x, const
         iso_record_row(p->orbits, i)[SHADE] = regular   ? ISO_PICTURE_COLOURED
                                               : chaotic ? ISO_PICTURE_GREY
                                                         : ISO_PICTURE_DARK;
-        p->judged = true;
+        p->verdicts = true;
     }
 }
 
@@ -207,7 +207,7 @@ static void find_shades(iso_picture_points *p, bool any[3])
     for (size_t i = 0; i < iso_record_rows(p->orbits); i++) {
         double *orbit = iso_record_row(p->orbits, i);
         if (orbit[SHADE] == ISO_PICTURE_COLOURED && isnan(orbit[ROTATION]))
-            orbit[SHADE] = p->judged ? ISO_PICTURE_DARK : ISO_PICTURE_GREY;
+            orbit[SHADE] = p->verdicts ? ISO_PICTURE_DARK : ISO_PICTURE_GREY;
     }
     for (size_t i = 0; i < iso_record_rows(p->kept); i++) {
         double *row = iso_record_row(p->kept, i);
@@ -243,7 +243,7 @@ iso_status iso_picture_points_make(iso_context *ctx, iso_picture_points *p, cons
                             p->reversors && any[ISO_PICTURE_COLOURED] ? " and mirror images" : ""));
     ISO_TRY(iso_picture_say(ctx, picture, "grey_means", "%s",
                             !any[ISO_PICTURE_GREY] ? ""
-                            : p->judged            ? "chaotic"
+                            : p->verdicts          ? "chaotic"
                             : p->parted            ? "ball and point part: chaotic; or too few crossings to tell"
                                                    : "chaotic, or too few crossings to tell"));
     ISO_TRY(iso_picture_say(ctx, picture, "dark_means", "%s", any[ISO_PICTURE_DARK] ? "undecided" : ""));

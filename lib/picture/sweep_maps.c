@@ -1,5 +1,5 @@
-/* sweep_maps.c - what the maps of a sweep show: which numbers are their axes, and which one tells them apart; sweep.c
- * says which tables they are. */
+/* sweep_maps.c - what the maps of a sweep show: which numbers are their axes, and which one differs between them.
+ * sweep.c says which tables they are. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +10,7 @@ enum { NAME = ISO_SWEPT_NAME, MAPS = 6 };
 
 /* --- maps ------------------------------------------------------------------------------------------------------- */
 
-/* What the axes of the maps are, and which column tells the maps apart. */
+/* What the axes of the maps are, and which column differs between them. */
 typedef struct layout {
     int x, y, panel;       /* columns of the table; panel -1: one map */
     bool ratios, triangle; /* x and y come from J: J1/J3 and J2/J3, or places in the triangle of J */
@@ -43,8 +43,8 @@ static int place_in(double list[MAPS], int *count, double x)
     return i;
 }
 
-/* The three moments are one point of a triangle. Of three other numbers that vary the one with the fewest values tells the
- * maps apart. */
+/* The three moments are one point of a triangle. Of three other numbers that vary the one with the fewest values is
+ * that of the maps. */
 static iso_status choose_layout(iso_context *ctx, const iso_swept *s, layout *l)
 {
     int rest[ISO_SWEPT_AXES], others = 0, moments = 0, fewest = MAPS + 2;

@@ -45,10 +45,10 @@ static bool is_plain(unsigned char c)
            (c && strchr(" -._/,:", c));
 }
 
-/* A text as gnuplot takes it, whatever it is (NULL: ""): one quoted string of one line, valid UTF-8, cut after `longest`
- * characters, at most 160. It still needs `noenhanced`. Every character that is not plain is written in octal. (In single
- * quotes gnuplot 5.4 fails on a text that begins with a quote.) gnuplot reads a fourth digit as part of the number:
- * before a digit the text is closed, and joined to the next by a dot. */
+/* A text as gnuplot takes it, whatever it is (NULL: ""): one quoted string of one line, valid UTF-8, cut after
+ * `longest` characters, at most 160. It still needs `noenhanced`. Every character that is not plain is written in
+ * octal. (In single quotes gnuplot 5.4 fails on a text that begins with a quote.) gnuplot reads a fourth digit as part
+ * of the number: before a digit the text is closed, and joined to the next by a dot. */
 static const char *quote(char quoted[static QUOTED_SIZE], const char *text, int longest)
 {
     const unsigned char *c = (const unsigned char *)(text ? text : "");

@@ -2,7 +2,7 @@
  * their names; so what a new panel shows needs no C if a table has it. lib/doc/formats.md, 9, has the kinds.
  *
  *     view_scene.c       a scene: `run`, and `compare` for how far both models are apart
- *     view_trajectory.c  a trajectory file; rows_impl.h gives it the columns that it lacks
+ *     view_trajectory.c  a trajectory file; rows_impl.h adds the columns that it lacks
  *     view_section.c     a section file: its crossings, and the first part of each of its orbits
  *     view_orbit.c       what is found out about orbits: integrals, a neighbour, and `chaos`
  *     view_data.c        the head and the tables as JSON

@@ -127,7 +127,7 @@ static iso_status start_at(iso_context *ctx, const view_page *page, const sectio
     return status;
 }
 
-/* The first `rows` rows of the orbit, close enough for cubic curves: with M and gamma, from which omega and n follow. */
+/* The first `rows` rows of the orbit, close enough for cubic curves; omega and n follow from M and gamma. */
 static iso_status run_orbit(iso_context *ctx, view_page *page, const section *s, size_t row, size_t rows)
 {
     const double number = iso_record_const_row(s->in, row)[s->orbit];
