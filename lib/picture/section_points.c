@@ -21,9 +21,9 @@ enum { ORBIT = ISO_PICTURE_COLUMNS, HASH, COLUMNS };
 struct iso_picture_points {
     iso_picture_charts charts;
     unsigned reversors;               /* that the return map has, see iso_section_reversors */
-    int l, x;                         /* columns of the rows; l -1: there is none  */
-    uint64_t rows;                    /* that came so far                          */
-    double limit;                     /* rows whose hash is below it are kept      */
+    int l, x;                         /* columns of the rows; l -1: there is none */
+    uint64_t rows;                    /* that came so far */
+    double limit;                     /* rows whose hash is below it are kept */
     bool last_kept, verdicts, parted; /* there are verdicts; the models part on an orbit */
     iso_record *kept;
     /* Of each orbit that has a crossing its number, shade and rotation number (NaN: not found), and its first crossing

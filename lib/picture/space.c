@@ -32,13 +32,13 @@ enum { RIGHT, AWAY, UP };
 
 typedef struct scenery {
     const iso_record *rows;
-    int centre, contact;    /* first columns, -1: not there                                            */
+    int centre, contact;    /* first columns, -1: not there */
     int place;              /* the path that is drawn: of the centre if it is known, else of the contact */
-    bool plane, level;      /* the support is a plane; a plane that is level, or up is not known       */
-    bool normal, vertical;  /* the plane's normal is known; up[] is the vertical               */
-    double axis[3][3];      /* right, away, up: of the view from the side; `away` is up in the other one   */
-    double ball, support;   /* radii, 0: not known                                                     */
-    double low[3], high[3]; /* of the path along right, away, up                                       */
+    bool plane, level;      /* the support is a plane; a plane that is level, or up is not known */
+    bool normal, vertical;  /* the plane's normal is known; `up` is the vertical */
+    double axis[3][3];      /* right, away, up: of the view from the side; `away` is up in the view from above */
+    double ball, support;   /* radii, 0: not known */
+    double low[3], high[3]; /* of the path along right, away, up */
     const char *right_name, *away_name, *up_name, *above, *side;
 } scenery;
 
