@@ -29,7 +29,7 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
             ISO_TRY(iso_record_intern(ctx, events, iso_record_word(r, iso_picture_number(r, i, "event")), &row[4]));
         ISO_TRY(iso_record_add(ctx, point ? points : events, 1, row)); /* an event repeats a point */
     }
-    ISO_TRY(iso_picture_count(ctx, picture, "branches", most));
+    ISO_TRY(iso_picture_set(ctx, picture, "branches", &most));
     return iso_picture_say(ctx, picture, "over", "%s", iso_picture_symbol(iso_record_name(r, OVER)));
 }
 

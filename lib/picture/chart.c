@@ -76,7 +76,7 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
                 ISO_TRY(iso_record_add(ctx, borders, 1, (double[]){side, row[K], row[UP]}));
         }
     }
-    ISO_TRY(iso_picture_count(ctx, picture, "none", none));
+    ISO_TRY(iso_picture_set(ctx, picture, "none", (double[]){none}));
     return iso_picture_say(ctx, picture, "up", "%s", iso_picture_symbol(iso_record_name(r, UP)));
 }
 

@@ -139,8 +139,7 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
     ISO_TRY(say_models(ctx, picture, k, field && strcmp(field, "1") == 0));
     ISO_TRY(say_drawn(ctx, picture, last[0], end));
     ISO_TRY(iso_picture_say(ctx, picture, "result", "%s", result ? result : ""));
-    ISO_TRY(iso_picture_count(ctx, picture, "t_end", last[0]));
-    return iso_picture_count(ctx, picture, "s_end", last[1]);
+    return iso_picture_set(ctx, picture, "t_end s_end", last);
 }
 
 const iso_picture_maker iso_picture_compare = {

@@ -89,9 +89,8 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
     if (t.series == 0 && iso_record_rows(t.closed) == 0)
         return ISO_FAIL_INPUT(ctx, "", "there are no measurements to draw");
     if (t.series == 0) ISO_TRY(add_name(ctx, t.panels, ""));
-    ISO_TRY(iso_picture_count(ctx, picture, "series", t.series));
-    ISO_TRY(iso_picture_count(ctx, picture, "nameless", t.others));
-    return iso_picture_count(ctx, picture, "uncertainty", uncertainty ? strtod(uncertainty, NULL) : 0);
+    return iso_picture_set(ctx, picture, "series nameless uncertainty",
+                           (double[]){t.series, t.others, uncertainty ? strtod(uncertainty, NULL) : 0});
 }
 
 const iso_picture_maker iso_picture_cost = {

@@ -133,7 +133,7 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
     ISO_TRY(iso_picture_add_curves(ctx, picture));
     ISO_TRY(iso_picture_add_chart(ctx, picture, "columns", *two, NULL,
                                   equal ? ISO_PICTURE_EVENLY : ISO_PICTURE_EXTREMES));
-    return iso_picture_count(ctx, picture, "equal", equal);
+    return iso_picture_set(ctx, picture, "equal", (double[]){equal});
 }
 
 const iso_picture_maker iso_picture_columns = {"columns", "", {NULL}, .options = " columns ", .make = make};

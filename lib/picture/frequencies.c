@@ -79,8 +79,7 @@ static iso_status make_map(iso_context *ctx, const iso_momentum *m, const double
     ISO_TRY(iso_picture_add(ctx, picture, "lines", "line h f", &lines));
     ISO_TRY(iso_picture_add(ctx, picture, "rotations", "line name'", &rotations));
     ISO_TRY(iso_picture_say(ctx, picture, "f", m->k == 1 ? "plane" : "shell"));
-    ISO_TRY(iso_picture_count(ctx, picture, "at_h", at[0]));
-    ISO_TRY(iso_picture_count(ctx, picture, "at_f", at[1]));
+    ISO_TRY(iso_picture_set(ctx, picture, "at_h at_f", at));
     ISO_TRY(iso_momentum_bounds(ctx, m, at[0], bounds)); /* columns: h, low and high of each part, F of each line */
     find_range(*bounds, range);
     for (int i = 0; i < PARTS; i++) {
@@ -94,8 +93,7 @@ static iso_status make_map(iso_context *ctx, const iso_momentum *m, const double
         iso_momentum_name_line(m, i, name);
         ISO_TRY(add_rows(ctx, *bounds, i + 1, column, column, lines, name, place, rotations));
     }
-    ISO_TRY(iso_picture_count(ctx, picture, "low", range[0]));
-    return iso_picture_count(ctx, picture, "high", range[1]);
+    return iso_picture_set(ctx, picture, "low high", range);
 }
 
 /* --- spectral lines --------------------------------------------------------------------------------------------- */
@@ -166,7 +164,7 @@ static iso_status make_lines(iso_context *ctx, const iso_record *r, iso_picture 
     if (iso_record_rows(lines) == 0) return ISO_FAIL_INPUT(ctx, "", "a picture of lines needs at least one line");
     ISO_TRY(iso_picture_say(ctx, picture, "axis", "%s", axis));
     ISO_TRY(iso_picture_say(ctx, picture, "warning", "%s", warning));
-    return iso_picture_count(ctx, picture, "labels", l.count);
+    return iso_picture_set(ctx, picture, "labels", (double[]){l.count});
 }
 
 /* h, F and the level H of the point, and the map with an area about them. */

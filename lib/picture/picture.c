@@ -174,9 +174,12 @@ iso_status iso_picture_say_title(iso_context *ctx, const iso_picture_request *q,
     return iso_picture_say(ctx, picture, "title", ISO_PICTURE_TITLE, seen, iso_ball_text(ball, p));
 }
 
-iso_status iso_picture_count(iso_context *ctx, iso_picture *picture, const char *key, double number)
+iso_status iso_picture_set(iso_context *ctx, iso_picture *picture, const char *keys, const double numbers[])
 {
-    return iso_record_set_numbers(ctx, picture->table[0], key, 1, &number);
+    char key[64];
+    for (int used; sscanf(keys, "%63s%n", key, &used) == 1; keys += used)
+        ISO_TRY(iso_record_set_numbers(ctx, picture->table[0], key, 1, numbers++));
+    return ISO_OK;
 }
 
 iso_status iso_picture_as_it_is(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)

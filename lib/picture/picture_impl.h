@@ -45,10 +45,11 @@ iso_status iso_picture_add(iso_context *ctx, iso_picture *picture, const char *n
 /* The place of a table that is not drawn. It is freed with the picture, or when the picture is made. */
 iso_record **iso_picture_aside(iso_picture *picture);
 
-/* Lines of the first table: a text, a number, a title: that of table[0], else what is seen, a gap, and the ball. */
+/* Lines of the first table: a text; numbers, whose keys have a blank between; a title: that of table[0], else what is
+ * seen, a gap, and the ball. */
 iso_status iso_picture_say(iso_context *ctx, iso_picture *picture, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-iso_status iso_picture_count(iso_context *ctx, iso_picture *picture, const char *key, double number);
+iso_status iso_picture_set(iso_context *ctx, iso_picture *picture, const char *keys, const double numbers[]);
 #define ISO_PICTURE_TITLE "%s        %s"
 iso_status iso_picture_say_title(iso_context *ctx, const iso_picture_request *request, iso_picture *picture,
                                  const char *seen, const iso_params *p);

@@ -225,9 +225,9 @@ static iso_status find_spots(iso_context *ctx, const iso_picture_charts *c, cons
 static iso_status add_side(iso_context *ctx, const iso_picture_charts *c, const frame *f, const iso_record *spots,
                            bool ball, bool image, iso_picture *picture)
 {
-    static const char *const keys[2][7] = {
-        {"point_x0", "point_x1", "point_y0", "point_y1", "point_title", "point_right", "point_up"},
-        {"ball_x0", "ball_x1", "ball_y0", "ball_y1", "ball_title", "ball_right", "ball_up"}};
+    static const char *const keys[2][4] = {
+        {"point_x0 point_x1 point_y0 point_y1", "point_title", "point_right", "point_up"},
+        {"ball_x0 ball_x1 ball_y0 ball_y1", "ball_title", "ball_right", "ball_up"}};
     const char *const *key = keys[ball], *const *index = iso_picture_index + c->axis, *n = ball ? "n" : "γ",
                       *angle = ball ? "ψ" : "l";
     const double ends[] = {f->low[0], f->high[0], f->low[1], f->high[1]};
@@ -237,19 +237,19 @@ static iso_status add_side(iso_context *ctx, const iso_picture_charts *c, const 
     for (int i = 0, used = 0; image && i < CELLS; i++)
         used += snprintf(columns + used, sizeof columns - (size_t)used, "%d ", i + 1);
     ISO_TRY(iso_picture_add(ctx, picture, ball ? "ball" : "point", columns, &table));
-    for (int i = 0; i < 4; i++) ISO_TRY(iso_picture_count(ctx, picture, key[i], ends[i]));
+    ISO_TRY(iso_picture_set(ctx, picture, key[0], ends));
     if (image) ISO_TRY(add_image(ctx, f, spots, table));
     if (!image && rows > 0) ISO_TRY(iso_record_add(ctx, table, rows, iso_record_const_row(spots, 0)));
-    ISO_TRY(iso_picture_say(ctx, picture, key[4], "%s: %s%s = 0, %s%s increasing",
+    ISO_TRY(iso_picture_say(ctx, picture, key[1], "%s: %s%s = 0, %s%s increasing",
                             ball         ? "ball"
                             : c->eps > 0 ? "point"
                                          : "directions of γ and M",
                             n, index[0], n, index[0]));
-    ISO_TRY(iso_picture_say(ctx, picture, key[5], "%s,  where %s%s = cos %s, %s%s = −sin %s", angle, n, index[1],
+    ISO_TRY(iso_picture_say(ctx, picture, key[2], "%s,  where %s%s = cos %s, %s%s = −sin %s", angle, n, index[1],
                             angle, n, index[2], angle));
-    if (ball) return iso_picture_say(ctx, picture, key[6], "ω%s / |ω|", index[0]);
-    return c->eps > 0 ? iso_picture_say(ctx, picture, key[6], "L = M%s, in the units of the scene", index[0])
-                      : iso_picture_say(ctx, picture, key[6], "x = M%s / |M|", index[0]);
+    if (ball) return iso_picture_say(ctx, picture, key[3], "ω%s / |ω|", index[0]);
+    return c->eps > 0 ? iso_picture_say(ctx, picture, key[3], "L = M%s, in the units of the scene", index[0])
+                      : iso_picture_say(ctx, picture, key[3], "x = M%s / |M|", index[0]);
 }
 
 /* The scale of the rotation numbers; nothing: there are none, or the colours are hues. */
@@ -263,9 +263,7 @@ static iso_status say_range(iso_context *ctx, const iso_picture_charts *c, const
     }
     const bool bar = low <= high;
     if (bar && high - low < 1e-3) low -= 5e-4, high += 5e-4;
-    ISO_TRY(iso_picture_count(ctx, picture, "bar", bar));
-    ISO_TRY(iso_picture_count(ctx, picture, "low", bar ? low : 0));
-    return iso_picture_count(ctx, picture, "high", bar ? high : 1);
+    return iso_picture_set(ctx, picture, "bar low high", (double[]){bar, bar ? low : 0, bar ? high : 1});
 }
 
 iso_status iso_picture_charts_add(iso_context *ctx, const iso_picture_charts *c, const iso_record *crossings,
@@ -281,9 +279,7 @@ iso_status iso_picture_charts_add(iso_context *ctx, const iso_picture_charts *c,
         image = image || (c->points > 0 && iso_record_rows(*spots[i]) > c->points);
     }
     for (int i = 0; i < 2; i++) ISO_TRY(add_side(ctx, c, &f[i], *spots[i], i == 0, image, picture));
-    ISO_TRY(iso_picture_count(ctx, picture, "images", image));
-    ISO_TRY(iso_picture_count(ctx, picture, "window", c->windowed));
-    ISO_TRY(iso_picture_count(ctx, picture, "few", c->few));
+    ISO_TRY(iso_picture_set(ctx, picture, "images window few", (double[]){image, c->windowed, c->few}));
     ISO_TRY(say_range(ctx, c, crossings, picture));
     ISO_TRY(iso_picture_add(ctx, picture, "boundary", "l low high", &boundary));
     for (int i = 0; i <= BOUNDARY; i++) {

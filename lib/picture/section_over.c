@@ -126,7 +126,6 @@ iso_status iso_picture_over(iso_context *ctx, const iso_picture_charts *c, const
         if (!c->alone) return refuse(ctx, *table, "the section must be of a free ball, or of one on a level");
         ISO_TRY(orbits ? add_orbits(ctx, &o, *table) : add_manifolds(ctx, &o, *table));
     }
-    ISO_TRY(iso_picture_count(ctx, picture, "stable", o.stable[true]));
-    ISO_TRY(iso_picture_count(ctx, picture, "unstable", o.stable[false]));
-    return iso_picture_count(ctx, picture, "curves", iso_record_rows(o.curve[0][0]) > 0);
+    return iso_picture_set(ctx, picture, "stable unstable curves",
+                           (double[]){o.stable[true], o.stable[false], iso_record_rows(o.curve[0][0]) > 0});
 }

@@ -229,13 +229,12 @@ static iso_status add_mark(iso_context *ctx, const scenery *s, const char *sign,
 /* What must fit into the views: the path, the ball, the sphere. */
 static iso_status say_extents(iso_context *ctx, const scenery *s, iso_picture *picture)
 {
-    static const char *const low[] = {"right_low", "away_low", "up_low"}, *const high[] = {"right_high", "away_high",
-                                                                                           "up_high"};
+    static const char *const keys[] = {"right_low right_high", "away_low away_high", "up_low up_high"};
     const double room = is_narrow(s) ? 0 : s->ball;
     for (int a = 0; a < 3; a++) {
-        const double least = s->low[a] - origin(s, a) - room, most = s->high[a] - origin(s, a) + room;
-        ISO_TRY(iso_picture_count(ctx, picture, low[a], s->support > 0 ? fmin(least, -s->support) : least));
-        ISO_TRY(iso_picture_count(ctx, picture, high[a], s->support > 0 ? fmax(most, s->support) : most));
+        const double low = s->low[a] - origin(s, a) - room, high = s->high[a] - origin(s, a) + room, r = s->support;
+        ISO_TRY(iso_picture_set(ctx, picture, keys[a],
+                                (double[]){r > 0 ? fmin(low, -r) : low, r > 0 ? fmax(high, r) : high}));
     }
     return ISO_OK;
 }
@@ -252,19 +251,16 @@ static iso_status say_scenery(iso_context *ctx, const scenery *s, iso_picture *p
     ISO_TRY(iso_picture_say(ctx, picture, "right_name", "%s", s->right_name));
     ISO_TRY(iso_picture_say(ctx, picture, "away_name", "%s", s->away_name));
     ISO_TRY(iso_picture_say(ctx, picture, "up_name", "%s", s->up_name));
-    ISO_TRY(iso_picture_count(ctx, picture, "dots", dots));
-    ISO_TRY(iso_picture_count(ctx, picture, "ball", s->ball));
-    ISO_TRY(iso_picture_count(ctx, picture, "support", s->support));
-    ISO_TRY(iso_picture_count(ctx, picture, "solid", is_solid(s)));
-    ISO_TRY(iso_picture_count(ctx, picture, "strip", is_narrow(s)));
+    ISO_TRY(iso_picture_set(ctx, picture, "dots ball support solid strip",
+                            (double[]){dots, s->ball, s->support, is_solid(s), is_narrow(s)}));
     if (s->plane && !s->level &&
         s->ball > 0) { /* the plane, seen from the side, is a line through the first contact */
         double contact[3], centre[3];
         project(s, vector_at(s, 0, s->contact), contact);
         project(s, vector_at(s, 0, s->centre), centre);
         const double slope = -(centre[0] - contact[0]) / (centre[2] - contact[2]);
-        if (isfinite(slope)) ISO_TRY(iso_picture_count(ctx, picture, "slope", slope));
-        if (isfinite(slope)) ISO_TRY(iso_picture_count(ctx, picture, "at", contact[2] - slope * contact[0]));
+        if (isfinite(slope))
+            ISO_TRY(iso_picture_set(ctx, picture, "slope at", (double[]){slope, contact[2] - slope * contact[0]}));
     }
     return say_extents(ctx, s, picture);
 }

@@ -106,7 +106,7 @@ iso_status iso_picture_path(iso_context *ctx, iso_picture *picture, const char *
 {
     const size_t rows = iso_picture_drawn(r);
     const bool joined = rows > 1 && iso_picture_joined(r, column);
-    char key[64];
+    char keys[64];
     double length = 0, seen[3];
     int side = -1;
     iso_record *path, *ends = iso_picture_table(picture, "ends");
@@ -119,10 +119,8 @@ iso_status iso_picture_path(iso_context *ctx, iso_picture *picture, const char *
         length += angle_between(before, v);
         ISO_TRY(add_arc(ctx, path, before, v, &side));
     }
-    snprintf(key, sizeof key, "%s_length", name);
-    ISO_TRY(iso_picture_count(ctx, picture, key, length));
-    snprintf(key, sizeof key, "%s_rows", name);
-    ISO_TRY(iso_picture_count(ctx, picture, key, (double)rows));
+    snprintf(keys, sizeof keys, "%s_length %s_rows", name, name);
+    ISO_TRY(iso_picture_set(ctx, picture, keys, (double[]){length, (double)rows}));
     if (!ends) ISO_TRY(iso_picture_add(ctx, picture, "ends", "of' sign' right up near", &ends));
     ISO_TRY(add_end(ctx, ends, name, "start", iso_picture_row(r, 0) + column));
     return add_end(ctx, ends, name, "end", iso_picture_row(r, rows - 1) + column);

@@ -27,13 +27,12 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
                                (double[]){at, sign ? size : size + error, size - error, size + error, sign}));
     }
     ISO_TRY(iso_picture_say(ctx, picture, "over", "%s", over));
-    ISO_TRY(iso_picture_count(ctx, picture, "sizes", sizes));
-    ISO_TRY(iso_picture_count(ctx, picture, "curves", curve != NULL));
+    ISO_TRY(iso_picture_set(ctx, picture, "sizes curves", (double[]){sizes, curve != NULL}));
     ISO_TRY(iso_picture_add(ctx, picture, "curve", "u x", &copy));
     if (!curve) return ISO_OK;
     const char *at = iso_record_get(curve, "at");
     ISO_TRY(iso_picture_say(ctx, picture, "at", "%s", at ? at : ""));
-    ISO_TRY(iso_picture_count(ctx, picture, "axis", iso_picture_axis(curve) + 1));
+    ISO_TRY(iso_picture_set(ctx, picture, "axis", (double[]){iso_picture_axis(curve) + 1}));
     int u;
     ISO_TRY(iso_picture_find(ctx, curve, 2, (const char *const[]){"u", "x"}, &u));
     for (size_t i = 0; i < iso_record_rows(curve); i++)

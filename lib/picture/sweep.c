@@ -127,7 +127,7 @@ iso_status iso_swept_marks(iso_context *ctx, const iso_picture_scale *scale, int
 
 iso_status iso_swept_say_value(iso_context *ctx, iso_picture *picture, const iso_swept *s, bool sizes)
 {
-    ISO_TRY(iso_picture_count(ctx, picture, "sizes", sizes));
+    ISO_TRY(iso_picture_set(ctx, picture, "sizes", (double[]){sizes}));
     return iso_picture_say(ctx, picture, "value", sizes ? "|%s|" : "%s", s->text);
 }
 
@@ -194,7 +194,7 @@ static iso_status make_curve(iso_context *ctx, const iso_swept *s, iso_picture *
     ISO_TRY(iso_picture_scale_of(ctx, picture, s->r, s->axis[0], iso_swept_is_k(s, s->axis[0]), &x));
     ISO_TRY(fill_curve(ctx, s, spread.sizes, x.k, *all, curve, &band));
     ISO_TRY(iso_swept_marks(ctx, &x, 1, marks));
-    ISO_TRY(iso_picture_count(ctx, picture, "logarithmic_x", x.logarithmic));
+    ISO_TRY(iso_picture_set(ctx, picture, "logarithmic_x", (double[]){x.logarithmic}));
     ISO_TRY(iso_swept_say_value(ctx, picture, s, spread.sizes));
     ISO_TRY(iso_picture_say(ctx, picture, "over", "%s", over));
     ISO_TRY(iso_picture_say(ctx, picture, "error", "%s",

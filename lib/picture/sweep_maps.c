@@ -116,9 +116,7 @@ static iso_status say_colours(iso_context *ctx, iso_picture *picture, const iso_
         const double value = iso_picture_at(points, i, ISO_POINT_VALUE);
         missing = missing || !isfinite(value) || (s->sizes && value == 0);
     }
-    ISO_TRY(iso_picture_count(ctx, picture, "low", low));
-    ISO_TRY(iso_picture_count(ctx, picture, "high", high));
-    return iso_picture_count(ctx, picture, "missing", missing);
+    return iso_picture_set(ctx, picture, "low high missing", (double[]){low, high, missing});
 }
 
 static iso_status add_names(iso_context *ctx, const iso_swept *s, const layout *l, iso_record *maps)
@@ -158,8 +156,8 @@ iso_status iso_swept_maps(iso_context *ctx, const iso_swept *s, iso_picture *pic
     ISO_TRY(add_names(ctx, s, &l, maps));
     ISO_TRY(iso_swept_marks(ctx, &m.x, 1, marks));
     ISO_TRY(iso_swept_marks(ctx, &m.y, 2, marks));
-    ISO_TRY(iso_picture_count(ctx, picture, "logarithmic_x", m.x.logarithmic));
-    ISO_TRY(iso_picture_count(ctx, picture, "logarithmic_y", m.y.logarithmic));
+    ISO_TRY(
+        iso_picture_set(ctx, picture, "logarithmic_x logarithmic_y", (double[]){m.x.logarithmic, m.y.logarithmic}));
     ISO_TRY(iso_swept_say_value(ctx, picture, s, spread.sizes));
     ISO_TRY(say_colours(ctx, picture, *points, &spread));
     ISO_TRY(iso_picture_say(ctx, picture, "x", "%s", l.x_name));
