@@ -3,7 +3,7 @@
 
 #include "base/number_impl.h"
 #include "model/effects/effects_impl.h"
-#include "picture/stretch_impl.h"
+#include "picture/picture_impl.h"
 #include "plot/draw.h"
 #include "shell.h"
 #include "task/task_impl.h"

@@ -55,7 +55,7 @@ static iso_status describe(shell *s, const shell_parts *parts)
 
 int shell_draw(const shell *s, const iso_record *table)
 {
-    return finish(s->ctx, iso_plot_table(s->ctx, &s->told->plot, table));
+    return finish(s->ctx, plot_table(s->ctx, &s->told->plot, table));
 }
 
 /* Prints text or JSON, unless the table goes to standard output. */

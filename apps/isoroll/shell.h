@@ -4,7 +4,7 @@
 
 #include "command.h"
 #include "json.h"
-#include "plot/plot.h"
+#include "plot/draw.h"
 
 /* What every such command can be told. */
 typedef struct shell_options {
