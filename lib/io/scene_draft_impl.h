@@ -26,9 +26,6 @@ typedef struct iso_draft {
 /* A draft before its text is read. */
 iso_draft iso_draft_empty(iso_context *ctx, const char *name);
 
-/* A key of `initial` and the model whose start it states (ISO_SHOW_BOTH: either). */
-bool iso_draft_initial_key(int i, const char **name, iso_models *model);
-
 /* The i-th key that a scene can have, and its section; those of `effects` are the names of the effects. False: there
  * are no more. */
 bool iso_scene_key_at(int i, const char **section, const char **key);

@@ -15,23 +15,13 @@
 
 /* ---- What must hold between keys ---- */
 
-/* The key and value of root -> section (-> name if not NULL). */
-static bool find_key(iso_draft *d, const char *section, const char *name, const yaml_node_t **key,
-                     const yaml_node_t **value)
+/* The key and value of mapping -> section (-> name if not NULL). */
+static bool find_key(iso_draft *d, const yaml_node_t *mapping, const char *section, const char *name,
+                     const yaml_node_t **key, const yaml_node_t **value)
 {
-    const yaml_node_t *mapping;
-    if (!name) return iso_yaml_find(&d->yaml, d->root, section, key, value);
-    return iso_yaml_find(&d->yaml, d->root, section, NULL, &mapping) &&
+    if (!name) return iso_yaml_find(&d->yaml, mapping, section, key, value);
+    return iso_yaml_find(&d->yaml, mapping, section, NULL, &mapping) &&
            iso_yaml_find(&d->yaml, mapping, name, key, value);
-}
-
-/* The key of effects -> effect -> name. */
-static bool find_effect_key(iso_draft *d, const yaml_node_t *effects, const char *effect, const char *name,
-                            const yaml_node_t **key)
-{
-    const yaml_node_t *mapping;
-    return iso_yaml_find(&d->yaml, effects, effect, NULL, &mapping) &&
-           iso_yaml_find(&d->yaml, mapping, name, key, NULL);
 }
 
 /* Exactly one of ball (with surface), reduced and point. */
@@ -41,7 +31,7 @@ static iso_status check_sections(iso_draft *d, const char **model)
     const yaml_node_t *key, *surface, *last = NULL;
     *model = NULL;
     for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
-        if (!find_key(d, models[i], NULL, &key, NULL)) continue;
+        if (!find_key(d, d->root, models[i], NULL, &key, NULL)) continue;
         if (*model)
             return ISO_FAIL_AT(d, key->start_mark.index > last->start_mark.index ? key : last,
                                "'%s' and '%s' both: a scene has one of 'ball', 'reduced' and 'point'", *model,
@@ -49,7 +39,7 @@ static iso_status check_sections(iso_draft *d, const char **model)
         *model = models[i];
         last = key;
     }
-    const bool has_surface = find_key(d, "surface", NULL, &surface, NULL);
+    const bool has_surface = find_key(d, d->root, "surface", NULL, &surface, NULL);
     if (has_surface && !*model) return ISO_FAIL_AT(d, surface, "'surface' needs a 'ball' that rolls on it");
     if (!*model) return ISO_FAIL_AT(d, d->root, "missing 'ball' and 'surface' (or 'reduced', or 'point')");
     const bool ball = strcmp(*model, "ball") == 0;
@@ -63,8 +53,8 @@ static iso_status check_sections(iso_draft *d, const char **model)
 static iso_status check_surface(iso_draft *d)
 {
     const yaml_node_t *surface, *radius;
-    if (!find_key(d, "surface", NULL, &surface, NULL)) return ISO_OK;
-    const bool has_radius = find_key(d, "surface", "radius", &radius, NULL), plane = d->surface == ISO_PLANE;
+    if (!find_key(d, d->root, "surface", NULL, &surface, NULL)) return ISO_OK;
+    const bool has_radius = find_key(d, d->root, "surface", "radius", &radius, NULL), plane = d->surface == ISO_PLANE;
     if (plane && has_radius) return ISO_FAIL_AT(d, radius, "a plane has no 'radius': take it out");
     if (!plane && !has_radius)
         return ISO_FAIL_AT(d, surface, "missing 'radius' in 'surface': that of the fixed sphere");
@@ -74,18 +64,17 @@ static iso_status check_surface(iso_draft *d)
 /* `initial` states the start of the scene's model and nothing of the other's. */
 static iso_status check_initial(iso_draft *d, iso_model_kind model)
 {
+    static const char *const keys[2][2] = {[ISO_BALL] = {"normal", "angular_velocity"}, [ISO_POINT] = {"gamma", "M"}};
     const yaml_node_t *initial, *key;
-    const char *what = model == ISO_BALL ? "a ball starts from 'normal' and 'angular_velocity'"
-                                         : "a point starts from 'gamma' and 'M'";
-    const char *name;
-    iso_models whose;
-    find_key(d, "initial", NULL, &initial, NULL);
-    for (int i = 0; iso_draft_initial_key(i, &name, &whose); i++) {
-        const bool present = find_key(d, "initial", name, &key, NULL);
-        if ((int)whose == (int)model && !present)
-            return ISO_FAIL_AT(d, initial, "missing '%s' in 'initial': %s", name, what);
-        if ((int)whose != (int)model && whose != ISO_SHOW_BOTH && present)
-            return ISO_FAIL_AT(d, key, "'%s' does not belong here: %s", name, what);
+    find_key(d, d->root, "initial", NULL, &initial, NULL);
+    for (int i = 0; i < 4; i++) {
+        const iso_model_kind whose = i < 2 ? ISO_BALL : ISO_POINT;
+        const char *name = keys[whose][i % 2], *what = model == ISO_BALL
+                                                           ? "a ball starts from 'normal' and 'angular_velocity'"
+                                                           : "a point starts from 'gamma' and 'M'";
+        const bool present = find_key(d, d->root, "initial", name, &key, NULL);
+        if (whose == model && !present) return ISO_FAIL_AT(d, initial, "missing '%s' in 'initial': %s", name, what);
+        if (whose != model && present) return ISO_FAIL_AT(d, key, "'%s' does not belong here: %s", name, what);
     }
     return ISO_OK;
 }
@@ -93,7 +82,7 @@ static iso_status check_initial(iso_draft *d, iso_model_kind model)
 static iso_status check_time(iso_draft *d)
 {
     const yaml_node_t *step;
-    if (!find_key(d, "time", "step", NULL, &step) || fabs(d->scene.end) / d->scene.step <= ISO_MOST_ROWS)
+    if (!find_key(d, d->root, "time", "step", NULL, &step) || fabs(d->scene.end) / d->scene.step <= ISO_MOST_ROWS)
         return ISO_OK;
     return ISO_FAIL_AT(d, step, "a step of %s to the end %s is more than %s rows: give a larger 'step'",
                        ISO_SHORT(d->scene.step), ISO_SHORT(d->scene.end), ISO_SHORT(ISO_MOST_ROWS));
@@ -114,7 +103,7 @@ static iso_status fail_at_field(iso_draft *d, iso_status status, const char *sec
     if (status != ISO_BAD_INPUT) return status;
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
         if (strcmp(about, elsewhere[i].about) == 0) section = elsewhere[i].section, about = elsewhere[i].key;
-    if (!find_key(d, section, about, NULL, &place)) find_key(d, section, NULL, &place, NULL);
+    if (!find_key(d, d->root, section, about, NULL, &place)) find_key(d, d->root, section, NULL, &place, NULL);
     return ISO_FAIL_AT(d, place, "%s", iso_context_message(d->yaml.ctx));
 }
 
@@ -149,7 +138,7 @@ typedef struct effect_section {
 static bool effect_has_key(const void *scene, const char *key)
 {
     const effect_section *s = scene;
-    return find_effect_key(s->d, s->effects, s->name, key, NULL);
+    return find_key(s->d, s->effects, s->name, key, NULL, NULL);
 }
 
 /* What an effect says in words of the ball becomes its numbers. A failure is put at the key it is about, or at that
@@ -162,7 +151,7 @@ static iso_status complete_effect(iso_draft *d, iso_model_kind model, const yaml
     const iso_status status = effect->complete(d->yaml.ctx, &d->scene.params, model == ISO_POINT,
                                                d->scene.effects.number[e], effect_has_key, &section);
     if (status != ISO_BAD_INPUT) return status;
-    if (!find_effect_key(d, effects, effect->name, iso_context_about(d->yaml.ctx), &key))
+    if (!find_key(d, effects, effect->name, iso_context_about(d->yaml.ctx), &key, NULL))
         iso_yaml_find(&d->yaml, effects, effect->name, &key, NULL);
     return ISO_FAIL_AT(d, key, "%s", iso_context_message(d->yaml.ctx));
 }
@@ -170,7 +159,7 @@ static iso_status complete_effect(iso_draft *d, iso_model_kind model, const yaml
 static iso_status make_effects(iso_draft *d, iso_model_kind model)
 {
     const yaml_node_t *effects;
-    if (!find_key(d, "effects", NULL, NULL, &effects)) return ISO_OK;
+    if (!find_key(d, d->root, "effects", NULL, NULL, &effects)) return ISO_OK;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
         if (!d->scene.effects.on[e]) continue;
         if (iso_effect_list[e]->complete) ISO_TRY(complete_effect(d, model, effects, e));
@@ -185,7 +174,7 @@ static iso_status make_start(iso_draft *d, iso_model_kind model)
     const iso_spin spin = d->project                       ? ISO_SPIN_REMOVE
                           : iso_effects_twist(&s->effects) ? ISO_SPIN_KEEP
                                                            : ISO_SPIN_REFUSE;
-    const double *eps = find_key(d, "point", "eps", NULL, NULL) ? &d->eps : NULL;
+    const double *eps = find_key(d, d->root, "point", "eps", NULL, NULL) ? &d->eps : NULL;
     const iso_status status = model == ISO_BALL
                                   ? iso_start_ball(d->yaml.ctx, d->angular_velocity, d->normal, spin, &s->start)
                                   : iso_start_point(d->yaml.ctx, d->M, d->gamma, eps, d->project, &s->start);
@@ -262,7 +251,7 @@ iso_status iso_scene_read_literals(iso_context *ctx, const char *path, iso_scene
 {
     char *text;
     size_t length;
-    ISO_TRY(iso_text_load(ctx, path, ISO_LARGEST_TEXT, &text, &length));
+    ISO_TRY(iso_text_load(ctx, path, &text, &length));
     const iso_status status = parse(ctx, iso_text_name(path), text, length, scene, literals);
     free(text);
     return status;
