@@ -52,7 +52,7 @@ iso_hdf5_store *iso_hdf5_store_create(void)
     iso_hdf5_store *s = calloc(1, sizeof *s);
     if (!s) return NULL;
     H5dont_atexit(); /* HDF5 would close what it could not close before, as on a full disk, and crash (1.10) */
-    s->file = s->descriptor = -1;
+    s->file = -1;
     ISO_HDF5_QUIETLY(iso_hdf5_guard(s));
     s->text = H5Tcopy(H5T_C_S1);
     H5Tset_size(s->text, H5T_VARIABLE);

@@ -25,7 +25,7 @@
 
 #include <hdf5.h>
 
-#include "io/replacement_impl.h"
+#include "io/output_impl.h"
 #include "io/table_impl.h"
 
 /* Without messages of HDF5. */
@@ -72,8 +72,7 @@ typedef struct iso_hdf5_store {
     /* of a writer */
     bool grows;              /* datasets get room as rows come */
     const iso_record *words; /* whose words the rows have      */
-    iso_replacement replacement;
-    int descriptor;
+    iso_output *out;
     /* of a reader */
     iso_context *ctx;
     iso_record *header; /* gets the words                                          */
