@@ -76,6 +76,7 @@ typedef struct iso_hdf5_store {
     /* of a reader */
     iso_context *ctx;
     iso_record *header; /* gets the words                                          */
+    char *names;        /* those of the columns, which the header has copied        */
     bool counts;        /* column 0 is the number of the row, without a dataset    */
     bool elsewhere;     /* a link leads to another file                            */
     size_t word_room;   /* 0: the words of a block are too long                    */
