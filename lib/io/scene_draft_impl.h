@@ -70,7 +70,7 @@ typedef struct iso_draft_number {
  * that belongs to an effect, is called SECTION.KEY. */
 int iso_draft_numbers(iso_draft *d, int most, iso_draft_number list[]);
 
-/* Their texts, of all that are one number or three (scene_literals_impl.h). Errors: ISO_NO_MEMORY. */
+/* Their texts, of all that are one number or three (scene_file.h). Errors: ISO_NO_MEMORY. */
 iso_status iso_draft_literals(iso_draft *d, iso_literals *literals);
 
 #endif

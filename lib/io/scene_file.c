@@ -9,7 +9,6 @@
 #include "base/arithmetic_impl.h"
 #include "base/number_impl.h"
 #include "io/scene_draft_impl.h"
-#include "io/scene_literals_impl.h"
 #include "io/text_impl.h"
 #include "orbit/orbit_impl.h"
 
@@ -79,21 +78,7 @@ static iso_status check_initial(iso_draft *d, iso_model_kind model)
     return ISO_OK;
 }
 
-static iso_status check_time(iso_draft *d)
-{
-    const yaml_node_t *step;
-    if (!find_key(d, d->root, "time", "step", NULL, &step) || fabs(d->scene.end) / d->scene.step <= ISO_MOST_ROWS)
-        return ISO_OK;
-    return ISO_FAIL_AT(d, step, "a step of %s to the end %s is more than %s rows: give a larger 'step'",
-                       ISO_SHORT(d->scene.step), ISO_SHORT(d->scene.end), ISO_SHORT(ISO_MOST_ROWS));
-}
-
 /* ---- Physics: the checks are the library's, the places are the file's ---- */
-
-/* Values that a failure calls otherwise than the scene, or that stand in another section than the rest. */
-static const struct {
-    const char *about, *section, *key;
-} elsewhere[] = {{"surface_radius", "surface", "radius"}, {"eps", "point", "eps"}};
 
 /* Repeats the last failure at the value it is about, or at the section's key when that value is not written. */
 static iso_status fail_at_field(iso_draft *d, iso_status status, const char *section)
@@ -101,31 +86,24 @@ static iso_status fail_at_field(iso_draft *d, iso_status status, const char *sec
     const char *about = iso_context_about(d->yaml.ctx);
     const yaml_node_t *place = d->root;
     if (status != ISO_BAD_INPUT) return status;
-    for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
-        if (strcmp(about, elsewhere[i].about) == 0) section = elsewhere[i].section, about = elsewhere[i].key;
+    if (strcmp(about, "surface_radius") == 0) section = "surface", about = "radius";
+    if (strcmp(about, "eps") == 0) section = "point";
     if (!find_key(d, d->root, section, about, NULL, &place)) find_key(d, d->root, section, NULL, &place, NULL);
     return ISO_FAIL_AT(d, place, "%s", iso_context_message(d->yaml.ctx));
 }
 
 static iso_status make_params(iso_draft *d, const char *model)
 {
+    iso_context *ctx = d->yaml.ctx;
+    iso_params *p = &d->scene.params;
     d->body.surface = (iso_surface)d->surface;
-    const iso_status status = strcmp(model, "ball") == 0
-                                  ? iso_params_physical(d->yaml.ctx, &d->body, &d->scene.params)
-                                  : iso_params_reduced(d->yaml.ctx, d->k, d->J, &d->scene.params);
-    return status == ISO_OK ? status : fail_at_field(d, status, model);
-}
-
-/* D of a reduced ball, where it is written; a ball has its own. */
-static iso_status make_D(iso_draft *d)
-{
-    if (isnan(d->D)) return ISO_OK;
-    iso_status status;
-    if (d->scene.params.D > 0)
-        status = ISO_FAIL_INPUT(d->yaml.ctx, "D", "this ball's D = m b^2 is known: take it out");
-    else
-        status = iso_params_set_D(d->yaml.ctx, d->D, &d->scene.params);
-    return iso_scene_blame(d->yaml.ctx, &d->scene, d->yaml.name, status);
+    iso_status status =
+        strcmp(model, "ball") == 0 ? iso_params_physical(ctx, &d->body, p) : iso_params_reduced(ctx, d->k, d->J, p);
+    if (status != ISO_OK) return fail_at_field(d, status, model);
+    if (!isnan(d->D)) /* it is written: of a reduced ball, as a ball has its own */
+        status = p->D > 0 ? ISO_FAIL_INPUT(ctx, "D", "this ball's D = m b^2 is known: take it out")
+                          : iso_params_set_D(ctx, d->D, p);
+    return iso_scene_blame(ctx, &d->scene, d->yaml.name, status);
 }
 
 /* The section of one effect, for its row's questions. */
@@ -141,29 +119,27 @@ static bool effect_has_key(const void *scene, const char *key)
     return find_key(s->d, s->effects, s->name, key, NULL, NULL);
 }
 
-/* What an effect says in words of the ball becomes its numbers. A failure is put at the key it is about, or at that
- * of the effect where it is about a key that is not there. */
-static iso_status complete_effect(iso_draft *d, iso_model_kind model, const yaml_node_t *effects, iso_effect_id e)
-{
-    const iso_effect *effect = iso_effect_list[e];
-    const effect_section section = {d, effects, effect->name};
-    const yaml_node_t *key;
-    const iso_status status = effect->complete(d->yaml.ctx, &d->scene.params, model == ISO_POINT,
-                                               d->scene.effects.number[e], effect_has_key, &section);
-    if (status != ISO_BAD_INPUT) return status;
-    if (!find_key(d, effects, effect->name, iso_context_about(d->yaml.ctx), &key, NULL))
-        iso_yaml_find(&d->yaml, effects, effect->name, &key, NULL);
-    return ISO_FAIL_AT(d, key, "%s", iso_context_message(d->yaml.ctx));
-}
-
+/* What an effect says of the ball in the scene's words becomes its numbers. A failure is put at the key it is about, or
+ * at that of the effect where it is about a key that is not there. */
 static iso_status make_effects(iso_draft *d, iso_model_kind model)
 {
-    const yaml_node_t *effects;
+    const yaml_node_t *effects, *key;
     if (!find_key(d, d->root, "effects", NULL, NULL, &effects)) return ISO_OK;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
         if (!d->scene.effects.on[e]) continue;
-        if (iso_effect_list[e]->complete) ISO_TRY(complete_effect(d, model, effects, e));
-        if (iso_effect_list[e]->expressions) ISO_TRY(iso_draft_check_expressions(d, e, effects));
+        const effect_section section = {d, effects, effect->name};
+        const iso_status status = !effect->complete
+                                      ? ISO_OK
+                                      : effect->complete(d->yaml.ctx, &d->scene.params, model == ISO_POINT,
+                                                         d->scene.effects.number[e], effect_has_key, &section);
+        if (status == ISO_BAD_INPUT) {
+            if (!find_key(d, effects, effect->name, iso_context_about(d->yaml.ctx), &key, NULL))
+                find_key(d, effects, effect->name, NULL, &key, NULL);
+            return ISO_FAIL_AT(d, key, "%s", iso_context_message(d->yaml.ctx));
+        }
+        ISO_TRY(status);
+        if (effect->expressions) ISO_TRY(iso_draft_check_expressions(d, e, effects));
     }
     return ISO_OK;
 }
@@ -185,18 +161,21 @@ static iso_status make_start(iso_draft *d, iso_model_kind model)
 iso_status iso_draft_make(iso_draft *d)
 {
     const char *name;
+    const yaml_node_t *step;
+    iso_scene *s = &d->scene;
     ISO_TRY(check_sections(d, &name));
     const iso_model_kind model = strcmp(name, "point") == 0 ? ISO_POINT : ISO_BALL;
     ISO_TRY(check_surface(d));
     ISO_TRY(check_initial(d, model));
-    ISO_TRY(check_time(d));
+    if (find_key(d, d->root, "time", "step", NULL, &step) && !(fabs(s->end) / s->step <= ISO_MOST_ROWS))
+        return ISO_FAIL_AT(d, step, "a step of %s to the end %s is more than %s rows: give a larger 'step'",
+                           ISO_SHORT(s->step), ISO_SHORT(s->end), ISO_SHORT(ISO_MOST_ROWS));
     ISO_TRY(make_params(d, name));
-    ISO_TRY(make_D(d));
     ISO_TRY(make_effects(d, model));
     ISO_TRY(make_start(d, model));
-    d->scene.backend = (iso_backend)d->backend;
-    d->scene.as = (iso_models)d->as;
-    return iso_scene_blame(d->yaml.ctx, &d->scene, d->yaml.name, iso_scene_check_columns(d->yaml.ctx, &d->scene));
+    s->backend = (iso_backend)d->backend;
+    s->as = (iso_models)d->as;
+    return iso_scene_blame(d->yaml.ctx, s, d->yaml.name, iso_scene_check_columns(d->yaml.ctx, s));
 }
 
 iso_draft iso_draft_empty(iso_context *ctx, const char *name)
