@@ -86,7 +86,7 @@ done_inside "a program with pkg-config" 'cd /tmp && gcc /debs/outside.c -o outsi
 done_inside "a program with CMake, shared and static" 'mkdir /tmp/c && cd /tmp/c && cat >CMakeLists.txt <<END
 cmake_minimum_required(VERSION 3.25)
 project(outside LANGUAGES C)
-find_package(isoroll 0.1 REQUIRED COMPONENTS static)
+find_package(isoroll 0.3 REQUIRED COMPONENTS static)
 add_executable(shared /debs/outside.c)
 target_link_libraries(shared PRIVATE isoroll::isoroll)
 add_executable(static /debs/outside.c)

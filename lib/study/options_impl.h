@@ -165,4 +165,8 @@ typedef struct iso_section_words {
     double (*points)[2];
 } iso_section_words;
 
+/* Reads them: the axis, and points l,x with semicolons between. Errors: ISO_BAD_ARGUMENT. */
+iso_status iso_section_words_read(iso_context *ctx, iso_section_words *words, int *axis, const double (**at)[2],
+                                  size_t *count);
+
 #endif

@@ -7,6 +7,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/pool_impl.h"
+#include "base/version.h"
 #include "orbit/batch.h"
 #include "orbit/lane_groups_impl.h"
 #include "orbit/orbit_impl.h"
@@ -119,6 +120,7 @@ static void make_head(iso_sweep *s)
     iso_sweep_head *h = &s->head;
     h->count = s->plan->family.count;
     h->chunk = s->plan->chunk > 0 ? s->plan->chunk : chunk_of(s);
+    h->version = ISO_VERSION;
     h->text = s->plan->text ? s->plan->text : "";
     h->scene = s->plan->scene;
     memcpy(h->hash, s->plan->hash, sizeof h->hash);

@@ -93,6 +93,7 @@ typedef struct iso_sweep_head {
     int columns;
     const iso_sweep_column *column;
     char vectors[ISO_NAME_SIZE];
+    const char *version;      /* of isoroll, that computes or computed its rows */
     uint64_t hash[2];         /* of everything that the rows depend on */
     const char *text, *scene; /* of the sweep file, and of the scene's own; scene NULL: it is in the sweep's */
 } iso_sweep_head;

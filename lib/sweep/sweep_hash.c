@@ -57,10 +57,10 @@ void iso_sweep_hash_head(uint64_t hash[2], const iso_sweep_head *h, bool alone, 
     }
 }
 
-bool iso_sweep_head_fits(const iso_sweep_head *h, const char *version)
+bool iso_sweep_head_fits(const iso_sweep_head *h)
 {
     uint64_t texts[2] = {0, 0};
-    iso_sweep_hash_texts(texts, version, h->text, h->scene);
+    iso_sweep_hash_texts(texts, h->version, h->text, h->scene);
     for (int machine = 0; machine < 4; machine++) {
         uint64_t hash[2] = {texts[0], texts[1]};
         iso_sweep_hash_head(hash, h, machine & 1, machine & 2);

@@ -104,9 +104,9 @@ void iso_sweep_hash_texts(uint64_t hash[2], const char *version, const char *tex
  * with the other order of bytes has it. */
 void iso_sweep_hash_head(uint64_t hash[2], const iso_sweep_head *head, bool alone, bool swapped);
 
-/* Whether the hash of a head is that of what it says, by this version on some machine: with or without AVX2, of
+/* Whether the hash of a head is that of what it says, by its version on some machine: with or without AVX2, of
  * either order of bytes. */
-bool iso_sweep_head_fits(const iso_sweep_head *head, const char *version);
+bool iso_sweep_head_fits(const iso_sweep_head *head);
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 

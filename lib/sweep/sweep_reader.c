@@ -74,6 +74,7 @@ static bool take_head(iso_sweep_reader *r)
     iso_sweep_head *h = &r->head;
     const char *hash = iso_record_get(lines, "hash"), *vectors = iso_record_get(lines, "vectors"),
                *text = iso_record_get(lines, ISO_TABLE_TEXT);
+    h->version = iso_record_get(lines, "isoroll");
     h->text = text ? text : "";
     h->scene = iso_record_get(lines, "scene");
     return take_part(lines, &r->shard) && hash && strlen(hash) == 32 &&
@@ -120,7 +121,7 @@ static iso_status check_sum(iso_context *ctx, const iso_sweep_reader *r)
 
 static iso_status open_table(iso_context *ctx, iso_sweep_reader *r)
 {
-    const char *last, *version;
+    const char *last;
     if (access(r->path, R_OK) != 0) return iso_file_trouble(ctx, "open", r->path);
     const iso_status status = iso_table_reader_open(ctx, r->path, NULL, NULL, &r->table);
     if (status == ISO_NO_MEMORY) return status;
@@ -130,8 +131,7 @@ static iso_status open_table(iso_context *ctx, iso_sweep_reader *r)
                                 r->path, iso_context_message(ctx));
     if (!take_head(r)) return damaged(ctx, r->path, "it is no result of a sweep");
     if (!makes_sense(r)) return damaged(ctx, r->path, "its head is damaged");
-    version = iso_record_get(iso_table_header(r->table), "isoroll");
-    if (!version || !iso_sweep_head_fits(&r->head, version))
+    if (!r->head.version || !iso_sweep_head_fits(&r->head))
         return damaged(ctx, r->path,
                        "its texts or its head do not fit its hash: they were changed, or another version wrote them");
     r->table->forgets = true;

@@ -15,7 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/version.h"
 #include "sweep/sweep_store_impl.h"
 
 /* --- shards, failures, names ------------------------------------------------------------------------------------- */
@@ -98,7 +97,7 @@ static char *print_columns(const iso_sweep_head *head)
 
 static iso_status set_lines(iso_context *ctx, iso_record *r, const iso_sweep_head *head, iso_sweep_shard shard)
 {
-    ISO_TRY(iso_record_set(ctx, r, "isoroll", ISO_VERSION));
+    ISO_TRY(iso_record_set(ctx, r, "isoroll", head->version));
     ISO_TRY(set(ctx, r, "hash", "%016" PRIx64 "%016" PRIx64, head->hash[0], head->hash[1]));
     ISO_TRY(set(ctx, r, "points", "%zu", head->count));
     ISO_TRY(set(ctx, r, "chunk", "%zu", head->chunk));

@@ -26,10 +26,10 @@ if find "$prefix" -name '*_impl.h' | grep .; then echo "FAIL a private header is
 cat >CMakeLists.txt <<END
 cmake_minimum_required(VERSION 3.25)
 project(outside LANGUAGES C)
-find_package(isoroll 0.2 REQUIRED)
+find_package(isoroll 0.3 REQUIRED)
 add_executable(shared "$here/outside.c")
 target_link_libraries(shared PRIVATE isoroll::isoroll)
-find_package(isoroll 0.2 REQUIRED COMPONENTS static)
+find_package(isoroll 0.3 REQUIRED COMPONENTS static)
 add_executable(static "$here/outside.c")
 target_link_libraries(static PRIVATE isoroll::isoroll_static)
 END
