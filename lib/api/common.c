@@ -5,7 +5,7 @@
 #include <time.h>
 
 #include "api/interface_impl.h"
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 
 int iso_interface(void)
 {

@@ -6,7 +6,6 @@
 #include <math.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/digits_impl.h"
 
 const char *iso_number_scan(const char *from, const char *to, double *value)
 {

@@ -3,7 +3,7 @@
 #ifndef ISO_IO_SCENE_DRAFT_IMPL_H
 #define ISO_IO_SCENE_DRAFT_IMPL_H
 
-#include "base/literal_impl.h"
+#include "base/rational_impl.h"
 #include "io/yaml_impl.h"
 #include "orbit/scene.h"
 

@@ -20,7 +20,7 @@
 
 #include <stddef.h>
 
-#include "base/literal_impl.h"
+#include "base/rational_impl.h"
 #include "orbit/scene.h"
 
 /* Reads the scene in the file `path`, "-" being standard input (called <stdin> in messages).

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "base/number_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"

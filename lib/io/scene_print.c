@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/finite_impl.h"
+#include "base/math_impl.h"
 #include "base/number_impl.h"
 #include "base/rational_impl.h"
 #include "orbit/orbit_impl.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/context_impl.h"
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "base/rational_impl.h"
 #include "io/text_impl.h"
 

@@ -9,7 +9,6 @@
 #include <stdio.h>
 
 #include "base/context.h"
-#include "base/literal_impl.h"
 #include "base/rational_impl.h"
 #include "orbit/scene.h"
 

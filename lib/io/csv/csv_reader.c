@@ -8,7 +8,7 @@
 #include <strings.h>
 
 #include "base/context_impl.h"
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "base/number_impl.h"
 #include "io/csv/csv_impl.h"
 #include "io/table_impl.h"

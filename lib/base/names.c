@@ -1,5 +1,5 @@
-/* nearest.c - the name that a wrong word is nearest to (see nearest_impl.h). */
-#include "base/nearest_impl.h"
+/* names.c - the name that a wrong word is nearest to (names_impl.h). */
+#include "base/names_impl.h"
 
 #include <ctype.h>
 #include <stdbool.h>
