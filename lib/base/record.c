@@ -29,7 +29,7 @@ struct iso_record {
     char kind[KIND_SIZE];
     size_t words, buckets; /* buckets: 0, or a power of 2 above twice the words */
     char **word;           /* by its number, from 1 on */
-    char *text;            /* what a study tells people; NULL: nothing */
+    char *text;            /* what a study prints; NULL: nothing */
     size_t *bucket;        /* the number of a word whose hash leads here; 0: none */
 };
 

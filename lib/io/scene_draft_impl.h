@@ -33,7 +33,7 @@ bool iso_scene_key_at(int i, const char **section, const char **key);
 /* Notes where a key stands, for what is found wrong only later, when an orbit is made. */
 void iso_scene_note_place(iso_scene *s, const char *key, yaml_mark_t at);
 
-/* Reads a number that may be written as a fraction; `what` names it in messages. If the double does not tell what is
+/* Reads a number that may be written as a fraction; `what` names it in messages. If the double does not show what is
  * written (base/rational_impl.h), the place is noted under the key's name with ISO_ROUNDED_KEY before it. */
 iso_status iso_draft_ratio(iso_draft *d, const yaml_node_t *value, const char *what, const char *key, double *x);
 iso_status iso_draft_ratios(iso_draft *d, const yaml_node_t *value, const char *key, double x[3]); /* a list of 3 */
@@ -66,7 +66,7 @@ typedef struct iso_draft_number {
     const yaml_node_t *value;     /* where it stands                      */
 } iso_draft_number;
 
-/* Lists the numbers that the text states, at most `most`, and gives how many. A number that two sections can have, or
+/* Lists the numbers that the text states, at most `most`, and returns how many. A number that two sections can have, or
  * that belongs to an effect, is called SECTION.KEY. */
 int iso_draft_numbers(iso_draft *d, int most, iso_draft_number list[]);
 

@@ -349,15 +349,6 @@ static void list_one(listing *l, const char *prefix, const char *name, int count
     snprintf(n->name, sizeof n->name, "%s%s%s", prefix, *prefix ? "." : "", name);
 }
 
-static void list_section(listing *l, const entry *section, const yaml_node_t *mapping)
-{
-    for (const entry *e = section->section; e->name; e++) {
-        const char *prefix = strcmp(e->name, "radius") == 0 ? section->name : ""; /* of ball, and of surface */
-        if (e->kind == NUMBER || e->kind == RATIO) list_one(l, prefix, e->name, 1, target(l->d, e), mapping);
-        if (e->kind == VECTOR || e->kind == RATIOS) list_one(l, "", e->name, 3, target(l->d, e), mapping);
-    }
-}
-
 /* `name`: its own, or that for a point. */
 static void list_effect(listing *l, iso_effect_id id, const char *name, const yaml_node_t *effects)
 {
@@ -375,8 +366,15 @@ int iso_draft_numbers(iso_draft *d, int most, iso_draft_number list[])
 {
     listing l = {d, most, 0, list};
     const yaml_node_t *effects, *mapping;
-    for (const entry *e = scene_keys; e->name; e++)
-        if (e->section && iso_yaml_find(&d->yaml, d->root, e->name, NULL, &mapping)) list_section(&l, e, mapping);
+    for (const entry *section = scene_keys; section->name; section++) {
+        if (!section->section || !iso_yaml_find(&d->yaml, d->root, section->name, NULL, &mapping)) continue;
+        for (const entry *e = section->section; e->name; e++) {
+            const bool vector = e->kind == VECTOR || e->kind == RATIOS;
+            const char *prefix = strcmp(e->name, "radius") == 0 ? section->name : ""; /* of ball, and of surface */
+            if (vector || e->kind == NUMBER || e->kind == RATIO)
+                list_one(&l, prefix, e->name, vector ? 3 : 1, target(d, e), mapping);
+        }
+    }
     if (iso_yaml_find(&d->yaml, d->root, "effects", NULL, &effects))
         for (iso_effect_id i = 0; i < ISO_EFFECTS; i++) {
             list_effect(&l, i, iso_effect_list[i]->name, effects);

@@ -49,7 +49,7 @@ struct iso_table_reader {
     void *data;
 };
 
-/* The column of a file of several orbits that tells them apart. It is no column of a trajectory. */
+/* The column of a file of several orbits that numbers them. It is no column of a trajectory. */
 #define ISO_ORBIT_COLUMN "orbit"
 
 /* The reader's header gets columns, and keeps its lines. */
