@@ -91,6 +91,13 @@ bool iso_set_backend(void *at, const char *text)
     return false;
 }
 
+bool iso_set_model(void *at, const char *text)
+{
+    for (int i = 0; iso_model_kind_name(i); i++)
+        if (strcmp(text, iso_model_kind_name(i)) == 0) return *(iso_model_kind *)at = (iso_model_kind)i, true;
+    return false;
+}
+
 bool iso_set_method(void *at, const char *text)
 {
     return (strcmp(text, "auto") == 0 || iso_method_find(text)) && iso_set_text(at, text);
