@@ -41,7 +41,7 @@ typedef struct command {
 const char *command_doc(const command *c);
 
 /* All commands in the order of --help; NULL after the last. Adding a command is one file and one word in
- * commands.c, in its group. */
+ * commands.c, in its group; that of a study has its word in the list of studies (study/options_impl.h). */
 extern const command *const commands[];
 
 /* How --help arranges them: the first `count` commands, and so on; title NULL after the last. */

@@ -5,7 +5,7 @@
 
 /* The groups, and the commands of each, in the order of --help. */
 #define START(X) X(run) X(compare) X(convert) X(check) X(plot) X(view) X(explain)
-#define STUDY(X) X(section) X(chaos) X(frequencies) X(periodic) X(splitting) X(prove) X(integrals) X(analogue) X(cost)
+#define STUDY(X) ISO_INSTRUMENT_LIST(X) /* study/options_impl.h */
 #define MANY(X) X(sweep)
 #define REFERENCE(X) X(list) X(manual)
 #define COMMANDS(X) START(X) STUDY(X) MANY(X) REFERENCE(X)

@@ -74,10 +74,13 @@ iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], c
     iso_picture_request q = {.table = table, .options = options, .title = iso_record_get(table[0], "title")};
     const iso_picture_maker *m = iso_picture_option(&q, "columns", columns) ? &iso_picture_columns : NULL;
     const char *kind = *iso_record_kind(table[0]) ? iso_record_kind(table[0]) : "trajectory"; /* of others */
+    const iso_picture_maker plain = {.kind = kind, .shows = kind, .make = iso_picture_as_it_is};
     *picture = (iso_picture){.layout = NULL};
     for (int i = 0; i < MAKERS && !m; i++)
         if (strcmp(makers[i]->kind, kind) == 0) m = makers[i];
-    if (!m) return ISO_FAIL_INPUT(ctx, "", "there is no picture of a table '%s'", kind);
+    if (!m && iso_record_rows(table[0]) == 0)
+        return ISO_FAIL_INPUT(ctx, "", "there is no picture of a table '%s'", kind);
+    if (!m) m = &plain;
     ISO_TRY(check_options(ctx, &q, m));
     ISO_TRY(check_table(ctx, table[0], m));
     if (!q.title && iso_record_get(table[0], "k")) {

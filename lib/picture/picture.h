@@ -23,18 +23,19 @@ typedef struct iso_picture {
 } iso_picture;
 
 /* Makes the picture of table[0]; more tables with NULL behind them add to it, by their kinds: the verdicts of `chaos`,
- * or orbits of `periodic`, to a section. options: lines NAME=VALUE with a newline between, or NULL:
+ * or orbits of `periodic`, to a section. A table of a kind that is not in the list here is drawn as it is, by the
+ * layout of its kind, and lives as long as the picture. options: lines NAME=VALUE with a newline between, or NULL:
  *   columns=X,Y            of a trajectory: Y over X alone
  *   value=NAME             of a sweep: the column that is drawn
  *   window=L0:L1,X0:X1     of a section: this part of it
  *   points=N               of a section: at most so many spots a side; of more an image is made
- * Errors: ISO_BAD_INPUT: no picture shows such a table, it has no rows, or a column or line is missing;
+ * Errors: ISO_BAD_INPUT: the table has no rows, or a column or line is missing;
  * ISO_BAD_ARGUMENT about an option; ISO_NUMERICAL, ISO_NO_MEMORY. The picture is then empty. */
 iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], const char *options,
                             iso_picture *picture);
 void iso_picture_free(iso_picture *picture);
 
-/* The i-th kind of table that has a picture; NULL past the end. */
+/* The i-th kind of the list; NULL past the end. */
 const char *iso_picture_kind(int i);
 
 /* The table of this name, or NULL. */

@@ -11,11 +11,11 @@
  * traces; of periodic the orbits, the branches or the chart; of section the crossings, and those that the point finds,
  * or the areas; of splitting, prove and cost their rows; of compare the differences, and those of ball and point from the
  * closed solution; of check the residuals. Those of the others have no rows. */
-#define ISO_STUDY_LIST(X)                                                                                            \
-    X(run)                                                                                                           \
+#define ISO_STUDY_LIST(X) X(run) X(convert) ISO_INSTRUMENT_LIST(X) X(compare) X(check) X(explain)
+/* Those that have a command in the group "study" of the command's help, in its order. */
+#define ISO_INSTRUMENT_LIST(X)                                                                                       \
     X(section)                                                                                                       \
-    X(convert) X(chaos) X(frequencies) X(periodic) X(splitting) X(prove) X(integrals) X(cost) X(compare) X(check)    \
-        X(explain) X(analogue)
+    X(chaos) X(frequencies) X(periodic) X(splitting) X(prove) X(integrals) X(analogue) X(cost)
 #define ISO_STUDY_DECLARE(name)                                                                                      \
     extern const iso_study iso_##name##_study;                                                                       \
     extern const iso_option iso_##name##_option[];

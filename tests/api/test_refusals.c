@@ -1,40 +1,29 @@
-/* One situation has one status, one field and one sentence, whoever is asked: each study is given a scene that does
- * not suit it, and arguments that are wrong. A row of the table is a situation; a * in its sentence is the study's own
- * part. */
+/* test_refusals.c - one situation has one status, one field and one sentence, whoever is asked: each study is given a
+ * scene that does not suit it, and arguments that are wrong. A row of the table is a situation; a * in its sentence is
+ * the study's own part. The place in the scene's file, which iso_study_ask puts before the sentence, is that of
+ * test_api_studies.c. */
 #include <fnmatch.h>
-#include <gsl/gsl_test.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "instrument/chaos/chaos.h"
-#include "instrument/section/section.h"
-#include "instrument/section/section_impl.h"
-#include "io/scene_file.h"
-#include "orbit/crossings.h"
-#include "study/study.h"
-#include "task/list/tables.h"
-
-static iso_context *ctx;
+#include "ask.h"
 
 #define BODY(J) "reduced: {k: 0.5, J: [" J "], D: 0.5}\n"
 #define MOVING "initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}\n"
 #define RESTING "initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0, 0, 0]}\n"
 #define END "time: {end: 1, step: 0.5}\n"
 #define BALL BODY("1.4, 2.1, 3.0") MOVING END
-#define POINT "point: {k: 0.5, J: [1.4, 2.1, 3.0]" /* its eps, and } */
+#define A_POINT "point: {k: 0.5, J: [1.4, 2.1, 3.0]" /* its eps, and } */
 #define HERE "initial: {gamma: [0.6, 0, 0.8], M: [0, 0, 0]}\n" END
 
 /* The scenes; a situation names one. */
 static const char free_ball[] = BALL, equal[] = BODY("2, 2, 3") MOVING END,
-                  resting[] = BODY("1.4, 2.1, 3.0") RESTING END, resting_point[] = POINT "}\n" HERE,
-                  pulled[] = POINT ", eps: 1}\n" HERE,
-                  repelled[] = POINT ", eps: -1}\n"
-                                     "initial: {gamma: [0.6, 0, 0.8], M: [0, 0.5, 0]}\n" END,
+                  resting[] = BODY("1.4, 2.1, 3.0") RESTING END, resting_point[] = A_POINT "}\n" HERE,
+                  pulled[] = A_POINT ", eps: 1}\n" HERE,
+                  repelled[] = A_POINT ", eps: -1}\n"
+                                       "initial: {gamma: [0.6, 0, 0.8], M: [0, 0.5, 0]}\n" END,
                   field[] = BALL "effects: {field: {linear: [0.1, 0.2, 0.3]}}\n",
                   resting_in_field[] =
                       BODY("1.4, 2.1, 3.0") RESTING END "effects: {field: {linear: [0.1, 0.2, 0.3]}}\n",
-                  rolling[] = BALL "effects: {rolling_resistance: {coefficient: 0.1}}\n",
+                  braked[] = BALL "effects: {rolling_resistance: {coefficient: 0.1}}\n",
                   twisting[] = BALL "effects: {twist: {resistance: 10}}\n",
                   level[] = BALL "effects: {level: {c: 0.3}}\n",
                   tilted[] = "reduced: {k: 1, J: [1.4, 2.1, 3.0], D: 0.5}\n" MOVING END
@@ -50,7 +39,7 @@ typedef struct situation {
 } situation;
 
 static const situation situations[] = {
-    {"rolling resistance", rolling, "section,chaos,frequencies", ISO_BAD_INPUT, "rolling_resistance",
+    {"rolling resistance", braked, "section,chaos,frequencies", ISO_BAD_INPUT, "rolling_resistance",
      "'rolling_resistance' takes energy from the ball: a motion that comes to rest *"},
     {"friction of the twist", twisting, "section,chaos,frequencies", ISO_BAD_INPUT, "twist",
      "'twist' takes energy from the ball: a motion that comes to rest *"},
@@ -69,11 +58,11 @@ static const situation situations[] = {
      "* only where the point's coupling eps is above 0; here it is *"},
     {"eps below 0", repelled, "periodic,splitting", ISO_BAD_INPUT, "level",
      "* only where the point's coupling eps is above 0; here it is -1*"},
-    {"a ball at rest", resting, "section,chaos,frequencies,periodic,area", ISO_BAD_INPUT, "angular_velocity",
-     "a ball at rest *"},
+    {"a ball at rest", resting, "section,chaos,frequencies,periodic,section area true", ISO_BAD_INPUT,
+     "angular_velocity", "a ball at rest *"},
     {"a ball at rest", resting, "compare", ISO_NOT_MAPPED, "angular_velocity", "a ball at rest *"},
     {"a point at rest", resting_point, "section,chaos,frequencies,periodic", ISO_BAD_INPUT, "M", "a point at rest *"},
-    {"a ball that starts at rest", resting_in_field, "chaos,area", ISO_BAD_INPUT, "angular_velocity",
+    {"a ball that starts at rest", resting_in_field, "chaos,section area true", ISO_BAD_INPUT, "angular_velocity",
      "the ball starts at rest, where *: start it a little later"},
     {"a point that starts at rest", pulled, "chaos", ISO_BAD_INPUT, "M",
      "the point starts at rest, where *: start it a little later"},
@@ -93,114 +82,68 @@ static const situation situations[] = {
      "n_2 = 0 is closed at l = 0 on the level H = *: the potential there is not below H"},
     {"no axis", free_ball, "section axis 4,chaos axis 0,section axis 12", ISO_BAD_ARGUMENT, "",
      "--axis '*': expected auto, 1, 2 or 3"},
-    {"no axis of a program", free_ball,
-     "iso_section_run axis,iso_chaos_run axis,iso_crossings_create axis,iso_section_areas_find axis",
-     ISO_BAD_ARGUMENT, "axis", "axis 4 is not 1, 2 or 3"},
     {"no tolerance", free_ball, "section tol 2,chaos tol 1e-16,integrals tol 0.2", ISO_BAD_ARGUMENT, "tol",
      "tol is '*': expected a number in [[]1e-15, 0.1]"},
-    {"no tolerance of a program", free_ball,
-     "iso_section_run tolerance,iso_chaos_run tolerance,iso_crossings_create tolerance", ISO_BAD_ARGUMENT,
-     "tolerance", "tolerance 2 is not in [[]1e-15, 0.1]"},
+    {"a number that went wrong", free_ball, "section tol nan,chaos tol -1e-9,section tol inf,cost tol 0",
+     ISO_BAD_ARGUMENT, "tol", "tol is '*': expected a number *"},
+    {"-1 in another language", free_ball, "section starts -1,chaos starts 1.5,section starts 1e17", ISO_BAD_ARGUMENT,
+     "starts", "starts is '*': expected a whole number from 0 on"},
+    {"none", free_ball, "section crossings 0", ISO_BAD_ARGUMENT, "crossings",
+     "crossings is '0': expected a whole number from 1 on"},
+    {"no model", free_ball, "section model x,chaos model x", ISO_BAD_ARGUMENT, "model",
+     "model is 'x': expected ball, point or both"},
+    {"an option without a value", free_ball, "section at,chaos at", ISO_BAD_ARGUMENT, "at",
+     "'at' is no option: write NAME=VALUE"},
+    {"no option", free_ball, "section mood 1,chaos mood 1", ISO_BAD_ARGUMENT, "mood", "* has no option 'mood'*"},
+    {"an option that is gone", free_ball, "section cloud 640", ISO_BAD_ARGUMENT, "cloud",
+     "*any more: section --area *"},
+    {"no start", free_ball, "section at 1,chaos at 1,section at 0;x", ISO_BAD_ARGUMENT, "",
+     "--at '*': expected l,x, or several of them with ; between: 0.5,0.2;1,-0.3"},
+    {"no event", free_ball, "section event x:1", ISO_BAD_ARGUMENT, "",
+     "--event: there is no column 'x'; valid are t, *"},
+    {"no value of an event", free_ball, "section event n1", ISO_BAD_ARGUMENT, "",
+     "--event 'n1': expected COLUMN=VALUE, such as omega1=0.5"},
+    {"an event with areas", free_ball, "section area true event n1:0.1", ISO_BAD_ARGUMENT, "",
+     "section: --area or --event, not both: *"},
+    {"many k and many levels", free_ball, "splitting k 0.5;1 level 0;1", ISO_BAD_ARGUMENT, "",
+     "--k has 2 values and --level 2: give many k and one level, or one k and many levels"},
+    {"a step of 0", free_ball, "splitting k 0.5_1_0", ISO_BAD_ARGUMENT, "", "--k '0.5:1:0': expected values and *"},
+    {"every row fails", free_ball, "splitting k 500", ISO_BAD_INPUT, "",
+     "k = 500: the splitting is measured only for 0.05 <= |k| <= 50"},
+    {"two answers", free_ball, "periodic chart J2 follow k:0.4_0.6", ISO_BAD_ARGUMENT, "chart",
+     "periodic: --chart or --follow, not both"},
+    {"a branch far away", free_ball, "periodic follow k:5_6", ISO_BAD_ARGUMENT, "range",
+     "the scene has k = 0.5: the range 5 to 6 must contain it"},
 };
 
 /* --- who is asked ----------------------------------------------------------------------------------------------- */
 
-/* A study by its name, with options NAME VALUE NAME VALUE; a ; in a value stands for a comma. */
-static iso_status by_name(const iso_study *study, const iso_scene *scene, char *options)
+/* A study by its name, with options NAME VALUE NAME VALUE; in a value ; is a comma, : is =, and _ is a colon. */
+static iso_status ask_by(const iso_scene *scene, const char *name, char *options)
 {
-    iso_study_result result = {0};
-    const iso_study_subject subject = {.scene = scene};
     bool value = false;
-    for (char *c = options; *c; c++) {
-        if (*c == ' ') *c = (value = !value) ? '=' : '\n';
-        if (*c == ';') *c = ',';
-    }
-    const iso_status status = iso_study_ask_text(ctx, study, &subject, options, &result);
+    const iso_study_subject subject = {.scene = scene};
+    iso_study_result result = {.text = NULL};
+    for (char *c = options; *c; c++)
+        *c = *c == ' ' ? ((value = !value) ? '=' : '\n') : *c == ';' ? ',' : *c == ':' ? '=' : *c == '_' ? ':' : *c;
+    const iso_status status = iso_study_ask_text(ctx, iso_study_find(name), &subject, options, &result);
     iso_study_result_free(&result);
     return status;
-}
-
-/* --- calls of a program: an axis that is none, or a tolerance ---------------------------------------------------- */
-
-static iso_status section_run(const iso_scene *scene, bool axis)
-{
-    iso_section_options o = iso_section_defaults();
-    iso_sink sink = {0};
-    iso_section_result result;
-    if (axis) o.axis = 3;
-    if (!axis) o.tolerance = 2;
-    return iso_section_run(ctx, scene, &o, &sink, NULL, &result);
-}
-
-static iso_status chaos_run(const iso_scene *scene, bool axis)
-{
-    iso_chaos_options o = iso_chaos_defaults();
-    iso_chaos *c = NULL;
-    if (axis) o.axis = 3;
-    if (!axis) o.tolerance = 2;
-    const iso_status status = iso_chaos_run(ctx, scene, &o, &c);
-    iso_chaos_free(c);
-    return status;
-}
-
-static iso_status crossings_create(const iso_scene *scene, bool axis)
-{
-    const iso_batch_orbit orbit = {.params = &scene->params, .start = &scene->start};
-    iso_crossings_options o = iso_crossings_defaults();
-    iso_crossings *c = NULL;
-    if (axis) o.axis = 3;
-    if (!axis) o.tolerance = 2;
-    const iso_status status = iso_crossings_create(ctx, &orbit, 1, &o, &c);
-    iso_crossings_free(c);
-    return status;
-}
-
-static iso_status area(const iso_scene *scene, bool axis)
-{
-    iso_section_areas found;
-    iso_section_options o = iso_section_defaults();
-    if (axis) o.axis = 3;
-    const iso_status status = iso_section_areas_find(ctx, scene, &o, NULL, NULL, &found);
-    iso_section_areas_free(&found);
-    return status;
-}
-
-static iso_status ask(const iso_scene *scene, const char *name, char *options)
-{
-    static const struct {
-        const char *name;
-        iso_status (*call)(const iso_scene *scene, bool flag);
-        const char *flag; /* the word that sets it */
-    } calls[] = {{"area", area, ""},
-                 {"iso_section_areas_find", area, "axis"},
-                 {"iso_section_run", section_run, "axis"},
-                 {"iso_chaos_run", chaos_run, "axis"},
-                 {"iso_crossings_create", crossings_create, "axis"}};
-    for (size_t i = 0; i < sizeof calls / sizeof *calls; i++)
-        if (strcmp(calls[i].name, name) == 0)
-            return calls[i].call(scene, strcmp(options, calls[i].flag) == 0 && *options);
-    const iso_study *study = iso_study_find(name);
-    if (study) return by_name(study, scene, options);
-    return iso_context_fail(ctx, ISO_STOPPED, "", "this test knows no '%s'", name);
 }
 
 /* --- the law ---------------------------------------------------------------------------------------------------- */
 
 static void hold(const situation *s)
 {
-    iso_scene scene;
-    char asked[256], *rest = NULL;
-    if (iso_scene_load_text(ctx, s->what, s->scene, strlen(s->scene), &scene) != ISO_OK) {
-        gsl_test(1, "%s: %s", s->what, iso_context_message(ctx));
-        return;
-    }
-    snprintf(asked, sizeof asked, "%s", s->asked);
-    for (char *one = strtok_r(asked, ",", &rest); one; one = strtok_r(NULL, ",", &rest)) {
+    const iso_scene scene = parse(s->scene);
+    char all[256], *rest = NULL;
+    snprintf(all, sizeof all, "%s", s->asked);
+    for (char *one = strtok_r(all, ",", &rest); one; one = strtok_r(NULL, ",", &rest)) {
         char line[64];
         const size_t name = strcspn(one, " ");
         snprintf(line, sizeof line, "%s", one + name + (one[name] == ' '));
         one[name] = '\0';
-        const iso_status status = ask(&scene, one, line);
+        const iso_status status = ask_by(&scene, one, line);
         const char *words = status == ISO_OK ? "it is done" : iso_context_message(ctx);
         gsl_test(status != s->status || fnmatch(s->sentence, words, 0) != 0, "%s: %s: %s: %s", s->what, one,
                  iso_status_text(status), words);
@@ -212,7 +155,6 @@ static void hold(const situation *s)
 int main(void)
 {
     ctx = iso_context_create();
-    gsl_test_verbose(1);
     for (size_t i = 0; i < sizeof situations / sizeof *situations; i++) hold(&situations[i]);
     iso_context_free(ctx);
     return gsl_test_summary();

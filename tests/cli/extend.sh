@@ -1,56 +1,39 @@
-# extend.sh - the recipes of tests/extend, followed in a copy of the source: an effect, a method, an integral, a column
-# of a result, a table of a new kind with its picture, a study of many orbits; and the system of lib/README.md. Every
-# backend and method either simulates the new effect, and all agree, or refuses it by name.
+# extend.sh - the recipes of tests/extend, each a patch, followed in a copy of the source: an effect, a method, an
+# integral, a column of a result, an option of a study, a table of a new kind, its picture, a study of many orbits with
+# its command; and the system of lib/README.md. Every backend and method either simulates the new effect, and all
+# agree, or refuses it by name.
 . "$(dirname "$0")/lib.sh"
 copy=$work/copy
 recipes=$source/tests/extend
 mkdir "$copy"
 cp -r "$source/lib" "$source/apps" "$source/CMakeLists.txt" "$copy/"
 
-# The lines that the documents ask for.
-sed -i 's/^    X(CLOCK, clock)$/    X(CLOCK, clock) X(DRAG, drag)/' "$copy/lib/model/effects/effect_list.h"
-sed -i 's/    X(strang)/    X(kutta38) X(strang)/' "$copy/lib/method/methods_impl.h"
-# The functions of the integral stand above the table of ball.c, its row is the first.
-awk -v functions="$recipes/integral_round.c" '
-    /^static const iso_integral integrals\[\]/ {
-        while ((getline line < functions) > 0) print line
-        print
-        print "    {.name = \"omega.omega\", .doc = \"omega^2, three equal moments\", .dimension = {0, 0, 2},"
-        print "     .holds = is_round, .value = omega_square},"
-        next
-    }
-    { print }' "$source/lib/model/ball.c" >"$copy/lib/model/ball.c"
-cp "$recipes/effect_drag.c" "$copy/lib/model/"
-cp "$recipes/kutta38.c" "$copy/lib/method/"
-sed -i 's/^    X(chaos) /    X(chaos) X(passes) /' "$copy/lib/study/options_impl.h"
-cp "$recipes/study_passes.c" "$copy/lib/study/"
-check "study_passes.c has at most 60 lines" test "$(wc -l <"$recipes/study_passes.c")" -le 60
-
-# The line of lib/README.md that makes a column stands behind another one.
-column=$(sed -n 's/^    FIELD("u", /&/p' "$source/lib/README.md")
-sed -i "s|^    FIELD(\"torus\", .*|&\n$column|" "$copy/lib/instrument/periodic/periodic_fields.c"
-
-# The description of a table of a new kind, and its row.
-sed -n '/^typedef struct turn/,/^ *ISO_FIELD_END};/p' "$recipes/turns_fields.c" >turns.c
-awk '/^const iso_result_table \*iso_result_table_at/ { while ((getline line < "turns.c") > 0) print line; print "" }
-    { print }
-    /iso_result_table tables\[\] = / { print "        {.kind = \"turns\", .doc = \"a turn\", .fields = turn_fields}," }
-    ' "$source/lib/task/list/tables.c" >"$copy/lib/task/list/tables.c"
-
-# A picture of such tables: a row, and a template.
-cp "$recipes/turns.gp" "$copy/apps/isoroll/pictures/"
-sed -i 's/^static const iso_picture_maker \*const makers\[\] = {/static const iso_picture_maker turns = {"turns", "Turns", {"number", "angle"}, .make = iso_picture_as_it_is};\n&\&turns, /' \
-    "$copy/lib/picture/picture.c"
-
-# short FILE: a recipe is a diff of at most 15 lines
-short() {
-    lines=$(diff "$source/$1" "$copy/$1" | grep -c '^[<>]')
-    check "$1: $lines lines" test "$lines" -ge 1 -a "$lines" -le 15
+# follow NAME MOST: applies NAME.diff, which touches at most so many files
+follow() {
+    files=$(grep -c '^+++ ' "$recipes/$1.diff")
+    check "$1.diff: $files files, $2 at most" test "$files" -ge 1 -a "$files" -le "$2"
+    checks=$((checks + 1))
+    patch -p1 -f -s --no-backup-if-mismatch -d "$copy" -i "$recipes/$1.diff" >patch.log 2>&1 && return
+    fail "$1.diff does not apply: make it anew, as tests/extend/README.md tells"
+    cat patch.log >&2
+    finish || exit 1
 }
-short lib/model/ball.c
-short lib/instrument/periodic/periodic_fields.c
-short lib/task/list/tables.c
-short lib/picture/picture.c
+follow effect 2
+follow method 2
+follow integral 1
+follow column 2
+follow option 4
+follow table 2
+follow picture 1
+follow study 5
+
+# A new study is its folder, one line in the list, a template, and a page of words.
+grep '^+++ ' "$recipes/study.diff" | sed 's|^+++ b/||; s|^lib/instrument/passes/.*|its folder|' | sort -u >touched
+check "what a study touches" test "$(tr '\n' ' ' <touched)" = \
+    "apps/isoroll/cmd_passes.c apps/isoroll/pictures/passes.gp its folder lib/study/options_impl.h "
+check "one line in the list" test "$(diff "$source/lib/study/options_impl.h" "$copy/lib/study/options_impl.h" |
+    grep -c '^>')" = 1
+check "passes.c has at most 90 lines" test "$(wc -l <"$copy/lib/instrument/passes/passes.c")" -le 90
 
 # The system of lib/README.md: every block from "circle.c" to the end of its row compiles.
 awk '/^    \/\* circle\.c/ { on = 1 } on && /^[^ ]/ { exit } on { sub(/^    /, ""); print }' \
@@ -59,9 +42,9 @@ check "lib/README.md has the system circle" grep -q 'iso_system_circle = {' "$wo
 check "the system of lib/README.md compiles" "${CC:-cc}" -std=c11 -Wall -Wextra -Werror -fsyntax-only \
     -I"$source/lib" "$work/circle.c"
 
-for recipe in effect_drag effect_drag_plain kutta38 study_passes; do # also with the warnings that only an optimising compiler has
-    check "$recipe.c has no warnings" "${CC:-cc}" -std=c11 -D_DEFAULT_SOURCE -O2 -Wall -Wextra -Wpedantic -Wshadow \
-        -Wconversion -Werror -I"$copy/lib" -c "$recipes/$recipe.c" -o recipe.o
+for file in model/effects/effect_drag method/kutta38 instrument/passes/passes; do # also with those of an optimising compiler
+    check "$file.c has no warnings" "${CC:-cc}" -std=c11 -D_DEFAULT_SOURCE -O2 -Wall -Wextra -Wpedantic -Wshadow \
+        -Wconversion -Werror -I"$copy/lib" -c "$copy/lib/$file.c" -o recipe.o
 done
 
 # A table of a new kind: one description of its columns makes files of both formats.
@@ -80,7 +63,7 @@ build() {
         -DISO_MPI=OFF -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0 && cmake --build "$work/build" --target isoroll_command ${2:-} -j 2; } >"$work/build.log" 2>&1; then
         fail "$1 does not compile"
         grep -E 'error|warning' "$work/build.log" | head -n 5 >&2
-        finish
+        finish || exit 1
     fi
     isoroll=$work/build/isoroll
 }
@@ -102,7 +85,7 @@ awk 'NF > 2 && $1 != "name" && /^  / { print $1 }' out >methods
 if has gnuplot "a picture of a new kind"; then
     run 0 plot turns.csv -o turns.svg
     check "its axes" grep -q 'angle in rad' turns.svg
-    sed 's/angle in rad/another angle/' "$recipes/turns.gp" >my.gp
+    sed 's/angle in rad/another angle/' "$copy/apps/isoroll/pictures/turns.gp" >my.gp
     run 0 plot turns.csv -o turns.svg --template my.gp
     check "by the user's own template" grep -q 'another angle' turns.svg
 fi
@@ -112,6 +95,7 @@ run 0 list tables
 grep -q '^  turns  *a row is a turn$' out && grep -q '^    angle  *rad  *by which it goes on$' out || fail "list tables has no turns"
 grep -q '^    u  *rad  *where it passes its symmetry line$' out || fail "list tables has no column u"
 scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >free_ball.yaml
+scene 1 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >closed.yaml
 run 0 periodic free_ball.yaml --period 1 -o periodic.csv
 columns periodic.csv | grep -q ',closure,u,omega1,' || fail "the table has no column u"
 run 0 periodic free_ball.yaml --period 1 --json
@@ -124,23 +108,27 @@ reduced: {k: 1, J: [2, 2, 2]}
 initial: {normal: [0, 0, 1], angular_velocity: [3, 4, 0]}
 time:    {end: 100, step: 10}
 EOF
-cat >passes.c <<'EOF'
-#include "api/interface.h"
-#include "io/table.h"
-int main(void)
-{
-    iso_context *ctx = iso_context_create();
-    iso_scene *scene;
-    iso_record *table[6];
-    iso_scene_read(ctx, "round.yaml", &scene);
-    return iso_study_ask(ctx, "passes", scene, NULL, "starts=3", NULL, table) ||
-           iso_table_write(ctx, "passes.csv", table[0]);
-}
-EOF
-check "a program that asks for passes" "${CC:-cc}" -std=c11 -Wall -Wextra -Wpedantic -Werror -I"$copy/lib" passes.c -o passes \
-    -L"$work/build" -lisoroll -Wl,-rpath,"$work/build"
-check "the study of many orbits" ./passes
+run 0 passes round.yaml --starts 3 -o passes.csv
+grep -qx 'n3 = 0 is passed 316 times until t = 100, by one orbit at most 79 times' out || fail "passes does not say what it found"
 grep -v '^#' passes.csv | tr '\n' ' ' | grep -qx 'orbit,count 0,79 1,79 2,79 3,79 ' || fail "orbits do not pass n3 = 0 79 times"
+grep -q '^# command: isoroll passes ' passes.csv || fail "the table of passes does not say how it was made"
+run 0 passes --help
+if has gnuplot "a picture of the new study"; then
+    run 0 plot passes.csv -o passes.svg
+    check "its axes" grep -q '>orbit<' passes.svg
+fi
+
+# The option: where there is a closed solution, an estimate finds its frequencies.
+run 0 frequencies --help
+grep -q -e '--estimate' out || fail "frequencies --help has no --estimate"
+run 0 frequencies closed.yaml --json
+grep -q '"solution": "closed"' out || fail "there is no closed solution to compare with"
+sed -n 's/.*"rotation_number": \([0-9.]*\).*/\1/p' out >rotation
+run 0 frequencies closed.yaml --estimate --turns 100 --json
+grep -q '"solution": "estimated"' out || fail "--estimate does not estimate"
+sed -n 's/.*"rotation_number": \([0-9.]*\).*/\1/p' out >>rotation
+awk '{ r[NR] = $1 } END { exit !(NR == 2 && (r[1] * r[2] - 1) ^ 2 < 1e-16) }' rotation ||
+    fail "--estimate finds other frequencies" # its first one is the second
 
 cat >drag.yaml <<'EOF'
 reduced: {k: 0.5, J: [1.4, 2.1, 3.0]}
@@ -218,7 +206,9 @@ grep -q 'ball omega.omega' out || fail "check does not look at the new integral"
 # --- breaking the effect -------------------------------------------------------------------------------------------
 
 # No formula: what needs one refuses, auto takes what does not.
-cp "$recipes/effect_drag_plain.c" "$copy/lib/model/effects/effect_drag.c"
+drag=$copy/lib/model/effects/effect_drag.c
+cp "$drag" effect_drag.c
+follow effect_plain 1
 build "the effect without a formula"
 run 0 run drag.yaml --tol 1e-13 -o plain.csv
 grep -q '^# method: taylor' plain.csv && fail "taylor simulates an effect without a formula"
@@ -230,7 +220,7 @@ for method in taylor taylor_extended bdf bsimp; do
 done
 
 # No word on the energy: nobody takes it for conserved.
-sed -e '/\.work = /d' "$recipes/effect_drag.c" >"$copy/lib/model/effects/effect_drag.c"
+sed -e '/\.work = /d' effect_drag.c >"$drag"
 build "the effect without its work"
 run 0 explain drag.yaml
 holds h && fail "explain lists the energy of an effect that does not state its work"
@@ -238,14 +228,14 @@ run 0 run drag.yaml --tol 1e-13 -o silent.csv
 cmp -s silent.csv reference.csv || fail "the effect without its work moves otherwise"
 
 # No reason why the isomorphism breaks, and no image: it is broken all the same.
-sed -e '/\.breaks = /d' "$recipes/effect_drag.c" >"$copy/lib/model/effects/effect_drag.c"
+sed -e '/\.breaks = /d' effect_drag.c >"$drag"
 build "the effect without a reason"
 run 3 compare drag.yaml
 grep -q "'drag'" err || fail "compare takes an effect without an image"
 
 # No equations: refused by name.
 sed -e '/\.motion = /d' -e 's/^static void motion/__attribute__((unused)) static void motion/' \
-    "$recipes/effect_drag.c" >"$copy/lib/model/effects/effect_drag.c"
+    effect_drag.c >"$drag"
 build "the effect without equations"
 run 3 run drag.yaml
 grep -q "the row of 'drag' is not complete" err || fail "an effect without equations is not refused by name"

@@ -189,7 +189,7 @@ static iso_status call_foreign(const hard_road *way)
     (void)way;
     digits = 0;
     iso_status status = iso_scene_parse(ctx, "scene", closed, strlen(closed), &scene);
-    if (status == ISO_OK) status = asked_run(ctx, scene, NULL, 0, NULL, &ball, notes, sizeof notes);
+    if (status == ISO_OK) status = asked_run(ctx, scene, NULL, 0, &ball, notes, sizeof notes);
     if (status == ISO_OK)
         status = asked(ctx, NULL, ball, "convert", "to=point\ntol=1e-12", NULL, NULL, point, notes, 80);
     if (status == ISO_OK) digits = iso_record_row(point[0], 4)[2];

@@ -122,6 +122,9 @@ class Lists(Case):
         swept = isoroll.sweep({"scene": isoroll.Scene(WILD), "vary": {"k": [0.5]}, "until": {"turns": 2},
                                "measure": {"state": {}, "chaos": {}, "frequencies": {}, "splitting": {}}})
         self.assertEqual([column for column in swept.columns if not swept.doc[column]], ["k"])  # what varies
+        swept_by_time = isoroll.sweep({"scene": isoroll.Scene(WILD), "vary": {"k": [0.5]}, "until": {"time": 2},
+                                       "measure": {"backends": {}, "error": {}}})
+        self.assertEqual([column for column in swept_by_time.columns if not swept_by_time.doc[column]], ["k"])
         self.assertEqual((swept.units["frequencies_f1_t"], swept.units["state_l"]), ("rad/time", "rad"))
 
 

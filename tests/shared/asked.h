@@ -40,23 +40,17 @@ static inline iso_status asked(iso_context *ctx, const iso_scene *scene, const i
     return iso_study_ask(ctx, name, scene, record, options, &sink, table);
 }
 
-/* The rows of a run at these times (NULL: the scene's), with errors[5] if it is not NULL. */
+/* The rows of a run at these times (NULL: the scene's). */
 static inline iso_status asked_run(iso_context *ctx, const iso_scene *scene, const double times[], size_t count,
-                                   double errors[5], iso_record **rows, char notes[], size_t room)
+                                   iso_record **rows, char notes[], size_t room)
 {
-    static const char *const keys[] = {"errors.ball", "errors.point", "errors.t", "errors.tau", "errors.s"};
     iso_record *table[ISO_TABLES], *asked_for = NULL;
     iso_status status = ISO_OK;
     if (times) status = iso_record_create(ctx, 1, (const char *const[]){"time"}, &asked_for);
     if (times && status == ISO_OK) status = iso_record_add(ctx, asked_for, count, times);
-    if (status == ISO_OK)
-        status = asked(ctx, scene, asked_for, "run", errors ? "verbose=true" : NULL, NULL, NULL, table, notes, room);
+    if (status == ISO_OK) status = asked(ctx, scene, asked_for, "run", NULL, NULL, NULL, table, notes, room);
     iso_record_free(asked_for);
     *rows = table[0];
-    for (int i = 0; errors && i < 5; i++) {
-        const char *text = table[0] ? iso_record_get(table[0], keys[i]) : NULL;
-        errors[i] = text ? strtod(text, NULL) : (double)NAN;
-    }
     return status;
 }
 

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "embedded.h"
 #include "picture/picture_impl.h"
 #include "plot/draw.h"
 
@@ -10,7 +11,7 @@ bool iso_plot_has_kind(const char *name)
 {
     int i = 0;
     while (iso_picture_kind(i) && strcmp(iso_picture_kind(i), name) != 0) i++;
-    return iso_picture_kind(i);
+    return iso_picture_kind(i) || embedded_find(picture_files, name)->name;
 }
 
 iso_status iso_plot_table(iso_context *ctx, const iso_plot_page *page, const iso_record *table)
