@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "certified.h"
-#include "io/scene_literals_impl.h"
+#include "io/scene_file.h"
 #include "scene_options.h"
 #include "stream.h"
 #include "task/run_impl.h"

@@ -1,6 +1,6 @@
 /* Reads output times: numbers between blanks, commas, new lines and comments. */
 #include "base/number_impl.h"
-#include "io/replacement_impl.h"
+#include "io/output_impl.h"
 #include "scene_options.h"
 
 #include <string.h>

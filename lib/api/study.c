@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "api/interface_impl.h"
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "base/record_impl.h"
 #include "picture/picture.h"
 #include "study/study.h"

@@ -118,7 +118,7 @@ static char *load(iso_context *ctx, const char *path, size_t *length)
     struct stat s;
     char *text;
     if (stat(path, &s) != 0 || !S_ISREG(s.st_mode)) return NULL;
-    return iso_text_load(ctx, path, ISO_LARGEST_TEXT, &text, length) == ISO_OK ? text : NULL;
+    return iso_text_load(ctx, path, &text, length) == ISO_OK ? text : NULL;
 }
 
 iso_status iso_sweep_text(iso_context *ctx, const char *path, const char *text, size_t length, iso_record **record)

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 
 #define STEP 0.5
 #define FIRST (-ISO_QUARTER_STEPS * STEP / 2)

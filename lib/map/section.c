@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-#include "base/low_discrepancy_impl.h"
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "map/quarter_impl.h"
 #include "map/section_impl.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "base/vec3_impl.h"
 #include "base/version.h"
 #include "model/effects/effects_impl.h"

@@ -3,7 +3,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "base/finite_impl.h"
+#include "base/math_impl.h"
 #include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state_impl.h"

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "orbit/orbit_impl.h"
 #include "picture/picture_impl.h"
 

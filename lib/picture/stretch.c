@@ -1,5 +1,5 @@
 /* stretch.c - the first turns of an orbit (see picture_impl.h). */
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "base/vec3_impl.h"
 #include "model/effects/effects_impl.h"
 #include "orbit/orbit_impl.h"

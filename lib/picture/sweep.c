@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "picture/maps_impl.h"
 
 enum { SUGGESTED = 64, NAME = ISO_SWEPT_NAME };

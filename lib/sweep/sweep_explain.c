@@ -8,7 +8,7 @@
 #include "base/context_impl.h"
 #include "base/fold_impl.h"
 #include "base/pool_impl.h"
-#include "base/seconds_impl.h"
+#include "base/resources_impl.h"
 #include "sweep/sweep_impl.h"
 
 /* Places of the sweep at which points are computed, how many of each, and for how long at most. A chaotic share is

@@ -27,7 +27,7 @@ static iso_status load_scene_file(iso_context *ctx, iso_sweep_file *f, const yam
         return iso_yaml_expected(&f->yaml, node, "scene", "the name of a file, or a scene");
     if (asprintf(&f->scene_name, "%.*s%s", folder, f->name, path) < 0)
         return f->scene_name = NULL, iso_context_no_memory(ctx, "a sweep");
-    iso_status status = iso_text_load(ctx, f->scene_name, ISO_LARGEST_TEXT, &f->scene_text, &f->scene_length);
+    iso_status status = iso_text_load(ctx, f->scene_name, &f->scene_text, &f->scene_length);
     if (status == ISO_FILE_TROUBLE) return ISO_FAIL_AT(f, node, "%s", iso_context_message(ctx));
     if (status != ISO_OK) return status;
     f->draft = iso_draft_empty(ctx, f->scene_name);
@@ -285,7 +285,7 @@ iso_status iso_sweep_read(iso_context *ctx, const char *path, iso_sweep_file **f
     char *text;
     size_t length;
     *file = NULL;
-    ISO_TRY(iso_text_load(ctx, path, ISO_LARGEST_TEXT, &text, &length));
+    ISO_TRY(iso_text_load(ctx, path, &text, &length));
     iso_status status = iso_sweep_parse(ctx, iso_text_name(path), text, length, file);
     free(text);
     return status;

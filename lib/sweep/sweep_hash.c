@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/low_discrepancy_impl.h"
+#include "base/random_impl.h"
 #include "sweep/sweep_store_impl.h"
 
 /* Each byte goes through splitmix64, once for each half. */

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "io/replacement_impl.h"
+#include "io/output_impl.h"
 #include "sweep/sweep_store_impl.h"
 
 enum { MOST_CHUNK = 1 << 16, MOST_COLUMNS = 4096 }; /* of files; a sweep has 4096 at most, and about 1000 */

@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "io/replacement_impl.h"
+#include "io/output_impl.h"
 #include "sweep/sweep_store_impl.h"
 
 static iso_status refuse(iso_context *ctx, const char *path, const char *why)
@@ -72,7 +72,7 @@ static iso_status look_at_result(iso_context *ctx, iso_sweep_store *s, bool resu
     if (status != ISO_OK) return status;
     if (!same) return refuse(ctx, s->path, "is the result of another sweep, shard or version: it is not overwritten");
     if (!resume) return refuse(ctx, s->path, "is there already, the result of this sweep: it is not overwritten");
-    char *part = iso_replacement_name(s->rows);
+    char *part = iso_file_part(s->rows);
     if (part && access(part, R_OK) == 0 && iso_sweep_reader_open(ctx, part, &rows) == ISO_OK && is_ours(s, rows))
         unlink(part);
     iso_sweep_reader_close(rows);
@@ -172,7 +172,7 @@ static iso_status open_named(iso_context *ctx, iso_sweep_store *s, bool resume)
     struct stat file;
     ISO_TRY(look_for_journal(ctx, s->path));
     ISO_TRY(iso_sweep_writer_open(ctx, s->rows, s->head, s->shard, true, &s->writer));
-    s->part = iso_replacement_name(s->rows);
+    s->part = iso_file_part(s->rows);
     if (!s->part || stat(s->part, &file) != 0) return iso_file_trouble(ctx, "write", s->rows);
     if (file.st_size > 0) return take_rows(ctx, s, resume);
     s->ours = true;

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/low_discrepancy_impl.h"
 #include "base/names_impl.h"
 #include "base/number_impl.h"
+#include "base/random_impl.h"
 #include "method/method.h"
 #include "model/model_impl.h"
 #include "sweep/sweep_draft_impl.h"

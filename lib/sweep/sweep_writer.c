@@ -173,8 +173,7 @@ iso_status iso_sweep_writer_open(iso_context *ctx, const char *path, const iso_s
     if (!w->row) return iso_context_no_memory(ctx, "a sweep");
     ISO_TRY(make_header(ctx, head, &w->header));
     ISO_TRY(set_lines(ctx, w->header, head, shard));
-    ISO_TRY(resumes ? iso_table_writer_resume(ctx, path, kind, &w->table)
-                    : iso_table_writer_open(ctx, path, kind, &w->table));
+    ISO_TRY(iso_table_writer_open_as(ctx, path, kind, resumes, &w->table));
     w->table->fresh = true;
     w->table->expected = iso_sweep_shard_points(head, shard);
     return resumes ? ISO_OK : iso_table_write_header(ctx, w->table, w->header);

@@ -10,7 +10,7 @@
 
 #include "base/number_impl.h"
 #include "embedded.h"
-#include "io/replacement_impl.h"
+#include "io/output_impl.h"
 #include "io/table.h"
 #include "plot/gnuplot.h"
 #include "report.h"

@@ -16,7 +16,6 @@
 #include <unistd.h>
 
 #include "io/output_impl.h"
-#include "io/replacement_impl.h"
 #include "progress.h"
 
 #define INSTALL "install gnuplot (package gnuplot-nox)"

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/finite_impl.h"
+#include "base/math_impl.h"
 #include "base/vec3_impl.h"
 #include "instrument/integrals/integrals_impl.h"
 #include "model/effects/effects_impl.h"

@@ -10,9 +10,9 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/context_impl.h"
+#include "base/math_impl.h"
 #include "base/names_impl.h"
 #include "base/number_impl.h"
-#include "base/pi_impl.h"
 #include "base/pool_impl.h"
 #include "instrument/periodic/continuation_impl.h"
 #include "study/study_impl.h"

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "instrument/periodic/continuation_impl.h"
 
 iso_status iso_continuation_add_event(const iso_continuation *f, iso_branch *b, const iso_branch_event *e)

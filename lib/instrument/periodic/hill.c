@@ -6,7 +6,7 @@
 #include <stdbool.h>
 
 #include "base/context_impl.h"
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "instrument/periodic/periodic_impl.h"
 
 /* --- the length of a step --------------------------------------------------------------------------------------- */

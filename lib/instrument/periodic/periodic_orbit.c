@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/math_impl.h"
 #include "base/names_impl.h"
-#include "base/pi_impl.h"
 #include "base/pool_impl.h"
 #include "instrument/periodic/periodic_impl.h"
 #include "map/state.h"

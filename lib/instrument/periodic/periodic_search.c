@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "instrument/periodic/periodic_impl.h"
 #include "map/section_impl.h"
 

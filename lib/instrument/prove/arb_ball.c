@@ -6,7 +6,7 @@
  */
 #include <math.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "instrument/prove/arb_ball_impl.h"
 
 void prove_found_init(prove_found *f)

@@ -2,7 +2,7 @@
  * wrong answer makes the proof fail (arb_follow.c), it does not make it wrong. */
 #include <math.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "instrument/prove/arb_manifold_impl.h"
 
 enum { POINTS = 8, LOW_BITS = 80, FAR = -14, TRIES = 60 };

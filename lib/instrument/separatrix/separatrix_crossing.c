@@ -7,8 +7,8 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/math_impl.h"
 #include "base/number_impl.h"
-#include "base/pi_impl.h"
 #include "instrument/separatrix/separatrix_impl.h"
 
 enum { MOST_SAMPLES = 4096, MOST_HALVES = 2000 };

@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "base/context_impl.h"
+#include "base/math_impl.h"
 #include "base/number_impl.h"
-#include "base/pi_impl.h"
 #include "instrument/separatrix/separatrix_impl.h"
 #include "map/section.h"
 #include "map/section_impl.h"

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "base/pool_impl.h"
 #include "instrument/separatrix/separatrix_impl.h"
 #include "orbit/orbit_impl.h"

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/finite_impl.h"
-#include "base/nearest_impl.h"
+#include "base/math_impl.h"
+#include "base/names_impl.h"
 #include "base/vec3_impl.h"
 #include "model/effects/effects_impl.h"
 #include "model/expression/expression_impl.h"

@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/nearest_impl.h"
+#include "base/math_impl.h"
+#include "base/names_impl.h"
 #include "base/number_impl.h"
-#include "base/pi_impl.h"
 
 typedef struct reader {
     const char *text;

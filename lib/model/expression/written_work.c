@@ -20,8 +20,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/math_impl.h"
 #include "base/number_impl.h"
-#include "base/sum_impl.h"
 #include "base/vec3_impl.h"
 #include "model/model_impl.h"
 

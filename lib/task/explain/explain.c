@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/number_impl.h"
-#include "base/seconds_impl.h"
+#include "base/resources_impl.h"
 #include "exact/exact_impl.h"
 #include "exact/integrability_impl.h"
 #include "instrument/section/section_impl.h"
