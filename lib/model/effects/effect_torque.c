@@ -21,20 +21,17 @@ static const double *numbers_of(const iso_problem *f)
     return f->effects.number[ISO_TORQUE];
 }
 
-static void motion_of(iso_formula *F, const iso_problem *f, int i)
-{
-    const double axis[3] = {i == 0, i == 1, i == 2};
-    iso_writer w;
-    if (!iso_writer_begin(&w, F, f, ISO_TORQUE, i, formula_n(F)) || iso_expression_is_zero(&w.e)) return;
-    w.most = ISO_LINEAR;                                                          /* no slopes are asked for */
-    if (f->at[ISO_GRAVITY] > 0) w.vertical = vector_state(F, f->at[ISO_GRAVITY]); /* else e = n, on a plane */
-    const iso_scalar M = iso_writer_value(&w);
-    add_torque(F, iso_writer_over_energy(&w), scale_c(F, M, constants(F, 3, axis)));
-}
-
 static void motion(iso_formula *F, const iso_problem *f)
 {
-    for (int i = 0; i < COMPONENTS; i++) motion_of(F, f, i);
+    for (int i = 0; i < COMPONENTS; i++) {
+        const double axis[3] = {i == 0, i == 1, i == 2};
+        iso_writer w;
+        if (!iso_writer_begin(&w, F, f, ISO_TORQUE, i, formula_n(F)) || iso_expression_is_zero(&w.e)) continue;
+        w.most = ISO_LINEAR;                                                          /* no slopes are asked for */
+        if (f->at[ISO_GRAVITY] > 0) w.vertical = vector_state(F, f->at[ISO_GRAVITY]); /* else e = n, on a plane */
+        const iso_scalar M = iso_writer_value(&w);
+        add_torque(F, iso_writer_over_energy(&w), scale_c(F, M, constants(F, 3, axis)));
+    }
 }
 
 static double strength(const iso_problem *f, const double y[])
@@ -107,18 +104,6 @@ static void measure(const iso_problem *f, const iso_expression e[], const double
     iso_random_free(r);
 }
 
-static iso_status check_claim(iso_context *ctx, const found *w, iso_work stated)
-{
-    if (!w->gives && (!w->takes || stated == ISO_WORK_LOST)) return ISO_OK;
-    const double *y = w->gives ? w->at_gives : w->at_takes;
-    return ISO_FAIL_INPUT(ctx, "work",
-                          "'work' is %s, but this torque %s energy, for example with omega = (%s, %s, %s) and n = "
-                          "(%s, %s, %s)",
-                          work_name((int)stated), w->gives ? "gives" : "takes", ISO_ROUNDED(y[0], 3),
-                          ISO_ROUNDED(y[1], 3), ISO_ROUNDED(y[2], 3), ISO_ROUNDED(y[3], 3), ISO_ROUNDED(y[4], 3),
-                          ISO_ROUNDED(y[5], 3));
-}
-
 /* --- what must hold --------------------------------------------------------------------------------------------- */
 
 static iso_status check(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *effects)
@@ -139,7 +124,14 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
     const bool claimed = (int)*stated != (int)shown && (int)*stated != ISO_WORK_UNKNOWN;
     measure(&f, e, n, claimed, &w);
     effects->number[ISO_TORQUE][ISO_WRITTEN_STRENGTH] = w.strength;
-    return claimed ? check_claim(ctx, &w, (iso_work)*stated) : ISO_OK;
+    if (!claimed || (!w.gives && (!w.takes || *stated == ISO_WORK_LOST))) return ISO_OK;
+    const double *y = w.gives ? w.at_gives : w.at_takes;
+    return ISO_FAIL_INPUT(ctx, "work",
+                          "'work' is %s, but this torque %s energy, for example with omega = (%s, %s, %s) and n = "
+                          "(%s, %s, %s)",
+                          work_name((int)*stated), w.gives ? "gives" : "takes", ISO_ROUNDED(y[0], 3),
+                          ISO_ROUNDED(y[1], 3), ISO_ROUNDED(y[2], 3), ISO_ROUNDED(y[3], 3), ISO_ROUNDED(y[4], 3),
+                          ISO_ROUNDED(y[5], 3));
 }
 
 static const char *const expressions[] = {"M1", "M2", "M3", NULL};
