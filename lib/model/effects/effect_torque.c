@@ -74,22 +74,12 @@ static void random_state(iso_random *r, const iso_problem *f, const double n[3],
     if (f->at[ISO_GRAVITY] > 0) iso_random_direction(r, y + f->at[ISO_GRAVITY]);
 }
 
-static double size_of(const iso_expression e[], const iso_expression_state *s)
-{
-    double M[COMPONENTS], x[ISO_EXPRESSION_NODES];
-    for (int i = 0; i < COMPONENTS; i++) {
-        iso_expression_values(&e[i], s, x);
-        M[i] = x[e[i].root];
-    }
-    return norm(M);
-}
-
 /* claimed: what gives and takes energy is asked for as well. */
 static void measure(const iso_problem *f, const iso_expression e[], const double n[3], bool claimed, found *w)
 {
     iso_random *r = iso_random_create(1);
     const double J = numbers_of(f)[ISO_WRITTEN_J], W = numbers_of(f)[ISO_WRITTEN_W];
-    double y[ISO_MAX_STATE] = {0};
+    double y[ISO_MAX_STATE] = {0}, M[COMPONENTS], unused;
     *w = (found){0};
     for (int i = 0; r && i < SAMPLES + AT_START; i++) {
         random_state(r, f, i < SAMPLES ? NULL : n, y);
@@ -98,7 +88,8 @@ static void measure(const iso_problem *f, const iso_expression e[], const double
         if (works > 0) w->gives = true, copy(y, w->at_gives, ISO_STATE);
         if (works < 0) w->takes = true, copy(y, w->at_takes, ISO_STATE);
         copy((const double[]){0, 0, 0}, s.omega, 3);
-        const double size = size_of(e, &s) / (J * W * W);
+        for (int j = 0; j < COMPONENTS; j++) M[j] = iso_expression_value(&e[j], &s, &unused);
+        const double size = norm(M) / (J * W * W);
         if (isfinite(size)) w->strength = fmax(w->strength, size);
     }
     iso_random_free(r);

@@ -51,13 +51,6 @@ static int degree_of(iso_term term, int a, int b)
     }
 }
 
-/* Two factors of degree 1 that are one power: n1^2. */
-static bool is_square(const iso_expression *e, iso_term term, int a, int b)
-{
-    return term == ISO_TERM_POWER && e->node[a].degree == ISO_LINEAR && e->node[b].term == ISO_TERM_NUMBER &&
-           e->node[b].value == 2;
-}
-
 /* The node, an old one where there is the same. a and b: nodes of an operation, or which number of J, n, ... */
 static int make(reader *r, int at, iso_term term, int a, int b, double value)
 {
@@ -71,7 +64,9 @@ static int make(reader *r, int at, iso_term term, int a, int b, double value)
     if (e->nodes == ISO_EXPRESSION_NODES)
         return fail(r, at, "an expression has at most %d numbers, names and operations", ISO_EXPRESSION_NODES);
     const int of_a = is_operation(term) ? e->node[a].degree : 0, of_b = has_two(term) ? e->node[b].degree : 0;
-    const int degree = is_square(e, term, a, b) ? ISO_QUADRATIC : degree_of(term, of_a, of_b);
+    const bool is_square = term == ISO_TERM_POWER && of_a == ISO_LINEAR && e->node[b].term == ISO_TERM_NUMBER &&
+                           e->node[b].value == 2; /* two factors of degree 1 that are one power: n1^2 */
+    const int degree = is_square ? ISO_QUADRATIC : degree_of(term, of_a, of_b);
     if (term <= ISO_TERM_E) e->reads[term] = true;
     e->node[e->nodes] =
         (iso_expression_node){(uint8_t)term, (uint8_t)degree, (int16_t)a, (int16_t)b, (int16_t)at, value};

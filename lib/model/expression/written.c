@@ -225,13 +225,7 @@ static bool note_moments(const iso_expression *e, int node, bool seen[3])
     return seen[i] = true;
 }
 
-/* Whether it is (n, J^-1 n), which the ball has at hand as g, together with u = J^-1 n. */
-static bool is_g(const iso_writer *w, int node)
-{
-    bool seen[3] = {false};
-    return w->F->kind != ISO_FORMULA_IMAGE && note_moments(&w->e, node, seen) && seen[0] && seen[1] && seen[2];
-}
-
+/* Of (n, J^-1 n), which the ball has at hand as g, together with u = J^-1 n. */
 static iso_quantity g_value(iso_writer *w, int node)
 {
     iso_formula *F = w->F;
@@ -248,7 +242,9 @@ static iso_quantity form_value(iso_writer *w, int node)
 {
     iso_formula *F = w->F;
     form f = {0};
-    if (is_g(w, node)) return g_value(w, node);
+    bool seen[3] = {false};
+    if (F->kind != ISO_FORMULA_IMAGE && note_moments(&w->e, node, seen) && seen[0] && seen[1] && seen[2])
+        return g_value(w, node);
     collect(w, node, one_q, &f);
     iso_quantity value = f.c, along = zero_q;
     w->form[node].has_l = has_any(3, f.l);

@@ -194,8 +194,7 @@ static iso_work work_of(const power_sum *P)
         const product *t = &P->term[i];
         if (t->number == 0) continue;
         bool taken = t->number < 0;
-        for (int j = 0; j < P->e.nodes; j++)
-            taken = taken && (t->power[j] % 2 == 0 || not_negative(P, j));
+        for (int j = 0; j < P->e.nodes; j++) taken = taken && (t->power[j] % 2 == 0 || not_negative(P, j));
         if (!taken) return ISO_WORK_UNKNOWN;
         work = ISO_WORK_LOST;
     }
