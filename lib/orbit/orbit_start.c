@@ -6,7 +6,7 @@
 #include "base/math_impl.h"
 #include "base/number_impl.h"
 #include "base/vec3_impl.h"
-#include "map/state_impl.h"
+#include "map/state.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 

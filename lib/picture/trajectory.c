@@ -169,7 +169,7 @@ static iso_status add_paces(iso_context *ctx, iso_picture *picture, const parts 
     for (size_t i = 0; i < rows; i++) {
         double y[ISO_STATE] = {0};
         copy(iso_record_const_row(p->file, i) + at, y + 3, 3);
-        const double q = iso_system_at((int)model)->q(&p->params, y, NULL);
+        const double q = iso_systems[model]->q(&p->params, y, NULL);
         if (i == 0) first = q;
         const double pace[] = {iso_picture_at(p->file, i, clock), pow(q / first, 1 + e), pow(q / first, 1 - e)};
         for (int c = 1; c < 3; c++) sum[c] += pace[c];
