@@ -93,33 +93,6 @@ static iso_status read_shard(iso_context *ctx, const char *text, iso_sweep_shard
 
 /* --- the work --------------------------------------------------------------------------------------------------- */
 
-typedef struct work {
-    iso_sweep_store *store;
-    size_t next; /* of the chunks of the shard, the one to be computed next */
-} work;
-
-static void show(const work *w)
-{
-    progress_show((double)(w->store->done + w->store->queue.count) / (double)w->store->wanted);
-}
-
-static bool next_chunk(void *data, size_t *c)
-{
-    work *w = data;
-    if (interrupted() || w->next == w->store->wanted) return false;
-    *c = w->store->shard.index + w->next++ * w->store->shard.count;
-    return true;
-}
-
-static iso_status take_chunk(void *data, iso_context *ctx, size_t c, const iso_sweep_rows *rows)
-{
-    const work *w = data;
-    (void)c;
-    const iso_status status = iso_sweep_store_add(ctx, w->store, rows);
-    show(w);
-    return status;
-}
-
 static int tell_interrupted(const options *o, const iso_sweep_store *s)
 {
     const char *how = limit_is_near() ? "stopped by SIGTERM or SIGUSR1" : "interrupted";
@@ -160,11 +133,12 @@ static int compute(iso_context *ctx, const options *o, const sweep_team *team, c
 {
     const iso_sweep_head *head = iso_sweep_head_of(sweep);
     char of[32];
-    work w = {store, store->done};
-    const iso_sweep_source source = {next_chunk, take_chunk, &w};
+    const iso_sweep_source source = iso_sweep_store_source(store);
+    store->interrupted = interrupted;
+    store->progress = progress_told;
     stop_gently();
     progress_begin();
-    show(&w);
+    progress_show((double)store->done / (double)store->wanted);
     iso_status status = team->run(team->data, ctx, sweep, threads_of(o), &source);
     progress_end();
     if (status != ISO_OK) return finish(ctx, status);

@@ -7,21 +7,32 @@
 #include "sweep/sweep_store_impl.h"
 
 iso_status iso_sweep_copy(iso_context *ctx, iso_sweep_reader *const part[], size_t count, iso_sweep_shard shard,
-                          const char *path, iso_sweep_failures *failures)
+                          const char *path, iso_record **table, iso_sweep_failures *failures)
 {
     const iso_sweep_head *head = &part[0]->head;
     iso_sweep_writer writer = {.sum = 0};
     iso_sweep_rows rows;
     ISO_TRY(iso_sweep_rows_create(ctx, head->columns, head->chunk, &rows));
-    iso_status status = iso_sweep_writer_open(ctx, path, head, shard, false, &writer);
+    iso_status status = path || table ? iso_sweep_writer_open(ctx, path, head, shard, false, &writer) : ISO_OK;
     for (size_t c = shard.index; c < iso_sweep_chunks(head) && status == ISO_OK; c += shard.count) {
         status = iso_sweep_reader_rows(ctx, part[c % count], &rows);
-        if (status == ISO_OK) status = iso_sweep_writer_rows(ctx, &writer, &rows);
+        if (status == ISO_OK && writer.table) status = iso_sweep_writer_rows(ctx, &writer, &rows);
         if (status == ISO_OK && failures) iso_sweep_failures_add(failures, &rows);
     }
-    const iso_status closed = iso_sweep_writer_close(ctx, &writer, status == ISO_OK);
+    if (status == ISO_OK && table) *table = writer.table, writer.table = NULL;
+    const iso_status closed = iso_sweep_writer_close(ctx, &writer, path && status == ISO_OK);
     iso_sweep_rows_free(&rows);
     return status == ISO_OK ? closed : status;
+}
+
+iso_status iso_sweep_read_table(iso_context *ctx, const char *path, iso_record **table)
+{
+    iso_sweep_reader *r;
+    *table = NULL;
+    ISO_TRY(iso_sweep_reader_open(ctx, path, &r));
+    const iso_status status = iso_sweep_copy(ctx, &r, 1, r->shard, NULL, table, NULL);
+    iso_sweep_reader_close(r);
+    return status;
 }
 
 /* --- merging ---------------------------------------------------------------------------------------------------- */
@@ -82,7 +93,8 @@ iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const par
     for (size_t i = 0; i < m.count && status == ISO_OK; i++)
         if (!m.part[i])
             status = iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "part %zu of %zu is missing", i + 1, m.count);
-    if (status == ISO_OK) status = iso_sweep_copy(ctx, m.part, m.count, (iso_sweep_shard){0, 1}, path, failures);
+    if (status == ISO_OK)
+        status = iso_sweep_copy(ctx, m.part, m.count, (iso_sweep_shard){0, 1}, path, NULL, failures);
     for (size_t i = 0; i < m.count; i++) iso_sweep_reader_close(m.part[i]);
     free(m.part);
     return status;

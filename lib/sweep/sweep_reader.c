@@ -197,35 +197,3 @@ iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *r, iso_swee
     r->sum = iso_sweep_sum(r->sum, rows);
     return r->unended || r->next < r->points ? ISO_OK : check_sum(ctx, r);
 }
-
-iso_status iso_sweep_reader_all(iso_context *ctx, iso_sweep_reader *r, iso_sweep_failures *failures,
-                                iso_status (*take)(iso_context *ctx, void *data, const iso_sweep_rows *rows),
-                                void *data)
-{
-    iso_sweep_rows rows;
-    iso_status status = iso_sweep_rows_create(ctx, r->head.columns, r->head.chunk, &rows);
-    while (status == ISO_OK && r->next < r->points) {
-        status = iso_sweep_reader_rows(ctx, r, &rows);
-        if (status == ISO_OK && failures) iso_sweep_failures_add(failures, &rows);
-        if (status == ISO_OK && take) status = take(ctx, data, &rows);
-    }
-    iso_sweep_rows_free(&rows);
-    return status;
-}
-
-static iso_status add_rows(iso_context *ctx, void *table, const iso_sweep_rows *rows)
-{
-    return iso_sweep_table_add(ctx, table, rows);
-}
-
-iso_status iso_sweep_read_table(iso_context *ctx, const char *path, iso_record **table)
-{
-    iso_sweep_reader *r;
-    *table = NULL;
-    ISO_TRY(iso_sweep_reader_open(ctx, path, &r));
-    iso_status status = iso_sweep_table(ctx, &r->head, table);
-    if (status == ISO_OK && r->shard.count > 1) iso_record_set_kind(*table, ISO_SWEEP_PART_KIND);
-    if (status == ISO_OK) status = iso_sweep_reader_all(ctx, r, NULL, add_rows, *table);
-    iso_sweep_reader_close(r);
-    return status;
-}
