@@ -23,37 +23,33 @@ static iso_status load_scene_file(iso_context *ctx, iso_sweep_file *f, const yam
 {
     const char *path = (const char *)node->data.scalar.value, *slash = strrchr(f->name, '/');
     const int folder = slash && *path != '/' ? (int)(slash - f->name) + 1 : 0; /* beside the sweep's file */
-    if (node->data.scalar.length == 0 || strcmp(path, "-") == 0)
-        return iso_yaml_expected(&f->yaml, node, "scene", "the name of a file, or a scene");
+    size_t length;
     if (asprintf(&f->scene_name, "%.*s%s", folder, f->name, path) < 0)
         return f->scene_name = NULL, iso_context_no_memory(ctx, "a sweep");
-    iso_status status = iso_text_load(ctx, f->scene_name, ISO_LARGEST_TEXT, &f->scene_text, &f->scene_length);
+    const iso_status status = iso_text_load(ctx, f->scene_name, ISO_LARGEST_TEXT, &f->scene_text, &length);
     if (status == ISO_FILE_TROUBLE) return ISO_FAIL_AT(f, node, "%s", iso_context_message(ctx));
     if (status != ISO_OK) return status;
     f->draft = iso_draft_empty(ctx, f->scene_name);
-    status = iso_yaml_load(&f->draft.yaml, f->scene_text, f->scene_length);
-    f->scene_loaded = status == ISO_OK;
-    if (f->scene_loaded) f->draft.root = yaml_document_get_root_node(&f->draft.yaml.document);
-    return status;
+    ISO_TRY(iso_yaml_load(&f->draft.yaml, f->scene_text, length));
+    f->draft.root = yaml_document_get_root_node(&f->draft.yaml.document);
+    return ISO_OK;
 }
 
 static iso_status read_scene(iso_context *ctx, iso_sweep_file *f, const yaml_node_t *node)
 {
-    iso_status status = ISO_OK;
-    if (node->type == YAML_SCALAR_NODE) {
-        status = load_scene_file(ctx, f, node);
-    } else if (node->type == YAML_MAPPING_NODE) {
-        f->inside = true;
+    const char *path = node->type == YAML_SCALAR_NODE ? (const char *)node->data.scalar.value : "";
+    if (node->type == YAML_MAPPING_NODE) {
         f->draft = iso_draft_empty(ctx, f->name);
         f->draft.yaml = f->yaml;
         f->draft.root = node;
-    } else {
+    } else if (node->type != YAML_SCALAR_NODE || !*path || strcmp(path, "-") == 0) {
         return iso_yaml_expected(&f->yaml, node, "scene", "the name of a file, or a scene");
+    } else {
+        ISO_TRY(load_scene_file(ctx, f, node));
     }
-    if (status == ISO_OK) status = iso_draft_read_keys(&f->draft);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_draft_read_keys(&f->draft));
     iso_draft whole = f->draft; /* the draft itself keeps its numbers as they were read */
-    status = iso_draft_make(&whole);
+    const iso_status status = iso_draft_make(&whole);
     f->base = whole.scene;
     return status;
 }
@@ -128,9 +124,10 @@ static iso_status read_options(iso_sweep_file *f, const iso_study *study, const 
 static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure)
 {
     const char *names[MOST_QUANTITIES];
+    iso_sweep_quantity q;
     size_t count = 0;
     iso_yaml *y = &f->yaml;
-    while (count < MOST_QUANTITIES && (names[count] = iso_sweep_quantity_name((int)count))) count++;
+    for (; count < MOST_QUANTITIES && iso_sweep_quantity_at((int)count, &q); count++) names[count] = q.name;
     iso_status status = iso_sweep_check_keys(y, measure, "measure", count, names);
     if (status != ISO_OK) return status;
     const yaml_node_pair_t *end = measure->data.mapping.pairs.top;
@@ -155,16 +152,18 @@ static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure)
 
 /* --- for how long ----------------------------------------------------------------------------------------------- */
 
-/* What goes on to a time only cannot be told a number of turns, and the other way round. */
+/* What goes on to a time only has no number of turns, and the other way round. */
 static iso_status check_until(iso_sweep_file *f, const yaml_node_t *until)
 {
     const bool turns = !isnan(f->plan.turns);
     bool used = false;
     for (int i = 0; i < f->plan.requests; i++) {
         const char *name = f->plan.request[i].name;
-        const bool fits = iso_sweep_has_option(name, turns ? "turns" : "t-end");
-        used = used || fits;
-        if (!fits && iso_sweep_has_option(name, turns ? "t-end" : "turns"))
+        const iso_study *study = iso_sweep_study(name);
+        const bool by_turns = iso_study_option_find(study, "turns", 5),
+                   by_time = iso_study_option_find(study, "t-end", 5);
+        used = used || (turns ? by_turns : by_time);
+        if (by_turns != by_time && by_turns != turns)
             return ISO_FAIL_AT(f, until, "'%s' needs 'until: {%s: ...}'", name, turns ? "time" : "turns");
     }
     if (used) return ISO_OK;
@@ -226,7 +225,7 @@ static ISO_NAMES(kind_of_vectors, int, "avx512", "avx2", "plain")
 static void finish_plan(iso_sweep_file *f, const yaml_node_t *scene)
 {
     iso_sweep_plan *p = &f->plan;
-    f->draft.yaml.name = f->inside ? "<sweep>" : (const char *)scene->data.scalar.value;
+    f->draft.yaml.name = scene->type == YAML_MAPPING_NODE ? "<sweep>" : (const char *)scene->data.scalar.value;
     iso_sweep_hash_texts(p->hash, ISO_VERSION, f->text, f->scene_text);
     p->text = f->text;
     p->scene = f->scene_text;
@@ -256,27 +255,22 @@ static iso_status read_root(iso_context *ctx, iso_sweep_file *f)
     return status;
 }
 
-static iso_status parse(iso_context *ctx, iso_sweep_file *f)
-{
-    f->yaml = (iso_yaml){.ctx = ctx, .name = f->name};
-    f->plan.turns = f->plan.time = NAN;
-    iso_status status = iso_yaml_load(&f->yaml, f->text, f->length);
-    f->loaded = status == ISO_OK;
-    return status == ISO_OK ? read_root(ctx, f) : status;
-}
-
 iso_status iso_sweep_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_sweep_file **file)
 {
     ISO_DEFAULT_ARITHMETIC;
-    *file = NULL;
-    iso_sweep_file *f = calloc(1, sizeof *f);
+    iso_sweep_file *f = *file = calloc(1, sizeof *f);
     if (f) f->name = strdup(name);
     if (f) f->text = malloc(length + 1);
-    const bool memory = f && f->name && f->text;
-    if (memory) memcpy(f->text, text, length), f->text[f->length = length] = '\0';
-    const iso_status status = memory ? parse(ctx, f) : iso_context_no_memory(ctx, "a sweep");
-    if (status != ISO_OK) iso_sweep_file_free(f), f = NULL;
-    *file = f;
+    iso_status status = f && f->name && f->text ? ISO_OK : iso_context_no_memory(ctx, "a sweep");
+    if (status == ISO_OK) {
+        memcpy(f->text, text, length);
+        f->text[length] = '\0';
+        f->yaml = (iso_yaml){.ctx = ctx, .name = f->name};
+        f->plan.turns = f->plan.time = NAN;
+        status = iso_yaml_load(&f->yaml, f->text, length);
+    }
+    if (status == ISO_OK) status = read_root(ctx, f);
+    if (status != ISO_OK) iso_sweep_file_free(f), *file = NULL;
     return status;
 }
 
@@ -286,7 +280,7 @@ iso_status iso_sweep_read(iso_context *ctx, const char *path, iso_sweep_file **f
     size_t length;
     *file = NULL;
     ISO_TRY(iso_text_load(ctx, path, ISO_LARGEST_TEXT, &text, &length));
-    iso_status status = iso_sweep_parse(ctx, iso_text_name(path), text, length, file);
+    const iso_status status = iso_sweep_parse(ctx, iso_text_name(path), text, length, file);
     free(text);
     return status;
 }
@@ -294,8 +288,8 @@ iso_status iso_sweep_read(iso_context *ctx, const char *path, iso_sweep_file **f
 void iso_sweep_file_free(iso_sweep_file *f)
 {
     if (!f) return;
-    if (f->scene_loaded) iso_yaml_free(&f->draft.yaml);
-    if (f->loaded) iso_yaml_free(&f->yaml);
+    if (f->scene_name) iso_yaml_free(&f->draft.yaml); /* else it is that of the sweep */
+    iso_yaml_free(&f->yaml);
     for (int i = 0; i < f->axes; i++) free(f->axis[i].list);
     for (int i = 0; i < ISO_SWEEP_REQUESTS; i++) free(f->options[i]);
     free(f->column);

@@ -10,10 +10,7 @@
 #include "io/replacement_impl.h"
 #include "sweep/sweep_store_impl.h"
 
-static iso_status refuse(iso_context *ctx, const char *path, const char *why)
-{
-    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "'%s' %s", path, why);
-}
+#define REFUSE(path, why) ISO_FAIL_FILE(ctx, "'%s' " why, path)
 
 /* --- what is there already -------------------------------------------------------------------------------------- */
 
@@ -30,13 +27,13 @@ static iso_status look_at_result(iso_context *ctx, iso_sweep_store *s, bool resu
     iso_sweep_reader *reader, *rows = NULL;
     iso_status status = iso_sweep_reader_open(ctx, s->path, &reader);
     if (status == ISO_NO_MEMORY) return status;
-    if (status != ISO_OK) return refuse(ctx, s->path, "is there, and is no result of a sweep: it is not overwritten");
+    if (status != ISO_OK) return REFUSE(s->path, "is there, and is no result of a sweep: it is not overwritten");
     const bool same = is_ours(s, reader);
     if (same && resume) status = iso_sweep_copy(ctx, &reader, 1, s->shard, NULL, NULL, &s->failures);
     iso_sweep_reader_close(reader);
     if (status != ISO_OK) return status;
-    if (!same) return refuse(ctx, s->path, "is the result of another sweep, shard or version: it is not overwritten");
-    if (!resume) return refuse(ctx, s->path, "is there already, the result of this sweep: it is not overwritten");
+    if (!same) return REFUSE(s->path, "is the result of another sweep, shard or version: it is not overwritten");
+    if (!resume) return REFUSE(s->path, "is there already, the result of this sweep: it is not overwritten");
     char *part = iso_replacement_name(s->rows);
     if (part && access(part, R_OK) == 0 && iso_sweep_reader_open(ctx, part, &rows) == ISO_OK && is_ours(s, rows))
         unlink(part);
@@ -57,7 +54,7 @@ static iso_status look_for_journal(iso_context *ctx, const char *path)
     const bool is = file && fread(begin, 1, sizeof mark - 1, file) == sizeof mark - 1 && strcmp(begin, mark) == 0;
     if (file) fclose(file);
     const iso_status status =
-        is ? refuse(ctx, name,
+        is ? REFUSE(name,
                     "is the journal of an older version of isoroll, which cannot be gone on with: remove it to begin "
                     "again, or give another name")
            : ISO_OK;
@@ -117,14 +114,14 @@ static iso_status take_rows(iso_context *ctx, iso_sweep_store *s, bool resume)
     iso_status status = left.columns ? iso_sweep_reader_open(ctx, s->part, &r) : ISO_OK;
     if (status == ISO_NO_MEMORY) return status;
     if (!left.header || (left.columns && !r))
-        status = refuse(ctx, s->part, "is no file of a sweep: it would be overwritten");
+        status = REFUSE(s->part, "is no file of a sweep: it would be overwritten");
     else if (r && !is_ours(s, r))
         status =
-            refuse(ctx, s->part,
+            REFUSE(s->part,
                    "has chunks of another sweep, shard, version or kind of vectors: remove it, or give another name");
     else if (!resume)
-        status = refuse(ctx, s->part,
-                        "has chunks of this sweep: add --resume to go on with it, or remove it to begin again");
+        status =
+            REFUSE(s->part, "has chunks of this sweep: add --resume to go on with it, or remove it to begin again");
     else if (s->ours = true, r)
         status = read_chunks(ctx, s, r, left.lines);
     else

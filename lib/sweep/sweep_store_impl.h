@@ -24,6 +24,8 @@
 #define ISO_SWEEP_KIND "sweep"
 #define ISO_SWEEP_PART_KIND "sweep part"
 
+#define ISO_FAIL_FILE(ctx, ...) iso_context_fail(ctx, ISO_FILE_TROUBLE, "", __VA_ARGS__)
+
 /* --- shards, failures, sums ------------------------------------------------------------------------------------- */
 
 /* Chunks index, index + count, ...; {0, 1}: all. count is at most ISO_SWEEP_MOST_SHARDS. */
@@ -61,7 +63,7 @@ typedef struct iso_sweep_reader {
     uint64_t sum;               /* of the rows that were read */
     bool unended;               /* set it: the file may be one that is gone on with, and have no sum */
     double *row;
-    char *path;
+    const char *path; /* the caller's */
 } iso_sweep_reader;
 
 /* Opens a result or a part. Errors: ISO_FILE_TROUBLE: no such file, or none of a sweep. */

@@ -90,13 +90,6 @@ static iso_status find_target(iso_sweep_file *f, const yaml_node_t *key, iso_swe
 
 /* --- where they come from --------------------------------------------------------------------------------------- */
 
-/* The numbers of one item of a list. */
-static iso_status read_item(iso_sweep_file *f, const yaml_node_t *item, const iso_sweep_axis *a, double value[])
-{
-    if (a->width == 1) return iso_yaml_number(&f->yaml, item, a->name, value);
-    return iso_yaml_numbers(&f->yaml, item, a->name, a->width, value);
-}
-
 static iso_status make_list(iso_sweep_file *f, iso_sweep_axis *a, size_t count)
 {
     a->values = ISO_FROM_LIST;
@@ -136,32 +129,24 @@ static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_swe
     return check_range(f, node, a);
 }
 
-/* A range with a count, as an item of a list. */
-static iso_status read_range_of_list(iso_sweep_file *f, const yaml_node_t *item, iso_sweep_axis *range)
-{
-    iso_status status = read_range(f, item, range);
-    if (status != ISO_OK || (range->values == ISO_FROM_RANGE && range->count <= MOST_LISTED)) return status;
-    return ISO_FAIL_AT(f, item, "a range in a list needs a 'count', at most %d", MOST_LISTED);
-}
-
-/* Values, and ranges of values. list NULL: only counts them. */
+/* Values, and ranges of values with a count. list NULL: only counts them. */
 static iso_status read_items(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a, size_t *count)
 {
-    iso_status status = ISO_OK;
     *count = 0;
     for (const yaml_node_item_t *i = node->data.sequence.items.start; i < node->data.sequence.items.top; i++) {
         const yaml_node_t *item = iso_yaml_node(&f->yaml, *i);
         iso_sweep_axis range = {.width = a->width, .count = 1};
         double value[9], *to = a->list ? a->list + *count * (size_t)a->width : value;
-        snprintf(range.name, sizeof range.name, "%s", a->name);
         if (item->type == YAML_MAPPING_NODE && a->width == 1) {
-            status = read_range_of_list(f, item, &range);
-            for (size_t j = 0; a->list && j < range.count && status == ISO_OK; j++)
-                to[j] = iso_sweep_in_range(&range, j);
+            strcpy(range.name, a->name);
+            ISO_TRY(read_range(f, item, &range));
+            if (range.values == ISO_FROM_DRAWING || range.count > MOST_LISTED)
+                return ISO_FAIL_AT(f, item, "a range in a list needs a 'count', at most %d", MOST_LISTED);
+            for (size_t j = 0; a->list && j < range.count; j++) to[j] = iso_sweep_in_range(&range, j);
         } else {
-            status = read_item(f, item, a, to);
+            ISO_TRY(a->width == 1 ? iso_yaml_number(&f->yaml, item, a->name, to)
+                                  : iso_yaml_numbers(&f->yaml, item, a->name, a->width, to));
         }
-        if (status != ISO_OK) return status;
         *count += range.count;
     }
     return ISO_OK;
@@ -353,25 +338,6 @@ static iso_status read_axis(iso_sweep_file *f, const yaml_node_pair_t *pair)
 
 /* --- samples ---------------------------------------------------------------------------------------------------- */
 
-/* Evenly: the additive recurrence of `dimension` steps 1/r, 1/r^2, ..., r^(dimension + 1) = r + 1 (M. Roberts). */
-static void prepare_drawing(iso_sweep_file *f)
-{
-    double r = 1.5;
-    for (int i = 0; i < 200; i++) {
-        double power = 1;
-        for (int j = 0; j <= f->drawn; j++) power *= r;
-        const double slope = (f->drawn + 1) * (power / r) - 1;
-        r -= (power - r - 1) / slope;
-    }
-    double step = 1;
-    uint64_t number = f->seed;
-    for (int j = 0; j < f->drawn; j++) {
-        step /= r;
-        f->step[j] = (uint64_t)(step * 0x1p64);
-        f->shift[j] = number = iso_scatter(number);
-    }
-}
-
 static ISO_NAMES(kind_of_samples, int, "even", "random")
 
     static iso_status read_samples(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples)
@@ -382,7 +348,7 @@ static ISO_NAMES(kind_of_samples, int, "even", "random")
         {.name = "seed", .least = 0, .most = 0x1p53, .whole = true},
         {.name = NULL},
     };
-    double value[3];
+    double value[3], r = 1.5, step = 1;
     if (f->drawn > 0 && !samples)
         return ISO_FAIL_AT(f, vary, "a range without a count is drawn: 'samples: {count: ...}' is missing");
     if (!samples) return ISO_OK;
@@ -391,7 +357,18 @@ static ISO_NAMES(kind_of_samples, int, "even", "random")
     ISO_TRY(iso_sweep_read_mapping(&f->yaml, samples, "samples", settings, value));
     f->samples = (size_t)value[0];
     f->random = value[1] > 0;
-    f->seed = (uint64_t)value[2];
+    /* Evenly: the additive recurrence of f->drawn steps 1/r, 1/r^2, ..., r^(drawn + 1) = r + 1 (M. Roberts). */
+    for (int i = 0; i < 200; i++) {
+        double power = 1;
+        for (int j = 0; j <= f->drawn; j++) power *= r;
+        r -= (power - r - 1) / ((f->drawn + 1) * (power / r) - 1);
+    }
+    uint64_t number = (uint64_t)value[2];
+    for (int j = 0; j < f->drawn; j++) {
+        step /= r;
+        f->step[j] = (uint64_t)(step * 0x1p64);
+        f->shift[j] = number = iso_scatter(number);
+    }
     return ISO_OK;
 }
 
@@ -421,6 +398,5 @@ iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const
         status = read_axis(f, p);
     if (status == ISO_OK) status = check_start(f, vary);
     if (status == ISO_OK) status = read_samples(f, vary, samples);
-    if (status == ISO_OK) prepare_drawing(f);
     return status == ISO_OK ? count_points(f, vary) : status;
 }
