@@ -1,4 +1,4 @@
-/* sweep.c - a whole sweep, as a table; and what it would take, in words. */
+/* sweep.c - a whole sweep, as a table; and what it would take, as text. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -33,44 +33,27 @@ iso_status iso_sweep_ask(iso_context *ctx, const char *path, const char *text, s
     return status;
 }
 
-/* --- in words --------------------------------------------------------------------------------------------------- */
-
-static iso_status explain(iso_context *ctx, const char *path, const char *text, size_t length, iso_record **record)
-{
-    iso_sweep_file *file;
-    char *words;
-    iso_status status = iso_sweep_parse(ctx, path, text, length, &file);
-    if (status != ISO_OK) return status;
-    status = iso_sweep_explain(ctx, file, &words);
-    iso_sweep_file_free(file);
-    if (status == ISO_OK) status = iso_record_create(ctx, 0, NULL, record);
-    if (status == ISO_OK) {
-        iso_record_set_kind(*record, "explain");
-        iso_record_keep_text(*record, words);
-        return ISO_OK;
-    }
-    free(words);
-    iso_record_free(*record);
-    *record = NULL;
-    return status;
-}
-
-/* The text of a regular file; NULL: there is none that can be read. Who reads it next says why. */
-static char *load(iso_context *ctx, const char *path, size_t *length)
-{
-    struct stat s;
-    char *text;
-    if (stat(path, &s) != 0 || !S_ISREG(s.st_mode)) return NULL;
-    return iso_text_load(ctx, path, ISO_LARGEST_TEXT, &text, length) == ISO_OK ? text : NULL;
-}
-
 iso_status iso_sweep_text(iso_context *ctx, const char *path, const char *text, size_t length, iso_record **record)
 {
+    struct stat s;
+    iso_sweep_file *file = NULL;
+    char *loaded = NULL, *said = NULL;
     *record = NULL;
-    char *own = text ? NULL : load(ctx, path, &length);
-    if (own) text = own;
-    const bool is_sweep = text && iso_sweep_is_one(text, length);
-    const iso_status status = is_sweep ? explain(ctx, path, text, length, record) : ISO_OK;
-    free(own);
+    if (!text) { /* who reads a file next says why it cannot be read */
+        const bool regular = stat(path, &s) == 0 && S_ISREG(s.st_mode);
+        if (!regular || iso_text_load(ctx, path, ISO_LARGEST_TEXT, &loaded, &length) != ISO_OK) return ISO_OK;
+    }
+    if (loaded) text = loaded;
+    iso_status status = ISO_OK;
+    if (iso_sweep_is_one(text, length)) {
+        status = iso_sweep_parse(ctx, path, text, length, &file);
+        if (status == ISO_OK) status = iso_sweep_explain(ctx, file, &said);
+        if (status == ISO_OK) status = iso_record_create(ctx, 0, NULL, record);
+        if (status == ISO_OK)
+            iso_record_set_kind(*record, "explain"), iso_record_keep_text(*record, said), said = NULL;
+    }
+    iso_sweep_file_free(file);
+    free(loaded);
+    free(said);
     return status;
 }

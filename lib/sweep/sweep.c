@@ -239,6 +239,7 @@ iso_status iso_sweep_run(iso_context *ctx, const iso_sweep *sweep, int threads, 
 {
     ISO_DEFAULT_ARITHMETIC;
     const size_t chunks = iso_sweep_chunks(iso_sweep_head_of(sweep));
+    if (threads > ISO_MOST_THREADS) threads = ISO_MOST_THREADS;
     work all = {.ctx = iso_context_create(), .sweep = sweep, .source = source, .lock = PTHREAD_MUTEX_INITIALIZER};
     iso_pool pool = {.what = "chunk", .count = chunks, .chunk = 1, .solve = solve, .data = &all};
     iso_status status = all.ctx ? iso_pool_run(ctx, &pool, iso_pool_threads(threads, chunks, 1), NULL)

@@ -46,6 +46,7 @@ typedef struct iso_sweep_axis {
     size_t offset;
     int part;     /* it sets the numbers from this one on, of one or of a vector   */
     int of;       /* ISO_TO_RATIO                                                  */
+    int moments;  /* of inertia that it sets, as bits                              */
     int chart;    /* ISO_TO_CHART: 0 l, 1 x, 2 both                                */
     size_t count; /* of values; 1 of those that are drawn                          */
     double *list; /* count * width                                                 */

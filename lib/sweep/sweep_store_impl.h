@@ -126,7 +126,8 @@ typedef struct iso_sweep_store {
 } iso_sweep_store;
 
 /* Begins the result `path`, or goes on with what there is of it (resume). With resume it is no error if there is
- * nothing. path NULL: rows go to a table in memory. If `path` is no regular file, or is "-" (standard output, as CSV), rows go there, and it cannot be resumed.
+ * nothing. If `path` is no regular file, or is "-" (standard output, as CSV), rows go there, and it cannot be resumed.
+ * path NULL: rows go to a table in memory.
  * The head must live as long as the store.
  * Errors: ISO_FILE_TROUBLE: rows of another sweep, or that another program works on, or that are there without
  * resume; a journal of an older version; a file `path` that is there, unless it is the result of this sweep and resume

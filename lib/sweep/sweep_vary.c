@@ -16,42 +16,25 @@ enum { MOST_LISTED = 1000000 };
 
 /* --- where values go -------------------------------------------------------------------------------------------- */
 
-/* "J2" of "J": the number of the component, 0 to 2; -1: it is none. */
-static int component(const char *name, const char *vector)
-{
-    const size_t length = strlen(vector);
-    const bool one = strncmp(name, vector, length) == 0 && strlen(name) == length + 1;
-    return one && name[length] >= '1' && name[length] <= '3' ? name[length] - '1' : -1;
-}
-
+/* A number of the scene, "k"; a vector, "J"; a component, "J2"; a ratio of moments, "J2/J1". */
 static bool find_number(const iso_draft_number list[], int count, iso_sweep_axis *a)
-{
-    for (int i = 0; i < count; i++) {
-        const int part = list[i].count == 3 ? component(a->name, list[i].name) : -1;
-        const bool all = strcmp(a->name, list[i].name) == 0;
-        if (!all && part < 0) continue;
-        a->target = ISO_TO_NUMBER;
-        a->width = all ? list[i].count : 1;
-        a->part = all ? 0 : part;
-        a->offset = list[i].offset + (size_t)a->part * sizeof(double);
-        return true;
-    }
-    return false;
-}
-
-/* "J2/J1" */
-static bool find_ratio(const iso_draft_number list[], int count, iso_sweep_axis *a)
 {
     char part[2], of[2];
     int used = 0;
-    if (sscanf(a->name, "J%1[123]/J%1[123]%n", part, of, &used) < 2 || a->name[used] || *part == *of) return false;
+    const bool ratio = sscanf(a->name, "J%1[123]/J%1[123]%n", part, of, &used) == 2 && !a->name[used] && *part != *of;
     for (int i = 0; i < count; i++) {
-        if (strcmp(list[i].name, "J") != 0) continue;
-        a->target = ISO_TO_RATIO;
-        a->width = 1;
-        a->part = *part - '1';
-        a->of = *of - '1';
-        a->offset = list[i].offset;
+        const char *name = list[i].name;
+        const size_t length = strlen(name);
+        const bool J = strcmp(name, "J") == 0, all = strcmp(a->name, name) == 0,
+                   component = list[i].count == 3 && strncmp(a->name, name, length) == 0 &&
+                               strspn(a->name + length, "123") == 1 && !a->name[length + 1];
+        if (!all && !component && !(ratio && J)) continue;
+        a->target = ratio ? ISO_TO_RATIO : ISO_TO_NUMBER;
+        a->width = all ? list[i].count : 1;
+        a->part = all ? 0 : (ratio ? *part : a->name[length]) - '1';
+        a->of = ratio ? *of - '1' : 0;
+        a->moments = !J ? 0 : all ? 7 : 1 << a->part;
+        a->offset = list[i].offset + (ratio ? 0 : (size_t)a->part * sizeof(double));
         return true;
     }
     return false;
@@ -81,7 +64,7 @@ static iso_status find_target(iso_sweep_file *f, const yaml_node_t *key, iso_swe
     if (key->type != YAML_SCALAR_NODE || key->data.scalar.length >= ISO_NAME_SIZE)
         return ISO_FAIL_AT(f, key, "a key should be the name of a number of the scene");
     snprintf(a->name, sizeof a->name, "%s", (const char *)key->data.scalar.value);
-    if (find_place(a) || find_number(list, count, a) || find_ratio(list, count, a)) return ISO_OK;
+    if (find_place(a) || find_number(list, count, a)) return ISO_OK;
     for (int i = 0; i < count; i++) names[named++] = list[i].name;
     const bool moments = strstr(a->name, "J") != NULL;
     for (size_t i = 0; i < (moments ? 9u : 4u); i++) names[named++] = others[i];
@@ -252,12 +235,11 @@ static iso_status check_level(iso_sweep_file *f, const yaml_node_t *key, iso_swe
     iso_draft_number list[ISO_SWEEP_NAMES];
     const bool point = f->base.start.model == ISO_POINT;
     const char *needed = point ? "eps" : "level.c";
-    bool stated = false;
     if (a->target != ISO_TO_LEVEL) return ISO_OK;
     f->level = a;
-    const int count = iso_draft_numbers(&f->draft, ISO_SWEEP_NAMES, list);
-    for (int i = 0; i < count; i++) stated = stated || strcmp(list[i].name, needed) == 0;
-    if (!stated)
+    int stated = iso_draft_numbers(&f->draft, ISO_SWEEP_NAMES, list);
+    while (stated > 0 && strcmp(list[stated - 1].name, needed) != 0) stated--;
+    if (stated == 0)
         return ISO_FAIL_AT(f, key, "'level' needs %s in the scene",
                            point ? "'eps'" : "'effects: {level: {c: 1}}', whose c it sets,");
     for (const iso_sweep_axis *b = f->axis; b < f->axis + f->axes; b++)
@@ -280,21 +262,13 @@ static iso_status check_start(iso_sweep_file *f, const yaml_node_t *vary)
         "a start on the section is 'l' and 'x' (one of them may be a single number), or 'start' alone");
 }
 
-/* The moments that an axis sets, as bits. */
-static int moments_of(const iso_sweep_axis *a)
-{
-    if (a->target == ISO_TO_RATIO) return 1 << a->part;
-    if (a->target != ISO_TO_NUMBER) return 0;
-    return strcmp(a->name, "J") == 0 ? 7 : component(a->name, "J") >= 0 ? 1 << a->part : 0;
-}
-
-/* J2 and J2/J1 both set J2; and J1 behind J2/J1 changes the ratio that the row tells. */
+/* J2 and J2/J1 both set J2; and J1 behind J2/J1 changes the ratio in the row. */
 static iso_status check_moments(iso_sweep_file *f, const yaml_node_t *key, const iso_sweep_axis *a)
 {
     for (const iso_sweep_axis *b = f->axis; b < a; b++) {
-        if (moments_of(a) & moments_of(b))
+        if (a->moments & b->moments)
             return ISO_FAIL_AT(f, key, "'%s' and '%s' set the same moment", b->name, a->name);
-        if (b->target == ISO_TO_RATIO && moments_of(a) & 1 << b->of)
+        if (b->target == ISO_TO_RATIO && a->moments & 1 << b->of)
             return ISO_FAIL_AT(f, key, "'%s' changes '%s': write it first", a->name, b->name);
     }
     return ISO_OK;
