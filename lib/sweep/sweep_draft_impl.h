@@ -70,8 +70,7 @@ struct iso_sweep_file {
     bool random;
     int drawn;
     uint64_t step[ISO_SWEEP_DRAWN], shift[ISO_SWEEP_DRAWN];
-    char (*column)[ISO_NAME_SIZE];
-    char *options[ISO_SWEEP_REQUESTS]; /* those of the plan's requests */
+    char (*column)[ISO_NAME_SIZE]; /* room for 9 of each axis */
     iso_sweep_plan plan;
 };
 

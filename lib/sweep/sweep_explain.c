@@ -23,7 +23,7 @@ typedef struct cost {
 } cost;
 
 /* Every place stands for as many points of the sweep, so it counts the same, however many points were computed there.
- * A point by itself comes first: it tells whether many can be computed, and warms up. */
+ * A point by itself comes first: it shows whether many can be computed, and warms up. */
 static iso_status measure(iso_context *ctx, const iso_sweep *sweep, iso_sweep_rows *rows, double scale, cost *c)
 {
     static const int order[PLACES] = {4, 1, 6, 3, 7, 0, 5, 2}; /* if time is short, places far from each other */
@@ -97,7 +97,7 @@ static void print(FILE *to, const iso_sweep_file *file, const iso_sweep_head *he
 {
     const iso_sweep_plan *plan = iso_sweep_file_plan(file);
     const size_t processors = iso_pool_threads(0, SIZE_MAX - 1, 1);
-    char words[ISO_SWEEP_WORDS], one[24], other[24];
+    char one[24], other[24];
     double mean = 0;
     for (int i = 0; i < plan->requests; i++) mean += costs[i].mean;
     const double all = mean * (double)head->count;
@@ -107,7 +107,7 @@ static void print(FILE *to, const iso_sweep_file *file, const iso_sweep_head *he
     fprintf(to, "  a file of about %.3g MB\n", ((double)head->columns + 0.5) * 8e-6 * (double)head->count);
     fprintf(to, "\nsweep\n  %zu points in %zu chunks of %zu; %d columns; vectors %s\n", head->count,
             iso_sweep_chunks(head), head->chunk, head->columns, head->vectors);
-    for (int i = 0; iso_sweep_axis_words(file, i, words); i++) fprintf(to, "  %s\n", words);
+    iso_sweep_print_axes(file, to);
     fprintf(to, "\nmeasured\n");
     for (int i = 0; i < plan->requests; i++) {
         const cost *c = &costs[i];
@@ -136,7 +136,7 @@ iso_status iso_sweep_explain(iso_context *ctx, const iso_sweep_file *file, char 
         status = measure_quantity(ctx, plan, i, head->chunk, &costs[i]);
     FILE *to = status == ISO_OK ? iso_memory_open(&memory) : NULL;
     if (to) print(to, file, head, costs);
-    if (status == ISO_OK && !(*text = iso_memory_close(to, &memory))) status = iso_context_no_memory(ctx, "words");
+    if (status == ISO_OK && !(*text = iso_memory_close(to, &memory))) status = iso_context_no_memory(ctx, "a text");
     iso_sweep_free(sweep);
     return status;
 }

@@ -80,9 +80,8 @@ void iso_sweep_file_free(iso_sweep_file *file);
 /* What the file says. It is valid until the file is freed. */
 const iso_sweep_plan *iso_sweep_file_plan(const iso_sweep_file *file);
 
-/* What varies, as text, such as "k: 61 values from -3 to 3"; false past the last. */
-enum { ISO_SWEEP_WORDS = 176 };
-bool iso_sweep_axis_words(const iso_sweep_file *file, int i, char words[ISO_SWEEP_WORDS]);
+/* Prints what varies, in lines such as "  k: 61 values from -3 to 3". */
+void iso_sweep_print_axes(const iso_sweep_file *file, FILE *to);
 
 /* How many points have k = 0, where there is no ball: they will fail. Of values that are drawn none is counted. */
 size_t iso_sweep_zeros_of_k(const iso_sweep_file *file);
@@ -245,11 +244,11 @@ iso_status iso_sweep_note(iso_context *ctx, const iso_sweep_job *job, iso_sweep_
 
 /* The quantities of one run (sweep_run.c). state: at the end, or at a turn; its columns are those of the scene. */
 extern const iso_study iso_state_study, iso_error_study, iso_contact_study;
-typedef struct iso_sweep_run_request {
+typedef struct iso_state_request {
     iso_models as, models;        /* -1: not given */
     double turns, end, tolerance; /* NAN: not given */
     const char *vectors;
-} iso_sweep_run_request;
+} iso_state_request;
 void iso_sweep_add_state(iso_sweep_job *job);
 size_t iso_sweep_state_chunk(const iso_sweep_job *job);
 

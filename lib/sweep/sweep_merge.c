@@ -43,7 +43,7 @@ typedef struct merger {
     const iso_sweep_reader *first;
 } merger;
 
-/* The first part tells how many there are. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+/* The first part says how many there are. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 static iso_status check_part(iso_context *ctx, merger *m, const iso_sweep_reader *r)
 {
     const iso_sweep_head *a = &m->first->head, *b = &r->head;

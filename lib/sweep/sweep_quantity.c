@@ -89,7 +89,7 @@ static bool backends_has(const iso_sweep_job *job, const char *name)
  * columns of then. rotations: the search for other orbits takes long. */
 static const iso_sweep_quantity special[] = {
     {"state", &iso_state_study, .chunk = iso_sweep_state_chunk, .add = iso_sweep_add_state,
-     VECTORS(iso_sweep_run_request, vectors)},
+     VECTORS(iso_state_request, vectors)},
     {"chaos", &iso_chaos_study,
      "verdict share=share_chaotic share_low share_high regular=share_regular undecided=share_undecided "
      "failed=share_failed " CHAOS("ball") CHAOS("point"),

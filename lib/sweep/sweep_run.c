@@ -10,7 +10,7 @@
 #include "sweep/sweep_impl.h"
 #include "task/run.h"
 
-typedef iso_sweep_run_request run_request;
+typedef iso_state_request run_request;
 
 ISO_STUDY_BEGIN(run_request, (run_request){(iso_models)-1, (iso_models)-1, NAN, NAN, NAN, NULL})
 

@@ -13,7 +13,7 @@
  * such a file: out.h5.csv.part.
  *
  * Shard i of n (option --shard) is chunk i, i + n, i + 2n, ... of a sweep. Its result is a part; iso_sweep_merge
- * puts parts together, to the bytes that one program gives.
+ * puts parts together, to the bytes that one program writes.
  */
 #ifndef ISO_SWEEP_STORE_IMPL_H
 #define ISO_SWEEP_STORE_IMPL_H

@@ -146,14 +146,6 @@ static iso_status read_list(iso_sweep_file *f, const yaml_node_t *node, iso_swee
 }
 
 /* All a + b + c = sum from 1 on; ordered: a < b < c. */
-static size_t triangle_count(long sum, bool ordered)
-{
-    if (!ordered) return (size_t)(sum - 1) * (size_t)(sum - 2) / 2;
-    size_t count = 0;
-    for (long a = 1; 3 * a + 3 <= sum; a++) count += (size_t)((sum - a - 1) / 2 - a);
-    return count;
-}
-
 static iso_status read_triangle(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
 {
     static const iso_sweep_setting settings[] = {
@@ -168,7 +160,9 @@ static iso_status read_triangle(iso_sweep_file *f, const yaml_node_t *node, iso_
     a->values = ISO_FROM_TRIANGLE;
     a->sum = (long)value[0];
     a->ordered = value[1] > 0;
-    a->count = triangle_count(a->sum, a->ordered);
+    a->count = a->ordered ? 0 : (size_t)(a->sum - 1) * (size_t)(a->sum - 2) / 2;
+    for (long least = 1; a->ordered && 3 * least + 3 <= a->sum; least++)
+        a->count += (size_t)((a->sum - least - 1) / 2 - least);
     return ISO_OK;
 }
 
@@ -297,14 +291,14 @@ static iso_status read_axis(iso_sweep_file *f, const yaml_node_pair_t *pair)
     const yaml_node_t *key = iso_yaml_node(&f->yaml, pair->key), *value = iso_yaml_node(&f->yaml, pair->value);
     if (f->axes == ISO_SWEEP_AXES) return ISO_FAIL_AT(f, key, "more than %d numbers vary", ISO_SWEEP_AXES);
     iso_sweep_axis *a = &f->axis[f->axes++];
-    iso_status status = find_target(f, key, a);
-    if (status == ISO_OK) status = read_values(f, value, a);
-    if (status == ISO_OK) status = check_tolerance(f, value, a);
-    if (status == ISO_OK) status = check_chart(f, value, a);
-    if (status == ISO_OK) status = check_level(f, key, a);
-    if (status == ISO_OK) status = name_columns(f, key, a);
-    if (status == ISO_OK) status = check_moments(f, key, a);
-    if (status != ISO_OK || a->values != ISO_FROM_DRAWING) return status;
+    ISO_TRY(find_target(f, key, a));
+    ISO_TRY(read_values(f, value, a));
+    ISO_TRY(check_tolerance(f, value, a));
+    ISO_TRY(check_chart(f, value, a));
+    ISO_TRY(check_level(f, key, a));
+    ISO_TRY(name_columns(f, key, a));
+    ISO_TRY(check_moments(f, key, a));
+    if (a->values != ISO_FROM_DRAWING) return ISO_OK;
     if (f->drawn == ISO_SWEEP_DRAWN) return ISO_FAIL_AT(f, key, "more than %d numbers are drawn", ISO_SWEEP_DRAWN);
     a->drawn = f->drawn++;
     return ISO_OK;
@@ -346,18 +340,6 @@ static ISO_NAMES(kind_of_samples, int, "even", "random")
     return ISO_OK;
 }
 
-static iso_status count_points(iso_sweep_file *f, const yaml_node_t *vary)
-{
-    double count = f->drawn > 0 ? (double)f->samples : 1;
-    f->plan.family.count = f->drawn > 0 ? f->samples : 1;
-    for (int i = 0; i < f->axes; i++) {
-        count *= (double)f->axis[i].count;
-        if (count > most_points) return ISO_FAIL_AT(f, vary, "more than %g points", most_points);
-        f->plan.family.count *= f->axis[i].count;
-    }
-    return ISO_OK;
-}
-
 iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples)
 {
     if (vary->type == YAML_MAPPING_NODE && vary->data.mapping.pairs.start == vary->data.mapping.pairs.top)
@@ -366,11 +348,16 @@ iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const
         return iso_yaml_expected(&f->yaml, vary, "vary", "a mapping with the numbers that vary");
     f->column = calloc(9 * ISO_SWEEP_AXES, sizeof *f->column);
     if (!f->column) return iso_context_no_memory(f->yaml.ctx, "a sweep");
-    iso_status status = ISO_OK;
     const yaml_node_pair_t *end = vary->data.mapping.pairs.top;
-    for (const yaml_node_pair_t *p = vary->data.mapping.pairs.start; p < end && status == ISO_OK; p++)
-        status = read_axis(f, p);
-    if (status == ISO_OK) status = check_start(f, vary);
-    if (status == ISO_OK) status = read_samples(f, vary, samples);
-    return status == ISO_OK ? count_points(f, vary) : status;
+    for (const yaml_node_pair_t *p = vary->data.mapping.pairs.start; p < end; p++) ISO_TRY(read_axis(f, p));
+    ISO_TRY(check_start(f, vary));
+    ISO_TRY(read_samples(f, vary, samples));
+    size_t *points = &f->plan.family.count;
+    *points = f->drawn > 0 ? f->samples : 1;
+    for (int i = 0; i < f->axes; i++) {
+        if ((double)*points * (double)f->axis[i].count > most_points)
+            return ISO_FAIL_AT(f, vary, "more than %g points", most_points);
+        *points *= f->axis[i].count;
+    }
+    return ISO_OK;
 }
