@@ -4,6 +4,7 @@
 #include "base/number_impl.h"
 #include "json.h"
 #include "parameters.h"
+#include "stream.h"
 #include "task/check/check_impl.h"
 #include "terminal.h"
 
@@ -14,17 +15,6 @@ typedef struct options {
 } options;
 
 /* --- the check -------------------------------------------------------------------------------------------------- */
-
-/* Rows of a file come one after the other, as they are read. */
-static iso_status next_row(iso_context *ctx, void *data, iso_source_row *row)
-{
-    iso_table_reader *in = data;
-    const iso_status status = iso_table_next(ctx, in, row->number, &row->more);
-    row->passed = iso_table_at(in)->passed;
-    row->begins_orbit = iso_table_at(in)->begins_orbit;
-    row->ignored = iso_table_at(in)->ignored;
-    return status;
-}
 
 /* Prints what was found; its exit status. */
 static int report(const options *o, const iso_study_result *r)
@@ -47,7 +37,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = iso_table_reader_open(ctx, o->file, "trajectory", o->columns, &in);
     if (status == ISO_OK && o->scene) status = iso_scene_load(ctx, o->scene, &scene);
     if (status == ISO_OK) {
-        const iso_row_source rows = {next_row, in};
+        const iso_row_source rows = {stream_next, in};
         iso_table_pass_nan(in);
         progress_begin();
         status = iso_study_answer(

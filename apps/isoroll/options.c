@@ -14,14 +14,6 @@
 
 /* --- setters ---------------------------------------------------------------------------------------------------- */
 
-bool set_target(void *at, const char *text)
-{
-    int model = 0;
-    while (iso_model_kind_name(model) && strcmp(text, iso_model_kind_name(model)) != 0) model++;
-    *(iso_model_kind *)at = (iso_model_kind)model;
-    return iso_model_kind_name(model) != NULL;
-}
-
 bool set_digits(void *at, const char *text)
 {
     double digits = ISO_HEXADECIMAL;

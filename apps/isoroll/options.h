@@ -43,7 +43,6 @@ const char *options_command(void);
 const option_row *options_row(const struct command *c, int i);
 
 /* Setters, beside those of studies (study/options_impl.h). */
-bool set_target(void *at, const char *text); /* iso_model_kind: ball, point      */
 bool set_digits(void *at, const char *text); /* int, 1 to 17, or ISO_HEXADECIMAL */
 
 /* Whether `path` names a regular file. Of a pipe nothing may be read to see what it is: it can be read only once. */

@@ -1,7 +1,20 @@
-/* stream.c - rows of a study that go to a file as soon as they are found (see stream.h). */
+/* stream.c - rows of a file, and rows that go to a file (see stream.h). */
 #include "stream.h"
 
 #include "progress.h"
+
+iso_status stream_next(iso_context *ctx, void *reader, iso_source_row *row)
+{
+    const iso_status status = iso_table_next(ctx, reader, row->number, &row->more);
+    const iso_table_place *at = iso_table_at(reader);
+    row->line = at->line;
+    row->orbits = at->orbits;
+    row->orbit = at->orbit;
+    row->begins_orbit = at->begins_orbit;
+    row->passed = at->passed;
+    row->ignored = at->ignored;
+    return status;
+}
 
 iso_status stream_header(void *data, int table, const iso_record *header)
 {
@@ -10,8 +23,9 @@ iso_status stream_header(void *data, int table, const iso_record *header)
     s->opened = true;
     stop_gently();
     progress_begin_rows(s->output);
-    const iso_status status = iso_table_writer_open(s->ctx, s->output, s->kind, &s->writer);
-    return status == ISO_OK ? iso_table_write_header(s->ctx, s->writer, header) : status;
+    ISO_TRY(iso_table_writer_open(s->ctx, s->output, s->kind, &s->writer));
+    if (s->digits) iso_table_set_digits(s->writer, *s->digits);
+    return iso_table_write_header(s->ctx, s->writer, header);
 }
 
 iso_status stream_row(void *data, int table, const double row[], size_t count)

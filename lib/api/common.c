@@ -1,11 +1,10 @@
-/* common.c - what the calls for other languages share: notes, words, and the slow monitor. */
+/* common.c - what the calls for other languages share: notes, texts, and the slow monitor. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "api/interface_impl.h"
-#include "base/nearest_impl.h"
 
 int iso_interface(void)
 {
@@ -40,18 +39,6 @@ iso_status iso_text_give(iso_context *ctx, FILE *to, iso_memory *memory, char te
     if (room > 0) snprintf(text, room, "%s", whole);
     free(whole);
     return ISO_OK;
-}
-
-/* --- words ------------------------------------------------------------------------------------------------------ */
-
-iso_status iso_word_find(iso_context *ctx, const char *key, const char *(*name)(int), const char *word, int *number)
-{
-    char suggested[ISO_SUGGEST_SIZE];
-    if (!word) word = "auto";
-    for (*number = 0; name(*number); ++*number)
-        if (strcmp(name(*number), word) == 0) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "%s cannot be '%s'; %s", key, word,
-                            iso_suggest_word(suggested, word, name));
 }
 
 /* --- the monitor ------------------------------------------------------------------------------------------------ */

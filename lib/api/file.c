@@ -1,13 +1,10 @@
-/* file.c - records read from files, written to files, and converted to the other model. */
+/* file.c - records read from files, and written to files. */
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include "api/interface_impl.h"
-#include "base/number_impl.h"
 #include "io/table_impl.h"
-#include "method/integrator_impl.h"
-#include "task/convert/convert_impl.h"
 
 /* --- reading ---------------------------------------------------------------------------------------------------- */
 
@@ -56,52 +53,4 @@ iso_status iso_record_write(iso_context *ctx, const char *path, const iso_record
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "kind",
                                 "the kind of a table is a word such as section, not '%s'", kind);
     return iso_table_write_as(ctx, path, kind, digits, record);
-}
-
-/* --- converting ------------------------------------------------------------------------------------------------- */
-
-/* The two lines that `isoroll convert` writes: how the other clock was computed, and its error. */
-static iso_status put_clock(iso_context *ctx, const iso_conversion_summary *s, iso_record *out)
-{
-    char key[2][ISO_NAME_SIZE], text[2][160];
-    if (!iso_conversion_clock_lines(s, key, text)) return ISO_OK;
-    const iso_status status = iso_record_set(ctx, out, key[0], text[0]);
-    return status == ISO_OK ? iso_record_set(ctx, out, key[1], text[1]) : status;
-}
-
-/* Lines that the first row does not confirm, and what is wrong with the rows. */
-static void note_verdict(const iso_conversion_summary *s, notes *n)
-{
-    char stated[ISO_STATED_SIZE], verdict[ISO_VERDICT_SIZE], text[ISO_VERDICT_SIZE + 32];
-    size_t row;
-    for (int i = 0; iso_conversion_stated_words(s, i, stated); i++) iso_notes_add(n, stated);
-    if (!iso_conversion_verdict(s, verdict, &row)) return;
-    snprintf(text, sizeof text, "row %zu: %s", row - 1, verdict);
-    iso_notes_add(n, text);
-}
-
-iso_status iso_record_convert(iso_context *ctx, const iso_record *in, const char *to, double tolerance,
-                              double row_tolerance, bool shift_J, iso_record **out, char text[], size_t room)
-{
-    notes n = iso_notes_begin(text, room);
-    iso_conversion_options o = iso_conversion_defaults();
-    iso_conversion_summary summary = {.rows = 0};
-    iso_params params;
-    int model;
-    *out = NULL;
-    o.tolerance = tolerance;
-    o.shift_J = shift_J;
-    o.row_tolerance = row_tolerance;
-    o.first_row = 0;
-    iso_status status = iso_word_find(ctx, "to", iso_model_kind_name, to, &model);
-    if (status == ISO_OK && !iso_tolerance_is_good(row_tolerance))
-        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "row_tolerance",
-                                  "row_tolerance %s is not in " ISO_TOLERANCE_RANGE, ISO_SHORT(row_tolerance));
-    if (status == ISO_OK) status = iso_tolerance_check(ctx, tolerance);
-    if (status == ISO_OK) status = iso_record_params(ctx, in, &params);
-    if (status == ISO_OK) status = iso_convert_as(ctx, &params, in, (iso_model_kind)model, &o, &summary, out);
-    if (status == ISO_OK) status = put_clock(ctx, &summary, *out);
-    if (status == ISO_OK) note_verdict(&summary, &n);
-    if (status != ISO_OK) iso_record_free(*out), *out = NULL;
-    return status;
 }

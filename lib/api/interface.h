@@ -143,15 +143,17 @@ ISO_API iso_status iso_batch(iso_context *ctx, const iso_scene *const scene[], s
 
 /* Asks a study by its name: "run", "section", "chaos", ...
  * scene, record: what is studied. Most studies need a scene; run also takes a record of one column, its times; check
- *   needs a trajectory, and takes k, J and effects from a scene; analogue needs a scene or the problem in its options.
- *   NULL: not given.
+ *   and convert need a trajectory, and take k, J and effects from a scene; analogue needs a scene or the problem in its
+ *   options. NULL: not given.
  * options: lines NAME=VALUE with a newline between, or NULL. Names and values are those of the command, such as
  *   "starts=12\nat=0.5,0.2;1,-0.3\nmodel=both"; a flag is "NAME=true".
- * sink: takes notes and progress, and of run and section the rows as they are found, if its `row` is not NULL: they
- *   are then in no table. NULL: nobody does.
+ * sink: takes notes and progress, and of run, section and convert the rows as they are found, if its `row` is not
+ *   NULL: they are then in no table. NULL: nobody does.
  * table[]: those not made are NULL. The lines of table[0] are the scene's, the command line that makes it again, and
  *   the result by the names of the command's --json, but what the rows have. The caller frees each (iso_record_free).
  *   run: the trajectory; with verbose=true its lines errors.ball, .point, .t, .tau, .s are the largest errors.
+ *   convert: what its file holds, with a row for each row of the record; a bad one is an error. Notes: the rows do not
+ *     solve the equations that their lines state.
  *   section: what its file holds; if both models are integrated, the crossings as the point finds them, in the
  *     columns orbit, crossing, t, tau, s, l, x; with area: a row for each orbit and model.
  *   chaos: a row for each orbit, row 0 the scene's own, in the columns of the file of `isoroll chaos`; the indicators
@@ -235,15 +237,6 @@ ISO_API iso_status iso_record_read(iso_context *ctx, const char *path, const cha
  * ISO_BAD_ARGUMENT about "digits". */
 ISO_API iso_status iso_record_write(iso_context *ctx, const char *path, const iso_record *record, int digits,
                                     const char *kind);
-
-/* Converts a record to the model `to`, "ball" or "point" (task/convert/convert.h). k, J and h or eps are in its lines.
- * shift_J: see iso_conversion_options. row_tolerance: see iso_record_set_row_tolerance.
- * *out has a row for each row of `in`, and the lines of `isoroll convert`.
- * Notes: the rows do not solve the equations that their lines state.
- * Errors: as iso_convert, ISO_BAD_ARGUMENT about "to", "row_tolerance". */
-ISO_API iso_status iso_record_convert(iso_context *ctx, const iso_record *in, const char *to, double tolerance,
-                                      double row_tolerance, bool shift_J, iso_record **out, char notes[],
-                                      size_t room);
 
 ISO_C_END
 

@@ -1,4 +1,4 @@
-/* interface_impl.h - what the files of this folder share: notes, texts, words. */
+/* interface_impl.h - what the files of this folder share: notes and texts. */
 #ifndef ISO_API_INTERFACE_IMPL_H
 #define ISO_API_INTERFACE_IMPL_H
 
@@ -25,9 +25,5 @@ iso_status iso_text_give(iso_context *ctx, FILE *to, iso_memory *memory, char te
 
 /* Puts the place in the scene before a failure (iso_scene_blame). */
 iso_status iso_blame_scene(iso_context *ctx, const iso_scene *scene, iso_status status);
-
-/* The number of a word in a list of names that NULL ends, NULL being "auto".
- * Errors: ISO_BAD_ARGUMENT about `key`. */
-iso_status iso_word_find(iso_context *ctx, const char *key, const char *(*name)(int), const char *word, int *number);
 
 #endif

@@ -45,7 +45,7 @@ static iso_status find_twin(iso_context *ctx, iso_picture *picture, parts *p)
     if (iso_record_find(p->file, "n1") >= 0) p->ball = p->file;
     if (iso_record_find(p->file, "gamma1") >= 0) p->point = p->file;
     if (p->ball && p->point) return ISO_OK;
-    const iso_status status = iso_convert(ctx, &p->params, p->file, to, 1e-12, &p->twin);
+    const iso_status status = iso_convert(ctx, p->file, to, 1e-12, &p->twin);
     if (status == ISO_OK) *(to == ISO_POINT ? &p->point : &p->ball) = p->twin;
     if (status != ISO_NOT_MAPPED) return status;
     char note[500];

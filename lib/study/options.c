@@ -1,4 +1,4 @@
-/* options.c - options of studies as text, and changes of scenes (see study.h). */
+/* options.c - options of studies as text, those of the section among them, and changes of scenes (see study.h). */
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -9,6 +9,7 @@
 #include "base/nearest_impl.h"
 #include "base/number_impl.h"
 #include "method/methods_impl.h"
+#include "orbit/crossings.h"
 #include "orbit/orbit_impl.h"
 #include "study/options_impl.h"
 
@@ -90,6 +91,13 @@ bool iso_set_backend(void *at, const char *text)
     return false;
 }
 
+bool iso_set_model(void *at, const char *text)
+{
+    for (int i = 0; iso_model_kind_name(i); i++)
+        if (strcmp(text, iso_model_kind_name(i)) == 0) return *(iso_model_kind *)at = (iso_model_kind)i, true;
+    return false;
+}
+
 bool iso_set_method(void *at, const char *text)
 {
     return (strcmp(text, "auto") == 0 || iso_method_find(text)) && iso_set_text(at, text);
@@ -168,6 +176,57 @@ const char *iso_option_type(const iso_option *o)
     for (size_t i = 0; i < sizeof types / sizeof *types; i++)
         if (types[i].set == o->set) return types[i].type;
     return o->word ? "word" : "text";
+}
+
+/* --- the section ------------------------------------------------------------------------------------------------ */
+
+bool iso_set_at(void *at, const char *text)
+{
+    const char **list = at;
+    int i = 0;
+    while (list[i]) i++;
+    if (i == ISO_STUDY_MOST_AT) return false;
+    list[i] = text;
+    return *text != '\0';
+}
+
+static iso_status read_axis(iso_context *ctx, const char *text, int *axis)
+{
+    *axis = ISO_AXIS_AUTO;
+    if (!text || strcmp(text, "auto") == 0) return ISO_OK;
+    *axis = text[0] - '1';
+    if (strlen(text) == 1 && *axis >= 0 && *axis < 3) return ISO_OK;
+    return ISO_FAIL_ARGUMENT(ctx, "", "--axis '%s': expected auto, 1, 2 or 3", text);
+}
+
+/* Points l,x with semicolons between. */
+static iso_status read_points(iso_context *ctx, const char *text, double (**list)[2], size_t *count)
+{
+    size_t most = *count;
+    for (const char *c = text; *c; c++) most += *c == ';';
+    double(*more)[2] = realloc(*list, (most + 1) * sizeof *more);
+    if (!more) return iso_context_no_memory(ctx, "the starts");
+    *list = more;
+    for (const char *c = text; *c; c += *c == ';') {
+        const size_t l = strcspn(c, ",;"), x = c[l] == ',' ? strcspn(c + l + 1, ";") : 0;
+        if (x == 0 || !iso_number_read(c, l, &more[*count][0]) || !iso_number_read(c + l + 1, x, &more[*count][1]))
+            return ISO_FAIL_ARGUMENT(
+                ctx, "", "--at '%s': expected l,x, or several of them with ; between: 0.5,0.2;1,-0.3", text);
+        ++*count;
+        c += l + 1 + x;
+    }
+    return ISO_OK;
+}
+
+iso_status iso_section_words_read(iso_context *ctx, iso_section_words *words, int *axis, const double (**at)[2],
+                                  size_t *count)
+{
+    iso_status status = read_axis(ctx, words->axis, axis);
+    *count = 0;
+    for (int i = 0; status == ISO_OK && words->at[i]; i++)
+        status = read_points(ctx, words->at[i], &words->points, count);
+    *at = (const double(*)[2])words->points;
+    return status;
 }
 
 /* --- scenes ----------------------------------------------------------------------------------------------------- */

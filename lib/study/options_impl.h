@@ -14,8 +14,8 @@
 #define ISO_STUDY_LIST(X)                                                                                            \
     X(run)                                                                                                           \
     X(section)                                                                                                       \
-    X(chaos)                                                                                                         \
-    X(frequencies) X(periodic) X(splitting) X(prove) X(integrals) X(cost) X(compare) X(check) X(explain) X(analogue)
+    X(convert) X(chaos) X(frequencies) X(periodic) X(splitting) X(prove) X(integrals) X(cost) X(compare) X(check)    \
+        X(explain) X(analogue)
 #define ISO_STUDY_DECLARE(name)                                                                                      \
     extern const iso_study iso_##name##_study;                                                                       \
     extern const iso_option iso_##name##_option[];
@@ -45,6 +45,7 @@ bool iso_set_vector(void *at, const char *text);  /* double[3], three numbers an
 bool iso_set_method(void *at, const char *text);  /* const char *, a method or auto         */
 bool iso_set_backend(void *at, const char *text); /* iso_backend: a word of iso_backend_word */
 const char *iso_backend_word(int i);              /* "ball", "point", "exact", "auto"       */
+bool iso_set_model(void *at, const char *text);   /* iso_model_kind: ball, point            */
 
 /* Reads options, lines NAME=VALUE, into a study's struct of them, to be ended by study->end also after an error. The
  * text is changed, and must live as long as they do. Errors: ISO_BAD_ARGUMENT, ISO_NO_MEMORY. */
@@ -164,5 +165,9 @@ typedef struct iso_section_words {
     const char *axis, *at[ISO_STUDY_MOST_AT + 1];
     double (*points)[2];
 } iso_section_words;
+
+/* Reads them: the axis, and points l,x with semicolons between. Errors: ISO_BAD_ARGUMENT. */
+iso_status iso_section_words_read(iso_context *ctx, iso_section_words *words, int *axis, const double (**at)[2],
+                                  size_t *count);
 
 #endif

@@ -1,4 +1,5 @@
 /* study.c - asking a study: its options, its tables, what it tells people (see study.h). */
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -162,7 +163,7 @@ iso_status iso_study_title(iso_context *ctx, const iso_study_result *result, con
 
 void iso_study_note(const iso_study_result *result, const char *format, ...)
 {
-    char words[640];
+    char words[1536];
     va_list args;
     va_start(args, format);
     vsnprintf(words, sizeof words, format, args);
@@ -174,6 +175,36 @@ void iso_study_progress(void *result, double part)
 {
     const iso_sink *sink = &((const iso_study_result *)result)->sink;
     if (sink->progress) sink->progress(sink->data, part);
+}
+
+/* --- rows of a record ------------------------------------------------------------------------------------------- */
+
+static bool is_nan(const double row[], size_t columns)
+{
+    size_t known = 0;
+    for (size_t i = 0; i < columns; i++) known += isnan(row[i]) ? 0 : 1;
+    return known == 0;
+}
+
+iso_status iso_kept_rows_next(iso_context *ctx, void *kept, iso_source_row *row)
+{
+    iso_kept_rows *at = kept;
+    const iso_record *r = at->record;
+    const size_t columns = iso_record_columns(r), rows = iso_record_rows(r);
+    const int orbit = iso_record_find(r, "orbit");
+    (void)ctx;
+    for (; at->passes_nan && at->row < rows && is_nan(iso_record_const_row(r, at->row), columns); at->row++)
+        row->passed++;
+    row->more = at->row < rows;
+    if (!row->more) return ISO_OK;
+    memcpy(row->number, iso_record_const_row(r, at->row), columns * sizeof *row->number);
+    row->line = ++at->row;
+    row->orbits = orbit >= 0;
+    row->begins_orbit = orbit >= 0 && at->row > 1 && row->number[orbit] != row->orbit;
+    if (orbit >= 0) row->orbit = row->number[orbit];
+    const iso_sink *sink = at->sink;
+    if (at->row % 1024 == 0 && sink->progress) sink->progress(sink->data, (double)at->row / (double)rows);
+    return ISO_OK;
 }
 
 /* --- tables ----------------------------------------------------------------------------------------------------- */

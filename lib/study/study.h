@@ -51,6 +51,9 @@ enum { ISO_STUDY_TABLES = 6, ISO_STUDY_MOST_AT = 64 };
 /* Where rows come from: next() gives one in *row, which has the last one before. */
 typedef struct iso_source_row {
     double *number;
+    size_t line;  /* of the file; of a record the number of the row, from 1                         */
+    bool orbits;  /* there are several, told apart by a column `orbit`, ...                         */
+    double orbit; /* ... which has this number                                                  */
     bool more, begins_orbit;
     size_t passed;       /* rows of nan so far                                         */
     const char *ignored; /* columns that are no part of the rows, in words; NULL: none */
@@ -61,10 +64,19 @@ typedef struct iso_row_source {
     void *data;
 } iso_row_source;
 
+/* The rows of a record as such a source, whose data are an iso_kept_rows: next row 0 at the beginning. */
+typedef struct iso_kept_rows {
+    const iso_record *record;
+    const iso_sink *sink; /* of progress */
+    bool passes_nan;      /* over rows of nan, which are counted */
+    size_t row;
+} iso_kept_rows;
+iso_status iso_kept_rows_next(iso_context *ctx, void *kept, iso_source_row *row);
+
 /* What is studied. */
 typedef struct iso_study_subject {
     const iso_scene *scene;     /* NULL: none                                                        */
-    const char *name;           /* of its file, for the line `command` of tables; NULL: not known     */
+    const char *name;           /* of its file, in the line `command` of tables and in messages; NULL: not known */
     const iso_record *record;   /* a trajectory; NULL: none                                           */
     const iso_row_source *rows; /* of the record, which has columns and lines alone; NULL: it has its rows  */
     const char *command;        /* the line itself; NULL: made from the options                       */

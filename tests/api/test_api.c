@@ -277,11 +277,15 @@ static void check_files(const iso_scene *scene)
     gsl_test(asked_run(ctx, scene, NULL, 0, errors, &ball, notes, sizeof notes) != ISO_OK || !(errors[0] < 1e-10) ||
                  !isnan(errors[1]) || !isnan(errors[2]),
              "errors of a run: %g", errors[0]);
-    gsl_test(iso_record_convert(ctx, ball, "point", 1e-14, 1e-5, false, &point, notes, sizeof notes) != ISO_OK,
+    gsl_test(asked(ctx, NULL, ball, "convert", "to=point", NULL, NULL, table_of, notes, sizeof notes) != ISO_OK,
              "there");
+    point = table_of[0];
     gsl_test(iso_record_write(ctx, "foreign.csv", point, 17, "trajectory") != ISO_OK, "written");
     gsl_test(iso_record_read(ctx, "foreign.csv", NULL, &read, notes, sizeof notes) != ISO_OK || *notes, "read");
-    gsl_test(iso_record_convert(ctx, read, "ball", 1e-14, 1e-5, false, &back, notes, sizeof notes) != ISO_OK, "back");
+    gsl_test(asked(ctx, NULL, read, "convert", "to=ball", NULL, NULL, table_of, notes, sizeof notes) != ISO_OK ||
+                 *notes,
+             "back: %s", notes);
+    back = table_of[0];
     remove("foreign.csv");
     int wrong = 0;
     for (size_t i = 0; i < iso_record_rows(ball); i++)

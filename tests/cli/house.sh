@@ -20,9 +20,9 @@ public=$(sed -n 's/^#include "\(.*\)".*/lib\/\1/p' lib/isoroll.h | sort) # what 
 # What git leaves where a merge was not finished.
 grep -rnE '^(<<<<<<<|>>>>>>>) ' README.md lib apps examples tests | complain "marks of an unfinished merge"
 
-# Floors: a file of lib includes its own folder and lower floors only, an example only the public headers; the programs
-# of apps are part of the house and may include private ones. Sources and private headers write "floor/name.h"; public
-# ones "../floor/name.h" or "name.h", so that they work where installed.
+# Floors: a file of lib includes its own folder and lower floors only, and an instrument no other instrument; an example
+# only the public headers; the programs of apps are part of the house and may include private ones. Sources and private
+# headers write "floor/name.h"; public ones "../floor/name.h" or "name.h", so that they work where installed.
 find lib apps examples -name '*.[ch]' ! -path lib/isoroll.h -exec awk -v public="$public" '
     BEGIN { m = split(public, list, "\n"); for (i = 1; i <= m; i++) is_public[list[i]] = 1
             n = split("base 0 model 1 map 2 method 2 exact 2 orbit 3 study 4 io 4 instrument 5 task 6 sweep 7 picture 8 api 9", f)
@@ -46,13 +46,15 @@ find lib apps examples -name '*.[ch]' ! -path lib/isoroll.h -exec awk -v public=
             print FILENAME ":" FNR ": " quoted[2] " is not " shape
         else if (to[1] != from[2] && floor[to[1]] >= floor[from[2]])
             print FILENAME ":" FNR ": " from[2] " is not above " to[1]
+        else if (from[2] == "instrument" && to[1] == from[2] && to[2] != from[3])
+            print FILENAME ":" FNR ": the instrument " from[3] " includes " to[2] ": let it ask by iso_study_ask_text"
     }' {} + | complain "floors"
 # Rooms: the folders of a floor, and the floor itself, do not include each other in a circle.
 find lib -name '*.c' -exec grep -H '^#include "' {} + | awk -F '[:"]' '
     { from = substr($1, 5); to = $3
       split(from, f, "/"); split(to, t, "/")
       from = from ~ /\/.*\// ? f[1] "/" f[2] : f[1]; to = to ~ /\/.*\// ? t[1] "/" t[2] : t[1]
-      if (f[1] == t[1] && from != to && t[1] ~ /^(instrument|task|io)$/) print from, to }' |
+      if (f[1] == t[1] && from != to && t[1] ~ /^(task|io)$/) print from, to }' |
     sort -u | tsort 2>&1 >/dev/null | complain "rooms in a circle"
 find apps examples -name '*.[ch]' -exec grep -HnE 'include <isoroll/.*_impl\.h>' {} + | complain "floors"
 

@@ -29,7 +29,7 @@ static void use(iso_context *ctx, const iso_record *record)
         iso_record *out = NULL;
         long steps = STEPS;
         iso_context_set_monitor(ctx, fuzz_goes_on, &steps);
-        status = iso_convert(ctx, &params, record, (iso_model_kind)to, 1e-12, &out);
+        status = iso_convert(ctx, record, (iso_model_kind)to, 1e-12, &out);
         if (status != ISO_OK)
             fuzz_failed(ctx, status);
         else

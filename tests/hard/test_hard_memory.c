@@ -169,7 +169,7 @@ static iso_status study(const hard_road *way)
     if (status == ISO_OK) status = iso_record_set_numbers(ctx, written, "h", 1, &c->h);
     if (status == ISO_OK) status = iso_table_write(ctx, "hard_memory.csv", written);
     if (status == ISO_OK) status = iso_table_read(ctx, "hard_memory.csv", "trajectory", NULL, &read, NULL);
-    if (status == ISO_OK) status = iso_convert(ctx, &scene.params, read, ISO_POINT, 1e-12, &converted);
+    if (status == ISO_OK) status = iso_convert(ctx, read, ISO_POINT, 1e-12, &converted);
     if (status == ISO_OK) status = iso_check(ctx, &scene.params, read, 1e-12, &residuals);
     if (status == ISO_OK) digits = c->worst[1] + iso_record_const_row(converted, 4)[2] + residuals.residual[0].worst;
     iso_record_free(converted);
@@ -183,17 +183,18 @@ static iso_status call_foreign(const hard_road *way)
 {
     iso_scene *scene = NULL;
     iso_solution *one = NULL;
-    iso_record *ball = NULL, *point = NULL, *section[6] = {NULL}, *chaos[6] = {NULL};
+    iso_record *ball = NULL, *point[6] = {NULL}, *section[6] = {NULL}, *chaos[6] = {NULL};
     char notes[80];
     double table[4 * 7];
     (void)way;
     digits = 0;
     iso_status status = iso_scene_parse(ctx, "scene", closed, strlen(closed), &scene);
     if (status == ISO_OK) status = asked_run(ctx, scene, NULL, 0, NULL, &ball, notes, sizeof notes);
-    if (status == ISO_OK) status = iso_record_convert(ctx, ball, "point", 1e-12, 1e-5, false, &point, notes, 80);
-    if (status == ISO_OK) digits = iso_record_row(point, 4)[2];
-    iso_record_free(point);
-    point = NULL;
+    if (status == ISO_OK)
+        status = asked(ctx, NULL, ball, "convert", "to=point\ntol=1e-12", NULL, NULL, point, notes, 80);
+    if (status == ISO_OK) digits = iso_record_row(point[0], 4)[2];
+    iso_record_free(point[0]);
+    point[0] = NULL;
     if (status == ISO_OK) status = iso_solution_create(ctx, scene, &one);
     if (status == ISO_OK) status = iso_solution_at(one, (double[]){2, 1, -1}, 3, table, notes, sizeof notes);
     if (status != ISO_OK && one) /* it has the words */
@@ -209,7 +210,6 @@ static iso_status call_foreign(const hard_road *way)
         status = asked(ctx, scene, NULL, "chaos", "turns=4\nstarts=1\nthreads=1", NULL, NULL, chaos, notes, 80);
     digits = status == ISO_OK ? digits + table[27] + iso_record_row(section[1], 3)[6] : 0;
     iso_record_free(ball);
-    iso_record_free(point);
     for (int i = 0; i < 6; i++) iso_record_free(section[i]), iso_record_free(chaos[i]);
     iso_solution_free(one);
     iso_scene_free(scene);

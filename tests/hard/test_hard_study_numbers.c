@@ -59,7 +59,7 @@ static iso_status convert(iso_context *ctx, const void *data, const double v[], 
     iso_record *in = NULL, *out = NULL;
     iso_status status = iso_params_reduced(ctx, k, J, &p);
     if (status == ISO_OK) status = make_record(ctx, &p, c->point, v, c->row, &in);
-    if (status == ISO_OK) status = iso_convert(ctx, &p, in, c->point ? ISO_BALL : ISO_POINT, v[ROW], &out);
+    if (status == ISO_OK) status = iso_convert(ctx, in, c->point ? ISO_BALL : ISO_POINT, v[ROW], &out);
     if (status == ISO_OK) give_record(a, out);
     iso_record_free(in);
     iso_record_free(out);

@@ -10,7 +10,7 @@
 #include "laws.h"
 #include "orbit/orbit_impl.h"
 #include "reference.h"
-#include "task/convert/convert.h"
+#include "task/convert/convert_impl.h"
 
 static const double J_three[3] = {1.4, 2.1, 3.0};
 
@@ -51,10 +51,8 @@ static iso_record *record_of(const iso_params *p, const iso_start *start, iso_mo
 
 static iso_record *convert(const iso_record *in, iso_model_kind to)
 {
-    iso_params p;
     iso_record *out;
-    laws_stop_if(ctx, iso_record_params(ctx, in, &p), "k and J");
-    laws_stop_if(ctx, iso_convert(ctx, &p, in, to, 1e-14, &out), "a conversion");
+    laws_stop_if(ctx, iso_convert(ctx, in, to, 1e-14, &out), "a conversion");
     return out;
 }
 
@@ -240,9 +238,8 @@ static void check_sum(void)
 /* Refused with the status, and the words in the message; `in` is freed. */
 static void refused(iso_record *in, iso_model_kind to, iso_status wanted, const char *words, const char *what)
 {
-    const iso_params p = laws_params(-0.3, J_three);
     iso_record *out = in;
-    const iso_status got = iso_convert(ctx, &p, in, to, 1e-13, &out);
+    const iso_status got = iso_convert(ctx, in, to, 1e-13, &out);
     gsl_test(got != wanted || out != NULL || !strstr(iso_context_message(ctx), words), "%s: %s (%s)", what,
              iso_status_text(got), iso_context_message(ctx));
     if (out != in) iso_record_free(out);
@@ -282,9 +279,14 @@ static void check_refusals(void)
     for (int i = 0; i < 3; i++) iso_record_row(r, 2)[1 + i] *= 1e12;
     refused(r, ISO_POINT, ISO_NUMERICAL, "row 4", "a row so fast that its orbit is not followed to the next");
     const char *const names[] = {"t", "omega1", "omega2", "omega3", "n1", "n2", "n3"};
+    const double k = -0.3;
     laws_stop_if(ctx, iso_record_create(ctx, 7, names, &r), "a record");
+    laws_stop_if(ctx, iso_record_set_numbers(ctx, r, "k", 1, &k), "k");
+    laws_stop_if(ctx, iso_record_set_numbers(ctx, r, "J", 3, J_three), "J");
     refused(r, ISO_POINT, ISO_BAD_INPUT, "no rows", "no rows");
     laws_stop_if(ctx, iso_record_create(ctx, 6, names, &r), "a record");
+    laws_stop_if(ctx, iso_record_set_numbers(ctx, r, "k", 1, &k), "k");
+    laws_stop_if(ctx, iso_record_set_numbers(ctx, r, "J", 3, J_three), "J");
     refused(r, ISO_POINT, ISO_BAD_INPUT, "n3", "a missing column");
     r = damaged(ISO_POINT, "s", 0, 1, 0);
     laws_stop_if(ctx, iso_record_set(ctx, r, "eps", "1e"), "a line");
@@ -301,14 +303,17 @@ static void check_missed(void)
         double factor, term;
     } cases[] = {{"t", 4, 2, 0, 2.5}, {"t", 3, 2, 0, 3.5},  {"t", 5, 1, 1, 0.25},
                  {"t", 3, 2, 0, 2},   {"t", 0, 1, 0, 1000}, {"omega1", 0, 0, 1, 0}};
-    const iso_params p = laws_params(-0.3, J_three);
-    const iso_conversion_options o = iso_conversion_defaults();
+    iso_convert_request how = ISO_CONVERT_UNSET;
+    how.to = ISO_POINT;
     iso_record *good = damaged(ISO_BALL, "t", 0, 1, 0), *right = convert(good, ISO_POINT);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        iso_conversion_summary s;
-        iso_record *in = damaged(ISO_BALL, cases[i].column, cases[i].row, cases[i].factor, cases[i].term), *out;
+        iso_study_result r = {.text = NULL};
+        iso_record *in = damaged(ISO_BALL, cases[i].column, cases[i].row, cases[i].factor, cases[i].term);
+        const iso_study_subject subject = {.record = in};
         double most = 0;
-        laws_stop_if(ctx, iso_convert_as(ctx, &p, in, ISO_POINT, &o, &s, &out) != ISO_OK, cases[i].column);
+        laws_stop_if(ctx, iso_study_answer(ctx, &iso_convert_study, &subject, &how, &r) != ISO_OK, cases[i].column);
+        const iso_conversion_summary s = ((const iso_convert_found *)r.found)->all;
+        const iso_record *out = r.table[0];
         for (size_t row = 0; row < 6; row++)
             for (int c = 1; c < 7; c++)
                 if (row != cases[i].row || *cases[i].column == 't')
@@ -318,7 +323,7 @@ static void check_missed(void)
         gsl_test(most != 0, "%s of row %zu: the states of the others stay, %.2g", cases[i].column, cases[i].row,
                  most);
         iso_record_free(in);
-        iso_record_free(out);
+        iso_study_result_free(&r);
     }
     iso_record_free(good);
     iso_record_free(right);

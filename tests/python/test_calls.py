@@ -226,7 +226,7 @@ class Numbers(Case):
         np.savetxt(self.path("own.txt"), table.array)
         own = isoroll.convert(self.path("own.txt"), "point", columns=table.columns, scene=BALL)
         self.same(own.array, wanted.array)
-        self.refuses(isoroll.BadInput, "no line 'k'", isoroll.convert, bare, "point")
+        self.refuses(isoroll.BadInput, "does not say its k", isoroll.convert, bare, "point")
 
     def test_words(self):
         wanted = self.command("explain", BALL)

@@ -115,11 +115,11 @@ class Conversion(Case):
 
     def test_refused(self):
         ball = isoroll.run(BALL)
-        self.refuses(isoroll.BadArgument, "valid are ball, point", isoroll.convert, ball, "both", about="to")
-        self.refuses(isoroll.BadArgument, "tolerance 2", isoroll.convert, ball, "point", tol=2)
-        self.refuses(isoroll.BadArgument, "row_tolerance", isoroll.convert, ball, "point", row_tolerance=0)
+        self.refuses(isoroll.BadArgument, "expected ball or point", isoroll.convert, ball, "both", about="to")
+        self.refuses(isoroll.BadArgument, "tol is '2': expected", isoroll.convert, ball, "point", tol=2)
+        self.refuses(isoroll.BadArgument, "row-tolerance", isoroll.convert, ball, "point", row_tolerance=0)
         bare = isoroll.trajectory({"t": ball.t, "omega": ball.omega, "n": ball.n})
-        self.refuses(isoroll.BadInput, "no line 'k': give k=", isoroll.convert, bare, "point")
+        self.refuses(isoroll.BadInput, "does not say its k", isoroll.convert, bare, "point")
 
 
 class Tables(Case):

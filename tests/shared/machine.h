@@ -178,7 +178,7 @@ static void put_studies(FILE *to)
     put_file(to, "hard_machine.csv");
     put_status(to, ctx, status, true);
     if (status == ISO_OK) {
-        status = iso_convert(ctx, &scene.params, read, ISO_POINT, 1e-14, &converted);
+        status = iso_convert(ctx, read, ISO_POINT, 1e-14, &converted);
         put_status(to, ctx, status, true);
         if (status == ISO_OK) put_record(to, converted), iso_record_free(converted);
         status = iso_check(ctx, &scene.params, read, 1e-14, &residuals);

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import os
 from ctypes import byref
-from typing import Any, Dict, Mapping, Optional, Sequence, Union
+from typing import Optional, Sequence, Union
 
 from numpy.typing import ArrayLike
 
 from . import _errors, _hdf5
-from ._library import Notes, check, context, doubles, encoded, interruptible, lib, listed, real
+from ._library import Notes, check, context, encoded, interruptible, lib, listed
 from ._kinds import Trajectory
-from ._orbit import run
 from ._scene import SceneLike
+from ._study import ask
 from ._table import PathLike, Table, as_record, from_record, new_record
 
 
@@ -50,19 +50,6 @@ def as_table(source: Union[Table, PathLike], columns: Optional[Union[str, Sequen
     return read(source, columns)
 
 
-def _with_lines(table: Table, scene: Optional[SceneLike], given: Mapping[str, Any]) -> Table:
-    """The table with what its lines do not say: of a scene k, J and the effects."""
-    added: Dict[str, Any] = {}
-    if scene is not None:
-        of_orbit = ("model", "h", "eps", "backend", "method", "tolerance", "isoroll")
-        added.update((key, value) for key, value in run(scene, [0.0]).lines.text.items() if key not in of_orbit)
-    added.update((key, value) for key, value in given.items() if value is not None)
-    missing = {key: value for key, value in added.items() if key not in table.lines}
-    if not missing:
-        return table
-    return type(table)(table.array, table.columns, {**table.lines.text, **missing}, kind=table.kind)
-
-
 def convert(table: Union[Table, PathLike], to: str, *, tol: float = 1e-14, k: Optional[float] = None,
             J: Optional[ArrayLike] = None, eps: Optional[float] = None, h: Optional[float] = None,
             scene: Optional[SceneLike] = None, columns: Optional[Union[str, Sequence[str]]] = None,
@@ -80,20 +67,8 @@ def convert(table: Union[Table, PathLike], to: str, *, tol: float = 1e-14, k: Op
     Returns a table with a row for each row: the clock, then omega, n or M, gamma. A warning says if the rows do not
     solve the equations that their lines state.
     """
-    asked = {"k": k, "eps": eps, "h": h}
-    given: Dict[str, Any] = {key: real(key, value) for key, value in asked.items() if value is not None}
-    given["J"] = None if J is None else doubles("J", J)
-    table = _with_lines(as_table(table, columns), scene, given)
-    for key in ("k", "J"):
-        if key not in table.lines:
-            raise _errors.BadInput(f"the table has no line '{key}': give {key}=...; its lines are "
-                                   f"{', '.join(table.lines) or 'none'}")
-    ctx, record, new, notes = context(), as_record(table), new_record(), Notes()
-    with interruptible():
-        status = lib.iso_record_convert(ctx, record.pointer, encoded(to), real("tol", tol),
-                                         real("row_tolerance", row_tolerance), bool(shift_J), byref(new), *notes.arguments)
-    check(status, ctx)
-    notes.tell()
-    found = from_record(new)
+    options = {"to": to, "tol": tol, "k": k, "J": J, "eps": eps, "h": h, "row_tolerance": row_tolerance,
+               "shift_J": shift_J}
+    found = ask("convert", scene, as_record(as_table(table, columns)), options, lambda rows, *_: rows)
     assert isinstance(found, Trajectory)
     return found

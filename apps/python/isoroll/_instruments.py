@@ -215,6 +215,6 @@ def _make(study: str) -> Callable[..., Any]:
     return instrument
 
 
-INSTRUMENTS: Dict[str, Callable[..., Any]] = {name: _make(name) for name in STUDIES if name != "run"}
+INSTRUMENTS: Dict[str, Callable[..., Any]] = {name: _make(name) for name in STUDIES if name not in ("run", "convert")}
 globals().update(INSTRUMENTS)
 __all__ = list(INSTRUMENTS)

@@ -89,7 +89,6 @@ _TABLE = {
     "iso_sweep_text": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, _OBJECT),
     "iso_record_read": (c_int, c_void_p, c_char_p, c_char_p, _OBJECT) + _NOTES,
     "iso_record_write": (c_int, c_void_p, c_char_p, c_void_p, c_int, c_char_p),
-    "iso_record_convert": (c_int, c_void_p, c_void_p, c_char_p, c_double, c_double, c_bool, _OBJECT) + _NOTES,
     "iso_picture_of": (c_int, c_void_p, c_void_p, c_char_p, POINTER(c_char_p), c_void_p),
 }
 

@@ -8,7 +8,6 @@
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "instrument/chaos/chaos_impl.h"
-#include "instrument/section/section_impl.h"
 #include "map/section_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
@@ -166,14 +165,6 @@ static iso_status prepare(iso_chaos_walk *w)
     return ISO_OK;
 }
 
-static iso_status run(iso_chaos_walk *w)
-{
-    ISO_TRY(prepare(w));
-    iso_status status = iso_chaos_follow(w);
-    count_shares(w);
-    return status;
-}
-
 static iso_status begin(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options, iso_chaos_walk *w)
 {
     *w = (iso_chaos_walk){.ctx = ctx, .scene = scene, .options = iso_chaos_defaults()};
@@ -194,7 +185,11 @@ iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const iso_cha
     iso_chaos_walk w;
     *chaos = NULL;
     ISO_TRY(begin(ctx, scene, options, &w));
-    iso_status status = run(&w);
+    iso_status status = prepare(&w);
+    if (status == ISO_OK) {
+        status = iso_chaos_follow(&w);
+        count_shares(&w);
+    }
     iso_orbit_free(w.orbit);
     if (status != ISO_OK && status != ISO_STOPPED) iso_chaos_free(w.out), w.out = NULL;
     *chaos = w.out;

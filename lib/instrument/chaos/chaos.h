@@ -35,7 +35,6 @@
 
 #include "base/record.h"
 #include "instrument/chaos/indicators.h"
-#include "instrument/section/section.h"
 #include "orbit/crossings.h"
 #include "orbit/scene.h"
 

@@ -2,14 +2,10 @@
 #include <stdlib.h>
 
 #include "instrument/chaos/chaos_impl.h"
-#include "instrument/section/section_impl.h"
 #include "study/fields_impl.h"
 #include "study/options_impl.h"
 
-static void begin(void *options)
-{
-    *(iso_chaos_request *)options = (iso_chaos_request){.how = iso_chaos_defaults()};
-}
+ISO_STUDY_BEGIN(iso_chaos_request, (iso_chaos_request){.how = iso_chaos_defaults()})
 
 static void end(void *options)
 {
@@ -55,10 +51,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     result->failed = c->failure != ISO_OK;
     if (result->failed) iso_study_note(result, "an orbit was not followed to the end: %s", c->words);
     const iso_status made = put_orbits(ctx, subject->scene, c, &result->table[0]);
-    for (int m = 0; m < 2; m++) {
-        if (c->trace[m]) iso_record_set_kind(c->trace[m], "chaos indicators");
-        result->table[1 + m] = c->trace[m];
-    }
+    for (int m = 0; m < 2; m++) result->table[1 + m] = c->trace[m];
     return status == ISO_OK ? made : status;
 }
 

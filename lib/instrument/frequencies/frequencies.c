@@ -147,27 +147,26 @@ static iso_status solve(iso_context *ctx, const iso_orbit *orbit, const iso_samp
 static iso_status find_exact(iso_context *ctx, const iso_scene *scene, iso_frequencies *f)
 {
     const iso_effects effects = iso_scene_acting(scene);
-    const iso_effect *more = iso_effects_beyond_level(&effects);
+    const iso_effect *breaking = iso_effects_breaking(&effects), *more = iso_effects_beyond_level(&effects);
     iso_orbit *orbit;
     iso_sample start;
     iso_exact *exact = NULL;
     double point[ISO_STATE];
     iso_frequencies_blank(f);
     iso_status status = iso_frequencies_open(ctx, scene, &effects, &orbit, &start);
-    if (status == ISO_OK && more && !iso_effects_breaking(&effects)) {
-        f->estimated = true;
+    f->estimated = status == ISO_OK && (breaking || more);
+    if (f->estimated) {
         snprintf(f->why, sizeof f->why,
-                 "the frequencies of the closed solution are for a free motion, not one with '%s'", more->name);
-    } else if (status == ISO_OK && !iso_effects_breaking(&effects)) {
+                 breaking ? "'%s' breaks the isomorphism"
+                          : "the frequencies of the closed solution are for a free motion, not one with '%s'",
+                 breaking ? breaking->name : more->name);
+    } else if (status == ISO_OK) {
         status = solve(ctx, orbit, &start, point, &exact);
         if (status != ISO_OK) {
             f->unresolved = status == ISO_NUMERICAL;
             f->estimated = f->unresolved || status == ISO_BAD_ARGUMENT;
             snprintf(f->why, sizeof f->why, "%s", iso_context_message(ctx));
         }
-    } else if (status == ISO_OK) {
-        f->estimated = true;
-        snprintf(f->why, sizeof f->why, "'%s' breaks the isomorphism", iso_effects_breaking(&effects)->name);
     }
     if (exact) {
         const iso_exact_torus torus = iso_exact_describe(exact);

@@ -2,12 +2,13 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
-#include "instrument/chaos/chaos.h"
 #include "instrument/frequencies/frequencies_impl.h"
 #include "orbit/orbit_impl.h"
+#include "study/study.h"
 #include "study/study_impl.h"
 
 /* Relative differences between the halves of an orbit below this are rounding. */
@@ -15,7 +16,7 @@ static const double ROUNDING = 1e-14;
 
 static const double LEAST_TURNS = 20;
 
-/* The most turns for the indicators of chaos. The caller may ask for fewer. */
+/* The most turns for the study of chaos. The caller may ask for fewer. */
 enum { MOST_TURNS = 3000 };
 
 typedef struct estimator {
@@ -25,8 +26,8 @@ typedef struct estimator {
     bool twin, fixed; /* whether there is a point, and so other clocks; whether the caller gave the length */
     size_t count;
     double end[ISO_CLOCKS];
-    long turns;            /* in which the indicators of chaos may decide */
-    iso_verdict indicated; /* what they say                               */
+    long turns;            /* in which the study of chaos may decide */
+    iso_verdict indicated; /* what it says                               */
     void (*progress)(void *data, double share);
     void *data;
     iso_frequencies *f;
@@ -137,20 +138,24 @@ static iso_verdict judge(const iso_estimate *e, const basis *b, bool integrable)
     return wanders && slowest_beat(b, e->length) > BEATS ? ISO_CHAOTIC : ISO_UNDECIDED;
 }
 
-/* The indicators of chaos.h are sharper than the drift of frequencies. The drift decides only where the indicators do
- * not, or cannot be computed (effects without deviations). */
-static iso_status ask_indicators(estimator *e)
+/* The study "chaos" is sharper than the drift of frequencies. The drift decides only where chaos does not, or cannot be
+ * computed (effects without deviations). */
+static iso_status ask_chaos(estimator *e)
 {
     const bool point = e->twin && iso_point_is_better(&e->scene->params);
-    iso_chaos_options o = iso_chaos_defaults();
-    iso_chaos *c;
+    const iso_study *chaos = iso_study_find("chaos");
+    const iso_study_subject subject = {.scene = e->scene};
+    iso_study_result result = {.found = NULL};
+    char options[64];
     e->indicated = ISO_UNDECIDED;
-    if (e->f->integral) return ISO_OK;
-    o.turns = e->turns;
-    o.models = point ? ISO_SHOW_POINT : ISO_SHOW_BALL;
-    const iso_status status = iso_chaos_run(e->ctx, e->scene, &o, &c);
-    if (status == ISO_OK) e->indicated = c->own.verdict;
-    iso_chaos_free(c);
+    if (e->f->integral || !chaos) return ISO_OK;
+    snprintf(options, sizeof options, "turns=%ld\nmodel=%s", e->turns,
+             iso_model_kind_name(point ? ISO_POINT : ISO_BALL));
+    const iso_status status = iso_study_ask_text(e->ctx, chaos, &subject, options, &result);
+    const char *verdict = status == ISO_OK ? iso_record_get(result.table[0], "verdict") : NULL;
+    for (iso_verdict v = ISO_REGULAR; verdict && v <= ISO_CHAOTIC; v++)
+        if (strcmp(verdict, iso_verdict_name(v)) == 0) e->indicated = v;
+    iso_study_result_free(&result);
     return status == ISO_STOPPED || status == ISO_NO_MEMORY ? status : ISO_OK;
 }
 
@@ -254,7 +259,7 @@ static iso_status estimate(estimator *e)
     enum { LEVELS = 3, MOST = 1 << 20 };
     basis b;
     iso_estimate *out = &e->f->estimate;
-    iso_status status = ask_indicators(e);
+    iso_status status = ask_chaos(e);
     for (int level = 0; status == ISO_OK && level < (e->fixed ? 1 : LEVELS); level++) {
         series s = {.pair = NULL};
         if (level > 0 && e->count > MOST / 4) break;

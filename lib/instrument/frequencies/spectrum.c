@@ -232,17 +232,12 @@ static void report_lines(const analysis *z, double step, iso_spectral_line line[
     qsort(line, (size_t)z->lines, sizeof *line, by_amplitude);
 }
 
-/* chi(y) = prod_{m<=p} 2m/(2m-1) cos^2p(pi y/2), of mean 1 */
-static void make_window(const analysis *z)
-{
-    double most = 1;
-    for (int m = 1; m <= POWER; m++) most *= 2.0 * m / (2.0 * m - 1);
-    for (size_t j = 0; j < z->count; j++) z->window[j] = most * pow(cos(ISO_PI / 2 * y_of(z, j)), 2 * POWER);
-}
-
+/* In the window chi(y) = prod_{m<=p} 2m/(2m-1) cos^2p(pi y/2), of mean 1. */
 static void find_lines(analysis *z, int most)
 {
-    make_window(z);
+    double peak = 1;
+    for (int m = 1; m <= POWER; m++) peak *= 2.0 * m / (2.0 * m - 1);
+    for (size_t j = 0; j < z->count; j++) z->window[j] = peak * pow(cos(ISO_PI / 2 * y_of(z, j)), 2 * POWER);
     memcpy(z->rest, z->signal, 2 * z->count * sizeof *z->signal);
     while (z->lines < most && goes_on(z) && find_line(z)) continue;
     for (int i = 0; i < SWEEPS && z->lines > 0; i++) sweep(z);

@@ -90,13 +90,6 @@ static iso_status check_column(const iso_section_walk *w)
 
 /* --- what is done ----------------------------------------------------------------------------------------------- */
 
-static void choose_section(iso_section_walk *w)
-{
-    iso_section_options *o = &w->options;
-    if (iso_section_is_of_axis(o->column, o->value, &o->axis)) o->column = -1;
-    w->chart = o->column < 0;
-}
-
 /* Observers cost time. They stay only where the column of an effect is used: one of them may need another. */
 static void choose_effects(iso_section_walk *w)
 {
@@ -159,7 +152,8 @@ static iso_status check(iso_section_walk *w)
     if (o->crossings == 0) return ISO_FAIL_ARGUMENT(w->ctx, "crossings", "no crossing is asked for");
     if (iso_crossings_check_axis(w->ctx, o->axis) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (isnan(o->tolerance)) o->tolerance = w->scene->tolerance;
-    choose_section(w);
+    if (iso_section_is_of_axis(o->column, o->value, &o->axis)) o->column = -1;
+    w->chart = o->column < 0;
     choose_effects(w);
     choose_models(w);
     const iso_effect *breaking = iso_effects_breaking(&w->effects);
@@ -181,8 +175,20 @@ static void tell_nature(iso_section_walk *w)
     if (!n->global && w->sink->note) w->sink->note(w->sink->data, n->words);
 }
 
-static iso_status set_up(iso_section_walk *w)
+bool iso_section_has_returns(const iso_section_walk *w)
 {
+    const iso_effects effects = iso_orbit_effects(w->orbit);
+    return iso_effects_are_free(&effects) && w->clocks &&
+           iso_section_is_global(iso_orbit_motion(w->orbit), w->options.axis);
+}
+
+iso_status iso_section_begin(iso_section_walk *w, iso_context *ctx, const iso_scene *scene,
+                             const iso_section_options *options)
+{
+    w->ctx = ctx;
+    w->scene = scene;
+    w->options = options ? *options : iso_section_defaults();
+    *w->result = (iso_section_result){.nature = {.axis = -1}};
     ISO_TRY(check(w));
     ISO_TRY(open_orbit(w));
     if (!w->areas) ISO_TRY(iso_refuse_losses(w->ctx, w->orbit, ISO_NO_RETURN));
@@ -202,24 +208,6 @@ static iso_status set_up(iso_section_walk *w)
         ISO_TRY(iso_crossings_check(w->ctx, &walk.options[0]));
     }
     return ISO_OK;
-}
-
-bool iso_section_has_returns(const iso_section_walk *w)
-{
-    const iso_effects effects = iso_orbit_effects(w->orbit);
-    return iso_effects_are_free(&effects) && w->clocks &&
-           iso_section_is_global(iso_orbit_motion(w->orbit), w->options.axis);
-}
-
-iso_status iso_section_begin(iso_section_walk *w, iso_context *ctx, const iso_scene *scene,
-                             const iso_section_options *options)
-{
-    w->ctx = ctx;
-    w->scene = scene;
-    w->options = iso_section_defaults();
-    *w->result = (iso_section_result){.nature = {.axis = -1}};
-    if (options) w->options = *options;
-    return set_up(w);
 }
 
 iso_status iso_section_run(iso_context *ctx, const iso_scene *scene, const iso_section_options *options,

@@ -19,10 +19,6 @@ typedef struct iso_section_member {
     size_t crossing;
 } iso_section_member;
 
-/* The axis and the starts that are typed; the caller frees words->points. Errors: ISO_BAD_ARGUMENT. */
-iso_status iso_section_words_read(iso_context *ctx, iso_section_words *words, int *axis, const double (**at)[2],
-                                  size_t *count);
-
 typedef struct iso_section_walk {
     iso_context *ctx;
     const iso_scene *scene;

@@ -4,10 +4,8 @@
 #include "instrument/section/section_impl.h"
 
 /* Of each model the orbits by their verdicts, and the orbit that is worst. */
-static void print_areas(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
+static void print_areas(FILE *to, const iso_section_areas *f)
 {
-    const iso_section_areas *f = result->found;
-    (void)scene, (void)options;
     fprintf(to, "det D - 1 of %s: 0 where %s is kept\n",
             f->returns ? "the map from the start to each return" : "the flow over steps of about a turn",
             f->returns ? "the area dL dl" : "the measure (10)");
@@ -43,8 +41,7 @@ static void print_both(FILE *to, const iso_section_result *r)
         fprintf(to, "ball and point, each by itself: %zu and %zu crossings; %zu orbits have different numbers\n",
                 r->crossings[ISO_BALL], r->crossings[ISO_POINT], r->unequal);
     if (r->distance > 0)
-        fprintf(to,
-                "largest distance of the two%s, where they do not part: %.2g, at orbit %zu, crossing %zu\n",
+        fprintf(to, "largest distance of the two%s, where they do not part: %.2g, at orbit %zu, crossing %zu\n",
                 r->nature.axis < 0 ? " in t, by the mean time between crossings" : " in (l, x)", r->distance,
                 r->distance_orbit, r->distance_crossing);
     if (r->parted > 0)
@@ -54,18 +51,15 @@ static void print_both(FILE *to, const iso_section_result *r)
                 r->parted, r->orbits, ISO_SECTION_PARTED, r->parted_orbit, r->parted_crossing);
 }
 
-static void print_crossings(FILE *to, const iso_section_result *r)
+void iso_section_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
 {
+    const iso_section_result *r = result->found;
+    (void)scene;
+    if (((const iso_section_request *)options)->area) {
+        print_areas(to, result->found);
+        return;
+    }
     fprintf(to, "%zu orbit%s, %zu crossings written\n", r->orbits, r->orbits == 1 ? "" : "s", r->rows);
     if (r->nature.global) fprintf(to, "%s\n", r->nature.words);
     if (r->models == ISO_SHOW_BOTH) print_both(to, r);
-}
-
-void iso_section_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
-{
-    const iso_section_request *r = options;
-    if (r->area)
-        print_areas(to, scene, options, result);
-    else
-        print_crossings(to, result->found);
 }

@@ -46,13 +46,8 @@ static double average(const double angle[], size_t from, size_t to, double cut)
     return sum / weights + cut / (2 * M_PI);
 }
 
-/* From 0 to 1/2: the mirror image of an orbit turns the other way. */
-static double fold(double turns)
-{
-    return fabs(turns - nearbyint(turns));
-}
-
-/* How much the angles turn from one to the next; NaN if both halves do not tell the same. `work` has the same room. */
+/* How much the angles turn from one to the next, from 0 to 1/2, as the mirror image of an orbit turns the other way; NaN
+ * if both halves do not tell the same. `work` has the same room. */
 static double rotation_of(const double angle[], size_t count, double work[])
 {
     double gap;
@@ -60,7 +55,8 @@ static double rotation_of(const double angle[], size_t count, double work[])
     const double cut = widest_gap(work, count - 1, &gap);
     if (gap < 0.05) return NAN; /* the steps are of all sizes */
     const double halves[] = {average(angle, 0, count / 2, cut), average(angle, count / 2, count, cut)};
-    return fabs(halves[0] - halves[1]) < CLOSE ? fold(average(angle, 0, count, cut)) : (double)NAN;
+    const double turns = average(angle, 0, count, cut);
+    return fabs(halves[0] - halves[1]) < CLOSE ? fabs(turns - nearbyint(turns)) : (double)NAN;
 }
 
 /* Angles about the centre of crossings that keep to a part of the circle of l, in units of their spread. */

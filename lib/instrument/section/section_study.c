@@ -1,5 +1,4 @@
 /* section_study.c - the section by its name: its options, as words first, and its tables (study/study.h). */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,55 +12,6 @@
 #include "study/options_impl.h"
 
 /* --- what is typed ---------------------------------------------------------------------------------------------- */
-
-bool iso_set_at(void *at, const char *text)
-{
-    const char **list = at;
-    int i = 0;
-    while (list[i]) i++;
-    if (i == ISO_STUDY_MOST_AT) return false;
-    list[i] = text;
-    return *text != '\0';
-}
-
-static iso_status read_axis(iso_context *ctx, const char *text, int *axis)
-{
-    *axis = ISO_AXIS_AUTO;
-    if (!text || strcmp(text, "auto") == 0) return ISO_OK;
-    *axis = text[0] - '1';
-    if (strlen(text) == 1 && *axis >= 0 && *axis < 3) return ISO_OK;
-    return ISO_FAIL_ARGUMENT(ctx, "", "--axis '%s': expected auto, 1, 2 or 3", text);
-}
-
-/* Points l,x with semicolons between. */
-static iso_status read_points(iso_context *ctx, const char *text, double (**list)[2], size_t *count)
-{
-    size_t most = *count;
-    for (const char *c = text; *c; c++) most += *c == ';';
-    double(*more)[2] = realloc(*list, (most + 1) * sizeof *more);
-    if (!more) return iso_context_no_memory(ctx, "the starts");
-    *list = more;
-    for (const char *c = text; *c; c += *c == ';') {
-        const size_t l = strcspn(c, ",;"), x = c[l] == ',' ? strcspn(c + l + 1, ";") : 0;
-        if (x == 0 || !iso_number_read(c, l, &more[*count][0]) || !iso_number_read(c + l + 1, x, &more[*count][1]))
-            return ISO_FAIL_ARGUMENT(
-                ctx, "", "--at '%s': expected l,x, or several of them with ; between: 0.5,0.2;1,-0.3", text);
-        ++*count;
-        c += l + 1 + x;
-    }
-    return ISO_OK;
-}
-
-iso_status iso_section_words_read(iso_context *ctx, iso_section_words *words, int *axis, const double (**at)[2],
-                                  size_t *count)
-{
-    iso_status status = read_axis(ctx, words->axis, axis);
-    *count = 0;
-    for (int i = 0; status == ISO_OK && words->at[i]; i++)
-        status = read_points(ctx, words->at[i], &words->points, count);
-    *at = (const double(*)[2])words->points;
-    return status;
-}
 
 /* COLUMN=VALUE */
 static iso_status read_event(iso_context *ctx, const char *text, iso_section_options *how)

@@ -57,16 +57,18 @@ const iso_field iso_section_fields[] = {
     ISO_FIELD_END,
 };
 
-static iso_status create_header(const iso_section_walk *w, iso_record **header)
+/* Of table 0, or of table 1: the crossings as the point finds them. */
+static iso_status create_header(const iso_section_walk *w, int table, iso_record **header)
 {
     const char *names[ISO_MAX_COLUMNS] = {"orbit", "crossing"};
+    const char *model = table ? "point" : iso_models_name((int)w->result->models);
     size_t n = 2;
-    for (iso_clock c = 0; c < (w->clocks ? ISO_CLOCKS : 1); c++) names[n++] = iso_clock_name(c);
-    if (w->chart) names[n++] = "l";
-    if (w->chart) names[n++] = "x";
-    for (int c = 0; c < w->count; c++) names[n++] = iso_column_name(w->columns[c]);
+    for (iso_clock c = 0; c < (table || w->clocks ? ISO_CLOCKS : 1); c++) names[n++] = iso_clock_name(c);
+    if (table || w->chart) names[n++] = "l";
+    if (table || w->chart) names[n++] = "x";
+    for (int c = 0; c < w->count && !table; c++) names[n++] = iso_column_name(w->columns[c]);
     ISO_TRY(iso_record_create(w->ctx, n, names, header));
-    return iso_record_describe(w->ctx, *header, iso_models_name((int)w->result->models), &w->scene->params, w->orbit);
+    return iso_record_describe(w->ctx, *header, model, &w->scene->params, w->orbit);
 }
 
 /* Numbers that are whole, as text. */
@@ -115,21 +117,12 @@ static iso_status describe(const iso_section_walk *w, iso_record *r)
     return iso_record_set(w->ctx, r, "isoroll", ISO_VERSION);
 }
 
-/* The crossings as the point finds them. */
-static iso_status create_second(const iso_section_walk *w, iso_record **header)
-{
-    static const char *const names[] = {"orbit", "crossing", "t", "tau", "s", "l", "x"};
-    ISO_TRY(iso_record_create(w->ctx, sizeof names / sizeof *names, names, header));
-    ISO_TRY(iso_record_describe(w->ctx, *header, "point", &w->scene->params, w->orbit));
-    return describe(w, *header);
-}
-
 /* Just before the first row: a scene without crossings opens no file. */
 static iso_status give_header(iso_section_walk *w, int table)
 {
     iso_record *header = NULL;
-    iso_status status = table ? create_second(w, &header) : create_header(w, &header);
-    if (status == ISO_OK && table == 0) status = describe(w, header);
+    iso_status status = create_header(w, table, &header);
+    if (status == ISO_OK) status = describe(w, header);
     if (status == ISO_OK && w->sink->header) status = w->sink->header(w->sink->data, table, header);
     if (status == ISO_OK && w->tables)
         w->tables[table] = header;

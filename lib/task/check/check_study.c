@@ -112,42 +112,11 @@ static void begin(void *options)
     *(iso_check_request *)options = (iso_check_request)ISO_CHECK_UNSET;
 }
 
-/* Rows of a record. */
-typedef struct place {
-    const iso_record *record;
-    iso_study_result *result;
-    size_t row;
-} place;
-
-static bool is_nan(const double row[], size_t columns)
-{
-    size_t known = 0;
-    for (size_t i = 0; i < columns; i++) known += isnan(row[i]) ? 0 : 1;
-    return known == 0;
-}
-
-static iso_status next_row(iso_context *ctx, void *data, iso_source_row *row)
-{
-    place *at = data;
-    const size_t columns = iso_record_columns(at->record), rows = iso_record_rows(at->record);
-    const int orbit = iso_record_find(at->record, "orbit");
-    (void)ctx;
-    for (; at->row < rows && is_nan(iso_record_const_row(at->record, at->row), columns); at->row++) row->passed++;
-    row->more = at->row < rows;
-    if (!row->more) return ISO_OK;
-    const double *now = iso_record_const_row(at->record, at->row);
-    row->begins_orbit = orbit >= 0 && at->row > 0 && now[orbit] != row->number[orbit];
-    memcpy(row->number, now, columns * sizeof *now);
-    at->row++;
-    if (at->row % 1024 == 0) iso_study_progress(at->result, (double)at->row / (double)rows);
-    return ISO_OK;
-}
-
 static iso_status find(iso_context *ctx, const iso_study_subject *subject, const iso_check_request *r,
                        iso_study_result *result, iso_check_found *f)
 {
-    place at = {subject->record, result, 0};
-    const iso_row_source kept = {next_row, &at};
+    iso_kept_rows at = {.record = subject->record, .sink = &result->sink, .passes_nan = true};
+    const iso_row_source kept = {iso_kept_rows_next, &at};
     iso_record *header;
     ISO_TRY(iso_record_create_like(ctx, subject->record, 0, NULL, &header));
     const iso_status status =

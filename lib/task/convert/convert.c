@@ -1,4 +1,4 @@
-/* convert.c - the calls of a conversion: begin, one row after the other, end; and conversions of whole records. */
+/* convert.c - the calls of a conversion: begin, one row after the other, end. */
 #include "task/convert/convert.h"
 
 #include <math.h>
@@ -10,7 +10,6 @@
 #include "orbit/orbit_impl.h"
 #include "task/convert/convert_impl.h"
 
-/* The header, and the marks of rows before the first good one. */
 static iso_status begin(iso_conversion *c, const double row[], const conversion_row *r)
 {
     iso_record *header;
@@ -22,13 +21,13 @@ static iso_status begin(iso_conversion *c, const double row[], const conversion_
                          .width = iso_record_columns(c->in),
                          .open = iso_conversion_open,
                          .data = c};
-    if (c->own_column >= 0) status = iso_rows_begin(&c->rows, c->first, row, c->tolerance);
+    if (c->own_column >= 0) status = iso_rows_begin(&c->rows, c->first, row, c->how->tolerance);
     if (status == ISO_OK) status = iso_conversion_describe(c, r->time, &header);
     if (status != ISO_OK) return status;
-    status = c->target.header(c->target.data, header);
+    c->width = iso_record_columns(header);
+    status = c->sink.header(c->sink.data, 0, header);
     iso_record_free(header);
     c->begun = true;
-    for (; status == ISO_OK && c->marks > 0; c->marks--) status = c->target.row(c->target.data, NULL);
     return status;
 }
 
@@ -67,7 +66,7 @@ iso_status iso_conversion_put(iso_conversion *c, const double row[], size_t line
     c->good++;
     if (!c->begun) status = begin(c, row, &r);
     if (status != ISO_OK) return status;
-    return c->own_column >= 0 ? iso_conversion_follow(c, row, &r) : c->target.row(c->target.data, r.out);
+    return c->own_column >= 0 ? iso_conversion_follow(c, row, &r) : iso_conversion_write(c, r.out);
 }
 
 iso_status iso_conversion_skip(iso_conversion *c)
@@ -77,24 +76,12 @@ iso_status iso_conversion_skip(iso_conversion *c)
     return iso_conversion_mark(c);
 }
 
-iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *summary)
-{
-    ISO_DEFAULT_ARITHMETIC;
-    c->summary.checked = c->begun && c->own_column >= 0;
-    if (c->summary.checked) iso_conversion_settle(c);
-    c->summary.clock = c->other;
-    if (summary) *summary = c->summary;
-    if (c->begun) return ISO_OK;
-    if (c->first_words) return iso_context_fail(c->ctx, c->first_failure, "", "%s", c->first_words);
-    return ISO_FAIL_INPUT(c->ctx, "", c->summary.rows ? "no row could be read" : "the trajectory has no rows");
-}
-
 static void add_worst(iso_worst *all, const iso_worst *one)
 {
     if (one->line > 0) iso_worst_note(all, one->value, one->line);
 }
 
-void iso_conversion_summary_add(iso_conversion_summary *all, const iso_conversion_summary *one)
+static void add_summary(iso_conversion_summary *all, const iso_conversion_summary *one)
 {
     const iso_conversion_summary before = *all;
     *all = *one;
@@ -114,6 +101,18 @@ void iso_conversion_summary_add(iso_conversion_summary *all, const iso_conversio
     if (before.stated_count == 0) return;
     all->stated_count = before.stated_count;
     memcpy(all->stated, before.stated, sizeof before.stated);
+}
+
+iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *all)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    c->summary.checked = c->begun && c->own_column >= 0;
+    if (c->summary.checked) iso_conversion_settle(c);
+    c->summary.clock = c->other;
+    add_summary(all, &c->summary);
+    if (c->begun) return ISO_OK;
+    if (c->first_words) return iso_context_fail(c->ctx, c->first_failure, "", "%s", c->first_words);
+    return ISO_FAIL_INPUT(c->ctx, "", c->summary.rows ? "no row could be read" : "the trajectory has no rows");
 }
 
 /* --- beginning and end ------------------------------------------------------------------------------------------ */
@@ -147,26 +146,24 @@ static iso_status read_lines(iso_conversion *c)
 }
 
 iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header,
-                                 iso_model_kind to, const iso_conversion_options *options,
-                                 const iso_conversion_target *target, iso_conversion **conversion)
+                                 const iso_convert_request *how, const char *name, const iso_sink *sink,
+                                 iso_conversion **conversion)
 {
     iso_conversion *c = *conversion = calloc(1, sizeof *c);
     if (!c) return iso_context_no_memory(ctx, "a conversion");
     c->ctx = ctx;
     c->params = params;
     c->in = header;
-    c->target = *target;
-    c->from = to == ISO_BALL ? ISO_POINT : ISO_BALL;
-    iso_conversion_options own = iso_conversion_defaults();
-    if (options) own = *options;
-    c->tolerance = own.tolerance;
-    c->row_tolerance = own.row_tolerance > 0 ? own.row_tolerance : iso_record_row_tolerance(header);
-    c->shift_J = own.shift_J;
+    c->how = how;
+    c->name = name;
+    c->sink = *sink;
+    c->from = how->to == ISO_BALL ? ISO_POINT : ISO_BALL;
+    c->row_tolerance = iso_record_row_tolerance(header);
     const double miss = iso_rows_largest_miss(ctx, header, c->row_tolerance);
-    c->summary.max_defect = isnan(own.max_defect) ? miss : own.max_defect;
-    c->summary.max_drift = isnan(own.max_defect) ? miss : INFINITY;
+    c->summary.max_defect = isnan(how->max_defect) ? miss : how->max_defect;
+    c->summary.max_drift = isnan(how->max_defect) ? miss : INFINITY;
     iso_status status = find_columns(c);
-    if (status == ISO_OK && c->shift_J && (c->from != ISO_POINT || params->k != -1))
+    if (status == ISO_OK && how->shift_J && (c->from != ISO_POINT || params->k != -1))
         status = ISO_FAIL_ARGUMENT(ctx, "shift-J", "energy can shift J for a point with k = -1 alone");
     if (status == ISO_OK) status = read_lines(c);
     if (status == ISO_OK) return ISO_OK;
@@ -182,64 +179,4 @@ void iso_conversion_free(iso_conversion *c)
     iso_orbit_free(c->first);
     free(c->first_words);
     free(c);
-}
-
-/* --- whole records ---------------------------------------------------------------------------------------------- */
-
-typedef struct whole {
-    iso_context *ctx;
-    iso_record *out;
-    size_t first_row;
-} whole;
-
-static iso_status keep_header(void *data, const iso_record *header)
-{
-    whole *w = data;
-    return iso_record_create_like(w->ctx, header, 0, NULL, &w->out);
-}
-
-static iso_status keep_row(void *data, const double row[])
-{
-    whole *w = data;
-    return iso_record_add(w->ctx, w->out, 1, row);
-}
-
-static iso_status stop_at(void *data, size_t line, iso_status why, const char *words)
-{
-    const whole *w = data;
-    return iso_context_fail(w->ctx, why, "", "row %zu: %s", line - 1 + w->first_row, words);
-}
-
-/* A missed row ends nothing: the summary counts it. */
-static iso_status go_on(void *data, size_t line, const char *words)
-{
-    (void)data, (void)line, (void)words;
-    return ISO_OK;
-}
-
-iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
-                       double tolerance, iso_record **out)
-{
-    iso_conversion_options options = iso_conversion_defaults();
-    options.tolerance = tolerance;
-    return iso_convert_as(ctx, params, in, to, &options, NULL, out);
-}
-
-iso_status iso_convert_as(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
-                          const iso_conversion_options *options, iso_conversion_summary *summary, iso_record **out)
-{
-    ISO_DEFAULT_ARITHMETIC;
-    whole w = {.ctx = ctx, .first_row = options->first_row};
-    const iso_conversion_target target = {keep_header, keep_row, stop_at, go_on, &w};
-    iso_conversion *c;
-    *out = NULL;
-    iso_status status = iso_conversion_create(ctx, params, in, to, options, &target, &c);
-    if (status != ISO_OK) return status;
-    for (size_t row = 0; status == ISO_OK && row < iso_record_rows(in); row++)
-        status = iso_conversion_put(c, iso_record_const_row(in, row), row + 1);
-    if (status == ISO_OK) status = iso_conversion_end(c, summary);
-    iso_conversion_free(c);
-    if (status != ISO_OK) iso_record_free(w.out), w.out = NULL;
-    *out = w.out;
-    return status;
 }

@@ -1,8 +1,12 @@
-/* convert.h - converts trajectories from one model to the other, row by row or as a whole.
+/* convert.h - converts trajectories from one model to the other.
  *
  * A record can be converted, and converted back, if its lines say `k` and `J` (for a point also `h` or `eps`). Each
  * row's state goes through the map (18). The other model's clock is computed from each row to the next. The columns
  * are those of iso_column_name.
+ *
+ * Two-point Taylor quadrature gives the gain of the other clock between two rows. It also shows whether the two rows
+ * lie on one orbit. Where they are too far apart for it, the orbit is integrated. A row that is not on the orbit of the
+ * row before is converted as it stands. Sums of times are compensated.
  */
 #ifndef ISO_ORBIT_CONVERT_H
 #define ISO_ORBIT_CONVERT_H
@@ -13,28 +17,6 @@
 
 /* The most steps from one row to the next. Without this limit a damaged time could keep a program busy for ever. */
 enum { ISO_MAX_ROW_STEPS = 10000000 };
-
-/* --- row by row ---------------------------------------------------------------------------------------------------
- *
- *     iso_conversion_create(ctx, &params, header, ISO_POINT, &options, &target, &c);
- *     while (next(row)) status = iso_conversion_put(c, row, ++line);
- *     status = iso_conversion_end(c, &summary);
- *     iso_conversion_free(c);
- *
- * Two-point Taylor quadrature gives the gain of the other clock between two rows. It also shows
- * whether the two rows lie on one orbit. Where they are too far apart for it, the orbit is integrated. A row that is not
- * on the orbit of the row before is named, and converted as it stands. Sums of times are compensated. */
-
-/* Where results go, in the order of the rows. Each function returns ISO_OK to go on. Any other status ends the call
- * that is under way, which returns it. */
-typedef struct iso_conversion_target {
-    iso_status (*header)(void *data, const iso_record *header); /* columns and lines: once, before all rows */
-    iso_status (*row)(void *data, const double row[]);          /* NULL: a mark in the place of a bad row   */
-    iso_status (*bad)(void *data, size_t line, iso_status why, const char *words);
-    iso_status (*missed)(void *data, size_t line,
-                         const char *words); /* the row is not on the orbit of the row before */
-    void *data;
-} iso_conversion_target;
 
 /* The largest value of something, relative, and its line. */
 typedef struct iso_worst {
@@ -74,43 +56,14 @@ typedef struct iso_conversion_summary {
     iso_stated stated[3];
 } iso_conversion_summary;
 
-typedef struct iso_conversion iso_conversion;
-
-typedef struct iso_conversion_options {
-    double tolerance; /* of the other clock's gain from row to row, relative                                  */
-    /* For points with k = -1 off the level H = 0. true: the point becomes the free ball with the moments
-     * J + E/eps, where E is the energy of the first row: the same motion. false: it becomes a ball in the potential
-     * of the effect `level`. */
-    bool shift_J;
-    double row_tolerance; /* 0: that of the header                                                            */
-    double max_defect;    /* NAN: by the tolerances and digits of the rows, 1e-5 or more                      */
-    size_t first_row;     /* its number in messages about a whole record; in its summary rows count from 1     */
-} iso_conversion_options;
-
-/* Tolerance 1e-14, J as it is. */
-static inline iso_conversion_options iso_conversion_defaults(void)
-{
-    iso_conversion_options o = {0};
-    o.tolerance = 1e-14;
-    o.max_defect = NAN;
-    o.first_row = 1;
-    return o;
-}
-
-/* --- whole ------------------------------------------------------------------------------------------------------ */
-
 /* Converts `in` to the model `to`. *out has the clock, then the six columns, and one row for each row of `in`; a row that
- * is not on the orbit of the row before, or before it in time, as it stands (iso_convert_as counts them).
- * Errors; messages give the number of the row:
+ * is not on the orbit of the row before, or before it in time, as it stands. It is the study `convert`, which also counts
+ * such rows. Errors; messages give the number of the row, from 1:
+ * - those of iso_record_params;
  * - ISO_BAD_INPUT: a row is no state;
  * - ISO_NOT_MAPPED: a row is at rest; the M of a point does not fit eps or h of the record and the energy of the
  *   first row; or an effect breaks the isomorphism;
  * - ISO_NUMERICAL, ISO_NO_MEMORY. */
-iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
-                       double tolerance, iso_record **out);
-
-/* The same with all options, and a summary (may be NULL). */
-iso_status iso_convert_as(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
-                          const iso_conversion_options *options, iso_conversion_summary *summary, iso_record **out);
+iso_status iso_convert(iso_context *ctx, const iso_record *in, iso_model_kind to, double tolerance, iso_record **out);
 
 #endif

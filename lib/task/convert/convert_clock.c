@@ -55,7 +55,7 @@ static iso_status name_missed(iso_conversion *c, const conversion_row *r, const 
     iso_conversion_summary *s = &c->summary;
     if (s->missed++ == 0) s->missed_line = r->line;
     close_drift(c);
-    return c->target.missed(c->target.data, r->line, text);
+    return c->name ? iso_conversion_name(c, r->line, ISO_BAD_INPUT, text) : ISO_OK;
 }
 
 /* The row becomes the last one, and is written. */
@@ -64,7 +64,7 @@ static iso_status keep(iso_conversion *c, conversion_row *r)
     iso_rows_keep(&c->rows);
     if (c->summary.computed) r->out[0] = c->sum + c->lost;
     c->last = *r;
-    if (isfinite(r->out[0])) return c->target.row(c->target.data, r->out);
+    if (isfinite(r->out[0])) return iso_conversion_write(c, r->out);
     ISO_FAIL_NUMERICAL(c->ctx, "%s is too large for a double", iso_clock_name(c->other));
     return iso_conversion_bad(c, r->line, ISO_NUMERICAL);
 }

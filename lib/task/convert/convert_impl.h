@@ -1,10 +1,45 @@
-/* convert_impl.h - what a conversion is made of. convert.c is the top layer and calls those below, which call each
- * other in one direction only: convert_clock.c -> convert_row.c -> convert_stated.c. */
+/* convert_impl.h - the study `convert`, and what a conversion is made of. The files call each other in one direction
+ * only: convert_study.c -> convert.c -> convert_clock.c -> convert_row.c -> convert_stated.c. */
 #ifndef ISO_ORBIT_CONVERT_IMPL_H
 #define ISO_ORBIT_CONVERT_IMPL_H
 
+#include "base/sink.h"
 #include "orbit/rows_impl.h"
+#include "study/added_impl.h"
 #include "task/convert/convert.h"
+
+typedef struct iso_convert_request {
+    iso_model_kind to; /* -1: not given */
+    double tolerance;  /* of the other clock's gain from row to row, relative */
+    iso_added added;
+    double max_defect; /* NAN: by the tolerances and digits of the rows, 1e-5 or more */
+    /* For points with k = -1 off the level H = 0. true: the point becomes the free ball with the moments J + E/eps,
+     * where E is the energy of the first row: the same motion. false: it becomes a ball in the potential of the effect
+     * `level`. */
+    bool shift_J;
+    bool strict, quiet;
+} iso_convert_request;
+
+#define ISO_CONVERT_TOLERANCE 1e-14
+#define ISO_CONVERT_UNSET                                                                                            \
+    {                                                                                                                \
+        .to = (iso_model_kind)-1, .tolerance = ISO_CONVERT_TOLERANCE, .added = ISO_ADDED_UNSET, .max_defect = NAN    \
+    }
+
+/* What the study finds. */
+typedef struct iso_convert_found {
+    iso_conversion_summary all;
+    const char *name; /* of the file whose rows go to a sink; NULL: a record's rows */
+} iso_convert_found;
+
+/* --- one orbit, row by row ----------------------------------------------------------------------------------------
+ *
+ *     iso_conversion_create(ctx, &params, header, &how, name, &sink, &c);
+ *     while (next(row)) status = iso_conversion_put(c, row, ++line);
+ *     status = iso_conversion_end(c, &all);
+ *     iso_conversion_free(c); */
+
+typedef struct iso_conversion iso_conversion;
 
 /* A good row. */
 typedef struct conversion_row {
@@ -20,10 +55,12 @@ struct iso_conversion {
     iso_context *ctx;
     const iso_params *params;
     const iso_record *in;
-    iso_conversion_target target;
+    const iso_convert_request *how;
+    const char *name;
+    iso_sink sink;
+    size_t width; /* of the rows of the result */
     iso_model_kind from;
-    double tolerance, row_tolerance;
-    bool shift_J;
+    double row_tolerance;
     iso_params shifted;                  /* what params then points to                                          */
     int columns[ISO_TRAJECTORY_COLUMNS]; /* of `in`; -1: not there                                      */
     iso_clock own, other;                /* the clocks of the two models                                        */
@@ -48,7 +85,6 @@ struct iso_conversion {
     long max_steps;                       /* from it to the row in hand          */
     double longest;                       /* angle from a row to the next so far */
     bool unreached;                       /* its orbit did not get to the row behind it */
-    size_t marks;                         /* bad rows before the first good one                              */
     double direction, typical;            /* of time; size of defects                                   */
     double drift[ISO_STATE], late, moved; /* see iso_conversion_summary.drift                            */
     double gained;                        /* by the other clock meanwhile                                */
@@ -60,8 +96,14 @@ struct iso_conversion {
 
 /* --- convert_row.c: what leaves --- */
 
-/* Marks the place of a bad row; those before the first good row are written with the header. */
+/* Gives away a row; NULL: a mark in the place of a bad one. */
+iso_status iso_conversion_write(const iso_conversion *c, const double row[]);
+
+/* Marks the place of a bad row; if too many are bad before the first good one, this fails. */
 iso_status iso_conversion_mark(iso_conversion *c);
+
+/* Names a row of a file: a note, or with `strict` the error `why`. */
+iso_status iso_conversion_name(const iso_conversion *c, size_t line, iso_status why, const char *text);
 
 /* A row cannot be converted; the context's message says why. */
 iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why);
@@ -99,36 +141,34 @@ iso_status iso_conversion_follow(iso_conversion *c, const double row[], conversi
 /* After the last row: the other clock's end and error. */
 void iso_conversion_settle(iso_conversion *c);
 
-/* header: columns, lines and row tolerance of what is converted. It and params must outlive the conversion; lines
- * may be added to it meanwhile. It must have the six columns of one model. The clock of the result is
+/* header: columns, lines and row tolerance of what is converted. It, params, how and name must outlive the conversion;
+ * lines may be added to it meanwhile. name: of the file, in the names of rows; NULL: these are a record's, of which a bad
+ * one ends the work, and missed ones are only counted. sink: its row can be NULL, a mark in the place of a bad row, also before the header. The
+ * header must have the six columns of one model. The clock of the result is
  * - the column of the header, if it has the other model's clock;
  * - else computed, from the line `t0` or `s0` of an earlier conversion on, or from 0;
  * - none, if the header has no clock.
  * Errors: ISO_BAD_INPUT about columns or lines, ISO_NOT_MAPPED about an effect that breaks the isomorphism,
  * ISO_BAD_ARGUMENT (shift_J without a point, or with k other than -1), ISO_NO_MEMORY. */
 iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header,
-                                 iso_model_kind to, const iso_conversion_options *options,
-                                 const iso_conversion_target *target, iso_conversion **conversion);
+                                 const iso_convert_request *how, const char *name, const iso_sink *sink,
+                                 iso_conversion **conversion);
 void iso_conversion_free(iso_conversion *conversion);
 
 /* The next row. The first good one is held against the lines: where h, eps or c of a level does not fit it beyond
  * rounding, the result states the row's own number, and the summary tells. The wrong one of the three is the one
  * that the other two and the row contradict. A point off the level H = 0 becomes a ball in the potential of the effect `level`,
- * which the lines of the result then name. A bad row goes to target->bad: it is no state, it is at rest, its energy is
- * not that of the rows before, or the orbit of the row before does not reach it. A row that this orbit misses, or
- * whose time turns back, goes to target->missed, and is converted as it stands. Errors: the status of the target;
- * ISO_NO_MEMORY, ISO_STOPPED. */
+ * which the lines of the result then name. A bad row is no state, it is at rest, its energy is not that of the rows
+ * before, or the orbit of the row before does not reach it. A row that this orbit misses, or whose time turns back, is
+ * converted as it stands. Both are named. Errors: the status of the sink; ISO_NO_MEMORY, ISO_STOPPED. */
 iso_status iso_conversion_put(iso_conversion *conversion, const double row[], size_t line);
 
 /* Call this in the place of a row that could not even be read. */
 iso_status iso_conversion_skip(iso_conversion *conversion);
 
-/* Call this after the last row. summary may be NULL. Errors: as for a row; if no row could be converted, the reason
- * for the first one. */
-iso_status iso_conversion_end(iso_conversion *conversion, iso_conversion_summary *summary);
-
-/* Adds the summary of one more orbit of a file to those before it: sums, and the worst of all. */
-void iso_conversion_summary_add(iso_conversion_summary *all, const iso_conversion_summary *one);
+/* Call this after the last row. Adds the summary to that of the orbits before: sums, and the worst of all. Errors: as
+ * for a row; if no row could be converted, the reason for the first one. */
+iso_status iso_conversion_end(iso_conversion *conversion, iso_conversion_summary *all);
 
 /* What is wrong with the rows as a whole, most at line *at; false: nothing. */
 enum { ISO_VERDICT_SIZE = 400 };

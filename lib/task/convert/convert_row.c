@@ -2,6 +2,7 @@
  * state in the other model. The first good row also gives the units and the level. And marks in the place of bad rows. */
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/vec3_impl.h"
@@ -23,7 +24,7 @@ static iso_status open_orbit(const iso_conversion *c, iso_start start, bool cloc
     if (c->from == ISO_POINT && c->first) start.eps = NAN; /* the level gives it; check_energy has seen the row's */
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &c->effects;
-    o.tolerance = c->tolerance;
+    o.tolerance = c->how->tolerance;
     o.with_clock[c->other] = clock;
     o.max_steps = c->max_steps;
     return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
@@ -142,7 +143,7 @@ static iso_status shift_moments(iso_conversion *c, const conversion_row *r)
 {
     const double eps = c->stated_eps, *J = c->params->J, kinetic = dot(r->y, r->y) / 2;
     const double E = kinetic - eps * dot_diag(r->y + 3, J, r->y + 3);
-    if (!c->shift_J || isnan(eps) || fabs(E) <= iso_conversion_digits(c) * kinetic) return ISO_OK;
+    if (!c->how->shift_J || isnan(eps) || fabs(E) <= iso_conversion_digits(c) * kinetic) return ISO_OK;
     const iso_status status =
         iso_params_reduced(c->ctx, -1, (double[]){J[0] + E / eps, J[1] + E / eps, J[2] + E / eps}, &c->shifted);
     if (status == ISO_OK) {
@@ -210,11 +211,24 @@ static iso_status give_up(const iso_conversion *c)
                             "not one of the first %d rows can be converted: %s", HOPELESS, words);
 }
 
+iso_status iso_conversion_write(const iso_conversion *c, const double row[])
+{
+    return c->sink.row(c->sink.data, 0, row, c->width);
+}
+
 iso_status iso_conversion_mark(iso_conversion *c)
 {
-    if (c->begun) return c->target.row(c->target.data, NULL);
-    c->marks++;
-    return c->summary.bad == HOPELESS ? give_up(c) : ISO_OK;
+    return !c->begun && c->summary.bad == HOPELESS ? give_up(c) : iso_conversion_write(c, NULL);
+}
+
+iso_status iso_conversion_name(const iso_conversion *c, size_t line, iso_status why, const char *text)
+{
+    char named[1536];
+    if (!c->name) return iso_context_fail(c->ctx, why, "", "row %zu: %s", line, text);
+    if (c->how->strict) return iso_context_fail(c->ctx, why, "", "%s:%zu: %s", c->name, line, text);
+    snprintf(named, sizeof named, "%s:%zu: %s", c->name, line, text);
+    if (c->sink.note) c->sink.note(c->sink.data, named);
+    return ISO_OK;
 }
 
 iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why)
@@ -227,6 +241,6 @@ iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why)
         c->first_words = strdup(iso_context_message(c->ctx));
     }
     c->summary.bad++;
-    ISO_TRY(c->target.bad(c->target.data, line, why, iso_context_message(c->ctx)));
+    ISO_TRY(iso_conversion_name(c, line, why, iso_context_message(c->ctx)));
     return iso_conversion_mark(c);
 }
