@@ -5,7 +5,7 @@
 #include "orbit/orbit_impl.h"
 #include "sweep/sweep_impl.h"
 
-/* The next of columns with blanks between: its name, and the number of the study that it is. NULL: there are no more. */
+/* The next of columns with blanks between: its name, and the number of the study that it is. NULL: no more. */
 static const char *next_column(const char *columns, char name[ISO_COLUMN_SIZE], char number[ISO_COLUMN_SIZE])
 {
     int used = 0;

@@ -140,8 +140,8 @@ size_t iso_sweep_rows_bytes(const iso_sweep_rows *rows);
 
 typedef struct iso_sweep iso_sweep;
 
-/* The plan must live as long as the sweep. Errors: ISO_BAD_INPUT or ISO_NOT_MAPPED about the name of a quantity that the
- * scene does not have, or whose options are wrong; ISO_BAD_ARGUMENT about "vectors"; ISO_NO_MEMORY. */
+/* The plan must live as long as the sweep. Errors: ISO_BAD_INPUT or ISO_NOT_MAPPED about the name of a quantity that
+ * the scene does not have, or whose options are wrong; ISO_BAD_ARGUMENT about "vectors"; ISO_NO_MEMORY. */
 iso_status iso_sweep_create(iso_context *ctx, const iso_sweep_plan *plan, iso_sweep **sweep);
 void iso_sweep_free(iso_sweep *sweep);
 
@@ -255,8 +255,8 @@ size_t iso_sweep_state_chunk(const iso_sweep_job *job);
 /* --- the hash --------------------------------------------------------------------------------------------------- */
 
 /* Adds the version of isoroll and the texts of a sweep and of its scene's own file (NULL: it has none) to a hash of 128
- * bits, which begins as {0, 0}. It is for telling sweeps apart, not for secrets. Ends of lines do not count: a result as
- * CSV keeps the lines alone. */
+ * bits, which begins as {0, 0}. It is for telling sweeps apart, not for secrets. Ends of lines do not count: a result
+ * as CSV keeps the lines alone. */
 void iso_sweep_hash_texts(uint64_t hash[2], const char *version, const char *text, const char *scene);
 
 /* Adds all else that the rows depend on. alone: the vectors of an orbit that is alone are there. swapped: as a machine

@@ -143,7 +143,7 @@ const iso_study iso_state_study = {"state",
                                    .of = ISO_STUDY_OF_SCENE,
                                    .fields = state_fields};
 
-/* --- a whole run --------------------------------------------------------------------------------------------------- */
+/* --- a whole run -------------------------------------------------------------------------------------------------- */
 
 /* All rows of the scene, of which none is kept. errors: they are asked for. */
 static iso_status run_all(iso_context *ctx, const iso_scene *scene, const run_request *r, bool errors,

@@ -1,4 +1,4 @@
-/* sweep_store.c - the result of a sweep while it is computed: chunks in their order, a file that can be gone on with. */
+/* sweep_store.c - the result of a sweep while it is computed: chunks in order, a file that can be gone on with. */
 #define _GNU_SOURCE /* asprintf */
 #include <errno.h>
 #include <stdio.h>

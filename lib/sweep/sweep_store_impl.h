@@ -83,8 +83,8 @@ typedef struct iso_sweep_writer {
     uint64_t sum;
 } iso_sweep_writer;
 
-/* Begins one; path NULL: in memory. A file that has the name at the end is kept. resumes: a file in CSV that can be gone
- * on with; nothing is written before iso_table_go_on. Errors: those of iso_table_writer_open; close it also then. */
+/* Begins one; path NULL: in memory. A file that has the name at the end is kept. resumes: a file in CSV that can be
+ * gone on with; nothing is written before iso_table_go_on. Errors: those of iso_table_writer_open; close it also then. */
 iso_status iso_sweep_writer_open(iso_context *ctx, const char *path, const iso_sweep_head *head,
                                  iso_sweep_shard shard, bool resumes, iso_sweep_writer *writer);
 iso_status iso_sweep_writer_rows(iso_context *ctx, iso_sweep_writer *writer, const iso_sweep_rows *rows);
@@ -142,8 +142,8 @@ iso_status iso_sweep_store_add(iso_context *ctx, iso_sweep_store *store, const i
 /* Its chunks that are not written yet, as a source for iso_sweep_run: adds what comes. */
 iso_sweep_source iso_sweep_store_source(iso_sweep_store *store);
 
-/* The table of a store in memory, to be freed by the caller, with chunks behind one that is missing, too; with the sum if
- * all are there. NULL: there is no row. Errors: ISO_NO_MEMORY. */
+/* The table of a store in memory, to be freed by the caller, with chunks behind one that is missing, too; with the sum
+ * if all are there. NULL: there is no row. Errors: ISO_NO_MEMORY. */
 iso_status iso_sweep_store_table(iso_context *ctx, iso_sweep_store *store, iso_record **table);
 
 /* Ends the result; all chunks of the shard must be there. Errors: ISO_FILE_TROUBLE, also if a file of this name has
