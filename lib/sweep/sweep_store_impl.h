@@ -84,7 +84,8 @@ typedef struct iso_sweep_writer {
 } iso_sweep_writer;
 
 /* Begins one; path NULL: in memory. A file that has the name at the end is kept. resumes: a file in CSV that can be
- * gone on with; nothing is written before iso_table_go_on. Errors: those of iso_table_writer_open; close it also then. */
+ * gone on with; nothing is written before iso_table_go_on. Errors: those of iso_table_writer_open; close it also
+ * then. */
 iso_status iso_sweep_writer_open(iso_context *ctx, const char *path, const iso_sweep_head *head,
                                  iso_sweep_shard shard, bool resumes, iso_sweep_writer *writer);
 iso_status iso_sweep_writer_rows(iso_context *ctx, iso_sweep_writer *writer, const iso_sweep_rows *rows);
