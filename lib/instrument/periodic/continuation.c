@@ -34,13 +34,8 @@ static double value_of(const iso_params *p, double level, iso_vary vary)
 
 static iso_status add_point(const iso_continuation *f, iso_branch *b, const iso_continuation_point *at, double arc)
 {
-    if ((b->points & (b->points - 1)) == 0) { /* room for a power of two */
-        iso_branch_point *larger = realloc(b->point, 2 * (b->points + 1) * sizeof *larger);
-        if (!larger) return iso_context_no_memory(f->ctx, "a branch");
-        b->point = larger;
-    }
-    b->point[b->points++] = iso_continuation_read(at, arc);
-    return ISO_OK;
+    const iso_branch_point point = iso_continuation_read(at, arc);
+    return iso_periodic_append(f->ctx, &b->point, &b->points, &point, sizeof point);
 }
 
 static iso_status fail_at(const iso_continuation *f, iso_branch *b, const iso_continuation_point *at, double arc,
@@ -72,12 +67,6 @@ static iso_status end_at(const iso_continuation *f, iso_branch *b, const iso_con
     return iso_continuation_add_event(f, b, &e);
 }
 
-static bool ends_in_collision(const iso_continuation_point *at, const iso_continuation_point *next)
-{
-    const double low = fmin(at->u, next->u), high = fmax(at->u, next->u);
-    return low < NEAR_END || high > ISO_PI / 2 - NEAR_END;
-}
-
 /* What is done with the point `next`, ds behind `at`. *over: the branch ends there. */
 static iso_status accept(const iso_continuation *f, iso_branch *b, const iso_continuation_point *at,
                          const iso_continuation_point *next, double ds, double arc, bool *over)
@@ -86,7 +75,8 @@ static iso_status accept(const iso_continuation *f, iso_branch *b, const iso_con
     *over = true;
     if (next->value < f->options.from) return end_at(f, b, at, f->options.from, arc + ds);
     if (next->value > f->options.to) return end_at(f, b, at, f->options.to, arc + ds);
-    if (ends_in_collision(at, next) && iso_continuation_collision(f, at, next, &e)) {
+    const bool near = fmin(at->u, next->u) < NEAR_END || fmax(at->u, next->u) > ISO_PI / 2 - NEAR_END;
+    if (near && iso_continuation_collision(f, at, next, &e)) {
         e.at.arc = arc + ds;
         return iso_continuation_add_event(f, b, &e);
     }
@@ -147,20 +137,17 @@ static iso_status go(const iso_continuation *f, iso_branch *b, iso_continuation_
 /* What was found backwards comes first, in the opposite order, with negative arcs. */
 static iso_status join(const iso_continuation *f, iso_branch *back, const iso_branch *forth, iso_branch *b)
 {
-    const size_t points = back->points + forth->points, events = back->events + forth->events;
-    b->point = malloc((points + 1) * sizeof *b->point);
-    b->event = malloc((events + 1) * sizeof *b->event);
-    if (!b->point || !b->event) return iso_context_no_memory(f->ctx, "a branch");
     for (size_t i = back->points; i-- > 0;) {
         back->point[i].arc = -back->point[i].arc;
-        b->point[b->points++] = back->point[i];
+        ISO_TRY(iso_periodic_append(f->ctx, &b->point, &b->points, &back->point[i], sizeof *b->point));
     }
-    for (size_t i = 0; i < forth->points; i++) b->point[b->points++] = forth->point[i];
+    for (size_t i = 0; i < forth->points; i++)
+        ISO_TRY(iso_periodic_append(f->ctx, &b->point, &b->points, &forth->point[i], sizeof *b->point));
     for (size_t i = back->events; i-- > 0;) {
         back->event[i].at.arc = -back->event[i].at.arc;
-        b->event[b->events++] = back->event[i];
+        ISO_TRY(iso_continuation_add_event(f, b, &back->event[i]));
     }
-    for (size_t i = 0; i < forth->events; i++) b->event[b->events++] = forth->event[i];
+    for (size_t i = 0; i < forth->events; i++) ISO_TRY(iso_continuation_add_event(f, b, &forth->event[i]));
     return ISO_OK;
 }
 
@@ -170,7 +157,7 @@ static void free_branch(iso_branch *b)
     free(b->event);
 }
 
-static iso_status follow_branch(const iso_continuation *f, double u, double value, iso_branch *b)
+static iso_status follow_both_ways(const iso_continuation *f, double u, double value, iso_branch *b)
 {
     iso_branch side[2] = {{0}, {0}};
     iso_continuation_point at = {.tangent = {0, 1}};
@@ -193,6 +180,37 @@ static iso_status follow_branch(const iso_continuation *f, double u, double valu
     free_branch(&side[0]);
     free_branch(&side[1]);
     return joined == ISO_OK ? status : joined;
+}
+
+/* The branch through (u, value), which becomes the last of the list. */
+static iso_status follow_branch(const iso_continuation *f, double u, double value, int parent, iso_continuations *out)
+{
+    iso_branch b = {.line = f->line, .period = f->period, .parent = parent};
+    const iso_status status = follow_both_ways(f, u, value, &b),
+                     kept = iso_periodic_append(f->ctx, &out->branch, &out->count, &b, sizeof b);
+    if (kept != ISO_OK) free_branch(&b);
+    return kept == ISO_OK ? status : kept;
+}
+
+/* An orbit of the list, and what branches off from it. */
+static iso_status follow_orbit(iso_continuation *f, const iso_periodic_orbit *o, double own, iso_continuations *out)
+{
+    const size_t i = out->count;
+    f->line = o->line;
+    f->period = o->period;
+    ISO_TRY(follow_branch(f, o->u, own, -1, out));
+    for (size_t j = 0; f->options.branches && j < out->branch[i].events; j++) {
+        iso_branch_event *e = &out->branch[i].event[j];
+        iso_continuation beside;
+        double at[2];
+        bool found;
+        if (e->joins || !(e->kind == ISO_BRANCH_BREAKING || iso_continuation_doubles(e->kind))) continue;
+        ISO_TRY(iso_continuation_switch(f, e, &beside, at, &found));
+        const size_t used = strlen(e->words);
+        if (!found) snprintf(e->words + used, sizeof e->words - used, "; the branch was not found");
+        if (found) ISO_TRY(follow_branch(&beside, at[0], at[1], (int)i, out));
+    }
+    return ISO_OK;
 }
 
 /* --- the whole -------------------------------------------------------------------------------------------------- */
@@ -220,62 +238,6 @@ static iso_status check(const iso_continuation *f, double own)
     return ISO_OK;
 }
 
-static iso_branch *new_branch(const iso_continuation *f, iso_continuations *out, int parent)
-{
-    iso_branch *larger = realloc(out->branch, (out->count + 1) * sizeof *larger);
-    if (!larger) return NULL;
-    out->branch = larger;
-    iso_branch *b = &out->branch[out->count++];
-    *b = (iso_branch){.line = f->line, .period = f->period, .parent = parent};
-    return b;
-}
-
-/* --- branches that are switched to ------------------------------------------------------------------------------ */
-
-typedef struct switcher {
-    iso_continuations *out;
-    int parent;
-} switcher;
-
-static iso_status follow_found(void *data, const iso_continuation *f, double u, double value)
-{
-    const switcher *s = data;
-    iso_branch *b = new_branch(f, s->out, s->parent);
-    if (!b) return iso_context_no_memory(f->ctx, "a branch");
-    return follow_branch(f, u, value, b);
-}
-
-/* What branches off from branch i. */
-static iso_status switch_branches(const iso_continuation *f, iso_continuations *out, size_t i)
-{
-    switcher s = {out, (int)i};
-    iso_status status = ISO_OK;
-    for (size_t j = 0; j < out->branch[i].events && status == ISO_OK; j++) {
-        const iso_branch b = out->branch[i]; /* the list may move */
-        const iso_branch_event e = b.event[j];
-        const bool off = !e.joins && (e.kind == ISO_BRANCH_BREAKING || iso_continuation_doubles(e.kind));
-        const size_t before = out->count;
-        if (!off) continue;
-        status = iso_continuation_switch(f, &b, &e, follow_found, &s);
-        char *words = out->branch[i].event[j].words;
-        const size_t used = strlen(words);
-        if (out->count == before && status == ISO_OK)
-            snprintf(words + used, sizeof e.words - used, "; the branch was not found");
-    }
-    return status;
-}
-
-static iso_status follow_orbit(iso_continuation *f, const iso_periodic_orbit *o, double own, iso_continuations *out)
-{
-    f->line = o->line;
-    f->period = o->period;
-    iso_branch *b = new_branch(f, out, -1);
-    if (!b) return iso_context_no_memory(f->ctx, "a branch");
-    const size_t at = out->count - 1;
-    const iso_status status = follow_branch(f, o->u, own, b);
-    return status == ISO_OK && f->options.branches ? switch_branches(f, out, at) : status;
-}
-
 /* --- all orbits ------------------------------------------------------------------------------------------------- */
 
 typedef struct crowd {
@@ -300,51 +262,27 @@ static bool follow_some(iso_pool_worker *w, void *data, size_t first, size_t cou
     return true;
 }
 
-/* Moves all branches to one list. */
-static iso_status gather(iso_context *ctx, iso_continuations of[], size_t count, iso_continuations *out)
-{
-    size_t branches = 0;
-    for (size_t i = 0; i < count; i++) branches += of[i].count;
-    out->branch = malloc((branches + 1) * sizeof *out->branch);
-    if (!out->branch) return iso_context_no_memory(ctx, "branches");
-    for (size_t i = 0; i < count; i++) {
-        const int before = (int)out->count;
-        for (size_t j = 0; j < of[i].count; j++) {
-            iso_branch *b = &out->branch[out->count++];
-            *b = of[i].branch[j];
-            if (b->parent >= 0) b->parent += before;
-        }
-        of[i].count = 0;
-    }
-    return ISO_OK;
-}
-
-static void free_branches(iso_continuations *follow)
-{
-    for (size_t i = 0; i < follow->count; i++) free_branch(&follow->branch[i]);
-    free(follow->branch);
-}
-
+/* The branches of all orbits, in one list. */
 static iso_status follow_all(crowd *c, size_t count, iso_continuations *out)
 {
     iso_context *ctx = c->family->ctx;
-    c->of = calloc(count + 1, sizeof *c->of);
+    c->of = calloc(count, sizeof *c->of);
     if (!c->of) return iso_context_no_memory(ctx, "branches");
     iso_pool pool = {.what = "orbit", .count = count, .chunk = 1, .solve = follow_some, .data = c};
-    const size_t threads = iso_pool_threads(c->family->options.threads, count > 0 ? count - 1 : 0, 1);
-    const iso_status status = iso_pool_run(ctx, &pool, threads, NULL);
-    const iso_status gathered = gather(ctx, c->of, count, out);
-    for (size_t i = 0; i < count; i++) free_branches(&c->of[i]);
+    iso_status kept = ISO_OK,
+               status = iso_pool_run(ctx, &pool, iso_pool_threads(c->family->options.threads, count - 1, 1), NULL);
+    for (size_t i = 0; i < count; i++) {
+        const int before = (int)out->count;
+        for (size_t j = 0; j < c->of[i].count; j++) {
+            iso_branch *b = &c->of[i].branch[j];
+            if (b->parent >= 0) b->parent += before;
+            if (kept == ISO_OK) kept = iso_periodic_append(ctx, &out->branch, &out->count, b, sizeof *b);
+            if (kept != ISO_OK) free_branch(b);
+        }
+        free(c->of[i].branch);
+    }
     free(c->of);
-    return gathered == ISO_OK ? status : gathered;
-}
-
-static iso_status check_lines(iso_context *ctx, const iso_periodic_orbit orbits[], size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        if (!iso_symmetry_line_name(orbits[i].line))
-            return ISO_FAIL_INPUT(ctx, "orbit", "an orbit without a symmetry cannot be followed");
-    return ISO_OK;
+    return kept == ISO_OK ? status : kept;
 }
 
 /* What is followed; *own: the scene's value. */
@@ -375,7 +313,8 @@ iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const 
     double own;
     *follow = NULL;
     ISO_TRY(prepare(ctx, scene, options, &f, &own));
-    ISO_TRY(check_lines(ctx, orbits, count));
+    for (size_t i = 0; i < count; i++)
+        if (orbits[i].line < 0) return ISO_FAIL_INPUT(ctx, "orbit", "an orbit without a symmetry cannot be followed");
     if (count == 0) return ISO_FAIL_INPUT(ctx, "orbit", "no symmetric orbit to follow: the list is empty");
     iso_continuations *out = calloc(1, sizeof *out);
     if (!out) return iso_context_no_memory(ctx, "branches");
@@ -389,6 +328,7 @@ iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const 
 void iso_continuation_free(iso_continuations *follow)
 {
     if (!follow) return;
-    free_branches(follow);
+    for (size_t i = 0; i < follow->count; i++) free_branch(&follow->branch[i]);
+    free(follow->branch);
     free(follow);
 }

@@ -10,11 +10,7 @@
 
 iso_status iso_continuation_add_event(const iso_continuation *f, iso_branch *b, const iso_branch_event *e)
 {
-    iso_branch_event *larger = realloc(b->event, (b->events + 1) * sizeof *larger);
-    if (!larger) return iso_context_no_memory(f->ctx, "a branch");
-    b->event = larger;
-    b->event[b->events++] = *e;
-    return ISO_OK;
+    return iso_periodic_append(f->ctx, &b->event, &b->events, e, sizeof *e);
 }
 
 #define SAME_PLACE 1e-8 /* along the curve: zeros that are closer are one ... */
@@ -319,35 +315,25 @@ static double parameter_on(const iso_periodic_map *map, int line, const double b
     return look_up(map, line, z);
 }
 
-typedef struct finder {
-    const iso_continuation *family; /* of the new period */
-    const iso_periodic_map *map;
-    double value;
-    iso_status (*found)(void *data, const iso_continuation *f, double u, double value);
-    void *data;
-} finder;
-
-/* Looks beside one point of the orbit, on all lines. */
-static iso_status look_beside(const finder *s, const double before[2], const double z[2], bool *any)
+/* Looks for orbits of this family, on any line, beside one point of the orbit. */
+static bool look_beside(const iso_continuation *family, const iso_periodic_map *map, double value,
+                        const double before[2], const double z[2], iso_continuation *beside, double at[2])
 {
-    iso_status status = ISO_OK;
     for (int line = 0; line < LINES; line++) {
-        const double u = parameter_on(s->map, line, before, z);
-        iso_continuation beside = *s->family;
-        beside.line = line;
-        for (int side = -1; side <= 1 && !isnan(u) && !*any && status == ISO_OK; side += 2) {
-            const double at = s->value + side * ASIDE * beside.width,
-                         root = first_of_three(&beside, at / beside.width, u);
-            *any = !isnan(root);
-            if (*any) status = s->found(s->data, &beside, root, at);
+        const double u = parameter_on(map, line, before, z);
+        *beside = *family;
+        beside->line = line;
+        for (int side = -1; side <= 1 && !isnan(u); side += 2) {
+            at[1] = value + side * ASIDE * beside->width;
+            at[0] = first_of_three(beside, at[1] / beside->width, u);
+            if (!isnan(at[0])) return true;
         }
     }
-    return status;
+    return false;
 }
 
-iso_status iso_continuation_switch(const iso_continuation *f, const iso_branch *b, const iso_branch_event *e,
-                                   iso_status (*found)(void *data, const iso_continuation *f, double u, double value),
-                                   void *data)
+iso_status iso_continuation_switch(const iso_continuation *f, const iso_branch_event *e, iso_continuation *beside,
+                                   double at[2], bool *found)
 {
     iso_continuation other = *f;
     iso_params p;
@@ -355,17 +341,16 @@ iso_status iso_continuation_switch(const iso_continuation *f, const iso_branch *
     iso_periodic_map map;
     const double from[1][2] = {{e->at.l, e->at.x}};
     iso_periodic_point point[2 * ISO_PERIODIC_MOST];
-    const int halves = 2 * b->period;
-    bool any = false;
-    other.period = iso_continuation_doubles(e->kind) ? 2 * b->period : b->period;
+    const int halves = 2 * f->period;
+    *found = false;
+    if (iso_continuation_doubles(e->kind)) other.period *= 2;
     if (other.period > ISO_PERIODIC_MOST || !iso_continuation_params(f, e->at.value, &p, &energy)) return ISO_OK;
     iso_periodic_map_prepare(f->ctx, &p, energy, 1, &map);
-    const finder s = {&other, &map, e->at.value, found, data};
-    iso_status status = iso_periodic_walk(&map, 1, from, halves, false, 1e-13, point);
-    for (int n = 0; n < halves && !any && status == ISO_OK; n++) {
+    ISO_TRY(iso_periodic_walk(&map, 1, from, halves, false, 1e-13, point));
+    for (int n = 0; n < halves && !*found; n++) {
         const iso_periodic_point *last = &point[(n + halves - 1) % halves];
-        status =
-            look_beside(&s, (const double[2]){last->l, last->x}, (const double[2]){point[n].l, point[n].x}, &any);
+        *found = look_beside(&other, &map, e->at.value, (const double[2]){last->l, last->x},
+                             (const double[2]){point[n].l, point[n].x}, beside, at);
     }
-    return status;
+    return ISO_OK;
 }

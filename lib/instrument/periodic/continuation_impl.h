@@ -64,9 +64,8 @@ static inline bool iso_continuation_doubles(iso_branch_kind kind)
     return kind == ISO_BRANCH_DOUBLING || kind == ISO_BRANCH_TOUCH || kind == ISO_BRANCH_UNDECIDED;
 }
 
-/* Looks for an orbit that branches off at an event, and gives its parameter and value to `found`. */
-iso_status iso_continuation_switch(const iso_continuation *f, const iso_branch *b, const iso_branch_event *e,
-                                   iso_status (*found)(void *data, const iso_continuation *f, double u, double value),
-                                   void *data);
+/* Looks for an orbit that branches off at an event: its family, and its u and value in at. *found: there is one. */
+iso_status iso_continuation_switch(const iso_continuation *f, const iso_branch_event *e, iso_continuation *beside,
+                                   double at[2], bool *found);
 
 #endif

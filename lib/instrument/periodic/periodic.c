@@ -73,36 +73,23 @@ static int by_period(const void *a, const void *b)
     return (one->trace > other->trace) - (one->trace < other->trace);
 }
 
-/* Whether some place of the sphere, an end of an axis at worst, cannot be reached. */
-static bool is_closed(const iso_periodic_map *map)
-{
-    bool closed = false;
-    for (int axis = 0; axis < 3; axis++)
-        closed = closed || !iso_hill_has_rotation(map->p.k, map->p.J, map->energy, axis);
-    return closed;
-}
-
-/* Sorts and numbers what was found. */
-static void put_in_order(iso_periodic *out, bool polished)
-{
-    if (out->count > 0) qsort(out->orbit, out->count, sizeof *out->orbit, by_period);
-    for (size_t i = 0; i < out->count; i++) out->orbit[i].number = i + 1, out->orbit[i].polished = polished;
-    for (int a = 0; a < 3; a++) out->rotation[a].polished = polished;
-}
-
 static iso_status work(iso_periodic_work *w)
 {
     ISO_TRY(check_options(w));
     ISO_TRY(check_scene(w));
     iso_periodic_map_prepare(w->ctx, &w->units.own, w->energy, w->options.threads, &w->map);
     w->out->axis = w->map.axis;
-    w->out->closed = is_closed(&w->map);
+    for (int a = 0; a < 3; a++) /* an end of an axis is the last place that can be reached */
+        w->out->closed = w->out->closed || !iso_hill_has_rotation(w->map.p.k, w->map.p.J, w->energy, a);
     w->out->longest = w->options.period;
     iso_status status = iso_periodic_rotations(w);
     if (w->options.rotations_alone) return status;
     if (status == ISO_OK && !(w->options.all && w->options.no_lines)) status = iso_periodic_search(w);
     if (status == ISO_OK && w->options.all) status = iso_periodic_from_grid(w);
-    put_in_order(w->out, w->options.polish);
+    iso_periodic *out = w->out;
+    if (out->count > 0) qsort(out->orbit, out->count, sizeof *out->orbit, by_period);
+    for (size_t i = 0; i < out->count; i++) out->orbit[i].number = i + 1, out->orbit[i].polished = w->options.polish;
+    for (int a = 0; a < 3; a++) out->rotation[a].polished = w->options.polish;
     return status;
 }
 

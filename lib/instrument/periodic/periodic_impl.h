@@ -150,9 +150,8 @@ typedef struct iso_periodic_work {
     iso_units units;
     double unit_clock[ISO_CLOCKS]; /* the scene's clocks of one own clock at eps = 1 */
     iso_periodic *out;
-    size_t room;
     struct iso_periodic_folded *folded; /* points of the orbits that are found, for duplicates */
-    size_t folded_count, folded_room;
+    size_t folded_count;
 } iso_periodic_work;
 
 /* A place that may lie on an orbit. */
@@ -195,6 +194,9 @@ iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_re
 /* Solves candidates on all threads, and adds their orbits to the list, unless they are there already or have a
  * smaller period. Errors: ISO_NO_MEMORY; ISO_STOPPED. */
 iso_status iso_periodic_add(iso_periodic_work *w, const iso_periodic_candidate c[], size_t count);
+
+/* Appends an item to a list; `list` is where its pointer is kept. The room doubles where count is a power of 2. */
+iso_status iso_periodic_append(iso_context *ctx, void *list, size_t *count, const void *item, size_t size);
 
 iso_status iso_periodic_rotations(iso_periodic_work *w);
 iso_status iso_periodic_search(iso_periodic_work *w);

@@ -57,11 +57,8 @@ static void print_orbit(FILE *to, const iso_periodic *found, bool polish, size_t
             iso_stability_name(o->multipliers.stability), words);
 }
 
-static void print_list(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
+static void print_list(FILE *to, const iso_params *p, const iso_periodic_options *how, const iso_periodic *f)
 {
-    const iso_periodic_options *how = &((const iso_periodic_request *)options)->how;
-    const iso_periodic *f = result->found;
-    const iso_params *p = &scene->params;
     size_t copies = 0, tori = 0;
     iso_params_print(to, p);
     fprintf(to, "; section n_%d = 0, n_%d increasing\n", f->axis + 1, f->axis + 1);
@@ -91,41 +88,35 @@ static void print_list(FILE *to, const iso_scene *scene, const void *options, co
             ISO_SHORT(p->k), tori);
 }
 
-static void print_branch(FILE *to, const iso_continuations *f, size_t i, const char *name)
+static void print_branches(FILE *to, const iso_continuations *f)
 {
-    const iso_branch *b = &f->branch[i];
-    double low = INFINITY, high = -INFINITY;
-    for (size_t j = 0; j < b->points; j++) low = fmin(low, b->point[j].value), high = fmax(high, b->point[j].value);
-    fprintf(to, "\nbranch %zu: period %d, on the line of %s, %s from %.12g to %.12g, %zu points", i + 1, b->period,
-            iso_symmetry_line_name(b->line), name, low, high, b->points);
-    if (b->parent >= 0) fprintf(to, ", from branch %d", b->parent + 1);
-    fputs("\n", to);
-    if (b->events == 0) return;
-    iso_table_begin(to, 1);
-    fprintf(to, "event\t%s\tl\tx\ttrace\twhat happens\n", name);
-    for (size_t j = 0; j < b->events; j++)
-        fprintf(to, "%s\t%.13g\t%.9g\t%.9g\t%.8g\t%s\n", iso_branch_kind_name(b->event[j].kind), b->event[j].at.value,
-                b->event[j].at.l, b->event[j].at.x, b->event[j].at.trace, b->event[j].words);
-    iso_table_end(to);
-}
-
-static void print_branches(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
-{
-    const iso_continuations *f = result->found;
-    (void)scene, (void)options;
-    for (size_t i = 0; i < f->count; i++) print_branch(to, f, i, iso_vary_name((int)f->vary));
+    const char *name = iso_vary_name((int)f->vary);
+    for (const iso_branch *b = f->branch; b < f->branch + f->count; b++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t j = 0; j < b->points; j++)
+            low = fmin(low, b->point[j].value), high = fmax(high, b->point[j].value);
+        fprintf(to, "\nbranch %zu: period %d, on the line of %s, %s from %.12g to %.12g, %zu points",
+                (size_t)(b - f->branch) + 1, b->period, iso_symmetry_line_name(b->line), name, low, high, b->points);
+        if (b->parent >= 0) fprintf(to, ", from branch %d", b->parent + 1);
+        fputs("\n", to);
+        if (b->events == 0) continue;
+        iso_table_begin(to, 1);
+        fprintf(to, "event\t%s\tl\tx\ttrace\twhat happens\n", name);
+        for (const iso_branch_event *e = b->event; e < b->event + b->events; e++)
+            fprintf(to, "%s\t%.13g\t%.9g\t%.9g\t%.8g\t%s\n", iso_branch_kind_name(e->kind), e->at.value, e->at.l,
+                    e->at.x, e->at.trace, e->words);
+        iso_table_end(to);
+    }
 }
 
 #define EDGE 1e-9 /* with equal moments a trace is 2 or -2 up to rounding */
 
-static void print_chart(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
+static void print_chart(FILE *to, const iso_chart_found *f)
 {
-    const iso_chart_found *f = result->found;
     const iso_stability_options *o = &f->how;
     const iso_record *grid = f->grid;
     size_t count[2][3] = {{0}}, none[2] = {0};
     static const char *const axes[] = {"least", "greatest"};
-    (void)scene, (void)options;
     for (size_t i = 0; i < iso_record_rows(grid); i++)
         for (int which = 0; which < 2; which++) {
             const double T = iso_record_const_row(grid, i)[2 + which];
@@ -185,11 +176,11 @@ void iso_periodic_print(FILE *to, const iso_scene *scene, const void *options, c
 {
     const iso_periodic_request *r = options;
     if (r->chart)
-        print_chart(to, scene, options, result);
+        print_chart(to, result->found);
     else if (r->follow)
-        print_branches(to, scene, options, result);
+        print_branches(to, result->found);
     else
-        print_list(to, scene, options, result);
+        print_list(to, &scene->params, &r->how, result->found);
 }
 
 iso_status iso_periodic_describe(iso_context *ctx, const iso_scene *scene, const void *options,
