@@ -33,22 +33,16 @@ typedef struct work {
     int told;     /* coefficients in this step when progress was last reported                 */
 } work;
 
-static iso_clock clock_of(iso_model_kind model)
-{
-    return model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
-}
-
 static iso_models shown(const work *w)
 {
     const iso_scene *scene = w->p->scene;
     return scene->as == ISO_SHOW_START ? (iso_models)scene->start.model : scene->as;
 }
 
-/* Gives a text away and frees it. */
-static iso_status give(const work *w, FILE *to, char **text)
+iso_status certify_give(iso_context *ctx, const iso_certify_sink *sink, FILE *to, char **text)
 {
-    if (fclose(to) != 0 || !*text) return free(*text), iso_context_no_memory(w->ctx, "a row");
-    const iso_status status = w->sink->line(w->sink->data, *text);
+    const bool whole = fclose(to) == 0 && *text;
+    const iso_status status = whole ? sink->line(sink->data, *text) : iso_context_no_memory(ctx, "a row");
     free(*text);
     return status;
 }
@@ -104,7 +98,7 @@ static iso_status write_head(work *w)
     fprintf(to, "# backend: %s\n# digits: %d\n", iso_model_kind_name((int)w->p->backend), w->p->options.digits);
     fprintf(to, "# isoroll: %s\n", ISO_VERSION);
     certify_print_columns(to, shown(w));
-    return give(w, to, &text);
+    return certify_give(w->ctx, w->sink, to, &text);
 }
 
 /* --- failures ---------------------------------------------------------------------------------------------------- */
@@ -236,7 +230,7 @@ static bool next_row(work *w, iso_status *status)
         if (to) holds = certify_write_row(&w->ball, clock, w->p->backend, y, shown(w), w->p->options.digits, to);
         *status = to ? ISO_OK : iso_context_no_memory(w->ctx, "a row");
         if (to && !holds) fclose(to), free(text), *status = too_wide(w);
-        if (to && holds) *status = give(w, to, &text);
+        if (to && holds) *status = certify_give(w->ctx, w->sink, to, &text);
         w->result->rows += *status == ISO_OK;
     }
     fmpq_clear(t);
@@ -303,7 +297,8 @@ iso_status iso_certify_orbit(iso_context *ctx, const iso_certify_problem *p, con
 {
     enum { SPARE = 14, MORE = 200 };
     const double end = fabs(p->scene->end);
-    work w = {.ctx = ctx, .p = p, .sink = sink, .result = result, .clock = clock_of(p->scene->start.model)};
+    work w = {.ctx = ctx, .p = p, .sink = sink, .result = result};
+    w.clock = p->scene->start.model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
     double reached = 0, lost = 0, furthest = -1;
     certify_exact_init(&w.exact);
     iso_status status = certify_exact_read(ctx, p->scene, p->literals, &w.exact);

@@ -1,23 +1,14 @@
-/* arb_ball.c - one proof, from the numbers of the ball to the enclosure of m (arb_ball_impl.h).
+/* arb_ball.c - one proof, from the numbers of the ball to the enclosure of m (arb_manifold_impl.h).
  *
  * How near to O the manifold begins, how long the piece is that is followed, and how many bits numbers have follow from
  * the digits of m that are wanted. With size r, the slope at the start is known to about r, and adds r^3 to the error
  * of m. If the enclosure is not as narrow as it was to be, all is done again with more digits.
  */
 #include <math.h>
+#include <stddef.h>
 
 #include "base/pi_impl.h"
-#include "instrument/prove/arb_ball_impl.h"
-
-void prove_found_init(prove_found *f)
-{
-    arb_init(f->x), arb_init(f->m), arb_init(f->multiplier), arb_init(f->middle);
-}
-
-void prove_found_clear(prove_found *f)
-{
-    arb_clear(f->x), arb_clear(f->m), arb_clear(f->multiplier), arb_clear(f->middle);
-}
+#include "instrument/prove/arb_manifold_impl.h"
 
 enum { PARTS = 8 }; /* of half a return, for an interval of k */
 
@@ -50,20 +41,16 @@ static void attempt_init(attempt *a, iso_context *ctx, const prove_ball *ball, i
         arb_get_mid_arb(a->thin.k, f->k);
         arb_inv(a->thin.inverse_k, a->thin.k, f->bits);
     }
-    arb_init(a->local.trace), arb_init(a->local.lambda), arb_init(a->local.s), arb_init(a->local.size);
-    arb_init(a->local.slope), arb_init(a->start.xi), arb_init(a->start.drift), arb_init(a->crossing.x),
-        arb_init(a->crossing.m);
-    arb_init(a->width);
+    iso_balls_init(&a->local, sizeof a->local), iso_balls_init(&a->start, offsetof(prove_start, halves));
+    iso_balls_init(&a->crossing, offsetof(prove_crossing, longer)), arb_init(a->width);
     arb_clear(high);
 }
 
 static void attempt_clear(attempt *a)
 {
     prove_flow_clear(&a->flow), prove_flow_clear(&a->thin);
-    arb_clear(a->local.trace), arb_clear(a->local.lambda), arb_clear(a->local.s), arb_clear(a->local.size);
-    arb_clear(a->local.slope), arb_clear(a->start.xi), arb_clear(a->start.drift), arb_clear(a->crossing.x),
-        arb_clear(a->crossing.m);
-    arb_clear(a->width);
+    iso_balls_clear(&a->local, sizeof a->local), iso_balls_clear(&a->start, offsetof(prove_start, halves));
+    iso_balls_clear(&a->crossing, offsetof(prove_crossing, longer)), arb_clear(a->width);
 }
 
 /* x = 10^power, exact, about. */
@@ -160,7 +147,7 @@ iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, i
         if (status == ISO_OK && (reached && (lacks == 0 || !thin)))
             keep(&a, found);
         else if (status == ISO_OK)
-            status = iso_context_fail(ctx, ISO_NUMERICAL, "", "m could not be enclosed to %d digits", digits);
+            status = ISO_FAIL_NUMERICAL(ctx, "m could not be enclosed to %d digits", digits);
         spare += lacks + MORE / 2;
         attempt_clear(&a);
     }

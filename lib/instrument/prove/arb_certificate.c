@@ -1,5 +1,5 @@
-/* arb_certificate.c - the text of a certificate (arb_certificate_impl.h). */
-#include "instrument/prove/arb_certificate_impl.h"
+/* arb_certificate.c - the text of a certificate (arb_flow_impl.h). */
+#include "instrument/prove/arb_flow_impl.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -12,10 +12,10 @@ enum { POINTS = 8, LOW_BITS = 80, FAR = -14, TRIES = 60 };
 static iso_status advance(prove_flow *f, arb_struct z[2])
 {
     prove_half half;
-    prove_half_init(&half);
+    iso_balls_init(&half, sizeof half);
     const iso_status status = prove_half_return(f, (prove_part){0, 1}, z, z + 1, PROVE_POINT, &half);
     for (int i = 0; i < 2; i++) arb_get_mid_arb(z + i, half.z + i);
-    prove_half_clear(&half);
+    iso_balls_clear(&half, sizeof half);
     return status;
 }
 
@@ -130,8 +130,7 @@ static void find_limit(const prove_local *o, slong bits, arb_t limit)
 static iso_status refine(const prove_flow *f, const prove_local *o, double slope, prove_start *start)
 {
     enum { KNOWN = 44, SPARE = 36 };
-    arb_t gap, last, change, steep;
-    arb_init(gap), arb_init(last), arb_init(change), arb_init(steep);
+    arb_ptr gap = _arb_vec_init(4), last = gap + 1, change = gap + 2, steep = gap + 3;
     arb_set_d(steep, slope);
     iso_status status = ISO_OK;
     double known = KNOWN;
@@ -152,7 +151,7 @@ static iso_status refine(const prove_flow *f, const prove_local *o, double slope
         done = bits == f->bits && arf_cmpabs_2exp_si(arb_midref(change), -bits * 62 / 100) < 0;
         known *= 1.6;
     }
-    arb_clear(gap), arb_clear(last), arb_clear(change), arb_clear(steep);
+    _arb_vec_clear(gap, 4);
     return status;
 }
 
@@ -163,7 +162,7 @@ static iso_status find_drift(prove_flow *f, const prove_local *o, prove_start *s
     prove_half half;
     arb_ptr z = _arb_vec_init(2), T = _arb_vec_init(2), C = _arb_vec_init(2);
     iso_status status = ISO_OK;
-    prove_half_init(&half);
+    iso_balls_init(&half, sizeof half);
     arb_set(z, start->xi), arb_mul(z + 1, z, o->s, f->bits);
     arb_one(T), arb_set(T + 1, o->s);
     for (long i = 0; i < start->halves && status == ISO_OK; i++) {
@@ -179,7 +178,7 @@ static iso_status find_drift(prove_flow *f, const prove_local *o, prove_start *s
     arb_neg(start->drift, start->drift);
     arb_get_mid_arb(start->drift, start->drift);
     _arb_vec_clear(z, 2), _arb_vec_clear(T, 2), _arb_vec_clear(C, 2);
-    prove_half_clear(&half);
+    iso_balls_clear(&half, sizeof half);
     return status;
 }
 
