@@ -1,5 +1,5 @@
 /* separatrix_fields.c - what the splitting of the separatrix holds: its numbers with their meaning (separatrix.h). */
-#include "instrument/separatrix/separatrix.h"
+#include "instrument/separatrix/separatrix_study_impl.h"
 
 static bool is_found(const void *row)
 {
@@ -55,23 +55,15 @@ const iso_field iso_separatrix_fields[] = {
 };
 #undef FIELD
 
-/* The axes are those of each row that did not fail; none: all did. */
-static const iso_separatrix_splitting *first_found(const iso_separatrix_table *s)
-{
-    for (size_t i = 0; i < s->rows; i++)
-        if (is_found(&s->row[i])) return &s->row[i];
-    return NULL;
-}
-
 static double axis_of(const void *row)
 {
-    const iso_separatrix_splitting *found = first_found(row);
+    const iso_separatrix_splitting *found = iso_separatrix_first(row);
     return found ? found->axis : -1;
 }
 
 static double middle_of(const void *row)
 {
-    const iso_separatrix_splitting *found = first_found(row);
+    const iso_separatrix_splitting *found = iso_separatrix_first(row);
     return found ? found->middle : -1;
 }
 

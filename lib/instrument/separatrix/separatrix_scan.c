@@ -68,12 +68,6 @@ static iso_status value_at(iso_pool_worker *w, const scan *c, const bracket *b, 
     return status;
 }
 
-/* Next to +-1 r is not known: m is not distinguished from 0 there, zero of r or not. */
-static bool is_blind(const bracket *b, double error)
-{
-    return !(error < fmax(fabs(b->r[0]), fabs(b->r[1])) / 100);
-}
-
 /* How far the number must go to change by much: k itself; a level can be 0, so it is measured by its bracket. */
 static double size_of(const bracket *b, double at)
 {
@@ -92,7 +86,8 @@ static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *
         const double last = *at;
         *at = (b->at[0] * end[1] - b->at[1] * end[0]) / (end[1] - end[0]);
         status = value_at(w, c, b, *at, &r, &error);
-        if (status == ISO_OK && is_blind(b, error)) return ISO_NUMERICAL;
+        /* next to +-1 r is not known: m is not distinguished from 0 there, zero of r or not */
+        if (status == ISO_OK && !(error < fmax(fabs(b->r[0]), fabs(b->r[1])) / 100)) return ISO_NUMERICAL;
         if (status != ISO_OK || fabs(r) < 10 * error || fabs(*at - last) < 1e-12 * size_of(b, *at)) break;
         const int side = r * end[0] > 0 ? 0 : 1;
         b->at[side] = *at, end[side] = r;
@@ -115,7 +110,7 @@ static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_se
     iso_status status = search(w, c, &b, &at, &slope);
     for (int i = 0; i < MOST && status == ISO_OK; i++) {
         status = iso_separatrix_next_at(w->ctx, b.by_level ? b.other : at, c->o->J, b.by_level ? at : b.other,
-                                        c->o->digits, zero);
+                                        c->o->digits, true, zero);
         r = reduced(zero, zero->m), error = fabs(reduced(zero, zero->error));
         if (i > 0 && fabs(at - last) > 1e-12 * size_of(&b, at)) slope = (r - last_r) / (at - last);
         least = 4e-16 * fabs(slope) * size_of(&b, at);
@@ -153,32 +148,18 @@ static bool is_bracket(const iso_separatrix_splitting *a, const iso_separatrix_s
     return a->k * b->k > 0 && (by_level || a->level == b->level) && found->r[0] * found->r[1] < 0;
 }
 
-/* Rows that are distinguished from 0, by growing k; their number. */
-static size_t sort(const iso_separatrix_table *s, const iso_separatrix_splitting *list[])
-{
-    size_t count = 0;
-    for (size_t i = 0; i < s->rows; i++)
-        if (s->row[i].status == ISO_OK && s->row[i].from_zero) list[count++] = &s->row[i];
-    qsort(list, count, sizeof *list, by_k);
-    return count;
-}
-
+/* Between neighbours, by growing k, of the rows that are distinguished from 0. list: room for the rows. */
 static size_t find_brackets(const iso_separatrix_table *s, const iso_separatrix_splitting *list[], bracket brackets[])
 {
-    const size_t told = sort(s, list);
-    size_t count = 0;
-    for (size_t i = 0; i + 1 < told; i++) count += is_bracket(list[i], list[i + 1], &brackets[count]);
+    size_t rows = 0, count = 0;
+    for (size_t i = 0; i < s->rows; i++)
+        if (s->row[i].status == ISO_OK && s->row[i].from_zero) list[rows++] = &s->row[i];
+    qsort(list, rows, sizeof *list, by_k);
+    for (size_t i = 0; i + 1 < rows; i++) count += is_bracket(list[i], list[i + 1], &brackets[count]);
     return count;
 }
 
 /* --- the call --------------------------------------------------------------------------------------------------- */
-
-static void blank(double k, double level, iso_separatrix_splitting *s)
-{
-    const iso_separatrix_splitting none = {
-        .k = k, .level = level, .status = ISO_STOPPED, .words = "not computed", .m = NAN, .x = NAN};
-    *s = none;
-}
 
 static iso_status run_pool(iso_context *ctx, scan *c, size_t count,
                            bool (*solve)(iso_pool_worker *, void *, size_t, size_t))
@@ -196,7 +177,6 @@ static iso_status run_zeros(iso_context *ctx, scan *c)
     s->zero = calloc(s->rows, sizeof *s->zero);
     if (list && brackets && s->zero) {
         s->zeros = find_brackets(s, list, brackets);
-        for (size_t i = 0; i < s->zeros; i++) blank(NAN, NAN, &s->zero[i]);
         c->bracket = brackets;
         status = run_pool(ctx, c, s->zeros, solve_zeros);
     } else {
@@ -212,38 +192,34 @@ static iso_status run_zeros(iso_context *ctx, scan *c)
     return status;
 }
 
-/* *level: that of the scene, where the options give none. */
-static iso_status check_scene(iso_context *ctx, const iso_separatrix_options *o, double *level)
-{
-    static const char what[] = ISO_SPLITTING_IS;
-    const iso_effects acting = iso_scene_acting(o->scene);
-    return o->level ? iso_refuse_beyond_level(ctx, &acting, what) : iso_level_of_scene(ctx, o->scene, what, level);
-}
-
-static iso_status run(iso_context *ctx, const iso_separatrix_options *o, double level, iso_separatrix_table *s)
-{
-    scan c = {.o = o, .s = s, .level = level, .all = o->count};
-    s->rows = o->count;
-    s->row = calloc(o->count, sizeof *s->row);
-    if (!s->row) return iso_context_no_memory(ctx, "%zu rows", o->count);
-    for (size_t i = 0; i < o->count; i++) blank(o->k[i], level_of(&c, i), &s->row[i]);
-    const iso_status status = run_pool(ctx, &c, o->count, solve_rows);
-    return status == ISO_OK && o->zeros ? run_zeros(ctx, &c) : status;
-}
-
 iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *options, iso_separatrix_table **s)
 {
     ISO_DEFAULT_ARITHMETIC;
     *s = NULL;
-    iso_separatrix_options o = iso_separatrix_defaults();
-    double level = 0;
-    if (options) o = *options;
+    iso_separatrix_options o = options ? *options : iso_separatrix_defaults();
+    scan c = {.o = &o, .all = o.count};
     if (o.count == 0) return ISO_FAIL_ARGUMENT(ctx, "k", "splitting: there is no k");
     ISO_TRY(iso_refuse_equal_moments(ctx, o.J, ISO_NO_SPLITTING));
-    if (o.scene) ISO_TRY(check_scene(ctx, &o, &level));
-    iso_separatrix_table *found = calloc(1, sizeof *found);
-    if (!found) return iso_context_no_memory(ctx, "the splitting");
-    const iso_status status = run(ctx, &o, level, found);
+    if (o.scene) {
+        const iso_effects acting = iso_scene_acting(o.scene);
+        ISO_TRY(o.level ? iso_refuse_beyond_level(ctx, &acting, ISO_SPLITTING_IS)
+                        : iso_level_of_scene(ctx, o.scene, ISO_SPLITTING_IS, &c.level));
+    }
+    iso_separatrix_table *found = c.s = calloc(1, sizeof *found);
+    if (found) found->row = calloc(o.count, sizeof *found->row);
+    iso_status status = found && found->row ? ISO_OK : iso_context_no_memory(ctx, "%zu rows", o.count);
+    if (status == ISO_OK) {
+        found->rows = o.count;
+        for (size_t i = 0; i < o.count; i++)
+            found->row[i] = (iso_separatrix_splitting){.k = o.k[i],
+                                                       .level = level_of(&c, i),
+                                                       .status = ISO_STOPPED,
+                                                       .words = "not computed",
+                                                       .m = NAN,
+                                                       .x = NAN};
+        status = run_pool(ctx, &c, o.count, solve_rows);
+    }
+    if (status == ISO_OK && o.zeros) status = run_zeros(ctx, &c);
     if (status != ISO_OK && status != ISO_STOPPED) iso_separatrix_free(found), found = NULL;
     *s = found;
     return status;

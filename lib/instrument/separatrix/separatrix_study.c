@@ -117,53 +117,43 @@ bool iso_separatrix_by_level(const iso_separatrix_table *s)
     return differ;
 }
 
-/* A row for each k or level that did not fail, then one for each zero. */
-static iso_status put_rows(iso_context *ctx, const iso_separatrix_table *s, iso_record *table)
+static void free_table(void *found)
 {
-    iso_status status = ISO_OK;
+    iso_separatrix_free(found);
+}
+
+/* A row for each k or level that did not fail, then one for each zero. */
+static iso_status fill(iso_context *ctx, const iso_scene *scene, const iso_separatrix_table *s, iso_record **table)
+{
+    iso_field fields[ISO_MOST_FIELDS];
+    iso_fields_copy(iso_separatrix_table_fields, "rows", fields);
+    iso_status status = iso_study_table(ctx, "splitting", scene, fields, s, iso_separatrix_fields, table);
     for (size_t i = 0; status == ISO_OK && i < s->rows + s->zeros; i++) {
         const iso_separatrix_splitting *row = i < s->rows ? &s->row[i] : &s->zero[i - s->rows];
-        if (row->status == ISO_OK) status = iso_columns_append(ctx, iso_separatrix_fields, row, table);
+        if (row->status == ISO_OK) status = iso_columns_append(ctx, iso_separatrix_fields, row, *table);
     }
+    if (*table && iso_record_rows(*table) == 0) iso_record_free(*table), *table = NULL;
     return status;
 }
 
-/* All rows failed: the first one's reason is that of the study. Some: they are told. */
-static iso_status judge(iso_context *ctx, const iso_separatrix_table *s, iso_study_result *result)
+/* If all rows failed, the first one's reason is that of the study. If some did, a note says so. */
+static iso_status find(iso_context *ctx, const iso_scene *scene, const iso_separatrix_options *how,
+                       iso_study_result *result)
 {
-    size_t failed = 0, first = s->rows;
-    for (size_t i = 0; i < s->rows; i++) {
-        if (s->row[i].status == ISO_OK || s->row[i].status == ISO_STOPPED) continue;
-        if (failed++ == 0) first = i;
-    }
-    if (failed > 0 && failed == s->rows)
+    iso_separatrix_table *s = NULL;
+    size_t failed = 0, first = 0;
+    const iso_status status = iso_separatrix_run(ctx, how, &s);
+    if (!iso_study_keep(result, s, iso_separatrix_table_fields, free_table)) return status;
+    const iso_status made = fill(ctx, scene, s, &result->table[0]);
+    for (size_t i = s->rows; i-- > 0;)
+        if (s->row[i].status != ISO_OK && s->row[i].status != ISO_STOPPED) failed++, first = i;
+    if (status == ISO_OK && made == ISO_OK && failed == s->rows)
         return iso_context_fail(ctx, s->row[first].status, "", "%s", s->row[first].words);
     result->failed = failed > 0;
     if (failed > 0)
         iso_study_note(result, "%zu of %zu values of %s failed: %s", failed, s->rows,
                        iso_separatrix_by_level(s) ? "the level" : "k", s->row[first].words);
     if (s->lost > 0) iso_study_note(result, "%zu zeros of m lie between these values, but were not found", s->lost);
-    return ISO_OK;
-}
-
-static void free_table(void *found)
-{
-    iso_separatrix_free(found);
-}
-
-static iso_status find(iso_context *ctx, const iso_scene *scene, const iso_separatrix_options *how,
-                       iso_study_result *result)
-{
-    iso_field fields[ISO_MOST_FIELDS];
-    iso_separatrix_table *s = NULL;
-    const iso_status status = iso_separatrix_run(ctx, how, &s);
-    if (!iso_study_keep(result, s, iso_separatrix_table_fields, free_table)) return status;
-    iso_fields_copy(iso_separatrix_table_fields, "rows", fields);
-    iso_status made = iso_study_table(ctx, "splitting", scene, fields, s, iso_separatrix_fields, &result->table[0]);
-    if (made == ISO_OK) made = put_rows(ctx, s, result->table[0]);
-    if (made == ISO_OK) made = judge(ctx, s, result);
-    if (result->table[0] && iso_record_rows(result->table[0]) == 0)
-        iso_record_free(result->table[0]), result->table[0] = NULL;
     return status == ISO_OK ? made : status;
 }
 
