@@ -26,7 +26,6 @@ typedef struct scan {
     double level; /* where the options give none */
     const bracket *bracket;
     atomic_size_t done;
-    size_t all;
 } scan;
 
 /* r from m, or its error from that of m. */
@@ -50,21 +49,21 @@ static bool solve_rows(iso_pool_worker *w, void *data, size_t first, size_t coun
             ISO_NO_MEMORY)
             return false;
         const size_t now = atomic_fetch_add(&c->done, 1) + 1;
-        if (w->asks && c->o->progress) c->o->progress(c->o->data, (double)now / (double)c->all);
+        if (w->asks && c->o->progress) c->o->progress(c->o->data, (double)now / (double)c->o->count);
     }
     return true;
 }
 
 /* --- zeros ------------------------------------------------------------------------------------------------------ */
 
-/* r as the search sees it. */
-static iso_status value_at(iso_pool_worker *w, const scan *c, const bracket *b, double at, double *r, double *error)
+/* The splitting in a bracket, and r with its error. next: see iso_separatrix_next_at. */
+static iso_status value_at(iso_pool_worker *w, const scan *c, const bracket *b, double at, bool next,
+                           iso_separatrix_splitting *s, double *r, double *error)
 {
-    iso_separatrix_splitting s;
-    const iso_separatrix_digits digits = b->fine ? c->o->digits : ISO_SEPARATRIX_DOUBLE;
+    const iso_separatrix_digits digits = next || b->fine ? c->o->digits : ISO_SEPARATRIX_DOUBLE;
     const double k = b->by_level ? b->other : at, level = b->by_level ? at : b->other;
-    const iso_status status = iso_separatrix_at(w->ctx, k, c->o->J, level, digits, &s);
-    *r = reduced(&s, s.m), *error = fabs(reduced(&s, s.error));
+    const iso_status status = iso_separatrix_next_at(w->ctx, k, c->o->J, level, digits, next, s);
+    *r = reduced(s, s->m), *error = fabs(reduced(s, s->error));
     return status;
 }
 
@@ -79,13 +78,14 @@ static double size_of(const bracket *b, double at)
 static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *at, double *slope)
 {
     enum { MOST = 40 };
+    iso_separatrix_splitting s;
     int kept = -1;
     double r = NAN, error = NAN, aside = NAN, end[2] = {b->r[0], b->r[1]};
     iso_status status = ISO_OK;
     for (int i = 0; i < MOST && status == ISO_OK; i++) {
         const double last = *at;
         *at = (b->at[0] * end[1] - b->at[1] * end[0]) / (end[1] - end[0]);
-        status = value_at(w, c, b, *at, &r, &error);
+        status = value_at(w, c, b, *at, false, &s, &r, &error);
         /* next to +-1 r is not known: m is not distinguished from 0 there, zero of r or not */
         if (status == ISO_OK && !(error < fmax(fabs(b->r[0]), fabs(b->r[1])) / 100)) return ISO_NUMERICAL;
         if (status != ISO_OK || fabs(r) < 10 * error || fabs(*at - last) < 1e-12 * size_of(b, *at)) break;
@@ -95,7 +95,7 @@ static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *
         kept = 1 - side;
     }
     const double step = copysign(1e-4 * size_of(b, *at), *at);
-    if (status == ISO_OK) status = value_at(w, c, b, *at + step, &aside, &error);
+    if (status == ISO_OK) status = value_at(w, c, b, *at + step, false, &s, &aside, &error);
     *slope = (aside - r) / step;
     return status;
 }
@@ -109,9 +109,7 @@ static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_se
     double at = NAN, slope = NAN, last = NAN, last_r = NAN, least = 0, r = NAN, error = NAN;
     iso_status status = search(w, c, &b, &at, &slope);
     for (int i = 0; i < MOST && status == ISO_OK; i++) {
-        status = iso_separatrix_next_at(w->ctx, b.by_level ? b.other : at, c->o->J, b.by_level ? at : b.other,
-                                        c->o->digits, true, zero);
-        r = reduced(zero, zero->m), error = fabs(reduced(zero, zero->error));
+        status = value_at(w, c, &b, at, true, zero, &r, &error);
         if (i > 0 && fabs(at - last) > 1e-12 * size_of(&b, at)) slope = (r - last_r) / (at - last);
         least = 4e-16 * fabs(slope) * size_of(&b, at);
         if (fabs(r) < fmax(10 * error, least)) break;
@@ -173,14 +171,12 @@ static iso_status run_zeros(iso_context *ctx, scan *c)
     iso_separatrix_table *s = c->s;
     const iso_separatrix_splitting **list = calloc(s->rows, sizeof *list);
     bracket *brackets = calloc(s->rows, sizeof *brackets);
-    iso_status status = ISO_NO_MEMORY;
     s->zero = calloc(s->rows, sizeof *s->zero);
-    if (list && brackets && s->zero) {
+    iso_status status = list && brackets && s->zero ? ISO_OK : iso_context_no_memory(ctx, "%zu rows", s->rows);
+    if (status == ISO_OK) {
         s->zeros = find_brackets(s, list, brackets);
         c->bracket = brackets;
         status = run_pool(ctx, c, s->zeros, solve_zeros);
-    } else {
-        iso_context_no_memory(ctx, "%zu rows", s->rows);
     }
     size_t kept = 0;
     for (size_t i = 0; i < s->zeros; i++)
@@ -197,7 +193,7 @@ iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *op
     ISO_DEFAULT_ARITHMETIC;
     *s = NULL;
     iso_separatrix_options o = options ? *options : iso_separatrix_defaults();
-    scan c = {.o = &o, .all = o.count};
+    scan c = {.o = &o};
     if (o.count == 0) return ISO_FAIL_ARGUMENT(ctx, "k", "splitting: there is no k");
     ISO_TRY(iso_refuse_equal_moments(ctx, o.J, ISO_NO_SPLITTING));
     if (o.scene) {

@@ -30,15 +30,6 @@ static iso_status bad_list(iso_context *ctx, const iso_separatrix_list *list)
         list->name, list->text, MOST);
 }
 
-static iso_status append(iso_context *ctx, iso_separatrix_list *list, double x)
-{
-    double *more = realloc(list->x, (list->count + 1) * sizeof *more);
-    if (!more) return iso_context_no_memory(ctx, "%zu values of %s", list->count + 1, list->name);
-    list->x = more;
-    list->x[list->count++] = x;
-    return ISO_OK;
-}
-
 /* 0.1 + 2 0.1 shall be 0.3, -0.3 + 3 0.1 shall be 0, and 1/3 stay as it is. */
 static double rounded(double k, double step)
 {
@@ -49,32 +40,29 @@ static double rounded(double k, double step)
     return iso_number_read(digits, strlen(digits), &tidy) && fabs(tidy - k) < 1e-15 * fmax(1, fabs(k)) ? tidy : k;
 }
 
-/* A, or A, A + STEP, ... up to B, which a rounding error does not cut off. STEP goes towards B, whatever its sign. */
-static iso_status read_item(iso_context *ctx, const char *item, size_t length, iso_separatrix_list *list)
-{
-    double number[3];
-    int parts = 0;
-    for (const char *c = item; c <= item + length; parts++) {
-        const size_t left = (size_t)(item + length - c), part = strcspn(c, ":") < left ? strcspn(c, ":") : left;
-        if (parts == 3 || !iso_rational_read_double(c, part, &number[parts])) return bad_list(ctx, list);
-        c += part + 1;
-    }
-    if (parts == 1) return append(ctx, list, number[0]);
-    const double way = number[1] - number[0], step = copysign(number[2], way), steps = floor(way / step + 1e-9);
-    if (parts != 3 || number[2] == 0 || !(steps < MOST)) return bad_list(ctx, list);
-    iso_status status = ISO_OK;
-    for (double i = 0; i <= steps && status == ISO_OK; i++)
-        status = append(ctx, list, rounded(number[0] + i * step, step));
-    return status;
-}
-
+/* Each item is A, or A, A + STEP, ... up to B, which a rounding error does not cut off. STEP goes towards B, whatever its
+ * sign. */
 static iso_status read_list(iso_context *ctx, iso_separatrix_list *list)
 {
     for (const char *c = list->text; c; c = *c ? c + 1 : NULL) {
-        const size_t length = strcspn(c, ",");
-        ISO_TRY(read_item(ctx, c, length, list));
+        double number[3] = {0};
+        int parts = 0;
+        do {
+            if (parts > 0) c++;
+            const size_t length = strcspn(c, ":,");
+            if (parts == 3 || !iso_rational_read_double(c, length, &number[parts++])) return bad_list(ctx, list);
+            c += length;
+        } while (*c == ':');
+        const double length = number[1] - number[0], step = copysign(number[2], length),
+                     steps = parts == 1 ? 0 : floor(length / step + 1e-9);
+        if (parts == 2 || (parts == 3 && step == 0) || !(steps < MOST)) return bad_list(ctx, list);
+        for (double i = 0; i <= steps; i++) {
+            double *more = realloc(list->x, (list->count + 1) * sizeof *more);
+            if (!more) return iso_context_no_memory(ctx, "%zu values of %s", list->count + 1, list->name);
+            list->x = more;
+            list->x[list->count++] = parts == 1 ? number[0] : rounded(number[0] + i * step, step);
+        }
         if (list->count > MOST) return bad_list(ctx, list);
-        c += length;
     }
     return ISO_OK;
 }
