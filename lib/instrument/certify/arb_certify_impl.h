@@ -47,7 +47,7 @@ void certify_ball_init(certify_ball *b, slong bits);
 void certify_ball_clear(certify_ball *b);
 void certify_ball_set(certify_ball *b, const certify_exact *e); /* k and J alone */
 
-/* Sets b, its energies among it, and gives the start of `model`, vector first, then the unit vector: n is made a unit
+/* Sets b, its energies among it, and returns the start of `model` in y, vector first, then the unit vector: n is made a unit
  * vector, and omega loses its part along it. */
 void certify_start(const certify_exact *e, iso_model_kind model, certify_ball *b, arb_ptr y);
 
@@ -109,7 +109,7 @@ double certify_set_lost(const certify_set *s);
 
 /* --- arb_orbit.c ------------------------------------------------------------------------------------------------- */
 
-/* Closes a stream in memory, gives its text away and frees it. */
+/* Closes a stream in memory, passes its text to the sink and frees it. */
 iso_status certify_give(iso_context *ctx, const iso_certify_sink *sink, FILE *to, char **text);
 
 /* The line of the names of the columns: three clocks, then the states of these models. */

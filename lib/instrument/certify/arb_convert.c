@@ -1,6 +1,6 @@
 /* arb_convert.c - certified rows of one model as rows of the other: the map (18) in balls (certify_impl.h).
  *
- * A file that is read is checked as far as its rows tell: n (or gamma) can be a unit vector, and omega (or M)
+ * A file that is read is checked as far as its rows allow: n (or gamma) can be a unit vector, and omega (or M)
  * orthogonal to it. The clocks are in the file, and stay.
  */
 #include <stdlib.h>
@@ -26,10 +26,10 @@ typedef struct reader {
     certify_ball ball;
 } reader;
 
-static iso_status fail(const reader *r, const char *at, const char *words)
+static iso_status fail(const reader *r, const char *at, const char *text)
 {
     return iso_context_placed(r->ctx, ISO_FAIL_INPUT(r->ctx, "", "%s:%zu:%zu: %s", r->name, r->number,
-                                                     (size_t)(at ? at - r->line : 0) + 1, words));
+                                                     (size_t)(at ? at - r->line : 0) + 1, text));
 }
 
 /* The next line, without its end. */

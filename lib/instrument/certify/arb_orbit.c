@@ -30,7 +30,7 @@ typedef struct work {
     certify_set set;
     bool stopped; /* by the caller's monitor: the set is no longer valid                       */
     bool wide;    /* the attempt failed because the set became too large; more digits may help */
-    int told;     /* coefficients in this step when progress was last reported                 */
+    int noted;    /* coefficients in this step when progress was last reported                 */
 } work;
 
 static iso_models shown(const work *w)
@@ -195,14 +195,14 @@ static void time_of(const work *w, size_t i, fmpq_t t)
     fmpq_clear(step);
 }
 
-/* Within a step: tells progress by the last step's length, and asks the caller's monitor. */
+/* Within a step: progress is measured by the last step's length, and asks the caller's monitor. */
 static bool in_step(void *data)
 {
     work *w = data;
     const double end = fabs(w->p->scene->end), last = arf_get_d(arb_midref(w->set.h), ARF_RND_NEAR);
-    if (w->sink->progress && w->set.thin.known != w->told) {
+    if (w->sink->progress && w->set.thin.known != w->noted) {
         const double at = time_now(w) + last * certify_set_done(&w->set);
-        w->told = w->set.thin.known;
+        w->noted = w->set.thin.known;
         w->sink->progress(w->sink->data, end > 0 ? fmin(at / end, 1) : 1);
     }
     w->stopped = w->stopped || !iso_context_goes_on(w->ctx);
@@ -245,8 +245,8 @@ static iso_status check_work(const work *w, double end)
 {
     const double reached = time_now(w), step = pow(w->result->work_digits, 3), steps = (double)w->result->steps;
     const double needed = steps * fmax(end / reached, 1);
-    const bool judged = steps >= ISO_JUDGED_STEPS && steps * step >= ISO_JUDGED_WORK;
-    if ((judged ? needed : steps) * step <= ISO_MOST_CERTIFIED_WORK) return ISO_OK;
+    const bool measured = steps >= ISO_JUDGED_STEPS && steps * step >= ISO_JUDGED_WORK;
+    if ((measured ? needed : steps) * step <= ISO_MOST_CERTIFIED_WORK) return ISO_OK;
     return too_long(w, needed);
 }
 

@@ -9,7 +9,7 @@
 
 #define WHAT "--certify encloses the free ball, with a rotor or on a level"
 
-/* A time as it is written; its double tells it up to 15 digits. */
+/* A time as it is written; its double holds up to 15 digits. */
 static iso_status read_time(iso_context *ctx, const char *key, double x, iso_rational *r)
 {
     *r = (iso_rational){0, 1};

@@ -1,5 +1,5 @@
 /* integrals.c - the search for additional first integrals, see integrals.h: what is refused, and what the parts of
- * the spaces tell together. Samples are taken in integrals_orbits.c, linear algebra is in integrals_part.c. */
+ * the spaces show together. Samples are taken in integrals_orbits.c, linear algebra is in integrals_part.c. */
 #include "instrument/integrals/integrals.h"
 #include "base/number_impl.h"
 #include "model/model_impl.h"

@@ -97,7 +97,7 @@ int iso_integral_energy_degree(const iso_integral_search *found);
 /* The smallest value that is no integral's, over all degrees; NaN: there is none. */
 double iso_integral_smallest(const iso_integral_search *found);
 
-/* What it tells people, and the lines of its table (integrals_print.c). */
+/* Its text, and the lines of its table (integrals_print.c). */
 void iso_integrals_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
 
 #endif

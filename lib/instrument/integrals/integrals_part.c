@@ -235,7 +235,7 @@ static bool take_next(algebra *a, double left[])
     return true;
 }
 
-/* Gram and Schmidt's way, with the largest column first: how many are independent, Q and R. */
+/* The method of Gram and Schmidt, with the largest column first: how many are independent, Q and R. */
 static bool make_basis(algebra *a)
 {
     const size_t rows = a->samples->rows;

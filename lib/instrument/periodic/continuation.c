@@ -19,16 +19,8 @@
 
 #define NEAR_END 4e-3 /* of the line, in u: here a collision is foretold */
 
-ISO_NAMES(iso_branch_kind_name, iso_branch_kind, "fold", "period doubling", "symmetry breaking", "collision", "torus",
-          "end", "failure", "touch", "undecided")
-
-static double value_of(const iso_params *p, double level, iso_vary vary)
-{
-    if (vary == ISO_VARY_K) return p->k;
-    if (vary == ISO_VARY_LEVEL) return level;
-    if (vary == ISO_VARY_RATIO) return (p->J[1] - p->J[0]) / (p->J[2] - p->J[0]);
-    return p->J[vary - ISO_VARY_J1];
-}
+ISO_NAMES(iso_branch_kind_name, int, "fold", "period doubling", "symmetry breaking", "collision", "torus", "end",
+          "failure", "touch", "undecided")
 
 /* --- one direction ---------------------------------------------------------------------------------------------- */
 
@@ -42,8 +34,8 @@ static iso_status fail_at(const iso_continuation *f, iso_branch *b, const iso_co
                           const char *why)
 {
     iso_branch_event e = {.kind = ISO_BRANCH_FAILURE, .at = iso_continuation_read(at, arc), .axis = -1};
-    snprintf(e.words, sizeof e.words, "%s at %s = %.12g, l = %.9g, x = %.9g", why,
-             iso_vary_name((int)f->options.vary), at->value, e.at.l, e.at.x);
+    snprintf(e.text, sizeof e.text, "%s at %s = %.12g, l = %.9g, x = %.9g", why, iso_vary_name((int)f->options.vary),
+             at->value, e.at.l, e.at.x);
     return iso_continuation_add_event(f, b, &e);
 }
 
@@ -62,7 +54,7 @@ static iso_status end_at(const iso_continuation *f, iso_branch *b, const iso_con
     if (!there) return fail_at(f, b, last, arc, "the last step to the end of the range failed");
     at.value = value;
     iso_branch_event e = {.kind = ISO_BRANCH_END, .at = iso_continuation_read(&at, arc), .axis = -1};
-    snprintf(e.words, sizeof e.words, "the end of the range");
+    snprintf(e.text, sizeof e.text, "the end of the range");
     ISO_TRY(add_point(f, b, &at, arc));
     return iso_continuation_add_event(f, b, &e);
 }
@@ -206,35 +198,10 @@ static iso_status follow_orbit(iso_continuation *f, const iso_periodic_orbit *o,
         bool found;
         if (e->joins || !(e->kind == ISO_BRANCH_BREAKING || iso_continuation_doubles(e->kind))) continue;
         ISO_TRY(iso_continuation_switch(f, e, &beside, at, &found));
-        const size_t used = strlen(e->words);
-        if (!found) snprintf(e->words + used, sizeof e->words - used, "; the branch was not found");
+        const size_t used = strlen(e->text);
+        if (!found) snprintf(e->text + used, sizeof e->text - used, "; the branch was not found");
         if (found) ISO_TRY(follow_branch(&beside, at[0], at[1], (int)i, out));
     }
-    return ISO_OK;
-}
-
-/* --- the whole -------------------------------------------------------------------------------------------------- */
-
-static iso_status check(const iso_continuation *f, double own)
-{
-    const iso_continuation_options *o = &f->options;
-    const char *name = iso_vary_name((int)o->vary);
-    iso_params p;
-    double energy;
-    if (!name || !(o->from < o->to) || !isfinite(o->to - o->from))
-        return ISO_FAIL_ARGUMENT(f->ctx, "range", "%s from %s to %s: give A:B with A < B", name ? name : "?",
-                                 ISO_SHORT(o->from), ISO_SHORT(o->to));
-    if (o->vary == ISO_VARY_K && o->from <= 0 && o->to >= 0)
-        return ISO_FAIL_ARGUMENT(f->ctx, "range", "the range %s to %s contains k = 0, where there is no ball",
-                                 ISO_SHORT(o->from), ISO_SHORT(o->to));
-    if (!(own >= o->from && own <= o->to))
-        return ISO_FAIL_ARGUMENT(f->ctx, "range", "the scene has %s = %.12g: the range %s to %s must contain it",
-                                 name, own, ISO_SHORT(o->from), ISO_SHORT(o->to));
-    if (o->vary != ISO_VARY_K &&
-        (!iso_continuation_params(f, o->from, &p, &energy) || !iso_continuation_params(f, o->to, &p, &energy)))
-        return ISO_FAIL_ARGUMENT(f->ctx, "range", "%s from %s to %s leaves the range in which J%d is the %s moment",
-                                 name, ISO_SHORT(o->from), ISO_SHORT(o->to), f->axis + 1,
-                                 f->base.k > 0 ? "largest" : "smallest");
     return ISO_OK;
 }
 
@@ -289,13 +256,35 @@ static iso_status follow_all(crowd *c, size_t count, iso_continuations *out)
 static iso_status prepare(iso_context *ctx, const iso_scene *scene, const iso_continuation_options *options,
                           iso_continuation *f, double *own)
 {
-    *f = (iso_continuation){.ctx = ctx, .options = iso_continuation_defaults(), .base = scene->params};
-    if (options) f->options = *options;
-    iso_status status = iso_level_of_scene(ctx, scene, "periodic orbits are followed", &f->level);
+    const iso_continuation_options *o = &f->options;
+    const double *J = scene->params.J;
+    iso_params p;
+    double energy;
+    *f = (iso_continuation){.ctx = ctx, .options = options ? *options : iso_continuation_defaults()};
+    f->base = scene->params;
     f->axis = iso_section_axis(iso_free_point(&scene->params, 1));
-    f->width = f->options.to - f->options.from;
-    *own = value_of(&scene->params, f->level, f->options.vary);
-    return status == ISO_OK ? check(f, *own) : status;
+    f->width = o->to - o->from;
+    ISO_TRY(iso_level_of_scene(ctx, scene, "periodic orbits are followed", &f->level));
+    *own = o->vary == ISO_VARY_K       ? scene->params.k
+           : o->vary == ISO_VARY_LEVEL ? f->level
+           : o->vary == ISO_VARY_RATIO ? (J[1] - J[0]) / (J[2] - J[0])
+                                       : J[o->vary - ISO_VARY_J1];
+    const char *name = iso_vary_name((int)o->vary);
+    if (!(o->from < o->to) || !isfinite(o->to - o->from))
+        return ISO_FAIL_ARGUMENT(ctx, "range", "%s from %s to %s: give A:B with A < B", name, ISO_SHORT(o->from),
+                                 ISO_SHORT(o->to));
+    if (o->vary == ISO_VARY_K && o->from <= 0 && o->to >= 0)
+        return ISO_FAIL_ARGUMENT(ctx, "range", "the range %s to %s contains k = 0, where there is no ball",
+                                 ISO_SHORT(o->from), ISO_SHORT(o->to));
+    if (!(*own >= o->from && *own <= o->to))
+        return ISO_FAIL_ARGUMENT(ctx, "range", "the scene has %s = %.12g: the range %s to %s must contain it", name,
+                                 *own, ISO_SHORT(o->from), ISO_SHORT(o->to));
+    if (o->vary == ISO_VARY_K ||
+        (iso_continuation_params(f, o->from, &p, &energy) && iso_continuation_params(f, o->to, &p, &energy)))
+        return ISO_OK;
+    return ISO_FAIL_ARGUMENT(ctx, "range", "%s from %s to %s leaves the range in which J%d is the %s moment", name,
+                             ISO_SHORT(o->from), ISO_SHORT(o->to), f->axis + 1,
+                             scene->params.k > 0 ? "largest" : "smallest");
 }
 
 iso_status iso_continuation_check(iso_context *ctx, const iso_scene *scene, const iso_continuation_options *options)

@@ -99,7 +99,7 @@ bool iso_hill_has_rotation(double k, const double J[3], double energy, int axis)
     return level_at(k, energy, J[(axis + 1) % 3]) > 0 && level_at(k, energy, J[(axis + 2) % 3]) > 0;
 }
 
-/* The determinant, which is 1, tells how many digits are lost. */
+/* The determinant, which is 1, shows how many digits are lost. */
 double iso_hill_trace(double k, const double J[3], double energy, int axis, double *error)
 {
     long double y[2][2];

@@ -17,42 +17,31 @@
 #include "orbit/orbit_impl.h"
 #include "study/study_impl.h"
 
-ISO_NAMES(iso_stability_name, iso_stability, "stable", "unstable", "inverse", "degenerate", "undecided")
+ISO_NAMES(iso_stability_name, int, "stable", "unstable", "inverse", "degenerate", "undecided")
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
 
-static iso_status check_options(const iso_periodic_work *w)
+static iso_status check_scene(iso_periodic_work *w)
 {
+    static const char what[] = "periodic orbits are sought";
     const iso_periodic_options *o = &w->options;
+    const double k = w->scene->params.k, *J = w->scene->params.J, ratio = max3(J) / min3(J) / fabs(k);
+    const iso_effects effects = iso_scene_acting(w->scene);
+    iso_on_level on;
     if (o->period < 1 || o->period > ISO_PERIODIC_MOST)
         return ISO_FAIL_ARGUMENT(w->ctx, "period", "a period of %d: give 1 to %d", o->period, ISO_PERIODIC_MOST);
     if (o->grid < 1 || o->grid > 10000000)
         return ISO_FAIL_ARGUMENT(w->ctx, "grid", "a grid of %ld points: give 1 to 1e7", o->grid);
     if (!iso_return_code_of(o->polish))
         return ISO_FAIL_ARGUMENT(w->ctx, "polish", "this build has no numbers of 128 bits");
-    return ISO_OK;
-}
-
-/* Beyond these bounds orbits pass so near to unstable rotations that no digits are left. */
-static iso_status check_numbers(const iso_periodic_work *w)
-{
-    const double k = w->scene->params.k, *J = w->scene->params.J, ratio = max3(J) / min3(J) / fabs(k);
+    ISO_TRY(iso_refuse_beyond_level(w->ctx, &effects, what));
     if (fabs(k) < ISO_LEAST_K)
         return ISO_FAIL_INPUT(w->ctx, "k", "k = %s: periodic orbits are sought only for |k| >= %s", ISO_SHORT(k),
                               ISO_SHORT(ISO_LEAST_K));
-    if (ratio <= 1e5) return ISO_OK;
-    return ISO_FAIL_INPUT(
-        w->ctx, "J", "max J/(min J |k|) is %.3g: periodic orbits are sought only where it is 1e5 at most", ratio);
-}
-
-static iso_status check_scene(iso_periodic_work *w)
-{
-    static const char what[] = "periodic orbits are sought";
-    const iso_effects effects = iso_scene_acting(w->scene);
-    iso_on_level on;
-    ISO_TRY(iso_refuse_beyond_level(w->ctx, &effects, what));
-    ISO_TRY(check_numbers(w));
-    ISO_TRY(iso_refuse_equal_moments(w->ctx, w->scene->params.J, "no periodic orbit is isolated"));
+    if (!(ratio <= 1e5)) /* beyond, orbits pass so near to unstable rotations that no digits are left */
+        return ISO_FAIL_INPUT(
+            w->ctx, "J", "max J/(min J |k|) is %.3g: periodic orbits are sought only where it is 1e5 at most", ratio);
+    ISO_TRY(iso_refuse_equal_moments(w->ctx, J, "no periodic orbit is isolated"));
     ISO_TRY(iso_refuse_rest(w->ctx, &w->scene->start, &effects, "has no periodic orbits of its energy"));
     ISO_TRY(iso_level_find(w->ctx, w->scene, what, &on));
     w->units = on.units, w->h = on.h, w->energy = on.energy, w->H = on.H;
@@ -75,7 +64,6 @@ static int by_period(const void *a, const void *b)
 
 static iso_status work(iso_periodic_work *w)
 {
-    ISO_TRY(check_options(w));
     ISO_TRY(check_scene(w));
     iso_periodic_map_prepare(w->ctx, &w->units.own, w->energy, w->options.threads, &w->map);
     w->out->axis = w->map.axis;

@@ -58,13 +58,13 @@ iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const do
 iso_status iso_periodic_enter_many(const iso_periodic_map *map, iso_return_start start, size_t count,
                                    const double u[], double (*to)[2]);
 
-/* A way in more digits: its end, the derivative, and the clocks that pass. */
+/* A piece of an orbit in more digits: its end, the derivative, and the clocks that pass. */
 typedef struct iso_periodic_fine {
     iso_wide to[2], slope[2][2], clock[ISO_CLOCKS];
     iso_wide determinant; /* of slope: the product of those of the returns, which do not cancel */
 } iso_periodic_fine;
 
-/* The way `first`, and then `next`, which begins at its end. *both is neither of them. */
+/* The piece `first`, and then `next`, which begins at its end. *both is neither of them. */
 void iso_periodic_join(const iso_periodic_fine *first, const iso_periodic_fine *next, iso_periodic_fine *both);
 
 /* g^halves of a point. path[n - 1] = g^n of it, n = 1 to halves; NULL: not asked. False: it failed. */
@@ -130,8 +130,8 @@ typedef struct iso_periodic_shot {
     iso_wide trace;   /* of the whole orbit, if miss is 0 */
     double terms;     /* the trace is a sum of terms of this size: so large are its rounding errors */
     iso_wide clock[ISO_CLOCKS];
-    iso_periodic_fine way; /* g^period of z */
-    iso_wide back[2][2];   /* the derivative of g^period there, along the mirror image, which leads back to z */
+    iso_periodic_fine half; /* g^period of z */
+    iso_wide back[2][2];    /* the derivative of g^period there, along the mirror image, which leads back to z */
     double path[ISO_PERIODIC_MOST][2]; /* g z ... g^period z */
 } iso_periodic_shot;
 bool iso_periodic_shoot(const iso_periodic_map *map, const iso_return_code *code, int line, iso_wide u, int period,

@@ -172,17 +172,17 @@ static bool shoot_from_section(const iso_periodic_map *map, const iso_return_cod
     const bool flat = line == LINE_X;
     s->z[0] = flat ? s->u : line == LINE_0 ? 0 : WIDE_PI / 2;
     s->z[1] = flat ? 0 : WIDE_SIN(s->u);
-    if (!(WIDE_ABS(s->z[1]) < 1) || !iso_periodic_far(map, code, s->z, period, s->path, &s->way)) return false;
-    const iso_wide stretch = flat ? 1 : WIDE_COS(s->u), law = iso_periodic_determinant(map, s->z[0], s->way.to[0]);
+    if (!(WIDE_ABS(s->z[1]) < 1) || !iso_periodic_far(map, code, s->z, period, s->path, &s->half)) return false;
+    const iso_wide stretch = flat ? 1 : WIDE_COS(s->u), law = iso_periodic_determinant(map, s->z[0], s->half.to[0]);
     iso_wide A[2][2];
     for (int i = 0; i < 2; i++) {
-        A[i][0] = s->way.slope[i][flat ? 0 : 1] * stretch;
-        A[i][1] = s->way.slope[i][flat ? 1 : 0];
+        A[i][0] = s->half.slope[i][flat ? 0 : 1] * stretch;
+        A[i][1] = s->half.slope[i][flat ? 1 : 0];
     }
-    arrive(line, &(arrival){s->way.to, s->way.to, A, A, flat ? law : -law * stretch}, s);
+    arrive(line, &(arrival){s->half.to, s->half.to, A, A, flat ? law : -law * stretch}, s);
     const iso_wide E[2][2] = {{flat ? 1 : -1, 0}, {0, flat ? -1 : 1}};
-    find_back(line, E, (const iso_wide(*)[2])s->way.slope, s);
-    memcpy(s->clock, s->way.clock, sizeof s->clock);
+    find_back(line, E, (const iso_wide(*)[2])s->half.slope, s);
+    memcpy(s->clock, s->half.clock, sizeof s->clock);
     return true;
 }
 
@@ -199,7 +199,7 @@ static bool shoot_from_half_way(const iso_periodic_map *map, const iso_return_co
     iso_wide_multiply((const iso_wide(*)[2])before.slope, (const iso_wide(*)[2])in.slope, A);
     iso_wide_multiply((const iso_wide(*)[2])last.slope, (const iso_wide(*)[2])A, B);
     arrive(line, &(arrival){before.to, last.to, A, B, before.determinant * in.determinant}, s);
-    iso_periodic_join(&before, &last, &s->way);
+    iso_periodic_join(&before, &last, &s->half);
     /* D(g S) at z turns over c, and leaves u as it is */
     const iso_wide turned[2][2] = {{in.slope[0][0], -in.slope[0][1]}, {in.slope[1][0], -in.slope[1][1]}};
     invert((const iso_wide(*)[2])in.slope, from_u);

@@ -101,7 +101,7 @@ static iso_status go(points *p, size_t count, double tolerance)
     return iso_walk_go(&w);
 }
 
-/* *to: the way to *first, and then *next, which begins there. */
+/* *to: the piece to *first, and then to *next, which begins there. */
 static void join_points(const iso_periodic_point *first, const iso_periodic_point *next, iso_periodic_point *to)
 {
     to->l = next->l, to->x = next->x;
@@ -224,18 +224,18 @@ void iso_periodic_join(const iso_periodic_fine *first, const iso_periodic_fine *
 
 /* Goes on by one return. */
 static bool go_on(const iso_periodic_map *map, const iso_return_code *code, iso_return_start start,
-                  iso_periodic_fine *way)
+                  iso_periodic_fine *orbit)
 {
-    iso_return r = {.start = start, .from = {iso_fine_of(way->to[0]), iso_fine_of(way->to[1])}};
+    iso_return r = {.start = start, .from = {iso_fine_of(orbit->to[0]), iso_fine_of(orbit->to[1])}};
     if (!go_once(map, code, &r)) return false;
-    const iso_periodic_fine before = *way;
+    const iso_periodic_fine before = *orbit;
     iso_periodic_fine next = {.determinant = determinant_of(&r)};
     for (int i = 0; i < 2; i++) {
         next.to[i] = iso_wide_of(r.to[i]);
         for (int j = 0; j < 2; j++) next.slope[i][j] = iso_wide_of(r.slope[i][j]);
     }
     for (int c = 0; c < ISO_CLOCKS; c++) next.clock[c] = iso_wide_of(r.clock[c]);
-    iso_periodic_join(&before, &next, way);
+    iso_periodic_join(&before, &next, orbit);
     return true;
 }
 

@@ -26,7 +26,7 @@ double iso_periodic_angle(double l)
     return l <= -ISO_PI ? l + 2 * ISO_PI : l;
 }
 
-/* Whether two points of the section are the same, up to what tells orbits apart. */
+/* Whether two points of the section are the same, up to what distinguishes orbits. */
 static bool meet(const double a[2], const double b[2])
 {
     return fabs(remainder(a[0] - b[0], 2 * ISO_PI)) < SAME && fabs(a[1] - b[1]) < SAME;
@@ -221,7 +221,7 @@ void iso_periodic_digits(double head, double tail, char text[ISO_DIGITS_SIZE])
 
 ISO_NAMES(iso_symmetry_line_name, int, "S1", "S2", "S3", "TS1", "TS2", "TS3")
 
-int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE])
+int iso_symmetry_text(int symmetry, char text[ISO_DIGITS_SIZE])
 {
     int length = 0;
     text[0] = 0;

@@ -1,4 +1,4 @@
-/* periodic_print.c - what periodic tells people: of the list, of branches, of the chart (study/study.h). */
+/* periodic_print.c - the text of periodic: the list, branches, the chart (study/study.h). */
 #include <math.h>
 #include <stdlib.h>
 
@@ -33,7 +33,7 @@ static void print_rotations(FILE *to, const iso_periodic *found, bool polish)
             continue;
         }
         fprintf(to, "%d\t%s\t%.1e\t%s\t", a + 1, polish ? text : ISO_ROUNDED(o->half_turn_trace, 15), o->error,
-                iso_stability_name(o->half.stability));
+                iso_stability_name((int)o->half.stability));
         print_multipliers(to, &o->half);
         fputs("\n", to);
     }
@@ -43,18 +43,18 @@ static void print_rotations(FILE *to, const iso_periodic *found, bool polish)
 static void print_orbit(FILE *to, const iso_periodic *found, bool polish, size_t i)
 {
     const iso_periodic_orbit *o = &found->orbit[i];
-    char words[ISO_DIGITS_SIZE], l[ISO_DIGITS_SIZE], x[ISO_DIGITS_SIZE], trace[ISO_DIGITS_SIZE];
-    iso_symmetry_words(o->symmetry, words);
+    char symmetry[ISO_DIGITS_SIZE], l[ISO_DIGITS_SIZE], x[ISO_DIGITS_SIZE], trace[ISO_DIGITS_SIZE];
+    iso_symmetry_text(o->symmetry, symmetry);
     if (!polish) {
         fprintf(to, "%zu\t%d\t%.15f\t%.15f\t%.11g\t%.0e\t%s\t%s\t%d\t%.9g\n", i + 1, o->period, o->l, o->x, o->trace,
-                o->error, iso_stability_name(o->multipliers.stability), words, o->copies, o->clock[0]);
+                o->error, iso_stability_name((int)o->multipliers.stability), symmetry, o->copies, o->clock[0]);
         return;
     }
     iso_periodic_digits(o->l, o->l_tail, l);
     iso_periodic_digits(o->x, o->x_tail, x);
     iso_periodic_digits(o->trace, o->trace_tail, trace);
     fprintf(to, "%zu\t%d\t%s\t%s\t%s\t%.0e\t%.0e\t%s\t%s\n", i + 1, o->period, l, x, trace, o->error, o->closure,
-            iso_stability_name(o->multipliers.stability), words);
+            iso_stability_name((int)o->multipliers.stability), symmetry);
 }
 
 static void print_list(FILE *to, const iso_params *p, const iso_periodic_options *how, const iso_periodic *f)
@@ -103,8 +103,8 @@ static void print_branches(FILE *to, const iso_continuations *f)
         iso_table_begin(to, 1);
         fprintf(to, "event\t%s\tl\tx\ttrace\twhat happens\n", name);
         for (const iso_branch_event *e = b->event; e < b->event + b->events; e++)
-            fprintf(to, "%s\t%.13g\t%.9g\t%.9g\t%.8g\t%s\n", iso_branch_kind_name(e->kind), e->at.value, e->at.l,
-                    e->at.x, e->at.trace, e->words);
+            fprintf(to, "%s\t%.13g\t%.9g\t%.9g\t%.8g\t%s\n", iso_branch_kind_name((int)e->kind), e->at.value, e->at.l,
+                    e->at.x, e->at.trace, e->text);
         iso_table_end(to);
     }
 }

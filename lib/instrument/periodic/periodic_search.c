@@ -1,6 +1,6 @@
 /* periodic_search.c - symmetric periodic orbits: roots along the symmetry lines; orbits of any kind: from a grid.
  *
- * u runs along a line, and F_n(u) tells how far the orbit is from the same line n half returns later. F_n is sampled
+ * u runs along a line, and F_n(u) is how far the orbit is from the same line n half returns later. F_n is sampled
  * with its derivative, closer and closer until between two samples each F_n either has no zero or is monotone. A sign
  * change then holds one zero, a point of an orbit of period n or a divisor of it.
  */
@@ -124,7 +124,7 @@ static bool alike(double a, double b)
     return ratio > 1.0 / 3 && ratio < 3;
 }
 
-/* Whether F_n has at most one zero in the interval, as far as its ends can tell. */
+/* Whether F_n has at most one zero in the interval, as far as its ends show. */
 static bool is_clear(const sample *a, const sample *b, int n)
 {
     const double h = b->u - a->u, F[2] = {a->F[n].off, b->F[n].off}, D[2] = {a->F[n].slope, b->F[n].slope};

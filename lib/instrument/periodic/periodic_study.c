@@ -23,7 +23,7 @@ static iso_status prepare(iso_context *ctx, void *options)
     const iso_periodic_options *how = &r->how, usual = iso_periodic_defaults();
     const struct {
         bool is;
-        const char *about, *words;
+        const char *about, *text;
     } wrong[] = {
         {r->chart && r->follow, "chart", "--chart or --follow, not both"},
         {(r->orbit > 0 || r->branches) && !r->follow, "follow", "--orbit and --branches go with --follow"},
@@ -38,7 +38,7 @@ static iso_status prepare(iso_context *ctx, void *options)
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         if (wrong[i].is)
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, wrong[i].about, "periodic: %s", wrong[i].words);
+            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, wrong[i].about, "periodic: %s", wrong[i].text);
     return ISO_OK;
 }
 

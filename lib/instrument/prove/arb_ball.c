@@ -107,7 +107,7 @@ static iso_status run(attempt *a, int digits, bool *reached)
 
 /* --- as many as it takes ---------------------------------------------------------------------------------------- */
 
-static void keep(const attempt *a, prove_found *found)
+static void store(const attempt *a, prove_found *found)
 {
     arb_set(found->x, a->crossing.x), arb_set(found->m, a->crossing.m);
     arb_mul(found->multiplier, a->local.lambda, a->local.lambda, a->flow.bits);
@@ -145,7 +145,7 @@ iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, i
         status = run(&a, digits + spare, &reached);
         const int lacks = reached ? missing(a.crossing.m, digits) : MORE;
         if (status == ISO_OK && (reached && (lacks == 0 || !thin)))
-            keep(&a, found);
+            store(&a, found);
         else if (status == ISO_OK)
             status = ISO_FAIL_NUMERICAL(ctx, "m could not be enclosed to %d digits", digits);
         spare += lacks + MORE / 2;

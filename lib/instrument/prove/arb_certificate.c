@@ -25,7 +25,7 @@ static void add(prove_certificate *c, const char *text)
     c->length += length;
 }
 
-void prove_certificate_words(prove_certificate *c, const char *format, ...)
+void prove_certificate_text(prove_certificate *c, const char *format, ...)
 {
     char line[512];
     if (!c) return;

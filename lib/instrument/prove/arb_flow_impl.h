@@ -38,8 +38,8 @@ typedef struct prove_certificate {
     bool lost; /* there was no memory for all of it */
 } prove_certificate;
 
-/* A line of words, as printf makes it. c NULL: nothing is done, here and below. */
-void prove_certificate_words(prove_certificate *c, const char *format, ...)
+/* A line of text, as printf makes it. c NULL: nothing is done, here and below. */
+void prove_certificate_text(prove_certificate *c, const char *format, ...)
 #if defined(__GNUC__)
     __attribute__((format(printf, 2, 3)))
 #endif

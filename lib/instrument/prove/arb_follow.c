@@ -133,9 +133,9 @@ static iso_status enclose(prove_flow *f, prove_flow *thin, prove_part part, cons
     arb_ptr box = _arb_vec_init(2);
     place(f, p, p->hull, box);
     for (int i = 0; i < 2; i++) prove_widen(f, PROVE_EIGHTH, box + i);
-    prove_certificate_words(f->certificate, "half set");
+    prove_certificate_text(f->certificate, "half set");
     iso_status status = prove_half_return(f, part, box, box + 1, has_drift(f) ? PROVE_STATE : PROVE_PAIR, all);
-    prove_certificate_words(f->certificate, "half centre");
+    prove_certificate_text(f->certificate, "half centre");
     if (status == ISO_OK) status = prove_half_return(thin, part, p->centre, p->centre + 1, PROVE_POINT, one);
     if (status == ISO_OK && !arb_contains(all->window, one->time))
         status = ISO_FAIL_NUMERICAL(f->ctx, "the centre of a set was followed to another crossing");

@@ -58,7 +58,7 @@ static iso_status enclose(prove_flow *f, arb_struct z[2], arb_struct D[4])
     iso_balls_init(&half, sizeof half);
     arb_one(D), arb_zero(D + 1), arb_zero(D + 2), arb_one(D + 3);
     for (int i = 0; i < f->parts && status == ISO_OK; i++) {
-        prove_certificate_words(f->certificate, "half cone");
+        prove_certificate_text(f->certificate, "half cone");
         status = prove_half_return(f, (prove_part){i, f->parts}, z, z + 1, PROVE_PAIR, &half);
         prove_apply(half.D, z, NULL, f->bits, z);
         prove_multiply(half.D, D, f->bits, D);
@@ -93,11 +93,11 @@ iso_status prove_local_foresee(const prove_flow *f, const prove_local *o)
     enum { TIMES = 8 }; /* of the search, a set and its centre; measured: 13 */
     arb_ptr size = _arb_vec_init(2), growth = size + 1;
     arb_log(size, o->size, f->bits), arb_log(growth, o->lambda, f->bits);
-    const double way = -arf_get_d(arb_midref(size), ARF_RND_NEAR) / arf_get_d(arb_midref(growth), ARF_RND_NEAR);
+    const double halves = -arf_get_d(arb_midref(size), ARF_RND_NEAR) / arf_get_d(arb_midref(growth), ARF_RND_NEAR);
     _arb_vec_clear(size, 2);
-    if (TIMES * way < (double)(f->work->most - f->work->begun)) return ISO_OK;
+    if (TIMES * halves < (double)(f->work->most - f->work->begun)) return ISO_OK;
     return ISO_FAIL_NUMERICAL(f->ctx, "it takes about %.2g half returns, more than the %ld of --half-returns",
-                              TIMES * way, f->work->most);
+                              TIMES * halves, f->work->most);
 }
 
 /* --- the cone condition ----------------------------------------------------------------------------------------- */

@@ -33,7 +33,7 @@ void prove_multiply(const arb_struct M[4], const arb_struct N[4], slong bits, ar
 /* O and its frame. Errors: those of prove_half_return; ISO_NUMERICAL: O is not hyperbolic in these digits. */
 iso_status prove_local_begin(prove_flow *f, prove_local *o);
 
-/* Refuses a way that f->work does not allow, before it is gone: from |xi| = size to l = 1, about. */
+/* Refuses more half returns than f->work allows before they are made: from |xi| = size to l = 1, about. */
 iso_status prove_local_foresee(const prove_flow *f, const prove_local *o);
 
 /* The cone condition on |xi|, |eta| <= size. */

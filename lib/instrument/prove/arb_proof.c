@@ -1,4 +1,4 @@
-/* arb_proof.c - one proof in words and numbers that need no Arb (prove_impl.h). */
+/* arb_proof.c - one proof as text and numbers that need no Arb (prove_impl.h). */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -115,20 +115,20 @@ static char *write_certificate(const iso_proof *p, const prove_ball *b, const pr
     const int a = 3 - b->middle - b->section, order[3] = {a, b->middle, b->section};
     for (int i = 0; i < 2; i++) iso_rational_print(text[i], &p->ball.k[i]);
     for (int i = 0; i < 3; i++) iso_rational_print(text[2 + i], &p->ball.J[order[i]]);
-    prove_certificate_words(&all, "isoroll certificate 1");
-    prove_certificate_words(&all, "k %s %s", text[0], text[1]);
+    prove_certificate_text(&all, "isoroll certificate 1");
+    prove_certificate_text(&all, "k %s %s", text[0], text[1]);
     if (found->parts > 1) {
         prove_certificate_line(&all, "middle", 1, found->middle);
-        prove_certificate_words(&all, "parts %d", found->parts);
+        prove_certificate_text(&all, "parts %d", found->parts);
     }
-    prove_certificate_words(&all, "moments %s %s %s", text[2], text[3], text[4]);
-    prove_certificate_words(&all, "section %d", b->section + 1);
-    prove_certificate_words(&all, "digits %d", p->digits);
+    prove_certificate_text(&all, "moments %s %s %s", text[2], text[3], text[4]);
+    prove_certificate_text(&all, "section %d", b->section + 1);
+    prove_certificate_text(&all, "digits %d", p->digits);
     prove_certificate_line(&all, "m", 1, found->m);
     prove_certificate_line(&all, "x", 1, found->x);
-    prove_certificate_words(&all, "sign %s", p->sign > 0 ? "positive" : p->sign < 0 ? "negative" : "undecided");
+    prove_certificate_text(&all, "sign %s", p->sign > 0 ? "positive" : p->sign < 0 ? "negative" : "undecided");
     prove_certificate_append(&all, body);
-    prove_certificate_words(&all, "end");
+    prove_certificate_text(&all, "end");
     if (all.lost) free(all.text), all.text = NULL;
     return all.text;
 }

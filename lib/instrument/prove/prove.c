@@ -24,7 +24,7 @@ static iso_status prepare(iso_context *ctx, void *options)
     return ISO_FAIL_ARGUMENT(ctx, "", "--digits %d: expected a whole number from 1 to %d", r->digits, MOST_DIGITS);
 }
 
-/* One double of the scene as the number that was written. */
+/* One double of the scene as the number in its text. */
 static iso_status read_exactly(iso_context *ctx, const iso_scene *scene, const char *key, double x, iso_rational *r)
 {
     if (scene->params.body.surface != ISO_REDUCED)
@@ -202,7 +202,7 @@ static iso_status find_interval(work *w, const iso_proof_ball *ball)
 static iso_status find_one(work *w, const iso_proof_ball *ball)
 {
     iso_proof proof = {.digits = 0};
-    char *text = NULL, why[3 * ISO_PROOF_WORDS], expected[ISO_PROOF_WORDS] = "";
+    char *text = NULL, why[3 * ISO_PROOF_TEXT], expected[ISO_PROOF_TEXT] = "";
     plan p;
     int failed;
     ISO_TRY(make_plan(w->ctx, ball, w->request, &p));

@@ -92,7 +92,7 @@ static void begin(double k, double level, iso_separatrix_splitting *s)
         s->next_m = NAN;
 }
 
-/* With 128 bits, where they are asked for or needed. If they fail where only needed, what 64 bits tell stays. */
+/* With 128 bits, where they are asked for or needed. If they fail where only needed, what 64 bits found stays. */
 static iso_status find_finer(iso_manifold *m, iso_manifold_crossing *c, iso_separatrix_digits digits,
                              iso_separatrix_splitting *s)
 {
@@ -106,7 +106,7 @@ static iso_status find_finer(iso_manifold *m, iso_manifold_crossing *c, iso_sepa
     if (status == ISO_OK) status = iso_manifold_solve(m);
     if (status == ISO_OK) status = compute(m, &with_106_bits, c, s);
     if (status != ISO_NUMERICAL || digits == ISO_SEPARATRIX_QUAD) return status;
-    snprintf(s->words, sizeof s->words, "128 bits failed: %s", iso_context_message(m->ctx));
+    snprintf(s->text, sizeof s->text, "128 bits failed: %s", iso_context_message(m->ctx));
     *m = kept;
     *c = found;
     return ISO_OK;
@@ -144,7 +144,7 @@ iso_status iso_separatrix_next_at(iso_context *ctx, double k, const double J[3],
     if (status == ISO_OK) return ISO_OK;
     begin(k, level, s);
     s->status = status;
-    snprintf(s->words, sizeof s->words, "%s", iso_context_message(ctx));
+    snprintf(s->text, sizeof s->text, "%s", iso_context_message(ctx));
     return status;
 }
 

@@ -43,14 +43,14 @@ const iso_field iso_separatrix_fields[] = {
     FIELD("global.axis", section, "", "axis of the global section", .there = is_found, .how = AXIS),
     MORE("global.x", section_x, "", "x there"),
     MORE("global.m", section_m, "", "m there"),
-    MORE("words", words, "", "why 128 bits failed where 64 did not"),
+    MORE("words", text, "", "why 128 bits failed where 64 did not"),
     ZERO("k_error", k_error, "", "error of k, at a zero of m"),
     ZERO("level_error", level_error, "", "error of the level, at a zero of m"),
     FIELD("next.axis", section, "", "axis of the section of the next point", .there = is_zero, .how = AXIS),
     ZERO("next.l", next_l, "rad", "the next point where the manifolds meet"),
     ZERO("next.x", next_x, "", "its other coordinate"),
     ZERO("next.m", next_m, "", "half the difference of the slopes there"),
-    FIELD("failed", words, "", "why there is nothing", .there = is_lost, .how = ISO_OPTIONAL | ISO_IN_TREE),
+    FIELD("failed", text, "", "why there is nothing", .there = is_lost, .how = ISO_OPTIONAL | ISO_IN_TREE),
     ISO_FIELD_END,
 };
 #undef FIELD

@@ -39,7 +39,7 @@ static iso_status map_half(const iso_manifold *m, const iso_wide z[2], iso_wide 
 
 /* lambda must be 1.01 or more, that of a whole return 1.02: with smaller ones the crossing is very many half returns
  * away. m is estimated at exp(-2 pi^2/ln lambda^2), which is 2e-429 at this bound: 1e-427 or less. No bound of m is
- * computed then, so none is told. */
+ * computed then, so none is stated. */
 static iso_status check_trace(const iso_manifold *m, double trace)
 {
     const double apart = trace - 2; /* (lambda - 1)^2/lambda */

@@ -1,4 +1,4 @@
-/* separatrix_print.c - what splitting tells people (study/study.h). */
+/* separatrix_print.c - the text of splitting (study/study.h). */
 #include <math.h>
 
 #include "base/number_impl.h"
@@ -30,7 +30,7 @@ static void print_row(FILE *to, const iso_separatrix_splitting *s, bool by_level
     const double at = by_level ? s->level : s->k;
     if (s->status == ISO_STOPPED) return;
     if (s->status != ISO_OK) {
-        fprintf(to, "%.15g\t%s\n", at, s->words);
+        fprintf(to, "%.15g\t%s\n", at, s->text);
         return;
     }
     const int digits = (int)fmax(1, fmin(16, ceil(log10(fabs(s->m) / s->error)))); /* of the slope, until its error */
@@ -42,7 +42,7 @@ static void print_row(FILE *to, const iso_separatrix_splitting *s, bool by_level
     else /* 1.05: rounding of the bound to two digits must not make it smaller */
         fprintf(to, "0\t%.1e\t%d\tnot distinguishable from 0: below %.1e\n", s->error, s->digits,
                 1.05 * (fabs(s->m) + s->error));
-    if (s->words[0]) fprintf(to, "\t%s\n", s->words);
+    if (s->text[0]) fprintf(to, "\t%s\n", s->text);
 }
 
 static void print_zero(FILE *to, const iso_separatrix_splitting *s, bool by_level)

@@ -17,13 +17,13 @@ typedef struct bracket {
     double other; /* the number in which they agree */
     double at[2], r[2];
     double width; /* of at */
-    bool fine;    /* 64 bits do not tell these m from 0 */
+    bool fine;    /* 64 bits do not distinguish these m from 0 */
 } bracket;
 
 typedef struct scan {
     const iso_separatrix_options *o;
     iso_separatrix_table *s;
-    double level; /* where the options give none */
+    double level; /* where the options have none */
     const bracket *bracket;
     atomic_size_t done;
 } scan;
@@ -210,7 +210,7 @@ iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *op
             found->row[i] = (iso_separatrix_splitting){.k = o.k[i],
                                                        .level = level_of(&c, i),
                                                        .status = ISO_STOPPED,
-                                                       .words = "not computed",
+                                                       .text = "not computed",
                                                        .m = NAN,
                                                        .x = NAN};
         status = run_pool(ctx, &c, o.count, solve_rows);

@@ -136,11 +136,11 @@ static iso_status find(iso_context *ctx, const iso_scene *scene, const iso_separ
     for (size_t i = s->rows; i-- > 0;)
         if (s->row[i].status != ISO_OK && s->row[i].status != ISO_STOPPED) failed++, first = i;
     if (status == ISO_OK && made == ISO_OK && failed == s->rows)
-        return iso_context_fail(ctx, s->row[first].status, "", "%s", s->row[first].words);
+        return iso_context_fail(ctx, s->row[first].status, "", "%s", s->row[first].text);
     result->failed = failed > 0;
     if (failed > 0)
         iso_study_note(result, "%zu of %zu values of %s failed: %s", failed, s->rows,
-                       iso_separatrix_by_level(s) ? "the level" : "k", s->row[first].words);
+                       iso_separatrix_by_level(s) ? "the level" : "k", s->row[first].text);
     if (s->lost > 0) iso_study_note(result, "%zu zeros of m lie between these values, but were not found", s->lost);
     return status == ISO_OK ? made : status;
 }
