@@ -70,27 +70,19 @@ static void read_line(reader *r)
     if (strncmp(line, "# digits: ", 10) == 0) r->digits = atoi(line + 10);
 }
 
-/* Which column has a name; -1: none. */
-static int find_column(const reader *r, const char *name)
-{
-    const size_t length = strlen(name);
-    const char *at = r->line;
-    for (int i = 0; *at; i++) {
-        const size_t here = strcspn(at, ",");
-        if (here == length && strncmp(at, name, length) == 0) return i;
-        at += here + (at[here] == ',');
-    }
-    return -1;
-}
-
 static bool find_columns(reader *r)
 {
+    enum { NAMES = ISO_CLOCKS + CERTIFY_STATE };
+    const int first = r->from == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT;
     bool all = true;
-    for (int c = 0; c < ISO_CLOCKS; c++) r->at[c] = find_column(r, iso_column_name(c));
-    for (int i = 0; i < CERTIFY_STATE; i++)
-        r->at[ISO_CLOCKS + i] =
-            find_column(r, iso_column_name((r->from == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT) + i));
-    for (int i = 0; i < ISO_CLOCKS + CERTIFY_STATE; i++) all = all && r->at[i] >= 0;
+    for (int i = 0; i < NAMES; i++) {
+        const char *name = iso_column_name(i < ISO_CLOCKS ? i : first + i - ISO_CLOCKS), *at = r->line;
+        size_t length = strcspn(at, ",");
+        r->at[i] = 0;
+        while (at[length] && !(length == strlen(name) && strncmp(at, name, length) == 0))
+            at += length + 1, length = strcspn(at, ","), r->at[i]++;
+        all = all && length == strlen(name) && strncmp(at, name, length) == 0;
+    }
     r->columns = 1;
     for (const char *at = r->line; *at; at++) r->columns += *at == ',';
     return all;

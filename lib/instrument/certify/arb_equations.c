@@ -17,7 +17,7 @@ typedef struct writer {
     iso_tape *f;
     const certify_ball *b;
     int vector[3], unit[3], clock[CERTIFY_CLOCKS];         /* states */
-    int vector_rate[3], unit_rate[3], rate_of[ISO_CLOCKS]; /* rates; -1: of its own clock */
+    int vector_rate[3], unit_rate[3], rate_of[ISO_CLOCKS]; /* rates, but that of its own clock */
 } writer;
 
 /* c += factor x, factor: a node */
@@ -65,7 +65,6 @@ static void write_ball(writer *w)
     for (int i = 0; i < 3; i++) w->unit_rate[i] = iso_tape_scaled(w->f, b->k, turn[i]);
     w->rate_of[ISO_CLOCK_TAU] = iso_tape_quotient(f, P, g);
     w->rate_of[ISO_CLOCK_S] = number_over(w, b->kappa, g_P);
-    w->rate_of[ISO_CLOCK_T] = -1;
     arb_clear(minus);
 }
 
@@ -107,26 +106,7 @@ static void write_point(writer *w)
     arb_inv(x, b->kappa, b->bits);
     w->rate_of[ISO_CLOCK_T] = number_over(w, x, q_Q);
     w->rate_of[ISO_CLOCK_TAU] = number_over(w, x, iso_tape_product(f, Q, Q));
-    w->rate_of[ISO_CLOCK_S] = -1;
     arb_clear(x);
-}
-
-/* From the rates by its own clock to those by another one: 1/pace of that. */
-static void change_clock(writer *w, iso_clock own, iso_clock clock)
-{
-    iso_tape *f = w->f;
-    arb_t one;
-    arb_init(one);
-    arb_one(one);
-    const int pace = number_over(w, one, w->rate_of[clock]);
-    for (int i = 0; i < 3; i++) {
-        w->vector_rate[i] = iso_tape_product(f, w->vector_rate[i], pace);
-        w->unit_rate[i] = iso_tape_product(f, w->unit_rate[i], pace);
-    }
-    w->rate_of[ISO_CLOCK_TAU] = iso_tape_product(f, w->rate_of[ISO_CLOCK_TAU], pace);
-    w->rate_of[own] = pace;
-    w->rate_of[clock] = -1;
-    arb_clear(one);
 }
 
 void certify_equations(const certify_ball *b, iso_model_kind model, iso_clock clock, iso_tape *f)
@@ -141,7 +121,18 @@ void certify_equations(const certify_ball *b, iso_model_kind model, iso_clock cl
         write_ball(&w);
     else
         write_point(&w);
-    if (clock != own) change_clock(&w, own, clock);
+    if (clock != own) { /* 1/pace of that clock, and its own clock has the pace */
+        arb_t one;
+        arb_init(one);
+        arb_one(one);
+        const int pace = number_over(&w, one, w.rate_of[clock]);
+        for (int i = 0; i < 3; i++)
+            w.vector_rate[i] = iso_tape_product(f, w.vector_rate[i], pace),
+            w.unit_rate[i] = iso_tape_product(f, w.unit_rate[i], pace);
+        w.rate_of[ISO_CLOCK_TAU] = iso_tape_product(f, w.rate_of[ISO_CLOCK_TAU], pace);
+        w.rate_of[own] = pace;
+        arb_clear(one);
+    }
     for (int i = 0; i < 3; i++) iso_tape_rate(f, w.vector[i], w.vector_rate[i]);
     for (int i = 0; i < 3; i++) iso_tape_rate(f, w.unit[i], w.unit_rate[i]);
     int i = 0;

@@ -28,7 +28,7 @@ typedef struct search {
     const iso_integral *known[ISO_INTEGRAL_KNOWN];
 } search;
 
-ISO_NAMES(iso_integral_verdict_name, iso_integral_verdict, "none", "found", "undecided")
+ISO_NAMES(iso_integral_verdict_name, int, "none", "found", "undecided")
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
 

@@ -96,10 +96,20 @@ static iso_branch_kind doubles(const iso_continuation_point *a, const iso_contin
     return apart < SAME_PLACE && !passes ? ISO_BRANCH_TOUCH : ISO_BRANCH_UNDECIDED;
 }
 
+/* Whether F of half the period is 0 as well. */
+static bool has_half_period(const iso_continuation *f, const iso_continuation_point *at)
+{
+    iso_continuation half = *f;
+    iso_continuation_point there;
+    half.period = f->period / 2;
+    return f->period % 2 == 0 && iso_continuation_evaluate(&half, at->u, at->v, false, &there) &&
+           fabs(there.off) < 1e-4;
+}
+
 /* What happens at a zero of a test, and at which value of the parameter.
  *
- * Where the curve turns without a fold it meets another one: there this orbit branches off from one of half the period (F
- * of this period is 0 as well) or of more symmetry. At a touch the derivative of the return map is -1: half of the orbit,
+ * Where the curve turns without a fold it meets another one: there this orbit branches off from one of half the period
+ * or of more symmetry. At a touch the derivative of the return map is -1: half of the orbit,
  * up to its symmetry, has the multipliers i and -i, and orbits of four such halves may branch off. */
 static void classify(const iso_continuation *f, const iso_continuation_point *a, const iso_continuation_point *to,
                      int test, double ds, iso_continuation_point *at, iso_branch_event *e)
@@ -111,11 +121,7 @@ static void classify(const iso_continuation *f, const iso_continuation_point *a,
     const char *vary = iso_vary_name((int)f->options.vary);
     const bool equal = are_equal(f, &at->value, J), turns = test == TEST_FOLD && a->tangent[1] * to->tangent[1] < 0;
     if (test == TEST_TURN) {
-        iso_continuation half = *f;
-        iso_continuation_point there;
-        half.period = f->period / 2;
-        const bool doubled = f->period % 2 == 0 && iso_continuation_evaluate(&half, at->u, at->v, false, &there) &&
-                             fabs(there.off) < 1e-4;
+        const bool doubled = has_half_period(f, at);
         e->joins = true;
         e->kind = doubled ? ISO_BRANCH_DOUBLING : ISO_BRANCH_BREAKING;
         snprintf(text, size, "it branches off there from an orbit of %s at %s = %.12g",

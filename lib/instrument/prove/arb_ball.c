@@ -93,18 +93,6 @@ static iso_status follow(attempt *a, bool *reached)
     return status;
 }
 
-static iso_status run(attempt *a, int digits, bool *reached)
-{
-    set_power(a->local.size, -(digits - 1) / 3.0);
-    set_power(a->width, -(digits - 4));
-    iso_status status = prove_local_begin(&a->flow, &a->local);
-    if (status == ISO_OK) status = prove_local_foresee(&a->flow, &a->local);
-    if (status == ISO_OK) status = prove_local_bound(&a->flow, &a->local);
-    if (status == ISO_OK) status = prove_search(&a->thin, &a->local, a->flow.parts > 1, &a->start);
-    if (status == ISO_OK) status = follow(a, reached);
-    return status;
-}
-
 /* --- as many as it takes ---------------------------------------------------------------------------------------- */
 
 static void store(const attempt *a, prove_found *found)
@@ -142,7 +130,13 @@ iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, i
         attempt_init(&a, ctx, ball, digits + spare, work);
         a.flow.certificate = a.thin.certificate = certificate;
         prove_certificate_cut(certificate, 0);
-        status = run(&a, digits + spare, &reached);
+        set_power(a.local.size, -(digits + spare - 1) / 3.0);
+        set_power(a.width, -(digits + spare - 4));
+        status = prove_local_begin(&a.flow, &a.local);
+        if (status == ISO_OK) status = prove_local_foresee(&a.flow, &a.local);
+        if (status == ISO_OK) status = prove_local_bound(&a.flow, &a.local);
+        if (status == ISO_OK) status = prove_search(&a.thin, &a.local, a.flow.parts > 1, &a.start);
+        if (status == ISO_OK) status = follow(&a, &reached);
         const int lacks = reached ? missing(a.crossing.m, digits) : MORE;
         if (status == ISO_OK && (reached && (lacks == 0 || !thin)))
             store(&a, found);

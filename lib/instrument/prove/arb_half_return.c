@@ -222,10 +222,13 @@ static void find_both(prove_flow *f, const angle *end, const arb_t s, arb_ptr y,
     arb_submul(slope, y + PROVE_P, end->s, f->bits);
 }
 
-/* A point near the end; no proof needs it to be one. */
-static void guess_zero(prove_flow *f, const angle *end, const arb_t h, arb_ptr y, arb_t s)
+/* From a point near the end, which no proof needs to be one, the interval Newton method: if s - g(s)/g'(U) lies in U,
+ * where g' < 0 on U, each orbit has one zero of g in U, and it lies there. g is what find_ahead finds. */
+static bool find_zero(prove_flow *f, const angle *end, const arb_t h, arb_t zero, arb_t window)
 {
-    arb_ptr g = _arb_vec_init(2), w = g + 1;
+    arb_ptr s = _arb_vec_init(4), g = s + 1, w = s + 2, other = s + 3, y = _arb_vec_init(PROVE_POINT);
+    mag_t size;
+    mag_init(size);
     arb_mul_2exp_si(s, h, -1);
     for (int i = 0; i < 60; i++) {
         find_both(f, end, s, y, g, w);
@@ -234,18 +237,6 @@ static void guess_zero(prove_flow *f, const angle *end, const arb_t h, arb_ptr y
         arb_get_mid_arb(s, s);
         if (!arb_is_finite(g) || arb_contains_zero(g)) break;
     }
-    _arb_vec_clear(g, 2);
-}
-
-/* The interval Newton method: if s - g(s)/g'(U) lies in U, where g' < 0 on U, each orbit has one zero of g in U, and it
- * lies there. g is what find_ahead finds. */
-static bool find_zero(prove_flow *f, const angle *end, const arb_t h, arb_t zero, arb_t window)
-{
-    arb_t s, g, w, other;
-    mag_t size;
-    arb_ptr y = _arb_vec_init(PROVE_POINT);
-    arb_init(s), arb_init(g), arb_init(w), arb_init(other), mag_init(size);
-    guess_zero(f, end, h, y, s);
     bool found = arb_is_finite(s) && arb_is_positive(s) && arb_lt(s, h);
     if (found) {
         find_both(f, end, s, y, g, w);
@@ -259,8 +250,8 @@ static bool find_zero(prove_flow *f, const angle *end, const arb_t h, arb_t zero
         arb_sub(zero, s, zero, f->bits);
         found = arb_is_positive(window) && arb_lt(window, h) && arb_is_negative(w) && arb_contains(window, zero);
     }
-    _arb_vec_clear(y, PROVE_POINT);
-    arb_clear(s), arb_clear(g), arb_clear(w), arb_clear(other), mag_clear(size);
+    _arb_vec_clear(y, PROVE_POINT), _arb_vec_clear(s, 4);
+    mag_clear(size);
     return found;
 }
 

@@ -145,24 +145,17 @@ static bool find_slope(const prove_flow *f, arb_struct E[4], arb_t alpha)
     return holds;
 }
 
-/* All points with |xi|, |eta| <= size: |l| <= 2 size, |x| <= 2 |s| size. */
-static void hold_square(const prove_flow *f, const prove_local *o, arb_t l, arb_t x)
-{
-    arb_t most;
-    arb_init(most);
-    arb_zero(l), arb_zero(x);
-    arb_mul_2exp_si(most, o->size, 1);
-    arb_add_error(l, most);
-    arb_mul(most, most, o->s, f->bits);
-    arb_add_error(x, most);
-    prove_widen(f, PROVE_EIGHTH, l), prove_widen(f, PROVE_EIGHTH, x);
-    arb_clear(most);
-}
-
 iso_status prove_local_bound(prove_flow *f, prove_local *o)
 {
     arb_ptr z = _arb_vec_init(2), D = _arb_vec_init(4), E = _arb_vec_init(4);
-    hold_square(f, o, z, z + 1);
+    arb_t most;
+    arb_init(most);
+    arb_mul_2exp_si(most, o->size, 1); /* all points with |xi|, |eta| <= size: |l| <= 2 size, |x| <= 2 |s| size */
+    arb_add_error(z, most);
+    arb_mul(most, most, o->s, f->bits);
+    arb_add_error(z + 1, most);
+    arb_clear(most);
+    for (int i = 0; i < 2; i++) prove_widen(f, PROVE_EIGHTH, z + i);
     prove_certificate_line(f->certificate, "frame-o", 1, o->s);
     prove_certificate_line(f->certificate, "size", 1, o->size);
     iso_status status = enclose(f, z, D);

@@ -46,23 +46,16 @@ static void clear_ball(prove_ball *b)
 
 /* --- enclosures ------------------------------------------------------------------------------------------------- */
 
-static double bound(const arb_t x, bool high)
-{
-    arf_t end;
-    arf_init(end);
-    if (high)
-        arb_get_ubound_arf(end, x, 64);
-    else
-        arb_get_lbound_arf(end, x, 64);
-    const double found = arf_get_d(end, high ? ARF_RND_CEIL : ARF_RND_FLOOR);
-    arf_clear(end);
-    return found;
-}
-
 /* "[1.23 +/- 4e-5]" becomes "1.23 +/- 4e-5". */
 static void enclose(const arb_t x, int digits, iso_enclosure *e)
 {
-    e->low = bound(x, false), e->high = bound(x, true);
+    arf_t end;
+    arf_init(end);
+    arb_get_lbound_arf(end, x, 64);
+    e->low = arf_get_d(end, ARF_RND_FLOOR);
+    arb_get_ubound_arf(end, x, 64);
+    e->high = arf_get_d(end, ARF_RND_CEIL);
+    arf_clear(end);
     char *text = arb_get_str(x, digits + 10, 0);
     const size_t length = strlen(text);
     const bool bracketed = text[0] == '[' && length > 2;
@@ -72,25 +65,22 @@ static void enclose(const arb_t x, int digits, iso_enclosure *e)
     flint_free(text);
 }
 
-/* From the section n_g = 0 to n_a = 0: m_a = (x_g/x_a)^2 m_g, x_a^2 = 1 - x_g^2 (separatrix.c). */
-static void carry(const prove_found *found, arb_t x, arb_t m)
-{
-    arb_mul(x, found->x, found->x, found->bits);
-    arb_mul(m, found->m, x, found->bits);
-    arb_sub_ui(x, x, 1, found->bits);
-    arb_neg(x, x);
-    arb_div(m, m, x, found->bits);
-    arb_sqrt(x, x, found->bits);
-    if (!arb_is_negative(found->x)) arb_neg(x, x);
-}
-
+/* On the section n_a = 0 m_a = (x_g/x_a)^2 m_g, x_a^2 = 1 - x_g^2, by that of n_g = 0 (separatrix.c). */
 static void fill(const prove_ball *b, const prove_found *found, int digits, iso_proof *p)
 {
     arb_ptr x = _arb_vec_init(2), m = x + 1;
     arb_set(x, found->x), arb_set(m, found->m);
     p->middle = b->middle, p->section = b->section;
     p->axis = (b->middle + 1) % 3;
-    if (p->axis != p->section) carry(found, x, m);
+    if (p->axis != p->section) {
+        arb_mul(x, found->x, found->x, found->bits);
+        arb_mul(m, found->m, x, found->bits);
+        arb_sub_ui(x, x, 1, found->bits);
+        arb_neg(x, x);
+        arb_div(m, m, x, found->bits);
+        arb_sqrt(x, x, found->bits);
+        if (!arb_is_negative(found->x)) arb_neg(x, x);
+    }
     enclose(m, digits, &p->m), enclose(x, digits, &p->x), enclose(found->m, digits, &p->section_m);
     enclose(found->multiplier, digits, &p->multiplier);
     p->sign = arb_is_positive(found->m) - arb_is_negative(found->m);

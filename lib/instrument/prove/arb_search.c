@@ -110,23 +110,9 @@ static iso_status refine_piece(const prove_flow *f, const prove_local *o, int i,
 
 /* --- to all digits ---------------------------------------------------------------------------------------------- */
 
-/* Back towards O, until xi < limit. */
-static void go_back(const prove_flow *f, const prove_local *o, const arb_t limit, prove_start *start)
-{
-    for (; !arb_lt(start->xi, limit); start->halves++) arb_div(start->xi, start->xi, o->lambda, f->bits);
-    arb_get_mid_arb(start->xi, start->xi);
-}
-
-/* Where the manifold is the line eta = 0, to a part 2^-bits of xi: it is odd. */
-static void find_limit(const prove_local *o, slong bits, arb_t limit)
-{
-    arb_one(limit);
-    arb_mul_2exp_si(limit, limit, -bits / 2 - 4);
-    if (arb_lt(limit, o->size)) arb_set(limit, o->size);
-}
-
 /* The secant method for ln xi, until what is left is about a rounding error: an error e becomes e^1.6. Numbers have as
- * many bits as will be known, and the orbit begins so near to O as these ask for. */
+ * many bits as will be known, and the orbit begins so near to O as these ask for: where the manifold, which is odd, is the
+ * line eta = 0 to a part 2^-close of xi. */
 static iso_status refine(const prove_flow *f, const prove_local *o, double slope, prove_start *start)
 {
     enum { KNOWN = 44, SPARE = 36 };
@@ -137,8 +123,12 @@ static iso_status refine(const prove_flow *f, const prove_local *o, double slope
     bool done = false;
     for (int i = 0; i < TRIES && status == ISO_OK && !done; i++) {
         const slong bits = (slong)fmin((double)f->bits, known + SPARE);
-        find_limit(o, bits == f->bits ? 4 * bits : (slong)known, gap);
-        go_back(f, o, gap, start);
+        const slong close = bits == f->bits ? 4 * bits : (slong)known;
+        arb_one(gap);
+        arb_mul_2exp_si(gap, gap, -close / 2 - 4);
+        if (arb_lt(gap, o->size)) arb_set(gap, o->size);
+        for (; !arb_lt(start->xi, gap); start->halves++) arb_div(start->xi, start->xi, o->lambda, f->bits);
+        arb_get_mid_arb(start->xi, start->xi);
         status = land(f, bits, o, start->xi, start->halves, gap);
         if (i > 0) arb_sub(last, last, gap, f->bits), arb_div(steep, last, change, f->bits);
         arb_set(last, gap);

@@ -70,15 +70,6 @@ static iso_status read_ball(iso_context *ctx, const iso_scene *scene, const iso_
 
 /* --- one k, or one piece ---------------------------------------------------------------------------------------- */
 
-static void print_exact(iso_proof *p)
-{
-    const iso_rational *k = p->ball.k;
-    char text[2][ISO_RATIONAL_SIZE];
-    const bool one = iso_proof_is_thin(&p->ball);
-    for (int i = 0; i < 2; i++) iso_rational_print(text[i], &k[i]);
-    snprintf(p->exact, sizeof p->exact, "%s%s%s", text[0], one ? "" : ":", one ? "" : text[1]);
-}
-
 static double length_of(const iso_proof_ball *ball)
 {
     return iso_rational_double(&ball->k[1]) - iso_rational_double(&ball->k[0]);
@@ -124,7 +115,10 @@ static iso_status find(iso_context *ctx, const iso_proof_ball *ball, const iso_p
         if (status != ISO_OK) *failed = p->digits[i];
         if (status != ISO_OK) continue;
         *proof = next;
-        print_exact(proof);
+        char k[2][ISO_RATIONAL_SIZE];
+        for (int j = 0; j < 2; j++) iso_rational_print(k[j], &ball->k[j]);
+        const bool thin = iso_proof_is_thin(ball);
+        snprintf(proof->exact, sizeof proof->exact, "%s%s%s", k[0], thin ? "" : ":", thin ? "" : k[1]);
         free(*text);
         *text = next_text;
     }

@@ -22,19 +22,6 @@ static const numbers with_64_bits = {ISO_MANIFOLD_TERMS_64, 10, 19}, with_106_bi
 
 /* --- one computation -------------------------------------------------------------------------------------------- */
 
-/* The same crossing by another polynomial on 3/4 of the domain. */
-static iso_status compute_again(const iso_manifold *m, int terms, const iso_manifold_crossing *c,
-                                iso_manifold_crossing *again)
-{
-    iso_manifold other = *m;
-    iso_manifold_resize(&other, m->size * 3 / 4, terms);
-    iso_status status = iso_manifold_solve(&other);
-    *again = *c;
-    again->theta *= m->size / other.size;
-    while (again->theta > 1) again->theta /= m->lambda, again->halves++;
-    return status == ISO_OK ? iso_manifold_refine(&other, again) : status;
-}
-
 /* From the section n_g = 0 on which the manifold was computed to n_a = 0, on which O has l = 0. At the crossing
  * gamma lies on the middle axis, so it is on both: x_a^2 + x_g^2 = 1. A change of x leaves |M|, so x_a dx_a = -x_g
  * dx_g; along the flow a shift of gamma_a = dl_g becomes one of gamma_g, by gamma_a'/gamma_g' = -M_g/M_a, dl_a =
@@ -72,13 +59,19 @@ static void fill(const iso_manifold *m, const iso_manifold_crossing *c, const is
     s->from_zero = fabs(s->m) > 100 * s->error;
 }
 
+/* The crossing, and the same by another polynomial on 3/4 of the domain. */
 static iso_status compute(iso_manifold *m, const numbers *l, iso_manifold_crossing *c, iso_separatrix_splitting *s)
 {
-    iso_manifold_crossing again;
-    iso_status status = iso_manifold_refine(m, c);
-    if (status == ISO_OK) status = compute_again(m, l->other, c, &again);
-    if (status == ISO_OK) fill(m, c, &again, l->digits, s);
-    return status;
+    ISO_TRY(iso_manifold_refine(m, c));
+    iso_manifold other = *m;
+    iso_manifold_crossing again = *c;
+    iso_manifold_resize(&other, m->size * 3 / 4, l->other);
+    ISO_TRY(iso_manifold_solve(&other));
+    again.theta *= m->size / other.size;
+    while (again.theta > 1) again.theta /= m->lambda, again.halves++;
+    ISO_TRY(iso_manifold_refine(&other, &again));
+    fill(m, c, &again, l->digits, s);
+    return ISO_OK;
 }
 
 /* --- one k ------------------------------------------------------------------------------------------------------ */

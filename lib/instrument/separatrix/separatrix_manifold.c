@@ -51,11 +51,14 @@ static iso_status check_trace(const iso_manifold *m, double trace)
                           ISO_SHORT(m->problem.p.k), expm1(exponent), 2 * ISO_PI * ISO_PI / exponent / log(10));
 }
 
-/* lambda and v from the derivative at the fixed point, whose determinant is 1. */
-static iso_status find_direction(iso_manifold *m)
+/* lambda and v from the derivative at the fixed point, whose determinant is 1. Terms of the series are kept to a hundredth
+ * of a rounding error. */
+iso_status iso_manifold_use(iso_manifold *m, const iso_return_code *code)
 {
     const iso_wide origin[2] = {0, 0};
     iso_wide image[2], A[2][2];
+    m->code = code;
+    m->tolerance = code == &iso_return_extended ? 1e-15 : 1e-17;
     ISO_TRY(map_half(m, origin, image, A));
     const iso_wide trace = A[0][0] + A[1][1];
     ISO_TRY(check_trace(m, (double)trace));
@@ -65,14 +68,6 @@ static iso_status find_direction(iso_manifold *m)
     const iso_wide length = WIDE_ROOT(m->v[0] * m->v[0] + m->v[1] * m->v[1]) * (m->v[0] < 0 ? -1 : 1);
     for (int i = 0; i < 2; i++) m->v[i] /= length;
     return ISO_OK;
-}
-
-/* Terms of the series are kept to a hundredth of a rounding error. */
-iso_status iso_manifold_use(iso_manifold *m, const iso_return_code *code)
-{
-    m->code = code;
-    m->tolerance = code == &iso_return_extended ? 1e-15 : 1e-17;
-    return find_direction(m);
 }
 
 /* --- preparing -------------------------------------------------------------------------------------------------- */
