@@ -47,7 +47,7 @@ static int draw(const shell *s)
     const iso_separatrix_splitting *at = iso_separatrix_clearest(t);
     iso_record *curve = NULL;
     char at_number[ISO_FRACTION_SIZE + 16], number[ISO_FRACTION_SIZE];
-    const bool by_level = iso_separatrix_by_level(t);
+    const bool by_level = t->by_level;
     if (interrupted()) return EXIT_DONE;
     iso_status status = iso_separatrix_curve(s->ctx, at->k, s->scene.params.J, at->level, halves_of(at), &curve);
     snprintf(at_number, sizeof at_number, "%s = %s", by_level ? "level" : "k",

@@ -17,6 +17,7 @@
 #include "instrument/periodic/continuation_impl.h"
 #include "study/study_impl.h"
 
+enum { MOST_STEPS = 2000 /* of a branch in each direction */ };
 #define NEAR_END 4e-3 /* of the line, in u: here a collision is foretold */
 
 ISO_NAMES(iso_branch_kind_name, int, "fold", "period doubling", "symmetry breaking", "collision", "torus", "end",
@@ -103,7 +104,7 @@ static const char *why_stuck(const iso_continuation *f, const iso_continuation_p
 static iso_status go(const iso_continuation *f, iso_branch *b, iso_continuation_point at)
 {
     double ds = f->options.longest / 4, arc = 0;
-    for (long step = 0; step < f->options.most; step++) {
+    for (int step = 0; step < MOST_STEPS; step++) {
         iso_continuation_point next;
         int steps;
         bool over;
@@ -314,10 +315,11 @@ iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const 
     return status;
 }
 
-void iso_continuation_free(iso_continuations *follow)
+void iso_continuation_free(void *follow)
 {
-    if (!follow) return;
-    for (size_t i = 0; i < follow->count; i++) free_branch(&follow->branch[i]);
-    free(follow->branch);
+    iso_continuations *f = follow;
+    if (!f) return;
+    for (size_t i = 0; i < f->count; i++) free_branch(&f->branch[i]);
+    free(f->branch);
     free(follow);
 }

@@ -62,7 +62,6 @@ typedef struct iso_continuation_options {
     iso_vary vary;
     double from, to; /* the range, which holds the scene's own value */
     double longest;  /* step, in parts of the range and radians of the line */
-    long most;       /* steps of a branch in each direction */
     bool branches;   /* follow what branches off as well; not what branches off from that */
     int threads;     /* that follow orbits side by side; 0: as many as there are processors to run on */
     /* progress(part): the part of the work that is done, in [0, 1]; NULL: no calls. */
@@ -74,7 +73,6 @@ static inline iso_continuation_options iso_continuation_defaults(void)
 {
     iso_continuation_options o = {0};
     o.longest = 0.03;
-    o.most = 2000;
     return o;
 }
 
@@ -101,6 +99,6 @@ iso_status iso_continuation_check(iso_context *ctx, const iso_scene *scene, cons
  * cannot be followed to its end is kept, with an event. */
 iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_orbit orbits[],
                                 size_t count, const iso_continuation_options *options, iso_continuations **follow);
-void iso_continuation_free(iso_continuations *follow);
+void iso_continuation_free(void *follow);
 
 #endif

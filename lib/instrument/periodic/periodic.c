@@ -97,10 +97,11 @@ iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_
     return status;
 }
 
-void iso_periodic_free(iso_periodic *found)
+void iso_periodic_free(void *found)
 {
-    if (!found) return;
-    for (size_t i = 0; i < found->count; i++) free(found->orbit[i].half);
-    free(found->orbit);
+    iso_periodic *f = found;
+    if (!f) return;
+    for (size_t i = 0; i < f->count; i++) free(f->orbit[i].half);
+    free(f->orbit);
     free(found);
 }

@@ -151,7 +151,7 @@ typedef struct iso_periodic {
  * - ISO_NUMERICAL; ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *found has what is known by then. */
 iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_options *options,
                             iso_periodic **found);
-void iso_periodic_free(iso_periodic *found);
+void iso_periodic_free(void *found);
 
 /* The reversor of a symmetry line 0 to 5: "S1", "S2", "S3", "TS1", "TS2", "TS3"; NULL for other numbers. */
 const char *iso_symmetry_line_name(int line);

@@ -80,24 +80,18 @@ iso_status iso_periodic_place(const iso_periodic_map *map, int line, size_t coun
     return ISO_OK;
 }
 
-/* Whether S before = at, loosely. */
-static bool is_mirrored(int line, const iso_periodic_point *before, const iso_periodic_point *at)
-{
-    double image[2];
-    iso_periodic_reverse(iso_symmetry_line_reversor(line), (const double[2]){before->l, before->x}, image);
-    return fabs(remainder(at->l - image[0], 2 * ISO_PI)) < 1e-3 && fabs(at->x - image[1]) < 1e-3;
-}
-
 double iso_periodic_miss(int line, const iso_periodic_point *before, const iso_periodic_point *at,
                          const double by_u[2], double *slope, bool *there)
 {
     const double part = iso_symmetry_line_is_half_way(line) ? 1 : 0, l = at->l + part * before->l,
                  x = at->x + part * before->x;
-    double change[2]; /* of l and x by u */
+    double image[2], change[2]; /* change: of l and x by u */
     for (int i = 0; i < 2; i++)
         change[i] = (at->slope[i][0] + part * before->slope[i][0]) * by_u[0] +
                     (at->slope[i][1] + part * before->slope[i][1]) * by_u[1];
-    *there = !iso_symmetry_line_is_half_way(line) || is_mirrored(line, before, at);
+    iso_periodic_reverse(iso_symmetry_line_reversor(line), (const double[2]){before->l, before->x}, image);
+    *there = !iso_symmetry_line_is_half_way(line) ||
+             (fabs(remainder(at->l - image[0], 2 * ISO_PI)) < 1e-3 && fabs(at->x - image[1]) < 1e-3);
     if (iso_symmetry_line_reversor(line) == 0) return *slope = change[1], x;
     if (line == LINE_QUARTER) return *slope = -sin(l) * change[0], cos(l);
     return *slope = cos(l) * change[0], sin(l);

@@ -11,14 +11,6 @@ static void print_level(FILE *to, double level)
     if (level != 0) fprintf(to, "level of the point, (H/eps) J2^(1/k): %s\n", ISO_SHORT(level));
 }
 
-static void print_multipliers(FILE *to, const iso_multipliers *m)
-{
-    if (m->krein)
-        fprintf(to, "exp(+-%.9g i), Krein %+d", atan2(m->value[0][1], m->value[0][0]), m->krein);
-    else
-        fprintf(to, "%.9g, %.9g", m->value[0][0], m->value[1][0]);
-}
-
 static void print_rotations(FILE *to, const iso_periodic *found, bool polish)
 {
     fputs("rotations about the principal axes, half a turn (Hill's equation)\n", to);
@@ -34,8 +26,11 @@ static void print_rotations(FILE *to, const iso_periodic *found, bool polish)
         }
         fprintf(to, "%d\t%s\t%.1e\t%s\t", a + 1, polish ? text : ISO_ROUNDED(o->half_turn_trace, 15), o->error,
                 iso_stability_name((int)o->half.stability));
-        print_multipliers(to, &o->half);
-        fputs("\n", to);
+        const iso_multipliers *m = &o->half;
+        if (m->krein)
+            fprintf(to, "exp(+-%.9g i), Krein %+d\n", atan2(m->value[0][1], m->value[0][0]), m->krein);
+        else
+            fprintf(to, "%.9g, %.9g\n", m->value[0][0], m->value[1][0]);
     }
     iso_table_end(to);
 }

@@ -61,16 +61,11 @@ static int named(const char *text, const char *(*name)(int))
 
 /* --- the list --------------------------------------------------------------------------------------------------- */
 
-static void free_list(void *found)
-{
-    iso_periodic_free(found);
-}
-
 static iso_status list(iso_context *ctx, const iso_scene *scene, iso_periodic *f, iso_study_result *result)
 {
     iso_field fields[ISO_MOST_FIELDS];
     iso_record **table = &result->table[0];
-    iso_study_keep(result, f, iso_periodic_fields, free_list);
+    iso_study_keep(result, f, iso_periodic_fields, iso_periodic_free);
     iso_fields_copy(iso_periodic_fields, "orbits", fields);
     iso_status status = iso_study_table(ctx, "periodic", scene, fields, f, iso_periodic_orbit_fields, table);
     for (size_t i = 0; status == ISO_OK && i < f->count; i++)
@@ -133,11 +128,6 @@ static iso_status choose(iso_context *ctx, const iso_scene *scene, const iso_per
         p->k, p->J[0], p->J[1], p->J[2], found->level, r->how.period);
 }
 
-static void free_branches(void *found)
-{
-    iso_continuation_free(found);
-}
-
 static iso_status fill_branches(iso_context *ctx, const iso_scene *scene, const iso_continuations *f,
                                 iso_record **table)
 {
@@ -169,7 +159,7 @@ static iso_status follow(iso_context *ctx, const iso_scene *scene, const iso_per
     if (status == ISO_OK) status = iso_continuation_run(ctx, scene, orbits, count, how, &f);
     free(orbits);
     if (!f) return status;
-    iso_study_keep(result, f, iso_continuation_fields, free_branches);
+    iso_study_keep(result, f, iso_continuation_fields, iso_continuation_free);
     for (size_t i = 0; i < f->count; i++)
         for (size_t j = 0; j < f->branch[i].events; j++) failed += f->branch[i].event[j].kind == ISO_BRANCH_FAILURE;
     result->failed = failed > 0;

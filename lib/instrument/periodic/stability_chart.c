@@ -20,27 +20,22 @@ typedef struct chart {
     iso_record *grid, *borders;
 } chart;
 
-/* H for eps = 1. Powers of J must fit a double: off H = 0 the moments get a unit near the largest of them, which
- * changes no trace. */
-static double energy_of(double k, double level, double J[3])
-{
-    int exponent;
-    if (level == 0) return 0;
-    frexp(max3(J), &exponent);
-    for (int i = 0; i < 3; i++) J[i] = ldexp(J[i], 1 - exponent);
-    return iso_level_energy(&(iso_params){.k = k, .J = {J[0], J[1], J[2]}}, level);
-}
-
-/* The half-turn trace of the axis of the least (0) or greatest (1) moment at (k, J). */
+/* The half-turn trace of the axis of the least (0) or greatest (1) moment at (k, J). Powers of J must fit a double: off
+ * H = 0 the moments get a unit near the largest of them, which changes no trace. */
 static double trace_at(const chart *c, int which, const double at[2])
 {
     double J[3] = {c->o.J[0], c->o.J[1], c->o.J[2]}, level = c->o.level;
     int axis = 0;
     *(c->o.moment == ISO_CHART_LEVEL ? &level : &J[c->o.moment]) = at[1];
     if (fabs(at[0]) < ISO_LEAST_K) return NAN;
+    int exponent = 1;
+    if (level != 0) frexp(max3(J), &exponent);
+    for (int i = 0; i < 3; i++) J[i] = ldexp(J[i], 1 - exponent);
     for (int i = 1; i < 3; i++)
         if (which == 0 ? J[i] < J[axis] : J[i] > J[axis]) axis = i;
-    return iso_hill_trace(at[0], J, energy_of(at[0], level, J), axis, NULL);
+    const double energy =
+        level == 0 ? 0 : iso_level_energy(&(iso_params){.k = at[0], .J = {J[0], J[1], J[2]}}, level);
+    return iso_hill_trace(at[0], J, energy, axis, NULL);
 }
 
 /* Some lines of equal J. */

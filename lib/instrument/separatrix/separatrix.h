@@ -91,7 +91,9 @@ static inline iso_separatrix_options iso_separatrix_defaults(void)
 
 typedef struct iso_separatrix_table {
     size_t rows, zeros;
-    size_t lost; /* zeros that lie between two rows and were not found: a failure, or +-1 too close  */
+    int axis, middle; /* those of each row that did not fail; -1: all did */
+    bool by_level;    /* the rows differ in the level, not in k           */
+    size_t lost;      /* zeros that lie between two rows and were not found: a failure, or +-1 too close  */
     /* One for each k of the options, in their order; status ISO_STOPPED: not done. */
     iso_separatrix_splitting *row;
     /* Zeros of m other than k = +-1, by growing k and level. */
@@ -106,7 +108,7 @@ typedef struct iso_separatrix_table {
  * ball, other than `level`; where the scene starts as a point, or has a level, those of iso_orbit_create; ISO_NO_MEMORY;
  * ISO_STOPPED by the context's monitor: *s has the rows that are done. */
 iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *options, iso_separatrix_table **s);
-void iso_separatrix_free(iso_separatrix_table *s);
+void iso_separatrix_free(void *table);
 
 /* The unstable manifold of O as a line of points, columns u and x, from O for `halves` half returns past the first
  * crossing, in numbers of 64 bits. (pi - u, x) is the stable manifold of O'. Errors: as iso_separatrix_at. */

@@ -1,5 +1,5 @@
 /* separatrix_fields.c - what the splitting of the separatrix holds: its numbers with their meaning (separatrix.h). */
-#include "instrument/separatrix/separatrix_study_impl.h"
+#include "instrument/separatrix/separatrix.h"
 
 static bool is_found(const void *row)
 {
@@ -55,24 +55,12 @@ const iso_field iso_separatrix_fields[] = {
 };
 #undef FIELD
 
-static double axis_of(const void *row)
-{
-    const iso_separatrix_splitting *found = iso_separatrix_first(row);
-    return found ? found->axis : -1;
-}
-
-static double middle_of(const void *row)
-{
-    const iso_separatrix_splitting *found = iso_separatrix_first(row);
-    return found ? found->middle : -1;
-}
-
 #define LIST(key, member, number, doc)                                                                               \
     ISO_LIST_AT(iso_separatrix_table, key, member, number, iso_separatrix_fields, doc, .skip = is_undone)
 
 const iso_field iso_separatrix_table_fields[] = {
-    ISO_COUNT("axis", axis_of, "", "a of the section n_a = 0 of x and m", .how = ISO_FROM_ONE),
-    ISO_COUNT("middle", middle_of, "", "the axis of the middle moment", .how = ISO_FROM_ONE),
+    ISO_MEMBER(iso_separatrix_table, "axis", axis, "", "a of the section n_a = 0 of x and m", .how = ISO_FROM_ONE),
+    ISO_MEMBER(iso_separatrix_table, "middle", middle, "", "the axis of the middle moment", .how = ISO_FROM_ONE),
     LIST("rows", row, rows, "one for each k or level"),
     LIST("zeros", zero, zeros, "zeros of m between them"),
     ISO_MEMBER(iso_separatrix_table, "lost", lost, "", "zeros that were not found"),

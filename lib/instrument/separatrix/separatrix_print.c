@@ -5,24 +5,17 @@
 #include "instrument/separatrix/separatrix_study_impl.h"
 #include "study/study_impl.h"
 
-const iso_separatrix_splitting *iso_separatrix_first(const iso_separatrix_table *s)
-{
-    for (size_t i = 0; i < s->rows; i++)
-        if (s->row[i].status == ISO_OK) return &s->row[i];
-    return NULL;
-}
-
-static void print_head(FILE *to, const double J[3], const iso_separatrix_splitting *row, bool by_level)
+static void print_head(FILE *to, const double J[3], const iso_separatrix_table *t)
 {
     fprintf(to, "J = %s %s %s\n", ISO_ROUNDED(J[0], 15), ISO_ROUNDED(J[1], 15), ISO_ROUNDED(J[2], 15));
-    if (!row) return;
-    if (by_level) fprintf(to, "k = %s\n", ISO_ROUNDED(row->k, 15));
-    if (!by_level && row->level != 0)
-        fprintf(to, "level of the point, (H/eps) J2^(1/k): %s\n", ISO_ROUNDED(row->level, 15));
+    if (t->middle < 0) return;
+    if (t->by_level) fprintf(to, "k = %s\n", ISO_ROUNDED(t->row->k, 15));
+    if (!t->by_level && t->row->level != 0)
+        fprintf(to, "level of the point, (H/eps) J2^(1/k): %s\n", ISO_ROUNDED(t->row->level, 15));
     fprintf(to,
             "The unstable manifold of the rotation about axis %d meets l = pi/2 on the section n_%d = 0 at x, "
             "with the slope m. The stable one has -m: they are one curve only if m = 0.\n\n",
-            row->middle + 1, row->axis + 1);
+            t->middle + 1, t->axis + 1);
 }
 
 static void print_row(FILE *to, const iso_separatrix_splitting *s, bool by_level)
@@ -62,9 +55,9 @@ static void print_zero(FILE *to, const iso_separatrix_splitting *s, bool by_leve
 void iso_separatrix_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
 {
     const iso_separatrix_table *t = result->found;
-    const bool by_level = iso_separatrix_by_level(t);
+    const bool by_level = t->by_level;
     (void)options;
-    print_head(to, scene->params.J, iso_separatrix_first(t), by_level);
+    print_head(to, scene->params.J, t);
     iso_table_begin(to, 1);
     fprintf(to, "%s\tmultiplier\tx\tm\terror\tdigits\tremark\n", by_level ? "level" : "k");
     for (size_t i = 0; i < t->rows; i++) print_row(to, &t->row[i], by_level);
@@ -89,7 +82,7 @@ iso_status iso_separatrix_describe(iso_context *ctx, const iso_scene *scene, con
     const iso_separatrix_table *t = result->found;
     const iso_separatrix_splitting *at = iso_separatrix_clearest(t);
     const double *J = scene->params.J;
-    const bool by_level = iso_separatrix_by_level(t);
+    const bool by_level = t->by_level;
     char k[ISO_FRACTION_SIZE + 8] = "", level[32] = "", number[ISO_FRACTION_SIZE];
     (void)options;
     if (at && (by_level || t->rows == 1)) snprintf(k, sizeof k, "k = %s, ", iso_fraction_text(number, at->k));

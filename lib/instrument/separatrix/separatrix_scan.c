@@ -206,6 +206,7 @@ iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *op
     iso_status status = found && found->row ? ISO_OK : iso_context_no_memory(ctx, "%zu rows", o.count);
     if (status == ISO_OK) {
         found->rows = o.count;
+        found->axis = found->middle = -1;
         for (size_t i = 0; i < o.count; i++)
             found->row[i] = (iso_separatrix_splitting){.k = o.k[i],
                                                        .level = level_of(&c, i),
@@ -214,6 +215,10 @@ iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *op
                                                        .m = NAN,
                                                        .x = NAN};
         status = run_pool(ctx, &c, o.count, solve_rows);
+        for (const iso_separatrix_splitting *row = found->row; row < found->row + o.count; row++) {
+            if (row->status == ISO_OK) found->axis = row->axis, found->middle = row->middle;
+            found->by_level = found->by_level || row->level != found->row->level;
+        }
     }
     if (status == ISO_OK && o.zeros) status = run_zeros(ctx, &c);
     if (status != ISO_OK && status != ISO_STOPPED) iso_separatrix_free(found), found = NULL;
@@ -221,8 +226,9 @@ iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *op
     return status;
 }
 
-void iso_separatrix_free(iso_separatrix_table *s)
+void iso_separatrix_free(void *table)
 {
+    iso_separatrix_table *s = table;
     if (!s) return;
     free(s->row);
     free(s->zero);

@@ -98,18 +98,6 @@ static double *repeated(const iso_separatrix_list *list, double own, size_t coun
 
 /* --- what is found ---------------------------------------------------------------------------------------------- */
 
-bool iso_separatrix_by_level(const iso_separatrix_table *s)
-{
-    bool differ = false;
-    for (size_t i = 1; i < s->rows; i++) differ = differ || s->row[i].level != s->row[0].level;
-    return differ;
-}
-
-static void free_table(void *found)
-{
-    iso_separatrix_free(found);
-}
-
 /* A row for each k or level that did not fail, then one for each zero. */
 static iso_status fill(iso_context *ctx, const iso_scene *scene, const iso_separatrix_table *s, iso_record **table)
 {
@@ -131,7 +119,7 @@ static iso_status find(iso_context *ctx, const iso_scene *scene, const iso_separ
     iso_separatrix_table *s = NULL;
     size_t failed = 0, first = 0;
     const iso_status status = iso_separatrix_run(ctx, how, &s);
-    if (!iso_study_keep(result, s, iso_separatrix_table_fields, free_table)) return status;
+    if (!iso_study_keep(result, s, iso_separatrix_table_fields, iso_separatrix_free)) return status;
     const iso_status made = fill(ctx, scene, s, &result->table[0]);
     for (size_t i = s->rows; i-- > 0;)
         if (s->row[i].status != ISO_OK && s->row[i].status != ISO_STOPPED) failed++, first = i;
@@ -139,8 +127,8 @@ static iso_status find(iso_context *ctx, const iso_scene *scene, const iso_separ
         return iso_context_fail(ctx, s->row[first].status, "", "%s", s->row[first].text);
     result->failed = failed > 0;
     if (failed > 0)
-        iso_study_note(result, "%zu of %zu values of %s failed: %s", failed, s->rows,
-                       iso_separatrix_by_level(s) ? "the level" : "k", s->row[first].text);
+        iso_study_note(result, "%zu of %zu values of %s failed: %s", failed, s->rows, s->by_level ? "the level" : "k",
+                       s->row[first].text);
     if (s->lost > 0) iso_study_note(result, "%zu zeros of m lie between these values, but were not found", s->lost);
     return status == ISO_OK ? made : status;
 }

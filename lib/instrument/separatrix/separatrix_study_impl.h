@@ -17,17 +17,11 @@ typedef struct iso_separatrix_request {
     iso_separatrix_options how; /* digits and threads */
 } iso_separatrix_request;
 
-/* Whether the rows differ in the level, not in k. */
-bool iso_separatrix_by_level(const iso_separatrix_table *s);
-
 /* Its text, and the lines of its table (separatrix_print.c). */
 void iso_separatrix_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
 
 iso_status iso_separatrix_describe(iso_context *ctx, const iso_scene *scene, const void *options,
                                    iso_study_result *result);
-
-/* The axes are those of each row that did not fail: the first of these; NULL: all did. */
-const iso_separatrix_splitting *iso_separatrix_first(const iso_separatrix_table *s);
 
 /* The row whose curves are best seen: |m| is about 1/30. NULL: there is none. */
 const iso_separatrix_splitting *iso_separatrix_clearest(const iso_separatrix_table *s);
