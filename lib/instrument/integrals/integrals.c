@@ -66,18 +66,6 @@ static iso_status check_options(iso_context *ctx, iso_integral_search_options *o
 
 /* --- integrals that are known ----------------------------------------------------------------------------------- */
 
-static void list_known(search *s)
-{
-    iso_integral_search *out = s->out;
-    const iso_integral *list[ISO_MAX_INTEGRALS];
-    const int count = iso_integrals_holding(&iso_system_point, &s->samples.problem, list, ISO_MAX_INTEGRALS);
-    for (int i = 0; i < count && out->known_count < ISO_INTEGRAL_KNOWN; i++) {
-        if (!list[i]->holds || list[i]->claimed) continue; /* the energy, and the constraints */
-        s->known[out->known_count] = list[i];
-        out->known[out->known_count++] = (iso_integral_known){list[i]->name, list[i]->doc, false, 0, INFINITY};
-    }
-}
-
 /* The distance of a known integral, less its mean, from the functions found in this part, by the size of what it varies.
  * NaN: it is a constant, to rounding. work: room for a number of each sample. */
 static double residual_of(const search *s, const iso_integral *known, const integral_part *part, double *work)
@@ -174,28 +162,25 @@ static void note_part(const search *s, const integral_part *part, iso_integral_d
     }
 }
 
-static iso_status search_part(search *s, int degree, unsigned parity)
-{
-    integral_part part;
-    if (!iso_context_goes_on(s->ctx))
-        return iso_context_fail(s->ctx, ISO_STOPPED, "", "stopped in degree %d", degree);
-    iso_status status = iso_integral_search_part(s->ctx, &s->samples, &s->space, degree, parity, s->out->delta,
-                                                 s->options.within, &part);
-    if (status == ISO_OK) {
-        note_part(s, &part, &s->out->at[degree]);
-        add_gradients(s, &part);
-        status = compare_with_known(s, degree, &part);
-    }
-    iso_integral_free_part(&part);
-    if (s->options.progress) s->options.progress(s->options.data, (double)++s->done / (double)s->all);
-    return status;
-}
-
 static iso_status search_degree(search *s, int degree)
 {
     iso_integral_degree *at = &s->out->at[degree];
     *at = (iso_integral_degree){.degree = degree, .largest = NAN, .smallest = NAN};
-    for (unsigned parity = 0; parity < INTEGRAL_PARITIES; parity++) ISO_TRY(search_part(s, degree, parity));
+    for (unsigned parity = 0; parity < INTEGRAL_PARITIES; parity++) {
+        integral_part part;
+        if (!iso_context_goes_on(s->ctx))
+            return iso_context_fail(s->ctx, ISO_STOPPED, "", "stopped in degree %d", degree);
+        iso_status status = iso_integral_search_part(s->ctx, &s->samples, &s->space, degree, parity, s->out->delta,
+                                                     s->options.within, &part);
+        if (status == ISO_OK) {
+            note_part(s, &part, at);
+            add_gradients(s, &part);
+            status = compare_with_known(s, degree, &part);
+        }
+        iso_integral_free_part(&part);
+        if (status != ISO_OK) return status;
+        if (s->options.progress) s->options.progress(s->options.data, (double)++s->done / (double)s->all);
+    }
     const int step = s->space.magnetic ? 1 : 2; /* V_d has V_(d - step); constants, so the energy, are in V_step */
     const size_t known = degree <= step ? (size_t)(degree == step) : s->out->at[degree - step].found;
     at->further = at->found > known ? at->found - known : 0;
@@ -258,7 +243,13 @@ static iso_status run(search *s, const iso_scene *scene)
     /* What steps of this tolerance do to an integral, with a margin (measured at k = 1 and k = -1, see the test). */
     s->out->delta = 5e-15 + 1e-4 * s->options.tolerance * s->options.turns;
     s->all = (size_t)s->options.degree * INTEGRAL_PARITIES;
-    list_known(s);
+    const iso_integral *list[ISO_MAX_INTEGRALS];
+    const int count = iso_integrals_holding(&iso_system_point, f, list, ISO_MAX_INTEGRALS);
+    for (int i = 0; i < count && s->out->known_count < ISO_INTEGRAL_KNOWN; i++) {
+        if (!list[i]->holds || list[i]->claimed) continue; /* the energy, and the constraints */
+        s->known[s->out->known_count] = list[i];
+        s->out->known[s->out->known_count++] = (iso_integral_known){list[i]->name, list[i]->doc, false, 0, INFINITY};
+    }
     iso_status status = iso_integral_follow(s->ctx, &s->options, &s->samples, &s->out->energy);
     for (int d = 1; d <= s->options.degree && status == ISO_OK; d++) status = search_degree(s, d);
     if (status == ISO_OK || status == ISO_STOPPED) find_verdict(s);

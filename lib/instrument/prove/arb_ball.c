@@ -60,9 +60,14 @@ static void set_power(arb_t x, double power)
     arf_set_si_2exp_si(arb_midref(x), 1, arf_get_si(arb_midref(x), ARF_RND_NEAR));
 }
 
-/* x = at least what is left of the change of the start with k, in all half returns, beside its drift: of second order. */
-static void spread(const attempt *a, arb_t x)
+/* The piece is at least as long as what is left of the change of the start with k, in all half returns, beside its drift:
+ * of second order. *reached: m is enclosed. If not, but the piece came to the line, it was too short for its noise: a
+ * longer one is tried. */
+static iso_status follow(attempt *a, bool *reached)
 {
+    enum { TRIES = 3 };
+    const size_t length = a->flow.certificate ? a->flow.certificate->length : 0;
+    iso_status status = ISO_OK;
     arb_t part;
     arb_init(part);
     arb_get_rad_arb(part, a->flow.k);
@@ -70,19 +75,9 @@ static void spread(const attempt *a, arb_t x)
     arb_div(part, part, a->flow.k, MAG_BITS);
     arb_mul(part, part, part, MAG_BITS);
     arb_get_mid_arb(part, part);
-    if (arb_gt(part, x)) arb_set(x, part);
+    if (arb_gt(part, a->width)) arb_set(a->width, part);
     arb_clear(part);
-}
-
-/* *reached: m is enclosed. If not, but the piece came to the line, it was too short for its noise: a longer one is
- * tried. */
-static iso_status follow(attempt *a, bool *reached)
-{
-    enum { TRIES = 3 };
-    const size_t length = a->flow.certificate ? a->flow.certificate->length : 0;
-    iso_status status = ISO_OK;
     *reached = false;
-    spread(a, a->width);
     a->crossing.longer = 0;
     for (int i = 0; i < TRIES && !*reached && (i == 0 || a->crossing.longer > 0) && status == ISO_OK; i++) {
         arb_mul_2exp_si(a->width, a->width, a->crossing.longer);
