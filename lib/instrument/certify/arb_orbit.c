@@ -116,16 +116,6 @@ static iso_status too_wide(work *w)
                               w->result->work_digits);
 }
 
-/* Of attempts that came no further with more digits: what stops them is not rounding. */
-static iso_status no_further(const work *w, double reached, int before)
-{
-    return ISO_FAIL_NUMERICAL(w->ctx,
-                              "no step from %s = %.6g can be enclosed, with %d digits or with %d: more digits do not "
-                              "help; take an earlier end, moments that differ less, or k further from 0",
-                              iso_clock_name(w->clock), copysign(reached, w->p->scene->end), before,
-                              w->result->work_digits);
-}
-
 /* The end needs so many steps; INFINITY: a step does not fit a double. */
 static iso_status too_long(const work *w, double steps)
 {
@@ -212,14 +202,13 @@ static bool in_step(void *data)
 /* The next row, if its time is in this step. *status: ISO_NUMERICAL if it holds too few digits. */
 static bool next_row(work *w, iso_status *status)
 {
-    bool inside = false, holds = true;
     fmpq_t t;
     if (w->result->rows == w->result->asked) return false;
     arb_ptr y = _arb_vec_init(CERTIFY_ALL), clock = _arb_vec_init(ISO_CLOCKS);
     fmpq_init(t);
     time_of(w, w->result->rows, t);
     arb_set_fmpq(clock + w->clock, t, w->ball.bits);
-    inside = certify_set_at(&w->set, clock + w->clock, y);
+    bool inside = certify_set_at(&w->set, clock + w->clock, y);
     for (int c = 0, i = CERTIFY_STATE; c < ISO_CLOCKS; c++)
         if (c != (int)w->clock) arb_set(clock + c, y + i++);
     if (!in_step(w)) inside = false, *status = iso_context_stopped(w->ctx);
@@ -227,10 +216,12 @@ static bool next_row(work *w, iso_status *status)
         char *text = NULL;
         size_t length = 0;
         FILE *to = open_memstream(&text, &length);
-        if (to) holds = certify_write_row(&w->ball, clock, w->p->backend, y, shown(w), w->p->options.digits, to);
-        *status = to ? ISO_OK : iso_context_no_memory(w->ctx, "a row");
-        if (to && !holds) fclose(to), free(text), *status = too_wide(w);
-        if (to && holds) *status = certify_give(w->ctx, w->sink, to, &text);
+        if (!to)
+            *status = iso_context_no_memory(w->ctx, "a row");
+        else if (certify_write_row(&w->ball, clock, w->p->backend, y, shown(w), w->p->options.digits, to))
+            *status = certify_give(w->ctx, w->sink, to, &text);
+        else
+            fclose(to), free(text), *status = too_wide(w);
         w->result->rows += *status == ISO_OK;
     }
     fmpq_clear(t);
@@ -310,7 +301,14 @@ iso_status iso_certify_orbit(iso_context *ctx, const iso_certify_problem *p, con
         again = w.wide && !p->options.work_digits && digits < ISO_MOST_WORK_DIGITS;
         const bool further = reached > furthest;
         if (further) furthest = reached, enough = digits;
-        if (again && digits >= enough + MORE) again = false, status = no_further(&w, reached, enough);
+        if (again && digits >= enough + MORE) { /* what stops these attempts is not rounding */
+            again = false;
+            status =
+                ISO_FAIL_NUMERICAL(ctx,
+                                   "no step from %s = %.6g can be enclosed, with %d digits or with %d: more digits "
+                                   "do not help; take an earlier end, moments that differ less, or k further from 0",
+                                   iso_clock_name(w.clock), copysign(reached, p->scene->end), enough, digits);
+        }
         /* digits are lost about evenly */
         const double all = 1.1 * (lost + 2) * (reached > 0 ? end / reached : 1) + SPARE;
         const double needed = further ? all : INFINITY;

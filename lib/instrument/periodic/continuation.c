@@ -49,8 +49,8 @@ static iso_status end_at(const iso_continuation *f, iso_branch *b, const iso_con
     bool there = false;
     for (int i = 0; i < 8 && !there; i++) {
         if (!iso_continuation_evaluate(f, u, value / f->width, false, &at)) break;
-        u -= at.off / at.by_u;
-        there = fabs(at.off / at.by_u) < 1e-11;
+        u -= at.off / at.D[1][0];
+        there = fabs(at.off / at.D[1][0]) < 1e-11;
     }
     if (!there) return fail_at(f, b, last, arc, "the last step to the end of the range failed");
     at.value = value;

@@ -16,13 +16,13 @@ iso_status iso_continuation_add_event(const iso_continuation *f, iso_branch *b, 
 #define SAME_PLACE 1e-8 /* along the curve: zeros that are closer are one ... */
 #define TOO_CLOSE 1e-5  /* ... and those that are not as far apart may be one or two */
 
-/* The tests: each changes its sign where its event is. */
+/* The tests: each changes its sign where its event is. The first four are numbers of D. */
 enum { TEST_FOLD, TEST_BREAKING, TEST_DIAGONAL, TEST_OTHER_DIAGONAL, TEST_TURN, TESTS };
 
 static double test_of(const iso_continuation_point *p, int test)
 {
-    if (test == TEST_TURN) return p->tangent[1];
-    return test == TEST_FOLD ? p->by_u : test == TEST_BREAKING ? p->across : p->diagonal[test - TEST_DIAGONAL];
+    const double of[TESTS] = {p->D[1][0], p->D[0][1], p->D[0][0], p->D[1][1], p->tangent[1]};
+    return of[test];
 }
 
 /* The point at arc `next`, between low (at `from`) and high (at `to`): from the nearer one, then from the other. */
@@ -61,7 +61,7 @@ static void locate(const iso_continuation *f, const iso_continuation_point *a, c
     at->v += share * (high.v - low.v);
     at->value += share * (high.value - low.value);
     at->trace += share * (high.trace - low.trace);
-    for (int i = 0; i < 2; i++) at->diagonal[i] += share * (high.diagonal[i] - low.diagonal[i]);
+    for (int i = 0; i < 2; i++) at->D[i][i] += share * (high.D[i][i] - low.D[i][i]);
     *part = from + share * (to - from);
 }
 
@@ -167,7 +167,7 @@ iso_status iso_continuation_events(const iso_continuation *f, iso_branch *b, con
         iso_continuation_point at;
         double part;
         if (test_of(a, test) * test_of(to, test) >= 0) continue;
-        if (test == TEST_TURN && a->by_u * to->by_u < 0) continue; /* a fold */
+        if (test == TEST_TURN && a->D[1][0] * to->D[1][0] < 0) continue; /* a fold */
         locate(f, a, to, test, ds, &at, &part);
         /* half way the coordinates of what stays on the line can themselves turn over: the trace shows it */
         const double trace = test > TEST_BREAKING ? -2 : 2;
@@ -253,7 +253,7 @@ static double refine(const iso_continuation *f, double v, double u, double h, do
         if (!iso_continuation_evaluate(f, u + h, v, false, &at)) return NAN;
         if ((at.off < 0) == (off < 0)) u += h;
     }
-    return fabs(at.off) < 1e-3 * (1 + fabs(at.by_u)) ? u : NAN;
+    return fabs(at.off) < 1e-3 * (1 + fabs(at.D[1][0])) ? u : NAN;
 }
 
 /* The first of three zeros or more around `middle`; NaN: there are less. */

@@ -24,11 +24,10 @@ typedef struct iso_continuation {
 /* A point of the curve. Coordinates are u and v = value/width. */
 typedef struct iso_continuation_point {
     double u, v, value;
-    double z[2];        /* the first point on the section: l, x                                */
-    double off;         /* F                                                                   */
-    double by_u, by_v;  /* its slopes                                                          */
-    double across;      /* D_01 (iso_periodic_shot)                                            */
-    double diagonal[2]; /* D_00, D_11                                                          */
+    double z[2];    /* the first point on the section: l, x                                */
+    double off;     /* F                                                                   */
+    double by_v;    /* its slope by v                                                      */
+    double D[2][2]; /* see iso_periodic_shot; D_10 is the slope of F by u                  */
     double trace;
     double tangent[2]; /* (du, dv), of length 1                                               */
 } iso_continuation_point;

@@ -142,20 +142,20 @@ static bool find_rotation(iso_periodic_work *w, int axis)
     *r = (iso_rotation){.axis = axis}; /* the section's own axis has the boundary */
     r->l = axis == (w->map.axis + 1) % 3 ? ISO_PI / 2 : 0;
     r->x = axis == w->map.axis;
-    if (!iso_hill_has_rotation(p->k, p->J, w->energy, axis)) {
+    if (!iso_hill_has_rotation(p->k, p->J, w->map.energy, axis)) {
         r->oscillates = true;
         r->half_turn_trace = r->error = r->tail = r->by_section = r->turn_trace = NAN;
         r->half = (iso_multipliers){.stability = ISO_STABILITY_UNDECIDED, .value = {{NAN, NAN}, {NAN, NAN}}};
         for (int c = 0; c < ISO_CLOCKS; c++) r->clock[c] = NAN;
         return true;
     }
-    iso_hill_matrix_wide(p->k, p->J, w->energy, axis, Y);
+    iso_hill_matrix_wide(p->k, p->J, w->map.energy, axis, Y);
     const iso_wide wide = Y[0][0] + Y[1][1];
     const iso_fine trace = iso_fine_of(wide);
     r->half_turn_trace = trace.head;
     r->tail = trace.tail;
     if (!ask_section(w, r, &section)) return false;
-    const double rough = fabs(iso_hill_trace(p->k, p->J, w->energy, axis, NULL) - (double)wide),
+    const double rough = fabs(iso_hill_trace(p->k, p->J, w->map.energy, axis, NULL) - (double)wide),
                  size = fabs((double)wide), apart = fabs((double)(section - wide));
     r->by_section = (double)section;
     r->error = w->options.polish ? fmax(apart, 1e-31 * size) : fmax(apart, fmax(rough, 0x1p-53 * size));

@@ -27,7 +27,6 @@ static iso_status check_scene(iso_periodic_work *w)
     const iso_periodic_options *o = &w->options;
     const double k = w->scene->params.k, *J = w->scene->params.J, ratio = max3(J) / min3(J) / fabs(k);
     const iso_effects effects = iso_scene_acting(w->scene);
-    iso_on_level on;
     if (o->period < 1 || o->period > ISO_PERIODIC_MOST)
         return ISO_FAIL_ARGUMENT(w->ctx, "period", "a period of %d: give 1 to %d", o->period, ISO_PERIODIC_MOST);
     if (o->grid < 1 || o->grid > 10000000)
@@ -43,11 +42,11 @@ static iso_status check_scene(iso_periodic_work *w)
             w->ctx, "J", "max J/(min J |k|) is %.3g: periodic orbits are sought only where it is 1e5 at most", ratio);
     ISO_TRY(iso_refuse_equal_moments(w->ctx, J, "no periodic orbit is isolated"));
     ISO_TRY(iso_refuse_rest(w->ctx, &w->scene->start, &effects, "has no periodic orbits of its energy"));
-    ISO_TRY(iso_level_find(w->ctx, w->scene, what, &on));
-    w->units = on.units, w->h = on.h, w->energy = on.energy, w->H = on.H;
-    w->out->level = iso_level_of(&w->units.own, w->energy);
-    const double slow = 1 / sqrt(iso_coupling(&w->units.own, w->h));
-    for (iso_clock c = 0; c < ISO_CLOCKS; c++) w->unit_clock[c] = slow * iso_unit(&w->units, iso_clock_dimension(c));
+    ISO_TRY(iso_level_find(w->ctx, w->scene, what, &w->on));
+    w->out->level = iso_level_of(&w->on.units.own, w->on.energy);
+    const double slow = 1 / sqrt(iso_coupling(&w->on.units.own, w->on.h));
+    for (iso_clock c = 0; c < ISO_CLOCKS; c++)
+        w->unit_clock[c] = slow * iso_unit(&w->on.units, iso_clock_dimension(c));
     if (isfinite(w->unit_clock[ISO_CLOCK_T])) return ISO_OK;
     return ISO_FAIL_INPUT(w->ctx, "angular_velocity",
                           "the energy of this start is too large or too small for doubles");
@@ -65,10 +64,10 @@ static int by_period(const void *a, const void *b)
 static iso_status work(iso_periodic_work *w)
 {
     ISO_TRY(check_scene(w));
-    iso_periodic_map_prepare(w->ctx, &w->units.own, w->energy, w->options.threads, &w->map);
+    iso_periodic_map_prepare(w->ctx, &w->on.units.own, w->on.energy, w->options.threads, &w->map);
     w->out->axis = w->map.axis;
     for (int a = 0; a < 3; a++) /* an end of an axis is the last place that can be reached */
-        w->out->closed = w->out->closed || !iso_hill_has_rotation(w->map.p.k, w->map.p.J, w->energy, a);
+        w->out->closed = w->out->closed || !iso_hill_has_rotation(w->map.p.k, w->map.p.J, w->on.energy, a);
     w->out->longest = w->options.period;
     iso_status status = iso_periodic_rotations(w);
     if (w->options.rotations_alone) return status;

@@ -19,6 +19,7 @@
 #include "method/wide_impl.h"
 #include "model/model.h"
 #include "orbit/crossings.h"
+#include "study/study_impl.h"
 
 /* --- the map ---------------------------------------------------------------------------------------------------- */
 
@@ -54,9 +55,9 @@ typedef struct iso_periodic_point {
 iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const double (*from)[2], int halves,
                              bool whole, double tolerance, iso_periodic_point *to);
 
-/* to[i]: the first crossing of the start half way at u[i], see iso_return_start. NaN: it failed. */
+/* to[i]: the first crossing of the start half way at u[i], see iso_return_start, without slopes. NaN: it failed. */
 iso_status iso_periodic_enter_many(const iso_periodic_map *map, iso_return_start start, size_t count,
-                                   const double u[], double (*to)[2]);
+                                   const double u[], iso_periodic_point *to);
 
 /* A piece of an orbit in more digits: its end, the derivative, and the clocks that pass. */
 typedef struct iso_periodic_fine {
@@ -144,10 +145,7 @@ typedef struct iso_periodic_work {
     const iso_scene *scene;
     iso_periodic_options options;
     iso_periodic_map map;
-    double h;      /* of the scene's orbit, own units                            */
-    double energy; /* its level H for eps = 1, own units                         */
-    double H;      /* the same level, in the scene's units                       */
-    iso_units units;
+    iso_on_level on;               /* of the scene */
     double unit_clock[ISO_CLOCKS]; /* the scene's clocks of one own clock at eps = 1 */
     iso_periodic *out;
     struct iso_periodic_folded *folded; /* points of the orbits that are found, for duplicates */

@@ -51,15 +51,16 @@ static iso_status place_half_way(const iso_periodic_map *map, int line, size_t c
                                  double (*z)[2], double (*by_u)[2])
 {
     const double h = 1e-5;
-    double *near = calloc(3 * count + 1, sizeof *near), (*to)[2] = malloc((3 * count + 1) * sizeof *to);
+    double *near = calloc(3 * count, sizeof *near);
+    iso_periodic_point *to = malloc(3 * count * sizeof *to);
     iso_status status = near && to ? ISO_OK : iso_context_no_memory(map->ctx, "the search");
     for (size_t i = 0; i < 3 * count && status == ISO_OK; i++) near[i] = u[i / 3] + h * ((double)(i % 3) - 1);
     if (status == ISO_OK) status = iso_periodic_enter_many(map, start_of(line), 3 * count, near, to);
     for (size_t i = 0; i < count && status == ISO_OK; i++) {
-        double(*const at)[2] = &to[3 * i];
-        memcpy(z[i], at[1], sizeof z[i]);
-        by_u[i][0] = remainder(at[2][0] - at[0][0], 2 * ISO_PI) / (2 * h);
-        by_u[i][1] = (at[2][1] - at[0][1]) / (2 * h);
+        const iso_periodic_point *at = &to[3 * i];
+        z[i][0] = at[1].l, z[i][1] = at[1].x;
+        by_u[i][0] = remainder(at[2].l - at[0].l, 2 * ISO_PI) / (2 * h);
+        by_u[i][1] = (at[2].x - at[0].x) / (2 * h);
     }
     free(near);
     free(to);

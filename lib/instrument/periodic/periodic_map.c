@@ -114,7 +114,6 @@ iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const do
                              bool whole, double tolerance, iso_periodic_point *to)
 {
     const size_t each = (size_t)halves;
-    if (count == 0) return ISO_OK;
     if (whole) return go(&(points){.map = map, .z = from, .each = each, .to = to}, count, tolerance);
     double(*z)[2] = malloc(count * sizeof *z);
     iso_periodic_point *part = malloc(count * sizeof *part);
@@ -138,16 +137,9 @@ iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const do
 }
 
 iso_status iso_periodic_enter_many(const iso_periodic_map *map, iso_return_start start, size_t count,
-                                   const double u[], double (*to)[2])
+                                   const double u[], iso_periodic_point *to)
 {
-    if (count == 0) return ISO_OK;
-    iso_periodic_point *first = malloc(count * sizeof *first);
-    if (!first) return iso_context_no_memory(map->ctx, "orbits");
-    points p = {.map = map, .from = start, .u = u, .each = 1, .to = first};
-    const iso_status status = go(&p, count, 1e-13);
-    for (size_t i = 0; i < count; i++) to[i][0] = first[i].l, to[i][1] = first[i].x;
-    free(first);
-    return status;
+    return go(&(points){.map = map, .from = start, .u = u, .each = 1, .to = to}, count, 1e-13);
 }
 
 /* --- one point in more digits ----------------------------------------------------------------------------------- */

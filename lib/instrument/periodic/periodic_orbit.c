@@ -142,8 +142,8 @@ static iso_status add_orbit(iso_periodic_work *w, const iso_periodic_orbit *solv
     const size_t size = 2 * (size_t)o.period * sizeof *path;
     if (is_known(w, o.period, o.l, o.x) || has_less(&o, path)) return ISO_OK;
     for (int c = 0; c < ISO_CLOCKS; c++) o.clock[c] *= w->unit_clock[c];
-    const double eps = iso_coupling(p, w->h * iso_unit(&w->units, iso_dimension_h));
-    iso_section_point((iso_point_motion){p, eps, w->H}, w->map.axis, o.l, o.x, o.point);
+    const double eps = iso_coupling(p, w->on.h * iso_unit(&w->on.units, iso_dimension_h));
+    iso_section_point((iso_point_motion){p, eps, w->on.H}, w->map.axis, o.l, o.x, o.point);
     iso_point_to_ball(p, o.point, o.ball);
     find_symmetry(path, &o);
     find_copies(path, &o);

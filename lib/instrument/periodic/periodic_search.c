@@ -83,7 +83,8 @@ static iso_status make_shots(const search *s, size_t count, shots *m)
 static iso_status shoot(const search *s, size_t count, const double u[], int halves, double tolerance, shots *m)
 {
     const size_t each = (size_t)halves;
-    iso_periodic_point *at = malloc((count * each + 1) * sizeof *at);
+    if (count == 0) return ISO_OK;
+    iso_periodic_point *at = malloc(count * each * sizeof *at);
     iso_status status = at ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
     if (status == ISO_OK) status = iso_periodic_place(&s->w->map, s->line, count, u, m->z, m->z_by_u);
     if (status == ISO_OK)
