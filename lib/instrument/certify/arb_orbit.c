@@ -236,7 +236,7 @@ static iso_status check_work(const work *w, double end)
 {
     const double reached = time_now(w), step = pow(w->result->work_digits, 3), steps = (double)w->result->steps;
     const double needed = steps * fmax(end / reached, 1);
-    const bool measured = steps >= ISO_JUDGED_STEPS && steps * step >= ISO_JUDGED_WORK;
+    const bool measured = steps >= ISO_PACE_STEPS && steps * step >= ISO_PACE_WORK;
     if ((measured ? needed : steps) * step <= ISO_MOST_CERTIFIED_WORK) return ISO_OK;
     return too_long(w, needed);
 }

@@ -96,7 +96,7 @@ static void go_to_level(const iso_problem *f, double y[ISO_STATE], double off)
 
 /* Takes rounding errors across the surface away: on it, some functions are zero. Gives the error of the energy,
  * relative to its terms. */
-static double put_on_surface(const iso_problem *f, double y[ISO_STATE])
+static double move_to_surface(const iso_problem *f, double y[ISO_STATE])
 {
     double size;
     make_unit(y + 3);
@@ -136,7 +136,7 @@ iso_status iso_integral_follow(iso_context *ctx, const iso_integral_search_optio
     double sum = 0;
     for (size_t i = 0; i < s->rows && status == ISO_OK; i++) {
         copy(sample[i].point, s->state[i], ISO_STATE);
-        const double error = put_on_surface(&s->problem, s->state[i]);
+        const double error = move_to_surface(&s->problem, s->state[i]);
         s->state[i][INTEGRAL_V] = iso_integral_v(&s->problem, s->state[i]);
         sum += error * error;
     }

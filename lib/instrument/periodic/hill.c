@@ -25,28 +25,22 @@ static void add_point(hill_pace *s, double at, double height)
     if (s->points < MOST_POINTS) s->at[s->points] = at, s->height[s->points++] = height;
 }
 
-/* Where 1 + E q^(1/k) = 0: ln q = -k ln |E| + i k pi n, n odd for E > 0 and even for E < 0. Where q goes round its
- * zero farther than arg = 3 pi/2 no disc of convergence comes. */
-static void add_level(double k, double energy, double m, double d, hill_pace *s)
-{
-    for (int n = energy > 0 ? 1 : 0; fabs(k) * n <= 1.5 && energy != 0; n += 2) {
-        const double complex q = cexp(-k * log(fabs(energy)) + I * k * ISO_PI * n), phi = cacos((q - m) / d) / 2;
-        add_point(s, creal(phi), fabs(cimag(phi)));
-        if (n > 0 || fabs(creal(phi)) > 0) add_point(s, ISO_PI - creal(phi), fabs(cimag(phi)));
-    }
-}
-
 static double level_at(double k, double energy, double q)
 {
     return 1 + energy * pow(q, 1 / k);
 }
 
-/* q = m + d cos 2 phi. ratio: m/|d|; swing: J_i/(k min q). */
+/* q = m + d cos 2 phi. ratio: m/|d|; swing: J_i/(k min q). 1 + E q^(1/k) = 0 where ln q = -k ln |E| + i k pi n, n odd for
+ * E > 0 and even for E < 0; where q goes round its zero farther than arg = 3 pi/2 no disc of convergence comes. */
 static hill_pace pace_of(double k, double m, double d, double energy, double ratio, double swing)
 {
     hill_pace s = {.points = 0};
     add_point(&s, d > 0 ? ISO_PI / 2 : 0, d == 0 ? 1e3 : acosh(ratio) / 2);
-    if (d != 0) add_level(k, energy, m, d, &s);
+    for (int n = energy > 0 ? 1 : 0; fabs(k) * n <= 1.5 && energy != 0 && d != 0; n += 2) {
+        const double complex q = cexp(-k * log(fabs(energy)) + I * k * ISO_PI * n), phi = cacos((q - m) / d) / 2;
+        add_point(&s, creal(phi), fabs(cimag(phi)));
+        if (n > 0 || fabs(creal(phi)) > 0) add_point(&s, ISO_PI - creal(phi), fabs(cimag(phi)));
+    }
     const double least = fmin(level_at(k, energy, m + d), level_at(k, energy, m - d));
     s.pace = sqrt(fabs(swing) / fmin(least, 1) + 1);
     return s;

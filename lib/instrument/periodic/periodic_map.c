@@ -75,7 +75,7 @@ static void begin(void *user, size_t i, iso_start *start, iso_batch_orbit *orbit
     for (int j = 3; j < ISO_STATE && p->over; j++) start->y[j] = -start->y[j];
 }
 
-static iso_status keep(void *user, size_t i, const iso_walk_stop *stop)
+static iso_status store(void *user, size_t i, const iso_walk_stop *stop)
 {
     const points *p = user;
     const iso_crossing *c = stop->crossing[0];
@@ -91,7 +91,7 @@ static iso_status go(points *p, size_t count, double tolerance)
 {
     const iso_periodic_map *map = p->map;
     iso_walk w = {.ctx = map->ctx, .count = count, .most = p->each, .models = 1};
-    w.user = p, w.begin = begin, w.visit = keep;
+    w.user = p, w.begin = begin, w.visit = store;
     w.options[0] = iso_crossings_defaults();
     w.options[0].axis = map->axis;
     w.options[0].deviations = p->z != NULL;

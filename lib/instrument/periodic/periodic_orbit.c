@@ -126,21 +126,14 @@ iso_status iso_periodic_append(iso_context *ctx, void *list, size_t *count, cons
     return ISO_OK;
 }
 
-/* Whether f^n z = z for some n less than the period. */
-static bool has_less(const iso_periodic_orbit *o, const double (*path)[2])
-{
-    const double z[2] = {o->l, o->x};
-    for (int n = 1; n < o->period; n++)
-        if (o->period % n == 0 && meet(path[2 * n - 1], z)) return true;
-    return false;
-}
-
 static iso_status add_orbit(iso_periodic_work *w, const iso_periodic_orbit *solved, const double (*path)[2])
 {
     iso_periodic_orbit o = *solved;
     const iso_params *p = &w->scene->params;
     const size_t size = 2 * (size_t)o.period * sizeof *path;
-    if (is_known(w, o.period, o.l, o.x) || has_less(&o, path)) return ISO_OK;
+    if (is_known(w, o.period, o.l, o.x)) return ISO_OK;
+    for (int n = 1; n < o.period; n++) /* its period is less if f^n z = z */
+        if (o.period % n == 0 && meet(path[2 * n - 1], (const double[2]){o.l, o.x})) return ISO_OK;
     for (int c = 0; c < ISO_CLOCKS; c++) o.clock[c] *= w->unit_clock[c];
     const double eps = iso_coupling(p, w->on.h * iso_unit(&w->on.units, iso_dimension_h));
     iso_section_point((iso_point_motion){p, eps, w->on.H}, w->map.axis, o.l, o.x, o.point);

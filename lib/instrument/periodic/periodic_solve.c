@@ -163,19 +163,6 @@ static void measure(const solver *s, iso_periodic_orbit *o)
     o->multipliers = iso_multipliers_of(o->trace, fmax(4 * o->error, o->torus ? 1e-9 : 1e-15), (double)slope[1][0]);
 }
 
-/* The points of a symmetric orbit's second half are mirror images: S g^n z = g^(2p - n) z, or g^(2p - 1 - n) z if z
- * is the first crossing behind a line half way. */
-static void complete_path(const solver *s)
-{
-    const int p = s->period, shift = iso_symmetry_line_is_half_way(s->line) ? 1 : 0;
-    const double z[2] = {(double)s->z[0], (double)s->z[1]};
-    memcpy(s->path, s->shot.path, (size_t)p * sizeof *s->path);
-    for (int n = p + 1; n < 2 * p; n++) {
-        const int of = 2 * p - shift - n;
-        iso_periodic_reverse(iso_symmetry_line_reversor(s->line), of == 0 ? z : s->path[of - 1], s->path[n - 1]);
-    }
-}
-
 iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_return_code *code,
                                        const iso_periodic_candidate *c, iso_periodic_orbit *o, double (*path)[2])
 {
@@ -187,6 +174,7 @@ iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_re
     if (s.line >= 0 && !(hypot((double)s.shot.miss[0], (double)s.shot.miss[1]) < 1e-8)) return ISO_PERIODIC_NONE;
     measure(&s, o);
     const iso_fine z[2] = {iso_fine_of(iso_wide_wrap(s.z[0], 2 * WIDE_PI)), iso_fine_of(s.z[1])};
+    const double unwrapped[2] = {(double)s.z[0], (double)s.z[1]};
     o->line = s.line;
     o->period = s.period;
     o->u = (double)s.u;
@@ -194,8 +182,15 @@ iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_re
     o->x = z[1].head, o->x_tail = z[1].tail;
     for (int k = 0; k < ISO_CLOCKS; k++)
         o->clock[k] = s.line >= 0 ? 2 * (double)s.shot.clock[k] : (double)s.whole.clock[k];
-    if (s.line >= 0) complete_path(&s);
-    path[2 * s.period - 1][0] = o->l;
-    path[2 * s.period - 1][1] = o->x;
+    /* The points of a symmetric orbit's second half are mirror images: S g^n z = g^(2p - n) z, or g^(2p - 1 - n) z if z
+     * is the first crossing behind a line half way. */
+    const int p = s.period, shift = iso_symmetry_line_is_half_way(s.line) ? 1 : 0;
+    if (s.line >= 0) memcpy(path, s.shot.path, (size_t)p * sizeof *path);
+    for (int n = p + 1; n < 2 * p && s.line >= 0; n++) {
+        const int of = 2 * p - shift - n;
+        iso_periodic_reverse(iso_symmetry_line_reversor(s.line), of == 0 ? unwrapped : path[of - 1], path[n - 1]);
+    }
+    path[2 * p - 1][0] = o->l;
+    path[2 * p - 1][1] = o->x;
     return ISO_PERIODIC_FOUND;
 }
