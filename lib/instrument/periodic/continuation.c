@@ -230,29 +230,6 @@ static bool follow_some(iso_pool_worker *w, void *data, size_t first, size_t cou
     return true;
 }
 
-/* The branches of all orbits, in one list. */
-static iso_status follow_all(crowd *c, size_t count, iso_continuations *out)
-{
-    iso_context *ctx = c->family->ctx;
-    c->of = calloc(count, sizeof *c->of);
-    if (!c->of) return iso_context_no_memory(ctx, "branches");
-    iso_pool pool = {.what = "orbit", .count = count, .chunk = 1, .solve = follow_some, .data = c};
-    iso_status kept = ISO_OK,
-               status = iso_pool_run(ctx, &pool, iso_pool_threads(c->family->options.threads, count - 1, 1), NULL);
-    for (size_t i = 0; i < count; i++) {
-        const int before = (int)out->count;
-        for (size_t j = 0; j < c->of[i].count; j++) {
-            iso_branch *b = &c->of[i].branch[j];
-            if (b->parent >= 0) b->parent += before;
-            if (kept == ISO_OK) kept = iso_periodic_append(ctx, &out->branch, &out->count, b, sizeof *b);
-            if (kept != ISO_OK) free_branch(b);
-        }
-        free(c->of[i].branch);
-    }
-    free(c->of);
-    return kept == ISO_OK ? status : kept;
-}
-
 /* What is followed; *own: the scene's value. */
 static iso_status prepare(iso_context *ctx, const iso_scene *scene, const iso_continuation_options *options,
                           iso_continuation *f, double *own)
@@ -300,16 +277,28 @@ iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const 
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_continuation f;
-    double own;
+    crowd c = {.family = &f, .orbit = orbits};
     *follow = NULL;
-    ISO_TRY(prepare(ctx, scene, options, &f, &own));
+    ISO_TRY(prepare(ctx, scene, options, &f, &c.own));
     for (size_t i = 0; i < count; i++)
         if (orbits[i].line < 0) return ISO_FAIL_INPUT(ctx, "orbit", "an orbit without a symmetry cannot be followed");
     if (count == 0) return ISO_FAIL_INPUT(ctx, "orbit", "no symmetric orbit to follow: the list is empty");
     iso_continuations *out = calloc(1, sizeof *out);
-    if (!out) return iso_context_no_memory(ctx, "branches");
+    c.of = calloc(count, sizeof *c.of);
+    if (!out || !c.of) return free(out), free(c.of), iso_context_no_memory(ctx, "branches");
     out->vary = f.options.vary;
-    const iso_status status = follow_all(&(crowd){.family = &f, .orbit = orbits, .own = own}, count, out);
+    iso_pool pool = {.what = "orbit", .count = count, .chunk = 1, .solve = follow_some, .data = &c};
+    iso_status status = iso_pool_run(ctx, &pool, iso_pool_threads(f.options.threads, count - 1, 1), NULL);
+    for (size_t i = 0; i < count; i++) { /* all branches in one list */
+        const int before = (int)out->count;
+        for (iso_branch *b = c.of[i].branch; b < c.of[i].branch + c.of[i].count; b++) {
+            if (b->parent >= 0) b->parent += before;
+            const iso_status kept = iso_periodic_append(ctx, &out->branch, &out->count, b, sizeof *b);
+            if (kept != ISO_OK) free_branch(b), status = kept;
+        }
+        free(c.of[i].branch);
+    }
+    free(c.of);
     if (status != ISO_OK && status != ISO_STOPPED) iso_continuation_free(out), out = NULL;
     *follow = out;
     return status;
