@@ -69,12 +69,14 @@ static iso_status read_numbers(iso_context *ctx, const iso_literals *all, const 
 /* The fractions come first. */
 void certify_exact_init(certify_exact *e)
 {
-    for (fmpq *x = e->k; x < e->k + offsetof(certify_exact, model) / sizeof *x; x++) fmpq_init(x);
+    fmpq *x = (fmpq *)e, *end = x + offsetof(certify_exact, model) / sizeof *x;
+    for (; x < end; x++) fmpq_init(x);
 }
 
 void certify_exact_clear(certify_exact *e)
 {
-    for (fmpq *x = e->k; x < e->k + offsetof(certify_exact, model) / sizeof *x; x++) fmpq_clear(x);
+    fmpq *x = (fmpq *)e, *end = x + offsetof(certify_exact, model) / sizeof *x;
+    for (; x < end; x++) fmpq_clear(x);
 }
 
 /* k = A/(A + b), b the signed radius of the ball; J = I + m b^2. */

@@ -76,7 +76,7 @@ typedef struct iso_proofs {
     size_t rows;
     iso_proof *row;
     FILE *certificates; /* of all rows, one after the other, in a temporary file; NULL: not wanted */
-    bool all;           /* 0 is in no enclosure of an interval of k, and these leave nothing out; no double says so */
+    bool all;           /* the enclosures cover the interval of k and none holds 0; decided exactly */
     double undecided;   /* the part of an interval of k that is undecided, [0, 1], rounded */
 } iso_proofs;
 
