@@ -40,7 +40,7 @@ static int draw(const shell *s)
     const iso_separatrix_splitting *at = iso_separatrix_clearest(t);
     iso_record *curve = NULL;
     char at_number[ISO_FRACTION_SIZE + 16], number[ISO_FRACTION_SIZE];
-    const bool by_level = iso_separatrix_by_level(t);
+    const bool by_level = t->by_level;
     if (interrupted()) return EXIT_DONE;
     iso_status status =
         iso_picture_separatrix(s->ctx, at->k, s->scene.params.J, at->level, at->section_m, at->lambda, &curve);

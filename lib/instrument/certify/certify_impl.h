@@ -17,10 +17,10 @@
 enum { ISO_MOST_CERTIFIED_DIGITS = 1000, ISO_MOST_WORK_DIGITS = 10000 };
 
 /* Of an attempt, as its steps times the cube of the digits that are computed with: the most, about ten hours of one
- * core. The pace of an orbit is judged after some seconds of work and 20 steps, about a turn. */
+ * core. The pace of an orbit is known after some seconds of work and 20 steps, about a turn. */
 #define ISO_MOST_CERTIFIED_WORK 1e12
-#define ISO_JUDGED_WORK 3e7
-#define ISO_JUDGED_STEPS 20
+#define ISO_PACE_WORK 3e7
+#define ISO_PACE_STEPS 20
 
 typedef struct iso_certify_options {
     int digits;      /* that each row is to hold                                 */
