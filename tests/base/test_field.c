@@ -1,12 +1,8 @@
 /* test_field.c - fields of structs: the values that are read, the columns and rows that are made of them, and that the
  * type of a field is the member's. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "base/field.h"
 #include "base/number_impl.h"
+#include "laws.h"
 
 typedef enum colour { RED, GREEN } colour;
 

@@ -1,9 +1,6 @@
 /* The closed solution for k = 1, -1 against long double, on random bodies, with equal moments among them, and against
  * reference states. */
-#include "base/random_impl.h"
 #include "exact/exact_impl.h"
-#include "map/state.h"
-#include "method/integrator_impl.h"
 #include "orbits.h"
 #include "reference.h"
 
@@ -212,7 +209,6 @@ int main(void)
     enum { ORBITS = 120 };
     double worst = 0, clock = 0, energy = 0;
     int refused = 0;
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     iso_random *random = iso_random_create(9);
     for (int i = 0; i < ORBITS; i++) {

@@ -1,10 +1,5 @@
 /* What the forms of the closed solution have in common: grids are single times, forms pass into each other, periods
  * are periods, and errors are told. */
-#include <float.h>
-#include <string.h>
-
-#include "base/random_impl.h"
-#include "exact/exact_impl.h"
 #include "exact_orbits.h"
 #include "model/effects/effect.h"
 

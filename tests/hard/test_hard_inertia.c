@@ -1,13 +1,5 @@
 /* Moments of inertia: nearly equal, very different, flat and needle-like bodies. Units are in test_hard_units.c. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
 #include "hard.h"
-#include "model/model_impl.h"
 
 static iso_context *ctx;
 enum { K = 5 };

@@ -10,17 +10,8 @@
  *     the closed solution:                       the same */
 #include "hard.h"
 
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
-#include "laws.h"
 #include "map/state.h"
 #include "method/integrator_impl.h"
-#include "model/model_impl.h"
 
 static iso_context *ctx;
 
@@ -192,8 +183,6 @@ static void close_book(void)
         if (book[i].worst >= 0 || isnan(book[i].worst)) hard_hold(&hard_way[i], book[i].worst, bound);
     }
 }
-
-/* --- naive formulations ----------------------------------------------------------------------------------------- */
 
 /* (24) as it stands in t, by rk8pd; or the ball by a step of rk4 of a given length: how far off omega and n are. */
 static double naive(const question *q, const iso_system *system, double step)

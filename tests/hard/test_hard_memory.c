@@ -4,7 +4,6 @@
 #include <gsl/gsl_odeiv2.h>
 #include <pthread.h>
 #include <stdint.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 

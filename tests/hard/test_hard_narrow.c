@@ -5,17 +5,9 @@
  * have a given length, at most a twentieth of the feature's width where it acts. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
-#include "length.h"
+#include "laws.h"
 #include "method/methods_impl.h"
-#include "model/model_impl.h"
 #include "orbit/batch.h"
 #include "orbit/orbit.h"
 

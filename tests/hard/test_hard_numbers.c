@@ -1,10 +1,6 @@
 /* NaN, infinity, zeros, subnormals and the largest numbers at every number of every call. */
-#include <stdlib.h>
-#include <string.h>
-
-#include "exact/exact_impl.h"
-#include "hard.h"
 #include "api/typed_impl.h"
+#include "exact/exact_impl.h"
 #include "method/integrator_impl.h"
 #include "numbers.h"
 #include "sweep.h"
@@ -231,8 +227,6 @@ static iso_status exact(iso_context *ctx, const void *data, const double v[], sw
     iso_exact_free(x);
     return status;
 }
-
-/* --- all of them ------------------------------------------------------------------------------------------------ */
 
 #define BALL -1, 1.4, 2.1, 3, 0.9, -0.3, -0.225, 0.36, 0.48, 0.8, 1, 1e-6, 1
 #define POINT -1, 1.4, 2.1, 3, 0.7, -0.3, -0.135, 0.36, 0.48, 0.8, 1, 1e-6, 0.3

@@ -3,14 +3,9 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <gsl/gsl_sf_ellint.h>
-#include <string.h>
 
-#include "base/random_impl.h"
 #include "exact_orbits.h"
-#include "hard.h"
 #include "hard_loss.h"
-#include "length.h"
-#include "map/state.h"
 
 typedef long double real;
 
@@ -402,8 +397,6 @@ static void check_next_to(void)
     iso_random_free(random);
 }
 
-/* --- on it ------------------------------------------------------------------------------------------------------ */
-
 /* From an umbilic every orbit is on the separatrix: it goes to the rotation, and in the end is that to all digits.
  * Here is one in binary: b2 - b1 = b3 - b2, gamma1 = gamma3. */
 static void check_on(void)
@@ -435,7 +428,6 @@ static void check_on(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     hard_topic("3. Planes, axes, separatrices");
     ctx = iso_context_create();
     check_exponent();

@@ -1,13 +1,7 @@
 /* Turning points off the zero level, where M and omega are 0, and coordinate planes and umbilics, where sphero-
  * conical coordinates meet: orbits start there and pass there. */
-#include <float.h>
-#include <string.h>
-
 #include "exact_orbits.h"
-#include "hard.h"
 #include "hard_loss.h"
-#include "map/state.h"
-#include "numbers.h"
 #include "orbit/orbit_impl.h"
 
 static iso_context *ctx;
@@ -343,7 +337,6 @@ static void check_coordinates(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     hard_topic("4. Turning points and coordinates");
     ctx = iso_context_create();
     check_rest();

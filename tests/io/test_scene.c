@@ -1,13 +1,9 @@
 /* test_scene.c - scene files: valid ones of every kind, and every kind of mistake with its place and its words. */
 #include <dirent.h>
-#include <gsl/gsl_test.h>
 #include <locale.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "io/scene_file.h"
+#include "laws.h"
 
 #define BALL "ball: {mass: 2, radius: 1, inertia: [2, 3, 4]}\n"
 #define SURFACE "surface: {kind: shell, radius: 0.5}\n"

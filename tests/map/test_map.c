@@ -1,15 +1,8 @@
 /* The isomorphism (18)-(24): states, energies, clocks, integrals, and the flow of one system carried to the other. */
-#include <float.h>
 #include <gsl/gsl_sf_ellint.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "base/vec3_impl.h"
 #include "laws.h"
 #include "map/state.h"
-#include "model/model_impl.h"
 #include "poisson.h"
 
 /* NN, rho of (18), from n */
@@ -215,7 +208,6 @@ static void s_periods(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     laws_hold("(18) and its inverse", &iso_system_ball, formulas);
     laws_hold("constraints (19) and the sign of M", &iso_system_ball, constraints);
     laws_hold("only the direction of n counts; in place", &iso_system_ball, length_and_aliasing);

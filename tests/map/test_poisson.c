@@ -1,13 +1,5 @@
 /* The algebra of e(3): bracket (20), Casimirs, Jacobi identity, the Hamiltonian (21) and its flow in tau. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "model/model_impl.h"
 #include "poisson.h"
 
 enum { N = ISO_STATE };
@@ -181,7 +173,6 @@ static void product(const laws_case *c, laws_worst *worst)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     laws_hold("brackets (20)", &iso_system_point, brackets);
     laws_hold("Casimirs", &iso_system_point, casimirs);
     laws_hold("Jacobi identity", &iso_system_point, jacobi);

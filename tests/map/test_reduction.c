@@ -1,13 +1,6 @@
 /* Sphero-conical coordinates (12)-(13) and the ball in them: (14)-(17), the second form of (21). */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/vec3_impl.h"
 #include "laws.h"
 #include "map/state.h"
-#include "model/model_impl.h"
 #include "reduction.h"
 
 /* A(z) = (J1 - z)(J2 - z)(J3 - z) */
@@ -224,7 +217,6 @@ static void near_planes(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     near_planes();
     laws_hold("T (14) = h, S (15), N (16)", &iso_system_ball, as_written);
     laws_hold("rates of lam and mu", &iso_system_ball, rates);

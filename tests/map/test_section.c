@@ -1,18 +1,8 @@
 /* The chart of the section gamma_a = 0: forth and back, slopes, Sturm's bounds, the area, points spread evenly. */
-#include <float.h>
 #include <gsl/gsl_sf_ellint.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "map/section_impl.h"
 #include "map/state.h"
-#include "model/model_impl.h"
 #include "orbit/orbit.h"
 #include "section_area.h"
 
@@ -386,7 +376,6 @@ static void reference(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     laws_hold("crossings and their chart", &iso_system_point, crossing);
     laws_hold("slopes of the chart", &iso_system_point, slopes);
     laws_hold("Sturm's bounds", &iso_system_point, bounds);

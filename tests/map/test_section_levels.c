@@ -1,18 +1,8 @@
 /* The chart of the section on levels H = E, also where a part of its circle is closed: energy, slopes, Sturm's bounds,
  * the area, points spread evenly. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
 #include "map/section.h"
-#include "map/section_impl.h"
 #include "map/state.h"
-#include "model/model_impl.h"
 #include "section_area.h"
 
 enum { CASES = 300, STEPS = 20000 };

@@ -1,12 +1,5 @@
 /* Taylor series in lanes, lib/method/taylor/lanes_impl.h: the states of each code, and that no lane feels another. */
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/random_impl.h"
-#include "effects.h"
-#include "method/integrator_impl.h"
 #include "method/taylor/lanes_impl.h"
-#include "model/model_impl.h"
 #include "orbits.h"
 
 enum { ROWS = 4, CODES = 8 };
@@ -169,7 +162,6 @@ static void solve_groups(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     dice = iso_random_create(4);
     extended = iso_method_find("taylor_extended");

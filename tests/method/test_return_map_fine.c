@@ -1,14 +1,6 @@
 /* The return map in numbers of 64 and of 113 bits, lib/method/taylor/return_map_impl.h: against the lanes of doubles,
  * against Hill's traces, and by its laws: determinant, reversor, two halves. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/pi_impl.h"
-#include "laws.h"
-#include "length.h"
 #include "map/section_impl.h"
 #include "method/methods_impl.h"
 #include "method/taylor/lanes_impl.h"

@@ -1,12 +1,6 @@
 /* The compositions of lib/method/symplectic.c: their orders, what they keep, the way back, times between steps. */
-#include <float.h>
 #include <gsl/gsl_fit.h>
-#include <string.h>
 
-#include "length.h"
-#include "method/integrator_impl.h"
-#include "model/model_impl.h"
-#include "numbers.h"
 #include "orbits.h"
 
 static iso_context *ctx;
@@ -220,7 +214,6 @@ static void check_refusals(const iso_method *m)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     for (int k = 0; k < 2; k++) {
         const bundle b = make_bundle(orbit_k[k]);

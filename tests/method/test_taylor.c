@@ -1,13 +1,5 @@
 /* The Taylor series of lib/method/taylor/: recurrences, orders, processors, the way back, long runs, rest. */
-#include <float.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "effects.h"
-#include "method/integrator_impl.h"
 #include "method/taylor/code_impl.h"
-#include "model/model_impl.h"
-#include "orbit/orbit.h"
 #include "orbits.h"
 
 static iso_context *ctx;
@@ -85,8 +77,6 @@ static void states(const effects_case *c, laws_worst *worst)
     effects_note(c, worst, orbit_error(&o, y, long_y), 1e-13, "long double");
     effects_note(c, worst, orbit_error(&o, y, expected), 1e-13, "rk8pd");
 }
-
-/* --- order ------------------------------------------------------------------------------------------------------ */
 
 /* The order that the tolerance chooses: by how much the error falls when fixed steps are halved. */
 static void check_order(const iso_method *m, const iso_system *system, iso_clock clock, double k, int order)
@@ -283,8 +273,6 @@ static void check_second(const iso_system *system, double k, iso_clock clock, do
     iso_integrator_free(it);
 }
 
-/* --- edges ------------------------------------------------------------------------------------------------------ */
-
 /* At rest nothing moves, with the normal upright neither; beside it the ball falls as it does by rk8pd. */
 static void check_rest(const iso_method *m)
 {
@@ -309,7 +297,6 @@ static void check_rest(const iso_method *m)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     taylor = iso_method_find("taylor");
     extended = iso_method_find("taylor_extended");

@@ -1,7 +1,5 @@
 /* test_two_point.c - from sample to sample by the equations of motion (method/two_point.h): the clock's gain against
  * an integrated one, the estimate of its error, the defect of samples that lie on no orbit, and where it declines. */
-#include <string.h>
-
 #include "method/two_point_impl.h"
 #include "orbits.h"
 

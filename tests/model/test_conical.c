@@ -1,13 +1,6 @@
 /* Sphero-conical coordinates (12)-(13): roots, squares, distances from the b_i, rates; near coordinate planes too. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/vec3_impl.h"
 #include "laws.h"
 #include "model/conical_impl.h"
-#include "model/model_impl.h"
 
 /* Indices of b from the least to the largest */
 static void order_of(const double b[3], int order[3])
@@ -221,7 +214,6 @@ static void rates(const laws_case *c, laws_worst *worst)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     laws_hold("coordinates of n (12)", &iso_system_ball, from_vector);
     laws_hold("and back", &iso_system_ball, to_vector);
     laws_hold("lam mu/det J = g", &iso_system_ball, product_is_g);

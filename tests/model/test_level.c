@@ -1,10 +1,6 @@
 /* What effects leave of the levels that motions stay on, and of the isomorphism: integrals, the energy that is lost,
  * the point's equations and energy as images of the ball's. */
 #include "effects.h"
-#include "model/model_impl.h"
-
-#include <float.h>
-#include <string.h>
 
 /* --- integrals ------------------------------------------------------------------------------------------------- */
 
@@ -379,7 +375,6 @@ static void same_in_own_units(const effects_case *c, laws_worst *worst)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     effects_hold("listed integrals stay", NULL, 1, integrals_hold);
     effects_hold("energy lost to resistance", &iso_system_ball, 1, energy_lost);
     unlisted_change(&iso_system_ball);

@@ -1,14 +1,5 @@
 /* Parameters: what is accepted and what it gives, what is refused and about which quantity, the ball's own units. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "model/model_impl.h"
 
 static iso_context *ctx;
 
@@ -253,7 +244,6 @@ static void dimensions(const laws_case *c, laws_worst *worst)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     surfaces_give_k();
     reduced();

@@ -1,6 +1,5 @@
 /* Batches that cannot be, and orbits that fail, stop, stiffen or rest among others, lib/orbit/batch.h. */
 #include <malloc.h>
-#include <string.h>
 
 #include "batches.h"
 #include "orbit/orbit_impl.h"
@@ -293,7 +292,6 @@ static void check_stopped(int threads)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     dice = iso_random_create(2);
     mallopt(M_PERTURB, 0x5a); /* what was never written is seen */

@@ -1,13 +1,4 @@
 /* Whole records from one model to the other and back (iso_convert): states, clocks, lines, and what is refused. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
-#include "laws.h"
 #include "orbit/orbit_impl.h"
 #include "reference.h"
 #include "task/convert/convert_impl.h"
@@ -154,8 +145,6 @@ static void check_trips(void)
     laws_report(&t_clock, "t comes back, with its origin");
     laws_report(&states, "states of a record, ulp");
 }
-
-/* --- s against the reference ----------------------------------------------------------------------------------- */
 
 static void check_reference(void)
 {
@@ -347,7 +336,6 @@ static void check_missing_lines(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     check_trips();
     check_reference();

@@ -1,13 +1,5 @@
 /* Crossings of orbits one by one, lib/orbit/crossings.h: reference/section.csv, parts, limits, refusals. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/pi_impl.h"
-#include "base/vec3_impl.h"
-#include "laws.h"
 #include "map/section_impl.h"
 #include "numbers.h"
 #include "orbit/crossings.h"

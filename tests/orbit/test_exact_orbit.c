@@ -1,14 +1,4 @@
 /* The closed solution as a backend: every picture and clock against the orbits by steps, events, refusals. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
-#include "laws.h"
-#include "model/model_impl.h"
-#include "numbers.h"
 #include "orbit/batch.h"
 #include "orbit/orbit_impl.h"
 #include "scenes.h"

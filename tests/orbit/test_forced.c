@@ -1,5 +1,4 @@
 /* Balls under forces: energy along the orbit, and motion run backwards; Neumann's problem as a free ball's. */
-#include "base/random_impl.h"
 #include "orbit/orbit_impl.h"
 #include "scenes.h"
 
@@ -211,7 +210,6 @@ static void check_reversals(iso_random *random)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     iso_random *random = iso_random_create(74);
     check_energies(random);

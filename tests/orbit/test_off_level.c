@@ -1,15 +1,5 @@
 /* A point at any energy H and its ball: off the level H = 0 the ball lives in the potential of the effect `level`,
  * U = -c g^(-1/k), c = H k^2/det J, g = (n, J^-1 n). Newton's law by differences of the orbit's samples. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
-#include "laws.h"
-#include "numbers.h"
 #include "orbit/orbit_impl.h"
 #include "scenes.h"
 
@@ -224,8 +214,6 @@ static void check_stated(void)
     gsl_test_rel(eps, o.eps, 1e-13, "the coupling follows from the level");
 }
 
-/* --- a point that swings ---------------------------------------------------------------------------------------- */
-
 /* Too slow for the level H = 0, it turns back; alone, it has no ball's columns. */
 static void check_swing(void)
 {
@@ -257,7 +245,6 @@ static void check_swing(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     check_all();
     check_stated();

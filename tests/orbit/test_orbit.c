@@ -1,15 +1,4 @@
 /* One orbit, however it is asked for: by either backend, in any clock, in other units, from either side. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
-#include "laws.h"
-#include "model/model_impl.h"
-#include "orbit/orbit.h"
 #include "scenes.h"
 
 static const double J_three[3] = {1.4, 2.1, 3.0};
@@ -248,7 +237,6 @@ static void check_scaling(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     check_backends();
     check_point_starts();

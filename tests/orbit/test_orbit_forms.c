@@ -2,14 +2,7 @@
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_mode.h>
 #include <gsl/gsl_sf_ellint.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "base/vec3_impl.h"
-#include "laws.h"
-#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "scenes.h"
 
@@ -239,7 +232,6 @@ static void check_failure(iso_backend backend)
 int main(void)
 {
     laws_worst events = {0};
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     check_turns();
     check_small_k();

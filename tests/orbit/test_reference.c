@@ -4,11 +4,6 @@
  * t <= 100, to 1e-8 at t = 1000; s, promised to 1e-9 of itself, comes out much better. The other methods are asked
  * for about ten times the error that was measured.
  */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
 #include "reference.h"
 
 static iso_context *ctx;
@@ -74,7 +69,6 @@ int main(void)
         {"bsimp", 1e-11, {3e-7, 1e-7}, 1e-9, 0},
     };
     reference rows[REFERENCE_ROWS];
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     const int count = reference_read(ctx, rows);
     for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) check(&runs[i], rows, count);

@@ -1,16 +1,8 @@
 /* The return map of free orbits in lanes, lib/orbit/crossings.h: its derivative, its fixed points, its integrals, and
  * that the numbers of an orbit do not depend on other orbits. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/pi_impl.h"
 #include "base/random.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "length.h"
 #include "map/section_impl.h"
 #include "map/state.h"
 #include "orbit/crossings.h"
@@ -120,8 +112,6 @@ static void check_slopes(void)
     laws_report(&slopes, "the derivative of the return map, by differences");
     laws_report(&areas, "it keeps dL dl");
 }
-
-/* --- fixed points ----------------------------------------------------------------------------------------------- */
 
 /* Half-turn traces T of rotations about the axes b and c, beside the section's own axis; Hill's equation by another
  * code. A turn has the trace T^2 - 2. */
@@ -260,7 +250,6 @@ static void check_bits(const char *vectors, iso_backend backend, bool deviations
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     check_slopes();
     check_fixed_points();

@@ -1,17 +1,7 @@
 /* A ball with a rotor, and the point in its magnetic field: states in quadruple precision by both backends, where
  * integrals hold, the motion backwards, and the reversors of the return map. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/pi_impl.h"
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
-#include "laws.h"
 #include "map/section_impl.h"
-#include "model/model_impl.h"
 #include "numbers.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
@@ -279,7 +269,6 @@ static void reversors(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     iso_random *r = iso_random_create(2024);
     references();

@@ -1,13 +1,6 @@
 /* Balls in potentials that sphero-conical coordinates separate, written as expressions: each has the second integral
  * of section 8 of lib/doc/theory.md at k = 1 and k = -1, and not at k beside. */
-#include <gsl/gsl_test.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 
 static iso_context *ctx;
@@ -136,7 +129,6 @@ static void check_family(bool shell, int family, iso_random *random)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     iso_random *random = iso_random_create(5);
     for (int family = 0; family < FAMILIES; family++) {

@@ -102,8 +102,6 @@ static void check_classical(const rolling *ball, double spin, iso_random *random
     iso_orbit_free(orbit);
 }
 
-/* --- spin ------------------------------------------------------------------------------------------------------- */
-
 /* A start with spin s: at once its contact takes s out by an impulse along n, w -> w - (s/g) J^-1 n, g = (n,J^-1 n).
  * From there it is a rubber ball, and turns about n by lambda/c alone. */
 static laws_worst blow, decay;
@@ -122,7 +120,6 @@ static void check_blow(const rolling *ball, iso_random *random)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     iso_random *random = iso_random_create(73);
     for (int which = 0; which < ROLLINGS; which++) {

@@ -1,10 +1,4 @@
 /* Laws of what is watched along an orbit: the drift of its integrals, and the distance of two states. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/vec3_impl.h"
-#include "laws.h"
 #include "orbit/watch_impl.h"
 #include "scenes.h"
 
@@ -85,7 +79,6 @@ static void check_orbit(const laws_case *c, laws_worst *worst)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     laws_hold("drifts and distances", NULL, check_orbit);
     iso_context_free(ctx);

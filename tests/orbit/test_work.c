@@ -5,20 +5,10 @@
  * - A false claim is never an answer: the orbit ends where the claim fails, by every method, alone and in lanes.
  * - A true claim is not refused, and what it gives is the same motion as without it.
  */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "length.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
 #include "model/expression/written_impl.h"
-#include "model/model_impl.h"
 #include "orbit/batch.h"
 #include "orbit/orbit_impl.h"
 
@@ -38,8 +28,6 @@ static iso_effects torque_of(const char *const M[3], int said)
     laws_stop_if(ctx, said != NOT_SAID && iso_effects_set(ctx, &e, "torque", "work", 1, &work) != ISO_OK, "work");
     return e;
 }
-
-/* --- the form ---------------------------------------------------------------------------------------------------- */
 
 static void forms(void)
 {

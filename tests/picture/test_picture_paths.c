@@ -1,11 +1,6 @@
 /* test_picture_paths.c - pictures of paths on spheres, and of curves: what thinning and the sides keep. Private
  * functions of the library are tested. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
+#include "laws.h"
 #include "picture/picture_impl.h"
 
 static iso_context *ctx;

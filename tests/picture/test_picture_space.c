@@ -1,12 +1,6 @@
 /* test_picture_space.c - pictures of a path in space: the frame of the views, what is marked, what is not assumed.
  * Private functions of the library are tested. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
+#include "laws.h"
 #include "picture/picture_impl.h"
 
 static iso_context *ctx;

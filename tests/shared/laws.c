@@ -1,15 +1,5 @@
 #include "laws.h"
 
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
-#include "model/model_impl.h"
-
 const double laws_k[LAWS_K] = {1, -1, 0.5, 0.75, -0.4, 1.5, -2, 0.25, 4, 0.05, 50};
 
 const double laws_J[LAWS_J][3] = {

@@ -2,13 +2,6 @@
 #ifndef ISO_TESTS_STUDIES_H
 #define ISO_TESTS_STUDIES_H
 
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/random_impl.h"
 #include "laws.h"
 #include "orbit/scene.h"
 

@@ -1,13 +1,7 @@
 /* Verdicts of lib/instrument/chaos/chaos.h by both models, on orbits that are known to be regular or chaotic; shares;
  * refusals. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "instrument/chaos/chaos.h"
 #include "instrument/chaos/chaos_impl.h"
-#include "length.h"
 #include "studies.h"
 
 static void check_indication(const iso_indication *i, const char *what)

@@ -2,7 +2,6 @@
  * millionth, raises a residual above what the file itself passes, or the check says that nobody looks at it. Over the
  * tables: every effect on every kind of ball, with all that observes, both models, every choice of columns. */
 #include "effects.h"
-#include "length.h"
 #include "orbit/description.h"
 #include "scenes.h"
 #include "studies.h"
@@ -14,8 +13,6 @@
 static const double BOUND = 1e-11, CHANGE = 1e-6, SMALL = 1e-3;
 
 static size_t changed, small, told;
-
-/* --- files ------------------------------------------------------------------------------------------------------ */
 
 /* What `run` writes; NULL: it refuses the scene, which makes no sense (a constant field). */
 static iso_record *file_of(const iso_scene *scene)

@@ -1,16 +1,7 @@
 /* What accuracy costs (task/cost/cost.h): that the errors told are the true ones, that fits find orders and what is
  * broken, and that what is chosen is the cheapest. How long anything takes is no test. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
 #include "costs.h"
-#include "length.h"
 #include "method/integrator_impl.h"
-#include "numbers.h"
 #include "orbit/watch_impl.h"
 #include "reference.h"
 #include "task/cost/cost_impl.h"
@@ -259,8 +250,6 @@ static void check_scenes(void)
     laws_stop_if(ctx, iso_start_point(ctx, M, gamma, &eps, false, &s.start) != ISO_OK, "a point");
     check_scene(&s, "a point", true, true, 1e-13);
 }
-
-/* --- numbers ---------------------------------------------------------------------------------------------------- */
 
 static void check_numbers(void)
 {

@@ -1,10 +1,5 @@
 /* What task/cost/cost.h does not measure, gives up, and stops. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <string.h>
-
 #include "costs.h"
-#include "numbers.h"
 #include "studies.h"
 #include "task/cost/cost_impl.h"
 

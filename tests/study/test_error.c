@@ -1,14 +1,4 @@
 /* The estimated error of an orbit (study/error.h) covers the true one, and is not much larger. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
-#include "laws.h"
-#include "length.h"
-#include "numbers.h"
 #include "orbit/watch_impl.h"
 #include "reference.h"
 #include "scenes.h"
@@ -221,7 +211,6 @@ static void check_no_rows(void)
 int main(void)
 {
     const double longest = tests_length(100, 1000);
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
         check_references("taylor", 1e-6, backend, 100);

@@ -1,17 +1,8 @@
 /* Frequencies: the closed solution's against those estimated from stepped orbits, its actions against loop integrals
  * and Euler's law, its rotation number against sections; what is regular, chaotic or refused. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "exact/coordinates_impl.h"
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/frequencies/frequencies_impl.h"
-#include "length.h"
 #include "map/state.h"
 #include "numbers.h"
 #include "studies.h"
@@ -164,8 +155,6 @@ static double section(const iso_scene *scene, int axis, double expected, double 
     iso_orbit_free(orbit);
     return sum / weights;
 }
-
-/* --- all of it on random orbits --------------------------------------------------------------------------------- */
 
 static void check_closed(void)
 {
@@ -400,7 +389,6 @@ static void check_momentum(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     check_momentum();
     check_regular();

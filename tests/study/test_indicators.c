@@ -1,13 +1,7 @@
 /* Exponent, MEGNO, GALI_2 and the verdict of lib/instrument/chaos/indicators.h, on maps of the plane with exact derivatives. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdlib.h>
-
 #include "base/pi_impl.h"
-#include "base/random_impl.h"
 #include "instrument/chaos/chaos_impl.h"
-#include "length.h"
+#include "laws.h"
 
 enum { TURNS = 3000 };
 

@@ -1,13 +1,5 @@
 /* The search for first integrals of a ball with a rotor (instrument/integrals/integrals.h): it finds those that are known, and
  * nothing else; its functions do not depend on the rotor; units do not matter. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
-#include "length.h"
 #include "orbit/orbit_impl.h"
 #include "searches.h"
 
@@ -148,7 +140,6 @@ static void rotor_dependence(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     rotors();
     rotor_of_degree_4();

@@ -1,13 +1,8 @@
 /* Studies on levels of the energy: rows of sections have the scene's H and its additional integral, shares are 0 where
  * they must be, a scene is put on a level (iso_scene_on_level), and what cannot be is refused. */
-#include <stdio.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "instrument/chaos/chaos.h"
 #include "instrument/section/section.h"
 #include "io/scene_file.h"
-#include "length.h"
 #include "map/section_impl.h"
 #include "orbit/orbit_impl.h"
 #include "studies.h"

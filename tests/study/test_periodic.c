@@ -1,8 +1,6 @@
 /* Periodic orbits (lib/instrument/periodic/periodic.h): the rotations' traces against Hill's equation and the section,
  * orbits against their laws, the search along lines against Newton's method from a grid, k = 1 and -1. */
 #define _GNU_SOURCE /* functions of _Float128 */
-#include "base/random_impl.h"
-#include "length.h"
 #include "map/section.h"
 #include "method/methods_impl.h"
 #include "orbit/crossings.h"
@@ -285,8 +283,6 @@ static void check_polish(void)
     refuse(&scene, &o, ISO_BAD_ARGUMENT, "polish");
 }
 #endif
-
-/* --- refusals --------------------------------------------------------------------------------------------------- */
 
 /* What others refuse as well: foreign/test_refusals.c. */
 static void check_refusals(void)

@@ -6,15 +6,12 @@
 #include <gsl/gsl_odeiv2.h>
 
 #include "base/pi_impl.h"
-#include "base/vec3_impl.h"
 #include "instrument/periodic/continuation.h"
 #include "instrument/periodic/stability_chart.h"
 #include "instrument/separatrix/separatrix.h"
-#include "length.h"
 #include "map/section.h"
 #include "map/section_impl.h"
 #include "map/state.h"
-#include "model/model_impl.h"
 #include "orbit/orbit.h"
 #include "periodics.h"
 #include "study/level.h"
@@ -264,8 +261,6 @@ static void check_ball(void)
     iso_periodic_free(g);
 }
 
-/* --- a branch --------------------------------------------------------------------------------------------------- */
-
 /* At each end of a range of levels the search finds the orbit of the branch. */
 static void check_branch(void)
 {
@@ -295,8 +290,6 @@ static void check_branch(void)
     iso_continuation_free(follow);
     iso_periodic_free(f);
 }
-
-/* --- the chart -------------------------------------------------------------------------------------------------- */
 
 /* On its borders the trace is 2 or -2: on H = 0, on another level, and against the level. */
 static void check_chart(void)

@@ -74,7 +74,6 @@ static void check_no_pressure(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     check_loss();
     check_no_pressure();

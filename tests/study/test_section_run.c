@@ -1,16 +1,10 @@
 /* iso_section_run (instrument/section/section.h): its rows equal the crossings of each orbit computed separately; starts, both
  * models, refusals, and the rows that stay when a sink, the monitor or a failure ends the work. */
-#include <gsl/gsl_test.h>
 #include <limits.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "instrument/section/section_impl.h"
 #include "io/scene_file.h"
 #include "laws.h"
-#include "length.h"
 #include "map/state.h"
 #include "orbit/orbit_impl.h"
 #include "poisson.h"
@@ -218,8 +212,6 @@ static void check_groups(void)
     release(one);
     release(k);
 }
-
-/* --- other scenes ----------------------------------------------------------------------------------------------- */
 
 static void check_effects(void)
 {

@@ -1,7 +1,6 @@
 /* The splitting of the separatrix, lib/instrument/separatrix/separatrix.h: known values, symmetries, errors, zeros,
  * refusals. */
 #include "instrument/separatrix/separatrix.h"
-#include "length.h"
 #include "studies.h"
 
 static const double J_thin[3] = {1.4, 2.1, 3}, J_wide[3] = {1, 2, 5};

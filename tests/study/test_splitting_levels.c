@@ -1,14 +1,8 @@
 /* The splitting on every level of the point's energy: m by difference quotients of crossings, 64 against 128 bits,
  * scans against the level. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/pi_impl.h"
 #include "instrument/separatrix/separatrix.h"
 #include "laws.h"
-#include "length.h"
 #include "map/section.h"
 #include "map/section_impl.h"
 #include "orbit/crossings.h"

@@ -1,11 +1,4 @@
 /* Both backends side by side (iso_compare), and whether a record solves its model (iso_check). */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
 #include "orbit/orbit_impl.h"
 #include "studies.h"
 #include "task/check/check.h"
@@ -326,7 +319,6 @@ static void check_bad_records(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     check_compare();
     check_good();

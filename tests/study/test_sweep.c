@@ -5,13 +5,7 @@
  * - Rows are what the functions of the library give for the scene, and every study that has numbers can be swept.
  * - A point that fails is a row with its reason; the others are there.
  */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "instrument/chaos/chaos.h"
-#include "length.h"
 #include "studies.h"
 #include "sweep/sweep_impl.h"
 #include "task/compare.h"
@@ -252,7 +246,8 @@ static void check_study(const iso_study *study, const char *options, const iso_s
         iso_scene scene;
         double numbers[2];
         must(scene_of(ctx, NULL, 5 + i, &scene, numbers), "a scene");
-        const iso_status status = iso_study_ask_text(ctx, study, &(iso_study_subject){.scene = &scene}, options, &result);
+        const iso_status status =
+            iso_study_ask_text(ctx, study, &(iso_study_subject){.scene = &scene}, options, &result);
         gsl_test(status != rows.status[i], "%s, point %zu: %s", study->name, i, rows.reason[i]);
         const double *row = rows.number + i * (size_t)rows.columns;
         if (status == ISO_OK && result.fields)

@@ -2,15 +2,9 @@
  * phi, for 1/k = N a whole number, eps = 1. 1/k even: a loop whose matrix has one eigenvalue and is not diagonal. 1/k
  * odd: loops round zeros of phi'^2, whose square is 1; antidiagonal at k = 1 and -1 alone.
  */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdlib.h>
-
 #include "base/pi_impl.h"
-#include "base/random_impl.h"
 #include "complex_paths.h"
-#include "length.h"
+#include "laws.h"
 
 typedef struct problem {
     int N;

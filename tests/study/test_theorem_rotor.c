@@ -5,14 +5,9 @@
  *
  *     n = (r cos theta, n2, r sin theta), p = (-sin theta, 0, cos theta), v = (w, p): a state is (n2, v).
  */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdbool.h>
-
 #include "base/pi_impl.h"
-#include "base/random_impl.h"
 #include "complex_paths.h"
-#include "length.h"
+#include "laws.h"
 
 typedef struct problem {
     double k, J[3], K; /* the rotor's momentum is (0, K, 0); the rotation is w = (0, 1, 0) */
