@@ -243,11 +243,6 @@ static void check_rest(double k, iso_backend backend)
 
 /* --- stopped ---------------------------------------------------------------------------------------------------- */
 
-static bool some_times(void *data)
-{
-    return --*(long *)data >= 0;
-}
-
 /* Whatever is done by then is right, and said to be. */
 static void check_stopped(int threads)
 {
@@ -265,8 +260,8 @@ static void check_stopped(int threads)
     memcpy(expected, status, sizeof expected);
     o.threads = threads;
     int wrong = 0, stopped = 0, done = 0, early = 0;
-    for (long asks = 0; asks < 30000; asks = asks + asks / 2 + 1) {
-        long left = asks;
+    for (int asks = 0; asks < 30000; asks = asks + asks / 2 + 1) {
+        int left = asks;
         iso_context_set_monitor(ctx, some_times, &left);
         iso_sample *samples = batch_run(ctx, orbits, COUNT, &o, times, ROWS, status, &whole);
         iso_context_set_monitor(ctx, NULL, NULL);

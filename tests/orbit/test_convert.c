@@ -83,14 +83,6 @@ static double state_ulps(const iso_record *a, const iso_record *b, const char *c
     return worst;
 }
 
-static iso_start random_start(const iso_params *p, iso_random *random)
-{
-    iso_problem f = {.p = *p};
-    iso_start start = {.model = ISO_BALL};
-    iso_system_ball.sample(&f, random, start.y);
-    return start;
-}
-
 /* --- there and back -------------------------------------------------------------------------------------------- */
 
 static laws_worst s_clock, t_clock, states;
@@ -137,7 +129,9 @@ static void check_trips(void)
     iso_random *random = iso_random_create(9);
     for (size_t i = 0; i < sizeof ks / sizeof *ks; i++) {
         const iso_params p = laws_params(ks[i], J_three);
-        const iso_start start = random_start(&p, random);
+        iso_problem f = {.p = p};
+        iso_start start = {.model = ISO_BALL};
+        iso_system_ball.sample(&f, random, start.y);
         for (int kind = 0; kind < KINDS; kind++) check_trip(&p, &start, kind);
     }
     iso_random_free(random);

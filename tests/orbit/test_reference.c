@@ -8,13 +8,6 @@
 
 static iso_context *ctx;
 
-static double state_error(const iso_sample *s, const reference *r)
-{
-    double error[ISO_STATE];
-    for (int i = 0; i < ISO_STATE; i++) error[i] = s->ball[i] - r->ball[i];
-    return laws_max(ISO_STATE, error);
-}
-
 typedef struct trial {
     const char *method;
     double tolerance;
@@ -38,7 +31,9 @@ static void note_row(const trial *run, const reference *r, iso_backend backend, 
         gsl_test(1, "%s, backend %s: %s", run->method, where, iso_context_message(ctx));
     } else {
         const double bound = r->t > 100 ? run->long_time : run->bound[backend];
-        laws_note(state, state_error(&s, r), bound, &r->p, where);
+        double error[ISO_STATE];
+        for (int i = 0; i < ISO_STATE; i++) error[i] = s.ball[i] - r->ball[i];
+        laws_note(state, laws_max(ISO_STATE, error), bound, &r->p, where);
         laws_note(clock, fabs(s.clock[ISO_CLOCK_S] / r->s - 1), run->bound_s, &r->p, where);
     }
     iso_orbit_free(orbit);

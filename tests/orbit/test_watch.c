@@ -4,15 +4,6 @@
 
 static iso_context *ctx;
 
-/* The state with its first or second vector 1 + 1e-6 times as long. */
-static iso_sample stretched(const iso_sample *s, int vector)
-{
-    iso_sample longer = *s;
-    scale(longer.ball + 3 * vector, 1 + 1e-6);
-    scale(longer.point + 3 * vector, 1 + 1e-6);
-    return longer;
-}
-
 /* Nothing drifts at the start, and little along the orbit; the worst is the largest of all; a longer vector shows in
  * the energy or as a constraint; a NaN counts as infinite. */
 static void check_drifts(iso_orbit *orbit, const iso_system *system, double time, laws_worst *worst)
@@ -35,7 +26,9 @@ static void check_drifts(iso_orbit *orbit, const iso_system *system, double time
         }
     }
     for (int vector = 0; vector < 2; vector++) {
-        const iso_sample longer = stretched(&first, vector);
+        iso_sample longer = first;
+        scale(longer.ball + 3 * vector, 1 + 1e-6);
+        scale(longer.point + 3 * vector, 1 + 1e-6);
         iso_watch_follow(orbit, &longer, list, count);
         for (int i = 0; i < count; i++)
             if (vector == 0 ? list[i].integral->value == system->energy : list[i].integral->known == ISO_ONE)

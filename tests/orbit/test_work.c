@@ -163,13 +163,6 @@ static patched random_torque(iso_random *r)
     return t;
 }
 
-/* The true work of a kind, and whether a claim is true. */
-static bool is_true(int kind, int said)
-{
-    return said == ISO_WORK_UNKNOWN || said == NOT_SAID || kind == TURNS ||
-           (kind == RESISTS && said == ISO_WORK_LOST);
-}
-
 static void patches(void)
 {
     enum { CLAIMS = 4 };
@@ -196,7 +189,8 @@ static void patches(void)
                                strstr(words, "; there 'torque' ") && strstr(words, "and n = ("));
             refused += says, early += status == ISO_BAD_INPUT;
             worst = fmax(worst, off);
-            if (is_true(t.kind, claims[j]))
+            if (claims[j] == ISO_WORK_UNKNOWN || claims[j] == NOT_SAID || t.kind == TURNS ||
+                (t.kind == RESISTS && claims[j] == ISO_WORK_LOST)) /* true */
                 gsl_test(status != ISO_OK || off > 1e-7, "patch %d, kind %d, said %d, %s: off by %.2g, %s", i, t.kind,
                          claims[j], method, off, status == ISO_OK ? "" : words);
             else

@@ -44,16 +44,6 @@ void laws_report(const laws_worst *w, const char *law)
              w->nan ? " NaN" : "");
 }
 
-static void run_states(const iso_system *system, const iso_params *p, iso_random *random, laws_law *law,
-                       laws_worst *worst)
-{
-    for (int i = 0; i < LAWS_STATES; i++) {
-        laws_case c = {.system = system, .problem = {.p = *p}, .random = random};
-        system->sample(&c.problem, random, c.y);
-        law(&c, worst);
-    }
-}
-
 static laws_worst run(const iso_system *system, laws_law *law)
 {
     laws_worst worst = {0};
@@ -61,7 +51,11 @@ static laws_worst run(const iso_system *system, laws_law *law)
     for (int i = 0; i < LAWS_K; i++)
         for (int j = 0; j < LAWS_J; j++) {
             const iso_params p = laws_params(laws_k[i], laws_J[j]);
-            run_states(system, &p, random, law, &worst);
+            for (int n = 0; n < LAWS_STATES; n++) {
+                laws_case c = {.system = system, .problem = {.p = p}, .random = random};
+                system->sample(&c.problem, random, c.y);
+                law(&c, &worst);
+            }
         }
     iso_random_free(random);
     return worst;
@@ -196,4 +190,15 @@ double laws_distance(const double a[3], const double b[3])
 double laws_spread(const iso_params *p)
 {
     return max3(p->J) / min3(p->J);
+}
+
+bool never(void *unused)
+{
+    (void)unused;
+    return false;
+}
+
+bool some_times(void *data)
+{
+    return (*(int *)data)-- > 0;
 }

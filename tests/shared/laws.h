@@ -108,4 +108,8 @@ double laws_norm(const double a[3]);
 double laws_distance(const double a[3], const double b[3]);
 double laws_spread(const iso_params *p);
 
+/* Monitors: one that stops at once; one that goes on as often as *data says, an int. */
+bool never(void *unused);
+bool some_times(void *data);
+
 #endif

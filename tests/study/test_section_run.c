@@ -291,23 +291,15 @@ static void check_failure(void)
     release(k);
 }
 
-static int questions, patience;
-
-static bool patient(void *unused)
-{
-    (void)unused;
-    return questions++ < patience;
-}
-
 static void check_stop(void)
 {
     iso_section_options o = iso_section_defaults();
     o.starts = 5;
     o.crossings = 400;
-    questions = 0, patience = INT_MAX;
-    iso_context_set_monitor(ctx, patient, NULL);
+    int left = INT_MAX;
+    iso_context_set_monitor(ctx, some_times, &left);
     kept *all = run(FREE("0.5"), &o, MOST);
-    patience = questions / 2, questions = 0;
+    left = (INT_MAX - left) / 2;
     kept *k = run(FREE("0.5"), &o, MOST);
     iso_context_set_monitor(ctx, NULL, NULL);
     gsl_test_int((int)k->status, ISO_STOPPED, "stopped");
