@@ -244,7 +244,6 @@ int main(void)
     test_lists(&o);
     test_copy();
     iso_context *ctx = iso_context_create();
-    if (!ctx) return 1;
     test_columns(ctx, &o);
     test_functions(ctx, &o);
     test_record(ctx, &o);

@@ -40,7 +40,6 @@ static void test_place(iso_context *ctx)
 int main(void)
 {
     iso_context *ctx = iso_context_create();
-    if (!ctx) return 1;
     test_place(ctx);
     test_version();
     iso_context_free(ctx);

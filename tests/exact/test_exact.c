@@ -16,13 +16,6 @@ static orbit random_point(int i, iso_random *random)
     return orbit_sample(ctx, &iso_system_point, i % 2 == 0 ? -1 : 1, J, 100 + (unsigned long)i);
 }
 
-/* The same with three moments that differ by 1e-3 ... 1e-14. */
-static orbit nearly_round(int i)
-{
-    const double part = pow(10, -3 - i / 2), J[3] = {2, 2 * (1 + part), 2 * (1 + 2.3 * part)};
-    return orbit_sample(ctx, &iso_system_point, i % 2 == 0 ? -1 : 1, J, 300 + (unsigned long)i);
-}
-
 /* States and clocks at a time of each clock, forwards and backwards; energy and constraints of what comes back. */
 static void check_orbit(int i, const orbit *point, double *worst, double *worst_clock, double *worst_energy,
                         int *refused)
@@ -196,7 +189,8 @@ static void check_nearly_round(void)
     double worst = 0, clock = 0, energy = 0;
     int refused = 0;
     for (int i = 0; i < ORBITS; i++) {
-        const orbit point = nearly_round(i);
+        const double part = pow(10, -3 - i / 2), J[3] = {2, 2 * (1 + part), 2 * (1 + 2.3 * part)};
+        const orbit point = orbit_sample(ctx, &iso_system_point, i % 2 == 0 ? -1 : 1, J, 300 + (unsigned long)i);
         check_orbit(i, &point, &worst, &clock, &energy, &refused);
     }
     gsl_test(!(worst < 3e-14 && clock < 1e-14 && energy < 1e-14) || refused > 0,

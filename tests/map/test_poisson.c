@@ -54,23 +54,17 @@ static void casimirs(const laws_case *c, laws_worst *worst)
         }
 }
 
-/* dB_jl/dy_m: B is linear, so that its derivatives are its values at the unit vectors. */
-static void derivatives(double dB[N][N * N])
-{
-    for (int m = 0; m < N; m++) {
-        double unit[N] = {0};
-        unit[m] = 1;
-        poisson_matrix(unit, dB[m]);
-    }
-}
-
 /* sum_m B_im dB_jl/dy_m + cyclic = 0 */
 static void jacobi(const laws_case *c, laws_worst *worst)
 {
     double y[N], B[N * N], dB[N][N * N];
     anywhere(c, y);
     poisson_matrix(y, B);
-    derivatives(dB);
+    for (int m = 0; m < N; m++) { /* dB_jl/dy_m: B is linear */
+        double unit[N] = {0};
+        unit[m] = 1;
+        poisson_matrix(unit, dB[m]);
+    }
     for (int i = 0; i < N; i++)
         for (int j = 0; j < N; j++)
             for (int l = 0; l < N; l++) {

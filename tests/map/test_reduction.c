@@ -53,15 +53,6 @@ static void rates(const laws_case *c, laws_worst *worst)
         laws_note(worst, fabs(slope[r] - at.rate[r]), laws_conditioning(p) / h, p, r == 0 ? "lam'" : "mu'");
 }
 
-/* Moves one coordinate, with the distances from the J_i that go with it. */
-static iso_conical moved(const iso_conical *at, int r, double by)
-{
-    iso_conical to = *at;
-    to.z[r] += by;
-    for (int i = 0; i < 3; i++) to.above[r][i] += by;
-    return to;
-}
-
 /* A Lagrangian or Hamiltonian on the coordinates */
 typedef double on_coordinates(const iso_params *p, const iso_conical *at, const double momenta[2]);
 
@@ -82,7 +73,9 @@ typedef struct partial {
 static void shifted(const void *data, const double by[], double value[])
 {
     const partial *d = data;
-    const iso_conical to = moved(d->at, d->r, by[0]);
+    iso_conical to = *d->at;
+    to.z[d->r] += by[0];
+    for (int i = 0; i < 3; i++) to.above[d->r][i] += by[0];
     value[0] = d->f(d->p, &to, d->momenta);
 }
 

@@ -16,13 +16,6 @@ static orbit sample(double k, unsigned long seed)
     return o;
 }
 
-static double energy_of(const orbit *o, const double y[])
-{
-    double size;
-    const double H = iso_system_point.energy(&o->model.problem, y, &size);
-    return (H - o->model.problem.energy) / size;
-}
-
 /* --- order ------------------------------------------------------------------------------------------------------ */
 
 enum { STATES = 12, ARC = 40, FINE = 1600 };
@@ -112,10 +105,11 @@ static void check_energy(const char *name, double k, double step, double bound)
     static double x[LOOKS], e[LOOKS];
     double worst = 0, constraints = 0, c0, slope, cov[3], chi2;
     for (int i = 0; i < LOOKS; i++) {
-        double y[ISO_MAX_STATE];
+        double y[ISO_MAX_STATE], size;
         x[i] = (i + 1.) / LOOKS;
         if (iso_integrator_at(it, x[i] * steps_of_long_runs() * step * o.unit, y) != ISO_OK) exit(1);
-        e[i] = energy_of(&o, y);
+        const double H = iso_system_point.energy(&o.model.problem, y, &size);
+        e[i] = (H - o.model.problem.energy) / size;
         worst = fmax(worst, fabs(e[i]));
         constraints = fmax(constraints, fmax(fabs(norm(y + 3) - 1), fabs(dot(y, y + 3)) / norm(y)));
     }

@@ -17,12 +17,6 @@ static bool distinct(const double b[3])
     return b[0] != b[1] && b[1] != b[2] && b[2] != b[0];
 }
 
-/* prod_{j != i} (b_i - b_j) */
-static double gaps(const double b[3], int i)
-{
-    return (b[i] - b[(i + 1) % 3]) * (b[i] - b[(i + 2) % 3]);
-}
-
 /* (13) as products of distances, to full relative accuracy however small x_i is:
  * (z1 - b_i)(z2 - b_i) = x_i^2 prod (b_i - b_j);  and the sum of the roots, z1 + z2 = sum b_i (1 - x_i^2). */
 static void note_coordinates(const iso_params *p, const double x[3], const iso_conical *at, laws_worst *worst,
@@ -33,7 +27,7 @@ static void note_coordinates(const iso_params *p, const double x[3], const iso_c
     int o[3];
     order_of(b, o);
     for (int i = 0; i < 3; i++) {
-        const double squares = x[i] * x[i] * gaps(b, i);
+        const double squares = x[i] * x[i] * (b[i] - b[(i + 1) % 3]) * (b[i] - b[(i + 2) % 3]);
         laws_note(worst, fabs(at->above[0][i] * at->above[1][i] - squares), 16 * DBL_EPSILON * fabs(squares), p,
                   what);
         sum += b[i] * (x[(i + 1) % 3] * x[(i + 1) % 3] + x[(i + 2) % 3] * x[(i + 2) % 3]);
