@@ -130,12 +130,6 @@ static void open_book(void)
     for (int i = 0; i < hard_ways; i++) book[i] = (verdict){.worst = -1};
 }
 
-static void refuse(int i)
-{
-    book[i].refused = true;
-    snprintf(book[i].words, sizeof book[i].words, "%s", iso_context_message(ctx));
-}
-
 /* Whether a way may refuse: methods for (24) alone where its powers are steep, the closed solution, and (24) under
  * effects where its powers are no doubles. */
 static bool may_refuse(const hard_road *way, const question *q)
@@ -154,9 +148,10 @@ static void judge(const question *q, const iso_sample *truth, double unit)
         const hard_road way = finest(&hard_way[i], &bound);
         iso_sample s;
         const iso_status status = solve(&way, q, &s);
-        if (status != ISO_OK && may_refuse(&way, q))
-            refuse(i);
-        else
+        if (status != ISO_OK && may_refuse(&way, q)) {
+            book[i].refused = true;
+            snprintf(book[i].words, sizeof book[i].words, "%s", iso_context_message(ctx));
+        } else
             book[i].worst = larger(book[i].worst, status == ISO_OK ? error_of(q, &s, truth) / unit : NAN);
         if (status != ISO_OK && !may_refuse(&way, q))
             printf("k = %g, J = %g %g %g: %s\n", q->p.k, q->p.J[0], q->p.J[1], q->p.J[2], iso_context_message(ctx));

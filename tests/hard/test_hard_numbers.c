@@ -177,19 +177,12 @@ static iso_status batch(iso_context *ctx, const void *data, const double v[], sw
 
 /* --- integrators and the closed solution ------------------------------------------------------------------------ */
 
-static iso_model make_model(const iso_system *system)
-{
-    static const double usual[3] = {1.4, 2.1, 3};
-    const bool with_clock[ISO_CLOCKS] = {false};
-    iso_problem f = {.eps = system == &iso_system_point ? 0.3 : 0, .energy = 0.7};
-    if (iso_params_reduced(NULL, -1, usual, &f.p) != ISO_OK) abort();
-    return iso_model_assemble(system, &f, system->clock, with_clock);
-}
-
 /* y, time, tolerance, fixed step */
 static iso_status integrator(iso_context *ctx, const void *data, const double v[], sweep_answer *a)
 {
-    const iso_model model = make_model(&iso_system_ball);
+    iso_problem f = {.energy = 0.7};
+    if (iso_params_reduced(ctx, -1, (const double[]){1.4, 2.1, 3}, &f.p) != ISO_OK) abort();
+    const iso_model model = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false});
     const iso_method_options o = {.tolerance = v[7], .fixed_step = v[8], .max_steps = 20000};
     iso_integrator *it;
     double y[ISO_MAX_STATE];

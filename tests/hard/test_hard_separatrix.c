@@ -99,12 +99,6 @@ static iso_sample solve(const hard_road *way, const rotation *r, const iso_start
     return s;
 }
 
-/* Whether a way has the orbit: closed solutions are not for every k off a plane. */
-static bool served(const hard_road *way, double k)
-{
-    return way->backend != ISO_BACKEND_EXACT || fabs(k) == 1;
-}
-
 /* --- naive: in axes that are not the principal ones ------------------------------------------------------------- */
 
 /* R = turns by 1 about 1 and 2; to: R, else its transpose */
@@ -283,7 +277,7 @@ static void check_escape(void)
         double worst = 0, bound = 0;
         const hard_road way = hard_finest(&hard_way[i]);
         for (int j = 0; j < 3; j++) {
-            if (!served(&way, ks[j])) continue;
+            if (way.backend == ISO_BACKEND_EXACT && fabs(ks[j]) != 1) continue; /* it has no such orbit off a plane */
             const rotation r = rotation_about(ks[j], 1);
             const int turns = (int)(log(1e8) / r.exponent);
             const iso_start start = beside(&r, 1e-15);

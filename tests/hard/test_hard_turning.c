@@ -65,12 +65,6 @@ static problem make(double k, const double J[3], const double M[3], const double
     return b;
 }
 
-static bool served(const hard_road *way, const problem *b)
-{
-    const double *J = b->p.J;
-    return way->backend != ISO_BACKEND_EXACT || b->p.k == -1 || J[0] == J[1] || J[1] == J[2];
-}
-
 /* Every way on every problem that it is for. */
 static void hold_all(const problem b[], int count)
 {
@@ -79,7 +73,8 @@ static void hold_all(const problem b[], int count)
         double worst = 0, bound = 0;
         for (int j = 0; j < count; j++) {
             iso_sample s;
-            if (!served(&way, &b[j])) continue;
+            const double *J = b[j].p.J;
+            if (way.backend == ISO_BACKEND_EXACT && b[j].p.k != -1 && J[0] != J[1] && J[1] != J[2]) continue;
             solve(&way, &b[j], b[j].clock, b[j].time, &s); /* NaN where it fails */
             worst = hard_worse(error_of(&s, &b[j]), worst);
             bound = fmax(bound, b[j].growth * b[j].radians * hard_loss(&way));

@@ -11,12 +11,6 @@ typedef struct problem {
     double J[3], energy;
 } problem;
 
-static complex_number q_of(const problem *f, complex_number phi)
-{
-    const complex_number c = ccos(phi);
-    return f->J[2] + (f->J[0] - f->J[2]) * c * c;
-}
-
 static complex_number whole_power(complex_number q, int n)
 {
     complex_number power = 1;
@@ -28,7 +22,8 @@ static complex_number whole_power(complex_number q, int n)
 static void slope(const void *data, complex_number phi, const complex_number y[], complex_number dy[])
 {
     const problem *f = data;
-    const complex_number q = q_of(f, phi), u = f->energy * whole_power(q, 1 + f->N);
+    const complex_number c = ccos(phi), q = f->J[2] + (f->J[0] - f->J[2]) * c * c,
+                         u = f->energy * whole_power(q, 1 + f->N);
     const complex_number turn = (f->J[2] - f->J[0]) * csin(2 * phi) * f->N / 2;
     const complex_number pull = f->N * (f->J[1] - q) + q + u;
     for (int i = 0; i < 4; i += 2) {
