@@ -1,17 +1,10 @@
 /* test_number.c - numbers as text: what is read, what is refused, that printing and reading give the same double, and
  * that neither depends on the locale or on what stands behind the text. */
-#include <float.h>
-#include <gsl/gsl_test.h>
 #include <locale.h>
-#include <math.h>
-#include <stdbool.h>
 #include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "base/number_impl.h"
-#include "base/random_impl.h"
+#include "laws.h"
 
 /* Reads from a buffer that ends where the text does, so that AddressSanitizer sees a step beyond. */
 static bool read_exactly(const char *text, size_t length, double *value)

@@ -14,8 +14,8 @@
  * depend on the machine. `forwards` has a ratio of 1 where keeping costs nothing. Without memory only 20 of the
  * questions backwards and at random are asked.
  */
-#include "bench.h"
 #include "api/typed_impl.h"
+#include "bench.h"
 #include "rivals/rivals.h"
 
 enum { QUESTIONS = 2000, FEW = 20, PASSES = 15, ORDERS = 3 };

@@ -10,9 +10,9 @@
  * the largest error of (omega, n) at t = 1000 in units of their size: the medians by the ball and by the point, and
  * the median and the largest of the ratios point/ball, at tolerances 1e-12 and 1e-15.
  */
+#include "api/typed_impl.h"
 #include "base/random_impl.h"
 #include "bench.h"
-#include "api/typed_impl.h"
 
 enum { STARTS = 18, PASSES = 5, END = 1000, QUESTIONS = 4 };
 static const int rows_asked[QUESTIONS] = {1, 1000, 2000, 10000};

@@ -24,13 +24,11 @@
  *   separatrix have errors a hundred times the median.
  * - Seconds are processor time; on all threads they are time on the wall.
  */
-#include <string.h>
-
+#include "orbit/batch.h"
 #include "bench.h"
 #include "laws.h"
 #include "map/state.h"
 #include "model/model_impl.h"
-#include "orbit/batch.h"
 #include "rivals/rivals.h"
 
 enum { ORBITS = 1000, LOOSEST = 6, TIGHTEST = 14 };

@@ -8,12 +8,10 @@
  * -0.5 whose deviations grow by exp(60) within five times as many turns. This is found by a separate run of the
  * point, without the indicators.
  */
-#include <string.h>
-
+#include "instrument/chaos/chaos.h"
 #include "base/math_impl.h"
 #include "base/random_impl.h"
 #include "bench.h"
-#include "instrument/chaos/chaos.h"
 
 typedef struct family {
     double k, J[3];

@@ -17,12 +17,10 @@
  *   well: for k = 1 and -1 those of all crossings, for other k those of the first 6, before chaotic orbits part. If
  *   one model misses a crossing, their times differ by a turn.
  */
-#include <string.h>
-
+#include "orbit/crossings.h"
 #include "bench.h"
 #include "map/section_impl.h"
 #include "map/state.h"
-#include "orbit/crossings.h"
 #include "rivals/rivals.h"
 
 enum { ORBITS = 256, TURNS = 200, SLOW_ORBITS = 8, CHECKED = 5 };

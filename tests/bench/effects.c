@@ -9,10 +9,8 @@
  * the free ball's, the time of the whole orbit, and its ratio. Compare the ratios: times depend on the machine. Each
  * time is the least of several rounds, and each round goes over all effects, so that ratios hold on a noisy machine.
  */
-#include <string.h>
-
-#include "bench.h"
 #include "api/typed_impl.h"
+#include "bench.h"
 #include "orbit/orbit_impl.h"
 
 enum { CALLS = 20000, ROUNDS = 15, MOST = 24 };

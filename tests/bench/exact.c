@@ -18,8 +18,6 @@
  * The rival is a loop over the steps of GSL's rk8pd on the ball (rivals/gsl.c). The law: its error at t = 1000 is
  * below 1e-9. Else the program fails.
  */
-#include <string.h>
-
 #include "base/random_impl.h"
 #include "bench.h"
 #include "exact/exact_impl.h"

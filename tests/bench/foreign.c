@@ -50,8 +50,7 @@ static double by_structs(const iso_scene *scene, const double *y, size_t count, 
     return seconds() - before;
 }
 
-static double by_arrays(const iso_scene *scene, const double *y, size_t count, const double *times,
-                        size_t rows)
+static double by_arrays(const iso_scene *scene, const double *y, size_t count, const double *times, size_t rows)
 {
     const double before = seconds();
     double *table = malloc(count * rows * WIDTH * sizeof *table);

@@ -23,8 +23,6 @@
  * A time is the median of passes over all methods in turn. Errors are against Taylor series in long double.
  * --long: instead, the ball's state at t = 1e6, k = -1, against the rivals that are not slow, at 1e-13.
  */
-#include <string.h>
-
 #include "bench.h"
 #include "map/state.h"
 #include "method/integrator_impl.h"

@@ -9,7 +9,6 @@
  *    Behind the rate on the wall stands that of a second of processor time, which other programs disturb less.
  * 3. Memory: the largest resident set after each.
  */
-#include <string.h>
 #include <sys/resource.h>
 #include <unistd.h>
 

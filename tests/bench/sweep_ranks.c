@@ -13,7 +13,6 @@
  * chunks; the time until the first rank finds no chunk gives the rate, what follows is the tail. A day's work is a
  * day at this rate, the tail, and the writing of the result.
  */
-#include <string.h>
 #include <unistd.h>
 
 #include "bench.h"

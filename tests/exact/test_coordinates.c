@@ -1,12 +1,7 @@
 /* Separated coordinates of point and ball: nothing is lost on the way there and back, wherever the state is; they are
  * canonical; the constant of separation; where the motion changes. */
-#include <float.h>
-
-#include "base/random_impl.h"
 #include "exact/coordinates_impl.h"
 #include "exact/exact_impl.h"
-#include "map/state.h"
-#include "method/integrator_impl.h"
 #include "orbits.h"
 #include "reduction.h"
 
@@ -430,7 +425,6 @@ static void between_ends(const laws_case *c, laws_worst *worst)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     check_round_trips();
     laws_hold("momenta of the angles", &iso_system_ball, momenta_of_ball);

@@ -1,15 +1,8 @@
 /* The closed solution far away: against long runs by steps, against the two motions of which the angle is known, on
  * its integrals, and the same from wherever it is started. */
-#include <float.h>
-
-#include "exact/exact_impl.h"
 #include "exact_orbits.h"
-#include "length.h"
-#include "map/state.h"
 
 static iso_context *ctx;
-
-/* --- against steps ---------------------------------------------------------------------------------------------- */
 
 /* A start given in doubles allows an error of the state: a rounding error of its frequencies times the way. For the
  * axis' orbit here it is 1e-15 times its condition, 8e4 at 5e4. So the bound is proportional to the length. The
@@ -151,7 +144,6 @@ static void check_integrals_and_restarts(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     const double units = tests_length(5000, 10000), more = tests_length(100000, 300000);
     check_steps("taylor_extended", false, 3, units, units * 1.6e-15);

@@ -1,12 +1,6 @@
 /* The momentum of the closed solution for one angle (a principal plane, two equal moments) keeps its digits for every
  * k and J, however much the rates of its clocks change along the orbit. */
-#include <float.h>
-#include <string.h>
-
-#include "base/random_impl.h"
-#include "exact/exact_impl.h"
 #include "exact_orbits.h"
-#include "map/state.h"
 
 static iso_context *ctx;
 

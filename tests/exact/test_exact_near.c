@@ -1,12 +1,6 @@
 /* The closed solution against long double on a thousand orbits, most of them next to a separatrix, to equal moments
  * or to a principal plane, in every clock and both ways. */
-#include <string.h>
-
-#include "base/random_impl.h"
-#include "exact/exact_impl.h"
 #include "exact_orbits.h"
-#include "length.h"
-#include "method/integrator_impl.h"
 
 static iso_context *ctx;
 
@@ -171,7 +165,6 @@ int main(void)
         EXACT_ANY,  EXACT_SEPARATRIX, EXACT_WIDE,     EXACT_SECOND,    EXACT_LEVEL,    EXACT_NEAR_EQUAL,
         EXACT_AXIS, EXACT_NEAR_PLANE, EXACT_IN_PLANE, EXACT_NEAR_AXIS, EXACT_NEAR_POLE};
     static book of[EXACT_FAMILIES];
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     iso_random *random = iso_random_create(1000);
     const int orbits = tests_length(110, 550);

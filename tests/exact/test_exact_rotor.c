@@ -1,10 +1,6 @@
 /* The closed solution of a ball with a rotor: three equal moments with any K, two with K along the third axis, and a
  * principal plane at right angles to K, against long double; what it is without a rotor; its momenta; where there is none. */
-#include <float.h>
-#include <string.h>
-
 #include "exact_orbits.h"
-#include "length.h"
 
 static iso_context *ctx;
 

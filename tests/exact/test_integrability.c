@@ -1,12 +1,6 @@
 /* Which case a problem is (exact/integrability_impl.h): what is known, what the theorem says, what it does not say. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-
-#include "base/random_impl.h"
 #include "exact/integrability_impl.h"
 #include "laws.h"
-#include "length.h"
 #include "model/effects/effect.h"
 
 static iso_context *ctx;

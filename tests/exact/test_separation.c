@@ -1,14 +1,7 @@
 /* Separation of variables: (lam, mu) at k = 1 and not at k = -1 (paper, after (21)); (u, v) of gamma in b = J at
  * k = -1 and in b = 1/J at k = 1 (lib/doc/theory.md, section 8). */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/vec3_impl.h"
 #include "laws.h"
 #include "map/state.h"
-#include "model/model_impl.h"
 #include "reduction.h"
 
 static double A(const double b[3], double z)
@@ -160,7 +153,6 @@ static void point_constant_is_f(const laws_case *c, laws_worst *worst)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     laws_hold("Staeckel's form of the energy", &iso_system_ball, staeckel);
     laws_hold("lam and mu separate at k = 1", &iso_system_ball, ball_separates);
     laws_fail("lam and mu do not separate at k = -1", &iso_system_ball, ball_does_not);

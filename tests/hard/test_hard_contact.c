@@ -13,13 +13,6 @@ static iso_effects weight(double mgb, const double up[3])
     return e;
 }
 
-static iso_params body(double k, const double J[3], double D)
-{
-    iso_params p = laws_params(k, J);
-    if (iso_params_set_D(ctx, D, &p) != ISO_OK) abort();
-    return p;
-}
-
 typedef struct loss {
     bool answered;
     double time, steps; /* NAN: none */
@@ -68,7 +61,8 @@ static double time_between(const loop *l, double angle)
 
 static loop loop_with(double d)
 {
-    loop l = {.p = body(2, (const double[]){0.8, 0.9, 1}, 0.5), .e = weight(-1.5, (const double[]){-1, 0, 0})};
+    loop l = {.p = laws_params(2, (const double[]){0.8, 0.9, 1}), .e = weight(-1.5, (const double[]){-1, 0, 0})};
+    if (iso_params_set_D(ctx, 0.5, &l.p) != ISO_OK) abort();
     l.start = (iso_start){.model = ISO_BALL, .y = {0, 0, sqrt(9 + d), 1, 0, 0}};
     l.d = (l.start.y[2] - 3) * (l.start.y[2] + 3); /* of the double */
     for (int i = 0; i < 256; i++) l.top += M_PI / 256 * pace(&l, M_PI * (i + 0.5) / 128);

@@ -1,13 +1,5 @@
 /* Moments of inertia: nearly equal, very different, flat and needle-like bodies. Units are in test_hard_units.c. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
 #include "hard.h"
-#include "model/model_impl.h"
 
 static iso_context *ctx;
 enum { K = 5 };
@@ -198,16 +190,6 @@ static double naive_ball(const scene *s, int steps)
 }
 
 /* With k < 0 gamma winds sqrt(max J/min J) times in a turn of w: some windings are followed. */
-static void add_bodies(double ratio)
-{
-    const double bodies[2][3] = {{1, 1.3, ratio}, {sqrt(ratio), ratio, 1}};
-    for (int k = 0; k < K; k++) {
-        const iso_params p = reduced(ks[k], bodies[k % 2]);
-        if (ks[k] > 0) add_scene(&p, false, 0.3, k == 0 && ratio < 1e12); /* there an ulp of s is a turn */
-        add_scene(&p, true, ks[k] < 0 ? 3 / sqrt(ratio) : 0.3, k > 1 && (ratio < 1e12 || ks[k] < 0));
-    }
-}
-
 static void test_very_different(double ratio, const char *name)
 {
     hard_case(name,
@@ -215,7 +197,12 @@ static void test_very_different(double ratio, const char *name)
               "gamma, by t, and by s over its condition",
               "(9): J w x w and lambda n are max J/min J times larger than their sum; n and gamma are each other's "
               "components times sqrt(max J/min J)");
-    add_bodies(ratio);
+    const double bodies[2][3] = {{1, 1.3, ratio}, {sqrt(ratio), ratio, 1}};
+    for (int k = 0; k < K; k++) {
+        const iso_params p = reduced(ks[k], bodies[k % 2]);
+        if (ks[k] > 0) add_scene(&p, false, 0.3, k == 0 && ratio < 1e12); /* there an ulp of s is a turn */
+        add_scene(&p, true, ks[k] < 0 ? 3 / sqrt(ratio) : 0.3, k > 1 && (ratio < 1e12 || ks[k] < 0));
+    }
     const double rounding = 100 * DBL_EPSILON * sqrt(ratio);
     const double naive = naive_ball(&scenes[1], 100000); /* the first in t */
     hold_all(rounding, ratio);

@@ -3,7 +3,6 @@
 #define _GNU_SOURCE /* asprintf, memfd_create */
 #include <dirent.h>
 #include <getopt.h>
-#include <gsl/gsl_test.h>
 #include <sys/time.h>
 #include <sys/wait.h>
 

@@ -10,17 +10,8 @@
  *     the closed solution:                       the same */
 #include "hard.h"
 
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
-#include "laws.h"
 #include "map/state.h"
 #include "method/integrator_impl.h"
-#include "model/model_impl.h"
 
 static iso_context *ctx;
 
@@ -139,12 +130,6 @@ static void open_book(void)
     for (int i = 0; i < hard_ways; i++) book[i] = (verdict){.worst = -1};
 }
 
-static void refuse(int i)
-{
-    book[i].refused = true;
-    snprintf(book[i].words, sizeof book[i].words, "%s", iso_context_message(ctx));
-}
-
 /* Whether a way may refuse: methods for (24) alone where its powers are steep, the closed solution, and (24) under
  * effects where its powers are no doubles. */
 static bool may_refuse(const hard_road *way, const question *q)
@@ -163,9 +148,10 @@ static void judge(const question *q, const iso_sample *truth, double unit)
         const hard_road way = finest(&hard_way[i], &bound);
         iso_sample s;
         const iso_status status = solve(&way, q, &s);
-        if (status != ISO_OK && may_refuse(&way, q))
-            refuse(i);
-        else
+        if (status != ISO_OK && may_refuse(&way, q)) {
+            book[i].refused = true;
+            snprintf(book[i].words, sizeof book[i].words, "%s", iso_context_message(ctx));
+        } else
             book[i].worst = larger(book[i].worst, status == ISO_OK ? error_of(q, &s, truth) / unit : NAN);
         if (status != ISO_OK && !may_refuse(&way, q))
             printf("k = %g, J = %g %g %g: %s\n", q->p.k, q->p.J[0], q->p.J[1], q->p.J[2], iso_context_message(ctx));
@@ -192,8 +178,6 @@ static void close_book(void)
         if (book[i].worst >= 0 || isnan(book[i].worst)) hard_hold(&hard_way[i], book[i].worst, bound);
     }
 }
-
-/* --- naive formulations ----------------------------------------------------------------------------------------- */
 
 /* (24) as it stands in t, by rk8pd; or the ball by a step of rk4 of a given length: how far off omega and n are. */
 static double naive(const question *q, const iso_system *system, double step)

@@ -9,7 +9,6 @@
 #include <gsl/gsl_odeiv2.h>
 
 #include "hard_long.h"
-#include "length.h"
 #include "method/integrator_impl.h"
 
 static iso_context *ctx;
@@ -151,8 +150,6 @@ static void integrals_hold(double k)
     hold_trend(k);
     if (fabs(k) == 1) hold_growth(k);
 }
-
-/* --- what is no integral ---------------------------------------------------------------------------------------- */
 
 static void no_integral(void)
 {

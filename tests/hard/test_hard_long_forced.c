@@ -4,7 +4,6 @@
 #include <gsl/gsl_errno.h>
 
 #include "hard_long.h"
-#include "numbers.h"
 
 static iso_context *ctx;
 static long_run runs[HARD_WAYS];

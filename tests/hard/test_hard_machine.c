@@ -4,18 +4,12 @@
 #include <fenv.h>
 #include <locale.h>
 #include <pthread.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
-#include <unistd.h>
 #ifdef __SSE2__
 #include <xmmintrin.h>
 #endif
 
 #include "machine.h"
-
-/* --- what they are measured by: the answers in a plain program -------------------------------------------------- */
 
 static answer orbit_answer[HARD_WAYS], study_answer[STUDIES];
 
@@ -302,7 +296,6 @@ static void check_comma(void)
 int main(void)
 {
     ctx = iso_context_create();
-    if (!ctx) return 1;
     iso_random *dice = iso_random_create(10);
     batch_fill(&pool, ctx, dice);
     iso_random_free(dice);

@@ -4,7 +4,6 @@
 #include <gsl/gsl_odeiv2.h>
 #include <pthread.h>
 #include <stdint.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -366,7 +365,6 @@ int main(void)
 {
     gsl_set_error_handler_off();
     ctx = iso_context_create();
-    if (!ctx) return 1;
     iso_random *dice = iso_random_create(12);
     batch_fill(&pool, ctx, dice);
     iso_random_free(dice);

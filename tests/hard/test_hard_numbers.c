@@ -1,10 +1,6 @@
 /* NaN, infinity, zeros, subnormals and the largest numbers at every number of every call. */
-#include <stdlib.h>
-#include <string.h>
-
-#include "exact/exact_impl.h"
-#include "hard.h"
 #include "api/typed_impl.h"
+#include "exact/exact_impl.h"
 #include "method/integrator_impl.h"
 #include "numbers.h"
 #include "sweep.h"
@@ -181,19 +177,12 @@ static iso_status batch(iso_context *ctx, const void *data, const double v[], sw
 
 /* --- integrators and the closed solution ------------------------------------------------------------------------ */
 
-static iso_model make_model(const iso_system *system)
-{
-    static const double usual[3] = {1.4, 2.1, 3};
-    const bool with_clock[ISO_CLOCKS] = {false};
-    iso_problem f = {.eps = system == &iso_system_point ? 0.3 : 0, .energy = 0.7};
-    if (iso_params_reduced(NULL, -1, usual, &f.p) != ISO_OK) abort();
-    return iso_model_assemble(system, &f, system->clock, with_clock);
-}
-
 /* y, time, tolerance, fixed step */
 static iso_status integrator(iso_context *ctx, const void *data, const double v[], sweep_answer *a)
 {
-    const iso_model model = make_model(&iso_system_ball);
+    iso_problem f = {.energy = 0.7};
+    if (iso_params_reduced(ctx, -1, (const double[]){1.4, 2.1, 3}, &f.p) != ISO_OK) abort();
+    const iso_model model = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false});
     const iso_method_options o = {.tolerance = v[7], .fixed_step = v[8], .max_steps = 20000};
     iso_integrator *it;
     double y[ISO_MAX_STATE];
@@ -231,8 +220,6 @@ static iso_status exact(iso_context *ctx, const void *data, const double v[], sw
     iso_exact_free(x);
     return status;
 }
-
-/* --- all of them ------------------------------------------------------------------------------------------------ */
 
 #define BALL -1, 1.4, 2.1, 3, 0.9, -0.3, -0.225, 0.36, 0.48, 0.8, 1, 1e-6, 1
 #define POINT -1, 1.4, 2.1, 3, 0.7, -0.3, -0.135, 0.36, 0.48, 0.8, 1, 1e-6, 0.3

@@ -1,12 +1,6 @@
 /* Rest, speeds of 1e-300 and 1e300, subnormal ones, and zeros of either sign. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <string.h>
-
-#include "hard.h"
 #include "api/typed_impl.h"
-#include "laws.h"
+#include "hard.h"
 #include "map/state.h"
 #include "orbit/orbit_impl.h"
 
@@ -137,8 +131,6 @@ static void check_subnormal(void)
     const double lost = start.y[0] / 3 * 3;
     hard_naive("a third of it, three times", fabs(lost / start.y[0] - 1), DBL_EPSILON);
 }
-
-/* --- zeros ------------------------------------------------------------------------------------------------------ */
 
 /* The rotation in a principal plane, its three zeros of either sign: the same orbit. */
 static void check_zeros(void)

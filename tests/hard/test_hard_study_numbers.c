@@ -1,13 +1,9 @@
 /* NaN, infinity, zeros, subnormals and the largest numbers in records, scenes and studies. */
-#include <stdlib.h>
-#include <string.h>
-
+#include "api/typed_impl.h"
 #include "base/number_impl.h"
-#include "hard.h"
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/frequencies/frequencies_impl.h"
 #include "instrument/frequencies/momentum.h"
-#include "api/typed_impl.h"
 #include "orbit/orbit_impl.h"
 #include "sweep.h"
 #include "task/analogue.h"

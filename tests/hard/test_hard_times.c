@@ -1,13 +1,5 @@
 /* Times: at and next to the start, beyond all turns, in any order, at the ends of steps, in both clocks. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
 #include "hard.h"
-#include "laws.h"
-#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 
 static iso_context *ctx;
@@ -50,8 +42,6 @@ static double worse(double a, double b)
 {
     return isnan(a) || a > b ? a : b;
 }
-
-/* --- next to the start ------------------------------------------------------------------------------------------ */
 
 /* The state moves by FASTEST |t| at most, to the 16 roundings of a start that goes through the point and is projected
  * back, magnified by max J/min J. The clocks are their rates at the start times t, up to the change of these. Only
@@ -257,8 +247,6 @@ static void check_ends(void)
     }
     hard_naive("straight lines to within a step", straight(), 1);
 }
-
-/* --- both clocks ------------------------------------------------------------------------------------------------ */
 
 /* An orbit in t says where s is; an orbit in s is asked there. Each step of both adds an error of at most the
  * tolerance to state and clock, and errors of the state move the clocks: twice that over these few turns. */

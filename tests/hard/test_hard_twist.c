@@ -125,8 +125,6 @@ static void falls(void)
     hard_naive("the ball that stands still", rigid, 1e-3);
 }
 
-/* --- backwards -------------------------------------------------------------------------------------------------- */
-
 /* Spin grows like exp(c g/(1 - D g) |t|), g = (n,J^-1 n) of 1/3 at least: at c = 10, t = -5 by e^17, and more than a
  * million turns lie on the way. */
 static void backwards(const char *name, double c)

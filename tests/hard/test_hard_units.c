@@ -1,13 +1,6 @@
 /* Units of mass, length and time from 1e-40 to 1e40: the same numbers, scaled; to the bit, as the units are powers
  * of two. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
 #include "hard.h"
-#include "model/model_impl.h"
 #include "numbers.h"
 
 static iso_context *ctx;

@@ -298,25 +298,6 @@ static void test_sections(void)
     gsl_test(files_in_folder() != 0, "nothing is left");
 }
 
-static void test_targets(void)
-{
-    gsl_test(draw_simple(in_folder("no/such/a.svg"), "") != ISO_FILE_TROUBLE, "a missing folder");
-    gsl_test(!strstr(iso_context_message(ctx), "no/such/a.svg"), "%s", iso_context_message(ctx));
-    const char *path = in_folder("e.svg"), *link = in_folder("f.svg");
-    mkdir(path, 0777);
-    gsl_test(draw_simple(path, "") != ISO_FILE_TROUBLE, "a folder in its place");
-    rmdir(path);
-    gsl_test((int)draw_simple(path, "first"), "%s", iso_context_message(ctx));
-    chmod(path, 0640);
-    gsl_test(symlink("e.svg", link) != 0 || draw_simple(link, "second") != ISO_OK, "%s", iso_context_message(ctx));
-    struct stat s;
-    gsl_test(lstat(link, &s) != 0 || !S_ISLNK(s.st_mode), "a link stays one");
-    gsl_test(stat(path, &s) != 0 || (s.st_mode & 0777) != 0640, "a file keeps its permissions");
-    gsl_test(!file_contains(path, "second"), "the file behind the link is replaced");
-    unlink(link);
-    unlink(path);
-}
-
 static void test_no_gnuplot(void)
 {
     static const struct {
@@ -383,7 +364,6 @@ static void test_pictures(void)
     test_refused();
     test_work();
     test_sections();
-    test_targets();
     test_odd_hosts();
 }
 

@@ -1,13 +1,9 @@
 /* test_scene.c - scene files: valid ones of every kind, and every kind of mistake with its place and its words. */
 #include <dirent.h>
-#include <gsl/gsl_test.h>
 #include <locale.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "io/scene_file.h"
+#include "laws.h"
 
 #define BALL "ball: {mass: 2, radius: 1, inertia: [2, 3, 4]}\n"
 #define SURFACE "surface: {kind: shell, radius: 0.5}\n"
@@ -94,27 +90,6 @@ static void test_defaults(void)
     gsl_test(strcmp(s.method, "auto") != 0 || s.columns != 0, "defaults of names");
 }
 
-static void test_surfaces(void)
-{
-    static const struct {
-        const char *text;
-        double k;
-    } rows[] = {
-        {"surface: {kind: plane}\n", 1},
-        {"surface: {kind: outside, radius: 3}\n", 0.75},
-        {"surface: {kind: inside, radius: 3}\n", 1.5},
-        {"surface: {kind: shell, radius: 0.5}\n", -1},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        char text[512];
-        iso_scene s;
-        snprintf(text, sizeof text, "%s", BALL INITIAL TIME);
-        strcat(text, rows[i].text);
-        gsl_test(failed(parse(text, &s)), "%s%s", rows[i].text, iso_context_message(ctx));
-        gsl_test_rel(s.params.k, rows[i].k, 1e-15, "k of %s", rows[i].text);
-    }
-}
-
 static void test_point(void)
 {
     iso_scene s;
@@ -193,11 +168,9 @@ static void test_comma_locale(void)
 int main(void)
 {
     ctx = iso_context_create();
-    if (!ctx) return 1;
     test_mistakes();
     test_ball();
     test_defaults();
-    test_surfaces();
     test_point();
     test_project();
     test_bytes();

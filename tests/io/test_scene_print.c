@@ -2,10 +2,6 @@
  * same text. For the scenes of all files of examples and tests, for odd ones, and for random ones over every effect. */
 #define _GNU_SOURCE /* nftw */
 #include <ftw.h>
-#include <gsl/gsl_test.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "effects.h"
 #include "io/scene_file.h"
@@ -82,8 +78,6 @@ static void check(const char *name, const iso_scene *scene)
     free(second);
 }
 
-/* --- scenes of files -------------------------------------------------------------------------------------------- */
-
 static int check_file(const char *path, const struct stat *s, int type, struct FTW *f)
 {
     iso_scene scene;
@@ -94,8 +88,6 @@ static int check_file(const char *path, const struct stat *s, int type, struct F
     check(path, &scene);
     return 0;
 }
-
-/* --- odd scenes ------------------------------------------------------------------------------------------------- */
 
 #define BALL "ball: {mass: 2, radius: 1, inertia: [2, 3, 4]}\nsurface: {kind: inside, radius: 3}\n"
 #define REDUCED "reduced: {k: 1/3, J: [2/7, 3, 0.1]}\n"
@@ -192,7 +184,6 @@ int main(void)
     enum { RANDOM = 300 };
     ctx = iso_context_create();
     rng = iso_random_create(49);
-    if (!ctx || !rng) return 1;
     nftw(ISO_TEST_DATA "/../../examples", check_file, 16, FTW_PHYS);
     nftw(ISO_TEST_DATA "/..", check_file, 16, FTW_PHYS);
     check_odd();

@@ -4,14 +4,8 @@
  * - The scene of a point, written as text and read again, is the same scene to the bit.
  * - Starts on the section lie where the file says, with the energy of the scene's start.
  */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "io/scene_file.h"
-#include "length.h"
+#include "laws.h"
 #include "map/section.h"
 #include "map/state.h"
 #include "sweep/sweep_impl.h"

@@ -1,15 +1,6 @@
 /* The isomorphism (18)-(24): states, energies, clocks, integrals, and the flow of one system carried to the other. */
-#include <float.h>
-#include <gsl/gsl_sf_ellint.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
 #include "laws.h"
 #include "map/state.h"
-#include "model/model_impl.h"
 #include "poisson.h"
 
 /* NN, rho of (18), from n */
@@ -193,29 +184,8 @@ static void clock_rates(const laws_case *c, laws_worst *worst)
     }
 }
 
-/* Theory, section 9: s-periods of the rotation about axis 3 of a ball of moments J1 < J2 in complete elliptic
- * integrals; here the mean of ds/dt over the turn, by the trapezoidal rule, which converges geometrically. */
-static void s_periods(void)
-{
-    enum { POINTS = 400 };
-    const double J[3] = {1.4, 2.1, 3.0}, W = 0.7, m = 1 - J[0] / J[1];
-    for (double k = -1; k < 2; k += 2) {
-        const iso_params p = laws_params(k, J);
-        const double eps = iso_coupling(&p, J[2] * W * W / 2), t = 2 * M_PI / (fabs(k) * W);
-        const double closed = k > 0 ? 4 * sqrt(J[1]) * gsl_sf_ellint_Ecomp(sqrt(m), GSL_PREC_DOUBLE) / sqrt(2 * eps)
-                                    : 4 * gsl_sf_ellint_Kcomp(sqrt(m), GSL_PREC_DOUBLE) / sqrt(2 * eps * J[1]);
-        double s = 0;
-        for (int i = 0; i < POINTS; i++) {
-            const double angle = 2 * M_PI * i / POINTS, y[ISO_STATE] = {0, 0, W, cos(angle), sin(angle), 0};
-            s += iso_clock_rate(&p, ISO_CLOCK_S, iso_system_ball.q(&p, y, NULL), NULL) * t / POINTS;
-        }
-        gsl_test_rel(s, closed, 8 * DBL_EPSILON, "s-period of a rotation at k = %g", k);
-    }
-}
-
 int main(void)
 {
-    gsl_test_verbose(1);
     laws_hold("(18) and its inverse", &iso_system_ball, formulas);
     laws_hold("constraints (19) and the sign of M", &iso_system_ball, constraints);
     laws_hold("only the direction of n counts; in place", &iso_system_ball, length_and_aliasing);
@@ -225,6 +195,5 @@ int main(void)
     laws_hold("(24) carried back is (9)", &iso_system_point, pulled_back);
     laws_hold("(21) in tau is (24) in s", &iso_system_ball, hamiltonian_form);
     laws_hold("clock rates", NULL, clock_rates);
-    s_periods();
     exit(gsl_test_summary());
 }

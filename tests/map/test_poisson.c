@@ -1,13 +1,5 @@
 /* The algebra of e(3): bracket (20), Casimirs, Jacobi identity, the Hamiltonian (21) and its flow in tau. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "model/model_impl.h"
 #include "poisson.h"
 
 enum { N = ISO_STATE };
@@ -62,23 +54,17 @@ static void casimirs(const laws_case *c, laws_worst *worst)
         }
 }
 
-/* dB_jl/dy_m: B is linear, so that its derivatives are its values at the unit vectors. */
-static void derivatives(double dB[N][N * N])
-{
-    for (int m = 0; m < N; m++) {
-        double unit[N] = {0};
-        unit[m] = 1;
-        poisson_matrix(unit, dB[m]);
-    }
-}
-
 /* sum_m B_im dB_jl/dy_m + cyclic = 0 */
 static void jacobi(const laws_case *c, laws_worst *worst)
 {
     double y[N], B[N * N], dB[N][N * N];
     anywhere(c, y);
     poisson_matrix(y, B);
-    derivatives(dB);
+    for (int m = 0; m < N; m++) { /* dB_jl/dy_m: B is linear */
+        double unit[N] = {0};
+        unit[m] = 1;
+        poisson_matrix(unit, dB[m]);
+    }
     for (int i = 0; i < N; i++)
         for (int j = 0; j < N; j++)
             for (int l = 0; l < N; l++) {
@@ -181,7 +167,6 @@ static void product(const laws_case *c, laws_worst *worst)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     laws_hold("brackets (20)", &iso_system_point, brackets);
     laws_hold("Casimirs", &iso_system_point, casimirs);
     laws_hold("Jacobi identity", &iso_system_point, jacobi);

@@ -1,13 +1,6 @@
 /* Sphero-conical coordinates (12)-(13) and the ball in them: (14)-(17), the second form of (21). */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/vec3_impl.h"
 #include "laws.h"
 #include "map/state.h"
-#include "model/model_impl.h"
 #include "reduction.h"
 
 /* A(z) = (J1 - z)(J2 - z)(J3 - z) */
@@ -60,15 +53,6 @@ static void rates(const laws_case *c, laws_worst *worst)
         laws_note(worst, fabs(slope[r] - at.rate[r]), laws_conditioning(p) / h, p, r == 0 ? "lam'" : "mu'");
 }
 
-/* Moves one coordinate, with the distances from the J_i that go with it. */
-static iso_conical moved(const iso_conical *at, int r, double by)
-{
-    iso_conical to = *at;
-    to.z[r] += by;
-    for (int i = 0; i < 3; i++) to.above[r][i] += by;
-    return to;
-}
-
 /* A Lagrangian or Hamiltonian on the coordinates */
 typedef double on_coordinates(const iso_params *p, const iso_conical *at, const double momenta[2]);
 
@@ -89,7 +73,9 @@ typedef struct partial {
 static void shifted(const void *data, const double by[], double value[])
 {
     const partial *d = data;
-    const iso_conical to = moved(d->at, d->r, by[0]);
+    iso_conical to = *d->at;
+    to.z[d->r] += by[0];
+    for (int i = 0; i < 3; i++) to.above[d->r][i] += by[0];
     value[0] = d->f(d->p, &to, d->momenta);
 }
 
@@ -224,7 +210,6 @@ static void near_planes(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     near_planes();
     laws_hold("T (14) = h, S (15), N (16)", &iso_system_ball, as_written);
     laws_hold("rates of lam and mu", &iso_system_ball, rates);

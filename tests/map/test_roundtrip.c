@@ -6,15 +6,8 @@
  * epsilon (four roundings), q with 4, M therefore with 4/|2k|, and an epsilon of a norm is up to two units in its
  * last place.
  */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/vec3_impl.h"
 #include "laws.h"
 #include "map/state.h"
-#include "model/model_impl.h"
 
 enum { STATES = 3, TRIPS = 1000 };
 
@@ -77,7 +70,6 @@ int main(void)
     trip there = {.there = iso_ball_to_point, .back = iso_point_to_ball, .grant = 1, .names = {"w", "n"}};
     trip back = {.there = iso_point_to_ball, .back = iso_ball_to_point, .grant = 2, .names = {"M", "gamma"}};
     iso_random *random = iso_random_create(1);
-    gsl_test_verbose(1);
     for (size_t i = 0; i < 2 * sizeof k / sizeof *k; i++)
         for (size_t j = 0; j < sizeof J / sizeof *J; j++)
             for (size_t l = 0; l < sizeof speed / sizeof *speed; l++)

@@ -1,36 +1,18 @@
 /* The chart of the section gamma_a = 0: forth and back, slopes, Sturm's bounds, the area, points spread evenly. */
-#include <float.h>
 #include <gsl/gsl_sf_ellint.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "map/section_impl.h"
 #include "map/state.h"
-#include "model/model_impl.h"
-#include "orbit/orbit.h"
 #include "section_area.h"
 
-/* A random place of the chart; every third one is near the boundary. */
-static void place(const laws_case *c, double *l, double *x)
-{
-    *l = iso_random_uniform(c->random, -M_PI, M_PI);
-    *x = iso_random_uniform(c->random, -1, 1);
-    if (iso_random_uniform(c->random, 0, 3) < 1) *x = copysign(1 - 1e-12, *x);
-}
-
+/* At random places of the chart; every third one is near the boundary. */
 static void hold_everywhere(const laws_case *c, laws_worst *worst,
                             void (*law)(const laws_case *, int, double, double, laws_worst *))
 {
     for (int axis = 0; axis < 3; axis++) {
-        double l, x;
-        place(c, &l, &x);
-        law(c, axis, l, x, worst);
+        const double l = iso_random_uniform(c->random, -M_PI, M_PI), x = iso_random_uniform(c->random, -1, 1);
+        const bool near = iso_random_uniform(c->random, 0, 3) < 1;
+        law(c, axis, l, near ? copysign(1 - 1e-12, x) : x, worst);
     }
 }
 
@@ -339,54 +321,8 @@ static void rotation(void)
         }
 }
 
-/* --- crossings in quadruple precision ------------------------------------------------------------------------ */
-
-/* The orbit at the time of a crossing has n_a = 0, and the crossing's (l, x). The bound grows with the crossing's
- * number: nearby orbits part. Columns: k, J, n, w at 0, then axis, crossing, t, s, l, x. */
-static void reference_row(iso_context *ctx, const char *line)
-{
-    double v[16], l, x;
-    const char *at = strchr(line, ',');
-    for (int i = 0; i < 16 && at; i++, at = strchr(at + 1, ',')) v[i] = strtod(at + 1, NULL);
-    const iso_params p = laws_params(v[0], v + 1);
-    iso_start start;
-    iso_orbit *orbit = NULL;
-    iso_sample sample;
-    iso_status status = iso_start_ball(ctx, v + 7, v + 4, false, &start);
-    iso_orbit_options o = iso_orbit_defaults(&start);
-    o.shown = ISO_SHOW_BOTH;
-    o.tolerance = 1e-14;
-    if (status == ISO_OK) status = iso_orbit_create(ctx, &p, &start, &o, &orbit);
-    if (status == ISO_OK) status = iso_orbit_at(orbit, v[12], &sample);
-    gsl_test(status != ISO_OK, "orbit of %.5s: %s", line, iso_context_message(ctx));
-    iso_orbit_free(orbit);
-    if (status != ISO_OK) return;
-    const int axis = (int)v[10] - 1;
-    iso_section_chart(axis, sample.point, &l, &x);
-    const double error = fmax(fabs(l - v[14]), fabs(x - v[15])), away = fabs(sample.ball[3 + axis]);
-    gsl_test(!(fmax(error, away) < 1e-11 * v[11]), "crossing %.5s: off by %.2g, n_a = %.2g", line, error, away);
-    gsl_test(!iso_section_is_global(iso_free_point(&p, 1), axis), "axis of %.5s", line);
-}
-
-static void reference(void)
-{
-    FILE *file = fopen(ISO_TEST_DATA "/section.csv", "r");
-    iso_context *ctx = iso_context_create();
-    char line[2048];
-    int rows = 0;
-    while (file && fgets(line, sizeof line, file)) {
-        if (line[0] != 's') continue; /* comments and names */
-        reference_row(ctx, line);
-        rows++;
-    }
-    if (file) fclose(file);
-    iso_context_free(ctx);
-    gsl_test_int(rows, 10, "rows of section.csv");
-}
-
 int main(void)
 {
-    gsl_test_verbose(1);
     laws_hold("crossings and their chart", &iso_system_point, crossing);
     laws_hold("slopes of the chart", &iso_system_point, slopes);
     laws_hold("Sturm's bounds", &iso_system_point, bounds);
@@ -398,6 +334,5 @@ int main(void)
     extremes();
     seam();
     rotation();
-    reference();
     exit(gsl_test_summary());
 }

@@ -1,18 +1,8 @@
 /* The chart of the section on levels H = E, also where a part of its circle is closed: energy, slopes, Sturm's bounds,
  * the area, points spread evenly. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
 #include "map/section.h"
-#include "map/section_impl.h"
 #include "map/state.h"
-#include "model/model_impl.h"
 #include "section_area.h"
 
 enum { CASES = 300, STEPS = 20000 };
@@ -95,14 +85,6 @@ static void bounds(iso_point_motion m, int axis, const char *what)
                  what, least);
 }
 
-/* The integral of G from -pi to each step, by the middles of the steps */
-static void integrate(iso_point_motion m, int axis, double sum[STEPS + 1])
-{
-    sum[0] = 0;
-    for (int i = 0; i < STEPS; i++)
-        sum[i + 1] = sum[i] + iso_section_momentum(m, axis, -M_PI + 2 * M_PI * (i + 0.5) / STEPS) * 2 * M_PI / STEPS;
-}
-
 /* The area, and points spread evenly by dL dl: the part of the integral of G below them goes up by 1/r modulo 1. Where
  * the circle has closed parts, the arcs are filled in another order, and below l there are as many points as area. */
 static void spread(iso_point_motion m, int axis, const char *what)
@@ -111,7 +93,9 @@ static void spread(iso_point_motion m, int axis, const char *what)
     static double sum[STEPS + 1];
     double part[POINTS], worst = 0;
     iso_section_spread s;
-    integrate(m, axis, sum);
+    sum[0] = 0;
+    for (int i = 0; i < STEPS; i++) /* by the middles of the steps */
+        sum[i + 1] = sum[i] + iso_section_momentum(m, axis, -M_PI + 2 * M_PI * (i + 0.5) / STEPS) * 2 * M_PI / STEPS;
     gsl_test_rel(section_area(m, axis), 2 * sum[STEPS], 1e-4, "%s: area", what);
     if (sum[STEPS] == 0) return;
     iso_section_spread_prepare(&s, m, axis, 3);

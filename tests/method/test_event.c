@@ -1,9 +1,5 @@
 /* Events: known times, directions, none missed, none invented, for every
  * method. */
-#include <float.h>
-#include <string.h>
-
-#include "method/integrator_impl.h"
 #include "orbits.h"
 
 static iso_context *ctx;

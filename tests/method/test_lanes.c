@@ -1,12 +1,5 @@
 /* Taylor series in lanes, lib/method/taylor/lanes_impl.h: the states of each code, and that no lane feels another. */
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/random_impl.h"
-#include "effects.h"
-#include "method/integrator_impl.h"
 #include "method/taylor/lanes_impl.h"
-#include "model/model_impl.h"
 #include "orbits.h"
 
 enum { ROWS = 4, CODES = 8 };
@@ -97,18 +90,14 @@ static bool same(const member *m, int code, int first, double y[][ISO_MAX_STATE]
 
 static laws_worst right, bits, broken;
 
-/* As for one orbit by itself; long bodies amplify rounding. */
-static double allowed(const member *m)
-{
-    return 1e-13 * fmax(1, sqrt(laws_spread(&m->o.model.problem.p)) / 8);
-}
-
 static void note_member(const member *m, int code, const iso_lane_job *job)
 {
     const char *name = iso_lane_codes[code]->name;
+    /* as for one orbit by itself; long bodies amplify rounding */
+    const double allowed = 1e-13 * fmax(1, sqrt(laws_spread(&m->o.model.problem.p)) / 8);
     effects_note(&m->c, &bits, job->done == ROWS && !job->error ? 0 : 1, 0.5, "all rows reached");
     for (int i = 0; i < ROWS; i++)
-        effects_note(&m->c, &right, orbit_error(&m->o, m->y[code][i], m->expected[i]), allowed(m), name);
+        effects_note(&m->c, &right, orbit_error(&m->o, m->y[code][i], m->expected[i]), allowed, name);
 }
 
 /* All of a group in random order, each twice, all rows and the last alone, and among them some that are no numbers;
@@ -169,7 +158,6 @@ static void solve_groups(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     dice = iso_random_create(4);
     extended = iso_method_find("taylor_extended");

@@ -1,10 +1,6 @@
 /* The contract of lib/method/method.h, held by every method on both systems and four k. */
-#include <float.h>
 #include <gsl/gsl_integration.h>
-#include <string.h>
 
-#include "method/integrator_impl.h"
-#include "model/model_impl.h"
 #include "orbits.h"
 
 /* A clause of the contract: notes what it finds of one method on one orbit. */
@@ -249,7 +245,6 @@ static void clock_is_compensated(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     hold("forwards and backwards as the reference", agreement);
     hold("mirrored in time, bit for bit", reversal);

@@ -1,10 +1,6 @@
 /* What methods need of a model (lib/method/method.c): a formula of every effect, room, a system; else they refuse
  * it. */
-#include <string.h>
-
-#include "method/integrator_impl.h"
 #include "method/methods_impl.h"
-#include "numbers.h"
 #include "orbits.h"
 
 static iso_context *ctx;

@@ -188,7 +188,6 @@ static void check_tolerance(const sample samples[ORBITS], const iso_method *m)
 int main(void)
 {
     static sample samples[ORBITS];
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     check_orders();
     make_samples(samples);

@@ -1,11 +1,5 @@
 /* test_past.c - a time gives the same bits in whatever order times are asked, and costs little if it was passed
  * before. */
-#include <string.h>
-
-#include "base/random_impl.h"
-#include "length.h"
-#include "method/integrator_impl.h"
-#include "model/model_impl.h"
 #include "orbits.h"
 
 enum { TIMES = 20, TURN = 3 };
@@ -126,8 +120,6 @@ static void effects_in_any_order(const effects_case *c, laws_worst *worst)
     if (iso_params_steep(&c->model.problem.p)) return; /* no time suits all parts of such an orbit */
     any_order(&o, iso_method_find(names[number / 3 % 4]), worst);
 }
-
-/* --- what it costs ---------------------------------------------------------------------------------------------- */
 
 /* A time passed before takes up to four steps of taylor, and where memory is short, as many as two places lie apart.
  * */

@@ -1,12 +1,9 @@
 /* What methods refuse: orbits that end, options that make no sense, names that
  * fit none or several. */
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "method/integrator_impl.h"
 #include "method/methods_impl.h"
-#include "numbers.h"
 #include "orbits.h"
 
 static iso_context *ctx;
@@ -149,8 +146,6 @@ static void check_breaking_off(const iso_method *m)
     gsl_test(!(t > 0 && fabs(norm(y + 3) - 1) < 1e-4), "%s: the last state is good", m->name);
     iso_integrator_free(it);
 }
-
-/* --- too many steps --------------------------------------------------------------------------------------------- */
 
 static void check_max_steps(const iso_method *m)
 {

@@ -1,12 +1,6 @@
 /* The compositions of lib/method/symplectic.c: their orders, what they keep, the way back, times between steps. */
-#include <float.h>
 #include <gsl/gsl_fit.h>
-#include <string.h>
 
-#include "length.h"
-#include "method/integrator_impl.h"
-#include "model/model_impl.h"
-#include "numbers.h"
 #include "orbits.h"
 
 static iso_context *ctx;
@@ -20,13 +14,6 @@ static orbit sample(double k, unsigned long seed)
     orbit o = orbit_sample(ctx, &iso_system_point, k, orbit_J, seed);
     orbit_clocks(&o, ISO_CLOCK_S, true, true, false);
     return o;
-}
-
-static double energy_of(const orbit *o, const double y[])
-{
-    double size;
-    const double H = iso_system_point.energy(&o->model.problem, y, &size);
-    return (H - o->model.problem.energy) / size;
 }
 
 /* --- order ------------------------------------------------------------------------------------------------------ */
@@ -118,10 +105,11 @@ static void check_energy(const char *name, double k, double step, double bound)
     static double x[LOOKS], e[LOOKS];
     double worst = 0, constraints = 0, c0, slope, cov[3], chi2;
     for (int i = 0; i < LOOKS; i++) {
-        double y[ISO_MAX_STATE];
+        double y[ISO_MAX_STATE], size;
         x[i] = (i + 1.) / LOOKS;
         if (iso_integrator_at(it, x[i] * steps_of_long_runs() * step * o.unit, y) != ISO_OK) exit(1);
-        e[i] = energy_of(&o, y);
+        const double H = iso_system_point.energy(&o.model.problem, y, &size);
+        e[i] = (H - o.model.problem.energy) / size;
         worst = fmax(worst, fabs(e[i]));
         constraints = fmax(constraints, fmax(fabs(norm(y + 3) - 1), fabs(dot(y, y + 3)) / norm(y)));
     }
@@ -220,7 +208,6 @@ static void check_refusals(const iso_method *m)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     for (int k = 0; k < 2; k++) {
         const bundle b = make_bundle(orbit_k[k]);

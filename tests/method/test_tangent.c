@@ -1,11 +1,6 @@
 /* First-order variations, lib/method/taylor/deviations_impl.h: of every model and effect against differences of
  * neighbouring orbits in numbers of 128 bits, by each code. */
-#include <stdlib.h>
-#include <string.h>
-
-#include "effects.h"
 #include "method/taylor/lanes_impl.h"
-#include "model/model_impl.h"
 #include "orbits.h"
 
 static const iso_lane_options finest = {.tolerance = 1e-15};
@@ -108,7 +103,6 @@ int main(void)
         printf("SKIP deviations against neighbours: this compiler has no numbers of 128 bits\n");
         return 0;
     }
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     each = tests_length(499, 1009);
     effects_hold("deviations are those of neighbours", &iso_system_ball, tests_length(0, 2), check_neighbours);

@@ -1,13 +1,6 @@
 /* Sphero-conical coordinates (12)-(13): roots, squares, distances from the b_i, rates; near coordinate planes too. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/vec3_impl.h"
 #include "laws.h"
 #include "model/conical_impl.h"
-#include "model/model_impl.h"
 
 /* Indices of b from the least to the largest */
 static void order_of(const double b[3], int order[3])
@@ -24,12 +17,6 @@ static bool distinct(const double b[3])
     return b[0] != b[1] && b[1] != b[2] && b[2] != b[0];
 }
 
-/* prod_{j != i} (b_i - b_j) */
-static double gaps(const double b[3], int i)
-{
-    return (b[i] - b[(i + 1) % 3]) * (b[i] - b[(i + 2) % 3]);
-}
-
 /* (13) as products of distances, to full relative accuracy however small x_i is:
  * (z1 - b_i)(z2 - b_i) = x_i^2 prod (b_i - b_j);  and the sum of the roots, z1 + z2 = sum b_i (1 - x_i^2). */
 static void note_coordinates(const iso_params *p, const double x[3], const iso_conical *at, laws_worst *worst,
@@ -40,7 +27,7 @@ static void note_coordinates(const iso_params *p, const double x[3], const iso_c
     int o[3];
     order_of(b, o);
     for (int i = 0; i < 3; i++) {
-        const double squares = x[i] * x[i] * gaps(b, i);
+        const double squares = x[i] * x[i] * (b[i] - b[(i + 1) % 3]) * (b[i] - b[(i + 2) % 3]);
         laws_note(worst, fabs(at->above[0][i] * at->above[1][i] - squares), 16 * DBL_EPSILON * fabs(squares), p,
                   what);
         sum += b[i] * (x[(i + 1) % 3] * x[(i + 1) % 3] + x[(i + 2) % 3] * x[(i + 2) % 3]);
@@ -221,7 +208,6 @@ static void rates(const laws_case *c, laws_worst *worst)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     laws_hold("coordinates of n (12)", &iso_system_ball, from_vector);
     laws_hold("and back", &iso_system_ball, to_vector);
     laws_hold("lam mu/det J = g", &iso_system_ball, product_is_g);

@@ -1,11 +1,5 @@
 /* The contact that cannot twist, the one that can, and between them; D; what a projection restores. */
-#include <float.h>
-#include <string.h>
-
-#include "base/random_impl.h"
-#include "effects.h"
 #include "model/effects/contact_impl.h"
-#include "model/model_impl.h"
 #include "orbits.h"
 
 /* --- rigid ----------------------------------------------------------------------------------------------------- */
@@ -134,8 +128,6 @@ static void stiffness(const effects_case *c, laws_worst *worst)
     effects_note(c, worst, fabs(iso_effects_stiffness(f) - most), 8 * DBL_EPSILON / free * most, "stiffness");
 }
 
-/* --- D --------------------------------------------------------------------------------------------------------- */
-
 static void bounds_of_D(void)
 {
     iso_context *ctx = iso_context_create();
@@ -254,7 +246,6 @@ static void correction(const effects_case *c, laws_worst *worst)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     effects_hold("rigid contact without torques is free", &iso_system_ball, 1, rigid_is_free);
     effects_hold("rigid contact: J w' = J w x w + T + lambda n", &iso_system_ball, 1, rigid_equation);
     effects_hold("twisting contact: K' = K x w + T", &iso_system_ball, 1, twisting_equation);

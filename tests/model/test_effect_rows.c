@@ -1,9 +1,5 @@
 /* The rows of the registry of effects: each says all that its parts need (lib/model/effects/effect.h). */
-#include <gsl/gsl_test.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "model/model_impl.h"
+#include "laws.h"
 #include "orbit/orbit_impl.h"
 
 static void complete(const iso_effect *e, bool holds, const char *what)

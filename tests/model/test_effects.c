@@ -1,9 +1,5 @@
 /* The effects as the table has them: states, Jacobians, torques and their potentials, integrals, what is refused. */
 #include "effects.h"
-#include "model/model_impl.h"
-
-#include <float.h>
-#include <string.h>
 
 /* --- states ---------------------------------------------------------------------------------------------------- */
 
@@ -318,7 +314,6 @@ static void breaking(const effects_case *c, laws_worst *worst)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     effects_hold("states of every subset", NULL, 1, states);
     effects_hold("forces of every subset", NULL, 1, forces);

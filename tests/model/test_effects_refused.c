@@ -1,12 +1,5 @@
 /* Numbers and combinations of effects that make no sense are refused, about the number or the effect; numbers that are
  * nearly right are made exact. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "effects.h"
 
 static iso_context *ctx;

@@ -1,16 +1,8 @@
 /* Expressions: each text has the value that C gives it, its slope is that of differences, and what is no expression is
  * refused with the place and the words. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/math_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
 #include "model/expression/written_impl.h"
-#include "model/model_impl.h"
 
 static const double J[3] = {1.4, 2.1, 3.0}, n[3] = {0.36, 0.48, 0.8};
 static const double a = 0.7, b = -1.3, k = 0.5;

@@ -1,10 +1,5 @@
 /* Formulas (model/formula/formula.h): every operation gives the value it is named for, and one that cannot be computed is
  * refused: no room, omega' where it is not known, states without a rate. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "laws.h"
 #include "model/formula/formula_impl.h"
 
@@ -98,74 +93,51 @@ static void check_operations(void)
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
 
-/* Writes something that cannot be computed: the formula must say so, and be empty. */
-static void refused(iso_formula_kind kind, void (*write)(iso_formula *F), const char *what)
+enum { CONSTANTS, SCALARS, VECTORS, LINES, STATES, LATE, OMEGA, U, STATE };
+
+/* Writes something that cannot be computed. */
+static void write_wrong(iso_formula *F, int what)
 {
-    const iso_params p = laws_params(0.5, J);
-    iso_formula F;
-    iso_formula_begin(&F, kind, false);
-    write(&F);
-    iso_formula_finish(&F, &p);
-    gsl_test(!(F.wrong || F.overrun) || F.lines > 0 || F.constants > 0, "%s", what);
+    const int most[] = {ISO_FORMULA_CONSTANTS / 3 + 1, ISO_FORMULA_SCALARS, ISO_FORMULA_VECTORS,
+                        ISO_FORMULA_LINES + 1, ISO_FORMULA_STATES + 1};
+    for (int i = 0; what <= STATES && i < most[what]; i++) {
+        if (what == CONSTANTS) constant_J(F);
+        if (what == SCALARS) add(F, formula_g(F), formula_g(F));
+        if (what == VECTORS) add_v(F, formula_n(F), formula_n(F));
+        if (what == LINES) add_torque(F, constant_k(F), formula_n(F));
+        if (what == STATES) scalar_state(F, ISO_STATE + i);
+    }
+    if (what == LATE) add_torque(F, constant(F, 1), cross_of(F, formula_n(F), formula_omega_dot(F)));
+    if (what == OMEGA) add_energy(F, constant(F, 1), dot_of(F, formula_omega(F), formula_n(F)));
+    if (what == U) add_potential(F, constant(F, 1), dot_of(F, formula_u(F), formula_gamma(F)));
+    if (what == STATE) add_torque(F, constant(F, 1), vector_state(F, 0));
 }
 
-static void too_many_constants(iso_formula *F)
-{
-    for (int i = 0; i <= ISO_FORMULA_CONSTANTS / 3; i++) constant_J(F);
-}
-
-static void too_many_scalars(iso_formula *F)
-{
-    for (int i = 0; i < ISO_FORMULA_SCALARS; i++) add(F, formula_g(F), formula_g(F));
-}
-
-static void too_many_vectors(iso_formula *F)
-{
-    for (int i = 0; i < ISO_FORMULA_VECTORS; i++) add_v(F, formula_n(F), formula_n(F));
-}
-
-static void too_many_lines(iso_formula *F)
-{
-    for (int i = 0; i <= ISO_FORMULA_LINES; i++) add_torque(F, constant_k(F), formula_n(F));
-}
-
-static void too_many_states(iso_formula *F)
-{
-    for (int i = 0; i <= ISO_FORMULA_STATES; i++) scalar_state(F, ISO_STATE + i);
-}
-
-static void late_torque(iso_formula *F)
-{
-    add_torque(F, constant(F, 1), cross_of(F, formula_n(F), formula_omega_dot(F)));
-}
-
-static void energy_of_omega(iso_formula *F)
-{
-    add_energy(F, constant(F, 1), dot_of(F, formula_omega(F), formula_n(F)));
-}
-
-static void image_of_u(iso_formula *F)
-{
-    add_potential(F, constant(F, 1), dot_of(F, formula_u(F), formula_gamma(F)));
-}
-
-static void no_state(iso_formula *F)
-{
-    add_torque(F, constant(F, 1), vector_state(F, 0));
-}
-
+/* The formula must say that it cannot be computed, and be empty. */
 static void check_refusals(void)
 {
-    refused(ISO_FORMULA_MOTION, too_many_constants, "too many constants");
-    refused(ISO_FORMULA_MOTION, too_many_scalars, "too many scalars");
-    refused(ISO_FORMULA_MOTION, too_many_vectors, "too many vectors");
-    refused(ISO_FORMULA_MOTION, too_many_lines, "too many lines");
-    refused(ISO_FORMULA_MOTION, too_many_states, "too many states");
-    refused(ISO_FORMULA_MOTION, late_torque, "a torque that depends on omega'");
-    refused(ISO_FORMULA_ENERGY, energy_of_omega, "an energy that depends on omega");
-    refused(ISO_FORMULA_IMAGE, image_of_u, "an image that depends on J^-1 n");
-    refused(ISO_FORMULA_IMAGE, no_state, "an image that depends on a state");
-    refused(ISO_FORMULA_MOTION, no_state, "a state that is not there");
+    static const struct {
+        iso_formula_kind kind;
+        int what;
+        const char *words;
+    } cases[] = {{ISO_FORMULA_MOTION, CONSTANTS, "too many constants"},
+                 {ISO_FORMULA_MOTION, SCALARS, "too many scalars"},
+                 {ISO_FORMULA_MOTION, VECTORS, "too many vectors"},
+                 {ISO_FORMULA_MOTION, LINES, "too many lines"},
+                 {ISO_FORMULA_MOTION, STATES, "too many states"},
+                 {ISO_FORMULA_MOTION, LATE, "a torque that depends on omega'"},
+                 {ISO_FORMULA_ENERGY, OMEGA, "an energy that depends on omega"},
+                 {ISO_FORMULA_IMAGE, U, "an image that depends on J^-1 n"},
+                 {ISO_FORMULA_IMAGE, STATE, "an image that depends on a state"},
+                 {ISO_FORMULA_MOTION, STATE, "a state that is not there"}};
+    const iso_params p = laws_params(0.5, J);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        iso_formula F;
+        iso_formula_begin(&F, cases[i].kind, false);
+        write_wrong(&F, cases[i].what);
+        iso_formula_finish(&F, &p);
+        gsl_test(!(F.wrong || F.overrun) || F.lines > 0 || F.constants > 0, "%s", cases[i].words);
+    }
 }
 
 int main(void)

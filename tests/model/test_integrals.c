@@ -1,13 +1,5 @@
 /* First integrals hold where the table says so, and nowhere else; projection restores what they fix. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "model/model_impl.h"
 
 typedef struct integral_at {
     const iso_integral *integral;
@@ -223,7 +215,6 @@ static void sample_valid(const laws_case *c, laws_worst *worst)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     laws_hold("sampled states are valid", NULL, sample_valid);
     laws_hold("integrals constant along the flow", NULL, note_holding);
     laws_hold("integrals constant off the level H = 0", &iso_system_point, off_the_level);

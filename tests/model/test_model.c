@@ -1,15 +1,6 @@
 /* The equations of both systems: constraints, measure, symmetries, closed forms. Their Jacobians and clocks, with
  * effects and without: test_effects.c. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "model/model_impl.h"
 
 /* Size of the terms that y' = f is made of, which may cancel. Ball: J^-1 (J w x w) and lambda J^-1 n, up to
  * |w|^2 max J/min J. Point: (|M|^2/k) gamma x J gamma/q, where |J gamma|^2 <= max J q. */
@@ -151,7 +142,6 @@ static void component_size(const laws_case *c, laws_worst *worst)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     laws_hold("gradient of q", NULL, gradient_of_q);
     laws_hold("flow tangent to the constraints", NULL, constraints_tangent);
     laws_hold("invariant measure (10)", NULL, invariant_measure);

@@ -1,14 +1,5 @@
 /* Parameters: what is accepted and what it gives, what is refused and about which quantity, the ball's own units. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "model/model_impl.h"
 
 static iso_context *ctx;
 
@@ -164,18 +155,6 @@ static void note_unit(const iso_units *u, iso_dimension d, laws_worst *worst, co
     laws_note(worst, fabs(log2(unit) - expected), 4 * DBL_EPSILON * (1 + terms), &u->own, name);
 }
 
-static void note_all_units(const iso_units *u, laws_worst *worst)
-{
-    note_unit(u, iso_dimension_h, worst, "h");
-    note_unit(u, iso_dimension_eps, worst, "eps");
-    for (iso_clock c = 0; c < ISO_CLOCKS; c++) note_unit(u, iso_clock_dimension(c), worst, iso_clock_name(c));
-    for (int s = 0; iso_systems[s]; s++) {
-        note_unit(u, iso_systems[s]->fast_dimension, worst, iso_systems[s]->state[0]);
-        for (const iso_integral *i = iso_systems[s]->integrals; i->name; i++)
-            note_unit(u, i->dimension, worst, i->name);
-    }
-}
-
 static void note_choice(const iso_params *p, double speed, laws_worst *choice, laws_worst *units)
 {
     iso_units u;
@@ -187,7 +166,14 @@ static void note_choice(const iso_params *p, double speed, laws_worst *choice, l
     laws_note(choice, fabs(u.own.det_J / (u.own.J[0] * u.own.J[1] * u.own.J[2]) - 1), DBL_EPSILON, p, "det J");
     laws_note(choice, u.own.k == p->k ? 0 : 1, 0.5, p, "k");
     if (speed > 0) laws_note(choice, speed / u.w >= 1 && speed / u.w < 2 ? 0 : 1, 0.5, p, "speed of order one");
-    note_all_units(&u, units);
+    note_unit(&u, iso_dimension_h, units, "h");
+    note_unit(&u, iso_dimension_eps, units, "eps");
+    for (iso_clock c = 0; c < ISO_CLOCKS; c++) note_unit(&u, iso_clock_dimension(c), units, iso_clock_name(c));
+    for (int s = 0; iso_systems[s]; s++) {
+        note_unit(&u, iso_systems[s]->fast_dimension, units, iso_systems[s]->state[0]);
+        for (const iso_integral *i = iso_systems[s]->integrals; i->name; i++)
+            note_unit(&u, i->dimension, units, i->name);
+    }
 }
 
 static void own_units(void)
@@ -253,7 +239,6 @@ static void dimensions(const laws_case *c, laws_worst *worst)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     surfaces_give_k();
     reduced();

@@ -1,8 +1,4 @@
 /* The end of a motion (model/rest.c): rest, endless speeding up backwards in time, a constraint that is lost. */
-#include <float.h>
-
-#include "model/model_impl.h"
-#include "numbers.h"
 #include "orbits.h"
 
 enum { RESIST = 1, TWIST = 2, STIFF = 4, FIELD = 8, GRAVITY = 16, KINDS = 32 };

@@ -1,6 +1,5 @@
 /* The ball in space: attitude, contact point and centre belong together, and the ball rolls, neither slips nor
  * twists. */
-#include "base/random_impl.h"
 #include "scenes.h"
 
 static iso_context *ctx;
@@ -215,7 +214,6 @@ static void check_axes(const rolling *ball, iso_random *random)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     iso_random *random = iso_random_create(71);
     for (int which = 0; which < ROLLINGS; which++)

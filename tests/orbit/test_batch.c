@@ -1,10 +1,7 @@
 /* Many orbits at once, lib/orbit/batch.h: each as if it were alone, on any thread, for as long as one likes. */
 #include <malloc.h>
-#include <string.h>
 
-#include "base/random_impl.h"
 #include "batches.h"
-#include "map/state.h"
 #include "orbit/orbit_impl.h"
 
 static iso_context *ctx;
@@ -205,8 +202,6 @@ static void check_bits(const iso_batch_options *options)
     free(truth);
 }
 
-/* --- what is conserved ------------------------------------------------------------------------------------------ */
-
 static void check_conserved(iso_backend backend)
 {
     static batch_pool all;
@@ -239,7 +234,6 @@ static void check_conserved(iso_backend backend)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     dice = iso_random_create(11);
     mallopt(M_PERTURB, 0x5a); /* what was never written is seen */

@@ -1,6 +1,5 @@
 /* Batches that cannot be, and orbits that fail, stop, stiffen or rest among others, lib/orbit/batch.h. */
 #include <malloc.h>
-#include <string.h>
 
 #include "batches.h"
 #include "orbit/orbit_impl.h"
@@ -244,11 +243,6 @@ static void check_rest(double k, iso_backend backend)
 
 /* --- stopped ---------------------------------------------------------------------------------------------------- */
 
-static bool some_times(void *data)
-{
-    return --*(long *)data >= 0;
-}
-
 /* Whatever is done by then is right, and said to be. */
 static void check_stopped(int threads)
 {
@@ -266,8 +260,8 @@ static void check_stopped(int threads)
     memcpy(expected, status, sizeof expected);
     o.threads = threads;
     int wrong = 0, stopped = 0, done = 0, early = 0;
-    for (long asks = 0; asks < 30000; asks = asks + asks / 2 + 1) {
-        long left = asks;
+    for (int asks = 0; asks < 30000; asks = asks + asks / 2 + 1) {
+        int left = asks;
         iso_context_set_monitor(ctx, some_times, &left);
         iso_sample *samples = batch_run(ctx, orbits, COUNT, &o, times, ROWS, status, &whole);
         iso_context_set_monitor(ctx, NULL, NULL);
@@ -293,7 +287,6 @@ static void check_stopped(int threads)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     dice = iso_random_create(2);
     mallopt(M_PERTURB, 0x5a); /* what was never written is seen */

@@ -4,15 +4,7 @@
  * its equations are unstable: at small k and with little energy of motion errors grow like exp(13 s). Its ball has no
  * such motions. The law: both models give the same, to the rounding of the start, which grows as well. The first case
  * was once off by 8e-13 at tolerance 1e-15, moved by 3e-11. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "length.h"
 #include "method/methods_impl.h"
 #include "orbit/batch.h"
 #include "orbit/orbit_impl.h"

@@ -1,13 +1,5 @@
 /* Crossings of orbits one by one, lib/orbit/crossings.h: reference/section.csv, parts, limits, refusals. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/math_impl.h"
-#include "base/vec3_impl.h"
-#include "laws.h"
 #include "map/section_impl.h"
 #include "numbers.h"
 #include "orbit/crossings.h"
@@ -29,33 +21,25 @@ typedef struct section_row {
     double t, s, l, x;
 } section_row;
 
-static bool read_row(const char *line, section_row *r)
-{
-    double v[SECTION_NUMBERS];
-    snprintf(r->name, sizeof r->name, "%.*s", (int)strcspn(line, ","), line);
-    if (!reference_numbers(line, SECTION_NUMBERS, v)) return false;
-    r->p = laws_params(v[0], v + 1);
-    r->axis = (int)v[10] - 1;
-    r->crossing = (int)v[11];
-    r->t = v[12], r->s = v[13], r->l = v[14], r->x = v[15];
-    return iso_start_ball(ctx, v + 7, v + 4, ISO_SPIN_REMOVE, &r->start) == ISO_OK;
-}
-
 static int read_rows(section_row rows[SECTION_ROWS])
 {
     FILE *file = fopen(ISO_TEST_DATA "/section.csv", "r");
     char line[2048];
     int count = 0;
     while (file && count < SECTION_ROWS && fgets(line, sizeof line, file))
-        if (line[0] == 's' && !read_row(line, &rows[count++])) gsl_test(1, "row %d of section.csv", count);
+        if (line[0] == 's') {
+            section_row *r = &rows[count++];
+            double v[SECTION_NUMBERS];
+            snprintf(r->name, sizeof r->name, "%.*s", (int)strcspn(line, ","), line);
+            laws_stop_if(ctx, !reference_numbers(line, SECTION_NUMBERS, v), "a row of section.csv");
+            r->p = laws_params(v[0], v + 1);
+            r->axis = (int)v[10] - 1, r->crossing = (int)v[11];
+            r->t = v[12], r->s = v[13], r->l = v[14], r->x = v[15];
+            laws_stop_if(ctx, iso_start_ball(ctx, v + 7, v + 4, ISO_SPIN_REMOVE, &r->start) != ISO_OK, "its start");
+        }
     if (file) fclose(file);
     gsl_test_int(count, SECTION_ROWS, "rows of section.csv");
     return count;
-}
-
-static double angle_apart(double a, double b)
-{
-    return fabs(remainder(a - b, 2 * ISO_PI));
 }
 
 static iso_crossings *follow(const iso_batch_orbit *orbit, size_t count, const iso_crossings_options *o)
@@ -82,7 +66,7 @@ static void note_row(const section_row *r, iso_backend backend, laws_worst *char
     gsl_test_int((int)iso_crossings_go(c, NULL, (size_t)r->crossing, at, NULL, &done, &status), ISO_OK, "%s: %s",
                  r->name, iso_context_message(ctx));
     const iso_crossing *last = &at[r->crossing - 1];
-    laws_note(chart, angle_apart(last->l, r->l), 1e-11, &r->p, r->name);
+    laws_note(chart, fabs(remainder(last->l - r->l, 2 * ISO_PI)), 1e-11, &r->p, r->name);
     laws_note(chart, fabs(last->x - r->x), 1e-11, &r->p, r->name);
     laws_note(clocks, fabs(last->clock[ISO_CLOCK_T] / r->t - 1), 1e-11, &r->p, r->name);
     laws_note(clocks, fabs(last->clock[ISO_CLOCK_S] / r->s - 1), 1e-11, &r->p, r->name);

@@ -1,20 +1,9 @@
 /* Crossings on levels H = E: reference/levels.csv by both models; and, over random motions, that the return map keeps
  * dL dl, that Sturm's bounds hold, that the reversors S1, S2, S3 turn orbits back in the same time, and that rows keep
  * their energy. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/math_impl.h"
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
-#include "laws.h"
-#include "length.h"
 #include "map/section_impl.h"
 #include "map/state.h"
-#include "model/model_impl.h"
 #include "orbit/crossings.h"
 #include "reference.h"
 

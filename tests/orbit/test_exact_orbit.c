@@ -1,14 +1,4 @@
 /* The closed solution as a backend: every picture and clock against the orbits by steps, events, refusals. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
-#include "laws.h"
-#include "model/model_impl.h"
-#include "numbers.h"
 #include "orbit/batch.h"
 #include "orbit/orbit_impl.h"
 #include "scenes.h"
@@ -35,27 +25,24 @@ typedef struct problem {
     iso_start start;
 } problem;
 
-/* Two equal moments, a principal plane, Neumann's problem off the level H = 0. */
-static problem make_special(int i)
+/* Balls and points, of both k and moments in every kind of order; then two equal moments, a principal plane, Neumann's
+ * problem off the level H = 0. */
+static problem make_problem(int i, iso_random *random)
 {
     static const double equal[3] = {1.4, 2.1, 1.4}, J[3] = {1.4, 2.1, 3.0};
     const iso_start ball = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
     const iso_start plane = {.model = ISO_BALL, .y = {0, 0, 1.1, 0.6, 0.8, 0}};
     const iso_start point = {.model = ISO_POINT, .y = {0.64, 1, -0.48, 0.6, 0, 0.8}, .eps = 2};
-    return (problem[]){
-        {laws_params(0.6, equal), ball}, {laws_params(-0.7, J), plane}, {laws_params(-1, J), point}}[i];
-}
-
-/* Balls and points, of both k and moments in every kind of order; then the special ones. */
-static problem make_problem(int i, iso_random *random)
-{
-    if (i >= SEPARATED) return make_special(i - SEPARATED);
+    if (i >= SEPARATED)
+        return (problem[]){{laws_params(0.6, equal), ball},
+                           {laws_params(-0.7, J), plane},
+                           {laws_params(-1, J), point}}[i - SEPARATED];
     problem o = {.p = laws_params(i % 2 ? 1 : -1, shapes[i / 2])};
-    const bool ball = i / 2 % 2 == 0;
+    const bool is_ball = i / 2 % 2 == 0;
     iso_problem f = {.p = o.p};
-    o.start.model = ball ? ISO_BALL : ISO_POINT;
-    laws_sample(ball ? &iso_system_ball : &iso_system_point, &f, random, o.start.y);
-    o.start.eps = ball ? 0 : f.eps;
+    o.start.model = is_ball ? ISO_BALL : ISO_POINT;
+    laws_sample(is_ball ? &iso_system_ball : &iso_system_point, &f, random, o.start.y);
+    o.start.eps = is_ball ? 0 : f.eps;
     return o;
 }
 
@@ -66,16 +53,6 @@ static const double times[TIMES] = {0.3, 4, 20, -0.7, -9, 60};
 
 /* The orbits by steps are made at tolerance 1e-14, and run to 60 own units. */
 static const double ALLOWED = 1e-12;
-
-static void note_difference(laws_worst *worst, const iso_params *p, const iso_sample *a, const iso_sample *b,
-                            const char *what)
-{
-    laws_note(worst, laws_distance(a->ball, b->ball) / laws_norm(b->ball), ALLOWED, p, what);
-    laws_note(worst, laws_distance(a->ball + 3, b->ball + 3), ALLOWED, p, what);
-    laws_note(worst, laws_distance(a->point, b->point) / laws_norm(b->point), ALLOWED, p, what);
-    laws_note(worst, laws_distance(a->point + 3, b->point + 3), ALLOWED, p, what);
-    for (int c = 0; c < ISO_CLOCKS; c++) laws_note(worst, fabs(a->clock[c] / b->clock[c] - 1), ALLOWED, p, what);
-}
 
 /* What one time of the clock is in the ball's own unit of time, about. */
 static double unit_of(const iso_orbit *orbit, iso_clock clock)
@@ -96,7 +73,13 @@ static void check_against_steps(const problem *o, laws_worst *worst)
             for (int i = 0; i < TIMES; i++) {
                 const double time = times[i] * unit_of(exact, clock);
                 const iso_sample a = scene_at(ctx, exact, time), b = scene_at(ctx, steps, time);
-                note_difference(worst, &o->p, &a, &b, iso_backend_name((int)backend));
+                const char *name = iso_backend_name((int)backend);
+                laws_note(worst, laws_distance(a.ball, b.ball) / laws_norm(b.ball), ALLOWED, &o->p, name);
+                laws_note(worst, laws_distance(a.ball + 3, b.ball + 3), ALLOWED, &o->p, name);
+                laws_note(worst, laws_distance(a.point, b.point) / laws_norm(b.point), ALLOWED, &o->p, name);
+                laws_note(worst, laws_distance(a.point + 3, b.point + 3), ALLOWED, &o->p, name);
+                for (int c = 0; c < ISO_CLOCKS; c++)
+                    laws_note(worst, fabs(a.clock[c] / b.clock[c] - 1), ALLOWED, &o->p, name);
             }
             iso_orbit_free(steps);
         }
@@ -223,19 +206,10 @@ static void check_effects_refused(const iso_params *p, const iso_start *start)
     }
 }
 
-static bool never(void *data)
-{
-    (void)data;
-    return false;
-}
-
-static void check_times(const problem *o)
+static void check_stop(const problem *o)
 {
     iso_orbit *orbit = scene_whole(ctx, &o->p, &o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
-    const double wrong[] = {NAN, INFINITY, -INFINITY, 1e30};
     iso_sample s;
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
-        gsl_test(iso_orbit_at(orbit, wrong[i], &s) != ISO_BAD_ARGUMENT, "t = %g is refused", wrong[i]);
     iso_context_set_monitor(ctx, never, NULL);
     gsl_test(iso_orbit_at(orbit, 3, &s) != ISO_STOPPED, "stopped on request");
     iso_context_set_monitor(ctx, NULL, NULL);
@@ -296,7 +270,7 @@ int main(void)
         check_shows(&o);
         check_events(&o, i % 3 ? 1 : -1, &events);
         check_far_events(&o);
-        check_times(&o);
+        check_stop(&o);
         check_described(&o);
         if (i == 0) check_errors(&o);
     }

@@ -1,5 +1,4 @@
 /* Balls under forces: energy along the orbit, and motion run backwards; Neumann's problem as a free ball's. */
-#include "base/random_impl.h"
 #include "orbit/orbit_impl.h"
 #include "scenes.h"
 
@@ -88,42 +87,23 @@ enum { TIMES = 5 };
 static const double times[TIMES] = {1, 17, 60, 100, -100};
 static const double eps = 0.8;
 
-/* c of a size with which the level matters */
-static double level_of(const iso_params *p, double share)
-{
-    return share * pow((p->J[0] + p->J[1] + p->J[2]) / 3, -1 / p->k);
-}
-
-/* A point with M of `size` times that of the level H = 0. */
-static iso_start point_off_level(const iso_params *p, double size, iso_random *random)
-{
-    iso_start start = {.model = ISO_POINT, .eps = eps};
-    double direction[3];
-    iso_random_direction(random, start.y + 3);
-    const double q = dot_diag(start.y + 3, p->J, start.y + 3);
-    iso_random_direction(random, direction);
-    remove_along(direction, start.y + 3);
-    make_unit(direction);
-    for (int i = 0; i < 3; i++) start.y[i] = size * sqrt(2 * eps * pow(q, -1 / p->k)) * direction[i];
-    return start;
-}
-
-/* H = M^2/2 - eps q^(-1/k) */
-static double level(const iso_params *p, const double y[ISO_STATE])
-{
-    return dot(y, y) / 2 - eps * pow(dot_diag(y + 3, p->J, y + 3), -1 / p->k);
-}
-
 static laws_worst shifted;
 
-/* k = -1: at the energy E the point is that of a free ball with moments J + E/eps, where these are positive. Gives
- * the sign of E, or 0. */
+/* k = -1: at the energy E the point is that of a free ball with moments J + E/eps, where these are positive. Its M is
+ * `size` times that of the level H = 0. Gives the sign of E, or 0. */
 static int check_shift(double size, iso_random *random)
 {
     static const double J[3] = {1.4, 2.1, 3.0};
     const iso_params p = laws_params(-1, J);
-    iso_start start = point_off_level(&p, size, random);
-    const double shift = level(&p, start.y) / eps;
+    iso_start start = {.model = ISO_POINT, .eps = eps};
+    double *const M = start.y, *const gamma = start.y + 3;
+    iso_random_direction(random, gamma);
+    iso_random_direction(random, M);
+    remove_along(M, gamma);
+    make_unit(M);
+    const double q = dot_diag(gamma, J, gamma);
+    scale(M, size * sqrt(2 * eps * q));
+    const double shift = (dot(M, M) / 2 - eps * q) / eps;
     const double J_shifted[3] = {J[0] + shift, J[1] + shift, J[2] + shift};
     if (!(min3(J_shifted) > 0.1)) return 0;
     const iso_params free_p = laws_params(-1, J_shifted);
@@ -194,7 +174,7 @@ static void check_reversals(iso_random *random)
         add_gravity(&ball, 0.5, up, &e);
         add_field(&e);
         add_attitude(random, &e);
-        e.on[ISO_LEVEL] = true, LEVEL_C(&e) = level_of(&ball.p, 0.2);
+        e.on[ISO_LEVEL] = true, LEVEL_C(&e) = 0.2 * pow((ball.p.J[0] + ball.p.J[1] + ball.p.J[2]) / 3, -1 / ball.p.k);
         check_reversal(&ball, &e, 0, random, &reversed);
         add_twist(0, &e);
         check_reversal(&ball, &e, 0.7, random, &reversed);
@@ -211,7 +191,6 @@ static void check_reversals(iso_random *random)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     iso_random *random = iso_random_create(74);
     check_energies(random);

@@ -1,15 +1,4 @@
-/* One orbit, however it is asked for: by either backend, in any clock, in other units, from either side. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
-#include "laws.h"
-#include "model/model_impl.h"
-#include "orbit/orbit.h"
+/* One orbit, however it is asked for: by either backend, in any clock, from either side. */
 #include "scenes.h"
 
 static const double J_three[3] = {1.4, 2.1, 3.0};
@@ -57,34 +46,17 @@ static double allowed(const iso_params *p)
     return 1e-12 * (1 + 1 / fabs(p->k) + fabs(p->k) / 5) * pow(laws_spread(p), 1.25);
 }
 
-/* The time t in which a clock would have come to its value at its present rate: its relative error times this is an
- * error in t, large where s was spent near the least or the largest q. */
-static double lost_time(const iso_params *p, iso_clock clock, const iso_sample *s)
-{
-    const double q = dot_diag(s->point + 3, p->J, s->point + 3);
-    return fabs(s->clock[clock]) / iso_clock_rate(p, clock, q, NULL);
-}
-
+/* `lost` is the time t in which a clock would have come to its value at its present rate: its relative error times this
+ * is an error in t, large where s was spent near the least or the largest q. */
 static void note_clock(const iso_params *p, iso_clock asked, const iso_sample *s, const iso_sample *truth)
 {
-    const double q = dot_diag(truth->point + 3, p->J, truth->point + 3), lost = lost_time(p, asked, truth);
+    const double q = dot_diag(truth->point + 3, p->J, truth->point + 3),
+                 lost = fabs(truth->clock[asked]) / iso_clock_rate(p, asked, q, NULL);
     const char *name = iso_clock_name(asked);
     laws_note(&clocks, state_difference(s, truth), allowed(p) * (1 + lost * laws_norm(truth->ball)), p, name);
     for (iso_clock c = ISO_CLOCK_T; c < ISO_CLOCKS; c++) {
         const double lost_here = lost * iso_clock_rate(p, c, q, NULL) / fabs(truth->clock[c]);
         laws_note(&clocks, fabs(s->clock[c] / truth->clock[c] - 1), allowed(p) * (1 + lost_here), p, name);
-    }
-}
-
-static void check_clocks(const iso_params *p, const iso_start *start, iso_backend backend, const iso_sample *truth)
-{
-    for (iso_clock c = ISO_CLOCK_TAU; c <= ISO_CLOCK_S; c++) {
-        iso_orbit *orbit = scene_whole(ctx, p, start, backend, c);
-        for (int i = 0; i < TIMES; i++) {
-            const iso_sample s = scene_at(ctx, orbit, truth[i].clock[c]);
-            note_clock(p, c, &s, &truth[i]);
-        }
-        iso_orbit_free(orbit);
     }
 }
 
@@ -108,7 +80,15 @@ static void check_orbit(const iso_params *p, const iso_start *start)
     }
     iso_orbit_free(ball);
     iso_orbit_free(point);
-    for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) check_clocks(p, start, b, truth);
+    for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++)
+        for (iso_clock c = ISO_CLOCK_TAU; c <= ISO_CLOCK_S; c++) {
+            iso_orbit *orbit = scene_whole(ctx, p, start, b, c);
+            for (int i = 0; i < TIMES; i++) {
+                const iso_sample s = scene_at(ctx, orbit, truth[i].clock[c]);
+                note_clock(p, c, &s, &truth[i]);
+            }
+            iso_orbit_free(orbit);
+        }
 }
 
 static void check_backends(void)
@@ -169,20 +149,7 @@ static void check_point_starts(void)
     laws_report(&from_point, "a start of the point is that of its ball");
 }
 
-static iso_status try_create(const iso_params *p, const iso_start *start, const iso_orbit_options *o)
-{
-    iso_orbit *orbit;
-    const iso_status status = iso_orbit_create(ctx, p, start, o, &orbit);
-    iso_orbit_free(orbit);
-    return status;
-}
-
-static void refused(iso_status got, iso_status wanted, const char *word, const char *what)
-{
-    gsl_test(got != wanted || !strstr(iso_context_message(ctx), word), "%s: %s (%s)", what, iso_status_text(got),
-             got == ISO_OK ? "" : iso_context_message(ctx));
-}
-
+/* That nothing moves, and that the point's backend refuses it: hard/test_hard_speeds.c. */
 static void check_rest(void)
 {
     const iso_params p = laws_params(0.5, J_three);
@@ -193,67 +160,20 @@ static void check_rest(void)
     laws_stop_if(ctx, iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_OK, "a ball at rest");
     const iso_sample s = scene_at(ctx, orbit, 100);
     const double q = 1 / dot_diag(start.y + 3, p.inv_J, start.y + 3);
-    gsl_test(laws_norm(s.ball) != 0 || laws_distance(s.ball + 3, start.y + 3) > 1e-15, "at rest nothing moves");
     gsl_test_rel(s.clock[ISO_CLOCK_S], 100 * iso_clock_rate(&p, ISO_CLOCK_S, q, NULL), 1e-13,
                  "at rest s runs evenly");
     iso_orbit_free(orbit);
     o.shown = ISO_SHOW_BOTH;
-    refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "at rest", "at rest: as both");
-    o.shown = ISO_SHOW_BALL, o.backend = ISO_BACKEND_POINT;
-    refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "at rest", "at rest: backend point");
-}
-
-/* --- units ----------------------------------------------------------------------------------------------------- */
-
-static laws_worst inertias;
-
-/* J -> c J leaves (w, n, t); tau ~ J^(1 - 1/(2k)), s ~ J^(-2 + 1/(2k)), M ~ J^(2 - 1/(2k)), eps ~ J^4. */
-static void check_inertias(const iso_params *p, const iso_start *start, iso_backend backend)
-{
-    static const double cs[] = {1e-30, 1e-11, 0.37, 5.1, 1e11, 1e30};
-    const double half = 1 / (2 * p->k);
-    iso_orbit *orbit = scene_whole(ctx, p, start, backend, ISO_CLOCK_T);
-    const iso_sample truth = scene_at(ctx, orbit, 4);
-    const double eps = iso_orbit_coupling(orbit), h = iso_orbit_energy(orbit);
-    iso_orbit_free(orbit);
-    for (size_t i = 0; i < sizeof cs / sizeof *cs; i++) {
-        const double c = cs[i], J[3] = {c * p->J[0], c * p->J[1], c * p->J[2]};
-        const double clock[ISO_CLOCKS] = {1, pow(c, 1 - half), pow(c, -2 + half)};
-        const iso_params heavy = laws_params(p->k, J);
-        orbit = scene_whole(ctx, &heavy, start, backend, ISO_CLOCK_T);
-        iso_sample s = scene_at(ctx, orbit, 4);
-        for (int j = 0; j < ISO_CLOCKS; j++) s.clock[j] /= clock[j];
-        scale(s.point, 1 / pow(c, 2 - half));
-        laws_note(&inertias, fmax(state_difference(&s, &truth), clock_difference(&s, &truth)), 1e-11, p,
-                  iso_backend_name((int)backend));
-        laws_note(&inertias, fabs(iso_orbit_coupling(orbit) / pow(c, 4) / eps - 1), 1e-13, p, "eps");
-        laws_note(&inertias, fabs(iso_orbit_energy(orbit) / c / h - 1), 1e-13, p, "h");
-        iso_orbit_free(orbit);
-    }
-}
-
-static void check_scaling(void)
-{
-    static const double ks[] = {1, -1, 0.6, -0.3, 4, 0.1};
-    iso_random *random = iso_random_create(8);
-    for (size_t i = 0; i < sizeof ks / sizeof *ks; i++) {
-        const iso_params p = laws_params(ks[i], J_three);
-        const iso_start start = random_start(&p, random);
-        check_inertias(&p, &start, ISO_BACKEND_BALL);
-        check_inertias(&p, &start, ISO_BACKEND_POINT);
-    }
-    iso_random_free(random);
-    laws_report(&inertias, "J from 1e-30 to 1e30: the same ball");
+    gsl_test(iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_NOT_MAPPED, "at rest, shown as both: %s",
+             iso_context_message(ctx));
 }
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     check_backends();
     check_point_starts();
     check_rest();
-    check_scaling();
     iso_context_free(ctx);
     exit(gsl_test_summary());
 }

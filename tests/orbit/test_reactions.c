@@ -1,5 +1,4 @@
 /* The forces of the contact: Newton's equations of the whole ball in space, and where the ball leaves its support. */
-#include "base/random_impl.h"
 #include "scenes.h"
 
 static iso_context *ctx;
@@ -168,7 +167,6 @@ static void check_textbook(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     iso_random *random = iso_random_create(72);
     check_newton(random);

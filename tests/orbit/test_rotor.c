@@ -1,17 +1,7 @@
 /* A ball with a rotor, and the point in its magnetic field: states in quadruple precision by both backends, where
  * integrals hold, the motion backwards, and the reversors of the return map. */
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/math_impl.h"
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
-#include "laws.h"
 #include "map/section_impl.h"
-#include "model/model_impl.h"
 #include "numbers.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/orbit_impl.h"
@@ -110,18 +100,6 @@ static double growth_of(const rotor_case *c, double t)
 /* k, J, K, w and n at the start; t, s; w, n, M, gamma there */
 enum { REFERENCES = 10, NUMBERS = 27 };
 
-static void check_reference(const double x[NUMBERS], laws_worst *worst, laws_worst *clock)
-{
-    const rotor_case c = ball_case(x[0], x + 1, x + 4, x + 7, x + 10);
-    const double t = x[13], bound = 1e-14 * growth_of(&c, t); /* the tolerance, grown */
-    for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
-        const iso_sample s = state_at(&c, b, 1e-14, t);
-        laws_note(worst, distance(s.ball, x + 15), bound, &c.p, iso_backend_name((int)b));
-        laws_note(worst, distance(s.point, x + 21), bound * norm(x + 21), &c.p, iso_backend_name((int)b));
-        laws_note(clock, fabs(s.clock[ISO_CLOCK_S] / x[14] - 1), bound, &c.p, iso_backend_name((int)b));
-    }
-}
-
 static void references(void)
 {
     FILE *file = fopen(ISO_TEST_DATA "/rotor.csv", "r");
@@ -132,7 +110,14 @@ static void references(void)
     while (file && fgets(line, sizeof line, file)) {
         if (strncmp(line, "rot", 3) != 0) continue;
         laws_stop_if(ctx, !reference_numbers(line, NUMBERS, x), "a row of rotor.csv");
-        check_reference(x, &worst, &clock);
+        const rotor_case c = ball_case(x[0], x + 1, x + 4, x + 7, x + 10);
+        const double t = x[13], bound = 1e-14 * growth_of(&c, t); /* the tolerance, grown */
+        for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
+            const iso_sample s = state_at(&c, b, 1e-14, t);
+            laws_note(&worst, distance(s.ball, x + 15), bound, &c.p, iso_backend_name((int)b));
+            laws_note(&worst, distance(s.point, x + 21), bound * norm(x + 21), &c.p, iso_backend_name((int)b));
+            laws_note(&clock, fabs(s.clock[ISO_CLOCK_S] / x[14] - 1), bound, &c.p, iso_backend_name((int)b));
+        }
         count++;
     }
     if (file) fclose(file);
@@ -212,13 +197,6 @@ static void backwards(iso_random *r)
 
 /* --- reversors of the return map -------------------------------------------------------------------------------- */
 
-static void reverse(int reversor, double z[2])
-{
-    if (reversor == 0) z[1] = -z[1];
-    if (reversor == 1) z[0] = -z[0];
-    if (reversor == 2) z[0] = ISO_PI - z[0];
-}
-
 /* f of z on the section n_axis = 0, with the energy of c */
 static void return_map(const rotor_case *c, int axis, double z[2])
 {
@@ -247,7 +225,8 @@ static double off(const rotor_case *c, int axis, int reversor, const double z[2]
     double at[2] = {z[0], z[1]};
     for (int i = 0; i < 2; i++) {
         return_map(c, axis, at);
-        reverse(reversor, at);
+        if (reversor == 0) at[1] = -at[1];
+        if (reversor > 0) at[0] = (reversor == 2 ? ISO_PI : 0) - at[0];
     }
     return fmax(fabs(remainder(at[0] - z[0], 2 * ISO_PI)), fabs(at[1] - z[1]));
 }
@@ -279,7 +258,6 @@ static void reversors(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     iso_random *r = iso_random_create(2024);
     references();

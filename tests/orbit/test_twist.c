@@ -4,13 +4,6 @@
 
 static iso_context *ctx;
 
-/* K = J w - D (w,n) n */
-static void momentum(const rolling *ball, const iso_sample *s, double K[3])
-{
-    diag(ball->p.J, omega_of(s), K);
-    add_scaled(K, -ball->m * ball->b * ball->b * spin_of(s), normal_of(s));
-}
-
 /* Larger of the distances of w and n. */
 static double apart(const iso_sample *a, const iso_sample *b)
 {
@@ -69,10 +62,12 @@ static void check_price(const rolling *ball, iso_random *random)
 static laws_worst in_space;
 static double least_difference = INFINITY;
 
+/* K = J w - D (w,n) n */
 static void momentum_in_space(const rolling *ball, const iso_sample *s, double K[3])
 {
     double in_body[3];
-    momentum(ball, s, in_body);
+    diag(ball->p.J, omega_of(s), in_body);
+    add_scaled(in_body, -ball->m * ball->b * ball->b * spin_of(s), normal_of(s));
     to_space(s, in_body, K);
 }
 
@@ -102,8 +97,6 @@ static void check_classical(const rolling *ball, double spin, iso_random *random
     iso_orbit_free(orbit);
 }
 
-/* --- spin ------------------------------------------------------------------------------------------------------- */
-
 /* A start with spin s: at once its contact takes s out by an impulse along n, w -> w - (s/g) J^-1 n, g = (n,J^-1 n).
  * From there it is a rubber ball, and turns about n by lambda/c alone. */
 static laws_worst blow, decay;
@@ -122,7 +115,6 @@ static void check_blow(const rolling *ball, iso_random *random)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     iso_random *random = iso_random_create(73);
     for (int which = 0; which < ROLLINGS; which++) {

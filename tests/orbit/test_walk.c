@@ -1,8 +1,5 @@
 /* The walk of many orbits, lib/orbit/walk_impl.h: the same stops in the same order for all groups, rounds and threads; an
  * orbit that fails ends alone; a stop keeps what is found. */
-#include <gsl/gsl_test.h>
-#include <string.h>
-
 #include "laws.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/walk_impl.h"
@@ -133,20 +130,13 @@ static void check_failure(const diary *right)
     }
 }
 
-/* The monitor is asked `left` times more. */
-static bool goes_on(void *data)
-{
-    long *left = data;
-    return --*left > 0;
-}
-
 /* A round in order is computed part by part: what the parts before the end have found is visited. */
 static void check_stop(const diary *right)
 {
     static diary d;
     enum { MANY = 1 << 30 };
-    long left = MANY;
-    iso_context_set_monitor(ctx, goes_on, &left);
+    int left = MANY;
+    iso_context_set_monitor(ctx, some_times, &left);
     iso_walk w = walk_of(&d, 0, 1);
     w.in_order = true;
     gsl_test(iso_walk_go(&w) || w.stopped, "a walk with a monitor");

@@ -1,23 +1,8 @@
 /* Laws of what is watched along an orbit: the drift of its integrals, and the distance of two states. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/vec3_impl.h"
-#include "laws.h"
 #include "orbit/watch_impl.h"
 #include "scenes.h"
 
 static iso_context *ctx;
-
-/* The state with its first or second vector 1 + 1e-6 times as long. */
-static iso_sample stretched(const iso_sample *s, int vector)
-{
-    iso_sample longer = *s;
-    scale(longer.ball + 3 * vector, 1 + 1e-6);
-    scale(longer.point + 3 * vector, 1 + 1e-6);
-    return longer;
-}
 
 /* Nothing drifts at the start, and little along the orbit; the worst is the largest of all; a longer vector shows in
  * the energy or as a constraint; a NaN counts as infinite. */
@@ -41,7 +26,9 @@ static void check_drifts(iso_orbit *orbit, const iso_system *system, double time
         }
     }
     for (int vector = 0; vector < 2; vector++) {
-        const iso_sample longer = stretched(&first, vector);
+        iso_sample longer = first;
+        scale(longer.ball + 3 * vector, 1 + 1e-6);
+        scale(longer.point + 3 * vector, 1 + 1e-6);
         iso_watch_follow(orbit, &longer, list, count);
         for (int i = 0; i < count; i++)
             if (vector == 0 ? list[i].integral->value == system->energy : list[i].integral->known == ISO_ONE)
@@ -85,7 +72,6 @@ static void check_orbit(const laws_case *c, laws_worst *worst)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     laws_hold("drifts and distances", NULL, check_orbit);
     iso_context_free(ctx);

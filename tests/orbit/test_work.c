@@ -5,20 +5,10 @@
  * - A false claim is never an answer: the orbit ends where the claim fails, by every method, alone and in lanes.
  * - A true claim is not refused, and what it gives is the same motion as without it.
  */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "length.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
 #include "model/expression/written_impl.h"
-#include "model/model_impl.h"
 #include "orbit/batch.h"
 #include "orbit/orbit_impl.h"
 
@@ -38,8 +28,6 @@ static iso_effects torque_of(const char *const M[3], int said)
     laws_stop_if(ctx, said != NOT_SAID && iso_effects_set(ctx, &e, "torque", "work", 1, &work) != ISO_OK, "work");
     return e;
 }
-
-/* --- the form ---------------------------------------------------------------------------------------------------- */
 
 static void forms(void)
 {
@@ -175,13 +163,6 @@ static patched random_torque(iso_random *r)
     return t;
 }
 
-/* The true work of a kind, and whether a claim is true. */
-static bool is_true(int kind, int said)
-{
-    return said == ISO_WORK_UNKNOWN || said == NOT_SAID || kind == TURNS ||
-           (kind == RESISTS && said == ISO_WORK_LOST);
-}
-
 static void patches(void)
 {
     enum { CLAIMS = 4 };
@@ -208,7 +189,8 @@ static void patches(void)
                                strstr(words, "; there 'torque' ") && strstr(words, "and n = ("));
             refused += says, early += status == ISO_BAD_INPUT;
             worst = fmax(worst, off);
-            if (is_true(t.kind, claims[j]))
+            if (claims[j] == ISO_WORK_UNKNOWN || claims[j] == NOT_SAID || t.kind == TURNS ||
+                (t.kind == RESISTS && claims[j] == ISO_WORK_LOST)) /* true */
                 gsl_test(status != ISO_OK || off > 1e-7, "patch %d, kind %d, said %d, %s: off by %.2g, %s", i, t.kind,
                          claims[j], method, off, status == ISO_OK ? "" : words);
             else

@@ -2,18 +2,9 @@
  * resistance and rotor as a torque. By every method that takes them, on both models, in reduced and in physical units.
  * Steps are fixed and long, and no energy is restored. So methods of low order have large errors, and both ways of
  * writing an effect must have the same ones: then their orders are the same too. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "length.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
-#include "model/model_impl.h"
 #include "numbers.h"
 #include "orbit/crossings.h"
 #include "orbit/orbit_impl.h"

@@ -1,11 +1,6 @@
 /* test_picture_paths.c - pictures of paths on spheres, and of curves: what thinning and the sides keep. Private
  * functions of the library are tested. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
+#include "laws.h"
 #include "picture/picture_impl.h"
 
 static iso_context *ctx;
@@ -91,11 +86,6 @@ static void test_axes(void)
     iso_record_free(r);
 }
 
-static iso_picture_curve curve_of(const iso_record *r, iso_picture_thinning thinning)
-{
-    return (iso_picture_curve){"chart", NULL, r, 0, 3, false, thinning, INFINITY};
-}
-
 /* Whatever is left out, the least and the largest number of all rows are drawn, each at its own time. */
 static void test_thinning(void)
 {
@@ -107,7 +97,7 @@ static void test_thinning(void)
         if (sizes[k] > 2) pit[3] = -7;
         for (int thinning = ISO_PICTURE_EXTREMES; thinning <= ISO_PICTURE_LARGEST; thinning++) {
             iso_picture_free(&picture);
-            const iso_picture_curve curve = curve_of(r, (iso_picture_thinning)thinning);
+            const iso_picture_curve curve = {"chart", NULL, r, 0, 3, false, (iso_picture_thinning)thinning, INFINITY};
             if (iso_picture_add_curves(ctx, &picture) != ISO_OK) exit(1);
             gsl_test((int)iso_picture_add_curve(ctx, &picture, &curve), "%s", iso_context_message(ctx));
             const iso_record *values = iso_picture_table(&picture, "values"),
@@ -163,7 +153,6 @@ static void test_columns(void)
 int main(void)
 {
     ctx = iso_context_create();
-    if (!ctx) return 1;
     test_sides();
     test_axes();
     test_thinning();

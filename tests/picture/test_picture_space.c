@@ -1,12 +1,6 @@
 /* test_picture_space.c - pictures of a path in space: the frame of the views, what is marked, what is not assumed.
  * Private functions of the library are tested. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
+#include "laws.h"
 #include "picture/picture_impl.h"
 
 static iso_context *ctx;
@@ -276,7 +270,6 @@ static void test_refused(void)
 int main(void)
 {
     ctx = iso_context_create();
-    if (!ctx) return 1;
     test_frames();
     test_planes();
     test_unknown_support();

@@ -1,15 +1,11 @@
 /* test_section_picture.c - what the picture of a section draws: every crossing in its shade, images that are orbits of
  * the same return map, a window's rows and no others; and the same in an image. */
 #include <gsl/gsl_math.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "instrument/chaos/chaos.h"
 #include "instrument/section/section_impl.h"
 #include "io/scene_file.h"
+#include "laws.h"
 #include "picture/section_impl.h"
 
 static iso_context *ctx;

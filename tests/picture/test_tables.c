@@ -1,11 +1,8 @@
 /* test_tables.c - laws of the tables that pictures draw: events are those of the table, cells cover the grid, each
  * measured row is in one series, a band holds its value, cells of maps meet and do not overlap, marks and keys. */
 #include <gsl/gsl_math.h>
-#include <gsl/gsl_test.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
+#include "laws.h"
 #include "picture/picture.h"
 
 static iso_context *ctx;
@@ -143,8 +140,6 @@ static void check_chart(bool across)
     gsl_test(!says(&p, "none", "1") || !says(&p, "up", "J₂"), "no rotation somewhere; the name of the axis");
     iso_picture_free(&p);
 }
-
-/* --- cost ------------------------------------------------------------------------------------------------------- */
 
 static void test_cost(void)
 {
@@ -321,8 +316,6 @@ static void test_several_maps(void)
     iso_picture_free(&p);
 }
 
-/* --- frequencies ------------------------------------------------------------------------------------------------ */
-
 static void test_frequencies(void)
 {
     iso_record *r = create("frequencies", 1, (const char *const[]){"none"});
@@ -390,7 +383,6 @@ static void test_refused(void)
 int main(void)
 {
     ctx = iso_context_create();
-    if (!ctx) return 1;
     test_branch();
     check_chart(true);
     check_chart(false);

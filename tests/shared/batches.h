@@ -2,9 +2,6 @@
 #ifndef ISO_TESTS_BATCHES_H
 #define ISO_TESTS_BATCHES_H
 
-#include "base/random_impl.h"
-#include "effects.h"
-#include "model/model_impl.h"
 #include "orbit/batch.h"
 #include "orbits.h"
 

@@ -2,8 +2,6 @@
 #ifndef ISO_TESTS_COSTS_H
 #define ISO_TESTS_COSTS_H
 
-#include <string.h>
-
 #include "scenes.h"
 #include "task/cost/cost.h"
 

@@ -6,17 +6,8 @@
 #ifndef ISO_TESTS_EFFECTS_H
 #define ISO_TESTS_EFFECTS_H
 
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "length.h"
 #include "map/state.h"
-#include "model/model_impl.h"
 #include "numbers.h"
 #include "poisson.h"
 

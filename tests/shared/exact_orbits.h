@@ -2,7 +2,6 @@
 #ifndef ISO_TESTS_EXACT_ORBITS_H
 #define ISO_TESTS_EXACT_ORBITS_H
 
-#include "base/random_impl.h"
 #include "exact/coordinates_impl.h"
 #include "exact/exact_impl.h"
 #include "orbits.h"

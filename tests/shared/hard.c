@@ -1,14 +1,6 @@
 #include "hard.h"
 
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
 #include "method/methods_impl.h"
-#include "model/model_impl.h"
 
 hard_road hard_way[HARD_WAYS];
 int hard_ways;

@@ -13,6 +13,7 @@
 #ifndef ISO_TESTS_HARD_H
 #define ISO_TESTS_HARD_H
 
+#include "laws.h"
 #include "orbit/orbit.h"
 
 /* One way to find an orbit. Tolerances are what a user of the method would ask for: 1e-12, of methods of low order

@@ -2,14 +2,7 @@
 #ifndef ISO_TESTS_HARD_EFFECTS_H
 #define ISO_TESTS_HARD_EFFECTS_H
 
-#include <float.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
 #include "hard.h"
-#include "laws.h"
 
 /* A ball with J = 1.4, 2.1, 3 and D = 0.4 that turns about once in 5 units of time. */
 static const double he_omega[3] = {0.9, -0.3, -0.225}, he_normal[3] = {0.36, 0.48, 0.8};

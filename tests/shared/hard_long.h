@@ -2,16 +2,9 @@
 #ifndef ISO_TESTS_HARD_LONG_H
 #define ISO_TESTS_HARD_LONG_H
 
-#include <float.h>
 #include <gsl/gsl_fit.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
-#include "base/vec3_impl.h"
 #include "hard.h"
 #include "orbit/orbit_impl.h"
 #include "scenes.h"

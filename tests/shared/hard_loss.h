@@ -10,9 +10,6 @@
 #ifndef ISO_TESTS_HARD_LOSS_H
 #define ISO_TESTS_HARD_LOSS_H
 
-#include <math.h>
-#include <string.h>
-
 #include "hard.h"
 
 static inline bool hard_is(const hard_road *way, const char *method)

@@ -3,14 +3,24 @@
  * A law is a function that looks at one case (system, parameters, state) and notes errors with the bound each may
  * have. laws_hold() runs it over every system x k x J x random state and reports one line of gsl_test.h: the worst
  * error in units of its bound, and where. Bounds are rounding errors times what the formula does to them.
+ *
+ * The headers that nearly every test needs come with it. What a header of tests includes is not included again.
  */
 #ifndef ISO_TESTS_LAWS_H
 #define ISO_TESTS_LAWS_H
 
+#include <float.h>
+#include <gsl/gsl_test.h>
+#include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "base/random_impl.h"
-#include "model/system.h"
+#include "base/vec3_impl.h"
+#include "length.h"
+#include "model/model_impl.h"
 
 /* Geometry numbers of all four surfaces, both signs, 1/20 to 50. */
 enum { LAWS_K = 11 };
@@ -101,5 +111,9 @@ double laws_max(int n, const double a[]);
 double laws_norm(const double a[3]);
 double laws_distance(const double a[3], const double b[3]);
 double laws_spread(const iso_params *p);
+
+/* Monitors: one that stops at once; one that goes on as often as *data says, an int. */
+bool never(void *unused);
+bool some_times(void *data);
 
 #endif

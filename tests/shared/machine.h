@@ -3,9 +3,6 @@
 #ifndef ISO_TESTS_MACHINE_H
 #define ISO_TESTS_MACHINE_H
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "base/number_impl.h"

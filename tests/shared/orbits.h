@@ -2,16 +2,8 @@
 #ifndef ISO_TESTS_ORBITS_H
 #define ISO_TESTS_ORBITS_H
 
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "base/vec3_impl.h"
 #include "effects.h"
-#include "laws.h"
 #include "method/integrator_impl.h"
-#include "model/model_impl.h"
 
 typedef struct orbit {
     iso_context *ctx;

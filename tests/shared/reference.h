@@ -2,11 +2,6 @@
 #ifndef ISO_TESTS_REFERENCE_H
 #define ISO_TESTS_REFERENCE_H
 
-#include <gsl/gsl_test.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "laws.h"
 #include "orbit/orbit.h"
 

@@ -2,12 +2,6 @@
 #ifndef ISO_TESTS_RUNS_H
 #define ISO_TESTS_RUNS_H
 
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "io/scene_file.h"
 #include "orbit/orbit_impl.h"
 #include "scenes.h"

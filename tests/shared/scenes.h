@@ -5,16 +5,8 @@
 #ifndef ISO_TESTS_SCENES_H
 #define ISO_TESTS_SCENES_H
 
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
 #include "numbers.h"
-#include "orbit/orbit.h"
 
 /* --- balls ------------------------------------------------------------------------------------------------------ */
 

@@ -1,14 +1,7 @@
-/* studies.h - what tests of studies share: their context, the usual scene of a ball, and monitors that stop. */
+/* studies.h - what tests of studies share: their context, and the usual scene of a ball. */
 #ifndef ISO_TESTS_STUDIES_H
 #define ISO_TESTS_STUDIES_H
 
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/random_impl.h"
 #include "laws.h"
 #include "orbit/scene.h"
 
@@ -38,20 +31,6 @@ static inline void draw_moments(iso_random *random, double width, double part, d
         close = false;
         for (int i = 0; i < 3; i++) close = close || fabs(J[i] / J[(i + 1) % 3] - 1) < part;
     }
-}
-
-/* --- monitors --------------------------------------------------------------------------------------------------- */
-
-static inline bool never(void *unused)
-{
-    (void)unused;
-    return false;
-}
-
-/* As often as *data says, an int. */
-static inline bool some_times(void *data)
-{
-    return (*(int *)data)-- > 0;
 }
 
 #endif

@@ -7,14 +7,9 @@
 #ifndef ISO_TESTS_SWEEP_H
 #define ISO_TESTS_SWEEP_H
 
-#include <float.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
 #include <time.h>
 
 #include "hard.h"
-#include "orbit/orbit.h"
 
 enum { SWEEP_NUMBERS = 32, SWEEP_ANSWERS = 400 };
 

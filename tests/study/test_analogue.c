@@ -1,16 +1,8 @@
 /* From point problems to balls (iso_analogue): the ball, integrated as a ball and carried to the point, solves the
  * problem it was made for. That is integrated here, from its potential as stated, with nothing of the library. */
-#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "numbers.h"
 #include "studies.h"
 #include "task/analogue.h"
@@ -314,8 +306,6 @@ static void at_rest(void)
     }
 }
 
-/* --- refusals ------------------------------------------------------------------------------------------------ */
-
 static const struct refusal {
     iso_analogue_problem problem;
     iso_status status;
@@ -358,7 +348,6 @@ static void refusals(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     gsl_set_error_handler_off();
     ctx = iso_context_create();
     rng = iso_random_create(20);

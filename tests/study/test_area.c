@@ -1,14 +1,7 @@
 /* section --area: det D of returns is 1 where the area dL dl is kept, and is not where energy is lost; the bound that is
  * printed covers the error. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/random_impl.h"
 #include "instrument/section/section_impl.h"
 #include "laws.h"
-#include "length.h"
 
 static iso_context *ctx;
 

@@ -1,8 +1,4 @@
 /* test_backend.c - what `auto` takes for a scene: as exact as the ball, and never with what it cannot follow. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <string.h>
-
 #include "reference.h"
 #include "task/run.h"
 

@@ -1,26 +1,12 @@
 /* What accuracy costs (task/cost/cost.h): that the errors told are the true ones, that fits find orders and what is
  * broken, and that what is chosen is the cheapest. How long anything takes is no test. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
 #include "costs.h"
-#include "length.h"
 #include "method/integrator_impl.h"
-#include "numbers.h"
 #include "orbit/watch_impl.h"
 #include "reference.h"
 #include "task/cost/cost_impl.h"
 
 static iso_context *ctx;
-
-static const char *name_of(const iso_cost_cell *cell)
-{
-    return cell->method ? cell->method->name : "exact";
-}
 
 /* --- errors against quadruple precision ------------------------------------------------------------------------- */
 
@@ -40,12 +26,6 @@ static double true_error(const reference *r, const iso_cost_cell *cell)
     return iso_distance(r->ball, s.ball);
 }
 
-/* The numbers of the file are no doubles: a start that is rounded is that of a neighbour. */
-static double rounding_of(const reference *r)
-{
-    return 4e-16 * (1 + r->t * norm(r->start.y));
-}
-
 static void compare_with(const reference *r, const char *method, laws_worst *high, laws_worst *low, laws_worst *below)
 {
     iso_scene s = iso_scene_default();
@@ -58,12 +38,15 @@ static void compare_with(const reference *r, const char *method, laws_worst *hig
     o.seconds = 0.2;
     o.method = iso_method_find(method);
     iso_cost *c = cost_of(ctx, &s, &o);
+    /* the numbers of the file are no doubles: a start that is rounded is that of a neighbour */
+    const double of_start = 4e-16 * (1 + r->t * norm(r->start.y));
     for (int i = 0; i < c->cells; i++) {
         const iso_cost_cell *cell = &c->cell[i];
         char where[64];
-        snprintf(where, sizeof where, "%s at %g, t = %g", name_of(cell), cell->tolerance, r->t);
+        snprintf(where, sizeof where, "%s at %g, t = %g", cell->method ? cell->method->name : "exact",
+                 cell->tolerance, r->t);
         if (cell->status != ISO_OK) continue;
-        const double error = true_error(r, cell), rounding = rounding_of(r) + c->uncertainty;
+        const double error = true_error(r, cell), rounding = of_start + c->uncertainty;
         laws_note(cell->below ? below : high, error, cell->below ? 4 * rounding : 2 * cell->error + rounding, &r->p,
                   where);
         laws_note(low, cell->error, 2 * error + 3 * rounding, &r->p, where);
@@ -260,8 +243,6 @@ static void check_scenes(void)
     check_scene(&s, "a point", true, true, 1e-13);
 }
 
-/* --- numbers ---------------------------------------------------------------------------------------------------- */
-
 static void check_numbers(void)
 {
     cost_times times = {.count = 4};
@@ -285,7 +266,6 @@ static void check_numbers(void)
 int main(void)
 {
     ctx = iso_context_create();
-    if (!ctx) return 1;
     check_numbers();
     check_references();
     check_broken();

@@ -1,13 +1,5 @@
 /* The search for first integrals of a ball with a rotor (instrument/integrals/integrals.h): it finds those that are known, and
  * nothing else; its functions do not depend on the rotor; units do not matter. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
-#include "length.h"
 #include "orbit/orbit_impl.h"
 #include "searches.h"
 
@@ -17,14 +9,6 @@ static iso_integral_search with_rotor(double k, const double J[3], const double 
     const iso_integral_search_options o = options(degree);
     set_rotor(&scene, K);
     return search(&scene, &o);
-}
-
-/* In any direction, in some principal plane, along some axis, by turns. */
-static void draw_momentum(iso_random *random, int kind, double K[3])
-{
-    iso_random_direction(random, K);
-    scale(K, iso_random_uniform(random, 0.5, 2));
-    for (int i = 0; i < kind % 3; i++) K[(kind / 3 + i) % 3] = 0;
 }
 
 /* F_rotor and no more at k = 1; nothing at k = -1 and elsewhere. */
@@ -40,7 +24,9 @@ static void rotors(void)
         for (int i = 0; i < count; i++) {
             double J[3], K[3];
             draw_moments(random, 1.2, 0.1, J);
-            draw_momentum(random, i, K);
+            iso_random_direction(random, K);
+            scale(K, iso_random_uniform(random, 0.5, 2));
+            for (int j = 0; j < i % 3; j++) K[(i / 3 + j) % 3] = 0;
             const iso_integral_search r = with_rotor(k[which], J, K, 2);
             const iso_integral_verdict verdict = holds ? ISO_INTEGRALS_FOUND : ISO_INTEGRALS_NONE;
             right += r.verdict == verdict && r.independent == holds && r.known_count == holds && r.at[1].found == 1 &&
@@ -148,7 +134,6 @@ static void rotor_dependence(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     rotors();
     rotor_of_degree_4();

@@ -1,14 +1,6 @@
 /* The search for first integrals (instrument/integrals/integrals.h): it finds those that are known, and no others; what is doubtful
  * is called undecided; values depend on k and the ratio of the moments alone; what is refused. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "io/scene_file.h"
-#include "length.h"
-#include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 #include "searches.h"
 
@@ -176,8 +168,6 @@ static void errors(void)
     gsl_test(!(worst < 1), "errors cover values (%.2g of them)", worst);
 }
 
-/* --- what it depends on ----------------------------------------------------------------------------------------- */
-
 static void dependence(void)
 {
     const iso_scene scene = scene_of(-0.5, searched_J);
@@ -298,7 +288,6 @@ static void refusals(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     quadratic(1);
     quadratic(-1);

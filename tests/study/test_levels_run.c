@@ -1,13 +1,8 @@
 /* Studies on levels of the energy: rows of sections have the scene's H and its additional integral, shares are 0 where
  * they must be, a scene is put on a level (iso_scene_on_level), and what cannot be is refused. */
-#include <stdio.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "instrument/chaos/chaos.h"
 #include "instrument/section/section.h"
 #include "io/scene_file.h"
-#include "length.h"
 #include "map/section_impl.h"
 #include "orbit/orbit_impl.h"
 #include "studies.h"
@@ -193,18 +188,6 @@ static void check_shares(void)
 
 /* --- a scene on a level ----------------------------------------------------------------------------------------- */
 
-static double level_of(const iso_scene *scene)
-{
-    iso_orbit_options o = iso_orbit_defaults(&scene->start);
-    iso_orbit *orbit;
-    o.effects = &scene->effects;
-    if (iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit) != ISO_OK) return NAN;
-    const iso_point_motion m = iso_orbit_motion(orbit);
-    const double level = iso_level_of(m.p, m.energy / m.eps);
-    iso_orbit_free(orbit);
-    return level;
-}
-
 #define BALL "reduced: {k: -0.7, J: [2, 1, 3]}\ninitial: {normal: [0.6, 0, 0.8], angular_velocity: "
 
 static void check_on_level(void)
@@ -219,7 +202,13 @@ static void check_on_level(void)
                      "scene %d on %g: %s", t, level, iso_context_message(ctx));
             /* a ball's h is a difference of terms that are `level` times larger */
             const double bound = 1e-13 * (1 + fabs(level)) + (t == 2 ? 4e-16 * level * level : 0);
-            gsl_test_abs(level_of(&scene), level, bound, "scene %d is on its level", t);
+            iso_orbit_options o = iso_orbit_defaults(&scene.start);
+            iso_orbit *orbit;
+            o.effects = &scene.effects;
+            must(iso_orbit_create(ctx, &scene.params, &scene.start, &o, &orbit), "its orbit");
+            const iso_point_motion m = iso_orbit_motion(orbit);
+            gsl_test_abs(iso_level_of(m.p, m.energy / m.eps), level, bound, "scene %d is on its level", t);
+            iso_orbit_free(orbit);
         }
 }
 

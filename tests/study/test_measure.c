@@ -5,15 +5,7 @@
  * J^(-1/2) n. There the measure is g^(a/(2k) - 1/2) dn dtheta in t and g^(-3/2) in s, with a = 1. So each state has this
  * weight, and the mean of weight (f(later) - f(start)) is 0 for every function f of the state. It is compared with its
  * standard error. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/random_impl.h"
-#include "base/vec3_impl.h"
 #include "laws.h"
-#include "length.h"
-#include "model/model_impl.h"
 #include "orbit/batch.h"
 
 enum { FUNCTIONS = 4, MOST = 40000 };

@@ -1,28 +1,12 @@
 /* Periodic orbits (lib/instrument/periodic/periodic.h): the rotations' traces against Hill's equation and the section,
  * orbits against their laws, the search along lines against Newton's method from a grid, k = 1 and -1. */
 #define _GNU_SOURCE /* functions of _Float128 */
-#include "base/random_impl.h"
-#include "length.h"
 #include "map/section.h"
 #include "method/methods_impl.h"
 #include "orbit/crossings.h"
 #include "periodics.h"
 
 /* --- rotations -------------------------------------------------------------------------------------------------- */
-
-static void check_rotation(double k, const double J[3], const iso_rotation *r)
-{
-    const double trace = r->half_turn_trace, size = fmax(1, fabs(trace));
-    gsl_test_rel(trace, iso_hill_trace(k, J, 0, r->axis, NULL), 1e-11, "k = %g, J3 = %g, axis %d", k, J[2],
-                 r->axis + 1);
-    gsl_test(!(r->error < 1e-12 * size), "error %g", r->error);
-    gsl_test_rel(r->by_section, trace, 1e-12, "axis %d by the section", r->axis + 1);
-    gsl_test((r->half.stability == ISO_STABLE) != (fabs(trace) < 2), "stability");
-    gsl_test((r->half.krein != 0) != (fabs(trace) < 2), "Krein's sign");
-    const double(*m)[2] = r->half.value;
-    gsl_test_abs(m[0][0] + m[1][0], trace, 1e-13 * size, "sum of the multipliers");
-    gsl_test_abs(m[0][0] * m[1][0] - m[0][1] * m[1][1], 1, 1e-13 * size, "their product");
-}
 
 /* test_periodic_levels.c has Hill's equation itself. */
 static void check_rotations(void)
@@ -31,7 +15,17 @@ static void check_rotations(void)
     for (int i = 0; i < 12; i++) {
         const iso_scene scene = ball_scene(k[i / 2], J[i % 2]);
         iso_periodic *f = orbits_to(&scene, 0);
-        for (int a = 0; a < 3; a++) check_rotation(k[i / 2], J[i % 2], &f->rotation[a]);
+        for (const iso_rotation *r = f->rotation; r < f->rotation + 3; r++) {
+            const double trace = r->half_turn_trace, size = fmax(1, fabs(trace)), (*m)[2] = r->half.value;
+            gsl_test_rel(trace, iso_hill_trace(k[i / 2], J[i % 2], 0, r->axis, NULL), 1e-11,
+                         "k = %g, J3 = %g, axis %d", k[i / 2], J[i % 2][2], r->axis + 1);
+            gsl_test(!(r->error < 1e-12 * size), "error %g", r->error);
+            gsl_test_rel(r->by_section, trace, 1e-12, "axis %d by the section", r->axis + 1);
+            gsl_test((r->half.stability == ISO_STABLE) != (fabs(trace) < 2), "stability");
+            gsl_test((r->half.krein != 0) != (fabs(trace) < 2), "Krein's sign");
+            gsl_test_abs(m[0][0] + m[1][0], trace, 1e-13 * size, "sum of the multipliers");
+            gsl_test_abs(m[0][0] * m[1][0] - m[0][1] * m[1][1], 1, 1e-13 * size, "their product");
+        }
         iso_periodic_free(f);
     }
 }
@@ -124,21 +118,15 @@ static bool has(const iso_periodic *f, const iso_periodic_orbit *o)
     return false;
 }
 
-/* Newton's method from a grid can find it: very unstable orbits attract few points of the grid, and with a trace near 2
- * there are many next to each other. */
-static bool is_easy(const iso_periodic_orbit *o)
-{
-    return fabs(o->trace) < 30 && fabs(o->trace - 2) > 0.05;
-}
-
-/* How many orbits of a list are not in the other one. */
+/* How many orbits of a list are not in the other one; the easy ones are those that Newton's method from a grid can find:
+ * very unstable orbits attract few points of the grid, and with a trace near 2 there are many next to each other. */
 static int missing(const iso_periodic *of, const iso_periodic *in, bool easy, const char *where, double k,
                    const double J[3])
 {
     int count = 0;
     for (size_t j = 0; j < of->count; j++) {
         const iso_periodic_orbit *o = &of->orbit[j];
-        if ((easy && !is_easy(o)) || o->symmetry == 0 || has(in, o)) continue;
+        if ((easy && !(fabs(o->trace) < 30 && fabs(o->trace - 2) > 0.05)) || o->symmetry == 0 || has(in, o)) continue;
         count++;
         printf("k = %.17g, J = %.17g %.17g %.17g: %s not period %d, l = %g, x = %g, trace %g, symmetry %d\n", k, J[0],
                J[1], J[2], where, o->period, o->l, o->x, o->trace, o->symmetry);
@@ -218,16 +206,6 @@ static void refuse(const iso_scene *scene, const iso_periodic_options *o, iso_st
 }
 
 #ifdef ISO_TAYLOR_HAS_QUAD
-/* The orbit of a list that is the same as o; NULL: none. */
-static const iso_periodic_orbit *twin_of(const iso_periodic_orbit *o, const iso_periodic *in)
-{
-    for (size_t i = 0; i < in->count; i++) {
-        const iso_periodic_orbit *p = &in->orbit[i];
-        if (p->period == o->period && p->line == o->line && fabs(p->u - o->u) < 1e-9) return p;
-    }
-    return NULL;
-}
-
 /* The orbits of one random ball, in 64 and in 128 bits. Adds to *seen, *beaten (errors that do not cover the distance)
  * and *open (closures above their bounds). */
 static void compare_digits(iso_random *random, int period, size_t *seen, size_t *beaten, size_t *open)
@@ -244,7 +222,9 @@ static void compare_digits(iso_random *random, int period, size_t *seen, size_t 
     iso_periodic *fine = orbits_of(&scene, &o);
     gsl_test(fine->count != rough->count, "k = %.17g: 64 and 128 bits have the same orbits", k);
     for (size_t i = 0; i < rough->count; i++) {
-        const iso_periodic_orbit *a = &rough->orbit[i], *b = twin_of(a, fine);
+        const iso_periodic_orbit *a = &rough->orbit[i], *b = NULL;
+        for (const iso_periodic_orbit *p = fine->orbit; p < fine->orbit + fine->count; p++)
+            if (p->period == a->period && p->line == a->line && fabs(p->u - a->u) < 1e-9) b = p;
         gsl_test(!b, "k = %.17g, period %d, l = %g: found in 128 bits", k, a->period, a->l);
         if (!b) continue;
         const double apart = fabs((a->trace - b->trace) + (a->trace_tail - b->trace_tail));
@@ -285,8 +265,6 @@ static void check_polish(void)
     refuse(&scene, &o, ISO_BAD_ARGUMENT, "polish");
 }
 #endif
-
-/* --- refusals --------------------------------------------------------------------------------------------------- */
 
 /* What others refuse as well: foreign/test_refusals.c. */
 static void check_refusals(void)

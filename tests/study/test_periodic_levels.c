@@ -6,15 +6,12 @@
 #include <gsl/gsl_odeiv2.h>
 
 #include "base/math_impl.h"
-#include "base/vec3_impl.h"
 #include "instrument/periodic/continuation.h"
 #include "instrument/periodic/stability_chart.h"
 #include "instrument/separatrix/separatrix.h"
-#include "length.h"
 #include "map/section.h"
 #include "map/section_impl.h"
 #include "map/state.h"
-#include "model/model_impl.h"
 #include "orbit/orbit.h"
 #include "periodics.h"
 #include "study/level.h"
@@ -131,13 +128,6 @@ static void check_polish(void)
     iso_periodic_free(f);
 }
 
-static int middle_of(const double J[3])
-{
-    for (int i = 0; i < 3; i++)
-        if ((J[i] - J[(i + 1) % 3]) * (J[i] - J[(i + 2) % 3]) < 0) return i;
-    return 0;
-}
-
 /* study.md 9.1: T < -2 about the middle axis, for every k and J and on every level with this rotation. */
 static void check_middle_axis(void)
 {
@@ -147,7 +137,9 @@ static void check_middle_axis(void)
         double J[3], k, error;
         const double level = draw(random, 5, J, &k);
         const iso_params p = laws_params(k, J);
-        const double T = iso_hill_trace(k, J, iso_level_energy(&p, level), middle_of(J), &error);
+        int middle = 0;
+        while ((J[middle] - J[(middle + 1) % 3]) * (J[middle] - J[(middle + 2) % 3]) > 0) middle++;
+        const double T = iso_hill_trace(k, J, iso_level_energy(&p, level), middle, &error);
         most = fmax(most, isnan(T) ? INFINITY : T + error);
     }
     gsl_test(!(most < -2), "the middle axis: the largest trace is -2 %+.2g", most + 2);
@@ -264,8 +256,6 @@ static void check_ball(void)
     iso_periodic_free(g);
 }
 
-/* --- a branch --------------------------------------------------------------------------------------------------- */
-
 /* At each end of a range of levels the search finds the orbit of the branch. */
 static void check_branch(void)
 {
@@ -295,8 +285,6 @@ static void check_branch(void)
     iso_continuation_free(follow);
     iso_periodic_free(f);
 }
-
-/* --- the chart -------------------------------------------------------------------------------------------------- */
 
 /* On its borders the trace is 2 or -2: on H = 0, on another level, and against the level. */
 static void check_chart(void)

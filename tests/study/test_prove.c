@@ -1,10 +1,8 @@
 /* Enclosures of the splitting, lib/instrument/prove/prove_impl.h: laws at k = 1 and -1, known values, the same number as
  * the splitting that is measured, refusals. */
-#include "base/random_impl.h"
 #include "instrument/prove/prove_impl.h"
 #include "instrument/separatrix/separatrix.h"
 #include "io/scene_file.h"
-#include "length.h"
 #include "studies.h"
 
 static iso_proof_work work = {.most = 1000000};
@@ -33,8 +31,6 @@ static double width(const iso_proof *p)
 {
     return p->m.high - p->m.low;
 }
-
-/* --- numbers as they are written -------------------------------------------------------------------------------- */
 
 static void test_numbers(void)
 {
@@ -164,7 +160,8 @@ static void refuses(const char *text, const char *options, const char *words)
     iso_status status = iso_scene_load_text(ctx, "scene", text, strlen(text), &scene);
     gsl_test(status != ISO_OK, "a scene: %s", iso_context_message(ctx));
     if (status != ISO_OK) return;
-    status = iso_study_ask_text(ctx, iso_study_find("prove"), &(iso_study_subject){.scene = &scene}, options, &result);
+    status =
+        iso_study_ask_text(ctx, iso_study_find("prove"), &(iso_study_subject){.scene = &scene}, options, &result);
     gsl_test(!(status != ISO_OK && strstr(iso_context_message(ctx), words)), "refused: %s", iso_context_message(ctx));
     iso_study_result_free(&result);
 }

@@ -200,8 +200,6 @@ static void check_refusals(void)
     }
 }
 
-/* --- errors of the rows ----------------------------------------------------------------------------------------- */
-
 static void check_errors(void)
 {
     for (int kind = 0; kind < KINDS; kind++) {
@@ -235,7 +233,6 @@ static void check_errors(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     for (int kind = 0; kind < KINDS; kind++) check_kind(kind);
     check_result();

@@ -1,16 +1,10 @@
 /* iso_section_run (instrument/section/section.h): its rows equal the crossings of each orbit computed separately; starts, both
  * models, refusals, and the rows that stay when a sink, the monitor or a failure ends the work. */
-#include <gsl/gsl_test.h>
 #include <limits.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "instrument/section/section_impl.h"
 #include "io/scene_file.h"
 #include "laws.h"
-#include "length.h"
 #include "map/state.h"
 #include "orbit/orbit_impl.h"
 #include "poisson.h"
@@ -219,8 +213,6 @@ static void check_groups(void)
     release(k);
 }
 
-/* --- other scenes ----------------------------------------------------------------------------------------------- */
-
 static void check_effects(void)
 {
     iso_section_options o = iso_section_defaults();
@@ -299,23 +291,15 @@ static void check_failure(void)
     release(k);
 }
 
-static int questions, patience;
-
-static bool patient(void *unused)
-{
-    (void)unused;
-    return questions++ < patience;
-}
-
 static void check_stop(void)
 {
     iso_section_options o = iso_section_defaults();
     o.starts = 5;
     o.crossings = 400;
-    questions = 0, patience = INT_MAX;
-    iso_context_set_monitor(ctx, patient, NULL);
+    int left = INT_MAX;
+    iso_context_set_monitor(ctx, some_times, &left);
     kept *all = run(FREE("0.5"), &o, MOST);
-    patience = questions / 2, questions = 0;
+    left = (INT_MAX - left) / 2;
     kept *k = run(FREE("0.5"), &o, MOST);
     iso_context_set_monitor(ctx, NULL, NULL);
     gsl_test_int((int)k->status, ISO_STOPPED, "stopped");

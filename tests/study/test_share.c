@@ -1,15 +1,8 @@
 /* The starts and the interval of lib/instrument/chaos/share.c: how often the interval holds the true share, for sets of many
  * shapes whose share of the section's area is known. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/math_impl.h"
 #include "instrument/chaos/chaos_impl.h"
 #include "laws.h"
-#include "length.h"
 
 /* u: the part of the area below the angle, v = (1 + x)/2; both are uniform on (0, 1). */
 typedef struct set {
@@ -85,8 +78,6 @@ static double true_share(const set *s)
         for (int j = 0; j < CELLS; j++) found += s->holds((i + 0.5) / CELLS, (j + 0.5) / CELLS);
     return (double)found / CELLS / CELLS;
 }
-
-/* --- coverage --------------------------------------------------------------------------------------------------- */
 
 /* The interval must hold the share in 90 to 99 of 100 repetitions with other seeds. The bounds are those that were
  * asked for; 95 are meant. With fewer starts than two for each copy the counts are too coarse for such a law. */

@@ -57,7 +57,6 @@ static void check_lines(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     check_lines();
     iso_context_free(ctx);

@@ -1,11 +1,4 @@
 /* Both backends side by side (iso_compare), and whether a record solves its model (iso_check). */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/vec3_impl.h"
 #include "orbit/orbit_impl.h"
 #include "studies.h"
 #include "task/check/check.h"
@@ -306,16 +299,12 @@ static void check_bad_records(void)
     const iso_params p = laws_params(0.5, J);
     const iso_start start = {.model = ISO_BALL, .y = {0.8, 0.5, -0.6, 0.6, 0, 0.8}};
     iso_residuals r;
-    for (size_t c = 0; c < 7; c++) {
-        iso_record *record = record_of(&p, &start, 3, 8, "t");
-        iso_record_row(record, 2)[c] = NAN;
-        const iso_status status = iso_check(ctx, &p, record, 1e-13, &r);
-        gsl_test(status != ISO_BAD_INPUT || !strstr(iso_context_message(ctx), "row 3"), "NaN: %s",
-                 iso_context_message(ctx));
-        iso_record_free(record);
-    }
+    iso_record *record = record_of(&p, &start, 3, 8, "t");
+    iso_record_row(record, 2)[3] = NAN; /* every number: hard/test_hard_study_numbers.c */
+    gsl_test(iso_check(ctx, &p, record, 1e-13, &r) != ISO_BAD_INPUT || !strstr(iso_context_message(ctx), "row 3"),
+             "NaN: %s", iso_context_message(ctx));
+    iso_record_free(record);
     const char *const names[] = {"t", "omega1", "omega2", "omega3", "n1", "n2", "n3"};
-    iso_record *record;
     must(iso_record_create(ctx, 7, names, &record), "a record");
     gsl_test(iso_check(ctx, &p, record, 1e-13, &r) != ISO_BAD_INPUT, "no rows: %s", iso_context_message(ctx));
     iso_record_free(record);
@@ -326,7 +315,6 @@ static void check_bad_records(void)
 
 int main(void)
 {
-    gsl_test_verbose(1);
     ctx = iso_context_create();
     check_compare();
     check_good();

@@ -6,18 +6,10 @@
  *     g = (n, J^-1 n) with Im theta > 0; M from theta to theta + pi below this zero. M = A B.
  */
 #define _GNU_SOURCE /* functions of _Float128 */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "base/math_impl.h"
-#include "base/random_impl.h"
 #include "complex_paths.h"
 #include "instrument/periodic/periodic_impl.h"
 #include "laws.h"
-#include "length.h"
 
 typedef struct rotation {
     double k, J[3];

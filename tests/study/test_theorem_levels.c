@@ -2,26 +2,14 @@
  * phi, for 1/k = N a whole number, eps = 1. 1/k even: a loop whose matrix has one eigenvalue and is not diagonal. 1/k
  * odd: loops round zeros of phi'^2, whose square is 1; antidiagonal at k = 1 and -1 alone.
  */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdlib.h>
-
 #include "base/math_impl.h"
-#include "base/random_impl.h"
 #include "complex_paths.h"
-#include "length.h"
+#include "laws.h"
 
 typedef struct problem {
     int N;
     double J[3], energy;
 } problem;
-
-static complex_number q_of(const problem *f, complex_number phi)
-{
-    const complex_number c = ccos(phi);
-    return f->J[2] + (f->J[0] - f->J[2]) * c * c;
-}
 
 static complex_number whole_power(complex_number q, int n)
 {
@@ -34,7 +22,8 @@ static complex_number whole_power(complex_number q, int n)
 static void slope(const void *data, complex_number phi, const complex_number y[], complex_number dy[])
 {
     const problem *f = data;
-    const complex_number q = q_of(f, phi), u = f->energy * whole_power(q, 1 + f->N);
+    const complex_number c = ccos(phi), q = f->J[2] + (f->J[0] - f->J[2]) * c * c,
+                         u = f->energy * whole_power(q, 1 + f->N);
     const complex_number turn = (f->J[2] - f->J[0]) * csin(2 * phi) * f->N / 2;
     const complex_number pull = f->N * (f->J[1] - q) + q + u;
     for (int i = 0; i < 4; i += 2) {

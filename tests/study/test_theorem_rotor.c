@@ -5,14 +5,9 @@
  *
  *     n = (r cos theta, n2, r sin theta), p = (-sin theta, 0, cos theta), v = (w, p): a state is (n2, v).
  */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdbool.h>
-
 #include "base/math_impl.h"
-#include "base/random_impl.h"
 #include "complex_paths.h"
-#include "length.h"
+#include "laws.h"
 
 typedef struct problem {
     double k, J[3], K; /* the rotor's momentum is (0, K, 0); the rotation is w = (0, 1, 0) */
@@ -61,23 +56,17 @@ static void slope(const void *data, complex_number theta, const complex_number y
     dy[1] = form(one, dw, p) / rate + form(one, w, turn);
 }
 
-/* Along straight lines, with order 5. */
-static void along(const problem *f, const complex_number corner[], int corners, complex_number y[2])
-{
-    for (int i = 0; i + 1 < corners; i++) {
-        const int steps = 20 + (int)(400 * cabs(corner[i + 1] - corner[i]));
-        const complex_number h = (corner[i + 1] - corner[i]) / steps;
-        for (int j = 0; j < steps; j++) path_step(slope, f, 2, corner[i] + j * h, h, y);
-    }
-}
-
 /* Where the loop leads from size (X, Y), in the coordinates of the columns of V. */
 static void carried(const problem *f, const complex_number corner[], int corners, matrix V, const double by[2],
                     double size, complex_number out[2])
 {
     complex_number y[2];
     for (int i = 0; i < 2; i++) y[i] = size * (V[i][0] * by[0] + V[i][1] * by[1]);
-    along(f, corner, corners, y);
+    for (int i = 0; i + 1 < corners; i++) { /* along straight lines, with order 5 */
+        const int steps = 20 + (int)(400 * cabs(corner[i + 1] - corner[i]));
+        const complex_number h = (corner[i + 1] - corner[i]) / steps;
+        for (int j = 0; j < steps; j++) path_step(slope, f, 2, corner[i] + j * h, h, y);
+    }
     out[0] = (V[1][1] * y[0] - V[0][1] * y[1]) / det(V);
     out[1] = (V[0][0] * y[1] - V[1][0] * y[0]) / det(V);
 }

@@ -6,15 +6,9 @@
  *     The rotation is Y = 0; the singular point is x = 0. Y is p y_p + z y_z, y_p = 1 + ..., y_z = x^(1 - |1/k|/2) (1
  *     + ...). Two rounds add 4 pi i rho (-3 p z^2, z^3) to (p, z), and more of fifth order.
  */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdbool.h>
-
 #include "base/math_impl.h"
-#include "base/random_impl.h"
 #include "complex_paths.h"
 #include "laws.h"
-#include "length.h"
 
 typedef struct problem {
     int n; /* 1/k */
