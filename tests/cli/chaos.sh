@@ -16,13 +16,11 @@ run 0 chaos near.yaml --json
 check "the integral in JSON" grep -q '"integral": "F_shell"' out
 
 # --- one orbit
-run 0 chaos chaotic.yaml
-silent
+quietly chaos chaotic.yaml
 check "chaotic" grep -q '^this orbit: chaotic$' out
 check "by both models" test "$(grep -c '^  \(ball\|point\) *chaotic ' out)" -eq 2
 check "the section" grep -q 'section n_3 = 0' out
-run 0 chaos regular.yaml
-silent
+quietly chaos regular.yaml
 check "regular" grep -q '^this orbit: regular$' out
 run 0 chaos regular.yaml --turns 50
 check "50 turns do not decide" grep -q '^this orbit: undecided$' out
@@ -37,8 +35,7 @@ run 0 chaos chaotic.yaml
 check "so it says" grep -q 'too short to know this error; --exponent-turns' out
 run 0 chaos chaotic.yaml --exponent-turns 1000
 check "from how many turns" grep -q 'the exponents are from 1000 turns' out
-run 0 chaos chaotic.yaml --exponent-turns 1000 --json
-silent
+quietly chaos chaotic.yaml --exponent-turns 1000 --json
 check "JSON" is_json
 check "exponent_turns" test "$(value exponent_turns)" = 1000
 check "verdicts" test "$(grep -c '"verdict": "chaotic"' out)" -eq 3

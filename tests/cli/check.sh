@@ -5,8 +5,7 @@
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml
 for as in ball point both; do
     run 0 run scene.yaml --as "$as" -o "$as.csv"
-    run 0 check --max 1e-9 "$as.csv"
-    silent
+    quietly check --max 1e-9 "$as.csv"
 done
 check "both models, the clocks, the map" test "$(grep -cE '^  (ball (flow|h|\|n\|)|point (flow|H)|map|clock s) ' out)" -eq 7
 run 0 check ball.csv
@@ -25,8 +24,7 @@ for as in point ball both; do
     check "the line effects" grep -qx '# effects: level' off_$as.csv
     at_most "c of off_$as.csv" \
         "$(sed -n 's/^# level.c: //p' off_$as.csv | awk '{ d = $1 - 0.546666666667; print (d < 0 ? -d : d) }')" 1e-9
-    run 0 check --max 1e-11 off_$as.csv
-    silent
+    quietly check --max 1e-11 off_$as.csv
     grep -v '^# \(level\|effects\)' off_$as.csv >damaged.csv
     wanted=1
     [ "$as" != point ] || wanted=0 # a point with its eps needs no level
@@ -46,8 +44,7 @@ finds() {
     for residual; do
         check "$what: $residual is named" grep -q "^  $residual  .*ABOVE THE BOUND" out
     done
-    run 0 check damaged.csv # without a bound it only tells
-    silent
+    quietly check damaged.csv # without a bound it only tells
 }
 
 # damage FILE AWK: changes row 4, x1 ... being its columns
@@ -80,19 +77,15 @@ refuses 3 "--k contradicts" check --k 1 ball.csv
 refuses 3 "--k K" check bare.csv
 
 # --- explain
-run 0 explain scene.yaml
-silent
-for words in "k = -1, J = 1.4 " ": Neumann's problem" "  integrable: a second integral is known" "backend point, 6 states, in the clock t" \
-    "  M1 M2 M3               momentum" "as exact" \
-    "method taylor" "energy of the ball h = 0.7374375" "11 rows to t = 10, columns t omega1" "integrals that hold" "F_shell" \
-    "integrals that do not hold" "cost of a right-hand side: "; do
-    check "explain: $words" grep -F -q -e "$words" out
-done
+quietly explain scene.yaml
+shows -F out "k = -1, J = 1.4 " ": Neumann's problem" "  integrable: a second integral is known" \
+    "backend point, 6 states, in the clock t" "  M1 M2 M3               momentum" "as exact" "method taylor" \
+    "energy of the ball h = 0.7374375" "11 rows to t = 10, columns t omega1" "integrals that hold" "F_shell" \
+    "integrals that do not hold" "cost of a right-hand side: "
 check_not "explain: no clock without a column" grep -q "because a column asks" out
 run 0 explain scene.yaml --as both --backend point
-for words in "backend point" "  M1 M2 M3 " " gamma3 " "  tau s                  clock: a column, or the effect clock, asks for it"; do
-    check "explain --as both --backend point: $words" grep -F -q -e "$words" out
-done
+shows -F out "backend point" "  M1 M2 M3 " " gamma3 " \
+    "  tau s                  clock: a column, or the effect clock, asks for it"
 refuses 2 "unknown option --rows" explain scene.yaml --rows 3
 # Lengths and heights of a body that is not 1 m large: the file says its radius.
 cat >tilted.yaml <<'END'

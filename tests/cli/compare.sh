@@ -16,12 +16,10 @@ numbers() {
 # compares NAME SCENE: everything that must hold of a comparison
 compares() {
     scenes=$((scenes + 1))
-    run 0 compare "$2"
-    silent
+    quietly compare "$2"
     check "$1: a table" test "$(grep -cE '^ +[-0-9.e+]+ +(ball|point) ' out)" -ge 24 # 2 models x 6 rows x 2 backends
     check "$1: its end" test "$(tail -n 1 out | cut -d: -f1)" = "the same orbit"
-    run 0 compare "$2" --json
-    silent
+    quietly compare "$2" --json
     check "$1: JSON" is_json
     numbers worst_difference >a
     pairs=1 # of backends; 3 with the closed solution
@@ -64,8 +62,7 @@ check "--method" grep -q '^backend ball   adams: ' out
 
 # --- pictures
 if has gnuplot "--plot"; then
-    run 0 compare scene.yaml --plot picture.svg
-    silent
+    quietly compare scene.yaml --plot picture.svg
     steady picture.svg
     run 5 compare scene.yaml --plot absent/a.svg
     says "absent"

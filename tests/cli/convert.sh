@@ -14,8 +14,7 @@ states() {
 round_trip() {
     case $4 in ball) other=point ;; *) other=ball ;; esac
     run 0 run "$3" --as "$4" -o a.csv
-    run 0 convert --quiet --to "$other" a.csv -o b.csv
-    silent
+    quietly convert --quiet --to "$other" a.csv -o b.csv
     run 0 convert --to "$4" b.csv -o c.csv
     "$isoroll" convert --quiet --to "$other" <a.csv | "$isoroll" convert --quiet --to "$4" - >piped.csv
     check "$1: files and pipes" cmp c.csv piped.csv
@@ -110,8 +109,7 @@ for lines in flat level field; do
     for as in ball point; do
         case $as in ball) to=point ;; *) to=ball ;; esac
         run 0 run $lines.yaml --as $as --tol 1e-14 -o good.csv
-        run 0 convert --quiet --to $to good.csv -o turned.csv
-        silent
+        quietly convert --quiet --to $to good.csv -o turned.csv
         run 0 check turned.csv --max 1e-11
         for key in h eps level.c; do
             grep -q "^# $key" good.csv || continue
@@ -138,8 +136,7 @@ initial: {gamma: [0.36, 0.48, 0.8], M: [1.6, -1.2, 0]}
 time: {end: 2, step: 0.25}
 END
 run 0 run shift.yaml -o good.csv
-run 0 convert --quiet --to ball --shift-J good.csv -o turned.csv
-silent
+quietly convert --quiet --to ball --shift-J good.csv -o turned.csv
 run 0 check turned.csv --max 1e-9
 # a piece behind the start has the error of the steps to it: its own energy is taken, and no line is off
 run 0 run flat.yaml --t-end 200 --tol 1e-7 -o good.csv
@@ -147,8 +144,7 @@ awk -F, -v OFS=, -v CONVFMT=%.17g '/^[0-9]/ { for (i = 2; i < 5; i++) $i *= 1 + 
 awk '/^[0-9]/ && ++n < 700 { next } { print }' whole.csv >late.csv
 run 0 convert --quiet --to point whole.csv
 check "a whole file: both lines are off" test "$(grep -c 'does not fit the first row (off by 2e-09' err)" -eq 2
-run 0 convert --quiet --to point late.csv -o turned.csv
-silent
+quietly convert --quiet --to point late.csv -o turned.csv
 check "the energy of a later row" test "$(grep '^# h' turned.csv)" != "$(grep '^# h' good.csv)"
 refuses 3 "bare_point.csv:3: the energy of this point is not that of the rows before" convert --strict --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --eps 3 -o none.csv
 run 3 convert --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --eps 3 -o none.csv
@@ -181,9 +177,7 @@ damage 4 1 0.1 ball.csv
 refuses 3 "damaged.csv:15: t turns back" convert --strict --to point damaged.csv -o none.csv
 check_not "a time that turns back, --strict: no file" test -e none.csv
 run 1 convert --to point damaged.csv -o damaged_point.csv
-for words in "damaged.csv:15: t turns back" "damaged.csv:16: this row is" "or before it in time: 2, the farthest by"; do
-    check "$words" grep -q "$words" err
-done
+shows err "damaged.csv:15: t turns back" "damaged.csv:16: this row is" "or before it in time: 2, the farthest by"
 check "the states of all rows" test "$(rows damaged_point.csv | cut -d, -f2-)" = "$(rows point.csv | cut -d, -f2-)"
 echo "worst state, in parts of 4 max(1, 1/|2k|) ulp: $worst_state; with the clock: $worst_clock"
 finish

@@ -17,8 +17,7 @@ END
 # --- the level, written (its motion, and that of other effects: test_written)
 scene 'potential: {U: "c*n1^2 + 0.1*n1*n2 - n2^2/10 + 0.3*n3", parameters: {c: 0.3}}' >same.yaml
 scene 'potential: {U: "-c*(n1^2/J1 + n2^2/J2 + n3^2/J3)^(-1/k)", parameters: {c: 0.3}}' >same_level.yaml
-run 0 run same_level.yaml --as both -o b.csv
-silent
+quietly run same_level.yaml --as both -o b.csv
 run 0 check --max 1e-11 b.csv
 run 0 compare same.yaml
 sed -n '/^# effects/,$!p' b.csv >lines
@@ -45,13 +44,10 @@ refuses 3 "no room for more than 8 parameters" check ball.csv
 
 # --- what is known of it, and what is refused by name
 run 0 explain same.yaml
-for words in "U = c*n1^2 + 0.1*n1*n2 - n2^2/10 + 0.3*n3" "c = 0.3" "holds: (18) of the theory carries the states" \
-    "n_1 = 0 is not known to be global: 'potential' acts on the ball" "ball  h  "; do
-    check "explain: $words" grep -F -q -e "$words" out
-done
+shows -F out "U = c*n1^2 + 0.1*n1*n2 - n2^2/10 + 0.3*n3" "c = 0.3" "holds: (18) of the theory carries the states" \
+    "n_1 = 0 is not known to be global: 'potential' acts on the ball" "ball  h  "
 run 0 list effects
-check "list: potential" grep -q '^ *numbers: U \[parameters\]$' out
-check "list: torque" grep -q '^ *numbers: M \[parameters\] \[work\]$' out
+shows out '^ *numbers: U \[parameters\]$' '^ *numbers: M \[parameters\] \[work\]$'
 refuses 3 "same.yaml:5:14: the closed solution is for" run same.yaml --backend exact
 
 run 0 section same.yaml --crossings 20 -o section.csv
@@ -158,8 +154,7 @@ initial: {gamma: [0.6, 0, 0.8], M: [0, 1.3, 0]}
 time: {end: 2, step: 1}
 effects: {potential: {U: "$c + 0.1*n1"}}
 END
-    run 0 run constant.yaml -o "constant_$c.csv"
-    silent
+    quietly run constant.yaml -o "constant_$c.csv"
 done
 at_most "U with 1e12" "$(difference constant_0.csv constant_1e12.csv)" 1e-10
 refuses 4 "3.5e+12 times what can change of the energy: the point loses" run constant.yaml --backend point

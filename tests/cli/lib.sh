@@ -229,6 +229,30 @@ refuses_changed() {
     refuses 3 "$message" "$@" bad.csv
 }
 
+# quietly ARGUMENT...: isoroll ends with 0 and prints no message
+quietly() {
+    run 0 "$@"
+    silent
+}
+
+# shows [-OPTIONS] FILE PATTERN...: the file has a line for each of the patterns of grep, which gets the options
+shows() {
+    how=-q
+    case $1 in -?*) how=-q${1#-} && shift ;; esac
+    shown=$1
+    shift
+    for pattern; do check "isoroll ${last-}: $shown has '$pattern'" grep "$how" -e "$pattern" "$shown"; done
+}
+
+# interrupted WORDS "CONDITION" ARGUMENT...: isoroll gets Ctrl-C when it is so, ends with 1 and says these words
+interrupted() {
+    said=$1
+    shift
+    signalled INT "$@"
+    check "$last: exit status $status, not 1" test "$status" -eq 1
+    shows err "$said"
+}
+
 # silent: the last run printed no message
 silent() {
     check "isoroll $last: nothing on stderr" test ! -s err
@@ -256,17 +280,6 @@ steady() {
 # larger A B: the larger of two numbers
 larger() {
     awk -v a="$1" -v b="$2" 'BEGIN { print (a + 0 > b + 0 ? a : b) }'
-}
-
-# each_method COMMAND...: runs COMMAND METHOD BOUND for each line "METHOD BOUND" of standard input. COMMAND raises
-# $worst to its largest error, which is printed. Leaves taylor_extended out where the compiler cannot make it.
-each_method() {
-    while read -r method bound; do
-        if [ "$method" = taylor_extended ] && ! "$isoroll" list methods | grep -q -w "$method"; then continue; fi
-        worst=0
-        "$@" "$method" "$bound"
-        echo "$method: $worst"
-    done
 }
 
 # rows FILE: the rows of a trajectory, without header and # lines

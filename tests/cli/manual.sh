@@ -12,8 +12,7 @@ same() {
 
 # page NAME: prints it into `page`
 page() {
-    run 0 manual "$1"
-    silent
+    quietly manual "$1"
     mv out page
 }
 

@@ -16,12 +16,9 @@ within() {
     awk -v low="$1" -v high="$2" -v x="$3" 'BEGIN { exit !(low != "" && low <= x && x <= high) }'
 }
 # --- words
-run 0 prove half.yaml --digits 10
-silent
-check "what is proved" grep -q '^k = 1/2, J = 7/5, 21/10, 3$' out
-check "the section" grep -q 'on the section n_3 = 0:' out
-check "m" grep -q '^m = 0.00614708829.* +/- ' out
-check "what follows" grep -q '^proved: m is not 0, so the manifolds cross, and there is no further real-analytic integral' out
+quietly prove half.yaml --digits 10
+shows out '^k = 1/2, J = 7/5, 21/10, 3$' 'on the section n_3 = 0:' '^m = 0.00614708829.* +/- ' \
+    '^proved: m is not 0, so the manifolds cross, and there is no further real-analytic integral'
 
 # --- k = 1 is integrable: nothing can be proved. More digits enclose 0 in less
 run 0 prove half.yaml --digits 6 --k 1
@@ -30,8 +27,7 @@ check "undecided" grep -q '^undecided at 6 digits: 0 is in the enclosure of m' o
 # --- JSON, and k as it is written: 1/3 is one third
 sed 's/k: 0.5/k: 1\/3/' half.yaml >third.yaml
 check "a scene with a fraction" grep -q 'k: 1/3' third.yaml
-run 0 prove third.yaml --digits 10 --json
-silent
+quietly prove third.yaml --digits 10 --json
 check "statement" grep -q '"statement": "proved: m is not 0' out
 check "k is exact" test "$(value exact)" = 1/3
 check "section" test "$(value section)" = 3
@@ -51,8 +47,7 @@ check "k of 15 digits is whole" test "$(value exact)" = 999999999999999/10000000
 # --- an interval
 run 0 prove half.yaml --k 0.5:0.50001 -o interval.cert
 check "all k of an interval" grep -q '^proved for all these k: m is not 0' out
-check "its parts" grep -q '^parts 8$' interval.cert
-check "its middle" grep -q '^middle ' interval.cert
+shows interval.cert '^parts 8$' '^middle '
 
 run 0 prove half.yaml --k 0.5:0.5003 --pieces 4
 check "no more pieces than it may try" grep -q 'it stopped after 4 pieces: --pieces allows more' err
@@ -76,8 +71,7 @@ refuses 2 "a whole number from 1 on" prove half.yaml --pieces 0
 run 0 prove half.yaml --digits 6 -o half.cert
 check "it begins" test "$(head -n 1 half.cert)" = "isoroll certificate 1"
 check "it ends" test "$(tail -n 1 half.cert)" = end
-check "its ball" grep -q '^moments 7/5 21/10 3$' half.cert
-check "its claim" grep -q '^sign positive$' half.cert
+shows half.cert '^moments 7/5 21/10 3$' '^sign positive$'
 check "a half return of a set and of its centre each time" test "$(grep -c '^half set' half.cert)" -eq \
     "$(grep -c '^half centre' half.cert)"
 check "a frame more" test "$(grep -c '^frame ' half.cert)" -eq "$(($(grep -c '^half set' half.cert) + 1))"

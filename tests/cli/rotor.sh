@@ -15,8 +15,7 @@ END
 
 # --- a run by both backends, its files, the point's own scene
 rotor -1 "0.3, 0.4, 0.5" >scene.yaml
-run 0 run scene.yaml --as both -o ball.csv
-silent
+quietly run scene.yaml --as both -o ball.csv
 check "the line of the rotor" grep -qx '# rotor.momentum: 0.3 0.4 0.5' ball.csv
 run 0 check --max 1e-11 ball.csv
 sed 's/^# rotor.momentum: 0.3/&01/' ball.csv >damaged.csv
@@ -41,10 +40,8 @@ check "a rotor is the same" cmp p.csv q.csv
 
 # --- what is known of it, and what is refused by name
 run 0 explain scene.yaml
-for words in "in the magnetic field of 'rotor'" "n_1 = 0 is not known to be global: 'rotor' acts on the ball" \
-    "holds: (18) of the theory carries the states"; do
-    check "explain: $words" grep -F -q -e "$words" out
-done
+shows -F out "in the magnetic field of 'rotor'" "n_1 = 0 is not known to be global: 'rotor' acts on the ball" \
+    "holds: (18) of the theory carries the states"
 rotor 1 "0.3, 0.4, 0.5" >plane.yaml
 run 0 explain plane.yaml
 check "an integral on a plane" sh -c "sed '/^integrals that do not/q' out | grep -c F_rotor | grep -qx 2"

@@ -76,8 +76,7 @@ at 3 "a NUL byte"
 # --- check: the same residuals by quadrature as by integration; one number of one row is found
 residual=$(length 1e-13 1e-12) # times near 1000 are rounded to 1e-13
 for as in ball point both; do
-    run 0 check --max "$residual" "$as.csv"
-    silent
+    quietly check --max "$residual" "$as.csv"
     "$isoroll" check --max "$residual" <"$as.csv" >piped
     check "$as: from a pipe" cmp piped out
 done

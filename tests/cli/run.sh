@@ -11,8 +11,7 @@ scene -1 "$J" "$omega" "$normal" 10 1 >scene.yaml
 header() {
     input=$1 wanted_columns=$2
     shift 2
-    run 0 run "$input" "$@"
-    silent
+    quietly run "$input" "$@"
     check "columns of $last" test "$(columns out)" = "$wanted_columns"
 }
 

@@ -9,8 +9,7 @@ printf '{scene: scene.yaml, vary: {J1: [0.8, 1, 1.3], k: {from: -1.45, to: 0.8, 
 
 # --- explain
 run 0 explain each.yaml
-check "points" grep -q '^  2 points in 2 chunks of 1; [0-9]* columns' out
-check "what varies" grep -q '^  start: 1 value' out
+shows out '^  2 points in 2 chunks of 1; [0-9]* columns' '^  start: 1 value'
 check "each quantity" test "$(grep -c ' a point, up to ' out)" -eq 6
 check "time" grep -q 'of processor time; here, with [0-9]* threads, about ' out
 run 0 explain flow.yaml

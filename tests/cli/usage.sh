@@ -6,8 +6,7 @@ scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml
 commands="run convert compare cost check plot view section chaos periodic splitting prove integrals sweep explain analogue frequencies list manual"
 
 # --- exit statuses
-run 0 run scene.yaml
-silent
+quietly run scene.yaml
 run 1 check --max 1e-30 ball.csv
 says "ball.csv: a residual is above 1e-30"
 refuses 2 "missing argument SCENE" run
@@ -120,8 +119,7 @@ mv out help
 run 0 help
 check "help" cmp out help
 for command in $commands; do
-    run 0 "$command" --help
-    silent
+    quietly "$command" --help
     cp out "help.$command"
     check "$command: usage line" grep -q "^usage: isoroll $command " out
     run 0 "$command" -h
@@ -155,8 +153,7 @@ done
 run 0 list
 cp out list
 for topic in systems backends methods surfaces integrals clocks columns; do
-    run 0 list "$topic"
-    silent
+    quietly list "$topic"
     check "list $topic" grep -q "^$topic: " out
     check "list has $topic" grep -q "^$topic: " list
 done

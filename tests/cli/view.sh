@@ -17,8 +17,7 @@ fi
 bytes() {
     wc -c <"$1"
 }
-run 0 view scene.yaml -o page.html
-silent
+quietly view scene.yaml -o page.html
 at_most "a page of a scene" "$(bytes page.html)" 3000000
 cp page.html first.html
 run 0 view scene.yaml -o page.html
@@ -30,8 +29,7 @@ check "standard input" grep -q '"kind":"scene"' stdin.html
 "$isoroll" run scene.yaml -o ball.csv
 "$isoroll" run scene.yaml --as point -o point.csv
 for file in ball.csv point.csv; do
-    run 0 view $file -o $file.html
-    silent
+    quietly view $file -o $file.html
     check "$file is a trajectory" grep -q '"kind":"trajectory"' $file.html
 done
 "$isoroll" view - -o - <ball.csv >stdin.html
