@@ -179,5 +179,18 @@ check_not "a time that turns back, --strict: no file" test -e none.csv
 run 1 convert --to point damaged.csv -o damaged_point.csv
 shows err "damaged.csv:15: t turns back" "damaged.csv:16: this row is" "or before it in time: 2, the farthest by"
 check "the states of all rows" test "$(rows damaged_point.csv | cut -d, -f2-)" = "$(rows point.csv | cut -d, -f2-)"
+# the other clock comes from the rows alone, where they are too far apart by integration; a file with its clock keeps it
+scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "$normal" 100 0.05 >scene.yaml
+run 0 run scene.yaml --as both --tol 1e-15 -o both.csv
+awk -F, -v OFS=, '/^#/ { print; next } { print $1, $4, $5, $6, $7, $8, $9 }' both.csv >ball.csv
+for every in 1 200; do
+    for file in both ball; do awk -v n=$every '/^#/ || /^t/ || i++ % n == 0' $file.csv >$file.some; done
+    run 0 convert --quiet --to point ball.some -o point.csv
+    case $every in 1) done="2000 intervals by two-point Taylor quadrature, 0" ;; *) done="0 intervals by two-point Taylor quadrature, 10" ;; esac
+    shows -x point.csv "# s.from: the rows, $done by integration"
+    at_most "s of every $every. row (states of the reference: test_convert)" "$(difference point.csv both.some)" 1e-12
+done
+run 0 convert --quiet --to point both.csv -o kept.csv
+check_not "a clock that is there is not computed" grep -q '^# s.from' kept.csv
 echo "worst state, in parts of 4 max(1, 1/|2k|) ulp: $worst_state; with the clock: $worst_clock"
 finish

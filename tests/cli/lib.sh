@@ -143,6 +143,11 @@ has() {
     command -v "$1" >/dev/null || { skip "$2" "$1 is not installed"; return 1; }
 }
 
+# needs TOOL NAME: the tool is installed; if it is not, nothing of the script can be tried
+needs() {
+    command -v "$1" >/dev/null || impossible "$2" "$1 is not installed"
+}
+
 # interruptible NAME: SIGINT can reach a program started here; if it is ignored (as in a background job), NAME is
 # skipped
 interruptible() {

@@ -21,7 +21,7 @@ for option in --backend=ball --method=taylor --tol=1e-9 --as=ball --t-end=3 --st
 done
 
 # --- pictures; the script of gnuplot is kept in script.gp
-has gnuplot "pictures" || { finish && exit; }
+needs gnuplot "pictures"
 # block NAME: the rows of a table in the script
 block() { sed -n "/^\$$1 <</,/^EOD/p" script.gp | sed '1,2d;$d'; }
 mkdir script

@@ -7,9 +7,7 @@ scene -1 "1, 2, 5" "0.8, 0.1, -0.6" "0.6, 0, 0.8" 30 0.1 >scene.yaml
 # --- a build without three.js refuses
 if "$isoroll" view scene.yaml -o page.html 2>&1 | grep -q "built without three.js"; then
     refuses 2 "package libjs-three" view scene.yaml -o page.html
-    skip "pages" "isoroll was built without three.js"
-    finish
-    exit
+    impossible "pages" "isoroll was built without three.js"
 fi
 
 # --- a page of each kind of input, at most 3 MB
