@@ -13,7 +13,7 @@ round_states() {
 }
 
 # Each number is within 5/10^digits of itself. The map (18) makes that at most a few times larger: max J/min J is 2.1.
-for digits in 3 4 5; do
+for digits in 3 5; do
     for model in ball point; do
         case $model in ball) other=point ;; *) other=ball ;; esac
         what="$digits digits of a $model"

@@ -47,17 +47,6 @@ has t,$ball
 physical outside 3 "attitude: {}" >scene.yaml
 has t,$ball,$stands
 check "the quaternion at the start, unless given" test "$(rows out | head -n 1 | cut -d, -f8-11)" = 1,0,0,0
-physical outside 3 "$gravity" "attitude: {}" >scene.yaml
-run 0 run scene.yaml
-check "with gravity the file states an attitude in which axis 3 is up" awk '
-    $2 == "gravity.up:" { split($0, x, " "); for (i = 1; i <= 3; i++) u[i] = x[i + 2] }
-    $2 == "attitude.quaternion:" { split($0, x, " "); for (i = 0; i < 4; i++) q[i] = x[i + 3] }
-    END {
-        for (i = 1; i <= 3; i++) { j = i % 3 + 1; k = j % 3 + 1; b[i] = q[j] * u[k] - q[k] * u[j]; along += q[i] * u[i] }
-        square = q[0] ^ 2 - q[1] ^ 2 - q[2] ^ 2 - q[3] ^ 2
-        for (i = 1; i <= 3; i++) s[i] = square * u[i] + 2 * along * q[i] + 2 * q[0] * b[i]
-        exit !(s[1] ^ 2 + s[2] ^ 2 + (s[3] - 1) ^ 2 < 1e-30)
-    }' out
 physical outside 3 "clock: {}" >scene.yaml
 has t,tau,s,$ball
 physical outside 3 "$gravity" "reactions: {}" >scene.yaml

@@ -1,14 +1,7 @@
 #!/bin/sh
-# examples.sh ISOROLL - every scene in examples/ runs to its end, and its rows solve their model (each command:
-# every_command.sh; each table: written.sh; both models: compare.sh). What the examples with more files show.
+# examples.sh ISOROLL - what the examples with more files show. (That every command takes them, and that their rows solve
+# their model: every_command.sh; both models: compare.sh.)
 . "$(dirname "$0")/lib.sh"
-for file in "$source"/examples/*/scene.yaml; do
-    [ -f "$file" ] || continue
-    run 0 run "$file" -o trajectory.csv
-    check "$file: rows" test "$(rows trajectory.csv | wc -l)" -ge 2
-    head -n 40 trajectory.csv | grep -q '^t.*n3\|^s.*gamma3' && run 0 check --max 1e-9 trajectory.csv
-done
-
 # sections: chaos and order
 folder=$source/examples/16_sections
 run 0 section "$folder/scene.yaml" --starts 30 --crossings 100 -o wild.csv
