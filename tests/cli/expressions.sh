@@ -176,10 +176,6 @@ sed 's/ + 0.01)/)/' smooth.csv >corner.csv
 refuses 3 "column 1 of the text: this is the root of an even power" check corner.csv
 scene 'torque: {M: ["0", "0", "sqrt(omega1^2)"]}' >corner.yaml
 refuses 3 "corner.yaml:5:27: M3: this is the root of an even power" run corner.yaml
-for U in "sqrt(n1^4)" "sqrt(n1^2 + n2^2)" "sqrt(n1^2 + 1e-6)" "(n1^2 + 1)^1.5" "sqrt(1 + n1)" "sqrt(1.5 - n1*n2)"; do
-    scene "potential: {U: \"$U\"}" >smooth.yaml
-    run 0 run smooth.yaml --t-end 1 -o smooth.csv
-done
 
 # --- integrals that the scene claims: the energy of the valley, and what is none
 k=-1

@@ -3,13 +3,6 @@
 # the energy of every row and shares: test_crossings_levels, test_levels_run.
 . "$(dirname "$0")/lib.sh"
 
-# near NAME A B BOUND: |A - B| <= BOUND (1 + |B|)
-near() {
-    checks=$((checks + 1))
-    awk -v a="$2" -v b="$3" -v e="$4" 'BEGIN { d = a - b; if (d < 0) d = -d; m = b < 0 ? -b : b
-        exit !(d <= e * (1 + m)) }' || fail "$1: $2, not $3 to $4"
-}
-
 # --- a point, and a ball with its level
 cat >off.yaml <<END
 point: {k: 0.5, J: [1.4, 2.1, 3], eps: 1}

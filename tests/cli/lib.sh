@@ -270,6 +270,11 @@ at_most() {
         fail "$1: $2 is above $3"
 }
 
+# near NAME VALUE WANTED BOUND: VALUE is a number, and WANTED within BOUND
+near() {
+    at_most "$1: $2 for $3" "$(awk -v a="$2" -v b="$3" 'BEGIN { d = a - b; print (a == "" ? "none" : d < 0 ? -d : d) }')" "$4"
+}
+
 # stand_in: makes bin/gnuplot, which keeps its input in `script` and draws nothing
 stand_in() {
     mkdir bin && printf '#!/bin/sh\ncat >"%s/script"\necho "<svg></svg>"\n' "$work" >bin/gnuplot && chmod +x bin/gnuplot
@@ -295,6 +300,12 @@ rows() {
 # columns FILE: its header line
 columns() {
     grep -v '^#' "$1" | head -n 1
+}
+
+# cell FILE ROW NAME: a number of a table; its rows are counted from 0, from the last one with -1, -2
+cell() {
+    grep -v '^#' "$1" | awk -F, -v row="$2" -v name="$3" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) at = i; next }
+        { line[NR - 2] = at ? $at : "no column " name } END { print line[row < 0 ? NR - 1 + row : row] }'
 }
 
 # difference A B [UNIT]: the largest difference of the common columns of two trajectories, in units of UNIT. It is
@@ -342,24 +353,6 @@ scene() {
 reduced: {k: $1, J: [$2]}
 initial: {normal: [$4], angular_velocity: [$3]}
 time: {end: $5, step: $6}
-END
-}
-
-# sweep_of_all: a sweep of scene.yaml, two points, with all quantities until a time
-sweep_of_all() {
-    cat <<'END'
-scene: scene.yaml
-vary:
-  k: [0.5, -0.75]
-  start: [[0.4, 0.3]]
-measure:
-  state: {as: both}
-  frequencies: {}
-  splitting: {digits: double}
-  rotations: {}
-  backends: {}
-  error: {tolerance: 1.0e-10}
-until: {time: 400}
 END
 }
 

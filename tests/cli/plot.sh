@@ -1,6 +1,6 @@
 #!/bin/sh
-# plot.sh ISOROLL - pictures of trajectories: the path in space, where contact is lost, any two columns, ticks (frames
-# and marks: test_picture_space; tables of studies: tables.sh). gnuplot is replaced by a script that keeps its
+# plot.sh ISOROLL - pictures of trajectories: the path in space, where contact is lost, any two columns, ticks (what is
+# drawn: test_picture_space, test_picture_paths; tables of studies: tables.sh). gnuplot is replaced by a script that keeps its
 # input; the last part takes the real one.
 . "$(dirname "$0")/lib.sh"
 stand_in

@@ -9,10 +9,6 @@ if grep -q 'this build has no Arb' err; then
     impossible "proofs" "this build has no Arb"
 fi
 
-# within LOW HIGH X: X is between them
-within() {
-    awk -v low="$1" -v high="$2" -v x="$3" 'BEGIN { exit !(low != "" && low <= x && x <= high) }'
-}
 # --- words
 quietly prove half.yaml --digits 10
 shows out '^k = 1/2, J = 7/5, 21/10, 3$' 'on the section n_3 = 0:' '^m = 0.00614708829.* +/- ' \
@@ -32,11 +28,11 @@ check "section" test "$(value section)" = 3
 check "digits" test "$(value digits)" = 10
 grep -A 2 '"m": {' out | head -n 3 >m
 low=$(sed -n 's/.*"low": \([^,]*\).*/\1/p' m) high=$(sed -n 's/.*"high": \([^,]*\).*/\1/p' m)
-check "it is narrow" within 0 1e-9 "$(awk -v a="$low" -v b="$high" 'BEGIN { printf "%.3e", b - a }')"
+check "it is narrow" between "$(awk -v a="$low" -v b="$high" 'BEGIN { printf "%.3e", b - a }')" 0 1e-9
 run 0 splitting third.yaml --digits double
 check "other commands round it" grep -q '0.333333333333333' out
 m=$(awk '/^ *0.333/ { print $4 }' out)
-check "the splitting measures this m" within "$low" "$high" "$m"
+check "the splitting measures this m" between "$m" "$low" "$high"
 run 0 prove half.yaml --digits 10 --k 1/3 --json
 check "--k has the same" test "$(value exact)" = 1/3
 run 0 prove half.yaml --digits 4 --k 0.999999999999999 --json

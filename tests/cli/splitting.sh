@@ -3,19 +3,6 @@
 # table of a document. Values of other programs and of more digits: test_splitting_k, test_splitting_levels.
 . "$(dirname "$0")/lib.sh"
 
-# near NAME VALUE WANTED BOUND
-near() {
-    checks=$((checks + 1))
-    awk -v a="$2" -v b="$3" -v bound="$4" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(a != "" && d <= bound) }' ||
-        fail "$1: $2 is not $3"
-}
-
-# column ROW NAME: a number of a CSV
-column() {
-    grep -v '^#' split.csv | awk -F, -v row="$1" -v name="$2" \
-        'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) at = i } NR == row + 1 { print $at }'
-}
-
 scene 0.5 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >half.yaml
 quietly splitting half.yaml
 check "one row" grep -q '^ *0.5 .* 6.14708829830.*e-03 ' out
@@ -75,12 +62,12 @@ fi
 # --- ranges through 0 and through 1
 run 1 splitting half.yaml --digits double --k=-0.1:0.1:0.1 -o split.csv
 says "1 of 3 values of k failed: k = 0"
-near "k = -0.1, x" "$(column 1 k)" -0.1 0
-near "k = 0.1" "$(column 2 k)" 0.1 0
+near "k = -0.1, x" "$(cell split.csv 0 k)" -0.1 0
+near "k = 0.1" "$(cell split.csv 1 k)" 0.1 0
 check "0 is told" grep -q '^ *0  k = 0' out
 quietly splitting half.yaml --digits double --k=0.95:1.05:0.05 -o split.csv
-check "the sign changes" awk -v a="$(column 1 m)" -v b="$(column 3 m)" 'BEGIN { exit !(a > 0 && b < 0) }'
-near "0 between them" "$(column 2 m)" 0 "$(column 2 error)"
+check "the sign changes" awk -v a="$(cell split.csv 0 m)" -v b="$(cell split.csv 2 m)" 'BEGIN { exit !(a > 0 && b < 0) }'
+near "0 between them" "$(cell split.csv 1 m)" 0 "$(cell split.csv 1 error)"
 check_not "k = 1 is no further zero" grep -q 'm = 0 at' out
 run 0 splitting half.yaml --digits double --k=-1.05:-0.95:0.1
 check_not "nor is -1, between two values" grep -q 'm = 0 at' out
@@ -93,13 +80,13 @@ time: {end: 1, step: 1}
 END
 run 0 splitting level.yaml --digits double -o split.csv
 check "the scene's level" grep -q "^level of the point, (H/eps) J2^(1/k): -0.19928916282" out
-near "in the CSV" "$(column 1 level)" -0.199289162827174 1e-12
+near "in the CSV" "$(cell split.csv 0 level)" -0.199289162827174 1e-12
 run 0 splitting half.yaml --digits double --level=-0.2:0.2:0.2 -o split.csv
 check "as many levels" test "$(rows split.csv | wc -l)" -eq 3
-check "0 is 0" test "$(column 2 level)" = 0
-near "m at level 0" "$(column 2 m)" 0.00614708829830125 1e-15
-near "m at level -0.2, by 128 bits" "$(column 1 m)" 0.016487284010730307 1e-16
-check "m falls" awk -v a="$(column 1 m)" -v b="$(column 2 m)" -v c="$(column 3 m)" 'BEGIN { exit !(a > b && b > c && c > 0) }'
+check "0 is 0" test "$(cell split.csv 1 level)" = 0
+near "m at level 0" "$(cell split.csv 1 m)" 0.00614708829830125 1e-15
+near "m at level -0.2, by 128 bits" "$(cell split.csv 0 m)" 0.016487284010730307 1e-16
+check "m falls" awk -v a="$(cell split.csv 0 m)" -v b="$(cell split.csv 1 m)" -v c="$(cell split.csv 2 m)" 'BEGIN { exit !(a > b && b > c && c > 0) }'
 run 0 splitting half.yaml --digits double --k 1 --level 0.3,-0.2 --json
 check "k = 1: no m on any level" test "$(grep -c '"from_zero": false' out)" -eq 2
 check "JSON: the level" grep -q '"level": 0.29999999999999999' out

@@ -3,7 +3,12 @@
 . "$(dirname "$0")/lib.sh"
 
 scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >scene.yaml
-sweep_of_all >each.yaml
+cat >each.yaml <<'END'
+scene: scene.yaml
+vary: {k: [0.5, -0.75], start: [[0.4, 0.3]]}
+measure: {state: {as: both}, frequencies: {}, splitting: {digits: double}, rotations: {}, backends: {}, error: {tolerance: 1.0e-10}}
+until: {time: 400}
+END
 printf '{scene: scene.yaml, vary: {J1: [0.8, 1, 1.3], k: {from: -1.45, to: 0.8, count: 10}}, measure: {rotations: {}}}' \
     >flow.yaml
 

@@ -42,7 +42,7 @@ refuses 2 "--as 'auto': expected ball, point or both" run scene.yaml --as auto
 refuses 2 "nothing is called 'bogus'; valid are systems, backends, effects" list bogus
 
 # --- a word that is none of a list: the nearest one, as for keys of YAML
-near() { # WORD ARGUMENT...: usage, or bad input, with the nearest word
+nearest() { # WORD ARGUMENT...: usage, or bad input, with the nearest word
     word=$1
     shift
     "$isoroll" "$@" >out 2>err
@@ -51,31 +51,31 @@ near() { # WORD ARGUMENT...: usage, or bad input, with the nearest word
     says "did you mean '$word'?"
     check "isoroll $last: nothing on stdout" test ! -s out
 }
-near periodic perodic scene.yaml
-near run help runn
-near --plot frequencies --plott a.svg scene.yaml
-near --t-end run --tend 3 scene.yaml
-near rk8pd run --method rk8pp scene.yaml
-near ball run --backend bal scene.yaml
-near both run --as bot scene.yaml
-near point convert --to poin ball.csv
-near both section --model boht scene.yaml
-near quad splitting --digits qad scene.yaml
-near omega1 section --event omga1=0.5 scene.yaml
-near omega1 plot ball.csv --columns t,omga1 -o a.svg
-near omega1 check ball.csv --columns t,omga1,omega2,omega3,n1,n2,n3
-near methods list metods
-near frequencies manual frequences
+nearest periodic perodic scene.yaml
+nearest run help runn
+nearest --plot frequencies --plott a.svg scene.yaml
+nearest --t-end run --tend 3 scene.yaml
+nearest rk8pd run --method rk8pp scene.yaml
+nearest ball run --backend bal scene.yaml
+nearest both run --as bot scene.yaml
+nearest point convert --to poin ball.csv
+nearest both section --model boht scene.yaml
+nearest quad splitting --digits qad scene.yaml
+nearest omega1 section --event omga1=0.5 scene.yaml
+nearest omega1 plot ball.csv --columns t,omga1 -o a.svg
+nearest omega1 check ball.csv --columns t,omga1,omega2,omega3,n1,n2,n3
+nearest methods list metods
+nearest frequencies manual frequences
 sed 's/^# effects.*//; s/^# k:/# effects: gravty\n# k:/' ball.csv >wind.csv
-near gravity check wind.csv
+nearest gravity check wind.csv
 for wrong in "output: {as: bal}#ball" "output: {columns: [t, omga1]}#omega1" "solver: {backend: pont}#point" \
     "solver: {method: tylor}#taylor" "effects: {gravty: {}}#gravity" "efects: {}#effects"; do
     { cat scene.yaml && echo "${wrong%#*}"; } >wrong.yaml
-    near "${wrong#*#}" run wrong.yaml
+    nearest "${wrong#*#}" run wrong.yaml
 done
 for wrong in "measure: {caos: {}}#chaos" "measure: {chaos: {stats: 3}}#starts" "measur: {}#measure"; do
     printf 'scene: scene.yaml\nvary: {k: [0.5, 1]}\nuntil: {turns: 3}\n%s\n' "${wrong%#*}" >wrong.yaml
-    near "${wrong#*#}" sweep wrong.yaml
+    nearest "${wrong#*#}" sweep wrong.yaml
 done
 
 # --- a file of another kind: what it is, and which commands take it
