@@ -28,7 +28,7 @@ run 0 chaos chaotic.yaml --model point
 check "one model" test "$(grep -c '^  \(ball\|point\) ' out)" -eq 1
 refuses 3 "take n_3 = 0, which is global" chaos chaotic.yaml --axis 2
 
-# --- JSON: the exponents go together with the means of the clocks, and both models agree
+# --- JSON (exponents, MEGNO, GALI: test_chaos, test_indicators)
 run 0 chaos chaotic.yaml --json
 check "at the verdict no error is known" test "$(grep -c '"t": null' out)" -eq 2
 run 0 chaos chaotic.yaml
@@ -40,19 +40,11 @@ check "JSON" is_json
 check "exponent_turns" test "$(value exponent_turns)" = 1000
 check "verdicts" test "$(grep -c '"verdict": "chaotic"' out)" -eq 3
 check "turns" between "$(value turns)" 90 3000
-check "exponent per t" between "$(value t 1)" 0.03 0.12
-check "its error" between "$(value t 2)" 0.0005 0.03
-check "by the point" between "$(value t 3)" 0.03 0.12
-check "GALI_2" between "$(value gali2)" 0 1e-6
 check_not "no share" grep -q '"share"' out
-run 0 chaos regular.yaml --json
-check "MEGNO of a regular orbit, by the point" between "$(value megno 2)" 1.98 2.02
 
 # --- shares: other starts for other seeds (which shares, whatever the threads: test_chaos)
 run 0 chaos chaotic.yaml --starts 40 --turns 600 --json
-check "a chaotic part" between "$(value chaotic)" 0.35 0.8
 check "asked and followed" test "$(value starts)/$(value followed)" = 40/40
-check "its error" between "$(value error)" 0.05 0.25
 run 0 chaos chaotic.yaml --starts 10 --turns 150 --csv starts.csv
 check "CSV: a row for each" test "$(grep -c '^[0-9]' starts.csv)" -eq 11
 run 0 chaos chaotic.yaml --starts 10 --turns 150 --csv - --seed 1

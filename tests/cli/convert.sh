@@ -32,20 +32,12 @@ round_trip() {
 }
 
 # (each k and kind of times: test_convert; units of any size: test_hard_units)
-for k in 0.5 -0.4; do
-    scene "$k" "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "$normal" 5 0.25 >scene.yaml
-    round_trip "k = $k" "$k" scene.yaml ball
-    round_trip "k = $k from the point" "$k" scene.yaml point
-    echo "effects: {field: {quadratic: [[1, 0.2, 0], [0.2, 2, 0], [0, 0, 0]]}, level: {c: 0.3}}" >>scene.yaml
-    round_trip "k = $k, a field on a level" "$k" scene.yaml ball
-    round_trip "k = $k, a field on a level, from the point" "$k" scene.yaml point
-done
+scene 0.5 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "$normal" 5 0.25 >scene.yaml
+echo "effects: {field: {quadratic: [[1, 0.2, 0], [0.2, 2, 0], [0, 0, 0]]}, level: {c: 0.3}}" >>scene.yaml
+round_trip "a field on a level" 0.5 scene.yaml ball
+round_trip "a field on a level, from the point" 0.5 scene.yaml point
 scene 0.6 "1e-3, 1, 1e3" "0.9, -0.3, -0.225" "$normal" 5 0.25 >scene.yaml
 round_trip "J to 1e6" 0.6 scene.yaml ball 1e-8 # an ulp of s is 1e-10 of t where ds/dt is small, and s has some
-for power in -150 150; do
-    scene -0.7 "1.4, 2.1, 3.0" "0.9e$power, -0.3e$power, -0.225e$power" "$normal" "5e$((-power))" "1e$((-power))" >scene.yaml
-    round_trip "omega in 1e$power" -0.7 scene.yaml ball
-done
 
 # what `run` says of the other model is what `convert` makes of this one
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "$normal" 5 0.25 >scene.yaml

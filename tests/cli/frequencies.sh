@@ -86,8 +86,8 @@ if has gnuplot "--plot"; then
     run 5 frequencies estimate.yaml --turns 50 --plot absent/a.svg
 fi
 
-# On a level: the ball with the potential of the level and its point have the same frequencies in every clock. The rate
-# of crossings of a section is a small combination of them.
+# On a level: the ball with the potential of the level and its point have the same frequencies in every clock. (Those of
+# sections: test_frequencies.)
 for k in $(length 0.5 "0.5 -0.6"); do
     cat >ball_level.yaml <<END
 reduced: {k: $k, J: [1.4, 2.1, 3.0]}
@@ -108,14 +108,6 @@ END
     at_most "k = $k: ball and point on a level" "$(paste ball.frequencies point.frequencies | awk '
         { for (i = 1; i < 4; i++) { d = $i / $(i + 3) - 1; if (d < 0) d = -d; if (d > most) most = d } }
         END { print most + 0 }')" 1e-9
-    run 0 section ball_level.yaml --model ball --crossings 1000 -o crossings.csv
-    rate=$(rows crossings.csv | awk -F, 'NR == 1 { first = $3 } { last = $3 }
-        END { printf "%.17g", 2 * 3.14159265358979323846 * (NR - 1) / (last - first) }')
-    at_most "k = $k: crossings turn with the frequencies" "$(awk -v rate="$rate" '{ f[NR] = $1 }
-        END { least = 1
-              for (m = -3; m <= 3; m++) for (n = -3; n <= 3; n++) {
-                  d = (m * f[1] + n * f[2]) / rate - 1; if (d < 0) d = -d; if (d < least) least = d }
-              print least }' ball.frequencies)" 1e-3
 done
 
 # --- an interruption says so

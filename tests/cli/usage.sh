@@ -131,11 +131,13 @@ done
 check "no line of help is longer than 80 characters" test -z "$(cat help.* | awk 'length > 80')"
 cat help.* | sed -n 's/^  --\([a-zA-Z-]*\) .*/\1/p' | sort -u >all_options
 check "20 options or so" test "$(wc -l <all_options)" -ge 17
-newline='
+n=0 newline='
 '
 for command in $commands; do
-    text=$(cat "help.$command")
+    text=$(cat "help.$command") n=$((n + 1))
     while read -r option; do
+        n=$((n + 1))
+        [ $((n % $(length 4 1))) -eq 0 ] || continue # each option with some of the commands
         checks=$((checks + 1))
         said=$("$isoroll" "$command" "--$option" 2>&1 >/dev/null </dev/null)
         case $text:$said in
