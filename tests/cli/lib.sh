@@ -249,6 +249,16 @@ shows() {
     for pattern; do check "isoroll ${last-}: $shown has '$pattern'" grep "$how" -e "$pattern" "$shown"; done
 }
 
+# prints [-OPTIONS] PATTERN ARGUMENT...: isoroll ends with 0, and its output has a line for this pattern
+prints() {
+    asked=
+    case $1 in -[xFE]*) asked=$1 && shift ;; esac
+    wished=$1
+    shift
+    run 0 "$@"
+    shows ${asked:+"$asked"} out "$wished"
+}
+
 # interrupted WORDS "CONDITION" ARGUMENT...: isoroll gets Ctrl-C when it is so, ends with 1 and says these words
 interrupted() {
     said=$1

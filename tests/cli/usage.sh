@@ -108,8 +108,7 @@ refuses 3 ":1:1" run /dev/null
 refuses 2 "convert: 'scene.yaml' would overwrite what is read" convert --to point --scene scene.yaml ball.csv -o scene.yaml
 run 0 run scene.yaml --step 5 --step 2 --verbose --verbose --t-end=4
 check "the last of repeated options counts" test "$(rows out | cut -d, -f1 | tr '\n' ' ')" = "0 2 4 "
-run 0 run --back point -- scene.yaml
-check "a beginning that fits one option" grep -qx '# backend: point' out
+prints -x '# backend: point' run --back point -- scene.yaml
 cp scene.yaml ./-x.yaml
 run 0 run -- -x.yaml
 
