@@ -71,7 +71,7 @@ check "the same bytes again" cmp -s half.cert again.cert
 # --- orbits found another way lie inside each step; those of a ball with another J, by 1e-30, do not
 find_python mpmath
 if [ -n "$python" ]; then
-    halves=$(length 3 10)
+    halves=$(length 2 10)
     run 0 prove half.yaml --digits 20 -o fine.cert
     "$python" "$source/tests/cli/prove_orbits.py" fine.cert "$halves" 0 >out 2>err || fail "prove_orbits.py"
     check "numbers were compared" test "$(cut -d ' ' -f 1 out)" -ge $((halves * 50))
@@ -80,7 +80,7 @@ if [ -n "$python" ]; then
     check "those of another ball do not" test "$(cut -d ' ' -f 2 out)" -ge 20
 
     # --- another program verifies the certificate of an interval, and refuses false ones (certificate.sh has more)
-    "$python" -B "$source/tests/prove/changes.py" interval.cert "$(length 5 8)" >out 2>err || fail "changes.py"
+    "$python" -B "$source/tests/prove/changes.py" interval.cert "$(length 3 8)" >out 2>err || fail "changes.py"
     check "false copies are refused" grep -q ', 0 not refused$' out
 else
     skip "orbits inside enclosures, and the certificate of an interval" "mpmath is not installed"

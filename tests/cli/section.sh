@@ -155,19 +155,19 @@ refuses 2 "crossings '1e300'" section wild.yaml --crossings 1e300
 # --- pictures
 if has gnuplot "--plot"; then
     quietly section wild.yaml --starts 30 --crossings 100 -o wild.csv --plot wild.svg --quiet
-    check "a picture of both: chaotic orbits" grep -q ">chaotic<" wild.svg
-    run 0 section tame.yaml --starts 30 --crossings 100 -o tame.csv --plot tame.svg --quiet
+    shows wild.svg ">chaotic<" "in the units of the scene"
+    run 0 section tame.yaml --starts 20 --crossings 200 -o tame.csv --plot tame.svg --quiet
     check_not "k = -1: none is chaotic" grep -q ">chaotic<" tame.svg
-    check "its axes" grep -q "in the units of the scene" wild.svg
+    shows tame.svg "<image" ">rotation number: turns from crossing to crossing<"
     run 5 section tame.yaml --crossings 5 -o kept.csv --plot absent/a.svg
     check "rows are kept without the picture" test "$(rows kept.csv | wc -l)" -eq 5
-
-    run 0 section tame.yaml --starts 20 --crossings 200 -o tame.csv --plot look.svg --quiet
-    shows look.svg "<image" ">rotation number: turns from crossing to crossing<"
+    stand_in
+    PATH=$work/bin:$PATH
     run 0 plot tame.csv -o look.svg --script look.gp --window=0.2:0.9,-0.1:0.5
     run 0 plot tame.csv -o look.svg --script whole.gp --window=-3.1416:3.1416,-1:1
     check "a pi in few digits" grep -q "^point_x0 = -3.14159265358979" whole.gp
     check "the axes of a window" grep -q "^point_x1 = 0.[89]" look.gp
+    PATH=${PATH#*:}
 
     # periodic orbits and a splitting over it (which spots, images, windows: test_section_picture)
     run 0 section wild.yaml --starts 10 --crossings 60 -o wild.csv --quiet
