@@ -138,7 +138,7 @@ sed 's/crossings: 9/threads: 2/' studies.yaml >bad.yaml
 refuses 3 "bad.yaml:4:13: 'threads' changes no number" sweep bad.yaml
 sed 's/period: 2/steps: 2/' studies.yaml >bad.yaml
 refuses 3 "bad.yaml:5:3: periodic: periodic: --steps goes with --chart" sweep bad.yaml
-sed 's/all: false/chart: J2/;s/period: 2, //' studies.yaml >bad.yaml
+sed 's/all: false/chart: J2, steps: 2/;s/period: 2, //' studies.yaml >bad.yaml
 run 1 sweep bad.yaml -o chart.csv
 says "with these options it has no numbers of one scene"
 
