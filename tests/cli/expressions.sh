@@ -204,12 +204,9 @@ run 0 view ball.csv -o v.html
 scene 'potential: {U: "c*n1^2", parameters: {c: 0.3}}' >free.yaml
 run 0 run free.yaml -o a.csv
 at_most "the same rows without them" "$(difference a.csv ball.csv)" 0
-sed 's/F: "[^"]*"/F: "n4"/' claims.yaml >wrong.yaml
-refuses 3 "wrong.yaml:6:19: F: unknown name 'n4'" run wrong.yaml
-sed 's/F: "[^"]*"/F: "3*c"/' claims.yaml >wrong.yaml
-refuses 3 "wrong.yaml:6:18: F is the same number at every state" run wrong.yaml
-sed 's/F: "[^"]*"/F4: "n1"/' claims.yaml >wrong.yaml
-refuses 3 "wrong.yaml:6:15: unknown key 'F4'" run wrong.yaml
+refuses_changed claims.yaml 's/F: "[^"]*"/F: "n4"/' "bad.csv:6:19: F: unknown name 'n4'" run
+refuses_changed claims.yaml 's/F: "[^"]*"/F: "3*c"/' "bad.csv:6:18: F is the same number at every state" run
+refuses_changed claims.yaml 's/F: "[^"]*"/F4: "n1"/' "bad.csv:6:15: unknown key 'F4'" run
 sed 's/F: "[^"]*"/F: "log(-1 - n1)"/' claims.yaml >never.yaml
 run 0 run never.yaml -o never.csv
 run 1 check --max 1e-9 never.csv
@@ -231,6 +228,5 @@ measure: {state: {}}
 END
 run 0 sweep sweep.yaml -o sweep.csv
 check "three points" test "$(rows sweep.csv | wc -l)" -eq 3
-sed 's/potential.c/potential.d/' sweep.yaml >wrong.yaml
-refuses 3 "did you mean 'potential.c'" sweep wrong.yaml
+refuses_changed sweep.yaml 's/potential.c/potential.d/' "did you mean 'potential.c'" sweep
 finish

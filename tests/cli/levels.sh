@@ -46,6 +46,5 @@ sed 's/off.yaml/ball.yaml/; s/as: point/as: both/' levels.yaml >balls.yaml
 run 1 sweep balls.yaml -o balls.csv
 check "the ball's points" test "$(rows balls.csv | wc -l)" -eq 4
 sed '/^effects/d' ball.yaml >free.yaml
-sed 's/off.yaml/free.yaml/' levels.yaml >free_sweep.yaml
-refuses 3 "'level' needs 'effects: {level: {c: 1}}'" sweep free_sweep.yaml
+refuses_changed levels.yaml 's/off.yaml/free.yaml/' "'level' needs 'effects: {level: {c: 1}}'" sweep
 finish

@@ -40,9 +40,7 @@ for kind in csv $other; do
         check "$kind, $threads threads" cmp "all.$kind" "again.$kind"
         rm "again.$kind"
     done
-    for shard in 1 2 3 4 5; do
-        "$isoroll" sweep grid.yaml -o "part.$shard.$kind" --shard $shard/5 2>err
-    done
+    for shard in 1 2 3 4 5; do "$isoroll" sweep grid.yaml -o "part.$shard.$kind" --shard $shard/5 2>err; done
     run 1 sweep --merge part.?.$kind -o "merged.$kind"
     says "6 points failed; the first is point 12: scene.yaml:1:14: k = 0"
     check "$kind: five shards" cmp "all.$kind" "merged.$kind"
@@ -134,8 +132,7 @@ END
 run 0 sweep studies.yaml -o studies.csv # its numbers: test_sweep
 sed 's/crossings/crosings/' studies.yaml >bad.yaml
 refuses 3 "bad.yaml:4:13: section has no option 'crosings'; did you mean 'crossings'?" sweep bad.yaml
-sed 's/crossings: 9/threads: 2/' studies.yaml >bad.yaml
-refuses 3 "bad.yaml:4:13: 'threads' changes no number" sweep bad.yaml
+refuses_changed studies.yaml 's/crossings: 9/threads: 2/' "bad.csv:4:13: 'threads' changes no number" sweep
 sed 's/period: 2/steps: 2/' studies.yaml >bad.yaml
 refuses 3 "bad.yaml:5:3: periodic: periodic: --steps goes with --chart" sweep bad.yaml
 sed 's/all: false/chart: J2, steps: 2/;s/period: 2, //' studies.yaml >bad.yaml

@@ -18,8 +18,7 @@ shows out '^  2 points in 2 chunks of 1; [0-9]* columns' '^  start: 1 value'
 check "each quantity" test "$(grep -c ' a point, up to ' out)" -eq 6
 check "time" grep -q 'of processor time; here, with [0-9]* threads, about ' out
 prints '^  30 points' explain flow.yaml
-sed 's/to: 0.8/to: 0.8x/' flow.yaml >wrong.yaml
-refuses 3 "wrong.yaml:1:" explain wrong.yaml
+refuses_changed flow.yaml 's/to: 0.8/to: 0.8x/' "bad.csv:1:" explain
 for option in --backend=ball --method=taylor --tol=1e-9 --as=ball --t-end=3 --step=0.5; do
     refuses 2 "options are for scenes" explain flow.yaml "$option"
 done

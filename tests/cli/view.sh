@@ -112,18 +112,14 @@ head -n 12 ball.csv >a.csv
 refuses 3 "at least two rows" view a.csv -o a.html
 { head -n 14 ball.csv; sed -n 13p ball.csv; } >a.csv
 refuses 3 "row 4: its t = 0.1 is out of order" view a.csv -o a.html
-sed 's/^0.5,[^,]*,/0.5,nan,/' ball.csv >a.csv
-refuses 3 "expected a finite number for omega1" view a.csv -o a.html
+refuses_changed ball.csv 's/^0.5,[^,]*,/0.5,nan,/' "expected a finite number for omega1" view -o a.html
 refuses 5 "absent/page.html" view scene.yaml -o absent/page.html
 check_not "no page is left" test -e a.htm
-sed 's/,l,x$/,l,y/' section.csv >b.csv
-refuses 3 "there are no columns 'l' and 'x'" view b.csv -o b.html
-sed '/^# eps/d; /^# h:/d' section.csv >b.csv
-refuses 3 "'isoroll section --as ball'" view b.csv -o b.html
-sed '20s/,.*/,x/' section.csv >b.csv
-refuses 3 "b.csv:20:" view b.csv -o b.html
-sed "20s/^[0-9]*/3.5/" section.csv >b.csv
-refuses 3 "b.csv: row 3: expected a whole number of 0 or more for orbit, found 3.5" view b.csv -o b.html
+refuses_changed section.csv 's/,l,x$/,l,y/' "there are no columns 'l' and 'x'" view -o b.html
+refuses_changed section.csv '/^# eps/d; /^# h:/d' "'isoroll section --as ball'" view -o b.html
+refuses_changed section.csv '20s/,.*/,x/' "bad.csv:20:" view -o b.html
+refuses_changed section.csv '20s/^[0-9]*/3.5/' "bad.csv: row 3: expected a whole number of 0 or more for orbit, found 3.5" \
+    view -o b.html
 check_not "no page of bad input" test -e b.html
 
 if "$isoroll" section scene.yaml --starts 30 --crossings 300 --quiet -o section.h5 2>/dev/null; then
