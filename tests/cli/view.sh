@@ -42,11 +42,13 @@ fi
 run 0 view section.csv -o section.html
 check "a section" grep -q '"kind":"section"' section.html
 at_most "a page of a section" "$(bytes section.html)" 3000000
-awk -F, '/^#/ || !/^[0-9]/ { print; next } { row = $0; sub(/^[^,]*/, "", row); rows[n++] = row }
-    END { for (i = 0; i < 10010; i++) printf "%.0f%s\n", i + 9e15, rows[i % n] }' section.csv >orbits.csv
-run 0 view orbits.csv -o orbits.html
-at_most "a page of 10010 orbits of one crossing" "$(bytes orbits.html)" 3000000
-check "the page says how many orbits it shows" grep -q "The section shows the first 10000 of 10010 orbits." orbits.html
+if [ "$(length short full)" = full ]; then # 100 s: 10 ms for each of the 10000 that it shows
+    awk -F, '/^#/ || !/^[0-9]/ { print; next } { row = $0; sub(/^[^,]*/, "", row); rows[n++] = row }
+        END { for (i = 0; i < 10010; i++) printf "%.0f%s\n", i + 9e15, rows[i % n] }' section.csv >orbits.csv
+    run 0 view orbits.csv -o orbits.html
+    at_most "a page of 10010 orbits of one crossing" "$(bytes orbits.html)" 3000000
+    check "the page says how many orbits it shows" grep -q "The section shows the first 10000 of 10010 orbits." orbits.html
+fi
 for file in "$source"/examples/*/scene.yaml; do
     run 0 view "$file" -o example.html
     at_most "a page of $file" "$(bytes example.html)" 3000000
