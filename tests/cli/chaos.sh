@@ -9,53 +9,37 @@ scene -1 "1.4, 2.1, 3" "$spin" "$normal" 10 0.5 >regular.yaml
 # --- an additional integral excludes chaos, even where deviations grow by 1e5 next to a separatrix
 printf '%s\n' 'reduced: {k: -1, J: [1.4, 2.1, 3.0]}' 'time: {end: 1, step: 1}' \
     'initial: {normal: [0.8, 0, 0.6], angular_velocity: [1.0e-5, 1, 1.0e-5], project: true}' >near.yaml
-run 0 chaos near.yaml
-check "the integral" grep -q "F_shell is an additional integral: no orbit is chaotic" out
+prints "F_shell is an additional integral: no orbit is chaotic" chaos near.yaml
 check "never chaotic" sh -c '! grep -q "orbit: chaotic" out'
-run 0 chaos near.yaml --json
-check "the integral in JSON" grep -q '"integral": "F_shell"' out
+prints '"integral": "F_shell"' chaos near.yaml --json
 
 # --- one orbit
-run 0 chaos chaotic.yaml
-silent
+quietly chaos chaotic.yaml
 check "chaotic" grep -q '^this orbit: chaotic$' out
 check "by both models" test "$(grep -c '^  \(ball\|point\) *chaotic ' out)" -eq 2
 check "the section" grep -q 'section n_3 = 0' out
-run 0 chaos regular.yaml
-silent
+quietly chaos regular.yaml
 check "regular" grep -q '^this orbit: regular$' out
-run 0 chaos regular.yaml --turns 50
-check "50 turns do not decide" grep -q '^this orbit: undecided$' out
+prints '^this orbit: undecided$' chaos regular.yaml --turns 50
 run 0 chaos chaotic.yaml --model point
 check "one model" test "$(grep -c '^  \(ball\|point\) ' out)" -eq 1
 refuses 3 "take n_3 = 0, which is global" chaos chaotic.yaml --axis 2
 
-# --- JSON: the exponents go together with the means of the clocks, and both models agree
+# --- JSON (exponents, MEGNO, GALI: test_chaos, test_indicators)
 run 0 chaos chaotic.yaml --json
 check "at the verdict no error is known" test "$(grep -c '"t": null' out)" -eq 2
-run 0 chaos chaotic.yaml
-check "so it says" grep -q 'too short to know this error; --exponent-turns' out
-run 0 chaos chaotic.yaml --exponent-turns 1000
-check "from how many turns" grep -q 'the exponents are from 1000 turns' out
-run 0 chaos chaotic.yaml --exponent-turns 1000 --json
-silent
+prints 'too short to know this error; --exponent-turns' chaos chaotic.yaml
+prints 'the exponents are from 1000 turns' chaos chaotic.yaml --exponent-turns 1000
+quietly chaos chaotic.yaml --exponent-turns 1000 --json
 check "JSON" is_json
 check "exponent_turns" test "$(value exponent_turns)" = 1000
 check "verdicts" test "$(grep -c '"verdict": "chaotic"' out)" -eq 3
 check "turns" between "$(value turns)" 90 3000
-check "exponent per t" between "$(value t 1)" 0.03 0.12
-check "its error" between "$(value t 2)" 0.0005 0.03
-check "by the point" between "$(value t 3)" 0.03 0.12
-check "GALI_2" between "$(value gali2)" 0 1e-6
 check_not "no share" grep -q '"share"' out
-run 0 chaos regular.yaml --json
-check "MEGNO of a regular orbit, by the point" between "$(value megno 2)" 1.98 2.02
 
 # --- shares: other starts for other seeds (which shares, whatever the threads: test_chaos)
 run 0 chaos chaotic.yaml --starts 40 --turns 600 --json
-check "a chaotic part" between "$(value chaotic)" 0.35 0.8
 check "asked and followed" test "$(value starts)/$(value followed)" = 40/40
-check "its error" between "$(value error)" 0.05 0.25
 run 0 chaos chaotic.yaml --starts 10 --turns 150 --csv starts.csv
 check "CSV: a row for each" test "$(grep -c '^[0-9]' starts.csv)" -eq 11
 run 0 chaos chaotic.yaml --starts 10 --turns 150 --csv - --seed 1
@@ -69,16 +53,13 @@ parts="$(value chaotic_starts) $(value regular_starts) $(value undecided_starts)
 check "the parts are 1" awk -v c="$(value chaotic)" -v r="$(value regular)" -v u="$(value undecided)" -v n="$parts" \
     'BEGIN { split(n, k); exit !((c + r + u - 1)^2 < 1e-20 && (c - k[1] / k[4])^2 < 1e-20) }'
 middle=$(echo "$parts" | awk '{ printf "%.4f", ($1 + $3 / 2) / $4 }')
-run 0 chaos chaotic.yaml --starts 16 --turns 60
-check "the middle of what is possible" grep -q "the middle of what is possible is $middle\$" out
+prints "the middle of what is possible is $middle\$" chaos chaotic.yaml --starts 16 --turns 60
 
 # --- effects that keep the energy; refusals
 { cat chaotic.yaml; echo "effects: {gravity: {mgb: 0.7, up: [0, 0.6, 0.8]}}"; } >gravity.yaml
-run 0 chaos gravity.yaml
-check "a turn is a time" grep -q '^a turn is a step of' out
+prints '^a turn is a step of' chaos gravity.yaml
 scene 0.5 "1, 2, 5" "0, 0, 2" "0.6, 0.8, 0" 10 0.5 >plane.yaml
-run 0 chaos plane.yaml
-check "a rotation is periodic" grep -q "rotation about axis 3 in a principal plane, which is periodic" out
+prints "rotation about axis 3 in a principal plane, which is periodic" chaos plane.yaml
 run 0 chaos plane.yaml --json
 check "nothing is told of deviations that are not followed" test "$(grep -c '"gali2": null' out)" -eq 2
 refuses 2 "--turns '0'" chaos chaotic.yaml --turns 0
@@ -105,8 +86,7 @@ refuses 2 "must end in .svg" chaos chaotic.yaml --plot x.gif
 run 0 chaos regular.yaml --starts 40 --turns 20 --json
 check "all are undecided" test "$(value undecided_starts)" = 40
 check "and none of them may be chaotic" between "$(sed -n 's/^ *"high": \([0-9.e-]*\),*$/\1/p' out)" 0 0.1
-run 0 chaos regular.yaml --starts 4 --turns 2
-check "and it says so" grep -q "undecided ones are not chaotic: the integral excludes it" out
+prints "undecided ones are not chaotic: the integral excludes it" chaos regular.yaml --starts 4 --turns 2
 
 # --- an exponent that does not fit a double is not known
 scene 0.003 "1, 2, 5" "$spin" "$normal" 10 0.5 >extreme.yaml

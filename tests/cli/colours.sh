@@ -2,8 +2,8 @@
 # colours.sh ISOROLL - colours of pictures: all are of one table; lines of a plot are told apart without red cones,
 # without green cones, and in grey (colours.py). The scripts are those of --script.
 . "$(dirname "$0")/lib.sh"
-has gnuplot "pictures" || { finish && exit; }
-has python3 "how colours are seen" || { finish && exit; }
+needs gnuplot "pictures"
+needs python3 "how colours are seen"
 palette=$source/apps/isoroll/pictures/page.gp
 for file in "$source"/apps/isoroll/plot/*.[ch] "$source"/apps/isoroll/pictures/*.gp; do
     case $file in

@@ -12,8 +12,7 @@ foreign() {
     name=$1 file=$2
     shift 2
     # shellcheck disable=SC2086 # $ball is options
-    run 0 convert --quiet --to point "$file" $ball "$@"
-    silent
+    quietly convert --quiet --to point "$file" $ball "$@"
     at_most "$name" "$(difference point.csv out)" 1e-13
 }
 # (separators, ends of lines, exponents, names in quotes and behind #: test_trajectory)

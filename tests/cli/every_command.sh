@@ -2,6 +2,8 @@
 # every_command.sh ISOROLL - the law of refusals: every command on every example and on every effect of the tables ends
 # with 0, or with 3 and a reason that is true. A refusal that names an effect is true if the motion is another one
 # without it. Commands and effects come from `isoroll --help` and `isoroll list`, so that new ones are tried as well.
+# And the law of what is written: every table of states, of every command that writes one, passes `check` with the
+# scene's own numbers; for examples, and for random balls and points, on the level 0 and off it.
 . "$(dirname "$0")/lib.sh"
 
 # options of a command, so that it takes a moment
@@ -92,6 +94,28 @@ other_model() {
     if grep -q '^# model: ball' rows.csv; then echo point; else echo ball; fi
 }
 
+# passes COMMAND...: the table of states that it writes of the scene passes
+passes() {
+    rm -f written.csv
+    try "$@" -o written.csv
+    # refused; no orbit was found; a scene that chooses other columns
+    [ "$status" -eq 0 ] && grep -q '^[0-9-]' written.csv && columns written.csv | grep -q 'n3\|gamma3' || return 0
+    passed=$((passed + 1))
+    "$isoroll" check --max 1e-9 written.csv >out 2>err || fail "isoroll $last ($scene): $(tail -n 1 out)"
+}
+
+# pass_all: by every command that writes states
+pass_all() {
+    for model in ball point; do
+        other=$([ $model = ball ] && echo point || echo ball)
+        passes run "$scene" --t-end 1 --as $model
+        [ -s written.csv ] && mv written.csv rows.csv && passes convert rows.csv --to $other
+        passes section "$scene" --crossings 5 --starts 2 --as $model
+    done
+    passes run "$scene" --t-end 1 --as both
+    passes periodic "$scene" --period 2 --all --grid 12
+}
+
 try_all() {
     for command in $of_scenes; do
         # shellcheck disable=SC2046
@@ -119,10 +143,44 @@ check "there are commands" test "$(echo "$of_scenes" | wc -l)" -ge 8
 check "and those of files" test "$(echo "$of_files" | wc -l)" -ge 3
 
 # --- every example ------------------------------------------------------------------------------------------------
+passed=0
 for scene in "$source"/examples/*/*.yaml; do
     grep -q '^scene:' "$scene" && continue
     try_all
+    pass_all
+    passes run "$scene" # to its end
 done
+check "examples write tables" test "$passed" -ge 60
+
+# --- random points and balls, most of them off the level 0
+# random SEED: point.yaml and ball.yaml, with the same k and J, a unit vector and one across it
+random() {
+    awk -v seed="$1" 'function u(a, b) { return a + (b - a) * rand() }
+        function three(a, b, c) { return sprintf("[%.17g, %.17g, %.17g]", a, b, c) }
+        BEGIN {
+            srand(seed)
+            k = u(-2, 2); if (k * k < 0.04) k = 0.3
+            body = sprintf("{k: %.6f, J: [%.6f, %.6f, %.6f]", k, u(1, 3), u(1, 3), u(1, 3))
+            x = u(-1, 1); y = u(-1, 1); z = u(-1, 1); r = sqrt(x * x + y * y + z * z)
+            x /= r; y /= r; z /= r
+            a = u(-1, 1); b = u(-1, 1); c = u(-1, 1)
+            unit = three(x, y, z); across = three(b * z - c * y, c * x - a * z, a * y - b * x)
+            rest = "project: true}\ntime: {end: 1, step: 0.25}"
+            printf "point: %s, eps: 1}\ninitial: {gamma: %s, M: %s, %s\n", body, unit, across, rest >"point.yaml"
+            printf "reduced: %s}\ninitial: {normal: %s, angular_velocity: %s, %s\neffects: {level: {c: %.6f}}\n",
+                body, unit, across, rest, u(-0.5, 0.5) >"ball.yaml"
+        }'
+}
+
+passed=0
+for seed in $(seq "$(length 5 15)"); do
+    random "$seed"
+    for scene in point.yaml ball.yaml; do pass_all; done
+done
+check "random scenes write tables" test "$passed" -ge "$(length 50 150)"
+run 0 section point.yaml --crossings 5 --starts 2 --as point -o one.csv
+sed 's/^# h: .*/# h: 1.5/' one.csv >other.csv
+run 1 check --max 1e-9 other.csv # a number of a table that another scene has is found
 
 # --- every effect of the table, with the numbers that it asks for -------------------------------------------------
 # Three numbers are a unit vector. A number that is missed is added.

@@ -143,6 +143,11 @@ has() {
     command -v "$1" >/dev/null || { skip "$2" "$1 is not installed"; return 1; }
 }
 
+# needs TOOL NAME: the tool is installed; if it is not, nothing of the script can be tried
+needs() {
+    command -v "$1" >/dev/null || impossible "$2" "$1 is not installed"
+}
+
 # interruptible NAME: SIGINT can reach a program started here; if it is ignored (as in a background job), NAME is
 # skipped
 interruptible() {
@@ -229,6 +234,40 @@ refuses_changed() {
     refuses 3 "$message" "$@" bad.csv
 }
 
+# quietly ARGUMENT...: isoroll ends with 0 and prints no message
+quietly() {
+    run 0 "$@"
+    silent
+}
+
+# shows [-OPTIONS] FILE PATTERN...: the file has a line for each of the patterns of grep, which gets the options
+shows() {
+    how=-q
+    case $1 in -?*) how=-q${1#-} && shift ;; esac
+    shown=$1
+    shift
+    for pattern; do check "isoroll ${last-}: $shown has '$pattern'" grep "$how" -e "$pattern" "$shown"; done
+}
+
+# prints [-OPTIONS] PATTERN ARGUMENT...: isoroll ends with 0, and its output has a line for this pattern
+prints() {
+    asked=
+    case $1 in -[xFE]*) asked=$1 && shift ;; esac
+    wished=$1
+    shift
+    run 0 "$@"
+    shows ${asked:+"$asked"} out "$wished"
+}
+
+# interrupted WORDS "CONDITION" ARGUMENT...: isoroll gets Ctrl-C when it is so, ends with 1 and says these words
+interrupted() {
+    said=$1
+    shift
+    signalled INT "$@"
+    check "$last: exit status $status, not 1" test "$status" -eq 1
+    shows err "$said"
+}
+
 # silent: the last run printed no message
 silent() {
     check "isoroll $last: nothing on stderr" test ! -s err
@@ -239,6 +278,11 @@ at_most() {
     checks=$((checks + 1))
     awk -v x="$2" -v bound="$3" 'BEGIN { exit !(x ~ /^[-+0-9.eE]+$/ && x + 0 <= bound + 0) }' ||
         fail "$1: $2 is above $3"
+}
+
+# near NAME VALUE WANTED BOUND: VALUE is a number, and WANTED within BOUND
+near() {
+    at_most "$1: $2 for $3" "$(awk -v a="$2" -v b="$3" 'BEGIN { d = a - b; print (a == "" ? "none" : d < 0 ? -d : d) }')" "$4"
 }
 
 # stand_in: makes bin/gnuplot, which keeps its input in `script` and draws nothing
@@ -258,17 +302,6 @@ larger() {
     awk -v a="$1" -v b="$2" 'BEGIN { print (a + 0 > b + 0 ? a : b) }'
 }
 
-# each_method COMMAND...: runs COMMAND METHOD BOUND for each line "METHOD BOUND" of standard input. COMMAND raises
-# $worst to its largest error, which is printed. Leaves taylor_extended out where the compiler cannot make it.
-each_method() {
-    while read -r method bound; do
-        if [ "$method" = taylor_extended ] && ! "$isoroll" list methods | grep -q -w "$method"; then continue; fi
-        worst=0
-        "$@" "$method" "$bound"
-        echo "$method: $worst"
-    done
-}
-
 # rows FILE: the rows of a trajectory, without header and # lines
 rows() {
     grep -v '^#' "$1" | tail -n +2
@@ -277,6 +310,12 @@ rows() {
 # columns FILE: its header line
 columns() {
     grep -v '^#' "$1" | head -n 1
+}
+
+# cell FILE ROW NAME: a number of a table; its rows are counted from 0, from the last one with -1, -2
+cell() {
+    grep -v '^#' "$1" | awk -F, -v row="$2" -v name="$3" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) at = i; next }
+        { line[NR - 2] = at ? $at : "no column " name } END { print line[row < 0 ? NR - 1 + row : row] }'
 }
 
 # difference A B [UNIT]: the largest difference of the common columns of two trajectories, in units of UNIT. It is
@@ -324,24 +363,6 @@ scene() {
 reduced: {k: $1, J: [$2]}
 initial: {normal: [$4], angular_velocity: [$3]}
 time: {end: $5, step: $6}
-END
-}
-
-# sweep_of_all: a sweep of scene.yaml, two points, with all quantities until a time
-sweep_of_all() {
-    cat <<'END'
-scene: scene.yaml
-vary:
-  k: [0.5, -0.75]
-  start: [[0.4, 0.3]]
-measure:
-  state: {as: both}
-  frequencies: {}
-  splitting: {digits: double}
-  rotations: {}
-  backends: {}
-  error: {tolerance: 1.0e-10}
-until: {time: 400}
 END
 }
 

@@ -20,15 +20,13 @@ refuses 3 "more than 10000 values" run many.yaml
 run 0 run large.yaml -o out.csv
 head -c 100000 /dev/zero | tr '\0' '\n' >>large.yaml
 refuses 3 "larger than 16 MiB" run large.yaml
-refuses 3 "larger than 16 MiB" run /dev/zero
 refuses 3 "larger than 16 MiB" sweep /dev/zero -o out.csv
 printf 'a: &a [1]\nb: *a\n' >anchor.yaml # of these a small file makes a thousand million values
 refuses 3 "anchor.yaml:1:4: an anchor" run anchor.yaml
 
 # --- CSV: the length of a line, columns, lines of keys; any number of rows
 { printf '#' && repeat 65534 x && echo && cat ball.csv; } >line.csv
-run 0 check line.csv
-check "a line of 65535 characters is read" grep -qx "$rows rows" out
+prints -x "$rows rows" check line.csv
 { printf '#' && repeat 65535 x && echo && cat ball.csv; } >line.csv
 refuses 3 "line.csv:1:1: this line is longer than 64 KiB" check line.csv
 head -c 100000000 /dev/zero | tr '\0' x >endless.csv
@@ -37,8 +35,7 @@ refuses 3 "longer than 64 KiB" check endless.csv
 wide() { awk -F, -v OFS=, -v n="$1" '/^#/ { next } { head = !seen++; for (i = NF + 1; i <= n; i++)
     $i = head ? "x" i : 1; print }' ball.csv; }
 wide 1024 >wide.csv
-run 0 check wide.csv --k=-1 --J 1.4,2.1,3
-check "1024 columns are read" grep -qx "$rows rows" out
+prints -x "$rows rows" check wide.csv --k=-1 --J 1.4,2.1,3
 wide 1025 >wide.csv
 refuses 3 "more than 1024 columns" check wide.csv --k=-1 --J 1.4,2.1,3
 keys=$(grep -c '^# .*: ' ball.csv)
@@ -46,12 +43,9 @@ keys=$(grep -c '^# .*: ' ball.csv)
 keyed() { head -n 1 ball.csv && awk -v n=$(($1 - keys)) 'BEGIN { for (i = 0; i < n; i++) print "# key" i ": 1" }' &&
     tail -n +2 ball.csv; }
 keyed 4096 >keys.csv
-run 0 check keys.csv
-check "4096 lines of keys are read" grep -qx "$rows rows" out
+prints -x "$rows rows" check keys.csv
 keyed 4097 >keys.csv
 refuses 3 "more than 4096 lines '# key: value'" check keys.csv
-printf 'a\000b\n' >nul.csv
-refuses 3 "nul.csv:1:2: a NUL byte" check nul.csv
 
 # --- numbers that ask for more than there is: rows (counts of sweeps: bad_files.txt)
 sed 's/step: *[0-9.]*/step: 1e-9/' scene.yaml >rows.yaml

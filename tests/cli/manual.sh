@@ -12,8 +12,7 @@ same() {
 
 # page NAME: prints it into `page`
 page() {
-    run 0 manual "$1"
-    silent
+    quietly manual "$1"
     mv out page
 }
 
@@ -60,8 +59,7 @@ refuses 5 "cannot write" manual run -o absent/run.1
 # --- bash: what it offers
 page zsh
 if command -v zsh >/dev/null; then check "zsh reads it" zsh -n page; fi
-run 0 --complete run --backe
-check "zsh shows what an option is for" grep -q "^--backend	what computes the orbit: ball, point" out
+prints "^--backend	what computes the orbit: ball, point" --complete run --backe
 run 0 --complete run --backend=e
 check "zsh has an option and its word in one" sh -c 'cut -f 1 out | grep -qx exact'
 

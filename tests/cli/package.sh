@@ -1,12 +1,7 @@
 #!/bin/sh
 # package.sh ISOROLL - the Debian packages: which files and which dependencies they have. tests/package.sh installs them.
 . "$(dirname "$0")/lib.sh"
-if ! command -v dpkg-deb >/dev/null || ! command -v dpkg-shlibdeps >/dev/null; then
-    skip "Debian packages" "dpkg-deb or dpkg-shlibdeps (dpkg-dev) is not installed"
-    checks=1
-    finish
-    exit
-fi
+needs dpkg-shlibdeps "Debian packages"
 : "${ISO_BUILD:?}"
 
 # cpack FOLDER: makes the packages in a folder

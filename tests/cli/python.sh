@@ -6,16 +6,8 @@
 export ISOROLL_LIBRARY="$ISO_BUILD/libisoroll.so.0" ISO_COMMAND="$isoroll" ISO_SOURCE="$source"
 export ISOROLL_COMMAND="$isoroll"
 export PYTHONDONTWRITEBYTECODE=1
-python=
-for candidate in ${ISO_PYTHON-} python3 /usr/bin/python3; do
-    [ -n "$python" ] || ! "$candidate" -c "import numpy" 2>/dev/null || python=$candidate
-done
-if [ -z "$python" ]; then
-    checks=1
-    skip "the Python package" "python3-numpy is not installed"
-    finish
-    exit
-fi
+find_python numpy
+[ -n "$python" ] || impossible "the Python package" "python3-numpy is not installed"
 
 # --- the tests
 for file in "$source"/tests/python/test_*.py; do

@@ -11,8 +11,7 @@ scene -1 "$J" "$omega" "$normal" 10 1 >scene.yaml
 header() {
     input=$1 wanted_columns=$2
     shift 2
-    run 0 run "$input" "$@"
-    silent
+    quietly run "$input" "$@"
     check "columns of $last" test "$(columns out)" = "$wanted_columns"
 }
 
@@ -51,10 +50,8 @@ END
 header point.yaml "$point"
 check "101 rows without a step" test "$(rows out | wc -l)" -eq 101
 header point.yaml "$ball" --as ball
-run 0 run scene.yaml --backend point --as both
-check "the line backend: point" grep -qx '# backend: point' out
-run 0 run scene.yaml --method kahan_li8 --as both
-check "a method for the point chooses it" grep -qx '# backend: point' out
+prints -x '# backend: point' run scene.yaml --backend point --as both
+prints -x '# backend: point' run scene.yaml --method kahan_li8 --as both
 refuses 2 'kahan_li8 is for the point' run scene.yaml --method kahan_li8 --backend ball
 
 # --- times
@@ -71,14 +68,10 @@ rows by_point.csv | grep "^7," >b
 rows ball.csv | grep "^7," >a
 check "auto takes the point for 11 rows" cmp a b
 check "and says so in the file" grep -qx "# backend: point" ball.csv
-run 0 run scene.yaml --step 0.01
-check "auto takes the ball for 1001 rows" grep -qx "# backend: ball" out
-run 0 run scene.yaml --tol 1e-13
-check "and for a fine tolerance" grep -qx "# backend: ball" out
-run 0 run scene.yaml --t-end 1e5 --step 1e4
-check "auto takes the closed solution for few and far rows" grep -qx "# backend: exact" out
-run 0 explain scene.yaml --t-end 1e5 --step 1e4
-check "explain says why" grep -q "few and far" out
+prints -x "# backend: ball" run scene.yaml --step 0.01
+prints -x "# backend: ball" run scene.yaml --tol 1e-13
+prints -x "# backend: exact" run scene.yaml --t-end 1e5 --step 1e4
+prints "few and far" explain scene.yaml --t-end 1e5 --step 1e4
 echo 7 | "$isoroll" run scene.yaml --times - | rows /dev/stdin >a
 check "times from standard input" cmp a b
 
@@ -136,12 +129,9 @@ check "20 methods or more" test "$(wc -l <methods)" -ge 20
 while read -r method; do
     tolerance=1e-10
     case $method in heun_euler* | rk4 | *_2_3) tolerance=1e-7 ;; esac # of low order: many steps
-    run 0 run scene.yaml --as both --method "$method" --tol "$tolerance"
-    check "the line method: $method" grep -qx "# method: $method" out
-    at_most "$method" "$(difference both.csv out)" "$([ $tolerance = 1e-7 ] && echo 2e-5 || echo 2e-7)"
+    prints -x "# method: $method" run scene.yaml --as both --method "$method" --tol "$tolerance"
 done <methods
-run 0 run scene.yaml --method dormand
-check "a beginning is enough" grep -qx '# method: dormand_prince_7_4_5' out
+prints -x '# method: dormand_prince_7_4_5' run scene.yaml --method dormand
 run 0 run scene.yaml --method auto --verbose
 check "--verbose says how it went" grep -q "^isoroll: 11 rows; backend point, method taylor: " err
 check "--verbose changes nothing in the file" cmp out ball.csv

@@ -3,27 +3,12 @@
 # table of a document. Values of other programs and of more digits: test_splitting_k, test_splitting_levels.
 . "$(dirname "$0")/lib.sh"
 
-# near NAME VALUE WANTED BOUND
-near() {
-    checks=$((checks + 1))
-    awk -v a="$2" -v b="$3" -v bound="$4" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(a != "" && d <= bound) }' ||
-        fail "$1: $2 is not $3"
-}
-
-# column ROW NAME: a number of a CSV
-column() {
-    grep -v '^#' split.csv | awk -F, -v row="$1" -v name="$2" \
-        'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) at = i } NR == row + 1 { print $at }'
-}
-
 scene 0.5 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >half.yaml
-run 0 splitting half.yaml
-silent
+quietly splitting half.yaml
 check "one row" grep -q '^ *0.5 .* 6.14708829830.*e-03 ' out
 
 # --- a list, as CSV
-run 0 splitting half.yaml --digits double --k=0.5,3/4,1,-1/2 -o split.csv -j 2
-silent
+quietly splitting half.yaml --digits double --k=0.5,3/4,1,-1/2 -o split.csv -j 2
 check "k = 1: words" grep -q ' 0 .*not distinguishable from 0: below ' out
 run 0 splitting half.yaml --digits double --k=0.5,3/4,1,-1/2 -j 1 --output -
 check "one thread gives the same" cmp -s out split.csv
@@ -39,12 +24,9 @@ check "other starts, another order" cmp -s a.sorted b.sorted
 
 # --- a zero
 scene 1 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >wide.yaml
-run 0 splitting wide.yaml --k=-1.7,-1.5 --digits double --json
-silent
-check "JSON: a zero" grep -q '"k": -1.6024081' out
-check "JSON: the next crossing" grep -q '"next": {' out
-run 0 splitting wide.yaml --k=-1.7,-1.5 --digits double
-check "words: a tangency" grep -q 'where the manifolds touch' out
+quietly splitting wide.yaml --k=-1.7,-1.5 --digits double --json
+shows out '"k": -1.6024081' '"next": {'
+prints 'where the manifolds touch' splitting wide.yaml --k=-1.7,-1.5 --digits double
 run 0 splitting wide.yaml --k 0.9,1.1 --digits double
 check_not "none at k = 1" grep -q 'm = 0 at' out
 
@@ -79,13 +61,12 @@ fi
 # --- ranges through 0 and through 1
 run 1 splitting half.yaml --digits double --k=-0.1:0.1:0.1 -o split.csv
 says "1 of 3 values of k failed: k = 0"
-near "k = -0.1, x" "$(column 1 k)" -0.1 0
-near "k = 0.1" "$(column 2 k)" 0.1 0
+near "k = -0.1, x" "$(cell split.csv 0 k)" -0.1 0
+near "k = 0.1" "$(cell split.csv 1 k)" 0.1 0
 check "0 is told" grep -q '^ *0  k = 0' out
-run 0 splitting half.yaml --digits double --k=0.95:1.05:0.05 -o split.csv
-silent
-check "the sign changes" awk -v a="$(column 1 m)" -v b="$(column 3 m)" 'BEGIN { exit !(a > 0 && b < 0) }'
-near "0 between them" "$(column 2 m)" 0 "$(column 2 error)"
+quietly splitting half.yaml --digits double --k=0.95:1.05:0.05 -o split.csv
+check "the sign changes" awk -v a="$(cell split.csv 0 m)" -v b="$(cell split.csv 2 m)" 'BEGIN { exit !(a > 0 && b < 0) }'
+near "0 between them" "$(cell split.csv 1 m)" 0 "$(cell split.csv 1 error)"
 check_not "k = 1 is no further zero" grep -q 'm = 0 at' out
 run 0 splitting half.yaml --digits double --k=-1.05:-0.95:0.1
 check_not "nor is -1, between two values" grep -q 'm = 0 at' out
@@ -96,15 +77,12 @@ point: {k: 0.5, J: [1.4, 2.1, 3], eps: 1}
 initial: {gamma: [0.6, 0, 0.8], M: [0, 0.5, 0]}
 time: {end: 1, step: 1}
 END
-run 0 splitting level.yaml --digits double -o split.csv
-check "the scene's level" grep -q "^level of the point, (H/eps) J2^(1/k): -0.19928916282" out
-near "in the CSV" "$(column 1 level)" -0.199289162827174 1e-12
+prints "^level of the point, (H/eps) J2^(1/k): -0.19928916282" splitting level.yaml --digits double -o split.csv
+near "in the CSV" "$(cell split.csv 0 level)" -0.199289162827174 1e-12
 run 0 splitting half.yaml --digits double --level=-0.2:0.2:0.2 -o split.csv
 check "as many levels" test "$(rows split.csv | wc -l)" -eq 3
-check "0 is 0" test "$(column 2 level)" = 0
-near "m at level 0" "$(column 2 m)" 0.00614708829830125 1e-15
-near "m at level -0.2, by 128 bits" "$(column 1 m)" 0.016487284010730307 1e-16
-check "m falls" awk -v a="$(column 1 m)" -v b="$(column 2 m)" -v c="$(column 3 m)" 'BEGIN { exit !(a > b && b > c && c > 0) }'
+check "0 is 0" test "$(cell split.csv 1 level)" = 0
+check "m falls" awk -v a="$(cell split.csv 0 m)" -v b="$(cell split.csv 1 m)" -v c="$(cell split.csv 2 m)" 'BEGIN { exit !(a > b && b > c && c > 0) }'
 run 0 splitting half.yaml --digits double --k 1 --level 0.3,-0.2 --json
 check "k = 1: no m on any level" test "$(grep -c '"from_zero": false' out)" -eq 2
 check "JSON: the level" grep -q '"level": 0.29999999999999999' out

@@ -97,8 +97,7 @@ for kind in csv h5; do
     run 0 sweep ends.yaml -o ends.1.$kind --shard 1/2
     run 0 sweep ends.yaml -o ends.2.$kind --shard 2/2
     run 0 sweep --merge ends.1.$kind ends.2.$kind -o ends.$kind
-    run 0 sweep ends.yaml -o ends.$kind --resume
-    silent
+    quietly sweep ends.yaml -o ends.$kind --resume
 done
 if "$isoroll" sweep sweep.yaml -o one.h5 --shard 1/2 2>err; then
     run 0 sweep sweep.yaml -o two.h5 --shard 2/2
@@ -148,8 +147,7 @@ refuses 5 "is no result of a sweep: it is not overwritten" sweep sweep.yaml -o t
 refuses 5 "is there already" sweep sweep.yaml -o all.$h5
 refuses 5 "is the result of another sweep" sweep fails.yaml -o all.$h5 --resume
 cp all.$h5 before.$h5
-run 0 sweep sweep.yaml -o all.$h5 --resume
-silent
+quietly sweep sweep.yaml -o all.$h5 --resume
 check "a result that is there stays" cmp all.$h5 before.$h5
 run 1 sweep fails.yaml -o fails.csv --resume
 says "1 of 2 points failed; the first is point 0: scene.yaml:1:14: k = 0"
@@ -174,8 +172,7 @@ chunk: 1
 END
 run 0 sweep long.yaml -o long.csv
 run 0 sweep long.yaml -o long.$h5 --resume
-run 0 sweep long.yaml -o long.$h5 --resume
-silent
+quietly sweep long.yaml -o long.$h5 --resume
 for kind in csv $h5; do
     held late.$kind sweep long.yaml -j 1
     echo "my thesis" >late.$kind

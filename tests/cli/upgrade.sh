@@ -27,8 +27,7 @@ files=$(ls [1-5]_*.csv)
 [ -z "$hdf5" ] || files="$files $(ls [1-5]_*.h5)"
 for file in $files; do
     # one step from row to row has a relative error of 1e-12 at most; ten rows, and the two models' scales
-    run 0 check "$file" --max 1e-10
-    check "$file: ten rows" grep -qx "10 rows" out
+    prints -x "10 rows" check "$file" --max 1e-10
     scene=${file#*_} scene=${scene%.*} now=${file#*_} now=${now%.*}
     case $file in [2-4]_effects*) now=before ;; esac
     case $file in *.csv) at_most "$file: the orbit of its scene" "$(difference "$file" $now.now)" 1e-9 ;; esac
@@ -96,8 +95,7 @@ done
 
 # --- a section that does not tell the order of its columns
 if [ -n "$hdf5" ]; then
-    run 0 check section.h5 --max 1e-10
-    check "a section of ten rows" grep -qx "10 rows" out
+    prints -x "10 rows" check section.h5 --max 1e-10
     run 0 view section.h5 -o section.html
     check "both its orbits" test "$(grep -o '"kind": *"trajectory"' section.html | wc -l)" -eq 2
 fi

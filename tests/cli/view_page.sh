@@ -12,9 +12,7 @@ elif [ -z "$browser" ]; then
     skip "pages in a browser" "chromium is not installed"
 elif has python3 "pages in a browser"; then
     if [ "${ISO_SANITIZE-0}" = 0 ]; then # the pages of isoroll with sanitizers are the same: cli/view.sh writes them
-        for script in view_page.py view_shown.py; do
-            in_browser "$script"
-        done
+        for script in view_page.py view_shown.py; do in_browser "$script"; done
     fi
 fi
 finish

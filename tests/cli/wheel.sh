@@ -3,20 +3,10 @@
 # the bits of the command in a virtual environment. ../wheel.sh tries it where nothing else of ours is installed.
 . "$(dirname "$0")/lib.sh"
 : "${ISO_BUILD:?}"
-# impossible REASON: the end
-impossible() {
-    skip "the wheel" "$1"
-    checks=1
-    finish
-    exit
-}
-python=
-for candidate in ${ISO_PYTHON-} python3 /usr/bin/python3; do
-    [ -n "$python" ] || ! "$candidate" -c "import numpy, pip, venv" 2>/dev/null || python=$candidate
-done
-[ -n "$python" ] || impossible "python3-numpy or python3-pip is not installed"
+find_python "numpy, pip, venv"
+[ -n "$python" ] || impossible "the wheel" "python3-numpy or python3-pip is not installed"
 wheel=$(ls "$ISO_BUILD"/wheel/*.whl 2>/dev/null)
-[ -n "$wheel" ] || impossible "the build made none: cmake --build $ISO_BUILD --target wheel says why"
+[ -n "$wheel" ] || impossible "the wheel" "the build made none: cmake --build $ISO_BUILD --target wheel says why"
 pack=$source/apps/python/pack.py
 export PYTHONDONTWRITEBYTECODE=1
 unset ISOROLL_LIBRARY LD_LIBRARY_PATH PYTHONPATH SOURCE_DATE_EPOCH

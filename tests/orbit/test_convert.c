@@ -144,7 +144,7 @@ static void check_reference(void)
 {
     static const int counts[] = {3, 10, 100};
     reference rows[REFERENCE_ROWS];
-    laws_worst worst = {0};
+    laws_worst worst = {0}, told = {0};
     const int all = reference_read(ctx, rows);
     for (int r = 0; r < all; r++) {
         double times[100];
@@ -154,12 +154,15 @@ static void check_reference(void)
         iso_record *ball = record_of(&rows[r].p, &rows[r].start, ISO_BALL, true, false, times, count),
                    *point = convert(ball, ISO_POINT);
         const double s = iso_record_const_row(point, (size_t)count - 1)[0];
+        const char *error = iso_record_get(point, "s.error");
         laws_note(&worst, fabs(s / rows[r].s - 1), 1e-12, &rows[r].p, "");
+        laws_note(&told, fabs(s - rows[r].s), error ? strtod(error, NULL) : 0, &rows[r].p, "");
         iso_record_free(ball);
         iso_record_free(point);
     }
     gsl_test_int((int)worst.cases, 26, "rows of free_ball.csv with t <= 100");
     laws_report(&worst, "s of records of 3 to 100 rows");
+    laws_report(&told, "its error is covered by the line s.error");
 }
 
 /* --- columns and lines ----------------------------------------------------------------------------------------- */
