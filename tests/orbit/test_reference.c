@@ -58,10 +58,19 @@ static void check(const trial *run, const reference rows[], int count)
 int main(void)
 {
     static const trial runs[] = {
-        {"rk8pd", 1e-13, {1e-10, 1e-9}, 1e-12, 1e-8}, {"fehlberg_13_7_8", 1e-13, {3e-10, 3e-10}, 1e-12, 1e-8},
-        {"adams", 1e-11, {3e-7, 2e-5}, 1e-7, 0},      {"bdf", 1e-8, {5e-3, 2e-3}, 2e-5, 0},
-        {"rkf45", 1e-11, {3e-7, 3e-8}, 3e-9, 0},      {"msadams", 1e-11, {2e-6, 1e-4}, 2e-6, 0},
+        {"rk8pd", 1e-13, {1e-10, 1e-9}, 1e-12, 1e-8},
+        {"fehlberg_13_7_8", 1e-13, {3e-10, 3e-10}, 1e-12, 1e-8},
+        {"adams", 1e-11, {3e-7, 2e-5}, 1e-7, 0},
+        {"bdf", 1e-8, {5e-3, 2e-3}, 2e-5, 0},
+        {"rkf45", 1e-11, {3e-7, 3e-8}, 3e-9, 0},
+        {"msadams", 1e-11, {2e-6, 1e-4}, 2e-6, 0},
         {"bsimp", 1e-11, {3e-7, 1e-7}, 1e-9, 0},
+        {"dormand_prince_7_4_5", 1e-13, {1e-9, 1e-9}, 1e-9, 0},
+        {"verner_8_5_6", 1e-13, {1e-9, 1e-9}, 1e-9, 0},
+        /* at their finest; auto takes Taylor series */
+        {"auto", 1e-15, {1e-12, 1e-12}, 1e-12, 1e-8},
+        {"taylor", 1e-15, {1e-12, 1e-12}, 1e-12, 1e-8},
+        {"taylor_extended", 1e-15, {2e-13, 2e-13}, 1e-12, 1e-8},
     };
     reference rows[REFERENCE_ROWS];
     ctx = iso_context_create();
