@@ -52,8 +52,6 @@ static int run(iso_context *ctx, const void *options_given)
     return result;
 }
 
-static const options defaults = {.file = "-"};
-
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_check_option),
     ROW_OF_ITS_SCENE(options, scene),
@@ -64,6 +62,7 @@ static const option_row rows[] = {
 
 const command command_check = {
     COMMAND_OF_STUDY(check, "[FILE]", file),
+    .run = run,
     .takes = FILE_ROWS,
     .description =
         "Prints residuals: of constraints, of integrals, of every column, and of the # lines that state an energy "

@@ -2,17 +2,13 @@
 #include <math.h>
 
 #include "base/number_impl.h"
+#include "command.h"
 #include "model/effects/effects_impl.h"
 #include "picture/stretch_impl.h"
 #include "plot/draw.h"
-#include "shell.h"
 #include "task/task_impl.h"
 
-/* What compare can be told. */
-typedef struct options {
-    iso_compare_request study;
-    shell_options shell;
-} options;
+OPTIONS_OF_SCENE(iso_compare_request);
 
 /* --- JSON ------------------------------------------------------------------------------------------------------- */
 
@@ -51,13 +47,11 @@ static int draw(const shell *s)
     tell_result(&s->scene, c, result, sizeof result);
     if (status == ISO_OK) status = iso_record_set(s->ctx, states, "result", result);
     if (status == ISO_OK)
-        status = plot_tables(s->ctx, &s->told->plot, (const iso_record *[]){states, curve, NULL}, NULL);
+        status = plot_tables(s->ctx, &s->common->plot, (const iso_record *[]){states, curve, NULL}, NULL);
     iso_record_free(curve);
     iso_record_free(states);
     return finish(s->ctx, status);
 }
-
-/* --- the command ------------------------------------------------------------------------------------------------ */
 
 static void complain_interrupted(const shell *s)
 {
@@ -67,18 +61,6 @@ static void complain_interrupted(const shell *s)
                  iso_scene_rows(&s->scene));
 }
 
-static int run(iso_context *ctx, const void *options_given)
-{
-    static const shell_parts parts = {.study = &iso_compare_study,
-                                      .change = shell_change,
-                                      .interrupted = complain_interrupted,
-                                      .json = json,
-                                      .draw = draw};
-    return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
-}
-
-static const options defaults = {.shell = {.file = "-"}};
-
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_compare_option),
     ROWS_OF_PLOT(options, shell.plot),
@@ -87,8 +69,8 @@ static const option_row rows[] = {
 };
 
 const command command_compare = {
-    COMMAND_OF_STUDY(compare, "SCENE", shell.file),
-    .takes = FILE_SCENE,
+    COMMAND_OF_SCENE(compare),
+    .parts = {.change = shell_change, .interrupted = complain_interrupted, .json = json, .draw = draw},
     .description =
         "The backends are ball, point and, where there is a closed solution, exact. The table shows states, "
         "clocks and integrals by each of them. Differences of states are relative to the size of the "

@@ -3,18 +3,11 @@
 #include <stdlib.h>
 
 #include "base/number_impl.h"
+#include "command.h"
 #include "instrument/periodic/periodic_study_impl.h"
-#include "scene_options.h"
-#include "shell.h"
 #include "study/study_impl.h"
 
-/* What periodic can be told. */
-typedef struct options {
-    iso_periodic_request study;
-    shell_options shell;
-} options;
-
-/* --- the list --------------------------------------------------------------------------------------------------- */
+OPTIONS_OF_SCENE(iso_periodic_request);
 
 /* A row for each crossing of each orbit, as it is drawn. */
 static iso_status put_crossings(iso_context *ctx, const iso_periodic *found, iso_record *table)
@@ -42,8 +35,6 @@ static int draw_list(const shell *s)
     return result;
 }
 
-/* --- branches --------------------------------------------------------------------------------------------------- */
-
 static int draw_branches(const shell *s)
 {
     return ((const iso_continuations *)s->result.found)->count > 0 ? shell_draw(s, s->result.table[0]) : EXIT_DONE;
@@ -55,10 +46,6 @@ static void complain_branches(const shell *s)
     complain(s->result.found ? "interrupted: branches are missing or cut" : "interrupted: orbits are missing");
 }
 
-/* --- the chart -------------------------------------------------------------------------------------------------- */
-
-/* --- the command ------------------------------------------------------------------------------------------------ */
-
 static json_t *json_without_scene(const shell *s)
 {
     return json_of(s->result.fields, s->result.found);
@@ -66,24 +53,16 @@ static json_t *json_without_scene(const shell *s)
 
 static int run(iso_context *ctx, const void *options_given)
 {
-    static const shell_parts list = {.study = &iso_periodic_study,
-                                     .kind = "periodic",
-                                     .stopped = "orbits are missing",
-                                     .draw = draw_list},
-                             follow = {.study = &iso_periodic_study,
-                                       .kind = "periodic follow",
+    static const shell_parts list = {.kind = "periodic", .stopped = "orbits are missing", .draw = draw_list},
+                             follow = {.kind = "periodic follow",
                                        .interrupted = complain_branches,
                                        .json = json_without_scene,
                                        .draw = draw_branches},
-                             chart = {.study = &iso_periodic_study,
-                                      .kind = "periodic chart",
-                                      .stopped = "no chart",
-                                      .json = json_without_scene};
+                             chart = {.kind = "periodic chart", .stopped = "no chart", .json = json_without_scene};
     const options *o = options_given;
-    return shell_run(ctx, o->study.chart ? &chart : o->study.follow ? &follow : &list, o, &o->shell);
+    const shell_parts *parts = o->study.chart ? &chart : o->study.follow ? &follow : &list;
+    return shell_run(ctx, &iso_periodic_study, parts, o, &o->shell);
 }
-
-static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_periodic_option),
@@ -94,8 +73,8 @@ static const option_row rows[] = {
 };
 
 const command command_periodic = {
-    COMMAND_OF_STUDY(periodic, "SCENE", shell.file),
-    .takes = FILE_SCENE,
+    COMMAND_OF_SCENE(periodic),
+    .run = run,
     .description =
         "Shows the rotations about the principal axes first: the trace of Hill's equation over half a turn, found "
         "in two ways, stable between -2 and 2. Then it searches for all symmetric periodic orbits of at most P "

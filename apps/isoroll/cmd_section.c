@@ -3,15 +3,14 @@
 #include <math.h>
 #include <string.h>
 
+#include "command.h"
 #include "instrument/chaos/chaos.h"
 #include "instrument/section/section_impl.h"
 #include "picture/section_impl.h"
 #include "plot/draw.h"
-#include "scene_options.h"
-#include "shell.h"
 #include "stream.h"
 
-/* What section can be told. */
+/* Options of `isoroll section`. */
 typedef struct options {
     iso_section_request study;
     shell_options shell;
@@ -144,14 +143,11 @@ static iso_status check_area(const shell *s)
 
 static int run(iso_context *ctx, const void *options_given)
 {
-    static const shell_parts areas = {
-        .study = &iso_section_study, .kind = "section area", .check = check_area, .stopped = "orbits are missing"};
+    static const shell_parts areas = {.kind = "section area", .check = check_area, .stopped = "orbits are missing"};
     const options *o = options_given;
     if (!o->study.area) return section(ctx, o);
-    return shell_run(ctx, &areas, o, &o->shell);
+    return shell_run(ctx, &iso_section_study, &areas, o, &o->shell);
 }
-
-static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
     ROW_OUTPUT(options, shell.table),
@@ -163,8 +159,8 @@ static const option_row rows[] = {
 };
 
 const command command_section = {
-    COMMAND_OF_STUDY(section, "SCENE", shell.file),
-    .takes = FILE_SCENE,
+    COMMAND_OF_SCENE(section),
+    .run = run,
     .description =
         "Follows orbits and writes a row for each crossing of the section n_A = 0, n_A increasing. The section is "
         "the same for ball and point. A row has the number of the orbit, the number of the crossing (from 1), t, "

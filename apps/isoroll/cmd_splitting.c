@@ -2,17 +2,12 @@
 #include <math.h>
 
 #include "base/number_impl.h"
+#include "command.h"
 #include "instrument/separatrix/separatrix_study_impl.h"
 #include "picture/picture_impl.h"
 #include "plot/draw.h"
-#include "scene_options.h"
-#include "shell.h"
 
-/* What splitting can be told. */
-typedef struct options {
-    iso_separatrix_request study;
-    shell_options shell;
-} options;
+OPTIONS_OF_SCENE(iso_separatrix_request);
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
@@ -58,24 +53,10 @@ static int draw(const shell *s)
     }
     if (status == ISO_OK) status = iso_record_set_numbers(s->ctx, curve, "axis", 1, (double[]){at->section + 1});
     if (status == ISO_OK)
-        status = plot_tables(s->ctx, &s->told->plot, (const iso_record *[]){s->result.table[0], curve, NULL}, NULL);
+        status = plot_tables(s->ctx, &s->common->plot, (const iso_record *[]){s->result.table[0], curve, NULL}, NULL);
     iso_record_free(curve);
     return finish(s->ctx, status);
 }
-
-/* --- the command ------------------------------------------------------------------------------------------------ */
-
-static int run(iso_context *ctx, const void *options_given)
-{
-    static const shell_parts parts = {.study = &iso_splitting_study,
-                                      .kind = "splitting",
-                                      .stopped = "only rows that are done are shown",
-                                      .json = json,
-                                      .draw = draw};
-    return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
-}
-
-static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_splitting_option),
@@ -86,8 +67,8 @@ static const option_row rows[] = {
 };
 
 const command command_splitting = {
-    COMMAND_OF_STUDY(splitting, "SCENE", shell.file),
-    .takes = FILE_SCENE,
+    COMMAND_OF_SCENE(splitting),
+    .parts = {.kind = "splitting", .stopped = "only rows that are done are shown", .json = json, .draw = draw},
     .description =
         "The rotation about the middle axis is unstable. On the section n_a = 0, a the axis after the middle one, "
         "it is a point (l, x); l and x are those of isoroll section. One curve leaves it: the orbits that come "

@@ -5,7 +5,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "scene_options.h"
 #include "view/view.h"
 
 typedef struct options {

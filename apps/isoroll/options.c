@@ -171,6 +171,12 @@ static options_result set_file(const command *c, int argc, char **argv, bool hel
     return help ? OPTIONS_HELP : OPTIONS_DONE;
 }
 
+iso_status refuse_given(iso_context *ctx, const given_option list[], const char *why)
+{
+    while (list->name && !list->given) list++;
+    return list->name ? ISO_FAIL_ARGUMENT(ctx, list->name, "--%s: %s", list->name, why) : ISO_OK;
+}
+
 /* --- files ------------------------------------------------------------------------------------------------------ */
 
 bool is_regular(const char *path)

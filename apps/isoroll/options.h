@@ -45,6 +45,15 @@ const option_row *options_row(const struct command *c, int i);
 /* Setters, beside those of studies (study/options_impl.h). */
 bool set_digits(void *at, const char *text); /* int, 1 to 17, or ISO_HEXADECIMAL */
 
+/* An option, and whether it was given. */
+typedef struct given_option {
+    bool given;
+    const char *name;
+} given_option;
+
+/* Refuses the first one that was given, in a list that ends with a name NULL; why: a text. */
+iso_status refuse_given(iso_context *ctx, const given_option list[], const char *why);
+
 /* Whether `path` names a regular file. Of a pipe nothing may be read to see what it is: it can be read only once. */
 bool is_regular(const char *path);
 
