@@ -1,15 +1,11 @@
 /* isoroll chaos - tells whether an orbit is chaotic, and which part of the section is chaotic. */
-#include <math.h>
 #include <string.h>
 
 #include "command.h"
 #include "instrument/chaos/chaos_impl.h"
 #include "plot/draw.h"
-#include "study/study_impl.h"
 
 OPTIONS_OF_SCENE(iso_chaos_request);
-
-/* --- files ------------------------------------------------------------------------------------------------------ */
 
 /* Of a model that was not followed there is no table. */
 static int draw_indicators(const shell *s)

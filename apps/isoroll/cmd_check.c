@@ -1,6 +1,4 @@
 /* isoroll check - tests whether a trajectory solves its model. */
-#include <string.h>
-
 #include "base/number_impl.h"
 #include "json.h"
 #include "parameters.h"
@@ -13,8 +11,6 @@ typedef struct options {
     const char *file, *scene, *columns; /* NULL: not given */
     bool json;
 } options;
-
-/* --- the check -------------------------------------------------------------------------------------------------- */
 
 /* Prints what was found; its exit status. */
 static int report(const options *o, const iso_study_result *r)

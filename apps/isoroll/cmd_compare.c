@@ -1,7 +1,4 @@
 /* isoroll compare - computes one orbit by every backend and shows the differences: table, picture, JSON. */
-#include <math.h>
-
-#include "base/number_impl.h"
 #include "command.h"
 #include "model/effects/effects_impl.h"
 #include "picture/stretch_impl.h"
@@ -9,8 +6,6 @@
 #include "task/task_impl.h"
 
 OPTIONS_OF_SCENE(iso_compare_request);
-
-/* --- JSON ------------------------------------------------------------------------------------------------------- */
 
 static json_t *json(const shell *s)
 {
@@ -21,30 +16,22 @@ static json_t *json(const shell *s)
     return o;
 }
 
-/* --- the picture ------------------------------------------------------------------------------------------------ */
-
-static void tell_result(const iso_scene *scene, const iso_comparison *c, char text[], size_t size)
-{
-    char words[ISO_COMPARISON_WORDS];
-    double worst;
-    const bool same = iso_comparison_words(scene, c, &worst, words);
-    snprintf(text, size, "%s %s %.1e",
-             c->runs == ISO_BACKENDS
-                 ? "three computations, by the ball's equations, the point's, and the closed solution,"
-                 : "two computations, by the ball's equations and by the point's,",
-             same ? "agree to" : "differ by", worst);
-}
-
 static int draw(const shell *s)
 {
-    char result[200];
+    char result[200], unused[ISO_COMPARISON_WORDS];
+    double worst;
     const iso_comparison *c = s->result.found;
     const size_t rows = iso_record_rows(c->difference);
     iso_record *curve, *states;
     if (rows == 0) return EXIT_DONE;
     const double end = iso_record_const_row(c->run[ISO_BALL].trajectory, rows - 1)[ISO_CLOCK_T];
     iso_status status = iso_picture_stretch(s->ctx, &s->scene, end, &states, &curve);
-    tell_result(&s->scene, c, result, sizeof result);
+    const bool same = iso_comparison_words(&s->scene, c, &worst, unused);
+    snprintf(result, sizeof result, "%s %s %.1e",
+             c->runs == ISO_BACKENDS
+                 ? "three computations, by the ball's equations, the point's, and the closed solution,"
+                 : "two computations, by the ball's equations and by the point's,",
+             same ? "agree to" : "differ by", worst);
     if (status == ISO_OK) status = iso_record_set(s->ctx, states, "result", result);
     if (status == ISO_OK)
         status = plot_tables(s->ctx, &s->common->plot, (const iso_record *[]){states, curve, NULL}, NULL);

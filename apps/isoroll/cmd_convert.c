@@ -1,7 +1,6 @@
 /* cmd_convert.c - `isoroll convert`: a filter that reads a trajectory of one model and writes that of the other. */
 #include <math.h>
 
-#include "base/number_impl.h"
 #include "file_kind.h"
 #include "instrument/certify/certify_impl.h"
 #include "parameters.h"

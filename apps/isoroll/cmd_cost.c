@@ -2,7 +2,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/number_impl.h"
 #include "command.h"
 #include "task/cost/cost_impl.h"
 
@@ -29,7 +28,7 @@ static void complain_interrupted(const shell *s)
 }
 
 /* The error and time to expect of the choice go to stderr. */
-static int tell_expected(const shell *s)
+static int print_expected(const shell *s)
 {
     char text[ISO_COST_EXPECTED];
     const iso_cost_found *f = s->result.found;
@@ -61,7 +60,7 @@ const command command_cost = {
               .check = check,
               .change = shell_change,
               .interrupted = complain_interrupted,
-              .write = tell_expected,
+              .write = print_expected,
               .draw = draw},
     .description =
         "All backends, methods and tolerances are measured. --backend, --method or --tol restrict the measurement to "

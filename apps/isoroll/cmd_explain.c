@@ -4,7 +4,6 @@
 
 #include "command.h"
 #include "sweep/sweep_impl.h"
-#include "task/explain/explain_impl.h"
 #include "terminal.h"
 
 OPTIONS_OF_SCENE(iso_scene_request);

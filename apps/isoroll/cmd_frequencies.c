@@ -1,18 +1,11 @@
 /* isoroll frequencies - tells how fast a motion turns and swings: exactly where a closed solution does it, else by an
  * estimate from an orbit. */
-#include <math.h>
-#include <string.h>
-
 #include "command.h"
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/frequencies/momentum.h"
 #include "plot/draw.h"
-#include "study/options_impl.h"
-#include "study/study_impl.h"
 
 OPTIONS_OF_SCENE(iso_frequencies_options);
-
-/* --- the picture ------------------------------------------------------------------------------------------------ */
 
 /* The map (h, F), or the spectral lines of n(t). After a closed solution without a map they are estimated here. */
 static iso_status draw_found(const shell *s, iso_frequencies *f)

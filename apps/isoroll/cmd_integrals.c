@@ -1,10 +1,6 @@
 /* isoroll integrals - searches for additional first integrals: polynomials in M that are constant on many orbits. */
-#include <math.h>
-
-#include "base/number_impl.h"
 #include "command.h"
 #include "instrument/integrals/integrals_impl.h"
-#include "study/study_impl.h"
 
 OPTIONS_OF_SCENE(iso_integral_search_options);
 

@@ -7,8 +7,6 @@
 
 OPTIONS_OF_SCENE(iso_prove_request);
 
-/* --- words ------------------------------------------------------------------------------------------------------ */
-
 /* One k: its numbers; an interval: rows of them. */
 static json_t *json(const shell *s)
 {

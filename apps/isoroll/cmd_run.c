@@ -1,13 +1,13 @@
 /* isoroll run - integrate a scene and write its trajectory. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
 #include "instrument/certify/certify_impl.h"
 #include "io/scene_literals_impl.h"
 #include "stream.h"
-#include "task/run_impl.h"
+#include "task/run.h"
+#include "task/task_impl.h"
 
 typedef struct options {
     iso_run_request study;

@@ -1,6 +1,4 @@
 /* isoroll section - the Poincare section of a scene, by the ball, by the point, or by both. */
-#include <inttypes.h>
-#include <math.h>
 #include <string.h>
 
 #include "command.h"
@@ -53,8 +51,8 @@ static iso_status write_row(void *data, int table, const double row[], size_t co
 
 /* Finds out which of the orbits are chaotic: the picture draws these in grey. If there are more than MOST_ORBITS, or
  * if this fails, the picture draws those in grey on which the models part. */
-static void judge(iso_context *ctx, const iso_scene *scene, const iso_section_options *how,
-                  const iso_section_result *r, iso_picture_points *picture)
+static void classify_orbits(iso_context *ctx, const iso_scene *scene, const iso_section_options *how,
+                            const iso_section_result *r, iso_picture_points *picture)
 {
     enum { MOST_ORBITS = 3000 };
     iso_chaos *chaos = NULL;
@@ -80,7 +78,7 @@ static int draw(target *t, const options *o, const iso_scene *scene, const iso_s
     char text[PLOT_SECTION_OPTIONS];
     iso_record *over[ISO_PLOT_OVERS + 1];
     iso_picture picture = {.layout = NULL};
-    if (!interrupted()) judge(t->to.ctx, scene, &o->study.how, r, t->picture);
+    if (!interrupted()) classify_orbits(t->to.ctx, scene, &o->study.how, r, t->picture);
     iso_status status = plot_read_over(t->to.ctx, page, over);
     if (status == ISO_OK)
         status = iso_picture_points_make(t->to.ctx, t->picture, (const iso_record *const *)over,

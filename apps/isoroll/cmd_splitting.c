@@ -1,21 +1,12 @@
 /* isoroll splitting - how far the separatrix of the middle axis' rotation splits: why only k = 1 and k = -1. */
 #include <math.h>
 
-#include "base/number_impl.h"
 #include "command.h"
 #include "instrument/separatrix/separatrix_study_impl.h"
 #include "picture/picture_impl.h"
 #include "plot/draw.h"
 
 OPTIONS_OF_SCENE(iso_separatrix_request);
-
-/* --- the table -------------------------------------------------------------------------------------------------- */
-
-/* What differs from row to row. */
-static double number_of(const iso_separatrix_splitting *s, bool by_level)
-{
-    return by_level ? s->level : s->k;
-}
 
 static json_t *json(const shell *s)
 {
@@ -25,8 +16,6 @@ static json_t *json(const shell *s)
     json_add(o, s->result.fields, s->result.found);
     return o;
 }
-
-/* --- the picture ------------------------------------------------------------------------------------------------ */
 
 /* As many half returns beyond the crossing as the lobes need to be seen: they grow like lambda^(1/2) each. */
 static int halves_of(const iso_separatrix_splitting *s)
@@ -46,7 +35,7 @@ static int draw(const shell *s)
     if (interrupted()) return EXIT_DONE;
     iso_status status = iso_separatrix_curve(s->ctx, at->k, s->scene.params.J, at->level, halves_of(at), &curve);
     snprintf(at_number, sizeof at_number, "%s = %s", by_level ? "level" : "k",
-             iso_fraction_text(number, number_of(at, by_level)));
+             iso_fraction_text(number, by_level ? at->level : at->k));
     if (status == ISO_OK) {
         iso_record_set_kind(curve, "separatrix");
         status = iso_record_set(s->ctx, curve, "at", at_number);

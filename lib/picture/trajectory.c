@@ -229,7 +229,7 @@ static iso_status say_noise(iso_context *ctx, iso_picture *picture, const iso_re
 static iso_status add_drifts(iso_context *ctx, iso_picture *picture, parts *p)
 {
     double largest = 0;
-    ISO_TRY(iso_check_drifts(ctx, &p->params, p->file, &p->drifts));
+    ISO_TRY(iso_check_drifts(ctx, &p->params, p->file, -1, &p->drifts));
     for (size_t c = 1; c < iso_record_columns(p->drifts); c++) largest = fmax(largest, largest_of(p->drifts, c));
     if (largest < 1000 * DBL_EPSILON) return say_noise(ctx, picture, p->drifts, largest);
     return add_chart(ctx, picture, "drift", p->drifts, NULL, ISO_PICTURE_LARGEST);

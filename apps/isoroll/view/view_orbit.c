@@ -202,9 +202,9 @@ iso_status view_verdicts(iso_context *ctx, view_page *page, const iso_scene *sta
     char *options = options_of(axis, count, at);
     scene.effects = iso_scene_acting(start);
     scene.end = 1;
-    iso_status status =
-        options ? iso_study_ask_text(ctx, iso_study_find("chaos"), &(iso_study_subject){.scene = &scene}, options, &result)
-                : iso_context_no_memory(ctx, "%zu orbits", count);
+    iso_status status = options ? iso_study_ask_text(ctx, iso_study_find("chaos"),
+                                                     &(iso_study_subject){.scene = &scene}, options, &result)
+                                : iso_context_no_memory(ctx, "%zu orbits", count);
     if (status == ISO_OK && section)
         status = iso_picture_make(ctx, (const iso_record *[]){section, result.table[0], NULL}, NULL, &picture);
     if (status == ISO_OK)
@@ -261,7 +261,7 @@ iso_status view_add_orbit(iso_context *ctx, view_page *page, iso_record *rows)
     if (status != ISO_OK) return is_fatal(status) ? status : ISO_OK;
     for (int model = 0; model < (*page->alone ? 1 : 2); model++) {
         iso_record *drifts;
-        status = iso_check_drifts_of(ctx, &page->params, rows, (iso_model_kind)model, &drifts);
+        status = iso_check_drifts(ctx, &page->params, rows, model, &drifts);
         if (status == ISO_OK) status = view_add(ctx, page, "drifts", -1, drifts);
         if (is_fatal(status)) return status;
     }
