@@ -1,8 +1,8 @@
 /* options.h - how a command states its options, and how they are read.
  *
  * Each command has
- *     a struct of its own, with a field for each thing that it can be told;
- *     a value of this struct, with what holds when the user says nothing;
+ *     a struct of its own, with a field for each of its options;
+ *     a value of this struct, the defaults (zeros, if there is none);
  *     a table of rows, one row for each option: how it is called, how it is read, and where in the struct it goes.
  * A row that several commands have is written once, here or in the header of the options it belongs to, as a macro.
  * The help, the man pages and the completions are all made from the rows.
