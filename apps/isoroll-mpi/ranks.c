@@ -46,14 +46,7 @@ void ranks_meet(ranks *r)
     wait_for(&request);
 }
 
-static void tell(ranks *r, void *numbers, size_t count)
-{
-    MPI_Request request;
-    MPI_Ibcast(numbers, (int)count, MPI_UINT64_T, 0, r->comm, &request);
-    wait_for(&request);
-}
-
-/* Rank 0 says its own words at once. If it has none, the first rank with trouble says its words. */
+/* Rank 0 prints its own message at once. If it has none, the first rank with trouble prints its message. */
 static int agree(void *data, int result)
 {
     ranks *r = data;
@@ -252,7 +245,7 @@ static void no_memory(const ranks *r)
     MPI_Abort(r->comm, EXIT_NUMERICAL);
 }
 
-/* All ranks learn which chunks are missing; the second one gives the step. Gives whether they have the same sweep. */
+/* All ranks learn which chunks are missing; the second one gives the step. Returns whether they have the same sweep. */
 static bool share_missing(ranks *r, const iso_sweep_source *source)
 {
     const iso_sweep_head *head = iso_sweep_head_of(r->sweep);
@@ -262,7 +255,9 @@ static bool share_missing(ranks *r, const iso_sweep_source *source)
         if (r->count == 1) r->step = c - r->first;
     }
     uint64_t begin[5] = {r->count, r->first, r->step, head->hash[0], head->hash[1]};
-    tell(r, begin, 5);
+    MPI_Request request;
+    MPI_Ibcast(begin, 5, MPI_UINT64_T, 0, r->comm, &request);
+    wait_for(&request);
     r->count = begin[0];
     r->first = begin[1];
     r->step = begin[2];
@@ -281,13 +276,9 @@ static void open_counter(ranks *r)
     ranks_meet(r);
 }
 
-static iso_status compute(ranks *r, iso_context *ctx, int threads, bool same)
+static iso_status compute(ranks *r, iso_context *ctx, int threads)
 {
     const iso_sweep_source mine = {fetch, take, r};
-    if (!same)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                                "this rank has another sweep than rank 0: the files or the processors differ (for "
-                                "processors write 'vectors: avx2')");
     return r->count > 0 ? iso_sweep_run(ctx, r->sweep, threads, &mine) : ISO_OK;
 }
 
@@ -295,7 +286,7 @@ static iso_status compute_and_write(ranks *r, iso_context *ctx, int threads)
 {
     pthread_t listener;
     if (pthread_create(&listener, NULL, listen_on, r) != 0) no_memory(r);
-    const iso_status status = compute(r, ctx, threads, true);
+    const iso_status status = compute(r, ctx, threads);
     if (status != ISO_OK) {
         pthread_mutex_lock(&r->lock);
         stop_all(r);
@@ -337,13 +328,6 @@ static iso_status prepare(ranks *r, iso_context *ctx)
     return r->rank > 0 ? ISO_OK : iso_sweep_rows_create(ctx, head->columns, head->chunk, &r->rows);
 }
 
-static void release(ranks *r)
-{
-    iso_sweep_rows_free(&r->rows);
-    iso_context_free(r->ctx);
-    free(r->bytes);
-}
-
 static iso_status run(void *data, iso_context *ctx, const iso_sweep *sweep, int threads,
                       const iso_sweep_source *source)
 {
@@ -358,14 +342,19 @@ static iso_status run(void *data, iso_context *ctx, const iso_sweep *sweep, int 
     if (r->rank == 0) {
         status = compute_and_write(r, ctx, threads);
     } else {
-        const iso_status mine = compute(r, ctx, threads, same);
+        const iso_status mine = same ? compute(r, ctx, threads)
+                                     : ISO_FAIL_ARGUMENT(ctx, "",
+                                                         "this rank has another sweep than rank 0: the files or the "
+                                                         "processors differ (for processors write 'vectors: avx2')");
         send_end(r, mine, mine == ISO_OK ? "" : iso_context_message(ctx));
     }
     ranks_meet(r);
     print_times(r);
     MPI_Win_unlock_all(r->window);
     MPI_Win_free(&r->window);
-    release(r);
+    iso_sweep_rows_free(&r->rows);
+    iso_context_free(r->ctx);
+    free(r->bytes);
     return status;
 }
 

@@ -1,7 +1,7 @@
 /* isoroll compare - computes one orbit by every backend and shows the differences: table, picture, JSON. */
 #include "command.h"
 #include "model/effects/effects_impl.h"
-#include "picture/stretch_impl.h"
+#include "picture/picture_impl.h"
 #include "plot/draw.h"
 #include "task/task_impl.h"
 

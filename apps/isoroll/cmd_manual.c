@@ -1,7 +1,7 @@
 /* isoroll manual - prints the man pages and the completions for shells; the build installs what it prints. */
 #include <string.h>
 
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "command.h"
 #include "io/output_impl.h"
 

@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "embedded.h"
 #include "io/table.h"
 #include "parameters.h"
 #include "plot/draw.h"
-#include "plot/plot.h"
 #include "sweep/sweep_store_impl.h"
 
 typedef struct options {
@@ -96,9 +96,15 @@ static iso_status draw_table(iso_context *ctx, const options *o, bool sweep)
                               : iso_table_read(ctx, o->from.file, NULL, NULL, &table, NULL);
     if (status == ISO_OK)
         status = sweep ? plot_tables(ctx, &o->page, (const iso_record *[]){table, NULL}, value)
-                       : iso_plot_table(ctx, &o->page, table);
+                       : plot_table(ctx, &o->page, table);
     iso_record_free(table);
     return sweep ? name_the_file(ctx, o->from.file, status) : status;
+}
+
+/* A kind of the library's list, or one of which there is a template. */
+static bool has_picture(const char *kind)
+{
+    return iso_picture_has(kind) || embedded_find(picture_files, kind)->name;
 }
 
 static int run(iso_context *ctx, const void *options_given)
@@ -116,10 +122,9 @@ static int run(iso_context *ctx, const void *options_given)
     const char *wish = iso_plot_section_wish(&o->page);
     if (!*kind) strcpy(kind, TRAJECTORY); /* a file of others */
     const bool trajectory = strcmp(kind, TRAJECTORY) == 0;
-    if (wish && (trajectory || o->from.columns || !iso_plot_has_kind(kind)))
+    if (wish && (trajectory || o->from.columns || !has_picture(kind)))
         return complain("plot: --%s is for sections", wish), EXIT_USAGE;
-    if (!sweep && !iso_plot_has_kind(kind))
-        return complain("plot: there is no picture of a table '%s'", kind), EXIT_USAGE;
+    if (!sweep && !has_picture(kind)) return complain("plot: there is no picture of a table '%s'", kind), EXIT_USAGE;
     if (status == ISO_OK && o->value && !sweep)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "plot: --value is for results of sweeps");
     if (status == ISO_OK && !o->from.columns && !trajectory) return finish(ctx, draw_table(ctx, o, sweep));

@@ -4,7 +4,7 @@
 
 #include "command.h"
 #include "instrument/certify/certify_impl.h"
-#include "io/scene_literals_impl.h"
+#include "io/scene_file.h"
 #include "stream.h"
 #include "task/run.h"
 #include "task/task_impl.h"

@@ -41,7 +41,8 @@ static iso_status open_file(void *data, int table, const iso_record *header)
 static iso_status write_row(void *data, int table, const double row[], size_t count)
 {
     target *t = data;
-    if (table > 0) return t->picture ? iso_picture_points_pair(t->to.ctx, t->picture, t->at, row + 5) : ISO_OK;
+    if (table > 0 && t->picture) iso_picture_points_pair(t->picture, t->at, row + 5);
+    if (table > 0) return ISO_OK;
     if (t->l >= 0) memcpy(t->at, row + t->l, sizeof t->at);
     if (t->picture) ISO_TRY(iso_picture_points_row(t->to.ctx, t->picture, row));
     return stream_row(&t->to, table, row, count);
@@ -65,10 +66,10 @@ static void classify_orbits(iso_context *ctx, const iso_scene *scene, const iso_
     if (r->orbits > MOST_ORBITS || c.at_count == 0) return;
     c.progress = progress_told;
     progress_doing("verdicts");
-    iso_status status = iso_chaos_run(ctx, scene, &c, &chaos);
+    const iso_status status = iso_chaos_run(ctx, scene, &c, &chaos);
     for (size_t i = 0; status == ISO_OK && i < chaos->starts; i++)
-        status =
-            iso_picture_points_judge(ctx, picture, chaos->start[i].l, chaos->start[i].x, chaos->start[i].verdict);
+        iso_picture_points_verdict(picture, chaos->start[i].l, chaos->start[i].x,
+                                   iso_verdict_name(chaos->start[i].verdict));
     iso_chaos_free(chaos);
 }
 

@@ -17,13 +17,6 @@ static json_t *json(const shell *s)
     return o;
 }
 
-/* As many half returns beyond the crossing as the lobes need to be seen: they grow like lambda^(1/2) each. */
-static int halves_of(const iso_separatrix_splitting *s)
-{
-    const double needed = log(0.3 / fmax(fabs(s->section_m), 1e-4)) / (log(s->lambda) / 2);
-    return (int)fmin(fmax(needed, 2) + 2, 60);
-}
-
 /* |m| over k or the level, where there are several rows, and both curves of one of them. */
 static int draw(const shell *s)
 {
@@ -31,9 +24,10 @@ static int draw(const shell *s)
     const iso_separatrix_splitting *at = iso_separatrix_clearest(t);
     iso_record *curve = NULL;
     char at_number[ISO_FRACTION_SIZE + 16], number[ISO_FRACTION_SIZE];
-    const bool by_level = iso_separatrix_by_level(t);
+    const bool by_level = t->by_level;
     if (interrupted()) return EXIT_DONE;
-    iso_status status = iso_separatrix_curve(s->ctx, at->k, s->scene.params.J, at->level, halves_of(at), &curve);
+    iso_status status =
+        iso_picture_separatrix(s->ctx, at->k, s->scene.params.J, at->level, at->section_m, at->lambda, &curve);
     snprintf(at_number, sizeof at_number, "%s = %s", by_level ? "level" : "k",
              iso_fraction_text(number, by_level ? at->level : at->k));
     if (status == ISO_OK) {

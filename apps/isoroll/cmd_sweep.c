@@ -36,91 +36,56 @@ static bool from_environment(const char *name, double usual, double *x)
     return text ? read_whole(text, strlen(text), x) : !isnan(usual);
 }
 
-/* "slurm/N": task I of Slurm computes shard I of N, from 1 on, also if only some tasks are submitted again. */
-static iso_status shard_of_task(iso_context *ctx, const char *shards, iso_sweep_shard *shard)
-{
-    double id, count;
-    if (read_whole(shards, strlen(shards), &count) && from_environment("SLURM_ARRAY_TASK_ID", NAN, &id) && id >= 1 &&
-        id <= count) {
-        *shard = (iso_sweep_shard){(size_t)id - 1, (size_t)count};
-        return ISO_OK;
-    }
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
-                            "--shard slurm/%s: SLURM_ARRAY_TASK_ID must be a number from 1 to %s", shards, shards);
-}
-
 /* The number of a task of a Slurm array begins at any number, and can go in steps. Some tasks that are submitted
- * again are an array of their own: its numbers do not tell their shards. */
+ * again are an array of their own: its numbers do not say their shards. */
 static iso_status shard_of_slurm(iso_context *ctx, iso_sweep_shard *shard)
 {
     double id, count, least, step, most;
     if (!from_environment("SLURM_ARRAY_TASK_ID", NAN, &id) ||
         !from_environment("SLURM_ARRAY_TASK_COUNT", NAN, &count) ||
         !from_environment("SLURM_ARRAY_TASK_MIN", 0, &least) || !from_environment("SLURM_ARRAY_TASK_STEP", 1, &step))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
-                                "--shard slurm: SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT are not numbers: "
-                                "this is no task of an array");
+        return ISO_FAIL_ARGUMENT(ctx, "shard",
+                                 "--shard slurm: SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT are not numbers: "
+                                 "this is no task of an array");
     const double index = (id - least) / fmax(step, 1);
     if (!(index >= 0 && index < count && index == floor(index)))
-        return iso_context_fail(
-            ctx, ISO_BAD_ARGUMENT, "shard",
-            "--shard slurm: the array has %g tasks from %g in steps of %g, and %g is none of them", count, least,
-            fmax(step, 1), id);
+        return ISO_FAIL_ARGUMENT(
+            ctx, "shard", "--shard slurm: the array has %g tasks from %g in steps of %g, and %g is none of them",
+            count, least, fmax(step, 1), id);
     if (count < 2 ||
         (from_environment("SLURM_ARRAY_TASK_MAX", NAN, &most) && most != least + (count - 1) * fmax(step, 1)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
-                                "--shard slurm: this array has one task or gaps, so it does not tell N: give "
-                                "--shard slurm/N, N the number of all shards");
+        return ISO_FAIL_ARGUMENT(ctx, "shard",
+                                 "--shard slurm: this array has one task or gaps, so it does not tell N: give "
+                                 "--shard slurm/N, N the number of all shards");
     *shard = (iso_sweep_shard){(size_t)index, (size_t)count};
     return ISO_OK;
 }
 
+/* "i/n"; "slurm/N": task I of Slurm computes shard I of N, from 1 on, also if only some tasks are submitted
+ * again. */
 static iso_status read_shard(iso_context *ctx, const char *text, iso_sweep_shard *shard)
 {
     double i, n;
     *shard = (iso_sweep_shard){0, 1};
     if (!text) return ISO_OK;
     if (strcmp(text, "slurm") == 0) return shard_of_slurm(ctx, shard);
-    if (strncmp(text, "slurm/", 6) == 0) return shard_of_task(ctx, text + 6, shard);
-    const char *slash = strchr(text, '/');
-    if (!slash || !read_whole(text, (size_t)(slash - text), &i) || !read_whole(slash + 1, strlen(slash + 1), &n) ||
-        i < 1 || i > n)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
-                                "--shard '%s': expected i/n with 1 <= i <= n, slurm or slurm/n", text);
-    *shard = (iso_sweep_shard){(size_t)i - 1, (size_t)n};
-    return ISO_OK;
+    const char *slash = strchr(text, '/'), *most = slash ? slash + 1 : "";
+    const bool task = strncmp(text, "slurm/", 6) == 0;
+    if (read_whole(most, strlen(most), &n) &&
+        (task ? from_environment("SLURM_ARRAY_TASK_ID", NAN, &i) : read_whole(text, (size_t)(slash - text), &i)) &&
+        i >= 1 && i <= n) {
+        *shard = (iso_sweep_shard){(size_t)i - 1, (size_t)n};
+        return ISO_OK;
+    }
+    if (task)
+        return ISO_FAIL_ARGUMENT(ctx, "shard", "--shard slurm/%s: SLURM_ARRAY_TASK_ID must be a number from 1 to %s",
+                                 most, most);
+    return ISO_FAIL_ARGUMENT(ctx, "shard", "--shard '%s': expected i/n with 1 <= i <= n, slurm or slurm/n", text);
 }
 
 /* --- the work --------------------------------------------------------------------------------------------------- */
 
-typedef struct work {
-    iso_sweep_store *store;
-    size_t next; /* of the chunks of the shard, the one to be computed next */
-} work;
-
-static void show(const work *w)
-{
-    progress_show((double)(w->store->done + w->store->queue.count) / (double)w->store->wanted);
-}
-
-static bool next_chunk(void *data, size_t *c)
-{
-    work *w = data;
-    if (interrupted() || w->next == w->store->wanted) return false;
-    *c = w->store->shard.index + w->next++ * w->store->shard.count;
-    return true;
-}
-
-static iso_status take_chunk(void *data, iso_context *ctx, size_t c, const iso_sweep_rows *rows)
-{
-    const work *w = data;
-    (void)c;
-    const iso_status status = iso_sweep_store_add(ctx, w->store, rows);
-    show(w);
-    return status;
-}
-
-static int tell_interrupted(const options *o, const iso_sweep_store *s)
+static int warn_interrupted(const options *o, const iso_sweep_store *s)
 {
     const char *how = limit_is_near() ? "stopped by SIGTERM or SIGUSR1" : "interrupted";
     const bool gentle = limit_is_near() && (s->part || s->done == 0);
@@ -134,25 +99,17 @@ static int tell_interrupted(const options *o, const iso_sweep_store *s)
     return gentle ? EXIT_DONE : EXIT_SOME_FAILED;
 }
 
-static int tell_failures(const iso_sweep_failures *f, const char *of)
+static int warn_failures(const iso_sweep_failures *f, const char *of)
 {
     if (f->count == 0) return EXIT_DONE;
     complain("%zu %spoints failed; the first is point %zu: %s", f->count, of, f->first, f->reason);
     return EXIT_SOME_FAILED;
 }
 
-static int threads_of(const options *o)
+/* The answer of all members of a team; NULL: this process is alone. */
+static int agree(const sweep_team *team, int result)
 {
-    return o->threads < 1024 ? o->threads : 1024;
-}
-
-/* Before the work begins, not hours later. */
-static void warn_of_zeros(const iso_sweep_file *file, const iso_sweep_store *store)
-{
-    const size_t zeros = iso_sweep_zeros_of_k(file);
-    if (zeros > 0 && store->done < store->wanted)
-        complain("sweep: %zu of %zu points have k = 0, where there is no ball: they will fail", zeros,
-                 iso_sweep_file_plan(file)->family.count);
+    return team ? team->agree(team->data, result) : result;
 }
 
 static int compute(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep *sweep,
@@ -160,18 +117,20 @@ static int compute(iso_context *ctx, const options *o, const sweep_team *team, c
 {
     const iso_sweep_head *head = iso_sweep_head_of(sweep);
     char of[32];
-    work w = {store, store->done};
-    const iso_sweep_source source = {next_chunk, take_chunk, &w};
+    const iso_sweep_source source = iso_sweep_store_source(store);
+    store->interrupted = interrupted;
+    store->progress = progress_told;
     stop_gently();
     progress_begin();
-    show(&w);
-    iso_status status = team->run(team->data, ctx, sweep, threads_of(o), &source);
+    progress_show((double)store->done / (double)store->wanted);
+    iso_status status = team ? team->run(team->data, ctx, sweep, o->threads, &source)
+                             : iso_sweep_run(ctx, sweep, o->threads, &source);
     progress_end();
     if (status != ISO_OK) return finish(ctx, status);
-    if (store->done < store->wanted) return tell_interrupted(o, store);
+    if (store->done < store->wanted) return warn_interrupted(o, store);
     status = iso_sweep_store_finish(ctx, store);
     snprintf(of, sizeof of, "of %zu ", iso_sweep_shard_points(head, store->shard));
-    return status == ISO_OK ? tell_failures(&store->failures, of) : finish(ctx, status);
+    return status == ISO_OK ? warn_failures(&store->failures, of) : finish(ctx, status);
 }
 
 /* A quantity that the scene does not have is refused where the file asks for it. */
@@ -187,32 +146,29 @@ static int refused(iso_context *ctx, const options *o, const iso_sweep_plan *pla
 }
 
 /* Every member has read the sweep. The one that writes opens the result. */
-static int run_sweep(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep_file *file,
-                     const iso_sweep *sweep, iso_sweep_shard shard)
-{
-    iso_sweep_store *store = NULL;
-    iso_status status = ISO_OK;
-    if (team->writes)
-        status = iso_sweep_store_open(ctx, o->output, iso_sweep_head_of(sweep), shard, o->resume, &store);
-    int result = team->agree(team->data, finish(ctx, status));
-    if (store) warn_of_zeros(file, store);
-    if (result == EXIT_DONE && team->writes)
-        result = compute(ctx, o, team, sweep, store);
-    else if (result == EXIT_DONE)
-        result = finish(ctx, team->run(team->data, ctx, sweep, threads_of(o), NULL));
-    iso_sweep_store_close(store);
-    return result;
-}
-
 static int run_file(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep_file *file)
 {
     const iso_sweep_plan *plan = iso_sweep_file_plan(file);
+    const size_t zeros = iso_sweep_zeros_of_k(file);
+    const bool writes = !team || team->writes;
     iso_sweep_shard shard;
     iso_sweep *sweep = NULL;
+    iso_sweep_store *store = NULL;
     iso_status status = read_shard(ctx, o->shard, &shard);
     if (status == ISO_OK) status = iso_sweep_create(ctx, plan, &sweep);
-    int result = team->agree(team->data, refused(ctx, o, plan, status));
-    if (result == EXIT_DONE) result = run_sweep(ctx, o, team, file, sweep, shard);
+    int result = agree(team, refused(ctx, o, plan, status));
+    if (result == EXIT_DONE) {
+        if (writes) status = iso_sweep_store_open(ctx, o->output, iso_sweep_head_of(sweep), shard, o->resume, &store);
+        result = agree(team, finish(ctx, status));
+    }
+    if (store && zeros > 0 && store->done < store->wanted) /* before the work begins, not hours later */
+        complain("sweep: %zu of %zu points have k = 0, where there is no ball: they will fail", zeros,
+                 plan->family.count);
+    if (result == EXIT_DONE && writes)
+        result = compute(ctx, o, team, sweep, store);
+    else if (result == EXIT_DONE)
+        result = finish(ctx, team->run(team->data, ctx, sweep, o->threads, NULL));
+    iso_sweep_store_close(store);
     iso_sweep_free(sweep);
     return result;
 }
@@ -243,7 +199,7 @@ static int merge(iso_context *ctx, const options *o)
     if (!fits(o)) return EXIT_USAGE;
     const char *const *parts = (const char *const *)o->parts.path;
     const iso_status status = iso_sweep_merge(ctx, (size_t)o->parts.count, parts, o->output, &failures);
-    return status == ISO_OK ? tell_failures(&failures, "") : finish(ctx, status);
+    return status == ISO_OK ? warn_failures(&failures, "") : finish(ctx, status);
 }
 
 /* Not a pipe: only one program can read that. A file that is not there is one: who opens it tells why. */
@@ -261,38 +217,23 @@ int sweep_with(iso_context *ctx, const void *options_given, const sweep_team *te
         return complain("sweep: one argument too many: %s", o->parts.path[1]), EXIT_USAGE;
     if (!o->merge && !file_fits(&command_sweep, o->file)) return EXIT_BAD_INPUT;
     const bool computes = !o->merge && isnan(o->point); /* else one member is enough */
-    if (computes && team->members > 1 && !is_file(o->file))
+    const bool many = team && team->members > 1;
+    if (computes && many && !is_file(o->file))
         return complain("sweep: a pipe reaches one rank alone: give a file"), EXIT_USAGE;
-    if (computes && team->members > 1 && strcmp(o->output, "-") == 0)
+    if (computes && many && strcmp(o->output, "-") == 0)
         return complain("sweep: mpirun does not tell whether its output arrives: give -o FILE"), EXIT_USAGE;
-    if (!computes && !team->writes) return EXIT_DONE;
+    if (!computes && team && !team->writes) return EXIT_DONE;
     if (o->merge) return merge(ctx, o);
     int result = finish(ctx, iso_sweep_read(ctx, o->file, &file));
-    if (computes) result = team->agree(team->data, result);
+    if (computes) result = agree(team, result);
     if (result == EXIT_DONE) result = computes ? run_file(ctx, o, team, file) : print_point(ctx, o, file);
     iso_sweep_file_free(file);
     return result;
 }
 
-/* --- a team of one ---------------------------------------------------------------------------------------------- */
-
-static int agree_alone(void *unused, int result)
-{
-    (void)unused;
-    return result;
-}
-
-static iso_status run_alone(void *unused, iso_context *ctx, const iso_sweep *sweep, int threads,
-                            const iso_sweep_source *source)
-{
-    (void)unused;
-    return iso_sweep_run(ctx, sweep, threads, source);
-}
-
 static int run(iso_context *ctx, const void *options_given)
 {
-    static const sweep_team alone = {1, true, agree_alone, run_alone, NULL};
-    return sweep_with(ctx, options_given, &alone);
+    return sweep_with(ctx, options_given, NULL);
 }
 
 static const options defaults = {.file = "-", .output = "-", .point = NAN};

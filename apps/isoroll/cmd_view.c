@@ -88,10 +88,10 @@ static iso_status check_live(iso_context *ctx, const view_page *page)
 {
     for (int i = 0; page->live && i < ISO_EFFECTS; i++)
         if (page->effects.on[i] && !is_in_laboratory(i))
-            return ISO_FAIL_INPUT(ctx, iso_effect_at(i)->name,
+            return ISO_FAIL_INPUT(ctx, iso_effect_list[i]->name,
                                   "--live computes with level, rotor and gravity, and the scene has '%s': take it "
                                   "out, or leave out --live",
-                                  iso_effect_at(i)->name);
+                                  iso_effect_list[i]->name);
     return ISO_OK;
 }
 

@@ -1,7 +1,7 @@
 /* main.c - the program isoroll: finds the command and runs it; --help and --version. */
 #include <string.h>
 
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "command.h"
 
 static int unknown(const char *name)

@@ -6,10 +6,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "base/number_impl.h"
 #include "command.h"
-#include "io/replacement_impl.h"
+#include "io/output_impl.h"
 
 /* --- setters ---------------------------------------------------------------------------------------------------- */
 
@@ -228,7 +228,7 @@ static options_result keep_files_apart(const command *c, const char *options)
     for (int i = 0; options_row(c, i); i++) {
         const char *path = path_of(options_row(c, i), OPTION_WRITES, options);
         if (!path || strcmp(path, "-") == 0) continue;
-        char *part = iso_replacement_name(path);
+        char *part = iso_file_part(path);
         const bool read = is_read(c, path, options) || (part && is_read(c, part, options));
         free(part);
         if (read) return complain("%s: '%s' would overwrite what is read", c->name, path), OPTIONS_WRONG;

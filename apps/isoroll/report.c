@@ -8,7 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "io/replacement_impl.h"
+#include "io/output_impl.h"
 #include "io/text_impl.h"
 #include "progress.h"
 #include "terminal.h"
@@ -17,7 +17,7 @@ static volatile sig_atomic_t stop_asked, stop_signal;
 
 static void end(int signal_number)
 {
-    iso_replacement_unlink_all();
+    iso_output_unlink_all();
     signal(signal_number, SIG_DFL);
     raise(signal_number);
 }

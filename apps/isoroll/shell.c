@@ -41,7 +41,7 @@ static iso_status prepare(shell *s, const shell_parts *parts, iso_table_writer *
 
 int shell_draw(const shell *s, const iso_record *table)
 {
-    return finish(s->ctx, iso_plot_table(s->ctx, &s->common->plot, table));
+    return finish(s->ctx, plot_table(s->ctx, &s->common->plot, table));
 }
 
 /* Prints text or JSON, unless the table goes to standard output. */

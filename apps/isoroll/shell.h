@@ -3,7 +3,7 @@
 #define ISOROLL_SHELL_H
 
 #include "json.h"
-#include "plot/plot.h"
+#include "plot/draw.h"
 #include "study/study.h"
 
 /* Options of every such command. */

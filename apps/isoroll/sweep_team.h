@@ -19,7 +19,7 @@ typedef struct sweep_team {
     void *data;
 } sweep_team;
 
-/* The command sweep as a member of a team. `options` are those of command_sweep. */
+/* The command sweep as a member of a team; NULL: alone. `options` are those of command_sweep. */
 int sweep_with(iso_context *ctx, const void *options, const sweep_team *team);
 
 #endif

@@ -1,6 +1,6 @@
 /* times.c - reads output times (stream.h): numbers between blanks, commas, new lines and comments. */
 #include "base/number_impl.h"
-#include "io/replacement_impl.h"
+#include "io/output_impl.h"
 #include "io/text_impl.h"
 #include "stream.h"
 

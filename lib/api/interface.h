@@ -208,7 +208,7 @@ ISO_API iso_status iso_picture_of(iso_context *ctx, const iso_record *const tabl
 
 /* --- sweeps ----------------------------------------------------------------------------------------------------- */
 
-/* Measures all points of a sweep (sweep/sweep.h).
+/* Measures all points of a sweep (lib/doc/formats.md).
  * path: of its file; with text, what messages call it, and in whose folder a scene's file is sought.
  * text: the sweep in YAML, `length` bytes; NULL: the file is read.
  * threads: 0: as many as there are processors.

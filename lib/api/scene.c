@@ -28,17 +28,10 @@ void iso_scene_free(iso_scene *scene)
     free(scene);
 }
 
-/* The name stands behind the scene; reading has forgotten where. */
-static iso_status named(iso_scene *scene, iso_status status)
+/* Gives the scene its name, which reading has forgotten, or releases it. */
+static iso_status finish(iso_status status, iso_scene **scene)
 {
-    scene->name = (const char *)(scene + 1);
-    return status;
-}
-
-/* Gives the scene away, or releases it. */
-static iso_status give(iso_status status, iso_scene **scene)
-{
-    if (status == ISO_OK) return status;
+    if (status == ISO_OK) return (*scene)->name = (const char *)(*scene + 1), status;
     iso_scene_free(*scene);
     *scene = NULL;
     return status;
@@ -46,22 +39,21 @@ static iso_status give(iso_status status, iso_scene **scene)
 
 iso_status iso_scene_read(iso_context *ctx, const char *path, iso_scene **scene)
 {
-    const iso_status status = create(ctx, strcmp(path, "-") == 0 ? "<stdin>" : path, scene);
-    return status == ISO_OK ? give(named(*scene, iso_scene_load(ctx, path, *scene)), scene) : status;
+    ISO_TRY(create(ctx, strcmp(path, "-") == 0 ? "<stdin>" : path, scene));
+    return finish(iso_scene_load(ctx, path, *scene), scene);
 }
 
 iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene **scene)
 {
-    const iso_status status = create(ctx, name, scene);
-    return status == ISO_OK ? give(named(*scene, iso_scene_load_text(ctx, name, text, length, *scene)), scene)
-                            : status;
+    ISO_TRY(create(ctx, name, scene));
+    return finish(iso_scene_load_text(ctx, name, text, length, *scene), scene);
 }
 
 iso_status iso_scene_copy(iso_context *ctx, const iso_scene *from, iso_scene **scene)
 {
     ISO_TRY(create(ctx, from->name, scene));
     **scene = *from;
-    return named(*scene, ISO_OK);
+    return finish(ISO_OK, scene);
 }
 
 iso_status iso_blame_scene(iso_context *ctx, const iso_scene *scene, iso_status status)

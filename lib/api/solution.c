@@ -18,11 +18,6 @@ static void keep_note(void *data, const char *text)
     iso_notes_add(data, text);
 }
 
-static iso_status no_place(iso_context *ctx, size_t count)
-{
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "times", "%zu times are at NULL", count);
-}
-
 /* --- orbits ----------------------------------------------------------------------------------------------------- */
 
 struct iso_solution {
@@ -101,17 +96,6 @@ static iso_status fill_row(iso_solution *o, double time, double row[])
     return status;
 }
 
-static iso_status fill_sorted(iso_solution *o, const double times[], size_t count, double table[])
-{
-    iso_asked_time *order = iso_times_sorted(times, count);
-    iso_status status = ISO_OK;
-    if (!order) return no_orbit(o->ctx);
-    for (size_t i = 0; status == ISO_OK && i < count; i++)
-        status = fill_row(o, order[i].time, table + order[i].row * (size_t)o->count);
-    free(order);
-    return status;
-}
-
 /* A ball that can lose contact: a run watches it. Where it has lost it there is no row, which is refused. */
 static iso_status fill_watched(iso_solution *o, const double times[], size_t count, double table[], notes *n)
 {
@@ -143,15 +127,19 @@ iso_status iso_solution_at(iso_solution *o, const double times[], size_t count, 
     ISO_DEFAULT_ARITHMETIC;
     notes n = iso_notes_begin(text, room);
     iso_status status = ISO_OK;
-    if (!times && count > 0) return no_place(o->ctx, count);
+    if (!times && count > 0) return ISO_FAIL_ARGUMENT(o->ctx, "times", "%zu times are at NULL", count);
     for (size_t i = 0; i < count; i++)
         if (!isfinite(times[i]))
             return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "times", "time %zu must be finite, not %s", i,
                                     ISO_SHORT(times[i]));
     if (count > 0 && iso_effects_watch_contact(&o->scene.effects)) return fill_watched(o, times, count, table, &n);
-    if (!iso_times_in_order(times, count)) return fill_sorted(o, times, count, table);
-    for (size_t i = 0; status == ISO_OK && i < count; i++)
-        status = fill_row(o, times[i], table + i * (size_t)o->count);
+    iso_asked_time *order = iso_times_in_order(times, count) ? NULL : iso_times_sorted(times, count);
+    if (!order && !iso_times_in_order(times, count)) return no_orbit(o->ctx);
+    for (size_t i = 0; status == ISO_OK && i < count; i++) {
+        const size_t row = order ? order[i].row : i;
+        status = fill_row(o, times[row], table + row * (size_t)o->count);
+    }
+    free(order);
     return status;
 }
 

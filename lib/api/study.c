@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "api/interface_impl.h"
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "base/record_impl.h"
 #include "picture/picture.h"
 #include "study/study.h"
@@ -13,25 +13,19 @@
 
 /* --- asking ----------------------------------------------------------------------------------------------------- */
 
-static iso_status find(iso_context *ctx, const char *name, const iso_study **study)
-{
-    char suggested[ISO_SUGGEST_SIZE];
-    *study = iso_study_find(name);
-    if (*study) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "study", "there is no study '%s'; %s", name,
-                            iso_suggest_word(suggested, name, iso_study_name));
-}
-
 iso_status iso_study_ask(iso_context *ctx, const char *name, const iso_scene *scene, const iso_record *record,
                          const char *options, const iso_sink *sink, iso_record *table[ISO_TABLES])
 {
-    const iso_study *study;
+    char suggested[ISO_SUGGEST_SIZE];
+    const iso_study *study = iso_study_find(name);
     iso_study_result result = {.text = NULL};
     const iso_study_subject subject = {.scene = scene, .name = scene ? scene->name : NULL, .record = record};
     if (sink) result.sink = *sink;
     for (int i = 0; i < ISO_TABLES; i++) table[i] = NULL;
-    iso_status status = find(ctx, name, &study);
-    if (status == ISO_OK) status = iso_study_ask_text(ctx, study, &subject, options, &result);
+    if (!study)
+        return ISO_FAIL_ARGUMENT(ctx, "study", "there is no study '%s'; %s", name,
+                                 iso_suggest_word(suggested, name, iso_study_name));
+    iso_status status = iso_study_ask_text(ctx, study, &subject, options, &result);
     const bool of_scene = status != ISO_OK && status != ISO_BAD_ARGUMENT && scene && !result.table[0];
     if (of_scene) status = iso_blame_scene(ctx, scene, status);
     if (result.table[0]) iso_record_keep_text(result.table[0], result.text), result.text = NULL;

@@ -2,7 +2,6 @@
  *
  * - ISO_API stands before each function and variable that a program can use. The shared library exports these alone.
  * - ISO_C_BEGIN and ISO_C_END enclose the declarations of a public header: C++ programs then read them as C.
- * - ISO_ALL_ZERO initializes a struct with zeros, in C and in C++.
  */
 #ifndef ISO_BASE_API_H
 #define ISO_BASE_API_H
@@ -19,11 +18,9 @@
 /* clang-format off */
 #define ISO_C_BEGIN extern "C" {
 #define ISO_C_END }
-#define ISO_ALL_ZERO {}
 #else
 #define ISO_C_BEGIN
 #define ISO_C_END
-#define ISO_ALL_ZERO {0}
 /* clang-format on */
 #endif
 

@@ -11,4 +11,15 @@
 #include <arb_mat.h>
 #endif
 
+/* A struct of balls, or its first `size` bytes, as one list of them. */
+static inline void iso_balls_init(void *balls, size_t size)
+{
+    for (size_t i = 0; i < size / sizeof(arb_struct); i++) arb_init((arb_ptr)balls + i);
+}
+
+static inline void iso_balls_clear(void *balls, size_t size)
+{
+    for (size_t i = 0; i < size / sizeof(arb_struct); i++) arb_clear((arb_ptr)balls + i);
+}
+
 #endif

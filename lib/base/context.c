@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/room_impl.h"
+#include "base/resources_impl.h"
 
 struct iso_context {
     void *attached; /* see iso_context_attach */

@@ -1,5 +1,5 @@
-/* digits.cpp - digits of doubles: the one file in C++ (digits_impl.h). */
-#include "base/digits_impl.h"
+/* digits.cpp - digits of doubles: the one file in C++ (number_impl.h). */
+#include "base/number_impl.h"
 
 #include <charconv>
 #include <cmath>

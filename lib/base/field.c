@@ -107,19 +107,30 @@ static void name_column(char name[ISO_COLUMN_SIZE], const char *outer, const iso
         if (*c == '.') *c = '_';
 }
 
-static void visit_columns(const char *outer, const iso_field *fields, const void *row, iso_column_visitor *visit,
-                          void *data)
+/* The columns of a table, or all numbers of a struct, with those that JSON alone has. */
+static void visit_fields(const char *outer, const iso_field *fields, const void *row, bool numbers,
+                         iso_column_visitor *visit, void *data)
 {
-    char name[ISO_COLUMN_SIZE];
+    char name[ISO_COLUMN_SIZE], item[ISO_COLUMN_SIZE + 4];
     iso_value value;
     for (const iso_field *f = fields; f->name; f++) {
-        if (f->how & ISO_IN_TREE || f->type >= ISO_FIELD_RECORD) continue;
-        if (f->type == ISO_FIELD_STRUCT) {
-            name_column(name, outer, f, 0);
-            visit_columns(name, f->fields, iso_field_struct(f, row), visit, data);
+        iso_field own = *f;
+        if (numbers) own.column = NULL;
+        if (f->type >= ISO_FIELD_STRUCT) own.count = 0;
+        if (!numbers && f->how & ISO_IN_TREE) continue;
+        name_column(name, outer, &own, 0);
+        if (f->type == ISO_FIELD_STRUCT)
+            visit_fields(name, f->fields, iso_field_struct(f, row), numbers, visit, data);
+        const int known = f->item || f->counter_size ? 1 : f->count;
+        for (int i = 0; numbers && f->type == ISO_FIELD_LIST && i < ISO_MOST_FIELDS; i++) {
+            const void *at = row ? iso_field_item(f, row, (size_t)i) : NULL;
+            if (row ? !at : i == known) break;
+            snprintf(item, sizeof item, "%s%d", name, i + 1);
+            visit_fields(item, f->fields, at, numbers, visit, data);
         }
-        for (int i = 0; f->type != ISO_FIELD_STRUCT && (i == 0 || i < f->count); i++) {
-            name_column(name, outer, f, i);
+        const bool number = f->type < ISO_FIELD_TEXT && strcmp(f->unit ? f->unit : "", "s") != 0;
+        for (int i = 0; (numbers ? number : f->type < ISO_FIELD_STRUCT) && (i == 0 || i < f->count); i++) {
+            name_column(name, outer, &own, i);
             iso_field_read(f, row, i, &value);
             visit(data, name, f, &value);
         }
@@ -128,43 +139,12 @@ static void visit_columns(const char *outer, const iso_field *fields, const void
 
 void iso_columns_visit(const iso_field *fields, const void *row, iso_column_visitor *visit, void *data)
 {
-    visit_columns("", fields, row, visit, data);
-}
-
-static bool is_number(const iso_field *f)
-{
-    return f->type < ISO_FIELD_TEXT && strcmp(f->unit ? f->unit : "", "s") != 0;
-}
-
-static void visit_numbers(const char *outer, const iso_field *fields, const void *row, iso_column_visitor *visit,
-                          void *data)
-{
-    char name[ISO_COLUMN_SIZE], item[ISO_COLUMN_SIZE + 4];
-    iso_value value;
-    for (const iso_field *f = fields; f->name; f++) {
-        iso_field own = *f;
-        own.column = NULL;
-        if (f->type >= ISO_FIELD_STRUCT) own.count = 0;
-        name_column(name, outer, &own, 0);
-        if (f->type == ISO_FIELD_STRUCT) visit_numbers(name, f->fields, iso_field_struct(f, row), visit, data);
-        const int known = f->item || f->counter_size ? 1 : f->count;
-        for (int i = 0; f->type == ISO_FIELD_LIST && i < ISO_MOST_FIELDS; i++) {
-            const void *at = row ? iso_field_item(f, row, (size_t)i) : NULL;
-            if (row ? !at : i == known) break;
-            snprintf(item, sizeof item, "%s%d", name, i + 1);
-            visit_numbers(item, f->fields, at, visit, data);
-        }
-        for (int i = 0; is_number(f) && (i == 0 || i < f->count); i++) {
-            name_column(name, outer, &own, i);
-            iso_field_read(f, row, i, &value);
-            visit(data, name, f, &value);
-        }
-    }
+    visit_fields("", fields, row, false, visit, data);
 }
 
 void iso_numbers_visit(const iso_field *fields, const void *row, iso_column_visitor *visit, void *data)
 {
-    visit_numbers("", fields, row, visit, data);
+    visit_fields("", fields, row, true, visit, data);
 }
 
 /* --- records ---------------------------------------------------------------------------------------------------- */
@@ -229,51 +209,38 @@ iso_status iso_columns_append(iso_context *ctx, const iso_field *fields, const v
     return to.status;
 }
 
-typedef struct lines {
-    iso_context *ctx;
-    iso_record *record;
-    iso_status status;
-} lines;
-
-static void set_fields(lines *l, const char *outer, const iso_field *f, const void *row);
-
-/* Of a struct, a list, or the numbers of a field. */
-static void set_inner(lines *l, const char *key, const iso_field *f, const void *row)
+static iso_status set_fields(iso_context *ctx, iso_record *record, const char *outer, const iso_field *f,
+                             const void *row)
 {
-    char inner[3 * ISO_COLUMN_SIZE];
-    const void *item = row;
+    char key[2 * ISO_COLUMN_SIZE], inner[4 * ISO_COLUMN_SIZE];
+    const void *item;
     iso_value v;
-    if (f->type == ISO_FIELD_STRUCT && (item = iso_field_struct(f, row))) set_fields(l, key, f->fields, item);
-    for (size_t i = 0; f->type == ISO_FIELD_LIST && (item = iso_field_item(f, row, i)); i++) {
-        snprintf(inner, sizeof inner, "%s.%zu", key, i);
-        if (!f->skip || !f->skip(item)) set_fields(l, inner, f->fields, item);
-    }
-    for (int i = 0; f->type < ISO_FIELD_STRUCT && (i == 0 || i < f->count); i++) {
-        char last[ISO_NUMBER_SIZE];
-        snprintf(last, sizeof last, "%d", i);
-        snprintf(inner, sizeof inner, "%s%s%s", key, f->count > 1 ? "." : "",
-                 f->count <= 1 ? ""
-                 : f->word     ? f->word(i)
-                               : last);
-        iso_field_read(f, row, i, &v);
-        if (l->status != ISO_OK || !v.there) continue;
-        l->status = v.text ? iso_record_set(l->ctx, l->record, inner, v.text)
-                           : iso_record_set_numbers(l->ctx, l->record, inner, 1, &v.number);
-    }
-}
-
-static void set_fields(lines *l, const char *outer, const iso_field *f, const void *row)
-{
-    char key[2 * ISO_COLUMN_SIZE];
     for (; f->name; f++) {
         snprintf(key, sizeof key, "%s%s%s", outer, *outer && *f->name ? "." : "", f->name);
-        if (!(f->how & ISO_IN_TABLE) && iso_field_is_there(f, row)) set_inner(l, key, f, row);
+        if (f->how & ISO_IN_TABLE || !iso_field_is_there(f, row)) continue;
+        if (f->type == ISO_FIELD_STRUCT && (item = iso_field_struct(f, row)))
+            ISO_TRY(set_fields(ctx, record, key, f->fields, item));
+        for (size_t i = 0; f->type == ISO_FIELD_LIST && (item = iso_field_item(f, row, i)); i++) {
+            snprintf(inner, sizeof inner, "%s.%zu", key, i);
+            if (!f->skip || !f->skip(item)) ISO_TRY(set_fields(ctx, record, inner, f->fields, item));
+        }
+        for (int i = 0; f->type < ISO_FIELD_STRUCT && (i == 0 || i < f->count); i++) {
+            if (f->count > 1 && f->word)
+                snprintf(inner, sizeof inner, "%s.%s", key, f->word(i));
+            else if (f->count > 1)
+                snprintf(inner, sizeof inner, "%s.%d", key, i);
+            else
+                snprintf(inner, sizeof inner, "%s", key);
+            iso_field_read(f, row, i, &v);
+            if (v.there)
+                ISO_TRY(v.text ? iso_record_set(ctx, record, inner, v.text)
+                               : iso_record_set_numbers(ctx, record, inner, 1, &v.number));
+        }
     }
+    return ISO_OK;
 }
 
 iso_status iso_record_set_fields(iso_context *ctx, iso_record *record, const iso_field *fields, const void *row)
 {
-    lines l = {ctx, record, ISO_OK};
-    set_fields(&l, "", fields, row);
-    return l.status;
+    return set_fields(ctx, record, "", fields, row);
 }

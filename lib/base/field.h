@@ -68,7 +68,7 @@ typedef struct iso_field {
     bool (*skip)(const void *item); /* structs of a list that are left out; NULL: none                      */
     bool (*there)(const void *row); /* NULL: always                                                         */
     size_t when;                    /* there only if this bool is true, see ISO_WHEN; 0: always             */
-    /* What gives a value that no member holds: a number, a bool, or whatever is set in *value. */
+    /* What finds a value that no member holds: a number, a bool, or whatever is set in *value. */
     double (*number)(const void *row);
     bool (*is)(const void *row);
     void (*find)(const void *row, int i, iso_value *value);
@@ -107,7 +107,7 @@ typedef struct iso_field {
 #define ISO_GROUP(key, fields_, ...)                                                                                 \
     {.name = key, .type = ISO_FIELD_STRUCT, .fields = fields_, .doc = __VA_ARGS__}
 
-/* Structs in an array of T; behind a pointer in T; in an array that is always full; and those that a function gives.
+/* Structs in an array of T; behind a pointer in T; in an array that is always full; and those that a function returns.
  * `number` is a member, an int or a size_t. */
 #define ISO_LIST(T, key, member, number, fields_, ...)                                                               \
     {ISO_LIST_OF(T, key, member, fields_), ISO_COUNTER(T, number), .doc = __VA_ARGS__}

@@ -76,7 +76,7 @@ typedef struct table {
     bool words[MOST_CELLS]; /* not all are numbers */
 } table;
 
-/* Cuts the row at *text into cells and steps behind it. Gives how many there are. */
+/* Cuts the row at *text into cells and steps behind it. Returns how many there are. */
 static int read_row(const char **text, cell cells[MOST_CELLS])
 {
     int count = 0;
@@ -149,16 +149,6 @@ static void print_row(FILE *to, const table *t, const cell cells[], int count, i
     fputc('\n', to);
 }
 
-static void print_part(FILE *to, const table *t, int first, int end, int width)
-{
-    cell cells[MOST_CELLS];
-    const char *at = t->text;
-    while (*at && *at != END) {
-        const int count = read_row(&at, cells);
-        print_row(to, t, cells, count, first, end, width);
-    }
-}
-
 /* The first column that has no room beside the keys and the columns from `first` on. At least one has. */
 static int part_end(const table *t, int first, int width)
 {
@@ -183,6 +173,7 @@ static int count_parts(const table *t, int width)
 /* In as few parts as the width allows, which are about as wide as each other. */
 static void print_table(FILE *to, const char *text, int keys, int width)
 {
+    cell cells[MOST_CELLS];
     table t = {.text = text, .keys = keys};
     measure(&t);
     int narrow = width == ISO_ANY_WIDTH ? MOST_WIDTH : width;
@@ -191,7 +182,10 @@ static void print_table(FILE *to, const char *text, int keys, int width)
     for (int first = keys, end; first < t.columns; first = end) {
         end = part_end(&t, first, narrow);
         if (first > keys) fputc('\n', to);
-        print_part(to, &t, first, end, width);
+        for (const char *at = text; *at && *at != END;) {
+            const int count = read_row(&at, cells);
+            print_row(to, &t, cells, count, first, end, width);
+        }
     }
 }
 

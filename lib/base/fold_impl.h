@@ -31,7 +31,7 @@ void iso_table_end(FILE *to);
 void iso_fold(FILE *to, const char *text, int width);
 
 /* A text that is written into a stream. iso_memory_close returns it, for the caller to free; NULL: `to` is NULL, or
- * memory was short for a part of it, which a stream of open_memstream would not tell. */
+ * memory was short for a part of it, which a stream of open_memstream would not report. */
 typedef struct iso_memory {
     char *text;
     size_t used, room;

@@ -6,7 +6,6 @@
 #include <math.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/digits_impl.h"
 
 const char *iso_number_scan(const char *from, const char *to, double *value)
 {
@@ -41,7 +40,7 @@ int iso_number_print(char text[ISO_NUMBER_SIZE], double value)
     return iso_number_print_as(text, value, 17);
 }
 
-/* A decimal of 15 digits or fewer is what %.15g gives for the double that it reads as, unless that is subnormal. */
+/* A decimal of 15 digits or fewer is what %.15g prints for the double that it reads as, unless that is subnormal. */
 char *iso_number_short(char text[ISO_NUMBER_SIZE], double value)
 {
     ISO_DEFAULT_ARITHMETIC;

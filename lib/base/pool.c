@@ -53,20 +53,20 @@ static void *await(iso_pool_worker *asking, pthread_t thread)
     return result;
 }
 
-/* Starts threads beside this one, as many as can be had, and works with them. False: no memory. */
-static bool work_together(iso_pool_worker workers[], size_t count)
+size_t iso_pool_threads(int threads, size_t count, int lanes)
 {
-    size_t started = 1;
-    while (started < count && pthread_create(&workers[started].thread, NULL, work, &workers[started]) == 0) started++;
-    bool memory = work(&workers[0]) == NULL;
-    for (size_t i = 1; i < started; i++) memory = await(&workers[0], workers[i].thread) == NULL && memory;
-    return memory;
+    cpu_set_t set; /* of processors that this process may use */
+    const size_t most = count / (size_t)lanes + 1, asked = threads > 0 ? (size_t)threads
+                                                           : sched_getaffinity(0, sizeof set, &set) == 0
+                                                               ? (size_t)CPU_COUNT(&set)
+                                                               : 1;
+    return asked < most ? asked : most;
 }
 
-static iso_status run(iso_context *ctx, iso_pool *all, iso_pool_worker workers[], size_t threads,
-                      const iso_status status[])
+/* Starts threads beside this one, as many as can be had, and works with them. False: no memory. */
+static bool work_together(iso_context *ctx, iso_pool *all, iso_pool_worker workers[], size_t threads)
 {
-    const iso_pool_worker *first = &workers[0];
+    size_t started = 1;
     for (size_t i = 0; i < threads; i++) {
         workers[i] = (iso_pool_worker){
             .all = all, .ctx = iso_context_create(), .asks = i == 0 ? ctx : NULL, .failed = all->count};
@@ -75,38 +75,33 @@ static iso_status run(iso_context *ctx, iso_pool *all, iso_pool_worker workers[]
         else
             iso_context_set_monitor(workers[i].ctx, iso_pool_goes_on, &workers[i]);
     }
-    const bool memory = threads > 0 && work_together(workers, threads);
-    for (size_t i = 0; i < threads; i++) {
-        iso_context_free(workers[i].ctx);
-        free(workers[i].room);
-        if (workers[i].failed < first->failed) first = &workers[i];
-    }
-    if (!memory) return iso_context_no_memory(ctx, "%zu %ss", all->count, all->what);
-    if (atomic_load(&all->stopped)) return iso_context_stopped(ctx);
-    if (first->failed == all->count) return ISO_OK;
-    return iso_context_fail(ctx, status[first->failed], first->about, "%s %zu: %s", all->what, first->failed,
-                            first->message);
-}
-
-/* The number of processors that this process may use. */
-static size_t processors(void)
-{
-    cpu_set_t set;
-    return sched_getaffinity(0, sizeof set, &set) == 0 ? (size_t)CPU_COUNT(&set) : 1;
-}
-
-size_t iso_pool_threads(int threads, size_t count, int lanes)
-{
-    const size_t most = count / (size_t)lanes + 1, asked = threads > 0 ? (size_t)threads : processors();
-    return asked < most ? asked : most;
+    if (threads == 0) return false;
+    while (started < threads && pthread_create(&workers[started].thread, NULL, work, &workers[started]) == 0)
+        started++;
+    bool memory = work(&workers[0]) == NULL;
+    for (size_t i = 1; i < started; i++) memory = await(&workers[0], workers[i].thread) == NULL && memory;
+    return memory;
 }
 
 iso_status iso_pool_run(iso_context *ctx, iso_pool *all, size_t threads, const iso_status status[])
 {
     if (all->count / threads < all->chunk) all->chunk = all->count / threads + 1;
     iso_pool_worker *workers = calloc(threads, sizeof *workers);
-    if (!workers) return iso_context_no_memory(ctx, "%zu %ss", all->count, all->what);
-    const iso_status answer = run(ctx, all, workers, threads, status);
+    const iso_pool_worker *first = workers;
+    const bool memory = workers && work_together(ctx, all, workers, threads);
+    iso_status answer = ISO_OK;
+    for (size_t i = 0; workers && i < threads && workers[i].ctx; i++) {
+        iso_context_free(workers[i].ctx);
+        free(workers[i].room);
+        if (workers[i].failed < first->failed) first = &workers[i];
+    }
+    if (!memory)
+        answer = iso_context_no_memory(ctx, "%zu %ss", all->count, all->what);
+    else if (atomic_load(&all->stopped))
+        answer = iso_context_stopped(ctx);
+    else if (first->failed < all->count)
+        answer = iso_context_fail(ctx, status[first->failed], first->about, "%s %zu: %s", all->what, first->failed,
+                                  first->message);
     free(workers);
     return answer;
 }

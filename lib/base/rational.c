@@ -122,3 +122,17 @@ bool iso_rational_read_double(const char *text, size_t length, double *x)
     *x /= below;
     return isfinite(*x);
 }
+
+const iso_literal *iso_literal_find(const iso_literals *all, const char *name)
+{
+    for (int i = 0; i < all->count; i++)
+        if (strcmp(all->one[i].name, name) == 0) return &all->one[i];
+    return NULL;
+}
+
+void iso_literals_clear(iso_literals *all)
+{
+    for (int i = 0; i < all->count; i++)
+        for (int j = 0; j < all->one[i].count; j++) free(all->one[i].text[j]);
+    all->count = 0;
+}

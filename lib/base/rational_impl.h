@@ -42,4 +42,25 @@ char *iso_rational_print(char text[ISO_RATIONAL_SIZE], const iso_rational *r);
 /* The number nearest to text[0..length), a decimal number or a fraction. False: it is neither, or is not finite. */
 bool iso_rational_read_double(const char *text, size_t length, double *x);
 
+/* --- the numbers of a text as they are written there, digit by digit: "1.4", "1/3", "0.1e-5" ----------------------- */
+
+enum { ISO_LITERALS = 64, ISO_LITERAL_NAME = 64 };
+
+/* A number, or a list of three. */
+typedef struct iso_literal {
+    char name[ISO_LITERAL_NAME]; /* "k", "surface.radius", "rotor.momentum" */
+    int count;
+    char *text[3];
+} iso_literal;
+
+typedef struct iso_literals {
+    int count;
+    iso_literal one[ISO_LITERALS];
+} iso_literals;
+
+/* NULL: it is not written. */
+const iso_literal *iso_literal_find(const iso_literals *all, const char *name);
+
+void iso_literals_clear(iso_literals *all);
+
 #endif

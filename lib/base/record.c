@@ -29,7 +29,7 @@ struct iso_record {
     char kind[KIND_SIZE];
     size_t words, buckets; /* buckets: 0, or a power of 2 above twice the words */
     char **word;           /* by its number, from 1 on */
-    char *text;            /* what a study tells people; NULL: nothing */
+    char *text;            /* what a study prints; NULL: nothing */
     size_t *bucket;        /* the number of a word whose hash leads here; 0: none */
 };
 
@@ -77,12 +77,6 @@ void iso_record_free(iso_record *r)
     free(r);
 }
 
-static iso_status copy_lines(iso_context *ctx, const iso_record *from, iso_record *to)
-{
-    for (size_t i = 0; i < from->lines; i++) ISO_TRY(iso_record_set(ctx, to, from->line[i].key, from->line[i].value));
-    return ISO_OK;
-}
-
 iso_status iso_record_create_like(iso_context *ctx, const iso_record *other, size_t columns,
                                   const char *const names[], iso_record **record)
 {
@@ -96,7 +90,8 @@ iso_status iso_record_create_like(iso_context *ctx, const iso_record *other, siz
     (*record)->row_tolerance = other->row_tolerance;
     iso_record_set_kind(*record, other->kind);
     if (!names) memcpy((*record)->column, other->column, count * sizeof *other->column);
-    status = copy_lines(ctx, other, *record);
+    for (size_t i = 0; status == ISO_OK && i < other->lines; i++)
+        status = iso_record_set(ctx, *record, other->line[i].key, other->line[i].value);
     if (status != ISO_OK) iso_record_free(*record), *record = NULL;
     return status;
 }
@@ -290,17 +285,13 @@ iso_status iso_record_set(iso_context *ctx, iso_record *r, const char *key, cons
     if (!value) return remove_line(r, find_line(r, key)), ISO_OK;
     char *copy = strdup(value);
     if (!copy) return no_memory(ctx);
-    line *l = find_line(r, key);
-    if (l) {
-        free(l->value);
-        *l = (line){.key = l->key, .value = copy};
-        return ISO_OK;
-    }
-    line *grown = realloc(r->line, (r->lines + 1) * sizeof *grown);
+    line *l = find_line(r, key), *grown = l ? r->line : realloc(r->line, (r->lines + 1) * sizeof *grown);
     if (grown) r->line = grown;
-    char *name = grown ? strdup(key) : NULL;
+    char *name = l ? l->key : grown ? strdup(key) : NULL;
     if (!name) return free(copy), no_memory(ctx);
-    r->line[r->lines++] = (line){.key = name, .value = copy};
+    if (l) free(l->value);
+    if (!l) l = &r->line[r->lines++];
+    *l = (line){.key = name, .value = copy};
     return ISO_OK;
 }
 
@@ -352,23 +343,13 @@ bool iso_record_line(const iso_record *r, size_t i, const char **key, const char
 bool iso_record_get_numbers(iso_context *ctx, const iso_record *r, const char *key, size_t count, double values[],
                             iso_status *status)
 {
+    const char *text = iso_record_get(r, key), *at = text;
+    size_t found = 0, length;
     *status = ISO_OK;
-    const char *text = iso_record_get(r, key);
     if (!text) return false;
-    const char *at = text;
-    size_t found = 0;
-    for (;;) {
-        at += strspn(at, " \t,");
-        const size_t length = strcspn(at, " \t,");
-        if (length == 0) break;
-        if (found == count || !iso_number_read(at, length, &values[found])) {
-            found = count + 1;
-            break;
-        }
-        found++;
-        at += length;
-    }
-    if (found == count) return true;
+    for (; (length = strcspn(at += strspn(at, " \t,"), " \t,")) > 0; at += length, found++)
+        if (found == count || !iso_number_read(at, length, &values[found])) break;
+    if (found == count && length == 0) return true;
     *status =
         ISO_FAIL_INPUT(ctx, key, "'%s: %s' should be %zu finite number%s", key, text, count, count == 1 ? "" : "s");
     return false;

@@ -45,14 +45,14 @@ ISO_API bool iso_record_find_all(const iso_record *record, size_t count, const c
 ISO_API double *iso_record_row(iso_record *record, size_t row);
 ISO_API const double *iso_record_const_row(const iso_record *record, size_t row);
 
-/* Adds a row and gives it in *row, filled with zeros. Errors: ISO_NO_MEMORY. */
+/* Adds a row, *row, filled with zeros. Errors: ISO_NO_MEMORY. */
 ISO_API iso_status iso_record_append(iso_context *ctx, iso_record *record, double **row);
 
 /* Adds `count` rows, one after the other in rows[]. Errors: ISO_NO_MEMORY. */
 ISO_API iso_status iso_record_add(iso_context *ctx, iso_record *record, size_t count, const double rows[]);
 
 /* Columns of words, such as a verdict. A row holds a number for each word; 0 is the empty word. The record owns the
- * words: iso_record_intern gives the number of one (the same number for equal words) and iso_record_word the word of
+ * words: iso_record_intern returns the number of one (the same number for equal words) and iso_record_word the word of
  * a number ("" if there is none). Errors: ISO_NO_MEMORY. */
 ISO_API void iso_record_set_words(iso_record *record, size_t column, bool words);
 ISO_API bool iso_record_has_words(const iso_record *record, size_t column);

@@ -19,7 +19,7 @@ iso_status iso_record_add_line(iso_context *ctx, iso_record *record, const char 
 void iso_record_forget_words(iso_record *record);
 void iso_record_forget_lines(iso_record *record);
 
-/* Keeps what a study tells people beside its first table, and returns it; NULL: there is none. The record takes the
+/* Keeps the text that a study prints beside its first table, and returns it; NULL: there is none. The record takes the
  * text, which is freed with it. */
 void iso_record_keep_text(iso_record *record, char *text);
 const char *iso_record_text(const iso_record *record);

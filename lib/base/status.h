@@ -31,7 +31,7 @@ typedef enum iso_status {
 /* The status in a few words; "unknown status" for a number that is none. */
 ISO_API const char *iso_status_text(iso_status status);
 
-/* For functions that give an iso_status: makes the call. If its status is not ISO_OK, the function returns that
+/* For functions that return an iso_status: makes the call. If its status is not ISO_OK, the function returns that
  * status at once, so nothing may be open. */
 #define ISO_TRY(call)                                                                                                \
     do {                                                                                                             \

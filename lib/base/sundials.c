@@ -2,7 +2,7 @@
 #include "base/sundials_impl.h"
 
 #include "base/context_impl.h"
-#include "base/room_impl.h"
+#include "base/resources_impl.h"
 
 static void release(void *sun)
 {

@@ -9,7 +9,7 @@
 #include "base/context.h"
 
 /* The context's SUNContext, made at the first call; NULL when it cannot be made, or when there is no room for more
- * (room_impl.h). */
+ * (resources_impl.h). */
 SUNContext iso_context_sundials(iso_context *ctx);
 
 #if SUNDIALS_VERSION_MAJOR >= 7

@@ -100,7 +100,7 @@ static inline double relative_difference(const double a[3], const double b[3])
     return norm(d) / fmax(norm(u), norm(v));
 }
 
-/* Makes a a unit vector and gives its old length. */
+/* Makes a a unit vector and returns its old length. */
 static inline double make_unit(double a[3])
 {
     const double length = norm(a);
@@ -108,7 +108,7 @@ static inline double make_unit(double a[3])
     return length;
 }
 
-/* Takes the part along the unit vector u out of a, and gives that part. */
+/* Takes the part along the unit vector u out of a, and returns that part. */
 static inline double remove_along(double a[3], const double u[3])
 {
     const double part = dot(a, u);

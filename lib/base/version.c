@@ -1,4 +1,4 @@
-/* version.c - tells the version of the library. */
+/* version.c - returns the version of the library. */
 #include "base/version.h"
 
 const char *iso_version(void)

@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 
 typedef long double real;
 

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/finite_impl.h"
+#include "base/math_impl.h"
 #include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "exact/form_impl.h"

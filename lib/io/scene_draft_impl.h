@@ -3,7 +3,7 @@
 #ifndef ISO_IO_SCENE_DRAFT_IMPL_H
 #define ISO_IO_SCENE_DRAFT_IMPL_H
 
-#include "base/literal_impl.h"
+#include "base/rational_impl.h"
 #include "io/yaml_impl.h"
 #include "orbit/scene.h"
 
@@ -26,9 +26,6 @@ typedef struct iso_draft {
 /* A draft before its text is read. */
 iso_draft iso_draft_empty(iso_context *ctx, const char *name);
 
-/* A key of `initial` and the model whose start it states (ISO_SHOW_BOTH: either). */
-bool iso_draft_initial_key(int i, const char **name, iso_models *model);
-
 /* The i-th key that a scene can have, and its section; those of `effects` are the names of the effects. False: there
  * are no more. */
 bool iso_scene_key_at(int i, const char **section, const char **key);
@@ -36,7 +33,7 @@ bool iso_scene_key_at(int i, const char **section, const char **key);
 /* Notes where a key stands, for what is found wrong only later, when an orbit is made. */
 void iso_scene_note_place(iso_scene *s, const char *key, yaml_mark_t at);
 
-/* Reads a number that may be written as a fraction; `what` names it in messages. If the double does not tell what is
+/* Reads a number that may be written as a fraction; `what` names it in messages. If the double does not show what is
  * written (base/rational_impl.h), the place is noted under the key's name with ISO_ROUNDED_KEY before it. */
 iso_status iso_draft_ratio(iso_draft *d, const yaml_node_t *value, const char *what, const char *key, double *x);
 iso_status iso_draft_ratios(iso_draft *d, const yaml_node_t *value, const char *key, double x[3]); /* a list of 3 */
@@ -69,11 +66,11 @@ typedef struct iso_draft_number {
     const yaml_node_t *value;     /* where it stands                      */
 } iso_draft_number;
 
-/* Lists the numbers that the text states, at most `most`, and gives how many. A number that two sections can have, or
+/* Lists the numbers that the text states, at most `most`, and returns how many. A number that two sections can have, or
  * that belongs to an effect, is called SECTION.KEY. */
 int iso_draft_numbers(iso_draft *d, int most, iso_draft_number list[]);
 
-/* Their texts, of all that are one number or three (scene_literals_impl.h). Errors: ISO_NO_MEMORY. */
+/* Their texts, of all that are one number or three (scene_file.h). Errors: ISO_NO_MEMORY. */
 iso_status iso_draft_literals(iso_draft *d, iso_literals *literals);
 
 #endif

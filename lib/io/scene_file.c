@@ -9,29 +9,18 @@
 #include "base/arithmetic_impl.h"
 #include "base/number_impl.h"
 #include "io/scene_draft_impl.h"
-#include "io/scene_literals_impl.h"
 #include "io/text_impl.h"
 #include "orbit/orbit_impl.h"
 
 /* ---- What must hold between keys ---- */
 
-/* The key and value of root -> section (-> name if not NULL). */
-static bool find_key(iso_draft *d, const char *section, const char *name, const yaml_node_t **key,
-                     const yaml_node_t **value)
+/* The key and value of mapping -> section (-> name if not NULL). */
+static bool find_key(iso_draft *d, const yaml_node_t *mapping, const char *section, const char *name,
+                     const yaml_node_t **key, const yaml_node_t **value)
 {
-    const yaml_node_t *mapping;
-    if (!name) return iso_yaml_find(&d->yaml, d->root, section, key, value);
-    return iso_yaml_find(&d->yaml, d->root, section, NULL, &mapping) &&
+    if (!name) return iso_yaml_find(&d->yaml, mapping, section, key, value);
+    return iso_yaml_find(&d->yaml, mapping, section, NULL, &mapping) &&
            iso_yaml_find(&d->yaml, mapping, name, key, value);
-}
-
-/* The key of effects -> effect -> name. */
-static bool find_effect_key(iso_draft *d, const yaml_node_t *effects, const char *effect, const char *name,
-                            const yaml_node_t **key)
-{
-    const yaml_node_t *mapping;
-    return iso_yaml_find(&d->yaml, effects, effect, NULL, &mapping) &&
-           iso_yaml_find(&d->yaml, mapping, name, key, NULL);
 }
 
 /* Exactly one of ball (with surface), reduced and point. */
@@ -41,7 +30,7 @@ static iso_status check_sections(iso_draft *d, const char **model)
     const yaml_node_t *key, *surface, *last = NULL;
     *model = NULL;
     for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
-        if (!find_key(d, models[i], NULL, &key, NULL)) continue;
+        if (!find_key(d, d->root, models[i], NULL, &key, NULL)) continue;
         if (*model)
             return ISO_FAIL_AT(d, key->start_mark.index > last->start_mark.index ? key : last,
                                "'%s' and '%s' both: a scene has one of 'ball', 'reduced' and 'point'", *model,
@@ -49,7 +38,7 @@ static iso_status check_sections(iso_draft *d, const char **model)
         *model = models[i];
         last = key;
     }
-    const bool has_surface = find_key(d, "surface", NULL, &surface, NULL);
+    const bool has_surface = find_key(d, d->root, "surface", NULL, &surface, NULL);
     if (has_surface && !*model) return ISO_FAIL_AT(d, surface, "'surface' needs a 'ball' that rolls on it");
     if (!*model) return ISO_FAIL_AT(d, d->root, "missing 'ball' and 'surface' (or 'reduced', or 'point')");
     const bool ball = strcmp(*model, "ball") == 0;
@@ -63,8 +52,8 @@ static iso_status check_sections(iso_draft *d, const char **model)
 static iso_status check_surface(iso_draft *d)
 {
     const yaml_node_t *surface, *radius;
-    if (!find_key(d, "surface", NULL, &surface, NULL)) return ISO_OK;
-    const bool has_radius = find_key(d, "surface", "radius", &radius, NULL), plane = d->surface == ISO_PLANE;
+    if (!find_key(d, d->root, "surface", NULL, &surface, NULL)) return ISO_OK;
+    const bool has_radius = find_key(d, d->root, "surface", "radius", &radius, NULL), plane = d->surface == ISO_PLANE;
     if (plane && has_radius) return ISO_FAIL_AT(d, radius, "a plane has no 'radius': take it out");
     if (!plane && !has_radius)
         return ISO_FAIL_AT(d, surface, "missing 'radius' in 'surface': that of the fixed sphere");
@@ -74,37 +63,22 @@ static iso_status check_surface(iso_draft *d)
 /* `initial` states the start of the scene's model and nothing of the other's. */
 static iso_status check_initial(iso_draft *d, iso_model_kind model)
 {
+    static const char *const keys[2][2] = {[ISO_BALL] = {"normal", "angular_velocity"}, [ISO_POINT] = {"gamma", "M"}};
     const yaml_node_t *initial, *key;
-    const char *what = model == ISO_BALL ? "a ball starts from 'normal' and 'angular_velocity'"
-                                         : "a point starts from 'gamma' and 'M'";
-    const char *name;
-    iso_models whose;
-    find_key(d, "initial", NULL, &initial, NULL);
-    for (int i = 0; iso_draft_initial_key(i, &name, &whose); i++) {
-        const bool present = find_key(d, "initial", name, &key, NULL);
-        if ((int)whose == (int)model && !present)
-            return ISO_FAIL_AT(d, initial, "missing '%s' in 'initial': %s", name, what);
-        if ((int)whose != (int)model && whose != ISO_SHOW_BOTH && present)
-            return ISO_FAIL_AT(d, key, "'%s' does not belong here: %s", name, what);
+    find_key(d, d->root, "initial", NULL, &initial, NULL);
+    for (int i = 0; i < 4; i++) {
+        const iso_model_kind whose = i < 2 ? ISO_BALL : ISO_POINT;
+        const char *name = keys[whose][i % 2], *what = model == ISO_BALL
+                                                           ? "a ball starts from 'normal' and 'angular_velocity'"
+                                                           : "a point starts from 'gamma' and 'M'";
+        const bool present = find_key(d, d->root, "initial", name, &key, NULL);
+        if (whose == model && !present) return ISO_FAIL_AT(d, initial, "missing '%s' in 'initial': %s", name, what);
+        if (whose != model && present) return ISO_FAIL_AT(d, key, "'%s' does not belong here: %s", name, what);
     }
     return ISO_OK;
 }
 
-static iso_status check_time(iso_draft *d)
-{
-    const yaml_node_t *step;
-    if (!find_key(d, "time", "step", NULL, &step) || fabs(d->scene.end) / d->scene.step <= ISO_MOST_ROWS)
-        return ISO_OK;
-    return ISO_FAIL_AT(d, step, "a step of %s to the end %s is more than %s rows: give a larger 'step'",
-                       ISO_SHORT(d->scene.step), ISO_SHORT(d->scene.end), ISO_SHORT(ISO_MOST_ROWS));
-}
-
 /* ---- Physics: the checks are the library's, the places are the file's ---- */
-
-/* Values that a failure calls otherwise than the scene, or that stand in another section than the rest. */
-static const struct {
-    const char *about, *section, *key;
-} elsewhere[] = {{"surface_radius", "surface", "radius"}, {"eps", "point", "eps"}};
 
 /* Repeats the last failure at the value it is about, or at the section's key when that value is not written. */
 static iso_status fail_at_field(iso_draft *d, iso_status status, const char *section)
@@ -112,31 +86,24 @@ static iso_status fail_at_field(iso_draft *d, iso_status status, const char *sec
     const char *about = iso_context_about(d->yaml.ctx);
     const yaml_node_t *place = d->root;
     if (status != ISO_BAD_INPUT) return status;
-    for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
-        if (strcmp(about, elsewhere[i].about) == 0) section = elsewhere[i].section, about = elsewhere[i].key;
-    if (!find_key(d, section, about, NULL, &place)) find_key(d, section, NULL, &place, NULL);
+    if (strcmp(about, "surface_radius") == 0) section = "surface", about = "radius";
+    if (strcmp(about, "eps") == 0) section = "point";
+    if (!find_key(d, d->root, section, about, NULL, &place)) find_key(d, d->root, section, NULL, &place, NULL);
     return ISO_FAIL_AT(d, place, "%s", iso_context_message(d->yaml.ctx));
 }
 
 static iso_status make_params(iso_draft *d, const char *model)
 {
+    iso_context *ctx = d->yaml.ctx;
+    iso_params *p = &d->scene.params;
     d->body.surface = (iso_surface)d->surface;
-    const iso_status status = strcmp(model, "ball") == 0
-                                  ? iso_params_physical(d->yaml.ctx, &d->body, &d->scene.params)
-                                  : iso_params_reduced(d->yaml.ctx, d->k, d->J, &d->scene.params);
-    return status == ISO_OK ? status : fail_at_field(d, status, model);
-}
-
-/* D of a reduced ball, where it is written; a ball has its own. */
-static iso_status make_D(iso_draft *d)
-{
-    if (isnan(d->D)) return ISO_OK;
-    iso_status status;
-    if (d->scene.params.D > 0)
-        status = ISO_FAIL_INPUT(d->yaml.ctx, "D", "this ball's D = m b^2 is known: take it out");
-    else
-        status = iso_params_set_D(d->yaml.ctx, d->D, &d->scene.params);
-    return iso_scene_blame(d->yaml.ctx, &d->scene, d->yaml.name, status);
+    iso_status status =
+        strcmp(model, "ball") == 0 ? iso_params_physical(ctx, &d->body, p) : iso_params_reduced(ctx, d->k, d->J, p);
+    if (status != ISO_OK) return fail_at_field(d, status, model);
+    if (!isnan(d->D)) /* it is written: of a reduced ball, as a ball has its own */
+        status = p->D > 0 ? ISO_FAIL_INPUT(ctx, "D", "this ball's D = m b^2 is known: take it out")
+                          : iso_params_set_D(ctx, d->D, p);
+    return iso_scene_blame(ctx, &d->scene, d->yaml.name, status);
 }
 
 /* The section of one effect, for its row's questions. */
@@ -149,32 +116,30 @@ typedef struct effect_section {
 static bool effect_has_key(const void *scene, const char *key)
 {
     const effect_section *s = scene;
-    return find_effect_key(s->d, s->effects, s->name, key, NULL);
+    return find_key(s->d, s->effects, s->name, key, NULL, NULL);
 }
 
-/* What an effect says in words of the ball becomes its numbers. A failure is put at the key it is about, or at that
- * of the effect where it is about a key that is not there. */
-static iso_status complete_effect(iso_draft *d, iso_model_kind model, const yaml_node_t *effects, iso_effect_id e)
-{
-    const iso_effect *effect = iso_effect_list[e];
-    const effect_section section = {d, effects, effect->name};
-    const yaml_node_t *key;
-    const iso_status status = effect->complete(d->yaml.ctx, &d->scene.params, model == ISO_POINT,
-                                               d->scene.effects.number[e], effect_has_key, &section);
-    if (status != ISO_BAD_INPUT) return status;
-    if (!find_effect_key(d, effects, effect->name, iso_context_about(d->yaml.ctx), &key))
-        iso_yaml_find(&d->yaml, effects, effect->name, &key, NULL);
-    return ISO_FAIL_AT(d, key, "%s", iso_context_message(d->yaml.ctx));
-}
-
+/* What an effect says of the ball in the scene's words becomes its numbers. A failure is put at the key it is about, or
+ * at that of the effect where it is about a key that is not there. */
 static iso_status make_effects(iso_draft *d, iso_model_kind model)
 {
-    const yaml_node_t *effects;
-    if (!find_key(d, "effects", NULL, NULL, &effects)) return ISO_OK;
+    const yaml_node_t *effects, *key;
+    if (!find_key(d, d->root, "effects", NULL, NULL, &effects)) return ISO_OK;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
         if (!d->scene.effects.on[e]) continue;
-        if (iso_effect_list[e]->complete) ISO_TRY(complete_effect(d, model, effects, e));
-        if (iso_effect_list[e]->expressions) ISO_TRY(iso_draft_check_expressions(d, e, effects));
+        const effect_section section = {d, effects, effect->name};
+        const iso_status status = !effect->complete
+                                      ? ISO_OK
+                                      : effect->complete(d->yaml.ctx, &d->scene.params, model == ISO_POINT,
+                                                         d->scene.effects.number[e], effect_has_key, &section);
+        if (status == ISO_BAD_INPUT) {
+            if (!find_key(d, effects, effect->name, iso_context_about(d->yaml.ctx), &key, NULL))
+                find_key(d, effects, effect->name, NULL, &key, NULL);
+            return ISO_FAIL_AT(d, key, "%s", iso_context_message(d->yaml.ctx));
+        }
+        ISO_TRY(status);
+        if (effect->expressions) ISO_TRY(iso_draft_check_expressions(d, e, effects));
     }
     return ISO_OK;
 }
@@ -185,7 +150,7 @@ static iso_status make_start(iso_draft *d, iso_model_kind model)
     const iso_spin spin = d->project                       ? ISO_SPIN_REMOVE
                           : iso_effects_twist(&s->effects) ? ISO_SPIN_KEEP
                                                            : ISO_SPIN_REFUSE;
-    const double *eps = find_key(d, "point", "eps", NULL, NULL) ? &d->eps : NULL;
+    const double *eps = find_key(d, d->root, "point", "eps", NULL, NULL) ? &d->eps : NULL;
     const iso_status status = model == ISO_BALL
                                   ? iso_start_ball(d->yaml.ctx, d->angular_velocity, d->normal, spin, &s->start)
                                   : iso_start_point(d->yaml.ctx, d->M, d->gamma, eps, d->project, &s->start);
@@ -196,18 +161,21 @@ static iso_status make_start(iso_draft *d, iso_model_kind model)
 iso_status iso_draft_make(iso_draft *d)
 {
     const char *name;
+    const yaml_node_t *step;
+    iso_scene *s = &d->scene;
     ISO_TRY(check_sections(d, &name));
     const iso_model_kind model = strcmp(name, "point") == 0 ? ISO_POINT : ISO_BALL;
     ISO_TRY(check_surface(d));
     ISO_TRY(check_initial(d, model));
-    ISO_TRY(check_time(d));
+    if (find_key(d, d->root, "time", "step", NULL, &step) && !(fabs(s->end) / s->step <= ISO_MOST_ROWS))
+        return ISO_FAIL_AT(d, step, "a step of %s to the end %s is more than %s rows: give a larger 'step'",
+                           ISO_SHORT(s->step), ISO_SHORT(s->end), ISO_SHORT(ISO_MOST_ROWS));
     ISO_TRY(make_params(d, name));
-    ISO_TRY(make_D(d));
     ISO_TRY(make_effects(d, model));
     ISO_TRY(make_start(d, model));
-    d->scene.backend = (iso_backend)d->backend;
-    d->scene.as = (iso_models)d->as;
-    return iso_scene_blame(d->yaml.ctx, &d->scene, d->yaml.name, iso_scene_check_columns(d->yaml.ctx, &d->scene));
+    s->backend = (iso_backend)d->backend;
+    s->as = (iso_models)d->as;
+    return iso_scene_blame(d->yaml.ctx, s, d->yaml.name, iso_scene_check_columns(d->yaml.ctx, s));
 }
 
 iso_draft iso_draft_empty(iso_context *ctx, const char *name)
@@ -262,7 +230,7 @@ iso_status iso_scene_read_literals(iso_context *ctx, const char *path, iso_scene
 {
     char *text;
     size_t length;
-    ISO_TRY(iso_text_load(ctx, path, ISO_LARGEST_TEXT, &text, &length));
+    ISO_TRY(iso_text_load(ctx, path, &text, &length));
     const iso_status status = parse(ctx, iso_text_name(path), text, length, scene, literals);
     free(text);
     return status;

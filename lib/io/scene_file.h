@@ -20,13 +20,18 @@
 
 #include <stddef.h>
 
+#include "base/rational_impl.h"
 #include "orbit/scene.h"
 
 /* Reads the scene in the file `path`, "-" being standard input (called <stdin> in messages).
  * *scene is set only when the answer is ISO_OK. Errors: ISO_BAD_INPUT, ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 iso_status iso_scene_load(iso_context *ctx, const char *path, iso_scene *scene);
 
-/* The same from `length` bytes of text, which messages call `name`. Errors: ISO_BAD_INPUT, ISO_NO_MEMORY. */
+/* The same, and the numbers as they are written, as doubles are rounded: under the names of iso_draft_numbers, without
+ * lists of nine. They are to be cleared, also after an error. */
+iso_status iso_scene_read_literals(iso_context *ctx, const char *path, iso_scene *scene, iso_literals *literals);
+
+/* The same as iso_scene_load from `length` bytes of text, which messages call `name`. Errors: ISO_BAD_INPUT, ISO_NO_MEMORY. */
 iso_status iso_scene_load_text(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene *scene);
 
 /* Changes a scene by a mapping of backend, method, tolerance, end, step, as and columns, such as "tolerance: 1e-9".

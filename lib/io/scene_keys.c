@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "base/number_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"
@@ -14,19 +14,22 @@
 enum { MAX_KEYS = 32, EFFECT_KEYS = ISO_EFFECT_NUMBERS + ISO_EXPRESSIONS + 3 };
 _Static_assert((int)MAX_KEYS >= 2 * (int)ISO_EFFECTS && (int)MAX_KEYS >= (int)EFFECT_KEYS, "room for all names");
 
-/* One key that a mapping may have: what reads its value, and where in the draft the value goes. */
+/* What a value is. FROM_FUNCTION: what `read` makes of it. */
+typedef enum kind { FROM_FUNCTION, NUMBER, VECTOR, RATIO, RATIOS, FLAG, WORD, EFFECT } kind;
+
+/* One key that a mapping may have: what its value is, and where in the draft it goes. */
 typedef struct entry {
     const char *name;
-    iso_status (*read)(iso_draft *d, const struct entry *e, const yaml_node_t *value);
+    kind kind;
     size_t offset;
     bool required;
-    const struct entry *section;     /* read_section: the keys inside       */
-    const char *(*word)(int);        /* read_word: the names of an enum ... */
-    unsigned words;                  /* ... and which of them (1 << value)  */
-    iso_models model;                /* of `initial`: whose start this is   */
-    iso_effect_id effect;            /* read_effect, read_effect_number: which effect ... */
-    const iso_effect_number *number; /* ... and which number of it ... */
-    int which;                       /* read_text: which key of its text */
+    iso_status (*read)(iso_draft *d, const struct entry *e, const yaml_node_t *value); /* NULL: by its kind */
+    const struct entry *section;     /* read_section: the keys inside               */
+    const char *(*word)(int);        /* WORD: the names of an enum ...              */
+    unsigned words;                  /* ... and which of them (1 << value)          */
+    iso_effect_id effect;            /* EFFECT, and the values of an effect: whose  */
+    const iso_effect_number *number; /* read_effect_number: which one               */
+    int which;                       /* read_text: which key of its text            */
 } entry;
 
 /* ---- Values ---- */
@@ -36,40 +39,23 @@ static void *target(iso_draft *d, const entry *e)
     return (char *)d + e->offset;
 }
 
-static iso_status read_number(iso_draft *d, const entry *e, const yaml_node_t *value)
+static iso_status read_value(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    return iso_yaml_number(&d->yaml, value, e->name, target(d, e));
-}
-
-static iso_status read_vector(iso_draft *d, const entry *e, const yaml_node_t *value)
-{
-    return iso_yaml_numbers(&d->yaml, value, e->name, 3, target(d, e));
-}
-
-static iso_status read_ratio(iso_draft *d, const entry *e, const yaml_node_t *value)
-{
-    return iso_draft_ratio(d, value, e->name, e->name, target(d, e));
-}
-
-static iso_status read_ratios(iso_draft *d, const entry *e, const yaml_node_t *value)
-{
-    return iso_draft_ratios(d, value, e->name, target(d, e));
-}
-
-static iso_status read_flag(iso_draft *d, const entry *e, const yaml_node_t *value)
-{
-    return iso_yaml_flag(&d->yaml, value, e->name, target(d, e));
-}
-
-/* One of the words an enum is written with. */
-static iso_status read_word(iso_draft *d, const entry *e, const yaml_node_t *value)
-{
-    return iso_yaml_word(&d->yaml, value, e->name, e->word, e->words, target(d, e));
+    void *to = target(d, e);
+    if (e->read) return e->read(d, e, value);
+    switch (e->kind) {
+    case NUMBER: return iso_yaml_number(&d->yaml, value, e->name, to);
+    case VECTOR: return iso_yaml_numbers(&d->yaml, value, e->name, 3, to);
+    case RATIO: return iso_draft_ratio(d, value, e->name, e->name, to);
+    case RATIOS: return iso_draft_ratios(d, value, e->name, to);
+    case FLAG: return iso_yaml_flag(&d->yaml, value, e->name, to);
+    default: return iso_yaml_word(&d->yaml, value, e->name, e->word, e->words, to);
+    }
 }
 
 static iso_status read_step(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    const iso_status status = read_number(d, e, value);
+    const iso_status status = iso_yaml_number(&d->yaml, value, e->name, target(d, e));
     if (status != ISO_OK || d->scene.step > 0) return status;
     return ISO_FAIL_AT(d, value, "'step' is %s, it must be positive (backwards: negative 'end')",
                        ISO_SHORT(d->scene.step));
@@ -77,7 +63,7 @@ static iso_status read_step(iso_draft *d, const entry *e, const yaml_node_t *val
 
 static iso_status read_tolerance(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    const iso_status status = read_number(d, e, value);
+    const iso_status status = iso_yaml_number(&d->yaml, value, e->name, target(d, e));
     if (status != ISO_OK || iso_tolerance_is_good(d->scene.tolerance)) return status;
     return ISO_FAIL_AT(d, value, "'tolerance' is %s, it must be in " ISO_TOLERANCE_RANGE,
                        ISO_SHORT(d->scene.tolerance));
@@ -100,64 +86,53 @@ static iso_status read_method(iso_draft *d, const entry *e, const yaml_node_t *v
                        iso_suggest_word(suggested, quoted, iso_method_word));
 }
 
-static iso_status read_column(iso_draft *d, const yaml_node_t *item)
-{
-    iso_scene *s = &d->scene;
-    const char *names[ISO_TRAJECTORY_COLUMNS], *name = NULL;
-    if (item->type != YAML_SCALAR_NODE) return iso_yaml_expected(&d->yaml, item, "columns", "a list of names");
-    const int columns = iso_column_names(names);
-    for (int i = 0; i < columns; i++)
-        if (iso_yaml_is(item, names[i])) name = names[i];
-    if (!name) return iso_yaml_unknown(&d->yaml, item, "column", (size_t)columns, names);
-    for (size_t i = 0; i < s->columns; i++)
-        if (strcmp(s->column[i], name) == 0) return ISO_FAIL_AT(d, item, "column '%s' is listed twice", name);
-    strcpy(s->column[s->columns++], name);
-    return ISO_OK;
-}
-
 static iso_status read_columns(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    if (value->type != YAML_SEQUENCE_NODE || value->data.sequence.items.start == value->data.sequence.items.top)
+    iso_scene *s = &d->scene;
+    const char *names[ISO_TRAJECTORY_COLUMNS];
+    const int columns = iso_column_names(names);
+    const yaml_node_item_t *i = value->data.sequence.items.start;
+    if (value->type != YAML_SEQUENCE_NODE || i == value->data.sequence.items.top)
         return iso_yaml_expected(&d->yaml, value, e->name, "a list of at least one column name");
-    iso_status status = ISO_OK;
-    for (const yaml_node_item_t *i = value->data.sequence.items.start; i < value->data.sequence.items.top; i++)
-        if (status == ISO_OK) status = read_column(d, iso_yaml_node(&d->yaml, *i));
-    return status;
+    for (; i < value->data.sequence.items.top; i++) {
+        const yaml_node_t *item = iso_yaml_node(&d->yaml, *i);
+        const char *name = NULL;
+        if (item->type != YAML_SCALAR_NODE) return iso_yaml_expected(&d->yaml, item, "columns", "a list of names");
+        for (int c = 0; c < columns; c++)
+            if (iso_yaml_is(item, names[c])) name = names[c];
+        if (!name) return iso_yaml_unknown(&d->yaml, item, "column", (size_t)columns, names);
+        for (size_t c = 0; c < s->columns; c++)
+            if (strcmp(s->column[c], name) == 0) return ISO_FAIL_AT(d, item, "column '%s' is listed twice", name);
+        strcpy(s->column[s->columns++], name);
+    }
+    return ISO_OK;
 }
 
 /* D = m b^2, which `reduced` may have as well as the effects that need it. */
 static iso_status read_D(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     const double before = d->D;
-    const iso_status status = read_number(d, e, value);
+    const iso_status status = iso_yaml_number(&d->yaml, value, e->name, target(d, e));
     if (status != ISO_OK || isnan(before) || before == d->D) return status;
     return ISO_FAIL_AT(d, value, "'D' is %s here and %s elsewhere", ISO_SHORT(d->D), ISO_SHORT(before));
-}
-
-static iso_status read_effect_flag(iso_draft *d, const entry *e, const yaml_node_t *value, double *number)
-{
-    bool flag = false;
-    const iso_status status = iso_yaml_flag(&d->yaml, value, e->name, &flag);
-    *number = flag;
-    return status;
-}
-
-static iso_status read_effect_word(iso_draft *d, const entry *e, const yaml_node_t *value, double *number)
-{
-    int word = 0;
-    const iso_status status = iso_yaml_word(&d->yaml, value, e->name, e->number->word, ~0u, &word);
-    *number = word;
-    return status;
 }
 
 /* A number of an effect: true or false, a word, one number, a matrix or a list. */
 static iso_status read_effect_number(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    double *x = iso_effect_values(&d->scene.effects, e->effect, e->number);
-    if (e->number->kind == ISO_NUMBER_WORD) return read_effect_word(d, e, value, x);
-    if (e->number->kind == ISO_NUMBER_FLAG) return read_effect_flag(d, e, value, x);
-    if (e->number->count == 1) return iso_yaml_number(&d->yaml, value, e->name, x);
-    return iso_yaml_numbers(&d->yaml, value, e->name, e->number->count, x);
+    const iso_effect_number *n = e->number;
+    double *x = iso_effect_values(&d->scene.effects, e->effect, n);
+    bool flag = false;
+    int word = 0;
+    if (n->kind == ISO_NUMBER_FLAG || n->kind == ISO_NUMBER_WORD) {
+        const iso_status status = n->kind == ISO_NUMBER_FLAG
+                                      ? iso_yaml_flag(&d->yaml, value, e->name, &flag)
+                                      : iso_yaml_word(&d->yaml, value, e->name, n->word, ~0u, &word);
+        *x = flag + word;
+        return status;
+    }
+    if (n->count == 1) return iso_yaml_number(&d->yaml, value, e->name, x);
+    return iso_yaml_numbers(&d->yaml, value, e->name, n->count, x);
 }
 
 /* Of an effect that the scene writes. */
@@ -168,51 +143,37 @@ static iso_status read_text(iso_draft *d, const entry *e, const yaml_node_t *val
 
 /* ---- Sections ---- */
 
-static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *value);
-
-static iso_status read_pair(iso_draft *d, const entry *entries, const yaml_node_t *mapping,
-                            const yaml_node_pair_t *pair)
-{
-    const yaml_node_t *key = iso_yaml_node(&d->yaml, pair->key), *value = iso_yaml_node(&d->yaml, pair->value);
-    const char *names[MAX_KEYS], *what = entries->read == read_effect ? "effect" : "key";
-    size_t count = 0, i;
-    for (; entries[count].name && count < MAX_KEYS; count++) names[count] = entries[count].name;
-    ISO_TRY(iso_yaml_key(&d->yaml, mapping, key, what, count, names, &i));
-    const entry *e = &entries[i];
-    iso_scene_note_place(&d->scene, e->name, value->start_mark);
-    d->key = key;
-    return e->read(d, e, value);
-}
-
 /* Reads a mapping by its table; `owner` is its key, or the mapping itself at the top of the file. */
 static iso_status read_mapping(iso_draft *d, const entry *entries, const char *name, const yaml_node_t *owner,
                                const yaml_node_t *mapping)
 {
+    const char *names[MAX_KEYS], *what = entries->kind == EFFECT ? "effect" : "key";
+    size_t count = 0, i;
+    for (; entries[count].name; count++) names[count] = entries[count].name;
     const yaml_node_pair_t *end = mapping->data.mapping.pairs.top;
-    for (const yaml_node_pair_t *p = mapping->data.mapping.pairs.start; p < end; p++)
-        ISO_TRY(read_pair(d, entries, mapping, p));
-    for (const entry *e = entries; e->name; e++)
-        if (e->required && !iso_yaml_find(&d->yaml, mapping, e->name, NULL, NULL))
-            return ISO_FAIL_AT(d, owner, "missing '%s' in %s", e->name, name);
+    for (const yaml_node_pair_t *p = mapping->data.mapping.pairs.start; p < end; p++) {
+        const yaml_node_t *key = iso_yaml_node(&d->yaml, p->key), *value = iso_yaml_node(&d->yaml, p->value);
+        ISO_TRY(iso_yaml_key(&d->yaml, mapping, key, what, count, names, &i));
+        iso_scene_note_place(&d->scene, names[i], value->start_mark);
+        d->key = key;
+        ISO_TRY(read_value(d, &entries[i], value));
+    }
+    for (i = 0; i < count; i++)
+        if (entries[i].required && !iso_yaml_find(&d->yaml, mapping, names[i], NULL, NULL))
+            return ISO_FAIL_AT(d, owner, "missing '%s' in %s", names[i], name);
     return ISO_OK;
 }
 
-static iso_status fail_section(iso_draft *d, const entry *e, const yaml_node_t *value)
+static iso_status read_section(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
-    char expected[256];
+    char name[ISO_QUOTE_SIZE], expected[256];
+    snprintf(name, sizeof name, "'%s'", e->name);
+    if (value->type == YAML_MAPPING_NODE) return read_mapping(d, e->section, name, d->key, value);
     int used = snprintf(expected, sizeof expected, e->section->name ? "a mapping {" : "{}");
     for (const entry *in = e->section; in->name && used < (int)sizeof expected; in++)
         used += snprintf(expected + used, sizeof expected - (size_t)used, in[1].name ? "%s: ..., " : "%s: ...}",
                          in->name);
     return iso_yaml_expected(&d->yaml, value, e->name, expected);
-}
-
-static iso_status read_section(iso_draft *d, const entry *e, const yaml_node_t *value)
-{
-    char name[ISO_QUOTE_SIZE];
-    if (value->type != YAML_MAPPING_NODE) return fail_section(d, e, value);
-    snprintf(name, sizeof name, "'%s'", e->name);
-    return read_mapping(d, e->section, name, d->key, value);
 }
 
 /* ---- The tables: adding a key is adding its line ---- */
@@ -221,44 +182,41 @@ static iso_status read_section(iso_draft *d, const entry *e, const yaml_node_t *
 #define BIT(value) (1u << (value))
 
 static const entry ball_keys[] = {
-    {"mass", read_number, AT(body.mass), .required = true},
-    {"radius", read_number, AT(body.radius), .required = true},
-    {"inertia", read_vector, AT(body.inertia), .required = true},
+    {"mass", NUMBER, AT(body.mass), .required = true},
+    {"radius", NUMBER, AT(body.radius), .required = true},
+    {"inertia", VECTOR, AT(body.inertia), .required = true},
     {0},
 };
 
 static const entry surface_keys[] = {
-    {"kind", read_word, AT(surface), .required = true, .word = iso_surface_name, .words = ~BIT(ISO_REDUCED)},
-    {"radius", read_number, AT(body.surface_radius)},
+    {"kind", WORD, AT(surface), .required = true, .word = iso_surface_name, .words = ~BIT(ISO_REDUCED)},
+    {"radius", NUMBER, AT(body.surface_radius)},
     {0},
 };
 
 static const entry reduced_keys[] = {
-    {"k", read_ratio, AT(k), .required = true},
-    {"J", read_ratios, AT(J), .required = true},
-    {"D", read_D, AT(D)},
+    {"k", RATIO, AT(k), .required = true},
+    {"J", RATIOS, AT(J), .required = true},
+    {"D", NUMBER, .read = read_D, AT(D)},
     {0},
 };
 
 static const entry point_keys[] = {
-    {"k", read_ratio, AT(k), .required = true},
-    {"J", read_ratios, AT(J), .required = true},
-    {"eps", read_number, AT(eps)},
+    {"k", RATIO, AT(k), .required = true},
+    {"J", RATIOS, AT(J), .required = true},
+    {"eps", NUMBER, AT(eps)},
     {0},
 };
 
 static const entry initial_keys[] = {
-    {"normal", read_vector, AT(normal), .model = ISO_SHOW_BALL},
-    {"angular_velocity", read_vector, AT(angular_velocity), .model = ISO_SHOW_BALL},
-    {"gamma", read_vector, AT(gamma), .model = ISO_SHOW_POINT},
-    {"M", read_vector, AT(M), .model = ISO_SHOW_POINT},
-    {"project", read_flag, AT(project), .model = ISO_SHOW_BOTH},
-    {0},
+    {"normal", VECTOR, AT(normal)}, {"angular_velocity", VECTOR, AT(angular_velocity)},
+    {"gamma", VECTOR, AT(gamma)},   {"M", VECTOR, AT(M)},
+    {"project", FLAG, AT(project)}, {0},
 };
 
 static const entry time_keys[] = {
-    {"end", read_number, AT(scene.end), .required = true},
-    {"step", read_step, AT(scene.step)},
+    {"end", NUMBER, AT(scene.end), .required = true},
+    {"step", .read = read_step, AT(scene.step)},
     {0},
 };
 
@@ -270,7 +228,7 @@ static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *v
     const entry with_keys = {e->name, .section = keys};
     int count = 0;
     for (const char *name; (name = iso_draft_text_key(e->effect, count)); count++)
-        keys[count] = (entry){name, read_text, .required = count == 0, .effect = e->effect, .which = count};
+        keys[count] = (entry){name, .read = read_text, .required = count == 0, .effect = e->effect, .which = count};
     if (strcmp(e->name, effect->name) != 0 && !iso_yaml_find(&d->yaml, d->root, "point", NULL, NULL))
         return ISO_FAIL_AT(d, d->key, "'%s' is for a point: a ball has '%s'", e->name, effect->name);
     if (d->scene.effects.on[e->effect])
@@ -279,9 +237,9 @@ static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *v
     if (strcmp(e->name, effect->name) != 0) iso_scene_note_place(&d->scene, effect->name, value->start_mark);
     for (const iso_effect_number *n = effect->numbers; n && n->name && count < EFFECT_KEYS - 2; n++)
         if (!n->hidden)
-            keys[count++] =
-                (entry){n->name, read_effect_number, .required = n->required, .effect = e->effect, .number = n};
-    if (effect->needs_D) keys[count] = (entry){"D", read_D, AT(D)};
+            keys[count++] = (entry){n->name, .read = read_effect_number, .required = n->required, .effect = e->effect,
+                                    .number = n};
+    if (effect->needs_D) keys[count] = (entry){"D", NUMBER, .read = read_D, AT(D)};
     d->scene.effects.on[e->effect] = true;
     return read_section(d, &with_keys, value);
 }
@@ -301,44 +259,45 @@ static iso_status read_effects(iso_draft *d, const entry *e, const yaml_node_t *
     entry effects[2 * ISO_EFFECTS + 1] = {{0}};
     const entry with_effects = {e->name, .section = effects};
     iso_effect_id id;
-    for (int i = 0; effect_key(i, &id); i++) effects[i] = (entry){effect_key(i, &id), read_effect, .effect = id};
+    for (int i = 0; effect_key(i, &id); i++)
+        effects[i] = (entry){effect_key(i, &id), EFFECT, .read = read_effect, .effect = id};
     return read_section(d, &with_effects, value);
 }
 
 static const entry solver_keys[] = {
-    {"backend", read_word, AT(backend), .word = iso_backend_name, .words = ~0u},
-    {"method", read_method, AT(scene.method)},
-    {"tolerance", read_tolerance, AT(scene.tolerance)},
+    {"backend", WORD, AT(backend), .word = iso_backend_name, .words = ~0u},
+    {"method", .read = read_method, AT(scene.method)},
+    {"tolerance", NUMBER, .read = read_tolerance, AT(scene.tolerance)},
     {0},
 };
 
 static const entry output_keys[] = {
-    {"as", read_word, AT(as), .word = iso_models_name, .words = ~BIT(ISO_SHOW_START)},
+    {"as", WORD, AT(as), .word = iso_models_name, .words = ~BIT(ISO_SHOW_START)},
     {"columns", .read = read_columns},
     {0},
 };
 
 static const entry scene_keys[] = {
-    {"ball", read_section, .section = ball_keys},
-    {"surface", read_section, .section = surface_keys},
-    {"reduced", read_section, .section = reduced_keys},
-    {"point", read_section, .section = point_keys},
-    {"initial", read_section, .section = initial_keys, .required = true},
-    {"time", read_section, .section = time_keys, .required = true},
+    {"ball", .read = read_section, .section = ball_keys},
+    {"surface", .read = read_section, .section = surface_keys},
+    {"reduced", .read = read_section, .section = reduced_keys},
+    {"point", .read = read_section, .section = point_keys},
+    {"initial", .read = read_section, .section = initial_keys, .required = true},
+    {"time", .read = read_section, .section = time_keys, .required = true},
     {"effects", .read = read_effects},
-    {"solver", read_section, .section = solver_keys},
-    {"output", read_section, .section = output_keys},
+    {"solver", .read = read_section, .section = solver_keys},
+    {"output", .read = read_section, .section = output_keys},
     {0},
 };
 
 /* Those of a scene that is already read, in one mapping. */
 static const entry change_keys[] = {
-    {"backend", read_word, AT(backend), .word = iso_backend_name, .words = ~0u},
-    {"method", read_method, AT(scene.method)},
-    {"tolerance", read_tolerance, AT(scene.tolerance)},
-    {"end", read_number, AT(scene.end)},
-    {"step", read_step, AT(scene.step)},
-    {"as", read_word, AT(as), .word = iso_models_name, .words = ~0u},
+    {"backend", WORD, AT(backend), .word = iso_backend_name, .words = ~0u},
+    {"method", .read = read_method, AT(scene.method)},
+    {"tolerance", NUMBER, .read = read_tolerance, AT(scene.tolerance)},
+    {"end", NUMBER, AT(scene.end)},
+    {"step", .read = read_step, AT(scene.step)},
+    {"as", WORD, AT(as), .word = iso_models_name, .words = ~0u},
     {"columns", .read = read_columns},
     {0},
 };
@@ -349,13 +308,6 @@ iso_status iso_draft_read_changes(iso_draft *d)
     if (iso_yaml_find(&d->yaml, d->root, "as", NULL, NULL) || iso_yaml_find(&d->yaml, d->root, "columns", NULL, NULL))
         d->scene.columns = 0;
     return read_mapping(d, change_keys, "the change", d->root, d->root);
-}
-
-bool iso_draft_initial_key(int i, const char **name, iso_models *model)
-{
-    *name = initial_keys[i].name;
-    *model = initial_keys[i].model;
-    return *name != NULL;
 }
 
 iso_status iso_draft_read_keys(iso_draft *d)
@@ -397,18 +349,6 @@ static void list_one(listing *l, const char *prefix, const char *name, int count
     snprintf(n->name, sizeof n->name, "%s%s%s", prefix, *prefix ? "." : "", name);
 }
 
-static void list_section(listing *l, const entry *section, const yaml_node_t *mapping)
-{
-    for (const entry *e = section->section; e->name; e++) {
-        const bool number =
-            e->read == read_number || e->read == read_ratio || e->read == read_tolerance || e->read == read_D;
-        const bool vector = e->read == read_vector || e->read == read_ratios;
-        const char *prefix = strcmp(e->name, "radius") == 0 ? section->name : ""; /* of ball, and of surface */
-        if (number) list_one(l, prefix, e->name, 1, target(l->d, e), mapping);
-        if (vector) list_one(l, "", e->name, 3, target(l->d, e), mapping);
-    }
-}
-
 /* `name`: its own, or that for a point. */
 static void list_effect(listing *l, iso_effect_id id, const char *name, const yaml_node_t *effects)
 {
@@ -426,8 +366,15 @@ int iso_draft_numbers(iso_draft *d, int most, iso_draft_number list[])
 {
     listing l = {d, most, 0, list};
     const yaml_node_t *effects, *mapping;
-    for (const entry *e = scene_keys; e->name; e++)
-        if (e->section && iso_yaml_find(&d->yaml, d->root, e->name, NULL, &mapping)) list_section(&l, e, mapping);
+    for (const entry *section = scene_keys; section->name; section++) {
+        if (!section->section || !iso_yaml_find(&d->yaml, d->root, section->name, NULL, &mapping)) continue;
+        for (const entry *e = section->section; e->name; e++) {
+            const bool vector = e->kind == VECTOR || e->kind == RATIOS;
+            const char *prefix = strcmp(e->name, "radius") == 0 ? section->name : ""; /* of ball, and of surface */
+            if (vector || e->kind == NUMBER || e->kind == RATIO)
+                list_one(&l, prefix, e->name, vector ? 3 : 1, target(d, e), mapping);
+        }
+    }
     if (iso_yaml_find(&d->yaml, d->root, "effects", NULL, &effects))
         for (iso_effect_id i = 0; i < ISO_EFFECTS; i++) {
             list_effect(&l, i, iso_effect_list[i]->name, effects);

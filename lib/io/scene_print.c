@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/finite_impl.h"
+#include "base/math_impl.h"
 #include "base/number_impl.h"
 #include "base/rational_impl.h"
 #include "orbit/orbit_impl.h"
@@ -96,16 +96,6 @@ static bool is_stated(const iso_scene *s, iso_effect_id id, const iso_effect_num
     return all || n->required || memcmp(x, iso_effect_values(&usual, id, n), (size_t)n->count * sizeof *x) != 0;
 }
 
-static void print_number(printer *p, const char *section, const iso_effect_number *n, const double x[])
-{
-    if (n->kind == ISO_NUMBER_FLAG)
-        print_word(p, section, n->name, *x != 0 ? "true" : "false");
-    else if (n->kind == ISO_NUMBER_WORD)
-        print_word(p, section, n->name, n->word((int)*x));
-    else
-        print_numbers(p, section, n->name, n->count, x);
-}
-
 /* What the scene writes of an effect: its expressions, each with a key or all in a list, and its parameters. */
 static void print_written(printer *p, const iso_scene *s, iso_effect_id id)
 {
@@ -138,9 +128,17 @@ static void print_effect(printer *p, const iso_scene *s, iso_effect_id id)
     open_section(p, "  ", name);
     if (e->expressions) print_written(p, s, id);
     for (int all = 0; all <= (e->complete != NULL) && stated == 0; all++)
-        for (const iso_effect_number *n = e->numbers; n && n->name; n++)
-            if (is_stated(s, id, n, all > 0))
-                print_number(p, name, n, iso_effect_values(&s->effects, id, n)), stated++;
+        for (const iso_effect_number *n = e->numbers; n && n->name; n++) {
+            const double *x = iso_effect_values(&s->effects, id, n);
+            if (!is_stated(s, id, n, all > 0)) continue;
+            stated++;
+            if (n->kind == ISO_NUMBER_FLAG)
+                print_word(p, name, n->name, *x != 0 ? "true" : "false");
+            else if (n->kind == ISO_NUMBER_WORD)
+                print_word(p, name, n->name, n->word((int)*x));
+            else
+                print_numbers(p, name, n->name, n->count, x);
+        }
     if (point && e->needs_D && s->params.D > 0) print_numbers(p, name, "D", 1, &s->params.D);
 }
 

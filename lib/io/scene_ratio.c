@@ -43,30 +43,23 @@ iso_status iso_draft_ratios(iso_draft *d, const yaml_node_t *value, const char *
     return ISO_OK;
 }
 
-/* The scalars of a number, or of a list of three. */
-static iso_status copy_literal(iso_draft *d, const iso_draft_number *n, iso_literal *literal)
-{
-    for (; literal->count < n->count; literal->count++) {
-        const yaml_node_t *value = n->value;
-        if (n->count > 1) value = iso_yaml_node(&d->yaml, value->data.sequence.items.start[literal->count]);
-        char *text = strndup((const char *)value->data.scalar.value, value->data.scalar.length);
-        if (!text) return iso_context_no_memory(d->yaml.ctx, "a scene");
-        literal->text[literal->count] = text;
-    }
-    return ISO_OK;
-}
-
 iso_status iso_draft_literals(iso_draft *d, iso_literals *literals)
 {
     iso_draft_number list[ISO_LITERALS];
     const int count = iso_draft_numbers(d, ISO_LITERALS, list);
     literals->count = 0;
-    for (int i = 0; i < count; i++) {
-        if (list[i].count != 1 && list[i].count != 3) continue;
+    for (const iso_draft_number *n = list; n < list + count; n++) {
+        if (n->count != 1 && n->count != 3) continue;
         iso_literal *literal = &literals->one[literals->count++];
         literal->count = 0;
-        memcpy(literal->name, list[i].name, sizeof list[i].name);
-        ISO_TRY(copy_literal(d, &list[i], literal));
+        memcpy(literal->name, n->name, sizeof n->name);
+        for (int i = 0; i < n->count; i++) {
+            const yaml_node_t *value =
+                n->count == 1 ? n->value : iso_yaml_node(&d->yaml, n->value->data.sequence.items.start[i]);
+            char *text = strndup((const char *)value->data.scalar.value, value->data.scalar.length);
+            if (!text) return iso_context_no_memory(d->yaml.ctx, "a scene");
+            literal->text[literal->count++] = text;
+        }
     }
     return ISO_OK;
 }

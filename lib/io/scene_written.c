@@ -35,30 +35,26 @@ static iso_status read_expressions(iso_draft *d, iso_effect_id id, const yaml_no
     return ISO_OK;
 }
 
-static iso_status read_parameter(iso_draft *d, iso_effect_id id, const yaml_node_t *mapping, const yaml_node_t *key,
-                                 const yaml_node_t *value)
+static iso_status read_parameters(iso_draft *d, iso_effect_id id, const yaml_node_t *mapping)
 {
-    double x;
-    if (key->type != YAML_SCALAR_NODE) return ISO_FAIL_AT(d, key, "a parameter should be NAME: NUMBER");
-    const char *name = (const char *)key->data.scalar.value,
-               *bad = iso_effect_bad_parameter(iso_effect_list[id], name);
+    const iso_effect *effect = iso_effect_list[id];
     char quoted[ISO_QUOTE_SIZE];
-    if (bad)
-        return ISO_FAIL_AT(d, key, "'%s' cannot be a parameter: %s",
-                           iso_text_quote(quoted, name, key->data.scalar.length), bad);
-    ISO_TRY(iso_yaml_once(&d->yaml, mapping, key, name));
-    ISO_TRY(iso_yaml_number(&d->yaml, value, name, &x));
-    const iso_status status = iso_effects_set(d->yaml.ctx, &d->scene.effects, iso_effect_list[id]->name, name, 1, &x);
-    return status == ISO_OK ? status : ISO_FAIL_AT(d, key, "%s", iso_context_message(d->yaml.ctx));
-}
-
-static iso_status read_parameters(iso_draft *d, iso_effect_id id, const yaml_node_t *value)
-{
-    if (value->type != YAML_MAPPING_NODE)
-        return iso_yaml_expected(&d->yaml, value, "parameters", "a mapping {NAME: NUMBER, ...}");
-    const yaml_node_pair_t *end = value->data.mapping.pairs.top;
-    for (const yaml_node_pair_t *p = value->data.mapping.pairs.start; p < end; p++)
-        ISO_TRY(read_parameter(d, id, value, iso_yaml_node(&d->yaml, p->key), iso_yaml_node(&d->yaml, p->value)));
+    double x;
+    if (mapping->type != YAML_MAPPING_NODE)
+        return iso_yaml_expected(&d->yaml, mapping, "parameters", "a mapping {NAME: NUMBER, ...}");
+    const yaml_node_pair_t *end = mapping->data.mapping.pairs.top;
+    for (const yaml_node_pair_t *p = mapping->data.mapping.pairs.start; p < end; p++) {
+        const yaml_node_t *key = iso_yaml_node(&d->yaml, p->key);
+        if (key->type != YAML_SCALAR_NODE) return ISO_FAIL_AT(d, key, "a parameter should be NAME: NUMBER");
+        const char *name = (const char *)key->data.scalar.value, *bad = iso_effect_bad_parameter(effect, name);
+        if (bad)
+            return ISO_FAIL_AT(d, key, "'%s' cannot be a parameter: %s",
+                               iso_text_quote(quoted, name, key->data.scalar.length), bad);
+        ISO_TRY(iso_yaml_once(&d->yaml, mapping, key, name));
+        ISO_TRY(iso_yaml_number(&d->yaml, iso_yaml_node(&d->yaml, p->value), name, &x));
+        if (iso_effects_set(d->yaml.ctx, &d->scene.effects, effect->name, name, 1, &x) != ISO_OK)
+            return ISO_FAIL_AT(d, key, "%s", iso_context_message(d->yaml.ctx));
+    }
     return ISO_OK;
 }
 
@@ -78,8 +74,8 @@ iso_status iso_draft_text(iso_draft *d, iso_effect_id id, int i, const yaml_node
     return iso_effect_list[id]->expressions_key ? read_expressions(d, id, value) : read_expression(d, id, i, value);
 }
 
-/* The place of character `at` of a text. In a text of several lines, or with escapes, it is not known: then only that
- * of the text is, and the words say which character. */
+/* The place of character `at` of an expression. In a text of several lines, or with escapes, it is not known: then only
+ * that of the text is, and the message says which character. */
 static iso_status fail_in_text(iso_draft *d, const yaml_node_t *node, const char *name, const iso_expression *e)
 {
     yaml_mark_t mark = node->start_mark;
@@ -91,16 +87,6 @@ static iso_status fail_in_text(iso_draft *d, const yaml_node_t *node, const char
     return iso_yaml_fail(&d->yaml, mark, "%s: %s", name, e->wrong);
 }
 
-/* Where expression `which` stands in the section of its effect. */
-static const yaml_node_t *find_expression(iso_draft *d, const iso_effect *effect, const yaml_node_t *section,
-                                          int which)
-{
-    const yaml_node_t *node;
-    const char *key = effect->expressions_key ? effect->expressions_key : effect->expressions[which];
-    if (!iso_yaml_find(&d->yaml, section, key, NULL, &node)) return section;
-    return effect->expressions_key ? iso_yaml_node(&d->yaml, node->data.sequence.items.start[which]) : node;
-}
-
 iso_status iso_draft_check_expressions(iso_draft *d, iso_effect_id id, const yaml_node_t *effects)
 {
     const iso_effect *effect = iso_effect_list[id];
@@ -108,10 +94,16 @@ iso_status iso_draft_check_expressions(iso_draft *d, iso_effect_id id, const yam
     const yaml_node_t *section;
     iso_expression e;
     if (!iso_yaml_find(&d->yaml, effects, effect->name, NULL, &section)) return ISO_OK;
-    for (int i = 0; effect->expressions[i]; i++)
-        if (iso_written_has(&scene->effects, id, i) &&
-            (!iso_written_read(&scene->effects, id, i, &e) ||
-             !iso_written_decided(&scene->params, &scene->effects, id, &e)))
-            return fail_in_text(d, find_expression(d, effect, section, i), effect->expressions[i], &e);
+    for (int i = 0; effect->expressions[i]; i++) {
+        if (!iso_written_has(&scene->effects, id, i) ||
+            (iso_written_read(&scene->effects, id, i, &e) &&
+             iso_written_decided(&scene->params, &scene->effects, id, &e)))
+            continue;
+        const char *list = effect->expressions_key; /* of all expressions; NULL: each has a key */
+        const yaml_node_t *node = section;
+        const bool found = iso_yaml_find(&d->yaml, section, list ? list : effect->expressions[i], NULL, &node);
+        if (found && list) node = iso_yaml_node(&d->yaml, node->data.sequence.items.start[i]);
+        return fail_in_text(d, node, effect->expressions[i], &e);
+    }
     return ISO_OK;
 }

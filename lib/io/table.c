@@ -18,15 +18,11 @@
 
 /* --- formats ---------------------------------------------------------------------------------------------------- */
 
-static bool ends_in(const char *path, const char *ending)
-{
-    const size_t length = strlen(path), end = strlen(ending);
-    return length > end && strcasecmp(path + length - end, ending) == 0;
-}
-
 bool iso_table_is_hdf5(const char *path)
 {
-    return ends_in(path, ".h5") || ends_in(path, ".hdf5");
+    const size_t length = strlen(path);
+    return (length > 3 && strcasecmp(path + length - 3, ".h5") == 0) ||
+           (length > 5 && strcasecmp(path + length - 5, ".hdf5") == 0);
 }
 
 /* Whether a file that is to be read is HDF5. */
@@ -186,14 +182,8 @@ iso_status iso_table_name_columns(iso_context *ctx, iso_table_reader *r, size_t 
 
 /* --- writing ---------------------------------------------------------------------------------------------------- */
 
-static void release(iso_table_writer *w)
-{
-    iso_record_free(w->header);
-    free(w);
-}
-
-static iso_status open_writer(iso_context *ctx, const char *path, const char *kind, bool resumes,
-                              iso_table_writer **writer)
+iso_status iso_table_writer_open_as(iso_context *ctx, const char *path, const char *kind, bool resumes,
+                                    iso_table_writer **writer)
 {
     *writer = NULL;
     ISO_TRY(iso_table_check_format(ctx, path));
@@ -204,25 +194,21 @@ static iso_status open_writer(iso_context *ctx, const char *path, const char *ki
     w->kind = kind;
     w->finite = iso_table_is_finite(kind);
     w->expected = SIZE_MAX;
-    const iso_status status = resumes ? iso_csv_resume(ctx, w, path) : w->format->open(ctx, w, path);
-    if (status != ISO_OK) release(w), w = NULL;
+    w->resumes = resumes;
+    const iso_status status = w->format->open(ctx, w, path);
+    if (status != ISO_OK) return free(w), status;
     *writer = w;
-    return status;
+    return ISO_OK;
 }
 
 iso_status iso_table_writer_open(iso_context *ctx, const char *path, const char *kind, iso_table_writer **writer)
 {
-    return open_writer(ctx, path, kind, false, writer);
-}
-
-iso_status iso_table_writer_resume(iso_context *ctx, const char *path, const char *kind, iso_table_writer **writer)
-{
-    return open_writer(ctx, path, kind, true, writer);
+    return iso_table_writer_open_as(ctx, path, kind, false, writer);
 }
 
 iso_status iso_table_go_on(iso_context *ctx, iso_table_writer *w, const iso_record *header, size_t length)
 {
-    ISO_TRY(iso_csv_cut(ctx, w, length));
+    ISO_TRY(w->format->cut(ctx, w, length));
     return iso_table_write_header(ctx, w, header);
 }
 
@@ -236,52 +222,36 @@ void iso_table_set_digits(iso_table_writer *w, int digits)
     w->digits = digits;
 }
 
-/* Whether reading the line back gives the same key and value. */
-static bool is_line(const char *key, const char *value)
-{
-    const size_t k = strlen(key), v = strlen(value);
-    if (k == 0 || strpbrk(key, ":\r\n") || strpbrk(value, "\r\n")) return false;
-    if (strchr(" \t", key[0]) || strchr(" \t", key[k - 1])) return false;
-    return v == 0 || (!strchr(" \t", value[0]) && !strchr(" \t", value[v - 1]));
-}
-
-/* A text of whole lines, under a key that is one word. */
-static bool is_text(const char *key, const char *value)
-{
-    const size_t length = strlen(value);
-    return *key && !strpbrk(key, " \t:|\r\n") && length > 0 && value[length - 1] == '\n';
-}
-
+/* Reading it back returns the same: a line, or a text of whole lines under a key that is one word. */
 static iso_status check_line(iso_context *ctx, const char *key, const char *value)
 {
+    const size_t k = strlen(key), v = strlen(value);
     if (strcmp(key, ISO_WORDS_KEY) == 0)
         return ISO_FAIL_ARGUMENT(ctx, "", "the line '%s' is made of the columns that have words", key);
-    if (is_line(key, value) || is_text(key, value)) return ISO_OK;
+    const bool line = k > 0 && !strpbrk(key, ":\r\n") && !strpbrk(value, "\r\n") && !strchr(" \t", key[0]) &&
+                      !strchr(" \t", key[k - 1]) &&
+                      (v == 0 || (!strchr(" \t", value[0]) && !strchr(" \t", value[v - 1])));
+    const bool text = k > 0 && !strpbrk(key, " \t:|\r\n") && v > 0 && value[v - 1] == '\n';
+    if (line || text) return ISO_OK;
     return ISO_FAIL_ARGUMENT(ctx, "",
                              "'%s' cannot be a line '# key: value': a key has no colon, and both are one line", key);
 }
 
-/* Whether both formats give the name of a column back: for CSV no comma and no quote, of a column of words no blank;
- * for HDF5 a name of a dataset. */
-static iso_status check_column(iso_context *ctx, const iso_table_writer *w, const iso_record *header, size_t column)
-{
-    const char *name = iso_record_name(header, column);
-    const bool words = iso_record_has_words(header, column);
-    if (words && w->finite)
-        return ISO_FAIL_ARGUMENT(ctx, name, "a %s has numbers only: '%s' cannot have words", w->kind, name);
-    if (*name && *name != '#' && !strpbrk(name, words ? ", \t\"\r\n" : ",\"\r\n") && strcmp(name, ".") &&
-        strcmp(name, ".."))
-        return ISO_OK;
-    return ISO_FAIL_ARGUMENT(ctx, name, "a table cannot have a column '%s': a file would not give the name back",
-                             name);
-}
-
+/* Both formats must return the name of a column: CSV takes no comma and no quote, of a column of words no blank; HDF5
+ * takes names of datasets. */
 static iso_status check_header(iso_context *ctx, iso_table_writer *w, const iso_record *header)
 {
     const char *key, *value;
     for (size_t i = 0; i < iso_record_columns(header); i++) {
-        ISO_TRY(check_column(ctx, w, header, i));
-        if (iso_record_has_words(header, i)) w->words = header;
+        const char *name = iso_record_name(header, i);
+        const bool words = iso_record_has_words(header, i);
+        if (words && w->finite)
+            return ISO_FAIL_ARGUMENT(ctx, name, "a %s has numbers only: '%s' cannot have words", w->kind, name);
+        if (!*name || *name == '#' || strpbrk(name, words ? ", \t\"\r\n" : ",\"\r\n") || strcmp(name, ".") == 0 ||
+            strcmp(name, "..") == 0)
+            return ISO_FAIL_ARGUMENT(ctx, name,
+                                     "a table cannot have a column '%s': a file would not give the name back", name);
+        if (words) w->words = header;
     }
     for (size_t i = 0; iso_record_line(header, i, &key, &value); i++) ISO_TRY(check_line(ctx, key, value));
     return ISO_OK;
@@ -299,25 +269,19 @@ iso_status iso_table_write_header(iso_context *ctx, iso_table_writer *w, const i
     return w->format->header(ctx, w, header);
 }
 
-/* Only finite numbers can be read back as a trajectory. */
-static iso_status check_row(iso_context *ctx, const iso_table_writer *w, const double row[])
-{
-    size_t i = 0;
-    const size_t columns = iso_record_columns(w->header);
-    while (i < columns && isfinite(row[i])) i++;
-    if (i == columns) return ISO_OK;
-    const char *name = iso_record_name(w->header, i);
-    return iso_context_fail(ctx, ISO_NUMERICAL, name, "row %zu of '%s': %s is not finite", w->rows + 1, w->name,
-                            name);
-}
-
 iso_status iso_table_write_row(iso_context *ctx, iso_table_writer *w, const double row[])
 {
     ISO_DEFAULT_ARITHMETIC;
     double mark[ISO_TRAJECTORY_COLUMNS];
     if (!w->header || (!row && !w->finite)) return ISO_FAIL_ARGUMENT(ctx, "", "no header before the row, or no row");
-    for (size_t i = 0; !row && i < iso_record_columns(w->header); i++) mark[i] = NAN;
-    ISO_TRY(row && w->finite ? check_row(ctx, w, row) : ISO_OK);
+    const size_t checked = w->finite ? iso_record_columns(w->header) : 0;
+    for (size_t i = 0; i < checked; i++) {
+        if (!row) mark[i] = NAN;
+        if (!row || isfinite(row[i])) continue;
+        const char *name = iso_record_name(w->header, i); /* which could not be read back */
+        return iso_context_fail(ctx, ISO_NUMERICAL, name, "row %zu of '%s': %s is not finite", w->rows + 1, w->name,
+                                name);
+    }
     w->rows++;
     return w->format->row(ctx, w, row ? row : mark);
 }
@@ -332,7 +296,8 @@ iso_status iso_table_writer_close(iso_context *ctx, iso_table_writer *w, bool ke
 {
     if (!w) return ISO_OK;
     const iso_status status = w->format->close(ctx, w, keep);
-    release(w);
+    iso_record_free(w->header);
+    free(w);
     return status;
 }
 

@@ -27,7 +27,7 @@ ISO_C_BEGIN
 
 /* --- whole files ------------------------------------------------------------------------------------------------ */
 
-/* Reads a whole file into a new record, to be freed by the caller; iso_record_kind tells what it is. kind: the only
+/* Reads a whole file into a new record, to be freed by the caller; iso_record_kind returns what it is. kind: the only
  * one that is wanted; NULL: any of isoroll. columns: see below. passed: how many rows of nan were passed over; NULL:
  * they are refused. Messages about its text read "path:line:column: ...", column being that of the first character of
  * the field. Errors: ISO_BAD_INPUT, ISO_FILE_TROUBLE, ISO_NO_MEMORY; ISO_BAD_ARGUMENT: this build has no HDF5. */
@@ -56,7 +56,7 @@ typedef struct iso_table_place {
     bool orbits;         /* the file has a column `orbit`, as files of several orbits have                      */
     double orbit;        /* its number in the row read last; 0: there is no such column                         */
     bool begins_orbit;   /* ... which is another one than that of the row before                                */
-    const char *ignored; /* the columns of a file of others that are passed over, in words; NULL: none           */
+    const char *ignored; /* the columns of a file of others that are passed over, as text; NULL: none            */
 } iso_table_place;
 
 /* Opens a file and reads on to its first row. columns, of trajectories: names of the file's columns from left to

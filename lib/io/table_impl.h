@@ -25,14 +25,13 @@ typedef struct iso_table_writing {
     iso_status (*header)(iso_context *ctx, iso_table_writer *w, const iso_record *header);
     iso_status (*row)(iso_context *ctx, iso_table_writer *w, const double row[]);
     iso_status (*line)(iso_context *ctx, iso_table_writer *w, const char *key, const char *value);
-    iso_status (*flush)(iso_context *ctx, iso_table_writer *w);            /* NULL: there is nothing to do */
-    iso_status (*close)(iso_context *ctx, iso_table_writer *w, bool keep); /* not after a failing open */
+    iso_status (*flush)(iso_context *ctx, iso_table_writer *w);              /* NULL: there is nothing to do */
+    iso_status (*cut)(iso_context *ctx, iso_table_writer *w, size_t length); /* of a file that is resumed */
+    iso_status (*close)(iso_context *ctx, iso_table_writer *w, bool keep);   /* not after a failing open */
 } iso_table_writing;
 
 extern const iso_table_reading iso_csv_reading, iso_hdf5_reading;
 extern const iso_table_writing iso_csv_writing, iso_hdf5_writing; /* of HDF5: where the build has it */
-iso_status iso_csv_resume(iso_context *ctx, iso_table_writer *w, const char *path); /* opens it, see below */
-iso_status iso_csv_cut(iso_context *ctx, iso_table_writer *w, size_t length);
 
 struct iso_table_reader {
     const iso_table_reading *format;
@@ -50,7 +49,7 @@ struct iso_table_reader {
     void *data;
 };
 
-/* The column of a file of several orbits that tells them apart. It is no column of a trajectory. */
+/* The column of a file of several orbits that numbers them. It is no column of a trajectory. */
 #define ISO_ORBIT_COLUMN "orbit"
 
 /* The reader's header gets columns, and keeps its lines. */
@@ -68,6 +67,7 @@ struct iso_table_writer {
     const char *name;        /* what messages call it */
     const char *kind;        /* of the file */
     bool finite;             /* its numbers must be: a trajectory or a section */
+    bool resumes;            /* see iso_table_writer_open_as */
     iso_record *header;      /* names of the columns, no rows; NULL before it is written */
     const iso_record *words; /* the caller's header, if it has columns of words; else NULL */
     size_t rows, expected;   /* written so far; set it to all that come: HDF5 takes no more room */
@@ -77,10 +77,11 @@ struct iso_table_writer {
     void *data;
 };
 
-/* A table as CSV in a regular file, that can be gone on with: FILE.part is locked, and as it was. When this ends
- * without keeping it, it stays. iso_table_go_on goes on behind its first `length` bytes, whose header is this one;
- * 0: begins with the header. Errors: those of iso_table_writer_open and iso_table_write_header. */
-iso_status iso_table_writer_resume(iso_context *ctx, const char *path, const char *kind, iso_table_writer **writer);
+/* As iso_table_writer_open. resumes: a table as CSV in a regular file, whose FILE.part is locked, and as it was. When
+ * this ends without keeping it, it stays. iso_table_go_on goes on behind its first `length` bytes, whose header is this
+ * one; 0: begins with the header. Errors: those of iso_table_writer_open and iso_table_write_header. */
+iso_status iso_table_writer_open_as(iso_context *ctx, const char *path, const char *kind, bool resumes,
+                                    iso_table_writer **writer);
 iso_status iso_table_go_on(iso_context *ctx, iso_table_writer *w, const iso_record *header, size_t length);
 
 /* Brings the rows of CSV so far into the file. Errors: ISO_FILE_TROUBLE, ISO_CLOSED_PIPE. */

@@ -1,11 +1,12 @@
 /* text.c - text of users: opening and loading files, and what a message may show of them. */
-#include "base/context_impl.h"
-#include "io/replacement_impl.h"
 #include "io/text_impl.h"
 
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/context_impl.h"
+#include "io/output_impl.h"
 
 const char *iso_text_name(const char *path)
 {
@@ -30,37 +31,31 @@ void iso_text_close(FILE *file)
     if (file != stdin) fclose(file);
 }
 
-/* Grows a buffer until the file ends or is longer than the limit. */
-static iso_status load(iso_context *ctx, FILE *file, const char *path, size_t limit, char **text, size_t *length)
+iso_status iso_text_load(iso_context *ctx, const char *path, char **text, size_t *length)
 {
     size_t room = 0;
-    *length = 0;
-    while (!feof(file) && *length <= limit) {
+    iso_status status = ISO_OK;
+    FILE *file = iso_text_open(ctx, path);
+    const char *name = iso_text_name(path);
+    *text = NULL, *length = 0;
+    if (!file) return ISO_FILE_TROUBLE;
+    while (status == ISO_OK && !feof(file) && *length <= ISO_LARGEST_TEXT) {
         if (room - *length < 2) {
             char *grown = realloc(*text, room = 2 * room + 4096);
-            if (!grown) return iso_context_no_memory(ctx, "'%s'", path);
-            *text = grown;
+            if (grown) *text = grown;
+            if (!grown) status = iso_context_no_memory(ctx, "'%s'", name);
+            if (!grown) break;
         }
         *length += fread(*text + *length, 1, room - *length - 1, file);
-        if (ferror(file)) return iso_file_trouble(ctx, "read", path);
+        if (ferror(file)) status = iso_file_trouble(ctx, "read", name);
     }
-    (*text)[*length] = '\0';
-    if (*length <= limit) return ISO_OK;
-    return iso_context_placed(
-        ctx, ISO_FAIL_INPUT(ctx, "", "%s:1:1: larger than %zu MiB: this is no scene", path, limit >> 20));
-}
-
-iso_status iso_text_load(iso_context *ctx, const char *path, size_t limit, char **text, size_t *length)
-{
-    *text = NULL;
-    FILE *file = iso_text_open(ctx, path);
-    if (!file) return ISO_FILE_TROUBLE;
-    const iso_status status = load(ctx, file, iso_text_name(path), limit, text, length);
     iso_text_close(file);
-    if (status == ISO_OK) return ISO_OK;
-    free(*text);
-    *text = NULL;
-    return status;
+    if (status == ISO_OK && *length > ISO_LARGEST_TEXT)
+        status = iso_context_placed(ctx, ISO_FAIL_INPUT(ctx, "", "%s:1:1: larger than %d MiB: this is no scene", name,
+                                                        ISO_LARGEST_TEXT >> 20));
+    if (status != ISO_OK) return free(*text), *text = NULL, status;
+    (*text)[*length] = '\0';
+    return ISO_OK;
 }
 
 /* Bytes of the control characters of ASCII and, two bytes in UTF-8, of U+0080 to U+009F. */

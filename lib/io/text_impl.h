@@ -20,8 +20,8 @@ FILE *iso_text_open(iso_context *ctx, const char *path);
 void iso_text_close(FILE *file);
 
 /* Reads all of `path` into *text (to be freed by the caller, a '\0' behind it).
- * Errors: ISO_FILE_TROUBLE; ISO_BAD_INPUT for more than `limit` bytes; ISO_NO_MEMORY. */
-iso_status iso_text_load(iso_context *ctx, const char *path, size_t limit, char **text, size_t *length);
+ * Errors: ISO_FILE_TROUBLE; ISO_BAD_INPUT for more than ISO_LARGEST_TEXT bytes; ISO_NO_MEMORY. */
+iso_status iso_text_load(iso_context *ctx, const char *path, char **text, size_t *length);
 
 /* Text of the user's as it can be shown in a message: one line, short, nothing that moves a terminal's cursor. */
 const char *iso_text_quote(char quoted[ISO_QUOTE_SIZE], const char *text, size_t length);

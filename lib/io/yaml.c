@@ -6,17 +6,13 @@
 #include <string.h>
 
 #include "base/context_impl.h"
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "base/rational_impl.h"
 #include "io/text_impl.h"
 
 /* Scenes need three levels and fewer than a hundred values; libyaml's time grows with the square of the depth, its
  * memory by a hundred bytes for each value. */
 enum { MAX_DEPTH = 8, MAX_VALUES = 10000 };
-
-typedef struct tally {
-    int documents, depth, values;
-} tally;
 
 iso_status iso_yaml_fail(const iso_yaml *y, yaml_mark_t at, const char *format, ...)
 {
@@ -47,8 +43,8 @@ static yaml_mark_t mark_of_byte(const char *text, size_t offset)
 static iso_status fail_syntax(const iso_yaml *y, const yaml_parser_t *p, const char *text, size_t length)
 {
     const char *problem = p->problem ? p->problem : "unknown problem", *context = p->context;
-    const bool no_memory = p->error == YAML_MEMORY_ERROR || p->error == YAML_NO_ERROR; /* it does not always say so */
-    if (no_memory) return iso_context_no_memory(y->ctx, "a scene");
+    if (p->error == YAML_MEMORY_ERROR || p->error == YAML_NO_ERROR) /* it does not always say so */
+        return iso_context_no_memory(y->ctx, "a scene");
     if (p->error != YAML_READER_ERROR)
         return iso_yaml_fail(y, p->problem_mark, "not valid YAML: %s%s%s", context ? context : "",
                              context ? ", " : "", problem);
@@ -58,6 +54,11 @@ static iso_status fail_syntax(const iso_yaml *y, const yaml_parser_t *p, const c
     return iso_yaml_fail(y, mark_of_byte(text, offset), "not valid YAML text in UTF-8: %s (byte 0x%02X)", problem,
                          offset < length ? (unsigned char)text[offset] : 0);
 }
+
+/* How many there were so far. */
+struct seen {
+    int documents, depth, values;
+};
 
 static const char *anchor_or_tag(const yaml_event_t *e)
 {
@@ -74,7 +75,7 @@ static const char *anchor_or_tag(const yaml_event_t *e)
 }
 
 /* Refuses an event that a scene must not have: anchors, tags, a second document, deep nesting. */
-static iso_status check_event(const iso_yaml *y, const yaml_event_t *e, tally *seen)
+static iso_status check_event(const iso_yaml *y, const yaml_event_t *e, struct seen *seen)
 {
     const char *banned = anchor_or_tag(e);
     if (banned) return iso_yaml_fail(y, e->start_mark, "%s: scenes have none, write the value itself", banned);
@@ -116,18 +117,15 @@ static iso_status check_events(const iso_yaml *y, const char *text, size_t lengt
 {
     yaml_parser_t parser;
     iso_status status = ISO_OK;
-    tally seen = {0};
+    struct seen seen = {0};
     bool more = true;
     if (!open_parser(&parser, text, length)) return iso_context_no_memory(y->ctx, "a scene");
     while (more && status == ISO_OK) {
         yaml_event_t event;
-        if (!yaml_parser_parse(&parser, &event)) {
-            status = fail_syntax(y, &parser, text, length);
-            break;
-        }
-        more = event.type != YAML_STREAM_END_EVENT;
-        status = check_event(y, &event, &seen);
-        yaml_event_delete(&event);
+        const bool parsed = yaml_parser_parse(&parser, &event);
+        status = parsed ? check_event(y, &event, &seen) : fail_syntax(y, &parser, text, length);
+        more = parsed && event.type != YAML_STREAM_END_EVENT;
+        if (parsed) yaml_event_delete(&event);
     }
     yaml_parser_delete(&parser);
     return status;
@@ -137,10 +135,10 @@ iso_status iso_yaml_load(iso_yaml *y, const char *text, size_t length)
 {
     yaml_parser_t parser;
     if (length >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) text += 3, length -= 3; /* byte order mark */
-    iso_status status = check_events(y, text, length);
-    if (status != ISO_OK) return status;
+    ISO_TRY(check_events(y, text, length));
     if (!open_parser(&parser, text, length)) return iso_context_no_memory(y->ctx, "a scene");
-    if (!yaml_parser_load(&parser, &y->document)) status = fail_syntax(y, &parser, text, length);
+    const iso_status status =
+        yaml_parser_load(&parser, &y->document) ? ISO_OK : fail_syntax(y, &parser, text, length);
     yaml_parser_delete(&parser);
     return status;
 }
@@ -174,18 +172,14 @@ bool iso_yaml_find(iso_yaml *y, const yaml_node_t *mapping, const char *name, co
     return false;
 }
 
-/* What a node is, when it is not what it should be; NULL for text. */
-static const char *shape(const yaml_node_t *n)
-{
-    if (n->type == YAML_MAPPING_NODE) return "a mapping";
-    if (n->type != YAML_SEQUENCE_NODE) return NULL;
-    return n->data.sequence.items.start == n->data.sequence.items.top ? "an empty list" : "a list";
-}
-
 iso_status iso_yaml_expected(const iso_yaml *y, const yaml_node_t *n, const char *what, const char *expected)
 {
     char quoted[ISO_QUOTE_SIZE];
-    if (shape(n)) return iso_yaml_fail(y, n->start_mark, "'%s' should be %s, not %s", what, expected, shape(n));
+    if (n->type == YAML_MAPPING_NODE || n->type == YAML_SEQUENCE_NODE)
+        return iso_yaml_fail(y, n->start_mark, "'%s' should be %s, not %s", what, expected,
+                             n->type == YAML_MAPPING_NODE                                 ? "a mapping"
+                             : n->data.sequence.items.start == n->data.sequence.items.top ? "an empty list"
+                                                                                          : "a list");
     const bool plain = n->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
     if (plain && n->data.scalar.length == 0)
         return iso_yaml_fail(y, n->start_mark, "'%s' has no value, it should be %s", what, expected);
@@ -238,58 +232,54 @@ iso_status iso_yaml_word(const iso_yaml *y, const yaml_node_t *n, const char *wh
     return iso_yaml_unknown(y, n, what, count, names);
 }
 
-static bool number(const yaml_node_t *n, double *value)
+static bool is_plain(const yaml_node_t *n)
 {
-    return n->type == YAML_SCALAR_NODE && n->data.scalar.style == YAML_PLAIN_SCALAR_STYLE &&
-           iso_number_read((const char *)n->data.scalar.value, n->data.scalar.length, value);
+    return n->type == YAML_SCALAR_NODE && n->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
+}
+
+static bool read_number(const yaml_node_t *n, double *value)
+{
+    return is_plain(n) && iso_number_read((const char *)n->data.scalar.value, n->data.scalar.length, value);
 }
 
 iso_status iso_yaml_number(const iso_yaml *y, const yaml_node_t *n, const char *what, double *value)
 {
-    return number(n, value) ? ISO_OK : iso_yaml_expected(y, n, what, "a finite number");
+    return read_number(n, value) ? ISO_OK : iso_yaml_expected(y, n, what, "a finite number");
 }
 
 iso_status iso_yaml_ratio(const iso_yaml *y, const yaml_node_t *n, const char *what, double *value)
 {
-    if (n->type == YAML_SCALAR_NODE && n->data.scalar.style == YAML_PLAIN_SCALAR_STYLE &&
-        iso_rational_read_double((const char *)n->data.scalar.value, n->data.scalar.length, value))
+    if (is_plain(n) && iso_rational_read_double((const char *)n->data.scalar.value, n->data.scalar.length, value))
         return ISO_OK;
     return iso_yaml_expected(y, n, what, "a finite number or a fraction, such as 1/3");
 }
 
-static iso_status three_rows(iso_yaml *y, const yaml_node_t *n, const char *what, double matrix[9])
-{
-    if (n->type != YAML_SEQUENCE_NODE) return iso_yaml_expected(y, n, what, "three rows of three numbers");
-    const yaml_node_item_t *items = n->data.sequence.items.start;
-    const int rows = (int)(n->data.sequence.items.top - items);
-    if (rows != 3)
-        return iso_yaml_fail(y, n->start_mark, "'%s' should be three rows of three numbers, not %d", what, rows);
-    for (int i = 0; i < 3; i++) ISO_TRY(iso_yaml_numbers(y, iso_yaml_node(y, items[i]), what, 3, matrix + 3 * i));
-    return ISO_OK;
-}
-
 iso_status iso_yaml_numbers(iso_yaml *y, const yaml_node_t *n, const char *what, int count, double values[])
 {
-    char expected[48];
-    if (count == 9) return three_rows(y, n, what, values);
-    snprintf(expected, sizeof expected, "a list of %d finite numbers", count);
+    char expected[48] = "three rows of three numbers";
+    const bool matrix = count == 9;
+    if (!matrix) snprintf(expected, sizeof expected, "a list of %d finite numbers", count);
     if (n->type != YAML_SEQUENCE_NODE) return iso_yaml_expected(y, n, what, expected);
     const yaml_node_item_t *items = n->data.sequence.items.start;
-    const long found = (long)(n->data.sequence.items.top - items);
-    if (found != count)
-        return iso_yaml_fail(y, n->start_mark, "'%s' should be %s, not of %ld", what, expected, found);
-    for (int i = 0; i < count; i++) {
+    const long found = (long)(n->data.sequence.items.top - items), rows = matrix ? 3 : count;
+    if (found != rows)
+        return iso_yaml_fail(y, n->start_mark, "'%s' should be %s, not %s%ld", what, expected, matrix ? "" : "of ",
+                             found);
+    for (int i = 0; i < rows; i++) {
         const yaml_node_t *item = iso_yaml_node(y, items[i]);
-        if (number(item, &values[i])) continue;
-        snprintf(expected, sizeof expected, "%s[%d]", what, i + 1);
-        return iso_yaml_expected(y, item, expected, "a finite number");
+        if (matrix) {
+            ISO_TRY(iso_yaml_numbers(y, item, what, 3, values + 3 * i));
+        } else if (!read_number(item, &values[i])) {
+            snprintf(expected, sizeof expected, "%s[%d]", what, i + 1);
+            return iso_yaml_expected(y, item, expected, "a finite number");
+        }
     }
     return ISO_OK;
 }
 
 iso_status iso_yaml_flag(const iso_yaml *y, const yaml_node_t *n, const char *what, bool *value)
 {
-    const bool plain = n->type == YAML_SCALAR_NODE && n->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
     *value = iso_yaml_is(n, "true");
-    return plain && (*value || iso_yaml_is(n, "false")) ? ISO_OK : iso_yaml_expected(y, n, what, "true or false");
+    return is_plain(n) && (*value || iso_yaml_is(n, "false")) ? ISO_OK
+                                                              : iso_yaml_expected(y, n, what, "true or false");
 }

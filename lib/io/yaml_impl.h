@@ -66,7 +66,7 @@ iso_status iso_yaml_flag(const iso_yaml *y, const yaml_node_t *node, const char 
 
 /* The document as JSON, in which numbers read back to the same doubles. As much as there is room for goes to json[],
  * with an end mark; *length is that of all of it. Errors: those of iso_yaml_load; ISO_BAD_INPUT: a key is no text. */
-iso_status iso_yaml_to_json(iso_context *ctx, const char *name, const char *text, size_t bytes, char json[], size_t room,
-                         size_t *length);
+iso_status iso_yaml_to_json(iso_context *ctx, const char *name, const char *text, size_t bytes, char json[],
+                            size_t room, size_t *length);
 
 #endif

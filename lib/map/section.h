@@ -36,11 +36,7 @@ typedef struct iso_point_motion {
 
 static inline iso_point_motion iso_free_point(const iso_params *p, double eps)
 {
-    iso_point_motion m;
-    m.p = p;
-    m.eps = eps;
-    m.energy = 0;
-    return m;
+    return (iso_point_motion){p, eps, 0};
 }
 
 /* The axis whose section is global: that of the largest moment for eps/k > 0, that of the smallest for eps/k < 0. If

@@ -1,5 +1,5 @@
 /* state.c - the map (18) and the energies of the two models. */
-#include "map/state_impl.h"
+#include "map/state.h"
 
 #include "base/vec3_impl.h"
 #include "model/model_impl.h"

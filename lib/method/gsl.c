@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/room_impl.h"
+#include "base/resources_impl.h"
 #include "base/vec3_impl.h"
 #include "method/gsl_impl.h"
 #include "method/methods_impl.h"

@@ -2,7 +2,7 @@
  * them. */
 #include <math.h>
 
-#include "base/finite_impl.h"
+#include "base/math_impl.h"
 #include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"

@@ -9,7 +9,7 @@
 #ifndef ISO_METHOD_INTEGRATOR_IMPL_H
 #define ISO_METHOD_INTEGRATOR_IMPL_H
 
-#include "base/sum_impl.h"
+#include "base/math_impl.h"
 #include "method/methods_impl.h"
 #include "model/model_impl.h"
 

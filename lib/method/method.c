@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "method/methods_impl.h"
 #include "model/model_impl.h"
 

@@ -10,7 +10,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#include "base/room_impl.h"
+#include "base/resources_impl.h"
 #include "base/sundials_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"

@@ -21,8 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/finite_impl.h"
-#include "base/sum_impl.h"
+#include "base/math_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"

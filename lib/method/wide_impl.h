@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "method/methods_impl.h"
 #include "method/taylor/return_map_impl.h"
 

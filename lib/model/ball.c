@@ -18,17 +18,9 @@
  */
 #include <math.h>
 
-#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "model/effects/effects_impl.h"
 #include "model/integrals_impl.h"
-
-/* (n,Jw), as (n,(J - min J) w) */
-static double along_normal(const iso_params *p, const double y[])
-{
-    const double least = min3(p->J);
-    return dot_diag(y, (const double[]){p->J[0] - least, p->J[1] - least, p->J[2] - least}, y + 3);
-}
 
 /* A second statement: `ball` and `rigid` of series/recurrences_impl.h give the same at order 0. It is kept because it
  * is faster: 180 instructions a call, the recurrences need 310. rhs is 19 % of the instructions of a run by rk8pd, so
@@ -41,12 +33,13 @@ static double along_normal(const iso_params *p, const double y[])
 static void rhs(const iso_problem *f, const double y[ISO_STATE], double dy[ISO_STATE])
 {
     const iso_params *p = &f->p;
-    const double *w = y, *n = y + 3;
+    const double *w = y, *n = y + 3, least = min3(p->J);
+    const double beyond[3] = {p->J[0] - least, p->J[1] - least, p->J[2] - least};
     double Jw[3], n_Jw[3], turn[3];
     diag(p->J, w, Jw);
     cross(n, Jw, n_Jw);
     cross(n, w, turn);
-    const double part = along_normal(p, y) / (dot_diag(n, p->inv_J, n) * p->det_J);
+    const double part = dot_diag(w, beyond, n) / (dot_diag(n, p->inv_J, n) * p->det_J);
     for (int i = 0; i < 3; i++) {
         dy[i] = part * n_Jw[i];
         dy[3 + i] = p->k * turn[i];
@@ -93,13 +86,6 @@ static double spin(const iso_problem *f, const double y[], double *size)
     return dot(y, y + 3);
 }
 
-static double normal_length(const iso_problem *f, const double y[], double *size)
-{
-    (void)f;
-    *size = 1;
-    return norm(y + 3);
-}
-
 /* A level adds 2 c det J (u,u)/g, which is the point's 2 H (gamma,J^-1 gamma). */
 static double f_plane(const iso_problem *f, const double y[], double *size)
 {
@@ -138,15 +124,6 @@ ISO_OF_AXIS(1)
 ISO_OF_AXIS(2)
 ISO_OF_AXIS(3)
 
-static double remove_spin(const iso_params *p, double y[])
-{
-    double u[3];
-    diag(p->inv_J, y + 3, u);
-    const double spin = dot(y, y + 3);
-    add_scaled(y, -spin / dot(y + 3, u), u);
-    return spin;
-}
-
 /* The three relations are restored one after the other, and none disturbs the one before: |n| = 1 by scaling n,
  * (w,n) = 0 by taking the spin out of w, h by scaling w. The spin is taken out along J^-1 n, as the contact's torque
  * does it. Along n, a rounding error of w about a light axis would become a large error of Jw about a heavy one. h is
@@ -156,7 +133,13 @@ static double project(const iso_problem *f, double y[])
     const double length_error = make_unit(y + 3) - 1, moving = fmax(norm(y), largest(y));
     double correction = fabs(length_error);
     if (moving == 0) return correction;
-    if (!iso_effects_twist(&f->effects)) correction = fmax(correction, fabs(remove_spin(&f->p, y)) / moving);
+    if (!iso_effects_twist(&f->effects)) {
+        double u[3];
+        const double spin = dot(y, y + 3);
+        diag(f->p.inv_J, y + 3, u);
+        add_scaled(y, -spin / dot(y + 3, u), u);
+        correction = fmax(correction, fabs(spin) / moving);
+    }
     const bool is_free = iso_effects_none(&f->effects);
     if (!is_free && !iso_effects_keep_energy(f)) return correction;
     const double T = kinetic(f, y), U = is_free ? 0 : iso_effects_potential(f, y);
@@ -175,23 +158,13 @@ static double speed(const iso_problem *f, const double y[])
     return fmax(fmax(norm(y), largest(y)), sqrt(2 * iso_effects_strength(f, y) / max3(f->p.J)));
 }
 
-static void sample(iso_problem *f, iso_random *r, double y[ISO_STATE])
-{
-    double unused;
-    iso_random_direction(r, y + 3);
-    for (int i = 0; i < 3; i++) y[i] = iso_random_normal(r);
-    for (int pass = 0; pass < 2; pass++) remove_along(y, y + 3); /* twice: w may be nearly along n */
-    f->eps = 0;
-    f->energy = energy(f, y, &unused);
-}
-
 static const char *const state_names[] = {"omega1", "omega2", "omega3", "n1", "n2", "n3"};
 
 static const iso_integral integrals[] = {
     ISO_INTEGRAL("h", 1, 0, 2, energy, .holds = iso_effects_keep_energy,
                  .doc = "energy (w,Jw)/2, with the potentials of its effects"),
     ISO_INTEGRAL("omega.n", 0, 0, 1, spin, .known = ISO_ZERO, .holds = is_rigid, .doc = "no twist: (w,n) = 0"),
-    ISO_INTEGRAL("|n|", 0, 0, 0, normal_length, .known = ISO_ONE, .doc = "unit normal: 1"),
+    ISO_INTEGRAL("|n|", 0, 0, 0, unit_length, .known = ISO_ONE, .doc = "unit normal: 1"),
     ISO_INTEGRAL("F_plane", 2, 0, 2, f_plane, .holds = holds_plane, .doc = "(Jw x n, Jw x n), k = 1"),
     ISO_INTEGRAL("F_shell", 3, 0, 2, f_shell, .holds = holds_shell,
                  .doc = "[(Jw,Jw) + det J (w,Jw)(J^-1 n,J^-1 n)]/(n,J^-1 n), k = -1 (11)"),
@@ -213,5 +186,4 @@ const iso_system iso_system_ball = {
     .energy = energy,
     .project = project,
     .speed = speed,
-    .sample = sample,
 };

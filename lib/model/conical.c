@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "base/math_impl.h"
 #include "base/vec3_impl.h"
 
 /* --- twofold numbers: high + low, some 105 bits ----------------------------------------------------------------- */
@@ -14,8 +15,8 @@ typedef struct twofold {
 
 static twofold sum(twofold x, twofold y)
 {
-    const double s = x.high + y.high, part = s - x.high, lost = (x.high - (s - part)) + (y.high - part);
-    const double low = lost + (x.low + y.low), high = s + low;
+    double lost;
+    const double s = iso_two_sum(x.high, y.high, &lost), low = lost + (x.low + y.low), high = s + low;
     return (twofold){high, low - (high - s)};
 }
 
@@ -95,15 +96,6 @@ static void find_cosines(const axes *a, const double x[3], double length, iso_co
     c->cosine[1] = first ? other : larger;
 }
 
-static void find_angles(const axes *a, const double x[3], iso_conical *c)
-{
-    const double length = norm(x);
-    find_cosines(a, x, length, c);
-    const distances d = distances_of(a, c);
-    c->sine[0] = d.above > 0 ? x[0] / length / d.above : copysign(0, x[0]);
-    c->sine[1] = d.below > 0 ? x[2] / length / d.below : copysign(0, x[2]);
-}
-
 /* x, and the unit vectors along dx/dphi and dx/dpsi, orthogonal to it and to each other */
 static void find_frame(const axes *a, const iso_conical *c, double x[3], double along_phi[3], double along_psi[3])
 {
@@ -121,18 +113,6 @@ static void find_frame(const axes *a, const iso_conical *c, double x[3], double 
     along_psi[1] = -c->sine[1] * first;
     along_psi[2] = last * d.above;
 }
-
-static void find_speeds(const axes *a, const double velocity[3], iso_conical *c)
-{
-    double x[3], along[2][3];
-    find_frame(a, c, x, along[0], along[1]);
-    for (int r = 0; r < 2; r++) {
-        c->speed[r] = 0;
-        for (int i = 0; velocity && i < 3; i++) c->speed[r] += along[r][i] * velocity[a->axis[i]];
-    }
-}
-
-/* --- what follows ----------------------------------------------------------------------------------------------- */
 
 static void find_distances(const axes *a, iso_conical *c)
 {
@@ -153,26 +133,28 @@ static void find_distances(const axes *a, iso_conical *c)
     c->length[1] = d.above > 0 ? d.gap / d.above : 1;
 }
 
-static void find_rates(const axes *a, iso_conical *c)
-{
-    const double range[2] = {a->low.high, -a->high.high};
-    for (int r = 0; r < 2; r++)
-        c->rate[r] = c->length[r] > 0 ? 2 * range[r] * c->sine[r] * c->cosine[r] * c->speed[r] / c->length[r] : 0;
-}
-
 void iso_conical_from_vector(const double b[3], const double x[3], const double velocity[3], iso_conical *c)
 {
     const axes a = sort_axes(b);
-    double sorted[3];
+    const double range[2] = {a.low.high, -a.high.high};
+    double sorted[3], unused[3], along[2][3];
     for (int i = 0; i < 3; i++) {
         sorted[i] = x[a.axis[i]];
         c->b[i] = a.b[i];
         c->axis[i] = a.axis[i];
     }
-    find_angles(&a, sorted, c);
-    find_speeds(&a, velocity, c);
+    const double length = norm(sorted);
+    find_cosines(&a, sorted, length, c);
+    const distances d = distances_of(&a, c);
+    c->sine[0] = d.above > 0 ? sorted[0] / length / d.above : copysign(0, sorted[0]);
+    c->sine[1] = d.below > 0 ? sorted[2] / length / d.below : copysign(0, sorted[2]);
+    find_frame(&a, c, unused, along[0], along[1]);
     find_distances(&a, c);
-    find_rates(&a, c);
+    for (int r = 0; r < 2; r++) {
+        c->speed[r] = 0;
+        for (int i = 0; velocity && i < 3; i++) c->speed[r] += along[r][i] * velocity[a.axis[i]];
+        c->rate[r] = c->length[r] > 0 ? 2 * range[r] * c->sine[r] * c->cosine[r] * c->speed[r] / c->length[r] : 0;
+    }
 }
 
 void iso_conical_to_vector(const double b[3], const iso_conical *c, double x[3], double velocity[3])

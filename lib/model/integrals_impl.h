@@ -2,6 +2,7 @@
 #ifndef ISO_MODEL_INTEGRALS_IMPL_H
 #define ISO_MODEL_INTEGRALS_IMPL_H
 
+#include "base/vec3_impl.h"
 #include "model/effects/effects_impl.h"
 #include "model/model_impl.h"
 
@@ -19,6 +20,14 @@ static inline bool holds_shell(const iso_problem *f)
 static inline bool holds_axis(const iso_problem *f, int axis)
 {
     return iso_params_symmetric(&f->p, axis) && iso_effects_keep(f, (iso_additional)(ISO_F_AXIS1 + axis));
+}
+
+/* |n| or |gamma| */
+static inline double unit_length(const iso_problem *f, const double y[], double *size)
+{
+    (void)f;
+    *size = 1;
+    return norm(y + 3);
 }
 
 /* The same as functions of rows, for axis i = 1, 2, 3, and the integral f_axis(f, y, axis, size) of the file. */

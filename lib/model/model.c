@@ -4,6 +4,7 @@
 #include "model/model_impl.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/vec3_impl.h"
 #include "model/effects/contact_impl.h"
@@ -30,7 +31,7 @@ static void ball_rhs(const iso_model *m, const double y[], double dy[])
 {
     double T[3];
     iso_effects_torque(&m->problem, y, T, dy);
-    m->contact->solve(&m->problem, y, T, dy);
+    m->contact(&m->problem, y, T, dy);
     if (m->problem.motion.late) iso_formula_late_rates(&m->problem.motion, &m->problem.p, y, dy);
 }
 
@@ -68,11 +69,6 @@ static void rhs_clocks(const iso_model *m, const double y[], double dy[])
     for (int c = 0; c < m->clocks; c++) dy[m->moving + c] = rate(m, m->clock_of[c], q, &exponent);
 }
 
-static void own_jacobian(const iso_model *m, const double y[], double jac[])
-{
-    iso_model_slopes(m, y, jac);
-}
-
 /* With r = r(q) ~ q^e:  d(r f_i)/dy_j = r df_i/dy_j + f_i (e r/q) dq/dy_j, and the last term alone for a clock. */
 static void jacobian_clocks(const iso_model *m, const double y[], double jac[])
 {
@@ -93,28 +89,6 @@ static void jacobian_clocks(const iso_model *m, const double y[], double jac[])
 
 /* --- assembling ------------------------------------------------------------------------------------------------- */
 
-/* Finds the effects that have states, and gives each a place in y. */
-static void add_states(iso_model *m)
-{
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
-        const int states = iso_effect_states(iso_effect_list[e], &m->problem);
-        m->problem.at[e] = 0;
-        if (!m->problem.effects.on[e] || states == 0 || m->system != &iso_system_ball) continue;
-        m->problem.at[e] = m->moving;
-        m->moving += states;
-        m->follower[m->followers++] = iso_effect_list[e];
-    }
-}
-
-/* The first effect whose torque is a function, not a formula; NULL: none. */
-static const iso_effect *find_without_formula(const iso_model *m)
-{
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        if (iso_effect_acts(&m->problem.effects, e) && m->system == &iso_system_ball && iso_effect_list[e]->torque)
-            return iso_effect_list[e];
-    return NULL;
-}
-
 /* Series have formulas in the place of derived states. These may be longer than what other methods compute. */
 static bool series_overrun(const iso_model *m)
 {
@@ -131,11 +105,8 @@ static bool series_overrun(const iso_model *m)
 static void record(iso_model *m)
 {
     iso_problem *f = &m->problem;
-    f->motion.kind = f->energy_formula.kind = ISO_FORMULA_NONE;
-    f->motion.lines = f->energy_formula.lines = 0;
-    f->motion.late = f->motion.torques = f->motion.overrun = f->energy_formula.overrun = false;
-    f->energy_formula.magnetic = false;
-    f->motion.wrong = f->energy_formula.wrong = NULL;
+    iso_formula_begin(&f->motion, ISO_FORMULA_NONE, false);
+    iso_formula_begin(&f->energy_formula, ISO_FORMULA_NONE, false);
     if (iso_effects_none(&f->effects) || m->moving > ISO_STATE + ISO_MOST_EFFECT_STATES) return;
     if (m->system == &iso_system_ball) {
         iso_effects_record_motion(f, false, &f->motion);
@@ -146,16 +117,16 @@ static void record(iso_model *m)
     }
 }
 
-/* Takes the plainest function that does it. A late rate needs omega', which only ball_rhs has. */
+/* The plainest function that does it. A late rate needs omega', which only ball_rhs has. */
 static void choose_equations(iso_model *m)
 {
-    const bool ball = m->system == &iso_system_ball;
-    m->own_rhs = free_rhs;
-    if (ball && m->followers > 0) m->own_rhs = free_rhs_followed;
     const iso_formula *motion = &m->problem.motion;
-    if (ball && (motion->torques || m->without_formula || motion->late || m->contact == &iso_contact_twisting))
+    if (m->system != &iso_system_ball)
+        m->own_rhs = m->problem.energy_formula.lines > 0 ? point_rhs : free_rhs;
+    else if (motion->torques || m->without_formula || motion->late || m->contact == iso_contact_twisting)
         m->own_rhs = ball_rhs;
-    if (!ball && m->problem.energy_formula.lines > 0) m->own_rhs = point_rhs;
+    else
+        m->own_rhs = m->followers > 0 ? free_rhs_followed : free_rhs;
 }
 
 const char *iso_model_too_large(const iso_model *m)
@@ -176,17 +147,20 @@ void iso_model_complete(iso_model *m, const iso_system *system, iso_clock clock,
     m->clock = clock;
     m->moving = ISO_STATE;
     m->followers = m->clocks = 0;
-    add_states(m);
+    memset(m->problem.at, 0, sizeof m->problem.at);
+    if (system == &iso_system_ball) m->moving = iso_effects_place_states(&m->problem);
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        if (m->problem.at[e] > 0) m->follower[m->followers++] = iso_effect_list[e];
     record(m);
-    m->without_formula = find_without_formula(m);
-    m->contact = iso_contact_of(&m->problem);
+    m->without_formula = system == &iso_system_ball ? iso_effects_without_formula(&m->problem.effects) : NULL;
+    m->contact = iso_effects_twist(&m->problem.effects) ? iso_contact_twisting : iso_contact_rigid;
     choose_equations(m);
     for (iso_clock c = 0; c < ISO_CLOCKS; c++)
         if (with_clock[c] && c != clock) m->clock_of[m->clocks++] = c;
     m->dim = m->moving + m->clocks;
     const bool plain = clock == system->clock && m->clocks == 0;
     m->rhs = plain ? m->own_rhs : rhs_clocks;
-    m->jacobian = plain ? own_jacobian : jacobian_clocks;
+    m->jacobian = plain ? iso_model_slopes : jacobian_clocks;
 }
 
 iso_model iso_model_assemble(const iso_system *system, const iso_problem *problem, iso_clock clock,
@@ -211,17 +185,11 @@ const char *iso_model_state_name(const iso_model *m, int i, const char **reason)
     if (i < ISO_STATE) return m->system->state[i];
     *reason = "clock: a column, or the effect clock, asks for it";
     if (i >= m->moving) return iso_clock_name(m->clock_of[i - m->moving]);
-    iso_effect_id last = ISO_EFFECTS;
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        if (m->problem.at[e] > 0 && m->problem.at[e] <= i) last = e;
-    *reason = iso_effect_list[last]->states_doc;
-    i -= m->problem.at[last];
-    for (const iso_effect_state *s = iso_effect_list[last]->states; s->name; s++) {
-        if (s->there && !s->there(&m->problem)) continue;
-        if (i < s->count) return s->name[i];
-        i -= s->count;
-    }
-    return NULL;
+    iso_effect_id effect;
+    int in_group;
+    const iso_effect_state *s = iso_effects_state_at(&m->problem, i, &effect, &in_group);
+    *reason = iso_effect_list[effect]->states_doc;
+    return s->name[in_group];
 }
 
 /* --- sizes ------------------------------------------------------------------------------------------------------ */

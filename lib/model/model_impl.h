@@ -50,7 +50,7 @@ bool iso_params_steep(const iso_params *p);
 /* Why the model cannot be simulated: more effects than there is room for; NULL: it can. */
 const char *iso_model_too_large(const iso_model *m);
 
-/* Restores the constraints of system and effects, and the energy where it is conserved; gives the relative size of
+/* Restores the constraints of system and effects, and the energy where it is conserved; returns the relative size of
  * the correction. */
 double iso_model_project(const iso_model *m, double y[]);
 
@@ -86,9 +86,6 @@ double iso_unit(const iso_units *units, iso_dimension d);
 
 extern const iso_system iso_system_ball;
 extern const iso_system iso_system_point;
-
-/* The registry, ended by NULL. */
-extern const iso_system *const iso_systems[];
 
 /* Whether two moments of inertia are equal (to 4 units in the last place), making axis `axis` (0-2) one of symmetry.
  */
@@ -140,13 +137,13 @@ bool iso_model_at_rest(const iso_model *m, const double y[]);
 void iso_model_rest(const iso_model *m, double dt, double y[]);
 
 /* Whether the model, which goes from y0 forwards (direction 1) or backwards (-1) in time, has come to a y from which it
- * turns ever faster. Returns what happens, in words; NULL: it does not. */
+ * turns ever faster. Returns a sentence about it; NULL: it does not. */
 const char *iso_model_speeds_up(const iso_model *m, int direction, const double y0[], const double y[]);
 
 /* Below this speed the answer is NULL, so nobody has to ask; infinite: at every speed. */
 double iso_model_fast(const iso_model *m, int direction, const double y0[]);
 
-/* A motion has ended in y: says whether an effect that the scene writes is the reason, in words that continue the
+/* A motion has ended in y: the text says whether an effect that the scene writes is the reason, and continues the
  * message; "": it is not. */
 enum { ISO_BLAME_SIZE = 640 };
 void iso_model_blame(const iso_model *m, const double y[], char text[ISO_BLAME_SIZE]);
@@ -158,7 +155,7 @@ bool iso_model_has_claim(const iso_model *m);
 const char *iso_model_false_claim(const iso_model *m, const double y[], char text[ISO_BLAME_SIZE]);
 
 /* Whether a state y, found by a method that does not restore constraints, has lost one so far that y is no answer any
- * more. `tolerance` is that of the steps. Returns what is lost, in words; NULL: nothing. */
+ * more. `tolerance` is that of the steps. Returns a sentence about it; NULL: nothing is lost. */
 const char *iso_model_lost(const iso_model *m, const double y[], double tolerance);
 
 #endif

@@ -61,17 +61,6 @@ iso_status iso_params_set_D(iso_context *ctx, double D, iso_params *p)
     return ISO_OK;
 }
 
-/* k = a/(a+b) from the true radii, each formula written so that nothing cancels but the radii themselves. */
-static double geometry_number(iso_surface surface, double A, double B)
-{
-    switch (surface) {
-    case ISO_OUTSIDE: return A / (A + B);
-    case ISO_INSIDE:
-    case ISO_SHELL: return A / (A - B);
-    default: return 1;
-    }
-}
-
 static iso_status check_radii(iso_context *ctx, const iso_body *b)
 {
     const double A = b->surface_radius, B = b->radius;
@@ -116,12 +105,13 @@ iso_status iso_params_physical(iso_context *ctx, const iso_body *b, iso_params *
     }
     ISO_TRY(check_radii(ctx, b));
     double J[3];
-    const double D = b->mass * b->radius * b->radius;
+    const double A = b->surface_radius, B = b->radius, D = b->mass * B * B;
     for (int i = 0; i < 3; i++) J[i] = I[i] + D;
-    const double k = geometry_number(b->surface, b->surface_radius, b->radius);
+    /* a/(a+b) from the true radii: nothing cancels but the radii themselves */
+    const double k = b->surface == ISO_PLANE ? 1 : A / (b->surface == ISO_OUTSIDE ? A + B : A - B);
     if (!isnormal(k))
-        return ISO_FAIL_INPUT(ctx, "surface_radius", "radii %s and %s give no geometry number k",
-                              ISO_SHORT(b->surface_radius), ISO_SHORT(b->radius));
+        return ISO_FAIL_INPUT(ctx, "surface_radius", "radii %s and %s give no geometry number k", ISO_SHORT(A),
+                              ISO_SHORT(B));
     if (!is_positive(max3(J))) return ISO_FAIL_INPUT(ctx, "mass", "m B^2 does not fit a double: use other units");
     memset(p, 0, sizeof *p);
     p->body = *b;

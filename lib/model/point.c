@@ -11,7 +11,6 @@
  */
 #include <math.h>
 
-#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "model/effects/effects_impl.h"
 #include "model/integrals_impl.h"
@@ -28,22 +27,16 @@ static double point_q(const iso_params *p, const double y[ISO_STATE], double gra
     return dot_diag(gamma, p->J, gamma);
 }
 
-static double torque_factor(const iso_problem *f, double q)
-{
-    const double k = f->p.k;
-    return 2 * f->eps / k * (k == -1 ? 1 : pow(q, -1 - 1 / k));
-}
-
-/* A second statement: `point_24` of series/recurrences_impl.h gives the same at order 0. It is kept because it is
+/* A second statement: `point_24` of series/recurrences_impl.h is the same at order 0. It is kept because it is
  * faster: 250 instructions a call, the recurrence needs 320. Counted as in ball.c, and held against the recurrence by
  * the same test. */
 static void rhs(const iso_problem *f, const double y[ISO_STATE], double dy[ISO_STATE])
 {
-    const double *M = y, *gamma = y + 3;
+    const double *M = y, *gamma = y + 3, k = f->p.k;
     double Jgamma[3];
     diag(f->p.J, gamma, Jgamma);
     cross(gamma, Jgamma, dy);
-    scale(dy, torque_factor(f, dot(gamma, Jgamma)));
+    scale(dy, 2 * f->eps / k * (k == -1 ? 1 : pow(dot(gamma, Jgamma), -1 - 1 / k)));
     cross(gamma, M, dy + 3);
 }
 
@@ -66,13 +59,6 @@ static double spin(const iso_problem *f, const double y[], double *size)
 {
     *size = iso_system_point.speed(f, y);
     return dot(y, y + 3);
-}
-
-static double gamma_length(const iso_problem *f, const double y[], double *size)
-{
-    (void)f;
-    *size = 1;
-    return norm(y + 3);
 }
 
 /* (gamma', J^-1 gamma') + 2 H (gamma, J^-1 gamma), where (gamma', J^-1 gamma')' = -2 H (gamma, J^-1 gamma)' */
@@ -132,24 +118,12 @@ static double speed(const iso_problem *f, const double y[])
     return fmax(norm(y), sqrt(2 * falling));
 }
 
-/* On the level H = 0, for a ball that spins at about one turn per unit of time. */
-static void sample(iso_problem *f, iso_random *r, double y[ISO_STATE])
-{
-    f->eps = iso_random_uniform(r, 0.5, 2) * f->p.det_J / (f->p.k * f->p.k);
-    f->energy = 0;
-    iso_random_direction(r, y + 3);
-    iso_random_direction(r, y);
-    for (int pass = 0; pass < 2; pass++) remove_along(y, y + 3); /* twice: M may be nearly along gamma */
-    double unused;
-    scale(y, sqrt(-2 * potential(f, y, &unused)) / norm(y));
-}
-
 static const char *const state_names[] = {"M1", "M2", "M3", "gamma1", "gamma2", "gamma3"};
 
 static const iso_integral integrals[] = {
     ISO_INTEGRAL("H", 4, -2, 2, energy, .doc = "energy M^2/2 - eps (gamma,J gamma)^(-1/k) (24)"),
     ISO_INTEGRAL("M.gamma", 2, -1, 1, spin, .known = ISO_ZERO, .doc = "(M,gamma) = 0 (19)"),
-    ISO_INTEGRAL("|gamma|", 0, 0, 0, gamma_length, .known = ISO_ONE, .doc = "point on the unit sphere: 1 (19)"),
+    ISO_INTEGRAL("|gamma|", 0, 0, 0, unit_length, .known = ISO_ONE, .doc = "point on the unit sphere: 1 (19)"),
     ISO_INTEGRAL("F_plane", 2, 0, 2, f_plane, .holds = holds_plane,
                  .doc = "(gamma',J^-1 gamma') + 2 H (gamma,J^-1 gamma), k = 1"),
     ISO_INTEGRAL("F_shell", 3, 0, 2, f_shell, .holds = holds_shell,
@@ -172,5 +146,4 @@ const iso_system iso_system_point = {
     .energy = energy,
     .project = project,
     .speed = speed,
-    .sample = sample,
 };

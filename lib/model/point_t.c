@@ -13,7 +13,6 @@
  */
 #include <math.h>
 
-#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "model/model_impl.h"
 
@@ -57,7 +56,7 @@ static double point_q(const iso_params *p, const double y[ISO_STATE], double gra
     return iso_system_point.q(p, y, gradient);
 }
 
-/* A second statement, kept as in ball.c: `point_p` of series/recurrences_impl.h gives the same at order 0. */
+/* A second statement, kept as in ball.c: `point_p` of series/recurrences_impl.h is the same at order 0. */
 static void rhs(const iso_problem *f, const double y[ISO_STATE], double dy[ISO_STATE])
 {
     const double *p = y, *gamma = y + 3, r = 1 / sqrt(f->p.det_J);
@@ -100,17 +99,6 @@ static double project(const iso_problem *f, double y[])
     return fmax(correction, fabs(stretch - 1));
 }
 
-/* At about one turn per unit of time. */
-static void sample(iso_problem *f, iso_random *r, double y[ISO_STATE])
-{
-    iso_random_direction(r, y + 3);
-    iso_random_direction(r, y);
-    for (int pass = 0; pass < 2; pass++) remove_along(y, y + 3); /* twice: p may be nearly along gamma */
-    f->eps = iso_random_uniform(r, 0.5, 2) * f->p.det_J / (f->p.k * f->p.k);
-    f->energy = 0;
-    scale(y, sqrt(2 * ball_energy(f)) / norm(y));
-}
-
 static const char *const state_names[] = {"p1", "p2", "p3", "gamma1", "gamma2", "gamma3"};
 
 static const iso_integral integrals[] = {
@@ -127,5 +115,4 @@ const iso_system iso_system_point_t = {
     .energy = energy,
     .project = project,
     .speed = speed,
-    .sample = sample,
 };

@@ -19,7 +19,6 @@ bool iso_system_has_recurrences(const iso_system *s)
     return s == &iso_system_ball || s == &iso_system_point || s == &iso_system_point_t;
 }
 
-/* The terms of the system and its effects. */
 static void call_system(series *S, const iso_model *m)
 {
     const iso_problem *f = &m->problem;
@@ -36,11 +35,12 @@ static void call_system(series *S, const iso_model *m)
     }
 }
 
-/* The numbers of the ball and of its effects. */
-static void set_numbers(series *S, const iso_model *m)
+/* The terms of the system and its effects, and the numbers in them. */
+static void begin(series *S, const iso_model *m)
 {
     const iso_params *p = &m->problem.p;
     const bool is_t = m->system == &iso_system_point_t;
+    call_system(S, m);
     for (int i = 0; i < KEPT; i++) S->count[i] = S->inverse[i] = broadcast(1); /* in place of n and 1/n: see above */
     for (int lane = 0; lane < LANES; lane++) set_ball(S, lane, p, S->formula);
     S->alpha = broadcast(is_t ? 1 / sqrt(p->det_J) : -1 - 1 / p->k);
@@ -80,8 +80,7 @@ static void call_terms(series *S, int n)
 void iso_model_rhs_of_recurrences(const iso_model *m, const double y[], double dy[])
 {
     series S;
-    call_system(&S, m);
-    set_numbers(&S, m);
+    begin(&S, m);
     set_states(&S, m, y, m->moving); /* no direction */
     call_terms(&S, 0);
     for (int i = 0; i < m->moving; i++) {
@@ -93,12 +92,11 @@ void iso_model_rhs_of_recurrences(const iso_model *m, const double y[], double d
 void iso_model_slopes(const iso_model *m, const double y[], double jac[])
 {
     series S;
-    call_system(&S, m);
-    set_numbers(&S, m);
+    begin(&S, m);
     for (int first = 0; first < m->moving; first += LANES) {
         set_states(&S, m, y, first);
         call_terms(&S, 0);
-        set_states(&S, m, y, first); /* call_terms has put the rates there */
+        set_states(&S, m, y, first); /* call_terms has written the rates there */
         call_terms(&S, 1);
         for (int i = 0; i < m->moving; i++) {
             const real *slope = coefficients(&S, &m->problem.motion, i, 2);

@@ -9,11 +9,6 @@
 
 const iso_system *const iso_systems[] = {&iso_system_ball, &iso_system_point, NULL};
 
-const iso_system *iso_system_at(int i)
-{
-    return i == 0 || i == 1 ? iso_systems[i] : NULL;
-}
-
 ISO_NAMES(iso_clock_name, iso_clock, "t", "tau", "s")
 
 iso_dimension iso_clock_dimension(iso_clock clock)

@@ -13,7 +13,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/random.h"
 #include "model/problem.h"
 
 enum { ISO_STATE = 6 }; /* numbers in a state of either system: two vectors of R^3 */
@@ -51,18 +50,15 @@ typedef struct iso_system {
     /* The energy, h or H; *size as in iso_integral. It is also one of the integrals. */
     double (*energy)(const iso_problem *f, const double y[], double *size);
 
-    /* Restores the unit vector, orthogonality and f->energy; gives the relative size of the correction. y is the
+    /* Restores the unit vector, orthogonality and f->energy; returns the relative size of the correction. y is the
      * state of the whole model. */
     double (*project)(const iso_problem *f, double y[]);
 
     /* The size of the first vector against which its errors are measured. */
     double (*speed)(const iso_problem *f, const double y[]);
-
-    /* A random valid state of order one; sets f->eps and f->energy to match (f->p given). */
-    void (*sample)(iso_problem *f, iso_random *r, double y[ISO_STATE]);
 } iso_system;
 
-/* The system of a ball (0) or of a point (1); NULL past the end. */
-const iso_system *iso_system_at(int i);
+/* ball, point, NULL */
+extern const iso_system *const iso_systems[];
 
 #endif

@@ -8,8 +8,8 @@
 #include <stdio.h>
 
 #include "base/context_impl.h"
+#include "base/math_impl.h"
 #include "base/number_impl.h"
-#include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section.h"
 #include "model/model_impl.h"

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section_impl.h"
 #include "map/state.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "base/vec3_impl.h"
 #include "base/version.h"
 #include "model/effects/effects_impl.h"
@@ -64,7 +64,7 @@ iso_status iso_record_describe_effects(iso_context *ctx, iso_record *r, const is
     char names[256] = "", key[ISO_NAME_SIZE];
     iso_status status = ISO_OK;
     for (iso_effect_id e = 0; status == ISO_OK && e < ISO_EFFECTS; e++) {
-        if (!effects->on[e] || iso_effect_list[e]->clocks) continue;
+        if (!effects->on[e] || e == ISO_CLOCK) continue;
         const size_t used = strlen(names);
         snprintf(names + used, sizeof names - used, "%s%s", used ? " " : "", iso_effect_list[e]->name);
         status = describe_expressions(ctx, r, effects, e);

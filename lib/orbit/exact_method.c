@@ -6,7 +6,7 @@
  */
 #include <stdlib.h>
 
-#include "base/finite_impl.h"
+#include "base/math_impl.h"
 #include "base/vec3_impl.h"
 #include "exact/exact_impl.h"
 #include "method/integrator_impl.h"

@@ -13,7 +13,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
-#include "map/state_impl.h"
+#include "map/state.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
 #include "model/model_impl.h"

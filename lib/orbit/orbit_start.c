@@ -3,10 +3,10 @@
 #include <float.h>
 #include <math.h>
 
-#include "base/finite_impl.h"
+#include "base/math_impl.h"
 #include "base/number_impl.h"
 #include "base/vec3_impl.h"
-#include "map/state_impl.h"
+#include "map/state.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 

@@ -23,7 +23,7 @@ static double step_of(const iso_record *r, int column)
 {
     double step = INFINITY;
     for (size_t i = 1; i < iso_record_rows(r); i++) {
-        const double d = fabs(iso_record_const_row(r, i)[column] - iso_record_const_row(r, i - 1)[column]);
+        const double d = fabs(iso_picture_at(r, i, column) - iso_picture_at(r, i - 1, column));
         if (iso_picture_is(r, i, "kind", "grid") && iso_picture_is(r, i - 1, "kind", "grid") && d > 0)
             step = fmin(step, d);
     }
@@ -56,7 +56,6 @@ static iso_status add_cells(iso_context *ctx, const iso_record *r, int side, int
 
 static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
 {
-    static const char *const names[] = {"side", "class", "left", "right", "bottom", "top"};
     static const char *const trace[] = {"least", "greatest"};
     const iso_record *r = q->table[0];
     iso_record *cells, *borders;
@@ -64,8 +63,8 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
     picture->layout = "chart";
     if (iso_record_find(r, "k") != K || iso_record_columns(r) <= UP)
         return ISO_FAIL_INPUT(ctx, "k", "no picture: k is not the second column, what varies not the third");
-    ISO_TRY(iso_picture_add(ctx, picture, "cells", 6, names, &cells));
-    ISO_TRY(iso_picture_add(ctx, picture, "borders", 3, (const char *const[]){"side", "k", "up"}, &borders));
+    ISO_TRY(iso_picture_add(ctx, picture, "cells", "side class left right bottom top", &cells));
+    ISO_TRY(iso_picture_add(ctx, picture, "borders", "side k up", &borders));
     for (int side = 1; side <= 2; side++) {
         const int column = iso_record_find(r, trace[side - 1]);
         ISO_TRY(add_cells(ctx, r, side, column, cells));
@@ -77,8 +76,8 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
                 ISO_TRY(iso_record_add(ctx, borders, 1, (double[]){side, row[K], row[UP]}));
         }
     }
-    ISO_TRY(iso_picture_count(ctx, picture, "none", none));
-    return iso_picture_say(ctx, picture, "up", iso_picture_symbol(iso_record_name(r, UP)));
+    ISO_TRY(iso_picture_set(ctx, picture, "none", (double[]){none}));
+    return iso_picture_say(ctx, picture, "up", "%s", iso_picture_symbol(iso_record_name(r, UP)));
 }
 
 const iso_picture_maker iso_picture_chart = {

@@ -7,7 +7,6 @@
  */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "picture/picture_impl.h"
 
@@ -21,15 +20,12 @@ typedef struct tables {
     bool others;
 } tables;
 
-static const char *method_of(const iso_record *r, size_t row)
+/* Error and time of a row; false: it was not measured. */
+static bool read_row(const iso_record *r, size_t row, double at[2])
 {
-    return iso_record_word(r, iso_picture_number(r, row, "method"));
-}
-
-static bool is_drawn(const iso_record *r, size_t row)
-{
-    const double seconds = iso_picture_number(r, row, "total");
-    return isfinite(iso_picture_number(r, row, "error")) && isfinite(seconds) && seconds > 0;
+    const double error = iso_picture_number(r, row, "error");
+    at[0] = fmax(error, FLOOR), at[1] = iso_picture_number(r, row, "total");
+    return isfinite(error) && isfinite(at[1]) && at[1] > 0;
 }
 
 static iso_status add_name(iso_context *ctx, iso_record *names, const char *name)
@@ -39,78 +35,62 @@ static iso_status add_name(iso_context *ctx, iso_record *names, const char *name
     return iso_record_add(ctx, names, 1, &word);
 }
 
-/* The number of a method's name. The first methods of a backend, and one that is named already, have a name. */
-static iso_status find_name(iso_context *ctx, tables *t, const char *name, int in_panel, int *number)
-{
-    const int count = (int)iso_record_rows(t->methods);
-    for (int i = 0; i < count; i++)
-        if (iso_picture_is(t->methods, (size_t)i, "name", name)) return *number = i + 1, ISO_OK;
-    *number = in_panel > NAMED || count == NAMES ? 0 : count + 1;
-    t->others = t->others || *number == 0;
-    return *number ? add_name(ctx, t->methods, name) : ISO_OK;
-}
-
-/* The rows of one backend and method from row `first` on. */
+/* The measured rows of one backend and method from row `first` on. named: the number of the method's name, 0: none. */
 static iso_status add_series(iso_context *ctx, tables *t, size_t first, const char *backend, int named)
 {
-    const double panel = (double)iso_record_rows(t->panels);
+    double row[5] = {(double)iso_record_rows(t->panels), ++t->series, named};
     for (size_t i = first; i < iso_record_rows(t->r); i++)
-        if (is_drawn(t->r, i) && iso_picture_is(t->r, i, "backend", backend) &&
-            strcmp(method_of(t->r, i), method_of(t->r, first)) == 0)
-            ISO_TRY(
-                iso_record_add(ctx, t->points, 1,
-                               (double[]){panel, t->series, named, fmax(iso_picture_number(t->r, i, "error"), FLOOR),
-                                          iso_picture_number(t->r, i, "total")}));
+        if (read_row(t->r, i, row + 3) && iso_picture_is(t->r, i, "backend", backend) &&
+            iso_picture_number(t->r, i, "method") == iso_picture_number(t->r, first, "method"))
+            ISO_TRY(iso_record_add(ctx, t->points, 1, row));
     return ISO_OK;
 }
 
-/* A backend without a measured row has no panel. */
+/* A backend without a measured row has no panel. The first methods of a backend, and one that is named already, have a
+ * name. */
 static iso_status add_panel(iso_context *ctx, tables *t, const char *backend)
 {
-    int in_panel = 0, named;
-    for (size_t i = 0; i < iso_record_rows(t->r); i++) {
-        bool begins = is_drawn(t->r, i) && iso_picture_is(t->r, i, "backend", backend);
+    const iso_record *r = t->r;
+    int in_panel = 0;
+    double at[2];
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        const double method = iso_picture_number(r, i, "method");
+        const char *name = iso_record_word(r, method);
+        bool begins = read_row(r, i, at) && iso_picture_is(r, i, "backend", backend);
         for (size_t j = 0; begins && j < i; j++)
-            begins = !is_drawn(t->r, j) || !iso_picture_is(t->r, j, "backend", backend) ||
-                     strcmp(method_of(t->r, j), method_of(t->r, i)) != 0;
+            begins = !read_row(r, j, at) || !iso_picture_is(r, j, "backend", backend) ||
+                     iso_picture_number(r, j, "method") != method;
         if (!begins) continue;
         if (in_panel++ == 0) ISO_TRY(add_name(ctx, t->panels, backend));
-        t->series++;
-        ISO_TRY(find_name(ctx, t, method_of(t->r, i), in_panel, &named));
+        const int names = (int)iso_record_rows(t->methods);
+        int named = 1;
+        while (named <= names && !iso_picture_is(t->methods, (size_t)named - 1, "name", name)) named++;
+        if (named > names && (in_panel > NAMED || names == NAMES)) named = 0, t->others = true;
+        if (named > names) ISO_TRY(add_name(ctx, t->methods, name));
         ISO_TRY(add_series(ctx, t, i, backend, named));
     }
     return ISO_OK;
 }
 
-static iso_status add_names(iso_context *ctx, iso_picture *picture, const char *table, iso_record **names)
-{
-    ISO_TRY(iso_picture_add(ctx, picture, table, 1, (const char *const[]){"name"}, names));
-    iso_record_set_words(*names, 0, true);
-    return ISO_OK;
-}
-
 static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
 {
-    static const char *const names[] = {"panel", "series", "named", "error", "seconds"};
     const char *uncertainty = iso_record_get(q->table[0], "uncertainty");
     tables t = {.r = q->table[0]};
-    ISO_TRY(iso_picture_add(ctx, picture, "points", 5, names, &t.points));
-    ISO_TRY(add_names(ctx, picture, "panels", &t.panels));
-    ISO_TRY(add_names(ctx, picture, "methods", &t.methods));
-    ISO_TRY(iso_picture_add(ctx, picture, "closed", 2, names + 3, &t.closed));
+    double at[2];
+    ISO_TRY(iso_picture_add(ctx, picture, "points", "panel series named error seconds", &t.points));
+    ISO_TRY(iso_picture_add(ctx, picture, "panels", "name'", &t.panels));
+    ISO_TRY(iso_picture_add(ctx, picture, "methods", "name'", &t.methods));
+    ISO_TRY(iso_picture_add(ctx, picture, "closed", "error seconds", &t.closed));
     ISO_TRY(add_panel(ctx, &t, "ball"));
     ISO_TRY(add_panel(ctx, &t, "point"));
     for (size_t i = 0; i < iso_record_rows(t.r) && iso_record_rows(t.closed) == 0; i++)
-        if (is_drawn(t.r, i) && !*method_of(t.r, i))
-            ISO_TRY(iso_record_add(
-                ctx, t.closed, 1,
-                (double[]){fmax(iso_picture_number(t.r, i, "error"), FLOOR), iso_picture_number(t.r, i, "total")}));
+        if (read_row(t.r, i, at) && iso_picture_is(t.r, i, "method", ""))
+            ISO_TRY(iso_record_add(ctx, t.closed, 1, at));
     if (t.series == 0 && iso_record_rows(t.closed) == 0)
         return ISO_FAIL_INPUT(ctx, "", "there are no measurements to draw");
     if (t.series == 0) ISO_TRY(add_name(ctx, t.panels, ""));
-    ISO_TRY(iso_picture_count(ctx, picture, "series", t.series));
-    ISO_TRY(iso_picture_count(ctx, picture, "nameless", t.others));
-    return iso_picture_count(ctx, picture, "uncertainty", uncertainty ? strtod(uncertainty, NULL) : 0);
+    return iso_picture_set(ctx, picture, "series nameless uncertainty",
+                           (double[]){t.series, t.others, uncertainty ? strtod(uncertainty, NULL) : 0});
 }
 
 const iso_picture_maker iso_picture_cost = {

@@ -5,11 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static double at(const iso_record *r, size_t row, int column)
-{
-    return iso_record_const_row(r, row)[column];
-}
-
 /* --- scales ----------------------------------------------------------------------------------------------------- */
 
 int iso_picture_by_size(const void *a, const void *b)
@@ -18,76 +13,69 @@ int iso_picture_by_size(const void *a, const void *b)
     return (*one > *other) - (*one < *other);
 }
 
-/* A record of the finite numbers of a column, or of their sizes without 0, in order. */
-static iso_status sort_column(iso_context *ctx, const iso_record *r, int column, bool sizes, iso_record **sorted)
+/* The finite numbers of a column, or their sizes without 0, in order. */
+static iso_status sort_column(iso_context *ctx, iso_picture *picture, const iso_record *r, int column, bool sizes,
+                              double **numbers, size_t *count)
 {
+    iso_record **sorted = iso_picture_aside(picture);
     ISO_TRY(iso_record_create(ctx, 1, (const char *const[]){"at"}, sorted));
     for (size_t i = 0; i < iso_record_rows(r); i++) {
-        const double x = at(r, i, column), here = sizes ? fabs(x) : x;
+        const double x = iso_picture_at(r, i, column), here = sizes ? fabs(x) : x;
         if (isfinite(x) && !(sizes && x == 0)) ISO_TRY(iso_record_add(ctx, *sorted, 1, &here));
     }
-    if (iso_record_rows(*sorted) > 0)
-        qsort(iso_record_row(*sorted, 0), iso_record_rows(*sorted), sizeof(double), iso_picture_by_size);
+    *count = iso_record_rows(*sorted);
+    *numbers = *count > 0 ? iso_record_row(*sorted, 0) : NULL;
+    if (*count > 0) qsort(*numbers, *count, sizeof(double), iso_picture_by_size);
     return ISO_OK;
 }
 
 /* Sizes are drawn if a tenth of them are smaller than the largest by 1e4, or by 1e3 if there are both signs. One
  * small number does not count: every smooth function that changes its sign has one. */
-iso_status iso_picture_spread_of(iso_context *ctx, const iso_record *r, int column, iso_picture_spread *s)
+iso_status iso_picture_spread_of(iso_context *ctx, iso_picture *picture, const iso_record *r, int column,
+                                 iso_picture_spread *s)
 {
-    iso_record *size = NULL;
+    double *size;
+    size_t count;
     *s = (iso_picture_spread){.low = INFINITY, .high = -INFINITY};
     for (size_t i = 0; i < iso_record_rows(r); i++) {
-        const double x = at(r, i, column);
+        const double x = iso_picture_at(r, i, column);
         if (isfinite(x)) s->low = fmin(s->low, x), s->high = fmax(s->high, x);
     }
-    const iso_status status = sort_column(ctx, r, column, true, &size);
-    const size_t count = status == ISO_OK ? iso_record_rows(size) : 0;
-    if (count > 0) {
-        s->least = at(size, 0, 0);
-        s->sizes = at(size, count - 1, 0) > (s->low < 0 && s->high > 0 ? 1e3 : 1e4) * at(size, count / 10, 0);
-    }
-    iso_record_free(size);
-    return status;
-}
-
-double iso_picture_scale_at(const iso_picture_scale *s, size_t i)
-{
-    return at(s->at, i, 0);
+    ISO_TRY(sort_column(ctx, picture, r, column, true, &size, &count));
+    if (count == 0) return ISO_OK;
+    s->least = size[0];
+    s->sizes = size[count - 1] > (s->low < 0 && s->high > 0 ? 1e3 : 1e4) * size[count / 10];
+    return ISO_OK;
 }
 
 /* Ratios that differ by little, steps that differ by much. */
 static bool grows_by_ratios(const iso_picture_scale *s)
 {
     double ratios[2] = {INFINITY, 0}, steps[2] = {INFINITY, 0}; /* least and largest */
-    const size_t count = iso_record_rows(s->at);
-    if (count < 4 || !(iso_picture_scale_at(s, 0) > 0)) return false;
-    for (size_t i = 1; i < count; i++) {
-        const double last = iso_picture_scale_at(s, i - 1), here = iso_picture_scale_at(s, i);
+    if (s->count < 4 || !(s->at[0] > 0)) return false;
+    for (size_t i = 1; i < s->count; i++) {
+        const double last = s->at[i - 1], here = s->at[i];
         ratios[0] = fmin(ratios[0], log(here / last)), ratios[1] = fmax(ratios[1], log(here / last));
         steps[0] = fmin(steps[0], here - last), steps[1] = fmax(steps[1], here - last);
     }
     return ratios[1] < 1.2 * ratios[0] && steps[1] > 3 * steps[0];
 }
 
-iso_status iso_picture_scale_of(iso_context *ctx, const iso_record *r, int column, bool k, iso_picture_scale *s)
+iso_status iso_picture_scale_of(iso_context *ctx, iso_picture *picture, const iso_record *r, int column, bool k,
+                                iso_picture_scale *s)
 {
-    iso_record *all = NULL;
+    size_t all;
     *s = (iso_picture_scale){.k = k};
-    iso_status status = sort_column(ctx, r, column, false, &all);
-    if (status == ISO_OK) status = iso_record_create(ctx, 1, (const char *const[]){"at"}, &s->at);
-    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(all); i++)
-        if (i == 0 || at(all, i, 0) != at(all, i - 1, 0))
-            status = iso_record_add(ctx, s->at, 1, iso_record_const_row(all, i));
-    iso_record_free(all);
-    if (status == ISO_OK) s->logarithmic = grows_by_ratios(s);
-    return status;
+    ISO_TRY(sort_column(ctx, picture, r, column, false, &s->at, &all));
+    for (size_t i = 0; i < all; i++)
+        if (i == 0 || s->at[i] != s->at[s->count - 1]) s->at[s->count++] = s->at[i];
+    s->logarithmic = grows_by_ratios(s);
+    return ISO_OK;
 }
 
 static double range_of(const iso_picture_scale *s)
 {
-    const size_t count = iso_record_rows(s->at);
-    return count > 1 ? iso_picture_scale_at(s, count - 1) - iso_picture_scale_at(s, 0) : 1;
+    return s->count > 1 ? s->at[s->count - 1] - s->at[0] : 1;
 }
 
 /* --- the cells of a grid ---------------------------------------------------------------------------------------- */
@@ -102,10 +90,8 @@ static double edge_of(const iso_picture_scale *s, double x, double step, double 
 /* Of a logarithmic axis the steps are those of the logarithm. */
 static void edges_of(const iso_picture_scale *s, double x, double edge[2])
 {
-    const double *here =
-        bsearch(&x, iso_record_const_row(s->at, 0), iso_record_rows(s->at), sizeof x, iso_picture_by_size);
-    const bool first = here == iso_record_const_row(s->at, 0),
-               last = here == iso_record_const_row(s->at, iso_record_rows(s->at) - 1);
+    const double *here = bsearch(&x, s->at, s->count, sizeof x, iso_picture_by_size);
+    const bool first = here == s->at, last = here == s->at + s->count - 1;
     const double left = here[first ? 0 : -1], right = here[last ? 0 : 1];
     if (s->logarithmic) {
         const double before = first ? right / x : x / left, after = last ? before : right / x;
@@ -135,13 +121,14 @@ static int by_map(const void *a, const void *b)
                : iso_picture_by_size(one + ISO_POINT_U, other + ISO_POINT_U);
 }
 
-/* What is left of a polygon where (x, way) <= most. */
-static void cut(polygon *p, const double way[2], double most)
+/* What is left of a polygon where (x, direction) <= most. */
+static void cut(polygon *p, const double direction[2], double most)
 {
     polygon left = {.corners = 0};
     for (int i = 0; i < p->corners && left.corners < CORNERS - 2; i++) {
         const double *a = p->at[i], *b = p->at[(i + 1) % p->corners];
-        const double beyond[2] = {a[0] * way[0] + a[1] * way[1] - most, b[0] * way[0] + b[1] * way[1] - most};
+        const double beyond[2] = {a[0] * direction[0] + a[1] * direction[1] - most,
+                                  b[0] * direction[0] + b[1] * direction[1] - most};
         if (beyond[0] <= 0) memcpy(left.at[left.corners++], a, sizeof *p->at);
         if ((beyond[0] <= 0) == (beyond[1] <= 0)) continue;
         const double part = beyond[0] / (beyond[0] - beyond[1]);
@@ -149,13 +136,6 @@ static void cut(polygon *p, const double way[2], double most)
         left.corners++;
     }
     *p = left;
-}
-
-static double reach_of(const polygon *p, const double from[2])
-{
-    double reach = 0;
-    for (int i = 0; i < p->corners; i++) reach = fmax(reach, hypot(p->at[i][0] - from[0], p->at[i][1] - from[1]));
-    return reach;
 }
 
 /* The cell of point i: a square, cut half way to each neighbour. `mirrored`: and as far on the other side, so that the
@@ -172,13 +152,16 @@ static double cell_of(const iso_record *points, size_t i, double half, bool mirr
     for (int side = -1; side <= 1; side += 2)
         for (size_t j = i + (size_t)side; j < iso_record_rows(points); j += (size_t)side) {
             const double *there = iso_record_const_row(points, j);
-            const double way[2] = {there[ISO_POINT_U] - from[0], there[ISO_POINT_V] - from[1]},
-                         d = hypot(way[0], way[1]), middle = from[0] * way[0] + from[1] * way[1];
-            if (there[ISO_POINT_MAP] != here[ISO_POINT_MAP] || fabs(way[0]) > 2 * reach_of(p, from)) break;
+            const double to[2] = {there[ISO_POINT_U] - from[0], there[ISO_POINT_V] - from[1]},
+                         d = hypot(to[0], to[1]), middle = from[0] * to[0] + from[1] * to[1];
+            double reach = 0;
+            for (int c = 0; c < p->corners; c++)
+                reach = fmax(reach, hypot(p->at[c][0] - from[0], p->at[c][1] - from[1]));
+            if (there[ISO_POINT_MAP] != here[ISO_POINT_MAP] || fabs(to[0]) > 2 * reach) break;
             if (!(d > 0)) continue;
             nearest = fmin(nearest, d);
-            cut(p, way, middle + d * d / 2);
-            if (mirrored) cut(p, (double[]){-way[0], -way[1]}, -middle + d * d / 2);
+            cut(p, to, middle + d * d / 2);
+            if (mirrored) cut(p, (double[]){-to[0], -to[1]}, -middle + d * d / 2);
         }
     return nearest;
 }
@@ -198,15 +181,6 @@ static iso_status add_cell(iso_context *ctx, const iso_picture_maps *m, size_t i
         ISO_TRY(iso_record_add(ctx, cells, 1, row));
     }
     return iso_record_add(ctx, cells, 1, (double[]){NAN, NAN, NAN, NAN, NAN, NAN});
-}
-
-static void to_picture(const iso_picture_maps *m, polygon *p)
-{
-    for (int c = 0; c < p->corners; c++)
-        if (m->back)
-            m->back((double[]){p->at[c][0], p->at[c][1]}, p->at[c]);
-        else
-            p->at[c][0] *= range_of(&m->x), p->at[c][1] *= range_of(&m->y);
 }
 
 static iso_status add_scattered(iso_context *ctx, const iso_picture_maps *m, bool sizes, iso_record *cells)
@@ -230,7 +204,11 @@ static iso_status add_scattered(iso_context *ctx, const iso_picture_maps *m, boo
         cell_of(m->points, i, half, lattice, &p);
         if (m->x.k) cut(&p, (double[]){place[0] > 0 ? -1 : 1, 0}, 0); /* no cell reaches across k = 0 */
         if (m->y.k) cut(&p, (double[]){0, place[1] > 0 ? -1 : 1}, 0);
-        to_picture(m, &p);
+        for (int c = 0; c < p.corners; c++)
+            if (m->back)
+                m->back((double[]){p.at[c][0], p.at[c][1]}, p.at[c]);
+            else
+                p.at[c][0] *= range_of(&m->x), p.at[c][1] *= range_of(&m->y);
         ISO_TRY(add_cell(ctx, m, i, sizes, &p, cells));
     }
     return ISO_OK;
@@ -238,13 +216,12 @@ static iso_status add_scattered(iso_context *ctx, const iso_picture_maps *m, boo
 
 iso_status iso_picture_cells(iso_context *ctx, const iso_picture_maps *m, bool sizes, iso_record *cells)
 {
-    const double rows = (double)iso_record_rows(m->points), x = (double)iso_record_rows(m->x.at),
-                 y = (double)iso_record_rows(m->y.at);
+    const double rows = (double)iso_record_rows(m->points), x = (double)m->x.count, y = (double)m->y.count;
     if (!(x > 1 && y > 1 && x * y < 1.2 * fmax(1, rows / m->count))) return add_scattered(ctx, m, sizes, cells);
     for (size_t i = 0; i < iso_record_rows(m->points); i++) {
         double across[2], up[2];
-        edges_of(&m->x, at(m->points, i, ISO_POINT_X), across);
-        edges_of(&m->y, at(m->points, i, ISO_POINT_Y), up);
+        edges_of(&m->x, iso_picture_at(m->points, i, ISO_POINT_X), across);
+        edges_of(&m->y, iso_picture_at(m->points, i, ISO_POINT_Y), up);
         const polygon p = {{{across[0], up[0]}, {across[1], up[0]}, {across[1], up[1]}, {across[0], up[1]}},
                            .corners = 4};
         ISO_TRY(add_cell(ctx, m, i, sizes, &p, cells));

@@ -9,16 +9,18 @@ typedef struct iso_picture_spread {
     double low, high, least; /* least: the smallest size but 0 */
     bool sizes;              /* sizes are to be drawn, on a logarithmic scale */
 } iso_picture_spread;
-iso_status iso_picture_spread_of(iso_context *ctx, const iso_record *r, int column, iso_picture_spread *spread);
+iso_status iso_picture_spread_of(iso_context *ctx, iso_picture *picture, const iso_record *r, int column,
+                                 iso_picture_spread *spread);
 
-/* The numbers along one axis, each once, by size: column 0 of `at`, to be freed. */
+/* The numbers along one axis, each once, by size; they belong to the picture. */
 typedef struct iso_picture_scale {
-    iso_record *at;
+    double *at;
+    size_t count;
     bool logarithmic; /* they grow by equal ratios, not by equal steps */
     bool k;           /* no cell reaches across k = 0 */
 } iso_picture_scale;
-iso_status iso_picture_scale_of(iso_context *ctx, const iso_record *r, int column, bool k, iso_picture_scale *scale);
-double iso_picture_scale_at(const iso_picture_scale *scale, size_t i);
+iso_status iso_picture_scale_of(iso_context *ctx, iso_picture *picture, const iso_record *r, int column, bool k,
+                                iso_picture_scale *scale);
 
 /* The points of maps, and where their cells are sought: a plane in which straight lines are those of the picture. */
 enum { ISO_POINT_MAP, ISO_POINT_X, ISO_POINT_Y, ISO_POINT_VALUE, ISO_POINT_U, ISO_POINT_V, ISO_POINT_COLUMNS };
@@ -42,10 +44,10 @@ typedef struct iso_swept {
     const iso_record *r;
     int axis[ISO_SWEPT_AXES], axes; /* those that vary, and differ from row to row */
     int value, low, high;           /* -1: there is none; low -1: high is an error +- */
-    char words[2 * ISO_SWEPT_NAME]; /* what the value is */
+    char text[2 * ISO_SWEPT_NAME];  /* what the value is */
 } iso_swept;
 
-/* What varies, in words; whether it is k. */
+/* What varies, as text; whether it is k. */
 const char *iso_swept_axis(const iso_swept *s, int column);
 bool iso_swept_is_k(const iso_swept *s, int column);
 

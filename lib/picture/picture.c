@@ -1,7 +1,9 @@
 /* picture.c - the kinds of pictures, and what they share (see picture.h). */
+#define _GNU_SOURCE /* vasprintf */
 #include "picture/picture.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,11 +16,18 @@ static const iso_picture_maker *const makers[] = {
     &iso_picture_cost,      &iso_picture_frequencies, &iso_picture_indicators, &iso_picture_periodic,
     &iso_picture_section,   &iso_picture_splitting,   &iso_picture_sweep,      &iso_picture_sweep_part,
     &iso_picture_trajectory};
-enum { MAKERS = sizeof makers / sizeof *makers };
+enum { MAKERS = sizeof makers / sizeof *makers, NAMES = 1000 /* an image of a section has 640 */ };
 
-const char *iso_picture_kind(int i)
+static const iso_picture_maker *maker_of(const char *kind)
 {
-    return i >= 0 && i < MAKERS ? makers[i]->kind : NULL;
+    for (int i = 0; i < MAKERS; i++)
+        if (strcmp(makers[i]->kind, kind) == 0) return makers[i];
+    return NULL;
+}
+
+bool iso_picture_has(const char *kind)
+{
+    return maker_of(kind);
 }
 
 /* --- what is asked for ------------------------------------------------------------------------------------------ */
@@ -67,40 +76,44 @@ static iso_status check_table(iso_context *ctx, const iso_record *r, const iso_p
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
+static void free_all(int count, iso_record *table[])
+{
+    for (int i = 0; i < count; i++) iso_record_free(table[i]), table[i] = NULL;
+}
+
 iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], const char *options,
                             iso_picture *picture)
 {
-    char title[ISO_PICTURE_TITLE], columns[ISO_PICTURE_OPTION];
-    iso_picture_request q = {.table = table, .options = options, .title = iso_record_get(table[0], "title")};
-    const iso_picture_maker *m = iso_picture_option(&q, "columns", columns) ? &iso_picture_columns : NULL;
+    char columns[ISO_PICTURE_OPTION];
+    const iso_picture_request q = {.table = table, .options = options};
     const char *kind = *iso_record_kind(table[0]) ? iso_record_kind(table[0]) : "trajectory"; /* of others */
+    const iso_picture_maker *m = iso_picture_option(&q, "columns", columns) ? &iso_picture_columns : maker_of(kind);
+    const char *title = iso_record_get(table[0], "title");
+    const bool of_ball = !title && iso_record_get(table[0], "k");
     const iso_picture_maker plain = {.kind = kind, .shows = kind, .make = iso_picture_as_it_is};
+    iso_params p;
     *picture = (iso_picture){.layout = NULL};
-    for (int i = 0; i < MAKERS && !m; i++)
-        if (strcmp(makers[i]->kind, kind) == 0) m = makers[i];
     if (!m && iso_record_rows(table[0]) == 0)
         return ISO_FAIL_INPUT(ctx, "", "there is no picture of a table '%s'", kind);
     if (!m) m = &plain;
     ISO_TRY(check_options(ctx, &q, m));
     ISO_TRY(check_table(ctx, table[0], m));
-    if (!q.title && iso_record_get(table[0], "k")) {
-        iso_params p;
-        ISO_TRY(iso_record_params(ctx, table[0], &p));
-        q.title = iso_picture_title(title, m->shows, &p);
-    }
-    if (!q.title) q.title = m->shows;
+    if (of_ball) ISO_TRY(iso_record_params(ctx, table[0], &p));
     picture->layout = m->kind;
     iso_status status = m->make(ctx, &q, picture);
     if (status == ISO_OK && !iso_record_get(picture->table[0], "title"))
-        status = iso_picture_say(ctx, picture, "title", q.title);
+        status = of_ball ? iso_picture_say_title(ctx, &q, picture, m->shows, &p)
+                         : iso_picture_say(ctx, picture, "title", "%s", title ? title : m->shows);
+    free_all(ISO_PICTURE_ASIDE, picture->aside);
     if (status != ISO_OK) iso_picture_free(picture);
     return status;
 }
 
 void iso_picture_free(iso_picture *picture)
 {
-    for (int i = 0; i < ISO_PICTURE_TABLES; i++) iso_record_free(picture->table[i]);
-    *picture = (iso_picture){.layout = NULL};
+    free_all(ISO_PICTURE_TABLES, picture->table);
+    free_all(ISO_PICTURE_ASIDE, picture->aside);
+    picture->layout = NULL;
 }
 
 iso_record *iso_picture_table(const iso_picture *picture, const char *name)
@@ -110,26 +123,66 @@ iso_record *iso_picture_table(const iso_picture *picture, const char *name)
     return NULL;
 }
 
-iso_status iso_picture_add(iso_context *ctx, iso_picture *picture, const char *name, size_t columns,
-                           const char *const names[], iso_record **table)
+iso_status iso_picture_add(iso_context *ctx, iso_picture *picture, const char *name, const char *columns,
+                           iso_record **table)
 {
+    char *text = strdup(columns), *rest = NULL;
+    const char *names[NAMES];
+    bool words[NAMES];
+    size_t count = 0;
+    if (!text) return iso_context_no_memory(ctx, "a picture");
+    for (char *word = strtok_r(text, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
+        const size_t length = strcspn(word, "'");
+        words[count] = word[length] != '\0';
+        word[length] = '\0';
+        names[count++] = word;
+    }
     int i = 0;
-    while (i < ISO_PICTURE_TABLES - 1 && picture->table[i]) i++;
-    if (picture->table[i]) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture has too many tables");
-    ISO_TRY(iso_record_create(ctx, columns, names, &picture->table[i]));
-    iso_record_set_kind(picture->table[i], name);
+    while (picture->table[i]) i++;
+    const iso_status status = iso_record_create(ctx, count, names, &picture->table[i]);
+    free(text);
+    ISO_TRY(status);
     *table = picture->table[i];
+    for (size_t c = 0; c < count; c++) iso_record_set_words(*table, c, words[c]);
+    iso_record_set_kind(*table, name);
     return ISO_OK;
 }
 
-iso_status iso_picture_say(iso_context *ctx, iso_picture *picture, const char *key, const char *text)
+iso_record **iso_picture_aside(iso_picture *picture)
 {
-    return iso_record_set(ctx, picture->table[0], key, text);
+    int i = 0;
+    while (picture->aside[i]) i++;
+    return &picture->aside[i];
 }
 
-iso_status iso_picture_count(iso_context *ctx, iso_picture *picture, const char *key, double number)
+iso_status iso_picture_say(iso_context *ctx, iso_picture *picture, const char *key, const char *format, ...)
 {
-    return iso_record_set_numbers(ctx, picture->table[0], key, 1, &number);
+    char *text;
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vasprintf(&text, format, arguments);
+    va_end(arguments);
+    if (length < 0) return iso_context_no_memory(ctx, "a picture");
+    const iso_status status = iso_record_set(ctx, picture->table[0], key, text);
+    free(text);
+    return status;
+}
+
+iso_status iso_picture_say_title(iso_context *ctx, const iso_picture_request *q, iso_picture *picture,
+                                 const char *seen, const iso_params *p)
+{
+    char ball[ISO_BALL_SIZE];
+    const char *own = iso_record_get(q->table[0], "title");
+    if (own) return iso_picture_say(ctx, picture, "title", "%s", own);
+    return iso_picture_say(ctx, picture, "title", ISO_PICTURE_TITLE, seen, iso_ball_text(ball, p));
+}
+
+iso_status iso_picture_set(iso_context *ctx, iso_picture *picture, const char *keys, const double numbers[])
+{
+    char key[64];
+    for (int used; sscanf(keys, "%63s%n", key, &used) == 1; keys += used)
+        ISO_TRY(iso_record_set_numbers(ctx, picture->table[0], key, 1, numbers++));
+    return ISO_OK;
 }
 
 iso_status iso_picture_as_it_is(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
@@ -161,7 +214,7 @@ iso_status iso_picture_as_it_is(iso_context *ctx, const iso_picture_request *q, 
 double iso_picture_number(const iso_record *r, size_t row, const char *name)
 {
     const int column = iso_record_find(r, name);
-    return column < 0 ? (double)NAN : iso_record_const_row(r, row)[column];
+    return column < 0 ? (double)NAN : iso_picture_at(r, row, column);
 }
 
 bool iso_picture_is(const iso_record *r, size_t row, const char *name, const char *word)
@@ -175,14 +228,18 @@ int iso_picture_axis(const iso_record *r)
     return axis && axis[0] >= '1' && axis[0] <= '3' ? axis[0] - '1' : -1;
 }
 
-/* --- words ------------------------------------------------------------------------------------------------------ */
-
-char *iso_picture_title(char title[static ISO_PICTURE_TITLE], const char *seen, const iso_params *p)
+void iso_picture_range(const iso_record *r, int column, double range[2])
 {
-    char ball[ISO_BALL_SIZE];
-    snprintf(title, ISO_PICTURE_TITLE, "%s        %s", seen, iso_ball_text(ball, p));
-    return title;
+    range[0] = INFINITY, range[1] = -INFINITY;
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        range[0] = fmin(range[0], iso_picture_at(r, i, column));
+        range[1] = fmax(range[1], iso_picture_at(r, i, column));
+    }
 }
+
+/* --- text ------------------------------------------------------------------------------------------------------- */
+
+const char *const iso_picture_index[6] = {"₁", "₂", "₃", "₁", "₂", "₃"};
 
 const char *iso_picture_symbol(const char *name)
 {

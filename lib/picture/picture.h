@@ -13,13 +13,14 @@
 
 #include "base/record.h"
 
-enum { ISO_PICTURE_TABLES = 16 };
+enum { ISO_PICTURE_TABLES = 16, ISO_PICTURE_ASIDE = 8 };
 
 typedef struct iso_picture {
     const char *layout; /* how the tables are laid out: the name of a template, such as "section" */
-    /* NULL after the last. The kind of a table is its name in the template. The lines of the first one say what there
-     * is to say: the title, names of axes, numbers. */
+    /* NULL after the last. The kind of a table is its name in the template. The lines of the first one are its
+     * texts and numbers: the title, names of axes. */
     iso_record *table[ISO_PICTURE_TABLES];
+    iso_record *aside[ISO_PICTURE_ASIDE]; /* that are not drawn, while the picture is made */
 } iso_picture;
 
 /* Makes the picture of table[0]; more tables with NULL behind them add to it, by their kinds: the verdicts of `chaos`,
@@ -35,8 +36,8 @@ iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], c
                             iso_picture *picture);
 void iso_picture_free(iso_picture *picture);
 
-/* The i-th kind of the list; NULL past the end. */
-const char *iso_picture_kind(int i);
+/* Whether tables of this kind are in the list. */
+bool iso_picture_has(const char *kind);
 
 /* The table of this name, or NULL. */
 iso_record *iso_picture_table(const iso_picture *picture, const char *name);

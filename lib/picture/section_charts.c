@@ -32,23 +32,17 @@ void iso_picture_image(int n, double l, double x, double image[2])
 
 /* --- options ---------------------------------------------------------------------------------------------------- */
 
-/* "A:B", A < B, both of a size up to `most`. */
-static bool read_range(const char *text, size_t length, double most, double range[2])
-{
-    const char *colon = memchr(text, ':', length);
-    return colon && iso_number_read(text, (size_t)(colon - text), &range[0]) &&
-           iso_number_read(colon + 1, (size_t)(text + length - colon - 1), &range[1]) && range[0] < range[1] &&
-           range[0] >= -most && range[1] <= most;
-}
-
 bool iso_picture_window(const char *text, double window[2][2])
 {
-    const size_t comma = strcspn(text, ",");
-    if (text[comma] != ',' || !read_range(text, comma, 3.15, window[0]) ||
-        !read_range(text + comma + 1, strlen(text + comma + 1), 1, window[1]))
-        return false;
-    for (int i = 0; i < 2; i++) window[0][i] = fmin(fmax(window[0][i], -M_PI), M_PI);
-    return window[0][0] < window[0][1];
+    double *l = window[0], *x = window[1];
+    for (int i = 0; i < 4; i++) { /* "L0:L1,X0:X1" */
+        const size_t length = i == 3 ? strlen(text) : strcspn(text, i == 1 ? "," : ":");
+        if (!iso_number_read(text, length, &window[i / 2][i % 2]) || (i < 3 && !text[length])) return false;
+        text += length + 1;
+    }
+    if (!(l[0] >= -3.15 && l[1] <= 3.15 && l[0] < l[1] && x[0] >= -1 && x[1] <= 1 && x[0] < x[1])) return false;
+    for (int i = 0; i < 2; i++) l[i] = fmin(fmax(l[i], -M_PI), M_PI);
+    return l[0] < l[1];
 }
 
 iso_status iso_picture_charts_options(iso_context *ctx, const iso_picture_request *q, iso_picture_charts *c)
@@ -91,25 +85,19 @@ typedef struct frame {
     double low[2], high[2]; /* right, up */
 } frame;
 
-/* The rectangle that holds the window. */
-static frame window_of(const iso_picture_charts *c, bool ball)
+/* The rectangle that holds the window, or the whole chart. most: how far up the spots go. */
+static frame frame_of(const iso_picture_charts *c, bool ball, double most)
 {
+    const double *l = c->window[0], *x = c->window[1];
     frame f = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-    for (int i = 0; i <= 2 * BOUNDARY + 1; i++) {
-        const iso_picture_spot at = iso_picture_place(
-            c, ball, c->window[0][0] + (c->window[0][1] - c->window[0][0]) * (i / 2) / BOUNDARY, c->window[1][i % 2]);
+    for (int i = 0; c->windowed && i <= 2 * BOUNDARY + 1; i++) {
+        const iso_picture_spot at = iso_picture_place(c, ball, l[0] + (l[1] - l[0]) * (i / 2) / BOUNDARY, x[i % 2]);
         f = (frame){{fmin(f.low[0], at.right), fmin(f.low[1], at.up)},
                     {fmax(f.high[0], at.right), fmax(f.high[1], at.up)}};
     }
-    return f;
-}
-
-/* `most`: how far up the spots go. */
-static frame frame_of(const iso_picture_charts *c, bool ball, double most)
-{
-    double top = 1;
-    if (c->windowed) return window_of(c, ball);
-    for (int i = 0; !ball && i <= BOUNDARY; i++) top = fmax(i ? top : 0, largest_momentum(c, M_PI * i / BOUNDARY));
+    if (c->windowed) return f;
+    double top = ball ? 1 : 0;
+    for (int i = 0; !ball && i <= BOUNDARY; i++) top = fmax(top, largest_momentum(c, M_PI * i / BOUNDARY));
     if (c->few) top = fmin(top, ROOM * most + 1e-3 * top);
     if (!ball) top *= TOP;
     return (frame){{-M_PI, -top}, {M_PI, top}};
@@ -157,10 +145,6 @@ static int cell_of(const frame *f, iso_picture_spot at)
     return (int)fmin(v * CELLS, CELLS - 1) * CELLS + (int)fmin(u * CELLS, CELLS - 1);
 }
 
-/* Grey lies behind dark, and both behind colours. */
-static const iso_picture_shade layers[] = {ISO_PICTURE_GREY, ISO_PICTURE_DARK, ISO_PICTURE_COLOURED};
-enum { LAYERS = sizeof layers / sizeof *layers };
-
 /* Digits that are not seen only make files large. */
 static double rounded(double x, double low, double high)
 {
@@ -168,40 +152,35 @@ static double rounded(double x, double low, double high)
     return fmin(fmax(nearbyint(x * unit) / unit, low), high);
 }
 
-static iso_status put_spot(iso_context *ctx, const iso_picture_charts *c, const frame *f, const spot *s,
-                           iso_record *to)
-{
-    const double row[] = {rounded(s->at.right, f->low[0], f->high[0]), rounded(s->at.up, f->low[1], f->high[1]),
-                          s->crossing[ISO_PICTURE_SHADE], s->crossing[ISO_PICTURE_COLOUR]};
-    ISO_TRY(iso_record_add(ctx, to, 1, row));
-    if (!is_at_edge(c, s->at)) return ISO_OK;
-    return iso_record_add(ctx, to, 1, (double[]){-row[0], row[1], row[2], row[3]});
-}
-
-/* From behind to before, one spot in each cell: the first of those that are before all others. cells: zeros. */
-static iso_status put_spots(iso_context *ctx, const iso_picture_charts *c, const frame *f, const spot *all,
+/* From behind to before, one spot in each cell: the first of those that are before all others. cells: zeros. Grey lies
+ * behind dark, and both behind colours. */
+static iso_status add_spots(iso_context *ctx, const iso_picture_charts *c, const frame *f, const spot *all,
                             size_t count, unsigned char cells[], iso_record *to)
 {
-    enum { DONE = LAYERS + 1 };
-    int layer_of[LAYERS];
-    for (int layer = 0; layer < LAYERS; layer++) layer_of[layers[layer]] = layer + 1;
+    static const unsigned char layer_of[] = {
+        [ISO_PICTURE_GREY] = 1, [ISO_PICTURE_DARK] = 2, [ISO_PICTURE_COLOURED] = 3};
+    enum { LAYERS = 3, DONE };
     for (size_t i = 0; i < count; i++) {
-        const int cell = cell_of(f, all[i].at), layer = layer_of[(int)all[i].crossing[ISO_PICTURE_SHADE]];
-        if (cell >= 0 && layer > cells[cell]) cells[cell] = (unsigned char)layer;
+        const int cell = cell_of(f, all[i].at);
+        const unsigned char layer = layer_of[(int)all[i].crossing[ISO_PICTURE_SHADE]];
+        if (cell >= 0 && layer > cells[cell]) cells[cell] = layer;
     }
     for (int layer = 1; layer <= LAYERS; layer++)
         for (size_t i = 0; i < count; i++) {
-            const int cell = cell_of(f, all[i].at);
-            if (cell < 0 || cells[cell] != layer || layer_of[(int)all[i].crossing[ISO_PICTURE_SHADE]] != layer)
-                continue;
+            const iso_picture_spot at = all[i].at;
+            const double shade = all[i].crossing[ISO_PICTURE_SHADE], colour = all[i].crossing[ISO_PICTURE_COLOUR];
+            const int cell = cell_of(f, at);
+            if (cell < 0 || cells[cell] != layer || layer_of[(int)shade] != layer) continue;
             cells[cell] = DONE;
-            ISO_TRY(put_spot(ctx, c, f, &all[i], to));
+            const double right = rounded(at.right, f->low[0], f->high[0]), up = rounded(at.up, f->low[1], f->high[1]);
+            ISO_TRY(iso_record_add(ctx, to, 1, (double[]){right, up, shade, colour}));
+            if (is_at_edge(c, at)) ISO_TRY(iso_record_add(ctx, to, 1, (double[]){-right, up, shade, colour}));
         }
     return ISO_OK;
 }
 
 /* In place of the spots of a table: an image. A spot is three cells wide, without the corners. */
-static iso_status put_image(iso_context *ctx, const frame *f, const iso_record *spots, iso_record *image)
+static iso_status add_image(iso_context *ctx, const frame *f, const iso_record *spots, iso_record *image)
 {
     for (int i = 0; i < CELLS; i++) {
         double *row;
@@ -225,46 +204,6 @@ static iso_status put_image(iso_context *ctx, const frame *f, const iso_record *
 
 /* --- the tables ------------------------------------------------------------------------------------------------- */
 
-static iso_status say_of_side(iso_context *ctx, const char *side, const char *key, double number, const char *text,
-                              iso_picture *picture)
-{
-    char name[32];
-    snprintf(name, sizeof name, "%s_%s", side, key);
-    return text ? iso_picture_say(ctx, picture, name, text) : iso_picture_count(ctx, picture, name, number);
-}
-
-static iso_status say_frame(iso_context *ctx, const char *side, const frame *f, iso_picture *picture)
-{
-    ISO_TRY(say_of_side(ctx, side, "x0", f->low[0], NULL, picture));
-    ISO_TRY(say_of_side(ctx, side, "x1", f->high[0], NULL, picture));
-    ISO_TRY(say_of_side(ctx, side, "y0", f->low[1], NULL, picture));
-    return say_of_side(ctx, side, "y1", f->high[1], NULL, picture);
-}
-
-/* Words of the axes. */
-static iso_status say_names(iso_context *ctx, const iso_picture_charts *chart, bool ball, iso_picture *picture)
-{
-    static const char *const index[] = {"₁", "₂", "₃"};
-    const char *a = index[chart->axis], *b = index[(chart->axis + 1) % 3], *c = index[(chart->axis + 2) % 3];
-    const char *n = ball ? "n" : "γ", *side = ball ? "ball" : "point";
-    char text[160];
-    snprintf(text, sizeof text, "%s: %s%s = 0, %s%s increasing",
-             ball             ? "ball"
-             : chart->eps > 0 ? "point"
-                              : "directions of γ and M",
-             n, a, n, a);
-    ISO_TRY(say_of_side(ctx, side, "title", 0, text, picture));
-    snprintf(text, sizeof text, "%s,  where %s%s = cos %s, %s%s = −sin %s", ball ? "ψ" : "l", n, b, ball ? "ψ" : "l",
-             n, c, ball ? "ψ" : "l");
-    ISO_TRY(say_of_side(ctx, side, "right", 0, text, picture));
-    snprintf(text, sizeof text,
-             ball             ? "ω%s / |ω|"
-             : chart->eps > 0 ? "L = M%s, in the units of the scene"
-                              : "x = M%s / |M|",
-             a);
-    return say_of_side(ctx, side, "up", 0, text, picture);
-}
-
 /* The spots of one side, and where they are. */
 static iso_status find_spots(iso_context *ctx, const iso_picture_charts *c, const iso_record *crossings, bool ball,
                              frame *f, iso_record *spots)
@@ -276,28 +215,41 @@ static iso_status find_spots(iso_context *ctx, const iso_picture_charts *c, cons
     iso_status status = all && cells ? ISO_OK : iso_context_no_memory(ctx, "a picture");
     for (size_t i = 0; all && i < count; i++) most = fmax(most, fabs(all[i].at.up));
     *f = frame_of(c, ball, most);
-    if (status == ISO_OK) status = put_spots(ctx, c, f, all, count, cells, spots);
+    if (status == ISO_OK) status = add_spots(ctx, c, f, all, count, cells, spots);
     free(cells);
     free(all);
     return status;
 }
 
-/* The table of one side: its spots, or their image. */
-static iso_status add_side(iso_context *ctx, const frame *f, const iso_record *spots, bool ball, bool image,
-                           iso_picture *picture)
+/* The table of one side: its spots, or their image; the ends and the names of its axes. */
+static iso_status add_side(iso_context *ctx, const iso_picture_charts *c, const frame *f, const iso_record *spots,
+                           bool ball, bool image, iso_picture *picture)
 {
-    const char *names[CELLS], *const *name = names;
-    char text[CELLS][24];
+    static const char *const keys[2][4] = {
+        {"point_x0 point_x1 point_y0 point_y1", "point_title", "point_right", "point_up"},
+        {"ball_x0 ball_x1 ball_y0 ball_y1", "ball_title", "ball_right", "ball_up"}};
+    const char *const *key = keys[ball], *const *index = iso_picture_index + c->axis, *n = ball ? "n" : "γ",
+                      *angle = ball ? "ψ" : "l";
+    const double ends[] = {f->low[0], f->high[0], f->low[1], f->high[1]};
+    const size_t rows = iso_record_rows(spots);
+    char columns[4 * CELLS] = "right up shade colour";
     iso_record *table;
-    const size_t rows = iso_record_rows(spots), columns = image ? CELLS : iso_record_columns(spots);
-    for (size_t i = 0; i < columns; i++) {
-        snprintf(text[i], sizeof text[i], "%zu", i + 1);
-        names[i] = image ? text[i] : iso_record_name(spots, i);
-    }
-    ISO_TRY(iso_picture_add(ctx, picture, ball ? "ball" : "point", columns, name, &table));
-    ISO_TRY(say_frame(ctx, ball ? "ball" : "point", f, picture));
-    if (image) return put_image(ctx, f, spots, table);
-    return rows > 0 ? iso_record_add(ctx, table, rows, iso_record_const_row(spots, 0)) : ISO_OK;
+    for (int i = 0, used = 0; image && i < CELLS; i++)
+        used += snprintf(columns + used, sizeof columns - (size_t)used, "%d ", i + 1);
+    ISO_TRY(iso_picture_add(ctx, picture, ball ? "ball" : "point", columns, &table));
+    ISO_TRY(iso_picture_set(ctx, picture, key[0], ends));
+    if (image) ISO_TRY(add_image(ctx, f, spots, table));
+    if (!image && rows > 0) ISO_TRY(iso_record_add(ctx, table, rows, iso_record_const_row(spots, 0)));
+    ISO_TRY(iso_picture_say(ctx, picture, key[1], "%s: %s%s = 0, %s%s increasing",
+                            ball         ? "ball"
+                            : c->eps > 0 ? "point"
+                                         : "directions of γ and M",
+                            n, index[0], n, index[0]));
+    ISO_TRY(iso_picture_say(ctx, picture, key[2], "%s,  where %s%s = cos %s, %s%s = −sin %s", angle, n, index[1],
+                            angle, n, index[2], angle));
+    if (ball) return iso_picture_say(ctx, picture, key[3], "ω%s / |ω|", index[0]);
+    return c->eps > 0 ? iso_picture_say(ctx, picture, key[3], "L = M%s, in the units of the scene", index[0])
+                      : iso_picture_say(ctx, picture, key[3], "x = M%s / |M|", index[0]);
 }
 
 /* The scale of the rotation numbers; nothing: there are none, or the colours are hues. */
@@ -311,43 +263,28 @@ static iso_status say_range(iso_context *ctx, const iso_picture_charts *c, const
     }
     const bool bar = low <= high;
     if (bar && high - low < 1e-3) low -= 5e-4, high += 5e-4;
-    ISO_TRY(iso_picture_count(ctx, picture, "bar", bar));
-    ISO_TRY(iso_picture_count(ctx, picture, "low", bar ? low : 0));
-    return iso_picture_count(ctx, picture, "high", bar ? high : 1);
+    return iso_picture_set(ctx, picture, "bar low high", (double[]){bar, bar ? low : 0, bar ? high : 1});
 }
 
-static iso_status put_boundary(iso_context *ctx, const iso_picture_charts *c, iso_record *to)
-{
-    for (int i = 0; i <= BOUNDARY; i++) {
-        const double l = M_PI * (2.0 * i / BOUNDARY - 1), G = largest_momentum(c, l);
-        ISO_TRY(iso_record_add(ctx, to, 1, (double[]){l, -G, G}));
-    }
-    return ISO_OK;
-}
-
-iso_status iso_picture_charts_put(iso_context *ctx, const iso_picture_charts *c, const iso_record *crossings,
+iso_status iso_picture_charts_add(iso_context *ctx, const iso_picture_charts *c, const iso_record *crossings,
                                   iso_picture *picture)
 {
-    static const char *const columns[] = {"right", "up", "shade", "colour"};
-    iso_record *spots[2] = {NULL, NULL}, *boundary;
+    iso_record *boundary, **spots[2]; /* the ball's, the point's */
     frame f[2];
-    iso_status status = ISO_OK;
-    for (int i = 0; status == ISO_OK && i < 2; i++) { /* the ball's, the point's */
-        status = iso_record_create(ctx, 4, columns, &spots[i]);
-        if (status == ISO_OK) status = find_spots(ctx, c, crossings, i == 0, &f[i], spots[i]);
+    bool image = false;
+    for (int i = 0; i < 2; i++) {
+        spots[i] = iso_picture_aside(picture);
+        ISO_TRY(iso_record_create(ctx, 4, (const char *const[]){"right", "up", "shade", "colour"}, spots[i]));
+        ISO_TRY(find_spots(ctx, c, crossings, i == 0, &f[i], *spots[i]));
+        image = image || (c->points > 0 && iso_record_rows(*spots[i]) > c->points);
     }
-    const bool image = status == ISO_OK && c->points > 0 &&
-                       (iso_record_rows(spots[0]) > c->points || iso_record_rows(spots[1]) > c->points);
-    for (int i = 0; status == ISO_OK && i < 2; i++) {
-        status = add_side(ctx, &f[i], spots[i], i == 0, image, picture);
-        if (status == ISO_OK) status = say_names(ctx, c, i == 0, picture);
-    }
-    for (int i = 0; i < 2; i++) iso_record_free(spots[i]);
-    ISO_TRY(status);
-    ISO_TRY(iso_picture_count(ctx, picture, "images", image));
-    ISO_TRY(iso_picture_count(ctx, picture, "window", c->windowed));
-    ISO_TRY(iso_picture_count(ctx, picture, "few", c->few));
+    for (int i = 0; i < 2; i++) ISO_TRY(add_side(ctx, c, &f[i], *spots[i], i == 0, image, picture));
+    ISO_TRY(iso_picture_set(ctx, picture, "images window few", (double[]){image, c->windowed, c->few}));
     ISO_TRY(say_range(ctx, c, crossings, picture));
-    ISO_TRY(iso_picture_add(ctx, picture, "boundary", 3, (const char *const[]){"l", "low", "high"}, &boundary));
-    return put_boundary(ctx, c, boundary);
+    ISO_TRY(iso_picture_add(ctx, picture, "boundary", "l low high", &boundary));
+    for (int i = 0; i <= BOUNDARY; i++) {
+        const double l = M_PI * (2.0 * i / BOUNDARY - 1), G = largest_momentum(c, l);
+        ISO_TRY(iso_record_add(ctx, boundary, 1, (double[]){l, -G, G}));
+    }
+    return ISO_OK;
 }

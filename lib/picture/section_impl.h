@@ -23,7 +23,6 @@
 
 #include "orbit/crossings.h"
 #include "picture/picture_impl.h"
-#include "study/verdict.h"
 
 /* Of a row of crossings. */
 typedef enum iso_picture_shade { ISO_PICTURE_COLOURED, ISO_PICTURE_GREY, ISO_PICTURE_DARK } iso_picture_shade;
@@ -44,15 +43,14 @@ void iso_picture_points_free(iso_picture_points *p);
 iso_status iso_picture_points_row(iso_context *ctx, iso_picture_points *p, const double row[]);
 
 /* Takes the crossing of the last row by both models, as points (l, x). */
-iso_status iso_picture_points_pair(iso_context *ctx, iso_picture_points *p, const double ball[2],
-                                   const double point[2]);
+void iso_picture_points_pair(iso_picture_points *p, const double ball[2], const double point[2]);
 
 /* The first crossing (l, x) of each orbit that has one. Returns how many; valid until the next row. */
 size_t iso_picture_points_starts(iso_picture_points *p, const double (**starts)[2]);
 
-/* The verdict on the orbit whose first crossing is (l, x): chaotic ones are grey. Without this call, orbits are grey on
- * which the two models part, or of which no rotation number is found. */
-iso_status iso_picture_points_judge(iso_context *ctx, iso_picture_points *p, double l, double x, iso_verdict verdict);
+/* The verdict ("regular", ...) on the orbit whose first crossing is (l, x): chaotic ones are grey. Without this call,
+ * orbits are grey on which the two models part, or of which no rotation number is found. */
+void iso_picture_points_verdict(iso_picture_points *p, double l, double x, const char *verdict);
 
 /* The picture, empty at first. Tables "periodic" and "splitting" of over[] (NULL behind the last) are drawn over it;
  * options: "window" and "points", as iso_picture_make takes them. Errors: ISO_BAD_INPUT: the section is an event, which
@@ -97,7 +95,7 @@ bool iso_picture_window(const char *text, double window[2][2]);
 iso_status iso_picture_charts_options(iso_context *ctx, const iso_picture_request *request, iso_picture_charts *c);
 
 /* Adds ball, point and boundary, and the lines about them. crossings: columns as above, and more. */
-iso_status iso_picture_charts_put(iso_context *ctx, const iso_picture_charts *c, const iso_record *crossings,
+iso_status iso_picture_charts_add(iso_context *ctx, const iso_picture_charts *c, const iso_record *crossings,
                                   iso_picture *picture);
 
 /* Where a point (l, x) stands on one side: right and up. */

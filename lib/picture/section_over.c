@@ -56,92 +56,76 @@ static iso_status add_orbits(iso_context *ctx, over *o, const iso_record *table)
     return ISO_OK;
 }
 
-/* One image of the curve on one side. A row of NaN is a gap of the line. */
-static iso_status add_piece(iso_context *ctx, const over *o, const iso_record *curve, double corner, int n, int side,
-                            iso_record *to)
+/* All images of the curve on both sides. An image by one of the reversors enters where the curve leaves: it turns the
+ * section over. A row of NaN is a gap of the line. */
+static iso_status add_curve(iso_context *ctx, const over *o, const iso_record *curve, double corner)
 {
-    static const double gap[] = {NAN, NAN};
-    double last = INFINITY;
-    for (size_t i = 0; i < iso_record_rows(curve); i++) {
-        const double *row = iso_record_const_row(curve, i);
-        double at[2];
-        iso_picture_image(n, row[0] + corner, row[1], at);
-        const iso_picture_spot s = iso_picture_place(o->charts, side == 0, at[0], at[1]);
-        if (!isfinite(s.right) || !isfinite(s.up)) continue;
-        if (fabs(s.right - last) > M_PI) ISO_TRY(iso_record_add(ctx, to, 1, gap));
-        ISO_TRY(iso_record_add(ctx, to, 1, (double[]){s.right, s.up}));
-        last = s.right;
+    for (int n = 0; n < 16; n++) {
+        iso_record *to = o->curve[n / 8][(n & 1) != (n >> 2 & 1)];
+        double last = INFINITY, at[2];
+        for (size_t i = 0; i < iso_record_rows(curve); i++) {
+            iso_picture_image(n % 8, iso_picture_at(curve, i, 0) + corner, iso_picture_at(curve, i, 1), at);
+            const iso_picture_spot s = iso_picture_place(o->charts, n < 8, at[0], at[1]);
+            if (!isfinite(s.right) || !isfinite(s.up)) continue;
+            if (fabs(s.right - last) > M_PI) ISO_TRY(iso_record_add(ctx, to, 1, (double[]){NAN, NAN}));
+            ISO_TRY(iso_record_add(ctx, to, 1, (double[]){s.right, s.up}));
+            last = s.right;
+        }
     }
     return ISO_OK;
 }
 
-/* An image by one of the reversors enters where the curve leaves: it turns the section over. */
-static iso_status add_curve(iso_context *ctx, const over *o, const iso_record *curve, double corner)
+/* The lobes grow like lambda^(1/2) with each half return. */
+iso_status iso_picture_separatrix(iso_context *ctx, double k, const double J[3], double level, double m,
+                                  double lambda, iso_record **curve)
 {
-    for (int side = 0; side < 2; side++)
-        for (int n = 0; n < 8; n++) {
-            const bool enters = (n & 1) != (n >> 2 & 1);
-            ISO_TRY(add_piece(ctx, o, curve, corner, n, side, o->curve[side][enters]));
-        }
-    return ISO_OK;
-}
-
-/* l of the rotation about the middle axis. The section is about the axis of the largest moment if k > 0, else of the
- * smallest: of the other two axes b and c the middle one is nearer to it. */
-static double corner_of(const iso_params *p, int axis)
-{
-    const double b = p->J[(axis + 1) % 3], c = p->J[(axis + 2) % 3];
-    return (p->k > 0 ? c > b : c < b) ? 0 : M_PI / 2;
+    const double needed = log(0.3 / fmax(fabs(m), 1e-4)) / (log(lambda) / 2);
+    return iso_separatrix_curve(ctx, k, J, level, (int)fmin(fmax(needed, 2) + 2, 60), curve);
 }
 
 /* The row of the section's k and level; its curves are computed anew, which takes less than a second. */
 static iso_status add_manifolds(iso_context *ctx, const over *o, const iso_record *table)
 {
-    const iso_picture_charts *c = o->charts;
-    const iso_params *p = &c->params;
-    const int axis = iso_section_axis((iso_point_motion){p, c->eps, c->energy});
-    const double level = iso_level_of(p, c->energy / c->eps);
+    const iso_picture_charts *charts = o->charts;
+    const iso_params *p = &charts->params;
+    const int axis = iso_section_axis((iso_point_motion){p, charts->eps, charts->energy});
+    const double level = iso_level_of(p, charts->energy / charts->eps);
     size_t i = 0;
     ISO_TRY(check_moments(ctx, table, p, false));
     while (i < iso_record_rows(table) && !(is_near(iso_picture_number(table, i, "k"), p->k) &&
                                            fabs(iso_picture_number(table, i, "level") - level) <= 1e-12))
         i++;
     if (i == iso_record_rows(table)) return refuse(ctx, table, "no row has the k and the level of the section");
-    if (axis != c->axis) return refuse(ctx, table, "its section is about another axis");
-    const double m = fabs(iso_picture_number(table, i, "m")), lambda = iso_picture_number(table, i, "multiplier");
-    const double halves = log(0.3 / fmax(m, 1e-4)) / (log(lambda) / 2);
+    if (axis != charts->axis) return refuse(ctx, table, "its section is about another axis");
+    /* l of the rotation about the middle axis. The section is about the axis of the largest moment if k > 0, else of
+     * the smallest: of the other two axes b and c the middle one is nearer to it. */
+    const double b = p->J[(axis + 1) % 3], c = p->J[(axis + 2) % 3];
+    const double corner = (p->k > 0 ? c > b : c < b) ? 0 : M_PI / 2;
     iso_record *curve = NULL;
-    iso_status status = iso_separatrix_curve(ctx, p->k, p->J, level, (int)fmin(fmax(halves, 2) + 2, 60), &curve);
-    if (status == ISO_OK) status = add_curve(ctx, o, curve, corner_of(p, axis));
+    iso_status status = iso_picture_separatrix(ctx, p->k, p->J, level, iso_picture_number(table, i, "m"),
+                                               iso_picture_number(table, i, "multiplier"), &curve);
+    if (status == ISO_OK) status = add_curve(ctx, o, curve, corner);
     iso_record_free(curve);
     return status;
-}
-
-static iso_status add_tables(iso_context *ctx, over *o, const iso_record *const table[])
-{
-    for (; table && *table; table++) {
-        const bool orbits = strcmp(iso_record_kind(*table), "periodic") == 0;
-        if (!orbits && strcmp(iso_record_kind(*table), "splitting") != 0) continue;
-        if (!o->charts->alone) return refuse(ctx, *table, "the section must be of a free ball, or of one on a level");
-        ISO_TRY(orbits ? add_orbits(ctx, o, *table) : add_manifolds(ctx, o, *table));
-    }
-    return ISO_OK;
 }
 
 iso_status iso_picture_over(iso_context *ctx, const iso_picture_charts *c, const iso_record *const table[],
                             iso_picture *picture)
 {
-    static const char *const columns[] = {"right", "up", "stable"};
     static const char *const names[2][3] = {{"ball_orbits", "ball_leaves", "ball_enters"},
                                             {"point_orbits", "point_leaves", "point_enters"}};
     over o = {.charts = c};
     for (int side = 0; side < 2; side++) {
-        ISO_TRY(iso_picture_add(ctx, picture, names[side][0], 3, columns, &o.orbits[side]));
+        ISO_TRY(iso_picture_add(ctx, picture, names[side][0], "right up stable", &o.orbits[side]));
         for (int enters = 0; enters < 2; enters++)
-            ISO_TRY(iso_picture_add(ctx, picture, names[side][1 + enters], 2, columns, &o.curve[side][enters]));
+            ISO_TRY(iso_picture_add(ctx, picture, names[side][1 + enters], "right up", &o.curve[side][enters]));
     }
-    ISO_TRY(add_tables(ctx, &o, table));
-    ISO_TRY(iso_picture_count(ctx, picture, "stable", o.stable[true]));
-    ISO_TRY(iso_picture_count(ctx, picture, "unstable", o.stable[false]));
-    return iso_picture_count(ctx, picture, "curves", iso_record_rows(o.curve[0][0]) > 0);
+    for (; table && *table; table++) {
+        const bool orbits = strcmp(iso_record_kind(*table), "periodic") == 0;
+        if (!orbits && strcmp(iso_record_kind(*table), "splitting") != 0) continue;
+        if (!c->alone) return refuse(ctx, *table, "the section must be of a free ball, or of one on a level");
+        ISO_TRY(orbits ? add_orbits(ctx, &o, *table) : add_manifolds(ctx, &o, *table));
+    }
+    return iso_picture_set(ctx, picture, "stable unstable curves",
+                           (double[]){o.stable[true], o.stable[false], iso_record_rows(o.curve[0][0]) > 0});
 }

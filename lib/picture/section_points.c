@@ -1,7 +1,7 @@
 /* section_points.c - collects crossings for the picture of a section (see section_impl.h). */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "instrument/section/section_impl.h"
 #include "map/section_impl.h"
@@ -15,24 +15,24 @@ enum { MOST = 200000 };
 /* The most crossings of an orbit by which its rotation number is found. */
 enum { MOST_OF_ORBIT = 20000 };
 
+/* Beside those of crossings. */
 enum { ORBIT = ISO_PICTURE_COLUMNS, HASH, COLUMNS };
 
 struct iso_picture_points {
     iso_picture_charts charts;
-    unsigned reversors;             /* that the return map has, see iso_section_reversors */
-    int l, x;                       /* columns of the rows; l -1: there is none  */
-    uint64_t rows;                  /* that came so far                          */
-    double limit;                   /* rows whose hash is below it are kept      */
-    bool last_kept, judged, parted; /* judged: there are verdicts; parted: the models part on an orbit */
+    unsigned reversors;               /* that the return map has, see iso_section_reversors */
+    int l, x;                         /* columns of the rows; l -1: there is none */
+    uint64_t rows;                    /* that came so far */
+    double limit;                     /* rows whose hash is below it are kept */
+    bool last_kept, verdicts, parted; /* there are verdicts; the models part on an orbit */
     iso_record *kept;
-    size_t orbits;     /* that have a crossing; a row is of another orbit than the one before if its number differs */
-    double number;     /* of the orbit whose rows come                                             */
-    iso_record *who;   /* of each orbit its number ... */
-    iso_record *first; /* ... and its first crossing, (l, x) */
-    iso_record *shade; /* of each orbit: an iso_picture_shade; grey if ball and point have parted  */
-    iso_record *now;   /* crossings (l, x) of the orbit whose rows come                            */
-    iso_record *rotation; /* of each orbit before it; NaN: not found                                  */
+    /* Of each orbit that has a crossing its number, shade and rotation number (NaN: not found), and its first crossing
+     * (l, x). A row is of another orbit than the one before if its number differs. */
+    iso_record *orbits, *first;
+    iso_record *now; /* crossings (l, x) of the last of them */
 };
+
+enum { NUMBER, SHADE, ROTATION };
 
 /* G(l) and the reversors need what acts on the ball. */
 static iso_status read_motion(iso_context *ctx, const iso_record *header, iso_picture_points *p)
@@ -65,22 +65,18 @@ iso_status iso_picture_points_create(iso_context *ctx, const iso_record *header,
     p->limit = 1;
     ISO_TRY(read_motion(ctx, header, p));
     ISO_TRY(iso_record_create(ctx, COLUMNS, names, &p->kept));
+    ISO_TRY(iso_record_create(ctx, 3, (const char *const[]){"orbit", "shade", "rotation"}, &p->orbits));
     ISO_TRY(iso_record_create(ctx, 2, names, &p->first));
-    ISO_TRY(iso_record_create(ctx, 2, names, &p->now));
-    ISO_TRY(iso_record_create(ctx, 1, &names[ORBIT], &p->who));
-    ISO_TRY(iso_record_create(ctx, 1, names, &p->rotation));
-    return iso_record_create(ctx, 1, names, &p->shade);
+    return iso_record_create(ctx, 2, names, &p->now);
 }
 
 void iso_picture_points_free(iso_picture_points *p)
 {
     if (!p) return;
     iso_record_free(p->kept);
-    iso_record_free(p->who);
+    iso_record_free(p->orbits);
     iso_record_free(p->first);
-    iso_record_free(p->shade);
     iso_record_free(p->now);
-    iso_record_free(p->rotation);
     free(p);
 }
 
@@ -117,12 +113,16 @@ static const double (*pairs(const iso_record *r))[2]
     return iso_record_rows(r) > 0 ? (const double(*)[2])(const void *)iso_record_const_row(r, 0) : NULL;
 }
 
+static double *last_orbit(const iso_picture_points *p)
+{
+    return iso_record_row(p->orbits, iso_record_rows(p->orbits) - 1);
+}
+
 /* All rows of the orbit have come. */
 static iso_status end_orbit(iso_context *ctx, iso_picture_points *p)
 {
-    if (p->orbits == 0) return ISO_OK;
-    const double rotation = iso_section_rotation(pairs(p->now), iso_record_rows(p->now));
-    ISO_TRY(iso_record_add(ctx, p->rotation, 1, &rotation));
+    if (iso_record_rows(p->orbits) == 0) return ISO_OK;
+    last_orbit(p)[ROTATION] = iso_section_rotation(pairs(p->now), iso_record_rows(p->now));
     iso_record_free(p->now);
     return iso_record_create_like(ctx, p->first, 0, NULL, &p->now);
 }
@@ -132,56 +132,18 @@ iso_status iso_picture_points_row(iso_context *ctx, iso_picture_points *p, const
     const double hash = hash_of(p->rows++);
     if (p->l < 0) return ISO_OK;
     const double at[2] = {row[p->l], row[p->x]};
-    if (p->orbits == 0 || row[0] != p->number) {
+    if (iso_record_rows(p->orbits) == 0 || row[0] != last_orbit(p)[NUMBER]) {
         ISO_TRY(end_orbit(ctx, p));
         ISO_TRY(iso_record_add(ctx, p->first, 1, at));
-        ISO_TRY(iso_record_add(ctx, p->who, 1, row));
-        p->number = row[0];
-        p->orbits++;
+        ISO_TRY(iso_record_add(ctx, p->orbits, 1, (double[]){row[0], ISO_PICTURE_COLOURED, NAN}));
     }
     if (iso_record_rows(p->now) < MOST_OF_ORBIT) ISO_TRY(iso_record_add(ctx, p->now, 1, at));
     ISO_TRY(thin_out(ctx, p, MOST - 1));
     p->last_kept = hash < p->limit;
     if (!p->last_kept) return ISO_OK;
-    return iso_record_add(
-        ctx, p->kept, 1,
-        (double[COLUMNS]){at[0], at[1], at[0], at[1], [ORBIT] = (double)(p->orbits - 1), [HASH] = hash});
-}
-
-/* --- shades ----------------------------------------------------------------------------------------------------- */
-
-/* Orbits that nobody has asked for are taken for regular. */
-static int shade_of(const iso_picture_points *p, size_t orbit)
-{
-    return orbit < iso_record_rows(p->shade) ? (int)*iso_record_const_row(p->shade, orbit) : ISO_PICTURE_COLOURED;
-}
-
-static iso_status set_shade(iso_context *ctx, iso_picture_points *p, size_t orbit, iso_picture_shade shade)
-{
-    while (iso_record_rows(p->shade) <= orbit) ISO_TRY(iso_record_add(ctx, p->shade, 1, (double[]){0}));
-    *iso_record_row(p->shade, orbit) = shade;
-    return ISO_OK;
-}
-
-/* The distance in the chart: the larger one of |dl|, modulo 2 pi, and |dx|. */
-static double distance(const double a[2], const double b[2])
-{
-    return fmax(fabs(remainder(a[0] - b[0], 2 * M_PI)), fabs(a[1] - b[1]));
-}
-
-iso_status iso_picture_points_pair(iso_context *ctx, iso_picture_points *p, const double ball[2],
-                                   const double point[2])
-{
-    if (p->l < 0) return ISO_OK;
-    if (distance(ball, point) > ISO_SECTION_PARTED) {
-        ISO_TRY(set_shade(ctx, p, p->orbits - 1, ISO_PICTURE_GREY));
-        p->parted = true;
-    }
-    if (!p->last_kept) return ISO_OK;
-    double *row = iso_record_row(p->kept, iso_record_rows(p->kept) - 1);
-    row[ISO_PICTURE_POINT_L] = point[0];
-    row[ISO_PICTURE_POINT_X] = point[1];
-    return ISO_OK;
+    const double orbit = (double)(iso_record_rows(p->orbits) - 1);
+    return iso_record_add(ctx, p->kept, 1,
+                          (double[COLUMNS]){at[0], at[1], at[0], at[1], [ORBIT] = orbit, [HASH] = hash});
 }
 
 size_t iso_picture_points_starts(iso_picture_points *p, const double (**starts)[2])
@@ -190,19 +152,39 @@ size_t iso_picture_points_starts(iso_picture_points *p, const double (**starts)[
     return iso_record_rows(p->first);
 }
 
-iso_status iso_picture_points_judge(iso_context *ctx, iso_picture_points *p, double l, double x, iso_verdict verdict)
+/* --- shades ----------------------------------------------------------------------------------------------------- */
+
+/* The distance in the chart: the larger one of |dl|, modulo 2 pi, and |dx|. */
+static double distance(const double a[2], const double b[2])
 {
-    static const iso_picture_shade shades[] = {[ISO_REGULAR] = ISO_PICTURE_COLOURED,
-                                               [ISO_CHAOTIC] = ISO_PICTURE_GREY,
-                                               [ISO_UNDECIDED] = ISO_PICTURE_DARK,
-                                               [ISO_INTEGRABLE] = ISO_PICTURE_COLOURED};
-    const double at[2] = {l, x};
-    for (size_t i = 0; i < iso_record_rows(p->first); i++) {
-        if (!(distance(iso_record_const_row(p->first, i), at) <= 1e-12)) continue;
-        ISO_TRY(set_shade(ctx, p, i, shades[verdict]));
-        p->judged = true;
+    return fmax(fabs(remainder(a[0] - b[0], 2 * M_PI)), fabs(a[1] - b[1]));
+}
+
+void iso_picture_points_pair(iso_picture_points *p, const double ball[2], const double point[2])
+{
+    if (p->l < 0) return;
+    if (distance(ball, point) > ISO_SECTION_PARTED) {
+        last_orbit(p)[SHADE] = ISO_PICTURE_GREY;
+        p->parted = true;
     }
-    return ISO_OK;
+    if (!p->last_kept) return;
+    double *row = iso_record_row(p->kept, iso_record_rows(p->kept) - 1);
+    row[ISO_PICTURE_POINT_L] = point[0];
+    row[ISO_PICTURE_POINT_X] = point[1];
+}
+
+void iso_picture_points_verdict(iso_picture_points *p, double l, double x, const char *verdict)
+{
+    const bool regular = strcmp(verdict, iso_verdict_name(ISO_REGULAR)) == 0 ||
+                         strcmp(verdict, iso_verdict_name(ISO_INTEGRABLE)) == 0,
+               chaotic = strcmp(verdict, iso_verdict_name(ISO_CHAOTIC)) == 0;
+    for (size_t i = 0; i < iso_record_rows(p->first); i++) {
+        if (!(distance(iso_record_const_row(p->first, i), (double[]){l, x}) <= 1e-12)) continue;
+        iso_record_row(p->orbits, i)[SHADE] = regular   ? ISO_PICTURE_COLOURED
+                                              : chaotic ? ISO_PICTURE_GREY
+                                                        : ISO_PICTURE_DARK;
+        p->verdicts = true;
+    }
 }
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
@@ -219,66 +201,51 @@ static unsigned images_of(unsigned reversors)
     return images;
 }
 
-/* The shade of each orbit is now decided. Without verdicts an orbit without a rotation number is grey. */
-static iso_status decide_shades(iso_context *ctx, iso_picture_points *p)
+/* Without verdicts an orbit without a rotation number is grey. any: which shades there are. */
+static void find_shades(iso_picture_points *p, bool any[3])
 {
-    for (size_t i = 0; i < p->orbits; i++)
-        if (shade_of(p, i) == ISO_PICTURE_COLOURED && isnan(*iso_record_const_row(p->rotation, i)))
-            ISO_TRY(set_shade(ctx, p, i, p->judged ? ISO_PICTURE_DARK : ISO_PICTURE_GREY));
-    return ISO_OK;
-}
-
-/* What is drawn of each row. */
-static void put_shades(iso_picture_points *p, bool any[3])
-{
+    for (size_t i = 0; i < iso_record_rows(p->orbits); i++) {
+        double *orbit = iso_record_row(p->orbits, i);
+        if (orbit[SHADE] == ISO_PICTURE_COLOURED && isnan(orbit[ROTATION]))
+            orbit[SHADE] = p->verdicts ? ISO_PICTURE_DARK : ISO_PICTURE_GREY;
+    }
     for (size_t i = 0; i < iso_record_rows(p->kept); i++) {
         double *row = iso_record_row(p->kept, i);
-        const int shade = shade_of(p, (size_t)row[ORBIT]);
-        row[ISO_PICTURE_SHADE] = shade;
-        row[ISO_PICTURE_COLOUR] =
-            shade == ISO_PICTURE_COLOURED ? *iso_record_const_row(p->rotation, (size_t)row[ORBIT]) : 0;
-        row[ISO_PICTURE_IMAGES] = shade == ISO_PICTURE_COLOURED ? images_of(p->reversors) : 1;
-        any[shade] = true;
+        const double *orbit = iso_record_const_row(p->orbits, (size_t)row[ORBIT]);
+        const bool coloured = orbit[SHADE] == ISO_PICTURE_COLOURED;
+        row[ISO_PICTURE_SHADE] = orbit[SHADE];
+        row[ISO_PICTURE_COLOUR] = coloured ? orbit[ROTATION] : 0;
+        row[ISO_PICTURE_IMAGES] = coloured ? images_of(p->reversors) : 1;
+        any[(int)orbit[SHADE]] = true;
     }
-}
-
-/* The table of the orbits: number, shade, rotation number. */
-static iso_status put_orbits(iso_context *ctx, const iso_picture_points *p, iso_picture *picture)
-{
-    static const char *const names[] = {"orbit", "shade", "rotation"};
-    iso_record *orbits;
-    ISO_TRY(iso_picture_add(ctx, picture, "orbits", 3, names, &orbits));
-    for (size_t i = 0; i < p->orbits; i++)
-        ISO_TRY(iso_record_add(
-            ctx, orbits, 1,
-            (double[]){*iso_record_const_row(p->who, i), shade_of(p, i), *iso_record_const_row(p->rotation, i)}));
-    return ISO_OK;
 }
 
 iso_status iso_picture_points_make(iso_context *ctx, iso_picture_points *p, const iso_record *const over[],
                                    const char *options, iso_picture *picture)
 {
     const iso_picture_request q = {.options = options};
-    char title[ISO_PICTURE_TITLE], ball[ISO_BALL_SIZE];
+    const size_t count = iso_record_rows(p->orbits);
+    char ball[ISO_BALL_SIZE];
     bool any[3] = {false};
+    iso_record *orbits;
     if (p->l < 0) return ISO_FAIL_INPUT(ctx, "", "no picture: an event has no coordinates l, x");
-    if (iso_record_rows(p->first) == 0) return ISO_FAIL_INPUT(ctx, "", "no picture: there is no crossing");
+    if (count == 0) return ISO_FAIL_INPUT(ctx, "", "no picture: there is no crossing");
     picture->layout = "section";
     ISO_TRY(iso_picture_charts_options(ctx, &q, &p->charts));
     ISO_TRY(end_orbit(ctx, p));
     ISO_TRY(thin_out(ctx, p, MOST / 4));
-    ISO_TRY(decide_shades(ctx, p));
-    put_shades(p, any);
-    ISO_TRY(iso_picture_charts_put(ctx, &p->charts, p->kept, picture));
-    ISO_TRY(put_orbits(ctx, p, picture));
-    snprintf(title, sizeof title, "%s: %zu orbit%s%s", iso_ball_text(ball, &p->charts.params), p->orbits,
-             p->orbits == 1 ? "" : "s", p->reversors && any[ISO_PICTURE_COLOURED] ? " and mirror images" : "");
-    ISO_TRY(iso_picture_say(ctx, picture, "title", title));
-    ISO_TRY(iso_picture_say(ctx, picture, "grey_means",
+    find_shades(p, any);
+    ISO_TRY(iso_picture_charts_add(ctx, &p->charts, p->kept, picture));
+    ISO_TRY(iso_picture_add(ctx, picture, "orbits", "orbit shade rotation", &orbits));
+    ISO_TRY(iso_record_add(ctx, orbits, count, iso_record_const_row(p->orbits, 0)));
+    ISO_TRY(iso_picture_say(ctx, picture, "title", "%s: %zu orbit%s%s", iso_ball_text(ball, &p->charts.params), count,
+                            count == 1 ? "" : "s",
+                            p->reversors && any[ISO_PICTURE_COLOURED] ? " and mirror images" : ""));
+    ISO_TRY(iso_picture_say(ctx, picture, "grey_means", "%s",
                             !any[ISO_PICTURE_GREY] ? ""
-                            : p->judged            ? "chaotic"
+                            : p->verdicts          ? "chaotic"
                             : p->parted            ? "ball and point part: chaotic; or too few crossings to tell"
                                                    : "chaotic, or too few crossings to tell"));
-    ISO_TRY(iso_picture_say(ctx, picture, "dark_means", any[ISO_PICTURE_DARK] ? "undecided" : ""));
+    ISO_TRY(iso_picture_say(ctx, picture, "dark_means", "%s", any[ISO_PICTURE_DARK] ? "undecided" : ""));
     return iso_picture_over(ctx, &p->charts, over, picture);
 }

@@ -28,15 +28,17 @@
 #define LOST 1e-9   /* a pressure below this part of the largest is 0                    */
 #define OUTLINE 0.1 /* nothing is hidden this near the outline of the support; part of its radius */
 
+enum { RIGHT, AWAY, UP };
+
 typedef struct scenery {
     const iso_record *rows;
-    int centre, contact;             /* first columns, -1: not there                                            */
-    int place;                       /* the path that is drawn: of the centre if it is known, else of the contact */
-    bool plane, level;               /* the support is a plane; a plane that is level, or up is not known       */
-    bool normal, vertical;           /* the columns tell the plane's normal; up[] is the vertical               */
-    double right[3], away[3], up[3]; /* of the view from the side; `away` is up in the view from above          */
-    double ball, support;            /* radii, 0: not known                                                     */
-    double low[3], high[3];          /* of the path along right, away, up                                       */
+    int centre, contact;    /* first columns, -1: not there */
+    int place;              /* the path that is drawn: of the centre if it is known, else of the contact */
+    bool plane, level;      /* the support is a plane; a plane that is level, or up is not known */
+    bool normal, vertical;  /* the plane's normal is known; `up` is the vertical */
+    double axis[3][3];      /* right, away, up: of the view from the side; `away` is up in the view from above */
+    double ball, support;   /* radii, 0: not known */
+    double low[3], high[3]; /* of the path along right, away, up */
     const char *right_name, *away_name, *up_name, *above, *side;
 } scenery;
 
@@ -61,16 +63,6 @@ static double constant_length(const scenery *s, int column, int less)
     return first;
 }
 
-/* The normal of the plane, on the ball's side; false: the columns do not tell it. */
-static bool find_normal(const scenery *s, double normal[3])
-{
-    if (!s->plane || s->ball == 0) return false;
-    copy(vector_at(s, 0, s->centre), normal, 3);
-    add_scaled(normal, -1, vector_at(s, 0, s->contact));
-    scale(normal, 1 / s->ball);
-    return true;
-}
-
 /* On a plane the paths of contact and centre are the same from above. */
 static bool shows_contact(const scenery *s)
 {
@@ -88,13 +80,13 @@ static bool is_solid(const scenery *s)
 int iso_picture_losses(const iso_record *r, size_t lost[ISO_PICTURE_LOSSES])
 {
     const int column = iso_record_find(r, "pressure");
-    double largest = 0;
+    double range[2];
     int count = 0;
     bool pressed = iso_record_rows(r) == 1; /* a start under a pull is no loss */
-    for (size_t i = 0; column >= 0 && i < iso_record_rows(r); i++)
-        largest = fmax(largest, fabs(iso_record_const_row(r, i)[column]));
-    for (size_t i = 0; column >= 0 && i < iso_record_rows(r); i++) {
-        const bool now = iso_record_const_row(r, i)[column] > LOST * largest;
+    if (column < 0) return 0;
+    iso_picture_range(r, column, range);
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        const bool now = iso_picture_at(r, i, column) > LOST * fmax(fabs(range[0]), fabs(range[1]));
         if (pressed && !now && count < ISO_PICTURE_LOSSES) lost[count++] = i;
         pressed = now;
     }
@@ -107,40 +99,21 @@ int iso_picture_losses(const iso_record *r, size_t lost[ISO_PICTURE_LOSSES])
 static bool across(const double v[3], const double up[3], double direction[3])
 {
     copy(v, direction, 3);
-    add_scaled(direction, -dot(v, up), up);
-    const double length = norm(direction);
-    if (!(length > ALIKE * norm(v))) return false;
-    scale(direction, 1 / length);
-    return true;
+    remove_along(direction, up);
+    return make_unit(direction) > ALIKE * norm(v);
 }
 
 static void turn_to(scenery *s, const double right[3])
 {
-    copy(right, s->right, 3);
-    cross(s->up, s->right, s->away);
-    const double *const axis[] = {s->right, s->away, s->up};
+    copy(right, s->axis[RIGHT], 3);
+    cross(s->axis[UP], right, s->axis[AWAY]);
     for (int a = 0; a < 3; a++) {
         s->low[a] = INFINITY, s->high[a] = -INFINITY;
         for (size_t i = 0; i < iso_record_rows(s->rows); i++) {
-            const double x = dot(vector_at(s, i, s->place), axis[a]);
+            const double x = dot(vector_at(s, i, s->place), s->axis[a]);
             s->low[a] = fmin(s->low[a], x), s->high[a] = fmax(s->high[a], x);
         }
     }
-}
-
-/* The horizontal direction from the start to the place that is farthest from it. */
-static bool find_far(const scenery *s, double direction[3])
-{
-    double most = 0;
-    for (size_t i = 1; i < iso_record_rows(s->rows); i++) {
-        double way[3];
-        copy(vector_at(s, i, s->place), way, 3);
-        add_scaled(way, -1, vector_at(s, 0, s->place));
-        add_scaled(way, -dot(way, s->up), s->up);
-        if (norm(way) > most) most = norm(way), copy(way, direction, 3);
-    }
-    if (most > 0) scale(direction, 1 / most);
-    return most > 0;
 }
 
 static void name_views(scenery *s, bool axes)
@@ -169,8 +142,16 @@ static bool is_narrow(const scenery *s)
 static void follow_path(scenery *s)
 {
     scenery turned = *s;
-    double right[3];
-    if (!find_far(s, right)) return;
+    double right[3], most = 0;
+    for (size_t i = 1; i < iso_record_rows(s->rows); i++) { /* to the place that is farthest from the start */
+        double to[3];
+        copy(vector_at(s, i, s->place), to, 3);
+        add_scaled(to, -1, vector_at(s, 0, s->place));
+        remove_along(to, s->axis[UP]);
+        if (norm(to) > most) most = norm(to), copy(to, right, 3);
+    }
+    if (most == 0) return;
+    scale(right, 1 / most);
     turn_to(&turned, right);
     if (s->plane ? !is_narrow(&turned) : !(turned.high[0] - turned.low[0] > FLAT * (turned.high[1] - turned.low[1])))
         return;
@@ -186,19 +167,19 @@ static void follow_path(scenery *s)
 /* To the right: down the slope of a plane, along a narrow path, else along axis 1 of space, or nearest to it. */
 static void choose_directions(scenery *s, const double normal[3])
 {
-    static const double axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const double *up = s->axis[UP];
     double right[3];
-    if (s->normal && across(normal, s->up, right)) {
+    if (s->normal && across(normal, up, right)) {
         turn_to(s, right);
         name_views(s, false);
         s->right_name = "horizontal, down the slope", s->away_name = "across the slope";
         return;
     }
-    const bool upright = norm((double[]){s->up[0], s->up[1], s->up[2] - 1}) <= ALIKE;
+    const bool upright = norm((double[]){up[0], up[1], up[2] - 1}) <= ALIKE;
     if (upright)
-        copy(axis[0], right, 3);
-    else if (!across(axis[0], s->up, right))
-        across(axis[1], s->up, right);
+        copy((double[]){1, 0, 0}, right, 3);
+    else if (!across((double[]){1, 0, 0}, up, right))
+        across((double[]){0, 1, 0}, up, right);
     turn_to(s, right);
     const double rise = s->high[2] - s->low[2], width = fmax(s->high[0] - s->low[0], s->high[1] - s->low[1]);
     s->level = s->plane && (s->normal || rise <= ALIKE * width);
@@ -208,11 +189,16 @@ static void choose_directions(scenery *s, const double normal[3])
 
 /* --- tables ----------------------------------------------------------------------------------------------------- */
 
-/* Along right, away and up; the places of a narrow path are counted from its start. */
+/* The places of a narrow path are counted from its start. */
+static double origin(const scenery *s, int axis)
+{
+    return is_narrow(s) && axis != UP ? dot(vector_at(s, 0, s->place), s->axis[axis]) : 0;
+}
+
+/* Along right, away and up. */
 static void project(const scenery *s, const double place[3], double at[3])
 {
-    const double *const axis[] = {s->right, s->away, s->up}, *start = vector_at(s, 0, s->place);
-    for (int a = 0; a < 3; a++) at[a] = dot(place, axis[a]) - (is_narrow(s) && a < 2 ? dot(start, axis[a]) : 0);
+    for (int a = 0; a < 3; a++) at[a] = dot(place, s->axis[a]) - origin(s, a);
 }
 
 static iso_status add_path(iso_context *ctx, const scenery *s, const char *of, int column, iso_record *path)
@@ -240,70 +226,41 @@ static iso_status add_mark(iso_context *ctx, const scenery *s, const char *sign,
     return iso_record_add(ctx, marks, 1, numbers);
 }
 
-static iso_status add_marks(iso_context *ctx, const scenery *s, iso_record *marks)
-{
-    size_t lost[ISO_PICTURE_LOSSES];
-    const size_t last = iso_record_rows(s->rows) - 1;
-    const int losses = iso_picture_losses(s->rows, lost);
-    ISO_TRY(add_mark(ctx, s, "start", 0, marks));
-    if (losses == 0 || lost[losses - 1] != last) ISO_TRY(add_mark(ctx, s, "end", last, marks)); /* "lost" says more */
-    for (int i = 0; i < losses; i++) ISO_TRY(add_mark(ctx, s, "lost", lost[i], marks));
-    return ISO_OK;
-}
-
 /* What must fit into the views: the path, the ball, the sphere. */
 static iso_status say_extents(iso_context *ctx, const scenery *s, iso_picture *picture)
 {
-    static const char *const low[] = {"right_low", "away_low", "up_low"}, *const high[] = {"right_high", "away_high",
-                                                                                           "up_high"};
-    double start[3] = {0, 0, 0};
+    static const char *const keys[] = {"right_low right_high", "away_low away_high", "up_low up_high"};
     const double room = is_narrow(s) ? 0 : s->ball;
-    if (is_narrow(s)) {
-        start[0] = dot(vector_at(s, 0, s->place), s->right);
-        start[1] = dot(vector_at(s, 0, s->place), s->away);
-    }
     for (int a = 0; a < 3; a++) {
-        const double least = s->low[a] - start[a] - room, most = s->high[a] - start[a] + room;
-        ISO_TRY(iso_picture_count(ctx, picture, low[a], s->support > 0 ? fmin(least, -s->support) : least));
-        ISO_TRY(iso_picture_count(ctx, picture, high[a], s->support > 0 ? fmax(most, s->support) : most));
+        const double low = s->low[a] - origin(s, a) - room, high = s->high[a] - origin(s, a) + room, r = s->support;
+        ISO_TRY(iso_picture_set(ctx, picture, keys[a],
+                                (double[]){r > 0 ? fmin(low, -r) : low, r > 0 ? fmax(high, r) : high}));
     }
     return ISO_OK;
-}
-
-/* The plane, seen from the side, is a line through the first contact. */
-static void find_line(const scenery *s, double line[2])
-{
-    double contact[3], centre[3];
-    line[0] = line[1] = (double)NAN;
-    if (!s->plane || s->level || s->ball == 0) return;
-    project(s, vector_at(s, 0, s->contact), contact);
-    project(s, vector_at(s, 0, s->centre), centre);
-    line[0] = -(centre[0] - contact[0]) / (centre[2] - contact[2]);
-    line[1] = contact[2] - line[0] * contact[0];
 }
 
 static iso_status say_scenery(iso_context *ctx, const scenery *s, iso_picture *picture)
 {
-    double line[2];
     const bool dots = !s->plane && !iso_picture_joined(s->rows, s->place);
-    find_line(s, line);
     ISO_TRY(iso_picture_say(ctx, picture, "paths",
                             s->centre < 0      ? "contact"
                             : shows_contact(s) ? "centre contact"
                                                : "centre"));
-    ISO_TRY(iso_picture_say(ctx, picture, "above", s->above));
-    ISO_TRY(iso_picture_say(ctx, picture, "side", s->plane && s->level ? "" : s->side));
-    ISO_TRY(iso_picture_say(ctx, picture, "right_name", s->right_name));
-    ISO_TRY(iso_picture_say(ctx, picture, "away_name", s->away_name));
-    ISO_TRY(iso_picture_say(ctx, picture, "up_name", s->up_name));
-    ISO_TRY(iso_picture_count(ctx, picture, "dots", dots));
-    ISO_TRY(iso_picture_count(ctx, picture, "ball", s->ball));
-    ISO_TRY(iso_picture_count(ctx, picture, "support", s->support));
-    ISO_TRY(iso_picture_count(ctx, picture, "solid", is_solid(s)));
-    ISO_TRY(iso_picture_count(ctx, picture, "strip", is_narrow(s)));
-    if (isfinite(line[0])) {
-        ISO_TRY(iso_picture_count(ctx, picture, "slope", line[0]));
-        ISO_TRY(iso_picture_count(ctx, picture, "at", line[1]));
+    ISO_TRY(iso_picture_say(ctx, picture, "above", "%s", s->above));
+    ISO_TRY(iso_picture_say(ctx, picture, "side", "%s", s->plane && s->level ? "" : s->side));
+    ISO_TRY(iso_picture_say(ctx, picture, "right_name", "%s", s->right_name));
+    ISO_TRY(iso_picture_say(ctx, picture, "away_name", "%s", s->away_name));
+    ISO_TRY(iso_picture_say(ctx, picture, "up_name", "%s", s->up_name));
+    ISO_TRY(iso_picture_set(ctx, picture, "dots ball support solid strip",
+                            (double[]){dots, s->ball, s->support, is_solid(s), is_narrow(s)}));
+    if (s->plane && !s->level &&
+        s->ball > 0) { /* the plane, seen from the side, is a line through the first contact */
+        double contact[3], centre[3];
+        project(s, vector_at(s, 0, s->contact), contact);
+        project(s, vector_at(s, 0, s->centre), centre);
+        const double slope = -(centre[0] - contact[0]) / (centre[2] - contact[2]);
+        if (isfinite(slope))
+            ISO_TRY(iso_picture_set(ctx, picture, "slope at", (double[]){slope, contact[2] - slope * contact[0]}));
     }
     return say_extents(ctx, s, picture);
 }
@@ -314,18 +271,24 @@ static iso_status look_around(iso_context *ctx, const iso_record *r, const doubl
 {
     static const char *const centre[] = {"centre1", "centre2", "centre3"}, *const contact[] = {"contact1", "contact2",
                                                                                                "contact3"};
-    static const double axis_3[3] = {0, 0, 1};
     double normal[3];
-    *s = (scenery){.rows = r, .plane = plane, .vertical = up != NULL, .centre = -1, .contact = -1};
+    *s = (scenery){
+        .rows = r, .plane = plane, .vertical = up != NULL, .centre = -1, .contact = -1, .axis = {[UP] = {0, 0, 1}}};
     if (iso_record_find(r, centre[0]) >= 0) ISO_TRY(iso_picture_find(ctx, r, 3, centre, &s->centre));
     if (iso_record_find(r, contact[0]) >= 0 || s->centre < 0)
         ISO_TRY(iso_picture_find(ctx, r, 3, contact, &s->contact));
     s->place = s->centre >= 0 ? s->centre : s->contact;
     if (s->centre >= 0 && s->contact >= 0) s->ball = constant_length(s, s->centre, s->contact);
     if (!plane && s->contact >= 0) s->support = constant_length(s, s->contact, -1);
-    s->normal = find_normal(s, normal);
-    copy(up ? up : s->normal ? normal : axis_3, s->up, 3);
-    if (!(fabs(norm(s->up) - 1) <= ALIKE))
+    s->normal = plane && s->ball > 0;
+    if (s->normal) { /* on the ball's side */
+        copy(vector_at(s, 0, s->centre), normal, 3);
+        add_scaled(normal, -1, vector_at(s, 0, s->contact));
+        scale(normal, 1 / s->ball);
+        copy(normal, s->axis[UP], 3);
+    }
+    if (up) copy(up, s->axis[UP], 3);
+    if (!(fabs(norm(s->axis[UP]) - 1) <= ALIKE))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "up", "a picture of space: up is no unit vector");
     choose_directions(s, normal);
     return ISO_OK;
@@ -334,17 +297,20 @@ static iso_status look_around(iso_context *ctx, const iso_record *r, const doubl
 iso_status iso_picture_space(iso_context *ctx, const iso_record *r, const double *up, bool plane,
                              iso_picture *picture)
 {
-    static const char *const of_path[] = {"of", "right", "away", "up", "above", "side"};
-    static const char *const of_mark[] = {"sign", "right", "away", "up"};
+    const size_t last = iso_record_rows(r) - 1;
+    size_t lost[ISO_PICTURE_LOSSES];
+    const int losses = iso_picture_losses(r, lost);
     scenery s;
     iso_record *path, *marks;
     ISO_TRY(look_around(ctx, r, up, plane, &s));
     ISO_TRY(say_scenery(ctx, &s, picture));
-    ISO_TRY(iso_picture_add(ctx, picture, "path", 6, of_path, &path));
-    iso_record_set_words(path, 0, true);
+    ISO_TRY(iso_picture_add(ctx, picture, "path", "of' right away up above side", &path));
     if (s.centre >= 0) ISO_TRY(add_path(ctx, &s, "centre", s.centre, path));
     if (shows_contact(&s)) ISO_TRY(add_path(ctx, &s, "contact", s.contact, path));
-    ISO_TRY(iso_picture_add(ctx, picture, "marks", 4, of_mark, &marks));
-    iso_record_set_words(marks, 0, true);
-    return add_marks(ctx, &s, marks);
+    ISO_TRY(iso_picture_add(ctx, picture, "marks", "sign' right away up", &marks));
+    ISO_TRY(add_mark(ctx, &s, "start", 0, marks));
+    if (losses == 0 || lost[losses - 1] != last)
+        ISO_TRY(add_mark(ctx, &s, "end", last, marks)); /* "lost" says more */
+    for (int i = 0; i < losses; i++) ISO_TRY(add_mark(ctx, &s, "lost", lost[i], marks));
+    return ISO_OK;
 }

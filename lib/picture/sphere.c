@@ -57,15 +57,6 @@ static const double frame[3][3] = {{-0.42261826174069944, 0.90630778703664996, 0
                                    {-0.36862823570066146, -0.17189417172037236, 0.91354545764260087},
                                    {0.82795218756063110, 0.38608045045127610, 0.40673664307580021}};
 
-typedef struct spot {
-    double right, up, depth;
-} spot;
-
-static spot project(const double v[3])
-{
-    return (spot){dot(v, frame[0]), dot(v, frame[1]), dot(v, frame[2])};
-}
-
 void iso_picture_see(const double v[3], double seen[3])
 {
     for (int i = 0; i < 3; i++) seen[i] = dot(v, frame[i]);
@@ -73,15 +64,10 @@ void iso_picture_see(const double v[3], double seen[3])
 
 /* --- paths ------------------------------------------------------------------------------------------------------ */
 
-static double step_length(const iso_record *r, int column, size_t i)
-{
-    return angle_between(iso_picture_row(r, i - 1) + column, iso_picture_row(r, i) + column);
-}
-
 bool iso_picture_joined(const iso_record *r, int column)
 {
     for (size_t i = 1; i < iso_picture_drawn(r); i++)
-        if (step_length(r, column, i) > JOINED) return false;
+        if (angle_between(iso_picture_row(r, i - 1) + column, iso_picture_row(r, i) + column) > JOINED) return false;
     return true;
 }
 
@@ -89,105 +75,103 @@ bool iso_picture_joined(const iso_record *r, int column)
 static iso_status add_arc(iso_context *ctx, iso_record *path, const double a[3], const double b[3], int *side)
 {
     const int pieces = 1 + (int)(angle_between(a, b) / ARC);
-    spot from = project(a);
+    double from[3], to[3];
+    iso_picture_see(a, from);
     for (int i = 1; i <= pieces; i++) {
         const double part = (double)i / pieces;
         double v[3];
         for (int j = 0; j < 3; j++) v[j] = (1 - part) * a[j] + part * b[j];
         make_unit(v);
-        const spot to = project(v);
-        const int now = from.depth + to.depth > 0;
-        if (now != *side) ISO_TRY(iso_record_add(ctx, path, 1, (double[]){from.right, from.up, now}));
-        ISO_TRY(iso_record_add(ctx, path, 1, (double[]){to.right, to.up, now}));
-        *side = now, from = to;
+        iso_picture_see(v, to);
+        const int now = from[2] + to[2] > 0;
+        if (now != *side) ISO_TRY(iso_record_add(ctx, path, 1, (double[]){from[0], from[1], now}));
+        ISO_TRY(iso_record_add(ctx, path, 1, (double[]){to[0], to[1], now}));
+        *side = now;
+        copy(to, from, 3);
     }
     return ISO_OK;
 }
 
 static iso_status add_end(iso_context *ctx, iso_record *ends, const char *of, const char *sign, const double v[3])
 {
-    const spot s = project(v);
-    double row[] = {0, 0, s.right, s.up, s.depth > 0};
+    double row[5];
+    iso_picture_see(v, row + 2);
+    row[4] = row[4] > 0;
     ISO_TRY(iso_record_intern(ctx, ends, of, &row[0]));
     ISO_TRY(iso_record_intern(ctx, ends, sign, &row[1]));
     return iso_record_add(ctx, ends, 1, row);
 }
 
-static iso_status add_ends(iso_context *ctx, iso_picture *picture, const char *name, const double a[3],
-                           const double b[3])
-{
-    static const char *const names[] = {"of", "sign", "right", "up", "near"};
-    iso_record *ends = iso_picture_table(picture, "ends");
-    if (!ends) {
-        ISO_TRY(iso_picture_add(ctx, picture, "ends", 5, names, &ends));
-        for (size_t c = 0; c < 2; c++) iso_record_set_words(ends, c, true);
-    }
-    ISO_TRY(add_end(ctx, ends, name, "start", a));
-    return add_end(ctx, ends, name, "end", b);
-}
-
 iso_status iso_picture_path(iso_context *ctx, iso_picture *picture, const char *name, const iso_record *r, int column)
 {
-    static const char *const names[] = {"right", "up", "near"};
     const size_t rows = iso_picture_drawn(r);
     const bool joined = rows > 1 && iso_picture_joined(r, column);
-    char key[64];
-    double length = 0;
+    char keys[64];
+    double length = 0, seen[3];
     int side = -1;
-    iso_record *path;
-    ISO_TRY(iso_picture_add(ctx, picture, name, 3, names, &path));
+    iso_record *path, *ends = iso_picture_table(picture, "ends");
+    ISO_TRY(iso_picture_add(ctx, picture, name, "right up near", &path));
     for (size_t i = 0; i < rows; i++) {
-        const double *v = iso_picture_row(r, i) + column;
-        const spot s = project(v);
-        if (!joined) ISO_TRY(iso_record_add(ctx, path, 1, (double[]){s.right, s.up, s.depth > 0}));
+        const double *v = iso_picture_row(r, i) + column, *before = i > 0 ? iso_picture_row(r, i - 1) + column : v;
+        iso_picture_see(v, seen);
+        if (!joined) ISO_TRY(iso_record_add(ctx, path, 1, (double[]){seen[0], seen[1], seen[2] > 0}));
         if (!joined || i == 0) continue;
-        length += step_length(r, column, i);
-        ISO_TRY(add_arc(ctx, path, iso_picture_row(r, i - 1) + column, v, &side));
+        length += angle_between(before, v);
+        ISO_TRY(add_arc(ctx, path, before, v, &side));
     }
-    snprintf(key, sizeof key, "%s_length", name);
-    ISO_TRY(iso_picture_count(ctx, picture, key, length));
-    snprintf(key, sizeof key, "%s_rows", name);
-    ISO_TRY(iso_picture_count(ctx, picture, key, (double)rows));
-    return add_ends(ctx, picture, name, iso_picture_row(r, 0) + column, iso_picture_row(r, rows - 1) + column);
+    snprintf(keys, sizeof keys, "%s_length %s_rows", name, name);
+    ISO_TRY(iso_picture_set(ctx, picture, keys, (double[]){length, (double)rows}));
+    if (!ends) ISO_TRY(iso_picture_add(ctx, picture, "ends", "of' sign' right up near", &ends));
+    ISO_TRY(add_end(ctx, ends, name, "start", iso_picture_row(r, 0) + column));
+    return add_end(ctx, ends, name, "end", iso_picture_row(r, rows - 1) + column);
 }
 
 /* --- axes ------------------------------------------------------------------------------------------------------- */
 
 /* Where the number of an axis stands: behind its end at (x, y), or beside it where the path would cover it. */
-static spot place_of_number(const iso_record *r, int column, size_t step, double x, double y)
+static void place_number(const iso_record *r, int column, size_t step, double x, double y, double place[2])
 {
     static const double beside[] = {0, 0.13, -0.13, 0.22, -0.22};
     const double length = fmax(hypot(x, y), 1e-9);
-    spot best = {x, y, 0};
-    for (int i = 0; i < 5 && best.depth <= 0.14; i++) {
-        const spot to = {x - beside[i] * y / length, y + beside[i] * x / length, 0};
+    double best = 0, seen[3];
+    place[0] = x, place[1] = y;
+    for (int i = 0; i < 5 && best <= 0.14; i++) {
+        const double right = x - beside[i] * y / length, up = y + beside[i] * x / length;
         double room = INFINITY;
         for (size_t j = 0; j < iso_record_rows(r); j += step) {
-            const spot s = project(iso_record_const_row(r, j) + column);
-            room = fmin(room, hypot(s.right - to.right, s.up - to.up));
+            iso_picture_see(iso_record_const_row(r, j) + column, seen);
+            room = fmin(room, hypot(seen[0] - right, seen[1] - up));
         }
-        if (room > best.depth + 1e-9) best = (spot){to.right, to.up, room};
+        if (room > best + 1e-9) best = room, place[0] = right, place[1] = up;
     }
-    return best;
 }
 
 iso_status iso_picture_axes(iso_context *ctx, iso_picture *picture, const char *name, const iso_record *r, int column,
                             size_t step)
 {
-    static const char *const names[] = {"of",     "right",  "up",           "tip_right",
-                                        "tip_up", "number", "number_right", "number_up"};
     iso_record *axes = iso_picture_table(picture, "axes");
-    if (!axes) {
-        ISO_TRY(iso_picture_add(ctx, picture, "axes", 8, names, &axes));
-        iso_record_set_words(axes, 0, true);
-    }
+    if (!axes)
+        ISO_TRY(iso_picture_add(ctx, picture, "axes", "of' right up tip_right tip_up number number_right number_up",
+                                &axes));
     for (int axis = 0; axis < 3; axis++) {
-        const spot s = project((double[]){axis == 0, axis == 1, axis == 2});
-        const double size = fmax(hypot(s.right, s.up), 0.5), end = 1 + 0.14 / size, label = end + 0.07 / size;
-        const spot number = place_of_number(r, column, step, s.right * label, s.up * label);
-        double row[] = {0, s.right, s.up, s.right * end, s.up * end, axis + 1, number.right, number.up};
+        double s[3];
+        iso_picture_see((double[]){axis == 0, axis == 1, axis == 2}, s);
+        const double size = fmax(hypot(s[0], s[1]), 0.5), end = 1 + 0.14 / size, label = end + 0.07 / size;
+        double row[] = {0, s[0], s[1], s[0] * end, s[1] * end, axis + 1, 0, 0};
+        place_number(r, column, step, s[0] * label, s[1] * label, row + 6);
         ISO_TRY(iso_record_intern(ctx, axes, name, &row[0]));
         ISO_TRY(iso_record_add(ctx, axes, 1, row));
     }
     return ISO_OK;
+}
+
+const char *const iso_picture_n[3] = {"n1", "n2", "n3"}, *const iso_picture_gamma[3] = {"gamma1", "gamma2", "gamma3"};
+
+iso_status iso_picture_sphere(iso_context *ctx, iso_picture *picture, const char *name, const iso_record *r,
+                              const char *const columns[3])
+{
+    int first;
+    ISO_TRY(iso_picture_find(ctx, r, 3, columns, &first));
+    ISO_TRY(iso_picture_path(ctx, picture, name, r, first));
+    return iso_picture_axes(ctx, picture, name, r, first, 1 + iso_record_rows(r) / 400);
 }

@@ -11,9 +11,14 @@
 
 #define KNOWN 10 /* errors from which on m has a sign */
 
-static iso_status add_rows(iso_context *ctx, const iso_record *r, const char *over, iso_record *rows)
+static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
 {
-    for (size_t i = 0; i < iso_record_rows(r); i++) {
+    const iso_record *r = q->table[0], *curve = iso_picture_given(q, "separatrix");
+    const bool several = iso_record_rows(r) > 1, sizes = several || !curve;
+    const char *over = several && iso_picture_number(r, 0, "k") == iso_picture_number(r, 1, "k") ? "level" : "k";
+    iso_record *rows, *copy;
+    ISO_TRY(iso_picture_add(ctx, picture, "rows", "over size low high sign", &rows));
+    for (size_t i = 0; sizes && i < iso_record_rows(r); i++) {
         const double at = iso_picture_number(r, i, over), m = iso_picture_number(r, i, "m"), size = fabs(m),
                      error = iso_picture_number(r, i, "error");
         const int sign = size < KNOWN * error ? 0 : m > 0 ? 1 : -1;
@@ -21,25 +26,13 @@ static iso_status add_rows(iso_context *ctx, const iso_record *r, const char *ov
         ISO_TRY(iso_record_add(ctx, rows, 1,
                                (double[]){at, sign ? size : size + error, size - error, size + error, sign}));
     }
-    return ISO_OK;
-}
-
-static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
-{
-    static const char *const names[] = {"over", "size", "low", "high", "sign"};
-    const iso_record *r = q->table[0], *curve = iso_picture_given(q, "separatrix");
-    const bool several = iso_record_rows(r) > 1;
-    const bool level = several && iso_picture_number(r, 0, "k") == iso_picture_number(r, 1, "k");
-    iso_record *rows, *copy;
-    ISO_TRY(iso_picture_add(ctx, picture, "rows", 5, names, &rows));
-    if (several || !curve) ISO_TRY(add_rows(ctx, r, level ? "level" : "k", rows));
-    ISO_TRY(iso_picture_say(ctx, picture, "over", level ? "level" : "k"));
-    ISO_TRY(iso_picture_count(ctx, picture, "sizes", several || !curve));
-    ISO_TRY(iso_picture_count(ctx, picture, "curves", curve != NULL));
-    ISO_TRY(iso_picture_add(ctx, picture, "curve", 2, (const char *const[]){"u", "x"}, &copy));
+    ISO_TRY(iso_picture_say(ctx, picture, "over", "%s", over));
+    ISO_TRY(iso_picture_set(ctx, picture, "sizes curves", (double[]){sizes, curve != NULL}));
+    ISO_TRY(iso_picture_add(ctx, picture, "curve", "u x", &copy));
     if (!curve) return ISO_OK;
-    ISO_TRY(iso_picture_say(ctx, picture, "at", iso_record_get(curve, "at")));
-    ISO_TRY(iso_picture_count(ctx, picture, "axis", iso_picture_axis(curve) + 1));
+    const char *at = iso_record_get(curve, "at");
+    ISO_TRY(iso_picture_say(ctx, picture, "at", "%s", at ? at : ""));
+    ISO_TRY(iso_picture_set(ctx, picture, "axis", (double[]){iso_picture_axis(curve) + 1}));
     int u;
     ISO_TRY(iso_picture_find(ctx, curve, 2, (const char *const[]){"u", "x"}, &u));
     for (size_t i = 0; i < iso_record_rows(curve); i++)

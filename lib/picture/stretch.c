@@ -1,10 +1,9 @@
-/* stretch.c - the first turns of an orbit, see stretch_impl.h. */
-#include "picture/stretch_impl.h"
-
-#include "base/pi_impl.h"
+/* stretch.c - the first turns of an orbit (see picture_impl.h). */
+#include "base/math_impl.h"
 #include "base/vec3_impl.h"
 #include "model/effects/effects_impl.h"
 #include "orbit/orbit_impl.h"
+#include "picture/picture_impl.h"
 
 #define NEAR 0.03 /* radians between neighbours on a curve, about          */
 #define FAR 0.06  /* farther ones are not taken: the step is divided by 4  */
@@ -43,31 +42,21 @@ static iso_status find(const pair *p, double t, double row[COLUMNS])
 static iso_status follow(const pair *p, double *end, iso_record *curve)
 {
     const double whole = *end, length = 2 * ISO_PI * ISO_STRETCH_TURNS;
-    double last[COLUMNS], next[COLUMNS], step = FIRST * whole, way = 0;
+    double last[COLUMNS], next[COLUMNS], step = FIRST * whole, moved = 0;
     ISO_TRY(find(p, 0, last));
     ISO_TRY(iso_record_add(p->ctx, curve, 1, last));
-    while (fabs(last[T]) < fabs(whole) && way < length && iso_record_rows(curve) < MOST) {
+    while (fabs(last[T]) < fabs(whole) && moved < length && iso_record_rows(curve) < MOST) {
         const double t = fabs(last[T] + step) < fabs(whole) ? last[T] + step : whole;
         ISO_TRY(find(p, t, next));
         const double turned = angle_between(last + N, next + N);
-        const double moved = fmax(turned, angle_between(last + GAMMA, next + GAMMA));
-        step *= fmin(fmax(NEAR / moved, 0.25), 4);
-        if (moved > FAR) continue;
-        way += turned;
+        const double most = fmax(turned, angle_between(last + GAMMA, next + GAMMA));
+        step *= fmin(fmax(NEAR / most, 0.25), 4);
+        if (most > FAR) continue;
+        moved += turned;
         ISO_TRY(iso_record_add(p->ctx, curve, 1, next));
         for (int i = 0; i < COLUMNS; i++) last[i] = next[i];
     }
     *end = last[T];
-    return ISO_OK;
-}
-
-static iso_status add_states(const pair *p, double end, iso_record *states)
-{
-    double row[COLUMNS];
-    for (int i = 0; i < ISO_STRETCH_STATES; i++) {
-        ISO_TRY(find(p, end * i / (ISO_STRETCH_STATES - 1), row));
-        ISO_TRY(iso_record_add(p->ctx, states, 1, row));
-    }
     return ISO_OK;
 }
 
@@ -95,7 +84,11 @@ iso_status iso_picture_stretch(iso_context *ctx, const iso_scene *scene, double 
     if (status == ISO_OK) status = open_one(ctx, scene, ISO_BACKEND_BALL, &p.ball);
     if (status == ISO_OK) status = open_one(ctx, scene, ISO_BACKEND_POINT, &p.point);
     if (status == ISO_OK) status = follow(&p, &end, *curve);
-    if (status == ISO_OK) status = add_states(&p, end, *states);
+    for (int i = 0; status == ISO_OK && i < ISO_STRETCH_STATES; i++) {
+        double row[COLUMNS];
+        status = find(&p, end * i / (ISO_STRETCH_STATES - 1), row);
+        if (status == ISO_OK) status = iso_record_add(ctx, *states, 1, row);
+    }
     iso_orbit_free(p.ball);
     iso_orbit_free(p.point);
     return status;

@@ -12,21 +12,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "picture/maps_impl.h"
 
 enum { SUGGESTED = 64, NAME = ISO_SWEPT_NAME };
 
-static double at(const iso_record *r, size_t row, int column)
-{
-    return iso_record_const_row(r, row)[column];
-}
-
 /* --- the columns ------------------------------------------------------------------------------------------------ */
 
-/* A column, in words, and those of its error. */
+/* A column, what it is, and those of its error. */
 static const struct {
-    const char *value, *words, *low, *high; /* low NULL: high is an error +- */
+    const char *value, *text, *low, *high; /* low NULL: high is an error +- */
 } known[] = {{"chaos_share", "chaotic share of the section", "chaos_share_low", "chaos_share_high"},
              {"splitting_m", "slope m of the splitting", NULL, "splitting_error"},
              {"splitting_x", "place x of the splitting", NULL, "splitting_x_error"},
@@ -40,15 +35,15 @@ static const struct {
              {"contact_time", "time at which contact is lost", NULL, NULL}};
 enum { KNOWN = sizeof known / sizeof *known };
 
-/* What varies, in words, where its name does not say it. */
+/* What varies, where its name does not say it. */
 const char *iso_swept_axis(const iso_swept *s, int column)
 {
-    static const char *const words[][2] = {{"level", "level H of the point, in ε J₂^(−1/k)"},
+    static const char *const texts[][2] = {{"level", "level H of the point, in ε J₂^(−1/k)"},
                                            {"l", "place l of the start on the section, in rad"},
                                            {"x", "place x of the start on the section"}};
     const char *name = iso_record_name(s->r, (size_t)column);
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strcmp(words[i][0], name) == 0) return words[i][1];
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        if (strcmp(texts[i][0], name) == 0) return texts[i][1];
     return iso_picture_symbol(name);
 }
 
@@ -77,34 +72,19 @@ static bool varies(const iso_swept *s, int column)
     return group_of(s, column, group, name) && strcmp(group, "vary") == 0;
 }
 
-static iso_status no_such_column(iso_context *ctx, const char *wanted, const iso_swept *s)
-{
-    char suggested[ISO_SUGGEST_SIZE], unused[2][NAME];
-    const char *names[SUGGESTED];
-    size_t count = 0;
-    for (size_t c = 1; c < iso_record_columns(s->r) && count < SUGGESTED; c++)
-        if (group_of(s, (int)c, unused[0], unused[1])) names[count++] = iso_record_name(s->r, c);
-    return ISO_FAIL_INPUT(ctx, "value", "--value %s: there is no such column; %s", wanted,
-                          iso_suggest(suggested, wanted, count, names));
-}
-
-/* Says what the value is, and which columns are its error. */
-static void describe_value(iso_swept *s, const char *group, const char *name)
-{
-    snprintf(s->words, sizeof s->words, "%.60s: %.60s", group, iso_picture_symbol(name));
-    s->low = s->high = -1;
-    for (size_t i = 0; i < KNOWN; i++) {
-        if (find(s, known[i].value) != s->value) continue;
-        snprintf(s->words, sizeof s->words, "%s", known[i].words);
-        s->low = find(s, known[i].low), s->high = find(s, known[i].high);
-    }
-}
-
+/* The column that is wanted, else the first that is known, else the last that was measured; what it is, and which
+ * columns are its error. */
 static iso_status choose_value(iso_context *ctx, const char *wanted, iso_swept *s)
 {
-    char group[NAME], name[NAME];
+    char group[NAME], name[NAME], suggested[ISO_SUGGEST_SIZE];
+    const char *names[SUGGESTED];
+    size_t count = 0;
     s->value = find(s, wanted);
-    if (wanted && !group_of(s, s->value, group, name)) return no_such_column(ctx, wanted, s);
+    for (int c = 1; c < (int)iso_record_columns(s->r) && count < SUGGESTED; c++)
+        if (group_of(s, c, group, name)) names[count++] = iso_record_name(s->r, (size_t)c);
+    if (wanted && !group_of(s, s->value, group, name))
+        return ISO_FAIL_INPUT(ctx, "value", "--value %s: there is no such column; %s", wanted,
+                              iso_suggest(suggested, wanted, count, names));
     for (size_t i = 0; i < KNOWN && s->value < 0; i++) s->value = find(s, known[i].value);
     for (int c = 0; c < (int)iso_record_columns(s->r) && s->value < 0; c++) {
         if (!group_of(s, c, group, name)) continue;
@@ -114,7 +94,13 @@ static iso_status choose_value(iso_context *ctx, const char *wanted, iso_swept *
     if (s->value < 0) return ISO_FAIL_INPUT(ctx, "value", "nothing was measured");
     if (varies(s, s->value))
         return ISO_FAIL_INPUT(ctx, "value", "--value %s: it varies: name one that was measured", wanted);
-    if (group_of(s, s->value, group, name)) describe_value(s, group, name);
+    if (group_of(s, s->value, group, name))
+        snprintf(s->text, sizeof s->text, "%.60s: %.60s", group, iso_picture_symbol(name));
+    for (size_t i = 0; i < KNOWN; i++) {
+        if (find(s, known[i].value) != s->value) continue;
+        snprintf(s->text, sizeof s->text, "%s", known[i].text);
+        s->low = find(s, known[i].low), s->high = find(s, known[i].high);
+    }
     return ISO_OK;
 }
 
@@ -123,7 +109,7 @@ static void find_axes(iso_swept *s)
     for (int c = 0; c < (int)iso_record_columns(s->r) && s->axes < ISO_SWEPT_AXES; c++) {
         bool differs = false;
         for (size_t i = 1, vary = varies(s, c); vary && i < iso_record_rows(s->r) && !differs; i++)
-            differs = at(s->r, i, c) != at(s->r, 0, c);
+            differs = iso_picture_at(s->r, i, c) != iso_picture_at(s->r, 0, c);
         if (differs) s->axis[s->axes++] = c;
     }
 }
@@ -133,28 +119,23 @@ static void find_axes(iso_swept *s)
 /* k = 1 and k = -1, if they are on this axis. */
 iso_status iso_swept_marks(iso_context *ctx, const iso_picture_scale *scale, int axis, iso_record *marks)
 {
-    const size_t count = iso_record_rows(scale->at);
-    for (int k = -1; k <= 1 && scale->k && count > 0; k += 2)
-        if (k >= iso_picture_scale_at(scale, 0) && k <= iso_picture_scale_at(scale, count - 1))
+    for (int k = -1; k <= 1 && scale->k && scale->count > 0; k += 2)
+        if (k >= scale->at[0] && k <= scale->at[scale->count - 1])
             ISO_TRY(iso_record_add(ctx, marks, 1, (double[]){axis, k}));
     return ISO_OK;
 }
 
 iso_status iso_swept_say_value(iso_context *ctx, iso_picture *picture, const iso_swept *s, bool sizes)
 {
-    char size[2 * NAME + 2];
-    snprintf(size, sizeof size, sizes ? "|%s|" : "%s", s->words);
-    ISO_TRY(iso_picture_count(ctx, picture, "sizes", sizes));
-    return iso_picture_say(ctx, picture, "value", size);
+    ISO_TRY(iso_picture_set(ctx, picture, "sizes", (double[]){sizes}));
+    return iso_picture_say(ctx, picture, "value", sizes ? "|%s|" : "%s", s->text);
 }
 
 iso_status iso_swept_say_title(iso_context *ctx, iso_picture *picture, const iso_swept *s, const char *of)
 {
-    char title[160];
     if (iso_record_get(s->r, "title")) return ISO_OK;
-    snprintf(title, sizeof title, "A sweep of %zu %s%s", iso_record_rows(s->r), of ? "values of " : "points",
-             of ? of : "");
-    return iso_picture_say(ctx, picture, "title", title);
+    return iso_picture_say(ctx, picture, "title", "A sweep of %zu %s%s", iso_record_rows(s->r),
+                           of ? "values of " : "points", of ? of : "");
 }
 
 /* --- one number varies ------------------------------------------------------------------------------------------ */
@@ -162,10 +143,11 @@ iso_status iso_swept_say_title(iso_context *ctx, iso_picture *picture, const iso
 /* Where it is, the value, and its band. With sizes the band may not reach 0. False: there is no value. */
 static bool find_point(const iso_swept *s, size_t i, bool sizes, double row[4])
 {
-    const double value = at(s->r, i, s->value), high = s->high < 0 ? (double)NAN : at(s->r, i, s->high);
-    row[0] = at(s->r, i, s->axis[0]), row[1] = value;
+    const double value = iso_picture_at(s->r, i, s->value),
+                 high = s->high < 0 ? (double)NAN : iso_picture_at(s->r, i, s->high);
+    row[0] = iso_picture_at(s->r, i, s->axis[0]), row[1] = value;
     row[3] = s->low < 0 ? value + high : high;
-    row[2] = s->low < 0 ? value - high : at(s->r, i, s->low);
+    row[2] = s->low < 0 ? value - high : iso_picture_at(s->r, i, s->low);
     if (sizes) {
         const double error = (row[3] - row[2]) / 2;
         row[1] = fabs(value);
@@ -176,52 +158,50 @@ static bool find_point(const iso_swept *s, size_t i, bool sizes, double row[4])
     return isfinite(value) && !(sizes && value == 0);
 }
 
-static iso_status fill_curve(iso_context *ctx, const iso_swept *s, bool sizes, bool k, iso_record *curve, bool *band)
+/* By growing numbers; *band: whether a value has one. */
+static iso_status fill_curve(iso_context *ctx, const iso_swept *s, bool sizes, bool k, iso_record *all,
+                             iso_record *curve, bool *band)
 {
     static const double gap[] = {NAN, NAN, NAN, NAN};
-    iso_record *all = NULL;
-    iso_status status = iso_record_create_like(ctx, curve, 0, NULL, &all);
-    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(s->r); i++) {
+    for (size_t i = 0; i < iso_record_rows(s->r); i++) {
         double row[4];
         if (!find_point(s, i, sizes, row)) row[1] = NAN;
-        status = iso_record_add(ctx, all, 1, row);
+        ISO_TRY(iso_record_add(ctx, all, 1, row));
     }
-    const size_t rows = status == ISO_OK ? iso_record_rows(all) : 0;
-    if (rows > 0) qsort(iso_record_row(all, 0), rows, 4 * sizeof(double), iso_picture_by_size);
-    for (size_t i = 0; status == ISO_OK && i < rows; i++) {
+    qsort(iso_record_row(all, 0), iso_record_rows(all), 4 * sizeof(double), iso_picture_by_size);
+    for (size_t i = 0; i < iso_record_rows(all); i++) {
         const double *row = iso_record_const_row(all, i);
-        if (k && i > 0 && at(all, i - 1, 0) < 0 && row[0] > 0) status = iso_record_add(ctx, curve, 1, gap);
-        if (status == ISO_OK) status = iso_record_add(ctx, curve, 1, isnan(row[1]) ? gap : row);
+        if (k && i > 0 && iso_picture_at(all, i - 1, 0) < 0 && row[0] > 0)
+            ISO_TRY(iso_record_add(ctx, curve, 1, gap));
+        ISO_TRY(iso_record_add(ctx, curve, 1, isnan(row[1]) ? gap : row));
         *band = *band || (isfinite(row[1]) && row[3] > row[2]);
     }
-    iso_record_free(all);
-    return status;
+    return ISO_OK;
 }
 
 static iso_status make_curve(iso_context *ctx, const iso_swept *s, iso_picture *picture)
 {
-    static const char *const names[] = {"at", "value", "low", "high"};
-    iso_record *curve, *marks;
+    const char *over = iso_swept_axis(s, s->axis[0]);
+    iso_record *curve, *marks, **all = iso_picture_aside(picture);
     iso_picture_spread spread;
     iso_picture_scale x;
     bool band = false;
     picture->layout = "sweep_curve";
-    ISO_TRY(iso_picture_add(ctx, picture, "curve", 4, names, &curve));
-    ISO_TRY(iso_picture_add(ctx, picture, "marks", 2, (const char *const[]){"axis", "at"}, &marks));
-    ISO_TRY(iso_picture_spread_of(ctx, s->r, s->value, &spread));
-    iso_status status = iso_picture_scale_of(ctx, s->r, s->axis[0], iso_swept_is_k(s, s->axis[0]), &x);
-    if (status == ISO_OK) status = fill_curve(ctx, s, spread.sizes, x.k, curve, &band);
-    if (status == ISO_OK) status = iso_swept_marks(ctx, &x, 1, marks);
-    if (status == ISO_OK) status = iso_picture_count(ctx, picture, "logarithmic_x", x.logarithmic);
-    iso_record_free(x.at);
-    ISO_TRY(status);
+    ISO_TRY(iso_picture_add(ctx, picture, "curve", "at value low high", &curve));
+    ISO_TRY(iso_picture_add(ctx, picture, "marks", "axis at", &marks));
+    ISO_TRY(iso_record_create_like(ctx, curve, 0, NULL, all));
+    ISO_TRY(iso_picture_spread_of(ctx, picture, s->r, s->value, &spread));
+    ISO_TRY(iso_picture_scale_of(ctx, picture, s->r, s->axis[0], iso_swept_is_k(s, s->axis[0]), &x));
+    ISO_TRY(fill_curve(ctx, s, spread.sizes, x.k, *all, curve, &band));
+    ISO_TRY(iso_swept_marks(ctx, &x, 1, marks));
+    ISO_TRY(iso_picture_set(ctx, picture, "logarithmic_x", (double[]){x.logarithmic}));
     ISO_TRY(iso_swept_say_value(ctx, picture, s, spread.sizes));
-    ISO_TRY(iso_picture_say(ctx, picture, "over", iso_swept_axis(s, s->axis[0])));
-    ISO_TRY(iso_picture_say(ctx, picture, "error",
+    ISO_TRY(iso_picture_say(ctx, picture, "over", "%s", over));
+    ISO_TRY(iso_picture_say(ctx, picture, "error", "%s",
                             !band        ? ""
                             : s->low < 0 ? "± estimated error"
                                          : "95 % confidence, undecided orbits included"));
-    return iso_swept_say_title(ctx, picture, s, iso_swept_axis(s, s->axis[0]));
+    return iso_swept_say_title(ctx, picture, s, over);
 }
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */

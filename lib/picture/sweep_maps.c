@@ -1,5 +1,5 @@
-/* sweep_maps.c - what the maps of a sweep show: which numbers are their axes, and which one tells them apart; sweep.c
- * says which tables they are. */
+/* sweep_maps.c - what the maps of a sweep show: which numbers are their axes, and which one differs between them.
+ * sweep.c says which tables they are. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,14 +8,9 @@
 
 enum { NAME = ISO_SWEPT_NAME, MAPS = 6 };
 
-static double at(const iso_record *r, size_t row, int column)
-{
-    return iso_record_const_row(r, row)[column];
-}
-
 /* --- maps ------------------------------------------------------------------------------------------------------- */
 
-/* What the axes of the maps are, and which column tells the maps apart. */
+/* What the axes of the maps are, and which column differs between them. */
 typedef struct layout {
     int x, y, panel;       /* columns of the table; panel -1: one map */
     bool ratios, triangle; /* x and y come from J: J1/J3 and J2/J3, or places in the triangle of J */
@@ -37,45 +32,7 @@ static void keep(const double uv[2], double xy[2])
     xy[0] = uv[0], xy[1] = uv[1];
 }
 
-/* Fills x, y, u and v of a point. */
-static void place(const iso_swept *s, const layout *l, size_t row, double point[ISO_POINT_COLUMNS])
-{
-    const double *from = iso_record_const_row(s->r, row);
-    if (!l->ratios && !l->triangle) {
-        point[ISO_POINT_X] = from[l->x], point[ISO_POINT_Y] = from[l->y];
-        return;
-    }
-    const double a = from[l->J], b = from[l->J + 1], c = from[l->J + 2], sum = a + b + c;
-    const double uv[] = {(b + c / 2) / sum, c * sqrt(0.75) / sum};
-    memcpy(point + ISO_POINT_U, uv, sizeof uv);
-    point[ISO_POINT_X] = l->ratios ? a / c : uv[0];
-    point[ISO_POINT_Y] = l->ratios ? b / c : uv[1];
-}
-
-/* The three moments vary: they are one point of a triangle. */
-static bool takes_moments(const iso_swept *s, layout *l, int rest[], int *others)
-{
-    int moments = 0;
-    *others = 0;
-    for (int i = 0; i < s->axes; i++) {
-        const char *name = iso_record_name(s->r, (size_t)s->axis[i]);
-        const bool moment = name[0] == 'J' && name[1] >= '1' && name[1] <= '3' && name[2] == '\0';
-        if (moment && moments++ == 0) l->J = s->axis[i];
-        if (!moment) rest[(*others)++] = s->axis[i];
-    }
-    if (moments != 3) return false;
-    l->ratios = true;
-    for (size_t i = 0; i < iso_record_rows(s->r); i++) {
-        const double *J = iso_record_const_row(s->r, i) + l->J;
-        l->ratios = l->ratios && J[0] <= J[1] && J[1] <= J[2];
-    }
-    l->triangle = !l->ratios;
-    l->x_name = l->ratios ? "J₁/J₃" : "(J₂ + J₃/2)/(J₁ + J₂ + J₃)";
-    l->y_name = l->ratios ? "J₂/J₃" : "(√3/2) J₃/(J₁ + J₂ + J₃)";
-    return true;
-}
-
-/* The place of a number in a list, at whose end it is put; -1: the list is full. */
+/* The place of a number in a list, to which it is added; -1: the list is full. */
 static int place_in(double list[MAPS], int *count, double x)
 {
     int i = 0;
@@ -86,124 +43,124 @@ static int place_in(double list[MAPS], int *count, double x)
     return i;
 }
 
-/* Of three numbers that vary the one with the fewest values tells the maps apart. */
-static void take_columns(const iso_swept *s, layout *l)
-{
-    int panel = -1, fewest = MAPS + 2, rest[3], others = 0;
-    for (int i = 0; i < s->axes && s->axes == 3; i++) {
-        double seen[MAPS];
-        int values = 0;
-        for (size_t row = 0; values <= MAPS && row < iso_record_rows(s->r); row++)
-            if (place_in(seen, &values, at(s->r, row, s->axis[i])) < 0) values = MAPS + 1;
-        if (values < fewest) fewest = values, panel = i;
-    }
-    for (int i = 0; i < s->axes; i++)
-        if (i != panel) rest[others++] = s->axis[i];
-    if (panel >= 0) l->panel = s->axis[panel];
-    l->x = rest[0];
-    l->y = rest[1];
-    l->x_name = iso_swept_axis(s, l->x);
-    l->y_name = iso_swept_axis(s, l->y);
-}
-
+/* The three moments are one point of a triangle. Of three other numbers that vary the one with the fewest values is
+ * that of the maps. */
 static iso_status choose_layout(iso_context *ctx, const iso_swept *s, layout *l)
 {
-    int rest[ISO_SWEPT_AXES], others;
-    const bool moments = takes_moments(s, l, rest, &others);
-    const int left = moments ? others : s->axes - 2;
+    int rest[ISO_SWEPT_AXES], others = 0, moments = 0, fewest = MAPS + 2;
+    for (int i = 0; i < s->axes; i++) {
+        const char *name = iso_record_name(s->r, (size_t)s->axis[i]);
+        const bool moment = name[0] == 'J' && name[1] >= '1' && name[1] <= '3' && name[2] == '\0';
+        if (moment && moments++ == 0) l->J = s->axis[i];
+        if (!moment) rest[others++] = s->axis[i];
+    }
+    const bool triangle = moments == 3;
+    const int left = triangle ? others : s->axes - 2;
     if (left < 0 || left > 1)
         return ISO_FAIL_INPUT(ctx, "", "%d numbers vary: a picture shows one, two, or three (J counts as two)",
                               s->axes);
-    if (!moments) take_columns(s, l);
-    if (moments && left == 1) l->panel = rest[0];
+    if (triangle) {
+        if (left == 1) l->panel = rest[0];
+        l->ratios = true;
+        for (size_t i = 0; i < iso_record_rows(s->r); i++) {
+            const double *J = iso_record_const_row(s->r, i) + l->J;
+            l->ratios = l->ratios && J[0] <= J[1] && J[1] <= J[2];
+        }
+        l->triangle = !l->ratios;
+        l->x_name = l->ratios ? "J₁/J₃" : "(J₂ + J₃/2)/(J₁ + J₂ + J₃)";
+        l->y_name = l->ratios ? "J₂/J₃" : "(√3/2) J₃/(J₁ + J₂ + J₃)";
+        return ISO_OK;
+    }
+    for (int i = 0; i < s->axes && left == 1; i++) {
+        double seen[MAPS];
+        int values = 0;
+        for (size_t row = 0; values <= MAPS && row < iso_record_rows(s->r); row++)
+            if (place_in(seen, &values, iso_picture_at(s->r, row, s->axis[i])) < 0) values = MAPS + 1;
+        if (values < fewest) fewest = values, l->panel = s->axis[i];
+    }
+    l->x = s->axis[0] == l->panel ? s->axis[1] : s->axis[0];
+    l->y = s->axis[s->axes - 1] == l->panel ? s->axis[s->axes - 2] : s->axis[s->axes - 1];
+    l->x_name = iso_swept_axis(s, l->x);
+    l->y_name = iso_swept_axis(s, l->y);
     return ISO_OK;
 }
 
 static iso_status collect(iso_context *ctx, const iso_swept *s, layout *l, iso_record *points)
 {
     for (size_t i = 0; i < iso_record_rows(s->r); i++) {
-        const int map = place_in(l->key, &l->maps, l->panel < 0 ? 0 : at(s->r, i, l->panel));
-        double point[ISO_POINT_COLUMNS] = {map + 1, [ISO_POINT_VALUE] = at(s->r, i, s->value)};
+        const double *from = iso_record_const_row(s->r, i);
+        const int map = place_in(l->key, &l->maps, l->panel < 0 ? 0 : from[l->panel]);
+        double x = from[l->x], y = from[l->y], u = 0, v = 0;
         if (map < 0)
             return ISO_FAIL_INPUT(ctx, "", "more than %d values of '%s': a picture has no room", MAPS,
                                   iso_swept_axis(s, l->panel));
-        place(s, l, i, point);
-        if (isfinite(point[ISO_POINT_X]) && isfinite(point[ISO_POINT_Y]))
-            ISO_TRY(iso_record_add(ctx, points, 1, point));
-    }
-    return ISO_OK;
-}
-
-static iso_status name_maps(iso_context *ctx, const iso_swept *s, const layout *l, iso_record *maps)
-{
-    char name[2 * NAME], number[ISO_FRACTION_SIZE];
-    for (int i = 0; i < l->maps; i++) {
-        double word;
-        snprintf(name, sizeof name, "%s = %s", l->panel < 0 ? "" : iso_swept_axis(s, l->panel),
-                 iso_fraction_text(number, l->key[i]));
-        ISO_TRY(iso_record_intern(ctx, maps, l->panel < 0 ? "" : name, &word));
-        ISO_TRY(iso_record_add(ctx, maps, 1, &word));
+        if (l->ratios || l->triangle) {
+            const double a = from[l->J], b = from[l->J + 1], c = from[l->J + 2], sum = a + b + c;
+            u = (b + c / 2) / sum, v = c * sqrt(0.75) / sum;
+            x = l->ratios ? a / c : u, y = l->ratios ? b / c : v;
+        }
+        if (isfinite(x) && isfinite(y))
+            ISO_TRY(iso_record_add(ctx, points, 1, (double[]){map + 1, x, y, from[s->value], u, v}));
     }
     return ISO_OK;
 }
 
 /* One scale of colours for all maps. */
-static iso_status say_colours(iso_context *ctx, iso_picture *picture, const iso_record *points, bool sizes,
+static iso_status say_colours(iso_context *ctx, iso_picture *picture, const iso_record *points,
                               const iso_picture_spread *s)
 {
-    double low = sizes ? s->least : s->low, high = sizes ? fmax(fabs(s->low), fabs(s->high)) : s->high;
+    double low = s->sizes ? s->least : s->low, high = s->sizes ? fmax(fabs(s->low), fabs(s->high)) : s->high;
     bool missing = false;
     if (!(low < high)) low = isfinite(low) ? low : 0, high = low + 1;
     for (size_t i = 0; i < iso_record_rows(points); i++) {
-        const double value = at(points, i, ISO_POINT_VALUE);
-        missing = missing || !isfinite(value) || (sizes && value == 0);
+        const double value = iso_picture_at(points, i, ISO_POINT_VALUE);
+        missing = missing || !isfinite(value) || (s->sizes && value == 0);
     }
-    ISO_TRY(iso_picture_count(ctx, picture, "low", low));
-    ISO_TRY(iso_picture_count(ctx, picture, "high", high));
-    return iso_picture_count(ctx, picture, "missing", missing);
+    return iso_picture_set(ctx, picture, "low high missing", (double[]){low, high, missing});
 }
 
-static iso_status fill_maps(iso_context *ctx, const iso_swept *s, layout *l, iso_picture_maps *m,
-                            iso_picture *picture)
+static iso_status add_names(iso_context *ctx, const iso_swept *s, const layout *l, iso_record *maps)
 {
-    iso_picture_spread spread;
-    ISO_TRY(collect(ctx, s, l, m->points));
-    m->count = l->maps;
-    m->back = l->ratios ? to_ratios : l->triangle ? keep : NULL;
-    ISO_TRY(iso_picture_scale_of(ctx, m->points, ISO_POINT_X, !m->back && iso_swept_is_k(s, l->x), &m->x));
-    ISO_TRY(iso_picture_scale_of(ctx, m->points, ISO_POINT_Y, !m->back && iso_swept_is_k(s, l->y), &m->y));
-    ISO_TRY(iso_picture_spread_of(ctx, s->r, s->value, &spread));
-    ISO_TRY(iso_picture_cells(ctx, m, spread.sizes, picture->table[0]));
-    ISO_TRY(name_maps(ctx, s, l, picture->table[1]));
-    ISO_TRY(iso_swept_marks(ctx, &m->x, 1, picture->table[2]));
-    ISO_TRY(iso_swept_marks(ctx, &m->y, 2, picture->table[2]));
-    ISO_TRY(iso_picture_count(ctx, picture, "logarithmic_x", m->x.logarithmic));
-    ISO_TRY(iso_picture_count(ctx, picture, "logarithmic_y", m->y.logarithmic));
-    ISO_TRY(iso_swept_say_value(ctx, picture, s, spread.sizes));
-    ISO_TRY(say_colours(ctx, picture, m->points, spread.sizes, &spread));
-    ISO_TRY(iso_picture_say(ctx, picture, "x", l->x_name));
-    ISO_TRY(iso_picture_say(ctx, picture, "y", l->y_name));
-    return iso_swept_say_title(ctx, picture, s, NULL);
+    char name[2 * NAME] = "", number[ISO_FRACTION_SIZE];
+    for (int i = 0; i < l->maps; i++) {
+        double word;
+        if (l->panel >= 0)
+            snprintf(name, sizeof name, "%s = %s", iso_swept_axis(s, l->panel), iso_fraction_text(number, l->key[i]));
+        ISO_TRY(iso_record_intern(ctx, maps, name, &word));
+        ISO_TRY(iso_record_add(ctx, maps, 1, &word));
+    }
+    return ISO_OK;
 }
 
 iso_status iso_swept_maps(iso_context *ctx, const iso_swept *s, iso_picture *picture)
 {
-    static const char *const names[] = {"cell", "map", "missing", "value", "x", "y"}, *const point[] = {
-                                                                                          "map",   "x", "y",
-                                                                                          "value", "u", "v"};
+    static const char *const point[] = {"map", "x", "y", "value", "u", "v"};
     layout l = {.panel = -1};
     iso_picture_maps m = {.points = NULL};
-    iso_record *table;
+    iso_picture_spread spread;
+    iso_record *cells, *maps, *marks, **points = iso_picture_aside(picture);
     picture->layout = "sweep_map";
-    ISO_TRY(iso_picture_add(ctx, picture, "cells", 6, names, &table));
-    ISO_TRY(iso_picture_add(ctx, picture, "maps", 1, (const char *const[]){"name"}, &table));
-    iso_record_set_words(table, 0, true);
-    ISO_TRY(iso_picture_add(ctx, picture, "marks", 2, (const char *const[]){"axis", "at"}, &table));
-    iso_status status = choose_layout(ctx, s, &l);
-    if (status == ISO_OK) status = iso_record_create(ctx, ISO_POINT_COLUMNS, point, &m.points);
-    if (status == ISO_OK) status = fill_maps(ctx, s, &l, &m, picture);
-    iso_record_free(m.points);
-    iso_record_free(m.x.at);
-    iso_record_free(m.y.at);
-    return status;
+    ISO_TRY(iso_picture_add(ctx, picture, "cells", "cell map missing value x y", &cells));
+    ISO_TRY(iso_picture_add(ctx, picture, "maps", "name'", &maps));
+    ISO_TRY(iso_picture_add(ctx, picture, "marks", "axis at", &marks));
+    ISO_TRY(choose_layout(ctx, s, &l));
+    ISO_TRY(iso_record_create(ctx, ISO_POINT_COLUMNS, point, points));
+    ISO_TRY(collect(ctx, s, &l, *points));
+    m.points = *points;
+    m.count = l.maps;
+    m.back = l.ratios ? to_ratios : l.triangle ? keep : NULL;
+    ISO_TRY(iso_picture_scale_of(ctx, picture, *points, ISO_POINT_X, !m.back && iso_swept_is_k(s, l.x), &m.x));
+    ISO_TRY(iso_picture_scale_of(ctx, picture, *points, ISO_POINT_Y, !m.back && iso_swept_is_k(s, l.y), &m.y));
+    ISO_TRY(iso_picture_spread_of(ctx, picture, s->r, s->value, &spread));
+    ISO_TRY(iso_picture_cells(ctx, &m, spread.sizes, cells));
+    ISO_TRY(add_names(ctx, s, &l, maps));
+    ISO_TRY(iso_swept_marks(ctx, &m.x, 1, marks));
+    ISO_TRY(iso_swept_marks(ctx, &m.y, 2, marks));
+    ISO_TRY(
+        iso_picture_set(ctx, picture, "logarithmic_x logarithmic_y", (double[]){m.x.logarithmic, m.y.logarithmic}));
+    ISO_TRY(iso_swept_say_value(ctx, picture, s, spread.sizes));
+    ISO_TRY(say_colours(ctx, picture, *points, &spread));
+    ISO_TRY(iso_picture_say(ctx, picture, "x", "%s", l.x_name));
+    ISO_TRY(iso_picture_say(ctx, picture, "y", "%s", l.y_name));
+    return iso_swept_say_title(ctx, picture, s, NULL);
 }

@@ -7,7 +7,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/number_impl.h"
-#include "base/seconds_impl.h"
+#include "base/resources_impl.h"
 #include "base/vec3_impl.h"
 #include "method/methods_impl.h"
 #include "model/model_impl.h"

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "base/number_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/crossings.h"

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "base/vec3_impl.h"
 #include "map/section.h"
 

@@ -1,5 +1,5 @@
 /* sweep.c - the rows of a sweep: columns, chunks, points, what is noted of those that fail, and all chunks on many
- * threads (see sweep.h). */
+ * threads (see sweep_impl.h). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -207,27 +207,6 @@ typedef struct work {
     iso_status status; /* the first failure */
 } work;
 
-static bool next_chunk(work *all, size_t *c)
-{
-    pthread_mutex_lock(&all->lock);
-    all->ended = all->ended || all->status != ISO_OK || !all->source->next(all->source->data, c);
-    const bool more = !all->ended;
-    pthread_mutex_unlock(&all->lock);
-    return more;
-}
-
-static void give_away(iso_pool_worker *w, work *all, size_t c, const iso_sweep_rows *rows, iso_status status)
-{
-    pthread_mutex_lock(&all->lock);
-    if (status == ISO_OK && all->status == ISO_OK)
-        all->status = all->source->take(all->source->data, all->ctx, c, rows);
-    else if (status != ISO_STOPPED && all->status == ISO_OK)
-        all->status =
-            iso_context_fail(all->ctx, status, iso_context_about(w->ctx), "%s", iso_context_message(w->ctx));
-    if (all->status != ISO_OK) atomic_store(&w->all->stopped, true);
-    pthread_mutex_unlock(&all->lock);
-}
-
 /* The source says which chunk is the next one: the pool counts how many there can be. */
 static bool solve(iso_pool_worker *w, void *data, size_t first, size_t count)
 {
@@ -236,10 +215,22 @@ static bool solve(iso_pool_worker *w, void *data, size_t first, size_t count)
     iso_sweep_rows rows;
     size_t c;
     (void)first, (void)count;
-    if (!next_chunk(all, &c)) return true;
+    pthread_mutex_lock(&all->lock);
+    all->ended = all->ended || all->status != ISO_OK || !all->source->next(all->source->data, &c);
+    const bool ended = all->ended;
+    pthread_mutex_unlock(&all->lock);
+    if (ended) return true;
     if (iso_sweep_rows_create(w->ctx, head->columns, head->chunk, &rows) != ISO_OK) return false;
-    give_away(w, all, c, &rows,
-              iso_sweep_compute_points(w->ctx, all->sweep, c * head->chunk, iso_sweep_chunk_points(head, c), &rows));
+    const iso_status status =
+        iso_sweep_compute_points(w->ctx, all->sweep, c * head->chunk, iso_sweep_chunk_points(head, c), &rows);
+    pthread_mutex_lock(&all->lock);
+    if (status == ISO_OK && all->status == ISO_OK)
+        all->status = all->source->take(all->source->data, all->ctx, c, &rows);
+    else if (status != ISO_STOPPED && all->status == ISO_OK)
+        all->status =
+            iso_context_fail(all->ctx, status, iso_context_about(w->ctx), "%s", iso_context_message(w->ctx));
+    if (all->status != ISO_OK) atomic_store(&w->all->stopped, true);
+    pthread_mutex_unlock(&all->lock);
     iso_sweep_rows_free(&rows);
     return true;
 }
@@ -248,6 +239,7 @@ iso_status iso_sweep_run(iso_context *ctx, const iso_sweep *sweep, int threads, 
 {
     ISO_DEFAULT_ARITHMETIC;
     const size_t chunks = iso_sweep_chunks(iso_sweep_head_of(sweep));
+    if (threads > ISO_MOST_THREADS) threads = ISO_MOST_THREADS;
     work all = {.ctx = iso_context_create(), .sweep = sweep, .source = source, .lock = PTHREAD_MUTEX_INITIALIZER};
     iso_pool pool = {.what = "chunk", .count = chunks, .chunk = 1, .solve = solve, .data = &all};
     iso_status status = all.ctx ? iso_pool_run(ctx, &pool, iso_pool_threads(threads, chunks, 1), NULL)

@@ -5,7 +5,7 @@
 #include "orbit/orbit_impl.h"
 #include "sweep/sweep_impl.h"
 
-/* The next of columns with blanks between: its name, and the number of the study that it is. NULL: there are no more. */
+/* The next of columns with blanks between: its name, and the number of the study that it is. NULL: no more. */
 static const char *next_column(const char *columns, char name[ISO_COLUMN_SIZE], char number[ISO_COLUMN_SIZE])
 {
     int used = 0;
@@ -75,18 +75,6 @@ static void describe(void *data, const char *name, const iso_field *field, const
     d->visit(d->data, full, field, value);
 }
 
-static void describe_quantity(described *d)
-{
-    char name[ISO_COLUMN_SIZE], number[ISO_COLUMN_SIZE];
-    const iso_field *fields = d->quantity.study->fields;
-    d->name = d->number = NULL;
-    if (!d->quantity.columns) iso_numbers_visit(fields, NULL, describe, d);
-    for (const char *c = d->quantity.columns; c && (c = next_column(c, name, number));) {
-        d->name = name, d->number = number;
-        iso_numbers_visit(fields, NULL, describe, d);
-    }
-}
-
 void iso_sweep_columns_visit(iso_column_visitor *visit, void *data)
 {
     static const iso_field of_row[] = {
@@ -96,10 +84,17 @@ void iso_sweep_columns_visit(iso_column_visitor *visit, void *data)
         ISO_FIELD_END,
     };
     described d = {.visit = visit, .data = data};
+    char name[ISO_COLUMN_SIZE], number[ISO_COLUMN_SIZE];
     iso_columns_visit(of_row, NULL, visit, data);
     for (int i = 0; iso_sweep_quantity_at(i, &d.quantity); i++) {
-        describe_quantity(&d);
-        for (int c = 0; d.quantity.add && c < iso_columns_count(); c++) {
+        const iso_sweep_quantity *q = &d.quantity;
+        d.name = d.number = NULL;
+        if (!q->columns) iso_numbers_visit(q->study->fields, NULL, describe, &d);
+        for (const char *c = q->columns; c && (c = next_column(c, name, number));) {
+            d.name = name, d.number = number;
+            iso_numbers_visit(q->study->fields, NULL, describe, &d);
+        }
+        for (int c = 0; q->add && c < iso_columns_count(); c++) {
             iso_field field = {.name = iso_column_name(c)};
             field.doc = iso_column_doc(c, &field.unit);
             describe(&d, field.name, &field, NULL);

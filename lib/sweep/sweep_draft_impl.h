@@ -46,6 +46,7 @@ typedef struct iso_sweep_axis {
     size_t offset;
     int part;     /* it sets the numbers from this one on, of one or of a vector   */
     int of;       /* ISO_TO_RATIO                                                  */
+    int moments;  /* of inertia that it sets, as bits                              */
     int chart;    /* ISO_TO_CHART: 0 l, 1 x, 2 both                                */
     size_t count; /* of values; 1 of those that are drawn                          */
     double *list; /* count * width                                                 */
@@ -57,25 +58,19 @@ typedef struct iso_sweep_axis {
 } iso_sweep_axis;
 
 struct iso_sweep_file {
-    char *text, *scene_text; /* scene_text: the same as text, or that of the scene's own file */
-    size_t length, scene_length;
-    char *name, *scene_name;
-    iso_draft draft;     /* of the scene; its yaml is read by all threads, with contexts of their own  */
-    iso_yaml yaml;       /* of the sweep                                                               */
-    bool loaded, inside; /* `yaml` is there; the scene is part of it                                    */
-    bool scene_loaded;   /* draft.yaml is there */
-    iso_scene base;      /* of the text as it is */
+    char *name, *text, *scene_name, *scene_text; /* scene_*: of the scene's own file; NULL: it is part of the sweep */
+    iso_draft draft; /* of the scene; its yaml is read by all threads, with contexts of their own */
+    iso_yaml yaml;   /* of the sweep                                                              */
+    iso_scene base;  /* of the text as it is */
     int axes;
     iso_sweep_axis axis[ISO_SWEEP_AXES];
     bool on_section;             /* l and x are among them */
     const iso_sweep_axis *level; /* NULL: it does not vary */
     size_t samples;
     bool random;
-    uint64_t seed;
     int drawn;
     uint64_t step[ISO_SWEEP_DRAWN], shift[ISO_SWEEP_DRAWN];
-    char (*column)[ISO_NAME_SIZE];
-    char *options[ISO_SWEEP_REQUESTS]; /* those of the plan's requests */
+    char (*column)[ISO_NAME_SIZE]; /* room for 9 of each axis */
     iso_sweep_plan plan;
 };
 

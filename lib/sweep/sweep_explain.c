@@ -1,4 +1,4 @@
-/* sweep_explain.c - tells how many points a sweep has, and measures what they cost here. */
+/* sweep_explain.c - says how many points a sweep has, and measures what they cost here. */
 #define _GNU_SOURCE /* asprintf */
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 #include "base/context_impl.h"
 #include "base/fold_impl.h"
 #include "base/pool_impl.h"
-#include "base/seconds_impl.h"
+#include "base/resources_impl.h"
 #include "sweep/sweep_impl.h"
 
 /* Places of the sweep at which points are computed, how many of each, and for how long at most. A chaotic share is
@@ -23,7 +23,7 @@ typedef struct cost {
 } cost;
 
 /* Every place stands for as many points of the sweep, so it counts the same, however many points were computed there.
- * A point by itself comes first: it tells whether many can be computed, and warms up. */
+ * A point by itself comes first: it shows whether many can be computed, and warms up. */
 static iso_status measure(iso_context *ctx, const iso_sweep *sweep, iso_sweep_rows *rows, double scale, cost *c)
 {
     static const int order[PLACES] = {4, 1, 6, 3, 7, 0, 5, 2}; /* if time is short, places far from each other */
@@ -63,7 +63,8 @@ static iso_status measure_quantity(iso_context *ctx, const iso_sweep_plan *plan,
     char *options = NULL;
     const char *own = plan->request[which].options, *starts = iso_sweep_option(own, "starts");
     const double scale = starts && strtod(starts, NULL) > 2 * STARTS ? strtod(starts, NULL) / STARTS : 1;
-    if (scale > 1 && asprintf(&options, "%sstarts=%d\n", own, STARTS) < 0) return iso_context_no_memory(ctx, "words");
+    if (scale > 1 && asprintf(&options, "%sstarts=%d\n", own, STARTS) < 0)
+        return iso_context_no_memory(ctx, "a sweep");
     one.requests = 1;
     one.request[0] = plan->request[which];
     if (options) one.request[0].options = options;
@@ -92,11 +93,11 @@ static const char *time_text(double seconds, char text[24])
 }
 
 /* The time first, which is what one asks for; then how it was found. */
-static void tell(FILE *to, const iso_sweep_file *file, const iso_sweep_head *head, const cost costs[])
+static void print(FILE *to, const iso_sweep_file *file, const iso_sweep_head *head, const cost costs[])
 {
     const iso_sweep_plan *plan = iso_sweep_file_plan(file);
     const size_t processors = iso_pool_threads(0, SIZE_MAX - 1, 1);
-    char words[ISO_SWEEP_WORDS], one[24], other[24];
+    char one[24], other[24];
     double mean = 0;
     for (int i = 0; i < plan->requests; i++) mean += costs[i].mean;
     const double all = mean * (double)head->count;
@@ -106,7 +107,7 @@ static void tell(FILE *to, const iso_sweep_file *file, const iso_sweep_head *hea
     fprintf(to, "  a file of about %.3g MB\n", ((double)head->columns + 0.5) * 8e-6 * (double)head->count);
     fprintf(to, "\nsweep\n  %zu points in %zu chunks of %zu; %d columns; vectors %s\n", head->count,
             iso_sweep_chunks(head), head->chunk, head->columns, head->vectors);
-    for (int i = 0; iso_sweep_axis_words(file, i, words); i++) fprintf(to, "  %s\n", words);
+    iso_sweep_print_axes(file, to);
     fprintf(to, "\nmeasured\n");
     for (int i = 0; i < plan->requests; i++) {
         const cost *c = &costs[i];
@@ -134,8 +135,8 @@ iso_status iso_sweep_explain(iso_context *ctx, const iso_sweep_file *file, char 
     for (int i = 0; i < plan->requests && status == ISO_OK; i++)
         status = measure_quantity(ctx, plan, i, head->chunk, &costs[i]);
     FILE *to = status == ISO_OK ? iso_memory_open(&memory) : NULL;
-    if (to) tell(to, file, head, costs);
-    if (status == ISO_OK && !(*text = iso_memory_close(to, &memory))) status = iso_context_no_memory(ctx, "words");
+    if (to) print(to, file, head, costs);
+    if (status == ISO_OK && !(*text = iso_memory_close(to, &memory))) status = iso_context_no_memory(ctx, "a text");
     iso_sweep_free(sweep);
     return status;
 }

@@ -23,37 +23,33 @@ static iso_status load_scene_file(iso_context *ctx, iso_sweep_file *f, const yam
 {
     const char *path = (const char *)node->data.scalar.value, *slash = strrchr(f->name, '/');
     const int folder = slash && *path != '/' ? (int)(slash - f->name) + 1 : 0; /* beside the sweep's file */
-    if (node->data.scalar.length == 0 || strcmp(path, "-") == 0)
-        return iso_yaml_expected(&f->yaml, node, "scene", "the name of a file, or a scene");
+    size_t length;
     if (asprintf(&f->scene_name, "%.*s%s", folder, f->name, path) < 0)
         return f->scene_name = NULL, iso_context_no_memory(ctx, "a sweep");
-    iso_status status = iso_text_load(ctx, f->scene_name, ISO_LARGEST_TEXT, &f->scene_text, &f->scene_length);
+    const iso_status status = iso_text_load(ctx, f->scene_name, &f->scene_text, &length);
     if (status == ISO_FILE_TROUBLE) return ISO_FAIL_AT(f, node, "%s", iso_context_message(ctx));
     if (status != ISO_OK) return status;
     f->draft = iso_draft_empty(ctx, f->scene_name);
-    status = iso_yaml_load(&f->draft.yaml, f->scene_text, f->scene_length);
-    f->scene_loaded = status == ISO_OK;
-    if (f->scene_loaded) f->draft.root = yaml_document_get_root_node(&f->draft.yaml.document);
-    return status;
+    ISO_TRY(iso_yaml_load(&f->draft.yaml, f->scene_text, length));
+    f->draft.root = yaml_document_get_root_node(&f->draft.yaml.document);
+    return ISO_OK;
 }
 
 static iso_status read_scene(iso_context *ctx, iso_sweep_file *f, const yaml_node_t *node)
 {
-    iso_status status = ISO_OK;
-    if (node->type == YAML_SCALAR_NODE) {
-        status = load_scene_file(ctx, f, node);
-    } else if (node->type == YAML_MAPPING_NODE) {
-        f->inside = true;
+    const char *path = node->type == YAML_SCALAR_NODE ? (const char *)node->data.scalar.value : "";
+    if (node->type == YAML_MAPPING_NODE) {
         f->draft = iso_draft_empty(ctx, f->name);
         f->draft.yaml = f->yaml;
         f->draft.root = node;
-    } else {
+    } else if (node->type != YAML_SCALAR_NODE || !*path || strcmp(path, "-") == 0) {
         return iso_yaml_expected(&f->yaml, node, "scene", "the name of a file, or a scene");
+    } else {
+        ISO_TRY(load_scene_file(ctx, f, node));
     }
-    if (status == ISO_OK) status = iso_draft_read_keys(&f->draft);
-    if (status != ISO_OK) return status;
+    ISO_TRY(iso_draft_read_keys(&f->draft));
     iso_draft whole = f->draft; /* the draft itself keeps its numbers as they were read */
-    status = iso_draft_make(&whole);
+    const iso_status status = iso_draft_make(&whole);
     f->base = whole.scene;
     return status;
 }
@@ -104,7 +100,8 @@ static iso_status read_option(iso_sweep_file *f, const iso_study *study, const y
 }
 
 /* Reads the options of a quantity as text for its study, which is asked whether they are right. */
-static iso_status read_options(iso_sweep_file *f, const iso_study *study, const yaml_node_t *mapping, char **text)
+static iso_status read_options(iso_sweep_file *f, const iso_study *study, const yaml_node_t *mapping,
+                               iso_sweep_request *request)
 {
     iso_memory memory;
     iso_status status = ISO_OK;
@@ -119,8 +116,8 @@ static iso_status read_options(iso_sweep_file *f, const iso_study *study, const 
             status = iso_yaml_once(&f->yaml, mapping, key, (const char *)key->data.scalar.value);
         if (status == ISO_OK) status = read_option(f, study, p, options, to);
     }
-    *text = iso_memory_close(to, &memory);
-    if (!*text || !options) status = iso_context_no_memory(f->yaml.ctx, "a sweep");
+    request->options = iso_memory_close(to, &memory);
+    if (!request->options || !options) status = iso_context_no_memory(f->yaml.ctx, "a sweep");
     free(options);
     return status;
 }
@@ -128,16 +125,16 @@ static iso_status read_options(iso_sweep_file *f, const iso_study *study, const 
 static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure)
 {
     const char *names[MOST_QUANTITIES];
+    iso_sweep_quantity q;
     size_t count = 0;
     iso_yaml *y = &f->yaml;
-    while (count < MOST_QUANTITIES && (names[count] = iso_sweep_quantity_name((int)count))) count++;
+    for (; count < MOST_QUANTITIES && iso_sweep_quantity_at((int)count, &q); count++) names[count] = q.name;
     iso_status status = iso_sweep_check_keys(y, measure, "measure", count, names);
     if (status != ISO_OK) return status;
     const yaml_node_pair_t *end = measure->data.mapping.pairs.top;
     for (const yaml_node_pair_t *p = measure->data.mapping.pairs.start; p < end && status == ISO_OK; p++) {
         const yaml_node_t *key = iso_yaml_node(y, p->key);
         iso_sweep_request *request = &f->plan.request[f->plan.requests];
-        char **options = &f->options[f->plan.requests];
         if (f->plan.requests++ == ISO_SWEEP_REQUESTS)
             return iso_yaml_fail(y, key->start_mark, "more than %d things to measure", ISO_SWEEP_REQUESTS);
         for (size_t i = 0; i < count; i++)
@@ -145,8 +142,7 @@ static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure)
         snprintf(request->place.key, sizeof request->place.key, "%s", request->name);
         request->place.line = (int)key->start_mark.line + 1;
         request->place.column = (int)key->start_mark.column + 1;
-        status = read_options(f, iso_sweep_study(request->name), iso_yaml_node(y, p->value), options);
-        request->options = *options;
+        status = read_options(f, iso_sweep_study(request->name), iso_yaml_node(y, p->value), request);
     }
     if (status == ISO_OK && f->plan.requests == 0)
         return iso_yaml_fail(y, measure->start_mark, "nothing is to be measured: write chaos: {}, for example");
@@ -155,16 +151,18 @@ static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure)
 
 /* --- for how long ----------------------------------------------------------------------------------------------- */
 
-/* What goes on to a time only cannot be told a number of turns, and the other way round. */
+/* What goes on to a time only has no number of turns, and the other way round. */
 static iso_status check_until(iso_sweep_file *f, const yaml_node_t *until)
 {
     const bool turns = !isnan(f->plan.turns);
     bool used = false;
     for (int i = 0; i < f->plan.requests; i++) {
         const char *name = f->plan.request[i].name;
-        const bool fits = iso_sweep_has_option(name, turns ? "turns" : "t-end");
-        used = used || fits;
-        if (!fits && iso_sweep_has_option(name, turns ? "t-end" : "turns"))
+        const iso_study *study = iso_sweep_study(name);
+        const bool by_turns = iso_study_option_find(study, "turns", 5),
+                   by_time = iso_study_option_find(study, "t-end", 5);
+        used = used || (turns ? by_turns : by_time);
+        if (by_turns != by_time && by_turns != turns)
             return ISO_FAIL_AT(f, until, "'%s' needs 'until: {%s: ...}'", name, turns ? "time" : "turns");
     }
     if (used) return ISO_OK;
@@ -207,26 +205,53 @@ static iso_status check_used(iso_sweep_file *f, const yaml_node_t *vary)
 
 static ISO_NAMES(kind_of_vectors, int, "avx512", "avx2", "plain")
 
-    static iso_status read_rest(iso_sweep_file *f, const yaml_node_t *root)
+    static iso_status read_root(iso_context *ctx, iso_sweep_file *f)
 {
+    static const char *const names[] = {"scene", "vary", "measure", "until", "samples", "chunk", "vectors"};
     static const iso_sweep_setting settings[] = {
         {.name = "chunk", .least = 1, .most = 4096, .whole = true},
         {.name = "vectors", .word = kind_of_vectors, .usual = NAN},
         {.name = NULL},
     };
+    const yaml_node_t *root = yaml_document_get_root_node(&f->yaml.document), *node[5] = {NULL};
     double value[2];
+    if (root->type != YAML_MAPPING_NODE)
+        return iso_yaml_expected(&f->yaml, root, "sweep", "a mapping with scene, vary and measure");
+    ISO_TRY(iso_sweep_check_keys(&f->yaml, root, "sweep", sizeof names / sizeof *names, names));
+    for (int i = 0; i < 5; i++)
+        if (!iso_yaml_find(&f->yaml, root, names[i], NULL, &node[i]) && i < 3)
+            return ISO_FAIL_AT(f, root, "missing '%s' in the sweep", names[i]);
+    ISO_TRY(read_scene(ctx, f, node[0]));
+    ISO_TRY(iso_sweep_read_vary(f, node[1], node[4]));
+    ISO_TRY(read_measure(f, node[2]));
+    if (node[3]) ISO_TRY(read_until(f, node[3]));
+    ISO_TRY(check_used(f, node[1]));
     ISO_TRY(iso_sweep_read_settings(&f->yaml, root, settings, value));
     f->plan.chunk = (size_t)value[0];
     if (!isnan(value[1])) strcpy(f->plan.vectors, kind_of_vectors((int)value[1]));
+    /* The reason of a point that fails is part of the result, whose bytes do not depend on the folder or on the path
+     * that was typed. From here on messages about the scene name it as the sweep's text does. */
+    f->draft.yaml.name = node[0]->type == YAML_MAPPING_NODE ? "<sweep>" : (const char *)node[0]->data.scalar.value;
     return ISO_OK;
 }
 
-/* The reason of a point that fails is part of the result, whose bytes do not depend on the folder or on the path that
- * was typed. From here on words about the scene name it as the sweep's text does. */
-static void finish_plan(iso_sweep_file *f, const yaml_node_t *scene)
+iso_status iso_sweep_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_sweep_file **file)
 {
+    ISO_DEFAULT_ARITHMETIC;
+    iso_sweep_file *f = *file = calloc(1, sizeof *f);
+    if (f) f->name = strdup(name);
+    if (f) f->text = malloc(length + 1);
+    iso_status status = f && f->name && f->text ? ISO_OK : iso_context_no_memory(ctx, "a sweep");
+    if (status == ISO_OK) {
+        memcpy(f->text, text, length);
+        f->text[length] = '\0';
+        f->yaml = (iso_yaml){.ctx = ctx, .name = f->name};
+        f->plan.turns = f->plan.time = NAN;
+        status = iso_yaml_load(&f->yaml, f->text, length);
+    }
+    if (status == ISO_OK) status = read_root(ctx, f);
+    if (status != ISO_OK) return iso_sweep_file_free(f), *file = NULL, status;
     iso_sweep_plan *p = &f->plan;
-    f->draft.yaml.name = f->inside ? "<sweep>" : (const char *)scene->data.scalar.value;
     iso_sweep_hash_texts(p->hash, ISO_VERSION, f->text, f->scene_text);
     p->text = f->text;
     p->scene = f->scene_text;
@@ -234,50 +259,7 @@ static void finish_plan(iso_sweep_file *f, const yaml_node_t *scene)
     p->family.scene = iso_sweep_point;
     p->family.data = f;
     p->family.base = &f->base;
-}
-
-static iso_status read_root(iso_context *ctx, iso_sweep_file *f)
-{
-    static const char *const names[] = {"scene", "vary", "measure", "until", "samples", "chunk", "vectors"};
-    const yaml_node_t *root = yaml_document_get_root_node(&f->yaml.document), *node[5] = {NULL};
-    if (root->type != YAML_MAPPING_NODE)
-        return iso_yaml_expected(&f->yaml, root, "sweep", "a mapping with scene, vary and measure");
-    iso_status status = iso_sweep_check_keys(&f->yaml, root, "sweep", sizeof names / sizeof *names, names);
-    for (int i = 0; i < 5 && status == ISO_OK; i++)
-        if (!iso_yaml_find(&f->yaml, root, names[i], NULL, &node[i]) && i < 3)
-            status = ISO_FAIL_AT(f, root, "missing '%s' in the sweep", names[i]);
-    if (status == ISO_OK) status = read_scene(ctx, f, node[0]);
-    if (status == ISO_OK) status = iso_sweep_read_vary(f, node[1], node[4]);
-    if (status == ISO_OK) status = read_measure(f, node[2]);
-    if (status == ISO_OK && node[3]) status = read_until(f, node[3]);
-    if (status == ISO_OK) status = check_used(f, node[1]);
-    if (status == ISO_OK) status = read_rest(f, root);
-    if (status == ISO_OK) finish_plan(f, node[0]);
-    return status;
-}
-
-static iso_status parse(iso_context *ctx, iso_sweep_file *f)
-{
-    f->yaml = (iso_yaml){.ctx = ctx, .name = f->name};
-    f->plan.turns = f->plan.time = NAN;
-    iso_status status = iso_yaml_load(&f->yaml, f->text, f->length);
-    f->loaded = status == ISO_OK;
-    return status == ISO_OK ? read_root(ctx, f) : status;
-}
-
-iso_status iso_sweep_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_sweep_file **file)
-{
-    ISO_DEFAULT_ARITHMETIC;
-    *file = NULL;
-    iso_sweep_file *f = calloc(1, sizeof *f);
-    if (f) f->name = strdup(name);
-    if (f) f->text = malloc(length + 1);
-    const bool memory = f && f->name && f->text;
-    if (memory) memcpy(f->text, text, length), f->text[f->length = length] = '\0';
-    const iso_status status = memory ? parse(ctx, f) : iso_context_no_memory(ctx, "a sweep");
-    if (status != ISO_OK) iso_sweep_file_free(f), f = NULL;
-    *file = f;
-    return status;
+    return ISO_OK;
 }
 
 iso_status iso_sweep_read(iso_context *ctx, const char *path, iso_sweep_file **file)
@@ -285,8 +267,8 @@ iso_status iso_sweep_read(iso_context *ctx, const char *path, iso_sweep_file **f
     char *text;
     size_t length;
     *file = NULL;
-    ISO_TRY(iso_text_load(ctx, path, ISO_LARGEST_TEXT, &text, &length));
-    iso_status status = iso_sweep_parse(ctx, iso_text_name(path), text, length, file);
+    ISO_TRY(iso_text_load(ctx, path, &text, &length));
+    const iso_status status = iso_sweep_parse(ctx, iso_text_name(path), text, length, file);
     free(text);
     return status;
 }
@@ -294,10 +276,10 @@ iso_status iso_sweep_read(iso_context *ctx, const char *path, iso_sweep_file **f
 void iso_sweep_file_free(iso_sweep_file *f)
 {
     if (!f) return;
-    if (f->scene_loaded) iso_yaml_free(&f->draft.yaml);
-    if (f->loaded) iso_yaml_free(&f->yaml);
+    if (f->scene_name) iso_yaml_free(&f->draft.yaml); /* else it is that of the sweep */
+    iso_yaml_free(&f->yaml);
     for (int i = 0; i < f->axes; i++) free(f->axis[i].list);
-    for (int i = 0; i < ISO_SWEEP_REQUESTS; i++) free(f->options[i]);
+    for (int i = 0; i < ISO_SWEEP_REQUESTS; i++) free((void *)f->plan.request[i].options);
     free(f->column);
     free(f->text);
     free(f->scene_text);
@@ -311,24 +293,23 @@ const iso_sweep_plan *iso_sweep_file_plan(const iso_sweep_file *f)
     return &f->plan;
 }
 
-bool iso_sweep_axis_words(const iso_sweep_file *f, int i, char words[ISO_SWEEP_WORDS])
+void iso_sweep_print_axes(const iso_sweep_file *f, FILE *to)
 {
-    if (i >= f->axes) return false;
-    const iso_sweep_axis *a = &f->axis[i];
-    const char *drawn = a->values != ISO_FROM_DRAWING ? "" : f->random ? " drawn at random" : " drawn evenly";
-    const size_t count = *drawn ? f->samples : a->count;
-    int used = snprintf(words, ISO_SWEEP_WORDS, "%s: %zu ", a->name, count);
-    switch (a->values) {
-    case ISO_FROM_LIST: snprintf(words + used, 8, count == 1 ? "value" : "values"); break;
-    case ISO_FROM_RANGE:
-    case ISO_FROM_DRAWING:
-        snprintf(words + used, 90, "values%s from %s to %s%s", drawn, ISO_SHORT(a->from), ISO_SHORT(a->to),
-                 a->logarithmic ? ", logarithmic" : "");
-        break;
-    case ISO_FROM_TRIANGLE: strcpy(words + used, "values of a triangle"); break;
-    case ISO_FROM_SPREAD: strcpy(words + used, "starts spread over the section"); break;
+    for (const iso_sweep_axis *a = f->axis; a < f->axis + f->axes; a++) {
+        const char *drawn = a->values != ISO_FROM_DRAWING ? "" : f->random ? " drawn at random" : " drawn evenly";
+        fprintf(to, "  %s: %zu ", a->name, *drawn ? f->samples : a->count);
+        switch (a->values) {
+        case ISO_FROM_LIST: fputs(a->count == 1 ? "value" : "values", to); break;
+        case ISO_FROM_RANGE:
+        case ISO_FROM_DRAWING:
+            fprintf(to, "values%s from %s to %s%s", drawn, ISO_SHORT(a->from), ISO_SHORT(a->to),
+                    a->logarithmic ? ", logarithmic" : "");
+            break;
+        case ISO_FROM_TRIANGLE: fputs("values of a triangle", to); break;
+        case ISO_FROM_SPREAD: fputs("starts spread over the section", to); break;
+        }
+        fputc('\n', to);
     }
-    return true;
 }
 
 size_t iso_sweep_zeros_of_k(const iso_sweep_file *f)

@@ -3,11 +3,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/low_discrepancy_impl.h"
+#include "base/random_impl.h"
 #include "sweep/sweep_store_impl.h"
 
 /* Each byte goes through splitmix64, once for each half. */
-void iso_sweep_hash(uint64_t hash[2], const void *bytes, size_t length)
+static void add_bytes(uint64_t hash[2], const void *bytes, size_t length)
 {
     const unsigned char *byte = bytes;
     for (size_t i = 0; i < length; i++) {
@@ -21,8 +21,8 @@ static void hash_text(uint64_t hash[2], const char *text)
 {
     while (*text) {
         const size_t length = strcspn(text, "\r\n");
-        iso_sweep_hash(hash, text, length);
-        iso_sweep_hash(hash, "\n", 1);
+        add_bytes(hash, text, length);
+        add_bytes(hash, "\n", 1);
         text += length;
         text += text[0] == '\r' && text[1] == '\n' ? 2 : *text != '\0';
     }
@@ -30,30 +30,28 @@ static void hash_text(uint64_t hash[2], const char *text)
 
 void iso_sweep_hash_texts(uint64_t hash[2], const char *version, const char *text, const char *scene)
 {
-    iso_sweep_hash(hash, version, strlen(version) + 1);
+    add_bytes(hash, version, strlen(version) + 1);
     hash_text(hash, text);
-    iso_sweep_hash(hash, "", 1);
+    add_bytes(hash, "", 1);
     if (scene) hash_text(hash, scene);
 }
 
-/* A number as the bytes of a machine's memory. */
-static void hash_size(uint64_t hash[2], uint64_t size, bool swapped)
+/* A number as its bytes, the low ones first; swapped: the high ones. */
+static void add_size(uint64_t hash[2], uint64_t size, bool swapped)
 {
-    unsigned char bytes[sizeof size], turned[sizeof size];
-    memcpy(bytes, &size, sizeof size);
-    for (size_t i = 0; i < sizeof size; i++) turned[i] = bytes[sizeof size - 1 - i];
-    iso_sweep_hash(hash, swapped ? turned : bytes, sizeof size);
+    for (int i = 0; i < 8; i++)
+        add_bytes(hash, &(unsigned char){(unsigned char)(size >> 8 * (swapped ? 7 - i : i))}, 1);
 }
 
 void iso_sweep_hash_head(uint64_t hash[2], const iso_sweep_head *h, bool alone, bool swapped)
 {
-    hash_size(hash, h->count, swapped);
-    hash_size(hash, h->chunk, swapped);
-    iso_sweep_hash(hash, h->vectors, strlen(h->vectors));
-    iso_sweep_hash(hash, &(unsigned char){alone}, 1);
+    add_size(hash, h->count, swapped);
+    add_size(hash, h->chunk, swapped);
+    add_bytes(hash, h->vectors, strlen(h->vectors));
+    add_bytes(hash, &(unsigned char){alone}, 1);
     for (int i = 0; i < h->columns; i++) {
-        iso_sweep_hash(hash, h->column[i].group, strlen(h->column[i].group));
-        iso_sweep_hash(hash, h->column[i].name, strlen(h->column[i].name));
+        add_bytes(hash, h->column[i].group, strlen(h->column[i].group));
+        add_bytes(hash, h->column[i].name, strlen(h->column[i].name));
     }
 }
 
@@ -80,20 +78,15 @@ static uint64_t mix(uint64_t x, uint64_t word)
 /* Four sums side by side, of eight bytes at a time. The last bytes are filled up with zeros. */
 static uint64_t sum_of_text(const char *text, size_t length)
 {
-    enum { LANES = 4, BYTES = 8 * LANES };
-    uint64_t x[LANES] = {0, ~(uint64_t)0, length, 1}, word[LANES];
-    const char *at = text, *end = at + length - length % BYTES;
-    for (; at < end; at += BYTES) {
-        memcpy(word, at, sizeof word);
-        for (int i = 0; i < LANES; i++) x[i] = mix(x[i], word[i]);
-    }
-    if (length % BYTES > 0) {
-        memset(word, 0, sizeof word);
-        memcpy(word, at, length % BYTES);
+    enum { LANES = 4 };
+    uint64_t x[LANES] = {0, ~(uint64_t)0, length, 1};
+    for (size_t at = 0; at < length; at += sizeof x) {
+        uint64_t word[LANES] = {0};
+        memcpy(word, text + at, length - at < sizeof word ? length - at : sizeof word);
         for (int i = 0; i < LANES; i++) x[i] = mix(x[i], word[i]);
     }
     uint64_t hash[2] = {0, 0};
-    iso_sweep_hash(hash, x, sizeof x);
+    add_bytes(hash, x, sizeof x);
     return hash[1];
 }
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/low_discrepancy_impl.h"
 #include "base/number_impl.h"
+#include "base/random_impl.h"
 #include "io/scene_print_impl.h"
 #include "map/section_impl.h"
 #include "orbit/crossings_impl.h"

@@ -33,11 +33,6 @@ static bool chaos_has(const iso_sweep_job *job, const char *name)
     return strcmp(name, "verdict") == 0 || chaos_options(job)->starts > 0;
 }
 
-static void chaos_settle(const iso_sweep_job *job, void *options)
-{
-    ((iso_chaos_request *)options)->how.vectors = job->vectors;
-}
-
 /* Starts that failed are counted in the share. */
 static iso_status chaos_check(iso_context *ctx, const void *found)
 {
@@ -72,17 +67,6 @@ static size_t chaos_chunk(const iso_sweep_job *job)
 
 /* --- the list ---------------------------------------------------------------------------------------------------- */
 
-static void section_settle(const iso_sweep_job *job, void *options)
-{
-    ((iso_section_request *)options)->how.vectors = job->vectors;
-}
-
-static void rotations_settle(const iso_sweep_job *job, void *options)
-{
-    (void)job;
-    ((iso_periodic_request *)options)->how.rotations_alone = true; /* the search for other orbits takes long */
-}
-
 /* Of t and s one is the scene's own clock. */
 static bool backends_has(const iso_sweep_job *job, const char *name)
 {
@@ -99,16 +83,18 @@ static bool backends_has(const iso_sweep_job *job, const char *name)
 #define AXIS(a) "trace" a "=rotations" a "_half_turn_trace "
 #define ERROR(a) "error" a "=rotations" a "_error "
 
+#define VECTORS(T, member) .vectors = offsetof(T, member) + 1
+
 /* Those with columns or words of their own; other studies follow by their names. The words of older sweeps have the
- * columns of then. */
+ * columns of then. rotations: the search for other orbits takes long. */
 static const iso_sweep_quantity special[] = {
     {"state", &iso_state_study, .chunk = iso_sweep_state_chunk, .add = iso_sweep_add_state,
-     .settle = iso_sweep_settle_state},
+     VECTORS(iso_state_request, vectors)},
     {"chaos", &iso_chaos_study,
      "verdict share=share_chaotic share_low share_high regular=share_regular undecided=share_undecided "
      "failed=share_failed " CHAOS("ball") CHAOS("point"),
-     .chunk = chaos_chunk, .has = chaos_has, .settle = chaos_settle, .check = chaos_check,
-     .together = chaos_together},
+     .chunk = chaos_chunk, .has = chaos_has, .check = chaos_check, .together = chaos_together,
+     VECTORS(iso_chaos_request, how.vectors)},
     {"frequencies", &iso_frequencies_study,
      "rotation=rotation_number " FREQUENCY("1")
          FREQUENCY("2") "f1_error=angles1_error_t f2_error=angles2_error_t "
@@ -119,50 +105,35 @@ static const iso_sweep_quantity special[] = {
          ROW("from_zero") "axis",
      .points = 2},
     {"rotations", &iso_periodic_study, AXIS("1") AXIS("2") AXIS("3") ERROR("1") ERROR("2") ERROR("3"), .points = 64,
-     .settle = rotations_settle},
+     .flag = offsetof(iso_periodic_request, how.rotations_alone) + 1},
     {"backends", &iso_compare_study,
      WORST("omega") WORST("n") WORST("M") WORST("gamma") WORST("t") WORST("tau") WORST("s") "largest", .points = 8,
      .has = backends_has},
     {"error", &iso_error_study, .points = 8},
     {"contact", &iso_contact_study, .chunk = iso_sweep_state_chunk},
-    {"section", &iso_section_study, .points = 2, .settle = section_settle},
+    {"section", &iso_section_study, .points = 2, VECTORS(iso_section_request, how.vectors)},
 };
 enum { SPECIAL = sizeof special / sizeof *special };
 
-static bool is_special(const char *name)
-{
-    int i = 0;
-    while (i < SPECIAL && strcmp(special[i].name, name) != 0) i++;
-    return i < SPECIAL;
-}
-
 bool iso_sweep_quantity_at(int i, iso_sweep_quantity *q)
 {
-    if (i < SPECIAL) return *q = special[i], true;
     const iso_study *study;
-    for (int s = 0; (study = iso_study_at(s)) != NULL; s++)
-        if (study->fields && !is_special(study->name) && i-- == SPECIAL)
+    if (i < SPECIAL) return *q = special[i], true;
+    for (int s = 0; (study = iso_study_at(s)) != NULL; s++) {
+        int listed = 0;
+        while (listed < SPECIAL && strcmp(special[listed].name, study->name) != 0) listed++;
+        if (study->fields && listed == SPECIAL && i-- == SPECIAL)
             return *q = (iso_sweep_quantity){study->name, study, .points = 2}, true;
+    }
     return false;
-}
-
-static bool find_quantity(const char *name, iso_sweep_quantity *q)
-{
-    int i = 0;
-    while (iso_sweep_quantity_at(i, q) && strcmp(q->name, name) != 0) i++;
-    return iso_sweep_quantity_at(i, q);
-}
-
-const char *iso_sweep_quantity_name(int i)
-{
-    iso_sweep_quantity q;
-    return iso_sweep_quantity_at(i, &q) ? q.name : NULL;
 }
 
 const iso_study *iso_sweep_study(const char *quantity)
 {
     iso_sweep_quantity q;
-    return find_quantity(quantity, &q) ? q.study : NULL;
+    for (int i = 0; iso_sweep_quantity_at(i, &q); i++)
+        if (strcmp(q.name, quantity) == 0) return q.study;
+    return NULL;
 }
 
 /* --- options ----------------------------------------------------------------------------------------------------- */
@@ -174,12 +145,6 @@ const char *iso_sweep_option(const char *options, const char *name)
     for (const char *line = options; line && *line; line += strcspn(line, "\n"), line += *line == '\n')
         if (strncmp(line, name, length) == 0 && line[length] == '=') value = line + length + 1;
     return value;
-}
-
-bool iso_sweep_has_option(const char *quantity, const char *option)
-{
-    const iso_study *study = iso_sweep_study(quantity);
-    return study && iso_study_option_find(study, option, strlen(option));
 }
 
 /* Those that the plan makes, then those of the request. One thread: a chunk is computed by one. NULL: no memory. */
@@ -240,9 +205,10 @@ static iso_status refuse(iso_context *ctx, const iso_sweep_job *job)
 iso_status iso_sweep_job_begin(iso_context *ctx, const iso_sweep_plan *plan, const iso_sweep_request *request,
                                iso_sweep_job *job)
 {
-    if (!find_quantity(request->name, &job->quantity))
-        return ISO_FAIL_INPUT(ctx, request->name, "there is no quantity '%s'", request->name);
-    const iso_sweep_quantity *q = &job->quantity;
+    iso_sweep_quantity *q = &job->quantity;
+    for (int i = 0; !q->name || strcmp(q->name, request->name) != 0; i++)
+        if (!iso_sweep_quantity_at(i, q))
+            return ISO_FAIL_INPUT(ctx, request->name, "there is no quantity '%s'", request->name);
     job->base = plan->family.base;
     job->text = options_text(plan, request, q->study);
     job->options = malloc(q->study->size);
@@ -250,7 +216,8 @@ iso_status iso_sweep_job_begin(iso_context *ctx, const iso_sweep_plan *plan, con
     iso_status status = iso_study_read(ctx, q->study, job->text, job->options);
     if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT; /* it stands in a file */
     job->begun = true;
-    if (status == ISO_OK && q->settle) q->settle(job, job->options);
+    if (q->vectors > 0) *(const char **)(void *)((char *)job->options + q->vectors - 1) = job->vectors;
+    if (q->flag > 0) *(bool *)((char *)job->options + q->flag - 1) = true;
     if (status == ISO_OK && job->base) status = refuse(ctx, job);
     if (status != ISO_OK && status != ISO_NO_MEMORY)
         iso_context_fail(ctx, status, q->name, "%s: %s", q->name, iso_context_message(ctx));
@@ -280,49 +247,28 @@ static void fill(void *data, const char *name, const iso_field *field, const iso
         if (strcmp(f->job->number[i], name) == 0) f->number[i] = value->number;
 }
 
-/* Of a study that finds no struct, the last row of its table. */
-static void fill_from_row(const iso_sweep_job *job, const iso_record *table, double number[])
-{
-    const double *row = iso_record_const_row(table, iso_record_rows(table) - 1);
-    for (int i = 0; i < job->count; i++) {
-        const int column = iso_record_find(table, job->number[i]);
-        if (column >= 0) number[i] = row[column];
-    }
-}
-
-static double *numbers_of(const iso_sweep_job *job, const iso_sweep_rows *rows, size_t i)
-{
-    return rows->number + i * (size_t)rows->columns + job->first;
-}
-
 static void keep_note(void *words, const char *note)
 {
     snprintf(words, ISO_REASON_SIZE, "%s", note);
 }
 
-static iso_status take(iso_context *ctx, const iso_sweep_job *job, const iso_study_result *r, const char *words,
-                       double number[])
+/* The numbers of point i: of the result's struct, or of the last row of its table. note: the last one of the study. */
+static iso_status take(iso_context *ctx, const iso_sweep_job *job, const iso_study_result *r, const char *note,
+                       const iso_sweep_rows *rows, size_t i)
 {
     const iso_sweep_quantity *q = &job->quantity;
+    filled f = {job, rows->number + i * (size_t)rows->columns + job->first};
+    const size_t length = !r->fields && r->table[0] ? iso_record_rows(r->table[0]) : 0;
     if (r->found && r->fields == q->study->fields)
-        iso_numbers_visit(r->fields, r->found, fill, &(filled){job, number});
-    else if (!r->fields && r->table[0] && iso_record_rows(r->table[0]) > 0)
-        fill_from_row(job, r->table[0], number);
-    else
+        iso_numbers_visit(r->fields, r->found, fill, &f);
+    else if (length == 0)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "with these options it has no numbers of one scene");
+    for (int n = 0; length > 0 && n < job->count; n++) {
+        const int column = iso_record_find(r->table[0], job->number[n]);
+        if (column >= 0) f.number[n] = iso_record_const_row(r->table[0], length - 1)[column];
+    }
     if (q->check) return q->check(ctx, r->found);
-    return r->failed ? iso_context_fail(ctx, ISO_NUMERICAL, "", "%s", words) : ISO_OK;
-}
-
-static iso_status find(iso_context *ctx, const iso_sweep_job *job, const iso_scene *scene, double number[])
-{
-    char words[ISO_REASON_SIZE] = "it failed";
-    iso_study_result result = {.sink = {.note = keep_note, .data = words}};
-    const iso_study_subject subject = {.scene = scene};
-    iso_status status = job->quantity.study->run(ctx, &subject, job->options, &result);
-    if (status == ISO_OK) status = take(ctx, job, &result, words, number);
-    iso_study_result_free(&result);
-    return status;
+    return r->failed ? ISO_FAIL_NUMERICAL(ctx, "%s", note) : ISO_OK;
 }
 
 /* The points of a chunk, followed together. */
@@ -337,7 +283,7 @@ static iso_status chaos_find_all(iso_context *ctx, const iso_sweep_job *job, iso
         const iso_study_result result = {.found = chaos[i], .fields = iso_chaos_fields};
         if (!b->scene[i]) continue;
         if (status[i] == ISO_OK)
-            status[i] = take(ctx, job, &result, "", numbers_of(job, b->rows, i));
+            status[i] = take(ctx, job, &result, "", b->rows, i);
         else
             iso_context_fail(ctx, status[i], "", "%s", chaos[i] ? chaos[i]->words : "it failed");
         answer = iso_sweep_note(ctx, job, b, i, status[i]);
@@ -352,8 +298,15 @@ static iso_status chaos_find_all(iso_context *ctx, const iso_sweep_job *job, iso
 iso_status iso_sweep_measure(iso_context *ctx, const iso_sweep_job *job, iso_sweep_batch *b)
 {
     if (job->quantity.together && job->quantity.together(job)) return chaos_find_all(ctx, job, b);
-    for (size_t i = 0; i < b->count; i++)
-        if (b->scene[i])
-            ISO_TRY(iso_sweep_note(ctx, job, b, i, find(ctx, job, b->scene[i], numbers_of(job, b->rows, i))));
+    for (size_t i = 0; i < b->count; i++) {
+        char note[ISO_REASON_SIZE] = "it failed";
+        iso_study_result result = {.sink = {.note = keep_note, .data = note}};
+        const iso_study_subject subject = {.scene = b->scene[i]};
+        if (!b->scene[i]) continue;
+        iso_status status = job->quantity.study->run(ctx, &subject, job->options, &result);
+        if (status == ISO_OK) status = take(ctx, job, &result, note, b->rows, i);
+        iso_study_result_free(&result);
+        ISO_TRY(iso_sweep_note(ctx, job, b, i, status));
+    }
     return ISO_OK;
 }

@@ -5,91 +5,65 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "io/replacement_impl.h"
+#include "io/output_impl.h"
 #include "sweep/sweep_store_impl.h"
 
 enum { MOST_CHUNK = 1 << 16, MOST_COLUMNS = 4096 }; /* of files; a sweep has 4096 at most, and about 1000 */
 
 static iso_status damaged(iso_context *ctx, const char *path, const char *why)
 {
-    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot read '%s': %s", path, why);
+    return ISO_FAIL_FILE(ctx, "cannot read '%s': %s", path, why);
 }
 
 /* --- the head --------------------------------------------------------------------------------------------------- */
 
-static bool take_size(const iso_record *r, const char *key, size_t *size)
-{
-    const char *text = iso_record_get(r, key);
-    return text && sscanf(text, "%zu", size) == 1;
-}
-
 /* "1 of 3"; in HDF5 of older ones "1 3" */
-static bool take_part(const iso_record *r, iso_sweep_shard *shard)
+static bool read_part(const iso_record *r, iso_sweep_shard *shard)
 {
     const char *text = iso_record_get(r, "part");
     *shard = (iso_sweep_shard){0, 1};
     if (strcmp(iso_record_kind(r), ISO_SWEEP_KIND) == 0) return !text;
-    if (!text || strcmp(iso_record_kind(r), ISO_SWEEP_PART_KIND) != 0) return false;
-    if (sscanf(text, "%zu of %zu", &shard->index, &shard->count) != 2 &&
-        sscanf(text, "%zu %zu", &shard->index, &shard->count) != 2)
-        return false;
-    return shard->index-- > 0 && shard->count > 1;
+    return text && strcmp(iso_record_kind(r), ISO_SWEEP_PART_KIND) == 0 &&
+           (sscanf(text, "%zu of %zu", &shard->index, &shard->count) == 2 ||
+            sscanf(text, "%zu %zu", &shard->index, &shard->count) == 2) &&
+           shard->index-- > 0 && shard->count > 1;
 }
 
-/* "vary/k chaos/verdict": all columns. NULL: no memory, or no such text. */
-static iso_sweep_column *scan_columns(const char *text, int *count)
+/* The columns are those of the line "names", in older files "columns": "vary/k chaos/verdict". */
+static bool read_columns(const iso_record *r, iso_sweep_head *h)
 {
-    *count = 1;
-    for (const char *c = text; *c && *count <= MOST_COLUMNS; c++) *count += *c == ' ';
-    if (*count > MOST_COLUMNS) return NULL;
-    iso_sweep_column *columns = calloc((size_t)*count, sizeof *columns);
-    for (int i = 0; columns && i < *count; i++) {
+    const char *text = iso_record_get(r, iso_record_get(r, "names") ? "names" : "columns");
+    const size_t all = iso_record_columns(r), columns = all - 3;
+    iso_sweep_column *column = text && all > 3 && columns <= MOST_COLUMNS ? calloc(columns, sizeof *column) : NULL;
+    h->column = column;
+    h->columns = (int)columns;
+    bool good = column && strcmp(iso_record_name(r, 0), "point") == 0 &&
+                strcmp(iso_record_name(r, columns + 1), "status") == 0 && iso_record_has_words(r, columns + 2);
+    for (size_t i = 0; good && i < columns; i++) {
+        char name[ISO_SWEEP_NAME];
         int used = 0;
-        if (sscanf(text, " %31[^/ ]/%63[^ ]%n", columns[i].group, columns[i].name, &used) != 2) {
-            free(columns);
-            return NULL;
-        }
+        good = sscanf(text, " %31[^/ ]/%63[^ ]%n", column[i].group, column[i].name, &used) == 2 &&
+               strcmp(iso_sweep_column_name(&column[i], name), iso_record_name(r, i + 1)) == 0;
         text += used;
     }
-    return columns;
+    return good && !*text;
 }
 
-/* The columns are those that the line "names" says, of older ones "columns". */
-static bool take_columns(const iso_record *r, iso_sweep_head *h)
-{
-    char name[ISO_SWEEP_NAME];
-    const char *text = iso_record_get(r, iso_record_get(r, "names") ? "names" : "columns");
-    const iso_sweep_column *column = h->column = text ? scan_columns(text, &h->columns) : NULL;
-    const size_t columns = column ? (size_t)h->columns : 0;
-    bool good = columns > 0 && iso_record_columns(r) == columns + 3 && strcmp(iso_record_name(r, 0), "point") == 0 &&
-                strcmp(iso_record_name(r, columns + 1), "status") == 0 && iso_record_has_words(r, columns + 2);
-    for (size_t i = 0; good && i < columns; i++)
-        good = strcmp(iso_sweep_column_name(&column[i], name), iso_record_name(r, i + 1)) == 0;
-    return good;
-}
-
-static bool take_head(iso_sweep_reader *r)
+static bool read_head(iso_sweep_reader *r)
 {
     const iso_record *lines = iso_table_header(r->table);
     iso_sweep_head *h = &r->head;
     const char *hash = iso_record_get(lines, "hash"), *vectors = iso_record_get(lines, "vectors"),
-               *text = iso_record_get(lines, ISO_TABLE_TEXT);
+               *text = iso_record_get(lines, ISO_TABLE_TEXT), *points = iso_record_get(lines, "points"),
+               *chunk = iso_record_get(lines, "chunk");
     h->version = iso_record_get(lines, "isoroll");
     h->text = text ? text : "";
     h->scene = iso_record_get(lines, "scene");
-    return take_part(lines, &r->shard) && hash && strlen(hash) == 32 &&
+    return read_part(lines, &r->shard) && hash && strlen(hash) == 32 &&
            sscanf(hash, "%16" SCNx64 "%16" SCNx64, &h->hash[0], &h->hash[1]) == 2 && vectors &&
-           snprintf(h->vectors, sizeof h->vectors, "%s", vectors) < ISO_NAME_SIZE &&
-           take_size(lines, "points", &h->count) && take_size(lines, "chunk", &h->chunk) && take_columns(lines, h);
-}
-
-/* Numbers that cannot be: the file is damaged. They come from outside: no sum or product of them may overflow, and
- * no memory is asked for that a sweep does not need. */
-static bool makes_sense(const iso_sweep_reader *r)
-{
-    const iso_sweep_head *h = &r->head;
-    return h->count > 0 && h->count <= (uint64_t)1 << 53 && h->chunk > 0 && h->chunk <= MOST_CHUNK &&
-           r->shard.count <= ISO_SWEEP_MOST_SHARDS && r->shard.index < r->shard.count;
+           snprintf(h->vectors, sizeof h->vectors, "%s", vectors) < ISO_NAME_SIZE && points &&
+           sscanf(points, "%zu", &h->count) == 1 && chunk && sscanf(chunk, "%zu", &h->chunk) == 1 &&
+           read_columns(lines, h);
 }
 
 /* --- the sum ---------------------------------------------------------------------------------------------------- */
@@ -121,39 +95,38 @@ static iso_status check_sum(iso_context *ctx, const iso_sweep_reader *r)
 
 static iso_status open_table(iso_context *ctx, iso_sweep_reader *r)
 {
+    const iso_sweep_head *h = &r->head;
     const char *last;
     if (access(r->path, R_OK) != 0) return iso_file_trouble(ctx, "open", r->path);
     const iso_status status = iso_table_reader_open(ctx, r->path, NULL, NULL, &r->table);
     if (status == ISO_NO_MEMORY) return status;
     if (status == ISO_BAD_ARGUMENT) return damaged(ctx, r->path, "this build has no HDF5");
     if (status != ISO_OK)
-        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot read '%s': it is no result of a sweep: %s",
-                                r->path, iso_context_message(ctx));
-    if (!take_head(r)) return damaged(ctx, r->path, "it is no result of a sweep");
-    if (!makes_sense(r)) return damaged(ctx, r->path, "its head is damaged");
-    if (!r->head.version || !iso_sweep_head_fits(&r->head))
+        return ISO_FAIL_FILE(ctx, "cannot read '%s': it is no result of a sweep: %s", r->path,
+                             iso_context_message(ctx));
+    if (!read_head(r)) return damaged(ctx, r->path, "it is no result of a sweep");
+    /* Numbers from outside: no sum or product of them may overflow, and no memory is asked for that no sweep needs. */
+    if (h->count == 0 || h->count > (uint64_t)1 << 53 || h->chunk == 0 || h->chunk > MOST_CHUNK ||
+        r->shard.count > ISO_SWEEP_MOST_SHARDS || r->shard.index >= r->shard.count)
+        return damaged(ctx, r->path, "its head is damaged");
+    if (!h->version || !iso_sweep_head_fits(h))
         return damaged(ctx, r->path,
                        "its texts or its head do not fit its hash: they were changed, or another version wrote them");
     r->table->forgets = true;
-    r->row = calloc((size_t)r->head.columns + 3, sizeof *r->row);
+    r->row = calloc((size_t)h->columns + 3, sizeof *r->row);
     if (!r->row) return iso_context_no_memory(ctx, "'%s'", r->path);
     r->lines = count_lines(r, &last);
-    r->points = iso_sweep_shard_points(&r->head, r->shard);
+    r->points = iso_sweep_shard_points(h, r->shard);
     return r->points > 0 ? ISO_OK : check_sum(ctx, r);
 }
 
 iso_status iso_sweep_reader_open(iso_context *ctx, const char *path, iso_sweep_reader **reader)
 {
-    *reader = NULL;
-    iso_sweep_reader *r = calloc(1, sizeof *r);
-    if (r) r->path = strdup(path);
-    if (!r || !r->path) {
-        free(r);
-        return iso_context_no_memory(ctx, "'%s'", path);
-    }
+    iso_sweep_reader *r = *reader = calloc(1, sizeof *r);
+    if (!r) return iso_context_no_memory(ctx, "'%s'", path);
+    r->path = path;
     const iso_status status = open_table(ctx, r);
-    if (status != ISO_OK) iso_sweep_reader_close(r), r = NULL;
-    *reader = r;
+    if (status != ISO_OK) iso_sweep_reader_close(r), *reader = NULL;
     return status;
 }
 
@@ -163,69 +136,32 @@ void iso_sweep_reader_close(iso_sweep_reader *r)
     iso_table_reader_close(r->table);
     free((void *)r->head.column);
     free(r->row);
-    free(r->path);
     free(r);
 }
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
-/* The next row as row i. A row that says another number than that of its place has been moved. */
-static bool take_row(iso_context *ctx, const iso_sweep_reader *r, iso_sweep_rows *rows, size_t i, iso_status *status)
-{
-    const size_t columns = (size_t)rows->columns;
-    bool more;
-    *status = iso_table_next(ctx, r->table, r->row, &more);
-    if (*status != ISO_OK || !more || r->row[0] != (double)(rows->first + i)) return false;
-    const char *reason = iso_record_word(iso_table_header(r->table), r->row[columns + 2]);
-    memcpy(rows->number + i * columns, r->row + 1, columns * sizeof *r->row);
-    rows->status[i] = (iso_status)r->row[columns + 1];
-    snprintf(rows->reason[i], ISO_REASON_SIZE, "%s", reason);
-    return rows->status[i] != ISO_OK || !*reason;
-}
-
 iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *r, iso_sweep_rows *rows)
 {
-    iso_status status = ISO_OK;
-    const size_t left = r->points - r->next;
-    rows->first = left > 0 ? iso_sweep_shard_point(&r->head, r->shard, r->next) : 0;
-    rows->count = left < r->head.chunk ? left : r->head.chunk;
+    const size_t left = r->points - r->next, columns = (size_t)rows->columns;
     if (left == 0) return damaged(ctx, r->path, "it has no more rows");
-    for (size_t i = 0; i < rows->count; i++)
-        if (!take_row(ctx, r, rows, i, &status))
-            return status == ISO_NO_MEMORY ? status : damaged(ctx, r->path, "a row is missing, moved or damaged");
+    rows->first = iso_sweep_shard_point(&r->head, r->shard, r->next);
+    rows->count = left < r->head.chunk ? left : r->head.chunk;
+    for (size_t i = 0; i < rows->count; i++) {
+        bool more;
+        const iso_status status = iso_table_next(ctx, r->table, r->row, &more);
+        if (status == ISO_NO_MEMORY) return status;
+        bool good = status == ISO_OK && more && r->row[0] == (double)(rows->first + i); /* else it has been moved */
+        if (good) {
+            const char *reason = iso_record_word(iso_table_header(r->table), r->row[columns + 2]);
+            memcpy(rows->number + i * columns, r->row + 1, columns * sizeof *r->row);
+            rows->status[i] = (iso_status)r->row[columns + 1];
+            snprintf(rows->reason[i], ISO_REASON_SIZE, "%s", reason);
+            good = rows->status[i] != ISO_OK || !*reason;
+        }
+        if (!good) return damaged(ctx, r->path, "a row is missing, moved or damaged");
+    }
     r->next += rows->count;
     r->sum = iso_sweep_sum(r->sum, rows);
     return r->unended || r->next < r->points ? ISO_OK : check_sum(ctx, r);
-}
-
-iso_status iso_sweep_reader_all(iso_context *ctx, iso_sweep_reader *r, iso_sweep_failures *failures,
-                                iso_status (*take)(iso_context *ctx, void *data, const iso_sweep_rows *rows),
-                                void *data)
-{
-    iso_sweep_rows rows;
-    iso_status status = iso_sweep_rows_create(ctx, r->head.columns, r->head.chunk, &rows);
-    while (status == ISO_OK && r->next < r->points) {
-        status = iso_sweep_reader_rows(ctx, r, &rows);
-        if (status == ISO_OK && failures) iso_sweep_failures_add(failures, &rows);
-        if (status == ISO_OK && take) status = take(ctx, data, &rows);
-    }
-    iso_sweep_rows_free(&rows);
-    return status;
-}
-
-static iso_status add_rows(iso_context *ctx, void *table, const iso_sweep_rows *rows)
-{
-    return iso_sweep_table_add(ctx, table, rows);
-}
-
-iso_status iso_sweep_read_table(iso_context *ctx, const char *path, iso_record **table)
-{
-    iso_sweep_reader *r;
-    *table = NULL;
-    ISO_TRY(iso_sweep_reader_open(ctx, path, &r));
-    iso_status status = iso_sweep_table(ctx, &r->head, table);
-    if (status == ISO_OK && r->shard.count > 1) iso_record_set_kind(*table, ISO_SWEEP_PART_KIND);
-    if (status == ISO_OK) status = iso_sweep_reader_all(ctx, r, NULL, add_rows, *table);
-    iso_sweep_reader_close(r);
-    return status;
 }

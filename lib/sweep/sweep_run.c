@@ -10,25 +10,12 @@
 #include "sweep/sweep_impl.h"
 #include "task/run.h"
 
-typedef struct run_request {
-    iso_models as, models;        /* -1: not given */
-    double turns, end, tolerance; /* NAN: not given */
-    const char *vectors;
-} run_request;
+typedef iso_state_request run_request;
 
-static void begin(void *options)
-{
-    *(run_request *)options = (run_request){(iso_models)-1, (iso_models)-1, NAN, NAN, NAN, NULL};
-}
+ISO_STUDY_BEGIN(run_request, (run_request){(iso_models)-1, (iso_models)-1, NAN, NAN, NAN, NULL})
 
-void iso_sweep_settle_state(const iso_sweep_job *job, void *options)
-{
-    ((run_request *)options)->vectors = job->vectors;
-}
-
-#define ROW(name, argument, expected, doc, set, member)                                                              \
-    ISO_OPTION(name, argument, expected, doc, set, run_request, member)
-#define ROW_END_OF_RUN ROW("t-end", "T", "a number", "the end, in place of the scene's", iso_set_number, end)
+#define ROW_END_OF_RUN                                                                                               \
+    ISO_OPTION("t-end", "T", "a number", "the end, in place of the scene's", iso_set_number, run_request, end)
 
 /* The scene with the changes that the sweep asks for. */
 static iso_scene scene_of(const run_request *r, const iso_scene *scene)
@@ -100,20 +87,6 @@ static iso_status keep_row(void *data, int table, const double row[], size_t cou
     return ISO_OK;
 }
 
-static iso_status at_turn(iso_context *ctx, const run_request *r, const iso_scene *s, last_row *last)
-{
-    const iso_sink sink = {.header = begin_table, .row = keep_row, .data = last};
-    iso_section_options o = iso_section_defaults();
-    iso_section_result result;
-    o.crossings = (size_t)r->turns;
-    o.shown = shown_of(s);
-    if ((int)r->models >= 0) o.models = r->models;
-    o.threads = 1;
-    o.vectors = r->vectors;
-    ISO_TRY(iso_section_run(ctx, s, &o, &sink, NULL, &result));
-    return result.failed == 0 ? ISO_OK : iso_context_fail(ctx, result.failure, "", "%s", result.words);
-}
-
 static iso_status state(iso_context *ctx, const iso_study_subject *subject, const void *options,
                         iso_study_result *result)
 {
@@ -121,12 +94,20 @@ static iso_status state(iso_context *ctx, const iso_study_subject *subject, cons
     const iso_scene s = scene_of(r, subject->scene);
     last_row last = {ctx, &result->table[0]};
     const iso_sink sink = {.header = begin_table, .row = keep_row, .data = &last};
-    iso_run_options o = iso_run_defaults();
     ISO_TRY(iso_scene_check_columns(ctx, &s));
-    if (!isnan(r->turns)) return at_turn(ctx, r, &s, &last);
-    o.times = &s.end;
-    o.count = 1;
-    return iso_run(ctx, &s, &o, &sink, NULL, NULL);
+    if (isnan(r->turns)) {
+        const iso_run_options at_end = {.times = &s.end, .count = 1};
+        return iso_run(ctx, &s, &at_end, &sink, NULL, NULL);
+    }
+    iso_section_options o = iso_section_defaults();
+    iso_section_result found;
+    o.crossings = (size_t)r->turns;
+    o.shown = shown_of(&s);
+    if ((int)r->models >= 0) o.models = r->models;
+    o.threads = 1;
+    o.vectors = r->vectors;
+    ISO_TRY(iso_section_run(ctx, &s, &o, &sink, NULL, &found));
+    return found.failed == 0 ? ISO_OK : iso_context_fail(ctx, found.failure, "", "%s", found.words);
 }
 
 static iso_status prepare(iso_context *ctx, void *options)
@@ -139,7 +120,8 @@ static iso_status prepare(iso_context *ctx, void *options)
 static const iso_option state_options[] = {
     ISO_OPTION_MODELS("as", "WHAT", "which model is written: ball, point, both", run_request, as),
     ISO_OPTION_MODELS("model", "M", ISO_MODELS_INTEGRATED, run_request, models),
-    ROW("turns", "N", "a whole number from 1 on", "the state at this crossing of the section", iso_set_count, turns),
+    ISO_OPTION("turns", "N", "a whole number from 1 on", "the state at this crossing of the section", iso_set_count,
+               run_request, turns),
     ROW_END_OF_RUN,
     ISO_OPTION_END,
 };
@@ -161,15 +143,17 @@ const iso_study iso_state_study = {"state",
                                    .of = ISO_STUDY_OF_SCENE,
                                    .fields = state_fields};
 
-/* --- what a whole run tells --------------------------------------------------------------------------------------- */
+/* --- a whole run -------------------------------------------------------------------------------------------------- */
 
 /* All rows of the scene, of which none is kept. errors: they are asked for. */
-static iso_status run_all(iso_context *ctx, const iso_scene *scene, bool errors, iso_run_result *result)
+static iso_status run_all(iso_context *ctx, const iso_scene *scene, const run_request *r, bool errors,
+                          const iso_field *fields, iso_study_result *result)
 {
-    const iso_sink sink = {.data = NULL};
-    iso_run_options o = iso_run_defaults();
-    o.errors = errors;
-    return iso_run(ctx, scene, &o, &sink, NULL, result);
+    const iso_scene s = scene_of(r, scene);
+    const iso_sink nobody = {.data = NULL};
+    const iso_run_options o = {.errors = errors};
+    iso_run_result *found = iso_study_keep(result, malloc(sizeof *found), fields, free);
+    return found ? iso_run(ctx, &s, &o, &nobody, NULL, found) : iso_context_no_memory(ctx, "a run");
 }
 
 #define FIELD(key, member, unit, doc) ISO_MEMBER(iso_run_result, key, member, unit, doc)
@@ -186,10 +170,8 @@ static const iso_field error_fields[] = {
 static iso_status error(iso_context *ctx, const iso_study_subject *subject, const void *options,
                         iso_study_result *result)
 {
-    const iso_scene s = scene_of(options, subject->scene);
-    iso_run_result *r = iso_study_keep(result, malloc(sizeof *r), error_fields, free);
-    if (!r) return iso_context_no_memory(ctx, "a run");
-    ISO_TRY(run_all(ctx, &s, true, r));
+    ISO_TRY(run_all(ctx, subject->scene, options, true, error_fields, result));
+    const iso_run_result *r = result->found;
     if (r->error_status == ISO_OK) return ISO_OK;
     return iso_context_fail(ctx, r->error_status, "", "the error is not known: %s", r->error_words);
 }
@@ -210,32 +192,31 @@ const iso_study iso_error_study = {"error",
                                    .of = ISO_STUDY_OF_SCENE,
                                    .fields = error_fields};
 
-/* --- contact ---------------------------------------------------------------------------------------------------- */
+/* A run goes on one side of the start. */
+static bool is_lost(const void *run)
+{
+    const iso_run_result *r = run;
+    return r->lost[0] || r->lost[1];
+}
 
-/* Of the side of the start on which the end lies. */
-typedef struct contact {
-    bool lost;
-    double time;
-} contact;
+static double lost_at(const void *run)
+{
+    const iso_run_result *r = run;
+    return r->lost_at[r->lost[1]];
+}
 
 static const iso_field contact_fields[] = {
-    ISO_MEMBER(contact, "lost", lost, "", "1: contact is lost before the end"),
-    ISO_MEMBER(contact, "time", time, "time", "when it is lost first", ISO_WHEN(contact, lost)),
+    ISO_IS("lost", is_lost, "1: contact is lost before the end"),
+    ISO_NUMBER("time", lost_at, "time", "when it is lost first", .there = is_lost),
     ISO_FIELD_END,
 };
 
-static iso_status find_contact(iso_context *ctx, const iso_study_subject *subject, const void *options,
-                               iso_study_result *result)
+static iso_status contact(iso_context *ctx, const iso_study_subject *subject, const void *options,
+                          iso_study_result *result)
 {
-    const iso_scene s = scene_of(options, subject->scene);
-    contact *c = iso_study_keep(result, malloc(sizeof *c), contact_fields, free);
-    iso_run_result r;
-    if (!c) return iso_context_no_memory(ctx, "a run");
     if (!iso_effects_watch_contact(&subject->scene->effects))
         return ISO_FAIL_INPUT(ctx, "effects", "the scene needs the effect 'reactions'");
-    ISO_TRY(run_all(ctx, &s, false, &r));
-    *c = (contact){r.lost[s.end < 0], r.lost_at[s.end < 0]};
-    return ISO_OK;
+    return run_all(ctx, subject->scene, options, false, contact_fields, result);
 }
 
 static const iso_option contact_options[] = {ROW_END_OF_RUN, ISO_OPTION_END};
@@ -245,6 +226,6 @@ const iso_study iso_contact_study = {"contact",
                                      contact_options,
                                      sizeof(run_request),
                                      begin,
-                                     .run = find_contact,
+                                     .run = contact,
                                      .of = ISO_STUDY_OF_SCENE,
                                      .fields = contact_fields};

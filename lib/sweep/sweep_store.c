@@ -1,4 +1,4 @@
-/* sweep_store.c - the result of a sweep while it is computed: chunks in their order, a file that can be gone on with. */
+/* sweep_store.c - the result of a sweep while it is computed: chunks in order, a file that can be gone on with. */
 #define _GNU_SOURCE /* asprintf */
 #include <errno.h>
 #include <stdio.h>
@@ -7,48 +7,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "io/replacement_impl.h"
+#include "io/output_impl.h"
 #include "sweep/sweep_store_impl.h"
 
-static iso_status refuse(iso_context *ctx, const char *path, const char *why)
-{
-    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "'%s' %s", path, why);
-}
-
-/* --- chunks that wait ------------------------------------------------------------------------------------------- */
-
-iso_status iso_sweep_queue_add(iso_context *ctx, iso_sweep_queue *q, const iso_sweep_rows *rows)
-{
-    iso_sweep_rows copy;
-    if (q->count == q->room) {
-        iso_sweep_rows *more = realloc(q->rows, (2 * q->room + 8) * sizeof *more);
-        if (!more) return iso_context_no_memory(ctx, "chunks of a sweep");
-        q->rows = more;
-        q->room = 2 * q->room + 8;
-    }
-    ISO_TRY(iso_sweep_rows_create(ctx, rows->columns, rows->most, &copy));
-    memcpy(copy.number, rows->number, iso_sweep_rows_bytes(rows));
-    copy.first = rows->first;
-    copy.count = rows->count;
-    size_t i = q->count++;
-    for (; i > 0 && q->rows[i - 1].first > rows->first; i--) q->rows[i] = q->rows[i - 1];
-    q->rows[i] = copy;
-    return ISO_OK;
-}
-
-bool iso_sweep_queue_take(iso_sweep_queue *q, size_t first, iso_sweep_rows *rows)
-{
-    if (q->count == 0 || (first != SIZE_MAX && q->rows[0].first != first)) return false;
-    *rows = q->rows[0];
-    memmove(q->rows, q->rows + 1, --q->count * sizeof *q->rows);
-    return true;
-}
-
-void iso_sweep_queue_free(iso_sweep_queue *q)
-{
-    for (size_t i = 0; i < q->count; i++) iso_sweep_rows_free(&q->rows[i]);
-    free(q->rows);
-}
+#define REFUSE(path, why) ISO_FAIL_FILE(ctx, "'%s' " why, path)
 
 /* --- what is there already -------------------------------------------------------------------------------------- */
 
@@ -65,14 +27,14 @@ static iso_status look_at_result(iso_context *ctx, iso_sweep_store *s, bool resu
     iso_sweep_reader *reader, *rows = NULL;
     iso_status status = iso_sweep_reader_open(ctx, s->path, &reader);
     if (status == ISO_NO_MEMORY) return status;
-    if (status != ISO_OK) return refuse(ctx, s->path, "is there, and is no result of a sweep: it is not overwritten");
+    if (status != ISO_OK) return REFUSE(s->path, "is there, and is no result of a sweep: it is not overwritten");
     const bool same = is_ours(s, reader);
-    if (same && resume) status = iso_sweep_reader_all(ctx, reader, &s->failures, NULL, NULL);
+    if (same && resume) status = iso_sweep_copy(ctx, &reader, 1, s->shard, NULL, NULL, &s->failures);
     iso_sweep_reader_close(reader);
     if (status != ISO_OK) return status;
-    if (!same) return refuse(ctx, s->path, "is the result of another sweep, shard or version: it is not overwritten");
-    if (!resume) return refuse(ctx, s->path, "is there already, the result of this sweep: it is not overwritten");
-    char *part = iso_replacement_name(s->rows);
+    if (!same) return REFUSE(s->path, "is the result of another sweep, shard or version: it is not overwritten");
+    if (!resume) return REFUSE(s->path, "is there already, the result of this sweep: it is not overwritten");
+    char *part = iso_file_part(s->rows);
     if (part && access(part, R_OK) == 0 && iso_sweep_reader_open(ctx, part, &rows) == ISO_OK && is_ours(s, rows))
         unlink(part);
     iso_sweep_reader_close(rows);
@@ -92,7 +54,7 @@ static iso_status look_for_journal(iso_context *ctx, const char *path)
     const bool is = file && fread(begin, 1, sizeof mark - 1, file) == sizeof mark - 1 && strcmp(begin, mark) == 0;
     if (file) fclose(file);
     const iso_status status =
-        is ? refuse(ctx, name,
+        is ? REFUSE(name,
                     "is the journal of an older version of isoroll, which cannot be gone on with: remove it to begin "
                     "again, or give another name")
            : ISO_OK;
@@ -100,69 +62,72 @@ static iso_status look_for_journal(iso_context *ctx, const char *path)
     return status;
 }
 
-/* The length of a file in whole lines, the first `most` of them. *header: whether its first line is that of a sweep;
- * *columns: whether the line with its columns is there. */
-static size_t lines_length(const char *name, size_t most, bool *header, bool *columns)
+/* What a part that was left has, as far as its lines are whole. */
+typedef struct remains {
+    size_t lines, length; /* lines, at most `lines`, and their bytes       */
+    bool header, columns; /* its first line is that of a sweep; the line with its columns is there */
+} remains;
+
+static remains look_at_lines(const char *name, size_t most)
 {
-    size_t length = 0, room = 0;
+    remains r = {.lines = 0};
+    size_t room = 0;
     ssize_t got;
     char *line = NULL;
     FILE *file = fopen(name, "re");
-    *header = *columns = false;
-    while (file && most-- > 0 && (got = getline(&line, &room, file)) > 0) {
-        *header = *header || strncmp(line, "# isoroll sweep", 15) == 0;
-        if (!*header || line[got - 1] != '\n') break;
-        *columns = *columns || strncmp(line, "point,", 6) == 0;
-        length += (size_t)got;
+    while (file && r.lines < most && (got = getline(&line, &room, file)) > 0) {
+        r.header = r.header || strncmp(line, "# isoroll sweep", 15) == 0;
+        if (!r.header || line[got - 1] != '\n') break;
+        r.columns = r.columns || strncmp(line, "point,", 6) == 0;
+        r.lines++;
+        r.length += (size_t)got;
     }
     free(line);
     if (file) fclose(file);
-    return length;
+    return r;
 }
 
-/* Reads the chunks that are whole. *lines: those of the file up to there. */
-static iso_status read_chunks(iso_context *ctx, iso_sweep_store *s, size_t *lines)
+/* Reads the chunks that are whole, which end before line `most` of the file, and cuts it behind the last one. */
+static iso_status read_chunks(iso_context *ctx, iso_sweep_store *s, iso_sweep_reader *r, size_t most)
 {
-    iso_sweep_reader *r;
     iso_sweep_rows rows;
+    size_t lines = 0;
     iso_status status = iso_sweep_rows_create(ctx, s->head->columns, s->head->chunk, &rows);
-    if (status == ISO_OK) status = iso_sweep_reader_open(ctx, s->part, &r);
-    if (status != ISO_OK) return iso_sweep_rows_free(&rows), status;
     r->unended = true;
-    while (s->done < s->wanted && (status = iso_sweep_reader_rows(ctx, r, &rows)) == ISO_OK) {
+    while (status == ISO_OK && s->done < s->wanted) {
+        status = iso_sweep_reader_rows(ctx, r, &rows);
+        if (status != ISO_OK || iso_table_at(r->table)->line > most) break;
         iso_sweep_failures_add(&s->failures, &rows);
         s->writer.sum = r->sum;
-        *lines = iso_table_at(r->table)->line;
+        lines = iso_table_at(r->table)->line;
         s->done++;
     }
-    iso_sweep_reader_close(r);
     iso_sweep_rows_free(&rows);
-    return status == ISO_NO_MEMORY ? status : ISO_OK;
+    if (status == ISO_NO_MEMORY) return status;
+    return iso_table_go_on(ctx, s->writer.file, s->writer.table, look_at_lines(s->part, lines).length);
 }
 
-/* What a program has left is cut behind its last whole chunk. */
 static iso_status take_rows(iso_context *ctx, iso_sweep_store *s, bool resume)
 {
-    bool header, columns;
+    const remains left = look_at_lines(s->part, SIZE_MAX);
     iso_sweep_reader *r = NULL;
-    size_t length = lines_length(s->part, SIZE_MAX, &header, &columns), lines = 0;
-    if (columns && iso_sweep_reader_open(ctx, s->part, &r) == ISO_NO_MEMORY) return ISO_NO_MEMORY;
-    const bool same = r && is_ours(s, r);
+    iso_status status = left.columns ? iso_sweep_reader_open(ctx, s->part, &r) : ISO_OK;
+    if (status == ISO_NO_MEMORY) return status;
+    if (!left.header || (left.columns && !r))
+        status = REFUSE(s->part, "is no file of a sweep: it would be overwritten");
+    else if (r && !is_ours(s, r))
+        status =
+            REFUSE(s->part,
+                   "has chunks of another sweep, shard, version or kind of vectors: remove it, or give another name");
+    else if (!resume)
+        status =
+            REFUSE(s->part, "has chunks of this sweep: add --resume to go on with it, or remove it to begin again");
+    else if (s->ours = true, r)
+        status = read_chunks(ctx, s, r, left.lines);
+    else
+        status = iso_table_go_on(ctx, s->writer.file, s->writer.table, 0); /* its header was cut short */
     iso_sweep_reader_close(r);
-    if (!header || (columns && !r)) return refuse(ctx, s->part, "is no file of a sweep: it would be overwritten");
-    if (columns && !same)
-        return refuse(
-            ctx, s->part,
-            "has chunks of another sweep, shard, version or kind of vectors: remove it, or give another name");
-    if (!resume)
-        return refuse(ctx, s->part,
-                      "has chunks of this sweep: add --resume to go on with it, or remove it to begin again");
-    s->ours = true;
-    if (!columns) return iso_table_go_on(ctx, s->writer.table, s->writer.header, 0); /* its header was cut short */
-    if (truncate(s->part, (off_t)length) != 0) return iso_file_trouble(ctx, "write", s->part);
-    ISO_TRY(read_chunks(ctx, s, &lines));
-    length = lines > 0 ? lines_length(s->part, lines, &header, &columns) : 0;
-    return iso_table_go_on(ctx, s->writer.table, s->writer.header, length);
+    return status;
 }
 
 /* --- opening ---------------------------------------------------------------------------------------------------- */
@@ -172,17 +137,18 @@ static iso_status open_named(iso_context *ctx, iso_sweep_store *s, bool resume)
     struct stat file;
     ISO_TRY(look_for_journal(ctx, s->path));
     ISO_TRY(iso_sweep_writer_open(ctx, s->rows, s->head, s->shard, true, &s->writer));
-    s->part = iso_replacement_name(s->rows);
+    s->part = iso_file_part(s->rows);
     if (!s->part || stat(s->part, &file) != 0) return iso_file_trouble(ctx, "write", s->rows);
     if (file.st_size > 0) return take_rows(ctx, s, resume);
     s->ours = true;
     if (access(s->path, F_OK) == 0) return look_at_result(ctx, s, resume); /* it has come meanwhile */
-    return iso_table_go_on(ctx, s->writer.table, s->writer.header, 0);
+    return iso_table_go_on(ctx, s->writer.file, s->writer.table, 0);
 }
 
 static iso_status open_store(iso_context *ctx, iso_sweep_store *s, bool resume)
 {
     struct stat file;
+    if (!s->path) return iso_sweep_writer_open(ctx, NULL, s->head, s->shard, false, &s->writer);
     if (s->shard.count > ISO_SWEEP_MOST_SHARDS)
         return ISO_FAIL_ARGUMENT(ctx, "", "--shard: n is %zu, it must be at most %d", s->shard.count,
                                  ISO_SWEEP_MOST_SHARDS);
@@ -203,10 +169,12 @@ iso_status iso_sweep_store_open(iso_context *ctx, const char *path, const iso_sw
     s->head = head;
     s->shard = shard;
     s->wanted = iso_sweep_shard_chunks(head, shard);
-    s->path = iso_file_follow(path); /* its rows stand beside the result, not beside a link to it */
-    iso_status status = s->path || errno == ENOMEM ? ISO_OK : iso_file_trouble(ctx, "write", path);
+    s->path = path ? iso_file_follow(path) : NULL; /* its rows stand beside the result, not beside a link to it */
+    iso_status status = !path || s->path || errno == ENOMEM ? ISO_OK : iso_file_trouble(ctx, "write", path);
     if (s->path && asprintf(&s->rows, "%s%s", s->path, iso_table_is_hdf5(s->path) ? ".csv" : "") < 0) s->rows = NULL;
-    if (status == ISO_OK) status = s->rows ? open_store(ctx, s, resume) : iso_context_no_memory(ctx, "a sweep");
+    if (status == ISO_OK && path && !s->rows) status = iso_context_no_memory(ctx, "a sweep");
+    if (status == ISO_OK) status = open_store(ctx, s, resume);
+    s->next = s->done;
     if (status != ISO_OK) iso_sweep_store_close(s), s = NULL;
     *store = s;
     return status;
@@ -219,7 +187,8 @@ void iso_sweep_store_close(iso_sweep_store *s)
     if (s->ours && (s->done == 0 || s->complete)) unlink(s->part);
     iso_sweep_writer_close(ctx, &s->writer, false);
     iso_context_free(ctx);
-    iso_sweep_queue_free(&s->queue);
+    for (size_t i = 0; i < s->waiting; i++) iso_sweep_rows_free(&s->early[i]);
+    free(s->early);
     free(s->path);
     free(s->rows);
     free(s->part);
@@ -228,18 +197,73 @@ void iso_sweep_store_close(iso_sweep_store *s)
 
 /* --- adding and finishing --------------------------------------------------------------------------------------- */
 
-/* Each chunk reaches the file: a program that is killed loses those that are computed, and those that wait. */
-iso_status iso_sweep_store_add(iso_context *ctx, iso_sweep_store *s, const iso_sweep_rows *rows)
+/* Keeps a copy of a chunk until its turn comes. */
+static iso_status keep_early(iso_context *ctx, iso_sweep_store *s, const iso_sweep_rows *rows)
 {
-    iso_sweep_rows next;
-    iso_status status = iso_sweep_queue_add(ctx, &s->queue, rows);
-    while (status == ISO_OK && s->done < s->wanted &&
-           iso_sweep_queue_take(&s->queue, (s->shard.index + s->done * s->shard.count) * s->head->chunk, &next)) {
+    iso_sweep_rows copy, *more = realloc(s->early, (s->waiting + 1) * sizeof *more);
+    if (!more) return iso_context_no_memory(ctx, "chunks of a sweep");
+    s->early = more;
+    ISO_TRY(iso_sweep_rows_create(ctx, rows->columns, rows->most, &copy));
+    memcpy(copy.number, rows->number, iso_sweep_rows_bytes(rows));
+    copy.first = rows->first;
+    copy.count = rows->count;
+    size_t i = s->waiting++;
+    for (; i > 0 && more[i - 1].first > rows->first; i--) more[i] = more[i - 1];
+    more[i] = copy;
+    return ISO_OK;
+}
+
+/* Writes the chunks whose turn it is, or all. Each one reaches the file: a program that is killed loses those that are
+ * computed, and those that wait. */
+static iso_status write_early(iso_context *ctx, iso_sweep_store *s, bool all)
+{
+    iso_status status = ISO_OK;
+    while (status == ISO_OK && s->waiting > 0 &&
+           (all || s->early[0].first == (s->shard.index + s->done * s->shard.count) * s->head->chunk)) {
+        iso_sweep_rows next = s->early[0];
+        memmove(s->early, s->early + 1, --s->waiting * sizeof *s->early);
         status = iso_sweep_writer_rows(ctx, &s->writer, &next);
-        if (status == ISO_OK) status = iso_table_flush(ctx, s->writer.table);
+        if (status == ISO_OK && s->writer.file) status = iso_table_flush(ctx, s->writer.file);
         if (status == ISO_OK) s->done++, iso_sweep_failures_add(&s->failures, &next);
         iso_sweep_rows_free(&next);
     }
+    return status;
+}
+
+iso_status iso_sweep_store_add(iso_context *ctx, iso_sweep_store *s, const iso_sweep_rows *rows)
+{
+    ISO_TRY(keep_early(ctx, s, rows));
+    return write_early(ctx, s, false);
+}
+
+static bool next_chunk(void *store, size_t *c)
+{
+    iso_sweep_store *s = store;
+    if (s->next == s->wanted || (s->interrupted && s->interrupted())) return false;
+    *c = s->shard.index + s->next++ * s->shard.count;
+    return true;
+}
+
+static iso_status take_chunk(void *store, iso_context *ctx, size_t c, const iso_sweep_rows *rows)
+{
+    iso_sweep_store *s = store;
+    (void)c;
+    const iso_status status = iso_sweep_store_add(ctx, s, rows);
+    if (s->progress) s->progress(s->data, (double)(s->done + s->waiting) / (double)s->wanted);
+    return status;
+}
+
+iso_sweep_source iso_sweep_store_source(iso_sweep_store *s)
+{
+    return (iso_sweep_source){next_chunk, take_chunk, s};
+}
+
+iso_status iso_sweep_store_table(iso_context *ctx, iso_sweep_store *s, iso_record **table)
+{
+    iso_status status = write_early(ctx, s, true);
+    if (status == ISO_OK && s->done == s->wanted) status = iso_sweep_writer_end(ctx, &s->writer);
+    *table = s->done > 0 ? s->writer.table : NULL;
+    if (*table) s->writer.table = NULL;
     return status;
 }
 
@@ -253,9 +277,9 @@ iso_status iso_sweep_store_finish(iso_context *ctx, iso_sweep_store *s)
         return status;
     }
     ISO_TRY(iso_sweep_writer_end(ctx, &s->writer));
-    ISO_TRY(iso_table_flush(ctx, s->writer.table));
+    ISO_TRY(iso_table_flush(ctx, s->writer.file));
     ISO_TRY(iso_sweep_reader_open(ctx, s->part, &r));
-    const iso_status status = iso_sweep_copy(ctx, &r, 1, s->shard, s->path, NULL);
+    const iso_status status = iso_sweep_copy(ctx, &r, 1, s->shard, s->path, NULL, NULL);
     iso_sweep_reader_close(r);
     s->complete = status == ISO_OK; /* the rows as CSV go when this closes */
     return status;

@@ -13,7 +13,7 @@
  * such a file: out.h5.csv.part.
  *
  * Shard i of n (option --shard) is chunk i, i + n, i + 2n, ... of a sweep. Its result is a part; iso_sweep_merge
- * puts parts together, to the bytes that one program gives.
+ * puts parts together, to the bytes that one program writes.
  */
 #ifndef ISO_SWEEP_STORE_IMPL_H
 #define ISO_SWEEP_STORE_IMPL_H
@@ -23,6 +23,8 @@
 
 #define ISO_SWEEP_KIND "sweep"
 #define ISO_SWEEP_PART_KIND "sweep part"
+
+#define ISO_FAIL_FILE(ctx, ...) iso_context_fail(ctx, ISO_FILE_TROUBLE, "", __VA_ARGS__)
 
 /* --- shards, failures, sums ------------------------------------------------------------------------------------- */
 
@@ -51,20 +53,6 @@ uint64_t iso_sweep_sum(uint64_t before, const iso_sweep_rows *rows);
 enum { ISO_SWEEP_NAME = 3 * ISO_NAME_SIZE + 1 };
 const char *iso_sweep_column_name(const iso_sweep_column *column, char name[ISO_SWEEP_NAME]);
 
-/* --- chunks that wait for their turn ---------------------------------------------------------------------------- */
-
-typedef struct iso_sweep_queue {
-    size_t count, room;
-    iso_sweep_rows *rows; /* by growing first point */
-} iso_sweep_queue;
-
-/* Keeps a copy of a chunk. Errors: ISO_NO_MEMORY. */
-iso_status iso_sweep_queue_add(iso_context *ctx, iso_sweep_queue *queue, const iso_sweep_rows *rows);
-
-/* Takes the first chunk out, to be freed by the caller, if it begins with this point (SIZE_MAX: with any). */
-bool iso_sweep_queue_take(iso_sweep_queue *queue, size_t first, iso_sweep_rows *rows);
-void iso_sweep_queue_free(iso_sweep_queue *queue);
-
 /* --- results: tables (sweep_reader.c, sweep_writer.c) ----------------------------------------------------------- */
 
 typedef struct iso_sweep_reader {
@@ -75,7 +63,7 @@ typedef struct iso_sweep_reader {
     uint64_t sum;               /* of the rows that were read */
     bool unended;               /* set it: the file may be one that is gone on with, and have no sum */
     double *row;
-    char *path;
+    const char *path; /* the caller's */
 } iso_sweep_reader;
 
 /* Opens a result or a part. Errors: ISO_FILE_TROUBLE: no such file, or none of a sweep. */
@@ -86,33 +74,23 @@ void iso_sweep_reader_close(iso_sweep_reader *reader);
  * with the last rows: the sum of all is not that in the file. */
 iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *reader, iso_sweep_rows *rows);
 
-/* Reads all rows, from the first on: `take` (NULL: nobody) gets them, failures (NULL: not wanted) are counted. */
-iso_status iso_sweep_reader_all(iso_context *ctx, iso_sweep_reader *reader, iso_sweep_failures *failures,
-                                iso_status (*take)(iso_context *ctx, void *data, const iso_sweep_rows *rows),
-                                void *data);
-
 /* Writes a result, chunk by chunk in their order. The sum of all rows stands in the file: a result that was changed or
  * damaged later is found out. */
 typedef struct iso_sweep_writer {
-    iso_table_writer *table;
-    iso_record *header;
+    iso_table_writer *file; /* NULL: rows go to the table */
+    iso_record *table;      /* lines and columns          */
     double *row;
     uint64_t sum;
 } iso_sweep_writer;
 
-/* Begins one. A file that has the name at the end is kept. resumes: a file in CSV that can be gone on with; nothing is
- * written before iso_table_go_on. Errors: those of iso_table_writer_open; close it also then. */
+/* Begins one; path NULL: in memory. A file that has the name at the end is kept. resumes: a file in CSV that can be
+ * gone on with; nothing is written before iso_table_go_on. Errors: those of iso_table_writer_open; close it also
+ * then. */
 iso_status iso_sweep_writer_open(iso_context *ctx, const char *path, const iso_sweep_head *head,
                                  iso_sweep_shard shard, bool resumes, iso_sweep_writer *writer);
 iso_status iso_sweep_writer_rows(iso_context *ctx, iso_sweep_writer *writer, const iso_sweep_rows *rows);
 iso_status iso_sweep_writer_end(iso_context *ctx, iso_sweep_writer *writer); /* writes the sum; close does so, too */
 iso_status iso_sweep_writer_close(iso_context *ctx, iso_sweep_writer *writer, bool keep);
-
-/* The same in memory: a table without rows, to be freed also after an error, and the rows of a chunk. Errors:
- * ISO_NO_MEMORY. */
-iso_status iso_sweep_table(iso_context *ctx, const iso_sweep_head *head, iso_record **table);
-iso_status iso_sweep_table_add(iso_context *ctx, iso_record *table, const iso_sweep_rows *rows);
-iso_status iso_sweep_set_sum(iso_context *ctx, iso_record *table, uint64_t sum);
 
 /* Reads a result or a part into a table. Errors: ISO_FILE_TROUBLE: no such file, none of a sweep, or a damaged one;
  * ISO_NO_MEMORY. */
@@ -123,9 +101,10 @@ iso_status iso_sweep_read_table(iso_context *ctx, const char *path, iso_record *
 iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path,
                            iso_sweep_failures *failures);
 
-/* The chunks of a shard to a new result `path`; each one from part c % count. */
+/* Reads the chunks of a shard, each one from part c % count, and writes them to a new result `path`, or to a table
+ * without the sum. path, table, failures may be NULL. */
 iso_status iso_sweep_copy(iso_context *ctx, iso_sweep_reader *const part[], size_t count, iso_sweep_shard shard,
-                          const char *path, iso_sweep_failures *failures);
+                          const char *path, iso_record **table, iso_sweep_failures *failures);
 
 /* --- the store (sweep_store.c) ---------------------------------------------------------------------------------- */
 
@@ -138,12 +117,18 @@ typedef struct iso_sweep_store {
     iso_sweep_failures failures;
     bool complete; /* the result is there already */
     bool ours;     /* its file was not refused */
-    iso_sweep_queue queue;
+    size_t next;   /* chunks of the shard that were given out by its source, or are done */
+    size_t waiting;
+    iso_sweep_rows *early; /* chunks that wait for their turn, by growing first point */
     iso_sweep_writer writer;
+    bool (*interrupted)(void); /* set it: its source then has no next chunk; NULL: never */
+    void (*progress)(void *data, double part);
+    void *data; /* of progress, which may be NULL */
 } iso_sweep_store;
 
 /* Begins the result `path`, or goes on with what there is of it (resume). With resume it is no error if there is
  * nothing. If `path` is no regular file, or is "-" (standard output, as CSV), rows go there, and it cannot be resumed.
+ * path NULL: rows go to a table in memory.
  * The head must live as long as the store.
  * Errors: ISO_FILE_TROUBLE: rows of another sweep, or that another program works on, or that are there without
  * resume; a journal of an older version; a file `path` that is there, unless it is the result of this sweep and resume
@@ -154,6 +139,13 @@ iso_status iso_sweep_store_open(iso_context *ctx, const char *path, const iso_sw
 
 /* Adds a chunk of the shard that is not written yet. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 iso_status iso_sweep_store_add(iso_context *ctx, iso_sweep_store *store, const iso_sweep_rows *rows);
+
+/* Its chunks that are not written yet, as a source for iso_sweep_run: adds what comes. */
+iso_sweep_source iso_sweep_store_source(iso_sweep_store *store);
+
+/* The table of a store in memory, to be freed by the caller, with chunks behind one that is missing, too; with the sum
+ * if all are there. NULL: there is no row. Errors: ISO_NO_MEMORY. */
+iso_status iso_sweep_store_table(iso_context *ctx, iso_sweep_store *store, iso_record **table);
 
 /* Ends the result; all chunks of the shard must be there. Errors: ISO_FILE_TROUBLE, also if a file of this name has
  * appeared: then that file and the rows both stay; ISO_NO_MEMORY. */

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/low_discrepancy_impl.h"
 #include "base/names_impl.h"
 #include "base/number_impl.h"
+#include "base/random_impl.h"
 #include "method/method.h"
 #include "model/model_impl.h"
 #include "sweep/sweep_draft_impl.h"
@@ -16,42 +16,25 @@ enum { MOST_LISTED = 1000000 };
 
 /* --- where values go -------------------------------------------------------------------------------------------- */
 
-/* "J2" of "J": the number of the component, 0 to 2; -1: it is none. */
-static int component(const char *name, const char *vector)
-{
-    const size_t length = strlen(vector);
-    const bool one = strncmp(name, vector, length) == 0 && strlen(name) == length + 1;
-    return one && name[length] >= '1' && name[length] <= '3' ? name[length] - '1' : -1;
-}
-
+/* A number of the scene, "k"; a vector, "J"; a component, "J2"; a ratio of moments, "J2/J1". */
 static bool find_number(const iso_draft_number list[], int count, iso_sweep_axis *a)
-{
-    for (int i = 0; i < count; i++) {
-        const int part = list[i].count == 3 ? component(a->name, list[i].name) : -1;
-        const bool all = strcmp(a->name, list[i].name) == 0;
-        if (!all && part < 0) continue;
-        a->target = ISO_TO_NUMBER;
-        a->width = all ? list[i].count : 1;
-        a->part = all ? 0 : part;
-        a->offset = list[i].offset + (size_t)a->part * sizeof(double);
-        return true;
-    }
-    return false;
-}
-
-/* "J2/J1" */
-static bool find_ratio(const iso_draft_number list[], int count, iso_sweep_axis *a)
 {
     char part[2], of[2];
     int used = 0;
-    if (sscanf(a->name, "J%1[123]/J%1[123]%n", part, of, &used) < 2 || a->name[used] || *part == *of) return false;
+    const bool ratio = sscanf(a->name, "J%1[123]/J%1[123]%n", part, of, &used) == 2 && !a->name[used] && *part != *of;
     for (int i = 0; i < count; i++) {
-        if (strcmp(list[i].name, "J") != 0) continue;
-        a->target = ISO_TO_RATIO;
-        a->width = 1;
-        a->part = *part - '1';
-        a->of = *of - '1';
-        a->offset = list[i].offset;
+        const char *name = list[i].name;
+        const size_t length = strlen(name);
+        const bool J = strcmp(name, "J") == 0, all = strcmp(a->name, name) == 0,
+                   component = list[i].count == 3 && strncmp(a->name, name, length) == 0 &&
+                               strspn(a->name + length, "123") == 1 && !a->name[length + 1];
+        if (!all && !component && !(ratio && J)) continue;
+        a->target = ratio ? ISO_TO_RATIO : ISO_TO_NUMBER;
+        a->width = all ? list[i].count : 1;
+        a->part = all ? 0 : (ratio ? *part : a->name[length]) - '1';
+        a->of = ratio ? *of - '1' : 0;
+        a->moments = !J ? 0 : all ? 7 : 1 << a->part;
+        a->offset = list[i].offset + (ratio ? 0 : (size_t)a->part * sizeof(double));
         return true;
     }
     return false;
@@ -81,7 +64,7 @@ static iso_status find_target(iso_sweep_file *f, const yaml_node_t *key, iso_swe
     if (key->type != YAML_SCALAR_NODE || key->data.scalar.length >= ISO_NAME_SIZE)
         return ISO_FAIL_AT(f, key, "a key should be the name of a number of the scene");
     snprintf(a->name, sizeof a->name, "%s", (const char *)key->data.scalar.value);
-    if (find_place(a) || find_number(list, count, a) || find_ratio(list, count, a)) return ISO_OK;
+    if (find_place(a) || find_number(list, count, a)) return ISO_OK;
     for (int i = 0; i < count; i++) names[named++] = list[i].name;
     const bool moments = strstr(a->name, "J") != NULL;
     for (size_t i = 0; i < (moments ? 9u : 4u); i++) names[named++] = others[i];
@@ -89,13 +72,6 @@ static iso_status find_target(iso_sweep_file *f, const yaml_node_t *key, iso_swe
 }
 
 /* --- where they come from --------------------------------------------------------------------------------------- */
-
-/* The numbers of one item of a list. */
-static iso_status read_item(iso_sweep_file *f, const yaml_node_t *item, const iso_sweep_axis *a, double value[])
-{
-    if (a->width == 1) return iso_yaml_number(&f->yaml, item, a->name, value);
-    return iso_yaml_numbers(&f->yaml, item, a->name, a->width, value);
-}
 
 static iso_status make_list(iso_sweep_file *f, iso_sweep_axis *a, size_t count)
 {
@@ -136,32 +112,24 @@ static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_swe
     return check_range(f, node, a);
 }
 
-/* A range with a count, as an item of a list. */
-static iso_status read_range_of_list(iso_sweep_file *f, const yaml_node_t *item, iso_sweep_axis *range)
-{
-    iso_status status = read_range(f, item, range);
-    if (status != ISO_OK || (range->values == ISO_FROM_RANGE && range->count <= MOST_LISTED)) return status;
-    return ISO_FAIL_AT(f, item, "a range in a list needs a 'count', at most %d", MOST_LISTED);
-}
-
-/* Values, and ranges of values. list NULL: only counts them. */
+/* Values, and ranges of values with a count. list NULL: only counts them. */
 static iso_status read_items(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a, size_t *count)
 {
-    iso_status status = ISO_OK;
     *count = 0;
     for (const yaml_node_item_t *i = node->data.sequence.items.start; i < node->data.sequence.items.top; i++) {
         const yaml_node_t *item = iso_yaml_node(&f->yaml, *i);
         iso_sweep_axis range = {.width = a->width, .count = 1};
         double value[9], *to = a->list ? a->list + *count * (size_t)a->width : value;
-        snprintf(range.name, sizeof range.name, "%s", a->name);
         if (item->type == YAML_MAPPING_NODE && a->width == 1) {
-            status = read_range_of_list(f, item, &range);
-            for (size_t j = 0; a->list && j < range.count && status == ISO_OK; j++)
-                to[j] = iso_sweep_in_range(&range, j);
+            strcpy(range.name, a->name);
+            ISO_TRY(read_range(f, item, &range));
+            if (range.values == ISO_FROM_DRAWING || range.count > MOST_LISTED)
+                return ISO_FAIL_AT(f, item, "a range in a list needs a 'count', at most %d", MOST_LISTED);
+            for (size_t j = 0; a->list && j < range.count; j++) to[j] = iso_sweep_in_range(&range, j);
         } else {
-            status = read_item(f, item, a, to);
+            ISO_TRY(a->width == 1 ? iso_yaml_number(&f->yaml, item, a->name, to)
+                                  : iso_yaml_numbers(&f->yaml, item, a->name, a->width, to));
         }
-        if (status != ISO_OK) return status;
         *count += range.count;
     }
     return ISO_OK;
@@ -178,14 +146,6 @@ static iso_status read_list(iso_sweep_file *f, const yaml_node_t *node, iso_swee
 }
 
 /* All a + b + c = sum from 1 on; ordered: a < b < c. */
-static size_t triangle_count(long sum, bool ordered)
-{
-    if (!ordered) return (size_t)(sum - 1) * (size_t)(sum - 2) / 2;
-    size_t count = 0;
-    for (long a = 1; 3 * a + 3 <= sum; a++) count += (size_t)((sum - a - 1) / 2 - a);
-    return count;
-}
-
 static iso_status read_triangle(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
 {
     static const iso_sweep_setting settings[] = {
@@ -200,7 +160,9 @@ static iso_status read_triangle(iso_sweep_file *f, const yaml_node_t *node, iso_
     a->values = ISO_FROM_TRIANGLE;
     a->sum = (long)value[0];
     a->ordered = value[1] > 0;
-    a->count = triangle_count(a->sum, a->ordered);
+    a->count = a->ordered ? 0 : (size_t)(a->sum - 1) * (size_t)(a->sum - 2) / 2;
+    for (long least = 1; a->ordered && 3 * least + 3 <= a->sum; least++)
+        a->count += (size_t)((a->sum - least - 1) / 2 - least);
     return ISO_OK;
 }
 
@@ -267,12 +229,11 @@ static iso_status check_level(iso_sweep_file *f, const yaml_node_t *key, iso_swe
     iso_draft_number list[ISO_SWEEP_NAMES];
     const bool point = f->base.start.model == ISO_POINT;
     const char *needed = point ? "eps" : "level.c";
-    bool stated = false;
     if (a->target != ISO_TO_LEVEL) return ISO_OK;
     f->level = a;
-    const int count = iso_draft_numbers(&f->draft, ISO_SWEEP_NAMES, list);
-    for (int i = 0; i < count; i++) stated = stated || strcmp(list[i].name, needed) == 0;
-    if (!stated)
+    int stated = iso_draft_numbers(&f->draft, ISO_SWEEP_NAMES, list);
+    while (stated > 0 && strcmp(list[stated - 1].name, needed) != 0) stated--;
+    if (stated == 0)
         return ISO_FAIL_AT(f, key, "'level' needs %s in the scene",
                            point ? "'eps'" : "'effects: {level: {c: 1}}', whose c it sets,");
     for (const iso_sweep_axis *b = f->axis; b < f->axis + f->axes; b++)
@@ -295,21 +256,13 @@ static iso_status check_start(iso_sweep_file *f, const yaml_node_t *vary)
         "a start on the section is 'l' and 'x' (one of them may be a single number), or 'start' alone");
 }
 
-/* The moments that an axis sets, as bits. */
-static int moments_of(const iso_sweep_axis *a)
-{
-    if (a->target == ISO_TO_RATIO) return 1 << a->part;
-    if (a->target != ISO_TO_NUMBER) return 0;
-    return strcmp(a->name, "J") == 0 ? 7 : component(a->name, "J") >= 0 ? 1 << a->part : 0;
-}
-
-/* J2 and J2/J1 both set J2; and J1 behind J2/J1 changes the ratio that the row tells. */
+/* J2 and J2/J1 both set J2; and J1 behind J2/J1 changes the ratio in the row. */
 static iso_status check_moments(iso_sweep_file *f, const yaml_node_t *key, const iso_sweep_axis *a)
 {
     for (const iso_sweep_axis *b = f->axis; b < a; b++) {
-        if (moments_of(a) & moments_of(b))
+        if (a->moments & b->moments)
             return ISO_FAIL_AT(f, key, "'%s' and '%s' set the same moment", b->name, a->name);
-        if (b->target == ISO_TO_RATIO && moments_of(a) & 1 << b->of)
+        if (b->target == ISO_TO_RATIO && a->moments & 1 << b->of)
             return ISO_FAIL_AT(f, key, "'%s' changes '%s': write it first", a->name, b->name);
     }
     return ISO_OK;
@@ -338,39 +291,20 @@ static iso_status read_axis(iso_sweep_file *f, const yaml_node_pair_t *pair)
     const yaml_node_t *key = iso_yaml_node(&f->yaml, pair->key), *value = iso_yaml_node(&f->yaml, pair->value);
     if (f->axes == ISO_SWEEP_AXES) return ISO_FAIL_AT(f, key, "more than %d numbers vary", ISO_SWEEP_AXES);
     iso_sweep_axis *a = &f->axis[f->axes++];
-    iso_status status = find_target(f, key, a);
-    if (status == ISO_OK) status = read_values(f, value, a);
-    if (status == ISO_OK) status = check_tolerance(f, value, a);
-    if (status == ISO_OK) status = check_chart(f, value, a);
-    if (status == ISO_OK) status = check_level(f, key, a);
-    if (status == ISO_OK) status = name_columns(f, key, a);
-    if (status == ISO_OK) status = check_moments(f, key, a);
-    if (status != ISO_OK || a->values != ISO_FROM_DRAWING) return status;
+    ISO_TRY(find_target(f, key, a));
+    ISO_TRY(read_values(f, value, a));
+    ISO_TRY(check_tolerance(f, value, a));
+    ISO_TRY(check_chart(f, value, a));
+    ISO_TRY(check_level(f, key, a));
+    ISO_TRY(name_columns(f, key, a));
+    ISO_TRY(check_moments(f, key, a));
+    if (a->values != ISO_FROM_DRAWING) return ISO_OK;
     if (f->drawn == ISO_SWEEP_DRAWN) return ISO_FAIL_AT(f, key, "more than %d numbers are drawn", ISO_SWEEP_DRAWN);
     a->drawn = f->drawn++;
     return ISO_OK;
 }
 
 /* --- samples ---------------------------------------------------------------------------------------------------- */
-
-/* Evenly: the additive recurrence of `dimension` steps 1/r, 1/r^2, ..., r^(dimension + 1) = r + 1 (M. Roberts). */
-static void prepare_drawing(iso_sweep_file *f)
-{
-    double r = 1.5;
-    for (int i = 0; i < 200; i++) {
-        double power = 1;
-        for (int j = 0; j <= f->drawn; j++) power *= r;
-        const double slope = (f->drawn + 1) * (power / r) - 1;
-        r -= (power - r - 1) / slope;
-    }
-    double step = 1;
-    uint64_t number = f->seed;
-    for (int j = 0; j < f->drawn; j++) {
-        step /= r;
-        f->step[j] = (uint64_t)(step * 0x1p64);
-        f->shift[j] = number = iso_scatter(number);
-    }
-}
 
 static ISO_NAMES(kind_of_samples, int, "even", "random")
 
@@ -382,7 +316,7 @@ static ISO_NAMES(kind_of_samples, int, "even", "random")
         {.name = "seed", .least = 0, .most = 0x1p53, .whole = true},
         {.name = NULL},
     };
-    double value[3];
+    double value[3], r = 1.5, step = 1;
     if (f->drawn > 0 && !samples)
         return ISO_FAIL_AT(f, vary, "a range without a count is drawn: 'samples: {count: ...}' is missing");
     if (!samples) return ISO_OK;
@@ -391,18 +325,17 @@ static ISO_NAMES(kind_of_samples, int, "even", "random")
     ISO_TRY(iso_sweep_read_mapping(&f->yaml, samples, "samples", settings, value));
     f->samples = (size_t)value[0];
     f->random = value[1] > 0;
-    f->seed = (uint64_t)value[2];
-    return ISO_OK;
-}
-
-static iso_status count_points(iso_sweep_file *f, const yaml_node_t *vary)
-{
-    double count = f->drawn > 0 ? (double)f->samples : 1;
-    f->plan.family.count = f->drawn > 0 ? f->samples : 1;
-    for (int i = 0; i < f->axes; i++) {
-        count *= (double)f->axis[i].count;
-        if (count > most_points) return ISO_FAIL_AT(f, vary, "more than %g points", most_points);
-        f->plan.family.count *= f->axis[i].count;
+    /* Evenly: the additive recurrence of f->drawn steps 1/r, 1/r^2, ..., r^(drawn + 1) = r + 1 (M. Roberts). */
+    for (int i = 0; i < 200; i++) {
+        double power = 1;
+        for (int j = 0; j <= f->drawn; j++) power *= r;
+        r -= (power - r - 1) / ((f->drawn + 1) * (power / r) - 1);
+    }
+    uint64_t number = (uint64_t)value[2];
+    for (int j = 0; j < f->drawn; j++) {
+        step /= r;
+        f->step[j] = (uint64_t)(step * 0x1p64);
+        f->shift[j] = number = iso_scatter(number);
     }
     return ISO_OK;
 }
@@ -415,12 +348,16 @@ iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const
         return iso_yaml_expected(&f->yaml, vary, "vary", "a mapping with the numbers that vary");
     f->column = calloc(9 * ISO_SWEEP_AXES, sizeof *f->column);
     if (!f->column) return iso_context_no_memory(f->yaml.ctx, "a sweep");
-    iso_status status = ISO_OK;
     const yaml_node_pair_t *end = vary->data.mapping.pairs.top;
-    for (const yaml_node_pair_t *p = vary->data.mapping.pairs.start; p < end && status == ISO_OK; p++)
-        status = read_axis(f, p);
-    if (status == ISO_OK) status = check_start(f, vary);
-    if (status == ISO_OK) status = read_samples(f, vary, samples);
-    if (status == ISO_OK) prepare_drawing(f);
-    return status == ISO_OK ? count_points(f, vary) : status;
+    for (const yaml_node_pair_t *p = vary->data.mapping.pairs.start; p < end; p++) ISO_TRY(read_axis(f, p));
+    ISO_TRY(check_start(f, vary));
+    ISO_TRY(read_samples(f, vary, samples));
+    size_t *points = &f->plan.family.count;
+    *points = f->drawn > 0 ? f->samples : 1;
+    for (int i = 0; i < f->axes; i++) {
+        if ((double)*points * (double)f->axis[i].count > most_points)
+            return ISO_FAIL_AT(f, vary, "more than %g points", most_points);
+        *points *= f->axis[i].count;
+    }
+    return ISO_OK;
 }

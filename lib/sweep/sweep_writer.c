@@ -8,6 +8,7 @@
  *
  * The bytes of the file depend on nothing but what is in it.
  */
+#define _GNU_SOURCE /* vasprintf */
 #include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
@@ -15,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/fold_impl.h"
 #include "sweep/sweep_store_impl.h"
 
 /* --- shards, failures, names ------------------------------------------------------------------------------------- */
@@ -62,58 +64,53 @@ void iso_sweep_failures_add(iso_sweep_failures *f, const iso_sweep_rows *rows)
 __attribute__((format(printf, 4, 5))) static iso_status set(iso_context *ctx, iso_record *r, const char *key,
                                                             const char *format, ...)
 {
-    char text[64];
+    char *text;
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    const bool memory = vasprintf(&text, format, args) >= 0;
     va_end(args);
-    return iso_record_set(ctx, r, key, text);
+    if (!memory) return iso_context_no_memory(ctx, "a sweep");
+    const iso_status status = iso_record_set(ctx, r, key, text);
+    free(text);
+    return status;
 }
 
 /* A text of whole lines: the last one gets an end if its file has none. */
 static iso_status set_text(iso_context *ctx, iso_record *r, const char *key, const char *text)
 {
-    const size_t length = strlen(text);
-    if (length == 0 || text[length - 1] == '\n') return iso_record_set(ctx, r, key, length ? text : NULL);
-    char *ended = malloc(length + 2);
-    if (!ended) return iso_context_no_memory(ctx, "a sweep");
-    memcpy(ended, text, length);
-    memcpy(ended + length, "\n", 2);
-    const iso_status status = iso_record_set(ctx, r, key, ended);
-    free(ended);
-    return status;
+    const size_t length = text ? strlen(text) : 0;
+    return length > 0 ? set(ctx, r, key, text[length - 1] == '\n' ? "%s" : "%s\n", text) : ISO_OK;
 }
 
-/* "vary/k chaos/verdict": all columns, as text. NULL: no memory. */
-static char *print_columns(const iso_sweep_head *head)
+/* "vary/k chaos/verdict": all columns. */
+static iso_status set_names(iso_context *ctx, iso_record *r, const iso_sweep_head *head)
 {
-    char *text = malloc((size_t)(head->columns + 1) * (ISO_SWEEP_NAME + 1)), *at = text;
-    if (!text) return NULL;
-    *at = '\0';
-    for (int i = 0; i < head->columns; i++)
-        at += sprintf(at, "%s%s/%s", i > 0 ? " " : "", head->column[i].group, head->column[i].name);
-    return text;
+    iso_memory memory;
+    FILE *to = iso_memory_open(&memory);
+    for (int i = 0; to && i < head->columns; i++)
+        fprintf(to, "%s%s/%s", i > 0 ? " " : "", head->column[i].group, head->column[i].name);
+    char *text = iso_memory_close(to, &memory);
+    const iso_status status = text ? iso_record_set(ctx, r, "names", text) : iso_context_no_memory(ctx, "a sweep");
+    free(text);
+    return status;
 }
 
 static iso_status set_lines(iso_context *ctx, iso_record *r, const iso_sweep_head *head, iso_sweep_shard shard)
 {
+    iso_record_set_kind(r, shard.count == 1 ? ISO_SWEEP_KIND : ISO_SWEEP_PART_KIND);
     ISO_TRY(iso_record_set(ctx, r, "isoroll", head->version));
     ISO_TRY(set(ctx, r, "hash", "%016" PRIx64 "%016" PRIx64, head->hash[0], head->hash[1]));
     ISO_TRY(set(ctx, r, "points", "%zu", head->count));
     ISO_TRY(set(ctx, r, "chunk", "%zu", head->chunk));
     ISO_TRY(iso_record_set(ctx, r, "vectors", head->vectors));
     if (shard.count > 1) ISO_TRY(set(ctx, r, "part", "%zu of %zu", shard.index + 1, shard.count));
-    char *columns = print_columns(head);
-    const iso_status status =
-        columns ? iso_record_set(ctx, r, "names", columns) : iso_context_no_memory(ctx, "a sweep");
-    free(columns);
-    ISO_TRY(status);
+    ISO_TRY(set_names(ctx, r, head));
     ISO_TRY(set_text(ctx, r, ISO_TABLE_TEXT, head->text));
-    return head->scene ? set_text(ctx, r, "scene", head->scene) : ISO_OK;
+    return set_text(ctx, r, "scene", head->scene);
 }
 
 /* point, what varies, what was measured, status, reason */
-static iso_status make_header(iso_context *ctx, const iso_sweep_head *head, iso_record **r)
+static iso_status make_columns(iso_context *ctx, const iso_sweep_head *head, iso_record **r)
 {
     const size_t columns = (size_t)head->columns;
     char(*text)[ISO_SWEEP_NAME] = calloc(columns + 1, sizeof *text);
@@ -129,63 +126,35 @@ static iso_status make_header(iso_context *ctx, const iso_sweep_head *head, iso_
     return status;
 }
 
-/* Row i of a chunk as the table has it. */
-static iso_status fill_row(iso_context *ctx, iso_record *table, const iso_sweep_rows *rows, size_t i, double row[])
-{
-    const size_t columns = (size_t)rows->columns;
-    const double *number = rows->number + i * columns;
-    row[0] = (double)(rows->first + i);
-    for (size_t c = 0; c < columns; c++) row[c + 1] = isnan(number[c]) ? (double)NAN : number[c];
-    row[columns + 1] = (double)rows->status[i];
-    return iso_record_intern(ctx, table, rows->status[i] != ISO_OK ? rows->reason[i] : "", &row[columns + 2]);
-}
-
-iso_status iso_sweep_table(iso_context *ctx, const iso_sweep_head *head, iso_record **table)
-{
-    ISO_TRY(make_header(ctx, head, table));
-    iso_record_set_kind(*table, ISO_SWEEP_KIND);
-    return set_lines(ctx, *table, head, (iso_sweep_shard){0, 1});
-}
-
-iso_status iso_sweep_set_sum(iso_context *ctx, iso_record *table, uint64_t sum)
-{
-    return set(ctx, table, "sum", "%016" PRIx64, sum);
-}
-
-iso_status iso_sweep_table_add(iso_context *ctx, iso_record *table, const iso_sweep_rows *rows)
-{
-    iso_status status = ISO_OK;
-    double *row;
-    for (size_t i = 0; i < rows->count && status == ISO_OK; i++) {
-        status = iso_record_append(ctx, table, &row);
-        if (status == ISO_OK) status = fill_row(ctx, table, rows, i, row);
-    }
-    return status;
-}
-
-/* --- files ------------------------------------------------------------------------------------------------------ */
+/* --- rows --------------------------------------------------------------------------------------------------------- */
 
 iso_status iso_sweep_writer_open(iso_context *ctx, const char *path, const iso_sweep_head *head,
                                  iso_sweep_shard shard, bool resumes, iso_sweep_writer *w)
 {
-    const char *kind = shard.count == 1 ? ISO_SWEEP_KIND : ISO_SWEEP_PART_KIND;
     *w = (iso_sweep_writer){.row = calloc((size_t)head->columns + 3, sizeof *w->row)};
     if (!w->row) return iso_context_no_memory(ctx, "a sweep");
-    ISO_TRY(make_header(ctx, head, &w->header));
-    ISO_TRY(set_lines(ctx, w->header, head, shard));
-    ISO_TRY(resumes ? iso_table_writer_resume(ctx, path, kind, &w->table)
-                    : iso_table_writer_open(ctx, path, kind, &w->table));
-    w->table->fresh = true;
-    w->table->expected = iso_sweep_shard_points(head, shard);
-    return resumes ? ISO_OK : iso_table_write_header(ctx, w->table, w->header);
+    ISO_TRY(make_columns(ctx, head, &w->table));
+    ISO_TRY(set_lines(ctx, w->table, head, shard));
+    if (!path) return ISO_OK;
+    const char *kind = iso_record_kind(w->table);
+    ISO_TRY(iso_table_writer_open_as(ctx, path, kind, resumes, &w->file));
+    w->file->fresh = true;
+    w->file->expected = iso_sweep_shard_points(head, shard);
+    return resumes ? ISO_OK : iso_table_write_header(ctx, w->file, w->table);
 }
 
 iso_status iso_sweep_writer_rows(iso_context *ctx, iso_sweep_writer *w, const iso_sweep_rows *rows)
 {
+    const size_t columns = (size_t)rows->columns;
     for (size_t i = 0; i < rows->count; i++) {
-        if (!w->table->waits) iso_record_forget_words(w->header);
-        ISO_TRY(fill_row(ctx, w->header, rows, i, w->row));
-        ISO_TRY(iso_table_write_row(ctx, w->table, w->row));
+        const double *number = rows->number + i * columns;
+        if (w->file && !w->file->waits) iso_record_forget_words(w->table);
+        w->row[0] = (double)(rows->first + i);
+        for (size_t c = 0; c < columns; c++) w->row[c + 1] = isnan(number[c]) ? (double)NAN : number[c];
+        w->row[columns + 1] = (double)rows->status[i];
+        ISO_TRY(
+            iso_record_intern(ctx, w->table, rows->status[i] != ISO_OK ? rows->reason[i] : "", &w->row[columns + 2]));
+        ISO_TRY(w->file ? iso_table_write_row(ctx, w->file, w->row) : iso_record_add(ctx, w->table, 1, w->row));
     }
     w->sum = iso_sweep_sum(w->sum, rows);
     return ISO_OK;
@@ -195,14 +164,14 @@ iso_status iso_sweep_writer_end(iso_context *ctx, iso_sweep_writer *w)
 {
     char text[17];
     snprintf(text, sizeof text, "%016" PRIx64, w->sum);
-    return iso_table_write_line(ctx, w->table, "sum", text);
+    return w->file ? iso_table_write_line(ctx, w->file, "sum", text) : iso_record_set(ctx, w->table, "sum", text);
 }
 
 iso_status iso_sweep_writer_close(iso_context *ctx, iso_sweep_writer *w, bool keep)
 {
     const iso_status status = keep ? iso_sweep_writer_end(ctx, w) : ISO_OK;
-    const iso_status closed = iso_table_writer_close(ctx, w->table, keep && status == ISO_OK);
-    iso_record_free(w->header);
+    const iso_status closed = iso_table_writer_close(ctx, w->file, keep && status == ISO_OK);
+    iso_record_free(w->table);
     free(w->row);
     *w = (iso_sweep_writer){.sum = 0};
     return status == ISO_OK ? closed : status;

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/math_impl.h"
 #include "base/number_impl.h"
-#include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
 #include "model/model_impl.h"

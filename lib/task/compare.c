@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/seconds_impl.h"
+#include "base/resources_impl.h"
 #include "base/vec3_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/watch_impl.h"

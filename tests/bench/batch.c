@@ -27,6 +27,7 @@
 #include <string.h>
 
 #include "bench.h"
+#include "laws.h"
 #include "map/state.h"
 #include "model/model_impl.h"
 #include "orbit/batch.h"
@@ -45,7 +46,7 @@ static void make_starts(iso_context *ctx, double k)
     iso_random *random = iso_random_create(1);
     for (int i = 0; i < ORBITS; i++) {
         starts[i].model = ISO_BALL;
-        iso_system_ball.sample(&problem, random, starts[i].y);
+        laws_sample(&iso_system_ball, &problem, random, starts[i].y);
         const double scale = sqrt(0.81 / iso_ball_energy(&params, starts[i].y));
         for (int j = 0; j < 3; j++) starts[i].y[j] *= scale;
     }

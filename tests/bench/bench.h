@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "base/seconds_impl.h"
+#include "base/resources_impl.h"
 #include "map/section.h"
 #include "orbit/orbit.h"
 

@@ -10,7 +10,7 @@
  */
 #include <string.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "base/random_impl.h"
 #include "bench.h"
 #include "instrument/chaos/chaos.h"

@@ -23,6 +23,7 @@
 #include "base/random_impl.h"
 #include "bench.h"
 #include "exact/exact_impl.h"
+#include "laws.h"
 #include "map/state.h"
 #include "method/integrator_impl.h"
 #include "model/model_impl.h"
@@ -47,7 +48,7 @@ typedef struct orbit {
 static orbit sample(double k, const double J[3], iso_random *random)
 {
     orbit o = {.problem.p = bench_params(ctx, k, J)};
-    iso_system_point.sample(&o.problem, random, o.point);
+    laws_sample(&iso_system_point, &o.problem, random, o.point);
     return o;
 }
 

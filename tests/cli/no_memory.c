@@ -2,7 +2,7 @@
  * says:
  *
  *     ISO_FAIL_AT=n          the n-th call alone, but for those that SUNDIALS and GSL make themselves, which do not
- *                            survive it (lib/base/room_impl.h); calls of the C library, libyaml and jansson count
+ *                            survive it (lib/base/resources_impl.h); calls of the C library, libyaml and jansson count
  *     ISO_FAIL_FROM=n        that and all later ones, theirs too
  *     ISO_FAIL_ANY=n         the n-th call alone, theirs counted
  *     ISO_FAIL_COUNT=FILE    gets the number of calls when the program ends

@@ -14,8 +14,8 @@ static void compute(iso_context *ctx, const iso_params *p, const iso_effects *ef
     const iso_problem f = {.p = *p, .effects = *effects, .eps = 1};
     double y[ISO_MAX_STATE] = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8, 0, 0.6, 0.8}, dy[ISO_MAX_STATE];
     double jac[ISO_MAX_STATE * ISO_MAX_STATE];
-    for (int s = 0; iso_system_at(s); s++) {
-        const iso_model m = iso_model_assemble(iso_system_at(s), &f, iso_system_at(s)->clock, none);
+    for (int s = 0; iso_systems[s]; s++) {
+        const iso_model m = iso_model_assemble(iso_systems[s], &f, iso_systems[s]->clock, none);
         if (iso_model_too_large(&m)) continue;
         FUZZ_REQUIRE(m.problem.motion.lines <= ISO_FORMULA_LINES && m.dim <= ISO_STATE + 3, "%d\n", m.dim);
         m.rhs(&m, y, dy);

@@ -258,7 +258,7 @@ static double sampled(const iso_system *system, double k, iso_model *model, doub
     iso_problem f = {.p = laws_params(k, (double[]){1.4, 2.1, 3.0})};
     iso_random *random = iso_random_create(8);
     double dy[ISO_STATE];
-    system->sample(&f, random, y);
+    laws_sample(system, &f, random, y);
     iso_random_free(random);
     *model = iso_model_assemble(system, &f, system->clock, (const bool[]){false, false, false});
     model->rhs(model, y, dy);

@@ -6,7 +6,6 @@
 #include "base/vec3_impl.h"
 #include "folder.h"
 #include "plot/draw.h"
-#include "plot/plot.h"
 
 static iso_context *ctx;
 

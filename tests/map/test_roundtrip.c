@@ -64,7 +64,7 @@ static void run(trip *t, const iso_params *p, const double start[ISO_STATE])
 static void sample(const iso_params *p, double speed, iso_random *random, double ball[ISO_STATE])
 {
     iso_problem f = {.p = *p};
-    iso_system_ball.sample(&f, random, ball);
+    laws_sample(&iso_system_ball, &f, random, ball);
     scale(ball, speed);
 }
 

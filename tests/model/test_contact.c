@@ -25,7 +25,7 @@ static void rigid_is_free(const effects_case *c, laws_worst *worst)
     memset(nothing.effects.number[ISO_FIELD], 0, sizeof nothing.effects.number[ISO_FIELD]);
     const iso_model m = iso_model_assemble(&iso_system_ball, &nothing, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false});
     iso_model_slopes(&c->model, c->y, slope);
-    iso_contact_rigid.solve(f, c->y, none, dy);
+    iso_contact_rigid(f, c->y, none, dy);
     iso_model_slopes(&m, c->y, jac);
     for (int i = 0; i < ISO_STATE; i++) {
         effects_note(c, worst, fabs(own[i] - dy[i]), bound * size[i], "rhs");
@@ -48,7 +48,7 @@ static void rigid_equation(const effects_case *c, laws_worst *worst)
     torque_on(c, T);
     copy(c->y, y, ISO_STATE);
     for (int pass = 0; pass < 2; pass++) remove_along(y, y + 3); /* where the ball is free to twist */
-    iso_contact_rigid.solve(f, y, T, dy);
+    iso_contact_rigid(f, y, T, dy);
     diag(f->p.J, y, Jw);
     cross(y, Jw, rest);
     for (int i = 0; i < 3; i++) rest[i] += f->p.J[i] * dy[i] - T[i];
@@ -75,7 +75,7 @@ static void twisting_equation(const effects_case *c, laws_worst *worst)
     copy(c->y, y, ISO_STATE);
     add_scaled(y, iso_random_normal(c->random), y + 3);
     torque_on(c, T);
-    iso_contact_twisting.solve(&c->model.problem, y, T, dy);
+    iso_contact_twisting(&c->model.problem, y, T, dy);
     momentum(p, y, K);
     cross(K, y, expected);
     add_scaled(expected, 1, T);
@@ -95,7 +95,7 @@ static double distance_to_rigid(const effects_case *c, double resistance)
     iso_problem f = c->model.problem;
     double y[ISO_MAX_STATE], rigid[ISO_MAX_STATE], twisting[ISO_MAX_STATE], T[3];
     iso_effects_torque(&c->model.problem, c->y, T, y);
-    const double lambda = iso_contact_rigid.twist(&c->model.problem, c->y, T);
+    const double lambda = iso_contact_lambda(&c->model.problem, c->y, T);
     f.effects.on[ISO_TWIST] = true;
     TWIST_RESISTANCE(&f.effects) = resistance;
     const iso_model m = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[]){false, false, false});

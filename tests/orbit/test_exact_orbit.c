@@ -54,7 +54,7 @@ static problem make_problem(int i, iso_random *random)
     const bool ball = i / 2 % 2 == 0;
     iso_problem f = {.p = o.p};
     o.start.model = ball ? ISO_BALL : ISO_POINT;
-    (ball ? &iso_system_ball : &iso_system_point)->sample(&f, random, o.start.y);
+    laws_sample(ball ? &iso_system_ball : &iso_system_point, &f, random, o.start.y);
     o.start.eps = ball ? 0 : f.eps;
     return o;
 }

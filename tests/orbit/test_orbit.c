@@ -22,7 +22,7 @@ static iso_start random_start(const iso_params *p, iso_random *random)
 {
     iso_problem f = {.p = *p};
     iso_start start = {.model = ISO_BALL};
-    iso_system_ball.sample(&f, random, start.y);
+    laws_sample(&iso_system_ball, &f, random, start.y);
     return start;
 }
 

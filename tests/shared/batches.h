@@ -42,7 +42,7 @@ static inline void batch_add_random(batch_pool *all, iso_random *dice, double k,
     const iso_params p = effects_params(k, scaled, dice);
     iso_problem f = {.p = p};
     iso_start start = {.model = ISO_BALL};
-    iso_system_ball.sample(&f, dice, start.y);
+    laws_sample(&iso_system_ball, &f, dice, start.y);
     const double q = iso_system_ball.q(&p, start.y, NULL);
     scale(start.y, speed * iso_clock_rate(&p, clock, q, NULL) / fmax(1, fabs(k)) / laws_norm(start.y));
     const iso_effects e = effects_random(dice, &p, subset, iso_ball_energy(&p, start.y), laws_norm(start.y), q);

@@ -160,7 +160,7 @@ static inline effects_case effects_sample(const iso_system *system, const iso_pa
     effects_case c = {.system = system, .subset = subset, .random = r};
     iso_problem f = {.p = *p};
     double start[ISO_STATE];
-    system->sample(&f, r, start);
+    laws_sample(system, &f, r, start);
     const bool ball = system == &iso_system_ball;
     if (ball && subset & 1 << ISO_TWIST && !(subset & EFFECTS_STIFF))
         add_scaled(start, effects_random_sign(r, 0.2, 1) * norm(start), start + 3);

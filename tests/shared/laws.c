@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "model/model_impl.h"
 
@@ -36,6 +37,24 @@ iso_params laws_params(double k, const double J[3])
     return p;
 }
 
+void laws_sample(const iso_system *system, iso_problem *f, iso_random *r, double y[ISO_STATE])
+{
+    const bool ball = system == &iso_system_ball;
+    double unused;
+    f->energy = 0;
+    f->eps = ball ? 0 : iso_random_uniform(r, 0.5, 2) * f->p.det_J / (f->p.k * f->p.k);
+    iso_random_direction(r, y + 3);
+    if (!ball) iso_random_direction(r, y);
+    for (int i = 0; ball && i < 3; i++) y[i] = iso_random_normal(r);
+    for (int pass = 0; pass < 2; pass++) remove_along(y, y + 3); /* twice: it may be nearly along n or gamma */
+    if (ball) {
+        f->energy = system->energy(f, y, &unused);
+    } else {
+        const double rest[ISO_STATE] = {0, 0, 0, y[3], y[4], y[5]};
+        scale(y, sqrt(-2 * system->energy(f, rest, &unused)) / norm(y));
+    }
+}
+
 void laws_note(laws_worst *worst, double error, double allowed, const iso_params *p, const char *what)
 {
     const double ratio = error == 0 && allowed == 0 ? 0 : error / allowed;
@@ -59,7 +78,7 @@ static void run_states(const iso_system *system, const iso_params *p, iso_random
 {
     for (int i = 0; i < LAWS_STATES; i++) {
         laws_case c = {.system = system, .problem = {.p = *p}, .random = random};
-        system->sample(&c.problem, random, c.y);
+        laws_sample(system, &c.problem, random, c.y);
         law(&c, worst);
     }
 }

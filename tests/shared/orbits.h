@@ -40,7 +40,7 @@ static inline orbit orbit_sample(iso_context *ctx, const iso_system *system, dou
 {
     orbit o = {.ctx = ctx, .model.system = system, .model.problem.p = laws_params(k, J)};
     iso_random *random = iso_random_create(seed);
-    system->sample(&o.model.problem, random, o.y0);
+    laws_sample(system, &o.model.problem, random, o.y0);
     iso_random_free(random);
     orbit_clocks(&o, system->clock, false, false, false);
     return o;

@@ -107,7 +107,7 @@ static inline iso_start scene_start(const rolling *ball, iso_random *random)
 {
     iso_problem f = {.p = ball->p};
     iso_start start = {.model = ISO_BALL};
-    iso_system_ball.sample(&f, random, start.y);
+    laws_sample(&iso_system_ball, &f, random, start.y);
     make_unit(start.y);
     return start;
 }

@@ -2,7 +2,7 @@
 #ifndef ISO_TESTS_SECTION_AREA_H
 #define ISO_TESTS_SECTION_AREA_H
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "map/section_impl.h"
 
 /* The area of the whole section, the integral of 2 G dl over the part of the circle that is open. Its relative error

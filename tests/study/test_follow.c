@@ -8,7 +8,7 @@ static const iso_branch_event *event_of(const iso_branch *b, iso_branch_kind kin
 {
     for (size_t i = 0; i < b->events; i++)
         if (b->event[i].kind == kind) return &b->event[i];
-    gsl_test(1, "there is an event '%s'", iso_branch_kind_name(kind));
+    gsl_test(1, "there is an event '%s'", iso_branch_kind_name((int)kind));
     exit(gsl_test_summary());
 }
 
@@ -19,7 +19,7 @@ static void check_sides(const iso_branch *b, const iso_branch_event *e, bool tou
     while (i + 2 < b->points && b->point[i + 1].arc < e->at.arc) i++;
     const double before = b->point[i].trace + 2, behind = b->point[i + 1].trace + 2;
     gsl_test((before * behind > 0) != touches, "trace %g before and %g behind -2 at %.9g: %s", before, behind,
-             e->at.value, iso_branch_kind_name(e->kind));
+             e->at.value, iso_branch_kind_name((int)e->kind));
 }
 
 /* A point of a branch is found again by the search along lines, at its value of k. */

@@ -11,6 +11,7 @@
 #include "exact/coordinates_impl.h"
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/frequencies/frequencies_impl.h"
+#include "laws.h"
 #include "length.h"
 #include "map/state.h"
 #include "numbers.h"
@@ -356,7 +357,7 @@ static void check_image(int i, iso_random *random, laws_worst *worst)
     const double J[3] = {1.4, i % 3 == 0 ? 5 : 2.1, 1.1};
     iso_problem problem = {.p = laws_params(i % 2 == 0 ? -1 : 1, J)};
     double y[ISO_STATE], size, low, high, size_h;
-    iso_system_ball.sample(&problem, random, y);
+    laws_sample(&iso_system_ball, &problem, random, y);
     if (i % 4 == 0) {
         problem.effects.on[ISO_LEVEL] = true;
         LEVEL_C(&problem.effects) = iso_random_uniform(random, -6, 0.3) * problem.energy;

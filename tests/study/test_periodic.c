@@ -86,7 +86,7 @@ static void check_mirror(const iso_scene *scene, const iso_periodic_orbit *o)
     const iso_return_code *code = iso_return_code_of(false);
     gsl_test(!iso_periodic_shoot(&map, code, o->line, o->u, o->period, &shot), "the first half");
     gsl_test(!iso_periodic_far(&map, code, shot.z, 2 * o->period, NULL, &whole), "both halves");
-    iso_wide_multiply((const iso_wide(*)[2])shot.back, (const iso_wide(*)[2])shot.way.slope, slope);
+    iso_wide_multiply((const iso_wide(*)[2])shot.back, (const iso_wide(*)[2])shot.half.slope, slope);
     double size = 1, apart = 0;
     for (int i = 0; i < 4; i++) {
         size = fmax(size, fabs((double)whole.slope[i / 2][i % 2]));

@@ -5,7 +5,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "base/vec3_impl.h"
 #include "instrument/periodic/continuation.h"
 #include "instrument/periodic/stability_chart.h"

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "instrument/chaos/chaos_impl.h"
 #include "laws.h"
 #include "length.h"

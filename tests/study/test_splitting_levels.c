@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "instrument/separatrix/separatrix.h"
 #include "laws.h"
 #include "length.h"

@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "base/random_impl.h"
 #include "complex_paths.h"
 #include "instrument/periodic/periodic_impl.h"

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "base/random_impl.h"
 #include "complex_paths.h"
 #include "length.h"

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "base/random_impl.h"
 #include "complex_paths.h"
 #include "length.h"

@@ -25,7 +25,8 @@ iso_status plot_read_over(iso_context *ctx, const iso_plot_page *page, iso_recor
 enum { PLOT_SECTION_OPTIONS = 256 };
 const char *plot_section_options(const iso_plot_page *page, char text[static PLOT_SECTION_OPTIONS]);
 
-/* Draws a section with all that the page asks for. */
-iso_status plot_section(iso_context *ctx, const iso_plot_page *page, const iso_record *section);
+/* Draws a table by its kind, a section with all that the page asks for. Errors: ISO_BAD_ARGUMENT: --over or --window,
+ * and it is no section; those of plot_tables. */
+iso_status plot_table(iso_context *ctx, const iso_plot_page *page, const iso_record *table);
 
 #endif

@@ -1,6 +1,7 @@
 /* page.c - what is asked of a picture's page (see page.h). */
 #include "plot/page.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/number_impl.h"
@@ -31,24 +32,19 @@ bool iso_plot_set_title(void *at, const char *text)
 }
 
 /* From about the size of a stamp to that of a wall. */
-static bool is_good(double length, bool mm)
-{
-    return mm ? length >= 20 && length <= 2000 : length >= 100 && length <= 10000;
-}
-
 bool iso_plot_set_size(void *at, const char *text)
 {
     iso_plot_size size, *to = at;
-    const char *x = strchr(text, 'x');
     const size_t length = strlen(text);
-    if (!x || length < 2) return false;
-    size.mm = strcmp(text + length - 2, "mm") == 0;
-    if (!size.mm && strcmp(text + length - 2, "px") != 0) return false;
-    if (x + 1 > text + length - 2 || !iso_number_read(text, (size_t)(x - text), &size.width) ||
-        !iso_number_read(x + 1, (size_t)(text + length - 2 - x - 1), &size.height))
+    const char *x = strchr(text, 'x'), *unit = length > 2 ? text + length - 2 : text;
+    if (!x || x >= unit) return false;
+    size.mm = strcmp(unit, "mm") == 0;
+    if ((!size.mm && strcmp(unit, "px") != 0) || !iso_number_read(text, (size_t)(x - text), &size.width) ||
+        !iso_number_read(x + 1, (size_t)(unit - x - 1), &size.height))
         return false;
     *to = size;
-    return is_good(size.width, size.mm) && is_good(size.height, size.mm);
+    const double least = size.mm ? 20 : 100, most = size.mm ? 2000 : 10000;
+    return fmin(size.width, size.height) >= least && fmax(size.width, size.height) <= most;
 }
 
 bool iso_plot_set_window(void *at, const char *text)
@@ -89,9 +85,4 @@ iso_status iso_plot_check_page(iso_context *ctx, const iso_plot_page *page)
     if (page->path) return iso_gnuplot_check_files(ctx, page);
     if (!wish) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, wish, "--%s is about a picture: give --plot FILE, too", wish);
-}
-
-const char *iso_plot_titled(const iso_plot_page *page, const char *own)
-{
-    return page->title ? page->title : own;
 }

@@ -38,9 +38,6 @@ iso_status iso_plot_check_page(iso_context *ctx, const iso_plot_page *page);
 /* "over" or "window", if one is given: they are for sections. NULL: none is. */
 const char *iso_plot_section_wish(const iso_plot_page *page);
 
-/* The title that is drawn: "" is none. */
-const char *iso_plot_titled(const iso_plot_page *page, const char *own);
-
 /* Setters of options. */
 bool iso_plot_set_style(void *at, const char *text); /* iso_plot_style: a word of iso_plot_style_word */
 bool iso_plot_set_size(void *at, const char *text);  /* WIDTHxHEIGHT and mm or px                     */

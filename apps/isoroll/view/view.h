@@ -2,7 +2,7 @@
  * their names; so what a new panel shows needs no C if a table has it. lib/doc/formats.md, 9, has the kinds.
  *
  *     view_scene.c       a scene: `run`, and `compare` for how far both models are apart
- *     view_trajectory.c  a trajectory file; rows_impl.h gives it the columns that it lacks
+ *     view_trajectory.c  a trajectory file; rows_impl.h adds the columns that it lacks
  *     view_section.c     a section file: its crossings, and the first part of each of its orbits
  *     view_orbit.c       what is found out about orbits: integrals, a neighbour, and `chaos`
  *     view_data.c        the head and the tables as JSON
@@ -54,9 +54,12 @@ void view_page_free(view_page *page);
 /* Adds a note that the page shows. */
 void view_note(view_page *page, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Gives the page a table of this kind; orbit >= 0: about the section's orbit of this number. The page frees it, also
- * after an error. */
+/* Adds a table of this kind; orbit >= 0: about the section's orbit of this number. The page frees it, also after an
+ * error. */
 iso_status view_add(iso_context *ctx, view_page *page, const char *kind, double orbit, iso_record *table);
+
+/* A line of a table. */
+iso_status view_count(iso_context *ctx, iso_record *table, const char *key, size_t count);
 
 /* --- kinds of input --------------------------------------------------------------------------------------------- */
 
@@ -79,9 +82,9 @@ bool view_is_broken(view_page *page);
 size_t view_columns(const view_page *page, const iso_record *rows, const char *names[ISO_TRAJECTORY_COLUMNS]);
 
 /* The scene whose ball starts as a row does: with the page's parameters and effects and the attitude, by steps of the
- * ball, and with these columns. Errors: those of iso_record_start. */
+ * ball. view_ask_for adds columns to it, with blanks between. Errors: those of iso_record_start. */
 iso_status view_start(iso_context *ctx, const view_page *page, const iso_record *r, size_t row, iso_scene *scene);
-void view_ask_for(iso_scene *scene, size_t count, const char *const names[]);
+void view_ask_for(iso_scene *scene, const char *columns);
 
 /* Runs it into a new record at `count` times; NULL: its own times. page NULL: its notes are not wanted. */
 iso_status view_run(iso_context *ctx, const iso_scene *scene, const double times[], size_t count, view_page *page,
@@ -99,11 +102,11 @@ double view_largest_turn(const iso_record *r, double k);
 iso_status view_neighbour(iso_context *ctx, view_page *page, const iso_scene *scene, double orbit,
                           const iso_record *rows);
 
-/* The table "orbits": verdict, exponent and shade of the orbits that begin on the section's axis at (l, x), with the
- * energy of `scene`; number[i]: the orbit's number in `section`, whose picture has the shades. section, at NULL: of the
- * scene's own orbit, without a shade. Adds a note if there are none. Errors: likewise. */
+/* The table "orbits": verdict, exponent and shade of the orbits of a section, by their first crossings, whose rows are
+ * first[], with the energy of `scene`; the section's picture has the shades. section NULL: of the scene's own orbit,
+ * without a shade. Adds a note if there are none. Errors: likewise. */
 iso_status view_verdicts(iso_context *ctx, view_page *page, const iso_scene *scene, const iso_record *section,
-                         int axis, size_t count, const double (*at)[2], const double number[]);
+                         size_t count, const size_t first[]);
 
 /* Adds the rows of a scene or of a trajectory, and what is found out about them: "drifts" of the integrals of each
  * model, the neighbour, and the verdict. */

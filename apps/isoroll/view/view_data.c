@@ -35,6 +35,11 @@ iso_status view_add(iso_context *ctx, view_page *page, const char *kind, double 
     return orbit < 0 ? ISO_OK : iso_record_set_numbers(ctx, table, "orbit", 1, &orbit);
 }
 
+iso_status view_count(iso_context *ctx, iso_record *table, const char *key, size_t count)
+{
+    return iso_record_set_numbers(ctx, table, key, 1, (double[]){(double)count});
+}
+
 /* --- JSON ------------------------------------------------------------------------------------------------------- */
 
 /* Byte i of the numbers of a column, little-endian; 0 behind them. */

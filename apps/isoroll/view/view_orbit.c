@@ -30,20 +30,20 @@ size_t view_columns(const view_page *page, const iso_record *rows, const char *n
             c == ISO_CLOCK_TAU || c == ISO_CLOCK_S || (c >= ISO_COLUMN_POINT && c < ISO_COLUMN_EFFECTS);
         if (of_point && *page->alone) continue;
         if (c >= ISO_COLUMN_EFFECTS) iso_effect_column_name(c - ISO_COLUMN_EFFECTS, &effect, NULL, NULL);
-        const bool wanted = effect == ISO_EFFECTS ? true
-                            : effect == ISO_ATTITUDE
-                                ? name[0] == 'q' || (page->params.k == 1 && strncmp(name, "contact", 7) == 0)
-                            : rows ? iso_record_find(rows, name) >= 0
-                                   : page->effects.on[effect];
-        if (wanted) names[count++] = name;
+        if (effect == ISO_EFFECTS    ? true
+            : effect == ISO_ATTITUDE ? name[0] == 'q' || (page->params.k == 1 && strncmp(name, "contact", 7) == 0)
+            : rows                   ? iso_record_find(rows, name) >= 0
+                                     : page->effects.on[effect])
+            names[count++] = name;
     }
     return count;
 }
 
-void view_ask_for(iso_scene *scene, size_t count, const char *const names[])
+void view_ask_for(iso_scene *scene, const char *columns)
 {
-    for (scene->columns = 0; scene->columns < count && scene->columns < ISO_MAX_COLUMNS; scene->columns++)
-        snprintf(scene->column[scene->columns], ISO_NAME_SIZE, "%s", names[scene->columns]);
+    int used = 0;
+    while (scene->columns < ISO_MAX_COLUMNS && sscanf(columns, "%31s%n", scene->column[scene->columns], &used) == 1)
+        columns += used, scene->columns++;
 }
 
 iso_status view_start(iso_context *ctx, const view_page *page, const iso_record *r, size_t row, iso_scene *scene)
@@ -63,24 +63,16 @@ iso_status view_start(iso_context *ctx, const view_page *page, const iso_record 
     return ISO_OK;
 }
 
-static void show_progress(void *data, double part)
+static void keep_note(void *page, const char *text)
 {
-    (void)data;
-    progress_show(part);
-}
-
-static void keep_note(void *page, const char *words)
-{
-    if (page) view_note(page, "%s", words);
+    if (page) view_note(page, "%s", text);
 }
 
 iso_status view_run(iso_context *ctx, const iso_scene *scene, const double times[], size_t count, view_page *page,
                     iso_record **rows)
 {
-    const iso_sink sink = {.note = keep_note, .progress = show_progress, .data = page};
-    iso_run_options o = iso_run_defaults();
-    o.times = times;
-    o.count = count;
+    const iso_sink sink = {.note = keep_note, .progress = progress_told, .data = page};
+    const iso_run_options o = {.times = times, .count = count};
     *rows = NULL;
     const iso_status status = iso_run(ctx, scene, &o, &sink, rows, NULL);
     if (status != ISO_OK) iso_record_free(*rows), *rows = NULL;
@@ -93,12 +85,13 @@ iso_status view_run(iso_context *ctx, const iso_scene *scene, const double times
 static iso_status run_both(iso_context *ctx, const view_page *page, iso_scene *scene, const iso_record *rows,
                            iso_record *both[2])
 {
-    static const char *const names[] = {"omega1", "omega2", "omega3", "n1", "n2", "n3", "gamma1", "gamma2", "gamma3"};
     const size_t count = iso_record_rows(rows);
     double turned[3], *t = malloc(count * sizeof *t);
     if (!t) return iso_context_no_memory(ctx, "the times");
     for (size_t i = 0; i < count; i++) t[i] = *view_vector(rows, i, "t") - *view_vector(rows, 0, "t");
-    view_ask_for(scene, *page->alone ? 6 : 9, names);
+    scene->columns = 0;
+    view_ask_for(scene, "omega1 omega2 omega3 n1 n2 n3");
+    if (!*page->alone) view_ask_for(scene, "gamma1 gamma2 gamma3");
     scene->effects = iso_scene_acting(scene);
     iso_status status = view_run(ctx, scene, t, count, NULL, &both[0]);
     cross(scene->start.y + 3, scene->start.y, turned);
@@ -113,31 +106,24 @@ static double distance(const double a[3], const double b[3])
     return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-/* Place and distance of the neighbour: that of (omega/|omega at the start|, n). */
-static iso_status place(iso_context *ctx, const view_page *page, iso_record *const both[2], iso_record **table)
+iso_status view_neighbour(iso_context *ctx, view_page *page, const iso_scene *start, double orbit,
+                          const iso_record *rows)
 {
     static const char *const of_n[] = {"n1", "n2", "n3", "distance"};
     static const char *const of_gamma[] = {"gamma1", "gamma2", "gamma3", "distance"};
     const char *const *names = *page->alone ? of_n : of_gamma;
-    const double *first = iso_record_const_row(both[0], 0), speed = distance(first, (double[]){0, 0, 0});
-    ISO_TRY(iso_record_create(ctx, 4, names, table));
-    for (size_t i = 0; i < iso_record_rows(both[0]) && i < iso_record_rows(both[1]); i++) {
-        const double *a = iso_record_const_row(both[0], i), *b = iso_record_const_row(both[1], i);
-        const double *seen = view_vector(both[1], i, names[0]);
-        const double apart = hypot(distance(a, b) / speed, distance(a + 3, b + 3));
-        ISO_TRY(iso_record_add(ctx, *table, 1, (double[]){seen[0], seen[1], seen[2], apart}));
-    }
-    return ISO_OK;
-}
-
-iso_status view_neighbour(iso_context *ctx, view_page *page, const iso_scene *start, double orbit,
-                          const iso_record *rows)
-{
     iso_record *both[2] = {NULL, NULL}, *table = NULL;
     iso_scene scene = *start;
     if (largest(start->start.y) == 0) return ISO_OK; /* there is no omega to turn */
     iso_status status = run_both(ctx, page, &scene, rows, both);
-    if (status == ISO_OK) status = place(ctx, page, both, &table);
+    if (status == ISO_OK) status = iso_record_create(ctx, 4, names, &table);
+    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(both[0]) && i < iso_record_rows(both[1]); i++) {
+        const double *a = iso_record_const_row(both[0], i), *b = iso_record_const_row(both[1], i);
+        const double *seen = view_vector(both[1], i, names[0]),
+                     speed = distance(iso_record_const_row(both[0], 0), (double[]){0, 0, 0});
+        const double apart = hypot(distance(a, b) / speed, distance(a + 3, b + 3)); /* of (omega/speed, n) */
+        status = iso_record_add(ctx, table, 1, (double[]){seen[0], seen[1], seen[2], apart});
+    }
     if (status == ISO_OK) status = view_add(ctx, page, "neighbour", orbit, table);
     iso_record_free(both[0]);
     iso_record_free(both[1]);
@@ -149,15 +135,16 @@ iso_status view_neighbour(iso_context *ctx, view_page *page, const iso_scene *st
 /* How pictures show the orbit with this number: a word. */
 static const char *shade_of(const iso_record *orbits, double number)
 {
-    static const char *const words[] = {"colour", "grey", "dark"};
+    static const char *const shades[] = {"colour", "grey", "dark"};
     for (size_t i = 0; orbits && i < iso_record_rows(orbits); i++)
-        if (iso_record_const_row(orbits, i)[0] == number) return words[(int)iso_record_const_row(orbits, i)[1]];
+        if (iso_record_const_row(orbits, i)[0] == number) return shades[(int)iso_record_const_row(orbits, i)[1]];
     return "";
 }
 
-/* The rows of `chaos` as the table "orbits"; those from the second on are the starts, by their numbers from 1 on. */
-static iso_status keep_verdicts(iso_context *ctx, view_page *page, const iso_record *chaos, const iso_record *shades,
-                                const double number[])
+/* The rows of `chaos` as the table "orbits"; of a section those from the second on are the starts, by their numbers
+ * from 1 on. */
+static iso_status keep_verdicts(iso_context *ctx, view_page *page, const iso_record *chaos, const iso_record *section,
+                                const size_t first[], const iso_record *shades)
 {
     static const char *const names[] = {"orbit", "verdict", "exponent", "shade"};
     const int verdict = iso_record_find(chaos, "verdict"), exponent = iso_record_find(chaos, "ball_exponent_t");
@@ -166,11 +153,11 @@ static iso_status keep_verdicts(iso_context *ctx, view_page *page, const iso_rec
     ISO_TRY(view_add(ctx, page, "orbits", -1, r));
     iso_record_set_words(r, 1, true);
     iso_record_set_words(r, 3, true);
-    for (size_t i = number ? 1 : 0; i < iso_record_rows(chaos); i++) {
+    for (size_t i = section ? 1 : 0; i < iso_record_rows(chaos); i++) {
         const double *from = iso_record_const_row(chaos, i);
-        const char *text = iso_record_word(chaos, from[verdict]);
-        double row[] = {number ? number[(size_t)from[0] - 1] : 0, 0, from[exponent], 0};
-        ISO_TRY(iso_record_intern(ctx, r, text, &row[1]));
+        double row[] = {section ? *view_vector(section, first[(size_t)from[0] - 1], "orbit") : 0, 0, from[exponent],
+                        0};
+        ISO_TRY(iso_record_intern(ctx, r, iso_record_word(chaos, from[verdict]), &row[1]));
         ISO_TRY(iso_record_intern(ctx, r, shade_of(shades, row[0]), &row[3]));
         ISO_TRY(iso_record_add(ctx, r, 1, row));
     }
@@ -179,27 +166,28 @@ static iso_status keep_verdicts(iso_context *ctx, view_page *page, const iso_rec
 
 /* The options of `chaos`. After so many turns an orbit without a verdict stays undecided, and an exponent is good
  * enough for the page. The caller frees them; NULL: no memory. */
-static char *options_of(int axis, size_t count, const double (*at)[2])
+static char *options_of(const iso_record *section, size_t count, const size_t first[])
 {
     size_t size = 0;
     char *text = NULL;
     FILE *f = open_memstream(&text, &size);
     if (!f) return NULL;
-    fprintf(f, "model=ball\nturns=1000\n%s", at ? "at=" : "exponent-turns=1000");
-    for (size_t i = 0; at && i < count; i++)
-        fprintf(f, "%s%s,%s", i ? ";" : "", ISO_SHORT(at[i][0]), ISO_SHORT(at[i][1]));
-    if (at) fprintf(f, "\naxis=%d", axis + 1);
+    fprintf(f, "model=ball\nturns=1000\n%s", section ? "at=" : "exponent-turns=1000");
+    for (size_t i = 0; section && i < count; i++)
+        fprintf(f, "%s%s,%s", i ? ";" : "", ISO_SHORT(*view_vector(section, first[i], "l")),
+                ISO_SHORT(*view_vector(section, first[i], "x")));
+    if (section) fprintf(f, "\naxis=%s", iso_record_get(section, "axis"));
     const bool good = !ferror(f);
     return fclose(f) == 0 && good ? text : (free(text), NULL);
 }
 
 iso_status view_verdicts(iso_context *ctx, view_page *page, const iso_scene *start, const iso_record *section,
-                         int axis, size_t count, const double (*at)[2], const double number[])
+                         size_t count, const size_t first[])
 {
     iso_study_result result = {.failed = false};
     iso_picture picture = {.layout = NULL};
     iso_scene scene = *start;
-    char *options = options_of(axis, count, at);
+    char *options = options_of(section, count, first);
     scene.effects = iso_scene_acting(start);
     scene.end = 1;
     iso_status status = options ? iso_study_ask_text(ctx, iso_study_find("chaos"),
@@ -208,9 +196,8 @@ iso_status view_verdicts(iso_context *ctx, view_page *page, const iso_scene *sta
     if (status == ISO_OK && section)
         status = iso_picture_make(ctx, (const iso_record *[]){section, result.table[0], NULL}, NULL, &picture);
     if (status == ISO_OK)
-        status =
-            keep_verdicts(ctx, page, result.table[0], section ? iso_picture_table(&picture, "orbits") : NULL, number);
-    else if (!is_fatal(status) && at)
+        status = keep_verdicts(ctx, page, result.table[0], section, first, iso_picture_table(&picture, "orbits"));
+    else if (!is_fatal(status) && section)
         view_note(page, "Which orbits are chaotic is not known: %s.", iso_context_message(ctx));
     iso_picture_free(&picture);
     iso_study_result_free(&result);
@@ -241,22 +228,16 @@ double view_largest_turn(const iso_record *r, double k)
     return most;
 }
 
-/* The error of cubic curves between rows is turn^4/384. From one radian on they are a guess. */
-static void note_turn(view_page *page, const iso_record *rows)
+iso_status view_add_orbit(iso_context *ctx, view_page *page, iso_record *rows)
 {
     const double turn = view_largest_turn(rows, page->params.k), degrees = turn * 180 / acos(-1);
-    if (turn > 1)
+    iso_scene scene;
+    ISO_TRY(view_add(ctx, page, "trajectory", -1, rows));
+    if (turn > 1) /* the error of cubic curves between rows is turn^4/384; from one radian on they are a guess */
         view_note(page, "Rows turn by up to %.0f degrees: between them the motion is a guess.", degrees);
     else if (turn > 2 * VIEW_TURN)
         view_note(page, "Rows turn by up to %.0f degrees: between them the motion is off by about %.0e radians.",
                   degrees, pow(turn, 4) / 384);
-}
-
-iso_status view_add_orbit(iso_context *ctx, view_page *page, iso_record *rows)
-{
-    iso_scene scene;
-    ISO_TRY(view_add(ctx, page, "trajectory", -1, rows));
-    note_turn(page, rows);
     iso_status status = view_start(ctx, page, rows, 0, &scene);
     if (status != ISO_OK) return is_fatal(status) ? status : ISO_OK;
     for (int model = 0; model < (*page->alone ? 1 : 2); model++) {
@@ -266,6 +247,6 @@ iso_status view_add_orbit(iso_context *ctx, view_page *page, iso_record *rows)
         if (is_fatal(status)) return status;
     }
     if (page->no_orbit) return ISO_OK;
-    ISO_TRY(view_verdicts(ctx, page, &scene, NULL, -1, 0, NULL, NULL));
+    ISO_TRY(view_verdicts(ctx, page, &scene, NULL, 0, NULL));
     return view_neighbour(ctx, page, &scene, -1, rows);
 }

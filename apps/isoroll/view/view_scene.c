@@ -9,46 +9,33 @@
 /* Two runs whose unit vectors differ by more are no longer the same orbit. */
 #define PARTED 1e-3
 
-/* Chooses the rows: each `every`-th of the scene and the last, or, after each but the last, `between` more. */
-static iso_status choose_rows(iso_context *ctx, iso_scene *scene, size_t *total, size_t *every, size_t *between)
-{
-    iso_record *rough;
-    *total = iso_scene_rows(scene);
-    if (*total < 2) return iso_context_fail(ctx, ISO_BAD_INPUT, "end", "a page needs motion: the last time is 0");
-    const double step = fabs(iso_scene_time(scene, 1));
-    *every = (*total + VIEW_MOST_ROWS - 2) / (VIEW_MOST_ROWS - 1);
-    *between = 0;
-    if (*every == 1) {
-        ISO_TRY(view_run(ctx, scene, NULL, 0, NULL, &rough));
-        const double pieces = ceil(view_largest_turn(rough, scene->params.k) / VIEW_TURN);
-        const double most = floor((double)(VIEW_MOST_ROWS - 1) / (double)(*total - 1));
-        *between = (size_t)fmax(fmin(pieces, most), 1) - 1;
-        iso_record_free(rough);
-    }
-    scene->step = step * (double)*every / (double)(*between + 1);
-    return ISO_OK;
-}
-
-static iso_status set_count(iso_context *ctx, iso_record *r, const char *key, size_t count)
-{
-    return iso_record_set_numbers(ctx, r, key, 1, (double[]){(double)count});
-}
-
-/* The ball by its own equations, with its attitude, and the point that belongs to it. */
+/* The ball by its own equations, with its attitude, and the point that belongs to it. The rows are each `every`-th of
+ * the scene and the last, or, after each but the last, `between` more. */
 static iso_status run_ball(iso_context *ctx, iso_scene *scene, view_page *page, iso_record **rows)
 {
     const char *names[ISO_TRAJECTORY_COLUMNS];
-    size_t total = 0, every = 1, between = 0;
     const double step = scene->step;
+    const size_t total = iso_scene_rows(scene), every = (total + VIEW_MOST_ROWS - 2) / (VIEW_MOST_ROWS - 1);
+    size_t between = 0;
     scene->as = *page->alone ? ISO_SHOW_BALL : ISO_SHOW_BOTH;
-    view_ask_for(scene, view_columns(page, NULL, names), names);
-    iso_status status = choose_rows(ctx, scene, &total, &every, &between);
-    if (status == ISO_OK) status = view_run(ctx, scene, NULL, 0, page, rows);
+    scene->columns = 0;
+    for (size_t i = 0, count = view_columns(page, NULL, names); i < count; i++) view_ask_for(scene, names[i]);
+    if (total < 2) return ISO_FAIL_INPUT(ctx, "end", "a page needs motion: the last time is 0");
+    if (every == 1) {
+        iso_record *rough;
+        ISO_TRY(view_run(ctx, scene, NULL, 0, NULL, &rough));
+        const double pieces = ceil(view_largest_turn(rough, scene->params.k) / VIEW_TURN);
+        const double most = floor((double)(VIEW_MOST_ROWS - 1) / (double)(total - 1));
+        between = (size_t)fmax(fmin(pieces, most), 1) - 1;
+        iso_record_free(rough);
+    }
+    scene->step = fabs(iso_scene_time(scene, 1)) * (double)every / (double)(between + 1);
+    const iso_status status = view_run(ctx, scene, NULL, 0, page, rows);
     if (status != ISO_OK) scene->step = step;
-    if (status == ISO_OK) status = set_count(ctx, *rows, "total", total);
-    if (status == ISO_OK) status = set_count(ctx, *rows, "every", every);
-    if (status == ISO_OK) status = set_count(ctx, *rows, "between", between);
-    return status;
+    ISO_TRY(status);
+    ISO_TRY(view_count(ctx, *rows, "total", total));
+    ISO_TRY(view_count(ctx, *rows, "every", every));
+    return view_count(ctx, *rows, "between", between);
 }
 
 /* The same without the point where the ball has none. */

@@ -25,7 +25,6 @@ enum { LEAST_ROWS = 60, MOST_ROWS = 1500, ORBIT_NUMBERS = 17 /* of a row: t tau 
 typedef struct section {
     const iso_record *in;
     bool states;     /* the rows have states */
-    int axis;        /* from 0 on            */
     int orbit, l, x; /* columns              */
     size_t *first;   /* row of each orbit's first crossing */
     size_t orbits;
@@ -43,18 +42,17 @@ static iso_status check(iso_context *ctx, const view_page *page, section *s)
     s->orbit = iso_record_find(r, "orbit");
     s->l = iso_record_find(r, "l");
     s->x = iso_record_find(r, "x");
-    if (s->orbit < 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "", "there is no column 'orbit'");
+    if (s->orbit < 0) return ISO_FAIL_INPUT(ctx, "", "there is no column 'orbit'");
     if (s->l < 0 || s->x < 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                "there are no columns 'l' and 'x': a page draws sections n_A = 0; write the file "
-                                "with 'isoroll section --axis A', without --event");
+        return ISO_FAIL_INPUT(ctx, "",
+                              "there are no columns 'l' and 'x': a page draws sections n_A = 0; write the file "
+                              "with 'isoroll section --axis A', without --event");
     if (!axis || axis[0] < '1' || axis[0] > '3' || axis[1])
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "there is no line '# axis: 1', 2 or 3");
-    s->axis = axis[0] - '1';
+        return ISO_FAIL_INPUT(ctx, "", "there is no line '# axis: 1', 2 or 3");
     if (!s->states && (iso_record_get(r, "effects") || isnan(page->eps)))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                "l and x do not determine these orbits (there are effects, or no line '# eps'): "
-                                "write the file with the states, by 'isoroll section --as ball'");
+        return ISO_FAIL_INPUT(ctx, "",
+                              "l and x do not determine these orbits (there are effects, or no line '# eps'): "
+                              "write the file with the states, by 'isoroll section --as ball'");
     return ISO_OK;
 }
 
@@ -63,20 +61,18 @@ static iso_status find_orbits(iso_context *ctx, section *s)
 {
     const size_t rows = iso_record_rows(s->in);
     double before = -1;
-    if (rows == 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "expected rows of crossings, found the end of the file");
+    if (rows == 0) return ISO_FAIL_INPUT(ctx, "", "expected rows of crossings, found the end of the file");
     s->first = malloc((rows + 1) * sizeof *s->first);
     if (!s->first) return iso_context_no_memory(ctx, "%zu crossings", rows);
     for (size_t i = 0; i < rows; i++) {
         const double *row = iso_record_const_row(s->in, i), orbit = row[s->orbit];
         if (!(orbit >= 0 && orbit <= MOST_ORBIT && orbit == floor(orbit)))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                    "row %zu: expected a whole number of 0 or more for orbit, found %s", i + 1,
-                                    ISO_SHORT(orbit));
+            return ISO_FAIL_INPUT(ctx, "", "row %zu: expected a whole number of 0 or more for orbit, found %s", i + 1,
+                                  ISO_SHORT(orbit));
         for (size_t c = 0; c < iso_record_columns(s->in); c++)
             if (!isfinite(row[c]))
-                return iso_context_fail(ctx, ISO_BAD_INPUT, "", "row %zu: expected a finite number for %s", i + 1,
-                                        iso_record_name(s->in, c));
+                return ISO_FAIL_INPUT(ctx, "", "row %zu: expected a finite number for %s", i + 1,
+                                      iso_record_name(s->in, c));
         if (orbit != before) s->first[s->orbits++] = i;
         before = orbit;
     }
@@ -122,7 +118,8 @@ static iso_status start_at(iso_context *ctx, const view_page *page, const sectio
     double point[ISO_STATE];
     iso_record *one;
     if (s->states) return view_start(ctx, page, s->in, row, scene);
-    iso_section_point(iso_free_point(&page->params, page->eps), s->axis, r[s->l], r[s->x], point);
+    iso_section_point(iso_free_point(&page->params, page->eps), *iso_record_get(s->in, "axis") - '1', r[s->l],
+                      r[s->x], point);
     ISO_TRY(iso_record_create_like(ctx, s->in, ISO_STATE, names, &one));
     iso_status status = iso_record_add(ctx, one, 1, point);
     if (status == ISO_OK) status = view_start(ctx, page, one, 0, scene);
@@ -130,28 +127,16 @@ static iso_status start_at(iso_context *ctx, const view_page *page, const sectio
     return status;
 }
 
-/* Its columns: with M and gamma, from which omega and n follow; the contact is asked for on a plane alone. */
-static void ask_for_columns(const view_page *page, iso_scene *scene)
-{
-    static const char *const both[] = {"t",      "tau", "s",  "M1", "M2", "M3",       "gamma1",   "gamma2",
-                                       "gamma3", "q0",  "q1", "q2", "q3", "contact1", "contact2", "contact3"};
-    static const char *const alone[] = {"t",  "omega1", "omega2", "omega3", "n1",       "n2",       "n3",
-                                        "q0", "q1",     "q2",     "q3",     "contact1", "contact2", "contact3"};
-    const size_t less = page->params.k == 1 ? 0 : 3;
-    if (*page->alone)
-        view_ask_for(scene, sizeof alone / sizeof *alone - less, alone);
-    else
-        view_ask_for(scene, sizeof both / sizeof *both - less, both);
-}
-
-/* The first `rows` rows of the orbit, close enough for cubic curves. */
+/* The first `rows` rows of the orbit, close enough for cubic curves; omega and n follow from M and gamma. */
 static iso_status run_orbit(iso_context *ctx, view_page *page, const section *s, size_t row, size_t rows)
 {
     const double number = iso_record_const_row(s->in, row)[s->orbit];
     iso_record *orbit;
     iso_scene scene;
     ISO_TRY(start_at(ctx, page, s, row, &scene));
-    ask_for_columns(page, &scene);
+    view_ask_for(&scene, *page->alone ? "t omega1 omega2 omega3 n1 n2 n3 q0 q1 q2 q3"
+                                      : "t tau s M1 M2 M3 gamma1 gamma2 gamma3 q0 q1 q2 q3");
+    if (page->params.k == 1) view_ask_for(&scene, "contact1 contact2 contact3");
     const double turn = rows < 400 ? LONG_ORBIT_TURN : ORBIT_TURN;
     scene.step = turn / (norm(scene.start.y) * fmax(1, fabs(page->params.k)));
     scene.end = (double)(rows - 1) * scene.step;
@@ -160,35 +145,17 @@ static iso_status run_orbit(iso_context *ctx, view_page *page, const section *s,
     return view_neighbour(ctx, page, &scene, number, orbit);
 }
 
-/* Whether they are chaotic, each by its first crossing. */
-static iso_status add_verdicts(iso_context *ctx, view_page *page, const section *s, size_t count)
-{
-    iso_scene scene;
-    double(*at)[2] = malloc(count * sizeof *at), *number = malloc(count * sizeof *number);
-    iso_status status =
-        at && number ? start_at(ctx, page, s, s->first[0], &scene) : iso_context_no_memory(ctx, "%zu orbits", count);
-    for (size_t o = 0; status == ISO_OK && o < count; o++) {
-        const double *row = iso_record_const_row(s->in, s->first[o]);
-        at[o][0] = row[s->l];
-        at[o][1] = row[s->x];
-        number[o] = row[s->orbit];
-    }
-    if (status == ISO_OK)
-        status = view_verdicts(ctx, page, &scene, s->in, s->axis, count, (const double(*)[2])at, number);
-    free(at);
-    free(number);
-    return status;
-}
-
-/* As many orbits as there is room for, each of at least LEAST_ROWS rows. */
+/* As many orbits as there is room for, each of at least LEAST_ROWS rows, and which of them are chaotic. */
 static iso_status add_orbits(iso_context *ctx, view_page *page, const section *s)
 {
     const double most = floor(VIEW_MOST_NUMBERS / (ORBIT_NUMBERS * LEAST_ROWS));
     const size_t count = (double)s->orbits < most ? s->orbits : (size_t)most;
     const double rows = fmin(floor(VIEW_MOST_NUMBERS / (ORBIT_NUMBERS * (double)count)), MOST_ROWS);
+    iso_scene scene;
     for (size_t o = 0; o < count; o++) ISO_TRY(run_orbit(ctx, page, s, s->first[o], (size_t)rows));
     if (count < s->orbits) view_note(page, "The first %zu of the %zu orbits can run in this page.", count, s->orbits);
-    return add_verdicts(ctx, page, s, s->orbits < MOST_VERDICTS ? s->orbits : MOST_VERDICTS);
+    ISO_TRY(start_at(ctx, page, s, s->first[0], &scene));
+    return view_verdicts(ctx, page, &scene, s->in, s->orbits < MOST_VERDICTS ? s->orbits : MOST_VERDICTS, s->first);
 }
 
 iso_status view_of_section(iso_context *ctx, const file_options *from, view_page *page)

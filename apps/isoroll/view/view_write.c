@@ -25,7 +25,7 @@ iso_status view_check_build(iso_context *ctx, bool live)
 }
 
 /* Writes a piece of the JSON text. It has <, > and & only in its strings, where they may be escaped. */
-static int put_escaped(const char *text, size_t length, void *data)
+static int write_escaped(const char *text, size_t length, void *data)
 {
     FILE *to = data;
     for (size_t i = 0; i < length; i++)
@@ -34,15 +34,6 @@ static int put_escaped(const char *text, size_t length, void *data)
         else
             fputc(text[i], to);
     return ferror(to) ? -1 : 0;
-}
-
-/* Whether the line at `at` is "@name@"; if so, its name. */
-static bool is_marker(const char *at, size_t length, char name[16])
-{
-    if (length < 3 || length > 16 || at[0] != '@' || at[length - 1] != '@') return false;
-    memcpy(name, at + 1, length - 2);
-    name[length - 2] = '\0';
-    return true;
 }
 
 static bool is_of_live(const char *name)
@@ -55,19 +46,22 @@ static bool is_of_live(const char *name)
 
 /* Writes a file of view/ with what its lines "@name@" stand for. False: there is no memory for it. Errors of writing
  * are found at the end, by iso_output_check. */
-static bool put_file(FILE *to, const embedded_file *file, const json_t *data, bool live)
+static bool write_file(FILE *to, const embedded_file *file, const json_t *data, bool live)
 {
     const char *at = (const char *)file->bytes, *end = at + file->length;
     char name[16];
     while (at < end) {
         const char *stop = memchr(at, '\n', (size_t)(end - at));
         const size_t length = (size_t)((stop ? stop : end) - at);
-        if (!is_marker(at, length, name)) {
+        const bool marker = length >= 3 && length <= 16 && at[0] == '@' && at[length - 1] == '@';
+        snprintf(name, sizeof name, "%.*s", marker ? (int)length - 2 : 0, at + 1);
+        if (!marker) {
             fwrite(at, 1, length, to);
         } else if (strcmp(name, "data") == 0) {
-            if (json_dump_callback(data, put_escaped, to, JSON_COMPACT | JSON_REAL_PRECISION(17)) != 0 && !ferror(to))
+            if (json_dump_callback(data, write_escaped, to, JSON_COMPACT | JSON_REAL_PRECISION(17)) != 0 &&
+                !ferror(to))
                 return false;
-        } else if ((live || !is_of_live(name)) && !put_file(to, embedded_find(view_files, name), data, live)) {
+        } else if ((live || !is_of_live(name)) && !write_file(to, embedded_find(view_files, name), data, live)) {
             return false;
         }
         fputc('\n', to);
@@ -83,7 +77,7 @@ iso_status view_write(iso_context *ctx, const char *path, const view_page *page)
     json_t *data = view_data(page);
     iso_status status = json_whole(data) ? iso_output_open(ctx, path, &out) : iso_context_no_memory(ctx, "the page");
     if (status == ISO_OK) {
-        status = put_file(iso_output_stream(out), embedded_find(view_files, "page"), data, page->live)
+        status = write_file(iso_output_stream(out), embedded_find(view_files, "page"), data, page->live)
                      ? iso_output_check(ctx, out)
                      : iso_context_no_memory(ctx, "the page");
         const iso_status closed = iso_output_close(ctx, out, status == ISO_OK);

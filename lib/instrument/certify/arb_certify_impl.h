@@ -19,8 +19,8 @@
 
 /* What the scene writes. vector: omega or M, unit: n or gamma, as written. */
 typedef struct certify_exact {
-    iso_model_kind model;
     fmpq_t k, J[3], K[3], c, eps, vector[3], unit[3];
+    iso_model_kind model;
     bool rotor, level, has_eps; /* level: c is written, or eps of a point, whose c then follows */
 } certify_exact;
 
@@ -36,10 +36,10 @@ bool certify_rational_read(const char *text, fmpq_t x);
 
 /* The same in balls. */
 typedef struct certify_ball {
-    slong bits;
     arb_struct J[3], root_J[3], inverse_J[3], K[3]; /* K: of the rotor                    */
     arb_t k, det, kappa, half;                      /* det J; k^2/det J; 1/(2k)           */
     arb_t c, h, eps;                                /* of the level; energy of the ball; coupling of the point */
+    slong bits;
     bool rotor, level;
 } certify_ball;
 
@@ -47,7 +47,7 @@ void certify_ball_init(certify_ball *b, slong bits);
 void certify_ball_clear(certify_ball *b);
 void certify_ball_set(certify_ball *b, const certify_exact *e); /* k and J alone */
 
-/* Sets b, its energies among it, and gives the start of `model`, vector first, then the unit vector: n is made a unit
+/* Sets b, its energies among it, and returns the start of `model` in y, vector first, then the unit vector: n is made a unit
  * vector, and omega loses its part along it. */
 void certify_start(const certify_exact *e, iso_model_kind model, certify_ball *b, arb_ptr y);
 
@@ -58,6 +58,9 @@ enum { CERTIFY_STATE = 6, CERTIFY_CLOCKS = 2, CERTIFY_ALL = CERTIFY_STATE + CERT
 /* The equations of a model, in one of the clocks t and s. States: vector, unit vector, then the two other clocks in the
  * order t, tau, s. */
 void certify_equations(const certify_ball *b, iso_model_kind model, iso_clock clock, iso_tape *f);
+
+/* The sum of weight_i u_i^2. */
+void certify_weigh(const certify_ball *b, const arb_struct weight[3], arb_srcptr u, arb_t sum);
 
 /* The state of the other model (18). `from` and `to` may be the same. */
 void certify_map(const certify_ball *b, iso_model_kind from, arb_srcptr y, arb_ptr to);
@@ -105,6 +108,9 @@ void certify_set_move(certify_set *s);
 double certify_set_lost(const certify_set *s);
 
 /* --- arb_orbit.c ------------------------------------------------------------------------------------------------- */
+
+/* Closes a stream in memory, passes its text to the sink and frees it. */
+iso_status certify_give(iso_context *ctx, const iso_certify_sink *sink, FILE *to, char **text);
 
 /* The line of the names of the columns: three clocks, then the states of these models. */
 void certify_print_columns(FILE *to, iso_models as);

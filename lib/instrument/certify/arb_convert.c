@@ -1,6 +1,6 @@
 /* arb_convert.c - certified rows of one model as rows of the other: the map (18) in balls (certify_impl.h).
  *
- * A file that is read is checked as far as its rows tell: n (or gamma) can be a unit vector, and omega (or M)
+ * A file that is read is checked as far as its rows allow: n (or gamma) can be a unit vector, and omega (or M)
  * orthogonal to it. The clocks are in the file, and stay.
  */
 #include <stdlib.h>
@@ -26,10 +26,10 @@ typedef struct reader {
     certify_ball ball;
 } reader;
 
-static iso_status fail(const reader *r, const char *at, const char *words)
+static iso_status fail(const reader *r, const char *at, const char *text)
 {
     return iso_context_placed(r->ctx, ISO_FAIL_INPUT(r->ctx, "", "%s:%zu:%zu: %s", r->name, r->number,
-                                                     (size_t)(at ? at - r->line : 0) + 1, words));
+                                                     (size_t)(at ? at - r->line : 0) + 1, text));
 }
 
 /* The next line, without its end. */
@@ -54,13 +54,8 @@ static bool read_fractions(const char *text, int count, fmpq_t x[])
     return text[strspn(text, " ")] == '\0';
 }
 
-static bool are_moments(const certify_exact *e)
-{
-    return fmpq_sgn(e->J[0]) > 0 && fmpq_sgn(e->J[1]) > 0 && fmpq_sgn(e->J[2]) > 0;
-}
-
 /* A line "# key: value". */
-static void take_line(reader *r)
+static void read_line(reader *r)
 {
     const char *line = r->line;
     if (strncmp(line, "# model: ", 9) == 0)
@@ -68,31 +63,26 @@ static void take_line(reader *r)
     else
         fprintf(r->head, "%s\n", line);
     if (strncmp(line, "# k: ", 5) == 0) r->has_k = read_fractions(line + 5, 1, &r->exact.k);
-    if (strncmp(line, "# J: ", 5) == 0) r->has_J = read_fractions(line + 5, 3, r->exact.J) && are_moments(&r->exact);
-    if (strncmp(line, "# digits: ", 10) == 0) r->digits = atoi(line + 10);
-}
-
-/* Which column has a name; -1: none. */
-static int find_column(const reader *r, const char *name)
-{
-    const size_t length = strlen(name);
-    const char *at = r->line;
-    for (int i = 0; *at; i++) {
-        const size_t here = strcspn(at, ",");
-        if (here == length && strncmp(at, name, length) == 0) return i;
-        at += here + (at[here] == ',');
+    if (strncmp(line, "# J: ", 5) == 0) {
+        r->has_J = read_fractions(line + 5, 3, r->exact.J);
+        for (int i = 0; i < 3 && r->has_J; i++) r->has_J = fmpq_sgn(r->exact.J[i]) > 0;
     }
-    return -1;
+    if (strncmp(line, "# digits: ", 10) == 0) r->digits = atoi(line + 10);
 }
 
 static bool find_columns(reader *r)
 {
+    enum { NAMES = ISO_CLOCKS + CERTIFY_STATE };
+    const int first = r->from == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT;
     bool all = true;
-    for (int c = 0; c < ISO_CLOCKS; c++) r->at[c] = find_column(r, iso_column_name(c));
-    for (int i = 0; i < CERTIFY_STATE; i++)
-        r->at[ISO_CLOCKS + i] =
-            find_column(r, iso_column_name((r->from == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT) + i));
-    for (int i = 0; i < ISO_CLOCKS + CERTIFY_STATE; i++) all = all && r->at[i] >= 0;
+    for (int i = 0; i < NAMES; i++) {
+        const char *name = iso_column_name(i < ISO_CLOCKS ? i : first + i - ISO_CLOCKS), *at = r->line;
+        size_t length = strcspn(at, ",");
+        r->at[i] = 0;
+        while (at[length] && !(length == strlen(name) && strncmp(at, name, length) == 0))
+            at += length + 1, length = strcspn(at, ","), r->at[i]++;
+        all = all && length == strlen(name) && strncmp(at, name, length) == 0;
+    }
     r->columns = 1;
     for (const char *at = r->line; *at; at++) r->columns += *at == ',';
     return all;
@@ -103,7 +93,7 @@ static iso_status read_head(reader *r)
     bool more = next_line(r);
     if (!more || strcmp(r->line, "# isoroll " ISO_CERTIFIED_KIND " 1") != 0)
         return fail(r, NULL, "expected '# isoroll " ISO_CERTIFIED_KIND " 1', as 'run --certify' writes it");
-    for (; more && *r->line == '#'; more = next_line(r)) take_line(r);
+    for (; more && *r->line == '#'; more = next_line(r)) read_line(r);
     if (!more) return fail(r, NULL, "expected a line of column names");
     if (!r->has_k || !r->has_J) return fail(r, NULL, "expected lines '# k: 1/2' and '# J: 7/5 21/10 3' before this");
     if (r->digits < 1 || r->digits > ISO_MOST_CERTIFIED_DIGITS)
@@ -120,11 +110,10 @@ static iso_status convert_head(reader *r)
     size_t length = 0;
     r->head = open_memstream(&text, &length);
     if (!r->head) return iso_context_no_memory(r->ctx, "a head");
-    iso_status status = read_head(r);
+    const iso_status status = read_head(r);
     certify_print_columns(r->head, (iso_models)r->to);
-    const bool whole = fclose(r->head) == 0;
-    if (status == ISO_OK && !whole) status = iso_context_no_memory(r->ctx, "a head");
-    if (status == ISO_OK) status = r->sink->line(r->sink->data, text);
+    if (status == ISO_OK) return certify_give(r->ctx, r->sink, r->head, &text);
+    fclose(r->head);
     free(text);
     return status;
 }
@@ -193,11 +182,9 @@ static iso_status convert_row(reader *r, arb_ptr x)
     for (int i = 0; i < CERTIFY_STATE; i++)
         if (!arb_is_finite(x + ISO_CLOCKS + i)) return fail(r, NULL, "the enclosures of this row are too wide");
     FILE *to = open_memstream(&text, &length);
-    if (to) certify_write_row(&r->ball, x, r->to, x + ISO_CLOCKS, (iso_models)r->to, r->digits, to);
-    const bool written = to && fclose(to) == 0 && text;
-    const iso_status status = written ? r->sink->line(r->sink->data, text) : iso_context_no_memory(r->ctx, "a row");
-    free(text);
-    return status;
+    if (!to) return iso_context_no_memory(r->ctx, "a row");
+    certify_write_row(&r->ball, x, r->to, x + ISO_CLOCKS, (iso_models)r->to, r->digits, to);
+    return certify_give(r->ctx, r->sink, to, &text);
 }
 
 static iso_status convert(reader *r, size_t *rows)

@@ -12,28 +12,18 @@
  */
 #include "instrument/certify/arb_certify_impl.h"
 
-/* A tape that grows; one_half..: numbers that are made on the way. */
+/* A tape that grows. */
 typedef struct writer {
     iso_tape *f;
     const certify_ball *b;
     int vector[3], unit[3], clock[CERTIFY_CLOCKS];         /* states */
-    int vector_rate[3], unit_rate[3], rate_of[ISO_CLOCKS]; /* rates; -1: of its own clock */
+    int vector_rate[3], unit_rate[3], rate_of[ISO_CLOCKS]; /* rates, but that of its own clock */
 } writer;
-
-static int scaled_by(const writer *w, const arb_t x, int a)
-{
-    return iso_tape_scaled(w->f, x, a);
-}
 
 /* c += factor x, factor: a node */
 static void add_scaled(const writer *w, int factor, const int x[3], int c[3])
 {
     for (int i = 0; i < 3; i++) c[i] = iso_tape_sum(w->f, c[i], iso_tape_product(w->f, factor, x[i]));
-}
-
-static void add_constants(const writer *w, const arb_t x, int c[3])
-{
-    for (int i = 0; i < 3; i++) c[i] = iso_tape_sum(w->f, c[i], iso_tape_constant(w->f, x + i));
 }
 
 /* top/(bottom nodes), top a number */
@@ -65,43 +55,36 @@ static void write_ball(writer *w)
     iso_tape_diagonal(f, b->inverse_J, w->unit, u);
     const int g = iso_tape_dot(f, w->unit, u), P = iso_tape_power(f, g, b->half), g_P = iso_tape_product(f, g, P);
     iso_tape_diagonal(f, b->J, w->vector, L);
-    if (b->rotor) add_constants(w, b->K, L);
+    for (int i = 0; i < 3 && b->rotor; i++) L[i] = iso_tape_sum(f, L[i], iso_tape_constant(f, b->K + i));
     iso_tape_cross(f, L, w->vector, torque);
     if (b->level) add_level(w, g, P, u, torque);
     arb_set_si(minus, -1);
-    add_scaled(w, scaled_by(w, minus, iso_tape_quotient(f, iso_tape_dot(f, torque, u), g)), w->unit, torque);
+    add_scaled(w, iso_tape_scaled(w->f, minus, iso_tape_quotient(f, iso_tape_dot(f, torque, u), g)), w->unit, torque);
     iso_tape_diagonal(f, b->inverse_J, torque, w->vector_rate);
     iso_tape_cross(f, w->unit, w->vector, turn);
-    for (int i = 0; i < 3; i++) w->unit_rate[i] = scaled_by(w, b->k, turn[i]);
+    for (int i = 0; i < 3; i++) w->unit_rate[i] = iso_tape_scaled(w->f, b->k, turn[i]);
     w->rate_of[ISO_CLOCK_TAU] = iso_tape_quotient(f, P, g);
     w->rate_of[ISO_CLOCK_S] = number_over(w, b->kappa, g_P);
-    w->rate_of[ISO_CLOCK_T] = -1;
     arb_clear(minus);
 }
 
-/* factor of B */
-static void field_factor(const certify_ball *b, arb_t x)
-{
-    arb_sqrt(x, b->det, b->bits);
-    arb_div(x, x, b->k, b->bits);
-    arb_div(x, x, b->k, b->bits);
-}
-
+/* B gamma', B over q Q, added to force */
 static void add_field(const writer *w, int q_Q, const int turn[3], int force[3])
 {
     const certify_ball *b = w->b;
-    arb_t factor, x;
+    arb_ptr factor = _arb_vec_init(2), x = factor + 1;
     int along = -1;
-    arb_init(factor), arb_init(x);
-    field_factor(b, factor);
+    arb_sqrt(factor, b->det, b->bits);
+    arb_div(factor, factor, b->k, b->bits);
+    arb_div(factor, factor, b->k, b->bits);
     for (int i = 0; i < 3; i++) {
         arb_mul(x, b->root_J + i, b->K + i, b->bits);
         arb_mul(x, x, factor, b->bits);
-        const int part = scaled_by(w, x, w->unit[i]);
+        const int part = iso_tape_scaled(w->f, x, w->unit[i]);
         along = i == 0 ? part : iso_tape_sum(w->f, along, part);
     }
     add_scaled(w, iso_tape_quotient(w->f, along, q_Q), turn, force);
-    arb_clear(factor), arb_clear(x);
+    _arb_vec_clear(factor, 2);
 }
 
 static void write_point(writer *w)
@@ -123,26 +106,7 @@ static void write_point(writer *w)
     arb_inv(x, b->kappa, b->bits);
     w->rate_of[ISO_CLOCK_T] = number_over(w, x, q_Q);
     w->rate_of[ISO_CLOCK_TAU] = number_over(w, x, iso_tape_product(f, Q, Q));
-    w->rate_of[ISO_CLOCK_S] = -1;
     arb_clear(x);
-}
-
-/* From the rates by its own clock to those by another one: 1/pace of that. */
-static void change_clock(writer *w, iso_clock own, iso_clock clock)
-{
-    iso_tape *f = w->f;
-    arb_t one;
-    arb_init(one);
-    arb_one(one);
-    const int pace = number_over(w, one, w->rate_of[clock]);
-    for (int i = 0; i < 3; i++) {
-        w->vector_rate[i] = iso_tape_product(f, w->vector_rate[i], pace);
-        w->unit_rate[i] = iso_tape_product(f, w->unit_rate[i], pace);
-    }
-    w->rate_of[ISO_CLOCK_TAU] = iso_tape_product(f, w->rate_of[ISO_CLOCK_TAU], pace);
-    w->rate_of[own] = pace;
-    w->rate_of[clock] = -1;
-    arb_clear(one);
 }
 
 void certify_equations(const certify_ball *b, iso_model_kind model, iso_clock clock, iso_tape *f)
@@ -157,7 +121,18 @@ void certify_equations(const certify_ball *b, iso_model_kind model, iso_clock cl
         write_ball(&w);
     else
         write_point(&w);
-    if (clock != own) change_clock(&w, own, clock);
+    if (clock != own) { /* 1/pace of that clock, and its own clock has the pace */
+        arb_t one;
+        arb_init(one);
+        arb_one(one);
+        const int pace = number_over(&w, one, w.rate_of[clock]);
+        for (int i = 0; i < 3; i++)
+            w.vector_rate[i] = iso_tape_product(f, w.vector_rate[i], pace),
+            w.unit_rate[i] = iso_tape_product(f, w.unit_rate[i], pace);
+        w.rate_of[ISO_CLOCK_TAU] = iso_tape_product(f, w.rate_of[ISO_CLOCK_TAU], pace);
+        w.rate_of[own] = pace;
+        arb_clear(one);
+    }
     for (int i = 0; i < 3; i++) iso_tape_rate(f, w.vector[i], w.vector_rate[i]);
     for (int i = 0; i < 3; i++) iso_tape_rate(f, w.unit[i], w.unit_rate[i]);
     int i = 0;
@@ -168,7 +143,7 @@ void certify_equations(const certify_ball *b, iso_model_kind model, iso_clock cl
 /* --- the map ----------------------------------------------------------------------------------------------------- */
 
 /* The sum of weight_i u_i^2. */
-static void weigh(const certify_ball *b, const arb_struct weight[3], arb_srcptr u, arb_t sum)
+void certify_weigh(const certify_ball *b, const arb_struct weight[3], arb_srcptr u, arb_t sum)
 {
     arb_t x;
     arb_init(x);
@@ -185,9 +160,8 @@ static void weigh(const certify_ball *b, const arb_struct weight[3], arb_srcptr 
 void certify_map(const certify_ball *b, iso_model_kind from, arb_srcptr y, arb_ptr to)
 {
     const bool ball = from == ISO_BALL;
-    arb_t g, N, root;
-    arb_init(g), arb_init(N), arb_init(root);
-    weigh(b, ball ? b->inverse_J : b->J, y + 3, g);
+    arb_ptr g = _arb_vec_init(3), N = g + 1, root = g + 2;
+    certify_weigh(b, ball ? b->inverse_J : b->J, y + 3, g);
     arb_rsqrt(root, g, b->bits);
     if (!ball) arb_inv(g, g, b->bits);
     arb_pow(N, g, b->half, b->bits);
@@ -206,5 +180,5 @@ void certify_map(const certify_ball *b, iso_model_kind from, arb_srcptr y, arb_p
             arb_mul(to + 3 + i, to + 3 + i, b->root_J + i, b->bits);
         }
     }
-    arb_clear(g), arb_clear(N), arb_clear(root);
+    _arb_vec_clear(g, 3);
 }

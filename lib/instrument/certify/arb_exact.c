@@ -1,4 +1,5 @@
 /* arb_exact.c - the numbers of a scene as fractions, and in balls; the start (arb_certify_impl.h). */
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,8 +54,8 @@ bool certify_rational_read(const char *text, fmpq_t x)
 }
 
 /* `about`: the key that messages name. */
-static iso_status take(iso_context *ctx, const iso_literals *all, const char *name, const char *about, int count,
-                       fmpq_t x[])
+static iso_status read_numbers(iso_context *ctx, const iso_literals *all, const char *name, const char *about,
+                               int count, fmpq_t x[])
 {
     const iso_literal *l = iso_literal_find(all, name);
     for (int i = 0; i < count; i++)
@@ -65,29 +66,28 @@ static iso_status take(iso_context *ctx, const iso_literals *all, const char *na
 
 /* --- the scene --------------------------------------------------------------------------------------------------- */
 
+/* The fractions come first. */
 void certify_exact_init(certify_exact *e)
 {
-    fmpq_init(e->k), fmpq_init(e->c), fmpq_init(e->eps);
-    for (int i = 0; i < 3; i++)
-        fmpq_init(e->J[i]), fmpq_init(e->K[i]), fmpq_init(e->vector[i]), fmpq_init(e->unit[i]);
+    fmpq *x = (fmpq *)e, *end = x + offsetof(certify_exact, model) / sizeof *x;
+    for (; x < end; x++) fmpq_init(x);
 }
 
 void certify_exact_clear(certify_exact *e)
 {
-    fmpq_clear(e->k), fmpq_clear(e->c), fmpq_clear(e->eps);
-    for (int i = 0; i < 3; i++)
-        fmpq_clear(e->J[i]), fmpq_clear(e->K[i]), fmpq_clear(e->vector[i]), fmpq_clear(e->unit[i]);
+    fmpq *x = (fmpq *)e, *end = x + offsetof(certify_exact, model) / sizeof *x;
+    for (; x < end; x++) fmpq_clear(x);
 }
 
 /* k = A/(A + b), b the signed radius of the ball; J = I + m b^2. */
-static iso_status take_body(iso_context *ctx, iso_surface surface, const iso_literals *all, certify_exact *e)
+static iso_status read_body(iso_context *ctx, iso_surface surface, const iso_literals *all, certify_exact *e)
 {
     fmpq_t mass, B, A;
     fmpq_init(mass), fmpq_init(B), fmpq_init(A);
-    iso_status status = take(ctx, all, "mass", "mass", 1, &mass);
-    if (status == ISO_OK) status = take(ctx, all, "ball.radius", "radius", 1, &B);
-    if (status == ISO_OK) status = take(ctx, all, "inertia", "inertia", 3, e->J);
-    if (status == ISO_OK && surface != ISO_PLANE) status = take(ctx, all, "surface.radius", "surface", 1, &A);
+    iso_status status = read_numbers(ctx, all, "mass", "mass", 1, &mass);
+    if (status == ISO_OK) status = read_numbers(ctx, all, "ball.radius", "radius", 1, &B);
+    if (status == ISO_OK) status = read_numbers(ctx, all, "inertia", "inertia", 3, e->J);
+    if (status == ISO_OK && surface != ISO_PLANE) status = read_numbers(ctx, all, "surface.radius", "surface", 1, &A);
     if (status == ISO_OK) {
         fmpq_mul(mass, mass, B);
         for (int i = 0; i < 3; i++) fmpq_addmul(e->J[i], mass, B);
@@ -100,61 +100,44 @@ static iso_status take_body(iso_context *ctx, iso_surface surface, const iso_lit
     return status;
 }
 
-static iso_status take_rotor(iso_context *ctx, const iso_literals *all, certify_exact *e)
-{
-    const bool magnetic = iso_literal_find(all, "magnetic.momentum") != NULL;
-    return take(ctx, all, magnetic ? "magnetic.momentum" : "rotor.momentum", "momentum", 3, e->K);
-}
-
 /* A level is that of a ball with c, or that of a point with eps. */
-static iso_status take_level(iso_context *ctx, const iso_literals *all, certify_exact *e)
-{
-    const bool written = iso_literal_find(all, "level.c") != NULL;
-    if (e->model == ISO_POINT && written)
-        return ISO_FAIL_INPUT(ctx, "level", "--certify: the level of a point follows from its eps: remove 'c'");
-    e->has_eps = e->model == ISO_POINT && iso_literal_find(all, "eps") != NULL;
-    e->level = written || e->has_eps;
-    if (written) ISO_TRY(take(ctx, all, "level.c", "level", 1, &e->c));
-    return e->has_eps ? take(ctx, all, "eps", "eps", 1, &e->eps) : ISO_OK;
-}
-
 iso_status certify_exact_read(iso_context *ctx, const iso_scene *scene, const iso_literals *all, certify_exact *e)
 {
     const iso_surface surface = scene->params.body.surface;
-    const bool ball = scene->start.model == ISO_BALL;
+    const bool ball = scene->start.model == ISO_BALL, c = iso_literal_find(all, "level.c") != NULL;
+    const char *vector = ball ? "angular_velocity" : "M", *unit = ball ? "normal" : "gamma";
+    const char *K = iso_literal_find(all, "magnetic.momentum") ? "magnetic.momentum" : "rotor.momentum";
     e->model = scene->start.model;
     e->rotor = scene->effects.on[ISO_ROTOR];
     if (surface == ISO_REDUCED) {
-        ISO_TRY(take(ctx, all, "k", "k", 1, &e->k));
-        ISO_TRY(take(ctx, all, "J", "J", 3, e->J));
+        ISO_TRY(read_numbers(ctx, all, "k", "k", 1, &e->k));
+        ISO_TRY(read_numbers(ctx, all, "J", "J", 3, e->J));
     } else {
-        ISO_TRY(take_body(ctx, surface, all, e));
+        ISO_TRY(read_body(ctx, surface, all, e));
     }
-    if (e->rotor) ISO_TRY(take_rotor(ctx, all, e));
-    ISO_TRY(take_level(ctx, all, e));
-    const char *vector = ball ? "angular_velocity" : "M", *unit = ball ? "normal" : "gamma";
-    ISO_TRY(take(ctx, all, vector, vector, 3, e->vector));
-    return take(ctx, all, unit, unit, 3, e->unit);
+    if (e->rotor) ISO_TRY(read_numbers(ctx, all, K, "momentum", 3, e->K));
+    if (!ball && c)
+        return ISO_FAIL_INPUT(ctx, "level", "--certify: the level of a point follows from its eps: remove 'c'");
+    e->has_eps = !ball && iso_literal_find(all, "eps");
+    e->level = c || e->has_eps;
+    if (c) ISO_TRY(read_numbers(ctx, all, "level.c", "level", 1, &e->c));
+    if (e->has_eps) ISO_TRY(read_numbers(ctx, all, "eps", "eps", 1, &e->eps));
+    ISO_TRY(read_numbers(ctx, all, vector, vector, 3, e->vector));
+    return read_numbers(ctx, all, unit, unit, 3, e->unit);
 }
 
 /* --- in balls ---------------------------------------------------------------------------------------------------- */
 
 void certify_ball_init(certify_ball *b, slong bits)
 {
+    iso_balls_init(b, offsetof(certify_ball, bits));
     b->bits = bits;
     b->rotor = b->level = false;
-    arb_init(b->k), arb_init(b->det), arb_init(b->kappa), arb_init(b->half);
-    arb_init(b->c), arb_init(b->h), arb_init(b->eps);
-    for (int i = 0; i < 3; i++)
-        arb_init(b->J + i), arb_init(b->root_J + i), arb_init(b->inverse_J + i), arb_init(b->K + i);
 }
 
 void certify_ball_clear(certify_ball *b)
 {
-    arb_clear(b->k), arb_clear(b->det), arb_clear(b->kappa), arb_clear(b->half);
-    arb_clear(b->c), arb_clear(b->h), arb_clear(b->eps);
-    for (int i = 0; i < 3; i++)
-        arb_clear(b->J + i), arb_clear(b->root_J + i), arb_clear(b->inverse_J + i), arb_clear(b->K + i);
+    iso_balls_clear(b, offsetof(certify_ball, bits));
 }
 
 void certify_ball_set(certify_ball *b, const certify_exact *e)
@@ -176,8 +159,7 @@ void certify_ball_set(certify_ball *b, const certify_exact *e)
 /* The unit vector, and what is left of the other one. */
 static void set_start(const certify_exact *e, slong bits, arb_ptr y)
 {
-    arb_t length, along;
-    arb_init(length), arb_init(along);
+    arb_ptr length = _arb_vec_init(2), along = length + 1;
     for (int i = 0; i < 3; i++) arb_set_fmpq(y + i, e->vector[i], bits), arb_set_fmpq(y + 3 + i, e->unit[i], bits);
     arb_dot(length, NULL, 0, y + 3, 1, y + 3, 1, 3, bits);
     arb_dot(along, NULL, 0, y, 1, y + 3, 1, 3, bits);
@@ -187,39 +169,29 @@ static void set_start(const certify_exact *e, slong bits, arb_ptr y)
         arb_submul(y + i, along, y + 3 + i, bits);
         arb_mul(y + 3 + i, y + 3 + i, length, bits);
     }
-    arb_clear(length), arb_clear(along);
+    _arb_vec_clear(length, 2);
 }
 
 /* h = (w, J w)/2 - c g^(-1/k),  g = (n, J^-1 n) */
 static void energy_of_ball(const certify_ball *b, arb_srcptr y, arb_t h)
 {
-    arb_t g, x;
-    arb_init(g), arb_init(x);
-    arb_zero(h);
-    for (int i = 0; i < 3; i++) {
-        arb_mul(x, y + 3 + i, y + 3 + i, b->bits);
-        arb_addmul(g, x, b->inverse_J + i, b->bits);
-        arb_mul(x, y + i, y + i, b->bits);
-        arb_addmul(h, x, b->J + i, b->bits);
-    }
+    arb_ptr g = _arb_vec_init(2), x = g + 1;
+    certify_weigh(b, b->inverse_J, y + 3, g);
+    certify_weigh(b, b->J, y, h);
     arb_mul_2exp_si(h, h, -1);
     arb_inv(x, b->k, b->bits);
     arb_neg(x, x);
     arb_pow(x, g, x, b->bits);
     if (b->level) arb_submul(h, b->c, x, b->bits);
-    arb_clear(g), arb_clear(x);
+    _arb_vec_clear(g, 2);
 }
 
 /* eps = q^(1/k) M^2/2 on the level H = 0; with another eps, H = M^2/2 - eps q^(-1/k), and c = kappa H. h = kappa eps. */
 static void energies_of_point(const certify_exact *e, certify_ball *b, arb_srcptr y)
 {
-    arb_t q, kinetic, x;
-    arb_init(q), arb_init(kinetic), arb_init(x);
-    for (int i = 0; i < 3; i++) {
-        arb_mul(x, y + 3 + i, y + 3 + i, b->bits);
-        arb_addmul(q, x, b->J + i, b->bits);
-        arb_addmul(kinetic, y + i, y + i, b->bits);
-    }
+    arb_ptr q = _arb_vec_init(3), kinetic = q + 1, x = q + 2;
+    certify_weigh(b, b->J, y + 3, q);
+    for (int i = 0; i < 3; i++) arb_addmul(kinetic, y + i, y + i, b->bits);
     arb_mul_2exp_si(kinetic, kinetic, -1);
     arb_inv(x, b->k, b->bits);
     arb_pow(x, q, x, b->bits);
@@ -231,7 +203,7 @@ static void energies_of_point(const certify_exact *e, certify_ball *b, arb_srcpt
         arb_mul(b->c, b->c, b->kappa, b->bits);
     }
     arb_mul(b->h, b->kappa, b->eps, b->bits);
-    arb_clear(q), arb_clear(kinetic), arb_clear(x);
+    _arb_vec_clear(q, 3);
 }
 
 void certify_start(const certify_exact *e, iso_model_kind model, certify_ball *b, arb_ptr y)

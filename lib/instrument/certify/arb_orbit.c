@@ -30,13 +30,8 @@ typedef struct work {
     certify_set set;
     bool stopped; /* by the caller's monitor: the set is no longer valid                       */
     bool wide;    /* the attempt failed because the set became too large; more digits may help */
-    int told;     /* coefficients in this step when progress was last reported                 */
+    int noted;    /* coefficients in this step when progress was last reported                 */
 } work;
-
-static iso_clock clock_of(iso_model_kind model)
-{
-    return model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
-}
 
 static iso_models shown(const work *w)
 {
@@ -44,11 +39,10 @@ static iso_models shown(const work *w)
     return scene->as == ISO_SHOW_START ? (iso_models)scene->start.model : scene->as;
 }
 
-/* Gives a text away and frees it. */
-static iso_status give(const work *w, FILE *to, char **text)
+iso_status certify_give(iso_context *ctx, const iso_certify_sink *sink, FILE *to, char **text)
 {
-    if (fclose(to) != 0 || !*text) return free(*text), iso_context_no_memory(w->ctx, "a row");
-    const iso_status status = w->sink->line(w->sink->data, *text);
+    const bool whole = fclose(to) == 0 && *text;
+    const iso_status status = whole ? sink->line(sink->data, *text) : iso_context_no_memory(ctx, "a row");
     free(*text);
     return status;
 }
@@ -104,7 +98,7 @@ static iso_status write_head(work *w)
     fprintf(to, "# backend: %s\n# digits: %d\n", iso_model_kind_name((int)w->p->backend), w->p->options.digits);
     fprintf(to, "# isoroll: %s\n", ISO_VERSION);
     certify_print_columns(to, shown(w));
-    return give(w, to, &text);
+    return certify_give(w->ctx, w->sink, to, &text);
 }
 
 /* --- failures ---------------------------------------------------------------------------------------------------- */
@@ -119,16 +113,6 @@ static iso_status too_wide(work *w)
     w->wide = true;
     return ISO_FAIL_NUMERICAL(w->ctx, "the enclosures hold %d digits until %s = %.6g: computed with %d digits",
                               w->p->options.digits, iso_clock_name(w->clock), copysign(time_now(w), w->p->scene->end),
-                              w->result->work_digits);
-}
-
-/* Of attempts that came no further with more digits: what stops them is not rounding. */
-static iso_status no_further(const work *w, double reached, int before)
-{
-    return ISO_FAIL_NUMERICAL(w->ctx,
-                              "no step from %s = %.6g can be enclosed, with %d digits or with %d: more digits do not "
-                              "help; take an earlier end, moments that differ less, or k further from 0",
-                              iso_clock_name(w->clock), copysign(reached, w->p->scene->end), before,
                               w->result->work_digits);
 }
 
@@ -201,14 +185,14 @@ static void time_of(const work *w, size_t i, fmpq_t t)
     fmpq_clear(step);
 }
 
-/* Within a step: tells progress by the last step's length, and asks the caller's monitor. */
+/* Within a step: progress is measured by the last step's length, and asks the caller's monitor. */
 static bool in_step(void *data)
 {
     work *w = data;
     const double end = fabs(w->p->scene->end), last = arf_get_d(arb_midref(w->set.h), ARF_RND_NEAR);
-    if (w->sink->progress && w->set.thin.known != w->told) {
+    if (w->sink->progress && w->set.thin.known != w->noted) {
         const double at = time_now(w) + last * certify_set_done(&w->set);
-        w->told = w->set.thin.known;
+        w->noted = w->set.thin.known;
         w->sink->progress(w->sink->data, end > 0 ? fmin(at / end, 1) : 1);
     }
     w->stopped = w->stopped || !iso_context_goes_on(w->ctx);
@@ -218,14 +202,13 @@ static bool in_step(void *data)
 /* The next row, if its time is in this step. *status: ISO_NUMERICAL if it holds too few digits. */
 static bool next_row(work *w, iso_status *status)
 {
-    bool inside = false, holds = true;
     fmpq_t t;
     if (w->result->rows == w->result->asked) return false;
     arb_ptr y = _arb_vec_init(CERTIFY_ALL), clock = _arb_vec_init(ISO_CLOCKS);
     fmpq_init(t);
     time_of(w, w->result->rows, t);
     arb_set_fmpq(clock + w->clock, t, w->ball.bits);
-    inside = certify_set_at(&w->set, clock + w->clock, y);
+    bool inside = certify_set_at(&w->set, clock + w->clock, y);
     for (int c = 0, i = CERTIFY_STATE; c < ISO_CLOCKS; c++)
         if (c != (int)w->clock) arb_set(clock + c, y + i++);
     if (!in_step(w)) inside = false, *status = iso_context_stopped(w->ctx);
@@ -233,10 +216,12 @@ static bool next_row(work *w, iso_status *status)
         char *text = NULL;
         size_t length = 0;
         FILE *to = open_memstream(&text, &length);
-        if (to) holds = certify_write_row(&w->ball, clock, w->p->backend, y, shown(w), w->p->options.digits, to);
-        *status = to ? ISO_OK : iso_context_no_memory(w->ctx, "a row");
-        if (to && !holds) fclose(to), free(text), *status = too_wide(w);
-        if (to && holds) *status = give(w, to, &text);
+        if (!to)
+            *status = iso_context_no_memory(w->ctx, "a row");
+        else if (certify_write_row(&w->ball, clock, w->p->backend, y, shown(w), w->p->options.digits, to))
+            *status = certify_give(w->ctx, w->sink, to, &text);
+        else
+            fclose(to), free(text), *status = too_wide(w);
         w->result->rows += *status == ISO_OK;
     }
     fmpq_clear(t);
@@ -251,8 +236,8 @@ static iso_status check_work(const work *w, double end)
 {
     const double reached = time_now(w), step = pow(w->result->work_digits, 3), steps = (double)w->result->steps;
     const double needed = steps * fmax(end / reached, 1);
-    const bool judged = steps >= ISO_JUDGED_STEPS && steps * step >= ISO_JUDGED_WORK;
-    if ((judged ? needed : steps) * step <= ISO_MOST_CERTIFIED_WORK) return ISO_OK;
+    const bool measured = steps >= ISO_PACE_STEPS && steps * step >= ISO_PACE_WORK;
+    if ((measured ? needed : steps) * step <= ISO_MOST_CERTIFIED_WORK) return ISO_OK;
     return too_long(w, needed);
 }
 
@@ -303,7 +288,8 @@ iso_status iso_certify_orbit(iso_context *ctx, const iso_certify_problem *p, con
 {
     enum { SPARE = 14, MORE = 200 };
     const double end = fabs(p->scene->end);
-    work w = {.ctx = ctx, .p = p, .sink = sink, .result = result, .clock = clock_of(p->scene->start.model)};
+    work w = {.ctx = ctx, .p = p, .sink = sink, .result = result};
+    w.clock = p->scene->start.model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
     double reached = 0, lost = 0, furthest = -1;
     certify_exact_init(&w.exact);
     iso_status status = certify_exact_read(ctx, p->scene, p->literals, &w.exact);
@@ -315,7 +301,14 @@ iso_status iso_certify_orbit(iso_context *ctx, const iso_certify_problem *p, con
         again = w.wide && !p->options.work_digits && digits < ISO_MOST_WORK_DIGITS;
         const bool further = reached > furthest;
         if (further) furthest = reached, enough = digits;
-        if (again && digits >= enough + MORE) again = false, status = no_further(&w, reached, enough);
+        if (again && digits >= enough + MORE) { /* what stops these attempts is not rounding */
+            again = false;
+            status =
+                ISO_FAIL_NUMERICAL(ctx,
+                                   "no step from %s = %.6g can be enclosed, with %d digits or with %d: more digits "
+                                   "do not help; take an earlier end, moments that differ less, or k further from 0",
+                                   iso_clock_name(w.clock), copysign(reached, p->scene->end), enough, digits);
+        }
         /* digits are lost about evenly */
         const double all = 1.1 * (lost + 2) * (reached > 0 ? end / reached : 1) + SPARE;
         const double needed = further ? all : INFINITY;

@@ -225,31 +225,23 @@ static bool add_column(double Q[CERTIFY_STATE][CERTIFY_STATE], int done, double 
     return true;
 }
 
-/* log2 of the length of the set along column j; -INFINITY: it has none. */
-static double extent(const certify_set *s, double M[CERTIFY_STATE][CERTIFY_STATE], int j)
-{
-    double v[CERTIFY_STATE];
-    for (int i = 0; i < CERTIFY_STATE; i++) v[i] = M[i][j];
-    return mag_is_zero(s->r + j) ? -INFINITY : mag_get_d_log2_approx(s->r + j) + log2(norm_of(v));
-}
-
-/* A <- Q. If rounding leaves too little of a column, A <- 1, which is as valid. */
+/* A <- Q. M: columns of the middle. If rounding leaves too little of a column, A <- 1, which is as valid. */
 static void turn_frame(certify_set *s, const arb_mat_t middle)
 {
     double M[CERTIFY_STATE][CERTIFY_STATE], Q[CERTIFY_STATE][CERTIFY_STATE], length[CERTIFY_STATE];
     bool used[CERTIFY_STATE] = {false}, good = true;
-    for (int i = 0; i < CERTIFY_STATE; i++)
-        for (int j = 0; j < CERTIFY_STATE; j++)
-            M[i][j] = arf_get_d(arb_midref(arb_mat_entry(middle, i, j)), ARF_RND_NEAR);
-    for (int j = 0; j < CERTIFY_STATE; j++) length[j] = extent(s, M, j);
+    for (int j = 0; j < CERTIFY_STATE; j++) {
+        for (int i = 0; i < CERTIFY_STATE; i++)
+            M[j][i] = arf_get_d(arb_midref(arb_mat_entry(middle, i, j)), ARF_RND_NEAR);
+        /* log2 of the length of the set along it */
+        length[j] = mag_is_zero(s->r + j) ? -INFINITY : mag_get_d_log2_approx(s->r + j) + log2(norm_of(M[j]));
+    }
     for (int done = 0; done < CERTIFY_STATE && good; done++) {
-        double v[CERTIFY_STATE];
         int longest = -1;
         for (int j = 0; j < CERTIFY_STATE; j++)
             if (!used[j] && (longest < 0 || length[j] > length[longest])) longest = j;
         used[longest] = true;
-        for (int i = 0; i < CERTIFY_STATE; i++) v[i] = M[i][longest];
-        good = add_column(Q, done, v);
+        good = add_column(Q, done, M[longest]);
     }
     arb_mat_one(s->A);
     for (int i = 0; i < CERTIFY_STATE && good; i++)

@@ -44,16 +44,15 @@ slong certify_magnitude(arb_srcptr x, int count)
 
 bool certify_holds(arb_srcptr x, int count, slong place)
 {
-    arb_t most, radius;
+    arb_ptr most = _arb_vec_init(2), radius = most + 1;
     bool holds = true;
-    arb_init(most), arb_init(radius);
     set_power(most, place, 64);
     arb_mul_2exp_si(most, most, -1);
     for (int i = 0; i < count && holds; i++) {
         arb_get_rad_arb(radius, x + i);
         holds = arb_is_finite(x + i) && arb_le(radius, most);
     }
-    arb_clear(most), arb_clear(radius);
+    _arb_vec_clear(most, 2);
     return holds;
 }
 

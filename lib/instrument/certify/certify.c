@@ -9,38 +9,25 @@
 
 #define WHAT "--certify encloses the free ball, with a rotor or on a level"
 
-static iso_status check_effects(iso_context *ctx, const iso_scene *scene)
-{
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        if (scene->effects.on[e] && e != ISO_ROTOR && e != ISO_LEVEL && e != ISO_CLOCK)
-            return ISO_FAIL_INPUT(ctx, iso_effect_list[e]->name, WHAT ": remove '%s'", iso_effect_list[e]->name);
-    return ISO_OK;
-}
-
-/* A time as it is written; its double tells it up to 15 digits. */
-static iso_status take_time(iso_context *ctx, const char *key, double x, iso_rational *r)
+/* A time as it is written; its double holds up to 15 digits. */
+static iso_status read_time(iso_context *ctx, const char *key, double x, iso_rational *r)
 {
     *r = (iso_rational){0, 1};
     if (x == 0 || iso_rational_of(x, r)) return ISO_OK;
     return ISO_FAIL_INPUT(ctx, key, "--certify takes times exactly: write '%s' with at most 15 digits", key);
 }
 
-/* The text of the last time, unless an option has changed it. */
-static const char *written_end(const iso_certify_problem *p)
-{
-    double x;
-    const iso_literal *end = iso_literal_find(p->literals, "end");
-    return end && iso_number_read(end->text[0], strlen(end->text[0]), &x) && x == p->scene->end ? end->text[0] : NULL;
-}
-
-static iso_status take_times(iso_context *ctx, iso_certify_problem *p)
+static iso_status read_times(iso_context *ctx, iso_certify_problem *p)
 {
     const iso_scene *scene = p->scene;
     ISO_TRY(iso_scene_check_times(ctx, scene));
-    p->end_text = written_end(p);
+    const iso_literal *end = iso_literal_find(p->literals, "end");
+    double x;
+    if (end && iso_number_read(end->text[0], strlen(end->text[0]), &x) && x == scene->end)
+        p->end_text = end->text[0]; /* else an option has changed it */
     p->end = (iso_rational){0, 1};
-    if (!p->end_text || scene->step == 0) ISO_TRY(take_time(ctx, "end", scene->end, &p->end));
-    if (scene->step > 0) return take_time(ctx, "step", scene->step, &p->step);
+    if (!p->end_text || scene->step == 0) ISO_TRY(read_time(ctx, "end", scene->end, &p->end));
+    if (scene->step > 0) return read_time(ctx, "step", scene->step, &p->step);
     p->step = (iso_rational){llabs(p->end.top), 100 * p->end.below}; /* as iso_scene_time */
     return ISO_OK;
 }
@@ -58,7 +45,9 @@ static iso_status check_digits(iso_context *ctx, const iso_certify_options *o)
 
 static iso_status check_scene(iso_context *ctx, const iso_scene *scene)
 {
-    ISO_TRY(check_effects(ctx, scene));
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        if (scene->effects.on[e] && e != ISO_ROTOR && e != ISO_LEVEL && e != ISO_CLOCK)
+            return ISO_FAIL_INPUT(ctx, iso_effect_list[e]->name, WHAT ": remove '%s'", iso_effect_list[e]->name);
     if (scene->columns > 0)
         return ISO_FAIL_INPUT(ctx, "columns",
                               "--certify writes all clocks and whole states: remove 'columns' (or use --as)");
@@ -77,7 +66,7 @@ iso_status iso_certify(iso_context *ctx, const iso_scene *scene, const iso_liter
     ISO_TRY(iso_certify_is_possible(ctx));
     ISO_TRY(check_digits(ctx, options));
     ISO_TRY(check_scene(ctx, scene));
-    ISO_TRY(take_times(ctx, &p));
+    ISO_TRY(read_times(ctx, &p));
     p.backend = scene->backend == ISO_BACKEND_AUTO ? scene->start.model : (iso_model_kind)scene->backend;
     result->asked = iso_scene_rows(scene);
     result->backend = (iso_backend)p.backend;

@@ -9,7 +9,6 @@
 #include <stdio.h>
 
 #include "base/context.h"
-#include "base/literal_impl.h"
 #include "base/rational_impl.h"
 #include "orbit/scene.h"
 
@@ -18,10 +17,10 @@
 enum { ISO_MOST_CERTIFIED_DIGITS = 1000, ISO_MOST_WORK_DIGITS = 10000 };
 
 /* Of an attempt, as its steps times the cube of the digits that are computed with: the most, about ten hours of one
- * core. The pace of an orbit is judged after some seconds of work and 20 steps, about a turn. */
+ * core. The pace of an orbit is known after some seconds of work and 20 steps, about a turn. */
 #define ISO_MOST_CERTIFIED_WORK 1e12
-#define ISO_JUDGED_WORK 3e7
-#define ISO_JUDGED_STEPS 20
+#define ISO_PACE_WORK 3e7
+#define ISO_PACE_STEPS 20
 
 typedef struct iso_certify_options {
     int digits;      /* that each row is to hold                                 */
@@ -44,7 +43,7 @@ typedef struct iso_certify_result {
 } iso_certify_result;
 
 /* Encloses the orbit of a scene at its times. The numbers of ball, start and effects, and the last time, are those of
- * `literals` (io/scene_literals_impl.h). Another last time, and the step, are decimal numbers of at most 15 digits.
+ * `literals` (io/scene_file.h). Another last time, and the step, are decimal numbers of at most 15 digits.
  * After an error the rows before it have been given away. result is always filled.
  * Errors: ISO_BAD_INPUT, ISO_BAD_ARGUMENT: the scene has what is not enclosed, or this build has no Arb; ISO_NUMERICAL:
  * the enclosures do not hold their digits to the end; ISO_STOPPED; what the sink answers. */

@@ -3,8 +3,8 @@
  * A look at N turns uses the turns from N/4 to N. Its sums grow while the turns pass. The sums of the looks at N,
  * sqrt(2) N, 2 N and 2 sqrt(2) N grow at the same time. Those of the look at 4 N begin when the look at N ends.
  */
+#include "base/math_impl.h"
 #include "base/names_impl.h"
-#include "base/smooth_weight_impl.h"
 #include "instrument/chaos/chaos_impl.h"
 
 #include <gsl/gsl_cdf.h>

@@ -2,7 +2,7 @@
 #ifndef ISO_STUDY_FREQUENCIES_IMPL_H
 #define ISO_STUDY_FREQUENCIES_IMPL_H
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/frequencies/momentum.h"
 #include "instrument/frequencies/spectrum.h"

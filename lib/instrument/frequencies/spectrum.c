@@ -10,7 +10,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/context_impl.h"
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 
 static const double LEAST = 1e-14; /* amplitudes that count, relative to the largest */
 

@@ -1,5 +1,5 @@
 /* integrals.c - the search for additional first integrals, see integrals.h: what is refused, and what the parts of
- * the spaces tell together. Samples are taken in integrals_orbits.c, linear algebra is in integrals_part.c. */
+ * the spaces show together. Samples are taken in integrals_orbits.c, linear algebra is in integrals_part.c. */
 #include "instrument/integrals/integrals.h"
 #include "base/number_impl.h"
 #include "model/model_impl.h"
@@ -28,20 +28,9 @@ typedef struct search {
     const iso_integral *known[ISO_INTEGRAL_KNOWN];
 } search;
 
-ISO_NAMES(iso_integral_verdict_name, iso_integral_verdict, "none", "found", "undecided")
+ISO_NAMES(iso_integral_verdict_name, int, "none", "found", "undecided")
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
-
-static iso_status check_degrees(iso_context *ctx, iso_integral_search_options *o)
-{
-    if (o->degree < 1 || o->degree > ISO_INTEGRAL_DEGREE)
-        return ISO_FAIL_ARGUMENT(ctx, "degree", "degree %d of the polynomials in M: give 1 to %d", o->degree,
-                                 ISO_INTEGRAL_DEGREE);
-    if (o->coefficients == -1) o->coefficients = o->degree > 2 ? o->degree : 2;
-    if (o->coefficients >= 0 && o->coefficients <= ISO_INTEGRAL_DEGREE) return ISO_OK;
-    return ISO_FAIL_ARGUMENT(ctx, "coefficients", "degree %d of the coefficients in gamma: give 0 to %d",
-                             o->coefficients, ISO_INTEGRAL_DEGREE);
-}
 
 /* Twice as many conditions as there are terms. */
 static iso_status choose_orbits(iso_context *ctx, const integral_space *space, iso_integral_search_options *o)
@@ -61,7 +50,13 @@ static iso_status choose_orbits(iso_context *ctx, const integral_space *space, i
 
 static iso_status check_options(iso_context *ctx, iso_integral_search_options *o)
 {
-    ISO_TRY(check_degrees(ctx, o));
+    if (o->degree < 1 || o->degree > ISO_INTEGRAL_DEGREE)
+        return ISO_FAIL_ARGUMENT(ctx, "degree", "degree %d of the polynomials in M: give 1 to %d", o->degree,
+                                 ISO_INTEGRAL_DEGREE);
+    if (o->coefficients == -1) o->coefficients = o->degree > 2 ? o->degree : 2;
+    if (o->coefficients < 0 || o->coefficients > ISO_INTEGRAL_DEGREE)
+        return ISO_FAIL_ARGUMENT(ctx, "coefficients", "degree %d of the coefficients in gamma: give 0 to %d",
+                                 o->coefficients, ISO_INTEGRAL_DEGREE);
     if (!(o->turns >= 1 && o->turns <= 1e5))
         return ISO_FAIL_ARGUMENT(ctx, "turns", "%s turns are not in [1, 1e5]", ISO_SHORT(o->turns));
     if (!(o->within > 0 && o->within < 1))
@@ -71,39 +66,19 @@ static iso_status check_options(iso_context *ctx, iso_integral_search_options *o
 
 /* --- integrals that are known ----------------------------------------------------------------------------------- */
 
-static void list_known(search *s)
-{
-    iso_integral_search *out = s->out;
-    const iso_integral *list[ISO_MAX_INTEGRALS];
-    const int count = iso_integrals_holding(&iso_system_point, &s->samples.problem, list, ISO_MAX_INTEGRALS);
-    for (int i = 0; i < count && out->known_count < ISO_INTEGRAL_KNOWN; i++) {
-        if (!list[i]->holds || list[i]->claimed) continue; /* the energy, and the constraints */
-        s->known[out->known_count] = list[i];
-        out->known[out->known_count++] = (iso_integral_known){list[i]->name, list[i]->doc, false, 0, INFINITY};
-    }
-}
-
-/* Its values on the samples, less their mean. Gives the sum of their squares; 0: it is a constant, to rounding. */
-static double values_of(const search *s, const iso_integral *known, double *work)
-{
-    const size_t rows = s->samples.rows;
-    double mean = 0, varies = 0, largest = 0, size;
-    for (size_t i = 0; i < rows; i++)
-        mean += work[i] = known->value(&s->samples.problem, s->samples.state[i], &size),
-                largest = fmax(largest, size);
-    mean /= (double)rows;
-    for (size_t i = 0; i < rows; i++) varies += (work[i] - mean) * (work[i] - mean);
-    return sqrt(varies / (double)rows) < 10 * s->out->delta * largest ? 0 : varies;
-}
-
-/* The distance of a known integral from the functions found in this part, by the size of what it varies. NaN: it is a
- * constant. */
+/* The distance of a known integral, less its mean, from the functions found in this part, by the size of what it varies.
+ * NaN: it is a constant, to rounding. work: room for a number of each sample. */
 static double residual_of(const search *s, const iso_integral *known, const integral_part *part, double *work)
 {
     const size_t rows = s->samples.rows;
-    const double varies = values_of(s, known, work);
-    double rest = 0;
-    if (varies == 0) return NAN;
+    double mean = 0, varies = 0, largest = 0, rest = 0, size;
+    for (size_t i = 0; i < rows; i++) {
+        work[i] = known->value(&s->samples.problem, s->samples.state[i], &size);
+        mean += work[i], largest = fmax(largest, size);
+    }
+    mean /= (double)rows;
+    for (size_t i = 0; i < rows; i++) varies += (work[i] - mean) * (work[i] - mean);
+    if (varies == 0 || sqrt(varies / (double)rows) < 10 * s->out->delta * largest) return NAN;
     for (size_t f = 0; f < part->found; f++) {
         const double *basis = part->basis + f * rows;
         double along = 0;
@@ -166,58 +141,46 @@ static int independent(const search *s)
 
 /* --- the spaces ------------------------------------------------------------------------------------------------- */
 
-/* Puts a value among the smallest. */
-static void note_value(iso_integral_degree *at, const iso_integral_value *v)
-{
-    size_t i = at->values;
-    if (at->values < ISO_INTEGRAL_VALUES)
-        at->values++;
-    else if (!(v->value < at->value[--i].value))
-        return;
-    for (; i > 0 && v->value < at->value[i - 1].value; i--) at->value[i] = at->value[i - 1];
-    at->value[i] = *v;
-}
-
 static void note_part(const search *s, const integral_part *part, iso_integral_degree *at)
 {
-    const double within = s->options.within;
     at->terms += part->terms;
     at->functions += part->functions;
     at->found += part->found;
     for (size_t i = 0; i < part->functions; i++) {
         const iso_integral_value *v = &part->value[i];
-        const bool found = integral_is_found(v, within);
-        note_value(at, v);
-        at->doubtful += !found && v->value <= fmax(v->error, within);
-        if (found)
-            at->largest = fmax(at->largest, v->value);
-        else
-            at->smallest = fmin(at->smallest, v->value);
+        const bool found = integral_is_found(v, s->options.within);
+        double *end = found ? &at->largest : &at->smallest;
+        *end = found ? fmax(*end, v->value) : fmin(*end, v->value);
+        at->doubtful += !found && v->value <= fmax(v->error, s->options.within);
+        /* among the smallest, in order */
+        size_t place = at->values;
+        while (place > 0 && v->value < at->value[place - 1].value) place--;
+        if (place == ISO_INTEGRAL_VALUES) continue;
+        if (at->values < ISO_INTEGRAL_VALUES) at->values++;
+        for (size_t j = at->values - 1; j > place; j--) at->value[j] = at->value[j - 1];
+        at->value[place] = *v;
     }
-}
-
-static iso_status search_part(search *s, int degree, unsigned parity)
-{
-    integral_part part;
-    if (!iso_context_goes_on(s->ctx))
-        return iso_context_fail(s->ctx, ISO_STOPPED, "", "stopped in degree %d", degree);
-    iso_status status = iso_integral_search_part(s->ctx, &s->samples, &s->space, degree, parity, s->out->delta,
-                                                 s->options.within, &part);
-    if (status == ISO_OK) {
-        note_part(s, &part, &s->out->at[degree]);
-        add_gradients(s, &part);
-        status = compare_with_known(s, degree, &part);
-    }
-    iso_integral_free_part(&part);
-    if (s->options.progress) s->options.progress(s->options.data, (double)++s->done / (double)s->all);
-    return status;
 }
 
 static iso_status search_degree(search *s, int degree)
 {
     iso_integral_degree *at = &s->out->at[degree];
     *at = (iso_integral_degree){.degree = degree, .largest = NAN, .smallest = NAN};
-    for (unsigned parity = 0; parity < INTEGRAL_PARITIES; parity++) ISO_TRY(search_part(s, degree, parity));
+    for (unsigned parity = 0; parity < INTEGRAL_PARITIES; parity++) {
+        integral_part part;
+        if (!iso_context_goes_on(s->ctx))
+            return iso_context_fail(s->ctx, ISO_STOPPED, "", "stopped in degree %d", degree);
+        iso_status status = iso_integral_search_part(s->ctx, &s->samples, &s->space, degree, parity, s->out->delta,
+                                                     s->options.within, &part);
+        if (status == ISO_OK) {
+            note_part(s, &part, at);
+            add_gradients(s, &part);
+            status = compare_with_known(s, degree, &part);
+        }
+        iso_integral_free_part(&part);
+        if (status != ISO_OK) return status;
+        if (s->options.progress) s->options.progress(s->options.data, (double)++s->done / (double)s->all);
+    }
     const int step = s->space.magnetic ? 1 : 2; /* V_d has V_(d - step); constants, so the energy, are in V_step */
     const size_t known = degree <= step ? (size_t)(degree == step) : s->out->at[degree - step].found;
     at->further = at->found > known ? at->found - known : 0;
@@ -225,50 +188,39 @@ static iso_status search_degree(search *s, int degree)
     return ISO_OK;
 }
 
-/* A number of an effect is nearly 0. The effects are in units of the motion. */
-static bool has_weak_effect(const iso_effects *effects)
-{
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; effects->on[e] && n && n->name; n++)
-            for (int i = 0; i < n->count; i++) {
-                const double x = fabs(iso_effect_values(effects, e, n)[i]);
-                if (x > 0 && x < 1e-9) return true;
-            }
-    return false;
-}
-
 /* Integrals of a neighbour are constant here within rounding: they change by the square of such a difference of
- * moments, by 1/100 of such a difference of k, and by about such a field. */
+ * moments, by 1/100 of such a difference of k, and by about such a number of an effect, in units of the motion. */
 static bool has_neighbour(const iso_problem *f)
 {
     const iso_params *p = &f->p;
     const double k = fabs(fabs(p->k) - 1);
-    if (k > 0 && k < 1e-9) return true;
+    bool near = k > 0 && k < 1e-9;
     for (int i = 0; i < 3; i++) {
         const double one = p->J[i], other = p->J[(i + 1) % 3];
-        if (one != other && fabs(one - other) < 1e-6 * fmax(one, other)) return true;
+        near = near || (one != other && fabs(one - other) < 1e-6 * fmax(one, other));
     }
-    return has_weak_effect(&f->effects);
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; f->effects.on[e] && n && n->name; n++)
+            for (int i = 0; i < n->count; i++) {
+                const double x = fabs(iso_effect_values(&f->effects, e, n)[i]);
+                near = near || (x > 0 && x < 1e-9);
+            }
+    return near;
 }
 
-/* Lower degrees than that of the first integral come close to one as well. */
-static bool comes_closer(const iso_integral_search *r)
-{
-    double smallest = INFINITY;
-    int d = 1;
-    for (; d <= r->degrees && r->at[d].further == 0; d++) smallest = fmin(smallest, r->at[d].smallest);
-    return d <= r->degrees && smallest < 1e-3;
-}
-
-static void judge(search *s)
+static void find_verdict(search *s)
 {
     iso_integral_search *out = s->out;
     size_t doubtful = 0;
     bool known = false;
+    double before = INFINITY; /* the smallest other value in lower degrees than that of the first integral */
+    int first = 1;
+    for (; first <= out->degrees && out->at[first].further == 0; first++)
+        before = fmin(before, out->at[first].smallest);
     for (int d = 1; d <= out->degrees; d++) doubtful += out->at[d].doubtful;
     for (int i = 0; i < out->known_count; i++) known = known || out->known[i].degree > 0;
     out->independent = independent(s);
-    out->near = has_neighbour(&s->samples.problem) || comes_closer(out);
+    out->near = has_neighbour(&s->samples.problem) || (first <= out->degrees && before < 1e-3);
     out->verdict = ISO_INTEGRALS_NONE;
     if (out->independent > 0 && (known || !out->near))
         out->verdict = ISO_INTEGRALS_FOUND;
@@ -291,10 +243,16 @@ static iso_status run(search *s, const iso_scene *scene)
     /* What steps of this tolerance do to an integral, with a margin (measured at k = 1 and k = -1, see the test). */
     s->out->delta = 5e-15 + 1e-4 * s->options.tolerance * s->options.turns;
     s->all = (size_t)s->options.degree * INTEGRAL_PARITIES;
-    list_known(s);
+    const iso_integral *list[ISO_MAX_INTEGRALS];
+    const int count = iso_integrals_holding(&iso_system_point, f, list, ISO_MAX_INTEGRALS);
+    for (int i = 0; i < count && s->out->known_count < ISO_INTEGRAL_KNOWN; i++) {
+        if (!list[i]->holds || list[i]->claimed) continue; /* the energy, and the constraints */
+        s->known[s->out->known_count] = list[i];
+        s->out->known[s->out->known_count++] = (iso_integral_known){list[i]->name, list[i]->doc, false, 0, INFINITY};
+    }
     iso_status status = iso_integral_follow(s->ctx, &s->options, &s->samples, &s->out->energy);
     for (int d = 1; d <= s->options.degree && status == ISO_OK; d++) status = search_degree(s, d);
-    if (status == ISO_OK || status == ISO_STOPPED) judge(s);
+    if (status == ISO_OK || status == ISO_STOPPED) find_verdict(s);
     return status;
 }
 

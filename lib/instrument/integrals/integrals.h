@@ -29,8 +29,8 @@
  *
  * The search. Orbits start spread evenly over a global section (map/section.h), with one value of eps. Each is
  * sampled at many times. The functions are columns, the samples rows. Relations that hold on the surface (|gamma| =
- * 1, (M, gamma) = 0, the level) make columns dependent. Gram and Schmidt's way, the largest column first, keeps an
- * independent set and gives an orthonormal basis Q of V_d on the samples. From each column of Q its mean over each
+ * 1, (M, gamma) = 0, the level) make columns dependent. The method of Gram and Schmidt, the largest column first, keeps an
+ * independent set and makes an orthonormal basis Q of V_d on the samples. From each column of Q its mean over each
  * orbit is taken away. The singular values of what is left are the sines of the angles between V_d and the functions
  * that are constant on orbits: 0 for an integral. A value is the root mean square of the variation of a function
  * along orbits, if the root mean square of the function itself is 1.
@@ -49,7 +49,7 @@
  * apart (k = 0.5) the smallest values of V_2, V_4, V_6 are 4e-6, 2e-10, 5e-14. A new integral is
  * believed only if its value is at rounding level in one degree, and the values of all lower degrees are not small.
  *
- * A search is evidence, no proof: it tells that no function of this space is constant on these orbits.
+ * A search is evidence, no proof: it says that no function of this space is constant on these orbits.
  */
 #ifndef ISO_STUDY_INTEGRALS_H
 #define ISO_STUDY_INTEGRALS_H
@@ -60,7 +60,7 @@
 enum {
     ISO_INTEGRAL_DEGREE = 8, /* the largest degree, in M and in gamma                */
     ISO_INTEGRAL_ROWS = 32,  /* samples of an orbit                                  */
-    ISO_INTEGRAL_VALUES = 8, /* the smallest singular values of a degree that are told */
+    ISO_INTEGRAL_VALUES = 8, /* the smallest singular values of a degree that are listed */
     ISO_INTEGRAL_KNOWN = 8
 };
 
@@ -118,7 +118,7 @@ typedef struct iso_integral_degree {
 /* An integral that the library knows for this k and J (iso_system_point.integrals). */
 typedef struct iso_integral_known {
     const char *name, *doc;
-    bool constant;   /* on H = 0, as the energy: it tells nothing further (three equal moments) */
+    bool constant;   /* on H = 0, as the energy: it says nothing further (three equal moments) */
     int degree;      /* d of the first V_d in which it was found; 0: it was not */
     double residual; /* its distance from what was found there, by its own size */
 } iso_integral_known;

@@ -6,11 +6,6 @@
 #include "orbit/orbit_impl.h"
 #include "study/options_impl.h"
 
-static const char *verdict_word(int verdict)
-{
-    return iso_integral_verdict_name((iso_integral_verdict)verdict);
-}
-
 static void find_parity(const void *row, int i, iso_value *v)
 {
     v->number = ((const iso_integral_value *)row)->parity >> i & 1;
@@ -76,16 +71,12 @@ static const iso_field known_fields[] = {
 
 /* --- the search ------------------------------------------------------------------------------------------------- */
 
-double iso_integral_smallest(const iso_integral_search *r)
+double iso_integral_smallest(const void *search)
 {
+    const iso_integral_search *r = search;
     double smallest = NAN;
     for (int d = 1; d <= r->degrees; d++) smallest = fmin(smallest, r->at[d].smallest);
     return smallest;
-}
-
-static double smallest_of(const void *row)
-{
-    return iso_integral_smallest(row);
 }
 
 /* The energy is found in V_2, with a rotor in V_1. What is found in these and is not further, is the energy. */
@@ -121,12 +112,12 @@ const iso_field iso_integral_search_fields[] = {
     FIELD("orbits", orbits, "", "that were followed"),
     ISO_COUNT("samples", samples_of, "", "of each orbit"),
     FIELD("delta", delta, "", "relative error of a sample"),
-    FIELD("verdict", verdict, "", "none, found or undecided", .word = verdict_word),
+    FIELD("verdict", verdict, "", "none, found or undecided", .word = iso_integral_verdict_name),
     FIELD("independent", independent, "", "independent integrals beside the energy"),
     FIELD("near", near, "", "a neighbour is integrable"),
     ISO_IS("energy", has_energy, "whether the energy was found"),
     FIELD("energy_spread", energy, "", "relative spread of the energy in the samples"),
-    ISO_NUMBER("smallest", smallest_of, "", "smallest value that is no integral's"),
+    ISO_NUMBER("smallest", iso_integral_smallest, "", "smallest value that is no integral's"),
     ISO_LIST(iso_integral_search, "known", known, known_count, known_fields, "integrals that are known"),
     ISO_ITEMS("degrees", degree_of, degree_fields, "the spaces that were searched"),
     ISO_FIELD_END,

@@ -82,7 +82,7 @@ static inline bool integral_is_found(const iso_integral_value *v, double within)
 }
 
 /* "none", "found", "undecided" */
-const char *iso_integral_verdict_name(iso_integral_verdict verdict);
+const char *iso_integral_verdict_name(int verdict);
 
 /* What the study finds: what was asked, and the answer. */
 typedef struct iso_integrals_found {
@@ -95,9 +95,9 @@ typedef struct iso_integrals_found {
 int iso_integral_energy_degree(const iso_integral_search *found);
 
 /* The smallest value that is no integral's, over all degrees; NaN: there is none. */
-double iso_integral_smallest(const iso_integral_search *found);
+double iso_integral_smallest(const void *search);
 
-/* What it tells people, and the lines of its table (integrals_print.c). */
+/* Its text, and the lines of its table (integrals_print.c). */
 void iso_integrals_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
 
 #endif

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "base/random_impl.h"
 #include "base/vec3_impl.h"
 #include "instrument/integrals/integrals_impl.h"
@@ -11,29 +11,8 @@
 #include "model/model_impl.h"
 #include "orbit/batch.h"
 
-/* J in a unit with which max(q^(-1/k)) = 1. */
-static iso_status choose_unit(iso_context *ctx, const iso_params *p, iso_params *own, double *unit)
-{
-    *unit = p->k > 0 ? min3(p->J) : max3(p->J);
-    ISO_TRY(iso_params_check_powers(ctx, p));
-    return iso_params_reduced(ctx, p->k, (double[]){p->J[0] / *unit, p->J[1] / *unit, p->J[2] / *unit}, own);
-}
-
-/* The scene's effects in the unit of J and this unit of omega. */
-static void carry_effects(const iso_problem *scene, double J, double omega, iso_problem *f)
-{
-    f->effects = scene->effects;
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; f->effects.on[e] && n && n->name; n++) {
-            const iso_dimension d = n->dimension;
-            const double unit = pow(J, d.J + d.J_2k / (2 * f->p.k)) * pow(omega, d.w);
-            double *x = iso_effect_values(&f->effects, e, n);
-            for (int i = 0; i < n->count; i++) x[i] /= unit;
-        }
-}
-
 /* A time unit with which |M| <= 1, so that no power of it overflows: M^2/2 = H + eps q^(-1/k) has its largest value
- * at the smallest or at the largest q. On H = 0 then eps = 1/2: a free ball's does not matter, and can be 0. */
+ * at the smallest or at the largest q. On H = 0 then eps = 1/2: a free ball's does not matter, and can be 0. unit: of J. */
 static iso_status choose_level(iso_context *ctx, const iso_problem *scene, double unit, iso_problem *f)
 {
     const double k = f->p.k, *J = f->p.J, H = scene->energy;
@@ -43,7 +22,15 @@ static iso_status choose_level(iso_context *ctx, const iso_problem *scene, doubl
     if (!(size > 0 && isfinite(size))) return ISO_FAIL_INPUT(ctx, "M", "on this level the point can only be at rest");
     f->eps = eps / size;
     f->energy = H / size;
-    if (!free) carry_effects(scene, unit, sqrt(size) * pow(unit, 1 / (2 * k) - 2), f);
+    if (free) return ISO_OK;
+    const double omega = sqrt(size) * pow(unit, 1 / (2 * k) - 2);
+    f->effects = scene->effects;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; f->effects.on[e] && n && n->name; n++) {
+            const iso_dimension d = n->dimension;
+            double *x = iso_effect_values(&f->effects, e, n);
+            for (int i = 0; i < n->count; i++) x[i] /= pow(unit, d.J + d.J_2k / (2 * k)) * pow(omega, d.w);
+        }
     return ISO_OK;
 }
 
@@ -55,9 +42,11 @@ iso_point_motion iso_integral_motion(const integral_samples *s)
 iso_status iso_integral_prepare(iso_context *ctx, const iso_problem *scene, uint64_t seed, size_t orbits,
                                 integral_samples *s)
 {
-    double unit;
+    const iso_params *p = &scene->p;
+    const double unit = p->k > 0 ? min3(p->J) : max3(p->J); /* with it max(q^(-1/k)) = 1 */
     *s = (integral_samples){.orbits = orbits, .rows = orbits * ISO_INTEGRAL_ROWS};
-    ISO_TRY(choose_unit(ctx, &scene->p, &s->problem.p, &unit));
+    ISO_TRY(iso_params_check_powers(ctx, p));
+    ISO_TRY(iso_params_reduced(ctx, p->k, (double[]){p->J[0] / unit, p->J[1] / unit, p->J[2] / unit}, &s->problem.p));
     ISO_TRY(choose_level(ctx, scene, unit, &s->problem));
     s->axis = iso_section_axis(iso_integral_motion(s));
     iso_section_spread_prepare(&s->spread, iso_integral_motion(s), s->axis, seed);
@@ -107,7 +96,7 @@ static void go_to_level(const iso_problem *f, double y[ISO_STATE], double off)
 
 /* Takes rounding errors across the surface away: on it, some functions are zero. Gives the error of the energy,
  * relative to its terms. */
-static double put_on_surface(const iso_problem *f, double y[ISO_STATE])
+static double move_to_surface(const iso_problem *f, double y[ISO_STATE])
 {
     double size;
     make_unit(y + 3);
@@ -118,18 +107,6 @@ static double put_on_surface(const iso_problem *f, double y[ISO_STATE])
     else
         for (int pass = 0; pass < 2; pass++) go_to_level(f, y, iso_system_point.energy(f, y, &size) - f->energy);
     return off == 0 ? 0 : off / size;
-}
-
-static double keep_samples(integral_samples *s, const iso_sample sample[])
-{
-    double sum = 0;
-    for (size_t i = 0; i < s->rows; i++) {
-        copy(sample[i].point, s->state[i], ISO_STATE);
-        const double error = put_on_surface(&s->problem, s->state[i]);
-        s->state[i][INTEGRAL_V] = iso_integral_v(&s->problem, s->state[i]);
-        sum += error * error;
-    }
-    return sqrt(sum / (double)s->rows);
 }
 
 iso_status iso_integral_follow(iso_context *ctx, const iso_integral_search_options *options, integral_samples *s,
@@ -156,7 +133,14 @@ iso_status iso_integral_follow(iso_context *ctx, const iso_integral_search_optio
     iso_status status =
         room ? choose_times(ctx, options, s, times) : iso_context_no_memory(ctx, "%zu orbits", s->orbits);
     if (status == ISO_OK) status = iso_batch_run(ctx, orbit, s->orbits, &o, times, ISO_INTEGRAL_ROWS, sample, NULL);
-    if (status == ISO_OK) *energy = keep_samples(s, sample);
+    double sum = 0;
+    for (size_t i = 0; i < s->rows && status == ISO_OK; i++) {
+        copy(sample[i].point, s->state[i], ISO_STATE);
+        const double error = move_to_surface(&s->problem, s->state[i]);
+        s->state[i][INTEGRAL_V] = iso_integral_v(&s->problem, s->state[i]);
+        sum += error * error;
+    }
+    *energy = sqrt(sum / (double)s->rows);
     free(start);
     free(orbit);
     free(sample);

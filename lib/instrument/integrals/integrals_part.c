@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/finite_impl.h"
+#include "base/math_impl.h"
 #include "base/vec3_impl.h"
 #include "instrument/integrals/integrals_impl.h"
 #include "model/effects/effects_impl.h"
@@ -26,8 +26,10 @@ integral_space iso_integral_space_of(const iso_problem *f, int coefficients)
     return space;
 }
 
-static unsigned parity_of(const integral_space *space, const unsigned char e[INTEGRAL_NUMBERS])
+/* |gamma| = 1 makes gamma3^2 the sum of other terms, (M, gamma) = 0 makes M3 gamma3 one. */
+static bool is_wanted(const integral_space *space, const integral_term *t, unsigned wanted)
 {
+    const unsigned char *e = t->exponent;
     unsigned parity = 0;
     bool all = false;
     for (unsigned i = 0; i < 3; i++) {
@@ -35,14 +37,7 @@ static unsigned parity_of(const integral_space *space, const unsigned char e[INT
         if (space->mirror[i] || !all) parity |= (space->mirror[i] ? one : of_gamma) % 2 << i;
         all = all || !space->mirror[i];
     }
-    return parity;
-}
-
-/* |gamma| = 1 makes gamma3^2 the sum of other terms, (M, gamma) = 0 makes M3 gamma3 one. */
-static bool is_wanted(const integral_space *space, const integral_term *t, unsigned parity)
-{
-    const unsigned char *e = t->exponent;
-    return e[5] <= 1 && !(e[2] > 0 && e[5] > 0) && parity_of(space, e) == parity;
+    return e[5] <= 1 && !(e[2] > 0 && e[5] > 0) && parity == wanted;
 }
 
 /* The next exponents of three numbers with a sum of `most` or less. False: these were the last. */
@@ -97,32 +92,25 @@ static double value_of(const integral_term *t, double power[INTEGRAL_NUMBERS][IN
     return product;
 }
 
-static double slope_of(const integral_function *f, const double state[INTEGRAL_NUMBERS],
-                       const double deviation[INTEGRAL_NUMBERS])
+double iso_integral_slope(const integral_function *f, const iso_problem *problem, const double state[ISO_STATE],
+                          const double deviation[ISO_STATE])
 {
-    double power[INTEGRAL_NUMBERS][INTEGRAL_POWERS], sum = 0;
-    take_powers(state, power);
+    const double *J = problem->p.J, *gamma = state + 3;
+    double y[INTEGRAL_NUMBERS], dy[INTEGRAL_NUMBERS], power[INTEGRAL_NUMBERS][INTEGRAL_POWERS], sum = 0;
+    copy(state, y, ISO_STATE);
+    copy(deviation, dy, ISO_STATE);
+    y[INTEGRAL_V] = iso_integral_v(problem, state);
+    dy[INTEGRAL_V] = -y[INTEGRAL_V] / problem->p.k * dot_diag(gamma, J, dy + 3) / dot_diag(gamma, J, gamma);
+    take_powers(y, power);
     for (size_t i = 0; i < f->terms; i++)
         for (int j = 0; j < INTEGRAL_NUMBERS; j++) {
             integral_term t = f->term[i];
             const int exponent = t.exponent[j];
             if (exponent == 0) continue;
             t.exponent[j]--;
-            sum += f->coefficient[i] * exponent * value_of(&t, power) * deviation[j];
+            sum += f->coefficient[i] * exponent * value_of(&t, power) * dy[j];
         }
     return sum;
-}
-
-double iso_integral_slope(const integral_function *f, const iso_problem *problem, const double state[ISO_STATE],
-                          const double deviation[ISO_STATE])
-{
-    const double *J = problem->p.J, *gamma = state + 3;
-    double y[INTEGRAL_NUMBERS], dy[INTEGRAL_NUMBERS];
-    copy(state, y, ISO_STATE);
-    copy(deviation, dy, ISO_STATE);
-    y[INTEGRAL_V] = iso_integral_v(problem, state);
-    dy[INTEGRAL_V] = -y[INTEGRAL_V] / problem->p.k * dot_diag(gamma, J, dy + 3) / dot_diag(gamma, J, gamma);
-    return slope_of(f, y, dy);
 }
 
 /* --- linear algebra --------------------------------------------------------------------------------------------- */
@@ -247,7 +235,7 @@ static bool take_next(algebra *a, double left[])
     return true;
 }
 
-/* Gram and Schmidt's way, with the largest column first: how many are independent, Q and R. */
+/* The method of Gram and Schmidt, with the largest column first: how many are independent, Q and R. */
 static bool make_basis(algebra *a)
 {
     const size_t rows = a->samples->rows;
@@ -282,44 +270,14 @@ static void take_means_away(algebra *a)
         for (size_t i = 0; i <= j; i++) gsl_matrix_set(a->triangle, i, j, a->R[a->order[j] * a->terms + i]);
 }
 
-/* The coefficients of Q v in unit columns: R c = v. Gives the sum of |c|. */
-static double coefficients_of(const algebra *a, size_t column, gsl_vector *c)
-{
-    gsl_matrix_get_col(c, a->V, column);
-    gsl_blas_dtrsv(CblasUpper, CblasNoTrans, CblasNonUnit, a->triangle, c);
-    return gsl_blas_dasum(c);
-}
-
 /* --- what is kept ----------------------------------------------------------------------------------------------- */
 
-static bool keep_function(const algebra *a, const gsl_vector *c, integral_function *f)
-{
-    f->term = malloc(a->functions * sizeof *f->term);
-    f->coefficient = malloc(a->functions * sizeof *f->coefficient);
-    if (!f->term || !f->coefficient) return false;
-    f->terms = a->functions;
-    for (size_t i = 0; i < a->functions; i++) {
-        const size_t j = a->order[i];
-        f->term[i] = a->term[j];
-        f->coefficient[i] = gsl_vector_get(c, i) / a->length[j] * sqrt((double)a->samples->rows);
-    }
-    return true;
-}
-
-static void keep_basis(const algebra *a, size_t column, double basis[])
-{
-    const size_t rows = a->samples->rows;
-    for (size_t i = 0; i < rows; i++) basis[i] = 0;
-    for (size_t j = 0; j < a->functions; j++) {
-        const double v = gsl_matrix_get(a->V, j, column);
-        for (size_t i = 0; i < rows; i++) basis[i] += v * column_of(a, j)[i];
-    }
-}
-
-/* GSL's singular values fall. */
+/* The singular values, which GSL lets fall, and the functions found: Q v, v the column of V. Its coefficients c in unit
+ * columns follow from R c = v; an error has the size of sum |c|. False: no memory. */
 static bool keep(algebra *a, unsigned parity, double delta, double within, integral_part *part)
 {
     const size_t n = a->functions, rows = a->samples->rows;
+    gsl_vector *c = a->work;
     part->functions = n;
     part->value = calloc(n, sizeof *part->value);
     part->function = calloc(n, sizeof *part->function);
@@ -328,13 +286,26 @@ static bool keep(algebra *a, unsigned parity, double delta, double within, integ
         const size_t column = n - 1 - i;
         iso_integral_value *v = &part->value[i];
         *v = (iso_integral_value){.value = gsl_vector_get(a->S, column), .parity = parity};
-        v->error = (delta + a->dropped) * coefficients_of(a, column, a->work);
+        gsl_matrix_get_col(c, a->V, column);
+        gsl_blas_dtrsv(CblasUpper, CblasNoTrans, CblasNonUnit, a->triangle, c);
+        v->error = (delta + a->dropped) * gsl_blas_dasum(c);
         if (!integral_is_found(v, within)) continue;
+        integral_function *f = &part->function[part->found];
         double *basis = realloc(part->basis, (part->found + 1) * rows * sizeof *basis);
-        if (!basis) return false;
-        part->basis = basis;
-        keep_basis(a, column, basis + part->found * rows);
-        if (!keep_function(a, a->work, &part->function[part->found++])) return false;
+        if (basis) part->basis = basis;
+        part->found++;
+        f->terms = n;
+        f->term = malloc(n * sizeof *f->term);
+        f->coefficient = malloc(n * sizeof *f->coefficient);
+        if (!basis || !f->term || !f->coefficient) return false;
+        basis += (part->found - 1) * rows;
+        for (size_t row = 0; row < rows; row++) basis[row] = 0;
+        for (size_t j = 0; j < n; j++) {
+            const double part_of_j = gsl_matrix_get(a->V, j, column);
+            for (size_t row = 0; row < rows; row++) basis[row] += part_of_j * column_of(a, j)[row];
+            f->term[j] = a->term[a->order[j]];
+            f->coefficient[j] = gsl_vector_get(c, j) / a->length[a->order[j]] * sqrt((double)rows);
+        }
     }
     return true;
 }

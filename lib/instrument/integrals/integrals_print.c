@@ -1,4 +1,4 @@
-/* integrals_print.c - what integrals tells people (study/study.h). */
+/* integrals_print.c - the text of integrals (study/study.h). */
 #include <math.h>
 
 #include "base/number_impl.h"

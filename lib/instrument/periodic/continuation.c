@@ -10,45 +10,33 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/context_impl.h"
+#include "base/math_impl.h"
 #include "base/names_impl.h"
 #include "base/number_impl.h"
-#include "base/pi_impl.h"
 #include "base/pool_impl.h"
 #include "instrument/periodic/continuation_impl.h"
 #include "study/study_impl.h"
 
+enum { MOST_STEPS = 2000 /* of a branch in each direction */ };
 #define NEAR_END 4e-3 /* of the line, in u: here a collision is foretold */
 
-ISO_NAMES(iso_branch_kind_name, iso_branch_kind, "fold", "period doubling", "symmetry breaking", "collision", "torus",
-          "end", "failure", "touch", "undecided")
-
-static double value_of(const iso_params *p, double level, iso_vary vary)
-{
-    if (vary == ISO_VARY_K) return p->k;
-    if (vary == ISO_VARY_LEVEL) return level;
-    if (vary == ISO_VARY_RATIO) return (p->J[1] - p->J[0]) / (p->J[2] - p->J[0]);
-    return p->J[vary - ISO_VARY_J1];
-}
+ISO_NAMES(iso_branch_kind_name, int, "fold", "period doubling", "symmetry breaking", "collision", "torus", "end",
+          "failure", "touch", "undecided")
 
 /* --- one direction ---------------------------------------------------------------------------------------------- */
 
 static iso_status add_point(const iso_continuation *f, iso_branch *b, const iso_continuation_point *at, double arc)
 {
-    if ((b->points & (b->points - 1)) == 0) { /* room for a power of two */
-        iso_branch_point *larger = realloc(b->point, 2 * (b->points + 1) * sizeof *larger);
-        if (!larger) return iso_context_no_memory(f->ctx, "a branch");
-        b->point = larger;
-    }
-    b->point[b->points++] = iso_continuation_read(at, arc);
-    return ISO_OK;
+    const iso_branch_point point = iso_continuation_read(at, arc);
+    return iso_periodic_append(f->ctx, &b->point, &b->points, &point, sizeof point);
 }
 
 static iso_status fail_at(const iso_continuation *f, iso_branch *b, const iso_continuation_point *at, double arc,
                           const char *why)
 {
     iso_branch_event e = {.kind = ISO_BRANCH_FAILURE, .at = iso_continuation_read(at, arc), .axis = -1};
-    snprintf(e.words, sizeof e.words, "%s at %s = %.12g, l = %.9g, x = %.9g", why,
-             iso_vary_name((int)f->options.vary), at->value, e.at.l, e.at.x);
+    snprintf(e.text, sizeof e.text, "%s at %s = %.12g, l = %.9g, x = %.9g", why, iso_vary_name((int)f->options.vary),
+             at->value, e.at.l, e.at.x);
     return iso_continuation_add_event(f, b, &e);
 }
 
@@ -61,21 +49,15 @@ static iso_status end_at(const iso_continuation *f, iso_branch *b, const iso_con
     bool there = false;
     for (int i = 0; i < 8 && !there; i++) {
         if (!iso_continuation_evaluate(f, u, value / f->width, false, &at)) break;
-        u -= at.off / at.by_u;
-        there = fabs(at.off / at.by_u) < 1e-11;
+        u -= at.off / at.D[1][0];
+        there = fabs(at.off / at.D[1][0]) < 1e-11;
     }
     if (!there) return fail_at(f, b, last, arc, "the last step to the end of the range failed");
     at.value = value;
     iso_branch_event e = {.kind = ISO_BRANCH_END, .at = iso_continuation_read(&at, arc), .axis = -1};
-    snprintf(e.words, sizeof e.words, "the end of the range");
+    snprintf(e.text, sizeof e.text, "the end of the range");
     ISO_TRY(add_point(f, b, &at, arc));
     return iso_continuation_add_event(f, b, &e);
-}
-
-static bool ends_in_collision(const iso_continuation_point *at, const iso_continuation_point *next)
-{
-    const double low = fmin(at->u, next->u), high = fmax(at->u, next->u);
-    return low < NEAR_END || high > ISO_PI / 2 - NEAR_END;
 }
 
 /* What is done with the point `next`, ds behind `at`. *over: the branch ends there. */
@@ -86,7 +68,8 @@ static iso_status accept(const iso_continuation *f, iso_branch *b, const iso_con
     *over = true;
     if (next->value < f->options.from) return end_at(f, b, at, f->options.from, arc + ds);
     if (next->value > f->options.to) return end_at(f, b, at, f->options.to, arc + ds);
-    if (ends_in_collision(at, next) && iso_continuation_collision(f, at, next, &e)) {
+    const bool near = fmin(at->u, next->u) < NEAR_END || fmax(at->u, next->u) > ISO_PI / 2 - NEAR_END;
+    if (near && iso_continuation_collision(f, at, next, &e)) {
         e.at.arc = arc + ds;
         return iso_continuation_add_event(f, b, &e);
     }
@@ -121,7 +104,7 @@ static const char *why_stuck(const iso_continuation *f, const iso_continuation_p
 static iso_status go(const iso_continuation *f, iso_branch *b, iso_continuation_point at)
 {
     double ds = f->options.longest / 4, arc = 0;
-    for (long step = 0; step < f->options.most; step++) {
+    for (int step = 0; step < MOST_STEPS; step++) {
         iso_continuation_point next;
         int steps;
         bool over;
@@ -147,20 +130,17 @@ static iso_status go(const iso_continuation *f, iso_branch *b, iso_continuation_
 /* What was found backwards comes first, in the opposite order, with negative arcs. */
 static iso_status join(const iso_continuation *f, iso_branch *back, const iso_branch *forth, iso_branch *b)
 {
-    const size_t points = back->points + forth->points, events = back->events + forth->events;
-    b->point = malloc((points + 1) * sizeof *b->point);
-    b->event = malloc((events + 1) * sizeof *b->event);
-    if (!b->point || !b->event) return iso_context_no_memory(f->ctx, "a branch");
     for (size_t i = back->points; i-- > 0;) {
         back->point[i].arc = -back->point[i].arc;
-        b->point[b->points++] = back->point[i];
+        ISO_TRY(iso_periodic_append(f->ctx, &b->point, &b->points, &back->point[i], sizeof *b->point));
     }
-    for (size_t i = 0; i < forth->points; i++) b->point[b->points++] = forth->point[i];
+    for (size_t i = 0; i < forth->points; i++)
+        ISO_TRY(iso_periodic_append(f->ctx, &b->point, &b->points, &forth->point[i], sizeof *b->point));
     for (size_t i = back->events; i-- > 0;) {
         back->event[i].at.arc = -back->event[i].at.arc;
-        b->event[b->events++] = back->event[i];
+        ISO_TRY(iso_continuation_add_event(f, b, &back->event[i]));
     }
-    for (size_t i = 0; i < forth->events; i++) b->event[b->events++] = forth->event[i];
+    for (size_t i = 0; i < forth->events; i++) ISO_TRY(iso_continuation_add_event(f, b, &forth->event[i]));
     return ISO_OK;
 }
 
@@ -170,7 +150,7 @@ static void free_branch(iso_branch *b)
     free(b->event);
 }
 
-static iso_status follow_branch(const iso_continuation *f, double u, double value, iso_branch *b)
+static iso_status follow_both_ways(const iso_continuation *f, double u, double value, iso_branch *b)
 {
     iso_branch side[2] = {{0}, {0}};
     iso_continuation_point at = {.tangent = {0, 1}};
@@ -195,85 +175,35 @@ static iso_status follow_branch(const iso_continuation *f, double u, double valu
     return joined == ISO_OK ? status : joined;
 }
 
-/* --- the whole -------------------------------------------------------------------------------------------------- */
-
-static iso_status check(const iso_continuation *f, double own)
+/* The branch through (u, value), which becomes the last of the list. */
+static iso_status follow_branch(const iso_continuation *f, double u, double value, int parent, iso_continuations *out)
 {
-    const iso_continuation_options *o = &f->options;
-    const char *name = iso_vary_name((int)o->vary);
-    iso_params p;
-    double energy;
-    if (!name || !(o->from < o->to) || !isfinite(o->to - o->from))
-        return ISO_FAIL_ARGUMENT(f->ctx, "range", "%s from %s to %s: give A:B with A < B", name ? name : "?",
-                                 ISO_SHORT(o->from), ISO_SHORT(o->to));
-    if (o->vary == ISO_VARY_K && o->from <= 0 && o->to >= 0)
-        return ISO_FAIL_ARGUMENT(f->ctx, "range", "the range %s to %s contains k = 0, where there is no ball",
-                                 ISO_SHORT(o->from), ISO_SHORT(o->to));
-    if (!(own >= o->from && own <= o->to))
-        return ISO_FAIL_ARGUMENT(f->ctx, "range", "the scene has %s = %.12g: the range %s to %s must contain it",
-                                 name, own, ISO_SHORT(o->from), ISO_SHORT(o->to));
-    if (o->vary != ISO_VARY_K &&
-        (!iso_continuation_params(f, o->from, &p, &energy) || !iso_continuation_params(f, o->to, &p, &energy)))
-        return ISO_FAIL_ARGUMENT(f->ctx, "range", "%s from %s to %s leaves the range in which J%d is the %s moment",
-                                 name, ISO_SHORT(o->from), ISO_SHORT(o->to), f->axis + 1,
-                                 f->base.k > 0 ? "largest" : "smallest");
-    return ISO_OK;
+    iso_branch b = {.line = f->line, .period = f->period, .parent = parent};
+    const iso_status status = follow_both_ways(f, u, value, &b),
+                     kept = iso_periodic_append(f->ctx, &out->branch, &out->count, &b, sizeof b);
+    if (kept != ISO_OK) free_branch(&b);
+    return kept == ISO_OK ? status : kept;
 }
 
-static iso_branch *new_branch(const iso_continuation *f, iso_continuations *out, int parent)
-{
-    iso_branch *larger = realloc(out->branch, (out->count + 1) * sizeof *larger);
-    if (!larger) return NULL;
-    out->branch = larger;
-    iso_branch *b = &out->branch[out->count++];
-    *b = (iso_branch){.line = f->line, .period = f->period, .parent = parent};
-    return b;
-}
-
-/* --- branches that are switched to ------------------------------------------------------------------------------ */
-
-typedef struct switcher {
-    iso_continuations *out;
-    int parent;
-} switcher;
-
-static iso_status follow_found(void *data, const iso_continuation *f, double u, double value)
-{
-    const switcher *s = data;
-    iso_branch *b = new_branch(f, s->out, s->parent);
-    if (!b) return iso_context_no_memory(f->ctx, "a branch");
-    return follow_branch(f, u, value, b);
-}
-
-/* What branches off from branch i. */
-static iso_status switch_branches(const iso_continuation *f, iso_continuations *out, size_t i)
-{
-    switcher s = {out, (int)i};
-    iso_status status = ISO_OK;
-    for (size_t j = 0; j < out->branch[i].events && status == ISO_OK; j++) {
-        const iso_branch b = out->branch[i]; /* the list may move */
-        const iso_branch_event e = b.event[j];
-        const bool off = !e.joins && (e.kind == ISO_BRANCH_BREAKING || iso_continuation_doubles(e.kind));
-        const size_t before = out->count;
-        if (!off) continue;
-        status = iso_continuation_switch(f, &b, &e, follow_found, &s);
-        char *words = out->branch[i].event[j].words;
-        const size_t used = strlen(words);
-        if (out->count == before && status == ISO_OK)
-            snprintf(words + used, sizeof e.words - used, "; the branch was not found");
-    }
-    return status;
-}
-
+/* An orbit of the list, and what branches off from it. */
 static iso_status follow_orbit(iso_continuation *f, const iso_periodic_orbit *o, double own, iso_continuations *out)
 {
+    const size_t i = out->count;
     f->line = o->line;
     f->period = o->period;
-    iso_branch *b = new_branch(f, out, -1);
-    if (!b) return iso_context_no_memory(f->ctx, "a branch");
-    const size_t at = out->count - 1;
-    const iso_status status = follow_branch(f, o->u, own, b);
-    return status == ISO_OK && f->options.branches ? switch_branches(f, out, at) : status;
+    ISO_TRY(follow_branch(f, o->u, own, -1, out));
+    for (size_t j = 0; f->options.branches && j < out->branch[i].events; j++) {
+        iso_branch_event *e = &out->branch[i].event[j];
+        iso_continuation beside;
+        double at[2];
+        bool found;
+        if (e->joins || !(e->kind == ISO_BRANCH_BREAKING || iso_continuation_doubles(e->kind))) continue;
+        ISO_TRY(iso_continuation_switch(f, e, &beside, at, &found));
+        const size_t used = strlen(e->text);
+        if (!found) snprintf(e->text + used, sizeof e->text - used, "; the branch was not found");
+        if (found) ISO_TRY(follow_branch(&beside, at[0], at[1], (int)i, out));
+    }
+    return ISO_OK;
 }
 
 /* --- all orbits ------------------------------------------------------------------------------------------------- */
@@ -300,64 +230,39 @@ static bool follow_some(iso_pool_worker *w, void *data, size_t first, size_t cou
     return true;
 }
 
-/* Moves all branches to one list. */
-static iso_status gather(iso_context *ctx, iso_continuations of[], size_t count, iso_continuations *out)
-{
-    size_t branches = 0;
-    for (size_t i = 0; i < count; i++) branches += of[i].count;
-    out->branch = malloc((branches + 1) * sizeof *out->branch);
-    if (!out->branch) return iso_context_no_memory(ctx, "branches");
-    for (size_t i = 0; i < count; i++) {
-        const int before = (int)out->count;
-        for (size_t j = 0; j < of[i].count; j++) {
-            iso_branch *b = &out->branch[out->count++];
-            *b = of[i].branch[j];
-            if (b->parent >= 0) b->parent += before;
-        }
-        of[i].count = 0;
-    }
-    return ISO_OK;
-}
-
-static void free_branches(iso_continuations *follow)
-{
-    for (size_t i = 0; i < follow->count; i++) free_branch(&follow->branch[i]);
-    free(follow->branch);
-}
-
-static iso_status follow_all(crowd *c, size_t count, iso_continuations *out)
-{
-    iso_context *ctx = c->family->ctx;
-    c->of = calloc(count + 1, sizeof *c->of);
-    if (!c->of) return iso_context_no_memory(ctx, "branches");
-    iso_pool pool = {.what = "orbit", .count = count, .chunk = 1, .solve = follow_some, .data = c};
-    const size_t threads = iso_pool_threads(c->family->options.threads, count > 0 ? count - 1 : 0, 1);
-    const iso_status status = iso_pool_run(ctx, &pool, threads, NULL);
-    const iso_status gathered = gather(ctx, c->of, count, out);
-    for (size_t i = 0; i < count; i++) free_branches(&c->of[i]);
-    free(c->of);
-    return gathered == ISO_OK ? status : gathered;
-}
-
-static iso_status check_lines(iso_context *ctx, const iso_periodic_orbit orbits[], size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        if (!iso_symmetry_line_name(orbits[i].line))
-            return ISO_FAIL_INPUT(ctx, "orbit", "an orbit without a symmetry cannot be followed");
-    return ISO_OK;
-}
-
 /* What is followed; *own: the scene's value. */
 static iso_status prepare(iso_context *ctx, const iso_scene *scene, const iso_continuation_options *options,
                           iso_continuation *f, double *own)
 {
-    *f = (iso_continuation){.ctx = ctx, .options = iso_continuation_defaults(), .base = scene->params};
-    if (options) f->options = *options;
-    iso_status status = iso_level_of_scene(ctx, scene, "periodic orbits are followed", &f->level);
+    const iso_continuation_options *o = &f->options;
+    const double *J = scene->params.J;
+    iso_params p;
+    double energy;
+    *f = (iso_continuation){.ctx = ctx, .options = options ? *options : iso_continuation_defaults()};
+    f->base = scene->params;
     f->axis = iso_section_axis(iso_free_point(&scene->params, 1));
-    f->width = f->options.to - f->options.from;
-    *own = value_of(&scene->params, f->level, f->options.vary);
-    return status == ISO_OK ? check(f, *own) : status;
+    f->width = o->to - o->from;
+    ISO_TRY(iso_level_of_scene(ctx, scene, "periodic orbits are followed", &f->level));
+    *own = o->vary == ISO_VARY_K       ? scene->params.k
+           : o->vary == ISO_VARY_LEVEL ? f->level
+           : o->vary == ISO_VARY_RATIO ? (J[1] - J[0]) / (J[2] - J[0])
+                                       : J[o->vary - ISO_VARY_J1];
+    const char *name = iso_vary_name((int)o->vary);
+    if (!(o->from < o->to) || !isfinite(o->to - o->from))
+        return ISO_FAIL_ARGUMENT(ctx, "range", "%s from %s to %s: give A:B with A < B", name, ISO_SHORT(o->from),
+                                 ISO_SHORT(o->to));
+    if (o->vary == ISO_VARY_K && o->from <= 0 && o->to >= 0)
+        return ISO_FAIL_ARGUMENT(ctx, "range", "the range %s to %s contains k = 0, where there is no ball",
+                                 ISO_SHORT(o->from), ISO_SHORT(o->to));
+    if (!(*own >= o->from && *own <= o->to))
+        return ISO_FAIL_ARGUMENT(ctx, "range", "the scene has %s = %.12g: the range %s to %s must contain it", name,
+                                 *own, ISO_SHORT(o->from), ISO_SHORT(o->to));
+    if (o->vary == ISO_VARY_K ||
+        (iso_continuation_params(f, o->from, &p, &energy) && iso_continuation_params(f, o->to, &p, &energy)))
+        return ISO_OK;
+    return ISO_FAIL_ARGUMENT(ctx, "range", "%s from %s to %s leaves the range in which J%d is the %s moment", name,
+                             ISO_SHORT(o->from), ISO_SHORT(o->to), f->axis + 1,
+                             scene->params.k > 0 ? "largest" : "smallest");
 }
 
 iso_status iso_continuation_check(iso_context *ctx, const iso_scene *scene, const iso_continuation_options *options)
@@ -372,23 +277,38 @@ iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const 
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_continuation f;
-    double own;
+    crowd c = {.family = &f, .orbit = orbits};
     *follow = NULL;
-    ISO_TRY(prepare(ctx, scene, options, &f, &own));
-    ISO_TRY(check_lines(ctx, orbits, count));
+    ISO_TRY(prepare(ctx, scene, options, &f, &c.own));
+    for (size_t i = 0; i < count; i++)
+        if (orbits[i].line < 0) return ISO_FAIL_INPUT(ctx, "orbit", "an orbit without a symmetry cannot be followed");
     if (count == 0) return ISO_FAIL_INPUT(ctx, "orbit", "no symmetric orbit to follow: the list is empty");
     iso_continuations *out = calloc(1, sizeof *out);
-    if (!out) return iso_context_no_memory(ctx, "branches");
+    c.of = calloc(count, sizeof *c.of);
+    if (!out || !c.of) return free(out), free(c.of), iso_context_no_memory(ctx, "branches");
     out->vary = f.options.vary;
-    const iso_status status = follow_all(&(crowd){.family = &f, .orbit = orbits, .own = own}, count, out);
+    iso_pool pool = {.what = "orbit", .count = count, .chunk = 1, .solve = follow_some, .data = &c};
+    iso_status status = iso_pool_run(ctx, &pool, iso_pool_threads(f.options.threads, count - 1, 1), NULL);
+    for (size_t i = 0; i < count; i++) { /* all branches in one list */
+        const int before = (int)out->count;
+        for (iso_branch *b = c.of[i].branch; b < c.of[i].branch + c.of[i].count; b++) {
+            if (b->parent >= 0) b->parent += before;
+            const iso_status kept = iso_periodic_append(ctx, &out->branch, &out->count, b, sizeof *b);
+            if (kept != ISO_OK) free_branch(b), status = kept;
+        }
+        free(c.of[i].branch);
+    }
+    free(c.of);
     if (status != ISO_OK && status != ISO_STOPPED) iso_continuation_free(out), out = NULL;
     *follow = out;
     return status;
 }
 
-void iso_continuation_free(iso_continuations *follow)
+void iso_continuation_free(void *follow)
 {
-    if (!follow) return;
-    free_branches(follow);
+    iso_continuations *f = follow;
+    if (!f) return;
+    for (size_t i = 0; i < f->count; i++) free_branch(&f->branch[i]);
+    free(f->branch);
     free(follow);
 }

@@ -30,12 +30,12 @@ typedef enum iso_branch_kind {
     ISO_BRANCH_COLLISION,
     ISO_BRANCH_TORUS,
     ISO_BRANCH_END,      /* the end of the range                     */
-    ISO_BRANCH_FAILURE,  /* it could not be followed: words say why  */
+    ISO_BRANCH_FAILURE,  /* it could not be followed: text says why  */
     ISO_BRANCH_TOUCH,    /* the trace touches -2 and does not pass it */
-    ISO_BRANCH_UNDECIDED /* a touch, or two period doublings that are too close to tell */
+    ISO_BRANCH_UNDECIDED /* a touch, or two period doublings that are too close to say which */
 } iso_branch_kind;
 /* "fold", "period doubling", "symmetry breaking", "collision", "torus", "end", "failure", "touch", "undecided". */
-const char *iso_branch_kind_name(iso_branch_kind kind);
+const char *iso_branch_kind_name(int kind);
 
 typedef struct iso_branch_point {
     double value, u, l, x, trace; /* u: of the line; (l, x): the first point on the section */
@@ -47,7 +47,7 @@ typedef struct iso_branch_event {
     bool joins; /* this branch is the one that branches off */
     iso_branch_point at;
     int axis; /* of a collision: the rotation's, 0 to 2 */
-    char words[160];
+    char text[160];
 } iso_branch_event;
 
 typedef struct iso_branch {
@@ -62,10 +62,9 @@ typedef struct iso_continuation_options {
     iso_vary vary;
     double from, to; /* the range, which holds the scene's own value */
     double longest;  /* step, in parts of the range and radians of the line */
-    long most;       /* steps of a branch in each direction */
     bool branches;   /* follow what branches off as well; not what branches off from that */
     int threads;     /* that follow orbits side by side; 0: as many as there are processors to run on */
-    /* Is told the part of the work that is done, in [0, 1]; NULL: nobody is. */
+    /* progress(part): the part of the work that is done, in [0, 1]; NULL: no calls. */
     void (*progress)(void *data, double part);
     void *data;
 } iso_continuation_options;
@@ -74,7 +73,6 @@ static inline iso_continuation_options iso_continuation_defaults(void)
 {
     iso_continuation_options o = {0};
     o.longest = 0.03;
-    o.most = 2000;
     return o;
 }
 
@@ -101,6 +99,6 @@ iso_status iso_continuation_check(iso_context *ctx, const iso_scene *scene, cons
  * cannot be followed to its end is kept, with an event. */
 iso_status iso_continuation_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_orbit orbits[],
                                 size_t count, const iso_continuation_options *options, iso_continuations **follow);
-void iso_continuation_free(iso_continuations *follow);
+void iso_continuation_free(void *follow);
 
 #endif

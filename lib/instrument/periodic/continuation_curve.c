@@ -61,18 +61,16 @@ bool iso_continuation_evaluate(const iso_continuation *f, double u, double v, bo
     at->u = u, at->v = v, at->value = v * f->width;
     for (int i = 0; i < 2; i++) at->z[i] = (double)shot.z[i];
     at->off = (double)shot.off;
-    at->by_u = (double)shot.D[1][0];
-    at->across = (double)shot.D[0][1];
-    at->diagonal[0] = (double)shot.D[0][0], at->diagonal[1] = (double)shot.D[1][1];
+    for (int i = 0; i < 4; i++) at->D[i / 2][i % 2] = (double)shot.D[i / 2][i % 2];
     at->trace = (double)shot.trace;
     return !slopes || find_by_v(f, at);
 }
 
 void iso_continuation_turn(iso_continuation_point *at, const double like[2])
 {
-    const double length = hypot(at->by_u, at->by_v);
+    const double length = hypot(at->D[1][0], at->by_v);
     at->tangent[0] = -at->by_v / length;
-    at->tangent[1] = at->by_u / length;
+    at->tangent[1] = at->D[1][0] / length;
     const double along = like ? at->tangent[0] * like[0] + at->tangent[1] * like[1] : at->tangent[1];
     if (along < 0) at->tangent[0] = -at->tangent[0], at->tangent[1] = -at->tangent[1];
 }
@@ -87,7 +85,7 @@ bool iso_continuation_step(const iso_continuation *f, const iso_continuation_poi
     bool there = false;
     for (*steps = 0; *steps < MOST && !there; ++*steps) {
         if (!iso_continuation_evaluate(f, u, v, *steps == 0, to)) return false;
-        const double det = to->by_u * t[1] - to->by_v * t[0];
+        const double det = to->D[1][0] * t[1] - to->by_v * t[0];
         const double du = -to->off * t[1] / det, dv = to->off * t[0] / det, length = hypot(du, dv);
         if (!(length < 2 * fabs(ds) + 1e-9)) return false;
         there = length < 1e-12;

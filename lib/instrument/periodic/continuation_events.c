@@ -5,28 +5,24 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "instrument/periodic/continuation_impl.h"
 
 iso_status iso_continuation_add_event(const iso_continuation *f, iso_branch *b, const iso_branch_event *e)
 {
-    iso_branch_event *larger = realloc(b->event, (b->events + 1) * sizeof *larger);
-    if (!larger) return iso_context_no_memory(f->ctx, "a branch");
-    b->event = larger;
-    b->event[b->events++] = *e;
-    return ISO_OK;
+    return iso_periodic_append(f->ctx, &b->event, &b->events, e, sizeof *e);
 }
 
 #define SAME_PLACE 1e-8 /* along the curve: zeros that are closer are one ... */
 #define TOO_CLOSE 1e-5  /* ... and those that are not as far apart may be one or two */
 
-/* The tests: each changes its sign where its event is. */
+/* The tests: each changes its sign where its event is. The first four are numbers of D. */
 enum { TEST_FOLD, TEST_BREAKING, TEST_DIAGONAL, TEST_OTHER_DIAGONAL, TEST_TURN, TESTS };
 
 static double test_of(const iso_continuation_point *p, int test)
 {
-    if (test == TEST_TURN) return p->tangent[1];
-    return test == TEST_FOLD ? p->by_u : test == TEST_BREAKING ? p->across : p->diagonal[test - TEST_DIAGONAL];
+    const double of[TESTS] = {p->D[1][0], p->D[0][1], p->D[0][0], p->D[1][1], p->tangent[1]};
+    return of[test];
 }
 
 /* The point at arc `next`, between low (at `from`) and high (at `to`): from the nearer one, then from the other. */
@@ -65,7 +61,7 @@ static void locate(const iso_continuation *f, const iso_continuation_point *a, c
     at->v += share * (high.v - low.v);
     at->value += share * (high.value - low.value);
     at->trace += share * (high.trace - low.trace);
-    for (int i = 0; i < 2; i++) at->diagonal[i] += share * (high.diagonal[i] - low.diagonal[i]);
+    for (int i = 0; i < 2; i++) at->D[i][i] += share * (high.D[i][i] - low.D[i][i]);
     *part = from + share * (to - from);
 }
 
@@ -87,39 +83,9 @@ static bool are_equal(const iso_continuation *f, double *value, char names[2])
     return false;
 }
 
-static const char *words_of(iso_branch_kind kind)
-{
-    return kind == ISO_BRANCH_FOLD    ? "two orbits meet and vanish"
-           : kind == ISO_BRANCH_TORUS ? "the orbit lies on a resonant torus"
-                                      : "orbits with less symmetry branch off";
-}
-
-/* turns: the parameter turns back there. */
-static void name(const iso_continuation *f, iso_continuation_point *at, int test, bool turns, iso_branch_event *e)
-{
-    iso_params p;
-    double energy;
-    char names[2];
-    const bool torus = iso_continuation_params(f, at->value, &p, &energy) && fabs(fabs(p.k) - 1) < 1e-7;
-    const char *vary = iso_vary_name((int)f->options.vary);
-    e->kind = turns ? ISO_BRANCH_FOLD : test <= TEST_BREAKING ? ISO_BRANCH_BREAKING : ISO_BRANCH_DOUBLING;
-    if (torus && e->kind == ISO_BRANCH_BREAKING) e->kind = ISO_BRANCH_TORUS;
-    if (are_equal(f, &at->value, names)) {
-        e->kind = ISO_BRANCH_TORUS;
-        snprintf(e->words, sizeof e->words, "J%c = J%c: orbits fill tori, and this one is of no special kind",
-                 names[0], names[1]);
-        return;
-    }
-    if (e->kind == ISO_BRANCH_DOUBLING)
-        snprintf(e->words, sizeof e->words, "orbits of period %d branch off at %s = %.12g", 2 * f->period, vary,
-                 at->value);
-    else
-        snprintf(e->words, sizeof e->words, "%s at %s = %.12g", words_of(e->kind), vary, at->value);
-}
-
 /* trace + 2 = 4 D_00 D_11/det D changes its sign where one of D_00 and D_11 is 0. Where both are, as they are where
  * half of an orbit with two symmetries has the trace 0, it only touches 0. How far from each other they are 0, along
- * the curve, the slope between both points tells. */
+ * the curve, the slope between both points says. */
 static iso_branch_kind doubles(const iso_continuation_point *a, const iso_continuation_point *to, int test, double ds,
                                const iso_continuation_point *at)
 {
@@ -130,32 +96,57 @@ static iso_branch_kind doubles(const iso_continuation_point *a, const iso_contin
     return apart < SAME_PLACE && !passes ? ISO_BRANCH_TOUCH : ISO_BRANCH_UNDECIDED;
 }
 
-/* At a touch the derivative of the return map is -1. Half of the orbit, up to its symmetry, has the multipliers i and
- * -i, and orbits of four such halves may branch off. */
-static void name_touch(const iso_continuation *f, const iso_continuation_point *at, iso_branch_kind kind,
-                       iso_branch_event *e)
-{
-    if (kind == ISO_BRANCH_DOUBLING) return;
-    e->kind = kind;
-    snprintf(e->words, sizeof e->words, "%s at %s = %.12g; orbits of period %d may branch off",
-             kind == ISO_BRANCH_TOUCH ? "the trace touches -2 and does not pass it"
-                                      : "the trace touches -2, or passes it twice: undecided",
-             iso_vary_name((int)f->options.vary), at->value, 2 * f->period);
-}
-
-/* The curve turns where it meets another one, without a fold: there this orbit branches off from one of half the
- * period (F of this period is 0 as well) or of more symmetry. */
-static void name_turn(const iso_continuation *f, const iso_continuation_point *at, iso_branch_event *e)
+/* Whether F of half the period is 0 as well. */
+static bool has_half_period(const iso_continuation *f, const iso_continuation_point *at)
 {
     iso_continuation half = *f;
     iso_continuation_point there;
     half.period = f->period / 2;
-    const bool doubled =
-        f->period % 2 == 0 && iso_continuation_evaluate(&half, at->u, at->v, false, &there) && fabs(there.off) < 1e-4;
-    e->joins = true;
-    e->kind = doubled ? ISO_BRANCH_DOUBLING : ISO_BRANCH_BREAKING;
-    snprintf(e->words, sizeof e->words, "it branches off there from an orbit of %s at %s = %.12g",
-             doubled ? "half its period" : "more symmetry", iso_vary_name((int)f->options.vary), at->value);
+    return f->period % 2 == 0 && iso_continuation_evaluate(&half, at->u, at->v, false, &there) &&
+           fabs(there.off) < 1e-4;
+}
+
+/* What happens at a zero of a test, and at which value of the parameter.
+ *
+ * Where the curve turns without a fold it meets another one: there this orbit branches off from one of half the period
+ * or of more symmetry. At a touch the derivative of the return map is -1: half of the orbit,
+ * up to its symmetry, has the multipliers i and -i, and orbits of four such halves may branch off. */
+static void classify(const iso_continuation *f, const iso_continuation_point *a, const iso_continuation_point *to,
+                     int test, double ds, iso_continuation_point *at, iso_branch_event *e)
+{
+    iso_params p;
+    double energy;
+    char J[2], *text = e->text;
+    const size_t size = sizeof e->text;
+    const char *vary = iso_vary_name((int)f->options.vary);
+    const bool equal = are_equal(f, &at->value, J), turns = test == TEST_FOLD && a->tangent[1] * to->tangent[1] < 0;
+    if (test == TEST_TURN) {
+        const bool doubled = has_half_period(f, at);
+        e->joins = true;
+        e->kind = doubled ? ISO_BRANCH_DOUBLING : ISO_BRANCH_BREAKING;
+        snprintf(text, size, "it branches off there from an orbit of %s at %s = %.12g",
+                 doubled ? "half its period" : "more symmetry", vary, at->value);
+    } else if (equal) {
+        e->kind = ISO_BRANCH_TORUS;
+        snprintf(text, size, "J%c = J%c: orbits fill tori, and this one is of no special kind", J[0], J[1]);
+    } else if (test > TEST_BREAKING) {
+        e->kind = doubles(a, to, test, ds, at);
+        if (e->kind == ISO_BRANCH_DOUBLING)
+            snprintf(text, size, "orbits of period %d branch off at %s = %.12g", 2 * f->period, vary, at->value);
+        else
+            snprintf(text, size, "%s at %s = %.12g; orbits of period %d may branch off",
+                     e->kind == ISO_BRANCH_TOUCH ? "the trace touches -2 and does not pass it"
+                                                 : "the trace touches -2, or passes it twice: undecided",
+                     vary, at->value, 2 * f->period);
+    } else {
+        const bool torus = iso_continuation_params(f, at->value, &p, &energy) && fabs(fabs(p.k) - 1) < 1e-7;
+        e->kind = turns ? ISO_BRANCH_FOLD : torus ? ISO_BRANCH_TORUS : ISO_BRANCH_BREAKING;
+        snprintf(text, size, "%s at %s = %.12g",
+                 turns   ? "two orbits meet and vanish"
+                 : torus ? "the orbit lies on a resonant torus"
+                         : "orbits with less symmetry branch off",
+                 vary, at->value);
+    }
 }
 
 /* Of an orbit with two symmetries two tests have their zeros together. */
@@ -163,40 +154,29 @@ static bool is_there(const iso_branch *b, const iso_branch_event *e)
 {
     for (size_t i = 0; i < b->events; i++)
         if (b->event[i].kind == e->kind &&
-            (fabs(b->event[i].at.arc - e->at.arc) < 1e-7 ||
-             (e->kind == ISO_BRANCH_TORUS && fabs(b->event[i].at.arc - e->at.arc) < 1e-3)))
+            fabs(b->event[i].at.arc - e->at.arc) < (e->kind == ISO_BRANCH_TORUS ? 1e-3 : 1e-7))
             return true;
     return false;
-}
-
-/* Half way the coordinates of what stays on the line can themselves turn over: the trace tells. */
-static bool is_true(const iso_continuation *f, const iso_continuation_point *at, int test)
-{
-    const bool doubling = test == TEST_DIAGONAL || test == TEST_OTHER_DIAGONAL;
-    return !iso_symmetry_line_is_half_way(f->line) || test == TEST_TURN ||
-           fabs(at->trace - (doubling ? -2 : 2)) < 0.01;
 }
 
 iso_status iso_continuation_events(const iso_continuation *f, iso_branch *b, const iso_continuation_point *a,
                                    const iso_continuation_point *to, double ds, double arc)
 {
-    iso_status status = ISO_OK;
-    for (int test = 0; test < TESTS && status == ISO_OK; test++) {
+    for (int test = 0; test < TESTS; test++) {
         iso_branch_event e = {.axis = -1};
         iso_continuation_point at;
         double part;
         if (test_of(a, test) * test_of(to, test) >= 0) continue;
-        if (test == TEST_TURN && a->by_u * to->by_u < 0) continue; /* a fold */
+        if (test == TEST_TURN && a->D[1][0] * to->D[1][0] < 0) continue; /* a fold */
         locate(f, a, to, test, ds, &at, &part);
-        if (!is_true(f, &at, test)) continue;
-        name(f, &at, test, test == TEST_FOLD && a->tangent[1] * to->tangent[1] < 0, &e);
-        if (test == TEST_TURN) name_turn(f, &at, &e);
-        if (e.kind == ISO_BRANCH_DOUBLING && test != TEST_TURN) name_touch(f, &at, doubles(a, to, test, ds, &at), &e);
+        /* half way the coordinates of what stays on the line can themselves turn over: the trace shows it */
+        const double trace = test > TEST_BREAKING ? -2 : 2;
+        if (iso_symmetry_line_is_half_way(f->line) && test != TEST_TURN && fabs(at.trace - trace) >= 0.01) continue;
+        classify(f, a, to, test, ds, &at, &e);
         e.at = iso_continuation_read(&at, arc + part);
-        if (is_there(b, &e)) continue;
-        status = iso_continuation_add_event(f, b, &e);
+        if (!is_there(b, &e)) ISO_TRY(iso_continuation_add_event(f, b, &e));
     }
-    return status;
+    return ISO_OK;
 }
 
 /* --- collisions ------------------------------------------------------------------------------------------------- */
@@ -249,7 +229,7 @@ bool iso_continuation_collision(const iso_continuation *f, const iso_continuatio
     at.z[0] = axis == (f->axis + 1) % 3 ? ISO_PI / 2 : 0; /* the fixed point of the rotation */
     at.z[1] = axis == f->axis ? 1 : 0;
     e->at = iso_continuation_read(&at, 0);
-    snprintf(e->words, sizeof e->words, "it shrinks onto the rotation about axis %d at %s = %.12g", axis + 1,
+    snprintf(e->text, sizeof e->text, "it shrinks onto the rotation about axis %d at %s = %.12g", axis + 1,
              iso_vary_name((int)f->options.vary), at.value);
     return true;
 }
@@ -273,7 +253,7 @@ static double refine(const iso_continuation *f, double v, double u, double h, do
         if (!iso_continuation_evaluate(f, u + h, v, false, &at)) return NAN;
         if ((at.off < 0) == (off < 0)) u += h;
     }
-    return fabs(at.off) < 1e-3 * (1 + fabs(at.by_u)) ? u : NAN;
+    return fabs(at.off) < 1e-3 * (1 + fabs(at.D[1][0])) ? u : NAN;
 }
 
 /* The first of three zeros or more around `middle`; NaN: there are less. */
@@ -294,11 +274,18 @@ static double first_of_three(const iso_continuation *f, double v, double middle)
     return zeros >= 3 ? refine(f, v, first - h, h, off) : NAN;
 }
 
-/* The u of a line half way whose orbit crosses at z, as near as samples tell; NaN: none. */
-static double look_up(const iso_periodic_map *map, int line, const double z[2])
+/* Where the orbit passes a line between its crossings `before` and z, or at z; NaN: nowhere. Half way u is as near as
+ * samples allow. */
+static double parameter_on(const iso_periodic_map *map, int line, const double before[2], const double z[2])
 {
     enum { PLACES = 400 };
-    double u[PLACES], place[PLACES][2], by_u[PLACES][2], best = NAN, least = 0.02;
+    const double near = 1e-4, l = fabs(remainder(z[0], ISO_PI)), x = fabs(z[1]);
+    double image[2], u[PLACES], place[PLACES][2], by_u[PLACES][2], best = NAN, least = 0.02;
+    if (line == LINE_X) return x < near ? l : NAN;
+    if (!iso_symmetry_line_is_half_way(line))
+        return fabs(l - (line == LINE_0 ? 0 : ISO_PI / 2)) < near ? asin(fmin(x, 1)) : NAN;
+    iso_periodic_reverse(iso_symmetry_line_reversor(line), before, image);
+    if (fabs(remainder(z[0] - image[0], 2 * ISO_PI)) > near || fabs(z[1] - image[1]) > near) return NAN;
     for (int i = 0; i < PLACES; i++) u[i] = ISO_PI / 2 * (i + 0.5) / PLACES;
     if (iso_periodic_place(map, line, PLACES, u, place, by_u) != ISO_OK) return NAN;
     for (int i = 0; i < PLACES; i++)
@@ -306,48 +293,25 @@ static double look_up(const iso_periodic_map *map, int line, const double z[2])
     return best;
 }
 
-/* Where the orbit passes a line between its crossings `before` and z, or at z; NaN: nowhere. */
-static double parameter_on(const iso_periodic_map *map, int line, const double before[2], const double z[2])
+/* Looks for orbits of this family, on any line, beside one point of the orbit. */
+static bool look_beside(const iso_continuation *family, const iso_periodic_map *map, double value,
+                        const double before[2], const double z[2], iso_continuation *beside, double at[2])
 {
-    const double near = 1e-4, l = fabs(remainder(z[0], ISO_PI)), x = fabs(z[1]);
-    double image[2];
-    if (line == LINE_X) return x < near ? l : NAN;
-    if (!iso_symmetry_line_is_half_way(line))
-        return fabs(l - (line == LINE_0 ? 0 : ISO_PI / 2)) < near ? asin(fmin(x, 1)) : NAN;
-    iso_periodic_reverse(iso_symmetry_line_reversor(line), before, image);
-    if (fabs(remainder(z[0] - image[0], 2 * ISO_PI)) > near || fabs(z[1] - image[1]) > near) return NAN;
-    return look_up(map, line, z);
-}
-
-typedef struct finder {
-    const iso_continuation *family; /* of the new period */
-    const iso_periodic_map *map;
-    double value;
-    iso_status (*found)(void *data, const iso_continuation *f, double u, double value);
-    void *data;
-} finder;
-
-/* Looks beside one point of the orbit, on all lines. */
-static iso_status look_beside(const finder *s, const double before[2], const double z[2], bool *any)
-{
-    iso_status status = ISO_OK;
     for (int line = 0; line < LINES; line++) {
-        const double u = parameter_on(s->map, line, before, z);
-        iso_continuation beside = *s->family;
-        beside.line = line;
-        for (int side = -1; side <= 1 && !isnan(u) && !*any && status == ISO_OK; side += 2) {
-            const double at = s->value + side * ASIDE * beside.width,
-                         root = first_of_three(&beside, at / beside.width, u);
-            *any = !isnan(root);
-            if (*any) status = s->found(s->data, &beside, root, at);
+        const double u = parameter_on(map, line, before, z);
+        *beside = *family;
+        beside->line = line;
+        for (int side = -1; side <= 1 && !isnan(u); side += 2) {
+            at[1] = value + side * ASIDE * beside->width;
+            at[0] = first_of_three(beside, at[1] / beside->width, u);
+            if (!isnan(at[0])) return true;
         }
     }
-    return status;
+    return false;
 }
 
-iso_status iso_continuation_switch(const iso_continuation *f, const iso_branch *b, const iso_branch_event *e,
-                                   iso_status (*found)(void *data, const iso_continuation *f, double u, double value),
-                                   void *data)
+iso_status iso_continuation_switch(const iso_continuation *f, const iso_branch_event *e, iso_continuation *beside,
+                                   double at[2], bool *found)
 {
     iso_continuation other = *f;
     iso_params p;
@@ -355,17 +319,16 @@ iso_status iso_continuation_switch(const iso_continuation *f, const iso_branch *
     iso_periodic_map map;
     const double from[1][2] = {{e->at.l, e->at.x}};
     iso_periodic_point point[2 * ISO_PERIODIC_MOST];
-    const int halves = 2 * b->period;
-    bool any = false;
-    other.period = iso_continuation_doubles(e->kind) ? 2 * b->period : b->period;
+    const int halves = 2 * f->period;
+    *found = false;
+    if (iso_continuation_doubles(e->kind)) other.period *= 2;
     if (other.period > ISO_PERIODIC_MOST || !iso_continuation_params(f, e->at.value, &p, &energy)) return ISO_OK;
     iso_periodic_map_prepare(f->ctx, &p, energy, 1, &map);
-    const finder s = {&other, &map, e->at.value, found, data};
-    iso_status status = iso_periodic_walk(&map, 1, from, halves, false, 1e-13, point);
-    for (int n = 0; n < halves && !any && status == ISO_OK; n++) {
+    ISO_TRY(iso_periodic_walk(&map, 1, from, halves, false, 1e-13, point));
+    for (int n = 0; n < halves && !*found; n++) {
         const iso_periodic_point *last = &point[(n + halves - 1) % halves];
-        status =
-            look_beside(&s, (const double[2]){last->l, last->x}, (const double[2]){point[n].l, point[n].x}, &any);
+        *found = look_beside(&other, &map, e->at.value, (const double[2]){last->l, last->x},
+                             (const double[2]){point[n].l, point[n].x}, beside, at);
     }
-    return status;
+    return ISO_OK;
 }

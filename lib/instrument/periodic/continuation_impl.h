@@ -24,11 +24,10 @@ typedef struct iso_continuation {
 /* A point of the curve. Coordinates are u and v = value/width. */
 typedef struct iso_continuation_point {
     double u, v, value;
-    double z[2];        /* the first point on the section: l, x                                */
-    double off;         /* F                                                                   */
-    double by_u, by_v;  /* its slopes                                                          */
-    double across;      /* D_01 (iso_periodic_shot)                                            */
-    double diagonal[2]; /* D_00, D_11                                                          */
+    double z[2];    /* the first point on the section: l, x                                */
+    double off;     /* F                                                                   */
+    double by_v;    /* its slope by v                                                      */
+    double D[2][2]; /* see iso_periodic_shot; D_10 is the slope of F by u                  */
     double trace;
     double tangent[2]; /* (du, dv), of length 1                                               */
 } iso_continuation_point;
@@ -64,9 +63,8 @@ static inline bool iso_continuation_doubles(iso_branch_kind kind)
     return kind == ISO_BRANCH_DOUBLING || kind == ISO_BRANCH_TOUCH || kind == ISO_BRANCH_UNDECIDED;
 }
 
-/* Looks for an orbit that branches off at an event, and gives its parameter and value to `found`. */
-iso_status iso_continuation_switch(const iso_continuation *f, const iso_branch *b, const iso_branch_event *e,
-                                   iso_status (*found)(void *data, const iso_continuation *f, double u, double value),
-                                   void *data);
+/* Looks for an orbit that branches off at an event: its family, and its u and value in at. *found: there is one. */
+iso_status iso_continuation_switch(const iso_continuation *f, const iso_branch_event *e, iso_continuation *beside,
+                                   double at[2], bool *found);
 
 #endif

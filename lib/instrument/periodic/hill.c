@@ -6,7 +6,7 @@
 #include <stdbool.h>
 
 #include "base/context_impl.h"
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "instrument/periodic/periodic_impl.h"
 
 /* --- the length of a step --------------------------------------------------------------------------------------- */
@@ -22,20 +22,7 @@ typedef struct hill_pace {
 
 static void add_point(hill_pace *s, double at, double height)
 {
-    if (s->points == MOST_POINTS) return;
-    s->at[s->points] = at;
-    s->height[s->points++] = height;
-}
-
-/* Where 1 + E q^(1/k) = 0: ln q = -k ln |E| + i k pi n, n odd for E > 0 and even for E < 0. Where q goes round its
- * zero farther than arg = 3 pi/2 no disc of convergence comes. */
-static void add_level(double k, double energy, double m, double d, hill_pace *s)
-{
-    for (int n = energy > 0 ? 1 : 0; fabs(k) * n <= 1.5 && energy != 0; n += 2) {
-        const double complex q = cexp(-k * log(fabs(energy)) + I * k * ISO_PI * n), phi = cacos((q - m) / d) / 2;
-        add_point(s, creal(phi), fabs(cimag(phi)));
-        if (n > 0 || fabs(creal(phi)) > 0) add_point(s, ISO_PI - creal(phi), fabs(cimag(phi)));
-    }
+    if (s->points < MOST_POINTS) s->at[s->points] = at, s->height[s->points++] = height;
 }
 
 static double level_at(double k, double energy, double q)
@@ -43,12 +30,17 @@ static double level_at(double k, double energy, double q)
     return 1 + energy * pow(q, 1 / k);
 }
 
-/* q = m + d cos 2 phi. ratio: m/|d|; swing: J_i/(k min q). */
+/* q = m + d cos 2 phi. ratio: m/|d|; swing: J_i/(k min q). 1 + E q^(1/k) = 0 where ln q = -k ln |E| + i k pi n, n odd for
+ * E > 0 and even for E < 0; where q goes round its zero farther than arg = 3 pi/2 no disc of convergence comes. */
 static hill_pace pace_of(double k, double m, double d, double energy, double ratio, double swing)
 {
     hill_pace s = {.points = 0};
     add_point(&s, d > 0 ? ISO_PI / 2 : 0, d == 0 ? 1e3 : acosh(ratio) / 2);
-    if (d != 0) add_level(k, energy, m, d, &s);
+    for (int n = energy > 0 ? 1 : 0; fabs(k) * n <= 1.5 && energy != 0 && d != 0; n += 2) {
+        const double complex q = cexp(-k * log(fabs(energy)) + I * k * ISO_PI * n), phi = cacos((q - m) / d) / 2;
+        add_point(&s, creal(phi), fabs(cimag(phi)));
+        if (n > 0 || fabs(creal(phi)) > 0) add_point(&s, ISO_PI - creal(phi), fabs(cimag(phi)));
+    }
     const double least = fmin(level_at(k, energy, m + d), level_at(k, energy, m - d));
     s.pace = sqrt(fabs(swing) / fmin(least, 1) + 1);
     return s;
@@ -101,7 +93,7 @@ bool iso_hill_has_rotation(double k, const double J[3], double energy, int axis)
     return level_at(k, energy, J[(axis + 1) % 3]) > 0 && level_at(k, energy, J[(axis + 2) % 3]) > 0;
 }
 
-/* The determinant, which is 1, tells how many digits are lost. */
+/* The determinant, which is 1, shows how many digits are lost. */
 double iso_hill_trace(double k, const double J[3], double energy, int axis, double *error)
 {
     long double y[2][2];
@@ -119,14 +111,6 @@ double iso_hill_trace(double k, const double J[3], double energy, int axis, doub
 
 /* --- the rotations ---------------------------------------------------------------------------------------------- */
 
-/* The fixed point of the rotation about `axis`; the section's own axis has the boundary. */
-static void place(const iso_periodic_map *map, iso_rotation *r)
-{
-    const int b = (map->axis + 1) % 3;
-    r->l = r->axis == b ? ISO_PI / 2 : 0;
-    r->x = r->axis == map->axis ? 1 : 0;
-}
-
 /* By the derivative of g. g turns the deviation over: its trace has the other sign. The rotation about the section's
  * own axis never crosses it: the section of the next axis serves. */
 static bool ask_section(iso_periodic_work *w, iso_rotation *r, iso_wide *trace)
@@ -142,40 +126,33 @@ static bool ask_section(iso_periodic_work *w, iso_rotation *r, iso_wide *trace)
     return true;
 }
 
-/* How far apart the two ways are that give the trace: Hill's equation in numbers of 113 bits, and the section's
- * derivative; and Hill's equation in numbers of 64 bits. Polished, both ways have as many digits. */
-static double error_of(const iso_periodic_work *w, iso_wide trace, double rough, iso_wide section)
-{
-    const double size = fabs((double)trace), apart = fabs((double)(section - trace));
-    if (w->options.polish) return fmax(apart, 1e-31 * size);
-    return fmax(apart, fmax(fabs(rough - (double)trace), 0x1p-53 * size));
-}
-
-/* No number: the plane holds an oscillation. */
-static void none(iso_rotation *r)
-{
-    r->oscillates = true;
-    r->half_turn_trace = r->error = r->tail = r->by_section = r->turn_trace = NAN;
-    r->half = (iso_multipliers){.stability = ISO_STABILITY_UNDECIDED, .value = {{NAN, NAN}, {NAN, NAN}}};
-    for (int c = 0; c < ISO_CLOCKS; c++) r->clock[c] = NAN;
-}
-
+/* Its error is how far apart three results are: Hill's equation in numbers of 113 bits, the section's derivative, and
+ * Hill's equation in numbers of 64 bits. Polished, the first two have as many digits. */
 static bool find_rotation(iso_periodic_work *w, int axis)
 {
     iso_rotation *r = &w->out->rotation[axis];
     const iso_params *p = &w->map.p;
     iso_wide Y[2][2], section;
-    *r = (iso_rotation){.axis = axis};
-    place(&w->map, r);
-    if (!iso_hill_has_rotation(p->k, p->J, w->energy, axis)) return none(r), true;
-    const double rough = iso_hill_trace(p->k, p->J, w->energy, axis, NULL);
-    iso_hill_matrix_wide(p->k, p->J, w->energy, axis, Y);
-    const iso_fine trace = iso_fine_of(Y[0][0] + Y[1][1]);
+    *r = (iso_rotation){.axis = axis}; /* the section's own axis has the boundary */
+    r->l = axis == (w->map.axis + 1) % 3 ? ISO_PI / 2 : 0;
+    r->x = axis == w->map.axis;
+    if (!iso_hill_has_rotation(p->k, p->J, w->map.energy, axis)) {
+        r->oscillates = true;
+        r->half_turn_trace = r->error = r->tail = r->by_section = r->turn_trace = NAN;
+        r->half = (iso_multipliers){.stability = ISO_STABILITY_UNDECIDED, .value = {{NAN, NAN}, {NAN, NAN}}};
+        for (int c = 0; c < ISO_CLOCKS; c++) r->clock[c] = NAN;
+        return true;
+    }
+    iso_hill_matrix_wide(p->k, p->J, w->map.energy, axis, Y);
+    const iso_wide wide = Y[0][0] + Y[1][1];
+    const iso_fine trace = iso_fine_of(wide);
     r->half_turn_trace = trace.head;
     r->tail = trace.tail;
     if (!ask_section(w, r, &section)) return false;
+    const double rough = fabs(iso_hill_trace(p->k, p->J, w->map.energy, axis, NULL) - (double)wide),
+                 size = fabs((double)wide), apart = fabs((double)(section - wide));
     r->by_section = (double)section;
-    r->error = error_of(w, Y[0][0] + Y[1][1], rough, section);
+    r->error = w->options.polish ? fmax(apart, 1e-31 * size) : fmax(apart, fmax(rough, 0x1p-53 * size));
     r->turn_trace = trace.head * trace.head - 2;
     r->half = iso_multipliers_of(trace.head, fmax(4 * r->error, 1e-15), (double)Y[1][0]);
     return true;

@@ -17,48 +17,36 @@
 #include "orbit/orbit_impl.h"
 #include "study/study_impl.h"
 
-ISO_NAMES(iso_stability_name, iso_stability, "stable", "unstable", "inverse", "degenerate", "undecided")
+ISO_NAMES(iso_stability_name, int, "stable", "unstable", "inverse", "degenerate", "undecided")
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
 
-static iso_status check_options(const iso_periodic_work *w)
+static iso_status check_scene(iso_periodic_work *w)
 {
+    static const char what[] = "periodic orbits are sought";
     const iso_periodic_options *o = &w->options;
+    const double k = w->scene->params.k, *J = w->scene->params.J, ratio = max3(J) / min3(J) / fabs(k);
+    const iso_effects effects = iso_scene_acting(w->scene);
     if (o->period < 1 || o->period > ISO_PERIODIC_MOST)
         return ISO_FAIL_ARGUMENT(w->ctx, "period", "a period of %d: give 1 to %d", o->period, ISO_PERIODIC_MOST);
     if (o->grid < 1 || o->grid > 10000000)
         return ISO_FAIL_ARGUMENT(w->ctx, "grid", "a grid of %ld points: give 1 to 1e7", o->grid);
     if (!iso_return_code_of(o->polish))
         return ISO_FAIL_ARGUMENT(w->ctx, "polish", "this build has no numbers of 128 bits");
-    return ISO_OK;
-}
-
-/* Beyond these bounds orbits pass so near to unstable rotations that no digits are left. */
-static iso_status check_numbers(const iso_periodic_work *w)
-{
-    const double k = w->scene->params.k, *J = w->scene->params.J, ratio = max3(J) / min3(J) / fabs(k);
+    ISO_TRY(iso_refuse_beyond_level(w->ctx, &effects, what));
     if (fabs(k) < ISO_LEAST_K)
         return ISO_FAIL_INPUT(w->ctx, "k", "k = %s: periodic orbits are sought only for |k| >= %s", ISO_SHORT(k),
                               ISO_SHORT(ISO_LEAST_K));
-    if (ratio <= 1e5) return ISO_OK;
-    return ISO_FAIL_INPUT(
-        w->ctx, "J", "max J/(min J |k|) is %.3g: periodic orbits are sought only where it is 1e5 at most", ratio);
-}
-
-static iso_status check_scene(iso_periodic_work *w)
-{
-    static const char what[] = "periodic orbits are sought";
-    const iso_effects effects = iso_scene_acting(w->scene);
-    iso_on_level on;
-    ISO_TRY(iso_refuse_beyond_level(w->ctx, &effects, what));
-    ISO_TRY(check_numbers(w));
-    ISO_TRY(iso_refuse_equal_moments(w->ctx, w->scene->params.J, "no periodic orbit is isolated"));
+    if (!(ratio <= 1e5)) /* beyond, orbits pass so near to unstable rotations that no digits are left */
+        return ISO_FAIL_INPUT(
+            w->ctx, "J", "max J/(min J |k|) is %.3g: periodic orbits are sought only where it is 1e5 at most", ratio);
+    ISO_TRY(iso_refuse_equal_moments(w->ctx, J, "no periodic orbit is isolated"));
     ISO_TRY(iso_refuse_rest(w->ctx, &w->scene->start, &effects, "has no periodic orbits of its energy"));
-    ISO_TRY(iso_level_find(w->ctx, w->scene, what, &on));
-    w->units = on.units, w->h = on.h, w->energy = on.energy, w->H = on.H;
-    w->out->level = iso_level_of(&w->units.own, w->energy);
-    const double slow = 1 / sqrt(iso_coupling(&w->units.own, w->h));
-    for (iso_clock c = 0; c < ISO_CLOCKS; c++) w->unit_clock[c] = slow * iso_unit(&w->units, iso_clock_dimension(c));
+    ISO_TRY(iso_level_find(w->ctx, w->scene, what, &w->on));
+    w->out->level = iso_level_of(&w->on.units.own, w->on.energy);
+    const double slow = 1 / sqrt(iso_coupling(&w->on.units.own, w->on.h));
+    for (iso_clock c = 0; c < ISO_CLOCKS; c++)
+        w->unit_clock[c] = slow * iso_unit(&w->on.units, iso_clock_dimension(c));
     if (isfinite(w->unit_clock[ISO_CLOCK_T])) return ISO_OK;
     return ISO_FAIL_INPUT(w->ctx, "angular_velocity",
                           "the energy of this start is too large or too small for doubles");
@@ -73,36 +61,22 @@ static int by_period(const void *a, const void *b)
     return (one->trace > other->trace) - (one->trace < other->trace);
 }
 
-/* Whether some place of the sphere, an end of an axis at worst, cannot be reached. */
-static bool is_closed(const iso_periodic_map *map)
-{
-    bool closed = false;
-    for (int axis = 0; axis < 3; axis++)
-        closed = closed || !iso_hill_has_rotation(map->p.k, map->p.J, map->energy, axis);
-    return closed;
-}
-
-/* Sorts and numbers what was found. */
-static void put_in_order(iso_periodic *out, bool polished)
-{
-    if (out->count > 0) qsort(out->orbit, out->count, sizeof *out->orbit, by_period);
-    for (size_t i = 0; i < out->count; i++) out->orbit[i].number = i + 1, out->orbit[i].polished = polished;
-    for (int a = 0; a < 3; a++) out->rotation[a].polished = polished;
-}
-
 static iso_status work(iso_periodic_work *w)
 {
-    ISO_TRY(check_options(w));
     ISO_TRY(check_scene(w));
-    iso_periodic_map_prepare(w->ctx, &w->units.own, w->energy, w->options.threads, &w->map);
+    iso_periodic_map_prepare(w->ctx, &w->on.units.own, w->on.energy, w->options.threads, &w->map);
     w->out->axis = w->map.axis;
-    w->out->closed = is_closed(&w->map);
+    for (int a = 0; a < 3; a++) /* an end of an axis is the last place that can be reached */
+        w->out->closed = w->out->closed || !iso_hill_has_rotation(w->map.p.k, w->map.p.J, w->on.energy, a);
     w->out->longest = w->options.period;
     iso_status status = iso_periodic_rotations(w);
     if (w->options.rotations_alone) return status;
     if (status == ISO_OK && !(w->options.all && w->options.no_lines)) status = iso_periodic_search(w);
     if (status == ISO_OK && w->options.all) status = iso_periodic_from_grid(w);
-    put_in_order(w->out, w->options.polish);
+    iso_periodic *out = w->out;
+    if (out->count > 0) qsort(out->orbit, out->count, sizeof *out->orbit, by_period);
+    for (size_t i = 0; i < out->count; i++) out->orbit[i].number = i + 1, out->orbit[i].polished = w->options.polish;
+    for (int a = 0; a < 3; a++) out->rotation[a].polished = w->options.polish;
     return status;
 }
 
@@ -122,10 +96,11 @@ iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_
     return status;
 }
 
-void iso_periodic_free(iso_periodic *found)
+void iso_periodic_free(void *found)
 {
-    if (!found) return;
-    for (size_t i = 0; i < found->count; i++) free(found->orbit[i].half);
-    free(found->orbit);
+    iso_periodic *f = found;
+    if (!f) return;
+    for (size_t i = 0; i < f->count; i++) free(f->orbit[i].half);
+    free(f->orbit);
     free(found);
 }

@@ -42,10 +42,10 @@ typedef enum iso_stability {
     ISO_UNSTABLE,           /* trace > 2: a saddle                                                            */
     ISO_INVERSE_HYPERBOLIC, /* trace < -2: a saddle with two negative multipliers                             */
     ISO_DEGENERATE,         /* |trace| is 2 within 4 errors                                                   */
-    ISO_STABILITY_UNDECIDED /* the same, and the error is above 2.5e-4: too large to tell                     */
+    ISO_STABILITY_UNDECIDED /* the same, and the error is above 2.5e-4: too large to say                      */
 } iso_stability;
 /* "stable", "unstable", "inverse", "degenerate", "undecided". */
-const char *iso_stability_name(iso_stability stability);
+const char *iso_stability_name(int stability);
 
 typedef struct iso_multipliers {
     iso_stability stability;
@@ -118,7 +118,7 @@ typedef struct iso_periodic_options {
     bool polish;   /* everything in numbers of 128 bits                                                            */
     bool rotations_alone; /* no search: only iso_periodic.rotation is found                                     */
     int threads; /* 0: as many as there are processors to run on                                                 */
-    void (*progress)(void *data, double part); /* NULL: nobody is told                                           */
+    void (*progress)(void *data, double part); /* NULL: no calls                                           */
     void *data;
 } iso_periodic_options;
 
@@ -151,7 +151,7 @@ typedef struct iso_periodic {
  * - ISO_NUMERICAL; ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *found has what is known by then. */
 iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_options *options,
                             iso_periodic **found);
-void iso_periodic_free(iso_periodic *found);
+void iso_periodic_free(void *found);
 
 /* The reversor of a symmetry line 0 to 5: "S1", "S2", "S3", "TS1", "TS2", "TS3"; NULL for other numbers. */
 const char *iso_symmetry_line_name(int line);
@@ -159,6 +159,6 @@ const char *iso_symmetry_line_name(int line);
 /* head + tail with up to 31 digits, as text; the reversors of `symmetry`: "S1 S3", "none". */
 enum { ISO_DIGITS_SIZE = 48 };
 void iso_periodic_digits(double head, double tail, char text[ISO_DIGITS_SIZE]);
-int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE]);
+int iso_symmetry_text(int symmetry, char text[ISO_DIGITS_SIZE]);
 
 #endif

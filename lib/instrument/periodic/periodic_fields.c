@@ -3,11 +3,6 @@
 #include "instrument/periodic/periodic_study_impl.h"
 #include "study/study_impl.h"
 
-static const char *stability_word(int stability)
-{
-    return iso_stability_name((iso_stability)stability);
-}
-
 static const iso_field pair[] = {
     {.name = "", .type = ISO_FIELD_REAL, .count = 2, .unit = "", .doc = "l and x, or real and imaginary part"},
     ISO_FIELD_END,
@@ -30,7 +25,7 @@ static bool has_krein(const void *row)
 static const iso_field multipliers[] = {
     ISO_IS("stable", is_stable, "whether it is stable", .how = ISO_IN_TREE),
     FIELD("stability", stability, "", "stable, unstable (trace > 2), inverse (< -2), degenerate (2 or -2), undecided",
-          .word = stability_word),
+          .word = iso_stability_name),
     ISO_ARRAY(iso_multipliers, "multipliers", value, pair, "real and imaginary part of both"),
     FIELD("krein", krein, "", "Krein's sign of the first multiplier", .how = ISO_IN_TREE, .there = has_krein),
     ISO_FIELD_END,
@@ -88,7 +83,7 @@ static const iso_field rotation_fields[] = {
 static void find_symmetry(const void *row, int i, iso_value *v)
 {
     (void)i;
-    iso_symmetry_words(((const iso_periodic_orbit *)row)->symmetry, v->room);
+    iso_symmetry_text(((const iso_periodic_orbit *)row)->symmetry, v->room);
     v->text = v->room;
 }
 
@@ -166,11 +161,6 @@ const iso_field iso_periodic_fields[] = {
 
 /* --- branches --------------------------------------------------------------------------------------------------- */
 
-static const char *kind_word(int kind)
-{
-    return iso_branch_kind_name((iso_branch_kind)kind);
-}
-
 static bool is_point(const void *row)
 {
     return ((const iso_branch_row *)row)->event != NULL;
@@ -179,7 +169,7 @@ static bool is_point(const void *row)
 static void find_event(const void *row, int i, iso_value *v)
 {
     (void)i;
-    v->text = iso_branch_kind_name(((const iso_branch_row *)row)->event->kind);
+    v->text = iso_branch_kind_name((int)((const iso_branch_row *)row)->event->kind);
 }
 
 #define FIELD(key, member, ...) ISO_MEMBER(iso_branch_point, key, member, __VA_ARGS__)
@@ -197,9 +187,9 @@ static const iso_field point_fields[] = {
 
 static const iso_field event_fields[] = {
     ISO_STRUCT(iso_branch_event, "", at, point_fields, "where"),
-    FIELD("kind", kind, "", "what happens", .word = kind_word),
+    FIELD("kind", kind, "", "what happens", .word = iso_branch_kind_name),
     FIELD("joins", joins, "", "this branch is the one that branches off"),
-    FIELD("words", words, "", "more about it"),
+    FIELD("words", text, "", "more about it"),
     FIELD("axis", axis, "", "of a collision: the rotation's", .how = ISO_FROM_ONE | ISO_OPTIONAL),
     ISO_FIELD_END,
 };

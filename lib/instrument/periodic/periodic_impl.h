@@ -19,6 +19,7 @@
 #include "method/wide_impl.h"
 #include "model/model.h"
 #include "orbit/crossings.h"
+#include "study/study_impl.h"
 
 /* --- the map ---------------------------------------------------------------------------------------------------- */
 
@@ -54,17 +55,17 @@ typedef struct iso_periodic_point {
 iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const double (*from)[2], int halves,
                              bool whole, double tolerance, iso_periodic_point *to);
 
-/* to[i]: the first crossing of the start half way at u[i], see iso_return_start. NaN: it failed. */
+/* to[i]: the first crossing of the start half way at u[i], see iso_return_start, without slopes. NaN: it failed. */
 iso_status iso_periodic_enter_many(const iso_periodic_map *map, iso_return_start start, size_t count,
-                                   const double u[], double (*to)[2]);
+                                   const double u[], iso_periodic_point *to);
 
-/* A way in more digits: its end, the derivative, and the clocks that pass. */
+/* A piece of an orbit in more digits: its end, the derivative, and the clocks that pass. */
 typedef struct iso_periodic_fine {
     iso_wide to[2], slope[2][2], clock[ISO_CLOCKS];
     iso_wide determinant; /* of slope: the product of those of the returns, which do not cancel */
 } iso_periodic_fine;
 
-/* The way `first`, and then `next`, which begins at its end. *both is neither of them. */
+/* The piece `first`, and then `next`, which begins at its end. *both is neither of them. */
 void iso_periodic_join(const iso_periodic_fine *first, const iso_periodic_fine *next, iso_periodic_fine *both);
 
 /* g^halves of a point. path[n - 1] = g^n of it, n = 1 to halves; NULL: not asked. False: it failed. */
@@ -130,8 +131,8 @@ typedef struct iso_periodic_shot {
     iso_wide trace;   /* of the whole orbit, if miss is 0 */
     double terms;     /* the trace is a sum of terms of this size: so large are its rounding errors */
     iso_wide clock[ISO_CLOCKS];
-    iso_periodic_fine way; /* g^period of z */
-    iso_wide back[2][2];   /* the derivative of g^period there, along the mirror image, which leads back to z */
+    iso_periodic_fine half; /* g^period of z */
+    iso_wide back[2][2];    /* the derivative of g^period there, along the mirror image, which leads back to z */
     double path[ISO_PERIODIC_MOST][2]; /* g z ... g^period z */
 } iso_periodic_shot;
 bool iso_periodic_shoot(const iso_periodic_map *map, const iso_return_code *code, int line, iso_wide u, int period,
@@ -144,15 +145,11 @@ typedef struct iso_periodic_work {
     const iso_scene *scene;
     iso_periodic_options options;
     iso_periodic_map map;
-    double h;      /* of the scene's orbit, own units                            */
-    double energy; /* its level H for eps = 1, own units                         */
-    double H;      /* the same level, in the scene's units                       */
-    iso_units units;
+    iso_on_level on;               /* of the scene */
     double unit_clock[ISO_CLOCKS]; /* the scene's clocks of one own clock at eps = 1 */
     iso_periodic *out;
-    size_t room;
     struct iso_periodic_folded *folded; /* points of the orbits that are found, for duplicates */
-    size_t folded_count, folded_room;
+    size_t folded_count;
 } iso_periodic_work;
 
 /* A place that may lie on an orbit. */
@@ -195,6 +192,9 @@ iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_re
 /* Solves candidates on all threads, and adds their orbits to the list, unless they are there already or have a
  * smaller period. Errors: ISO_NO_MEMORY; ISO_STOPPED. */
 iso_status iso_periodic_add(iso_periodic_work *w, const iso_periodic_candidate c[], size_t count);
+
+/* Appends an item to a list; `list` is where its pointer is kept. The room doubles where count is a power of 2. */
+iso_status iso_periodic_append(iso_context *ctx, void *list, size_t *count, const void *item, size_t size);
 
 iso_status iso_periodic_rotations(iso_periodic_work *w);
 iso_status iso_periodic_search(iso_periodic_work *w);

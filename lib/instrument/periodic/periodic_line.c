@@ -8,42 +8,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "instrument/periodic/periodic_impl.h"
+
+/* At u = 0 and u = pi/2: the axis of the rotation there, and the axis on which the point is; 0, 1, 2: a, b, c. */
+static const int turns_about[LINES][2] = {{2, 1}, {2, 0}, {1, 0}, {2, 1}, {0, 2}, {0, 1}};
+static const int stands_on[LINES][2] = {{1, 2}, {1, 1}, {2, 2}, {0, 0}, {2, 0}, {1, 0}};
 
 int iso_symmetry_line_axis_at(int axis, int line, bool end)
 {
-    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-    if (line == LINE_X) return end ? b : c;
-    if (line == LINE_POLE) return end ? b : c;
-    if (iso_symmetry_line_is_half_way(line)) return !end ? axis : line == LINE_PLANE_B ? c : b;
-    return end ? axis : line == LINE_0 ? c : b;
-}
-
-/* The axis on which the point is at u = 0, or at u = pi/2. (On l = 0, l = pi/2 and the pole it stays on one.) */
-static int place_axis_at(int axis, int line, bool end)
-{
-    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-    switch (line) {
-    case LINE_X: return end ? c : b;
-    case LINE_0: return b;
-    case LINE_QUARTER: return c;
-    case LINE_POLE: return axis;
-    case LINE_PLANE_B: return end ? axis : c;
-    default: return end ? axis : b;
-    }
+    return (axis + turns_about[line][end]) % 3;
 }
 
 /* q along a line goes one way, so that the point can move up to one place, or from one on. */
 bool iso_symmetry_line_range(const iso_periodic_map *map, int line, double u[2])
 {
     const double *J = map->p.J, k = map->p.k;
-    double q[2];
-    for (int end = 0; end < 2; end++) {
-        const int axis = place_axis_at(map->axis, line, end);
-        q[end] = J[axis];
-        u[end] = end * ISO_PI / 2;
-    }
+    const double q[2] = {J[(map->axis + stands_on[line][0]) % 3], J[(map->axis + stands_on[line][1]) % 3]};
+    u[0] = 0, u[1] = ISO_PI / 2;
     const bool moves[2] = {1 + map->energy * pow(q[0], 1 / k) > 0, 1 + map->energy * pow(q[1], 1 / k) > 0};
     if (moves[0] == moves[1]) return moves[0];
     const double border = pow(-map->energy, -k), part = (border - q[0]) / (q[1] - q[0]); /* sin^2 u */
@@ -64,29 +46,21 @@ static iso_return_start start_of(int line)
 
 /* --- in doubles ------------------------------------------------------------------------------------------------- */
 
-static void place_on_section(int line, double u, double z[2], double by_u[2])
-{
-    const bool flat = line == LINE_X;
-    z[0] = flat ? u : line == LINE_0 ? 0 : ISO_PI / 2;
-    z[1] = flat ? 0 : sin(u);
-    by_u[0] = flat ? 1 : 0;
-    by_u[1] = flat ? 0 : cos(u);
-}
-
 /* The slopes are differences: they need few digits, for they only guide the search. */
 static iso_status place_half_way(const iso_periodic_map *map, int line, size_t count, const double u[],
                                  double (*z)[2], double (*by_u)[2])
 {
     const double h = 1e-5;
-    double *near = calloc(3 * count + 1, sizeof *near), (*to)[2] = malloc((3 * count + 1) * sizeof *to);
+    double *near = calloc(3 * count, sizeof *near);
+    iso_periodic_point *to = malloc(3 * count * sizeof *to);
     iso_status status = near && to ? ISO_OK : iso_context_no_memory(map->ctx, "the search");
     for (size_t i = 0; i < 3 * count && status == ISO_OK; i++) near[i] = u[i / 3] + h * ((double)(i % 3) - 1);
     if (status == ISO_OK) status = iso_periodic_enter_many(map, start_of(line), 3 * count, near, to);
     for (size_t i = 0; i < count && status == ISO_OK; i++) {
-        double(*const at)[2] = &to[3 * i];
-        memcpy(z[i], at[1], sizeof z[i]);
-        by_u[i][0] = remainder(at[2][0] - at[0][0], 2 * ISO_PI) / (2 * h);
-        by_u[i][1] = (at[2][1] - at[0][1]) / (2 * h);
+        const iso_periodic_point *at = &to[3 * i];
+        z[i][0] = at[1].l, z[i][1] = at[1].x;
+        by_u[i][0] = remainder(at[2].l - at[0].l, 2 * ISO_PI) / (2 * h);
+        by_u[i][1] = (at[2].x - at[0].x) / (2 * h);
     }
     free(near);
     free(to);
@@ -97,16 +71,14 @@ iso_status iso_periodic_place(const iso_periodic_map *map, int line, size_t coun
                               double (*by_u)[2])
 {
     if (iso_symmetry_line_is_half_way(line)) return place_half_way(map, line, count, u, z, by_u);
-    for (size_t i = 0; i < count; i++) place_on_section(line, u[i], z[i], by_u[i]);
+    const bool flat = line == LINE_X;
+    for (size_t i = 0; i < count; i++) {
+        z[i][0] = flat ? u[i] : line == LINE_0 ? 0 : ISO_PI / 2;
+        z[i][1] = flat ? 0 : sin(u[i]);
+        by_u[i][0] = flat ? 1 : 0;
+        by_u[i][1] = flat ? 0 : cos(u[i]);
+    }
     return ISO_OK;
-}
-
-/* Whether S before = at, loosely. */
-static bool is_mirrored(int line, const iso_periodic_point *before, const iso_periodic_point *at)
-{
-    double image[2];
-    iso_periodic_reverse(iso_symmetry_line_reversor(line), (const double[2]){before->l, before->x}, image);
-    return fabs(remainder(at->l - image[0], 2 * ISO_PI)) < 1e-3 && fabs(at->x - image[1]) < 1e-3;
 }
 
 double iso_periodic_miss(int line, const iso_periodic_point *before, const iso_periodic_point *at,
@@ -114,11 +86,13 @@ double iso_periodic_miss(int line, const iso_periodic_point *before, const iso_p
 {
     const double part = iso_symmetry_line_is_half_way(line) ? 1 : 0, l = at->l + part * before->l,
                  x = at->x + part * before->x;
-    double change[2]; /* of l and x by u */
+    double image[2], change[2]; /* change: of l and x by u */
     for (int i = 0; i < 2; i++)
         change[i] = (at->slope[i][0] + part * before->slope[i][0]) * by_u[0] +
                     (at->slope[i][1] + part * before->slope[i][1]) * by_u[1];
-    *there = !iso_symmetry_line_is_half_way(line) || is_mirrored(line, before, at);
+    iso_periodic_reverse(iso_symmetry_line_reversor(line), (const double[2]){before->l, before->x}, image);
+    *there = !iso_symmetry_line_is_half_way(line) ||
+             (fabs(remainder(at->l - image[0], 2 * ISO_PI)) < 1e-3 && fabs(at->x - image[1]) < 1e-3);
     if (iso_symmetry_line_reversor(line) == 0) return *slope = change[1], x;
     if (line == LINE_QUARTER) return *slope = -sin(l) * change[0], cos(l);
     return *slope = cos(l) * change[0], sin(l);
@@ -161,7 +135,7 @@ static void invert(const iso_wide A[2][2], iso_wide inverse[2][2])
  * first = D g^p. Half way z = g S z, so that g^p at S g^(p-1) z is g S g^(1-p) S: R = D(g S), first = D g^(p-1). */
 static void find_back(int line, const iso_wide R[2][2], const iso_wide first[2][2], iso_periodic_shot *s)
 {
-    const int over = iso_symmetry_line_reversor(line) == 0 ? 1 : 0;
+    const int over = iso_symmetry_line_reversor(line) == 0;
     iso_wide inverse[2][2];
     invert(first, inverse);
     iso_wide_multiply(R, (const iso_wide(*)[2])inverse, s->back);
@@ -193,47 +167,40 @@ static bool shoot_from_section(const iso_periodic_map *map, const iso_return_cod
     const bool flat = line == LINE_X;
     s->z[0] = flat ? s->u : line == LINE_0 ? 0 : WIDE_PI / 2;
     s->z[1] = flat ? 0 : WIDE_SIN(s->u);
-    if (!(WIDE_ABS(s->z[1]) < 1) || !iso_periodic_far(map, code, s->z, period, s->path, &s->way)) return false;
-    const iso_wide stretch = flat ? 1 : WIDE_COS(s->u), law = iso_periodic_determinant(map, s->z[0], s->way.to[0]);
+    if (!(WIDE_ABS(s->z[1]) < 1) || !iso_periodic_far(map, code, s->z, period, s->path, &s->half)) return false;
+    const iso_wide stretch = flat ? 1 : WIDE_COS(s->u), law = iso_periodic_determinant(map, s->z[0], s->half.to[0]);
     iso_wide A[2][2];
     for (int i = 0; i < 2; i++) {
-        A[i][0] = s->way.slope[i][flat ? 0 : 1] * stretch;
-        A[i][1] = s->way.slope[i][flat ? 1 : 0];
+        A[i][0] = s->half.slope[i][flat ? 0 : 1] * stretch;
+        A[i][1] = s->half.slope[i][flat ? 1 : 0];
     }
-    arrive(line, &(arrival){s->way.to, s->way.to, A, A, flat ? law : -law * stretch}, s);
+    arrive(line, &(arrival){s->half.to, s->half.to, A, A, flat ? law : -law * stretch}, s);
     const iso_wide E[2][2] = {{flat ? 1 : -1, 0}, {0, flat ? -1 : 1}};
-    find_back(line, E, (const iso_wide(*)[2])s->way.slope, s);
-    memcpy(s->clock, s->way.clock, sizeof s->clock);
+    find_back(line, E, (const iso_wide(*)[2])s->half.slope, s);
+    memcpy(s->clock, s->half.clock, sizeof s->clock);
     return true;
 }
 
 /* in: from the line to z; before: from z to the last crossing before the line at the end; last: from there on. */
-static void arrive_half_way(int line, const iso_periodic_fine *in, const iso_periodic_fine *before,
-                            const iso_periodic_fine *last, iso_periodic_shot *s)
-{
-    iso_wide A[2][2], B[2][2];
-    iso_wide_multiply(before->slope, in->slope, A);
-    iso_wide_multiply(last->slope, (const iso_wide(*)[2])A, B);
-    arrive(line, &(arrival){before->to, last->to, A, B, before->determinant * in->determinant}, s);
-    iso_periodic_join(before, last, &s->way);
-    /* D(g S) at z turns over c, and leaves u as it is */
-    iso_wide from_u[2][2], R[2][2];
-    const iso_wide turned[2][2] = {{in->slope[0][0], -in->slope[0][1]}, {in->slope[1][0], -in->slope[1][1]}};
-    invert(in->slope, from_u);
-    iso_wide_multiply(turned, (const iso_wide(*)[2])from_u, R);
-    find_back(line, (const iso_wide(*)[2])R, before->slope, s);
-    for (int c = 0; c < ISO_CLOCKS; c++) s->clock[c] = in->clock[c] + before->clock[c] + last->clock[c] / 2;
-}
-
 static bool shoot_from_half_way(const iso_periodic_map *map, const iso_return_code *code, int line, int period,
                                 iso_periodic_shot *s)
 {
     iso_periodic_fine in, before, last;
+    iso_wide A[2][2], B[2][2], from_u[2][2], R[2][2];
     if (!iso_periodic_enter(map, code, start_of(line), s->u, &in)) return false;
     memcpy(s->z, in.to, sizeof s->z);
     if (!iso_periodic_far(map, code, s->z, period - 1, s->path, &before)) return false;
     if (!iso_periodic_far(map, code, before.to, 1, s->path + period - 1, &last)) return false;
-    arrive_half_way(line, &in, &before, &last, s);
+    iso_wide_multiply((const iso_wide(*)[2])before.slope, (const iso_wide(*)[2])in.slope, A);
+    iso_wide_multiply((const iso_wide(*)[2])last.slope, (const iso_wide(*)[2])A, B);
+    arrive(line, &(arrival){before.to, last.to, A, B, before.determinant * in.determinant}, s);
+    iso_periodic_join(&before, &last, &s->half);
+    /* D(g S) at z turns over c, and leaves u as it is */
+    const iso_wide turned[2][2] = {{in.slope[0][0], -in.slope[0][1]}, {in.slope[1][0], -in.slope[1][1]}};
+    invert((const iso_wide(*)[2])in.slope, from_u);
+    iso_wide_multiply(turned, (const iso_wide(*)[2])from_u, R);
+    find_back(line, (const iso_wide(*)[2])R, (const iso_wide(*)[2])before.slope, s);
+    for (int c = 0; c < ISO_CLOCKS; c++) s->clock[c] = in.clock[c] + before.clock[c] + last.clock[c] / 2;
     return true;
 }
 

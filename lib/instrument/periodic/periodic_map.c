@@ -75,7 +75,7 @@ static void begin(void *user, size_t i, iso_start *start, iso_batch_orbit *orbit
     for (int j = 3; j < ISO_STATE && p->over; j++) start->y[j] = -start->y[j];
 }
 
-static iso_status keep(void *user, size_t i, const iso_walk_stop *stop)
+static iso_status store(void *user, size_t i, const iso_walk_stop *stop)
 {
     const points *p = user;
     const iso_crossing *c = stop->crossing[0];
@@ -91,7 +91,7 @@ static iso_status go(points *p, size_t count, double tolerance)
 {
     const iso_periodic_map *map = p->map;
     iso_walk w = {.ctx = map->ctx, .count = count, .most = p->each, .models = 1};
-    w.user = p, w.begin = begin, w.visit = keep;
+    w.user = p, w.begin = begin, w.visit = store;
     w.options[0] = iso_crossings_defaults();
     w.options[0].axis = map->axis;
     w.options[0].deviations = p->z != NULL;
@@ -101,7 +101,7 @@ static iso_status go(points *p, size_t count, double tolerance)
     return iso_walk_go(&w);
 }
 
-/* *to: the way to *first, and then *next, which begins there. */
+/* *to: the piece to *first, and then to *next, which begins there. */
 static void join_points(const iso_periodic_point *first, const iso_periodic_point *next, iso_periodic_point *to)
 {
     to->l = next->l, to->x = next->x;
@@ -114,14 +114,12 @@ iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const do
                              bool whole, double tolerance, iso_periodic_point *to)
 {
     const size_t each = (size_t)halves;
-    if (count == 0) return ISO_OK;
-    points p = {.map = map, .z = from, .each = each, .to = to};
-    if (whole) return go(&p, count, tolerance);
+    if (whole) return go(&(points){.map = map, .z = from, .each = each, .to = to}, count, tolerance);
     double(*z)[2] = malloc(count * sizeof *z);
     iso_periodic_point *part = malloc(count * sizeof *part);
     iso_status status = z && part ? ISO_OK : iso_context_no_memory(map->ctx, "orbits");
     if (status == ISO_OK) memcpy(z, from, count * sizeof *z);
-    p = (points){.map = map, .z = (const double(*)[2])z, .over = true, .each = 1, .to = part};
+    points p = {.map = map, .z = (const double(*)[2])z, .over = true, .each = 1, .to = part};
     for (size_t n = 0; n < each && status == ISO_OK; n++) {
         status = go(&p, count, tolerance);
         for (size_t i = 0; i < count && status == ISO_OK; i++) {
@@ -139,16 +137,9 @@ iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const do
 }
 
 iso_status iso_periodic_enter_many(const iso_periodic_map *map, iso_return_start start, size_t count,
-                                   const double u[], double (*to)[2])
+                                   const double u[], iso_periodic_point *to)
 {
-    if (count == 0) return ISO_OK;
-    iso_periodic_point *first = malloc(count * sizeof *first);
-    if (!first) return iso_context_no_memory(map->ctx, "orbits");
-    points p = {.map = map, .from = start, .u = u, .each = 1, .to = first};
-    const iso_status status = go(&p, count, 1e-13);
-    for (size_t i = 0; i < count; i++) to[i][0] = first[i].l, to[i][1] = first[i].x;
-    free(first);
-    return status;
+    return go(&(points){.map = map, .from = start, .u = u, .each = 1, .to = to}, count, 1e-13);
 }
 
 /* --- one point in more digits ----------------------------------------------------------------------------------- */
@@ -175,17 +166,11 @@ static iso_wide q_of(const iso_periodic_map *map, const iso_return *r)
     return r->start == ISO_FROM_POLE ? Ja : map->p.J[(map->axis + beside) % 3] * C * C + Ja * S * S;
 }
 
-/* 1 + H q^(1/k): 0 where the point rests. */
-static iso_wide moving(const iso_periodic_map *map, iso_wide q)
-{
-    return 1 + map->energy * WIDE_POW(q, 1 / (iso_wide)map->p.k);
-}
-
 /* G(l)/G(l'), by q and q': G^2 = 2 q^(-1/k) (1 + H q^(1/k)). */
 static iso_wide law(const iso_periodic_map *map, iso_wide q, iso_wide to)
 {
-    const iso_wide level = map->energy != 0 ? WIDE_ROOT(moving(map, q) / moving(map, to)) : 1;
-    return WIDE_POW(to / q, 1 / (2 * (iso_wide)map->p.k)) * level;
+    const iso_wide k = (iso_wide)map->p.k, H = map->energy, ratio = WIDE_POW(to / q, 1 / (2 * k));
+    return H == 0 ? ratio : ratio * WIDE_ROOT((1 + H * WIDE_POW(q, 1 / k)) / (1 + H * WIDE_POW(to, 1 / k)));
 }
 
 iso_wide iso_periodic_determinant(const iso_periodic_map *map, iso_wide l, iso_wide to)
@@ -221,16 +206,6 @@ static bool go_once(const iso_periodic_map *map, const iso_return_code *code, is
     return true;
 }
 
-static iso_periodic_fine fine_of(const iso_return *r)
-{
-    iso_periodic_fine way = {.determinant = determinant_of(r)};
-    for (int i = 0; i < 2; i++) way.to[i] = iso_wide_of(r->to[i]);
-    for (int i = 0; i < 2; i++)
-        for (int j = 0; j < 2; j++) way.slope[i][j] = iso_wide_of(r->slope[i][j]);
-    for (int c = 0; c < ISO_CLOCKS; c++) way.clock[c] = iso_wide_of(r->clock[c]);
-    return way;
-}
-
 void iso_periodic_join(const iso_periodic_fine *first, const iso_periodic_fine *next, iso_periodic_fine *both)
 {
     *both = *next;
@@ -241,26 +216,30 @@ void iso_periodic_join(const iso_periodic_fine *first, const iso_periodic_fine *
 
 /* Goes on by one return. */
 static bool go_on(const iso_periodic_map *map, const iso_return_code *code, iso_return_start start,
-                  iso_periodic_fine *way)
+                  iso_periodic_fine *orbit)
 {
-    iso_return r = {.start = start, .from = {iso_fine_of(way->to[0]), iso_fine_of(way->to[1])}};
+    iso_return r = {.start = start, .from = {iso_fine_of(orbit->to[0]), iso_fine_of(orbit->to[1])}};
     if (!go_once(map, code, &r)) return false;
-    const iso_periodic_fine before = *way, next = fine_of(&r);
-    iso_periodic_join(&before, &next, way);
+    const iso_periodic_fine before = *orbit;
+    iso_periodic_fine next = {.determinant = determinant_of(&r)};
+    for (int i = 0; i < 2; i++) {
+        next.to[i] = iso_wide_of(r.to[i]);
+        for (int j = 0; j < 2; j++) next.slope[i][j] = iso_wide_of(r.slope[i][j]);
+    }
+    for (int c = 0; c < ISO_CLOCKS; c++) next.clock[c] = iso_wide_of(r.clock[c]);
+    iso_periodic_join(&before, &next, orbit);
     return true;
 }
 
-static void stand_at(const iso_wide from[2], iso_periodic_fine *way)
+static iso_periodic_fine standing_at(iso_wide first, iso_wide second)
 {
-    memset(way, 0, sizeof *way);
-    way->slope[0][0] = way->slope[1][1] = way->determinant = 1;
-    for (int i = 0; i < 2; i++) way->to[i] = from[i];
+    return (iso_periodic_fine){.to = {first, second}, .slope = {{1, 0}, {0, 1}}, .determinant = 1};
 }
 
 bool iso_periodic_far(const iso_periodic_map *map, const iso_return_code *code, const iso_wide from[2], int halves,
                       double (*path)[2], iso_periodic_fine *found)
 {
-    stand_at(from, found);
+    *found = standing_at(from[0], from[1]);
     for (int n = 0; n < halves;) {
         const bool half = path || (halves - n) % 2 == 1;
         if (!go_on(map, code, half ? ISO_FROM_BELOW : ISO_FROM_CHART, found)) return false;
@@ -273,6 +252,6 @@ bool iso_periodic_far(const iso_periodic_map *map, const iso_return_code *code, 
 bool iso_periodic_enter(const iso_periodic_map *map, const iso_return_code *code, iso_return_start start, iso_wide u,
                         iso_periodic_fine *found)
 {
-    stand_at((const iso_wide[2]){u, 0}, found);
+    *found = standing_at(u, 0);
     return go_on(map, code, start, found);
 }

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/math_impl.h"
 #include "base/names_impl.h"
-#include "base/pi_impl.h"
 #include "base/pool_impl.h"
 #include "instrument/periodic/periodic_impl.h"
 #include "map/state.h"
@@ -26,7 +26,7 @@ double iso_periodic_angle(double l)
     return l <= -ISO_PI ? l + 2 * ISO_PI : l;
 }
 
-/* Whether two points of the section are the same, up to what tells orbits apart. */
+/* Whether two points of the section are the same, up to what distinguishes orbits. */
 static bool meet(const double a[2], const double b[2])
 {
     return fabs(remainder(a[0] - b[0], 2 * ISO_PI)) < SAME && fabs(a[1] - b[1]) < SAME;
@@ -49,20 +49,13 @@ static bool is_known(const iso_periodic_work *w, int period, double l, double x)
 
 static iso_status remember(iso_periodic_work *w, int period, const double (*path)[2])
 {
-    const size_t count = 2 * (size_t)period;
-    if (w->folded_count + count > w->folded_room) {
-        const size_t room = 2 * (w->folded_room + count);
-        struct iso_periodic_folded *larger = realloc(w->folded, room * sizeof *larger);
-        if (!larger) return iso_context_no_memory(w->ctx, "the orbits");
-        w->folded = larger;
-        w->folded_room = room;
+    iso_status status = ISO_OK;
+    for (int i = 0; i < 2 * period && status == ISO_OK; i++) {
+        struct iso_periodic_folded f = {.period = period};
+        iso_periodic_fold(path[i], f.z);
+        status = iso_periodic_append(w->ctx, &w->folded, &w->folded_count, &f, sizeof f);
     }
-    for (size_t i = 0; i < count; i++) {
-        struct iso_periodic_folded *f = &w->folded[w->folded_count++];
-        f->period = period;
-        iso_periodic_fold(path[i], f->z);
-    }
-    return ISO_OK;
+    return status;
 }
 
 /* --- symmetry and copies ---------------------------------------------------------------------------------------- */
@@ -119,52 +112,39 @@ static void find_copies(const double (*path)[2], iso_periodic_orbit *o)
 
 /* --- the list --------------------------------------------------------------------------------------------------- */
 
-static iso_status append(iso_periodic_work *w, const iso_periodic_orbit *o)
+iso_status iso_periodic_append(iso_context *ctx, void *list, size_t *count, const void *item, size_t size)
 {
-    iso_periodic *out = w->out;
-    if (out->count == w->room) {
-        const size_t room = 2 * w->room + 16;
-        iso_periodic_orbit *larger = realloc(out->orbit, room * sizeof *larger);
-        if (!larger) return iso_context_no_memory(w->ctx, "the orbits");
-        out->orbit = larger;
-        w->room = room;
+    char *items; /* pointers to data all look alike */
+    memcpy(&items, list, sizeof items);
+    if ((*count & (*count - 1)) == 0) {
+        char *larger = realloc(items, 2 * (*count + 1) * size);
+        if (!larger) return iso_context_no_memory(ctx, "orbits");
+        items = larger;
+        memcpy(list, &items, sizeof items);
     }
-    out->orbit[out->count++] = *o;
+    memcpy(items + (*count)++ * size, item, size);
     return ISO_OK;
-}
-
-/* Whether f^n z = z for some n less than the period. */
-static bool has_less(const iso_periodic_orbit *o, const double (*path)[2])
-{
-    const double z[2] = {o->l, o->x};
-    for (int n = 1; n < o->period; n++)
-        if (o->period % n == 0 && meet(path[2 * n - 1], z)) return true;
-    return false;
-}
-
-/* The start in both models, and everything in the scene's units. */
-static void tell_states(const iso_periodic_work *w, iso_periodic_orbit *o)
-{
-    const iso_params *p = &w->scene->params;
-    const double h = w->h * iso_unit(&w->units, iso_dimension_h);
-    for (int c = 0; c < ISO_CLOCKS; c++) o->clock[c] *= w->unit_clock[c];
-    iso_section_point((iso_point_motion){p, iso_coupling(p, h), w->H}, w->map.axis, o->l, o->x, o->point);
-    iso_point_to_ball(p, o->point, o->ball);
 }
 
 static iso_status add_orbit(iso_periodic_work *w, const iso_periodic_orbit *solved, const double (*path)[2])
 {
     iso_periodic_orbit o = *solved;
+    const iso_params *p = &w->scene->params;
     const size_t size = 2 * (size_t)o.period * sizeof *path;
-    if (is_known(w, o.period, o.l, o.x) || has_less(&o, path)) return ISO_OK;
-    tell_states(w, &o);
+    if (is_known(w, o.period, o.l, o.x)) return ISO_OK;
+    for (int n = 1; n < o.period; n++) /* its period is less if f^n z = z */
+        if (o.period % n == 0 && meet(path[2 * n - 1], (const double[2]){o.l, o.x})) return ISO_OK;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.clock[c] *= w->unit_clock[c];
+    const double eps = iso_coupling(p, w->on.h * iso_unit(&w->on.units, iso_dimension_h));
+    iso_section_point((iso_point_motion){p, eps, w->on.H}, w->map.axis, o.l, o.x, o.point);
+    iso_point_to_ball(p, o.point, o.ball);
     find_symmetry(path, &o);
     find_copies(path, &o);
     o.half = malloc(size);
     if (!o.half) return iso_context_no_memory(w->ctx, "an orbit");
     memcpy(o.half, path, size);
     iso_status status = remember(w, o.period, path);
-    if (status == ISO_OK) status = append(w, &o);
+    if (status == ISO_OK) status = iso_periodic_append(w->ctx, &w->out->orbit, &w->out->count, &o, sizeof o);
     if (status != ISO_OK) free(o.half);
     return status;
 }
@@ -234,7 +214,7 @@ void iso_periodic_digits(double head, double tail, char text[ISO_DIGITS_SIZE])
 
 ISO_NAMES(iso_symmetry_line_name, int, "S1", "S2", "S3", "TS1", "TS2", "TS3")
 
-int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE])
+int iso_symmetry_text(int symmetry, char text[ISO_DIGITS_SIZE])
 {
     int length = 0;
     text[0] = 0;

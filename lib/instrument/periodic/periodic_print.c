@@ -1,4 +1,4 @@
-/* periodic_print.c - what periodic tells people: of the list, of branches, of the chart (study/study.h). */
+/* periodic_print.c - the text of periodic: the list, branches, the chart (study/study.h). */
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,14 +9,6 @@
 static void print_level(FILE *to, double level)
 {
     if (level != 0) fprintf(to, "level of the point, (H/eps) J2^(1/k): %s\n", ISO_SHORT(level));
-}
-
-static void print_multipliers(FILE *to, const iso_multipliers *m)
-{
-    if (m->krein)
-        fprintf(to, "exp(+-%.9g i), Krein %+d", atan2(m->value[0][1], m->value[0][0]), m->krein);
-    else
-        fprintf(to, "%.9g, %.9g", m->value[0][0], m->value[1][0]);
 }
 
 static void print_rotations(FILE *to, const iso_periodic *found, bool polish)
@@ -33,9 +25,12 @@ static void print_rotations(FILE *to, const iso_periodic *found, bool polish)
             continue;
         }
         fprintf(to, "%d\t%s\t%.1e\t%s\t", a + 1, polish ? text : ISO_ROUNDED(o->half_turn_trace, 15), o->error,
-                iso_stability_name(o->half.stability));
-        print_multipliers(to, &o->half);
-        fputs("\n", to);
+                iso_stability_name((int)o->half.stability));
+        const iso_multipliers *m = &o->half;
+        if (m->krein)
+            fprintf(to, "exp(+-%.9g i), Krein %+d\n", atan2(m->value[0][1], m->value[0][0]), m->krein);
+        else
+            fprintf(to, "%.9g, %.9g\n", m->value[0][0], m->value[1][0]);
     }
     iso_table_end(to);
 }
@@ -43,25 +38,22 @@ static void print_rotations(FILE *to, const iso_periodic *found, bool polish)
 static void print_orbit(FILE *to, const iso_periodic *found, bool polish, size_t i)
 {
     const iso_periodic_orbit *o = &found->orbit[i];
-    char words[ISO_DIGITS_SIZE], l[ISO_DIGITS_SIZE], x[ISO_DIGITS_SIZE], trace[ISO_DIGITS_SIZE];
-    iso_symmetry_words(o->symmetry, words);
+    char symmetry[ISO_DIGITS_SIZE], l[ISO_DIGITS_SIZE], x[ISO_DIGITS_SIZE], trace[ISO_DIGITS_SIZE];
+    iso_symmetry_text(o->symmetry, symmetry);
     if (!polish) {
         fprintf(to, "%zu\t%d\t%.15f\t%.15f\t%.11g\t%.0e\t%s\t%s\t%d\t%.9g\n", i + 1, o->period, o->l, o->x, o->trace,
-                o->error, iso_stability_name(o->multipliers.stability), words, o->copies, o->clock[0]);
+                o->error, iso_stability_name((int)o->multipliers.stability), symmetry, o->copies, o->clock[0]);
         return;
     }
     iso_periodic_digits(o->l, o->l_tail, l);
     iso_periodic_digits(o->x, o->x_tail, x);
     iso_periodic_digits(o->trace, o->trace_tail, trace);
     fprintf(to, "%zu\t%d\t%s\t%s\t%s\t%.0e\t%.0e\t%s\t%s\n", i + 1, o->period, l, x, trace, o->error, o->closure,
-            iso_stability_name(o->multipliers.stability), words);
+            iso_stability_name((int)o->multipliers.stability), symmetry);
 }
 
-static void print_list(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
+static void print_list(FILE *to, const iso_params *p, const iso_periodic_options *how, const iso_periodic *f)
 {
-    const iso_periodic_options *how = &((const iso_periodic_request *)options)->how;
-    const iso_periodic *f = result->found;
-    const iso_params *p = &scene->params;
     size_t copies = 0, tori = 0;
     iso_params_print(to, p);
     fprintf(to, "; section n_%d = 0, n_%d increasing\n", f->axis + 1, f->axis + 1);
@@ -91,41 +83,35 @@ static void print_list(FILE *to, const iso_scene *scene, const void *options, co
             ISO_SHORT(p->k), tori);
 }
 
-static void print_branch(FILE *to, const iso_continuations *f, size_t i, const char *name)
+static void print_branches(FILE *to, const iso_continuations *f)
 {
-    const iso_branch *b = &f->branch[i];
-    double low = INFINITY, high = -INFINITY;
-    for (size_t j = 0; j < b->points; j++) low = fmin(low, b->point[j].value), high = fmax(high, b->point[j].value);
-    fprintf(to, "\nbranch %zu: period %d, on the line of %s, %s from %.12g to %.12g, %zu points", i + 1, b->period,
-            iso_symmetry_line_name(b->line), name, low, high, b->points);
-    if (b->parent >= 0) fprintf(to, ", from branch %d", b->parent + 1);
-    fputs("\n", to);
-    if (b->events == 0) return;
-    iso_table_begin(to, 1);
-    fprintf(to, "event\t%s\tl\tx\ttrace\twhat happens\n", name);
-    for (size_t j = 0; j < b->events; j++)
-        fprintf(to, "%s\t%.13g\t%.9g\t%.9g\t%.8g\t%s\n", iso_branch_kind_name(b->event[j].kind), b->event[j].at.value,
-                b->event[j].at.l, b->event[j].at.x, b->event[j].at.trace, b->event[j].words);
-    iso_table_end(to);
-}
-
-static void print_branches(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
-{
-    const iso_continuations *f = result->found;
-    (void)scene, (void)options;
-    for (size_t i = 0; i < f->count; i++) print_branch(to, f, i, iso_vary_name((int)f->vary));
+    const char *name = iso_vary_name((int)f->vary);
+    for (const iso_branch *b = f->branch; b < f->branch + f->count; b++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t j = 0; j < b->points; j++)
+            low = fmin(low, b->point[j].value), high = fmax(high, b->point[j].value);
+        fprintf(to, "\nbranch %zu: period %d, on the line of %s, %s from %.12g to %.12g, %zu points",
+                (size_t)(b - f->branch) + 1, b->period, iso_symmetry_line_name(b->line), name, low, high, b->points);
+        if (b->parent >= 0) fprintf(to, ", from branch %d", b->parent + 1);
+        fputs("\n", to);
+        if (b->events == 0) continue;
+        iso_table_begin(to, 1);
+        fprintf(to, "event\t%s\tl\tx\ttrace\twhat happens\n", name);
+        for (const iso_branch_event *e = b->event; e < b->event + b->events; e++)
+            fprintf(to, "%s\t%.13g\t%.9g\t%.9g\t%.8g\t%s\n", iso_branch_kind_name((int)e->kind), e->at.value, e->at.l,
+                    e->at.x, e->at.trace, e->text);
+        iso_table_end(to);
+    }
 }
 
 #define EDGE 1e-9 /* with equal moments a trace is 2 or -2 up to rounding */
 
-static void print_chart(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
+static void print_chart(FILE *to, const iso_chart_found *f)
 {
-    const iso_chart_found *f = result->found;
     const iso_stability_options *o = &f->how;
     const iso_record *grid = f->grid;
     size_t count[2][3] = {{0}}, none[2] = {0};
     static const char *const axes[] = {"least", "greatest"};
-    (void)scene, (void)options;
     for (size_t i = 0; i < iso_record_rows(grid); i++)
         for (int which = 0; which < 2; which++) {
             const double T = iso_record_const_row(grid, i)[2 + which];
@@ -185,11 +171,11 @@ void iso_periodic_print(FILE *to, const iso_scene *scene, const void *options, c
 {
     const iso_periodic_request *r = options;
     if (r->chart)
-        print_chart(to, scene, options, result);
+        print_chart(to, result->found);
     else if (r->follow)
-        print_branches(to, scene, options, result);
+        print_branches(to, result->found);
     else
-        print_list(to, scene, options, result);
+        print_list(to, &scene->params, &r->how, result->found);
 }
 
 iso_status iso_periodic_describe(iso_context *ctx, const iso_scene *scene, const void *options,

@@ -1,6 +1,6 @@
 /* periodic_search.c - symmetric periodic orbits: roots along the symmetry lines; orbits of any kind: from a grid.
  *
- * u runs along a line, and F_n(u) tells how far the orbit is from the same line n half returns later. F_n is sampled
+ * u runs along a line, and F_n(u) is how far the orbit is from the same line n half returns later. F_n is sampled
  * with its derivative, closer and closer until between two samples each F_n either has no zero or is monotone. A sign
  * change then holds one zero, a point of an orbit of period n or a divisor of it.
  */
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "instrument/periodic/periodic_impl.h"
 #include "map/section_impl.h"
 
@@ -18,9 +18,14 @@ enum { FIRST = 192 /* intervals of a line at first */, DEEPEST = 14 /* halvings 
 
 /* --- samples ---------------------------------------------------------------------------------------------------- */
 
+/* F_n at a place, and its slope by u. */
+typedef struct miss {
+    double off, slope;
+} miss;
+
 typedef struct sample {
     double u;
-    double off[ISO_PERIODIC_MOST], slope[ISO_PERIODIC_MOST]; /* of F_1, F_2, ... */
+    miss F[ISO_PERIODIC_MOST];
 } sample;
 
 typedef struct interval {
@@ -41,62 +46,45 @@ typedef struct search {
     iso_periodic_work *w;
     int line, periods;
     sample *sample;
-    size_t samples, sample_room;
+    size_t samples;
     interval *open; /* intervals to look at */
-    size_t opened, open_room;
+    size_t opened;
     bracket *bracket;
-    size_t brackets, bracket_room;
+    size_t brackets;
 } search;
 
-/* Makes room for `more` further items. */
-static iso_status grow(iso_context *ctx, void **list, size_t *room, size_t count, size_t more, size_t size)
-{
-    if (count + more <= *room) return ISO_OK;
-    const size_t wanted = 2 * (count + more);
-    void *larger = realloc(*list, wanted * size);
-    if (!larger) return iso_context_no_memory(ctx, "the search");
-    *list = larger;
-    *room = wanted;
-    return ISO_OK;
-}
-
-/* F_1 to F_halves of the line at u[i], and their slopes, are off[halves i], ... */
-typedef struct misses {
+/* Of the line at u[i]: F_1 to F_halves are F[halves i], ... */
+typedef struct shots {
     double (*z)[2], (*z_by_u)[2];     /* the first point on the section, and its derivative */
     double (*end)[2], (*end_by_u)[2]; /* g^halves of it                                     */
-    double *off, *slope;
-    bool *there;
-} misses;
+    bool *there;                      /* it is the orbit's own mirror image                 */
+    miss *F;
+} shots;
 
-static void free_misses(misses *m)
+static void free_shots(shots *m)
 {
     free(m->z);
-    free(m->z_by_u);
-    free(m->end);
-    free(m->end_by_u);
-    free(m->off);
-    free(m->slope);
     free(m->there);
+    free(m->F);
 }
 
-static iso_status make_misses(const search *s, size_t count, size_t halves, misses *m)
+static iso_status make_shots(const search *s, size_t count, shots *m)
 {
-    m->z = malloc((count + 1) * sizeof *m->z);
-    m->z_by_u = malloc((count + 1) * sizeof *m->z_by_u);
-    m->end = malloc((count + 1) * sizeof *m->end);
-    m->end_by_u = malloc((count + 1) * sizeof *m->end_by_u);
-    m->off = malloc((count * halves + 1) * sizeof *m->off);
-    m->slope = malloc((count * halves + 1) * sizeof *m->slope);
-    m->there = malloc((count * halves + 1) * sizeof *m->there);
-    if (m->z && m->z_by_u && m->end && m->end_by_u && m->off && m->slope && m->there) return ISO_OK;
-    free_misses(m);
+    const size_t each = count + 1;
+    m->z = malloc(4 * each * sizeof *m->z);
+    m->there = malloc(each * sizeof *m->there);
+    m->F = malloc(each * (size_t)s->periods * sizeof *m->F);
+    m->z_by_u = m->z + each, m->end = m->z + 2 * each, m->end_by_u = m->z + 3 * each;
+    if (m->z && m->there && m->F) return ISO_OK;
+    free_shots(m);
     return iso_context_no_memory(s->w->ctx, "the search");
 }
 
-static iso_status evaluate(const search *s, size_t count, const double u[], int halves, double tolerance, misses *m)
+static iso_status shoot(const search *s, size_t count, const double u[], int halves, double tolerance, shots *m)
 {
     const size_t each = (size_t)halves;
-    iso_periodic_point *at = malloc((count * each + 1) * sizeof *at);
+    if (count == 0) return ISO_OK;
+    iso_periodic_point *at = malloc(count * each * sizeof *at);
     iso_status status = at ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
     if (status == ISO_OK) status = iso_periodic_place(&s->w->map, s->line, count, u, m->z, m->z_by_u);
     if (status == ISO_OK)
@@ -104,7 +92,7 @@ static iso_status evaluate(const search *s, size_t count, const double u[], int 
     for (size_t i = 0; i < count && status == ISO_OK; i++) {
         iso_periodic_point before = {m->z[i][0], m->z[i][1], {{1, 0}, {0, 1}}};
         for (size_t n = each * i; n < each * (i + 1); n++) {
-            m->off[n] = iso_periodic_miss(s->line, &before, &at[n], m->z_by_u[i], &m->slope[n], &m->there[n]);
+            m->F[n].off = iso_periodic_miss(s->line, &before, &at[n], m->z_by_u[i], &m->F[n].slope, &m->there[i]);
             before = at[n];
         }
         m->end[i][0] = before.l, m->end[i][1] = before.x;
@@ -118,18 +106,16 @@ static iso_status evaluate(const search *s, size_t count, const double u[], int 
 /* Adds samples at u[0], u[1], ... */
 static iso_status take_samples(search *s, size_t count, const double u[])
 {
-    const size_t P = (size_t)s->periods;
-    misses m;
-    ISO_TRY(grow(s->w->ctx, (void **)&s->sample, &s->sample_room, s->samples, count, sizeof(sample)));
-    ISO_TRY(make_misses(s, count, P, &m));
-    iso_status status = evaluate(s, count, u, s->periods, 1e-10, &m);
+    const size_t periods = (size_t)s->periods;
+    shots m;
+    ISO_TRY(make_shots(s, count, &m));
+    iso_status status = shoot(s, count, u, s->periods, 1e-10, &m);
     for (size_t i = 0; i < count && status == ISO_OK; i++) {
-        sample *to = &s->sample[s->samples++];
-        to->u = u[i];
-        memcpy(to->off, &m.off[P * i], P * sizeof *to->off);
-        memcpy(to->slope, &m.slope[P * i], P * sizeof *to->slope);
+        sample new = {.u = u[i]};
+        memcpy(new.F, &m.F[periods * i], periods * sizeof *new.F);
+        status = iso_periodic_append(s->w->ctx, &s->sample, &s->samples, &new, sizeof new);
     }
-    free_misses(&m);
+    free_shots(&m);
     return status;
 }
 
@@ -139,21 +125,12 @@ static bool alike(double a, double b)
     return ratio > 1.0 / 3 && ratio < 3;
 }
 
-/* Whether F_n has at most one zero in the interval, as far as its ends can tell. */
+/* Whether F_n has at most one zero in the interval, as far as its ends show. */
 static bool is_clear(const sample *a, const sample *b, int n)
 {
-    const double h = b->u - a->u, F[2] = {a->off[n], b->off[n]}, D[2] = {a->slope[n], b->slope[n]};
+    const double h = b->u - a->u, F[2] = {a->F[n].off, b->F[n].off}, D[2] = {a->F[n].slope, b->F[n].slope};
     if (F[0] * F[1] > 0 && fmin(fabs(F[0]), fabs(F[1])) > 1.5 * h * fmax(fabs(D[0]), fabs(D[1]))) return true;
     return alike(D[0], D[1]) && alike((F[1] - F[0]) / h, D[0]) && alike((F[1] - F[0]) / h, D[1]);
-}
-
-static iso_status add_bracket(search *s, const sample *a, const sample *b, int n)
-{
-    ISO_TRY(grow(s->w->ctx, (void **)&s->bracket, &s->bracket_room, s->brackets, 1, sizeof(bracket)));
-    const double low = a->u, high = b->u, part = a->off[n] / (a->off[n] - b->off[n]);
-    s->bracket[s->brackets++] =
-        (bracket){.n = n + 1, .low = low, .high = high, .off_low = a->off[n], .u = low + part * (high - low)};
-    return ISO_OK;
 }
 
 /* Looks at an interval: *split, or its sign changes become brackets. */
@@ -165,38 +142,41 @@ static iso_status look_at(search *s, const interval *in, bool *split)
     *split = !clear && in->depth < DEEPEST && s->samples < MOST_SAMPLES;
     if (*split) return ISO_OK;
     s->w->out->unresolved += !clear;
-    for (int n = 0; n < s->periods; n++)
-        if (a->off[n] * b->off[n] < 0 || a->off[n] == 0) ISO_TRY(add_bracket(s, a, b, n));
+    for (int n = 0; n < s->periods; n++) {
+        const double low = a->F[n].off, high = b->F[n].off;
+        bracket new = {.n = n + 1, .low = a->u, .high = b->u, .off_low = low};
+        new.u = a->u + low / (low - high) * (b->u - a->u);
+        if (low * high < 0 || low == 0)
+            ISO_TRY(iso_periodic_append(s->w->ctx, &s->bracket, &s->brackets, &new, sizeof new));
+    }
     return ISO_OK;
 }
 
 /* One round: intervals that are not clear are halved. */
 static iso_status refine_samples(search *s)
 {
-    const size_t before = s->opened, first = s->samples;
-    interval *old = s->open;
-    double *u = malloc(before * sizeof *u);
-    size_t halved = 0;
+    const size_t first = s->samples;
+    double *u = malloc(s->opened * sizeof *u);
+    interval *next = NULL;
+    size_t halved = 0, opened = 0;
     iso_status status = u ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
-    for (size_t i = 0; i < before && status == ISO_OK; i++) {
+    for (size_t i = 0; i < s->opened && status == ISO_OK; i++) {
+        const interval in = s->open[i];
         bool split;
-        status = look_at(s, &old[i], &split);
-        if (!split) continue;
-        u[halved] = (s->sample[old[i].left].u + s->sample[old[i].right].u) / 2;
-        old[halved++] = old[i];
+        status = look_at(s, &in, &split);
+        if (split) u[halved] = (s->sample[in.left].u + s->sample[in.right].u) / 2, s->open[halved++] = in;
     }
     if (status == ISO_OK && halved > 0) status = take_samples(s, halved, u);
-    s->opened = 0;
-    s->open = NULL;
-    s->open_room = 0;
-    if (status == ISO_OK)
-        status = grow(s->w->ctx, (void **)&s->open, &s->open_room, 0, 2 * halved + 1, sizeof(interval));
-    for (size_t i = 0; i < halved && status == ISO_OK; i++) {
-        s->open[s->opened++] = (interval){old[i].left, first + i, old[i].depth + 1};
-        s->open[s->opened++] = (interval){first + i, old[i].right, old[i].depth + 1};
+    for (size_t i = 0; i < 2 * halved && status == ISO_OK; i++) {
+        interval half = s->open[i / 2];
+        *(i % 2 == 0 ? &half.right : &half.left) = first + i / 2;
+        half.depth++;
+        status = iso_periodic_append(s->w->ctx, &next, &opened, &half, sizeof half);
     }
-    free(old);
+    free(s->open);
     free(u);
+    s->open = next;
+    s->opened = opened;
     return status;
 }
 
@@ -208,8 +188,10 @@ static iso_status sample_line(search *s)
     if (!(end > 0)) return ISO_OK;
     for (int i = 0; i <= FIRST; i++) u[i] = range[0] + SKIPPED + end * i / FIRST;
     ISO_TRY(take_samples(s, FIRST + 1, u));
-    ISO_TRY(grow(s->w->ctx, (void **)&s->open, &s->open_room, 0, FIRST, sizeof(interval)));
-    for (size_t i = 0; i < FIRST; i++) s->open[s->opened++] = (interval){i, i + 1, 0};
+    for (size_t i = 0; i < FIRST; i++) {
+        const interval in = {i, i + 1, 0};
+        ISO_TRY(iso_periodic_append(s->w->ctx, &s->open, &s->opened, &in, sizeof in));
+    }
     while (s->opened > 0) ISO_TRY(refine_samples(s));
     return ISO_OK;
 }
@@ -236,18 +218,18 @@ static void next_guess(bracket *b, double off, double slope)
 }
 
 /* One step of all brackets of F_n. *left: how many go on. */
-static iso_status step_roots(search *s, int n, double u[], size_t of[], misses *m, size_t *left)
+static iso_status step_roots(search *s, int n, double u[], size_t of[], shots *m, size_t *left)
 {
     size_t count = 0;
     *left = 0;
     for (size_t i = 0; i < s->brackets; i++)
         if (s->bracket[i].n == n && !s->bracket[i].done) u[count] = s->bracket[i].u, of[count++] = i;
-    const iso_status status = evaluate(s, count, u, n, 1e-13, m);
+    const iso_status status = shoot(s, count, u, n, 1e-13, m);
     for (size_t i = 0; i < count && status == ISO_OK; i++) {
-        const size_t end = (size_t)n * (i + 1) - 1;
         bracket *b = &s->bracket[of[i]];
-        b->there = m->there[end];
-        next_guess(b, m->off[end], m->slope[end]);
+        const miss *F = &m->F[(size_t)n * (i + 1) - 1];
+        b->there = m->there[i];
+        next_guess(b, F->off, F->slope);
         for (int j = 0; j < 2; j++) {
             b->z[j] = m->z[i][j] + (b->u - u[i]) * m->z_by_u[i][j];
             b->end[j] = m->end[i][j] + (b->u - u[i]) * m->end_by_u[i][j];
@@ -259,12 +241,11 @@ static iso_status step_roots(search *s, int n, double u[], size_t of[], misses *
 
 static iso_status find_roots(search *s)
 {
-    misses m;
-    iso_status status = make_misses(s, s->brackets, (size_t)s->periods, &m);
-    if (status != ISO_OK) return status;
+    shots m;
+    ISO_TRY(make_shots(s, s->brackets, &m));
     double *u = malloc((s->brackets + 1) * sizeof *u);
     size_t *of = malloc((s->brackets + 1) * sizeof *of);
-    if (!u || !of) status = iso_context_no_memory(s->w->ctx, "the search");
+    iso_status status = u && of ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
     for (int n = 1; n <= s->periods && status == ISO_OK; n++) {
         size_t left = 1;
         for (int steps = 0; steps < 40 && left > 0 && status == ISO_OK; steps++)
@@ -272,7 +253,7 @@ static iso_status find_roots(search *s)
     }
     free(u);
     free(of);
-    free_misses(&m);
+    free_shots(&m);
     return status;
 }
 
@@ -311,22 +292,19 @@ static iso_status add_roots(search *s)
     return status;
 }
 
-static iso_status search_line(iso_periodic_work *w, int line)
-{
-    search s = {.w = w, .line = line, .periods = w->options.period};
-    iso_status status = sample_line(&s);
-    if (status == ISO_OK) status = find_roots(&s);
-    if (status == ISO_OK) status = add_roots(&s);
-    free(s.sample);
-    free(s.open);
-    free(s.bracket);
-    return status;
-}
-
 iso_status iso_periodic_search(iso_periodic_work *w)
 {
-    for (int line = 0; line < LINES; line++) ISO_TRY(search_line(w, line));
-    return ISO_OK;
+    iso_status status = ISO_OK;
+    for (int line = 0; line < LINES && status == ISO_OK; line++) {
+        search s = {.w = w, .line = line, .periods = w->options.period};
+        status = sample_line(&s);
+        if (status == ISO_OK) status = find_roots(&s);
+        if (status == ISO_OK) status = add_roots(&s);
+        free(s.sample);
+        free(s.open);
+        free(s.bracket);
+    }
+    return status;
 }
 
 /* --- other orbits, from a grid ---------------------------------------------------------------------------------- */
@@ -349,31 +327,28 @@ static bool step(const iso_periodic_point *end, double z[2], bool *found)
     return fabs(z[1]) < 1 - 1e-6;
 }
 
-/* The points that go on move to the front; those that have arrived are tried. */
-static iso_status sweep(iso_periodic_work *w, int period, double (*z)[2], iso_periodic_point *at,
-                        iso_periodic_candidate *arrived, size_t *count)
-{
-    iso_status status = iso_periodic_walk(&w->map, *count, (const double(*)[2])z, period, true, 1e-12, at);
-    size_t left = 0, found = 0;
-    for (size_t i = 0; i < *count && status == ISO_OK; i++) {
-        bool there = false;
-        double to[2] = {z[i][0], z[i][1]};
-        if (!step(&at[(size_t)period * i + (size_t)period - 1], to, &there)) continue;
-        if (there)
-            arrived[found++] = (iso_periodic_candidate){-1, period, NAN, to[0], to[1]};
-        else
-            z[left][0] = to[0], z[left++][1] = to[1];
-    }
-    *count = left;
-    return status == ISO_OK ? iso_periodic_add(w, arrived, found) : status;
-}
-
+/* Newton's method from all points of the grid at once. Those that go on move to the front; those that have arrived are
+ * tried. */
 static iso_status try_period(iso_periodic_work *w, const iso_section_spread *spread, int period, double (*z)[2],
                              iso_periodic_point *at, iso_periodic_candidate *arrived)
 {
     size_t count = (size_t)w->options.grid;
     for (size_t i = 0; i < count; i++) iso_section_spread_point(spread, i, &z[i][0], &z[i][1]);
-    for (int steps = 0; steps < STEPS && count > 0; steps++) ISO_TRY(sweep(w, period, z, at, arrived, &count));
+    for (int steps = 0; steps < STEPS && count > 0; steps++) {
+        size_t left = 0, found = 0;
+        ISO_TRY(iso_periodic_walk(&w->map, count, (const double(*)[2])z, period, true, 1e-12, at));
+        for (size_t i = 0; i < count; i++) {
+            bool there = false;
+            double to[2] = {z[i][0], z[i][1]};
+            if (!step(&at[(size_t)period * (i + 1) - 1], to, &there)) continue;
+            if (there)
+                arrived[found++] = (iso_periodic_candidate){-1, period, NAN, to[0], to[1]};
+            else
+                z[left][0] = to[0], z[left++][1] = to[1];
+        }
+        count = left;
+        ISO_TRY(iso_periodic_add(w, arrived, found));
+    }
     return ISO_OK;
 }
 

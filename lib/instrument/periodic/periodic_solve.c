@@ -63,7 +63,7 @@ static double growth(const solver *s)
 {
     const iso_periodic_shot *shot = &s->shot;
     if (s->line < 0) return 1 + fabs((double)s->whole.slope[0][0]);
-    return 1 + largest4((const iso_wide(*)[2])shot->way.slope) /
+    return 1 + largest4((const iso_wide(*)[2])shot->half.slope) /
                    hypot((double)shot->miss_by_u[0], (double)shot->miss_by_u[1]);
 }
 
@@ -90,7 +90,7 @@ static bool solve(solver *s)
     return false;
 }
 
-/* --- what is told of it ----------------------------------------------------------------------------------------- */
+/* --- what is known of it ---------------------------------------------------------------------------------------- */
 
 iso_multipliers iso_multipliers_of(double trace, double error, double sense)
 {
@@ -112,7 +112,7 @@ iso_multipliers iso_multipliers_of(double trace, double error, double sense)
 
 /* What other steps, the last digit of k, and the step of Newton's method that was not taken change in the trace.
  * Where an orbit passes near a saddle, rounding errors grow more on the way than the derivative of the whole
- * tells. */
+  * shows. */
 static double by_other_steps(const solver *s)
 {
     solver other = *s;
@@ -133,34 +133,26 @@ static double by_other_steps(const solver *s)
     return fabs((double)(other.trace - s->trace)) + s->slope_of_trace * fabs((double)other.step);
 }
 
-/* The whole orbit. *doubt: how much rounding errors grow on the way. The second half of a symmetric one is the mirror
+/* The whole orbit. doubt: how much rounding errors grow on the way. The second half of a symmetric one is the mirror
  * image of the first. Where it ends follows from how far the middle is from the line. */
-static void close_up(const solver *s, iso_periodic_orbit *o, iso_wide slope[2][2], double *doubt)
+static void measure(const solver *s, iso_periodic_orbit *o)
 {
     const iso_periodic_shot *shot = &s->shot;
-    const iso_wide(*back)[2] = (const iso_wide(*)[2])shot->back, *miss = shot->miss;
+    const iso_wide(*slope)[2] = s->whole.slope, (*back)[2] = shot->back, *miss = shot->miss;
+    const double digits = s->code->error;
+    iso_wide product[2][2], determinant = s->whole.determinant;
     iso_wide gap[2] = {iso_wide_wrap(s->whole.to[0] - s->z[0], 2 * WIDE_PI), s->whole.to[1] - s->z[1]};
-    iso_wide determinant = s->whole.determinant;
-    memcpy(slope, s->whole.slope, sizeof s->whole.slope);
     if (s->line >= 0) {
-        const iso_wide half = shot->way.determinant / iso_periodic_determinant(&s->map, s->z[0], shot->way.to[0]);
-        iso_wide_multiply(back, (const iso_wide(*)[2])shot->way.slope, slope);
+        const iso_wide half = shot->half.determinant / iso_periodic_determinant(&s->map, s->z[0], shot->half.to[0]);
+        iso_wide_multiply(back, shot->half.slope, product);
+        slope = (const iso_wide(*)[2])product;
         for (int i = 0; i < 2; i++) gap[i] = back[i][0] * miss[0] + back[i][1] * miss[1];
         determinant = half * half;
     }
-    const double size = largest4((const iso_wide(*)[2])slope);
-    *doubt = s->line >= 0 ? shot->terms : size;
+    const double size = largest4(slope), doubt = s->line >= 0 ? shot->terms : size;
+    const iso_fine t = iso_fine_of(s->trace);
     o->determinant = (double)(determinant - 1);
     o->closure = hypot((double)gap[0], (double)gap[1]) / fmax(1, size);
-}
-
-static void judge(const solver *s, iso_periodic_orbit *o)
-{
-    iso_wide slope[2][2];
-    double doubt;
-    const double digits = s->code->error;
-    close_up(s, o, slope, &doubt);
-    const iso_fine t = iso_fine_of(s->trace);
     o->trace = t.head;
     o->trace_tail = t.tail;
     const double moved = s->slope_of_trace * (fabs((double)s->step) + digits + 4 * o->closure);
@@ -171,25 +163,6 @@ static void judge(const solver *s, iso_periodic_orbit *o)
     o->multipliers = iso_multipliers_of(o->trace, fmax(4 * o->error, o->torus ? 1e-9 : 1e-15), (double)slope[1][0]);
 }
 
-/* The points of a symmetric orbit's second half are mirror images: S g^n z = g^(2p - n) z, or g^(2p - 1 - n) z if z
- * is the first crossing behind a line half way. */
-static void complete_path(const solver *s)
-{
-    const int p = s->period, shift = iso_symmetry_line_is_half_way(s->line) ? 1 : 0;
-    const double z[2] = {(double)s->z[0], (double)s->z[1]};
-    memcpy(s->path, s->shot.path, (size_t)p * sizeof *s->path);
-    for (int n = p + 1; n < 2 * p; n++) {
-        const int of = 2 * p - shift - n;
-        iso_periodic_reverse(iso_symmetry_line_reversor(s->line), of == 0 ? z : s->path[of - 1], s->path[n - 1]);
-    }
-}
-
-/* Of a zero of F that is no orbit the two crossings around the line are no mirror images. */
-static bool is_orbit(const solver *s)
-{
-    return s->line < 0 || hypot((double)s->shot.miss[0], (double)s->shot.miss[1]) < 1e-8;
-}
-
 iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_return_code *code,
                                        const iso_periodic_candidate *c, iso_periodic_orbit *o, double (*path)[2])
 {
@@ -197,9 +170,11 @@ iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_re
     s.z[0] = c->l, s.z[1] = c->x;
     memset(o, 0, sizeof *o);
     if (!solve(&s) || !(WIDE_ABS(s.z[1]) < 1)) return ISO_PERIODIC_LOST;
-    if (!is_orbit(&s)) return ISO_PERIODIC_NONE;
-    judge(&s, o);
+    /* of a zero of F that is no orbit the two crossings around the line are no mirror images */
+    if (s.line >= 0 && !(hypot((double)s.shot.miss[0], (double)s.shot.miss[1]) < 1e-8)) return ISO_PERIODIC_NONE;
+    measure(&s, o);
     const iso_fine z[2] = {iso_fine_of(iso_wide_wrap(s.z[0], 2 * WIDE_PI)), iso_fine_of(s.z[1])};
+    const double unwrapped[2] = {(double)s.z[0], (double)s.z[1]};
     o->line = s.line;
     o->period = s.period;
     o->u = (double)s.u;
@@ -207,8 +182,15 @@ iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_re
     o->x = z[1].head, o->x_tail = z[1].tail;
     for (int k = 0; k < ISO_CLOCKS; k++)
         o->clock[k] = s.line >= 0 ? 2 * (double)s.shot.clock[k] : (double)s.whole.clock[k];
-    if (s.line >= 0) complete_path(&s);
-    path[2 * s.period - 1][0] = o->l;
-    path[2 * s.period - 1][1] = o->x;
+    /* The points of a symmetric orbit's second half are mirror images: S g^n z = g^(2p - n) z, or g^(2p - 1 - n) z if z
+     * is the first crossing behind a line half way. */
+    const int p = s.period, shift = iso_symmetry_line_is_half_way(s.line) ? 1 : 0;
+    if (s.line >= 0) memcpy(path, s.shot.path, (size_t)p * sizeof *path);
+    for (int n = p + 1; n < 2 * p && s.line >= 0; n++) {
+        const int of = 2 * p - shift - n;
+        iso_periodic_reverse(iso_symmetry_line_reversor(s.line), of == 0 ? unwrapped : path[of - 1], path[n - 1]);
+    }
+    path[2 * p - 1][0] = o->l;
+    path[2 * p - 1][1] = o->x;
     return ISO_PERIODIC_FOUND;
 }

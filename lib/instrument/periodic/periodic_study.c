@@ -23,7 +23,7 @@ static iso_status prepare(iso_context *ctx, void *options)
     const iso_periodic_options *how = &r->how, usual = iso_periodic_defaults();
     const struct {
         bool is;
-        const char *about, *words;
+        const char *about, *text;
     } wrong[] = {
         {r->chart && r->follow, "chart", "--chart or --follow, not both"},
         {(r->orbit > 0 || r->branches) && !r->follow, "follow", "--orbit and --branches go with --follow"},
@@ -38,11 +38,12 @@ static iso_status prepare(iso_context *ctx, void *options)
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         if (wrong[i].is)
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, wrong[i].about, "periodic: %s", wrong[i].words);
+            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, wrong[i].about, "periodic: %s", wrong[i].text);
     return ISO_OK;
 }
 
-bool iso_periodic_range(const char *text, double range[2])
+/* Where the text of an option is "A:B". */
+static bool read_range(const char *text, double range[2])
 {
     const char *colon = strchr(text, ':');
     return colon && iso_number_read(text, (size_t)(colon - text), &range[0]) &&
@@ -60,13 +61,15 @@ static int named(const char *text, const char *(*name)(int))
 
 /* --- the list --------------------------------------------------------------------------------------------------- */
 
-static void free_list(void *found)
+static iso_status list(iso_context *ctx, const iso_scene *scene, iso_periodic *f, iso_study_result *result)
 {
-    iso_periodic_free(found);
-}
-
-static void tell_gaps(const iso_periodic *f, const iso_study_result *result)
-{
+    iso_field fields[ISO_MOST_FIELDS];
+    iso_record **table = &result->table[0];
+    iso_study_keep(result, f, iso_periodic_fields, iso_periodic_free);
+    iso_fields_copy(iso_periodic_fields, "orbits", fields);
+    iso_status status = iso_study_table(ctx, "periodic", scene, fields, f, iso_periodic_orbit_fields, table);
+    for (size_t i = 0; status == ISO_OK && i < f->count; i++)
+        status = iso_columns_append(ctx, iso_periodic_orbit_fields, &f->orbit[i], *table);
     if (f->unresolved > 0)
         iso_study_note(result,
                        "on %zu intervals of the symmetry lines the samples are too far apart: orbits may be missing",
@@ -77,18 +80,6 @@ static void tell_gaps(const iso_periodic *f, const iso_study_result *result)
         iso_study_note(
             result, "on this level the point can come to rest: orbits that do so and go back the same way are listed "
                     "only if they have another symmetry, or with --all");
-}
-
-static iso_status list(iso_context *ctx, const iso_scene *scene, iso_periodic *found, iso_study_result *result)
-{
-    iso_field fields[ISO_MOST_FIELDS];
-    iso_record **table = &result->table[0];
-    iso_study_keep(result, found, iso_periodic_fields, free_list);
-    iso_fields_copy(iso_periodic_fields, "orbits", fields);
-    iso_status status = iso_study_table(ctx, "periodic", scene, fields, found, iso_periodic_orbit_fields, table);
-    for (size_t i = 0; status == ISO_OK && i < found->count; i++)
-        status = iso_columns_append(ctx, iso_periodic_orbit_fields, &found->orbit[i], *table);
-    tell_gaps(found, result);
     return status;
 }
 
@@ -100,7 +91,7 @@ static iso_status read_follow(iso_context *ctx, const iso_periodic_request *r, c
     double range[2];
     const char *equals = strchr(r->follow, '=');
     const int vary = named(r->follow, iso_vary_name);
-    if (!equals || vary < 0 || !iso_periodic_range(equals + 1, range))
+    if (!equals || vary < 0 || !read_range(equals + 1, range))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                 "--follow '%s': expected NAME=A:B, NAME one of k, J1, J2, J3, ratio, level",
                                 r->follow);
@@ -137,13 +128,8 @@ static iso_status choose(iso_context *ctx, const iso_scene *scene, const iso_per
         p->k, p->J[0], p->J[1], p->J[2], found->level, r->how.period);
 }
 
-static void free_branches(void *found)
-{
-    iso_continuation_free(found);
-}
-
-static iso_status put_branches(iso_context *ctx, const iso_scene *scene, const iso_continuations *f,
-                               iso_record **table)
+static iso_status fill_branches(iso_context *ctx, const iso_scene *scene, const iso_continuations *f,
+                                iso_record **table)
 {
     iso_field columns[ISO_MOST_FIELDS], fields[ISO_MOST_FIELDS];
     iso_fields_rename(iso_branch_row_fields, "k", iso_vary_name((int)f->vary), columns);
@@ -173,13 +159,13 @@ static iso_status follow(iso_context *ctx, const iso_scene *scene, const iso_per
     if (status == ISO_OK) status = iso_continuation_run(ctx, scene, orbits, count, how, &f);
     free(orbits);
     if (!f) return status;
-    iso_study_keep(result, f, iso_continuation_fields, free_branches);
+    iso_study_keep(result, f, iso_continuation_fields, iso_continuation_free);
     for (size_t i = 0; i < f->count; i++)
         for (size_t j = 0; j < f->branch[i].events; j++) failed += f->branch[i].event[j].kind == ISO_BRANCH_FAILURE;
     result->failed = failed > 0;
     if (failed > 0)
         iso_study_note(result, "%zu branches could not be followed to their ends: see their failures", failed);
-    const iso_status made = put_branches(ctx, scene, f, &result->table[0]);
+    const iso_status made = fill_branches(ctx, scene, f, &result->table[0]);
     return status == ISO_OK ? made : status;
 }
 
@@ -206,20 +192,9 @@ static iso_status search(iso_context *ctx, const iso_scene *scene, const iso_per
 
 /* --- the chart -------------------------------------------------------------------------------------------------- */
 
-static iso_status read_level(iso_context *ctx, const iso_scene *scene, const iso_periodic_request *r,
-                             iso_stability_options *o)
-{
-    if (!r->level) return iso_level_of_scene(ctx, scene, "the chart is drawn", &o->level);
-    if (o->moment == ISO_CHART_LEVEL)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--level does not go with --chart level=A:B");
-    if (iso_number_read(r->level, strlen(r->level), &o->level)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--level '%s': expected a number", r->level);
-}
-
 static iso_status read_chart(iso_context *ctx, const iso_scene *scene, const iso_periodic_request *r,
                              iso_stability_options *o)
 {
-    double k[2] = {-3, 3}, moment[2];
     const char *equals = strchr(r->chart, '=');
     *o = iso_stability_defaults();
     o->moment = named(r->chart, iso_chart_name);
@@ -227,14 +202,18 @@ static iso_status read_chart(iso_context *ctx, const iso_scene *scene, const iso
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                 "--chart '%s': expected J1, J2 or J3, or J2=A:B, or level=A:B", r->chart);
     memcpy(o->J, scene->params.J, sizeof o->J);
-    ISO_TRY(read_level(ctx, scene, r, o));
+    if (!r->level)
+        ISO_TRY(iso_level_of_scene(ctx, scene, "the chart is drawn", &o->level));
+    else if (o->moment == ISO_CHART_LEVEL)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--level does not go with --chart level=A:B");
+    else if (!iso_number_read(r->level, strlen(r->level), &o->level))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--level '%s': expected a number", r->level);
     const double one = o->J[(o->moment + 1) % 3], other = o->J[(o->moment + 2) % 3];
-    moment[0] = fmin(one, other);
-    moment[1] = one + other;
-    if (equals && !iso_periodic_range(equals + 1, moment))
+    double k[2] = {o->from[0], o->to[0]}, moment[2] = {fmin(one, other), one + other};
+    if (equals && !read_range(equals + 1, moment))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--chart '%s': expected %s=A:B, A < B", r->chart,
                                 iso_chart_name(o->moment));
-    if (r->k && !iso_periodic_range(r->k, k))
+    if (r->k && !read_range(r->k, k))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--k '%s': expected A:B, A < B", r->k);
     o->from[0] = k[0], o->to[0] = k[1];
     o->from[1] = moment[0], o->to[1] = moment[1];
@@ -251,7 +230,7 @@ static void free_chart(void *found)
     free(f);
 }
 
-static iso_status put_chart(iso_context *ctx, const iso_scene *scene, const iso_chart_found *f, iso_record **table)
+static iso_status fill_chart(iso_context *ctx, const iso_scene *scene, const iso_chart_found *f, iso_record **table)
 {
     iso_field columns[ISO_MOST_FIELDS];
     iso_fields_rename(iso_chart_row_fields, "J2", iso_chart_name(f->how.moment), columns);
@@ -282,7 +261,7 @@ static iso_status chart(iso_context *ctx, const iso_scene *scene, const iso_peri
     if (status == ISO_BAD_ARGUMENT) /* the ranges are the option's, not the scene's */
         return iso_context_fail(ctx, status, "chart", "%s", iso_context_message(ctx));
     ISO_TRY(status);
-    return put_chart(ctx, scene, f, &result->table[0]);
+    return fill_chart(ctx, scene, f, &result->table[0]);
 }
 
 /* --- the study -------------------------------------------------------------------------------------------------- */

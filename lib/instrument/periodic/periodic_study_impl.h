@@ -26,10 +26,7 @@ typedef struct iso_chart_found {
 
 extern const iso_field iso_chart_fields[];
 
-/* Where the words of an option are "A:B". */
-bool iso_periodic_range(const char *text, double range[2]);
-
-/* What it tells people, and the lines of its table (periodic_print.c). */
+/* Its text, and the lines of its table (periodic_print.c). */
 void iso_periodic_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
 iso_status iso_periodic_describe(iso_context *ctx, const iso_scene *scene, const void *options,
                                  iso_study_result *result);

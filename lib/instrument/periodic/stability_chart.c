@@ -20,34 +20,22 @@ typedef struct chart {
     iso_record *grid, *borders;
 } chart;
 
-/* H for eps = 1. Powers of J must fit a double: off H = 0 the moments get a unit near the largest of them, which
- * changes no trace. */
-static double energy_of(double k, double level, double J[3])
-{
-    int exponent;
-    if (level == 0) return 0;
-    frexp(max3(J), &exponent);
-    for (int i = 0; i < 3; i++) J[i] = ldexp(J[i], 1 - exponent);
-    return iso_level_energy(&(iso_params){.k = k, .J = {J[0], J[1], J[2]}}, level);
-}
-
-/* The half-turn trace of the axis of the least (0) or greatest (1) moment at (k, J). */
+/* The half-turn trace of the axis of the least (0) or greatest (1) moment at (k, J). Powers of J must fit a double: off
+ * H = 0 the moments get a unit near the largest of them, which changes no trace. */
 static double trace_at(const chart *c, int which, const double at[2])
 {
     double J[3] = {c->o.J[0], c->o.J[1], c->o.J[2]}, level = c->o.level;
     int axis = 0;
     *(c->o.moment == ISO_CHART_LEVEL ? &level : &J[c->o.moment]) = at[1];
     if (fabs(at[0]) < ISO_LEAST_K) return NAN;
+    int exponent = 1;
+    if (level != 0) frexp(max3(J), &exponent);
+    for (int i = 0; i < 3; i++) J[i] = ldexp(J[i], 1 - exponent);
     for (int i = 1; i < 3; i++)
         if (which == 0 ? J[i] < J[axis] : J[i] > J[axis]) axis = i;
-    return iso_hill_trace(at[0], J, energy_of(at[0], level, J), axis, NULL);
-}
-
-static void place(const chart *c, int i, int j, double at[2])
-{
-    const int n = c->o.steps;
-    at[0] = c->o.from[0] + (c->o.to[0] - c->o.from[0]) * i / n;
-    at[1] = c->o.from[1] + (c->o.to[1] - c->o.from[1]) * j / n;
+    const double energy =
+        level == 0 ? 0 : iso_level_energy(&(iso_params){.k = at[0], .J = {J[0], J[1], J[2]}}, level);
+    return iso_hill_trace(at[0], J, energy, axis, NULL);
 }
 
 /* Some lines of equal J. */
@@ -70,10 +58,13 @@ static iso_status fill_grid(chart *c)
     const int n = c->o.steps + 1;
     iso_status status = ISO_OK;
     for (int i = 0; i < n * n && status == ISO_OK; i++) {
+        const int at[2] = {i % n, i / n};
         double *row;
         status = iso_record_append(c->ctx, c->grid, &row);
-        if (status == ISO_OK) place(c, i % n, i / n, row);
-        if (status == ISO_OK) row[2] = row[3] = NAN;
+        for (int d = 0; d < 2 && status == ISO_OK; d++) {
+            row[d] = c->o.from[d] + (c->o.to[d] - c->o.from[d]) * at[d] / (n - 1);
+            row[2 + d] = NAN;
+        }
     }
     iso_pool pool = {.what = "orbit", .count = (size_t)n, .chunk = 1, .solve = fill_lines, .data = c};
     return status == ISO_OK ? iso_pool_run(c->ctx, &pool, iso_pool_threads(c->o.threads, pool.count - 1, 1), NULL)
@@ -99,29 +90,23 @@ static iso_status add_border(chart *c, int which, double level, const double a[2
     return status;
 }
 
-/* The borders between two neighbours of the grid. */
-static iso_status compare(chart *c, const double *a, const double *b)
-{
-    iso_status status = ISO_OK;
-    for (int which = 0; which < 2; which++)
-        for (int sign = -1; sign <= 1; sign += 2) {
-            if (!iso_context_goes_on(c->ctx)) return iso_context_stopped(c->ctx);
-            const double level = 2 * sign, one = a[2 + which] - level, other = b[2 + which] - level;
-            if (status == ISO_OK && one * other < 0 && a[0] * b[0] > 0) status = add_border(c, which, level, a, b);
-        }
-    return status;
-}
-
+/* The borders between neighbours of the grid. */
 static iso_status find_borders(chart *c)
 {
     const size_t n = (size_t)c->o.steps + 1;
-    iso_status status = ISO_OK;
-    for (size_t i = 0; i < n * n && status == ISO_OK; i++) {
-        const double *at = iso_record_const_row(c->grid, i);
-        if (i % n + 1 < n) status = compare(c, at, iso_record_const_row(c->grid, i + 1));
-        if (status == ISO_OK && i + n < n * n) status = compare(c, at, iso_record_const_row(c->grid, i + n));
+    for (size_t pair = 0; pair < 2 * n * n; pair++) {
+        const size_t i = pair / 2, next = pair % 2 == 0 ? i + 1 : i + n;
+        if (pair % 2 == 0 ? next % n == 0 : next >= n * n) continue;
+        const double *a = iso_record_const_row(c->grid, i), *b = iso_record_const_row(c->grid, next);
+        for (int test = 0; test < 4; test++) {
+            const int which = test / 2;
+            const double level = test % 2 == 0 ? -2 : 2;
+            if (!iso_context_goes_on(c->ctx)) return iso_context_stopped(c->ctx);
+            if ((a[2 + which] - level) * (b[2 + which] - level) < 0 && a[0] * b[0] > 0)
+                ISO_TRY(add_border(c, which, level, a, b));
+        }
     }
-    return status;
+    return ISO_OK;
 }
 
 static iso_status check(const chart *c)
@@ -157,7 +142,6 @@ iso_status iso_stability_chart(iso_context *ctx, const iso_stability_options *op
     ISO_DEFAULT_ARITHMETIC;
     chart c = {.ctx = ctx, .o = iso_stability_defaults()};
     if (options) c.o = *options;
-    *grid = *borders = NULL;
     iso_status status = check(&c);
     const char *const varies = status == ISO_OK ? iso_chart_name(c.o.moment) : NULL;
     const char *const of_grid[] = {"k", varies, "least", "greatest"};
@@ -166,12 +150,8 @@ iso_status iso_stability_chart(iso_context *ctx, const iso_stability_options *op
     if (status == ISO_OK) status = iso_record_create(ctx, 4, of_borders, &c.borders);
     if (status == ISO_OK) status = fill_grid(&c);
     if (status == ISO_OK) status = find_borders(&c);
-    if (status == ISO_OK) {
-        *grid = c.grid;
-        *borders = c.borders;
-        return ISO_OK;
-    }
-    iso_record_free(c.grid);
-    iso_record_free(c.borders);
+    if (status != ISO_OK) iso_record_free(c.grid), iso_record_free(c.borders), c.grid = c.borders = NULL;
+    *grid = c.grid;
+    *borders = c.borders;
     return status;
 }

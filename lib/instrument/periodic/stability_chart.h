@@ -15,7 +15,7 @@ typedef struct iso_stability_options {
     double from[2], to[2];
     int steps;   /* of the grid, in both directions: 2 to 2000 */
     int threads; /* 0: as many as there are processors to run on */
-    /* Is told the part of the work that is done, in [0, 1]; NULL: nobody is. */
+    /* progress(part): the part of the work that is done, in [0, 1]; NULL: no calls. */
     void (*progress)(void *data, double part);
     void *data;
     double level; /* (H/eps) J2^(1/k), everywhere in the chart; 0: the free ball. Not read where it varies */

@@ -1,23 +1,14 @@
-/* arb_ball.c - one proof, from the numbers of the ball to the enclosure of m (arb_ball_impl.h).
+/* arb_ball.c - one proof, from the numbers of the ball to the enclosure of m (arb_manifold_impl.h).
  *
  * How near to O the manifold begins, how long the piece is that is followed, and how many bits numbers have follow from
  * the digits of m that are wanted. With size r, the slope at the start is known to about r, and adds r^3 to the error
  * of m. If the enclosure is not as narrow as it was to be, all is done again with more digits.
  */
 #include <math.h>
+#include <stddef.h>
 
-#include "base/pi_impl.h"
-#include "instrument/prove/arb_ball_impl.h"
-
-void prove_found_init(prove_found *f)
-{
-    arb_init(f->x), arb_init(f->m), arb_init(f->multiplier), arb_init(f->middle);
-}
-
-void prove_found_clear(prove_found *f)
-{
-    arb_clear(f->x), arb_clear(f->m), arb_clear(f->multiplier), arb_clear(f->middle);
-}
+#include "base/math_impl.h"
+#include "instrument/prove/arb_manifold_impl.h"
 
 enum { PARTS = 8 }; /* of half a return, for an interval of k */
 
@@ -50,20 +41,16 @@ static void attempt_init(attempt *a, iso_context *ctx, const prove_ball *ball, i
         arb_get_mid_arb(a->thin.k, f->k);
         arb_inv(a->thin.inverse_k, a->thin.k, f->bits);
     }
-    arb_init(a->local.trace), arb_init(a->local.lambda), arb_init(a->local.s), arb_init(a->local.size);
-    arb_init(a->local.slope), arb_init(a->start.xi), arb_init(a->start.drift), arb_init(a->crossing.x),
-        arb_init(a->crossing.m);
-    arb_init(a->width);
+    iso_balls_init(&a->local, sizeof a->local), iso_balls_init(&a->start, offsetof(prove_start, halves));
+    iso_balls_init(&a->crossing, offsetof(prove_crossing, longer)), arb_init(a->width);
     arb_clear(high);
 }
 
 static void attempt_clear(attempt *a)
 {
     prove_flow_clear(&a->flow), prove_flow_clear(&a->thin);
-    arb_clear(a->local.trace), arb_clear(a->local.lambda), arb_clear(a->local.s), arb_clear(a->local.size);
-    arb_clear(a->local.slope), arb_clear(a->start.xi), arb_clear(a->start.drift), arb_clear(a->crossing.x),
-        arb_clear(a->crossing.m);
-    arb_clear(a->width);
+    iso_balls_clear(&a->local, sizeof a->local), iso_balls_clear(&a->start, offsetof(prove_start, halves));
+    iso_balls_clear(&a->crossing, offsetof(prove_crossing, longer)), arb_clear(a->width);
 }
 
 /* x = 10^power, exact, about. */
@@ -73,9 +60,14 @@ static void set_power(arb_t x, double power)
     arf_set_si_2exp_si(arb_midref(x), 1, arf_get_si(arb_midref(x), ARF_RND_NEAR));
 }
 
-/* x = at least what is left of the change of the start with k, in all half returns, beside its drift: of second order. */
-static void spread(const attempt *a, arb_t x)
+/* The piece is at least as long as what is left of the change of the start with k, in all half returns, beside its drift:
+ * of second order. *reached: m is enclosed. If not, but the piece came to the line, it was too short for its noise: a
+ * longer one is tried. */
+static iso_status follow(attempt *a, bool *reached)
 {
+    enum { TRIES = 3 };
+    const size_t length = a->flow.certificate ? a->flow.certificate->length : 0;
+    iso_status status = ISO_OK;
     arb_t part;
     arb_init(part);
     arb_get_rad_arb(part, a->flow.k);
@@ -83,19 +75,9 @@ static void spread(const attempt *a, arb_t x)
     arb_div(part, part, a->flow.k, MAG_BITS);
     arb_mul(part, part, part, MAG_BITS);
     arb_get_mid_arb(part, part);
-    if (arb_gt(part, x)) arb_set(x, part);
+    if (arb_gt(part, a->width)) arb_set(a->width, part);
     arb_clear(part);
-}
-
-/* *reached: m is enclosed. If not, but the piece came to the line, it was too short for its noise: a longer one is
- * tried. */
-static iso_status follow(attempt *a, bool *reached)
-{
-    enum { TRIES = 3 };
-    const size_t length = a->flow.certificate ? a->flow.certificate->length : 0;
-    iso_status status = ISO_OK;
     *reached = false;
-    spread(a, a->width);
     a->crossing.longer = 0;
     for (int i = 0; i < TRIES && !*reached && (i == 0 || a->crossing.longer > 0) && status == ISO_OK; i++) {
         arb_mul_2exp_si(a->width, a->width, a->crossing.longer);
@@ -106,21 +88,9 @@ static iso_status follow(attempt *a, bool *reached)
     return status;
 }
 
-static iso_status run(attempt *a, int digits, bool *reached)
-{
-    set_power(a->local.size, -(digits - 1) / 3.0);
-    set_power(a->width, -(digits - 4));
-    iso_status status = prove_local_begin(&a->flow, &a->local);
-    if (status == ISO_OK) status = prove_local_foresee(&a->flow, &a->local);
-    if (status == ISO_OK) status = prove_local_bound(&a->flow, &a->local);
-    if (status == ISO_OK) status = prove_search(&a->thin, &a->local, a->flow.parts > 1, &a->start);
-    if (status == ISO_OK) status = follow(a, reached);
-    return status;
-}
-
 /* --- as many as it takes ---------------------------------------------------------------------------------------- */
 
-static void keep(const attempt *a, prove_found *found)
+static void store(const attempt *a, prove_found *found)
 {
     arb_set(found->x, a->crossing.x), arb_set(found->m, a->crossing.m);
     arb_mul(found->multiplier, a->local.lambda, a->local.lambda, a->flow.bits);
@@ -155,12 +125,18 @@ iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, i
         attempt_init(&a, ctx, ball, digits + spare, work);
         a.flow.certificate = a.thin.certificate = certificate;
         prove_certificate_cut(certificate, 0);
-        status = run(&a, digits + spare, &reached);
+        set_power(a.local.size, -(digits + spare - 1) / 3.0);
+        set_power(a.width, -(digits + spare - 4));
+        status = prove_local_begin(&a.flow, &a.local);
+        if (status == ISO_OK) status = prove_local_foresee(&a.flow, &a.local);
+        if (status == ISO_OK) status = prove_local_bound(&a.flow, &a.local);
+        if (status == ISO_OK) status = prove_search(&a.thin, &a.local, a.flow.parts > 1, &a.start);
+        if (status == ISO_OK) status = follow(&a, &reached);
         const int lacks = reached ? missing(a.crossing.m, digits) : MORE;
         if (status == ISO_OK && (reached && (lacks == 0 || !thin)))
-            keep(&a, found);
+            store(&a, found);
         else if (status == ISO_OK)
-            status = iso_context_fail(ctx, ISO_NUMERICAL, "", "m could not be enclosed to %d digits", digits);
+            status = ISO_FAIL_NUMERICAL(ctx, "m could not be enclosed to %d digits", digits);
         spare += lacks + MORE / 2;
         attempt_clear(&a);
     }

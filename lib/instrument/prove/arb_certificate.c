@@ -1,31 +1,26 @@
-/* arb_certificate.c - the text of a certificate (arb_certificate_impl.h). */
-#include "instrument/prove/arb_certificate_impl.h"
+/* arb_certificate.c - the text of a certificate (arb_flow_impl.h). */
+#include "instrument/prove/arb_flow_impl.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Room for `more` bytes and an end mark. */
-static bool has_room(prove_certificate *c, size_t more)
-{
-    if (c->lost || c->length + more < c->room) return !c->lost;
-    const size_t room = 2 * (c->room + more) + 1024;
-    char *text = realloc(c->text, room);
-    c->lost = !text;
-    if (text) c->text = text, c->room = room;
-    return !c->lost;
-}
-
 static void add(prove_certificate *c, const char *text)
 {
     const size_t length = strlen(text);
-    if (!has_room(c, length)) return;
+    if (!c->lost && c->length + length >= c->room) {
+        const size_t room = 2 * (c->room + length) + 1024;
+        char *larger = realloc(c->text, room);
+        c->lost = !larger;
+        if (larger) c->text = larger, c->room = room;
+    }
+    if (c->lost) return;
     memcpy(c->text + c->length, text, length + 1);
     c->length += length;
 }
 
-void prove_certificate_words(prove_certificate *c, const char *format, ...)
+void prove_certificate_text(prove_certificate *c, const char *format, ...)
 {
     char line[512];
     if (!c) return;

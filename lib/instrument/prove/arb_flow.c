@@ -1,5 +1,6 @@
 /* arb_flow.c - the orbit and its neighbours as a tape, whose series are enclosed (arb_flow_impl.h, arb_tape_impl.h). */
 #include <math.h>
+#include <stddef.h>
 
 #include "instrument/prove/arb_flow_impl.h"
 
@@ -8,8 +9,7 @@
 void prove_flow_init(prove_flow *f, iso_context *ctx, slong bits, iso_proof_work *work)
 {
     *f = (prove_flow){.ctx = ctx, .bits = bits, .parts = 1, .work = work};
-    arb_init(f->k), arb_init(f->inverse_k), arb_init(f->trace);
-    for (int i = 0; i < 3; i++) arb_init(f->J[i]);
+    iso_balls_init(f, offsetof(prove_flow, ctx));
 }
 
 static void forget_equations(prove_flow *f)
@@ -22,8 +22,7 @@ static void forget_equations(prove_flow *f)
 void prove_flow_clear(prove_flow *f)
 {
     forget_equations(f);
-    arb_clear(f->k), arb_clear(f->inverse_k), arb_clear(f->trace);
-    for (int i = 0; i < 3; i++) arb_clear(f->J[i]);
+    iso_balls_clear(f, offsetof(prove_flow, ctx));
 }
 
 void prove_flow_like(prove_flow *f, const prove_flow *like, slong bits)
@@ -35,26 +34,19 @@ void prove_flow_like(prove_flow *f, const prove_flow *like, slong bits)
 
 /* --- the equations ---------------------------------------------------------------------------------------------- */
 
-/* factor a/q */
-static int scaled_over(iso_tape *t, const arb_t factor, int a, int q)
-{
-    return iso_tape_quotient(t, iso_tape_scaled(t, factor, a), q);
-}
-
 /* The equations of arb_flow_impl.h. The states of the tape are the numbers of a state, in their order. */
 static void write_equations(prove_flow *f, int numbers)
 {
     iso_tape *t = &f->tape;
     int y[PROVE_STATE];
-    arb_t one, two, minus, x, rest;
-    arb_init(one), arb_init(two), arb_init(minus), arb_init(x), arb_init(rest);
+    arb_ptr one = _arb_vec_init(5), two = one + 1, minus = one + 2, x = one + 3, rest = one + 4;
     arb_one(one), arb_set_si(two, 2), arb_set_si(minus, -1), arb_one(rest);
     iso_tape_init(t);
     for (int i = 0; i < numbers; i++) y[i] = iso_tape_state(t);
     const int q = y[PROVE_Q], r = y[PROVE_R], p = y[PROVE_P], d = y[PROVE_D], uu = y[PROVE_F]; /* (u, J u) */
     const int e = iso_tape_less(t, iso_tape_less(t, iso_tape_constant(t, f->trace), q), uu);
     arb_neg(x, f->inverse_k);
-    const int kappa = scaled_over(t, x, p, q);
+    const int kappa = iso_tape_quotient(t, iso_tape_scaled(t, x, p), q);
     iso_tape_rate(t, q, iso_tape_scaled(t, two, r));
     iso_tape_rate(t, r, iso_tape_sum(t, iso_tape_less(t, uu, q), iso_tape_product(t, kappa, p)));
     iso_tape_rate(t, p, iso_tape_less(t, d, iso_tape_product(t, kappa, r)));
@@ -66,9 +58,9 @@ static void write_equations(prove_flow *f, int numbers)
     if (numbers > PROVE_POINT) {
         arb_submul(rest, two, f->k, f->bits); /* 1 - 2 k */
         const int square = iso_tape_scaled(t, rest, iso_tape_product(t, kappa, kappa));
-        const int excess = scaled_over(t, f->inverse_k, iso_tape_less(t, e, q), q);
+        const int excess = iso_tape_quotient(t, iso_tape_scaled(t, f->inverse_k, iso_tape_less(t, e, q)), q);
         const int H = iso_tape_sum(t, iso_tape_constant(t, one), iso_tape_sum(t, square, excess));
-        const int rho = scaled_over(t, f->inverse_k, r, q);
+        const int rho = iso_tape_quotient(t, iso_tape_scaled(t, f->inverse_k, r), q);
         for (int i = PROVE_Y1; i < numbers; i += 2) {
             int rate = iso_tape_less(t, iso_tape_product(t, rho, y[i + 1]), iso_tape_product(t, H, y[i]));
             if (i == PROVE_Y3) rate = iso_tape_less(t, rate, iso_tape_scaled(t, f->inverse_k, kappa));
@@ -76,7 +68,7 @@ static void write_equations(prove_flow *f, int numbers)
             iso_tape_rate(t, y[i + 1], rate);
         }
     }
-    arb_clear(one), arb_clear(two), arb_clear(minus), arb_clear(x), arb_clear(rest);
+    _arb_vec_clear(one, 5);
 }
 
 /* --- series ----------------------------------------------------------------------------------------------------- */

@@ -27,9 +27,34 @@
 
 #include "base/arb_impl.h"
 #include "base/context_impl.h"
-#include "instrument/prove/arb_certificate_impl.h"
 #include "instrument/prove/prove_impl.h"
 #include "method/enclosure/arb_tape_impl.h"
+
+/* --- the certificate of a proof, a text that grows line by line (lib/doc/prove.md, arb_certificate.c) ------------- */
+
+typedef struct prove_certificate {
+    char *text;
+    size_t length, room;
+    bool lost; /* there was no memory for all of it */
+} prove_certificate;
+
+/* A line of text, as printf makes it. c NULL: nothing is done, here and below. */
+void prove_certificate_text(prove_certificate *c, const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 2, 3)))
+#endif
+    ;
+
+/* A line: a word, then balls, exactly. */
+void prove_certificate_line(prove_certificate *c, const char *word, int count, arb_srcptr x);
+
+/* All lines of another one. */
+void prove_certificate_append(prove_certificate *c, const prove_certificate *more);
+
+/* Forgets what was written after the first `length` bytes. */
+void prove_certificate_cut(prove_certificate *c, size_t length);
+
+/* --- the orbit --------------------------------------------------------------------------------------------------- */
 
 /* The numbers of a state; the last six are neighbours: two of the same k, one of another k. */
 enum {
@@ -55,10 +80,10 @@ enum {
 /* A ball, its moments in the order of the section: J[2] belongs to the axis c of the section, J[1] is the middle one.
  * k may be an interval. Then half a return is followed in parts, after each of which there is a new set. */
 typedef struct prove_flow {
+    arb_t k, inverse_k, J[3], trace;
     iso_context *ctx;
     slong bits;
-    int parts; /* of half a return; the derivative is enclosed in each      */
-    arb_t k, inverse_k, J[3], trace;
+    int parts;         /* of half a return; the derivative is enclosed in each      */
     int numbers;       /* of the states in the tape: PROVE_POINT, PROVE_PAIR, PROVE_STATE; 0: no tape yet */
     iso_tape tape;     /* the equations                                                                   */
     iso_series series; /* from the last state on                                                          */
@@ -99,9 +124,6 @@ typedef struct prove_half {
     arb_struct D[6]; /* its derivatives by l, x and k: dl/dl, dl/dx, dx/dl, dx/dx; dl/dk, dx/dk    */
     arb_t time, window;
 } prove_half;
-
-void prove_half_init(prove_half *h);
-void prove_half_clear(prove_half *h);
 
 /* numbers: PROVE_POINT: no derivative; PROVE_PAIR: none by k. Errors: ISO_NUMERICAL: the set is too large;
  * it is one more than f->work allows; ISO_STOPPED. */

@@ -18,26 +18,8 @@
 
 typedef struct piece {
     arb_struct centre[2], drift[2], A[4], hull[2], left[2], right[2];
-    arb_t sigma, dk, scale;
+    arb_t sigma, dk, scale; /* the tangent is (1, sigma); k - k_0; the slope of the manifold in O */
 } piece;
-
-static void piece_init(piece *p)
-{
-    for (int i = 0; i < 2; i++)
-        arb_init(p->centre + i), arb_init(p->drift + i), arb_init(p->hull + i), arb_init(p->left + i),
-            arb_init(p->right + i);
-    for (int i = 0; i < 4; i++) arb_init(p->A + i);
-    arb_init(p->sigma), arb_init(p->dk), arb_init(p->scale);
-}
-
-static void piece_clear(piece *p)
-{
-    for (int i = 0; i < 2; i++)
-        arb_clear(p->centre + i), arb_clear(p->drift + i), arb_clear(p->hull + i), arb_clear(p->left + i),
-            arb_clear(p->right + i);
-    for (int i = 0; i < 4; i++) arb_clear(p->A + i);
-    arb_clear(p->sigma), arb_clear(p->dk), arb_clear(p->scale);
-}
 
 static void invert(const arb_struct M[4], slong bits, arb_struct X[4])
 {
@@ -113,8 +95,7 @@ static void widen_all(const prove_flow *f, piece *p)
 static bool begin_piece(const prove_flow *f, const prove_local *o, const prove_start *start, const arb_t width,
                         piece *p)
 {
-    arb_t length, most, part;
-    arb_init(length), arb_init(most), arb_init(part);
+    arb_ptr length = _arb_vec_init(3), most = length + 1, part = length + 2;
     arb_mul(length, start->xi, width, f->bits);
     arb_get_ubound_arf(arb_midref(length), length, MAG_BITS);
     mag_zero(arb_radref(length));
@@ -139,31 +120,25 @@ static bool begin_piece(const prove_flow *f, const prove_local *o, const prove_s
     arb_neg(p->left, length), arb_set(p->right, length);
     arb_set(p->left + 1, p->hull + 1), arb_set(p->right + 1, p->hull + 1);
     widen_all(f, p);
-    arb_clear(length), arb_clear(most), arb_clear(part);
+    _arb_vec_clear(length, 3);
     return inside;
 }
 
 /* --- half a return ---------------------------------------------------------------------------------------------- */
 
-/* Both must be the same crossing: that of the centre in the window of the whole set. */
-static iso_status check_times(const prove_flow *f, const prove_half *all, const prove_half *one)
-{
-    if (arb_contains(all->window, one->time)) return ISO_OK;
-    return iso_context_fail(f->ctx, ISO_NUMERICAL, "", "the centre of a set was followed to another crossing");
-}
-
-/* D on the whole set, then P(centre). */
+/* D on the whole set, then P(centre). Both must be the same crossing: that of the centre in the window of the set. */
 static iso_status enclose(prove_flow *f, prove_flow *thin, prove_part part, const piece *p, prove_half *all,
                           prove_half *one)
 {
     arb_ptr box = _arb_vec_init(2);
     place(f, p, p->hull, box);
     for (int i = 0; i < 2; i++) prove_widen(f, PROVE_EIGHTH, box + i);
-    prove_certificate_words(f->certificate, "half set");
+    prove_certificate_text(f->certificate, "half set");
     iso_status status = prove_half_return(f, part, box, box + 1, has_drift(f) ? PROVE_STATE : PROVE_PAIR, all);
-    prove_certificate_words(f->certificate, "half centre");
+    prove_certificate_text(f->certificate, "half centre");
     if (status == ISO_OK) status = prove_half_return(thin, part, p->centre, p->centre + 1, PROVE_POINT, one);
-    if (status == ISO_OK) status = check_times(f, all, one);
+    if (status == ISO_OK && !arb_contains(all->window, one->time))
+        status = ISO_FAIL_NUMERICAL(f->ctx, "the centre of a set was followed to another crossing");
     _arb_vec_clear(box, 2);
     return status;
 }
@@ -172,8 +147,7 @@ static iso_status enclose(prove_flow *f, prove_flow *thin, prove_part part, cons
  * are those of (l, x/scale): near O the manifolds have the slopes +-scale, which may be small. */
 static void spread_frame(arb_struct A[4], const arb_t scale, slong bits)
 {
-    arb_t determinant, size, other;
-    arb_init(determinant), arb_init(size), arb_init(other);
+    arb_ptr determinant = _arb_vec_init(3), size = determinant + 1, other = determinant + 2;
     for (int i = 2; i < 4; i++) arb_div(A + i, A + i, scale, bits);
     arb_mul(determinant, A, A + 3, bits);
     arb_submul(determinant, A + 1, A + 2, bits);
@@ -189,7 +163,7 @@ static void spread_frame(arb_struct A[4], const arb_t scale, slong bits)
     }
     for (int i = 2; i < 4; i++) arb_mul(A + i, A + i, scale, bits);
     for (int i = 0; i < 4; i++) arb_get_mid_arb(A + i, A + i);
-    arb_clear(determinant), arb_clear(size), arb_clear(other);
+    _arb_vec_clear(determinant, 3);
 }
 
 /* The next centre, C and A; e = what P(centre) + dk (D C + E) is beyond them. */
@@ -256,8 +230,7 @@ static bool cross(const prove_flow *f, const piece *p, prove_crossing *crossing)
     enum { LEAST = 2, MOST = 60 }; /* of longer */
     const slong bits = f->bits;
     arb_ptr end = _arb_vec_init(2);
-    arb_t line, rate;
-    arb_init(line), arb_init(rate);
+    arb_ptr line = _arb_vec_init(2), rate = line + 1;
     arb_const_pi(line, bits);
     arb_mul_2exp_si(line, line, -1);
     place(f, p, p->left, end);
@@ -273,7 +246,7 @@ static bool cross(const prove_flow *f, const piece *p, prove_crossing *crossing)
     reached = reached && arb_is_positive(rate);
     prove_widen(f, PROVE_EIGHTH, crossing->m), prove_widen(f, PROVE_EIGHTH, crossing->x);
     _arb_vec_clear(end, 2);
-    arb_clear(line), arb_clear(rate);
+    _arb_vec_clear(line, 2);
     return reached;
 }
 
@@ -282,8 +255,7 @@ iso_status prove_follow(prove_flow *f, prove_flow *one, const prove_local *o, co
 {
     piece p;
     prove_half all, centre;
-    piece_init(&p);
-    prove_half_init(&all), prove_half_init(&centre);
+    iso_balls_init(&p, sizeof p), iso_balls_init(&all, sizeof all), iso_balls_init(&centre, sizeof centre);
     if (has_drift(f)) arb_sub(p.dk, f->k, one->k, f->bits);
     arb_set(p.scale, o->s);
     crossing->longer = 0;
@@ -296,7 +268,6 @@ iso_status prove_follow(prove_flow *f, prove_flow *one, const prove_local *o, co
         write_piece(f, &p);
     }
     if (status == ISO_OK && *reached) *reached = cross(f, &p, crossing);
-    piece_clear(&p);
-    prove_half_clear(&all), prove_half_clear(&centre);
+    iso_balls_clear(&p, sizeof p), iso_balls_clear(&all, sizeof all), iso_balls_clear(&centre, sizeof centre);
     return status;
 }

@@ -18,20 +18,6 @@
  */
 #include "instrument/prove/arb_flow_impl.h"
 
-void prove_half_init(prove_half *h)
-{
-    for (int i = 0; i < 2; i++) arb_init(h->z + i);
-    for (int i = 0; i < 6; i++) arb_init(h->D + i);
-    arb_init(h->time), arb_init(h->window);
-}
-
-void prove_half_clear(prove_half *h)
-{
-    for (int i = 0; i < 2; i++) arb_clear(h->z + i);
-    for (int i = 0; i < 6; i++) arb_clear(h->D + i);
-    arb_clear(h->time), arb_clear(h->window);
-}
-
 /* --- the chart -------------------------------------------------------------------------------------------------- */
 
 /* An angle psi: exact numbers at 0 and pi. */
@@ -44,14 +30,9 @@ static void angle_init(const prove_flow *f, int number, int parts, angle *a)
     fmpq_t turn;
     fmpq_init(turn);
     fmpq_set_si(turn, number, (ulong)parts);
-    arb_init(a->c), arb_init(a->s);
+    iso_balls_init(a, sizeof *a);
     arb_sin_cos_pi_fmpq(a->s, a->c, turn, f->bits);
     fmpq_clear(turn);
-}
-
-static void angle_clear(angle *a)
-{
-    arb_clear(a->c), arb_clear(a->s);
 }
 
 /* x = a c + b s */
@@ -69,8 +50,7 @@ static void combine(const arb_t a, const arb_t c, const arb_t b, const arb_t s, 
 static void turn(const angle *by, slong bits, arb_ptr y)
 {
     arb_ptr old = _arb_vec_init(PROVE_POINT);
-    arb_t minus_s, part;
-    arb_init(minus_s), arb_init(part);
+    arb_ptr minus_s = _arb_vec_init(2), part = minus_s + 1;
     _arb_vec_set(old, y, PROVE_POINT);
     arb_neg(minus_s, by->s);
     combine(old + PROVE_P, by->c, old + PROVE_D, by->s, bits, y + PROVE_P);
@@ -86,7 +66,7 @@ static void turn(const angle *by, slong bits, arb_ptr y)
     combine(y + PROVE_F, by->c, y + PROVE_R, minus_s, bits, y + PROVE_F);
     arb_set(y + PROVE_R, part);
     _arb_vec_clear(old, PROVE_POINT);
-    arb_clear(minus_s), arb_clear(part);
+    _arb_vec_clear(minus_s, 2);
 }
 
 /* The neighbours dl = 1, dx = 1 and dk = 1. */
@@ -109,8 +89,7 @@ static void begin_neighbours(const prove_flow *f, const angle *psi, const arb_t 
 static void begin_state(const prove_flow *f, const angle *psi, const arb_t l, const arb_t x, arb_ptr y)
 {
     const slong bits = f->bits;
-    arb_t A, T, half, X;
-    arb_init(A), arb_init(T), arb_init(half), arb_init(X);
+    arb_ptr A = _arb_vec_init(4), T = A + 1, half = A + 2, X = A + 3;
     arb_mul_2exp_si(T, l, 1);
     arb_sin_cos(A, y + PROVE_Q, T, bits);
     arb_sub(half, f->J[0], f->J[1], bits);
@@ -139,7 +118,7 @@ static void begin_state(const prove_flow *f, const angle *psi, const arb_t l, co
     arb_mul(y + PROVE_D, y + PROVE_D, T, bits);
     if (!arb_is_zero(psi->s)) turn(psi, bits, y);
     begin_neighbours(f, psi, X, x, y);
-    arb_clear(A), arb_clear(T), arb_clear(half), arb_clear(X);
+    _arb_vec_clear(A, 4);
 }
 
 /* l in (-pi/4, 3 pi/4) from sin 2l and -cos 2l; near 0 to all digits. */
@@ -168,9 +147,8 @@ static void end_place(const prove_flow *f, const angle *psi, arb_srcptr y, arb_t
     const slong bits = f->bits;
     arb_ptr base = _arb_vec_init(PROVE_POINT);
     angle back;
-    arb_t s, c, apart;
+    arb_ptr s = _arb_vec_init(3), c = s + 1, apart = s + 2;
     angle_init(f, 0, 1, &back);
-    arb_init(s), arb_init(c), arb_init(apart);
     _arb_vec_set(base, y, PROVE_POINT);
     arb_set(back.c, psi->c), arb_neg(back.s, psi->s);
     turn(&back, bits, base);
@@ -185,17 +163,16 @@ static void end_place(const prove_flow *f, const angle *psi, arb_srcptr y, arb_t
     arb_div(c, c, apart, bits); /* -cos 2l */
     find_angle(s, c, bits, z);
     arb_neg(z + 1, y + PROVE_Z);
-    angle_clear(&back);
+    iso_balls_clear(&back, sizeof back);
     _arb_vec_clear(base, PROVE_POINT);
-    arb_clear(s), arb_clear(c), arb_clear(apart);
+    _arb_vec_clear(s, 3);
 }
 
 static void end_derivative(const prove_flow *f, const angle *psi, arb_srcptr y, const arb_t X, int numbers,
                            prove_half *half)
 {
     const slong bits = f->bits;
-    arb_t kappa_x, below, v;
-    arb_init(kappa_x), arb_init(below), arb_init(v);
+    arb_ptr kappa_x = _arb_vec_init(3), below = kappa_x + 1, v = kappa_x + 2;
     arb_div(kappa_x, y + PROVE_P, y + PROVE_Q, bits);
     arb_mul(kappa_x, kappa_x, f->inverse_k, bits);
     arb_mul(kappa_x, kappa_x, y + PROVE_Z, bits); /* kappa x */
@@ -213,7 +190,7 @@ static void end_derivative(const prove_flow *f, const angle *psi, arb_srcptr y, 
         combine(neighbour, psi->s, v, psi->c, bits, dx);
         arb_mul(dx, dx, X, bits);
     }
-    arb_clear(kappa_x), arb_clear(below), arb_clear(v);
+    _arb_vec_clear(kappa_x, 3);
 }
 
 /* --- the crossing ----------------------------------------------------------------------------------------------- */
@@ -245,11 +222,13 @@ static void find_both(prove_flow *f, const angle *end, const arb_t s, arb_ptr y,
     arb_submul(slope, y + PROVE_P, end->s, f->bits);
 }
 
-/* A point near the end; no proof needs it to be one. */
-static void guess_zero(prove_flow *f, const angle *end, const arb_t h, arb_ptr y, arb_t s)
+/* From a point near the end, which no proof needs to be one, the interval Newton method: if s - g(s)/g'(U) lies in U,
+ * where g' < 0 on U, each orbit has one zero of g in U, and it lies there. g is what find_ahead finds. */
+static bool find_zero(prove_flow *f, const angle *end, const arb_t h, arb_t zero, arb_t window)
 {
-    arb_t g, w;
-    arb_init(g), arb_init(w);
+    arb_ptr s = _arb_vec_init(4), g = s + 1, w = s + 2, other = s + 3, y = _arb_vec_init(PROVE_POINT);
+    mag_t size;
+    mag_init(size);
     arb_mul_2exp_si(s, h, -1);
     for (int i = 0; i < 60; i++) {
         find_both(f, end, s, y, g, w);
@@ -258,18 +237,6 @@ static void guess_zero(prove_flow *f, const angle *end, const arb_t h, arb_ptr y
         arb_get_mid_arb(s, s);
         if (!arb_is_finite(g) || arb_contains_zero(g)) break;
     }
-    arb_clear(g), arb_clear(w);
-}
-
-/* The interval Newton method: if s - g(s)/g'(U) lies in U, where g' < 0 on U, each orbit has one zero of g in U, and it
- * lies there. g is what find_ahead finds. */
-static bool find_zero(prove_flow *f, const angle *end, const arb_t h, arb_t zero, arb_t window)
-{
-    arb_t s, g, w, other;
-    mag_t size;
-    arb_ptr y = _arb_vec_init(PROVE_POINT);
-    arb_init(s), arb_init(g), arb_init(w), arb_init(other), mag_init(size);
-    guess_zero(f, end, h, y, s);
     bool found = arb_is_finite(s) && arb_is_positive(s) && arb_lt(s, h);
     if (found) {
         find_both(f, end, s, y, g, w);
@@ -283,8 +250,8 @@ static bool find_zero(prove_flow *f, const angle *end, const arb_t h, arb_t zero
         arb_sub(zero, s, zero, f->bits);
         found = arb_is_positive(window) && arb_lt(window, h) && arb_is_negative(w) && arb_contains(window, zero);
     }
-    _arb_vec_clear(y, PROVE_POINT);
-    arb_clear(s), arb_clear(g), arb_clear(w), arb_clear(other), mag_clear(size);
+    _arb_vec_clear(y, PROVE_POINT), _arb_vec_clear(s, 4);
+    mag_clear(size);
     return found;
 }
 
@@ -345,9 +312,8 @@ static bool go(prove_flow *f, const angle *to, int numbers, arb_t h, arb_ptr end
 /* A step. *crossed: the end lies in it, and y is the state there; else y is that at the end of the step. */
 static iso_status take_step(prove_flow *f, const angle *to, int numbers, arb_ptr y, prove_half *half, bool *crossed)
 {
-    arb_t h, zero, window;
+    arb_ptr h = _arb_vec_init(3), zero = h + 1, window = h + 2;
     arb_ptr end = _arb_vec_init(PROVE_STATE);
-    arb_init(h), arb_init(zero), arb_init(window);
     prove_flow_expand(f, y, numbers);
     bool good = go(f, to, numbers, h, end, crossed);
     if (*crossed && good) good = find_zero(f, to, h, zero, window);
@@ -367,8 +333,8 @@ static iso_status take_step(prove_flow *f, const angle *to, int numbers, arb_ptr
     arb_add(half->time, half->time, zero, ARF_PREC_EXACT);
     f->steps++;
     _arb_vec_clear(end, PROVE_STATE);
-    arb_clear(h), arb_clear(zero), arb_clear(window);
-    return good ? ISO_OK : iso_context_fail(f->ctx, ISO_NUMERICAL, "", "a step of the orbit could not be enclosed");
+    _arb_vec_clear(h, 3);
+    return good ? ISO_OK : ISO_FAIL_NUMERICAL(f->ctx, "a step of the orbit could not be enclosed");
 }
 
 /* False: not at the end angle, but at its antipode. */
@@ -387,21 +353,16 @@ static bool finish(prove_flow *f, const angle *to, arb_srcptr y, int numbers, pr
     return right;
 }
 
-/* The first part counts for all of a half return. */
-static iso_status begin_work(const prove_flow *f, prove_part part)
-{
-    if (part.number > 0) return ISO_OK;
-    if (f->work->begun++ < f->work->most) return ISO_OK;
-    return ISO_FAIL_NUMERICAL(f->ctx, "it takes more than the %ld half returns of --half-returns", f->work->most);
-}
-
 iso_status prove_half_return(prove_flow *f, prove_part part, const arb_t l, const arb_t x, int numbers,
                              prove_half *half)
 {
     arb_ptr y = _arb_vec_init(PROVE_STATE);
     angle from, to;
     bool crossed = false;
-    iso_status status = begin_work(f, part);
+    iso_status status = ISO_OK;
+    if (part.number == 0 && f->work->begun++ >= f->work->most) /* the first part counts for all of a half return */
+        status =
+            ISO_FAIL_NUMERICAL(f->ctx, "it takes more than the %ld half returns of --half-returns", f->work->most);
     angle_init(f, part.number, part.parts, &from), angle_init(f, part.number + 1, part.parts, &to);
     begin_state(f, &from, l, x, y);
     for (int i = 0; i < numbers; i++) prove_widen(f, PROVE_EIGHTH, y + i);
@@ -414,8 +375,8 @@ iso_status prove_half_return(prove_flow *f, prove_part part, const arb_t l, cons
         if (status == ISO_OK) status = take_step(f, &to, numbers, y, half, &crossed);
     }
     if (status == ISO_OK && !finish(f, &to, y, numbers, half))
-        status = iso_context_fail(f->ctx, ISO_NUMERICAL, "", "a set crosses a section on both sides");
+        status = ISO_FAIL_NUMERICAL(f->ctx, "a set crosses a section on both sides");
     _arb_vec_clear(y, PROVE_STATE);
-    angle_clear(&from), angle_clear(&to);
+    iso_balls_clear(&from, sizeof from), iso_balls_clear(&to, sizeof to);
     return status;
 }

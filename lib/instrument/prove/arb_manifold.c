@@ -55,16 +55,16 @@ static iso_status enclose(prove_flow *f, arb_struct z[2], arb_struct D[4])
 {
     prove_half half;
     iso_status status = ISO_OK;
-    prove_half_init(&half);
+    iso_balls_init(&half, sizeof half);
     arb_one(D), arb_zero(D + 1), arb_zero(D + 2), arb_one(D + 3);
     for (int i = 0; i < f->parts && status == ISO_OK; i++) {
-        prove_certificate_words(f->certificate, "half cone");
+        prove_certificate_text(f->certificate, "half cone");
         status = prove_half_return(f, (prove_part){i, f->parts}, z, z + 1, PROVE_PAIR, &half);
         prove_apply(half.D, z, NULL, f->bits, z);
         prove_multiply(half.D, D, f->bits, D);
         for (int j = 0; j < 2; j++) prove_widen(f, PROVE_EIGHTH, z + j);
     }
-    prove_half_clear(&half);
+    iso_balls_clear(&half, sizeof half);
     return status;
 }
 
@@ -76,7 +76,7 @@ iso_status prove_local_begin(prove_flow *f, prove_local *o)
     iso_status status = enclose(f, z, D);
     f->certificate = certificate;
     if (status == ISO_OK && !find_multiplier(f, D, o))
-        status = iso_context_fail(f->ctx, ISO_NUMERICAL, "", "the rotation is not hyperbolic in these digits");
+        status = ISO_FAIL_NUMERICAL(f->ctx, "the rotation is not hyperbolic in these digits");
     if (status == ISO_OK) { /* eigenvectors (1, +-s), s^2 = (dx'/dl)/(dl'/dx); any s near it will do */
         arb_div(o->s, D + 2, D + 1, f->bits);
         arb_get_mid_arb(o->s, o->s);
@@ -91,14 +91,13 @@ iso_status prove_local_begin(prove_flow *f, prove_local *o)
 iso_status prove_local_foresee(const prove_flow *f, const prove_local *o)
 {
     enum { TIMES = 8 }; /* of the search, a set and its centre; measured: 13 */
-    arb_t size, growth;
-    arb_init(size), arb_init(growth);
+    arb_ptr size = _arb_vec_init(2), growth = size + 1;
     arb_log(size, o->size, f->bits), arb_log(growth, o->lambda, f->bits);
-    const double way = -arf_get_d(arb_midref(size), ARF_RND_NEAR) / arf_get_d(arb_midref(growth), ARF_RND_NEAR);
-    arb_clear(size), arb_clear(growth);
-    if (TIMES * way < (double)(f->work->most - f->work->begun)) return ISO_OK;
+    const double halves = -arf_get_d(arb_midref(size), ARF_RND_NEAR) / arf_get_d(arb_midref(growth), ARF_RND_NEAR);
+    _arb_vec_clear(size, 2);
+    if (TIMES * halves < (double)(f->work->most - f->work->begun)) return ISO_OK;
     return ISO_FAIL_NUMERICAL(f->ctx, "it takes about %.2g half returns, more than the %ld of --half-returns",
-                              TIMES * way, f->work->most);
+                              TIMES * halves, f->work->most);
 }
 
 /* --- the cone condition ----------------------------------------------------------------------------------------- */
@@ -126,8 +125,7 @@ static void into_frame(const prove_flow *f, const arb_struct D[4], const arb_t s
 /* alpha = 2 |c|/(a - |d|), then both conditions. */
 static bool find_slope(const prove_flow *f, arb_struct E[4], arb_t alpha)
 {
-    arb_t left, right, part;
-    arb_init(left), arb_init(right), arb_init(part);
+    arb_ptr left = _arb_vec_init(3), right = left + 1, part = left + 2;
     for (int i = 1; i < 4; i++) arb_abs(E + i, E + i);
     arb_sub(part, E, E + 3, f->bits);
     arb_div(alpha, E + 2, part, f->bits);
@@ -143,34 +141,27 @@ static bool find_slope(const prove_flow *f, arb_struct E[4], arb_t alpha)
     arb_sub(right, right, left, f->bits);
     arb_sub_ui(left, alpha, 1, f->bits);
     const bool holds = arb_is_positive(part) && arb_is_positive(right) && arb_is_negative(left);
-    arb_clear(left), arb_clear(right), arb_clear(part);
+    _arb_vec_clear(left, 3);
     return holds;
-}
-
-/* All points with |xi|, |eta| <= size: |l| <= 2 size, |x| <= 2 |s| size. */
-static void hold_square(const prove_flow *f, const prove_local *o, arb_t l, arb_t x)
-{
-    arb_t most;
-    arb_init(most);
-    arb_zero(l), arb_zero(x);
-    arb_mul_2exp_si(most, o->size, 1);
-    arb_add_error(l, most);
-    arb_mul(most, most, o->s, f->bits);
-    arb_add_error(x, most);
-    prove_widen(f, PROVE_EIGHTH, l), prove_widen(f, PROVE_EIGHTH, x);
-    arb_clear(most);
 }
 
 iso_status prove_local_bound(prove_flow *f, prove_local *o)
 {
     arb_ptr z = _arb_vec_init(2), D = _arb_vec_init(4), E = _arb_vec_init(4);
-    hold_square(f, o, z, z + 1);
+    arb_t most;
+    arb_init(most);
+    arb_mul_2exp_si(most, o->size, 1); /* all points with |xi|, |eta| <= size: |l| <= 2 size, |x| <= 2 |s| size */
+    arb_add_error(z, most);
+    arb_mul(most, most, o->s, f->bits);
+    arb_add_error(z + 1, most);
+    arb_clear(most);
+    for (int i = 0; i < 2; i++) prove_widen(f, PROVE_EIGHTH, z + i);
     prove_certificate_line(f->certificate, "frame-o", 1, o->s);
     prove_certificate_line(f->certificate, "size", 1, o->size);
     iso_status status = enclose(f, z, D);
     if (status == ISO_OK) into_frame(f, D, o->s, E);
     if (status == ISO_OK && !find_slope(f, E, o->slope))
-        status = iso_context_fail(f->ctx, ISO_NUMERICAL, "", "the cone condition does not hold in these digits");
+        status = ISO_FAIL_NUMERICAL(f->ctx, "the cone condition does not hold in these digits");
     if (status == ISO_OK) prove_certificate_line(f->certificate, "cone", 1, o->slope);
     _arb_vec_clear(z, 2), _arb_vec_clear(D, 4), _arb_vec_clear(E, 4);
     return status;

@@ -1,4 +1,5 @@
-/* arb_manifold_impl.h - the rotation O about the middle axis and its unstable manifold, from O to the line l = pi/2. */
+/* arb_manifold_impl.h - the rotation O about the middle axis and its unstable manifold, from O to the line l = pi/2; one
+ * proof of a ball in exact numbers. */
 #ifndef ISO_STUDY_PROVE_ARB_MANIFOLD_IMPL_H
 #define ISO_STUDY_PROVE_ARB_MANIFOLD_IMPL_H
 
@@ -32,7 +33,7 @@ void prove_multiply(const arb_struct M[4], const arb_struct N[4], slong bits, ar
 /* O and its frame. Errors: those of prove_half_return; ISO_NUMERICAL: O is not hyperbolic in these digits. */
 iso_status prove_local_begin(prove_flow *f, prove_local *o);
 
-/* Refuses a way that f->work does not allow, before it is gone: from |xi| = size to l = 1, about. */
+/* Refuses more half returns than f->work allows before they are made: from |xi| = size to l = 1, about. */
 iso_status prove_local_foresee(const prove_flow *f, const prove_local *o);
 
 /* The cone condition on |xi|, |eta| <= size. */
@@ -45,5 +46,30 @@ iso_status prove_search(const prove_flow *f, const prove_local *o, bool with_dri
  * crosses l = pi/2. */
 iso_status prove_follow(prove_flow *f, prove_flow *one, const prove_local *o, const prove_start *start,
                         const arb_t width, prove_crossing *crossing, bool *reached);
+
+/* --- one proof (arb_ball.c) ------------------------------------------------------------------------------------- */
+
+/* All k from k[0] to k[1], both of one sign. J: that of the axis which is no part of the name, the middle one, that of
+ * the section's axis. */
+typedef struct prove_ball {
+    fmpq_t k[2], J[3];
+    int section, middle; /* axes, 0 to 2 */
+} prove_ball;
+
+typedef struct prove_found {
+    arb_t x, m, multiplier; /* of the section; of a whole return */
+    arb_t middle;           /* of an interval of k: the k of the centres, exact */
+    int parts;              /* of half a return */
+    long halves, steps;
+    slong bits;
+} prove_found;
+
+/* Encloses m to 10^-digits, or less well where an interval of k allows no more. certificate: NULL, or an empty one.
+ * Errors: ISO_NUMERICAL: nothing could be enclosed; ISO_STOPPED. */
+iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, iso_proof_work *work,
+                         prove_certificate *certificate, prove_found *found);
+
+/* iso_proof_expect */
+iso_status prove_ball_expect(iso_context *ctx, const prove_ball *ball, iso_proof_work *work, double *decades);
 
 #endif

@@ -2,7 +2,7 @@
  * wrong answer makes the proof fail (arb_follow.c), it does not make it wrong. */
 #include <math.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "instrument/prove/arb_manifold_impl.h"
 
 enum { POINTS = 8, LOW_BITS = 80, FAR = -14, TRIES = 60 };
@@ -12,10 +12,10 @@ enum { POINTS = 8, LOW_BITS = 80, FAR = -14, TRIES = 60 };
 static iso_status advance(prove_flow *f, arb_struct z[2])
 {
     prove_half half;
-    prove_half_init(&half);
+    iso_balls_init(&half, sizeof half);
     const iso_status status = prove_half_return(f, (prove_part){0, 1}, z, z + 1, PROVE_POINT, &half);
     for (int i = 0; i < 2; i++) arb_get_mid_arb(z + i, half.z + i);
-    prove_half_clear(&half);
+    iso_balls_clear(&half, sizeof half);
     return status;
 }
 
@@ -110,36 +110,25 @@ static iso_status refine_piece(const prove_flow *f, const prove_local *o, int i,
 
 /* --- to all digits ---------------------------------------------------------------------------------------------- */
 
-/* Back towards O, until xi < limit. */
-static void go_back(const prove_flow *f, const prove_local *o, const arb_t limit, prove_start *start)
-{
-    for (; !arb_lt(start->xi, limit); start->halves++) arb_div(start->xi, start->xi, o->lambda, f->bits);
-    arb_get_mid_arb(start->xi, start->xi);
-}
-
-/* Where the manifold is the line eta = 0, to a part 2^-bits of xi: it is odd. */
-static void find_limit(const prove_local *o, slong bits, arb_t limit)
-{
-    arb_one(limit);
-    arb_mul_2exp_si(limit, limit, -bits / 2 - 4);
-    if (arb_lt(limit, o->size)) arb_set(limit, o->size);
-}
-
 /* The secant method for ln xi, until what is left is about a rounding error: an error e becomes e^1.6. Numbers have as
- * many bits as will be known, and the orbit begins so near to O as these ask for. */
+ * many bits as will be known, and the orbit begins so near to O as these ask for: where the manifold, which is odd, is the
+ * line eta = 0 to a part 2^-close of xi. */
 static iso_status refine(const prove_flow *f, const prove_local *o, double slope, prove_start *start)
 {
     enum { KNOWN = 44, SPARE = 36 };
-    arb_t gap, last, change, steep;
-    arb_init(gap), arb_init(last), arb_init(change), arb_init(steep);
+    arb_ptr gap = _arb_vec_init(4), last = gap + 1, change = gap + 2, steep = gap + 3;
     arb_set_d(steep, slope);
     iso_status status = ISO_OK;
     double known = KNOWN;
     bool done = false;
     for (int i = 0; i < TRIES && status == ISO_OK && !done; i++) {
         const slong bits = (slong)fmin((double)f->bits, known + SPARE);
-        find_limit(o, bits == f->bits ? 4 * bits : (slong)known, gap);
-        go_back(f, o, gap, start);
+        const slong close = bits == f->bits ? 4 * bits : (slong)known;
+        arb_one(gap);
+        arb_mul_2exp_si(gap, gap, -close / 2 - 4);
+        if (arb_lt(gap, o->size)) arb_set(gap, o->size);
+        for (; !arb_lt(start->xi, gap); start->halves++) arb_div(start->xi, start->xi, o->lambda, f->bits);
+        arb_get_mid_arb(start->xi, start->xi);
         status = land(f, bits, o, start->xi, start->halves, gap);
         if (i > 0) arb_sub(last, last, gap, f->bits), arb_div(steep, last, change, f->bits);
         arb_set(last, gap);
@@ -152,7 +141,7 @@ static iso_status refine(const prove_flow *f, const prove_local *o, double slope
         done = bits == f->bits && arf_cmpabs_2exp_si(arb_midref(change), -bits * 62 / 100) < 0;
         known *= 1.6;
     }
-    arb_clear(gap), arb_clear(last), arb_clear(change), arb_clear(steep);
+    _arb_vec_clear(gap, 4);
     return status;
 }
 
@@ -163,7 +152,7 @@ static iso_status find_drift(prove_flow *f, const prove_local *o, prove_start *s
     prove_half half;
     arb_ptr z = _arb_vec_init(2), T = _arb_vec_init(2), C = _arb_vec_init(2);
     iso_status status = ISO_OK;
-    prove_half_init(&half);
+    iso_balls_init(&half, sizeof half);
     arb_set(z, start->xi), arb_mul(z + 1, z, o->s, f->bits);
     arb_one(T), arb_set(T + 1, o->s);
     for (long i = 0; i < start->halves && status == ISO_OK; i++) {
@@ -179,7 +168,7 @@ static iso_status find_drift(prove_flow *f, const prove_local *o, prove_start *s
     arb_neg(start->drift, start->drift);
     arb_get_mid_arb(start->drift, start->drift);
     _arb_vec_clear(z, 2), _arb_vec_clear(T, 2), _arb_vec_clear(C, 2);
-    prove_half_clear(&half);
+    iso_balls_clear(&half, sizeof half);
     return status;
 }
 

@@ -11,7 +11,7 @@
 #include "study/study_impl.h"
 
 /* Digits that are tried, if none are asked for; how often an interval is halved. */
-enum { ATTEMPTS = 3, FIRST_DIGITS = 18, MOST_DIGITS = 400, HALVINGS = 40, UNDECIDED_WORDS = 3 * ISO_PROOF_WORDS };
+enum { ATTEMPTS = 3, FIRST_DIGITS = 18, MOST_DIGITS = 400, HALVINGS = 40 };
 
 #define WHAT "an enclosure of m is computed"
 
@@ -24,8 +24,8 @@ static iso_status prepare(iso_context *ctx, void *options)
     return ISO_FAIL_ARGUMENT(ctx, "", "--digits %d: expected a whole number from 1 to %d", r->digits, MOST_DIGITS);
 }
 
-/* One double of the scene as the number that was written. */
-static iso_status take(iso_context *ctx, const iso_scene *scene, const char *key, double x, iso_rational *r)
+/* One double of the scene as the number in its text. */
+static iso_status read_exactly(iso_context *ctx, const iso_scene *scene, const char *key, double x, iso_rational *r)
 {
     if (scene->params.body.surface != ISO_REDUCED)
         return ISO_FAIL_INPUT(
@@ -37,14 +37,6 @@ static iso_status take(iso_context *ctx, const iso_scene *scene, const char *key
         ctx, key, "prove takes %s exactly: write a number with at most 15 digits, or a fraction, such as 1/3", key);
 }
 
-static iso_status bad_k(iso_context *ctx, const char *text)
-{
-    return ISO_FAIL_ARGUMENT(ctx, "",
-                             "--k '%s': expected a number or an interval A:B that does not hold 0, A < B also as "
-                             "doubles, such as 1/3 or 0.5:0.500001",
-                             text);
-}
-
 /* "K" or "A:B" */
 static iso_status read_k(iso_context *ctx, const char *text, iso_rational k[2])
 {
@@ -52,11 +44,14 @@ static iso_status read_k(iso_context *ctx, const char *text, iso_rational k[2])
     const size_t first = colon ? (size_t)(colon - text) : strlen(text);
     if (!iso_rational_read(text, first, &k[0]) || !iso_rational_read(second, strlen(second), &k[1]) ||
         (k[0].top < 0) != (k[1].top < 0) || (colon && !(iso_rational_double(&k[0]) < iso_rational_double(&k[1]))))
-        return bad_k(ctx, text);
+        return ISO_FAIL_ARGUMENT(ctx, "",
+                                 "--k '%s': expected a number or an interval A:B that does not hold 0, A < B also as "
+                                 "doubles, such as 1/3 or 0.5:0.500001",
+                                 text);
     return ISO_OK;
 }
 
-static iso_status take_ball(iso_context *ctx, const iso_scene *scene, const iso_prove_request *r,
+static iso_status read_ball(iso_context *ctx, const iso_scene *scene, const iso_prove_request *r,
                             iso_proof_ball *ball)
 {
     const iso_effects acting = iso_scene_acting(scene);
@@ -65,24 +60,15 @@ static iso_status take_ball(iso_context *ctx, const iso_scene *scene, const iso_
     ISO_TRY(iso_level_of_scene(ctx, scene, WHAT, &level));
     if (level != 0)
         return ISO_FAIL_INPUT(ctx, iso_level_name(), WHAT " only of the free ball, on the level H = 0 of its point");
-    for (int i = 0; i < 3; i++) ISO_TRY(take(ctx, scene, "J", scene->params.J[i], &ball->J[i]));
+    for (int i = 0; i < 3; i++) ISO_TRY(read_exactly(ctx, scene, "J", scene->params.J[i], &ball->J[i]));
     ISO_TRY(iso_refuse_equal_moments(ctx, scene->params.J, "there is no middle axis and no m"));
     if (r->k) return read_k(ctx, r->k, ball->k);
-    ISO_TRY(take(ctx, scene, "k", scene->params.k, &ball->k[0]));
+    ISO_TRY(read_exactly(ctx, scene, "k", scene->params.k, &ball->k[0]));
     ball->k[1] = ball->k[0];
     return ISO_OK;
 }
 
 /* --- one k, or one piece ---------------------------------------------------------------------------------------- */
-
-static void print_exact(iso_proof *p)
-{
-    const iso_rational *k = p->ball.k;
-    char text[2][ISO_RATIONAL_SIZE];
-    const bool one = iso_proof_is_thin(&p->ball);
-    for (int i = 0; i < 2; i++) iso_rational_print(text[i], &k[i]);
-    snprintf(p->exact, sizeof p->exact, "%s%s%s", text[0], one ? "" : ":", one ? "" : text[1]);
-}
 
 static double length_of(const iso_proof_ball *ball)
 {
@@ -96,20 +82,16 @@ typedef struct plan {
     iso_proof_work work;
 } plan;
 
-/* As m can change by as much as k does, an interval asks for some more digits than its length has. */
-static int digits_of_interval(const iso_proof_ball *ball)
-{
-    return (int)fmax(6, ceil(4 - log10(length_of(ball) / fabs(iso_rational_double(&ball->k[0])))));
-}
-
 /* The digits that are asked for; or 18, 36, 72, without those that are too few for an m of the expected size; or, if it
- * is smaller than all of these show, enough for it. */
+ * is smaller than all of these show, enough for it. As m can change by as much as k does, an interval asks for some more
+ * digits than its length has. */
 static iso_status make_plan(iso_context *ctx, const iso_proof_ball *ball, const iso_prove_request *r, plan *p)
 {
     enum { LARGER = 6, SPARE = 12 };
     *p = (plan){.work.most = r->half_returns};
     if (r->digits || !iso_proof_is_thin(ball)) {
-        p->digits[p->attempts++] = r->digits ? r->digits : digits_of_interval(ball);
+        const double part = length_of(ball) / fabs(iso_rational_double(&ball->k[0]));
+        p->digits[p->attempts++] = r->digits ? r->digits : (int)fmax(6, ceil(4 - log10(part)));
         return ISO_OK;
     }
     ISO_TRY(iso_proof_expect(ctx, ball, &p->work, &p->decades));
@@ -133,20 +115,14 @@ static iso_status find(iso_context *ctx, const iso_proof_ball *ball, const iso_p
         if (status != ISO_OK) *failed = p->digits[i];
         if (status != ISO_OK) continue;
         *proof = next;
-        print_exact(proof);
+        char k[2][ISO_RATIONAL_SIZE];
+        for (int j = 0; j < 2; j++) iso_rational_print(k[j], &ball->k[j]);
+        const bool thin = iso_proof_is_thin(ball);
+        snprintf(proof->exact, sizeof proof->exact, "%s%s%s", k[0], thin ? "" : ":", thin ? "" : k[1]);
         free(*text);
         *text = next_text;
     }
     return proof->digits > 0 && status == ISO_NUMERICAL ? ISO_OK : status;
-}
-
-/* Why nothing was enclosed at these digits. */
-static void tell_undecided(const iso_context *ctx, const plan *p, int digits, char words[UNDECIDED_WORDS])
-{
-    char expected[ISO_PROOF_WORDS] = "";
-    if (p->decades > 2 * FIRST_DIGITS)
-        snprintf(expected, sizeof expected, "; |m| should be about 1e-%.0f", p->decades);
-    snprintf(words, UNDECIDED_WORDS, "undecided at %d digits: %s%s", digits, iso_context_message(ctx), expected);
 }
 
 /* --- an interval ------------------------------------------------------------------------------------------------ */
@@ -160,21 +136,15 @@ typedef struct work {
     long tried;          /* intervals */
 } work;
 
-/* An interval may have more certificates than the memory holds. */
-static iso_status keep_text(const work *w, const char *text)
-{
-    iso_proofs *f = w->found;
-    if (!f->certificates) f->certificates = tmpfile();
-    if (f->certificates && fputs(text, f->certificates) != EOF) return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_FILE_TROUBLE, "", "cannot write a temporary file: %s", strerror(errno));
-}
-
+/* Certificates go to a file: an interval may have more of them than the memory holds. */
 static iso_status add(work *w, const iso_proof *proof, char *text)
 {
     iso_proofs *f = w->found;
-    const iso_status status = text ? keep_text(w, text) : ISO_OK;
+    if (text && !f->certificates) f->certificates = tmpfile();
+    const bool kept = !text || (f->certificates && fputs(text, f->certificates) != EOF);
     free(text);
-    if (status != ISO_OK) return status;
+    if (!kept)
+        return iso_context_fail(w->ctx, ISO_FILE_TROUBLE, "", "cannot write a temporary file: %s", strerror(errno));
     iso_proof *row = realloc(f->row, (f->rows + 1) * sizeof *row);
     if (!row) return iso_context_no_memory(w->ctx, "%zu pieces", f->rows + 1);
     f->row = row;
@@ -182,29 +152,12 @@ static iso_status add(work *w, const iso_proof *proof, char *text)
     return ISO_OK;
 }
 
-/* Both halves. False: the middle has too many digits. */
-static bool halve(const iso_proof_ball *ball, iso_proof_ball half[2])
-{
-    half[0] = half[1] = *ball;
-    if (!iso_rational_middle(&ball->k[0], &ball->k[1], &half[0].k[1])) return false;
-    half[1].k[0] = half[0].k[1];
-    return true;
-}
-
-/* A piece that stays undecided, at the end of all halvings. */
-static iso_status give_up(work *w, const iso_proof_ball *ball, const iso_proof *proof, char *text)
-{
-    w->found->all = false;
-    w->found->undecided += length_of(ball) / w->length;
-    w->done += length_of(ball);
-    return proof->digits > 0 ? add(w, proof, text) : ISO_OK;
-}
-
+/* A piece that stays undecided, at the end of all halvings or where the middle has too many digits, is kept as such. */
 static iso_status divide(work *w, const iso_proof_ball *ball, int depth)
 {
     const long most = w->request->pieces;
     iso_proof proof = {.digits = 0};
-    iso_proof_ball half[2];
+    iso_proof_ball half[2] = {*ball, *ball};
     plan p;
     int failed;
     char *text = NULL;
@@ -213,15 +166,17 @@ static iso_status divide(work *w, const iso_proof_ball *ball, int depth)
         status = w->tried < most ? find(w->ctx, ball, w->request, &p, &proof, &text, &failed) : ISO_NUMERICAL;
     w->tried++;
     if (status != ISO_OK && status != ISO_NUMERICAL) return status;
-    if (status == ISO_OK && proof.sign != 0) {
-        status = add(w, &proof, text);
-        w->done += length_of(ball);
-    } else if (depth == 0 || w->tried >= most || !halve(ball, half)) {
-        status = give_up(w, ball, &proof, text);
-    } else {
+    const bool decided = status == ISO_OK && proof.sign != 0;
+    if (!decided && depth > 0 && w->tried < most && iso_rational_middle(&ball->k[0], &ball->k[1], &half[0].k[1])) {
         free(text);
+        half[1].k[0] = half[0].k[1];
         status = divide(w, &half[0], depth - 1);
         if (status == ISO_OK) status = divide(w, &half[1], depth - 1);
+    } else {
+        w->found->all = w->found->all && decided;
+        w->found->undecided += decided ? 0 : length_of(ball) / w->length;
+        w->done += length_of(ball);
+        status = proof.digits > 0 ? add(w, &proof, text) : ISO_OK;
     }
     iso_study_progress(w->result, w->done / w->length);
     return status;
@@ -241,24 +196,19 @@ static iso_status find_interval(work *w, const iso_proof_ball *ball)
 static iso_status find_one(work *w, const iso_proof_ball *ball)
 {
     iso_proof proof = {.digits = 0};
-    char *text = NULL, why[UNDECIDED_WORDS];
+    char *text = NULL, why[3 * ISO_PROOF_TEXT], expected[ISO_PROOF_TEXT] = "";
     plan p;
     int failed;
     ISO_TRY(make_plan(w->ctx, ball, w->request, &p));
     const iso_status status = find(w->ctx, ball, w->request, &p, &proof, &text, &failed);
     w->found->undecided = proof.sign == 0;
-    if (failed) tell_undecided(w->ctx, &p, failed, why);
+    if (p.decades > 2 * FIRST_DIGITS) snprintf(expected, sizeof expected, "; |m| should be about 1e-%.0f", p.decades);
+    if (failed)
+        snprintf(why, sizeof why, "undecided at %d digits: %s%s", failed, iso_context_message(w->ctx), expected);
     if (proof.digits == 0) return status == ISO_NUMERICAL ? ISO_FAIL_NUMERICAL(w->ctx, "%s", why) : status;
     if (failed && status == ISO_OK) iso_study_note(w->result, "%s", why);
     const iso_status added = add(w, &proof, text);
     return status == ISO_OK ? added : status;
-}
-
-static iso_status find_all(iso_context *ctx, const iso_proof_ball *ball, const iso_prove_request *r,
-                           iso_study_result *result, iso_proofs *found)
-{
-    work w = {ctx, r, result, found, length_of(ball), 0, 0};
-    return iso_proof_is_thin(ball) ? find_one(&w, ball) : find_interval(&w, ball);
 }
 
 /* --- the study -------------------------------------------------------------------------------------------------- */
@@ -291,12 +241,13 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     ISO_DEFAULT_ARITHMETIC;
     iso_proof_ball ball;
     if (!iso_proof_is_possible()) return iso_proof_find(ctx, NULL, 0, NULL, NULL, NULL);
-    ISO_TRY(take_ball(ctx, subject->scene, options, &ball));
+    ISO_TRY(read_ball(ctx, subject->scene, options, &ball));
     iso_proofs *f = iso_study_keep(result, calloc(1, sizeof *f), iso_proofs_fields, free_proofs);
     if (!f) return iso_context_no_memory(ctx, "a proof");
-    const iso_status status = find_all(ctx, &ball, options, result, f);
+    work w = {ctx, options, result, f, length_of(&ball), 0, 0};
+    const iso_status status = iso_proof_is_thin(&ball) ? find_one(&w, &ball) : find_interval(&w, &ball);
     if (f->rows == 0 && status == ISO_OK)
-        return iso_context_fail(ctx, ISO_NUMERICAL, "", "no part of this interval of k could be enclosed");
+        return ISO_FAIL_NUMERICAL(ctx, "no part of this interval of k could be enclosed");
     if (f->rows == 0) return status;
     const iso_status made = fill(ctx, subject->scene, result);
     return status == ISO_OK ? made : status;

@@ -12,7 +12,7 @@
 #include "orbit/scene.h"
 #include "study/options_impl.h"
 
-enum { ISO_ENCLOSURE_TEXT = 512, ISO_PROOF_WORDS = 240 };
+enum { ISO_ENCLOSURE_TEXT = 512, ISO_PROOF_TEXT = 240 };
 
 /* A number lies between these two doubles, and in the narrower interval of the text: "0.00614708829 +/- 2.5e-12". */
 typedef struct iso_enclosure {
@@ -42,7 +42,7 @@ typedef struct iso_proof {
     int sign;                          /* of all numbers in m; 0: undecided                                       */
     int digits;                        /* that were asked for                                                     */
     long halves, steps;                /* half returns that were enclosed, and steps of Taylor series             */
-    char statement[ISO_PROOF_WORDS];   /* what follows                                                            */
+    char statement[ISO_PROOF_TEXT];    /* what follows                                                            */
 } iso_proof;
 
 /* Half returns that orbits take in all attempts, those of the search among them: how many may begin, how many did. */
@@ -76,13 +76,13 @@ typedef struct iso_proofs {
     size_t rows;
     iso_proof *row;
     FILE *certificates; /* of all rows, one after the other, in a temporary file; NULL: not wanted */
-    bool all;           /* 0 is in no enclosure of an interval of k, and these leave nothing out; no double says so */
+    bool all;           /* the enclosures cover the interval of k and none holds 0; decided exactly */
     double undecided;   /* the part of an interval of k that is undecided, [0, 1], rounded */
 } iso_proofs;
 
 extern const iso_field iso_proof_fields[], iso_proofs_fields[];
 
-/* What it tells people, and the lines of its table (prove_print.c). */
+/* Its text, and the lines of its table (prove_print.c). */
 void iso_prove_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
 
 #endif

@@ -1,4 +1,4 @@
-/* prove_print.c - what prove tells people (study/study.h). */
+/* prove_print.c - the text of prove (study/study.h). */
 
 #include "instrument/prove/prove_impl.h"
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "instrument/section/section_impl.h"
 #include "map/section_impl.h"
 #include "model/model_impl.h"

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/smooth_weight_impl.h"
+#include "base/math_impl.h"
 #include "instrument/section/section_impl.h"
 
 /* Of a scale from 0 to 1/2 a 250th part is not seen. */

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "base/number_impl.h"
 #include "instrument/section/section.h"
 #include "instrument/section/section_impl.h"

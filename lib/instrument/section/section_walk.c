@@ -4,9 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/finite_impl.h"
+#include "base/math_impl.h"
 #include "base/number_impl.h"
-#include "base/pi_impl.h"
 #include "base/version.h"
 #include "instrument/section/section_impl.h"
 #include "orbit/orbit_impl.h"

@@ -22,39 +22,22 @@ static const numbers with_64_bits = {ISO_MANIFOLD_TERMS_64, 10, 19}, with_106_bi
 
 /* --- one computation -------------------------------------------------------------------------------------------- */
 
-/* The same crossing by another polynomial on 3/4 of the domain. */
-static iso_status compute_again(const iso_manifold *m, int terms, const iso_manifold_crossing *c,
-                                iso_manifold_crossing *again)
-{
-    iso_manifold other = *m;
-    iso_manifold_resize(&other, m->size * 3 / 4, terms);
-    iso_status status = iso_manifold_solve(&other);
-    *again = *c;
-    again->theta *= m->size / other.size;
-    while (again->theta > 1) again->theta /= m->lambda, again->halves++;
-    return status == ISO_OK ? iso_manifold_refine(&other, again) : status;
-}
-
-/* What rounding does: each half return makes an error of some units in the last place, which is carried on by the
- * derivative. Across the manifold it dies out like lambda^-i, i half returns later; such errors add up to sqrt(sum
- * lambda^(-2 i)) of one. */
-static double rounding(const iso_manifold *m, const iso_manifold_crossing *c)
-{
-    const double lambda = (double)m->lambda, sum = sqrt(1 / (1 - 1 / (lambda * lambda)));
-    return 10 * m->code->error * (1 + fabs((double)c->slope)) * (1 + sum + log(lambda));
-}
-
 /* From the section n_g = 0 on which the manifold was computed to n_a = 0, on which O has l = 0. At the crossing
  * gamma lies on the middle axis, so it is on both: x_a^2 + x_g^2 = 1. A change of x leaves |M|, so x_a dx_a = -x_g
  * dx_g; along the flow a shift of gamma_a = dl_g becomes one of gamma_g, by gamma_a'/gamma_g' = -M_g/M_a, dl_a =
  * -dl_g |x_a/x_g|:
  *
  *     m_a = (x_g/x_a)^2 m_g
+ *
+ * What rounding does (floor): each half return makes an error of some units in the last place, which is carried on by
+ * the derivative. Across the manifold it dies out like lambda^-i, i half returns later; such errors add up to sqrt(sum
+ * lambda^(-2 i)) of one.
  */
-static void tell(const iso_manifold *m, const iso_manifold_crossing *c, const iso_manifold_crossing *again,
+static void fill(const iso_manifold *m, const iso_manifold_crossing *c, const iso_manifold_crossing *again,
                  int digits, iso_separatrix_splitting *s)
 {
-    const double floor = rounding(m, c),
+    const double lambda = (double)m->lambda, sum = sqrt(1 / (1 - 1 / (lambda * lambda))),
+                 floor = 10 * m->code->error * (1 + fabs((double)c->slope)) * (1 + sum + log(lambda)),
                  apart[2] = {fabs((double)(c->z[1] - again->z[1])), fabs((double)(c->slope - again->slope))};
     double of[2];
     for (int i = 0; i < 2; i++) of[i] = 3 * fmax(apart[i], fmax(c->scatter[i], again->scatter[i])) + floor;
@@ -76,28 +59,19 @@ static void tell(const iso_manifold *m, const iso_manifold_crossing *c, const is
     s->from_zero = fabs(s->m) > 100 * s->error;
 }
 
+/* The crossing, and the same by another polynomial on 3/4 of the domain. */
 static iso_status compute(iso_manifold *m, const numbers *l, iso_manifold_crossing *c, iso_separatrix_splitting *s)
 {
-    iso_manifold_crossing again;
-    iso_status status = iso_manifold_refine(m, c);
-    if (status == ISO_OK) status = compute_again(m, l->other, c, &again);
-    if (status == ISO_OK) tell(m, c, &again, l->digits, s);
-    return status;
-}
-
-static iso_status check_digits(iso_context *ctx, iso_separatrix_digits digits)
-{
-    if (digits != ISO_SEPARATRIX_QUAD || iso_return_code_of(true)) return ISO_OK;
-    return ISO_FAIL_ARGUMENT(ctx, "digits", "splitting: this build has no numbers of 128 bits");
-}
-
-/* Where there are numbers of 128 bits. */
-static iso_status compute_finer(iso_manifold *m, iso_manifold_crossing *c, iso_separatrix_splitting *s)
-{
-    iso_status status = iso_manifold_use(m, iso_return_code_of(true));
-    m->terms = with_106_bits.terms;
-    if (status == ISO_OK) status = iso_manifold_solve(m);
-    return status == ISO_OK ? compute(m, &with_106_bits, c, s) : status;
+    ISO_TRY(iso_manifold_refine(m, c));
+    iso_manifold other = *m;
+    iso_manifold_crossing again = *c;
+    iso_manifold_resize(&other, m->size * 3 / 4, l->other);
+    ISO_TRY(iso_manifold_solve(&other));
+    again.theta *= m->size / other.size;
+    while (again.theta > 1) again.theta /= m->lambda, again.halves++;
+    ISO_TRY(iso_manifold_refine(&other, &again));
+    fill(m, c, &again, l->digits, s);
+    return ISO_OK;
 }
 
 /* --- one k ------------------------------------------------------------------------------------------------------ */
@@ -111,7 +85,7 @@ static void begin(double k, double level, iso_separatrix_splitting *s)
         s->next_m = NAN;
 }
 
-/* With 128 bits, where they are asked for or needed. If they fail where only needed, what 64 bits tell stays. */
+/* With 128 bits, where they are asked for or needed. If they fail where only needed, what 64 bits found stays. */
 static iso_status find_finer(iso_manifold *m, iso_manifold_crossing *c, iso_separatrix_digits digits,
                              iso_separatrix_splitting *s)
 {
@@ -120,19 +94,15 @@ static iso_status find_finer(iso_manifold *m, iso_manifold_crossing *c, iso_sepa
     const iso_manifold_crossing found = *c;
     if (digits == ISO_SEPARATRIX_DOUBLE || (digits == ISO_SEPARATRIX_AUTO && !(unclear && iso_return_code_of(true))))
         return ISO_OK;
-    const iso_status status = compute_finer(m, c, s);
+    iso_status status = iso_manifold_use(m, iso_return_code_of(true));
+    m->terms = with_106_bits.terms;
+    if (status == ISO_OK) status = iso_manifold_solve(m);
+    if (status == ISO_OK) status = compute(m, &with_106_bits, c, s);
     if (status != ISO_NUMERICAL || digits == ISO_SEPARATRIX_QUAD) return status;
-    snprintf(s->words, sizeof s->words, "128 bits failed: %s", iso_context_message(m->ctx));
+    snprintf(s->text, sizeof s->text, "128 bits failed: %s", iso_context_message(m->ctx));
     *m = kept;
     *c = found;
     return ISO_OK;
-}
-
-static void tell_next(const iso_manifold *m, const iso_manifold_crossing *n, iso_separatrix_splitting *s)
-{
-    s->next_l = (double)iso_wide_turned(n->z[0] + m->corner);
-    s->next_x = (double)n->z[1];
-    s->next_m = (double)n->slope;
 }
 
 static iso_status find(iso_context *ctx, const double J[3], iso_separatrix_digits digits, bool next,
@@ -140,7 +110,8 @@ static iso_status find(iso_context *ctx, const double J[3], iso_separatrix_digit
 {
     iso_manifold m;
     iso_manifold_crossing c, n;
-    ISO_TRY(check_digits(ctx, digits));
+    if (digits == ISO_SEPARATRIX_QUAD && !iso_return_code_of(true))
+        return ISO_FAIL_ARGUMENT(ctx, "digits", "splitting: this build has no numbers of 128 bits");
     ISO_TRY(iso_manifold_find(ctx, s->k, J, s->level, &m));
     s->section = m.axis;
     s->middle = m.corner == 0 ? (m.axis + 2) % 3 : (m.axis + 1) % 3;
@@ -150,32 +121,28 @@ static iso_status find(iso_context *ctx, const double J[3], iso_separatrix_digit
     if (status == ISO_OK) status = find_finer(&m, &c, digits, s);
     if (status != ISO_OK || !next) return status;
     status = iso_manifold_next(&m, &c, &n);
-    if (status == ISO_OK) tell_next(&m, &n, s);
-    return status == ISO_NUMERICAL ? ISO_OK : status;
+    if (status != ISO_OK) return status == ISO_NUMERICAL ? ISO_OK : status;
+    s->next_l = (double)iso_wide_turned(n.z[0] + m.corner);
+    s->next_x = (double)n.z[1];
+    s->next_m = (double)n.slope;
+    return ISO_OK;
 }
 
-static iso_status find_at(iso_context *ctx, double k, const double J[3], double level, iso_separatrix_digits digits,
-                          bool next, iso_separatrix_splitting *s)
+iso_status iso_separatrix_next_at(iso_context *ctx, double k, const double J[3], double level,
+                                  iso_separatrix_digits digits, bool next, iso_separatrix_splitting *s)
 {
+    ISO_DEFAULT_ARITHMETIC;
     begin(k, level, s);
     const iso_status status = find(ctx, J, digits, next, s);
     if (status == ISO_OK) return ISO_OK;
     begin(k, level, s);
     s->status = status;
-    snprintf(s->words, sizeof s->words, "%s", iso_context_message(ctx));
+    snprintf(s->text, sizeof s->text, "%s", iso_context_message(ctx));
     return status;
 }
 
 iso_status iso_separatrix_at(iso_context *ctx, double k, const double J[3], double level,
                              iso_separatrix_digits digits, iso_separatrix_splitting *s)
 {
-    ISO_DEFAULT_ARITHMETIC;
-    return find_at(ctx, k, J, level, digits, false, s);
-}
-
-iso_status iso_separatrix_next_at(iso_context *ctx, double k, const double J[3], double level,
-                                  iso_separatrix_digits digits, iso_separatrix_splitting *s)
-{
-    ISO_DEFAULT_ARITHMETIC;
-    return find_at(ctx, k, J, level, digits, true, s);
+    return iso_separatrix_next_at(ctx, k, J, level, digits, false, s);
 }

@@ -54,7 +54,7 @@ typedef struct iso_separatrix_splitting {
     bool is_zero;   /* a zero of m between two rows of a scan, to k_error or level_error; next_... are there   */
     double k_error, level_error; /* one of them is 0: that of the number in which both rows agree                */
     iso_status status;           /* ISO_OK, or why there is nothing                                               */
-    char words[200];             /* of a failure; with ISO_OK: "", or why 128 bits failed where 64 did not         */
+    char text[200];              /* of a failure; with ISO_OK: "", or why 128 bits failed where 64 did not         */
 } iso_separatrix_splitting;
 
 /* Errors: ISO_BAD_INPUT about "k" or "J": those of iso_params_reduced; two equal moments (the body is integrable, and
@@ -62,7 +62,7 @@ typedef struct iso_separatrix_splitting {
  * estimated at 1e-427 or less and not computed; parameters beyond what the numbers hold; about "level": the middle
  * axis has no rotation, but an oscillation between two places of rest. ISO_NUMERICAL: no crossing was found, or a
  * return failed. ISO_BAD_ARGUMENT about "digits" where this build has no 128 bits. ISO_NO_MEMORY, ISO_STOPPED. The
- * status and its words are in *s as well. */
+ * status and its text are in *s as well. */
 iso_status iso_separatrix_at(iso_context *ctx, double k, const double J[3], double level,
                              iso_separatrix_digits digits, iso_separatrix_splitting *s);
 
@@ -75,7 +75,7 @@ typedef struct iso_separatrix_options {
     iso_separatrix_digits digits;
     bool zeros;  /* look for zeros of m between neighbours of this list                    */
     int threads; /* 0: as many as there are processors to run on                           */
-    /* Is told the part of the work that is done, in [0, 1]; NULL: nobody is. */
+    /* progress(part): the part of the work that is done, in [0, 1]; NULL: no calls. */
     void (*progress)(void *data, double part);
     void *data;
     const double *level; /* one for each k; NULL: the scene's level everywhere */
@@ -91,7 +91,9 @@ static inline iso_separatrix_options iso_separatrix_defaults(void)
 
 typedef struct iso_separatrix_table {
     size_t rows, zeros;
-    size_t lost; /* zeros that lie between two rows and were not found: a failure, or +-1 too close  */
+    int axis, middle; /* those of each row that did not fail; -1: all did */
+    bool by_level;    /* the rows differ in the level, not in k           */
+    size_t lost;      /* zeros that lie between two rows and were not found: a failure, or +-1 too close  */
     /* One for each k of the options, in their order; status ISO_STOPPED: not done. */
     iso_separatrix_splitting *row;
     /* Zeros of m other than k = +-1, by growing k and level. */
@@ -106,7 +108,7 @@ typedef struct iso_separatrix_table {
  * ball, other than `level`; where the scene starts as a point, or has a level, those of iso_orbit_create; ISO_NO_MEMORY;
  * ISO_STOPPED by the context's monitor: *s has the rows that are done. */
 iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *options, iso_separatrix_table **s);
-void iso_separatrix_free(iso_separatrix_table *s);
+void iso_separatrix_free(void *table);
 
 /* The unstable manifold of O as a line of points, columns u and x, from O for `halves` half returns past the first
  * crossing, in numbers of 64 bits. (pi - u, x) is the stable manifold of O'. Errors: as iso_separatrix_at. */

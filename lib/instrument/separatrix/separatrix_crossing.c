@@ -7,8 +7,8 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/math_impl.h"
 #include "base/number_impl.h"
-#include "base/pi_impl.h"
 #include "instrument/separatrix/separatrix_impl.h"
 
 enum { MOST_SAMPLES = 4096, MOST_HALVES = 2000 };
@@ -24,39 +24,25 @@ typedef struct piece {
     double u[MOST_SAMPLES]; /* of each sample, with whole turns */
 } piece;
 
-static double nearest(iso_wide u, double to)
-{
-    return to + (double)iso_wide_turned(u - (iso_wide)to);
-}
-
-static void unwrap(piece *p)
-{
-    p->u[0] = nearest(p->at[0].z[0], p->base);
-    for (int i = 1; i < p->count; i++) p->u[i] = nearest(p->at[i].z[0], p->u[i - 1]);
-}
-
-static bool is_far(const iso_manifold_point *a, const iso_manifold_point *b, double close)
-{
-    const double du = (double)iso_wide_turned(b->z[0] - a->z[0]), dx = (double)(b->z[1] - a->z[1]);
-    return hypot(du, dx) > close;
-}
-
-/* Puts samples between those that are far apart. */
+/* Puts samples between those that are far apart, then sets u. */
 static iso_status fill(piece *p)
 {
     for (int i = 0; i + 1 < p->count;) {
-        if (!is_far(&p->at[i], &p->at[i + 1], p->close)) {
+        const iso_manifold_point *a = &p->at[i], *b = &p->at[i + 1];
+        iso_manifold_point between;
+        if (!(hypot((double)iso_wide_turned(b->z[0] - a->z[0]), (double)(b->z[1] - a->z[1])) > p->close)) {
             i++;
             continue;
         }
-        iso_manifold_point between;
         if (p->count == MOST_SAMPLES)
             return iso_manifold_lost(p->m, "the manifold is too long before it meets the line");
-        ISO_TRY(iso_manifold_at(p->m, WIDE_ROOT(p->at[i].theta * p->at[i + 1].theta), p->halves, &between));
+        ISO_TRY(iso_manifold_at(p->m, WIDE_ROOT(a->theta * b->theta), p->halves, &between));
         for (int j = p->count++; j > i + 1; j--) p->at[j] = p->at[j - 1];
         p->at[i + 1] = between;
     }
-    unwrap(p);
+    double last = p->base;
+    for (int i = 0; i < p->count; i++)
+        last = p->u[i] = last + (double)iso_wide_turned(p->at[i].z[0] - (iso_wide)last);
     return ISO_OK;
 }
 
@@ -161,17 +147,16 @@ iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
     piece *p;
     iso_status status = open_piece(m, CLOSE, &p);
     int found = 0;
-    while (status == ISO_OK && found == 0) {
+    while (status == ISO_OK) {
         for (int i = 0; i < p->count && found == 0; i++)
             if (p->u[i] >= ISO_PI / 2) found = i > 0 ? i : 1;
         if (found > 0) break;
-        status =
-            p->halves < MOST_HALVES
-                ? advance(p)
-                : ISO_FAIL_NUMERICAL(
-                      m->ctx,
-                      "splitting at k = %s: the manifold does not meet the line of symmetry within %d half turns",
-                      ISO_SHORT(m->problem.p.k), MOST_HALVES);
+        status = p->halves < MOST_HALVES
+                     ? advance(p)
+                     : ISO_FAIL_NUMERICAL(m->ctx,
+                                          "splitting at k = %s: the manifold does not meet the line "
+                                          "of symmetry within %d half turns",
+                                          ISO_SHORT(m->problem.p.k), MOST_HALVES);
     }
     if (status == ISO_OK) *c = (iso_manifold_crossing){.halves = p->halves, .theta = guess(p, found)};
     free(p);
@@ -180,22 +165,8 @@ iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
 
 /* --- the next one ----------------------------------------------------------------------------------------------- */
 
-/* What is left of S3: W^s(O') = S3 W^u(O), and g S3 is a reversor as well: it turns W^u(O) into W^s(O'). The
- * manifolds meet where W^u(O) meets the fixed points of g S3, g(S3 z) = z. The stable one has the direction D(g S3)
- * t there. */
-typedef struct mirror {
-    iso_manifold_point p, image; /* g S3 p */
-} mirror;
-
-static iso_status look(const iso_manifold *m, iso_wide theta, int halves, mirror *r)
-{
-    ISO_TRY(iso_manifold_at(m, theta, halves, &r->p));
-    r->image = r->p;
-    r->image.z[0] = WIDE_PI - r->p.z[0];
-    r->image.t[0] = -r->p.t[0];
-    return iso_manifold_go_on(m, &r->image);
-}
-
+/* What is left of S3: W^s(O') = S3 W^u(O), and g S3 is a reversor as well: it turns W^u(O) into W^s(O'). The manifolds
+ * meet where W^u(O) meets the fixed points of g S3, g(S3 p) = p. The stable one has the direction D(g S3) t there. */
 iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing *from, iso_manifold_crossing *c)
 {
     *c = *from;
@@ -203,11 +174,15 @@ iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing 
     if (c->theta > 1) c->theta /= m->lambda, c->halves++;
     iso_wide last = 1;
     for (int i = 0; i < 30; i++) {
-        mirror r;
-        ISO_TRY(look(m, c->theta, c->halves, &r));
-        const iso_wide apart = iso_wide_turned(r.image.z[0] - r.p.z[0]), step = apart / (r.image.t[0] - r.p.t[0]);
-        for (int j = 0; j < 2; j++) c->z[j] = r.p.z[j];
-        c->slope = (r.p.t[1] / r.p.t[0] - r.image.t[1] / r.image.t[0]) / 2;
+        iso_manifold_point p, image;
+        ISO_TRY(iso_manifold_at(m, c->theta, c->halves, &p));
+        image = p;
+        image.z[0] = WIDE_PI - p.z[0];
+        image.t[0] = -p.t[0];
+        ISO_TRY(iso_manifold_go_on(m, &image));
+        const iso_wide apart = iso_wide_turned(image.z[0] - p.z[0]), step = apart / (image.t[0] - p.t[0]);
+        for (int j = 0; j < 2; j++) c->z[j] = p.z[j];
+        c->slope = (p.t[1] / p.t[0] - image.t[1] / image.t[0]) / 2;
         if (is_there(m, apart, last)) return ISO_OK;
         if (!(WIDE_ABS(step) < c->theta / 2)) break;
         c->theta -= step;
@@ -230,35 +205,29 @@ static iso_status append(iso_context *ctx, const piece *p, int from, iso_record 
 }
 
 /* Until the lobes are too long to be held: that is no failure. */
-static iso_status draw(iso_context *ctx, const iso_manifold *m, int halves, iso_record *curve)
-{
-    piece *p;
-    double *origin;
-    ISO_TRY(iso_record_append(ctx, curve, &origin));
-    iso_status status = open_piece(m, CLOSE_DRAWN, &p);
-    if (status == ISO_OK) status = append(ctx, p, 0, curve);
-    for (int left = halves, met = 0; status == ISO_OK && left > 0 && p->halves < MOST_HALVES; left -= met) {
-        status = advance(p);
-        if (status == ISO_NUMERICAL && met) return free(p), ISO_OK;
-        met = met || p->u[p->count - 1] >= ISO_PI / 2;
-        if (status == ISO_OK) status = append(ctx, p, 1, curve);
-    }
-    free(p);
-    return status;
-}
-
 iso_status iso_separatrix_curve(iso_context *ctx, double k, const double J[3], double level, int halves,
                                 iso_record **curve)
 {
     static const char *const names[] = {"u", "x"};
     iso_manifold m;
-    iso_record *r = NULL;
+    piece *p = NULL;
+    double *origin;
+    bool met = false, whole = false;
     ISO_DEFAULT_ARITHMETIC;
     *curve = NULL;
     iso_status status = iso_manifold_find(ctx, k, J, level, &m);
-    if (status == ISO_OK) status = iso_record_create(ctx, 2, names, &r);
-    if (status == ISO_OK) status = draw(ctx, &m, halves, r);
-    if (status != ISO_OK) iso_record_free(r), r = NULL;
-    *curve = r;
+    if (status == ISO_OK) status = iso_record_create(ctx, 2, names, curve);
+    if (status == ISO_OK) status = iso_record_append(ctx, *curve, &origin);
+    if (status == ISO_OK) status = open_piece(&m, CLOSE_DRAWN, &p);
+    if (status == ISO_OK) status = append(ctx, p, 0, *curve);
+    for (int left = halves; status == ISO_OK && !whole && left > 0 && p->halves < MOST_HALVES; left -= met) {
+        status = advance(p);
+        whole = status == ISO_NUMERICAL && met;
+        if (whole) status = ISO_OK;
+        met = met || p->u[p->count - 1] >= ISO_PI / 2;
+        if (status == ISO_OK && !whole) status = append(ctx, p, 1, *curve);
+    }
+    free(p);
+    if (status != ISO_OK) iso_record_free(*curve), *curve = NULL;
     return status;
 }

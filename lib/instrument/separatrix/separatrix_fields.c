@@ -43,44 +43,24 @@ const iso_field iso_separatrix_fields[] = {
     FIELD("global.axis", section, "", "axis of the global section", .there = is_found, .how = AXIS),
     MORE("global.x", section_x, "", "x there"),
     MORE("global.m", section_m, "", "m there"),
-    MORE("words", words, "", "why 128 bits failed where 64 did not"),
+    MORE("words", text, "", "why 128 bits failed where 64 did not"),
     ZERO("k_error", k_error, "", "error of k, at a zero of m"),
     ZERO("level_error", level_error, "", "error of the level, at a zero of m"),
     FIELD("next.axis", section, "", "axis of the section of the next point", .there = is_zero, .how = AXIS),
     ZERO("next.l", next_l, "rad", "the next point where the manifolds meet"),
     ZERO("next.x", next_x, "", "its other coordinate"),
     ZERO("next.m", next_m, "", "half the difference of the slopes there"),
-    FIELD("failed", words, "", "why there is nothing", .there = is_lost, .how = ISO_OPTIONAL | ISO_IN_TREE),
+    FIELD("failed", text, "", "why there is nothing", .there = is_lost, .how = ISO_OPTIONAL | ISO_IN_TREE),
     ISO_FIELD_END,
 };
 #undef FIELD
-
-/* The axes are those of each row that did not fail; none: all did. */
-static const iso_separatrix_splitting *first_found(const iso_separatrix_table *s)
-{
-    for (size_t i = 0; i < s->rows; i++)
-        if (is_found(&s->row[i])) return &s->row[i];
-    return NULL;
-}
-
-static double axis_of(const void *row)
-{
-    const iso_separatrix_splitting *found = first_found(row);
-    return found ? found->axis : -1;
-}
-
-static double middle_of(const void *row)
-{
-    const iso_separatrix_splitting *found = first_found(row);
-    return found ? found->middle : -1;
-}
 
 #define LIST(key, member, number, doc)                                                                               \
     ISO_LIST_AT(iso_separatrix_table, key, member, number, iso_separatrix_fields, doc, .skip = is_undone)
 
 const iso_field iso_separatrix_table_fields[] = {
-    ISO_COUNT("axis", axis_of, "", "a of the section n_a = 0 of x and m", .how = ISO_FROM_ONE),
-    ISO_COUNT("middle", middle_of, "", "the axis of the middle moment", .how = ISO_FROM_ONE),
+    ISO_MEMBER(iso_separatrix_table, "axis", axis, "", "a of the section n_a = 0 of x and m", .how = ISO_FROM_ONE),
+    ISO_MEMBER(iso_separatrix_table, "middle", middle, "", "the axis of the middle moment", .how = ISO_FROM_ONE),
     LIST("rows", row, rows, "one for each k or level"),
     LIST("zeros", zero, zeros, "zeros of m between them"),
     ISO_MEMBER(iso_separatrix_table, "lost", lost, "", "zeros that were not found"),

@@ -54,9 +54,6 @@ typedef struct iso_manifold_crossing {
     double scatter[2]; /* how far rounding moves x and the slope                     */
 } iso_manifold_crossing;
 
-/* Checks k, J and the level, and finds lambda and v. Errors: as iso_separatrix_at. */
-iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m);
-
 /* Other numbers: lambda and v anew, and the polynomial stays as a first guess. */
 iso_status iso_manifold_use(iso_manifold *m, const iso_return_code *code);
 
@@ -72,7 +69,8 @@ iso_status iso_manifold_at(const iso_manifold *m, iso_wide theta, int halves, is
 /* One more half return. */
 iso_status iso_manifold_go_on(const iso_manifold *m, iso_manifold_point *p);
 
-/* Both, in numbers of 64 bits: from the domain that suits them. */
+/* Checks k, J and the level; finds lambda, v, and in numbers of 64 bits the polynomial on the domain that suits them.
+ * Errors: as iso_separatrix_at. */
 iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m);
 
 /* The first crossing with the line u = pi/2: roughly, then to the last digit from a guess. */
@@ -94,8 +92,8 @@ static inline iso_wide iso_wide_turned(iso_wide angle)
     return iso_wide_wrap(angle, 2 * WIDE_PI);
 }
 
-/* The same, and next_... as well. */
+/* iso_separatrix_at, and with `next` the next crossing as well. */
 iso_status iso_separatrix_next_at(iso_context *ctx, double k, const double J[3], double level,
-                                  iso_separatrix_digits digits, iso_separatrix_splitting *s);
+                                  iso_separatrix_digits digits, bool next, iso_separatrix_splitting *s);
 
 #endif

@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "base/context_impl.h"
+#include "base/math_impl.h"
 #include "base/number_impl.h"
-#include "base/pi_impl.h"
 #include "instrument/separatrix/separatrix_impl.h"
 #include "map/section.h"
 #include "map/section_impl.h"
@@ -22,29 +22,24 @@
 
 /* --- the map ---------------------------------------------------------------------------------------------------- */
 
-static iso_status no_return(const iso_manifold *m)
-{
-    return iso_manifold_lost(m, "a return could not be computed");
-}
-
 /* g at z, and the derivative. u of the image is in (-pi, pi]. */
 static iso_status map_half(const iso_manifold *m, const iso_wide z[2], iso_wide image[2], iso_wide A[2][2])
 {
     iso_return r = {.from = {iso_fine_of(iso_wide_turned(m->corner + z[0])), iso_fine_of(z[1])},
                     .start = ISO_FROM_BELOW};
     if (!iso_context_goes_on(m->ctx)) return iso_context_stopped(m->ctx);
-    if (!(WIDE_ABS(z[1]) < 1)) return no_return(m);
-    if (!m->code->go(&m->model, m->axis, m->zeros, m->tolerance, &r)) return no_return(m);
+    bool good = WIDE_ABS(z[1]) < 1 && m->code->go(&m->model, m->axis, m->zeros, m->tolerance, &r);
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 2; j++) A[i][j] = iso_wide_of(r.slope[i][j]);
     image[0] = iso_wide_turned(iso_wide_of(r.to[0]) - m->corner);
     image[1] = iso_wide_of(r.to[1]);
-    return image[0] - image[0] == 0 && image[1] - image[1] == 0 ? ISO_OK : no_return(m);
+    good = good && image[0] - image[0] == 0 && image[1] - image[1] == 0;
+    return good ? ISO_OK : iso_manifold_lost(m, "a return could not be computed");
 }
 
 /* lambda must be 1.01 or more, that of a whole return 1.02: with smaller ones the crossing is very many half returns
  * away. m is estimated at exp(-2 pi^2/ln lambda^2), which is 2e-429 at this bound: 1e-427 or less. No bound of m is
- * computed then, so none is told. */
+ * computed then, so none is stated. */
 static iso_status check_trace(const iso_manifold *m, double trace)
 {
     const double apart = trace - 2; /* (lambda - 1)^2/lambda */
@@ -56,11 +51,14 @@ static iso_status check_trace(const iso_manifold *m, double trace)
                           ISO_SHORT(m->problem.p.k), expm1(exponent), 2 * ISO_PI * ISO_PI / exponent / log(10));
 }
 
-/* lambda and v from the derivative at the fixed point, whose determinant is 1. */
-static iso_status find_direction(iso_manifold *m)
+/* lambda and v from the derivative at the fixed point, whose determinant is 1. Terms of the series are kept to a hundredth
+ * of a rounding error. */
+iso_status iso_manifold_use(iso_manifold *m, const iso_return_code *code)
 {
     const iso_wide origin[2] = {0, 0};
     iso_wide image[2], A[2][2];
+    m->code = code;
+    m->tolerance = code == &iso_return_extended ? 1e-15 : 1e-17;
     ISO_TRY(map_half(m, origin, image, A));
     const iso_wide trace = A[0][0] + A[1][1];
     ISO_TRY(check_trace(m, (double)trace));
@@ -72,29 +70,9 @@ static iso_status find_direction(iso_manifold *m)
     return ISO_OK;
 }
 
-/* Terms of the series are kept to a hundredth of a rounding error. */
-iso_status iso_manifold_use(iso_manifold *m, const iso_return_code *code)
-{
-    m->code = code;
-    m->tolerance = code == &iso_return_extended ? 1e-15 : 1e-17;
-    return find_direction(m);
-}
-
 /* --- preparing -------------------------------------------------------------------------------------------------- */
 
-/* Below this level the circle of the middle axis' rotation is not open as a whole. */
-static iso_status check_level(const iso_manifold *m)
-{
-    const iso_params *p = &m->problem.p;
-    const double a = p->J[m->axis], lowest = iso_level_of(p, -pow(a, -1 / p->k));
-    if (m->level > lowest) return ISO_OK;
-    return ISO_FAIL_INPUT(m->ctx, "level",
-                          "splitting at k = %s, level %s: the middle axis has no rotation, but an oscillation "
-                          "between two places of rest: it has no separatrix. Give a level above %.12g",
-                          ISO_SHORT(p->k), ISO_SHORT(m->level), lowest);
-}
-
-iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)
+static iso_status open_manifold(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)
 {
     memset(m, 0, sizeof *m);
     m->ctx = ctx;
@@ -113,7 +91,12 @@ iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], doub
     m->problem.energy = iso_level_energy(p, level);
     const iso_point_motion motion = {p, 1, m->problem.energy};
     m->axis = iso_section_axis(motion);
-    ISO_TRY(check_level(m));
+    const double lowest = iso_level_of(p, -pow(p->J[m->axis], -1 / k)); /* here the middle axis' circle closes */
+    if (!(level > lowest))
+        return ISO_FAIL_INPUT(ctx, "level",
+                              "splitting at k = %s, level %s: the middle axis has no rotation, but an oscillation "
+                              "between two places of rest: it has no separatrix. Give a level above %.12g",
+                              ISO_SHORT(k), ISO_SHORT(level), lowest);
     const int b = (m->axis + 1) % 3, c = (m->axis + 2) % 3;
     const bool at_zero = k > 0 ? p->J[c] > p->J[b] : p->J[c] < p->J[b]; /* c is the middle axis */
     m->corner = at_zero ? 0 : WIDE_PI / 2;
@@ -218,44 +201,30 @@ static iso_status set_rows(const iso_manifold *m, int j, linear *L)
     return status;
 }
 
-/* One step of Newton's method; gives the largest change of a coefficient, relative to the domain. */
-static iso_status improve(iso_manifold *m, linear *L, double *change)
-{
-    iso_wide most = 0;
-    L->n = 2 * m->terms;
-    for (int j = 0; j < m->terms; j++) ISO_TRY(set_rows(m, j, L));
-    eliminate(L);
-    for (int i = 0; i < L->n; i++) {
-        const iso_wide size = WIDE_ABS(L->b[i]);
-        m->c[i / m->terms][i % m->terms] += L->b[i];
-        if (!(size <= most)) most = size;
-    }
-    *change = (double)(most / m->size);
-    return ISO_OK;
-}
-
-/* How fast the coefficients fall, from the first ones: the last may be rounding errors, which do not fall. */
-static double falling(const iso_manifold *m)
-{
-    double size[ISO_MANIFOLD_TERMS];
-    int last = 1;
-    for (int i = 0; i < m->terms; i++) size[i] = hypot((double)m->c[0][i], (double)m->c[1][i]);
-    while (last + 1 < m->terms && size[last + 1] < size[last] / 3 && size[last + 1] > 1e-13 * (double)m->size) last++;
-    return pow(size[last] / size[0], 1.0 / last);
-}
-
+/* Newton's method, until the largest change of a coefficient is small by the domain. m->rate: how fast the coefficients
+ * fall, from the first ones: the last may be rounding errors, which do not fall. */
 iso_status iso_manifold_solve(iso_manifold *m)
 {
-    linear L;
-    double change = 1;
+    linear L = {.n = 2 * m->terms};
+    double change = 1, of[ISO_MANIFOLD_TERMS];
     const double near = sqrt(m->code->error) / 100;
-    for (int i = 0; i < 12; i++) {
-        ISO_TRY(improve(m, &L, &change));
+    for (int steps = 0; steps < 12; steps++) {
+        iso_wide most = 0;
+        for (int j = 0; j < m->terms; j++) ISO_TRY(set_rows(m, j, &L));
+        eliminate(&L);
+        for (int i = 0; i < L.n; i++) {
+            const iso_wide size = WIDE_ABS(L.b[i]);
+            m->c[i / m->terms][i % m->terms] += L.b[i];
+            if (!(size <= most)) most = size;
+        }
+        change = (double)(most / m->size);
         if (change < near || !(change < 1e3)) break;
     }
-    m->rate = falling(m);
-    if (change < near) return ISO_OK;
-    return iso_manifold_lost(m, "the series of the manifold was not found");
+    int last = 1;
+    for (int i = 0; i < m->terms; i++) of[i] = hypot((double)m->c[0][i], (double)m->c[1][i]);
+    while (last + 1 < m->terms && of[last + 1] < of[last] / 3 && of[last + 1] > 1e-13 * (double)m->size) last++;
+    m->rate = pow(of[last] / of[0], 1.0 / last);
+    return change < near ? ISO_OK : iso_manifold_lost(m, "the series of the manifold was not found");
 }
 
 /* --- farther out ------------------------------------------------------------------------------------------------ */
@@ -276,14 +245,13 @@ iso_status iso_manifold_at(const iso_manifold *m, iso_wide theta, int halves, is
     return ISO_OK;
 }
 
-/* --- the domain ------------------------------------------------------------------------------------------------- */
-
 /* Coefficients fall like rate^i with rate ~ size^2. So the domain is made so large that the last one, of 12, is at
  * the rounding errors of 64 bits; of 21, of 106 bits. */
-static iso_status find_domain(iso_manifold *m)
+iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)
 {
     const double wanted = 0.01;
     iso_wide size = (iso_wide)0.1;
+    ISO_TRY(open_manifold(ctx, k, J, level, m));
     for (int i = 0; i < 8; i++) {
         iso_manifold_resize(m, size, ISO_MANIFOLD_TERMS_64);
         const iso_status status = iso_manifold_solve(m);
@@ -293,10 +261,4 @@ static iso_status find_domain(iso_manifold *m)
         size *= (iso_wide)fmax(change, 0.1);
     }
     return iso_manifold_lost(m, "no domain was found on which the series of the manifold converges");
-}
-
-iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)
-{
-    ISO_TRY(iso_manifold_open(ctx, k, J, level, m));
-    return find_domain(m);
 }

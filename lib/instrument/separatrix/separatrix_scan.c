@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "base/pool_impl.h"
 #include "instrument/separatrix/separatrix_impl.h"
 #include "orbit/orbit_impl.h"
@@ -17,16 +17,15 @@ typedef struct bracket {
     double other; /* the number in which they agree */
     double at[2], r[2];
     double width; /* of at */
-    bool fine;    /* 64 bits do not tell these m from 0 */
+    bool fine;    /* 64 bits do not distinguish these m from 0 */
 } bracket;
 
 typedef struct scan {
     const iso_separatrix_options *o;
     iso_separatrix_table *s;
-    double level; /* where the options give none */
+    double level; /* where the options have none */
     const bracket *bracket;
     atomic_size_t done;
-    size_t all;
 } scan;
 
 /* r from m, or its error from that of m. */
@@ -50,28 +49,22 @@ static bool solve_rows(iso_pool_worker *w, void *data, size_t first, size_t coun
             ISO_NO_MEMORY)
             return false;
         const size_t now = atomic_fetch_add(&c->done, 1) + 1;
-        if (w->asks && c->o->progress) c->o->progress(c->o->data, (double)now / (double)c->all);
+        if (w->asks && c->o->progress) c->o->progress(c->o->data, (double)now / (double)c->o->count);
     }
     return true;
 }
 
 /* --- zeros ------------------------------------------------------------------------------------------------------ */
 
-/* r as the search sees it. */
-static iso_status value_at(iso_pool_worker *w, const scan *c, const bracket *b, double at, double *r, double *error)
+/* The splitting in a bracket, and r with its error. next: see iso_separatrix_next_at. */
+static iso_status value_at(iso_pool_worker *w, const scan *c, const bracket *b, double at, bool next,
+                           iso_separatrix_splitting *s, double *r, double *error)
 {
-    iso_separatrix_splitting s;
-    const iso_separatrix_digits digits = b->fine ? c->o->digits : ISO_SEPARATRIX_DOUBLE;
+    const iso_separatrix_digits digits = next || b->fine ? c->o->digits : ISO_SEPARATRIX_DOUBLE;
     const double k = b->by_level ? b->other : at, level = b->by_level ? at : b->other;
-    const iso_status status = iso_separatrix_at(w->ctx, k, c->o->J, level, digits, &s);
-    *r = reduced(&s, s.m), *error = fabs(reduced(&s, s.error));
+    const iso_status status = iso_separatrix_next_at(w->ctx, k, c->o->J, level, digits, next, s);
+    *r = reduced(s, s->m), *error = fabs(reduced(s, s->error));
     return status;
-}
-
-/* Next to +-1 r is not known: m is not distinguished from 0 there, zero of r or not. */
-static bool is_blind(const bracket *b, double error)
-{
-    return !(error < fmax(fabs(b->r[0]), fabs(b->r[1])) / 100);
 }
 
 /* How far the number must go to change by much: k itself; a level can be 0, so it is measured by its bracket. */
@@ -85,14 +78,16 @@ static double size_of(const bracket *b, double at)
 static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *at, double *slope)
 {
     enum { MOST = 40 };
+    iso_separatrix_splitting s;
     int kept = -1;
     double r = NAN, error = NAN, aside = NAN, end[2] = {b->r[0], b->r[1]};
     iso_status status = ISO_OK;
     for (int i = 0; i < MOST && status == ISO_OK; i++) {
         const double last = *at;
         *at = (b->at[0] * end[1] - b->at[1] * end[0]) / (end[1] - end[0]);
-        status = value_at(w, c, b, *at, &r, &error);
-        if (status == ISO_OK && is_blind(b, error)) return ISO_NUMERICAL;
+        status = value_at(w, c, b, *at, false, &s, &r, &error);
+        /* next to +-1 r is not known: m is not distinguished from 0 there, zero of r or not */
+        if (status == ISO_OK && !(error < fmax(fabs(b->r[0]), fabs(b->r[1])) / 100)) return ISO_NUMERICAL;
         if (status != ISO_OK || fabs(r) < 10 * error || fabs(*at - last) < 1e-12 * size_of(b, *at)) break;
         const int side = r * end[0] > 0 ? 0 : 1;
         b->at[side] = *at, end[side] = r;
@@ -100,7 +95,7 @@ static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *
         kept = 1 - side;
     }
     const double step = copysign(1e-4 * size_of(b, *at), *at);
-    if (status == ISO_OK) status = value_at(w, c, b, *at + step, &aside, &error);
+    if (status == ISO_OK) status = value_at(w, c, b, *at + step, false, &s, &aside, &error);
     *slope = (aside - r) / step;
     return status;
 }
@@ -114,9 +109,7 @@ static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_se
     double at = NAN, slope = NAN, last = NAN, last_r = NAN, least = 0, r = NAN, error = NAN;
     iso_status status = search(w, c, &b, &at, &slope);
     for (int i = 0; i < MOST && status == ISO_OK; i++) {
-        status = iso_separatrix_next_at(w->ctx, b.by_level ? b.other : at, c->o->J, b.by_level ? at : b.other,
-                                        c->o->digits, zero);
-        r = reduced(zero, zero->m), error = fabs(reduced(zero, zero->error));
+        status = value_at(w, c, &b, at, true, zero, &r, &error);
         if (i > 0 && fabs(at - last) > 1e-12 * size_of(&b, at)) slope = (r - last_r) / (at - last);
         least = 4e-16 * fabs(slope) * size_of(&b, at);
         if (fabs(r) < fmax(10 * error, least)) break;
@@ -153,32 +146,18 @@ static bool is_bracket(const iso_separatrix_splitting *a, const iso_separatrix_s
     return a->k * b->k > 0 && (by_level || a->level == b->level) && found->r[0] * found->r[1] < 0;
 }
 
-/* Rows that are distinguished from 0, by growing k; their number. */
-static size_t sort(const iso_separatrix_table *s, const iso_separatrix_splitting *list[])
-{
-    size_t count = 0;
-    for (size_t i = 0; i < s->rows; i++)
-        if (s->row[i].status == ISO_OK && s->row[i].from_zero) list[count++] = &s->row[i];
-    qsort(list, count, sizeof *list, by_k);
-    return count;
-}
-
+/* Between neighbours, by growing k, of the rows that are distinguished from 0. list: room for the rows. */
 static size_t find_brackets(const iso_separatrix_table *s, const iso_separatrix_splitting *list[], bracket brackets[])
 {
-    const size_t told = sort(s, list);
-    size_t count = 0;
-    for (size_t i = 0; i + 1 < told; i++) count += is_bracket(list[i], list[i + 1], &brackets[count]);
+    size_t rows = 0, count = 0;
+    for (size_t i = 0; i < s->rows; i++)
+        if (s->row[i].status == ISO_OK && s->row[i].from_zero) list[rows++] = &s->row[i];
+    qsort(list, rows, sizeof *list, by_k);
+    for (size_t i = 0; i + 1 < rows; i++) count += is_bracket(list[i], list[i + 1], &brackets[count]);
     return count;
 }
 
 /* --- the call --------------------------------------------------------------------------------------------------- */
-
-static void blank(double k, double level, iso_separatrix_splitting *s)
-{
-    const iso_separatrix_splitting none = {
-        .k = k, .level = level, .status = ISO_STOPPED, .words = "not computed", .m = NAN, .x = NAN};
-    *s = none;
-}
 
 static iso_status run_pool(iso_context *ctx, scan *c, size_t count,
                            bool (*solve)(iso_pool_worker *, void *, size_t, size_t))
@@ -192,15 +171,12 @@ static iso_status run_zeros(iso_context *ctx, scan *c)
     iso_separatrix_table *s = c->s;
     const iso_separatrix_splitting **list = calloc(s->rows, sizeof *list);
     bracket *brackets = calloc(s->rows, sizeof *brackets);
-    iso_status status = ISO_NO_MEMORY;
     s->zero = calloc(s->rows, sizeof *s->zero);
-    if (list && brackets && s->zero) {
+    iso_status status = list && brackets && s->zero ? ISO_OK : iso_context_no_memory(ctx, "%zu rows", s->rows);
+    if (status == ISO_OK) {
         s->zeros = find_brackets(s, list, brackets);
-        for (size_t i = 0; i < s->zeros; i++) blank(NAN, NAN, &s->zero[i]);
         c->bracket = brackets;
         status = run_pool(ctx, c, s->zeros, solve_zeros);
-    } else {
-        iso_context_no_memory(ctx, "%zu rows", s->rows);
     }
     size_t kept = 0;
     for (size_t i = 0; i < s->zeros; i++)
@@ -212,45 +188,47 @@ static iso_status run_zeros(iso_context *ctx, scan *c)
     return status;
 }
 
-/* *level: that of the scene, where the options give none. */
-static iso_status check_scene(iso_context *ctx, const iso_separatrix_options *o, double *level)
-{
-    static const char what[] = ISO_SPLITTING_IS;
-    const iso_effects acting = iso_scene_acting(o->scene);
-    return o->level ? iso_refuse_beyond_level(ctx, &acting, what) : iso_level_of_scene(ctx, o->scene, what, level);
-}
-
-static iso_status run(iso_context *ctx, const iso_separatrix_options *o, double level, iso_separatrix_table *s)
-{
-    scan c = {.o = o, .s = s, .level = level, .all = o->count};
-    s->rows = o->count;
-    s->row = calloc(o->count, sizeof *s->row);
-    if (!s->row) return iso_context_no_memory(ctx, "%zu rows", o->count);
-    for (size_t i = 0; i < o->count; i++) blank(o->k[i], level_of(&c, i), &s->row[i]);
-    const iso_status status = run_pool(ctx, &c, o->count, solve_rows);
-    return status == ISO_OK && o->zeros ? run_zeros(ctx, &c) : status;
-}
-
 iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *options, iso_separatrix_table **s)
 {
     ISO_DEFAULT_ARITHMETIC;
     *s = NULL;
-    iso_separatrix_options o = iso_separatrix_defaults();
-    double level = 0;
-    if (options) o = *options;
+    iso_separatrix_options o = options ? *options : iso_separatrix_defaults();
+    scan c = {.o = &o};
     if (o.count == 0) return ISO_FAIL_ARGUMENT(ctx, "k", "splitting: there is no k");
     ISO_TRY(iso_refuse_equal_moments(ctx, o.J, ISO_NO_SPLITTING));
-    if (o.scene) ISO_TRY(check_scene(ctx, &o, &level));
-    iso_separatrix_table *found = calloc(1, sizeof *found);
-    if (!found) return iso_context_no_memory(ctx, "the splitting");
-    const iso_status status = run(ctx, &o, level, found);
+    if (o.scene) {
+        const iso_effects acting = iso_scene_acting(o.scene);
+        ISO_TRY(o.level ? iso_refuse_beyond_level(ctx, &acting, ISO_SPLITTING_IS)
+                        : iso_level_of_scene(ctx, o.scene, ISO_SPLITTING_IS, &c.level));
+    }
+    iso_separatrix_table *found = c.s = calloc(1, sizeof *found);
+    if (found) found->row = calloc(o.count, sizeof *found->row);
+    iso_status status = found && found->row ? ISO_OK : iso_context_no_memory(ctx, "%zu rows", o.count);
+    if (status == ISO_OK) {
+        found->rows = o.count;
+        found->axis = found->middle = -1;
+        for (size_t i = 0; i < o.count; i++)
+            found->row[i] = (iso_separatrix_splitting){.k = o.k[i],
+                                                       .level = level_of(&c, i),
+                                                       .status = ISO_STOPPED,
+                                                       .text = "not computed",
+                                                       .m = NAN,
+                                                       .x = NAN};
+        status = run_pool(ctx, &c, o.count, solve_rows);
+        for (const iso_separatrix_splitting *row = found->row; row < found->row + o.count; row++) {
+            if (row->status == ISO_OK) found->axis = row->axis, found->middle = row->middle;
+            found->by_level = found->by_level || row->level != found->row->level;
+        }
+    }
+    if (status == ISO_OK && o.zeros) status = run_zeros(ctx, &c);
     if (status != ISO_OK && status != ISO_STOPPED) iso_separatrix_free(found), found = NULL;
     *s = found;
     return status;
 }
 
-void iso_separatrix_free(iso_separatrix_table *s)
+void iso_separatrix_free(void *table)
 {
+    iso_separatrix_table *s = table;
     if (!s) return;
     free(s->row);
     free(s->zero);

@@ -30,15 +30,6 @@ static iso_status bad_list(iso_context *ctx, const iso_separatrix_list *list)
         list->name, list->text, MOST);
 }
 
-static iso_status append(iso_context *ctx, iso_separatrix_list *list, double x)
-{
-    double *more = realloc(list->x, (list->count + 1) * sizeof *more);
-    if (!more) return iso_context_no_memory(ctx, "%zu values of %s", list->count + 1, list->name);
-    list->x = more;
-    list->x[list->count++] = x;
-    return ISO_OK;
-}
-
 /* 0.1 + 2 0.1 shall be 0.3, -0.3 + 3 0.1 shall be 0, and 1/3 stay as it is. */
 static double rounded(double k, double step)
 {
@@ -49,32 +40,29 @@ static double rounded(double k, double step)
     return iso_number_read(digits, strlen(digits), &tidy) && fabs(tidy - k) < 1e-15 * fmax(1, fabs(k)) ? tidy : k;
 }
 
-/* A, or A, A + STEP, ... up to B, which a rounding error does not cut off. STEP goes towards B, whatever its sign. */
-static iso_status read_item(iso_context *ctx, const char *item, size_t length, iso_separatrix_list *list)
-{
-    double number[3];
-    int parts = 0;
-    for (const char *c = item; c <= item + length; parts++) {
-        const size_t left = (size_t)(item + length - c), part = strcspn(c, ":") < left ? strcspn(c, ":") : left;
-        if (parts == 3 || !iso_rational_read_double(c, part, &number[parts])) return bad_list(ctx, list);
-        c += part + 1;
-    }
-    if (parts == 1) return append(ctx, list, number[0]);
-    const double way = number[1] - number[0], step = copysign(number[2], way), steps = floor(way / step + 1e-9);
-    if (parts != 3 || number[2] == 0 || !(steps < MOST)) return bad_list(ctx, list);
-    iso_status status = ISO_OK;
-    for (double i = 0; i <= steps && status == ISO_OK; i++)
-        status = append(ctx, list, rounded(number[0] + i * step, step));
-    return status;
-}
-
+/* Each item is A, or A, A + STEP, ... up to B, which a rounding error does not cut off. STEP goes towards B, whatever its
+ * sign. */
 static iso_status read_list(iso_context *ctx, iso_separatrix_list *list)
 {
     for (const char *c = list->text; c; c = *c ? c + 1 : NULL) {
-        const size_t length = strcspn(c, ",");
-        ISO_TRY(read_item(ctx, c, length, list));
+        double number[3] = {0};
+        int parts = 0;
+        do {
+            if (parts > 0) c++;
+            const size_t length = strcspn(c, ":,");
+            if (parts == 3 || !iso_rational_read_double(c, length, &number[parts++])) return bad_list(ctx, list);
+            c += length;
+        } while (*c == ':');
+        const double length = number[1] - number[0], step = copysign(number[2], length),
+                     steps = parts == 1 ? 0 : floor(length / step + 1e-9);
+        if (parts == 2 || (parts == 3 && step == 0) || !(steps < MOST)) return bad_list(ctx, list);
+        for (double i = 0; i <= steps; i++) {
+            double *more = realloc(list->x, (list->count + 1) * sizeof *more);
+            if (!more) return iso_context_no_memory(ctx, "%zu values of %s", list->count + 1, list->name);
+            list->x = more;
+            list->x[list->count++] = parts == 1 ? number[0] : rounded(number[0] + i * step, step);
+        }
         if (list->count > MOST) return bad_list(ctx, list);
-        c += length;
     }
     return ISO_OK;
 }
@@ -110,60 +98,38 @@ static double *repeated(const iso_separatrix_list *list, double own, size_t coun
 
 /* --- what is found ---------------------------------------------------------------------------------------------- */
 
-bool iso_separatrix_by_level(const iso_separatrix_table *s)
-{
-    bool differ = false;
-    for (size_t i = 1; i < s->rows; i++) differ = differ || s->row[i].level != s->row[0].level;
-    return differ;
-}
-
 /* A row for each k or level that did not fail, then one for each zero. */
-static iso_status put_rows(iso_context *ctx, const iso_separatrix_table *s, iso_record *table)
+static iso_status fill(iso_context *ctx, const iso_scene *scene, const iso_separatrix_table *s, iso_record **table)
 {
-    iso_status status = ISO_OK;
+    iso_field fields[ISO_MOST_FIELDS];
+    iso_fields_copy(iso_separatrix_table_fields, "rows", fields);
+    iso_status status = iso_study_table(ctx, "splitting", scene, fields, s, iso_separatrix_fields, table);
     for (size_t i = 0; status == ISO_OK && i < s->rows + s->zeros; i++) {
         const iso_separatrix_splitting *row = i < s->rows ? &s->row[i] : &s->zero[i - s->rows];
-        if (row->status == ISO_OK) status = iso_columns_append(ctx, iso_separatrix_fields, row, table);
+        if (row->status == ISO_OK) status = iso_columns_append(ctx, iso_separatrix_fields, row, *table);
     }
+    if (*table && iso_record_rows(*table) == 0) iso_record_free(*table), *table = NULL;
     return status;
 }
 
-/* All rows failed: the first one's reason is that of the study. Some: they are told. */
-static iso_status judge(iso_context *ctx, const iso_separatrix_table *s, iso_study_result *result)
-{
-    size_t failed = 0, first = s->rows;
-    for (size_t i = 0; i < s->rows; i++) {
-        if (s->row[i].status == ISO_OK || s->row[i].status == ISO_STOPPED) continue;
-        if (failed++ == 0) first = i;
-    }
-    if (failed > 0 && failed == s->rows)
-        return iso_context_fail(ctx, s->row[first].status, "", "%s", s->row[first].words);
-    result->failed = failed > 0;
-    if (failed > 0)
-        iso_study_note(result, "%zu of %zu values of %s failed: %s", failed, s->rows,
-                       iso_separatrix_by_level(s) ? "the level" : "k", s->row[first].words);
-    if (s->lost > 0) iso_study_note(result, "%zu zeros of m lie between these values, but were not found", s->lost);
-    return ISO_OK;
-}
-
-static void free_table(void *found)
-{
-    iso_separatrix_free(found);
-}
-
+/* If all rows failed, the first one's reason is that of the study. If some did, a note says so. */
 static iso_status find(iso_context *ctx, const iso_scene *scene, const iso_separatrix_options *how,
                        iso_study_result *result)
 {
-    iso_field fields[ISO_MOST_FIELDS];
     iso_separatrix_table *s = NULL;
+    size_t failed = 0, first = 0;
     const iso_status status = iso_separatrix_run(ctx, how, &s);
-    if (!iso_study_keep(result, s, iso_separatrix_table_fields, free_table)) return status;
-    iso_fields_copy(iso_separatrix_table_fields, "rows", fields);
-    iso_status made = iso_study_table(ctx, "splitting", scene, fields, s, iso_separatrix_fields, &result->table[0]);
-    if (made == ISO_OK) made = put_rows(ctx, s, result->table[0]);
-    if (made == ISO_OK) made = judge(ctx, s, result);
-    if (result->table[0] && iso_record_rows(result->table[0]) == 0)
-        iso_record_free(result->table[0]), result->table[0] = NULL;
+    if (!iso_study_keep(result, s, iso_separatrix_table_fields, iso_separatrix_free)) return status;
+    const iso_status made = fill(ctx, scene, s, &result->table[0]);
+    for (size_t i = s->rows; i-- > 0;)
+        if (s->row[i].status != ISO_OK && s->row[i].status != ISO_STOPPED) failed++, first = i;
+    if (status == ISO_OK && made == ISO_OK && failed == s->rows)
+        return iso_context_fail(ctx, s->row[first].status, "", "%s", s->row[first].text);
+    result->failed = failed > 0;
+    if (failed > 0)
+        iso_study_note(result, "%zu of %zu values of %s failed: %s", failed, s->rows, s->by_level ? "the level" : "k",
+                       s->row[first].text);
+    if (s->lost > 0) iso_study_note(result, "%zu zeros of m lie between these values, but were not found", s->lost);
     return status == ISO_OK ? made : status;
 }
 

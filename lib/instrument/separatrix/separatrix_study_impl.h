@@ -17,10 +17,7 @@ typedef struct iso_separatrix_request {
     iso_separatrix_options how; /* digits and threads */
 } iso_separatrix_request;
 
-/* Whether the rows differ in the level, not in k. */
-bool iso_separatrix_by_level(const iso_separatrix_table *s);
-
-/* What it tells people, and the lines of its table (separatrix_print.c). */
+/* Its text, and the lines of its table (separatrix_print.c). */
 void iso_separatrix_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
 
 iso_status iso_separatrix_describe(iso_context *ctx, const iso_scene *scene, const void *options,

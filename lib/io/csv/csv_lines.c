@@ -8,17 +8,8 @@
 
 #include "base/context_impl.h"
 #include "io/csv/csv_impl.h"
-#include "io/replacement_impl.h"
+#include "io/output_impl.h"
 #include "io/text_impl.h"
-
-struct iso_csv_lines {
-    FILE *file;
-    const char *name;
-    bool ended, skips;                 /* skips: the rest of a line that is too long                   */
-    int error;                         /* errno of read(): it is reported behind the lines before it   */
-    char *text;                        /* `room` characters; [begin, end) are still to be taken        */
-    size_t room, begin, end, searched; /* no line ends in [begin, searched)            */
-};
 
 /* Reads on behind what is there. At the end, or with an error, which is kept, nothing is added. */
 static iso_status read_more(iso_context *ctx, iso_csv_lines *c)
@@ -62,28 +53,25 @@ static iso_status skip_rest(iso_context *ctx, iso_csv_lines *c)
     return ISO_OK;
 }
 
-iso_status iso_csv_lines_next(iso_context *ctx, iso_csv_lines *c, size_t longest, iso_csv_line *line, bool *more)
+iso_status iso_csv_lines_next(iso_context *ctx, iso_csv_lines *c, size_t longest, char **text, size_t *length,
+                              bool *more)
 {
     char *end;
     if (c->skips) ISO_TRY(skip_rest(ctx, c));
     while (!(end = find_end(c)) && !c->ended && c->end - c->begin < longest) ISO_TRY(read_more(ctx, c));
     if (!end && c->error != 0) return errno = c->error, iso_file_trouble(ctx, "read", c->name);
     *more = c->begin < c->end;
-    const size_t length = (end ? (size_t)(end - c->text) : c->end) - c->begin;
-    *line = (iso_csv_line){c->text + c->begin, length, length >= longest};
-    c->skips = line->too_long && !end;
-    line->text[length] = '\0';
-    c->begin = c->searched = c->begin + length + (end != NULL);
+    *text = c->text + c->begin;
+    *length = (end ? (size_t)(end - c->text) : c->end) - c->begin;
+    (*text)[*length] = '\0';
+    c->skips = *length >= longest && !end;
+    c->begin = c->searched = c->begin + *length + (end != NULL);
     return ISO_OK;
 }
 
-iso_status iso_csv_lines_open(iso_context *ctx, const char *path, const char *name, iso_csv_lines **lines)
+iso_status iso_csv_lines_open(iso_context *ctx, const char *path, const char *name, iso_csv_lines *c)
 {
-    iso_csv_lines *c = *lines = calloc(1, sizeof *c);
-    if (!c) return iso_text_no_memory(ctx, "read", name);
-    c->name = name;
-    c->room = 2 * ISO_LONGEST_LINE;
-    c->text = malloc(c->room);
+    *c = (iso_csv_lines){.name = name, .room = 2 * ISO_LONGEST_LINE, .text = malloc(2 * ISO_LONGEST_LINE)};
     if (!c->text) return iso_text_no_memory(ctx, "read", name);
     c->file = iso_text_open(ctx, path);
     return c->file ? ISO_OK : ISO_FILE_TROUBLE;
@@ -91,8 +79,6 @@ iso_status iso_csv_lines_open(iso_context *ctx, const char *path, const char *na
 
 void iso_csv_lines_close(iso_csv_lines *c)
 {
-    if (!c) return;
     if (c->file) iso_text_close(c->file);
     free(c->text);
-    free(c);
 }

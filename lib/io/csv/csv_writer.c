@@ -27,36 +27,26 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* --- lines ------------------------------------------------------------------------------------------------------ */
-
-/* Each line of a text as a comment. */
-static void write_text(FILE *to, const char *key, const char *text)
+/* The lines of a text are lines of #, each with the key. */
+static void print_line(FILE *to, const char *key, const char *value)
 {
     const bool plain = strcmp(key, ISO_TABLE_TEXT) == 0;
-    while (*text) {
-        const size_t length = strcspn(text, "\r\n");
-        fprintf(to, "# %s%s| %.*s\n", plain ? "" : key, plain ? "" : " ", (int)length, text);
-        text += length;
-        if (*text == '\r') text++;
-        if (*text == '\n') text++;
+    if (!strchr(value, '\n')) fprintf(to, *value ? "# %s: %s\n" : "# %s:\n", key, value);
+    for (const char *at = strchr(value, '\n') ? value : ""; *at;) {
+        const size_t length = strcspn(at, "\r\n");
+        fprintf(to, "# %s%s| %.*s\n", plain ? "" : key, plain ? "" : " ", (int)length, at);
+        at += length;
+        if (*at == '\r') at++;
+        if (*at == '\n') at++;
     }
 }
 
-static void write_line(FILE *to, const char *key, const char *value)
-{
-    if (strchr(value, '\n'))
-        write_text(to, key, value);
-    else
-        fprintf(to, *value ? "# %s: %s\n" : "# %s:\n", key, value);
-}
-
-/* --- the file --------------------------------------------------------------------------------------------------- */
-
-static iso_status open_csv(iso_context *ctx, iso_table_writer *w, const char *path, bool resumes)
+static iso_status csv_open(iso_context *ctx, iso_table_writer *w, const char *path)
 {
     csv *c = w->data = calloc(1, sizeof *c);
     if (!c) return iso_text_no_memory(ctx, "write", path);
-    const iso_status status = resumes ? iso_output_resume(ctx, path, &c->out) : iso_output_open(ctx, path, &c->out);
+    const iso_status status =
+        w->resumes ? iso_output_open_regular(ctx, path, true, &c->out) : iso_output_open(ctx, path, &c->out);
     if (status != ISO_OK) return free(c), status;
     w->name = iso_output_name(c->out);
     c->shown = now();
@@ -64,17 +54,7 @@ static iso_status open_csv(iso_context *ctx, iso_table_writer *w, const char *pa
     return ISO_OK;
 }
 
-static iso_status csv_open(iso_context *ctx, iso_table_writer *w, const char *path)
-{
-    return open_csv(ctx, w, path, false);
-}
-
-iso_status iso_csv_resume(iso_context *ctx, iso_table_writer *w, const char *path)
-{
-    return open_csv(ctx, w, path, true);
-}
-
-iso_status iso_csv_cut(iso_context *ctx, iso_table_writer *w, size_t length)
+static iso_status csv_cut(iso_context *ctx, iso_table_writer *w, size_t length)
 {
     csv *c = w->data;
     c->headed = length > 0;
@@ -91,7 +71,7 @@ static iso_status csv_flush(iso_context *ctx, iso_table_writer *w)
 static iso_status csv_line(iso_context *ctx, iso_table_writer *w, const char *key, const char *value)
 {
     csv *c = w->data;
-    write_line(iso_output_stream(c->out), key, value);
+    print_line(iso_output_stream(c->out), key, value);
     return iso_output_check(ctx, c->out);
 }
 
@@ -100,7 +80,7 @@ static void print_header(FILE *to, const iso_table_writer *w, const iso_record *
     const char *key, *value;
     const size_t columns = iso_record_columns(header);
     fprintf(to, "# isoroll %s 1\n", w->kind);
-    for (size_t i = 0; iso_record_line(header, i, &key, &value); i++) write_line(to, key, value);
+    for (size_t i = 0; iso_record_line(header, i, &key, &value); i++) print_line(to, key, value);
     if (w->words) fputs("# " ISO_WORDS_KEY ":", to);
     for (size_t i = 0; w->words && i < columns; i++)
         if (iso_record_has_words(header, i)) fprintf(to, " %s", iso_record_name(header, i));
@@ -127,33 +107,27 @@ static void print_word(FILE *to, const char *word, bool plain, bool alone)
 }
 
 /* Numbers are gathered in the text of the row, which goes ahead of a word. */
-static void write_row(const iso_table_writer *w, FILE *to, const double row[])
-{
-    const iso_record *r = w->words ? w->words : w->header;
-    const size_t columns = iso_record_columns(r);
-    char *const text = ((csv *)w->data)->text, *end = text;
-    for (size_t i = 0; i < columns; i++) {
-        const iso_column_format *format = iso_record_format(r, i);
-        if (iso_record_has_words(r, i)) {
-            fwrite(text, 1, (size_t)(end - text), to);
-            end = text;
-            print_word(to, iso_record_word(r, row[i]), format->plain, columns == 1);
-        } else if (isfinite(row[i]) || !format->empty) {
-            if (isnan(row[i]))
-                memcpy(end, "nan", 3), end += 3;
-            else
-                end += iso_number_print_as(end, row[i], format->digits ? format->digits : w->digits);
-        }
-        *end++ = i + 1 < columns ? ',' : '\n';
-    }
-    fwrite(text, 1, (size_t)(end - text), to);
-}
-
 static iso_status csv_row(iso_context *ctx, iso_table_writer *w, const double row[])
 {
     csv *c = w->data;
     FILE *const to = iso_output_stream(c->out);
-    write_row(w, to, row);
+    const iso_record *r = w->words ? w->words : w->header;
+    const size_t columns = iso_record_columns(r);
+    char *end = c->text;
+    for (size_t i = 0; i < columns; i++) {
+        const iso_column_format *format = iso_record_format(r, i);
+        if (iso_record_has_words(r, i)) {
+            fwrite(c->text, 1, (size_t)(end - c->text), to);
+            end = c->text;
+            print_word(to, iso_record_word(r, row[i]), format->plain, columns == 1);
+        } else if (isnan(row[i]) && !format->empty) {
+            memcpy(end, "nan", 3), end += 3;
+        } else if (isfinite(row[i]) || !format->empty) {
+            end += iso_number_print_as(end, row[i], format->digits ? format->digits : w->digits);
+        }
+        *end++ = i + 1 < columns ? ',' : '\n';
+    }
+    fwrite(c->text, 1, (size_t)(end - c->text), to);
     const double time = now();
     if (c->seen || time - c->shown > PATIENCE) fflush(to), c->shown = time;
     return iso_output_check(ctx, c->out);
@@ -169,4 +143,4 @@ static iso_status csv_close(iso_context *ctx, iso_table_writer *w, bool keep)
     return status;
 }
 
-const iso_table_writing iso_csv_writing = {csv_open, csv_header, csv_row, csv_line, csv_flush, csv_close};
+const iso_table_writing iso_csv_writing = {csv_open, csv_header, csv_row, csv_line, csv_flush, csv_cut, csv_close};

@@ -52,7 +52,7 @@ iso_hdf5_store *iso_hdf5_store_create(void)
     iso_hdf5_store *s = calloc(1, sizeof *s);
     if (!s) return NULL;
     H5dont_atexit(); /* HDF5 would close what it could not close before, as on a full disk, and crash (1.10) */
-    s->file = s->descriptor = -1;
+    s->file = -1;
     ISO_HDF5_QUIETLY(iso_hdf5_guard(s));
     s->text = H5Tcopy(H5T_C_S1);
     H5Tset_size(s->text, H5T_VARIABLE);
@@ -63,13 +63,11 @@ iso_hdf5_store *iso_hdf5_store_create(void)
 bool iso_hdf5_store_add(iso_hdf5_store *s, iso_hdf5_set set)
 {
     iso_hdf5_set *more = set.id < 0 ? NULL : realloc(s->set, ((size_t)s->sets + 1) * sizeof *more);
-    if (more) {
-        s->set = more;
-        s->set[s->sets++] = set;
-    } else if (set.id >= 0) {
-        H5Dclose(set.id);
-    }
-    return more != NULL;
+    if (!more && set.id >= 0) H5Dclose(set.id);
+    if (!more) return false;
+    s->set = more;
+    s->set[s->sets++] = set;
+    return true;
 }
 
 bool iso_hdf5_store_free(iso_hdf5_store *s)
@@ -80,6 +78,7 @@ bool iso_hdf5_store_free(iso_hdf5_store *s)
     H5Pclose(s->access);
     H5Pclose(s->transfer);
     H5Tclose(s->text);
+    free(s->names);
     free(s->set);
     free(s->block);
     free(s);

@@ -25,7 +25,7 @@
 
 #include <hdf5.h>
 
-#include "io/replacement_impl.h"
+#include "io/output_impl.h"
 #include "io/table_impl.h"
 
 /* Without messages of HDF5. */
@@ -72,11 +72,11 @@ typedef struct iso_hdf5_store {
     /* of a writer */
     bool grows;              /* datasets get room as rows come */
     const iso_record *words; /* whose words the rows have      */
-    iso_replacement replacement;
-    int descriptor;
+    iso_output *out;
     /* of a reader */
     iso_context *ctx;
     iso_record *header; /* gets the words                                          */
+    char *names;        /* those of the columns, which the header has copied        */
     bool counts;        /* column 0 is the number of the row, without a dataset    */
     bool elsewhere;     /* a link leads to another file                            */
     size_t word_room;   /* 0: the words of a block are too long                    */
@@ -112,7 +112,7 @@ iso_status iso_hdf5_trouble(iso_context *ctx, const char *what, const char *name
 /* Makes access and transfer of a new store. */
 void iso_hdf5_guard(iso_hdf5_store *s);
 
-/* Why a dataset of this type and size is not read, in words before its name; NULL: it may be. size: 0 if its rank is
+/* Why a dataset of this type and size is not read, a text that its name follows; NULL: it may be. size: 0 if its rank is
  * not 1 or 2. Adds to s->chunks. */
 const char *iso_hdf5_trouble_of_set(iso_hdf5_store *s, hid_t id, hid_t type, const hsize_t size[2]);
 

@@ -25,12 +25,19 @@ static iso_status bad_file(iso_context *ctx, const iso_table_reader *r, const ch
 
 /* --- attributes ------------------------------------------------------------------------------------------------- */
 
-/* "isoroll KIND 1" */
-static iso_status read_format(iso_context *ctx, const iso_table_reader *r, const char *text)
+/* A text is a line of the header, or, of a table, many; the format, "isoroll KIND 1", says the kind. NULL: it cannot be
+ * read. */
+static iso_status take_text(iso_context *ctx, iso_table_reader *r, const char *key, char *text)
 {
     char kind[32] = "", version[8] = "", quoted[ISO_QUOTE_SIZE];
+    size_t length = text ? strlen(text) : 0;
+    if (!text) return ISO_OK;
+    while (r->trajectory && length > 0 && strchr("\r\n", text[length - 1])) text[--length] = '\0';
+    if (r->trajectory && text[strcspn(text, "\r\n")])
+        return bad_file(ctx, r, "expected one line in the attribute ", key);
+    if (strcmp(key, "format") != 0) return iso_record_set(ctx, r->header, key, text);
     const bool one = sscanf(text, "isoroll %31[^0-9]%7s", kind, version) == 2 && strcmp(version, "1") == 0;
-    const size_t length = strlen(kind);
+    length = strlen(kind);
     if (one && length > 1) kind[length - 1] = '\0'; /* the blank before the version */
     iso_text_quote(quoted, text, strlen(text));
     if (r->trajectory && !(one && (iso_table_is_finite(kind) || strcmp(kind, ISO_ORBITS_KIND) == 0)))
@@ -40,17 +47,6 @@ static iso_status read_format(iso_context *ctx, const iso_table_reader *r, const
         return bad_file(ctx, r, "this is a table of another kind: ", kind);
     iso_record_set_kind(r->header, kind);
     return ISO_OK;
-}
-
-/* A text is a line of the header, or, of a table, many; the format says the kind. NULL: it cannot be read. */
-static iso_status take_text(iso_context *ctx, iso_table_reader *r, const char *key, char *text)
-{
-    size_t length = text ? strlen(text) : 0;
-    if (!text) return ISO_OK;
-    while (r->trajectory && length > 0 && strchr("\r\n", text[length - 1])) text[--length] = '\0';
-    if (r->trajectory && text[strcspn(text, "\r\n")])
-        return bad_file(ctx, r, "expected one line in the attribute ", key);
-    return strcmp(key, "format") == 0 ? read_format(ctx, r, text) : iso_record_set(ctx, r->header, key, text);
 }
 
 /* Makes one attribute a line of the header. HDF5 calls it for each; -1: no more are wanted. */
@@ -182,62 +178,63 @@ static iso_status name_columns(finding *c, size_t count)
 static const char *const section[] = {ISO_ORBIT_COLUMN, "crossing", "l", "x"};
 enum { SECTION = sizeof section / sizeof *section };
 
-/* Says which columns of the group are passed over: those of a list with commas that are none of a trajectory. */
-static void pass_over(finding *c, const char *group, const char *list)
+/* The numbers of the states, and behind them the number of the orbit. Other columns of a section and of periodic orbits
+ * are passed over. */
+static iso_status find_trajectory(finding *c)
 {
+    iso_record *const header = c->r->header;
+    const char *names[ISO_TRAJECTORY_COLUMNS], *kind = iso_record_kind(header);
+    const char *named = iso_record_get(header, ISO_HDF5_COLUMNS);
     char name[ISO_HDF5_TEXT], path[ISO_HDF5_TEXT], *ignored = c->r->ignored;
-    for (const char *at = list; *at; at += strcspn(at, ","), at += *at == ',') {
+    const bool orbits = strcmp(kind, ISO_ORBITS_KIND) == 0;
+    const char *group = orbits ? kind : "section";
+    ISO_TRY(find_columns(c, "", names, (size_t)iso_column_names(names)));
+    const size_t count = c->count;
+    if (count == 0) return bad_file(c->ctx, c->r, "no dataset of a trajectory, such as /clock/t or /ball/omega", "");
+    for (const char *at = orbits && named ? named : "crossing,l,x"; *at; at += strcspn(at, ","), at += *at == ',') {
         const size_t used = strlen(ignored), room = sizeof c->r->ignored - used;
         snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
         if (iso_column_find(name) < 0 && strcmp(name, ISO_ORBIT_COLUMN) != 0 && is_there(c, group, name, path) &&
             strlen(name) + 5 < room)
             snprintf(ignored + used, room, "%s'%s'", *ignored ? ", " : "", name);
     }
-}
-
-/* Behind the columns of a row stands the number of its orbit. Others of a section and of periodic orbits are passed
- * over. */
-static iso_status find_trajectory(finding *c)
-{
-    iso_record *const header = c->r->header;
-    const char *names[ISO_TRAJECTORY_COLUMNS], *kind = iso_record_kind(header);
-    const char *named = iso_record_get(header, ISO_HDF5_COLUMNS);
-    char path[ISO_HDF5_TEXT];
-    const bool orbits = strcmp(kind, ISO_ORBITS_KIND) == 0;
-    const char *group = orbits ? kind : "section";
-    iso_status status = find_columns(c, "", names, (size_t)iso_column_names(names));
-    if (status == ISO_OK && c->count == 0)
-        status = bad_file(c->ctx, c->r, "no dataset of a trajectory, such as /clock/t or /ball/omega", "");
-    const size_t count = c->count;
-    pass_over(c, group, orbits && named ? named : "crossing,l,x");
     if (strcmp(kind, ISO_TRAJECTORY_KIND) != 0) iso_record_set(c->ctx, header, ISO_HDF5_COLUMNS, NULL);
     if (is_there(c, ISO_TRAJECTORY_KIND, ISO_ORBIT_COLUMN, path)) group = ISO_TRAJECTORY_KIND;
-    if (status == ISO_OK) status = find_columns(c, group, section, 1);
+    ISO_TRY(find_columns(c, group, (const char *[]){ISO_ORBIT_COLUMN}, 1));
     c->r->at.orbits = c->count > count;
-    return status == ISO_OK ? name_columns(c, count) : status;
+    return name_columns(c, count);
+}
+
+/* The line "columns", to be cut into names; the store frees it. */
+static iso_status copy_columns(finding *c)
+{
+    iso_hdf5_store *s = c->r->data;
+    const char *named = iso_record_get(c->r->header, ISO_HDF5_COLUMNS);
+    if (named) s->names = strdup(named);
+    return named && !s->names ? iso_text_no_memory(c->ctx, "read", c->r->name) : ISO_OK;
 }
 
 /* The columns that the file names; of a trajectory or a section of version 0.1, which names none, those it can
  * have. */
 static iso_status find_table(finding *c)
 {
-    iso_record *const header = c->r->header;
-    const char *named = iso_record_get(header, ISO_HDF5_COLUMNS), *names[ISO_MOST_COLUMNS];
-    char *list = named ? strdup(named) : NULL, *rest = list;
+    static const char *const of_section[] = {ISO_ORBIT_COLUMN, "crossing", "l", "x"};
+    iso_hdf5_store *s = c->r->data;
+    const char *names[ISO_MOST_COLUMNS], *kind = iso_record_kind(c->r->header);
     size_t count = 0;
-    iso_status status = named && !list ? iso_text_no_memory(c->ctx, "read", c->r->name) : ISO_OK;
-    iso_record_set(c->ctx, header, ISO_HDF5_COLUMNS, NULL);
-    while (rest && count < ISO_MOST_COLUMNS) names[count++] = strsep(&rest, ",");
-    if (rest) status = bad_file(c->ctx, c->r, "more than 5000 columns", "");
-    if (!list && status == ISO_OK) status = find_columns(c, "section", section, SECTION);
-    if (!list) count = (size_t)iso_column_names(names);
-    if (status == ISO_OK) status = find_columns(c, iso_record_kind(header), names, count);
-    if (status == ISO_OK && list && c->count != count)
-        status = bad_file(c->ctx, c->r, "the attribute 'columns' does not name the datasets", "");
-    if (status == ISO_OK && c->count == 0) status = bad_file(c->ctx, c->r, "no dataset of a table", "");
-    if (status == ISO_OK) status = name_columns(c, c->count);
-    free(list);
-    return status;
+    ISO_TRY(copy_columns(c));
+    ISO_TRY(iso_record_set(c->ctx, c->r->header, ISO_HDF5_COLUMNS, NULL));
+    for (char *rest = s->names; rest; names[count++] = strsep(&rest, ","))
+        if (count == ISO_MOST_COLUMNS) return bad_file(c->ctx, c->r, "more than 5000 columns", "");
+    if (!s->names) {
+        ISO_TRY(find_columns(c, "section", of_section, sizeof of_section / sizeof *of_section));
+        count = (size_t)iso_column_names(names);
+    }
+    ISO_TRY(find_columns(c, kind, names, count));
+    if (s->names && c->count != count)
+        return bad_file(c->ctx, c->r, "the attribute 'columns' does not name the datasets", "");
+    if (c->count == 0) return bad_file(c->ctx, c->r, "no dataset of a table", "");
+    return name_columns(c, c->count);
 }
 
 /* Adds the dataset of one column that must be there, and names the column. */
@@ -253,24 +250,22 @@ static iso_status add_needed(finding *c, const char *path, const char *name)
 static iso_status find_sweep(finding *c)
 {
     iso_hdf5_store *s = c->r->data;
-    char *list = strdup(iso_record_get(c->r->header, ISO_HDF5_COLUMNS)), *rest = list, *path;
-    iso_status status = list ? ISO_OK : iso_text_no_memory(c->ctx, "read", c->r->name);
     bool found;
+    ISO_TRY(copy_columns(c));
     s->counts = strcmp(iso_record_kind(c->r->header), "sweep") == 0;
-    if (s->counts) c->name[c->count++] = "point";
-    if (status == ISO_OK && !s->counts) status = add_needed(c, "point", "point");
-    while (status == ISO_OK && (path = strsep(&rest, " "))) {
+    if (s->counts)
+        c->name[c->count++] = "point";
+    else
+        ISO_TRY(add_needed(c, "point", "point"));
+    for (char *rest = s->names, *path; (path = strsep(&rest, " "));) {
         char *const slash = strchr(path, '/');
-        status = add_needed(c, path, strncmp(path, "vary/", 5) == 0 ? path + 5 : path);
+        ISO_TRY(add_needed(c, path, strncmp(path, "vary/", 5) == 0 ? path + 5 : path));
         if (slash) *slash = '_';
     }
-    if (status == ISO_OK) status = add_needed(c, "status", "status");
+    ISO_TRY(add_needed(c, "status", "status"));
     c->name[c->count] = "reason";
-    if (status == ISO_OK) status = add_set(c, "failed", "reason", 1, (int)c->count - 1, &found);
-    if (status == ISO_OK && !found) status = bad_file(c->ctx, c->r, "there is no dataset for reasons", "");
-    if (status == ISO_OK) status = name_columns(c, c->count);
-    free(list);
-    return status;
+    ISO_TRY(add_set(c, "failed", "reason", 1, (int)c->count - 1, &found));
+    return found ? name_columns(c, c->count) : bad_file(c->ctx, c->r, "there is no dataset for reasons", "");
 }
 
 static iso_status read_header(iso_context *ctx, iso_table_reader *r)
@@ -315,47 +310,35 @@ static iso_status read_block(iso_context *ctx, iso_table_reader *r)
     return good ? ISO_OK : iso_hdf5_trouble(ctx, "read", r->name);
 }
 
-/* The next row as it stands. */
-static iso_status take_row(iso_context *ctx, iso_table_reader *r, double row[], bool *more)
-{
-    iso_hdf5_store *s = r->data;
-    const iso_status status = s->next == s->filled ? read_block(ctx, r) : ISO_OK;
-    const size_t columns = iso_record_columns(r->header);
-    *more = status == ISO_OK && s->next < s->filled;
-    if (!*more) return status;
-    for (int i = 0; i < s->sets; i++) {
-        const iso_hdf5_set *d = &s->set[i];
-        const double *cells = iso_hdf5_cells(s, d, s->next);
-        if ((size_t)d->first < columns)
-            memcpy(row + d->first, cells, (size_t)d->count * sizeof *row);
-        else
-            r->at.orbit = *cells;
-    }
-    if (s->counts) row[0] = (double)r->at.line;
-    s->next++;
-    r->at.line++;
-    return ISO_OK;
-}
-
-static bool is_nan_row(const double row[], size_t columns)
-{
-    for (size_t i = 0; i < columns; i++)
-        if (!isnan(row[i])) return false;
-    return true;
-}
-
 static iso_status hdf5_next(iso_context *ctx, iso_table_reader *r, double row[], bool *more)
 {
+    iso_hdf5_store *s = r->data;
     const size_t columns = iso_record_columns(r->header);
-    iso_status status = take_row(ctx, r, row, more);
-    if (!r->trajectory) return status;
-    for (; *more && r->passes && is_nan_row(row, columns); r->at.passed++) status = take_row(ctx, r, row, more);
-    if (!*more) return status;
-    for (size_t i = 0; i < columns; i++)
-        if (!isfinite(row[i]))
+    for (;; r->at.passed++) {
+        *more = false;
+        if (s->next == s->filled) ISO_TRY(read_block(ctx, r));
+        *more = s->next < s->filled;
+        if (!*more) return ISO_OK;
+        for (int i = 0; i < s->sets; i++) {
+            const iso_hdf5_set *d = &s->set[i];
+            const double *cells = iso_hdf5_cells(s, d, s->next);
+            if ((size_t)d->first < columns)
+                memcpy(row + d->first, cells, (size_t)d->count * sizeof *row);
+            else
+                r->at.orbit = *cells;
+        }
+        if (s->counts) row[0] = (double)r->at.line;
+        s->next++;
+        r->at.line++;
+        if (!r->trajectory) return ISO_OK;
+        size_t bad = columns, nans = 0;
+        for (size_t i = columns; i-- > 0; nans += isnan(row[i]) != 0)
+            if (!isfinite(row[i])) bad = i;
+        if (bad == columns) return ISO_OK;
+        if (!r->passes || nans < columns)
             return iso_context_placed(ctx, ISO_FAIL_INPUT(ctx, "", "%s:%zu: expected a finite number for %s", r->name,
-                                                          r->at.line, iso_record_name(r->header, i)));
-    return ISO_OK;
+                                                          r->at.line, iso_record_name(r->header, bad)));
+    }
 }
 
 static void hdf5_close(iso_table_reader *r)

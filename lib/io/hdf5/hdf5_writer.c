@@ -2,14 +2,13 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/field.h"
 #include "base/number_impl.h"
 #include "io/hdf5/hdf5_impl.h"
 #include "io/text_impl.h"
 
-/* Without HDF5's own lock: on some network file systems it would meet the one that a replacement holds. */
+/* Without HDF5's own lock: on some network file systems it would meet the one that the output holds. */
 static hid_t create_file(const char *path)
 {
     const hid_t plan = H5Pcreate(H5P_FILE_ACCESS);
@@ -23,14 +22,13 @@ static iso_status hdf5_create(iso_context *ctx, iso_table_writer *w, const char 
 {
     iso_hdf5_store *s = w->data = iso_hdf5_store_create();
     if (!s) return iso_text_no_memory(ctx, "write", path);
-    iso_status status = iso_replacement_open(ctx, path, false, &s->replacement, &s->descriptor);
+    iso_status status = iso_output_open_regular(ctx, path, false, &s->out);
     if (status == ISO_OK) {
-        w->name = s->replacement.target;
-        ISO_HDF5_QUIETLY(s->file = create_file(s->replacement.temporary));
+        w->name = iso_output_name(s->out);
+        ISO_HDF5_QUIETLY(s->file = create_file(iso_output_part(s->out)));
         if (s->file >= 0) return ISO_OK;
         status = iso_hdf5_trouble(ctx, "write", path);
-        iso_replacement_close(ctx, &s->replacement, s->descriptor, false);
-        close(s->descriptor);
+        iso_output_close(ctx, s->out, false);
     }
     iso_hdf5_store_free(s);
     return status;
@@ -168,16 +166,14 @@ static iso_status hdf5_row(iso_context *ctx, iso_table_writer *w, const double r
 static iso_status hdf5_finish(iso_context *ctx, iso_table_writer *w, bool keep)
 {
     iso_hdf5_store *s = w->data;
-    iso_replacement replacement = s->replacement;
-    replacement.fresh = w->fresh;
-    const int descriptor = s->descriptor;
+    iso_output *const out = s->out;
     iso_status status = keep ? flush_block(ctx, w) : ISO_OK;
     bool closed;
     ISO_HDF5_QUIETLY(closed = iso_hdf5_store_free(s));
     if (status == ISO_OK && keep && !closed) status = iso_hdf5_trouble(ctx, "write", w->name);
-    const iso_status renamed = iso_replacement_close(ctx, &replacement, descriptor, keep && status == ISO_OK);
-    close(descriptor);
+    if (w->fresh) iso_output_keep_others(out);
+    const iso_status renamed = iso_output_close(ctx, out, keep && status == ISO_OK);
     return status == ISO_OK ? renamed : status;
 }
 
-const iso_table_writing iso_hdf5_writing = {hdf5_create, hdf5_header, hdf5_row, hdf5_line, NULL, hdf5_finish};
+const iso_table_writing iso_hdf5_writing = {hdf5_create, hdf5_header, hdf5_row, hdf5_line, NULL, NULL, hdf5_finish};

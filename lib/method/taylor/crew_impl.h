@@ -1,6 +1,6 @@
 /* crew_impl.h - solves the jobs of lanes_impl.h, LANES side by side in each of CREWS crews. A lane whose job ends
  * takes the next one. The crews go step by step together: their series are computed in turns (expand_together). */
-#include "base/finite_impl.h"
+#include "base/math_impl.h"
 #include "method/integrator_impl.h"
 #include "method/taylor/claim_impl.h"
 #include "method/taylor/doubles_impl.h"

@@ -1,5 +1,5 @@
 /* single_impl.h - one orbit by Taylor series, as an iso_integrator. */
-#include "base/finite_impl.h"
+#include "base/math_impl.h"
 #include "method/integrator_impl.h"
 #include "method/taylor/code_impl.h"
 #include "method/taylor/restore_impl.h"

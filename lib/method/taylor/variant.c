@@ -40,7 +40,7 @@
 #define _GNU_SOURCE /* functions of _Float128 */
 #include <float.h>
 
-#include "base/finite_impl.h"
+#include "base/math_impl.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
 #include "method/taylor/code_impl.h"

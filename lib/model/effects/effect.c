@@ -19,11 +19,6 @@ const iso_effect *const iso_effect_list[ISO_EFFECTS] = {
 #undef ISO_EFFECT_ENTRY
 };
 
-const iso_effect *iso_effect_at(int i)
-{
-    return i >= 0 && i < ISO_EFFECTS ? iso_effect_list[i] : NULL;
-}
-
 iso_effect_id iso_effect_find(const char *name)
 {
     int e = 0;
@@ -73,63 +68,69 @@ iso_effects iso_effects_acting(const iso_effects *effects)
 {
     iso_effects acting = *effects;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        acting.on[e] = iso_effect_acts(effects, e) || (effects->on[e] && iso_effect_list[e]->watches);
+        acting.on[e] = iso_effect_acts(effects, e) || (effects->on[e] && e == ISO_INTEGRALS);
     return acting;
 }
 
 const char *iso_effect_why_broken(const iso_effect *effect)
 {
     if (effect->breaks) return effect->breaks;
-    if (effect->observes || effect->is_level || effect->image) return NULL;
+    if (effect->observes || effect == &iso_effect_level || effect->image) return NULL;
     return "its row gives it no image on the point";
 }
 
-/* The first effect of which the condition holds (NULL: none), or whether there is one. next: of those that are on, or
- * of those that act. */
-#define FIRST(type, question, next, condition)                                                                       \
-    type question(const iso_effects *effects)                                                                        \
+/* A question to the first effect of which the condition holds; the answer is that effect (NULL: none), whether there is
+ * one, or that there is none. next: of those that are on, or of those that act. */
+#define FIRST(question, next, effects, condition, answer)                                                            \
+    question                                                                                                         \
     {                                                                                                                \
         const iso_effect *effect;                                                                                    \
         int e = iso_effects_none(effects) ? ISO_EFFECTS : 0;                                                         \
         while ((effect = next(effects, &e)) && !(condition)) continue;                                               \
-        return effect;                                                                                               \
+        return answer;                                                                                               \
     }
+#define FIRST_ON(answer, question, condition)                                                                        \
+    FIRST(answer question(const iso_effects *effects), next_on, effects, condition, effect)
+#define FIRST_ACTING(answer, question, condition)                                                                    \
+    FIRST(answer question(const iso_effects *effects), next_acting, effects, condition, effect)
 
-FIRST(const iso_effect *, iso_effects_breaking, next_acting, iso_effect_why_broken(effect))
-FIRST(const iso_effect *, iso_effects_beyond_level, next_acting, !effect->is_level)
-FIRST(const iso_effect *, iso_effects_beyond_rotor, next_acting, !effect->is_level && !effect->is_rotor)
-FIRST(const iso_effect *, iso_effects_ball_only, next_on, effect->ball_only)
-FIRST(bool, iso_effects_twist, next_on, effect->twists)
-FIRST(bool, iso_effects_clocks, next_on, effect->clocks)
-FIRST(bool, iso_effects_need_D, next_on, effect->needs_D)
-FIRST(bool, iso_effects_need_radius, next_on, effect->needs_radius)
-FIRST(bool, iso_effects_have_image, next_acting, effect->image)
-FIRST(bool, iso_effects_pull, next_acting, effect->potential)
-FIRST(const iso_effect *, iso_effects_off_chart, next_acting,
-      !effect->is_level && (effect->potential || !effect->image))
+FIRST_ACTING(const iso_effect *, iso_effects_breaking, iso_effect_why_broken(effect))
+FIRST_ACTING(const iso_effect *, iso_effects_beyond_level, effect != &iso_effect_level)
+FIRST_ACTING(const iso_effect *, iso_effects_beyond_rotor, effect != &iso_effect_level && effect != &iso_effect_rotor)
+FIRST_ACTING(const iso_effect *, iso_effects_off_chart,
+             effect != &iso_effect_level && (effect->potential || !effect->image))
+FIRST_ACTING(const iso_effect *, iso_effects_without_formula, effect->torque)
+FIRST_ACTING(bool, iso_effects_have_image, effect->image)
+FIRST_ACTING(bool, iso_effects_pull, effect->potential)
+FIRST_ACTING(bool, iso_effects_written, effect->expressions)
+FIRST(bool iso_effects_are_free(const iso_effects *effects), next_acting, effects, effect != &iso_effect_level,
+      !effect)
+FIRST_ON(const iso_effect *, iso_effects_idle, effects->idle[e - 1]) /* e is behind it */
+FIRST_ON(const iso_effect *, iso_effects_ball_only, effect->ball_only)
+FIRST_ON(bool, iso_effects_twist, effect->twists)
+FIRST_ON(bool, iso_effects_clocks, effect == &iso_effect_clock)
+FIRST_ON(bool, iso_effects_need_D, effect->needs_D)
+FIRST_ON(bool, iso_effects_need_radius, effect->needs_radius)
 
-static iso_effect_id rotor_id(const iso_effects *effects)
+static iso_work work_of(const iso_problem *f, const iso_effect *effect)
 {
-    int e = 0;
-    while (e < ISO_EFFECTS && !(iso_effect_list[e]->is_rotor && effects->on[e])) e++;
-    return (iso_effect_id)e;
+    return effect->work ? effect->work(f) : ISO_WORK_UNKNOWN;
 }
 
-const double *iso_effects_rotor(const iso_effects *effects)
-{
-    static const double none[3] = {0};
-    return rotor_id(effects) < ISO_EFFECTS ? effects->number[rotor_id(effects)] : none;
-}
+FIRST(const iso_effect *iso_effects_taking_energy(const iso_problem *f), next_acting, &f->effects,
+      work_of(f, effect) == ISO_WORK_LOST, effect)
+FIRST(const iso_effect *iso_effects_changing_energy(const iso_problem *f), next_acting, &f->effects,
+      work_of(f, effect) == ISO_WORK_UNKNOWN, effect)
+FIRST(bool iso_effects_keep_energy(const iso_problem *f), next_acting, &f->effects,
+      work_of(f, effect) != ISO_WORK_NONE, !effect)
+FIRST(bool iso_effects_keep(const iso_problem *f, iso_additional integral), next_acting, &f->effects,
+      !effect->keeps || !effect->keeps(f, integral), !effect)
+FIRST(bool iso_effects_reversible(const iso_problem *f, const double sign[3]), next_acting, &f->effects,
+      !effect->reversible || !effect->reversible(f, sign), !effect)
 
-void iso_effects_set_rotor(iso_effects *effects, const double K[3])
-{
-    for (int i = 0; rotor_id(effects) < ISO_EFFECTS && i < 3; i++) effects->number[rotor_id(effects)][i] = K[i];
-}
-
-bool iso_effects_are_free(const iso_effects *effects)
-{
-    return !iso_effects_beyond_level(effects);
-}
+/* Everything that acts takes motion away, and something does. */
+FIRST(static bool only_resisted(const iso_problem *f), next_acting, &f->effects,
+      effect->potential || work_of(f, effect) == ISO_WORK_UNKNOWN, !effect && iso_effects_stiffness(f) > 0)
 
 const iso_effect *iso_effects_without_frequencies(const iso_problem *f, const char **why)
 {
@@ -141,53 +142,27 @@ const iso_effect *iso_effects_without_frequencies(const iso_problem *f, const ch
     return *why ? effect : NULL;
 }
 
-bool iso_effects_keep(const iso_problem *f, iso_additional integral)
+/* --- the level and the rotor, which the isomorphism carries to the point ----------------------------------------- */
+
+const char *iso_level_name(void)
 {
-    const iso_effect *effect;
-    bool keep = true;
-    for (int e = 0; (effect = next_acting(&f->effects, &e));)
-        keep = keep && effect->keeps && effect->keeps(f, integral);
-    return keep;
+    return iso_effect_level.name;
 }
 
-bool iso_effects_reversible(const iso_problem *f, const double sign[3])
+iso_dimension iso_level_dimension(void)
 {
-    const iso_effect *effect;
-    bool holds = true;
-    for (int e = 0; (effect = next_acting(&f->effects, &e));)
-        holds = holds && effect->reversible && effect->reversible(f, sign);
-    return holds;
+    return iso_effect_level.numbers->dimension;
 }
 
-static iso_work work_of(const iso_problem *f, const iso_effect *effect)
+const double *iso_effects_rotor(const iso_effects *effects)
 {
-    return effect->work ? effect->work(f) : ISO_WORK_UNKNOWN;
+    static const double none[3] = {0};
+    return effects->on[ISO_ROTOR] ? effects->number[ISO_ROTOR] : none;
 }
 
-bool iso_effects_keep_energy(const iso_problem *f)
+void iso_effects_set_rotor(iso_effects *effects, const double K[3])
 {
-    const iso_effect *effect;
-    bool keep = true;
-    for (int e = 0; (effect = next_acting(&f->effects, &e));) keep = keep && work_of(f, effect) == ISO_WORK_NONE;
-    return keep;
-}
-
-static const iso_effect *first_with(const iso_problem *f, iso_work work)
-{
-    int e = 0;
-    const iso_effect *effect;
-    while ((effect = next_acting(&f->effects, &e)) && work_of(f, effect) != work) continue;
-    return effect;
-}
-
-const iso_effect *iso_effects_taking_energy(const iso_problem *f)
-{
-    return first_with(f, ISO_WORK_LOST);
-}
-
-const iso_effect *iso_effects_changing_energy(const iso_problem *f)
-{
-    return first_with(f, ISO_WORK_UNKNOWN);
+    if (effects->on[ISO_ROTOR]) copy(K, effects->number[ISO_ROTOR], 3);
 }
 
 /* --- writing their equations down ------------------------------------------------------------------------------- */
@@ -205,76 +180,74 @@ bool iso_effect_is_derived(const iso_effect *effect)
     return effect->states && effect->states->kind == ISO_STATE_DERIVED;
 }
 
-/* What kind of state stands at y[at]. */
-static uint8_t kind_at(const iso_problem *f, int at)
+int iso_effects_place_states(iso_problem *f)
 {
-    for (int e = 0; e < ISO_EFFECTS; e++) {
-        int here = f->at[e];
-        for (const iso_effect_state *s = iso_effect_list[e]->states; here > 0 && s && s->name; s++) {
+    int at = ISO_STATE;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        const int states = f->effects.on[e] ? iso_effect_states(iso_effect_list[e], f) : 0;
+        f->at[e] = states > 0 ? at : 0;
+        at += states;
+    }
+    return at;
+}
+
+const iso_effect_state *iso_effects_state_at(const iso_problem *f, int at, iso_effect_id *effect, int *in_group)
+{
+    for (*effect = 0; *effect < ISO_EFFECTS; ++*effect) {
+        *in_group = at - f->at[*effect];
+        if (f->at[*effect] == 0 || *in_group < 0) continue;
+        for (const iso_effect_state *s = iso_effect_list[*effect]->states; s && s->name; s++) {
             if (s->there && !s->there(f)) continue;
-            if (at >= here && at < here + s->count) return (uint8_t)s->kind;
-            here += s->count;
+            if (*in_group < s->count) return s;
+            *in_group -= s->count;
         }
-    }
-    return ISO_STATE_ANY;
-}
-
-static void finish_formula(const iso_problem *f, iso_formula *F)
-{
-    for (int i = 0; i < F->states; i++) F->state[i].kind = kind_at(f, F->state[i].at);
-    iso_formula_finish(F, &f->p);
-}
-
-/* How many rates y[at] has; the rate of a vector state is that of three numbers. */
-static int rates_of(const iso_formula *F, int at)
-{
-    int rates = 0;
-    for (int i = 0; i < F->lines; i++) {
-        const iso_formula_line *l = &F->line[i];
-        const bool is_vector = l->operation == ISO_R_VECTOR_RATE;
-        for (int s = 0; (is_vector || l->operation == ISO_R_SCALAR_RATE) && s < F->states; s++)
-            if (F->state[s].node == l->to && F->state[s].is_vector == is_vector)
-                rates += at >= F->state[s].at && at < F->state[s].at + (is_vector ? 3 : 1);
-    }
-    return rates;
-}
-
-/* How many of the formula's states hold y[at]. */
-static int shapes_of(const iso_formula *F, int at)
-{
-    int shapes = 0;
-    for (int s = 0; s < F->states; s++)
-        shapes += at >= F->state[s].at && at < F->state[s].at + (F->state[s].is_vector ? 3 : 1);
-    return shapes;
-}
-
-/* Each state of an effect that is on has one rate, and one shape. A series has no derived states. */
-static const char *wrong_states(const iso_problem *f, iso_effect_id e, const iso_formula *F)
-{
-    const int first = f->at[e], states = first > 0 ? iso_effect_states(iso_effect_list[e], f) : 0;
-    for (int at = first; at < first + states; at++) {
-        if (F->series && kind_at(f, at) == ISO_STATE_DERIVED) continue;
-        if (rates_of(F, at) != 1) return "a state has no rate, or more than one";
-        if (shapes_of(F, at) != 1) return "a state is read as a number here and as part of a vector there";
     }
     return NULL;
 }
 
-/* Adds the lines of one effect. */
-static void record_motion_of(const iso_problem *f, iso_effect_id e, iso_formula *F)
+static void finish_formula(const iso_problem *f, iso_formula *F)
 {
-    const bool torques = F->torques;
-    F->torques = false;
-    if (iso_effect_list[e]->motion) iso_effect_list[e]->motion(F, f);
-    if (!iso_effect_acts(&f->effects, e) && F->torques) F->wrong = "it observes, and has a torque";
-    F->torques = F->torques || torques;
+    iso_effect_id effect;
+    int in_group;
+    for (int i = 0; i < F->states; i++) {
+        const iso_effect_state *s = iso_effects_state_at(f, F->state[i].at, &effect, &in_group);
+        F->state[i].kind = s ? (uint8_t)s->kind : ISO_STATE_ANY;
+    }
+    iso_formula_finish(F, &f->p);
+}
+
+/* Each state of an effect that is on has one rate, and one shape; the rate of a vector state is that of three numbers.
+ * A series has no derived states. */
+static const char *wrong_states(const iso_problem *f, iso_effect_id e, const iso_formula *F)
+{
+    const int first = f->at[e], states = first > 0 ? iso_effect_states(iso_effect_list[e], f) : 0;
+    for (int at = first; at < first + states && !(F->series && iso_effect_is_derived(iso_effect_list[e])); at++) {
+        int rates = 0, shapes = 0;
+        for (int s = 0; s < F->states; s++) {
+            const bool is_vector = F->state[s].is_vector;
+            if (at < F->state[s].at || at >= F->state[s].at + (is_vector ? 3 : 1)) continue;
+            shapes++;
+            for (int i = 0; i < F->lines; i++)
+                rates += F->line[i].to == F->state[s].node &&
+                         F->line[i].operation == (is_vector ? ISO_R_VECTOR_RATE : ISO_R_SCALAR_RATE);
+        }
+        if (rates != 1) return "a state has no rate, or more than one";
+        if (shapes != 1) return "a state is read as a number here and as part of a vector there";
+    }
+    return NULL;
 }
 
 void iso_effects_record_motion(const iso_problem *f, bool series, iso_formula *F)
 {
+    bool torques = false;
     iso_formula_begin(F, ISO_FORMULA_MOTION, series);
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        if (f->effects.on[e]) record_motion_of(f, e, F);
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        F->torques = false;
+        if (f->effects.on[e] && iso_effect_list[e]->motion) iso_effect_list[e]->motion(F, f);
+        if (F->torques && !iso_effect_acts(&f->effects, e)) F->wrong = "it observes, and has a torque";
+        torques = torques || F->torques;
+    }
+    F->torques = torques;
     for (iso_effect_id e = 0; e < ISO_EFFECTS && !F->wrong; e++)
         if (f->effects.on[e]) F->wrong = wrong_states(f, e, F);
     finish_formula(f, F);
@@ -298,17 +271,16 @@ void iso_effects_record_image(const iso_problem *f, iso_formula *F)
     finish_formula(f, F);
 }
 
-const iso_effect *iso_effects_magnetic(const iso_problem *f)
+static bool is_magnetic(const iso_problem *f, const iso_effect *effect)
 {
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
-        iso_formula F;
-        if (!iso_effect_acts(&f->effects, e) || !iso_effect_list[e]->image) continue;
-        iso_formula_begin(&F, ISO_FORMULA_IMAGE, false);
-        iso_effect_list[e]->image(&F, f);
-        if (F.magnetic) return iso_effect_list[e];
-    }
-    return NULL;
+    iso_formula F;
+    iso_formula_begin(&F, ISO_FORMULA_IMAGE, false);
+    if (effect->image) effect->image(&F, f);
+    return F.magnetic;
 }
+
+FIRST(const iso_effect *iso_effects_magnetic(const iso_problem *f), next_acting, &f->effects, is_magnetic(f, effect),
+      effect)
 
 /* --- sums ------------------------------------------------------------------------------------------------------- */
 
@@ -349,9 +321,9 @@ double iso_effects_image(const iso_problem *f, const double y[])
     return iso_formula_image(&F, &f->p, y).potential;
 }
 
-/* The largest number that a function of the rows gives; 0: none has the function. */
+/* The largest number that a function of the rows returns; 0: none has the function. */
 #define LARGEST(question, function, parameters, arguments)                                                           \
-    double question parameters                                                                                       \
+    question parameters                                                                                              \
     {                                                                                                                \
         const iso_effect *effect;                                                                                    \
         double most = 0;                                                                                             \
@@ -360,23 +332,13 @@ double iso_effects_image(const iso_problem *f, const double y[])
         return most;                                                                                                 \
     }
 
-LARGEST(iso_effects_strength, strength, (const iso_problem *f, const double y[]), (f, y))
-LARGEST(iso_effects_largest, range, (const iso_problem *f, const double y[]), (f, y))
-LARGEST(iso_effects_stiffness, stiffness, (const iso_problem *f), (f))
+LARGEST(double iso_effects_strength, strength, (const iso_problem *f, const double y[]), (f, y))
+LARGEST(double iso_effects_largest, range, (const iso_problem *f, const double y[]), (f, y))
+LARGEST(double iso_effects_stiffness, stiffness, (const iso_problem *f), (f))
 
 double iso_effects_range(const iso_problem *f, const double y[])
 {
     return fmax(iso_effects_strength(f, y), iso_effects_largest(f, y));
-}
-
-/* Everything that acts takes motion away, and something does. */
-static bool only_resisted(const iso_problem *f)
-{
-    const iso_effect *effect;
-    bool only = true;
-    for (int e = 0; (effect = next_acting(&f->effects, &e));)
-        only = only && !effect->potential && work_of(f, effect) != ISO_WORK_UNKNOWN;
-    return only && iso_effects_stiffness(f) > 0;
 }
 
 double iso_effects_moving(const iso_problem *f)

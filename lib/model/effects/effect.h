@@ -100,15 +100,11 @@ typedef struct iso_effect {
     bool observes; /* it changes nothing in the motion: it only adds states or columns                   */
     /* Whether it has no torque from a start with the normal n on: then it observes as well. NULL: never. */
     bool (*idle)(const iso_params *p, const double n[3], const iso_effects *effects);
-    bool watches;       /* an observer that has integrals and nothing else: those of a motion on which it is put  */
     bool ball_only;     /* an observer whose states or columns only backend ball has                          */
     const char *breaks; /* why no isomorphism survives it; NULL: it has an image, or it observes              */
     bool needs_D;       /* it needs D = m b^2                                                                 */
     bool needs_radius;  /* its columns are lengths or forces                                                  */
     bool twists;        /* the contact is not rigid: (omega,n) is free                                        */
-    bool clocks;        /* it asks for the clocks as columns, and for nothing else                            */
-    bool is_level;      /* its potential is the energy level of the point: no force on the point              */
-    bool is_rotor;      /* all that it does is the torque K x omega, K its first three numbers                */
     iso_work (*work)(const iso_problem *f); /* NULL: unknown; for an observer: none            */
     /* What a run says that ends because it turns the ball ever faster; NULL: it does not do that. */
     const char *drives;
@@ -162,7 +158,7 @@ typedef struct iso_effect {
     void (*begin)(const iso_problem *f, double y[]);
     /* How large its states are, for error control. */
     void (*size)(const iso_problem *f, const double y[], double size[]);
-    /* Restores constraints that are no unit vectors; gives the relative correction. */
+    /* Restores constraints that are no unit vectors; returns the relative correction. */
     double (*restore)(const iso_problem *f, double y[]);
 
     /* --- sizes --- */
@@ -199,17 +195,7 @@ iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *e
 iso_status iso_effects_write(iso_context *ctx, iso_effects *effects, const char *effect, const char *name,
                              const char *text);
 
-/* --- what they do to the motion --------------------------------------------------------------------------------- */
-
-/* --- columns ---------------------------------------------------------------------------------------------------- */
-
-enum { ISO_EFFECT_COLUMNS = 28 }; /* room for the columns of all effects */
-
-/* --- integrals -------------------------------------------------------------------------------------------------- */
-
-enum { ISO_MAX_INTEGRALS = 24 };
-
-/* The i-th effect, in the order of iso_effect_id; NULL past the last. */
-const iso_effect *iso_effect_at(int i);
+/* Room for the columns of all effects, and for all integrals. */
+enum { ISO_EFFECT_COLUMNS = 28, ISO_MAX_INTEGRALS = 24 };
 
 #endif

@@ -73,22 +73,17 @@ static double unit_quaternion(const iso_problem *f, const double y[], double *va
     return sqrt(Q[0] * Q[0] + dot(Q + 1, Q + 1));
 }
 
-/* The radius of the fixed sphere in units of |b|, never negative. */
-static double radius_a(const iso_params *p)
-{
-    return iso_params_sign_of_radius(p) * p->k / (1 - p->k);
-}
-
 /* Quaternion, contact in space, contact on the ball, centre. The contact goes round the fixed sphere at a R n; on a
  * plane it goes with the centre, b x. */
 static void show(const iso_problem *f, const double y[], double columns[])
 {
     const double *n = y + 3, *Q = y + f->at[ISO_ATTITUDE], b = iso_params_sign_of_radius(&f->p);
+    const double a = iso_is_plane(f) ? 0 : b * f->p.k / (1 - f->p.k); /* the fixed radius over |b|, never negative */
     double *contact = columns + 4, *trace = columns + 7, *centre = columns + 10, space_n[3];
     copy(Q, columns, 4);
     iso_turn_to_space(Q, n, space_n);
     for (int i = 0; i < 3; i++) {
-        contact[i] = iso_is_plane(f) ? displacement(f, y)[i] : radius_a(&f->p) * space_n[i];
+        contact[i] = iso_is_plane(f) ? displacement(f, y)[i] : a * space_n[i];
         trace[i] = -b * n[i];
         centre[i] = contact[i] + b * space_n[i];
     }
@@ -137,35 +132,13 @@ static const iso_effect_number numbers[] = {
 };
 
 static const iso_effect_column columns[] = {
-    {.name = "q",
-     .column = q_names,
-     .count = 4,
-     .unit = "",
-     .doc = "unit quaternion from the ball's axes to those of space",
-     .checked_as = "q"},
-    {.name = "contact",
-     .column = contact_names,
-     .count = 3,
-     .unit = "length",
-     .doc = "contact point, in axes of space",
-     .length = 1,
-     .checked_as = "contact",
-     .moves = true},
-    {.name = "trace",
-     .column = trace_names,
-     .count = 3,
-     .unit = "length",
-     .doc = "contact point on the ball, in its axes",
-     .length = 1,
-     .checked_as = "trace"},
-    {.name = "centre",
-     .column = centre_names,
-     .count = 3,
-     .unit = "length",
-     .doc = "centre of the ball, in axes of space",
-     .length = 1,
-     .checked_as = "centre",
-     .moves = true},
+    ISO_COLUMN("q", q_names, 4, "", "unit quaternion from the ball's axes to those of space", .checked_as = "q"),
+    ISO_COLUMN("contact", contact_names, 3, "length", "contact point, in axes of space", .length = 1,
+               .checked_as = "contact", .moves = true),
+    ISO_COLUMN("trace", trace_names, 3, "length", "contact point on the ball, in its axes", .length = 1,
+               .checked_as = "trace"),
+    ISO_COLUMN("centre", centre_names, 3, "length", "centre of the ball, in axes of space", .length = 1,
+               .checked_as = "centre", .moves = true),
     {0},
 };
 

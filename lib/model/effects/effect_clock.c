@@ -5,5 +5,4 @@ const iso_effect iso_effect_clock = {
     .name = "clock",
     .doc = "the other clocks as states and columns; a column asks for one of them",
     .observes = true,
-    .clocks = true,
 };

@@ -41,17 +41,11 @@ static void potential(iso_formula *F, const iso_problem *f)
     add_energy(F, constant(F, 1), dot_c(F, constants(F, 3, linear(f)), n));
 }
 
-/* det J/k^2 */
-static iso_constant over_G(iso_formula *F)
-{
-    const iso_constant J = constant_J(F), k = constant_k(F), J2 = {J.at + 1}, J3 = {J.at + 2};
-    return div_c(F, mul_c(F, mul_c(F, J, J2), J3), mul_c(F, k, k));
-}
-
 static void image(iso_formula *F, const iso_problem *f)
 {
     const iso_constant C = constants(F, 9, quadratic(f)), l = constants(F, 3, linear(f)), root_J = constant_root_J(F);
-    const iso_constant scale = over_G(F), exponent = div_c(F, constant(F, -1), constant_k(F));
+    const iso_constant J = constant_J(F), k = constant_k(F), scale = div_c(F, det_of(F, J), mul_c(F, k, k));
+    const iso_constant exponent = div_c(F, constant(F, -1), k);
     const iso_constant a = sub_c(F, exponent, constant(F, 1)), b = sub_c(F, exponent, constant(F, 0.5));
     const iso_scalar q = formula_q(F), q_a = power_of(F, q, a), q_b = power_of(F, q, b);
     const iso_vector z = by_c(F, root_J, formula_gamma(F)), C_z = matrix_c(F, C, z);
@@ -59,7 +53,7 @@ static void image(iso_formula *F, const iso_problem *f)
     const iso_scalar V_P = mul(F, q_a, P), V_L = mul(F, q_b, L);
     const iso_scalar along = quotient_of(F, add(F, times_c(F, a, V_P), times_c(F, b, V_L)), q);
     const iso_vector push = by_c(F, root_J, add_v(F, scale_v(F, q_a, C_z), scale_c(F, q_b, l)));
-    const iso_vector twice_J_gamma = times_v(F, constant(F, 2), by_c(F, constant_J(F), formula_gamma(F)));
+    const iso_vector twice_J_gamma = times_v(F, constant(F, 2), by_c(F, J, formula_gamma(F)));
     add_potential(F, scale, V_P);
     add_potential(F, scale, V_L);
     add_gradient(F, scale, add_v(F, push, scale_v(F, along, twice_J_gamma)));

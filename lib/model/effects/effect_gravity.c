@@ -170,12 +170,7 @@ static const iso_effect_number numbers[] = {
 };
 
 static const iso_effect_column columns[] = {
-    {.name = "e",
-     .column = e_names,
-     .count = 3,
-     .unit = "",
-     .doc = "upward vertical, in the ball's axes",
-     .checked_as = "e"},
+    ISO_COLUMN("e", e_names, 3, "", "upward vertical, in the ball's axes", .checked_as = "e"),
     {0},
 };
 

@@ -43,24 +43,20 @@ WRITTEN(2)
     }
 static const iso_integral integrals[] = ROWS(), image_integrals[] = ROWS(_of_point);
 
-static iso_status check_one(iso_context *ctx, const iso_params *p, const iso_effects *effects, int which)
-{
-    const char *name = names[which];
-    iso_expression e;
-    ISO_TRY(iso_written_check(ctx, p, effects, ISO_INTEGRALS, which, &e));
-    if (e.node[e.root].degree == ISO_CONSTANT)
-        return ISO_FAIL_INPUT(ctx, name, "%s is the same number at every state: take it out", name);
-    if (e.reads[ISO_TERM_E] && effects->idle[ISO_GRAVITY])
-        return ISO_FAIL_INPUT(ctx, name, "%s reads e, which is n here, on a horizontal plane: write n1, n2, n3",
-                              name);
-    return ISO_OK;
-}
-
 static iso_status check(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *effects)
 {
     (void)n;
-    for (int i = 0; i < ISO_EXPRESSIONS; i++)
-        if (i == 0 || iso_written_has(effects, ISO_INTEGRALS, i)) ISO_TRY(check_one(ctx, p, effects, i));
+    for (int i = 0; i < ISO_EXPRESSIONS; i++) {
+        const char *name = names[i];
+        iso_expression e;
+        if (!iso_written_has(effects, ISO_INTEGRALS, i)) continue;
+        ISO_TRY(iso_written_check(ctx, p, effects, ISO_INTEGRALS, i, &e));
+        if (e.node[e.root].degree == ISO_CONSTANT)
+            return ISO_FAIL_INPUT(ctx, name, "%s is the same number at every state: take it out", name);
+        if (e.reads[ISO_TERM_E] && effects->idle[ISO_GRAVITY])
+            return ISO_FAIL_INPUT(ctx, name, "%s reads e, which is n here, on a horizontal plane: write n1, n2, n3",
+                                  name);
+    }
     return ISO_OK;
 }
 
@@ -70,7 +66,6 @@ const iso_effect iso_effect_integrals = {
     .name = "integrals",
     .doc = "integrals F(omega, n, e) as the scene writes them: their drift is watched",
     .observes = true,
-    .watches = true,
     .expressions = names,
     .written = 2,
     .numbers = numbers,

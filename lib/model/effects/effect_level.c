@@ -52,7 +52,7 @@ static bool keeps(const iso_problem *f, iso_additional integral)
     return true;
 }
 
-/* The energy of a point tells c, that of a ball does not. */
+/* c follows from the energy of a point, not from that of a ball. */
 static iso_status complete(iso_context *ctx, const iso_params *p, int model, double number[],
                            bool (*given)(const void *scene, const char *key), const void *scene)
 {
@@ -71,7 +71,6 @@ static const iso_effect_number numbers[] = {
 const iso_effect iso_effect_level = {
     .name = "level",
     .doc = "potential U = -c (n,J^-1 n)^(-1/k): the ball of a point at the energy H = c det J/k^2",
-    .is_level = true,
     .work = iso_no_work,
     .keeps = keeps,
     .reversible = reversible,

@@ -32,13 +32,6 @@ static void potential(iso_formula *F, const iso_problem *f)
     add_energy(F, iso_writer_over_energy(&w), U);
 }
 
-/* det J/k^2 in own units, over one unit of energy in the caller's */
-static iso_constant over_G(iso_formula *F, iso_writer *w, iso_constant J, iso_constant k)
-{
-    const iso_constant J2 = {J.at + 1}, J3 = {J.at + 2}, det_J = mul_c(F, mul_c(F, J, J2), J3);
-    return mul_c(F, iso_writer_over_energy(w), div_c(F, det_J, mul_c(F, k, k)));
-}
-
 static void image(iso_formula *F, const iso_problem *f)
 {
     iso_writer w;
@@ -50,7 +43,8 @@ static void image(iso_formula *F, const iso_problem *f)
     const iso_vector n = scale_v(F, over_root, by_c(F, root_J, formula_gamma(F)));
     if (!iso_writer_begin(&w, F, f, ISO_POTENTIAL, 0, n)) return;
     iso_writer_slope(&w, &U, &g, &along);
-    const iso_constant scale = over_G(F, &w, J, k);
+    const iso_constant over_G = div_c(F, det_of(F, J), mul_c(F, k, k));
+    const iso_constant scale = mul_c(F, iso_writer_over_energy(&w), over_G); /* one unit of energy in the caller's */
     const iso_scalar falling = add(F, along, times_c(F, div_c(F, constant(F, 2), k), U));
     const iso_vector push = scale_v(F, mul(F, power, over_root), by_c(F, root_J, g));
     const iso_vector back = scale_v(F, quotient_of(F, mul(F, power, falling), q), by_c(F, J, formula_gamma(F)));

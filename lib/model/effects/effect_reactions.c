@@ -27,10 +27,10 @@ static void show(const iso_problem *f, const double y[], double columns[])
     const double *w = y, *n = y + 3, D = f->p.D, k = f->p.k, spin = dot(w, n);
     const double side = k > 1 ? -1 : 1; /* inside a sphere the support is on the other side of the centre */
     const double b = iso_params_sign_of_radius(&f->p);
-    const iso_contact *contact = iso_contact_of(f);
+    const bool twists = iso_effects_twist(&f->effects);
     double T[3], dy[ISO_MAX_STATE], across[3];
     iso_effects_torque(f, y, T, dy);
-    contact->solve(f, y, T, dy);
+    (twists ? iso_contact_twisting : iso_contact_rigid)(f, y, T, dy);
     cross(dy, n, across);
     add_scaled(across, (1 - k) * spin, w);
     scale(across, D);
@@ -48,7 +48,7 @@ static void show(const iso_problem *f, const double y[], double columns[])
     columns[3] = side * b * normal; /* < 0: the support would have to pull */
     columns[4] = norm(across);
     columns[5] = fmin(columns[4] / fabs(columns[3]), DBL_MAX); /* where contact is lost the pressure may be 0 */
-    columns[6] = contact->twist(f, y, T);
+    columns[6] = twists ? iso_effects_twist_torque(f, y) : iso_contact_lambda(f, y, T);
 }
 
 /* mu only where something presses the ball to the support. */
@@ -75,48 +75,16 @@ static const char *const N_names[] = {"N1", "N2", "N3"}, *const pressure_name[] 
 
 /* Forces are energies over the radius. lambda is a torque. */
 static const iso_effect_column columns[] = {
-    {.name = "N",
-     .column = N_names,
-     .count = 3,
-     .unit = "force",
-     .doc = "contact force, in the ball's axes",
-     .dimension = {1, 0, 2},
-     .length = -1,
-     .checked_as = "N",
-     .sized_by = "N"},
-    {.name = "pressure",
-     .column = pressure_name,
-     .count = 1,
-     .unit = "force",
-     .doc = "the part of N that pushes the ball off the support",
-     .dimension = {1, 0, 2},
-     .length = -1,
-     .checked_as = "force",
-     .sized_by = "N"},
-    {.name = "friction",
-     .column = friction_name,
-     .count = 1,
-     .unit = "force",
-     .doc = "size of the rest of N",
-     .dimension = {1, 0, 2},
-     .length = -1,
-     .checked_as = "force",
-     .sized_by = "N"},
-    {.name = "mu",
-     .column = mu_name,
-     .count = 1,
-     .unit = "",
-     .doc = "friction coefficient that is needed, friction/|pressure|",
-     .checked_as = "mu",
-     .ratio = true},
-    {.name = "lambda",
-     .column = lambda_name,
-     .count = 1,
-     .unit = "torque",
-     .doc = "torque about n that keeps the ball from twisting",
-     .dimension = {1, 0, 2},
-     .checked_as = "lambda",
-     .sized_by = "N"},
+    ISO_COLUMN("N", N_names, 3, "force", "contact force, in the ball's axes", .dimension = {1, 0, 2}, .length = -1,
+               .checked_as = "N", .sized_by = "N"),
+    ISO_COLUMN("pressure", pressure_name, 1, "force", "the part of N that pushes the ball off the support",
+               .dimension = {1, 0, 2}, .length = -1, .checked_as = "force", .sized_by = "N"),
+    ISO_COLUMN("friction", friction_name, 1, "force", "size of the rest of N", .dimension = {1, 0, 2}, .length = -1,
+               .checked_as = "force", .sized_by = "N"),
+    ISO_COLUMN("mu", mu_name, 1, "", "friction coefficient that is needed, friction/|pressure|", .checked_as = "mu",
+               .ratio = true),
+    ISO_COLUMN("lambda", lambda_name, 1, "torque", "torque about n that keeps the ball from twisting",
+               .dimension = {1, 0, 2}, .checked_as = "lambda", .sized_by = "N"),
     {0},
 };
 

@@ -36,17 +36,10 @@ static void motion(iso_formula *F, const iso_problem *f)
     add_torque(F, constant(F, 1), matrix_c(F, constants(F, 9, cross_K), formula_omega(F)));
 }
 
-/* sqrt(det J)/k^2 */
-static iso_constant field_factor(iso_formula *F, iso_constant J, iso_constant k)
-{
-    const iso_constant J2 = {J.at + 1}, J3 = {J.at + 2}, det_J = mul_c(F, mul_c(F, J, J2), J3);
-    const iso_constant root = {iso_formula_constant(F, ISO_C_ROOT, det_J.at, 0)};
-    return div_c(F, root, mul_c(F, k, k));
-}
-
 static void image(iso_formula *F, const iso_problem *f)
 {
-    const iso_constant J = constant_J(F), k = constant_k(F), factor = field_factor(F, J, k);
+    const iso_constant k = constant_k(F), det_J = det_of(F, constant_J(F));
+    const iso_constant factor = div_c(F, function_c(F, ISO_C_ROOT, det_J, det_J), mul_c(F, k, k));
     const iso_constant power = sub_c(F, constant(F, -1), div_c(F, constant(F, 0.5), k));
     const iso_vector z = by_c(F, constant_root_J(F), formula_gamma(F));
     const iso_scalar along = dot_c(F, constants(F, 3, momentum(f)), z);
@@ -161,7 +154,6 @@ const iso_effect iso_effect_rotor = {
     .name = "rotor",
     .point_name = "magnetic",
     .doc = "a rotor of constant momentum K in the ball: torque K x omega; on the point a magnetic field",
-    .is_rotor = true,
     .work = iso_no_work,
     .numbers = numbers,
     .motion = motion,

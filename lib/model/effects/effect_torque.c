@@ -21,20 +21,17 @@ static const double *numbers_of(const iso_problem *f)
     return f->effects.number[ISO_TORQUE];
 }
 
-static void motion_of(iso_formula *F, const iso_problem *f, int i)
-{
-    const double axis[3] = {i == 0, i == 1, i == 2};
-    iso_writer w;
-    if (!iso_writer_begin(&w, F, f, ISO_TORQUE, i, formula_n(F)) || iso_expression_is_zero(&w.e)) return;
-    w.most = ISO_LINEAR;                                                          /* no slopes are asked for */
-    if (f->at[ISO_GRAVITY] > 0) w.vertical = vector_state(F, f->at[ISO_GRAVITY]); /* else e = n, on a plane */
-    const iso_scalar M = iso_writer_value(&w);
-    add_torque(F, iso_writer_over_energy(&w), scale_c(F, M, constants(F, 3, axis)));
-}
-
 static void motion(iso_formula *F, const iso_problem *f)
 {
-    for (int i = 0; i < COMPONENTS; i++) motion_of(F, f, i);
+    for (int i = 0; i < COMPONENTS; i++) {
+        const double axis[3] = {i == 0, i == 1, i == 2};
+        iso_writer w;
+        if (!iso_writer_begin(&w, F, f, ISO_TORQUE, i, formula_n(F)) || iso_expression_is_zero(&w.e)) continue;
+        w.most = ISO_LINEAR;                                                          /* no slopes are asked for */
+        if (f->at[ISO_GRAVITY] > 0) w.vertical = vector_state(F, f->at[ISO_GRAVITY]); /* else e = n, on a plane */
+        const iso_scalar M = iso_writer_value(&w);
+        add_torque(F, iso_writer_over_energy(&w), scale_c(F, M, constants(F, 3, axis)));
+    }
 }
 
 static double strength(const iso_problem *f, const double y[])
@@ -77,22 +74,12 @@ static void random_state(iso_random *r, const iso_problem *f, const double n[3],
     if (f->at[ISO_GRAVITY] > 0) iso_random_direction(r, y + f->at[ISO_GRAVITY]);
 }
 
-static double size_of(const iso_expression e[], const iso_expression_state *s)
-{
-    double M[COMPONENTS], x[ISO_EXPRESSION_NODES];
-    for (int i = 0; i < COMPONENTS; i++) {
-        iso_expression_values(&e[i], s, x);
-        M[i] = x[e[i].root];
-    }
-    return norm(M);
-}
-
 /* claimed: what gives and takes energy is asked for as well. */
 static void measure(const iso_problem *f, const iso_expression e[], const double n[3], bool claimed, found *w)
 {
     iso_random *r = iso_random_create(1);
     const double J = numbers_of(f)[ISO_WRITTEN_J], W = numbers_of(f)[ISO_WRITTEN_W];
-    double y[ISO_MAX_STATE] = {0};
+    double y[ISO_MAX_STATE] = {0}, M[COMPONENTS], unused;
     *w = (found){0};
     for (int i = 0; r && i < SAMPLES + AT_START; i++) {
         random_state(r, f, i < SAMPLES ? NULL : n, y);
@@ -101,22 +88,11 @@ static void measure(const iso_problem *f, const iso_expression e[], const double
         if (works > 0) w->gives = true, copy(y, w->at_gives, ISO_STATE);
         if (works < 0) w->takes = true, copy(y, w->at_takes, ISO_STATE);
         copy((const double[]){0, 0, 0}, s.omega, 3);
-        const double size = size_of(e, &s) / (J * W * W);
+        for (int j = 0; j < COMPONENTS; j++) M[j] = iso_expression_value(&e[j], &s, &unused);
+        const double size = norm(M) / (J * W * W);
         if (isfinite(size)) w->strength = fmax(w->strength, size);
     }
     iso_random_free(r);
-}
-
-static iso_status check_claim(iso_context *ctx, const found *w, iso_work stated)
-{
-    if (!w->gives && (!w->takes || stated == ISO_WORK_LOST)) return ISO_OK;
-    const double *y = w->gives ? w->at_gives : w->at_takes;
-    return ISO_FAIL_INPUT(ctx, "work",
-                          "'work' is %s, but this torque %s energy, for example with omega = (%s, %s, %s) and n = "
-                          "(%s, %s, %s)",
-                          work_name((int)stated), w->gives ? "gives" : "takes", ISO_ROUNDED(y[0], 3),
-                          ISO_ROUNDED(y[1], 3), ISO_ROUNDED(y[2], 3), ISO_ROUNDED(y[3], 3), ISO_ROUNDED(y[4], 3),
-                          ISO_ROUNDED(y[5], 3));
 }
 
 /* --- what must hold --------------------------------------------------------------------------------------------- */
@@ -139,7 +115,14 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
     const bool claimed = (int)*stated != (int)shown && (int)*stated != ISO_WORK_UNKNOWN;
     measure(&f, e, n, claimed, &w);
     effects->number[ISO_TORQUE][ISO_WRITTEN_STRENGTH] = w.strength;
-    return claimed ? check_claim(ctx, &w, (iso_work)*stated) : ISO_OK;
+    if (!claimed || (!w.gives && (!w.takes || *stated == ISO_WORK_LOST))) return ISO_OK;
+    const double *y = w.gives ? w.at_gives : w.at_takes;
+    return ISO_FAIL_INPUT(ctx, "work",
+                          "'work' is %s, but this torque %s energy, for example with omega = (%s, %s, %s) and n = "
+                          "(%s, %s, %s)",
+                          work_name((int)*stated), w.gives ? "gives" : "takes", ISO_ROUNDED(y[0], 3),
+                          ISO_ROUNDED(y[1], 3), ISO_ROUNDED(y[2], 3), ISO_ROUNDED(y[3], 3), ISO_ROUNDED(y[4], 3),
+                          ISO_ROUNDED(y[5], 3));
 }
 
 static const char *const expressions[] = {"M1", "M2", "M3", NULL};

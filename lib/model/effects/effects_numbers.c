@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/finite_impl.h"
-#include "base/nearest_impl.h"
+#include "base/math_impl.h"
+#include "base/names_impl.h"
 #include "base/vec3_impl.h"
 #include "model/effects/effects_impl.h"
 #include "model/expression/expression_impl.h"
@@ -149,42 +149,6 @@ void iso_effects_scale(iso_effects *effects, const iso_units *units, int power)
         }
 }
 
-/* --- the level: an effect that is the energy of the point ------------------------------------------------------- */
-
-static iso_effect_id level_id(void)
-{
-    int e = 0;
-    while (e < ISO_EFFECTS && !iso_effect_list[e]->is_level) e++;
-    return (iso_effect_id)e;
-}
-
-bool iso_effects_have_level(const iso_effects *effects)
-{
-    return level_id() < ISO_EFFECTS && effects->on[level_id()];
-}
-
-double iso_effects_level(const iso_effects *effects)
-{
-    return level_id() < ISO_EFFECTS ? effects->number[level_id()][0] : NAN;
-}
-
-void iso_effects_set_level(iso_effects *effects, bool there, double c)
-{
-    if (level_id() == ISO_EFFECTS) return;
-    effects->on[level_id()] = there;
-    effects->number[level_id()][0] = c;
-}
-
-const char *iso_level_name(void)
-{
-    return iso_effect_list[level_id()]->name;
-}
-
-iso_dimension iso_level_dimension(void)
-{
-    return iso_effect_list[level_id()]->numbers->dimension;
-}
-
 /* --- do the numbers make sense ---------------------------------------------------------------------------------- */
 
 static iso_status check_unit(iso_context *ctx, const char *name, int count, double x[])
@@ -239,15 +203,6 @@ static iso_status check_D(iso_context *ctx, const iso_params *p, const char *eff
         effect);
 }
 
-/* Whether a group of columns holds the number at later times, if it says so. */
-static bool turns_well(const iso_effect *effect, const iso_effect_number *n)
-{
-    bool found = !n->turns_with;
-    for (const iso_effect_column *c = effect->columns; c && c->name; c++)
-        found = found || (strcmp(c->name, n->turns_with) == 0 && c->count == n->count);
-    return found;
-}
-
 /* What a row lacks, or says twice; NULL: nothing. What is left out, nobody may guess. */
 static const char *what_is_wrong(const iso_effect *effect)
 {
@@ -264,13 +219,13 @@ static const char *what_is_wrong(const iso_effect *effect)
     if (s && !derived && !effect->recall) return "it has states, but no `recall`";
     for (; s && s->name; s++)
         if ((s->kind == ISO_STATE_DERIVED) != derived) return "some of its states are derived, others are not";
-    for (const iso_effect_number *n = effect->numbers; n && n->name; n++)
-        if (!turns_well(effect, n)) return "a number turns with a group of columns that is not there";
-    for (const iso_effect_number *n = effect->numbers; n && n->name; n++)
+    for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
+        bool turns = !n->turns_with; /* or a group of columns holds it at later times */
+        for (const iso_effect_column *c = effect->columns; c && c->name; c++)
+            turns = turns || (strcmp(c->name, n->turns_with) == 0 && c->count == n->count);
+        if (!turns) return "a number turns with a group of columns that is not there";
         if (!has_room(n)) return "it has more numbers than there is room for (ISO_EFFECT_NUMBERS)";
-    if (effect->is_level && effect != iso_effect_list[level_id()]) return "there is another level";
-    if (effect->is_level && (!effect->numbers || effect->numbers->at != 0))
-        return "a level has c as its first number";
+    }
     return NULL;
 }
 
@@ -303,13 +258,7 @@ static iso_status check_equations(iso_context *ctx, const iso_params *p, const d
     iso_formula F;
     double y[ISO_MAX_STATE] = {0};
     bool finite = true;
-    int at = ISO_STATE;
-    for (iso_effect_id i = 0; i < ISO_EFFECTS; i++) {
-        const int states = effects->on[i] ? iso_effect_states(iso_effect_list[i], &f) : 0;
-        f.at[i] = states > 0 ? at : 0;
-        at += states;
-    }
-    if (at > ISO_MAX_STATE) return ISO_OK; /* the model is refused */
+    if (iso_effects_place_states(&f) > ISO_MAX_STATE) return ISO_OK; /* the model is refused */
     for (iso_effect_id i = 0; i < ISO_EFFECTS; i++) f.effects.on[i] = i == e;
     copy(start, y, ISO_STATE);
     if (f.at[ISO_GRAVITY] > 0) copy(iso_effects_up(effects), y + f.at[ISO_GRAVITY], 3);
@@ -325,8 +274,7 @@ static iso_status check_equations(iso_context *ctx, const iso_params *p, const d
                               iso_effect_list[e]->name);
     if (!F.wrong) iso_effects_record_image(&f, &F); /* without room for it there is a ball, and no point */
     if (!finite) return iso_written_refuse_start(ctx, &f, e, y);
-    if (F.overrun) return ISO_OK;
-    if (!F.wrong) return ISO_OK;
+    if (F.overrun || !F.wrong) return ISO_OK;
     return ISO_FAIL_INPUT(ctx, iso_effect_list[e]->name, "the equations of '%s' cannot be computed: %s",
                           iso_effect_list[e]->name, F.wrong);
 }
@@ -337,13 +285,6 @@ void iso_effects_settle(const iso_params *p, const double normal[3], iso_effects
         const iso_effect *effect = iso_effect_list[e];
         effects->idle[e] = effects->on[e] && effect->idle && effect->idle(p, normal, effects);
     }
-}
-
-const iso_effect *iso_effects_idle(const iso_effects *effects)
-{
-    int e = 0;
-    while (e < ISO_EFFECTS && !(effects->on[e] && effects->idle[e])) e++;
-    return e < ISO_EFFECTS ? iso_effect_list[e] : NULL;
 }
 
 iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double start[ISO_STATE],

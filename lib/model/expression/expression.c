@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/nearest_impl.h"
+#include "base/math_impl.h"
+#include "base/names_impl.h"
 #include "base/number_impl.h"
-#include "base/pi_impl.h"
 
 typedef struct reader {
     const char *text;
@@ -21,13 +21,7 @@ typedef struct reader {
 /* What stands for a node that could not be made. All later failures are silent: the first one is the mistake. */
 enum { FAILED = -1 };
 
-static int fail(reader *r, int at, const char *format, ...)
-#if defined(__GNUC__)
-    __attribute__((format(printf, 3, 4)))
-#endif
-    ;
-
-static int fail(reader *r, int at, const char *format, ...)
+__attribute__((format(printf, 3, 4))) static int fail(reader *r, int at, const char *format, ...)
 {
     va_list arguments;
     if (r->e->wrong[0]) return FAILED;
@@ -57,13 +51,6 @@ static int degree_of(iso_term term, int a, int b)
     }
 }
 
-/* Two factors of degree 1 that are one power: n1^2. */
-static bool is_square(const iso_expression *e, iso_term term, int a, int b)
-{
-    return term == ISO_TERM_POWER && e->node[a].degree == ISO_LINEAR && e->node[b].term == ISO_TERM_NUMBER &&
-           e->node[b].value == 2;
-}
-
 /* The node, an old one where there is the same. a and b: nodes of an operation, or which number of J, n, ... */
 static int make(reader *r, int at, iso_term term, int a, int b, double value)
 {
@@ -77,7 +64,9 @@ static int make(reader *r, int at, iso_term term, int a, int b, double value)
     if (e->nodes == ISO_EXPRESSION_NODES)
         return fail(r, at, "an expression has at most %d numbers, names and operations", ISO_EXPRESSION_NODES);
     const int of_a = is_operation(term) ? e->node[a].degree : 0, of_b = has_two(term) ? e->node[b].degree : 0;
-    const int degree = is_square(e, term, a, b) ? ISO_QUADRATIC : degree_of(term, of_a, of_b);
+    const bool is_square = term == ISO_TERM_POWER && of_a == ISO_LINEAR && e->node[b].term == ISO_TERM_NUMBER &&
+                           e->node[b].value == 2; /* two factors of degree 1 that are one power: n1^2 */
+    const int degree = is_square ? ISO_QUADRATIC : degree_of(term, of_a, of_b);
     if (term <= ISO_TERM_E) e->reads[term] = true;
     e->node[e->nodes] =
         (iso_expression_node){(uint8_t)term, (uint8_t)degree, (int16_t)a, (int16_t)b, (int16_t)at, value};
@@ -86,24 +75,22 @@ static int make(reader *r, int at, iso_term term, int a, int b, double value)
 
 /* --- names ------------------------------------------------------------------------------------------------------ */
 
-static const struct {
+/* What a name means: a node, or a function (of tan: the quotient of sin and cos). */
+typedef struct meaning {
     const char *name;
     iso_term term;
     int which;
-} known[] = {{"n1", ISO_TERM_N, 0},         {"n2", ISO_TERM_N, 1},         {"n3", ISO_TERM_N, 2},
-             {"omega1", ISO_TERM_OMEGA, 0}, {"omega2", ISO_TERM_OMEGA, 1}, {"omega3", ISO_TERM_OMEGA, 2},
-             {"e1", ISO_TERM_E, 0},         {"e2", ISO_TERM_E, 1},         {"e3", ISO_TERM_E, 2},
-             {"k", ISO_TERM_K, 0},          {"J1", ISO_TERM_J, 0},         {"J2", ISO_TERM_J, 1},
-             {"J3", ISO_TERM_J, 2}};
-enum { KNOWN = sizeof known / sizeof *known };
+} meaning;
 
-/* tan is made of sin and cos */
-static const struct {
-    const char *name;
-    iso_term term;
-} functions[] = {{"sqrt", ISO_TERM_SQRT}, {"exp", ISO_TERM_EXP}, {"log", ISO_TERM_LOG},
-                 {"sin", ISO_TERM_SIN},   {"cos", ISO_TERM_COS}, {"tan", ISO_TERM_DIV}};
-enum { FUNCTIONS = sizeof functions / sizeof *functions };
+static const meaning known[] = {
+    {"n1", ISO_TERM_N, 0},         {"n2", ISO_TERM_N, 1},         {"n3", ISO_TERM_N, 2},
+    {"omega1", ISO_TERM_OMEGA, 0}, {"omega2", ISO_TERM_OMEGA, 1}, {"omega3", ISO_TERM_OMEGA, 2},
+    {"e1", ISO_TERM_E, 0},         {"e2", ISO_TERM_E, 1},         {"e3", ISO_TERM_E, 2},
+    {"k", ISO_TERM_K, 0},          {"J1", ISO_TERM_J, 0},         {"J2", ISO_TERM_J, 1},
+    {"J3", ISO_TERM_J, 2},         {"pi", ISO_TERM_NUMBER, 0},    {"sqrt", ISO_TERM_SQRT, 0},
+    {"exp", ISO_TERM_EXP, 0},      {"log", ISO_TERM_LOG, 0},      {"sin", ISO_TERM_SIN, 0},
+    {"cos", ISO_TERM_COS, 0},      {"tan", ISO_TERM_DIV, 0}};
+enum { KNOWN = sizeof known / sizeof *known };
 
 /* What people write, and what to write instead. */
 static const struct {
@@ -120,6 +107,14 @@ static const struct {
 };
 enum { OTHERS = sizeof others / sizeof *others };
 
+/* NULL: it has none. */
+static const meaning *find_meaning(const char *name)
+{
+    for (int i = 0; i < KNOWN; i++)
+        if (strcmp(known[i].name, name) == 0) return &known[i];
+    return NULL;
+}
+
 static bool is_letter(char c)
 {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -132,61 +127,36 @@ static bool is_digit(char c)
 
 const char *iso_expression_bad_name(const char *name)
 {
+    const meaning *own = find_meaning(name);
     bool good = is_letter(name[0]) && strlen(name) < ISO_PARAMETER_SIZE;
     for (const char *c = name; *c; c++) good = good && (is_letter(*c) || is_digit(*c));
     if (!good) return "a name has a letter first, then letters, digits and _, at most 15 in all";
-    for (int i = 0; i < KNOWN; i++)
-        if (strcmp(known[i].name, name) == 0) return "this name has a meaning of its own";
-    for (int i = 0; i < FUNCTIONS; i++)
-        if (strcmp(functions[i].name, name) == 0) return "this is the name of a function";
-    return strcmp(name, "pi") == 0 || strcmp(name, "t") == 0 ? "this name has a meaning of its own" : NULL;
+    if (own && is_operation(own->term)) return "this is the name of a function";
+    return own || strcmp(name, "t") == 0 ? "this name has a meaning of its own" : NULL;
 }
 
 static bool is_allowed(const reader *r, iso_term term)
 {
-    return term == ISO_TERM_OMEGA ? r->names->omega : term == ISO_TERM_E ? r->names->e : true;
+    return r->names->moving || (term != ISO_TERM_OMEGA && term != ISO_TERM_E);
 }
 
 static int fail_name(reader *r, int at, const char *name, bool function)
 {
-    const char *names[KNOWN + ISO_PARAMETERS + 1];
+    const char *names[KNOWN + ISO_PARAMETERS];
     char suggested[ISO_SUGGEST_SIZE];
     size_t count = 0;
     for (int i = 0; i < OTHERS; i++)
         if (strcmp(others[i].name, name) == 0) return fail(r, at, "there is no '%s': %s", name, others[i].instead);
     for (int i = 0; !function && i < ISO_PARAMETERS && r->names->parameter[i][0]; i++)
         names[count++] = r->names->parameter[i];
-    for (int i = 0; !function && i < KNOWN; i++)
-        if (is_allowed(r, known[i].term)) names[count++] = known[i].name;
-    for (int i = 0; function && i < FUNCTIONS; i++) names[count++] = functions[i].name;
+    for (int i = 0; i < KNOWN; i++)
+        if (is_operation(known[i].term) == function && known[i].term != ISO_TERM_NUMBER &&
+            is_allowed(r, known[i].term))
+            names[count++] = known[i].name;
     iso_suggest(suggested, name, count, names);
     if (function) return fail(r, at, "unknown function '%s'; %s", name, suggested);
     return fail(r, at, "unknown name '%s'; %s%s names of your own stand in 'parameters'", name, suggested,
                 suggested[strlen(suggested) - 1] == '?' ? "" : ";");
-}
-
-static bool is_name(const reader *r, const char *name)
-{
-    bool is = strcmp(name, "pi") == 0;
-    for (int i = 0; i < KNOWN; i++) is = is || strcmp(known[i].name, name) == 0;
-    for (int i = 0; i < ISO_PARAMETERS; i++) is = is || strcmp(r->names->parameter[i], name) == 0;
-    return is;
-}
-
-static int name_of(reader *r, int at, const char *name)
-{
-    for (int i = 0; i < ISO_PARAMETERS && r->names->parameter[i][0]; i++)
-        if (strcmp(r->names->parameter[i], name) == 0) return make(r, at, ISO_TERM_PARAMETER, i, 0, 0);
-    for (int i = 0; i < KNOWN; i++) {
-        if (strcmp(known[i].name, name) != 0) continue;
-        if (is_allowed(r, known[i].term)) return make(r, at, known[i].term, known[i].which, 0, 0);
-        return fail(r, at, "a potential depends on n alone: '%s' is for 'torque'", name);
-    }
-    if (strcmp(name, "pi") == 0) return make(r, at, ISO_TERM_NUMBER, 0, 0, ISO_PI);
-    for (int i = 0; i < FUNCTIONS; i++)
-        if (strcmp(functions[i].name, name) == 0)
-            return fail(r, at + (int)strlen(name), "expected '(': '%s' is a function", name);
-    return fail_name(r, at, name, false);
 }
 
 /* --- the grammar ------------------------------------------------------------------------------------------------ */
@@ -236,6 +206,7 @@ static int number(reader *r)
     return make(r, begin, ISO_TERM_NUMBER, 0, 0, value);
 }
 
+/* The sum in parentheses that are open, behind a name that begins at `at`. */
 static int argument(reader *r, int at, const char *name)
 {
     char there[16];
@@ -246,26 +217,28 @@ static int argument(reader *r, int at, const char *name)
     return a;
 }
 
-static int call(reader *r, int at, const char *name)
-{
-    int f = 0;
-    while (f < FUNCTIONS && strcmp(functions[f].name, name) != 0) f++;
-    if (f == FUNCTIONS) return fail_name(r, at, name, true);
-    const int a = argument(r, at, name);
-    if (a == FAILED) return FAILED;
-    if (functions[f].term != ISO_TERM_DIV) return make(r, at, functions[f].term, a, 0, 0);
-    return make(r, at, ISO_TERM_DIV, make(r, at, ISO_TERM_SIN, a, 0, 0), make(r, at, ISO_TERM_COS, a, 0, 0), 0);
-}
-
 static int word(reader *r)
 {
-    const int begin = r->at;
+    const int at = r->at;
     char name[ISO_PARAMETER_SIZE];
     while (is_letter(r->text[r->at]) || is_digit(r->text[r->at])) r->at++;
-    snprintf(name, sizeof name, "%.*s", r->at - begin, r->text + begin);
-    if (r->at - begin >= (int)sizeof name) return fail_name(r, begin, name, false);
+    snprintf(name, sizeof name, "%.*s", r->at - at, r->text + at);
+    if (r->at - at >= (int)sizeof name) return fail_name(r, at, name, false);
     skip_blanks(r);
-    return !is_name(r, name) && take(r, '(') ? call(r, begin, name) : name_of(r, begin, name);
+    for (int i = 0; i < ISO_PARAMETERS && r->names->parameter[i][0]; i++)
+        if (strcmp(r->names->parameter[i], name) == 0) return make(r, at, ISO_TERM_PARAMETER, i, 0, 0);
+    const meaning *m = find_meaning(name);
+    if (m && !is_operation(m->term)) {
+        if (is_allowed(r, m->term)) return make(r, at, m->term, m->which, 0, m->term == ISO_TERM_NUMBER ? ISO_PI : 0);
+        return fail(r, at, "a potential depends on n alone: '%s' is for 'torque'", name);
+    }
+    if (!take(r, '('))
+        return m ? fail(r, at + (int)strlen(name), "expected '(': '%s' is a function", name)
+                 : fail_name(r, at, name, false);
+    if (!m) return fail_name(r, at, name, true);
+    const int a = argument(r, at, name);
+    if (m->term != ISO_TERM_DIV) return make(r, at, m->term, a, 0, 0);
+    return make(r, at, ISO_TERM_DIV, make(r, at, ISO_TERM_SIN, a, 0, 0), make(r, at, ISO_TERM_COS, a, 0, 0), 0);
 }
 
 static int atom(reader *r)
@@ -304,35 +277,31 @@ static int factor(reader *r)
     return a;
 }
 
-static int product(reader *r)
+/* operand { (sign) operand }, from left to right. The two signs stand for `first` and for the term behind it. */
+static int left_to_right(reader *r, int (*operand)(reader *r), const char signs[2], iso_term first)
 {
-    int a = factor(r);
+    int a = operand(r);
     while (a != FAILED) {
         const int at = r->at;
-        if (r->text[at] == '*' && r->text[at + 1] == '*') return fail(r, at, "a power is written x^y");
-        if (take(r, '*'))
-            a = make(r, at, ISO_TERM_MUL, a, factor(r), 0);
-        else if (take(r, '/'))
-            a = make(r, at, ISO_TERM_DIV, a, factor(r), 0);
+        if (strncmp(r->text + at, "**", 2) == 0) return fail(r, at, "a power is written x^y");
+        if (take(r, signs[0]))
+            a = make(r, at, first, a, operand(r), 0);
+        else if (take(r, signs[1]))
+            a = make(r, at, first + 1, a, operand(r), 0);
         else
             break;
     }
     return a;
 }
 
+static int product(reader *r)
+{
+    return left_to_right(r, factor, "*/", ISO_TERM_MUL);
+}
+
 static int sum(reader *r)
 {
-    int a = product(r);
-    while (a != FAILED) {
-        const int at = r->at;
-        if (take(r, '+'))
-            a = make(r, at, ISO_TERM_ADD, a, product(r), 0);
-        else if (take(r, '-'))
-            a = make(r, at, ISO_TERM_SUB, a, product(r), 0);
-        else
-            break;
-    }
-    return a;
+    return left_to_right(r, product, "+-", ISO_TERM_ADD);
 }
 
 bool iso_expression_read(const char *text, const iso_expression_names *names, iso_expression *e)

@@ -55,12 +55,12 @@ typedef struct iso_expression {
     bool reads[ISO_TERM_E + 1]; /* whether there is a node of the kind */
     iso_expression_node node[ISO_EXPRESSION_NODES];
     int at;          /* where in the text a mistake is, from 0 */
-    char wrong[448]; /* what it is, in words; "": the text is an expression */
+    char wrong[448]; /* what it is; "": the text is an expression */
 } iso_expression;
 
 /* What an expression may read, beside numbers, k, J and the parameters. */
 typedef struct iso_expression_names {
-    bool omega, e;
+    bool moving;                                 /* omega and e */
     const char (*parameter)[ISO_PARAMETER_SIZE]; /* ISO_PARAMETERS names; "": there are no more */
 } iso_expression_names;
 
@@ -87,14 +87,15 @@ static inline bool iso_expression_is_zero(const iso_expression *e)
 /* Why `name` cannot be the name of a parameter; NULL: it can. */
 const char *iso_expression_bad_name(const char *name);
 
-/* Computes the nodes that are constant. False: one is not finite; e->wrong says why and e->at where. */
-bool iso_expression_constants(iso_expression *e, double k, const double J[3], const double parameter[]);
-
 /* What an expression reads, all in the same units. */
 typedef struct iso_expression_state {
     double k, J[3], n[3], omega[3], e[3];
     const double *parameter;
 } iso_expression_state;
+
+/* Computes the nodes that are constant, from k, J and the parameters. False: one is not finite; e->wrong says why and
+ * e->at where. */
+bool iso_expression_constants(iso_expression *e, const iso_expression_state *s);
 
 /* Its value. *size: how much it changes, to first order, if n, omega and e are changed by their own lengths, and not less
  * than the value. A relative error d of the state makes an error of order d times this. */
@@ -119,11 +120,11 @@ int iso_expression_degree(const iso_expression *e);
 /* Whether its form shows a corner: a root of a square, as sqrt(n1^2) = |n1|, or of another even power. Then e->wrong
  * says so, and e->at where in the text. Other forms of |x|, as sqrt(1 - n2^2 - n3^2), are noticed by the error of a step
  * (method/taylor/inside_impl.h). */
-bool iso_expression_has_corner(iso_expression *e, double k, const double J[3], const double parameter[]);
+bool iso_expression_has_corner(iso_expression *e, const iso_expression_state *s);
 
 /* How far it is from where it is not defined: the least of the numbers that it divides by, or takes the root, the power
- * or the logarithm of, each by its size; 0 where it has no value. e->at: where in the text; e->wrong: what stands there,
- * in words. Infinite: there is no such number. */
+ * or the logarithm of, each by its size; 0 where it has no value. e->at: where in the text; e->wrong: what stands
+ * there. Infinite: there is no such number. */
 double iso_expression_margin(iso_expression *e, const iso_expression_state *s);
 
 #endif

@@ -17,7 +17,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "base/vec3_impl.h"
 #include "model/expression/expression_impl.h"
 

@@ -33,7 +33,7 @@ static double value_of(const iso_expression_node *node, const double x[], const 
     }
 }
 
-static void say_why(iso_expression *e, const iso_expression_node *node, const double x[])
+static void note_undefined(iso_expression *e, const iso_expression_node *node, const double x[])
 {
     e->at = node->at;
     const double a = is_operation(node->term) ? x[node->a] : 0, b = has_two(node->term) ? x[node->b] : 0;
@@ -51,18 +51,17 @@ static void say_why(iso_expression *e, const iso_expression_node *node, const do
 
 /* --- constants -------------------------------------------------------------------------------------------------- */
 
-bool iso_expression_constants(iso_expression *e, double k, const double J[3], const double parameter[])
+bool iso_expression_constants(iso_expression *e, const iso_expression_state *s)
 {
     double x[ISO_EXPRESSION_NODES];
-    const iso_expression_state s = {.k = k, .J = {J[0], J[1], J[2]}, .parameter = parameter};
     for (int i = 0; i < e->nodes; i++) {
         const iso_expression_node *node = &e->node[i];
         const bool fixed = node->degree == ISO_CONSTANT;
         if (!fixed && (node->term != ISO_TERM_DIV || e->node[node->b].degree != ISO_CONSTANT || x[node->b] != 0))
             continue;
-        x[i] = fixed ? value_of(node, x, &s) : INFINITY;
+        x[i] = fixed ? value_of(node, x, s) : INFINITY;
         if (isfinite(x[i])) continue;
-        say_why(e, node, x);
+        note_undefined(e, node, x);
         return false;
     }
     return true;
@@ -109,13 +108,12 @@ static bool is_root_of_even(const iso_expression *e, int i, double p, const doub
     }
 }
 
-bool iso_expression_has_corner(iso_expression *e, double k, const double J[3], const double parameter[])
+bool iso_expression_has_corner(iso_expression *e, const iso_expression_state *s)
 {
     double x[ISO_EXPRESSION_NODES];
-    const iso_expression_state s = {.k = k, .J = {J[0], J[1], J[2]}, .parameter = parameter};
     for (int i = 0; i < e->nodes; i++) {
         const iso_expression_node *node = &e->node[i];
-        if (node->degree == ISO_CONSTANT) x[i] = value_of(node, x, &s);
+        if (node->degree == ISO_CONSTANT) x[i] = value_of(node, x, s);
         if (node->term != ISO_TERM_SQRT && node->term != ISO_TERM_POWER) continue;
         if (!is_root_of_even(e, i, 1, x)) continue;
         e->at = node->at;
@@ -130,36 +128,30 @@ bool iso_expression_has_corner(iso_expression *e, double k, const double J[3], c
 
 /* --- at a state ------------------------------------------------------------------------------------------------- */
 
-/* |d value/d a| and |d value/d b| of an operation. */
-static void slopes_of(const iso_expression_node *node, const double x[], double value, double slope[2])
-{
-    const double a = x[node->a], b = has_two(node->term) ? x[node->b] : 0;
-    slope[0] = slope[1] = 1; /* of a sum, a difference, a sign */
-    switch (node->term) {
-    case ISO_TERM_MUL: slope[0] = fabs(b), slope[1] = fabs(a); break;
-    case ISO_TERM_DIV: slope[0] = fabs(1 / b), slope[1] = fabs(value / b); break;
-    case ISO_TERM_POWER: slope[0] = fabs(b * pow(a, b - 1)), slope[1] = a > 0 ? fabs(value * log(a)) : 0; break;
-    case ISO_TERM_SQRT: slope[0] = 0.5 / value; break;
-    case ISO_TERM_EXP: slope[0] = value; break;
-    case ISO_TERM_LOG: slope[0] = fabs(1 / a); break;
-    case ISO_TERM_SIN: slope[0] = fabs(cos(a)); break;
-    case ISO_TERM_COS: slope[0] = fabs(sin(a)); break;
-    default: break;
-    }
-}
-
-/* The size of a node, see iso_expression_value. A constant has no error. */
+/* The size of a node, see iso_expression_value: by |d value/d a| and |d value/d b| of an operation. A constant has no
+ * error. */
 static double size_of(const iso_expression_node *node, const double x[], const double size[], double value,
                       const iso_expression_state *s)
 {
-    double slope[2], change = 0;
     if (node->term == ISO_TERM_N) return norm(s->n);
     if (node->term == ISO_TERM_OMEGA) return norm(s->omega);
     if (node->term == ISO_TERM_E) return norm(s->e);
     if (node->degree == ISO_CONSTANT) return 0;
-    slopes_of(node, x, value, slope);
-    if (size[node->a] > 0) change += slope[0] * size[node->a];
-    if (has_two(node->term) && size[node->b] > 0) change += slope[1] * size[node->b];
+    const double a = x[node->a], b = has_two(node->term) ? x[node->b] : 0;
+    double by_a = 1, by_b = 1, change = 0; /* of a sum, a difference, a sign */
+    switch (node->term) {
+    case ISO_TERM_MUL: by_a = fabs(b), by_b = fabs(a); break;
+    case ISO_TERM_DIV: by_a = fabs(1 / b), by_b = fabs(value / b); break;
+    case ISO_TERM_POWER: by_a = fabs(b * pow(a, b - 1)), by_b = a > 0 ? fabs(value * log(a)) : 0; break;
+    case ISO_TERM_SQRT: by_a = 0.5 / value; break;
+    case ISO_TERM_EXP: by_a = value; break;
+    case ISO_TERM_LOG: by_a = fabs(1 / a); break;
+    case ISO_TERM_SIN: by_a = fabs(cos(a)); break;
+    case ISO_TERM_COS: by_a = fabs(sin(a)); break;
+    default: break;
+    }
+    if (size[node->a] > 0) change += by_a * size[node->a];
+    if (has_two(node->term) && size[node->b] > 0) change += by_b * size[node->b];
     return fmax(fabs(value), change);
 }
 
@@ -197,7 +189,7 @@ static int divisor_of(const iso_expression *e, const iso_expression_node *node, 
 }
 
 /* What is computed with a number that is nearly 0. */
-static void say_what(iso_expression *e, const iso_expression_node *node, double a, double exponent)
+static void note_nearly_undefined(iso_expression *e, const iso_expression_node *node, double a, double exponent)
 {
     e->at = node->at;
     if (node->term == ISO_TERM_POWER)
@@ -216,12 +208,12 @@ double iso_expression_margin(iso_expression *e, const iso_expression_state *s)
     compute(e, s, x, size);
     for (int i = 0; i < e->nodes; i++) {
         const iso_expression_node *node = &e->node[i];
-        if (!isfinite(x[i])) return say_why(e, node, x), 0;
+        if (!isfinite(x[i])) return note_undefined(e, node, x), 0;
         const int a = divisor_of(e, node, x);
         const double margin = a < 0 || e->node[a].degree == ISO_CONSTANT ? INFINITY : fabs(x[a]) / size[a];
         if (!(margin < least)) continue;
         least = margin;
-        say_what(e, node, x[a], has_two(node->term) ? x[node->b] : 0);
+        note_nearly_undefined(e, node, x[a], has_two(node->term) ? x[node->b] : 0);
     }
     return least;
 }

@@ -38,6 +38,7 @@ iso_constant iso_writer_over_energy(iso_writer *w)
     return div_c(w->F, constant(w->F, 1), mul_c(w->F, J, mul_c(w->F, W, W)));
 }
 
+/* J1, J2 or J3 in the caller's units. */
 static iso_constant moment(iso_writer *w, int which)
 {
     iso_formula *F = w->F;
@@ -48,23 +49,6 @@ static iso_constant moment(iso_writer *w, int which)
     }
     w->has_J = true;
     return (iso_constant){w->J.at + which};
-}
-
-static iso_constant fixed_of(iso_writer *w, int node)
-{
-    return fixed_q(w->F, iso_writer_value_of(w, node));
-}
-
-/* A function of a constant. */
-static iso_quantity fixed_function(iso_writer *w, const iso_expression_node *node)
-{
-    static const iso_operation operations[] = {[ISO_TERM_SQRT] = ISO_C_ROOT,
-                                               [ISO_TERM_EXP] = ISO_C_EXP,
-                                               [ISO_TERM_LOG] = ISO_C_LOG,
-                                               [ISO_TERM_SIN] = ISO_C_SIN,
-                                               [ISO_TERM_COS] = ISO_C_COS};
-    const iso_constant a = fixed_of(w, node->a);
-    return constant_q(function_c(w->F, operations[node->term], a, a));
 }
 
 /* One of the three numbers of a vector, times a factor. */
@@ -110,28 +94,25 @@ static iso_quantity circle_value(iso_writer *w, const iso_expression_node *node)
 
 static iso_quantity function_value(iso_writer *w, const iso_expression_node *node)
 {
-    if (node->term == ISO_TERM_SIN || node->term == ISO_TERM_COS) return circle_value(w, node);
-    const iso_scalar a = scalar_q(w->F, iso_writer_value_of(w, node->a));
-    if (node->term == ISO_TERM_EXP) return variable_q(exp_of(w->F, a));
-    if (node->term == ISO_TERM_LOG) return variable_q(log_of(w->F, a));
-    return variable_q(power_of(w->F, a, constant(w->F, 0.5)));
-}
-
-static iso_quantity operation_value(iso_writer *w, const iso_expression_node *node)
-{
+    static const iso_operation of_constants[] = {[ISO_TERM_SQRT] = ISO_C_ROOT,
+                                                 [ISO_TERM_EXP] = ISO_C_EXP,
+                                                 [ISO_TERM_LOG] = ISO_C_LOG,
+                                                 [ISO_TERM_SIN] = ISO_C_SIN,
+                                                 [ISO_TERM_COS] = ISO_C_COS};
     iso_formula *F = w->F;
-    switch (node->term) {
-    case ISO_TERM_ADD: return add_q(F, iso_writer_value_of(w, node->a), iso_writer_value_of(w, node->b));
-    case ISO_TERM_SUB: return sub_q(F, iso_writer_value_of(w, node->a), iso_writer_value_of(w, node->b));
-    case ISO_TERM_MUL: return mul_q(F, iso_writer_value_of(w, node->a), iso_writer_value_of(w, node->b));
-    case ISO_TERM_DIV: return div_q(F, iso_writer_value_of(w, node->a), iso_writer_value_of(w, node->b));
-    case ISO_TERM_POWER: return power_value(w, node);
-    case ISO_TERM_NEGATIVE: return negative_q(F, iso_writer_value_of(w, node->a));
-    default: return node->degree == ISO_CONSTANT ? fixed_function(w, node) : function_value(w, node);
+    if (node->degree == ISO_CONSTANT) {
+        const iso_constant c = fixed_q(F, iso_writer_value_of(w, node->a));
+        return constant_q(function_c(F, of_constants[node->term], c, c));
     }
+    if (node->term == ISO_TERM_SIN || node->term == ISO_TERM_COS) return circle_value(w, node);
+    const iso_scalar a = scalar_q(F, iso_writer_value_of(w, node->a));
+    if (node->term == ISO_TERM_EXP) return variable_q(exp_of(F, a));
+    if (node->term == ISO_TERM_LOG) return variable_q(log_of(F, a));
+    return variable_q(power_of(F, a, constant(F, 0.5)));
 }
 
-static iso_quantity name_value(iso_writer *w, const iso_expression_node *node)
+/* Of a node that is not written with vectors. */
+static iso_quantity plain_value(iso_writer *w, const iso_expression_node *node)
 {
     iso_formula *F = w->F;
     switch (node->term) {
@@ -141,7 +122,14 @@ static iso_quantity name_value(iso_writer *w, const iso_expression_node *node)
     case ISO_TERM_J: return constant_q(moment(w, node->a));
     case ISO_TERM_N: return part_of(w, w->n, node->a, 1);
     case ISO_TERM_OMEGA: return part_of(w, w->omega, node->a, w->number[ISO_WRITTEN_W]);
-    default: return part_of(w, w->vertical, node->a, 1); /* ISO_TERM_E */
+    case ISO_TERM_E: return part_of(w, w->vertical, node->a, 1);
+    case ISO_TERM_ADD: return add_q(F, iso_writer_value_of(w, node->a), iso_writer_value_of(w, node->b));
+    case ISO_TERM_SUB: return sub_q(F, iso_writer_value_of(w, node->a), iso_writer_value_of(w, node->b));
+    case ISO_TERM_MUL: return mul_q(F, iso_writer_value_of(w, node->a), iso_writer_value_of(w, node->b));
+    case ISO_TERM_DIV: return div_q(F, iso_writer_value_of(w, node->a), iso_writer_value_of(w, node->b));
+    case ISO_TERM_POWER: return power_value(w, node);
+    case ISO_TERM_NEGATIVE: return negative_q(F, iso_writer_value_of(w, node->a));
+    default: return function_value(w, node);
     }
 }
 
@@ -237,13 +225,7 @@ static bool note_moments(const iso_expression *e, int node, bool seen[3])
     return seen[i] = true;
 }
 
-/* Whether it is (n, J^-1 n), which the ball has at hand as g, together with u = J^-1 n. */
-static bool is_g(const iso_writer *w, int node)
-{
-    bool seen[3] = {false};
-    return w->F->kind != ISO_FORMULA_IMAGE && note_moments(&w->e, node, seen) && seen[0] && seen[1] && seen[2];
-}
-
+/* Of (n, J^-1 n), which the ball has at hand as g, together with u = J^-1 n. */
 static iso_quantity g_value(iso_writer *w, int node)
 {
     iso_formula *F = w->F;
@@ -260,7 +242,9 @@ static iso_quantity form_value(iso_writer *w, int node)
 {
     iso_formula *F = w->F;
     form f = {0};
-    if (is_g(w, node)) return g_value(w, node);
+    bool seen[3] = {false};
+    if (F->kind != ISO_FORMULA_IMAGE && note_moments(&w->e, node, seen) && seen[0] && seen[1] && seen[2])
+        return g_value(w, node);
     collect(w, node, one_q, &f);
     iso_quantity value = f.c, along = zero_q;
     w->form[node].has_l = has_any(3, f.l);
@@ -282,11 +266,8 @@ static iso_quantity form_value(iso_writer *w, int node)
 
 iso_quantity iso_writer_value_of(iso_writer *w, int node)
 {
-    const iso_expression_node *x = &w->e.node[node];
     if (w->has_value[node]) return w->value[node];
-    const iso_quantity value = iso_writer_is_form(w, node) ? form_value(w, node)
-                               : x->term >= ISO_TERM_ADD   ? operation_value(w, x)
-                                                           : name_value(w, x);
+    const iso_quantity value = iso_writer_is_form(w, node) ? form_value(w, node) : plain_value(w, &w->e.node[node]);
     w->has_value[node] = true;
     return w->value[node] = value;
 }
@@ -328,20 +309,14 @@ bool iso_written_read(const iso_effects *effects, iso_effect_id id, int which, i
 {
     const iso_written *text = &effects->written[iso_effect_list[id]->written];
     const bool torque = !iso_effect_list[id]->potential;
-    const iso_expression_names names = {torque, torque, text->parameter};
+    const iso_expression_names names = {torque, text->parameter};
     return iso_expression_read(text->expression[which], &names, e);
-}
-
-static bool has_units(const iso_effects *effects, iso_effect_id id)
-{
-    return effects->number[id][ISO_WRITTEN_J] != 0 && effects->number[id][ISO_WRITTEN_W] != 0;
 }
 
 bool iso_written_decided(const iso_params *p, const iso_effects *effects, iso_effect_id id, iso_expression *e)
 {
     const double *number = effects->number[id], U = number[ISO_WRITTEN_J];
-    const double J[3] = {U * p->J[0], U * p->J[1], U * p->J[2]};
-    if (!has_units(effects, id)) return false;
+    const iso_expression_state s = {.k = p->k, .J = {U * p->J[0], U * p->J[1], U * p->J[2]}, .parameter = number};
     for (int i = 0; i < e->nodes && e->reads[ISO_TERM_E] && !effects->on[ISO_GRAVITY]; i++) {
         if (e->node[i].term != ISO_TERM_E) continue;
         e->at = e->node[i].at;
@@ -351,24 +326,14 @@ bool iso_written_decided(const iso_params *p, const iso_effects *effects, iso_ef
                  e->node[i].a + 1);
         return false;
     }
-    return iso_expression_constants(e, p->k, J, number) &&
-           !(iso_written_drives(effects, id) && iso_expression_has_corner(e, p->k, J, number));
-}
-
-static iso_status refuse(iso_context *ctx, iso_effect_id id, int which, const iso_expression *e)
-{
-    const iso_effect *effect = iso_effect_list[id];
-    const char *name = effect->expressions[which], *key = effect->expressions_key ? effect->expressions_key : name;
-    return ISO_FAIL_INPUT(ctx, key, "%s, column %d of the text: %s", name, e->at + 1, e->wrong);
+    return iso_expression_constants(e, &s) && !(iso_written_drives(effects, id) && iso_expression_has_corner(e, &s));
 }
 
 iso_status iso_written_check(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id id,
                              int which, iso_expression *e)
 {
-    const char *name = iso_effect_list[id]->expressions[which];
-    if (!iso_written_read(effects, id, which, e)) return refuse(ctx, id, which, e);
-    if (!has_units(effects, id))
-        return ISO_FAIL_INPUT(ctx, name, "%s: begin the effects with iso_effects_default(): they have no units",
-                              name);
-    return iso_written_decided(p, effects, id, e) ? ISO_OK : refuse(ctx, id, which, e);
+    const iso_effect *effect = iso_effect_list[id];
+    const char *name = effect->expressions[which], *key = effect->expressions_key ? effect->expressions_key : name;
+    if (iso_written_read(effects, id, which, e) && iso_written_decided(p, effects, id, e)) return ISO_OK;
+    return ISO_FAIL_INPUT(ctx, key, "%s, column %d of the text: %s", name, e->at + 1, e->wrong);
 }

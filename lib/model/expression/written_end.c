@@ -30,28 +30,27 @@ static int find_nearest(const iso_problem *f, iso_effect_id id, const double bal
     return which;
 }
 
-static bool blame_expression(const iso_problem *f, iso_effect_id id, const double ball[], char text[])
+/* Whether the effect, alone, is the reason. */
+static void blame(const iso_problem *f, iso_effect_id id, const double ball[], char text[])
 {
     iso_expression e;
-    const int which = find_nearest(f, id, ball, &e);
-    if (which < 0) return false;
-    snprintf(text, ISO_BLAME_SIZE, "; there %s of '%s' has, in column %d of the text, %s",
-             iso_effect_list[id]->expressions[which], iso_effect_list[id]->name, e.at + 1, e.wrong);
-    return true;
-}
-
-static void blame_strength(const iso_problem *f, iso_effect_id id, const double ball[], char text[])
-{
-    iso_problem alone = *f;
     iso_formula F;
     double T[3] = {0}, dy[ISO_MAX_STATE];
-    for (int e = 0; e < ISO_EFFECTS; e++) alone.effects.on[e] = e == (int)id;
+    const iso_effect *effect = iso_effect_list[id];
+    const int which = find_nearest(f, id, ball, &e);
+    if (which >= 0) {
+        snprintf(text, ISO_BLAME_SIZE, "; there %s of '%s' has, in column %d of the text, %s",
+                 effect->expressions[which], effect->name, e.at + 1, e.wrong);
+        return;
+    }
+    iso_problem alone = *f;
+    for (int i = 0; i < ISO_EFFECTS; i++) alone.effects.on[i] = i == (int)id;
     iso_effects_record_motion(&alone, false, &F);
     iso_formula_rates(&F, &f->p, ball, T, dy);
     const double times = norm(T) / (max3(f->p.J) * dot(ball, ball));
     if (times > STRONG)
-        snprintf(text, ISO_BLAME_SIZE, "; there '%s' changes omega %s times as fast as the ball turns",
-                 iso_effect_list[id]->name, ISO_ROUNDED(times, 2));
+        snprintf(text, ISO_BLAME_SIZE, "; there '%s' changes omega %s times as fast as the ball turns", effect->name,
+                 ISO_ROUNDED(times, 2));
 }
 
 void iso_model_blame(const iso_model *m, const double y[], char text[ISO_BLAME_SIZE])
@@ -63,8 +62,7 @@ void iso_model_blame(const iso_model *m, const double y[], char text[ISO_BLAME_S
     text[0] = '\0';
     if (iso_model_false_claim(m, y, text)) return;
     for (iso_effect_id e = 0; e < ISO_EFFECTS && !text[0]; e++)
-        if (iso_effect_acts(&f->effects, e) && iso_effect_list[e]->expressions)
-            if (!blame_expression(f, e, ball, text)) blame_strength(f, e, ball, text);
+        if (iso_effect_acts(&f->effects, e) && iso_effect_list[e]->expressions) blame(f, e, ball, text);
 }
 
 iso_status iso_written_refuse_start(iso_context *ctx, const iso_problem *f, iso_effect_id id, const double ball[])

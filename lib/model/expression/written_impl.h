@@ -5,7 +5,7 @@
 
 #include "model/effects/effects_impl.h"
 #include "model/expression/expression_impl.h"
-#include "model/quantity_impl.h"
+#include "model/expression/quantity_impl.h"
 
 /* Where the numbers of such an effect are: its parameters, then these. J and W: one own unit of J and of angular
  * velocity, in the caller's units. They carry J, omega and the result of an expression from own units to the caller's
@@ -31,8 +31,7 @@ iso_expression_state iso_written_state(const iso_problem *f, iso_effect_id id, c
 bool iso_written_read(const iso_effects *effects, iso_effect_id id, int which, iso_expression *e);
 
 /* Whether its constants are finite, in the caller's units, the vertical e is there if it reads e, and an effect that
- * acts has no corner by its form. False: see e->wrong. Effects that iso_effects_default() has not begun have no units:
- * false. */
+ * acts has no corner by its form. False: see e->wrong. */
 bool iso_written_decided(const iso_params *p, const iso_effects *effects, iso_effect_id id, iso_expression *e);
 
 /* Reads it and asks the first two. Errors: ISO_BAD_INPUT about the name of the expression. */

@@ -18,43 +18,27 @@ enum { FLAT_DEGREE = 12 };
 
 typedef struct drive {
     iso_effect_id id;
-    int which;
     iso_expression e;
 } drive;
 
 struct iso_inside {
-    char text[ISO_WRITTEN][ISO_EXPRESSIONS][ISO_EXPRESSION_SIZE]; /* of which `part` is made */
+    iso_written text[ISO_WRITTEN]; /* of which `part` is made */
     int parts;
     drive part[ISO_WRITTEN * ISO_EXPRESSIONS];
 };
 
-static bool acts(const iso_effects *effects, iso_effect_id id)
-{
-    return iso_written_drives(effects, id) && !effects->idle[id];
-}
-
-bool iso_effects_written(const iso_effects *effects)
-{
-    bool any = false;
-    for (iso_effect_id id = 0; id < ISO_EFFECTS; id++) any = any || acts(effects, id);
-    return any;
-}
-
 /* Reads the texts, if they are not those that were read last. */
 static void read_texts(iso_inside *inside, const iso_effects *effects)
 {
-    bool same = inside->parts > 0;
-    for (int i = 0; i < ISO_WRITTEN; i++)
-        for (int j = 0; j < ISO_EXPRESSIONS; j++)
-            same = same && strcmp(inside->text[i][j], effects->written[i].expression[j]) == 0;
-    if (same) return;
+    if (inside->parts > 0 && memcmp(inside->text, effects->written, sizeof inside->text) == 0) return;
     inside->parts = 0;
-    for (int i = 0; i < ISO_WRITTEN; i++)
-        memcpy(inside->text[i], effects->written[i].expression, sizeof inside->text[i]);
+    memcpy(inside->text, effects->written, sizeof inside->text);
     for (iso_effect_id id = 0; id < ISO_EFFECTS; id++)
-        for (int i = 0; acts(effects, id) && iso_effect_list[id]->expressions[i]; i++) {
+        for (int i = 0;
+             iso_effect_acts(effects, id) && iso_written_drives(effects, id) && iso_effect_list[id]->expressions[i];
+             i++) {
             drive *p = &inside->part[inside->parts];
-            p->id = id, p->which = i;
+            p->id = id;
             if (iso_written_read(effects, id, i, &p->e)) inside->parts++; /* else the orbit is refused */
         }
 }

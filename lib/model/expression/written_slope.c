@@ -12,48 +12,29 @@ typedef struct slopes {
 } slopes;
 
 /* slope of a node += x */
-static void give(iso_writer *w, slopes *s, int node, iso_quantity x)
+static void add_slope(iso_writer *w, slopes *s, int node, iso_quantity x)
 {
     if (w->e.node[node].degree != ISO_CONSTANT) s->of[node] = add_q(w->F, s->of[node], x);
 }
 
-/* a^(b-1) of value = a^b. A torque needs no value: there it is a power of its own, and nothing is divided. */
-static iso_quantity lower_power(iso_writer *w, iso_quantity a, iso_quantity b, iso_quantity value)
-{
-    iso_formula *F = w->F;
-    if (F->kind != ISO_FORMULA_MOTION || !is_fixed_q(b) || is_fixed_q(a)) return div_q(F, value, a);
-    return variable_q(power_of(F, (iso_scalar){a.at}, sub_c(F, fixed_q(F, b), constant(F, 1))));
-}
-
-static void give_power(iso_writer *w, slopes *s, const iso_expression_node *x, iso_quantity own, iso_quantity value)
+/* dU/da of a power a^b, whose own slope is `own`. A torque needs no value: there a^(b-1) is a power of its own, and
+ * nothing is divided. */
+static iso_quantity base_slope(iso_writer *w, const iso_expression_node *x, iso_quantity own, iso_quantity value)
 {
     iso_formula *F = w->F;
     const int whole = iso_writer_exponent(&w->e, x);
-    const iso_quantity a = iso_writer_value_of(w, x->a), b = iso_writer_value_of(w, x->b);
-    give(w, s, x->a, mul_q(F, mul_q(F, own, b), whole > 0 ? power_q(F, a, whole - 1) : lower_power(w, a, b, value)));
-    if (is_fixed_q(b)) return;
-    give(w, s, x->b, mul_q(F, own, mul_q(F, value, log_q(F, a))));
+    const iso_quantity a = iso_writer_value_of(w, x->a), b = iso_writer_value_of(w, x->b), factor = mul_q(F, own, b);
+    if (whole > 0) return mul_q(F, factor, power_q(F, a, whole - 1));
+    if (F->kind != ISO_FORMULA_MOTION || !is_fixed_q(b) || is_fixed_q(a)) return mul_q(F, factor, div_q(F, value, a));
+    const iso_constant lower = sub_c(F, fixed_q(F, b), constant(F, 1));
+    return mul_q(F, factor, variable_q(power_of(F, (iso_scalar){a.at}, lower)));
 }
 
-static void give_quotient(iso_writer *w, slopes *s, const iso_expression_node *x, iso_quantity own,
-                          iso_quantity value)
-{
-    iso_formula *F = w->F;
-    const iso_quantity b = iso_writer_value_of(w, x->b);
-    if (w->e.node[x->a].degree == ISO_CONSTANT) {
-        give(w, s, x->b, negative_q(F, div_q(F, mul_q(F, own, value), b)));
-        return;
-    }
-    const iso_quantity over = div_q(F, own, b);
-    give(w, s, x->a, over);
-    give(w, s, x->b, negative_q(F, mul_q(F, over, value)));
-}
-
-/* The cosine of a sine, the sine of a cosine. */
+/* The cosine of a sine, which stands behind it in the formula; the sine of a cosine. */
 static iso_quantity other_of_circle(iso_writer *w, const iso_expression_node *x, iso_quantity value)
 {
-    const bool sine = x->term == ISO_TERM_SIN; /* the formula has the cosine behind the sine */
-    return (iso_quantity){ISO_IS_SCALAR, w->F->overrun ? value.at : sine ? value.at + 1 : value.at - 1};
+    const int away = w->F->overrun ? 0 : x->term == ISO_TERM_SIN ? 1 : -1;
+    return (iso_quantity){ISO_IS_SCALAR, value.at + away};
 }
 
 /* Hands the slope of an operation on to what it is made of. */
@@ -61,23 +42,33 @@ static void hand_on(iso_writer *w, slopes *s, int node)
 {
     iso_formula *F = w->F;
     const iso_expression_node *x = &w->e.node[node];
-    const iso_quantity own = s->of[node], value = iso_writer_value_of(w, node);
+    const iso_quantity own = s->of[node], value = iso_writer_value_of(w, node), a = iso_writer_value_of(w, x->a);
+    const iso_quantity b = has_two(x->term) ? iso_writer_value_of(w, x->b) : zero_q;
+    iso_quantity to_a = own, to_b = own; /* of a sum */
     switch (x->term) {
-    case ISO_TERM_ADD: give(w, s, x->a, own), give(w, s, x->b, own); break;
-    case ISO_TERM_SUB: give(w, s, x->a, own), give(w, s, x->b, negative_q(F, own)); break;
-    case ISO_TERM_NEGATIVE: give(w, s, x->a, negative_q(F, own)); break;
-    case ISO_TERM_MUL:
-        give(w, s, x->a, mul_q(F, own, iso_writer_value_of(w, x->b)));
-        give(w, s, x->b, mul_q(F, own, iso_writer_value_of(w, x->a)));
+    case ISO_TERM_SUB: to_b = negative_q(F, own); break;
+    case ISO_TERM_NEGATIVE: to_a = negative_q(F, own); break;
+    case ISO_TERM_MUL: to_a = mul_q(F, own, b), to_b = mul_q(F, own, a); break;
+    case ISO_TERM_DIV:
+        if (w->e.node[x->a].degree != ISO_CONSTANT)
+            to_a = div_q(F, own, b), to_b = mul_q(F, to_a, value);
+        else
+            to_b = div_q(F, mul_q(F, own, value), b);
+        to_b = negative_q(F, to_b);
         break;
-    case ISO_TERM_DIV: give_quotient(w, s, x, own, value); break;
-    case ISO_TERM_POWER: give_power(w, s, x, own, value); break;
-    case ISO_TERM_SQRT: give(w, s, x->a, div_q(F, mul_q(F, constant_q(constant(F, 0.5)), own), value)); break;
-    case ISO_TERM_EXP: give(w, s, x->a, mul_q(F, own, value)); break;
-    case ISO_TERM_LOG: give(w, s, x->a, div_q(F, own, iso_writer_value_of(w, x->a))); break;
-    case ISO_TERM_SIN: give(w, s, x->a, mul_q(F, own, other_of_circle(w, x, value))); break;
-    default: give(w, s, x->a, negative_q(F, mul_q(F, own, other_of_circle(w, x, value)))); break; /* cos */
+    case ISO_TERM_POWER:
+        to_a = base_slope(w, x, own, value);
+        to_b = is_fixed_q(b) ? zero_q : mul_q(F, own, mul_q(F, value, log_q(F, a)));
+        break;
+    case ISO_TERM_SQRT: to_a = div_q(F, mul_q(F, constant_q(constant(F, 0.5)), own), value); break;
+    case ISO_TERM_EXP: to_a = mul_q(F, own, value); break;
+    case ISO_TERM_LOG: to_a = div_q(F, own, a); break;
+    case ISO_TERM_SIN: to_a = mul_q(F, own, other_of_circle(w, x, value)); break;
+    case ISO_TERM_COS: to_a = negative_q(F, mul_q(F, own, other_of_circle(w, x, value))); break;
+    default: break;
     }
+    add_slope(w, s, x->a, to_a);
+    if (has_two(x->term)) add_slope(w, s, x->b, to_b);
 }
 
 static void add_to_sum(iso_writer *w, slopes *s, iso_vector v)

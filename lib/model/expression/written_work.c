@@ -9,7 +9,7 @@
  *     terms that are at most 0, whatever the state        energy is lost
  *     something else                                      nobody knows
  *
- * Where the contact cannot twist, omega1 n1 = -omega2 n2 - omega3 n3 is put in as well. Numbers are added and
+ * Where the contact cannot twist, omega1 n1 = -omega2 n2 - omega3 n3 is used as well. Numbers are added and
  * multiplied exactly, or not at all: a sum that is 0 by rounding shows nothing.
  */
 #include "model/expression/written_impl.h"
@@ -20,22 +20,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/math_impl.h"
 #include "base/number_impl.h"
-#include "base/sum_impl.h"
 #include "base/vec3_impl.h"
 #include "model/model_impl.h"
 
-enum { MOST_TERMS = 256, MOST_FACTORS = 16, MOST_WAITING = 48, LARGEST_POWER = 64 };
+enum { MOST_TERMS = 256, LARGEST_POWER = 64 };
 
-/* A part of the text to a whole power. */
-typedef struct part {
-    int16_t node, power;
-} part;
-
+/* A number times whole powers of parts of the text, by their nodes, and behind these, from SIZES on, of the sizes of
+ * constants. Multiplied out, the parts are atoms. */
+enum { SIZES = ISO_EXPRESSION_NODES };
 typedef struct product {
     double number;
-    int factors;
-    part factor[MOST_FACTORS]; /* atoms, in the order of their nodes */
+    int8_t power[2 * ISO_EXPRESSION_NODES];
 } product;
 
 typedef struct power_sum {
@@ -46,103 +43,53 @@ typedef struct power_sum {
     bool gave_up; /* no room, or numbers that would be rounded */
 } power_sum;
 
-/* --- products of atoms ------------------------------------------------------------------------------------------ */
+/* --- multiplying out -------------------------------------------------------------------------------------------- */
 
-static void multiply(power_sum *P, product *t, double number)
+/* t *= part^power */
+static void multiply(power_sum *P, product *t, int part, int power)
 {
-    const double value = t->number * number;
-    P->gave_up = P->gave_up || fma(t->number, number, -value) != 0 || !isfinite(value);
-    t->number = value;
+    const int sum = t->power[part] + power;
+    P->gave_up = P->gave_up || abs(sum) > LARGEST_POWER;
+    if (!P->gave_up) t->power[part] = (int8_t)sum;
 }
 
-/* t *= atom^power */
-static void put(power_sum *P, product *t, int node, int power)
-{
-    int i = 0;
-    while (i < t->factors && t->factor[i].node < node) i++;
-    if (i < t->factors && t->factor[i].node == node) {
-        t->factor[i].power = (int16_t)(t->factor[i].power + power);
-        if (t->factor[i].power != 0) return;
-        t->factors--;
-        memmove(&t->factor[i], &t->factor[i + 1], (size_t)(t->factors - i) * sizeof *t->factor);
-        return;
-    }
-    P->gave_up = P->gave_up || t->factors == MOST_FACTORS;
-    if (P->gave_up) return;
-    memmove(&t->factor[i + 1], &t->factor[i], (size_t)(t->factors - i) * sizeof *t->factor);
-    t->factor[i] = (part){(int16_t)node, (int16_t)power};
-    t->factors++;
-}
-
-/* t *= constant^power. A number of few digits is multiplied; the size of another one is an atom, the same for all
- * constants of this size. */
-static void put_constant(power_sum *P, product *t, int node, int power)
+/* A constant of few digits becomes a factor of the number. The size of another one is an atom, the same for all
+ * constants of this size: that of the first of them. */
+static void multiply_constant(power_sum *P, product *t, int node)
 {
     const double value = P->constant[node], size = fabs(value);
     const bool is_short = size <= 0x1p20 && size * 0x1p10 == floor(size * 0x1p10);
+    const int power = t->power[node];
     P->gave_up = P->gave_up || !isfinite(value) || (value == 0 && power < 0);
     if (P->gave_up) return;
+    t->power[node] = 0;
     if (value < 0 && power % 2 != 0) t->number = -t->number;
     if (size == 0 || (is_short && power > 0)) {
-        for (int i = 0; i < power; i++) multiply(P, t, size);
+        for (int i = 0; i < power; i++) {
+            const double times = t->number * size;
+            P->gave_up = P->gave_up || fma(t->number, size, -times) != 0 || !isfinite(times);
+            t->number = times;
+        }
     } else if (size != 1) {
         int same = 0;
         while (P->e.node[same].degree != ISO_CONSTANT || fabs(P->constant[same]) != size) same++;
-        put(P, t, same, power);
+        multiply(P, t, SIZES + same, power);
     }
 }
 
-/* Adds a product to the terms. */
 static void add_term(power_sum *P, const product *t)
 {
     double lost = 0;
     int i = 0;
-    const size_t length = (size_t)t->factors * sizeof *t->factor;
     if (t->number == 0) return;
-    while (i < P->terms && (P->term[i].factors != t->factors || memcmp(P->term[i].factor, t->factor, length) != 0))
-        i++;
-    if (i == P->terms && i == MOST_TERMS) P->gave_up = true;
+    while (i < P->terms && memcmp(P->term[i].power, t->power, sizeof t->power) != 0) i++;
+    P->gave_up = P->gave_up || i == MOST_TERMS;
     if (P->gave_up) return;
     if (i == P->terms)
         P->term[P->terms++] = *t;
     else
         P->term[i].number = iso_two_sum(P->term[i].number, t->number, &lost);
     P->gave_up = lost != 0;
-}
-
-/* --- multiplying out -------------------------------------------------------------------------------------------- */
-
-/* A product that is being multiplied out: parts that wait are not atoms yet. */
-typedef struct unfinished {
-    product t;
-    int waiting;
-    part wait[MOST_WAITING];
-} unfinished;
-
-static void let_wait(power_sum *P, unfinished *u, int node, int power)
-{
-    int i = 0;
-    while (i < u->waiting && u->wait[i].node != node) i++;
-    const int sum = i < u->waiting ? u->wait[i].power + power : power;
-    P->gave_up = P->gave_up || i == MOST_WAITING || abs(sum) > LARGEST_POWER;
-    if (P->gave_up) return;
-    u->wait[i] = (part){(int16_t)node, (int16_t)sum};
-    if (i == u->waiting) u->waiting++;
-}
-
-static bool is_sum(const power_sum *P, int node)
-{
-    return P->e.node[node].term == ISO_TERM_ADD || P->e.node[node].term == ISO_TERM_SUB;
-}
-
-/* The next part to look at: sums last, when it is known to which power they stand. */
-static part take_waiting(const power_sum *P, unfinished *u)
-{
-    int i = u->waiting - 1;
-    while (i > 0 && is_sum(P, u->wait[i].node)) i--;
-    const part p = u->wait[i];
-    u->wait[i] = u->wait[--u->waiting];
-    return p;
 }
 
 /* The whole number that a power in the text has as its exponent; 0: it has none. */
@@ -154,37 +101,35 @@ static int whole_exponent(const power_sum *P, const iso_expression_node *node)
     return whole ? (int)value : 0;
 }
 
-/* Multiplies out all that waits, and adds the terms. */
-static void multiply_out(power_sum *P, unfinished *u)
+/* Multiplies the product out, and adds the terms: from the whole to its parts, which stand before it, so that the power
+ * of a part is known when it is reached. Sums come last. */
+static void multiply_out(power_sum *P, product *t)
 {
-    while (u->waiting > 0 && !P->gave_up) {
-        const part p = take_waiting(P, u);
-        const iso_expression_node *node = &P->e.node[p.node];
-        const int exponent = node->term == ISO_TERM_POWER ? whole_exponent(P, node) : 0;
-        if (p.power == 0) continue;
-        if (is_sum(P, p.node) && p.power == 1) {
-            unfinished first = *u;
-            let_wait(P, &first, node->a, 1);
-            multiply_out(P, &first);
-            let_wait(P, u, node->b, 1);
-            if (node->term == ISO_TERM_SUB) u->t.number = -u->t.number;
-        } else if (node->term == ISO_TERM_MUL && node->a == node->b) {
-            let_wait(P, u, node->a, 2 * p.power); /* a square, which has a sign */
-        } else if (node->term == ISO_TERM_MUL || node->term == ISO_TERM_DIV) {
-            let_wait(P, u, node->a, p.power);
-            let_wait(P, u, node->b, node->term == ISO_TERM_DIV ? -p.power : p.power);
-        } else if (node->term == ISO_TERM_NEGATIVE) {
-            if (p.power % 2 != 0) u->t.number = -u->t.number;
-            let_wait(P, u, node->a, p.power);
-        } else if (exponent != 0) {
-            let_wait(P, u, node->a, exponent * p.power);
-        } else if (node->degree == ISO_CONSTANT) {
-            put_constant(P, &u->t, p.node, p.power);
-        } else {
-            put(P, &u->t, p.node, p.power);
+    int sum = -1; /* the largest one that stands there once */
+    for (int i = P->e.root; i >= 0 && !P->gave_up; i--) {
+        const iso_expression_node *node = &P->e.node[i];
+        const int power = t->power[i], exponent = node->term == ISO_TERM_POWER ? whole_exponent(P, node) : 0;
+        const bool is_product = node->term == ISO_TERM_MUL || node->term == ISO_TERM_DIV;
+        if (power == 1 && (node->term == ISO_TERM_ADD || node->term == ISO_TERM_SUB)) {
+            if (sum < 0) sum = i;
+        } else if (power != 0 && (is_product || exponent != 0 || node->term == ISO_TERM_NEGATIVE)) {
+            t->power[i] = 0;
+            multiply(P, t, node->a, exponent != 0 ? exponent * power : power);
+            if (is_product) multiply(P, t, node->b, node->term == ISO_TERM_DIV ? -power : power);
+            if (node->term == ISO_TERM_NEGATIVE && power % 2 != 0) t->number = -t->number;
+        } else if (power != 0 && node->degree == ISO_CONSTANT) {
+            multiply_constant(P, t, i);
         }
     }
-    if (!P->gave_up) add_term(P, &u->t);
+    if (sum < 0 && !P->gave_up) add_term(P, t);
+    if (sum < 0 || P->gave_up) return;
+    t->power[sum] = 0;
+    product first = *t;
+    multiply(P, &first, P->e.node[sum].a, 1);
+    multiply_out(P, &first);
+    multiply(P, t, P->e.node[sum].b, 1);
+    if (P->e.node[sum].term == ISO_TERM_SUB) t->number = -t->number;
+    multiply_out(P, t);
 }
 
 /* The node of a name such as omega1; -1: the text has none. */
@@ -195,16 +140,9 @@ static int node_of(const iso_expression *e, iso_term term, int which)
     return -1;
 }
 
-static int power_in(const product *t, int node)
-{
-    for (int i = 0; i < t->factors; i++)
-        if (t->factor[i].node == node) return t->factor[i].power;
-    return 0;
-}
-
-/* Puts omega1 n1 = -omega2 n2 - omega3 n3 into all terms. A term may come back with fewer factors omega1 n1, behind
- * those that are there. */
-static void put_no_twist(power_sum *P)
+/* Replaces omega1 n1 by -omega2 n2 - omega3 n3 in all terms. A term may come back with fewer factors omega1 n1, also
+ * as one that was looked at. */
+static void forbid_twist(power_sum *P)
 {
     int n[3], omega[3];
     for (int i = 0; i < 3; i++) {
@@ -213,28 +151,23 @@ static void put_no_twist(power_sum *P)
         if (n[i] < 0 || omega[i] < 0) return;
     }
     for (int i = 0; i < P->terms && !P->gave_up; i++) {
-        if (power_in(&P->term[i], n[0]) < 1 || power_in(&P->term[i], omega[0]) < 1) continue;
         product t = P->term[i];
+        if (t.number == 0 || t.power[n[0]] < 1 || t.power[omega[0]] < 1) continue;
         P->term[i].number = 0;
         t.number = -t.number;
-        put(P, &t, n[0], -1);
-        put(P, &t, omega[0], -1);
+        t.power[n[0]]--;
+        t.power[omega[0]]--;
         for (int j = 1; j < 3; j++) {
             product next = t;
-            put(P, &next, n[j], 1);
-            put(P, &next, omega[j], 1);
-            add_term(P, &next);
+            multiply(P, &next, n[j], 1);
+            multiply(P, &next, omega[j], 1);
+            if (!P->gave_up) add_term(P, &next);
         }
+        i = -1;
     }
 }
 
 /* --- signs ------------------------------------------------------------------------------------------------------ */
-
-/* Whether an exponent is an odd whole number: other powers are at least 0, or no numbers. */
-static bool is_odd(const power_sum *P, int node)
-{
-    return P->e.node[node].degree == ISO_CONSTANT && fabs(fmod(P->constant[node], 2)) == 1;
-}
 
 /* Whether a node is at least 0 wherever it is a number, as its form shows. */
 static bool not_negative(const power_sum *P, int at)
@@ -247,7 +180,9 @@ static bool not_negative(const power_sum *P, int at)
     case ISO_TERM_ADD: return not_negative(P, node->a) && not_negative(P, node->b);
     case ISO_TERM_MUL: return node->a == node->b || (not_negative(P, node->a) && not_negative(P, node->b));
     case ISO_TERM_DIV: return not_negative(P, node->a) && not_negative(P, node->b);
-    case ISO_TERM_POWER: return !is_odd(P, node->b) || not_negative(P, node->a);
+    case ISO_TERM_POWER: /* but for odd whole exponents it is at least 0, or no number */
+        return P->e.node[node->b].degree != ISO_CONSTANT || fabs(fmod(P->constant[node->b], 2)) != 1 ||
+               not_negative(P, node->a);
     default: return false;
     }
 }
@@ -259,9 +194,7 @@ static iso_work work_of(const power_sum *P)
         const product *t = &P->term[i];
         if (t->number == 0) continue;
         bool taken = t->number < 0;
-        for (int j = 0; j < t->factors; j++)
-            taken = taken && (t->factor[j].power % 2 == 0 || P->e.node[t->factor[j].node].degree == ISO_CONSTANT ||
-                              not_negative(P, t->factor[j].node));
+        for (int j = 0; j < P->e.nodes; j++) taken = taken && (t->power[j] % 2 == 0 || not_negative(P, j));
         if (!taken) return ISO_WORK_UNKNOWN;
         work = ISO_WORK_LOST;
     }
@@ -276,7 +209,7 @@ static bool read_power(const iso_problem *f, power_sum *P)
     enum { COMPONENTS = 3 };
     char text[COMPONENTS * (ISO_EXPRESSION_SIZE + 16)] = "";
     const iso_written *written = &f->effects.written[iso_effect_list[ISO_TORQUE]->written];
-    const iso_expression_names names = {true, true, written->parameter};
+    const iso_expression_names names = {true, written->parameter};
     const double still[ISO_MAX_STATE] = {0};
     for (int i = 0, at = 0; i < COMPONENTS; i++)
         at += snprintf(text + at, sizeof text - (size_t)at, "%s(%s)*omega%d", i > 0 ? "+" : "",
@@ -290,15 +223,15 @@ static bool read_power(const iso_problem *f, power_sum *P)
 iso_work iso_written_work(const iso_problem *f)
 {
     power_sum P;
-    unfinished all = {.t = {.number = 1}, .waiting = 1};
+    product all = {.number = 1};
     P.terms = 0;
     P.gave_up = false;
     if (!read_power(f, &P)) return ISO_WORK_UNKNOWN;
-    all.wait[0] = (part){(int16_t)P.e.root, 1};
+    all.power[P.e.root] = 1;
     multiply_out(&P, &all);
     const iso_work as_written = P.gave_up ? ISO_WORK_UNKNOWN : work_of(&P);
     if (P.gave_up || as_written != ISO_WORK_UNKNOWN || iso_effects_twist(&f->effects)) return as_written;
-    put_no_twist(&P);
+    forbid_twist(&P);
     return P.gave_up ? ISO_WORK_UNKNOWN : work_of(&P);
 }
 
@@ -318,21 +251,22 @@ int iso_written_works(const iso_expression e[3], const iso_expression_state *s)
     return power > 0 ? 1 : -1;
 }
 
-/* Of a torque that is on: what is claimed of it. */
-static iso_work claimed(const iso_problem *f)
+/* Of a torque that acts on a ball: what is claimed of it. */
+static iso_work claimed(const iso_model *m)
 {
-    return iso_effect_acts(&f->effects, ISO_TORQUE) ? iso_effect_list[ISO_TORQUE]->work(f) : ISO_WORK_UNKNOWN;
+    const bool acts = m->system == &iso_system_ball && iso_effect_acts(&m->problem.effects, ISO_TORQUE);
+    return acts ? iso_effect_torque.work(&m->problem) : ISO_WORK_UNKNOWN;
 }
 
 bool iso_model_has_claim(const iso_model *m)
 {
-    const iso_work said = m->system == &iso_system_ball ? claimed(&m->problem) : ISO_WORK_UNKNOWN;
+    const iso_work said = claimed(m);
     if (said == ISO_WORK_UNKNOWN) return false;
     const iso_work shown = iso_written_work(&m->problem);
     return shown == ISO_WORK_UNKNOWN || (said == ISO_WORK_NONE && shown == ISO_WORK_LOST);
 }
 
-/* Whether what is claimed fails at y. text: where that is, in words. */
+/* Whether what is claimed fails at y. text: where that is. */
 static bool fails_at(const iso_model *m, const double y[], iso_work said, char text[ISO_BLAME_SIZE])
 {
     const iso_problem *f = &m->problem;
@@ -353,7 +287,7 @@ static bool fails_at(const iso_model *m, const double y[], iso_work said, char t
 
 const char *iso_model_false_claim(const iso_model *m, const double y[], char text[ISO_BLAME_SIZE])
 {
-    const iso_work said = m->system == &iso_system_ball ? claimed(&m->problem) : ISO_WORK_UNKNOWN;
+    const iso_work said = claimed(m);
     if (said == ISO_WORK_UNKNOWN || !fails_at(m, y, said, text)) return NULL;
     return said == ISO_WORK_NONE ? "'torque' does work, but the scene says 'work: none'"
                                  : "'torque' gives energy, but the scene says 'work: lost'";

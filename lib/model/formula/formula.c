@@ -52,52 +52,30 @@ int iso_formula_value(iso_formula *F, double x)
     return at;
 }
 
+/* What goes into a line as a and b: a scalar (s), a vector (v), a constant (c), a constant vector (C) or matrix (M). */
+static const char operands[][3] = {
+    [ISO_S_ADD] = "ss",         [ISO_S_SUB] = "ss",     [ISO_S_MUL] = "ss",       [ISO_S_DIV] = "ss",
+    [ISO_S_TIMES] = "cs",       [ISO_S_PLUS] = "cs",    [ISO_S_POWER] = "sc",     [ISO_S_EXP] = "s",
+    [ISO_S_LOG] = "s",          [ISO_S_SIN] = "ss",     [ISO_S_COS] = "ss",       [ISO_S_DOT] = "vv",
+    [ISO_S_DOT_C] = "Cv",       [ISO_V_ADD] = "vv",     [ISO_V_SUB] = "vv",       [ISO_V_TIMES] = "cv",
+    [ISO_V_SCALE] = "sv",       [ISO_V_SCALE_C] = "Cs", [ISO_V_CROSS] = "vv",     [ISO_V_BY] = "Cv",
+    [ISO_V_MATRIX] = "Mv",      [ISO_V_PLUS] = "Cv",    [ISO_R_TORQUE] = "cv",    [ISO_R_VECTOR_RATE] = "cv",
+    [ISO_R_SCALAR_RATE] = "cs", [ISO_R_ENERGY] = "cs",  [ISO_R_POTENTIAL] = "cs", [ISO_R_GRADIENT] = "cv",
+    [ISO_R_MAGNETIC] = "cs"};
+
 /* A set of scalars and a set of vectors: whether each is in it. */
 typedef struct sets {
     const bool *scalars, *vectors;
 } sets;
 
-/* The scalars and the vectors that go into a line; -1: none. The operation tells what a and b are. */
-typedef struct operands {
-    int scalar[2], vector[2];
-} operands;
-
-static operands operands_of(iso_operation operation, int a, int b)
+/* Whether the line takes a scalar or a vector of the sets. */
+static bool takes(sets of, const iso_formula_line *l)
 {
-    switch (operation) {
-    case ISO_S_ADD:
-    case ISO_S_SUB:
-    case ISO_S_MUL:
-    case ISO_S_DIV:
-    case ISO_S_SIN:
-    case ISO_S_COS: return (operands){{a, b}, {-1, -1}};
-    case ISO_S_POWER:
-    case ISO_S_EXP:
-    case ISO_S_LOG: return (operands){{a, -1}, {-1, -1}};
-    case ISO_S_TIMES:
-    case ISO_S_PLUS:
-    case ISO_V_SCALE_C:
-    case ISO_R_SCALAR_RATE:
-    case ISO_R_ENERGY:
-    case ISO_R_POTENTIAL:
-    case ISO_R_MAGNETIC: return (operands){{b, -1}, {-1, -1}};
-    case ISO_S_DOT:
-    case ISO_V_ADD:
-    case ISO_V_SUB:
-    case ISO_V_CROSS: return (operands){{-1, -1}, {a, b}};
-    case ISO_V_SCALE: return (operands){{a, -1}, {b, -1}};
-    default: return (operands){{-1, -1}, {b, -1}}; /* a constant and a vector */
-    }
-}
-
-/* Whether the operation takes a scalar or a vector of the sets. */
-static bool takes(sets of, iso_operation operation, int a, int b)
-{
-    const operands x = operands_of(operation, a, b);
+    const char *kind = operands[l->operation];
     bool any = false;
     for (int i = 0; i < 2; i++) {
-        any = any || (x.scalar[i] >= 0 && of.scalars[x.scalar[i]]);
-        any = any || (x.vector[i] >= 0 && of.vectors[x.vector[i]]);
+        const int place = i == 0 ? l->a : l->b;
+        any = any || (kind[i] == 's' && of.scalars[place]) || (kind[i] == 'v' && of.vectors[place]);
     }
     return any;
 }
@@ -116,31 +94,19 @@ static sets not_given(iso_formula_kind kind)
     }
 }
 
-/* How many constants the line reads from its first on: a vector has three, a matrix nine. */
-static int constants_read(iso_operation operation)
-{
-    switch (operation) {
-    case ISO_S_DOT_C:
-    case ISO_V_SCALE_C:
-    case ISO_V_BY:
-    case ISO_V_PLUS: return 3;
-    case ISO_V_MATRIX: return 9;
-    default: return 0;
-    }
-}
-
-/* Writes the line; tells whether it is late. */
+/* Writes the line; returns whether it is late. */
 static bool write_line(iso_formula *F, iso_operation operation, int to, int a, int b)
 {
     const int at = next_place(F, &F->lines, ISO_FORMULA_LINES);
-    const bool late = takes((sets){F->late_scalar, F->late_vector}, operation, a, b);
+    const iso_formula_line *l = &F->line[at];
     F->line[at] = line_of(operation, to, a, b);
+    const bool late = takes((sets){F->late_scalar, F->late_vector}, l);
     F->late_line[at] = late;
     F->late = F->late || late;
-    if (!F->overrun && constants_read(operation) > 0 && a + constants_read(operation) > F->constants)
+    const int constants = operands[operation][0] == 'M' ? 9 : operands[operation][0] == 'C' ? 3 : 0;
+    if (!F->overrun && constants > 0 && a + constants > F->constants)
         F->wrong = "a constant is used as a vector or a matrix, and is none";
-    if (takes(not_given(F->kind), operation, a, b))
-        F->wrong = "an energy depends on what moves, or an image on more than gamma";
+    if (takes(not_given(F->kind), l)) F->wrong = "an energy depends on what moves, or an image on more than gamma";
     return late;
 }
 
@@ -205,10 +171,10 @@ void iso_formula_shorten(iso_formula *F)
         const iso_formula_line *l = &F->line[i];
         const bool scalar = l->operation < ISO_V_ADD, circle = l->operation == ISO_S_COS && scalars[l->b];
         needed[i] = l->operation >= ISO_R_TORQUE || (scalar ? scalars[l->to] || circle : vectors[l->to]);
-        const operands x = operands_of((iso_operation)l->operation, l->a, l->b);
         for (int j = 0; needed[i] && j < 2; j++) {
-            if (x.scalar[j] >= 0) scalars[x.scalar[j]] = true;
-            if (x.vector[j] >= 0) vectors[x.vector[j]] = true;
+            const char kind = operands[l->operation][j];
+            if (kind == 's') scalars[j == 0 ? l->a : l->b] = true;
+            if (kind == 'v') vectors[j == 0 ? l->a : l->b] = true;
         }
     }
     int kept = 0;

@@ -25,6 +25,13 @@
 
 /* --- constants -------------------------------------------------------------------------------------------------- */
 
+/* The call `name`: writes one line, of which `result` is made from a and b. */
+#define ISO_LINE(result, name, operation, A, B)                                                                      \
+    static inline iso_##result name(iso_formula *F, iso_##A a, iso_##B b)                                            \
+    {                                                                                                                \
+        return (iso_##result){iso_formula_##result(F, operation, a.at, b.at)};                                       \
+    }
+
 static inline iso_constant constant(iso_formula *F, double x)
 {
     return (iso_constant){iso_formula_value(F, x)};
@@ -63,86 +70,40 @@ static inline iso_constant constant_root_J(iso_formula *F)
     return first;
 }
 
-static inline iso_constant add_c(iso_formula *F, iso_constant a, iso_constant b)
-{
-    return (iso_constant){iso_formula_constant(F, ISO_C_ADD, a.at, b.at)};
-}
+ISO_LINE(constant, add_c, ISO_C_ADD, constant, constant)
+ISO_LINE(constant, sub_c, ISO_C_SUB, constant, constant)
+ISO_LINE(constant, mul_c, ISO_C_MUL, constant, constant)
+ISO_LINE(constant, div_c, ISO_C_DIV, constant, constant)
 
-static inline iso_constant sub_c(iso_formula *F, iso_constant a, iso_constant b)
-{
-    return (iso_constant){iso_formula_constant(F, ISO_C_SUB, a.at, b.at)};
-}
-
-static inline iso_constant mul_c(iso_formula *F, iso_constant a, iso_constant b)
-{
-    return (iso_constant){iso_formula_constant(F, ISO_C_MUL, a.at, b.at)};
-}
-
-static inline iso_constant div_c(iso_formula *F, iso_constant a, iso_constant b)
-{
-    return (iso_constant){iso_formula_constant(F, ISO_C_DIV, a.at, b.at)};
-}
-
-/* a^b for a > 0, exp a, log a, sin a, cos a: one of ISO_C_POWER to ISO_C_COS */
+/* sqrt a, a^b for a > 0, exp a, log a, sin a, cos a: one of ISO_C_ROOT to ISO_C_COS */
 static inline iso_constant function_c(iso_formula *F, iso_operation operation, iso_constant a, iso_constant b)
 {
     return (iso_constant){iso_formula_constant(F, operation, a.at, b.at)};
 }
 
+/* det J, J from constant_J */
+static inline iso_constant det_of(iso_formula *F, iso_constant J)
+{
+    return mul_c(F, mul_c(F, J, (iso_constant){J.at + 1}), (iso_constant){J.at + 2});
+}
+
 /* --- what is given ---------------------------------------------------------------------------------------------- */
 
-static inline iso_vector formula_omega(iso_formula *F)
-{
-    (void)F;
-    return (iso_vector){ISO_GIVEN_OMEGA};
-}
+#define ISO_GIVEN(result, name, place)                                                                               \
+    static inline iso_##result name(iso_formula *F)                                                                  \
+    {                                                                                                                \
+        (void)F;                                                                                                     \
+        return (iso_##result){place};                                                                                \
+    }
 
-static inline iso_vector formula_n(iso_formula *F)
-{
-    (void)F;
-    return (iso_vector){ISO_GIVEN_N};
-}
-
-/* gamma of the point; it has the place of n */
-static inline iso_vector formula_gamma(iso_formula *F)
-{
-    (void)F;
-    return (iso_vector){ISO_GIVEN_N};
-}
-
-/* J^-1 n */
-static inline iso_vector formula_u(iso_formula *F)
-{
-    (void)F;
-    return (iso_vector){ISO_GIVEN_U};
-}
-
-static inline iso_vector formula_omega_dot(iso_formula *F)
-{
-    (void)F;
-    return (iso_vector){ISO_GIVEN_OMEGA_DOT};
-}
-
-/* g = (n, J^-1 n) */
-static inline iso_scalar formula_g(iso_formula *F)
-{
-    (void)F;
-    return (iso_scalar){ISO_GIVEN_BASE};
-}
-
-/* q = (gamma, J gamma) */
-static inline iso_scalar formula_q(iso_formula *F)
-{
-    (void)F;
-    return (iso_scalar){ISO_GIVEN_BASE};
-}
-
-/* (omega,n), where the contact twists */
-static inline iso_scalar formula_spin(iso_formula *F)
-{
-    (void)F;
-    return (iso_scalar){ISO_GIVEN_SPIN};
-}
+ISO_GIVEN(vector, formula_omega, ISO_GIVEN_OMEGA)
+ISO_GIVEN(vector, formula_n, ISO_GIVEN_N)
+ISO_GIVEN(vector, formula_gamma, ISO_GIVEN_N) /* of the point; it has the place of n */
+ISO_GIVEN(vector, formula_u, ISO_GIVEN_U)     /* J^-1 n */
+ISO_GIVEN(vector, formula_omega_dot, ISO_GIVEN_OMEGA_DOT)
+ISO_GIVEN(scalar, formula_g, ISO_GIVEN_BASE)    /* (n, J^-1 n) of the ball */
+ISO_GIVEN(scalar, formula_q, ISO_GIVEN_BASE)    /* (gamma, J gamma) of the point */
+ISO_GIVEN(scalar, formula_spin, ISO_GIVEN_SPIN) /* (omega,n), where the contact twists */
 
 /* States of effects: y[at], and (y[at], y[at+1], y[at+2]). */
 static inline iso_scalar scalar_state(iso_formula *F, int at)
@@ -157,42 +118,15 @@ static inline iso_vector vector_state(iso_formula *F, int at)
 
 /* --- scalars ---------------------------------------------------------------------------------------------------- */
 
-static inline iso_scalar add(iso_formula *F, iso_scalar a, iso_scalar b)
-{
-    return (iso_scalar){iso_formula_scalar(F, ISO_S_ADD, a.at, b.at)};
-}
-
-static inline iso_scalar sub(iso_formula *F, iso_scalar a, iso_scalar b)
-{
-    return (iso_scalar){iso_formula_scalar(F, ISO_S_SUB, a.at, b.at)};
-}
-
-static inline iso_scalar mul(iso_formula *F, iso_scalar a, iso_scalar b)
-{
-    return (iso_scalar){iso_formula_scalar(F, ISO_S_MUL, a.at, b.at)};
-}
-
-static inline iso_scalar quotient_of(iso_formula *F, iso_scalar a, iso_scalar b)
-{
-    return (iso_scalar){iso_formula_scalar(F, ISO_S_DIV, a.at, b.at)};
-}
-
-/* c a, and c + a */
-static inline iso_scalar times_c(iso_formula *F, iso_constant c, iso_scalar a)
-{
-    return (iso_scalar){iso_formula_scalar(F, ISO_S_TIMES, c.at, a.at)};
-}
-
-static inline iso_scalar plus_c(iso_formula *F, iso_constant c, iso_scalar a)
-{
-    return (iso_scalar){iso_formula_scalar(F, ISO_S_PLUS, c.at, a.at)};
-}
-
-/* a^p, a > 0 */
-static inline iso_scalar power_of(iso_formula *F, iso_scalar a, iso_constant p)
-{
-    return (iso_scalar){iso_formula_scalar(F, ISO_S_POWER, a.at, p.at)};
-}
+ISO_LINE(scalar, add, ISO_S_ADD, scalar, scalar)
+ISO_LINE(scalar, sub, ISO_S_SUB, scalar, scalar)
+ISO_LINE(scalar, mul, ISO_S_MUL, scalar, scalar)
+ISO_LINE(scalar, quotient_of, ISO_S_DIV, scalar, scalar)
+ISO_LINE(scalar, times_c, ISO_S_TIMES, constant, scalar)
+ISO_LINE(scalar, plus_c, ISO_S_PLUS, constant, scalar)
+ISO_LINE(scalar, power_of, ISO_S_POWER, scalar, constant) /* a > 0 */
+ISO_LINE(scalar, dot_of, ISO_S_DOT, vector, vector)
+ISO_LINE(scalar, dot_c, ISO_S_DOT_C, constant, vector) /* with a constant vector */
 
 static inline iso_scalar exp_of(iso_formula *F, iso_scalar a)
 {
@@ -212,39 +146,16 @@ static inline iso_scalar sin_of(iso_formula *F, iso_scalar a, iso_scalar *cosine
     return (iso_scalar){sine};
 }
 
-static inline iso_scalar dot_of(iso_formula *F, iso_vector a, iso_vector b)
-{
-    return (iso_scalar){iso_formula_scalar(F, ISO_S_DOT, a.at, b.at)};
-}
-
-/* with a constant vector */
-static inline iso_scalar dot_c(iso_formula *F, iso_constant c, iso_vector a)
-{
-    return (iso_scalar){iso_formula_scalar(F, ISO_S_DOT_C, c.at, a.at)};
-}
-
 /* --- vectors ---------------------------------------------------------------------------------------------------- */
 
-static inline iso_vector add_v(iso_formula *F, iso_vector a, iso_vector b)
-{
-    return (iso_vector){iso_formula_vector(F, ISO_V_ADD, a.at, b.at)};
-}
-
-static inline iso_vector sub_v(iso_formula *F, iso_vector a, iso_vector b)
-{
-    return (iso_vector){iso_formula_vector(F, ISO_V_SUB, a.at, b.at)};
-}
-
-/* c a for a constant c, and s a for a scalar */
-static inline iso_vector times_v(iso_formula *F, iso_constant c, iso_vector a)
-{
-    return (iso_vector){iso_formula_vector(F, ISO_V_TIMES, c.at, a.at)};
-}
-
-static inline iso_vector scale_v(iso_formula *F, iso_scalar s, iso_vector a)
-{
-    return (iso_vector){iso_formula_vector(F, ISO_V_SCALE, s.at, a.at)};
-}
+ISO_LINE(vector, add_v, ISO_V_ADD, vector, vector)
+ISO_LINE(vector, sub_v, ISO_V_SUB, vector, vector)
+ISO_LINE(vector, times_v, ISO_V_TIMES, constant, vector)
+ISO_LINE(vector, scale_v, ISO_V_SCALE, scalar, vector)
+ISO_LINE(vector, plus_v, ISO_V_PLUS, constant, vector) /* a constant vector and b */
+ISO_LINE(vector, cross_of, ISO_V_CROSS, vector, vector)
+ISO_LINE(vector, by_c, ISO_V_BY, constant, vector)         /* (a1 b1, a2 b2, a3 b3) for a constant vector a */
+ISO_LINE(vector, matrix_c, ISO_V_MATRIX, constant, vector) /* a b for a constant matrix a */
 
 /* s c for a constant vector c */
 static inline iso_vector scale_c(iso_formula *F, iso_scalar s, iso_constant c)
@@ -252,35 +163,23 @@ static inline iso_vector scale_c(iso_formula *F, iso_scalar s, iso_constant c)
     return (iso_vector){iso_formula_vector(F, ISO_V_SCALE_C, c.at, s.at)};
 }
 
-/* a + c for a constant vector c */
-static inline iso_vector plus_v(iso_formula *F, iso_constant c, iso_vector a)
-{
-    return (iso_vector){iso_formula_vector(F, ISO_V_PLUS, c.at, a.at)};
-}
-
-static inline iso_vector cross_of(iso_formula *F, iso_vector a, iso_vector b)
-{
-    return (iso_vector){iso_formula_vector(F, ISO_V_CROSS, a.at, b.at)};
-}
-
-/* (c1 a1, c2 a2, c3 a3) for a constant vector c, and M a for a constant matrix */
-static inline iso_vector by_c(iso_formula *F, iso_constant c, iso_vector a)
-{
-    return (iso_vector){iso_formula_vector(F, ISO_V_BY, c.at, a.at)};
-}
-
-static inline iso_vector matrix_c(iso_formula *F, iso_constant M, iso_vector a)
-{
-    return (iso_vector){iso_formula_vector(F, ISO_V_MATRIX, M.at, a.at)};
-}
-
 /* --- results ---------------------------------------------------------------------------------------------------- */
 
-/* MQ += c a */
-static inline void add_torque(iso_formula *F, iso_constant c, iso_vector a)
-{
-    iso_formula_result(F, ISO_R_TORQUE, 0, c.at, a.at);
-}
+/* What the call adds c a to. */
+#define ISO_RESULT(name, operation, A)                                                                               \
+    static inline void name(iso_formula *F, iso_constant c, iso_##A a)                                               \
+    {                                                                                                                \
+        iso_formula_result(F, operation, 0, c.at, a.at);                                                             \
+    }
+
+ISO_RESULT(add_torque, ISO_R_TORQUE, vector)       /* MQ */
+ISO_RESULT(add_energy, ISO_R_ENERGY, scalar)       /* U of the ball */
+ISO_RESULT(add_potential, ISO_R_POTENTIAL, scalar) /* V of the point */
+ISO_RESULT(add_gradient, ISO_R_GRADIENT, vector)   /* dV/dgamma */
+
+/* B, a magnetic field normal to the sphere of the point, M' += B gamma'. Its force -B M is orthogonal to
+ * gamma', and does no work. On a sphere every force that does no work is of this kind. */
+ISO_RESULT(add_magnetic, ISO_R_MAGNETIC, scalar)
 
 /* state' = c a. Every state must be given a rate, and once only. */
 static inline void set_rate_v(iso_formula *F, iso_vector state, iso_constant c, iso_vector a)
@@ -291,29 +190,6 @@ static inline void set_rate_v(iso_formula *F, iso_vector state, iso_constant c, 
 static inline void set_rate(iso_formula *F, iso_scalar state, iso_constant c, iso_scalar a)
 {
     iso_formula_result(F, ISO_R_SCALAR_RATE, state.at, c.at, a.at);
-}
-
-/* U += c a, of the ball; V += c a and dV/dgamma += c a, of the point */
-static inline void add_energy(iso_formula *F, iso_constant c, iso_scalar a)
-{
-    iso_formula_result(F, ISO_R_ENERGY, 0, c.at, a.at);
-}
-
-static inline void add_potential(iso_formula *F, iso_constant c, iso_scalar a)
-{
-    iso_formula_result(F, ISO_R_POTENTIAL, 0, c.at, a.at);
-}
-
-static inline void add_gradient(iso_formula *F, iso_constant c, iso_vector a)
-{
-    iso_formula_result(F, ISO_R_GRADIENT, 0, c.at, a.at);
-}
-
-/* B += c a: a magnetic field normal to the sphere of the point, M' += B gamma'. Its force -B M is orthogonal to
- * gamma', and does no work. On a sphere every force that does no work is of this kind. */
-static inline void add_magnetic(iso_formula *F, iso_constant c, iso_scalar a)
-{
-    iso_formula_result(F, ISO_R_MAGNETIC, 0, c.at, a.at);
 }
 
 #endif

@@ -12,7 +12,7 @@ void iso_formula_begin(iso_formula *F, iso_formula_kind kind, bool series);
 /* After the last line: computes the constants in doubles. Empties a formula that is overrun or wrong. */
 void iso_formula_finish(iso_formula *F, const iso_params *p);
 
-/* Each of these writes one line and gives the place of its result. formula_impl.h has a call for each operation. */
+/* Each of these writes one line and returns the place of its result. formula_impl.h has a call for each operation. */
 int iso_formula_value(iso_formula *F, double x);
 int iso_formula_constant(iso_formula *F, iso_operation operation, int a, int b);
 int iso_formula_scalar(iso_formula *F, iso_operation operation, int a, int b);

@@ -56,16 +56,16 @@ static void set_given(values *v, const iso_formula *F, const iso_params *p, cons
 /* Sets the rates in dy: those of late lines, or those of all others. */
 static void get_rates(const values *v, const iso_formula *F, bool late, double dy[])
 {
-    for (int i = 0; i < F->lines; i++) {
-        const iso_formula_line *l = &F->line[i];
-        if (F->late_line[i] != late) continue;
-        if (l->operation != ISO_R_VECTOR_RATE && l->operation != ISO_R_SCALAR_RATE) continue;
-        for (int s = 0; s < F->states; s++) {
-            const bool is_vector = l->operation == ISO_R_VECTOR_RATE;
-            if (F->state[s].node != l->to || F->state[s].is_vector != is_vector) continue;
-            double *rate = dy + F->state[s].at;
-            for (int j = 0; is_vector && j < 3; j++) rate[j] = v->vector[l->to * KEPT + 1].at[j];
-            if (!is_vector) *rate = v->scalar[l->to * KEPT + 1];
+    for (int s = 0; s < F->states; s++) {
+        const int node = F->state[s].node;
+        const bool is_vector = F->state[s].is_vector;
+        double *rate = dy + F->state[s].at;
+        for (int i = 0; i < F->lines; i++) {
+            const iso_formula_line *l = &F->line[i];
+            if (F->late_line[i] != late || l->to != node) continue;
+            for (int j = 0; is_vector && l->operation == ISO_R_VECTOR_RATE && j < 3; j++)
+                rate[j] = v->vector[node * KEPT + 1].at[j];
+            if (!is_vector && l->operation == ISO_R_SCALAR_RATE) *rate = v->scalar[node * KEPT + 1];
         }
     }
 }

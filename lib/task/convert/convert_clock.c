@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "base/sum_impl.h"
+#include "base/math_impl.h"
 #include "base/vec3_impl.h"
 #include "orbit/watch_impl.h"
 #include "task/convert/convert_impl.h"

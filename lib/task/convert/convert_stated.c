@@ -203,7 +203,7 @@ static bool is_left_behind(const iso_conversion *c, const char *key)
         const iso_effect *effect = iso_effect_list[e];
         const size_t length = strlen(effect->name);
         const bool its_line = strncmp(key, effect->name, length) == 0 && key[length] == '.';
-        if (its_line && (!c->effects.on[e] || effect->is_level)) return true;
+        if (its_line && (!c->effects.on[e] || e == ISO_LEVEL)) return true;
     }
     return false;
 }

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/pi_impl.h"
+#include "base/math_impl.h"
 #include "task/cost/cost_impl.h"
 
 /* How the time is divided: REFERENCES is the part for references. Of the rest each cell may use so much that it can

@@ -2,7 +2,7 @@
 #ifndef ISO_STUDY_COST_IMPL_H
 #define ISO_STUDY_COST_IMPL_H
 
-#include "base/seconds_impl.h"
+#include "base/resources_impl.h"
 #include "study/options_impl.h"
 #include "task/cost/cost.h"
 

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "base/nearest_impl.h"
+#include "base/names_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
 

@@ -1,5 +1,5 @@
-/* nearest.c - the name that a wrong word is nearest to (see nearest_impl.h). */
-#include "base/nearest_impl.h"
+/* names.c - the name that a wrong word is nearest to (names_impl.h). */
+#include "base/names_impl.h"
 
 #include <ctype.h>
 #include <stdbool.h>
@@ -7,12 +7,6 @@
 #include <string.h>
 
 enum { LONGEST = 64, MOST_WORDS = 256 };
-
-static size_t smallest(size_t a, size_t b, size_t c)
-{
-    const size_t ab = a < b ? a : b;
-    return ab < c ? ab : c;
-}
 
 /* Letters to insert, drop, change or swap with their neighbour, capitals being equal to small ones. */
 static size_t distance(const char *a, size_t la, const char *b, size_t lb)
@@ -23,7 +17,9 @@ static size_t distance(const char *a, size_t la, const char *b, size_t lb)
         now[0] = i;
         for (size_t j = 1; j <= lb; j++) {
             const int x = tolower((unsigned char)a[i - 1]), y = tolower((unsigned char)b[j - 1]);
-            now[j] = smallest(last[j] + 1, now[j - 1] + 1, last[j - 1] + (x != y));
+            now[j] = last[j - 1] + (x != y);
+            if (last[j] + 1 < now[j]) now[j] = last[j] + 1;
+            if (now[j - 1] + 1 < now[j]) now[j] = now[j - 1] + 1;
             const bool swapped =
                 i > 1 && j > 1 && x == tolower((unsigned char)b[j - 2]) && y == tolower((unsigned char)a[i - 2]);
             if (swapped && before[j - 2] + 1 < now[j]) now[j] = before[j - 2] + 1;
@@ -50,27 +46,16 @@ const char *iso_nearest(const char *wrong, size_t count, const char *const names
     return best;
 }
 
-/* The list of the names, as far as there is room; of a longer one the end is dots. */
-static void list_names(char out[ISO_SUGGEST_SIZE], size_t count, const char *const names[])
-{
-    enum { ROOM_FOR_DOTS = 6 };
-    size_t used = (size_t)snprintf(out, ISO_SUGGEST_SIZE, "valid %s", count == 1 ? "is" : "are");
-    for (size_t i = 0; i < count; i++) {
-        if (used + strlen(names[i]) + 2 + ROOM_FOR_DOTS >= ISO_SUGGEST_SIZE) {
-            strcpy(out + used, ", ...");
-            return;
-        }
-        used += (size_t)sprintf(out + used, "%s %s", i ? "," : "", names[i]);
-    }
-}
-
 const char *iso_suggest(char out[ISO_SUGGEST_SIZE], const char *wrong, size_t count, const char *const names[])
 {
+    enum { ROOM_FOR_DOTS = 6 };
     const char *best = iso_nearest(wrong, count, names);
-    if (best)
-        snprintf(out, ISO_SUGGEST_SIZE, "did you mean '%s'?", best);
-    else
-        list_names(out, count, names);
+    if (best) return snprintf(out, ISO_SUGGEST_SIZE, "did you mean '%s'?", best), out;
+    size_t used = (size_t)snprintf(out, ISO_SUGGEST_SIZE, "valid %s", count == 1 ? "is" : "are");
+    for (size_t i = 0; i < count; i++) {
+        if (used + strlen(names[i]) + 2 + ROOM_FOR_DOTS >= ISO_SUGGEST_SIZE) return strcpy(out + used, ", ..."), out;
+        used += (size_t)sprintf(out + used, "%s %s", i ? "," : "", names[i]);
+    }
     return out;
 }
 

@@ -1,7 +1,7 @@
 /* quantity_impl.h - what a part of an expression is worth, as a part of a formula: nothing, exactly 1, a constant or a
  * scalar. Sums and products of quantities write no line where none is needed. */
-#ifndef ISO_MODEL_QUANTITY_IMPL_H
-#define ISO_MODEL_QUANTITY_IMPL_H
+#ifndef ISO_MODEL_EXPRESSION_QUANTITY_IMPL_H
+#define ISO_MODEL_EXPRESSION_QUANTITY_IMPL_H
 
 #include "model/formula/formula_impl.h"
 
